@@ -1,0 +1,18 @@
+# rex_test(MODULE NAME [USES module ...] [PRIVATE library ...])
+#
+# Builds tests/MODULE/NAME_test.cpp and registers each of its GoogleTest cases as MODULE/NAME.Suite.Case.
+function(rex_test module name)
+  cmake_parse_arguments(ARG "" "" "USES;PRIVATE" ${ARGN})
+  set(target ${module}_${name}_test)
+  add_executable(${target} ${PROJECT_SOURCE_DIR}/tests/${module}/${name}_test.cpp)
+  target_compile_options(${target} PRIVATE ${REX_WARNINGS})
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  target_compile_definitions(${target} PRIVATE
+    REX_SOURCE_DIR="${PROJECT_SOURCE_DIR}" REX_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  target_link_libraries(${target} PRIVATE rex_${module} GTest::gmock_main ${ARG_PRIVATE})
+  foreach(used IN LISTS ARG_USES)
+    target_link_libraries(${target} PRIVATE rex_${used})
+  endforeach()
+  gtest_discover_tests(${target} TEST_PREFIX ${module}/${name}. DISCOVERY_TIMEOUT 60
+    PROPERTIES LABELS ${module} TIMEOUT 300)
+endfunction()

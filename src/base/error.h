@@ -1,0 +1,51 @@
+#pragma once
+
+#include <exception>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rex {
+
+/// A place in a text file. Lines and columns count from 1; 0 means unknown.
+struct SourceLocation {
+  std::string file;
+  int line = 0;
+  int column = 0;
+};
+
+/// "file:line:column", leaving out what is unknown; empty without a file.
+[[nodiscard]] std::string toString(const SourceLocation& where);
+
+/// The parts of a message about bad input. Only `what` is required.
+struct ErrorParts {
+  std::string what;                    ///< what is wrong, naming the thing: "joint 'elbow': unknown parent"
+  SourceLocation where{};              ///< the place in the user's file
+  std::string found{};                 ///< what stands there
+  std::string wanted{};                ///< what would be right
+  std::vector<std::string> nearest{};  ///< the user probably meant one of these
+};
+
+/// Bad input from a user: a file, a name, a size. Its text reads
+/// `file:line:column: what: found F, wanted W (did you mean 'N'?)`, with the parts that are known.
+class Error : public std::exception {
+ public:
+  explicit Error(ErrorParts parts);
+  const char* what() const noexcept override { return text_.c_str(); }
+  const ErrorParts& parts() const { return parts_; }
+
+ private:
+  ErrorParts parts_;
+  std::string text_;
+};
+
+/// The names most like `wanted`, best first, at most three, none when nothing is similar.
+/// Similar: at most one edit (letter added, lost, changed, swapped; case ignored) in three letters, or a
+/// shared prefix.
+[[nodiscard]] std::vector<std::string> nearestNames(std::string_view wanted,
+                                                    const std::vector<std::string>& known);
+
+/// Throws Error "what: found a vector of size 5, wanted size 7" unless the sizes agree.
+void requireSize(std::string_view what, long found, long wanted);
+
+}  // namespace rex

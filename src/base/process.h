@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace rex {
+
+/// How to run another program. Nothing ever passes through a shell.
+struct ProcessOptions {
+  std::string input{};                 ///< fed to its standard input, which is empty otherwise
+  std::filesystem::path directory{};   ///< its working directory; empty: ours
+  double timeout = 60;                 ///< wall seconds; then it and its process group are killed
+  std::size_t outputLimit = 1u << 20;  ///< bytes kept of each output stream; the rest is read and dropped
+  bool inheritOutput = false;          ///< standard output and error go where ours go, and are not kept
+};
+
+/// What became of it.
+struct ProcessResult {
+  bool started = false;  ///< false: the program was not found or could not be executed
+  bool timedOut = false;
+  int exitCode = -1;   ///< -1 unless it exited by itself
+  int signal = 0;      ///< the signal that ended it, or 0
+  std::string output;  ///< standard output, at most outputLimit bytes
+  std::string error;   ///< standard error, at most outputLimit bytes
+  [[nodiscard]] bool ok() const { return started && !timedOut && exitCode == 0; }
+};
+
+/// Runs argv[0] (looked up in PATH) and waits for its end or the timeout. Throws Error for an empty argv or
+/// when no pipe or process can be made.
+[[nodiscard]] ProcessResult runProcess(const std::vector<std::string>& argv,
+                                       const ProcessOptions& options = {});
+
+}  // namespace rex

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace rex {
+
+/// A rigid transform X_AB, the pose of frame B in frame A: R_AB (3 x 3, a rotation) and p_AB (metres).
+/// Names follow share/doc/notation.md: X_AB * X_BC = X_AC, and X_AB * p_BQ = p_AQ.
+struct Pose {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d p = Eigen::Vector3d::Zero();
+
+  [[nodiscard]] Pose operator*(const Pose& other) const { return {R * other.R, R * other.p + p}; }
+  [[nodiscard]] Eigen::Vector3d operator*(const Eigen::Vector3d& point) const { return R * point + p; }
+  [[nodiscard]] Pose inverse() const { return {R.transpose(), -(R.transpose() * p)}; }
+};
+
+/// The pose that only moves by (x, y, z) metres.
+[[nodiscard]] Pose translation(double x, double y, double z);
+/// The pose that only turns by `angle` radians about `axis` (any length; a zero axis or angle gives the
+/// identity).
+[[nodiscard]] Pose rotation(double angle, const Eigen::Vector3d& axis);
+/// Whether both poses agree within `tolerance` in every entry of R and p.
+[[nodiscard]] bool isApprox(const Pose& a, const Pose& b, double tolerance);
+
+}  // namespace rex

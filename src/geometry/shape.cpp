@@ -1,0 +1,50 @@
+#include "geometry/shape.h"
+
+namespace rex {
+
+std::string_view toString(ShapeType type) {
+  switch (type) {
+    case ShapeType::kBox:
+      return "box";
+    case ShapeType::kSphere:
+      return "sphere";
+    case ShapeType::kCapsule:
+      return "capsule";
+    case ShapeType::kMesh:
+      return "mesh";
+    case ShapeType::kCylinder:
+      return "cylinder";
+    case ShapeType::kMarker:
+      return "marker";
+    case ShapeType::kPointCloud:
+      return "point cloud";
+    case ShapeType::kSphereSweptConvex:
+      return "sphere-swept convex mesh";
+    case ShapeType::kRoundedBox:
+      return "rounded box";
+  }
+  return "?";
+}
+
+Eigen::Vector3d halfBounds(const Shape& shape) {
+  switch (shape.type) {
+    case ShapeType::kBox:
+    case ShapeType::kRoundedBox:
+      return shape.extent / 2;
+    case ShapeType::kSphere:
+      return Eigen::Vector3d::Constant(shape.radius);
+    case ShapeType::kCapsule:
+      return {shape.radius, shape.radius, shape.extent.z() / 2 + shape.radius};
+    case ShapeType::kCylinder:
+      return {shape.radius, shape.radius, shape.extent.z() / 2};
+    case ShapeType::kMarker:
+      return Eigen::Vector3d::Constant(shape.extent.x() / 2);
+    case ShapeType::kMesh:
+    case ShapeType::kPointCloud:
+    case ShapeType::kSphereSweptConvex:
+      return Eigen::Vector3d::Zero();
+  }
+  return Eigen::Vector3d::Zero();
+}
+
+}  // namespace rex

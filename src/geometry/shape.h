@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string_view>
+
+#include <Eigen/Core>
+
+namespace rex {
+
+enum class ShapeType {
+  kBox,
+  kSphere,
+  kCapsule,
+  kMesh,
+  kCylinder,
+  kMarker,
+  kPointCloud,
+  kSphereSweptConvex,
+  kRoundedBox
+};
+
+/// "box", "sphere", ...: the name used in messages.
+[[nodiscard]] std::string_view toString(ShapeType type);
+
+/// A solid centred in its own frame; lengths in metres. What `extent` and `radius` mean:
+/// box, rounded box: full outer edge lengths x, y, z; the rounded box has corners of `radius`.
+/// capsule, cylinder: extent.z is the straight length along z, `radius` the radius; a capsule's caps come on
+/// top. sphere: `radius`. marker: a drawing aid of size extent.x without volume. The others are described by
+/// their mesh.
+struct Shape {
+  ShapeType type = ShapeType::kBox;
+  Eigen::Vector3d extent = Eigen::Vector3d::Ones();
+  double radius = 0;
+};
+
+/// Half edge lengths of the smallest box along the shape's axes that holds it; zero for shapes given by a
+/// mesh.
+[[nodiscard]] Eigen::Vector3d halfBounds(const Shape& shape);
+
+}  // namespace rex

@@ -1,0 +1,63 @@
+#include "base/process.h"
+
+#include <chrono>
+#include <csignal>
+
+#include <gtest/gtest.h>
+
+#include "support/expect_error.h"
+
+namespace rex {
+namespace {
+
+TEST(RunProcess, FeedsInputAndKeepsBothOutputs) {
+  const ProcessResult result = runProcess({"sh", "-c", "cat; echo trouble >&2; exit 3"}, {.input = "hello"});
+  EXPECT_TRUE(result.started);
+  EXPECT_FALSE(result.ok());
+  EXPECT_EQ(result.exitCode, 3);
+  EXPECT_EQ(result.output, "hello");
+  EXPECT_EQ(result.error, "trouble\n");
+}
+
+TEST(RunProcess, PassesArgumentsUntouchedByAnyShell) {
+  const std::string hostile = "a'b\"c`id`$(id)\nd;e";
+  EXPECT_EQ(runProcess({"printf", "%s", hostile}).output, hostile);
+}
+
+TEST(RunProcess, SurvivesAProgramThatReadsNothing) {
+  EXPECT_TRUE(runProcess({"true"}, {.input = std::string(1 << 22, 'x')}).ok());
+}
+
+TEST(RunProcess, MovesLargeDataBothWaysWithoutDeadlock) {
+  const std::string data(3 << 20, 'y');
+  EXPECT_EQ(runProcess({"cat"}, {.input = data, .outputLimit = 4u << 20}).output, data);
+}
+
+TEST(RunProcess, DropsOutputBeyondTheLimitAndStillDrainsIt) {
+  const ProcessResult result = runProcess({"head", "-c", "5000000", "/dev/zero"}, {.outputLimit = 1000});
+  EXPECT_TRUE(result.ok());
+  EXPECT_EQ(result.output.size(), 1000u);
+}
+
+TEST(RunProcess, KillsAtTheTimeout) {
+  const auto start = std::chrono::steady_clock::now();
+  const ProcessResult result = runProcess({"sh", "-c", "sleep 30 & sleep 30"}, {.timeout = 0.2});
+  EXPECT_TRUE(result.timedOut);
+  EXPECT_EQ(result.signal, SIGKILL);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
+}
+
+TEST(RunProcess, ReportsSignalsAndMissingPrograms) {
+  EXPECT_EQ(runProcess({"sh", "-c", "kill -SEGV $$"}).signal, SIGSEGV);
+  const ProcessResult missing = runProcess({"no-such-program-here"});
+  EXPECT_FALSE(missing.started);
+  EXPECT_EQ(missing.exitCode, -1);
+  EXPECT_EQ(missing.error, "No such file or directory");
+  EXPECT_FALSE(runProcess({"true"}, {.directory = "no/such/folder"}).started);
+  EXPECT_REX_ERROR(runProcess({}), "no program to run");
+}
+
+TEST(RunProcess, WorksInTheGivenFolder) { EXPECT_EQ(runProcess({"pwd"}, {.directory = "/"}).output, "/\n"); }
+
+}  // namespace
+}  // namespace rex
