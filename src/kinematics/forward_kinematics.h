@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "scene/model.h"
+
+namespace rex {
+
+/// World poses of all bodies, indexed by BodyId; the world itself comes first.
+struct BodyPoses {
+  std::vector<Pose> X_WB;
+  const Pose& operator[](BodyId id) const { return X_WB[static_cast<std::size_t>(id)]; }
+};
+
+/// Where all bodies are at posture q (nq). Throws Error naming both sizes if q has the wrong one. Slide 2:16.
+[[nodiscard]] BodyPoses forwardKinematics(const Model& model, const VectorArg& q);
+/// The same into a caller's storage; allocates nothing once `out` has been used with this model.
+void forwardKinematics(const Model& model, const VectorArg& q, BodyPoses& out);
+
+}  // namespace rex

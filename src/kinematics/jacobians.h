@@ -1,0 +1,31 @@
+#pragma once
+
+#include "kinematics/forward_kinematics.h"
+
+namespace rex {
+
+// Jacobians are derivatives by v: nv columns, expressed in the world frame W. `poses` are those of the
+// posture.
+
+/// p_WQ, the world position of the point Q fixed in body B at p_BQ, metres. Slide 2:53.
+[[nodiscard]] Eigen::Vector3d position(const BodyPoses& poses, BodyId body, const Eigen::Vector3d& p_BQ);
+/// Jacobian of that point: 3 x nv, metres per unit of v. Slides 2:22 and 2:23, as columns (see the errata).
+[[nodiscard]] Eigen::Matrix3Xd positionJacobian(const Model& model, const BodyPoses& poses, BodyId body,
+                                                const Eigen::Vector3d& p_BQ);
+
+/// The direction `vector_B`, fixed in body B, seen from the world. Slide 2:54.
+[[nodiscard]] Eigen::Vector3d direction(const BodyPoses& poses, BodyId body, const Eigen::Vector3d& vector_B);
+/// Jacobian of that direction: 3 x nv, per unit of v. Slide 2:54.
+[[nodiscard]] Eigen::Matrix3Xd directionJacobian(const Model& model, const BodyPoses& poses, BodyId body,
+                                                 const Eigen::Vector3d& vector_B);
+
+/// Jacobian of the angular velocity of a body: 3 x nv, radians per second per unit of v; the matrix A of
+/// slide 2:54.
+[[nodiscard]] Eigen::Matrix3Xd angularJacobian(const Model& model, const BodyPoses& poses, BodyId body);
+
+/// Overloads for hot loops: the caller owns J, which must be 3 x nv already. They allocate nothing.
+void positionJacobian(const Model& model, const BodyPoses& poses, BodyId body, const Eigen::Vector3d& p_BQ,
+                      Eigen::Ref<Eigen::Matrix3Xd> J);
+void angularJacobian(const Model& model, const BodyPoses& poses, BodyId body, Eigen::Ref<Eigen::Matrix3Xd> J);
+
+}  // namespace rex

@@ -1,0 +1,312 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "scene/model.h"
+
+namespace rex {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// With only a mass given, the inertia of a solid sphere of 0.7 m radius: see ors-format in
+// share/doc/scenes.md.
+constexpr double kInertiaPerMass = 0.2;
+
+[[noreturn]] void fail(const SourceLocation& where, std::string what, std::string found, std::string wanted,
+                       std::vector<std::string> nearest = {}) {
+  throw Error({std::move(what), where, std::move(found), std::move(wanted), std::move(nearest)});
+}
+
+bool isFinite(const Pose& X) { return X.R.allFinite() && X.p.allFinite(); }
+
+// The unit twists of a joint type; see DegreeOfFreedom for why two frames suffice.
+std::vector<DegreeOfFreedom> freedomsOf(JointType type, const Eigen::Vector3d& axis) {
+  using Frame = DegreeOfFreedom::Frame;
+  const auto turn = [](const Eigen::Vector3d& a, Frame frame) {
+    return DegreeOfFreedom{a, Eigen::Vector3d::Zero(), frame};
+  };
+  const auto move = [](const Eigen::Vector3d& a, Frame frame) {
+    return DegreeOfFreedom{Eigen::Vector3d::Zero(), a, frame};
+  };
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(),
+                        z = Eigen::Vector3d::UnitZ();
+  switch (type) {
+    case JointType::kRigid:
+      return {};
+    case JointType::kHinge:
+      return {turn(axis, Frame::kBefore)};
+    case JointType::kSlider:
+      return {move(axis, Frame::kBefore)};
+    case JointType::kPlanarXY:
+      return {move(x, Frame::kBefore), move(y, Frame::kBefore)};
+    case JointType::kTranslation3:
+      return {move(x, Frame::kBefore), move(y, Frame::kBefore), move(z, Frame::kBefore)};
+    case JointType::kPlanarXYPhi:
+      return {move(x, Frame::kBefore), move(y, Frame::kBefore), turn(z, Frame::kAfter)};
+    case JointType::kPlanarPhiXY:
+      return {turn(z, Frame::kBefore), move(x, Frame::kAfter), move(y, Frame::kAfter)};
+    case JointType::kUniversal:
+      return {turn(x, Frame::kBefore), turn(y, Frame::kAfter)};
+    case JointType::kBall:
+      return {turn(x, Frame::kAfter), turn(y, Frame::kAfter), turn(z, Frame::kAfter)};
+    case JointType::kFree:
+      return {move(x, Frame::kBefore), move(y, Frame::kBefore), move(z, Frame::kBefore),
+              turn(x, Frame::kAfter),  turn(y, Frame::kAfter),  turn(z, Frame::kAfter)};
+  }
+  return {};
+}
+
+// The tree of a scene: indices into the spec, checked.
+struct Tree {
+  std::vector<int> bodyOrder;                  // breadth-first
+  std::vector<int> incoming;                   // per body of the spec: its joint, or -1
+  std::map<std::string, int> firstBodyByName;  // of the spec
+};
+
+class TreeBuilder {
+ public:
+  explicit TreeBuilder(const SceneSpec& spec) : spec_(spec) {}
+
+  Tree build() {
+    for (std::size_t i = 0; i < spec_.bodies.size(); ++i)
+      tree_.firstBodyByName.emplace(spec_.bodies[i].name, static_cast<int>(i));
+    tree_.incoming.assign(spec_.bodies.size(), -1);
+    outgoing_.resize(spec_.bodies.size());
+    checkJointNames();
+    for (std::size_t j = 0; j < spec_.joints.size(); ++j) connect(static_cast<int>(j));
+    order();
+    return std::move(tree_);
+  }
+
+ private:
+  void checkJointNames() const {
+    std::map<std::string, const JointSpec*> seen;
+    for (const JointSpec& joint : spec_.joints) {
+      const auto [first, isNew] = seen.emplace(joint.name, &joint);
+      if (!isNew) {
+        fail(joint.where, fmt::format("duplicate joint '{}'", joint.name), "",
+             fmt::format("a name of its own: the first stands at {}", toString(first->second->where)));
+      }
+    }
+  }
+
+  int bodyIndex(const std::string& name, const JointSpec& joint, const char* role) const {
+    const auto found = tree_.firstBodyByName.find(name);
+    if (found != tree_.firstBodyByName.end()) return found->second;
+    std::vector<std::string> known;
+    for (const BodySpec& body : spec_.bodies) known.push_back(body.name);
+    fail(joint.where, fmt::format("joint '{}': unknown {}", joint.name, role), fmt::format("'{}'", name),
+         "the name of a body", nearestNames(name, known));
+  }
+
+  void connect(int j) {
+    const JointSpec& joint = spec_.joints[static_cast<std::size_t>(j)];
+    const int parent = bodyIndex(joint.parent, joint, "parent"),
+              child = bodyIndex(joint.child, joint, "child");
+    int& incoming = tree_.incoming[static_cast<std::size_t>(child)];
+    if (incoming >= 0) {
+      fail(joint.where,
+           fmt::format("joint '{}': body '{}' already hangs on a joint", joint.name, joint.child),
+           fmt::format("joint '{}'", spec_.joints[static_cast<std::size_t>(incoming)].name),
+           "one joint into each body");
+    }
+    incoming = j;
+    outgoing_[static_cast<std::size_t>(parent)].push_back(child);
+  }
+
+  void order() {
+    std::vector<int>& order = tree_.bodyOrder;
+    for (std::size_t i = 0; i < spec_.bodies.size(); ++i) {
+      if (tree_.incoming[i] < 0) order.push_back(static_cast<int>(i));
+    }
+    for (std::size_t next = 0; next < order.size(); ++next) {
+      const std::vector<int>& children = outgoing_[static_cast<std::size_t>(order[next])];
+      order.insert(order.end(), children.begin(), children.end());
+    }
+    if (order.size() < spec_.bodies.size()) failAtLoop();
+  }
+
+  // Every body that was not reached descends from a loop: walk upwards until a body comes again.
+  [[noreturn]] void failAtLoop() const {
+    std::vector<bool> reached(spec_.bodies.size());
+    for (const int i : tree_.bodyOrder) reached[static_cast<std::size_t>(i)] = true;
+    int at = static_cast<int>(std::find(reached.begin(), reached.end(), false) - reached.begin());
+    std::vector<int> path;
+    while (std::find(path.begin(), path.end(), at) == path.end()) {
+      path.push_back(at);
+      const JointSpec& joint =
+          spec_.joints[static_cast<std::size_t>(tree_.incoming[static_cast<std::size_t>(at)])];
+      at = tree_.firstBodyByName.at(joint.parent);
+    }
+    path.erase(path.begin(), std::find(path.begin(), path.end(), at));
+    std::string loop;
+    for (auto i = path.rbegin(); i != path.rend(); ++i)
+      loop += spec_.bodies[static_cast<std::size_t>(*i)].name + " > ";
+    loop += spec_.bodies[static_cast<std::size_t>(path.back())].name;
+    const JointSpec& closing =
+        spec_.joints[static_cast<std::size_t>(tree_.incoming[static_cast<std::size_t>(path.front())])];
+    fail(closing.where, fmt::format("joint '{}': joints form a loop", closing.name), loop, "a tree");
+  }
+
+  const SceneSpec& spec_;
+  Tree tree_;
+  std::vector<std::vector<int>> outgoing_;  // per body: children in the order of their joints
+};
+
+void checkBody(const BodySpec& body) {
+  const std::string what = fmt::format("body '{}'", body.name);
+  if (!isFinite(body.X_WB))
+    fail(body.where, what + ": pose", "a number that is not finite", "finite numbers");
+  if (!(body.mass >= 0) || !std::isfinite(body.mass))
+    fail(body.where, what + ": mass", fmt::format("{}", body.mass), "a finite mass >= 0 kg");
+  if (body.inertia && (!body.inertia->allFinite() || !body.inertia->isApprox(body.inertia->transpose()))) {
+    fail(body.where, what + ": inertia", "", "a finite symmetric matrix");
+  }
+}
+
+void checkShape(const ShapeSpec& shape) {
+  const Shape& s = shape.shape;
+  if (!isFinite(shape.X_BS) || !s.extent.allFinite() || !(s.extent.minCoeff() >= 0) || !(s.radius >= 0) ||
+      !std::isfinite(s.radius)) {
+    fail(shape.where, fmt::format("shape '{}'", shape.name), "", "a finite pose and finite sizes >= 0");
+  }
+}
+
+void checkJoint(const JointSpec& joint) {
+  const std::string what = fmt::format("joint '{}'", joint.name);
+  const int n = positionCount(joint.type);
+  if (!isFinite(joint.X_PF) || !isFinite(joint.X_MC))
+    fail(joint.where, what + ": frames", "a number that is not finite", "finite numbers");
+  if (!joint.axis.allFinite() || !(joint.axis.norm() > 0))
+    fail(joint.where, what + ": axis", "a zero or non-finite vector", "a direction");
+  const auto checkCount = [&](const Eigen::VectorXd& values, const char* name) {
+    if (values.size() != 0 && values.size() != n) {
+      fail(joint.where, fmt::format("{}: {}", what, name), fmt::format("{} numbers", values.size()),
+           fmt::format("{}", n));
+    }
+    if (values.hasNaN()) fail(joint.where, fmt::format("{}: {}", what, name), "nan", "numbers");
+  };
+  checkCount(joint.q0, "initial coordinates");
+  checkCount(joint.lower, "lower limits");
+  checkCount(joint.upper, "upper limits");
+}
+
+Joint makeJoint(const JointSpec& spec, BodyId parent, BodyId child) {
+  Joint joint;
+  joint.name = spec.name;
+  joint.type = spec.type;
+  joint.parent = parent;
+  joint.child = child;
+  joint.X_PF = spec.X_PF;
+  joint.X_MC = spec.X_MC;
+  joint.axis = spec.axis.normalized();
+  joint.nq = positionCount(spec.type);
+  joint.nv = velocityCount(spec.type);
+  const std::vector<DegreeOfFreedom> freedoms = freedomsOf(spec.type, joint.axis);
+  std::copy(freedoms.begin(), freedoms.end(), joint.freedoms.begin());
+  return joint;
+}
+
+Eigen::VectorXd startOf(const JointSpec& spec) {
+  if (spec.q0.size() > 0) return spec.q0;
+  return jointCoordinates(spec.type, spec.axis, Pose{});
+}
+
+void append(Eigen::VectorXd& all, const Eigen::VectorXd& more) {
+  all.conservativeResize(all.size() + more.size());
+  all.tail(more.size()) = more;
+}
+
+}  // namespace
+
+Model compile(const SceneSpec& spec) {
+  std::for_each(spec.bodies.begin(), spec.bodies.end(), checkBody);
+  std::for_each(spec.joints.begin(), spec.joints.end(), checkJoint);
+  const Tree tree = TreeBuilder(spec).build();
+
+  Model model;
+  model.name_ = spec.name;
+  model.bodies_.push_back(Body{.name = "world"});
+  const auto addShape = [&](const ShapeSpec& shape, BodyId body) {
+    checkShape(shape);
+    model.shapes_.push_back({shape.name, body, shape.X_BS, shape.shape, shape.color, shape.contact});
+  };
+  for (const ShapeSpec& shape : spec.worldShapes) addShape(shape, kWorld);
+
+  std::vector<const JointSpec*> jointSpecs;
+  std::vector<BodyId> idOfSpec(spec.bodies.size());
+  for (const int index : tree.bodyOrder) {
+    const BodySpec& bodySpec = spec.bodies[static_cast<std::size_t>(index)];
+    const BodyId id{static_cast<int>(model.bodies_.size())};
+    idOfSpec[static_cast<std::size_t>(index)] = id;
+    Body body{.name = bodySpec.name,
+              .X_PB = bodySpec.X_WB,
+              .mass = bodySpec.mass,
+              .p_BBcm = bodySpec.p_BBcm,
+              .kind = bodySpec.kind};
+    body.I_BBcm_B = bodySpec.inertia.value_or(kInertiaPerMass * bodySpec.mass * Eigen::Matrix3d::Identity());
+    if (const int j = tree.incoming[static_cast<std::size_t>(index)]; j >= 0) {
+      const JointSpec& jointSpec = spec.joints[static_cast<std::size_t>(j)];
+      body.parent = idOfSpec[static_cast<std::size_t>(tree.firstBodyByName.at(jointSpec.parent))];
+      body.joint = JointId{static_cast<int>(model.joints_.size())};
+      body.X_PB = Pose{};
+      model.joints_.push_back(makeJoint(jointSpec, body.parent, id));
+      jointSpecs.push_back(&jointSpec);
+    }
+    model.mass_ += body.mass;
+    for (const ShapeSpec& shape : bodySpec.shapes) addShape(shape, id);
+    model.bodies_.push_back(std::move(body));
+  }
+
+  for (std::size_t j = 0; j < jointSpecs.size(); ++j) {
+    if (!jointSpecs[j]->mimic.empty()) continue;
+    Joint& joint = model.joints_[j];
+    joint.qIndex = model.nq();
+    joint.vIndex = model.nv_;
+    model.nv_ += joint.nv;
+    const auto limit = [&](const Eigen::VectorXd& given, double none) {
+      return given.size() > 0 ? given : Eigen::VectorXd::Constant(joint.nq, none);
+    };
+    append(model.q0_, startOf(*jointSpecs[j]));
+    append(model.lower_, limit(jointSpecs[j]->lower, -kInfinity));
+    append(model.upper_, limit(jointSpecs[j]->upper, kInfinity));
+  }
+  for (std::size_t j = 0; j < jointSpecs.size(); ++j) {
+    const JointSpec& mimic = *jointSpecs[j];
+    if (mimic.mimic.empty()) continue;
+    const auto target = std::find_if(model.joints_.begin(), model.joints_.end(),
+                                     [&](const Joint& t) { return t.name == mimic.mimic; });
+    Joint& joint = model.joints_[j];
+    if (target == model.joints_.end() || target->type != joint.type ||
+        !jointSpecs[static_cast<std::size_t>(target - model.joints_.begin())]->mimic.empty()) {
+      std::vector<std::string> known;
+      for (const Joint& other : model.joints_) known.push_back(other.name);
+      fail(mimic.where, fmt::format("joint '{}': mimic", joint.name), fmt::format("'{}'", mimic.mimic),
+           "the name of a joint of the same type that mimics none", nearestNames(mimic.mimic, known));
+    }
+    joint.mimics = true;
+    joint.qIndex = target->qIndex;
+    joint.vIndex = target->vIndex;
+  }
+  for (const auto& [name, index] : tree.firstBodyByName)
+    model.bodyByName_.emplace(name, idOfSpec[static_cast<std::size_t>(index)]);
+  return model;
+}
+
+BodyId Model::body(std::string_view name) const {
+  if (name == "world") return kWorld;
+  if (const auto found = bodyByName_.find(std::string(name)); found != bodyByName_.end())
+    return found->second;
+  std::vector<std::string> known;
+  for (const ModelShape& shape : shapes_) {
+    if (!shape.name.empty() && shape.name == name) return shape.body;
+    known.push_back(shape.name);
+  }
+  for (const Body& body : bodies_) known.push_back(body.name);
+  throw Error({.what = fmt::format("scene '{}' has no body '{}'", name_, name),
+               .nearest = nearestNames(name, known)});
+}
+
+}  // namespace rex

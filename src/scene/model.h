@@ -1,0 +1,116 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "geometry/pose.h"
+#include "geometry/shape.h"
+#include "scene/scene_spec.h"
+
+namespace rex {
+
+using VectorArg = Eigen::Ref<const Eigen::VectorXd>;
+
+/// Handles into a Model: positions in bodies() and joints(). kWorld is body 0.
+enum class BodyId : int {};
+enum class JointId : int {};
+inline constexpr BodyId kWorld{0};
+inline constexpr JointId kNoJoint{-1};
+
+/// A rigid body. Bodies without a joint hang on the world at the fixed pose X_PB.
+struct Body {
+  std::string name;
+  BodyId parent = kWorld;
+  JointId joint = kNoJoint;                          ///< the joint that moves it
+  Pose X_PB{};                                       ///< pose in the parent; only for bodies without a joint
+  double mass = 0;                                   ///< kg
+  Eigen::Vector3d p_BBcm = Eigen::Vector3d::Zero();  ///< centre of mass, in B
+  Eigen::Matrix3d I_BBcm_B = Eigen::Matrix3d::Zero();  ///< inertia about the centre of mass, in B, kg m^2
+  BodyKind kind = BodyKind::kDynamic;
+};
+
+/// One degree of freedom as a unit twist: how fast the joint turns and moves per unit of v, constant in the
+/// frame it is given in: F, before the joint moves, or M, after.
+struct DegreeOfFreedom {
+  enum class Frame { kBefore, kAfter };
+  Eigen::Vector3d angular = Eigen::Vector3d::Zero();
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero();
+  Frame frame = Frame::kBefore;
+};
+
+/// A joint: X_PC = X_PF * X_FM(q) * X_MC. Joints that mimic share q and v indices with their target.
+struct Joint {
+  std::string name;
+  JointType type = JointType::kRigid;
+  BodyId parent{}, child{};
+  Pose X_PF, X_MC;
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< unit vector, of hinge and slider
+  int qIndex = 0, vIndex = 0;
+  int nq = 0, nv = 0;
+  bool mimics = false;
+  std::array<DegreeOfFreedom, 6> freedoms{};  ///< the first nv count
+};
+
+/// A shape in its place.
+struct ModelShape {
+  std::string name;
+  BodyId body = kWorld;
+  Pose X_BS;
+  Shape shape;
+  Eigen::Vector4d color = Eigen::Vector4d::Ones();
+  bool contact = false;
+};
+
+/// An immutable robot world; only compile() makes one. Bodies and joints stand breadth-first from the roots
+/// (roots in file order, then each body's joints in file order), which is also the order of q; the world is
+/// body 0.
+class Model {
+ public:
+  int nq() const { return static_cast<int>(q0_.size()); }
+  int nv() const { return nv_; }
+  const std::string& name() const { return name_; }
+  std::span<const Body> bodies() const { return bodies_; }
+  std::span<const Joint> joints() const { return joints_; }
+  std::span<const ModelShape> shapes() const { return shapes_; }
+  const Body& operator[](BodyId id) const { return bodies_[static_cast<std::size_t>(id)]; }
+  const Joint& operator[](JointId id) const { return joints_[static_cast<std::size_t>(id)]; }
+
+  /// The first body of that name (in file order), or the body of the first shape of that name, as the
+  /// course's exercises expect. Throws Error naming the scene and the closest names.
+  BodyId body(std::string_view name) const;
+
+  /// The posture the file describes, nq.
+  const Eigen::VectorXd& initialPositions() const { return q0_; }
+  /// Limits of each coordinate, nq; infinite where there are none.
+  const Eigen::VectorXd& lowerLimits() const { return lower_; }
+  const Eigen::VectorXd& upperLimits() const { return upper_; }
+  /// Sum of all masses, kg.
+  double mass() const { return mass_; }
+
+ private:
+  friend Model compile(const SceneSpec& spec);
+  Model() = default;
+
+  std::string name_;
+  std::vector<Body> bodies_;
+  std::vector<Joint> joints_;
+  std::vector<ModelShape> shapes_;
+  std::unordered_map<std::string, BodyId> bodyByName_;
+  Eigen::VectorXd q0_, lower_, upper_;
+  int nv_ = 0;
+  double mass_ = 0;
+};
+
+/// Checks a scene and freezes it. Throws Error, with the place in the file where it is known, for: a joint to
+/// an unknown body, two joints of one name, two joints into one body, a loop, a mimic of an unknown or
+/// different joint, and masses, sizes, poses or limits that are not finite or have the wrong sign or number.
+[[nodiscard]] Model compile(const SceneSpec& spec);
+
+}  // namespace rex

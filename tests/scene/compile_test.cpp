@@ -1,0 +1,124 @@
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "scene/model.h"
+#include "scene/ors_reader.h"
+#include "support/expect_error.h"
+
+namespace rex {
+namespace {
+
+Model model(std::string_view text) { return compile(parseOrs(text, "f").spec); }
+
+TEST(Compile, OrdersJointsBreadthFirst) {
+  const Model m = model(
+      "body r {}\nbody a {}\nbody b {}\nbody a2 {}\nbody b2 {}\nbody root2 {}\n"
+      "joint (a a2) {}\njoint (r b) {}\njoint (b b2) {}\njoint (r a) {}\n");
+  std::vector<std::string> joints, bodies;
+  for (const Joint& joint : m.joints()) joints.push_back(joint.name);
+  for (const Body& body : m.bodies()) bodies.push_back(body.name);
+  EXPECT_THAT(joints, testing::ElementsAre("r>b", "r>a", "b>b2", "a>a2"));
+  EXPECT_THAT(bodies, testing::ElementsAre("world", "r", "root2", "b", "a", "b2", "a2"));
+  EXPECT_EQ(m.nq(), 4);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(m.joints()[i].qIndex, static_cast<int>(i));
+}
+
+TEST(Compile, AllowsTwoBodiesOfOneNameAndFindsTheFirst) {
+  const Model m = model("body a { mass=1 type=1 }\nbody b {}\nbody a { type=0 }\njoint (a b) {}");
+  EXPECT_EQ(m[m.body("a")].mass, 1);
+  EXPECT_EQ(m.shapes().size(), 2u);
+  EXPECT_NE(m.shapes()[0].body, m.shapes()[1].body);
+}
+
+TEST(Compile, FindsBodiesByShapeName) {
+  const Model m = model("body a {}\nshape tip (a) { type=5 }");
+  EXPECT_EQ(m.body("tip"), m.body("a"));
+  EXPECT_EQ(m.body("world"), kWorld);
+  EXPECT_REX_ERROR(m.body("tpi"), "scene 'f' has no body 'tpi' (did you mean 'tip'?)");
+}
+
+TEST(Compile, GivesAMassOnItsOwnTheCourseInertia) {
+  const Model m = model("body a { mass=2 }\nbody b { mass=2 inertia=[1 2 3] }");
+  EXPECT_EQ(m[m.body("a")].I_BBcm_B, Eigen::Matrix3d(0.4 * Eigen::Matrix3d::Identity()));
+  EXPECT_EQ(m[m.body("b")].I_BBcm_B(2, 2), 3);
+  EXPECT_EQ(m.mass(), 4);
+}
+
+TEST(Compile, KeepsLimitsAndStartingPosture) {
+  const Model m = model(
+      "body a {}\nbody b {}\nbody c {}\njoint (a b) { limits=[-1 2] q=.5 }\njoint (b c) { type=quatBall }");
+  EXPECT_EQ(m.nq(), 5);
+  EXPECT_EQ(m.nv(), 4);
+  EXPECT_EQ(m.initialPositions(), (Eigen::VectorXd(5) << .5, 1, 0, 0, 0).finished());
+  EXPECT_EQ(m.lowerLimits()[0], -1);
+  EXPECT_EQ(m.upperLimits()[0], 2);
+  EXPECT_EQ(m.upperLimits()[1], std::numeric_limits<double>::infinity());
+}
+
+TEST(Compile, LetsAJointMimicAnother) {
+  const Model m =
+      model("body a {}\nbody b {}\nbody c {}\njoint left (a b) { mimic=right }\njoint right (a c) { q=.3 }");
+  EXPECT_EQ(m.nq(), 1);
+  EXPECT_EQ(m.initialPositions()[0], .3);
+  EXPECT_EQ(m.joints()[0].qIndex, m.joints()[1].qIndex);
+}
+
+TEST(Compile, ReadsTheStartFromQ) {
+  const Model m = model(
+      "body a {}\nbody b {}\nbody c {}\njoint (a b) { Q=<T d(60 1 0 0)> }\njoint (b c) { type=transXYPhi "
+      "Q=<T t(1 2 0) d(90 0 0 1)> }");
+  EXPECT_NEAR(m.initialPositions()[0], std::numbers::pi / 3, 1e-15);
+  EXPECT_LT((m.initialPositions().tail<3>() - Eigen::Vector3d(1, 2, std::numbers::pi / 2)).norm(), 1e-15);
+}
+
+TEST(Compile, RefusesWhatIsNoTree) {
+  EXPECT_REX_ERROR(model("body a {}\nbody b {}\nbody c {}\njoint (a c) {}\njoint (b c) {}"),
+                   "f:5:1: joint 'b>c': body 'c' already hangs on a joint: found joint 'a>c', wanted one "
+                   "joint into each body");
+  EXPECT_REX_ERROR(model("body a {}\nbody b {}\njoint j (a b) {}\njoint j (b a) {}"),
+                   "f:4:1: duplicate joint 'j': wanted a name of its own: the first stands at f:3:1");
+  EXPECT_REX_ERROR(
+      model(
+          "body r {}\nbody a {}\nbody b {}\nbody tail {}\njoint (b tail) {}\njoint (a b) {}\njoint (b a) {}"),
+      "joints form a loop: found");
+  EXPECT_REX_ERROR(model("body a {}\njoint (a a) {}"),
+                   "f:2:1: joint 'a>a': joints form a loop: found a > a, wanted a tree");
+}
+
+TEST(Compile, RefusesBadNumbersInAnEditedSpec) {
+  const SceneSpec good = parseOrs("body a { type=0 }\nbody b {}\njoint j (a b) {}", "f").spec;
+  const double nan = std::nan("");
+  const auto broken = [&](auto edit) {
+    SceneSpec spec = good;
+    edit(spec);
+    return spec;
+  };
+  EXPECT_NO_THROW(static_cast<void>(compile(good)));
+  EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.bodies[0].mass = nan; })),
+                   "f:1:1: body 'a': mass: found nan, wanted a finite mass");
+  EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.bodies[0].X_WB.p.x() = nan; })),
+                   "body 'a': pose: found a number that is not finite");
+  EXPECT_REX_ERROR(
+      compile(broken([&](SceneSpec& s) { s.bodies[0].inertia = Eigen::Matrix3d::Constant(nan); })),
+      "body 'a': inertia: wanted a finite symmetric matrix");
+  EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.bodies[0].shapes[0].shape.radius = -1; })),
+                   "shape 'a': wanted a finite pose and finite sizes >= 0");
+  EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].axis.setZero(); })),
+                   "joint 'j': axis: found a zero or non-finite vector");
+  EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].X_PF.p.y() = nan; })), "joint 'j': frames");
+  EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].q0 = Eigen::Vector2d(1, 2); })),
+                   "joint 'j': initial coordinates: found 2 numbers, wanted 1");
+  EXPECT_REX_ERROR(
+      compile(broken([&](SceneSpec& s) { s.joints[0].lower = Eigen::VectorXd::Constant(1, nan); })),
+      "joint 'j': lower limits: found nan");
+  EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].parent = "c"; })),
+                   "f:3:1: joint 'j': unknown parent: found 'c', wanted the name of a body");
+  EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].child = "c"; })),
+                   "joint 'j': unknown child: found 'c'");
+  EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].mimic = "k"; })),
+                   "joint 'j': mimic: found 'k', wanted the name of a joint of the same type");
+}
+
+}  // namespace
+}  // namespace rex
