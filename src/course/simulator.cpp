@@ -1,0 +1,114 @@
+#include "course/simulator.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "course/pictures.h"
+#include "course/recording.h"
+#include "kinematics/center_of_mass.h"
+#include "kinematics/jacobians.h"
+#include "scene/ors_reader.h"
+
+namespace rex {
+namespace {
+
+// A name without a folder that does not exist here means one of the course's robots.
+std::filesystem::path findScene(const std::string& sceneFile) {
+  const std::filesystem::path given(sceneFile);
+  const std::filesystem::path own = std::filesystem::path(REX_ROBOTS_DIR) / given;
+  const bool isBareName = !given.has_parent_path();
+  return isBareName && !std::filesystem::exists(given) ? own : given;
+}
+
+SimulatorDescription readDescription(const std::string& sceneFile) {
+  const std::filesystem::path path = findScene(sceneFile);
+  static_cast<void>(readOrs(path));  // all about missing and oversized files
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return {.sceneName = path.filename().string(), .sceneText = text.str(), .q = {}};
+}
+
+}  // namespace
+
+struct Simulator::Parts {
+  std::string sceneName, sceneText;
+  Model model;
+  Eigen::VectorXd q;
+  BodyPoses poses;
+  Recording recording;
+};
+
+Simulator::Simulator(const std::string& sceneFile) : Simulator(readDescription(sceneFile)) {}
+
+Simulator::Simulator(const SimulatorDescription& description) {
+  Model model = compile(parseOrs(description.sceneText, description.sceneName).spec);
+  const Eigen::VectorXd q = description.q.size() > 0 ? description.q : model.initialPositions();
+  parts_.reset(new Parts{description.sceneName, description.sceneText, std::move(model), q, {}, {}});
+  setJointAngles(q);
+}
+
+Simulator::Simulator(const Simulator& other) : parts_(std::make_unique<Parts>(*other.parts_)) {}
+Simulator& Simulator::operator=(const Simulator& other) {
+  if (this != &other) parts_ = std::make_unique<Parts>(*other.parts_);
+  return *this;
+}
+Simulator::Simulator(Simulator&&) noexcept = default;
+Simulator& Simulator::operator=(Simulator&&) noexcept = default;
+Simulator::~Simulator() = default;
+
+int Simulator::getJointDimension() const { return parts_->model.nq(); }
+
+Eigen::VectorXd Simulator::getJointAngles() const { return parts_->q; }
+
+void Simulator::setJointAngles(const Eigen::VectorXd& q) {
+  requireSize("setJointAngles", q.size(), parts_->model.nq());
+  for (Eigen::Index i = 0; i < q.size(); ++i) {
+    if (!std::isfinite(q[i])) {
+      throw Error({.what = fmt::format("setJointAngles: angle {}", i), .found = fmt::format("{}", q[i]), .wanted = "a finite number"});
+    }
+  }
+  parts_->q = q;
+  forwardKinematics(parts_->model, q, parts_->poses);
+  parts_->recording.add(q);
+}
+
+Eigen::Vector3d Simulator::kinematicsPos(const std::string& body, const Eigen::Vector3d& rel) const {
+  return position(parts_->poses, parts_->model.body(body), rel);
+}
+
+Eigen::MatrixXd Simulator::jacobianPos(const std::string& body, const Eigen::Vector3d& rel) const {
+  return positionJacobian(parts_->model, parts_->poses, parts_->model.body(body), rel);
+}
+
+Eigen::Vector3d Simulator::kinematicsVec(const std::string& body, const Eigen::Vector3d& vec) const {
+  return direction(parts_->poses, parts_->model.body(body), vec);
+}
+
+Eigen::MatrixXd Simulator::jacobianVec(const std::string& body, const Eigen::Vector3d& vec) const {
+  return directionJacobian(parts_->model, parts_->poses, parts_->model.body(body), vec);
+}
+
+Eigen::Vector2d Simulator::kinematicsCOM() const { return centerOfMass(parts_->model, parts_->poses).head<2>(); }
+
+Eigen::MatrixXd Simulator::jacobianCOM() const { return centerOfMassJacobian(parts_->model, parts_->poses).topRows<2>(); }
+
+// The script's forms with an output argument.
+void Simulator::kinematicsPos(Eigen::VectorXd& y, const std::string& body, const Eigen::Vector3d& rel) const { y = kinematicsPos(body, rel); }
+void Simulator::jacobianPos(Eigen::MatrixXd& J, const std::string& body, const Eigen::Vector3d& rel) const { J = jacobianPos(body, rel); }
+void Simulator::kinematicsVec(Eigen::VectorXd& y, const std::string& body, const Eigen::Vector3d& vec) const { y = kinematicsVec(body, vec); }
+void Simulator::jacobianVec(Eigen::MatrixXd& J, const std::string& body, const Eigen::Vector3d& vec) const { J = jacobianVec(body, vec); }
+void Simulator::kinematicsCOM(Eigen::VectorXd& y) const { y = kinematicsCOM(); }
+void Simulator::jacobianCOM(Eigen::MatrixXd& J) const { J = jacobianCOM(); }
+
+void Simulator::watch(const std::string& name) const { writePicture(*this, name + ".png"); }
+
+SimulatorDescription Simulator::description() const { return {parts_->sceneName, parts_->sceneText, parts_->q}; }
+const Model& Simulator::model() const { return parts_->model; }
+const Recording& Simulator::recording() const { return parts_->recording; }
+void Simulator::clearRecording() { parts_->recording.clear(); }
+
+}  // namespace rex
