@@ -15,7 +15,9 @@ namespace {
 
 void requireSquare(const char* what, const Eigen::MatrixXd& A) {
   if (A.rows() == A.cols()) return;
-  throw Error({.what = what, .found = fmt::format("a {} x {} matrix", A.rows(), A.cols()), .wanted = "a square matrix"});
+  throw Error({.what = what,
+               .found = fmt::format("a {} x {} matrix", A.rows(), A.cols()),
+               .wanted = "a square matrix"});
 }
 
 void requireFinite(const char* what, const Eigen::MatrixXd& A) {
@@ -37,19 +39,19 @@ Eigen::PartialPivLU<Eigen::MatrixXd> factorise(const char* what, const Eigen::Ma
 
 void requireRows(const char* what, Eigen::Index found, Eigen::Index wanted) {
   if (found == wanted) return;
-  throw Error({.what = what, .found = fmt::format("a right side with {} rows", found), .wanted = fmt::format("{}", wanted)});
+  throw Error({.what = what,
+               .found = fmt::format("a right side with {} rows", found),
+               .wanted = fmt::format("{}", wanted)});
 }
 
 }  // namespace
 
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& A) { return factorise("inverse", A).inverse(); }
 
-Eigen::MatrixXd solve(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
+Eigen::MatrixXd solveMatrix(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
   requireRows("solve", B.rows(), A.rows());
   return factorise("solve", A).solve(B);
 }
-
-Eigen::VectorXd solve(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) { return solve(A, Eigen::MatrixXd(b)); }
 
 Eigen::VectorXd leastSquares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
   requireRows("leastSquares", b.size(), A.rows());

@@ -2,16 +2,21 @@
 
 #include <Eigen/Core>
 
-// The solvers an exercise needs, compiled once: a main.cpp that instantiates Eigen's own costs seconds of compiling.
+// The solvers an exercise needs, compiled once: a main.cpp that instantiates Eigen's own costs seconds of
+// compiling.
 namespace rex {
 
 /// Inverse of a square matrix, n x n. Throws Error if A is not square or has no inverse to working precision.
 [[nodiscard]] Eigen::MatrixXd inverse(const Eigen::MatrixXd& A);
-/// X with A X = B, for square A (n x n) and B with n rows. Throws as inverse, and for a B of other height.
-[[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
-[[nodiscard]] Eigen::VectorXd solve(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
-/// The x of smallest norm among those that minimise |A x - b|, for any A (m x n) and b (m). Throws Error for a b of
-/// another size.
+/// X with A X = B, for square A (n x n) and B with n rows: a vector for a vector, a matrix for a matrix.
+/// Throws as inverse, and for a B of other height.
+[[nodiscard]] Eigen::MatrixXd solveMatrix(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+template <class Right>
+[[nodiscard]] auto solve(const Eigen::MatrixXd& A, const Eigen::MatrixBase<Right>& B) {
+  return Eigen::Matrix<double, Eigen::Dynamic, Right::ColsAtCompileTime>(solveMatrix(A, B));
+}
+/// The x of smallest norm among those that minimise |A x - b|, for any A (m x n) and b (m). Throws Error for
+/// a b of another size.
 [[nodiscard]] Eigen::VectorXd leastSquares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 /// Eigenvalues of a square matrix, n complex numbers in no particular order. Throws Error if A is not square.
 [[nodiscard]] Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& A);

@@ -19,7 +19,8 @@ void Recording::add(const Eigen::VectorXd& q) {
 void Recording::clear() { *this = Recording(); }
 
 std::vector<Eigen::VectorXd> Recording::evenly(std::size_t most) const {
-  if (most < 2) throw Error({.what = "number of postures", .found = fmt::format("{}", most), .wanted = "at least 2"});
+  if (most < 2)
+    throw Error({.what = "number of postures", .found = fmt::format("{}", most), .wanted = "at least 2"});
   std::vector<Eigen::VectorXd> chosen = kept_;
   if (count_ > 0 && (count_ - 1) % stride_ != 0) chosen.push_back(last_);
   if (chosen.size() <= most) return chosen;

@@ -7,8 +7,9 @@
 
 namespace rex {
 
-/// The postures a simulator went through, evenly thinned so that a long run costs no more than a short one: it keeps
-/// every stride-th posture, and doubles the stride when more than 2 * kCapacity are kept. The last one is always there.
+/// The postures a simulator went through, evenly thinned so that a long run costs no more than a short one:
+/// it keeps every stride-th posture, and doubles the stride when more than 2 * kCapacity are kept. The last
+/// one is always there.
 class Recording {
  public:
   static constexpr std::size_t kCapacity = 2048;

@@ -68,7 +68,9 @@ void Simulator::setJointAngles(const Eigen::VectorXd& q) {
   requireSize("setJointAngles", q.size(), parts_->model.nq());
   for (Eigen::Index i = 0; i < q.size(); ++i) {
     if (!std::isfinite(q[i])) {
-      throw Error({.what = fmt::format("setJointAngles: angle {}", i), .found = fmt::format("{}", q[i]), .wanted = "a finite number"});
+      throw Error({.what = fmt::format("setJointAngles: angle {}", i),
+                   .found = fmt::format("{}", q[i]),
+                   .wanted = "a finite number"});
     }
   }
   parts_->q = q;
@@ -92,21 +94,35 @@ Eigen::MatrixXd Simulator::jacobianVec(const std::string& body, const Eigen::Vec
   return directionJacobian(parts_->model, parts_->poses, parts_->model.body(body), vec);
 }
 
-Eigen::Vector2d Simulator::kinematicsCOM() const { return centerOfMass(parts_->model, parts_->poses).head<2>(); }
+Eigen::Vector2d Simulator::kinematicsCOM() const {
+  return centerOfMass(parts_->model, parts_->poses).head<2>();
+}
 
-Eigen::MatrixXd Simulator::jacobianCOM() const { return centerOfMassJacobian(parts_->model, parts_->poses).topRows<2>(); }
+Eigen::MatrixXd Simulator::jacobianCOM() const {
+  return centerOfMassJacobian(parts_->model, parts_->poses).topRows<2>();
+}
 
 // The script's forms with an output argument.
-void Simulator::kinematicsPos(Eigen::VectorXd& y, const std::string& body, const Eigen::Vector3d& rel) const { y = kinematicsPos(body, rel); }
-void Simulator::jacobianPos(Eigen::MatrixXd& J, const std::string& body, const Eigen::Vector3d& rel) const { J = jacobianPos(body, rel); }
-void Simulator::kinematicsVec(Eigen::VectorXd& y, const std::string& body, const Eigen::Vector3d& vec) const { y = kinematicsVec(body, vec); }
-void Simulator::jacobianVec(Eigen::MatrixXd& J, const std::string& body, const Eigen::Vector3d& vec) const { J = jacobianVec(body, vec); }
+void Simulator::kinematicsPos(Eigen::VectorXd& y, const std::string& body, const Eigen::Vector3d& rel) const {
+  y = kinematicsPos(body, rel);
+}
+void Simulator::jacobianPos(Eigen::MatrixXd& J, const std::string& body, const Eigen::Vector3d& rel) const {
+  J = jacobianPos(body, rel);
+}
+void Simulator::kinematicsVec(Eigen::VectorXd& y, const std::string& body, const Eigen::Vector3d& vec) const {
+  y = kinematicsVec(body, vec);
+}
+void Simulator::jacobianVec(Eigen::MatrixXd& J, const std::string& body, const Eigen::Vector3d& vec) const {
+  J = jacobianVec(body, vec);
+}
 void Simulator::kinematicsCOM(Eigen::VectorXd& y) const { y = kinematicsCOM(); }
 void Simulator::jacobianCOM(Eigen::MatrixXd& J) const { J = jacobianCOM(); }
 
 void Simulator::watch(const std::string& name) const { writePicture(*this, name + ".png"); }
 
-SimulatorDescription Simulator::description() const { return {parts_->sceneName, parts_->sceneText, parts_->q}; }
+SimulatorDescription Simulator::description() const {
+  return {parts_->sceneName, parts_->sceneText, parts_->q};
+}
 const Model& Simulator::model() const { return parts_->model; }
 const Recording& Simulator::recording() const { return parts_->recording; }
 void Simulator::clearRecording() { parts_->recording.clear(); }

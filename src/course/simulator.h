@@ -17,9 +17,10 @@ struct SimulatorDescription {
   Eigen::VectorXd q;      ///< joint angles; empty: the posture of the file
 };
 
-/// A robot in its world, with the names of the course script. Positions are metres in the world frame, z up; angles
-/// radians. Bodies are named as in the scene; a shape's name stands for its body. Every method that takes a name throws
-/// Error with the closest names for an unknown one, every method that takes a vector names both sizes for a wrong one.
+/// A robot in its world, with the names of the course script. Positions are metres in the world frame, z up;
+/// angles radians. Bodies are named as in the scene; a shape's name stands for its body. Every method that
+/// takes a name throws Error with the closest names for an unknown one, every method that takes a vector
+/// names both sizes for a wrong one.
 class Simulator {
  public:
   /// Loads an .ors file: a path, or a name such as "man.ors" from the course's own robots. Throws Error with
@@ -40,19 +41,28 @@ class Simulator {
   /// Moves the robot to q (n finite numbers) and records the posture for pictures.
   void setJointAngles(const Eigen::VectorXd& q);
 
-  /// World position of the point `rel` of a body, given in the body's frame; by default its origin. Slide 2:53.
-  Eigen::Vector3d kinematicsPos(const std::string& body, const Eigen::Vector3d& rel = Eigen::Vector3d::Zero()) const;
-  void kinematicsPos(Eigen::VectorXd& y, const std::string& body, const Eigen::Vector3d& rel = Eigen::Vector3d::Zero()) const;
+  /// World position of the point `rel` of a body, given in the body's frame; by default its origin. Slide
+  /// 2:53.
+  Eigen::Vector3d kinematicsPos(const std::string& body,
+                                const Eigen::Vector3d& rel = Eigen::Vector3d::Zero()) const;
+  void kinematicsPos(Eigen::VectorXd& y, const std::string& body,
+                     const Eigen::Vector3d& rel = Eigen::Vector3d::Zero()) const;
   /// Its Jacobian by q, 3 x n.
-  Eigen::MatrixXd jacobianPos(const std::string& body, const Eigen::Vector3d& rel = Eigen::Vector3d::Zero()) const;
-  void jacobianPos(Eigen::MatrixXd& J, const std::string& body, const Eigen::Vector3d& rel = Eigen::Vector3d::Zero()) const;
+  Eigen::MatrixXd jacobianPos(const std::string& body,
+                              const Eigen::Vector3d& rel = Eigen::Vector3d::Zero()) const;
+  void jacobianPos(Eigen::MatrixXd& J, const std::string& body,
+                   const Eigen::Vector3d& rel = Eigen::Vector3d::Zero()) const;
 
   /// World direction of the vector `vec` that is fixed to a body, by default its z axis. Slide 2:54.
-  Eigen::Vector3d kinematicsVec(const std::string& body, const Eigen::Vector3d& vec = Eigen::Vector3d::UnitZ()) const;
-  void kinematicsVec(Eigen::VectorXd& y, const std::string& body, const Eigen::Vector3d& vec = Eigen::Vector3d::UnitZ()) const;
+  Eigen::Vector3d kinematicsVec(const std::string& body,
+                                const Eigen::Vector3d& vec = Eigen::Vector3d::UnitZ()) const;
+  void kinematicsVec(Eigen::VectorXd& y, const std::string& body,
+                     const Eigen::Vector3d& vec = Eigen::Vector3d::UnitZ()) const;
   /// Its Jacobian by q, 3 x n.
-  Eigen::MatrixXd jacobianVec(const std::string& body, const Eigen::Vector3d& vec = Eigen::Vector3d::UnitZ()) const;
-  void jacobianVec(Eigen::MatrixXd& J, const std::string& body, const Eigen::Vector3d& vec = Eigen::Vector3d::UnitZ()) const;
+  Eigen::MatrixXd jacobianVec(const std::string& body,
+                              const Eigen::Vector3d& vec = Eigen::Vector3d::UnitZ()) const;
+  void jacobianVec(Eigen::MatrixXd& J, const std::string& body,
+                   const Eigen::Vector3d& vec = Eigen::Vector3d::UnitZ()) const;
 
   /// Centre of mass, x and y only, as in the course. Throws Error for a scene without mass. Slide 2:61.
   Eigen::Vector2d kinematicsCOM() const;

@@ -1,0 +1,11 @@
+#pragma once
+
+// All a student needs: `#include "course/course.h"`. Declarations only, so that a main.cpp compiles fast.
+#include "base/error.h"
+#include "base/rng.h"
+#include "course/linear_algebra.h"
+#include "course/pictures.h"
+#include "course/print.h"
+#include "course/recording.h"
+#include "course/simulator.h"
+#include "optim/derivative_check.h"

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace rex {
+
+class Simulator;
+
+/// What pictures of a simulator show besides the robot. Everything is in the world frame, metres.
+struct PictureOptions {
+  std::string caption{};              ///< in the top left corner
+  std::vector<std::string> traces{};  ///< bodies whose way through the recording is drawn as a line
+  std::vector<std::vector<Eigen::Vector3d>> paths{};  ///< lines, such as the way a hand should take
+  std::vector<Eigen::Vector3d> points{};              ///< dots, such as targets
+  Eigen::Vector3d view{1.2, -2.0, 0.9};  ///< the direction in which the camera stands, from the scene
+  int width = 640, height = 480;         ///< pixels
+};
+
+/// Draws the present posture into `file`, a .png. Throws Error for an unknown body in `traces`, a file that
+/// cannot be written, or a machine without software OpenGL.
+void writePicture(const Simulator& simulator, const std::string& file, const PictureOptions& options = {});
+
+/// Draws the recording as folder/0000.png, 0001.png, ..., at most `most` frames, evenly spaced and seen from
+/// one place; frames of an earlier run in that folder go first. Throws as writePicture, and Error when `most`
+/// is below 2.
+void writeFrames(const Simulator& simulator, const std::string& folder, const PictureOptions& options = {},
+                 int most = 120);
+
+}  // namespace rex

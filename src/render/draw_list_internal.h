@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "render/camera.h"
+#include "render/picture.h"
+
+namespace rex::internal {
+
+enum class MeshKind { kBox, kCapsule, kCylinder };
+
+/// A unit mesh put into the world; see MeshVertex.
+struct DrawItem {
+  MeshKind mesh = MeshKind::kBox;
+  bool fine = false;  ///< large in the picture: its outline shows every corner of a coarse mesh
+  Pose X_WS{};
+  Eigen::Vector3d halfSize = Eigen::Vector3d::Ones();
+  double stretch = 0;
+  Color color{};
+};
+
+/// What the solid passes draw: opaque items in the order of the picture, then the translucent ones from far
+/// to near. Markers are not solid (see overlayLines), things without extent or colour are left out.
+struct DrawList {
+  std::vector<DrawItem> opaque;
+  std::vector<DrawItem> translucent;
+};
+
+[[nodiscard]] DrawList makeDrawList(const Picture& picture, const Camera& camera, int pictureHeight);
+
+/// All lines of the picture: its polylines, its axes and its marker shapes.
+[[nodiscard]] std::vector<Polyline> overlayLines(const Picture& picture);
+
+}  // namespace rex::internal

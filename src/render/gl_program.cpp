@@ -1,0 +1,64 @@
+#include <array>
+#include <cassert>
+
+#include "base/error.h"
+#include "render/gl_program_internal.h"
+
+namespace rex::internal {
+namespace {
+
+void attachShader(const GlFunctions& gl, GLuint program, GLenum kind, const std::string& source) {
+  const GLuint shader = gl.CreateShader(kind);
+  const char* text = source.c_str();
+  gl.ShaderSource(shader, 1, &text, nullptr);
+  gl.CompileShader(shader);
+  gl.AttachShader(program, shader);
+  gl.DeleteShader(shader);
+}
+
+}  // namespace
+
+GlProgram::GlProgram(const GlFunctions& gl, const std::string& vertexSource,
+                     const std::string& fragmentSource)
+    : gl_(&gl), id_(gl.CreateProgram()) {
+  attachShader(gl, id_, GL_VERTEX_SHADER, vertexSource);
+  attachShader(gl, id_, GL_FRAGMENT_SHADER, fragmentSource);
+  gl.LinkProgram(id_);
+  GLint linked = GL_FALSE;
+  gl.GetProgramiv(id_, GL_LINK_STATUS, &linked);
+  if (linked == GL_TRUE) return;
+  std::array<char, 1024> log{};
+  gl.GetProgramInfoLog(id_, static_cast<GLsizei>(log.size()), nullptr, log.data());
+  throw Error({.what = "OpenGL refuses a shader of rex", .found = log.data()});
+}
+
+void GlProgram::set(const char* name, double value) const {
+  gl_->Uniform1f(location(name), static_cast<float>(value));
+}
+
+void GlProgram::set(const char* name, const Eigen::Vector3d& value) const {
+  const Eigen::Vector3f v = value.cast<float>();
+  gl_->Uniform3f(location(name), v.x(), v.y(), v.z());
+}
+
+void GlProgram::set(const char* name, const Eigen::Matrix3d& value) const {
+  const Eigen::Matrix3f m = value.cast<float>();
+  gl_->UniformMatrix3fv(location(name), 1, GL_FALSE, m.data());
+}
+
+void GlProgram::set(const char* name, const Eigen::Matrix4d& value) const {
+  const Eigen::Matrix4f m = value.cast<float>();
+  gl_->UniformMatrix4fv(location(name), 1, GL_FALSE, m.data());
+}
+
+void GlProgram::set(const char* name, const Color& c) const {
+  gl_->Uniform4f(location(name), c.r * c.r, c.g * c.g, c.b * c.b, c.a);
+}
+
+GLint GlProgram::location(const char* name) const {
+  const GLint where = gl_->GetUniformLocation(id_, name);
+  assert(where >= 0);
+  return where;
+}
+
+}  // namespace rex::internal

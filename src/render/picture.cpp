@@ -1,0 +1,105 @@
+#include "render/picture.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace rex {
+namespace {
+
+bool isFinite(const Pose& X) { return X.R.allFinite() && X.p.allFinite(); }
+
+bool isFinite(const Color& c) {
+  return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b) && std::isfinite(c.a);
+}
+
+void require(bool good, const std::string& thing, const char* found, const char* wanted) {
+  if (!good) throw Error({.what = thing, .found = found, .wanted = wanted});
+}
+
+void requireFinite(bool finite, const std::string& thing) {
+  require(finite, thing, "a number that is not finite", "finite numbers");
+}
+
+void requireSolid(const Solid& solid, std::size_t index) {
+  const std::string thing =
+      solid.name.empty() ? fmt::format("solid {}", index) : fmt::format("solid '{}'", solid.name);
+  requireFinite(isFinite(solid.X_WS), thing + ", pose");
+  requireFinite(isFinite(solid.color), thing + ", color");
+  requireFinite(solid.shape.extent.allFinite() && std::isfinite(solid.shape.radius), thing + ", size");
+  require(solid.shape.extent.minCoeff() >= 0 && solid.shape.radius >= 0, thing + ", size",
+          "a negative length", "lengths of at least 0");
+  const bool hasMesh = solid.shape.type == ShapeType::kMesh || solid.shape.type == ShapeType::kPointCloud ||
+                       solid.shape.type == ShapeType::kSphereSweptConvex;
+  if (hasMesh)
+    throw Error({.what = thing,
+                 .found = "a " + std::string(toString(solid.shape.type)),
+                 .wanted = "a box, sphere, capsule, cylinder, rounded box or marker"});
+}
+
+void requirePoints(const std::vector<Eigen::Vector3d>& points, const Color& color, double size,
+                   const std::string& thing) {
+  for (std::size_t k = 0; k < points.size(); ++k)
+    requireFinite(points[k].allFinite(), fmt::format("{}, point {}", thing, k));
+  requireFinite(isFinite(color), thing + ", color");
+  require(std::isfinite(size) && size > 0, thing, "a size in pixels that is not positive", "a positive one");
+}
+
+}  // namespace
+
+Bounds bounds(const Solid& solid) {
+  const Eigen::Vector3d half = solid.X_WS.R.cwiseAbs() * halfBounds(solid.shape);
+  Bounds box;
+  box.include(solid.X_WS.p - half);
+  box.include(solid.X_WS.p + half);
+  return box;
+}
+
+Bounds bounds(const Picture& picture) {
+  Bounds box;
+  for (const Solid& solid : picture.solids) {
+    const Bounds one = bounds(solid);
+    box.include(one.low);
+    box.include(one.high);
+  }
+  for (const Polyline& line : picture.polylines)
+    for (const Eigen::Vector3d& point : line.points) box.include(point);
+  for (const PointSet& set : picture.pointSets)
+    for (const Eigen::Vector3d& point : set.points) box.include(point);
+  for (const Axes& axes : picture.axes) {
+    box.include(axes.X_WF.p);
+    for (int i = 0; i < 3; ++i) box.include(axes.X_WF.p + axes.size * axes.X_WF.R.col(i));
+  }
+  for (const Label& label : picture.labels) box.include(label.p_WQ);
+  return box;
+}
+
+void requireDrawable(const Picture& picture) {
+  for (std::size_t i = 0; i < picture.solids.size(); ++i) requireSolid(picture.solids[i], i);
+  for (std::size_t i = 0; i < picture.polylines.size(); ++i) {
+    const Polyline& line = picture.polylines[i];
+    requirePoints(line.points, line.color, line.width, fmt::format("polyline {}", i));
+  }
+  for (std::size_t i = 0; i < picture.pointSets.size(); ++i) {
+    const PointSet& set = picture.pointSets[i];
+    requirePoints(set.points, set.color, set.size, fmt::format("point set {}", i));
+  }
+  for (const Axes& axes : picture.axes)
+    requireFinite(isFinite(axes.X_WF) && std::isfinite(axes.size), fmt::format("axes '{}'", axes.name));
+  for (const Label& label : picture.labels)
+    requireFinite(label.p_WQ.allFinite() && isFinite(label.color) && std::isfinite(label.scale),
+                  fmt::format("label '{}'", label.text));
+  for (const Caption& caption : picture.captions)
+    requireFinite(isFinite(caption.color) && std::isfinite(caption.scale),
+                  fmt::format("caption '{}'", caption.text));
+  const Ground& ground = picture.ground;
+  requireFinite(std::isfinite(ground.height) && isFinite(ground.light) && isFinite(ground.dark), "ground");
+  require(std::isfinite(ground.cell) && ground.cell > 0, "ground", "a cell that is not positive",
+          "a positive edge length");
+  require(picture.toLight.allFinite() && picture.toLight.norm() > 0, "light", "no direction",
+          "a finite vector to the light");
+}
+
+}  // namespace rex

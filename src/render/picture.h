@@ -1,0 +1,93 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "geometry/pose.h"
+#include "geometry/shape.h"
+#include "render/bounds.h"
+#include "render/color.h"
+
+namespace rex {
+
+/// A body to draw: `shape` at X_WS. The name appears in messages only.
+struct Solid {
+  Shape shape{};
+  Pose X_WS{};
+  Color color{0.7f, 0.7f, 0.72f};
+  std::string name{};
+};
+
+/// A checkered plane z = height that fades out around the scene; not visible from below.
+struct Ground {
+  bool visible = true;
+  double height = 0;  ///< metres
+  double cell = 0.5;  ///< edge length of a square, metres
+  Color light{0.92f, 0.93f, 0.94f};
+  Color dark{0.84f, 0.86f, 0.88f};
+};
+
+/// A line through points in W (metres). What solids hide of it shows through faintly.
+struct Polyline {
+  std::vector<Eigen::Vector3d> points{};
+  Color color{0.84f, 0.37f, 0.0f};
+  double width = 2.5;  ///< pixels
+};
+
+/// Discs that face the camera, at points in W (metres). Hidden ones show through faintly.
+struct PointSet {
+  std::vector<Eigen::Vector3d> points{};
+  Color color{0.0f, 0.45f, 0.7f};
+  double size = 6;  ///< diameter, pixels
+};
+
+/// The axes of frame F as a red x, green y and blue z line of `size` metres, with its name beside the origin.
+struct Axes {
+  Pose X_WF{};
+  double size = 0.2;
+  std::string name{};
+};
+
+/// Text beside a point in W (metres); never hidden. Printable ASCII; any other character shows as '?'.
+struct Label {
+  std::string text{};
+  Eigen::Vector3d p_WQ = Eigen::Vector3d::Zero();
+  Color color{0.1f, 0.1f, 0.12f};
+  double scale = 1;  ///< 1: capitals 9 pixels high
+};
+
+enum class Corner { kTopLeft, kTopRight, kBottomLeft, kBottomRight };
+
+/// Text in a corner of the picture; several in one corner stand below each other, '\n' starts a new line.
+struct Caption {
+  std::string text{};
+  Corner corner = Corner::kTopLeft;
+  Color color{0.1f, 0.1f, 0.12f};
+  double scale = 1;
+};
+
+/// All that a picture shows, as plain data. Where it is seen from is a Camera.
+struct Picture {
+  std::vector<Solid> solids{};
+  Ground ground{};
+  std::vector<Polyline> polylines{};
+  std::vector<PointSet> pointSets{};
+  std::vector<Axes> axes{};
+  std::vector<Label> labels{};
+  std::vector<Caption> captions{};
+  Eigen::Vector3d toLight{-0.15, -0.85, 1.5};  ///< direction from the scene to the light, W, any length
+};
+
+/// The box around all solids, lines, points, axes and labels; empty if there are none. The ground has no end
+/// and does not count.
+[[nodiscard]] Bounds bounds(const Picture& picture);
+/// The box around one solid.
+[[nodiscard]] Bounds bounds(const Solid& solid);
+
+/// Throws Error naming the first solid, line ... with a number that is not finite, a size that is negative or
+/// a light without direction.
+void requireDrawable(const Picture& picture);
+
+}  // namespace rex

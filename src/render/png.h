@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+
+#include "render/image.h"
+
+namespace rex {
+
+/// Writes an 8-bit RGB PNG. The file appears whole or not at all. Throws Error naming the path, and for an
+/// image without pixels.
+void writePng(const Image& image, const std::filesystem::path& path);
+
+/// Reads any PNG as 8-bit RGB; transparent parts become black. Throws Error naming the path and the cause.
+[[nodiscard]] Image readPng(const std::filesystem::path& path);
+
+}  // namespace rex

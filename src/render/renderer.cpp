@@ -1,0 +1,284 @@
+#include "render/renderer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "render/draw_list_internal.h"
+#include "render/frame_buffer_internal.h"
+#include "render/gl_program_internal.h"
+#include "render/mesh_store_internal.h"
+#include "render/overlay_mesh_internal.h"
+#include "render/picture_text_internal.h"
+#include "render/shaders_internal.h"
+#include "render/shadow_map_internal.h"
+
+namespace rex {
+namespace {
+
+using internal::DrawItem;
+using internal::DrawList;
+using internal::GlFunctions;
+using internal::GlProgram;
+using internal::ShaderSource;
+
+constexpr int kLargest = 8192;  // pixels
+
+const RendererOptions& checked(const RendererOptions& options) {
+  const auto inRange = [](int size) { return size >= 1 && size <= kLargest; };
+  if (!inRange(options.width) || !inRange(options.height))
+    throw Error({.what = "picture size",
+                 .found = fmt::format("{} x {}", options.width, options.height),
+                 .wanted = fmt::format("1 to {} pixels each way", kLargest)});
+  return options;
+}
+
+void requireUsable(const Camera& camera) {
+  const bool finite = camera.X_WC.R.allFinite() && camera.X_WC.p.allFinite();
+  if (!finite)
+    throw Error({.what = "camera", .found = "a pose that is not finite", .wanted = "finite numbers"});
+  if (!(camera.verticalFov > 0 && camera.verticalFov < 3.1))
+    throw Error({.what = "camera",
+                 .found = fmt::format("a vertical field of view of {} rad", camera.verticalFov),
+                 .wanted = "between 0 and 3.1"});
+  if (!(camera.nearPlane > 0 && camera.farPlane > camera.nearPlane && std::isfinite(camera.farPlane)))
+    throw Error({.what = "camera",
+                 .found = fmt::format("near {} m, far {} m", camera.nearPlane, camera.farPlane),
+                 .wanted = "0 < near < far"});
+}
+
+int samplesFor(const GlFunctions& gl, AntiAliasing antiAliasing) {
+  constexpr int kWanted = 4;
+  GLint most = 1;
+  gl.GetIntegerv(GL_MAX_SAMPLES, &most);
+  return antiAliasing == AntiAliasing::kMsaa4 && most >= kWanted ? kWanted : 1;
+}
+
+GlProgram makeProgram(const GlFunctions& gl, const ShaderSource& source) {
+  return {gl, source.vertex, source.fragment};
+}
+
+GlFunctions currentFunctions(GlContext& context) {
+  context.makeCurrent();
+  return internal::loadGlFunctions(context);
+}
+
+// The background changes from row to row only, so a picture of nothing has rows of one colour.
+bool showsNothing(const Image& image) {
+  for (int y = 0; y < image.height; ++y) {
+    const std::uint8_t* row = image.pixel(0, y);
+    if (!std::equal(row + 3, row + 3 * image.width, row)) return false;
+  }
+  return true;
+}
+
+// A polyline of one point draws nothing.
+bool isEmpty(const Picture& picture, const DrawList& list, const std::vector<Polyline>& lines) {
+  const auto hasPoints = [](const PointSet& set) { return !set.points.empty(); };
+  const auto hasLength = [](const Polyline& line) { return line.points.size() > 1; };
+  return list.opaque.empty() && list.translucent.empty() && !picture.ground.visible &&
+         std::none_of(picture.pointSets.begin(), picture.pointSets.end(), hasPoints) &&
+         std::none_of(lines.begin(), lines.end(), hasLength);
+}
+
+}  // namespace
+
+// All OpenGL objects belong to the context and end with it.
+struct Renderer::Impl {
+  explicit Impl(const RendererOptions& wanted);
+  Image draw(const Picture& picture, const Camera& camera);
+  void setLight(const GlProgram& program, const Picture& picture, const internal::ShadowView& shadow) const;
+  void setBackground(const GlProgram& program) const;
+  void drawGround(const Picture& picture, const Camera& camera, const internal::ShadowView& shadow) const;
+  void drawSolids(const DrawList& list, const Picture& picture, const Camera& camera,
+                  const internal::ShadowView& shadow) const;
+  void drawOverlay(const std::vector<Polyline>& lines, const Picture& picture, const Camera& camera) const;
+  Eigen::Matrix4d clip(const Camera& camera) const {
+    return clipFromWorld(camera, static_cast<double>(options.width) / options.height);
+  }
+
+  RendererOptions options;
+  std::unique_ptr<GlContext> context;
+  GlFunctions gl;
+  int samples;
+  internal::FrameBuffer frame;
+  internal::MeshStore meshes;
+  internal::ShadowMap shadowMap;
+  GlProgram background, ground, solid, overlay;
+  GLuint noVertices = 0, overlayVertices = 0, overlayBuffer = 0;
+};
+
+Renderer::Impl::Impl(const RendererOptions& wanted)
+    : options(checked(wanted)),
+      context(makeGlContext(options.gl)),
+      gl(currentFunctions(*context)),
+      samples(samplesFor(gl, options.antiAliasing)),
+      frame(gl, options.width, options.height, samples),
+      meshes(gl),
+      shadowMap(gl),
+      background(makeProgram(gl, internal::backgroundShader())),
+      ground(makeProgram(gl, internal::groundShader(options.shadow))),
+      solid(makeProgram(gl, internal::solidShader(options.shadow))),
+      overlay(makeProgram(gl, internal::overlayShader())) {
+  using internal::OverlayVertex;
+  gl.GenVertexArrays(1, &noVertices);
+  gl.GenVertexArrays(1, &overlayVertices);
+  gl.GenBuffers(1, &overlayBuffer);
+  gl.BindVertexArray(overlayVertices);
+  gl.BindBuffer(GL_ARRAY_BUFFER, overlayBuffer);
+  const auto attribute = [&](GLuint index, GLint size, std::size_t offset) {
+    gl.EnableVertexAttribArray(index);
+    gl.VertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, sizeof(OverlayVertex),
+                           reinterpret_cast<const void*>(offset));
+  };
+  attribute(0, 3, offsetof(OverlayVertex, position));
+  attribute(1, 3, offsetof(OverlayVertex, offset));
+  attribute(2, 4, offsetof(OverlayVertex, color));
+  gl.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+  internal::requireNoGlError(gl, "setting up");
+}
+
+void Renderer::Impl::setLight(const GlProgram& program, const Picture& picture,
+                              const internal::ShadowView& shadow) const {
+  program.set("toLight", Eigen::Vector3d(picture.toLight.normalized()));
+  if (!options.shadow) return;
+  program.set("shadowClipFromWorld", shadow.clipFromWorld);
+  program.set("shadowTexel", shadow.texel);
+}
+
+void Renderer::Impl::setBackground(const GlProgram& program) const {
+  program.set("backgroundTop", options.backgroundTop);
+  program.set("backgroundBottom", options.backgroundBottom);
+  program.set("pictureHeight", options.height);
+}
+
+void Renderer::Impl::drawGround(const Picture& picture, const Camera& camera,
+                                const internal::ShadowView& shadow) const {
+  const Ground& plane = picture.ground;
+  if (!plane.visible || camera.X_WC.p.z() <= plane.height) return;
+  const Bounds scene = bounds(picture);
+  const Eigen::Vector3d middle = scene.isEmpty() ? Eigen::Vector3d::Zero() : scene.center();
+  const double radius = scene.isEmpty() ? 1 : scene.radius();
+  ground.use();
+  setLight(ground, picture, shadow);
+  setBackground(ground);
+  ground.set("clipFromWorld", clip(camera));
+  ground.set("groundCenter", Eigen::Vector3d(middle.x(), middle.y(), plane.height));
+  ground.set("groundRadius", std::max(6 * radius, 4 * plane.cell));
+  ground.set("groundCell", plane.cell);
+  ground.set("groundLight", plane.light);
+  ground.set("groundDark", plane.dark);
+  gl.BindVertexArray(noVertices);
+  gl.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+}
+
+void Renderer::Impl::drawSolids(const DrawList& list, const Picture& picture, const Camera& camera,
+                                const internal::ShadowView& shadow) const {
+  const auto drawAll = [&](const std::vector<DrawItem>& items) {
+    solid.use();
+    for (const DrawItem& item : items) {
+      solid.set("solidColor", item.color);
+      meshes.draw(item, solid);
+    }
+  };
+  solid.use();
+  setLight(solid, picture, shadow);
+  solid.set("clipFromWorld", clip(camera));
+  solid.set("eye", camera.X_WC.p);
+  gl.Enable(GL_CULL_FACE);
+  drawAll(list.opaque);
+  gl.Disable(GL_CULL_FACE);
+  drawGround(picture, camera, shadow);
+  gl.Enable(GL_CULL_FACE);
+  gl.Enable(GL_BLEND);
+  gl.DepthMask(GL_FALSE);
+  drawAll(list.translucent);
+  gl.DepthMask(GL_TRUE);
+  gl.Disable(GL_BLEND);
+  gl.Disable(GL_CULL_FACE);
+}
+
+void Renderer::Impl::drawOverlay(const std::vector<Polyline>& lines, const Picture& picture,
+                                 const Camera& camera) const {
+  constexpr double kHiddenOpacity = 0.22;
+  const auto mesh =
+      internal::makeOverlayMesh(lines, picture.pointSets, camera, options.width, options.height);
+  if (mesh.empty()) return;
+  gl.BindVertexArray(overlayVertices);
+  gl.BindBuffer(GL_ARRAY_BUFFER, overlayBuffer);
+  gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.size() * sizeof(mesh[0])), mesh.data(),
+                GL_STREAM_DRAW);
+  overlay.use();
+  gl.Enable(GL_BLEND);
+  gl.DepthMask(GL_FALSE);
+  for (const bool hidden : {true, false}) {
+    gl.DepthFunc(hidden ? GL_GREATER : GL_LEQUAL);
+    overlay.set("opacity", hidden ? kHiddenOpacity : 1.0);
+    gl.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(mesh.size()));
+  }
+  gl.DepthMask(GL_TRUE);
+  gl.DepthFunc(GL_LESS);
+  gl.Disable(GL_BLEND);
+}
+
+Image Renderer::Impl::draw(const Picture& picture, const Camera& camera) {
+  requireDrawable(picture);
+  requireUsable(camera);
+  context->makeCurrent();
+  const DrawList list = internal::makeDrawList(picture, camera, options.height);
+  const std::vector<Polyline> lines = internal::overlayLines(picture);
+
+  gl.Enable(GL_DEPTH_TEST);
+  internal::ShadowView shadow;
+  if (options.shadow) shadow = shadowMap.draw(list.opaque, picture.toLight, meshes);
+  frame.bind();
+  gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  gl.Disable(GL_DEPTH_TEST);
+  background.use();
+  setBackground(background);
+  gl.BindVertexArray(noVertices);
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  gl.Enable(GL_DEPTH_TEST);
+  drawSolids(list, picture, camera, shadow);
+  drawOverlay(lines, picture, camera);
+
+  Image image = frame.read();
+  if (showsNothing(image) && !isEmpty(picture, list, lines))
+    throw Error({.what = "the picture is blank",
+                 .found = "a camera that sees nothing of the scene",
+                 .wanted = "one that does, see framing()"});
+  internal::drawPictureText(image, picture, camera);
+  return image;
+}
+
+Renderer::Renderer(const RendererOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+Image Renderer::draw(const Picture& picture, const Camera& camera) { return impl_->draw(picture, camera); }
+
+std::string Renderer::describe() const {
+  impl_->context->makeCurrent();
+  const auto text = [&](GLenum what) { return reinterpret_cast<const char*>(impl_->gl.GetString(what)); };
+  const bool refused = impl_->options.antiAliasing == AntiAliasing::kMsaa4 && impl_->samples == 1;
+  return fmt::format("{}, OpenGL {}, {}, {}", impl_->context->describe(), text(GL_VERSION), text(GL_RENDERER),
+                     impl_->samples > 1 ? "4 samples per pixel"
+                     : refused          ? "no anti-aliasing (4 samples are not supported)"
+                                        : "no anti-aliasing");
+}
+
+const RendererOptions& Renderer::options() const { return impl_->options; }
+
+Image drawOnce(const Picture& picture, const RendererOptions& options, const Eigen::Vector3d& direction) {
+  Renderer renderer(options);
+  const Camera camera =
+      framing(bounds(picture), direction, static_cast<double>(options.width) / options.height);
+  return renderer.draw(picture, camera);
+}
+
+}  // namespace rex

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "render/camera.h"
+#include "render/gl_context.h"
+#include "render/image.h"
+#include "render/picture.h"
+
+namespace rex {
+
+enum class AntiAliasing { kNone, kMsaa4 };
+
+/// How pictures are made; what they show is a Picture.
+struct RendererOptions {
+  int width = 640;  ///< pixels, 1 to 8192
+  int height = 480;
+  AntiAliasing antiAliasing = AntiAliasing::kMsaa4;
+  bool shadow = true;
+  Color backgroundTop{0.93f, 0.95f, 0.97f};
+  Color backgroundBottom{0.995f, 0.995f, 0.995f};
+  GlOptions gl{};
+};
+
+/// Draws pictures without a window, by OpenGL in software. The same picture gives the same bytes.
+/// To be used by one thread at a time.
+class Renderer {
+ public:
+  /// Throws Error for a size out of range and as makeGlContext().
+  explicit Renderer(const RendererOptions& options = {});
+  ~Renderer();
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+
+  /// Throws Error as requireDrawable(); for a camera that is not finite or whose planes or angle make no
+  /// sense; and when nothing of a picture that is not empty would be seen.
+  [[nodiscard]] Image draw(const Picture& picture, const Camera& camera);
+
+  /// Backend, OpenGL version, renderer and anti-aliasing in use, on one line.
+  [[nodiscard]] std::string describe() const;
+  [[nodiscard]] const RendererOptions& options() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Draws one picture from `direction` (see framing()) with a renderer made for it.
+[[nodiscard]] Image drawOnce(const Picture& picture, const RendererOptions& options = {},
+                             const Eigen::Vector3d& direction = kDefaultView);
+
+}  // namespace rex

@@ -1,0 +1,29 @@
+#include "render/scene_picture.h"
+
+#include <algorithm>
+
+namespace rex {
+namespace {
+
+bool isDrawn(ShapeType type) {
+  return type != ShapeType::kMesh && type != ShapeType::kPointCloud && type != ShapeType::kSphereSweptConvex;
+}
+
+}  // namespace
+
+Picture pictureOf(const Model& model, const BodyPoses& poses) {
+  Picture picture;
+  for (const ModelShape& shape : model.shapes()) {
+    if (!isDrawn(shape.shape.type)) continue;
+    const Eigen::Vector4f c = shape.color.cast<float>();
+    picture.solids.push_back({.shape = shape.shape,
+                              .X_WS = poses[shape.body] * shape.X_BS,
+                              .color = {c[0], c[1], c[2], c[3]},
+                              .name = shape.name});
+  }
+  const Bounds all = bounds(picture);
+  if (!all.isEmpty()) picture.ground.height = std::min(0., all.low.z());
+  return picture;
+}
+
+}  // namespace rex

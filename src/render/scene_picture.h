@@ -1,0 +1,12 @@
+#pragma once
+
+#include "kinematics/forward_kinematics.h"
+#include "render/picture.h"
+
+namespace rex {
+
+/// The shapes of a scene where `poses` puts them, each in its own colour, on a ground that is never above a
+/// shape. Shapes given by a mesh are left out.
+[[nodiscard]] Picture pictureOf(const Model& model, const BodyPoses& poses);
+
+}  // namespace rex

@@ -1,0 +1,88 @@
+#include <Eigen/Geometry>
+
+#include "base/error.h"
+#include "render/shaders_internal.h"
+#include "render/shadow_map_internal.h"
+
+namespace rex::internal {
+namespace {
+
+constexpr int kMapSize = 1024;
+
+// Rows: two directions across the light, and the one towards it.
+Eigen::Matrix3d lightAxes(const Eigen::Vector3d& toLight) {
+  Eigen::Matrix3d R_LW;
+  R_LW.row(2) = toLight.normalized();
+  R_LW.row(0) = R_LW.row(2).transpose().unitOrthogonal();
+  R_LW.row(1) = Eigen::Vector3d(R_LW.row(2)).cross(Eigen::Vector3d(R_LW.row(0)));
+  return R_LW;
+}
+
+Eigen::Vector3d halfExtentOf(const DrawItem& item, const Eigen::Matrix3d& R_LW) {
+  const Eigen::Vector3d half = item.halfSize + Eigen::Vector3d(0, 0, item.stretch);
+  return (R_LW * item.X_WS.R).cwiseAbs() * half;
+}
+
+}  // namespace
+
+ShadowView fitShadowView(const std::vector<DrawItem>& casters, const Eigen::Vector3d& toLight, int mapSize) {
+  ShadowView view;
+  if (casters.empty()) return view;
+  const Eigen::Matrix3d R_LW = lightAxes(toLight);
+  Bounds box;
+  for (const DrawItem& item : casters) {
+    const Eigen::Vector3d middle = R_LW * item.X_WS.p, half = halfExtentOf(item, R_LW);
+    box.include(middle - half);
+    box.include(middle + half);
+  }
+  // Room for the filter at the border, and for casters that are flat along the light.
+  Eigen::Vector3d size = box.high - box.low;
+  size += Eigen::Vector3d::Constant(4 * size.head<2>().maxCoeff() / mapSize);
+  view.texel = size.head<2>().maxCoeff() / mapSize;
+  const Eigen::Vector3d scale = size.cwiseInverse().cwiseProduct(Eigen::Vector3d(2, 2, -2));
+  view.clipFromWorld.topLeftCorner<3, 3>() = scale.asDiagonal() * R_LW;
+  view.clipFromWorld.topRightCorner<3, 1>() = -scale.cwiseProduct(box.center());
+  return view;
+}
+
+ShadowMap::ShadowMap(const GlFunctions& gl)
+    : gl_(&gl), program_(gl, depthShader().vertex, depthShader().fragment) {
+  GLuint texture = 0;
+  gl.GenTextures(1, &texture);
+  gl.ActiveTexture(GL_TEXTURE0);
+  gl.BindTexture(GL_TEXTURE_2D, texture);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT16, kMapSize, kMapSize, 0, GL_DEPTH_COMPONENT,
+                GL_UNSIGNED_SHORT, nullptr);
+  const float lit[4] = {1, 1, 1, 1};
+  gl.TexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, lit);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+  gl.GenFramebuffers(1, &framebuffer_);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, texture, 0);
+  gl.DrawBuffer(GL_NONE);
+  gl.ReadBuffer(GL_NONE);
+  if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+    throw Error({.what = "OpenGL", .found = "no depth texture to draw shadows into"});
+}
+
+ShadowView ShadowMap::draw(const std::vector<DrawItem>& casters, const Eigen::Vector3d& toLight,
+                           const MeshStore& meshes) const {
+  const ShadowView view = fitShadowView(casters, toLight, kMapSize);
+  gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+  gl_->Viewport(0, 0, kMapSize, kMapSize);
+  gl_->Clear(GL_DEPTH_BUFFER_BIT);
+  gl_->Enable(GL_POLYGON_OFFSET_FILL);
+  gl_->PolygonOffset(1.5f, 2);
+  program_.use();
+  program_.set("shadowClipFromWorld", view.clipFromWorld);
+  for (const DrawItem& item : casters) meshes.draw(item, program_);
+  gl_->Disable(GL_POLYGON_OFFSET_FILL);
+  return view;
+}
+
+}  // namespace rex::internal

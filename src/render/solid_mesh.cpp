@@ -1,0 +1,89 @@
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+#include "render/solid_mesh_internal.h"
+
+namespace rex::internal {
+namespace {
+
+std::uint16_t index(int i) { return static_cast<std::uint16_t>(i); }
+
+void addTriangle(SolidMesh& mesh, int a, int b, int c) {
+  mesh.indices.insert(mesh.indices.end(), {index(a), index(b), index(c)});
+}
+
+// A ring of vertices with radius r at height z; the normal leans by (radial, along).
+void addRing(SolidMesh& mesh, int segments, double r, double z, double radial, double along, int end) {
+  for (int k = 0; k < segments; ++k) {
+    const double angle = 2 * std::numbers::pi * k / segments;
+    const auto c = static_cast<float>(std::cos(angle)), s = static_cast<float>(std::sin(angle));
+    const auto rf = static_cast<float>(r), radialF = static_cast<float>(radial);
+    mesh.vertices.push_back({{rf * c, rf * s, static_cast<float>(z)},
+                             {radialF * c, radialF * s, static_cast<float>(along)},
+                             static_cast<float>(end)});
+  }
+}
+
+// Joins the ring starting at vertex `upper` with the one below it.
+void addBand(SolidMesh& mesh, int segments, int upper, int lower) {
+  for (int k = 0; k < segments; ++k) {
+    const int next = (k + 1) % segments;
+    addTriangle(mesh, upper + k, lower + k, lower + next);
+    addTriangle(mesh, upper + k, lower + next, upper + next);
+  }
+}
+
+}  // namespace
+
+SolidMesh makeBoxMesh() {
+  SolidMesh mesh;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const float side : {-1.f, 1.f}) {
+      const int first = static_cast<int>(mesh.vertices.size());
+      for (const auto& [u, v] : {std::pair{-1.f, -1.f}, {1.f, -1.f}, {1.f, 1.f}, {-1.f, 1.f}}) {
+        MeshVertex vertex{};
+        vertex.position[axis] = vertex.normal[axis] = side;
+        vertex.position[(axis + 1) % 3] = side * u;
+        vertex.position[(axis + 2) % 3] = v;
+        mesh.vertices.push_back(vertex);
+      }
+      addTriangle(mesh, first, first + 1, first + 2);
+      addTriangle(mesh, first, first + 2, first + 3);
+    }
+  }
+  return mesh;
+}
+
+SolidMesh makeCapsuleMesh(int segments) {
+  assert(segments % 4 == 0);
+  const int rings = segments / 4;  // from a pole to the equator, which both halves have
+  SolidMesh mesh;
+  for (const int end : {1, -1}) {
+    for (int k = 0; k <= rings; ++k) {
+      const double latitude = std::numbers::pi / 2 * (end > 0 ? rings - k : -k) / rings;
+      const double r = std::cos(latitude), z = std::sin(latitude);
+      addRing(mesh, segments, r, z, r, z, end);
+    }
+  }
+  for (int ring = 0; ring < 2 * rings + 1; ++ring)
+    addBand(mesh, segments, ring * segments, (ring + 1) * segments);
+  return mesh;
+}
+
+SolidMesh makeCylinderMesh(int segments) {
+  SolidMesh mesh;
+  addRing(mesh, segments, 1, 1, 0, 1, 0);
+  addRing(mesh, segments, 1, 1, 1, 0, 0);
+  addRing(mesh, segments, 1, -1, 1, 0, 0);
+  addRing(mesh, segments, 1, -1, 0, -1, 0);
+  addBand(mesh, segments, segments, 2 * segments);
+  const int bottom = 3 * segments;
+  for (int k = 1; k + 1 < segments; ++k) {
+    addTriangle(mesh, 0, k, k + 1);
+    addTriangle(mesh, bottom, bottom + k + 1, bottom + k);
+  }
+  return mesh;
+}
+
+}  // namespace rex::internal

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string_view>
+
+#include "render/color.h"
+#include "render/image.h"
+
+namespace rex {
+
+/// Size of a text in pixels. Capitals are 9 * scale high; `height` is one line with its spacing.
+struct TextSize {
+  int width = 0, height = 0;
+};
+[[nodiscard]] TextSize textSize(std::string_view text, double scale = 1);
+
+/// Draws one line of text with its top left corner at pixel (x, y), in the renderer's own stroke font, with a
+/// soft light or dark edge that keeps it readable on any ground. What lies outside the image is cut off.
+void drawText(Image& image, std::string_view text, int x, int y, const Color& color, double scale = 1);
+
+}  // namespace rex

@@ -1,0 +1,194 @@
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "course/course.h"
+#include "support/expect_error.h"
+#include "support/paths.h"
+
+namespace rex {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A folder of its own for each test, gone afterwards.
+class SimulatorTest : public testing::Test {
+ protected:
+  SimulatorTest()
+      : folder_(fs::temp_directory_path() /
+                ("rex-" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) + "-" +
+                 ::testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  ~SimulatorTest() override { fs::remove_all(folder_); }
+  std::string in(const std::string& name) const { return (folder_ / name).string(); }
+  static std::string bytes(const fs::path& file) {
+    std::ostringstream text;
+    text << std::ifstream(file, std::ios::binary).rdbuf();
+    return text.str();
+  }
+
+ private:
+  fs::path folder_;
+};
+
+TEST_F(SimulatorTest, StartsInThePostureOfTheFile) {
+  Simulator S("man.ors");
+  EXPECT_EQ(S.getJointDimension(), 27);
+  EXPECT_EQ(S.getJointAngles(), Eigen::VectorXd::Zero(27));
+  EXPECT_LT((S.kinematicsPos("handR") - Eigen::Vector3d(-.19044, -.25586, .79452)).norm(), 1e-5);
+}
+
+TEST_F(SimulatorTest, FindsScenesByPathToo) {
+  EXPECT_EQ(Simulator(sourcePath("data/robots/pegArm.ors").string()).getJointDimension(), 3);
+  EXPECT_REX_ERROR(Simulator("mann.ors"),
+                   "mann.ors: cannot read the scene file: wanted an .ors file (did you mean 'man.ors'?)");
+  EXPECT_REX_ERROR(Simulator("no/such.ors"), "no/such.ors: cannot read the scene file");
+}
+
+// The lecture's numbers for exercise 3.2: |y - y*| after full steps and after steps of a tenth.
+TEST_F(SimulatorTest, ReproducesTheTaskErrorsOfTheCourse) {
+  const Eigen::Vector3d target(-.2, -.4, 1.1);
+  const auto errorsWithSteps = [&](double alpha, int steps) {
+    Simulator S("man.ors");
+    std::vector<double> errors = {(S.kinematicsPos("handR") - target).norm()};
+    for (int i = 0; i < steps; ++i) {
+      const Eigen::MatrixXd J = S.jacobianPos("handR");
+      const Eigen::MatrixXd regularised = J.transpose() * J + 1e-4 * Eigen::MatrixXd::Identity(27, 27);
+      S.setJointAngles(S.getJointAngles() +
+                       alpha * solve(regularised, J.transpose() * (target - S.kinematicsPos("handR"))));
+      errors.push_back((S.kinematicsPos("handR") - target).norm());
+    }
+    return errors;
+  };
+  const std::vector<double> full = errorsWithSteps(1, 4);
+  EXPECT_NEAR(full[0], .3379, 5e-5);
+  EXPECT_NEAR(full[1], .1750, 5e-5);
+  EXPECT_NEAR(full[2], .0297, 5e-5);
+  EXPECT_NEAR(full[3], .0015, 5e-5);
+  EXPECT_NEAR(full[4], 4e-6, 5e-7);
+  const std::vector<double> small = errorsWithSteps(.1, 100);
+  EXPECT_NEAR(small[1], .3041, 5e-5);
+  EXPECT_NEAR(small[10], .1179, 5e-5);
+  EXPECT_NEAR(small[50], .0018, 5e-5);
+  EXPECT_NEAR(small[100], 9e-6, 5e-7);
+}
+
+TEST_F(SimulatorTest, JacobiansAgreeWithDifferences) {
+  Simulator S("man.ors");
+  Rng rng(1);
+  for (const double scale : {0., 1e-8, 1.}) {
+    const Eigen::VectorXd q = scale * rng.normalVector(27);
+    const auto check = [&](const VectorFunction& f, const Eigen::MatrixXd& J) {
+      const JacobianCheck result = checkJacobian(f, J, q, 1e-8);
+      EXPECT_TRUE(result.ok) << result.message;
+    };
+    const auto at = [&](const Eigen::VectorXd& posture) -> Simulator& {
+      S.setJointAngles(posture);
+      return S;
+    };
+    const Eigen::Vector3d rel(.1, .2, .3);
+    check([&](const Eigen::VectorXd& x) { return at(x).kinematicsPos("handL", rel); },
+          at(q).jacobianPos("handL", rel));
+    check([&](const Eigen::VectorXd& x) { return at(x).kinematicsVec("head", rel); },
+          at(q).jacobianVec("head", rel));
+    check([&](const Eigen::VectorXd& x) { return at(x).kinematicsCOM(); }, at(q).jacobianCOM());
+  }
+}
+
+TEST_F(SimulatorTest, OffersTheScriptsFormsToo) {
+  Simulator S("pegInAHole.ors");
+  Eigen::VectorXd q, y;
+  Eigen::MatrixXd J;
+  S.getJointAngles(q);
+  EXPECT_EQ(q, S.getJointAngles());
+  S.kinematicsPos(y, "peg");
+  EXPECT_EQ(y, S.kinematicsPos("peg"));
+  S.jacobianPos(J, "peg");
+  EXPECT_EQ(J, S.jacobianPos("peg"));
+  S.kinematicsVec(y, "peg");
+  EXPECT_EQ(y, S.kinematicsVec("peg", {0, 0, 1}));
+  S.jacobianVec(J, "peg");
+  EXPECT_EQ(J, S.jacobianVec("peg", {0, 0, 1}));
+  S.kinematicsCOM(y);
+  EXPECT_EQ(y, S.kinematicsCOM());
+  S.jacobianCOM(J);
+  EXPECT_EQ(J, S.jacobianCOM());
+}
+
+TEST_F(SimulatorTest, ExplainsMistakes) {
+  Simulator S("man.ors");
+  EXPECT_REX_ERROR(S.kinematicsPos("handr"), "scene 'man.ors' has no body 'handr' (did you mean 'handR'");
+  EXPECT_REX_ERROR(S.setJointAngles(Eigen::VectorXd::Zero(7)),
+                   "setJointAngles: found a vector of size 7, wanted size 27");
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(27);
+  q[3] = std::nan("");
+  EXPECT_REX_ERROR(S.setJointAngles(q), "setJointAngles: angle 3: found nan, wanted a finite number");
+  EXPECT_EQ(S.getJointAngles(), Eigen::VectorXd::Zero(27)) << "a refused posture changes nothing";
+}
+
+TEST_F(SimulatorTest, IsAValueThatCanBeRebuilt) {
+  Simulator S("pegArm.ors");
+  Simulator copy = S;
+  copy.setJointAngles(Eigen::Vector3d(.1, .2, .3));
+  EXPECT_EQ(S.getJointAngles(), Eigen::Vector3d::Zero());
+  EXPECT_EQ(Simulator(copy.description()).kinematicsPos("peg"), copy.kinematicsPos("peg"));
+  S = copy;
+  EXPECT_EQ(S.getJointAngles(), copy.getJointAngles());
+}
+
+TEST_F(SimulatorTest, WritesTheSameFramesTwice) {
+  const PictureOptions options{
+      .caption = "a swing", .traces = {"peg"}, .points = {{0, -1, 1}}, .width = 160, .height = 120};
+  for (const char* folder : {"first", "second"}) {
+    Simulator S("pegArm.ors");
+    for (int i = 1; i < 10; ++i) S.setJointAngles(Eigen::Vector3d::Constant(.1 * i));
+    writeFrames(S, in(folder), options, 4);
+  }
+  for (const char* frame : {"0000.png", "0001.png", "0002.png", "0003.png"}) {
+    EXPECT_GT(fs::file_size(in("first") + "/" + frame), 1000u);
+    EXPECT_EQ(bytes(in("first") + "/" + frame), bytes(in("second") + "/" + frame)) << frame;
+  }
+  EXPECT_FALSE(fs::exists(in("first") + "/0004.png"));
+  EXPECT_NE(bytes(in("first") + "/0000.png"), bytes(in("first") + "/0003.png"));
+}
+
+TEST_F(SimulatorTest, ReplacesFramesOfAnEarlierRun) {
+  Simulator S("pegArm.ors");
+  const PictureOptions small{.width = 64, .height = 48};
+  for (int i = 0; i < 5; ++i) S.setJointAngles(Eigen::Vector3d::Constant(.1 * i));
+  writeFrames(S, in("film"), small);
+  std::ofstream(in("film/notes.txt")) << "mine";
+  S.clearRecording();
+  S.setJointAngles(Eigen::Vector3d::Zero());
+  writeFrames(S, in("film"), small);
+  EXPECT_TRUE(fs::exists(in("film/0000.png")));
+  EXPECT_FALSE(fs::exists(in("film/0001.png")));
+  EXPECT_TRUE(fs::exists(in("film/notes.txt")));
+}
+
+TEST_F(SimulatorTest, WatchWritesOnePicture) {
+  Simulator("pegInAHole.ors").watch(in("peg"));
+  EXPECT_GT(fs::file_size(in("peg.png")), 1000u);
+}
+
+TEST_F(SimulatorTest, ExplainsPicturesThatCannotBe) {
+  Simulator S("pegArm.ors");
+  EXPECT_REX_ERROR(writePicture(S, in("x.png"), {.traces = {"pge"}}),
+                   "has no body 'pge' (did you mean 'peg'?)");
+  EXPECT_REX_ERROR(writeFrames(S, in("film"), {}, 1), "number of postures: found 1, wanted at least 2");
+  std::ofstream(in("file")) << "x";
+  EXPECT_REX_ERROR(writeFrames(S, in("file")), "cannot make the folder for frames");
+}
+
+TEST(FormatMatrix, ShowsNameShapeAndNumbers) {
+  EXPECT_EQ(formatMatrix("J", (Eigen::MatrixXd(2, 2) << 1, -2.5, 1e-7, 1234567).finished()),
+            "J (2 x 2)\n           1        -2.5\n       1e-07 1.23457e+06\n");
+  EXPECT_EQ(formatMatrix("q", Eigen::Vector2d(1, 2)), "q (2)\n           1           2\n");
+}
+
+}  // namespace
+}  // namespace rex

@@ -1,0 +1,2 @@
+#pragma once
+#include "base/graph_internal.h"
