@@ -1,0 +1,6 @@
+// Three differences are a fine task map, but the task asks for one number.
+// caught by: distance-zero, maps-other-robot
+
+// <solution distanceToGoal>
+return {S.kinematicsPos(body) - goal, S.jacobianPos(body)};
+// </solution>
