@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "exercise.h"
 #include "kinematics/inverse_kinematics.h"
 

@@ -5,6 +5,7 @@
 #include "base/rng.h"
 #include "course/linear_algebra.h"
 #include "course/pictures.h"
+#include "course/plot.h"
 #include "course/print.h"
 #include "course/recording.h"
 #include "course/simulator.h"

@@ -23,18 +23,28 @@ Eigen::Matrix3d axesLookingAgainst(const Eigen::Vector3d& back) {
   return R_WC;
 }
 
-// The frustum along one picture axis is |u - e_u| <= slope * (e_z - z). For the corners (u, z) this leaves an
-// interval for e_u that shrinks to `middle` when the eye comes as near as `distance`.
+// Where the eye may stand so that corners (u, z) lie within the frustum |u - e_u| <= slope * (e_z - z) of one
+// picture axis: at e_z = `distance` only at e_u = `middle`, farther away in an interval around it.
 struct AxisFit {
-  double highest = -std::numeric_limits<double>::infinity();
-  double lowest = std::numeric_limits<double>::infinity();
-  void include(double u, double z, double slope) {
-    highest = std::max(highest, u + slope * z);
-    lowest = std::min(lowest, u - slope * z);
-  }
-  double middle() const { return (highest + lowest) / 2; }
-  double distance(double slope) const { return (highest - lowest) / (2 * slope); }
+  double middle, distance;
 };
+
+AxisFit fitAxis(const Eigen::Matrix<double, 3, 8>& corners, int axis, double slope) {
+  const Eigen::Array<double, 1, 8> u = corners.row(axis).array(), lean = slope * corners.row(2).array();
+  const double highest = (u + lean).maxCoeff(), lowest = (u - lean).minCoeff();
+  return {(highest + lowest) / 2, (highest - lowest) / (2 * slope)};
+}
+
+// The e_u for a given e_z that leaves the same margin on both sides: the frustum narrows until it fits
+// tightly.
+double centredEye(const Eigen::Matrix<double, 3, 8>& corners, int axis, double slope, double eyeZ) {
+  double narrow = 0, wide = slope;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (narrow + wide) / 2;
+    (fitAxis(corners, axis, middle).distance > eyeZ ? narrow : wide) = middle;
+  }
+  return fitAxis(corners, axis, wide).middle;
+}
 
 }  // namespace
 
@@ -64,18 +74,16 @@ Camera framing(const Bounds& bounds, const Eigen::Vector3d& direction, double as
   camera.X_WC.R = axesLookingAgainst(direction.normalized());
   const double slopeY = std::tan(camera.verticalFov / 2) / kMargin;
   const double slopeX = slopeY * aspect;
-  AxisFit fitX, fitY;
-  double front = -std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 8; ++i) {
-    const Eigen::Vector3d p_C = camera.X_WC.R.transpose() * bounds.corner(i);
-    fitX.include(p_C.x(), p_C.z(), slopeX);
-    fitY.include(p_C.y(), p_C.z(), slopeY);
-    front = std::max(front, p_C.z());
-  }
-  // A single point has no size; stand a metre away from it.
-  const double radius = bounds.radius() > 0 ? bounds.radius() : 0.25;
-  const double eyeZ = std::max({fitX.distance(slopeX), fitY.distance(slopeY), front + radius});
-  camera.X_WC.p = camera.X_WC.R * Eigen::Vector3d(fitX.middle(), fitY.middle(), eyeZ);
+  Eigen::Matrix<double, 3, 8> corners;  // in C, for an eye at the origin of W
+  for (int i = 0; i < 8; ++i) corners.col(i) = camera.X_WC.R.transpose() * bounds.corner(i);
+  const double front = corners.row(2).maxCoeff();
+  // A single point has no size; stand half a metre away from it.
+  const double radius = bounds.radius() > 0 ? bounds.radius() : 0.5;
+  const double eyeZ =
+      std::max({fitAxis(corners, 0, slopeX).distance, fitAxis(corners, 1, slopeY).distance, front + radius});
+  const Eigen::Vector3d eye_C(centredEye(corners, 0, slopeX, eyeZ), centredEye(corners, 1, slopeY, eyeZ),
+                              eyeZ);
+  camera.X_WC.p = camera.X_WC.R * eye_C;
   const double toCenter = (camera.X_WC.p - bounds.center()).norm();
   camera.nearPlane = std::max((eyeZ - front) / 2, toCenter / 200);
   camera.farPlane = toCenter + 40 * radius;

@@ -26,8 +26,9 @@ struct Camera {
 inline const Eigen::Vector3d kDefaultView{1.2, -2.0, 0.9};
 
 /// The nearest camera that sees all of `bounds`, with a margin and in the middle of a picture of
-/// width / height = `aspect`. It stands in `direction` (W, any length) from the scene. Throws Error for empty
-/// or infinite bounds, a zero direction, or an aspect that is not positive.
+/// width / height = `aspect`. It stands in `direction` (W, any length) from the scene and not nearer to it
+/// than its radius. Throws Error for empty or infinite bounds, a zero direction, or an aspect that is not
+/// positive.
 [[nodiscard]] Camera framing(const Bounds& bounds, const Eigen::Vector3d& direction, double aspect);
 
 /// Where a point of space falls in a picture: pixels from the left and from the top edge (0.5 is the middle

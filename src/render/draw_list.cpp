@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::array<Color, 3> kAxisColors = {Color{0.84f, 0.15f, 0.16f}, Color{0.13f, 0.58f, 0.20f},
                                               Color{0.12f, 0.35f, 0.80f}};
-constexpr double kAxisWidth = 2;  // pixels
+constexpr double kAxisWidth = 2.5;  // pixels
 
 std::optional<DrawItem> itemOf(const Solid& solid) {
   const Shape& shape = solid.shape;

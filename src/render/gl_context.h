@@ -2,7 +2,6 @@
 
 #include <memory>
 #include <string>
-#include <vector>
 
 namespace rex {
 
@@ -15,6 +14,7 @@ struct GlOptions {
   GlBackend backend = GlBackend::kAuto;
   /// Mesa's software rasteriser, "llvmpipe" or "softpipe" (some ten times slower). Mesa takes this from
   /// GALLIUM_DRIVER and crashes for others, so that variable is set while the context is made, and put back.
+  /// Mesa keeps the driver of a process's first context for all others.
   std::string driver = "llvmpipe";
 };
 

@@ -47,6 +47,11 @@ void requirePoints(const std::vector<Eigen::Vector3d>& points, const Color& colo
   require(std::isfinite(size) && size > 0, thing, "a size in pixels that is not positive", "a positive one");
 }
 
+void requireText(const Color& color, double scale, const std::string& thing) {
+  requireFinite(isFinite(color), thing + ", color");
+  require(scale > 0 && scale <= 100, thing, "a strange scale", "above 0, at most 100");
+}
+
 }  // namespace
 
 Bounds bounds(const Solid& solid) {
@@ -88,12 +93,12 @@ void requireDrawable(const Picture& picture) {
   }
   for (const Axes& axes : picture.axes)
     requireFinite(isFinite(axes.X_WF) && std::isfinite(axes.size), fmt::format("axes '{}'", axes.name));
-  for (const Label& label : picture.labels)
-    requireFinite(label.p_WQ.allFinite() && isFinite(label.color) && std::isfinite(label.scale),
-                  fmt::format("label '{}'", label.text));
+  for (const Label& label : picture.labels) {
+    requireFinite(label.p_WQ.allFinite(), fmt::format("label '{}', point", label.text));
+    requireText(label.color, label.scale, fmt::format("label '{}'", label.text));
+  }
   for (const Caption& caption : picture.captions)
-    requireFinite(isFinite(caption.color) && std::isfinite(caption.scale),
-                  fmt::format("caption '{}'", caption.text));
+    requireText(caption.color, caption.scale, fmt::format("caption '{}'", caption.text));
   const Ground& ground = picture.ground;
   requireFinite(std::isfinite(ground.height) && isFinite(ground.light) && isFinite(ground.dark), "ground");
   require(std::isfinite(ground.cell) && ground.cell > 0, "ground", "a cell that is not positive",

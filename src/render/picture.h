@@ -55,7 +55,7 @@ struct Label {
   std::string text{};
   Eigen::Vector3d p_WQ = Eigen::Vector3d::Zero();
   Color color{0.1f, 0.1f, 0.12f};
-  double scale = 1;  ///< 1: capitals 9 pixels high
+  double scale = 1;  ///< 1: capitals 9 pixels high; at most 100
 };
 
 enum class Corner { kTopLeft, kTopRight, kBottomLeft, kBottomRight };

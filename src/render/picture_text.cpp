@@ -1,5 +1,3 @@
-#include <array>
-#include <cmath>
 #include <string_view>
 #include <vector>
 
@@ -11,7 +9,8 @@ namespace {
 
 constexpr int kMargin = 8;  // pixels between text and what it stands beside
 
-void drawLabel(Image& image, const Label& label, const Camera& camera) {
+// `lower` is how many pixels below its point the text stands.
+void drawLabel(Image& image, const Label& label, int lower, const Camera& camera) {
   const auto at = project(camera, label.p_WQ, image.width, image.height);
   if (!at || label.text.empty()) return;
   if (at->x < 0 || at->y < 0 || at->x >= image.width || at->y >= image.height) return;
@@ -19,7 +18,7 @@ void drawLabel(Image& image, const Label& label, const Camera& camera) {
   const TextSize size = textSize(label.text, label.scale);
   const int right = static_cast<int>(at->x) + kMargin;
   const int x = right + size.width <= image.width ? right : static_cast<int>(at->x) - kMargin - size.width;
-  drawText(image, label.text, x, static_cast<int>(at->y) - size.height / 2, label.color, label.scale);
+  drawText(image, label.text, x, static_cast<int>(at->y) + lower - size.height / 2, label.color, label.scale);
 }
 
 std::vector<std::string_view> linesOf(std::string_view text) {
@@ -49,8 +48,11 @@ void drawCaption(Image& image, const Caption& caption, int top) {
 }  // namespace
 
 void drawPictureText(Image& image, const Picture& picture, const Camera& camera) {
-  for (const Axes& axes : picture.axes) drawLabel(image, {.text = axes.name, .p_WQ = axes.X_WF.p}, camera);
-  for (const Label& label : picture.labels) drawLabel(image, label, camera);
+  // Below the origin, the name of a frame stays clear of its axes as long as z points up.
+  constexpr int kNameBelow = 10;  // pixels
+  for (const Axes& axes : picture.axes)
+    drawLabel(image, {.text = axes.name, .p_WQ = axes.X_WF.p}, kNameBelow, camera);
+  for (const Label& label : picture.labels) drawLabel(image, label, 0, camera);
 
   for (const Corner corner :
        {Corner::kTopLeft, Corner::kTopRight, Corner::kBottomLeft, Corner::kBottomRight}) {

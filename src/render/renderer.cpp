@@ -66,8 +66,10 @@ GlFunctions currentFunctions(GlContext& context) {
   return internal::loadGlFunctions(context);
 }
 
-// The background changes from row to row only, so a picture of nothing has rows of one colour.
+// The background changes from row to row only, so a picture of nothing has rows of one colour. (One column
+// cannot tell.)
 bool showsNothing(const Image& image) {
+  if (image.width == 1) return false;
   for (int y = 0; y < image.height; ++y) {
     const std::uint8_t* row = image.pixel(0, y);
     if (!std::equal(row + 3, row + 3 * image.width, row)) return false;
@@ -204,7 +206,7 @@ void Renderer::Impl::drawSolids(const DrawList& list, const Picture& picture, co
 
 void Renderer::Impl::drawOverlay(const std::vector<Polyline>& lines, const Picture& picture,
                                  const Camera& camera) const {
-  constexpr double kHiddenOpacity = 0.22;
+  constexpr double kHiddenOpacity = 0.3;
   const auto mesh =
       internal::makeOverlayMesh(lines, picture.pointSets, camera, options.width, options.height);
   if (mesh.empty()) return;

@@ -57,7 +57,7 @@ std::vector<Segment> segmentsOf(char32_t character) {
       points.emplace_back(stroke[k] - '0', stroke[k + 1] - '0');
     const char kind = stroke[0];
     if (kind == '~' || kind == 'o') addCurve(points, kind == 'o', segments);
-    if (kind == '.') segments.push_back({points[0], points[0]});
+    if (kind == '.') segments.push_back({points[0], points[0] + Vector2d(0, 0.3)});
     for (std::size_t k = 0; kind == '-' && k + 1 < points.size(); ++k)
       segments.push_back({points[k], points[k + 1]});
   }

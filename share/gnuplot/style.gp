@@ -1,0 +1,18 @@
+# The look of all figures of rex; read before the commands of a figure.
+# Colours: Okabe and Ito's set, told apart with any kind of colour vision, in an order that also differs in grey.
+set encoding utf8
+set linetype 1 lc rgb '#0072B2' lw 2 pt 7 ps 0.6
+set linetype 2 lc rgb '#D55E00' lw 2 pt 5 ps 0.6
+set linetype 3 lc rgb '#009E73' lw 2 pt 9 ps 0.7
+set linetype 4 lc rgb '#CC79A7' lw 2 pt 13 ps 0.7
+set linetype 5 lc rgb '#56B4E9' lw 2 pt 11 ps 0.7
+set linetype 6 lc rgb '#E69F00' lw 2 pt 4 ps 0.6
+set linetype 7 lc rgb '#333333' lw 2 pt 6 ps 0.6
+set linetype cycle 7
+set border 3 lc rgb '#555555' lw 1
+set tics nomirror out scale 0.6 textcolor rgb '#333333'
+set grid xtics ytics back lt 1 lc rgb '#E3E3E3' lw 0.8
+set key noenhanced top right spacing 1.15 samplen 2.5 textcolor rgb '#222222' opaque nobox
+set title textcolor rgb '#222222'
+set xlabel textcolor rgb '#222222'
+set ylabel textcolor rgb '#222222'

@@ -1,0 +1,79 @@
+// A few whole pictures against stored ones. Set REX_UPDATE_GOLDEN=1 to store what is drawn now; look at it.
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "geometry/rotation.h"
+#include "render/png.h"
+#include "render/renderer.h"
+#include "support/image_difference.h"
+#include "support/needs_osmesa.h"
+
+namespace rex {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+
+constexpr Color kBlue{0.22f, 0.45f, 0.70f}, kOrange{0.85f, 0.45f, 0.2f}, kWood{0.75f, 0.63f, 0.48f};
+
+void expectGolden(const std::string& name, const Picture& picture) {
+  Renderer renderer({.width = 160, .height = 120});
+  const Image actual = renderer.draw(picture, framing(bounds(picture), kDefaultView, 4. / 3));
+  const fs::path golden = fs::path(REX_SOURCE_DIR) / "tests/golden/render" / (name + ".png");
+  if (std::getenv("REX_UPDATE_GOLDEN") != nullptr) writePng(actual, golden);
+  const ImageDifference apart = imageDifference(readPng(golden), actual, 8);
+  if (apart.largeShare <= 0.005 && apart.mean <= 0.5) return;
+  const fs::path folder = fs::path(REX_BINARY_DIR) / "tests-out" / "golden";
+  fs::create_directories(folder);
+  writePng(actual, folder / (name + "-actual.png"));
+  writePng(apart.picture, folder / (name + "-difference.png"));
+  ADD_FAILURE() << name << ": " << 100 * apart.largeShare << " % of the pixels differ by more than 8, "
+                << apart.mean << " on average; see " << folder << ". Drawn by " << renderer.describe()
+                << "; what drew the golden one is noted in tests/golden/render/README.md.";
+}
+
+TEST(Golden, ShapesAndShadows) {
+  REX_NEEDS_OSMESA();
+  Picture picture;
+  picture.solids = {
+      {{ShapeType::kBox, {0.5, 0.4, 0.6}, 0}, translation(0.5, 0, 0.3), kWood, "box"},
+      {{.type = ShapeType::kSphere, .radius = 0.2}, translation(0.5, 0, 0.8), kOrange, "sphere"},
+      {{ShapeType::kCylinder, {0, 0, 0.7}, 0.15}, translation(-0.1, 0.2, 0.35), kBlue, "cylinder"},
+      {{ShapeType::kCapsule, {0, 0, 0.5}, 0.1},
+       translation(-0.5, -0.3, 0.3) * rotation(1, {0, 1, 0.3}),
+       kOrange,
+       "capsule"}};
+  expectGolden("shapes", picture);
+}
+
+TEST(Golden, LinesPointsAxesAndText) {
+  REX_NEEDS_OSMESA();
+  Picture picture;
+  picture.solids = {
+      {{.type = ShapeType::kSphere, .radius = 0.25}, translation(0, 0, 0.4), {0.8f, 0.8f, 0.8f}, "ball"}};
+  Polyline spiral{.color = kOrange};
+  for (int i = 0; i <= 90; ++i)
+    spiral.points.emplace_back(0.5 * std::cos(0.2 * i), 0.5 * std::sin(0.2 * i), 0.01 * i);
+  picture.polylines.push_back(spiral);
+  picture.pointSets.push_back({.points = {{-0.5, -0.5, 0}, {0, -0.5, 0}, {0.5, -0.5, 0}}});
+  picture.axes.push_back({translation(0.6, 0.3, 0), 0.4, "A"});
+  picture.labels.push_back({"ball", {0, 0, 0.4}});
+  picture.captions.push_back({"spiral", Corner::kTopLeft});
+  expectGolden("overlay", picture);
+}
+
+TEST(Golden, TranslucentSolids) {
+  REX_NEEDS_OSMESA();
+  Picture picture;
+  Color glass = kBlue;
+  glass.a = 0.4f;
+  picture.solids = {{{ShapeType::kBox, {0.3, 0.3, 0.3}, 0}, translation(0, 0.4, 0.15), kOrange, "behind"},
+                    {{ShapeType::kBox, {0.8, 0.1, 0.5}, 0}, translation(0, 0, 0.25), glass, "pane"}};
+  expectGolden("translucent", picture);
+}
+
+}  // namespace
+}  // namespace rex

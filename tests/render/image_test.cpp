@@ -1,0 +1,103 @@
+#include "render/image.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "base/rng.h"
+#include "render/png.h"
+#include "support/expect_error.h"
+
+namespace rex {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path freshFolder(const std::string& name) {
+  const fs::path folder = fs::path(REX_BINARY_DIR) / "tests-out" / name;
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  return folder;
+}
+
+Image noise(int width, int height) {
+  Rng rng(7);
+  Image image(width, height);
+  for (std::uint8_t& byte : image.rgb) byte = static_cast<std::uint8_t>(rng.index(256));
+  return image;
+}
+
+// Smooth areas with a few edges, like our pictures.
+Image scenery(int width, int height) {
+  Image image(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const bool inside = (x - 200) * (x - 200) + (y - 200) * (y - 200) < 10000;
+      image.pixel(x, y)[0] = static_cast<std::uint8_t>(inside ? x / 3 : 250 - y / 10);
+      image.pixel(x, y)[1] = static_cast<std::uint8_t>(inside ? y / 3 : 250 - y / 10);
+      image.pixel(x, y)[2] = 200;
+    }
+  return image;
+}
+
+TEST(Image, KnowsItsPixelsAndWhetherTheyDiffer) {
+  Image image(3, 2);
+  EXPECT_TRUE(isUniform(image));
+  EXPECT_TRUE(isUniform(Image{}));
+  image.pixel(2, 1)[2] = 9;
+  EXPECT_EQ(image.rgb.back(), 9);
+  EXPECT_EQ(image.at(2, 1), (std::array<int, 3>{0, 0, 9}));
+  EXPECT_FALSE(isUniform(image));
+  EXPECT_REX_ERROR(Image(0, 5), "image size: found 0 x 5, wanted at least 1 x 1 pixels");
+}
+
+TEST(Png, ComesBackAsWritten) {
+  const fs::path folder = freshFolder("png");
+  for (const auto& [width, height] : {std::pair{1, 1}, {33, 7}, {200, 150}}) {
+    const Image image = noise(width, height);
+    writePng(image, folder / "noise.png");
+    EXPECT_EQ(readPng(folder / "noise.png"), image);
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator{}), 1);
+}
+
+TEST(Png, CompressesPicturesAndDoesNotBlowUpNoise) {
+  const fs::path folder = freshFolder("png-size");
+  writePng(scenery(640, 480), folder / "scenery.png");
+  writePng(noise(640, 480), folder / "noise.png");
+  EXPECT_LT(fs::file_size(folder / "scenery.png"), 640 * 480 * 3 / 20);
+  EXPECT_LT(fs::file_size(folder / "noise.png"), 640 * 480 * 3 * 1.01);
+}
+
+TEST(Png, NamesThePathItCannotWriteAndLeavesNothing) {
+  const fs::path folder = freshFolder("png-errors");
+  const Image image = noise(4, 4);
+  EXPECT_REX_ERROR(writePng(image, folder / "missing" / "a.png"), "missing/a.png': found No such file");
+  fs::create_directories(folder / "taken.png" / "inside");
+  EXPECT_REX_ERROR(writePng(image, folder / "taken.png"), "cannot write '");
+  EXPECT_REX_ERROR(writePng(Image{}, folder / "empty.png"), "empty.png': found an image without pixels");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator{}), 1);
+}
+
+TEST(Png, RejectsWhatLibpngCannotHold) {
+  const fs::path folder = freshFolder("png-wide");
+  Image image;
+  image.width = 2'000'000;
+  image.height = 1;
+  image.rgb.resize(6'000'000);
+  EXPECT_REX_ERROR(writePng(image, folder / "wide.png"), "wide.png': found Invalid IHDR data");
+}
+
+TEST(Png, NamesThePathItCannotRead) {
+  const fs::path folder = freshFolder("png-read");
+  EXPECT_REX_ERROR(readPng(folder / "none.png"), "none.png': found No such file or directory, wanted a PNG");
+  std::ofstream(folder / "text.png") << "this is no picture";
+  EXPECT_REX_ERROR(readPng(folder / "text.png"), "text.png': found");
+  writePng(noise(50, 50), folder / "half.png");
+  fs::resize_file(folder / "half.png", fs::file_size(folder / "half.png") / 2);
+  EXPECT_REX_ERROR(readPng(folder / "half.png"), "half.png': found");
+}
+
+}  // namespace
+}  // namespace rex
