@@ -84,9 +84,8 @@ TEST_F(ExerciseInfoTest, RefusesBadFilesWithPlaceAndAdvice) {
   EXPECT_REX_ERROR(readWith("floor = 1", "flor = 1"), "exercise.toml:19:1: unknown key 'flor' in [[part]]");
   EXPECT_REX_ERROR(readWith("reason", "why"), "exercise.toml:23:1: unknown key 'why' in [[forbidden]]");
   EXPECT_REX_ERROR(readWith("script = \"12.3\"", ""), "the exercise: no 'script': wanted a string");
-  EXPECT_REX_ERROR(
-      readWith("\"12.3\"", "12"),
-      "exercise.toml:2:10: the exercise: 'script': found 12, wanted a string that is not empty");
+  EXPECT_REX_ERROR(readWith("\"12.3\"", "12"),
+                   "exercise.toml:2:10: the exercise: 'script': found 12, wanted a string that is not empty");
   EXPECT_REX_ERROR(
       readWith("points = 5", "points = 5.5"),
       "exercise.toml:12:10: [[part]]: 'points': found 5.5, wanted a whole number from 1 to 1000");
