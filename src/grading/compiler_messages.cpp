@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 
-namespace rex {
+namespace rex::grading {
 namespace {
 
 using Json = nlohmann::json;
@@ -140,4 +140,4 @@ std::vector<CompilerMessage> parseLinkerText(std::string_view standardError, con
   return messages;
 }
 
-}  // namespace rex
+}  // namespace rex::grading

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace rex {
+namespace rex::grading {
 
 /// One complaint about a student's file, from the compiler, the linker or the symbol scan.
 struct CompilerMessage {
@@ -32,4 +32,4 @@ void blameMainFile(std::vector<CompilerMessage>& messages, const std::string& ma
 [[nodiscard]] std::vector<CompilerMessage> parseLinkerText(std::string_view standardError,
                                                            const std::string& mainFile);
 
-}  // namespace rex
+}  // namespace rex::grading

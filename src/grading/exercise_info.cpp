@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 
-namespace rex {
+namespace rex::grading {
 namespace {
 
 using std::filesystem::path;
@@ -224,4 +224,4 @@ const ExerciseInfo& findExercise(const std::vector<ExerciseInfo>& exercises, std
   throw Error({.what = fmt::format("several exercises are called '{}'", name), .nearest = candidates});
 }
 
-}  // namespace rex
+}  // namespace rex::grading

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace rex {
+namespace rex::grading {
 
 /// One part of an exercise: what a student completes for points.
 struct ExercisePart {
@@ -52,4 +52,4 @@ struct ExerciseInfo {
 [[nodiscard]] const ExerciseInfo& findExercise(const std::vector<ExerciseInfo>& exercises,
                                                std::string_view name);
 
-}  // namespace rex
+}  // namespace rex::grading

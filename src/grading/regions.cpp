@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 
-namespace rex {
+namespace rex::grading {
 namespace {
 
 enum class Place { kPublic, kSolution, kTodo, kHidden, kMarker };
@@ -297,4 +297,4 @@ WrongVariant composeVariant(std::string_view solution, const std::string& soluti
   return variant;
 }
 
-}  // namespace rex
+}  // namespace rex::grading

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace rex {
+namespace rex::grading {
 
 /// The student's main.cpp made from solution.cpp. Between `// <solution NAME>` and `// </solution>` only the
 /// lines `//| text` after `// <todo>` stay, uncommented at their own indentation. `file` is for messages.
@@ -34,4 +34,4 @@ inline constexpr std::string_view kForbiddenCall = "forbidden-call";
 [[nodiscard]] WrongVariant composeVariant(std::string_view solution, const std::string& solutionFile,
                                           std::string_view wrong, const std::string& wrongFile);
 
-}  // namespace rex
+}  // namespace rex::grading

@@ -15,7 +15,7 @@
 #include "base/process.h"
 #include "grading/symbol_scan.h"
 
-namespace rex {
+namespace rex::grading {
 namespace {
 
 using std::filesystem::path;
@@ -219,4 +219,4 @@ StudentProgram linkProgram(const Toolchain& toolchain, const StudentObject& obje
   return link(toolchain, object.object.parent_path() / "program", {object.object.string()}, object.name);
 }
 
-}  // namespace rex
+}  // namespace rex::grading

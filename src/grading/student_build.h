@@ -8,7 +8,7 @@
 #include "grading/exercise_info.h"
 #include "grading/toolchain.h"
 
-namespace rex {
+namespace rex::grading {
 
 /// What to build from a student's file.
 struct StudentBuildOptions {
@@ -52,4 +52,4 @@ struct StudentProgram {
 /// NUL bytes; symbolic links, pipes and devices are never opened for reading.
 [[nodiscard]] std::string readStudentFile(const std::filesystem::path& file);
 
-}  // namespace rex
+}  // namespace rex::grading

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/process.h"
 
-namespace rex {
+namespace rex::grading {
 namespace {
 
 bool isWord(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
@@ -91,4 +91,4 @@ std::vector<CompilerMessage> scanSymbols(const std::string& nm, const std::files
   return messages;
 }
 
-}  // namespace rex
+}  // namespace rex::grading

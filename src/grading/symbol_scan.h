@@ -8,7 +8,7 @@
 #include "grading/compiler_messages.h"
 #include "grading/exercise_info.h"
 
-namespace rex {
+namespace rex::grading {
 
 /// The forbidden functions that an object file calls, whatever their arguments, from what `nm -C` prints
 /// about it: its undefined symbols and the inline ones it brings along.
@@ -22,4 +22,4 @@ namespace rex {
                                                        std::string_view source, const std::string& mainFile,
                                                        const std::vector<ForbiddenFunction>& forbidden);
 
-}  // namespace rex
+}  // namespace rex::grading

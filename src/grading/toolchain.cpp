@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 
-namespace rex {
+namespace rex::grading {
 
 Toolchain readToolchain(const std::filesystem::path& buildJson) {
   std::ifstream file(buildJson);
@@ -29,4 +29,4 @@ Toolchain readToolchain(const std::filesystem::path& buildJson) {
   }
 }
 
-}  // namespace rex
+}  // namespace rex::grading

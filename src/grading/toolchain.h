@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace rex {
+namespace rex::grading {
 
 /// How student code of one exercise is compiled and graded: what the build wrote to build.json.
 struct Toolchain {
@@ -21,4 +21,4 @@ struct Toolchain {
 /// Reads build.json. Throws Error when it is missing (the exercise is not built) or a key is.
 [[nodiscard]] Toolchain readToolchain(const std::filesystem::path& buildJson);
 
-}  // namespace rex
+}  // namespace rex::grading

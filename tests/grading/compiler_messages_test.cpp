@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rex {
+namespace rex::grading {
 namespace {
 
 constexpr const char* kJson =
@@ -61,4 +61,4 @@ TEST(ParseLinkerText, NamesEachFunctionOnce) {
 }
 
 }  // namespace
-}  // namespace rex
+}  // namespace rex::grading

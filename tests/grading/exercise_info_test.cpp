@@ -8,7 +8,7 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace rex {
+namespace rex::grading {
 namespace {
 
 constexpr const char* kGood = R"(title = "Kinematics"
@@ -125,4 +125,4 @@ TEST_F(ExerciseInfoTest, ListsByNameAndFindsByNumberOrTopic) {
 }
 
 }  // namespace
-}  // namespace rex
+}  // namespace rex::grading

@@ -5,7 +5,7 @@
 
 #include "support/expect_error.h"
 
-namespace rex {
+namespace rex::grading {
 namespace {
 
 using ::testing::ElementsAre;
@@ -128,4 +128,4 @@ TEST(ComposeVariant, SaysWhatIsMissing) {
 }
 
 }  // namespace
-}  // namespace rex
+}  // namespace rex::grading

@@ -10,7 +10,7 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace rex {
+namespace rex::grading {
 namespace {
 
 using std::filesystem::path;
@@ -217,4 +217,4 @@ TEST_F(StudentBuildTest, ReadsBuildJson) {
 }
 
 }  // namespace
-}  // namespace rex
+}  // namespace rex::grading

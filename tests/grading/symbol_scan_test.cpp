@@ -9,7 +9,7 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace rex {
+namespace rex::grading {
 namespace {
 
 const std::vector<ForbiddenFunction> kForbidden = {{"rex::solveIk", "you write it"}};
@@ -82,4 +82,4 @@ TEST_F(ScanSymbolsTest, SaysWhenItCannotRead) {
 }
 
 }  // namespace
-}  // namespace rex
+}  // namespace rex::grading
