@@ -28,8 +28,8 @@ std::string tidy(std::string text) {
   return text;
 }
 
-CompilerMessage readMessage(const Json& json) {
-  CompilerMessage message;
+CompileDiagnostic readMessage(const Json& json) {
+  CompileDiagnostic message;
   const std::string kind = json.at("kind").get<std::string>();
   message.severity = kind == "warning" ? "warning" : "error";
   message.rule = json.value("option", "");
@@ -78,15 +78,15 @@ std::string headerName(const std::string& file) {
 
 }  // namespace
 
-std::string toString(const CompilerMessage& message) {
+std::string toString(const CompileDiagnostic& message) {
   const std::string where = toString(SourceLocation{message.file, message.line, message.column});
   const std::string rule = message.rule.empty() ? "" : fmt::format(" [{}]", message.rule);
   return fmt::format("{}{}{}: {}{}", where, where.empty() ? "" : ": ", message.severity, message.message,
                      rule);
 }
 
-std::vector<CompilerMessage> parseCompilerJson(std::string_view standardError) {
-  std::vector<CompilerMessage> messages;
+std::vector<CompileDiagnostic> parseCompilerJson(std::string_view standardError) {
+  std::vector<CompileDiagnostic> messages;
   // The array stands on one line; the driver adds lines of plain text.
   for (const std::string_view line : splitLines(standardError)) {
     if (!line.starts_with('[')) continue;
@@ -102,10 +102,10 @@ std::vector<CompilerMessage> parseCompilerJson(std::string_view standardError) {
   return messages;
 }
 
-void blameMainFile(std::vector<CompilerMessage>& messages, const std::string& mainFile,
+void blameMainFile(std::vector<CompileDiagnostic>& messages, const std::string& mainFile,
                    std::string_view plainText) {
   const std::vector<std::string_view> lines = splitLines(plainText);
-  for (CompilerMessage& message : messages) {
+  for (CompileDiagnostic& message : messages) {
     if (message.file == mainFile) continue;
     const std::string start = toString(SourceLocation{message.file, message.line, message.column}) + ": ";
     auto at = std::find_if(lines.begin(), lines.end(), [&](auto line) { return line.starts_with(start); });
@@ -119,13 +119,13 @@ void blameMainFile(std::vector<CompilerMessage>& messages, const std::string& ma
   }
 }
 
-std::vector<CompilerMessage> parseLinkerText(std::string_view standardError, const std::string& mainFile) {
+std::vector<CompileDiagnostic> parseLinkerText(std::string_view standardError, const std::string& mainFile) {
   struct Phrase {
     std::string_view text, explanation;
   };
   constexpr Phrase kPhrases[] = {{"undefined reference to `", "is used but has no body here"},
                                  {"multiple definition of `", "is defined, but the exercise already has it"}};
-  std::vector<CompilerMessage> messages;
+  std::vector<CompileDiagnostic> messages;
   std::set<std::string> seen;
   for (const std::string_view line : splitLines(standardError)) {
     for (const Phrase& phrase : kPhrases) {

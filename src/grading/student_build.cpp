@@ -61,12 +61,10 @@ std::string whyItGaveUp(const ProcessResult& run) {
   return "the compiler gave up: " + firstLine;
 }
 
-std::vector<std::string> compileCommand(const Toolchain& toolchain, const ExerciseInfo& exercise,
-                                        const StudentBuildOptions& options) {
+std::vector<std::string> compileCommand(const Toolchain& toolchain, const StudentBuildOptions& options) {
   std::vector<std::string> command = {toolchain.compiler};
   command.insert(command.end(), toolchain.flags.begin(), toolchain.flags.end());
-  command.insert(command.end(), {"-iquote", std::filesystem::absolute(exercise.folder).string(),
-                                 "-fmax-errors=20", "-ftemplate-depth=200"});
+  command.insert(command.end(), {"-fmax-errors=20", "-ftemplate-depth=200"});
   if (options.debug) {
     const path folder = std::filesystem::absolute(options.main).parent_path();
     command.insert(
@@ -83,9 +81,9 @@ std::string plainReport(std::vector<std::string> command, const std::string& nam
   return runTool(command, folder).error;
 }
 
-std::string writeLog(const std::vector<CompilerMessage>& messages) {
+std::string writeLog(const std::vector<CompileDiagnostic>& messages) {
   std::string log;
-  for (const CompilerMessage& message : messages) log += toString(message) + "\n";
+  for (const CompileDiagnostic& message : messages) log += toString(message) + "\n";
   return log;
 }
 
@@ -99,24 +97,24 @@ void compile(const std::vector<std::string>& command, const std::string& name, c
   result.ok = run.ok();
   result.messages = parseCompilerJson(run.error);
   const bool explained = std::any_of(result.messages.begin(), result.messages.end(),
-                                     [](const CompilerMessage& m) { return m.severity == "error"; });
+                                     [](const CompileDiagnostic& m) { return m.severity == "error"; });
   if (!run.ok() && !explained) {
     result.messages.push_back({name, 0, 0, "error", "", whyItGaveUp(run)});
   } else if (!run.ok()) {
     result.log = plainReport(command, name, folder).substr(0, kLogSize);
   }
   blameMainFile(result.messages, name, result.log);
-  if (result.messages.size() > kMostMessages) result.messages.resize(kMostMessages);
+  result.truncated = result.messages.size() > kMostMessages;
+  if (result.truncated) result.messages.resize(kMostMessages);
   if (result.log.empty()) result.log = writeLog(result.messages);
 }
 
 StudentProgram link(const Toolchain& toolchain, const path& program, std::vector<std::string> objects,
                     const std::string& mainFile) {
-  std::vector<std::string> command = {toolchain.compiler};
-  command.insert(command.end(), toolchain.linkFlags.begin(), toolchain.linkFlags.end());
+  std::vector<std::string> command = {toolchain.compiler, "-o", program.string()};
   command.insert(command.end(), objects.begin(), objects.end());
-  command.insert(command.end(), {"-o", program.string(), toolchain.studentLibrary.string(),
-                                 "-Wl,-rpath," + toolchain.studentLibrary.parent_path().string()});
+  command.push_back(toolchain.studentLibrary.string());
+  command.insert(command.end(), toolchain.linkFlags.begin(), toolchain.linkFlags.end());
   const ProcessResult run = runTool(command, program.parent_path());
   StudentProgram result{
       .program = program, .messages = {}, .log = run.error.substr(0, kLogSize), .ok = run.ok()};
@@ -173,7 +171,7 @@ std::string readStudentFile(const path& file) {
   return text;
 }
 
-StudentObject compileStudent(const Toolchain& toolchain, const ExerciseInfo& exercise,
+StudentObject compileStudent(const Toolchain& toolchain, const std::vector<ForbiddenFunction>& forbidden,
                              const StudentBuildOptions& options) {
   const std::string name = plainName(options.main);
   const path folder = std::filesystem::absolute(options.workFolder);
@@ -186,6 +184,7 @@ StudentObject compileStudent(const Toolchain& toolchain, const ExerciseInfo& exe
         {name, 0, 0, "error", "",
          "cannot be graded: found " + error.parts().found + ", wanted " + error.parts().wanted});
     result.log = writeLog(result.messages);
+    result.exitCode = 1;
     return result;
   }
   // A copy, so that what is graded is what was read and nothing beside the student's file is included.
@@ -194,13 +193,13 @@ StudentObject compileStudent(const Toolchain& toolchain, const ExerciseInfo& exe
   result.object = folder / "student.o";
   StudentBuildOptions absolute = options;
   absolute.workFolder = folder;
-  compile(compileCommand(toolchain, exercise, absolute), name, folder, result);
+  compile(compileCommand(toolchain, absolute), name, folder, result);
   if (!result.ok) return result;
 
-  const std::vector<CompilerMessage> forbidden =
-      scanSymbols(toolchain.nm, result.object, result.source, name, exercise.forbidden);
-  result.ok = forbidden.empty();
-  result.messages.insert(result.messages.end(), forbidden.begin(), forbidden.end());
+  const std::vector<CompileDiagnostic> calls =
+      scanSymbols(toolchain.nm, result.object, result.source, name, forbidden);
+  result.ok = calls.empty();
+  result.messages.insert(result.messages.end(), calls.begin(), calls.end());
   result.log = writeLog(result.messages);
   return result;
 }

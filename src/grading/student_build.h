@@ -22,22 +22,24 @@ struct StudentObject {
   std::string name;    ///< of the file in messages: "main.cpp"
   std::string source;  ///< what was compiled; empty when the file was refused
   std::filesystem::path object;
-  std::vector<CompilerMessage> messages;
-  std::string log;  ///< for build.log: the compiler's own words
-  int exitCode = 0;
+  std::vector<CompileDiagnostic> messages;
+  std::string log;         ///< for build.log: the compiler's own words
+  int exitCode = 0;        ///< of the compiler; 1 for a file that was refused
+  bool truncated = false;  ///< there were more messages
   bool ok = false;
 };
 
 /// Reads and compiles the file as it is now, under limits on time, memory and file size, and scans it for
 /// calls that the exercise forbids. Any trouble with the file becomes a message; throws Error only when the
 /// tools fail. Two builds may run at once in different work folders.
-[[nodiscard]] StudentObject compileStudent(const Toolchain& toolchain, const ExerciseInfo& exercise,
+[[nodiscard]] StudentObject compileStudent(const Toolchain& toolchain,
+                                           const std::vector<ForbiddenFunction>& forbidden,
                                            const StudentBuildOptions& options);
 
 /// A linked program, or why there is none.
 struct StudentProgram {
   std::filesystem::path program;
-  std::vector<CompilerMessage> messages;
+  std::vector<CompileDiagnostic> messages;
   std::string log;
   bool ok = false;
 };

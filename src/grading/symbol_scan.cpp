@@ -74,14 +74,14 @@ std::vector<ForbiddenFunction> forbiddenCalls(std::string_view symbols,
   return found;
 }
 
-std::vector<CompilerMessage> scanSymbols(const std::string& nm, const std::filesystem::path& object,
-                                         std::string_view source, const std::string& mainFile,
-                                         const std::vector<ForbiddenFunction>& forbidden) {
+std::vector<CompileDiagnostic> scanSymbols(const std::string& nm, const std::filesystem::path& object,
+                                           std::string_view source, const std::string& mainFile,
+                                           const std::vector<ForbiddenFunction>& forbidden) {
   if (forbidden.empty()) return {};
   const ProcessResult listed = runProcess({nm, "-C", "--", object.string()}, {.outputLimit = 64u << 20});
   if (!listed.ok())
     throw Error({.what = "cannot list the symbols of the compiled file", .found = listed.error});
-  std::vector<CompilerMessage> messages;
+  std::vector<CompileDiagnostic> messages;
   for (const ForbiddenFunction& call : forbiddenCalls(listed.output, forbidden)) {
     const auto [line, column] = placeIn(source, call.function);
     messages.push_back({mainFile, line, column, "error", "forbidden-call",

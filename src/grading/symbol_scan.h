@@ -17,9 +17,9 @@ namespace rex::grading {
 
 /// Runs nm on an object file and explains each forbidden call as an error of rule "forbidden-call", at the
 /// first line of `source` that names the function. Throws Error when nm cannot read the file.
-[[nodiscard]] std::vector<CompilerMessage> scanSymbols(const std::string& nm,
-                                                       const std::filesystem::path& object,
-                                                       std::string_view source, const std::string& mainFile,
-                                                       const std::vector<ForbiddenFunction>& forbidden);
+[[nodiscard]] std::vector<CompileDiagnostic> scanSymbols(const std::string& nm,
+                                                         const std::filesystem::path& object,
+                                                         std::string_view source, const std::string& mainFile,
+                                                         const std::vector<ForbiddenFunction>& forbidden);
 
 }  // namespace rex::grading

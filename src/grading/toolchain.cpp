@@ -17,13 +17,13 @@ Toolchain readToolchain(const std::filesystem::path& buildJson) {
   try {
     const nlohmann::json json = nlohmann::json::parse(file);
     return {.compiler = json.at("compiler").get<std::string>(),
-            .flags = json.at("flags").get<std::vector<std::string>>(),
-            .linkFlags = json.value("link_flags", std::vector<std::string>{}),
+            .flags = json.at("compile_flags").get<std::vector<std::string>>(),
+            .linkFlags = json.at("link_flags").get<std::vector<std::string>>(),
             .workerObject = json.at("worker_object").get<std::string>(),
             .grader = json.at("grader").get<std::string>(),
             .studentLibrary = json.at("student_library").get<std::string>(),
-            .objcopy = json.at("objcopy").get<std::string>(),
-            .nm = json.at("nm").get<std::string>()};
+            .objcopy = json.value("objcopy", "objcopy"),
+            .nm = json.value("nm", "nm")};
   } catch (const nlohmann::json::exception& error) {
     throw Error({.what = "not a build description", .where = {buildJson.string()}, .found = error.what()});
   }

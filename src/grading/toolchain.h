@@ -9,8 +9,8 @@ namespace rex::grading {
 /// How student code of one exercise is compiled and graded: what the build wrote to build.json.
 struct Toolchain {
   std::string compiler;
-  std::vector<std::string> flags;      ///< for compiling the student's file
-  std::vector<std::string> linkFlags;  ///< for linking it to a program
+  std::vector<std::string> flags;      ///< for compiling the student's file, its include folders among them
+  std::vector<std::string> linkFlags;  ///< for linking it to a program that finds studentLibrary
   std::filesystem::path workerObject;  ///< the loop that answers the grader
   std::filesystem::path grader;
   std::filesystem::path studentLibrary;  ///< shared; all of rex that students may call

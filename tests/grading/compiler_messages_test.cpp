@@ -25,7 +25,7 @@ TEST(ParseCompilerJson, SurvivesAnythingElse) {
 }
 
 TEST(BlameMainFile, FindsTheLineThatInstantiated) {
-  std::vector<CompilerMessage> messages = {
+  std::vector<CompileDiagnostic> messages = {
       {"/usr/include/eigen3/Eigen/src/Core/Product.h", 115, 7, "error", "", "SIZES"}};
   blameMainFile(messages, "main.cpp",
                 "main.cpp:9:1: error: other\n"
@@ -36,8 +36,8 @@ TEST(BlameMainFile, FindsTheLineThatInstantiated) {
 }
 
 TEST(BlameMainFile, FindsTheLineThatIncluded) {
-  std::vector<CompilerMessage> messages = {{"own/exercise.h", 3, 1, "error", "", "bad"},
-                                           {"elsewhere.h", 3, 1, "error", "", "bad"}};
+  std::vector<CompileDiagnostic> messages = {{"own/exercise.h", 3, 1, "error", "", "bad"},
+                                             {"elsewhere.h", 3, 1, "error", "", "bad"}};
   blameMainFile(messages, "main.cpp",
                 "In file included from own/a.h:3,\n"
                 "                 from main.cpp:2:\n"

@@ -45,18 +45,16 @@ class StudentBuildTest : public ::testing::Test {
 
   Toolchain toolchain() const {
     return {.compiler = "g++",
-            .flags = {"-std=c++20", "-O1", "-Wall", "-isystem", "/usr/include/eigen3"},
-            .linkFlags = {},
+            .flags = {"-std=c++20", "-O1", "-Wall", "-isystem", "/usr/include/eigen3", "-iquote",
+                      shared_->path() / "exercise"},
+            .linkFlags = {"-Wl,-rpath," + shared_->path().string()},
             .workerObject = shared_->path() / "worker.o",
             .grader = {},
             .studentLibrary = shared_->path() / "librex_student.so"};
   }
 
   StudentObject compileFile(const path& file, bool debug = false) const {
-    ExerciseInfo exercise;
-    exercise.folder = shared_->path() / "exercise";
-    exercise.forbidden = {{"rex::answer", "it is what you find out"}};
-    return compileStudent(toolchain(), exercise,
+    return compileStudent(toolchain(), {{"rex::answer", "it is what you find out"}},
                           {.main = file, .workFolder = temporary_.path() / "work", .debug = debug});
   }
 
@@ -65,7 +63,7 @@ class StudentBuildTest : public ::testing::Test {
     return compileFile(temporary_.path() / "main.cpp");
   }
 
-  static std::string first(const std::vector<CompilerMessage>& messages) {
+  static std::string first(const std::vector<CompileDiagnostic>& messages) {
     return messages.empty() ? "" : toString(messages.front());
   }
 
@@ -186,11 +184,8 @@ TEST_F(StudentBuildTest, ThrowsWhenTheToolsAreMissing) {
   write(temporary_.path() / "main.cpp", kGood);
   Toolchain broken = toolchain();
   broken.compiler = "no-such-compiler";
-  ExerciseInfo exercise;
-  exercise.folder = temporary_.path();
-  EXPECT_REX_ERROR(
-      compileStudent(broken, exercise, {temporary_.path() / "main.cpp", temporary_.path() / "w"}),
-      "cannot run no-such-compiler");
+  EXPECT_REX_ERROR(compileStudent(broken, {}, {temporary_.path() / "main.cpp", temporary_.path() / "w"}),
+                   "cannot run no-such-compiler");
   broken = toolchain();
   broken.objcopy = "false";
   const StudentObject object = compileFile(temporary_.path() / "main.cpp");
@@ -202,8 +197,9 @@ TEST_F(StudentBuildTest, ReadsBuildJson) {
   EXPECT_REX_ERROR(readToolchain(file), "build.json: the exercise is not built");
   write(file, "{\"compiler\": \"g++\"}");
   EXPECT_REX_ERROR(readToolchain(file), "not a build description");
-  write(file,
-        R"({"compiler": "g++", "flags": ["-O1"], "link_flags": ["-g"], "worker_object": "w.o", "grader": "g",
+  write(
+      file,
+      R"({"compiler": "g++", "compile_flags": ["-O1"], "link_flags": ["-g"], "worker_object": "w.o", "grader": "g",
                   "student_library": "s.so", "objcopy": "oc", "nm": "nm2"})");
   const Toolchain read = readToolchain(file);
   EXPECT_EQ(read.compiler, "g++");

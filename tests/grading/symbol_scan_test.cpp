@@ -38,7 +38,7 @@ TEST(ForbiddenCalls, LeaveOtherNamesAlone) {
 class ScanSymbolsTest : public ::testing::Test {
  protected:
   // What the scan says about a source file compiled here.
-  std::vector<CompilerMessage> scan(const std::string& source) {
+  std::vector<CompileDiagnostic> scan(const std::string& source) {
     const std::filesystem::path object = temporary_.path() / "a.o";
     const ProcessResult compiled = runProcess(
         {"g++", "-std=c++20", "-O1", "-x", "c++", "-c", "-", "-o", object.string()}, {.input = source});
