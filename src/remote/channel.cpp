@@ -59,7 +59,7 @@ std::size_t Channel::readSome() {
     const ssize_t got = ::read(in_, buffer_.data() + filled_, buffer_.size() - filled_);
     if (got > 0) return static_cast<std::size_t>(got);
     if (got == 0) throw Closed("no more messages");
-    if (errno != EINTR && errno != EAGAIN) throw Closed("the messages cannot be read");
+    if (errno != EINTR && errno != EAGAIN) throw ProtocolError("the messages cannot be read");
   }
 }
 

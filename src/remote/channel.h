@@ -47,7 +47,7 @@ class Channel {
   /// Throws Closed if nobody reads, std::length_error if the body is larger than kMaxBody.
   void send(Kind kind, std::uint64_t id, std::uint32_t method, const Writer& body);
 
-  /// Throws Closed at end of file, ProtocolError for bytes that are not exactly one message.
+  /// Throws Closed at end of file, ProtocolError if reading fails or the bytes are not exactly one message.
   Message receive();
 
  private:

@@ -17,14 +17,17 @@ void Session::serve() {
   std::uint64_t signature = kEmptySignature;
   for (const Method& method : methods_) signature = combineHashes(signature, method.hash);
   channel_.send(Kind::hello, signature, 0, Writer());
+  while (const std::optional<Message> request = nextRequest()) {
+    if (request->kind != Kind::call) throw ProtocolError("wanted a call");
+    answer(*request);
+  }
+}
+
+std::optional<Message> Session::nextRequest() {
   try {
-    for (;;) {
-      const Message request = channel_.receive();
-      if (request.kind != Kind::call) throw ProtocolError("wanted a call");
-      answer(request);
-    }
+    return channel_.receive();
   } catch (const Closed&) {
-    return;
+    return std::nullopt;
   }
 }
 

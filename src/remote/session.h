@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,7 +24,8 @@ class Session {
   Session(Channel channel, std::span<const Method> methods);
 
   /// Introduces itself, then answers calls until the trusted side closes the channel. What a function throws
-  /// is sent, and the session goes on. Throws ProtocolError if the trusted side makes no sense.
+  /// is sent, and the session goes on. Throws ProtocolError if the trusted side makes no sense, Closed if it
+  /// does not wait for a reply.
   void serve();
 
   /// The call that runs now. Throws rex::Error if none does.
@@ -35,6 +37,7 @@ class Session {
   Reader callBack(std::uint64_t id, std::uint32_t argument, const Writer& arguments);
 
  private:
+  std::optional<Message> nextRequest();
   void answer(const Message& request);
 
   Channel channel_;

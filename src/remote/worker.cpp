@@ -7,7 +7,6 @@
 namespace rex::remote {
 
 void runWorker(std::span<const Method> methods) {
-  constexpr int kProtocolFailure = 70;
   // Line by line, so that the last lines before a crash arrive.
   std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
   int exitCode = 0;

@@ -14,8 +14,9 @@
 
 namespace rex::remote {
 
-inline constexpr int kWorkerIn = 3;   ///< where a worker process reads its calls
-inline constexpr int kWorkerOut = 4;  ///< where it writes its replies
+inline constexpr int kWorkerIn = 3;          ///< where a worker process reads its calls
+inline constexpr int kWorkerOut = 4;         ///< where it writes its replies
+inline constexpr int kProtocolFailure = 70;  ///< its exit code when it cannot talk to the trusted side
 
 namespace detail {
 
