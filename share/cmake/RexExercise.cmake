@@ -1,1 +1,130 @@
+# How exercises are built. A student's program is compiled outside this build, by what build.json says.
 
+# How a student's program is compiled: cheap to build, asserts on, warnings that help beginners.
+set(REX_STUDENT_FLAGS -std=c++20 -O1 -ffp-contract=off -fno-math-errno -Wall -Wextra -Wno-unused-parameter)
+set(REX_STUDENT_LINK_FLAGS "")
+if(REX_SANITIZE)
+  list(APPEND REX_STUDENT_FLAGS -g -fsanitize=address,undefined -fno-sanitize-recover=undefined
+                                -fno-omit-frame-pointer)
+  list(APPEND REX_STUDENT_LINK_FLAGS -fsanitize=address,undefined)
+endif()
+
+# Headers of the library that teach further types to cross to the worker.
+set(REX_REMOTE_HEADERS course/remote_simulator.h)
+
+# The modules that a student's program may use: all up to course. The grader is not among them.
+set(REX_STUDENT_MODULES base geometry optim remote scene estimation learning kinematics dynamics collision render
+                        physics planning trajectory control grasping locomotion course)
+
+# One shared library with all of them, so that linking a student's program is short and quick.
+function(rex_student_library)
+  if(TARGET rex_student)
+    return()
+  endif()
+  add_library(rex_student SHARED)
+  set_target_properties(rex_student PROPERTIES LINKER_LANGUAGE CXX LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib)
+  foreach(module IN LISTS REX_STUDENT_MODULES)
+    if(TARGET rex_${module})
+      # The objects bring all of a module; the library brings the third-party libraries behind it.
+      target_sources(rex_student PRIVATE $<TARGET_OBJECTS:rex_${module}>)
+      target_link_libraries(rex_student PRIVATE rex_${module})
+    endif()
+  endforeach()
+endfunction()
+
+function(rex_json_strings variable)
+  list(TRANSFORM ARGN REPLACE "(.+)" "\"\\1\"")
+  list(JOIN ARGN ", " text)
+  set(${variable} "${text}" PARENT_SCOPE)
+endfunction()
+
+# Writes interface.h, worker.cpp and grader.cpp for the FUNCTIONS into the folder OUTPUT.
+function(rex_exercise_sources output)
+  set(number 0)
+  foreach(function IN LISTS ARGN)
+    list(APPEND inits "${function}(caller, ${number}, \"${function}\")")
+    string(APPEND REX_MEMBERS "  rex::remote::Call<decltype(::${function})> ${function};\n")
+    list(APPEND hashes "rex::remote::functionHash<decltype(::${function})>(\"${function}\")")
+    list(APPEND methods "rex::remote::method<&::${function}>(\"${function}\")")
+    math(EXPR number "${number} + 1")
+  endforeach()
+  foreach(header IN LISTS REX_REMOTE_HEADERS)
+    string(APPEND REX_REMOTE_INCLUDES "#include \"${header}\"\n")
+  endforeach()
+  list(JOIN inits ", " REX_MEMBER_INITS)
+  list(JOIN hashes ",\n                                     " REX_HASHES)
+  list(JOIN methods ",\n                                         " REX_METHODS)
+  foreach(file interface.h worker.cpp grader.cpp)
+    configure_file(${PROJECT_SOURCE_DIR}/share/cmake/exercise/${file}.in ${output}/${file} @ONLY)
+  endforeach()
+endfunction()
+
+# rex_exercise(NAME FUNCTIONS function ... [FOLDER folder] [OUTPUT folder])
+#
+# NAME is a folder of exercises/ with exercise.h, which declares the FUNCTIONS that a student completes, and
+# check.cpp. Builds into build/PRESET/exercises/NAME the program `grader`, the object file of the worker's loop,
+# and build.json, which says how to compile and link a student's program. FOLDER and OUTPUT give other places.
+function(rex_exercise name)
+  cmake_parse_arguments(ARG "" "FOLDER;OUTPUT" "FUNCTIONS" ${ARGN})
+  if(NOT ARG_FOLDER)
+    set(ARG_FOLDER ${PROJECT_SOURCE_DIR}/exercises/${name})
+  endif()
+  if(NOT ARG_OUTPUT)
+    set(ARG_OUTPUT ${PROJECT_BINARY_DIR}/exercises/${name})
+  endif()
+  rex_student_library()
+  rex_exercise_sources(${ARG_OUTPUT} ${ARG_FUNCTIONS})
+
+  add_library(${name}_worker OBJECT ${ARG_OUTPUT}/worker.cpp)
+  set_target_properties(${name}_worker PROPERTIES REX_FOLDER ${ARG_FOLDER})
+  target_include_directories(${name}_worker PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  target_link_libraries(${name}_worker PRIVATE Eigen3::Eigen)
+
+  add_executable(${name}_grader ${ARG_OUTPUT}/grader.cpp ${ARG_FOLDER}/check.cpp)
+  set_target_properties(${name}_grader PROPERTIES OUTPUT_NAME grader RUNTIME_OUTPUT_DIRECTORY ${ARG_OUTPUT})
+  target_link_libraries(${name}_grader PRIVATE rex_grading)
+  if(TARGET rex_course)
+    target_link_libraries(${name}_grader PRIVATE rex_course)
+  endif()
+  foreach(target ${name}_worker ${name}_grader)
+    target_compile_options(${target} PRIVATE ${REX_WARNINGS} "SHELL:-iquote ${ARG_FOLDER}"
+                                             "SHELL:-iquote ${ARG_OUTPUT}")
+  endforeach()
+  set_property(GLOBAL APPEND PROPERTY REX_GRADERS ${name}_grader ${name}_worker)
+  rex_exercise_description()
+  rex_exercise_editor_support()
+endfunction()
+
+# Editors want to know how the student's files are compiled; nobody builds this target.
+function(rex_exercise_editor_support)
+  file(GLOB sources ${ARG_FOLDER}/main.cpp ${ARG_FOLDER}/solution.cpp)
+  if(sources)
+    add_library(${name}_editor OBJECT EXCLUDE_FROM_ALL ${sources})
+    target_compile_options(${name}_editor PRIVATE ${REX_STUDENT_FLAGS} "SHELL:-iquote ${ARG_FOLDER}"
+                                                  "SHELL:-isystem ${PROJECT_SOURCE_DIR}/src")
+    target_link_libraries(${name}_editor PRIVATE Eigen3::Eigen)
+  endif()
+endfunction()
+
+# build.json: how to build a student's program. Uses the variables of rex_exercise().
+function(rex_exercise_description)
+  get_target_property(eigen Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
+  rex_json_strings(REX_FUNCTIONS_JSON ${ARG_FUNCTIONS})
+  rex_json_strings(REX_COMPILE_JSON ${REX_STUDENT_FLAGS} -iquote ${ARG_FOLDER} -isystem
+                   ${PROJECT_SOURCE_DIR}/src -isystem ${eigen})
+  rex_json_strings(REX_LINK_JSON ${REX_STUDENT_LINK_FLAGS} -Wl,-rpath,${PROJECT_BINARY_DIR}/lib)
+  configure_file(${PROJECT_SOURCE_DIR}/share/cmake/exercise/build.json.in
+                 ${CMAKE_CURRENT_BINARY_DIR}/${name}.build.json.in @ONLY)
+  file(GENERATE OUTPUT ${ARG_OUTPUT}/build.json INPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}.build.json.in)
+endfunction()
+
+# rex_worker(TARGET EXERCISE source ...)
+#
+# Builds a worker program from student sources that have no main(), for tests.
+function(rex_worker target exercise)
+  add_executable(${target} ${ARGN} $<TARGET_OBJECTS:${exercise}_worker>)
+  get_target_property(folder ${exercise}_worker REX_FOLDER)
+  target_compile_options(${target} PRIVATE ${REX_STUDENT_FLAGS} -UNDEBUG "SHELL:-iquote ${folder}"
+                                           "SHELL:-isystem ${PROJECT_SOURCE_DIR}/src")
+  target_link_libraries(${target} PRIVATE rex_student Eigen3::Eigen)
+endfunction()

@@ -4,11 +4,13 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -41,14 +43,29 @@ class Pipe {
   std::array<int, 2> ends_{-1, -1};
 };
 
+bool limit(int resource, rlim_t soft, rlim_t hard) {
+  if (soft == 0) return true;
+  const rlimit value{soft, hard};
+  return ::setrlimit(static_cast<__rlimit_resource>(resource), &value) == 0;
+}
+
+// The soft limit on time sends a signal that a program can ignore; the hard one kills.
+bool applyLimits(const ProcessOptions& options) {
+  const auto seconds = static_cast<rlim_t>(std::ceil(options.cpuSeconds));
+  return limit(RLIMIT_CPU, seconds, seconds + 1) &&
+         limit(RLIMIT_AS, options.addressSpace, options.addressSpace) &&
+         limit(RLIMIT_FSIZE, options.fileSize, options.fileSize);
+}
+
 // Between fork and exec only async-signal-safe calls are allowed: everything is prepared before.
-[[noreturn]] void becomeProgram(char* const* argv, const char* directory, const int (&standard)[3],
-                                int statusFd) {
-  ::setpgid(0, 0);
+[[noreturn]] void becomeProgram(char* const* argv, const char* directory, const ProcessOptions& options,
+                                const int (&standard)[3], int statusFd) {
+  // A program that shares our terminal stays in our process group, so that Ctrl-C ends both.
+  if (!options.inheritOutput) ::setpgid(0, 0);
   for (int fd = 0; fd < 3; ++fd) {
     if (standard[fd] >= 0) ::dup2(standard[fd], fd);
   }
-  if (*directory == '\0' || ::chdir(directory) == 0) {
+  if (applyLimits(options) && (*directory == '\0' || ::chdir(directory) == 0)) {
     ::signal(SIGPIPE, SIG_DFL);
     ::execvp(argv[0], argv);
   }
@@ -136,9 +153,9 @@ ProcessResult runProcess(const std::vector<std::string>& argv, const ProcessOpti
   if (child == 0) {
     const int outputs[3] = {in.readEnd(), options.inheritOutput ? -1 : out.writeEnd(),
                             options.inheritOutput ? -1 : err.writeEnd()};
-    becomeProgram(arguments.data(), directory.c_str(), outputs, status.writeEnd());
+    becomeProgram(arguments.data(), directory.c_str(), options, outputs, status.writeEnd());
   }
-  ::setpgid(child, child);
+  if (!options.inheritOutput) ::setpgid(child, child);
   in.closeRead(), out.closeWrite(), err.closeWrite(), status.closeWrite();
 
   ProcessResult result;
@@ -150,7 +167,7 @@ ProcessResult runProcess(const std::vector<std::string>& argv, const ProcessOpti
       exchange(in, out, err, options, deadline, result) && waitUntil(child, deadline, ended);
   if (!finished) {
     result.timedOut = true;
-    ::kill(-child, SIGKILL);
+    ::kill(options.inheritOutput ? child : -child, SIGKILL);
     ::waitpid(child, &ended, 0);
   }
   if (WIFEXITED(ended) && result.started) result.exitCode = WEXITSTATUS(ended);

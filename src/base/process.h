@@ -13,7 +13,10 @@ struct ProcessOptions {
   std::filesystem::path directory{};   ///< its working directory; empty: ours
   double timeout = 60;                 ///< wall seconds; then it and its process group are killed
   std::size_t outputLimit = 1u << 20;  ///< bytes kept of each output stream; the rest is read and dropped
-  bool inheritOutput = false;          ///< standard output and error go where ours go, and are not kept
+  bool inheritOutput = false;          ///< outputs go where ours go, unkept; Ctrl-C reaches the program too
+  double cpuSeconds = 0;         ///< processor seconds, rounded up; 0: no limit. Then SIGKILL or SIGXCPU
+  std::size_t addressSpace = 0;  ///< bytes of virtual memory; 0: no limit
+  std::size_t fileSize = 0;      ///< bytes of the largest file it may write; 0: no limit
 };
 
 /// What became of it.

@@ -57,6 +57,17 @@ TEST(RunProcess, ReportsSignalsAndMissingPrograms) {
   EXPECT_REX_ERROR(runProcess({}), "no program to run");
 }
 
+TEST(RunProcess, LimitsTimeMemoryAndFileSize) {
+  const ProcessResult spinning =
+      runProcess({"sh", "-c", "while :; do :; done"}, {.timeout = 30, .cpuSeconds = 0.5});
+  EXPECT_FALSE(spinning.timedOut);
+  EXPECT_TRUE(spinning.signal == SIGXCPU || spinning.signal == SIGKILL) << spinning.signal;
+  EXPECT_EQ(runProcess({"sh", "-c", "ulimit -v"}, {.addressSpace = 512u << 20}).output, "524288\n");
+  EXPECT_EQ(runProcess({"sh", "-c", "ulimit -f"}, {.fileSize = 51200}).output, "100\n");
+  EXPECT_EQ(runProcess({"sh", "-c", "ulimit -v; ulimit -f; ulimit -t"}).output,
+            "unlimited\nunlimited\nunlimited\n");
+}
+
 TEST(RunProcess, WorksInTheGivenFolder) { EXPECT_EQ(runProcess({"pwd"}, {.directory = "/"}).output, "/\n"); }
 
 }  // namespace

@@ -1,0 +1,48 @@
+#include <cmath>
+
+#include "interface.h"
+
+namespace {
+
+using rex::grading::Check;
+using rex::grading::Group;
+
+Eigen::Vector2d randomPoint(rex::Rng& rng) { return {rng.uniform(-2, 2), rng.uniform(-2, 2)}; }
+
+void turnsAQuarter(Check& check, Student& student) {
+  check.input("p = (1, 0), angle = pi/2");
+  const Eigen::Vector2d q = student.rotated({1, 0}, std::acos(0.0));
+  check.near("point after a quarter turn", q, Eigen::Vector2d(0, 1), 1e-12, "m");
+}
+
+void keepsTheLength(Check& check, Student& student) {
+  check.forEachCase(20, [&](int) {
+    const Eigen::Vector2d p = randomPoint(check.rng());
+    const Eigen::Vector2d q = student.rotated(p, check.rng().uniform(-4, 4));
+    check.near("distance from the origin", q.norm(), p.norm(), 1e-12, "m");
+  });
+}
+
+// <hidden>
+void addsAngles(Check& check, Student& student) {
+  check.forEachCase(20, [&](int) {
+    const Eigen::Vector2d p = randomPoint(check.rng());
+    const double a = check.rng().uniform(-4, 4), b = check.rng().uniform(-4, 4);
+    const Eigen::Vector2d twice = student.rotated(student.rotated(p, a), b);
+    check.near("distance from the origin", twice.norm(), p.norm(), 1e-12, "m");
+    check.near("two turns in a row", twice, student.rotated(p, a + b), 1e-12, "m");
+  });
+}
+// </hidden>
+
+}  // namespace
+
+rex::grading::Checks<Student> checks() {
+  return {
+      {"quarter-turn", "rotate", "A quarter turn", 1, Group::visible, turnsAQuarter},
+      {"keeps-length", "rotate", "Turning keeps the length", 1, Group::visible, keepsTheLength},
+      // <hidden>
+      {"angles-add", "rotate", "Two turns in a row", 1, Group::hidden, addsAngles},
+      // </hidden>
+  };
+}

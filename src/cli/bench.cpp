@@ -1,0 +1,24 @@
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/process.h"
+#include "cli/commands.h"
+
+namespace rex::cli {
+
+ExitCode bench(const Project& project, const BenchOptions& options) {
+  const std::filesystem::path program = project.build / "tests" / "bench" / "rex_bench";
+  if (!std::filesystem::exists(program))
+    throw Error(
+        {.what = "the benchmarks are not built",
+         .wanted = fmt::format("apt-get install libbenchmark-dev, then cmake --build {} --target rex_bench",
+                               shown(project.build))});
+  std::vector<std::string> command = {program.string()};
+  command.insert(command.end(), options.names.begin(), options.names.end());
+  if (options.json) command.push_back("--json");
+  const ProcessResult result = runProcess(command, {.timeout = 3600, .inheritOutput = true});
+  if (result.exitCode == static_cast<int>(ExitCode::kUsage)) return ExitCode::kUsage;
+  return result.ok() ? ExitCode::kFull : ExitCode::kGraderFault;
+}
+
+}  // namespace rex::cli

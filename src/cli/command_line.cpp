@@ -1,0 +1,238 @@
+#include "cli/command_line.h"
+
+#include <exception>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "cli/commands.h"
+#include "cli/terminal.h"
+
+namespace rex::cli {
+namespace {
+
+// What the command line asks for, ready to be done.
+using Action = std::function<ExitCode(const Project&)>;
+
+constexpr const char* kWelcome = R"(rex - robotics exercises
+
+First steps
+  rex list                      the exercises, their points and where they belong
+  rex run 01 --solution         see what the first one looks like when it is solved
+  rex test 01                   grade your exercises/01-kinematics/main.cpp
+
+All commands
+  list   run   test   debug   bench   dev
+`rex COMMAND --help` explains one. An exercise may be called by its number, its
+topic or its whole name: 01, kinematics, 01-kinematics.)";
+
+constexpr const char* kExitCodes =
+    R"(Exit codes: 0 full score, 1 below full score, 2 cannot be graded (missing, does
+not compile), 3 fault of the grader, 64 wrong use.)";
+
+Action complain(const std::string& text) {
+  return [text](const Project&) {
+    note(text);
+    return ExitCode::kUsage;
+  };
+}
+
+Action print(const std::string& text) {
+  return [text](const Project&) {
+    say(text.substr(0, text.find_last_not_of('\n') + 1));
+    return ExitCode::kFull;
+  };
+}
+
+// One program or subcommand of CLI11 with our layout and an example at the end of its help.
+CLI::App* add(CLI::App& parent, const std::string& name, const std::string& purpose,
+              const std::string& examples) {
+  CLI::App* command = parent.add_subcommand(name, purpose);
+  command->footer(examples);
+  return command;
+}
+
+void addExercise(CLI::App* command, std::string& exercise) {
+  command->add_option("EXERCISE", exercise, "number, topic or whole name: 01, kinematics, 01-kinematics")
+      ->type_name("")
+      ->required();
+}
+
+void addList(CLI::App& program, Action& action) {
+  add(program, "list", "Show all exercises with points, script section and title", "Example: rex list")
+      ->callback([&] { action = list; });
+}
+
+void addRun(CLI::App& program, Action& action) {
+  const auto options = std::make_shared<RunOptions>();
+  CLI::App* command = add(program, "run", "Build your main.cpp, run it, show what it wrote",
+                          "Examples:\n  rex run 01\n  rex run 01 --solution -o /tmp/look\n\n"
+                          "The program runs inside the output folder; frames and plots land there.");
+  addExercise(command, options->exercise);
+  command->add_flag("--solution", options->solution, "run the reference solution instead of main.cpp");
+  command->add_option("-o,--out", options->out, "output folder (default: out/EXERCISE)")->type_name("DIR");
+  command->callback(
+      [&action, options] { action = [options](const Project& p) { return run(p, *options); }; });
+}
+
+void addTest(CLI::App& program, Action& action) {
+  const auto options = std::make_shared<TestOptions>();
+  CLI::App* command = add(program, "test", "Grade your main.cpp: which checks pass, for how many points",
+                          "Examples:\n  rex test 01\n  rex test 01 --check step-size --seed 17\n"
+                          "  rex test 01 --main /tmp/other.cpp --json\n\n" +
+                              std::string(kExitCodes));
+  addExercise(command, options->exercise);
+  command->add_flag("--solution", options->solution, "grade the reference solution");
+  command->add_option("--main", options->main, "grade this file instead of main.cpp")->type_name("FILE");
+  command->add_option("--check", options->checks, "only this check; may be given several times")
+      ->allow_extra_args(false)
+      ->type_name("NAME");
+  command->add_option("--seed", options->seed, "repeat the random cases of this seed")->type_name("N");
+  command->add_flag("--json", options->json, "print results.json and nothing else");
+  command->add_option("-o,--out", options->out, "folder for results.json (default: out/EXERCISE)")
+      ->type_name("DIR");
+  command->callback([&action, options] {
+    if (options->solution && !options->main.empty()) throw CLI::ExcludesError("--main", "--solution");
+    action = [options](const Project& p) { return test(p, *options); };
+  });
+}
+
+void addBench(CLI::App& program, Action& action) {
+  const auto options = std::make_shared<BenchOptions>();
+  CLI::App* command = add(program, "bench", "Measure speed against other libraries",
+                          "Examples:\n  rex bench\n  rex bench kinematics --json");
+  command->add_option("NAME", options->names, "groups to measure (default: all)")->type_name("");
+  command->add_flag("--json", options->json, "print JSON instead of a table");
+  command->callback(
+      [&action, options] { action = [options](const Project& p) { return bench(p, *options); }; });
+}
+
+void addDebug(CLI::App& program, Action& action) {
+  const auto options = std::make_shared<DebugOptions>();
+  CLI::App* command = add(program, "debug", "Run your main.cpp in the debugger gdb",
+                          "Examples:\n  rex debug 01\n  rex debug 01 --print");
+  addExercise(command, options->exercise);
+  command->add_flag("--solution", options->solution, "debug the reference solution");
+  command->add_flag("--print", options->print, "build, then only print the debugger's command line");
+  command->callback(
+      [&action, options] { action = [options](const Project& p) { return debug(p, *options); }; });
+}
+
+void addDevNew(CLI::App& dev, Action& action) {
+  const auto name = std::make_shared<std::string>();
+  CLI::App* command =
+      add(dev, "new", "Make a new exercise that passes its own gates", "Example: rex dev new 99-demo");
+  command->add_option("NAME", *name, "two digits, a dash, a topic: 99-demo")->type_name("")->required();
+  command->callback([&action, name] { action = [name](const Project& p) { return devNew(p, *name); }; });
+}
+
+void addDevCheck(CLI::App& dev, Action& action) {
+  const auto options = std::make_shared<CheckOptions>();
+  CLI::App* command =
+      add(dev, "check", "Check that exercises are complete, graded well and give nothing away",
+          "Examples:\n  rex dev check 01\n  rex dev check 01 --gate solution --seeds 20");
+  command->add_option("EXERCISE", options->exercise, "only this one (default: all)")->type_name("");
+  command->add_option("--gate", options->gate, "only this gate")->type_name("NAME");
+  command->add_flag("--list-gates", options->listGates, "print the names of the gates");
+  command->add_option("--seeds", options->seeds, "seeds to try the solution with (default: 3)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 10000).description(""));
+  command->callback(
+      [&action, options] { action = [options](const Project& p) { return devCheck(p, *options); }; });
+}
+
+void addDevStrip(CLI::App& dev, Action& action) {
+  const auto options = std::make_shared<StripOptions>();
+  CLI::App* command = add(dev, "strip", "Make main.cpp from solution.cpp, or the tree that students get",
+                          "Examples:\n  rex dev strip 01\n  rex dev strip --release -o /tmp/students");
+  command->add_option("EXERCISE", options->exercise, "whose main.cpp to write")->type_name("");
+  command->add_option("-o,--out", options->out, "new folder for the release")->type_name("DIR");
+  command->add_flag("--release", options->release, "write the student release");
+  command->callback([&action, options] {
+    const bool one = !options->exercise.empty() && !options->release && options->out.empty();
+    const bool tree = options->exercise.empty() && options->release && !options->out.empty();
+    if (!one && !tree) throw CLI::RequiredError("either EXERCISE, or --release with -o DIR,");
+    action = [options](const Project& p) { return devStrip(p, *options); };
+  });
+}
+
+// The innermost command that the arguments reached.
+const CLI::App* reached(const CLI::App* app) {
+  const auto inner = app->get_subcommands();
+  return inner.empty() ? app : reached(inner.back());
+}
+
+std::string fullName(const CLI::App* app) {
+  return app->get_parent() ? fullName(app->get_parent()) + " " + app->get_name() : "rex";
+}
+
+// Unknown words are best answered with the nearest known ones.
+Action explainExtras(const CLI::App* command, const std::string& word) {
+  std::vector<std::string> known;
+  const bool isOption = word.starts_with("-");
+  if (isOption) {
+    for (const CLI::Option* option : command->get_options())
+      for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  } else {
+    for (const CLI::App* inner : command->get_subcommands([](const CLI::App*) { return true; }))
+      known.push_back(inner->get_name());
+  }
+  const std::string kind = isOption ? "option" : known.empty() ? "argument" : "command";
+  const Error error({.what = fmt::format("{}: unknown {} '{}'", fullName(command), kind, harmless(word)),
+                     .nearest = nearestNames(word, known)});
+  return complain(fmt::format("{}\n`{} --help` shows what there is.", error.what(), fullName(command)));
+}
+
+Action parseCommandLine(int argc, const char* const* argv) {
+  Action action = print(kWelcome);
+  CLI::App program("Robotics exercises: see, solve and test them", "rex");
+  program.footer(kExitCodes);
+  program.require_subcommand(0, 1);
+  program.get_formatter()->column_width(22);
+  program.get_formatter()->label("REQUIRED", "");
+  addList(program, action), addRun(program, action), addTest(program, action);
+  addDebug(program, action), addBench(program, action);
+  CLI::App* dev = add(program, "dev", "For those who write exercises: new, check, strip",
+                      "Examples:\n  rex dev new 99-demo\n  rex dev check\n  rex dev strip 01");
+  dev->require_subcommand(0, 1);
+  dev->callback([&action, dev] {
+    if (dev->get_subcommands().empty()) action = print(dev->help("rex"));
+  });
+  addDevNew(*dev, action), addDevCheck(*dev, action), addDevStrip(*dev, action);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    const CLI::App* command = reached(&program);
+    return print(command->help(command == &program ? "" : fullName(command->get_parent())));
+  } catch (const CLI::ExtrasError&) {
+    const CLI::App* command = reached(&program);
+    const std::vector<std::string> extras = program.remaining(true);
+    return explainExtras(command, extras.empty() ? "" : extras.front());
+  } catch (const CLI::ParseError& error) {
+    const std::string name = fullName(reached(&program));
+    return complain(fmt::format("{}: {}\n`{} --help` explains the options.", name, error.what(), name));
+  }
+  return action;
+}
+
+}  // namespace
+
+int runCommandLine(int argc, const char* const* argv, const Project& project) {
+  ExitCode code = ExitCode::kGraderFault;
+  try {
+    code = parseCommandLine(argc, argv)(project);
+  } catch (const Error& error) {
+    note(wrap(fmt::format("rex: {}", error.what()), 2, 0));
+    code = ExitCode::kUsage;
+  } catch (const std::exception& error) {
+    note(fmt::format("rex: {}", error.what()));
+  }
+  return static_cast<int>(code);
+}
+
+}  // namespace rex::cli

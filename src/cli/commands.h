@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/exit_code.h"
+#include "cli/project.h"
+
+/// The subcommands of `rex`, one source file each. They print for people, and throw Error for names that do
+/// not exist.
+namespace rex::cli {
+
+ExitCode list(const Project& project);
+
+struct RunOptions {
+  std::string exercise;
+  bool solution = false;
+  std::filesystem::path out;  ///< empty: out/EXERCISE
+};
+ExitCode run(const Project& project, const RunOptions& options);
+
+struct TestOptions {
+  std::string exercise;
+  bool solution = false;
+  std::filesystem::path main;       ///< empty: the exercise's own
+  std::vector<std::string> checks;  ///< empty: all
+  std::optional<std::uint64_t> seed;
+  bool json = false;
+  std::filesystem::path out;
+};
+ExitCode test(const Project& project, const TestOptions& options);
+
+struct BenchOptions {
+  std::vector<std::string> names;
+  bool json = false;
+};
+ExitCode bench(const Project& project, const BenchOptions& options);
+
+struct DebugOptions {
+  std::string exercise;
+  bool solution = false;
+  bool print = false;  ///< only print the debugger's command line
+};
+ExitCode debug(const Project& project, const DebugOptions& options);
+
+ExitCode devNew(const Project& project, const std::string& name);
+
+struct CheckOptions {
+  std::string exercise;  ///< empty: all
+  std::string gate;      ///< empty: all
+  bool listGates = false;
+  int seeds = 3;
+};
+ExitCode devCheck(const Project& project, const CheckOptions& options);
+
+struct StripOptions {
+  std::string exercise;
+  bool release = false;
+  std::filesystem::path out;  ///< of the release
+};
+ExitCode devStrip(const Project& project, const StripOptions& options);
+
+}  // namespace rex::cli

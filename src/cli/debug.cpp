@@ -1,0 +1,54 @@
+#include <cerrno>
+#include <cstring>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "base/process.h"
+#include "cli/commands.h"
+#include "cli/student_file.h"
+#include "cli/terminal.h"
+
+namespace rex::cli {
+namespace {
+
+std::string quoted(const std::string& argument) {
+  if (argument.find_first_of(" '\"$`\\") == std::string::npos) return argument;
+  std::string safe = "'";
+  for (const char c : argument) safe += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return safe + "'";
+}
+
+}  // namespace
+
+ExitCode debug(const Project& project, const DebugOptions& options) {
+  const ExerciseInfo exercise = project.exercise(options.exercise);
+  const std::filesystem::path file = chooseStudentFile(exercise, options.solution);
+  const std::filesystem::path out = project.outFolder(exercise);
+  // Kept after we are gone: the debugger takes our place.
+  const std::filesystem::path work = project.buildFolder(exercise) / "debug";
+  std::filesystem::create_directories(out);
+  const auto program =
+      buildProgram(project, exercise, {.main = file, .workFolder = work, .debug = true}, out);
+  if (!program) return ExitCode::kNotGradable;
+
+  const std::vector<std::string> command = {"gdb", "-q", "-ex", "set cwd " + out.string(), program->string()};
+  if (options.print) {
+    std::string line;
+    for (const std::string& argument : command) line += (line.empty() ? "" : " ") + quoted(argument);
+    say(line);
+    return ExitCode::kFull;
+  }
+  if (!runProcess({"gdb", "--version"}).ok())
+    throw Error({.what = "the debugger is not installed", .wanted = "apt-get install gdb"});
+  say("Try: break main, run, next, print NAME, backtrace, quit.");
+  std::fflush(stdout);
+  std::vector<char*> arguments;
+  for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
+  arguments.push_back(nullptr);
+  ::execvp(arguments.front(), arguments.data());
+  throw Error({.what = "cannot start the debugger", .found = std::strerror(errno)});
+}
+
+}  // namespace rex::cli

@@ -1,0 +1,54 @@
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "cli/commands.h"
+#include "cli/terminal.h"
+#include "grading/gates.h"
+#include "grading/private_folder.h"
+
+namespace rex::cli {
+namespace {
+
+std::vector<ExerciseInfo> chosen(const Project& project, const std::string& name) {
+  if (name.empty()) return project.exercises();
+  return {project.exercise(name)};
+}
+
+// Prints one line for a passed gate and what is wrong for another.
+bool passes(const Project& project, const ExerciseInfo& exercise, const grading::Toolchain& toolchain,
+            const std::string& gate, int seeds) {
+  const grading::PrivateFolder work(project.buildFolder(exercise));
+  const grading::GateResult result = grading::runGate({.root = project.root,
+                                                       .exercise = exercise,
+                                                       .toolchain = toolchain,
+                                                       .workFolder = work.path(),
+                                                       .seeds = seeds},
+                                                      gate);
+  say(fmt::format(" {}  {}  {}", result.passed ? paint(Colour::kGreen, " ok ") : paint(Colour::kRed, "FAIL"),
+                  exercise.name, gate));
+  if (!result.passed) say("       " + wrap(harmless(result.message), 7, 7));
+  return result.passed;
+}
+
+}  // namespace
+
+ExitCode devCheck(const Project& project, const CheckOptions& options) {
+  const std::vector<ExerciseInfo> exercises = chosen(project, options.exercise);
+  if (exercises.empty()) note("There are no exercises to check.");
+  int open = 0;
+  for (const ExerciseInfo& exercise : exercises) {
+    if (options.listGates) {
+      for (const std::string& gate : grading::gateNames(exercise)) say(gate);
+      continue;
+    }
+    const grading::Toolchain toolchain = prepare(project, exercise);
+    const std::vector<std::string> gates =
+        options.gate.empty() ? grading::gateNames(exercise) : std::vector<std::string>{options.gate};
+    for (const std::string& gate : gates)
+      open += passes(project, exercise, toolchain, gate, options.seeds) ? 0 : 1;
+  }
+  if (open > 0) note(fmt::format("{} gate{} not passed.", open, open == 1 ? "" : "s"));
+  return open == 0 ? ExitCode::kFull : ExitCode::kBelow;
+}
+
+}  // namespace rex::cli

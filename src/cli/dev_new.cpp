@@ -1,0 +1,71 @@
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "cli/commands.h"
+#include "cli/terminal.h"
+#include "grading/regions.h"
+
+namespace rex::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What share/template/exercise.h declares.
+constexpr const char* kFunctions = "rotated";
+
+void requireGoodName(const std::string& name) {
+  const auto digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
+  const auto letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+  const bool good = name.size() >= 4 && name.size() <= 40 && digit(name[0]) && digit(name[1]) &&
+                    name[2] == '-' && letter(name[3]) &&
+                    std::all_of(name.begin() + 3, name.end(), [&](char c) { return digit(c) || letter(c); });
+  if (!good)
+    throw Error({.what = "not a name for an exercise",
+                 .found = "'" + name + "'",
+                 .wanted = "two digits, a dash, then letters and digits, like 01-kinematics"});
+}
+
+std::string readFile(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// Copies the template with its own name in place of the placeholder.
+void instantiate(const fs::path& from, const fs::path& to, const std::string& name) {
+  constexpr std::string_view kPlaceholder = "@EXERCISE@";
+  for (const auto& entry : fs::recursive_directory_iterator(from)) {
+    if (!entry.is_regular_file()) continue;
+    std::string text = readFile(entry.path());
+    for (std::size_t at = text.find(kPlaceholder); at != std::string::npos; at = text.find(kPlaceholder, at))
+      text.replace(at, kPlaceholder.size(), name);
+    const fs::path target = to / entry.path().lexically_relative(from);
+    fs::create_directories(target.parent_path());
+    std::ofstream(target, std::ios::binary) << text;
+  }
+}
+
+}  // namespace
+
+ExitCode devNew(const Project& project, const std::string& name) {
+  requireGoodName(name);
+  const fs::path source = project.root / "share" / "template", folder = project.root / "exercises" / name;
+  if (fs::exists(folder)) throw Error({.what = "this exercise exists already", .where = {shown(folder)}});
+  instantiate(source, folder, name);
+  const fs::path solution = folder / "solution.cpp";
+  std::ofstream(folder / "main.cpp", std::ios::binary)
+      << grading::stripSolution(readFile(solution), shown(solution));
+  std::ofstream(project.root / "exercises" / "CMakeLists.txt", std::ios::app)
+      << fmt::format("rex_exercise({} FUNCTIONS {})\n", name, kFunctions);
+  say(fmt::format("Made {}, and its line in exercises/CMakeLists.txt, which names the", shown(folder)));
+  say("functions that students complete. Now edit solution.cpp there, then:");
+  say(fmt::format("  rex dev strip {}   makes main.cpp from it", name));
+  say(fmt::format("  rex dev check {}   tells what is still missing", name));
+  return ExitCode::kFull;
+}
+
+}  // namespace rex::cli

@@ -1,0 +1,31 @@
+#include <fstream>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "cli/commands.h"
+#include "cli/terminal.h"
+#include "grading/regions.h"
+#include "grading/release.h"
+
+namespace rex::cli {
+
+ExitCode devStrip(const Project& project, const StripOptions& options) {
+  if (options.release) {
+    grading::writeStudentRelease(project.root, std::filesystem::absolute(options.out));
+    say(fmt::format("The student release lies in {}.", shown(options.out)));
+    return ExitCode::kFull;
+  }
+  const ExerciseInfo exercise = project.exercise(options.exercise);
+  const std::filesystem::path solution = exercise.folder / "solution.cpp",
+                              main = exercise.folder / "main.cpp";
+  std::ifstream in(solution, std::ios::binary);
+  if (!in) throw Error({.what = "there is no solution to strip", .where = {solution.string()}});
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::ofstream(main, std::ios::binary) << grading::stripSolution(text, solution.string());
+  say(fmt::format("Wrote {}.", main.string()));
+  return ExitCode::kFull;
+}
+
+}  // namespace rex::cli

@@ -1,0 +1,79 @@
+#include "cli/project.h"
+
+#include <stdexcept>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/process.h"
+#include "cli/terminal.h"
+
+namespace rex::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Whether the grader is missing or older than what it is made of.
+bool isStale(const fs::path& product, const fs::path& folder) {
+  std::error_code missing;
+  const auto built = fs::last_write_time(product, missing);
+  if (missing) return true;
+  for (const char* source : {"check.cpp", "exercise.h"}) {
+    const auto edited = fs::last_write_time(folder / source, missing);
+    if (!missing && edited > built) return true;
+  }
+  return false;
+}
+
+std::string lastLines(const std::string& text, std::size_t size) {
+  if (text.size() <= size) return text;
+  return text.substr(text.find('\n', text.size() - size) + 1);
+}
+
+void buildGrader(const Project& project, const ExerciseInfo& exercise) {
+  note(fmt::format("building the grader of {} ...", exercise.name));
+  const ProcessResult built =
+      runProcess({"cmake", "--build", project.build.string(), "--target", exercise.name + "_grader",
+                  exercise.name + "_worker", "rex_student"},
+                 {.timeout = 3600});
+  if (built.ok()) return;
+  throw std::runtime_error(fmt::format("the grader of {} does not build:\n{}{}", exercise.name,
+                                       lastLines(built.output, 4000), lastLines(built.error, 2000)));
+}
+
+}  // namespace
+
+std::vector<ExerciseInfo> Project::exercises() const {
+  return grading::listExercises(shown(root / "exercises"));
+}
+
+ExerciseInfo Project::exercise(std::string_view name) const {
+  while (name.ends_with('/')) name.remove_suffix(1);
+  if (name.starts_with("exercises/")) name.remove_prefix(std::string_view("exercises/").size());
+  return grading::findExercise(exercises(), name);
+}
+
+fs::path Project::buildFolder(const ExerciseInfo& exercise) const {
+  return build / "exercises" / exercise.name;
+}
+
+fs::path Project::outFolder(const ExerciseInfo& exercise) const { return root / "out" / exercise.name; }
+
+std::string shown(const fs::path& path) {
+  const std::string relative = fs::proximate(path).string();
+  return relative.starts_with("..") ? path.string() : relative;
+}
+
+grading::Toolchain prepare(const Project& project, const ExerciseInfo& exercise) {
+  const fs::path description = project.buildFolder(exercise) / "build.json";
+  if (!fs::exists(description) || isStale(project.buildFolder(exercise) / "grader", exercise.folder))
+    buildGrader(project, exercise);
+  try {
+    return grading::readToolchain(description);
+  } catch (const Error& error) {
+    throw std::runtime_error(error.what());
+  }
+}
+
+}  // namespace rex::cli

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "grading/exercise_info.h"
+#include "grading/toolchain.h"
+
+namespace rex::cli {
+
+using grading::ExerciseInfo;
+
+/// Where the project and its build lie; absolute.
+struct Project {
+  std::filesystem::path root;
+  std::filesystem::path build;
+
+  /// All exercises, by name. Throws Error for a bad exercise.toml.
+  [[nodiscard]] std::vector<ExerciseInfo> exercises() const;
+  /// The exercise of that name, number or topic. Throws Error naming the nearest.
+  [[nodiscard]] ExerciseInfo exercise(std::string_view name) const;
+  /// What the build keeps about an exercise: grader, worker object, build.json.
+  [[nodiscard]] std::filesystem::path buildFolder(const ExerciseInfo& exercise) const;
+  /// Where results of an exercise go unless the user says otherwise.
+  [[nodiscard]] std::filesystem::path outFolder(const ExerciseInfo& exercise) const;
+};
+
+/// The path as a user in the current folder would type it.
+[[nodiscard]] std::string shown(const std::filesystem::path& path);
+
+/// How to build and grade student code of an exercise; builds the grader first if it is missing or older than
+/// the exercise's files. Throws std::runtime_error with the end of the build's output when that fails.
+[[nodiscard]] grading::Toolchain prepare(const Project& project, const ExerciseInfo& exercise);
+
+}  // namespace rex::cli

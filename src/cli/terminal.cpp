@@ -1,0 +1,78 @@
+#include "cli/terminal.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "grading/printable.h"
+
+namespace rex::cli {
+namespace {
+
+constexpr std::size_t kColumns = 80;
+
+std::size_t columns(std::string_view text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+}
+
+}  // namespace
+
+std::string paint(Colour colour, std::string_view text) {
+  static const bool terminal = ::isatty(STDOUT_FILENO) == 1;
+  if (!terminal) return std::string(text);
+  const int code = colour == Colour::kRed      ? 31
+                   : colour == Colour::kGreen  ? 32
+                   : colour == Colour::kYellow ? 33
+                                               : 1;
+  return fmt::format("\033[{}m{}\033[0m", code, text);
+}
+
+std::string wrap(std::string_view text, std::size_t indent, std::size_t used) {
+  std::string wrapped;
+  std::size_t column = used;
+  bool first = true;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find_first_of(" \n"), text.size());
+    const std::string_view word = text.substr(0, end);
+    const bool breaks = end < text.size() && text[end] == '\n';
+    if (!word.empty()) {
+      if (!first && column + 1 + columns(word) > kColumns) {
+        wrapped += "\n" + std::string(indent, ' ');
+        column = indent;
+      } else if (!first && column > indent) {
+        wrapped += ' ';
+        ++column;
+      }
+      wrapped += word;
+      column += columns(word);
+      first = false;
+    }
+    if (breaks) {
+      wrapped += "\n" + std::string(indent, ' ');
+      column = indent;
+    }
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return wrapped;
+}
+
+std::string harmless(std::string_view text) {
+  constexpr std::size_t kLongest = 4096;
+  return grading::printable(text, kLongest);
+}
+
+void say(std::string_view line) {
+  std::fwrite(line.data(), 1, line.size(), stdout);
+  std::fputc('\n', stdout);
+}
+
+void note(std::string_view line) {
+  std::fflush(stdout);
+  std::fwrite(line.data(), 1, line.size(), stderr);
+  std::fputc('\n', stderr);
+}
+
+}  // namespace rex::cli

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace rex::cli {
+
+enum class Colour { kRed, kGreen, kYellow, kBold };
+
+/// The text in that colour when standard output is a terminal, the plain text otherwise.
+[[nodiscard]] std::string paint(Colour colour, std::string_view text);
+
+/// Breaks text at blanks so that lines have at most 80 columns, each but the first starting with `indent`
+/// blanks. `used` columns of the first line are taken already.
+[[nodiscard]] std::string wrap(std::string_view text, std::size_t indent, std::size_t used);
+
+/// The text without control characters and invalid UTF-8, cut: for what a student's program or file says.
+[[nodiscard]] std::string harmless(std::string_view text);
+
+/// Prints a line on standard output.
+void say(std::string_view line = {});
+
+/// Prints a line on standard error: what is going on, not what the user asked for.
+void note(std::string_view line);
+
+}  // namespace rex::cli

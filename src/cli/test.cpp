@@ -1,0 +1,94 @@
+#include <fstream>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "cli/commands.h"
+#include "cli/student_file.h"
+#include "cli/terminal.h"
+#include "grading/compiler_messages.h"
+#include "grading/private_folder.h"
+#include "grading/submission.h"
+
+namespace rex::cli {
+namespace {
+
+using grading::CheckResult;
+using grading::GradeResult;
+using grading::Outcome;
+
+ExitCode exitCodeOf(const GradeResult& result) {
+  if (result.outcome == Outcome::graderError) return ExitCode::kGraderFault;
+  if (result.outcome == Outcome::compileError) return ExitCode::kNotGradable;
+  return result.outcome == Outcome::pass ? ExitCode::kFull : ExitCode::kBelow;
+}
+
+std::string verdict(const CheckResult& check) {
+  if (!check.status) return paint(Colour::kYellow, " -  ");
+  if (*check.status == Outcome::pass) return paint(Colour::kGreen, " ok ");
+  return check.points > 0 ? paint(Colour::kYellow, "part") : paint(Colour::kRed, "FAIL");
+}
+
+void printChecks(const ExerciseInfo& exercise, const std::vector<CheckResult>& checks) {
+  constexpr std::size_t kTitleWidth = 44, kMessageIndent = 6;
+  for (const grading::ExercisePart& part : exercise.parts) {
+    say(paint(Colour::kBold, part.title));
+    for (const CheckResult& check : checks) {
+      if (check.part != part.id) continue;
+      const std::string title = wrap(harmless(check.title), kMessageIndent, kMessageIndent);
+      say(fmt::format(" {} {:{}} {:2}/{:<2}  {}", verdict(check), title, kTitleWidth, check.points,
+                      check.maxPoints, check.id));
+      if (check.status != Outcome::pass && !check.message.empty())
+        say(std::string(kMessageIndent, ' ') + wrap(harmless(check.message), kMessageIndent, kMessageIndent));
+    }
+  }
+}
+
+void printResult(const ExerciseInfo& exercise, const grading::Submission& graded,
+                 const std::filesystem::path& out) {
+  const GradeResult& result = graded.result;
+  say(paint(Colour::kBold, fmt::format("{}: {}", exercise.name, exercise.title)));
+  if (result.outcome == Outcome::compileError) {
+    std::fflush(stdout);
+    explain(result.compile.diagnostics, graded.source, out / "build.log");
+    say("Not graded: no check could run.");
+  } else {
+    printChecks(exercise, result.checks);
+    for (const auto& message : result.compile.diagnostics) say(wrap(harmless(toString(message)), 2, 0));
+    if (result.outcome == Outcome::graderError)
+      say(wrap("The grader itself failed: not your fault, and not your grade. " + harmless(result.message), 0,
+               0));
+    const bool full = result.outcome == Outcome::pass;
+    say(paint(full ? Colour::kGreen : Colour::kBold,
+              fmt::format("{} of {} points", result.score, result.maxScore)));
+  }
+  say("Result: " + shown(out / "results.json"));
+}
+
+}  // namespace
+
+ExitCode test(const Project& project, const TestOptions& options) {
+  const ExerciseInfo exercise = project.exercise(options.exercise);
+  const std::filesystem::path file = chooseStudentFile(exercise, options.solution, options.main);
+  const std::filesystem::path out =
+      std::filesystem::absolute(options.out.empty() ? project.outFolder(exercise) : options.out);
+  std::filesystem::create_directories(out);
+  const grading::Toolchain toolchain = prepare(project, exercise);
+  const grading::PrivateFolder work(project.buildFolder(exercise));
+  const grading::Submission graded = grading::gradeSubmission(toolchain, exercise,
+                                                              {.main = file,
+                                                               .workFolder = work.path(),
+                                                               .results = out / "results.json",
+                                                               .checks = options.checks,
+                                                               .seed = options.seed});
+  if (options.json) {
+    std::ifstream results(out / "results.json");
+    std::fputs(std::string(std::istreambuf_iterator<char>(results), {}).c_str(), stdout);
+  } else {
+    printResult(exercise, graded, out);
+  }
+  return exitCodeOf(graded.result);
+}
+
+}  // namespace rex::cli

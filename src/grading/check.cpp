@@ -1,0 +1,201 @@
+#include "grading/check.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "grading/printable.h"
+#include "remote/signature.h"
+#include "remote/thrown.h"
+
+namespace rex::grading {
+namespace {
+
+constexpr std::size_t kLongestText = 2000;
+
+/// Ends a check function or a case. Not a std::exception: a check function must not catch it by accident.
+struct RequirementFailed {};
+
+std::string number(double value) { return fmt::format("{:.6g}", value); }
+
+std::string withUnit(std::string text, std::string_view unit) {
+  if (!unit.empty()) text.append(" ").append(unit);
+  return text;
+}
+
+std::string shapeText(Eigen::Index rows, Eigen::Index cols) { return fmt::format("{} x {}", rows, cols); }
+
+/// A short vector in full, of a larger value the one entry that matters.
+std::string valueText(const Check::MatrixArg& value, Eigen::Index row, Eigen::Index col) {
+  constexpr Eigen::Index kShort = 6;
+  if (value.cols() != 1 || value.rows() > kShort)
+    return fmt::format("{} at ({}, {})", number(value(row, col)), row, col);
+  std::string text;
+  for (Eigen::Index k = 0; k < value.rows(); ++k) text += (k > 0 ? ", " : "") + number(value(k, 0));
+  return value.rows() == 1 ? text : "(" + text + ")";
+}
+
+void requireSound(bool sound, const CheckInfo& info, const std::string& fault) {
+  if (!sound) throw std::logic_error("check '" + info.id + "' " + fault);
+}
+
+}  // namespace
+
+Check::Check(CheckInfo info, std::uint64_t seed)
+    : info_(std::move(info)), seed_(seed), rng_(Rng(seed).split(remote::hashText(info_.id))) {}
+
+bool Check::state(bool requirement) {
+  ++requirements_;
+  return requirement;
+}
+
+void Check::fail(Shortfall shortfall) {
+  shortfall.input = input_;
+  shortfall.caseNumber = caseNumber_;
+  if (!first_) first_ = std::move(shortfall);
+  throw RequirementFailed{};
+}
+
+void Check::near(std::string_view property, double got, double wanted, double tolerance,
+                 std::string_view unit) {
+  const Eigen::Matrix<double, 1, 1> gotEntry(got);
+  const Eigen::Matrix<double, 1, 1> wantedEntry(wanted);
+  near(property, gotEntry, wantedEntry, tolerance, unit);
+}
+
+void Check::near(std::string_view property, const MatrixArg& got, const MatrixArg& wanted, double tolerance,
+                 std::string_view unit) {
+  requireSound(wanted.allFinite() && tolerance >= 0, info_, "wants a value that is not finite");
+  shape(property, got, wanted.rows(), wanted.cols());
+  if (got.size() == 0) return;
+  Eigen::Index row = 0;
+  Eigen::Index col = 0;
+  const double error = (got - wanted).cwiseAbs().maxCoeff(&row, &col);
+  if (state(error <= tolerance)) return;
+  fail({.property = std::string(property),
+        .got = withUnit(valueText(got, row, col), unit),
+        .wanted = withUnit(valueText(wanted, row, col), unit),
+        .tolerance = withUnit(number(tolerance), unit)});
+}
+
+void Check::atMost(std::string_view property, double got, double limit, std::string_view unit) {
+  requireSound(std::isfinite(limit), info_, "wants a value that is not finite");
+  shape(property, Eigen::Matrix<double, 1, 1>(got), 1, 1);
+  if (state(got <= limit)) return;
+  fail({.property = std::string(property),
+        .got = withUnit(number(got), unit),
+        .wanted = "at most " + withUnit(number(limit), unit)});
+}
+
+void Check::atLeast(std::string_view property, double got, double limit, std::string_view unit) {
+  requireSound(std::isfinite(limit), info_, "wants a value that is not finite");
+  shape(property, Eigen::Matrix<double, 1, 1>(got), 1, 1);
+  if (state(got >= limit)) return;
+  fail({.property = std::string(property),
+        .got = withUnit(number(got), unit),
+        .wanted = "at least " + withUnit(number(limit), unit)});
+}
+
+void Check::shape(std::string_view property, const MatrixArg& got, Eigen::Index rows, Eigen::Index cols) {
+  if (!state(got.rows() == rows && got.cols() == cols))
+    fail({.property = std::string(property),
+          .what = "wrong shape",
+          .got = shapeText(got.rows(), got.cols()),
+          .wanted = shapeText(rows, cols)});
+  if (state(got.allFinite())) return;
+  Eigen::Index row = 0;
+  Eigen::Index col = 0;
+  got.unaryExpr([](double x) { return std::isfinite(x) ? 0.0 : 1.0; }).maxCoeff(&row, &col);
+  fail({.property = std::string(property), .what = "not finite", .got = valueText(got, row, col)});
+}
+
+void Check::that(std::string_view property, bool holds) {
+  if (!state(holds)) fail({.property = std::string(property)});
+}
+
+void Check::forEachCase(int count, const std::function<void(int)>& run) {
+  requireSound(count > 0, info_, "has no cases");
+  const Rng start = rng_;
+  for (int k = 0; k < count; ++k) {
+    rng_ = start.split(static_cast<std::uint64_t>(k));
+    caseNumber_ = k;
+    ++cases_;
+    if (runCase(k, run)) ++casesPassed_;
+  }
+  caseNumber_ = -1;
+  rng_ = start.split(static_cast<std::uint64_t>(count));
+}
+
+bool Check::runCase(int number, const std::function<void(int)>& run) {
+  const int before = requirements_;
+  try {
+    run(number);
+    requireSound(requirements_ > before, info_, "states no requirement in a case");
+    return true;
+  } catch (const RequirementFailed&) {
+    return false;
+  } catch (const remote::RemoteThrow& error) {
+    // A worker without memory says nothing useful any more.
+    if (error.thrown().kind == remote::Thrown::Kind::badAlloc) throw;
+    if (!first_)
+      first_ = {.outcome = Outcome::runtimeError,
+                .property = error.function() + " returns",
+                .what = "threw " + error.thrown().type + " in " + error.function(),
+                .got = error.thrown().text,
+                .input = input_,
+                .caseNumber = number};
+    return false;
+  }
+}
+
+CheckResult Check::judge(const std::function<void(Check&)>& run) {
+  bool ended = false;
+  try {
+    run(*this);
+  } catch (const RequirementFailed&) {
+    ended = true;
+  }
+  requireSound(requirements_ > 0 || first_, info_, "states no requirement");
+  CheckResult verdict = result();
+  if (!ended && cases_ > 0) verdict.points = info_.points * casesPassed_ / cases_;
+  if (!ended && !first_) verdict.points = info_.points;
+  return verdict;
+}
+
+CheckResult Check::result() const {
+  CheckResult verdict{.id = info_.id,
+                      .part = info_.part,
+                      .title = info_.title,
+                      .group = info_.group,
+                      .status = Outcome::pass,
+                      .maxPoints = info_.points};
+  if (!first_) return verdict;
+  verdict.status = first_->outcome;
+  verdict.message = printable(messageOf(*first_), kLongestText);
+  verdict.property = first_->property;
+  if (info_.group == Group::hidden) return verdict;
+  verdict.expected = first_->wanted;
+  verdict.got = printable(first_->got, kLongestText);
+  verdict.tolerance = first_->tolerance;
+  verdict.input = printable(first_->input, kLongestText);
+  return verdict;
+}
+
+std::string Check::messageOf(const Shortfall& shortfall) const {
+  std::string text;
+  if (shortfall.caseNumber >= 0)
+    text = fmt::format("{} of {} cases hold; case {}: ", casesPassed_, cases_, shortfall.caseNumber + 1);
+  const bool threw = shortfall.outcome == Outcome::runtimeError;
+  if (!threw) text += shortfall.property + ": ";
+  text += shortfall.what.empty() ? "does not hold" : shortfall.what;
+  if (info_.group == Group::hidden) return text;
+  if (!shortfall.got.empty()) text += (threw ? ": " : ": got ") + shortfall.got;
+  if (!shortfall.wanted.empty()) text += ", wanted " + shortfall.wanted;
+  if (!shortfall.tolerance.empty()) text += ", tolerance " + shortfall.tolerance;
+  if (!shortfall.input.empty()) text += "; input: " + shortfall.input;
+  return fmt::format("{} (seed {})", text, seed_);
+}
+
+}  // namespace rex::grading

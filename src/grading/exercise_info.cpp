@@ -1,0 +1,227 @@
+#include "grading/exercise_info.h"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include "base/error.h"
+
+namespace rex::grading {
+namespace {
+
+using std::filesystem::path;
+
+// One table of the file, read key by key; every complaint knows its place.
+class TableReader {
+ public:
+  TableReader(const toml::table& table, std::string name, std::string file)
+      : table_(table), name_(std::move(name)), file_(std::move(file)) {}
+
+  void refuseKeysBut(const std::vector<std::string>& known) const {
+    for (const auto& [key, node] : table_) {
+      const std::string found(key.str());
+      if (std::find(known.begin(), known.end(), found) != known.end()) continue;
+      throw Error({.what = fmt::format("unknown key '{}' in {}", found, name_),
+                   .where = at(key.source()),
+                   .wanted = fmt::format("one of {}", fmt::join(known, ", ")),
+                   .nearest = nearestNames(found, known)});
+    }
+  }
+
+  std::string text(std::string_view key) const {
+    const auto value = require(key, "a string").value_exact<std::string>();
+    if (!value || value->empty()) complain(key, "a string that is not empty");
+    return *value;
+  }
+
+  int integer(std::string_view key, int lowest, int highest) const {
+    const std::string wanted = fmt::format("a whole number from {} to {}", lowest, highest);
+    const auto value = require(key, wanted).value_exact<std::int64_t>();
+    if (!value || *value < lowest || *value > highest) complain(key, wanted);
+    return static_cast<int>(*value);
+  }
+
+  double number(std::string_view key, double above, double highest) const {
+    const std::string wanted = fmt::format("a number above {} and at most {}", above, highest);
+    const toml::node& node = require(key, wanted);
+    const auto value = node.is_number() ? node.value<double>() : std::nullopt;
+    if (!value || !(*value > above) || *value > highest) complain(key, wanted);
+    return *value;
+  }
+
+  std::vector<std::string> texts(std::string_view key) const {
+    std::vector<std::string> list;
+    const toml::array* array = require(key, "a list of strings").as_array();
+    if (!array) complain(key, "a list of strings");
+    for (const toml::node& node : *array) {
+      if (!node.is_string()) complain(key, "a list of strings");
+      list.push_back(node.as_string()->get());
+    }
+    return list;
+  }
+
+  bool has(std::string_view key) const { return table_.contains(key); }
+
+  SourceLocation where(std::string_view key) const {
+    const toml::node* node = table_.get(key);
+    return at(node ? node->source() : table_.source());
+  }
+
+  SourceLocation at(const toml::source_region& region) const {
+    return {file_, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
+  }
+
+ private:
+  const toml::node& require(std::string_view key, const std::string& wanted) const {
+    if (const toml::node* node = table_.get(key)) return *node;
+    throw Error(
+        {.what = fmt::format("{}: no '{}'", name_, key), .where = at(table_.source()), .wanted = wanted});
+  }
+
+  [[noreturn]] void complain(std::string_view key, const std::string& wanted) const {
+    const toml::node& node = *table_.get(key);
+    std::ostringstream found;
+    node.visit([&](const auto& value) { found << value; });
+    throw Error({.what = fmt::format("{}: '{}'", name_, key),
+                 .where = at(node.source()),
+                 .found = found.str(),
+                 .wanted = wanted});
+  }
+
+  const toml::table& table_;
+  std::string name_;
+  std::string file_;
+};
+
+toml::table parse(const path& file) {
+  if (!std::filesystem::is_regular_file(file))
+    throw Error(
+        {.what = "no such file", .where = {file.string()}, .wanted = "the description of an exercise"});
+  try {
+    return toml::parse_file(file.string());
+  } catch (const toml::parse_error& error) {
+    const auto& begin = error.source().begin;
+    throw Error({.what = std::string(error.description()),
+                 .where = {file.string(), static_cast<int>(begin.line), static_cast<int>(begin.column)}});
+  }
+}
+
+// Calls read(reader) for each table of [[key]].
+template <class Read>
+void forEachTable(const toml::table& root, const std::string& key, const std::string& file, Read&& read) {
+  const toml::node* node = root.get(key);
+  if (!node) return;
+  const toml::array* array = node->as_array();
+  if (!array || !array->is_homogeneous<toml::table>()) {
+    const auto& begin = node->source().begin;
+    throw Error({.what = fmt::format("'{}'", key),
+                 .where = {file, static_cast<int>(begin.line), static_cast<int>(begin.column)},
+                 .wanted = fmt::format("tables headed [[{}]]", key)});
+  }
+  for (const toml::node& element : *array)
+    read(TableReader(*element.as_table(), fmt::format("[[{}]]", key), file));
+}
+
+ExerciseLimits readLimits(const TableReader& table) {
+  table.refuseKeysBut({"cpu_seconds", "memory_mb", "output_mb"});
+  ExerciseLimits limits;
+  if (table.has("cpu_seconds")) limits.cpuSeconds = table.number("cpu_seconds", 0, 3600);
+  if (table.has("memory_mb")) limits.memoryMb = table.integer("memory_mb", 64, 65536);
+  if (table.has("output_mb")) limits.outputMb = table.integer("output_mb", 1, 1024);
+  return limits;
+}
+
+ExercisePart readPart(const TableReader& table) {
+  table.refuseKeysBut({"id", "title", "points", "floor", "hints"});
+  ExercisePart part{.id = table.text("id"), .title = table.text("title"), .hints = {}};
+  part.points = table.integer("points", 1, 1000);
+  if (table.has("floor")) part.floor = table.integer("floor", 0, part.points);
+  if (table.has("hints")) part.hints = table.texts("hints");
+  return part;
+}
+
+ForbiddenFunction readForbidden(const TableReader& table) {
+  table.refuseKeysBut({"function", "reason"});
+  return {table.text("function"), table.text("reason")};
+}
+
+void readParts(const toml::table& root, const std::string& file, ExerciseInfo& info) {
+  std::set<std::string> ids;
+  forEachTable(root, "part", file, [&](const TableReader& table) {
+    info.parts.push_back(readPart(table));
+    if (!ids.insert(info.parts.back().id).second)
+      throw Error({.what = fmt::format("two parts are called '{}'", info.parts.back().id),
+                   .where = table.where("id")});
+  });
+  if (info.parts.empty())
+    throw Error({.what = "no part", .where = {file}, .wanted = "at least one table headed [[part]]"});
+}
+
+}  // namespace
+
+int ExerciseInfo::points() const {
+  int sum = 0;
+  for (const ExercisePart& part : parts) sum += part.points;
+  return sum;
+}
+
+ExerciseInfo readExerciseInfo(const path& folder) {
+  const path file = folder / "exercise.toml";
+  const toml::table root = parse(file);
+  const TableReader top(root, "the exercise", file.string());
+  top.refuseKeysBut({"title", "script", "limits", "part", "forbidden"});
+
+  ExerciseInfo info;
+  info.folder = folder;
+  info.name = folder.filename().string();
+  info.title = top.text("title");
+  info.script = top.text("script");
+  if (const toml::node* limits = root.get("limits")) {
+    if (!limits->is_table())
+      throw Error({.what = "'limits'", .where = top.where("limits"), .wanted = "a table headed [limits]"});
+    info.limits = readLimits(TableReader(*limits->as_table(), "[limits]", file.string()));
+  }
+  readParts(root, file.string(), info);
+  forEachTable(root, "forbidden", file.string(),
+               [&](const TableReader& table) { info.forbidden.push_back(readForbidden(table)); });
+  return info;
+}
+
+std::vector<ExerciseInfo> listExercises(const path& folder) {
+  std::vector<path> folders;
+  if (std::filesystem::is_directory(folder)) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      if (std::filesystem::exists(entry.path() / "exercise.toml")) folders.push_back(entry.path());
+    }
+  }
+  std::sort(folders.begin(), folders.end());
+  std::vector<ExerciseInfo> exercises;
+  for (const path& one : folders) exercises.push_back(readExerciseInfo(one));
+  return exercises;
+}
+
+const ExerciseInfo& findExercise(const std::vector<ExerciseInfo>& exercises, std::string_view name) {
+  std::vector<const ExerciseInfo*> matches;
+  std::vector<std::string> names, spellings;
+  for (const ExerciseInfo& exercise : exercises) {
+    const std::size_t dash = exercise.name.find('-');
+    const std::string number = exercise.name.substr(0, dash);
+    const std::string topic = dash == std::string::npos ? "" : exercise.name.substr(dash + 1);
+    if (exercise.name == name) return exercise;
+    if (name == number || (!topic.empty() && name == topic)) matches.push_back(&exercise);
+    names.push_back(exercise.name);
+    spellings.insert(spellings.end(), {exercise.name, topic});
+  }
+  if (matches.size() == 1) return *matches.front();
+  if (matches.empty())
+    throw Error({.what = fmt::format("no exercise is called '{}'", name),
+                 .wanted = names.empty() ? "" : fmt::format("one of {}", fmt::join(names, ", ")),
+                 .nearest = nearestNames(name, spellings)});
+  std::vector<std::string> candidates;
+  for (const ExerciseInfo* match : matches) candidates.push_back(match->name);
+  throw Error({.what = fmt::format("several exercises are called '{}'", name), .nearest = candidates});
+}
+
+}  // namespace rex::grading

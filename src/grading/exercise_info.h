@@ -1,0 +1,55 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rex::grading {
+
+/// One part of an exercise: what a student completes for points.
+struct ExercisePart {
+  std::string id;
+  std::string title;
+  int points = 0;
+  int floor = 0;                   ///< points that the untouched main.cpp gets
+  std::vector<std::string> hints;  ///< questions that narrow; the last may be near-code
+};
+
+/// A library function that this exercise asks students to write themselves.
+struct ForbiddenFunction {
+  std::string function;  ///< qualified: "rex::inverseKinematicsStep"; a class forbids its members
+  std::string reason;
+};
+
+/// What student code may use in one run of the checks.
+struct ExerciseLimits {
+  double cpuSeconds = 10;
+  int memoryMb = 1024;
+  int outputMb = 16;
+};
+
+/// What exercise.toml says.
+struct ExerciseInfo {
+  std::string name;              ///< of the folder: "01-kinematics"
+  std::filesystem::path folder;  ///< as it was given
+  std::string title;
+  std::string script;  ///< section of the course script
+  ExerciseLimits limits;
+  std::vector<ExercisePart> parts;
+  std::vector<ForbiddenFunction> forbidden;
+  [[nodiscard]] int points() const;
+};
+
+/// Reads folder/exercise.toml. Throws Error (file:line:column) for a missing file, bad syntax, an unknown or
+/// missing key, a value of the wrong type or range.
+[[nodiscard]] ExerciseInfo readExerciseInfo(const std::filesystem::path& folder);
+
+/// All subfolders that hold an exercise.toml, by name. Throws as readExerciseInfo does.
+[[nodiscard]] std::vector<ExerciseInfo> listExercises(const std::filesystem::path& folder);
+
+/// The exercise called "01-kinematics", "01" or "kinematics". Throws Error when none or several match.
+[[nodiscard]] const ExerciseInfo& findExercise(const std::vector<ExerciseInfo>& exercises,
+                                               std::string_view name);
+
+}  // namespace rex::grading

@@ -1,0 +1,182 @@
+#include "grading/gates.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "grading/compiler_messages.h"
+#include "grading/named_symbols.h"
+#include "grading/regions.h"
+#include "grading/release.h"
+#include "grading/submission.h"
+#include "grading/text_file_internal.h"
+
+namespace rex::grading {
+namespace {
+
+using internal::readTextFile;
+using std::filesystem::path;
+
+using Points = std::map<std::string, int>;  // by part
+
+const GateResult kPassed{true, {}};
+
+GateResult failed(std::string message) { return {false, std::move(message)}; }
+
+// Passed if there is nothing to complain about.
+GateResult judge(const std::vector<std::string>& complaints) {
+  return {complaints.empty(), fmt::format("{}", fmt::join(complaints, "\n"))};
+}
+
+GradeResult grade(const GateContext& context, const path& file, std::optional<std::uint64_t> seed = {}) {
+  return gradeSubmission(context.toolchain, context.exercise,
+                         {.main = file,
+                          .workFolder = context.workFolder / "build",
+                          .results = context.workFolder / "results.json",
+                          .checks = {},
+                          .seed = seed})
+      .result;
+}
+
+// What is not as it should be in a result, line by line.
+std::string shortfalls(const GradeResult& result) {
+  std::string lines = result.message.empty() ? "" : "\n  " + result.message;
+  for (const CheckResult& check : result.checks)
+    if (check.status != Outcome::pass) lines += fmt::format("\n  {}: {}", check.id, check.message);
+  return lines;
+}
+
+GateResult mainIsCurrent(const GateContext& context) {
+  const path folder = context.exercise.folder, solution = folder / "solution.cpp";
+  if (readTextFile(folder / "main.cpp") == stripSolution(readTextFile(solution), solution.string()))
+    return kPassed;
+  return failed(
+      fmt::format("main.cpp is not what solution.cpp gives; run: rex dev strip {}", context.exercise.name));
+}
+
+// The checks of each part must be worth what exercise.toml promises.
+GateResult pointsAddUp(const GateContext& context) {
+  Points checked;
+  for (const CheckResult& check : listChecks(context.toolchain)) checked[check.part] += check.maxPoints;
+  std::vector<std::string> complaints;
+  for (const ExercisePart& part : context.exercise.parts) {
+    if (checked[part.id] != part.points)
+      complaints.push_back(fmt::format("part '{}': checks are worth {} points, exercise.toml says {}",
+                                       part.id, checked[part.id], part.points));
+    checked.erase(part.id);
+  }
+  for (const auto& [part, points] : checked)
+    complaints.push_back(fmt::format("checks name a part '{}' that exercise.toml does not have", part));
+  return judge(complaints);
+}
+
+GateResult namesExist(const GateContext& context) {
+  std::vector<std::string> complaints;
+  for (const DeadName& dead : deadNames(context.root, context.exercise.folder))
+    complaints.emplace_back(Error({.what = fmt::format("'{}' does not exist", dead.name),
+                                   .where = dead.where,
+                                   .nearest = dead.nearest})
+                                .what());
+  return judge(complaints);
+}
+
+GateResult releaseIsClean(const GateContext& context) {
+  requireNoSolutionText(context.exercise.folder);
+  return kPassed;
+}
+
+GateResult mainScoresFloor(const GateContext& context) {
+  const GradeResult result = grade(context, context.exercise.folder / "main.cpp");
+  if (!result.compile.diagnostics.empty())
+    return failed("main.cpp does not compile cleanly: " + toString(result.compile.diagnostics.front()));
+  if (result.outcome == Outcome::graderError) return failed("the grader failed: " + result.message);
+  Points scored;
+  for (const CheckResult& check : result.checks) scored[check.part] += check.points;
+  std::vector<std::string> complaints;
+  for (const ExercisePart& part : context.exercise.parts)
+    if (scored[part.id] != part.floor)
+      complaints.push_back(
+          fmt::format("part '{}': the untouched main.cpp gets {} points, exercise.toml says floor = {}",
+                      part.id, scored[part.id], part.floor));
+  return judge(complaints);
+}
+
+GateResult solutionIsFull(const GateContext& context) {
+  for (int seed = 1; seed <= context.seeds; ++seed) {
+    const GradeResult result = grade(context, context.exercise.folder / "solution.cpp", seed);
+    if (!result.compile.diagnostics.empty())
+      return failed("solution.cpp does not compile cleanly: " + toString(result.compile.diagnostics.front()));
+    if (result.outcome != Outcome::pass || result.score != context.exercise.points())
+      return failed(fmt::format("solution.cpp scores {} of {} under seed {}{}", result.score,
+                                context.exercise.points(), seed, shortfalls(result)));
+  }
+  return kPassed;
+}
+
+// A call that the scan refuses never meets a check.
+GateResult isRefused(const GradeResult& result) {
+  const auto& diagnostics = result.compile.diagnostics;
+  const bool refused = std::any_of(diagnostics.begin(), diagnostics.end(),
+                                   [](const auto& d) { return d.rule == kForbiddenCall; });
+  return refused ? kPassed : failed("it should call a forbidden function, but nothing noticed one");
+}
+
+GateResult wrongIsCaught(const GateContext& context, const std::string& gate) {
+  const path solution = context.exercise.folder / "solution.cpp",
+             wrong = context.exercise.folder / (gate + ".cpp");
+  const WrongVariant variant =
+      composeVariant(readTextFile(solution), solution.string(), readTextFile(wrong), wrong.string());
+  const path file = context.workFolder / "main.cpp";
+  internal::writeTextFile(file, variant.source);
+  const GradeResult result = grade(context, file);
+  if (variant.caughtBy.front() == kForbiddenCall) return isRefused(result);
+  if (result.outcome == Outcome::compileError || result.outcome == Outcome::graderError)
+    return failed("it was not graded: " + result.message);
+  std::vector<std::string> ids;
+  for (const CheckResult& check : result.checks) ids.push_back(check.id);
+  for (const std::string& id : variant.caughtBy) {
+    const auto check = std::find(ids.begin(), ids.end(), id);
+    if (check == ids.end())
+      throw Error({.what = fmt::format("no check is called '{}'", id),
+                   .where = {wrong.string(), 1},
+                   .nearest = nearestNames(id, ids)});
+    if (result.checks[check - ids.begin()].status == Outcome::pass)
+      return failed(fmt::format("check '{}' passes although: {}", id, variant.mistake));
+  }
+  if (result.score >= result.maxScore) return failed("it gets the full score");
+  return kPassed;
+}
+
+}  // namespace
+
+std::vector<std::string> gateNames(const ExerciseInfo& exercise) {
+  std::vector<std::string> names = {"main-current", "points", "names", "release", "main-floor", "solution"};
+  std::vector<std::string> wrong;
+  if (std::filesystem::is_directory(exercise.folder / "wrong"))
+    for (const auto& entry : std::filesystem::directory_iterator(exercise.folder / "wrong"))
+      if (entry.path().extension() == ".cpp") wrong.push_back("wrong/" + entry.path().stem().string());
+  std::sort(wrong.begin(), wrong.end());
+  names.insert(names.end(), wrong.begin(), wrong.end());
+  return names;
+}
+
+GateResult runGate(const GateContext& context, const std::string& gate) {
+  const std::vector<std::string> names = gateNames(context.exercise);
+  if (std::find(names.begin(), names.end(), gate) == names.end())
+    throw Error({.what = fmt::format("{} has no gate '{}'", context.exercise.name, gate),
+                 .nearest = nearestNames(gate, names)});
+  const std::map<std::string, GateResult (*)(const GateContext&)> gates = {
+      {"main-current", mainIsCurrent}, {"points", pointsAddUp},         {"names", namesExist},
+      {"release", releaseIsClean},     {"main-floor", mainScoresFloor}, {"solution", solutionIsFull}};
+  try {
+    const auto found = gates.find(gate);
+    return found == gates.end() ? wrongIsCaught(context, gate) : found->second(context);
+  } catch (const Error& error) {
+    return failed(error.what());
+  }
+}
+
+}  // namespace rex::grading

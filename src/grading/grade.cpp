@@ -1,0 +1,129 @@
+#include "grading/grade.h"
+
+#include <algorithm>
+#include <exception>
+
+#include "grading/printable.h"
+#include "grading/worker_process.h"
+
+namespace rex::grading {
+namespace {
+
+constexpr std::size_t kLongestMessage = 2000;
+constexpr std::size_t kKeptOutput = 16u << 10;
+constexpr const char* kSandboxWarning =
+    "sandbox level 0 of 3: the student's program runs with the rights of the grader and sees its files; "
+    "grade "
+    "only your own code this way";
+constexpr const char* kUnfinished = "the grader did not finish";
+
+CheckResult blank(const CheckInfo& info) {
+  return {
+      .id = info.id, .part = info.part, .title = info.title, .group = info.group, .maxPoints = info.points};
+}
+
+CheckResult faulty(const CheckInfo& info, const std::string& why) {
+  CheckResult check = blank(info);
+  check.status = Outcome::graderError;
+  check.message = printable("the grader failed, which is not your fault: " + why, kLongestMessage);
+  return check;
+}
+
+CheckResult failed(const CheckInfo& info, const Failure& failure, const std::string& input) {
+  CheckResult check = blank(info);
+  check.status = failure.outcome;
+  const bool quote = info.group == Group::visible && !failure.detail.empty();
+  check.message = printable(failure.message + (quote ? ": " + failure.detail : ""), kLongestMessage);
+  if (info.group == Group::visible) check.input = printable(input, kLongestMessage);
+  return check;
+}
+
+// Messages of a hidden check's fault could quote its input.
+CheckResult faultyBy(const CheckInfo& info, const std::exception* error) {
+  const bool tell = info.group == Group::visible && error != nullptr;
+  return faulty(info, tell ? error->what() : "the check ended by an exception");
+}
+
+void keep(KeptOutput& kept, const CapturedText& captured) {
+  const std::size_t room = kKeptOutput - std::min(kKeptOutput, kept.text.size());
+  const std::size_t taken = std::min(room, captured.text.size());
+  kept.text += printable(std::string_view(captured.text).substr(0, taken), 3 * kKeptOutput);
+  kept.truncatedBytes += captured.bytes - taken;
+}
+
+/// Runs one check and adds what the worker used and printed to the whole.
+CheckResult runCheck(const RunnableCheck& check, const GradeOptions& options, GradeResult& whole) {
+  CheckResult verdict = faulty(check.info, "the check did not end");
+  try {
+    Check judge(check.info, options.seed);
+    const WorkerRun run =
+        runWithWorker({.program = options.worker, .signature = options.signature, .limits = options.limits},
+                      [&](remote::Caller& caller) {
+                        verdict = judge.judge([&](Check& requirements) { check.run(requirements, caller); });
+                      });
+    if (run.failure) verdict = failed(check.info, *run.failure, judge.input());
+    verdict.cpuSeconds = run.cpuSeconds;
+    verdict.wallSeconds = run.wallSeconds;
+    whole.usage.cpuSeconds += run.cpuSeconds;
+    whole.usage.wallSeconds += run.wallSeconds;
+    whole.usage.peakMemoryBytes = std::max(whole.usage.peakMemoryBytes, run.peakMemoryBytes);
+    whole.usage.outputBytes += run.output.bytes + run.error.bytes;
+    // What a program prints in a hidden check may be that check's input.
+    if (check.info.group == Group::visible) {
+      keep(whole.output, run.output);
+      keep(whole.error, run.error);
+    }
+  } catch (const std::exception& error) {
+    return faultyBy(check.info, &error);
+  } catch (...) {
+    return faultyBy(check.info, nullptr);
+  }
+  return verdict;
+}
+
+// A fault of the grader outweighs everything; then the first check that did not pass names the outcome, but
+// crashes and limits before plain failures.
+Outcome overallOutcome(const std::vector<CheckResult>& checks) {
+  Outcome overall = Outcome::pass;
+  for (const CheckResult& check : checks) {
+    const Outcome status = check.status.value_or(Outcome::graderError);
+    if (status == Outcome::graderError) return status;
+    if (overall == Outcome::pass || (overall == Outcome::fail && status != Outcome::pass)) overall = status;
+  }
+  return overall;
+}
+
+}  // namespace
+
+GradeResult grade(GradeResult result, std::span<const RunnableCheck> checks, const GradeOptions& options,
+                  const std::function<void(const GradeResult&)>& save) {
+  result.checks.clear();
+  result.score = 0;
+  result.maxScore = 0;
+  for (const RunnableCheck& check : checks) {
+    result.checks.push_back(blank(check.info));
+    result.maxScore += check.info.points;
+  }
+  result.limits = options.limits;
+  if (options.worker.empty()) {
+    save(result);
+    return result;
+  }
+  result.sandboxLevel = 0;
+  result.sandboxWarnings = {kSandboxWarning};
+  result.outcome = Outcome::graderError;
+  result.message = kUnfinished;
+  save(result);
+  for (std::size_t k = 0; k < checks.size(); ++k) {
+    result.checks[k] = runCheck(checks[k], options, result);
+    result.score += result.checks[k].points;
+    if (k + 1 == checks.size()) {
+      result.outcome = overallOutcome(result.checks);
+      result.message.clear();
+    }
+    save(result);
+  }
+  return result;
+}
+
+}  // namespace rex::grading

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+
+#include "grading/check.h"
+#include "grading/results.h"
+#include "grading/worker_limits.h"
+#include "remote/caller.h"
+
+namespace rex::grading {
+
+/// A check that knows how to talk to the worker.
+struct RunnableCheck {
+  CheckInfo info{};
+  std::function<void(Check&, remote::Caller&)> run{};
+};
+
+struct GradeOptions {
+  std::filesystem::path worker{};  ///< empty: nothing is run, all checks are listed as not run
+  std::uint64_t signature = 0;     ///< of the functions the worker must offer
+  std::uint64_t seed = 1;
+  WorkerLimits limits{};
+  std::filesystem::path temporaryFolder = "/tmp";
+};
+
+/// Runs each check in a fresh worker and adds the results, in the given order, to `result`, whose other
+/// fields are kept. Calls `save` before the first check, when everything still counts as a fault of the
+/// grader, and after each. What a check function throws itself is such a fault too.
+[[nodiscard]] GradeResult grade(GradeResult result, std::span<const RunnableCheck> checks,
+                                const GradeOptions& options,
+                                const std::function<void(const GradeResult&)>& save);
+
+}  // namespace rex::grading

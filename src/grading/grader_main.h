@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "grading/check.h"
+#include "grading/grade.h"
+
+namespace rex::grading {
+
+/// Exit codes of a grader program.
+enum ExitCode { kFullScore = 0, kBelowFullScore = 1, kGraderFault = 3, kUsage = 64 };
+
+/// The whole main() of a grader program: `--help` tells its options. Prints messages on standard error, and
+/// on standard output nothing but what --list or --help asks for.
+[[nodiscard]] int runGrader(int argc, const char* const* argv, std::vector<RunnableCheck> checks,
+                            std::uint64_t signature);
+
+/// The same for the checks of one exercise, whose functions the proxy Student calls.
+template <class Student>
+[[nodiscard]] int graderMain(int argc, const char* const* argv, const Checks<Student>& checks) {
+  std::vector<RunnableCheck> runnable;
+  for (const CheckEntry<Student>& entry : checks)
+    runnable.push_back({.info = {.id = entry.id,
+                                 .part = entry.part,
+                                 .title = entry.title,
+                                 .points = entry.points,
+                                 .group = entry.group},
+                        .run = [run = entry.run](Check& check, remote::Caller& caller) {
+                          Student student(caller);
+                          run(check, student);
+                        }});
+  return runGrader(argc, argv, std::move(runnable), Student::signature());
+}
+
+}  // namespace rex::grading

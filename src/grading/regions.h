@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rex::grading {
+
+/// The student's main.cpp made from solution.cpp. Between `// <solution NAME>` and `// </solution>` only the
+/// lines `//| text` after `// <todo>` stay, uncommented at their own indentation. `file` is for messages.
+/// Throws Error (file:line) for a marker that is unknown, unclosed, nested, repeated or out of place.
+[[nodiscard]] std::string stripSolution(std::string_view solution, const std::string& file);
+
+/// check.cpp without what lies between `// <hidden>` and `// </hidden>`. Throws Error (file:line).
+[[nodiscard]] std::string stripHidden(std::string_view check, const std::string& file);
+
+/// The lines that only the solution has: those in regions before the todo, trimmed, without trivial ones
+/// (short, or also outside the regions and so public). Throws as stripSolution does.
+[[nodiscard]] std::vector<std::string> secretLines(std::string_view solution, const std::string& file);
+
+/// A plausible mistake, as wrong/NAME.cpp describes it.
+struct WrongVariant {
+  std::vector<std::string> caughtBy;  ///< ids of checks, or kForbiddenCall
+  std::string mistake;
+  std::string source;  ///< complete main.cpp with the mistake in it
+};
+
+/// Stands among `caught by` for: refused before any check because it calls a forbidden function.
+inline constexpr std::string_view kForbiddenCall = "forbidden-call";
+
+/// Puts the regions of a wrong file in place of those of the solution. The file opens with
+/// `// caught by: id, id` and `// mistake: text`, then holds `// <solution NAME>` ... `// </solution>`.
+/// Throws Error (file:line) for a missing header line, a region the solution lacks, text outside regions.
+[[nodiscard]] WrongVariant composeVariant(std::string_view solution, const std::string& solutionFile,
+                                          std::string_view wrong, const std::string& wrongFile);
+
+}  // namespace rex::grading

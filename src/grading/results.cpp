@@ -1,0 +1,258 @@
+#include "grading/results.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+
+namespace rex::grading {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kSchema = "grade-result/1";
+
+std::int64_t milliseconds(double seconds) { return std::llround(1000 * seconds); }
+
+Json checkToJson(const CheckResult& check) {
+  return {{"id", check.id},
+          {"part", check.part},
+          {"title", check.title},
+          {"group", check.group == Group::visible ? "visible" : "hidden"},
+          {"status", check.status ? toString(*check.status) : "not_run"},
+          {"points", check.points},
+          {"max_points", check.maxPoints},
+          {"message", check.message},
+          {"property", check.property},
+          {"expected", check.expected},
+          {"got", check.got},
+          {"tolerance", check.tolerance},
+          {"input", check.input}};
+}
+
+Json compileToJson(const CompileResult& compile) {
+  Json diagnostics = Json::array();
+  for (const CompileDiagnostic& d : compile.diagnostics)
+    diagnostics.push_back({{"file", d.file},
+                           {"line", d.line},
+                           {"column", d.column},
+                           {"severity", d.severity},
+                           {"rule", d.rule},
+                           {"message", d.message}});
+  return {{"exit", compile.exitCode}, {"diagnostics", diagnostics}, {"truncated", compile.truncated}};
+}
+
+Json volatileToJson(const GradeResult& result) {
+  Json checks = Json::array();
+  for (const CheckResult& check : result.checks)
+    checks.push_back({{"id", check.id},
+                      {"wall_ms", milliseconds(check.wallSeconds)},
+                      {"cpu_ms", milliseconds(check.cpuSeconds)}});
+  return {{"usage",
+           {{"cpu_ms", milliseconds(result.usage.cpuSeconds)},
+            {"wall_ms", milliseconds(result.usage.wallSeconds)},
+            {"memory_bytes", result.usage.peakMemoryBytes},
+            {"output_bytes", result.usage.outputBytes}}},
+          {"truncated_bytes",
+           {{"stdout", result.output.truncatedBytes}, {"stderr", result.error.truncatedBytes}}},
+          {"checks", checks}};
+}
+
+Json resultToJson(const GradeResult& result) {
+  Json files = Json::array();
+  for (const SourceFile& file : result.files) files.push_back({{"name", file.name}, {"sha256", file.sha256}});
+  Json checks = Json::array();
+  for (const CheckResult& check : result.checks) checks.push_back(checkToJson(check));
+  return {{"schema", kSchema},
+          {"submission",
+           {{"id", result.submissionId}, {"files", files}, {"snapshot_sha256", result.snapshotSha256}}},
+          {"exercise", {{"id", result.exerciseId}, {"version", result.exerciseVersion}}},
+          {"seed_id", result.seedId},
+          {"tool", {{"version", result.toolVersion}}},
+          {"compiler", result.compiler},
+          {"sandbox", {{"level", result.sandboxLevel}, {"warnings", result.sandboxWarnings}}},
+          {"outcome", toString(result.outcome)},
+          {"message", result.message},
+          {"score", result.score},
+          {"max_score", result.maxScore},
+          {"checks", checks},
+          {"compile", compileToJson(result.compile)},
+          {"limits",
+           {{"cpu_ms", milliseconds(result.limits.cpuSeconds)},
+            {"wall_ms", milliseconds(result.limits.wallBudget())},
+            {"memory_bytes", static_cast<std::int64_t>(result.limits.memoryMegabytes) << 20},
+            {"output_bytes", static_cast<std::int64_t>(result.limits.outputMegabytes) << 20}}},
+          {"stdout", result.output.text},
+          {"stderr", result.error.text},
+          {"volatile", volatileToJson(result)}};
+}
+
+/// Reads fields of one JSON object into variables, which keep their values where a field is missing.
+class Fields {
+ public:
+  Fields(const Json& json, std::string path, const std::string& file)
+      : json_(json), path_(std::move(path)), file_(file) {
+    if (!json.is_object()) refuse(path_, "an object");
+  }
+
+  template <class T>
+  void read(const char* name, T& value) const {
+    if (!json_.contains(name)) return;
+    try {
+      json_.at(name).get_to(value);
+    } catch (const Json::exception&) {
+      refuse(path_ + name, std::is_arithmetic_v<T> ? "a number" : "text");
+    }
+  }
+  void readOutcome(const char* name, std::optional<Outcome>& outcome) const {
+    std::string text = "not_run";
+    read(name, text);
+    outcome = outcomeFromString(text);
+    if (!outcome && text != "not_run") refuse(path_ + name, "an outcome such as \"fail\"");
+  }
+  void readMilliseconds(const char* name, double& seconds) const {
+    double milliseconds = 1000 * seconds;
+    read(name, milliseconds);
+    seconds = milliseconds / 1000;
+  }
+  Fields object(const char* name) const {
+    static const Json kNothing = Json::object();
+    return {json_.contains(name) ? json_.at(name) : kNothing, path_ + name + ".", file_};
+  }
+  std::vector<Fields> list(const char* name) const {
+    std::vector<Fields> elements;
+    if (!json_.contains(name)) return elements;
+    if (!json_.at(name).is_array()) refuse(path_ + name, "a list");
+    for (const Json& element : json_.at(name))
+      elements.emplace_back(element, fmt::format("{}{}[{}].", path_, name, elements.size()), file_);
+    return elements;
+  }
+  [[noreturn]] void refuse(const std::string& field, const std::string& wanted) const {
+    throw Error({.what = "result file: field '" + field + "'", .where = {.file = file_}, .wanted = wanted});
+  }
+
+ private:
+  const Json& json_;
+  std::string path_;
+  const std::string& file_;
+};
+
+CheckResult readCheck(const Fields& fields) {
+  CheckResult check;
+  std::string group = "visible";
+  fields.read("id", check.id);
+  fields.read("part", check.part);
+  fields.read("title", check.title);
+  fields.read("group", group);
+  if (group != "visible" && group != "hidden") fields.refuse("group", "visible or hidden");
+  check.group = group == "hidden" ? Group::hidden : Group::visible;
+  fields.readOutcome("status", check.status);
+  fields.read("points", check.points);
+  fields.read("max_points", check.maxPoints);
+  fields.read("message", check.message);
+  fields.read("property", check.property);
+  fields.read("expected", check.expected);
+  fields.read("got", check.got);
+  fields.read("tolerance", check.tolerance);
+  fields.read("input", check.input);
+  return check;
+}
+
+CompileResult readCompile(const Fields& fields) {
+  CompileResult compile;
+  fields.read("exit", compile.exitCode);
+  fields.read("truncated", compile.truncated);
+  for (const Fields& d : fields.list("diagnostics")) {
+    CompileDiagnostic& diagnostic = compile.diagnostics.emplace_back();
+    d.read("file", diagnostic.file);
+    d.read("line", diagnostic.line);
+    d.read("column", diagnostic.column);
+    d.read("severity", diagnostic.severity);
+    d.read("rule", diagnostic.rule);
+    d.read("message", diagnostic.message);
+  }
+  return compile;
+}
+
+WorkerLimits readLimits(const Fields& fields) {
+  WorkerLimits limits;
+  std::int64_t memory = static_cast<std::int64_t>(limits.memoryMegabytes) << 20;
+  std::int64_t output = static_cast<std::int64_t>(limits.outputMegabytes) << 20;
+  fields.readMilliseconds("cpu_ms", limits.cpuSeconds);
+  fields.readMilliseconds("wall_ms", limits.wallSeconds);
+  fields.read("memory_bytes", memory);
+  fields.read("output_bytes", output);
+  limits.memoryMegabytes = static_cast<int>(memory >> 20);
+  limits.outputMegabytes = static_cast<int>(output >> 20);
+  return limits;
+}
+
+void readVolatile(const Fields& fields, GradeResult& result) {
+  const Fields usage = fields.object("usage");
+  usage.readMilliseconds("cpu_ms", result.usage.cpuSeconds);
+  usage.readMilliseconds("wall_ms", result.usage.wallSeconds);
+  usage.read("memory_bytes", result.usage.peakMemoryBytes);
+  usage.read("output_bytes", result.usage.outputBytes);
+  fields.object("truncated_bytes").read("stdout", result.output.truncatedBytes);
+  fields.object("truncated_bytes").read("stderr", result.error.truncatedBytes);
+  for (const Fields& times : fields.list("checks")) {
+    std::string id;
+    times.read("id", id);
+    for (CheckResult& check : result.checks) {
+      if (check.id != id) continue;
+      times.readMilliseconds("wall_ms", check.wallSeconds);
+      times.readMilliseconds("cpu_ms", check.cpuSeconds);
+    }
+  }
+}
+
+GradeResult readResult(const Fields& fields) {
+  GradeResult result;
+  std::string schema;
+  fields.read("schema", schema);
+  if (schema != kSchema) fields.refuse("schema", kSchema);
+  const Fields submission = fields.object("submission");
+  submission.read("id", result.submissionId);
+  submission.read("snapshot_sha256", result.snapshotSha256);
+  for (const Fields& file : submission.list("files")) {
+    file.read("name", result.files.emplace_back().name);
+    file.read("sha256", result.files.back().sha256);
+  }
+  fields.object("exercise").read("id", result.exerciseId);
+  fields.object("exercise").read("version", result.exerciseVersion);
+  fields.read("seed_id", result.seedId);
+  fields.object("tool").read("version", result.toolVersion);
+  fields.read("compiler", result.compiler);
+  fields.object("sandbox").read("level", result.sandboxLevel);
+  fields.object("sandbox").read("warnings", result.sandboxWarnings);
+  std::optional<Outcome> outcome;
+  fields.readOutcome("outcome", outcome);
+  result.outcome = outcome.value_or(Outcome::graderError);
+  fields.read("message", result.message);
+  fields.read("score", result.score);
+  fields.read("max_score", result.maxScore);
+  for (const Fields& check : fields.list("checks")) result.checks.push_back(readCheck(check));
+  result.compile = readCompile(fields.object("compile"));
+  result.limits = readLimits(fields.object("limits"));
+  fields.read("stdout", result.output.text);
+  fields.read("stderr", result.error.text);
+  readVolatile(fields.object("volatile"), result);
+  return result;
+}
+
+}  // namespace
+
+std::string toJson(const GradeResult& result) {
+  return resultToJson(result).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+GradeResult gradeResultFromJson(const std::string& text, const std::string& file) {
+  const Json json = Json::parse(text, nullptr, false);
+  if (json.is_discarded())
+    throw Error({.what = "result file: not JSON", .where = {.file = file}, .wanted = kSchema});
+  return readResult(Fields(json, "", file));
+}
+
+}  // namespace rex::grading

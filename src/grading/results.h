@@ -1,0 +1,101 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "grading/outcome.h"
+#include "grading/worker_limits.h"
+
+namespace rex::grading {
+
+/// Visible checks show what they tried and what came out; hidden ones only which property failed.
+enum class Group { visible, hidden };
+
+/// The fields of a result file, in its order: schema "grade-result/1". All text is valid UTF-8. What differs
+/// between two runs of the same grading (times, memory) is under "volatile", so the rest compares byte for
+/// byte.
+struct SourceFile {
+  std::string name{};
+  std::string sha256{};
+};
+
+struct CheckResult {
+  std::string id{};
+  std::string part{};
+  std::string title{};
+  Group group = Group::visible;
+  std::optional<Outcome> status{};  ///< nothing: not run
+  int points = 0;
+  int maxPoints = 0;
+  std::string message{};   ///< one readable line; empty if passed
+  std::string property{};  ///< what had to hold and did not
+  std::string expected{};  ///< with unit; this and the next three are empty for hidden checks
+  std::string got{};
+  std::string tolerance{};
+  std::string input{};
+  double wallSeconds = 0;  ///< volatile
+  double cpuSeconds = 0;   ///< volatile
+};
+
+struct CompileDiagnostic {
+  std::string file{};
+  int line = 0;
+  int column = 0;
+  std::string severity{};  ///< "error", "warning", "note"
+  std::string rule{};      ///< "-Wreturn-type"
+  std::string message{};
+};
+
+struct CompileResult {
+  int exitCode = 0;
+  std::vector<CompileDiagnostic> diagnostics{};
+  bool truncated = false;
+};
+
+/// Summed over the checks; memory is the largest of one worker.
+struct Usage {
+  double cpuSeconds = 0;
+  double wallSeconds = 0;
+  std::int64_t peakMemoryBytes = 0;
+  std::uint64_t outputBytes = 0;
+};
+
+/// What of the student's output the result keeps.
+struct KeptOutput {
+  std::string text{};
+  std::uint64_t truncatedBytes = 0;  ///< printed beyond it; volatile
+};
+
+struct GradeResult {
+  std::string submissionId{};
+  std::vector<SourceFile> files{};
+  std::string snapshotSha256{};
+  std::string exerciseId{};
+  std::string exerciseVersion{};
+  std::string seedId{};
+  std::string toolVersion{};
+  std::string compiler{};
+  int sandboxLevel = 0;
+  std::vector<std::string> sandboxWarnings{};
+  Outcome outcome = Outcome::graderError;  ///< until somebody finds a better one
+  std::string message{};                   ///< about the submission as a whole
+  int score = 0;
+  int maxScore = 0;
+  std::vector<CheckResult> checks{};
+  CompileResult compile{};
+  WorkerLimits limits{};
+  KeptOutput output{};  ///< of visible checks
+  KeptOutput error{};
+  Usage usage{};  ///< volatile
+};
+
+/// The text of a result file. Invalid UTF-8 is replaced.
+[[nodiscard]] std::string toJson(const GradeResult& result);
+
+/// Reads it back; fields that are missing keep their defaults. Throws Error, naming `file` and the field, for
+/// what is not such a text.
+[[nodiscard]] GradeResult gradeResultFromJson(const std::string& text, const std::string& file);
+
+}  // namespace rex::grading

@@ -1,0 +1,221 @@
+#include "grading/student_build.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "base/process.h"
+#include "grading/symbol_scan.h"
+
+namespace rex::grading {
+namespace {
+
+using std::filesystem::path;
+
+constexpr double kCompileSeconds = 30;
+constexpr std::size_t kCompileMemory = std::size_t{2} << 30;
+constexpr std::size_t kObjectSize = 64u << 20;
+constexpr std::size_t kLogSize = 64u << 10;
+constexpr std::size_t kMostMessages = 50;
+
+// The name to compile under: the student's own if it is plain, for names come from strangers.
+std::string plainName(const path& file) {
+  const std::string name = file.filename().string();
+  const auto plain = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || c == '.';
+  };
+  const bool usable = name.ends_with(".cpp") && std::isalnum(static_cast<unsigned char>(name.front())) &&
+                      std::all_of(name.begin(), name.end(), plain);
+  return usable ? name : "main.cpp";
+}
+
+ProcessResult runTool(const std::vector<std::string>& command, const path& folder) {
+  ProcessResult result = runProcess(command, {.directory = folder,
+                                              .timeout = 2 * kCompileSeconds + 2,
+                                              .outputLimit = 8u << 20,
+                                              .cpuSeconds = kCompileSeconds,
+                                              .addressSpace = kCompileMemory,
+                                              .fileSize = kObjectSize});
+  if (!result.started) throw Error({.what = "cannot run " + command.front(), .found = result.error});
+  return result;
+}
+
+// Why a compiler that reported no error still failed.
+std::string whyItGaveUp(const ProcessResult& run) {
+  const auto says = [&](const char* text) { return run.error.find(text) != std::string::npos; };
+  if (run.timedOut || says("Killed") || says("CPU time limit") || run.signal != 0)
+    return fmt::format("compiling took more than {:g} s of processor time and was stopped", kCompileSeconds);
+  if (says("out of memory") || says("memory exhausted") || says("bad_alloc"))
+    return fmt::format("compiling needed more than {} MiB of memory and was stopped", kCompileMemory >> 20);
+  if (says("File size limit") || says("File too large"))
+    return fmt::format("the compiled file would be larger than {} MiB", kObjectSize >> 20);
+  const std::string firstLine = run.error.substr(0, run.error.find('\n'));
+  return "the compiler gave up: " + firstLine;
+}
+
+std::vector<std::string> compileCommand(const Toolchain& toolchain, const StudentBuildOptions& options) {
+  std::vector<std::string> command = {toolchain.compiler};
+  command.insert(command.end(), toolchain.flags.begin(), toolchain.flags.end());
+  command.insert(command.end(), {"-fmax-errors=20", "-ftemplate-depth=200"});
+  if (options.debug) {
+    const path folder = std::filesystem::absolute(options.main).parent_path();
+    command.insert(
+        command.end(),
+        {"-g", "-O0", fmt::format("-fdebug-prefix-map={}={}", options.workFolder.string(), folder.string())});
+  }
+  return command;
+}
+
+// The compiler's report in plain words; it alone tells which line of the student's caused an error in a
+// header. No source lines are quoted: they could come from any file.
+std::string plainReport(std::vector<std::string> command, const std::string& name, const path& folder) {
+  command.insert(command.end(), {"-fno-diagnostics-show-caret", "-fsyntax-only", name});
+  return runTool(command, folder).error;
+}
+
+std::string writeLog(const std::vector<CompileDiagnostic>& messages) {
+  std::string log;
+  for (const CompileDiagnostic& message : messages) log += toString(message) + "\n";
+  return log;
+}
+
+void compile(const std::vector<std::string>& command, const std::string& name, const path& folder,
+             StudentObject& result) {
+  std::vector<std::string> withJson = command;
+  withJson.insert(withJson.end(),
+                  {"-fdiagnostics-format=json", "-c", name, "-o", result.object.filename().string()});
+  const ProcessResult run = runTool(withJson, folder);
+  result.exitCode = run.exitCode;
+  result.ok = run.ok();
+  result.messages = parseCompilerJson(run.error);
+  const bool explained = std::any_of(result.messages.begin(), result.messages.end(),
+                                     [](const CompileDiagnostic& m) { return m.severity == "error"; });
+  if (!run.ok() && !explained) {
+    result.messages.push_back({name, 0, 0, "error", "", whyItGaveUp(run)});
+  } else if (!run.ok()) {
+    result.log = plainReport(command, name, folder).substr(0, kLogSize);
+  }
+  blameMainFile(result.messages, name, result.log);
+  result.truncated = result.messages.size() > kMostMessages;
+  if (result.truncated) result.messages.resize(kMostMessages);
+  if (result.log.empty()) result.log = writeLog(result.messages);
+}
+
+StudentProgram link(const Toolchain& toolchain, const path& program, std::vector<std::string> objects,
+                    const std::string& mainFile) {
+  std::vector<std::string> command = {toolchain.compiler, "-o", program.string()};
+  command.insert(command.end(), objects.begin(), objects.end());
+  command.push_back(toolchain.studentLibrary.string());
+  command.insert(command.end(), toolchain.linkFlags.begin(), toolchain.linkFlags.end());
+  const ProcessResult run = runTool(command, program.parent_path());
+  StudentProgram result{
+      .program = program, .messages = {}, .log = run.error.substr(0, kLogSize), .ok = run.ok()};
+  if (run.ok()) return result;
+  result.messages = parseLinkerText(run.error, mainFile);
+  if (result.messages.empty())
+    result.messages.push_back(
+        {mainFile, 0, 0, "error", "", "cannot be linked: " + run.error.substr(0, run.error.find('\n'))});
+  return result;
+}
+
+class FileHandle {
+ public:
+  explicit FileHandle(const path& file)
+      : fd_(::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)) {}
+  ~FileHandle() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  FileHandle(const FileHandle&) = delete;
+  FileHandle& operator=(const FileHandle&) = delete;
+  int get() const { return fd_; }
+
+ private:
+  int fd_;
+};
+
+}  // namespace
+
+std::string readStudentFile(const path& file) {
+  constexpr std::size_t kLargest = 1u << 20;
+  const auto refuse = [&](std::string found) {
+    return Error({.what = "cannot be graded",
+                  .where = {file.string()},
+                  .found = std::move(found),
+                  .wanted = "a C++ source file"});
+  };
+  const FileHandle handle(file);
+  if (handle.get() < 0)
+    throw refuse(errno == ELOOP ? "a symbolic link" : errno == ENOENT ? "no file" : std::strerror(errno));
+  struct stat status {};
+  if (::fstat(handle.get(), &status) != 0) throw refuse(std::strerror(errno));
+  if (S_ISDIR(status.st_mode)) throw refuse("a folder");
+  if (!S_ISREG(status.st_mode)) throw refuse("a pipe or device");
+
+  std::string text;
+  std::array<char, 65536> buffer;
+  for (ssize_t n = 1; n > 0 && text.size() <= kLargest;) {
+    n = ::read(handle.get(), buffer.data(), buffer.size());
+    if (n < 0) throw refuse(std::strerror(errno));
+    text.append(buffer.data(), static_cast<std::size_t>(n));
+  }
+  if (text.size() > kLargest) throw refuse("more than 1 MiB");
+  if (text.find('\0') != std::string::npos) throw refuse("NUL bytes, as in a binary or UTF-16 file");
+  return text;
+}
+
+StudentObject compileStudent(const Toolchain& toolchain, const std::vector<ForbiddenFunction>& forbidden,
+                             const StudentBuildOptions& options) {
+  const std::string name = plainName(options.main);
+  const path folder = std::filesystem::absolute(options.workFolder);
+  StudentObject result;
+  result.name = name;
+  try {
+    result.source = readStudentFile(options.main);
+  } catch (const Error& error) {
+    result.messages.push_back(
+        {name, 0, 0, "error", "",
+         "cannot be graded: found " + error.parts().found + ", wanted " + error.parts().wanted});
+    result.log = writeLog(result.messages);
+    result.exitCode = 1;
+    return result;
+  }
+  // A copy, so that what is graded is what was read and nothing beside the student's file is included.
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / name, std::ios::binary) << result.source;
+  result.object = folder / "student.o";
+  StudentBuildOptions absolute = options;
+  absolute.workFolder = folder;
+  compile(compileCommand(toolchain, absolute), name, folder, result);
+  if (!result.ok) return result;
+
+  const std::vector<CompileDiagnostic> calls =
+      scanSymbols(toolchain.nm, result.object, result.source, name, forbidden);
+  result.ok = calls.empty();
+  result.messages.insert(result.messages.end(), calls.begin(), calls.end());
+  result.log = writeLog(result.messages);
+  return result;
+}
+
+StudentProgram linkWorker(const Toolchain& toolchain, const StudentObject& object) {
+  const path renamed = object.object.parent_path() / "worker_student.o";
+  const ProcessResult run = runTool(
+      {toolchain.objcopy, "--redefine-sym", "main=studentMain", object.object.string(), renamed.string()},
+      renamed.parent_path());
+  if (!run.ok()) throw Error({.what = "cannot rename main in the compiled file", .found = run.error});
+  return link(toolchain, object.object.parent_path() / "worker",
+              {toolchain.workerObject.string(), renamed.string()}, object.name);
+}
+
+StudentProgram linkProgram(const Toolchain& toolchain, const StudentObject& object) {
+  return link(toolchain, object.object.parent_path() / "program", {object.object.string()}, object.name);
+}
+
+}  // namespace rex::grading

@@ -1,0 +1,94 @@
+#include "grading/symbol_scan.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/process.h"
+
+namespace rex::grading {
+namespace {
+
+bool isWord(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
+
+// Whether a demangled symbol is the function or, for a class, one of its members: its name outside template
+// and call arguments, which may mention anything.
+bool isFunction(std::string_view symbol, std::string_view function) {
+  int depth = 0;
+  for (std::size_t i = 0; i < symbol.size(); ++i) {
+    const char c = symbol[i];
+    if (c == '(' && depth == 0 && !symbol.substr(i).starts_with("(anonymous namespace)")) return false;
+    if (c == '<' || c == '(') ++depth;
+    if (c == '>' || c == ')') --depth;
+    const bool starts = depth == 0 && (i == 0 || (!isWord(symbol[i - 1]) && symbol[i - 1] != ':'));
+    if (!starts || !symbol.substr(i).starts_with(function)) continue;
+    const std::size_t end = i + function.size();
+    if (end == symbol.size() || !isWord(symbol[end])) return true;
+  }
+  return false;
+}
+
+// The demangled name in a line of nm, "0000000000000000 T name" or "                 U name"; empty for
+// symbols that the file defines itself, which are no calls.
+std::string_view calledIn(std::string_view line) {
+  constexpr std::size_t kTypeColumn = 17;
+  constexpr std::string_view kCalled = "UVWvw";
+  if (line.size() <= kTypeColumn + 2 || kCalled.find(line[kTypeColumn]) == kCalled.npos) return {};
+  return line.substr(kTypeColumn + 2);
+}
+
+// Line and column, from 1, of the last part of the function's name as a word; 0, 0 when it is not there.
+std::pair<int, int> placeIn(std::string_view source, std::string_view function) {
+  const std::size_t colons = function.rfind("::");
+  const std::string_view word = colons == function.npos ? function : function.substr(colons + 2);
+  for (std::size_t at = source.find(word); at != source.npos; at = source.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    if ((at > 0 && isWord(source[at - 1])) || (end < source.size() && isWord(source[end]))) continue;
+    const std::string_view before = source.substr(0, at);
+    const std::size_t lineStart = before.rfind('\n') + 1;  // npos + 1 is 0
+    // A mention in a comment is no call.
+    if (before.substr(lineStart).find("//") != before.npos) continue;
+    return {static_cast<int>(std::count(before.begin(), before.end(), '\n')) + 1,
+            static_cast<int>(at - lineStart) + 1};
+  }
+  return {0, 0};
+}
+
+}  // namespace
+
+std::vector<ForbiddenFunction> forbiddenCalls(std::string_view symbols,
+                                              const std::vector<ForbiddenFunction>& forbidden) {
+  std::vector<ForbiddenFunction> found;
+  for (const ForbiddenFunction& candidate : forbidden) {
+    std::string_view rest = symbols;
+    bool called = false;
+    while (!rest.empty() && !called) {
+      const std::size_t end = std::min(rest.find('\n'), rest.size());
+      called = isFunction(calledIn(rest.substr(0, end)), candidate.function);
+      rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    if (called) found.push_back(candidate);
+  }
+  return found;
+}
+
+std::vector<CompileDiagnostic> scanSymbols(const std::string& nm, const std::filesystem::path& object,
+                                           std::string_view source, const std::string& mainFile,
+                                           const std::vector<ForbiddenFunction>& forbidden) {
+  if (forbidden.empty()) return {};
+  const ProcessResult listed = runProcess({nm, "-C", "--", object.string()}, {.outputLimit = 64u << 20});
+  if (!listed.ok())
+    throw Error({.what = "cannot list the symbols of the compiled file", .found = listed.error});
+  std::vector<CompileDiagnostic> messages;
+  for (const ForbiddenFunction& call : forbiddenCalls(listed.output, forbidden)) {
+    const auto [line, column] = placeIn(source, call.function);
+    messages.push_back({mainFile, line, column, "error", "forbidden-call",
+                        fmt::format("calls {}, which this exercise forbids: {}. Write it yourself instead",
+                                    call.function, call.reason)});
+  }
+  return messages;
+}
+
+}  // namespace rex::grading

@@ -1,0 +1,25 @@
+#include <fstream>
+#include <iterator>
+
+#include "base/error.h"
+#include "grading/text_file_internal.h"
+
+namespace rex::grading::internal {
+
+std::string readTextFile(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (!in || std::filesystem::is_directory(file))
+    throw Error({.what = "cannot read this file", .where = {file.string()}});
+  return text;
+}
+
+void writeTextFile(const std::filesystem::path& file, std::string_view text) {
+  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw Error({.what = "cannot write this file", .where = {file.string()}});
+}
+
+}  // namespace rex::grading::internal

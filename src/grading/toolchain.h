@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace rex::grading {
+
+/// How student code of one exercise is compiled and graded: what the build wrote to build.json.
+struct Toolchain {
+  std::string compiler;
+  std::vector<std::string> flags;      ///< for compiling the student's file, its include folders among them
+  std::vector<std::string> linkFlags;  ///< for linking it to a program that finds studentLibrary
+  std::filesystem::path workerObject;  ///< the loop that answers the grader
+  std::filesystem::path grader;
+  std::filesystem::path studentLibrary;  ///< shared; all of rex that students may call
+  std::string objcopy = "objcopy";
+  std::string nm = "nm";
+};
+
+/// Reads build.json. Throws Error when it is missing (the exercise is not built) or a key is.
+[[nodiscard]] Toolchain readToolchain(const std::filesystem::path& buildJson);
+
+}  // namespace rex::grading

@@ -1,0 +1,87 @@
+#include "grading/worker_failure.h"
+
+#include <csignal>
+#include <cstring>
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#include "grading/output_capture.h"
+#include "remote/worker.h"
+
+namespace rex::grading {
+namespace {
+
+constexpr int kLoaderFailed = 127;
+
+Failure tooSlow(const WorkerEnd& end, const WorkerLimits& limits) {
+  return {.outcome = Outcome::timeLimit,
+          .message = fmt::format("stopped after {:.1f} s of CPU time {}", limits.cpuBudget(),
+                                 placeOf(end.ready, end.function))};
+}
+
+Failure badAccess(const WorkerEnd& end, const WorkerLimits& limits) {
+  const std::string message = "crashed with a segmentation fault " + placeOf(end.ready, end.function);
+  if (end.ready) return {.message = message + " (an index out of range, or a recursion without end?)"};
+  // The kernel also kills a program whose globals do not fit while it is being loaded.
+  return {.message =
+              fmt::format("{} (in the constructor of a global variable, or do the global variables need more "
+                          "than {} MB?)",
+                          message, limits.memoryMegabytes)};
+}
+
+Failure explainSignal(const WorkerEnd& end, const WorkerLimits& limits) {
+  const std::string place = placeOf(end.ready, end.function);
+  switch (WTERMSIG(end.status)) {
+    case SIGXCPU:
+      return tooSlow(end, limits);
+    case SIGKILL:
+      // A program that ignores the first warning is killed a second later.
+      if (end.cpuSeconds >= limits.cpuBudget()) return tooSlow(end, limits);
+      return {.message = "was killed " + place};
+    case SIGSEGV:
+    case SIGBUS:
+      return badAccess(end, limits);
+    case SIGFPE:
+      return {.message = "crashed with an integer division by zero " + place};
+    case SIGILL:
+      return {.message = "crashed with an illegal instruction " + place + " (a missing return?)"};
+    case SIGABRT:
+      return {.message = "aborted " + place, .detail = tellingLine(end.errorTail)};
+    case SIGXFSZ:
+      return {.outcome = Outcome::outputLimit, .message = "wrote a file that is too large " + place};
+    default:
+      return {.message = fmt::format("was ended by signal {} ({}) {}", WTERMSIG(end.status),
+                                     ::strsignal(WTERMSIG(end.status)), place)};
+  }
+}
+
+}  // namespace
+
+std::string placeOf(bool ready, const std::string& function) {
+  if (!function.empty()) return "in " + function;
+  return ready ? "between two calls" : "before the first call";
+}
+
+Failure explainEnd(const WorkerEnd& end, const WorkerLimits& limits) {
+  if (WIFSIGNALED(end.status)) return explainSignal(end, limits);
+  const int code = WEXITSTATUS(end.status);
+  const std::string place = placeOf(end.ready, end.function);
+  if (code == remote::kProtocolFailure)
+    return {.outcome = Outcome::protocolError, .message = "lost its connection to the grader " + place};
+  if (code == kLoaderFailed && !end.ready)
+    return {.message = "could not be loaded", .detail = tellingLine(end.errorTail)};
+  const char* hint = end.ready ? "" : " (in the constructor of a global variable?)";
+  return {.message = fmt::format("called exit({}) {}{}", code, place, hint)};
+}
+
+Failure explainThrow(const remote::RemoteThrow& error, const WorkerLimits& limits) {
+  const remote::Thrown& thrown = error.thrown();
+  if (thrown.kind == remote::Thrown::Kind::badAlloc)
+    return {.outcome = Outcome::memoryLimit,
+            .message = fmt::format("used more than {} MB of memory in {}", limits.memoryMegabytes,
+                                   error.function())};
+  return {.message = fmt::format("threw {} in {}", thrown.type, error.function()), .detail = thrown.text};
+}
+
+}  // namespace rex::grading

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+
+#include "grading/outcome.h"
+#include "grading/worker_limits.h"
+#include "remote/thrown.h"
+
+namespace rex::grading {
+
+/// Why a worker could not finish. `message` is ours; `detail` quotes the student's program, which may have
+/// printed what it was given, so reports of hidden checks leave it out.
+struct Failure {
+  Outcome outcome = Outcome::runtimeError;
+  std::string message{};  ///< "aborted in ikStep"
+  std::string detail{};   ///< "Assertion `index < size()' failed."
+};
+
+/// A worker process that has ended although nobody asked it to.
+struct WorkerEnd {
+  int status = 0;           ///< as wait4() gives it
+  double cpuSeconds = 0;    ///< that it used
+  bool ready = false;       ///< it had shaken hands
+  std::string function{};   ///< the function that was running; empty if none
+  std::string errorTail{};  ///< the last it printed on standard error
+};
+
+/// "in ikStep", "before the first call" or "between two calls".
+[[nodiscard]] std::string placeOf(bool ready, const std::string& function);
+
+[[nodiscard]] Failure explainEnd(const WorkerEnd& end, const WorkerLimits& limits);
+[[nodiscard]] Failure explainThrow(const remote::RemoteThrow& error, const WorkerLimits& limits);
+
+}  // namespace rex::grading

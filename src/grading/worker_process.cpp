@@ -1,0 +1,253 @@
+#include "grading/worker_process.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <random>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sched.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "grading/descendants.h"
+#include "grading/launch_internal.h"
+#include "grading/output_capture.h"
+#include "grading/private_folder.h"
+#include "remote/thrown.h"
+
+namespace rex::grading {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// We stop waiting for the worker, for a reason that is already known.
+class GaveUp : public remote::Closed {
+ public:
+  explicit GaveUp(Failure why) : Closed(why.message), failure(std::move(why)) {}
+  Failure failure;
+};
+
+/// Writing to a worker that has gone must be an error code, not a signal that ends us.
+class SigpipeIgnored {
+ public:
+  SigpipeIgnored() : before_(::signal(SIGPIPE, SIG_IGN)) {}
+  ~SigpipeIgnored() { ::signal(SIGPIPE, before_); }
+  SigpipeIgnored(const SigpipeIgnored&) = delete;
+  SigpipeIgnored& operator=(const SigpipeIgnored&) = delete;
+
+ private:
+  void (*before_)(int);
+};
+
+/// Keeps this thread, and the processes it starts, on one core: a call between two cores takes ten times as
+/// long.
+class OneCore {
+ public:
+  OneCore() {
+    ::sched_getaffinity(0, sizeof before_, &before_);
+    cpu_set_t here;
+    CPU_ZERO(&here);
+    CPU_SET(static_cast<std::size_t>(::sched_getcpu()), &here);
+    ::sched_setaffinity(0, sizeof here, &here);
+  }
+  ~OneCore() { ::sched_setaffinity(0, sizeof before_, &before_); }
+  OneCore(const OneCore&) = delete;
+  OneCore& operator=(const OneCore&) = delete;
+
+ private:
+  cpu_set_t before_;
+};
+
+class Worker {
+ public:
+  explicit Worker(const WorkerOptions& options);
+  ~Worker();
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
+
+  void converse(const std::function<void(remote::Caller&)>& conversation);
+  Failure explain(const remote::Closed& reason);
+  Failure explain(const remote::ProtocolError& reason) const;
+  /// Ends the worker and all it left behind, and says what it used.
+  WorkerRun end();
+
+ private:
+  void waitFor(int fd, remote::Channel::Direction direction);
+  void drain();
+  bool waitForEnd(double seconds);
+  void reap(int flags);
+  void killAll();
+  std::string place() const { return placeOf(ready_, caller_.running()); }
+
+  const WorkerOptions& options_;
+  SigpipeIgnored sigpipe_;
+  OneCore core_;
+  OrphanAdoption adoption_;
+  std::vector<pid_t> childrenBefore_ = listChildren();
+  PrivateFolder folder_;
+  Launched launched_;
+  OutputCapture output_;
+  OutputCapture error_;
+  remote::Caller caller_;
+  double waited_ = 0;
+  bool ready_ = false;
+  bool reaped_ = false;
+  bool over_ = false;
+  int status_ = 0;
+  rusage usage_{};
+};
+
+// The ids of the messages have no influence on any result; the worker must not foresee them.
+Worker::Worker(const WorkerOptions& options)
+    : options_(options),
+      folder_(options.temporaryFolder),
+      launched_(launchWorker(options.program, folder_.path(), options.limits)),
+      output_(launched_.output),
+      error_(launched_.error),
+      caller_(
+          remote::Channel(launched_.fromWorker, launched_.toWorker,
+                          [this](int fd, remote::Channel::Direction direction) { waitFor(fd, direction); }),
+          std::random_device()()) {}
+
+Worker::~Worker() {
+  killAll();
+  for (const int fd : {launched_.processFd, launched_.toWorker, launched_.fromWorker}) ::close(fd);
+}
+
+void Worker::converse(const std::function<void(remote::Caller&)>& conversation) {
+  caller_.handshake(options_.signature);
+  ready_ = true;
+  conversation(caller_);
+}
+
+// Only the time we wait counts: the grader's own work is not the student's.
+void Worker::waitFor(int fd, remote::Channel::Direction direction) {
+  const short events = direction == remote::Channel::Direction::read ? POLLIN : POLLOUT;
+  const auto start = Clock::now();
+  const double before = waited_;
+  bool ended = false;
+  for (;;) {
+    waited_ = before + secondsSince(start);
+    const double left = options_.limits.wallBudget() - waited_;
+    if (left <= 0)
+      throw GaveUp({.outcome = Outcome::timeLimit,
+                    .message = fmt::format("stopped after {:.1f} s of waiting {} (asleep or blocked?)",
+                                           options_.limits.wallBudget(), place())});
+    std::array<pollfd, 4> polled{{{fd, events, 0},
+                                  {launched_.processFd, POLLIN, 0},
+                                  {output_.fd(), POLLIN, 0},
+                                  {error_.fd(), POLLIN, 0}}};
+    ::poll(polled.data(), polled.size(), ended ? 0 : static_cast<int>(std::min(std::ceil(left * 1000), 1e6)));
+    if (polled[2].revents != 0 || polled[3].revents != 0) drain();
+    if (polled[0].revents != 0) break;
+    // A last message may have come between the two looks of one poll: look twice.
+    if (polled[1].revents != 0 && std::exchange(ended, true)) throw remote::Closed("the worker ended");
+  }
+  waited_ = before + secondsSince(start);
+}
+
+void Worker::drain() {
+  output_.drain();
+  error_.drain();
+  const int limit = options_.limits.outputMegabytes;
+  if (output_.total() + error_.total() > static_cast<std::uint64_t>(limit) << 20)
+    throw GaveUp({.outcome = Outcome::outputLimit,
+                  .message = fmt::format("printed more than {} MB {}", limit, place())});
+}
+
+void Worker::reap(int flags) {
+  if (!reaped_) reaped_ = ::wait4(launched_.process, &status_, flags, &usage_) == launched_.process;
+}
+
+bool Worker::waitForEnd(double seconds) {
+  const auto start = Clock::now();
+  while (!reaped_ && secondsSince(start) < seconds) {
+    pollfd polled{launched_.processFd, POLLIN, 0};
+    ::poll(&polled, 1, 10);
+    output_.drain();
+    error_.drain();
+    reap(WNOHANG);
+  }
+  return reaped_;
+}
+
+double cpuSecondsOf(const rusage& usage) {
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+Failure Worker::explain(const remote::Closed& reason) {
+  if (const auto* known = dynamic_cast<const GaveUp*>(&reason)) return known->failure;
+  constexpr double kPatience = 1;
+  if (!waitForEnd(kPatience))
+    return {.outcome = Outcome::protocolError, .message = "closed its connection to the grader " + place()};
+  return explainEnd({.status = status_,
+                     .cpuSeconds = cpuSecondsOf(usage_),
+                     .ready = ready_,
+                     .function = caller_.running(),
+                     .errorTail = error_.tail()},
+                    options_.limits);
+}
+
+Failure Worker::explain(const remote::ProtocolError& reason) const {
+  return {.outcome = Outcome::protocolError,
+          .message = fmt::format("spoilt the connection to the grader {}: {}", place(), reason.what())};
+}
+
+void Worker::killAll() {
+  if (std::exchange(over_, true)) return;
+  // Its group first: while the leader is not yet reaped, nobody else can get its number.
+  if (!reaped_) {
+    ::kill(-launched_.process, SIGKILL);
+    ::kill(launched_.process, SIGKILL);
+    reap(0);
+  }
+  killNewChildren(childrenBefore_);
+}
+
+WorkerRun Worker::end() {
+  killAll();
+  output_.drain();
+  error_.drain();
+  return {.cpuSeconds = cpuSecondsOf(usage_),
+          .wallSeconds = waited_,
+          .peakMemoryBytes = static_cast<std::int64_t>(usage_.ru_maxrss) * 1024,
+          .output = {output_.head(), output_.total()},
+          .error = {error_.head(), error_.total()}};
+}
+
+}  // namespace
+
+WorkerRun runWithWorker(const WorkerOptions& options,
+                        const std::function<void(remote::Caller&)>& conversation) {
+  Worker worker(options);
+  std::optional<Failure> failure;
+  try {
+    worker.converse(conversation);
+  } catch (const remote::Closed& reason) {
+    failure = worker.explain(reason);
+  } catch (const remote::ProtocolError& reason) {
+    failure = worker.explain(reason);
+  } catch (const remote::RemoteThrow& error) {
+    failure = explainThrow(error, options.limits);
+  }
+  WorkerRun run = worker.end();
+  run.failure = std::move(failure);
+  return run;
+}
+
+}  // namespace rex::grading

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "base/rng.h"
+#include "remote/channel.h"
+
+namespace rex::remote {
+
+/// The trusted end of a channel: sends calls and answers the callbacks that arrive before their replies.
+class Caller {
+ public:
+  /// Message ids are drawn from `idSeed`, which the other side should not be able to guess.
+  Caller(Channel channel, std::uint64_t idSeed) : channel_(std::move(channel)), ids_(idSeed) {}
+
+  /// Waits until the worker says that it is ready. Throws ProtocolError unless it serves exactly the
+  /// functions of `signature`.
+  void handshake(std::uint64_t signature);
+
+  /// Answers callback number `argument`: reads its arguments, writes its result.
+  using Answer = std::function<void(std::uint32_t argument, Reader& arguments, Writer& result)>;
+
+  /// Runs a function of the worker and returns the bytes of its result, valid until the next call. Throws
+  /// RemoteThrow if the function threw, ProtocolError or Closed if the worker misbehaves. A rex::Error that
+  /// an answer throws is passed on to the remote function; any other exception of an answer ends the remote
+  /// function and is thrown again here.
+  [[nodiscard]] Reader call(std::uint32_t method, const std::string& name, const Writer& arguments,
+                            const Answer& answer);
+
+  /// The function that runs now or was running when the worker went wrong; empty between calls.
+  const std::string& running() const { return running_; }
+
+ private:
+  void answerCallback(const Message& request, const Answer& answer, std::exception_ptr& refusal);
+
+  Channel channel_;
+  Rng ids_;
+  std::string running_;
+};
+
+}  // namespace rex::remote

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <stdexcept>
+#include <vector>
+
+#include "remote/bytes.h"
+
+namespace rex::remote {
+
+enum class Kind : std::uint32_t {
+  hello = 1,  ///< worker: ready; the id is the signature of its functions
+  call,       ///< trusted side: run function number `method`
+  callback,   ///< worker: the function asks for its argument number `method`, a function of the trusted side
+  reply,      ///< either: the result of the call or callback with this id
+  threw       ///< either: it ended by an exception
+};
+
+/// One message as received. `body` points into the channel's buffer and dies with the next receive().
+struct Message {
+  Kind kind{};
+  std::uint64_t id = 0;
+  std::uint32_t method = 0;
+  Reader body{{}};
+};
+
+/// The other side is gone, by end of file or because nobody reads, or was given up.
+class Closed : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Framed messages over two file descriptors, which it does not own. At most one message is under way: bytes
+/// behind a message are an error. One system call per message sent and usually one per message received.
+class Channel {
+ public:
+  enum class Direction { read, write };
+  /// Blocks until the descriptor is ready; throws to give up. Needed where descriptors do not block.
+  using Wait = std::function<void(int fd, Direction)>;
+
+  static constexpr std::size_t kMaxBody = 16u << 20;  ///< bytes of one message
+
+  Channel(int in, int out, Wait wait = {});
+
+  /// Throws Closed if nobody reads, std::length_error if the body is larger than kMaxBody.
+  void send(Kind kind, std::uint64_t id, std::uint32_t method, const Writer& body);
+
+  /// Throws Closed at end of file, ProtocolError if reading fails or the bytes are not exactly one message.
+  Message receive();
+
+ private:
+  std::size_t readSome();
+
+  int in_;
+  int out_;
+  Wait wait_;
+  std::vector<std::byte> buffer_;
+  std::size_t filled_ = 0;
+};
+
+}  // namespace rex::remote

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <utility>
+
+#include <Eigen/Core>
+
+namespace rex::remote {
+
+/// How an argument of type T travels: the trusted side sends a `Sent`, the worker makes its T from it.
+/// Usually both are the same. An object that cannot be copied into bytes is specialised to cross by
+/// description, as a simulator does by its scene text; a function may then take it as `T&`.
+template <class T>
+struct Remote {
+  using Sent = T;
+  static T fromSent(Sent sent) { return sent; }
+};
+
+/// References to Eigen values travel as the values.
+template <class Matrix, int options, class Stride>
+struct Remote<Eigen::Ref<Matrix, options, Stride>> {
+  using Sent = std::remove_const_t<Matrix>;
+  static Sent fromSent(Sent sent) { return sent; }
+};
+
+}  // namespace rex::remote

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <exception>
+#include <string>
+
+namespace rex::remote {
+
+/// An exception that crosses between the sides, taken apart.
+struct Thrown {
+  enum class Kind : std::uint8_t {
+    error,      ///< rex::Error
+    exception,  ///< another std::exception
+    badAlloc,   ///< no memory
+    other       ///< anything else, such as `throw 42`
+  };
+  Kind kind = Kind::other;
+  std::string type{};  ///< as C++ spells it: "std::out_of_range"
+  std::string text{};  ///< its what(), cut at 2000 bytes; empty if it has none
+};
+
+/// Describes the exception being handled. Call it inside a catch block.
+[[nodiscard]] Thrown describeCurrentException();
+
+/// A remote function ended by an exception.
+class RemoteThrow : public std::exception {
+ public:
+  RemoteThrow(std::string function, Thrown thrown);
+  const char* what() const noexcept override { return text_.c_str(); }
+  const std::string& function() const { return function_; }
+  const Thrown& thrown() const { return thrown_; }
+
+ private:
+  std::string function_;
+  Thrown thrown_;
+  std::string text_;
+};
+
+}  // namespace rex::remote

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+#include "remote/remote.h"
+#include "remote/session.h"
+#include "remote/signature.h"
+#include "remote/wire.h"
+
+namespace rex::remote {
+
+inline constexpr int kWorkerIn = 3;          ///< where a worker process reads its calls
+inline constexpr int kWorkerOut = 4;         ///< where it writes its replies
+inline constexpr int kProtocolFailure = 70;  ///< its exit code when it cannot talk to the trusted side
+
+namespace detail {
+
+/// How the worker makes an argument of type T from the bytes of a call: values are read ...
+template <class T>
+struct ReceivedArgument {
+  static auto get(Session&, std::uint32_t, Reader& reader) {
+    return Remote<T>::fromSent(Wire<typename Remote<T>::Sent>::get(reader));
+  }
+};
+
+/// ... and functions ask the trusted side.
+template <class R, class... A>
+struct ReceivedArgument<std::function<R(A...)>> {
+  static std::function<R(A...)> get(Session& session, std::uint32_t number, Reader& reader) {
+    if (!Wire<bool>::get(reader)) return {};
+    return [&session, number, id = session.activeCall()](A... values) -> R {
+      Writer writer;
+      (Wire<typename Remote<std::remove_cvref_t<A>>::Sent>::put(writer, values), ...);
+      Reader result = session.callBack(id, number, writer);
+      if constexpr (!std::is_void_v<R>) return Wire<std::remove_cvref_t<R>>::get(result);
+    };
+  }
+};
+
+/// Hands a received argument on as the parameter type A: by reference, or moved into a parameter by value.
+template <class A, class Received>
+decltype(auto) passAs(Received& received) {
+  if constexpr (std::is_same_v<std::remove_cvref_t<A>, Received>) {
+    return static_cast<A&&>(received);
+  } else {
+    return (received);
+  }
+}
+
+template <auto function, class F>
+struct Invoke;
+
+template <auto function, class R, class... A>
+struct Invoke<function, R (*)(A...)> {
+  using Type = R(A...);
+
+  static void run(Session& session, Reader& arguments, Writer& result) {
+    run(session, arguments, result, std::index_sequence_for<A...>{});
+  }
+
+ private:
+  template <std::size_t... I>
+  static void run(Session& session, Reader& reader, Writer& result, std::index_sequence<I...>) {
+    // Braces evaluate from left to right, in the order in which the arguments were sent.
+    std::tuple<decltype(ReceivedArgument<std::remove_cvref_t<A>>::get(session, I, reader))...> values{
+        ReceivedArgument<std::remove_cvref_t<A>>::get(session, I, reader)...};
+    reader.expectEnd();
+    if constexpr (std::is_void_v<R>) {
+      function(passAs<A>(std::get<I>(values))...);
+    } else {
+      Wire<std::remove_cvref_t<R>>::put(result, function(passAs<A>(std::get<I>(values))...));
+    }
+  }
+};
+
+}  // namespace detail
+
+/// Offers a function to remote callers: `method<&::ikStep>("ikStep")`.
+template <auto function>
+Method method(const char* name) {
+  using Invoke = detail::Invoke<function, decltype(function)>;
+  return {.name = name, .hash = functionHash<typename Invoke::Type>(name), .run = &Invoke::run};
+}
+
+/// The whole main() of a worker process: answers on kWorkerIn and kWorkerOut until the trusted side closes
+/// them, then ends the process without running the destructors of the student's globals.
+[[noreturn]] void runWorker(std::span<const Method> methods);
+
+}  // namespace rex::remote

@@ -1,0 +1,78 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/process.h"
+
+namespace rex::cli {
+namespace {
+
+using ::testing::HasSubstr;
+
+// The program itself, as a user meets it.
+ProcessResult rex(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), REX_BINARY_DIR "/rex");
+  return runProcess(arguments);
+}
+
+void expectUsageError(const std::vector<std::string>& arguments, const std::string& message) {
+  const ProcessResult result = rex(arguments);
+  EXPECT_EQ(result.exitCode, 64) << message;
+  EXPECT_EQ(result.output, "") << message;
+  EXPECT_THAT(result.error, HasSubstr(message));
+}
+
+TEST(Program, WelcomesAndHelps) {
+  const ProcessResult welcome = rex({});
+  EXPECT_EQ(welcome.exitCode, 0);
+  EXPECT_THAT(welcome.output, HasSubstr("rex test 01"));
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"--help"},
+                                             {"list", "--help"},
+                                             {"run", "--help"},
+                                             {"test", "--help"},
+                                             {"bench", "--help"},
+                                             {"debug", "--help"},
+                                             {"dev"},
+                                             {"dev", "new", "--help"},
+                                             {"dev", "check", "--help"},
+                                             {"dev", "strip", "--help"}}) {
+    const ProcessResult help = rex(arguments);
+    EXPECT_EQ(help.exitCode, 0) << arguments[0];
+    EXPECT_THAT(help.output, HasSubstr("Usage: rex"));
+    EXPECT_THAT(help.output, ::testing::ContainsRegex("Example|Exit codes"));
+  }
+}
+
+TEST(Program, KeepsHelpWithin100ColumnsAndFreeOfColour) {
+  for (const char* command : {"list", "run", "test", "bench", "debug", "dev"}) {
+    const std::string help = rex({command, "--help"}).output;
+    EXPECT_EQ(help.find('\033'), std::string::npos);
+    for (std::size_t start = 0; start < help.size();) {
+      const std::size_t end = std::min(help.find('\n', start), help.size());
+      EXPECT_LE(end - start, 90u) << help.substr(start, end - start);
+      start = end + 1;
+    }
+  }
+}
+
+TEST(Program, AnswersUnknownWordsWithTheNearest) {
+  expectUsageError({"lst"}, "rex: unknown command 'lst' (did you mean 'list'?)");
+  expectUsageError({"dev", "chek"}, "rex dev: unknown command 'chek' (did you mean 'check'?)");
+  expectUsageError({"test", "01", "--sed", "3"}, "rex test: unknown option '--sed' (did you mean '--seed'?)");
+  expectUsageError({"list", "extra"}, "rex list: unknown argument 'extra'");
+  expectUsageError({"\033[31mred"}, "unknown command '");
+}
+
+TEST(Program, ExplainsWrongUse) {
+  expectUsageError({"test"}, "rex test: EXERCISE is required");
+  expectUsageError({"test", "01", "--seed", "x"}, "rex test: Could not convert: --seed = x");
+  expectUsageError({"test", "01", "--main", "a.cpp", "--solution"}, "--main excludes --solution");
+  expectUsageError({"dev", "check", "--seeds", "0"}, "rex dev check: --seeds");
+  expectUsageError({"dev", "strip"}, "either EXERCISE, or --release with -o DIR, is required");
+  expectUsageError({"dev", "strip", "--release"}, "either EXERCISE, or --release with -o DIR, is required");
+  expectUsageError({"dev", "strip", "01", "--release", "-o", "x"}, "either EXERCISE, or --release");
+  expectUsageError({"test", "no-such-exercise"}, "no exercise is called 'no-such-exercise'");
+}
+
+}  // namespace
+}  // namespace rex::cli

@@ -1,0 +1,31 @@
+#include "cli/terminal.h"
+
+#include <gtest/gtest.h>
+
+namespace rex::cli {
+namespace {
+
+TEST(Wrap, BreaksAtBlanksWithinEightyColumns) {
+  const std::string word(30, 'x');
+  EXPECT_EQ(wrap(word + " " + word + " " + word, 4, 0), word + " " + word + "\n    " + word);
+  EXPECT_EQ(wrap(word + " " + word, 4, 60), word.substr(0, 0) + word + "\n    " + word);
+  EXPECT_EQ(wrap("a\nb  c", 2, 0), "a\n  b c");
+  EXPECT_EQ(wrap(std::string(200, 'x'), 2, 0), std::string(200, 'x'));
+  EXPECT_EQ(wrap("", 2, 0), "");
+}
+
+TEST(Wrap, CountsLettersNotBytes) {
+  std::string letters;
+  for (int k = 0; k < 39; ++k) letters += "\u00e4";
+  EXPECT_EQ(wrap(letters + " " + letters, 2, 0), letters + " " + letters);
+}
+
+TEST(Paint, LeavesTextPlainOffATerminal) { EXPECT_EQ(paint(Colour::kRed, "text"), "text"); }
+
+TEST(Harmless, LetsNoEscapeSequenceThrough) {
+  EXPECT_EQ(harmless("a\tb"), "a\tb");
+  EXPECT_EQ(harmless("\033[2J").find('\033'), std::string::npos);
+}
+
+}  // namespace
+}  // namespace rex::cli

@@ -1,0 +1,104 @@
+#include "grading/release.h"
+
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/expect_error.h"
+#include "support/temporary_folder.h"
+
+namespace rex::grading {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class ReleaseTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    for (const char* file :
+         {"CMakeLists.txt", "README.md", "LICENSE", ".clang-format", ".ci/run", ".git/HEAD",
+          "tests/a_test.cpp", "build/release/rex", "out/01-demo/results.json", "notes.txt",
+          "share/cmake/a.cmake", "src/base/error.h", "data/robots/arm.ors", "scripts/test",
+          "exercises/CMakeLists.txt", "exercises/01-demo/exercise.h", "exercises/01-demo/wrong/a.cpp"})
+      write(file, file);
+    write("exercises/01-demo/README.md", "Write `twice`.\n");
+    write("exercises/01-demo/main.cpp", "out of date\n");
+    write("exercises/01-demo/check.cpp", "visible();\n// <hidden>\nsecret();\n// </hidden>\n");
+    write("exercises/01-demo/solution.cpp",
+          "int twice(int a) {\n  // <solution twice>\n  return multiply(a, 2);\n  // <todo>\n  //| return "
+          "0;\n  // </solution>\n}\n");
+  }
+
+  void write(const std::string& name, const std::string& text) {
+    fs::create_directories((root() / name).parent_path());
+    std::ofstream(root() / name) << text;
+  }
+  fs::path root() const { return temporary_.path() / "root"; }
+  fs::path target() const { return temporary_.path() / "target"; }
+  std::string released(const std::string& name) const {
+    std::ifstream file(target() / name);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  TemporaryFolder temporary_;
+};
+
+TEST_F(ReleaseTest, HoldsWhatStudentsNeedAndNothingElse) {
+  writeStudentRelease(root(), target());
+  std::set<std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(target()))
+    if (entry.is_regular_file()) files.insert(fs::relative(entry.path(), target()).string());
+  EXPECT_THAT(
+      files, ::testing::UnorderedElementsAre("CMakeLists.txt", "README.md", "LICENSE", ".clang-format",
+                                             "share/cmake/a.cmake", "src/base/error.h", "data/robots/arm.ors",
+                                             "scripts/test", "exercises/CMakeLists.txt",
+                                             "exercises/01-demo/exercise.h", "exercises/01-demo/README.md",
+                                             "exercises/01-demo/main.cpp", "exercises/01-demo/check.cpp"));
+  EXPECT_EQ(released("exercises/01-demo/main.cpp"), "int twice(int a) {\n  return 0;\n}\n");
+  EXPECT_EQ(released("exercises/01-demo/check.cpp"), "visible();\n");
+}
+
+TEST_F(ReleaseTest, MayLieInsideTheRoot) {
+  writeStudentRelease(root(), root() / "out" / "students");
+  EXPECT_TRUE(fs::exists(root() / "out/students/LICENSE"));
+  EXPECT_FALSE(fs::exists(root() / "out/students/out"));
+}
+
+TEST_F(ReleaseTest, KeepsWhatLiesInTheTarget) {
+  fs::create_directories(target());
+  EXPECT_NO_THROW(writeStudentRelease(root(), target()));
+  EXPECT_REX_ERROR(writeStudentRelease(root(), target()),
+                   "target: will not overwrite: wanted an empty or new folder");
+}
+
+TEST_F(ReleaseTest, RefusesSolutionTextHoweverItIsLaidOut) {
+  write("exercises/01-demo/README.md", "Hint:\n\n    return multiply(\n      a, 2);\n");
+  EXPECT_REX_ERROR(
+      writeStudentRelease(root(), target()),
+      "README.md:3: a line of the solution would reach students: found 'return multiply(a, 2);'");
+  EXPECT_FALSE(fs::exists(target()));
+  write("exercises/01-demo/README.md", "\n");
+  write("exercises/01-demo/check.cpp", "int expected(int a) { return multiply(a, 2); }\n");
+  EXPECT_REX_ERROR(requireNoSolutionText(root() / "exercises/01-demo"),
+                   "check.cpp:1: a line of the solution");
+  write("exercises/01-demo/check.cpp",
+        "// <hidden>\nint expected(int a) { return multiply(a, 2); }\n// </hidden>\n");
+  EXPECT_NO_THROW(requireNoSolutionText(root() / "exercises/01-demo"));
+  write("exercises/01-demo/solution.cpp",
+        "// <solution twice>\n return multiply(a, 2);\n// <todo>\n//| // return multiply(a, 2);\n// "
+        "</solution>\n");
+  EXPECT_REX_ERROR(requireNoSolutionText(root() / "exercises/01-demo"), "main.cpp:1: a line of the solution");
+}
+
+TEST_F(ReleaseTest, PassesOnComplaintsAboutMarkers) {
+  write("exercises/01-demo/check.cpp", "// <hidden>\n");
+  EXPECT_REX_ERROR(writeStudentRelease(root(), target()), "check.cpp:1: no '// </hidden>' closes this");
+}
+
+}  // namespace
+}  // namespace rex::grading

@@ -1,0 +1,216 @@
+#include "grading/student_build.h"
+
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "base/process.h"
+#include "support/expect_error.h"
+#include "support/temporary_folder.h"
+
+namespace rex::grading {
+namespace {
+
+using std::filesystem::path;
+using ::testing::HasSubstr;
+
+// A tiny exercise: its library knows answer(), its worker prints what the student's twice(21) gives.
+class StudentBuildTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    shared_ = std::make_unique<TemporaryFolder>();
+    write(shared_->path() / "lib.cpp", "namespace rex { int answer(int a) { return a + 1; } }\n");
+    write(shared_->path() / "worker.cpp",
+          "#include <cstdio>\nint twice(int);\nint studentMain();\nint main() { std::printf(\"%d\", "
+          "twice(21)); }\n");
+    write(shared_->path() / "exercise" / "exercise.h",
+          "#pragma once\nint twice(int a);\nnamespace rex { int answer(int a); }\n");
+    build({"-shared", "-fPIC", "lib.cpp", "-o", "librex_student.so"});
+    build({"-c", "worker.cpp", "-o", "worker.o"});
+  }
+  static void TearDownTestSuite() { shared_.reset(); }
+
+  static void write(const path& file, const std::string& text) {
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file) << text;
+  }
+
+  static void build(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "g++");
+    const ProcessResult result = runProcess(arguments, {.directory = shared_->path()});
+    ASSERT_TRUE(result.ok()) << result.error;
+  }
+
+  Toolchain toolchain() const {
+    return {.compiler = "g++",
+            .flags = {"-std=c++20", "-O1", "-Wall", "-isystem", "/usr/include/eigen3", "-iquote",
+                      shared_->path() / "exercise"},
+            .linkFlags = {"-Wl,-rpath," + shared_->path().string()},
+            .workerObject = shared_->path() / "worker.o",
+            .grader = {},
+            .studentLibrary = shared_->path() / "librex_student.so"};
+  }
+
+  StudentObject compileFile(const path& file, bool debug = false) const {
+    return compileStudent(toolchain(), {{"rex::answer", "it is what you find out"}},
+                          {.main = file, .workFolder = temporary_.path() / "work", .debug = debug});
+  }
+
+  StudentObject compile(const std::string& source) const {
+    write(temporary_.path() / "main.cpp", source);
+    return compileFile(temporary_.path() / "main.cpp");
+  }
+
+  static std::string first(const std::vector<CompileDiagnostic>& messages) {
+    return messages.empty() ? "" : toString(messages.front());
+  }
+
+  TemporaryFolder temporary_;
+  static std::unique_ptr<TemporaryFolder> shared_;
+};
+std::unique_ptr<TemporaryFolder> StudentBuildTest::shared_;
+
+constexpr const char* kGood =
+    "#include \"exercise.h\"\n#include <cstdio>\nint twice(int a) { return 2 * a; }\nint main() { "
+    "std::puts(\"mine\"); }\n";
+
+TEST_F(StudentBuildTest, BuildsWorkerAndProgramFromOneObject) {
+  const StudentObject object = compile(kGood);
+  ASSERT_TRUE(object.ok) << object.log;
+  EXPECT_TRUE(object.messages.empty());
+  EXPECT_EQ(object.source, kGood);
+  const StudentProgram worker = linkWorker(toolchain(), object);
+  ASSERT_TRUE(worker.ok) << worker.log;
+  EXPECT_EQ(runProcess({worker.program}).output, "42");
+  const StudentProgram program = linkProgram(toolchain(), object);
+  ASSERT_TRUE(program.ok) << program.log;
+  EXPECT_EQ(runProcess({program.program}).output, "mine\n");
+}
+
+TEST_F(StudentBuildTest, DebugInformationNamesTheStudentsOwnFile) {
+  write(temporary_.path() / "main.cpp", kGood);
+  const StudentObject object = compileFile(temporary_.path() / "main.cpp", true);
+  ASSERT_TRUE(object.ok);
+  const std::string lines = runProcess({"readelf", "--debug-dump=info", object.object.string()}).output;
+  EXPECT_THAT(lines, HasSubstr(temporary_.path().string() + "\n"));
+  EXPECT_THAT(lines, ::testing::Not(HasSubstr("/work\n")));
+}
+
+TEST_F(StudentBuildTest, ReportsTheFirstErrorInOneLine) {
+  const StudentObject object = compile("int twice(int a) {\n  return twce;\n}\n");
+  EXPECT_FALSE(object.ok);
+  EXPECT_EQ(object.exitCode, 1);
+  EXPECT_EQ(first(object.messages),
+            "main.cpp:2:10: error: 'twce' was not declared in this scope; did you mean 'twice'?");
+  EXPECT_THAT(object.log, HasSubstr("main.cpp:2:10: error:"));
+}
+
+TEST_F(StudentBuildTest, KeepsWarnings) {
+  const StudentObject object = compile("int twice(int a) {\n  int b;\n  return a;\n}\n");
+  EXPECT_TRUE(object.ok);
+  EXPECT_EQ(first(object.messages), "main.cpp:2:7: warning: unused variable 'b' [-Wunused-variable]");
+}
+
+TEST_F(StudentBuildTest, BlamesTheStudentsLineForAnErrorInsideALibraryHeader) {
+  const StudentObject object = compile(
+      "#include <Eigen/Core>\nEigen::Vector3d f(Eigen::Vector3d a, Eigen::Vector2d b) {\n  return a + "
+      "b;\n}\n");
+  EXPECT_THAT(first(object.messages), HasSubstr("main.cpp:3:"));
+  EXPECT_THAT(first(object.messages), HasSubstr("YOU_MIXED_MATRICES_OF_DIFFERENT_SIZES (in Eigen/src/Core/"));
+}
+
+TEST_F(StudentBuildTest, SaysWhichFunctionIsMissing) {
+  const StudentObject object = compile("int main() {}\n");
+  ASSERT_TRUE(object.ok);
+  const StudentProgram worker = linkWorker(toolchain(), object);
+  EXPECT_FALSE(worker.ok);
+  EXPECT_EQ(first(worker.messages), "main.cpp: error: 'twice(int)' is used but has no body here");
+}
+
+TEST_F(StudentBuildTest, RefusesForbiddenCalls) {
+  const StudentObject object =
+      compile("#include \"exercise.h\"\n\nint twice(int a) { return rex::answer(a); }\nint main() {}\n");
+  EXPECT_FALSE(object.ok);
+  EXPECT_EQ(first(object.messages),
+            "main.cpp:3:32: error: calls rex::answer, which this exercise forbids: it is what you find out. "
+            "Write it "
+            "yourself instead [forbidden-call]");
+}
+
+TEST_F(StudentBuildTest, IncludesNothingThatLiesBesideTheFile) {
+  write(temporary_.path() / "exercise.h", "#error taken from the submission\n");
+  EXPECT_TRUE(compile(kGood).ok);
+}
+
+TEST_F(StudentBuildTest, CompilesUnderAPlainNameWhateverTheFileIsCalled) {
+  const path odd = temporary_.path() / "-o $(touch x)\n.cpp";
+  write(odd, kGood);
+  const StudentObject object = compileFile(odd);
+  EXPECT_TRUE(object.ok) << object.log;
+  EXPECT_EQ(object.name, "main.cpp");
+}
+
+TEST_F(StudentBuildTest, StopsACompilationThatExplodes) {
+  const StudentObject deep = compile("#include __FILE__\n");
+  EXPECT_THAT(first(deep.messages), HasSubstr("nested depth"));
+  const StudentObject large = compile("char a[3000000000] = {1};\nint main() { return a[5]; }\n");
+  EXPECT_FALSE(large.ok);
+  EXPECT_FALSE(large.messages.empty());
+  EXPECT_FALSE(std::filesystem::exists(large.object) &&
+               std::filesystem::file_size(large.object) > (65u << 20));
+  EXPECT_FALSE(compile("#include \"/dev/stdin\"\nint x = y;\n").ok);
+}
+
+TEST_F(StudentBuildTest, RefusesWhatIsNoSourceFile) {
+  const path folder = temporary_.path();
+  const auto refusal = [&](const char* name) { return first(compileFile(folder / name).messages); };
+  EXPECT_EQ(refusal("none.cpp"),
+            "none.cpp: error: cannot be graded: found no file, wanted a C++ source file");
+  std::filesystem::create_directory(folder / "folder.cpp");
+  EXPECT_THAT(refusal("folder.cpp"), HasSubstr("found a folder"));
+  std::filesystem::create_symlink("/etc/passwd", folder / "link.cpp");
+  EXPECT_THAT(refusal("link.cpp"), HasSubstr("found a symbolic link"));
+  ASSERT_EQ(::mkfifo((folder / "pipe.cpp").c_str(), 0600), 0);
+  EXPECT_THAT(refusal("pipe.cpp"), HasSubstr("found a pipe or device"));
+  write(folder / "big.cpp", std::string((1u << 20) + 1, ' '));
+  EXPECT_THAT(refusal("big.cpp"), HasSubstr("found more than 1 MiB"));
+  write(folder / "nul.cpp", std::string("int a;\0", 7));
+  EXPECT_THAT(refusal("nul.cpp"), HasSubstr("found NUL bytes"));
+}
+
+TEST_F(StudentBuildTest, ThrowsWhenTheToolsAreMissing) {
+  write(temporary_.path() / "main.cpp", kGood);
+  Toolchain broken = toolchain();
+  broken.compiler = "no-such-compiler";
+  EXPECT_REX_ERROR(compileStudent(broken, {}, {temporary_.path() / "main.cpp", temporary_.path() / "w"}),
+                   "cannot run no-such-compiler");
+  broken = toolchain();
+  broken.objcopy = "false";
+  const StudentObject object = compileFile(temporary_.path() / "main.cpp");
+  EXPECT_REX_ERROR(linkWorker(broken, object), "cannot rename main in the compiled file");
+}
+
+TEST_F(StudentBuildTest, ReadsBuildJson) {
+  const path file = temporary_.path() / "build.json";
+  EXPECT_REX_ERROR(readToolchain(file), "build.json: the exercise is not built");
+  write(file, "{\"compiler\": \"g++\"}");
+  EXPECT_REX_ERROR(readToolchain(file), "not a build description");
+  write(
+      file,
+      R"({"compiler": "g++", "compile_flags": ["-O1"], "link_flags": ["-g"], "worker_object": "w.o", "grader": "g",
+                  "student_library": "s.so", "objcopy": "oc", "nm": "nm2"})");
+  const Toolchain read = readToolchain(file);
+  EXPECT_EQ(read.compiler, "g++");
+  EXPECT_EQ(read.flags, std::vector<std::string>{"-O1"});
+  EXPECT_EQ(read.linkFlags, std::vector<std::string>{"-g"});
+  EXPECT_EQ(read.workerObject, "w.o");
+  EXPECT_EQ(read.grader, "g");
+  EXPECT_EQ(read.studentLibrary, "s.so");
+  EXPECT_EQ(read.objcopy, "oc");
+  EXPECT_EQ(read.nm, "nm2");
+}
+
+}  // namespace
+}  // namespace rex::grading
