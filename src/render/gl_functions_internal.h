@@ -47,13 +47,11 @@ namespace rex::internal {
   X(GetUniformLocation, PFNGLGETUNIFORMLOCATIONPROC)                         \
   X(LinkProgram, PFNGLLINKPROGRAMPROC)                                       \
   X(PixelStorei, PFNGLPIXELSTOREIPROC)                                       \
-  X(PolygonOffset, PFNGLPOLYGONOFFSETPROC)                                   \
   X(ReadBuffer, PFNGLREADBUFFERPROC)                                         \
   X(ReadPixels, PFNGLREADPIXELSPROC)                                         \
   X(RenderbufferStorageMultisample, PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC) \
   X(ShaderSource, PFNGLSHADERSOURCEPROC)                                     \
   X(TexImage2D, PFNGLTEXIMAGE2DPROC)                                         \
-  X(TexParameterfv, PFNGLTEXPARAMETERFVPROC)                                 \
   X(TexParameteri, PFNGLTEXPARAMETERIPROC)                                   \
   X(Uniform1f, PFNGLUNIFORM1FPROC)                                           \
   X(Uniform3f, PFNGLUNIFORM3FPROC)                                           \

@@ -8,6 +8,7 @@
 #ifdef __SANITIZE_ADDRESS__
 // OSMesa keeps 480 bytes of every context, also of destroyed ones.
 extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa\n"; }
+extern "C" const char* __lsan_default_options() { return "print_suppressions=0"; }
 #endif
 
 namespace rex::internal {

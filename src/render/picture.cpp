@@ -9,9 +9,16 @@
 namespace rex {
 namespace {
 
-bool isFinite(const Pose& X) { return X.R.allFinite() && X.p.allFinite(); }
+// Beyond this many metres single precision, in which OpenGL computes, has nothing left to show.
+constexpr double kLargest = 1e9;
 
-bool isFinite(const Color& c) {
+bool isUsable(double number) { return std::abs(number) <= kLargest; }
+
+bool isUsable(const Eigen::Vector3d& p) { return p.allFinite() && p.cwiseAbs().maxCoeff() <= kLargest; }
+
+bool isUsable(const Pose& X) { return X.R.allFinite() && isUsable(X.p); }
+
+bool isUsable(const Color& c) {
   return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b) && std::isfinite(c.a);
 }
 
@@ -19,16 +26,16 @@ void require(bool good, const std::string& thing, const char* found, const char*
   if (!good) throw Error({.what = thing, .found = found, .wanted = wanted});
 }
 
-void requireFinite(bool finite, const std::string& thing) {
-  require(finite, thing, "a number that is not finite", "finite numbers");
+void requireUsable(bool usable, const std::string& thing) {
+  require(usable, thing, "a number that is not finite, or beyond 1e9", "finite numbers");
 }
 
 void requireSolid(const Solid& solid, std::size_t index) {
   const std::string thing =
       solid.name.empty() ? fmt::format("solid {}", index) : fmt::format("solid '{}'", solid.name);
-  requireFinite(isFinite(solid.X_WS), thing + ", pose");
-  requireFinite(isFinite(solid.color), thing + ", color");
-  requireFinite(solid.shape.extent.allFinite() && std::isfinite(solid.shape.radius), thing + ", size");
+  requireUsable(isUsable(solid.X_WS), thing + ", pose");
+  requireUsable(isUsable(solid.color), thing + ", color");
+  requireUsable(isUsable(solid.shape.extent) && isUsable(solid.shape.radius), thing + ", size");
   require(solid.shape.extent.minCoeff() >= 0 && solid.shape.radius >= 0, thing + ", size",
           "a negative length", "lengths of at least 0");
   const bool hasMesh = solid.shape.type == ShapeType::kMesh || solid.shape.type == ShapeType::kPointCloud ||
@@ -42,13 +49,13 @@ void requireSolid(const Solid& solid, std::size_t index) {
 void requirePoints(const std::vector<Eigen::Vector3d>& points, const Color& color, double size,
                    const std::string& thing) {
   for (std::size_t k = 0; k < points.size(); ++k)
-    requireFinite(points[k].allFinite(), fmt::format("{}, point {}", thing, k));
-  requireFinite(isFinite(color), thing + ", color");
-  require(std::isfinite(size) && size > 0, thing, "a size in pixels that is not positive", "a positive one");
+    requireUsable(isUsable(points[k]), fmt::format("{}, point {}", thing, k));
+  requireUsable(isUsable(color), thing + ", color");
+  require(isUsable(size) && size > 0, thing, "a size in pixels that is not positive", "a positive one");
 }
 
 void requireText(const Color& color, double scale, const std::string& thing) {
-  requireFinite(isFinite(color), thing + ", color");
+  requireUsable(isUsable(color), thing + ", color");
   require(scale > 0 && scale <= 100, thing, "a strange scale", "above 0, at most 100");
 }
 
@@ -92,18 +99,18 @@ void requireDrawable(const Picture& picture) {
     requirePoints(set.points, set.color, set.size, fmt::format("point set {}", i));
   }
   for (const Axes& axes : picture.axes)
-    requireFinite(isFinite(axes.X_WF) && std::isfinite(axes.size), fmt::format("axes '{}'", axes.name));
+    requireUsable(isUsable(axes.X_WF) && isUsable(axes.size), fmt::format("axes '{}'", axes.name));
   for (const Label& label : picture.labels) {
-    requireFinite(label.p_WQ.allFinite(), fmt::format("label '{}', point", label.text));
+    requireUsable(isUsable(label.p_WQ), fmt::format("label '{}', point", label.text));
     requireText(label.color, label.scale, fmt::format("label '{}'", label.text));
   }
   for (const Caption& caption : picture.captions)
     requireText(caption.color, caption.scale, fmt::format("caption '{}'", caption.text));
   const Ground& ground = picture.ground;
-  requireFinite(std::isfinite(ground.height) && isFinite(ground.light) && isFinite(ground.dark), "ground");
-  require(std::isfinite(ground.cell) && ground.cell > 0, "ground", "a cell that is not positive",
+  requireUsable(isUsable(ground.height) && isUsable(ground.light) && isUsable(ground.dark), "ground");
+  require(isUsable(ground.cell) && ground.cell > 0, "ground", "a cell that is not positive",
           "a positive edge length");
-  require(picture.toLight.allFinite() && picture.toLight.norm() > 0, "light", "no direction",
+  require(isUsable(picture.toLight) && picture.toLight.norm() > 0, "light", "no direction",
           "a finite vector to the light");
 }
 

@@ -86,8 +86,8 @@ struct Picture {
 /// The box around one solid.
 [[nodiscard]] Bounds bounds(const Solid& solid);
 
-/// Throws Error naming the first solid, line ... with a number that is not finite, a size that is negative or
-/// a light without direction.
+/// Throws Error naming the first solid, line ... with a number that is not finite or beyond 1e9, a size that
+/// is negative or a light without direction.
 void requireDrawable(const Picture& picture);
 
 }  // namespace rex

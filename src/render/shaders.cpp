@@ -37,7 +37,7 @@ void setShadowPoint(vec3 p, vec3 n) {}
 #endif
 )";
 
-// Outside the map the border colour answers: lit.
+// The rim of the map is empty, so that all outside is lit.
 const std::string kLight = R"(
 #if SHADOW
 uniform sampler2DShadow shadowMap;

@@ -36,7 +36,8 @@ ShadowView fitShadowView(const std::vector<DrawItem>& casters, const Eigen::Vect
     box.include(middle - half);
     box.include(middle + half);
   }
-  // Room for the filter at the border, and for casters that are flat along the light.
+  // An empty rim, which stands for all that lies outside; and depth for casters that are flat along the
+  // light.
   Eigen::Vector3d size = box.high - box.low;
   size += Eigen::Vector3d::Constant(4 * size.head<2>().maxCoeff() / mapSize);
   view.texel = size.head<2>().maxCoeff() / mapSize;
@@ -54,10 +55,8 @@ ShadowMap::ShadowMap(const GlFunctions& gl)
   gl.BindTexture(GL_TEXTURE_2D, texture);
   gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT16, kMapSize, kMapSize, 0, GL_DEPTH_COMPONENT,
                 GL_UNSIGNED_SHORT, nullptr);
-  const float lit[4] = {1, 1, 1, 1};
-  gl.TexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, lit);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
@@ -77,12 +76,9 @@ ShadowView ShadowMap::draw(const std::vector<DrawItem>& casters, const Eigen::Ve
   gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   gl_->Viewport(0, 0, kMapSize, kMapSize);
   gl_->Clear(GL_DEPTH_BUFFER_BIT);
-  gl_->Enable(GL_POLYGON_OFFSET_FILL);
-  gl_->PolygonOffset(1.5f, 2);
   program_.use();
   program_.set("shadowClipFromWorld", view.clipFromWorld);
   for (const DrawItem& item : casters) meshes.draw(item, program_);
-  gl_->Disable(GL_POLYGON_OFFSET_FILL);
   return view;
 }
 

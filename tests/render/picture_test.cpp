@@ -51,6 +51,7 @@ TEST(RequireDrawable, NamesWhatIsWrong) {
   EXPECT_NO_THROW(requireDrawable(full()));
   const std::vector<Fault> faults = {
       {[](Picture& p) { p.solids[0].X_WS.p.y() = kNan; }, "solid 'hand', pose: found a number that is not"},
+      {[](Picture& p) { p.solids[0].X_WS.p.y() = -2e9; }, "finite, or beyond 1e9, wanted finite numbers"},
       {[](Picture& p) { p.solids[1].X_WS.R(0, 0) = kNan; }, "solid 1, pose: found a number that is not"},
       {[](Picture& p) { p.solids[0].shape.radius = kNan; }, "solid 'hand', size: found a number that is not"},
       {[](Picture& p) { p.solids[1].shape.extent.x() = -1; }, "solid 1, size: found a negative length"},

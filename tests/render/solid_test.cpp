@@ -109,7 +109,12 @@ INSTANTIATE_TEST_SUITE_P(Shapes, SolidOutline,
                                          Shape{ShapeType::kRoundedBox, {0.5, 0.5, 0.8}, 0.01},
                                          Shape{.type = ShapeType::kSphere, .radius = 0.4},
                                          Shape{ShapeType::kCapsule, {0, 0, 0.8}, 0.25},
-                                         Shape{ShapeType::kCylinder, {0, 0, 0.7}, 0.35}));
+                                         Shape{ShapeType::kCylinder, {0, 0, 0.7}, 0.35}),
+                         [](const auto& shape) {
+                           return shape.param.type == ShapeType::kRoundedBox
+                                      ? "roundedBox"
+                                      : std::string(toString(shape.param.type));
+                         });
 
 TEST(Solids, ArePutWhereTheCameraSeesThem) {
   REX_NEEDS_OSMESA();
@@ -214,20 +219,25 @@ TEST(Shadow, FallsWhereTheLightIsHidden) {
   EXPECT_GT(inLight, 500);
 }
 
-// No shadow acne: convex solids that stand alone look as they do without shadows.
+// No shadow acne: a convex solid that stands alone looks as it does without shadows, also when others far
+// away make the pixels of the shadow map large.
 TEST(Shadow, LeavesALonelySolidAlone) {
   REX_NEEDS_OSMESA();
   Rng rng(4);
   const Camera camera = lookAt({2, -3, 1.5}, {0, 0, 0});
   Renderer with({.width = 320, .height = 240}), without({.width = 320, .height = 240, .shadow = false});
-  for (const Shape& shape :
-       {Shape{ShapeType::kBox, {0.9, 0.9, 0.9}, 0}, Shape{.type = ShapeType::kSphere, .radius = 0.6},
-        Shape{ShapeType::kCapsule, {0, 0, 1}, 0.3}, Shape{ShapeType::kCylinder, {0, 0, 0.8}, 0.5}}) {
-    for (int i = 0; i < 4; ++i) {
-      const Picture picture = pictureOf({{shape, {expSO3(rng.normalVector(3)), {0, 0, 0}}, kRed, "it"}});
-      const ImageDifference apart =
-          imageDifference(with.draw(picture, camera), without.draw(picture, camera), 12);
-      EXPECT_LT(apart.largeShare, 2e-4) << toString(shape.type);
+  for (const double toOthers : {0.0, 6.0, 25.0}) {
+    for (const Shape& shape :
+         {Shape{ShapeType::kBox, {0.9, 0.9, 0.9}, 0}, Shape{.type = ShapeType::kSphere, .radius = 0.6},
+          Shape{ShapeType::kCapsule, {0, 0, 1}, 0.3}, Shape{ShapeType::kCylinder, {0, 0, 0.8}, 0.5}}) {
+      for (int i = 0; i < 4; ++i) {
+        const Picture picture = pictureOf({{shape, {expSO3(rng.normalVector(3)), {0, 0, 0}}, kRed, "it"},
+                                           ball({toOthers, toOthers, 0}, 0.05, kRed),
+                                           ball({-toOthers, 0, 0}, 0.05, kRed)});
+        const ImageDifference apart =
+            imageDifference(with.draw(picture, camera), without.draw(picture, camera), 12);
+        EXPECT_LT(apart.largeShare, 2e-4) << toString(shape.type) << ' ' << toOthers;
+      }
     }
   }
 }
