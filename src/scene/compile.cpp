@@ -10,8 +10,7 @@ namespace rex {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// With only a mass given, the inertia of a solid sphere of 0.7 m radius: see ors-format in
-// share/doc/scenes.md.
+// With only a mass given, the inertia of a solid sphere of 0.7 m radius: see share/doc/ors-format.md.
 constexpr double kInertiaPerMass = 0.2;
 
 [[noreturn]] void fail(const SourceLocation& where, std::string what, std::string found, std::string wanted,
