@@ -1,6 +1,9 @@
 #pragma once
 
 // All a student needs: `#include "course/course.h"`. Declarations only, so that a main.cpp compiles fast.
+// Eigen/Geometry is here for a.cross(b): without it that compiles and then fails to link.
+#include <Eigen/Geometry>
+
 #include "base/error.h"
 #include "base/rng.h"
 #include "course/linear_algebra.h"

@@ -197,7 +197,7 @@ StudentObject compileStudent(const Toolchain& toolchain, const std::vector<Forbi
   if (!result.ok) return result;
 
   const std::vector<CompileDiagnostic> calls =
-      scanSymbols(toolchain.nm, result.object, result.source, name, forbidden);
+      scanSymbols(toolchain.objdump, result.object, result.source, name, forbidden);
   result.ok = calls.empty();
   result.messages.insert(result.messages.end(), calls.begin(), calls.end());
   result.log = writeLog(result.messages);

@@ -30,13 +30,27 @@ bool isFunction(std::string_view symbol, std::string_view function) {
   return false;
 }
 
-// The demangled name in a line of nm, "0000000000000000 T name" or "                 U name"; empty for
-// symbols that the file defines itself, which are no calls.
-std::string_view calledIn(std::string_view line) {
-  constexpr std::size_t kTypeColumn = 17;
-  constexpr std::string_view kCalled = "UVWvw";
-  if (line.size() <= kTypeColumn + 2 || kCalled.find(line[kTypeColumn]) == kCalled.npos) return {};
-  return line.substr(kTypeColumn + 2);
+// "RELOCATION RECORDS FOR [.text._Z4stepv]:" opens the references of one section.
+constexpr std::string_view kSectionLine = "RELOCATION RECORDS FOR [";
+
+// Whether such a line is about the code of main() itself.
+bool isMainSection(std::string_view line) {
+  line.remove_prefix(kSectionLine.size());
+  for (const std::string_view section : {".text.main]", ".text.startup.main]", ".text.unlikely.main]"}) {
+    if (line.starts_with(section)) return true;
+  }
+  return false;
+}
+
+// The demangled name in a line "0000000000000005 R_X86_64_PLT32    name-0x0000000000000004".
+std::string_view referredTo(std::string_view line) {
+  for (int column = 0; column < 2; ++column) {
+    const std::size_t blank = line.find(' ');
+    if (blank == line.npos) return {};
+    line.remove_prefix(std::min(line.find_first_not_of(' ', blank), line.size()));
+  }
+  const std::size_t addend = line.find_last_of("+-");
+  return addend != line.npos && line.substr(addend + 1).starts_with("0x") ? line.substr(0, addend) : line;
 }
 
 // Line and column, from 1, of the last part of the function's name as a word; 0, 0 when it is not there.
@@ -58,29 +72,36 @@ std::pair<int, int> placeIn(std::string_view source, std::string_view function) 
 
 }  // namespace
 
-std::vector<ForbiddenFunction> forbiddenCalls(std::string_view symbols,
+std::vector<ForbiddenFunction> forbiddenCalls(std::string_view relocations,
                                               const std::vector<ForbiddenFunction>& forbidden) {
-  std::vector<ForbiddenFunction> found;
-  for (const ForbiddenFunction& candidate : forbidden) {
-    std::string_view rest = symbols;
-    bool called = false;
-    while (!rest.empty() && !called) {
-      const std::size_t end = std::min(rest.find('\n'), rest.size());
-      called = isFunction(calledIn(rest.substr(0, end)), candidate.function);
-      rest.remove_prefix(std::min(end + 1, rest.size()));
+  std::vector<bool> called(forbidden.size());
+  bool inMain = false;
+  while (!relocations.empty()) {
+    const std::size_t end = std::min(relocations.find('\n'), relocations.size());
+    const std::string_view line = relocations.substr(0, end);
+    relocations.remove_prefix(std::min(end + 1, relocations.size()));
+    if (line.starts_with(kSectionLine)) inMain = isMainSection(line);
+    if (inMain) continue;
+    const std::string_view name = referredTo(line);
+    for (std::size_t i = 0; i < forbidden.size(); ++i) {
+      if (isFunction(name, forbidden[i].function)) called[i] = true;
     }
-    if (called) found.push_back(candidate);
+  }
+  std::vector<ForbiddenFunction> found;
+  for (std::size_t i = 0; i < forbidden.size(); ++i) {
+    if (called[i]) found.push_back(forbidden[i]);
   }
   return found;
 }
 
-std::vector<CompileDiagnostic> scanSymbols(const std::string& nm, const std::filesystem::path& object,
+std::vector<CompileDiagnostic> scanSymbols(const std::string& objdump, const std::filesystem::path& object,
                                            std::string_view source, const std::string& mainFile,
                                            const std::vector<ForbiddenFunction>& forbidden) {
   if (forbidden.empty()) return {};
-  const ProcessResult listed = runProcess({nm, "-C", "--", object.string()}, {.outputLimit = 64u << 20});
+  const ProcessResult listed =
+      runProcess({objdump, "-r", "-C", "--", object.string()}, {.outputLimit = 256u << 20});
   if (!listed.ok())
-    throw Error({.what = "cannot list the symbols of the compiled file", .found = listed.error});
+    throw Error({.what = "cannot list what the compiled file refers to", .found = listed.error});
   std::vector<CompileDiagnostic> messages;
   for (const ForbiddenFunction& call : forbiddenCalls(listed.output, forbidden)) {
     const auto [line, column] = placeIn(source, call.function);

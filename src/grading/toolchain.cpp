@@ -23,7 +23,7 @@ Toolchain readToolchain(const std::filesystem::path& buildJson) {
             .grader = json.at("grader").get<std::string>(),
             .studentLibrary = json.at("student_library").get<std::string>(),
             .objcopy = json.value("objcopy", "objcopy"),
-            .nm = json.value("nm", "nm")};
+            .objdump = json.value("objdump", "objdump")};
   } catch (const nlohmann::json::exception& error) {
     throw Error({.what = "not a build description", .where = {buildJson.string()}, .found = error.what()});
   }

@@ -15,7 +15,7 @@ struct Toolchain {
   std::filesystem::path grader;
   std::filesystem::path studentLibrary;  ///< shared; all of rex that students may call
   std::string objcopy = "objcopy";
-  std::string nm = "nm";
+  std::string objdump = "objdump";
 };
 
 /// Reads build.json. Throws Error when it is missing (the exercise is not built) or a key is.

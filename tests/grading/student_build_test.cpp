@@ -200,7 +200,7 @@ TEST_F(StudentBuildTest, ReadsBuildJson) {
   write(
       file,
       R"({"compiler": "g++", "compile_flags": ["-O1"], "link_flags": ["-g"], "worker_object": "w.o", "grader": "g",
-                  "student_library": "s.so", "objcopy": "oc", "nm": "nm2"})");
+                  "student_library": "s.so", "objcopy": "oc", "objdump": "od"})");
   const Toolchain read = readToolchain(file);
   EXPECT_EQ(read.compiler, "g++");
   EXPECT_EQ(read.flags, std::vector<std::string>{"-O1"});
@@ -209,7 +209,7 @@ TEST_F(StudentBuildTest, ReadsBuildJson) {
   EXPECT_EQ(read.grader, "g");
   EXPECT_EQ(read.studentLibrary, "s.so");
   EXPECT_EQ(read.objcopy, "oc");
-  EXPECT_EQ(read.nm, "nm2");
+  EXPECT_EQ(read.objdump, "od");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The library does the step, so nothing was learnt.
-// caught by: forbidden
+// caught by: forbidden-call
+// mistake: The library does the step, so nothing was learnt.
 
 // <solution ikStep>
 return inverseKinematicsStep(J, dy, sigma);

@@ -1,5 +1,5 @@
-// The circle lies flat in the plane of x and y instead of standing in that of x and z.
 // caught by: circle
+// mistake: The circle lies flat in the plane of x and y instead of standing in that of x and z.
 
 // <solution circle>
 const double angle = t / 20.;

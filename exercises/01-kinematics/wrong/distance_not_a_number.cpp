@@ -1,5 +1,5 @@
-// The derivative of the distance divides by the distance, which is zero at the goal.
 // caught by: distance-zero
+// mistake: The derivative of the distance divides by the distance, which is zero at the goal.
 
 // <solution distanceToGoal>
 const Eigen::Vector3d away = S.kinematicsPos(body) - goal;

@@ -1,5 +1,5 @@
-// The gaze is a vector of the body's frame, the way to the target one of the world's: they cannot be
-// compared. caught by: look-at-zero, maps-other-robot
+// caught by: look-at-zero, maps-other-robot
+// mistake: The gaze is given in the body's frame and the way to the target in the world's.
 
 // <solution lookAt>
 const Eigen::Vector3d way = target - S.kinematicsPos(body);

@@ -1,5 +1,5 @@
-// The cross product of gaze and direction is zero also when the body looks away from the target.
 // caught by: look-at-zero
+// mistake: The cross product of gaze and direction is zero also when the body looks away from the target.
 
 // <solution lookAt>
 const Eigen::Vector3d way = target - S.kinematicsPos(body);

@@ -1,5 +1,5 @@
-// The difference of the palms is zero when they point the same way, as for two hands on a table.
 // caught by: palms-zero
+// mistake: The difference of the palms is zero when they point the same way, as for two hands on a table.
 
 // <solution opposePalms>
 return {S.kinematicsVec(left, palm) - S.kinematicsVec(right, palm),

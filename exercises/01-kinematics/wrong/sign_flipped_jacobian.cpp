@@ -1,5 +1,5 @@
-// The direction to the target turns the other way when the body moves: its part of the Jacobian has the wrong
-// sign. caught by: look-at-jacobian
+// caught by: look-at-jacobian
+// mistake: The way to the target turns in the other direction: that part of the Jacobian has the wrong sign.
 
 // <solution lookAt>
 const Eigen::Vector3d way = target - S.kinematicsPos(body);

@@ -1,5 +1,5 @@
-// The hand is sent to the far target at once, at every step.
 // caught by: line, motion-other-robot
+// mistake: The hand is sent to the far target at once, at every step.
 
 // <solution straightLine>
 S.setJointAngles(S.getJointAngles() + ikStep(S.jacobianPos(body), target - S.kinematicsPos(body), sigma));

@@ -1,5 +1,5 @@
-// Every step starts again from the first posture instead of the outcome of the step before.
 // caught by: small-steps, full-steps
+// mistake: Every step starts again from the first posture instead of the outcome of the step before.
 
 // <solution smallSteps>
 static_cast<void>(t);

@@ -1,0 +1,160 @@
+#include <algorithm>
+#include <cmath>
+
+#include "exercise.h"
+#include "kinematics/inverse_kinematics.h"
+
+using namespace rex;
+
+// The way from the body to the target, as a unit vector, should be where the gaze points. The difference of
+// two unit vectors is zero only if they are equal, so looking away does not count.
+TaskValue lookAt(const Simulator& S, const std::string& body, const Eigen::Vector3d& gaze,
+                 const Eigen::Vector3d& target) {
+  // TODO: which world direction does the gaze have (S.kinematicsVec), and which should it have?
+  // Their difference is a map; derive its Jacobian from S.jacobianVec and S.jacobianPos.
+  return {Eigen::Vector3d::Zero(), Eigen::MatrixXd::Zero(3, S.getJointDimension())};
+}
+
+TaskValue opposePalms(const Simulator& S, const std::string& left, const std::string& right,
+                      const Eigen::Vector3d& palm) {
+  // TODO: what do two vectors in opposite directions add up to?
+  return {Eigen::Vector3d::Zero(), Eigen::MatrixXd::Zero(3, S.getJointDimension())};
+}
+
+TaskValue distanceToGoal(const Simulator& S, const std::string& body, const Eigen::Vector3d& goal) {
+  // TODO: one number that is zero only at the goal, and its derivative by the chain rule (1 x n).
+  return {Eigen::VectorXd::Zero(1), Eigen::MatrixXd::Zero(1, S.getJointDimension())};
+}
+
+Eigen::VectorXd ikStep(const Eigen::MatrixXd& J, const Eigen::VectorXd& dy, double sigma) {
+  // TODO: slide 2:29. solve(A, b) gives the x with A x = b.
+  return Eigen::VectorXd::Zero(J.cols());
+}
+
+std::vector<Eigen::VectorXd> smallSteps(Simulator& S, const std::string& body, const Eigen::Vector3d& target,
+                                        double alpha, double sigma, int steps) {
+  std::vector<Eigen::VectorXd> postures;
+  for (int t = 1; t <= steps; ++t) {
+    // TODO: one step from the posture in which S is now; move S there, and keep the new posture.
+  }
+  return postures;
+}
+
+std::vector<Eigen::VectorXd> straightLine(Simulator& S, const std::string& body,
+                                          const Eigen::Vector3d& target, double sigma, int T) {
+  std::vector<Eigen::VectorXd> postures;
+  const Eigen::Vector3d start = S.kinematicsPos(body);
+  for (int t = 1; t <= T; ++t) {
+    // TODO: where on the line from `start` to `target` should the hand be at step t? Step there.
+  }
+  return postures;
+}
+
+std::vector<Eigen::VectorXd> circle(Simulator& S, const std::string& body, const Eigen::Vector3d& center,
+                                    double radius, double sigma, int T) {
+  std::vector<Eigen::VectorXd> postures;
+  for (int t = 1; t <= T; ++t) {
+    // TODO: where on the circle should the hand be at step t? Step there.
+  }
+  return postures;
+}
+
+// From here on everything is given: the parts of the exercise one after another, with pictures. Change it as
+// you like.
+
+namespace {
+
+const Eigen::Vector3d kTarget(-0.2, -0.4, 1.1);  // where the red ball is
+constexpr double kSigma = 0.01;
+
+// |y - wanted| before the first step and after each, where wanted(t) is the place for step t.
+template <class Wanted>
+std::vector<double> trackingErrors(const std::vector<Eigen::VectorXd>& postures, const Wanted& wanted) {
+  Simulator S("man.ors");
+  std::vector<double> errors = {(S.kinematicsPos("handR") - wanted(0)).norm()};
+  for (std::size_t t = 0; t < postures.size(); ++t) {
+    S.setJointAngles(postures[t]);
+    errors.push_back((S.kinematicsPos("handR") - wanted(static_cast<int>(t) + 1)).norm());
+  }
+  return errors;
+}
+
+Eigen::Vector3d onCircle(int t) {
+  return kTarget + 0.2 * Eigen::Vector3d(std::cos(t / 20.), 0, std::sin(t / 20.));
+}
+
+std::vector<Eigen::Vector3d> wholeCircle() {
+  std::vector<Eigen::Vector3d> points;
+  for (int t = 0; t <= 126; ++t) points.push_back(onCircle(t));
+  return points;
+}
+
+// A logarithmic axis has no zero.
+std::vector<double> positive(std::vector<double> values) {
+  for (double& value : values) value = std::max(value, 1e-16);
+  return values;
+}
+
+void showTaskMaps() {
+  const Simulator S("man.ors");
+  const Eigen::Vector3d forward(0, -1, 0), palm(0, 1, 0);
+  print("lookAt: y", lookAt(S, "head", forward, kTarget).y);
+  print("opposePalms: y", opposePalms(S, "handL", "handR", palm).y);
+  print("distanceToGoal: y", distanceToGoal(S, "handR", kTarget).y);
+}
+
+}  // namespace
+
+int main() {
+  showTaskMaps();
+
+  // 12.3.2 a, b, c: the task error after each step. Once your own steps work, they lie on the library's.
+  const auto atTarget = [](int) { return kTarget; };
+  Simulator full("man.ors"), small("man.ors"), line("man.ors"), library("man.ors");
+  const std::vector<double> fullErrors =
+      trackingErrors(smallSteps(full, "handR", kTarget, 1, kSigma, 8), atTarget);
+  const std::vector<double> smallErrors =
+      trackingErrors(smallSteps(small, "handR", kTarget, 0.1, kSigma, 100), atTarget);
+  const std::vector<double> lineErrors =
+      trackingErrors(straightLine(line, "handR", kTarget, kSigma, 100), atTarget);
+  std::vector<Eigen::VectorXd> libraryPostures;
+  for (int t = 0; t < 100; ++t) {
+    const Eigen::VectorXd dy = kTarget - library.kinematicsPos("handR");
+    library.setJointAngles(library.getJointAngles() +
+                           0.1 * inverseKinematicsStep(library.jacobianPos("handR"), dy, kSigma));
+    libraryPostures.push_back(library.getJointAngles());
+  }
+  plot("errors",
+       {.title = "Distance of the right hand from its target",
+        .xLabel = "step",
+        .yLabel = "task error [m]",
+        .logY = true,
+        .series = {{.label = "full steps", .y = positive(fullErrors), .style = SeriesStyle::kLinesPoints},
+                   {.label = "steps of a tenth", .y = positive(smallErrors)},
+                   {.label = "steps of a tenth, library",
+                    .y = positive(trackingErrors(libraryPostures, atTarget)),
+                    .dashed = true},
+                   {.label = "target moved along a line", .y = positive(lineErrors)}}});
+  writeFrames(line, "line", {.caption = "12.3.2 c: along a straight line", .traces = {"handR"}});
+
+  // 12.3.2 d: three turns of the circle, and what a long run does to the posture.
+  Simulator turning("man.ors");
+  const std::vector<Eigen::VectorXd> turns = circle(turning, "handR", kTarget, 0.2, kSigma, 380);
+  writeFrames(
+      turning, "circle",
+      {.caption = "12.3.2 d: a circle of radius 0.2 m", .traces = {"handR"}, .paths = {wholeCircle()}});
+  Simulator longRun("man.ors");
+  const std::vector<Eigen::VectorXd> postures = circle(longRun, "handR", kTarget, 0.2, kSigma, 2000);
+  std::vector<double> drift = {0};
+  for (const Eigen::VectorXd& q : postures) drift.push_back(q.norm());
+  plot("circle", {.title = "Following the circle",
+                  .xLabel = "step",
+                  .yLabel = "tracking error [m]",
+                  .logY = true,
+                  .series = {{.y = positive(trackingErrors(postures, onCircle))}}});
+  plot("posture", {.title = "How far the posture wanders while the hand circles",
+                   .xLabel = "step",
+                   .yLabel = "length of q [rad]",
+                   .series = {{.y = drift}}});
+  longRun.watch("posture_after_2000_steps");
+}
