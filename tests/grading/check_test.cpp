@@ -133,6 +133,21 @@ TEST(Cases, GiveCreditInProportionAndNameTheFirstThatFails) {
   EXPECT_EQ(result.message, "5 of 8 cases hold; case 3: not 2 or 5: does not hold (seed 7)");
 }
 
+TEST(Cases, DoNotShowTheInputOfTheCaseBefore) {
+  const auto inputOf = [](int failing) {
+    return judge([&](Check& check) {
+             check.input("general");
+             check.forEachCase(2, [&](int k) {
+               if (k == 0) check.input("of case 1");
+               check.that("holds", k != failing);
+             });
+           })
+        .input;
+  };
+  EXPECT_EQ(inputOf(0), "of case 1");
+  EXPECT_EQ(inputOf(1), "general");
+}
+
 TEST(Cases, LoseAllCreditWhenARequirementOutsideFails) {
   const CheckResult result = judge([](Check& check) {
     check.forEachCase(2, [&](int) { check.that("yes", true); });
