@@ -6,18 +6,17 @@
 
 using namespace rex;
 
-// The way from the body to the target, as a unit vector, should be where the gaze points. The difference of
-// two unit vectors is zero only if they are equal, so looking away does not count.
 TaskValue lookAt(const Simulator& S, const std::string& body, const Eigen::Vector3d& gaze,
                  const Eigen::Vector3d& target) {
-  // TODO: which world direction does the gaze have (S.kinematicsVec), and which should it have?
-  // Their difference is a map; derive its Jacobian from S.jacobianVec and S.jacobianPos.
+  // TODO: which world direction does the gaze have (S.kinematicsVec), and which should it have? Compare
+  // them; the Jacobian follows from S.jacobianVec and S.jacobianPos.
   return {Eigen::Vector3d::Zero(), Eigen::MatrixXd::Zero(3, S.getJointDimension())};
 }
 
 TaskValue opposePalms(const Simulator& S, const std::string& left, const std::string& right,
                       const Eigen::Vector3d& palm) {
-  // TODO: what do two vectors in opposite directions add up to?
+  // TODO: which function of the two palms' world directions (S.kinematicsVec) is zero only when they are
+  // opposite? Its Jacobian follows from S.jacobianVec.
   return {Eigen::Vector3d::Zero(), Eigen::MatrixXd::Zero(3, S.getJointDimension())};
 }
 
@@ -43,10 +42,8 @@ std::vector<Eigen::VectorXd> smallSteps(Simulator& S, const std::string& body, c
 std::vector<Eigen::VectorXd> straightLine(Simulator& S, const std::string& body,
                                           const Eigen::Vector3d& target, double sigma, int T) {
   std::vector<Eigen::VectorXd> postures;
-  const Eigen::Vector3d start = S.kinematicsPos(body);
-  for (int t = 1; t <= T; ++t) {
-    // TODO: where on the line from `start` to `target` should the hand be at step t? Step there.
-  }
+  // TODO: T steps as above, but at step t the hand should be where a target is that moves along the
+  // straight line to `target`: where is it at step t?
   return postures;
 }
 

@@ -6,19 +6,19 @@
 
 using namespace rex;
 
-// The way from the body to the target, as a unit vector, should be where the gaze points. The difference of
-// two unit vectors is zero only if they are equal, so looking away does not count.
 TaskValue lookAt(const Simulator& S, const std::string& body, const Eigen::Vector3d& gaze,
                  const Eigen::Vector3d& target) {
   // <solution lookAt>
+  // The way to the target, as a unit vector, should be where the gaze points. The difference of two unit
+  // vectors is zero only if they are equal, so looking away does not count.
   const Eigen::Vector3d way = target - S.kinematicsPos(body);
   const Eigen::Vector3d toTarget = way.normalized();
   // A move of the body turns the way: only the part across it counts, and less from far away.
   const Eigen::Matrix3d across = (Eigen::Matrix3d::Identity() - toTarget * toTarget.transpose()) / way.norm();
   return {S.kinematicsVec(body, gaze) - toTarget, S.jacobianVec(body, gaze) + across * S.jacobianPos(body)};
   // <todo>
-  //| // TODO: which world direction does the gaze have (S.kinematicsVec), and which should it have?
-  //| // Their difference is a map; derive its Jacobian from S.jacobianVec and S.jacobianPos.
+  //| // TODO: which world direction does the gaze have (S.kinematicsVec), and which should it have? Compare
+  //| // them; the Jacobian follows from S.jacobianVec and S.jacobianPos.
   //| return {Eigen::Vector3d::Zero(), Eigen::MatrixXd::Zero(3, S.getJointDimension())};
   // </solution>
 }
@@ -30,7 +30,8 @@ TaskValue opposePalms(const Simulator& S, const std::string& left, const std::st
   return {S.kinematicsVec(left, palm) + S.kinematicsVec(right, palm),
           S.jacobianVec(left, palm) + S.jacobianVec(right, palm)};
   // <todo>
-  //| // TODO: what do two vectors in opposite directions add up to?
+  //| // TODO: which function of the two palms' world directions (S.kinematicsVec) is zero only when they are
+  //| // opposite? Its Jacobian follows from S.jacobianVec.
   //| return {Eigen::Vector3d::Zero(), Eigen::MatrixXd::Zero(3, S.getJointDimension())};
   // </solution>
 }
@@ -75,17 +76,18 @@ std::vector<Eigen::VectorXd> smallSteps(Simulator& S, const std::string& body, c
 std::vector<Eigen::VectorXd> straightLine(Simulator& S, const std::string& body,
                                           const Eigen::Vector3d& target, double sigma, int T) {
   std::vector<Eigen::VectorXd> postures;
+  // <solution straightLine>
   const Eigen::Vector3d start = S.kinematicsPos(body);
   for (int t = 1; t <= T; ++t) {
-    // <solution straightLine>
     const double share = static_cast<double>(t) / T;
     const Eigen::Vector3d wanted = start + share * (target - start);
     S.setJointAngles(S.getJointAngles() + ikStep(S.jacobianPos(body), wanted - S.kinematicsPos(body), sigma));
     postures.push_back(S.getJointAngles());
-    // <todo>
-    //| // TODO: where on the line from `start` to `target` should the hand be at step t? Step there.
-    // </solution>
   }
+  // <todo>
+  //| // TODO: T steps as above, but at step t the hand should be where a target is that moves along the
+  //| // straight line to `target`: where is it at step t?
+  // </solution>
   return postures;
 }
 
