@@ -118,13 +118,16 @@ void Check::that(std::string_view property, bool holds) {
 void Check::forEachCase(int count, const std::function<void(int)>& run) {
   requireSound(count > 0, info_, "has no cases");
   const Rng start = rng_;
+  const std::string inputOfAll = input_;
   for (int k = 0; k < count; ++k) {
     rng_ = start.split(static_cast<std::uint64_t>(k));
+    input_ = inputOfAll;
     caseNumber_ = k;
     ++cases_;
     if (runCase(k, run)) ++casesPassed_;
   }
   caseNumber_ = -1;
+  input_ = inputOfAll;
   rng_ = start.split(static_cast<std::uint64_t>(count));
 }
 

@@ -100,6 +100,9 @@ GradeResult grade(GradeResult result, std::span<const RunnableCheck> checks, con
   result.checks.clear();
   result.score = 0;
   result.maxScore = 0;
+  result.output = {};
+  result.error = {};
+  result.usage = {};
   for (const RunnableCheck& check : checks) {
     result.checks.push_back(blank(check.info));
     result.maxScore += check.info.points;

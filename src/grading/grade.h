@@ -27,8 +27,8 @@ struct GradeOptions {
 };
 
 /// Runs each check in a fresh worker and adds the results, in the given order, to `result`, whose other
-/// fields are kept. Calls `save` before the first check, when everything still counts as a fault of the
-/// grader, and after each. What a check function throws itself is such a fault too.
+/// fields about the submission are kept. Calls `save` before the first check, when everything still counts as
+/// a fault of the grader, and after each. What a check function throws itself is such a fault too.
 [[nodiscard]] GradeResult grade(GradeResult result, std::span<const RunnableCheck> checks,
                                 const GradeOptions& options,
                                 const std::function<void(const GradeResult&)>& save);

@@ -37,7 +37,8 @@ struct WorkerRun {
 
 /// Starts a worker in a process of its own, holds the conversation with it, and ends it with all processes it
 /// made; its working folder goes too. Whatever the worker does becomes a Failure; what else the conversation
-/// throws is passed on. Throws Error if the program cannot be started. Sandbox level 0: limits and a clock,
+/// throws is passed on. Meanwhile the calling process must not start others: they would be taken for the
+/// worker's. Throws Error if the program cannot be started. Sandbox level 0: limits and a clock,
 /// no protection against a program that means harm.
 [[nodiscard]] WorkerRun runWithWorker(const WorkerOptions& options,
                                       const std::function<void(remote::Caller&)>& conversation);

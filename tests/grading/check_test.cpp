@@ -1,0 +1,211 @@
+#include "grading/check.h"
+
+#include <limits>
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "remote/thrown.h"
+
+namespace rex::grading {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+CheckResult judge(const std::function<void(Check&)>& run, Group group = Group::visible) {
+  return Check({.id = "id", .part = "a", .title = "Title", .points = 10, .group = group}, 7).judge(run);
+}
+
+std::string messageOf(const std::function<void(Check&)>& run) {
+  const CheckResult result = judge(run);
+  EXPECT_EQ(result.status, Outcome::fail);
+  EXPECT_EQ(result.points, 0);
+  return result.message;
+}
+
+std::string faultOf(const std::function<void(Check&)>& run) {
+  try {
+    static_cast<void>(judge(run));
+  } catch (const std::logic_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+remote::RemoteThrow thrown(remote::Thrown::Kind kind) {
+  return {"f", {.kind = kind, .type = "E", .text = "angle 0.25"}};
+}
+
+TEST(Check, PassesWhenEveryRequirementHolds) {
+  const CheckResult result = judge([](Check& check) {
+    check.near("a", 1.0 + 1e-7, 1, 1e-6);
+    check.near("b", Eigen::Vector3d::Ones(), Eigen::Vector3d::Ones(), 0);
+    check.near("c", Eigen::VectorXd(0), Eigen::VectorXd(0), 0);
+    check.atMost("d", 1, 1);
+    check.atLeast("e", 1, 1);
+    check.shape("f", Eigen::MatrixXd::Zero(2, 3), 2, 3);
+    check.that("g", true);
+  });
+  EXPECT_EQ(result.status, Outcome::pass);
+  EXPECT_EQ(result.points, 10);
+  EXPECT_EQ(result.maxPoints, 10);
+  EXPECT_EQ(result.message, "");
+}
+
+TEST(Check, SaysPropertyGotWantedToleranceUnitInputAndSeed) {
+  const CheckResult result = judge([](Check& check) {
+    check.input("q = 0");
+    check.near("position", Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(1, 2, 3.5), 1e-3, "m");
+  });
+  EXPECT_EQ(result.message,
+            "position: does not hold: got (1, 2, 3) m, wanted (1, 2, 3.5) m, tolerance 0.001 m; input: q = 0 "
+            "(seed 7)");
+  EXPECT_EQ(result.property, "position");
+  EXPECT_EQ(result.got, "(1, 2, 3) m");
+  EXPECT_EQ(result.expected, "(1, 2, 3.5) m");
+  EXPECT_EQ(result.tolerance, "0.001 m");
+  EXPECT_EQ(result.input, "q = 0");
+}
+
+TEST(Check, NamesTheWorstEntryOfAMatrix) {
+  Eigen::MatrixXd wanted = Eigen::MatrixXd::Zero(3, 4);
+  wanted(2, 1) = 5;
+  EXPECT_THAT(messageOf([&](Check& check) { check.near("J", Eigen::MatrixXd::Zero(3, 4), wanted, 1e-9); }),
+              HasSubstr("got 0 at (2, 1), wanted 5 at (2, 1)"));
+}
+
+TEST(Check, RefusesWhatIsNotFiniteOrHasAnotherShape) {
+  EXPECT_THAT(messageOf([](Check& check) { check.near("x", kNan, 0, kInfinity); }),
+              HasSubstr("x: not finite: got nan"));
+  EXPECT_THAT(messageOf([](Check& check) { check.near("x", kInfinity, 0, kInfinity); }),
+              HasSubstr("not finite"));
+  EXPECT_THAT(messageOf([](Check& check) { check.atMost("x", kNan, 1); }), HasSubstr("not finite"));
+  EXPECT_THAT(messageOf([](Check& check) { check.atMost("x", -kInfinity, 1); }), HasSubstr("not finite"));
+  EXPECT_THAT(messageOf([](Check& check) { check.atLeast("x", kInfinity, 1); }), HasSubstr("not finite"));
+  EXPECT_THAT(messageOf([](Check& check) { check.shape("J", Eigen::MatrixXd::Constant(3, 2, kNan), 3, 2); }),
+              HasSubstr("J: not finite: got nan at (0, 0)"));
+  const auto wrongShape = [](Check& check) {
+    check.near("J", Eigen::MatrixXd(3, 7), Eigen::MatrixXd::Zero(3, 27), 1);
+  };
+  EXPECT_THAT(messageOf(wrongShape), HasSubstr("J: wrong shape: got 3 x 7, wanted 3 x 27"));
+}
+
+TEST(Check, ComparesWithLimits) {
+  EXPECT_THAT(messageOf([](Check& check) { check.atMost("error", 0.3, 0.1, "m"); }),
+              HasSubstr("error: does not hold: got 0.3 m, wanted at most 0.1 m"));
+  EXPECT_THAT(messageOf([](Check& check) { check.atLeast("gain", 1, 2); }),
+              HasSubstr("got 1, wanted at least 2"));
+  EXPECT_EQ(messageOf([](Check& check) { check.that("the path starts at q0", false); }),
+            "the path starts at q0: does not hold (seed 7)");
+}
+
+TEST(Check, HidesInputAndNumbersOfHiddenChecks) {
+  const CheckResult result = judge(
+      [](Check& check) {
+        check.input("secret");
+        check.near("position", 0.123, 4.56, 1e-3, "m");
+      },
+      Group::hidden);
+  EXPECT_EQ(result.message, "position: does not hold");
+  EXPECT_EQ(result.got + result.expected + result.tolerance + result.input, "");
+}
+
+TEST(Check, EndsAtTheFirstFailure) {
+  bool reached = false;
+  static_cast<void>(judge([&](Check& check) {
+    check.that("no", false);
+    reached = true;
+  }));
+  EXPECT_FALSE(reached);
+}
+
+TEST(Cases, GiveCreditInProportionAndNameTheFirstThatFails) {
+  const CheckResult result = judge([](Check& check) {
+    check.forEachCase(8, [&](int k) { check.that("not 2 or 5", k != 2 && k != 5 && k != 6); });
+  });
+  EXPECT_EQ(result.status, Outcome::fail);
+  EXPECT_EQ(result.points, 6);  // 10 x 5 / 8, rounded down
+  EXPECT_EQ(result.message, "5 of 8 cases hold; case 3: not 2 or 5: does not hold (seed 7)");
+}
+
+TEST(Cases, DoNotShowTheInputOfTheCaseBefore) {
+  const auto inputOf = [](int failing) {
+    return judge([&](Check& check) {
+             check.input("general");
+             check.forEachCase(2, [&](int k) {
+               if (k == 0) check.input("of case 1");
+               check.that("holds", k != failing);
+             });
+           })
+        .input;
+  };
+  EXPECT_EQ(inputOf(0), "of case 1");
+  EXPECT_EQ(inputOf(1), "general");
+}
+
+TEST(Cases, LoseAllCreditWhenARequirementOutsideFails) {
+  const CheckResult result = judge([](Check& check) {
+    check.forEachCase(2, [&](int) { check.that("yes", true); });
+    check.that("no", false);
+  });
+  EXPECT_EQ(result.points, 0);
+}
+
+TEST(Cases, FailAloneWhenTheStudentsFunctionThrows) {
+  const auto throwOnce = [](Check& check) {
+    check.forEachCase(2, [&](int k) {
+      if (k == 1) throw thrown(remote::Thrown::Kind::exception);
+      check.that("yes", true);
+    });
+  };
+  const CheckResult result = judge(throwOnce);
+  EXPECT_EQ(result.status, Outcome::runtimeError);
+  EXPECT_EQ(result.points, 5);
+  EXPECT_EQ(result.message, "1 of 2 cases hold; case 2: threw E in f: angle 0.25 (seed 7)");
+  EXPECT_THAT(judge(throwOnce, Group::hidden).message, Not(HasSubstr("0.25")));
+  EXPECT_THROW(static_cast<void>(judge([](Check& check) {
+                 check.forEachCase(2, [&](int) { throw thrown(remote::Thrown::Kind::badAlloc); });
+               })),
+               remote::RemoteThrow);
+}
+
+TEST(Cases, DrawTheSameNumbersWhateverTheCaseBeforeDrew) {
+  const auto lastDraw = [](int drawnBefore) {
+    double value = 0;
+    static_cast<void>(judge([&](Check& check) {
+      check.forEachCase(2, [&](int k) {
+        check.that("yes", true);
+        if (k == 0) check.rng().normalVector(drawnBefore);
+        if (k == 1) value = check.rng().uniform();
+      });
+    }));
+    return value;
+  };
+  EXPECT_EQ(lastDraw(0), lastDraw(5));
+  Check one({.id = "one"}, 7), two({.id = "two"}, 7), other({.id = "one"}, 8);
+  const double first = one.rng().uniform();
+  EXPECT_NE(first, two.rng().uniform());
+  EXPECT_NE(first, other.rng().uniform());
+}
+
+// A faulty check must never cost the student points.
+TEST(FaultyCheck, Throws) {
+  EXPECT_EQ(faultOf([](Check&) {}), "check 'id' states no requirement");
+  EXPECT_EQ(faultOf([](Check& check) { check.forEachCase(0, [](int) {}); }), "check 'id' has no cases");
+  EXPECT_EQ(faultOf([](Check& check) { check.forEachCase(1, [](int) {}); }),
+            "check 'id' states no requirement in a case");
+  for (const auto& run :
+       std::vector<std::function<void(Check&)>>{[](Check& check) { check.near("x", 1, kNan, 1); },
+                                                [](Check& check) { check.near("x", 1, 1, kNan); },
+                                                [](Check& check) { check.atMost("x", 1, kInfinity); },
+                                                [](Check& check) { check.atLeast("x", 1, kNan); }})
+    EXPECT_EQ(faultOf(run), "check 'id' wants a value that is not finite");
+}
+
+}  // namespace
+}  // namespace rex::grading

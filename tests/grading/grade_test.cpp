@@ -1,0 +1,109 @@
+#include "grading/grade.h"
+
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "grading/worker_process.h"
+#include "interface.h"
+#include "support/expect_error.h"
+
+namespace rex::grading {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::filesystem::path kGood = std::filesystem::path(REX_BINARY_DIR) / "tests" / "sample" / "good";
+
+RunnableCheck check(const std::string& id, Group group, std::function<void(Check&, Student&)> run) {
+  return {.info = {.id = id, .points = 1, .group = group},
+          .run = [run](Check& judge, remote::Caller& caller) {
+            Student student(caller);
+            run(judge, student);
+          }};
+}
+
+GradeResult gradeGood(const std::vector<RunnableCheck>& checks,
+                      std::uint64_t signature = Student::signature()) {
+  return grade({}, checks, {.worker = kGood, .signature = signature}, [](const GradeResult&) {});
+}
+
+TEST(Grade, NeverBlamesTheStudentForTheGrader) {
+  const GradeResult result = gradeGood({
+      check("fine", Group::visible, [](Check& judge, Student&) { judge.that("yes", true); }),
+      check("throws", Group::visible, [](Check&, Student&) { throw std::runtime_error("oops"); }),
+      check("hidden", Group::hidden, [](Check&, Student&) { throw std::runtime_error("q = 0.25"); }),
+      check("number", Group::visible, [](Check&, Student&) { throw 42; }),
+      check("empty", Group::visible, [](Check&, Student&) {}),
+  });
+  EXPECT_EQ(result.outcome, Outcome::graderError);
+  EXPECT_EQ(result.checks[0].status, Outcome::pass);
+  for (int k = 1; k < 5; ++k) EXPECT_EQ(result.checks[k].status, Outcome::graderError);
+  const std::string fault = "the grader failed, which is not your fault: ";
+  EXPECT_EQ(result.checks[1].message, fault + "oops");
+  EXPECT_EQ(result.checks[2].message, fault + "the check ended by an exception");
+  EXPECT_EQ(result.checks[3].message, fault + "the check ended by an exception");
+  EXPECT_EQ(result.checks[4].message, fault + "check 'empty' states no requirement");
+}
+
+TEST(Grade, SavesBeforeTheFirstAndAfterEveryCheck) {
+  const auto pass = [](Check& judge, Student& student) { judge.near("square", student.square(3), 9, 1e-9); };
+  const std::vector<RunnableCheck> checks = {check("a", Group::visible, pass),
+                                             check("b", Group::visible, pass)};
+  std::vector<std::pair<Outcome, int>> saved;
+  const GradeResult last = grade({}, checks, {.worker = kGood, .signature = Student::signature()},
+                                 [&](const GradeResult& now) { saved.emplace_back(now.outcome, now.score); });
+  using ::testing::Pair;
+  EXPECT_THAT(saved, ::testing::ElementsAre(Pair(Outcome::graderError, 0), Pair(Outcome::graderError, 1),
+                                            Pair(Outcome::pass, 2)));
+  EXPECT_EQ(last.message, "");
+}
+
+TEST(Grade, RefusesAWorkerOfAnotherExercise) {
+  const GradeResult result =
+      gradeGood({check("a", Group::visible, [](Check& judge, Student&) { judge.that("yes", true); })}, 1);
+  EXPECT_EQ(result.outcome, Outcome::protocolError);
+  EXPECT_EQ(result.checks[0].message,
+            "spoilt the connection to the grader before the first call: the worker was built from another "
+            "exercise.h");
+}
+
+TEST(Grade, StopsAStudentsFunctionWhenACallbackOfTheCheckFails) {
+  const GradeResult result = gradeGood({check("a", Group::visible, [](Check& judge, Student& student) {
+    judge.forEachCase(2, [&](int k) {
+      const Reached reached = student.search(Eigen::VectorXd::Ones(2), [&](const Eigen::VectorXd& q) {
+        judge.that("asks for the right size", k == 1);
+        return q.sum();
+      });
+      judge.near("distance", reached.distance, 1, 1e-12);
+    });
+  })});
+  EXPECT_EQ(result.checks[0].status, Outcome::fail);
+  EXPECT_THAT(result.checks[0].message, HasSubstr("1 of 2 cases hold; case 1: asks for the right size"));
+}
+
+TEST(RunWithWorker, RefusesWhatCannotBeStarted) {
+  const auto run = [](WorkerOptions options) { return runWithWorker(options, [](remote::Caller&) {}); };
+  EXPECT_REX_ERROR(run({.program = "no-such-worker"}),
+                   "cannot start the worker no-such-worker: found No such file");
+  EXPECT_REX_ERROR(run({.program = kGood, .temporaryFolder = "/no/such/folder"}),
+                   "cannot make a temporary folder in /no/such/folder");
+}
+
+// The time that the grader needs for itself is not the student's.
+TEST(RunWithWorker, CountsOnlyTheTimeItWaits) {
+  const WorkerRun run =
+      runWithWorker({.program = kGood, .signature = Student::signature(), .limits = {.wallSeconds = 0.5}},
+                    [](remote::Caller& caller) {
+                      ::timespec pause{0, 700'000'000};
+                      ::nanosleep(&pause, nullptr);
+                      EXPECT_EQ(Student(caller).square(3), 9);
+                    });
+  EXPECT_FALSE(run.failure.has_value());
+  EXPECT_LT(run.wallSeconds, 0.5);
+  EXPECT_GT(run.peakMemoryBytes, 0);
+}
+
+}  // namespace
+}  // namespace rex::grading

@@ -1,0 +1,255 @@
+// Runs the sample's grader program on good and bad workers, as the desk will.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "base/process.h"
+#include "grading/grader_main.h"
+#include "grading/result_file.h"
+
+namespace rex::grading {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+#ifdef __SANITIZE_ADDRESS__
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+
+const fs::path kSample = fs::path(REX_BINARY_DIR) / "tests" / "sample";
+
+/// Grades workers with small limits, in a folder of its own.
+class Grader : public ::testing::Test {
+ protected:
+  Grader() : folder_(kSample / ("run-" + std::to_string(::getpid()))) {
+    fs::create_directories(folder_ / "tmp");
+  }
+  ~Grader() override { fs::remove_all(folder_); }
+
+  ProcessResult run(std::vector<std::string> options) const {
+    options.insert(options.begin(), {(kSample / "grader").string(), "--temporary", (folder_ / "tmp").string(),
+                                     "--results", results().string()});
+    return runProcess(options);
+  }
+  GradeResult grade(const std::string& worker, std::vector<std::string> options = {}) const {
+    options.insert(options.end(),
+                   {"--worker", (kSample / worker).string(), "--cpu-seconds", "0.2", "--memory-mb", "300"});
+    const ProcessResult process = run(options);
+    EXPECT_EQ(process.output + process.error, "");
+    return loadResult(results());
+  }
+  fs::path results() const { return folder_ / "results.json"; }
+  bool temporaryIsEmpty() const { return fs::is_empty(folder_ / "tmp"); }
+
+ private:
+  fs::path folder_;
+};
+
+int processesOf(const fs::path& program) {
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator("/proc")) {
+    std::error_code gone;
+    if (fs::read_symlink(entry.path() / "exe", gone) == program) ++count;
+  }
+  return count;
+}
+
+const CheckResult& find(const GradeResult& result, const std::string& id) {
+  return *std::find_if(result.checks.begin(), result.checks.end(), [&](const auto& c) { return c.id == id; });
+}
+
+TEST_F(Grader, GivesFullScoreToAGoodSolution) {
+  const GradeResult result = grade("good");
+  EXPECT_EQ(result.outcome, Outcome::pass);
+  EXPECT_EQ(result.score, 10);
+  EXPECT_EQ(result.maxScore, 10);
+  EXPECT_EQ(result.sandboxLevel, 0);
+  EXPECT_THAT(result.sandboxWarnings, ::testing::ElementsAre(HasSubstr("sandbox level 0 of 3")));
+  EXPECT_TRUE(temporaryIsEmpty());
+}
+
+struct Trouble {
+  std::string worker;
+  Outcome outcome;
+  std::string message;  ///< in the report of the visible check
+};
+
+void PrintTo(const Trouble& trouble, std::ostream* out) { *out << trouble.worker; }
+
+class Troubled : public Grader, public ::testing::WithParamInterface<Trouble> {};
+
+TEST_P(Troubled, EndsInItsOutcomeAndHarmsNothingElse) {
+  const Trouble& trouble = GetParam();
+  if (kSanitized && trouble.outcome == Outcome::memoryLimit)
+    GTEST_SKIP() << "the sanitizers need an unlimited address space";
+  const GradeResult result = grade(trouble.worker);
+  for (const char* id : {"step", "step-unseen"}) {
+    EXPECT_EQ(find(result, id).status, trouble.outcome) << find(result, id).message;
+    EXPECT_EQ(find(result, id).points, 0);
+    EXPECT_LE(find(result, id).wallSeconds, result.limits.wallBudget() + 2);
+  }
+  EXPECT_EQ(result.outcome, trouble.outcome);
+  // The sanitizers notice a crash before it happens.
+  if (!kSanitized) {
+    EXPECT_THAT(find(result, "step").message, HasSubstr(trouble.message));
+  }
+  EXPECT_EQ(find(result, "square").points, 2);
+  EXPECT_EQ(find(result, "search").points, 1);
+  EXPECT_EQ(result.score, 3);
+  EXPECT_EQ(processesOf(kSample / trouble.worker), 0);
+  EXPECT_TRUE(temporaryIsEmpty());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Workers, Troubled,
+    ::testing::Values(
+        Trouble{"assertion", Outcome::runtimeError,
+                "aborted in ikStep: Assertion `index >= 0 && index < size()'"},
+        Trouble{"closed", Outcome::protocolError, "lost its connection to the grader in ikStep"},
+        Trouble{"closed_and_asleep", Outcome::protocolError, "closed its connection to the grader in ikStep"},
+        Trouble{"exit_in_call", Outcome::runtimeError, "called exit(0) in ikStep"},
+        Trouble{"flood", Outcome::outputLimit, "printed more than 8 MB in ikStep"},
+        Trouble{"ignored_signals", Outcome::timeLimit, "stopped after"},
+        Trouble{"junk", Outcome::protocolError, "spoilt the connection to the grader in ikStep"},
+        Trouble{"loop", Outcome::timeLimit, "stopped after"},
+        Trouble{"memory", Outcome::memoryLimit, "used more than 300 MB of memory in ikStep"},
+        Trouble{"nan", Outcome::fail, "position after the step: not finite"},
+        Trouble{"noexcept_throw", Outcome::runtimeError,
+                "aborted in ikStep: terminate called after throwing"},
+        Trouble{"recursion", Outcome::runtimeError, "crashed with a segmentation fault in ikStep"},
+        Trouble{"secrets", Outcome::runtimeError, "threw std::runtime_error in ikStep: the target is"},
+        Trouble{"segfault", Outcome::runtimeError, "crashed with a segmentation fault in ikStep"},
+        Trouble{"shape", Outcome::fail, "position after the step: wrong shape: got 7 x 1, wanted 3 x 1"},
+        Trouble{"sleep", Outcome::timeLimit, "stopped after 2.4 s of waiting in ikStep"},
+        Trouble{"throws_number", Outcome::runtimeError, "threw int in ikStep"}),
+    [](const auto& trouble) { return trouble.param.worker; });
+
+TEST_F(Grader, SurvivesAWorkerThatEndsBeforeItStarts) {
+  const GradeResult result = grade("exit_at_start");
+  EXPECT_EQ(result.score, 0);
+  EXPECT_EQ(result.outcome, Outcome::runtimeError);
+  EXPECT_THAT(result.checks[0].message, HasSubstr("called exit(0) before the first call"));
+  EXPECT_THAT(result.output.text, HasSubstr("ALL TESTS PASSED"));
+}
+
+TEST_F(Grader, SurvivesGlobalsThatDoNotFit) {
+  if (kSanitized) GTEST_SKIP() << "the sanitizers need an unlimited address space";
+  const GradeResult result = grade("globals");
+  EXPECT_EQ(result.outcome, Outcome::runtimeError);
+  EXPECT_THAT(result.checks[0].message, HasSubstr("do the global variables need more than 300 MB?"));
+}
+
+TEST_F(Grader, LeavesNoOrphanAndNoFile) {
+  EXPECT_EQ(grade("orphan").score, 10);
+  EXPECT_EQ(processesOf(kSample / "orphan"), 0);
+  EXPECT_EQ(grade("litter").score, 10);
+  EXPECT_TRUE(temporaryIsEmpty());
+}
+
+TEST_F(Grader, KeepsHiddenInputsFromTheStudent) {
+  const GradeResult result = grade("secrets");
+  EXPECT_EQ(find(result, "step-unseen").message,
+            "0 of 3 cases hold; case 1: threw std::runtime_error in ikStep");
+  EXPECT_EQ(find(result, "step-unseen").input, "");
+  const GradeResult hidden = grade("secrets", {"--check", "step-unseen"});
+  EXPECT_EQ(hidden.output.text, "");
+  EXPECT_GT(hidden.usage.outputBytes, 0u);
+  EXPECT_THAT(find(grade("assertion"), "step-unseen").message, "aborted in ikStep");
+}
+
+TEST_F(Grader, GivesTheSameBytesTwice) {
+  const auto stable = [&](const std::string& seed) {
+    auto json = nlohmann::json::parse(toJson(grade("nan", {"--seed", seed})));
+    json.erase("volatile");
+    return json.dump();
+  };
+  EXPECT_EQ(stable("5"), stable("5"));
+  EXPECT_NE(stable("5"), stable("6"));
+}
+
+TEST_F(Grader, FillsAPreparedResultFile) {
+  GradeResult prepared;
+  prepared.submissionId = "alice";
+  prepared.compiler = "g++ 12";
+  saveResult(prepared, results());
+  const GradeResult result = grade("good", {"--check", "search", "--check", "step"});
+  EXPECT_EQ(result.submissionId, "alice");
+  EXPECT_EQ(result.compiler, "g++ 12");
+  ASSERT_EQ(result.checks.size(), 2u);
+  EXPECT_EQ(result.checks[0].id, "step");
+  EXPECT_EQ(result.score, 5);
+  EXPECT_EQ(result.maxScore, 5);
+}
+
+TEST_F(Grader, ListsAllChecksAsNotRunWithoutAWorker) {
+  GradeResult prepared;
+  prepared.outcome = Outcome::compileError;
+  saveResult(prepared, results());
+  EXPECT_EQ(run({}).exitCode, kBelowFullScore);
+  const GradeResult result = loadResult(results());
+  EXPECT_EQ(result.outcome, Outcome::compileError);
+  EXPECT_EQ(result.maxScore, 10);
+  EXPECT_EQ(result.checks.size(), 4u);
+  EXPECT_EQ(result.checks[3].status, std::nullopt);
+}
+
+TEST_F(Grader, HasExitCodes) {
+  EXPECT_EQ(run({"--worker", (kSample / "good").string()}).exitCode, kFullScore);
+  EXPECT_EQ(run({"--worker", (kSample / "shape").string()}).exitCode, kBelowFullScore);
+  EXPECT_EQ(run({"--worker", (kSample / "missing").string()}).exitCode, kGraderFault);
+  const GradeResult result = loadResult(results());
+  EXPECT_EQ(result.outcome, Outcome::graderError);
+  EXPECT_THAT(result.checks[0].message,
+              HasSubstr("the grader failed, which is not your fault: cannot start the worker"));
+  EXPECT_EQ(result.checks[2].message,
+            "the grader failed, which is not your fault: the check ended by an exception");
+  const ProcessResult unknown = run({"--check", "stepp"});
+  EXPECT_EQ(unknown.exitCode, kUsage);
+  EXPECT_EQ(unknown.error, "grader: unknown check 'stepp' (did you mean 'step'?)\n");
+  EXPECT_EQ(run({"--cpu-seconds", "-1"}).exitCode, kUsage);
+  EXPECT_EQ(run({"--nonsense"}).exitCode, kUsage);
+  std::ofstream(results()) << "spoilt";
+  EXPECT_EQ(run({}).exitCode, kGraderFault);
+}
+
+// build.json alone must tell how a student's program becomes a worker.
+TEST_F(Grader, IsDescribedWellEnoughToBuildAWorker) {
+  std::ifstream file(kSample / "build.json");
+  const auto build = nlohmann::json::parse(file);
+  const fs::path source = build.at("folder").get<std::string>();
+  const fs::path worker = results().parent_path() / "worker";
+  std::vector<std::string> command = {build.at("compiler").get<std::string>()};
+  for (const std::string flag : build.at("compile_flags")) command.push_back(flag);
+  for (const char* name : {"good.cpp", "rest.cpp"}) command.push_back((source / name).string());
+  for (const char* part : {"worker_object", "student_library"})
+    command.push_back(build.at(part).get<std::string>());
+  for (const std::string flag : build.at("link_flags")) command.push_back(flag);
+  command.insert(command.end(), {"-o", worker.string()});
+  const ProcessResult compiled = runProcess(command);
+  ASSERT_TRUE(compiled.ok()) << compiled.error;
+  EXPECT_EQ(compiled.error, "");
+  EXPECT_EQ(run({"--worker", worker.string()}).exitCode, kFullScore);
+  EXPECT_EQ(fs::path(build.at("grader").get<std::string>()), kSample / "grader");
+  EXPECT_EQ(build.at("functions"), nlohmann::json::parse(R"(["ikStep", "square", "search"])"));
+}
+
+TEST_F(Grader, ListsItsChecks) {
+  const ProcessResult process = run({"--list"});
+  EXPECT_EQ(process.exitCode, kFullScore);
+  const auto list = nlohmann::json::parse(process.output);
+  ASSERT_EQ(list.size(), 4u);
+  EXPECT_EQ(list[2],
+            nlohmann::json::parse(R"({"id": "step-unseen", "part": "a", "points": 3, "group": "hidden",
+                                               "title": "One step reaches unseen targets"})"));
+}
+
+}  // namespace
+}  // namespace rex::grading

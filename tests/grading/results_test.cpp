@@ -1,0 +1,146 @@
+#include "grading/results.h"
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "grading/result_file.h"
+#include "support/expect_error.h"
+
+namespace rex::grading {
+namespace {
+
+GradeResult someResult() {
+  GradeResult result;
+  result.submissionId = "alice \"quoted\" \u00e4\n";
+  result.files = {{"main.cpp", "ab12"}, {"other.h", "cd34"}};
+  result.snapshotSha256 = "ef56";
+  result.exerciseId = "01-kinematics";
+  result.exerciseVersion = "3";
+  result.seedId = "public";
+  result.toolVersion = "0.1.0";
+  result.compiler = "g++ 12";
+  result.sandboxLevel = 0;
+  result.sandboxWarnings = {"careful"};
+  result.outcome = Outcome::timeLimit;
+  result.message = "hello";
+  result.score = 3;
+  result.maxScore = 9;
+  result.checks = {{.id = "x",
+                    .part = "a",
+                    .title = "X",
+                    .group = Group::hidden,
+                    .status = Outcome::timeLimit,
+                    .points = 3,
+                    .maxPoints = 4,
+                    .message = "m",
+                    .property = "p",
+                    .expected = "e",
+                    .got = "g",
+                    .tolerance = "t",
+                    .input = "i",
+                    .wallSeconds = 1.5,
+                    .cpuSeconds = 0.25},
+                   {.id = "y", .maxPoints = 5}};
+  result.compile = {1, {{"main.cpp", 3, 4, "error", "-Wall", "wrong"}}, true};
+  result.limits = {.cpuSeconds = 3, .wallSeconds = 5, .memoryMegabytes = 100, .outputMegabytes = 2};
+  result.output = {"out", 11};
+  result.error = {"err", 12};
+  result.usage = {.cpuSeconds = 0.5, .wallSeconds = 2, .peakMemoryBytes = 4096, .outputBytes = 33};
+  return result;
+}
+
+TEST(Results, ComeBackFromJson) {
+  const std::string text = toJson(someResult());
+  EXPECT_EQ(toJson(gradeResultFromJson(text, "r.json")), text);
+  const GradeResult back = gradeResultFromJson(text, "r.json");
+  EXPECT_EQ(back.submissionId, someResult().submissionId);
+  EXPECT_EQ(back.checks.at(0).status, Outcome::timeLimit);
+  EXPECT_EQ(back.checks.at(0).group, Group::hidden);
+  EXPECT_EQ(back.checks.at(0).wallSeconds, 1.5);
+  EXPECT_EQ(back.checks.at(1).status, std::nullopt);
+  EXPECT_EQ(back.limits.memoryMegabytes, 100);
+  EXPECT_EQ(back.compile.diagnostics.at(0).rule, "-Wall");
+  EXPECT_EQ(back.error.truncatedBytes, 12u);
+}
+
+TEST(Results, KeepEverythingThatChangesBetweenRunsInOnePlace) {
+  GradeResult other = someResult();
+  other.usage = {};
+  other.output.truncatedBytes = 99;
+  other.checks[0].cpuSeconds = 7;
+  auto one = nlohmann::json::parse(toJson(someResult()));
+  auto two = nlohmann::json::parse(toJson(other));
+  EXPECT_NE(one, two);
+  one.erase("volatile");
+  two.erase("volatile");
+  EXPECT_EQ(one, two);
+}
+
+TEST(Results, HaveTheFieldsOfTheSchema) {
+  const auto json = nlohmann::json::parse(toJson(someResult()));
+  EXPECT_EQ(json.at("schema"), "grade-result/1");
+  EXPECT_EQ(json.at("submission").at("files").at(1).at("sha256"), "cd34");
+  EXPECT_EQ(json.at("exercise").at("version"), "3");
+  EXPECT_EQ(json.at("tool").at("version"), "0.1.0");
+  EXPECT_EQ(json.at("sandbox").at("warnings").at(0), "careful");
+  EXPECT_EQ(json.at("outcome"), "time_limit");
+  EXPECT_EQ(json.at("checks").at(1).at("status"), "not_run");
+  EXPECT_EQ(json.at("checks").at(0).at("max_points"), 4);
+  EXPECT_EQ(json.at("compile").at("diagnostics").at(0).at("line"), 3);
+  EXPECT_EQ(json.at("limits").at("memory_bytes"), 100 << 20);
+  EXPECT_EQ(json.at("volatile").at("checks").at(0).at("wall_ms"), 1500);
+}
+
+TEST(Results, SurviveInvalidUtf8) {
+  GradeResult result = someResult();
+  result.message = "\xff\xc3";
+  EXPECT_EQ(nlohmann::json::parse(toJson(result)).at("message"), "\uFFFD\uFFFD");
+}
+
+TEST(Results, SayWhichFieldIsWrong) {
+  const auto read = [](const std::string& text) { return gradeResultFromJson(text, "r.json"); };
+  const std::string start = R"({"schema": "grade-result/1", )";
+  EXPECT_REX_ERROR(read("{"), "r.json: result file: not JSON");
+  EXPECT_REX_ERROR(read("[]"), "an object");
+  EXPECT_REX_ERROR(read("{}"), "field 'schema': wanted grade-result/1");
+  EXPECT_REX_ERROR(read(start + R"("score": "x"})"), "field 'score': wanted a number");
+  EXPECT_REX_ERROR(read(start + R"("message": 3})"), "field 'message': wanted text");
+  EXPECT_REX_ERROR(read(start + R"("outcome": "great"})"), "field 'outcome': wanted an outcome such as");
+  EXPECT_REX_ERROR(read(start + R"("checks": 1})"), "field 'checks': wanted a list");
+  EXPECT_REX_ERROR(read(start + R"("checks": [{"points": []}]})"),
+                   "field 'checks[0].points': wanted a number");
+  EXPECT_REX_ERROR(read(start + R"("checks": [{"group": "secret"}]})"), "wanted visible or hidden");
+  EXPECT_REX_ERROR(read(start + R"("tool": 1})"), "field 'tool.': wanted an object");
+}
+
+TEST(Results, KnowEveryOutcomeByName) {
+  for (int k = 0; k <= static_cast<int>(Outcome::graderError); ++k) {
+    const auto outcome = static_cast<Outcome>(k);
+    EXPECT_EQ(outcomeFromString(toString(outcome)), outcome);
+  }
+  EXPECT_EQ(outcomeFromString("grader_error"), Outcome::graderError);
+  EXPECT_EQ(outcomeFromString("great"), std::nullopt);
+}
+
+TEST(ResultFile, IsReplacedAndReadBack) {
+  const std::filesystem::path folder =
+      std::filesystem::path(REX_BINARY_DIR) / ("result-file-" + std::to_string(::getpid()));
+  std::filesystem::create_directory(folder);
+  const std::filesystem::path file = folder / "r.json";
+  std::ofstream(file) << "old";
+  EXPECT_REX_ERROR(loadResult(file), "not JSON");
+  saveResult(someResult(), file);
+  EXPECT_EQ(toJson(loadResult(file)), toJson(someResult()));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 1);
+  EXPECT_REX_ERROR(loadResult(folder / "none.json"), "cannot read the result file: found No such file");
+  EXPECT_REX_ERROR(saveResult(someResult(), folder / "no" / "r.json"), "cannot write the result file");
+  std::filesystem::create_directory(folder / "taken");
+  EXPECT_REX_ERROR(saveResult(someResult(), folder / "taken"), "cannot write the result file");
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace rex::grading

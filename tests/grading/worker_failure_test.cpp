@@ -1,0 +1,72 @@
+#include "grading/worker_failure.h"
+
+#include <csignal>
+
+#include <gtest/gtest.h>
+
+#include "remote/worker.h"
+
+namespace rex::grading {
+namespace {
+
+const WorkerLimits kLimits{.cpuSeconds = 2, .memoryMegabytes = 64};
+
+Failure bySignal(int signal, double cpuSeconds = 0, bool ready = true) {
+  return explainEnd(
+      {.status = signal, .cpuSeconds = cpuSeconds, .ready = ready, .function = ready ? "f" : ""}, kLimits);
+}
+
+Failure byExit(int code, bool ready = true) {
+  return explainEnd(
+      {.status = code << 8, .ready = ready, .function = ready ? "f" : "", .errorTail = "no such library"},
+      kLimits);
+}
+
+TEST(ExplainEnd, NamesTheSignal) {
+  EXPECT_EQ(bySignal(SIGSEGV).message,
+            "crashed with a segmentation fault in f (an index out of range, or a recursion without end?)");
+  EXPECT_EQ(bySignal(SIGBUS).message, bySignal(SIGSEGV).message);
+  EXPECT_EQ(
+      bySignal(SIGSEGV, 0, false).message,
+      "crashed with a segmentation fault before the first call (in the constructor of a global variable, or "
+      "do the global variables need more than 64 MB?)");
+  EXPECT_EQ(bySignal(SIGFPE).message, "crashed with an integer division by zero in f");
+  EXPECT_EQ(bySignal(SIGILL).message, "crashed with an illegal instruction in f (a missing return?)");
+  EXPECT_EQ(bySignal(SIGABRT).message, "aborted in f");
+  EXPECT_EQ(bySignal(SIGTERM).message, "was ended by signal 15 (Terminated) in f");
+  EXPECT_EQ(bySignal(SIGXFSZ).outcome, Outcome::outputLimit);
+  EXPECT_EQ(bySignal(SIGXFSZ).message, "wrote a file that is too large in f");
+}
+
+TEST(ExplainEnd, TellsTheTimeLimitFromOtherKills) {
+  EXPECT_EQ(bySignal(SIGXCPU).outcome, Outcome::timeLimit);
+  EXPECT_EQ(bySignal(SIGXCPU).message, "stopped after 2.0 s of CPU time in f");
+  EXPECT_EQ(bySignal(SIGKILL, 3).outcome, Outcome::timeLimit);
+  EXPECT_EQ(bySignal(SIGKILL, 1).outcome, Outcome::runtimeError);
+  EXPECT_EQ(bySignal(SIGKILL, 1).message, "was killed in f");
+}
+
+TEST(ExplainEnd, NamesTheExitCode) {
+  EXPECT_EQ(byExit(0).message, "called exit(0) in f");
+  EXPECT_EQ(byExit(3, false).message,
+            "called exit(3) before the first call (in the constructor of a global variable?)");
+  EXPECT_EQ(byExit(127, false).message, "could not be loaded");
+  EXPECT_EQ(byExit(127, false).detail, "no such library");
+  EXPECT_EQ(byExit(remote::kProtocolFailure).outcome, Outcome::protocolError);
+  EXPECT_EQ(byExit(remote::kProtocolFailure).message, "lost its connection to the grader in f");
+  EXPECT_EQ(placeOf(true, ""), "between two calls");
+}
+
+TEST(ExplainThrow, KeepsTheStudentsTextApart) {
+  const Failure failure =
+      explainThrow({"f", {.kind = remote::Thrown::Kind::exception, .type = "E", .text = "secret"}}, kLimits);
+  EXPECT_EQ(failure.outcome, Outcome::runtimeError);
+  EXPECT_EQ(failure.message, "threw E in f");
+  EXPECT_EQ(failure.detail, "secret");
+  const Failure memory = explainThrow({"f", {.kind = remote::Thrown::Kind::badAlloc}}, kLimits);
+  EXPECT_EQ(memory.outcome, Outcome::memoryLimit);
+  EXPECT_EQ(memory.message, "used more than 64 MB of memory in f");
+}
+
+}  // namespace
+}  // namespace rex::grading
