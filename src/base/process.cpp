@@ -10,6 +10,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -60,6 +61,7 @@ bool applyLimits(const ProcessOptions& options) {
 // Between fork and exec only async-signal-safe calls are allowed: everything is prepared before.
 [[noreturn]] void becomeProgram(char* const* argv, const char* directory, const ProcessOptions& options,
                                 const int (&standard)[3], int statusFd) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // no program outlives us
   // A program that shares our terminal stays in our process group, so that Ctrl-C ends both.
   if (!options.inheritOutput) ::setpgid(0, 0);
   for (int fd = 0; fd < 3; ++fd) {

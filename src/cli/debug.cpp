@@ -27,7 +27,7 @@ ExitCode debug(const Project& project, const DebugOptions& options) {
   const std::filesystem::path file = chooseStudentFile(exercise, options.solution);
   const std::filesystem::path out = project.outFolder(exercise);
   // Kept after we are gone: the debugger takes our place.
-  const std::filesystem::path work = project.buildFolder(exercise) / "debug";
+  const std::filesystem::path work = out / ".debug";
   std::filesystem::create_directories(out);
   const auto program =
       buildProgram(project, exercise, {.main = file, .workFolder = work, .debug = true}, out);

@@ -4,12 +4,11 @@ namespace rex::cli {
 
 /// What `rex` tells the shell.
 enum class ExitCode {
-  kFull = 0,            ///< graded with full score, or: the command did its work
-  kBelow = 1,           ///< graded below full score, or: the student's program failed, a gate is open
-  kNotGradable = 2,     ///< the file is missing, does not compile or calls what is forbidden
-  kGraderFault = 3,     ///< our fault, never a grade
-  kSandboxTooWeak = 4,  ///< the machine cannot confine programs as well as asked for
-  kUsage = 64,          ///< unknown command, option or name
+  kFull = 0,         ///< graded with full score, or: the command did its work
+  kBelow = 1,        ///< graded below full score, or: the student's program failed, a gate is open
+  kNotGradable = 2,  ///< the file is missing, does not compile or calls what is forbidden
+  kGraderFault = 3,  ///< our fault, never a grade
+  kUsage = 64,       ///< unknown command, option or name
 };
 
 }  // namespace rex::cli

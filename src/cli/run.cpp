@@ -38,6 +38,7 @@ void listResults(const fs::path& folder) {
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     if (!entry.is_regular_file()) continue;
     const fs::path name = entry.path().lexically_relative(folder);
+    if (name.string().starts_with('.')) continue;
     groups[{name.parent_path().string(), name.extension().string()}].push_back(shown(entry.path()));
   }
   if (groups.empty()) return;

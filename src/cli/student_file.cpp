@@ -15,6 +15,18 @@ using grading::CompileDiagnostic;
 
 namespace {
 
+// The compiler counts columns with tabs of eight.
+std::string expandTabs(const std::string& line) {
+  std::string expanded;
+  for (const char c : line) {
+    if (c == '\t')
+      expanded.append(8 - expanded.size() % 8, ' ');
+    else
+      expanded += c;
+  }
+  return expanded;
+}
+
 std::string lineOf(const std::string& source, int number) {
   std::istringstream lines(source);
   std::string line;
@@ -43,7 +55,7 @@ void explain(const std::vector<CompileDiagnostic>& messages, const std::string& 
   note(wrap(harmless(toString(*first)), 2, 0));
   const std::string line = first->line > 0 ? lineOf(source, first->line) : "";
   if (!line.empty()) {
-    note("  " + harmless(line));
+    note("  " + harmless(expandTabs(line)));
     if (first->column > 0) note(fmt::format("{:>{}}", '^', 2 + first->column));
   }
   const auto others = std::count_if(messages.begin(), messages.end(), isError) - 1;

@@ -19,7 +19,7 @@ enum class Colour { kRed, kGreen, kYellow, kBold };
 [[nodiscard]] std::string harmless(std::string_view text);
 
 /// Prints a line on standard output.
-void say(std::string_view line = {});
+void say(std::string_view line = "");
 
 /// Prints a line on standard error: what is going on, not what the user asked for.
 void note(std::string_view line);

@@ -36,7 +36,8 @@ void printChecks(const ExerciseInfo& exercise, const std::vector<CheckResult>& c
     say(paint(Colour::kBold, part.title));
     for (const CheckResult& check : checks) {
       if (check.part != part.id) continue;
-      const std::string title = wrap(harmless(check.title), kMessageIndent, kMessageIndent);
+      const std::string hidden = check.group == grading::Group::hidden ? " (hidden)" : "";
+      const std::string title = wrap(harmless(check.title) + hidden, kMessageIndent, kMessageIndent);
       say(fmt::format(" {} {:{}} {:2}/{:<2}  {}", verdict(check), title, kTitleWidth, check.points,
                       check.maxPoints, check.id));
       if (check.status != Outcome::pass && !check.message.empty())

@@ -102,6 +102,23 @@ std::vector<CompileDiagnostic> parseCompilerJson(std::string_view standardError)
   return messages;
 }
 
+std::vector<CompileDiagnostic> parseCompilerText(std::string_view standardError) {
+  std::vector<CompileDiagnostic> messages;
+  for (const std::string_view line : splitLines(standardError)) {
+    const std::size_t label = std::min(line.find(": error: "), line.find(": fatal error: "));
+    if (label == line.npos || label == 0) continue;
+    const std::size_t column = line.rfind(':', label - 1);
+    const std::size_t row = column == line.npos || column == 0 ? line.npos : line.rfind(':', column - 1);
+    if (row == line.npos) continue;
+    CompileDiagnostic message{.file = std::string(line.substr(0, row)), .severity = "error"};
+    std::from_chars(line.data() + row + 1, line.data() + column, message.line);
+    std::from_chars(line.data() + column + 1, line.data() + label, message.column);
+    message.message = tidy(std::string(line.substr(line.find("error: ", label) + 7)));
+    messages.push_back(std::move(message));
+  }
+  return messages;
+}
+
 void blameMainFile(std::vector<CompileDiagnostic>& messages, const std::string& mainFile,
                    std::string_view plainText) {
   const std::vector<std::string_view> lines = splitLines(plainText);

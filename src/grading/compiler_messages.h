@@ -15,6 +15,9 @@ namespace rex::grading {
 /// as none. Their files are as the compiler names them.
 [[nodiscard]] std::vector<CompileDiagnostic> parseCompilerJson(std::string_view standardError);
 
+/// The same from its plain text without source lines, "file:line:column: error: message".
+[[nodiscard]] std::vector<CompileDiagnostic> parseCompilerText(std::string_view standardError);
+
 /// Moves each message about another file to the line of `mainFile` that caused it, found in the plain text
 /// the compiler wrote about the same run ("required from here", "included from"); line 0 when it tells not.
 void blameMainFile(std::vector<CompileDiagnostic>& messages, const std::string& mainFile,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -31,14 +30,16 @@ GateResult judge(const std::vector<std::string>& complaints) {
   return {complaints.empty(), fmt::format("{}", fmt::join(complaints, "\n"))};
 }
 
-GradeResult grade(const GateContext& context, const path& file, std::optional<std::uint64_t> seed = {}) {
-  return gradeSubmission(context.toolchain, context.exercise,
-                         {.main = file,
-                          .workFolder = context.workFolder / "build",
-                          .results = context.workFolder / "results.json",
-                          .checks = {},
-                          .seed = seed})
-      .result;
+SubmissionOptions optionsFor(const GateContext& context, const path& file) {
+  return {.main = file,
+          .workFolder = context.workFolder / "build",
+          .results = context.workFolder / "results.json",
+          .checks = {},
+          .seed = {}};
+}
+
+GradeResult grade(const GateContext& context, const path& file) {
+  return gradeSubmission(context.toolchain, context.exercise, optionsFor(context, file)).result;
 }
 
 // What is not as it should be in a result, line by line.
@@ -105,10 +106,14 @@ GateResult mainScoresFloor(const GateContext& context) {
 }
 
 GateResult solutionIsFull(const GateContext& context) {
+  SubmissionOptions options = optionsFor(context, context.exercise.folder / "solution.cpp");
+  const BuiltSubmission built = buildSubmission(context.toolchain, context.exercise, options);
+  if (!built.start.compile.diagnostics.empty())
+    return failed("solution.cpp does not compile cleanly: " +
+                  toString(built.start.compile.diagnostics.front()));
   for (int seed = 1; seed <= context.seeds; ++seed) {
-    const GradeResult result = grade(context, context.exercise.folder / "solution.cpp", seed);
-    if (!result.compile.diagnostics.empty())
-      return failed("solution.cpp does not compile cleanly: " + toString(result.compile.diagnostics.front()));
+    options.seed = seed;
+    const GradeResult result = gradeBuilt(built, context.toolchain, context.exercise, options);
     if (result.outcome != Outcome::pass || result.score != context.exercise.points())
       return failed(fmt::format("solution.cpp scores {} of {} under seed {}{}", result.score,
                                 context.exercise.points(), seed, shortfalls(result)));

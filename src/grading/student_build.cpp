@@ -20,8 +20,6 @@ namespace {
 
 using std::filesystem::path;
 
-constexpr double kCompileSeconds = 30;
-constexpr std::size_t kCompileMemory = std::size_t{2} << 30;
 constexpr std::size_t kObjectSize = 64u << 20;
 constexpr std::size_t kLogSize = 64u << 10;
 constexpr std::size_t kMostMessages = 50;
@@ -37,24 +35,25 @@ std::string plainName(const path& file) {
   return usable ? name : "main.cpp";
 }
 
-ProcessResult runTool(const std::vector<std::string>& command, const path& folder) {
+ProcessResult runTool(const std::vector<std::string>& command, const path& folder,
+                      const StudentBuildOptions& limits = {}) {
   ProcessResult result = runProcess(command, {.directory = folder,
-                                              .timeout = 2 * kCompileSeconds + 2,
+                                              .timeout = 2 * limits.seconds + 2,
                                               .outputLimit = 8u << 20,
-                                              .cpuSeconds = kCompileSeconds,
-                                              .addressSpace = kCompileMemory,
+                                              .cpuSeconds = limits.seconds,
+                                              .addressSpace = limits.memory,
                                               .fileSize = kObjectSize});
   if (!result.started) throw Error({.what = "cannot run " + command.front(), .found = result.error});
   return result;
 }
 
 // Why a compiler that reported no error still failed.
-std::string whyItGaveUp(const ProcessResult& run) {
+std::string whyItGaveUp(const ProcessResult& run, const StudentBuildOptions& limits) {
   const auto says = [&](const char* text) { return run.error.find(text) != std::string::npos; };
   if (run.timedOut || says("Killed") || says("CPU time limit") || run.signal != 0)
-    return fmt::format("compiling took more than {:g} s of processor time and was stopped", kCompileSeconds);
+    return fmt::format("compiling took more than {:g} s of processor time and was stopped", limits.seconds);
   if (says("out of memory") || says("memory exhausted") || says("bad_alloc"))
-    return fmt::format("compiling needed more than {} MiB of memory and was stopped", kCompileMemory >> 20);
+    return fmt::format("compiling needed more than {} MiB of memory and was stopped", limits.memory >> 20);
   if (says("File size limit") || says("File too large"))
     return fmt::format("the compiled file would be larger than {} MiB", kObjectSize >> 20);
   const std::string firstLine = run.error.substr(0, run.error.find('\n'));
@@ -64,7 +63,7 @@ std::string whyItGaveUp(const ProcessResult& run) {
 std::vector<std::string> compileCommand(const Toolchain& toolchain, const StudentBuildOptions& options) {
   std::vector<std::string> command = {toolchain.compiler};
   command.insert(command.end(), toolchain.flags.begin(), toolchain.flags.end());
-  command.insert(command.end(), {"-fmax-errors=20", "-ftemplate-depth=200"});
+  command.insert(command.end(), {"-ftemplate-depth=200"});
   if (options.debug) {
     const path folder = std::filesystem::absolute(options.main).parent_path();
     command.insert(
@@ -76,9 +75,10 @@ std::vector<std::string> compileCommand(const Toolchain& toolchain, const Studen
 
 // The compiler's report in plain words; it alone tells which line of the student's caused an error in a
 // header. No source lines are quoted: they could come from any file.
-std::string plainReport(std::vector<std::string> command, const std::string& name, const path& folder) {
-  command.insert(command.end(), {"-fno-diagnostics-show-caret", "-fsyntax-only", name});
-  return runTool(command, folder).error;
+std::string plainReport(std::vector<std::string> command, const std::string& name,
+                        const StudentBuildOptions& options) {
+  command.insert(command.end(), {"-fmax-errors=20", "-fno-diagnostics-show-caret", "-fsyntax-only", name});
+  return runTool(command, options.workFolder, options).error;
 }
 
 std::string writeLog(const std::vector<CompileDiagnostic>& messages) {
@@ -87,22 +87,23 @@ std::string writeLog(const std::vector<CompileDiagnostic>& messages) {
   return log;
 }
 
-void compile(const std::vector<std::string>& command, const std::string& name, const path& folder,
-             StudentObject& result) {
+void compile(const std::vector<std::string>& command, const std::string& name,
+             const StudentBuildOptions& options, StudentObject& result) {
   std::vector<std::string> withJson = command;
   withJson.insert(withJson.end(),
                   {"-fdiagnostics-format=json", "-c", name, "-o", result.object.filename().string()});
-  const ProcessResult run = runTool(withJson, folder);
+  const ProcessResult run = runTool(withJson, options.workFolder, options);
   result.exitCode = run.exitCode;
   result.ok = run.ok();
   result.messages = parseCompilerJson(run.error);
-  const bool explained = std::any_of(result.messages.begin(), result.messages.end(),
-                                     [](const CompileDiagnostic& m) { return m.severity == "error"; });
-  if (!run.ok() && !explained) {
-    result.messages.push_back({name, 0, 0, "error", "", whyItGaveUp(run)});
-  } else if (!run.ok()) {
-    result.log = plainReport(command, name, folder).substr(0, kLogSize);
-  }
+  const auto isError = [](const CompileDiagnostic& m) { return m.severity == "error"; };
+  const auto explained = [&] { return std::any_of(result.messages.begin(), result.messages.end(), isError); };
+  // g++ 12 writes no JSON when -fmax-errors stops it; so that is for plain text only, which stands in when
+  // too many errors keep the JSON from being finished.
+  if (!run.ok()) result.log = plainReport(command, name, options).substr(0, kLogSize);
+  if (!run.ok() && !explained()) result.messages = parseCompilerText(result.log);
+  if (!run.ok() && !explained())
+    result.messages.push_back({name, 0, 0, "error", "", whyItGaveUp(run, options)});
   blameMainFile(result.messages, name, result.log);
   result.truncated = result.messages.size() > kMostMessages;
   if (result.truncated) result.messages.resize(kMostMessages);
@@ -193,7 +194,7 @@ StudentObject compileStudent(const Toolchain& toolchain, const std::vector<Forbi
   result.object = folder / "student.o";
   StudentBuildOptions absolute = options;
   absolute.workFolder = folder;
-  compile(compileCommand(toolchain, absolute), name, folder, result);
+  compile(compileCommand(toolchain, absolute), name, absolute, result);
   if (!result.ok) return result;
 
   const std::vector<CompileDiagnostic> calls =

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -12,9 +13,11 @@ namespace rex::grading {
 
 /// What to build from a student's file.
 struct StudentBuildOptions {
-  std::filesystem::path main;        ///< the student's file
-  std::filesystem::path workFolder;  ///< made if missing; objects, worker and program go there
-  bool debug = false;                ///< -g -O0, for a debugger
+  std::filesystem::path main;                 ///< the student's file
+  std::filesystem::path workFolder;           ///< made if missing; objects, worker and program go there
+  bool debug = false;                         ///< -g -O0, for a debugger
+  double seconds = 30;                        ///< of processor time that compiling may take
+  std::size_t memory = std::size_t{2} << 30;  ///< bytes that compiling may take
 };
 
 /// A compiled student file, or why there is none.

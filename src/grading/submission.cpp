@@ -18,7 +18,7 @@ namespace {
 
 using std::filesystem::path;
 
-constexpr int kUsage = 64;
+constexpr int kGraderFault = 3;  // it explains itself in the result
 constexpr double kLongestGrading = 3600;
 
 // Changes whenever the task or its checks do.
@@ -63,11 +63,10 @@ std::vector<std::string> graderCommand(const Toolchain& toolchain, const Exercis
 GradeResult callGrader(const std::vector<std::string>& command, const path& results) {
   const ProcessResult run = runProcess(command, {.timeout = kLongestGrading});
   const std::string said = run.error.substr(0, run.error.find_last_not_of('\n') + 1);
-  if (run.exitCode == kUsage) throw Error({.what = said});
   GradeResult result = loadResult(results);
   if (run.exitCode != 0 && run.exitCode != 1) {
     result.outcome = Outcome::graderError;
-    if (result.message.empty())
+    if (run.exitCode != kGraderFault || result.message.empty())
       result.message =
           fmt::format("the grader failed (exit code {}, signal {}): {}", run.exitCode, run.signal, said);
     saveResult(result, results);
@@ -82,48 +81,61 @@ std::string firstError(const std::vector<CompileDiagnostic>& messages) {
   return first == messages.end() ? "does not compile" : toString(*first);
 }
 
-struct Build {
-  GradeResult result;  // so far
-  std::string source, log;
-  path worker;  // empty: does not compile
-};
+void requireKnownChecks(const Toolchain& toolchain, const std::vector<std::string>& wanted) {
+  if (wanted.empty()) return;
+  std::vector<std::string> known;
+  for (const CheckResult& check : listChecks(toolchain)) known.push_back(check.id);
+  for (const std::string& id : wanted)
+    if (std::find(known.begin(), known.end(), id) == known.end())
+      throw Error({.what = fmt::format("no check is called '{}'", id), .nearest = nearestNames(id, known)});
+}
 
-Build buildWorker(const Toolchain& toolchain, const ExerciseInfo& exercise,
-                  const SubmissionOptions& options) {
+void compileAndLink(const Toolchain& toolchain, const ExerciseInfo& exercise,
+                    const SubmissionOptions& options, BuiltSubmission& built) {
   const StudentObject object =
       compileStudent(toolchain, exercise.forbidden, {.main = options.main, .workFolder = options.workFolder});
-  Build build{startResult(toolchain, exercise, object), object.source, object.log, {}};
+  built.start = startResult(toolchain, exercise, object);
+  built.source = object.source;
+  std::string log = object.log;
+  auto& diagnostics = built.start.compile.diagnostics;
   if (object.ok) {
     const StudentProgram linked = linkWorker(toolchain, object);
-    if (linked.ok) build.worker = linked.program;
-    auto& diagnostics = build.result.compile.diagnostics;
+    if (linked.ok) built.worker = linked.program;
     diagnostics.insert(diagnostics.end(), linked.messages.begin(), linked.messages.end());
-    build.log += linked.log;
+    log += linked.log;
   }
-  if (build.worker.empty()) {
-    build.result.outcome = Outcome::compileError;
-    build.result.message = firstError(build.result.compile.diagnostics);
+  if (built.worker.empty()) {
+    built.start.outcome = Outcome::compileError;
+    built.start.message = firstError(diagnostics);
   }
-  return build;
+  internal::writeTextFile(options.results.parent_path() / "build.log", log);
 }
 
 }  // namespace
 
+BuiltSubmission buildSubmission(const Toolchain& toolchain, const ExerciseInfo& exercise,
+                                const SubmissionOptions& options) {
+  BuiltSubmission built;
+  try {
+    compileAndLink(toolchain, exercise, options, built);
+  } catch (const Error& error) {
+    built.start = startResult(toolchain, exercise, {});
+    built.start.message = error.what();  // the outcome is graderError until somebody finds a better one
+  }
+  return built;
+}
+
+GradeResult gradeBuilt(const BuiltSubmission& built, const Toolchain& toolchain, const ExerciseInfo& exercise,
+                       const SubmissionOptions& options) {
+  saveResult(built.start, options.results);
+  return callGrader(graderCommand(toolchain, exercise, options, built.worker), options.results);
+}
+
 Submission gradeSubmission(const Toolchain& toolchain, const ExerciseInfo& exercise,
                            const SubmissionOptions& options) {
-  Build build;
-  try {
-    build = buildWorker(toolchain, exercise, options);
-  } catch (const Error& error) {
-    build.result = startResult(toolchain, exercise, {});
-    build.result.message = error.what();  // the outcome is graderError until somebody finds a better one
-    saveResult(build.result, options.results);
-    return {build.result, ""};
-  }
-  internal::writeTextFile(options.results.parent_path() / "build.log", build.log);
-  saveResult(build.result, options.results);
-  return {callGrader(graderCommand(toolchain, exercise, options, build.worker), options.results),
-          build.source};
+  requireKnownChecks(toolchain, options.checks);
+  const BuiltSubmission built = buildSubmission(toolchain, exercise, options);
+  return {gradeBuilt(built, toolchain, exercise, options), built.source};
 }
 
 std::vector<CheckResult> listChecks(const Toolchain& toolchain) {

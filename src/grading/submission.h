@@ -28,10 +28,23 @@ struct Submission {
 };
 
 /// Compiles the file, has the exercise's grader check it and leaves results.json, whatever the file does. A
-/// file that does not compile, or calls what is forbidden, gets Outcome::compileError. Throws Error for an
-/// unknown check, or when the grader or the tools cannot be run.
+/// file that does not compile, or calls what is forbidden, gets Outcome::compileError; when the grader or the
+/// tools fail, Outcome::graderError. Throws Error for an unknown check.
 [[nodiscard]] Submission gradeSubmission(const Toolchain& toolchain, const ExerciseInfo& exercise,
                                          const SubmissionOptions& options);
+
+/// The first of the two steps of gradeSubmission(): what compiling said, and the worker if there is one.
+struct BuiltSubmission {
+  GradeResult start;  ///< what is known before any check runs
+  std::string source;
+  std::filesystem::path worker;  ///< empty: does not compile, or the tools failed
+};
+[[nodiscard]] BuiltSubmission buildSubmission(const Toolchain& toolchain, const ExerciseInfo& exercise,
+                                              const SubmissionOptions& options);
+
+/// The second step; may be repeated with other seeds.
+[[nodiscard]] GradeResult gradeBuilt(const BuiltSubmission& built, const Toolchain& toolchain,
+                                     const ExerciseInfo& exercise, const SubmissionOptions& options);
 
 /// All checks of an exercise, none run. Throws Error when the grader cannot list them.
 [[nodiscard]] std::vector<CheckResult> listChecks(const Toolchain& toolchain);

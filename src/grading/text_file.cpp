@@ -8,10 +8,9 @@ namespace rex::grading::internal {
 
 std::string readTextFile(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (!in || std::filesystem::is_directory(file))
+  if (!in || !std::filesystem::is_regular_file(file))
     throw Error({.what = "cannot read this file", .where = {file.string()}});
-  return text;
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 void writeTextFile(const std::filesystem::path& file, std::string_view text) {

@@ -4,6 +4,9 @@
 #include <csignal>
 
 #include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "support/expect_error.h"
 
@@ -66,6 +69,28 @@ TEST(RunProcess, LimitsTimeMemoryAndFileSize) {
   EXPECT_EQ(runProcess({"sh", "-c", "ulimit -f"}, {.fileSize = 51200}).output, "100\n");
   EXPECT_EQ(runProcess({"sh", "-c", "ulimit -v; ulimit -f; ulimit -t"}).output,
             "unlimited\nunlimited\nunlimited\n");
+}
+
+TEST(RunProcess, LeavesNoProgramBehindWhenTheCallerDies) {
+  int fds[2];
+  ASSERT_EQ(::pipe(fds), 0);
+  const pid_t caller = ::fork();
+  if (caller == 0) {
+    static_cast<void>(runProcess(
+        {"bash", "-c",
+         "exec " + std::to_string(fds[0]) + "<&-; echo >&" + std::to_string(fds[1]) + "; exec sleep 60"}));
+    ::_exit(0);
+  }
+  ::close(fds[1]);
+  char started = 0;
+  ASSERT_EQ(::read(fds[0], &started, 1), 1);
+  ::kill(caller, SIGKILL);
+  ::waitpid(caller, nullptr, 0);
+  // The program holds the other end of the pipe for as long as it lives.
+  pollfd ended{fds[0], POLLIN, 0};
+  EXPECT_EQ(::poll(&ended, 1, 20'000), 1);
+  EXPECT_EQ(::read(fds[0], &started, 1), 0);
+  ::close(fds[0]);
 }
 
 TEST(RunProcess, WorksInTheGivenFolder) { EXPECT_EQ(runProcess({"pwd"}, {.directory = "/"}).output, "/\n"); }

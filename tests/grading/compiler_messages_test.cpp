@@ -24,6 +24,16 @@ TEST(ParseCompilerJson, SurvivesAnythingElse) {
     EXPECT_TRUE(parseCompilerJson(text).empty()) << text;
 }
 
+TEST(ParseCompilerText, KeepsErrors) {
+  const auto messages = parseCompilerText(
+      "main.cpp: In function 'f':\nmain.cpp:4:27:   required from here\nmain.cpp:5:9: error: bad: very\n"
+      "main.cpp:5:9: note: here\nmain.cpp:1:10: fatal error: a.h: No such file\n: error: x\nerror: y\ng++: "
+      "fatal error: z\n");
+  ASSERT_EQ(messages.size(), 2u);
+  EXPECT_EQ(toString(messages[0]), "main.cpp:5:9: error: bad: very");
+  EXPECT_EQ(toString(messages[1]), "main.cpp:1:10: error: a.h: No such file");
+}
+
 TEST(BlameMainFile, FindsTheLineThatInstantiated) {
   std::vector<CompileDiagnostic> messages = {
       {"/usr/include/eigen3/Eigen/src/Core/Product.h", 115, 7, "error", "", "SIZES"}};

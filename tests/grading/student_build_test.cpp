@@ -152,6 +152,20 @@ TEST_F(StudentBuildTest, CompilesUnderAPlainNameWhateverTheFileIsCalled) {
   EXPECT_EQ(object.name, "main.cpp");
 }
 
+TEST_F(StudentBuildTest, CopesWithCountlessErrors) {
+  std::string hundred, storm;
+  for (int k = 0; k < 100; ++k) hundred += "int f" + std::to_string(k) + "() { return unknown; }\n";
+  EXPECT_THAT(first(compile(hundred).messages),
+              HasSubstr("main.cpp:1:19: error: 'unknown' was not declared"));
+  EXPECT_TRUE(compile(hundred).truncated);
+  for (int k = 0; k < 20000; ++k) storm += "int a" + std::to_string(k) + " = b;";
+  write(temporary_.path() / "main.cpp", storm);
+  const StudentObject stopped = compileStudent(
+      toolchain(), {},
+      {.main = temporary_.path() / "main.cpp", .workFolder = temporary_.path() / "work", .seconds = 1});
+  EXPECT_THAT(first(stopped.messages), HasSubstr("main.cpp:1:10: error: 'b' was not declared"));
+}
+
 TEST_F(StudentBuildTest, StopsACompilationThatExplodes) {
   const StudentObject deep = compile("#include __FILE__\n");
   EXPECT_THAT(first(deep.messages), HasSubstr("nested depth"));
@@ -161,6 +175,30 @@ TEST_F(StudentBuildTest, StopsACompilationThatExplodes) {
   EXPECT_FALSE(std::filesystem::exists(large.object) &&
                std::filesystem::file_size(large.object) > (65u << 20));
   EXPECT_FALSE(compile("#include \"/dev/stdin\"\nint x = y;\n").ok);
+}
+
+TEST_F(StudentBuildTest, SaysWhichLimitACompilationHit) {
+  const auto refusal = [&](const std::string& source, StudentBuildOptions options) {
+    write(temporary_.path() / "main.cpp", source);
+    options.main = temporary_.path() / "main.cpp";
+    options.workFolder = temporary_.path() / "work";
+    return first(compileStudent(toolchain(), {}, options).messages);
+  };
+  EXPECT_EQ(refusal("template <int N, long M> struct F { static const int v = F<N - 1, 2 * M>::v + F<N - 1, "
+                    "2 * M + 1>::v; };\n"
+                    "template <long M> struct F<0, M> { static const int v = 1; };\nint x = F<40, 0>::v;\n",
+                    {.main = {}, .workFolder = {}, .seconds = 1}),
+            "main.cpp: error: compiling took more than 1 s of processor time and was stopped");
+  EXPECT_EQ(refusal("#include <Eigen/Core>\n", {.main = {}, .workFolder = {}, .memory = 150u << 20}),
+            "main.cpp: error: compiling needed more than 150 MiB of memory and was stopped");
+}
+
+TEST_F(StudentBuildTest, SaysWhenLinkingFailsForAnotherReason) {
+  Toolchain broken = toolchain();
+  broken.studentLibrary = "/no/such/library.so";
+  const StudentProgram program = linkProgram(broken, compile(kGood));
+  EXPECT_FALSE(program.ok);
+  EXPECT_THAT(first(program.messages), HasSubstr("main.cpp: error: cannot be linked: "));
 }
 
 TEST_F(StudentBuildTest, RefusesWhatIsNoSourceFile) {
