@@ -77,7 +77,7 @@ void Check::near(std::string_view property, const MatrixArg& got, const MatrixAr
   fail({.property = std::string(property),
         .got = withUnit(valueText(got, row, col), unit),
         .wanted = withUnit(valueText(wanted, row, col), unit),
-        .tolerance = withUnit(number(tolerance), unit)});
+        .tolerance = tolerance > 0 ? withUnit(number(tolerance), unit) : ""});
 }
 
 void Check::atMost(std::string_view property, double got, double limit, std::string_view unit) {
@@ -191,10 +191,12 @@ std::string Check::messageOf(const Shortfall& shortfall) const {
   if (shortfall.caseNumber >= 0)
     text = fmt::format("{} of {} cases hold; case {}: ", casesPassed_, cases_, shortfall.caseNumber + 1);
   const bool threw = shortfall.outcome == Outcome::runtimeError;
+  const bool numbers = info_.group == Group::visible && !shortfall.got.empty();
   if (!threw) text += shortfall.property + ": ";
-  text += shortfall.what.empty() ? "does not hold" : shortfall.what;
+  if (!shortfall.what.empty()) text += shortfall.what + (numbers ? ": " : "");
+  if (!numbers && shortfall.what.empty()) text += "does not hold";
   if (info_.group == Group::hidden) return text;
-  if (!shortfall.got.empty()) text += (threw ? ": " : ": got ") + shortfall.got;
+  if (numbers) text += (threw ? "" : "got ") + shortfall.got;
   if (!shortfall.wanted.empty()) text += ", wanted " + shortfall.wanted;
   if (!shortfall.tolerance.empty()) text += ", tolerance " + shortfall.tolerance;
   if (!shortfall.input.empty()) text += "; input: " + shortfall.input;
