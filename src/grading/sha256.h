@@ -5,7 +5,8 @@
 
 namespace rex::grading {
 
-/// The SHA-256 hash of the bytes as 64 lower-case hexadecimal digits (FIPS 180-4).
+/// The SHA-256 hash of the bytes as 64 lower-case hexadecimal digits, from sha256sum. Throws Error
+/// when that program cannot run.
 [[nodiscard]] std::string sha256(std::string_view bytes);
 
 }  // namespace rex::grading
