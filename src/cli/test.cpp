@@ -31,17 +31,17 @@ std::string verdict(const CheckResult& check) {
 }
 
 void printChecks(const ExerciseInfo& exercise, const std::vector<CheckResult>& checks) {
-  constexpr std::size_t kTitleWidth = 44, kMessageIndent = 6;
+  constexpr std::size_t kIndent = 13;  // where titles begin, below each other
   for (const grading::ExercisePart& part : exercise.parts) {
     say(paint(Colour::kBold, part.title));
     for (const CheckResult& check : checks) {
       if (check.part != part.id) continue;
-      const std::string hidden = check.group == grading::Group::hidden ? " (hidden)" : "";
-      const std::string title = wrap(harmless(check.title) + hidden, kMessageIndent, kMessageIndent);
-      say(fmt::format(" {} {:{}} {:2}/{:<2}  {}", verdict(check), title, kTitleWidth, check.points,
-                      check.maxPoints, check.id));
+      const std::string hidden = check.group == grading::Group::hidden ? ", hidden" : "";
+      const std::string title = fmt::format("{} [{}{}]", harmless(check.title), check.id, hidden);
+      say(fmt::format(" {} {:2}/{:<2}  {}", verdict(check), check.points, check.maxPoints,
+                      wrap(title, kIndent, kIndent)));
       if (check.status != Outcome::pass && !check.message.empty())
-        say(std::string(kMessageIndent, ' ') + wrap(harmless(check.message), kMessageIndent, kMessageIndent));
+        say(std::string(kIndent, ' ') + wrap(harmless(check.message), kIndent, kIndent));
     }
   }
 }

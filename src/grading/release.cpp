@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -81,6 +82,16 @@ void requireAbsent(const std::vector<std::string>& secrets, const std::string& t
   }
 }
 
+// The tests of rex itself stay behind, so the command for them does too, and the lines that name it.
+void leaveOutTheTests(const path& target) {
+  fs::remove(target / "scripts/test");
+  std::istringstream lines(readTextFile(target / "README.md"));
+  std::string kept;
+  for (std::string line; std::getline(lines, line);)
+    if (line.find("scripts/test") == std::string::npos) kept += line + '\n';
+  writeTextFile(target / "README.md", kept);
+}
+
 bool isEmptyOrMissing(const path& folder) {
   return !fs::exists(folder) || (fs::is_directory(folder) && fs::is_empty(folder));
 }
@@ -110,6 +121,7 @@ void writeStudentRelease(const path& root, const path& target) {
   // The target may lie inside the root; so nothing but the list is walked.
   for (const char* name : kReleased)
     if (fs::exists(root / name)) copyTree(root / name, target / name);
+  leaveOutTheTests(target);
   for (const path& exercise : exercises)
     releaseExercise(exercise, target / "exercises" / exercise.filename());
   for (const auto& entry : fs::directory_iterator(root / "exercises"))

@@ -23,10 +23,11 @@ class ReleaseTest : public ::testing::Test {
     for (const char* file :
          {"CMakeLists.txt", "README.md", "LICENSE", ".clang-format", ".ci/run", ".git/HEAD",
           "tests/a_test.cpp", "build/release/rex", "out/01-demo/results.json", "notes.txt",
-          "share/cmake/a.cmake", "src/base/error.h", "data/robots/arm.ors", "scripts/test",
+          "share/cmake/a.cmake", "src/base/error.h", "data/robots/arm.ors", "scripts/rex", "scripts/test",
           "exercises/CMakeLists.txt", "exercises/01-demo/exercise.h", "exercises/01-demo/wrong/a.cpp"})
       write(file, file);
     write("exercises/01-demo/README.md", "Write `twice`.\n");
+    write("README.md", "Run scripts/rex.\nRun scripts/test.\n");
     write("exercises/01-demo/main.cpp", "out of date\n");
     write("exercises/01-demo/check.cpp", "visible();\n// <hidden>\nsecret();\n// </hidden>\n");
     write("exercises/01-demo/solution.cpp",
@@ -53,14 +54,14 @@ TEST_F(ReleaseTest, HoldsWhatStudentsNeedAndNothingElse) {
   std::set<std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(target()))
     if (entry.is_regular_file()) files.insert(fs::relative(entry.path(), target()).string());
-  EXPECT_THAT(
-      files, ::testing::UnorderedElementsAre("CMakeLists.txt", "README.md", "LICENSE", ".clang-format",
-                                             "share/cmake/a.cmake", "src/base/error.h", "data/robots/arm.ors",
-                                             "scripts/test", "exercises/CMakeLists.txt",
-                                             "exercises/01-demo/exercise.h", "exercises/01-demo/README.md",
-                                             "exercises/01-demo/main.cpp", "exercises/01-demo/check.cpp"));
+  EXPECT_THAT(files, ::testing::UnorderedElementsAre(
+                         "CMakeLists.txt", "README.md", "LICENSE", ".clang-format", "share/cmake/a.cmake",
+                         "src/base/error.h", "data/robots/arm.ors", "scripts/rex", "exercises/CMakeLists.txt",
+                         "exercises/01-demo/exercise.h", "exercises/01-demo/README.md",
+                         "exercises/01-demo/main.cpp", "exercises/01-demo/check.cpp"));
   EXPECT_EQ(released("exercises/01-demo/main.cpp"), "int twice(int a) {\n  return 0;\n}\n");
   EXPECT_EQ(released("exercises/01-demo/check.cpp"), "visible();\n");
+  EXPECT_EQ(released("README.md"), "Run scripts/rex.\n");
 }
 
 TEST_F(ReleaseTest, MayLieInsideTheRoot) {
