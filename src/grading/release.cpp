@@ -117,7 +117,7 @@ void writeStudentRelease(const path& root, const path& target) {
   std::sort(exercises.begin(), exercises.end());
   for (const path& exercise : exercises) requireNoSolutionText(exercise);
 
-  fs::create_directories(target);
+  fs::create_directories(target / "exercises");
   // The target may lie inside the root; so nothing but the list is walked.
   for (const char* name : kReleased)
     if (fs::exists(root / name)) copyTree(root / name, target / name);

@@ -70,6 +70,12 @@ TEST_F(ReleaseTest, MayLieInsideTheRoot) {
   EXPECT_FALSE(fs::exists(root() / "out/students/out"));
 }
 
+TEST_F(ReleaseTest, NeedsNoExercise) {
+  fs::remove_all(root() / "exercises" / "01-demo");
+  writeStudentRelease(root(), target());
+  EXPECT_EQ(released("exercises/CMakeLists.txt"), "exercises/CMakeLists.txt");
+}
+
 TEST_F(ReleaseTest, KeepsWhatLiesInTheTarget) {
   fs::create_directories(target());
   EXPECT_NO_THROW(writeStudentRelease(root(), target()));
