@@ -277,11 +277,11 @@ double largestError(const Simulator& S, const std::string& body, const Motion& m
 
 void followsTheLine(Check& check, Student& student, const Simulator& S, const std::string& body,
                     const Eigen::Vector3d& target, int T, double tolerance) {
-  const Eigen::Vector3d start = S.kinematicsPos(body);
+  const Eigen::Vector3d first = S.kinematicsPos(body);
   const Motion motion = student.straightLine(S.description(), body, target, kSigma, T);
   checkPostures(check, motion, T, S.getJointDimension());
   const auto onLine = [&](int t) -> Eigen::Vector3d {
-    return start + static_cast<double>(t) / T * (target - start);
+    return first + static_cast<double>(t) / T * (target - first);
   };
   check.atMost("largest distance from the moving target", largestError(S, body, motion, 1, onLine), tolerance,
                "m");

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 
@@ -33,9 +34,11 @@ std::string verdict(const CheckResult& check) {
 void printChecks(const ExerciseInfo& exercise, const std::vector<CheckResult>& checks) {
   constexpr std::size_t kIndent = 13;  // where titles begin, below each other
   for (const grading::ExercisePart& part : exercise.parts) {
+    const auto isOfPart = [&](const CheckResult& check) { return check.part == part.id; };
+    if (std::none_of(checks.begin(), checks.end(), isOfPart)) continue;
     say(paint(Colour::kBold, part.title));
     for (const CheckResult& check : checks) {
-      if (check.part != part.id) continue;
+      if (!isOfPart(check)) continue;
       const std::string hidden = check.group == grading::Group::hidden ? ", hidden" : "";
       const std::string title = fmt::format("{} [{}{}]", harmless(check.title), check.id, hidden);
       say(fmt::format(" {} {:2}/{:<2}  {}", verdict(check), check.points, check.maxPoints,

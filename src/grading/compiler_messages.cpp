@@ -140,7 +140,7 @@ std::vector<CompileDiagnostic> parseLinkerText(std::string_view standardError, c
   struct Phrase {
     std::string_view text, explanation;
   };
-  constexpr Phrase kPhrases[] = {{"undefined reference to `", "is used but has no body here"},
+  constexpr Phrase kPhrases[] = {{"undefined reference to `", "is declared but has no body here"},
                                  {"multiple definition of `", "is defined, but the exercise already has it"}};
   std::vector<CompileDiagnostic> messages;
   std::set<std::string> seen;
@@ -149,7 +149,8 @@ std::vector<CompileDiagnostic> parseLinkerText(std::string_view standardError, c
       const std::size_t at = line.find(phrase.text);
       if (at == line.npos) continue;
       const std::string_view rest = line.substr(at + phrase.text.size());
-      const std::string symbol(rest.substr(0, rest.rfind('\'')));
+      // The name alone: argument types of Eigen fill the screen.
+      const std::string symbol(rest.substr(0, rest.find_first_of("(\'")));
       if (seen.insert(symbol).second)
         messages.push_back({mainFile, 0, 0, "error", "", fmt::format("'{}' {}", symbol, phrase.explanation)});
     }

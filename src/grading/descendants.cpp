@@ -37,8 +37,8 @@ OrphanAdoption::OrphanAdoption() {
 
 OrphanAdoption::~OrphanAdoption() { ::prctl(PR_SET_CHILD_SUBREAPER, before_); }
 
-std::vector<pid_t> listChildren() {
-  std::vector<pid_t> children;
+std::vector<int> listChildren() {
+  std::vector<int> children;
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator("/proc", ignored)) {
     const std::string name = entry.path().filename().string();
@@ -50,7 +50,7 @@ std::vector<pid_t> listChildren() {
   return children;
 }
 
-int killNewChildren(const std::vector<pid_t>& known) {
+int killNewChildren(const std::vector<int>& known) {
   using Clock = std::chrono::steady_clock;
   const auto deadline = Clock::now() + std::chrono::seconds(2);
   int killed = 0;

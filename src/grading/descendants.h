@@ -2,8 +2,6 @@
 
 #include <vector>
 
-#include <sys/types.h>
-
 namespace rex::grading {
 
 /// While it lives, processes whose parents end become children of this process instead of the system's first
@@ -19,11 +17,11 @@ class OrphanAdoption {
   int before_ = 0;
 };
 
-/// The children of this process, running or ended, as the kernel lists them in /proc.
-[[nodiscard]] std::vector<pid_t> listChildren();
+/// Process ids of the children of this process, running or ended, as the kernel lists them in /proc.
+[[nodiscard]] std::vector<int> listChildren();
 
 /// Kills every child that is not in `known`, and the children it leaves behind, until none is left. Gives up
 /// after two seconds; returns the number of processes killed.
-int killNewChildren(const std::vector<pid_t>& known);
+int killNewChildren(const std::vector<int>& known);
 
 }  // namespace rex::grading

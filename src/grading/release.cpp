@@ -85,6 +85,7 @@ void requireAbsent(const std::vector<std::string>& secrets, const std::string& t
 // The tests of rex itself stay behind, so the command for them does too, and the lines that name it.
 void leaveOutTheTests(const path& target) {
   fs::remove(target / "scripts/test");
+  if (!fs::exists(target / "README.md")) return;
   std::istringstream lines(readTextFile(target / "README.md"));
   std::string kept;
   for (std::string line; std::getline(lines, line);)

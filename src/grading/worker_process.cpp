@@ -95,7 +95,7 @@ class Worker {
   SigpipeIgnored sigpipe_;
   OneCore core_;
   OrphanAdoption adoption_;
-  std::vector<pid_t> childrenBefore_ = listChildren();
+  std::vector<int> childrenBefore_ = listChildren();
   PrivateFolder folder_;
   Launched launched_;
   OutputCapture output_;
@@ -142,9 +142,10 @@ void Worker::waitFor(int fd, remote::Channel::Direction direction) {
     waited_ = before + secondsSince(start);
     const double left = options_.limits.wallBudget() - waited_;
     if (left <= 0)
-      throw GaveUp({.outcome = Outcome::timeLimit,
-                    .message = fmt::format("stopped after {:.1f} s of waiting {} (asleep or blocked?)",
-                                           options_.limits.wallBudget(), place())});
+      throw GaveUp(
+          {.outcome = Outcome::timeLimit,
+           .message = fmt::format("stopped after {:.1f} s {} (asleep, blocked, or in a loop without end?)",
+                                  options_.limits.wallBudget(), place())});
     std::array<pollfd, 4> polled{{{fd, events, 0},
                                   {launched_.processFd, POLLIN, 0},
                                   {output_.fd(), POLLIN, 0},

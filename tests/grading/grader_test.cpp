@@ -128,7 +128,7 @@ INSTANTIATE_TEST_SUITE_P(
         Trouble{"secrets", Outcome::runtimeError, "threw std::runtime_error in ikStep: the target is"},
         Trouble{"segfault", Outcome::runtimeError, "crashed with a segmentation fault in ikStep"},
         Trouble{"shape", Outcome::fail, "position after the step: wrong shape: got 7 x 1, wanted 3 x 1"},
-        Trouble{"sleep", Outcome::timeLimit, "stopped after 2.4 s of waiting in ikStep"},
+        Trouble{"sleep", Outcome::timeLimit, "stopped after 2.4 s in ikStep"},
         Trouble{"throws_number", Outcome::runtimeError, "threw int in ikStep"}),
     [](const auto& trouble) { return trouble.param.worker; });
 

@@ -126,7 +126,7 @@ TEST_F(StudentBuildTest, SaysWhichFunctionIsMissing) {
   ASSERT_TRUE(object.ok);
   const StudentProgram worker = linkWorker(toolchain(), object);
   EXPECT_FALSE(worker.ok);
-  EXPECT_EQ(first(worker.messages), "main.cpp: error: 'twice(int)' is used but has no body here");
+  EXPECT_EQ(first(worker.messages), "main.cpp: error: 'twice' is declared but has no body here");
 }
 
 TEST_F(StudentBuildTest, RefusesForbiddenCalls) {
