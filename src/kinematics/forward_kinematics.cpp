@@ -1,26 +1,32 @@
 #include "kinematics/forward_kinematics.h"
 
-#include <cmath>
+#include "kinematics/sin_cos_internal.h"
 
 namespace rex {
 namespace {
 
-// X_WP * X_PC, with X_PC given as [R p]. By columns: Eigen's product of small matrices takes twice as long.
-void compose(const Pose& X_WP, const LinearMotion::Matrix34& X_PC, Pose& X_WC) {
+bool movesLinearly(const Joint& joint) {
+  return joint.type == JointType::kHinge || joint.type == JointType::kSlider;
+}
+
+// The numbers that LinearMotion speaks of, parked in the first two places of the child's p. In a pass of its
+// own: sines do not depend on one another, poses do, and mixed each sine would be waited for.
+void parkLinearFactors(std::span<const Joint> joints, const double* q, std::vector<Pose>& X_WB) {
+  for (const Joint& joint : joints) {
+    if (!movesLinearly(joint)) continue;
+    const double value = q[joint.qIndex];
+    const auto [second, first] = joint.type == JointType::kHinge ? sinCos(value) : SinCos{0, value};
+    X_WB[static_cast<std::size_t>(joint.child)].p.head<2>() << first, second;
+  }
+}
+
+// By columns, because Eigen's product of small matrices takes twice as long.
+void placeLinearly(const LinearMotion& motion, const Pose& X_WP, Pose& X_WC) {
+  const double first = X_WC.p[0], second = X_WC.p[1];
+  const LinearMotion::Matrix34 X_PC = motion.constant + first * motion.first + second * motion.second;
   const Eigen::Vector3d x = X_WP.R.col(0), y = X_WP.R.col(1), z = X_WP.R.col(2);
   for (int i = 0; i < 3; ++i) X_WC.R.col(i) = X_PC(0, i) * x + X_PC(1, i) * y + X_PC(2, i) * z;
   X_WC.p = X_PC(0, 3) * x + X_PC(1, 3) * y + X_PC(2, 3) * z + X_WP.p;
-}
-
-void place(const Joint& joint, const double* q, const Pose& X_WP, Pose& X_WC) {
-  const LinearMotion& motion = joint.motion;
-  if (joint.type == JointType::kHinge) {
-    compose(X_WP, motion.constant + std::cos(*q) * motion.first + std::sin(*q) * motion.second, X_WC);
-  } else if (joint.type == JointType::kSlider) {
-    compose(X_WP, motion.constant + *q * motion.first, X_WC);
-  } else {
-    X_WC = X_WP * joint.X_PF * jointMotion(joint.type, joint.axis, q) * joint.X_MC;
-  }
 }
 
 }  // namespace
@@ -28,13 +34,20 @@ void place(const Joint& joint, const double* q, const Pose& X_WP, Pose& X_WC) {
 void forwardKinematics(const Model& model, const VectorArg& q, BodyPoses& out) {
   requireSize("joint positions q", q.size(), model.nq());
   out.X_WB.resize(model.bodies().size());
-  Pose* X_WB = out.X_WB.data();
+  parkLinearFactors(model.joints(), q.data(), out.X_WB);
+  Pose* next = out.X_WB.data();
   for (const Body& body : model.bodies()) {
+    Pose& X_WB = *next++;
     if (body.joint == kNoJoint) {
-      *X_WB++ = body.X_PB;  // roots hang on the world
+      X_WB = body.X_PB;  // roots hang on the world
+      continue;
+    }
+    const Joint& joint = model[body.joint];
+    const Pose& X_WP = out[body.parent];
+    if (movesLinearly(joint)) {
+      placeLinearly(joint.motion, X_WP, X_WB);
     } else {
-      const Joint& joint = model[body.joint];
-      place(joint, q.data() + joint.qIndex, out[body.parent], *X_WB++);
+      X_WB = X_WP * joint.X_PF * jointMotion(joint.type, joint.axis, q.data() + joint.qIndex) * joint.X_MC;
     }
   }
 }
