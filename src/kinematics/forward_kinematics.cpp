@@ -20,13 +20,16 @@ void parkLinearFactors(std::span<const Joint> joints, const double* q, std::vect
   }
 }
 
-// By columns, because Eigen's product of small matrices takes twice as long.
+// Row by row, because Eigen's product of small matrices takes twice as long.
 void placeLinearly(const LinearMotion& motion, const Pose& X_WP, Pose& X_WC) {
   const double first = X_WC.p[0], second = X_WC.p[1];
   const LinearMotion::Matrix34 X_PC = motion.constant + first * motion.first + second * motion.second;
-  const Eigen::Vector3d x = X_WP.R.col(0), y = X_WP.R.col(1), z = X_WP.R.col(2);
-  for (int i = 0; i < 3; ++i) X_WC.R.col(i) = X_PC(0, i) * x + X_PC(1, i) * y + X_PC(2, i) * z;
-  X_WC.p = X_PC(0, 3) * x + X_PC(1, 3) * y + X_PC(2, 3) * z + X_WP.p;
+  const Eigen::RowVector4d x = X_PC.row(0), y = X_PC.row(1), z = X_PC.row(2);
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::RowVector4d row = X_WP.R(i, 0) * x + X_WP.R(i, 1) * y + X_WP.R(i, 2) * z;
+    X_WC.R.row(i) = row.head<3>();
+    X_WC.p[i] = row[3] + X_WP.p[i];
+  }
 }
 
 }  // namespace

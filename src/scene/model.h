@@ -50,7 +50,7 @@ struct DegreeOfFreedom {
 /// The pose of a hinge's or slider's child is linear in two numbers, [R_PC p_PC] = constant + a first + b
 /// second: a = cos q and b = sin q of a hinge, a = q and b = 0 of a slider. Saves products at each posture.
 struct LinearMotion {
-  using Matrix34 = Eigen::Matrix<double, 3, 4>;
+  using Matrix34 = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
   Matrix34 constant = Matrix34::Zero(), first = Matrix34::Zero(), second = Matrix34::Zero();
 };
 
