@@ -1,4 +1,5 @@
 // rex_bench [NAME...] [--json]: measures ours against its peers; `rex bench` runs it.
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 
@@ -44,7 +45,8 @@ std::vector<Group> select(std::vector<Group> groups, const std::vector<std::stri
 }
 
 void run(const std::vector<std::string>& names, bool asJson) {
-  const std::vector<Group> groups = select({{"kinematics", kinematicsRows()}, {"scene", sceneRows()}}, names);
+  const std::vector<Group> groups =
+      select({{"kinematics", kinematicsRows()}, {"render", renderRows()}, {"scene", sceneRows()}}, names);
   if (!asJson) fmt::print("{}", tableHead());
   std::vector<Line> lines;
   for (const Group& group : groups) {

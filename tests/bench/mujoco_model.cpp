@@ -1,6 +1,10 @@
 #include "bench/mujoco_model.h"
 
+#include <cstring>
+#include <stdexcept>
+
 #include <fmt/format.h>
+#include <mujoco/mujoco.h>
 
 #include "geometry/rotation.h"
 
@@ -41,6 +45,20 @@ std::string bodyXml(const Model& model, BodyId id) {
 }
 
 }  // namespace
+
+void MujocoDeleter::operator()(mjModel_* model) const { mj_deleteModel(model); }
+
+MujocoModel loadMujoco(const std::string& xml) {
+  const auto files = std::make_unique<mjVFS>();
+  mj_defaultVFS(files.get());
+  mj_makeEmptyFileVFS(files.get(), "model.xml", static_cast<int>(xml.size()));
+  std::memcpy(files->filedata[0], xml.data(), xml.size());
+  char message[1000] = "";
+  MujocoModel model(mj_loadXML("model.xml", files.get(), message, sizeof message));
+  mj_deleteVFS(files.get());
+  if (!model) throw std::logic_error(std::string("MuJoCo: ") + message);
+  return model;
+}
 
 std::string mujocoXml(const Model& model) {
   std::string xml = R"(<mujoco><compiler angle="radian"/><worldbody>)";

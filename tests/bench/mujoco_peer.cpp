@@ -1,6 +1,5 @@
-#include <cstring>
+#include <algorithm>
 #include <memory>
-#include <stdexcept>
 
 #include <mujoco/mujoco.h>
 
@@ -15,28 +14,13 @@ namespace {
 // MuJoCo writes matrices by rows.
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-struct ModelDeleter {
-  void operator()(mjModel* model) const { mj_deleteModel(model); }
-};
 struct DataDeleter {
   void operator()(mjData* data) const { mj_deleteData(data); }
 };
 
-std::unique_ptr<mjModel, ModelDeleter> load(const std::string& xml) {
-  const auto files = std::make_unique<mjVFS>();
-  mj_defaultVFS(files.get());
-  mj_makeEmptyFileVFS(files.get(), "robot.xml", static_cast<int>(xml.size()));
-  std::memcpy(files->filedata[0], xml.data(), xml.size());
-  char message[1000] = "";
-  std::unique_ptr<mjModel, ModelDeleter> model(mj_loadXML("robot.xml", files.get(), message, sizeof message));
-  mj_deleteVFS(files.get());
-  if (!model) throw std::logic_error(std::string("MuJoCo: ") + message);
-  return model;
-}
-
 struct Simulation {
   explicit Simulation(const Robot& robot)
-      : model(load(mujocoXml(robot.model))), data(mj_makeData(model.get())) {
+      : model(loadMujoco(mujocoXml(robot.model))), data(mj_makeData(model.get())) {
     J.setZero(3, model->nv);
     tip = mj_name2id(model.get(), mjOBJ_BODY, robot.model[robot.tip].name.c_str());
     Q.resize(model->nq, Robot::kPostures);
@@ -62,7 +46,7 @@ struct Simulation {
     mj_jacSubtreeCom(model.get(), data.get(), J.data(), 0);
   }
 
-  std::unique_ptr<mjModel, ModelDeleter> model;
+  MujocoModel model;
   std::unique_ptr<mjData, DataDeleter> data;
   Eigen::MatrixXd Q;  // the postures in MuJoCo's order
   RowMajor J;
