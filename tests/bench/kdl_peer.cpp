@@ -27,9 +27,10 @@ class Solvers {
       links_.push_back(
           {tree.getSegment(body.name)->second.segment, static_cast<std::size_t>(body.parent), qIndex});
     }
+    // Sized by KDL first: what its library frees must come from its library, not from our Eigen.
     for (const auto& q : robot.Q.colwise()) {
-      Q_.emplace_back().data = q;
-      chainQ_.emplace_back().data = q(chain_.indices);
+      Q_.emplace_back(static_cast<unsigned>(q.size())).data = q;
+      chainQ_.emplace_back(chain_.chain.getNrOfJoints()).data = q(chain_.indices);
     }
     frames.resize(isChain_ ? links_.size() : links_.size() + 1);
     J.resize(chain_.chain.getNrOfJoints());
