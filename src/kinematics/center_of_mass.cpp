@@ -1,8 +1,9 @@
 #include "kinematics/center_of_mass.h"
 
-#include <fmt/format.h>
+#include <cassert>
 
-#include "kinematics/jacobians.h"
+#include <Eigen/Geometry>
+#include <fmt/format.h>
 
 namespace rex {
 namespace {
@@ -12,6 +13,18 @@ void requireMass(const Model& model) {
   throw Error({.what = fmt::format("centre of mass of scene '{}'", model.name()),
                .found = "no body with a mass",
                .wanted = "'mass=' on at least one body"});
+}
+
+// Children stand after their parents, so one pass from the back adds up every subtree.
+void addMoments(const Model& model, const BodyPoses& poses, Eigen::Matrix3Xd& moments) {
+  const int n = static_cast<int>(model.bodies().size());
+  moments.setZero(3, n);
+  for (int i = n - 1; i > 0; --i) {
+    const BodyId id{i};
+    const Body& body = model[id];
+    moments.col(i) += body.mass * (poses[id] * body.p_BBcm);
+    moments.col(static_cast<int>(body.parent)) += moments.col(i);
+  }
 }
 
 }  // namespace
@@ -26,16 +39,30 @@ Eigen::Vector3d centerOfMass(const Model& model, const BodyPoses& poses) {
   return sum / model.mass();
 }
 
-Eigen::Matrix3Xd centerOfMassJacobian(const Model& model, const BodyPoses& poses) {
+void centerOfMassJacobian(const Model& model, const BodyPoses& poses, Eigen::Matrix3Xd& moments,
+                          Eigen::Ref<Eigen::Matrix3Xd> J) {
   requireMass(model);
-  Eigen::Matrix3Xd sum = Eigen::Matrix3Xd::Zero(3, model.nv()), J(3, model.nv());
-  for (std::size_t i = 0; i < model.bodies().size(); ++i) {
-    const Body& body = model.bodies()[i];
-    if (body.mass == 0) continue;
-    positionJacobian(model, poses, BodyId{static_cast<int>(i)}, body.p_BBcm, J);
-    sum += body.mass * J;
+  assert(J.cols() == model.nv());
+  addMoments(model, poses, moments);
+  J.setZero();
+  for (const Joint& joint : model.joints()) {
+    const double share = model[joint.child].subtreeMass / model.mass();
+    const Eigen::Vector3d moment = moments.col(static_cast<int>(joint.child)) / model.mass();
+    for (int i = 0; i < joint.nv; ++i) {
+      const DegreeOfFreedom& freedom = joint.freedoms[static_cast<std::size_t>(i)];
+      const bool inParent = freedom.frame == DegreeOfFreedom::Frame::kParent;
+      const Pose& X = poses[inParent ? joint.parent : joint.child];
+      const Eigen::Vector3d axis = X.R * freedom.angular;
+      // += because joints that mimic one another share a column.
+      J.col(joint.vIndex + i) += axis.cross(moment - share * X.p) + share * (X.R * freedom.linear);
+    }
   }
-  return sum / model.mass();
+}
+
+Eigen::Matrix3Xd centerOfMassJacobian(const Model& model, const BodyPoses& poses) {
+  Eigen::Matrix3Xd moments, J(3, model.nv());
+  centerOfMassJacobian(model, poses, moments, J);
+  return J;
 }
 
 }  // namespace rex

@@ -7,25 +7,18 @@
 namespace rex {
 namespace {
 
-// A degree of freedom at its present place: a turn about `axis` through `origin`, and a move along `along`;
-// all in W.
-struct WorldFreedom {
-  Eigen::Vector3d axis, along, origin;
-};
-
-// Calls visit(column, freedom) for each degree of freedom between the root and the body.
+// Calls visit(column, freedom, X) for each degree of freedom between the root and the body; X is the pose in
+// W of the frame in which the freedom is given.
 template <class Visit>
 void forEachFreedomAbove(const Model& model, const BodyPoses& poses, BodyId body, const Visit& visit) {
   assert(poses.X_WB.size() == model.bodies().size());
   for (BodyId at = body; at != kWorld; at = model[at].parent) {
     if (model[at].joint == kNoJoint) continue;
     const Joint& joint = model[model[at].joint];
-    const Pose X_WF = poses[joint.parent] * joint.X_PF;
-    const Pose X_WM = poses[joint.child] * joint.X_MC.inverse();
     for (int i = 0; i < joint.nv; ++i) {
       const DegreeOfFreedom& freedom = joint.freedoms[static_cast<std::size_t>(i)];
-      const Pose& X = freedom.frame == DegreeOfFreedom::Frame::kBefore ? X_WF : X_WM;
-      visit(joint.vIndex + i, WorldFreedom{X.R * freedom.angular, X.R * freedom.linear, X.p});
+      const bool inParent = freedom.frame == DegreeOfFreedom::Frame::kParent;
+      visit(joint.vIndex + i, freedom, poses[inParent ? joint.parent : at]);
     }
   }
 }
@@ -46,8 +39,9 @@ void positionJacobian(const Model& model, const BodyPoses& poses, BodyId body, c
   const Eigen::Vector3d p_WQ = position(poses, body, p_BQ);
   J.setZero();
   // += because joints that mimic one another share a column.
-  forEachFreedomAbove(model, poses, body, [&](int column, const WorldFreedom& f) {
-    J.col(column) += f.axis.cross(p_WQ - f.origin) + f.along;
+  forEachFreedomAbove(model, poses, body, [&](int column, const DegreeOfFreedom& f, const Pose& X) {
+    const Eigen::Vector3d axis = X.R * f.angular;
+    J.col(column) += axis.cross(p_WQ - X.p) + X.R * f.linear;
   });
 }
 
@@ -55,8 +49,9 @@ void angularJacobian(const Model& model, const BodyPoses& poses, BodyId body,
                      Eigen::Ref<Eigen::Matrix3Xd> J) {
   assert(J.cols() == model.nv());
   J.setZero();
-  forEachFreedomAbove(model, poses, body,
-                      [&](int column, const WorldFreedom& f) { J.col(column) += f.axis; });
+  forEachFreedomAbove(model, poses, body, [&](int column, const DegreeOfFreedom& f, const Pose& X) {
+    J.col(column) += X.R * f.angular;
+  });
 }
 
 Eigen::Matrix3Xd positionJacobian(const Model& model, const BodyPoses& poses, BodyId body,

@@ -2,8 +2,10 @@
 #include <cmath>
 #include <map>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "geometry/rotation.h"
 #include "scene/model.h"
 
 namespace rex {
@@ -20,7 +22,8 @@ constexpr double kInertiaPerMass = 0.2;
 
 bool isFinite(const Pose& X) { return X.R.allFinite() && X.p.allFinite(); }
 
-// The unit twists of a joint type; see DegreeOfFreedom for why two frames suffice.
+// The unit twists of a joint type: kParent stands for the joint's frame F, kChild for its frame M. In one of
+// the two each is constant; where both would do, M leads to cheaper Jacobians.
 std::vector<DegreeOfFreedom> freedomsOf(JointType type, const Eigen::Vector3d& axis) {
   using Frame = DegreeOfFreedom::Frame;
   const auto turn = [](const Eigen::Vector3d& a, Frame frame) {
@@ -35,26 +38,56 @@ std::vector<DegreeOfFreedom> freedomsOf(JointType type, const Eigen::Vector3d& a
     case JointType::kRigid:
       return {};
     case JointType::kHinge:
-      return {turn(axis, Frame::kBefore)};
+      return {turn(axis, Frame::kChild)};
     case JointType::kSlider:
-      return {move(axis, Frame::kBefore)};
+      return {move(axis, Frame::kChild)};
     case JointType::kPlanarXY:
-      return {move(x, Frame::kBefore), move(y, Frame::kBefore)};
+      return {move(x, Frame::kParent), move(y, Frame::kParent)};
     case JointType::kTranslation3:
-      return {move(x, Frame::kBefore), move(y, Frame::kBefore), move(z, Frame::kBefore)};
+      return {move(x, Frame::kParent), move(y, Frame::kParent), move(z, Frame::kParent)};
     case JointType::kPlanarXYPhi:
-      return {move(x, Frame::kBefore), move(y, Frame::kBefore), turn(z, Frame::kAfter)};
+      return {move(x, Frame::kParent), move(y, Frame::kParent), turn(z, Frame::kChild)};
     case JointType::kPlanarPhiXY:
-      return {turn(z, Frame::kBefore), move(x, Frame::kAfter), move(y, Frame::kAfter)};
+      return {turn(z, Frame::kParent), move(x, Frame::kChild), move(y, Frame::kChild)};
     case JointType::kUniversal:
-      return {turn(x, Frame::kBefore), turn(y, Frame::kAfter)};
+      return {turn(x, Frame::kParent), turn(y, Frame::kChild)};
     case JointType::kBall:
-      return {turn(x, Frame::kAfter), turn(y, Frame::kAfter), turn(z, Frame::kAfter)};
+      return {turn(x, Frame::kChild), turn(y, Frame::kChild), turn(z, Frame::kChild)};
     case JointType::kFree:
-      return {move(x, Frame::kBefore), move(y, Frame::kBefore), move(z, Frame::kBefore),
-              turn(x, Frame::kAfter),  turn(y, Frame::kAfter),  turn(z, Frame::kAfter)};
+      return {move(x, Frame::kParent), move(y, Frame::kParent), move(z, Frame::kParent),
+              turn(x, Frame::kChild),  turn(y, Frame::kChild),  turn(z, Frame::kChild)};
   }
   return {};
+}
+
+// The same twist seen from a body in which the frame it is given in has the pose X.
+DegreeOfFreedom seenThrough(const Pose& X, const DegreeOfFreedom& freedom) {
+  const Eigen::Vector3d angular = X.R * freedom.angular;
+  return {angular, X.R * freedom.linear - angular.cross(X.p), freedom.frame};
+}
+
+LinearMotion::Matrix34 matrixOf(const Pose& X) { return (LinearMotion::Matrix34() << X.R, X.p).finished(); }
+
+// Rodrigues' formula turns by a a^T + cos q (1 - a a^T) + sin q [a]x, each part framed by X_PF and X_MC.
+LinearMotion linearMotion(const JointSpec& spec, const Eigen::Vector3d& axis) {
+  const Pose& X_PF = spec.X_PF;
+  const Pose& X_MC = spec.X_MC;
+  const auto turned = [&](const Eigen::Matrix3d& part) {
+    const Eigen::Matrix3d R = X_PF.R * part;
+    return matrixOf({R * X_MC.R, R * X_MC.p});
+  };
+  LinearMotion motion;
+  if (spec.type == JointType::kSlider) {
+    motion.constant = matrixOf(X_PF * X_MC);
+    motion.first.col(3) = X_PF.R * axis;
+  } else if (spec.type == JointType::kHinge) {
+    const Eigen::Matrix3d along = axis * axis.transpose();
+    motion.constant = turned(along);
+    motion.constant.col(3) += X_PF.p;
+    motion.first = turned(Eigen::Matrix3d::Identity() - along);
+    motion.second = turned(skew(axis));
+  }
+  return motion;
 }
 
 // The tree of a scene: indices into the spec, checked.
@@ -203,9 +236,21 @@ Joint makeJoint(const JointSpec& spec, BodyId parent, BodyId child) {
   joint.axis = spec.axis.normalized();
   joint.nq = positionCount(spec.type);
   joint.nv = velocityCount(spec.type);
+  const Pose X_CM = spec.X_MC.inverse();
   const std::vector<DegreeOfFreedom> freedoms = freedomsOf(spec.type, joint.axis);
-  std::copy(freedoms.begin(), freedoms.end(), joint.freedoms.begin());
+  std::transform(freedoms.begin(), freedoms.end(), joint.freedoms.begin(), [&](const DegreeOfFreedom& f) {
+    return seenThrough(f.frame == DegreeOfFreedom::Frame::kParent ? spec.X_PF : X_CM, f);
+  });
+  joint.motion = linearMotion(spec, joint.axis);
   return joint;
+}
+
+void addSubtreeMasses(std::vector<Body>& bodies) {
+  for (auto body = bodies.rbegin(); body != bodies.rend(); ++body) {
+    body->subtreeMass += body->mass;
+    if (body + 1 != bodies.rend())
+      bodies[static_cast<std::size_t>(body->parent)].subtreeMass += body->subtreeMass;
+  }
 }
 
 Eigen::VectorXd startOf(const JointSpec& spec) {
@@ -254,10 +299,12 @@ Model compile(const SceneSpec& spec) {
       model.joints_.push_back(makeJoint(jointSpec, body.parent, id));
       jointSpecs.push_back(&jointSpec);
     }
-    model.mass_ += body.mass;
     for (const ShapeSpec& shape : bodySpec.shapes) addShape(shape, id);
     model.bodies_.push_back(std::move(body));
   }
+
+  addSubtreeMasses(model.bodies_);
+  model.mass_ = model.bodies_.front().subtreeMass;
 
   for (std::size_t j = 0; j < jointSpecs.size(); ++j) {
     if (!jointSpecs[j]->mimic.empty()) continue;

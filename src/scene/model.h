@@ -33,16 +33,25 @@ struct Body {
   double mass = 0;                                   ///< kg
   Eigen::Vector3d p_BBcm = Eigen::Vector3d::Zero();  ///< centre of mass, in B
   Eigen::Matrix3d I_BBcm_B = Eigen::Matrix3d::Zero();  ///< inertia about the centre of mass, in B, kg m^2
+  double subtreeMass = 0;                              ///< kg, with all that hangs on it
   BodyKind kind = BodyKind::kDynamic;
 };
 
-/// One degree of freedom as a unit twist: how fast the joint turns and moves per unit of v, constant in the
-/// frame it is given in: F, before the joint moves, or M, after.
+/// One degree of freedom as a unit twist: how fast the joint turns, and how fast it moves the point at the
+/// origin, per unit of v. It is constant in the frame it is given in: that of the parent or of the child
+/// body.
 struct DegreeOfFreedom {
-  enum class Frame { kBefore, kAfter };
+  enum class Frame { kParent, kChild };
   Eigen::Vector3d angular = Eigen::Vector3d::Zero();
   Eigen::Vector3d linear = Eigen::Vector3d::Zero();
-  Frame frame = Frame::kBefore;
+  Frame frame = Frame::kParent;
+};
+
+/// The pose of a hinge's or slider's child is linear in two numbers, [R_PC p_PC] = constant + a first + b
+/// second: a = cos q and b = sin q of a hinge, a = q and b = 0 of a slider. Saves products at each posture.
+struct LinearMotion {
+  using Matrix34 = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
+  Matrix34 constant = Matrix34::Zero(), first = Matrix34::Zero(), second = Matrix34::Zero();
 };
 
 /// A joint: X_PC = X_PF * X_FM(q) * X_MC. Joints that mimic share q and v indices with their target.
@@ -56,6 +65,7 @@ struct Joint {
   int nq = 0, nv = 0;
   bool mimics = false;
   std::array<DegreeOfFreedom, 6> freedoms{};  ///< the first nv count
+  LinearMotion motion{};                      ///< of hinge and slider
 };
 
 /// A shape in its place.

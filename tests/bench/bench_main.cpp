@@ -1,0 +1,88 @@
+// rex_bench [NAME...] [--json]: measures ours against its peers; `rex bench` runs it.
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "bench/report.h"
+
+namespace rex::bench {
+namespace {
+
+constexpr int kUsageError = 64, kInternalError = 70;
+
+struct Group {
+  std::string name;
+  std::vector<Row> rows;
+};
+
+// All groups, or of each what the names select: the whole group or single rows.
+std::vector<Group> select(std::vector<Group> groups, const std::vector<std::string>& names) {
+  if (names.empty()) return groups;
+  std::vector<std::string> known;
+  for (const Group& group : groups) {
+    known.push_back(group.name);
+    for (const Row& row : group.rows) known.push_back(row.name);
+  }
+  for (const std::string& name : names) {
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      throw Error({.what = fmt::format("no benchmark '{}'", name),
+                   .wanted = "the name of a group or a row of the table, or none for all",
+                   .nearest = nearestNames(name, known)});
+    }
+  }
+  const auto isNamed = [&](const std::string& name) {
+    return std::count(names.begin(), names.end(), name) > 0;
+  };
+  for (Group& group : groups) {
+    if (isNamed(group.name)) continue;
+    std::erase_if(group.rows, [&](const Row& row) { return !isNamed(row.name); });
+  }
+  return groups;
+}
+
+void run(const std::vector<std::string>& names, bool asJson) {
+  const std::vector<Group> groups =
+      select({{"kinematics", kinematicsRows()}, {"render", renderRows()}, {"scene", sceneRows()}}, names);
+  if (!asJson) fmt::print("{}", tableHead());
+  std::vector<Line> lines;
+  for (const Group& group : groups) {
+    for (const Row& row : group.rows) {
+      lines.push_back({group.name, row, measure(row)});
+      if (!asJson) fmt::print("{}", tableLine(lines.back()));
+      std::fflush(stdout);
+    }
+  }
+  if (asJson) fmt::print("{}", json(lines));
+}
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Measures rex against its peers: CPU time, the smallest of several runs of both sides in turn.",
+      "rex bench");
+  std::vector<std::string> names;
+  bool asJson = false;
+  app.add_option("NAME", names, "groups or rows of the table; none: all");
+  app.add_flag("--json", asJson, "print JSON instead of a table");
+  try {
+    app.parse(argc, argv);
+    run(names, asJson);
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kUsageError;
+  } catch (const Error& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return kUsageError;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return kInternalError;
+  }
+}
+
+}  // namespace
+}  // namespace rex::bench
+
+int main(int argc, char** argv) { return rex::bench::main(argc, argv); }

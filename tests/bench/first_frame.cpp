@@ -1,0 +1,14 @@
+// first_frame FILE: loads the man scene and writes a picture of it, as a user's first program does.
+#include "render/png.h"
+#include "render/renderer.h"
+#include "render/scene_picture.h"
+#include "scene/ors_reader.h"
+#include "support/paths.h"
+
+int main(int argc, char** argv) {
+  using namespace rex;
+  if (argc != 2) return 64;
+  const Model model = compile(readOrs(sourcePath("data/robots/man.ors")).spec);
+  writePng(drawOnce(pictureOf(model, forwardKinematics(model, model.initialPositions()))), argv[1]);
+  return 0;
+}

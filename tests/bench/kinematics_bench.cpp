@@ -1,0 +1,64 @@
+#include <memory>
+#include <stdexcept>
+
+#include "bench/kinematics_peer.h"
+#include "bench/row.h"
+#include "kinematics/center_of_mass.h"
+#include "kinematics/jacobians.h"
+
+namespace rex::bench {
+namespace {
+
+// Ours, with the storage a hot loop keeps.
+struct Workspace {
+  explicit Workspace(Robot r) : robot(std::move(r)), J(3, robot.model.nv()) {}
+
+  void forwardKinematics(int k) { rex::forwardKinematics(robot.model, robot.Q.col(k), poses); }
+  void jacobian(int k) {
+    forwardKinematics(k);
+    positionJacobian(robot.model, poses, robot.tip, Eigen::Vector3d::Zero(), J);
+  }
+  void centerOfMassJacobian(int k) {
+    forwardKinematics(k);
+    rex::centerOfMassJacobian(robot.model, poses, moments, J);
+  }
+
+  Robot robot;
+  BodyPoses poses;
+  Eigen::Matrix3Xd J, moments;
+};
+
+// Times the work at one posture after the other.
+Measurement timedInTurn(const std::function<void(int k)>& work) {
+  if (!work) return {};
+  return timed([work, k = 0]() mutable { work(k = (k + 1) % Robot::kPostures); });
+}
+
+}  // namespace
+
+void requireAgreement(const std::string& what, const Eigen::MatrixXd& ours, const Eigen::MatrixXd& theirs) {
+  if (ours.rows() == theirs.rows() && ours.cols() == theirs.cols() &&
+      (ours - theirs).cwiseAbs().maxCoeff() < 1e-10)
+    return;
+  throw std::logic_error(what + " differ from ours");
+}
+
+std::vector<Row> kinematicsRows() {
+  std::vector<Row> rows;
+  for (Robot& robot : robots()) {
+    const KinematicsPeer kdl = kdlPeer(robot), mujoco = mujocoPeer(robot);
+    const auto ours = std::make_shared<Workspace>(std::move(robot));
+    const auto fk = timedInTurn([ours](int k) { ours->forwardKinematics(k); });
+    const auto jacobian = timedInTurn([ours](int k) { ours->jacobian(k); });
+    const auto com = timedInTurn([ours](int k) { ours->centerOfMassJacobian(k); });
+    const std::string on = "-" + ours->robot.name;
+    rows.push_back({"fk" + on, fk, "KDL", timedInTurn(kdl.forwardKinematics), 0.35});
+    rows.push_back({"fk" + on + "-mujoco", fk, "MuJoCo", timedInTurn(mujoco.forwardKinematics)});
+    rows.push_back({"jacobian" + on, jacobian, "KDL", timedInTurn(kdl.jacobian), 0.3});
+    rows.push_back({"jacobian" + on + "-mujoco", jacobian, "MuJoCo", timedInTurn(mujoco.jacobian)});
+    rows.push_back({"com" + on, com, "MuJoCo", timedInTurn(mujoco.centerOfMassJacobian), 0.35});
+  }
+  return rows;
+}
+
+}  // namespace rex::bench

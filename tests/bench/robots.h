@@ -1,0 +1,20 @@
+#pragma once
+
+#include "scene/model.h"
+
+namespace rex::bench {
+
+/// A robot, the body at its end, and postures to take in turn, one per column: KDL remembers its last one.
+struct Robot {
+  static constexpr int kPostures = 16;
+  std::string name;
+  Model model;
+  BodyId tip;
+  Eigen::MatrixXd Q;
+};
+
+/// An arm of seven hinges with the frames of a common industrial robot, "arm7"; a chain of 30 links with
+/// random frames, "chain30"; and the humanoid of data/robots, "man", with its hand.
+[[nodiscard]] std::vector<Robot> robots();
+
+}  // namespace rex::bench

@@ -1,0 +1,61 @@
+#include "bench/row.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include <benchmark/benchmark.h>
+
+namespace rex::bench {
+namespace {
+
+constexpr int kRepetitions = 15;
+constexpr double kSecondsPerMeasurement = 0.02;
+
+// Keeps the mean CPU time of the one benchmark that runs, and prints nothing.
+class Collector : public benchmark::BenchmarkReporter {
+ public:
+  bool ReportContext(const Context&) override { return true; }
+  void ReportRuns(const std::vector<Run>& runs) override {
+    for (const Run& run : runs) seconds = run.cpu_accumulated_time / static_cast<double>(run.iterations);
+  }
+  double seconds = 0;
+};
+
+double perSecond(const std::string& unit) {
+  static const std::map<std::string, double> kPerSecond{{"ns", 1e9}, {"us", 1e6}, {"ms", 1e3}, {"s", 1}};
+  return kPerSecond.at(unit);
+}
+
+}  // namespace
+
+Measurement timed(std::function<void()> work) {
+  return [work = std::move(work)] {
+    benchmark::ClearRegisteredBenchmarks();
+    benchmark::RegisterBenchmark("work",
+                                 [&](benchmark::State& state) {
+                                   for ([[maybe_unused]] auto _ : state) work();
+                                 })
+        ->MinTime(kSecondsPerMeasurement)
+        ->MeasureProcessCPUTime();
+    Collector collector;
+    benchmark::RunSpecifiedBenchmarks(&collector);
+    return collector.seconds;
+  };
+}
+
+std::optional<double> Result::ratio() const { return peer ? std::optional(ours / *peer) : std::nullopt; }
+
+Result measure(const Row& row) {
+  // In turn, so that a slow moment of the machine meets both sides.
+  double ours = std::numeric_limits<double>::infinity(), peer = ours;
+  for (int i = 0; i < kRepetitions; ++i) {
+    ours = std::min(ours, row.ours());
+    if (row.peer) peer = std::min(peer, row.peer());
+  }
+  Result result{.ours = ours * perSecond(row.unit)};
+  if (row.peer) result.peer = peer * perSecond(row.unit);
+  return result;
+}
+
+}  // namespace rex::bench

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rex::bench {
+
+/// Measures some work once and returns its CPU time in seconds.
+using Measurement = std::function<double()>;
+
+/// Measures one call of `work` with Google Benchmark, as the mean of as many calls as take 20 ms.
+[[nodiscard]] Measurement timed(std::function<void()> work);
+
+/// One line of the table: ours against a peer that does the same, or against a fixed limit.
+struct Row {
+  std::string name;
+  Measurement ours{};
+  std::string peerName{};          ///< empty: nothing to compare with; "limit": `peer` returns a fixed number
+  Measurement peer{};              ///< empty: the peer is not installed
+  std::optional<double> target{};  ///< what ours / peer should not exceed
+  std::string unit = "ns";         ///< ns, us, ms or s
+};
+
+/// The smallest of several measurements of each side, taken in turn, in the row's unit.
+struct Result {
+  double ours = 0;
+  std::optional<double> peer{};
+  [[nodiscard]] std::optional<double> ratio() const;
+};
+[[nodiscard]] Result measure(const Row& row);
+
+/// The groups, a file each. Setting one up takes little time; it throws std::logic_error where ours and a
+/// peer do not compute the same.
+[[nodiscard]] std::vector<Row> kinematicsRows();
+[[nodiscard]] std::vector<Row> renderRows();
+[[nodiscard]] std::vector<Row> sceneRows();
+
+}  // namespace rex::bench

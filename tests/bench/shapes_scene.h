@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "render/camera.h"
+#include "render/picture.h"
+
+namespace rex::bench {
+
+/// 28 capsules, 12 spheres and 20 boxes above the ground, and a camera that sees them; the same numbers for
+/// rex and for its peer.
+[[nodiscard]] std::vector<Solid> sixtyShapes();
+struct View {
+  Eigen::Vector3d eye{2.6, -2.6, 2.0}, target{0, 0, 0.6};
+  double verticalFovDegrees = 45;
+};
+inline constexpr int kFrameWidth = 640, kFrameHeight = 480;
+
+}  // namespace rex::bench
