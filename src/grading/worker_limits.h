@@ -7,7 +7,8 @@ namespace rex::grading {
 /// What one worker process may use.
 struct WorkerLimits {
   double cpuSeconds = 10;  ///< of all its threads; rounded up to whole seconds by the kernel
-  double wallSeconds = 0;  ///< that the grader waits for it in total; 0: 2 x CPU + 2
+  /// That the grader waits for it in total, 0: 2 x CPU + 2. What others on a busy machine take is added.
+  double wallSeconds = 0;
   int memoryMegabytes =
       2048;                 ///< of address space; not enforced in sanitizer builds, which reserve terabytes
   int outputMegabytes = 8;  ///< printed, standard output and error together
