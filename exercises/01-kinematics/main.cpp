@@ -126,6 +126,7 @@ int main() {
         .xLabel = "step",
         .yLabel = "task error [m]",
         .logY = true,
+        .legend = Legend::kBottomRight,
         .series = {{.label = "full steps", .y = positive(fullErrors), .style = SeriesStyle::kLinesPoints},
                    {.label = "steps of a tenth", .y = positive(smallErrors)},
                    {.label = "steps of a tenth, library",
