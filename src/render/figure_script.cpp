@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "render/figure_script_internal.h"
 #include "render/figure_style_internal.h"
+#include "render/figure_view_internal.h"
 #include "render/utf8_internal.h"
 
 namespace rex::internal {
@@ -134,6 +135,7 @@ void requireDrawable(const Figure& figure) {
     requireValues(series.x, figure.logX, nameOf(figure, k), 'x');
     requireValues(series.y, figure.logY, nameOf(figure, k), 'y');
   }
+  requireDataInView(figure, name);
 }
 
 std::string figureScript(const Figure& figure, const std::string& terminal) {

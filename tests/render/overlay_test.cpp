@@ -144,9 +144,12 @@ struct Extent {
   int left = kWidth, right = 0, top = kHeight, bottom = 0;
 };
 
-// Where the picture differs from an empty one.
-Extent changed(const Picture& picture) {
-  const Image image = drawn(picture), empty = drawn(blank());
+// Where the picture differs from one without text. Both show a point, for neither may be blank.
+Extent changed(Picture picture) {
+  picture.pointSets.push_back({.points = {{0, 0, 0}}});
+  Picture bare = blank();
+  bare.pointSets = picture.pointSets;
+  const Image image = drawn(picture), empty = drawn(bare);
   Extent extent;
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x) {
