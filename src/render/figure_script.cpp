@@ -73,8 +73,9 @@ const char* placeOf(Legend legend) {
   return "";
 }
 
-const char* drawingOf(SeriesStyle style) {
-  switch (style) {
+const char* drawingOf(const Series& series) {
+  if (series.y.size() == 1) return "points";  // one point makes no line
+  switch (series.style) {
     case SeriesStyle::kLine:
       return "lines";
     case SeriesStyle::kPoints:
@@ -101,7 +102,7 @@ void addData(Script out, const Series& series, std::size_t index) {
 
 void addCurve(Script out, const Series& series, std::size_t index) {
   fmt::format_to(out, "{}$d{} using 1:2 with {} lt {}", index == 0 ? "plot " : ", ", index,
-                 drawingOf(series.style), index + 1);
+                 drawingOf(series), index + 1);
   if (series.color) fmt::format_to(out, " lc rgb '{}'", hex(*series.color));
   if (series.dashed) fmt::format_to(out, " dt (12,7)");
   if (series.label.empty())

@@ -108,6 +108,18 @@ TEST(Figure, DrawsEveryOption) {
   EXPECT_NO_THROW(writeFigure(flat, folder / "flat.png"));
 }
 
+TEST(Figure, ShowsALineOfOnePoint) {
+  REX_NEEDS_GNUPLOT();
+  const fs::path folder = freshFolder("figure-point");
+  Figure figure{.series = {{.y = {0.3}, .color = Color{1, 0, 0}}}};
+  writeFigure(figure, folder / "a.png");
+  const Image image = readPng(folder / "a.png");
+  int red = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) red += image.at(x, y)[0] > 200 && image.at(x, y)[1] < 60 ? 1 : 0;
+  EXPECT_GT(red, 5);
+}
+
 TEST(Figure, ShowsHostileTextAndRunsNoneOfIt) {
   REX_NEEDS_GNUPLOT();
   const fs::path folder = freshFolder("figure-hostile");
