@@ -101,8 +101,8 @@ void addData(Script out, const Series& series, std::size_t index) {
 }
 
 void addCurve(Script out, const Series& series, std::size_t index) {
-  fmt::format_to(out, "{}$d{} using 1:2 with {} lt {}", index == 0 ? "plot " : ", ", index,
-                 drawingOf(series), index + 1);
+  fmt::format_to(out, "{}$d{} using 1:2 with {} lt {}", index == 0 ? "plot " : ", ", index, drawingOf(series),
+                 index + 1);
   if (series.color) fmt::format_to(out, " lc rgb '{}'", hex(*series.color));
   if (series.dashed) fmt::format_to(out, " dt (12,7)");
   if (series.label.empty())
