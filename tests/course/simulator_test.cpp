@@ -181,6 +181,9 @@ TEST(FormatMatrix, ShowsNameShapeAndNumbers) {
   EXPECT_EQ(formatMatrix("J", (Eigen::MatrixXd(2, 2) << 1, -2.5, 1e-7, 1234567).finished()),
             "J (2 x 2)\n           1        -2.5\n       1e-07 1.23457e+06\n");
   EXPECT_EQ(formatMatrix("q", Eigen::Vector2d(1, 2)), "q (2)\n           1           2\n");
+  EXPECT_EQ(formatMatrix("q", Eigen::VectorXd::LinSpaced(7, 0, 6)),
+            "q (7)\n  0 to 5:\n           0           1           2           3           4           5\n"
+            "  6 to 6:\n           6\n");
 }
 
 }  // namespace
