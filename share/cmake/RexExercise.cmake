@@ -112,7 +112,6 @@ endfunction()
 # build.json: how to build a student's program. Uses the variables of rex_exercise().
 function(rex_exercise_description)
   get_target_property(eigen Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
-  rex_json_strings(REX_FUNCTIONS_JSON ${ARG_FUNCTIONS})
   rex_json_strings(REX_COMPILE_JSON ${REX_STUDENT_FLAGS} -iquote ${ARG_FOLDER} -isystem
                    ${PROJECT_SOURCE_DIR}/src -isystem ${eigen})
   rex_json_strings(REX_LINK_JSON ${REX_STUDENT_LINK_FLAGS} -Wl,-rpath,${PROJECT_BINARY_DIR}/lib)

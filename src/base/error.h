@@ -39,6 +39,12 @@ class Error : public std::exception {
   std::string text_;
 };
 
+/// The same for a name, option or file that the user typed to use a program, which is then used wrongly.
+class UsageError : public Error {
+ public:
+  using Error::Error;
+};
+
 /// The names most like `wanted`, best first, at most three, none when nothing is similar.
 /// Similar: at most one edit (letter added, lost, changed, swapped; case ignored) in three letters, or a
 /// shared prefix.

@@ -12,36 +12,44 @@
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/signalfd.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/interruption.h"
+#include "base/pipe.h"
 
 namespace rex {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-class Pipe {
+// Takes the requests to stop that somebody holds back; without one, nothing ever arrives.
+class StopRequests {
  public:
-  Pipe() {
-    if (::pipe2(ends_.data(), O_CLOEXEC) != 0)
-      throw Error({.what = "cannot make a pipe", .found = std::strerror(errno)});
+  StopRequests() {
+    const sigset_t wanted = stopSignals();
+    sigset_t held, both;
+    ::sigprocmask(SIG_BLOCK, nullptr, &held);
+    ::sigandset(&both, &wanted, &held);
+    fd_ = ::signalfd(-1, &both, SFD_CLOEXEC | SFD_NONBLOCK);
   }
-  ~Pipe() { closeRead(), closeWrite(); }
-  Pipe(const Pipe&) = delete;
-  Pipe& operator=(const Pipe&) = delete;
-  int readEnd() const { return ends_[0]; }
-  int writeEnd() const { return ends_[1]; }
-  void closeRead() { close(ends_[0]); }
-  void closeWrite() { close(ends_[1]); }
+  ~StopRequests() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  StopRequests(const StopRequests&) = delete;
+  StopRequests& operator=(const StopRequests&) = delete;
+
+  int fd() const { return fd_; }
+  /// The signal that arrived, or 0.
+  int take() const {
+    signalfd_siginfo info{};
+    return ::read(fd_, &info, sizeof info) == sizeof info ? static_cast<int>(info.ssi_signo) : 0;
+  }
 
  private:
-  static void close(int& fd) {
-    if (fd >= 0) ::close(fd);
-    fd = -1;
-  }
-  std::array<int, 2> ends_{-1, -1};
+  int fd_ = -1;
 };
 
 bool limit(int resource, rlim_t soft, rlim_t hard) {
@@ -60,8 +68,12 @@ bool applyLimits(const ProcessOptions& options) {
 
 // Between fork and exec only async-signal-safe calls are allowed: everything is prepared before.
 [[noreturn]] void becomeProgram(char* const* argv, const char* directory, const ProcessOptions& options,
-                                const int (&standard)[3], int statusFd) {
+                                const int (&standard)[3], pid_t parent, int statusFd) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // no program outlives us
+  if (::getppid() != parent) ::_exit(127);
+  sigset_t none;
+  ::sigemptyset(&none);
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);
   // A program that shares our terminal stays in our process group, so that Ctrl-C ends both.
   if (!options.inheritOutput) ::setpgid(0, 0);
   for (int fd = 0; fd < 3; ++fd) {
@@ -80,18 +92,42 @@ void append(std::string& kept, const char* data, std::size_t size, std::size_t l
   kept.append(data, std::min(size, limit - std::min(limit, kept.size())));
 }
 
-// Feeds input and collects output until both outputs are closed or the deadline passes.
-// Returns false at the deadline.
-bool exchange(Pipe& in, Pipe& out, Pipe& err, const ProcessOptions& options, Clock::time_point deadline,
-              ProcessResult& result) {
+// A running program and our ends of its pipes.
+struct Running {
+  pid_t child = -1;
+  bool ownGroup = true;
+  Clock::time_point deadline{};
+  Pipe in{}, out{}, err{};
+  StopRequests stop{};
+  int interruptedBy = 0;  ///< the signal that asked us to stop
+};
+
+// Looks for a request to stop. A program that shares our terminal gets it too and decides for itself.
+bool mustStop(Running& running) {
+  const int signal = running.stop.take();
+  if (signal == 0) return false;
+  if (running.ownGroup) {
+    running.interruptedBy = signal;
+    return true;
+  }
+  if (signal != SIGINT) ::kill(running.child, signal);  // Ctrl-C has reached it
+  return false;
+}
+
+// Feeds input and collects output until both outputs are closed. Returns false at the deadline and when asked
+// to stop.
+bool exchange(Running& running, const ProcessOptions& options, ProcessResult& result) {
+  auto& [child, ownGroup, deadline, in, out, err, stop, interruptedBy] = running;
   std::size_t fed = 0;
   ::fcntl(in.writeEnd(), F_SETFL, O_NONBLOCK);
   if (options.input.empty()) in.closeWrite();
   while (out.readEnd() >= 0 || err.readEnd() >= 0) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
-    if (left <= 0) return false;
-    std::array<pollfd, 3> polled{
-        {{out.readEnd(), POLLIN, 0}, {err.readEnd(), POLLIN, 0}, {in.writeEnd(), POLLOUT, 0}}};
+    if (left <= 0 || mustStop(running)) return false;
+    std::array<pollfd, 4> polled{{{out.readEnd(), POLLIN, 0},
+                                  {err.readEnd(), POLLIN, 0},
+                                  {in.writeEnd(), POLLOUT, 0},
+                                  {stop.fd(), POLLIN, 0}}};
     if (::poll(polled.data(), polled.size(), static_cast<int>(std::min<long>(left, 1000))) < 0 &&
         errno != EINTR)
       return false;
@@ -113,29 +149,37 @@ bool exchange(Pipe& in, Pipe& out, Pipe& err, const ProcessOptions& options, Clo
   return true;
 }
 
-// Waits for the child until the deadline; returns false if it still runs then.
-bool waitUntil(pid_t child, Clock::time_point deadline, int& status) {
-  timespec pause{0, 200'000};
+// Waits for the child's end; returns false at the deadline and when asked to stop.
+bool waitForEnd(Running& running, int& status) {
+  int pause = 0;  // milliseconds
   for (;;) {
-    const pid_t got = ::waitpid(child, &status, WNOHANG);
-    if (got == child) return true;
-    if (Clock::now() >= deadline) return false;
-    ::nanosleep(&pause, nullptr);
-    pause.tv_nsec = std::min(pause.tv_nsec * 2, 10'000'000L);
+    const pid_t got = ::waitpid(running.child, &status, WNOHANG);
+    if (got == running.child) return true;
+    if (Clock::now() >= running.deadline || mustStop(running)) return false;
+    pollfd polled{running.stop.fd(), POLLIN, 0};
+    ::poll(&polled, 1, pause);
+    pause = std::min(pause + 1, 10);
   }
 }
 
-// Writing to a program that has gone must be an error code, not a signal that ends us.
-class IgnoreSigpipe {
- public:
-  IgnoreSigpipe() { previous_ = ::signal(SIGPIPE, SIG_IGN); }
-  ~IgnoreSigpipe() { ::signal(SIGPIPE, previous_); }
-  IgnoreSigpipe(const IgnoreSigpipe&) = delete;
-  IgnoreSigpipe& operator=(const IgnoreSigpipe&) = delete;
-
- private:
-  void (*previous_)(int);
-};
+// Passes a request to stop on, so that the program can tidy up, and kills what is left after a second.
+int end(Running& running) {
+  int status = 0;
+  const int target = running.ownGroup ? -running.child : running.child;
+  if (running.interruptedBy != 0) {
+    ::kill(target, running.interruptedBy);
+    for (int k = 0; k < 100; ++k) {
+      siginfo_t ended{};
+      ::waitid(P_PID, static_cast<id_t>(running.child), &ended, WEXITED | WNOHANG | WNOWAIT);
+      if (ended.si_pid == running.child) break;
+      ::poll(nullptr, 0, 10);
+    }
+  }
+  // While the child is not yet reaped, nobody else can get its number.
+  ::kill(target, SIGKILL);
+  ::waitpid(running.child, &status, 0);
+  return status;
+}
 
 }  // namespace
 
@@ -146,18 +190,20 @@ ProcessResult runProcess(const std::vector<std::string>& argv, const ProcessOpti
   arguments.push_back(nullptr);
   const std::string directory = options.directory.string();
 
-  const IgnoreSigpipe guard;
-  Pipe in, out, err, status;
-  const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                           std::chrono::duration<double>(options.timeout));
-  const pid_t child = ::fork();
+  const SigpipeIgnored guard;
+  Pipe status;
+  Running running{.ownGroup = !options.inheritOutput};
+  auto& [child, ownGroup, deadline, in, out, err, stop, interruptedBy] = running;
+  deadline = Clock::now() +
+             std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.timeout));
+  const pid_t parent = ::getpid();
+  child = ::fork();
   if (child < 0) throw Error({.what = "cannot start " + argv[0], .found = std::strerror(errno)});
   if (child == 0) {
-    const int outputs[3] = {in.readEnd(), options.inheritOutput ? -1 : out.writeEnd(),
-                            options.inheritOutput ? -1 : err.writeEnd()};
-    becomeProgram(arguments.data(), directory.c_str(), options, outputs, status.writeEnd());
+    const int outputs[3] = {in.readEnd(), ownGroup ? out.writeEnd() : -1, ownGroup ? err.writeEnd() : -1};
+    becomeProgram(arguments.data(), directory.c_str(), options, outputs, parent, status.writeEnd());
   }
-  if (!options.inheritOutput) ::setpgid(child, child);
+  if (ownGroup) ::setpgid(child, child);
   in.closeRead(), out.closeWrite(), err.closeWrite(), status.closeWrite();
 
   ProcessResult result;
@@ -165,13 +211,12 @@ ProcessResult runProcess(const std::vector<std::string>& argv, const ProcessOpti
   result.started = ::read(status.readEnd(), &cause, sizeof cause) != sizeof cause;
   if (!result.started) result.error = std::strerror(cause);
   int ended = 0;
-  const bool finished =
-      exchange(in, out, err, options, deadline, result) && waitUntil(child, deadline, ended);
-  if (!finished) {
-    result.timedOut = true;
-    ::kill(options.inheritOutput ? child : -child, SIGKILL);
-    ::waitpid(child, &ended, 0);
+  if (!exchange(running, options, result) || !waitForEnd(running, ended)) {
+    result.timedOut = interruptedBy == 0;
+    ended = end(running);
   }
+  if (!ownGroup) static_cast<void>(stop.take());  // Ctrl-C was for the program
+  if (interruptedBy != 0) throw Interrupted{interruptedBy};
   if (WIFEXITED(ended) && result.started) result.exitCode = WEXITSTATUS(ended);
   if (WIFSIGNALED(ended)) result.signal = WTERMSIG(ended);
   return result;

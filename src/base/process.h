@@ -31,7 +31,8 @@ struct ProcessResult {
 };
 
 /// Runs argv[0] (looked up in PATH) and waits for its end or the timeout. Throws Error for an empty argv or
-/// when no pipe or process can be made.
+/// when no pipe or process can be made. Throws Interrupted when a signal of HeldSignals arrives: the program
+/// and its process group have ended then. One that inherits our outputs gets the signal and is waited for.
 [[nodiscard]] ProcessResult runProcess(const std::vector<std::string>& argv,
                                        const ProcessOptions& options = {});
 

@@ -33,7 +33,9 @@ topic or its whole name: 01, kinematics, 01-kinematics.)";
 
 constexpr const char* kExitCodes =
     R"(Exit codes: 0 full score, 1 below full score, 2 cannot be graded (missing, does
-not compile), 3 fault of the grader, 64 wrong use.)";
+not compile), 3 fault of the grader, the project or the machine, 64 wrong use.)";
+
+constexpr const char* kOutHelp = "output folder (default: out/EXERCISE, or out/EXERCISE-solution)";
 
 Action complain(const std::string& text) {
   return [text](const Project&) {
@@ -75,7 +77,7 @@ void addRun(CLI::App& program, Action& action) {
                           "The program runs inside the output folder; frames and plots land there.");
   addExercise(command, options->exercise);
   command->add_flag("--solution", options->solution, "run the reference solution instead of main.cpp");
-  command->add_option("-o,--out", options->out, "output folder (default: out/EXERCISE)")->type_name("DIR");
+  command->add_option("-o,--out", options->out, kOutHelp)->type_name("DIR");
   command->callback(
       [&action, options] { action = [options](const Project& p) { return run(p, *options); }; });
 }
@@ -84,7 +86,8 @@ void addTest(CLI::App& program, Action& action) {
   const auto options = std::make_shared<TestOptions>();
   CLI::App* command = add(program, "test", "Grade your main.cpp: which checks pass, for how many points",
                           "Examples:\n  rex test 01\n  rex test 01 --check step-size --seed 17\n"
-                          "  rex test 01 --main /tmp/other.cpp --json\n\n" +
+                          "  rex test 01 --main /tmp/other.cpp --json\n\n"
+                          "The result file is results.json, or results-partial.json with --check.\n" +
                               std::string(kExitCodes));
   addExercise(command, options->exercise);
   command->add_flag("--solution", options->solution, "grade the reference solution");
@@ -93,9 +96,8 @@ void addTest(CLI::App& program, Action& action) {
       ->allow_extra_args(false)
       ->type_name("NAME");
   command->add_option("--seed", options->seed, "repeat the random cases of this seed")->type_name("N");
-  command->add_flag("--json", options->json, "print results.json and nothing else");
-  command->add_option("-o,--out", options->out, "folder for results.json (default: out/EXERCISE)")
-      ->type_name("DIR");
+  command->add_flag("--json", options->json, "print the result file and nothing else");
+  command->add_option("-o,--out", options->out, kOutHelp)->type_name("DIR");
   command->callback([&action, options] {
     if (options->solution && !options->main.empty()) throw CLI::ExcludesError("--main", "--solution");
     action = [options](const Project& p) { return test(p, *options); };
@@ -226,9 +228,11 @@ int runCommandLine(int argc, const char* const* argv, const Project& project) {
   ExitCode code = ExitCode::kGraderFault;
   try {
     code = parseCommandLine(argc, argv)(project);
-  } catch (const Error& error) {
+  } catch (const UsageError& error) {
     note(wrap(fmt::format("rex: {}", error.what()), 2, 0));
     code = ExitCode::kUsage;
+  } catch (const Error& error) {
+    note(wrap(fmt::format("rex: {}", error.what()), 2, 0));
   } catch (const std::exception& error) {
     note(fmt::format("rex: {}", error.what()));
   }

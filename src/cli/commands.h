@@ -9,8 +9,8 @@
 #include "cli/exit_code.h"
 #include "cli/project.h"
 
-/// The subcommands of `rex`, one source file each. They print for people, and throw Error for names that do
-/// not exist.
+/// The subcommands of `rex`, one source file each. They print for people, and throw UsageError for names that
+/// do not exist, Error when the project or the machine is broken.
 namespace rex::cli {
 
 ExitCode list(const Project& project);
@@ -18,7 +18,7 @@ ExitCode list(const Project& project);
 struct RunOptions {
   std::string exercise;
   bool solution = false;
-  std::filesystem::path out;  ///< empty: out/EXERCISE
+  std::filesystem::path out;  ///< empty: out/EXERCISE, or out/EXERCISE-solution
 };
 ExitCode run(const Project& project, const RunOptions& options);
 
@@ -29,7 +29,7 @@ struct TestOptions {
   std::vector<std::string> checks;  ///< empty: all
   std::optional<std::uint64_t> seed;
   bool json = false;
-  std::filesystem::path out;
+  std::filesystem::path out;  ///< empty: as for run
 };
 ExitCode test(const Project& project, const TestOptions& options);
 

@@ -1,10 +1,12 @@
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/interruption.h"
 #include "base/process.h"
 #include "cli/commands.h"
 #include "cli/student_file.h"
@@ -25,7 +27,7 @@ std::string quoted(const std::string& argument) {
 ExitCode debug(const Project& project, const DebugOptions& options) {
   const ExerciseInfo exercise = project.exercise(options.exercise);
   const std::filesystem::path file = chooseStudentFile(exercise, options.solution);
-  const std::filesystem::path out = project.outFolder(exercise);
+  const std::filesystem::path out = project.outFolder(exercise, options.solution);
   // Kept after we are gone: the debugger takes our place.
   const std::filesystem::path work = out / ".debug";
   std::filesystem::create_directories(out);
@@ -44,6 +46,8 @@ ExitCode debug(const Project& project, const DebugOptions& options) {
     throw Error({.what = "the debugger is not installed", .wanted = "apt-get install gdb"});
   say("Try: break main, run, next, print NAME, backtrace, quit.");
   std::fflush(stdout);
+  const sigset_t held = stopSignals();
+  ::sigprocmask(SIG_UNBLOCK, &held, nullptr);  // the debugger takes them now
   std::vector<char*> arguments;
   for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
   arguments.push_back(nullptr);

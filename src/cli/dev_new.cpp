@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
-#include <iterator>
 
 #include <fmt/format.h>
 
@@ -9,6 +8,7 @@
 #include "cli/commands.h"
 #include "cli/terminal.h"
 #include "grading/regions.h"
+#include "grading/text_file.h"
 
 namespace rex::cli {
 namespace {
@@ -25,14 +25,9 @@ void requireGoodName(const std::string& name) {
                     name[2] == '-' && letter(name[3]) &&
                     std::all_of(name.begin() + 3, name.end(), [&](char c) { return digit(c) || letter(c); });
   if (!good)
-    throw Error({.what = "not a name for an exercise",
-                 .found = "'" + name + "'",
-                 .wanted = "two digits, a dash, then letters and digits, like 01-kinematics"});
-}
-
-std::string readFile(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+    throw UsageError({.what = "not a name for an exercise",
+                      .found = "'" + name + "'",
+                      .wanted = "two digits, a dash, then letters and digits, like 01-kinematics"});
 }
 
 // Copies the template with its own name in place of the placeholder.
@@ -40,12 +35,10 @@ void instantiate(const fs::path& from, const fs::path& to, const std::string& na
   constexpr std::string_view kPlaceholder = "@EXERCISE@";
   for (const auto& entry : fs::recursive_directory_iterator(from)) {
     if (!entry.is_regular_file()) continue;
-    std::string text = readFile(entry.path());
+    std::string text = grading::readTextFile(entry.path());
     for (std::size_t at = text.find(kPlaceholder); at != std::string::npos; at = text.find(kPlaceholder, at))
       text.replace(at, kPlaceholder.size(), name);
-    const fs::path target = to / entry.path().lexically_relative(from);
-    fs::create_directories(target.parent_path());
-    std::ofstream(target, std::ios::binary) << text;
+    grading::writeTextFile(to / entry.path().lexically_relative(from), text);
   }
 }
 
@@ -54,11 +47,12 @@ void instantiate(const fs::path& from, const fs::path& to, const std::string& na
 ExitCode devNew(const Project& project, const std::string& name) {
   requireGoodName(name);
   const fs::path source = project.root / "share" / "template", folder = project.root / "exercises" / name;
-  if (fs::exists(folder)) throw Error({.what = "this exercise exists already", .where = {shown(folder)}});
+  if (fs::exists(folder))
+    throw UsageError({.what = "this exercise exists already", .where = {shown(folder)}});
   instantiate(source, folder, name);
   const fs::path solution = folder / "solution.cpp";
-  std::ofstream(folder / "main.cpp", std::ios::binary)
-      << grading::stripSolution(readFile(solution), shown(solution));
+  grading::writeTextFile(folder / "main.cpp",
+                         grading::stripSolution(grading::readTextFile(solution), shown(solution)));
   std::ofstream(project.root / "exercises" / "CMakeLists.txt", std::ios::app)
       << fmt::format("rex_exercise({} FUNCTIONS {})\n", name, kFunctions);
   say(fmt::format("Made {}, and its line in exercises/CMakeLists.txt, which names the", shown(folder)));

@@ -1,6 +1,3 @@
-#include <fstream>
-#include <iterator>
-
 #include <fmt/format.h>
 
 #include "base/error.h"
@@ -8,6 +5,7 @@
 #include "cli/terminal.h"
 #include "grading/regions.h"
 #include "grading/release.h"
+#include "grading/text_file.h"
 
 namespace rex::cli {
 
@@ -20,10 +18,9 @@ ExitCode devStrip(const Project& project, const StripOptions& options) {
   const ExerciseInfo exercise = project.exercise(options.exercise);
   const std::filesystem::path solution = exercise.folder / "solution.cpp",
                               main = exercise.folder / "main.cpp";
-  std::ifstream in(solution, std::ios::binary);
-  if (!in) throw Error({.what = "there is no solution to strip", .where = {solution.string()}});
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  std::ofstream(main, std::ios::binary) << grading::stripSolution(text, solution.string());
+  if (!std::filesystem::exists(solution))
+    throw UsageError({.what = "there is no solution to strip", .where = {solution.string()}});
+  grading::writeTextFile(main, grading::stripSolution(grading::readTextFile(solution), solution.string()));
   say(fmt::format("Wrote {}.", main.string()));
   return ExitCode::kFull;
 }

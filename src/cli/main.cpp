@@ -1,5 +1,14 @@
+#include <csignal>
+
+#include "base/interruption.h"
 #include "cli/command_line.h"
 
 int main(int argc, char** argv) {
-  return rex::cli::runCommandLine(argc, argv, {REX_PROJECT_ROOT, REX_BUILD_FOLDER});
+  try {
+    const rex::HeldSignals held;
+    return rex::cli::runCommandLine(argc, argv, {REX_PROJECT_ROOT, REX_BUILD_FOLDER});
+  } catch (const rex::Interrupted& stop) {
+    // Everything is tidied up: now end as the sender of the signal wants.
+    return std::raise(stop.signal);
+  }
 }

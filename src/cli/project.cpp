@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "base/error.h"
 #include "base/process.h"
 #include "cli/terminal.h"
 
@@ -58,7 +57,9 @@ fs::path Project::buildFolder(const ExerciseInfo& exercise) const {
   return build / "exercises" / exercise.name;
 }
 
-fs::path Project::outFolder(const ExerciseInfo& exercise) const { return root / "out" / exercise.name; }
+fs::path Project::outFolder(const ExerciseInfo& exercise, bool solution) const {
+  return root / "out" / (exercise.name + (solution ? "-solution" : ""));
+}
 
 std::string shown(const fs::path& path) {
   const std::string relative = fs::proximate(path).string();
@@ -69,11 +70,7 @@ grading::Toolchain prepare(const Project& project, const ExerciseInfo& exercise)
   const fs::path description = project.buildFolder(exercise) / "build.json";
   if (!fs::exists(description) || isStale(project.buildFolder(exercise) / "grader", exercise.folder))
     buildGrader(project, exercise);
-  try {
-    return grading::readToolchain(description);
-  } catch (const Error& error) {
-    throw std::runtime_error(error.what());
-  }
+  return grading::readToolchain(description);
 }
 
 }  // namespace rex::cli

@@ -19,19 +19,20 @@ struct Project {
 
   /// All exercises, by name. Throws Error for a bad exercise.toml.
   [[nodiscard]] std::vector<ExerciseInfo> exercises() const;
-  /// The exercise of that name, number or topic. Throws Error naming the nearest.
+  /// The exercise of that name, number or topic. Throws UsageError naming the nearest.
   [[nodiscard]] ExerciseInfo exercise(std::string_view name) const;
   /// What the build keeps about an exercise: grader, worker object, build.json.
   [[nodiscard]] std::filesystem::path buildFolder(const ExerciseInfo& exercise) const;
-  /// Where results of an exercise go unless the user says otherwise.
-  [[nodiscard]] std::filesystem::path outFolder(const ExerciseInfo& exercise) const;
+  /// Where results of an exercise go unless the user says otherwise; those of the reference solution apart.
+  [[nodiscard]] std::filesystem::path outFolder(const ExerciseInfo& exercise, bool solution) const;
 };
 
 /// The path as a user in the current folder would type it.
 [[nodiscard]] std::string shown(const std::filesystem::path& path);
 
 /// How to build and grade student code of an exercise; builds the grader first if it is missing or older than
-/// the exercise's files. Throws std::runtime_error with the end of the build's output when that fails.
+/// the exercise's files. Throws std::runtime_error with the end of the build's output when that fails, and as
+/// readToolchain() does.
 [[nodiscard]] grading::Toolchain prepare(const Project& project, const ExerciseInfo& exercise);
 
 }  // namespace rex::cli

@@ -17,21 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Ctrl-C is for the student's program; we stay to clean up after it. A handler, unlike ignoring, is not
-// inherited by the program.
-class LeaveInterruptToChild {
- public:
-  LeaveInterruptToChild() {
-    previous_ = std::signal(SIGINT, [](int) {});
-  }
-  ~LeaveInterruptToChild() { std::signal(SIGINT, previous_); }
-  LeaveInterruptToChild(const LeaveInterruptToChild&) = delete;
-  LeaveInterruptToChild& operator=(const LeaveInterruptToChild&) = delete;
-
- private:
-  void (*previous_)(int);
-};
-
 // Names every file below the folder; long runs of one kind only by their ends.
 void listResults(const fs::path& folder) {
   std::map<std::pair<std::string, std::string>, std::vector<std::string>> groups;
@@ -59,7 +44,8 @@ void listResults(const fs::path& folder) {
 ExitCode run(const Project& project, const RunOptions& options) {
   const ExerciseInfo exercise = project.exercise(options.exercise);
   const fs::path file = chooseStudentFile(exercise, options.solution);
-  const fs::path out = fs::absolute(options.out.empty() ? project.outFolder(exercise) : options.out);
+  const fs::path out =
+      fs::absolute(options.out.empty() ? project.outFolder(exercise, options.solution) : options.out);
   fs::create_directories(out);
   fs::create_directories(project.buildFolder(exercise));
   const grading::PrivateFolder work(project.buildFolder(exercise));
@@ -68,7 +54,6 @@ ExitCode run(const Project& project, const RunOptions& options) {
 
   std::fflush(stdout);
   constexpr double kNoTimeout = 1e6;
-  const LeaveInterruptToChild guard;
   const ProcessResult result =
       runProcess({program->string()}, {.directory = out, .timeout = kNoTimeout, .inheritOutput = true});
   listResults(out);

@@ -1,13 +1,13 @@
 #include "cli/student_file.h"
 
 #include <algorithm>
-#include <fstream>
 #include <sstream>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "cli/terminal.h"
+#include "grading/text_file.h"
 
 namespace rex::cli {
 
@@ -42,7 +42,7 @@ std::filesystem::path chooseStudentFile(const ExerciseInfo& exercise, bool solut
   if (!main.empty()) return main;
   const std::filesystem::path file = exercise.folder / (solution ? "solution.cpp" : "main.cpp");
   if (solution && !std::filesystem::exists(file))
-    throw Error(
+    throw UsageError(
         {.what = fmt::format("{} comes without a solution here", exercise.name), .where = {file.string()}});
   return file;
 }
@@ -70,7 +70,7 @@ std::optional<std::filesystem::path> buildProgram(const Project& project, const 
   const std::filesystem::path log = out / "build.log";
   // Trying things out is free: only grading looks for forbidden calls.
   const grading::StudentObject object = compileStudent(toolchain, {}, options);
-  std::ofstream(log) << object.log;
+  grading::writeTextFile(log, object.log);
   if (!object.ok) {
     explain(object.messages, object.source, log);
     return {};
@@ -78,7 +78,7 @@ std::optional<std::filesystem::path> buildProgram(const Project& project, const 
   for (const CompileDiagnostic& message : object.messages) note(wrap(harmless(toString(message)), 2, 0));
   const grading::StudentProgram program = linkProgram(toolchain, object);
   if (program.ok) return program.program;
-  std::ofstream(log) << program.log;
+  grading::writeTextFile(log, program.log);
   explain(program.messages, object.source, log);
   return {};
 }

@@ -11,7 +11,7 @@
 namespace rex::cli {
 
 /// The file to work on: `main` if given, the exercise's solution.cpp if asked for, else its main.cpp. Throws
-/// Error when the solution is wanted in a tree that has none.
+/// UsageError when the solution is wanted in a tree that has none.
 [[nodiscard]] std::filesystem::path chooseStudentFile(const ExerciseInfo& exercise, bool solution,
                                                       const std::filesystem::path& main = {});
 

@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
 #include <fmt/format.h>
 
@@ -11,6 +9,7 @@
 #include "grading/compiler_messages.h"
 #include "grading/private_folder.h"
 #include "grading/submission.h"
+#include "grading/text_file.h"
 
 namespace rex::cli {
 namespace {
@@ -50,12 +49,12 @@ void printChecks(const ExerciseInfo& exercise, const std::vector<CheckResult>& c
 }
 
 void printResult(const ExerciseInfo& exercise, const grading::Submission& graded,
-                 const std::filesystem::path& out) {
+                 const std::filesystem::path& results) {
   const GradeResult& result = graded.result;
   say(paint(Colour::kBold, fmt::format("{}: {}", exercise.name, exercise.title)));
   if (result.outcome == Outcome::compileError) {
     std::fflush(stdout);
-    explain(result.compile.diagnostics, graded.source, out / "build.log");
+    explain(result.compile.diagnostics, graded.source, results.parent_path() / "build.log");
     say("Not graded: no check could run.");
   } else {
     printChecks(exercise, result.checks);
@@ -67,7 +66,7 @@ void printResult(const ExerciseInfo& exercise, const grading::Submission& graded
     say(paint(full ? Colour::kGreen : Colour::kBold,
               fmt::format("{} of {} points", result.score, result.maxScore)));
   }
-  say("Result: " + shown(out / "results.json"));
+  say("Result: " + shown(results));
 }
 
 }  // namespace
@@ -75,22 +74,24 @@ void printResult(const ExerciseInfo& exercise, const grading::Submission& graded
 ExitCode test(const Project& project, const TestOptions& options) {
   const ExerciseInfo exercise = project.exercise(options.exercise);
   const std::filesystem::path file = chooseStudentFile(exercise, options.solution, options.main);
-  const std::filesystem::path out =
-      std::filesystem::absolute(options.out.empty() ? project.outFolder(exercise) : options.out);
+  const std::filesystem::path out = std::filesystem::absolute(
+      options.out.empty() ? project.outFolder(exercise, options.solution) : options.out);
   std::filesystem::create_directories(out);
+  // What a whole grading found stays until the next one.
+  const std::filesystem::path results =
+      out / (options.checks.empty() ? "results.json" : "results-partial.json");
   const grading::Toolchain toolchain = prepare(project, exercise);
   const grading::PrivateFolder work(project.buildFolder(exercise));
   const grading::Submission graded = grading::gradeSubmission(toolchain, exercise,
                                                               {.main = file,
                                                                .workFolder = work.path(),
-                                                               .results = out / "results.json",
+                                                               .results = results,
                                                                .checks = options.checks,
                                                                .seed = options.seed});
   if (options.json) {
-    std::ifstream results(out / "results.json");
-    std::fputs(std::string(std::istreambuf_iterator<char>(results), {}).c_str(), stdout);
+    std::fputs(grading::readTextFile(results).c_str(), stdout);
   } else {
-    printResult(exercise, graded, out);
+    printResult(exercise, graded, results);
   }
   return exitCodeOf(graded.result);
 }

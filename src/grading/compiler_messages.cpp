@@ -9,10 +9,12 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "grading/lines_internal.h"
 
 namespace rex::grading {
 namespace {
 
+using internal::splitLines;
 using Json = nlohmann::json;
 
 void replaceAll(std::string& text, std::string_view from, std::string_view to) {
@@ -42,16 +44,6 @@ CompileDiagnostic readMessage(const Json& json) {
     message.column = caret.at("column").get<int>();
   }
   return message;
-}
-
-std::vector<std::string_view> splitLines(std::string_view text) {
-  std::vector<std::string_view> lines;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    lines.push_back(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return lines;
 }
 
 // The line and column after "main.cpp:" in a line that says where from; {0, 0} when it does not.

@@ -28,15 +28,7 @@ pid_t parentOf(const std::filesystem::path& process) {
   return parent;
 }
 
-}  // namespace
-
-OrphanAdoption::OrphanAdoption() {
-  ::prctl(PR_GET_CHILD_SUBREAPER, &before_);
-  ::prctl(PR_SET_CHILD_SUBREAPER, 1);
-}
-
-OrphanAdoption::~OrphanAdoption() { ::prctl(PR_SET_CHILD_SUBREAPER, before_); }
-
+// Process ids of the children of this process, running or ended, as the kernel lists them in /proc.
 std::vector<int> listChildren() {
   std::vector<int> children;
   std::error_code ignored;
@@ -50,22 +42,32 @@ std::vector<int> listChildren() {
   return children;
 }
 
-int killNewChildren(const std::vector<int>& known) {
+}  // namespace
+
+NewDescendants::NewDescendants() : known_(listChildren()) {
+  ::prctl(PR_GET_CHILD_SUBREAPER, &adopting_);
+  ::prctl(PR_SET_CHILD_SUBREAPER, 1);
+}
+
+NewDescendants::~NewDescendants() {
+  kill();
+  ::prctl(PR_SET_CHILD_SUBREAPER, adopting_);
+}
+
+void NewDescendants::kill() {
   using Clock = std::chrono::steady_clock;
   const auto deadline = Clock::now() + std::chrono::seconds(2);
-  int killed = 0;
   while (Clock::now() < deadline) {
     bool found = false;
     for (const pid_t child : listChildren()) {
-      if (std::find(known.begin(), known.end(), child) != known.end()) continue;
+      if (std::find(known_.begin(), known_.end(), child) != known_.end()) continue;
       found = true;
       ::kill(child, SIGKILL);
-      if (::waitpid(child, nullptr, WNOHANG) == child) ++killed;
+      ::waitpid(child, nullptr, WNOHANG);
     }
     if (!found) break;
     std::this_thread::sleep_for(std::chrono::microseconds(200));
   }
-  return killed;
 }
 
 }  // namespace rex::grading

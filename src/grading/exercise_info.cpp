@@ -216,12 +216,12 @@ const ExerciseInfo& findExercise(const std::vector<ExerciseInfo>& exercises, std
   }
   if (matches.size() == 1) return *matches.front();
   if (matches.empty())
-    throw Error({.what = fmt::format("no exercise is called '{}'", name),
-                 .wanted = names.empty() ? "" : fmt::format("one of {}", fmt::join(names, ", ")),
-                 .nearest = nearestNames(name, spellings)});
+    throw UsageError({.what = fmt::format("no exercise is called '{}'", name),
+                      .wanted = names.empty() ? "" : fmt::format("one of {}", fmt::join(names, ", ")),
+                      .nearest = nearestNames(name, spellings)});
   std::vector<std::string> candidates;
   for (const ExerciseInfo* match : matches) candidates.push_back(match->name);
-  throw Error({.what = fmt::format("several exercises are called '{}'", name), .nearest = candidates});
+  throw UsageError({.what = fmt::format("several exercises are called '{}'", name), .nearest = candidates});
 }
 
 }  // namespace rex::grading

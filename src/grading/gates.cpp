@@ -11,12 +11,12 @@
 #include "grading/regions.h"
 #include "grading/release.h"
 #include "grading/submission.h"
-#include "grading/text_file_internal.h"
+#include "grading/text_file.h"
+#include "grading/unknown_check_internal.h"
 
 namespace rex::grading {
 namespace {
 
-using internal::readTextFile;
 using std::filesystem::path;
 
 using Points = std::map<std::string, int>;  // by part
@@ -135,7 +135,7 @@ GateResult wrongIsCaught(const GateContext& context, const std::string& gate) {
   const WrongVariant variant =
       composeVariant(readTextFile(solution), solution.string(), readTextFile(wrong), wrong.string());
   const path file = context.workFolder / "main.cpp";
-  internal::writeTextFile(file, variant.source);
+  writeTextFile(file, variant.source);
   const GradeResult result = grade(context, file);
   if (variant.caughtBy.front() == kForbiddenCall) return isRefused(result);
   if (result.outcome == Outcome::compileError || result.outcome == Outcome::graderError)
@@ -144,10 +144,7 @@ GateResult wrongIsCaught(const GateContext& context, const std::string& gate) {
   for (const CheckResult& check : result.checks) ids.push_back(check.id);
   for (const std::string& id : variant.caughtBy) {
     const auto check = std::find(ids.begin(), ids.end(), id);
-    if (check == ids.end())
-      throw Error({.what = fmt::format("no check is called '{}'", id),
-                   .where = {wrong.string(), 1},
-                   .nearest = nearestNames(id, ids)});
+    if (check == ids.end()) throw internal::unknownCheck(id, ids, {wrong.string(), 1});
     if (result.checks[check - ids.begin()].status == Outcome::pass)
       return failed(fmt::format("check '{}' passes although: {}", id, variant.mistake));
   }
@@ -171,8 +168,8 @@ std::vector<std::string> gateNames(const ExerciseInfo& exercise) {
 GateResult runGate(const GateContext& context, const std::string& gate) {
   const std::vector<std::string> names = gateNames(context.exercise);
   if (std::find(names.begin(), names.end(), gate) == names.end())
-    throw Error({.what = fmt::format("{} has no gate '{}'", context.exercise.name, gate),
-                 .nearest = nearestNames(gate, names)});
+    throw UsageError({.what = fmt::format("{} has no gate '{}'", context.exercise.name, gate),
+                      .nearest = nearestNames(gate, names)});
   const std::map<std::string, GateResult (*)(const GateContext&)> gates = {
       {"main-current", mainIsCurrent}, {"points", pointsAddUp},         {"names", namesExist},
       {"release", releaseIsClean},     {"main-floor", mainScoresFloor}, {"solution", solutionIsFull}};

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <exception>
 
+#include <fmt/format.h>
+
 #include "grading/printable.h"
 #include "grading/worker_process.h"
 
@@ -57,7 +59,10 @@ CheckResult runCheck(const RunnableCheck& check, const GradeOptions& options, Gr
   try {
     Check judge(check.info, options.seed);
     const WorkerRun run =
-        runWithWorker({.program = options.worker, .signature = options.signature, .limits = options.limits},
+        runWithWorker({.program = options.worker,
+                       .signature = options.signature,
+                       .limits = options.limits,
+                       .temporaryFolder = options.temporaryFolder},
                       [&](remote::Caller& caller) {
                         verdict = judge.judge([&](Check& requirements) { check.run(requirements, caller); });
                       });
@@ -108,6 +113,7 @@ GradeResult grade(GradeResult result, std::span<const RunnableCheck> checks, con
     result.maxScore += check.info.points;
   }
   result.limits = options.limits;
+  result.seedId = fmt::format("public:{}", options.seed);
   if (options.worker.empty()) {
     save(result);
     return result;

@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "grading/result_file.h"
+#include "grading/unknown_check_internal.h"
 
 namespace rex::grading {
 namespace {
@@ -43,8 +44,7 @@ std::vector<RunnableCheck> select(const std::vector<RunnableCheck>& checks,
   std::vector<std::string> ids;
   for (const RunnableCheck& check : checks) ids.push_back(check.info.id);
   for (const std::string& id : only) {
-    if (std::find(ids.begin(), ids.end(), id) == ids.end())
-      throw Error({.what = "unknown check '" + id + "'", .nearest = nearestNames(id, ids)});
+    if (std::find(ids.begin(), ids.end(), id) == ids.end()) throw internal::unknownCheck(id, ids);
   }
   std::vector<RunnableCheck> selected;
   for (const RunnableCheck& check : checks) {

@@ -3,7 +3,6 @@
 #include <csignal>
 #include <cstring>
 #include <string>
-#include <utility>
 
 #include <fcntl.h>
 #include <linux/close_range.h>
@@ -14,6 +13,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/pipe.h"
 #include "grading/launch_internal.h"
 #include "remote/worker.h"
 
@@ -34,42 +34,13 @@ constexpr std::array<const char*, 1> kEnvironment = {nullptr};
 
 constexpr rlim_t kFileBytes = 64u << 20;
 constexpr rlim_t kOpenFiles = 64;
-// Descriptors on their way to a fixed number must not lie on another fixed number.
+// Away from the numbers that the worker's own descriptors get, as the ends of a Pipe are.
 constexpr int kAboveFixed = 10;
 
-/// Both ends are closed at the end unless released.
-class Pipe {
- public:
-  Pipe() {
-    std::array<int, 2> low{};
-    if (::pipe2(low.data(), O_CLOEXEC) != 0)
-      throw Error({.what = "cannot make a pipe", .found = std::strerror(errno)});
-    for (int k = 0; k < 2; ++k) {
-      ends_[k] = ::fcntl(low[k], F_DUPFD_CLOEXEC, kAboveFixed);
-      ::close(low[k]);
-    }
-  }
-  ~Pipe() {
-    for (const int fd : ends_) {
-      if (fd >= 0) ::close(fd);
-    }
-  }
-  Pipe(const Pipe&) = delete;
-  Pipe& operator=(const Pipe&) = delete;
-
-  int readEnd() const { return ends_[0]; }
-  int writeEnd() const { return ends_[1]; }
-  void closeWrite() { ::close(std::exchange(ends_[1], -1)); }
-  int releaseRead() { return release(ends_[0]); }
-  int releaseWrite() { return release(ends_[1]); }
-
- private:
-  static int release(int& fd) {
-    ::fcntl(fd, F_SETFL, O_NONBLOCK);
-    return std::exchange(fd, -1);
-  }
-  std::array<int, 2> ends_{-1, -1};
-};
+int notBlocking(int fd) {
+  ::fcntl(fd, F_SETFL, O_NONBLOCK);
+  return fd;
+}
 
 void setLimit(__rlimit_resource resource, rlim_t soft, rlim_t hard) {
   const rlimit limit{soft, hard};
@@ -136,10 +107,10 @@ Launched launchWorker(const std::filesystem::path& program, const std::filesyste
   }
   return {.process = child,
           .processFd = static_cast<int>(::syscall(SYS_pidfd_open, child, 0)),
-          .toWorker = in.releaseWrite(),
-          .fromWorker = out.releaseRead(),
-          .output = output.releaseRead(),
-          .error = error.releaseRead()};
+          .toWorker = notBlocking(in.releaseWrite()),
+          .fromWorker = notBlocking(out.releaseRead()),
+          .output = notBlocking(output.releaseRead()),
+          .error = notBlocking(error.releaseRead())};
 }
 
 }  // namespace rex::grading

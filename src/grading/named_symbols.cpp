@@ -7,13 +7,12 @@
 #include <sstream>
 
 #include "grading/regions.h"
-#include "grading/text_file_internal.h"
+#include "grading/text_file.h"
 
 namespace rex::grading {
 namespace {
 
 namespace fs = std::filesystem;
-using internal::readTextFile;
 
 using Words = std::set<std::string>;
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "grading/lines_internal.h"
 
 namespace rex::grading {
 namespace {
@@ -42,16 +43,6 @@ std::string squeeze(std::string_view text) {
   return dense;
 }
 
-std::vector<std::string> splitLines(std::string_view text) {
-  std::vector<std::string> lines;
-  while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    lines.emplace_back(text.substr(0, end));
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  }
-  return lines;
-}
-
 // The tag in a comment line that holds nothing but `<word name>` or `</word>`.
 std::optional<Tag> tagIn(std::string_view line) {
   std::string_view rest = trim(line);
@@ -76,13 +67,13 @@ class MarkerReader {
 
   std::vector<Line> read(std::string_view text) {
     std::vector<Line> lines;
-    for (const std::string& line : splitLines(text)) {
+    for (const std::string_view line : internal::splitLines(text)) {
       ++number_;
       const std::optional<Tag> tag = tagIn(line);
       if (tag) handle(*tag);
       const Place place = tag ? Place::kMarker : place_;
       if (place_ == Place::kTodo && !tag) requireTodo(line);
-      lines.push_back({line, number_, place, region_});
+      lines.push_back({std::string(line), number_, place, region_});
       if (tag && tag->closing) region_.clear();
     }
     if (place_ != Place::kPublic) fail(fmt::format("no '// </{}>' closes this", opening()), opened_);

@@ -9,21 +9,18 @@
 
 #include "base/error.h"
 #include "grading/regions.h"
-#include "grading/text_file_internal.h"
+#include "grading/text_file.h"
 
 namespace rex::grading {
 namespace {
 
 namespace fs = std::filesystem;
 using fs::path;
-using internal::readTextFile;
-using internal::writeTextFile;
 
 // What students get from the root; exercises are treated apart. Everything else stays behind.
 constexpr const char* kReleased[] = {
     "CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE", ".clang-format", ".editorconfig",
-    ".gitignore",     ".gitattributes",    ".vscode",   "share",   "src",           "data",
-    "scripts"};
+    ".gitignore",     ".gitattributes",    "share",     "src",     "data",          "scripts"};
 
 void copyTree(const path& from, const path& to) {
   if (fs::is_directory(from)) {
@@ -45,7 +42,6 @@ std::map<std::string, std::string> madeFiles(const path& exercise) {
 }
 
 void releaseExercise(const path& from, const path& to) {
-  requireNoSolutionText(from);
   fs::create_directories(to);
   const std::map<std::string, std::string> made = madeFiles(from);
   for (const auto& [name, text] : made) writeTextFile(to / name, text);
@@ -71,6 +67,12 @@ struct Squeezed {
   std::vector<int> lines;
 };
 
+std::vector<std::string> secretsOf(const path& exercise) {
+  const path solution = exercise / "solution.cpp";
+  if (!fs::exists(solution)) return {};
+  return secretLines(readTextFile(solution), solution.string());
+}
+
 void requireAbsent(const std::vector<std::string>& secrets, const std::string& text, const path& file) {
   const Squeezed released(text);
   for (const std::string& secret : secrets) {
@@ -82,14 +84,35 @@ void requireAbsent(const std::vector<std::string>& secrets, const std::string& t
   }
 }
 
-// The tests of rex itself stay behind, so the command for them does too, and the lines that name it.
+// No file of the release may hold a line of any solution. The library stays aside: it holds the same formulas
+// on purpose, where students may read them. What the template of an exercise shows is public too.
+void requireCleanRelease(const std::vector<path>& exercises, const path& root, const path& target) {
+  std::vector<std::string> secrets;
+  for (const path& exercise : exercises)
+    for (const std::string& secret : secretsOf(exercise)) secrets.push_back(secret);
+  const path shown = root / "share/template/solution.cpp";
+  if (fs::exists(shown)) {
+    const Squeezed open(readTextFile(shown));
+    std::erase_if(secrets, [&](const std::string& secret) {
+      return open.letters.find(Squeezed(secret).letters) != std::string::npos;
+    });
+  }
+  for (const auto& entry : fs::recursive_directory_iterator(target)) {
+    const path name = entry.path().lexically_relative(target);
+    if (!entry.is_regular_file() || *name.begin() == "src") continue;
+    requireAbsent(secrets, readTextFile(entry.path()), root / name);
+  }
+}
+
+// The tests of rex itself stay behind, so the command for them does too, and the lines that name either.
 void leaveOutTheTests(const path& target) {
   fs::remove(target / "scripts/test");
   if (!fs::exists(target / "README.md")) return;
   std::istringstream lines(readTextFile(target / "README.md"));
   std::string kept;
   for (std::string line; std::getline(lines, line);)
-    if (line.find("scripts/test") == std::string::npos) kept += line + '\n';
+    if (line.find("scripts/test") == std::string::npos && line.find("`tests/`") == std::string::npos)
+      kept += line + '\n';
   writeTextFile(target / "README.md", kept);
 }
 
@@ -97,27 +120,7 @@ bool isEmptyOrMissing(const path& folder) {
   return !fs::exists(folder) || (fs::is_directory(folder) && fs::is_empty(folder));
 }
 
-}  // namespace
-
-void requireNoSolutionText(const path& exercise) {
-  const path solution = exercise / "solution.cpp", readme = exercise / "README.md";
-  if (!fs::exists(solution)) return;
-  const std::vector<std::string> secrets = secretLines(readTextFile(solution), solution.string());
-  std::map<std::string, std::string> released = madeFiles(exercise);
-  if (fs::exists(readme)) released["README.md"] = readTextFile(readme);
-  for (const auto& [name, text] : released) requireAbsent(secrets, text, exercise / name);
-}
-
-void writeStudentRelease(const path& root, const path& target) {
-  if (!isEmptyOrMissing(target))
-    throw Error(
-        {.what = "will not overwrite", .where = {target.string()}, .wanted = "an empty or new folder"});
-  std::vector<path> exercises;
-  for (const auto& entry : fs::directory_iterator(root / "exercises"))
-    if (entry.is_directory()) exercises.push_back(entry.path());
-  std::sort(exercises.begin(), exercises.end());
-  for (const path& exercise : exercises) requireNoSolutionText(exercise);
-
+void writeTree(const std::vector<path>& exercises, const path& root, const path& target) {
   fs::create_directories(target / "exercises");
   // The target may lie inside the root; so nothing but the list is walked.
   for (const char* name : kReleased)
@@ -127,6 +130,33 @@ void writeStudentRelease(const path& root, const path& target) {
     releaseExercise(exercise, target / "exercises" / exercise.filename());
   for (const auto& entry : fs::directory_iterator(root / "exercises"))
     if (entry.is_regular_file()) fs::copy_file(entry.path(), target / "exercises" / entry.path().filename());
+}
+
+}  // namespace
+
+void requireNoSolutionText(const path& exercise) {
+  const std::vector<std::string> secrets = secretsOf(exercise);
+  std::map<std::string, std::string> released = madeFiles(exercise);
+  for (const char* name : {"README.md", "exercise.h", "exercise.toml"})
+    if (fs::exists(exercise / name)) released[name] = readTextFile(exercise / name);
+  for (const auto& [name, text] : released) requireAbsent(secrets, text, exercise / name);
+}
+
+void writeStudentRelease(const path& root, const path& target) {
+  if (!isEmptyOrMissing(target))
+    throw UsageError(
+        {.what = "will not overwrite", .where = {target.string()}, .wanted = "an empty or new folder"});
+  std::vector<path> exercises;
+  for (const auto& entry : fs::directory_iterator(root / "exercises"))
+    if (entry.is_directory()) exercises.push_back(entry.path());
+  std::sort(exercises.begin(), exercises.end());
+  try {
+    writeTree(exercises, root, target);
+    requireCleanRelease(exercises, root, target);
+  } catch (...) {
+    fs::remove_all(target);
+    throw;
+  }
 }
 
 }  // namespace rex::grading

@@ -2,19 +2,20 @@
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 
 #include <fcntl.h>
 #include <unistd.h>
 
 #include "base/error.h"
+#include "grading/text_file.h"
 
 namespace rex::grading {
 namespace {
 
-[[noreturn]] void refuse(const std::string& what, const std::filesystem::path& file) {
-  throw Error({.what = what, .where = {.file = file.string()}, .found = std::strerror(errno)});
+[[noreturn]] void refuse(const std::filesystem::path& file) {
+  throw Error({.what = "cannot write the result file",
+               .where = {.file = file.string()},
+               .found = std::strerror(errno)});
 }
 
 bool writeAll(int fd, std::string_view text) {
@@ -29,10 +30,7 @@ bool writeAll(int fd, std::string_view text) {
 }  // namespace
 
 GradeResult loadResult(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) refuse("cannot read the result file", file);
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  return gradeResultFromJson(text, file.string());
+  return gradeResultFromJson(readTextFile(file), file.string());
 }
 
 void saveResult(const GradeResult& result, const std::filesystem::path& file) {
@@ -40,11 +38,10 @@ void saveResult(const GradeResult& result, const std::filesystem::path& file) {
   std::filesystem::path temporary = file;
   temporary += ".new";
   const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0644);
-  if (fd < 0) refuse("cannot write the result file", temporary);
+  if (fd < 0) refuse(temporary);
   const bool written = writeAll(fd, text) && ::fsync(fd) == 0;
   ::close(fd);
-  if (!written || ::rename(temporary.c_str(), file.c_str()) != 0)
-    refuse("cannot write the result file", file);
+  if (!written || ::rename(temporary.c_str(), file.c_str()) != 0) refuse(file);
 }
 
 }  // namespace rex::grading

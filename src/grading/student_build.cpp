@@ -44,13 +44,17 @@ ProcessResult runTool(const std::vector<std::string>& command, const path& folde
                                               .addressSpace = limits.memory,
                                               .fileSize = kObjectSize});
   if (!result.started) throw Error({.what = "cannot run " + command.front(), .found = result.error});
+  // The limit on processor time stops what the student caused, well before the clock does.
+  if (result.timedOut)
+    throw Error({.what = fmt::format("{} did not end within {:g} s: the machine was too busy",
+                                     command.front(), 2 * limits.seconds + 2)});
   return result;
 }
 
 // Why a compiler that reported no error still failed.
 std::string whyItGaveUp(const ProcessResult& run, const StudentBuildOptions& limits) {
   const auto says = [&](const char* text) { return run.error.find(text) != std::string::npos; };
-  if (run.timedOut || says("Killed") || says("CPU time limit") || run.signal != 0)
+  if (says("Killed") || says("CPU time limit") || run.signal != 0)
     return fmt::format("compiling took more than {:g} s of processor time and was stopped", limits.seconds);
   if (says("out of memory") || says("memory exhausted") || says("bad_alloc"))
     return fmt::format("compiling needed more than {} MiB of memory and was stopped", limits.memory >> 20);

@@ -8,10 +8,12 @@
 #include "base/error.h"
 #include "base/process.h"
 #include "grading/compiler_messages.h"
+#include "grading/descendants.h"
 #include "grading/result_file.h"
 #include "grading/sha256.h"
 #include "grading/student_build.h"
-#include "grading/text_file_internal.h"
+#include "grading/text_file.h"
+#include "grading/unknown_check_internal.h"
 
 namespace rex::grading {
 namespace {
@@ -25,8 +27,14 @@ constexpr double kLongestGrading = 3600;
 std::string exerciseVersion(const path& folder) {
   std::string text;
   for (const char* name : {"exercise.toml", "exercise.h", "check.cpp"})
-    if (std::filesystem::exists(folder / name)) text += internal::readTextFile(folder / name) + '\0';
+    if (std::filesystem::exists(folder / name)) text += readTextFile(folder / name) + '\0';
   return sha256(text).substr(0, 12);
+}
+
+// "c++ (Debian 12.2.0-14) 12.2.0", or the name alone of a compiler that does not run.
+std::string compilerVersion(const std::string& compiler) {
+  const ProcessResult run = runProcess({compiler, "--version"});
+  return run.ok() ? run.output.substr(0, run.output.find('\n')) : path(compiler).filename().string();
 }
 
 // What is known before any check runs.
@@ -39,7 +47,7 @@ GradeResult startResult(const Toolchain& toolchain, const ExerciseInfo& exercise
   result.exerciseId = exercise.name;
   result.exerciseVersion = exerciseVersion(exercise.folder);
   result.toolVersion = REX_VERSION;
-  result.compiler = path(toolchain.compiler).filename().string();
+  result.compiler = compilerVersion(toolchain.compiler);
   result.compile = {object.exitCode, object.messages, object.truncated};
   result.limits.cpuSeconds = exercise.limits.cpuSeconds;
   result.limits.memoryMegabytes = exercise.limits.memoryMb;
@@ -49,7 +57,8 @@ GradeResult startResult(const Toolchain& toolchain, const ExerciseInfo& exercise
 
 std::vector<std::string> graderCommand(const Toolchain& toolchain, const ExerciseInfo& exercise,
                                        const SubmissionOptions& options, const path& worker) {
-  std::vector<std::string> command = {toolchain.grader.string(), "--results", options.results.string()};
+  std::vector<std::string> command = {toolchain.grader.string(), "--results", options.results.string(),
+                                      "--temporary", options.workFolder.string()};
   if (!worker.empty()) command.insert(command.end(), {"--worker", worker.string()});
   for (const std::string& check : options.checks) command.insert(command.end(), {"--check", check});
   if (options.seed) command.insert(command.end(), {"--seed", fmt::format("{}", *options.seed)});
@@ -59,8 +68,10 @@ std::vector<std::string> graderCommand(const Toolchain& toolchain, const Exercis
   return command;
 }
 
-// Runs the grader and reads what it wrote; a grader that breaks is our fault and says so in the result.
+// Runs the grader and reads what it wrote; a grader that breaks is our fault and says so in the result. One
+// that was stopped leaves its worker behind, and what that started.
 GradeResult callGrader(const std::vector<std::string>& command, const path& results) {
+  const NewDescendants workers;
   const ProcessResult run = runProcess(command, {.timeout = kLongestGrading});
   const std::string said = run.error.substr(0, run.error.find_last_not_of('\n') + 1);
   GradeResult result = loadResult(results);
@@ -86,8 +97,7 @@ void requireKnownChecks(const Toolchain& toolchain, const std::vector<std::strin
   std::vector<std::string> known;
   for (const CheckResult& check : listChecks(toolchain)) known.push_back(check.id);
   for (const std::string& id : wanted)
-    if (std::find(known.begin(), known.end(), id) == known.end())
-      throw Error({.what = fmt::format("no check is called '{}'", id), .nearest = nearestNames(id, known)});
+    if (std::find(known.begin(), known.end(), id) == known.end()) throw internal::unknownCheck(id, known);
 }
 
 void compileAndLink(const Toolchain& toolchain, const ExerciseInfo& exercise,
@@ -108,7 +118,7 @@ void compileAndLink(const Toolchain& toolchain, const ExerciseInfo& exercise,
     built.start.outcome = Outcome::compileError;
     built.start.message = firstError(diagnostics);
   }
-  internal::writeTextFile(options.results.parent_path() / "build.log", log);
+  writeTextFile(options.results.parent_path() / "build.log", log);
 }
 
 }  // namespace

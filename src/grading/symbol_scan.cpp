@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/process.h"
+#include "grading/mentions.h"
 
 namespace rex::grading {
 namespace {
@@ -33,9 +34,11 @@ bool isFunction(std::string_view symbol, std::string_view function) {
 // "RELOCATION RECORDS FOR [.text._Z4stepv]:" opens the references of one section.
 constexpr std::string_view kSectionLine = "RELOCATION RECORDS FOR [";
 
-// Whether such a line is about the code of main() itself.
+// Whether such a line is about the code of main() or of a function inside it, a lambda above all.
 bool isMainSection(std::string_view line) {
+  constexpr std::string_view kLocalToMain = "Z4mainE";  // in a mangled name
   line.remove_prefix(kSectionLine.size());
+  if (line.find(kLocalToMain) != line.npos) return true;
   for (const std::string_view section : {".text.main]", ".text.startup.main]", ".text.unlikely.main]"}) {
     if (line.starts_with(section)) return true;
   }
@@ -51,23 +54,6 @@ std::string_view referredTo(std::string_view line) {
   }
   const std::size_t addend = line.find_last_of("+-");
   return addend != line.npos && line.substr(addend + 1).starts_with("0x") ? line.substr(0, addend) : line;
-}
-
-// Line and column, from 1, of the last part of the function's name as a word; 0, 0 when it is not there.
-std::pair<int, int> placeIn(std::string_view source, std::string_view function) {
-  const std::size_t colons = function.rfind("::");
-  const std::string_view word = colons == function.npos ? function : function.substr(colons + 2);
-  for (std::size_t at = source.find(word); at != source.npos; at = source.find(word, at + 1)) {
-    const std::size_t end = at + word.size();
-    if ((at > 0 && isWord(source[at - 1])) || (end < source.size() && isWord(source[end]))) continue;
-    const std::string_view before = source.substr(0, at);
-    const std::size_t lineStart = before.rfind('\n') + 1;  // npos + 1 is 0
-    // A mention in a comment is no call.
-    if (before.substr(lineStart).find("//") != before.npos) continue;
-    return {static_cast<int>(std::count(before.begin(), before.end(), '\n')) + 1,
-            static_cast<int>(at - lineStart) + 1};
-  }
-  return {0, 0};
 }
 
 }  // namespace
@@ -104,9 +90,10 @@ std::vector<CompileDiagnostic> scanSymbols(const std::string& objdump, const std
     throw Error({.what = "cannot list what the compiled file refers to", .found = listed.error});
   std::vector<CompileDiagnostic> messages;
   for (const ForbiddenFunction& call : forbiddenCalls(listed.output, forbidden)) {
-    const auto [line, column] = placeIn(source, call.function);
+    const auto [line, column] = onlyMentionOf(call.function, source);
     messages.push_back({mainFile, line, column, "error", "forbidden-call",
-                        fmt::format("calls {}, which this exercise forbids: {}. Write it yourself instead",
+                        fmt::format("calls {}, which only main() may call in this exercise: {}. Write it "
+                                    "yourself instead",
                                     call.function, call.reason)});
   }
   return messages;

@@ -10,14 +10,15 @@
 
 namespace rex::grading {
 
-/// The forbidden functions that an object file refers to outside main(), whatever their arguments, from what
-/// `objdump -r -C` prints about it. main() may call them, to compare a student's work with the library's: the
-/// grader never runs it. Needs a file compiled with -ffunction-sections.
+/// The forbidden functions that an object file refers to outside main() and its lambdas, whatever their
+/// arguments, from what `objdump -r -C` prints about it. main() may call them, to compare a student's work
+/// with the library's: the grader never runs it. Needs a file compiled with -ffunction-sections.
 [[nodiscard]] std::vector<ForbiddenFunction> forbiddenCalls(std::string_view relocations,
                                                             const std::vector<ForbiddenFunction>& forbidden);
 
 /// Runs objdump on an object file and explains each forbidden call as an error of rule "forbidden-call", at
-/// the first line of `source` that names the function. Throws Error when objdump cannot read the file.
+/// the line of `source` that names the function if there is only one outside main(). Throws Error when
+/// objdump cannot read the file.
 [[nodiscard]] std::vector<CompileDiagnostic> scanSymbols(const std::string& objdump,
                                                          const std::filesystem::path& object,
                                                          std::string_view source, const std::string& mainFile,

@@ -1,10 +1,11 @@
+#include "grading/text_file.h"
+
 #include <fstream>
 #include <iterator>
 
 #include "base/error.h"
-#include "grading/text_file_internal.h"
 
-namespace rex::grading::internal {
+namespace rex::grading {
 
 std::string readTextFile(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -21,4 +22,4 @@ void writeTextFile(const std::filesystem::path& file, std::string_view text) {
   if (!out) throw Error({.what = "cannot write this file", .where = {file.string()}});
 }
 
-}  // namespace rex::grading::internal
+}  // namespace rex::grading

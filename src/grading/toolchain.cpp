@@ -1,21 +1,19 @@
 #include "grading/toolchain.h"
 
-#include <fstream>
-
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "grading/text_file.h"
 
 namespace rex::grading {
 
 Toolchain readToolchain(const std::filesystem::path& buildJson) {
-  std::ifstream file(buildJson);
-  if (!file)
+  if (!std::filesystem::exists(buildJson))
     throw Error({.what = "the exercise is not built",
                  .where = {buildJson.string()},
                  .wanted = "this file, which building the project writes"});
   try {
-    const nlohmann::json json = nlohmann::json::parse(file);
+    const nlohmann::json json = nlohmann::json::parse(readTextFile(buildJson));
     return {.compiler = json.at("compiler").get<std::string>(),
             .flags = json.at("compile_flags").get<std::vector<std::string>>(),
             .linkFlags = json.at("link_flags").get<std::vector<std::string>>(),

@@ -20,6 +20,17 @@ Failure tooSlow(const WorkerEnd& end, const WorkerLimits& limits) {
                                  placeOf(end.ready, end.function))};
 }
 
+Failure tooMuchMemory(const WorkerLimits& limits, const std::string& place) {
+  return {.outcome = Outcome::memoryLimit,
+          .message = fmt::format("used more than {} MB of memory {}", limits.memoryMegabytes, place)};
+}
+
+// The runtime names the exception that nobody caught; without memory it cannot even spell the name out.
+bool ranOutOfMemory(const std::string& errorTail) {
+  return errorTail.find("std::bad_alloc") != std::string::npos ||
+         errorTail.find("St9bad_alloc") != std::string::npos;
+}
+
 Failure badAccess(const WorkerEnd& end, const WorkerLimits& limits) {
   const std::string message = "crashed with a segmentation fault " + placeOf(end.ready, end.function);
   if (end.ready) return {.message = message + " (an index out of range, or a recursion without end?)"};
@@ -47,6 +58,7 @@ Failure explainSignal(const WorkerEnd& end, const WorkerLimits& limits) {
     case SIGILL:
       return {.message = "crashed with an illegal instruction " + place + " (a missing return?)"};
     case SIGABRT:
+      if (ranOutOfMemory(end.errorTail)) return tooMuchMemory(limits, place);
       return {.message = "aborted " + place, .detail = tellingLine(end.errorTail)};
     case SIGXFSZ:
       return {.outcome = Outcome::outputLimit, .message = "wrote a file that is too large " + place};
@@ -78,9 +90,7 @@ Failure explainEnd(const WorkerEnd& end, const WorkerLimits& limits) {
 Failure explainThrow(const remote::RemoteThrow& error, const WorkerLimits& limits) {
   const remote::Thrown& thrown = error.thrown();
   if (thrown.kind == remote::Thrown::Kind::badAlloc)
-    return {.outcome = Outcome::memoryLimit,
-            .message = fmt::format("used more than {} MB of memory in {}", limits.memoryMegabytes,
-                                   error.function())};
+    return tooMuchMemory(limits, placeOf(true, error.function()));
   return {.message = fmt::format("threw {} in {}", thrown.type, error.function()), .detail = thrown.text};
 }
 

@@ -45,8 +45,11 @@ std::vector<Group> select(std::vector<Group> groups, const std::vector<std::stri
 }
 
 void run(const std::vector<std::string>& names, bool asJson) {
-  const std::vector<Group> groups =
-      select({{"kinematics", kinematicsRows()}, {"render", renderRows()}, {"scene", sceneRows()}}, names);
+  const std::vector<Group> groups = select({{"grading", gradingRows()},
+                                            {"kinematics", kinematicsRows()},
+                                            {"render", renderRows()},
+                                            {"scene", sceneRows()}},
+                                           names);
   if (!asJson) fmt::print("{}", tableHead());
   std::vector<Line> lines;
   for (const Group& group : groups) {

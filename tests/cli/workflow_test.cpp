@@ -106,15 +106,22 @@ TEST_F(WorkflowTest, FindsExercisesByNumberTopicFolderAndNearMiss) {
 TEST_F(WorkflowTest, GradesTheUntouchedFileAtItsFloor) {
   const Ended ended = rex({"test", "98"});
   EXPECT_EQ(ended.code, 1) << ended.error;
-  EXPECT_THAT(ended.output, HasSubstr(" FAIL A quarter turn"));
+  EXPECT_THAT(ended.output, HasSubstr(" FAIL  0/1   A quarter turn [quarter-turn]"));
   EXPECT_THAT(ended.output, HasSubstr("0 of 3 points"));
   EXPECT_THAT(read(out() / "results.json"), HasSubstr("\"outcome\": \"fail\""));
+}
+
+TEST_F(WorkflowTest, KeepsResultsOfTheSolutionApart) {
+  EXPECT_EQ(rex({"test", "98", "--solution"}).code, 0);
+  EXPECT_EQ(rex({"run", "98", "--solution"}).code, 0);
+  EXPECT_FALSE(fs::exists(out()));
+  EXPECT_TRUE(fs::exists(root() / "out" / "98-template-solution" / "results.json"));
 }
 
 TEST_F(WorkflowTest, GradesTheSolutionInFull) {
   const Ended ended = rex({"test", "98", "--solution", "-o", root() / "elsewhere"});
   EXPECT_EQ(ended.code, 0) << ended.error;
-  EXPECT_THAT(ended.output, HasSubstr("  ok  A quarter turn"));
+  EXPECT_THAT(ended.output, HasSubstr("  ok   1/1   A quarter turn [quarter-turn]"));
   EXPECT_THAT(ended.output, HasSubstr("3 of 3 points"));
   EXPECT_TRUE(fs::exists(root() / "elsewhere" / "results.json"));
   EXPECT_FALSE(fs::exists(out() / "results.json"));
@@ -122,15 +129,20 @@ TEST_F(WorkflowTest, GradesTheSolutionInFull) {
 
 TEST_F(WorkflowTest, RunsOneCheckAndPrintsJson) {
   write(root() / "mine.cpp", kGood);
+  EXPECT_EQ(rex({"test", "98", "--main", root() / "mine.cpp"}).code, 0);
+  const std::string whole = read(out() / "results.json");
   const Ended ended =
       rex({"test", "98", "--main", root() / "mine.cpp", "--check", "keeps-length", "--seed", "7", "--json"});
   EXPECT_EQ(ended.code, 0) << ended.error;
-  EXPECT_EQ(ended.output, read(out() / "results.json"));
+  EXPECT_EQ(ended.output, read(out() / "results-partial.json"));
+  EXPECT_EQ(read(out() / "results.json"), whole);
+  EXPECT_THAT(ended.output, HasSubstr("\"seed_id\": \"public:7\""));
+  EXPECT_THAT(ended.output, ::testing::ContainsRegex("\"compiler\": \".* [0-9]+[.][0-9]+"));
   EXPECT_THAT(ended.output, HasSubstr("\"name\": \"mine.cpp\""));
   EXPECT_THAT(ended.output, Not(HasSubstr("quarter-turn")));
-  const Ended unknown = rex({"test", "98", "--solution", "--check", "keeps-lenght"});
+  const Ended unknown = rex({"test", "98", "--check", "keeps-lenght"});
   EXPECT_EQ(unknown.code, 64);
-  EXPECT_THAT(read(out() / "results.json"), HasSubstr("keeps-length")) << "the last result is lost";
+  EXPECT_EQ(read(out() / "results-partial.json"), ended.output) << "the last result is lost";
   EXPECT_THAT(unknown.error, HasSubstr("no check is called 'keeps-lenght' (did you mean 'keeps-length'?)"));
 }
 
@@ -153,7 +165,7 @@ TEST_F(WorkflowTest, ExplainsAMissingFileAMissingFunctionAndAForbiddenCall) {
   write(exercise() / "main.cpp", "int main() {}\n");
   const Ended lacking = rex({"test", "98"});
   EXPECT_EQ(lacking.code, 2);
-  EXPECT_THAT(lacking.error, HasSubstr("rotated("));
+  EXPECT_THAT(lacking.error, HasSubstr("'rotated' is declared but has no body here"));
   write(exercise() / "main.cpp",
         "#include \"exercise.h\"\n#include \"geometry/rotation.h\"\nEigen::Vector2d rotated(const "
         "Eigen::Vector2d& p, double a) {\n"
@@ -161,13 +173,27 @@ TEST_F(WorkflowTest, ExplainsAMissingFileAMissingFunctionAndAForbiddenCall) {
         "0)).head<2>();\n}\nint main() {}\n");
   const Ended forbidden = rex({"test", "98"});
   EXPECT_EQ(forbidden.code, 2);
-  EXPECT_THAT(forbidden.error, HasSubstr("main.cpp:4:16: error: calls rex::rotationAboutAxis"));
+  EXPECT_THAT(forbidden.error,
+              HasSubstr("main.cpp:4:16: error: calls rex::rotationAboutAxis, which only main() may"));
 }
 
 TEST_F(WorkflowTest, SaysWhenTheGraderIsAtFault) {
   const Ended ended = rexIn(root() / "no-build", {"test", "98"});
   EXPECT_EQ(ended.code, 3);
   EXPECT_THAT(ended.error, HasSubstr("the grader of 98-template does not build"));
+}
+
+TEST_F(WorkflowTest, SaysWhenTheProjectOrTheMachineIsAtFault) {
+  write(root() / "out", "a file where a folder should be");
+  for (const char* command : {"test", "run", "debug"}) EXPECT_EQ(rex({command, "98"}).code, 3) << command;
+  fs::remove(root() / "out");
+  const Ended readOnly = rex({"test", "98", "-o", "/proc"});
+  EXPECT_EQ(readOnly.code, 3);
+  EXPECT_THAT(flat(readOnly.error), HasSubstr("/proc/results.json.new: cannot write the result file"));
+  replace(exercise() / "exercise.toml", "points = 3", "points = ");
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"list"}, {"test", "98"}})
+    EXPECT_EQ(rex(arguments).code, 3) << arguments[0];
 }
 
 TEST_F(WorkflowTest, RunsTheProgramInItsFolderAndListsWhatItWrote) {
@@ -195,7 +221,7 @@ TEST_F(WorkflowTest, SaysHowAProgramEnded) {
 TEST_F(WorkflowTest, PrintsADebuggerCommand) {
   const Ended ended = rex({"debug", "98", "--solution", "--print"});
   EXPECT_EQ(ended.code, 0) << ended.error;
-  EXPECT_THAT(ended.output, ::testing::StartsWith("gdb -q -ex 'set cwd " + out().string() + "' "));
+  EXPECT_THAT(ended.output, ::testing::StartsWith("gdb -q -ex 'set cwd " + out().string() + "-solution' "));
 }
 
 TEST_F(WorkflowTest, SaysHowToGetTheDebugger) {
@@ -206,13 +232,13 @@ TEST_F(WorkflowTest, SaysHowToGetTheDebugger) {
   ::setenv("PATH", (root() / "bin").c_str(), 1);
   const Ended ended = rex({"debug", "98"});
   ::setenv("PATH", path.c_str(), 1);
-  EXPECT_EQ(ended.code, 64);
+  EXPECT_EQ(ended.code, 3);
   EXPECT_THAT(ended.error, HasSubstr("the debugger is not installed: wanted apt-get install gdb"));
 }
 
 TEST_F(WorkflowTest, SaysHowToGetTheBenchmarks) {
   const Ended ended = rex({"bench"});
-  EXPECT_EQ(ended.code, 64);
+  EXPECT_EQ(ended.code, 3);
   EXPECT_THAT(ended.error, HasSubstr("libbenchmark-dev"));
 }
 

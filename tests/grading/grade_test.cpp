@@ -1,9 +1,16 @@
 #include "grading/grade.h"
 
+#include <array>
+#include <csignal>
+#include <filesystem>
 #include <stdexcept>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "grading/worker_process.h"
 #include "interface.h"
@@ -103,6 +110,54 @@ TEST(RunWithWorker, CountsOnlyTheTimeItWaits) {
   EXPECT_FALSE(run.failure.has_value());
   EXPECT_LT(run.wallSeconds, 0.5);
   EXPECT_GT(run.peakMemoryBytes, 0);
+}
+
+/// Makes the one core that this process may use a busy one.
+class BusyCore {
+ public:
+  BusyCore() {
+    ::sched_getaffinity(0, sizeof before_, &before_);
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    CPU_SET(::sched_getcpu(), &one);
+    ::sched_setaffinity(0, sizeof one, &one);
+    for (pid_t& spinner : spinners_) {
+      spinner = ::fork();
+      if (spinner == 0) {
+        ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+        for (volatile bool on = true; on;) {
+        }
+      }
+    }
+  }
+  ~BusyCore() {
+    for (const pid_t spinner : spinners_) {
+      ::kill(spinner, SIGKILL);
+      ::waitpid(spinner, nullptr, 0);
+    }
+    ::sched_setaffinity(0, sizeof before_, &before_);
+  }
+  BusyCore(const BusyCore&) = delete;
+  BusyCore& operator=(const BusyCore&) = delete;
+
+ private:
+  cpu_set_t before_;
+  std::array<pid_t, 5> spinners_{};
+};
+
+// A quarter of a second of work takes more than one second then.
+TEST(RunWithWorker, WaitsLongerWhereTheMachineIsBusy) {
+  if (!std::filesystem::exists("/proc/self/schedstat")) GTEST_SKIP() << "the kernel counts no waiting";
+  const BusyCore busy;
+  const WorkerRun run = runWithWorker({.program = kGood.parent_path() / "busy",
+                                       .signature = Student::signature(),
+                                       .limits = {.wallSeconds = 0.5}},
+                                      [](remote::Caller& caller) {
+                                        const Eigen::Vector3d target(1, 2, 3);
+                                        EXPECT_EQ(Student(caller).ikStep(target, target), target);
+                                      });
+  EXPECT_FALSE(run.failure.has_value()) << run.failure->message;
+  EXPECT_GT(run.wallSeconds, 0.5);
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ class ReleaseTest : public ::testing::Test {
           "exercises/CMakeLists.txt", "exercises/01-demo/exercise.h", "exercises/01-demo/wrong/a.cpp"})
       write(file, file);
     write("exercises/01-demo/README.md", "Write `twice`.\n");
-    write("README.md", "Run scripts/rex.\nRun scripts/test.\n");
+    write("README.md", "Run scripts/rex.\nRun scripts/test.\n| `tests/` | tests |\n");
     write("exercises/01-demo/main.cpp", "out of date\n");
     write("exercises/01-demo/check.cpp", "visible();\n// <hidden>\nsecret();\n// </hidden>\n");
     write("exercises/01-demo/solution.cpp",
@@ -100,6 +100,26 @@ TEST_F(ReleaseTest, RefusesSolutionTextHoweverItIsLaidOut) {
         "// <solution twice>\n return multiply(a, 2);\n// <todo>\n//| // return multiply(a, 2);\n// "
         "</solution>\n");
   EXPECT_REX_ERROR(requireNoSolutionText(root() / "exercises/01-demo"), "main.cpp:1: a line of the solution");
+}
+
+TEST_F(ReleaseTest, RefusesSolutionTextInAnyFileButTheLibrary) {
+  for (const char* file :
+       {"share/doc/writing.md", "exercises/01-demo/exercise.h", "exercises/01-demo/exercise.toml",
+        "exercises/02-next/README.md", "scripts/rex", "README.md"}) {
+    write(file, "one\n  return multiply(a, 2);\n");
+    EXPECT_REX_ERROR(writeStudentRelease(root(), target()),
+                     (root() / file).string() + ":2: a line of the solution would reach students");
+    EXPECT_FALSE(fs::exists(target())) << file;
+    write(file, "one\n");
+  }
+  write("src/base/error.h", "return multiply(a, 2);\n");
+  EXPECT_NO_THROW(writeStudentRelease(root(), target()));
+}
+
+TEST_F(ReleaseTest, TakesTheTemplateForPublic) {
+  write("share/template/solution.cpp", "return multiply(a, 2);\n");
+  write("share/doc/writing.md", "return multiply(a, 2);\n");
+  EXPECT_NO_THROW(writeStudentRelease(root(), target()));
 }
 
 TEST_F(ReleaseTest, PassesOnComplaintsAboutMarkers) {

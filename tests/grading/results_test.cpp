@@ -135,7 +135,7 @@ TEST(ResultFile, IsReplacedAndReadBack) {
   saveResult(someResult(), file);
   EXPECT_EQ(toJson(loadResult(file)), toJson(someResult()));
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 1);
-  EXPECT_REX_ERROR(loadResult(folder / "none.json"), "cannot read the result file: found No such file");
+  EXPECT_REX_ERROR(loadResult(folder / "none.json"), "none.json: cannot read this file");
   EXPECT_REX_ERROR(saveResult(someResult(), folder / "no" / "r.json"), "cannot write the result file");
   std::filesystem::create_directory(folder / "taken");
   EXPECT_REX_ERROR(saveResult(someResult(), folder / "taken"), "cannot write the result file");

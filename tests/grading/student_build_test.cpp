@@ -133,10 +133,10 @@ TEST_F(StudentBuildTest, RefusesForbiddenCalls) {
   const StudentObject object =
       compile("#include \"exercise.h\"\n\nint twice(int a) { return rex::answer(a); }\nint main() {}\n");
   EXPECT_FALSE(object.ok);
-  EXPECT_EQ(first(object.messages),
-            "main.cpp:3:32: error: calls rex::answer, which this exercise forbids: it is what you find out. "
-            "Write it "
-            "yourself instead [forbidden-call]");
+  EXPECT_EQ(
+      first(object.messages),
+      "main.cpp:3:32: error: calls rex::answer, which only main() may call in this exercise: it is what "
+      "you find out. Write it yourself instead [forbidden-call]");
 }
 
 TEST_F(StudentBuildTest, IncludesNothingThatLiesBesideTheFile) {
@@ -228,6 +228,20 @@ TEST_F(StudentBuildTest, ThrowsWhenTheToolsAreMissing) {
   broken.objcopy = "false";
   const StudentObject object = compileFile(temporary_.path() / "main.cpp");
   EXPECT_REX_ERROR(linkWorker(broken, object), "cannot rename main in the compiled file");
+}
+
+TEST_F(StudentBuildTest, BlamesTheMachineForACompilerThatDoesNotGetOn) {
+  const path slow = temporary_.path() / "compiler";
+  write(slow, "#!/bin/sh\nexec sleep 60\n");
+  std::filesystem::permissions(slow, std::filesystem::perms::owner_all);
+  write(temporary_.path() / "main.cpp", kGood);
+  Toolchain busy = toolchain();
+  busy.compiler = slow;
+  EXPECT_REX_ERROR(
+      compileStudent(
+          busy, {},
+          {.main = temporary_.path() / "main.cpp", .workFolder = temporary_.path() / "work", .seconds = 0.1}),
+      "compiler did not end within 2.2 s: the machine was too busy");
 }
 
 TEST_F(StudentBuildTest, ReadsBuildJson) {

@@ -1,10 +1,11 @@
+#include "grading/text_file.h"
+
 #include <gtest/gtest.h>
 
-#include "grading/text_file_internal.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::internal {
+namespace rex::grading {
 namespace {
 
 TEST(TextFile, KeepsEveryByteAndMakesFolders) {
@@ -23,4 +24,4 @@ TEST(TextFile, NamesTheFileInComplaints) {
 }
 
 }  // namespace
-}  // namespace rex::grading::internal
+}  // namespace rex::grading

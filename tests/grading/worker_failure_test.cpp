@@ -57,6 +57,19 @@ TEST(ExplainEnd, NamesTheExitCode) {
   EXPECT_EQ(placeOf(true, ""), "between two calls");
 }
 
+TEST(ExplainEnd, KnowsAnExceptionForWantOfMemory) {
+  for (const char* type : {"std::bad_alloc", "St9bad_alloc"}) {
+    const Failure failure = explainEnd(
+        {.status = SIGABRT,
+         .ready = true,
+         .function = "f",
+         .errorTail = std::string("terminate called after throwing an instance of '") + type + "'\n"},
+        kLimits);
+    EXPECT_EQ(failure.outcome, Outcome::memoryLimit);
+    EXPECT_EQ(failure.message, "used more than 64 MB of memory in f");
+  }
+}
+
 TEST(ExplainThrow, KeepsTheStudentsTextApart) {
   const Failure failure =
       explainThrow({"f", {.kind = remote::Thrown::Kind::exception, .type = "E", .text = "secret"}}, kLimits);

@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "remote/thrown.h"
 #include "remote/worker.h"
+#include "support/expect_error.h"
 
 namespace rex::remote {
 namespace {
@@ -221,6 +222,35 @@ TEST_F(Calls, DoNotLetCallbacksOutliveThem) {
   EXPECT_EQ(worker.function<decltype(keep)>("keep")([](int) { return 1.0; }), 0);
   EXPECT_THAT(thrownBy([&] { return worker.function<decltype(useKept)>("useKept")(); }).what(),
               HasSubstr("a function argument was used after the call it belongs to"));
+}
+
+TEST(ActiveCall, NeedsOne) {
+  EXPECT_REX_ERROR(Session(Channel(-1, -1), {}).activeCall(), "no call is running");
+}
+
+// What a caller says to a worker that asks for the wrong argument of sumUp(term, count).
+std::string answerToCallback(const std::function<double(int)>& term, std::uint32_t argument) {
+  std::array<int, 2> toCaller{}, fromCaller{};
+  if (::pipe2(toCaller.data(), O_CLOEXEC) != 0 || ::pipe2(fromCaller.data(), O_CLOEXEC) != 0)
+    throw std::runtime_error("no pipe");
+  constexpr std::uint64_t kSeed = 5;
+  Channel(-1, toCaller[1]).send(Kind::callback, Rng(kSeed).next(), argument, Writer());
+  Caller caller(Channel(toCaller[0], fromCaller[1]), kSeed);
+  std::string answer;
+  try {
+    static_cast<void>(Call<decltype(sumUp)>(caller, 0, "sumUp")(term, 3));
+  } catch (const ProtocolError& error) {
+    answer = error.what();
+  }
+  for (const int fd : {toCaller[0], toCaller[1], fromCaller[0], fromCaller[1]}) ::close(fd);
+  return answer;
+}
+
+TEST(Callbacks, AreRefusedUnlessTheyNameAFunction) {
+  const auto term = [](int k) { return 1.0 * k; };
+  EXPECT_EQ(answerToCallback(term, 1), "that argument is not a function");
+  EXPECT_EQ(answerToCallback(nullptr, 0), "that argument is an empty function");
+  EXPECT_EQ(answerToCallback(term, 2), "there is no such argument");
 }
 
 TEST_F(Calls, CarryLargeValuesUpToTheLimit) {

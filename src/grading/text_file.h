@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace rex::grading::internal {
+namespace rex::grading {
 
 /// The whole file. Throws Error when it cannot be read.
 [[nodiscard]] std::string readTextFile(const std::filesystem::path& file);
@@ -12,4 +12,4 @@ namespace rex::grading::internal {
 /// Makes or replaces the file, in folders made where missing. Throws Error when that fails.
 void writeTextFile(const std::filesystem::path& file, std::string_view text);
 
-}  // namespace rex::grading::internal
+}  // namespace rex::grading

@@ -1,0 +1,61 @@
+#include "base/interruption.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "base/process.h"
+
+namespace rex {
+namespace {
+
+// A shell that sends this process a signal, then tells by its own end how it was treated.
+std::vector<std::string> signalling(const std::string& name, const std::string& then) {
+  return {"bash", "-c", "kill -" + name + " " + std::to_string(::getpid()) + "; " + then};
+}
+
+int interruptedBy(const std::vector<std::string>& program) {
+  try {
+    static_cast<void>(runProcess(program, {.timeout = 30}));
+  } catch (const Interrupted& stop) {
+    return stop.signal;
+  }
+  return 0;
+}
+
+TEST(HeldSignals, EndTheProgramThatRuns) {
+  const HeldSignals held;
+  EXPECT_EQ(interruptedBy(signalling("INT", "sleep 60")), SIGINT);
+  EXPECT_EQ(interruptedBy(signalling("TERM", "sleep 60 & sleep 60")), SIGTERM);
+  EXPECT_EQ(interruptedBy(signalling("HUP", "trap '' HUP; while :; do sleep 60; done")), SIGHUP);
+  // Also when its output has ended.
+  EXPECT_EQ(
+      interruptedBy({"bash", "-c",
+                     "exec >&- 2>&-; sleep 0.1; kill -TERM " + std::to_string(::getpid()) + "; sleep 60"}),
+      SIGTERM);
+  EXPECT_EQ(interruptedBy({"true"}), 0);
+}
+
+TEST(HeldSignals, WaitForTheNextProgram) {
+  const HeldSignals held;
+  ::kill(::getpid(), SIGINT);
+  EXPECT_EQ(interruptedBy({"sleep", "60"}), SIGINT);
+}
+
+TEST(HeldSignals, ArePassedToAProgramThatSharesOurOutput) {
+  const HeldSignals held;
+  const auto run = [](const std::string& name) {
+    return runProcess(signalling(name, "sleep 0.5; exit 7"), {.inheritOutput = true});
+  };
+  EXPECT_EQ(run("TERM").signal, SIGTERM);
+  EXPECT_EQ(run("INT").exitCode, 7) << "Ctrl-C comes from the terminal";
+}
+
+TEST(HeldSignals, LeaveIgnoredSignalsIgnored) {
+  void (*before)(int) = std::signal(SIGINT, SIG_IGN);
+  const HeldSignals held;
+  EXPECT_EQ(interruptedBy(signalling("INT", "exit 0")), 0);
+  std::signal(SIGINT, before);
+}
+
+}  // namespace
+}  // namespace rex

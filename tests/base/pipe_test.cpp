@@ -1,0 +1,58 @@
+#include "base/pipe.h"
+
+#include <cerrno>
+#include <csignal>
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "support/expect_error.h"
+
+namespace rex {
+namespace {
+
+TEST(Pipe, CarriesBytesAndEndsWhenItsWriterCloses) {
+  Pipe pipe;
+  EXPECT_GE(std::min(pipe.readEnd(), pipe.writeEnd()), 10);
+  EXPECT_EQ(::write(pipe.writeEnd(), "ab", 2), 2);
+  pipe.closeWrite();
+  char got[3] = {};
+  EXPECT_EQ(::read(pipe.readEnd(), got, 3), 2);
+  EXPECT_EQ(::read(pipe.readEnd(), got, 3), 0);
+  EXPECT_EQ(pipe.writeEnd(), -1);
+}
+
+TEST(Pipe, LeavesAReleasedEndOpen) {
+  int fd = -1;
+  {
+    Pipe pipe;
+    fd = pipe.releaseRead();
+    EXPECT_EQ(pipe.readEnd(), -1);
+  }
+  char got = 0;
+  EXPECT_EQ(::read(fd, &got, 1), 0);
+  EXPECT_EQ(::close(fd), 0);
+}
+
+TEST(Pipe, SaysWhenThereAreNoDescriptors) {
+  rlimit before{};
+  ::getrlimit(RLIMIT_NOFILE, &before);
+  for (const rlim_t most : {0, 10}) {
+    const rlimit few{most, before.rlim_max};
+    ::setrlimit(RLIMIT_NOFILE, &few);
+    EXPECT_REX_ERROR(Pipe(), "cannot make a pipe: found ");
+    ::setrlimit(RLIMIT_NOFILE, &before);
+  }
+}
+
+TEST(SigpipeIgnored, TurnsTheSignalIntoAnErrorCode) {
+  const SigpipeIgnored ignored;
+  Pipe pipe;
+  pipe.closeRead();
+  EXPECT_EQ(::write(pipe.writeEnd(), "a", 1), -1);
+  EXPECT_EQ(errno, EPIPE);
+}
+
+}  // namespace
+}  // namespace rex

@@ -1,0 +1,36 @@
+#include "grading/mentions.h"
+
+#include <gtest/gtest.h>
+
+namespace rex::grading {
+namespace {
+
+using Place = std::pair<int, int>;
+constexpr Place kNowhere{0, 0};
+
+Place place(std::string_view source) { return onlyMentionOf("rex::solveIk", source); }
+
+TEST(OnlyMentionOf, IsTheOneLineOutsideMain) {
+  EXPECT_EQ(place("int f() {\n  return rex::solveIk(1);\n}\n"), Place(2, 15));
+  EXPECT_EQ(place("int f() { return solveIk(1); }\nint main() { if (solveIk(2)) { return solveIk(3); } }\n"),
+            Place(1, 18));
+  EXPECT_EQ(place("int main();\nint main(int, char**) { solveIk(3); }\nint f() { return solveIk(1); }\n"),
+            Place(3, 18));
+}
+
+TEST(OnlyMentionOf, IsNoCommentLiteralOrPartOfAWord) {
+  EXPECT_EQ(place("// solveIk\n/* solveIk\n solveIk */ int a = 1'000;\nint b = solveIk(1);\n"), Place(4, 9));
+  EXPECT_EQ(place("auto t = \"solveIk \\\" solveIk\"; char c = '\"';\nint b = solveIk(1);\n"), Place(2, 9));
+  EXPECT_EQ(place("int mySolveIk, solveIks, solveIk2;\nint b = solveIk(1);"), Place(2, 9));
+}
+
+TEST(OnlyMentionOf, IsNothingWhereSeveralOrNoneAre) {
+  EXPECT_EQ(place("int solveIk(int);\nint f() { return solveIk(1); }\n"), kNowhere);
+  EXPECT_EQ(place("int main() { return solveIk(1); }\n"), kNowhere);
+  EXPECT_EQ(place(""), kNowhere);
+  EXPECT_EQ(place("int main() { \"open"), kNowhere);
+  EXPECT_EQ(place("/* open"), kNowhere);
+}
+
+}  // namespace
+}  // namespace rex::grading
