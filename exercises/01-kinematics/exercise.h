@@ -15,7 +15,7 @@ struct TaskValue {
 };
 
 // Part 1, task maps (12.3.1). Any map is right whose value is zero exactly when the task is fulfilled, in as
-// many dimensions d as you like where nothing else is said.
+// many dimensions d as you like where nothing else is said. Values are finite in every posture.
 
 /// Zero exactly when `body` looks at the world point `target`: when `gaze`, a unit vector fixed in the body's
 /// frame, points from the body's origin towards the target. Looking away from it is not zero.

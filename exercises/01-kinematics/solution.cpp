@@ -184,12 +184,12 @@ int main() {
                     .y = positive(trackingErrors(libraryPostures, atTarget)),
                     .dashed = true},
                    {.label = "target moved along a line", .y = positive(lineErrors)}}});
-  writeFrames(line, "line", {.caption = "12.3.2 c: along a straight line", .traces = {"handR"}});
+  writeVideo(line, "line", {.caption = "12.3.2 c: along a straight line", .traces = {"handR"}});
 
   // 12.3.2 d: three turns of the circle, and what a long run does to the posture.
   Simulator turning("man.ors");
   const std::vector<Eigen::VectorXd> turns = circle(turning, "handR", kTarget, 0.2, kSigma, 380);
-  writeFrames(
+  writeVideo(
       turning, "circle",
       {.caption = "12.3.2 d: a circle of radius 0.2 m", .traces = {"handR"}, .paths = {wholeCircle()}});
   Simulator longRun("man.ors");

@@ -1,6 +1,7 @@
 #include "course/pictures.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include "render/png.h"
 #include "render/renderer.h"
 #include "render/scene_picture.h"
+#include "render/video.h"
 
 namespace rex {
 namespace {
@@ -114,6 +116,14 @@ void writeFrames(const Simulator& simulator, const std::string& folder, const Pi
     writePng(renderer.draw(pictures[i], camera),
              (std::filesystem::path(folder) / fmt::format("{:04}.png", i)).string());
   }
+}
+
+void writeVideo(const Simulator& simulator, const std::string& name, const PictureOptions& options,
+                int most) {
+  writeFrames(simulator, name, options, most);
+  if (simulator.recording().empty() || joinToVideo(name, name + ".mp4")) return;
+  fmt::print(stderr, "{}.mp4 is missing because ffmpeg is (apt-get install ffmpeg); the frames are in {}\n",
+             name, name);
 }
 
 }  // namespace rex

@@ -29,4 +29,9 @@ void writePicture(const Simulator& simulator, const std::string& file, const Pic
 void writeFrames(const Simulator& simulator, const std::string& folder, const PictureOptions& options = {},
                  int most = 120);
 
+/// writeFrames() into the folder NAME, and the video NAME.mp4 of them. Without ffmpeg there are only the
+/// frames, and a line on standard error says so. Throws as writeFrames.
+void writeVideo(const Simulator& simulator, const std::string& name, const PictureOptions& options = {},
+                int most = 120);
+
 }  // namespace rex

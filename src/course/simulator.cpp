@@ -2,8 +2,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include <fmt/format.h>
 
@@ -25,11 +23,7 @@ std::filesystem::path findScene(const std::string& sceneFile) {
 }
 
 SimulatorDescription readDescription(const std::string& sceneFile) {
-  const std::filesystem::path path = findScene(sceneFile);
-  static_cast<void>(readOrs(path));  // all about missing and oversized files
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return {.sceneName = path.filename().string(), .sceneText = text.str(), .q = {}};
+  return {.sceneName = sceneFile, .sceneText = readSceneText(findScene(sceneFile)), .q = {}};
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -9,12 +10,6 @@
 
 namespace rex {
 namespace {
-
-// The step actually taken from x, so that (x + h) - x is exactly h.
-double exactStep(double x, double h) {
-  const volatile double moved = x + h;
-  return moved - x;
-}
 
 Eigen::VectorXd evaluate(const VectorFunction& f, const Eigen::VectorXd& x, Eigen::Index size) {
   Eigen::VectorXd y = f(x);
@@ -37,9 +32,10 @@ Eigen::MatrixXd numericJacobian(const VectorFunction& f, const Eigen::VectorXd& 
       Eigen::VectorXd ahead = x, behind = x;
       ahead[i] += h;
       behind[i] -= h;
+      // Divided by the step actually taken, which rounding makes a little different from 2 h.
       return (evaluate(f, ahead, rows) - evaluate(f, behind, rows)) / (ahead[i] - behind[i]);
     };
-    const double h = exactStep(x[i], step * std::max(1., std::abs(x[i])));
+    const double h = step * std::max(1., std::abs(x[i]));
     // The error of central differences is c h^2 + O(h^4): two steps cancel c.
     J.col(i) = (4 * central(h / 2) - central(h)) / 3;
   }

@@ -43,8 +43,8 @@ struct Figure {
 
 /// Draws the figure with gnuplot into a .png or .svg file, which appears whole or not at all. Throws Error
 /// naming the figure and the series when there is nothing to draw, x and y differ in length, a number is not
-/// finite, or not positive on a logarithmic axis; naming the path when it cannot be written or has another
-/// ending; naming the Debian package when gnuplot is missing.
+/// finite, or not positive on a logarithmic axis, or the ranges show nothing of the data; naming the path
+/// when it cannot be written or has another ending; naming the Debian package when gnuplot is missing.
 void writeFigure(const Figure& figure, const std::filesystem::path& path);
 
 }  // namespace rex

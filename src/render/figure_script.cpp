@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "render/figure_script_internal.h"
 #include "render/figure_style_internal.h"
+#include "render/figure_view_internal.h"
 #include "render/utf8_internal.h"
 
 namespace rex::internal {
@@ -72,8 +73,9 @@ const char* placeOf(Legend legend) {
   return "";
 }
 
-const char* drawingOf(SeriesStyle style) {
-  switch (style) {
+const char* drawingOf(const Series& series) {
+  if (series.y.size() == 1) return "points";  // one point makes no line
+  switch (series.style) {
     case SeriesStyle::kLine:
       return "lines";
     case SeriesStyle::kPoints:
@@ -99,8 +101,8 @@ void addData(Script out, const Series& series, std::size_t index) {
 }
 
 void addCurve(Script out, const Series& series, std::size_t index) {
-  fmt::format_to(out, "{}$d{} using 1:2 with {} lt {}", index == 0 ? "plot " : ", ", index,
-                 drawingOf(series.style), index + 1);
+  fmt::format_to(out, "{}$d{} using 1:2 with {} lt {}", index == 0 ? "plot " : ", ", index, drawingOf(series),
+                 index + 1);
   if (series.color) fmt::format_to(out, " lc rgb '{}'", hex(*series.color));
   if (series.dashed) fmt::format_to(out, " dt (12,7)");
   if (series.label.empty())
@@ -134,6 +136,7 @@ void requireDrawable(const Figure& figure) {
     requireValues(series.x, figure.logX, nameOf(figure, k), 'x');
     requireValues(series.y, figure.logY, nameOf(figure, k), 'y');
   }
+  requireDataInView(figure, name);
 }
 
 std::string figureScript(const Figure& figure, const std::string& terminal) {

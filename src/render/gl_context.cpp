@@ -61,11 +61,7 @@ GlBackend glBackendFromName(const std::string& name) {
 std::unique_ptr<GlContext> makeGlContext(const GlOptions& options) {
   requireDriver(options.driver);
   const ChosenDriver chosen(options.driver);
-  switch (options.backend) {
-    case GlBackend::kAuto:
-    case GlBackend::kOsMesa:
-      break;
-  }
+  // OSMesa is the only backend so far, and so what kAuto takes.
   return internal::makeOsMesaContext(internal::osMesaLibraries());
 }
 

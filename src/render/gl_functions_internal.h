@@ -10,6 +10,7 @@ namespace rex::internal {
 #define REX_GL_FUNCTIONS(X)                                                  \
   X(ActiveTexture, PFNGLACTIVETEXTUREPROC)                                   \
   X(AttachShader, PFNGLATTACHSHADERPROC)                                     \
+  X(BeginQuery, PFNGLBEGINQUERYPROC)                                         \
   X(BindBuffer, PFNGLBINDBUFFERPROC)                                         \
   X(BindFramebuffer, PFNGLBINDFRAMEBUFFERPROC)                               \
   X(BindRenderbuffer, PFNGLBINDRENDERBUFFERPROC)                             \
@@ -32,10 +33,12 @@ namespace rex::internal {
   X(DrawElements, PFNGLDRAWELEMENTSPROC)                                     \
   X(Enable, PFNGLENABLEPROC)                                                 \
   X(EnableVertexAttribArray, PFNGLENABLEVERTEXATTRIBARRAYPROC)               \
+  X(EndQuery, PFNGLENDQUERYPROC)                                             \
   X(FramebufferRenderbuffer, PFNGLFRAMEBUFFERRENDERBUFFERPROC)               \
   X(FramebufferTexture2D, PFNGLFRAMEBUFFERTEXTURE2DPROC)                     \
   X(GenBuffers, PFNGLGENBUFFERSPROC)                                         \
   X(GenFramebuffers, PFNGLGENFRAMEBUFFERSPROC)                               \
+  X(GenQueries, PFNGLGENQUERIESPROC)                                         \
   X(GenRenderbuffers, PFNGLGENRENDERBUFFERSPROC)                             \
   X(GenTextures, PFNGLGENTEXTURESPROC)                                       \
   X(GenVertexArrays, PFNGLGENVERTEXARRAYSPROC)                               \
@@ -43,6 +46,7 @@ namespace rex::internal {
   X(GetIntegerv, PFNGLGETINTEGERVPROC)                                       \
   X(GetProgramInfoLog, PFNGLGETPROGRAMINFOLOGPROC)                           \
   X(GetProgramiv, PFNGLGETPROGRAMIVPROC)                                     \
+  X(GetQueryObjectuiv, PFNGLGETQUERYOBJECTUIVPROC)                           \
   X(GetString, PFNGLGETSTRINGPROC)                                           \
   X(GetUniformLocation, PFNGLGETUNIFORMLOCATIONPROC)                         \
   X(LinkProgram, PFNGLLINKPROGRAMPROC)                                       \

@@ -1,6 +1,5 @@
 #include "render/image.h"
 
-#include <algorithm>
 #include <cassert>
 
 #include <fmt/format.h>
@@ -29,11 +28,6 @@ const std::uint8_t* Image::pixel(int x, int y) const {
 std::array<int, 3> Image::at(int x, int y) const {
   const std::uint8_t* p = pixel(x, y);
   return {p[0], p[1], p[2]};
-}
-
-bool isUniform(const Image& image) {
-  // Every byte equals the one a pixel before it.
-  return image.rgb.size() <= 3 || std::equal(image.rgb.begin() + 3, image.rgb.end(), image.rgb.begin());
 }
 
 }  // namespace rex

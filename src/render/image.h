@@ -24,7 +24,4 @@ struct Image {
   bool operator==(const Image&) const = default;
 };
 
-/// Whether all pixels are alike; an image without pixels is uniform.
-[[nodiscard]] bool isUniform(const Image& image);
-
 }  // namespace rex

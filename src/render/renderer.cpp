@@ -15,6 +15,7 @@
 #include "render/picture_text_internal.h"
 #include "render/shaders_internal.h"
 #include "render/shadow_map_internal.h"
+#include "render/visibility_internal.h"
 
 namespace rex {
 namespace {
@@ -77,13 +78,13 @@ bool showsNothing(const Image& image) {
   return true;
 }
 
-// A polyline of one point draws nothing.
-bool isEmpty(const Picture& picture, const DrawList& list, const std::vector<Polyline>& lines) {
+// Whether there is more than ground and text. A polyline of one point draws nothing.
+bool hasScene(const Picture& picture, const DrawList& list, const std::vector<Polyline>& lines) {
   const auto hasPoints = [](const PointSet& set) { return !set.points.empty(); };
   const auto hasLength = [](const Polyline& line) { return line.points.size() > 1; };
-  return list.opaque.empty() && list.translucent.empty() && !picture.ground.visible &&
-         std::none_of(picture.pointSets.begin(), picture.pointSets.end(), hasPoints) &&
-         std::none_of(lines.begin(), lines.end(), hasLength);
+  return !list.opaque.empty() || !list.translucent.empty() ||
+         std::any_of(picture.pointSets.begin(), picture.pointSets.end(), hasPoints) ||
+         std::any_of(lines.begin(), lines.end(), hasLength);
 }
 
 }  // namespace
@@ -96,8 +97,8 @@ struct Renderer::Impl {
   void setBackground(const GlProgram& program) const;
   void drawGround(const Picture& picture, const Camera& camera, const internal::ShadowView& shadow) const;
   void drawSolids(const DrawList& list, const Picture& picture, const Camera& camera,
-                  const internal::ShadowView& shadow) const;
-  void drawOverlay(const std::vector<Polyline>& lines, const Picture& picture, const Camera& camera) const;
+                  const internal::ShadowView& shadow);
+  void drawOverlay(const std::vector<Polyline>& lines, const Picture& picture, const Camera& camera);
   Eigen::Matrix4d clip(const Camera& camera) const {
     return clipFromWorld(camera, static_cast<double>(options.width) / options.height);
   }
@@ -109,6 +110,7 @@ struct Renderer::Impl {
   internal::FrameBuffer frame;
   internal::MeshStore meshes;
   internal::ShadowMap shadowMap;
+  internal::Visibility visibility;
   GlProgram background, ground, solid, overlay;
   GLuint noVertices = 0, overlayVertices = 0, overlayBuffer = 0;
 };
@@ -121,6 +123,7 @@ Renderer::Impl::Impl(const RendererOptions& wanted)
       frame(gl, options.width, options.height, samples),
       meshes(gl),
       shadowMap(gl),
+      visibility(gl),
       background(makeProgram(gl, internal::backgroundShader())),
       ground(makeProgram(gl, internal::groundShader(options.shadow))),
       solid(makeProgram(gl, internal::solidShader(options.shadow))),
@@ -179,13 +182,15 @@ void Renderer::Impl::drawGround(const Picture& picture, const Camera& camera,
 }
 
 void Renderer::Impl::drawSolids(const DrawList& list, const Picture& picture, const Camera& camera,
-                                const internal::ShadowView& shadow) const {
+                                const internal::ShadowView& shadow) {
   const auto drawAll = [&](const std::vector<DrawItem>& items) {
     solid.use();
-    for (const DrawItem& item : items) {
-      solid.set("solidColor", item.color);
-      meshes.draw(item, solid);
-    }
+    visibility.watch([&] {
+      for (const DrawItem& item : items) {
+        solid.set("solidColor", item.color);
+        meshes.draw(item, solid);
+      }
+    });
   };
   solid.use();
   setLight(solid, picture, shadow);
@@ -205,7 +210,7 @@ void Renderer::Impl::drawSolids(const DrawList& list, const Picture& picture, co
 }
 
 void Renderer::Impl::drawOverlay(const std::vector<Polyline>& lines, const Picture& picture,
-                                 const Camera& camera) const {
+                                 const Camera& camera) {
   constexpr double kHiddenOpacity = 0.3;
   const auto mesh =
       internal::makeOverlayMesh(lines, picture.pointSets, camera, options.width, options.height);
@@ -217,11 +222,13 @@ void Renderer::Impl::drawOverlay(const std::vector<Polyline>& lines, const Pictu
   overlay.use();
   gl.Enable(GL_BLEND);
   gl.DepthMask(GL_FALSE);
-  for (const bool hidden : {true, false}) {
-    gl.DepthFunc(hidden ? GL_GREATER : GL_LEQUAL);
-    overlay.set("opacity", hidden ? kHiddenOpacity : 1.0);
-    gl.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(mesh.size()));
-  }
+  visibility.watch([&] {
+    for (const bool hidden : {true, false}) {
+      gl.DepthFunc(hidden ? GL_GREATER : GL_LEQUAL);
+      overlay.set("opacity", hidden ? kHiddenOpacity : 1.0);
+      gl.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(mesh.size()));
+    }
+  });
   gl.DepthMask(GL_TRUE);
   gl.DepthFunc(GL_LESS);
   gl.Disable(GL_BLEND);
@@ -245,15 +252,20 @@ Image Renderer::Impl::draw(const Picture& picture, const Camera& camera) {
   gl.BindVertexArray(noVertices);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
   gl.Enable(GL_DEPTH_TEST);
+  visibility.start();
   drawSolids(list, picture, camera, shadow);
   drawOverlay(lines, picture, camera);
 
   Image image = frame.read();
-  if (showsNothing(image) && !isEmpty(picture, list, lines))
-    throw Error({.what = "the picture is blank",
-                 .found = "a camera that sees nothing of the scene",
-                 .wanted = "one that does, see framing()"});
+  if (hasScene(picture, list, lines) && !visibility.anySeen())
+    throw Error({.what = "the picture shows nothing of the scene",
+                 .found = "all solids, lines and points outside of it",
+                 .wanted = "a camera that sees some, see framing()"});
   internal::drawPictureText(image, picture, camera);
+  if (showsNothing(image))
+    throw Error({.what = "the picture is blank",
+                 .found = "nothing that stands out from the background",
+                 .wanted = "a solid, line, point, text or the ground in view"});
   return image;
 }
 
@@ -275,12 +287,5 @@ std::string Renderer::describe() const {
 }
 
 const RendererOptions& Renderer::options() const { return impl_->options; }
-
-Image drawOnce(const Picture& picture, const RendererOptions& options, const Eigen::Vector3d& direction) {
-  Renderer renderer(options);
-  const Camera camera =
-      framing(bounds(picture), direction, static_cast<double>(options.width) / options.height);
-  return renderer.draw(picture, camera);
-}
 
 }  // namespace rex

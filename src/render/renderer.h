@@ -34,7 +34,8 @@ class Renderer {
   Renderer& operator=(Renderer&&) noexcept;
 
   /// Throws Error as requireDrawable(); for a camera that is not finite or whose planes or angle make no
-  /// sense; and when nothing of a picture that is not empty would be seen.
+  /// sense; when none of the solids, lines and points is seen, whatever the ground and text show; and when
+  /// all rows of the image are of one colour, as for an empty picture.
   [[nodiscard]] Image draw(const Picture& picture, const Camera& camera);
 
   /// Backend, OpenGL version, renderer and anti-aliasing in use, on one line.
@@ -45,9 +46,5 @@ class Renderer {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-/// Draws one picture from `direction` (see framing()) with a renderer made for it.
-[[nodiscard]] Image drawOnce(const Picture& picture, const RendererOptions& options = {},
-                             const Eigen::Vector3d& direction = kDefaultView);
 
 }  // namespace rex

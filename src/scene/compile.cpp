@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include <Eigen/Geometry>
@@ -189,6 +190,7 @@ class TreeBuilder {
 
 void checkBody(const BodySpec& body) {
   const std::string what = fmt::format("body '{}'", body.name);
+  if (body.name == "world") fail(body.where, what, "the name of the world itself", "another name");
   if (!isFinite(body.X_WB))
     fail(body.where, what + ": pose", "a number that is not finite", "finite numbers");
   if (!(body.mass >= 0) || !std::isfinite(body.mass))
@@ -263,6 +265,52 @@ void append(Eigen::VectorXd& all, const Eigen::VectorXd& more) {
   all.tail(more.size()) = more;
 }
 
+// Start, limits and number of all coordinates; sets the indices of the joints that have their own.
+struct Coordinates {
+  Eigen::VectorXd q0, lower, upper;
+  int nv = 0;
+};
+
+Coordinates indexCoordinates(std::vector<Joint>& joints, const std::vector<const JointSpec*>& specs) {
+  Coordinates all;
+  for (std::size_t j = 0; j < specs.size(); ++j) {
+    const JointSpec& spec = *specs[j];
+    if (!spec.mimic.empty()) continue;
+    Joint& joint = joints[j];
+    joint.qIndex = static_cast<int>(all.q0.size());
+    joint.vIndex = all.nv;
+    all.nv += joint.nv;
+    const auto limit = [&](const Eigen::VectorXd& given, double none) {
+      return given.size() > 0 ? given : Eigen::VectorXd::Constant(joint.nq, none);
+    };
+    append(all.q0, startOf(spec));
+    append(all.lower, limit(spec.lower, -kInfinity));
+    append(all.upper, limit(spec.upper, kInfinity));
+  }
+  return all;
+}
+
+// Gives each joint that mimics the indices of its target.
+void shareCoordinates(std::vector<Joint>& joints, const std::vector<const JointSpec*>& specs) {
+  for (std::size_t j = 0; j < specs.size(); ++j) {
+    const JointSpec& spec = *specs[j];
+    if (spec.mimic.empty()) continue;
+    const auto target =
+        std::find_if(joints.begin(), joints.end(), [&](const Joint& t) { return t.name == spec.mimic; });
+    Joint& joint = joints[j];
+    if (target == joints.end() || target->type != joint.type ||
+        !specs[static_cast<std::size_t>(target - joints.begin())]->mimic.empty()) {
+      std::vector<std::string> known;
+      for (const Joint& other : joints) known.push_back(other.name);
+      fail(spec.where, fmt::format("joint '{}': mimic", joint.name), fmt::format("'{}'", spec.mimic),
+           "the name of a joint of the same type that mimics none", nearestNames(spec.mimic, known));
+    }
+    joint.mimics = true;
+    joint.qIndex = target->qIndex;
+    joint.vIndex = target->vIndex;
+  }
+}
+
 }  // namespace
 
 Model compile(const SceneSpec& spec) {
@@ -305,37 +353,12 @@ Model compile(const SceneSpec& spec) {
 
   addSubtreeMasses(model.bodies_);
   model.mass_ = model.bodies_.front().subtreeMass;
-
-  for (std::size_t j = 0; j < jointSpecs.size(); ++j) {
-    if (!jointSpecs[j]->mimic.empty()) continue;
-    Joint& joint = model.joints_[j];
-    joint.qIndex = model.nq();
-    joint.vIndex = model.nv_;
-    model.nv_ += joint.nv;
-    const auto limit = [&](const Eigen::VectorXd& given, double none) {
-      return given.size() > 0 ? given : Eigen::VectorXd::Constant(joint.nq, none);
-    };
-    append(model.q0_, startOf(*jointSpecs[j]));
-    append(model.lower_, limit(jointSpecs[j]->lower, -kInfinity));
-    append(model.upper_, limit(jointSpecs[j]->upper, kInfinity));
-  }
-  for (std::size_t j = 0; j < jointSpecs.size(); ++j) {
-    const JointSpec& mimic = *jointSpecs[j];
-    if (mimic.mimic.empty()) continue;
-    const auto target = std::find_if(model.joints_.begin(), model.joints_.end(),
-                                     [&](const Joint& t) { return t.name == mimic.mimic; });
-    Joint& joint = model.joints_[j];
-    if (target == model.joints_.end() || target->type != joint.type ||
-        !jointSpecs[static_cast<std::size_t>(target - model.joints_.begin())]->mimic.empty()) {
-      std::vector<std::string> known;
-      for (const Joint& other : model.joints_) known.push_back(other.name);
-      fail(mimic.where, fmt::format("joint '{}': mimic", joint.name), fmt::format("'{}'", mimic.mimic),
-           "the name of a joint of the same type that mimics none", nearestNames(mimic.mimic, known));
-    }
-    joint.mimics = true;
-    joint.qIndex = target->qIndex;
-    joint.vIndex = target->vIndex;
-  }
+  Coordinates coordinates = indexCoordinates(model.joints_, jointSpecs);
+  shareCoordinates(model.joints_, jointSpecs);
+  model.q0_ = std::move(coordinates.q0);
+  model.lower_ = std::move(coordinates.lower);
+  model.upper_ = std::move(coordinates.upper);
+  model.nv_ = coordinates.nv;
   for (const auto& [name, index] : tree.firstBodyByName)
     model.bodyByName_.emplace(name, idOfSpec[static_cast<std::size_t>(index)]);
   return model;

@@ -399,7 +399,7 @@ SceneFile parseOrs(std::string_view text, const std::string& name) {
   return Reader(name).read(ors::parseGraph(text, name));
 }
 
-SceneFile readOrs(const std::filesystem::path& path) {
+std::string readSceneText(const std::filesystem::path& path) {
   constexpr std::uintmax_t kLargestFile = 32u << 20;
   std::error_code problem;
   const std::uintmax_t size = std::filesystem::file_size(path, problem);
@@ -422,7 +422,9 @@ SceneFile readOrs(const std::filesystem::path& path) {
   }
   std::ostringstream text;
   text << file.rdbuf();
-  return parseOrs(text.str(), path.string());
+  return text.str();
 }
+
+SceneFile readOrs(const std::filesystem::path& path) { return parseOrs(readSceneText(path), path.string()); }
 
 }  // namespace rex

@@ -20,7 +20,10 @@ struct SceneFile {
 /// Edit, ...).
 [[nodiscard]] SceneFile readOrs(const std::filesystem::path& path);
 
-/// The same for text at hand; `name` stands for the file in messages.
+/// The text of a scene file. Throws Error if it is missing or over 32 MiB.
+[[nodiscard]] std::string readSceneText(const std::filesystem::path& path);
+
+/// The same as readOrs for text at hand; `name` stands for the file in messages.
 [[nodiscard]] SceneFile parseOrs(std::string_view text, const std::string& name);
 
 }  // namespace rex

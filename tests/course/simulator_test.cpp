@@ -7,6 +7,7 @@
 #include "course/course.h"
 #include "support/expect_error.h"
 #include "support/paths.h"
+#include "support/temporary_folder.h"
 
 namespace rex {
 namespace {
@@ -16,15 +17,7 @@ namespace fs = std::filesystem;
 // A folder of its own for each test, gone afterwards.
 class SimulatorTest : public testing::Test {
  protected:
-  SimulatorTest()
-      : folder_(fs::temp_directory_path() /
-                ("rex-" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) + "-" +
-                 ::testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~SimulatorTest() override { fs::remove_all(folder_); }
-  std::string in(const std::string& name) const { return (folder_ / name).string(); }
+  std::string in(const std::string& name) const { return (folder_.path() / name).string(); }
   static std::string bytes(const fs::path& file) {
     std::ostringstream text;
     text << std::ifstream(file, std::ios::binary).rdbuf();
@@ -32,7 +25,7 @@ class SimulatorTest : public testing::Test {
   }
 
  private:
-  fs::path folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(SimulatorTest, StartsInThePostureOfTheFile) {
@@ -188,6 +181,9 @@ TEST(FormatMatrix, ShowsNameShapeAndNumbers) {
   EXPECT_EQ(formatMatrix("J", (Eigen::MatrixXd(2, 2) << 1, -2.5, 1e-7, 1234567).finished()),
             "J (2 x 2)\n           1        -2.5\n       1e-07 1.23457e+06\n");
   EXPECT_EQ(formatMatrix("q", Eigen::Vector2d(1, 2)), "q (2)\n           1           2\n");
+  EXPECT_EQ(formatMatrix("q", Eigen::VectorXd::LinSpaced(7, 0, 6)),
+            "q (7)\n  0 to 5:\n           0           1           2           3           4           5\n"
+            "  6 to 6:\n           6\n");
 }
 
 }  // namespace

@@ -108,6 +108,18 @@ TEST(Figure, DrawsEveryOption) {
   EXPECT_NO_THROW(writeFigure(flat, folder / "flat.png"));
 }
 
+TEST(Figure, ShowsALineOfOnePoint) {
+  REX_NEEDS_GNUPLOT();
+  const fs::path folder = freshFolder("figure-point");
+  Figure figure{.series = {{.y = {0.3}, .color = Color{1, 0, 0}}}};
+  writeFigure(figure, folder / "a.png");
+  const Image image = readPng(folder / "a.png");
+  int red = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) red += image.at(x, y)[0] > 200 && image.at(x, y)[1] < 60 ? 1 : 0;
+  EXPECT_GT(red, 5);
+}
+
 TEST(Figure, ShowsHostileTextAndRunsNoneOfIt) {
   REX_NEEDS_GNUPLOT();
   const fs::path folder = freshFolder("figure-hostile");
@@ -183,6 +195,44 @@ TEST(Figure, RejectsShapesItCannotHave) {
   EXPECT_REX_ERROR(writeFigure(figure, path), "found no x, wanted x for the logarithmic axis");
   EXPECT_REX_ERROR(writeFigure(parabola(), "a.gif"),
                    "figure 'a.gif': found the ending '.gif', wanted .png or");
+}
+
+TEST(Figure, RejectsRangesThatMissTheData) {
+  const fs::path path = freshFolder("figure-range") / "a.png";
+  Figure figure = parabola();
+  figure.xRange = {5, 6};
+  EXPECT_REX_ERROR(writeFigure(figure, path),
+                   "figure 'Parabola': found no data within x 5 to 6, y 0 to 1, wanted ranges that meet the "
+                   "data: x -1 to 1, y 0 to 1");
+  figure.xRange.reset();
+  figure.yRange = {-2, -1};
+  EXPECT_REX_ERROR(writeFigure(figure, path), "found no data within x -1 to 1, y -2 to -1");
+  // Above the curve, though within its width and height.
+  figure.xRange = {-0.2, 0.2};
+  figure.yRange = {0.5, 0.9};
+  EXPECT_REX_ERROR(writeFigure(figure, path), "found no data within x -0.2 to 0.2, y 0.5 to 0.9");
+  Figure steep{.logY = true, .xRange = std::pair{0.8, 1.0}, .yRange = std::pair{1.0, 2.0}};
+  steep.series.push_back({.x = {0, 1}, .y = {1, 1e6}});
+  EXPECT_REX_ERROR(writeFigure(steep, path),
+                   "no data within x 0.8 to 1, y 1 to 2, wanted ranges that meet the "
+                   "data: x 0 to 1, y 1 to 1e+06");
+}
+
+TEST(Figure, SeesALineBetweenPointsOutsideItsRange) {
+  REX_NEEDS_GNUPLOT();
+  const fs::path path = freshFolder("figure-crossing") / "a.svg";
+  Figure figure{.xRange = std::pair{-1.0, 1.0}, .yRange = std::pair{-1.0, 1.0}};
+  figure.series.push_back({.x = {-1e300, 1e300}, .y = {-1e300, 1e300}});
+  EXPECT_NO_THROW(writeFigure(figure, path));
+  figure.series[0] = {.x = {-4, 4}, .y = {-4, 4}, .style = SeriesStyle::kPoints};
+  EXPECT_REX_ERROR(writeFigure(figure, path), "found no data within x -1 to 1, y -1 to 1");
+  // gnuplot would find no point to fit the y axis to.
+  figure.series[0].style = SeriesStyle::kLine;
+  figure.yRange.reset();
+  EXPECT_REX_ERROR(writeFigure(figure, path), "found no data within x -1 to 1, y -4 to 4");
+  figure.yRange = {-1, 1};
+  figure.xRange.reset();
+  EXPECT_NO_THROW(writeFigure(figure, path));
 }
 
 TEST(Figure, NamesThePathItCannotWrite) {

@@ -144,9 +144,12 @@ struct Extent {
   int left = kWidth, right = 0, top = kHeight, bottom = 0;
 };
 
-// Where the picture differs from an empty one.
-Extent changed(const Picture& picture) {
-  const Image image = drawn(picture), empty = drawn(blank());
+// Where the picture differs from one without text. Both show a point, for neither may be blank.
+Extent changed(Picture picture) {
+  picture.pointSets.push_back({.points = {{0, 0, 0}}});
+  Picture bare = blank();
+  bare.pointSets = picture.pointSets;
+  const Image image = drawn(picture), empty = drawn(bare);
   Extent extent;
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x) {
@@ -201,8 +204,10 @@ TEST(FrameBuffer, RefusesSizesBeyondOpenGl) {
   const auto context = makeGlContext();
   context->makeCurrent();
   const internal::GlFunctions gl = internal::loadGlFunctions(*context);
-  EXPECT_REX_ERROR(internal::FrameBuffer(gl, 100000, 100000, 4),
-                   "picture of this size: found 100000 x 100000 pixels, 4 samples, wanted a smaller one");
+  EXPECT_REX_ERROR(
+      internal::FrameBuffer(gl, 100000, 100000, 4),
+      "OpenGL cannot draw a picture of this size: found 100000 x 100000 pixels, 4 samples, wanted "
+      "a smaller one");
 }
 
 }  // namespace

@@ -95,6 +95,8 @@ TEST(Compile, RefusesBadNumbersInAnEditedSpec) {
     return spec;
   };
   EXPECT_NO_THROW(static_cast<void>(compile(good)));
+  EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.bodies[1].name = "world"; })),
+                   "f:2:1: body 'world': found the name of the world itself, wanted another name");
   EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.bodies[0].mass = nan; })),
                    "f:1:1: body 'a': mass: found nan, wanted a finite mass");
   EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.bodies[0].X_WB.p.x() = nan; })),

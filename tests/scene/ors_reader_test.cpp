@@ -1,11 +1,14 @@
 #include "scene/ors_reader.h"
 
+#include <filesystem>
+#include <fstream>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "support/expect_error.h"
 #include "support/paths.h"
+#include "support/temporary_folder.h"
 
 namespace rex {
 namespace {
@@ -157,6 +160,16 @@ TEST(OrsReader, SaysWhichFileIsMissing) {
   EXPECT_REX_ERROR(readOrs(sourcePath("data/robots/mann.ors")),
                    "mann.ors: cannot read the scene file: wanted an .ors file (did you mean 'man.ors'?)");
   EXPECT_REX_ERROR(readOrs("no/such/folder/x.ors"), "no/such/folder/x.ors: cannot read the scene file");
+}
+
+TEST(OrsReader, RefusesFilesThatAreNoScene) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "huge.ors";
+  std::ofstream(file) << "body a {}";
+  EXPECT_EQ(readOrs(file).spec.bodies.size(), 1u);
+  std::filesystem::resize_file(file, (32u << 20) + 1);  // sparse: takes no space
+  EXPECT_REX_ERROR(readOrs(file),
+                   "huge.ors: scene file too large: found 33554433 bytes, wanted at most 32 MiB");
 }
 
 }  // namespace

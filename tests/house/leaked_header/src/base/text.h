@@ -1,2 +1,4 @@
 #pragma once
 #include <fmt/format.h>
+
+#include "base/words.h"
