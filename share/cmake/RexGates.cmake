@@ -4,7 +4,7 @@
 # --gate GATE` runs one by hand.
 function(rex_exercise_gates name)
   set(gates main-current points names release main-floor solution)
-  file(GLOB variants CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/exercises/${name}/wrong/*.cpp)
+  file(GLOB variants ${PROJECT_SOURCE_DIR}/exercises/${name}/wrong/*.cpp)
   foreach(variant IN LISTS variants)
     cmake_path(GET variant STEM stem)
     list(APPEND gates wrong/${stem})

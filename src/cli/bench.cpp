@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include "base/error.h"
 #include "base/process.h"
 #include "cli/commands.h"
@@ -9,10 +7,8 @@ namespace rex::cli {
 ExitCode bench(const Project& project, const BenchOptions& options) {
   const std::filesystem::path program = project.build / "tests" / "bench" / "rex_bench";
   if (!std::filesystem::exists(program))
-    throw Error(
-        {.what = "the benchmarks are not built",
-         .wanted = fmt::format("apt-get install libbenchmark-dev, then cmake --build {} --target rex_bench",
-                               shown(project.build))});
+    throw Error({.what = "the benchmarks are not built",
+                 .wanted = "scripts/rex bench, which builds them first, in a tree with tests"});
   std::vector<std::string> command = {program.string()};
   command.insert(command.end(), options.names.begin(), options.names.end());
   if (options.json) command.push_back("--json");

@@ -22,13 +22,13 @@ using Action = std::function<ExitCode(const Project&)>;
 constexpr const char* kWelcome = R"(rex - robotics exercises
 
 First steps
-  rex list                      the exercises, their points and where they belong
-  rex run 01 --solution         see what the first one looks like when it is solved
-  rex test 01                   grade your exercises/01-kinematics/main.cpp
+  scripts/rex list              the exercises, their points and where they belong
+  scripts/rex run 01            run your exercises/01-kinematics/main.cpp
+  scripts/rex test 01           grade it
 
 All commands
   list   run   test   debug   bench   dev
-`rex COMMAND --help` explains one. An exercise may be called by its number, its
+`scripts/rex COMMAND --help` explains one. An exercise may be called by its number, its
 topic or its whole name: 01, kinematics, 01-kinematics.)";
 
 constexpr const char* kExitCodes =
@@ -66,14 +66,15 @@ void addExercise(CLI::App* command, std::string& exercise) {
 }
 
 void addList(CLI::App& program, Action& action) {
-  add(program, "list", "Show all exercises with points, script section and title", "Example: rex list")
+  add(program, "list", "Show all exercises with points, script section and title",
+      "Example: scripts/rex list")
       ->callback([&] { action = list; });
 }
 
 void addRun(CLI::App& program, Action& action) {
   const auto options = std::make_shared<RunOptions>();
   CLI::App* command = add(program, "run", "Build your main.cpp, run it, show what it wrote",
-                          "Examples:\n  rex run 01\n  rex run 01 --solution -o /tmp/look\n\n"
+                          "Examples:\n  scripts/rex run 01\n  scripts/rex run 01 --solution -o /tmp/look\n\n"
                           "The program runs inside the output folder; frames and plots land there.");
   addExercise(command, options->exercise);
   command->add_flag("--solution", options->solution, "run the reference solution instead of main.cpp");
@@ -84,11 +85,12 @@ void addRun(CLI::App& program, Action& action) {
 
 void addTest(CLI::App& program, Action& action) {
   const auto options = std::make_shared<TestOptions>();
-  CLI::App* command = add(program, "test", "Grade your main.cpp: which checks pass, for how many points",
-                          "Examples:\n  rex test 01\n  rex test 01 --check step-size --seed 17\n"
-                          "  rex test 01 --main /tmp/other.cpp --json\n\n"
-                          "The result file is results.json, or results-partial.json with --check.\n" +
-                              std::string(kExitCodes));
+  CLI::App* command =
+      add(program, "test", "Grade your main.cpp: which checks pass, for how many points",
+          "Examples:\n  scripts/rex test 01\n  scripts/rex test 01 --check step-hand --seed 17\n"
+          "  scripts/rex test 01 --main /tmp/other.cpp --json\n\n"
+          "The result file is results.json, or results-partial.json with --check.\n" +
+              std::string(kExitCodes));
   addExercise(command, options->exercise);
   command->add_flag("--solution", options->solution, "grade the reference solution");
   command->add_option("--main", options->main, "grade this file instead of main.cpp")->type_name("FILE");
@@ -107,7 +109,7 @@ void addTest(CLI::App& program, Action& action) {
 void addBench(CLI::App& program, Action& action) {
   const auto options = std::make_shared<BenchOptions>();
   CLI::App* command = add(program, "bench", "Measure speed against other libraries",
-                          "Examples:\n  rex bench\n  rex bench kinematics --json");
+                          "Examples:\n  scripts/rex bench\n  scripts/rex bench kinematics --json");
   command->add_option("NAME", options->names, "groups to measure (default: all)")->type_name("");
   command->add_flag("--json", options->json, "print JSON instead of a table");
   command->callback(
@@ -117,7 +119,7 @@ void addBench(CLI::App& program, Action& action) {
 void addDebug(CLI::App& program, Action& action) {
   const auto options = std::make_shared<DebugOptions>();
   CLI::App* command = add(program, "debug", "Run your main.cpp in the debugger gdb",
-                          "Examples:\n  rex debug 01\n  rex debug 01 --print");
+                          "Examples:\n  scripts/rex debug 01\n  scripts/rex debug 01 --print");
   addExercise(command, options->exercise);
   command->add_flag("--solution", options->solution, "debug the reference solution");
   command->add_flag("--print", options->print, "build, then only print the debugger's command line");
@@ -127,8 +129,8 @@ void addDebug(CLI::App& program, Action& action) {
 
 void addDevNew(CLI::App& dev, Action& action) {
   const auto name = std::make_shared<std::string>();
-  CLI::App* command =
-      add(dev, "new", "Make a new exercise that passes its own gates", "Example: rex dev new 99-demo");
+  CLI::App* command = add(dev, "new", "Make a new exercise that passes its own gates",
+                          "Example: scripts/rex dev new 99-demo");
   command->add_option("NAME", *name, "two digits, a dash, a topic: 99-demo")->type_name("")->required();
   command->callback([&action, name] { action = [name](const Project& p) { return devNew(p, *name); }; });
 }
@@ -137,7 +139,7 @@ void addDevCheck(CLI::App& dev, Action& action) {
   const auto options = std::make_shared<CheckOptions>();
   CLI::App* command =
       add(dev, "check", "Check that exercises are complete, graded well and give nothing away",
-          "Examples:\n  rex dev check 01\n  rex dev check 01 --gate solution --seeds 20");
+          "Examples:\n  scripts/rex dev check 01\n  scripts/rex dev check 01 --gate solution --seeds 20");
   command->add_option("EXERCISE", options->exercise, "only this one (default: all)")->type_name("");
   command->add_option("--gate", options->gate, "only this gate")->type_name("NAME");
   command->add_flag("--list-gates", options->listGates, "print the names of the gates");
@@ -150,8 +152,9 @@ void addDevCheck(CLI::App& dev, Action& action) {
 
 void addDevStrip(CLI::App& dev, Action& action) {
   const auto options = std::make_shared<StripOptions>();
-  CLI::App* command = add(dev, "strip", "Make main.cpp from solution.cpp, or the tree that students get",
-                          "Examples:\n  rex dev strip 01\n  rex dev strip --release -o /tmp/students");
+  CLI::App* command =
+      add(dev, "strip", "Make main.cpp from solution.cpp, or the tree that students get",
+          "Examples:\n  scripts/rex dev strip 01\n  scripts/rex dev strip --release -o /tmp/students");
   command->add_option("EXERCISE", options->exercise, "whose main.cpp to write")->type_name("");
   command->add_option("-o,--out", options->out, "new folder for the release")->type_name("DIR");
   command->add_flag("--release", options->release, "write the student release");
@@ -199,8 +202,9 @@ Action parseCommandLine(int argc, const char* const* argv) {
   program.get_formatter()->label("REQUIRED", "");
   addList(program, action), addRun(program, action), addTest(program, action);
   addDebug(program, action), addBench(program, action);
-  CLI::App* dev = add(program, "dev", "For those who write exercises: new, check, strip",
-                      "Examples:\n  rex dev new 99-demo\n  rex dev check\n  rex dev strip 01");
+  CLI::App* dev =
+      add(program, "dev", "For those who write exercises: new, check, strip",
+          "Examples:\n  scripts/rex dev new 99-demo\n  scripts/rex dev check\n  scripts/rex dev strip 01");
   dev->require_subcommand(0, 1);
   dev->callback([&action, dev] {
     if (dev->get_subcommands().empty()) action = print(dev->help("rex"));

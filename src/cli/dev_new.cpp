@@ -57,8 +57,8 @@ ExitCode devNew(const Project& project, const std::string& name) {
       << fmt::format("rex_exercise({} FUNCTIONS {})\n", name, kFunctions);
   say(fmt::format("Made {}, and its line in exercises/CMakeLists.txt, which names the", shown(folder)));
   say("functions that students complete. Now edit solution.cpp there, then:");
-  say(fmt::format("  rex dev strip {}   makes main.cpp from it", name));
-  say(fmt::format("  rex dev check {}   tells what is still missing", name));
+  say(fmt::format("  scripts/rex dev strip {}   makes main.cpp from it", name));
+  say(fmt::format("  scripts/rex dev check {}   tells what is still missing", name));
   return ExitCode::kFull;
 }
 

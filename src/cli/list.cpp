@@ -10,19 +10,20 @@ namespace rex::cli {
 ExitCode list(const Project& project) {
   const std::vector<ExerciseInfo> exercises = project.exercises();
   if (exercises.empty()) {
-    say("There are no exercises yet. `rex dev new 99-demo` makes one.");
+    say("There are no exercises yet. `scripts/rex dev new 99-demo` makes one.");
     return ExitCode::kFull;
   }
-  std::size_t nameWidth = 8;
+  std::size_t nameWidth = 0;
   for (const ExerciseInfo& exercise : exercises) nameWidth = std::max(nameWidth, exercise.name.size());
-  say(paint(Colour::kBold, fmt::format("{:{}}  points  script  title", "exercise", nameWidth)));
   for (const ExerciseInfo& exercise : exercises) {
     const std::string start =
-        fmt::format("{:{}}  {:6}  {:6}  ", exercise.name, nameWidth, exercise.points(), exercise.script);
-    say(start + wrap(exercise.title, start.size(), start.size()));
+        fmt::format("{:{}}  {:2} points  ", exercise.name, nameWidth, exercise.points());
+    const std::size_t indent = start.size();
+    say(paint(Colour::kBold, start) + wrap(exercise.title, indent, indent));
+    say(std::string(indent, ' ') + wrap("script: " + exercise.script, indent, indent));
   }
   say();
-  say(wrap(fmt::format("Read {}, edit main.cpp there, then: rex test {}",
+  say(wrap(fmt::format("Read {}, edit main.cpp there, then: scripts/rex test {}",
                        shown(exercises.front().folder / "README.md"), exercises.front().name),
            0, 0));
   return ExitCode::kFull;

@@ -61,7 +61,7 @@ ExitCode run(const Project& project, const RunOptions& options) {
   if (result.signal != 0) {
     note(
         fmt::format("\nThe program was ended by signal {} ({}).", result.signal, ::strsignal(result.signal)));
-    if (result.signal != SIGINT) note(fmt::format("To see where: rex debug {}", exercise.name));
+    if (result.signal != SIGINT) note(fmt::format("To see where: scripts/rex debug {}", exercise.name));
   } else {
     note(fmt::format("\nThe program ended with exit code {}.", result.exitCode));
   }

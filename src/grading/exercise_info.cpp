@@ -202,6 +202,15 @@ std::vector<ExerciseInfo> listExercises(const path& folder) {
   return exercises;
 }
 
+namespace {
+
+// "01" and "1" are one number.
+std::string_view withoutZeros(std::string_view number) {
+  return number.substr(std::min(number.find_first_not_of('0'), number.size()));
+}
+
+}  // namespace
+
 const ExerciseInfo& findExercise(const std::vector<ExerciseInfo>& exercises, std::string_view name) {
   std::vector<const ExerciseInfo*> matches;
   std::vector<std::string> names, spellings;
@@ -210,7 +219,8 @@ const ExerciseInfo& findExercise(const std::vector<ExerciseInfo>& exercises, std
     const std::string number = exercise.name.substr(0, dash);
     const std::string topic = dash == std::string::npos ? "" : exercise.name.substr(dash + 1);
     if (exercise.name == name) return exercise;
-    if (name == number || (!topic.empty() && name == topic)) matches.push_back(&exercise);
+    if ((!name.empty() && withoutZeros(name) == withoutZeros(number)) || (!topic.empty() && name == topic))
+      matches.push_back(&exercise);
     names.push_back(exercise.name);
     spellings.insert(spellings.end(), {exercise.name, topic});
   }

@@ -54,8 +54,8 @@ GateResult mainIsCurrent(const GateContext& context) {
   const path folder = context.exercise.folder, solution = folder / "solution.cpp";
   if (readTextFile(folder / "main.cpp") == stripSolution(readTextFile(solution), solution.string()))
     return kPassed;
-  return failed(
-      fmt::format("main.cpp is not what solution.cpp gives; run: rex dev strip {}", context.exercise.name));
+  return failed(fmt::format("main.cpp is not what solution.cpp gives; run: scripts/rex dev strip {}",
+                            context.exercise.name));
 }
 
 // The checks of each part must be worth what exercise.toml promises.

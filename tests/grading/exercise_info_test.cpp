@@ -115,6 +115,8 @@ TEST_F(ExerciseInfoTest, ListsByNameAndFindsByNumberOrTopic) {
   EXPECT_EQ(all[2].name, "02-pegInAHole");
   EXPECT_EQ(findExercise(all, "kinematics").name, "01-kinematics");
   EXPECT_EQ(findExercise(all, "02").name, "02-pegInAHole");
+  EXPECT_EQ(findExercise(all, "2").name, "02-pegInAHole");
+  EXPECT_REX_ERROR(findExercise(all, ""), "no exercise is called");
   EXPECT_EQ(findExercise(all, "01-warmUp").name, "01-warmUp");
   EXPECT_REX_ERROR(findExercise(all, "01"),
                    "several exercises are called '01' (did you mean '01-kinematics' or '01-warmUp'?)");
