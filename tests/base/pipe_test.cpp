@@ -36,10 +36,9 @@ TEST(Pipe, LeavesAReleasedEndOpen) {
   EXPECT_EQ(::close(fd), 0);
 }
 
+// The sanitizers need descriptors themselves.
+#ifndef __SANITIZE_ADDRESS__
 TEST(Pipe, SaysWhenThereAreNoDescriptors) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "the sanitizers need descriptors themselves";
-#endif
   rlimit before{};
   ::getrlimit(RLIMIT_NOFILE, &before);
   for (const rlim_t most : {0, 10}) {
@@ -49,6 +48,7 @@ TEST(Pipe, SaysWhenThereAreNoDescriptors) {
     ::setrlimit(RLIMIT_NOFILE, &before);
   }
 }
+#endif
 
 TEST(SigpipeIgnored, TurnsTheSignalIntoAnErrorCode) {
   const SigpipeIgnored ignored;
