@@ -78,23 +78,23 @@ std::optional<Eigen::Vector3d> mirrored(const Eigen::Vector3d& w, const Eigen::M
 // not change its sign: on its way it would be zero.
 void isZeroOnlyAt(Check& check, const Eigen::Vector3d& w, const Eigen::Matrix3d& R,
                   const std::function<TaskValue(const Eigen::Vector3d&)>& map) {
-  int dimensions = 0;
-  double sign = 0;
-  const auto size = [&](const Eigen::Vector3d& direction) {
+  Eigen::Index dimensions = -1;
+  const auto valueAt = [&](const Eigen::Vector3d& direction) {
     const TaskValue value = map(direction);
-    check.that("y has at least one entry", value.y.size() > 0);
-    if (dimensions == 0) dimensions = static_cast<int>(value.y.size());
+    if (dimensions < 0) dimensions = value.y.size();
+    check.that("y has at least one entry", dimensions > 0);
     check.shape("y", value.y, dimensions, 1);
-    return value.y.cwiseAbs().maxCoeff();
+    return value.y;
   };
+  double sign = 0;
   const auto notZero = [&](const char* where, const Eigen::Vector3d& direction) {
-    check.atLeast(std::string("|y| ") + where, size(direction), kNotZero);
+    const Eigen::VectorXd y = valueAt(direction);
+    check.atLeast(std::string("|y| ") + where, y.cwiseAbs().maxCoeff(), kNotZero);
     if (dimensions > 1) return;
-    const double y = map(direction).y[0];
-    check.that("y, a single number, keeps its sign away from its zero", sign * y >= 0);
-    sign = y;
+    check.that("y, a single number, keeps its sign away from its zero", sign * y[0] >= 0);
+    sign = y[0];
   };
-  check.atMost("|y| where it should be zero", size(w), kZero);
+  check.atMost("|y| where it should be zero", valueAt(w).cwiseAbs().maxCoeff(), kZero);
   notZero("in the opposite direction", -w);
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d aside = w.cross(randomDirection(check.rng())).normalized();

@@ -90,8 +90,8 @@ function(rex_exercise name)
     target_link_libraries(${name}_grader PRIVATE rex_course)
   endif()
   foreach(target ${name}_worker ${name}_grader)
-    target_compile_options(${target} PRIVATE ${REX_WARNINGS} "SHELL:-iquote ${ARG_FOLDER}"
-                                             "SHELL:-iquote ${ARG_OUTPUT}")
+    target_compile_options(${target} PRIVATE ${REX_WARNINGS} "SHELL:-iquote \"${ARG_FOLDER}\""
+                                             "SHELL:-iquote \"${ARG_OUTPUT}\"")
   endforeach()
   set_property(GLOBAL APPEND PROPERTY REX_GRADERS ${name}_grader ${name}_worker)
   rex_exercise_description()
@@ -103,8 +103,8 @@ function(rex_exercise_editor_support)
   file(GLOB sources ${ARG_FOLDER}/main.cpp ${ARG_FOLDER}/solution.cpp)
   if(sources)
     add_library(${name}_editor OBJECT EXCLUDE_FROM_ALL ${sources})
-    target_compile_options(${name}_editor PRIVATE ${REX_STUDENT_FLAGS} "SHELL:-iquote ${ARG_FOLDER}"
-                                                  "SHELL:-isystem ${PROJECT_SOURCE_DIR}/src")
+    target_compile_options(${name}_editor PRIVATE ${REX_STUDENT_FLAGS} "SHELL:-iquote \"${ARG_FOLDER}\""
+                                                  "SHELL:-isystem \"${PROJECT_SOURCE_DIR}/src\"")
     target_link_libraries(${name}_editor PRIVATE Eigen3::Eigen)
   endif()
 endfunction()
@@ -126,7 +126,7 @@ endfunction()
 function(rex_worker target exercise)
   add_executable(${target} ${ARGN} $<TARGET_OBJECTS:${exercise}_worker>)
   get_target_property(folder ${exercise}_worker REX_FOLDER)
-  target_compile_options(${target} PRIVATE ${REX_STUDENT_FLAGS} -UNDEBUG "SHELL:-iquote ${folder}"
-                                           "SHELL:-isystem ${PROJECT_SOURCE_DIR}/src")
+  target_compile_options(${target} PRIVATE ${REX_STUDENT_FLAGS} -UNDEBUG "SHELL:-iquote \"${folder}\""
+                                           "SHELL:-isystem \"${PROJECT_SOURCE_DIR}/src\"")
   target_link_libraries(${target} PRIVATE rex_student Eigen3::Eigen)
 endfunction()

@@ -149,11 +149,18 @@ bool exchange(Running& running, const ProcessOptions& options, ProcessResult& re
   return true;
 }
 
+double secondsOf(const rusage& usage) {
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
 // Waits for the child's end; returns false at the deadline and when asked to stop.
-bool waitForEnd(Running& running, int& status) {
+bool waitForEnd(Running& running, int& status, rusage& usage) {
   int pause = 0;  // milliseconds
   for (;;) {
-    const pid_t got = ::waitpid(running.child, &status, WNOHANG);
+    const pid_t got = ::wait4(running.child, &status, WNOHANG, &usage);
     if (got == running.child) return true;
     if (Clock::now() >= running.deadline || mustStop(running)) return false;
     pollfd polled{running.stop.fd(), POLLIN, 0};
@@ -163,7 +170,7 @@ bool waitForEnd(Running& running, int& status) {
 }
 
 // Passes a request to stop on, so that the program can tidy up, and kills what is left after a second.
-int end(Running& running) {
+int end(Running& running, rusage& usage) {
   int status = 0;
   const int target = running.ownGroup ? -running.child : running.child;
   if (running.interruptedBy != 0) {
@@ -177,7 +184,7 @@ int end(Running& running) {
   }
   // While the child is not yet reaped, nobody else can get its number.
   ::kill(target, SIGKILL);
-  ::waitpid(running.child, &status, 0);
+  ::wait4(running.child, &status, 0, &usage);
   return status;
 }
 
@@ -211,10 +218,12 @@ ProcessResult runProcess(const std::vector<std::string>& argv, const ProcessOpti
   result.started = ::read(status.readEnd(), &cause, sizeof cause) != sizeof cause;
   if (!result.started) result.error = std::strerror(cause);
   int ended = 0;
-  if (!exchange(running, options, result) || !waitForEnd(running, ended)) {
+  rusage usage{};
+  if (!exchange(running, options, result) || !waitForEnd(running, ended, usage)) {
     result.timedOut = interruptedBy == 0;
-    ended = end(running);
+    ended = end(running, usage);
   }
+  result.cpuSeconds = secondsOf(usage);
   if (!ownGroup) static_cast<void>(stop.take());  // Ctrl-C was for the program
   if (interruptedBy != 0) throw Interrupted{interruptedBy};
   if (WIFEXITED(ended) && result.started) result.exitCode = WEXITSTATUS(ended);

@@ -23,10 +23,11 @@ struct ProcessOptions {
 struct ProcessResult {
   bool started = false;  ///< false: the program was not found or could not be executed
   bool timedOut = false;
-  int exitCode = -1;   ///< -1 unless it exited by itself
-  int signal = 0;      ///< the signal that ended it, or 0
-  std::string output;  ///< standard output, at most outputLimit bytes
-  std::string error;   ///< standard error, at most outputLimit bytes
+  int exitCode = -1;      ///< -1 unless it exited by itself
+  int signal = 0;         ///< the signal that ended it, or 0
+  double cpuSeconds = 0;  ///< processor time of it and of the children it waited for
+  std::string output;     ///< standard output, at most outputLimit bytes
+  std::string error;      ///< standard error, at most outputLimit bytes
   [[nodiscard]] bool ok() const { return started && !timedOut && exitCode == 0; }
 };
 

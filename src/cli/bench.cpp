@@ -14,6 +14,8 @@ ExitCode bench(const Project& project, const BenchOptions& options) {
   if (options.json) command.push_back("--json");
   const ProcessResult result = runProcess(command, {.timeout = 3600, .inheritOutput = true});
   if (result.exitCode == static_cast<int>(ExitCode::kUsage)) return ExitCode::kUsage;
+  if (!result.started || result.signal != 0)
+    throw Error({.what = "the benchmarks did not end by themselves"});
   return result.ok() ? ExitCode::kFull : ExitCode::kGraderFault;
 }
 

@@ -159,6 +159,11 @@ void readParts(const toml::table& root, const std::string& file, ExerciseInfo& i
     throw Error({.what = "no part", .where = {file}, .wanted = "at least one table headed [[part]]"});
 }
 
+// "01" and "1" are one number.
+std::string_view withoutZeros(std::string_view number) {
+  return number.substr(std::min(number.find_first_not_of('0'), number.size()));
+}
+
 }  // namespace
 
 int ExerciseInfo::points() const {
@@ -201,15 +206,6 @@ std::vector<ExerciseInfo> listExercises(const path& folder) {
   for (const path& one : folders) exercises.push_back(readExerciseInfo(one));
   return exercises;
 }
-
-namespace {
-
-// "01" and "1" are one number.
-std::string_view withoutZeros(std::string_view number) {
-  return number.substr(std::min(number.find_first_not_of('0'), number.size()));
-}
-
-}  // namespace
 
 const ExerciseInfo& findExercise(const std::vector<ExerciseInfo>& exercises, std::string_view name) {
   std::vector<const ExerciseInfo*> matches;

@@ -107,13 +107,15 @@ void requireCleanRelease(const std::vector<path>& exercises, const path& root, c
 // The tests of rex itself stay behind, so the command for them does too, and the lines that name either.
 void leaveOutTheTests(const path& target) {
   fs::remove(target / "scripts/test");
-  if (!fs::exists(target / "README.md")) return;
-  std::istringstream lines(readTextFile(target / "README.md"));
-  std::string kept;
-  for (std::string line; std::getline(lines, line);)
-    if (line.find("scripts/test") == std::string::npos && line.find("`tests/`") == std::string::npos)
-      kept += line + '\n';
-  writeTextFile(target / "README.md", kept);
+  for (const char* document : {"README.md", "share/doc/architecture.md"}) {
+    if (!fs::exists(target / document)) continue;
+    std::istringstream lines(readTextFile(target / document));
+    std::string kept;
+    for (std::string line; std::getline(lines, line);)
+      if (line.find("scripts/test") == std::string::npos && line.find("`tests/`") == std::string::npos)
+        kept += line + '\n';
+    writeTextFile(target / document, kept);
+  }
 }
 
 bool isEmptyOrMissing(const path& folder) {

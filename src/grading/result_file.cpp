@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include "base/error.h"
@@ -36,9 +37,9 @@ GradeResult loadResult(const std::filesystem::path& file) {
 void saveResult(const GradeResult& result, const std::filesystem::path& file) {
   const std::string text = toJson(result);
   std::filesystem::path temporary = file;
-  temporary += ".new";
+  temporary += fmt::format(".{}.new", ::getpid());  // of our own: another grading may write beside us
   const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0644);
-  if (fd < 0) refuse(temporary);
+  if (fd < 0) refuse(file);
   const bool written = writeAll(fd, text) && ::fsync(fd) == 0;
   ::close(fd);
   if (!written || ::rename(temporary.c_str(), file.c_str()) != 0) refuse(file);

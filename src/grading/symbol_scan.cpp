@@ -36,9 +36,11 @@ constexpr std::string_view kSectionLine = "RELOCATION RECORDS FOR [";
 
 // Whether such a line is about the code of main() or of a function inside it, a lambda above all.
 bool isMainSection(std::string_view line) {
-  constexpr std::string_view kLocalToMain = "Z4mainE";  // in a mangled name
   line.remove_prefix(kSectionLine.size());
-  if (line.find(kLocalToMain) != line.npos) return true;
+  // "Z4mainE" in a mangled name says "inside main()", unless it is part of a longer name, behind its length.
+  for (std::size_t at = line.find("Z4mainE"); at != line.npos; at = line.find("Z4mainE", at + 1)) {
+    if (std::isdigit(static_cast<unsigned char>(line[at - 1])) == 0) return true;
+  }
   for (const std::string_view section : {".text.main]", ".text.startup.main]", ".text.unlikely.main]"}) {
     if (line.starts_with(section)) return true;
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "base/error.h"
 #include "base/process.h"
@@ -41,7 +42,7 @@ bool joinToVideo(const fs::path& folder, const fs::path& file, int rate) {
         {.what = "no pictures to join", .where = {folder.string()}, .wanted = "0000.png, 0001.png, ..."});
   const fs::path target = fs::absolute(file);
   fs::path unfinished = target;
-  unfinished += ".part";
+  unfinished += fmt::format(".{}.part", ::getpid());
   const ProcessResult joined =
       runProcess(command(rate, unfinished), {.directory = folder, .timeout = kLongest});
   if (!joined.started) return false;
@@ -49,7 +50,9 @@ bool joinToVideo(const fs::path& folder, const fs::path& file, int rate) {
   const bool whole = joined.ok() && fs::file_size(unfinished, problem) > 0;
   if (whole) fs::rename(unfinished, target, problem);
   if (whole && !problem) return true;
-  const std::string cause = problem ? problem.message() : joined.error;
+  std::string cause = problem ? problem.message() : joined.error;
+  if (joined.timedOut) cause = fmt::format("no end after {:g} s", kLongest);
+  if (joined.signal != 0 && !joined.timedOut) cause = fmt::format("ffmpeg ended by signal {}", joined.signal);
   fs::remove(unfinished, problem);
   fail(file, cause);
 }

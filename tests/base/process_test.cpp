@@ -64,6 +64,8 @@ TEST(RunProcess, LimitsTimeMemoryAndFileSize) {
   const ProcessResult spinning =
       runProcess({"sh", "-c", "while :; do :; done"}, {.timeout = 30, .cpuSeconds = 0.5});
   EXPECT_FALSE(spinning.timedOut);
+  EXPECT_GE(spinning.cpuSeconds, 0.9);
+  EXPECT_LT(runProcess({"sleep", "0.3"}).cpuSeconds, 0.2);
   EXPECT_TRUE(spinning.signal == SIGXCPU || spinning.signal == SIGKILL) << spinning.signal;
   EXPECT_EQ(runProcess({"sh", "-c", "ulimit -v"}, {.addressSpace = 512u << 20}).output, "524288\n");
   EXPECT_EQ(runProcess({"sh", "-c", "ulimit -f"}, {.fileSize = 51200}).output, "100\n");
@@ -75,6 +77,7 @@ TEST(RunProcess, LeavesNoProgramBehindWhenTheCallerDies) {
   int fds[2];
   ASSERT_EQ(::pipe(fds), 0);
   const pid_t caller = ::fork();
+  ASSERT_GE(caller, 0);
   if (caller == 0) {
     static_cast<void>(runProcess(
         {"bash", "-c",

@@ -29,9 +29,9 @@ std::vector<Group> select(std::vector<Group> groups, const std::vector<std::stri
   }
   for (const std::string& name : names) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      throw Error({.what = fmt::format("no benchmark '{}'", name),
-                   .wanted = "the name of a group or a row of the table, or none for all",
-                   .nearest = nearestNames(name, known)});
+      throw UsageError({.what = fmt::format("no benchmark '{}'", name),
+                        .wanted = "the name of a group or a row of the table, or none for all",
+                        .nearest = nearestNames(name, known)});
     }
   }
   const auto isNamed = [&](const std::string& name) {
@@ -76,7 +76,7 @@ int main(int argc, char** argv) {
     return 0;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kUsageError;
-  } catch (const Error& error) {
+  } catch (const UsageError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return kUsageError;
   } catch (const std::exception& error) {

@@ -56,7 +56,8 @@ class InterruptionTest : public ::testing::Test {
   pid_t start(const std::string& source) const {
     std::ofstream(root() / "exercises" / "98-template" / "main.cpp") << source;
     const pid_t rex = ::fork();
-    if (rex != 0) return rex;
+    if (rex < 0) throw std::runtime_error("cannot fork");
+    if (rex > 0) return rex;
     const int quiet = ::open("/dev/null", O_WRONLY);
     ::dup2(quiet, STDOUT_FILENO);
     ::dup2(quiet, STDERR_FILENO);

@@ -189,7 +189,7 @@ TEST_F(WorkflowTest, SaysWhenTheProjectOrTheMachineIsAtFault) {
   fs::remove(root() / "out");
   const Ended readOnly = rex({"test", "98", "-o", "/proc"});
   EXPECT_EQ(readOnly.code, 3);
-  EXPECT_THAT(flat(readOnly.error), HasSubstr("/proc/results.json.new: cannot write the result file"));
+  EXPECT_THAT(flat(readOnly.error), HasSubstr("/proc/results.json: cannot write the result file"));
   replace(exercise() / "exercise.toml", "points = 3", "points = ");
   for (const std::vector<std::string>& arguments :
        std::vector<std::vector<std::string>>{{"list"}, {"test", "98"}})

@@ -1,9 +1,11 @@
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include <gtest/gtest.h>
 
+#include "base/process.h"
 #include "course/course.h"
 #include "support/expect_error.h"
 #include "support/paths.h"
@@ -147,6 +149,28 @@ TEST_F(SimulatorTest, WritesTheSameFramesTwice) {
   }
   EXPECT_FALSE(fs::exists(in("first") + "/0004.png"));
   EXPECT_NE(bytes(in("first") + "/0000.png"), bytes(in("first") + "/0003.png"));
+}
+
+TEST_F(SimulatorTest, MakesAVideoOfItsFrames) {
+  if (!runProcess({"ffmpeg", "-version"}).ok()) GTEST_SKIP() << "needs the package ffmpeg";
+  Simulator S("pegArm.ors");
+  for (int i = 0; i < 5; ++i) S.setJointAngles(Eigen::Vector3d::Constant(.1 * i));
+  writeVideo(S, in("swing"), {.width = 64, .height = 48});
+  EXPECT_GT(fs::file_size(in("swing.mp4")), 500u);
+  EXPECT_TRUE(fs::exists(in("swing/0005.png")));
+}
+
+TEST_F(SimulatorTest, LeavesTheFramesWhereThereIsNoFfmpeg) {
+  const Simulator S("pegArm.ors");
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", "/nowhere", 1);
+  testing::internal::CaptureStderr();
+  writeVideo(S, in("swing"), {.width = 64, .height = 48});
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              testing::HasSubstr("swing.mp4 is missing because ffmpeg is"));
+  EXPECT_TRUE(fs::exists(in("swing/0000.png")));
+  EXPECT_FALSE(fs::exists(in("swing.mp4")));
 }
 
 TEST_F(SimulatorTest, ReplacesFramesOfAnEarlierRun) {

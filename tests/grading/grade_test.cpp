@@ -123,6 +123,7 @@ class BusyCore {
     ::sched_setaffinity(0, sizeof one, &one);
     for (pid_t& spinner : spinners_) {
       spinner = ::fork();
+      if (spinner < 0) throw std::runtime_error("cannot fork");
       if (spinner == 0) {
         ::prctl(PR_SET_PDEATHSIG, SIGKILL);
         for (volatile bool on = true; on;) {
@@ -132,6 +133,7 @@ class BusyCore {
   }
   ~BusyCore() {
     for (const pid_t spinner : spinners_) {
+      if (spinner <= 0) continue;
       ::kill(spinner, SIGKILL);
       ::waitpid(spinner, nullptr, 0);
     }

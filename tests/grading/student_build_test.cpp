@@ -232,7 +232,7 @@ TEST_F(StudentBuildTest, ThrowsWhenTheToolsAreMissing) {
 
 TEST_F(StudentBuildTest, BlamesTheMachineForACompilerThatDoesNotGetOn) {
   const path slow = temporary_.path() / "compiler";
-  write(slow, "#!/bin/sh\nexec sleep 60\n");
+  write(slow, "#!/bin/sh\ni=0\nwhile [ $i -lt 200000 ]; do i=$((i+1)); done\nexec sleep 60\n");
   std::filesystem::permissions(slow, std::filesystem::perms::owner_all);
   write(temporary_.path() / "main.cpp", kGood);
   Toolchain busy = toolchain();
@@ -242,6 +242,16 @@ TEST_F(StudentBuildTest, BlamesTheMachineForACompilerThatDoesNotGetOn) {
           busy, {},
           {.main = temporary_.path() / "main.cpp", .workFolder = temporary_.path() / "work", .seconds = 0.1}),
       "compiler did not end within 2.2 s: the machine was too busy");
+}
+
+TEST_F(StudentBuildTest, BlamesTheFileForACompilerThatWaits) {
+  write(temporary_.path() / "main.cpp", "#include \"/dev/stdout\"\n");
+  const StudentObject object = compileStudent(
+      toolchain(), {},
+      {.main = temporary_.path() / "main.cpp", .workFolder = temporary_.path() / "work", .seconds = 1});
+  ASSERT_FALSE(object.ok);
+  EXPECT_THAT(toString(object.messages.at(0)),
+              HasSubstr("compiling did not end within 4 s: does it include a pipe or a device?"));
 }
 
 TEST_F(StudentBuildTest, ReadsBuildJson) {
