@@ -137,7 +137,7 @@ void Worker::converse(const std::function<void(remote::Caller&)>& conversation) 
 // reason: a worker can keep itself from its core by starting others.
 double Worker::secondsLeft() {
   if (waited_ < allowed_) return allowed_ - waited_;
-  constexpr double kMostPatience = 10;
+  constexpr double kMostPatience = 4;
   const double budget = options_.limits.wallBudget();
   const double coreless = secondsWithoutCore(launched_.process) + secondsWithoutCore(::getpid()) - coreless_;
   allowed_ = std::min(budget + coreless, kMostPatience * budget);

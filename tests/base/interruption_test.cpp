@@ -1,5 +1,8 @@
 #include "base/interruption.h"
 
+#include <chrono>
+#include <csignal>
+
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -24,6 +27,7 @@ int interruptedBy(const std::vector<std::string>& program) {
 
 TEST(HeldSignals, EndTheProgramThatRuns) {
   const HeldSignals held;
+  const auto start = std::chrono::steady_clock::now();
   EXPECT_EQ(interruptedBy(signalling("INT", "sleep 60")), SIGINT);
   EXPECT_EQ(interruptedBy(signalling("TERM", "sleep 60 & sleep 60")), SIGTERM);
   EXPECT_EQ(interruptedBy(signalling("HUP", "trap '' HUP; while :; do sleep 60; done")), SIGHUP);
@@ -33,6 +37,8 @@ TEST(HeldSignals, EndTheProgramThatRuns) {
                      "exec >&- 2>&-; sleep 0.1; kill -TERM " + std::to_string(::getpid()) + "; sleep 60"}),
       SIGTERM);
   EXPECT_EQ(interruptedBy({"true"}), 0);
+  // Each of the sleeps would have taken a minute.
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
 }
 
 TEST(HeldSignals, WaitForTheNextProgram) {

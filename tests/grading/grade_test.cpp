@@ -144,7 +144,7 @@ class BusyCore {
 
  private:
   cpu_set_t before_;
-  std::array<pid_t, 5> spinners_{};
+  std::array<pid_t, 3> spinners_{};
 };
 
 // A quarter of a second of work takes more than one second then.

@@ -93,6 +93,8 @@ TEST_P(Troubled, EndsInItsOutcomeAndHarmsNothingElse) {
   for (const char* id : {"step", "step-unseen"}) {
     EXPECT_EQ(find(result, id).status, trouble.outcome) << find(result, id).message;
     EXPECT_EQ(find(result, id).points, 0);
+    // The limit is 2.4 s; a busy machine may stretch it four times.
+    EXPECT_LE(find(result, id).wallSeconds, 4 * 2.4 + 2);
   }
   EXPECT_EQ(result.outcome, trouble.outcome);
   // The sanitizers notice a crash before it happens.
