@@ -13,18 +13,12 @@
 #include "render/figure_script_internal.h"
 #include "render/png.h"
 #include "support/expect_error.h"
+#include "support/fresh_folder.h"
 
 namespace rex {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path freshFolder(const std::string& name) {
-  const fs::path folder = fs::path(REX_BINARY_DIR) / "tests-out" / name;
-  fs::remove_all(folder);
-  fs::create_directories(folder);
-  return folder;
-}
 
 std::string textOf(const fs::path& path) {
   std::ostringstream text;
