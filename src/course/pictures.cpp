@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "course/recording.h"
 #include "course/simulator.h"
+#include "render/film.h"
 #include "render/png.h"
 #include "render/renderer.h"
 #include "render/scene_picture.h"
@@ -17,6 +18,7 @@
 namespace rex {
 namespace {
 
+constexpr double kRate = 30;  // frames per second
 const Color kTraceColor{0.84f, 0.37f, 0.0f};
 const Color kPathColor{0.35f, 0.45f, 0.55f};
 const Color kPointColor{0.80f, 0.10f, 0.12f};
@@ -30,42 +32,40 @@ Picture decorate(Picture picture, const PictureOptions& options) {
   return picture;
 }
 
-void includeAll(Bounds& all, const Bounds& more) {
-  if (more.isEmpty()) return;
-  all.include(more.low);
-  all.include(more.high);
-}
+double aspect(const PictureOptions& options) { return static_cast<double>(options.width) / options.height; }
 
-Camera cameraFor(const Bounds& all, const PictureOptions& options) {
-  return framing(all, options.view, static_cast<double>(options.width) / options.height);
-}
-
-// The frames of a recording: poses of each posture, and the ways of the traced bodies up to it.
-struct Film {
-  std::vector<BodyPoses> poses;
-  std::vector<std::vector<Eigen::Vector3d>> traces;  // one per traced body
-};
-
-Film develop(const Simulator& simulator, const std::vector<Eigen::VectorXd>& postures,
-             const PictureOptions& options) {
-  Film film;
-  for (const Eigen::VectorXd& q : postures) film.poses.push_back(forwardKinematics(simulator.model(), q));
+// The ways of the traced bodies, one per body, through all the poses.
+std::vector<std::vector<Eigen::Vector3d>> tracesOf(const Simulator& simulator,
+                                                   const std::vector<BodyPoses>& poses,
+                                                   const PictureOptions& options) {
+  std::vector<std::vector<Eigen::Vector3d>> traces;
   for (const std::string& name : options.traces) {
     const BodyId body = simulator.model().body(name);
-    film.traces.emplace_back();
-    for (const BodyPoses& poses : film.poses) film.traces.back().push_back(poses[body].p);
+    traces.emplace_back();
+    for (const BodyPoses& at : poses) traces.back().push_back(at[body].p);
   }
-  return film;
+  return traces;
 }
 
-Picture frame(const Simulator& simulator, const Film& film, std::size_t i, const PictureOptions& options) {
-  Picture picture = decorate(pictureOf(simulator.model(), film.poses[i]), options);
-  for (const auto& trace : film.traces) {
-    const std::vector<Eigen::Vector3d> soFar(trace.begin(),
-                                             trace.begin() + static_cast<std::ptrdiff_t>(i) + 1);
-    if (soFar.size() > 1) picture.polylines.push_back({.points = soFar, .color = kTraceColor, .width = 2.5});
+// A picture of each posture, with the traces up to it.
+Film filmOf(const Simulator& simulator, const std::vector<Eigen::VectorXd>& postures,
+            const PictureOptions& options) {
+  std::vector<BodyPoses> poses;
+  for (const Eigen::VectorXd& q : postures) poses.push_back(forwardKinematics(simulator.model(), q));
+  const auto traces = tracesOf(simulator, poses, options);
+  Film film;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    film.push_back(
+        {static_cast<double>(i) / kRate, decorate(pictureOf(simulator.model(), poses[i]), options)});
+    if (i == 0) continue;
+    for (const auto& trace : traces) {
+      const auto end = trace.begin() + static_cast<std::ptrdiff_t>(i) + 1;
+      film.back().picture.polylines.push_back(
+          {.points = {trace.begin(), end}, .color = kTraceColor, .width = 2.5});
+    }
   }
-  return picture;
+  levelGround(film);
+  return film;
 }
 
 void removeFrames(const std::filesystem::path& folder) {
@@ -80,42 +80,30 @@ void removeFrames(const std::filesystem::path& folder) {
 }  // namespace
 
 void writePicture(const Simulator& simulator, const std::string& file, const PictureOptions& options) {
-  std::vector<Eigen::VectorXd> postures = {simulator.getJointAngles()};
+  std::vector<Eigen::VectorXd> postures;
   if (!options.traces.empty()) postures = simulator.recording().evenly(Recording::kCapacity);
   postures.push_back(simulator.getJointAngles());
-  const Film film = develop(simulator, postures, options);
-  const Picture picture = frame(simulator, film, film.poses.size() - 1, options);
+  const Picture picture = std::move(filmOf(simulator, postures, options).back().picture);
   Renderer renderer({.width = options.width, .height = options.height});
-  writePng(renderer.draw(picture, cameraFor(bounds(picture), options)), file);
+  writePng(renderer.draw(picture, framing(bounds(picture), options.view, aspect(options))), file);
 }
 
 void writeFrames(const Simulator& simulator, const std::string& folder, const PictureOptions& options,
                  int most) {
   const Film film =
-      develop(simulator, simulator.recording().evenly(static_cast<std::size_t>(std::max(most, 0))), options);
+      filmOf(simulator, simulator.recording().evenly(static_cast<std::size_t>(std::max(most, 0))), options);
   std::error_code problem;
   std::filesystem::create_directories(folder, problem);
   if (!std::filesystem::is_directory(folder, problem)) {
     throw Error({.what = "cannot make the folder for frames", .where = {folder}, .found = problem.message()});
   }
   removeFrames(folder);
-  if (film.poses.empty()) return;
-
-  std::vector<Picture> pictures;
-  Bounds all;
-  double ground = 0;
-  for (std::size_t i = 0; i < film.poses.size(); ++i) {
-    pictures.push_back(frame(simulator, film, i, options));
-    includeAll(all, bounds(pictures.back()));
-    ground = std::min(ground, pictures.back().ground.height);
-  }
-  const Camera camera = cameraFor(all, options);
+  if (film.empty()) return;
+  const Camera camera = framing(film, options.view, aspect(options));
   Renderer renderer({.width = options.width, .height = options.height});
-  for (std::size_t i = 0; i < pictures.size(); ++i) {
-    pictures[i].ground.height = ground;  // one floor for the whole film
-    writePng(renderer.draw(pictures[i], camera),
+  for (std::size_t i = 0; i < film.size(); ++i)
+    writePng(renderer.draw(film[i].picture, camera),
              (std::filesystem::path(folder) / fmt::format("{:04}.png", i)).string());
-  }
 }
 
 void writeVideo(const Simulator& simulator, const std::string& name, const PictureOptions& options,

@@ -41,8 +41,11 @@ Eigen::Vector3d halfBounds(const Shape& shape) {
       return Eigen::Vector3d::Constant(shape.extent.x() / 2);
     case ShapeType::kMesh:
     case ShapeType::kPointCloud:
-    case ShapeType::kSphereSweptConvex:
-      return Eigen::Vector3d::Zero();
+    case ShapeType::kSphereSweptConvex: {
+      Eigen::Vector3f half = Eigen::Vector3f::Zero();
+      for (const Eigen::Vector3f& vertex : shape.mesh.positions()) half = half.cwiseMax(vertex.cwiseAbs());
+      return half.cast<double>() + Eigen::Vector3d::Constant(shape.radius);
+    }
   }
   return Eigen::Vector3d::Zero();
 }

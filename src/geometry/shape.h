@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include "geometry/triangle_mesh.h"
+
 namespace rex {
 
 enum class ShapeType {
@@ -25,15 +27,15 @@ enum class ShapeType {
 /// box, rounded box: full outer edge lengths x, y, z; the rounded box has corners of `radius`.
 /// capsule, cylinder: extent.z is the straight length along z, `radius` the radius; a capsule's caps come on
 /// top. sphere: `radius`. marker: a drawing aid of size extent.x without volume. The others are described by
-/// their mesh.
+/// `mesh`; that of a sphere-swept convex mesh is surrounded at a distance of `radius`.
 struct Shape {
   ShapeType type = ShapeType::kBox;
   Eigen::Vector3d extent = Eigen::Vector3d::Ones();
   double radius = 0;
+  TriangleMesh mesh{};
 };
 
-/// Half edge lengths of the smallest box along the shape's axes that holds it; zero for shapes given by a
-/// mesh.
+/// Half edge lengths of the smallest box about the origin and along the axes of the shape that holds it.
 [[nodiscard]] Eigen::Vector3d halfBounds(const Shape& shape);
 
 }  // namespace rex

@@ -84,6 +84,16 @@ Bounds bounds(const Picture& picture) {
     box.include(axes.X_WF.p);
     for (int i = 0; i < 3; ++i) box.include(axes.X_WF.p + axes.size * axes.X_WF.R.col(i));
   }
+  for (const Arrow& arrow : picture.arrows) {
+    box.include(arrow.from);
+    box.include(arrow.to);
+  }
+  for (const Ellipsoid& ellipsoid : picture.ellipsoids) {
+    const Eigen::Matrix3d axes = ellipsoid.X_WE.R * ellipsoid.radii.asDiagonal();
+    const Eigen::Vector3d half = axes.rowwise().norm();
+    box.include(ellipsoid.X_WE.p - half);
+    box.include(ellipsoid.X_WE.p + half);
+  }
   for (const Label& label : picture.labels) box.include(label.p_WQ);
   return box;
 }
@@ -100,6 +110,19 @@ void requireDrawable(const Picture& picture) {
   }
   for (const Axes& axes : picture.axes)
     requireUsable(isUsable(axes.X_WF) && isUsable(axes.size), fmt::format("axes '{}'", axes.name));
+  for (std::size_t i = 0; i < picture.arrows.size(); ++i) {
+    const Arrow& arrow = picture.arrows[i];
+    const std::string thing = fmt::format("arrow {}", i);
+    requireUsable(isUsable(arrow.from) && isUsable(arrow.to) && isUsable(arrow.color), thing);
+    require(isUsable(arrow.radius) && arrow.radius > 0, thing, "a radius that is not positive",
+            "a positive one");
+  }
+  for (std::size_t i = 0; i < picture.ellipsoids.size(); ++i) {
+    const Ellipsoid& ellipsoid = picture.ellipsoids[i];
+    const std::string thing = fmt::format("ellipsoid {}", i);
+    requireUsable(isUsable(ellipsoid.X_WE) && isUsable(ellipsoid.radii) && isUsable(ellipsoid.color), thing);
+    require(ellipsoid.radii.minCoeff() >= 0, thing, "a negative radius", "radii of at least 0");
+  }
   for (const Label& label : picture.labels) {
     requireUsable(isUsable(label.p_WQ), fmt::format("label '{}', point", label.text));
     requireText(label.color, label.scale, fmt::format("label '{}'", label.text));

@@ -50,6 +50,23 @@ struct Axes {
   std::string name{};
 };
 
+/// An arrow between two points of W (metres), shaded as a solid. Its head is three times as thick as its
+/// shaft.
+struct Arrow {
+  Eigen::Vector3d from = Eigen::Vector3d::Zero();
+  Eigen::Vector3d to = Eigen::Vector3d::UnitZ();
+  Color color{0.84f, 0.37f, 0.0f};
+  double radius = 0.01;  ///< of the shaft, metres
+};
+
+/// The ellipsoid with half axes `radii` (metres) along the axes of E. Translucent, so that what lies in it
+/// shows.
+struct Ellipsoid {
+  Pose X_WE{};
+  Eigen::Vector3d radii = Eigen::Vector3d::Ones();
+  Color color{0.0f, 0.45f, 0.7f, 0.35f};
+};
+
 /// Text beside a point in W (metres); never hidden. Printable ASCII; any other character shows as '?'.
 struct Label {
   std::string text{};
@@ -75,13 +92,15 @@ struct Picture {
   std::vector<Polyline> polylines{};
   std::vector<PointSet> pointSets{};
   std::vector<Axes> axes{};
+  std::vector<Arrow> arrows{};
+  std::vector<Ellipsoid> ellipsoids{};
   std::vector<Label> labels{};
   std::vector<Caption> captions{};
   Eigen::Vector3d toLight{-0.15, -0.85, 1.5};  ///< direction from the scene to the light, W, any length
 };
 
-/// The box around all solids, lines, points, axes and labels; empty if there are none. The ground has no end
-/// and does not count.
+/// The box around all solids, lines, points, axes, arrows, ellipsoids and labels; empty if there are none.
+/// The ground has no end and does not count.
 [[nodiscard]] Bounds bounds(const Picture& picture);
 /// The box around one solid.
 [[nodiscard]] Bounds bounds(const Solid& solid);

@@ -1,0 +1,96 @@
+#include "geometry/triangle_mesh.h"
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace rex {
+namespace {
+
+void requireFinite(const std::vector<Eigen::Vector3f>& vectors, const char* kind) {
+  for (std::size_t i = 0; i < vectors.size(); ++i) {
+    if (!vectors[i].allFinite())
+      throw Error({.what = "mesh",
+                   .found = fmt::format("{} {} = ({}, {}, {})", kind, i, vectors[i].x(), vectors[i].y(),
+                                        vectors[i].z()),
+                   .wanted = "finite numbers"});
+  }
+}
+
+void requireTriangles(const std::vector<TriangleMesh::Triangle>& triangles, std::size_t vertexCount) {
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    for (const std::uint32_t corner : triangles[i]) {
+      if (corner >= vertexCount)
+        throw Error({.what = "mesh",
+                     .found = fmt::format("triangle {} with corner {}", i, corner),
+                     .wanted = fmt::format("indices below {}, the number of vertices", vertexCount)});
+    }
+  }
+}
+
+void requireParts(const std::vector<TriangleMesh::Part>& parts, std::size_t triangleCount) {
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (parts[i].firstTriangle != next)
+      throw Error({.what = "mesh",
+                   .found = fmt::format("part {} starting at triangle {}", i, parts[i].firstTriangle),
+                   .wanted = fmt::format("triangle {}, where the part before ends", next)});
+    next += parts[i].triangleCount;
+  }
+  if (next != triangleCount)
+    throw Error({.what = "mesh",
+                 .found = fmt::format("parts of {} triangles together", next),
+                 .wanted = fmt::format("all {}", triangleCount)});
+}
+
+template <typename T>
+std::span<const T> view(const std::vector<T>& values) {
+  return {values.data(), values.size()};
+}
+
+}  // namespace
+
+struct TriangleMesh::Data {
+  std::vector<Eigen::Vector3f> positions, normals;
+  std::vector<Triangle> triangles;
+  std::vector<Part> parts;
+};
+
+TriangleMesh::TriangleMesh() noexcept = default;
+TriangleMesh::~TriangleMesh() = default;
+TriangleMesh::TriangleMesh(const TriangleMesh&) noexcept = default;
+TriangleMesh& TriangleMesh::operator=(const TriangleMesh&) noexcept = default;
+TriangleMesh::TriangleMesh(TriangleMesh&&) noexcept = default;
+TriangleMesh& TriangleMesh::operator=(TriangleMesh&&) noexcept = default;
+
+TriangleMesh::TriangleMesh(std::vector<Eigen::Vector3f> positions, std::vector<Eigen::Vector3f> normals,
+                           std::vector<Triangle> triangles, std::vector<Part> parts) {
+  requireFinite(positions, "vertex");
+  requireFinite(normals, "normal");
+  const bool needsNormals = !triangles.empty() || !normals.empty();
+  if (needsNormals && normals.size() != positions.size())
+    throw Error({.what = "mesh",
+                 .found = fmt::format("{} normals", normals.size()),
+                 .wanted = fmt::format("{}, one for each vertex", positions.size())});
+  requireTriangles(triangles, positions.size());
+  if (parts.empty() && !triangles.empty())
+    parts.push_back({.triangleCount = static_cast<std::uint32_t>(triangles.size())});
+  requireParts(parts, triangles.size());
+  data_ = std::make_shared<const Data>(
+      Data{std::move(positions), std::move(normals), std::move(triangles), std::move(parts)});
+}
+
+std::span<const Eigen::Vector3f> TriangleMesh::positions() const {
+  return data_ ? view(data_->positions) : std::span<const Eigen::Vector3f>();
+}
+std::span<const Eigen::Vector3f> TriangleMesh::normals() const {
+  return data_ ? view(data_->normals) : std::span<const Eigen::Vector3f>();
+}
+std::span<const TriangleMesh::Triangle> TriangleMesh::triangles() const {
+  return data_ ? view(data_->triangles) : std::span<const Triangle>();
+}
+std::span<const TriangleMesh::Part> TriangleMesh::parts() const {
+  return data_ ? view(data_->parts) : std::span<const Part>();
+}
+
+}  // namespace rex

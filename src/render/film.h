@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "render/camera.h"
+#include "render/picture.h"
+
+namespace rex {
+
+/// One moment of a motion.
+struct Frame {
+  double time = 0;  ///< seconds, increasing from frame to frame
+  Picture picture{};
+};
+
+/// A motion as data, for frames, videos and replays. What has the same index in successive pictures is taken
+/// for one thing that moves.
+using Film = std::vector<Frame>;
+
+/// The box around all that is ever shown; empty if nothing is.
+[[nodiscard]] Bounds bounds(const Film& film);
+
+/// The camera of framing() that sees all of the film.
+[[nodiscard]] Camera framing(const Film& film, const Eigen::Vector3d& direction, double aspect);
+
+/// Puts the ground of all pictures at the height of the lowest one, so that the floor keeps still.
+void levelGround(Film& film);
+
+}  // namespace rex
