@@ -5,8 +5,8 @@
 
 namespace rex {
 
-/// Where OpenGL comes from: Mesa's OSMesa library, or EGL without a screen. Both give the same pictures. kAuto
-/// takes the first that works, in this order.
+/// Where OpenGL comes from: Mesa's OSMesa library, or EGL without a screen. Both give the same pictures.
+/// kAuto takes the first that works, in this order.
 enum class GlBackend { kAuto, kOsMesa, kEgl };
 
 /// How to make a context. The environment is the program's business: whoever wants to honour GALLIUM_DRIVER

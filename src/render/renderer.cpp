@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "render/draw_list_internal.h"
 #include "render/frame_buffer_internal.h"
+#include "render/fxaa_shader_internal.h"
 #include "render/gl_program_internal.h"
 #include "render/mesh_store_internal.h"
 #include "render/overlay_mesh_internal.h"
@@ -25,8 +27,10 @@ using internal::DrawList;
 using internal::GlFunctions;
 using internal::GlProgram;
 using internal::ShaderSource;
+using Stages = internal::FrameBuffer::Stages;
 
 constexpr int kLargest = 8192;  // pixels
+constexpr int kSamples = 4;     // per pixel, of AntiAliasing::kMsaa4
 
 const RendererOptions& checked(const RendererOptions& options) {
   const auto inRange = [](int size) { return size >= 1 && size <= kLargest; };
@@ -51,11 +55,11 @@ void requireUsable(const Camera& camera) {
                  .wanted = "0 < near < far"});
 }
 
-int samplesFor(const GlFunctions& gl, AntiAliasing antiAliasing) {
-  constexpr int kWanted = 4;
+// What the driver can do of what is wanted.
+AntiAliasing supported(const GlFunctions& gl, AntiAliasing wanted) {
   GLint most = 1;
   gl.GetIntegerv(GL_MAX_SAMPLES, &most);
-  return antiAliasing == AntiAliasing::kMsaa4 && most >= kWanted ? kWanted : 1;
+  return wanted == AntiAliasing::kMsaa4 && most < kSamples ? AntiAliasing::kFxaa : wanted;
 }
 
 GlProgram makeProgram(const GlFunctions& gl, const ShaderSource& source) {
@@ -98,6 +102,7 @@ struct Renderer::Impl {
   void drawGround(const Picture& picture, const Camera& camera, const internal::ShadowView& shadow) const;
   void drawSolids(const DrawList& list, const Picture& picture, const Camera& camera,
                   const internal::ShadowView& shadow);
+  void smoothEdges() const;
   void drawOverlay(const std::vector<Polyline>& lines, const Picture& picture, const Camera& camera);
   Eigen::Matrix4d clip(const Camera& camera) const {
     return clipFromWorld(camera, static_cast<double>(options.width) / options.height);
@@ -106,12 +111,13 @@ struct Renderer::Impl {
   RendererOptions options;
   std::unique_ptr<GlContext> context;
   GlFunctions gl;
-  int samples;
+  AntiAliasing antiAliasing;
   internal::FrameBuffer frame;
   internal::MeshStore meshes;
   internal::ShadowMap shadowMap;
   internal::Visibility visibility;
   GlProgram background, ground, solid, overlay;
+  std::optional<GlProgram> fxaa;
   GLuint noVertices = 0, overlayVertices = 0, overlayBuffer = 0;
 };
 
@@ -119,8 +125,9 @@ Renderer::Impl::Impl(const RendererOptions& wanted)
     : options(checked(wanted)),
       context(makeGlContext(options.gl)),
       gl(currentFunctions(*context)),
-      samples(samplesFor(gl, options.antiAliasing)),
-      frame(gl, options.width, options.height, samples),
+      antiAliasing(supported(gl, options.antiAliasing)),
+      frame(gl, options.width, options.height, antiAliasing == AntiAliasing::kMsaa4 ? kSamples : 1,
+            antiAliasing == AntiAliasing::kFxaa ? Stages::kTwo : Stages::kOne),
       meshes(gl),
       shadowMap(gl),
       visibility(gl),
@@ -129,6 +136,7 @@ Renderer::Impl::Impl(const RendererOptions& wanted)
       solid(makeProgram(gl, internal::solidShader(options.shadow))),
       overlay(makeProgram(gl, internal::overlayShader())) {
   using internal::OverlayVertex;
+  if (antiAliasing == AntiAliasing::kFxaa) fxaa = makeProgram(gl, internal::fxaaShader());
   gl.GenVertexArrays(1, &noVertices);
   gl.GenVertexArrays(1, &overlayVertices);
   gl.GenBuffers(1, &overlayBuffer);
@@ -209,6 +217,16 @@ void Renderer::Impl::drawSolids(const DrawList& list, const Picture& picture, co
   gl.Disable(GL_CULL_FACE);
 }
 
+void Renderer::Impl::smoothEdges() const {
+  frame.bindSecondStage();
+  gl.Disable(GL_DEPTH_TEST);
+  fxaa->use();
+  fxaa->setTexture("drawn", internal::FrameBuffer::kFirstStageUnit);
+  gl.BindVertexArray(noVertices);
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  gl.Enable(GL_DEPTH_TEST);
+}
+
 void Renderer::Impl::drawOverlay(const std::vector<Polyline>& lines, const Picture& picture,
                                  const Camera& camera) {
   constexpr double kHiddenOpacity = 0.3;
@@ -254,6 +272,7 @@ Image Renderer::Impl::draw(const Picture& picture, const Camera& camera) {
   gl.Enable(GL_DEPTH_TEST);
   visibility.start();
   drawSolids(list, picture, camera, shadow);
+  if (fxaa) smoothEdges();
   drawOverlay(lines, picture, camera);
 
   Image image = frame.read();
@@ -279,11 +298,13 @@ Image Renderer::draw(const Picture& picture, const Camera& camera) { return impl
 std::string Renderer::describe() const {
   impl_->context->makeCurrent();
   const auto text = [&](GLenum what) { return reinterpret_cast<const char*>(impl_->gl.GetString(what)); };
-  const bool refused = impl_->options.antiAliasing == AntiAliasing::kMsaa4 && impl_->samples == 1;
+  const char* smooth = impl_->antiAliasing == AntiAliasing::kMsaa4  ? "4 samples per pixel"
+                       : impl_->antiAliasing == AntiAliasing::kNone ? "no anti-aliasing"
+                       : impl_->options.antiAliasing == AntiAliasing::kMsaa4
+                           ? "FXAA (4 samples are not supported)"
+                           : "FXAA";
   return fmt::format("{}, OpenGL {}, {}, {}", impl_->context->describe(), text(GL_VERSION), text(GL_RENDERER),
-                     impl_->samples > 1 ? "4 samples per pixel"
-                     : refused          ? "no anti-aliasing (4 samples are not supported)"
-                                        : "no anti-aliasing");
+                     smooth);
 }
 
 const RendererOptions& Renderer::options() const { return impl_->options; }

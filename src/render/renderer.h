@@ -10,7 +10,9 @@
 
 namespace rex {
 
-enum class AntiAliasing { kNone, kMsaa4 };
+/// How edges of solids lose their steps (lines and points are always smooth): not at all; by their colours in
+/// a finished picture, for films; by four samples per pixel, for stills.
+enum class AntiAliasing { kNone, kFxaa, kMsaa4 };
 
 /// How pictures are made; what they show is a Picture.
 struct RendererOptions {
