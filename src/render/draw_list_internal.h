@@ -17,6 +17,7 @@ struct DrawItem {
   Eigen::Vector3d halfSize = Eigen::Vector3d::Ones();
   double stretch = 0;
   Color color{};
+  int solid = -1;  ///< its index in the picture; -1 for what is no solid
 };
 
 /// What the solid passes draw: opaque items in the order of the picture, then the translucent ones from far

@@ -17,12 +17,13 @@ GLuint makeRenderbuffer(const GlFunctions& gl, int samples, GLenum format, int w
   return buffer;
 }
 
-GLuint makeColorTexture(const GlFunctions& gl, int width, int height) {
+GLuint makeColorTexture(const GlFunctions& gl, GLenum format, int width, int height) {
   GLuint texture = 0;
   gl.GenTextures(1, &texture);
   gl.ActiveTexture(GL_TEXTURE0 + FrameBuffer::kFirstStageUnit);
   gl.BindTexture(GL_TEXTURE_2D, texture);
-  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format), width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                nullptr);
   for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
     gl.TexParameteri(GL_TEXTURE_2D, axis, GL_CLAMP_TO_EDGE);
   for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
@@ -33,8 +34,9 @@ GLuint makeColorTexture(const GlFunctions& gl, int width, int height) {
 
 }  // namespace
 
-FrameBuffer::FrameBuffer(const GlFunctions& gl, int width, int height, int samples, Stages stages)
-    : gl_(&gl), width_(width), height_(height), averages_(samples > 1) {
+FrameBuffer::FrameBuffer(const GlFunctions& gl, int width, int height, const FrameFormat& format)
+    : gl_(&gl), width_(width), height_(height), format_(format) {
+  const int samples = format.samples;
   const GLuint depth = makeRenderbuffer(gl, samples, GL_DEPTH_COMPONENT24, width, height);
   const auto make = [&](int colorSamples, bool readable, bool withDepth) {
     GLuint framebuffer = 0;
@@ -42,10 +44,10 @@ FrameBuffer::FrameBuffer(const GlFunctions& gl, int width, int height, int sampl
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     if (readable)
       gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
-                              makeColorTexture(gl, width, height), 0);
+                              makeColorTexture(gl, format.colors, width, height), 0);
     else
       gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
-                                 makeRenderbuffer(gl, colorSamples, GL_RGBA8, width, height));
+                                 makeRenderbuffer(gl, colorSamples, format.colors, width, height));
     if (withDepth) gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
     if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
       throw Error({.what = "OpenGL cannot draw a picture of this size",
@@ -53,9 +55,8 @@ FrameBuffer::FrameBuffer(const GlFunctions& gl, int width, int height, int sampl
                    .wanted = "a smaller one"});
     return framebuffer;
   };
-  const bool two = stages == Stages::kTwo;
-  drawn_ = make(samples, two, true);
-  result_ = two || samples > 1 ? make(1, false, two) : drawn_;
+  drawn_ = make(samples, format.twoStages, true);
+  result_ = format.twoStages || samples > 1 ? make(1, false, format.twoStages) : drawn_;
 }
 
 void FrameBuffer::bind() const {
@@ -75,7 +76,7 @@ void FrameBuffer::bindSecondStage() const {
 }
 
 Image FrameBuffer::read() const {
-  if (averages_) copyToResult();
+  if (format_.samples > 1) copyToResult();
   gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, result_);
   // RGBA, because reading RGB takes three times as long.
   std::vector<std::uint8_t> rgba(4 * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
@@ -88,6 +89,15 @@ Image FrameBuffer::read() const {
     for (int x = 0; x < width_; ++x, from += 4, to += 3) std::memcpy(to, from, 3);
   }
   return image;
+}
+
+std::vector<std::array<float, 2>> FrameBuffer::readPairs() const {
+  std::vector<std::array<float, 2>> pairs(static_cast<std::size_t>(width_) *
+                                          static_cast<std::size_t>(height_));
+  gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, result_);
+  gl_->ReadPixels(0, 0, width_, height_, GL_RG, GL_FLOAT, pairs.data());
+  requireNoGlError(*gl_, "drawing a picture");
+  return pairs;
 }
 
 }  // namespace rex::internal

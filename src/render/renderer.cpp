@@ -12,9 +12,11 @@
 #include "render/frame_buffer_internal.h"
 #include "render/fxaa_shader_internal.h"
 #include "render/gl_program_internal.h"
+#include "render/ground_disc_internal.h"
 #include "render/mesh_store_internal.h"
 #include "render/overlay_mesh_internal.h"
 #include "render/picture_text_internal.h"
+#include "render/sensor_pass_internal.h"
 #include "render/shaders_internal.h"
 #include "render/shadow_map_internal.h"
 #include "render/visibility_internal.h"
@@ -27,7 +29,6 @@ using internal::DrawList;
 using internal::GlFunctions;
 using internal::GlProgram;
 using internal::ShaderSource;
-using Stages = internal::FrameBuffer::Stages;
 
 constexpr int kLargest = 8192;  // pixels
 constexpr int kSamples = 4;     // per pixel, of AntiAliasing::kMsaa4
@@ -97,6 +98,7 @@ bool hasScene(const Picture& picture, const DrawList& list, const std::vector<Po
 struct Renderer::Impl {
   explicit Impl(const RendererOptions& wanted);
   Image draw(const Picture& picture, const Camera& camera);
+  internal::SensorImages drawSensors(const Picture& picture, const Camera& camera);
   void setLight(const GlProgram& program, const Picture& picture, const internal::ShadowView& shadow) const;
   void setBackground(const GlProgram& program) const;
   void drawGround(const Picture& picture, const Camera& camera, const internal::ShadowView& shadow) const;
@@ -118,6 +120,7 @@ struct Renderer::Impl {
   internal::Visibility visibility;
   GlProgram background, ground, solid, overlay;
   std::optional<GlProgram> fxaa;
+  std::optional<internal::SensorPass> sensors;  // made when first asked for
   GLuint noVertices = 0, overlayVertices = 0, overlayBuffer = 0;
 };
 
@@ -126,8 +129,9 @@ Renderer::Impl::Impl(const RendererOptions& wanted)
       context(makeGlContext(options.gl)),
       gl(currentFunctions(*context)),
       antiAliasing(supported(gl, options.antiAliasing)),
-      frame(gl, options.width, options.height, antiAliasing == AntiAliasing::kMsaa4 ? kSamples : 1,
-            antiAliasing == AntiAliasing::kFxaa ? Stages::kTwo : Stages::kOne),
+      frame(gl, options.width, options.height,
+            {.samples = antiAliasing == AntiAliasing::kMsaa4 ? kSamples : 1,
+             .twoStages = antiAliasing == AntiAliasing::kFxaa}),
       meshes(gl),
       shadowMap(gl),
       visibility(gl),
@@ -172,16 +176,14 @@ void Renderer::Impl::setBackground(const GlProgram& program) const {
 void Renderer::Impl::drawGround(const Picture& picture, const Camera& camera,
                                 const internal::ShadowView& shadow) const {
   const Ground& plane = picture.ground;
-  if (!plane.visible || camera.X_WC.p.z() <= plane.height) return;
-  const Bounds scene = bounds(picture);
-  const Eigen::Vector3d middle = scene.isEmpty() ? Eigen::Vector3d::Zero() : scene.center();
-  const double radius = scene.isEmpty() ? 1 : scene.radius();
+  const std::optional<internal::GroundDisc> disc = internal::visibleGround(picture, camera);
+  if (!disc) return;
   ground.use();
   setLight(ground, picture, shadow);
   setBackground(ground);
   ground.set("clipFromWorld", clip(camera));
-  ground.set("groundCenter", Eigen::Vector3d(middle.x(), middle.y(), plane.height));
-  ground.set("groundRadius", std::max(6 * radius, 4 * plane.cell));
+  ground.set("groundCenter", disc->center);
+  ground.set("groundRadius", disc->radius);
   ground.set("groundCell", plane.cell);
   ground.set("groundLight", plane.light);
   ground.set("groundDark", plane.dark);
@@ -288,12 +290,28 @@ Image Renderer::Impl::draw(const Picture& picture, const Camera& camera) {
   return image;
 }
 
+internal::SensorImages Renderer::Impl::drawSensors(const Picture& picture, const Camera& camera) {
+  requireDrawable(picture);
+  requireUsable(camera);
+  context->makeCurrent();
+  if (!sensors) sensors.emplace(gl, options.width, options.height);
+  return sensors->draw(internal::makeDrawList(picture, camera, options.height), picture, camera, meshes);
+}
+
 Renderer::Renderer(const RendererOptions& options) : impl_(std::make_unique<Impl>(options)) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 Image Renderer::draw(const Picture& picture, const Camera& camera) { return impl_->draw(picture, camera); }
+
+DepthImage Renderer::drawDepth(const Picture& picture, const Camera& camera) {
+  return impl_->drawSensors(picture, camera).depth;
+}
+
+SegmentationImage Renderer::drawSegmentation(const Picture& picture, const Camera& camera) {
+  return impl_->drawSensors(picture, camera).segmentation;
+}
 
 std::string Renderer::describe() const {
   impl_->context->makeCurrent();
