@@ -2,9 +2,8 @@
 
 namespace rex::internal {
 
-// A step of an edge is a run of pixels between two places where the edge moves on by one pixel. On the true
-// edge the share of the other colour grows along the run, from none at one end to half at the other; which
-// end is which tells the side to which the edge goes on.
+// The stairs of an edge are runs of pixels along it. A pixel's true share of the colour beyond the edge is a
+// half where its run ends with a step to its own side, and falls to none in the middle of the run.
 ShaderSource fxaaShader() {
   return {backgroundShader().vertex, R"(#version 330 core
 uniform sampler2D drawn;
