@@ -37,7 +37,8 @@ GLuint makeColorTexture(const GlFunctions& gl, GLenum format, int width, int hei
 FrameBuffer::FrameBuffer(const GlFunctions& gl, int width, int height, const FrameFormat& format)
     : gl_(&gl), width_(width), height_(height), format_(format) {
   const int samples = format.samples;
-  const GLuint depth = makeRenderbuffer(gl, samples, GL_DEPTH_COMPONENT24, width, height);
+  const GLuint depth = makeRenderbuffer(
+      gl, samples, format.twoStages ? GL_DEPTH24_STENCIL8 : GL_DEPTH_COMPONENT24, width, height);
   const auto make = [&](int colorSamples, bool readable, bool withDepth) {
     GLuint framebuffer = 0;
     gl.GenFramebuffers(1, &framebuffer);
@@ -48,7 +49,8 @@ FrameBuffer::FrameBuffer(const GlFunctions& gl, int width, int height, const Fra
     else
       gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
                                  makeRenderbuffer(gl, colorSamples, format.colors, width, height));
-    if (withDepth) gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
+    const GLenum attachment = format.twoStages ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT;
+    if (withDepth) gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, depth);
     if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
       throw Error({.what = "OpenGL cannot draw a picture of this size",
                    .found = fmt::format("{} x {} pixels, {} samples", width, height, samples),

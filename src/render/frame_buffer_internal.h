@@ -10,7 +10,7 @@ namespace rex::internal {
 
 struct FrameFormat {
   int samples = 1;         ///< per pixel
-  bool twoStages = false;  ///< for one sample only
+  bool twoStages = false;  ///< for one sample only; with a stencil
   GLenum colors = GL_RGBA8;
 };
 

@@ -55,6 +55,8 @@ namespace rex::internal {
   X(ReadPixels, PFNGLREADPIXELSPROC)                                         \
   X(RenderbufferStorageMultisample, PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC) \
   X(ShaderSource, PFNGLSHADERSOURCEPROC)                                     \
+  X(StencilFunc, PFNGLSTENCILFUNCPROC)                                       \
+  X(StencilOp, PFNGLSTENCILOPPROC)                                           \
   X(TexImage2D, PFNGLTEXIMAGE2DPROC)                                         \
   X(TexParameteri, PFNGLTEXPARAMETERIPROC)                                   \
   X(Uniform1f, PFNGLUNIFORM1FPROC)                                           \

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "render/draw_list_internal.h"
 #include "render/frame_buffer_internal.h"
-#include "render/fxaa_shader_internal.h"
+#include "render/fxaa_internal.h"
 #include "render/gl_program_internal.h"
 #include "render/ground_disc_internal.h"
 #include "render/mesh_store_internal.h"
@@ -104,7 +104,6 @@ struct Renderer::Impl {
   void drawGround(const Picture& picture, const Camera& camera, const internal::ShadowView& shadow) const;
   void drawSolids(const DrawList& list, const Picture& picture, const Camera& camera,
                   const internal::ShadowView& shadow);
-  void smoothEdges() const;
   void drawOverlay(const std::vector<Polyline>& lines, const Picture& picture, const Camera& camera);
   Eigen::Matrix4d clip(const Camera& camera) const {
     return clipFromWorld(camera, static_cast<double>(options.width) / options.height);
@@ -119,7 +118,7 @@ struct Renderer::Impl {
   internal::ShadowMap shadowMap;
   internal::Visibility visibility;
   GlProgram background, ground, solid, overlay;
-  std::optional<GlProgram> fxaa;
+  std::optional<internal::Fxaa> fxaa;
   std::optional<internal::SensorPass> sensors;  // made when first asked for
   GLuint noVertices = 0, overlayVertices = 0, overlayBuffer = 0;
 };
@@ -140,7 +139,7 @@ Renderer::Impl::Impl(const RendererOptions& wanted)
       solid(makeProgram(gl, internal::solidShader(options.shadow))),
       overlay(makeProgram(gl, internal::overlayShader())) {
   using internal::OverlayVertex;
-  if (antiAliasing == AntiAliasing::kFxaa) fxaa = makeProgram(gl, internal::fxaaShader());
+  if (antiAliasing == AntiAliasing::kFxaa) fxaa.emplace(gl);
   gl.GenVertexArrays(1, &noVertices);
   gl.GenVertexArrays(1, &overlayVertices);
   gl.GenBuffers(1, &overlayBuffer);
@@ -219,16 +218,6 @@ void Renderer::Impl::drawSolids(const DrawList& list, const Picture& picture, co
   gl.Disable(GL_CULL_FACE);
 }
 
-void Renderer::Impl::smoothEdges() const {
-  frame.bindSecondStage();
-  gl.Disable(GL_DEPTH_TEST);
-  fxaa->use();
-  fxaa->setTexture("drawn", internal::FrameBuffer::kFirstStageUnit);
-  gl.BindVertexArray(noVertices);
-  gl.DrawArrays(GL_TRIANGLES, 0, 3);
-  gl.Enable(GL_DEPTH_TEST);
-}
-
 void Renderer::Impl::drawOverlay(const std::vector<Polyline>& lines, const Picture& picture,
                                  const Camera& camera) {
   constexpr double kHiddenOpacity = 0.3;
@@ -274,7 +263,7 @@ Image Renderer::Impl::draw(const Picture& picture, const Camera& camera) {
   gl.Enable(GL_DEPTH_TEST);
   visibility.start();
   drawSolids(list, picture, camera, shadow);
-  if (fxaa) smoothEdges();
+  if (fxaa) fxaa->smooth(frame);
   drawOverlay(lines, picture, camera);
 
   Image image = frame.read();
