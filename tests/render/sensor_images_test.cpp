@@ -126,7 +126,7 @@ TEST(DepthImage, OfTheGroundIsThatOfItsPlane) {
   picture.ground.height = -0.2;
   picture.polylines = {{{{-3, 0, 0}, {3, 0, 0}}}};
   const double rim = 6 * bounds(picture).radius();
-  for (const Vector3d& eye : {Vector3d(0, -3, 1), Vector3d(1, 1, 0.1), Vector3d(0, 0.1, 30)}) {
+  for (const Vector3d& eye : {Vector3d(0, -3, 1), Vector3d(1, 1, 0.1), Vector3d(0, 0.1, 60)}) {
     Camera camera = lookAt(eye, {0, 0, 0});
     camera.nearPlane = 0.01;
     const DepthImage depth = smallRenderer().drawDepth(picture, camera);
