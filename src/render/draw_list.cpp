@@ -54,6 +54,7 @@ DrawList makeDrawList(const Picture& picture, const Camera& camera, int pictureH
   for (const Solid& solid : picture.solids) {
     std::optional<DrawItem> item = itemOf(solid);
     if (!item) continue;
+    item->solid = static_cast<int>(&solid - picture.solids.data());
     item->detail = detailFor(radiusInPixels(*item, camera, pictureHeight));
     (item->color.a < 1 ? list.translucent : list.opaque).push_back(*item);
   }

@@ -18,6 +18,7 @@ struct DrawItem {
   Eigen::Vector3d halfSize = Eigen::Vector3d::Ones();
   double stretch = 0;
   Color color{};
+  int solid = -1;  ///< its index in the picture; -1 for what is no solid
 };
 
 /// The radius about its z axis, metres.

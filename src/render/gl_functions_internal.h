@@ -58,6 +58,7 @@ namespace rex::internal {
   X(TexImage2D, PFNGLTEXIMAGE2DPROC)                                         \
   X(TexParameteri, PFNGLTEXPARAMETERIPROC)                                   \
   X(Uniform1f, PFNGLUNIFORM1FPROC)                                           \
+  X(Uniform1i, PFNGLUNIFORM1IPROC)                                           \
   X(Uniform3f, PFNGLUNIFORM3FPROC)                                           \
   X(Uniform4f, PFNGLUNIFORM4FPROC)                                           \
   X(UniformMatrix3fv, PFNGLUNIFORMMATRIX3FVPROC)                             \

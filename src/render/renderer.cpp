@@ -3,16 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "render/draw_list_internal.h"
 #include "render/frame_buffer_internal.h"
+#include "render/fxaa_shader_internal.h"
 #include "render/gl_program_internal.h"
+#include "render/ground_disc_internal.h"
 #include "render/mesh_store_internal.h"
 #include "render/overlay_mesh_internal.h"
 #include "render/picture_text_internal.h"
+#include "render/sensor_pass_internal.h"
 #include "render/shaders_internal.h"
 #include "render/shadow_map_internal.h"
 #include "render/visibility_internal.h"
@@ -27,6 +31,7 @@ using internal::GlProgram;
 using internal::ShaderSource;
 
 constexpr int kLargest = 8192;  // pixels
+constexpr int kSamples = 4;     // per pixel, of AntiAliasing::kMsaa4
 
 const RendererOptions& checked(const RendererOptions& options) {
   const auto inRange = [](int size) { return size >= 1 && size <= kLargest; };
@@ -51,11 +56,11 @@ void requireUsable(const Camera& camera) {
                  .wanted = "0 < near < far"});
 }
 
-int samplesFor(const GlFunctions& gl, AntiAliasing antiAliasing) {
-  constexpr int kWanted = 4;
+// What the driver can do of what is wanted.
+AntiAliasing supported(const GlFunctions& gl, AntiAliasing wanted) {
   GLint most = 1;
   gl.GetIntegerv(GL_MAX_SAMPLES, &most);
-  return antiAliasing == AntiAliasing::kMsaa4 && most >= kWanted ? kWanted : 1;
+  return wanted == AntiAliasing::kMsaa4 && most < kSamples ? AntiAliasing::kFxaa : wanted;
 }
 
 GlProgram makeProgram(const GlFunctions& gl, const ShaderSource& source) {
@@ -93,12 +98,14 @@ bool hasScene(const Picture& picture, const DrawList& list, const std::vector<Po
 struct Renderer::Impl {
   explicit Impl(const RendererOptions& wanted);
   Image draw(const Picture& picture, const Camera& camera);
+  internal::SensorImages drawSensors(const Picture& picture, const Camera& camera);
   void setLight(const GlProgram& program, const Picture& picture, const internal::ShadowView& shadow) const;
   void setBackground(const GlProgram& program) const;
   void drawBackground() const;
   void drawGround(const Picture& picture, const Camera& camera, const internal::ShadowView& shadow) const;
   void drawSolids(const DrawList& list, const Picture& picture, const Camera& camera,
                   const internal::ShadowView& shadow);
+  void smoothEdges() const;
   void drawOverlay(const std::vector<Polyline>& lines, const Picture& picture, const Camera& camera);
   Eigen::Matrix4d clip(const Camera& camera) const {
     return clipFromWorld(camera, static_cast<double>(options.width) / options.height);
@@ -107,12 +114,14 @@ struct Renderer::Impl {
   RendererOptions options;
   std::unique_ptr<GlContext> context;
   GlFunctions gl;
-  int samples;
+  AntiAliasing antiAliasing;
   internal::FrameBuffer frame;
   internal::MeshStore meshes;
   internal::ShadowMap shadowMap;
   internal::Visibility visibility;
   GlProgram background, ground, solid, overlay;
+  std::optional<GlProgram> fxaa;
+  std::optional<internal::SensorPass> sensors;  // made when first asked for
   GLuint noVertices = 0, overlayVertices = 0, overlayBuffer = 0;
 };
 
@@ -120,8 +129,10 @@ Renderer::Impl::Impl(const RendererOptions& wanted)
     : options(checked(wanted)),
       context(makeGlContext(options.gl)),
       gl(currentFunctions(*context)),
-      samples(samplesFor(gl, options.antiAliasing)),
-      frame(gl, options.width, options.height, samples),
+      antiAliasing(supported(gl, options.antiAliasing)),
+      frame(gl, options.width, options.height,
+            {.samples = antiAliasing == AntiAliasing::kMsaa4 ? kSamples : 1,
+             .twoStages = antiAliasing == AntiAliasing::kFxaa}),
       meshes(gl),
       shadowMap(gl),
       visibility(gl),
@@ -130,6 +141,7 @@ Renderer::Impl::Impl(const RendererOptions& wanted)
       solid(makeProgram(gl, internal::solidShader(options.shadow))),
       overlay(makeProgram(gl, internal::overlayShader())) {
   using internal::OverlayVertex;
+  if (antiAliasing == AntiAliasing::kFxaa) fxaa = makeProgram(gl, internal::fxaaShader());
   gl.GenVertexArrays(1, &noVertices);
   gl.GenVertexArrays(1, &overlayVertices);
   gl.GenBuffers(1, &overlayBuffer);
@@ -175,16 +187,14 @@ void Renderer::Impl::drawBackground() const {
 void Renderer::Impl::drawGround(const Picture& picture, const Camera& camera,
                                 const internal::ShadowView& shadow) const {
   const Ground& plane = picture.ground;
-  if (!plane.visible || camera.X_WC.p.z() <= plane.height) return;
-  const Bounds scene = bounds(picture);
-  const Eigen::Vector3d middle = scene.isEmpty() ? Eigen::Vector3d::Zero() : scene.center();
-  const double radius = scene.isEmpty() ? 1 : scene.radius();
+  const std::optional<internal::GroundDisc> disc = internal::visibleGround(picture, camera);
+  if (!disc) return;
   ground.use();
   setLight(ground, picture, shadow);
   setBackground(ground);
   ground.set("clipFromWorld", clip(camera));
-  ground.set("groundCenter", Eigen::Vector3d(middle.x(), middle.y(), plane.height));
-  ground.set("groundRadius", std::max(6 * radius, 4 * plane.cell));
+  ground.set("groundCenter", disc->center);
+  ground.set("groundRadius", disc->radius);
   ground.set("groundCell", plane.cell);
   ground.set("groundLight", plane.light);
   ground.set("groundDark", plane.dark);
@@ -219,6 +229,16 @@ void Renderer::Impl::drawSolids(const DrawList& list, const Picture& picture, co
   gl.DepthMask(GL_TRUE);
   gl.Disable(GL_BLEND);
   gl.Disable(GL_CULL_FACE);
+}
+
+void Renderer::Impl::smoothEdges() const {
+  frame.bindSecondStage();
+  gl.Disable(GL_DEPTH_TEST);
+  fxaa->use();
+  fxaa->setTexture("drawn", internal::FrameBuffer::kFirstStageUnit);
+  gl.BindVertexArray(noVertices);
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  gl.Enable(GL_DEPTH_TEST);
 }
 
 void Renderer::Impl::drawOverlay(const std::vector<Polyline>& lines, const Picture& picture,
@@ -260,6 +280,7 @@ Image Renderer::Impl::draw(const Picture& picture, const Camera& camera) {
   gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   visibility.start();
   drawSolids(list, picture, camera, shadow);
+  if (fxaa) smoothEdges();
   drawOverlay(lines, picture, camera);
 
   Image image = frame.read();
@@ -275,6 +296,14 @@ Image Renderer::Impl::draw(const Picture& picture, const Camera& camera) {
   return image;
 }
 
+internal::SensorImages Renderer::Impl::drawSensors(const Picture& picture, const Camera& camera) {
+  requireDrawable(picture);
+  requireUsable(camera);
+  context->makeCurrent();
+  if (!sensors) sensors.emplace(gl, options.width, options.height);
+  return sensors->draw(internal::makeDrawList(picture, camera, options.height), picture, camera, meshes);
+}
+
 Renderer::Renderer(const RendererOptions& options) : impl_(std::make_unique<Impl>(options)) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
@@ -282,14 +311,24 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 Image Renderer::draw(const Picture& picture, const Camera& camera) { return impl_->draw(picture, camera); }
 
+DepthImage Renderer::drawDepth(const Picture& picture, const Camera& camera) {
+  return impl_->drawSensors(picture, camera).depth;
+}
+
+SegmentationImage Renderer::drawSegmentation(const Picture& picture, const Camera& camera) {
+  return impl_->drawSensors(picture, camera).segmentation;
+}
+
 std::string Renderer::describe() const {
   impl_->context->makeCurrent();
   const auto text = [&](GLenum what) { return reinterpret_cast<const char*>(impl_->gl.GetString(what)); };
-  const bool refused = impl_->options.antiAliasing == AntiAliasing::kMsaa4 && impl_->samples == 1;
+  const char* smooth = impl_->antiAliasing == AntiAliasing::kMsaa4  ? "4 samples per pixel"
+                       : impl_->antiAliasing == AntiAliasing::kNone ? "no anti-aliasing"
+                       : impl_->options.antiAliasing == AntiAliasing::kMsaa4
+                           ? "FXAA (4 samples are not supported)"
+                           : "FXAA";
   return fmt::format("{}, OpenGL {}, {}, {}", impl_->context->describe(), text(GL_VERSION), text(GL_RENDERER),
-                     impl_->samples > 1 ? "4 samples per pixel"
-                     : refused          ? "no anti-aliasing (4 samples are not supported)"
-                                        : "no anti-aliasing");
+                     smooth);
 }
 
 const RendererOptions& Renderer::options() const { return impl_->options; }
