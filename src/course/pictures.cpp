@@ -1,5 +1,6 @@
 #include "course/pictures.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <utility>
@@ -65,7 +66,9 @@ void writeContactSheet(const Simulator& simulator, const std::string& name, cons
   const Film film = filmOf(simulator, options, kMost);
   if (film.empty()) throw Error({.what = "no postures for a contact sheet", .where = {name + ".png"}});
   const Camera camera = cameraFor(film, options);
-  Renderer renderer({.width = options.width, .height = options.height});
+  // Drawn at the size at which they appear, text stays readable.
+  const int width = std::min(options.width, layout.pictureWidth);
+  Renderer renderer({.width = width, .height = options.height * width / std::max(options.width, 1)});
   std::vector<KeyFrame> shown;
   for (const std::size_t k : keyFrames(film.size(), pictures))
     shown.push_back({renderer.draw(film[k].picture, camera), fmt::format("{:.2f} s", film[k].time)});

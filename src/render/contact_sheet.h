@@ -17,7 +17,7 @@ struct KeyFrame {
 struct ContactSheetOptions {
   int pictures = 6;        ///< at most; at least 2
   int columns = 3;         ///< pictures side by side, at least 1
-  int pictureWidth = 320;  ///< pixels; wider pictures are shrunk
+  int pictureWidth = 480;  ///< pixels; wider pictures are shrunk
 };
 
 /// Throws Error for an option out of range.

@@ -14,7 +14,7 @@ namespace rex {
 /// frame.
 class ContactSheetSink final : public FrameSink {
  public:
-  static constexpr std::size_t kSpare = 8;
+  static constexpr std::size_t kSpare = 4;
 
   /// `rate`: frames per second. Throws Error for an option out of range.
   explicit ContactSheetSink(std::filesystem::path file, const ContactSheetOptions& options = {},
