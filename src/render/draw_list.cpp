@@ -38,15 +38,16 @@ std::optional<DrawItem> itemOf(const Solid& solid) {
   return item;
 }
 
-bool isLarge(const DrawItem& item, const Camera& camera, int pictureHeight) {
-  constexpr double kCoarsePixels = 36;  // up to this radius, 24 corners lie within 0.3 pixels of the circle
-  const double radius = std::min(item.halfSize.x(), item.halfSize.y());
+// Where it is nearest to the camera.
+double radiusInPixels(const DrawItem& item, const Camera& camera, int pictureHeight) {
   const double depth = std::max((item.X_WS.p - camera.X_WC.p).norm() - item.stretch, camera.nearPlane);
   const double focal = pictureHeight / (2 * std::tan(camera.verticalFov / 2));
-  return radius * focal > kCoarsePixels * depth;
+  return focal * radiusOf(item) / depth;
 }
 
 }  // namespace
+
+double radiusOf(const DrawItem& item) { return std::max(item.halfSize.x(), item.halfSize.y()); }
 
 DrawList makeDrawList(const Picture& picture, const Camera& camera, int pictureHeight) {
   DrawList list;
@@ -54,7 +55,7 @@ DrawList makeDrawList(const Picture& picture, const Camera& camera, int pictureH
     std::optional<DrawItem> item = itemOf(solid);
     if (!item) continue;
     item->solid = static_cast<int>(&solid - picture.solids.data());
-    item->fine = isLarge(*item, camera, pictureHeight);
+    item->detail = detailFor(radiusInPixels(*item, camera, pictureHeight));
     (item->color.a < 1 ? list.translucent : list.opaque).push_back(*item);
   }
   const auto distance = [&](const DrawItem& item) { return (item.X_WS.p - camera.X_WC.p).squaredNorm(); };

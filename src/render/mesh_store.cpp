@@ -5,8 +5,6 @@
 namespace rex::internal {
 namespace {
 
-constexpr int kCoarseSegments = 24, kFineSegments = 64;
-
 void describeAttribute(const GlFunctions& gl, GLuint index, GLint size, std::size_t offset) {
   gl.EnableVertexAttribArray(index);
   gl.VertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, sizeof(MeshVertex),
@@ -16,10 +14,12 @@ void describeAttribute(const GlFunctions& gl, GLuint index, GLint size, std::siz
 }  // namespace
 
 MeshStore::MeshStore(const GlFunctions& gl) : gl_(&gl) {
-  const Stored box = upload(makeBoxMesh());
-  meshes_ = {{{box, box},
-              {upload(makeCapsuleMesh(kCoarseSegments)), upload(makeCapsuleMesh(kFineSegments))},
-              {upload(makeCylinderMesh(kCoarseSegments)), upload(makeCylinderMesh(kFineSegments))}}};
+  auto& [boxes, capsules, cylinders] = meshes_;
+  boxes.fill(upload(makeBoxMesh()));
+  for (std::size_t detail = 0; detail < kSegments.size(); ++detail) {
+    capsules[detail] = upload(makeCapsuleMesh(kSegments[detail]));
+    cylinders[detail] = upload(makeCylinderMesh(kSegments[detail]));
+  }
 }
 
 MeshStore::Stored MeshStore::upload(const SolidMesh& mesh) const {
@@ -47,7 +47,7 @@ void MeshStore::draw(const DrawItem& item, const GlProgram& program) const {
   program.set("p_WS", item.X_WS.p);
   program.set("halfSize", item.halfSize);
   program.set("stretch", item.stretch);
-  const Stored& mesh = meshes_[static_cast<std::size_t>(item.mesh)][item.fine ? 1 : 0];
+  const Stored& mesh = meshes_[static_cast<std::size_t>(item.mesh)][item.detail];
   gl_->BindVertexArray(mesh.vertexArray);
   gl_->DrawElements(GL_TRIANGLES, mesh.indexCount, GL_UNSIGNED_SHORT, nullptr);
 }

@@ -8,7 +8,7 @@
 
 namespace rex::internal {
 
-/// The unit meshes on the side of OpenGL, each coarse and fine. They live as long as the context.
+/// The unit meshes on the side of OpenGL, in every detail. They live as long as the context.
 class MeshStore {
  public:
   explicit MeshStore(const GlFunctions& gl);
@@ -23,7 +23,7 @@ class MeshStore {
   Stored upload(const SolidMesh& mesh) const;
 
   const GlFunctions* gl_;
-  std::array<std::array<Stored, 2>, 3> meshes_;  // [MeshKind][fine]
+  std::array<std::array<Stored, kSegments.size()>, 3> meshes_;  // [MeshKind][detail]
 };
 
 }  // namespace rex::internal

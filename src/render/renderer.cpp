@@ -101,6 +101,7 @@ struct Renderer::Impl {
   internal::SensorImages drawSensors(const Picture& picture, const Camera& camera);
   void setLight(const GlProgram& program, const Picture& picture, const internal::ShadowView& shadow) const;
   void setBackground(const GlProgram& program) const;
+  void drawBackground() const;
   void drawGround(const Picture& picture, const Camera& camera, const internal::ShadowView& shadow) const;
   void drawSolids(const DrawList& list, const Picture& picture, const Camera& camera,
                   const internal::ShadowView& shadow);
@@ -172,6 +173,16 @@ void Renderer::Impl::setBackground(const GlProgram& program) const {
   program.set("pictureHeight", options.height);
 }
 
+// After what hides it, to shade each pixel once.
+void Renderer::Impl::drawBackground() const {
+  background.use();
+  setBackground(background);
+  gl.BindVertexArray(noVertices);
+  gl.DepthFunc(GL_LEQUAL);
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  gl.DepthFunc(GL_LESS);
+}
+
 void Renderer::Impl::drawGround(const Picture& picture, const Camera& camera,
                                 const internal::ShadowView& shadow) const {
   const Ground& plane = picture.ground;
@@ -209,6 +220,7 @@ void Renderer::Impl::drawSolids(const DrawList& list, const Picture& picture, co
   drawAll(list.opaque);
   gl.Disable(GL_CULL_FACE);
   drawGround(picture, camera, shadow);
+  drawBackground();
   gl.Enable(GL_CULL_FACE);
   gl.Enable(GL_BLEND);
   gl.DepthMask(GL_FALSE);
@@ -255,12 +267,6 @@ Image Renderer::Impl::draw(const Picture& picture, const Camera& camera) {
   if (options.shadow) shadow = shadowMap.draw(list.opaque, picture.toLight, meshes);
   frame.bind();
   gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  gl.Disable(GL_DEPTH_TEST);
-  background.use();
-  setBackground(background);
-  gl.BindVertexArray(noVertices);
-  gl.DrawArrays(GL_TRIANGLES, 0, 3);
-  gl.Enable(GL_DEPTH_TEST);
   visibility.start();
   drawSolids(list, picture, camera, shadow);
   if (fxaa) fxaa->smooth(frame);
