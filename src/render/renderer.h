@@ -43,8 +43,8 @@ class Renderer {
   [[nodiscard]] Image draw(const Picture& picture, const Camera& camera);
 
   /// How far the nearest solid or the ground is in the middle of each pixel. Translucent solids count; lines,
-  /// points, arrows, ellipsoids and text do not. A picture of nothing is right. Round solids are meshes, as
-  /// in the picture. Throws Error as requireDrawable(), and for a camera as draw().
+  /// points, arrows, ellipsoids and text do not. Round solids are rounder than in a picture, by up to half a
+  /// pixel. Nothing in view is no error. Throws Error as requireDrawable(), and for a camera as draw().
   [[nodiscard]] DepthImage drawDepth(const Picture& picture, const Camera& camera);
   /// Which solid that is. Otherwise as drawDepth().
   [[nodiscard]] SegmentationImage drawSegmentation(const Picture& picture, const Camera& camera);
