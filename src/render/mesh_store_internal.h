@@ -20,6 +20,7 @@ class MeshStore {
   /// Draws one item with the current `program`, whose placement uniforms it sets. Imported meshes need
   /// prepare().
   void draw(const DrawItem& item, const GlProgram& program) const;
+  [[nodiscard]] std::size_t importedCount() const { return imported_.size(); }
 
  private:
   struct Stored {

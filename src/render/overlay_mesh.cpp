@@ -18,7 +18,7 @@ constexpr double kEndless = 1e6;           // pixels: no round end
 
 // How lines or discs of one kind look.
 struct Stroke {
-  Stroke(double halfWidthInPixels, const Color& c) : halfWidth(halfWidthInPixels), reach(halfWidth + 1) {
+  Stroke(double halfWidthInPixels, const Color& c) : halfWidth(halfWidthInPixels), reach(halfWidth + 0.5) {
     const auto byte = [](float x) { return static_cast<std::uint8_t>(std::clamp(x, 0.f, 1.f) * 255 + 0.5f); };
     color = {byte(c.r), byte(c.g), byte(c.b), byte(c.a)};
   }

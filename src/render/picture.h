@@ -44,7 +44,7 @@ struct Polyline {
 struct LineSet {
   std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> segments{};
   Color color{0.35f, 0.40f, 0.46f};
-  double width = 1.5;  ///< pixels
+  double width = 1;  ///< pixels
 };
 
 /// Discs that face the camera, at points in W (metres). Hidden ones show through faintly.
@@ -78,7 +78,8 @@ struct Ellipsoid {
   Color color{0.0f, 0.45f, 0.7f, 0.35f};
 };
 
-/// Text beside a point in W (metres); never hidden. Printable ASCII; any other character shows as '?'.
+/// Text beside a point in W (metres); never hidden. Printable ASCII; any other character shows as '?'. Labels
+/// and names of axes keep clear of each other and of captions while there is room, the nearest choose first.
 struct Label {
   std::string text{};
   Eigen::Vector3d p_WQ = Eigen::Vector3d::Zero();
