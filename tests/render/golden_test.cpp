@@ -95,12 +95,11 @@ TEST(Golden, MeshesAndMarks) {
   picture.ellipsoids = {{translation(0.4, -0.3, 0.2) * rotation(0.4, {0, 1, 0}), {0.25, 0.1, 0.15}}};
   picture.pointSets = {{.points = {{0.4, -0.3, 0.2}, {0.5, -0.3, 0.15}, {0.2, -0.35, 0.3}}, .size = 4}};
   LineSet tree;
-  for (int i = 0; i < 200; ++i) {
-    const auto node = [](int k) {
-      return Vector3d(0.03 * k * std::cos(0.8 * k), 0.03 * k * std::sin(0.8 * k), 0.01);
-    };
-    tree.segments.emplace_back(0.1 * node(i), 0.1 * node(i + 3));
-  }
+  const auto node = [](int level, int i) {
+    return Vector3d(-0.7 + 0.8 * (i + 0.5) / (1 << level), -0.8 + 0.12 * level, 0.01);
+  };
+  for (int level = 1; level < 6; ++level)
+    for (int i = 0; i < 1 << level; ++i) tree.segments.emplace_back(node(level - 1, i / 2), node(level, i));
   picture.lineSets = {tree};
   picture.labels = {{"A", {-0.5, 0, 0.2}}, {"B", {-0.5, 0, 0.2}}};
   expectGolden("marks", picture);
