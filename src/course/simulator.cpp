@@ -10,6 +10,7 @@
 #include "kinematics/center_of_mass.h"
 #include "kinematics/jacobians.h"
 #include "scene/ors_reader.h"
+#include "scene/scene_meshes.h"
 
 namespace rex {
 namespace {
@@ -22,10 +23,6 @@ std::filesystem::path findScene(const std::string& sceneFile) {
   return isBareName && !std::filesystem::exists(given) ? own : given;
 }
 
-SimulatorDescription readDescription(const std::string& sceneFile) {
-  return {.sceneName = sceneFile, .sceneText = readSceneText(findScene(sceneFile)), .q = {}};
-}
-
 }  // namespace
 
 struct Simulator::Parts {
@@ -36,10 +33,20 @@ struct Simulator::Parts {
   Recording recording;
 };
 
-Simulator::Simulator(const std::string& sceneFile) : Simulator(readDescription(sceneFile)) {}
+Simulator::Simulator(const std::string& sceneFile) {
+  const std::filesystem::path path = findScene(sceneFile);
+  const std::string text = readSceneText(path);
+  SceneSpec spec = parseOrs(text, sceneFile).spec;
+  loadMeshes(spec, path.parent_path());
+  start({.sceneName = sceneFile, .sceneText = text, .q = {}}, compile(spec));
+}
 
+// The text may come from another process, whose files are none of ours: meshes stay away.
 Simulator::Simulator(const SimulatorDescription& description) {
-  Model model = compile(parseOrs(description.sceneText, description.sceneName).spec);
+  start(description, compile(parseOrs(description.sceneText, description.sceneName).spec));
+}
+
+void Simulator::start(const SimulatorDescription& description, Model model) {
   const Eigen::VectorXd q = description.q.size() > 0 ? description.q : model.initialPositions();
   parts_.reset(new Parts{description.sceneName, description.sceneText, std::move(model), q, {}, {}});
   setJointAngles(q);

@@ -24,8 +24,9 @@ struct SimulatorDescription {
 class Simulator {
  public:
   /// Loads an .ors file: a path, or a name such as "man.ors" from the course's own robots. Throws Error with
-  /// file:line:column for a missing or broken file.
+  /// file:line:column for a missing or broken file, also one of a mesh.
   explicit Simulator(const std::string& sceneFile);
+  /// Reads no file: shapes described by a mesh are not drawn.
   explicit Simulator(const SimulatorDescription& description);
   Simulator(const Simulator& other);
   Simulator& operator=(const Simulator& other);
@@ -84,6 +85,8 @@ class Simulator {
 
  private:
   struct Parts;
+  void start(const SimulatorDescription& description, Model model);
+
   std::unique_ptr<Parts> parts_;
 };
 

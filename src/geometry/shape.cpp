@@ -26,6 +26,10 @@ std::string_view toString(ShapeType type) {
   return "?";
 }
 
+bool usesMesh(ShapeType type) {
+  return type == ShapeType::kMesh || type == ShapeType::kPointCloud || type == ShapeType::kSphereSweptConvex;
+}
+
 Eigen::Vector3d halfBounds(const Shape& shape) {
   switch (shape.type) {
     case ShapeType::kBox:
@@ -41,11 +45,9 @@ Eigen::Vector3d halfBounds(const Shape& shape) {
       return Eigen::Vector3d::Constant(shape.extent.x() / 2);
     case ShapeType::kMesh:
     case ShapeType::kPointCloud:
-    case ShapeType::kSphereSweptConvex: {
-      Eigen::Vector3f half = Eigen::Vector3f::Zero();
-      for (const Eigen::Vector3f& vertex : shape.mesh.positions()) half = half.cwiseMax(vertex.cwiseAbs());
-      return half.cast<double>() + Eigen::Vector3d::Constant(shape.radius);
-    }
+      return shape.mesh.halfBounds();
+    case ShapeType::kSphereSweptConvex:
+      return shape.mesh.halfBounds() + Eigen::Vector3d::Constant(shape.radius);
   }
   return Eigen::Vector3d::Zero();
 }

@@ -23,6 +23,9 @@ enum class ShapeType {
 /// "box", "sphere", ...: the name used in messages.
 [[nodiscard]] std::string_view toString(ShapeType type);
 
+/// Whether shapes of the type are described by a mesh: mesh, point cloud and sphere-swept convex mesh.
+[[nodiscard]] bool usesMesh(ShapeType type);
+
 /// A solid centred in its own frame; lengths in metres. What `extent` and `radius` mean:
 /// box, rounded box: full outer edge lengths x, y, z; the rounded box has corners of `radius`.
 /// capsule, cylinder: extent.z is the straight length along z, `radius` the radius; a capsule's caps come on

@@ -54,6 +54,7 @@ struct TriangleMesh::Data {
   std::vector<Eigen::Vector3f> positions, normals;
   std::vector<Triangle> triangles;
   std::vector<Part> parts;
+  Eigen::Vector3f halfBounds;
 };
 
 TriangleMesh::TriangleMesh() noexcept = default;
@@ -76,8 +77,10 @@ TriangleMesh::TriangleMesh(std::vector<Eigen::Vector3f> positions, std::vector<E
   if (parts.empty() && !triangles.empty())
     parts.push_back({.triangleCount = static_cast<std::uint32_t>(triangles.size())});
   requireParts(parts, triangles.size());
+  Eigen::Vector3f halfBounds = Eigen::Vector3f::Zero();
+  for (const Eigen::Vector3f& position : positions) halfBounds = halfBounds.cwiseMax(position.cwiseAbs());
   data_ = std::make_shared<const Data>(
-      Data{std::move(positions), std::move(normals), std::move(triangles), std::move(parts)});
+      Data{std::move(positions), std::move(normals), std::move(triangles), std::move(parts), halfBounds});
 }
 
 std::span<const Eigen::Vector3f> TriangleMesh::positions() const {
@@ -91,6 +94,10 @@ std::span<const TriangleMesh::Triangle> TriangleMesh::triangles() const {
 }
 std::span<const TriangleMesh::Part> TriangleMesh::parts() const {
   return data_ ? view(data_->parts) : std::span<const Part>();
+}
+Eigen::Vector3d TriangleMesh::halfBounds() const {
+  if (!data_) return Eigen::Vector3d::Zero();
+  return data_->halfBounds.cast<double>();
 }
 
 }  // namespace rex

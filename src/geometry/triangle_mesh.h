@@ -41,6 +41,8 @@ class TriangleMesh {
   [[nodiscard]] std::span<const Eigen::Vector3f> normals() const;
   [[nodiscard]] std::span<const Triangle> triangles() const;
   [[nodiscard]] std::span<const Part> parts() const;
+  /// The largest |x|, |y| and |z| of all positions, metres; zero without any.
+  [[nodiscard]] Eigen::Vector3d halfBounds() const;
 
   /// True for copies of one mesh: they are the same data, not only equal.
   bool operator==(const TriangleMesh& other) const { return data_ == other.data_; }

@@ -1,82 +1,147 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
 
+#include "geometry/rotation.h"
 #include "render/draw_list_internal.h"
 
 namespace rex::internal {
 namespace {
 
-constexpr std::array<Color, 3> kAxisColors = {Color{0.84f, 0.15f, 0.16f}, Color{0.13f, 0.58f, 0.20f},
-                                              Color{0.12f, 0.35f, 0.80f}};
-constexpr double kAxisWidth = 2.5;  // pixels
-
-std::optional<DrawItem> itemOf(const Solid& solid) {
-  const Shape& shape = solid.shape;
-  const double r = shape.radius;
-  DrawItem item{.X_WS = solid.X_WS, .color = solid.color};
-  switch (shape.type) {
-    case ShapeType::kBox:
-    case ShapeType::kRoundedBox:
-      item.halfSize = shape.extent / 2;
-      break;
-    case ShapeType::kSphere:
-    case ShapeType::kCapsule:
-      item.mesh = MeshKind::kCapsule;
-      item.halfSize.setConstant(r);
-      item.stretch = shape.type == ShapeType::kCapsule ? shape.extent.z() / 2 : 0;
-      break;
-    case ShapeType::kCylinder:
-      item.mesh = MeshKind::kCylinder;
-      item.halfSize = {r, r, shape.extent.z() / 2};
-      break;
-    default:
-      return std::nullopt;
-  }
-  if (item.halfSize.minCoeff() <= 0 || item.color.a <= 0) return std::nullopt;
-  return item;
-}
+using Eigen::Vector3d;
 
 // Where it is nearest to the camera.
 double radiusInPixels(const DrawItem& item, const Camera& camera, int pictureHeight) {
-  const double depth = std::max((item.X_WS.p - camera.X_WC.p).norm() - item.stretch, camera.nearPlane);
+  const double depth = std::max((item.X_WS.p - camera.X_WC.p).norm() - item.stretch.norm(), camera.nearPlane);
   const double focal = pictureHeight / (2 * std::tan(camera.verticalFov / 2));
   return focal * radiusOf(item) / depth;
 }
 
+class Builder {
+ public:
+  Builder(const Camera& camera, int pictureHeight) : camera_(camera), pictureHeight_(pictureHeight) {}
+
+  void addSolid(const Solid& solid, int index) {
+    index_ = index;
+    addShape(solid);
+    index_ = -1;
+  }
+
+  // A short arrow is thinner, so that it keeps its proportions.
+  void addArrow(const Arrow& arrow) {
+    const Vector3d along = arrow.to - arrow.from;
+    const double length = along.norm();
+    if (!(length > 0)) return;
+    const double r = std::min(arrow.radius, length / 12), head = 8 * r;
+    const Eigen::Matrix3d R = rotationBetween(Vector3d::UnitZ(), along);
+    const auto at = [&](double way) -> Pose { return {R, arrow.from + way / length * along}; };
+    add({.mesh = MeshKind::kCylinder,
+         .X_WS = at((length - head) / 2),
+         .halfSize = {r, r, (length - head) / 2},
+         .color = arrow.color});
+    add({.mesh = MeshKind::kCone,
+         .X_WS = at(length - head / 2),
+         .halfSize = {3 * r, 3 * r, head / 2},
+         .color = arrow.color});
+  }
+
+  // A flat one, such as the spread of points in a plane, is a thin lens.
+  void addEllipsoid(const Ellipsoid& ellipsoid) {
+    constexpr double kThinnest = 1e-3;
+    const Vector3d radii = ellipsoid.radii.cwiseMax(kThinnest * ellipsoid.radii.maxCoeff());
+    add({.mesh = MeshKind::kCapsule, .X_WS = ellipsoid.X_WE, .halfSize = radii, .color = ellipsoid.color});
+  }
+
+  DrawList take() {
+    const auto distance = [&](const DrawItem& item) { return (item.X_WS.p - camera_.X_WC.p).squaredNorm(); };
+    std::stable_sort(list_.translucent.begin(), list_.translucent.end(),
+                     [&](const DrawItem& a, const DrawItem& b) { return distance(a) > distance(b); });
+    return std::move(list_);
+  }
+
+ private:
+  void addShape(const Solid& solid) {
+    const Shape& shape = solid.shape;
+    const double r = shape.radius;
+    switch (shape.type) {
+      case ShapeType::kBox:
+        return add({.mesh = MeshKind::kBox, .halfSize = shape.extent / 2}, solid);
+      case ShapeType::kRoundedBox:
+        return addRoundedBox(solid);
+      case ShapeType::kSphere:
+        return add({.mesh = MeshKind::kCapsule, .halfSize = {r, r, r}}, solid);
+      case ShapeType::kCapsule:
+        return add(
+            {.mesh = MeshKind::kCapsule, .halfSize = {r, r, r}, .stretch = {0, 0, shape.extent.z() / 2}},
+            solid);
+      case ShapeType::kCylinder:
+        return add({.mesh = MeshKind::kCylinder, .halfSize = {r, r, shape.extent.z() / 2}}, solid);
+      case ShapeType::kMesh:
+      case ShapeType::kSphereSweptConvex:
+        return addMesh(solid);
+      case ShapeType::kMarker:
+      case ShapeType::kPointCloud:
+        return;
+    }
+  }
+
+  void add(DrawItem item) {
+    item.solid = index_;
+    if (item.halfSize.minCoeff() <= 0 || item.color.a <= 0) return;
+    item.detail = detailFor(radiusInPixels(item, camera_, pictureHeight_));
+    (item.color.a < 1 ? list_.translucent : list_.opaque).push_back(std::move(item));
+  }
+
+  void add(DrawItem item, const Solid& solid) {
+    item.X_WS = solid.X_WS;
+    item.color = solid.color;
+    add(std::move(item));
+  }
+
+  void addRoundedBox(const Solid& solid) {
+    const Vector3d half = solid.shape.extent / 2;
+    const double r = std::min(solid.shape.radius, half.minCoeff());
+    if (!(r > 0)) return add({.mesh = MeshKind::kBox, .halfSize = half}, solid);
+    add({.mesh = MeshKind::kRoundedBox, .halfSize = {r, r, r}, .stretch = half.array() - r}, solid);
+  }
+
+  void addMesh(const Solid& solid) {
+    for (const TriangleMesh::Part& part : solid.shape.mesh.parts()) {
+      DrawItem item{.mesh = MeshKind::kImported,
+                    .X_WS = solid.X_WS,
+                    .color = solid.color,
+                    .imported = solid.shape.mesh,
+                    .firstTriangle = part.firstTriangle,
+                    .triangleCount = part.triangleCount};
+      if (part.color) {
+        const Eigen::Vector4f& c = *part.color;
+        item.color = {c[0], c[1], c[2], c[3] * solid.color.a};
+      }
+      add(std::move(item));
+    }
+  }
+
+  const Camera& camera_;
+  int pictureHeight_;
+  int index_ = -1;  // of the solid that is being added
+  DrawList list_;
+};
+
 }  // namespace
 
-double radiusOf(const DrawItem& item) { return std::max(item.halfSize.x(), item.halfSize.y()); }
+double radiusOf(const DrawItem& item) { return item.halfSize.head<2>().maxCoeff(); }
 
-DrawList makeDrawList(const Picture& picture, const Camera& camera, int pictureHeight) {
-  DrawList list;
-  for (const Solid& solid : picture.solids) {
-    std::optional<DrawItem> item = itemOf(solid);
-    if (!item) continue;
-    item->solid = static_cast<int>(&solid - picture.solids.data());
-    item->detail = detailFor(radiusInPixels(*item, camera, pictureHeight));
-    (item->color.a < 1 ? list.translucent : list.opaque).push_back(*item);
-  }
-  const auto distance = [&](const DrawItem& item) { return (item.X_WS.p - camera.X_WC.p).squaredNorm(); };
-  std::stable_sort(list.translucent.begin(), list.translucent.end(),
-                   [&](const DrawItem& a, const DrawItem& b) { return distance(a) > distance(b); });
-  return list;
+Vector3d halfExtent(const DrawItem& item) {
+  return item.mesh == MeshKind::kImported ? item.imported.halfBounds()
+                                          : Vector3d(item.halfSize + item.stretch);
 }
 
-std::vector<Polyline> overlayLines(const Picture& picture) {
-  std::vector<Polyline> lines = picture.polylines;
-  const auto addAxes = [&](const Pose& X_WF, double from, double to) {
-    for (int i = 0; i < 3; ++i)
-      lines.push_back(
-          {{X_WF.p + from * X_WF.R.col(i), X_WF.p + to * X_WF.R.col(i)}, kAxisColors[i], kAxisWidth});
-  };
-  for (const Axes& axes : picture.axes) addAxes(axes.X_WF, 0, axes.size);
-  for (const Solid& solid : picture.solids) {
-    const double half = solid.shape.extent.x() / 2;
-    if (solid.shape.type == ShapeType::kMarker) addAxes(solid.X_WS, -half, half);
-  }
-  return lines;
+DrawList makeDrawList(const Picture& picture, const Camera& camera, int pictureHeight) {
+  Builder builder(camera, pictureHeight);
+  for (std::size_t i = 0; i < picture.solids.size(); ++i)
+    builder.addSolid(picture.solids[i], static_cast<int>(i));
+  for (const Arrow& arrow : picture.arrows) builder.addArrow(arrow);
+  for (const Ellipsoid& ellipsoid : picture.ellipsoids) builder.addEllipsoid(ellipsoid);
+  return builder.take();
 }
 
 }  // namespace rex::internal

@@ -8,32 +8,34 @@
 
 namespace rex::internal {
 
-enum class MeshKind { kBox, kCapsule, kCylinder };
+enum class MeshKind { kBox, kCapsule, kCylinder, kRoundedBox, kCone, kImported };
 
-/// A unit mesh put into the world; see MeshVertex.
+/// A mesh put into the world: a unit mesh, see MeshVertex, or some triangles of an imported one as they are.
 struct DrawItem {
   MeshKind mesh = MeshKind::kBox;
   std::size_t detail = 0;  ///< which of kSegments
   Pose X_WS{};
   Eigen::Vector3d halfSize = Eigen::Vector3d::Ones();
-  double stretch = 0;
+  Eigen::Vector3d stretch = Eigen::Vector3d::Zero();
   Color color{};
-  int solid = -1;  ///< its index in the picture; -1 for what is no solid
+  TriangleMesh imported{};
+  std::uint32_t firstTriangle = 0, triangleCount = 0;  ///< of `imported`
+  int solid = -1;                                      ///< its index in the picture; -1 for what is no solid
 };
 
 /// The radius about its z axis, metres.
 [[nodiscard]] double radiusOf(const DrawItem& item);
+/// Half edge lengths of the box about the origin and along the axes of S that holds the item, metres.
+[[nodiscard]] Eigen::Vector3d halfExtent(const DrawItem& item);
 
 /// What the solid passes draw: opaque items in the order of the picture, then the translucent ones from far
-/// to near. Markers are not solid (see overlayLines), things without extent or colour are left out.
+/// to near. Markers and points are not solid (see OverlayVertex), things without extent or colour are left
+/// out.
 struct DrawList {
   std::vector<DrawItem> opaque;
   std::vector<DrawItem> translucent;
 };
 
 [[nodiscard]] DrawList makeDrawList(const Picture& picture, const Camera& camera, int pictureHeight);
-
-/// All lines of the picture: its polylines, its axes and its marker shapes.
-[[nodiscard]] std::vector<Polyline> overlayLines(const Picture& picture);
 
 }  // namespace rex::internal

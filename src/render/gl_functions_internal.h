@@ -24,7 +24,10 @@ namespace rex::internal {
   X(CompileShader, PFNGLCOMPILESHADERPROC)                                   \
   X(CreateProgram, PFNGLCREATEPROGRAMPROC)                                   \
   X(CreateShader, PFNGLCREATESHADERPROC)                                     \
+  X(CullFace, PFNGLCULLFACEPROC)                                             \
+  X(DeleteBuffers, PFNGLDELETEBUFFERSPROC)                                   \
   X(DeleteShader, PFNGLDELETESHADERPROC)                                     \
+  X(DeleteVertexArrays, PFNGLDELETEVERTEXARRAYSPROC)                         \
   X(DepthFunc, PFNGLDEPTHFUNCPROC)                                           \
   X(DepthMask, PFNGLDEPTHMASKPROC)                                           \
   X(Disable, PFNGLDISABLEPROC)                                               \

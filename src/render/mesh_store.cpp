@@ -1,45 +1,88 @@
+#include <cassert>
 #include <cstddef>
+#include <span>
 
 #include "render/mesh_store_internal.h"
 
 namespace rex::internal {
 namespace {
 
-void describeAttribute(const GlFunctions& gl, GLuint index, GLint size, std::size_t offset) {
+template <typename T>
+void fill(const GlFunctions& gl, GLenum target, GLuint buffer, std::span<const T> values) {
+  gl.BindBuffer(target, buffer);
+  gl.BufferData(target, static_cast<GLsizeiptr>(values.size_bytes()), values.data(), GL_STATIC_DRAW);
+}
+
+void describeAttribute(const GlFunctions& gl, GLuint index, std::size_t stride, std::size_t offset) {
   gl.EnableVertexAttribArray(index);
-  gl.VertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, sizeof(MeshVertex),
+  gl.VertexAttribPointer(index, 3, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride),
                          reinterpret_cast<const void*>(offset));
 }
+
+const void* keyOf(const TriangleMesh& mesh) { return mesh.positions().data(); }
 
 }  // namespace
 
 MeshStore::MeshStore(const GlFunctions& gl) : gl_(&gl) {
-  auto& [boxes, capsules, cylinders] = meshes_;
+  auto& [boxes, capsules, cylinders, roundedBoxes, cones] = meshes_;
   boxes.fill(upload(makeBoxMesh()));
   for (std::size_t detail = 0; detail < kSegments.size(); ++detail) {
-    capsules[detail] = upload(makeCapsuleMesh(kSegments[detail]));
-    cylinders[detail] = upload(makeCylinderMesh(kSegments[detail]));
+    const int segments = kSegments[detail];
+    capsules[detail] = upload(makeCapsuleMesh(segments));
+    cylinders[detail] = upload(makeCylinderMesh(segments));
+    roundedBoxes[detail] = upload(makeRoundedBoxMesh(segments));
+    cones[detail] = upload(makeConeMesh(segments));
   }
 }
 
 MeshStore::Stored MeshStore::upload(const SolidMesh& mesh) const {
+  Stored stored{.indexCount = static_cast<GLsizei>(mesh.indices.size())};
+  gl_->GenVertexArrays(1, &stored.vertexArray);
+  gl_->BindVertexArray(stored.vertexArray);
+  gl_->GenBuffers(2, stored.buffers.data());
+  fill<MeshVertex>(*gl_, GL_ARRAY_BUFFER, stored.buffers[0], mesh.vertices);
+  fill<std::uint16_t>(*gl_, GL_ELEMENT_ARRAY_BUFFER, stored.buffers[1], mesh.indices);
+  describeAttribute(*gl_, 0, sizeof(MeshVertex), offsetof(MeshVertex, position));
+  describeAttribute(*gl_, 1, sizeof(MeshVertex), offsetof(MeshVertex, normal));
+  describeAttribute(*gl_, 2, sizeof(MeshVertex), offsetof(MeshVertex, end));
+  return stored;
+}
+
+// Attribute 2, `end`, stays off and so is zero.
+MeshStore::Stored MeshStore::upload(const TriangleMesh& mesh) const {
   Stored stored;
   gl_->GenVertexArrays(1, &stored.vertexArray);
   gl_->BindVertexArray(stored.vertexArray);
-  std::array<GLuint, 2> buffers{};
-  gl_->GenBuffers(2, buffers.data());
-  gl_->BindBuffer(GL_ARRAY_BUFFER, buffers[0]);
-  gl_->BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.vertices.size() * sizeof(MeshVertex)),
-                  mesh.vertices.data(), GL_STATIC_DRAW);
-  gl_->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers[1]);
-  gl_->BufferData(GL_ELEMENT_ARRAY_BUFFER,
-                  static_cast<GLsizeiptr>(mesh.indices.size() * sizeof(std::uint16_t)), mesh.indices.data(),
-                  GL_STATIC_DRAW);
-  describeAttribute(*gl_, 0, 3, offsetof(MeshVertex, position));
-  describeAttribute(*gl_, 1, 3, offsetof(MeshVertex, normal));
-  describeAttribute(*gl_, 2, 1, offsetof(MeshVertex, end));
-  stored.indexCount = static_cast<GLsizei>(mesh.indices.size());
+  gl_->GenBuffers(3, stored.buffers.data());
+  fill(*gl_, GL_ARRAY_BUFFER, stored.buffers[0], mesh.positions());
+  describeAttribute(*gl_, 0, sizeof(Eigen::Vector3f), 0);
+  fill(*gl_, GL_ARRAY_BUFFER, stored.buffers[1], mesh.normals());
+  describeAttribute(*gl_, 1, sizeof(Eigen::Vector3f), 0);
+  fill(*gl_, GL_ELEMENT_ARRAY_BUFFER, stored.buffers[2], mesh.triangles());
   return stored;
+}
+
+void MeshStore::prepare(const DrawList& list) {
+  constexpr int kMostWithout = 8;
+  for (auto& [key, imported] : imported_) ++imported.picturesWithout;
+  for (const auto* items : {&list.opaque, &list.translucent}) {
+    for (const DrawItem& item : *items) {
+      if (item.mesh != MeshKind::kImported) continue;
+      const auto [found, isNew] = imported_.try_emplace(keyOf(item.imported));
+      if (isNew) found->second = {item.imported, upload(item.imported)};
+      found->second.picturesWithout = 0;
+    }
+  }
+  for (auto it = imported_.begin(); it != imported_.end();) {
+    if (it->second.picturesWithout <= kMostWithout) {
+      ++it;
+      continue;
+    }
+    const Stored& stored = it->second.stored;
+    gl_->DeleteVertexArrays(1, &stored.vertexArray);
+    gl_->DeleteBuffers(static_cast<GLsizei>(stored.buffers.size()), stored.buffers.data());
+    it = imported_.erase(it);
+  }
 }
 
 void MeshStore::draw(const DrawItem& item, const GlProgram& program) const {
@@ -47,6 +90,15 @@ void MeshStore::draw(const DrawItem& item, const GlProgram& program) const {
   program.set("p_WS", item.X_WS.p);
   program.set("halfSize", item.halfSize);
   program.set("stretch", item.stretch);
+  if (item.mesh == MeshKind::kImported) {
+    const auto found = imported_.find(keyOf(item.imported));
+    assert(found != imported_.end());
+    gl_->BindVertexArray(found->second.stored.vertexArray);
+    const std::size_t first = item.firstTriangle * sizeof(TriangleMesh::Triangle);
+    gl_->DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * item.triangleCount), GL_UNSIGNED_INT,
+                      reinterpret_cast<const void*>(first));
+    return;
+  }
   const Stored& mesh = meshes_[static_cast<std::size_t>(item.mesh)][item.detail];
   gl_->BindVertexArray(mesh.vertexArray);
   gl_->DrawElements(GL_TRIANGLES, mesh.indexCount, GL_UNSIGNED_SHORT, nullptr);

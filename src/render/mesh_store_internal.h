@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 
 #include "render/draw_list_internal.h"
 #include "render/gl_program_internal.h"
@@ -8,22 +9,36 @@
 
 namespace rex::internal {
 
-/// The unit meshes on the side of OpenGL, in every detail. They live as long as the context.
+/// Meshes on the side of OpenGL: the unit meshes in every detail, and the imported ones in use. They live as
+/// long as the context.
 class MeshStore {
  public:
   explicit MeshStore(const GlFunctions& gl);
-  /// Draws one item with the current `program`, whose placement uniforms it sets.
+  /// Uploads the imported meshes of a picture that are new, and forgets those that several pictures in a row
+  /// have done without.
+  void prepare(const DrawList& list);
+  /// Draws one item with the current `program`, whose placement uniforms it sets. Imported meshes need
+  /// prepare().
   void draw(const DrawItem& item, const GlProgram& program) const;
+  [[nodiscard]] std::size_t importedCount() const { return imported_.size(); }
 
  private:
   struct Stored {
     GLuint vertexArray = 0;
+    std::array<GLuint, 3> buffers{};
     GLsizei indexCount = 0;
   };
+  struct Imported {
+    TriangleMesh mesh;  // keeps its data, whose address is the key, from being used for another
+    Stored stored;
+    int picturesWithout = 0;
+  };
   Stored upload(const SolidMesh& mesh) const;
+  Stored upload(const TriangleMesh& mesh) const;
 
   const GlFunctions* gl_;
-  std::array<std::array<Stored, kSegments.size()>, 3> meshes_;  // [MeshKind][detail]
+  std::array<std::array<Stored, kSegments.size()>, 5> meshes_;  // [MeshKind][detail]
+  std::map<const void*, Imported> imported_;
 };
 
 }  // namespace rex::internal

@@ -1,5 +1,6 @@
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "render/overlay_mesh_internal.h"
 
@@ -9,6 +10,24 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+constexpr std::array<Color, 3> kAxisColors = {Color{0.84f, 0.15f, 0.16f}, Color{0.13f, 0.58f, 0.20f},
+                                              Color{0.12f, 0.35f, 0.80f}};
+constexpr double kAxisWidth = 2.5;         // pixels
+constexpr double kCloudPointRadius = 1.5;  // pixels
+constexpr double kEndless = 1e6;           // pixels: no round end
+
+// How lines or discs of one kind look.
+struct Stroke {
+  Stroke(double halfWidthInPixels, const Color& c) : halfWidth(halfWidthInPixels), reach(halfWidth + 0.5) {
+    const auto byte = [](float x) { return static_cast<std::uint8_t>(std::clamp(x, 0.f, 1.f) * 255 + 0.5f); };
+    color = {byte(c.r), byte(c.g), byte(c.b), byte(c.a)};
+  }
+
+  double halfWidth;
+  double reach;  // of its quads to each side
+  std::array<std::uint8_t, 4> color{};
+};
+
 // A point of the picture: pixels (x right, y down) and normalised depth.
 struct Vertex2 {
   Vector2d at;
@@ -17,41 +36,73 @@ struct Vertex2 {
 
 class Builder {
  public:
-  Builder(const Camera& camera, int width, int height)
-      : camera_(camera), X_CW_(camera.X_WC.inverse()), width_(width), height_(height) {}
+  Builder(const Camera& camera, int width, int height, std::vector<OverlayVertex>& mesh)
+      : camera_(camera),
+        X_CW_(camera.X_WC.inverse()),
+        width_(width),
+        height_(height),
+        focal_(height / (2 * std::tan(camera.verticalFov / 2))),
+        mesh_(mesh) {}
 
-  void addLine(const Polyline& line) {
-    std::vector<Vertex2> run;
-    for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
-      Vector3d a = X_CW_ * line.points[i], b = X_CW_ * line.points[i + 1];
+  void addLine(const std::vector<Vector3d>& points, const Stroke& stroke) {
+    run_.clear();
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+      Vector3d a = X_CW_ * points[i], b = X_CW_ * points[i + 1];
       const bool startsInside = inFront(a), endsInside = inFront(b);
       if (!startsInside && !endsInside) continue;
       if (!startsInside) a = atNearPlane(b, a);
       if (!endsInside) b = atNearPlane(a, b);
-      if (run.empty()) run.push_back(seen(a));
+      if (run_.empty()) run_.push_back(seen(a));
       // Steps below half a pixel have no useful direction.
       const Vertex2 next = seen(b);
-      const bool last = !endsInside || i + 2 == line.points.size();
-      const bool moved = (next.at - run.back().at).norm() > 0.5;
-      if (moved || (last && run.size() == 1)) run.push_back(next);
-      if (last) addRun(run, line.width / 2, line.color), run.clear();
+      const bool last = !endsInside || i + 2 == points.size();
+      const bool moved = (next.at - run_.back().at).norm() > 0.5;
+      if (moved || (last && run_.size() == 1)) run_.push_back(next);
+      if (last) addRun(stroke), run_.clear();
     }
   }
 
-  void addDisc(const Vector3d& p_WQ, double radius, const Color& color) {
+  void addSegment(const Vector3d& from, const Vector3d& to, const Stroke& stroke) {
+    Vector3d a = X_CW_ * from, b = X_CW_ * to;
+    const bool startsInside = inFront(a), endsInside = inFront(b);
+    if (!startsInside && !endsInside) return;
+    if (!startsInside) a = atNearPlane(b, a);
+    if (!endsInside) b = atNearPlane(a, b);
+    const Vertex2 start = seen(a), end = seen(b);
+    if (misses(start.at.cwiseMin(end.at), start.at.cwiseMax(end.at), stroke.reach)) return;
+    const double length = (end.at - start.at).norm();
+    const Vector2d along = length > 0 ? Vector2d((end.at - start.at) / length) : Vector2d(1, 0);
+    const Vector2d across = stroke.reach * Vector2d(-along.y(), along.x()), cap = stroke.reach * along;
+    const float first = 0, last = static_cast<float>(length);
+    addCorner(start.at - cap - across, start.depth, {-stroke.reach, -stroke.reach}, first, last, stroke);
+    addCorner(start.at - cap + across, start.depth, {-stroke.reach, stroke.reach}, first, last, stroke);
+    addCorner(end.at + cap - across, end.depth, {length + stroke.reach, -stroke.reach}, first, last, stroke);
+    addCorner(end.at + cap + across, end.depth, {length + stroke.reach, stroke.reach}, first, last, stroke);
+  }
+
+  void addDisc(const Vector3d& p_WQ, const Stroke& stroke) {
     const Vector3d p_CQ = X_CW_ * p_WQ;
     if (!inFront(p_CQ)) return;
     const Vertex2 middle = seen(p_CQ);
-    const double reach = radius + 1;
-    std::array<OverlayVertex, 4> corners;
+    if (misses(middle.at, middle.at, stroke.reach)) return;
     for (int k = 0; k < 4; ++k) {
-      const Vector2d offset(k & 1 ? reach : -reach, k & 2 ? reach : -reach);
-      corners[k] = corner({middle.at + offset, middle.depth}, offset, radius, color);
+      const Vector2d offset(k & 1 ? stroke.reach : -stroke.reach, k & 2 ? stroke.reach : -stroke.reach);
+      addCorner(middle.at + offset, middle.depth, offset, 0, 0, stroke);
     }
-    addQuad(corners);
   }
 
-  std::vector<OverlayVertex> take() { return std::move(mesh_); }
+  void addAxes(const Pose& X_WF, double from, double to) {
+    for (int i = 0; i < 3; ++i) {
+      const Vector3d axis = X_WF.R.col(i);
+      addSegment(X_WF.p + from * axis, X_WF.p + to * axis, Stroke(kAxisWidth / 2, kAxisColors[i]));
+    }
+  }
+
+  void addCloud(const Solid& solid) {
+    const Stroke stroke(kCloudPointRadius, solid.color);
+    for (const Eigen::Vector3f& point : solid.shape.mesh.positions())
+      addDisc(solid.X_WS * Vector3d(point.cast<double>()), stroke);
+  }
 
  private:
   bool inFront(const Vector3d& p_C) const { return -p_C.z() >= camera_.nearPlane; }
@@ -64,93 +115,116 @@ class Builder {
   }
 
   Vertex2 seen(const Vector3d& p_C) const {
-    const double focal = height_ / (2 * std::tan(camera_.verticalFov / 2));
     const double near = camera_.nearPlane, far = camera_.farPlane;
-    const double depth = std::max(-0.99 * p_C.z(), near);
-    return {{width_ / 2.0 - focal * p_C.x() / p_C.z(), height_ / 2.0 + focal * p_C.y() / p_C.z()},
+    const double depth = std::max(-0.99 * p_C.z(), near), scale = focal_ / p_C.z();
+    return {{width_ / 2.0 - scale * p_C.x(), height_ / 2.0 + scale * p_C.y()},
             (far + near - 2 * far * near / depth) / (far - near)};
   }
 
-  OverlayVertex corner(const Vertex2& v, const Vector2d& offset, double halfWidth, const Color& color) const {
-    return {{static_cast<float>(2 * v.at.x() / width_ - 1), static_cast<float>(1 - 2 * v.at.y() / height_),
-             static_cast<float>(v.depth)},
-            {static_cast<float>(offset.x()), static_cast<float>(offset.y()), static_cast<float>(halfWidth)},
-            color};
+  bool misses(const Vector2d& low, const Vector2d& high, double reach) const {
+    return high.x() < -reach || high.y() < -reach || low.x() > width_ + reach || low.y() > height_ + reach;
   }
 
-  void addQuad(const std::array<OverlayVertex, 4>& c) {
-    mesh_.insert(mesh_.end(), {c[0], c[1], c[2], c[2], c[1], c[3]});
+  void addCorner(const Vector2d& at, double depth, const Vector2d& offset, float first, float last,
+                 const Stroke& stroke) {
+    mesh_.push_back({{static_cast<float>(2 * at.x() / width_ - 1),
+                      static_cast<float>(1 - 2 * at.y() / height_), static_cast<float>(depth)},
+                     {static_cast<float>(offset.x()), static_cast<float>(offset.y())},
+                     first,
+                     last,
+                     static_cast<float>(stroke.halfWidth),
+                     stroke.color});
   }
 
-  // A band around the run. Its pieces share their corners, so that a translucent line has no darker joints;
-  // at a sharp turn it ends and starts again, both with a round cap.
-  void addRun(const std::vector<Vertex2>& run, double halfWidth, const Color& color) {
+  // How one end of a piece of a run is made: with a round cap, or joined to the next piece.
+  struct End {
+    Vector2d side;  // from the point to its corner on the left
+    double along;   // of that corner, seen from the point along the piece
+    bool round;
+  };
+
+  // Pieces share their corners, so that a translucent line has no darker joints; at a sharp turn the line
+  // ends and starts again. `outward` is 1 at the end of a piece, -1 at its start.
+  static End endOf(const Vector2d& along, const Vector2d* neighbour, double outward, double reach) {
     constexpr double kSharpest = 0.5;  // cosine of half the turn
-    const double reach = halfWidth + 1;
-    for (std::size_t i = 0; i + 1 < run.size(); ++i) {
-      const Vector2d along = direction(run, i);
-      const Vector2d across(-along.y(), along.x());
-      std::array<OverlayVertex, 4> corners;
-      for (int k = 0; k < 4; ++k) {
-        const bool atEnd = (k & 2) != 0;
-        const double side = k & 1 ? reach : -reach;
-        const Vertex2& v = run[i + (atEnd ? 1 : 0)];
-        const bool hasNeighbour = atEnd ? i + 2 < run.size() : i > 0;
-        const Vector2d other = hasNeighbour ? direction(run, atEnd ? i + 1 : i - 1) : -along;
-        const Vector2d bisector = (along + other).normalized();
-        const double cosine = bisector.dot(along);
-        if (hasNeighbour && cosine > kSharpest) {
-          const Vector2d miter = Vector2d(-bisector.y(), bisector.x()) * (side / cosine);
-          corners[k] = corner({v.at + miter, v.depth}, {0, side}, halfWidth, color);
-        } else {
-          const double cap = atEnd ? reach : -reach;
-          corners[k] = corner({v.at + side * across + cap * along, v.depth}, {cap, side}, halfWidth, color);
-        }
+    const Vector2d across(-along.y(), along.x());
+    if (neighbour != nullptr) {
+      const Vector2d bisector = (along + *neighbour).normalized();
+      const double cosine = bisector.dot(along);
+      if (cosine > kSharpest) {
+        const Vector2d side = Vector2d(-bisector.y(), bisector.x()) * (reach / cosine);
+        return {side, side.dot(along), false};
       }
-      addCapped(corners, run[i], run[i + 1], across, halfWidth, color);
     }
+    return {reach * across, outward * reach, true};
   }
 
-  // Caps need `along` = 0 between the two points, which one quad from cap to cap would not give.
-  void addCapped(const std::array<OverlayVertex, 4>& corners, const Vertex2& from, const Vertex2& to,
-                 const Vector2d& across, double halfWidth, const Color& color) {
-    std::array<OverlayVertex, 4> body = corners;
-    for (int end = 0; end < 2; ++end) {
-      if (corners[2 * end].offset[0] == 0) continue;
-      const Vertex2& v = end == 0 ? from : to;
-      for (int k = 0; k < 2; ++k) {
-        const double side = (k == 1 ? 1 : -1) * (halfWidth + 1);
-        body[2 * end + k] = corner({v.at + side * across, v.depth}, {0, side}, halfWidth, color);
-      }
-      if (end == 0)
-        addQuad({corners[0], corners[1], body[0], body[1]});
-      else
-        addQuad({body[2], body[3], corners[2], corners[3]});
+  void addRun(const Stroke& stroke) {
+    directions_.clear();
+    for (std::size_t i = 0; i + 1 < run_.size(); ++i) {
+      const Vector2d step = run_[i + 1].at - run_[i].at;
+      directions_.push_back(step.norm() > 0 ? step.normalized() : Vector2d(1, 0));
     }
-    addQuad(body);
-  }
-
-  static Vector2d direction(const std::vector<Vertex2>& run, std::size_t i) {
-    const Vector2d step = run[i + 1].at - run[i].at;
-    return step.norm() > 0 ? step.normalized() : Vector2d(1, 0);
+    for (std::size_t i = 0; i < directions_.size(); ++i) {
+      const Vector2d& along = directions_[i];
+      const End start = endOf(along, i > 0 ? &directions_[i - 1] : nullptr, -1, stroke.reach);
+      const End end =
+          endOf(along, i + 1 < directions_.size() ? &directions_[i + 1] : nullptr, 1, stroke.reach);
+      const double length = (run_[i + 1].at - run_[i].at).norm();
+      const auto first = static_cast<float>(start.round ? 0 : -kEndless);
+      const auto last = static_cast<float>(end.round ? length : kEndless);
+      const auto add = [&](const Vertex2& point, const End& e, double side, double from) {
+        const Vector2d shift = e.round ? Vector2d(side * e.side + e.along * along) : Vector2d(side * e.side);
+        addCorner(point.at + shift, point.depth,
+                  {from + (e.round ? e.along : side * e.along), side * stroke.reach}, first, last, stroke);
+      };
+      add(run_[i], start, -1, 0);
+      add(run_[i], start, 1, 0);
+      add(run_[i + 1], end, -1, length);
+      add(run_[i + 1], end, 1, length);
+    }
   }
 
   const Camera& camera_;
   Pose X_CW_;
   int width_, height_;
-  std::vector<OverlayVertex> mesh_;
+  double focal_;  // pixels
+  std::vector<OverlayVertex>& mesh_;
+  std::vector<Vertex2> run_;
+  std::vector<Vector2d> directions_;
 };
 
 }  // namespace
 
-std::vector<OverlayVertex> makeOverlayMesh(const std::vector<Polyline>& lines,
-                                           const std::vector<PointSet>& sets, const Camera& camera, int width,
-                                           int height) {
-  Builder builder(camera, width, height);
-  for (const Polyline& line : lines) builder.addLine(line);
-  for (const PointSet& set : sets)
-    for (const Vector3d& point : set.points) builder.addDisc(point, set.size / 2, set.color);
-  return builder.take();
+bool isOverlay(const Solid& solid) {
+  const ShapeType type = solid.shape.type;
+  return type == ShapeType::kMarker || type == ShapeType::kPointCloud ||
+         (usesMesh(type) && solid.shape.mesh.triangles().empty());
+}
+
+void makeOverlayMesh(const Picture& picture, const Camera& camera, int width, int height,
+                     std::vector<OverlayVertex>& mesh) {
+  mesh.clear();
+  Builder builder(camera, width, height, mesh);
+  for (const LineSet& lines : picture.lineSets) {
+    const Stroke stroke(lines.width / 2, lines.color);
+    for (const auto& [from, to] : lines.segments) builder.addSegment(from, to, stroke);
+  }
+  for (const Polyline& line : picture.polylines)
+    builder.addLine(line.points, Stroke(line.width / 2, line.color));
+  for (const Axes& axes : picture.axes) builder.addAxes(axes.X_WF, 0, axes.size);
+  for (const Solid& solid : picture.solids) {
+    const double half = solid.shape.extent.x() / 2;
+    if (solid.shape.type == ShapeType::kMarker) {
+      builder.addAxes(solid.X_WS, -half, half);
+    } else if (isOverlay(solid)) {
+      builder.addCloud(solid);
+    }
+  }
+  for (const PointSet& set : picture.pointSets) {
+    const Stroke stroke(set.size / 2, set.color);
+    for (const Vector3d& point : set.points) builder.addDisc(point, stroke);
+  }
 }
 
 }  // namespace rex::internal

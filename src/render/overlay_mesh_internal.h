@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "render/camera.h"
@@ -7,18 +9,24 @@
 
 namespace rex::internal {
 
-/// A corner of a flat overlay triangle: normalised device coordinates, and where it lies seen from the middle
-/// of the line or disc: (along, across, half width) in pixels.
+/// A corner of a flat overlay quad: normalised device coordinates, and where it lies seen from the start of
+/// its stroke: (along, across) in pixels. The stroke has round ends at `first` and `last` along; what lies
+/// farther than its half width from the line between them is not covered.
 struct OverlayVertex {
-  float position[3];
-  float offset[3];
-  Color color;
+  std::array<float, 3> position;
+  std::array<float, 2> offset;
+  float first, last, halfWidth;
+  std::array<std::uint8_t, 4> color;
 };
 
-/// Triangles for lines and discs of constant width in pixels, because core OpenGL has neither. They lie 1 %
-/// nearer to the camera than their points, so that a line on a surface is not half inside it.
-[[nodiscard]] std::vector<OverlayVertex> makeOverlayMesh(const std::vector<Polyline>& lines,
-                                                         const std::vector<PointSet>& sets,
-                                                         const Camera& camera, int width, int height);
+/// Quads (four corners each: 0 1 2 and 2 1 3 are triangles) for lines and discs of constant width in pixels,
+/// because core OpenGL has neither: polylines, line sets, axes, markers, point sets and point clouds. They
+/// lie 1 % nearer to the camera than their points, so that a line on a surface is not half inside it.
+/// Replaces what `mesh` held.
+void makeOverlayMesh(const Picture& picture, const Camera& camera, int width, int height,
+                     std::vector<OverlayVertex>& mesh);
+
+/// Whether a solid is drawn as lines or points: markers, point clouds, and meshes without triangles.
+[[nodiscard]] bool isOverlay(const Solid& solid);
 
 }  // namespace rex::internal

@@ -38,20 +38,29 @@ void requireSolid(const Solid& solid, std::size_t index) {
   requireUsable(isUsable(solid.shape.extent) && isUsable(solid.shape.radius), thing + ", size");
   require(solid.shape.extent.minCoeff() >= 0 && solid.shape.radius >= 0, thing + ", size",
           "a negative length", "lengths of at least 0");
-  const bool hasMesh = solid.shape.type == ShapeType::kMesh || solid.shape.type == ShapeType::kPointCloud ||
-                       solid.shape.type == ShapeType::kSphereSweptConvex;
-  if (hasMesh)
-    throw Error({.what = thing,
-                 .found = "a " + std::string(toString(solid.shape.type)),
-                 .wanted = "a box, sphere, capsule, cylinder, rounded box or marker"});
+  if (!usesMesh(solid.shape.type)) return;
+  require(!solid.shape.mesh.isEmpty(), thing, "a mesh without vertices", "one as of readMesh()");
+  requireUsable(isUsable(solid.shape.mesh.halfBounds()), thing + ", mesh");
+}
+
+void requireStroke(const Color& color, double size, const std::string& thing) {
+  requireUsable(isUsable(color), thing + ", color");
+  require(isUsable(size) && size > 0, thing, "a size in pixels that is not positive", "a positive one");
 }
 
 void requirePoints(const std::vector<Eigen::Vector3d>& points, const Color& color, double size,
                    const std::string& thing) {
   for (std::size_t k = 0; k < points.size(); ++k)
-    requireUsable(isUsable(points[k]), fmt::format("{}, point {}", thing, k));
-  requireUsable(isUsable(color), thing + ", color");
-  require(isUsable(size) && size > 0, thing, "a size in pixels that is not positive", "a positive one");
+    if (!isUsable(points[k])) requireUsable(false, fmt::format("{}, point {}", thing, k));
+  requireStroke(color, size, thing);
+}
+
+void requireLineSet(const LineSet& lines, const std::string& thing) {
+  for (std::size_t k = 0; k < lines.segments.size(); ++k) {
+    const auto& [from, to] = lines.segments[k];
+    if (!isUsable(from) || !isUsable(to)) requireUsable(false, fmt::format("{}, segment {}", thing, k));
+  }
+  requireStroke(lines.color, lines.width, thing);
 }
 
 void requireText(const Color& color, double scale, const std::string& thing) {
@@ -78,6 +87,8 @@ Bounds bounds(const Picture& picture) {
   }
   for (const Polyline& line : picture.polylines)
     for (const Eigen::Vector3d& point : line.points) box.include(point);
+  for (const LineSet& lines : picture.lineSets)
+    for (const auto& [from, to] : lines.segments) box.include(from), box.include(to);
   for (const PointSet& set : picture.pointSets)
     for (const Eigen::Vector3d& point : set.points) box.include(point);
   for (const Axes& axes : picture.axes) {
@@ -104,6 +115,8 @@ void requireDrawable(const Picture& picture) {
     const Polyline& line = picture.polylines[i];
     requirePoints(line.points, line.color, line.width, fmt::format("polyline {}", i));
   }
+  for (std::size_t i = 0; i < picture.lineSets.size(); ++i)
+    requireLineSet(picture.lineSets[i], fmt::format("line set {}", i));
   for (std::size_t i = 0; i < picture.pointSets.size(); ++i) {
     const PointSet& set = picture.pointSets[i];
     requirePoints(set.points, set.color, set.size, fmt::format("point set {}", i));

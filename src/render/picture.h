@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -12,7 +13,9 @@
 
 namespace rex {
 
-/// A body to draw: `shape` at X_WS. The name appears in messages only.
+/// A body to draw: `shape` at X_WS. Materials of a mesh hide `color` but not its opacity; a mesh without
+/// triangles and a point cloud are drawn as points, a sphere-swept convex mesh without what surrounds it. The
+/// name appears in messages only.
 struct Solid {
   Shape shape{};
   Pose X_WS{};
@@ -36,6 +39,14 @@ struct Polyline {
   double width = 2.5;  ///< pixels
 };
 
+/// Separate lines from point to point of W (metres), such as the edges of a tree: tens of thousands cost
+/// little.
+struct LineSet {
+  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> segments{};
+  Color color{0.35f, 0.40f, 0.46f};
+  double width = 1;  ///< pixels
+};
+
 /// Discs that face the camera, at points in W (metres). Hidden ones show through faintly.
 struct PointSet {
   std::vector<Eigen::Vector3d> points{};
@@ -51,7 +62,7 @@ struct Axes {
 };
 
 /// An arrow between two points of W (metres), shaded as a solid. Its head is three times as thick as its
-/// shaft.
+/// shaft. One shorter than 12 radii is as a whole smaller.
 struct Arrow {
   Eigen::Vector3d from = Eigen::Vector3d::Zero();
   Eigen::Vector3d to = Eigen::Vector3d::UnitZ();
@@ -67,7 +78,8 @@ struct Ellipsoid {
   Color color{0.0f, 0.45f, 0.7f, 0.35f};
 };
 
-/// Text beside a point in W (metres); never hidden. Printable ASCII; any other character shows as '?'.
+/// Text beside a point in W (metres); never hidden. Printable ASCII; any other character shows as '?'. Labels
+/// and names of axes keep clear of each other and of captions while there is room, the nearest choose first.
 struct Label {
   std::string text{};
   Eigen::Vector3d p_WQ = Eigen::Vector3d::Zero();
@@ -90,6 +102,7 @@ struct Picture {
   std::vector<Solid> solids{};
   Ground ground{};
   std::vector<Polyline> polylines{};
+  std::vector<LineSet> lineSets{};
   std::vector<PointSet> pointSets{};
   std::vector<Axes> axes{};
   std::vector<Arrow> arrows{};
@@ -106,7 +119,7 @@ struct Picture {
 [[nodiscard]] Bounds bounds(const Solid& solid);
 
 /// Throws Error naming the first solid, line ... with a number that is not finite or beyond 1e9, a size that
-/// is negative or a light without direction.
+/// is negative, a mesh that is empty, or a light without direction.
 void requireDrawable(const Picture& picture);
 
 }  // namespace rex

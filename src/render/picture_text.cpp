@@ -1,25 +1,28 @@
+#include <algorithm>
+#include <array>
 #include <string_view>
 #include <vector>
 
+#include "render/label_placement_internal.h"
 #include "render/picture_text_internal.h"
 #include "render/text.h"
 
 namespace rex::internal {
 namespace {
 
-constexpr int kMargin = 8;  // pixels between text and what it stands beside
+// A line of text at its place.
+struct PlacedText {
+  std::string_view text;
+  PixelBox box;
+  Color color;
+  double scale;
+};
 
-// `lower` is how many pixels below its point the text stands.
-void drawLabel(Image& image, const Label& label, int lower, const Camera& camera) {
-  const auto at = project(camera, label.p_WQ, image.width, image.height);
-  if (!at || label.text.empty()) return;
-  if (at->x < 0 || at->y < 0 || at->x >= image.width || at->y >= image.height) return;
-  // To the right of the point, or to the left where the picture ends.
-  const TextSize size = textSize(label.text, label.scale);
-  const int right = static_cast<int>(at->x) + kMargin;
-  const int x = right + size.width <= image.width ? right : static_cast<int>(at->x) - kMargin - size.width;
-  drawText(image, label.text, x, static_cast<int>(at->y) + lower - size.height / 2, label.color, label.scale);
-}
+struct SeenLabel {
+  const Label* label;
+  LabelWish wish;
+  double depth;
+};
 
 std::vector<std::string_view> linesOf(std::string_view text) {
   std::vector<std::string_view> lines;
@@ -35,14 +38,43 @@ int heightOf(const Caption& caption) {
   return static_cast<int>(linesOf(caption.text).size()) * textSize("", caption.scale).height;
 }
 
-void drawCaption(Image& image, const Caption& caption, int top) {
-  const bool left = caption.corner == Corner::kTopLeft || caption.corner == Corner::kBottomLeft;
-  for (const std::string_view line : linesOf(caption.text)) {
-    const TextSize size = textSize(line, caption.scale);
-    drawText(image, line, left ? kMargin : image.width - kMargin - size.width, top, caption.color,
-             caption.scale);
-    top += size.height;
+std::vector<PlacedText> placeCaptions(const std::vector<Caption>& captions, const Image& image) {
+  std::vector<PlacedText> texts;
+  for (const Corner corner :
+       {Corner::kTopLeft, Corner::kTopRight, Corner::kBottomLeft, Corner::kBottomRight}) {
+    const bool bottom = corner == Corner::kBottomLeft || corner == Corner::kBottomRight;
+    const bool left = corner == Corner::kTopLeft || corner == Corner::kBottomLeft;
+    int top = kTextMargin;
+    for (const Caption& caption : captions)
+      if (bottom && caption.corner == corner) top -= heightOf(caption);
+    if (bottom) top += image.height - 2 * kTextMargin;
+    for (const Caption& caption : captions) {
+      if (caption.corner != corner) continue;
+      for (const std::string_view line : linesOf(caption.text)) {
+        const TextSize size = textSize(line, caption.scale);
+        const int x = left ? kTextMargin : image.width - kTextMargin - size.width;
+        texts.push_back({line, {x, top, size.width, size.height}, caption.color, caption.scale});
+        top += size.height;
+      }
+    }
   }
+  return texts;
+}
+
+// Those whose points are in the picture, the nearest first: they choose their places first.
+std::vector<SeenLabel> seenLabels(const std::vector<Label>& labels, const Image& image, const Camera& camera,
+                                  int lower) {
+  std::vector<SeenLabel> seen;
+  for (const Label& label : labels) {
+    const auto at = project(camera, label.p_WQ, image.width, image.height);
+    if (!at || label.text.empty()) continue;
+    if (at->x < 0 || at->y < 0 || at->x >= image.width || at->y >= image.height) continue;
+    const TextSize size = textSize(label.text, label.scale);
+    seen.push_back({&label,
+                    {static_cast<int>(at->x), static_cast<int>(at->y), size.width, size.height, lower},
+                    at->depth});
+  }
+  return seen;
 }
 
 }  // namespace
@@ -50,23 +82,25 @@ void drawCaption(Image& image, const Caption& caption, int top) {
 void drawPictureText(Image& image, const Picture& picture, const Camera& camera) {
   // Below the origin, the name of a frame stays clear of its axes as long as z points up.
   constexpr int kNameBelow = 10;  // pixels
-  for (const Axes& axes : picture.axes)
-    drawLabel(image, {.text = axes.name, .p_WQ = axes.X_WF.p}, kNameBelow, camera);
-  for (const Label& label : picture.labels) drawLabel(image, label, 0, camera);
+  std::vector<Label> names;
+  for (const Axes& axes : picture.axes) names.push_back({.text = axes.name, .p_WQ = axes.X_WF.p});
+  std::vector<SeenLabel> seen = seenLabels(names, image, camera, kNameBelow);
+  const std::vector<SeenLabel> labels = seenLabels(picture.labels, image, camera, 0);
+  seen.insert(seen.end(), labels.begin(), labels.end());
+  std::stable_sort(seen.begin(), seen.end(),
+                   [](const SeenLabel& a, const SeenLabel& b) { return a.depth < b.depth; });
 
-  for (const Corner corner :
-       {Corner::kTopLeft, Corner::kTopRight, Corner::kBottomLeft, Corner::kBottomRight}) {
-    const bool bottom = corner == Corner::kBottomLeft || corner == Corner::kBottomRight;
-    int top = kMargin;
-    for (const Caption& caption : picture.captions)
-      if (bottom && caption.corner == corner) top -= heightOf(caption);
-    if (bottom) top += image.height - 2 * kMargin;
-    for (const Caption& caption : picture.captions) {
-      if (caption.corner != corner) continue;
-      drawCaption(image, caption, top);
-      top += heightOf(caption);
-    }
-  }
+  const std::vector<PlacedText> captions = placeCaptions(picture.captions, image);
+  std::vector<PixelBox> taken;
+  for (const PlacedText& text : captions) taken.push_back(text.box);
+  std::vector<LabelWish> wishes;
+  for (const SeenLabel& one : seen) wishes.push_back(one.wish);
+  const std::vector<PixelBox> boxes = placeLabels(wishes, taken, image.width, image.height);
+
+  for (std::size_t i = seen.size(); i-- > 0;)
+    drawText(image, seen[i].label->text, boxes[i].x, boxes[i].y, seen[i].label->color, seen[i].label->scale);
+  for (const PlacedText& text : captions)
+    drawText(image, text.text, text.box.x, text.box.y, text.color, text.scale);
 }
 
 }  // namespace rex::internal

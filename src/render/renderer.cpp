@@ -14,7 +14,7 @@
 #include "render/gl_program_internal.h"
 #include "render/ground_disc_internal.h"
 #include "render/mesh_store_internal.h"
-#include "render/overlay_mesh_internal.h"
+#include "render/overlay_store_internal.h"
 #include "render/picture_text_internal.h"
 #include "render/sensor_pass_internal.h"
 #include "render/shaders_internal.h"
@@ -84,12 +84,15 @@ bool showsNothing(const Image& image) {
 }
 
 // Whether there is more than ground and text. A polyline of one point draws nothing.
-bool hasScene(const Picture& picture, const DrawList& list, const std::vector<Polyline>& lines) {
-  const auto hasPoints = [](const PointSet& set) { return !set.points.empty(); };
-  const auto hasLength = [](const Polyline& line) { return line.points.size() > 1; };
-  return !list.opaque.empty() || !list.translucent.empty() ||
-         std::any_of(picture.pointSets.begin(), picture.pointSets.end(), hasPoints) ||
-         std::any_of(lines.begin(), lines.end(), hasLength);
+bool hasScene(const Picture& picture, const DrawList& list) {
+  const auto any = [](const auto& things, const auto& isDrawn) {
+    return std::any_of(things.begin(), things.end(), isDrawn);
+  };
+  return !list.opaque.empty() || !list.translucent.empty() || !picture.axes.empty() ||
+         any(picture.polylines, [](const Polyline& line) { return line.points.size() > 1; }) ||
+         any(picture.lineSets, [](const LineSet& lines) { return !lines.segments.empty(); }) ||
+         any(picture.pointSets, [](const PointSet& set) { return !set.points.empty(); }) ||
+         any(picture.solids, internal::isOverlay);
 }
 
 }  // namespace
@@ -105,7 +108,7 @@ struct Renderer::Impl {
   void drawGround(const Picture& picture, const Camera& camera, const internal::ShadowView& shadow) const;
   void drawSolids(const DrawList& list, const Picture& picture, const Camera& camera,
                   const internal::ShadowView& shadow);
-  void drawOverlay(const std::vector<Polyline>& lines, const Picture& picture, const Camera& camera);
+  void drawOverlay(const Picture& picture, const Camera& camera);
   Eigen::Matrix4d clip(const Camera& camera) const {
     return clipFromWorld(camera, static_cast<double>(options.width) / options.height);
   }
@@ -119,9 +122,10 @@ struct Renderer::Impl {
   internal::ShadowMap shadowMap;
   internal::Visibility visibility;
   GlProgram background, ground, solid, overlay;
+  internal::OverlayStore overlayStore;
   std::optional<internal::Fxaa> fxaa;
   std::optional<internal::SensorPass> sensors;  // made when first asked for
-  GLuint noVertices = 0, overlayVertices = 0, overlayBuffer = 0;
+  GLuint noVertices = 0;
 };
 
 Renderer::Impl::Impl(const RendererOptions& wanted)
@@ -138,22 +142,10 @@ Renderer::Impl::Impl(const RendererOptions& wanted)
       background(makeProgram(gl, internal::backgroundShader())),
       ground(makeProgram(gl, internal::groundShader(options.shadow))),
       solid(makeProgram(gl, internal::solidShader(options.shadow))),
-      overlay(makeProgram(gl, internal::overlayShader())) {
-  using internal::OverlayVertex;
+      overlay(makeProgram(gl, internal::overlayShader())),
+      overlayStore(gl) {
   if (antiAliasing == AntiAliasing::kFxaa) fxaa.emplace(gl);
   gl.GenVertexArrays(1, &noVertices);
-  gl.GenVertexArrays(1, &overlayVertices);
-  gl.GenBuffers(1, &overlayBuffer);
-  gl.BindVertexArray(overlayVertices);
-  gl.BindBuffer(GL_ARRAY_BUFFER, overlayBuffer);
-  const auto attribute = [&](GLuint index, GLint size, std::size_t offset) {
-    gl.EnableVertexAttribArray(index);
-    gl.VertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, sizeof(OverlayVertex),
-                           reinterpret_cast<const void*>(offset));
-  };
-  attribute(0, 3, offsetof(OverlayVertex, position));
-  attribute(1, 3, offsetof(OverlayVertex, offset));
-  attribute(2, 4, offsetof(OverlayVertex, color));
   gl.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
   internal::requireNoGlError(gl, "setting up");
@@ -203,53 +195,60 @@ void Renderer::Impl::drawGround(const Picture& picture, const Camera& camera,
 
 void Renderer::Impl::drawSolids(const DrawList& list, const Picture& picture, const Camera& camera,
                                 const internal::ShadowView& shadow) {
-  const auto drawAll = [&](const std::vector<DrawItem>& items) {
-    solid.use();
-    visibility.watch([&] {
-      for (const DrawItem& item : items) {
-        solid.set("solidColor", item.color);
-        meshes.draw(item, solid);
-      }
-    });
+  const auto draw = [&](const DrawItem& item, float opacity) {
+    Color color = item.color;
+    color.a = opacity;
+    solid.set("solidColor", color);
+    meshes.draw(item, solid);
   };
   solid.use();
   setLight(solid, picture, shadow);
   solid.set("clipFromWorld", clip(camera));
   solid.set("eye", camera.X_WC.p);
-  gl.Enable(GL_CULL_FACE);
-  drawAll(list.opaque);
+  visibility.watch([&] {
+    for (const DrawItem& item : list.opaque) {
+      // An imported surface may be open, and is seen from both sides.
+      (item.mesh == internal::MeshKind::kImported ? gl.Disable : gl.Enable)(GL_CULL_FACE);
+      draw(item, 1);
+    }
+  });
   gl.Disable(GL_CULL_FACE);
   drawGround(picture, camera, shadow);
   drawBackground();
+  solid.use();
   gl.Enable(GL_CULL_FACE);
   gl.Enable(GL_BLEND);
   gl.DepthMask(GL_FALSE);
-  drawAll(list.translucent);
+  visibility.watch([&] {
+    for (const DrawItem& item : list.translucent) {
+      const float side = 1 - std::sqrt(1 - item.color.a);  // far and near side together have its opacity
+      for (const GLenum hidden : {GL_FRONT, GL_BACK}) {
+        gl.CullFace(hidden);
+        draw(item, side);
+      }
+    }
+  });
   gl.DepthMask(GL_TRUE);
   gl.Disable(GL_BLEND);
   gl.Disable(GL_CULL_FACE);
 }
 
-void Renderer::Impl::drawOverlay(const std::vector<Polyline>& lines, const Picture& picture,
-                                 const Camera& camera) {
+void Renderer::Impl::drawOverlay(const Picture& picture, const Camera& camera) {
   constexpr double kHiddenOpacity = 0.3;
-  const auto mesh =
-      internal::makeOverlayMesh(lines, picture.pointSets, camera, options.width, options.height);
-  if (mesh.empty()) return;
-  gl.BindVertexArray(overlayVertices);
-  gl.BindBuffer(GL_ARRAY_BUFFER, overlayBuffer);
-  gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.size() * sizeof(mesh[0])), mesh.data(),
-                GL_STREAM_DRAW);
+  overlayStore.load(picture, camera, options.width, options.height);
+  if (overlayStore.isEmpty()) return;
   overlay.use();
   gl.Enable(GL_BLEND);
+  gl.Disable(GL_MULTISAMPLE);  // it is smooth by itself, and costs half as much
   gl.DepthMask(GL_FALSE);
   visibility.watch([&] {
     for (const bool hidden : {true, false}) {
       gl.DepthFunc(hidden ? GL_GREATER : GL_LEQUAL);
       overlay.set("opacity", hidden ? kHiddenOpacity : 1.0);
-      gl.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(mesh.size()));
+      overlayStore.draw();
     }
   });
+  gl.Enable(GL_MULTISAMPLE);
   gl.DepthMask(GL_TRUE);
   gl.DepthFunc(GL_LESS);
   gl.Disable(GL_BLEND);
@@ -260,7 +259,7 @@ Image Renderer::Impl::draw(const Picture& picture, const Camera& camera) {
   requireUsable(camera);
   context->makeCurrent();
   const DrawList list = internal::makeDrawList(picture, camera, options.height);
-  const std::vector<Polyline> lines = internal::overlayLines(picture);
+  meshes.prepare(list);
 
   gl.Enable(GL_DEPTH_TEST);
   internal::ShadowView shadow;
@@ -270,10 +269,10 @@ Image Renderer::Impl::draw(const Picture& picture, const Camera& camera) {
   visibility.start();
   drawSolids(list, picture, camera, shadow);
   if (fxaa) fxaa->smooth(frame);
-  drawOverlay(lines, picture, camera);
+  drawOverlay(picture, camera);
 
   Image image = frame.read();
-  if (hasScene(picture, list, lines) && !visibility.anySeen())
+  if (hasScene(picture, list) && !visibility.anySeen())
     throw Error({.what = "the picture shows nothing of the scene",
                  .found = "all solids, lines and points outside of it",
                  .wanted = "a camera that sees some, see framing()"});
@@ -292,6 +291,7 @@ internal::SensorImages Renderer::Impl::drawSensors(const Picture& picture, const
   context->makeCurrent();
   if (!sensors) sensors.emplace(gl, options.width, options.height);
   const DrawList list = internal::makeDrawList(picture, camera, kFiner * options.height);
+  meshes.prepare(list);
   return sensors->draw(list, picture, camera, meshes);
 }
 

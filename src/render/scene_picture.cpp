@@ -3,18 +3,11 @@
 #include <algorithm>
 
 namespace rex {
-namespace {
-
-bool isDrawn(ShapeType type) {
-  return type != ShapeType::kMesh && type != ShapeType::kPointCloud && type != ShapeType::kSphereSweptConvex;
-}
-
-}  // namespace
 
 Picture pictureOf(const Model& model, const BodyPoses& poses) {
   Picture picture;
   for (const ModelShape& shape : model.shapes()) {
-    if (!isDrawn(shape.shape.type)) continue;
+    if (usesMesh(shape.shape.type) && shape.shape.mesh.isEmpty()) continue;
     const Eigen::Vector4f c = shape.color.cast<float>();
     picture.solids.push_back({.shape = shape.shape,
                               .X_WS = poses[shape.body] * shape.X_BS,

@@ -6,7 +6,7 @@
 namespace rex {
 
 /// The shapes of a scene where `poses` puts them, each in its own colour, on a ground that is never above a
-/// shape. Shapes given by a mesh are left out.
+/// shape. Shapes whose mesh was not loaded are left out.
 [[nodiscard]] Picture pictureOf(const Model& model, const BodyPoses& poses);
 
 }  // namespace rex

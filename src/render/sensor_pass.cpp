@@ -45,14 +45,12 @@ SensorImages SensorPass::draw(const DrawList& list, const Picture& picture, cons
   gl_->Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   solid_.use();
   solid_.set("clipFromWorld", clip);
-  gl_->Enable(GL_CULL_FACE);
   for (const std::vector<DrawItem>* items : {&list.opaque, &list.translucent})
     for (const DrawItem& item : *items) {
       if (item.solid < 0) continue;
       solid_.set("id", item.solid);
       meshes.draw(item, solid_);
     }
-  gl_->Disable(GL_CULL_FACE);
   drawGround(picture, camera, clip);
   return read();
 }

@@ -16,11 +16,10 @@ vec3 background() {
 const std::string kPlaceSolid = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
-layout(location = 2) in float end;
+layout(location = 2) in vec3 end;
 uniform mat3 R_WS;
-uniform vec3 p_WS, halfSize;
-uniform float stretch;
-vec3 placed() { return R_WS * (halfSize * position + vec3(0, 0, stretch * end)) + p_WS; }
+uniform vec3 p_WS, halfSize, stretch;
+vec3 placed() { return R_WS * (halfSize * position + stretch * end) + p_WS; }
 )";
 
 // The point is moved off its surface before it is looked up, or the surface would shade itself.
@@ -94,7 +93,7 @@ uniform vec4 solidColor;
 in vec3 worldPoint, worldNormal;
 out vec4 color;
 void main() {
-  vec3 n = normalize(worldNormal);
+  vec3 n = normalize(gl_FrontFacing ? worldNormal : -worldNormal);
   float facing = dot(n, toLight);
   float sun = facing > 0.0 ? facing * sunSeen() : 0.0;
   float shine = max(dot(n, normalize(toLight + normalize(eye - worldPoint))), 0.0);
@@ -144,23 +143,28 @@ void main() {
 ShaderSource overlayShader() {
   return {kVersion + R"(
 layout(location = 0) in vec3 position;
-layout(location = 1) in vec3 offset;
-layout(location = 2) in vec4 tint;
-out vec3 fromMiddle;
-out vec4 color0;
+layout(location = 1) in vec2 offset;
+layout(location = 2) in vec3 band;
+layout(location = 3) in vec4 tint;
+out vec2 fromStart;
+flat out vec3 stroke;
+flat out vec4 color0;
 void main() {
   gl_Position = vec4(position, 1);
-  fromMiddle = offset;
+  fromStart = offset;
+  stroke = band;
   color0 = tint;
 }
 )",
           kVersion + R"(
 uniform float opacity;
-in vec3 fromMiddle;
-in vec4 color0;
+in vec2 fromStart;
+flat in vec3 stroke;
+flat in vec4 color0;
 out vec4 color;
 void main() {
-  float covered = clamp(fromMiddle.z + 0.5 - length(fromMiddle.xy), 0.0, 1.0);
+  float beyond = fromStart.x - clamp(fromStart.x, stroke.x, stroke.y);
+  float covered = clamp(stroke.z + 0.5 - length(vec2(beyond, fromStart.y)), 0.0, 1.0);
   color = vec4(color0.rgb, color0.a * opacity * covered);
 }
 )"};

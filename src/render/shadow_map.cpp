@@ -20,11 +20,6 @@ Eigen::Matrix3d lightAxes(const Eigen::Vector3d& toLight) {
   return R_LW;
 }
 
-Eigen::Vector3d halfExtentOf(const DrawItem& item, const Eigen::Matrix3d& R_LW) {
-  const Eigen::Vector3d half = item.halfSize + Eigen::Vector3d(0, 0, item.stretch);
-  return (R_LW * item.X_WS.R).cwiseAbs() * half;
-}
-
 }  // namespace
 
 ShadowView fitShadowView(const std::vector<DrawItem>& casters, const Eigen::Vector3d& toLight, int mapSize) {
@@ -33,7 +28,8 @@ ShadowView fitShadowView(const std::vector<DrawItem>& casters, const Eigen::Vect
   const Eigen::Matrix3d R_LW = lightAxes(toLight);
   Bounds box;
   for (const DrawItem& item : casters) {
-    const Eigen::Vector3d middle = R_LW * item.X_WS.p, half = halfExtentOf(item, R_LW);
+    const Eigen::Vector3d middle = R_LW * item.X_WS.p,
+                          half = (R_LW * item.X_WS.R).cwiseAbs() * halfExtent(item);
     box.include(middle - half);
     box.include(middle + half);
   }

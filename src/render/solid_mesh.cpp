@@ -25,7 +25,7 @@ void addRing(SolidMesh& mesh, int segments, double r, double z, double radial, d
     const auto rf = static_cast<float>(r), radialF = static_cast<float>(radial);
     mesh.vertices.push_back({{rf * c, rf * s, static_cast<float>(z)},
                              {radialF * c, radialF * s, static_cast<float>(along)},
-                             static_cast<float>(end)});
+                             {0, 0, static_cast<float>(end)}});
   }
 }
 
@@ -96,6 +96,45 @@ SolidMesh makeCylinderMesh(int segments) {
     addTriangle(mesh, 0, k, k + 1);
     addTriangle(mesh, bottom, bottom + k + 1, bottom + k);
   }
+  return mesh;
+}
+
+SolidMesh makeRoundedBoxMesh(int segments) {
+  assert(segments % 4 == 0);
+  const int rings = segments / 4, corners = rings + 1;  // from one flat side to the next
+  SolidMesh mesh;
+  for (const float up : {1.f, -1.f}) {
+    for (int ring = 0; ring <= rings; ++ring) {
+      const double latitude = std::numbers::pi / 2 * (up > 0 ? rings - ring : -ring) / rings;
+      for (int k = 0; k < 4 * corners; ++k) {
+        const int quarter = k / corners;
+        const double angle = std::numbers::pi / 2 * (quarter + static_cast<double>(k % corners) / rings);
+        const auto x = static_cast<float>(std::cos(latitude) * std::cos(angle)),
+                   y = static_cast<float>(std::cos(latitude) * std::sin(angle)),
+                   z = static_cast<float>(std::sin(latitude));
+        const float right = quarter == 0 || quarter == 3 ? 1 : -1, back = quarter < 2 ? 1 : -1;
+        mesh.vertices.push_back({{x, y, z}, {x, y, z}, {right, back, up}});
+      }
+    }
+  }
+  const int around = 4 * corners, bottom = (2 * rings + 1) * around;
+  for (int ring = 0; ring < 2 * rings + 1; ++ring) addBand(mesh, around, ring * around, (ring + 1) * around);
+  for (int quarter = 1; quarter < 3; ++quarter) {
+    addTriangle(mesh, 0, quarter * corners, (quarter + 1) * corners);
+    addTriangle(mesh, bottom, bottom + (quarter + 1) * corners, bottom + quarter * corners);
+  }
+  return mesh;
+}
+
+SolidMesh makeConeMesh(int segments) {
+  const double radial = 2 / std::sqrt(5), along = 1 / std::sqrt(5);  // across the line from (1, -1) to (0, 1)
+  SolidMesh mesh;
+  addRing(mesh, segments, 0, 1, radial, along, 0);
+  addRing(mesh, segments, cornerRadius(segments), -1, radial, along, 0);
+  addRing(mesh, segments, cornerRadius(segments), -1, 0, -1, 0);
+  addBand(mesh, segments, 0, segments);
+  const int bottom = 2 * segments;
+  for (int k = 1; k + 1 < segments; ++k) addTriangle(mesh, bottom, bottom + k + 1, bottom + k);
   return mesh;
 }
 

@@ -6,13 +6,13 @@
 
 namespace rex::internal {
 
-/// A corner of a unit mesh. A solid of half size s (per axis) and stretch h puts it at
-/// s * position + (0, 0, h * end); its normal is then along normal / s. So one mesh serves capsules of every
-/// length, with round caps.
+/// A corner of a unit mesh. A solid of half size s and stretch h (both per axis) puts it at
+/// s * position + h * end; its normal is then along normal / s. So one mesh serves capsules of every length,
+/// with round caps, and one the boxes with rounded edges.
 struct MeshVertex {
   float position[3];
   float normal[3];
-  float end;  ///< -1, 0 or 1
+  float end[3];  ///< each -1, 0 or 1
 };
 
 /// Triangles, counter-clockwise seen from outside.
@@ -34,5 +34,10 @@ inline constexpr std::array<int, 6> kSegments = {8, 12, 16, 24, 48, 96};
 [[nodiscard]] SolidMesh makeCapsuleMesh(int segments);
 /// The cylinder of radius 1 about z with |z| <= 1.
 [[nodiscard]] SolidMesh makeCylinderMesh(int segments);
+/// The unit sphere cut into its octants, each with its signs as `end`: stretched, a box with rounded edges.
+/// `segments` (a multiple of 4) around.
+[[nodiscard]] SolidMesh makeRoundedBoxMesh(int segments);
+/// The cone with a disc of radius 1 at z = -1 and its tip at z = 1.
+[[nodiscard]] SolidMesh makeConeMesh(int segments);
 
 }  // namespace rex::internal

@@ -10,6 +10,7 @@
 
 #include "geometry/rotation.h"
 #include "scene/ors_graph_internal.h"
+#include "scene/scene_meshes.h"
 
 namespace rex {
 namespace {
@@ -425,6 +426,10 @@ std::string readSceneText(const std::filesystem::path& path) {
   return text.str();
 }
 
-SceneFile readOrs(const std::filesystem::path& path) { return parseOrs(readSceneText(path), path.string()); }
+SceneFile readOrs(const std::filesystem::path& path) {
+  SceneFile file = parseOrs(readSceneText(path), path.string());
+  loadMeshes(file.spec, path.parent_path());
+  return file;
+}
 
 }  // namespace rex

@@ -42,7 +42,7 @@ struct ShapeSpec {
   Shape shape;
   Eigen::Vector4d color{0.8, 0.8, 0.8, 1};  ///< red, green, blue, opacity, each 0..1
   bool contact = false;                     ///< takes part in collision detection
-  std::string meshFile{};
+  std::string meshFile{};                   ///< what `shape.mesh` is read from, see loadMeshes()
   double meshScale = 1;
   SourceLocation where{};
 };

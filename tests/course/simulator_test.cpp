@@ -46,6 +46,18 @@ TEST_F(SimulatorTest, FindsScenesByPathToo) {
   EXPECT_REX_ERROR(Simulator("no/such.ors"), "no/such.ors: cannot read the scene file");
 }
 
+TEST_F(SimulatorTest, LoadsTheMeshesOfAFileButNotThoseOfADescription) {
+  std::ofstream(in("wedge.off"))
+      << "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+  std::ofstream(in("scene.ors")) << "body wedge { type=3 mesh='wedge.off' }";
+  const Simulator S(in("scene.ors"));
+  EXPECT_EQ(S.model().shapes()[0].shape.mesh.triangles().size(), 4u);
+  EXPECT_TRUE(Simulator(S.description()).model().shapes()[0].shape.mesh.isEmpty());
+  fs::remove(in("wedge.off"));
+  EXPECT_REX_ERROR(Simulator(in("scene.ors")), "shape 'wedge': mesh '" + in("wedge.off") + "': cannot read");
+  EXPECT_NO_THROW(Simulator(S.description()));
+}
+
 // The lecture's numbers for exercise 3.2: |y - y*| after full steps and after steps of a tenth.
 TEST_F(SimulatorTest, ReproducesTheTaskErrorsOfTheCourse) {
   const Eigen::Vector3d target(-.2, -.4, 1.1);

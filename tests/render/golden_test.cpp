@@ -6,9 +6,11 @@
 #include <gtest/gtest.h>
 
 #include "geometry/rotation.h"
+#include "geometry/welded_mesh.h"
 #include "render/png.h"
 #include "render/renderer.h"
 #include "support/image_difference.h"
+#include "support/mesh_samples.h"
 #include "support/needs_osmesa.h"
 
 namespace rex {
@@ -73,6 +75,34 @@ TEST(Golden, TranslucentSolids) {
   picture.solids = {{{ShapeType::kBox, {0.3, 0.3, 0.3}, 0}, translation(0, 0.4, 0.15), kOrange, "behind"},
                     {{ShapeType::kBox, {0.8, 0.1, 0.5}, 0}, translation(0, 0, 0.25), glass, "pane"}};
   expectGolden("translucent", picture);
+}
+
+TEST(Golden, MeshesAndMarks) {
+  REX_NEEDS_OSMESA();
+  const BareMesh sphere = sphereSample(0.2f, 3), cube = cubeSample(0.12f);
+  const auto half = static_cast<std::uint32_t>(sphere.triangles.size() / 2);
+  const TriangleMesh ball = weldedMesh(sphere.positions, sphere.triangles,
+                                       {{Eigen::Vector4f(0.2f, 0.4f, 0.7f, 1), 0, half}, {{}, half, half}});
+  Picture picture;
+  picture.solids = {
+      {{.type = ShapeType::kMesh, .mesh = ball}, translation(-0.5, 0, 0.2), kWood, "ball"},
+      {{.type = ShapeType::kMesh, .mesh = weldedMesh(cube.positions, cube.triangles)},
+       translation(0, 0.3, 0.12) * rotation(0.5, {0, 0, 1}),
+       kOrange,
+       "cube"},
+      {{ShapeType::kRoundedBox, {0.3, 0.3, 0.3}, 0.08}, translation(0.5, 0.2, 0.15), kBlue, "rounded box"}};
+  picture.arrows = {{{-0.5, 0, 0.4}, {-0.3, 0, 0.75}, kOrange, 0.02}};
+  picture.ellipsoids = {{translation(0.4, -0.3, 0.2) * rotation(0.4, {0, 1, 0}), {0.25, 0.1, 0.15}}};
+  picture.pointSets = {{.points = {{0.4, -0.3, 0.2}, {0.5, -0.3, 0.15}, {0.2, -0.35, 0.3}}, .size = 4}};
+  LineSet tree;
+  const auto node = [](int level, int i) {
+    return Vector3d(-0.7 + 0.8 * (i + 0.5) / (1 << level), -0.8 + 0.12 * level, 0.01);
+  };
+  for (int level = 1; level < 6; ++level)
+    for (int i = 0; i < 1 << level; ++i) tree.segments.emplace_back(node(level - 1, i / 2), node(level, i));
+  picture.lineSets = {tree};
+  picture.labels = {{"A", {-0.5, 0, 0.2}}, {"B", {-0.5, 0, 0.2}}};
+  expectGolden("marks", picture);
 }
 
 }  // namespace

@@ -19,7 +19,10 @@ Picture full() {
   picture.solids.push_back({{ShapeType::kBox, {1, 1, 1}, 0}, {}, {}, ""});
   picture.polylines.push_back({{{0, 0, 0}, {1, 0, 0}}});
   picture.pointSets.push_back({{{0, 0, 1}}});
+  picture.lineSets.push_back({{{{0, 0, 0}, {0, 1, 0}}}});
   picture.axes.push_back({{}, 0.1, "world"});
+  picture.arrows.push_back({});
+  picture.ellipsoids.push_back({});
   picture.labels.push_back({"here"});
   picture.captions.push_back({"title"});
   return picture;
@@ -32,6 +35,8 @@ TEST(PictureBounds, HoldEverythingThatHasAPlace) {
       {{ShapeType::kCapsule, {0, 0, 2}, 0.5}, rotation(std::numbers::pi / 2, {0, 1, 0})});
   EXPECT_LT((bounds(picture).high - Eigen::Vector3d(1.5, 0.5, 0.5)).norm(), 1e-12);
   picture.polylines.push_back({{{0, 3, 0}}});
+  picture.lineSets.push_back({{{{0, 0, 0}, {0, 0, -2}}}});
+  EXPECT_EQ(bounds(picture).low.z(), -2);
   picture.pointSets.push_back({{{0, 0, -4}}});
   picture.axes.push_back({translation(0, 0, 5), 2, ""});
   picture.labels.push_back({"far", {-6, 0, 0}});
@@ -56,11 +61,26 @@ TEST(RequireDrawable, NamesWhatIsWrong) {
       {[](Picture& p) { p.solids[0].shape.radius = kNan; }, "solid 'hand', size: found a number that is not"},
       {[](Picture& p) { p.solids[1].shape.extent.x() = -1; }, "solid 1, size: found a negative length"},
       {[](Picture& p) { p.solids[0].color.g = NAN; }, "solid 'hand', color"},
+      {[](Picture& p) {
+         p.solids[0].shape.type = ShapeType::kPointCloud;
+         p.solids[0].shape.mesh = TriangleMesh({{2e9f, 0, 0}}, {}, {});
+       },
+       "solid 'hand', mesh: found a number that is not finite, or beyond 1e9"},
       {[](Picture& p) { p.solids[0].shape.type = ShapeType::kMesh; },
-       "solid 'hand': found a mesh, wanted a box"},
+       "solid 'hand': found a mesh without vertices, wanted one as of readMesh()"},
       {[](Picture& p) { p.polylines[0].points[1].z() = kNan; }, "polyline 0, point 1: found a number"},
       {[](Picture& p) { p.polylines[0].width = 0; },
        "polyline 0: found a size in pixels that is not positive"},
+      {[](Picture& p) { p.lineSets[0].segments[0].second.x() = kNan; },
+       "line set 0, segment 0: found a number"},
+      {[](Picture& p) { p.lineSets[0].color.r = NAN; }, "line set 0, color"},
+      {[](Picture& p) { p.lineSets[0].width = -1; },
+       "line set 0: found a size in pixels that is not positive"},
+      {[](Picture& p) { p.arrows[0].from.x() = kNan; }, "arrow 0: found a number that is not finite"},
+      {[](Picture& p) { p.arrows[0].radius = 0; }, "arrow 0: found a radius that is not positive"},
+      {[](Picture& p) { p.ellipsoids[0].X_WE.p.x() = kNan; },
+       "ellipsoid 0: found a number that is not finite"},
+      {[](Picture& p) { p.ellipsoids[0].radii.x() = -1; }, "ellipsoid 0: found a negative radius"},
       {[](Picture& p) { p.pointSets[0].points[0].z() = kNan; }, "point set 0, point 0"},
       {[](Picture& p) { p.pointSets[0].color.a = NAN; }, "point set 0, color"},
       {[](Picture& p) { p.axes[0].size = kNan; }, "axes 'world': found a number that is not finite"},

@@ -63,7 +63,7 @@ double distanceTo(const Shape& shape, const Vector3d& p) {
     case ShapeType::kCylinder:
       return boxDistance(Eigen::Vector2d(p.head<2>().norm() - shape.radius, std::abs(p.z()) - half.z()));
     default:
-      return boxDistance(Vector3d(p.cwiseAbs() - half));
+      return boxDistance(Vector3d(p.cwiseAbs() - half + Vector3d::Constant(shape.radius))) - shape.radius;
   }
 }
 
@@ -121,7 +121,7 @@ TEST_P(SolidOutline, IsThatOfARayCaster) {
 
 INSTANTIATE_TEST_SUITE_P(Shapes, SolidOutline,
                          testing::Values(Shape{ShapeType::kBox, {0.6, 0.9, 0.3}, 0},
-                                         Shape{ShapeType::kRoundedBox, {0.5, 0.5, 0.8}, 0.01},
+                                         Shape{ShapeType::kRoundedBox, {0.5, 0.4, 0.8}, 0.15},
                                          Shape{.type = ShapeType::kSphere, .radius = 0.4},
                                          Shape{ShapeType::kCapsule, {0, 0, 0.8}, 0.25},
                                          Shape{ShapeType::kCylinder, {0, 0, 0.7}, 0.35}),

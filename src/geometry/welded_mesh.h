@@ -1,0 +1,22 @@
+#pragma once
+
+#include <numbers>
+#include <vector>
+
+#include "geometry/triangle_mesh.h"
+
+namespace rex {
+
+/// Edges that bend by less than this look smooth, radians.
+inline constexpr double kCreaseAngle = std::numbers::pi * 40 / 180;
+
+/// A mesh with normals from bare triangles, as files hold them. Corners at the same place become one,
+/// triangles without area are dropped, and a closed surface that is inside out is turned; otherwise the
+/// winding stays. Normals are averages over the triangles at a corner (weighted by their angles there) that
+/// bend by less than `creaseAngle`. Empty if no triangle is left. Throws Error as TriangleMesh.
+[[nodiscard]] TriangleMesh weldedMesh(const std::vector<Eigen::Vector3f>& positions,
+                                      const std::vector<TriangleMesh::Triangle>& triangles,
+                                      const std::vector<TriangleMesh::Part>& parts = {},
+                                      double creaseAngle = kCreaseAngle);
+
+}  // namespace rex

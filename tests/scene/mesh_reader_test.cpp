@@ -1,0 +1,191 @@
+#include "scene/mesh_reader.h"
+
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "support/expect_error.h"
+#include "support/mesh_samples.h"
+#include "support/temporary_folder.h"
+
+namespace rex {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3f;
+
+class MeshReader : public testing::Test {
+ protected:
+  fs::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_.path() / name, std::ios::binary) << text;
+    return folder_.path() / name;
+  }
+
+  TemporaryFolder folder_;
+};
+
+std::string asciiStl(const BareMesh& mesh) {
+  std::ostringstream text;
+  text.precision(9);
+  text << "solid sample\n";
+  for (const auto& triangle : mesh.triangles) {
+    text << "facet normal 0 0 0\n outer loop\n";
+    for (const std::uint32_t corner : triangle)
+      text << "  vertex " << mesh.positions[corner].transpose() << '\n';
+    text << " endloop\nendfacet\n";
+  }
+  text << "endsolid sample\n";
+  return text.str();
+}
+
+std::string binaryStl(const BareMesh& mesh) {
+  std::string bytes(80, ' ');
+  const auto add = [&](const auto& value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
+  };
+  add(static_cast<std::uint32_t>(mesh.triangles.size()));
+  for (const auto& triangle : mesh.triangles) {
+    add(std::array<float, 3>{});
+    for (const std::uint32_t corner : triangle) add(mesh.positions[corner]);
+    add(std::uint16_t{0});
+  }
+  return bytes;
+}
+
+constexpr const char* kTetrahedronOff =
+    "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+
+TEST_F(MeshReader, ReadsStlAsASmoothSurface) {
+  const BareMesh sphere = sphereSample(0.5f, 3);
+  for (const fs::path& file :
+       {write("ascii.stl", asciiStl(sphere)), write("binary.STL", binaryStl(sphere))}) {
+    const TriangleMesh mesh = readMesh(file, 2);
+    EXPECT_EQ(mesh.positions().size(), 258u) << file;
+    EXPECT_EQ(mesh.triangles().size(), 512u);
+    // A sphere of radius 1, less what its flat sides cut off.
+    EXPECT_NEAR(volumeOf(mesh), 4 * std::numbers::pi / 3, 0.03 * 4.19);
+    EXPECT_LT(volumeOf(mesh), 4 * std::numbers::pi / 3);
+    EXPECT_NEAR(areaOf(mesh), 4 * std::numbers::pi, 0.02 * 12.6);
+    for (std::size_t i = 0; i < mesh.normals().size(); ++i)
+      EXPECT_GT(mesh.normals()[i].dot(mesh.positions()[i]), std::cos(0.03));
+    ASSERT_EQ(mesh.parts().size(), 1u);
+    EXPECT_FALSE(mesh.parts()[0].color.has_value()) << "STL has no colours";
+  }
+}
+
+TEST_F(MeshReader, ReadsMaterialsOfObj) {
+  write("two.mtl", "newmtl blue\nKd 0.1 0.2 0.9\nd 0.5\nnewmtl red\nKd 0.8 0.1 0\n");
+  const BareMesh cube = cubeSample(1);
+  std::ostringstream text;
+  for (const Vector3f& p : cube.positions) text << "v " << p.transpose() << '\n';
+  const std::string bottomAndTop = "f 1 3 4 2\nf 5 6 8 7\n";
+  const std::string sides = "f 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+  const TriangleMesh mesh = readMesh(write(
+      "two.obj", "mtllib two.mtl\n" + text.str() + "usemtl red\n" + bottomAndTop + "usemtl blue\n" + sides));
+  EXPECT_NEAR(volumeOf(mesh), 8, 1e-5);
+  EXPECT_EQ(mesh.positions().size(), 24u);
+  ASSERT_EQ(mesh.parts().size(), 2u);
+  EXPECT_EQ(mesh.parts()[0].triangleCount, 4u);
+  ASSERT_TRUE(mesh.parts()[0].color && mesh.parts()[1].color);
+  EXPECT_LT((*mesh.parts()[0].color - Eigen::Vector4f(0.8f, 0.1f, 0, 1)).norm(), 1e-6f);
+  EXPECT_LT((*mesh.parts()[1].color - Eigen::Vector4f(0.1f, 0.2f, 0.9f, 0.5f)).norm(), 1e-6f);
+  const TriangleMesh plain = readMesh(write("plain.obj", text.str() + bottomAndTop + sides));
+  for (const auto& part : plain.parts()) EXPECT_FALSE(part.color.has_value()) << "no material";
+}
+
+TEST_F(MeshReader, ReadsPlyWithAndWithoutFaces) {
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
+  const std::string points = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+  const TriangleMesh cloud = readMesh(write("cloud.ply", head + "end_header\n" + points), 0.5);
+  ASSERT_EQ(cloud.positions().size(), 4u);
+  EXPECT_TRUE(cloud.triangles().empty());
+  EXPECT_EQ(cloud.positions()[1], Vector3f(0.5f, 0, 0));
+  const TriangleMesh mesh = readMesh(
+      write("mesh.ply", head + "element face 4\nproperty list uchar int vertex_indices\nend_header\n" +
+                            points + "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n"));
+  EXPECT_NEAR(volumeOf(mesh), 1. / 6, 1e-7);
+  EXPECT_FALSE(mesh.parts()[0].color.has_value());
+}
+
+TEST_F(MeshReader, ReadsOff) {
+  const TriangleMesh mesh = readMesh(write("tetrahedron.off", kTetrahedronOff));
+  EXPECT_NEAR(volumeOf(mesh), 1. / 6, 1e-7);
+  EXPECT_NEAR(areaOf(mesh), 1.5 + std::sqrt(3) / 2, 1e-6);
+  EXPECT_EQ(mesh.positions().size(), 12u);
+  EXPECT_FALSE(mesh.parts()[0].color.has_value());
+}
+
+std::string base64(const std::string& bytes) {
+  const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i + 2 < bytes.size(); i += 3) {
+    std::uint32_t word = 0;
+    for (int k = 0; k < 3; ++k) word = word << 8 | static_cast<unsigned char>(bytes[i + k]);
+    for (int shift = 18; shift >= 0; shift -= 6) text += digits[word >> shift & 63];
+  }
+  return text;
+}
+
+// A tetrahedron, mirrored in x and moved by nested nodes.
+TEST_F(MeshReader, PlacesTheNodesOfGltf) {
+  const std::array<float, 12> positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  const std::array<std::uint16_t, 12> indices = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
+  std::string bytes(72, '\0');
+  std::memcpy(bytes.data(), positions.data(), 48);
+  std::memcpy(bytes.data() + 48, indices.data(), 24);
+  const std::string text = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+    "nodes": [{"children": [1], "translation": [0, 0, 5]}, {"mesh": 0, "scale": [-2, 1, 1]}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
+    "materials": [{"name": "paint", "pbrMetallicRoughness": {"baseColorFactor": [1, 0.2158605, 0, 1]}}],
+    "buffers": [{"byteLength": 72, "uri": "data:application/octet-stream;base64,)" +
+                           base64(bytes) + R"("}],
+    "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 24}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3",
+                   "min": [0, 0, 0], "max": [1, 1, 1]},
+                  {"bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR"}]})";
+  const TriangleMesh mesh = readMesh(write("tetrahedron.gltf", text));
+  EXPECT_NEAR(volumeOf(mesh), 2. / 6, 1e-6) << "not inside out, though mirrored";
+  EXPECT_EQ(mesh.halfBounds(), Eigen::Vector3d(2, 1, 6));
+  ASSERT_TRUE(mesh.parts()[0].color.has_value());
+  EXPECT_LT((*mesh.parts()[0].color - Eigen::Vector4f(1, 0.5019608f, 0, 1)).norm(), 1e-4f)
+      << "linear light becomes sRGB";
+}
+
+TEST_F(MeshReader, NamesWhatIsWrong) {
+  const fs::path good = write("tetrahedron.off", kTetrahedronOff);
+  EXPECT_REX_ERROR(
+      readMesh(folder_.path() / "tetrahedon.off"),
+      "tetrahedon.off: cannot read the mesh file: wanted a file (did you mean 'tetrahedron.off'?)");
+  EXPECT_REX_ERROR(readMesh("no/such/folder/x.stl"), "no/such/folder/x.stl: cannot read the mesh file");
+  fs::create_directory(folder_.path() / "folder.stl");
+  EXPECT_REX_ERROR(readMesh(folder_.path() / "folder.stl"), "cannot read the mesh file");
+  EXPECT_REX_ERROR(readMesh(write("a.tri", "")),
+                   "a.tri: not a kind of mesh file that rex reads: found '.tri', wanted .stl, .obj, .ply");
+  EXPECT_REX_ERROR(readMesh(write("a.sttl", "")), "(did you mean '.stl'?)");
+  EXPECT_REX_ERROR(readMesh(write("a", "")), "found no ending");
+  for (const double scale : {0., -1., std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_REX_ERROR(readMesh(good, scale), "tetrahedron.off: scale of the mesh: found");
+  for (const char* name :
+       {"junk.stl", "junk.obj", "junk.ply", "junk.dae", "junk.gltf", "junk.glb", "junk.off"}) {
+    EXPECT_REX_ERROR(readMesh(write(name, "this is no mesh, however long one looks at it")), name);
+    EXPECT_REX_ERROR(readMesh(write(name, "")), name);
+  }
+  EXPECT_REX_ERROR(readMesh(write("flat.off", "OFF\n3 1 3\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n")),
+                   "flat.off: mesh: found 1 triangles, none of which has an area, wanted a surface");
+  EXPECT_REX_ERROR(readMesh(write("nan.stl",
+                                  "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 nan\n"
+                                  "vertex 0 1 0\nendloop\nendfacet\nendsolid x\n")),
+                   "nan.stl: mesh: found vertex 1 at (nan, nan, nan), wanted finite numbers up to 1e9");
+  EXPECT_REX_ERROR(readMesh(good, 2e9), "tetrahedron.off: mesh: found vertex 1 at (2000000000, 0, 0)");
+  std::error_code problem;
+  fs::resize_file(write("large.stl", "x"), (256u << 20) + 1, problem);
+  EXPECT_REX_ERROR(readMesh(folder_.path() / "large.stl"),
+                   "large.stl: mesh file too large: found 268435457 bytes, wanted at most 256 MiB");
+}
+
+}  // namespace
+}  // namespace rex

@@ -1,0 +1,79 @@
+#include "scene/scene_meshes.h"
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "scene/model.h"
+#include "scene/ors_reader.h"
+#include "support/expect_error.h"
+#include "support/temporary_folder.h"
+
+namespace rex {
+namespace {
+
+// A square pyramid of height 3 on the plane z = 0, and as many vertices elsewhere as nowhere.
+constexpr const char* kPyramid =
+    "OFF\n5 5 8\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n1 1 3\n4 0 3 2 1\n3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n";
+
+class SceneMeshes : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::filesystem::create_directory(folder_.path() / "meshes");
+    std::ofstream(folder_.path() / "meshes/pyramid.off") << kPyramid;
+  }
+
+  std::filesystem::path scene(const std::string& text) const {
+    const std::filesystem::path file = folder_.path() / "scene.ors";
+    std::ofstream(file) << text;
+    return file;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(SceneMeshes, AreReadBesideTheirScene) {
+  const SceneSpec spec = readOrs(scene("body a { type=3 mesh='meshes/pyramid.off' meshscale=0.5 }\n"
+                                       "shape (a) { type=3 mesh='meshes/pyramid.off' meshscale=0.5 }\n"
+                                       "shape { type=7 mesh='meshes/pyramid.off' }\n"
+                                       "shape { type=8 mesh='meshes/pyramid.off' size=[0 0 0 .1] }"))
+                             .spec;
+  const Shape& first = spec.bodies[0].shapes[0].shape;
+  EXPECT_EQ(first.mesh.triangles().size(), 6u);
+  EXPECT_EQ(first.mesh, spec.bodies[0].shapes[1].shape.mesh) << "one file is read once";
+  EXPECT_EQ(halfBounds(spec.worldShapes[0].shape), Eigen::Vector3d(2, 2, 3));
+  EXPECT_LT((halfBounds(spec.worldShapes[1].shape) - Eigen::Vector3d(2.1, 2.1, 3.1)).norm(), 1e-12);
+  EXPECT_EQ(compile(spec).shapes().size(), 4u);
+}
+
+// The mean of the five vertices is (1, 1, 0.6).
+TEST_F(SceneMeshes, AreCentredWithoutMoving) {
+  const SceneSpec spec =
+      readOrs(scene("shape { type=3 mesh='meshes/pyramid.off' rel=<T t(5 0 0) d(90 0 0 1)> }")).spec;
+  const ShapeSpec& shape = spec.worldShapes[0];
+  EXPECT_LT((shape.X_BS.p - Eigen::Vector3d(4, 1, 0.6)).norm(), 1e-6);
+  Eigen::Vector3d highest(0, 0, -9);
+  for (const Eigen::Vector3f& p : shape.shape.mesh.positions())
+    if (p.z() > highest.z()) highest = p.cast<double>();
+  EXPECT_LT((shape.X_BS * highest - Eigen::Vector3d(4, 1, 3)).norm(), 1e-6);
+}
+
+TEST_F(SceneMeshes, AreNamesOnlyInText) {
+  const SceneSpec spec = parseOrs("body a { type=3 mesh='meshes/pyramid.off' }", "f").spec;
+  EXPECT_TRUE(spec.bodies[0].shapes[0].shape.mesh.isEmpty());
+  EXPECT_EQ(spec.bodies[0].shapes[0].meshFile, "meshes/pyramid.off");
+  EXPECT_EQ(compile(spec).shapes().size(), 1u);
+}
+
+TEST_F(SceneMeshes, ThatAreMissingAreNamedWithTheirPlace) {
+  EXPECT_REX_ERROR(readOrs(scene("body a {}\nshape hat (a) { type=3 mesh='meshes/pyramit.off' }")),
+                   "scene.ors:2:1: shape 'hat': mesh '" + (folder_.path() / "meshes/pyramit.off").string() +
+                       "': cannot read the mesh file: wanted a file (did you mean 'pyramid.off'?)");
+  EXPECT_REX_ERROR(readOrs(scene("body a { type=3 }")),
+                   "shape 'a': attribute 'mesh' is missing: wanted the file of its mesh, in single quotes");
+  EXPECT_REX_ERROR(readOrs(scene("body a { type=3 mesh='meshes/pyramid.off' meshscale=0 }")),
+                   "scale of the mesh: found 0, wanted a positive number");
+}
+
+}  // namespace
+}  // namespace rex
