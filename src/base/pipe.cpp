@@ -37,7 +37,28 @@ void Pipe::close(int& fd) {
   fd = -1;
 }
 
-SigpipeIgnored::SigpipeIgnored() : before_(std::signal(SIGPIPE, SIG_IGN)) {}
-SigpipeIgnored::~SigpipeIgnored() { std::signal(SIGPIPE, before_); }
+namespace {
+
+sigset_t sigpipe() {
+  sigset_t signals;
+  ::sigemptyset(&signals);
+  ::sigaddset(&signals, SIGPIPE);
+  return signals;
+}
+
+}  // namespace
+
+// The signal goes to the thread that writes, so blocking it there is enough and disturbs no other thread.
+SigpipeIgnored::SigpipeIgnored() {
+  const sigset_t signals = sigpipe();
+  ::pthread_sigmask(SIG_BLOCK, &signals, &before_);
+}
+
+SigpipeIgnored::~SigpipeIgnored() {
+  const sigset_t signals = sigpipe();
+  const timespec now{};
+  if (::sigismember(&before_, SIGPIPE) == 0) ::sigtimedwait(&signals, nullptr, &now);
+  ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
 
 }  // namespace rex

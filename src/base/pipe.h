@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <csignal>
 
 namespace rex {
 
@@ -28,7 +29,8 @@ class Pipe {
   std::array<int, 2> ends_{-1, -1};
 };
 
-/// While it lives, writing to a pipe that nobody reads is an error code, not a signal that ends this process.
+/// While it lives, writing to a pipe that nobody reads is an error code for the thread that made it, not a
+/// signal that ends this process.
 class SigpipeIgnored {
  public:
   SigpipeIgnored();
@@ -37,7 +39,7 @@ class SigpipeIgnored {
   SigpipeIgnored& operator=(const SigpipeIgnored&) = delete;
 
  private:
-  void (*before_)(int);
+  sigset_t before_;
 };
 
 }  // namespace rex

@@ -9,19 +9,19 @@ namespace {
 
 using Eigen::Vector3d;
 
-bool isLarge(const DrawItem& item, const Camera& camera, int pictureHeight) {
-  constexpr double kCoarsePixels = 36;  // up to this radius, 24 corners lie within 0.3 pixels of the circle
-  const double radius = std::min(item.halfSize.x(), item.halfSize.y());
+// Where it is nearest to the camera.
+double radiusInPixels(const DrawItem& item, const Camera& camera, int pictureHeight) {
   const double depth = std::max((item.X_WS.p - camera.X_WC.p).norm() - item.stretch.norm(), camera.nearPlane);
   const double focal = pictureHeight / (2 * std::tan(camera.verticalFov / 2));
-  return radius * focal > kCoarsePixels * depth;
+  return focal * radiusOf(item) / depth;
 }
 
 class Builder {
  public:
   Builder(const Camera& camera, int pictureHeight) : camera_(camera), pictureHeight_(pictureHeight) {}
 
-  void addSolid(const Solid& solid) {
+  void addSolid(const Solid& solid, int index) {
+    solid_ = index;
     const Shape& shape = solid.shape;
     const double r = shape.radius;
     switch (shape.type) {
@@ -81,11 +81,12 @@ class Builder {
  private:
   void add(DrawItem item) {
     if (item.halfSize.minCoeff() <= 0 || item.color.a <= 0) return;
-    item.fine = isLarge(item, camera_, pictureHeight_);
+    item.detail = detailFor(radiusInPixels(item, camera_, pictureHeight_));
     (item.color.a < 1 ? list_.translucent : list_.opaque).push_back(std::move(item));
   }
 
   void add(DrawItem item, const Solid& solid) {
+    item.solid = solid_;
     item.X_WS = solid.X_WS;
     item.color = solid.color;
     add(std::move(item));
@@ -103,6 +104,7 @@ class Builder {
       DrawItem item{.mesh = MeshKind::kImported,
                     .X_WS = solid.X_WS,
                     .color = solid.color,
+                    .solid = solid_,
                     .imported = solid.shape.mesh,
                     .firstTriangle = part.firstTriangle,
                     .triangleCount = part.triangleCount};
@@ -116,10 +118,13 @@ class Builder {
 
   const Camera& camera_;
   int pictureHeight_;
+  int solid_ = -1;  // the index of the one being added
   DrawList list_;
 };
 
 }  // namespace
+
+double radiusOf(const DrawItem& item) { return std::max(item.halfSize.x(), item.halfSize.y()); }
 
 Vector3d halfExtent(const DrawItem& item) {
   return item.mesh == MeshKind::kImported ? item.imported.halfBounds()
@@ -128,7 +133,8 @@ Vector3d halfExtent(const DrawItem& item) {
 
 DrawList makeDrawList(const Picture& picture, const Camera& camera, int pictureHeight) {
   Builder builder(camera, pictureHeight);
-  for (const Solid& solid : picture.solids) builder.addSolid(solid);
+  for (const Solid& solid : picture.solids)
+    builder.addSolid(solid, static_cast<int>(&solid - picture.solids.data()));
   for (const Arrow& arrow : picture.arrows) builder.addArrow(arrow);
   for (const Ellipsoid& ellipsoid : picture.ellipsoids) builder.addEllipsoid(ellipsoid);
   return builder.take();

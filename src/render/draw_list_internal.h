@@ -4,6 +4,7 @@
 
 #include "render/camera.h"
 #include "render/picture.h"
+#include "render/solid_mesh_internal.h"
 
 namespace rex::internal {
 
@@ -12,15 +13,18 @@ enum class MeshKind { kBox, kCapsule, kCylinder, kRoundedBox, kCone, kImported }
 /// A mesh put into the world: a unit mesh, see MeshVertex, or some triangles of an imported one as they are.
 struct DrawItem {
   MeshKind mesh = MeshKind::kBox;
-  bool fine = false;  ///< large in the picture: its outline shows every corner of a coarse mesh
+  std::size_t detail = 0;  ///< which of kSegments
   Pose X_WS{};
   Eigen::Vector3d halfSize = Eigen::Vector3d::Ones();
   Eigen::Vector3d stretch = Eigen::Vector3d::Zero();
   Color color{};
+  int solid = -1;  ///< its index in the picture; -1 for what is no solid
   TriangleMesh imported{};
   std::uint32_t firstTriangle = 0, triangleCount = 0;  ///< of `imported`
 };
 
+/// The radius about its z axis, metres.
+[[nodiscard]] double radiusOf(const DrawItem& item);
 /// Half edge lengths of the box about the origin and along the axes of S that holds the item, metres.
 [[nodiscard]] Eigen::Vector3d halfExtent(const DrawItem& item);
 

@@ -1,42 +1,45 @@
 #include "render/gl_context.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <mutex>
 #include <optional>
 
+#include <fmt/format.h>
+
 #include "base/error.h"
+#include "render/egl_context_internal.h"
+#include "render/gl_backends_internal.h"
 #include "render/osmesa_context_internal.h"
 
 namespace rex {
 namespace {
 
-constexpr const char* kDriverVariable = "GALLIUM_DRIVER";
-
-class ChosenDriver {
+// An environment variable that is put back in the end.
+class ScopedVariable {
  public:
-  explicit ChosenDriver(const std::string& driver) : lock_(mutex()) {
-    if (const char* value = std::getenv(kDriverVariable)) previous_ = value;
-    ::setenv(kDriverVariable, driver.c_str(), 1);
+  ScopedVariable(const char* name, const std::string& value) : name_(name) {
+    if (const char* before = std::getenv(name)) previous_ = before;
+    ::setenv(name, value.c_str(), 1);
   }
-  ~ChosenDriver() {
+  ~ScopedVariable() {
     if (previous_)
-      ::setenv(kDriverVariable, previous_->c_str(), 1);
+      ::setenv(name_, previous_->c_str(), 1);
     else
-      ::unsetenv(kDriverVariable);
+      ::unsetenv(name_);
   }
-  ChosenDriver(const ChosenDriver&) = delete;
-  ChosenDriver& operator=(const ChosenDriver&) = delete;
+  ScopedVariable(const ScopedVariable&) = delete;
+  ScopedVariable& operator=(const ScopedVariable&) = delete;
 
  private:
-  static std::mutex& mutex() {
-    static std::mutex one;
-    return one;
-  }
-  std::lock_guard<std::mutex> lock_;
+  const char* name_;
   std::optional<std::string> previous_;
 };
+
+std::mutex& environmentMutex() {
+  static std::mutex one;
+  return one;
+}
 
 void requireDriver(const std::string& driver) {
   const std::vector<std::string> known = {"llvmpipe", "softpipe"};
@@ -47,22 +50,57 @@ void requireDriver(const std::string& driver) {
                .nearest = nearestNames(driver, known)});
 }
 
+std::unique_ptr<GlContext> makeFirstThatWorks(const internal::GlLibraries& libraries, bool allowHardware) {
+  std::string cause;
+  try {
+    return internal::makeOsMesaContext(libraries.osMesa);
+  } catch (const Error& error) {
+    cause = error.parts().found;
+  }
+  try {
+    return internal::makeEglContext(libraries.egl, allowHardware);
+  } catch (const Error& error) {
+    throw Error({.what = "OpenGL without a screen",
+                 .found = fmt::format("neither OSMesa ({}) nor EGL ({})", cause, error.parts().found),
+                 .wanted = "Debian package libosmesa6, or libegl1 and libgl1-mesa-dri"});
+  }
+}
+
 }  // namespace
+
+namespace internal {
+
+std::unique_ptr<GlContext> makeContextFrom(const GlLibraries& libraries, const GlOptions& options) {
+  requireDriver(options.driver);
+  const std::lock_guard<std::mutex> lock(environmentMutex());
+  const ScopedVariable driver("GALLIUM_DRIVER", options.driver);
+  // Without it, EGL on a computer with a graphics card would take that.
+  std::optional<ScopedVariable> software;
+  if (!options.allowHardware) software.emplace("LIBGL_ALWAYS_SOFTWARE", "1");
+  switch (options.backend) {
+    case GlBackend::kOsMesa:
+      return makeOsMesaContext(libraries.osMesa);
+    case GlBackend::kEgl:
+      return makeEglContext(libraries.egl, options.allowHardware);
+    default:
+      return makeFirstThatWorks(libraries, options.allowHardware);
+  }
+}
+
+}  // namespace internal
 
 GlBackend glBackendFromName(const std::string& name) {
   if (name == "auto") return GlBackend::kAuto;
   if (name == "osmesa") return GlBackend::kOsMesa;
+  if (name == "egl") return GlBackend::kEgl;
   throw Error({.what = "OpenGL backend",
                .found = "'" + name + "'",
-               .wanted = "auto or osmesa (Debian package libosmesa6)",
-               .nearest = nearestNames(name, {"auto", "osmesa"})});
+               .wanted = "auto, osmesa (Debian package libosmesa6) or egl (libegl1 and libgl1-mesa-dri)",
+               .nearest = nearestNames(name, {"auto", "osmesa", "egl"})});
 }
 
 std::unique_ptr<GlContext> makeGlContext(const GlOptions& options) {
-  requireDriver(options.driver);
-  const ChosenDriver chosen(options.driver);
-  // OSMesa is the only backend so far, and so what kAuto takes.
-  return internal::makeOsMesaContext(internal::osMesaLibraries());
+  return internal::makeContextFrom({internal::osMesaLibraries(), internal::eglLibraries()}, options);
 }
 
 }  // namespace rex

@@ -5,8 +5,9 @@
 
 namespace rex {
 
-/// Where OpenGL comes from. kAuto takes the first that works.
-enum class GlBackend { kAuto, kOsMesa };
+/// Where OpenGL comes from: Mesa's OSMesa library, or EGL without a screen. Both give the same pictures.
+/// kAuto takes the first that works, in this order.
+enum class GlBackend { kAuto, kOsMesa, kEgl };
 
 /// How to make a context. The environment is the program's business: whoever wants to honour GALLIUM_DRIVER
 /// passes it on here.
@@ -16,6 +17,9 @@ struct GlOptions {
   /// GALLIUM_DRIVER and crashes for others, so that variable is set while the context is made, and put back.
   /// Mesa keeps the driver of a process's first context for all others.
   std::string driver = "llvmpipe";
+  /// Whether EGL may use a graphics card, whose pictures differ from those of software. A process's first
+  /// context by EGL decides for all others; one that must not have a card then is refused.
+  bool allowHardware = false;
 };
 
 /// An OpenGL 3.3 core context without a window. Its objects die with it.
@@ -38,10 +42,10 @@ class GlContext {
   GlContext() = default;
 };
 
-/// The backend of that name: "auto", "osmesa". Throws Error naming the choices.
+/// The backend of that name: "auto", "osmesa", "egl". Throws Error naming the choices and their packages.
 [[nodiscard]] GlBackend glBackendFromName(const std::string& name);
 
-/// Makes a context. Throws Error naming the Debian package when no library is found, and the choices for an
+/// Makes a context. Throws Error naming the Debian packages when no backend works, and the choices for an
 /// unknown driver.
 [[nodiscard]] std::unique_ptr<GlContext> makeGlContext(const GlOptions& options = {});
 

@@ -58,9 +58,12 @@ namespace rex::internal {
   X(ReadPixels, PFNGLREADPIXELSPROC)                                         \
   X(RenderbufferStorageMultisample, PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC) \
   X(ShaderSource, PFNGLSHADERSOURCEPROC)                                     \
+  X(StencilFunc, PFNGLSTENCILFUNCPROC)                                       \
+  X(StencilOp, PFNGLSTENCILOPPROC)                                           \
   X(TexImage2D, PFNGLTEXIMAGE2DPROC)                                         \
   X(TexParameteri, PFNGLTEXPARAMETERIPROC)                                   \
   X(Uniform1f, PFNGLUNIFORM1FPROC)                                           \
+  X(Uniform1i, PFNGLUNIFORM1IPROC)                                           \
   X(Uniform3f, PFNGLUNIFORM3FPROC)                                           \
   X(Uniform4f, PFNGLUNIFORM4FPROC)                                           \
   X(UniformMatrix3fv, PFNGLUNIFORMMATRIX3FVPROC)                             \

@@ -55,6 +55,8 @@ void GlProgram::set(const char* name, const Color& c) const {
   gl_->Uniform4f(location(name), c.r * c.r, c.g * c.g, c.b * c.b, c.a);
 }
 
+void GlProgram::setTexture(const char* name, int unit) const { gl_->Uniform1i(location(name), unit); }
+
 GLint GlProgram::location(const char* name) const {
   const GLint where = gl_->GetUniformLocation(id_, name);
   assert(where >= 0);

@@ -21,6 +21,8 @@ class GlProgram {
   void set(const char* name, const Eigen::Matrix4d& value) const;
   /// As the shaders count light: sRGB undone, see shaders_internal.h.
   void set(const char* name, const Color& value) const;
+  /// The texture that the sampler `name` reads: that of this unit.
+  void setTexture(const char* name, int unit) const;
 
  private:
   GLint location(const char* name) const;

@@ -7,10 +7,6 @@
 namespace rex::internal {
 namespace {
 
-constexpr int kCoarseSegments = 24, kFineSegments = 64;
-// Rounded edges are small.
-constexpr int kCoarseEdge = 16, kFineEdge = 48;
-
 template <typename T>
 void fill(const GlFunctions& gl, GLenum target, GLuint buffer, std::span<const T> values) {
   gl.BindBuffer(target, buffer);
@@ -28,12 +24,14 @@ const void* keyOf(const TriangleMesh& mesh) { return mesh.positions().data(); }
 }  // namespace
 
 MeshStore::MeshStore(const GlFunctions& gl) : gl_(&gl) {
-  const Stored box = upload(makeBoxMesh());
-  meshes_ = {{{box, box},
-              {upload(makeCapsuleMesh(kCoarseSegments)), upload(makeCapsuleMesh(kFineSegments))},
-              {upload(makeCylinderMesh(kCoarseSegments)), upload(makeCylinderMesh(kFineSegments))},
-              {upload(makeRoundedBoxMesh(kCoarseEdge)), upload(makeRoundedBoxMesh(kFineEdge))},
-              {upload(makeConeMesh(kCoarseSegments)), upload(makeConeMesh(kFineSegments))}}};
+  auto& [boxes, capsules, cylinders, roundedBoxes, cones] = meshes_;
+  boxes.fill(upload(makeBoxMesh()));
+  for (std::size_t detail = 0; detail < kSegments.size(); ++detail) {
+    capsules[detail] = upload(makeCapsuleMesh(kSegments[detail]));
+    cylinders[detail] = upload(makeCylinderMesh(kSegments[detail]));
+    roundedBoxes[detail] = upload(makeRoundedBoxMesh(kSegments[detail]));
+    cones[detail] = upload(makeConeMesh(kSegments[detail]));
+  }
 }
 
 MeshStore::Stored MeshStore::upload(const SolidMesh& mesh) const {
@@ -86,6 +84,10 @@ void MeshStore::prepare(const DrawList& list) {
   }
 }
 
+void MeshStore::cullBackOf(const DrawItem& item) const {
+  (item.mesh == MeshKind::kImported ? gl_->Disable : gl_->Enable)(GL_CULL_FACE);
+}
+
 void MeshStore::draw(const DrawItem& item, const GlProgram& program) const {
   program.set("R_WS", item.X_WS.R);
   program.set("p_WS", item.X_WS.p);
@@ -100,7 +102,7 @@ void MeshStore::draw(const DrawItem& item, const GlProgram& program) const {
                       reinterpret_cast<const void*>(first));
     return;
   }
-  const Stored& mesh = meshes_[static_cast<std::size_t>(item.mesh)][item.fine ? 1 : 0];
+  const Stored& mesh = meshes_[static_cast<std::size_t>(item.mesh)][item.detail];
   gl_->BindVertexArray(mesh.vertexArray);
   gl_->DrawElements(GL_TRIANGLES, mesh.indexCount, GL_UNSIGNED_SHORT, nullptr);
 }

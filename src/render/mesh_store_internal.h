@@ -9,14 +9,16 @@
 
 namespace rex::internal {
 
-/// Meshes on the side of OpenGL: the unit meshes, each coarse and fine, and the imported ones in use. They
-/// live as long as the context.
+/// Meshes on the side of OpenGL: the unit meshes in every detail, and the imported ones in use. They live as
+/// long as the context.
 class MeshStore {
  public:
   explicit MeshStore(const GlFunctions& gl);
   /// Uploads the imported meshes of a picture that are new, and forgets those that several pictures in a row
   /// have done without.
   void prepare(const DrawList& list);
+  /// Lets OpenGL leave out what faces away, but not of an imported surface, which may be open.
+  void cullBackOf(const DrawItem& item) const;
   /// Draws one item with the current `program`, whose placement uniforms it sets. Imported meshes need
   /// prepare().
   void draw(const DrawItem& item, const GlProgram& program) const;
@@ -37,7 +39,7 @@ class MeshStore {
   Stored upload(const TriangleMesh& mesh) const;
 
   const GlFunctions* gl_;
-  std::array<std::array<Stored, 2>, 5> meshes_;  // [MeshKind][fine]
+  std::array<std::array<Stored, kSegments.size()>, 5> meshes_;  // [MeshKind][detail]
   std::map<const void*, Imported> imported_;
 };
 

@@ -3,16 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "render/draw_list_internal.h"
 #include "render/frame_buffer_internal.h"
+#include "render/fxaa_internal.h"
 #include "render/gl_program_internal.h"
+#include "render/ground_disc_internal.h"
 #include "render/mesh_store_internal.h"
 #include "render/overlay_store_internal.h"
 #include "render/picture_text_internal.h"
+#include "render/sensor_pass_internal.h"
 #include "render/shaders_internal.h"
 #include "render/shadow_map_internal.h"
 #include "render/visibility_internal.h"
@@ -27,6 +31,7 @@ using internal::GlProgram;
 using internal::ShaderSource;
 
 constexpr int kLargest = 8192;  // pixels
+constexpr int kSamples = 4;     // per pixel, of AntiAliasing::kMsaa4
 
 const RendererOptions& checked(const RendererOptions& options) {
   const auto inRange = [](int size) { return size >= 1 && size <= kLargest; };
@@ -51,11 +56,11 @@ void requireUsable(const Camera& camera) {
                  .wanted = "0 < near < far"});
 }
 
-int samplesFor(const GlFunctions& gl, AntiAliasing antiAliasing) {
-  constexpr int kWanted = 4;
+// What the driver can do of what is wanted.
+AntiAliasing supported(const GlFunctions& gl, AntiAliasing wanted) {
   GLint most = 1;
   gl.GetIntegerv(GL_MAX_SAMPLES, &most);
-  return antiAliasing == AntiAliasing::kMsaa4 && most >= kWanted ? kWanted : 1;
+  return wanted == AntiAliasing::kMsaa4 && most < kSamples ? AntiAliasing::kFxaa : wanted;
 }
 
 GlProgram makeProgram(const GlFunctions& gl, const ShaderSource& source) {
@@ -96,8 +101,10 @@ bool hasScene(const Picture& picture, const DrawList& list) {
 struct Renderer::Impl {
   explicit Impl(const RendererOptions& wanted);
   Image draw(const Picture& picture, const Camera& camera);
+  internal::SensorImages drawSensors(const Picture& picture, const Camera& camera);
   void setLight(const GlProgram& program, const Picture& picture, const internal::ShadowView& shadow) const;
   void setBackground(const GlProgram& program) const;
+  void drawBackground() const;
   void drawGround(const Picture& picture, const Camera& camera, const internal::ShadowView& shadow) const;
   void drawSolids(const DrawList& list, const Picture& picture, const Camera& camera,
                   const internal::ShadowView& shadow);
@@ -109,12 +116,14 @@ struct Renderer::Impl {
   RendererOptions options;
   std::unique_ptr<GlContext> context;
   GlFunctions gl;
-  int samples;
+  AntiAliasing antiAliasing;
   internal::FrameBuffer frame;
   internal::MeshStore meshes;
   internal::ShadowMap shadowMap;
   internal::Visibility visibility;
   GlProgram background, ground, solid, overlay;
+  std::optional<internal::Fxaa> fxaa;
+  std::optional<internal::SensorPass> sensors;  // made when first asked for
   internal::OverlayStore overlayStore;
   GLuint noVertices = 0;
 };
@@ -123,8 +132,10 @@ Renderer::Impl::Impl(const RendererOptions& wanted)
     : options(checked(wanted)),
       context(makeGlContext(options.gl)),
       gl(currentFunctions(*context)),
-      samples(samplesFor(gl, options.antiAliasing)),
-      frame(gl, options.width, options.height, samples),
+      antiAliasing(supported(gl, options.antiAliasing)),
+      frame(gl, options.width, options.height,
+            {.samples = antiAliasing == AntiAliasing::kMsaa4 ? kSamples : 1,
+             .twoStages = antiAliasing == AntiAliasing::kFxaa}),
       meshes(gl),
       shadowMap(gl),
       visibility(gl),
@@ -133,6 +144,7 @@ Renderer::Impl::Impl(const RendererOptions& wanted)
       solid(makeProgram(gl, internal::solidShader(options.shadow))),
       overlay(makeProgram(gl, internal::overlayShader())),
       overlayStore(gl) {
+  if (antiAliasing == AntiAliasing::kFxaa) fxaa.emplace(gl);
   gl.GenVertexArrays(1, &noVertices);
   gl.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
@@ -153,19 +165,27 @@ void Renderer::Impl::setBackground(const GlProgram& program) const {
   program.set("pictureHeight", options.height);
 }
 
+// After what hides it, to shade each pixel once.
+void Renderer::Impl::drawBackground() const {
+  background.use();
+  setBackground(background);
+  gl.BindVertexArray(noVertices);
+  gl.DepthFunc(GL_LEQUAL);
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  gl.DepthFunc(GL_LESS);
+}
+
 void Renderer::Impl::drawGround(const Picture& picture, const Camera& camera,
                                 const internal::ShadowView& shadow) const {
   const Ground& plane = picture.ground;
-  if (!plane.visible || camera.X_WC.p.z() <= plane.height) return;
-  const Bounds scene = bounds(picture);
-  const Eigen::Vector3d middle = scene.isEmpty() ? Eigen::Vector3d::Zero() : scene.center();
-  const double radius = scene.isEmpty() ? 1 : scene.radius();
+  const std::optional<internal::GroundDisc> disc = internal::visibleGround(picture, camera);
+  if (!disc) return;
   ground.use();
   setLight(ground, picture, shadow);
   setBackground(ground);
   ground.set("clipFromWorld", clip(camera));
-  ground.set("groundCenter", Eigen::Vector3d(middle.x(), middle.y(), plane.height));
-  ground.set("groundRadius", std::max(6 * radius, 4 * plane.cell));
+  ground.set("groundCenter", disc->center);
+  ground.set("groundRadius", disc->radius);
   ground.set("groundCell", plane.cell);
   ground.set("groundLight", plane.light);
   ground.set("groundDark", plane.dark);
@@ -187,13 +207,13 @@ void Renderer::Impl::drawSolids(const DrawList& list, const Picture& picture, co
   solid.set("eye", camera.X_WC.p);
   visibility.watch([&] {
     for (const DrawItem& item : list.opaque) {
-      // An imported surface may be open, and is seen from both sides.
-      (item.mesh == internal::MeshKind::kImported ? gl.Disable : gl.Enable)(GL_CULL_FACE);
+      meshes.cullBackOf(item);
       draw(item, 1);
     }
   });
   gl.Disable(GL_CULL_FACE);
   drawGround(picture, camera, shadow);
+  drawBackground();
   solid.use();
   gl.Enable(GL_CULL_FACE);
   gl.Enable(GL_BLEND);
@@ -245,14 +265,9 @@ Image Renderer::Impl::draw(const Picture& picture, const Camera& camera) {
   if (options.shadow) shadow = shadowMap.draw(list.opaque, picture.toLight, meshes);
   frame.bind();
   gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  gl.Disable(GL_DEPTH_TEST);
-  background.use();
-  setBackground(background);
-  gl.BindVertexArray(noVertices);
-  gl.DrawArrays(GL_TRIANGLES, 0, 3);
-  gl.Enable(GL_DEPTH_TEST);
   visibility.start();
   drawSolids(list, picture, camera, shadow);
+  if (fxaa) fxaa->smooth(frame);
   drawOverlay(picture, camera);
 
   Image image = frame.read();
@@ -268,6 +283,17 @@ Image Renderer::Impl::draw(const Picture& picture, const Camera& camera) {
   return image;
 }
 
+internal::SensorImages Renderer::Impl::drawSensors(const Picture& picture, const Camera& camera) {
+  constexpr int kFiner = 8;  // than in a picture: round solids are off by a sixteenth of a pixel at most
+  requireDrawable(picture);
+  requireUsable(camera);
+  context->makeCurrent();
+  if (!sensors) sensors.emplace(gl, options.width, options.height);
+  const DrawList list = internal::makeDrawList(picture, camera, kFiner * options.height);
+  meshes.prepare(list);
+  return sensors->draw(list, picture, camera, meshes);
+}
+
 Renderer::Renderer(const RendererOptions& options) : impl_(std::make_unique<Impl>(options)) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
@@ -275,14 +301,24 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 Image Renderer::draw(const Picture& picture, const Camera& camera) { return impl_->draw(picture, camera); }
 
+DepthImage Renderer::drawDepth(const Picture& picture, const Camera& camera) {
+  return impl_->drawSensors(picture, camera).depth;
+}
+
+SegmentationImage Renderer::drawSegmentation(const Picture& picture, const Camera& camera) {
+  return impl_->drawSensors(picture, camera).segmentation;
+}
+
 std::string Renderer::describe() const {
   impl_->context->makeCurrent();
   const auto text = [&](GLenum what) { return reinterpret_cast<const char*>(impl_->gl.GetString(what)); };
-  const bool refused = impl_->options.antiAliasing == AntiAliasing::kMsaa4 && impl_->samples == 1;
+  const char* smooth = impl_->antiAliasing == AntiAliasing::kMsaa4  ? "4 samples per pixel"
+                       : impl_->antiAliasing == AntiAliasing::kNone ? "no anti-aliasing"
+                       : impl_->options.antiAliasing == AntiAliasing::kMsaa4
+                           ? "FXAA (4 samples are not supported)"
+                           : "FXAA";
   return fmt::format("{}, OpenGL {}, {}, {}", impl_->context->describe(), text(GL_VERSION), text(GL_RENDERER),
-                     impl_->samples > 1 ? "4 samples per pixel"
-                     : refused          ? "no anti-aliasing (4 samples are not supported)"
-                                        : "no anti-aliasing");
+                     smooth);
 }
 
 const RendererOptions& Renderer::options() const { return impl_->options; }

@@ -4,13 +4,17 @@
 #include <string>
 
 #include "render/camera.h"
+#include "render/depth_image.h"
 #include "render/gl_context.h"
 #include "render/image.h"
 #include "render/picture.h"
+#include "render/segmentation_image.h"
 
 namespace rex {
 
-enum class AntiAliasing { kNone, kMsaa4 };
+/// How edges of solids lose their steps (lines and points are always smooth): not at all; by their colours in
+/// a finished picture, for films; by four samples per pixel, for stills.
+enum class AntiAliasing { kNone, kFxaa, kMsaa4 };
 
 /// How pictures are made; what they show is a Picture.
 struct RendererOptions {
@@ -37,6 +41,13 @@ class Renderer {
   /// sense; when none of the solids, lines and points is seen, whatever the ground and text show; and when
   /// all rows of the image are of one colour, as for an empty picture.
   [[nodiscard]] Image draw(const Picture& picture, const Camera& camera);
+
+  /// How far the nearest solid or the ground is in the middle of each pixel. Translucent solids count; lines,
+  /// points, arrows, ellipsoids and text do not. Round solids are rounder than in a picture, by up to half a
+  /// pixel. Nothing in view is no error. Throws Error as requireDrawable(), and for a camera as draw().
+  [[nodiscard]] DepthImage drawDepth(const Picture& picture, const Camera& camera);
+  /// Which solid that is. Otherwise as drawDepth().
+  [[nodiscard]] SegmentationImage drawSegmentation(const Picture& picture, const Camera& camera);
 
   /// Backend, OpenGL version, renderer and anti-aliasing in use, on one line.
   [[nodiscard]] std::string describe() const;

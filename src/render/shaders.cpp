@@ -60,7 +60,7 @@ std::string fragmentStart(bool shadow) { return kVersion + shadowSwitch(shadow) 
 
 ShaderSource backgroundShader() {
   return {kVersion + R"(
-void main() { gl_Position = vec4(4 * (gl_VertexID & 1) - 1, 2 * (gl_VertexID & 2) - 1, 0, 1); }
+void main() { gl_Position = vec4(4 * (gl_VertexID & 1) - 1, 2 * (gl_VertexID & 2) - 1, 1, 1); }
 )",
           kVersion + kBackground + R"(
 out vec4 color;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cassert>
 
 #include <Eigen/Geometry>
@@ -74,7 +75,10 @@ ShadowView ShadowMap::draw(const std::vector<DrawItem>& casters, const Eigen::Ve
   gl_->Clear(GL_DEPTH_BUFFER_BIT);
   program_.use();
   program_.set("shadowClipFromWorld", view.clipFromWorld);
-  for (const DrawItem& item : casters) meshes.draw(item, program_);
+  for (DrawItem item : casters) {
+    item.detail = std::min(item.detail, detailFor(radiusOf(item) / view.texel));
+    meshes.draw(item, program_);
+  }
   return view;
 }
 

@@ -13,6 +13,10 @@ void addTriangle(SolidMesh& mesh, int a, int b, int c) {
   mesh.indices.insert(mesh.indices.end(), {index(a), index(b), index(c)});
 }
 
+// The radius of the corners of a polygon whose edges touch the unit circle. The faces of a sphere made of
+// such polygons lie as far inside as its corners outside.
+double cornerRadius(int segments) { return 1 / std::cos(std::numbers::pi / segments); }
+
 // A ring of vertices with radius r at height z; the normal leans by (radial, along).
 void addRing(SolidMesh& mesh, int segments, double r, double z, double radial, double along, int end) {
   for (int k = 0; k < segments; ++k) {
@@ -35,6 +39,14 @@ void addBand(SolidMesh& mesh, int segments, int upper, int lower) {
 }
 
 }  // namespace
+
+std::size_t detailFor(double radiusInPixels) {
+  constexpr double kTolerance = 0.5;  // pixels
+  std::size_t detail = 0;
+  while (detail + 1 < kSegments.size() && radiusInPixels * (cornerRadius(kSegments[detail]) - 1) > kTolerance)
+    ++detail;
+  return detail;
+}
 
 SolidMesh makeBoxMesh() {
   SolidMesh mesh;
@@ -62,8 +74,8 @@ SolidMesh makeCapsuleMesh(int segments) {
   for (const int end : {1, -1}) {
     for (int k = 0; k <= rings; ++k) {
       const double latitude = std::numbers::pi / 2 * (end > 0 ? rings - k : -k) / rings;
-      const double r = std::cos(latitude), z = std::sin(latitude);
-      addRing(mesh, segments, r, z, r, z, end);
+      const double r = std::cos(latitude), z = std::sin(latitude), size = cornerRadius(segments);
+      addRing(mesh, segments, size * r, size * z, r, z, end);
     }
   }
   for (int ring = 0; ring < 2 * rings + 1; ++ring)
@@ -72,11 +84,12 @@ SolidMesh makeCapsuleMesh(int segments) {
 }
 
 SolidMesh makeCylinderMesh(int segments) {
+  const double size = cornerRadius(segments);
   SolidMesh mesh;
-  addRing(mesh, segments, 1, 1, 0, 1, 0);
-  addRing(mesh, segments, 1, 1, 1, 0, 0);
-  addRing(mesh, segments, 1, -1, 1, 0, 0);
-  addRing(mesh, segments, 1, -1, 0, -1, 0);
+  addRing(mesh, segments, size, 1, 0, 1, 0);
+  addRing(mesh, segments, size, 1, 1, 0, 0);
+  addRing(mesh, segments, size, -1, 1, 0, 0);
+  addRing(mesh, segments, size, -1, 0, -1, 0);
   addBand(mesh, segments, segments, 2 * segments);
   const int bottom = 3 * segments;
   for (int k = 1; k + 1 < segments; ++k) {
@@ -117,8 +130,8 @@ SolidMesh makeConeMesh(int segments) {
   const double radial = 2 / std::sqrt(5), along = 1 / std::sqrt(5);  // across the line from (1, -1) to (0, 1)
   SolidMesh mesh;
   addRing(mesh, segments, 0, 1, radial, along, 0);
-  addRing(mesh, segments, 1, -1, radial, along, 0);
-  addRing(mesh, segments, 1, -1, 0, -1, 0);
+  addRing(mesh, segments, cornerRadius(segments), -1, radial, along, 0);
+  addRing(mesh, segments, cornerRadius(segments), -1, 0, -1, 0);
   addBand(mesh, segments, 0, segments);
   const int bottom = 2 * segments;
   for (int k = 1; k + 1 < segments; ++k) addTriangle(mesh, bottom, bottom + k + 1, bottom + k);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -20,9 +21,16 @@ struct SolidMesh {
   std::vector<std::uint16_t> indices;
 };
 
+/// How finely round meshes are cut: their corners around, from coarse to fine. Triangles are what a picture
+/// of many small solids costs.
+inline constexpr std::array<int, 6> kSegments = {8, 12, 16, 24, 48, 96};
+/// The coarsest detail with which a circle of this radius is off by no more than half a pixel.
+[[nodiscard]] std::size_t detailFor(double radiusInPixels);
+
 /// The cube [-1, 1]^3.
 [[nodiscard]] SolidMesh makeBoxMesh();
 /// The unit sphere, cut at the equator: half of it has end = 1, half -1. `segments` (a multiple of 4) around.
+/// The edges of round meshes touch the round surface, their corners lie outside.
 [[nodiscard]] SolidMesh makeCapsuleMesh(int segments);
 /// The cylinder of radius 1 about z with |z| <= 1.
 [[nodiscard]] SolidMesh makeCylinderMesh(int segments);

@@ -1,6 +1,8 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <string>
+#include <system_error>
 
 #include <unistd.h>
 
@@ -8,22 +10,38 @@
 #include "render/staged_file_internal.h"
 
 namespace rex::internal {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& cause) {
+  throw Error({.what = "cannot write '" + path.string() + "'", .found = cause});
+}
+
+}  // namespace
+
+StagedFile::StagedFile(const std::filesystem::path& path)
+    : path_(path), target_(std::filesystem::absolute(path)), part_(target_) {
+  part_ += ".part-" + std::to_string(::getpid());
+  if (!std::ofstream(part_, std::ios::binary)) fail(path_, std::strerror(errno));
+}
+
+StagedFile::~StagedFile() {
+  std::error_code ignored;
+  std::filesystem::remove(part_, ignored);
+}
+
+void StagedFile::commit() {
+  std::error_code problem;
+  std::filesystem::rename(part_, target_, problem);
+  if (problem) fail(path_, problem.message());
+}
 
 void writeWhole(const std::filesystem::path& path, std::string_view bytes) {
-  std::filesystem::path part = path;
-  part += ".part-" + std::to_string(::getpid());
-  const auto fail = [&](const std::string& cause) {
-    std::error_code ignored;
-    std::filesystem::remove(part, ignored);
-    throw Error({.what = "cannot write '" + path.string() + "'", .found = cause});
-  };
-  std::ofstream file(part, std::ios::binary);
+  StagedFile staged(path);
+  std::ofstream file(staged.part(), std::ios::binary);
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   file.close();
-  if (!file) fail(std::strerror(errno));
-  std::error_code error;
-  std::filesystem::rename(part, path, error);
-  if (error) fail(error.message());
+  if (!file) fail(path, std::strerror(errno));
+  staged.commit();
 }
 
 }  // namespace rex::internal

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <future>
+#include <memory>
+#include <thread>
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -51,11 +54,37 @@ TEST(Pipe, SaysWhenThereAreNoDescriptors) {
 #endif
 
 TEST(SigpipeIgnored, TurnsTheSignalIntoAnErrorCode) {
-  const SigpipeIgnored ignored;
-  Pipe pipe;
-  pipe.closeRead();
-  EXPECT_EQ(::write(pipe.writeEnd(), "a", 1), -1);
-  EXPECT_EQ(errno, EPIPE);
+  {
+    const SigpipeIgnored ignored;
+    Pipe pipe;
+    pipe.closeRead();
+    EXPECT_EQ(::write(pipe.writeEnd(), "a", 1), -1);
+    EXPECT_EQ(errno, EPIPE);
+  }
+  sigset_t blocked, pending;
+  ::pthread_sigmask(SIG_BLOCK, nullptr, &blocked);
+  ::sigpending(&pending);
+  EXPECT_EQ(::sigismember(&blocked, SIGPIPE), 0);
+  EXPECT_EQ(::sigismember(&pending, SIGPIPE), 0);
+}
+
+// The other thread's wish began before and ends first.
+TEST(SigpipeIgnored, HoldsForItsThreadWhateverOthersDo) {
+  auto first = std::make_unique<SigpipeIgnored>();
+  Pipe broken;
+  broken.closeRead();
+  std::promise<void> begun, over;
+  std::thread writer([&] {
+    const SigpipeIgnored ignored;
+    begun.set_value();
+    over.get_future().wait();
+    EXPECT_EQ(::write(broken.writeEnd(), "a", 1), -1);
+    EXPECT_EQ(errno, EPIPE);
+  });
+  begun.get_future().wait();
+  first.reset();
+  over.set_value();
+  writer.join();
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 namespace rex::bench {
 namespace {
 
-constexpr int kRepetitions = 15;
 constexpr double kSecondsPerMeasurement = 0.02;
 
 // Keeps the mean CPU time of the one benchmark that runs, and prints nothing.
@@ -49,7 +48,7 @@ std::optional<double> Result::ratio() const { return peer ? std::optional(ours /
 Result measure(const Row& row) {
   // In turn, so that a slow moment of the machine meets both sides.
   double ours = std::numeric_limits<double>::infinity(), peer = ours;
-  for (int i = 0; i < kRepetitions; ++i) {
+  for (int i = 0; i < row.repetitions; ++i) {
     ours = std::min(ours, row.ours());
     if (row.peer) peer = std::min(peer, row.peer());
   }

@@ -21,6 +21,7 @@ struct Row {
   Measurement peer{};              ///< empty: the peer is not installed
   std::optional<double> target{};  ///< what ours / peer should not exceed
   std::string unit = "ns";         ///< ns, us, ms or s
+  int repetitions = 15;            ///< measurements of each side
 };
 
 /// The smallest of several measurements of each side, taken in turn, in the row's unit.

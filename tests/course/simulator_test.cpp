@@ -1,4 +1,3 @@
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -7,6 +6,9 @@
 
 #include "base/process.h"
 #include "course/course.h"
+#include "render/png.h"
+#include "render/video_sink.h"
+#include "support/changed_path.h"
 #include "support/expect_error.h"
 #include "support/paths.h"
 #include "support/temporary_folder.h"
@@ -164,25 +166,48 @@ TEST_F(SimulatorTest, WritesTheSameFramesTwice) {
 }
 
 TEST_F(SimulatorTest, MakesAVideoOfItsFrames) {
-  if (!runProcess({"ffmpeg", "-version"}).ok()) GTEST_SKIP() << "needs the package ffmpeg";
+  if (!missingForVideo("swing.mp4").empty()) GTEST_SKIP() << "needs the Debian package ffmpeg";
   Simulator S("pegArm.ors");
   for (int i = 0; i < 5; ++i) S.setJointAngles(Eigen::Vector3d::Constant(.1 * i));
   writeVideo(S, in("swing"), {.width = 64, .height = 48});
-  EXPECT_GT(fs::file_size(in("swing.mp4")), 500u);
+  const ProcessResult probe =
+      runProcess({"ffprobe", "-v", "error", "-count_frames", "-show_entries",
+                  "stream=nb_read_frames,width,height,avg_frame_rate", "-of", "csv=p=0", in("swing.mp4")});
+  EXPECT_EQ(probe.output, "64,48,30/1,6\n") << probe.error;
   EXPECT_TRUE(fs::exists(in("swing/0005.png")));
+  EXPECT_FALSE(fs::exists(in("swing/0006.png")));
 }
 
 TEST_F(SimulatorTest, LeavesTheFramesWhereThereIsNoFfmpeg) {
   const Simulator S("pegArm.ors");
-  const std::string path = std::getenv("PATH");
-  ::setenv("PATH", "/nowhere", 1);
   testing::internal::CaptureStderr();
-  writeVideo(S, in("swing"), {.width = 64, .height = 48});
-  ::setenv("PATH", path.c_str(), 1);
-  EXPECT_THAT(testing::internal::GetCapturedStderr(),
-              testing::HasSubstr("swing.mp4 is missing because ffmpeg is"));
+  {
+    const ChangedPath nowhere;
+    writeVideo(S, in("swing"), {.width = 64, .height = 48});
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            in("swing.mp4") + " is missing because ffmpeg is (apt-get install ffmpeg); the frames are in " +
+                in("swing") + "\n");
   EXPECT_TRUE(fs::exists(in("swing/0000.png")));
   EXPECT_FALSE(fs::exists(in("swing.mp4")));
+}
+
+TEST_F(SimulatorTest, ShowsItsWayOnAContactSheet) {
+  Simulator S("pegArm.ors");
+  for (int i = 0; i < 30; ++i) S.setJointAngles(Eigen::Vector3d::Constant(.1 * i));
+  const PictureOptions options{.traces = {"peg"}, .width = 160, .height = 120};
+  writeContactSheet(S, in("swing"), options, 4);
+  writeFrames(S, in("film"), options);
+  const Image sheet = readPng(in("swing.png")), first = readPng(in("film/0000.png")),
+              last = readPng(in("film/0030.png"));
+  // The first picture of the sheet and its fourth, which starts the second row, are those of the film.
+  const int below = sheet.height - 10 - (sheet.height - 10) / 2;
+  for (int y = 0; y < 120; ++y) {
+    for (int x = 0; x < 160; ++x) {
+      ASSERT_EQ(sheet.at(10 + x, 10 + y), first.at(x, y));
+      ASSERT_EQ(sheet.at(10 + x, 10 + below + y), last.at(x, y));
+    }
+  }
 }
 
 TEST_F(SimulatorTest, ReplacesFramesOfAnEarlierRun) {
@@ -211,6 +236,10 @@ TEST_F(SimulatorTest, ExplainsPicturesThatCannotBe) {
   EXPECT_REX_ERROR(writeFrames(S, in("film"), {}, 1), "number of postures: found 1, wanted at least 2");
   std::ofstream(in("file")) << "x";
   EXPECT_REX_ERROR(writeFrames(S, in("file")), "cannot make the folder for frames");
+  EXPECT_REX_ERROR(writeContactSheet(S, in("x"), {}, 1),
+                   "contact sheet: pictures: found 1, wanted at least 2");
+  S.clearRecording();
+  EXPECT_REX_ERROR(writeContactSheet(S, in("x")), "x.png: no postures for a contact sheet");
 }
 
 TEST(FormatMatrix, ShowsNameShapeAndNumbers) {

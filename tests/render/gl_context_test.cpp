@@ -5,11 +5,14 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "render/egl_context_internal.h"
+#include "render/gl_backends_internal.h"
 #include "render/gl_functions_internal.h"
 #include "render/gl_program_internal.h"
 #include "render/osmesa_context_internal.h"
 #include "render/renderer.h"
 #include "support/expect_error.h"
+#include "support/needs_egl.h"
 #include "support/needs_osmesa.h"
 
 namespace rex {
@@ -39,10 +42,72 @@ TEST(GlContext, RejectsLibrariesThatDoNotWork) {
   EXPECT_REX_ERROR(context->makeCurrent(), "refuses its own context");
 }
 
+TEST(GlContext, NamesThePackagesWhenEglIsMissing) {
+  EXPECT_REX_ERROR(internal::makeEglContext({"libNoSuchEgl.so.1", "libNorThis.so"}, false),
+                   "libNoSuchEgl.so.1: cannot open");
+  EXPECT_REX_ERROR(internal::makeEglContext({"libNoSuchEgl.so.1", "libNorThis.so"}, false),
+                   "wanted EGL, Debian packages libegl1 and libgl1-mesa-dri");
+  EXPECT_REX_ERROR(internal::makeEglContext({"libm.so.6"}, false),
+                   "libm.so.6 without eglGetPlatformDisplay, wanted EGL 1.5");
+}
+
+// The made-up library fails in the function that this variable names.
+void breakEgl(const char* function) { ::setenv("REX_BROKEN_EGL", function, 1); }
+
+TEST(GlContext, TellsWhereEglFails) {
+  const std::string start = "OpenGL by EGL (" REX_BROKEN_EGL "): found ";
+  breakEgl("eglGetPlatformDisplay");
+  EXPECT_REX_ERROR(internal::makeEglContext({REX_BROKEN_EGL}, true),
+                   start + "no display without a screen (error 0x3001), wanted EGL, Debian packages libegl1");
+  breakEgl("eglInitialize");
+  EXPECT_REX_ERROR(
+      internal::makeEglContext({REX_BROKEN_EGL}, true),
+      start + "a display that does not start (error 0x3001), wanted EGL, Debian packages libegl1");
+  breakEgl("eglCreateContext");
+  EXPECT_REX_ERROR(internal::makeEglContext({REX_BROKEN_EGL}, true),
+                   start + "no OpenGL 3.3 core (error 0x3001), wanted Mesa 22 or later");
+  breakEgl("eglMakeCurrent");
+  const auto context = internal::makeEglContext({REX_BROKEN_EGL}, true);
+  EXPECT_REX_ERROR(context->makeCurrent(), start + "a refusal of its own context (error 0x3001)");
+}
+
+TEST(GlContext, RefusesAGraphicsCardUnlessAsked) {
+  ::unsetenv("LIBGL_ALWAYS_SOFTWARE");
+  breakEgl("software");  // starts for those only who ask for software
+  const internal::GlLibraries libraries{.osMesa = {}, .egl = {REX_BROKEN_EGL}};
+  EXPECT_REX_ERROR(internal::makeContextFrom(libraries, {.backend = GlBackend::kEgl}),
+                   "found 'Graphics Card 9', wanted a software renderer");
+  EXPECT_EQ(std::getenv("LIBGL_ALWAYS_SOFTWARE"), nullptr) << "put back";
+  EXPECT_REX_ERROR(internal::makeContextFrom(libraries, {.backend = GlBackend::kEgl, .allowHardware = true}),
+                   "a display that does not start");
+  breakEgl("nothing");
+  EXPECT_NO_THROW(internal::makeContextFrom(libraries, {.backend = GlBackend::kEgl, .allowHardware = true}));
+}
+
+TEST(GlContext, TakesTheFirstBackendThatWorks) {
+  const std::vector<std::string> none = {"libNoSuch.so"};
+  for (const char* part : {"OpenGL without a screen: found neither OSMesa (libNoSuch.so: cannot open",
+                           ") nor EGL (libNoSuch.so: cannot open",
+                           "wanted Debian package libosmesa6, or libegl1 and libgl1-mesa-dri"})
+    EXPECT_REX_ERROR(internal::makeContextFrom({none, none}, {}), part);
+  EXPECT_REX_ERROR(internal::makeContextFrom({none, none}, {.backend = GlBackend::kOsMesa}), "libosmesa6");
+  EXPECT_REX_ERROR(internal::makeContextFrom({none, none}, {.backend = GlBackend::kEgl}), "libegl1");
+  REX_NEEDS_OSMESA();
+  REX_NEEDS_EGL();
+  const std::vector<std::string> osMesa = internal::osMesaLibraries(), egl = internal::eglLibraries();
+  EXPECT_EQ(internal::makeContextFrom({osMesa, egl}, {})->describe(), "OSMesa (libOSMesa.so.8)");
+  EXPECT_EQ(internal::makeContextFrom({none, egl}, {})->describe(), "EGL (libEGL.so.1)");
+  EXPECT_EQ(internal::makeContextFrom({osMesa, egl}, {.backend = GlBackend::kEgl})->describe(),
+            "EGL (libEGL.so.1)");
+}
+
 TEST(GlContext, ChoosesByNameAndRejectsOthers) {
   EXPECT_EQ(glBackendFromName("auto"), GlBackend::kAuto);
   EXPECT_EQ(glBackendFromName("osmesa"), GlBackend::kOsMesa);
-  EXPECT_REX_ERROR(glBackendFromName("osmesaa"), "OpenGL backend: found 'osmesaa', wanted auto or osmesa");
+  EXPECT_EQ(glBackendFromName("egl"), GlBackend::kEgl);
+  EXPECT_REX_ERROR(glBackendFromName("osmesaa"),
+                   "OpenGL backend: found 'osmesaa', wanted auto, osmesa (Debian package libosmesa6) or egl "
+                   "(libegl1 and libgl1-mesa-dri) (did you mean 'osmesa'?)");
   EXPECT_REX_ERROR(makeGlContext({.driver = "swr"}),
                    "OpenGL driver: found 'swr', wanted llvmpipe or softpipe");
 }
@@ -78,9 +143,10 @@ TEST(GlContext, ShowsWhyAShaderIsRefused) {
 
 // In a process of its own, because Mesa keeps the driver of the first context. `swr` in the environment would
 // crash Mesa.
-void makeContextsUnder(const char* variable, const char* driver) {
+void makeContextsUnder(const char* variable, GlBackend backend, const char* driver) {
   ::setenv("GALLIUM_DRIVER", variable, 1);
-  const std::string description = Renderer({.width = 8, .height = 8, .gl = {.driver = driver}}).describe();
+  const GlOptions gl{.backend = backend, .driver = driver};
+  const std::string description = Renderer({.width = 8, .height = 8, .gl = gl}).describe();
   const bool kept = std::string(std::getenv("GALLIUM_DRIVER")) == variable;
   const bool asked = description.find(driver) != std::string::npos;
   const bool told = std::string(driver) != "softpipe" ||
@@ -91,8 +157,15 @@ void makeContextsUnder(const char* variable, const char* driver) {
 TEST(GlContextDeathTest, UsesTheChosenDriverWhateverTheEnvironmentSays) {
   REX_NEEDS_OSMESA();
   GTEST_FLAG_SET(death_test_style, "threadsafe");
-  EXPECT_EXIT(makeContextsUnder("swr", "llvmpipe"), testing::ExitedWithCode(0), "");
-  EXPECT_EXIT(makeContextsUnder("llvmpipe", "softpipe"), testing::ExitedWithCode(0), "");
+  EXPECT_EXIT(makeContextsUnder("swr", GlBackend::kOsMesa, "llvmpipe"), testing::ExitedWithCode(0), "");
+  EXPECT_EXIT(makeContextsUnder("llvmpipe", GlBackend::kOsMesa, "softpipe"), testing::ExitedWithCode(0), "");
+}
+
+TEST(GlContextDeathTest, UsesTheChosenDriverWithEglToo) {
+  REX_NEEDS_EGL();
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(makeContextsUnder("swr", GlBackend::kEgl, "llvmpipe"), testing::ExitedWithCode(0), "");
+  EXPECT_EXIT(makeContextsUnder("llvmpipe", GlBackend::kEgl, "softpipe"), testing::ExitedWithCode(0), "");
 }
 
 }  // namespace

@@ -205,7 +205,7 @@ TEST(FrameBuffer, RefusesSizesBeyondOpenGl) {
   context->makeCurrent();
   const internal::GlFunctions gl = internal::loadGlFunctions(*context);
   EXPECT_REX_ERROR(
-      internal::FrameBuffer(gl, 100000, 100000, 4),
+      internal::FrameBuffer(gl, 100000, 100000, {.samples = 4}),
       "OpenGL cannot draw a picture of this size: found 100000 x 100000 pixels, 4 samples, wanted "
       "a smaller one");
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -81,6 +82,18 @@ bool rayHits(const Solid& solid, const Camera& camera, double x, double y, int w
   return false;
 }
 
+// Whether the outline passes within `reach` pixels of that point of the picture.
+bool isNearOutline(const Solid& solid, const Camera& camera, double x, double y, int width, int height,
+                   double reach) {
+  int hits = 0;
+  constexpr int kAround = 8;
+  for (int k = 0; k < kAround; ++k) {
+    const double angle = 2 * std::numbers::pi * k / kAround;
+    hits += rayHits(solid, camera, x + reach * std::cos(angle), y + reach * std::sin(angle), width, height);
+  }
+  return hits > 0 && hits < kAround;
+}
+
 class SolidOutline : public testing::TestWithParam<Shape> {};
 
 TEST_P(SolidOutline, IsThatOfARayCaster) {
@@ -92,16 +105,17 @@ TEST_P(SolidOutline, IsThatOfARayCaster) {
     const Solid solid{GetParam(), {expSO3(rng.normalVector(3)), 0.3 * rng.normalVector(3)}, kRed, "it"};
     const Camera camera = lookAt({2, -3, 1.5}, {0.2, 0.1, 0});
     const Image image = renderer.draw(pictureOf({solid}), camera);
-    int wrong = 0, inside = 0;
+    int inside = 0;
     for (int y = 0; y < kHeight; ++y)
       for (int x = 0; x < kWidth; ++x) {
         const bool hit = rayHits(solid, camera, x + 0.5, y + 0.5, kWidth, kHeight);
         inside += hit;
-        wrong += hit != shows(image, x, y, 0);
+        if (hit == shows(image, x, y, 0)) continue;
+        // A mesh with flat sides may miss the middle of a pixel on the edge, by less than half a pixel.
+        EXPECT_TRUE(isNearOutline(solid, camera, x + 0.5, y + 0.5, kWidth, kHeight, 0.5))
+            << "pixel " << x << ", " << y;
       }
     ASSERT_GT(inside, 300);
-    // Pixels whose middle the outline of a flat-sided mesh misses.
-    EXPECT_LT(wrong, 0.02 * inside + 4);
   }
 }
 

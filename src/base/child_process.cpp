@@ -1,0 +1,270 @@
+#include "base/child_process.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cmath>
+#include <csignal>
+#include <cstring>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/signalfd.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "base/interruption.h"
+#include "base/pipe.h"
+
+namespace rex {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Takes the requests to stop that somebody holds back; without one, nothing ever arrives.
+class StopRequests {
+ public:
+  StopRequests() {
+    const sigset_t wanted = stopSignals();
+    sigset_t held, both;
+    ::sigprocmask(SIG_BLOCK, nullptr, &held);
+    ::sigandset(&both, &wanted, &held);
+    fd_ = ::signalfd(-1, &both, SFD_CLOEXEC | SFD_NONBLOCK);
+  }
+  ~StopRequests() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  StopRequests(const StopRequests&) = delete;
+  StopRequests& operator=(const StopRequests&) = delete;
+
+  int fd() const { return fd_; }
+  /// The signal that arrived, or 0.
+  int take() const {
+    signalfd_siginfo info{};
+    return ::read(fd_, &info, sizeof info) == sizeof info ? static_cast<int>(info.ssi_signo) : 0;
+  }
+
+ private:
+  int fd_ = -1;
+};
+
+bool limit(int resource, rlim_t soft, rlim_t hard) {
+  if (soft == 0) return true;
+  const rlimit value{soft, hard};
+  return ::setrlimit(static_cast<__rlimit_resource>(resource), &value) == 0;
+}
+
+// The soft limit on time sends a signal that a program can ignore; the hard one kills.
+bool applyLimits(const ProcessOptions& options) {
+  const auto seconds = static_cast<rlim_t>(std::ceil(options.cpuSeconds));
+  return limit(RLIMIT_CPU, seconds, seconds + 1) &&
+         limit(RLIMIT_AS, options.addressSpace, options.addressSpace) &&
+         limit(RLIMIT_FSIZE, options.fileSize, options.fileSize);
+}
+
+// Between fork and exec only async-signal-safe calls are allowed: everything is prepared before.
+[[noreturn]] void becomeProgram(char* const* argv, const char* directory, const ProcessOptions& options,
+                                const int (&standard)[3], pid_t parent, int statusFd) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // no program outlives us
+  if (::getppid() != parent) ::_exit(127);
+  sigset_t none;
+  ::sigemptyset(&none);
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  // A program that shares our terminal stays in our process group, so that Ctrl-C ends both.
+  if (!options.inheritOutput) ::setpgid(0, 0);
+  for (int fd = 0; fd < 3; ++fd) {
+    if (standard[fd] >= 0) ::dup2(standard[fd], fd);
+  }
+  if (applyLimits(options) && (*directory == '\0' || ::chdir(directory) == 0)) {
+    ::signal(SIGPIPE, SIG_DFL);
+    ::execvp(argv[0], argv);
+  }
+  const int cause = errno;
+  static_cast<void>(!::write(statusFd, &cause, sizeof cause));
+  ::_exit(127);
+}
+
+void append(std::string& kept, const char* data, std::size_t size, std::size_t limit) {
+  kept.append(data, std::min(size, limit - std::min(limit, kept.size())));
+}
+
+double secondsOf(const rusage& usage) {
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+}  // namespace
+
+// A running program and our ends of its pipes.
+struct ChildProcess::Running {
+  pid_t child = -1;
+  bool ownGroup = true;
+  std::size_t outputLimit = 0;
+  Pipe in{}, out{}, err{};
+  StopRequests stop{};
+  std::atomic<bool> cancelled = false;
+  int interruptedBy = 0;  ///< the signal that asked us to stop
+  bool ended = false;     ///< and is reaped
+  int status = 0;
+  rusage usage{};
+  ProcessResult result{};
+
+  bool mustStop();
+  bool exchange(std::string_view& input, Deadline deadline);
+  void collect(const pollfd& polled, Pipe& pipe, std::string& kept) const;
+  bool waitForEnd(Deadline deadline);
+  void end();
+  void giveUp();
+};
+
+// Looks for a request to stop. A program that shares our terminal gets it too and decides for itself.
+bool ChildProcess::Running::mustStop() {
+  if (cancelled) return true;
+  const int signal = stop.take();
+  if (signal == 0) return false;
+  if (ownGroup) {
+    interruptedBy = signal;
+    return true;
+  }
+  if (signal != SIGINT) ::kill(child, signal);  // Ctrl-C has reached it
+  return false;
+}
+
+void ChildProcess::Running::collect(const pollfd& polled, Pipe& pipe, std::string& kept) const {
+  if (polled.revents == 0) return;
+  std::array<char, 65536> buffer;
+  const ssize_t n = ::read(polled.fd, buffer.data(), buffer.size());
+  if (n > 0) append(kept, buffer.data(), static_cast<std::size_t>(n), outputLimit);
+  if (n == 0) pipe.closeRead();
+}
+
+// One round: takes what fits from the front of `input` and collects output. Returns false at the deadline and
+// when asked to stop.
+bool ChildProcess::Running::exchange(std::string_view& input, Deadline deadline) {
+  constexpr long kLongestSleep = 100;  // milliseconds, until we look whether we are cancelled
+  const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
+  if (left <= 0 || mustStop()) return false;
+  std::array<pollfd, 4> polled{{{out.readEnd(), POLLIN, 0},
+                                {err.readEnd(), POLLIN, 0},
+                                {in.writeEnd(), POLLOUT, 0},
+                                {stop.fd(), POLLIN, 0}}};
+  const int timeout = static_cast<int>(std::min<long>(left, kLongestSleep));
+  if (::poll(polled.data(), polled.size(), timeout) < 0) return errno == EINTR;
+  collect(polled[0], out, result.output);
+  collect(polled[1], err, result.error);
+  if (polled[2].revents == 0) return true;
+  const ssize_t n = ::write(in.writeEnd(), input.data(), input.size());
+  if (n >= 0) input.remove_prefix(static_cast<std::size_t>(n));
+  if (n < 0 && errno != EAGAIN && errno != EINTR) in.closeWrite();
+  return true;
+}
+
+// Waits for the child's end; returns false at the deadline and when asked to stop.
+bool ChildProcess::Running::waitForEnd(Deadline deadline) {
+  for (int pause = 0;; pause = std::min(pause + 1, 10)) {  // milliseconds
+    ended = ::wait4(child, &status, WNOHANG, &usage) == child;
+    if (ended) return true;
+    if (Clock::now() >= deadline || mustStop()) return false;
+    pollfd polled{stop.fd(), POLLIN, 0};
+    ::poll(&polled, 1, pause);
+  }
+}
+
+// Passes a request to stop on, so that the program can tidy up, and kills what is left after a second.
+void ChildProcess::Running::end() {
+  const int target = ownGroup ? -child : child;
+  if (interruptedBy != 0) {
+    ::kill(target, interruptedBy);
+    for (int k = 0; k < 100; ++k) {
+      siginfo_t info{};
+      ::waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT);
+      if (info.si_pid == child) break;
+      ::poll(nullptr, 0, 10);
+    }
+  }
+  // While the child is not yet reaped, nobody else can get its number.
+  ::kill(target, SIGKILL);
+  ::wait4(child, &status, 0, &usage);
+  ended = true;
+}
+
+void ChildProcess::Running::giveUp() {
+  result.timedOut = interruptedBy == 0;
+  in.closeWrite();
+  end();
+  if (interruptedBy != 0) throw Interrupted{interruptedBy};
+}
+
+ChildProcess::Deadline ChildProcess::after(double seconds) {
+  return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
+ChildProcess::ChildProcess(const std::vector<std::string>& argv, const ProcessOptions& options) {
+  if (argv.empty()) throw Error({.what = "no program to run"});
+  std::vector<char*> arguments;
+  for (const std::string& argument : argv) arguments.push_back(const_cast<char*>(argument.c_str()));
+  arguments.push_back(nullptr);
+  const std::string directory = options.directory.string();
+
+  running_ = std::make_unique<Running>();
+  Running& running = *running_;
+  Pipe failure;
+  running.ownGroup = !options.inheritOutput;
+  running.outputLimit = options.outputLimit;
+  const pid_t parent = ::getpid();
+  running.child = ::fork();
+  if (running.child < 0) throw Error({.what = "cannot start " + argv[0], .found = std::strerror(errno)});
+  if (running.child == 0) {
+    const bool kept = running.ownGroup;
+    const int standard[3] = {running.in.readEnd(), kept ? running.out.writeEnd() : -1,
+                             kept ? running.err.writeEnd() : -1};
+    becomeProgram(arguments.data(), directory.c_str(), options, standard, parent, failure.writeEnd());
+  }
+  if (running.ownGroup) ::setpgid(running.child, running.child);
+  running.in.closeRead(), running.out.closeWrite(), running.err.closeWrite(), failure.closeWrite();
+  ::fcntl(running.in.writeEnd(), F_SETFL, O_NONBLOCK);
+  int cause = 0;
+  running.result.started = ::read(failure.readEnd(), &cause, sizeof cause) != sizeof cause;
+  if (!running.result.started) running.result.error = std::strerror(cause);
+}
+
+ChildProcess::~ChildProcess() {
+  if (running_->child > 0 && !running_->ended) running_->end();
+}
+
+bool ChildProcess::write(std::string_view bytes, Deadline deadline) {
+  const SigpipeIgnored guard;
+  Running& running = *running_;
+  while (!bytes.empty() && running.in.writeEnd() >= 0) {
+    if (!running.exchange(bytes, deadline)) running.giveUp();
+  }
+  return running.in.writeEnd() >= 0;
+}
+
+ProcessResult ChildProcess::finish(Deadline deadline) {
+  auto& running = *running_;
+  ProcessResult& result = running.result;
+  running.in.closeWrite();
+  const auto talks = [&] { return running.out.readEnd() >= 0 || running.err.readEnd() >= 0; };
+  std::string_view nothing;
+  while (!running.ended && talks()) {
+    if (!running.exchange(nothing, deadline)) running.giveUp();
+  }
+  if (!running.ended && !running.waitForEnd(deadline)) running.giveUp();
+  if (!running.ownGroup) static_cast<void>(running.stop.take());  // Ctrl-C was for the program
+  const int status = running.status;
+  result.cpuSeconds = secondsOf(running.usage);
+  if (WIFEXITED(status) && result.started) result.exitCode = WEXITSTATUS(status);
+  if (WIFSIGNALED(status)) result.signal = WTERMSIG(status);
+  return result;
+}
+
+void ChildProcess::cancel() { running_->cancelled = true; }
+
+}  // namespace rex

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "render/image.h"
+
+namespace rex {
+
+/// A picture of a contact sheet and the text below it.
+struct KeyFrame {
+  Image image{};
+  std::string caption{};  ///< one line
+};
+
+struct ContactSheetOptions {
+  int pictures = 6;        ///< at most; at least 2
+  int columns = 3;         ///< pictures side by side, at least 1
+  int pictureWidth = 480;  ///< pixels; wider pictures are shrunk
+};
+
+/// Throws Error for an option out of range.
+void requireValid(const ContactSheetOptions& options);
+
+/// Which of `count` frames stand for a film: at most `most` (at least 2), evenly spaced, first and last
+/// included.
+[[nodiscard]] std::vector<std::size_t> keyFrames(std::size_t count, int most);
+
+/// The pictures in rows on white, each in a cell as large as the largest needs. Throws Error for no picture
+/// and an option out of range.
+[[nodiscard]] Image contactSheet(const std::vector<KeyFrame>& frames,
+                                 const ContactSheetOptions& options = {});
+
+}  // namespace rex

@@ -1,0 +1,62 @@
+#include "render/video_sink.h"
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/process.h"
+#include "render/staged_file_internal.h"
+#include "render/video_encoder_internal.h"
+
+namespace rex {
+
+using internal::VideoFormat;
+
+std::string missingForVideo(const std::filesystem::path& file) {
+  const VideoFormat& format = internal::videoFormat(file);
+  // Its exit code is 0 for unknown encoders too; known ones are described on standard output.
+  const ProcessResult asked = runProcess({"ffmpeg", "-v", "error", "-h", "encoder=" + format.encoder});
+  if (!asked.started)
+    return fmt::format("{} is missing because ffmpeg is (apt-get install ffmpeg)", file.string());
+  if (asked.output.empty())
+    return fmt::format(
+        "{} is missing because this ffmpeg has no encoder {} (that of apt-get install ffmpeg has)",
+        file.string(), format.encoder);
+  return {};
+}
+
+// Members die in reverse: ffmpeg ends before its file goes.
+struct VideoSink::Impl {
+  Impl(const std::filesystem::path& file, const VideoOptions& options)
+      : format(internal::videoFormat(file)), staged(file), encoder(format, options, file, staged.part()) {}
+
+  const VideoFormat& format;
+  internal::StagedFile staged;
+  internal::VideoEncoder encoder;
+};
+
+VideoSink::VideoSink(const std::filesystem::path& file, const VideoOptions& options)
+    : FrameSink(file.string()) {
+  if (options.rate < 1 || options.rate > 1000)
+    throw Error({.what = "frames per second",
+                 .where = {file.string()},
+                 .found = fmt::format("{}", options.rate),
+                 .wanted = "1 to 1000"});
+  impl_ = std::make_unique<Impl>(file, options);
+}
+
+VideoSink::~VideoSink() = default;
+
+void VideoSink::take(const Image& frame) {
+  if (impl_->format.evenSize && (frame.width < 2 || frame.height < 2))
+    throw Error({.what = "size of a video's frames",
+                 .found = fmt::format("{} x {}", frame.width, frame.height),
+                 .wanted = "at least 2 x 2 pixels"});
+  impl_->encoder.add(frame);
+}
+
+void VideoSink::complete() {
+  impl_->encoder.finish();
+  impl_->staged.commit();
+}
+
+}  // namespace rex

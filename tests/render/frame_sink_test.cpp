@@ -1,0 +1,121 @@
+#include "render/frame_sink.h"
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "render/make_frame_sink.h"
+#include "render/memory_sink.h"
+#include "render/png.h"
+#include "render/png_sequence.h"
+#include "render/tee_sink.h"
+#include "support/changed_path.h"
+#include "support/expect_error.h"
+#include "support/folder_content.h"
+#include "support/temporary_folder.h"
+#include "support/test_frames.h"
+#include "support/tiny_disk.h"
+
+namespace rex {
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::set<std::string>;
+
+TEST(FrameSink, KeepsFramesInOrder) {
+  MemorySink sink;
+  for (int i = 0; i < 3; ++i) sink.add(movingSquare(32, 24, i));
+  sink.finish();
+  ASSERT_EQ(sink.frames().size(), 3u);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(sink.frames()[static_cast<std::size_t>(i)], movingSquare(32, 24, i));
+}
+
+TEST(FrameSink, RefusesWhatIsNoFilm) {
+  MemorySink sink;
+  EXPECT_REX_ERROR(sink.finish(), "frames in memory: a film without frames");
+  EXPECT_REX_ERROR(sink.add(Image()), "size of frame 0: found 0 x 0, wanted at least 1 x 1 pixels");
+  sink.add(Image(4, 3));
+  EXPECT_REX_ERROR(sink.add(Image(3, 4)), "size of frame 1: found 3 x 4, wanted 4 x 3 as before");
+  EXPECT_EQ(sink.frames().size(), 1u);
+}
+
+TEST(TeeSink, HandsFramesToAll) {
+  std::vector<std::unique_ptr<FrameSink>> sinks;
+  std::vector<const MemorySink*> seen;
+  for (int k = 0; k < 2; ++k) {
+    auto sink = std::make_unique<MemorySink>();
+    seen.push_back(sink.get());
+    sinks.push_back(std::move(sink));
+  }
+  TeeSink both(std::move(sinks));
+  for (int i = 0; i < 2; ++i) both.add(movingSquare(32, 24, i));
+  both.finish();
+  for (const MemorySink* sink : seen)
+    EXPECT_EQ(sink->frames(), (std::vector{movingSquare(32, 24, 0), movingSquare(32, 24, 1)}));
+}
+
+TEST(PngSequence, WritesNumberedFilesAndReplacesOlderOnes) {
+  const TemporaryFolder temporary;
+  const fs::path folder = temporary.path() / "a" / "film";
+  fs::create_directories(folder);
+  for (const char* name : {"0000.png", "0007.png", "12345.png", "end.png", "notes.txt", "07.jpg"})
+    std::ofstream(folder / name) << "old";
+  PngSequence sink(folder);
+  EXPECT_EQ(folderContent(folder), (Names{"end.png", "notes.txt", "07.jpg"}));
+  for (int i = 0; i < 2; ++i) sink.add(movingSquare(32, 24, i));
+  sink.finish();
+  EXPECT_EQ(folderContent(folder), (Names{"0000.png", "0001.png", "end.png", "notes.txt", "07.jpg"}));
+  for (int i = 0; i < 2; ++i)
+    EXPECT_EQ(readPng(folder / ("000" + std::to_string(i) + ".png")), movingSquare(32, 24, i));
+}
+
+TEST(PngSequence, SaysWhyItCannot) {
+  const TemporaryFolder temporary;
+  std::ofstream(temporary.path() / "file") << "x";
+  EXPECT_REX_ERROR(PngSequence(temporary.path() / "file"), "file: cannot make the folder for frames");
+  fs::create_directories(temporary.path() / "film" / "0000.png" / "full");
+  EXPECT_REX_ERROR(PngSequence(temporary.path() / "film"),
+                   "film: cannot remove the frames of an earlier film: found Directory not empty");
+}
+
+TEST(PngSequence, LeavesNoHalfAFileOnAFullDisk) {
+  const TinyDisk disk(16);
+  REX_NEEDS_DISK(disk);
+  Rng rng(1);
+  PngSequence sink(disk.path());
+  EXPECT_REX_ERROR(sink.add(noise(100, 100, rng)), "0000.png': found No space left on device");
+  EXPECT_EQ(folderContent(disk.path()), Names());
+}
+
+TEST(MakeFrameSink, ChoosesByTheEnding) {
+  const TemporaryFolder temporary;
+  const MadeSink frames = makeFrameSink(temporary.path() / "film");
+  EXPECT_NE(dynamic_cast<PngSequence*>(frames.sink.get()), nullptr);
+  for (const char* name : {"a.avi", "a.png", "a."})
+    EXPECT_REX_ERROR(makeFrameSink(temporary.path() / name),
+                     std::string(name) + ": unknown kind of film: found '" +
+                         fs::path(name).extension().string() +
+                         "', wanted .mp4, .webm, .gif, or no ending for a folder of PNG frames");
+}
+
+TEST(MakeFrameSink, TellsWhatIsMissing) {
+  const TemporaryFolder temporary;
+  const fs::path file = temporary.path() / "a.webm";
+  {
+    const ChangedPath nowhere;
+    const MadeSink made = makeFrameSink(file);
+    EXPECT_EQ(made.sink, nullptr);
+    EXPECT_EQ(made.missing, file.string() + " is missing because ffmpeg is (apt-get install ffmpeg)");
+  }
+  writeProgram(temporary.path() / "ffmpeg", "echo \"Codec '$5' is not recognized by FFmpeg.\" >&2");
+  const ChangedPath first(temporary.path());
+  const MadeSink made = makeFrameSink(file);
+  EXPECT_EQ(made.sink, nullptr);
+  EXPECT_EQ(made.missing, file.string() +
+                              " is missing because this ffmpeg has no encoder libvpx-vp9 (that of apt-get "
+                              "install ffmpeg has)");
+  EXPECT_EQ(folderContent(temporary.path()), Names{"ffmpeg"});
+}
+
+}  // namespace
+}  // namespace rex
