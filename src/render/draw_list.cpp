@@ -21,9 +21,29 @@ class Builder {
   Builder(const Camera& camera, int pictureHeight) : camera_(camera), pictureHeight_(pictureHeight) {}
 
   void addSolid(const Solid& solid, int index) {
-    index_ = index;
-    addShape(solid);
-    index_ = -1;
+    solid_ = index;
+    const Shape& shape = solid.shape;
+    const double r = shape.radius;
+    switch (shape.type) {
+      case ShapeType::kBox:
+        return add({.mesh = MeshKind::kBox, .halfSize = shape.extent / 2}, solid);
+      case ShapeType::kRoundedBox:
+        return addRoundedBox(solid);
+      case ShapeType::kSphere:
+        return add({.mesh = MeshKind::kCapsule, .halfSize = {r, r, r}}, solid);
+      case ShapeType::kCapsule:
+        return add(
+            {.mesh = MeshKind::kCapsule, .halfSize = {r, r, r}, .stretch = {0, 0, shape.extent.z() / 2}},
+            solid);
+      case ShapeType::kCylinder:
+        return add({.mesh = MeshKind::kCylinder, .halfSize = {r, r, shape.extent.z() / 2}}, solid);
+      case ShapeType::kMesh:
+      case ShapeType::kSphereSweptConvex:
+        return addMesh(solid);
+      case ShapeType::kMarker:
+      case ShapeType::kPointCloud:
+        return;
+    }
   }
 
   // A short arrow is thinner, so that it keeps its proportions.
@@ -92,6 +112,7 @@ class Builder {
   }
 
   void add(DrawItem item, const Solid& solid) {
+    item.solid = solid_;
     item.X_WS = solid.X_WS;
     item.color = solid.color;
     add(std::move(item));
@@ -109,6 +130,7 @@ class Builder {
       DrawItem item{.mesh = MeshKind::kImported,
                     .X_WS = solid.X_WS,
                     .color = solid.color,
+                    .solid = solid_,
                     .imported = solid.shape.mesh,
                     .firstTriangle = part.firstTriangle,
                     .triangleCount = part.triangleCount};
@@ -122,13 +144,13 @@ class Builder {
 
   const Camera& camera_;
   int pictureHeight_;
-  int index_ = -1;  // of the solid that is being added
+  int solid_ = -1;  // the index of the one being added
   DrawList list_;
 };
 
 }  // namespace
 
-double radiusOf(const DrawItem& item) { return item.halfSize.head<2>().maxCoeff(); }
+double radiusOf(const DrawItem& item) { return std::max(item.halfSize.x(), item.halfSize.y()); }
 
 Vector3d halfExtent(const DrawItem& item) {
   return item.mesh == MeshKind::kImported ? item.imported.halfBounds()
@@ -137,8 +159,8 @@ Vector3d halfExtent(const DrawItem& item) {
 
 DrawList makeDrawList(const Picture& picture, const Camera& camera, int pictureHeight) {
   Builder builder(camera, pictureHeight);
-  for (std::size_t i = 0; i < picture.solids.size(); ++i)
-    builder.addSolid(picture.solids[i], static_cast<int>(i));
+  for (const Solid& solid : picture.solids)
+    builder.addSolid(solid, static_cast<int>(&solid - picture.solids.data()));
   for (const Arrow& arrow : picture.arrows) builder.addArrow(arrow);
   for (const Ellipsoid& ellipsoid : picture.ellipsoids) builder.addEllipsoid(ellipsoid);
   return builder.take();

@@ -27,11 +27,10 @@ MeshStore::MeshStore(const GlFunctions& gl) : gl_(&gl) {
   auto& [boxes, capsules, cylinders, roundedBoxes, cones] = meshes_;
   boxes.fill(upload(makeBoxMesh()));
   for (std::size_t detail = 0; detail < kSegments.size(); ++detail) {
-    const int segments = kSegments[detail];
-    capsules[detail] = upload(makeCapsuleMesh(segments));
-    cylinders[detail] = upload(makeCylinderMesh(segments));
-    roundedBoxes[detail] = upload(makeRoundedBoxMesh(segments));
-    cones[detail] = upload(makeConeMesh(segments));
+    capsules[detail] = upload(makeCapsuleMesh(kSegments[detail]));
+    cylinders[detail] = upload(makeCylinderMesh(kSegments[detail]));
+    roundedBoxes[detail] = upload(makeRoundedBoxMesh(kSegments[detail]));
+    cones[detail] = upload(makeConeMesh(kSegments[detail]));
   }
 }
 
@@ -83,6 +82,10 @@ void MeshStore::prepare(const DrawList& list) {
     gl_->DeleteBuffers(static_cast<GLsizei>(stored.buffers.size()), stored.buffers.data());
     it = imported_.erase(it);
   }
+}
+
+void MeshStore::cullBackOf(const DrawItem& item) const {
+  (item.mesh == MeshKind::kImported ? gl_->Disable : gl_->Enable)(GL_CULL_FACE);
 }
 
 void MeshStore::draw(const DrawItem& item, const GlProgram& program) const {

@@ -17,6 +17,8 @@ class MeshStore {
   /// Uploads the imported meshes of a picture that are new, and forgets those that several pictures in a row
   /// have done without.
   void prepare(const DrawList& list);
+  /// Lets OpenGL leave out what faces away, but not of an imported surface, which may be open.
+  void cullBackOf(const DrawItem& item) const;
   /// Draws one item with the current `program`, whose placement uniforms it sets. Imported meshes need
   /// prepare().
   void draw(const DrawItem& item, const GlProgram& program) const;

@@ -70,14 +70,9 @@ class Builder {
     if (!endsInside) b = atNearPlane(a, b);
     const Vertex2 start = seen(a), end = seen(b);
     if (misses(start.at.cwiseMin(end.at), start.at.cwiseMax(end.at), stroke.reach)) return;
-    const double length = (end.at - start.at).norm();
-    const Vector2d along = length > 0 ? Vector2d((end.at - start.at) / length) : Vector2d(1, 0);
-    const Vector2d across = stroke.reach * Vector2d(-along.y(), along.x()), cap = stroke.reach * along;
-    const float first = 0, last = static_cast<float>(length);
-    addCorner(start.at - cap - across, start.depth, {-stroke.reach, -stroke.reach}, first, last, stroke);
-    addCorner(start.at - cap + across, start.depth, {-stroke.reach, stroke.reach}, first, last, stroke);
-    addCorner(end.at + cap - across, end.depth, {length + stroke.reach, -stroke.reach}, first, last, stroke);
-    addCorner(end.at + cap + across, end.depth, {length + stroke.reach, stroke.reach}, first, last, stroke);
+    const Vector2d along = direction(start, end);
+    addPiece(start, end, along, endOf(along, nullptr, -1, stroke.reach),
+             endOf(along, nullptr, 1, stroke.reach), stroke);
   }
 
   void addDisc(const Vector3d& p_WQ, const Stroke& stroke) {
@@ -125,6 +120,11 @@ class Builder {
     return high.x() < -reach || high.y() < -reach || low.x() > width_ + reach || low.y() > height_ + reach;
   }
 
+  static Vector2d direction(const Vertex2& from, const Vertex2& to) {
+    const Vector2d step = to.at - from.at;
+    return step.norm() > 0 ? step.normalized() : Vector2d(1, 0);
+  }
+
   void addCorner(const Vector2d& at, double depth, const Vector2d& offset, float first, float last,
                  const Stroke& stroke) {
     mesh_.push_back({{static_cast<float>(2 * at.x() / width_ - 1),
@@ -136,52 +136,50 @@ class Builder {
                      stroke.color});
   }
 
-  // How one end of a piece of a run is made: with a round cap, or joined to the next piece.
+  // How one end of a piece of a run is made: its corners lie at `cap` + `side` and `cap` - `side` from its
+  // point.
   struct End {
-    Vector2d side;  // from the point to its corner on the left
-    double along;   // of that corner, seen from the point along the piece
+    Vector2d side, cap;
     bool round;
   };
 
-  // Pieces share their corners, so that a translucent line has no darker joints; at a sharp turn the line
-  // ends and starts again. `outward` is 1 at the end of a piece, -1 at its start.
+  // Pieces share their corners, so that a translucent line has no darker joints; at a sharp turn, or without
+  // a neighbour, a piece ends with a round cap. `outward` is 1 at the end of a piece, -1 at its start.
   static End endOf(const Vector2d& along, const Vector2d* neighbour, double outward, double reach) {
     constexpr double kSharpest = 0.5;  // cosine of half the turn
-    const Vector2d across(-along.y(), along.x());
     if (neighbour != nullptr) {
       const Vector2d bisector = (along + *neighbour).normalized();
       const double cosine = bisector.dot(along);
-      if (cosine > kSharpest) {
-        const Vector2d side = Vector2d(-bisector.y(), bisector.x()) * (reach / cosine);
-        return {side, side.dot(along), false};
-      }
+      if (cosine > kSharpest)
+        return {reach / cosine * Vector2d(-bisector.y(), bisector.x()), Vector2d::Zero(), false};
     }
-    return {reach * across, outward * reach, true};
+    return {reach * Vector2d(-along.y(), along.x()), outward * reach * along, true};
   }
 
   void addRun(const Stroke& stroke) {
     directions_.clear();
-    for (std::size_t i = 0; i + 1 < run_.size(); ++i) {
-      const Vector2d step = run_[i + 1].at - run_[i].at;
-      directions_.push_back(step.norm() > 0 ? step.normalized() : Vector2d(1, 0));
-    }
+    for (std::size_t i = 0; i + 1 < run_.size(); ++i) directions_.push_back(direction(run_[i], run_[i + 1]));
     for (std::size_t i = 0; i < directions_.size(); ++i) {
-      const Vector2d& along = directions_[i];
-      const End start = endOf(along, i > 0 ? &directions_[i - 1] : nullptr, -1, stroke.reach);
-      const End end =
-          endOf(along, i + 1 < directions_.size() ? &directions_[i + 1] : nullptr, 1, stroke.reach);
-      const double length = (run_[i + 1].at - run_[i].at).norm();
-      const auto first = static_cast<float>(start.round ? 0 : -kEndless);
-      const auto last = static_cast<float>(end.round ? length : kEndless);
-      const auto add = [&](const Vertex2& point, const End& e, double side, double from) {
-        const Vector2d shift = e.round ? Vector2d(side * e.side + e.along * along) : Vector2d(side * e.side);
+      const Vector2d* before = i > 0 ? &directions_[i - 1] : nullptr;
+      const Vector2d* after = i + 1 < directions_.size() ? &directions_[i + 1] : nullptr;
+      addPiece(run_[i], run_[i + 1], directions_[i], endOf(directions_[i], before, -1, stroke.reach),
+               endOf(directions_[i], after, 1, stroke.reach), stroke);
+    }
+  }
+
+  void addPiece(const Vertex2& from, const Vertex2& to, const Vector2d& along, const End& start,
+                const End& end, const Stroke& stroke) {
+    const double length = (to.at - from.at).norm();
+    const auto first = static_cast<float>(start.round ? 0 : -kEndless);
+    const auto last = static_cast<float>(end.round ? length : kEndless);
+    for (const bool atEnd : {false, true}) {
+      for (const double side : {-1., 1.}) {
+        const Vector2d shift =
+            atEnd ? Vector2d(end.cap + side * end.side) : Vector2d(start.cap + side * start.side);
+        const Vertex2& point = atEnd ? to : from;
         addCorner(point.at + shift, point.depth,
-                  {from + (e.round ? e.along : side * e.along), side * stroke.reach}, first, last, stroke);
-      };
-      add(run_[i], start, -1, 0);
-      add(run_[i], start, 1, 0);
-      add(run_[i + 1], end, -1, length);
-      add(run_[i + 1], end, 1, length);
+                  {(atEnd ? length : 0) + shift.dot(along), side * stroke.reach}, first, last, stroke);
+      }
     }
   }
 

@@ -122,9 +122,9 @@ struct Renderer::Impl {
   internal::ShadowMap shadowMap;
   internal::Visibility visibility;
   GlProgram background, ground, solid, overlay;
-  internal::OverlayStore overlayStore;
   std::optional<internal::Fxaa> fxaa;
   std::optional<internal::SensorPass> sensors;  // made when first asked for
+  internal::OverlayStore overlayStore;
   GLuint noVertices = 0;
 };
 
@@ -207,8 +207,7 @@ void Renderer::Impl::drawSolids(const DrawList& list, const Picture& picture, co
   solid.set("eye", camera.X_WC.p);
   visibility.watch([&] {
     for (const DrawItem& item : list.opaque) {
-      // An imported surface may be open, and is seen from both sides.
-      (item.mesh == internal::MeshKind::kImported ? gl.Disable : gl.Enable)(GL_CULL_FACE);
+      meshes.cullBackOf(item);
       draw(item, 1);
     }
   });

@@ -49,6 +49,7 @@ SensorImages SensorPass::draw(const DrawList& list, const Picture& picture, cons
     for (const DrawItem& item : *items) {
       if (item.solid < 0) continue;
       solid_.set("id", item.solid);
+      meshes.cullBackOf(item);
       meshes.draw(item, solid_);
     }
   drawGround(picture, camera, clip);
