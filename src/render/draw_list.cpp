@@ -79,33 +79,7 @@ class Builder {
   }
 
  private:
-  void addShape(const Solid& solid) {
-    const Shape& shape = solid.shape;
-    const double r = shape.radius;
-    switch (shape.type) {
-      case ShapeType::kBox:
-        return add({.mesh = MeshKind::kBox, .halfSize = shape.extent / 2}, solid);
-      case ShapeType::kRoundedBox:
-        return addRoundedBox(solid);
-      case ShapeType::kSphere:
-        return add({.mesh = MeshKind::kCapsule, .halfSize = {r, r, r}}, solid);
-      case ShapeType::kCapsule:
-        return add(
-            {.mesh = MeshKind::kCapsule, .halfSize = {r, r, r}, .stretch = {0, 0, shape.extent.z() / 2}},
-            solid);
-      case ShapeType::kCylinder:
-        return add({.mesh = MeshKind::kCylinder, .halfSize = {r, r, shape.extent.z() / 2}}, solid);
-      case ShapeType::kMesh:
-      case ShapeType::kSphereSweptConvex:
-        return addMesh(solid);
-      case ShapeType::kMarker:
-      case ShapeType::kPointCloud:
-        return;
-    }
-  }
-
   void add(DrawItem item) {
-    item.solid = index_;
     if (item.halfSize.minCoeff() <= 0 || item.color.a <= 0) return;
     item.detail = detailFor(radiusInPixels(item, camera_, pictureHeight_));
     (item.color.a < 1 ? list_.translucent : list_.opaque).push_back(std::move(item));

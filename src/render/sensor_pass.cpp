@@ -52,6 +52,7 @@ SensorImages SensorPass::draw(const DrawList& list, const Picture& picture, cons
       meshes.cullBackOf(item);
       meshes.draw(item, solid_);
     }
+  gl_->Disable(GL_CULL_FACE);
   drawGround(picture, camera, clip);
   return read();
 }
