@@ -16,3 +16,8 @@ set key noenhanced top right spacing 1.15 samplen 2.5 textcolor rgb '#222222' op
 set title textcolor rgb '#222222'
 set xlabel textcolor rgb '#222222'
 set ylabel textcolor rgb '#222222'
+set zlabel textcolor rgb '#222222' rotate parallel
+set cblabel textcolor rgb '#222222'
+# From dark blue over green to pale yellow, lighter with every step, so that it reads in grey, too.
+set palette defined (0 '#2D1E5F', 1 '#31508A', 2 '#2B7B8C', 3 '#2FA183', 4 '#77C26B', 5 '#C5D96A', 6 '#F7EFA0')
+set colorbox noborder

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "render/figure_trace_internal.h"
+
+namespace rex::internal {
+
+/// An axis as it is drawn, with a tic at every multiple of `step`, or every `step`-fold on a logarithmic one.
+struct Axis {
+  double low = 0;
+  double high = 1;
+  double step = 0;  ///< 0: where gnuplot likes
+};
+
+struct Axes {
+  Axis x{}, y{}, z{}, color{};
+};
+
+/// The axes of a drawable figure. What has no range spans the data and ends at a tic, but no heat map or map
+/// is surrounded by white. There are as many tics as the size of the figure has room for.
+[[nodiscard]] Axes axesOf(const Figure& figure, const std::vector<Trace>& traces);
+
+}  // namespace rex::internal
