@@ -32,6 +32,9 @@ double stepFor(double length, int parts) {
   return 0;
 }
 
+// count * step; for 6 times 0.1 that is 0.6, where the product is a bit more.
+double multiple(double count, double step) { return step < 1 ? count / std::round(1 / step) : count * step; }
+
 Axis linearAxis(Span span, const std::optional<AxisRange>& range, int tics) {
   if (range) {
     span.low = range->first, span.high = range->second, span.tight = true;
@@ -42,10 +45,12 @@ Axis linearAxis(Span span, const std::optional<AxisRange>& range, int tics) {
   }
   Axis axis{.low = span.low, .high = span.high, .step = stepFor(span.high - span.low, tics)};
   if (span.whole && axis.step < 1) axis.step = 1;
-  if (!span.tight) {
-    axis.low = std::floor(span.low / axis.step + 1e-9) * axis.step;
-    axis.high = std::ceil(span.high / axis.step - 1e-9) * axis.step;
-  }
+  if (span.tight) return axis;
+  const double length = span.high - span.low;
+  const double low = std::min(span.low, multiple(std::floor(span.low / axis.step + 1e-9), axis.step));
+  const double high = std::max(span.high, multiple(std::ceil(span.high / axis.step - 1e-9), axis.step));
+  axis.low = span.low - low <= 0.1 * length ? low : span.low - 0.03 * length;
+  axis.high = high - span.high <= 0.1 * length ? high : span.high + 0.03 * length;
   return axis;
 }
 

@@ -17,8 +17,9 @@ struct Axes {
   Axis x{}, y{}, z{}, color{};
 };
 
-/// The axes of a drawable figure. What has no range spans the data and ends at a tic, but no heat map or map
-/// is surrounded by white. There are as many tics as the size of the figure has room for.
+/// The axes of a drawable figure. What has no range spans the data, up to a tic where one is near, with a
+/// small margin otherwise, but no heat map or map is surrounded by white. There are as many tics as the size
+/// of the figure has room for.
 [[nodiscard]] Axes axesOf(const Figure& figure, const std::vector<Trace>& traces);
 
 }  // namespace rex::internal

@@ -14,6 +14,12 @@
 namespace rex::internal {
 namespace {
 
+// Room between the numbers where two axes meet.
+constexpr const char* kSpaceStyle =
+    "set border 127\nset xyplane relative 0\nset view 62,32,1.05\nset grid ztics\n"
+    "set xtics offset -0.6,-0.4\nset ytics offset 0.9,-0.2\nset xlabel offset -0.5,-0.6\n"
+    "set ylabel offset 1,-0.4\n";
+
 using Script = std::back_insert_iterator<std::string>;
 
 // gnuplot runs the shell for backticks in double quotes and has macros; the lines of a data block it leaves
@@ -43,7 +49,7 @@ const char* placeOf(const Figure& figure) {
     case Legend::kBottomLeft:
       return "set key bottom left";
     case Legend::kOutside:  // to the right stands the colour bar
-      return hasColorBar(figure) ? "set key below" : "set key outside right top";
+      return hasColorBar(figure) ? "set key above" : "set key outside right top";
     case Legend::kNone:
       return "set key off";
   }
@@ -62,19 +68,25 @@ void addAxes(Script out, const Figure& figure, const Axes& axes) {
   addAxis(out, "y", axes.y, figure.logY);
   if (inSpace(figure)) addAxis(out, "z", axes.z, false);
   if (hasColorBar(figure)) addAxis(out, "cb", axes.color, figure.logColor);
-  if (inSpace(figure)) fmt::format_to(out, "set border 127\nset xyplane relative 0\nset grid ztics\n");
+  if (inSpace(figure)) fmt::format_to(out, "{}", kSpaceStyle);
   if (!figure.equalAxes) return;
   fmt::format_to(out, "{}\n", inSpace(figure) ? "set view equal xyz" : "set size ratio -1");
 }
 
+// Where along the axis `value` lies: 0 at its low end, 1 at its high end.
+double shareOf(const Axis& axis, double value, bool logarithmic) {
+  return logarithmic ? std::log(value / axis.low) / std::log(axis.high / axis.low)
+                     : (value - axis.low) / (axis.high - axis.low);
+}
+
 void addNotes(Script out, const Figure& figure, const Axes& axes, Texts& texts) {
   for (const Note& note : figure.notes) {
-    const bool shown =
-        note.x >= axes.x.low && note.x <= axes.x.high && note.y >= axes.y.low && note.y <= axes.y.high;
-    if (!shown) continue;
-    fmt::format_to(out, "set label {} at {:.17e},{:.17e}{} left noenhanced front offset 0.7,0.5\n",
-                   texts.add(note.text), note.x, note.y,
-                   inSpace(figure) ? fmt::format(",{:.17e}", note.z) : "");
+    const double across = shareOf(axes.x, note.x, figure.logX), up = shareOf(axes.y, note.y, figure.logY);
+    if (across < 0 || across > 1 || up < 0 || up > 1) continue;
+    const bool toTheLeft = across > 0.8 && !inSpace(figure);
+    fmt::format_to(out, "set label {} at {:.17e},{:.17e}{} {} noenhanced front\n", texts.add(note.text),
+                   note.x, note.y, inSpace(figure) ? fmt::format(",{:.17e}", note.z) : "",
+                   toTheLeft ? "right offset -0.9,0.6" : "left offset 0.9,0.6");
   }
 }
 
@@ -83,7 +95,7 @@ Trace traceOf(const Guide& guide, const Axis& along, bool vertical) {
   trace.rows.resize(2, 2);
   trace.rows.col(vertical ? 0 : 1).setConstant(guide.at);
   trace.rows.col(vertical ? 1 : 0) << along.low, along.high;
-  trace.drawing = "using 1:2 with lines lw 1.3 dt (6,4) lc " + colorOf(guide.color, "rgb '#444444'");
+  trace.drawing = "using 1:2 with lines lw 1.3 dt (10,7) " + colorOf(guide.color, "lc rgb '#707070'");
   return trace;
 }
 

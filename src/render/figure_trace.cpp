@@ -72,7 +72,7 @@ Trace traceOf(const Series& series, std::size_t index) {
   if (colored)
     trace.drawing += " lc palette";
   else if (series.color)
-    trace.drawing += " lc " + colorOf(series.color, "");
+    trace.drawing += " " + colorOf(series.color, "");
   if (series.dashed) trace.drawing += " dt (12,7)";
   return trace;
 }
@@ -86,7 +86,7 @@ Trace traceOf(const Band& band, std::size_t index) {
     trace.outline.emplace_back(at(band.x, i), band.low[i], 0);
   }
   for (std::size_t i = count; i-- > 0;) trace.outline.emplace_back(at(band.x, i), band.high[i], 0);
-  trace.drawing = fmt::format("using 1:2:3 with filledcurves lc {} fs transparent solid 0.22 noborder",
+  trace.drawing = fmt::format("using 1:2:3 with filledcurves {} fs transparent solid 0.22 noborder",
                               colorOf(band.color, index + 1));
   return trace;
 }
@@ -110,15 +110,15 @@ Trace traceOf(const Histogram& histogram, std::size_t index) {
   }
   const std::string color = colorOf(histogram.color, index + 1);
   trace.drawing =
-      fmt::format("using 1:2:3:4:5:6 with boxxyerror lc {0} fs transparent solid 0.55 border lc {0}", color);
+      fmt::format("using 1:2:3:4:5:6 with boxxyerror {0} lw 1 fs transparent solid 0.55 border {0}", color);
   return trace;
 }
 
 Trace polygon(const std::string& label, const std::string& color, double opacity) {
   return {.legend = label,
-          .drawing = fmt::format(
-              "using 1:2 with filledcurves closed lc {0} lw 1.5 fs transparent solid {1} border lc {0}",
-              color, opacity),
+          .drawing =
+              fmt::format("using 1:2 with filledcurves closed {0} lw 1.5 fs transparent solid {1} border {0}",
+                          color, opacity),
           .extent = Extent::kArea};
 }
 
@@ -136,7 +136,7 @@ Trace traceOf(const CovarianceEllipse& ellipse, std::size_t) {
 }
 
 Trace traceOf(const Region& region, std::size_t) {
-  Trace trace = polygon(region.label, colorOf(region.color, "rgb '#8A9BA8'"), 0.2);
+  Trace trace = polygon(region.label, colorOf(region.color, "lc rgb '#8A9BA8'"), 0.2);
   Eigen::Matrix2Xd points(2, static_cast<Eigen::Index>(region.x.size()));
   points.row(0) = Eigen::Map<const Eigen::RowVectorXd>(region.x.data(), points.cols());
   points.row(1) = Eigen::Map<const Eigen::RowVectorXd>(region.y.data(), points.cols());
@@ -153,8 +153,8 @@ Trace traceOf(const Arrows& arrows, std::size_t) {
     trace.outline.emplace_back(x, y, 0);
     trace.outline.emplace_back(x + dx, y + dy, 0);
   }
-  trace.drawing = fmt::format("using 1:2:3:4 with vectors head filled size screen 0.008,20 lw 1.2 lc {}",
-                              colorOf(arrows.color, "rgb '#8C96A0'"));
+  trace.drawing = fmt::format("using 1:2:3:4 with vectors head filled size screen 0.008,20 lw 1.2 {}",
+                              colorOf(arrows.color, "lc rgb '#8C96A0'"));
   return trace;
 }
 
@@ -191,7 +191,7 @@ Trace traceOf(const HeatMap& heatMap) {
 std::string colorOf(const std::optional<Color>& color, const char* otherwise) {
   if (!color) return otherwise;
   const auto byte = [](float part) { return std::lround(255 * std::clamp(part, 0.f, 1.f)); };
-  return fmt::format("rgb '#{:02X}{:02X}{:02X}'", byte(color->r), byte(color->g), byte(color->b));
+  return fmt::format("lc rgb '#{:02X}{:02X}{:02X}'", byte(color->r), byte(color->g), byte(color->b));
 }
 
 std::string colorOf(const std::optional<Color>& color, std::size_t otherwise) {

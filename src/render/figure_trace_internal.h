@@ -28,9 +28,9 @@ struct Trace {
 /// Points of the ellipse, in order and without the first one at the end. The covariance is positive definite.
 [[nodiscard]] Eigen::Matrix2Xd outlineOf(const CovarianceEllipse& ellipse);
 
-/// "rgb '#RRGGBB'", or colour number `otherwise` of the set.
+/// "lc rgb '#RRGGBB'", or "lt N" with N = `otherwise`, which has colour N of the set.
 [[nodiscard]] std::string colorOf(const std::optional<Color>& color, std::size_t otherwise);
-/// "rgb '#RRGGBB'", or `otherwise`.
+/// "lc rgb '#RRGGBB'", or `otherwise`.
 [[nodiscard]] std::string colorOf(const std::optional<Color>& color, const char* otherwise);
 
 /// Where the values of a heat map or map lie: an expression for gnuplot's `using`, for columns and rows.

@@ -172,8 +172,8 @@ Figure costAndPaths() {
                 .logColor = true,
                 .colorRange = AxisRange{0.01, 300},
                 .legend = Legend::kOutside,
-                .series = {{.label = "gradient descent", .style = SeriesStyle::kLinesPoints, .size = 0.8},
-                           {.label = "damped Gauss-Newton", .style = SeriesStyle::kLinesPoints},
+                .series = {{.label = "gradient descent, 400 steps", .size = 1.5},
+                           {.label = "damped Gauss-Newton, 15 steps", .style = SeriesStyle::kLinesPoints},
                            {.x = {1}, .y = {1}, .marker = Marker::kPlus, .size = 2.5, .color = Color{}}},
                 .heatMap = heatMapOf(
                     [&](double x, double y) {
@@ -184,17 +184,17 @@ Figure costAndPaths() {
                 .width = 720,
                 .height = 560};
   figure.heatMap->contours = 9;
-  figure.series[0].color = Color{1, 1, 1};
-  figure.series[1].color = Color{0.95f, 0.45f, 0.2f};
+  figure.series[0].color = Color{0.1f, 0.1f, 0.1f};
+  figure.series[1].color = Color{0.95f, 0.35f, 0.1f};
   for (const bool newton : {false, true}) {
     Vector2d p(-1.6, 2.4);
-    for (int i = 0; i < (newton ? 12 : 300); ++i) {
+    for (int i = 0; i < (newton ? 15 : 400); ++i) {
       append(figure.series[newton ? 1 : 0], p);
       const Vector2d gradient = jacobian(p).transpose() * residual(p);
       Vector2d step = -gradient;
       if (newton)
-        step = -(jacobian(p).transpose() * jacobian(p) + 2 * Matrix2d::Identity()).inverse() * gradient;
-      double length = 1;
+        step = -(jacobian(p).transpose() * jacobian(p) + 0.5 * Matrix2d::Identity()).inverse() * gradient;
+      double length = newton ? 1 : 0.003;
       while (residual(p + length * step).squaredNorm() > residual(p).squaredNorm()) length /= 2;
       p += length * step;
     }
@@ -203,7 +203,7 @@ Figure costAndPaths() {
 }
 
 Figure pendulum() {
-  const double damping = 0.25;
+  const double damping = 0.5;
   const auto field = [&](const Vector2d& s) {
     return Vector2d(s.y(), -9.81 * std::sin(s.x()) - damping * s.y());
   };
@@ -214,11 +214,10 @@ Figure pendulum() {
                 .yRange = AxisRange{-9, 9},
                 .legend = Legend::kNone,
                 .series = {},
-                .arrows = {arrowsOf(field, {-5, 8}, {-9, 9}, 30, 22)},
+                .arrows = {arrowsOf(field, {-5, 8}, {-9, 9}, 26, 18)},
                 .notes = {{.text = "hangs", .x = 0, .y = 0}, {.text = "stands", .x = kPi, .y = 0}},
                 .height = 540};
-  for (const Vector2d& start :
-       {Vector2d(-4.9, 6.5), Vector2d(-4.9, 8.5), Vector2d(2.9, 0), Vector2d(7.9, -7)}) {
+  for (const Vector2d& start : {Vector2d(-4.9, 6.5), Vector2d(-4.9, 8.5), Vector2d(7.9, -7)}) {
     Series series;
     Vector2d s = start;
     for (int i = 0; i < 4000; ++i) {
@@ -237,13 +236,13 @@ Figure pendulum() {
   return figure;
 }
 
-// A cart with an upright pendulum, sampled at 20 Hz: the optimal regulator by iteration of Riccati's
+// A cart with an upright pendulum, sampled at 10 Hz: the optimal regulator by iteration of Riccati's
 // equation.
 Figure polesOfARegulator() {
   Eigen::Matrix4d A = Eigen::Matrix4d::Identity();
-  A(0, 1) = A(2, 3) = 0.05;
-  A(1, 2) = -0.05 * 0.98, A(3, 2) = 0.05 * 10.8;
-  const Eigen::Vector4d B(0, 0.05, 0, -0.05);
+  A(0, 1) = A(2, 3) = 0.1;
+  A(1, 2) = -0.1 * 0.98, A(3, 2) = 0.1 * 10.8;
+  const Eigen::Vector4d B(0, 0.1, 0, -0.1);
   Eigen::Matrix4d P = Eigen::Matrix4d::Identity();
   Eigen::RowVector4d K = Eigen::RowVector4d::Zero();
   for (int i = 0; i < 2000; ++i) {
@@ -254,13 +253,11 @@ Figure polesOfARegulator() {
     const Eigen::Vector4cd values = M.eigenvalues();
     return std::vector<std::complex<double>>(values.begin(), values.end());
   };
-  Figure figure = poleFigure(poles(A - B * K), {}, TimeDomain::kDiscrete);
-  figure.title = "A cart with a pendulum, at 20 Hz";
-  figure.series[0].label = "with regulator";
-  Series open = poleFigure(poles(A), {}, TimeDomain::kDiscrete).series[0];
-  open.label = "without";
-  figure.series.push_back(open);
-  figure.xRange = {-0.2, 1.4}, figure.yRange = {-0.8, 0.8};
+  Figure figure = poleFigure(poles(A), {}, TimeDomain::kDiscrete);
+  figure.title = "A cart with a pendulum, at 10 Hz";
+  figure.series[0].label = "without control";
+  figure.series.push_back(poleFigure(poles(A - B * K), {}, TimeDomain::kDiscrete).series[0]);
+  figure.series[1].label = "with regulator";
   return figure;
 }
 
@@ -353,7 +350,7 @@ Figure gridMap() {
   MatrixXd odds = MatrixXd::Zero(60, 100);  // logarithms
   Rng rng(3);
   for (double t = 0; t <= 1; t += 0.02) {
-    const Vector2d p(1 + 7.5 * t, 2 + 1.2 * std::sin(kPi * t) + (t > 0.7 ? 6 * (t - 0.7) : 0));
+    const Vector2d p(1 + 7.5 * t, 3 - 1.1 * std::cos(kPi * t));
     append(figure.series[0], p);
     for (int beam = 0; beam < 120; ++beam) {
       const double angle = 2 * kPi * (beam + rng.uniform()) / 120;
@@ -379,10 +376,11 @@ Figure handPath() {
                 .yLabel = "y [m]",
                 .zLabel = "z [m]",
                 .equalAxes = true,
+                .legend = Legend::kOutside,
                 .series = {{.label = "target", .dashed = true, .color = Color{0.4f, 0.4f, 0.4f}},
-                           {.label = "hand", .size = 1.3}},
-                .width = 700,
-                .height = 560};
+                           {.label = "hand", .size = 1.3},
+                           {.label = "below, on the ground", .size = 0.7, .color = Color{0.7f, 0.7f, 0.7f}}},
+                .height = 540};
   const Vector3d start = position(forwardKinematics(model, q), hand, Vector3d::Zero());
   for (int i = 0; i <= 130; ++i) {
     const double angle = 2 * kPi * i / 100;
@@ -392,6 +390,7 @@ Figure handPath() {
     const Vector3d p = position(poses, hand, Vector3d::Zero());
     if (i <= 100) append(figure.series[0], target);
     append(figure.series[1], p);
+    append(figure.series[2], Vector3d(p.x(), p.y(), 0.6));
     const MatrixXd J = positionJacobian(model, poses, hand, Vector3d::Zero());
     q += 0.4 * inverseKinematicsStep(J, target - p, 0.01);
   }
