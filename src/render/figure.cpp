@@ -1,5 +1,7 @@
 #include "render/figure.h"
 
+#include <fmt/format.h>
+
 #include "base/error.h"
 #include "base/process.h"
 #include "render/figure_script_internal.h"
@@ -39,6 +41,9 @@ void writeFigure(const Figure& figure, const std::filesystem::path& path) {
     return Error({.what = "cannot draw figure '" + path.string() + "'", .found = found, .wanted = wanted});
   };
   if (!run.started) throw fail(run.error, "gnuplot, Debian package gnuplot-nox");
+  // A minute is what runProcess gives it.
+  if (run.signal != 0)
+    throw fail(fmt::format("signal {} that ended gnuplot", run.signal), "its end within a minute");
   if (!run.ok()) throw fail("gnuplot says: " + run.error, "");
   if (run.output.empty() || run.output.size() == kLargestFile)
     throw fail("no complete picture from gnuplot", "");

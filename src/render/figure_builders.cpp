@@ -61,7 +61,7 @@ Histogram histogramOf(const std::vector<double>& samples, int bins) {
   double low = *least, high = *greatest;
   if (low == high) low -= 0.5, high += 0.5;
   Histogram histogram;
-  for (int i = 0; i <= bins; ++i) histogram.edges.push_back(low + (high - low) * i / bins);
+  for (int i = 0; i <= bins; ++i) histogram.edges.push_back(i < bins ? low + (high - low) * i / bins : high);
   histogram.heights.resize(static_cast<std::size_t>(bins));
   for (const double sample : samples) {
     // A bin holds its lower edge.

@@ -60,7 +60,19 @@ void addAxis(Script out, const char* name, const Axis& axis, bool logarithmic) {
   if (logarithmic) fmt::format_to(out, "set logscale {0}\nset format {0} '%g'\n", name);
   // {:e} has a decimal exponent always, so that no number is read as an integer.
   fmt::format_to(out, "set {}range [{:.17e}:{:.17e}]\n", name, axis.low, axis.high);
-  if (axis.step > 0) fmt::format_to(out, "set {}tics {:.17e}\n", name, axis.step);
+  if (axis.step == 0) return;
+  if (!logarithmic) {
+    fmt::format_to(out, "set {}tics {:.17e}\n", name, axis.step);
+  } else if (const double fold = std::log10(axis.step); fold > 1.5) {
+    // Told to step by many decades, gnuplot 5.4 counts all minor tics between, for minutes.
+    fmt::format_to(out, "set {}tics (", name);
+    const char* separator = "";
+    for (double k = std::ceil(std::log10(axis.low) / fold - 1e-9); std::pow(10, k * fold) <= axis.high; ++k) {
+      fmt::format_to(out, "{}{:.17e}", separator, std::pow(10, k * fold));
+      separator = ",";
+    }
+    fmt::format_to(out, ")\n");
+  }
 }
 
 void addAxes(Script out, const Figure& figure, const Axes& axes) {
