@@ -9,8 +9,9 @@
 
 namespace rex {
 
-/// Where the legend stands: in a corner of the plot, or beside it, where it hides nothing.
-enum class Legend { kTopRight, kTopLeft, kBottomRight, kBottomLeft, kOutside, kNone };
+/// Where the legend stands: in a corner of the plot (kAuto: the emptiest, in space the top right), or beside it, where it hides
+/// nothing.
+enum class Legend { kAuto, kTopRight, kTopLeft, kBottomRight, kBottomLeft, kOutside, kNone };
 
 /// A plot as plain data: any layers of render/figure_layers.h over the same two axes, or series in space,
 /// over three. Texts appear exactly as given, on one line; nothing in them is a command. Axes must have
@@ -28,7 +29,7 @@ struct Figure {
   std::optional<AxisRange> xRange{};
   std::optional<AxisRange> yRange{};
   std::optional<AxisRange> colorRange{};
-  Legend legend = Legend::kTopRight;
+  Legend legend = Legend::kAuto;
   std::vector<Series> series{};
   // What is drawn before the series, last things first; notes come on top.
   std::vector<Guide> verticalLines{};

@@ -90,6 +90,11 @@ bool contains(const std::optional<AxisRange>& range, double value) {
 
 }  // namespace
 
+double shareOf(const Axis& axis, double value, bool logarithmic) {
+  return logarithmic ? (std::log(value) - std::log(axis.low)) / (std::log(axis.high) - std::log(axis.low))
+                     : (value / 2 - axis.low / 2) / (axis.high / 2 - axis.low / 2);
+}
+
 Axes axesOf(const Figure& figure, const std::vector<Trace>& traces) {
   Span x, y, z;
   for (const Trace& trace : traces) {
@@ -112,7 +117,7 @@ Axes axesOf(const Figure& figure, const std::vector<Trace>& traces) {
     z.add(note.z);
   }
   // Room for a tic with its label, in pixels.
-  const int acrossTics = std::clamp(figure.width / 90, 2, 12), upTics = std::clamp(figure.height / 50, 2, 12);
+  const int acrossTics = std::clamp(figure.width / 90, 3, 12), upTics = std::clamp(figure.height / 50, 3, 12);
   Axes axes{.x = axisOf(x, figure.xRange, figure.logX, inSpace(figure) ? acrossTics / 2 : acrossTics),
             .y = axisOf(y, figure.yRange, figure.logY, inSpace(figure) ? acrossTics / 2 : upTics),
             .z = linearAxis(z, {}, upTics / 2)};

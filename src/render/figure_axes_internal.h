@@ -13,6 +13,9 @@ struct Axis {
   double step = 0;  ///< 0: where gnuplot likes
 };
 
+/// Where along the axis `value` lies: 0 at its low end, 1 at its high end.
+[[nodiscard]] double shareOf(const Axis& axis, double value, bool logarithmic);
+
 struct Axes {
   Axis x{}, y{}, z{}, color{};
 };

@@ -5,6 +5,7 @@
 
 #include "render/figure_axes_internal.h"
 #include "render/figure_check_internal.h"
+#include "render/figure_legend_internal.h"
 #include "render/figure_script_internal.h"
 #include "render/figure_style_internal.h"
 #include "render/figure_trace_internal.h"
@@ -38,8 +39,9 @@ class Texts {
   int count_ = 0;
 };
 
-const char* placeOf(const Figure& figure) {
-  switch (figure.legend) {
+const char* placeOf(const Figure& figure, Legend legend) {
+  switch (legend) {
+    case Legend::kAuto:
     case Legend::kTopRight:
       return "set key top right";
     case Legend::kTopLeft:
@@ -83,12 +85,6 @@ void addAxes(Script out, const Figure& figure, const Axes& axes) {
   if (inSpace(figure)) fmt::format_to(out, "{}", kSpaceStyle);
   if (!figure.equalAxes) return;
   fmt::format_to(out, "{}\n", inSpace(figure) ? "set view equal xyz" : "set size ratio -1");
-}
-
-// Where along the axis `value` lies: 0 at its low end, 1 at its high end.
-double shareOf(const Axis& axis, double value, bool logarithmic) {
-  return logarithmic ? std::log(value / axis.low) / std::log(axis.high / axis.low)
-                     : (value - axis.low) / (axis.high - axis.low);
 }
 
 void addNotes(Script out, const Figure& figure, const Axes& axes, Texts& texts) {
@@ -188,7 +184,8 @@ std::string figureScript(const Figure& figure, const std::string& terminal) {
   addText("cblabel", figure.colorLabel);
   addAxes(out, figure, axes);
   addNotes(out, figure, axes, texts);
-  fmt::format_to(out, "{}\n", placeOf(figure));
+  const bool freely = figure.legend == Legend::kAuto && !inSpace(figure);
+  fmt::format_to(out, "{}\n", placeOf(figure, freely ? emptiestCorner(figure, traces, axes) : figure.legend));
   const std::string drawing = drawingOf(figure, traces, axes, texts);
   return terminalCommand(figure, terminal) + figureStyle() + texts.block() + layout + drawing;
 }

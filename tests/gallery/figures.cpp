@@ -42,7 +42,6 @@ Figure stepResponses() {
   Figure figure{.title = "Step response of a damped oscillator",
                 .xLabel = "time [s]",
                 .yLabel = "position [m]",
-                .legend = Legend::kBottomRight,
                 .verticalLines = {{.at = 1}},
                 .horizontalLines = {{.at = 1}},
                 .notes = {{.text = "the step", .x = 1, .y = 0}, {.text = "set point", .x = 0, .y = 1}}};
@@ -151,7 +150,6 @@ Figure beliefInACorridor() {
   return {.title = "Where is the robot? Door, wall, wall, door",
           .xLabel = "cell of the corridor",
           .yLabel = "probability [1]",
-          .legend = Legend::kTopRight,
           .histograms = {{.label = "belief", .heights = {belief.begin(), belief.end()}}}};
 }
 

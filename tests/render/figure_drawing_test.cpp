@@ -286,11 +286,30 @@ TEST(FigureDrawing, TicsFitTheSizeAndStayWholeForCounts) {
   EXPECT_EQ(tics(Drawing(figure).svg(), true), (Texts{"0", "0.5", "1", "1.5", "2", "2.5"}));
   EXPECT_EQ(tics(Drawing(figure).svg(), false), (Texts{"0", "1", "2", "3", "4", "5", "6", "7"}));
   figure.width = 200, figure.height = 140;
-  EXPECT_EQ(tics(Drawing(figure).svg(), true), (Texts{"0", "2"}));
+  EXPECT_EQ(tics(Drawing(figure).svg(), true), (Texts{"0", "1", "2"}));
   EXPECT_EQ(tics(Drawing(figure).svg(), false), (Texts{"0", "5"}));
   figure.series = {{.y = {1e-9, 1e9}}};
   figure.logY = true;
-  EXPECT_EQ(tics(Drawing(figure).svg(), false), (Texts{"1e-09", "1", "1e+09"}));
+  EXPECT_EQ(tics(Drawing(figure).svg(), false), (Texts{"1e-06", "1", "1e+06"}));
+}
+
+// The legend's text lies in the corner that the curve leaves free.
+TEST(FigureDrawing, TheLegendStandsInTheEmptiestCorner) {
+  REX_NEEDS_GNUPLOT();
+  static const std::regex entry("translate\\(([0-9.]+),([0-9.]+)\\)\"[^>]*>\\s*<text>curve</text>");
+  for (const double sign : {1., -1.})
+    for (const bool rightFree : {true, false}) {
+      Figure figure = plain();
+      figure.legend = Legend::kAuto;
+      figure.series = {{.label = "curve", .x = {-1, 0, 1}, .y = {sign, -sign, -sign}}};
+      if (!rightFree) figure.series[0].y = {-sign, -sign, sign};
+      figure.series.push_back({.x = {-1, 1}, .y = {-sign, -sign}});
+      const std::string svg = Drawing(figure).svg();
+      std::smatch place;
+      ASSERT_TRUE(std::regex_search(svg, place, entry));
+      EXPECT_EQ(std::stod(place[1]) > 400, rightFree);
+      EXPECT_EQ(std::stod(place[2]) < 250, sign > 0);
+    }
 }
 
 TEST(FigureDrawing, SaysNothingOfTheGnuplotThatDrewIt) {
