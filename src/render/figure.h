@@ -9,8 +9,8 @@
 
 namespace rex {
 
-/// Where the legend stands: in a corner of the plot (kAuto: the emptiest, in space the top right), or beside it, where it hides
-/// nothing.
+/// Where the legend stands: in a corner of the plot (kAuto: the emptiest, in space the top right), or beside
+/// it, where it hides nothing.
 enum class Legend { kAuto, kTopRight, kTopLeft, kBottomRight, kBottomLeft, kOutside, kNone };
 
 /// A plot as plain data: any layers of render/figure_layers.h over the same two axes, or series in space,

@@ -40,7 +40,8 @@ Axis linearAxis(Span span, const std::optional<AxisRange>& range, int tics) {
     span.low = range->first, span.high = range->second, span.tight = true;
   } else if (span.high - span.low <= std::max(1e-290, 1e-10 * std::max(-span.low, span.high))) {
     const double middle = span.low / 2 + span.high / 2;
-    const double margin = span.whole || std::abs(middle) < 1e-280 ? 1 : std::abs(middle) / 10;
+    const bool byOne = std::abs(middle) < 1e-280 || (span.whole && std::abs(middle) < 1e6);
+    const double margin = byOne ? 1 : std::abs(middle) / 10;
     span.low = middle - margin, span.high = middle + margin;
   }
   Axis axis{.low = span.low, .high = span.high, .step = stepFor(span.high - span.low, tics)};
@@ -80,7 +81,7 @@ Span colorSpan(const Figure& figure) {
   };
   for (const Series& series : figure.series) std::for_each(series.values.begin(), series.values.end(), add);
   if (figure.heatMap)
-    std::for_each(figure.heatMap->values.reshaped().begin(), figure.heatMap->values.reshaped().end(), add);
+    for (const double value : figure.heatMap->values.reshaped()) add(value);
   return span;
 }
 
@@ -117,11 +118,12 @@ Axes axesOf(const Figure& figure, const std::vector<Trace>& traces) {
     z.add(note.z);
   }
   // Room for a tic with its label, in pixels.
-  const int acrossTics = std::clamp(figure.width / 90, 3, 12), upTics = std::clamp(figure.height / 50, 3, 12);
-  Axes axes{.x = axisOf(x, figure.xRange, figure.logX, inSpace(figure) ? acrossTics / 2 : acrossTics),
-            .y = axisOf(y, figure.yRange, figure.logY, inSpace(figure) ? acrossTics / 2 : upTics),
-            .z = linearAxis(z, {}, upTics / 2)};
-  if (hasColorBar(figure)) axes.color = axisOf(colorSpan(figure), figure.colorRange, figure.logColor, upTics);
+  const int across = std::clamp(figure.width / 90, 3, 12), up = std::clamp(figure.height / 50, 3, 12);
+  const int inDepth = std::max(2, across / 2);
+  Axes axes{.x = axisOf(x, figure.xRange, figure.logX, inSpace(figure) ? inDepth : across),
+            .y = axisOf(y, figure.yRange, figure.logY, inSpace(figure) ? inDepth : up),
+            .z = linearAxis(z, {}, std::max(2, up / 2))};
+  if (hasColorBar(figure)) axes.color = axisOf(colorSpan(figure), figure.colorRange, figure.logColor, up);
   return axes;
 }
 

@@ -25,7 +25,8 @@ std::string layerName(const Figure& figure, const char* kind, std::size_t index,
 }
 
 void requireNumber(double value, bool logarithmic, const std::string& name, const std::string& field) {
-  if (isNumber(value) && (!logarithmic || value > 0)) return;
+  // The next decade below 1e-300 may be too small for a number.
+  if (isNumber(value) && (!logarithmic || value >= 1e-300)) return;
   throw Error({.what = name,
                .found = fmt::format("{} = {}", field, value),
                .wanted = logarithmic ? "finite numbers above 0, for the logarithmic axis"
@@ -51,7 +52,9 @@ void requireSome(const std::string& name, std::size_t count) {
 
 void requireRange(const AxisRange& range, bool logarithmic, const std::string& name) {
   const auto [low, high] = range;
-  if (isNumber(low) && isNumber(high) && low < high && (!logarithmic || low > 0)) return;
+  // A part in 10^10 leaves digits for tics.
+  const bool apart = high - low > 1e-10 * std::max(std::abs(low), std::abs(high));
+  if (isNumber(low) && isNumber(high) && apart && (!logarithmic || low >= 1e-300)) return;
   throw Error({.what = name,
                .found = fmt::format("{} to {}", low, high),
                .wanted = logarithmic ? "0 < low < high" : "low < high"});

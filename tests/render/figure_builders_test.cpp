@@ -1,5 +1,6 @@
 #include "render/figure_builders.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>

@@ -1,4 +1,5 @@
 // What a figure refuses, layer by layer, each with the figure and the layer in the message.
+#include <array>
 #include <limits>
 
 #include <gmock/gmock.h>
@@ -54,6 +55,9 @@ TEST(FigureErrors, Series) {
   figure = plain();
   figure.series = {{.y = {1, 2e300}}};
   EXPECT_REX_ERROR(draw(figure), "found y[1] = 2e+300, wanted finite numbers, up to 1e300");
+  figure.series = {{.y = {1, 1e-310}}}, figure.logY = true;
+  EXPECT_REX_ERROR(draw(figure), "found y[1] = 1e-310, wanted finite numbers above 0");
+  figure.logY = false;
   for (const double size : {0., -1., 21., kNan}) {
     figure.series = {{.y = {1}, .size = size}};
     EXPECT_REX_ERROR(draw(figure), "wanted 0 < size <= 20");

@@ -145,6 +145,8 @@ TEST(Figure, RejectsShapesItCannotHave) {
   Figure figure = parabola();
   figure.xRange = {1, 1};
   EXPECT_REX_ERROR(writeFigure(figure, path), "'Parabola', range of x: found 1 to 1, wanted low < high");
+  figure.xRange = {1, 1 + 1e-12};
+  EXPECT_REX_ERROR(writeFigure(figure, path), "range of x: found 1 to 1.000000000001, wanted low < high");
   figure.xRange.reset();
   figure.logY = true;
   figure.yRange = {0, 1};
@@ -201,6 +203,21 @@ TEST(Figure, SeesALineBetweenPointsOutsideItsRange) {
   figure.yRange = {-1, 1};
   figure.xRange.reset();
   EXPECT_NO_THROW(writeFigure(figure, path));
+}
+
+// Axes of all sizes, also without any width, have tics that gnuplot can count.
+TEST(Figure, DrawsNumbersOfEverySize) {
+  REX_NEEDS_GNUPLOT();
+  const fs::path path = freshFolder("figure-sizes") / "a.svg";
+  for (const double size : {1e-299, 1e-20, 1., 1e15, 1e300})
+    for (const double relative : {0., 1e-16, 1e-9, 1.})
+      for (const bool logarithmic : {false, true}) {
+        Figure figure{.xLabel = "x [1]", .yLabel = "y [1]", .logY = logarithmic};
+        figure.series = {{.x = {-size, -size * (1 - relative)}, .y = {size, size * (1 - relative / 2)}}};
+        EXPECT_NO_THROW(writeFigure(figure, path)) << size << " " << relative << " " << logarithmic;
+        figure.yRange = AxisRange{size * (1 - 1e-9), size};
+        EXPECT_NO_THROW(writeFigure(figure, path)) << size << " " << relative << " " << logarithmic;
+      }
 }
 
 TEST(Figure, NamesThePathItCannotWrite) {
