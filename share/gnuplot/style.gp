@@ -12,7 +12,13 @@ set linetype cycle 7
 set border 3 lc rgb '#555555' lw 1
 set tics nomirror out scale 0.6 textcolor rgb '#333333'
 set grid xtics ytics back lt 1 lc rgb '#E3E3E3' lw 0.8
-set key noenhanced top right spacing 1.15 samplen 2.5 textcolor rgb '#222222' opaque nobox
+set format '%h'
+set key noenhanced top right Left reverse spacing 1.15 samplen 2.5 textcolor rgb '#222222' opaque fillcolor rgb '#38FFFFFF' nobox
 set title textcolor rgb '#222222'
 set xlabel textcolor rgb '#222222'
 set ylabel textcolor rgb '#222222'
+set zlabel textcolor rgb '#222222' rotate by 90
+set cblabel textcolor rgb '#222222' offset 1,0
+# From dark blue over green to pale yellow, lighter with every step, so that it reads in grey, too.
+set palette defined (0 '#2D1E5F', 1 '#31508A', 2 '#2B7B8C', 3 '#2FA183', 4 '#77C26B', 5 '#C5D96A', 6 '#F7EFA0')
+set colorbox noborder

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "render/figure.h"
+#include "render/figure_builders.h"
 
 namespace rex {
 

@@ -1,5 +1,7 @@
 #include "render/figure.h"
 
+#include <fmt/format.h>
+
 #include "base/error.h"
 #include "base/process.h"
 #include "render/figure_script_internal.h"
@@ -16,12 +18,21 @@ std::string terminalFor(const std::filesystem::path& path) {
                .wanted = ".png or .svg"});
 }
 
+// What an SVG says beside the figure: which gnuplot drew it, and that cells may be blurred.
+std::string cleaned(std::string svg) {
+  const std::string remark = "<desc>", end = "</desc>", image = "<image ";
+  if (const std::size_t at = svg.find(remark); at != std::string::npos)
+    svg.erase(at, svg.find(end, at) + end.size() - at);
+  for (std::size_t at = svg.find(image); at != std::string::npos; at = svg.find(image, at + image.size()))
+    svg.insert(at + image.size(), "style='image-rendering:pixelated' ");
+  return svg;
+}
+
 }  // namespace
 
 void writeFigure(const Figure& figure, const std::filesystem::path& path) {
   constexpr std::size_t kLargestFile = 256u << 20;
   const std::string terminal = terminalFor(path);
-  internal::requireDrawable(figure);
   // gnuplot writes to a pipe, so the path never becomes part of a script.
   const ProcessResult run =
       runProcess({"gnuplot", "--default-settings"},
@@ -30,10 +41,13 @@ void writeFigure(const Figure& figure, const std::filesystem::path& path) {
     return Error({.what = "cannot draw figure '" + path.string() + "'", .found = found, .wanted = wanted});
   };
   if (!run.started) throw fail(run.error, "gnuplot, Debian package gnuplot-nox");
+  // A minute is what runProcess gives it.
+  if (run.signal != 0)
+    throw fail(fmt::format("signal {} that ended gnuplot", run.signal), "its end within a minute");
   if (!run.ok()) throw fail("gnuplot says: " + run.error, "");
   if (run.output.empty() || run.output.size() == kLargestFile)
     throw fail("no complete picture from gnuplot", "");
-  internal::writeWhole(path, run.output);
+  internal::writeWhole(path, terminal == "svg" ? cleaned(run.output) : run.output);
 }
 
 }  // namespace rex

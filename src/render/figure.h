@@ -3,48 +3,54 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "render/color.h"
+#include "render/figure_layers.h"
 
 namespace rex {
 
-enum class SeriesStyle { kLine, kPoints, kLinesPoints };
+/// Where the legend stands: in a corner of the plot (kAuto: the emptiest, in space the top right), or beside
+/// it, where it hides nothing.
+enum class Legend { kAuto, kTopRight, kTopLeft, kBottomRight, kBottomLeft, kOutside, kNone };
 
-/// One curve of a figure: points (x[i], y[i]). With an empty x they are 0, 1, 2, ...
-struct Series {
-  std::string label{};  ///< in the legend; empty: not there
-  std::vector<double> x{};
-  std::vector<double> y{};
-  SeriesStyle style = SeriesStyle::kLine;
-  bool dashed = false;
-  std::optional<Color> color{};  ///< otherwise the next of a set for any colour vision
-};
-
-/// Where the legend stands in the plot.
-enum class Legend { kTopRight, kTopLeft, kBottomRight, kBottomLeft, kNone };
-
-/// A plot of curves as plain data. Texts appear exactly as given, on one line; nothing in them is a command.
+/// A plot as plain data: any layers of render/figure_layers.h over the same two axes, or series in space,
+/// over three. Texts appear exactly as given, on one line; nothing in them is a command. Axes must have
+/// labels; write the unit into them: "time [s]", "cost [1]".
 struct Figure {
   std::string title{};
-  std::string xLabel{};  ///< with the unit: "time [s]"
+  std::string xLabel{};
   std::string yLabel{};
+  std::string zLabel{};      ///< needed where series have z
+  std::string colorLabel{};  ///< beside the colour bar; needed with a heat map or values of points
   bool logX = false;
   bool logY = false;
-  bool equalAxes = false;  ///< one unit of x is as long as one of y
-  std::optional<std::pair<double, double>> xRange{};
-  std::optional<std::pair<double, double>> yRange{};
-  Legend legend = Legend::kTopRight;
+  bool logColor = false;
+  bool equalAxes = false;  ///< one unit is equally long on all axes
+  std::optional<AxisRange> xRange{};
+  std::optional<AxisRange> yRange{};
+  std::optional<AxisRange> colorRange{};
+  Legend legend = Legend::kAuto;
   std::vector<Series> series{};
+  // What is drawn before the series, last things first; notes come on top.
+  std::vector<Guide> verticalLines{};
+  std::vector<Guide> horizontalLines{};
+  std::vector<CovarianceEllipse> ellipses{};
+  std::vector<Arrows> arrows{};
+  std::vector<Histogram> histograms{};
+  std::vector<Band> bands{};
+  std::vector<Region> regions{};
+  std::optional<HeatMap> heatMap{};
+  std::optional<OccupancyMap> map{};
+  std::vector<Note> notes{};
   int width = 800;  ///< pixels, 100 to 8192
   int height = 500;
 };
 
 /// Draws the figure with gnuplot into a .png or .svg file, which appears whole or not at all. Throws Error
-/// naming the figure and the series when there is nothing to draw, x and y differ in length, a number is not
-/// finite, or not positive on a logarithmic axis, or the ranges show nothing of the data; naming the path
-/// when it cannot be written or has another ending; naming the Debian package when gnuplot is missing.
+/// naming the figure and the layer when an axis has no label, there is nothing to draw, sizes differ, a
+/// number is not finite, or not positive on a logarithmic axis, a layer does not fit its axes, or the ranges
+/// show nothing of the data; naming the path when it cannot be written or has another ending; naming the
+/// Debian package when gnuplot is missing.
 void writeFigure(const Figure& figure, const std::filesystem::path& path);
 
 }  // namespace rex

@@ -1,64 +1,47 @@
-#include <algorithm>
 #include <cmath>
 #include <iterator>
 
 #include <fmt/format.h>
 
-#include "base/error.h"
+#include "render/figure_axes_internal.h"
+#include "render/figure_check_internal.h"
+#include "render/figure_legend_internal.h"
 #include "render/figure_script_internal.h"
 #include "render/figure_style_internal.h"
+#include "render/figure_trace_internal.h"
 #include "render/figure_view_internal.h"
 #include "render/utf8_internal.h"
 
 namespace rex::internal {
 namespace {
 
-using Range = std::optional<std::pair<double, double>>;
+// Room between the numbers where two axes meet.
+constexpr const char* kSpaceStyle =
+    "set border 127\nset xyplane relative 0\nset view 62,32,1.05\nset grid ztics\n"
+    "set xtics offset -0.6,-0.4\nset ytics offset 0.9,-0.2\nset xlabel offset -0.5,-0.6\n"
+    "set ylabel offset 1,-0.4\n";
 
-// gnuplot runs the shell for backticks in double quotes. In single quotes only ' itself has a meaning, and
-// doubling it fails at the start of a text (5.4); so it goes into double quotes, alone.
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : singleLine(text)) result += c == '\'' ? R"('."'".')" : std::string(1, c);
-  return result + "'";
-}
+using Script = std::back_insert_iterator<std::string>;
 
-std::string nameOf(const Figure& figure) { return fmt::format("figure '{}'", singleLine(figure.title)); }
-
-std::string nameOf(const Figure& figure, std::size_t index) {
-  const std::string& label = figure.series[index].label;
-  return nameOf(figure) + (label.empty() ? fmt::format(", series {}", index)
-                                         : fmt::format(", series '{}'", singleLine(label)));
-}
-
-void requireValues(const std::vector<double>& values, bool logarithmic, const std::string& name, char axis) {
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const bool good = std::isfinite(values[i]) && (!logarithmic || values[i] > 0);
-    if (good) continue;
-    throw Error(
-        {.what = name,
-         .found = fmt::format("{}[{}] = {}", axis, i, values[i]),
-         .wanted = logarithmic ? "finite numbers above 0, for the logarithmic axis" : "finite numbers"});
+// gnuplot runs the shell for backticks in double quotes and has macros; the lines of a data block it leaves
+// alone. A mark before each line keeps a text from ending the block.
+class Texts {
+ public:
+  /// An expression that has `text` as its value.
+  std::string add(const std::string& text) {
+    lines_ += "|" + singleLine(text) + "\n";
+    return fmt::format("$text[{}][2:*]", ++count_);
   }
-}
+  [[nodiscard]] std::string block() const { return "$text << EOD\n" + lines_ + "EOD\n"; }
 
-void requireRange(const Range& range, bool logarithmic, const std::string& name, char axis) {
-  if (!range) return;
-  const auto [low, high] = *range;
-  const bool good = std::isfinite(low) && std::isfinite(high) && low < high && (!logarithmic || low > 0);
-  if (!good)
-    throw Error({.what = fmt::format("{}, range of {}", name, axis),
-                 .found = fmt::format("{} to {}", low, high),
-                 .wanted = logarithmic ? "0 < low < high" : "low < high"});
-}
+ private:
+  std::string lines_;
+  int count_ = 0;
+};
 
-std::string hex(const Color& color) {
-  const auto byte = [](float part) { return std::lround(255 * std::clamp(part, 0.f, 1.f)); };
-  return fmt::format("#{:02X}{:02X}{:02X}", byte(color.r), byte(color.g), byte(color.b));
-}
-
-const char* placeOf(Legend legend) {
+const char* placeOf(const Figure& figure, Legend legend) {
   switch (legend) {
+    case Legend::kAuto:
     case Legend::kTopRight:
       return "set key top right";
     case Legend::kTopLeft:
@@ -67,99 +50,144 @@ const char* placeOf(Legend legend) {
       return "set key bottom right";
     case Legend::kBottomLeft:
       return "set key bottom left";
+    case Legend::kOutside:  // to the right stands the colour bar
+      return hasColorBar(figure) ? "set key above" : "set key outside right top";
     case Legend::kNone:
       return "set key off";
   }
   return "";
 }
 
-const char* drawingOf(const Series& series) {
-  if (series.y.size() == 1) return "points";  // one point makes no line
-  switch (series.style) {
-    case SeriesStyle::kLine:
-      return "lines";
-    case SeriesStyle::kPoints:
-      return "points";
-    case SeriesStyle::kLinesPoints:
-      return "linespoints";
-  }
-  return "";
-}
-
-using Script = std::back_insert_iterator<std::string>;
-
-void addRange(Script out, const Range& range, char axis) {
+void addAxis(Script out, const char* name, const Axis& axis, bool logarithmic) {
+  if (logarithmic) fmt::format_to(out, "set logscale {0}\nset format {0} '%g'\n", name);
   // {:e} has a decimal exponent always, so that no number is read as an integer.
-  if (range) fmt::format_to(out, "set {}range [{:.17e}:{:.17e}]\n", axis, range->first, range->second);
+  fmt::format_to(out, "set {}range [{:.17e}:{:.17e}]\n", name, axis.low, axis.high);
+  if (axis.step == 0) return;
+  if (!logarithmic) {
+    fmt::format_to(out, "set {}tics {:.17e}\n", name, axis.step);
+  } else if (const double fold = std::log10(axis.step); fold > 1.5) {
+    // Told to step by many decades, gnuplot 5.4 counts all minor tics between, for minutes.
+    fmt::format_to(out, "set {}tics (", name);
+    const char* separator = "";
+    for (double k = std::ceil(std::log10(axis.low) / fold - 1e-9); std::pow(10, k * fold) <= axis.high; ++k) {
+      fmt::format_to(out, "{}{:.17e}", separator, std::pow(10, k * fold));
+      separator = ",";
+    }
+    fmt::format_to(out, ")\n");
+  }
 }
 
-void addData(Script out, const Series& series, std::size_t index) {
-  fmt::format_to(out, "$d{} << EOD\n", index);
-  for (std::size_t i = 0; i < series.y.size(); ++i)
-    fmt::format_to(out, "{} {}\n", series.x.empty() ? static_cast<double>(i) : series.x[i], series.y[i]);
+void addAxes(Script out, const Figure& figure, const Axes& axes) {
+  addAxis(out, "x", axes.x, figure.logX);
+  addAxis(out, "y", axes.y, figure.logY);
+  if (inSpace(figure)) addAxis(out, "z", axes.z, false);
+  if (hasColorBar(figure)) addAxis(out, "cb", axes.color, figure.logColor);
+  if (inSpace(figure)) fmt::format_to(out, "{}", kSpaceStyle);
+  if (!figure.equalAxes) return;
+  fmt::format_to(out, "{}\n", inSpace(figure) ? "set view equal xyz" : "set size ratio -1");
+}
+
+void addNotes(Script out, const Figure& figure, const Axes& axes, Texts& texts) {
+  for (const Note& note : figure.notes) {
+    const double across = shareOf(axes.x, note.x, figure.logX), up = shareOf(axes.y, note.y, figure.logY);
+    if (across < 0 || across > 1 || up < 0 || up > 1) continue;
+    const bool toTheLeft = across > 0.8 && !inSpace(figure);
+    fmt::format_to(out, "set label {} at {:.17e},{:.17e}{} {} noenhanced front\n", texts.add(note.text),
+                   note.x, note.y, inSpace(figure) ? fmt::format(",{:.17e}", note.z) : "",
+                   toTheLeft ? "right offset -0.9,0.6" : "left offset 0.9,0.6");
+  }
+}
+
+Trace traceOf(const Guide& guide, const Axis& along, bool vertical) {
+  Trace trace{.legend = guide.label};
+  trace.rows.resize(2, 2);
+  trace.rows.col(vertical ? 0 : 1).setConstant(guide.at);
+  trace.rows.col(vertical ? 1 : 0) << along.low, along.high;
+  trace.drawing = "using 1:2 with lines lw 1.3 dt (10,7) " + colorOf(guide.color, "lc rgb '#707070'");
+  return trace;
+}
+
+// Lines of equal value of the cells in `block`, at equal steps of colour, as the block $contours.
+void addContours(Script out, const Figure& figure, const std::string& block, const Axis& color) {
+  const HeatMap& heatMap = *figure.heatMap;
+  fmt::format_to(out, "set cntrparam levels discrete ");
+  for (int i = 1; i <= heatMap.contours; ++i) {
+    const double share = static_cast<double>(i) / (heatMap.contours + 1);
+    const double level = figure.logColor ? color.low * std::pow(color.high / color.low, share)
+                                         : color.low + share * (color.high - color.low);
+    fmt::format_to(out, "{}{:.17e}", i > 1 ? "," : "", level);
+  }
+  fmt::format_to(out, "\nset contour base\nunset surface\nset format '%.12g'\nset table $contours\n");
+  fmt::format_to(out, "splot {} matrix using {}:3\nunset table\nunset contour\nset surface\n", block,
+                 cellCentres(heatMap.xRange, heatMap.yRange, heatMap.values));
+  fmt::format_to(out, "set format '%h'\n");
+}
+
+void addRows(Script out, const std::string& block, const Eigen::MatrixXd& rows) {
+  fmt::format_to(out, "{} << EOD\n", block);
+  for (Eigen::Index i = 0; i < rows.rows(); ++i)
+    for (Eigen::Index j = 0; j < rows.cols(); ++j)
+      fmt::format_to(out, "{}{}", rows(i, j), j + 1 == rows.cols() ? '\n' : ' ');
   fmt::format_to(out, "EOD\n");
 }
 
-void addCurve(Script out, const Series& series, std::size_t index) {
-  fmt::format_to(out, "{}$d{} using 1:2 with {} lt {}", index == 0 ? "plot " : ", ", index, drawingOf(series),
-                 index + 1);
-  if (series.color) fmt::format_to(out, " lc rgb '{}'", hex(*series.color));
-  if (series.dashed) fmt::format_to(out, " dt (12,7)");
-  if (series.label.empty())
-    fmt::format_to(out, " notitle");
-  else
-    fmt::format_to(out, " title {} noenhanced", quoted(series.label));
+std::string terminalCommand(const Figure& figure, const std::string& terminal) {
+  return fmt::format("set terminal {} noenhanced font 'DejaVu Sans,11' size {},{} background rgb '#FFFFFF'\n",
+                     terminal, figure.width, figure.height);
+}
+
+// The data blocks come first and the one command that draws them last.
+std::string drawingOf(const Figure& figure, const std::vector<Trace>& traces, const Axes& axes,
+                      Texts& texts) {
+  std::string blocks, command;
+  const Script out(command);
+  const bool contours = figure.heatMap && figure.heatMap->contours > 0;
+  for (std::size_t k = 0; k < traces.size(); ++k) {
+    const Trace& trace = traces[k];
+    const std::string block = fmt::format("$d{}", k);
+    addRows(Script(blocks), block, trace.rows);
+    fmt::format_to(out, "{}{} {} ", k > 0 ? ", " : "", block, trace.drawing);
+    if (trace.legend.empty())
+      fmt::format_to(out, "notitle");
+    else
+      fmt::format_to(out, "title {} noenhanced", texts.add(trace.legend));
+    if (!contours || k != (figure.map ? 1 : 0)) continue;
+    addContours(Script(blocks), figure, block, axes.color);
+    fmt::format_to(out, ", $contours using 1:2 with lines lw 0.8 lc rgb '#70FFFFFF' notitle");
+  }
+  return blocks + "\n" + (inSpace(figure) ? "splot " : "plot ") + command + "\n";
 }
 
 }  // namespace
 
-void requireDrawable(const Figure& figure) {
-  const std::string name = nameOf(figure);
-  if (figure.series.empty()) throw Error({.what = name, .found = "no series", .wanted = "at least one"});
-  const auto inRange = [](int size) { return size >= 100 && size <= 8192; };
-  if (!inRange(figure.width) || !inRange(figure.height))
-    throw Error({.what = name,
-                 .found = fmt::format("a size of {} x {}", figure.width, figure.height),
-                 .wanted = "100 to 8192 pixels each way"});
-  requireRange(figure.xRange, figure.logX, name, 'x');
-  requireRange(figure.yRange, figure.logY, name, 'y');
-  for (std::size_t k = 0; k < figure.series.size(); ++k) {
-    const Series& series = figure.series[k];
-    if (series.y.empty())
-      throw Error({.what = nameOf(figure, k), .found = "no points", .wanted = "at least one"});
-    if (!series.x.empty() && series.x.size() != series.y.size())
-      throw Error({.what = nameOf(figure, k),
-                   .found = fmt::format("{} x and {} y", series.x.size(), series.y.size()),
-                   .wanted = "as many x as y"});
-    if (series.x.empty() && figure.logX)
-      throw Error({.what = nameOf(figure, k), .found = "no x", .wanted = "x for the logarithmic axis"});
-    requireValues(series.x, figure.logX, nameOf(figure, k), 'x');
-    requireValues(series.y, figure.logY, nameOf(figure, k), 'y');
-  }
-  requireDataInView(figure, name);
-}
-
 std::string figureScript(const Figure& figure, const std::string& terminal) {
-  std::string script;
-  const Script out(script);
-  fmt::format_to(out, "set terminal {} noenhanced font 'DejaVu Sans,11' size {},{}{}\n", terminal,
-                 figure.width, figure.height, " background rgb '#FFFFFF'");
-  script += figureStyle();
+  requireDrawable(figure);
+  std::vector<Trace> traces = tracesOf(figure);
+  requireDataInView(figure, traces);
+  const Axes axes = axesOf(figure, traces);
+  std::vector<Trace> guides;
+  for (const Guide& guide : figure.verticalLines) guides.push_back(traceOf(guide, axes.y, true));
+  for (const Guide& guide : figure.horizontalLines) guides.push_back(traceOf(guide, axes.x, false));
+  traces.insert(traces.end() - static_cast<std::ptrdiff_t>(figure.series.size()), guides.begin(),
+                guides.end());
+
+  Texts texts;
+  std::string layout;
+  const Script out(layout);
   const auto addText = [&](const char* what, const std::string& text) {
-    if (!text.empty()) fmt::format_to(out, "set {} {} noenhanced\n", what, quoted(text));
+    if (!text.empty()) fmt::format_to(out, "set {} {} noenhanced\n", what, texts.add(text));
   };
   addText("title", figure.title);
   addText("xlabel", figure.xLabel);
   addText("ylabel", figure.yLabel);
-  if (figure.logX) fmt::format_to(out, "set logscale x\nset format x '%g'\n");
-  if (figure.logY) fmt::format_to(out, "set logscale y\nset format y '%g'\n");
-  if (figure.equalAxes) fmt::format_to(out, "set size ratio -1\n");
-  addRange(out, figure.xRange, 'x');
-  addRange(out, figure.yRange, 'y');
-  fmt::format_to(out, "{}\n", placeOf(figure.legend));
-  for (std::size_t k = 0; k < figure.series.size(); ++k) addData(out, figure.series[k], k);
-  for (std::size_t k = 0; k < figure.series.size(); ++k) addCurve(out, figure.series[k], k);
-  return script + "\n";
+  addText("zlabel", figure.zLabel);
+  addText("cblabel", figure.colorLabel);
+  addAxes(out, figure, axes);
+  addNotes(out, figure, axes, texts);
+  const bool freely = figure.legend == Legend::kAuto && !inSpace(figure);
+  fmt::format_to(out, "{}\n", placeOf(figure, freely ? emptiestCorner(figure, traces, axes) : figure.legend));
+  const std::string drawing = drawingOf(figure, traces, axes, texts);
+  return terminalCommand(figure, terminal) + figureStyle() + texts.block() + layout + drawing;
 }
 
 }  // namespace rex::internal

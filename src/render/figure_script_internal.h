@@ -6,10 +6,8 @@
 
 namespace rex::internal {
 
-/// Throws Error as writeFigure() for a figure that cannot be drawn.
-void requireDrawable(const Figure& figure);
-
-/// The gnuplot commands that draw `figure` to standard output with `terminal`, "pngcairo" or "svg".
+/// The gnuplot commands that draw `figure` to standard output with `terminal`, "pngcairo" or "svg". Throws
+/// Error as writeFigure() for a figure that cannot be drawn.
 [[nodiscard]] std::string figureScript(const Figure& figure, const std::string& terminal);
 
 }  // namespace rex::internal

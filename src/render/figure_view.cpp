@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "render/figure_check_internal.h"
 #include "render/figure_view_internal.h"
 
 namespace rex::internal {
@@ -14,12 +15,10 @@ using Box = Eigen::AlignedBox2d;
 using Eigen::Vector2d;
 
 // Points as they lie on the paper, where a logarithmic axis is straight.
-std::vector<Vector2d> pointsOf(const Series& series, const Figure& figure) {
+std::vector<Vector2d> pointsOf(const Trace& trace, const Figure& figure) {
   std::vector<Vector2d> points;
-  for (std::size_t i = 0; i < series.y.size(); ++i) {
-    const double x = series.x.empty() ? static_cast<double>(i) : series.x[i], y = series.y[i];
-    points.emplace_back(figure.logX ? std::log10(x) : x, figure.logY ? std::log10(y) : y);
-  }
+  for (const Eigen::Vector3d& p : trace.outline)
+    points.emplace_back(figure.logX ? std::log10(p.x()) : p.x(), figure.logY ? std::log10(p.y()) : p.y());
   return points;
 }
 
@@ -37,12 +36,25 @@ bool crosses(const Box& view, const Vector2d& from, const Vector2d& to) {
   return left && right;
 }
 
-bool shows(const Box& view, const std::vector<Vector2d>& points, bool linesCount) {
+// Even-odd rule: a ray to the right leaves an area an odd number of times.
+bool isInside(const std::vector<Vector2d>& outline, const Vector2d& p) {
+  bool inside = false;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vector2d &a = outline[i], &b = outline[(i + 1) % outline.size()];
+    if ((a.y() > p.y()) == (b.y() > p.y())) continue;
+    inside ^= p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
+  }
+  return inside;
+}
+
+bool shows(const Box& view, const std::vector<Vector2d>& points, Extent extent) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (view.contains(points[i])) return true;
-    if (linesCount && i > 0 && crosses(view, points[i - 1], points[i])) return true;
+    if (extent == Extent::kPoints) continue;
+    if (i > 0 && crosses(view, points[i - 1], points[i])) return true;
   }
-  return false;
+  if (extent != Extent::kArea) return false;
+  return crosses(view, points.back(), points.front()) || isInside(points, view.center());
 }
 
 // A range that is not given spans the data.
@@ -64,20 +76,20 @@ std::string describe(const Box& box, const Figure& figure) {
 
 }  // namespace
 
-void requireDataInView(const Figure& figure, const std::string& name) {
+void requireDataInView(const Figure& figure, const std::vector<Trace>& traces) {
   Box data;
-  for (const Series& series : figure.series)
-    for (const Vector2d& point : pointsOf(series, figure)) data.extend(point);
+  for (const Trace& trace : traces)
+    for (const Vector2d& point : pointsOf(trace, figure)) data.extend(point);
   Box view = data;
   narrow(view, 0, figure.xRange, figure.logX);
   narrow(view, 1, figure.yRange, figure.logY);
-  // gnuplot fits a y axis without a range to the points in the range of x, and fails if there is none.
+  // A y axis without a range fits the points in the range of x, so there has to be one.
   const bool pointsOnly = figure.xRange && !figure.yRange;
-  for (const Series& series : figure.series) {
-    const bool linesCount = series.style != SeriesStyle::kPoints && !pointsOnly;
-    if (shows(view, pointsOf(series, figure), linesCount)) return;
+  for (const Trace& trace : traces) {
+    const Extent extent = pointsOnly && trace.extent == Extent::kLine ? Extent::kPoints : trace.extent;
+    if (shows(view, pointsOf(trace, figure), extent)) return;
   }
-  throw Error({.what = name,
+  throw Error({.what = nameOf(figure),
                .found = "no data within " + describe(view, figure),
                .wanted = "ranges that meet the data: " + describe(data, figure)});
 }

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "render/figure_trace_internal.h"
+
+namespace rex::internal {
+
+/// An axis as it is drawn, with a tic at every multiple of `step`, or every `step`-fold on a logarithmic one.
+struct Axis {
+  double low = 0;
+  double high = 1;
+  double step = 0;  ///< 0: where gnuplot likes
+};
+
+/// Where along the axis `value` lies: 0 at its low end, 1 at its high end.
+[[nodiscard]] double shareOf(const Axis& axis, double value, bool logarithmic);
+
+struct Axes {
+  Axis x{}, y{}, z{}, color{};
+};
+
+/// The axes of a drawable figure. What has no range spans the data, up to a tic where one is near, with a
+/// small margin otherwise, but no heat map or map is surrounded by white. There are as many tics as the size
+/// of the figure has room for.
+[[nodiscard]] Axes axesOf(const Figure& figure, const std::vector<Trace>& traces);
+
+}  // namespace rex::internal

@@ -1,0 +1,145 @@
+#include "render/figure_builders.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace rex {
+namespace {
+
+void requireCount(const char* what, int found, int low, int high) {
+  if (found < low || found > high)
+    throw Error(
+        {.what = what, .found = fmt::format("{}", found), .wanted = fmt::format("{} to {}", low, high)});
+}
+
+void requireFinite(const char* what, const std::vector<double>& values) {
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!std::isfinite(values[i]))
+      throw Error({.what = fmt::format("{} {}", what, i),
+                   .found = fmt::format("{}", values[i]),
+                   .wanted = "a finite number"});
+}
+
+// The middle of part `index` of `count` equal parts.
+double centreOf(const AxisRange& range, int index, int count) {
+  return range.first + (range.second - range.first) * (index + 0.5) / count;
+}
+
+Series signsOf(const std::vector<std::complex<double>>& values, const char* label, Marker marker) {
+  Series series{.label = label, .style = SeriesStyle::kPoints, .marker = marker, .size = 2};
+  for (const std::complex<double>& value : values) {
+    series.x.push_back(value.real());
+    series.y.push_back(value.imag());
+  }
+  requireFinite(fmt::format("{}: real part", label).c_str(), series.x);
+  requireFinite(fmt::format("{}: imaginary part", label).c_str(), series.y);
+  return series;
+}
+
+Region unitDisc() {
+  constexpr int kCorners = 180;
+  Region disc{.label = "stable"};
+  for (int i = 0; i < kCorners; ++i) {
+    disc.x.push_back(std::cos(2 * std::numbers::pi * i / kCorners));
+    disc.y.push_back(std::sin(2 * std::numbers::pi * i / kCorners));
+  }
+  return disc;
+}
+
+}  // namespace
+
+Histogram histogramOf(const std::vector<double>& samples, int bins) {
+  requireCount("bins of a histogram", bins, 1, 10000);
+  if (samples.empty()) throw Error({.what = "histogram", .found = "no samples", .wanted = "at least one"});
+  requireFinite("histogram, sample", samples);
+  const auto [least, greatest] = std::minmax_element(samples.begin(), samples.end());
+  double low = *least, high = *greatest;
+  if (low == high) low -= 0.5, high += 0.5;
+  Histogram histogram;
+  for (int i = 0; i <= bins; ++i) histogram.edges.push_back(i < bins ? low + (high - low) * i / bins : high);
+  histogram.heights.resize(static_cast<std::size_t>(bins));
+  for (const double sample : samples) {
+    // A bin holds its lower edge.
+    const auto edge = std::upper_bound(histogram.edges.begin() + 1, histogram.edges.end() - 1, sample);
+    ++histogram.heights[static_cast<std::size_t>(edge - histogram.edges.begin() - 1)];
+  }
+  return histogram;
+}
+
+Histogram normalized(Histogram histogram) {
+  double area = 0;
+  for (std::size_t i = 0; i + 1 < histogram.edges.size() && i < histogram.heights.size(); ++i)
+    area += histogram.heights[i] * (histogram.edges[i + 1] - histogram.edges[i]);
+  if (!(area > 0))
+    throw Error({.what = "normalized histogram",
+                 .found = fmt::format("an area of {} between its edges", area),
+                 .wanted = "more than 0"});
+  for (double& height : histogram.heights) height /= area;
+  return histogram;
+}
+
+HeatMap heatMapOf(const std::function<double(double, double)>& f, AxisRange xRange, AxisRange yRange,
+                  int columns, int rows) {
+  requireCount("columns of a heat map", columns, 2, 2000);
+  requireCount("rows of a heat map", rows, 2, 2000);
+  HeatMap heatMap{.xRange = xRange, .yRange = yRange, .values = Eigen::MatrixXd(rows, columns)};
+  for (int j = 0; j < columns; ++j)
+    for (int i = 0; i < rows; ++i)
+      heatMap.values(i, j) = f(centreOf(xRange, j, columns), centreOf(yRange, i, rows));
+  return heatMap;
+}
+
+Arrows arrowsOf(const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& f, AxisRange xRange,
+                AxisRange yRange, int columns, int rows) {
+  requireCount("columns of arrows", columns, 1, 200);
+  requireCount("rows of arrows", rows, 1, 200);
+  const Eigen::Vector2d cell((xRange.second - xRange.first) / columns, (yRange.second - yRange.first) / rows);
+  Arrows arrows;
+  for (int i = 0; i < rows; ++i)
+    for (int j = 0; j < columns; ++j) {
+      const Eigen::Vector2d p(centreOf(xRange, j, columns), centreOf(yRange, i, rows));
+      const Eigen::Vector2d inCells = f(p).cwiseQuotient(cell);
+      if (inCells.isZero(0)) continue;
+      const Eigen::Vector2d d = 0.7 * inCells.stableNormalized().cwiseProduct(cell);
+      arrows.x.push_back(p.x() - d.x() / 2);
+      arrows.y.push_back(p.y() - d.y() / 2);
+      arrows.dx.push_back(d.x());
+      arrows.dy.push_back(d.y());
+    }
+  return arrows;
+}
+
+Figure poleFigure(const std::vector<std::complex<double>>& poles,
+                  const std::vector<std::complex<double>>& zeros, TimeDomain domain) {
+  if (poles.empty() && zeros.empty())
+    throw Error({.what = "pole figure", .found = "no poles and no zeros", .wanted = "at least one"});
+  const bool discrete = domain == TimeDomain::kDiscrete;
+  Figure figure{.title = "Poles and zeros",
+                .xLabel = discrete ? "real part [1]" : "real part [1/s]",
+                .yLabel = discrete ? "imaginary part [1]" : "imaginary part [1/s]",
+                .equalAxes = true,
+                .legend = Legend::kOutside,
+                .width = 640,
+                .height = 500};
+  if (!poles.empty()) figure.series.push_back(signsOf(poles, "poles", Marker::kCross));
+  if (!zeros.empty()) figure.series.push_back(signsOf(zeros, "zeros", Marker::kCircle));
+  double reach = discrete ? 1 : 0;  // of the square around the origin that shows all
+  for (const Series& series : figure.series)
+    for (std::size_t i = 0; i < series.x.size(); ++i)
+      reach = std::max({reach, std::abs(series.x[i]), std::abs(series.y[i])});
+  reach = reach > 0 ? 1.2 * reach : 1;
+  figure.xRange = figure.yRange = {-reach, reach};
+  if (discrete)
+    figure.regions = {unitDisc()};
+  else
+    figure.regions = {{.label = "stable", .x = {-reach, 0, 0, -reach}, .y = {-reach, -reach, reach, reach}}};
+  figure.verticalLines = figure.horizontalLines = {{.at = 0}};
+  return figure;
+}
+
+}  // namespace rex

@@ -1,0 +1,65 @@
+// The figures of the gallery are drawn with all that they hold. They stay in the build folder, to be looked
+// at.
+#include <filesystem>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "gallery/figures.h"
+#include "render/figure_builders.h"
+#include "render/png.h"
+#include "support/image_difference.h"
+#include "support/needs_gnuplot.h"
+
+namespace rex {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(FigureGallery, DrawsEveryFigure) {
+  REX_NEEDS_GNUPLOT();
+  const fs::path folder = fs::path(REX_BINARY_DIR) / "tests-out" / "figures";
+  fs::create_directories(folder);
+  for (const auto& [name, figure] : galleryFigures()) {
+    writeFigure(figure, folder / (name + ".png"));
+    writeFigure(figure, folder / (name + ".svg"));
+    const Image image = readPng(folder / (name + ".png"));
+    EXPECT_EQ(image.width, figure.width) << name;
+    EXPECT_EQ(image.height, figure.height) << name;
+  }
+}
+
+// This sees a layer, a colour or a line that is missing or wrong. Where things lie, figure_drawing_test.cpp
+// reads back.
+void expectGolden(const std::string& name, Figure figure) {
+  figure.width = 240, figure.height = 180;
+  const fs::path golden = fs::path(REX_SOURCE_DIR) / "tests/golden/render" / (name + ".png");
+  const fs::path drawn = fs::path(REX_BINARY_DIR) / "tests-out" / "figures" / (name + "-actual.png");
+  fs::create_directories(drawn.parent_path());
+  writeFigure(figure, drawn);
+  if (std::getenv("REX_UPDATE_GOLDEN") != nullptr) writeFigure(figure, golden);
+  const ImageDifference apart = imageDifference(readPng(golden), readPng(drawn), 32);
+  EXPECT_LE(apart.largeShare, 0.005) << name << ": see " << drawn;
+  EXPECT_LE(apart.mean, 0.5) << name << ": see " << drawn;
+}
+
+TEST(FigureGallery, LooksAsStored) {
+  REX_NEEDS_GNUPLOT();
+  Figure heat{.xLabel = "x [m]", .yLabel = "y [m]", .colorLabel = "z [m]"};
+  heat.heatMap = heatMapOf([](double x, double y) { return x * x - y; }, {-1, 1}, {-1, 1}, 20, 20);
+  heat.heatMap->contours = 4;
+  expectGolden("figure-heat", heat);
+  Figure layers{.xLabel = "x [m]", .yLabel = "y [m]", .legend = Legend::kNone};
+  layers.series = {{.x = {0, 2, 4}, .y = {0, 3, 2}, .style = SeriesStyle::kLinesPoints},
+                   {.x = {0, 4}, .y = {2, 2}, .dashed = true}};
+  layers.bands = {{.x = {0, 2, 4}, .low = {-1, 2, 1}, .high = {1, 4, 3}}};
+  layers.ellipses = {{.mean = {3, 0}, .covariance = Eigen::Vector2d(0.3, 0.1).asDiagonal()}};
+  layers.histograms = {{.edges = {0, 0.5, 1}, .heights = {3, 4}, .color = Color{0, 0.6f, 0.3f}}};
+  expectGolden("figure-layers", layers);
+  Figure poles = poleFigure({{0.5, 0.5}, {0.5, -0.5}}, {-0.5}, TimeDomain::kDiscrete);
+  poles.legend = Legend::kNone;
+  expectGolden("figure-poles", poles);
+}
+
+}  // namespace
+}  // namespace rex
