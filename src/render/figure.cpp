@@ -16,24 +16,30 @@ std::string terminalFor(const std::filesystem::path& path) {
                .wanted = ".png or .svg"});
 }
 
-}  // namespace
-
-void writeFigure(const Figure& figure, const std::filesystem::path& path) {
+// The bytes of the picture; `name` stands for the figure in messages.
+std::string drawFigure(const Figure& figure, const std::string& terminal, const std::string& name) {
   constexpr std::size_t kLargestFile = 256u << 20;
-  const std::string terminal = terminalFor(path);
   internal::requireDrawable(figure);
   // gnuplot writes to a pipe, so the path never becomes part of a script.
-  const ProcessResult run =
+  ProcessResult run =
       runProcess({"gnuplot", "--default-settings"},
                  {.input = internal::figureScript(figure, terminal), .outputLimit = kLargestFile});
   const auto fail = [&](const std::string& found, const std::string& wanted) {
-    return Error({.what = "cannot draw figure '" + path.string() + "'", .found = found, .wanted = wanted});
+    return Error({.what = "cannot draw figure '" + name + "'", .found = found, .wanted = wanted});
   };
   if (!run.started) throw fail(run.error, "gnuplot, Debian package gnuplot-nox");
   if (!run.ok()) throw fail("gnuplot says: " + run.error, "");
   if (run.output.empty() || run.output.size() == kLargestFile)
     throw fail("no complete picture from gnuplot", "");
-  internal::writeWhole(path, run.output);
+  return std::move(run.output);
 }
+
+}  // namespace
+
+void writeFigure(const Figure& figure, const std::filesystem::path& path) {
+  internal::writeWhole(path, drawFigure(figure, terminalFor(path), path.string()));
+}
+
+std::string encodeSvg(const Figure& figure) { return drawFigure(figure, "svg", figure.title); }
 
 }  // namespace rex
