@@ -1,0 +1,67 @@
+#include "course/film.h"
+
+#include <algorithm>
+
+#include "course/pictures.h"
+#include "course/recording.h"
+#include "course/simulator.h"
+#include "render/scene_picture.h"
+
+namespace rex {
+namespace {
+
+constexpr double kRate = 30;  // frames per second
+const Color kTraceColor{0.84f, 0.37f, 0.0f};
+const Color kPathColor{0.35f, 0.45f, 0.55f};
+const Color kPointColor{0.80f, 0.10f, 0.12f};
+
+Picture decorate(Picture picture, const PictureOptions& options) {
+  for (const auto& path : options.paths)
+    picture.polylines.push_back({.points = path, .color = kPathColor, .width = 1.5});
+  if (!options.points.empty())
+    picture.pointSets.push_back({.points = options.points, .color = kPointColor, .size = 9});
+  if (!options.caption.empty()) picture.captions.push_back({.text = options.caption});
+  return picture;
+}
+
+// The ways of the traced bodies, one per body, through all the poses.
+std::vector<std::vector<Eigen::Vector3d>> tracesOf(const Simulator& simulator,
+                                                   const std::vector<BodyPoses>& poses,
+                                                   const PictureOptions& options) {
+  std::vector<std::vector<Eigen::Vector3d>> traces;
+  for (const std::string& name : options.traces) {
+    const BodyId body = simulator.model().body(name);
+    traces.emplace_back();
+    for (const BodyPoses& at : poses) traces.back().push_back(at[body].p);
+  }
+  return traces;
+}
+
+}  // namespace
+
+Film filmOf(const Simulator& simulator, const std::vector<Eigen::VectorXd>& postures,
+            const PictureOptions& options) {
+  std::vector<BodyPoses> poses;
+  for (const Eigen::VectorXd& q : postures) poses.push_back(forwardKinematics(simulator.model(), q));
+  const auto traces = tracesOf(simulator, poses, options);
+  Film film;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    film.push_back(
+        {static_cast<double>(i) / kRate, decorate(pictureOf(simulator.model(), poses[i]), options)});
+    if (i == 0) continue;
+    for (const auto& trace : traces) {
+      const auto end = trace.begin() + static_cast<std::ptrdiff_t>(i) + 1;
+      film.back().picture.polylines.push_back(
+          {.points = {trace.begin(), end}, .color = kTraceColor, .width = 2.5});
+    }
+  }
+  levelGround(film);
+  return film;
+}
+
+Film filmOf(const Simulator& simulator, const PictureOptions& options, int most) {
+  return filmOf(simulator, simulator.recording().evenly(static_cast<std::size_t>(std::max(most, 0))),
+                options);
+}
+
+}  // namespace rex
