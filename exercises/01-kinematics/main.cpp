@@ -138,21 +138,29 @@ int main() {
   // 12.3.2 d: three turns of the circle, and what a long run does to the posture.
   Simulator turning("man.ors");
   const std::vector<Eigen::VectorXd> turns = circle(turning, "handR", kTarget, 0.2, kSigma, 380);
-  writeVideo(
-      turning, "circle",
-      {.caption = "12.3.2 d: a circle of radius 0.2 m", .traces = {"handR"}, .paths = {wholeCircle()}});
+  const PictureOptions turningLook{
+      .caption = "12.3.2 d: a circle of radius 0.2 m", .traces = {"handR"}, .paths = {wholeCircle()}};
+  writeVideo(turning, "circle", turningLook);
+  const Figure turnErrors{.title = "The first three turns",
+                          .xLabel = "step",
+                          .yLabel = "tracking error [m]",
+                          .logY = true,
+                          .series = {{.y = positive(trackingErrors(turns, onCircle))}}};
   Simulator longRun("man.ors");
   const std::vector<Eigen::VectorXd> postures = circle(longRun, "handR", kTarget, 0.2, kSigma, 2000);
   std::vector<double> drift = {0};
   for (const Eigen::VectorXd& q : postures) drift.push_back(q.norm());
-  plot("circle", {.title = "Following the circle",
-                  .xLabel = "step",
-                  .yLabel = "tracking error [m]",
-                  .logY = true,
-                  .series = {{.y = positive(trackingErrors(postures, onCircle))}}});
-  plot("posture", {.title = "How far the posture wanders while the hand circles",
-                   .xLabel = "step",
-                   .yLabel = "length of q [rad]",
-                   .series = {{.y = drift}}});
+  const Figure errors{.title = "Following the circle",
+                      .xLabel = "step",
+                      .yLabel = "tracking error [m]",
+                      .logY = true,
+                      .series = {{.y = positive(trackingErrors(postures, onCircle))}}};
+  const Figure posture{.title = "How far the posture wanders while the hand circles",
+                       .xLabel = "step",
+                       .yLabel = "length of q [rad]",
+                       .series = {{.y = drift}}};
+  plot("circle", errors);
+  plot("posture", posture);
+  writeReplay(turning, "circle", turningLook, {turnErrors, errors, posture});
   longRun.watch("posture_after_2000_steps");
 }

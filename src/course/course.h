@@ -11,5 +11,6 @@
 #include "course/plot.h"
 #include "course/print.h"
 #include "course/recording.h"
+#include "course/replay.h"
 #include "course/simulator.h"
 #include "optim/derivative_check.h"

@@ -3,6 +3,7 @@
 
 #include "geometry/rotation.h"
 #include "render/draw_list_internal.h"
+#include "render/mark_style_internal.h"
 
 namespace rex::internal {
 namespace {
@@ -46,21 +47,20 @@ class Builder {
     }
   }
 
-  // A short arrow is thinner, so that it keeps its proportions.
   void addArrow(const Arrow& arrow) {
     const Vector3d along = arrow.to - arrow.from;
     const double length = along.norm();
     if (!(length > 0)) return;
-    const double r = std::min(arrow.radius, length / 12), head = 8 * r;
+    const ArrowForm form(length, arrow.radius);
     const Eigen::Matrix3d R = rotationBetween(Vector3d::UnitZ(), along);
     const auto at = [&](double way) -> Pose { return {R, arrow.from + way / length * along}; };
     add({.mesh = MeshKind::kCylinder,
-         .X_WS = at((length - head) / 2),
-         .halfSize = {r, r, (length - head) / 2},
+         .X_WS = at(form.shaft / 2),
+         .halfSize = {form.radius, form.radius, form.shaft / 2},
          .color = arrow.color});
     add({.mesh = MeshKind::kCone,
-         .X_WS = at(length - head / 2),
-         .halfSize = {3 * r, 3 * r, head / 2},
+         .X_WS = at(form.shaft + form.head / 2),
+         .halfSize = {form.headRadius, form.headRadius, form.head / 2},
          .color = arrow.color});
   }
 

@@ -28,17 +28,15 @@ std::string cleaned(std::string svg) {
   return svg;
 }
 
-}  // namespace
-
-void writeFigure(const Figure& figure, const std::filesystem::path& path) {
+// The bytes of the picture; `name` stands for the figure in messages.
+std::string drawFigure(const Figure& figure, const std::string& terminal, const std::string& name) {
   constexpr std::size_t kLargestFile = 256u << 20;
-  const std::string terminal = terminalFor(path);
   // gnuplot writes to a pipe, so the path never becomes part of a script.
-  const ProcessResult run =
+  ProcessResult run =
       runProcess({"gnuplot", "--default-settings"},
                  {.input = internal::figureScript(figure, terminal), .outputLimit = kLargestFile});
   const auto fail = [&](const std::string& found, const std::string& wanted) {
-    return Error({.what = "cannot draw figure '" + path.string() + "'", .found = found, .wanted = wanted});
+    return Error({.what = "cannot draw figure '" + name + "'", .found = found, .wanted = wanted});
   };
   if (!run.started) throw fail(run.error, "gnuplot, Debian package gnuplot-nox");
   // A minute is what runProcess gives it.
@@ -47,7 +45,15 @@ void writeFigure(const Figure& figure, const std::filesystem::path& path) {
   if (!run.ok()) throw fail("gnuplot says: " + run.error, "");
   if (run.output.empty() || run.output.size() == kLargestFile)
     throw fail("no complete picture from gnuplot", "");
-  internal::writeWhole(path, terminal == "svg" ? cleaned(run.output) : run.output);
+  return terminal == "svg" ? cleaned(std::move(run.output)) : std::move(run.output);
 }
+
+}  // namespace
+
+void writeFigure(const Figure& figure, const std::filesystem::path& path) {
+  internal::writeWhole(path, drawFigure(figure, terminalFor(path), path.string()));
+}
+
+std::string encodeSvg(const Figure& figure) { return drawFigure(figure, "svg", figure.title); }
 
 }  // namespace rex

@@ -53,4 +53,7 @@ struct Figure {
 /// Debian package when gnuplot is missing.
 void writeFigure(const Figure& figure, const std::filesystem::path& path);
 
+/// The text of the .svg file of writeFigure(). Throws Error as that does.
+[[nodiscard]] std::string encodeSvg(const Figure& figure);
+
 }  // namespace rex

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "render/mark_style_internal.h"
 #include "render/overlay_mesh_internal.h"
 
 namespace rex::internal {
@@ -10,11 +11,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr std::array<Color, 3> kAxisColors = {Color{0.84f, 0.15f, 0.16f}, Color{0.13f, 0.58f, 0.20f},
-                                              Color{0.12f, 0.35f, 0.80f}};
-constexpr double kAxisWidth = 2.5;         // pixels
-constexpr double kCloudPointRadius = 1.5;  // pixels
-constexpr double kEndless = 1e6;           // pixels: no round end
+constexpr double kEndless = 1e6;  // pixels: no round end
 
 // How lines or discs of one kind look.
 struct Stroke {

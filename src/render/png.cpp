@@ -17,8 +17,7 @@ namespace {
 // libpng reports through a callback that must not return. The exception leaves C code that holds nothing but
 // what png_destroy_write_struct frees.
 [[noreturn]] void throwPngError(png_structp png, png_const_charp message) {
-  const auto& path = *static_cast<const std::filesystem::path*>(png_get_error_ptr(png));
-  throw Error({.what = "cannot write '" + path.string() + "'", .found = message});
+  throw Error({.what = *static_cast<const std::string*>(png_get_error_ptr(png)), .found = message});
 }
 
 void ignoreWarning(png_structp, png_const_charp) {}
@@ -28,9 +27,9 @@ void append(png_structp png, png_bytep data, std::size_t size) {
 }
 
 struct PngWriter {
-  explicit PngWriter(const std::filesystem::path& path) {
-    png = png_create_write_struct(PNG_LIBPNG_VER_STRING, const_cast<std::filesystem::path*>(&path),
-                                  throwPngError, ignoreWarning);
+  explicit PngWriter(const std::string& failure) {
+    png = png_create_write_struct(PNG_LIBPNG_VER_STRING, const_cast<std::string*>(&failure), throwPngError,
+                                  ignoreWarning);
     info = png_create_info_struct(png);
   }
   ~PngWriter() { png_destroy_write_struct(&png, &info); }
@@ -41,13 +40,11 @@ struct PngWriter {
   png_infop info;
 };
 
-}  // namespace
-
-void writePng(const Image& image, const std::filesystem::path& path) {
-  if (image.rgb.empty())
-    throw Error({.what = "cannot write '" + path.string() + "'", .found = "an image without pixels"});
+// `failure` starts the message of an Error.
+std::string encode(const Image& image, const std::string& failure) {
+  if (image.rgb.empty()) throw Error({.what = failure, .found = "an image without pixels"});
   std::string bytes;
-  PngWriter writer(path);
+  PngWriter writer(failure);
   png_set_write_fn(writer.png, &bytes, append, nullptr);
   png_set_IHDR(writer.png, writer.info, static_cast<png_uint_32>(image.width),
                static_cast<png_uint_32>(image.height), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
@@ -58,7 +55,15 @@ void writePng(const Image& image, const std::filesystem::path& path) {
   png_write_info(writer.png, writer.info);
   for (int y = 0; y < image.height; ++y) png_write_row(writer.png, image.pixel(0, y));
   png_write_end(writer.png, nullptr);
-  internal::writeWhole(path, bytes);
+  return bytes;
+}
+
+}  // namespace
+
+std::string encodePng(const Image& image) { return encode(image, "cannot make a PNG image"); }
+
+void writePng(const Image& image, const std::filesystem::path& path) {
+  internal::writeWhole(path, encode(image, "cannot write '" + path.string() + "'"));
 }
 
 Image readPng(const std::filesystem::path& path) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "render/image.h"
 
@@ -9,6 +10,9 @@ namespace rex {
 /// Writes an 8-bit RGB PNG. The file appears whole or not at all. Throws Error naming the path, and for an
 /// image without pixels.
 void writePng(const Image& image, const std::filesystem::path& path);
+
+/// The bytes that writePng() writes. Throws Error for an image without pixels.
+[[nodiscard]] std::string encodePng(const Image& image);
 
 /// Reads any PNG as 8-bit RGB; transparent parts become black. Throws Error naming the path and the cause.
 [[nodiscard]] Image readPng(const std::filesystem::path& path);

@@ -1,0 +1,26 @@
+#include "course/replay.h"
+
+#include <utility>
+
+#include "course/film.h"
+#include "course/simulator.h"
+#include "render/report.h"
+
+namespace rex {
+
+void writeReplay(const Simulator& simulator, const std::string& name, const PictureOptions& options,
+                 const std::vector<Figure>& figures, int most) {
+  Report report{.title = options.caption.empty() ? name : options.caption,
+                .film = filmOf(simulator, options, most),
+                .view = options.view,
+                .still = {.width = options.width, .height = options.height}};
+  if (report.film.empty()) report.film = filmOf(simulator, {simulator.getJointAngles()}, options);
+  for (Frame& frame : report.film) frame.picture.captions.clear();  // the title says it
+  for (Figure figure : figures) {
+    figure.width = 560, figure.height = 360;  // a column beside the robot: smaller, so that texts are larger
+    report.figures.push_back({.figure = std::move(figure)});
+  }
+  writeReport(report, name + ".html");
+}
+
+}  // namespace rex

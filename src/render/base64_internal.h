@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace rex::internal {
+
+/// Bytes as text in base 64, with padding (RFC 4648).
+[[nodiscard]] std::string base64(std::string_view bytes);
+
+}  // namespace rex::internal

@@ -1,0 +1,280 @@
+#include "render/glb.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "geometry/rotation.h"
+#include "render/glb_mesh_internal.h"
+#include "render/glb_track_internal.h"
+#include "render/mark_style_internal.h"
+#include "render/staged_file_internal.h"
+#include "render/utf8_internal.h"
+
+namespace rex {
+namespace {
+
+using Eigen::Vector3d;
+using internal::GlbExtras;
+using internal::GlbState;
+using internal::GlbTrack;
+
+std::vector<float> timesOf(const Film& film) {
+  std::vector<float> times;
+  for (const Frame& frame : film) {
+    const auto time = static_cast<float>(frame.time - film.front().time);
+    if (!std::isfinite(time) || (!times.empty() && !(time > times.back())))
+      throw Error({.what = fmt::format("frame {} of a film", times.size()),
+                   .found = fmt::format("time {}", frame.time),
+                   .wanted = "finite seconds that increase from frame to frame"});
+    times.push_back(time);
+  }
+  return times;
+}
+
+std::vector<double> listOf(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+std::string hex(const Color& color) {
+  const auto part = [](float c) { return static_cast<int>(std::lround(255 * std::clamp(c, 0.f, 1.f))); };
+  return fmt::format("#{:02x}{:02x}{:02x}", part(color.r), part(color.g), part(color.b));
+}
+
+std::string singleLines(std::string_view text) {
+  const std::size_t end = text.find('\n');
+  if (end == std::string_view::npos) return internal::singleLine(text);
+  return internal::singleLine(text.substr(0, end)) + '\n' + singleLines(text.substr(end + 1));
+}
+
+bool looksLike(const Solid& a, const Solid& b) {
+  return a.shape.type == b.shape.type && a.shape.extent == b.shape.extent &&
+         a.shape.radius == b.shape.radius && a.shape.mesh == b.shape.mesh && a.color == b.color;
+}
+
+class FilmWriter {
+ public:
+  FilmWriter(const Film& film, const Camera& camera)
+      : film_(film), meshes_(writer_), tracks_(writer_, timesOf(film), addRoot(film, camera)) {
+    writer_.addCamera(camera, kRoot);
+    addGround();
+    addSolids();
+    addArrows();
+    addEllipsoids();
+    addPoints(&Picture::lineSets, "lines");
+    addPoints(&Picture::polylines, "polyline");
+    addPoints(&Picture::pointSets, "points");
+    addAxes();
+    addTexts();
+  }
+
+  std::string bytes() const { return writer_.bytes(); }
+
+ private:
+  static constexpr int kRoot = 0;
+  using State = std::optional<GlbState>;
+
+  // Our z is up, glTF's y. `target` is what the camera looks at and turns around.
+  int addRoot(const Film& film, const Camera& camera) {
+    const Bounds scene = bounds(film);
+    const Vector3d ahead = -camera.X_WC.R.col(2);
+    const Vector3d target = camera.X_WC.p + ahead * ahead.dot(scene.center() - camera.X_WC.p);
+    const Vector3d light = film[0].picture.toLight.normalized();
+    return writer_.addNode({.name = "world",
+                            .pose = rotation(-std::numbers::pi / 2, Vector3d::UnitX()),
+                            .extras = {.numbers = {{"target", listOf(target)},
+                                                   {"low", listOf(scene.low)},
+                                                   {"high", listOf(scene.high)},
+                                                   {"toLight", listOf(light)}}}});
+  }
+
+  // Calls nameOf(item, index) and stateOf(item) for what has the same index in all pictures of the film.
+  template <class Item, class NameOf, class StateOf>
+  void addAll(const std::vector<Item> Picture::*list, const NameOf& nameOf, const StateOf& stateOf) {
+    std::size_t most = 0;
+    for (const Frame& frame : film_) most = std::max(most, (frame.picture.*list).size());
+    for (std::size_t i = 0; i < most; ++i) {
+      GlbTrack track;
+      std::string name;
+      for (const Frame& frame : film_) {
+        const std::vector<Item>& items = frame.picture.*list;
+        track.push_back(i < items.size() ? stateOf(items[i]) : std::nullopt);
+        if (name.empty() && i < items.size()) name = nameOf(items[i], i);
+      }
+      tracks_.add(name, track);
+    }
+  }
+
+  void addGround() {
+    const Bounds scene = bounds(film_);
+    GlbTrack track;
+    for (const Frame& frame : film_) {
+      const Ground& ground = frame.picture.ground;
+      const double half = std::max(6 * scene.radius(), 4 * ground.cell);
+      const Color mixed{(ground.light.r + ground.dark.r) / 2, (ground.light.g + ground.dark.g) / 2,
+                        (ground.light.b + ground.dark.b) / 2};
+      GlbState state{.mesh = meshes_.plane(half, mixed),
+                     .extras = {.numbers = {{"cell", {ground.cell}}},
+                                .texts = {{"light", hex(ground.light)}, {"dark", hex(ground.dark)}}},
+                     .pose = translation(scene.center().x(), scene.center().y(), ground.height)};
+      track.push_back(ground.visible ? State(state) : std::nullopt);
+    }
+    tracks_.add("ground", track);
+  }
+
+  void addSolids() {
+    const Solid* last = nullptr;
+    int mesh = -1;
+    const auto nameOf = [](const Solid& solid, std::size_t i) {
+      return solid.name.empty() ? fmt::format("solid {}", i) : internal::singleLine(solid.name);
+    };
+    addAll(&Picture::solids, nameOf, [&](const Solid& solid) -> State {
+      if (last == nullptr || !looksLike(solid, *last))
+        mesh = solid.color.a > 0 ? meshes_.ofShape(solid.shape, solid.color) : -1;
+      last = &solid;
+      if (mesh < 0) return std::nullopt;
+      return GlbState{.mesh = mesh, .pose = solid.X_WS};
+    });
+  }
+
+  void addArrows() {
+    const auto turned = [](const Arrow& arrow) {
+      return Pose{rotationBetween(Vector3d::UnitZ(), arrow.to - arrow.from), arrow.from};
+    };
+    const auto named = [](const Arrow&, std::size_t i) { return fmt::format("arrow {}", i); };
+    addAll(&Picture::arrows, named, [&](const Arrow& arrow) -> State {
+      const double length = (arrow.to - arrow.from).norm();
+      if (length <= 0) return std::nullopt;
+      const internal::ArrowForm form(length, arrow.radius);
+      return GlbState{.mesh = meshes_.shaft(arrow.color),
+                      .pose = turned(arrow),
+                      .scale = {form.radius, form.radius, form.shaft}};
+    });
+    addAll(&Picture::arrows, named, [&](const Arrow& arrow) -> State {
+      const double length = (arrow.to - arrow.from).norm();
+      if (length <= 0) return std::nullopt;
+      const internal::ArrowForm form(length, arrow.radius);
+      return GlbState{.mesh = meshes_.head(arrow.color),
+                      .pose = turned(arrow) * translation(0, 0, form.shaft),
+                      .scale = {form.headRadius, form.headRadius, form.head}};
+    });
+  }
+
+  void addEllipsoids() {
+    const auto named = [](const Ellipsoid&, std::size_t i) { return fmt::format("ellipsoid {}", i); };
+    addAll(&Picture::ellipsoids, named, [&](const Ellipsoid& ellipsoid) -> State {
+      if (ellipsoid.radii.minCoeff() <= 0) return std::nullopt;
+      return GlbState{
+          .mesh = meshes_.ball(ellipsoid.color), .pose = ellipsoid.X_WE, .scale = ellipsoid.radii};
+    });
+  }
+
+  template <class Item>
+  static std::vector<Eigen::Vector3f> pointsOf(const Item& item) {
+    std::vector<Eigen::Vector3f> points;
+    for (const Vector3d& point : item.points) points.push_back(point.cast<float>());
+    return points;
+  }
+  static std::vector<Eigen::Vector3f> pointsOf(const LineSet& lines) {
+    std::vector<Eigen::Vector3f> points;
+    for (const auto& [from, to] : lines.segments)
+      points.push_back(from.cast<float>()), points.push_back(to.cast<float>());
+    return points;
+  }
+  static bool isDrawn(const LineSet& lines) { return !lines.segments.empty(); }
+  static bool isDrawn(const Polyline& line) { return line.points.size() > 1; }
+  static bool isDrawn(const PointSet& set) { return !set.points.empty(); }
+  int meshOf(const LineSet& lines, int points) { return meshes_.lines(points, lines.color, lines.width); }
+  int meshOf(const Polyline& line, int points) { return meshes_.line(points, line.color, line.width); }
+  int meshOf(const PointSet& set, int points) { return meshes_.points(points, set.color, set.size); }
+
+  // The points that an item has through the film, as accessors. A list that is the start of another, as of a
+  // growing trace, lies in the same data.
+  template <class Item>
+  void addAccessors(const std::vector<const Item*>& items, std::map<const Item*, int>& accessors) {
+    std::vector<std::pair<const Item*, std::vector<Eigen::Vector3f>>> lists;
+    for (const Item* item : items) lists.emplace_back(item, pointsOf(*item));
+    std::stable_sort(lists.begin(), lists.end(),
+                     [](const auto& a, const auto& b) { return a.second.size() > b.second.size(); });
+    std::vector<std::vector<Eigen::Vector3f>> stores;
+    for (const auto& [item, points] : lists) {
+      const auto& known = points;  // a structured binding cannot be captured
+      auto store = std::find_if(stores.begin(), stores.end(), [&](const auto& longer) {
+        return std::equal(known.begin(), known.end(), longer.begin());
+      });
+      if (store == stores.end()) store = stores.insert(stores.end(), points);
+      accessors[item] = writer_.addVertices(*store, points.size());
+    }
+  }
+
+  template <class Item>
+  void addPoints(const std::vector<Item> Picture::*list, const char* kind) {
+    std::vector<std::vector<const Item*>> drawn;  // by index
+    for (const Frame& frame : film_) {
+      const std::vector<Item>& items = frame.picture.*list;
+      drawn.resize(std::max(drawn.size(), items.size()));
+      for (std::size_t i = 0; i < items.size(); ++i)
+        if (isDrawn(items[i])) drawn[i].push_back(&items[i]);
+    }
+    std::map<const Item*, int> accessors;
+    for (const auto& items : drawn) addAccessors(items, accessors);
+    const auto named = [&](const Item&, std::size_t i) { return fmt::format("{} {}", kind, i); };
+    addAll(list, named, [&](const Item& item) -> State {
+      if (!isDrawn(item)) return std::nullopt;
+      return GlbState{.mesh = meshOf(item, accessors.at(&item))};
+    });
+  }
+
+  void addAxes() {
+    addAll(
+        &Picture::axes,
+        [](const Axes& axes, std::size_t) { return "axes " + internal::singleLine(axes.name); },
+        [&](const Axes& axes) -> State {
+          GlbState state{.mesh = meshes_.axes(axes.size), .pose = axes.X_WF};
+          if (!axes.name.empty()) state.extras.texts["label"] = internal::singleLine(axes.name);
+          state.extras.numbers["below"] = {10};
+          return state.mesh < 0 ? State() : state;
+        });
+  }
+
+  void addTexts() {
+    const auto label = [](const Label&, std::size_t i) { return fmt::format("label {}", i); };
+    addAll(&Picture::labels, label, [](const Label& item) -> State {
+      return GlbState{
+          .extras = {.numbers = {{"textScale", {item.scale}}},
+                     .texts = {{"label", internal::singleLine(item.text)}, {"color", hex(item.color)}}},
+          .pose = {.p = item.p_WQ}};
+    });
+    const auto caption = [](const Caption&, std::size_t i) { return fmt::format("caption {}", i); };
+    addAll(&Picture::captions, caption, [](const Caption& item) -> State {
+      const bool right = item.corner == Corner::kTopRight || item.corner == Corner::kBottomRight;
+      const bool bottom = item.corner == Corner::kBottomLeft || item.corner == Corner::kBottomRight;
+      return GlbState{.extras = {.numbers = {{"textScale", {item.scale}}},
+                                 .texts = {{"caption", singleLines(item.text)},
+                                           {"corner", std::string(bottom ? "bottom " : "top ") +
+                                                          (right ? "right" : "left")},
+                                           {"color", hex(item.color)}}}};
+    });
+  }
+
+  const Film& film_;
+  internal::GlbWriter writer_;
+  internal::GlbMeshes meshes_;
+  internal::GlbTracks tracks_;
+};
+
+}  // namespace
+
+std::string glbOf(const Film& film, const Vector3d& view) {
+  if (film.empty()) throw Error({.what = "a film to replay", .found = "no frames", .wanted = "at least one"});
+  for (const Frame& frame : film) requireDrawable(frame.picture);
+  return FilmWriter(film, framing(film, view, 4. / 3)).bytes();
+}
+
+void writeGlb(const Film& film, const std::filesystem::path& path, const Vector3d& view) {
+  internal::writeWhole(path, glbOf(film, view));
+}
+
+}  // namespace rex
