@@ -86,11 +86,13 @@
     scene.updateMatrixWorld(true);
     const inWorld = p => new THREE.Vector3(p[0], p[1], p[2]).applyMatrix4(world.matrixWorld);
     const toLight = inWorld(film.toLight), target = inWorld(film.target);
-    const corners = [0, 1, 2, 3, 4, 5, 6, 7].map(i => inWorld([0, 1, 2].map(k => (i >> k & 1 ? film.high : film.low)[k])));
+    const corner = i => inWorld([0, 1, 2].map(k => (i >> k & 1 ? film.high : film.low)[k]));
+    const corners = [0, 1, 2, 3, 4, 5, 6, 7].map(corner);
     const center = corners[0].clone().lerp(corners[7], 0.5), radius = Math.max(center.distanceTo(corners[0]), 1e-3);
     const shared = {
-      toLight: { value: toLight }, shadowTexel: { value: 0 }, skyTop: { value: squaredCss('#edf2f7') }, skyBottom: { value: squaredCss('#fefefe') },
-      height: { value: 1 }, resolution: { value: new THREE.Vector2(1, 1) }
+      toLight: { value: toLight }, shadowTexel: { value: 0 }, height: { value: 1 },
+      skyTop: { value: squaredCss('#edf2f7') }, skyBottom: { value: squaredCss('#fefefe') },
+      resolution: { value: new THREE.Vector2(1, 1) }
     };
     const sized = [];  // uniforms of sizes in pixels, with the size at one pixel per point
 
@@ -100,7 +102,7 @@
         fragmentShader, lights: true, transparent: opacity < 1, depthWrite: opacity >= 1
       });
       material.extensions.derivatives = true;
-      for (const name of ['toLight', 'shadowTexel', 'skyTop', 'skyBottom', 'height']) material.uniforms[name] = shared[name];
+      for (const name of Object.keys(shared)) material.uniforms[name] = shared[name];
       return material;
     }
 
@@ -108,7 +110,8 @@
     function solidMaterial(from) {
       if (!solids.has(from)) {
         const opacity = from.opacity;
-        solids.set(from, lit(solidFragment, { albedo: { value: squared(from.color) }, alpha: { value: opacity } }, opacity));
+        const own = { albedo: { value: squared(from.color) }, alpha: { value: opacity } };
+        solids.set(from, lit(solidFragment, own, opacity));
       }
       return solids.get(from);
     }
@@ -187,11 +190,11 @@
       element.style.color = data.color || '#1a1a1f';
       element.style.fontSize = 14 * (data.textScale || 1) + 'px';
       if (data.caption === undefined) stage.appendChild(element);
-      else corner(data.corner).appendChild(element);
+      else captionCorner(data.corner).appendChild(element);
       return { object, element, below: data.below || 0, fixed: data.caption !== undefined };
     }
 
-    function corner(name) {
+    function captionCorner(name) {
       const known = stage.querySelector('.corner.' + name.replace(' ', '.'));
       if (known) return known;
       const element = document.createElement('div');
@@ -254,7 +257,8 @@
     sun.target.position.copy(center);
     sun.castShadow = true;
     sun.shadow.mapSize.set(2048, 2048);
-    Object.assign(sun.shadow.camera, { left: -reach, right: reach, bottom: -reach, top: reach, near: reach, far: 20 * reach });
+    const box = { left: -reach, right: reach, bottom: -reach, top: reach, near: reach, far: 20 * reach };
+    Object.assign(sun.shadow.camera, box);
     shared.shadowTexel.value = 2 * reach / 2048;
     scene.add(sun, sun.target);
     renderer.shadowMap.enabled = true;
@@ -270,7 +274,8 @@
           shown = at.z < 1 && Math.abs(at.x) < 1 && Math.abs(at.y) < 1;
           const x = (at.x + 1) / 2 * width, y = (1 - at.y) / 2 * height + below;
           const left = x + 8 + element.offsetWidth > width ? x - 8 - element.offsetWidth : x + 8;
-          element.style.transform = 'translate(' + left.toFixed(1) + 'px,' + (y - element.offsetHeight / 2).toFixed(1) + 'px)';
+          const top = y - element.offsetHeight / 2;
+          element.style.transform = 'translate(' + left.toFixed(1) + 'px,' + top.toFixed(1) + 'px)';
         }
         if (fixed) element.hidden = !shown;
         else element.style.visibility = shown ? 'visible' : 'hidden';

@@ -95,6 +95,7 @@ void requireLayer(const Figure& figure, const Series& series, const std::string&
 
 void requireLayer(const Figure& figure, const Band& band, const std::string& name) {
   requirePositions(figure, name, band.x, band.low, "low");
+  if (band.low.size() == 1) throw Error({.what = name, .found = "one point", .wanted = "at least two"});
   requireAsMany(name, "high", band.high, "low", band.low);
   requireNumbers(band.high, figure.logY, name, "high");
   for (std::size_t i = 0; i < band.low.size(); ++i)
@@ -124,9 +125,9 @@ void requireLayer(const Figure& figure, const Histogram& histogram, const std::s
 void requireLayer(const Figure& figure, const CovarianceEllipse& ellipse, const std::string& name) {
   requireLinear(figure, name);
   for (int i = 0; i < 2; ++i) requireNumber(ellipse.mean[i], false, name, fmt::format("mean[{}]", i));
-  if (!(ellipse.sigmas > 0 && isNumber(ellipse.sigmas)))
+  if (!(ellipse.sigmas > 0 && ellipse.sigmas <= 100))
     throw Error(
-        {.what = name, .found = fmt::format("sigmas = {}", ellipse.sigmas), .wanted = "a number above 0"});
+        {.what = name, .found = fmt::format("sigmas = {}", ellipse.sigmas), .wanted = "0 < sigmas <= 100"});
   const Eigen::Matrix2d& P = ellipse.covariance;
   // A filter's rounding is no asymmetry; the drawing takes the lower half.
   const bool symmetric = std::abs(P(0, 1) - P(1, 0)) <= 1e-6 * P.cwiseAbs().maxCoeff();

@@ -63,10 +63,10 @@ Trace traceOf(const Series& series, std::size_t index) {
     if (colored) trace.rows(row, 2 + space) = series.values[i];
   }
   if (series.style == SeriesStyle::kPoints) trace.extent = Extent::kPoints;
-  trace.drawing =
-      fmt::format("using {}{}{} with {} lt {} lw {:.3g}", "1:2", space ? ":3" : "",
-                  colored ? (space ? ":4" : ":3") : "", styleOf(series), index + 1, 2 * series.size);
-  if (trace.drawing.find("points") != std::string::npos)
+  const std::string style = styleOf(series), columns = space ? "1:2:3" : "1:2";
+  trace.drawing = fmt::format("using {}{} with {} lt {} lw {:.3g}", columns,
+                              colored ? (space ? ":4" : ":3") : "", style, index + 1, 2 * series.size);
+  if (style != "lines")
     trace.drawing += fmt::format(" ps {:.3g}", (series.marker == Marker::kAuto ? 0.7 : 0.9) * series.size);
   if (series.marker != Marker::kAuto) trace.drawing += fmt::format(" pt {}", pointType(series.marker));
   if (colored)

@@ -77,6 +77,8 @@ TEST(FigureErrors, Bands) {
   EXPECT_REX_ERROR(draw(figure), "found low[1] = nan");
   figure.bands[0].x = {1};
   EXPECT_REX_ERROR(draw(figure), "found 1 x and 2 low, wanted as many x as low");
+  figure.bands = {{.low = {0}, .high = {1}}};
+  EXPECT_REX_ERROR(draw(figure), "band 0: found one point, wanted at least two");
   figure.bands = {{}};
   EXPECT_REX_ERROR(draw(figure), "band 0: found no points");
   figure.bands = {{.low = {0, 1}, .high = {1, 2}}}, figure.logY = true;
@@ -120,7 +122,7 @@ TEST(FigureErrors, Ellipses) {
   figure.ellipses = {{.mean = {0, kNan}}};
   EXPECT_REX_ERROR(draw(figure), "ellipse 0: found mean[1] = nan");
   figure.ellipses = {{.sigmas = 0}};
-  EXPECT_REX_ERROR(draw(figure), "ellipse 0: found sigmas = 0, wanted a number above 0");
+  EXPECT_REX_ERROR(draw(figure), "ellipse 0: found sigmas = 0, wanted 0 < sigmas <= 100");
   figure.ellipses = {{}}, figure.logX = true;
   EXPECT_REX_ERROR(draw(figure), "ellipse 0: found a logarithmic axis");
 }

@@ -68,6 +68,7 @@ TEST(Png, NamesThePathItCannotWriteAndLeavesNothing) {
   fs::create_directories(folder / "taken.png" / "inside");
   EXPECT_REX_ERROR(writePng(image, folder / "taken.png"), "cannot write '");
   EXPECT_REX_ERROR(writePng(Image{}, folder / "empty.png"), "empty.png': found an image without pixels");
+  EXPECT_REX_ERROR(encodePng(Image{}), "cannot make a PNG image: found an image without pixels");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator{}), 1);
 }
 
