@@ -5,6 +5,5 @@
 #include "base/process.h"
 
 /// Skips a test that draws where gnuplot is missing.
-#define REX_NEEDS_GNUPLOT()                                                                        \
-  if (!::rex::runProcess({"gnuplot", "--version"}).ok()) GTEST_SKIP() << "needs gnuplot: install " \
-                                                                         "gnuplot-nox"
+#define REX_NEEDS_GNUPLOT() \
+  if (!::rex::runProcess({"gnuplot", "--version"}).ok()) GTEST_SKIP() << "install gnuplot-nox"
