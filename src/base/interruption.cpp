@@ -1,5 +1,6 @@
 #include "base/interruption.h"
 
+#include <ctime>
 #include <initializer_list>
 
 namespace rex {
@@ -21,5 +22,19 @@ HeldSignals::HeldSignals() {
 }
 
 HeldSignals::~HeldSignals() { ::sigprocmask(SIG_SETMASK, &before_, nullptr); }
+
+void throwIfInterrupted() {
+  sigset_t blocked;
+  ::sigprocmask(SIG_BLOCK, nullptr, &blocked);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    // One that is not held back acts by itself; waiting for it would only race with that.
+    if (::sigismember(&blocked, signal) != 1) continue;
+    sigset_t one;
+    ::sigemptyset(&one);
+    ::sigaddset(&one, signal);
+    const timespec now{};
+    if (::sigtimedwait(&one, nullptr, &now) == signal) throw Interrupted{signal};
+  }
+}
 
 }  // namespace rex

@@ -15,7 +15,8 @@ struct Interrupted {
 [[nodiscard]] sigset_t stopSignals();
 
 /// While it lives, those signals wait. runProcess() looks for them: it ends the program that it runs and
-/// throws Interrupted, so that destructors clean up. One that nobody took acts at the end of this object.
+/// throws Interrupted, so that destructors clean up; throwIfInterrupted() is for other long work. One that
+/// nobody took acts at the end of this object.
 class HeldSignals {
  public:
   HeldSignals();
@@ -26,5 +27,8 @@ class HeldSignals {
  private:
   sigset_t before_;
 };
+
+/// Throws Interrupted if one of those signals is held back.
+void throwIfInterrupted();
 
 }  // namespace rex

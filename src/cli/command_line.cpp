@@ -27,7 +27,7 @@ First steps
   scripts/rex test 01           grade it
 
 All commands
-  list   run   test   debug   bench   dev
+  list   run   test   debug   render   doctor   bench   dev
 `scripts/rex COMMAND --help` explains one. An exercise may be called by its number, its
 topic or its whole name: 01, kinematics, 01-kinematics.)";
 
@@ -127,6 +127,58 @@ void addDebug(CLI::App& program, Action& action) {
       [&action, options] { action = [options](const Project& p) { return debug(p, *options); }; });
 }
 
+constexpr const char* kGlHelp = "OpenGL by auto, osmesa or egl (default: auto; or REX_GL in the environment)";
+
+void addRender(CLI::App& program, Action& action) {
+  const auto options = std::make_shared<RenderOptions>();
+  CLI::App* command = add(
+      program, "render", "Draw a scene: a picture, a film, a model or a page with a replay",
+      "Examples:\n  scripts/rex render man.ors -o man.png\n"
+      "  scripts/rex render man.ors --camera front --camera right --camera top -o views.png\n"
+      "  scripts/rex render pegArm.ors --q 0,0,0 --q 0.5,-0.5,0.3 --trace peg -o swing.mp4\n"
+      "  scripts/rex render man.ors --q 'elbowR=1.5' -o man.html\n\n"
+      "The ending of FILE says what is made: .png (of a motion its key frames), .mp4, .webm, .gif (of one\n"
+      "posture a walk around it), .glb, .html, or none for a folder of frames.");
+  command->add_option("SCENE", options->scene, "an .ors file, or a robot of the course: man.ors")
+      ->type_name("")
+      ->required();
+  command->add_option("-o,--out", options->out, "what to make")->type_name("FILE")->required();
+  const auto list = [&](const std::string& name, std::vector<std::string>& values, const std::string& help) {
+    return command->add_option(name, values, help)->allow_extra_args(false)->type_name("");
+  };
+  list("--q", options->postures,
+       "a posture: all numbers, or joint=number,...; several times: a motion through them");
+  command->add_option("--motion", options->motion, "a motion: a posture per line, with or without a time")
+      ->type_name("FILE");
+  command->add_option("--seconds", options->seconds, "from each --q to the next (default: 2)")
+      ->type_name("S")
+      ->check(CLI::Range(0.04, 600.).description(""));
+  list("--camera", options->cameras,
+       "front, back, left, right, top, a direction x,y,z, or eye@target; several: side by side");
+  list("--trace", options->traces, "a body whose way is drawn as a line");
+  command->add_option("--caption", options->caption, "text in the top left corner")->type_name("TEXT");
+  command->add_option("--size", options->size, "pixels of one picture (default: 640x480)")->type_name("WxH");
+  command->add_option("--show", options->show, "color, depth or segmentation (default: color)")
+      ->type_name("");
+  command
+      ->add_option("--aa", options->antiAliasing,
+                   "smooth edges by none, fxaa or msaa4 (default: msaa4, films: fxaa)")
+      ->type_name("");
+  command->add_option("--gl", options->gl, kGlHelp)->type_name("")->envname("REX_GL");
+  command->callback(
+      [&action, options] { action = [options](const Project& p) { return render(p, *options); }; });
+}
+
+void addDoctor(CLI::App& program, Action& action) {
+  const auto options = std::make_shared<DoctorOptions>();
+  CLI::App* command = add(program, "doctor", "Try all that pictures need on this machine",
+                          "Examples:\n  scripts/rex doctor\n  scripts/rex doctor --gl egl --json");
+  command->add_option("--gl", options->gl, kGlHelp)->type_name("")->envname("REX_GL");
+  command->add_flag("--json", options->json, "print JSON instead of a table");
+  command->callback(
+      [&action, options] { action = [options](const Project& p) { return doctor(p, *options); }; });
+}
+
 void addDevNew(CLI::App& dev, Action& action) {
   const auto name = std::make_shared<std::string>();
   CLI::App* command = add(dev, "new", "Make a new exercise that passes its own gates",
@@ -201,7 +253,8 @@ Action parseCommandLine(int argc, const char* const* argv) {
   program.get_formatter()->column_width(22);
   program.get_formatter()->label("REQUIRED", "");
   addList(program, action), addRun(program, action), addTest(program, action);
-  addDebug(program, action), addBench(program, action);
+  addDebug(program, action), addRender(program, action), addDoctor(program, action);
+  addBench(program, action);
   CLI::App* dev =
       add(program, "dev", "For those who write exercises: new, check, strip",
           "Examples:\n  scripts/rex dev new 99-demo\n  scripts/rex dev check\n  scripts/rex dev strip 01");

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scene/model.h"
+
+namespace rex::cli {
+
+/// The posture that `--q TEXT` asks for: all nq numbers, or "joint=number,..." for some joints of one
+/// coordinate, the others as in the file; separated by blanks or commas. Throws UsageError naming both sizes,
+/// the word that is no number, or the nearest joints.
+[[nodiscard]] Eigen::VectorXd parsePosture(const Model& model, const std::string& text);
+
+/// Postures and the times at which they are taken, seconds from 0.
+struct Motion {
+  std::vector<double> times;
+  std::vector<Eigen::VectorXd> postures;
+};
+
+/// Reads a motion: one posture per line, numbers separated by commas or blanks, before them a time in seconds
+/// if a line has nq + 1 numbers, otherwise `rate` lines per second; lines that begin with '#' or a letter are
+/// skipped. Throws Error with file:line for a missing file, a wrong count, no number, a time that does not
+/// increase, or no posture at all.
+[[nodiscard]] Motion readMotion(const Model& model, const std::filesystem::path& file, double rate);
+
+/// A smooth motion through all `keys` (at least one), each `seconds` after the one before, at `rate` frames
+/// per second; it rests at each of them.
+[[nodiscard]] Motion moveThrough(const Model& model, const std::vector<Eigen::VectorXd>& keys, double seconds,
+                                 double rate);
+
+}  // namespace rex::cli

@@ -1,0 +1,103 @@
+#include "cli/posture_option.h"
+
+#include <cmath>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "kinematics/forward_kinematics.h"
+#include "scene/ors_reader.h"
+#include "scene/state.h"
+#include "support/expect_error.h"
+#include "support/temporary_folder.h"
+
+namespace rex::cli {
+namespace {
+
+using Eigen::Vector3d;
+
+Model robot(const char* name) {
+  return compile(readOrs(std::string(REX_SOURCE_DIR "/data/robots/") + name).spec);
+}
+
+class MotionFile : public ::testing::Test {
+ protected:
+  std::filesystem::path file(const std::string& text) {
+    std::ofstream(path()) << text;
+    return path();
+  }
+  std::filesystem::path path() const { return folder_.path() / "motion.csv"; }
+  const Model arm = robot("pegArm.ors");
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST(PostureOption, TakesAllNumbersOrSomeJoints) {
+  const Model arm = robot("pegArm.ors");
+  EXPECT_EQ(parsePosture(arm, "0.5,-1 , +2e-1"), Vector3d(0.5, -1, 0.2));
+  EXPECT_EQ(parsePosture(arm, " 1 2\t3 "), Vector3d(1, 2, 3));
+  const std::string& last = arm.joints().back().name;
+  Eigen::VectorXd q = arm.initialPositions();
+  q[arm.joints().back().qIndex] = -0.25;
+  EXPECT_EQ(parsePosture(arm, last + "=-0.25"), q);
+}
+
+TEST(PostureOption, ExplainsWhatItCannotRead) {
+  const Model arm = robot("pegArm.ors");
+  const std::string name = arm.joints().back().name;
+  EXPECT_REX_ERROR(parsePosture(arm, "1,2"), "--q: found 2 numbers, wanted 3, one for each coordinate of");
+  EXPECT_REX_ERROR(parsePosture(arm, ""), "--q: found 0 numbers");
+  EXPECT_REX_ERROR(parsePosture(arm, "1,2,x"), "--q: found 'x', wanted a number, or joint=number");
+  EXPECT_REX_ERROR(parsePosture(arm, "1,2,nan"), "--q: found 'nan'");
+  EXPECT_REX_ERROR(parsePosture(arm, "1,2,3m"), "--q: found '3m'");
+  EXPECT_REX_ERROR(parsePosture(arm, name + "=1,5"), "--q: found '5', wanted joint=number");
+  EXPECT_REX_ERROR(parsePosture(arm, name + "=fast"), "--q: found 'fast', wanted a number");
+  EXPECT_REX_ERROR(parsePosture(arm, name + "x=1"),
+                   "has no joint '" + name + "x' that moves (did you mean '" + name + "'?)");
+  const Model floating =
+      compile(parseOrs("body a {}\nbody b {}\njoint free (a b) { type=JT_free }", "f.ors").spec);
+  ASSERT_EQ(floating.nq(), 7);
+  EXPECT_REX_ERROR(parsePosture(floating, floating.joints()[0].name + "=1"),
+                   "found 7 coordinates, wanted one; give all 7 numbers of q instead");
+}
+
+TEST_F(MotionFile, IsReadWithAndWithoutTimes) {
+  const Motion plain = readMotion(arm, file("# a comment\nq0,q1,q2\n0,0,0\n1 2 3\n\n2,2,2\r\n"), 10);
+  ASSERT_EQ(plain.postures.size(), 3u);
+  EXPECT_EQ(plain.postures[1], Vector3d(1, 2, 3));
+  EXPECT_EQ(plain.times, (std::vector<double>{0, 0.1, 0.2}));
+  const Motion timed = readMotion(arm, file("time,a,b,c\n3,0,0,0\n3.5,1,1,1\n"), 10);
+  EXPECT_EQ(timed.times, (std::vector<double>{0, 0.5}));
+  EXPECT_EQ(timed.postures[1], Vector3d(1, 1, 1));
+}
+
+TEST_F(MotionFile, IsRefusedWithItsLine) {
+  EXPECT_REX_ERROR(readMotion(arm, path(), 30), path().string() + ": cannot read the motion");
+  EXPECT_REX_ERROR(readMotion(arm, path().parent_path(), 30), "cannot read the motion");
+  EXPECT_REX_ERROR(readMotion(arm, file("0,0,0\n1,2\n"), 30),
+                   "motion.csv:2: motion: found 2 numbers, wanted 3 of a posture of");
+  EXPECT_REX_ERROR(readMotion(arm, file("0,0,0\n1,2,3,4,5\n"), 30), "motion.csv:2: motion: found 5 numbers");
+  EXPECT_REX_ERROR(readMotion(arm, file("0,0,0.1.2\n"), 30), "motion.csv:1: motion: found '0.1.2'");
+  EXPECT_REX_ERROR(readMotion(arm, file("1,0,0,0\n1,0,0,0\n"), 30),
+                   "motion.csv:2: motion: found time 1 after 1, wanted times that increase");
+  EXPECT_REX_ERROR(readMotion(arm, file("# nothing\n"), 30), "motion: found no posture, wanted at least one");
+}
+
+TEST(MoveThrough, PassesTheKeysSmoothlyAndRestsAtThem) {
+  const Model arm = robot("pegArm.ors");
+  const std::vector<Eigen::VectorXd> keys = {Vector3d(0, 0, 0), Vector3d(1, -1, 0.5), Vector3d(0, 1, 0)};
+  const Motion motion = moveThrough(arm, keys, 2, 30);
+  ASSERT_EQ(motion.postures.size(), 121u);
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    EXPECT_LT((motion.postures[60 * k] - keys[k]).norm(), 1e-12);
+    EXPECT_NEAR(motion.times[60 * k], 2. * static_cast<double>(k), 1e-12);
+  }
+  const auto speed = [&](std::size_t i) { return 30 * (motion.postures[i] - motion.postures[i - 1]).norm(); };
+  EXPECT_LT(speed(1), 0.1 * speed(30));
+  EXPECT_LT(speed(60), 0.1 * speed(30));
+  EXPECT_EQ(moveThrough(arm, {keys[1]}, 2, 30).postures.size(), 1u);
+}
+
+}  // namespace
+}  // namespace rex::cli
