@@ -1,0 +1,52 @@
+// The gallery in the documents is what the code draws.
+#include "gallery/gallery.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "render/png.h"
+#include "support/fresh_folder.h"
+#include "support/image_difference.h"
+#include "support/needs_osmesa.h"
+
+namespace rex::gallery {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kDocuments = fs::path(REX_SOURCE_DIR) / "share" / "doc";
+
+TEST(Gallery, HasThePageThatTheCodeWrites) {
+  std::ifstream file(kDocuments / "gallery.md");
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  EXPECT_EQ(text, page()) << "run scripts/gallery";
+}
+
+TEST(Gallery, ShowsWhatTheCodeDraws) {
+  REX_NEEDS_OSMESA();
+  const fs::path drawn = freshFolder("gallery");
+  std::set<std::string> files;
+  for (const std::string& name : drawAll(drawn)) {
+    files.insert(name + ".png");
+    SCOPED_TRACE(name + ": if the new picture is right, run scripts/gallery");
+    const Image now = readPng(drawn / (name + ".png"));
+    const Image shown = readPng(kDocuments / "gallery" / (name + ".png"));
+    ASSERT_EQ(now.width, shown.width);
+    ASSERT_EQ(now.height, shown.height);
+    const ImageDifference apart = imageDifference(shown, now, 8);
+    EXPECT_LE(apart.largeShare, 0.005);
+    EXPECT_LE(apart.mean, 0.5);
+    writePng(apart.picture, drawn / (name + "-difference.png"));
+  }
+  std::set<std::string> kept;
+  for (const auto& entry : fs::directory_iterator(kDocuments / "gallery"))
+    kept.insert(entry.path().filename().string());
+  EXPECT_EQ(kept, files) << "run scripts/gallery";
+}
+
+}  // namespace
+}  // namespace rex::gallery

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "render/image.h"
+
+namespace rex::gallery {
+
+/// One picture of the gallery: its file is NAME.png.
+struct Drawing {
+  std::string name;
+  std::string title;
+  std::string text;  ///< what it shows, one paragraph
+  std::function<Image()> draw;
+};
+
+/// The pictures in space, in the order of the page.
+[[nodiscard]] std::vector<Drawing> pictures();
+
+}  // namespace rex::gallery
