@@ -58,6 +58,21 @@ const Joint& movableJoint(const Model& model, const std::string& name) {
                     .nearest = nearestNames(name, movable)});
 }
 
+// At each moment of a steady beat the posture last reached.
+Motion evenly(const Motion& motion, double rate) {
+  Motion even;
+  const double start = motion.times.front(), length = motion.times.back() - start;
+  const auto count = static_cast<std::size_t>(std::ceil(length * rate - 1e-9)) + 1;
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double time = static_cast<double>(i) / rate;
+    while (at + 1 < motion.times.size() && motion.times[at + 1] - start <= time + 1e-9) ++at;
+    even.times.push_back(time);
+    even.postures.push_back(motion.postures[at]);
+  }
+  return even;
+}
+
 }  // namespace
 
 Eigen::VectorXd parsePosture(const Model& model, const std::string& text) {
@@ -113,9 +128,14 @@ Motion readMotion(const Model& model, const std::filesystem::path& file, double 
   if (motion.postures.empty())
     throw Error(
         {.what = "motion", .where = {file.string()}, .found = "no posture", .wanted = "at least one"});
-  const double start = motion.times.front();
-  for (double& time : motion.times) time -= start;
-  return motion;
+  constexpr double kLongest = 120;  // seconds
+  const double length = motion.times.back() - motion.times.front();
+  if (length > kLongest)
+    throw Error({.what = "motion",
+                 .where = {file.string()},
+                 .found = fmt::format("{:g} s", length),
+                 .wanted = fmt::format("at most {:g} s", kLongest)});
+  return evenly(motion, rate);
 }
 
 Motion moveThrough(const Model& model, const std::vector<Eigen::VectorXd>& keys, double seconds,

@@ -21,8 +21,9 @@ struct Motion {
 
 /// Reads a motion: one posture per line, numbers separated by commas or blanks, before them a time in seconds
 /// if a line has nq + 1 numbers, otherwise `rate` lines per second; lines that begin with '#' or a letter are
-/// skipped. Throws Error with file:line for a missing file, a wrong count, no number, a time that does not
-/// increase, or no posture at all.
+/// skipped. It is given back at `rate` postures per second, the latest at each moment. Throws Error with
+/// file:line for a missing file, a wrong count, no number, a time that does not increase, no posture at all,
+/// or more than two minutes.
 [[nodiscard]] Motion readMotion(const Model& model, const std::filesystem::path& file, double rate);
 
 /// A smooth motion through all `keys` (at least one), each `seconds` after the one before, at `rate` frames

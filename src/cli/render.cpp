@@ -176,6 +176,10 @@ class Studio {
   std::vector<NamedView> views_;
 };
 
+View viewOf(const RenderOptions& options) {
+  return View(options.cameras.empty() ? "default" : options.cameras.front());
+}
+
 AntiAliasing antiAliasingOf(const RenderOptions& options, bool isFilm) {
   if (options.antiAliasing.empty()) return isFilm ? kFilmAntiAliasing : AntiAliasing::kMsaa4;
   return choose<AntiAliasing>(
@@ -240,10 +244,14 @@ ExitCode render(const Project& project, const RenderOptions& options) {
       written = writeFilm(film, options);
       break;
     case Product::kModel:
-      writeGlb(film, options.out);
+      writeGlb(film, options.out, viewOf(options).direction());
       break;
     case Product::kPage:
-      writeReport({.title = model.name(), .film = film}, options.out);
+      writeReport({.title = options.caption.empty() ? model.name() : options.caption,
+                   .film = film,
+                   .view = viewOf(options).direction(),
+                   .still = {.width = 800, .height = 600, .gl = {.backend = glBackendFromName(options.gl)}}},
+                  options.out);
       break;
   }
   say(shown(written));

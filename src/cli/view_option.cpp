@@ -68,6 +68,7 @@ View::View(const std::string& text) {
   hasEye_ = true;
   eye_ = *first;
   target_ = *second;
+  direction_ = eye_ - target_;
 }
 
 Camera View::camera(const Bounds& bounds, double aspect) const {

@@ -16,10 +16,12 @@ class View {
 
   /// The camera; the views without an eye see all of `bounds`. Throws as framing() and lookAt().
   [[nodiscard]] Camera camera(const Bounds& bounds, double aspect) const;
+  /// From what is seen to the camera, W, any length.
+  [[nodiscard]] Eigen::Vector3d direction() const { return direction_; }
 
  private:
   bool hasEye_ = false;
-  Eigen::Vector3d direction_ = kDefaultView;  // without an eye
+  Eigen::Vector3d direction_ = kDefaultView;
   Eigen::Vector3d eye_ = Eigen::Vector3d::Zero(), target_ = Eigen::Vector3d::Zero();
 };
 

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "course/film.h"
+#include "course/gl_choice.h"
 #include "course/recording.h"
 #include "course/simulator.h"
 #include "render/contact_sheet.h"
@@ -22,7 +23,10 @@ namespace rex {
 namespace {
 
 void drawInto(FrameSink& sink, const Film& film, const PictureOptions& options) {
-  Renderer renderer({.width = options.width, .height = options.height, .antiAliasing = kFilmAntiAliasing});
+  Renderer renderer({.width = options.width,
+                     .height = options.height,
+                     .antiAliasing = kFilmAntiAliasing,
+                     .gl = glChoice()});
   drawFilm(film, cameraFor(film, options), renderer, sink);
 }
 
@@ -34,7 +38,7 @@ void writePicture(const Simulator& simulator, const std::string& file, const Pic
   postures.push_back(simulator.getJointAngles());
   Film film = filmOf(simulator, postures, options);
   film.erase(film.begin(), film.end() - 1);
-  Renderer renderer({.width = options.width, .height = options.height});
+  Renderer renderer({.width = options.width, .height = options.height, .gl = glChoice()});
   writePng(renderer.draw(film.front().picture, cameraFor(film, options)), file);
 }
 
@@ -68,7 +72,8 @@ void writeContactSheet(const Simulator& simulator, const std::string& name, cons
   const Camera camera = cameraFor(film, options);
   // Drawn at the size at which they appear, text stays readable.
   const int width = std::min(options.width, layout.pictureWidth);
-  Renderer renderer({.width = width, .height = options.height * width / std::max(options.width, 1)});
+  const int height = options.height * width / std::max(options.width, 1);
+  Renderer renderer({.width = width, .height = height, .gl = glChoice()});
   std::vector<KeyFrame> shown;
   for (const std::size_t k : keyFrames(film.size(), pictures))
     shown.push_back({renderer.draw(film[k].picture, camera), fmt::format("{:.2f} s", film[k].time)});

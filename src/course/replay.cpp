@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "course/film.h"
+#include "course/gl_choice.h"
 #include "course/simulator.h"
 #include "render/report.h"
 
@@ -13,7 +14,7 @@ void writeReplay(const Simulator& simulator, const std::string& name, const Pict
   Report report{.title = options.caption.empty() ? name : options.caption,
                 .film = filmOf(simulator, options, most),
                 .view = options.view,
-                .still = {.width = options.width, .height = options.height}};
+                .still = {.width = options.width, .height = options.height, .gl = glChoice()}};
   if (report.film.empty()) report.film = filmOf(simulator, {simulator.getJointAngles()}, options);
   for (Frame& frame : report.film) frame.picture.captions.clear();  // the title says it
   for (Figure figure : figures) {

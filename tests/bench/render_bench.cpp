@@ -8,6 +8,7 @@
 #include "bench/row.h"
 #include "bench/shapes_scene.h"
 #include "render/draw_film.h"
+#include "render/png.h"
 #include "render/renderer.h"
 #include "render/video_sink.h"
 
@@ -31,29 +32,29 @@ std::string outputOf(const std::vector<std::string>& argv) {
   return result.output;
 }
 
-// Draws the sixty shapes, the camera a degree further round each time.
+// Draws the shapes, the camera a degree further round each time.
 class Frames {
  public:
-  explicit Frames(AntiAliasing antiAliasing)
-      : picture_{.solids = sixtyShapes()}, antiAliasing_(antiAliasing) {}
+  Frames(const FrameKind& kind, AntiAliasing antiAliasing)
+      : picture_{.solids = kind.shapes == 30 ? thirtyShapes() : sixtyShapes()},
+        renderer_({.width = kind.width,
+                   .height = kind.height,
+                   .antiAliasing = antiAliasing,
+                   .shadow = kind.shadow}) {}
 
   Image draw() {
-    if (!renderer_)
-      renderer_ = std::make_unique<Renderer>(
-          RendererOptions{.width = kFrameWidth, .height = kFrameHeight, .antiAliasing = antiAliasing_});
     const View view;
     angle_ += std::numbers::pi / 180;
     const Eigen::Vector3d eye =
         view.target + rotation(angle_, Eigen::Vector3d::UnitZ()) * (view.eye - view.target);
     Camera camera = lookAt(eye, view.target);
     camera.verticalFov = view.verticalFovDegrees * std::numbers::pi / 180;
-    return renderer_->draw(picture_, camera);
+    return renderer_.draw(picture_, camera);
   }
 
  private:
   Picture picture_;
-  AntiAliasing antiAliasing_;
-  std::unique_ptr<Renderer> renderer_;
+  Renderer renderer_;
   double angle_ = 0;
 };
 
@@ -62,7 +63,7 @@ constexpr int kFilmFrames = 100;
 // A hundred frames, from the first line to the finished video: ours and the encoder's time.
 double film() {
   const double before = cpuSeconds(RUSAGE_SELF) + cpuSeconds(RUSAGE_CHILDREN);
-  Frames frames(kFilmAntiAliasing);
+  Frames frames({}, kFilmAntiAliasing);
   VideoSink video(REX_BINARY_DIR "/film.mp4");
   for (int i = 0; i < kFilmFrames; ++i) video.add(frames.draw());
   video.finish();
@@ -76,33 +77,58 @@ double firstFrame() {
 }
 
 // So many times what MuJoCo takes to draw one frame, its mean over a few.
-Measurement mujocoFrames(int times, int measured) {
+Measurement mujocoFrames(const FrameKind& kind, int times, int measured) {
 #ifdef REX_MUJOCO_FRAMES
-  return [=] { return times * std::stod(outputOf({REX_MUJOCO_FRAMES, std::to_string(measured)})); };
+  std::vector<std::string> command = {REX_MUJOCO_FRAMES};
+  for (const int number : {measured, kind.shapes, kind.width, kind.height, kind.samples, kind.shadow ? 1 : 0})
+    command.push_back(std::to_string(number));
+  return [=] { return times * std::stod(outputOf(command)); };
 #else
-  static_cast<void>(times + measured);
+  static_cast<void>(kind.shapes + times + measured);
   return {};
 #endif
+}
+
+Row frameRow(const std::string& name, const FrameKind& kind, double target) {
+  const auto antiAliasing = kind.samples > 1 ? AntiAliasing::kMsaa4 : AntiAliasing::kNone;
+  // Made when first measured, for its context takes time and there are several rows.
+  const auto frames = std::make_shared<std::unique_ptr<Frames>>();
+  return {.name = name,
+          .ours = timed([=] {
+            if (!*frames) *frames = std::make_unique<Frames>(kind, antiAliasing);
+            static_cast<void>((*frames)->draw());
+          }),
+          .peerName = "MuJoCo",
+          .peer = mujocoFrames(kind, 1, 3),
+          .target = target,
+          .unit = "ms"};
 }
 
 }  // namespace
 
 std::vector<Row> renderRows() {
-  const auto frames = std::make_shared<Frames>(AntiAliasing::kMsaa4);
-  constexpr double kFirstFrameLimit = 0.5;
-  return {{.name = "frame-60-shapes",
-           .ours = timed([frames] { static_cast<void>(frames->draw()); }),
-           .peerName = "MuJoCo",
-           .peer = mujocoFrames(1, 3),
-           .target = 0.4,
-           .unit = "ms"},
+  constexpr double kFirstFrameLimit = 0.5, kPngLimit = 5e-3;
+  const auto picture = std::make_shared<Image>();
+  return {frameRow("frame-60-shapes", {}, 0.4),
+          frameRow("frame-60-shapes-1280x720", {.width = 1280, .height = 720}, 0.55),
+          frameRow("frame-30-shapes", {.shapes = 30}, 0.45),
+          frameRow("frame-60-shapes-plain", {.samples = 1, .shadow = false}, 0.75),
           {.name = "film-100-frames-mp4",
            .ours = film,
            .peerName = "MuJoCo",
-           .peer = mujocoFrames(kFilmFrames, 25),
+           .peer = mujocoFrames({}, kFilmFrames, 25),
            .target = 0.5,
            .unit = "s",
            .repetitions = 3},
+          {.name = "png-640x480",
+           .ours = timed([picture] {
+             if (picture->rgb.empty()) *picture = Frames({}, AntiAliasing::kMsaa4).draw();
+             static_cast<void>(encodePng(*picture));
+           }),
+           .peerName = "limit",
+           .peer = [] { return kPngLimit; },
+           .target = 1,
+           .unit = "ms"},
           {.name = "first-frame",
            .ours = firstFrame,
            .peerName = "limit",

@@ -67,9 +67,12 @@ TEST_F(MotionFile, IsReadWithAndWithoutTimes) {
   ASSERT_EQ(plain.postures.size(), 3u);
   EXPECT_EQ(plain.postures[1], Vector3d(1, 2, 3));
   EXPECT_EQ(plain.times, (std::vector<double>{0, 0.1, 0.2}));
-  const Motion timed = readMotion(arm, file("time,a,b,c\n3,0,0,0\n3.5,1,1,1\n"), 10);
-  EXPECT_EQ(timed.times, (std::vector<double>{0, 0.5}));
-  EXPECT_EQ(timed.postures[1], Vector3d(1, 1, 1));
+  const Motion timed = readMotion(arm, file("time,a,b,c\n3,0,0,0\n3.12,1,1,1\n3.13,2,2,2\n3.31,3,3,3\n"), 10);
+  ASSERT_EQ(timed.postures.size(), 5u);
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_NEAR(timed.times[i], 0.1 * static_cast<double>(i), 1e-12);
+    EXPECT_EQ(timed.postures[i][0], (std::vector<double>{0, 0, 2, 2, 3})[i]) << i;
+  }
 }
 
 TEST_F(MotionFile, IsRefusedWithItsLine) {
@@ -81,6 +84,8 @@ TEST_F(MotionFile, IsRefusedWithItsLine) {
   EXPECT_REX_ERROR(readMotion(arm, file("0,0,0.1.2\n"), 30), "motion.csv:1: motion: found '0.1.2'");
   EXPECT_REX_ERROR(readMotion(arm, file("1,0,0,0\n1,0,0,0\n"), 30),
                    "motion.csv:2: motion: found time 1 after 1, wanted times that increase");
+  EXPECT_REX_ERROR(readMotion(arm, file("0,0,0,0\n500,0,0,0\n"), 30),
+                   "motion.csv: motion: found 500 s, wanted at most 120 s");
   EXPECT_REX_ERROR(readMotion(arm, file("# nothing\n"), 30), "motion: found no posture, wanted at least one");
 }
 

@@ -8,6 +8,7 @@
 #include "course/course.h"
 #include "render/png.h"
 #include "render/video_sink.h"
+#include "scene/model.h"
 #include "support/changed_path.h"
 #include "support/expect_error.h"
 #include "support/paths.h"
