@@ -1,5 +1,6 @@
 #include "cli/view_option.h"
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "support/expect_error.h"
