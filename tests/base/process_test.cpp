@@ -64,7 +64,7 @@ TEST(RunProcess, LimitsTimeMemoryAndFileSize) {
   const ProcessResult spinning =
       runProcess({"sh", "-c", "while :; do :; done"}, {.timeout = 30, .cpuSeconds = 0.5});
   EXPECT_FALSE(spinning.timedOut);
-  EXPECT_GE(spinning.cpuSeconds, 0.9);
+  EXPECT_GE(spinning.cpuSeconds, 0.5);
   EXPECT_LT(runProcess({"sleep", "0.3"}).cpuSeconds, 0.2);
   EXPECT_TRUE(spinning.signal == SIGXCPU || spinning.signal == SIGKILL) << spinning.signal;
   EXPECT_EQ(runProcess({"sh", "-c", "ulimit -v"}, {.addressSpace = 512u << 20}).output, "524288\n");

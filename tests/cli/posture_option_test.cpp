@@ -56,7 +56,7 @@ TEST(PostureOption, ExplainsWhatItCannotRead) {
   EXPECT_REX_ERROR(parsePosture(arm, name + "x=1"),
                    "has no joint '" + name + "x' that moves (did you mean '" + name + "'?)");
   const Model floating =
-      compile(parseOrs("body a {}\nbody b {}\njoint free (a b) { type=JT_free }", "f.ors").spec);
+      compile(parseOrs("body a {}\nbody b {}\njoint free (a b) { type=free }", "f.ors").spec);
   ASSERT_EQ(floating.nq(), 7);
   EXPECT_REX_ERROR(parsePosture(floating, floating.joints()[0].name + "=1"),
                    "found 7 coordinates, wanted one; give all 7 numbers of q instead");

@@ -11,6 +11,7 @@
 #include "scene/model.h"
 #include "support/changed_path.h"
 #include "support/expect_error.h"
+#include "support/image_difference.h"
 #include "support/paths.h"
 #include "support/temporary_folder.h"
 
@@ -201,14 +202,18 @@ TEST_F(SimulatorTest, ShowsItsWayOnAContactSheet) {
   writeFrames(S, in("film"), options);
   const Image sheet = readPng(in("swing.png")), first = readPng(in("film/0000.png")),
               last = readPng(in("film/0030.png"));
-  // The first picture of the sheet and its fourth, which starts the second row, are those of the film.
+  // The first picture of the sheet and its fourth, which starts the second row, are those of the film but for
+  // their edges, which are smoother.
   const int below = sheet.height - 10 - (sheet.height - 10) / 2;
-  for (int y = 0; y < 120; ++y) {
-    for (int x = 0; x < 160; ++x) {
-      ASSERT_EQ(sheet.at(10 + x, 10 + y), first.at(x, y));
-      ASSERT_EQ(sheet.at(10 + x, 10 + below + y), last.at(x, y));
-    }
-  }
+  const auto cut = [&](int top) {
+    Image part(160, 120);
+    for (int y = 0; y < part.height; ++y)
+      std::copy_n(sheet.pixel(10, top + y), 3 * part.width, part.pixel(0, y));
+    return part;
+  };
+  EXPECT_LT(imageDifference(cut(10), first, 8).mean, 1);
+  EXPECT_LT(imageDifference(cut(10 + below), last, 8).mean, 1);
+  EXPECT_GT(imageDifference(cut(10), last, 8).mean, 2);
 }
 
 TEST_F(SimulatorTest, ReplacesFramesOfAnEarlierRun) {
