@@ -1,6 +1,7 @@
 #include "grading/release.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <map>
 #include <sstream>
@@ -104,15 +105,18 @@ void requireCleanRelease(const std::vector<path>& exercises, const path& root, c
   }
 }
 
-// The tests of rex itself stay behind, so the command for them does too, and the lines that name either.
+// The tests of rex itself stay behind, so the commands for them do too, and the lines that name either.
 void leaveOutTheTests(const path& target) {
-  fs::remove(target / "scripts/test");
-  for (const char* document : {"README.md", "share/doc/architecture.md"}) {
+  constexpr std::array<std::string_view, 5> kLeftOut = {"scripts/test", "scripts/gallery",
+                                                        "scripts/check-replay", "`tests/`", "tests/gallery"};
+  for (const std::string_view name : kLeftOut) fs::remove(target / name);
+  for (const char* document : {"README.md", "share/doc/architecture.md", "share/doc/gallery.md"}) {
     if (!fs::exists(target / document)) continue;
     std::istringstream lines(readTextFile(target / document));
     std::string kept;
     for (std::string line; std::getline(lines, line);)
-      if (line.find("scripts/test") == std::string::npos && line.find("`tests/`") == std::string::npos)
+      if (std::none_of(kLeftOut.begin(), kLeftOut.end(),
+                       [&](std::string_view name) { return line.find(name) != std::string::npos; }))
         kept += line + '\n';
     writeTextFile(target / document, kept);
   }

@@ -9,13 +9,14 @@ namespace {
 
 constexpr const char* kIntroduction = R"(# Gallery
 
-What rex draws, without a screen. `scripts/gallery` draws this page and its pictures again; a test compares them with
-what the code draws today. The code of each is a function of its own: pictures in
-[tests/gallery/pictures.cpp](../../tests/gallery/pictures.cpp), figures in
-[tests/gallery/figures.cpp](../../tests/gallery/figures.cpp).
+What rex draws, without a screen.
 
-Pictures move, too: `scripts/rex render man.ors --q ... --q ... -o man.html` makes a page on which the robot plays, and
-`-o man.mp4` a film.
+- [tests/gallery/pictures.cpp](../../tests/gallery/pictures.cpp) has the code of each picture,
+- [tests/gallery/figures.cpp](../../tests/gallery/figures.cpp) that of each figure;
+- `scripts/gallery` draws them again, and a test in [tests/gallery](../../tests/gallery) compares.
+
+Pictures move, too: `scripts/rex render man.ors -o man.mp4` walks around a robot, and `-o man.html` makes a page on which
+you turn it and motions play. `scripts/rex render --help` tells more.
 )";
 
 }  // namespace
