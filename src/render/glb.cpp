@@ -43,12 +43,6 @@ std::string hex(const Color& color) {
   return fmt::format("#{:02x}{:02x}{:02x}", part(color.r), part(color.g), part(color.b));
 }
 
-std::string singleLines(std::string_view text) {
-  const std::size_t end = text.find('\n');
-  if (end == std::string_view::npos) return internal::singleLine(text);
-  return internal::singleLine(text.substr(0, end)) + '\n' + singleLines(text.substr(end + 1));
-}
-
 bool looksLike(const Solid& a, const Solid& b) {
   return a.shape.type == b.shape.type && a.shape.extent == b.shape.extent &&
          a.shape.radius == b.shape.radius && a.shape.mesh == b.shape.mesh && a.color == b.color;
@@ -252,7 +246,7 @@ class FilmWriter {
       const bool right = item.corner == Corner::kTopRight || item.corner == Corner::kBottomRight;
       const bool bottom = item.corner == Corner::kBottomLeft || item.corner == Corner::kBottomRight;
       return GlbState{.extras = {.numbers = {{"textScale", {item.scale}}},
-                                 .texts = {{"caption", singleLines(item.text)},
+                                 .texts = {{"caption", internal::singleLines(item.text)},
                                            {"corner", std::string(bottom ? "bottom " : "top ") +
                                                           (right ? "right" : "left")},
                                            {"color", hex(item.color)}}}};

@@ -1,6 +1,5 @@
 #include "render/report.h"
 
-#include <algorithm>
 #include <cassert>
 #include <charconv>
 #include <map>
@@ -21,17 +20,12 @@ namespace {
 // Text that is nothing but text, between tags and in attributes with double quotes.
 std::string escaped(std::string_view text) {
   std::string html;
-  for (std::size_t start = 0; start <= text.size();) {
-    const std::size_t end = std::min(text.find('\n', start), text.size());
-    if (start > 0) html += '\n';
-    for (const char c : internal::singleLine(text.substr(start, end - start))) {
-      constexpr std::string_view kSpecial = "&<>\"'`";
-      if (kSpecial.find(c) != std::string_view::npos)
-        html += fmt::format("&#{};", static_cast<int>(c));
-      else
-        html += c;
-    }
-    start = end + 1;
+  for (const char c : internal::singleLines(text)) {
+    constexpr std::string_view kSpecial = "&<>\"'`";
+    if (kSpecial.find(c) != std::string_view::npos)
+      html += fmt::format("&#{};", static_cast<int>(c));
+    else
+      html += c;
   }
   return html;
 }
