@@ -66,11 +66,11 @@ class Builder {
          .color = arrow.color});
   }
 
-  // A flat one, such as the spread of points in a plane, is a thin lens.
   void addEllipsoid(const Ellipsoid& ellipsoid) {
-    constexpr double kThinnest = 1e-3;
-    const Vector3d radii = ellipsoid.radii.cwiseMax(kThinnest * ellipsoid.radii.maxCoeff());
-    add({.mesh = MeshKind::kCapsule, .X_WS = ellipsoid.X_WE, .halfSize = radii, .color = ellipsoid.color});
+    add({.mesh = MeshKind::kCapsule,
+         .X_WS = ellipsoid.X_WE,
+         .halfSize = drawnRadii(ellipsoid.radii),
+         .color = ellipsoid.color});
   }
 
   DrawList take() {

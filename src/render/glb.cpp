@@ -159,9 +159,10 @@ class FilmWriter {
   void addEllipsoids() {
     const auto named = [](const Ellipsoid&, std::size_t i) { return fmt::format("ellipsoid {}", i); };
     addAll(&Picture::ellipsoids, named, [&](const Ellipsoid& ellipsoid) -> State {
-      if (ellipsoid.radii.minCoeff() <= 0) return std::nullopt;
-      return GlbState{
-          .mesh = meshes_.ball(ellipsoid.color), .pose = ellipsoid.X_WE, .scale = ellipsoid.radii};
+      if (ellipsoid.radii.isZero(0)) return std::nullopt;
+      return GlbState{.mesh = meshes_.ball(ellipsoid.color),
+                      .pose = ellipsoid.X_WE,
+                      .scale = internal::drawnRadii(ellipsoid.radii)};
     });
   }
 
