@@ -487,3 +487,29 @@ TEST(Glb, WritesWholeFilesOrNone) {
 
 }  // namespace
 }  // namespace rex
+Shape openShape(ShapeType type) {
+  Shape shape{.type = type};
+  shape.mesh = TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, std::vector<Eigen::Vector3f>(3, {0, 0, 1}),
+                            {{0, 1, 2}});
+  return shape;
+}
+
+TEST(Glb, ShowsImportedSurfacesFromBothSides) {
+  Picture picture;
+  picture.solids = {{.shape = openShape(ShapeType::kMesh), .name = "open"}, {.name = "closed"}};
+  const GlbFile file(glbOf(filmOfOne(picture)));
+  const auto isSeenFromBothSides = [&](const std::string& name) {
+    const int material = file.primitive(file.named(name)[0])["material"];
+    return file.root["materials"][material].value("doubleSided", false);
+  };
+  EXPECT_TRUE(isSeenFromBothSides("open"));
+  EXPECT_FALSE(isSeenFromBothSides("closed"));
+}
+
+TEST(Glb, ShowsOnlyThePointsOfAPointCloud) {
+  Picture picture;
+  picture.solids = {{.shape = openShape(ShapeType::kPointCloud), .name = "cloud"}};
+  const GlbFile file(glbOf(filmOfOne(picture)));
+  EXPECT_EQ(file.primitive(file.named("cloud")[0])["mode"], 0);
+}
+
