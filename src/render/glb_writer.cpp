@@ -68,7 +68,6 @@ struct GlbWriter::Impl {
   Impl() {
     model.asset.version = "2.0";
     model.asset.generator = "rex";
-    model.buffers.resize(1);
     model.scenes.resize(1);
     model.defaultScene = 0;
   }
@@ -78,6 +77,7 @@ struct GlbWriter::Impl {
     const auto [known, isNew] =
         views.try_emplace(text + std::to_string(target), static_cast<int>(model.bufferViews.size()));
     if (!isNew) return known->second;
+    model.buffers.resize(1);
     std::vector<unsigned char>& all = model.buffers[0].data;
     tinygltf::BufferView view;
     view.buffer = 0;
