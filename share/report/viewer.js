@@ -10,7 +10,17 @@
     return bytes.buffer;
   }
 
+  // The background of the picture, which mixes squares of colours, as steps from top to bottom.
+  const partsOf = name => stage.dataset[name].split(' ').map(Number);
+  const backgroundTop = partsOf('top'), backgroundBottom = partsOf('bottom'), steps = [];
+  for (let share = 0; share <= 1; share += 1 / 16) {
+    const part = (top, k) => 255 * Math.sqrt(top * top * (1 - share) + backgroundBottom[k] ** 2 * share);
+    steps.push('rgb(' + backgroundTop.map(part).map(Math.round) + ')');
+  }
+  stage.style.background = 'linear-gradient(' + steps + ')';
+
   // The screen colours of the film, squared: light is added to these, and the root of the sum is shown.
+  const squaredParts = parts => new THREE.Color().fromArray(parts.map(part => part * part));
   const squared = c => { const s = c.clone().convertLinearToSRGB(); return s.multiply(s); };
   const squaredCss = css => { const s = new THREE.Color(css); return s.multiply(s); };
 
@@ -91,7 +101,7 @@
     const center = corners[0].clone().lerp(corners[7], 0.5), radius = Math.max(center.distanceTo(corners[0]), 1e-3);
     const shared = {
       toLight: { value: toLight }, shadowTexel: { value: 0 }, height: { value: 1 },
-      skyTop: { value: squaredCss('#edf2f7') }, skyBottom: { value: squaredCss('#fefefe') },
+      skyTop: { value: squaredParts(backgroundTop) }, skyBottom: { value: squaredParts(backgroundBottom) },
       resolution: { value: new THREE.Vector2(1, 1) }
     };
     const sized = [];  // uniforms of sizes in pixels, with the size at one pixel per point
