@@ -28,12 +28,15 @@
     #include <common>
     #include <shadowmap_pars_vertex>
     uniform float shadowTexel;
+    uniform vec3 toLight;
     varying vec3 worldPoint, worldNormal;
     void main() {
       vec3 transformed = position;
       worldNormal = normalize((vec4(normalMatrix * normal, 0.0) * viewMatrix).xyz);
       worldPoint = (modelMatrix * vec4(transformed, 1.0)).xyz;
-      vec4 worldPosition = vec4(worldPoint + 1.5 * shadowTexel * worldNormal, 1.0);
+      // Off the surface to the side of the light, or it would shade itself.
+      float side = sign(dot(worldNormal, toLight));
+      vec4 worldPosition = vec4(worldPoint + 1.5 * shadowTexel * side * worldNormal, 1.0);
       #include <shadowmap_vertex>
       gl_Position = projectionMatrix * viewMatrix * vec4(worldPoint, 1.0);
     }`;
@@ -53,7 +56,7 @@
     uniform vec3 albedo;
     uniform float alpha;
     void main() {
-      vec3 n = normalize(worldNormal);
+      vec3 n = normalize(gl_FrontFacing ? worldNormal : -worldNormal);
       float facing = dot(n, toLight);
       float sun = facing > 0.0 ? facing * getShadowMask() : 0.0;
       float shine = pow(max(dot(n, normalize(toLight + normalize(cameraPosition - worldPoint))), 0.0), 32.0);
@@ -119,9 +122,12 @@
     const solids = new Map();
     function solidMaterial(from) {
       if (!solids.has(from)) {
-        const opacity = from.opacity;
+        // The far and near side of a translucent thing together have its opacity.
+        const opacity = from.side === THREE.DoubleSide ? 1 - Math.sqrt(1 - from.opacity) : from.opacity;
         const own = { albedo: { value: squared(from.color) }, alpha: { value: opacity } };
-        solids.set(from, lit(solidFragment, own, opacity));
+        const material = lit(solidFragment, own, opacity);
+        material.side = from.side;
+        solids.set(from, material);
       }
       return solids.get(from);
     }
@@ -152,14 +158,16 @@
     function addLine(object, width, order) {
       const from = object.geometry.attributes.position, points = [];
       for (let i = 0; i < from.count; ++i) points.push(from.getX(i), from.getY(i), from.getZ(i));
-      const geometry = new THREE.LineGeometry().setPositions(points);
+      const [Geometry, Line] = object.isLineSegments ? [THREE.LineSegmentsGeometry, THREE.LineSegments2] :
+        [THREE.LineGeometry, THREE.Line2];
+      const geometry = new Geometry().setPositions(points);
       addTwice(object, order, (hidden, opacity) => {
         const material = new THREE.LineMaterial({ opacity });
         material.uniforms.diffuse.value = object.material.color.clone().convertLinearToSRGB();
         material.uniforms.resolution = shared.resolution;
         material.polygonOffset = true, material.polygonOffsetFactor = -2, material.polygonOffsetUnits = -200;
         sized.push({ uniform: material.uniforms.linewidth, size: width });
-        return new THREE.Line2(geometry, material);
+        return new Line(geometry, material);
       });
     }
 
