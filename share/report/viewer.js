@@ -10,7 +10,17 @@
     return bytes.buffer;
   }
 
+  // The background of the picture, which mixes squares of colours, as steps from top to bottom.
+  const partsOf = name => stage.dataset[name].split(' ').map(Number);
+  const backgroundTop = partsOf('top'), backgroundBottom = partsOf('bottom'), steps = [];
+  for (let share = 0; share <= 1; share += 1 / 16) {
+    const part = (top, k) => 255 * Math.sqrt(top * top * (1 - share) + backgroundBottom[k] ** 2 * share);
+    steps.push('rgb(' + backgroundTop.map(part).map(Math.round) + ')');
+  }
+  stage.style.background = 'linear-gradient(' + steps + ')';
+
   // The screen colours of the film, squared: light is added to these, and the root of the sum is shown.
+  const squaredParts = parts => new THREE.Color().fromArray(parts.map(part => part * part));
   const squared = c => { const s = c.clone().convertLinearToSRGB(); return s.multiply(s); };
   const squaredCss = css => { const s = new THREE.Color(css); return s.multiply(s); };
 
@@ -18,12 +28,15 @@
     #include <common>
     #include <shadowmap_pars_vertex>
     uniform float shadowTexel;
+    uniform vec3 toLight;
     varying vec3 worldPoint, worldNormal;
     void main() {
       vec3 transformed = position;
       worldNormal = normalize((vec4(normalMatrix * normal, 0.0) * viewMatrix).xyz);
       worldPoint = (modelMatrix * vec4(transformed, 1.0)).xyz;
-      vec4 worldPosition = vec4(worldPoint + 1.5 * shadowTexel * worldNormal, 1.0);
+      // Off the surface to the side of the light, or it would shade itself.
+      float side = sign(dot(worldNormal, toLight));
+      vec4 worldPosition = vec4(worldPoint + 1.5 * shadowTexel * side * worldNormal, 1.0);
       #include <shadowmap_vertex>
       gl_Position = projectionMatrix * viewMatrix * vec4(worldPoint, 1.0);
     }`;
@@ -43,7 +56,7 @@
     uniform vec3 albedo;
     uniform float alpha;
     void main() {
-      vec3 n = normalize(worldNormal);
+      vec3 n = normalize(gl_FrontFacing ? worldNormal : -worldNormal);
       float facing = dot(n, toLight);
       float sun = facing > 0.0 ? facing * getShadowMask() : 0.0;
       float shine = pow(max(dot(n, normalize(toLight + normalize(cameraPosition - worldPoint))), 0.0), 32.0);
@@ -91,7 +104,7 @@
     const center = corners[0].clone().lerp(corners[7], 0.5), radius = Math.max(center.distanceTo(corners[0]), 1e-3);
     const shared = {
       toLight: { value: toLight }, shadowTexel: { value: 0 }, height: { value: 1 },
-      skyTop: { value: squaredCss('#edf2f7') }, skyBottom: { value: squaredCss('#fefefe') },
+      skyTop: { value: squaredParts(backgroundTop) }, skyBottom: { value: squaredParts(backgroundBottom) },
       resolution: { value: new THREE.Vector2(1, 1) }
     };
     const sized = [];  // uniforms of sizes in pixels, with the size at one pixel per point
@@ -109,9 +122,12 @@
     const solids = new Map();
     function solidMaterial(from) {
       if (!solids.has(from)) {
-        const opacity = from.opacity;
+        // The far and near side of a translucent thing together have its opacity.
+        const opacity = from.side === THREE.DoubleSide ? 1 - Math.sqrt(1 - from.opacity) : from.opacity;
         const own = { albedo: { value: squared(from.color) }, alpha: { value: opacity } };
-        solids.set(from, lit(solidFragment, own, opacity));
+        const material = lit(solidFragment, own, opacity);
+        material.side = from.side;
+        solids.set(from, material);
       }
       return solids.get(from);
     }
@@ -142,14 +158,16 @@
     function addLine(object, width, order) {
       const from = object.geometry.attributes.position, points = [];
       for (let i = 0; i < from.count; ++i) points.push(from.getX(i), from.getY(i), from.getZ(i));
-      const geometry = new THREE.LineGeometry().setPositions(points);
+      const [Geometry, Line] = object.isLineSegments ? [THREE.LineSegmentsGeometry, THREE.LineSegments2] :
+        [THREE.LineGeometry, THREE.Line2];
+      const geometry = new Geometry().setPositions(points);
       addTwice(object, order, (hidden, opacity) => {
         const material = new THREE.LineMaterial({ opacity });
         material.uniforms.diffuse.value = object.material.color.clone().convertLinearToSRGB();
         material.uniforms.resolution = shared.resolution;
         material.polygonOffset = true, material.polygonOffsetFactor = -2, material.polygonOffsetUnits = -200;
         sized.push({ uniform: material.uniforms.linewidth, size: width });
-        return new THREE.Line2(geometry, material);
+        return new Line(geometry, material);
       });
     }
 

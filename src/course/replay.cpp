@@ -16,7 +16,6 @@ void writeReplay(const Simulator& simulator, const std::string& name, const Pict
                 .view = options.view,
                 .still = {.width = options.width, .height = options.height, .gl = glChoice()}};
   if (report.film.empty()) report.film = filmOf(simulator, {simulator.getJointAngles()}, options);
-  for (Frame& frame : report.film) frame.picture.captions.clear();  // the title says it
   for (Figure figure : figures) {
     figure.width = 560, figure.height = 360;  // a column beside the robot: smaller, so that texts are larger
     report.figures.push_back({.figure = std::move(figure)});

@@ -10,9 +10,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Where it is nearest to the camera.
+// Where it is nearest to the camera; the box around it stands for the item.
 double radiusInPixels(const DrawItem& item, const Camera& camera, int pictureHeight) {
-  const double depth = std::max((item.X_WS.p - camera.X_WC.p).norm() - item.stretch.norm(), camera.nearPlane);
+  const Vector3d p_SC = item.X_WS.R.transpose() * (camera.X_WC.p - item.X_WS.p);
+  const double distance = (p_SC.cwiseAbs() - halfExtent(item)).cwiseMax(0).norm();
+  const double depth = std::max(distance, camera.nearPlane);
   const double focal = pictureHeight / (2 * std::tan(camera.verticalFov / 2));
   return focal * radiusOf(item) / depth;
 }
@@ -64,11 +66,11 @@ class Builder {
          .color = arrow.color});
   }
 
-  // A flat one, such as the spread of points in a plane, is a thin lens.
   void addEllipsoid(const Ellipsoid& ellipsoid) {
-    constexpr double kThinnest = 1e-3;
-    const Vector3d radii = ellipsoid.radii.cwiseMax(kThinnest * ellipsoid.radii.maxCoeff());
-    add({.mesh = MeshKind::kCapsule, .X_WS = ellipsoid.X_WE, .halfSize = radii, .color = ellipsoid.color});
+    add({.mesh = MeshKind::kCapsule,
+         .X_WS = ellipsoid.X_WE,
+         .halfSize = drawnRadii(ellipsoid.radii),
+         .color = ellipsoid.color});
   }
 
   DrawList take() {
@@ -124,7 +126,10 @@ class Builder {
 
 }  // namespace
 
-double radiusOf(const DrawItem& item) { return std::max(item.halfSize.x(), item.halfSize.y()); }
+double radiusOf(const DrawItem& item) {
+  if (item.mesh == MeshKind::kCapsule) return item.halfSize.maxCoeff();
+  return std::max(item.halfSize.x(), item.halfSize.y());
+}
 
 Vector3d halfExtent(const DrawItem& item) {
   return item.mesh == MeshKind::kImported ? item.imported.halfBounds()

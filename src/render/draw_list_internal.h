@@ -23,7 +23,7 @@ struct DrawItem {
   std::uint32_t firstTriangle = 0, triangleCount = 0;  ///< of `imported`
 };
 
-/// The radius about its z axis, metres.
+/// The largest radius of what is round about it, metres.
 [[nodiscard]] double radiusOf(const DrawItem& item);
 /// Half edge lengths of the box about the origin and along the axes of S that holds the item, metres.
 [[nodiscard]] Eigen::Vector3d halfExtent(const DrawItem& item);

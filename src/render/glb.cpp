@@ -27,10 +27,12 @@ std::vector<float> timesOf(const Film& film) {
   std::vector<float> times;
   for (const Frame& frame : film) {
     const auto time = static_cast<float>(frame.time - film.front().time);
-    if (!std::isfinite(time) || (!times.empty() && !(time > times.back())))
-      throw Error({.what = fmt::format("frame {} of a film", times.size()),
-                   .found = fmt::format("time {}", frame.time),
-                   .wanted = "finite seconds that increase from frame to frame"});
+    const std::size_t k = times.size();
+    if (!std::isfinite(time) || (k > 0 && !(time > times.back())))
+      throw Error({.what = fmt::format("frame {} of a film", k),
+                   .found = fmt::format("time {}", frame.time) +
+                            (k > 0 ? fmt::format(" after {}", film[k - 1].time) : ""),
+                   .wanted = "finite seconds that increase from frame to frame, in single precision too"});
     times.push_back(time);
   }
   return times;
@@ -43,12 +45,6 @@ std::string hex(const Color& color) {
   return fmt::format("#{:02x}{:02x}{:02x}", part(color.r), part(color.g), part(color.b));
 }
 
-std::string singleLines(std::string_view text) {
-  const std::size_t end = text.find('\n');
-  if (end == std::string_view::npos) return internal::singleLine(text);
-  return internal::singleLine(text.substr(0, end)) + '\n' + singleLines(text.substr(end + 1));
-}
-
 bool looksLike(const Solid& a, const Solid& b) {
   return a.shape.type == b.shape.type && a.shape.extent == b.shape.extent &&
          a.shape.radius == b.shape.radius && a.shape.mesh == b.shape.mesh && a.color == b.color;
@@ -56,8 +52,8 @@ bool looksLike(const Solid& a, const Solid& b) {
 
 class FilmWriter {
  public:
-  FilmWriter(const Film& film, const Camera& camera)
-      : film_(film), meshes_(writer_), tracks_(writer_, timesOf(film), addRoot(film, camera)) {
+  FilmWriter(const Film& film, const Bounds& scene, const Camera& camera)
+      : film_(film), scene_(scene), meshes_(writer_), tracks_(writer_, timesOf(film), addRoot(camera)) {
     writer_.addCamera(camera, kRoot);
     addGround();
     addSolids();
@@ -77,16 +73,15 @@ class FilmWriter {
   using State = std::optional<GlbState>;
 
   // Our z is up, glTF's y. `target` is what the camera looks at and turns around.
-  int addRoot(const Film& film, const Camera& camera) {
-    const Bounds scene = bounds(film);
+  int addRoot(const Camera& camera) {
     const Vector3d ahead = -camera.X_WC.R.col(2);
-    const Vector3d target = camera.X_WC.p + ahead * ahead.dot(scene.center() - camera.X_WC.p);
-    const Vector3d light = film[0].picture.toLight.normalized();
+    const Vector3d target = camera.X_WC.p + ahead * ahead.dot(scene_.center() - camera.X_WC.p);
+    const Vector3d light = film_[0].picture.toLight.normalized();
     return writer_.addNode({.name = "world",
                             .pose = rotation(-std::numbers::pi / 2, Vector3d::UnitX()),
                             .extras = {.numbers = {{"target", listOf(target)},
-                                                   {"low", listOf(scene.low)},
-                                                   {"high", listOf(scene.high)},
+                                                   {"low", listOf(scene_.low)},
+                                                   {"high", listOf(scene_.high)},
                                                    {"toLight", listOf(light)}}}});
   }
 
@@ -108,18 +103,17 @@ class FilmWriter {
   }
 
   void addGround() {
-    const Bounds scene = bounds(film_);
-    GlbTrack track;
-    for (const Frame& frame : film_) {
-      const Ground& ground = frame.picture.ground;
-      const double half = std::max(6 * scene.radius(), 4 * ground.cell);
+    GlbTrack track(film_.size());
+    for (std::size_t k = 0; k < film_.size(); ++k) {
+      const Ground& ground = film_[k].picture.ground;
+      if (!ground.visible) continue;
+      const double half = std::max(6 * scene_.radius(), 4 * ground.cell);
       const Color mixed{(ground.light.r + ground.dark.r) / 2, (ground.light.g + ground.dark.g) / 2,
                         (ground.light.b + ground.dark.b) / 2};
-      GlbState state{.mesh = meshes_.plane(half, mixed),
-                     .extras = {.numbers = {{"cell", {ground.cell}}},
-                                .texts = {{"light", hex(ground.light)}, {"dark", hex(ground.dark)}}},
-                     .pose = translation(scene.center().x(), scene.center().y(), ground.height)};
-      track.push_back(ground.visible ? State(state) : std::nullopt);
+      track[k] = GlbState{.mesh = meshes_.plane(half, mixed),
+                          .extras = {.numbers = {{"cell", {ground.cell}}},
+                                     .texts = {{"light", hex(ground.light)}, {"dark", hex(ground.dark)}}},
+                          .pose = translation(scene_.center().x(), scene_.center().y(), ground.height)};
     }
     tracks_.add("ground", track);
   }
@@ -139,25 +133,26 @@ class FilmWriter {
     });
   }
 
-  void addArrows() {
-    const auto turned = [](const Arrow& arrow) {
-      return Pose{rotationBetween(Vector3d::UnitZ(), arrow.to - arrow.from), arrow.from};
-    };
+  // Calls partOf(colour, form) for a part of each arrow, in the frame whose z axis runs along the arrow.
+  template <class PartOf>
+  void addArrowPart(const PartOf& partOf) {
     const auto named = [](const Arrow&, std::size_t i) { return fmt::format("arrow {}", i); };
     addAll(&Picture::arrows, named, [&](const Arrow& arrow) -> State {
-      const double length = (arrow.to - arrow.from).norm();
-      if (length <= 0) return std::nullopt;
-      const internal::ArrowForm form(length, arrow.radius);
-      return GlbState{.mesh = meshes_.shaft(arrow.color),
-                      .pose = turned(arrow),
-                      .scale = {form.radius, form.radius, form.shaft}};
+      const Vector3d along = arrow.to - arrow.from;
+      if (!(along.norm() > 0)) return std::nullopt;
+      GlbState part = partOf(arrow.color, internal::ArrowForm(along.norm(), arrow.radius));
+      part.pose = Pose{rotationBetween(Vector3d::UnitZ(), along), arrow.from} * part.pose;
+      return part;
     });
-    addAll(&Picture::arrows, named, [&](const Arrow& arrow) -> State {
-      const double length = (arrow.to - arrow.from).norm();
-      if (length <= 0) return std::nullopt;
-      const internal::ArrowForm form(length, arrow.radius);
-      return GlbState{.mesh = meshes_.head(arrow.color),
-                      .pose = turned(arrow) * translation(0, 0, form.shaft),
+  }
+
+  void addArrows() {
+    addArrowPart([&](const Color& color, const internal::ArrowForm& form) {
+      return GlbState{.mesh = meshes_.shaft(color), .scale = {form.radius, form.radius, form.shaft}};
+    });
+    addArrowPart([&](const Color& color, const internal::ArrowForm& form) {
+      return GlbState{.mesh = meshes_.head(color),
+                      .pose = translation(0, 0, form.shaft),
                       .scale = {form.headRadius, form.headRadius, form.head}};
     });
   }
@@ -165,9 +160,10 @@ class FilmWriter {
   void addEllipsoids() {
     const auto named = [](const Ellipsoid&, std::size_t i) { return fmt::format("ellipsoid {}", i); };
     addAll(&Picture::ellipsoids, named, [&](const Ellipsoid& ellipsoid) -> State {
-      if (ellipsoid.radii.minCoeff() <= 0) return std::nullopt;
-      return GlbState{
-          .mesh = meshes_.ball(ellipsoid.color), .pose = ellipsoid.X_WE, .scale = ellipsoid.radii};
+      if (ellipsoid.radii.isZero(0)) return std::nullopt;
+      return GlbState{.mesh = meshes_.ball(ellipsoid.color),
+                      .pose = ellipsoid.X_WE,
+                      .scale = internal::drawnRadii(ellipsoid.radii)};
     });
   }
 
@@ -252,7 +248,7 @@ class FilmWriter {
       const bool right = item.corner == Corner::kTopRight || item.corner == Corner::kBottomRight;
       const bool bottom = item.corner == Corner::kBottomLeft || item.corner == Corner::kBottomRight;
       return GlbState{.extras = {.numbers = {{"textScale", {item.scale}}},
-                                 .texts = {{"caption", singleLines(item.text)},
+                                 .texts = {{"caption", internal::singleLines(item.text)},
                                            {"corner", std::string(bottom ? "bottom " : "top ") +
                                                           (right ? "right" : "left")},
                                            {"color", hex(item.color)}}}};
@@ -260,6 +256,7 @@ class FilmWriter {
   }
 
   const Film& film_;
+  const Bounds& scene_;
   internal::GlbWriter writer_;
   internal::GlbMeshes meshes_;
   internal::GlbTracks tracks_;
@@ -270,7 +267,8 @@ class FilmWriter {
 std::string glbOf(const Film& film, const Vector3d& view) {
   if (film.empty()) throw Error({.what = "a film to replay", .found = "no frames", .wanted = "at least one"});
   for (const Frame& frame : film) requireDrawable(frame.picture);
-  return FilmWriter(film, framing(film, view, 4. / 3)).bytes();
+  const Bounds scene = bounds(film);
+  return FilmWriter(film, scene, framing(scene, view, 4. / 3)).bytes();
 }
 
 void writeGlb(const Film& film, const std::filesystem::path& path, const Vector3d& view) {

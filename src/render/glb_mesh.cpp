@@ -49,7 +49,7 @@ int GlbMeshes::ofShape(const Shape& shape, const Color& color) {
     case ShapeType::kMarker:
       return ofAxes(-shape.extent.x() / 2, shape.extent.x() / 2);
     default:
-      return ofTriangles(shape.mesh, color);
+      return ofMesh(shape, color);
   }
 }
 
@@ -80,10 +80,12 @@ int GlbMeshes::add(const GlbSurface& surface, const Color& color) {
                   .color = color}});
 }
 
-int GlbMeshes::ofTriangles(const TriangleMesh& mesh, const Color& color) {
+int GlbMeshes::ofMesh(const Shape& shape, const Color& color) {
+  const TriangleMesh& mesh = shape.mesh;
   if (mesh.isEmpty()) return -1;
   const int positions = writer_->addVertices(mesh.positions(), mesh.positions().size());
-  if (mesh.triangles().empty()) return points(positions, color, 2 * kCloudPointRadius);
+  if (mesh.triangles().empty() || shape.type == ShapeType::kPointCloud)
+    return points(positions, color, 2 * kCloudPointRadius);
   const int normals = writer_->addVertices(mesh.normals(), mesh.normals().size());
   std::vector<GlbPrimitive> primitives;
   for (const TriangleMesh::Part& part : mesh.parts()) {
@@ -96,7 +98,8 @@ int GlbMeshes::ofTriangles(const TriangleMesh& mesh, const Color& color) {
     primitives.push_back({.positions = positions,
                           .normals = normals,
                           .indices = writer_->addIndices(indices),
-                          .color = {own[0], own[1], own[2], own[3]}});
+                          .color = {own[0], own[1], own[2], own[3]},
+                          .doubleSided = true});  // it may be open
   }
   return intern(primitives);
 }
@@ -138,12 +141,10 @@ int GlbMeshes::points(int positions, const Color& color, double size) {
 }
 
 int GlbMeshes::intern(const std::vector<GlbPrimitive>& primitives, const GlbExtras& extras) {
-  std::vector<float> parts;
-  for (const GlbPrimitive& p : primitives) {
-    for (const int accessor : {p.positions, p.normals, p.indices})
-      parts.push_back(static_cast<float>(accessor));
-    parts.insert(parts.end(), {p.color.r, p.color.g, p.color.b, p.color.a});
-  }
+  std::vector<Part> parts;
+  for (const auto& [topology, positions, normals, indices, color, doubleSided] : primitives)
+    parts.push_back(
+        {topology, positions, normals, indices, doubleSided, {color.r, color.g, color.b, color.a}});
   const auto known = known_.find({parts, extras});
   if (known != known_.end()) return known->second;
   return known_[{parts, extras}] = writer_->addMesh(primitives, extras);

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "geometry/shape.h"
@@ -39,13 +42,16 @@ class GlbMeshes {
 
  private:
   int add(const GlbSurface& surface, const Color& color);
-  int ofTriangles(const TriangleMesh& mesh, const Color& color);
+  int ofMesh(const Shape& shape, const Color& color);
   int ofRoundedBox(const Shape& shape, const Color& color);
   int ofAxes(double from, double to);
   int intern(const std::vector<GlbPrimitive>& primitives, const GlbExtras& extras = {});
 
+  // All of a primitive, to be compared: what, positions, normals, indices, from both sides or not, colour.
+  using Part = std::tuple<GlbTopology, int, int, int, bool, std::array<float, 4>>;
+
   GlbWriter* writer_;
-  std::map<std::pair<std::vector<float>, GlbExtras>, int> known_;  // meshes by all that makes them up
+  std::map<std::pair<std::vector<Part>, GlbExtras>, int> known_;  // meshes by all that makes them up
 };
 
 }  // namespace rex::internal

@@ -62,13 +62,12 @@ struct GlbWriter::Impl {
   tinygltf::Model model;
   std::map<std::string, int> views;  // by bytes and target
   std::map<std::tuple<int, int, int>, int> accessors;
-  std::map<std::array<float, 4>, int> materials;
+  std::map<std::pair<std::array<float, 4>, bool>, int> materials;
   std::map<std::tuple<int, int, bool>, int> samplers;
 
   Impl() {
     model.asset.version = "2.0";
     model.asset.generator = "rex";
-    model.buffers.resize(1);
     model.scenes.resize(1);
     model.defaultScene = 0;
   }
@@ -78,6 +77,7 @@ struct GlbWriter::Impl {
     const auto [known, isNew] =
         views.try_emplace(text + std::to_string(target), static_cast<int>(model.bufferViews.size()));
     if (!isNew) return known->second;
+    model.buffers.resize(1);
     std::vector<unsigned char>& all = model.buffers[0].data;
     tinygltf::BufferView view;
     view.buffer = 0;
@@ -110,9 +110,9 @@ struct GlbWriter::Impl {
     return known->second;
   }
 
-  int materialOf(const Color& color) {
-    const auto [known, isNew] =
-        materials.try_emplace({color.r, color.g, color.b, color.a}, static_cast<int>(model.materials.size()));
+  int materialOf(const Color& color, bool doubleSided) {
+    const auto [known, isNew] = materials.try_emplace({{color.r, color.g, color.b, color.a}, doubleSided},
+                                                      static_cast<int>(model.materials.size()));
     if (!isNew) return known->second;
     tinygltf::Material material;
     material.pbrMetallicRoughness.baseColorFactor = {linear(color.r), linear(color.g), linear(color.b),
@@ -120,6 +120,7 @@ struct GlbWriter::Impl {
     material.pbrMetallicRoughness.metallicFactor = 0;
     material.pbrMetallicRoughness.roughnessFactor = 0.7;
     if (color.a < 1) material.alphaMode = "BLEND";
+    material.doubleSided = doubleSided;
     model.materials.push_back(material);
     return known->second;
   }
@@ -189,7 +190,7 @@ int GlbWriter::addMesh(const std::vector<GlbPrimitive>& primitives, const GlbExt
     primitive.attributes["POSITION"] = part.positions;
     if (part.normals >= 0) primitive.attributes["NORMAL"] = part.normals;
     primitive.indices = part.indices;
-    primitive.material = impl_->materialOf(part.color);
+    primitive.material = impl_->materialOf(part.color, part.doubleSided);
     mesh.primitives.push_back(primitive);
   }
   mesh.extras = valueOf(extras);

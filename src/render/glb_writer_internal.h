@@ -26,6 +26,7 @@ struct GlbPrimitive {
   int normals = -1;
   int indices = -1;
   Color color{};
+  bool doubleSided = false;  ///< seen from behind as well
 };
 
 /// Free data of a node or mesh: numbers and valid UTF-8 text by name.

@@ -6,6 +6,7 @@
 #include "render/label_placement_internal.h"
 #include "render/picture_text_internal.h"
 #include "render/text.h"
+#include "render/utf8_internal.h"
 
 namespace rex::internal {
 namespace {
@@ -23,16 +24,6 @@ struct SeenLabel {
   LabelWish wish;
   double depth;
 };
-
-std::vector<std::string_view> linesOf(std::string_view text) {
-  std::vector<std::string_view> lines;
-  for (;;) {
-    const std::size_t end = text.find('\n');
-    lines.push_back(text.substr(0, end));
-    if (end == std::string_view::npos) return lines;
-    text.remove_prefix(end + 1);
-  }
-}
 
 int heightOf(const Caption& caption) {
   return static_cast<int>(linesOf(caption.text).size()) * textSize("", caption.scale).height;

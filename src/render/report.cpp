@@ -1,9 +1,9 @@
 #include "render/report.h"
 
-#include <algorithm>
 #include <cassert>
 #include <charconv>
 #include <map>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -21,17 +21,12 @@ namespace {
 // Text that is nothing but text, between tags and in attributes with double quotes.
 std::string escaped(std::string_view text) {
   std::string html;
-  for (std::size_t start = 0; start <= text.size();) {
-    const std::size_t end = std::min(text.find('\n', start), text.size());
-    if (start > 0) html += '\n';
-    for (const char c : internal::singleLine(text.substr(start, end - start))) {
-      constexpr std::string_view kSpecial = "&<>\"'`";
-      if (kSpecial.find(c) != std::string_view::npos)
-        html += fmt::format("&#{};", static_cast<int>(c));
-      else
-        html += c;
-    }
-    start = end + 1;
+  for (const char c : internal::singleLines(text)) {
+    constexpr std::string_view kSpecial = "&<>\"'`";
+    if (kSpecial.find(c) != std::string_view::npos)
+      html += fmt::format("&#{};", static_cast<int>(c));
+    else
+      html += c;
   }
   return html;
 }
@@ -46,11 +41,21 @@ std::string bytesOfHex(std::string_view digits) {
   return bytes;
 }
 
-std::string stillOf(const Report& report) {
-  const double aspect = static_cast<double>(report.still.width) / report.still.height;
-  const Camera camera = framing(report.film, report.view, aspect);
-  return encodePng(Renderer(report.still).draw(report.film.front().picture, camera));
+// The headline says the title.
+Film withoutCaption(Film film, const std::string& title) {
+  for (Frame& frame : film)
+    std::erase_if(frame.picture.captions, [&](const Caption& caption) { return caption.text == title; });
+  return film;
 }
+
+std::string stillOf(const Film& film, const Eigen::Vector3d& view, const RendererOptions& options) {
+  Renderer renderer(options);  // refuses sizes that have no aspect
+  const Camera camera = framing(film, view, static_cast<double>(options.width) / options.height);
+  return encodePng(renderer.draw(film.front().picture, camera));
+}
+
+// As the viewer reads it.
+std::string partsOf(const Color& color) { return fmt::format("{} {} {}", color.r, color.g, color.b); }
 
 std::string figuresOf(const Report& report) {
   if (report.figures.empty()) return {};
@@ -91,8 +96,9 @@ std::string filled(std::string_view page, const std::map<std::string_view, std::
 }  // namespace
 
 std::string reportPage(const Report& report) {
-  const std::string glb = glbOf(report.film, report.view);
-  const internal::ReportPage page = internal::reportPage();
+  const Film film = withoutCaption(report.film, report.title);
+  const std::string glb = glbOf(film, report.view);
+  const internal::ReportPage page = internal::reportTemplate();
   return filled(page.page, {{"title", escaped(report.title)},
                             {"style", std::string(page.style)},
                             {"styleHash", internal::base64(bytesOfHex(page.styleHash))},
@@ -101,7 +107,9 @@ std::string reportPage(const Report& report) {
                             {"library", internal::base64(internal::gzip(page.library))},
                             {"libraryHash", internal::base64(bytesOfHex(page.libraryHash))},
                             {"layout", report.figures.empty() ? "alone" : "withFigures"},
-                            {"still", internal::base64(stillOf(report))},
+                            {"backgroundTop", partsOf(report.still.backgroundTop)},
+                            {"backgroundBottom", partsOf(report.still.backgroundBottom)},
+                            {"still", internal::base64(stillOf(film, report.view, report.still))},
                             {"facts", factsOf(report)},
                             {"figures", figuresOf(report)},
                             {"film", internal::base64(glb)}});

@@ -24,12 +24,14 @@ struct Report {
   Eigen::Vector3d view = kDefaultView;  ///< direction of the camera at first, W, any length
   std::vector<ReportFigure> figures{};
   std::vector<std::pair<std::string, std::string>> facts{};  ///< rows of a table: name and value
-  RendererOptions still{.width = 800, .height = 600};        ///< of the picture where nothing can be played
+  /// Of the picture where nothing can be played; what can be has the same background.
+  RendererOptions still{.width = 800, .height = 600};
 };
 
 /// The report as one HTML page that needs nothing else, neither files nor network: the film plays and turns,
 /// with its figures beside it; where the browser has no WebGL or runs no scripts there is a picture of it.
-/// Throws Error as glbOf(), Renderer::draw() and writeFigure().
+/// The title is the headline, and captions equal to it are left out. Throws Error as glbOf(), Renderer and
+/// writeFigure().
 [[nodiscard]] std::string reportPage(const Report& report);
 
 /// reportPage() into a file, which appears whole or not at all. Throws Error naming the path.

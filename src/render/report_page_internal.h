@@ -10,6 +10,6 @@ struct ReportPage {
   std::string_view page, style, styleHash, viewer, viewerHash, library, libraryHash;
 };
 
-[[nodiscard]] ReportPage reportPage();
+[[nodiscard]] ReportPage reportTemplate();
 
 }  // namespace rex::internal

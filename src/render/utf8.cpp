@@ -62,4 +62,21 @@ std::string singleLine(std::string_view text) {
   return line;
 }
 
+std::vector<std::string_view> linesOf(std::string_view text) {
+  std::vector<std::string_view> lines;
+  for (;;) {
+    const std::size_t end = text.find('\n');
+    lines.push_back(text.substr(0, end));
+    if (end == std::string_view::npos) return lines;
+    text.remove_prefix(end + 1);
+  }
+}
+
+std::string singleLines(std::string_view text) {
+  std::string lines;
+  for (const std::string_view line : linesOf(text)) lines += singleLine(line) + '\n';
+  lines.pop_back();
+  return lines;
+}
+
 }  // namespace rex::internal

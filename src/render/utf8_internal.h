@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace rex::internal {
 
@@ -10,5 +11,11 @@ namespace rex::internal {
 
 /// `text` as valid UTF-8 on one line: control characters and line breaks become spaces, invalid bytes '?'.
 [[nodiscard]] std::string singleLine(std::string_view text);
+
+/// The lines of `text`, which lie between its '\n'; at least one.
+[[nodiscard]] std::vector<std::string_view> linesOf(std::string_view text);
+
+/// `text` with each of its lines as of singleLine().
+[[nodiscard]] std::string singleLines(std::string_view text);
 
 }  // namespace rex::internal

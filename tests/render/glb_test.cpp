@@ -46,6 +46,10 @@ class GlbFile {
     EXPECT_EQ(textSize % 4, 0u);
     root = json::parse(bytes.substr(20, textSize));
     const std::size_t second = 20 + textSize;
+    if (bytes.size() == second) {
+      EXPECT_FALSE(root.contains("buffers"));
+      return;
+    }
     EXPECT_EQ(bytes.substr(second + 4, 4), std::string("BIN\0", 4));
     EXPECT_EQ(wordAt(bytes, second) % 4, 0u);
     data = bytes.substr(second + 8);
@@ -422,6 +426,52 @@ TEST(Glb, CarriesOverlays) {
   }
 }
 
+TEST(Glb, TellsSeparateLinesFromOneThroughTheSamePoints) {
+  Picture picture;
+  picture.lineSets = {{.segments = {{{0, 0, 0}, {1, 0, 1}}}, .color = {1, 0, 0}, .width = 2}};
+  picture.polylines = {{.points = {{0, 0, 0}, {1, 0, 1}}, .color = {1, 0, 0}, .width = 2}};
+  const GlbFile file(glbOf(filmOfOne(picture)));
+  EXPECT_EQ(file.primitive(file.named("lines 0")[0])["mode"], 1);
+  EXPECT_EQ(file.primitive(file.named("polyline 0")[0])["mode"], 3);
+  EXPECT_EQ(file.positions(file.named("lines 0")[0]), file.positions(file.named("polyline 0")[0]));
+}
+
+TEST(Glb, DrawsAFlatEllipsoidAsAThinLensAndAPointNot) {
+  Picture picture;
+  picture.ellipsoids = {{translation(1, 0, 1), {0.5, 0, 0.2}}, {translation(2, 0, 1), {0, 0, 0}}};
+  const GlbFile file(glbOf(filmOfOne(picture)));
+  ASSERT_EQ(file.named("ellipsoid 0").size(), 1u);
+  EXPECT_EQ(file.root["nodes"][file.named("ellipsoid 0")[0]]["scale"], json({0.5, 0.0005, 0.2}));
+  EXPECT_TRUE(file.named("ellipsoid 1").empty());
+}
+
+TEST(Glb, TakesACaptionOfAnyNumberOfLines) {
+  Picture picture;
+  picture.solids = {boxAt({})};
+  picture.captions = {{"first" + std::string(200'000, '\n') + "\xfflast\t"}};
+  const GlbFile file(glbOf(filmOfOne(picture)));
+  EXPECT_EQ(file.root["nodes"][file.named("caption 0")[0]]["extras"]["caption"],
+            "first" + std::string(200'000, '\n') + "?last ");
+}
+
+TEST(Glb, StoresNothingForAGroundThatIsNotVisible) {
+  Picture picture;
+  picture.solids = {boxAt({})};
+  picture.ground.visible = false;
+  const GlbFile file(glbOf(filmOfOne(picture)));
+  EXPECT_EQ(file.root["meshes"].size(), 1u);
+  EXPECT_TRUE(file.named("ground").empty());
+}
+
+TEST(Glb, NeedsNoDataForTexts) {
+  Picture picture;
+  picture.labels = {{.text = "here", .p_WQ = {0, 0, 1}}};
+  picture.ground.visible = false;
+  const GlbFile file(glbOf(filmOfOne(picture)));
+  EXPECT_FALSE(file.root.contains("buffers"));
+  EXPECT_EQ(file.named("label 0").size(), 1u);
+}
+
 TEST(Glb, LooksThroughTheCameraOfTheFilm) {
   const Film film = tumblingFilm();
   const GlbFile file(glbOf(film, {1, 1, 1}));
@@ -459,6 +509,32 @@ TEST(Glb, DrawsMeshesWithTheColoursOfTheirParts) {
   EXPECT_EQ(file.root["accessors"][part["indices"].get<int>()]["count"], 3);
 }
 
+Shape openShape(ShapeType type) {
+  Shape shape{.type = type};
+  shape.mesh = TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, std::vector<Eigen::Vector3f>(3, {0, 0, 1}),
+                            {{0, 1, 2}});
+  return shape;
+}
+
+TEST(Glb, ShowsImportedSurfacesFromBothSides) {
+  Picture picture;
+  picture.solids = {{.shape = openShape(ShapeType::kMesh), .name = "open"}, {.name = "closed"}};
+  const GlbFile file(glbOf(filmOfOne(picture)));
+  const auto isSeenFromBothSides = [&](const std::string& name) {
+    const int material = file.primitive(file.named(name)[0])["material"];
+    return file.root["materials"][material].value("doubleSided", false);
+  };
+  EXPECT_TRUE(isSeenFromBothSides("open"));
+  EXPECT_FALSE(isSeenFromBothSides("closed"));
+}
+
+TEST(Glb, ShowsOnlyThePointsOfAPointCloud) {
+  Picture picture;
+  picture.solids = {{.shape = openShape(ShapeType::kPointCloud), .name = "cloud"}};
+  const GlbFile file(glbOf(filmOfOne(picture)));
+  EXPECT_EQ(file.primitive(file.named("cloud")[0])["mode"], 0);
+}
+
 TEST(Glb, GivesTheSameBytesTwice) { EXPECT_EQ(glbOf(tumblingFilm()), glbOf(tumblingFilm())); }
 
 TEST(Glb, RefusesWhatCannotBePlayed) {
@@ -466,9 +542,16 @@ TEST(Glb, RefusesWhatCannotBePlayed) {
   EXPECT_REX_ERROR(glbOf(filmOfOne({})), "bounds");
   Film film = tumblingFilm();
   film[3].time = film[2].time;
-  EXPECT_REX_ERROR(glbOf(film), "frame 3 of a film: found time 5.5, wanted finite seconds that increase");
+  EXPECT_REX_ERROR(glbOf(film),
+                   "frame 3 of a film: found time 5.5 after 5.5, wanted finite seconds that increase");
+  film[3].time = std::nextafter(film[2].time, 6);
+  EXPECT_REX_ERROR(glbOf(film),
+                   "frame 3 of a film: found time 5.500000000000001 after 5.5, wanted finite seconds that "
+                   "increase from frame to frame, in single precision too");
   film[3].time = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_REX_ERROR(glbOf(film), "frame 3 of a film: found time nan");
+  EXPECT_REX_ERROR(glbOf(film), "frame 3 of a film: found time nan after 5.5");
+  film[0].time = std::numeric_limits<double>::infinity();
+  EXPECT_REX_ERROR(glbOf(film), "frame 0 of a film: found time inf, wanted");
   film = tumblingFilm();
   film[7].picture.solids[0].X_WS.p.x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_REX_ERROR(glbOf(film), "solid 'tumbler', pose: found a number that is not finite");

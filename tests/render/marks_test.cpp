@@ -74,6 +74,18 @@ TEST(Arrow, IsSmallerWhenShortAndNothingWithoutLength) {
   EXPECT_NEAR(static_cast<double>(highest) / columns, 0.5, 0.1) << "a head of 6 radii on 12 radii";
 }
 
+// The camera stands 0.4 metres before the end of a long shaft.
+TEST(Arrow, IsRoundWhereItIsNear) {
+  REX_NEEDS_OSMESA();
+  const Camera camera = lookAt({0, -6, 0}, {0, 0, 0});
+  const Image image = drawn({.arrows = {{{0, -5.6, 0}, {0, 30, 0}, {0, 0, 0}, 0.1}}}, camera);
+  const double pixels = 0.1 / 0.4 * kHeight / (2 * std::tan(camera.verticalFov / 2));
+  int dark = 0;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) dark += image.at(x, y)[0] < 128 ? 1 : 0;
+  EXPECT_NEAR(dark, std::numbers::pi * pixels * pixels, 2 * std::numbers::pi * pixels * 0.5);
+}
+
 TEST(Arrow, CastsAShadow) {
   REX_NEEDS_OSMESA();
   Picture picture{.arrows = {{{-0.5, 0, 0.5}, {0.5, 0, 0.5}, kRed, 0.05}}};
@@ -109,6 +121,14 @@ TEST(Ellipsoid, ReachesAsFarAsItsRadii) {
   const double reach = std::hypot(0.9 * std::cos(0.5), 0.3 * std::sin(0.5));
   EXPECT_NEAR(right - left + 1, 2 * reach * perMetre, 2.5);
   EXPECT_NEAR(count, std::numbers::pi * 0.9 * 0.3 * perMetre * perMetre, 0.03 * count);
+  const auto redOf = [&](const Vector3d& radii) {
+    const Image needle = drawn({.ellipsoids = {{{}, radii, kRed}}}, far);
+    int red = 0;
+    for (int x = 0; x < kWidth; ++x) red += redInColumn(needle, x);
+    return red;
+  };
+  const int lying = redOf({0.9, 0.1, 0.1});
+  EXPECT_NEAR(redOf({0.1, 0.1, 0.9}), lying, 0.02 * lying) << "upright";
 }
 
 TEST(Ellipsoid, LetsThroughWhatItsOpacityLeaves) {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <regex>
+#include <numbers>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -41,6 +41,48 @@ Report rollingBall() {
   return report;
 }
 
+// A tent of two colours, open below and at its ends. Turned inside out, it looks the same.
+TriangleMesh tent(bool insideOut = false) {
+  const float n = std::sqrt(0.5f), side = insideOut ? -n : n;
+  std::vector<TriangleMesh::Triangle> triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};
+  if (insideOut)
+    for (TriangleMesh::Triangle& triangle : triangles) std::swap(triangle[1], triangle[2]);
+  std::vector<Eigen::Vector3f> normals(4, {0, -side, side});
+  normals.insert(normals.end(), 4, {0, side, side});
+  return {{{0, -0.3f, 0},
+           {0.5f, -0.3f, 0},
+           {0.5f, 0, 0.3f},
+           {0, 0, 0.3f},
+           {0, 0, 0.3f},
+           {0.5f, 0, 0.3f},
+           {0.5f, 0.3f, 0},
+           {0, 0.3f, 0}},
+          normals,
+          triangles,
+          {{.firstTriangle = 0, .triangleCount = 2},
+           {.color = Eigen::Vector4f(0.2f, 0.4f, 0.8f, 1), .firstTriangle = 2, .triangleCount = 2}}};
+}
+
+// Points on a screw.
+TriangleMesh cloud() {
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 150; ++i)
+    points.push_back(
+        Eigen::Vector3d(0.15 * std::cos(0.3 * i), 0.15 * std::sin(0.3 * i), 0.003 * i).cast<float>());
+  return {points, {}, {}};
+}
+
+// A fan of lines that do not touch.
+LineSet fan(double turn) {
+  LineSet lines{.color = {0.5f, 0.2f, 0.6f}, .width = 2};
+  for (int i = 0; i < 24; ++i) {
+    const double angle = turn + 2 * std::numbers::pi * i / 24;
+    const Eigen::Vector3d along(std::cos(angle), std::sin(angle), 0.2);
+    lines.segments.emplace_back(0.1 * along, 0.35 * along);
+  }
+  return lines;
+}
+
 // One of everything, most of it moving; some things change their look or come and go.
 Picture everythingAt(int k) {
   const double t = k / 15.;
@@ -64,6 +106,12 @@ Picture everythingAt(int k) {
        {0.6f, 0.3f, 0.5f},
        "rounded"},
       {{.type = ShapeType::kMarker, .extent = {0.2, 0.2, 0.2}}, translation(0, 0, 1.1), {}, "marker"}};
+  picture.solids.push_back(
+      {{.type = ShapeType::kMesh, .mesh = tent()}, translation(0.35, -0.65, 0), {0.9f, 0.7f, 0.2f}, "tent"});
+  picture.solids.push_back({{.type = ShapeType::kPointCloud, .mesh = cloud()},
+                            translation(-0.9, 0, 0) * rotation(t, {0, 0, 1}),
+                            {0.3f, 0.3f, 0.3f},
+                            "cloud"});
   if (k % 20 < 10)
     picture.solids.push_back({{.type = ShapeType::kSphere, .radius = 0.1},
                               translation(1, -0.6, 0.1),
@@ -82,11 +130,18 @@ Picture everythingAt(int k) {
   picture.axes = {{translation(-0.8, -0.8, 0) * rotation(t, {0, 0, 1}), 0.3, "A"}};
   picture.arrows = {
       {{0, -0.6, 0}, {0.3 * std::cos(t), -0.6 + 0.3 * std::sin(t), 0.5}, {0.84f, 0.37f, 0}, 0.02}};
-  picture.ellipsoids = {{translation(-0.8, 0.6, 0.05), {0.35 + 0.1 * std::sin(t), 0.35, 0.05}}};
+  picture.ellipsoids = {{translation(-0.8, 0.6, 0.05), {0.35 + 0.1 * std::sin(t), 0.35, 0.05}},
+                        {translation(0.5, 0.6, 0.5) * rotation(t, {0, 0, 1}), {0.3, 0, 0.2}}};
+  picture.lineSets = {fan(0.2 * t)};
   picture.labels = {{"<b>rounded</b>", {1.1, 0.2, 0.35}}};
   picture.captions = {{"All that a picture can show,\nin two lines"},
                       {k < 30 ? "first half" : "second half", Corner::kBottomRight}};
   return picture;
+}
+
+std::string between(const std::string& page, const std::string& before, const std::string& after) {
+  const std::size_t from = page.find(before) + before.size();
+  return page.substr(from, page.find(after, from) - from);
 }
 
 // The bytes between two marks of a page, from base 64 as coreutils read it.
@@ -144,9 +199,56 @@ TEST(Report, PlaysEverythingThatAPictureCanShow) {
   const std::string page = reportPage(report);
   std::ofstream(freshFolder("report-everything") / "everything.html", std::ios::binary) << page;
   const std::string glb = embedded(page, "id=\"film\">", "</script>");
-  for (const char* name : {"box", R"(\"ball\" ?)", "guest", "marker", "polyline 1", "points 0", "axes A",
-                           "arrow 0", "ellipsoid 0", "label 0", "caption 1"})
+  for (const char* name :
+       {"box", R"(\"ball\" ?)", "guest", "marker", "tent", "cloud", "lines 0", "polyline 1", "points 0",
+        "axes A", "arrow 0", "ellipsoid 0", "ellipsoid 1", "label 0", "caption 1"})
     EXPECT_THAT(glb, testing::HasSubstr("\"name\":\"" + std::string(name) + "\""));
+}
+
+// Two ways to say the same, for scripts/check-replay: the pages have to look the same.
+TEST(Report, ShowsTwinsThatABrowserCannotTell) {
+  REX_NEEDS_OSMESA();
+  const fs::path folder = freshFolder("report-twins");
+  for (const bool second : {false, true}) {
+    Report report{.title = "Twins", .still = {.width = 160, .height = 120}};
+    for (int k = 0; k < 3; ++k) {
+      Picture picture;
+      picture.solids = {{{.type = ShapeType::kMesh, .mesh = tent(second)},
+                         translation(0.2 * k, 0.8, 0) * rotation(0.6, {0, 0, 1}),
+                         {0.9f, 0.7f, 0.2f},
+                         "tent"}};
+      const LineSet lines = fan(0.1 * k);
+      if (second)
+        for (const auto& [from, to] : lines.segments)
+          picture.polylines.push_back({{from, to}, lines.color, lines.width});
+      else
+        picture.lineSets = {lines};
+      report.film.push_back({1. * k, picture});
+    }
+    writeReport(report, folder / (second ? "second.html" : "first.html"));
+  }
+  EXPECT_NE(textOf(folder / "first.html"), textOf(folder / "second.html"));
+}
+
+TEST(Report, SaysItsTitleOnce) {
+  REX_NEEDS_OSMESA();
+  Report report = rollingBall();
+  for (Frame& frame : report.film) frame.picture.captions = {{"A ball"}, {"It rolls", Corner::kBottomLeft}};
+  const std::string page = reportPage(report);
+  const std::string glb = embedded(page, "id=\"film\">", "</script>");
+  EXPECT_EQ(count(glb, "\"caption\":"), 1);
+  EXPECT_EQ(count(glb, "\"caption\":\"It rolls\""), 1);
+  for (Frame& frame : report.film) frame.picture.captions.erase(frame.picture.captions.begin());
+  EXPECT_TRUE(page == reportPage(report)) << "the picture shows it no more than the film";
+}
+
+TEST(Report, TellsTheBackgroundOfItsPicture) {
+  REX_NEEDS_OSMESA();
+  Report report = rollingBall();
+  report.still.backgroundTop = {0.25f, 0.5f, 1};
+  report.still.backgroundBottom = {0, 0.125f, 0.75f};
+  EXPECT_EQ(between(reportPage(report), "class=\"stage\" ", " tabindex"),
+            "data-top=\"0.25 0.5 1\" data-bottom=\"0 0.125 0.75\"");
 }
 
 TEST(Report, NeedsNothingElse) {
@@ -169,11 +271,6 @@ std::string sha256(const std::string& text) {
   for (std::size_t i = 0; i + 1 < digits.size(); i += 2)
     bytes += static_cast<char>(std::stoi(digits.substr(i, 2), nullptr, 16));
   return "'sha256-" + internal::base64(bytes) + "'";
-}
-
-std::string between(const std::string& page, const std::string& before, const std::string& after) {
-  const std::size_t from = page.find(before) + before.size();
-  return page.substr(from, page.find(after, from) - from);
 }
 
 TEST(Report, AllowsItsOwnScriptsOnly) {
@@ -257,6 +354,9 @@ TEST(Report, RefusesWhatItCannotShow) {
   Report report = rollingBall();
   report.figures = {{.figure = {.title = "empty"}}};
   EXPECT_REX_ERROR(reportPage(report), "empty");
+  report = rollingBall();
+  report.still.height = 0;
+  EXPECT_REX_ERROR(reportPage(report), "picture size");
 }
 
 }  // namespace
