@@ -139,12 +139,12 @@ void addRenderOptions(CLI::App* command, RenderOptions& options) {
     command->add_option(name, values, help)->allow_extra_args(false)->type_name(type);
   };
   list("--q", options.postures, "POSTURE",
-       "all numbers, or joint=number,...; several times: a motion through them");
+       "all numbers, or joint=number,...; several: a motion through them");
   command->add_option("--motion", options.motion, "a motion: a posture per line, with or without a time")
       ->type_name("FILE");
   command->add_option("--seconds", options.seconds, "from each --q to the next (default: 2)")->type_name("S");
   list("--camera", options.cameras, "VIEW",
-       "front, back, left, right, top, x,y,z, or eye@target; several: side by side");
+       "front, back, left, right, top, x,y,z or eye@target; may be repeated");
   list("--trace", options.traces, "BODY", "whose way is drawn as a line");
   command->add_option("--caption", options.caption, "text in the top left corner, or title of a page")
       ->type_name("TEXT");
@@ -160,14 +160,14 @@ void addRenderOptions(CLI::App* command, RenderOptions& options) {
 
 void addRender(CLI::App& program, Action& action) {
   const auto options = std::make_shared<RenderOptions>();
-  CLI::App* command = add(
-      program, "render", "Draw a scene: a picture, a film, a model or a page with a replay",
-      "Examples:\n  scripts/rex render man -o man.png\n"
-      "  scripts/rex render man.ors --camera front --camera right --camera top -o views.png\n"
-      "  scripts/rex render pegArm.ors --q 0,0,0 --q 0.5,-0.5,0.3 --trace peg -o swing.mp4\n"
-      "  scripts/rex render man.ors --q 'upArmR>dnArmR=1.5' -o man.html\n\n"
-      "The ending of FILE says what is made: .png (of a motion its key frames); .mp4, .webm, .gif\n"
-      "(of one posture a walk around it); .glb; .html; or none for a folder of frames.");
+  CLI::App* command =
+      add(program, "render", "Draw a scene: a picture, a film, a model or a page with a replay",
+          "Examples:\n  scripts/rex render man -o man.png\n"
+          "  scripts/rex render man.ors --camera front --camera right --camera top -o views.png\n"
+          "  scripts/rex render pegArm.ors --q 0,0,0 --q 0.5,-0.5,0.3 --trace peg -o swing.mp4\n"
+          "  scripts/rex render man.ors --q 'upArmR>dnArmR=1.5' -o man.html\n\n"
+          "The ending of FILE says what is made: .png (of a motion its key frames); .mp4, .webm, .gif\n"
+          "(of one posture a walk around it); .glb; .html; or none for a folder of frames.");
   command
       ->add_option("SCENE", options->scene, "an .ors file, or a robot of the course: man, pegArm, pegInAHole")
       ->type_name("")

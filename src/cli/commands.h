@@ -41,18 +41,18 @@ ExitCode bench(const Project& project, const BenchOptions& options);
 
 /// As typed; empty where nothing was. RenderPlan is what they mean.
 struct RenderOptions {
-  std::filesystem::path scene;        ///< see loadScene()
-  std::vector<std::string> postures;  ///< see parsePosture(); several: the motion through them
-  std::filesystem::path motion;       ///< see readMotion()
-  std::optional<double> seconds;      ///< from each posture to the next
-  std::vector<std::string> cameras;   ///< see View; several: side by side
-  std::vector<std::string> traces;    ///< bodies whose way is drawn
-  std::string caption;
-  std::string size;           ///< WIDTHxHEIGHT
-  std::string show;           ///< color, depth or segmentation
-  std::string antiAliasing;   ///< none, fxaa or msaa4
-  std::string gl;             ///< auto, osmesa or egl
-  std::filesystem::path out;  ///< its ending says what is made
+  std::filesystem::path scene{};        ///< see loadScene()
+  std::vector<std::string> postures{};  ///< see parsePosture(); several: the motion through them
+  std::filesystem::path motion{};       ///< see readMotion()
+  std::optional<double> seconds{};      ///< from each posture to the next
+  std::vector<std::string> cameras{};   ///< see View; several: side by side
+  std::vector<std::string> traces{};    ///< bodies whose way is drawn
+  std::string caption{};
+  std::string size{};           ///< WIDTHxHEIGHT
+  std::string show{};           ///< color, depth or segmentation
+  std::string antiAliasing{};   ///< none, fxaa or msaa4
+  std::string gl{};             ///< auto, osmesa or egl
+  std::filesystem::path out{};  ///< its ending says what is made
 };
 ExitCode render(const Project& project, const RenderOptions& options);
 
