@@ -127,44 +127,54 @@ void addDebug(CLI::App& program, Action& action) {
       [&action, options] { action = [options](const Project& p) { return debug(p, *options); }; });
 }
 
-constexpr const char* kGlHelp = "OpenGL by auto, osmesa or egl (default: auto; or REX_GL in the environment)";
+void addGl(CLI::App* command, std::string& gl) {
+  command->add_option("--gl", gl, "OpenGL by auto, osmesa or egl (default: auto)")
+      ->type_name("NAME")
+      ->envname("REX_GL");
+}
+
+void addRenderOptions(CLI::App* command, RenderOptions& options) {
+  const auto list = [&](const char* name, std::vector<std::string>& values, const char* type,
+                        const char* help) {
+    command->add_option(name, values, help)->allow_extra_args(false)->type_name(type);
+  };
+  list("--q", options.postures, "POSTURE",
+       "all numbers, or joint=number,...; several: a motion through them");
+  command->add_option("--motion", options.motion, "a motion: a posture per line, with or without a time")
+      ->type_name("FILE");
+  command->add_option("--seconds", options.seconds, "from each --q to the next (default: 2)")->type_name("S");
+  list("--camera", options.cameras, "VIEW",
+       "front, back, left, right, top, x,y,z or eye@target; may be repeated");
+  list("--trace", options.traces, "BODY", "whose way is drawn as a line");
+  command->add_option("--caption", options.caption, "text in the top left corner, or title of a page")
+      ->type_name("TEXT");
+  command->add_option("--size", options.size, "pixels of one picture (default: 640x480, of a page 800x600)")
+      ->type_name("WxH");
+  command->add_option("--show", options.show, "color, depth or segmentation (default: color)")
+      ->type_name("WHAT");
+  command
+      ->add_option("--aa", options.antiAliasing,
+                   "smooth edges by none, fxaa or msaa4 (default: msaa4, films: fxaa)")
+      ->type_name("KIND");
+}
 
 void addRender(CLI::App& program, Action& action) {
   const auto options = std::make_shared<RenderOptions>();
-  CLI::App* command = add(
-      program, "render", "Draw a scene: a picture, a film, a model or a page with a replay",
-      "Examples:\n  scripts/rex render man.ors -o man.png\n"
-      "  scripts/rex render man.ors --camera front --camera right --camera top -o views.png\n"
-      "  scripts/rex render pegArm.ors --q 0,0,0 --q 0.5,-0.5,0.3 --trace peg -o swing.mp4\n"
-      "  scripts/rex render man.ors --q 'elbowR=1.5' -o man.html\n\n"
-      "The ending of FILE says what is made: .png (of a motion its key frames), .mp4, .webm, .gif (of one\n"
-      "posture a walk around it), .glb, .html, or none for a folder of frames.");
-  command->add_option("SCENE", options->scene, "an .ors file, or a robot of the course: man.ors")
+  CLI::App* command =
+      add(program, "render", "Draw a scene: a picture, a film, a model or a page with a replay",
+          "Examples:\n  scripts/rex render man -o man.png\n"
+          "  scripts/rex render man.ors --camera front --camera right --camera top -o views.png\n"
+          "  scripts/rex render pegArm.ors --q 0,0,0 --q 0.5,-0.5,0.3 --trace peg -o swing.mp4\n"
+          "  scripts/rex render man.ors --q 'upArmR>dnArmR=1.5' -o man.html\n\n"
+          "The ending of FILE says what is made: .png (of a motion its key frames); .mp4, .webm, .gif\n"
+          "(of one posture a walk around it); .glb; .html; or none for a folder of frames.");
+  command
+      ->add_option("SCENE", options->scene, "an .ors file, or a robot of the course: man, pegArm, pegInAHole")
       ->type_name("")
       ->required();
   command->add_option("-o,--out", options->out, "what to make")->type_name("FILE")->required();
-  const auto list = [&](const std::string& name, std::vector<std::string>& values, const std::string& help) {
-    return command->add_option(name, values, help)->allow_extra_args(false)->type_name("");
-  };
-  list("--q", options->postures,
-       "a posture: all numbers, or joint=number,...; several times: a motion through them");
-  command->add_option("--motion", options->motion, "a motion: a posture per line, with or without a time")
-      ->type_name("FILE");
-  command->add_option("--seconds", options->seconds, "from each --q to the next (default: 2)")
-      ->type_name("S")
-      ->check(CLI::Range(0.04, 600.).description(""));
-  list("--camera", options->cameras,
-       "front, back, left, right, top, a direction x,y,z, or eye@target; several: side by side");
-  list("--trace", options->traces, "a body whose way is drawn as a line");
-  command->add_option("--caption", options->caption, "text in the top left corner")->type_name("TEXT");
-  command->add_option("--size", options->size, "pixels of one picture (default: 640x480)")->type_name("WxH");
-  command->add_option("--show", options->show, "color, depth or segmentation (default: color)")
-      ->type_name("");
-  command
-      ->add_option("--aa", options->antiAliasing,
-                   "smooth edges by none, fxaa or msaa4 (default: msaa4, films: fxaa)")
-      ->type_name("");
-  command->add_option("--gl", options->gl, kGlHelp)->type_name("")->envname("REX_GL");
+  addRenderOptions(command, *options);
+  addGl(command, options->gl);
   command->callback(
       [&action, options] { action = [options](const Project& p) { return render(p, *options); }; });
 }
@@ -173,7 +183,7 @@ void addDoctor(CLI::App& program, Action& action) {
   const auto options = std::make_shared<DoctorOptions>();
   CLI::App* command = add(program, "doctor", "Try all that pictures need on this machine",
                           "Examples:\n  scripts/rex doctor\n  scripts/rex doctor --gl egl --json");
-  command->add_option("--gl", options->gl, kGlHelp)->type_name("")->envname("REX_GL");
+  addGl(command, options->gl);
   command->add_flag("--json", options->json, "print JSON instead of a table");
   command->callback(
       [&action, options] { action = [options](const Project& p) { return doctor(p, *options); }; });

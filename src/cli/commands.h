@@ -39,27 +39,29 @@ struct BenchOptions {
 };
 ExitCode bench(const Project& project, const BenchOptions& options);
 
+/// As typed; empty where nothing was. RenderPlan is what they mean.
 struct RenderOptions {
-  std::filesystem::path scene;        ///< an .ors file, or the name of one in data/robots
-  std::vector<std::string> postures;  ///< see parsePosture(); several: the motion through them
-  std::filesystem::path motion;       ///< see readMotion(); empty: none
-  double seconds = 2;                 ///< from each posture to the next
-  std::vector<std::string> cameras;   ///< see View; several: side by side
-  std::vector<std::string> traces;    ///< bodies whose way is drawn
-  std::string caption;
-  std::string size = "640x480";
-  std::string show = "color";  ///< color, depth or segmentation
-  std::string antiAliasing;    ///< none, fxaa or msaa4; empty: by the kind of output
-  std::string gl = "auto";     ///< auto, osmesa or egl
-  std::filesystem::path out;   ///< its ending says what is made
+  std::filesystem::path scene{};        ///< see loadScene()
+  std::vector<std::string> postures{};  ///< see parsePosture(); several: the motion through them
+  std::filesystem::path motion{};       ///< see readMotion()
+  std::optional<double> seconds{};      ///< from each posture to the next
+  std::vector<std::string> cameras{};   ///< see View; several: side by side
+  std::vector<std::string> traces{};    ///< bodies whose way is drawn
+  std::string caption{};
+  std::string size{};           ///< WIDTHxHEIGHT
+  std::string show{};           ///< color, depth or segmentation
+  std::string antiAliasing{};   ///< none, fxaa or msaa4
+  std::string gl{};             ///< auto, osmesa or egl
+  std::filesystem::path out{};  ///< its ending says what is made
 };
 ExitCode render(const Project& project, const RenderOptions& options);
 
 struct DoctorOptions {
-  std::string gl = "auto";
+  std::string gl;  ///< auto, osmesa or egl; empty: auto
   bool json = false;
 };
-/// Tries everything that pictures need on this machine. kGraderFault if something needed does not work.
+/// Tries everything that pictures need on this machine. kGraderFault if something needed does not work; of
+/// the two ways to OpenGL, one is needed unless `gl` names it.
 ExitCode doctor(const Project& project, const DoctorOptions& options);
 
 struct DebugOptions {

@@ -1,13 +1,23 @@
-#include <cmath>
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <fstream>
 #include <functional>
 #include <optional>
+#include <set>
+#include <system_error>
+#include <thread>
+#include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/process.h"
 #include "cli/commands.h"
+#include "cli/render_plan.h"
 #include "cli/terminal.h"
 #include "grading/private_folder.h"
 #include "render/figure.h"
@@ -21,29 +31,56 @@ namespace {
 
 namespace fs = std::filesystem;
 
+enum class Status { kWorks, kMissing, kFails };
+
 // One thing that was tried.
 struct Finding {
   std::string name;
-  bool works = false;
-  std::string text;  // what works, or why it does not
+  std::string packages{};  // of Debian, that it needs
+  Status status = Status::kWorks;
+  std::string text{};    // what works, or why it does not
+  bool isNeeded = true;  // else something that works stands in for it
 };
 
-// Tries something that says what it found, or throws.
-Finding tryOut(const std::string& name, const std::function<std::string()>& attempt) {
+// The machine lacks something, and the message names the package.
+struct Missing {
+  std::string text;
+};
+
+// Tries something that says what it found, or throws. Files of ours do not matter to the user.
+Finding tryOut(const std::string& name, const std::string& packages,
+               const std::function<std::string()>& attempt) {
   try {
-    return {name, true, attempt()};
+    return {name, packages, Status::kWorks, attempt()};
+  } catch (const Missing& missing) {
+    return {name, packages, Status::kMissing, harmless(missing.text)};
+  } catch (const Error& error) {
+    ErrorParts parts = error.parts();
+    parts.where = {};
+    const bool isMissing = parts.wanted.find("Debian package") != std::string::npos;
+    return {name, packages, isMissing ? Status::kMissing : Status::kFails,
+            harmless(Error(std::move(parts)).what())};
   } catch (const std::exception& error) {
-    return {name, false, error.what()};
+    return {name, packages, Status::kFails, harmless(error.what())};
   }
 }
 
 [[noreturn]] void fail(const std::string& what) { throw Error({.what = what}); }
 
-std::string firstLineOf(const std::vector<std::string>& command) {
-  const ProcessResult result = runProcess(command, {.timeout = 20});
-  if (!result.started) throw Error({.what = command[0] + " is not installed"});
-  if (!result.ok()) throw Error({.what = command[0] + " does not work", .found = harmless(result.error)});
-  return harmless(result.output.substr(0, result.output.find('\n')));
+// What an installed program says about itself; empty where there is none.
+std::string versionOf(const std::vector<std::string>& command) {
+  constexpr double kPatience = 20;  // seconds
+  const ProcessResult result = runProcess(command, {.timeout = kPatience});
+  if (!result.started) return {};
+  const std::string complaint = result.error.substr(0, result.error.find('\n'));
+  const auto broken = [&](const std::string& how) {
+    return Error(
+        {.what = command[0] + " does not work", .found = complaint.empty() ? how : how + ": " + complaint});
+  };
+  if (result.timedOut) throw broken(fmt::format("no answer within {:g} s", kPatience));
+  if (result.signal != 0) throw broken(fmt::format("signal {} that ended it", result.signal));
+  if (result.exitCode != 0) throw broken(fmt::format("exit code {}", result.exitCode));
+  return result.output.substr(0, result.output.find('\n'));
 }
 
 // A red ball on the left and a blue box on the right, above the ground.
@@ -75,86 +112,154 @@ Image testImage(GlBackend backend, const fs::path& folder, std::string& descript
   return image;
 }
 
-std::vector<Finding> tryBackends(const DoctorOptions& options, const fs::path& folder) {
+// Without a choice one of them is enough.
+std::vector<Finding> tryBackends(GlBackend wanted, const fs::path& folder) {
+  constexpr std::array<std::tuple<GlBackend, const char*, const char*>, 2> kBackends = {
+      {{GlBackend::kOsMesa, "osmesa", "libosmesa6"}, {GlBackend::kEgl, "egl", "libegl1 libgl1-mesa-dri"}}};
   std::vector<Finding> findings;
   std::optional<Image> first;
-  for (const std::string name : {"osmesa", "egl"}) {
-    if (options.gl != "auto" && options.gl != name) continue;
-    findings.push_back(tryOut("OpenGL by " + name, [&] {
+  for (const auto& [backend, name, packages] : kBackends) {
+    if (wanted != GlBackend::kAuto && wanted != backend) continue;
+    findings.push_back(tryOut(std::string("OpenGL by ") + name, packages, [&, one = backend] {
       std::string description;
-      const Image image = testImage(glBackendFromName(name), folder, description);
+      const Image image = testImage(one, folder, description);
       if (first && *first != image) fail(description + ": its pixels differ from those of the other backend");
       const char* same = first ? ", the same pixels" : "";
       first = image;
       return description + "; test picture as expected" + same;
     }));
   }
+  for (Finding& finding : findings) finding.isNeeded = finding.status == Status::kWorks || !first;
   return findings;
 }
 
 Finding tryFigures(const fs::path& folder) {
-  return tryOut("figures", [&] {
-    const std::string version = firstLineOf({"gnuplot", "--version"});
+  return tryOut("figures", "gnuplot-nox", [&] {
+    const std::string version = versionOf({"gnuplot", "--version"});
     const Figure figure{
         .title = "test", .xLabel = "x [m]", .yLabel = "y [m]", .series = {{.y = {0, 1, 0.5, 2}}}};
-    writeFigure(figure, folder / "test-figure.svg");
+    static_cast<void>(encodeSvg(figure));
     writeFigure(figure, folder / "test-figure.png");
     static_cast<void>(readPng(folder / "test-figure.png"));
     return version + "; PNG and SVG";
   });
 }
 
+void writeTestVideo(const fs::path& file) {
+  VideoSink sink(file);
+  for (int i = 0; i < 5; ++i) {
+    Image frame(64, 48);
+    frame.rgb.assign(frame.rgb.size(), static_cast<std::uint8_t>(40 * i));
+    sink.add(frame);
+  }
+  sink.finish();
+}
+
 Finding tryVideos(const fs::path& folder) {
-  return tryOut("videos", [&] {
-    const std::string version = firstLineOf({"ffmpeg", "-version"});
-    for (const char* ending : {".mp4", ".webm", ".gif"}) {
-      VideoSink sink(folder / (std::string("test") + ending));
-      for (int i = 0; i < 5; ++i) {
-        Image frame(64, 48);
-        frame.rgb.assign(frame.rgb.size(), static_cast<std::uint8_t>(40 * i));
-        sink.add(frame);
-      }
-      sink.finish();
+  return tryOut("videos", "ffmpeg", [&] {
+    const std::string version = versionOf({"ffmpeg", "-version"});
+    for (const char* name : {"film.mp4", "film.webm", "film.gif"}) {
+      if (const std::string missing = missingForVideo(name); !missing.empty()) throw Missing{missing};
+      writeTestVideo(folder / name);
     }
     return version.substr(0, version.find(" Copyright")) + "; .mp4, .webm and .gif";
   });
 }
 
-Finding tryReplays(const fs::path& folder) {
-  return tryOut("replays", [&] {
-    writeReport({.title = "test", .film = {{0, testPicture()}}}, folder / "test.html");
-    return fmt::format("a page of {} KiB", fs::file_size(folder / "test.html") / 1024);
+Finding tryReplays(GlBackend backend, const std::vector<Finding>& backends) {
+  std::string packages = backends.front().packages;
+  return tryOut("replays", packages, [&] {
+    const std::string page =
+        reportPage({.title = "test", .film = {{0, testPicture()}}, .still = {.gl = {.backend = backend}}});
+    return fmt::format("a page of {} KiB", page.size() / 1024);
   });
 }
 
-void sayAll(const std::vector<Finding>& findings) {
-  constexpr std::size_t kColumn = 26;
-  for (const Finding& finding : findings) {
-    const std::string state = finding.works ? paint(Colour::kGreen, "works ") : paint(Colour::kRed, "fails ");
-    say(fmt::format("{:<18}  {}{}", finding.name, state, wrap(finding.text, kColumn, kColumn)));
+std::string processor() {
+  const std::string key = "model name";
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t colon = line.find(": ");
+    if (line.starts_with(key) && colon != std::string::npos) return line.substr(colon + 2);
   }
+  return "processor of unknown name";
 }
 
-void sayJson(const std::vector<Finding>& findings) {
+Finding aboutRex() {
+#ifdef __clang__
+  constexpr const char* kCompiler = "clang++";
+#else
+  constexpr const char* kCompiler = "g++";
+#endif
+  return {.name = "rex",
+          .text = fmt::format("{}, by {} {}, on {} ({} threads)", REX_VERSION, kCompiler, __VERSION__,
+                              processor(), std::thread::hardware_concurrency())};
+}
+
+bool isWell(const Finding& finding) { return finding.status == Status::kWorks || !finding.isNeeded; }
+
+std::string toDo(const std::vector<Finding>& findings) {
+  std::set<std::string> packages;
+  std::vector<std::string> broken;
+  for (const Finding& finding : findings) {
+    if (isWell(finding)) continue;
+    if (finding.status == Status::kMissing) packages.insert(finding.packages);
+    if (finding.status == Status::kFails) broken.push_back(finding.name);
+  }
+  std::vector<std::string> steps;
+  if (!packages.empty()) steps.push_back(fmt::format("apt-get install {}", fmt::join(packages, " ")));
+  if (!broken.empty()) steps.push_back(fmt::format("repair what fails: {}", fmt::join(broken, ", ")));
+  return steps.empty() ? "Nothing else is needed." : fmt::format("To do: {}", fmt::join(steps, "; then "));
+}
+
+const char* nameOf(Status status) {
+  return status == Status::kWorks ? "works" : status == Status::kMissing ? "missing" : "fails";
+}
+
+void sayAll(const std::vector<Finding>& findings) {
+  constexpr std::size_t kColumn = 28;
+  for (const Finding& finding : findings) {
+    const Colour colour = finding.status == Status::kWorks ? Colour::kGreen
+                          : isWell(finding)                ? Colour::kYellow
+                                                           : Colour::kRed;
+    say(fmt::format("{:<18}  {} {}", finding.name,
+                    paint(colour, fmt::format("{:<7}", nameOf(finding.status))),
+                    wrap(finding.text, kColumn, kColumn)));
+  }
+  say(toDo(findings));
+}
+
+void sayJson(const std::vector<Finding>& findings, bool ok) {
   nlohmann::json rows = nlohmann::json::array();
   for (const Finding& finding : findings)
-    rows.push_back({{"name", finding.name}, {"works", finding.works}, {"text", finding.text}});
-  say(nlohmann::json{{"findings", rows}}.dump(2));
+    rows.push_back({{"name", finding.name}, {"status", nameOf(finding.status)}, {"text", finding.text}});
+  say(nlohmann::json{{"findings", rows}, {"ok", ok}}.dump(2));
+}
+
+fs::path temporaryFolder() {
+  std::error_code problem;
+  const fs::path folder = fs::temp_directory_path(problem);
+  if (!problem) return folder;
+  const char* chosen = std::getenv("TMPDIR");
+  throw Error({.what = "TMPDIR, where temporary files go",
+               .found = fmt::format("'{}'", harmless(chosen == nullptr ? "/tmp" : chosen)),
+               .wanted = "a folder"});
 }
 
 }  // namespace
 
 ExitCode doctor(const Project&, const DoctorOptions& options) {
-  static_cast<void>(glBackendFromName(options.gl));
-  const grading::PrivateFolder folder(fs::temp_directory_path());
-  std::vector<Finding> findings = tryBackends(options, folder.path());
+  const GlBackend backend = backendOf(options.gl);
+  const grading::PrivateFolder folder(temporaryFolder());
+  std::vector<Finding> findings = tryBackends(backend, folder.path());
+  const Finding replays = tryReplays(backend, findings);
+  findings.insert(findings.begin(), aboutRex());
   findings.push_back(tryFigures(folder.path()));
   findings.push_back(tryVideos(folder.path()));
-  findings.push_back(tryReplays(folder.path()));
-  options.json ? sayJson(findings) : sayAll(findings);
-  for (const Finding& finding : findings)
-    if (!finding.works) return ExitCode::kGraderFault;
-  return ExitCode::kFull;
+  findings.push_back(replays);
+  const bool ok = std::all_of(findings.begin(), findings.end(), isWell);
+  options.json ? sayJson(findings, ok) : sayAll(findings);
+  return ok ? ExitCode::kFull : ExitCode::kGraderFault;
 }
 
 }  // namespace rex::cli

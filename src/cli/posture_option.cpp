@@ -5,10 +5,16 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <functional>
+#include <iterator>
 #include <optional>
+#include <sstream>
 #include <string_view>
+#include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/error.h"
 #include "scene/state.h"
@@ -16,24 +22,42 @@
 namespace rex::cli {
 namespace {
 
-std::vector<std::string> words(std::string_view text) {
-  constexpr std::string_view kSeparators = ", \t\r";
+constexpr double kLongest = 120;  // seconds of a film
+
+// What a complaint says: what was found, what was wanted.
+using Refusal = std::function<void(const std::string&, const std::string&)>;
+
+// The words of one field, between commas.
+std::vector<std::string> wordsOf(const std::string& field) {
+  std::istringstream input(field);
+  return {std::istream_iterator<std::string>(input), {}};
+}
+
+// The words of a text, between commas or blanks; a comma may stand at its end.
+std::vector<std::string> words(std::string_view text, const Refusal& refuse) {
+  if (text.find(';') != std::string_view::npos) refuse("';'", "commas or blanks between numbers");
   std::vector<std::string> all;
   while (true) {
-    const std::size_t start = text.find_first_not_of(kSeparators);
-    if (start == std::string_view::npos) return all;
-    text.remove_prefix(start);
-    const std::size_t size = std::min(text.find_first_of(kSeparators), text.size());
-    all.emplace_back(text.substr(0, size));
-    text.remove_prefix(size);
+    const std::size_t size = text.find(',');
+    const bool isLast = size == std::string_view::npos;
+    const std::vector<std::string> some = wordsOf(std::string(text.substr(0, size)));
+    if (some.empty() && !isLast) refuse("an empty field", "a number between commas");
+    all.insert(all.end(), some.begin(), some.end());
+    if (isLast) return all;
+    text.remove_prefix(size + 1);
   }
 }
 
-std::optional<double> numberIn(std::string_view word) {
+// Also "nan" and "inf" are one to from_chars.
+bool isNumeral(std::string_view word, double& number) {
   if (word.starts_with('+')) word.remove_prefix(1);
-  double number = 0;
   const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), number);
-  if (problem != std::errc() || end != word.data() + word.size() || !std::isfinite(number)) return {};
+  return problem == std::errc() && end == word.data() + word.size();
+}
+
+std::optional<double> numberIn(std::string_view word) {
+  double number = 0;
+  if (!isNumeral(word, number) || !std::isfinite(number)) return {};
   return number;
 }
 
@@ -42,8 +66,16 @@ double requireNumber(const std::string& word) {
   throw UsageError({.what = "--q", .found = "'" + word + "'", .wanted = "a number, or joint=number"});
 }
 
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 12;
+  const std::size_t count = std::min(names.size(), kMost);
+  std::string list = fmt::format("{}", fmt::join(names.begin(), names.begin() + count, ", "));
+  if (names.size() > count) list += fmt::format(" and {} more", names.size() - count);
+  return list;
+}
+
 const Joint& movableJoint(const Model& model, const std::string& name) {
-  std::vector<std::string> movable;
+  std::vector<std::string> movable;  // joints stand in the order of q
   for (const Joint& joint : model.joints()) {
     const bool isMovable = joint.nq > 0 && !joint.mimics;
     if (joint.name == name && isMovable) {
@@ -54,9 +86,95 @@ const Joint& movableJoint(const Model& model, const std::string& name) {
     }
     if (isMovable) movable.push_back(joint.name);
   }
+  const std::vector<std::string> nearest = nearestNames(name, movable);
   throw UsageError({.what = "--q: " + model.name() + " has no joint '" + name + "' that moves",
-                    .nearest = nearestNames(name, movable)});
+                    .wanted = nearest.empty() ? listed(movable) : "",
+                    .nearest = nearest});
 }
+
+void requireLength(double seconds, const std::string& what, const SourceLocation& where) {
+  if (seconds > kLongest)
+    throw UsageError({.what = what,
+                      .where = where,
+                      .found = fmt::format("{:g} s", seconds),
+                      .wanted = fmt::format("at most {:g} s", kLongest)});
+}
+
+// Reads the lines of a motion one after the other.
+class MotionReader {
+ public:
+  MotionReader(const Model& model, std::string file, double rate)
+      : nq_(static_cast<std::size_t>(model.nq())),
+        model_(model.name()),
+        where_({.file = std::move(file)}),
+        rate_(rate) {}
+
+  void readLine(std::string_view line) {
+    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+    if (++where_.line == 1 && line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
+    const std::size_t start = line.find_first_not_of(" \t\r");
+    if (start == std::string_view::npos || line[start] == '#') return;
+    if (motion_.postures.empty() && isHead(line.substr(start))) return;
+    add(numbersIn(line));
+  }
+
+  Motion finish() {
+    where_.line = 0;
+    if (motion_.postures.empty()) refuse("no posture", "at least one");
+    requireLength(motion_.times.back() - motion_.times.front(), "motion", where_);
+    return std::move(motion_);
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& found, const std::string& wanted) const {
+    throw UsageError({.what = "motion", .where = where_, .found = found, .wanted = wanted});
+  }
+
+  // Names of columns; but a number that is none must not pass for one.
+  static bool isHead(std::string_view line) {
+    double ignored = 0;
+    const bool isName =
+        line[0] == '"' || line[0] == '\'' || std::isalpha(static_cast<unsigned char>(line[0]));
+    return isName && !isNumeral(line.substr(0, line.find_first_of(", \t\r;")), ignored);
+  }
+
+  std::vector<double> numbersIn(std::string_view line) {
+    std::vector<double> row;
+    for (const std::string& word :
+         words(line, [&](const auto&found, const auto&wanted) { refuse(found, wanted); })) {
+      const auto value = numberIn(word);
+      if (!value) refuse("'" + word + "'", "a number");
+      row.push_back(*value);
+    }
+    const std::string found = fmt::format("{} number{}", row.size(), row.size() == 1 ? "" : "s");
+    if (firstLine_ == 0) {
+      if (row.size() != nq_ && row.size() != nq_ + 1)
+        refuse(found, fmt::format("{} of a posture of {}, or a time before them", nq_, model_));
+      columns_ = row.size();
+      firstLine_ = where_.line;
+    }
+    if (row.size() != columns_) refuse(found, fmt::format("{} as in line {}", columns_, firstLine_));
+    return row;
+  }
+
+  void add(const std::vector<double>& row) {
+    const bool hasTime = row.size() == nq_ + 1;
+    const double time = hasTime ? row[0] : static_cast<double>(motion_.times.size()) / rate_;
+    if (!motion_.times.empty() && time <= motion_.times.back())
+      refuse(fmt::format("time {:g} after {:g}", time, motion_.times.back()), "times that increase");
+    motion_.times.push_back(time);
+    motion_.postures.emplace_back(
+        Eigen::Map<const Eigen::VectorXd>(row.data() + (hasTime ? 1 : 0), static_cast<Eigen::Index>(nq_)));
+  }
+
+  std::size_t nq_;
+  std::string model_;
+  SourceLocation where_;
+  double rate_;
+  std::size_t columns_ = 0;
+  int firstLine_ = 0;
+  Motion motion_;
+};
 
 // At each moment of a steady beat the posture last reached.
 Motion evenly(const Motion& motion, double rate) {
@@ -76,7 +194,9 @@ Motion evenly(const Motion& motion, double rate) {
 }  // namespace
 
 Eigen::VectorXd parsePosture(const Model& model, const std::string& text) {
-  const std::vector<std::string> all = words(text);
+  const std::vector<std::string> all = words(text, [](const auto& found, const auto& wanted) {
+    throw UsageError({.what = "--q", .found = found, .wanted = wanted});
+  });
   Eigen::VectorXd q = model.initialPositions();
   if (text.find('=') != std::string::npos) {
     for (const std::string& word : all) {
@@ -89,7 +209,7 @@ Eigen::VectorXd parsePosture(const Model& model, const std::string& text) {
   }
   if (static_cast<Eigen::Index>(all.size()) != q.size())
     throw UsageError({.what = "--q",
-                      .found = fmt::format("{} numbers", all.size()),
+                      .found = fmt::format("{} number{}", all.size(), all.size() == 1 ? "" : "s"),
                       .wanted = fmt::format("{}, one for each coordinate of {}", q.size(), model.name())});
   for (Eigen::Index i = 0; i < q.size(); ++i) q[i] = requireNumber(all[static_cast<std::size_t>(i)]);
   return q;
@@ -97,49 +217,17 @@ Eigen::VectorXd parsePosture(const Model& model, const std::string& text) {
 
 Motion readMotion(const Model& model, const std::filesystem::path& file, double rate) {
   std::ifstream input(file);
-  if (!input || std::filesystem::is_directory(file))
-    throw Error({.what = "cannot read the motion", .where = {file.string()}});
-  const auto nq = static_cast<std::size_t>(model.nq());
-  Motion motion;
-  std::string line;
-  for (int number = 1; std::getline(input, line); ++number) {
-    const std::vector<std::string> all = words(line);
-    if (all.empty() || all[0][0] == '#' || std::isalpha(static_cast<unsigned char>(all[0][0]))) continue;
-    const auto refuse = [&](const std::string& found, const std::string& wanted) {
-      throw Error({.what = "motion", .where = {file.string(), number}, .found = found, .wanted = wanted});
-    };
-    if (all.size() != nq && all.size() != nq + 1)
-      refuse(fmt::format("{} numbers", all.size()),
-             fmt::format("{} of a posture of {}, or a time before them", nq, model.name()));
-    std::vector<double> row;
-    for (const std::string& word : all) {
-      const auto value = numberIn(word);
-      if (!value) refuse("'" + word + "'", "a number");
-      row.push_back(*value);
-    }
-    const bool hasTime = row.size() == nq + 1;
-    const double time = hasTime ? row[0] : static_cast<double>(motion.times.size()) / rate;
-    if (!motion.times.empty() && time <= motion.times.back())
-      refuse(fmt::format("time {:g} after {:g}", time, motion.times.back()), "times that increase");
-    motion.times.push_back(time);
-    motion.postures.emplace_back(
-        Eigen::Map<const Eigen::VectorXd>(row.data() + (hasTime ? 1 : 0), model.nq()));
-  }
-  if (motion.postures.empty())
-    throw Error(
-        {.what = "motion", .where = {file.string()}, .found = "no posture", .wanted = "at least one"});
-  constexpr double kLongest = 120;  // seconds
-  const double length = motion.times.back() - motion.times.front();
-  if (length > kLongest)
-    throw Error({.what = "motion",
-                 .where = {file.string()},
-                 .found = fmt::format("{:g} s", length),
-                 .wanted = fmt::format("at most {:g} s", kLongest)});
-  return evenly(motion, rate);
+  std::error_code ignored;
+  if (!input || std::filesystem::is_directory(file, ignored))
+    throw UsageError({.what = "cannot read the motion", .where = {file.string()}});
+  MotionReader reader(model, file.string(), rate);
+  for (std::string line; std::getline(input, line);) reader.readLine(line);
+  return evenly(reader.finish(), rate);
 }
 
 Motion moveThrough(const Model& model, const std::vector<Eigen::VectorXd>& keys, double seconds,
                    double rate) {
+  requireLength(static_cast<double>(keys.size() - 1) * seconds, "motion through --q", {});
   Motion motion{.times = {0}, .postures = {keys.front()}};
   const int steps = std::max(1, static_cast<int>(std::lround(seconds * rate)));
   for (std::size_t k = 0; k + 1 < keys.size(); ++k) {

@@ -10,7 +10,7 @@ namespace rex::cli {
 
 /// The posture that `--q TEXT` asks for: all nq numbers, or "joint=number,..." for some joints of one
 /// coordinate, the others as in the file; separated by blanks or commas. Throws UsageError naming both sizes,
-/// the word that is no number, or the nearest joints.
+/// the word that is no number, or the nearest joints, the first dozen where none is near.
 [[nodiscard]] Eigen::VectorXd parsePosture(const Model& model, const std::string& text);
 
 /// Postures and the times at which they are taken, seconds from 0.
@@ -19,15 +19,15 @@ struct Motion {
   std::vector<Eigen::VectorXd> postures;
 };
 
-/// Reads a motion: one posture per line, numbers separated by commas or blanks, before them a time in seconds
-/// if a line has nq + 1 numbers, otherwise `rate` lines per second; lines that begin with '#' or a letter are
-/// skipped. It is given back at `rate` postures per second, the latest at each moment. Throws Error with
-/// file:line for a missing file, a wrong count, no number, a time that does not increase, no posture at all,
-/// or more than two minutes.
+/// Reads a motion: one posture per line, numbers separated by commas or blanks, in all lines before them a
+/// time in seconds, or in none, then `rate` lines per second. Lines that begin with '#' are skipped, and
+/// names of columns before the first posture. It is given back at `rate` postures per second, the latest at
+/// each moment. Throws UsageError with file:line for a missing file, a wrong count, what is no finite number,
+/// a time that does not increase, no posture at all, or more than two minutes.
 [[nodiscard]] Motion readMotion(const Model& model, const std::filesystem::path& file, double rate);
 
 /// A smooth motion through all `keys` (at least one), each `seconds` after the one before, at `rate` frames
-/// per second; it rests at each of them.
+/// per second; it rests at each of them. Throws UsageError for more than two minutes.
 [[nodiscard]] Motion moveThrough(const Model& model, const std::vector<Eigen::VectorXd>& keys, double seconds,
                                  double rate);
 

@@ -16,6 +16,10 @@ class View {
 
   /// The camera; the views without an eye see all of `bounds`. Throws as framing() and lookAt().
   [[nodiscard]] Camera camera(const Bounds& bounds, double aspect) const;
+  /// The point it looks at, W, metres: the target next to an eye, else the middle of `bounds`.
+  [[nodiscard]] Eigen::Vector3d target(const Bounds& bounds) const {
+    return hasEye_ ? target_ : bounds.center();
+  }
   /// From what is seen to the camera, W, any length.
   [[nodiscard]] Eigen::Vector3d direction() const { return direction_; }
 

@@ -63,5 +63,48 @@ TEST(HeldSignals, LeaveIgnoredSignalsIgnored) {
   std::signal(SIGINT, before);
 }
 
+int caught() {
+  try {
+    throwIfInterrupted();
+  } catch (const Interrupted& stop) {
+    return stop.signal;
+  }
+  return 0;
+}
+
+TEST(ThrowIfInterrupted, TakesEachHeldSignalOnce) {
+  const HeldSignals held;
+  EXPECT_EQ(caught(), 0);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    ::kill(::getpid(), signal);
+    EXPECT_EQ(caught(), signal);
+    EXPECT_EQ(caught(), 0);
+  }
+  ::kill(::getpid(), SIGTERM);
+  ::kill(::getpid(), SIGINT);
+  EXPECT_EQ(caught() + caught(), SIGINT + SIGTERM);
+  EXPECT_EQ(caught(), 0);
+}
+
+volatile std::sig_atomic_t handled = 0;
+
+TEST(ThrowIfInterrupted, LeavesSignalsAloneThatNobodyHolds) {
+  void (*before)(int) = std::signal(SIGTERM, [](int signal) { handled = signal; });
+  ::kill(::getpid(), SIGTERM);
+  EXPECT_EQ(caught(), 0);
+  EXPECT_EQ(handled, SIGTERM);
+  std::signal(SIGTERM, before);
+}
+
+TEST(ThrowIfInterrupted, LeavesIgnoredSignalsIgnored) {
+  void (*before)(int) = std::signal(SIGHUP, SIG_IGN);
+  {
+    const HeldSignals held;
+    ::kill(::getpid(), SIGHUP);
+    EXPECT_EQ(caught(), 0);
+  }
+  std::signal(SIGHUP, before);
+}
+
 }  // namespace
 }  // namespace rex

@@ -32,6 +32,8 @@ TEST(Program, WelcomesAndHelps) {
                                              {"test", "--help"},
                                              {"bench", "--help"},
                                              {"debug", "--help"},
+                                             {"render", "--help"},
+                                             {"doctor", "--help"},
                                              {"dev"},
                                              {"dev", "new", "--help"},
                                              {"dev", "check", "--help"},
@@ -43,8 +45,20 @@ TEST(Program, WelcomesAndHelps) {
   }
 }
 
+TEST(Program, NamesTheValuesOfOptionsAndTheEnvironmentOnce) {
+  for (const char* command : {"render", "doctor"}) {
+    const std::string help = rex({command, "--help"}).output;
+    EXPECT_THAT(help, HasSubstr("--gl NAME (Env:REX_GL)"));
+    EXPECT_EQ(help.find("REX_GL"), help.rfind("REX_GL"));
+  }
+  const std::string help = rex({"render", "--help"}).output;
+  for (const char* option : {"--q POSTURE", "--motion FILE", "--seconds S", "--camera VIEW", "--trace BODY",
+                             "--caption TEXT", "--size WxH", "--show WHAT", "--aa KIND"})
+    EXPECT_THAT(help, HasSubstr(option));
+}
+
 TEST(Program, KeepsHelpWithin100ColumnsAndFreeOfColour) {
-  for (const char* command : {"list", "run", "test", "bench", "debug", "dev"}) {
+  for (const char* command : {"list", "run", "test", "bench", "debug", "render", "doctor", "dev"}) {
     const std::string help = rex({command, "--help"}).output;
     EXPECT_EQ(help.find('\033'), std::string::npos);
     for (std::size_t start = 0; start < help.size();) {

@@ -48,6 +48,9 @@ TEST(PostureOption, ExplainsWhatItCannotRead) {
   const std::string name = arm.joints().back().name;
   EXPECT_REX_ERROR(parsePosture(arm, "1,2"), "--q: found 2 numbers, wanted 3, one for each coordinate of");
   EXPECT_REX_ERROR(parsePosture(arm, ""), "--q: found 0 numbers");
+  EXPECT_REX_ERROR(parsePosture(arm, "1"), "--q: found 1 number, wanted 3");
+  EXPECT_REX_ERROR(parsePosture(arm, "1,,2,3"), "--q: found an empty field, wanted a number between commas");
+  EXPECT_REX_ERROR(parsePosture(arm, "1;2;3"), "--q: found ';', wanted commas or blanks between numbers");
   EXPECT_REX_ERROR(parsePosture(arm, "1,2,x"), "--q: found 'x', wanted a number, or joint=number");
   EXPECT_REX_ERROR(parsePosture(arm, "1,2,nan"), "--q: found 'nan'");
   EXPECT_REX_ERROR(parsePosture(arm, "1,2,3m"), "--q: found '3m'");
@@ -55,6 +58,11 @@ TEST(PostureOption, ExplainsWhatItCannotRead) {
   EXPECT_REX_ERROR(parsePosture(arm, name + "=fast"), "--q: found 'fast', wanted a number");
   EXPECT_REX_ERROR(parsePosture(arm, name + "x=1"),
                    "has no joint '" + name + "x' that moves (did you mean '" + name + "'?)");
+  EXPECT_REX_ERROR(parsePosture(robot("man.ors"), "elbowR=1"),
+                   "has no joint 'elbowR' that moves: wanted waist>back, waist>lhip, waist>rhip, back>chest, "
+                   "lhip>lup, rhip>rup, chest>shoulders, lup>ldn, rup>rdn, shoulders>shoulderL, "
+                   "shoulders>shoulderR, shoulders>neck and 15 more");
+  EXPECT_REX_ERROR(parsePosture(arm, "q=1"), "moves: wanted stem>arm1, arm1>arm2, arm2>peg");
   const Model floating =
       compile(parseOrs("body a {}\nbody b {}\njoint free (a b) { type=free }", "f.ors").spec);
   ASSERT_EQ(floating.nq(), 7);
@@ -79,14 +87,51 @@ TEST_F(MotionFile, IsRefusedWithItsLine) {
   EXPECT_REX_ERROR(readMotion(arm, path(), 30), path().string() + ": cannot read the motion");
   EXPECT_REX_ERROR(readMotion(arm, path().parent_path(), 30), "cannot read the motion");
   EXPECT_REX_ERROR(readMotion(arm, file("0,0,0\n1,2\n"), 30),
-                   "motion.csv:2: motion: found 2 numbers, wanted 3 of a posture of");
-  EXPECT_REX_ERROR(readMotion(arm, file("0,0,0\n1,2,3,4,5\n"), 30), "motion.csv:2: motion: found 5 numbers");
+                   "motion.csv:2: motion: found 2 numbers, wanted 3 as in line 1");
+  EXPECT_REX_ERROR(readMotion(arm, file("1\n"), 30),
+                   "motion.csv:1: motion: found 1 number, wanted 3 of a posture of");
+  EXPECT_REX_ERROR(readMotion(arm, file("# time\n0,0,0,0\n1,1,1\n"), 30),
+                   "motion.csv:3: motion: found 3 numbers, wanted 4 as in line 2");
+  EXPECT_REX_ERROR(readMotion(arm, file("1,2,3,4,5\n"), 30), "motion.csv:1: motion: found 5 numbers");
   EXPECT_REX_ERROR(readMotion(arm, file("0,0,0.1.2\n"), 30), "motion.csv:1: motion: found '0.1.2'");
   EXPECT_REX_ERROR(readMotion(arm, file("1,0,0,0\n1,0,0,0\n"), 30),
                    "motion.csv:2: motion: found time 1 after 1, wanted times that increase");
   EXPECT_REX_ERROR(readMotion(arm, file("0,0,0,0\n500,0,0,0\n"), 30),
                    "motion.csv: motion: found 500 s, wanted at most 120 s");
   EXPECT_REX_ERROR(readMotion(arm, file("# nothing\n"), 30), "motion: found no posture, wanted at least one");
+}
+
+TEST_F(MotionFile, MayComeFromASpreadsheet) {
+  for (const std::string head : {"", "\xef\xbb\xbf", "\xef\xbb\xbftime,q\r\n", "'q'\n\"a\",\"b\"\n",
+                                 "x;y;z\n", "  # 1,,2;\n", "index\n"}) {
+    const Motion motion = readMotion(arm, file(head + "1,2,3,\r\n# nan\n\r\n 4, 5 6\n"), 10);
+    ASSERT_EQ(motion.postures.size(), 2u) << head;
+    EXPECT_EQ(motion.postures[0], Vector3d(1, 2, 3)) << head;
+    EXPECT_EQ(motion.postures[1], Vector3d(4, 5, 6)) << head;
+  }
+}
+
+TEST_F(MotionFile, SkipsNoLineThatShouldBeAPosture) {
+  for (const std::string word : {"nan", "NaN", "inf", "Infinity", "-nan", "-inf"}) {
+    const std::string found = ": motion: found '" + word + "', wanted a number";
+    EXPECT_REX_ERROR(readMotion(arm, file(word + ",0,0\n0,0,0\n"), 30), "motion.csv:1" + found);
+    EXPECT_REX_ERROR(readMotion(arm, file("0,0,0\n" + word + ",0,0\n"), 30), "motion.csv:2" + found);
+    EXPECT_REX_ERROR(readMotion(arm, file("head\n0,0," + word + "\n"), 30), "motion.csv:2" + found);
+  }
+  EXPECT_REX_ERROR(readMotion(arm, file("0,0,0\nend,0,0\n"), 30), "motion.csv:2: motion: found 'end'");
+  EXPECT_REX_ERROR(readMotion(arm, file("0,0,0\n'0',0,0\n"), 30), "motion.csv:2: motion: found ''0''");
+  for (const std::string line : {"1,,1", ",1,1", "1, ,1,1", "1,1,1,,"})
+    EXPECT_REX_ERROR(readMotion(arm, file(line), 30),
+                     "motion.csv:1: motion: found an empty field, wanted a number between commas");
+  EXPECT_REX_ERROR(readMotion(arm, file("a;b;c\n0;0;0\n"), 30),
+                   "motion.csv:2: motion: found ';', wanted commas or blanks between numbers");
+}
+
+TEST(MoveThrough, LastsTwoMinutesAtMost) {
+  const Model arm = robot("pegArm.ors");
+  const std::vector<Eigen::VectorXd> keys(3, Vector3d(0, 0, 0));
+  EXPECT_EQ(moveThrough(arm, keys, 60, 1).times.back(), 120);
+  EXPECT_REX_ERROR(moveThrough(arm, keys, 600, 30), "motion through --q: found 1200 s, wanted at most 120 s");
 }
 
 TEST(MoveThrough, PassesTheKeysSmoothlyAndRestsAtThem) {

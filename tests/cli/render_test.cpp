@@ -1,45 +1,38 @@
-// `rex render` and `rex doctor` as a user meets them.
+// `rex render` as a user meets it.
 #include <filesystem>
-#include <set>
+#include <fstream>
+#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <stdlib.h>
 
-#include "base/process.h"
+#include "cli/rex_command.h"
 #include "render/png.h"
+#include "support/changed_path.h"
 #include "support/needs_osmesa.h"
-#include "support/temporary_folder.h"
 
 namespace rex::cli {
 namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
-class RenderCommand : public ::testing::Test {
+class RenderCommand : public RexCommand {
  protected:
-  ProcessResult rex(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), REX_BINARY_DIR "/rex");
-    return runProcess(arguments, {.directory = folder_.path(), .timeout = 120});
-  }
   void expectRefusal(std::vector<std::string> arguments, int code, const std::string& message) const {
     arguments.insert(arguments.begin(), {"render", "pegArm.ors"});
     const ProcessResult result = rex(arguments);
     EXPECT_EQ(result.exitCode, code) << message;
     EXPECT_THAT(flat(result.error), HasSubstr(message));
-    EXPECT_TRUE(fs::is_empty(folder_.path())) << message;
+    EXPECT_TRUE(fs::is_empty(in(""))) << message;
   }
-  static std::string flat(std::string text) {
-    for (std::size_t at; (at = text.find('\n')) != std::string::npos;) text.replace(at, 1, " ");
-    for (std::size_t at; (at = text.find("  ")) != std::string::npos;) text.erase(at, 1);
-    return text;
+  std::string textOf(const std::string& name) const {
+    std::stringstream text;
+    text << std::ifstream(in(name)).rdbuf();
+    return text.str();
   }
-  fs::path in(const std::string& name) const { return folder_.path() / name; }
-
- private:
-  TemporaryFolder folder_;
 };
 
 TEST_F(RenderCommand, DrawsAPictureAndNamesTheRenderer) {
@@ -64,6 +57,10 @@ TEST_F(RenderCommand, PutsSeveralCamerasAndMomentsOnOneSheet) {
                 .exitCode,
             0);
   EXPECT_GE(readPng(in("b.png")).width, 300);
+  ASSERT_EQ(
+      rex({"render", "pegArm", "--size", "600x90", "--q", "0,0,0", "--q", "1,1,1", "-o", "c.png"}).exitCode,
+      0);
+  EXPECT_GE(readPng(in("c.png")).width, 1800);
 }
 
 TEST_F(RenderCommand, ShowsDepthAndSegmentation) {
@@ -86,8 +83,10 @@ TEST_F(RenderCommand, MakesFilmsModelsAndPages) {
   REX_NEEDS_OSMESA();
   if (!runProcess({"ffmpeg", "-version"}).ok()) GTEST_SKIP() << "needs the package ffmpeg";
   for (const std::string name : {"a.mp4", "a.gif", "a.glb", "a.html", "frames"}) {
-    const ProcessResult result = rex({"render", "pegArm.ors", "--size", "64x48", "--q", "0,0,0", "--q",
-                                      "1,1,1", "--seconds", "0.2", "--trace", "peg", "-o", name});
+    std::vector<std::string> arguments = {"render",    "pegArm.ors", "--q",     "0,0,0", "--q", "1,1,1",
+                                          "--seconds", "0.2",        "--trace", "peg",   "-o",  name};
+    if (name != "a.glb") arguments.insert(arguments.end(), {"--size", "64x48"});
+    const ProcessResult result = rex(arguments);
     EXPECT_EQ(result.exitCode, 0) << name << result.error;
   }
   for (const char* file : {"a.mp4", "a.gif", "a.glb", "a.html", "frames/0006.png"})
@@ -104,11 +103,9 @@ TEST_F(RenderCommand, WalksAroundAPosture) {
 
 TEST_F(RenderCommand, LeavesTheFramesWhereThereIsNoFfmpeg) {
   REX_NEEDS_OSMESA();
-  const std::string path = ::getenv("PATH");
-  ::setenv("PATH", "/nowhere", 1);
+  const ChangedPath nowhere;
   const ProcessResult result = rex({"render", "pegArm.ors", "--size", "48x36", "--q", "0,0,0", "--q", "1,1,1",
                                     "--seconds", "0.1", "-o", "a.mp4"});
-  ::setenv("PATH", path.c_str(), 1);
   EXPECT_EQ(result.exitCode, 0);
   EXPECT_THAT(result.error, HasSubstr("ffmpeg"));
   EXPECT_EQ(result.output, "a\n");
@@ -118,18 +115,28 @@ TEST_F(RenderCommand, LeavesTheFramesWhereThereIsNoFfmpeg) {
 
 TEST_F(RenderCommand, RefusesWhatItCannotDraw) {
   expectRefusal({"-o", "a.pgn"}, 64, "found the ending '.pgn', wanted .png");
-  expectRefusal({"-o", "a.png", "--size", "640"}, 64, "--size: found '640', wanted WIDTHxHEIGHT");
-  expectRefusal({"-o", "a.png", "--size", "0x480"}, 3, "picture size: found 0 x 480");
-  expectRefusal({"-o", "a.png", "--gl", "opengl"}, 3, "OpenGL backend: found 'opengl'");
-  expectRefusal({"-o", "a.png", "--aa", "msa4"}, 64, "--aa: found 'msa4', wanted none, fxaa, msaa4");
+  expectRefusal({"-o", "frames", "--size", "0x480"}, 64, "--size: found '0x480'");
+  expectRefusal({"-o", "a.png", "--gl", "opengl"}, 64, "OpenGL backend: found 'opengl'");
   expectRefusal({"-o", "a.png", "--show", "colour"}, 64, "did you mean 'color'?");
   expectRefusal({"-o", "a.png", "--camera", "frnt"}, 64, "did you mean 'front'?");
   expectRefusal({"-o", "a.png", "--q", "1,2"}, 64, "--q: found 2 numbers, wanted 3");
-  expectRefusal({"-o", "a.png", "--q", "1,2,3", "--motion", "x"}, 64, "--motion and --q: wanted one of them");
-  expectRefusal({"-o", "a.png", "--motion", "nowhere.csv"}, 3, "nowhere.csv: cannot read the motion");
-  expectRefusal({"-o", "a.png", "--trace", "pge"}, 3, "did you mean 'peg'?");
-  expectRefusal({"-o", "no/such/folder/a.png"}, 3, "cannot write 'no/such/folder/a.png'");
-  EXPECT_THAT(rex({"render", "mann.ors", "-o", "a.png"}).error, HasSubstr("mann.ors"));
+  expectRefusal({"-o", "a.png", "--motion", "nowhere.csv"}, 64, "nowhere.csv: cannot read the motion");
+  expectRefusal({"-o", "a.png", "--q", "0 0 0", "--q", "1 1 1", "--trace", "pge"}, 64,
+                "--trace: scene 'pegArm.ors' has no body 'pge' (did you mean 'peg'?)");
+  expectRefusal({"-o", "a.png", "--seconds", "nan", "--q", "0 0 0", "--q", "1 1 1"}, 64,
+                "--seconds: found nan, wanted 0.04 to 600 seconds");
+  expectRefusal({"-o", "a.mp4", "--seconds", "600", "--q", "0 0 0", "--q", "1 1 1"}, 64,
+                "motion through --q: found 600 s, wanted at most 120 s");
+  expectRefusal({"-o", "a.glb", "--size", "64x48"}, 64, "--size: wanted a picture, film or page");
+  expectRefusal({"-o", "no/such/folder/a.png", "--size", "32x24"}, 3, "cannot write 'no/such/folder/a.png'");
+}
+
+TEST_F(RenderCommand, RefusesWaysOfAMotionWithOnePosture) {
+  std::ofstream(in("one.csv")) << "0,0,0\n";
+  const ProcessResult result =
+      rex({"render", "pegArm", "--motion", "one.csv", "--trace", "peg", "-o", "a.png"});
+  EXPECT_EQ(result.exitCode, 64);
+  EXPECT_THAT(result.error, HasSubstr("--trace: found one posture, wanted a motion"));
 }
 
 TEST_F(RenderCommand, DrawsTheSameTwice) {
@@ -139,32 +146,84 @@ TEST_F(RenderCommand, DrawsTheSameTwice) {
   EXPECT_EQ(readPng(in("a.png")), readPng(in("b.png")));
 }
 
-TEST_F(RenderCommand, DoctorTriesEverything) {
-  REX_NEEDS_OSMESA();
-  const ProcessResult result = rex({"doctor", "--json"});
-  const auto findings = nlohmann::json::parse(result.output).at("findings");
-  bool allWork = true;
-  std::set<std::string> names;
-  for (const auto& finding : findings) {
-    names.insert(finding.at("name").get<std::string>());
-    allWork = allWork && finding.at("works").get<bool>();
+TEST_F(RenderCommand, TouchesNothingWhenRefused) {
+  fs::create_directories(in("frames"));
+  for (const char* file : {"frames/0000.png", "frames/note.txt", "a.png"}) std::ofstream(in(file)) << "old";
+  for (const std::vector<std::string>& wrong :
+       std::vector<std::vector<std::string>>{{"--size", "640"},
+                                             {"--q", "1"},
+                                             {"--camera", "frnt"},
+                                             {"--gl", "x"},
+                                             {"--camera", "0,9,9@0,99,9"}}) {
+    for (const std::string out : {"frames", "a.png", "new"}) {
+      std::vector<std::string> arguments = {"render", "pegArm", "-o", out};
+      arguments.insert(arguments.end(), wrong.begin(), wrong.end());
+      EXPECT_NE(rex(arguments).exitCode, 0) << wrong[0];
+    }
   }
-  EXPECT_EQ(names,
-            (std::set<std::string>{"OpenGL by osmesa", "OpenGL by egl", "figures", "videos", "replays"}));
-  EXPECT_EQ(result.exitCode, allWork ? 0 : 3) << result.output;
+  for (const char* file : {"frames/0000.png", "frames/note.txt", "a.png"}) EXPECT_EQ(textOf(file), "old");
+  EXPECT_FALSE(fs::exists(in("new")));
 }
 
-TEST_F(RenderCommand, DoctorSaysWhatIsMissing) {
+TEST_F(RenderCommand, DoesWhatItsExamplesSay) {
   REX_NEEDS_OSMESA();
-  const std::string path = ::getenv("PATH");
-  ::setenv("PATH", "/nowhere", 1);
-  const ProcessResult result = rex({"doctor", "--gl", "osmesa"});
-  ::setenv("PATH", path.c_str(), 1);
-  EXPECT_EQ(result.exitCode, 3);
-  EXPECT_THAT(result.output, ::testing::ContainsRegex("figures +fails +gnuplot"));
-  EXPECT_THAT(result.output, ::testing::ContainsRegex("videos +fails +ffmpeg"));
-  EXPECT_THAT(result.output, ::testing::ContainsRegex("OpenGL by osmesa +works"));
-  EXPECT_EQ(result.output.find("egl"), std::string::npos);
+  const auto examples = examplesOf("render");
+  EXPECT_GE(examples.size(), 4u);
+  for (std::vector<std::string> example : examples) {
+    example.insert(example.end(), {"--size", "48x36"});
+    const ProcessResult result = rex(example);
+    EXPECT_EQ(result.exitCode, 0) << result.error;
+    EXPECT_TRUE(fs::exists(in(result.output.substr(0, result.output.size() - 1)))) << result.output;
+  }
+}
+
+TEST_F(RenderCommand, FindsScenesByName) {
+  EXPECT_EQ(rex({"render", "pegArm", "-o", "a.glb"}).exitCode, 0);
+  const ProcessResult near = rex({"render", "mann.ors", "-o", "a.png"});
+  EXPECT_EQ(near.exitCode, 64);
+  EXPECT_EQ(
+      flat(near.error),
+      "rex: there is no scene 'mann.ors': wanted an .ors file, or one of the course: man.ors, pegArm.ors, "
+      "pegInAHole.ors (did you mean 'man.ors'?) ");
+  EXPECT_EQ(rex({"render", "no/man.ors", "-o", "a.png"}).exitCode, 64);
+  EXPECT_EQ(rex({"render", ".", "-o", "a.png"}).exitCode, 64);
+  std::ofstream(in("broken.ors")) << "body a { X=";
+  const ProcessResult broken = rex({"render", "broken.ors", "-o", "a.png"});
+  EXPECT_EQ(broken.exitCode, 3);
+  EXPECT_THAT(broken.error, HasSubstr("broken.ors:1:"));
+}
+
+TEST_F(RenderCommand, CallsScenesAsTheUserDoes) {
+  REX_NEEDS_OSMESA();
+  ASSERT_EQ(rex({"render", "man.ors", "--size", "48x36", "-o", "a.html"}).exitCode, 0);
+  EXPECT_THAT(textOf("a.html"), HasSubstr("<title>man</title>"));
+  ASSERT_EQ(rex({"render", "man", "--caption", "A man", "--size", "48x36", "-o", "a.html"}).exitCode, 0);
+  EXPECT_THAT(textOf("a.html"), HasSubstr("<title>A man</title>"));
+  for (const std::string scene : {"man", "man.ors", REX_SOURCE_DIR "/data/robots/man.ors"}) {
+    const ProcessResult result = rex({"render", scene, "--q", "x=1", "-o", "a.png"});
+    EXPECT_THAT(flat(result.error),
+                HasSubstr("--q: " + fs::path(scene).filename().string() + " has no joint"));
+    EXPECT_THAT(result.error, Not(HasSubstr(REX_SOURCE_DIR)));
+  }
+}
+
+TEST_F(RenderCommand, TakesAnEmptyEnvironmentForNoChoice) {
+  REX_NEEDS_OSMESA();
+  ::setenv("REX_GL", "", 1);
+  EXPECT_EQ(rex({"render", "man", "--size", "48x36", "-o", "a.png"}).exitCode, 0);
+  EXPECT_EQ(rex({"render", "man", "--gl", "", "--size", "48x36", "-o", "a.png"}).exitCode, 0);
+  ::unsetenv("REX_GL");
+}
+
+TEST_F(RenderCommand, WalksWithSeveralCameras) {
+  REX_NEEDS_OSMESA();
+  ASSERT_EQ(rex({"render", "pegArm", "--camera", "front", "--camera", "2,0,1@0,0,1", "--size", "32x24", "-o",
+                 "around"})
+                .exitCode,
+            0);
+  const Image first = readPng(in("around/0000.png"));
+  EXPECT_GE(first.width, 64);
+  EXPECT_NE(first, readPng(in("around/0030.png")));
 }
 
 }  // namespace

@@ -44,6 +44,13 @@ TEST(ViewOption, TakesADirectionOrAnEyeWithItsTarget) {
   EXPECT_EQ(View("4,0,1@0,0,1").direction(), Vector3d(4, 0, 0));
 }
 
+TEST(ViewOption, KnowsWhatItLooksAt) {
+  EXPECT_EQ(View("4,0,1@0,3,1").target(aroundTheOrigin()), Vector3d(0, 3, 1));
+  Bounds bounds = aroundTheOrigin();
+  bounds.include({1, 1, 5});
+  EXPECT_EQ(View("front").target(bounds), Vector3d(0, 0, 2));
+}
+
 TEST(ViewOption, ExplainsWhatItCannotRead) {
   EXPECT_REX_ERROR(View("frnt"), "--camera: found 'frnt', wanted default, front, back, left, right, top");
   EXPECT_REX_ERROR(View("frnt"), "did you mean 'front'?");
