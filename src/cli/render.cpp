@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kRate = 30;  // frames per second
+constexpr double kRate = VideoOptions().rate;  // frames per second
 
 Motion motionOf(const Model& model, const RenderOptions& options, double seconds) {
   if (!options.motion.empty()) return readMotion(model, options.motion, kRate);

@@ -15,13 +15,13 @@ namespace rex::cli {
 /// Draws pictures of one scene as a plan asks for, those of several cameras side by side.
 class Studio {
  public:
-  /// `scene` is all that will be seen. Throws Error as Renderer, and where framing() has nothing to see.
+  /// `scene` is all that will be seen. Throws Error as Renderer.
   Studio(const RenderPlan& plan, const Bounds& scene);
 
   /// The renderer, on one line.
   [[nodiscard]] std::string describe() const { return renderer_.describe(); }
   /// All cameras may be turned by `angle` (rad, counterclockwise) about the vertical through what they look
-  /// at. Throws Error as Renderer::draw(), and Interrupted.
+  /// at. Throws Error as View::camera() and Renderer::draw(), and Interrupted.
   [[nodiscard]] Image draw(const Picture& picture, double angle = 0);
 
  private:
