@@ -102,7 +102,7 @@ Film filmOf(const Model& model, const Motion& motion, const RenderOptions& optio
       traces[k].points.push_back(poses[model.body(options.traces[k])].p);
     if (i > 0) picture.polylines.insert(picture.polylines.end(), traces.begin(), traces.end());
   }
-  levelGround(film);
+  settleGround(film);
   return film;
 }
 

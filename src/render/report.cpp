@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "render/base64_internal.h"
+#include "render/draw_film.h"
 #include "render/glb.h"
 #include "render/gzip_internal.h"
 #include "render/png.h"
@@ -47,9 +48,9 @@ std::string bytesOfHex(std::string_view digits) {
 }
 
 std::string stillOf(const Report& report) {
+  Renderer renderer(report.still);
   const double aspect = static_cast<double>(report.still.width) / report.still.height;
-  const Camera camera = framing(report.film, report.view, aspect);
-  return encodePng(Renderer(report.still).draw(report.film.front().picture, camera));
+  return encodePng(drawStill(report.film, framing(report.film, report.view, aspect), renderer));
 }
 
 std::string figuresOf(const Report& report) {
