@@ -78,11 +78,12 @@ TEST(DrawFilm, StopsForAHeldSignal) {
   EXPECT_THROW(drawFilm(film, framing(film, kDefaultView, 4. / 3), renderer, sink), Interrupted);
 }
 
-// A wall that fills the picture has one colour in each row, as the background does.
+// An unlit wall that fills the picture has one colour in each row, as the background does.
 TEST(Renderer, TakesAWallBeforeTheCameraForAPicture) {
   REX_NEEDS_OSMESA();
   Picture wall{.solids = {{.shape = {.extent = {9, 1, 9}}, .color = {0, 0, 0}}}};
   wall.ground.visible = false;
+  wall.toLight = {0, 1, 0};
   Renderer renderer({.width = kWidth, .height = kHeight, .shadow = false});
   const Image image = renderer.draw(wall, lookAt({0, -2, 0}, {0, 0, 0}));
   for (int y = 0; y < kHeight; ++y)
