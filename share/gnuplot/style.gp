@@ -1,6 +1,8 @@
 # The look of all figures of rex; read before the commands of a figure.
 # Colours: Okabe and Ito's set, told apart with any kind of colour vision, in an order that also differs in grey.
 set encoding utf8
+# A line between two points outside of the axes still crosses them.
+set clip two
 set linetype 1 lc rgb '#0072B2' lw 2 pt 7 ps 0.6
 set linetype 2 lc rgb '#D55E00' lw 2 pt 5 ps 0.6
 set linetype 3 lc rgb '#009E73' lw 2 pt 9 ps 0.7

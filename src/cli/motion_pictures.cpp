@@ -51,6 +51,7 @@ MotionPictures::MotionPictures(const Model& model, const Motion& motion,
 Picture MotionPictures::picture(std::size_t i) const {
   Picture picture = pictureOf(model_, forwardKinematics(model_, motion_.postures[shown_[i]]));
   picture.ground.height = ground_;
+  picture.ground.scene = bounds_;
   if (!caption_.empty()) picture.captions.push_back({.text = caption_});
   if (shown_[i] == 0) return picture;
   for (const auto& way : ways_)

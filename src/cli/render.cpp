@@ -53,6 +53,7 @@ void writeStill(const MotionPictures& pictures, const RenderPlan& plan, const fs
   for (std::size_t i = 0; i < pictures.size(); ++i)
     drawn.push_back({studio.draw(pictures.picture(i)), fmt::format("{:.2f} s", pictures.time(i))});
   const Image whole = drawn.size() == 1 ? drawn.front().image : sheetOf(drawn);
+  studio.requireSomethingSeen();
   throwIfInterrupted();
   writePng(whole, out);
 }
@@ -78,6 +79,7 @@ fs::path writeFilm(const MotionPictures& pictures, const RenderPlan& plan, fs::p
     if (!made.sink) made = openSink(out);
     made.sink->add(frame);
   }
+  studio.requireSomethingSeen();
   throwIfInterrupted();
   made.sink->finish();
   return out;

@@ -1,7 +1,9 @@
 #include "cli/studio.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "base/error.h"
 #include "base/interruption.h"
 #include "geometry/rotation.h"
 
@@ -34,12 +36,23 @@ Image Studio::draw(const Picture& picture, double angle) {
 
 Image Studio::drawFrom(const Picture& picture, const Camera& camera) {
   throwIfInterrupted();
+  if (plan_.show == Show::kColor) {
+    DrawnFrame drawn = renderer_.drawFrame(picture, camera);
+    sawSomething_ |= drawn.showsSomething;
+    return std::move(drawn.image);
+  }
+  sawSomething_ = true;  // of depth and segmentation, nothing is an answer too
   if (plan_.show == Show::kSegmentation)
     return segmentationColors(renderer_.drawSegmentation(picture, camera));
-  if (plan_.show == Show::kColor) return renderer_.draw(picture, camera);
   const double distance = (scene_.center() - camera.X_WC.p).norm(), reach = scene_.radius();
   return depthColors(renderer_.drawDepth(picture, camera), std::max(0., distance - reach),
                      distance + 2 * reach);
+}
+
+void Studio::requireSomethingSeen() const {
+  if (!sawSomething_)
+    throw UsageError(
+        {.what = "--camera", .found = "nothing of the scene in view", .wanted = "one that sees it"});
 }
 
 Image sheetOf(const std::vector<KeyFrame>& pictures) {

@@ -21,8 +21,10 @@ class Studio {
   /// The renderer, on one line.
   [[nodiscard]] std::string describe() const { return renderer_.describe(); }
   /// All cameras may be turned by `angle` (rad, counterclockwise) about the vertical through what they look
-  /// at. Throws Error as View::camera() and Renderer::draw(), and Interrupted.
+  /// at. Throws Error as View::camera() and Renderer::drawFrame(), and Interrupted.
   [[nodiscard]] Image draw(const Picture& picture, double angle = 0);
+  /// Throws UsageError when nothing of the scene was seen in any picture so far.
+  void requireSomethingSeen() const;
 
  private:
   Image drawFrom(const Picture& picture, const Camera& camera);
@@ -30,6 +32,7 @@ class Studio {
   RenderPlan plan_;
   Bounds scene_;
   Renderer renderer_;
+  bool sawSomething_ = false;
 };
 
 /// The pictures in rows of three with their captions, none shrunk; at least one.

@@ -58,7 +58,7 @@ Film filmOf(const Simulator& simulator, const std::vector<Eigen::VectorXd>& post
           {.points = {trace.begin(), end}, .color = kTraceColor, .width = 2.5});
     }
   }
-  levelGround(film);
+  settleGround(film);
   return film;
 }
 

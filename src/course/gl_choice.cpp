@@ -6,7 +6,8 @@ namespace rex {
 
 GlOptions glChoice() {
   const char* name = std::getenv("REX_GL");
-  return {.backend = name == nullptr ? GlBackend::kAuto : glBackendFromName(name)};
+  const bool isChosen = name != nullptr && *name != '\0';
+  return {.backend = isChosen ? glBackendFromName(name) : GlBackend::kAuto};
 }
 
 }  // namespace rex

@@ -1,13 +1,16 @@
 #include "course/pictures.h"
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/interruption.h"
 #include "course/film.h"
 #include "course/gl_choice.h"
 #include "course/recording.h"
@@ -22,11 +25,24 @@
 namespace rex {
 namespace {
 
-void drawInto(FrameSink& sink, const Film& film, const PictureOptions& options) {
-  Renderer renderer({.width = options.width,
-                     .height = options.height,
-                     .antiAliasing = kFilmAntiAliasing,
-                     .gl = glChoice()});
+// A student's program has no edge at which Ctrl-C could wait until nothing half made lies about.
+void beforeSignals(const std::function<void()>& work) {
+  int signal = 0;
+  {
+    const HeldSignals held;
+    try {
+      work();
+    } catch (const Interrupted& stop) {
+      signal = stop.signal;
+    }
+  }
+  if (signal != 0) std::raise(signal);
+}
+
+void drawInto(FrameSink& sink, const Film& film, const PictureOptions& options,
+              AntiAliasing antiAliasing = kFilmAntiAliasing) {
+  Renderer renderer(
+      {.width = options.width, .height = options.height, .antiAliasing = antiAliasing, .gl = glChoice()});
   drawFilm(film, cameraFor(film, options), renderer, sink);
 }
 
@@ -45,21 +61,26 @@ void writePicture(const Simulator& simulator, const std::string& file, const Pic
 void writeFrames(const Simulator& simulator, const std::string& folder, const PictureOptions& options,
                  int most) {
   const Film film = filmOf(simulator, options, most);
-  PngSequence frames(folder);
-  if (!film.empty()) drawInto(frames, film, options);
+  if (film.empty()) return;
+  beforeSignals([&] {
+    PngSequence frames(folder);
+    drawInto(frames, film, options);
+  });
 }
 
 void writeVideo(const Simulator& simulator, const std::string& name, const PictureOptions& options,
                 int most) {
   const Film film = filmOf(simulator, options, most);
-  std::vector<std::unique_ptr<FrameSink>> sinks;
-  sinks.push_back(std::make_unique<PngSequence>(name));
   if (film.empty()) return;
-  MadeSink video = makeFrameSink(name + ".mp4", {.rate = kFilmRate});
-  if (video.sink) sinks.push_back(std::move(video.sink));
-  TeeSink both(std::move(sinks));
-  drawInto(both, film, options);
-  if (!video.missing.empty()) fmt::print(stderr, "{}; the frames are in {}\n", video.missing, name);
+  beforeSignals([&] {
+    std::vector<std::unique_ptr<FrameSink>> sinks;
+    sinks.push_back(std::make_unique<PngSequence>(name));
+    MadeSink video = makeFrameSink(name + ".mp4", {.rate = kFilmRate});
+    if (video.sink) sinks.push_back(std::move(video.sink));
+    TeeSink both(std::move(sinks));
+    drawInto(both, film, options);
+    if (!video.missing.empty()) fmt::print(stderr, "{}; the frames are in {}\n", video.missing, name);
+  });
 }
 
 void writeContactSheet(const Simulator& simulator, const std::string& name, const PictureOptions& options,
@@ -67,16 +88,18 @@ void writeContactSheet(const Simulator& simulator, const std::string& name, cons
   constexpr int kMost = 120;  // as in a video, so that traces are as smooth and times the same
   const ContactSheetOptions layout{.pictures = pictures};
   requireValid(layout);
+  requireValid(RendererOptions{.width = options.width, .height = options.height});
   const Film film = filmOf(simulator, options, kMost);
   if (film.empty()) throw Error({.what = "no postures for a contact sheet", .where = {name + ".png"}});
   const Camera camera = cameraFor(film, options);
   // Drawn at the size at which they appear, text stays readable.
   const int width = std::min(options.width, layout.pictureWidth);
-  const int height = options.height * width / std::max(options.width, 1);
+  const int height = std::max(options.height * width / options.width, 1);
   Renderer renderer({.width = width, .height = height, .gl = glChoice()});
   std::vector<KeyFrame> shown;
   for (const std::size_t k : keyFrames(film.size(), pictures))
-    shown.push_back({renderer.draw(film[k].picture, camera), fmt::format("{:.2f} s", film[k].time)});
+    shown.push_back(
+        {renderer.drawFrame(film[k].picture, camera).image, fmt::format("{:.2f} s", film[k].time)});
   writePng(contactSheet(shown, layout), name + ".png");
 }
 

@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "render/camera.h"
+
 namespace rex {
 
 class Simulator;
@@ -15,8 +17,8 @@ struct PictureOptions {
   std::vector<std::string> traces{};  ///< bodies whose way through the recording is drawn as a line
   std::vector<std::vector<Eigen::Vector3d>> paths{};  ///< lines, such as the way a hand should take
   std::vector<Eigen::Vector3d> points{};              ///< dots, such as targets
-  Eigen::Vector3d view{1.2, -2.0, 0.9};  ///< the direction in which the camera stands, from the scene
-  int width = 640, height = 480;         ///< pixels
+  Eigen::Vector3d view = kDefaultView;  ///< the direction in which the camera stands, from the scene
+  int width = 640, height = 480;        ///< pixels
 };
 
 /// Draws the present posture into `file`, a .png. Throws Error for an unknown body in `traces`, a file that
@@ -24,8 +26,8 @@ struct PictureOptions {
 void writePicture(const Simulator& simulator, const std::string& file, const PictureOptions& options = {});
 
 /// Draws the recording as folder/0000.png, 0001.png, ..., at most `most` frames, evenly spaced and seen from
-/// one place; frames of an earlier run in that folder go first. Throws as writePicture, and Error when `most`
-/// is below 2.
+/// one place; frames of an earlier run in that folder go first. Ctrl-C leaves whole files. Throws as
+/// writePicture, and Error when `most` is below 2.
 void writeFrames(const Simulator& simulator, const std::string& folder, const PictureOptions& options = {},
                  int most = 120);
 

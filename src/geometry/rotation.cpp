@@ -51,6 +51,11 @@ Eigen::Matrix3d expSO3(const Eigen::Vector3d& w) {
   return Eigen::Matrix3d::Identity() + k.a * W + k.b * W * W;
 }
 
+bool isRotation(const Eigen::Matrix3d& R, double tolerance) {
+  const double off = (R * R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  return off <= tolerance && R.determinant() > 0;
+}
+
 Eigen::Vector3d logSO3(const Eigen::Matrix3d& R) {
   const Quaternion q = quaternionFromRotation(R);
   const Eigen::Vector3d v = q.tail<3>();

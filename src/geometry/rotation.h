@@ -22,6 +22,9 @@ using Quaternion = Eigen::Vector4d;
 /// Left Jacobian of SO(3), the transpose of the right one. Sola et al. 2018, eq. (145).
 [[nodiscard]] Eigen::Matrix3d leftJacobianSO3(const Eigen::Vector3d& w);
 
+/// Whether R is a rotation: R R^T = 1 within `tolerance` in every entry, and not mirrored.
+[[nodiscard]] bool isRotation(const Eigen::Matrix3d& R, double tolerance = 1e-6);
+
 /// The rotation of a quaternion of any length (slide 2:10). Throws Error if its norm is zero or not finite.
 [[nodiscard]] Eigen::Matrix3d rotationFromQuaternion(const Quaternion& q);
 /// The unit quaternion of R with w >= 0; stable for every R, unlike the slide's formula, which needs w != 0.

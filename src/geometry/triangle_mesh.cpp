@@ -50,6 +50,14 @@ std::span<const T> view(const std::vector<T>& values) {
 
 }  // namespace
 
+void requireSurface(const std::vector<Eigen::Vector3f>& positions,
+                    const std::vector<TriangleMesh::Triangle>& triangles,
+                    const std::vector<TriangleMesh::Part>& parts) {
+  requireFinite(positions, "vertex");
+  requireTriangles(triangles, positions.size());
+  if (!parts.empty()) requireParts(parts, triangles.size());
+}
+
 struct TriangleMesh::Data {
   std::vector<Eigen::Vector3f> positions, normals;
   std::vector<Triangle> triangles;
@@ -66,17 +74,15 @@ TriangleMesh& TriangleMesh::operator=(TriangleMesh&&) noexcept = default;
 
 TriangleMesh::TriangleMesh(std::vector<Eigen::Vector3f> positions, std::vector<Eigen::Vector3f> normals,
                            std::vector<Triangle> triangles, std::vector<Part> parts) {
-  requireFinite(positions, "vertex");
   requireFinite(normals, "normal");
   const bool needsNormals = !triangles.empty() || !normals.empty();
   if (needsNormals && normals.size() != positions.size())
     throw Error({.what = "mesh",
                  .found = fmt::format("{} normals", normals.size()),
                  .wanted = fmt::format("{}, one for each vertex", positions.size())});
-  requireTriangles(triangles, positions.size());
+  requireSurface(positions, triangles, parts);
   if (parts.empty() && !triangles.empty())
     parts.push_back({.triangleCount = static_cast<std::uint32_t>(triangles.size())});
-  requireParts(parts, triangles.size());
   Eigen::Vector3f halfBounds = Eigen::Vector3f::Zero();
   for (const Eigen::Vector3f& position : positions) halfBounds = halfBounds.cwiseMax(position.cwiseAbs());
   data_ = std::make_shared<const Data>(

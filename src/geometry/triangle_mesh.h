@@ -52,4 +52,9 @@ class TriangleMesh {
   std::shared_ptr<const Data> data_;
 };
 
+/// Throws Error for what TriangleMesh refuses of all but normals.
+void requireSurface(const std::vector<Eigen::Vector3f>& positions,
+                    const std::vector<TriangleMesh::Triangle>& triangles,
+                    const std::vector<TriangleMesh::Part>& parts);
+
 }  // namespace rex

@@ -110,12 +110,12 @@ std::vector<std::vector<Corner>> cornersAtPlaces(std::size_t count, const std::v
   return corners;
 }
 
+// More corners at one place make a fan, which stays flat: to compare all with all would cost their square.
+constexpr std::size_t kMostMeeting = 256;
+
 Vector3f normalAt(const Corner& corner, const std::vector<Corner>& meeting, const std::vector<Face>& faces,
                   double leastCosine) {
-  constexpr std::size_t kMostMeeting =
-      256;  // more make a fan, which may stay flat, but would cost their square
   const Vector3d& own = faces[corner.face].normal;
-  if (meeting.size() > kMostMeeting) return own.cast<float>();
   Vector3d sum = Vector3d::Zero();
   for (const Corner& other : meeting) {
     const Face& face = faces[other.face];
@@ -128,12 +128,12 @@ Vector3f normalAt(const Corner& corner, const std::vector<Corner>& meeting, cons
 
 TriangleMesh weldedMesh(const std::vector<Vector3f>& positions, const std::vector<Triangle>& triangles,
                         const std::vector<TriangleMesh::Part>& parts, double creaseAngle) {
-  // Made for its checks only: the normals come below.
-  const TriangleMesh given(positions, positions, triangles, parts);
+  requireSurface(positions, triangles, parts);
+  const TriangleMesh::Part whole{.triangleCount = static_cast<Index>(triangles.size())};
   const Places places = findPlaces(positions);
   std::vector<Face> faces;
   std::vector<TriangleMesh::Part> keptParts;
-  for (TriangleMesh::Part part : given.parts()) {
+  for (TriangleMesh::Part part : parts.empty() ? std::vector{whole} : parts) {
     const std::size_t first = faces.size();
     for (Index i = part.firstTriangle; i < part.firstTriangle + part.triangleCount; ++i) {
       Triangle corners = triangles[i];
@@ -153,9 +153,11 @@ TriangleMesh weldedMesh(const std::vector<Vector3f>& positions, const std::vecto
   const auto corners = cornersAtPlaces(places.positions.size(), faces);
   for (std::size_t place = 0; place < corners.size(); ++place) {
     const std::size_t first = normals.size();
+    const bool isFan = corners[place].size() > kMostMeeting;
     for (const Corner& corner : corners[place]) {
-      const Vector3f normal = normalAt(corner, corners[place], faces, std::cos(creaseAngle));
-      std::size_t vertex = first;
+      const Vector3f normal = isFan ? Vector3f(faces[corner.face].normal.cast<float>())
+                                    : normalAt(corner, corners[place], faces, std::cos(creaseAngle));
+      std::size_t vertex = isFan ? normals.size() : first;
       while (vertex < normals.size() && (normals[vertex] - normal).squaredNorm() > kSame) ++vertex;
       if (vertex == normals.size()) {
         vertices.push_back(places.positions[place]);

@@ -55,16 +55,17 @@ class EglContext final : public GlContext {
     if (context_ == nullptr) throw failure("no OpenGL 3.3 core", "Mesa 22 or later");
   }
   ~EglContext() override {
-    if (current_() == context_) makeCurrent_(display_, nullptr, nullptr, nullptr);
+    if (current_() == context_) letGo();
     destroy_(display_, context_);
   }
 
   void makeCurrent() override {
     // EGL takes a context for current that OSMesa has put aside behind its back, unless it is let go first.
-    makeCurrent_(display_, nullptr, nullptr, nullptr);
+    letGo();
     if (makeCurrent_(display_, nullptr, nullptr, context_) == 0)
       throw failure("a refusal of its own context", "");
   }
+  void letGo() noexcept override { makeCurrent_(display_, nullptr, nullptr, nullptr); }
   Proc proc(const char* name) const override { return procAddress_(name); }
   std::string describe() const override { return "EGL (" + name_ + ")"; }
 

@@ -1,10 +1,8 @@
 #include "render/figure.h"
 
-#include <fmt/format.h>
-
 #include "base/error.h"
-#include "base/process.h"
 #include "render/figure_script_internal.h"
+#include "render/gnuplot_internal.h"
 #include "render/staged_file_internal.h"
 
 namespace rex {
@@ -30,22 +28,8 @@ std::string cleaned(std::string svg) {
 
 // The bytes of the picture; `name` stands for the figure in messages.
 std::string drawFigure(const Figure& figure, const std::string& terminal, const std::string& name) {
-  constexpr std::size_t kLargestFile = 256u << 20;
-  // gnuplot writes to a pipe, so the path never becomes part of a script.
-  ProcessResult run =
-      runProcess({"gnuplot", "--default-settings"},
-                 {.input = internal::figureScript(figure, terminal), .outputLimit = kLargestFile});
-  const auto fail = [&](const std::string& found, const std::string& wanted) {
-    return Error({.what = "cannot draw figure '" + name + "'", .found = found, .wanted = wanted});
-  };
-  if (!run.started) throw fail(run.error, "gnuplot, Debian package gnuplot-nox");
-  // A minute is what runProcess gives it.
-  if (run.signal != 0)
-    throw fail(fmt::format("signal {} that ended gnuplot", run.signal), "its end within a minute");
-  if (!run.ok()) throw fail("gnuplot says: " + run.error, "");
-  if (run.output.empty() || run.output.size() == kLargestFile)
-    throw fail("no complete picture from gnuplot", "");
-  return terminal == "svg" ? cleaned(std::move(run.output)) : std::move(run.output);
+  std::string bytes = internal::runGnuplot(internal::figureScript(figure, terminal), name);
+  return terminal == "svg" ? cleaned(std::move(bytes)) : bytes;
 }
 
 }  // namespace

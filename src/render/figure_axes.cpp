@@ -45,7 +45,8 @@ Axis linearAxis(Span span, const std::optional<AxisRange>& range, int tics) {
     span.low = middle - margin, span.high = middle + margin;
   }
   Axis axis{.low = span.low, .high = span.high, .step = stepFor(span.high - span.low, tics)};
-  if (span.whole && axis.step < 1) axis.step = 1;
+  const bool holdsTwo = std::floor(span.high) - std::ceil(span.low) >= 1;
+  if (span.whole && holdsTwo && axis.step < 1) axis.step = 1;
   if (span.tight) return axis;
   const double length = span.high - span.low;
   const double low = std::min(span.low, multiple(std::floor(span.low / axis.step + 1e-9), axis.step));

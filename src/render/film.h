@@ -23,7 +23,8 @@ using Film = std::vector<Frame>;
 /// The camera of framing() that sees all of the film.
 [[nodiscard]] Camera framing(const Film& film, const Eigen::Vector3d& direction, double aspect);
 
-/// Puts the ground of all pictures at the height of the lowest one, so that the floor keeps still.
-void levelGround(Film& film);
+/// Puts the ground of all pictures at the height of the lowest one and around all of the film, so that the
+/// floor keeps still.
+void settleGround(Film& film);
 
 }  // namespace rex

@@ -33,6 +33,8 @@ class GlContext {
 
   /// Lets OpenGL calls of this thread go to this context. Throws Error if it cannot be.
   virtual void makeCurrent() = 0;
+  /// The opposite: no context is this thread's any more, and another thread may take this one.
+  virtual void letGo() noexcept = 0;
   /// The OpenGL function of that name, null if there is none.
   [[nodiscard]] virtual Proc proc(const char* name) const = 0;
   /// Backend and library, "OSMesa (libOSMesa.so.8)".

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cassert>
 
@@ -52,7 +53,8 @@ void GlProgram::set(const char* name, const Eigen::Matrix4d& value) const {
 }
 
 void GlProgram::set(const char* name, const Color& c) const {
-  gl_->Uniform4f(location(name), c.r * c.r, c.g * c.g, c.b * c.b, c.a);
+  const auto light = [](float x) { return std::clamp(x, 0.f, 1.f) * std::clamp(x, 0.f, 1.f); };
+  gl_->Uniform4f(location(name), light(c.r), light(c.g), light(c.b), std::clamp(c.a, 0.f, 1.f));
 }
 
 void GlProgram::setTexture(const char* name, int unit) const { gl_->Uniform1i(location(name), unit); }

@@ -1,6 +1,5 @@
 #include "render/make_frame_sink.h"
 
-#include "base/error.h"
 #include "render/png_sequence.h"
 #include "render/video_format_internal.h"
 
@@ -8,11 +7,7 @@ namespace rex {
 
 MadeSink makeFrameSink(const std::filesystem::path& path, const VideoOptions& options) {
   if (!path.has_extension()) return {std::make_unique<PngSequence>(path), {}};
-  if (internal::findVideoFormat(path) == nullptr)
-    throw Error({.what = "unknown kind of film",
-                 .where = {path.string()},
-                 .found = "'" + path.extension().string() + "'",
-                 .wanted = ".mp4, .webm, .gif, or no ending for a folder of PNG frames"});
+  static_cast<void>(internal::videoFormat(path, ", or no ending for a folder of PNG frames"));
   if (std::string missing = missingForVideo(path); !missing.empty()) return {nullptr, std::move(missing)};
   return {std::make_unique<VideoSink>(path, options), {}};
 }

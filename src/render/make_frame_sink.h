@@ -15,8 +15,8 @@ struct MadeSink {
   std::string missing;
 };
 
-/// The sink for a path: a VideoSink for .mp4, .webm and .gif, a PngSequence into that folder for a path
-/// without ending. Throws Error for another ending, and as the constructors of both.
+/// The sink for a path: a VideoSink for .mp4, .webm and .gif (or in capitals), a PngSequence into that folder
+/// for a path without ending. Throws Error for another ending, and as the constructors of both.
 [[nodiscard]] MadeSink makeFrameSink(const std::filesystem::path& path, const VideoOptions& options = {});
 
 }  // namespace rex

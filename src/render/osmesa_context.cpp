@@ -52,6 +52,7 @@ class OsMesaContext final : public GlContext {
     if (makeCurrent_(context_, buffer_.data(), kGlUnsignedByte, kSize, kSize) == 0)
       throw Error({.what = "OpenGL", .found = name_ + " refuses its own context"});
   }
+  void letGo() noexcept override { makeCurrent_(nullptr, nullptr, 0, 0, 0); }
   Proc proc(const char* name) const override { return procAddress_(name); }
   std::string describe() const override { return "OSMesa (" + name_ + ")"; }
 

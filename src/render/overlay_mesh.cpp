@@ -45,10 +45,8 @@ class Builder {
     run_.clear();
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
       Vector3d a = X_CW_ * points[i], b = X_CW_ * points[i + 1];
-      const bool startsInside = inFront(a), endsInside = inFront(b);
-      if (!startsInside && !endsInside) continue;
-      if (!startsInside) a = atNearPlane(b, a);
-      if (!endsInside) b = atNearPlane(a, b);
+      const bool endsInside = inFront(b);
+      if (!clipToFront(a, b)) continue;
       if (run_.empty()) run_.push_back(seen(a));
       // Steps below half a pixel have no useful direction.
       const Vertex2 next = seen(b);
@@ -61,10 +59,7 @@ class Builder {
 
   void addSegment(const Vector3d& from, const Vector3d& to, const Stroke& stroke) {
     Vector3d a = X_CW_ * from, b = X_CW_ * to;
-    const bool startsInside = inFront(a), endsInside = inFront(b);
-    if (!startsInside && !endsInside) return;
-    if (!startsInside) a = atNearPlane(b, a);
-    if (!endsInside) b = atNearPlane(a, b);
+    if (!clipToFront(a, b)) return;
     const Vertex2 start = seen(a), end = seen(b);
     if (misses(start.at.cwiseMin(end.at), start.at.cwiseMax(end.at), stroke.reach)) return;
     const Vector2d along = direction(start, end);
@@ -98,6 +93,15 @@ class Builder {
 
  private:
   bool inFront(const Vector3d& p_C) const { return -p_C.z() >= camera_.nearPlane; }
+
+  // Moves the end of a line that lies too near to the near plane; false if both do.
+  bool clipToFront(Vector3d& a, Vector3d& b) const {
+    const bool startsInside = inFront(a), endsInside = inFront(b);
+    if (!startsInside && !endsInside) return false;
+    if (!startsInside) a = atNearPlane(b, a);
+    if (!endsInside) b = atNearPlane(a, b);
+    return true;
+  }
 
   Vector3d atNearPlane(const Vector3d& inside, const Vector3d& outside) const {
     const double share = (-camera_.nearPlane - inside.z()) / (outside.z() - inside.z());

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "geometry/rotation.h"
 
 namespace rex {
 namespace {
@@ -34,6 +35,8 @@ void requireSolid(const Solid& solid, std::size_t index) {
   const std::string thing =
       solid.name.empty() ? fmt::format("solid {}", index) : fmt::format("solid '{}'", solid.name);
   requireUsable(isUsable(solid.X_WS), thing + ", pose");
+  require(isRotation(solid.X_WS.R), thing + ", pose", "a matrix that is no rotation",
+          "orthonormal axes, right-handed");
   requireUsable(isUsable(solid.color), thing + ", color");
   requireUsable(isUsable(solid.shape.extent) && isUsable(solid.shape.radius), thing + ", size");
   require(solid.shape.extent.minCoeff() >= 0 && solid.shape.radius >= 0, thing + ", size",
@@ -143,7 +146,10 @@ void requireDrawable(const Picture& picture) {
   for (const Caption& caption : picture.captions)
     requireText(caption.color, caption.scale, fmt::format("caption '{}'", caption.text));
   const Ground& ground = picture.ground;
-  requireUsable(isUsable(ground.height) && isUsable(ground.light) && isUsable(ground.dark), "ground");
+  const bool usableScene =
+      ground.scene.isEmpty() || (isUsable(ground.scene.low) && isUsable(ground.scene.high));
+  requireUsable(isUsable(ground.height) && usableScene && isUsable(ground.light) && isUsable(ground.dark),
+                "ground");
   require(isUsable(ground.cell) && ground.cell > 0, "ground", "a cell that is not positive",
           "a positive edge length");
   require(isUsable(picture.toLight) && picture.toLight.norm() > 0, "light", "no direction",

@@ -27,6 +27,7 @@ struct Solid {
 struct Ground {
   bool visible = true;
   double height = 0;  ///< metres
+  Bounds scene{};     ///< what it fades out around, W; empty: bounds() of the picture
   double cell = 0.5;  ///< edge length of a square, metres
   Color light{0.92f, 0.93f, 0.94f};
   Color dark{0.84f, 0.86f, 0.88f};
@@ -119,7 +120,7 @@ struct Picture {
 [[nodiscard]] Bounds bounds(const Solid& solid);
 
 /// Throws Error naming the first solid, line ... with a number that is not finite or beyond 1e9, a size that
-/// is negative, a mesh that is empty, or a light without direction.
+/// is negative, a solid's pose that is no rotation, a mesh that is empty, or a light without direction.
 void requireDrawable(const Picture& picture);
 
 }  // namespace rex

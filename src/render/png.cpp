@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include <fmt/format.h>
 #include <png.h>
 
 #include "base/error.h"
@@ -67,8 +68,9 @@ void writePng(const Image& image, const std::filesystem::path& path) {
 }
 
 Image readPng(const std::filesystem::path& path) {
-  const auto fail = [&](const char* cause) {
-    return Error({.what = "cannot read '" + path.string() + "'", .found = cause, .wanted = "a PNG image"});
+  constexpr std::size_t kMostPixels = 100'000'000;
+  const auto fail = [&](const std::string& cause, const char* wanted = "a PNG image") {
+    return Error({.what = "cannot read '" + path.string() + "'", .found = cause, .wanted = wanted});
   };
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
   if (!file) throw fail(std::strerror(errno));
@@ -76,6 +78,8 @@ Image readPng(const std::filesystem::path& path) {
   header.version = PNG_IMAGE_VERSION;
   const std::unique_ptr<png_image, void (*)(png_image*)> freed(&header, png_image_free);
   if (png_image_begin_read_from_stdio(&header, file.get()) == 0) throw fail(header.message);
+  if (std::size_t{header.width} * header.height > kMostPixels)
+    throw fail(fmt::format("{} x {} pixels", header.width, header.height), "at most 100 million");
   header.format = PNG_FORMAT_RGB;
   Image image(static_cast<int>(header.width), static_cast<int>(header.height));
   const png_color black{};

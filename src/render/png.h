@@ -14,7 +14,8 @@ void writePng(const Image& image, const std::filesystem::path& path);
 /// The bytes that writePng() writes. Throws Error for an image without pixels.
 [[nodiscard]] std::string encodePng(const Image& image);
 
-/// Reads any PNG as 8-bit RGB; transparent parts become black. Throws Error naming the path and the cause.
+/// Reads any PNG of up to 100 million pixels as 8-bit RGB; transparent parts become black. Throws Error
+/// naming the path and the cause.
 [[nodiscard]] Image readPng(const std::filesystem::path& path);
 
 }  // namespace rex

@@ -1,10 +1,11 @@
 #include "render/png_sequence.h"
 
-#include <algorithm>
-#include <string>
+#include <cerrno>
+#include <cstring>
 #include <system_error>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "base/error.h"
 #include "render/png.h"
@@ -14,36 +15,36 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool isFrame(const fs::path& file) {
-  const std::string stem = file.stem().string();
-  return file.extension() == ".png" && stem.find_first_not_of("0123456789") == std::string::npos;
+fs::path frameFile(const fs::path& folder, int number) { return folder / fmt::format("{:04}.png", number); }
+
+void makeFolder(const fs::path& folder) {
+  std::error_code problem, ignored;
+  fs::create_directories(folder, problem);
+  if (!fs::is_directory(folder, ignored))
+    throw Error(
+        {.what = "cannot make the folder '" + folder.string() + "' for frames", .found = problem.message()});
 }
 
+// An earlier film ended where the numbers have a gap.
 void removeFrames(const fs::path& folder) {
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (isFrame(entry.path())) fs::remove(entry.path());
-  }
+  int next = 0;
+  while (::unlink(frameFile(folder, next).c_str()) == 0) ++next;
+  if (errno != ENOENT)
+    throw Error({.what = "cannot remove '" + frameFile(folder, next).string() + "' of an earlier film",
+                 .found = std::strerror(errno)});
 }
 
 }  // namespace
 
-PngSequence::PngSequence(const fs::path& folder) : FrameSink(folder.string()), folder_(folder) {
-  std::error_code problem;
-  fs::create_directories(folder, problem);
-  if (!fs::is_directory(folder)) {
-    throw Error({.what = "cannot make the folder for frames",
-                 .where = {folder.string()},
-                 .found = problem.message()});
-  }
-  try {
-    removeFrames(folder);
-  } catch (const fs::filesystem_error& error) {
-    throw Error({.what = "cannot remove the frames of an earlier film",
-                 .where = {folder.string()},
-                 .found = error.code().message()});
-  }
-}
+PngSequence::PngSequence(const fs::path& folder) : FrameSink(folder.string()), folder_(folder) {}
 
-void PngSequence::take(const Image& frame) { writePng(frame, folder_ / fmt::format("{:04}.png", next_++)); }
+void PngSequence::take(const Image& frame) {
+  if (next_ == 0) {
+    makeFolder(folder_);
+    removeFrames(folder_);
+  }
+  writePng(frame, frameFile(folder_, next_));
+  ++next_;
+}
 
 }  // namespace rex

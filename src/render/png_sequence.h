@@ -9,8 +9,8 @@ namespace rex {
 /// Writes folder/0000.png, 0001.png, ... Each file appears whole; an unfinished sequence stays.
 class PngSequence final : public FrameSink {
  public:
-  /// Makes the folder where it is missing, and removes the frames of an earlier film: files whose names are
-  /// digits and .png. Throws Error naming the folder.
+  /// The first frame makes the folder where it is missing, and removes what an earlier film left there:
+  /// 0000.png, 0001.png, ... up to the first number without a file. add() throws Error naming the path.
   explicit PngSequence(const std::filesystem::path& folder);
 
  private:

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "geometry/rotation.h"
 #include "render/draw_list_internal.h"
 #include "render/frame_buffer_internal.h"
 #include "render/fxaa_internal.h"
@@ -34,11 +35,7 @@ constexpr int kLargest = 8192;  // pixels
 constexpr int kSamples = 4;     // per pixel, of AntiAliasing::kMsaa4
 
 const RendererOptions& checked(const RendererOptions& options) {
-  const auto inRange = [](int size) { return size >= 1 && size <= kLargest; };
-  if (!inRange(options.width) || !inRange(options.height))
-    throw Error({.what = "picture size",
-                 .found = fmt::format("{} x {}", options.width, options.height),
-                 .wanted = fmt::format("1 to {} pixels each way", kLargest)});
+  requireValid(options);
   return options;
 }
 
@@ -46,6 +43,10 @@ void requireUsable(const Camera& camera) {
   const bool finite = camera.X_WC.R.allFinite() && camera.X_WC.p.allFinite();
   if (!finite)
     throw Error({.what = "camera", .found = "a pose that is not finite", .wanted = "finite numbers"});
+  if (!isRotation(camera.X_WC.R))
+    throw Error({.what = "camera",
+                 .found = "a pose whose matrix is no rotation",
+                 .wanted = "orthonormal axes, right-handed"});
   if (!(camera.verticalFov > 0 && camera.verticalFov < 3.1))
     throw Error({.what = "camera",
                  .found = fmt::format("a vertical field of view of {} rad", camera.verticalFov),
@@ -95,12 +96,37 @@ bool hasScene(const Picture& picture, const DrawList& list) {
          any(picture.solids, internal::isOverlay);
 }
 
+// Lets OpenGL calls of this thread go to a context, and the context go in the end: another thread may use it
+// next.
+class CurrentContext {
+ public:
+  explicit CurrentContext(GlContext& context) : context_(context) { context.makeCurrent(); }
+  ~CurrentContext() { context_.letGo(); }
+  CurrentContext(const CurrentContext&) = delete;
+  CurrentContext& operator=(const CurrentContext&) = delete;
+
+ private:
+  GlContext& context_;
+};
+
 }  // namespace
+
+void requireValid(const RendererOptions& options) {
+  const auto inRange = [](int size) { return size >= 1 && size <= kLargest; };
+  if (!inRange(options.width) || !inRange(options.height))
+    throw Error({.what = "picture size",
+                 .found = fmt::format("{} x {}", options.width, options.height),
+                 .wanted = fmt::format("1 to {} pixels each way", kLargest)});
+}
 
 // All OpenGL objects belong to the context and end with it.
 struct Renderer::Impl {
   explicit Impl(const RendererOptions& wanted);
-  Image draw(const Picture& picture, const Camera& camera);
+  struct Drawing {
+    Image image{};
+    bool hasScene = false, sceneSeen = false;
+  };
+  Drawing draw(const Picture& picture, const Camera& camera);
   internal::SensorImages drawSensors(const Picture& picture, const Camera& camera);
   void setLight(const GlProgram& program, const Picture& picture, const internal::ShadowView& shadow) const;
   void setBackground(const GlProgram& program) const;
@@ -253,10 +279,10 @@ void Renderer::Impl::drawOverlay(const Picture& picture, const Camera& camera) {
   gl.Disable(GL_BLEND);
 }
 
-Image Renderer::Impl::draw(const Picture& picture, const Camera& camera) {
+Renderer::Impl::Drawing Renderer::Impl::draw(const Picture& picture, const Camera& camera) {
   requireDrawable(picture);
   requireUsable(camera);
-  context->makeCurrent();
+  const CurrentContext current(*context);
   const DrawList list = internal::makeDrawList(picture, camera, options.height);
   meshes.prepare(list);
 
@@ -270,36 +296,48 @@ Image Renderer::Impl::draw(const Picture& picture, const Camera& camera) {
   if (fxaa) fxaa->smooth(frame);
   drawOverlay(picture, camera);
 
-  Image image = frame.read();
-  if (hasScene(picture, list) && !visibility.anySeen())
-    throw Error({.what = "the picture shows nothing of the scene",
-                 .found = "all solids, lines and points outside of it",
-                 .wanted = "a camera that sees some, see framing()"});
-  internal::drawPictureText(image, picture, camera);
-  if (showsNothing(image))
-    throw Error({.what = "the picture is blank",
-                 .found = "nothing that stands out from the background",
-                 .wanted = "a solid, line, point, text or the ground in view"});
-  return image;
+  Drawing drawing{
+      .image = frame.read(), .hasScene = hasScene(picture, list), .sceneSeen = visibility.anySeen()};
+  internal::drawPictureText(drawing.image, picture, camera);
+  return drawing;
 }
 
 internal::SensorImages Renderer::Impl::drawSensors(const Picture& picture, const Camera& camera) {
   constexpr int kFiner = 8;  // than in a picture: round solids are off by a sixteenth of a pixel at most
   requireDrawable(picture);
   requireUsable(camera);
-  context->makeCurrent();
+  const CurrentContext current(*context);
   if (!sensors) sensors.emplace(gl, options.width, options.height);
   const DrawList list = internal::makeDrawList(picture, camera, kFiner * options.height);
   meshes.prepare(list);
   return sensors->draw(list, picture, camera, meshes);
 }
 
-Renderer::Renderer(const RendererOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+Renderer::Renderer(const RendererOptions& options) : impl_(std::make_unique<Impl>(options)) {
+  impl_->context->letGo();
+}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
-Image Renderer::draw(const Picture& picture, const Camera& camera) { return impl_->draw(picture, camera); }
+Image Renderer::draw(const Picture& picture, const Camera& camera) {
+  Impl::Drawing drawing = impl_->draw(picture, camera);
+  if (drawing.hasScene && !drawing.sceneSeen)
+    throw Error({.what = "the picture shows nothing of the scene",
+                 .found = "all solids, lines and points outside of it",
+                 .wanted = "a camera that sees some, see framing()"});
+  if (!drawing.hasScene && showsNothing(drawing.image))
+    throw Error({.what = "the picture is blank",
+                 .found = "nothing that stands out from the background",
+                 .wanted = "a solid, line, point, text or the ground in view"});
+  return std::move(drawing.image);
+}
+
+DrawnFrame Renderer::drawFrame(const Picture& picture, const Camera& camera) {
+  Impl::Drawing drawing = impl_->draw(picture, camera);
+  const bool shows = drawing.hasScene ? drawing.sceneSeen : !showsNothing(drawing.image);
+  return {std::move(drawing.image), shows};
+}
 
 DepthImage Renderer::drawDepth(const Picture& picture, const Camera& camera) {
   return impl_->drawSensors(picture, camera).depth;
@@ -310,7 +348,7 @@ SegmentationImage Renderer::drawSegmentation(const Picture& picture, const Camer
 }
 
 std::string Renderer::describe() const {
-  impl_->context->makeCurrent();
+  const CurrentContext current(*impl_->context);
   const auto text = [&](GLenum what) { return reinterpret_cast<const char*>(impl_->gl.GetString(what)); };
   const char* smooth = impl_->antiAliasing == AntiAliasing::kMsaa4  ? "4 samples per pixel"
                        : impl_->antiAliasing == AntiAliasing::kNone ? "no anti-aliasing"

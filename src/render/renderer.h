@@ -27,20 +27,31 @@ struct RendererOptions {
   GlOptions gl{};
 };
 
+/// A picture in a film: it may show nothing, as when all of the scene is far away.
+struct DrawnFrame {
+  Image image{};
+  bool showsSomething = false;  ///< a solid, line or point; of a picture with none of them, anything
+};
+
+/// Throws Error for a size out of range.
+void requireValid(const RendererOptions& options);
+
 /// Draws pictures without a window, by OpenGL in software. The same picture gives the same bytes.
-/// To be used by one thread at a time.
+/// To be used by one thread at a time, which may be another one for each call.
 class Renderer {
  public:
-  /// Throws Error for a size out of range and as makeGlContext().
+  /// Throws Error as requireValid() and makeGlContext().
   explicit Renderer(const RendererOptions& options = {});
   ~Renderer();
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
 
-  /// Throws Error as requireDrawable(); for a camera that is not finite or whose planes or angle make no
-  /// sense; when none of the solids, lines and points is seen, whatever the ground and text show; and when
-  /// all rows of the image are of one colour, as for an empty picture.
+  /// Throws Error as requireDrawable(); for a camera whose pose, planes or angle make no sense; when none of
+  /// the solids, lines and points is seen, whatever the ground and text show; and, for a picture without
+  /// any, when all rows of the image are of one colour.
   [[nodiscard]] Image draw(const Picture& picture, const Camera& camera);
+  /// The same for a film, of which one frame may show nothing: then it says so instead of throwing.
+  [[nodiscard]] DrawnFrame drawFrame(const Picture& picture, const Camera& camera);
 
   /// How far the nearest solid or the ground is in the middle of each pixel. Translucent solids count; lines,
   /// points, arrows, ellipsoids and text do not. Round solids are rounder than in a picture, by up to half a

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "render/base64_internal.h"
+#include "render/draw_film.h"
 #include "render/glb.h"
 #include "render/gzip_internal.h"
 #include "render/png.h"
@@ -51,7 +52,7 @@ Film withoutCaption(Film film, const std::string& title) {
 std::string stillOf(const Film& film, const Eigen::Vector3d& view, const RendererOptions& options) {
   Renderer renderer(options);  // refuses sizes that have no aspect
   const Camera camera = framing(film, view, static_cast<double>(options.width) / options.height);
-  return encodePng(renderer.draw(film.front().picture, camera));
+  return encodePng(drawStill(film, camera, renderer));
 }
 
 // As the viewer reads it.

@@ -30,8 +30,8 @@ struct Report {
 
 /// The report as one HTML page that needs nothing else, neither files nor network: the film plays and turns,
 /// with its figures beside it; where the browser has no WebGL or runs no scripts there is a picture of it.
-/// The title is the headline, and captions equal to it are left out. Throws Error as glbOf(), Renderer and
-/// writeFigure().
+/// The title is the headline, and captions equal to it are left out. Throws Error as glbOf(), Renderer,
+/// drawStill() and writeFigure().
 [[nodiscard]] std::string reportPage(const Report& report);
 
 /// reportPage() into a file, which appears whole or not at all. Throws Error naming the path.

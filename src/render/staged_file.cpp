@@ -18,8 +18,11 @@ namespace {
 
 }  // namespace
 
-StagedFile::StagedFile(const std::filesystem::path& path)
-    : path_(path), target_(std::filesystem::absolute(path)), part_(target_) {
+StagedFile::StagedFile(const std::filesystem::path& path) : path_(path) {
+  std::error_code problem;
+  target_ = std::filesystem::absolute(path, problem);
+  if (problem) fail(path_, problem.message());
+  part_ = target_;
   part_ += ".part-" + std::to_string(::getpid());
   if (!std::ofstream(part_, std::ios::binary)) fail(path_, std::strerror(errno));
 }

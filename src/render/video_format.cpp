@@ -2,6 +2,7 @@
 #include <sstream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/error.h"
 #include "render/video_format_internal.h"
@@ -36,19 +37,19 @@ const std::vector<VideoFormat>& videoFormats() {
   return kFormats;
 }
 
-const VideoFormat* findVideoFormat(const std::filesystem::path& file) {
+const VideoFormat& videoFormat(const std::filesystem::path& file, const char* others) {
+  std::string ending = file.extension().string();
+  for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  std::vector<std::string> known;
   for (const VideoFormat& format : videoFormats()) {
-    if (format.ending == file.extension()) return &format;
+    if (format.ending == ending) return format;
+    known.push_back(format.ending);
   }
-  return nullptr;
-}
-
-const VideoFormat& videoFormat(const std::filesystem::path& file) {
-  if (const VideoFormat* format = findVideoFormat(file)) return *format;
-  throw Error({.what = "unknown ending of a video",
+  throw Error({.what = "unknown kind of film",
                .where = {file.string()},
                .found = "'" + file.extension().string() + "'",
-               .wanted = ".mp4, .webm or .gif"});
+               .wanted = fmt::format("{}{}", fmt::join(known, ", "), others),
+               .nearest = nearestNames(ending, known)});
 }
 
 std::vector<std::string> ffmpegCommand(const VideoFormat& format, int width, int height, int rate,

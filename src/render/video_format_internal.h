@@ -17,11 +17,9 @@ struct VideoFormat {
 /// All formats, the usual one first.
 [[nodiscard]] const std::vector<VideoFormat>& videoFormats();
 
-/// The format for the ending of `file`; null for another ending.
-[[nodiscard]] const VideoFormat* findVideoFormat(const std::filesystem::path& file);
-
-/// The same, or Error naming the choices.
-[[nodiscard]] const VideoFormat& videoFormat(const std::filesystem::path& file);
+/// The format for the ending of `file`, capitals or not. Throws Error naming the choices for another ending;
+/// `others` tells what else would do.
+[[nodiscard]] const VideoFormat& videoFormat(const std::filesystem::path& file, const char* others = "");
 
 /// The command that reads width x height RGB frames, `rate` per second, on standard input and writes `file`
 /// (absolute), whatever its ending.

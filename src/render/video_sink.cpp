@@ -1,5 +1,7 @@
 #include "render/video_sink.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "base/error.h"
@@ -11,12 +13,25 @@ namespace rex {
 
 using internal::VideoFormat;
 
+namespace {
+
+std::string failureOf(const ProcessResult& result) {
+  if (result.timedOut) return "it does not answer";
+  if (result.signal != 0) return fmt::format("signal {}", result.signal);
+  const std::string firstLine = result.error.substr(0, result.error.find('\n'));
+  return firstLine.empty() ? fmt::format("exit code {}", result.exitCode) : firstLine;
+}
+
+}  // namespace
+
 std::string missingForVideo(const std::filesystem::path& file) {
   const VideoFormat& format = internal::videoFormat(file);
   // Its exit code is 0 for unknown encoders too; known ones are described on standard output.
   const ProcessResult asked = runProcess({"ffmpeg", "-v", "error", "-h", "encoder=" + format.encoder});
   if (!asked.started)
     return fmt::format("{} is missing because ffmpeg is (apt-get install ffmpeg)", file.string());
+  if (!asked.ok())
+    return fmt::format("{} is missing because ffmpeg does not work: {}", file.string(), failureOf(asked));
   if (asked.output.empty())
     return fmt::format(
         "{} is missing because this ffmpeg has no encoder {} (that of apt-get install ffmpeg has)",
@@ -27,8 +42,12 @@ std::string missingForVideo(const std::filesystem::path& file) {
 // Members die in reverse: ffmpeg ends before its file goes.
 struct VideoSink::Impl {
   Impl(const std::filesystem::path& file, const VideoOptions& options)
-      : format(internal::videoFormat(file)), staged(file), encoder(format, options, file, staged.part()) {}
+      : name(file.string()),
+        format(internal::videoFormat(file)),
+        staged(file),
+        encoder(format, options, file, staged.part()) {}
 
+  std::string name;
   const VideoFormat& format;
   internal::StagedFile staged;
   internal::VideoEncoder encoder;
@@ -41,6 +60,11 @@ VideoSink::VideoSink(const std::filesystem::path& file, const VideoOptions& opti
                  .where = {file.string()},
                  .found = fmt::format("{}", options.rate),
                  .wanted = "1 to 1000"});
+  if (!(options.patience > 0) || !std::isfinite(options.patience))
+    throw Error({.what = "patience with ffmpeg",
+                 .where = {file.string()},
+                 .found = fmt::format("{} s", options.patience),
+                 .wanted = "a positive, finite time"});
   impl_ = std::make_unique<Impl>(file, options);
 }
 
@@ -49,6 +73,7 @@ VideoSink::~VideoSink() = default;
 void VideoSink::take(const Image& frame) {
   if (impl_->format.evenSize && (frame.width < 2 || frame.height < 2))
     throw Error({.what = "size of a video's frames",
+                 .where = {impl_->name},
                  .found = fmt::format("{} x {}", frame.width, frame.height),
                  .wanted = "at least 2 x 2 pixels"});
   impl_->encoder.add(frame);

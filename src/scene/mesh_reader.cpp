@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <span>
 
 #include <Eigen/LU>
 #include <assimp/Importer.hpp>
@@ -44,6 +48,20 @@ std::vector<std::string> namesBeside(const fs::path& file) {
   return names;
 }
 
+std::string whyUnreadable(const fs::path& file) {
+  std::error_code problem;
+  switch (fs::status(file, problem).type()) {
+    case fs::file_type::regular:
+      return {};
+    case fs::file_type::not_found:
+      return "no such file";
+    case fs::file_type::directory:
+      return "a folder";
+    default:
+      return problem ? problem.message() : "a device";
+  }
+}
+
 void requireReadable(const fs::path& file, double scale) {
   constexpr std::uintmax_t kLargestFile = 256u << 20;
   if (!(scale > 0) || !std::isfinite(scale))
@@ -53,13 +71,81 @@ void requireReadable(const fs::path& file, double scale) {
     fail(file, "not a kind of mesh file that rex reads",
          ending.empty() ? "no ending" : fmt::format("'{}'", ending),
          fmt::format("{}", fmt::join(kEndings, ", ")), nearestNames(ending, kEndings));
-  std::error_code problem;
-  if (!fs::is_regular_file(file, problem))
-    fail(file, "cannot read the mesh file", "", "a file",
+  if (const std::string obstacle = whyUnreadable(file); !obstacle.empty())
+    fail(file, "cannot read the mesh file", obstacle, "a file",
          nearestNames(file.filename().string(), namesBeside(file)));
+  std::error_code problem;
   const std::uintmax_t size = fs::file_size(file, problem);
   if (size > kLargestFile)
     fail(file, "mesh file too large", fmt::format("{} bytes", size), "at most 256 MiB");
+}
+
+// The JSON of a glTF file; of a binary one, its first part.
+std::string_view jsonOf(std::string_view bytes, bool binary) {
+  constexpr std::size_t kHead = 20;
+  if (!binary || bytes.size() < kHead) return bytes;
+  std::uint32_t length = 0;
+  std::memcpy(&length, bytes.data() + 12, sizeof(length));
+  return bytes.substr(kHead, length);
+}
+
+// How deep the text of a file is nested at most.
+struct Depth {
+  std::size_t brackets = 0;
+  std::size_t nodes = 0;
+};
+
+// Of glTF nodes it counts all that have others below them, which stand side by side in the text.
+Depth depthOfJson(std::string_view json) {
+  Depth depth;
+  std::size_t open = 0;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    if (json[i] == '{' || json[i] == '[') depth.brackets = std::max(depth.brackets, ++open);
+    if ((json[i] == '}' || json[i] == ']') && open > 0) --open;
+    if (json[i] != '"') continue;
+    const std::size_t start = ++i;
+    while (i < json.size() && json[i] != '"') i += json[i] == '\\' ? 2 : 1;
+    if (json.substr(start, i - start) == "children") ++depth.nodes;
+  }
+  return depth;
+}
+
+Depth depthOfCollada(std::string_view xml) {
+  Depth depth;
+  std::size_t open = 0;
+  for (std::size_t at = xml.find('<'); at < xml.size(); at = xml.find('<', at)) {
+    const std::string_view tag = xml.substr(at, xml.find('>', at) - at);
+    at += tag.size();
+    if (tag.starts_with("</node")) open -= open > 0 ? 1 : 0;
+    if (tag.starts_with("<node") && !tag.ends_with('/')) depth.nodes = std::max(depth.nodes, ++open);
+  }
+  return depth;
+}
+
+// assimp follows brackets and nodes by recursion, and deep ones to the end of the stack.
+void requireShallow(const fs::path& file) {
+  constexpr std::size_t kMostBrackets = 100, kMostNodes = 5'000;
+  const std::string ending = endingOf(file);
+  if (ending != ".gltf" && ending != ".glb" && ending != ".dae") return;
+  std::ifstream stream(file, std::ios::binary);
+  const std::string bytes(std::istreambuf_iterator<char>(stream), {});
+  const Depth depth = ending == ".dae" ? depthOfCollada(bytes) : depthOfJson(jsonOf(bytes, ending == ".glb"));
+  if (depth.brackets > kMostBrackets)
+    fail(file, "mesh file", fmt::format("{} brackets in each other", depth.brackets),
+         fmt::format("at most {}", kMostBrackets));
+  if (depth.nodes > kMostNodes)
+    fail(file, "mesh file", fmt::format("{} nodes below each other", depth.nodes),
+         fmt::format("at most {}", kMostNodes));
+}
+
+// assimp's own work on a mesh trusts its indices.
+void requireIndices(const fs::path& file, const aiScene& scene) {
+  for (const aiMesh* mesh : std::span(scene.mMeshes, scene.mNumMeshes))
+    for (const aiFace& face : std::span(mesh->mFaces, mesh->mNumFaces))
+      for (const unsigned corner : std::span(face.mIndices, face.mNumIndices))
+        if (corner >= mesh->mNumVertices)
+          fail(file, "mesh", fmt::format("a face with corner {}", corner),
+               fmt::format("indices below {}, the number of vertices", mesh->mNumVertices));
 }
 
 float fromLinearLight(float c) {
@@ -96,7 +182,7 @@ class Collector {
       : file_(file), scene_(scene), scale_(scale) {
     const std::string ending = endingOf(file);
     linearLight_ = ending == ".gltf" || ending == ".glb";
-    if (scene.mRootNode != nullptr) addNode(*scene.mRootNode, Matrix4d::Identity());
+    addNodes();
   }
 
   TriangleMesh mesh() && {
@@ -110,10 +196,17 @@ class Collector {
   }
 
  private:
-  void addNode(const aiNode& node, const Matrix4d& parent) {
-    const Matrix4d placed = parent * matrixOf(node.mTransformation);
-    for (unsigned i = 0; i < node.mNumMeshes; ++i) addMesh(*scene_.mMeshes[node.mMeshes[i]], placed);
-    for (unsigned i = 0; i < node.mNumChildren; ++i) addNode(*node.mChildren[i], placed);
+  // Each node before its children, without recursion: a chain may be thousands long.
+  void addNodes() {
+    std::vector<std::pair<const aiNode*, Matrix4d>> waiting;  // with the place of the parent
+    if (scene_.mRootNode != nullptr) waiting.emplace_back(scene_.mRootNode, Matrix4d::Identity());
+    while (!waiting.empty()) {
+      const auto [node, parent] = waiting.back();
+      waiting.pop_back();
+      const Matrix4d placed = parent * matrixOf(node->mTransformation);
+      for (unsigned i = 0; i < node->mNumMeshes; ++i) addMesh(*scene_.mMeshes[node->mMeshes[i]], placed);
+      for (unsigned i = node->mNumChildren; i > 0; --i) waiting.emplace_back(node->mChildren[i - 1], placed);
+    }
   }
 
   void addMesh(const aiMesh& mesh, const Matrix4d& placed) {
@@ -159,8 +252,13 @@ class Collector {
 
 TriangleMesh readMesh(const fs::path& file, double scale) {
   requireReadable(file, scale);
+  requireShallow(file);
   Assimp::Importer importer;
-  const aiScene* scene = importer.ReadFile(file.string(), aiProcess_Triangulate);
+  const aiScene* scene = importer.ReadFile(file.string(), 0);
+  if (scene != nullptr) {
+    requireIndices(file, *scene);
+    scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
+  }
   if (scene == nullptr) fail(file, "cannot read the mesh file", importer.GetErrorString(), "a mesh");
   return Collector(file, *scene, scale).mesh();
 }

@@ -52,7 +52,7 @@ class Loader {
   explicit Loader(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   void load(ShapeSpec& shape) {
-    if (!usesMesh(shape.shape.type)) return;
+    if (!usesMesh(shape.shape.type) || !shape.shape.mesh.isEmpty()) return;
     const std::string thing = fmt::format("shape '{}'", shape.name);
     if (shape.meshFile.empty())
       throw Error({.what = thing + ": attribute 'mesh' is missing",

@@ -39,9 +39,10 @@ TEST_F(Pictures, AgreeWithTheirFilm) {
   EXPECT_EQ(film[1].time, pictures.time(1));
   EXPECT_EQ(film[1].picture.polylines.size(), 1u);
   EXPECT_TRUE(film[1].picture.captions.empty());
-  const double ground = film[1].picture.ground.height;
-  levelGround(film);
-  EXPECT_EQ(film[1].picture.ground.height, ground);
+  const Ground ground = film[1].picture.ground;
+  settleGround(film);
+  EXPECT_EQ(film[1].picture.ground.height, ground.height);
+  EXPECT_LT((film[1].picture.ground.scene.high - ground.scene.high).norm(), 1e-12);
   const Bounds box = bounds(film);
   EXPECT_LT((box.low - pictures.bounds().low).norm() + (box.high - pictures.bounds().high).norm(), 1e-12);
 }

@@ -194,6 +194,22 @@ TEST_F(SimulatorTest, LeavesTheFramesWhereThereIsNoFfmpeg) {
   EXPECT_FALSE(fs::exists(in("swing.mp4")));
 }
 
+using SimulatorDeathTest = SimulatorTest;
+
+// The signal acts in the end, when nothing half made is left.
+TEST_F(SimulatorDeathTest, LeavesNoHalfVideoWhenInterrupted) {
+  writeProgram(in("ffmpeg"),
+               "case \"$*\" in *encoder=*) echo yes;; *) kill -INT $PPID; exec sleep 600;; esac");
+  const auto interrupted = [&] {
+    const ChangedPath first(in("."));
+    writeVideo(Simulator("pegArm.ors"), in("swing"), {.width = 64, .height = 48});
+  };
+  EXPECT_EXIT(interrupted(), testing::KilledBySignal(SIGINT), "");
+  EXPECT_TRUE(fs::exists(in("swing/0000.png")));
+  for (const auto& entry : fs::directory_iterator(in(".")))
+    EXPECT_EQ(entry.path().filename().string().find("swing.mp4"), std::string::npos) << entry.path();
+}
+
 TEST_F(SimulatorTest, ShowsItsWayOnAContactSheet) {
   Simulator S("pegArm.ors");
   for (int i = 0; i < 30; ++i) S.setJointAngles(Eigen::Vector3d::Constant(.1 * i));
@@ -241,9 +257,14 @@ TEST_F(SimulatorTest, ExplainsPicturesThatCannotBe) {
                    "has no body 'pge' (did you mean 'peg'?)");
   EXPECT_REX_ERROR(writeFrames(S, in("film"), {}, 1), "number of postures: found 1, wanted at least 2");
   std::ofstream(in("file")) << "x";
-  EXPECT_REX_ERROR(writeFrames(S, in("file")), "cannot make the folder for frames");
+  EXPECT_REX_ERROR(writeFrames(S, in("file")), "file' for frames: found Not a directory");
   EXPECT_REX_ERROR(writeContactSheet(S, in("x"), {}, 1),
                    "contact sheet: pictures: found 1, wanted at least 2");
+  EXPECT_REX_ERROR(writeContactSheet(S, in("x"), {.width = 0}),
+                   "picture size: found 0 x 480, wanted 1 to 8192");
+  EXPECT_REX_ERROR(writeContactSheet(S, in("x"), {.height = -1}), "picture size: found 640 x -1");
+  writeContactSheet(S, in("wide"), {.width = 8000, .height = 10});
+  EXPECT_GT(readPng(in("wide.png")).width, 480) << "a picture of one row of pixels is one, too";
   S.clearRecording();
   EXPECT_REX_ERROR(writeContactSheet(S, in("x")), "x.png: no postures for a contact sheet");
 }

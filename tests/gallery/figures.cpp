@@ -153,7 +153,7 @@ Figure beliefInACorridor() {
           .histograms = {{.label = "belief", .heights = {belief.begin(), belief.end()}}}};
 }
 
-// Rosenbrock's valley: Gauss-Newton needs two steps, gradient descent creeps along the ground.
+// Rosenbrock's valley: Gauss-Newton runs along it, gradient descent creeps along the ground.
 Figure costAndPaths() {
   const auto residual = [](const Vector2d& p) {
     return Vector2d(1 - p.x(), std::sqrt(20.) * (p.y() - p.x() * p.x()));

@@ -11,6 +11,7 @@
 #include "render/png.h"
 #include "support/fresh_folder.h"
 #include "support/image_difference.h"
+#include "support/needs_gnuplot.h"
 #include "support/needs_osmesa.h"
 
 namespace rex::gallery {
@@ -28,6 +29,7 @@ TEST(Gallery, HasThePageThatTheCodeWrites) {
 
 TEST(Gallery, ShowsWhatTheCodeDraws) {
   REX_NEEDS_OSMESA();
+  REX_NEEDS_GNUPLOT();
   const fs::path drawn = freshFolder("gallery");
   std::set<std::string> files;
   for (const std::string& name : drawAll(drawn)) {

@@ -167,7 +167,8 @@ Image particles() {
     picture.solids.push_back({.shape = {.type = ShapeType::kSphere, .radius = 0.05},
                               .X_WS = {.p = landmarks[i]},
                               .color = kOrange});
-    picture.labels.push_back({.text = "landmark " + std::to_string(i + 1), .p_WQ = landmarks[i]});
+    picture.labels.push_back(
+        {.text = "landmark " + std::to_string(i + 1), .p_WQ = landmarks[i] + Vector3d(-0.2, -0.3, -0.15)});
   }
   PointSet samples{.color = kBlue, .size = 3};
   for (int i = 0; i < 800; ++i) {

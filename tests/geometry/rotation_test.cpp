@@ -159,5 +159,13 @@ TEST(SE2, AgreesWithSE3InThePlane) {
   }
 }
 
+TEST(IsRotation, AllowsForRoundingOnly) {
+  const Eigen::Matrix3d R = rotationAboutAxis(1, {1, 2, 3});
+  EXPECT_TRUE(isRotation(R));
+  EXPECT_TRUE(isRotation(R.cast<float>().cast<double>()));
+  EXPECT_FALSE(isRotation(1.00001 * R));
+  EXPECT_FALSE(isRotation(-R));
+}
+
 }  // namespace
 }  // namespace rex

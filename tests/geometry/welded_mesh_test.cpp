@@ -1,5 +1,8 @@
 #include "geometry/welded_mesh.h"
 
+#include <cmath>
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 #include "geometry/shape.h"
@@ -67,6 +70,22 @@ TEST(WeldedMesh, WeighsByAngle) {
   };
   EXPECT_LT((atTip(2) - Vector3f::UnitZ()).norm(), 1e-5f);
   EXPECT_LT((atTip(20) - Vector3f::UnitZ()).norm(), 0.01f);
+}
+
+// One vertex for each corner at the tip: of so many, none is searched for one like it.
+TEST(WeldedMesh, LeavesALargeFanFlat) {
+  constexpr int kPieces = 300;
+  std::vector<Vector3f> positions = {{0, 0, 0}};
+  std::vector<TriangleMesh::Triangle> triangles;
+  for (std::uint32_t i = 0; i <= kPieces; ++i) {
+    const double angle = i * std::numbers::pi / kPieces;
+    positions.emplace_back(static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0.f);
+    if (i > 0) triangles.push_back({0, i, i + 1});
+  }
+  const TriangleMesh mesh = weldedMesh(positions, triangles);
+  EXPECT_EQ(mesh.triangles().size(), 300u);
+  EXPECT_EQ(mesh.positions().size(), 300u + 301u);
+  for (const Vector3f& normal : mesh.normals()) EXPECT_LT((normal - Vector3f::UnitZ()).norm(), 1e-6f);
 }
 
 TEST(WeldedMesh, DropsTrianglesWithoutArea) {

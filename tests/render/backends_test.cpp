@@ -72,6 +72,26 @@ TEST(Backends, OfEglOutliveEachOther) {
   EXPECT_EQ(drawVaried(moved), first);
 }
 
+TEST(Backends, AreHandedFromThreadToThread) {
+  REX_NEEDS_OSMESA();
+  REX_NEEDS_EGL();
+  for (const GlBackend backend : {GlBackend::kOsMesa, GlBackend::kEgl}) {
+    Renderer renderer(optionsFor(backend, AntiAliasing::kFxaa));
+    const Image first = drawVaried(renderer);
+    const std::string description = renderer.describe();
+    const Picture picture = variedPicture();
+    const Camera camera = framing(bounds(picture), kDefaultView, 4. / 3);
+    const DepthImage depth = renderer.drawDepth(picture, camera);
+    for (int i = 0; i < 2; ++i)
+      std::thread([&] {
+        EXPECT_EQ(renderer.describe(), description);
+        EXPECT_EQ(drawVaried(renderer), first);
+        EXPECT_EQ(renderer.drawDepth(picture, camera), depth);
+      }).join();
+    EXPECT_EQ(drawVaried(renderer), first);
+  }
+}
+
 // One thread's end must not take the display away from the others.
 TEST(Backends, WorkInThreads) {
   REX_NEEDS_OSMESA();
@@ -137,12 +157,16 @@ TEST(Backends, RefuseStrangeSizesAndCameras) {
   REX_NEEDS_EGL();
   Camera strange = lookAt({1, -4, 1}, {0, 0, 0});
   strange.X_WC.R(0, 0) = std::nan("");
+  Camera mirrored = lookAt({1, -4, 1}, {0, 0, 0});
+  mirrored.X_WC.R.col(0) *= -1;
   for (const GlBackend backend : {GlBackend::kOsMesa, GlBackend::kEgl})
     for (const AntiAliasing smooth : kEverySmoothing) {
       EXPECT_REX_ERROR(Renderer(optionsFor(backend, smooth, 0, 480)), "picture size: found 0 x 480");
       EXPECT_REX_ERROR(Renderer(optionsFor(backend, smooth, 640, -1)), "picture size: found 640 x -1");
       Renderer renderer(optionsFor(backend, smooth, 16, 16));
       EXPECT_REX_ERROR(renderer.draw(variedPicture(), strange), "camera: found a pose that is not finite");
+      EXPECT_REX_ERROR(renderer.draw(variedPicture(), mirrored),
+                       "camera: found a pose whose matrix is no rotation");
     }
 }
 

@@ -131,6 +131,14 @@ TEST(ContactSheetSink, SaysWhyItCannot) {
   EXPECT_REX_ERROR(ContactSheetSink("a.png", {.pictures = 1}), "contact sheet: pictures: found 1");
   EXPECT_REX_ERROR(ContactSheetSink("a.png", {}, 0),
                    "contact sheet: frames per second: found 0, wanted more than 0");
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("loop", folder.path() / "loop");
+  for (const std::filesystem::path& file :
+       {std::filesystem::path(), folder.path() / std::string(300, 'x'), folder.path() / "loop" / "a.png"}) {
+    ContactSheetSink sheet(file);
+    sheet.add(numbered(0));
+    EXPECT_REX_ERROR(sheet.finish(), "cannot write '" + file.string() + "': found ");
+  }
   const TinyDisk disk(4);
   REX_NEEDS_DISK(disk);
   Rng rng(1);

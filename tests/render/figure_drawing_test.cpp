@@ -98,6 +98,20 @@ double missOf(const Vector2d& wanted, const std::vector<Vector2d>& points) {
   return miss;
 }
 
+// The series never has a point within the axes, yet crosses them three times.
+TEST(FigureDrawing, LinesCrossARangeWithoutPointsInIt) {
+  REX_NEEDS_GNUPLOT();
+  Figure figure = plain();
+  figure.series = {{.x = {0, 1, 2, 3}, .y = {0, 1, 0, 1}}};
+  figure.yRange = AxisRange{0.2, 0.8};
+  const Drawing drawing(figure);
+  const std::vector<Vector2d> points = drawing.points(1);
+  ASSERT_EQ(points.size(), 6u);
+  for (const Vector2d& wanted :
+       {Vector2d(0.2, 0.2), {0.8, 0.8}, {1.2, 0.8}, {1.8, 0.2}, {2.2, 0.2}, {2.8, 0.8}})
+    EXPECT_LT(missOf(wanted, points), 0.01) << wanted.transpose();
+}
+
 TEST(FigureDrawing, LinesAndPointsLieWhereTheDataSays) {
   REX_NEEDS_GNUPLOT();
   Figure figure = plain();

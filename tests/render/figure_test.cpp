@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "base/process.h"
+#include "render/gnuplot_internal.h"
 #include "render/png.h"
 #include "support/expect_error.h"
 #include "support/fresh_folder.h"
@@ -248,8 +249,10 @@ TEST_F(FigureWithOtherGnuplot, ReportsItsFailureAndLeavesNoFile) {
   installGnuplot("echo half a picture; echo line 3: trouble >&2; exit 1\n");
   EXPECT_REX_ERROR(writeFigure(parabola(), folder_ / "a.png"), "a.png': found gnuplot says: line 3: trouble");
   installGnuplot("kill -9 $$\n");
-  EXPECT_REX_ERROR(writeFigure(parabola(), folder_ / "a.png"),
-                   "a.png': found signal 9 that ended gnuplot, wanted its end within a minute");
+  EXPECT_REX_ERROR(writeFigure(parabola(), folder_ / "a.png"), "a.png': found signal 9 that ended gnuplot");
+  installGnuplot("exec /bin/sleep 600\n");
+  EXPECT_REX_ERROR(internal::runGnuplot("plot x", "a.png", 0.2),
+                   "a.png': found gnuplot still at work, wanted its end within 0.2 s");
   installGnuplot("exit 0\n");
   EXPECT_REX_ERROR(writeFigure(parabola(), folder_ / "a.png"), "found no complete picture from gnuplot");
   EXPECT_FALSE(fs::exists(folder_ / "a.png"));

@@ -58,13 +58,17 @@ TEST(PngSequence, WritesNumberedFilesAndReplacesOlderOnes) {
   const TemporaryFolder temporary;
   const fs::path folder = temporary.path() / "a" / "film";
   fs::create_directories(folder);
-  for (const char* name : {"0000.png", "0007.png", "12345.png", "end.png", "notes.txt", "07.jpg"})
+  for (const char* name :
+       {"0000.png", "0001.png", "0002.png", "0004.png", "2024.png", "12345.png", "end.png", "notes.txt"})
     std::ofstream(folder / name) << "old";
+  const Names before = folderContent(folder);
+  { const PngSequence unused(folder); }
+  EXPECT_EQ(folderContent(folder), before);
   PngSequence sink(folder);
-  EXPECT_EQ(folderContent(folder), (Names{"end.png", "notes.txt", "07.jpg"}));
   for (int i = 0; i < 2; ++i) sink.add(movingSquare(32, 24, i));
   sink.finish();
-  EXPECT_EQ(folderContent(folder), (Names{"0000.png", "0001.png", "end.png", "notes.txt", "07.jpg"}));
+  EXPECT_EQ(folderContent(folder),
+            (Names{"0000.png", "0001.png", "0004.png", "12345.png", "2024.png", "end.png", "notes.txt"}));
   for (int i = 0; i < 2; ++i)
     EXPECT_EQ(readPng(folder / ("000" + std::to_string(i) + ".png")), movingSquare(32, 24, i));
 }
@@ -72,10 +76,17 @@ TEST(PngSequence, WritesNumberedFilesAndReplacesOlderOnes) {
 TEST(PngSequence, SaysWhyItCannot) {
   const TemporaryFolder temporary;
   std::ofstream(temporary.path() / "file") << "x";
-  EXPECT_REX_ERROR(PngSequence(temporary.path() / "file"), "file: cannot make the folder for frames");
-  fs::create_directories(temporary.path() / "film" / "0000.png" / "full");
-  EXPECT_REX_ERROR(PngSequence(temporary.path() / "film"),
-                   "film: cannot remove the frames of an earlier film: found Directory not empty");
+  const auto addTo = [](const fs::path& folder) { PngSequence(folder).add(movingSquare(32, 24, 0)); };
+  EXPECT_REX_ERROR(addTo(temporary.path() / "file"), "file' for frames: found Not a directory");
+  EXPECT_REX_ERROR(addTo(""), "cannot make the folder '' for frames: found Invalid argument");
+  EXPECT_REX_ERROR(addTo(temporary.path() / std::string(300, 'x')),
+                   "xxx' for frames: found File name too long");
+  fs::create_symlink("loop", temporary.path() / "loop");
+  EXPECT_REX_ERROR(addTo(temporary.path() / "loop"),
+                   "loop' for frames: found Too many levels of symbolic links");
+  fs::create_directories(temporary.path() / "film" / "0000.png");
+  EXPECT_REX_ERROR(addTo(temporary.path() / "film"),
+                   "film/0000.png' of an earlier film: found Is a directory");
 }
 
 TEST(PngSequence, LeavesNoHalfAFileOnAFullDisk) {
@@ -96,6 +107,7 @@ TEST(MakeFrameSink, ChoosesByTheEnding) {
                      std::string(name) + ": unknown kind of film: found '" +
                          fs::path(name).extension().string() +
                          "', wanted .mp4, .webm, .gif, or no ending for a folder of PNG frames");
+  EXPECT_REX_ERROR(makeFrameSink("a.MP3"), "(did you mean '.mp4'?)");
 }
 
 TEST(MakeFrameSink, TellsWhatIsMissing) {
@@ -106,6 +118,15 @@ TEST(MakeFrameSink, TellsWhatIsMissing) {
     const MadeSink made = makeFrameSink(file);
     EXPECT_EQ(made.sink, nullptr);
     EXPECT_EQ(made.missing, file.string() + " is missing because ffmpeg is (apt-get install ffmpeg)");
+  }
+  for (const auto& [script, cause] :
+       {std::pair{"echo 'no libx264.so' >&2; echo more >&2; exit 127", "no libx264.so"},
+        {"exit 3", "exit code 3"},
+        {"kill -9 $$", "signal 9"}}) {
+    writeProgram(temporary.path() / "ffmpeg", script);
+    const ChangedPath broken(temporary.path());
+    EXPECT_EQ(makeFrameSink(file).missing,
+              file.string() + " is missing because ffmpeg does not work: " + cause);
   }
   writeProgram(temporary.path() / "ffmpeg", "echo \"Codec '$5' is not recognized by FFmpeg.\" >&2");
   const ChangedPath first(temporary.path());

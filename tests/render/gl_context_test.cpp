@@ -21,6 +21,7 @@ namespace {
 class EmptyContext final : public GlContext {
  public:
   void makeCurrent() override {}
+  void letGo() noexcept override {}
   Proc proc(const char* name) const override {
     return std::string(name) == "glClear" ? reinterpret_cast<Proc>(&::abort) : nullptr;
   }

@@ -2,8 +2,10 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include "base/rng.h"
 #include "render/png.h"
@@ -67,6 +69,8 @@ TEST(Png, NamesThePathItCannotWriteAndLeavesNothing) {
   EXPECT_REX_ERROR(writePng(image, folder / "missing" / "a.png"), "missing/a.png': found No such file");
   fs::create_directories(folder / "taken.png" / "inside");
   EXPECT_REX_ERROR(writePng(image, folder / "taken.png"), "cannot write '");
+  EXPECT_REX_ERROR(writePng(image, ""), "cannot write '': found ");
+  EXPECT_REX_ERROR(writePng(image, folder / std::string(300, 'x')), "x': found File name too long");
   EXPECT_REX_ERROR(writePng(Image{}, folder / "empty.png"), "empty.png': found an image without pixels");
   EXPECT_REX_ERROR(encodePng(Image{}), "cannot make a PNG image: found an image without pixels");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator{}), 1);
@@ -89,6 +93,27 @@ TEST(Png, NamesThePathItCannotRead) {
   writePng(noise(50, 50), folder / "half.png");
   fs::resize_file(folder / "half.png", fs::file_size(folder / "half.png") / 2);
   EXPECT_REX_ERROR(readPng(folder / "half.png"), "half.png': found");
+}
+
+void appendBigEndian(std::string& bytes, std::uint32_t value) {
+  for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 255);
+}
+
+TEST(Png, RefusesPicturesTooLargeToHold) {
+  const fs::path folder = freshFolder("png-huge");
+  writePng(noise(1, 1), folder / "huge.png");
+  std::ifstream small(folder / "huge.png", std::ios::binary);
+  std::string bytes(std::istreambuf_iterator<char>(small), {});
+  std::string header = "IHDR";
+  appendBigEndian(header, 900'000);
+  appendBigEndian(header, 800'000);
+  header += bytes.substr(24, 5);
+  const auto sum =
+      ::crc32(0, reinterpret_cast<const unsigned char*>(header.data()), static_cast<unsigned>(header.size()));
+  appendBigEndian(header, static_cast<std::uint32_t>(sum));
+  std::ofstream(folder / "huge.png", std::ios::binary) << bytes.replace(12, 21, header);
+  EXPECT_REX_ERROR(readPng(folder / "huge.png"),
+                   "huge.png': found 900000 x 800000 pixels, wanted at most 100 million");
 }
 
 }  // namespace

@@ -58,6 +58,10 @@ TEST(RequireDrawable, NamesWhatIsWrong) {
       {[](Picture& p) { p.solids[0].X_WS.p.y() = kNan; }, "solid 'hand', pose: found a number that is not"},
       {[](Picture& p) { p.solids[0].X_WS.p.y() = -2e9; }, "finite, or beyond 1e9, wanted finite numbers"},
       {[](Picture& p) { p.solids[1].X_WS.R(0, 0) = kNan; }, "solid 1, pose: found a number that is not"},
+      {[](Picture& p) { p.solids[0].X_WS.R *= 1.001; },
+       "solid 'hand', pose: found a matrix that is no rotation, wanted orthonormal axes, right-handed"},
+      {[](Picture& p) { p.solids[0].X_WS.R.col(0) *= -1; },
+       "solid 'hand', pose: found a matrix that is no rot"},
       {[](Picture& p) { p.solids[0].shape.radius = kNan; }, "solid 'hand', size: found a number that is not"},
       {[](Picture& p) { p.solids[1].shape.extent.x() = -1; }, "solid 1, size: found a negative length"},
       {[](Picture& p) { p.solids[0].color.g = NAN; }, "solid 'hand', color"},
@@ -89,6 +93,10 @@ TEST(RequireDrawable, NamesWhatIsWrong) {
       {[](Picture& p) { p.captions[0].scale = 101; }, "caption 'title': found a strange scale"},
       {[](Picture& p) { p.captions[0].color.r = NAN; }, "caption 'title', color"},
       {[](Picture& p) { p.ground.height = kNan; }, "ground: found a number that is not finite"},
+      {[](Picture& p) {
+         p.ground.scene.include({0, 2e9, 0});
+       },
+       "ground: found a number that is not finite"},
       {[](Picture& p) { p.ground.cell = 0; }, "ground: found a cell that is not positive"},
       {[](Picture& p) { p.toLight.setZero(); }, "light: found no direction"},
   };

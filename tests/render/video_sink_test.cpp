@@ -1,6 +1,7 @@
 #include "render/video_sink.h"
 
 #include <cerrno>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 
@@ -157,16 +158,17 @@ TEST_F(RealVideoSinkTest, LeavesNothingOnAFullDisk) {
 }
 
 TEST_F(VideoSinkTest, RefusesWhatCannotBeAVideo) {
-  EXPECT_REX_ERROR(VideoSink(file("a.avi")),
-                   "unknown ending of a video: found '.avi', wanted .mp4, .webm or .gif");
-  EXPECT_REX_ERROR(missingForVideo("a"), "a: unknown ending of a video: found ''");
+  EXPECT_REX_ERROR(VideoSink(file("a.avi")), "unknown kind of film: found '.avi', wanted .mp4, .webm, .gif");
+  EXPECT_REX_ERROR(missingForVideo("a"), "a: unknown kind of film: found ''");
   EXPECT_REX_ERROR(VideoSink(file("a.mp4"), {.rate = 0}), "frames per second: found 0, wanted 1 to 1000");
+  for (const double patience : {0., -1., std::nan(""), HUGE_VAL})
+    EXPECT_REX_ERROR(VideoSink(file("a.mp4"), {.patience = patience}), "a.mp4: patience with ffmpeg: found ");
   EXPECT_REX_ERROR(VideoSink(file("no/a.mp4")), "no/a.mp4': found No such file or directory");
   {
-    VideoSink sink(file("a.mp4"));
+    VideoSink sink(file("a.MP4"));
     EXPECT_REX_ERROR(sink.add(Image(1, 8)),
-                     "size of a video's frames: found 1 x 8, wanted at least 2 x 2 pixels");
-    EXPECT_REX_ERROR(sink.finish(), "a.mp4: a film without frames");
+                     "a.MP4: size of a video's frames: found 1 x 8, wanted at least 2 x 2 pixels");
+    EXPECT_REX_ERROR(sink.finish(), "a.MP4: a film without frames");
   }
   EXPECT_EQ(folderContent(folder()), Names());
 }

@@ -159,10 +159,17 @@ TEST_F(MeshReader, NamesWhatIsWrong) {
   const fs::path good = write("tetrahedron.off", kTetrahedronOff);
   EXPECT_REX_ERROR(
       readMesh(folder_.path() / "tetrahedon.off"),
-      "tetrahedon.off: cannot read the mesh file: wanted a file (did you mean 'tetrahedron.off'?)");
-  EXPECT_REX_ERROR(readMesh("no/such/folder/x.stl"), "no/such/folder/x.stl: cannot read the mesh file");
+      "tetrahedon.off: cannot read the mesh file: found no such file, wanted a file (did you mean "
+      "'tetrahedron.off'?)");
+  EXPECT_REX_ERROR(readMesh("no/such/folder/x.stl"),
+                   "no/such/folder/x.stl: cannot read the mesh file: found no such file");
   fs::create_directory(folder_.path() / "folder.stl");
-  EXPECT_REX_ERROR(readMesh(folder_.path() / "folder.stl"), "cannot read the mesh file");
+  EXPECT_REX_ERROR(readMesh(folder_.path() / "folder.stl"), "cannot read the mesh file: found a folder");
+  fs::create_symlink("loop.stl", folder_.path() / "loop.stl");
+  EXPECT_REX_ERROR(readMesh(folder_.path() / "loop.stl"), "found Too many levels of symbolic links");
+  fs::create_symlink("/dev/null", folder_.path() / "null.stl");
+  EXPECT_REX_ERROR(readMesh(folder_.path() / "null.stl"), "cannot read the mesh file: found a device");
+  EXPECT_REX_ERROR(readMesh(write("none.off", "OFF\n0 0 0\n")), "none.off");
   EXPECT_REX_ERROR(readMesh(write("a.tri", "")),
                    "a.tri: not a kind of mesh file that rex reads: found '.tri', wanted .stl, .obj, .ply");
   EXPECT_REX_ERROR(readMesh(write("a.sttl", "")), "(did you mean '.stl'?)");
@@ -185,6 +192,78 @@ TEST_F(MeshReader, NamesWhatIsWrong) {
   fs::resize_file(write("large.stl", "x"), (256u << 20) + 1, problem);
   EXPECT_REX_ERROR(readMesh(folder_.path() / "large.stl"),
                    "large.stl: mesh file too large: found 268435457 bytes, wanted at most 256 MiB");
+}
+
+TEST_F(MeshReader, RefusesIndicesOfNoVertex) {
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+  EXPECT_REX_ERROR(
+      readMesh(write("quad.ply", head + "4 0 2 1 99\n")),
+      "quad.ply: mesh: found a face with corner 99, wanted indices below 4, the number of vertices");
+  EXPECT_REX_ERROR(readMesh(write("triangle.ply", head + "3 0 2 99\n")),
+                   "triangle.ply: mesh: found a face with corner 99");
+}
+
+// A scene whose nodes, as text, follow each other; each may show the one mesh.
+std::string gltf(const std::string& nodes, int triangles) {
+  std::string bytes(static_cast<std::size_t>(36 + 3 * triangles), '\0');
+  const std::array<float, 9> positions = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  std::memcpy(bytes.data(), positions.data(), 36);
+  for (std::size_t i = 36; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i % 3);
+  return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [)" + nodes +
+         R"(], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+    "buffers": [{"byteLength": )" +
+         std::to_string(bytes.size()) + R"(, "uri": "data:application/octet-stream;base64,)" + base64(bytes) +
+         R"("}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": )" +
+         std::to_string(3 * triangles) + R"(}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                   "min": [0, 0, 0], "max": [1, 1, 0]},
+                  {"bufferView": 1, "componentType": 5121, "count": )" +
+         std::to_string(3 * triangles) + R"(, "type": "SCALAR"}]})";
+}
+
+// Each node stands in the one before and a millimetre higher.
+std::string chain(int length) {
+  std::string nodes;
+  for (int i = 1; i < length; ++i)
+    nodes += R"({"translation": [0, 0, 0.001], "children": [)" + std::to_string(i) + "]}, ";
+  return nodes + R"({"mesh": 0})";
+}
+
+TEST_F(MeshReader, RefusesDeepGltf) {
+  const TriangleMesh mesh = readMesh(write("deep.gltf", gltf(chain(5'001), 1)));
+  EXPECT_NEAR(mesh.halfBounds().z(), 5, 1e-3);
+  EXPECT_REX_ERROR(readMesh(write("deeper.gltf", gltf(chain(50'001), 1))),
+                   "deeper.gltf: mesh file: found 50000 nodes below each other, wanted at most 5000");
+  std::string binary(20, ' ');
+  const std::string json = gltf(chain(50'001), 1);
+  const auto length = static_cast<std::uint32_t>(json.size());
+  std::memcpy(binary.data() + 12, &length, 4);
+  EXPECT_REX_ERROR(readMesh(write("deeper.glb", binary + json)), "found 50000 nodes below each other");
+  std::string collada = "<COLLADA><node/>";
+  for (int i = 0; i < 5'001; ++i) collada += "<node id='n'>";
+  EXPECT_REX_ERROR(readMesh(write("deep.dae", collada)),
+                   "deep.dae: mesh file: found 5001 nodes below each other, wanted at most 5000");
+  for (int i = 0; i < 50'000; ++i) collada += "</node><node>";
+  EXPECT_REX_ERROR(readMesh(write("deep.dae", collada)), "found 5001 nodes below each other");
+  const std::string brackets(1'000'000, '[');
+  EXPECT_REX_ERROR(readMesh(write("brackets.gltf", brackets)),
+                   "brackets.gltf: mesh file: found 1000000 brackets in each other, wanted at most 100");
+  // Brackets in a text are none.
+  EXPECT_REX_ERROR(readMesh(write("text.gltf", "{\"\\\"" + brackets + "\"}")), "cannot read the mesh file");
+}
+
+TEST_F(MeshReader, RefusesMoreThanItCanHold) {
+  EXPECT_REX_ERROR(readMesh(write("empty.gltf", gltf("{}", 1))),
+                   "empty.gltf: mesh: found no vertices, wanted some");
+  std::string nodes = R"({"children": [1)";
+  for (int i = 2; i <= 101; ++i) nodes += ", " + std::to_string(i);
+  nodes += "]}";
+  for (int i = 1; i <= 101; ++i) nodes += R"(, {"mesh": 0})";
+  EXPECT_REX_ERROR(readMesh(write("many.gltf", gltf(nodes, 100'000))),
+                   "many.gltf: mesh too large: found more than ten million triangles, wanted fewer");
 }
 
 }  // namespace

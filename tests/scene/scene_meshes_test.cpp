@@ -58,6 +58,15 @@ TEST_F(SceneMeshes, AreCentredWithoutMoving) {
   EXPECT_LT((shape.X_BS * highest - Eigen::Vector3d(4, 1, 3)).norm(), 1e-6);
 }
 
+TEST_F(SceneMeshes, AreReadOnce) {
+  SceneSpec spec = readOrs(scene("shape { type=3 mesh='meshes/pyramid.off' rel=<T t(5 0 0)> }")).spec;
+  const Eigen::Vector3d p = spec.worldShapes[0].X_BS.p;
+  const TriangleMesh mesh = spec.worldShapes[0].shape.mesh;
+  loadMeshes(spec, folder_.path());
+  EXPECT_EQ(spec.worldShapes[0].X_BS.p, p);
+  EXPECT_EQ(spec.worldShapes[0].shape.mesh, mesh);
+}
+
 TEST_F(SceneMeshes, AreNamesOnlyInText) {
   const SceneSpec spec = parseOrs("body a { type=3 mesh='meshes/pyramid.off' }", "f").spec;
   EXPECT_TRUE(spec.bodies[0].shapes[0].shape.mesh.isEmpty());
@@ -66,9 +75,10 @@ TEST_F(SceneMeshes, AreNamesOnlyInText) {
 }
 
 TEST_F(SceneMeshes, ThatAreMissingAreNamedWithTheirPlace) {
-  EXPECT_REX_ERROR(readOrs(scene("body a {}\nshape hat (a) { type=3 mesh='meshes/pyramit.off' }")),
-                   "scene.ors:2:1: shape 'hat': mesh '" + (folder_.path() / "meshes/pyramit.off").string() +
-                       "': cannot read the mesh file: wanted a file (did you mean 'pyramid.off'?)");
+  EXPECT_REX_ERROR(
+      readOrs(scene("body a {}\nshape hat (a) { type=3 mesh='meshes/pyramit.off' }")),
+      "scene.ors:2:1: shape 'hat': mesh '" + (folder_.path() / "meshes/pyramit.off").string() +
+          "': cannot read the mesh file: found no such file, wanted a file (did you mean 'pyramid.off'?)");
   EXPECT_REX_ERROR(readOrs(scene("body a { type=3 }")),
                    "shape 'a': attribute 'mesh' is missing: wanted the file of its mesh, in single quotes");
   EXPECT_REX_ERROR(readOrs(scene("body a { type=3 mesh='meshes/pyramid.off' meshscale=0 }")),
