@@ -1,4 +1,5 @@
 // OSMesa and EGL draw the same pixels, side by side, in threads and in processes.
+#include <future>
 #include <set>
 #include <thread>
 
@@ -83,11 +84,11 @@ TEST(Backends, AreHandedFromThreadToThread) {
     const Camera camera = framing(bounds(picture), kDefaultView, 4. / 3);
     const DepthImage depth = renderer.drawDepth(picture, camera);
     for (int i = 0; i < 2; ++i)
-      std::thread([&] {
+      std::async(std::launch::async, [&] {
         EXPECT_EQ(renderer.describe(), description);
         EXPECT_EQ(drawVaried(renderer), first);
         EXPECT_EQ(renderer.drawDepth(picture, camera), depth);
-      }).join();
+      }).get();
     EXPECT_EQ(drawVaried(renderer), first);
   }
 }
