@@ -18,6 +18,7 @@
 #include "render/contact_sheet.h"
 #include "render/draw_film.h"
 #include "render/make_frame_sink.h"
+#include "render/memory_sink.h"
 #include "render/png.h"
 #include "render/png_sequence.h"
 #include "render/tee_sink.h"
@@ -39,10 +40,11 @@ void beforeSignals(const std::function<void()>& work) {
   if (signal != 0) std::raise(signal);
 }
 
-void drawInto(FrameSink& sink, const Film& film, const PictureOptions& options,
-              AntiAliasing antiAliasing = kFilmAntiAliasing) {
-  Renderer renderer(
-      {.width = options.width, .height = options.height, .antiAliasing = antiAliasing, .gl = glChoice()});
+void drawInto(FrameSink& sink, const Film& film, const PictureOptions& options) {
+  Renderer renderer({.width = options.width,
+                     .height = options.height,
+                     .antiAliasing = kFilmAntiAliasing,
+                     .gl = glChoice()});
   drawFilm(film, cameraFor(film, options), renderer, sink);
 }
 
@@ -96,10 +98,13 @@ void writeContactSheet(const Simulator& simulator, const std::string& name, cons
   const int width = std::min(options.width, layout.pictureWidth);
   const int height = std::max(options.height * width / options.width, 1);
   Renderer renderer({.width = width, .height = height, .gl = glChoice()});
+  Film moments;
+  for (const std::size_t k : keyFrames(film.size(), pictures)) moments.push_back(film[k]);
+  MemorySink drawn;
+  drawFilm(moments, camera, renderer, drawn);
   std::vector<KeyFrame> shown;
-  for (const std::size_t k : keyFrames(film.size(), pictures))
-    shown.push_back(
-        {renderer.drawFrame(film[k].picture, camera).image, fmt::format("{:.2f} s", film[k].time)});
+  for (std::size_t i = 0; i < moments.size(); ++i)
+    shown.push_back({drawn.frames()[i], fmt::format("{:.2f} s", moments[i].time)});
   writePng(contactSheet(shown, layout), name + ".png");
 }
 
