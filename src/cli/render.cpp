@@ -66,20 +66,21 @@ MadeSink openSink(fs::path& out) {
   return makeFrameSink(out.replace_extension());
 }
 
-// A film of one posture becomes a walk around it. Nothing is made before there is a first frame.
+// A film of one posture becomes a walk around it. Nothing is made before something was seen.
 fs::path writeFilm(const MotionPictures& pictures, const RenderPlan& plan, fs::path out) {
   constexpr std::size_t kTurn = 120;  // frames
   const bool isWalk = pictures.size() == 1;
+  const std::size_t count = isWalk ? kTurn : pictures.size();
   Studio studio(plan, isWalk ? turningBox(pictures.bounds()) : pictures.bounds());
   note(studio.describe());
-  MadeSink made;
-  for (std::size_t i = 0; i < (isWalk ? kTurn : pictures.size()); ++i) {
+  const auto draw = [&](std::size_t i) {
     const double angle = isWalk ? 2 * std::numbers::pi * static_cast<double>(i) / kTurn : 0;
-    const Image frame = studio.draw(pictures.picture(isWalk ? 0 : i), angle);
-    if (!made.sink) made = openSink(out);
-    made.sink->add(frame);
-  }
+    return studio.draw(pictures.picture(isWalk ? 0 : i), angle);
+  };
+  for (std::size_t i = 0; i < count && !studio.sawSomething(); ++i) static_cast<void>(draw(i));
   studio.requireSomethingSeen();
+  const MadeSink made = openSink(out);
+  for (std::size_t i = 0; i < count; ++i) made.sink->add(draw(i));
   throwIfInterrupted();
   made.sink->finish();
   return out;

@@ -41,7 +41,7 @@ Image Studio::drawFrom(const Picture& picture, const Camera& camera) {
     sawSomething_ |= drawn.showsSomething;
     return std::move(drawn.image);
   }
-  sawSomething_ = true;  // of depth and segmentation, nothing is an answer too
+  sawSomething_ = true;  // nothing is an answer, too
   if (plan_.show == Show::kSegmentation)
     return segmentationColors(renderer_.drawSegmentation(picture, camera));
   const double distance = (scene_.center() - camera.X_WC.p).norm(), reach = scene_.radius();

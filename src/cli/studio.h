@@ -23,7 +23,9 @@ class Studio {
   /// All cameras may be turned by `angle` (rad, counterclockwise) about the vertical through what they look
   /// at. Throws Error as View::camera() and Renderer::drawFrame(), and Interrupted.
   [[nodiscard]] Image draw(const Picture& picture, double angle = 0);
-  /// Throws UsageError when nothing of the scene was seen in any picture so far.
+  /// Whether anything of the scene was seen so far; of depth and segmentation images, always.
+  [[nodiscard]] bool sawSomething() const { return sawSomething_; }
+  /// Throws UsageError unless it was.
   void requireSomethingSeen() const;
 
  private:

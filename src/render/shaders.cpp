@@ -22,14 +22,17 @@ uniform vec3 p_WS, halfSize, stretch;
 vec3 placed() { return R_WS * (halfSize * position + stretch * end) + p_WS; }
 )";
 
-// The point is moved off its surface before it is looked up, or the surface would shade itself.
+// The point is moved off its surface, towards the light, before it is looked up, or the surface would shade
+// itself. Of an imported surface the light may shine on the back.
 const std::string kShadowPoint = R"(
 #if SHADOW
 uniform mat4 shadowClipFromWorld;
 uniform float shadowTexel;
+uniform vec3 toLight;
 out vec3 shadowPoint;
 void setShadowPoint(vec3 p, vec3 n) {
-  shadowPoint = 0.5 + 0.5 * (shadowClipFromWorld * vec4(p + 1.5 * shadowTexel * n, 1)).xyz;
+  float reach = dot(n, toLight) < 0.0 ? -1.5 * shadowTexel : 1.5 * shadowTexel;
+  shadowPoint = 0.5 + 0.5 * (shadowClipFromWorld * vec4(p + reach * n, 1)).xyz;
 }
 #else
 void setShadowPoint(vec3 p, vec3 n) {}

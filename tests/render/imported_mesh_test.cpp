@@ -99,6 +99,11 @@ TEST(ImportedMesh, IsSeenFromBothSidesWhenOpen) {
   const auto back = renderer.draw(picture, lookAt({0, 4, 0}, {0, 0, 0})).at(80, 60);
   EXPECT_GT(back[0], 2 * back[1]);
   EXPECT_LT(back[0], front[0] - 20) << "its back is turned away from the light";
+  // Wound the other way, the light shines on what the file calls its back.
+  for (TriangleMesh::Triangle& triangle : sheet.triangles) std::swap(triangle[0], triangle[1]);
+  picture.solids[0].shape = meshShape(sheet);
+  const auto lit = renderer.draw(picture, lookAt({0, -4, 0}, {0, 0, 0})).at(80, 60);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(lit[c], front[c], 2);
 }
 
 TEST(ImportedMesh, WithoutTrianglesIsDrawnAsPoints) {
