@@ -1,7 +1,6 @@
 // `rex render` as a user meets it.
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,6 +9,7 @@
 #include "cli/rex_command.h"
 #include "render/png.h"
 #include "support/changed_path.h"
+#include "support/file_text.h"
 #include "support/needs_osmesa.h"
 
 namespace rex::cli {
@@ -28,11 +28,7 @@ class RenderCommand : public RexCommand {
     EXPECT_THAT(flat(result.error), HasSubstr(message));
     EXPECT_TRUE(fs::is_empty(in(""))) << message;
   }
-  std::string textOf(const std::string& name) const {
-    std::stringstream text;
-    text << std::ifstream(in(name)).rdbuf();
-    return text.str();
-  }
+  std::string textOf(const std::string& name) const { return fileText(in(name)); }
 };
 
 TEST_F(RenderCommand, DrawsAPictureAndNamesTheRenderer) {

@@ -1,5 +1,4 @@
 #include <fstream>
-#include <iterator>
 #include <sstream>
 
 #include <gmock/gmock.h>
@@ -7,6 +6,7 @@
 #include <stdlib.h>
 
 #include "cli/command_line.h"
+#include "support/file_text.h"
 #include "support/temporary_folder.h"
 
 namespace rex::cli {
@@ -68,13 +68,9 @@ class WorkflowTest : public ::testing::Test {
     return rexIn(REX_BINARY_DIR "/tests/template", std::move(arguments));
   }
 
-  static std::string read(const fs::path& file) {
-    std::ifstream in(file);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
   static void write(const fs::path& file, const std::string& text) { std::ofstream(file) << text; }
   static void replace(const fs::path& file, const std::string& from, const std::string& to) {
-    std::string text = read(file);
+    std::string text = fileText(file);
     ASSERT_NE(text.find(from), std::string::npos) << from;
     write(file, text.replace(text.find(from), from.size(), to));
   }
@@ -108,7 +104,7 @@ TEST_F(WorkflowTest, GradesTheUntouchedFileAtItsFloor) {
   EXPECT_EQ(ended.code, 1) << ended.error;
   EXPECT_THAT(ended.output, HasSubstr(" FAIL  0/1   A quarter turn [quarter-turn]"));
   EXPECT_THAT(ended.output, HasSubstr("0 of 3 points"));
-  EXPECT_THAT(read(out() / "results.json"), HasSubstr("\"outcome\": \"fail\""));
+  EXPECT_THAT(fileText(out() / "results.json"), HasSubstr("\"outcome\": \"fail\""));
 }
 
 TEST_F(WorkflowTest, KeepsResultsOfTheSolutionApart) {
@@ -130,19 +126,19 @@ TEST_F(WorkflowTest, GradesTheSolutionInFull) {
 TEST_F(WorkflowTest, RunsOneCheckAndPrintsJson) {
   write(root() / "mine.cpp", kGood);
   EXPECT_EQ(rex({"test", "98", "--main", root() / "mine.cpp"}).code, 0);
-  const std::string whole = read(out() / "results.json");
+  const std::string whole = fileText(out() / "results.json");
   const Ended ended =
       rex({"test", "98", "--main", root() / "mine.cpp", "--check", "keeps-length", "--seed", "7", "--json"});
   EXPECT_EQ(ended.code, 0) << ended.error;
-  EXPECT_EQ(ended.output, read(out() / "results-partial.json"));
-  EXPECT_EQ(read(out() / "results.json"), whole);
+  EXPECT_EQ(ended.output, fileText(out() / "results-partial.json"));
+  EXPECT_EQ(fileText(out() / "results.json"), whole);
   EXPECT_THAT(ended.output, HasSubstr("\"seed_id\": \"public:7\""));
   EXPECT_THAT(ended.output, ::testing::ContainsRegex("\"compiler\": \".* [0-9]+[.][0-9]+"));
   EXPECT_THAT(ended.output, HasSubstr("\"name\": \"mine.cpp\""));
   EXPECT_THAT(ended.output, Not(HasSubstr("quarter-turn")));
   const Ended unknown = rex({"test", "98", "--check", "keeps-lenght"});
   EXPECT_EQ(unknown.code, 64);
-  EXPECT_EQ(read(out() / "results-partial.json"), ended.output) << "the last result is lost";
+  EXPECT_EQ(fileText(out() / "results-partial.json"), ended.output) << "the last result is lost";
   EXPECT_THAT(unknown.error, HasSubstr("no check is called 'keeps-lenght' (did you mean 'keeps-length'?)"));
 }
 
@@ -153,8 +149,8 @@ TEST_F(WorkflowTest, ExplainsAFileThatDoesNotCompile) {
   EXPECT_THAT(ended.error, HasSubstr("error: 'nothing' was not declared in this scope"));
   EXPECT_THAT(ended.error, HasSubstr("\n    return nothing;\n           ^\n"));
   EXPECT_THAT(ended.output, HasSubstr("Not graded"));
-  EXPECT_THAT(read(out() / "build.log"), HasSubstr("main.cpp:11:10: error: "));
-  EXPECT_THAT(read(out() / "results.json"), HasSubstr("\"outcome\": \"compile_error\""));
+  EXPECT_THAT(fileText(out() / "build.log"), HasSubstr("main.cpp:11:10: error: "));
+  EXPECT_THAT(fileText(out() / "results.json"), HasSubstr("\"outcome\": \"compile_error\""));
   EXPECT_EQ(rex({"run", "98"}).code, 2);
 }
 
@@ -204,7 +200,7 @@ TEST_F(WorkflowTest, RunsTheProgramInItsFolderAndListsWhatItWrote) {
   const Ended ended = rex({"run", "98"});
   EXPECT_EQ(ended.code, 0) << ended.error;
   EXPECT_THAT(ended.output, HasSubstr("frame0.png ... frame8.png (9 files)"));
-  EXPECT_EQ(read(out() / "frame3.png"), "3");
+  EXPECT_EQ(fileText(out() / "frame3.png"), "3");
   EXPECT_EQ(rex({"run", "98", "--solution", "-o", root() / "other"}).code, 0);
 }
 
@@ -302,9 +298,10 @@ TEST_F(WorkflowTest, FindsMistakesThatAreNotCaught) {
 TEST_F(WorkflowTest, MakesANewExercise) {
   const Ended made = rex({"dev", "new", "97-walking"});
   EXPECT_EQ(made.code, 0) << made.error;
-  EXPECT_EQ(read(root() / "exercises/CMakeLists.txt"), "rex_exercise(97-walking FUNCTIONS rotated)\n");
-  EXPECT_THAT(read(root() / "exercises/97-walking/main.cpp"), HasSubstr("// Your solution of 97-walking."));
-  EXPECT_THAT(read(root() / "exercises/97-walking/README.md"), Not(HasSubstr("@")));
+  EXPECT_EQ(fileText(root() / "exercises/CMakeLists.txt"), "rex_exercise(97-walking FUNCTIONS rotated)\n");
+  EXPECT_THAT(fileText(root() / "exercises/97-walking/main.cpp"),
+              HasSubstr("// Your solution of 97-walking."));
+  EXPECT_THAT(fileText(root() / "exercises/97-walking/README.md"), Not(HasSubstr("@")));
   EXPECT_EQ(rex({"dev", "check", "97", "--list-gates"}).code, 0);
   const Ended again = rex({"dev", "new", "97-walking"});
   EXPECT_EQ(again.code, 64);

@@ -1,6 +1,5 @@
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include <gtest/gtest.h>
 
@@ -11,6 +10,7 @@
 #include "scene/model.h"
 #include "support/changed_path.h"
 #include "support/expect_error.h"
+#include "support/file_text.h"
 #include "support/image_difference.h"
 #include "support/paths.h"
 #include "support/temporary_folder.h"
@@ -24,11 +24,6 @@ namespace fs = std::filesystem;
 class SimulatorTest : public testing::Test {
  protected:
   std::string in(const std::string& name) const { return (folder_.path() / name).string(); }
-  static std::string bytes(const fs::path& file) {
-    std::ostringstream text;
-    text << std::ifstream(file, std::ios::binary).rdbuf();
-    return text.str();
-  }
 
  private:
   TemporaryFolder folder_;
@@ -161,10 +156,10 @@ TEST_F(SimulatorTest, WritesTheSameFramesTwice) {
   }
   for (const char* frame : {"0000.png", "0001.png", "0002.png", "0003.png"}) {
     EXPECT_GT(fs::file_size(in("first") + "/" + frame), 1000u);
-    EXPECT_EQ(bytes(in("first") + "/" + frame), bytes(in("second") + "/" + frame)) << frame;
+    EXPECT_EQ(fileText(in("first") + "/" + frame), fileText(in("second") + "/" + frame)) << frame;
   }
   EXPECT_FALSE(fs::exists(in("first") + "/0004.png"));
-  EXPECT_NE(bytes(in("first") + "/0000.png"), bytes(in("first") + "/0003.png"));
+  EXPECT_NE(fileText(in("first") + "/0000.png"), fileText(in("first") + "/0003.png"));
 }
 
 TEST_F(SimulatorTest, MakesAVideoOfItsFrames) {

@@ -2,13 +2,12 @@
 #include "gallery/gallery.h"
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
 
 #include <gtest/gtest.h>
 
 #include "render/png.h"
+#include "support/file_text.h"
 #include "support/fresh_folder.h"
 #include "support/image_difference.h"
 #include "support/needs_gnuplot.h"
@@ -22,9 +21,7 @@ namespace fs = std::filesystem;
 const fs::path kDocuments = fs::path(REX_SOURCE_DIR) / "share" / "doc";
 
 TEST(Gallery, HasThePageThatTheCodeWrites) {
-  std::ifstream file(kDocuments / "gallery.md");
-  const std::string text(std::istreambuf_iterator<char>(file), {});
-  EXPECT_EQ(text, page()) << "run scripts/gallery";
+  EXPECT_EQ(fileText(kDocuments / "gallery.md"), page()) << "run scripts/gallery";
 }
 
 TEST(Gallery, ShowsWhatTheCodeDraws) {

@@ -1,13 +1,13 @@
 #include "grading/release.h"
 
 #include <fstream>
-#include <iterator>
 #include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "support/expect_error.h"
+#include "support/file_text.h"
 #include "support/temporary_folder.h"
 
 namespace rex::grading {
@@ -41,10 +41,7 @@ class ReleaseTest : public ::testing::Test {
   }
   fs::path root() const { return temporary_.path() / "root"; }
   fs::path target() const { return temporary_.path() / "target"; }
-  std::string released(const std::string& name) const {
-    std::ifstream file(target() / name);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
+  std::string released(const std::string& name) const { return fileText(target() / name); }
 
   TemporaryFolder temporary_;
 };

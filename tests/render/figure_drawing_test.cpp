@@ -1,9 +1,7 @@
 // What gnuplot drew is read back from the SVG: the tics with their numbers give the scales, so that a drawn
 // point has coordinates that the data must agree with.
 #include <cmath>
-#include <fstream>
 #include <map>
-#include <sstream>
 
 // With sanitizers g++ 12 sees an uninitialized function inside <regex>, where there is none.
 #pragma GCC diagnostic push
@@ -17,6 +15,7 @@
 #include "base/rng.h"
 #include "render/figure_builders.h"
 #include "render/png.h"
+#include "support/file_text.h"
 #include "support/fresh_folder.h"
 #include "support/needs_gnuplot.h"
 
@@ -26,18 +25,12 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::Vector2d;
 
-std::string textOf(const fs::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
-
 class Drawing {
  public:
   explicit Drawing(const Figure& figure) {
     const fs::path path = freshFolder("figure-drawing") / "a.svg";
     writeFigure(figure, path);
-    svg_ = textOf(path);
+    svg_ = fileText(path);
     static const std::regex tic(
         "d='M([0-9.]+),([0-9.]+) L([0-9.]+),([0-9.]+)  '/>\\s*<g "
         "transform=\"[^>]*>\\s*<text>([-0-9.e+]+)</text>");
@@ -275,7 +268,7 @@ TEST(FigureDrawing, PathsInSpaceKeepUpUp) {
   figure.series = {{.x = {0, 0, 1}, .y = {0, 0, 1}, .z = {0, 1, 1}}};
   const fs::path path = freshFolder("figure-space") / "a.svg";
   writeFigure(figure, path);
-  const std::string svg = textOf(path);
+  const std::string svg = fileText(path);
   std::smatch d;
   const std::string part = svg.substr(svg.find("id=\"gnuplot_plot_1\""));
   static const std::regex line("d='M([0-9.]+),([0-9.]+) L([0-9.]+),([0-9.]+) L([0-9.]+),([0-9.]+)");

@@ -1,8 +1,6 @@
 // The figures of the gallery as SVG, which stay in the build folder to be looked at; as PNG gallery_test.cpp
 // draws them. And a few small ones as they are to look.
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,6 +8,7 @@
 #include "gallery/figures.h"
 #include "render/figure_builders.h"
 #include "render/png.h"
+#include "support/file_text.h"
 #include "support/image_difference.h"
 #include "support/needs_gnuplot.h"
 
@@ -24,8 +23,7 @@ TEST(FigureGallery, DrawsEveryFigureAsSvg) {
   fs::create_directories(folder);
   for (const auto& [name, figure] : galleryFigures()) {
     writeFigure(figure, folder / (name + ".svg"));
-    std::ifstream file(folder / (name + ".svg"));
-    const std::string svg(std::istreambuf_iterator<char>(file), {});
+    const std::string svg = fileText(folder / (name + ".svg"));
     EXPECT_THAT(svg, testing::HasSubstr("width=\"" + std::to_string(figure.width) + '"')) << name;
     EXPECT_THAT(svg, testing::HasSubstr("id=\"gnuplot_plot_1\"")) << name;
     EXPECT_THAT(svg, testing::EndsWith("</svg>\n\n")) << name;

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <sstream>
 
 #include <gtest/gtest.h>
 
@@ -13,6 +12,7 @@
 #include "render/gnuplot_internal.h"
 #include "render/png.h"
 #include "support/expect_error.h"
+#include "support/file_text.h"
 #include "support/fresh_folder.h"
 #include "support/needs_gnuplot.h"
 
@@ -20,12 +20,6 @@ namespace rex {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string textOf(const fs::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
 
 Figure parabola() {
   Figure figure{.title = "Parabola", .xLabel = "x [m]", .yLabel = "y [m]"};
@@ -72,7 +66,7 @@ TEST(Figure, GivesTheSameBytesTwiceAndHonoursItsSize) {
   for (const char* ending : {".png", ".svg"}) {
     writeFigure(figure, folder / (std::string("a") + ending));
     writeFigure(figure, folder / (std::string("b") + ending));
-    EXPECT_EQ(textOf(folder / (std::string("a") + ending)), textOf(folder / (std::string("b") + ending)));
+    EXPECT_EQ(fileText(folder / (std::string("a") + ending)), fileText(folder / (std::string("b") + ending)));
   }
   EXPECT_EQ(readPng(folder / "a.png").width, 300);
 }

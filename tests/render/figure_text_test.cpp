@@ -1,7 +1,6 @@
 // Texts of figures come from students and files. They appear as they are, and nothing in them is run.
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <sstream>
 
@@ -10,6 +9,7 @@
 
 #include "render/figure.h"
 #include "render/figure_script_internal.h"
+#include "support/file_text.h"
 #include "support/fresh_folder.h"
 #include "support/needs_gnuplot.h"
 
@@ -17,12 +17,6 @@ namespace rex {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string textOf(const fs::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
 
 Figure flat() {
   return {.title = "title",
@@ -124,12 +118,12 @@ TEST(FigureText, AppearsAsGivenInEveryPlace) {
     Figure figure = flat();
     place(figure) = text;
     writeFigure(figure, folder / "a.svg");
-    EXPECT_THAT(textOf(folder / "a.svg"), testing::HasSubstr("<text>" + escaped(text) + "</text>")) << name;
+    EXPECT_THAT(fileText(folder / "a.svg"), testing::HasSubstr("<text>" + escaped(text) + "</text>")) << name;
   }
   Figure figure = deep();
   figure.zLabel = text;
   writeFigure(figure, folder / "a.svg");
-  EXPECT_THAT(textOf(folder / "a.svg"), testing::HasSubstr("<text>" + escaped(text) + "</text>"));
+  EXPECT_THAT(fileText(folder / "a.svg"), testing::HasSubstr("<text>" + escaped(text) + "</text>"));
 }
 
 TEST(FigureText, OfAFileNameIsOnlyAName) {

@@ -5,12 +5,10 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <numbers>
 #include <set>
-#include <sstream>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -19,6 +17,7 @@
 #include "base/rng.h"
 #include "render/glb_mesh_internal.h"
 #include "support/expect_error.h"
+#include "support/file_text.h"
 #include "support/fresh_folder.h"
 
 namespace rex {
@@ -560,9 +559,7 @@ TEST(Glb, RefusesWhatCannotBePlayed) {
 TEST(Glb, WritesWholeFilesOrNone) {
   const fs::path folder = freshFolder("glb");
   writeGlb(tumblingFilm(), folder / "film.glb");
-  std::ostringstream text;
-  text << std::ifstream(folder / "film.glb", std::ios::binary).rdbuf();
-  EXPECT_EQ(text.str(), glbOf(tumblingFilm()));
+  EXPECT_EQ(fileText(folder / "film.glb"), glbOf(tumblingFilm()));
   EXPECT_REX_ERROR(writeGlb(tumblingFilm(), folder / "missing" / "film.glb"),
                    "missing/film.glb': found No such file");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator{}), 1);

@@ -10,6 +10,7 @@
 #include "base/rng.h"
 #include "render/png.h"
 #include "support/expect_error.h"
+#include "support/file_text.h"
 #include "support/fresh_folder.h"
 
 namespace rex {
@@ -102,8 +103,7 @@ void appendBigEndian(std::string& bytes, std::uint32_t value) {
 TEST(Png, RefusesPicturesTooLargeToHold) {
   const fs::path folder = freshFolder("png-huge");
   writePng(noise(1, 1), folder / "huge.png");
-  std::ifstream small(folder / "huge.png", std::ios::binary);
-  std::string bytes(std::istreambuf_iterator<char>(small), {});
+  std::string bytes = fileText(folder / "huge.png");
   std::string header = "IHDR";
   appendBigEndian(header, 900'000);
   appendBigEndian(header, 800'000);

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
-#include <sstream>
 
 #include <gtest/gtest.h>
 
@@ -13,22 +12,15 @@
 #include "render/glb.h"
 #include "render/png.h"
 #include "support/expect_error.h"
+#include "support/file_text.h"
 #include "support/fresh_folder.h"
+#include "support/needs_gnuplot.h"
 #include "support/needs_osmesa.h"
 
 namespace rex {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string textOf(const fs::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
-
-#define REX_NEEDS_GNUPLOT() \
-  if (!runProcess({"gnuplot", "--version"}).ok()) GTEST_SKIP() << "needs gnuplot: install gnuplot-nox"
 
 Report rollingBall() {
   Report report{.title = "A ball", .still = {.width = 160, .height = 120}};
@@ -227,7 +219,7 @@ TEST(Report, ShowsTwinsThatABrowserCannotTell) {
     }
     writeReport(report, folder / (second ? "second.html" : "first.html"));
   }
-  EXPECT_NE(textOf(folder / "first.html"), textOf(folder / "second.html"));
+  EXPECT_NE(fileText(folder / "first.html"), fileText(folder / "second.html"));
 }
 
 TEST(Report, SaysItsTitleOnce) {
@@ -335,14 +327,14 @@ TEST(Report, ShowsFiguresAsTheyAreDrawn) {
   EXPECT_THAT(page, testing::HasSubstr("alt=\"Speed\" width=\"400\" height=\"300\""));
   const fs::path file = freshFolder("report-figure") / "speed.svg";
   writeFigure(figure, file);
-  EXPECT_EQ(embedded(page, "data:image/svg+xml;base64,", "\""), textOf(file));
+  EXPECT_EQ(embedded(page, "data:image/svg+xml;base64,", "\""), fileText(file));
 }
 
 TEST(Report, GivesTheSameBytesTwiceAndWritesThem) {
   REX_NEEDS_OSMESA();
   const fs::path folder = freshFolder("report");
   writeReport(rollingBall(), folder / "ball.html");
-  EXPECT_TRUE(textOf(folder / "ball.html") == reportPage(rollingBall()));
+  EXPECT_TRUE(fileText(folder / "ball.html") == reportPage(rollingBall()));
   EXPECT_REX_ERROR(writeReport(rollingBall(), folder / "missing" / "ball.html"),
                    "missing/ball.html': found No such");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator{}), 1);

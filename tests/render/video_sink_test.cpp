@@ -3,7 +3,6 @@
 #include <cerrno>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -13,6 +12,7 @@
 #include "base/process.h"
 #include "support/changed_path.h"
 #include "support/expect_error.h"
+#include "support/file_text.h"
 #include "support/folder_content.h"
 #include "support/image_difference.h"
 #include "support/temporary_folder.h"
@@ -24,11 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Names = std::set<std::string>;
-
-std::string bytes(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 // Every test ends without a child, running or not yet waited for.
 class VideoSinkTest : public testing::Test {
@@ -119,8 +114,8 @@ TEST_F(RealVideoSinkTest, HasTheSameBytesTwice) {
       VideoSink sink(file(name + ending));
       feed(sink);
     }
-    EXPECT_GT(bytes(file("a" + ending)).size(), 1000u);
-    EXPECT_EQ(bytes(file("a" + ending)), bytes(file("b" + ending))) << ending;
+    EXPECT_GT(fileText(file("a" + ending)).size(), 1000u);
+    EXPECT_EQ(fileText(file("a" + ending)), fileText(file("b" + ending))) << ending;
   }
 }
 
@@ -130,7 +125,7 @@ TEST_F(RealVideoSinkTest, ReplacesAnOlderFileOnlyWhenComplete) {
     VideoSink sink(file("a.mp4"));
     for (int i = 0; i < 5; ++i) sink.add(movingSquare(192, 96, i));
   }
-  EXPECT_EQ(bytes(file("a.mp4")), "old");
+  EXPECT_EQ(fileText(file("a.mp4")), "old");
   VideoSink sink(file("a.mp4"));
   feed(sink);
   EXPECT_GT(fs::file_size(file("a.mp4")), 1000u);
