@@ -32,6 +32,13 @@ std::vector<std::string> robotsIn(const fs::path& folder) {
   return names;
 }
 
+// Meant as the user writes them, with their ending or without.
+std::vector<std::string> nearestRobots(const fs::path& scene, std::vector<std::string> robots) {
+  if (!scene.has_extension())
+    for (std::string& robot : robots) robot = fs::path(robot).stem().string();
+  return nearestNames(scene.filename().string(), robots);
+}
+
 // A file where the user is comes before a robot of the course.
 fs::path find(const Project& project, const fs::path& scene) {
   if (isFile(scene)) return scene;
@@ -44,7 +51,7 @@ fs::path find(const Project& project, const fs::path& scene) {
   const std::vector<std::string> robots = robotsIn(folder);
   throw UsageError({.what = fmt::format("there is no scene '{}'", harmless(scene.string())),
                     .wanted = fmt::format("an .ors file, or one of the course: {}", fmt::join(robots, ", ")),
-                    .nearest = nearestNames(scene.filename().string(), robots)});
+                    .nearest = nearestRobots(scene, robots)});
 }
 
 }  // namespace

@@ -99,21 +99,21 @@ std::string filled(std::string_view page, const std::map<std::string_view, std::
 std::string reportPage(const Report& report) {
   const Film film = withoutCaption(report.film, report.title);
   const std::string glb = glbOf(film, report.view);
-  const internal::ReportPage page = internal::reportTemplate();
-  return filled(page.page, {{"title", escaped(report.title)},
-                            {"style", std::string(page.style)},
-                            {"styleHash", internal::base64(bytesOfHex(page.styleHash))},
-                            {"viewer", std::string(page.viewer)},
-                            {"viewerHash", internal::base64(bytesOfHex(page.viewerHash))},
-                            {"library", internal::base64(internal::gzip(page.library))},
-                            {"libraryHash", internal::base64(bytesOfHex(page.libraryHash))},
-                            {"layout", report.figures.empty() ? "alone" : "withFigures"},
-                            {"backgroundTop", partsOf(report.still.backgroundTop)},
-                            {"backgroundBottom", partsOf(report.still.backgroundBottom)},
-                            {"still", internal::base64(stillOf(film, report.view, report.still))},
-                            {"facts", factsOf(report)},
-                            {"figures", figuresOf(report)},
-                            {"film", internal::base64(glb)}});
+  const internal::ReportTemplate parts = internal::reportTemplate();
+  return filled(parts.html, {{"title", escaped(report.title)},
+                             {"style", std::string(parts.style)},
+                             {"styleHash", internal::base64(bytesOfHex(parts.styleHash))},
+                             {"viewer", std::string(parts.viewer)},
+                             {"viewerHash", internal::base64(bytesOfHex(parts.viewerHash))},
+                             {"threeJs", internal::base64(internal::gzip(parts.threeJs))},
+                             {"threeJsHash", internal::base64(bytesOfHex(parts.threeJsHash))},
+                             {"layout", report.figures.empty() ? "alone" : "withFigures"},
+                             {"backgroundTop", partsOf(report.still.backgroundTop)},
+                             {"backgroundBottom", partsOf(report.still.backgroundBottom)},
+                             {"still", internal::base64(stillOf(film, report.view, report.still))},
+                             {"facts", factsOf(report)},
+                             {"figures", figuresOf(report)},
+                             {"film", internal::base64(glb)}});
 }
 
 void writeReport(const Report& report, const std::filesystem::path& path) {

@@ -181,6 +181,7 @@ TEST_F(RenderCommand, FindsScenesByName) {
       flat(near.error),
       "rex: there is no scene 'mann.ors': wanted an .ors file, or one of the course: man.ors, pegArm.ors, "
       "pegInAHole.ors (did you mean 'man.ors'?) ");
+  EXPECT_THAT(flat(rex({"render", "mann", "-o", "a.png"}).error), HasSubstr("(did you mean 'man'?)"));
   EXPECT_EQ(rex({"render", "no/man.ors", "-o", "a.png"}).exitCode, 64);
   EXPECT_EQ(rex({"render", ".", "-o", "a.png"}).exitCode, 64);
   std::ofstream(in("broken.ors")) << "body a { X=";
