@@ -4,7 +4,8 @@ namespace rex {
 
 std::string toString(const Diagnostic& diagnostic) {
   const std::string where = toString(diagnostic.where);
-  return (where.empty() ? "" : where + ": ") + "note: " + diagnostic.message;
+  const char* severity = diagnostic.severity == Severity::kWarning ? "warning: " : "note: ";
+  return (where.empty() ? "" : where + ": ") + severity + diagnostic.message;
 }
 
 }  // namespace rex

@@ -7,15 +7,19 @@
 
 namespace rex {
 
+/// A warning is likely a mistake; a note only tells.
+enum class Severity { kNote, kWarning };
+
 /// Something a reader noticed and could live with: the file loads, but the user should know.
 struct Diagnostic {
   SourceLocation where;
   std::string message;
+  Severity severity = Severity::kNote;
 };
 
 using Diagnostics = std::vector<Diagnostic>;
 
-/// "file:line:column: note: message".
+/// "file:line:column: note: message", or "warning".
 [[nodiscard]] std::string toString(const Diagnostic& diagnostic);
 
 }  // namespace rex

@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "cli/terminal.h"
-#include "scene/ors_reader.h"
+#include "scene/scene_file.h"
 
 namespace rex::cli {
 namespace {
@@ -57,7 +57,7 @@ fs::path find(const Project& project, const fs::path& scene) {
 }  // namespace
 
 Model loadScene(const Project& project, const fs::path& scene) {
-  SceneFile file = readOrs(find(project, scene));
+  SceneFile file = readScene(find(project, scene));
   for (const Diagnostic& one : file.notes) note(toString(one));
   file.spec.name = scene.filename().string();
   return compile(file.spec);

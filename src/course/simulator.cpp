@@ -9,7 +9,7 @@
 #include "course/recording.h"
 #include "kinematics/center_of_mass.h"
 #include "kinematics/jacobians.h"
-#include "scene/ors_reader.h"
+#include "scene/scene_file.h"
 #include "scene/scene_meshes.h"
 
 namespace rex {
@@ -36,14 +36,14 @@ struct Simulator::Parts {
 Simulator::Simulator(const std::string& sceneFile) {
   const std::filesystem::path path = findScene(sceneFile);
   const std::string text = readSceneText(path);
-  SceneSpec spec = parseOrs(text, sceneFile).spec;
-  loadMeshes(spec, path.parent_path());
-  start({.sceneName = sceneFile, .sceneText = text, .q = {}}, compile(spec));
+  SceneFile scene = parseScene(text, sceneFile);
+  loadMeshes(scene, Assets(path));
+  start({.sceneName = sceneFile, .sceneText = text, .q = {}}, compile(scene.spec));
 }
 
 // The text may come from another process, whose files are none of ours: meshes stay away.
 Simulator::Simulator(const SimulatorDescription& description) {
-  start(description, compile(parseOrs(description.sceneText, description.sceneName).spec));
+  start(description, compile(parseScene(description.sceneText, description.sceneName).spec));
 }
 
 void Simulator::start(const SimulatorDescription& description, Model model) {

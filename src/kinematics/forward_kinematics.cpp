@@ -9,12 +9,23 @@ bool movesLinearly(const Joint& joint) {
   return joint.type == JointType::kHinge || joint.type == JointType::kSlider;
 }
 
+// Of a joint with one coordinate, which may follow another joint.
+double coordinate(const Joint& joint, const double* q) {
+  return joint.ratio * q[joint.qIndex] + joint.offset;
+}
+
+Pose motion(const Joint& joint, const double* q) {
+  if (joint.nq != 1) return jointMotion(joint.type, joint.axis, joint.pitch, q + joint.qIndex);
+  const double value = coordinate(joint, q);
+  return jointMotion(joint.type, joint.axis, joint.pitch, &value);
+}
+
 // The numbers that LinearMotion speaks of, parked in the first two places of the child's p. In a pass of its
 // own: sines do not depend on one another, poses do, and mixed each sine would be waited for.
 void parkLinearFactors(std::span<const Joint> joints, const double* q, std::vector<Pose>& X_WB) {
   for (const Joint& joint : joints) {
     if (!movesLinearly(joint)) continue;
-    const double value = q[joint.qIndex];
+    const double value = coordinate(joint, q);
     const auto [second, first] = joint.type == JointType::kHinge ? sinCos(value) : SinCos{0, value};
     X_WB[static_cast<std::size_t>(joint.child)].p.head<2>() << first, second;
   }
@@ -50,7 +61,7 @@ void forwardKinematics(const Model& model, const VectorArg& q, BodyPoses& out) {
     if (movesLinearly(joint)) {
       placeLinearly(joint.motion, X_WP, X_WB);
     } else {
-      X_WB = X_WP * joint.X_PF * jointMotion(joint.type, joint.axis, q.data() + joint.qIndex) * joint.X_MC;
+      X_WB = X_WP * joint.X_PF * motion(joint, q.data()) * joint.X_MC;
     }
   }
 }

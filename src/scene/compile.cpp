@@ -2,10 +2,12 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "geometry/inertia.h"
 #include "geometry/rotation.h"
 #include "scene/model.h"
 
@@ -15,6 +17,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // With only a mass given, the inertia of a solid sphere of 0.7 m radius: see share/doc/ors-format.md.
 constexpr double kInertiaPerMass = 0.2;
+constexpr const char* kWorldName = "world";
 
 [[noreturn]] void fail(const SourceLocation& where, std::string what, std::string found, std::string wanted,
                        std::vector<std::string> nearest = {}) {
@@ -23,9 +26,9 @@ constexpr double kInertiaPerMass = 0.2;
 
 bool isFinite(const Pose& X) { return X.R.allFinite() && X.p.allFinite(); }
 
-// The unit twists of a joint type: kParent stands for the joint's frame F, kChild for its frame M. In one of
+// The twists of a joint type: kParent stands for the joint's frame F, kChild for its frame M. In one of
 // the two each is constant; where both would do, M leads to cheaper Jacobians.
-std::vector<DegreeOfFreedom> freedomsOf(JointType type, const Eigen::Vector3d& axis) {
+std::vector<DegreeOfFreedom> freedomsOf(JointType type, const Eigen::Vector3d& axis, double pitch) {
   using Frame = DegreeOfFreedom::Frame;
   const auto turn = [](const Eigen::Vector3d& a, Frame frame) {
     return DegreeOfFreedom{a, Eigen::Vector3d::Zero(), frame};
@@ -42,6 +45,10 @@ std::vector<DegreeOfFreedom> freedomsOf(JointType type, const Eigen::Vector3d& a
       return {turn(axis, Frame::kChild)};
     case JointType::kSlider:
       return {move(axis, Frame::kChild)};
+    case JointType::kScrew:
+      return {{axis, pitch / (2 * std::numbers::pi) * axis, Frame::kChild}};
+    case JointType::kCylindrical:
+      return {turn(axis, Frame::kChild), move(axis, Frame::kChild)};
     case JointType::kPlanarXY:
       return {move(x, Frame::kParent), move(y, Frame::kParent)};
     case JointType::kTranslation3:
@@ -93,8 +100,8 @@ LinearMotion linearMotion(const JointSpec& spec, const Eigen::Vector3d& axis) {
 
 // The tree of a scene: indices into the spec, checked.
 struct Tree {
-  std::vector<int> bodyOrder;                  // breadth-first
-  std::vector<int> incoming;                   // per body of the spec: its joint, or -1
+  std::vector<int> bodyOrder;  // breadth-first: bodies without joint, on a joint of the world, ...
+  std::vector<int> incoming;   // per body of the spec: its joint, or -1
   std::map<std::string, int> firstBodyByName;  // of the spec
 };
 
@@ -136,8 +143,11 @@ class TreeBuilder {
 
   void connect(int j) {
     const JointSpec& joint = spec_.joints[static_cast<std::size_t>(j)];
-    const int parent = bodyIndex(joint.parent, joint, "parent"),
-              child = bodyIndex(joint.child, joint, "child");
+    const int child = bodyIndex(joint.child, joint, "child");
+    std::vector<int>& siblings =
+        joint.parent == kWorldName
+            ? ofWorld_
+            : outgoing_[static_cast<std::size_t>(bodyIndex(joint.parent, joint, "parent"))];
     int& incoming = tree_.incoming[static_cast<std::size_t>(child)];
     if (incoming >= 0) {
       fail(joint.where,
@@ -146,7 +156,7 @@ class TreeBuilder {
            "one joint into each body");
     }
     incoming = j;
-    outgoing_[static_cast<std::size_t>(parent)].push_back(child);
+    siblings.push_back(child);
   }
 
   void order() {
@@ -154,6 +164,7 @@ class TreeBuilder {
     for (std::size_t i = 0; i < spec_.bodies.size(); ++i) {
       if (tree_.incoming[i] < 0) order.push_back(static_cast<int>(i));
     }
+    order.insert(order.end(), ofWorld_.begin(), ofWorld_.end());
     for (std::size_t next = 0; next < order.size(); ++next) {
       const std::vector<int>& children = outgoing_[static_cast<std::size_t>(order[next])];
       order.insert(order.end(), children.begin(), children.end());
@@ -186,25 +197,31 @@ class TreeBuilder {
   const SceneSpec& spec_;
   Tree tree_;
   std::vector<std::vector<int>> outgoing_;  // per body: children in the order of their joints
+  std::vector<int> ofWorld_;                // the same of the world
 };
 
 void checkBody(const BodySpec& body) {
   const std::string what = fmt::format("body '{}'", body.name);
-  if (body.name == "world") fail(body.where, what, "the name of the world itself", "another name");
+  if (body.name == kWorldName) fail(body.where, what, "the name of the world itself", "another name");
   if (!isFinite(body.X_WB))
     fail(body.where, what + ": pose", "a number that is not finite", "finite numbers");
   if (!(body.mass >= 0) || !std::isfinite(body.mass))
     fail(body.where, what + ": mass", fmt::format("{}", body.mass), "a finite mass >= 0 kg");
-  if (body.inertia && (!body.inertia->allFinite() || !body.inertia->isApprox(body.inertia->transpose()))) {
+  if (!body.p_BBcm.allFinite())
+    fail(body.where, what + ": centre of mass", "a number that is not finite", "finite numbers");
+  if (!body.inertia) return;
+  if (!body.inertia->allFinite() || !body.inertia->isApprox(body.inertia->transpose()))
     fail(body.where, what + ": inertia", "", "a finite symmetric matrix");
-  }
+  if (inertiaFault(*body.inertia) == InertiaFault::kNegative)
+    fail(body.where, what + ": inertia", "a negative principal moment", "principal moments >= 0");
 }
 
 void checkShape(const ShapeSpec& shape) {
   const Shape& s = shape.shape;
   if (!isFinite(shape.X_BS) || !s.extent.allFinite() || !(s.extent.minCoeff() >= 0) || !(s.radius >= 0) ||
-      !std::isfinite(s.radius)) {
-    fail(shape.where, fmt::format("shape '{}'", shape.name), "", "a finite pose and finite sizes >= 0");
+      !std::isfinite(s.radius) || !shape.color.allFinite()) {
+    fail(shape.where, fmt::format("shape '{}'", shape.name), "",
+         "a finite pose, finite sizes >= 0, a finite colour");
   }
 }
 
@@ -215,6 +232,18 @@ void checkJoint(const JointSpec& joint) {
     fail(joint.where, what + ": frames", "a number that is not finite", "finite numbers");
   if (!joint.axis.allFinite() || !(joint.axis.norm() > 0))
     fail(joint.where, what + ": axis", "a zero or non-finite vector", "a direction");
+  const auto requireNumber = [&](double number, const char* name, bool isRight, const char* wanted) {
+    if (!isRight) fail(joint.where, fmt::format("{}: {}", what, name), fmt::format("{}", number), wanted);
+  };
+  requireNumber(joint.pitch, "pitch", std::isfinite(joint.pitch), "metres per turn");
+  requireNumber(joint.maxVelocity, "largest velocity", joint.maxVelocity >= 0, "a number >= 0");
+  requireNumber(joint.maxEffort, "largest effort", joint.maxEffort >= 0, "a number >= 0");
+  requireNumber(joint.damping, "damping", joint.damping >= 0 && std::isfinite(joint.damping),
+                "a number >= 0");
+  requireNumber(joint.friction, "friction", joint.friction >= 0 && std::isfinite(joint.friction),
+                "a number >= 0");
+  requireNumber(joint.mimicRatio, "ratio", std::isfinite(joint.mimicRatio), "a finite number");
+  requireNumber(joint.mimicOffset, "offset", std::isfinite(joint.mimicOffset), "a finite number");
   const auto checkCount = [&](const Eigen::VectorXd& values, const char* name) {
     if (values.size() != 0 && values.size() != n) {
       fail(joint.where, fmt::format("{}: {}", what, name), fmt::format("{} numbers", values.size()),
@@ -236,10 +265,15 @@ Joint makeJoint(const JointSpec& spec, BodyId parent, BodyId child) {
   joint.X_PF = spec.X_PF;
   joint.X_MC = spec.X_MC;
   joint.axis = spec.axis.normalized();
+  joint.pitch = spec.pitch;
+  joint.maxVelocity = spec.maxVelocity;
+  joint.maxEffort = spec.maxEffort;
+  joint.damping = spec.damping;
+  joint.friction = spec.friction;
   joint.nq = positionCount(spec.type);
   joint.nv = velocityCount(spec.type);
   const Pose X_CM = spec.X_MC.inverse();
-  const std::vector<DegreeOfFreedom> freedoms = freedomsOf(spec.type, joint.axis);
+  const std::vector<DegreeOfFreedom> freedoms = freedomsOf(spec.type, joint.axis, spec.pitch);
   std::transform(freedoms.begin(), freedoms.end(), joint.freedoms.begin(), [&](const DegreeOfFreedom& f) {
     return seenThrough(f.frame == DegreeOfFreedom::Frame::kParent ? spec.X_PF : X_CM, f);
   });
@@ -290,24 +324,39 @@ Coordinates indexCoordinates(std::vector<Joint>& joints, const std::vector<const
   return all;
 }
 
+// Joints of one coordinate follow one another at any ratio, of several only as the same type does.
+bool canFollow(const JointSpec& follower, const JointSpec& target) {
+  if (!target.mimic.empty()) return false;
+  if (positionCount(follower.type) == 1 && positionCount(target.type) == 1) return true;
+  return follower.type == target.type && follower.mimicRatio == 1 && follower.mimicOffset == 0;
+}
+
 // Gives each joint that mimics the indices of its target.
 void shareCoordinates(std::vector<Joint>& joints, const std::vector<const JointSpec*>& specs) {
   for (std::size_t j = 0; j < specs.size(); ++j) {
     const JointSpec& spec = *specs[j];
     if (spec.mimic.empty()) continue;
-    const auto target =
-        std::find_if(joints.begin(), joints.end(), [&](const Joint& t) { return t.name == spec.mimic; });
-    Joint& joint = joints[j];
-    if (target == joints.end() || target->type != joint.type ||
-        !specs[static_cast<std::size_t>(target - joints.begin())]->mimic.empty()) {
+    const auto target = std::find_if(specs.begin(), specs.end(),
+                                     [&](const JointSpec* other) { return other->name == spec.mimic; });
+    if (target == specs.end() || !canFollow(spec, **target)) {
       std::vector<std::string> known;
-      for (const Joint& other : joints) known.push_back(other.name);
-      fail(spec.where, fmt::format("joint '{}': mimic", joint.name), fmt::format("'{}'", spec.mimic),
-           "the name of a joint of the same type that mimics none", nearestNames(spec.mimic, known));
+      for (const JointSpec* other : specs)
+        if (other != &spec && canFollow(spec, *other)) known.push_back(other->name);
+      fail(spec.where, fmt::format("joint '{}': mimic", spec.name), fmt::format("'{}'", spec.mimic),
+           "a joint that mimics none, of the same type or like this one with one coordinate",
+           nearestNames(spec.mimic, known));
     }
+    const Joint& followed = joints[static_cast<std::size_t>(target - specs.begin())];
+    Joint& joint = joints[j];
     joint.mimics = true;
-    joint.qIndex = target->qIndex;
-    joint.vIndex = target->vIndex;
+    joint.qIndex = followed.qIndex;
+    joint.vIndex = followed.vIndex;
+    joint.ratio = spec.mimicRatio;
+    joint.offset = spec.mimicOffset;
+    for (DegreeOfFreedom& freedom : joint.freedoms) {
+      freedom.angular *= spec.mimicRatio;
+      freedom.linear *= spec.mimicRatio;
+    }
   }
 }
 
@@ -320,10 +369,11 @@ Model compile(const SceneSpec& spec) {
 
   Model model;
   model.name_ = spec.name;
-  model.bodies_.push_back(Body{.name = "world"});
+  model.bodies_.push_back(Body{.name = kWorldName});
   const auto addShape = [&](const ShapeSpec& shape, BodyId body) {
     checkShape(shape);
-    model.shapes_.push_back({shape.name, body, shape.X_BS, shape.shape, shape.color, shape.contact});
+    model.shapes_.push_back(
+        {shape.name, body, shape.X_BS, shape.shape, shape.color, shape.contact, shape.visible});
   };
   for (const ShapeSpec& shape : spec.worldShapes) addShape(shape, kWorld);
 
@@ -341,7 +391,8 @@ Model compile(const SceneSpec& spec) {
     body.I_BBcm_B = bodySpec.inertia.value_or(kInertiaPerMass * bodySpec.mass * Eigen::Matrix3d::Identity());
     if (const int j = tree.incoming[static_cast<std::size_t>(index)]; j >= 0) {
       const JointSpec& jointSpec = spec.joints[static_cast<std::size_t>(j)];
-      body.parent = idOfSpec[static_cast<std::size_t>(tree.firstBodyByName.at(jointSpec.parent))];
+      if (jointSpec.parent != kWorldName)
+        body.parent = idOfSpec[static_cast<std::size_t>(tree.firstBodyByName.at(jointSpec.parent))];
       body.joint = JointId{static_cast<int>(model.joints_.size())};
       body.X_PB = Pose{};
       model.joints_.push_back(makeJoint(jointSpec, body.parent, id));
@@ -365,7 +416,7 @@ Model compile(const SceneSpec& spec) {
 }
 
 BodyId Model::body(std::string_view name) const {
-  if (name == "world") return kWorld;
+  if (name == kWorldName) return kWorld;
   if (const auto found = bodyByName_.find(std::string(name)); found != bodyByName_.end())
     return found->second;
   std::vector<std::string> known;

@@ -62,10 +62,11 @@ std::string whyUnreadable(const fs::path& file) {
   }
 }
 
-void requireReadable(const fs::path& file, double scale) {
+void requireReadable(const fs::path& file, const Eigen::Vector3d& scale) {
   constexpr std::uintmax_t kLargestFile = 256u << 20;
-  if (!(scale > 0) || !std::isfinite(scale))
-    fail(file, "scale of the mesh", fmt::format("{}", scale), "a positive number");
+  if (!scale.allFinite() || (scale.array() == 0).any())
+    fail(file, "scale of the mesh", fmt::format("({}, {}, {})", scale.x(), scale.y(), scale.z()),
+         "finite numbers other than 0");
   const std::string ending = endingOf(file);
   if (std::find(kEndings.begin(), kEndings.end(), ending) == kEndings.end())
     fail(file, "not a kind of mesh file that rex reads",
@@ -178,7 +179,7 @@ Matrix4d matrixOf(const aiMatrix4x4& m) {
 // All meshes of a file, as its nodes place them, in one.
 class Collector {
  public:
-  Collector(const fs::path& file, const aiScene& scene, double scale)
+  Collector(const fs::path& file, const aiScene& scene, const Eigen::Vector3d& scale)
       : file_(file), scene_(scene), scale_(scale) {
     const std::string ending = endingOf(file);
     linearLight_ = ending == ".gltf" || ending == ".glb";
@@ -217,7 +218,7 @@ class Collector {
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) addVertex(mesh.mVertices[i], placed);
     TriangleMesh::Part part{.color = colorOf(*scene_.mMaterials[mesh.mMaterialIndex], linearLight_),
                             .firstTriangle = static_cast<Index>(triangles_.size())};
-    const bool mirrored = placed.topLeftCorner<3, 3>().determinant() < 0;
+    const bool mirrored = placed.topLeftCorner<3, 3>().determinant() * scale_.prod() < 0;
     for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
       const aiFace& face = mesh.mFaces[i];
       if (face.mNumIndices != 3) continue;
@@ -232,7 +233,7 @@ class Collector {
 
   void addVertex(const aiVector3D& v, const Matrix4d& placed) {
     constexpr double kLargest = 1e9;
-    const Eigen::Vector3d p = scale_ * (placed * Eigen::Vector4d(v.x, v.y, v.z, 1)).head<3>();
+    const Eigen::Vector3d p = scale_.cwiseProduct((placed * Eigen::Vector4d(v.x, v.y, v.z, 1)).head<3>());
     if (!p.allFinite() || p.cwiseAbs().maxCoeff() > kLargest)
       fail(file_, "mesh", fmt::format("vertex {} at ({}, {}, {})", positions_.size(), p.x(), p.y(), p.z()),
            "finite numbers up to 1e9");
@@ -241,7 +242,7 @@ class Collector {
 
   const fs::path& file_;
   const aiScene& scene_;
-  double scale_;
+  Eigen::Vector3d scale_;
   bool linearLight_;  // glTF counts colours in light, all others as a screen shows them
   std::vector<Eigen::Vector3f> positions_;
   std::vector<TriangleMesh::Triangle> triangles_;
@@ -250,7 +251,7 @@ class Collector {
 
 }  // namespace
 
-TriangleMesh readMesh(const fs::path& file, double scale) {
+TriangleMesh readMesh(const fs::path& file, const Eigen::Vector3d& scale) {
   requireReadable(file, scale);
   requireShallow(file);
   Assimp::Importer importer;

@@ -37,7 +37,7 @@ struct Body {
   BodyKind kind = BodyKind::kDynamic;
 };
 
-/// One degree of freedom as a unit twist: how fast the joint turns, and how fast it moves the point at the
+/// One degree of freedom as a twist: how fast the joint turns, and how fast it moves the point at the
 /// origin, per unit of v. It is constant in the frame it is given in: that of the parent or of the child
 /// body.
 struct DegreeOfFreedom {
@@ -54,16 +54,22 @@ struct LinearMotion {
   Matrix34 constant = Matrix34::Zero(), first = Matrix34::Zero(), second = Matrix34::Zero();
 };
 
-/// A joint: X_PC = X_PF * X_FM(q) * X_MC. Joints that mimic share q and v indices with their target.
+/// A joint: X_PC = X_PF * X_FM(q) * X_MC. Joints that mimic share q and v indices with their target; their
+/// own coordinate is ratio * q + offset, and their freedoms move by ratio * v.
 struct Joint {
   std::string name;
   JointType type = JointType::kRigid;
   BodyId parent{}, child{};
   Pose X_PF, X_MC;
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< unit vector, of hinge and slider
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< unit vector, if its type has one
+  double pitch = 0;                                 ///< of a screw: metres per turn
   int qIndex = 0, vIndex = 0;
   int nq = 0, nv = 0;
   bool mimics = false;
+  double ratio = 1, offset = 0;
+  double maxVelocity = std::numeric_limits<double>::infinity();  ///< see JointSpec
+  double maxEffort = std::numeric_limits<double>::infinity();
+  double damping = 0, friction = 0;
   std::array<DegreeOfFreedom, 6> freedoms{};  ///< the first nv count
   LinearMotion motion{};                      ///< of hinge and slider
 };
@@ -76,6 +82,7 @@ struct ModelShape {
   Shape shape;
   Eigen::Vector4d color = Eigen::Vector4d::Ones();
   bool contact = false;
+  bool visible = true;
 };
 
 /// An immutable robot world; only compile() makes one. Bodies and joints stand breadth-first from the roots
@@ -121,6 +128,7 @@ class Model {
 /// Checks a scene and freezes it. Throws Error, with the place in the file where it is known, for: a joint to
 /// an unknown body, two joints of one name, two joints into one body, a loop, a mimic of an unknown or
 /// different joint, and masses, sizes, poses or limits that are not finite or have the wrong sign or number.
+/// An inertia with a negative principal moment is refused, one that breaks the triangle inequality is not.
 [[nodiscard]] Model compile(const SceneSpec& spec);
 
 }  // namespace rex

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include <fmt/format.h>
 
@@ -170,7 +168,7 @@ ShapeSpec readShape(const Attributes& attributes, std::string name, const Source
   spec.contact = attributes.flag("contact");
   if (const auto mesh = attributes.get<ors::FileName>("mesh", "a file name in single quotes"))
     spec.meshFile = mesh->path;
-  spec.meshScale = attributes.number("meshscale").value_or(1);
+  spec.meshScale.setConstant(attributes.number("meshscale").value_or(1));
   return spec;
 }
 
@@ -400,36 +398,10 @@ SceneFile parseOrs(std::string_view text, const std::string& name) {
   return Reader(name).read(ors::parseGraph(text, name));
 }
 
-std::string readSceneText(const std::filesystem::path& path) {
-  constexpr std::uintmax_t kLargestFile = 32u << 20;
-  std::error_code problem;
-  const std::uintmax_t size = std::filesystem::file_size(path, problem);
-  std::ifstream file(path, std::ios::binary);
-  if (problem || !file) {
-    std::vector<std::string> neighbours;
-    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-    for (const auto& entry : std::filesystem::directory_iterator(folder, problem))
-      neighbours.push_back(entry.path().filename().string());
-    throw Error({.what = "cannot read the scene file",
-                 .where = {path.string()},
-                 .wanted = "an .ors file",
-                 .nearest = nearestNames(path.filename().string(), neighbours)});
-  }
-  if (size > kLargestFile) {
-    throw Error({.what = "scene file too large",
-                 .where = {path.string()},
-                 .found = fmt::format("{} bytes", size),
-                 .wanted = "at most 32 MiB"});
-  }
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-SceneFile readOrs(const std::filesystem::path& path) {
-  SceneFile file = parseOrs(readSceneText(path), path.string());
-  loadMeshes(file.spec, path.parent_path());
-  return file;
+SceneFile readOrs(const std::filesystem::path& file, const ReadOptions& options) {
+  SceneFile scene = parseOrs(readSceneText(file), file.string());
+  loadMeshes(scene, Assets(file, options.assetRoot));
+  return scene;
 }
 
 }  // namespace rex

@@ -1,6 +1,7 @@
 #include "scene/scene_spec.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "geometry/rotation.h"
 
@@ -23,7 +24,9 @@ int positionCount(JointType type) {
       return 0;
     case JointType::kHinge:
     case JointType::kSlider:
+    case JointType::kScrew:
       return 1;
+    case JointType::kCylindrical:
     case JointType::kPlanarXY:
     case JointType::kUniversal:
       return 2;
@@ -44,7 +47,7 @@ int velocityCount(JointType type) {
   return positionCount(type) - (quaternion ? 1 : 0);
 }
 
-Pose jointMotion(JointType type, const Eigen::Vector3d& axis, const double* q) {
+Pose jointMotion(JointType type, const Eigen::Vector3d& axis, double pitch, const double* q) {
   switch (type) {
     case JointType::kRigid:
       return {};
@@ -52,6 +55,10 @@ Pose jointMotion(JointType type, const Eigen::Vector3d& axis, const double* q) {
       return rotation(q[0], axis);
     case JointType::kSlider:
       return {Eigen::Matrix3d::Identity(), q[0] * axis.normalized()};
+    case JointType::kScrew:
+      return {rotationAboutAxis(q[0], axis), q[0] * pitch / (2 * std::numbers::pi) * axis.normalized()};
+    case JointType::kCylindrical:
+      return {rotationAboutAxis(q[0], axis), q[1] * axis.normalized()};
     case JointType::kPlanarXY:
       return translation(q[0], q[1], 0);
     case JointType::kTranslation3:
@@ -78,10 +85,14 @@ Eigen::VectorXd jointCoordinates(JointType type, const Eigen::Vector3d& axis, co
     case JointType::kRigid:
       break;
     case JointType::kHinge:
+    case JointType::kScrew:
       q << angleAbout(a, X_FM.R);
       break;
     case JointType::kSlider:
       q << a.dot(X_FM.p);
+      break;
+    case JointType::kCylindrical:
+      q << angleAbout(a, X_FM.R), a.dot(X_FM.p);
       break;
     case JointType::kPlanarXY:
       q << X_FM.p.head<2>();

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,13 +15,17 @@
 namespace rex {
 
 /// The motions a joint allows, from joint frame F to moved frame M. Coordinates in the order q lists them:
-/// hinge, slider: angle about or way along `axis`; planarXY, translation3: moves along x, y (, z) of F;
-/// planarXYPhi: x, y, then turn about z; planarPhiXY: turn about z first, then x, y of the turned frame;
-/// universal: turn about x, then y; ball: unit quaternion w x y z; free: x y z, then quaternion; rigid: none.
+/// hinge, slider: angle about or way along `axis`; screw: angle about `axis`, along which it moves by `pitch`
+/// per turn; cylindrical: angle about `axis`, then way along it; planarXY, translation3: moves along x, y (,
+/// z) of F; planarXYPhi: x, y, then turn about z; planarPhiXY: turn about z first, then x, y of the turned
+/// frame; universal: turn about x, then y; ball: unit quaternion w x y z; free: x y z, then quaternion;
+/// rigid: none.
 enum class JointType {
   kRigid,
   kHinge,
   kSlider,
+  kScrew,
+  kCylindrical,
   kPlanarXY,
   kTranslation3,
   kPlanarXYPhi,
@@ -42,8 +48,10 @@ struct ShapeSpec {
   Shape shape;
   Eigen::Vector4d color{0.8, 0.8, 0.8, 1};  ///< red, green, blue, opacity, each 0..1
   bool contact = false;                     ///< takes part in collision detection
+  bool visible = true;                      ///< is drawn
   std::string meshFile{};                   ///< what `shape.mesh` is read from, see loadMeshes()
-  double meshScale = 1;
+  Eigen::Vector3d meshScale = Eigen::Vector3d::Ones();
+  std::filesystem::path meshPath{};  ///< where loadMeshes() found it; empty before
   SourceLocation where{};
 };
 
@@ -60,16 +68,23 @@ struct BodySpec {
 };
 
 /// A joint: X_W,child = X_W,parent * X_PF * X_FM(q) * X_MC. Parent and child name the first body of that
-/// name.
+/// name; the parent may be "world". Damping and friction slow the joint with damping * v + friction *
+/// sign(v).
 struct JointSpec {
   std::string name;
   std::string parent, child;
   JointType type = JointType::kHinge;
   Pose X_PF, X_MC;
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< of a hinge or slider, in F; any length but zero
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< if its type has one, in F; any length but zero
+  double pitch = 0;                                 ///< of a screw: metres per turn
   Eigen::VectorXd q0{};                             ///< initial coordinates; empty: the zero position
   Eigen::VectorXd lower{}, upper{};                 ///< limits of each coordinate; empty: none
-  std::string mimic{};  ///< a joint whose coordinates this one shares; empty: its own
+  std::string mimic{};  ///< a joint that moves this one: q = ratio * q of that joint + offset; empty: none
+  double mimicRatio = 1, mimicOffset = 0;  ///< other than 1 and 0 only for joints of one coordinate
+  double maxVelocity = std::numeric_limits<double>::infinity();  ///< rad/s or m/s
+  double maxEffort = std::numeric_limits<double>::infinity();    ///< N m or N
+  double damping = 0;                                            ///< N m s/rad or N s/m
+  double friction = 0;                                           ///< N m or N
   SourceLocation where{};
 };
 
@@ -82,10 +97,10 @@ struct SceneSpec {
 };
 
 /// X_FM(q), the motion of a joint. q has positionCount(type) entries; a quaternion is normalised on use.
-[[nodiscard]] Pose jointMotion(JointType type, const Eigen::Vector3d& axis, const double* q);
+[[nodiscard]] Pose jointMotion(JointType type, const Eigen::Vector3d& axis, double pitch, const double* q);
 
 /// The coordinates whose motion comes nearest to X_FM: exact when X_FM is a motion of this joint, else the
-/// part that is (of a hinge the signed turn about its axis in (-pi, pi]).
+/// part that is (of a hinge or screw the signed turn about its axis in (-pi, pi]).
 [[nodiscard]] Eigen::VectorXd jointCoordinates(JointType type, const Eigen::Vector3d& axis, const Pose& X_FM);
 
 }  // namespace rex

@@ -56,6 +56,8 @@ TEST(Diagnostic, PrintsItsPlace) {
   EXPECT_EQ(toString(Diagnostic{{"arm.ors", 3, 1}, "agent is ignored"}),
             "arm.ors:3:1: note: agent is ignored");
   EXPECT_EQ(toString(Diagnostic{{}, "agent is ignored"}), "note: agent is ignored");
+  EXPECT_EQ(toString(Diagnostic{{"arm.urdf", 7, 3}, "unknown tag", Severity::kWarning}),
+            "arm.urdf:7:3: warning: unknown tag");
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "kinematics/jacobians.h"
 
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 #include "geometry/rotation.h"
@@ -69,6 +71,47 @@ TEST(Jacobian, AddsUpMimickingJoints) {
   const BodyId tip = model.body("c");
   expectDerivative(model, q, positionJacobian(model, poses, tip, {1, 2, 3}), [&](const BodyPoses& at) {
     return position(at, tip, {1, 2, 3});
+  });
+}
+
+// A hinge at b makes c slide 0.4 m/rad times as far as b turns, 0.1 m ahead, and d screw backwards.
+TEST(ForwardKinematics, FollowsRatioAndOffsetOfMimickingJoints) {
+  Rng rng(25);
+  SceneSpec spec;
+  for (const char* name : {"a", "b", "c", "d"})
+    spec.bodies.push_back({.name = name, .X_WB = randomPose(rng)});
+  spec.joints.push_back(
+      {.name = "first", .parent = "a", .child = "b", .X_PF = randomPose(rng), .X_MC = randomPose(rng)});
+  spec.joints.push_back({.name = "second",
+                         .parent = "b",
+                         .child = "c",
+                         .type = JointType::kSlider,
+                         .X_PF = randomPose(rng),
+                         .X_MC = {},
+                         .axis = {0, 0, 2},
+                         .mimic = "first",
+                         .mimicRatio = 0.4,
+                         .mimicOffset = 0.1});
+  spec.joints.push_back({.name = "third",
+                         .parent = "c",
+                         .child = "d",
+                         .type = JointType::kScrew,
+                         .X_PF = {},
+                         .X_MC = randomPose(rng),
+                         .pitch = 0.25,
+                         .mimic = "first",
+                         .mimicRatio = -2});
+  const Model model = compile(spec);
+  ASSERT_EQ(model.nv(), 1);
+  const Eigen::VectorXd q = Eigen::VectorXd::Constant(1, 0.7);
+  const BodyPoses poses = forwardKinematics(model, q);
+  const BodyId b = model.body("b"), c = model.body("c"), d = model.body("d");
+  EXPECT_TRUE(isApprox(poses[c], poses[b] * spec.joints[1].X_PF * translation(0, 0, 0.4 * 0.7 + 0.1), 1e-14));
+  const Pose turned = rotation(-1.4, Eigen::Vector3d::UnitX());
+  const Pose moved = translation(-1.4 * 0.25 / (2 * std::numbers::pi), 0, 0);
+  EXPECT_TRUE(isApprox(poses[d], poses[c] * moved * turned * spec.joints[2].X_MC, 1e-14));
+  expectDerivative(model, q, positionJacobian(model, poses, d, {1, 2, 3}), [&](const BodyPoses& at) {
+    return position(at, d, {1, 2, 3});
   });
 }
 

@@ -105,9 +105,28 @@ TEST(Compile, RefusesBadNumbersInAnEditedSpec) {
       compile(broken([&](SceneSpec& s) { s.bodies[0].inertia = Eigen::Matrix3d::Constant(nan); })),
       "body 'a': inertia: wanted a finite symmetric matrix");
   EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.bodies[0].shapes[0].shape.radius = -1; })),
-                   "shape 'a': wanted a finite pose and finite sizes >= 0");
+                   "shape 'a': wanted a finite pose, finite sizes >= 0");
   EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].axis.setZero(); })),
                    "joint 'j': axis: found a zero or non-finite vector");
+  EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.bodies[0].p_BBcm.z() = nan; })),
+                   "body 'a': centre of mass: found a number that is not finite");
+  EXPECT_REX_ERROR(
+      compile(broken([&](SceneSpec& s) { s.bodies[0].inertia = Eigen::Vector3d(1, -1, 1).asDiagonal(); })),
+      "f:1:1: body 'a': inertia: found a negative principal moment");
+  EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].pitch = nan; })),
+                   "joint 'j': pitch: found nan, wanted metres per turn");
+  EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].maxVelocity = -1; })),
+                   "joint 'j': largest velocity: found -1, wanted a number >= 0");
+  EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].maxEffort = nan; })),
+                   "joint 'j': largest effort: found nan");
+  EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].damping = -1; })),
+                   "joint 'j': damping: found -1");
+  EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].friction = nan; })),
+                   "joint 'j': friction: found nan");
+  EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].mimicRatio = nan; })),
+                   "joint 'j': ratio: found nan");
+  EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].mimicOffset = nan; })),
+                   "joint 'j': offset: found nan");
   EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].X_PF.p.y() = nan; })), "joint 'j': frames");
   EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].q0 = Eigen::Vector2d(1, 2); })),
                    "joint 'j': initial coordinates: found 2 numbers, wanted 1");
@@ -119,7 +138,23 @@ TEST(Compile, RefusesBadNumbersInAnEditedSpec) {
   EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].child = "c"; })),
                    "joint 'j': unknown child: found 'c'");
   EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].mimic = "k"; })),
-                   "joint 'j': mimic: found 'k', wanted the name of a joint of the same type");
+                   "joint 'j': mimic: found 'k', wanted a joint that mimics none, of the same type");
+}
+
+TEST(Compile, LetsJointsHangOnTheWorld) {
+  SceneSpec spec;
+  spec.bodies = {{.name = "cart", .X_WB = translation(9, 9, 9)}, {.name = "post", .X_WB = {}}};
+  spec.joints = {{.name = "rail",
+                  .parent = "world",
+                  .child = "cart",
+                  .type = JointType::kSlider,
+                  .X_PF = {},
+                  .X_MC = {}}};
+  const Model model = compile(spec);
+  EXPECT_EQ(model.bodies()[1].name, "post") << "bodies without joints come first";
+  EXPECT_EQ(model[model.body("cart")].parent, kWorld);
+  EXPECT_EQ(model.joints()[0].parent, kWorld);
+  EXPECT_EQ(model.nq(), 1);
 }
 
 }  // namespace

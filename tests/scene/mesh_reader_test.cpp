@@ -62,7 +62,7 @@ TEST_F(MeshReader, ReadsStlAsASmoothSurface) {
   const BareMesh sphere = sphereSample(0.5f, 3);
   for (const fs::path& file :
        {write("ascii.stl", asciiStl(sphere)), write("binary.STL", binaryStl(sphere))}) {
-    const TriangleMesh mesh = readMesh(file, 2);
+    const TriangleMesh mesh = readMesh(file, Eigen::Vector3d::Constant(2));
     EXPECT_EQ(mesh.positions().size(), 258u) << file;
     EXPECT_EQ(mesh.triangles().size(), 512u);
     // A sphere of radius 1, less what its flat sides cut off.
@@ -100,7 +100,8 @@ TEST_F(MeshReader, ReadsPlyWithAndWithoutFaces) {
   const std::string head =
       "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
   const std::string points = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
-  const TriangleMesh cloud = readMesh(write("cloud.ply", head + "end_header\n" + points), 0.5);
+  const TriangleMesh cloud =
+      readMesh(write("cloud.ply", head + "end_header\n" + points), Eigen::Vector3d::Constant(0.5));
   ASSERT_EQ(cloud.positions().size(), 4u);
   EXPECT_TRUE(cloud.triangles().empty());
   EXPECT_EQ(cloud.positions()[1], Vector3f(0.5f, 0, 0));
@@ -174,8 +175,8 @@ TEST_F(MeshReader, NamesWhatIsWrong) {
                    "a.tri: not a kind of mesh file that rex reads: found '.tri', wanted .stl, .obj, .ply");
   EXPECT_REX_ERROR(readMesh(write("a.sttl", "")), "(did you mean '.stl'?)");
   EXPECT_REX_ERROR(readMesh(write("a", "")), "found no ending");
-  for (const double scale : {0., -1., std::numeric_limits<double>::quiet_NaN()})
-    EXPECT_REX_ERROR(readMesh(good, scale), "tetrahedron.off: scale of the mesh: found");
+  for (const double scale : {0., HUGE_VAL, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_REX_ERROR(readMesh(good, {1, 1, scale}), "tetrahedron.off: scale of the mesh: found (1, 1, ");
   for (const char* name :
        {"junk.stl", "junk.obj", "junk.ply", "junk.dae", "junk.gltf", "junk.glb", "junk.off"}) {
     EXPECT_REX_ERROR(readMesh(write(name, "this is no mesh, however long one looks at it")), name);
@@ -187,7 +188,8 @@ TEST_F(MeshReader, NamesWhatIsWrong) {
                                   "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 nan\n"
                                   "vertex 0 1 0\nendloop\nendfacet\nendsolid x\n")),
                    "nan.stl: mesh: found vertex 1 at (nan, nan, nan), wanted finite numbers up to 1e9");
-  EXPECT_REX_ERROR(readMesh(good, 2e9), "tetrahedron.off: mesh: found vertex 1 at (2000000000, 0, 0)");
+  EXPECT_REX_ERROR(readMesh(good, Eigen::Vector3d::Constant(2e9)),
+                   "tetrahedron.off: mesh: found vertex 1 at (2000000000, 0, 0)");
   std::error_code problem;
   fs::resize_file(write("large.stl", "x"), (256u << 20) + 1, problem);
   EXPECT_REX_ERROR(readMesh(folder_.path() / "large.stl"),

@@ -157,8 +157,9 @@ TEST(OrsReader, SaysWhatIsWrongWhere) {
 }
 
 TEST(OrsReader, SaysWhichFileIsMissing) {
-  EXPECT_REX_ERROR(readOrs(sourcePath("data/robots/mann.ors")),
-                   "mann.ors: cannot read the scene file: wanted an .ors file (did you mean 'man.ors'?)");
+  EXPECT_REX_ERROR(
+      readOrs(sourcePath("data/robots/mann.ors")),
+      "mann.ors: cannot read the scene file: wanted an .ors or .urdf file (did you mean 'man.ors'?)");
   EXPECT_REX_ERROR(readOrs("no/such/folder/x.ors"), "no/such/folder/x.ors: cannot read the scene file");
 }
 

@@ -46,25 +46,20 @@ TEST_F(SceneMeshes, AreReadBesideTheirScene) {
   EXPECT_EQ(compile(spec).shapes().size(), 4u);
 }
 
-// The mean of the five vertices is (1, 1, 0.6).
-TEST_F(SceneMeshes, AreCentredWithoutMoving) {
+TEST_F(SceneMeshes, StandWhereTheFilePutsThem) {
   const SceneSpec spec =
       readOrs(scene("shape { type=3 mesh='meshes/pyramid.off' rel=<T t(5 0 0) d(90 0 0 1)> }")).spec;
   const ShapeSpec& shape = spec.worldShapes[0];
-  EXPECT_LT((shape.X_BS.p - Eigen::Vector3d(4, 1, 0.6)).norm(), 1e-6);
-  Eigen::Vector3d highest(0, 0, -9);
-  for (const Eigen::Vector3f& p : shape.shape.mesh.positions())
-    if (p.z() > highest.z()) highest = p.cast<double>();
-  EXPECT_LT((shape.X_BS * highest - Eigen::Vector3d(4, 1, 3)).norm(), 1e-6);
+  EXPECT_EQ(shape.X_BS.p, Eigen::Vector3d(5, 0, 0));
+  EXPECT_EQ(halfBounds(shape.shape), Eigen::Vector3d(2, 2, 3));
+  EXPECT_EQ(shape.meshPath, folder_.path() / "meshes/pyramid.off");
 }
 
 TEST_F(SceneMeshes, AreReadOnce) {
-  SceneSpec spec = readOrs(scene("shape { type=3 mesh='meshes/pyramid.off' rel=<T t(5 0 0)> }")).spec;
-  const Eigen::Vector3d p = spec.worldShapes[0].X_BS.p;
-  const TriangleMesh mesh = spec.worldShapes[0].shape.mesh;
-  loadMeshes(spec, folder_.path());
-  EXPECT_EQ(spec.worldShapes[0].X_BS.p, p);
-  EXPECT_EQ(spec.worldShapes[0].shape.mesh, mesh);
+  SceneFile file = readOrs(scene("shape { type=3 mesh='meshes/pyramid.off' }"));
+  const TriangleMesh mesh = file.spec.worldShapes[0].shape.mesh;
+  loadMeshes(file, Assets(folder_.path() / "scene.ors"));
+  EXPECT_EQ(file.spec.worldShapes[0].shape.mesh, mesh);
 }
 
 TEST_F(SceneMeshes, AreNamesOnlyInText) {
@@ -75,14 +70,13 @@ TEST_F(SceneMeshes, AreNamesOnlyInText) {
 }
 
 TEST_F(SceneMeshes, ThatAreMissingAreNamedWithTheirPlace) {
-  EXPECT_REX_ERROR(
-      readOrs(scene("body a {}\nshape hat (a) { type=3 mesh='meshes/pyramit.off' }")),
-      "scene.ors:2:1: shape 'hat': mesh '" + (folder_.path() / "meshes/pyramit.off").string() +
-          "': cannot read the mesh file: found no such file, wanted a file (did you mean 'pyramid.off'?)");
+  EXPECT_REX_ERROR(readOrs(scene("body a {}\nshape hat (a) { type=3 mesh='meshes/pyramit.off' }")),
+                   "scene.ors:2:1: shape 'hat': mesh: found no file 'meshes/pyramit.off', wanted one of " +
+                       (folder_.path() / "meshes/pyramit.off").string() + " (did you mean 'pyramid.off'?)");
   EXPECT_REX_ERROR(readOrs(scene("body a { type=3 }")),
                    "shape 'a': attribute 'mesh' is missing: wanted the file of its mesh, in single quotes");
   EXPECT_REX_ERROR(readOrs(scene("body a { type=3 mesh='meshes/pyramid.off' meshscale=0 }")),
-                   "scale of the mesh: found 0, wanted a positive number");
+                   "scale of the mesh: found (0, 0, 0), wanted finite numbers other than 0");
 }
 
 }  // namespace

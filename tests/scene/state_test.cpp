@@ -15,9 +15,9 @@ TEST(JointMotion, IsInvertedByJointCoordinates) {
     for (int i = 0; i < 20; ++i) {
       const Eigen::Vector3d axis = rng.normalVector(3);
       Eigen::VectorXd q = rng.uniformVector(positionCount(type), -1.5, 1.5);
-      const Pose X = jointMotion(type, axis, q.data());
+      const Pose X = jointMotion(type, axis, 0.3, q.data());
       const Eigen::VectorXd back = jointCoordinates(type, axis, X);
-      EXPECT_TRUE(isApprox(jointMotion(type, axis, back.data()), X, 1e-13));
+      EXPECT_TRUE(isApprox(jointMotion(type, axis, 0.3, back.data()), X, 1e-13));
       if (positionCount(type) == velocityCount(type)) {
         EXPECT_LT((back - q).norm(), 1e-13);
       }

@@ -28,6 +28,7 @@ SceneSpec randomScene(Rng& rng, int bodies) {
     joint.X_PF = randomPose(rng);
     joint.X_MC = randomPose(rng);
     joint.axis = rng.normalVector(3);
+    joint.pitch = rng.uniform(-0.5, 0.5);
     spec.joints.push_back(joint);
   }
   return spec;

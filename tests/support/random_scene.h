@@ -6,9 +6,9 @@
 namespace rex {
 
 inline constexpr JointType kAllJointTypes[] = {
-    JointType::kRigid,        JointType::kHinge,       JointType::kSlider,      JointType::kPlanarXY,
-    JointType::kTranslation3, JointType::kPlanarXYPhi, JointType::kPlanarPhiXY, JointType::kUniversal,
-    JointType::kBall,         JointType::kFree};
+    JointType::kRigid,       JointType::kHinge,     JointType::kSlider,       JointType::kScrew,
+    JointType::kCylindrical, JointType::kPlanarXY,  JointType::kTranslation3, JointType::kPlanarXYPhi,
+    JointType::kPlanarPhiXY, JointType::kUniversal, JointType::kBall,         JointType::kFree};
 
 Pose randomPose(Rng& rng);
 

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace rex {
+
+/// What keeps a matrix from being the inertia of any distribution of mass: a negative principal moment, or
+/// one that is larger than the sum of the two others (the triangle inequality).
+enum class InertiaFault { kNone, kNegative, kTriangle };
+
+/// Judges a symmetric inertia about the centre of mass, kg m^2; a millionth of its trace is forgiven.
+[[nodiscard]] InertiaFault inertiaFault(const Eigen::Matrix3d& I);
+
+}  // namespace rex

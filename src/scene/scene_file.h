@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "base/diagnostic.h"
+#include "scene/scene_spec.h"
+
+namespace rex {
+
+/// What a file holds, and what the reader noticed (ignored attributes, likely misspellings).
+struct SceneFile {
+  SceneSpec spec;
+  Diagnostics notes;
+};
+
+struct ReadOptions {
+  std::filesystem::path
+      assetRoot{};                  ///< holds all files that the scene names, see Assets; empty: its default
+  bool allowMissingMeshes = false;  ///< draw a marker instead, and warn
+  bool freeBase = false;            ///< of a URDF robot: its root moves freely
+};
+
+/// Reads a scene with its meshes; the ending of the file says how, .ors or .urdf. Throws Error: another
+/// ending, and as readOrs() or readUrdf().
+[[nodiscard]] SceneFile readScene(const std::filesystem::path& file, const ReadOptions& options = {});
+
+/// The same for text at hand, which is .ors unless `name` ends in .urdf. Reads no file, so shapes know their
+/// mesh by name only.
+[[nodiscard]] SceneFile parseScene(std::string_view text, const std::string& name,
+                                   const ReadOptions& options = {});
+
+/// The text of a scene file. Throws Error if it is missing or larger than `most` bytes.
+[[nodiscard]] std::string readSceneText(const std::filesystem::path& file, std::size_t most = 32u << 20);
+
+}  // namespace rex
