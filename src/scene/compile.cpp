@@ -412,6 +412,7 @@ Model compile(const SceneSpec& spec) {
   model.nv_ = coordinates.nv;
   for (const auto& [name, index] : tree.firstBodyByName)
     model.bodyByName_.emplace(name, idOfSpec[static_cast<std::size_t>(index)]);
+  model.fileOrder_ = std::move(idOfSpec);
   return model;
 }
 

@@ -99,6 +99,9 @@ class Model {
   const Body& operator[](BodyId id) const { return bodies_[static_cast<std::size_t>(id)]; }
   const Joint& operator[](JointId id) const { return joints_[static_cast<std::size_t>(id)]; }
 
+  /// All bodies but the world, in the order of the scene file.
+  std::span<const BodyId> bodiesInFileOrder() const { return fileOrder_; }
+
   /// The first body of that name (in file order), or the body of the first shape of that name, as the
   /// course's exercises expect. Throws Error naming the scene and the closest names.
   BodyId body(std::string_view name) const;
@@ -119,6 +122,7 @@ class Model {
   std::vector<Body> bodies_;
   std::vector<Joint> joints_;
   std::vector<ModelShape> shapes_;
+  std::vector<BodyId> fileOrder_;
   std::unordered_map<std::string, BodyId> bodyByName_;
   Eigen::VectorXd q0_, lower_, upper_;
   int nv_ = 0;

@@ -18,6 +18,36 @@ Eigen::Matrix3d turnZ(double angle) { return rotationAboutAxis(angle, Eigen::Vec
 
 }  // namespace
 
+std::string_view toString(JointType type) {
+  switch (type) {
+    case JointType::kRigid:
+      return "rigid";
+    case JointType::kHinge:
+      return "hinge";
+    case JointType::kSlider:
+      return "slider";
+    case JointType::kScrew:
+      return "screw";
+    case JointType::kCylindrical:
+      return "cylindrical";
+    case JointType::kPlanarXY:
+      return "planarXY";
+    case JointType::kTranslation3:
+      return "translation3";
+    case JointType::kPlanarXYPhi:
+      return "planarXYPhi";
+    case JointType::kPlanarPhiXY:
+      return "planarPhiXY";
+    case JointType::kUniversal:
+      return "universal";
+    case JointType::kBall:
+      return "ball";
+    case JointType::kFree:
+      return "free";
+  }
+  return "";
+}
+
 int positionCount(JointType type) {
   switch (type) {
     case JointType::kRigid:

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -34,6 +35,9 @@ enum class JointType {
   kBall,
   kFree
 };
+
+/// "hinge", "slider", "planarXY", ...
+[[nodiscard]] std::string_view toString(JointType type);
 
 /// Number of position coordinates and of velocities of a joint type; they differ only for quaternions.
 [[nodiscard]] int positionCount(JointType type);

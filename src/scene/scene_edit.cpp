@@ -1,0 +1,224 @@
+#include "scene/scene_edit.h"
+
+#include <algorithm>
+#include <numbers>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "geometry/rotation.h"
+
+namespace rex {
+namespace {
+
+constexpr const char* kWorldName = "world";
+
+[[noreturn]] void fail(const JointSpec& joint, const char* what, std::string found, std::string wanted) {
+  throw Error({.what = fmt::format("joint '{}': {}", joint.name, what),
+               .where = joint.where,
+               .found = std::move(found),
+               .wanted = std::move(wanted)});
+}
+
+// Of a scene that may be const or not.
+template <class Spec>
+auto& bodyNamed(Spec& spec, const std::string& name) {
+  std::vector<std::string> known;
+  for (auto& body : spec.bodies) {
+    if (body.name == name) return body;
+    known.push_back(body.name);
+  }
+  throw Error({.what = fmt::format("scene '{}' has no body '{}'", spec.name, name),
+               .nearest = nearestNames(name, known)});
+}
+
+// The joint that a body hangs on, or null.
+const JointSpec* jointInto(const SceneSpec& spec, const std::string& body) {
+  const auto found = std::find_if(spec.joints.begin(), spec.joints.end(),
+                                  [&](const JointSpec& joint) { return joint.child == body; });
+  return found == spec.joints.end() ? nullptr : &*found;
+}
+
+// The joints from a body up to its root.
+std::vector<const JointSpec*> jointsAbove(const SceneSpec& spec, const std::string& body) {
+  std::vector<const JointSpec*> path;
+  for (const JointSpec* joint = jointInto(spec, body); joint != nullptr;
+       joint = jointInto(spec, joint->parent)) {
+    path.push_back(joint);
+    if (path.size() > spec.joints.size()) fail(*joint, "loop", "joints that lead back to it", "a tree");
+  }
+  return path;
+}
+
+const JointSpec* follower(const SceneSpec& spec, const JointSpec& joint) {
+  const auto found = std::find_if(spec.joints.begin(), spec.joints.end(),
+                                  [&](const JointSpec& other) { return other.mimic == joint.name; });
+  return found == spec.joints.end() ? nullptr : &*found;
+}
+
+Eigen::VectorXd initialCoordinates(const SceneSpec& spec, const JointSpec& joint) {
+  if (!joint.mimic.empty()) {
+    for (const JointSpec& target : spec.joints)
+      if (target.name == joint.mimic)
+        return (joint.mimicRatio * initialCoordinates(spec, target).array() + joint.mimicOffset).matrix();
+  }
+  return joint.q0.size() > 0 ? joint.q0 : jointCoordinates(joint.type, joint.axis, Pose{});
+}
+
+Pose initialMotion(const SceneSpec& spec, const JointSpec& joint) {
+  return jointMotion(joint.type, joint.axis, joint.pitch, initialCoordinates(spec, joint).data());
+}
+
+// How a joint looks from its child: of which type it is there, in frames turned by X_FC, and for each
+// coordinate which of the old ones it is, with which sign.
+struct Reversal {
+  JointType type{};
+  Pose X_FC{};
+  std::vector<std::pair<int, double>> coordinates{};
+};
+
+Reversal reversalOf(JointType type) {
+  switch (type) {
+    case JointType::kPlanarXY:
+      return {type, {}, {{0, -1}, {1, -1}}};
+    case JointType::kTranslation3:
+      return {type, {}, {{0, -1}, {1, -1}, {2, -1}}};
+    case JointType::kPlanarXYPhi:
+      return {JointType::kPlanarPhiXY, {}, {{2, -1}, {0, -1}, {1, -1}}};
+    case JointType::kPlanarPhiXY:
+      return {JointType::kPlanarXYPhi, {}, {{1, -1}, {2, -1}, {0, -1}}};
+    case JointType::kUniversal:  // about y first, then x; half a turn about x - y makes -y of x, -x of y
+      return {type, rotation(std::numbers::pi, {1, -1, 0}), {{1, 1}, {0, 1}}};
+    case JointType::kBall:
+      return {type, {}, {{0, 1}, {1, -1}, {2, -1}, {3, -1}}};
+    default:
+      return {type, {}, {}};
+  }
+}
+
+Eigen::VectorXd reordered(const Eigen::VectorXd& values, const Reversal& reversal) {
+  Eigen::VectorXd turned(values.size());
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    const auto [from, sign] = reversal.coordinates[static_cast<std::size_t>(i)];
+    turned[i] = sign * values[from];
+  }
+  return turned;
+}
+
+void requireReversible(const SceneSpec& spec, const JointSpec& joint) {
+  if (joint.parent == kWorldName) fail(joint, "cannot be turned round", "a joint of the world", "a body's");
+  if (positionCount(joint.type) <= 1) return;
+  if (!joint.mimic.empty() || follower(spec, joint) != nullptr)
+    fail(joint, "cannot be turned round", "several coordinates that mimic", "one, or no mimic");
+  if (joint.type == JointType::kFree && joint.lower.size() > 0)
+    fail(joint, "cannot be turned round", "limits of a free joint", "none");
+}
+
+// X_FM(q)^-1 is again the motion of a joint: of one coordinate about the opposite axis.
+void reverse(JointSpec& joint) {
+  const Reversal reversal = reversalOf(joint.type);
+  const Pose X_PF = joint.X_MC.inverse() * reversal.X_FC;
+  joint.X_MC = reversal.X_FC.inverse() * joint.X_PF.inverse();
+  joint.X_PF = X_PF;
+  std::swap(joint.parent, joint.child);
+  joint.axis = -joint.axis;
+  if (joint.type == JointType::kFree && joint.q0.size() > 0)
+    joint.q0 = jointCoordinates(joint.type, joint.axis,
+                                jointMotion(joint.type, joint.axis, 0, joint.q0.data()).inverse());
+  joint.type = reversal.type;
+  if (reversal.coordinates.empty()) return;
+  joint.q0 = reordered(joint.q0, reversal);
+  const Eigen::VectorXd one = reordered(joint.lower, reversal), other = reordered(joint.upper, reversal);
+  joint.lower = one.cwiseMin(other);
+  joint.upper = one.cwiseMax(other);
+}
+
+void removeJoint(SceneSpec& spec, const std::string& name) {
+  std::erase_if(spec.joints, [&](const JointSpec& joint) { return joint.name == name; });
+}
+
+}  // namespace
+
+SceneSpec atPositions(SceneSpec spec, const VectorArg& q) {
+  const Model model = compile(spec);
+  requireSize("joint positions q", q.size(), model.nq());
+  for (const Joint& joint : model.joints()) {
+    if (joint.mimics || joint.nq == 0) continue;
+    const auto same = std::find_if(spec.joints.begin(), spec.joints.end(),
+                                   [&](const JointSpec& one) { return one.name == joint.name; });
+    same->q0 = q.segment(joint.qIndex, joint.nq);
+  }
+  return spec;
+}
+
+Pose initialPose(const SceneSpec& spec, const std::string& body) {
+  if (body == kWorldName) return {};
+  const std::vector<const JointSpec*> path = jointsAbove(spec, body);
+  const std::string& root = path.empty() ? body : path.back()->parent;
+  Pose X_WB = root == kWorldName ? Pose{} : bodyNamed(spec, root).X_WB;
+  for (auto joint = path.rbegin(); joint != path.rend(); ++joint)
+    X_WB = X_WB * (*joint)->X_PF * initialMotion(spec, **joint) * (*joint)->X_MC;
+  return X_WB;
+}
+
+SceneSpec reconfigureRoot(SceneSpec spec, const std::string& body) {
+  bodyNamed(spec, body).X_WB = initialPose(spec, body);
+  std::vector<std::string> names;
+  for (const JointSpec* joint : jointsAbove(spec, body)) {
+    requireReversible(spec, *joint);
+    names.push_back(joint->name);
+  }
+  for (JointSpec& joint : spec.joints)
+    if (std::find(names.begin(), names.end(), joint.name) != names.end()) reverse(joint);
+  return spec;
+}
+
+Glued glueBodies(SceneSpec spec, const std::string& parent, const std::string& child) {
+  if (parent != kWorldName) static_cast<void>(bodyNamed(spec, parent));
+  static_cast<void>(bodyNamed(spec, child));
+  JointSpec glue{.name = parent + ">" + child,
+                 .parent = parent,
+                 .child = child,
+                 .type = JointType::kRigid,
+                 .X_PF = initialPose(spec, parent).inverse() * initialPose(spec, child),
+                 .X_MC = {}};
+  for (const JointSpec* joint : jointsAbove(spec, parent))
+    if (joint->parent == child || joint->child == child)
+      fail(glue, "joints form a loop", fmt::format("joint '{}'", joint->name), "a tree");
+  if (parent == child) fail(glue, "joints form a loop", "one body", "two bodies");
+  std::optional<JointSpec> former;
+  if (const JointSpec* joint = jointInto(spec, child)) {
+    if (const JointSpec* mimic = follower(spec, *joint))
+      fail(*joint, "cannot be replaced", fmt::format("joint '{}' that mimics it", mimic->name), "none");
+    former = *joint;
+    removeJoint(spec, former->name);
+  }
+  for (const JointSpec& joint : spec.joints)
+    if (joint.name == glue.name) fail(glue, "duplicate joint", "another of that name", "a name of its own");
+  spec.joints.push_back(std::move(glue));
+  return {std::move(spec), std::move(former)};
+}
+
+SceneSpec unglueBody(SceneSpec spec, const std::string& child, const std::optional<JointSpec>& former) {
+  BodySpec& body = bodyNamed(spec, child);
+  const JointSpec* glue = jointInto(spec, child);
+  if (glue == nullptr || glue->type != JointType::kRigid)
+    throw Error({.what = fmt::format("body '{}' is not glued", child),
+                 .where = body.where,
+                 .found = glue == nullptr ? "no joint" : fmt::format("joint '{}'", glue->name),
+                 .wanted = "a rigid joint"});
+  const Pose X_WC = initialPose(spec, child);
+  removeJoint(spec, std::string(glue->name));
+  if (!former) {
+    body.X_WB = X_WC;
+    return spec;
+  }
+  const Pose X_WP = initialPose(spec, former->parent);
+  JointSpec joint = *former;
+  joint.q0 =
+      jointCoordinates(joint.type, joint.axis, (X_WP * joint.X_PF).inverse() * X_WC * joint.X_MC.inverse());
+  spec.joints.push_back(std::move(joint));
+  return spec;
+}
+
+}  // namespace rex
