@@ -1,7 +1,6 @@
 #include "cli/command_line.h"
 
 #include <exception>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,14 +9,26 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "cli/command_line_internal.h"
 #include "cli/commands.h"
 #include "cli/terminal.h"
 
 namespace rex::cli {
-namespace {
 
-// What the command line asks for, ready to be done.
-using Action = std::function<ExitCode(const Project&)>;
+CLI::App* add(CLI::App& parent, const std::string& name, const std::string& purpose,
+              const std::string& examples) {
+  CLI::App* command = parent.add_subcommand(name, purpose);
+  command->footer(examples);
+  return command;
+}
+
+void addGl(CLI::App* command, std::string& gl) {
+  command->add_option("--gl", gl, "OpenGL by auto, osmesa or egl (default: auto)")
+      ->type_name("NAME")
+      ->envname("REX_GL");
+}
+
+namespace {
 
 constexpr const char* kWelcome = R"(rex - robotics exercises
 
@@ -27,7 +38,7 @@ First steps
   scripts/rex test 01           grade it
 
 All commands
-  list   run   test   debug   render   doctor   bench   dev
+  list   run   test   debug   scene   render   doctor   bench   dev
 `scripts/rex COMMAND --help` explains one. An exercise may be called by its number, its
 topic or its whole name: 01, kinematics, 01-kinematics.)";
 
@@ -49,14 +60,6 @@ Action print(const std::string& text) {
     say(text.substr(0, text.find_last_not_of('\n') + 1));
     return ExitCode::kFull;
   };
-}
-
-// One program or subcommand of CLI11 with our layout and an example at the end of its help.
-CLI::App* add(CLI::App& parent, const std::string& name, const std::string& purpose,
-              const std::string& examples) {
-  CLI::App* command = parent.add_subcommand(name, purpose);
-  command->footer(examples);
-  return command;
 }
 
 void addExercise(CLI::App* command, std::string& exercise) {
@@ -127,58 +130,6 @@ void addDebug(CLI::App& program, Action& action) {
       [&action, options] { action = [options](const Project& p) { return debug(p, *options); }; });
 }
 
-void addGl(CLI::App* command, std::string& gl) {
-  command->add_option("--gl", gl, "OpenGL by auto, osmesa or egl (default: auto)")
-      ->type_name("NAME")
-      ->envname("REX_GL");
-}
-
-void addRenderOptions(CLI::App* command, RenderOptions& options) {
-  const auto list = [&](const char* name, std::vector<std::string>& values, const char* type,
-                        const char* help) {
-    command->add_option(name, values, help)->allow_extra_args(false)->type_name(type);
-  };
-  list("--q", options.postures, "POSTURE",
-       "all numbers, or joint=number,...; several: a motion through them");
-  command->add_option("--motion", options.motion, "a motion: a posture per line, with or without a time")
-      ->type_name("FILE");
-  command->add_option("--seconds", options.seconds, "from each --q to the next (default: 2)")->type_name("S");
-  list("--camera", options.cameras, "VIEW",
-       "front, back, left, right, top, x,y,z or eye@target; may be repeated");
-  list("--trace", options.traces, "BODY", "whose way is drawn as a line");
-  command->add_option("--caption", options.caption, "text in the top left corner, or title of a page")
-      ->type_name("TEXT");
-  command->add_option("--size", options.size, "pixels of one picture (default: 640x480, of a page 800x600)")
-      ->type_name("WxH");
-  command->add_option("--show", options.show, "color, depth or segmentation (default: color)")
-      ->type_name("WHAT");
-  command
-      ->add_option("--aa", options.antiAliasing,
-                   "smooth edges by none, fxaa or msaa4 (default: msaa4, films: fxaa)")
-      ->type_name("KIND");
-}
-
-void addRender(CLI::App& program, Action& action) {
-  const auto options = std::make_shared<RenderOptions>();
-  CLI::App* command =
-      add(program, "render", "Draw a scene: a picture, a film, a model or a page with a replay",
-          "Examples:\n  scripts/rex render man -o man.png\n"
-          "  scripts/rex render man.ors --camera front --camera right --camera top -o views.png\n"
-          "  scripts/rex render pegArm.ors --q 0,0,0 --q 0.5,-0.5,0.3 --trace peg -o swing.mp4\n"
-          "  scripts/rex render man.ors --q 'upArmR>dnArmR=1.5' -o man.html\n\n"
-          "The ending of FILE says what is made: .png (of a motion its key frames); .mp4, .webm, .gif\n"
-          "(of one posture a walk around it); .glb; .html; or none for a folder of frames.");
-  command
-      ->add_option("SCENE", options->scene, "an .ors file, or a robot of the course: man, pegArm, pegInAHole")
-      ->type_name("")
-      ->required();
-  command->add_option("-o,--out", options->out, "what to make")->type_name("FILE")->required();
-  addRenderOptions(command, *options);
-  addGl(command, options->gl);
-  command->callback(
-      [&action, options] { action = [options](const Project& p) { return render(p, *options); }; });
-}
-
 void addDoctor(CLI::App& program, Action& action) {
   const auto options = std::make_shared<DoctorOptions>();
   CLI::App* command = add(program, "doctor", "Try all that pictures need on this machine",
@@ -234,8 +185,14 @@ const CLI::App* reached(const CLI::App* app) {
   return inner.empty() ? app : reached(inner.back());
 }
 
+// With the arguments that come before a subcommand: "rex scene FILE fk".
 std::string fullName(const CLI::App* app) {
-  return app->get_parent() ? fullName(app->get_parent()) + " " + app->get_name() : "rex";
+  if (app->get_parent() == nullptr) return "rex";
+  std::string name = fullName(app->get_parent()) + " " + app->get_name();
+  if (app->get_subcommands([](const CLI::App*) { return true; }).empty()) return name;
+  for (const CLI::Option* option : app->get_options())
+    if (option->get_positional()) name += " " + option->get_name(true);
+  return name;
 }
 
 // Unknown words are best answered with the nearest known ones.
@@ -263,7 +220,8 @@ Action parseCommandLine(int argc, const char* const* argv) {
   program.get_formatter()->column_width(22);
   program.get_formatter()->label("REQUIRED", "");
   addList(program, action), addRun(program, action), addTest(program, action);
-  addDebug(program, action), addRender(program, action), addDoctor(program, action);
+  addDebug(program, action), addScene(program, action), addRender(program, action);
+  addDoctor(program, action);
   addBench(program, action);
   CLI::App* dev =
       add(program, "dev", "For those who write exercises: new, check, strip",

@@ -8,6 +8,7 @@
 
 #include "cli/exit_code.h"
 #include "cli/project.h"
+#include "cli/scene_option.h"
 
 /// The subcommands of `rex`, one source file each. They print for people, and throw UsageError for names that
 /// do not exist, Error when the project or the machine is broken.
@@ -41,7 +42,7 @@ ExitCode bench(const Project& project, const BenchOptions& options);
 
 /// As typed; empty where nothing was. RenderPlan is what they mean.
 struct RenderOptions {
-  std::filesystem::path scene{};        ///< see loadScene()
+  SceneOption scene{};
   std::vector<std::string> postures{};  ///< see parsePosture(); several: the motion through them
   std::filesystem::path motion{};       ///< see readMotion()
   std::optional<double> seconds{};      ///< from each posture to the next
@@ -55,6 +56,31 @@ struct RenderOptions {
   std::filesystem::path out{};  ///< its ending says what is made
 };
 ExitCode render(const Project& project, const RenderOptions& options);
+
+struct SceneOptions {
+  SceneOption scene{};
+  std::string posture{};  ///< see parsePosture(); empty: that of the file
+  bool json = false;
+};
+/// The bodies as a tree, and the coordinates of the joints.
+ExitCode sceneInfo(const Project& project, const SceneOptions& options);
+/// Everything that is wrong with a file. kBelow if it does not load.
+ExitCode sceneCheck(const Project& project, const SceneOptions& options);
+/// Where the bodies are.
+ExitCode sceneKinematics(const Project& project, const SceneOptions& options);
+
+struct JacobianOptions {
+  SceneOptions scene{};
+  std::string body{};
+  std::string point{};  ///< x,y,z in the body's frame, metres; empty: its origin
+};
+ExitCode sceneJacobian(const Project& project, const JacobianOptions& options);
+
+struct ConvertOptions {
+  SceneOption scene{};
+  std::filesystem::path out{};  ///< its ending says which format
+};
+ExitCode sceneConvert(const Project& project, const ConvertOptions& options);
 
 struct DoctorOptions {
   std::string gl;  ///< auto, osmesa or egl; empty: auto

@@ -8,7 +8,7 @@ enum class ExitCode {
   kBelow = 1,        ///< graded below full score, or: the student's program failed, a gate is open
   kNotGradable = 2,  ///< the file is missing, does not compile or calls what is forbidden
   kGraderFault = 3,  ///< fault of the grader, the project or the machine, never a grade
-  kUsage = 64,       ///< unknown command, option or name, or one that cannot be had here
+  kUsage = 64,       ///< unknown command, option or name, or one that cannot be had here; a broken scene
 };
 
 }  // namespace rex::cli

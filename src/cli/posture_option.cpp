@@ -66,6 +66,13 @@ double requireNumber(const std::string& word) {
   throw UsageError({.what = "--q", .found = "'" + word + "'", .wanted = "a number, or joint=number"});
 }
 
+Eigen::VectorXd zeroPositions(const Model& model) {
+  Eigen::VectorXd q(model.nq());
+  for (const Joint& joint : model.joints())
+    if (!joint.mimics) q.segment(joint.qIndex, joint.nq) = jointCoordinates(joint.type, joint.axis, Pose{});
+  return q;
+}
+
 std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t kMost = 12;
   const std::size_t count = std::min(names.size(), kMost);
@@ -194,6 +201,8 @@ Motion evenly(const Motion& motion, double rate) {
 }  // namespace
 
 Eigen::VectorXd parsePosture(const Model& model, const std::string& text) {
+  if (text == "0") return zeroPositions(model);
+  if (text == "file") return model.initialPositions();
   const std::vector<std::string> all = words(text, [](const auto& found, const auto& wanted) {
     throw UsageError({.what = "--q", .found = found, .wanted = wanted});
   });
@@ -213,6 +222,21 @@ Eigen::VectorXd parsePosture(const Model& model, const std::string& text) {
                       .wanted = fmt::format("{}, one for each coordinate of {}", q.size(), model.name())});
   for (Eigen::Index i = 0; i < q.size(); ++i) q[i] = requireNumber(all[static_cast<std::size_t>(i)]);
   return q;
+}
+
+Eigen::Vector3d parsePoint(const std::string& text, const std::string& option) {
+  const auto refuse = [&](const std::string& found, const std::string& wanted) {
+    throw UsageError({.what = option, .found = found, .wanted = wanted});
+  };
+  const std::vector<std::string> all = words(text, refuse);
+  if (all.size() != 3) refuse(fmt::format("{} numbers", all.size()), "three: x,y,z");
+  Eigen::Vector3d point;
+  for (int i = 0; i < 3; ++i) {
+    const auto number = numberIn(all[static_cast<std::size_t>(i)]);
+    if (!number) refuse("'" + all[static_cast<std::size_t>(i)] + "'", "a number");
+    point[i] = *number;
+  }
+  return point;
 }
 
 Motion readMotion(const Model& model, const std::filesystem::path& file, double rate) {

@@ -9,9 +9,13 @@
 namespace rex::cli {
 
 /// The posture that `--q TEXT` asks for: all nq numbers, or "joint=number,..." for some joints of one
-/// coordinate, the others as in the file; separated by blanks or commas. Throws UsageError naming both sizes,
+/// coordinate, the others as in the file; separated by blanks or commas. "0" has all joints at zero
+/// (quaternions at the identity), "file" is the posture of the file. Throws UsageError naming both sizes,
 /// the word that is no number, or the nearest joints, the first dozen where none is near.
 [[nodiscard]] Eigen::VectorXd parsePosture(const Model& model, const std::string& text);
+
+/// The three numbers that `option` gives. Throws UsageError for another count, or the word that is no number.
+[[nodiscard]] Eigen::Vector3d parsePoint(const std::string& text, const std::string& option);
 
 /// Postures and the times at which they are taken, seconds from 0.
 struct Motion {

@@ -10,7 +10,6 @@
 #include "cli/motion_pictures.h"
 #include "cli/posture_option.h"
 #include "cli/render_plan.h"
-#include "cli/scene_option.h"
 #include "cli/studio.h"
 #include "cli/terminal.h"
 #include "render/contact_sheet.h"
@@ -88,7 +87,7 @@ fs::path writeFilm(const MotionPictures& pictures, const RenderPlan& plan, fs::p
 
 void writePage(const MotionPictures& pictures, const RenderPlan& plan, const RenderOptions& options) {
   throwIfInterrupted();
-  writeReport({.title = options.caption.empty() ? options.scene.stem().string() : options.caption,
+  writeReport({.title = options.caption.empty() ? options.scene.file.stem().string() : options.caption,
                .film = pictures.film(),
                .view = plan.views.front().view.direction(),
                .still = plan.renderer},

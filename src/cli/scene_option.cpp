@@ -1,66 +1,62 @@
 #include "cli/scene_option.h"
 
-#include <algorithm>
-#include <string>
-#include <system_error>
 #include <vector>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include "base/error.h"
 #include "cli/terminal.h"
-#include "scene/scene_file.h"
+#include "scene/find_scene.h"
 
 namespace rex::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-bool isFile(const fs::path& path) {
-  std::error_code ignored;
-  return fs::exists(path, ignored) && !fs::is_directory(path, ignored);
-}
-
-std::vector<std::string> robotsIn(const fs::path& folder) {
-  std::vector<std::string> names;
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-    if (entry.path().extension() == ".ors") names.push_back(entry.path().filename().string());
+// A scene that does not load is the user's, not a fault of the project.
+template <class Attempt>
+auto asWrongUse(const Attempt& attempt) {
+  try {
+    return attempt();
+  } catch (const Error& error) {
+    ErrorParts parts = error.parts();
+    parts.what = harmless(parts.what);
+    throw UsageError(std::move(parts));
   }
-  std::sort(names.begin(), names.end());
-  return names;
 }
 
-// Meant as the user writes them, with their ending or without.
-std::vector<std::string> nearestRobots(const fs::path& scene, std::vector<std::string> robots) {
-  if (!scene.has_extension())
-    for (std::string& robot : robots) robot = fs::path(robot).stem().string();
-  return nearestNames(scene.filename().string(), robots);
+void choose(ShapeSpec& shape, const std::string& shapes) {
+  if (shapes == "contact") shape.visible = shape.contact;
+  if (shapes == "all") shape.visible = true;
 }
 
-// A file where the user is comes before a robot of the course.
-fs::path find(const Project& project, const fs::path& scene) {
-  if (isFile(scene)) return scene;
-  const fs::path folder = project.root / "data" / "robots";
-  if (!scene.empty() && !scene.has_parent_path()) {
-    for (const char* ending : {"", ".ors"}) {
-      if (const fs::path robot = folder / (scene.string() + ending); isFile(robot)) return shown(robot);
-    }
-  }
-  const std::vector<std::string> robots = robotsIn(folder);
-  throw UsageError({.what = fmt::format("there is no scene '{}'", harmless(scene.string())),
-                    .wanted = fmt::format("an .ors file, or one of the course: {}", fmt::join(robots, ", ")),
-                    .nearest = nearestRobots(scene, robots)});
+void chooseShapes(SceneSpec& spec, const std::string& shapes) {
+  const std::vector<std::string> known = {"visible", "contact", "all"};
+  if (!shapes.empty() && shapes != known[0] && shapes != known[1] && shapes != known[2])
+    throw UsageError({.what = "--shapes",
+                      .found = "'" + harmless(shapes) + "'",
+                      .wanted = "visible, contact or all",
+                      .nearest = nearestNames(shapes, known)});
+  for (ShapeSpec& shape : spec.worldShapes) choose(shape, shapes);
+  for (BodySpec& body : spec.bodies)
+    for (ShapeSpec& shape : body.shapes) choose(shape, shapes);
 }
 
 }  // namespace
 
-Model loadScene(const Project& project, const fs::path& scene) {
-  SceneFile file = readScene(find(project, scene));
-  for (const Diagnostic& one : file.notes) note(toString(one));
-  file.spec.name = scene.filename().string();
-  return compile(file.spec);
+fs::path fileOf(const Project& project, const SceneOption& scene) {
+  return asWrongUse([&] { return shown(findScene(scene.file, project.root / "data")); });
+}
+
+SceneSpec loadSpec(const Project& project, const SceneOption& scene) {
+  const fs::path file = fileOf(project, scene);
+  SceneFile read = asWrongUse([&] { return readScene(file, scene.reading); });
+  for (const Diagnostic& one : read.notes) note(wrap(harmless(toString(one)), 2, 0));
+  read.spec.name = scene.file.filename().string();
+  chooseShapes(read.spec, scene.shapes);
+  return std::move(read.spec);
+}
+
+Model loadScene(const Project& project, const SceneOption& scene) {
+  const SceneSpec spec = loadSpec(project, scene);
+  return asWrongUse([&] { return compile(spec); });
 }
 
 }  // namespace rex::cli

@@ -1,15 +1,29 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "cli/project.h"
 #include "scene/model.h"
+#include "scene/scene_file.h"
 
 namespace rex::cli {
 
-/// The scene that a user means by SCENE: an .ors file, or the name of a robot of the course, with or without
-/// its ending; the model is called as typed, without folders. Prints what the reader noticed. Throws
-/// UsageError naming the nearest robots when there is no such file, and as readOrs() and compile().
-[[nodiscard]] Model loadScene(const Project& project, const std::filesystem::path& scene);
+/// What a user says about a scene.
+struct SceneOption {
+  std::filesystem::path file{};  ///< see findScene()
+  ReadOptions reading{};
+  std::string shapes{};  ///< visible, contact or all: which of them are drawn; empty: visible
+};
+
+/// The file that a user means. Throws UsageError as findScene() throws Error.
+[[nodiscard]] std::filesystem::path fileOf(const Project& project, const SceneOption& scene);
+
+/// Reads the scene that a user means; it is called as typed, without folders. Prints what the reader noticed.
+/// Throws UsageError as findScene() and readScene() throw Error, or for unknown `shapes`.
+[[nodiscard]] SceneSpec loadSpec(const Project& project, const SceneOption& scene);
+
+/// The same, compiled. Throws UsageError also as compile() throws Error.
+[[nodiscard]] Model loadScene(const Project& project, const SceneOption& scene);
 
 }  // namespace rex::cli

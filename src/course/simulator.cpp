@@ -9,22 +9,11 @@
 #include "course/recording.h"
 #include "kinematics/center_of_mass.h"
 #include "kinematics/jacobians.h"
+#include "scene/find_scene.h"
 #include "scene/scene_file.h"
 #include "scene/scene_meshes.h"
 
 namespace rex {
-namespace {
-
-// A name without a folder that does not exist here means one of the course's robots.
-std::filesystem::path findScene(const std::string& sceneFile) {
-  const std::filesystem::path given(sceneFile);
-  const std::filesystem::path own = std::filesystem::path(REX_ROBOTS_DIR) / given;
-  const bool isBareName = !given.has_parent_path();
-  return isBareName && !std::filesystem::exists(given) ? own : given;
-}
-
-}  // namespace
-
 struct Simulator::Parts {
   std::string sceneName, sceneText;
   Model model;
@@ -34,7 +23,7 @@ struct Simulator::Parts {
 };
 
 Simulator::Simulator(const std::string& sceneFile) {
-  const std::filesystem::path path = findScene(sceneFile);
+  const std::filesystem::path path = findScene(sceneFile, REX_DATA_DIR);
   const std::string text = readSceneText(path);
   SceneFile scene = parseScene(text, sceneFile);
   loadMeshes(scene, Assets(path));

@@ -13,7 +13,7 @@ class Recording;
 /// All it takes to make the same simulator elsewhere: the text of its scene and a posture.
 struct SimulatorDescription {
   std::string sceneName;  ///< stands for the file in messages
-  std::string sceneText;  ///< the .ors text
+  std::string sceneText;  ///< the text of the file
   Eigen::VectorXd q;      ///< joint angles; empty: the posture of the file
 };
 
@@ -23,8 +23,8 @@ struct SimulatorDescription {
 /// names both sizes for a wrong one.
 class Simulator {
  public:
-  /// Loads an .ors file: a path, or a name such as "man.ors" from the course's own robots. Throws Error with
-  /// file:line:column for a missing or broken file, also one of a mesh.
+  /// Loads an .ors or .urdf file: a path, or the name of one of the course's scenes, such as "man.ors".
+  /// Throws Error with file:line:column for a missing or broken file, also one of a mesh.
   explicit Simulator(const std::string& sceneFile);
   /// Reads no file: shapes described by a mesh are not drawn.
   explicit Simulator(const SimulatorDescription& description);

@@ -5,8 +5,11 @@
 namespace rex {
 
 Picture pictureOf(const Model& model, const BodyPoses& poses) {
+  const auto isVisible = [](const ModelShape& shape) { return shape.visible; };
+  const bool showsAll = std::none_of(model.shapes().begin(), model.shapes().end(), isVisible);
   Picture picture;
   for (const ModelShape& shape : model.shapes()) {
+    if (!shape.visible && !showsAll) continue;
     if (usesMesh(shape.shape.type) && shape.shape.mesh.isEmpty()) continue;
     const Eigen::Vector4f c = shape.color.cast<float>();
     picture.solids.push_back({.shape = shape.shape,

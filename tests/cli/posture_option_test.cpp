@@ -37,6 +37,8 @@ TEST(PostureOption, TakesAllNumbersOrSomeJoints) {
   const Model arm = robot("pegArm.ors");
   EXPECT_EQ(parsePosture(arm, "0.5,-1 , +2e-1"), Vector3d(0.5, -1, 0.2));
   EXPECT_EQ(parsePosture(arm, " 1 2\t3 "), Vector3d(1, 2, 3));
+  EXPECT_EQ(parsePosture(arm, "0"), Vector3d(0, 0, 0));
+  EXPECT_EQ(parsePosture(arm, "file"), arm.initialPositions());
   const std::string& last = arm.joints().back().name;
   Eigen::VectorXd q = arm.initialPositions();
   q[arm.joints().back().qIndex] = -0.25;
@@ -147,6 +149,22 @@ TEST(MoveThrough, PassesTheKeysSmoothlyAndRestsAtThem) {
   EXPECT_LT(speed(1), 0.1 * speed(30));
   EXPECT_LT(speed(60), 0.1 * speed(30));
   EXPECT_EQ(moveThrough(arm, {keys[1]}, 2, 30).postures.size(), 1u);
+}
+
+TEST(ParsePosture, KnowsTheZeroOfEveryJoint) {
+  const Model model = compile(parseOrs("body a {} body b {} body c {}\n"
+                                       "joint (a b) { type=free Q=<T t(1 2 3)> }\n"
+                                       "joint (b c) { q=0.7 }",
+                                       "f")
+                                  .spec);
+  EXPECT_EQ(parsePosture(model, "0"), (Eigen::VectorXd(8) << 0, 0, 0, 1, 0, 0, 0, 0).finished());
+  EXPECT_EQ(parsePosture(model, "file"), (Eigen::VectorXd(8) << 1, 2, 3, 1, 0, 0, 0, 0.7).finished());
+}
+
+TEST(ParsePoint, TakesThreeNumbers) {
+  EXPECT_EQ(parsePoint("1,-2, 0.5", "--point"), Vector3d(1, -2, 0.5));
+  EXPECT_REX_ERROR(parsePoint("1,2", "--point"), "--point: found 2 numbers, wanted three: x,y,z");
+  EXPECT_REX_ERROR(parsePoint("1,2,z", "--point"), "--point: found 'z', wanted a number");
 }
 
 }  // namespace

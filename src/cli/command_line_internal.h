@@ -1,0 +1,25 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/commands.h"
+
+namespace rex::cli {
+
+/// What the command line asks for, ready to be done.
+using Action = std::function<ExitCode(const Project&)>;
+
+/// One command of CLI11 in our layout, with examples at the end of its help.
+CLI::App* add(CLI::App& parent, const std::string& name, const std::string& purpose,
+              const std::string& examples);
+
+void addGl(CLI::App* command, std::string& gl);
+
+/// `rex scene FILE VERB` and `rex render FILE`.
+void addScene(CLI::App& program, Action& action);
+void addRender(CLI::App& program, Action& action);
+
+}  // namespace rex::cli

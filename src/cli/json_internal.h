@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+
+namespace rex::cli {
+
+/// Keys stay in the order in which they were put.
+using Json = nlohmann::ordered_json;
+
+/// The numbers; null for what is not finite.
+inline Json jsonOf(const Eigen::Ref<const Eigen::VectorXd>& values) {
+  Json list = Json::array();
+  for (const double value : values) list.push_back(std::isfinite(value) ? Json(value) : Json());
+  return list;
+}
+
+/// Row by row.
+inline Json jsonOfRows(const Eigen::Ref<const Eigen::MatrixXd>& matrix) {
+  Json rows = Json::array();
+  for (const auto& row : matrix.rowwise()) rows.push_back(jsonOf(row.transpose()));
+  return rows;
+}
+
+/// As text on one line; bytes that are no UTF-8 are replaced.
+inline std::string dump(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace rex::cli

@@ -1,0 +1,171 @@
+#include <memory>
+#include <string>
+
+#include "cli/command_line_internal.h"
+
+namespace rex::cli {
+namespace {
+
+constexpr const char* kSceneHelp = "an .ors or .urdf file, or a scene of the course, such as man";
+
+void addReading(CLI::App* command, ReadOptions& reading) {
+  command
+      ->add_option("--assets", reading.assetRoot, "folder of all meshes (default: above that of the scene)")
+      ->type_name("DIR");
+  command->add_flag("--allow-missing-meshes", reading.allowMissingMeshes, "a marker for each mesh not found");
+  command->add_flag("--free-base", reading.freeBase, "let the root of a .urdf move freely");
+}
+
+void addRenderOptions(CLI::App* command, RenderOptions& options) {
+  const auto list = [&](const char* name, std::vector<std::string>& values, const char* type,
+                        const char* help) {
+    command->add_option(name, values, help)->allow_extra_args(false)->type_name(type);
+  };
+  list("--q", options.postures, "POSTURE",
+       "all numbers, or joint=number,...; several: a motion through them");
+  command->add_option("--motion", options.motion, "a motion: a posture per line, with or without a time")
+      ->type_name("FILE");
+  command->add_option("--seconds", options.seconds, "from each --q to the next (default: 2)")->type_name("S");
+  list("--camera", options.cameras, "VIEW",
+       "front, back, left, right, top, x,y,z or eye@target; may be repeated");
+  list("--trace", options.traces, "BODY", "whose way is drawn as a line");
+  command->add_option("--caption", options.caption, "text in the top left corner, or title of a page")
+      ->type_name("TEXT");
+  command->add_option("--size", options.size, "pixels of one picture (default: 640x480, of a page 800x600)")
+      ->type_name("WxH");
+  command
+      ->add_option("--shapes", options.scene.shapes,
+                   "which are drawn: visible, contact or all (default: visible)")
+      ->type_name("WHICH");
+  command->add_option("--show", options.show, "color, depth or segmentation (default: color)")
+      ->type_name("WHAT");
+  command
+      ->add_option("--aa", options.antiAliasing,
+                   "smooth edges by none, fxaa or msaa4 (default: msaa4, films: fxaa)")
+      ->type_name("KIND");
+}
+
+CLI::App* addVerb(CLI::App& scene, const std::string& name, const std::string& purpose,
+                  const std::string& examples) {
+  CLI::App* verb = add(scene, name, purpose, examples);
+  verb->fallthrough();  // how the scene is read may also be said behind the verb
+  return verb;
+}
+
+void addPosture(CLI::App* verb, std::string& posture) {
+  verb->add_option("--q", posture, "all numbers, joint=number,..., 0, or file (default: file)")
+      ->type_name("POSTURE");
+}
+
+void addJson(CLI::App* verb, bool& json) { verb->add_flag("--json", json, "print JSON"); }
+
+void addInfo(CLI::App& scene, Action& action, const std::shared_ptr<SceneOptions>& options) {
+  CLI::App* verb = addVerb(scene, "info", "Show the tree, the joints in the order of q, masses and shapes",
+                           "Examples:\n  scripts/rex scene man info\n  scripts/rex scene man info --json");
+  addJson(verb, options->json);
+  verb->callback(
+      [&action, options] { action = [options](const Project& p) { return sceneInfo(p, *options); }; });
+}
+
+void addCheck(CLI::App& scene, Action& action, const std::shared_ptr<SceneOptions>& options) {
+  CLI::App* verb = addVerb(scene, "check", "Say everything that is wrong with a file",
+                           "Example: scripts/rex scene man.ors check\n"
+                           "Exit codes: 0 the scene loads, perhaps with warnings; 1 it does not.");
+  addJson(verb, options->json);
+  verb->callback(
+      [&action, options] { action = [options](const Project& p) { return sceneCheck(p, *options); }; });
+}
+
+void addKinematics(CLI::App& scene, Action& action, const std::shared_ptr<SceneOptions>& options) {
+  CLI::App* verb = addVerb(
+      scene, "fk", "Compute where all bodies are",
+      "Examples:\n  scripts/rex scene pegArm fk --q 0.1,0.2,0.3\n  scripts/rex scene man fk --q 0 --json");
+  addPosture(verb, options->posture);
+  addJson(verb, options->json);
+  verb->callback(
+      [&action, options] { action = [options](const Project& p) { return sceneKinematics(p, *options); }; });
+}
+
+void addJacobian(CLI::App& scene, Action& action, const std::shared_ptr<SceneOptions>& options) {
+  const auto own = std::make_shared<JacobianOptions>();
+  CLI::App* verb =
+      addVerb(scene, "jacobian", "Compute the Jacobian of a point on a body, and of its rotation",
+              "Example: scripts/rex scene pegArm jacobian --body peg --point 0,0,0.3 --q 0");
+  verb->add_option("--body", own->body, "which body, or a shape of it")->type_name("NAME")->required();
+  verb->add_option("--point", own->point, "in the body's frame, metres (default: 0,0,0)")->type_name("x,y,z");
+  addPosture(verb, options->posture);
+  addJson(verb, options->json);
+  verb->callback([&action, options, own] {
+    own->scene = *options;
+    action = [own](const Project& p) { return sceneJacobian(p, *own); };
+  });
+}
+
+void addConvert(CLI::App& scene, Action& action, const std::shared_ptr<SceneOptions>& options) {
+  const auto own = std::make_shared<ConvertOptions>();
+  CLI::App* verb = addVerb(scene, "convert", "Write the scene as .ors or .urdf",
+                           "Examples:\n  scripts/rex scene man convert man.urdf\n"
+                           "  scripts/rex scene robot.urdf convert robot.ors");
+  verb->add_option("OUT", own->out, "the file to write; its ending says which format")
+      ->type_name("")
+      ->required();
+  verb->callback([&action, options, own] {
+    own->scene = options->scene;
+    action = [own](const Project& p) { return sceneConvert(p, *own); };
+  });
+}
+
+void addSceneRender(CLI::App& scene, Action& action, const std::shared_ptr<SceneOptions>& options) {
+  const auto own = std::make_shared<RenderOptions>();
+  CLI::App* verb = addVerb(scene, "render", "Draw the scene, as `rex render` does",
+                           "Example: scripts/rex scene man render -o man.png");
+  verb->add_option("-o,--out", own->out, "what to make")->type_name("FILE")->required();
+  addRenderOptions(verb, *own);
+  addGl(verb, own->gl);
+  verb->callback([&action, options, own] {
+    const std::string shapes = own->scene.shapes;
+    own->scene = options->scene;
+    own->scene.shapes = shapes;
+    action = [own](const Project& p) { return render(p, *own); };
+  });
+}
+
+}  // namespace
+
+void addScene(CLI::App& program, Action& action) {
+  const auto options = std::make_shared<SceneOptions>();
+  CLI::App* scene = add(program, "scene", "Look into a scene, check it, convert it",
+                        "Examples:\n  scripts/rex scene man\n  scripts/rex scene my_robot.urdf check\n"
+                        "`scripts/rex scene FILE COMMAND --help` explains a command.");
+  scene->add_option("FILE", options->scene.file, kSceneHelp)->type_name("")->required();
+  addReading(scene, options->scene.reading);
+  scene->require_subcommand(0, 1);
+  addInfo(*scene, action, options), addCheck(*scene, action, options);
+  addKinematics(*scene, action, options), addJacobian(*scene, action, options);
+  addSceneRender(*scene, action, options), addConvert(*scene, action, options);
+  scene->callback([&action, scene, options] {
+    if (scene->get_subcommands().empty())
+      action = [options](const Project& p) { return sceneInfo(p, *options); };
+  });
+}
+
+void addRender(CLI::App& program, Action& action) {
+  const auto options = std::make_shared<RenderOptions>();
+  CLI::App* command =
+      add(program, "render", "Draw a scene: a picture, a film, a model or a page with a replay",
+          "Examples:\n  scripts/rex render man -o man.png\n"
+          "  scripts/rex render man.ors --camera front --camera right --camera top -o views.png\n"
+          "  scripts/rex render pegArm.ors --q 0,0,0 --q 0.5,-0.5,0.3 --trace peg -o swing.mp4\n"
+          "  scripts/rex render man.ors --q 'upArmR>dnArmR=1.5' -o man.html\n\n"
+          "The ending of FILE says what is made: .png (of a motion its key frames); .mp4, .webm, .gif\n"
+          "(of one posture a walk around it); .glb; .html; or none for a folder of frames.");
+  command->add_option("SCENE", options->scene.file, kSceneHelp)->type_name("")->required();
+  command->add_option("-o,--out", options->out, "what to make")->type_name("FILE")->required();
+  addReading(command, options->scene.reading);
+  addRenderOptions(command, *options);
+  addGl(command, options->gl);
+  command->callback(
+      [&action, options] { action = [options](const Project& p) { return render(p, *options); }; });
+}
+
+}  // namespace rex::cli

@@ -1,0 +1,185 @@
+// `rex scene` as a user meets it.
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/rex_command.h"
+#include "geometry/rotation.h"
+#include "kinematics/jacobians.h"
+#include "render/png.h"
+#include "scene/scene_file.h"
+#include "support/file_text.h"
+#include "support/needs_osmesa.h"
+
+namespace rex::cli {
+namespace {
+
+using nlohmann::json;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr const char* kArm =
+    "body post { X=<T t(0 0 1)> type=ST_box size=[.1 .1 2] }\n"
+    "body upper { mass=2 type=ST_capsule size=[0 0 .4 .05] contact }\n"
+    "body lower { mass=1 }\n"
+    "shape tip (lower) { type=ST_sphere size=[0 0 0 .1] hidden contact }\n"
+    "joint shoulder (post upper) { type=hingeY A=<T t(0 0 1)> B=<T t(0 0 .2)> q=0.25 limits=[-2 2] }\n"
+    "joint elbow (upper lower) { type=universal A=<T t(0 0 .2)> }\n";
+
+class SceneCommand : public RexCommand {
+ protected:
+  void SetUp() override { std::ofstream(in("arm.ors")) << kArm; }
+  json jsonOf(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "scene");
+    arguments.push_back("--json");
+    const ProcessResult result = rex(arguments);
+    EXPECT_EQ(result.exitCode, 0) << result.error;
+    return json::parse(result.output);
+  }
+  ProcessResult scene(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "scene");
+    return rex(arguments);
+  }
+};
+
+TEST_F(SceneCommand, InfoListsJointsBodiesAndMass) {
+  const json info = jsonOf({"arm.ors", "info"});
+  EXPECT_EQ(info["ndof"], 3);
+  EXPECT_EQ(info["mass"], 3.0);
+  EXPECT_EQ(info["bodies"], json({"post", "upper", "lower"}));
+  EXPECT_EQ(info["joints"].size(), 2u);
+  const json& elbow = info["joints"][1];
+  EXPECT_EQ(elbow["name"], "elbow");
+  EXPECT_EQ(elbow["from"], "upper");
+  EXPECT_EQ(elbow["to"], "lower");
+  EXPECT_EQ(elbow["type"], "universal");
+  EXPECT_EQ(elbow["q_index"], 1);
+  EXPECT_EQ(elbow["dim"], 2);
+  EXPECT_EQ(elbow["low"], json({nullptr, nullptr}));
+  EXPECT_EQ(info["joints"][0]["high"], json({2.0}));
+  EXPECT_EQ(info["q"], json({0.25, 0.0, 0.0}));
+  EXPECT_EQ(info["shapes"][2]["visible"], false);
+}
+
+TEST_F(SceneCommand, InfoShowsTheTreeToPeople) {
+  const ProcessResult result = scene({"arm.ors", "info"});
+  EXPECT_THAT(result.output, HasSubstr("arm.ors: 3 bodies, 2 joints, 3 degrees of freedom, 3 shapes, 3 kg"));
+  EXPECT_THAT(result.output,
+              HasSubstr("    upper    2   shoulder  hinge      q0          capsule (contact)"));
+  EXPECT_THAT(result.output, HasSubstr("sphere (contact only)"));
+  EXPECT_THAT(result.output, HasSubstr("0  shoulder  hinge      0.25   -2   2"));
+  EXPECT_EQ(scene({"arm.ors"}).output, result.output) << "what it does without a command";
+}
+
+TEST_F(SceneCommand, FkAndJacobianAreThoseOfTheLibrary) {
+  const Model model = compile(readScene(in("arm.ors")).spec);
+  const Eigen::Vector3d q(0.1, -0.7, 1e-8);
+  const BodyPoses poses = forwardKinematics(model, q);
+  const json fk = jsonOf({"arm.ors", "fk", "--q", "0.1,-0.7,1e-8"});
+  EXPECT_EQ(fk["q"], json({0.1, -0.7, 1e-8}));
+  ASSERT_EQ(fk["bodies"].size(), 3u);
+  for (const json& body : fk["bodies"]) {
+    const Pose& X = poses[model.body(body["name"].get<std::string>())];
+    const Quaternion quaternion = quaternionFromRotation(X.R);
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(body["pos"][i], X.p[i]);
+    for (int i = 0; i < 4; ++i) EXPECT_EQ(body["quat_wxyz"][i], quaternion[i]);
+  }
+  const json J =
+      jsonOf({"arm.ors", "jacobian", "--body", "lower", "--point", "0,0.1,0.2", "--q", "0.1,-0.7,1e-8"});
+  const BodyId lower = model.body("lower");
+  const Eigen::Matrix3Xd pos = positionJacobian(model, poses, lower, {0, 0.1, 0.2});
+  const Eigen::Matrix3Xd rot = angularJacobian(model, poses, lower);
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      EXPECT_EQ(J["pos"][row][column], pos(row, column));
+      EXPECT_EQ(J["rot"][row][column], rot(row, column));
+    }
+  }
+}
+
+TEST_F(SceneCommand, PosturesMayBeZeroOrThatOfTheFile) {
+  EXPECT_EQ(jsonOf({"arm.ors", "fk", "--q", "0"})["q"], json({0.0, 0.0, 0.0}));
+  EXPECT_EQ(jsonOf({"arm.ors", "fk", "--q", "file"})["q"], json({0.25, 0.0, 0.0}));
+  EXPECT_EQ(jsonOf({"arm.ors", "fk"})["q"], json({0.25, 0.0, 0.0}));
+  EXPECT_EQ(jsonOf({"arm.ors", "fk", "--q", "shoulder=1"})["q"], json({1.0, 0.0, 0.0}));
+}
+
+TEST_F(SceneCommand, TextAlignsForPeople) {
+  EXPECT_THAT(scene({"arm.ors", "fk", "--q", "0"}).output,
+              HasSubstr("upper   0.000000   0.000000   2.200000   1.000000"));
+  const std::string J = scene({"arm.ors", "jacobian", "--body", "tip", "--q", "0"}).output;
+  EXPECT_THAT(J, HasSubstr("velocity of the point by v, m per unit (3 columns)\n   0.400000"));
+  EXPECT_THAT(J, HasSubstr("angular velocity by v, rad per unit\n   0.000000   1.000000   0.000000"));
+}
+
+TEST_F(SceneCommand, CheckTellsAllThatIsWrong) {
+  EXPECT_EQ(scene({"arm.ors", "check"}).output, "arm.ors: loads\n");
+  std::ofstream(in("odd.ors")) << "body a { colour=[1 0 0] type=0 }";
+  const ProcessResult odd = scene({"odd.ors", "check"});
+  EXPECT_EQ(odd.exitCode, 0);
+  EXPECT_THAT(odd.output, HasSubstr("odd.ors:1:10: "));
+  EXPECT_THAT(odd.output, HasSubstr("color"));
+  std::ofstream(in("bad.ors")) << "body a {}\nbody b { X=<T t(0 1)> }";
+  const ProcessResult bad = scene({"bad.ors", "check"});
+  EXPECT_EQ(bad.exitCode, 1);
+  EXPECT_THAT(flat(bad.output),
+              HasSubstr("bad.ors:2:20: too few numbers in a pose: found ')', wanted three"));
+  std::ofstream(in("loop.ors")) << "body a {}\nbody b {}\njoint (a b) {}\njoint (b a) {}";
+  EXPECT_EQ(scene({"loop.ors", "check"}).exitCode, 1);
+  const ProcessResult loop = scene({"loop.ors", "check", "--json"});
+  const json verdict = json::parse(loop.output);
+  EXPECT_EQ(verdict["ok"], false);
+  EXPECT_EQ(verdict["messages"].back()["severity"], "error");
+  EXPECT_EQ(verdict["messages"].back()["line"], 4);
+  EXPECT_THAT(verdict["messages"].back()["text"].get<std::string>(), HasSubstr("loop"));
+  EXPECT_EQ(json::parse(scene({"odd.ors", "check", "--json"}).output)["ok"], true);
+}
+
+TEST_F(SceneCommand, RenderDrawsChosenShapes) {
+  REX_NEEDS_OSMESA();
+  for (const std::string shapes : {"visible", "contact", "all"})
+    ASSERT_EQ(
+        scene({"arm.ors", "render", "--shapes", shapes, "--size", "64x48", "-o", shapes + ".png"}).exitCode,
+        0);
+  EXPECT_NE(readPng(in("visible.png")), readPng(in("contact.png")));
+  EXPECT_NE(readPng(in("visible.png")), readPng(in("all.png")));
+  EXPECT_EQ(scene({"arm.ors", "render", "--size", "64x48", "-o", "plain.png"}).exitCode, 0);
+  EXPECT_EQ(readPng(in("visible.png")), readPng(in("plain.png")));
+}
+
+TEST_F(SceneCommand, SaysWhatIsUsedWrongly) {
+  const auto expectRefusal = [&](const std::vector<std::string>& arguments, const std::string& text) {
+    const ProcessResult result = scene(arguments);
+    EXPECT_EQ(result.exitCode, 64) << text;
+    EXPECT_THAT(flat(result.error), HasSubstr(text));
+  };
+  expectRefusal({"arn.ors"}, "there is no scene 'arn.ors'");
+  expectRefusal({"arm.ors", "kinematics"}, "rex scene FILE: unknown command 'kinematics'");
+  expectRefusal({"arm.ors", "fk", "--q", "1"}, "--q: found 1 number, wanted 3");
+  expectRefusal({"arm.ors", "jacobian"}, "--body is required");
+  expectRefusal({"arm.ors", "jacobian", "--body", "uper"},
+                "--body: scene 'arm.ors' has no body 'uper' (did you mean 'upper'?)");
+  expectRefusal({"arm.ors", "jacobian", "--body", "tip", "--point", "1"},
+                "--point: found 1 numbers, wanted three");
+  expectRefusal({"arm.ors", "render", "--shapes", "contacts", "-o", "a.png"},
+                "--shapes: found 'contacts', wanted visible, contact or all (did you mean 'contact'?)");
+  std::ofstream(in("bad.ors")) << "body a {";
+  expectRefusal({"bad.ors"}, "bad.ors:1:8: '{' is never closed");
+}
+
+TEST_F(SceneCommand, DoesWhatItsExamplesSay) {
+  for (const char* verb : {"info", "fk", "jacobian"}) {
+    const std::string help = scene({"man", verb, "--help"}).output;
+    EXPECT_THAT(help, HasSubstr("Usage: rex scene FILE " + std::string(verb)));
+    EXPECT_THAT(help, HasSubstr("scripts/rex scene "));
+  }
+  EXPECT_EQ(scene({"pegArm", "jacobian", "--body", "peg", "--point", "0,0,0.3", "--q", "0"}).exitCode, 0);
+  EXPECT_EQ(scene({"man", "info"}).exitCode, 0);
+  EXPECT_EQ(jsonOf({"man", "fk", "--q", "0"})["bodies"].size(), 30u);
+}
+
+}  // namespace
+}  // namespace rex::cli
