@@ -7,7 +7,7 @@
 #include "cli/commands.h"
 #include "cli/json_internal.h"
 #include "cli/posture_option.h"
-#include "cli/terminal.h"
+#include "cli/wrong_use_internal.h"
 #include "geometry/rotation.h"
 #include "kinematics/jacobians.h"
 
@@ -16,16 +16,6 @@ namespace {
 
 Eigen::VectorXd postureOf(const Model& model, const std::string& text) {
   return text.empty() ? model.initialPositions() : parsePosture(model, text);
-}
-
-BodyId bodyOf(const Model& model, const std::string& name) {
-  try {
-    return model.body(name);
-  } catch (const Error& error) {
-    ErrorParts parts = error.parts();
-    parts.what = "--body: " + parts.what;
-    throw UsageError(std::move(parts));
-  }
 }
 
 std::string numbers(const Eigen::Ref<const Eigen::VectorXd>& values) {
@@ -65,7 +55,7 @@ ExitCode sceneKinematics(const Project& project, const SceneOptions& options) {
 
 ExitCode sceneJacobian(const Project& project, const JacobianOptions& options) {
   const Model model = loadScene(project, options.scene.scene);
-  const BodyId body = bodyOf(model, options.body);
+  const BodyId body = asWrongUse([&] { return model.body(options.body); }, "--body: ");
   const Eigen::Vector3d point =
       options.point.empty() ? Eigen::Vector3d::Zero() : parsePoint(options.point, "--point");
   const BodyPoses poses = forwardKinematics(model, postureOf(model, options.scene.posture));

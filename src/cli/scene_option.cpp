@@ -2,25 +2,13 @@
 
 #include <vector>
 
-#include "cli/terminal.h"
+#include "cli/wrong_use_internal.h"
 #include "scene/find_scene.h"
 
 namespace rex::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-// A scene that does not load is the user's, not a fault of the project.
-template <class Attempt>
-auto asWrongUse(const Attempt& attempt) {
-  try {
-    return attempt();
-  } catch (const Error& error) {
-    ErrorParts parts = error.parts();
-    parts.what = harmless(parts.what);
-    throw UsageError(std::move(parts));
-  }
-}
 
 void choose(ShapeSpec& shape, const std::string& shapes) {
   if (shapes == "contact") shape.visible = shape.contact;
