@@ -10,7 +10,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-Graph parse(std::string_view text) { return parseGraph(text, "f"); }
+Document parse(std::string_view text) { return parseGraph(text, "f"); }
 
 std::vector<std::string> texts(const std::vector<Word>& words) {
   std::vector<std::string> result;
@@ -20,13 +20,14 @@ std::vector<std::string> texts(const std::vector<Word>& words) {
 
 template <class T>
 T valueOf(std::string_view text) {
-  const Graph graph = parse(text);
+  const Graph graph = parse(text).nodes;
   EXPECT_EQ(graph.size(), 1u) << text;
   return std::get<T>(graph.at(0).value);
 }
 
 TEST(OrsGraph, ReadsKeysParentsAndValues) {
-  const Graph graph = parse("body a {x=1, y=2; flag}\n# comment (\njoint j (a b) { type=3 } shape (a){s}");
+  const Graph graph =
+      parse("body a {x=1, y=2; flag}\n# comment (\njoint j (a b) { type=3 } shape (a){s}").nodes;
   ASSERT_EQ(graph.size(), 3u);
   EXPECT_THAT(texts(graph[0].keys), ElementsAre("body", "a"));
   EXPECT_EQ(std::get<Graph>(graph[0].value).size(), 3u);
@@ -39,14 +40,14 @@ TEST(OrsGraph, ReadsKeysParentsAndValues) {
 }
 
 TEST(OrsGraph, GivesSeveralKeysOneValue) {
-  const Graph graph = parse("{contact color=[1 0 0]}");
+  const Graph graph = parse("{contact color=[1 0 0]}").nodes;
   const Node& attribute = std::get<Graph>(graph[0].value).at(0);
   EXPECT_THAT(texts(attribute.keys), ElementsAre("contact", "color"));
   EXPECT_EQ(std::get<Eigen::MatrixXd>(attribute.value), Eigen::RowVector3d(1, 0, 0));
 }
 
 TEST(OrsGraph, EndsTheKeysAtTheLine) {
-  const Graph graph = parse("contact\ncolor=2");
+  const Graph graph = parse("contact\ncolor=2").nodes;
   ASSERT_EQ(graph.size(), 2u);
   EXPECT_EQ(std::get<bool>(graph[0].value), true);
   EXPECT_EQ(std::get<double>(graph[1].value), 2);
@@ -88,44 +89,85 @@ TEST(OrsGraph, ComposesPosesLeftToRight) {
   EXPECT_TRUE(isApprox(valueOf<Pose>("a <T>"), Pose{}, 0));
 }
 
-// QQQ marks the place of the typo in an otherwise right snippet.
-TEST(OrsGraph, SaysWhereTheGrammarBreaks) {
-  EXPECT_REX_ERROR(parse("body a {\n  x=1\n"), "f:1:8: '{' is never closed: wanted a matching '}'");
-  EXPECT_REX_ERROR(parse("body a {x=1}\n}"), "f:2:1: unmatched '}'");
-  EXPECT_REX_ERROR(parse("joint (a b {x}"), "f:1:7: '(' is never closed: wanted a ')' before '{x'");
-  EXPECT_REX_ERROR(parse("a=1.2QQQ"), "f:1:3: not a number: found '1.2QQQ', wanted a number");
-  EXPECT_REX_ERROR(parse("a=1e999"), "f:1:3: not a number: found '1e999'");
-  EXPECT_REX_ERROR(parse("a=-inf"), "not a number: found '-inf'");
-  EXPECT_REX_ERROR(parse("a=[1 2; 3]"),
-                   "f:1:10: row of an array: found 1 numbers, wanted 2 as in the first row");
-  EXPECT_REX_ERROR(parse("a=[1 QQQ]"), "f:1:6: not a number: found 'QQQ', wanted a number or ']'");
-  EXPECT_REX_ERROR(parse("a=[1 2"), "f:1:3: '[' is never closed");
-  EXPECT_REX_ERROR(parse("a=[<2 2> 1 2 3]"), "array with explicit dimensions: found 3 numbers, wanted 2 x 2");
-  EXPECT_REX_ERROR(parse("a=[<1 2 3> 1]"), "array dimensions: found 3 of them, wanted one or two");
-  EXPECT_REX_ERROR(parse("a=[<1.5> 1]"), "array dimension: found 1.5, wanted a count");
-  EXPECT_REX_ERROR(parse("a=\"text"), "f:1:3: text is never closed: wanted a second \"");
-  EXPECT_REX_ERROR(parse("a=<Q 1"), "f:1:3: '<' is never closed");
-  EXPECT_REX_ERROR(parse("a=<T t(1 2 3)"), "f:1:3: '<T' is never closed");
-  EXPECT_REX_ERROR(parse("a=<T t(1 2)>"),
-                   "f:1:11: too few numbers in a pose: found ')', wanted three numbers");
-  EXPECT_REX_ERROR(parse("a=<T t(1 2 3 4)>"), "pose element 't': found '4', wanted ')' after 3 numbers");
-  EXPECT_REX_ERROR(parse("a=<T t 1 2 3>"), "pose element 't': found ' 1', wanted '('");
-  EXPECT_REX_ERROR(parse("a=<T s(2)>"), "f:1:6: unknown element of a pose: found 's', wanted t(..)");
-  EXPECT_REX_ERROR(parse("a=<T 1 2 3 1 0 0>"),
-                   "too few numbers in a pose: found '>', wanted x y z qw qx qy qz");
-  EXPECT_REX_ERROR(parse("a=<T q(0 0 0 0)>"), "quaternion: found (0, 0, 0, 0)");
-  EXPECT_REX_ERROR(parse("a=)"), "f:1:3: syntax error: found ')', wanted a value");
-  EXPECT_REX_ERROR(parse("a b ) c"), "f:1:5: syntax error: found ')', wanted a name");
-  EXPECT_REX_ERROR(parse("a=\x01"), "found '\\x01'");
-  EXPECT_REX_ERROR(parse(";"), "f:1:1: syntax error: found ';', wanted a name such as 'body'");
-  EXPECT_REX_ERROR(parse("a="), "found the end of the file, wanted a value");
-  EXPECT_REX_ERROR(parse(std::string(300, 'x')), "name too long: found 300 bytes, wanted at most 256");
-  std::string deep;
-  for (int i = 0; i < 200; ++i) deep += "a{";
-  EXPECT_REX_ERROR(parse(deep), "braces nested too deep: found level 101, wanted at most 100");
-  std::string many;
-  for (int i = 0; i < 200001; ++i) many += "a\n";
-  EXPECT_REX_ERROR(parse(many), "too many nodes: wanted at most 200000");
+std::string repeated(std::string_view text, int times) {
+  std::string all;
+  for (int i = 0; i < times; ++i) all += text;
+  return all;
+}
+
+// What is typed wrongly in a text is tested in ors_messages_test.cpp.
+TEST(OrsGraph, KeepsItsLimits) {
+  EXPECT_REX_ERROR(parse(std::string(257, 'x')), "f:1:1: word too long: found 257 bytes, wanted at most 256");
+  EXPECT_REX_ERROR(parse("a=\"" + std::string(257, 'x') + "\""),
+                   "f:1:3: text is too long: found 257 bytes, wanted at most 256");
+  EXPECT_EQ(parse(repeated("a{", 100) + repeated("}", 100)).nodes.size(), 1u);
+  EXPECT_REX_ERROR(parse(repeated("a{", 200)),
+                   "f:1:203: braces nested too deep: found level 101, wanted at most 100");
+  EXPECT_EQ(parse(repeated("a\n", 200'000)).nodes.size(), 200'000u);
+  EXPECT_REX_ERROR(parse(repeated("a\n", 200'001)), "f:200001:1: too many nodes: wanted at most 200000");
+  EXPECT_EQ(std::get<Graph>(parse("a{" + repeated("b,", 256) + "}").nodes[0].value).size(), 256u);
+  EXPECT_REX_ERROR(parse("a{" + repeated("b,", 257) + "}"),
+                   "f:1:515: too many attributes: wanted at most 256 in one pair of braces");
+  EXPECT_EQ(parse(repeated("k ", 64)).nodes[0].keys.size(), 64u);
+  EXPECT_REX_ERROR(parse(repeated("k ", 65)), "f:1:129: too many words in a row: wanted at most 64");
+  EXPECT_EQ(parse("a (" + repeated("p ", 64) + ")").nodes[0].parents.size(), 64u);
+  EXPECT_REX_ERROR(parse("a (" + repeated("p ", 65) + ")"), "f:1:132: too many words in a row");
+  EXPECT_EQ(valueOf<Eigen::MatrixXd>("a=[" + repeated("1 ", 10'000) + "]").size(), 10'000);
+  EXPECT_REX_ERROR(parse("a=[" + repeated("1 ", 10'001) + "]"),
+                   "f:1:3: array too long: wanted at most 10000 numbers");
+  EXPECT_REX_ERROR(parse(repeated("a=[" + repeated("1 ", 9'999) + "]\n", 101)),
+                   "too many names and numbers: wanted at most 1000000");
+  EXPECT_REX_ERROR(parse(repeated("a\nDelete a\n", 257)),
+                   "f:514:1: too many statements 'Include', 'ChDir' and 'Delete': wanted at most 256");
+  EXPECT_REX_ERROR(parse("a{" + repeated("b,", 256) + "}\nEdit a {c}"),
+                   "f:2:9: too many attributes: wanted at most 256 in one pair of braces");
+  EXPECT_REX_ERROR(parse("ChDir='" + std::string(200, 'x') + "'\nChDir='" + std::string(200, 'x') + "'"),
+                   "f:2:7: ChDir: path too long: found 401 bytes, wanted at most 256");
+  EXPECT_REX_ERROR(parse(std::string((32u << 20) + 1, ' ')),
+                   "f: scene too large: found 33554433 bytes, wanted at most 32 MiB");
+}
+
+// The keys of all nodes, and those of their attributes in braces.
+std::string outline(const Graph& graph) {
+  std::string text;
+  for (const Node& node : graph) {
+    if (!text.empty()) text += " | ";
+    for (std::size_t i = 0; i < node.keys.size(); ++i) text += (i > 0 ? " " : "") + node.keys[i].text;
+    if (const Graph* inner = std::get_if<Graph>(&node.value)) text += "{" + outline(*inner) + "}";
+    if (const double* number = std::get_if<double>(&node.value)) text += "=" + std::to_string(int(*number));
+  }
+  return text;
+}
+
+TEST(OrsGraph, DeletesWhatHasAllWords) {
+  EXPECT_EQ(outline(parse("body a\nbody b\nshape b\nDelete b\nbody b").nodes), "body a | body b");
+  EXPECT_EQ(outline(parse("body a\nbody b\nshape b\nDelete body b").nodes), "body a | shape b");
+  EXPECT_EQ(outline(parse("body a { x, y, Delete x, z }").nodes), "body a{y | z}");
+  const Document document = parse("body a\nDelete a\nDelete a");
+  EXPECT_TRUE(document.nodes.empty());
+  ASSERT_EQ(document.notes.size(), 1u);
+  EXPECT_EQ(document.notes[0].where.line, 3);
+}
+
+TEST(OrsGraph, MergesEditsAtTheEnd) {
+  EXPECT_EQ(outline(parse("a {x=1 y=2}\nEdit a {y=3 z=4}\na {}").nodes), "a{x=1 | y=3 | z=4} | a{}");
+  EXPECT_EQ(outline(parse("a=1\nMerge a=2\nEdit a=3").nodes), "a=3");
+  EXPECT_EQ(outline(parse("a b=1\na=1\nEdit a=2").nodes), "a b=1 | a=2");
+  EXPECT_EQ(outline(parse("a {b {x=1} c=1}\nEdit a {b {x=2 y=3}}").nodes), "a{b{x=2 | y=3} | c=1}");
+  EXPECT_EQ(outline(parse("a\nEdit a {x=1}").nodes), "a{x=1}");
+  // An attribute is found by any of its keys, so the edit must be the only one that has its own.
+  EXPECT_EQ(outline(parse("a {contact color=1}\nEdit a {color=2}").nodes), "a{contact=1 | color=2}");
+  EXPECT_EQ(outline(parse("a {b c=1 b=2}\nEdit a {b=3}").nodes), "a{c=1 | b=3}");
+  const Graph graph = parse("joint j (a b) {}\nEdit joint j (a c) {x}").nodes;
+  EXPECT_THAT(texts(graph.at(0).parents), ElementsAre("a", "c"));
+}
+
+TEST(OrsGraph, CountsParentsBack) {
+  const Graph graph = parse("a\nb\nc\nDelete b\nd (-1 -2 -x)").nodes;
+  ASSERT_EQ(graph.size(), 3u);
+  EXPECT_EQ(graph[2].parents[0].node, graph[1].id);
+  EXPECT_EQ(graph[2].parents[1].node, graph[0].id);
+  EXPECT_FALSE(graph[2].parents[2].node.has_value());
 }
 
 TEST(OrsGraph, SurvivesDamagedText) {

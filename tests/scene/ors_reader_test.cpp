@@ -4,8 +4,10 @@
 #include <fstream>
 #include <numbers>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "scene/model.h"
 #include "support/expect_error.h"
 #include "support/paths.h"
 #include "support/temporary_folder.h"
@@ -90,70 +92,89 @@ TEST(OrsReader, ReadsJoints) {
   EXPECT_EQ(read(bodies + "joint (a b) {}").joints[0].name, "a>b");
 }
 
-TEST(OrsReader, NotesWhatItIgnores) {
-  const SceneFile file = parseOrs("body a { mas=1 gains=[1 1] }\nbody b {}\njoint (a b) { m agent=1 }", "f");
-  ASSERT_EQ(file.notes.size(), 4u);
-  EXPECT_EQ(toString(file.notes[0]),
-            "f:1:10: note: body 'a': unknown attribute 'mas' is ignored (did you mean 'mass'?)");
-  EXPECT_EQ(toString(file.notes[1]), "f:1:16: note: body 'a': unknown attribute 'gains' is ignored");
-  EXPECT_EQ(toString(file.notes[2]), "f:3:15: note: joint 'a>b': unknown attribute 'm' is ignored");
-  EXPECT_EQ(toString(file.notes[3]),
-            "f:3:23: note: joint 'a>b': attribute 'agent' is ignored: one agent moves all joints");
+TEST(OrsReader, ReadsJointsOfOurOwn) {
+  const std::string bodies = "body a {}\nbody b {}\nbody c {}\n";
+  const JointSpec screw = read(bodies + "joint (a b) { type=screw pitch=.01 axis=[0 1 0] q=3 }").joints[0];
+  EXPECT_EQ(screw.type, JointType::kScrew);
+  EXPECT_EQ(screw.pitch, .01);
+  EXPECT_LT((screw.X_PF.R * screw.axis - Eigen::Vector3d::UnitY()).norm(), 1e-15);
+  const JointSpec cylinder = read(bodies + "joint (a b) { type=cylindrical q=[1 2] }").joints[0];
+  EXPECT_EQ(cylinder.type, JointType::kCylindrical);
+  EXPECT_EQ(cylinder.q0, Eigen::Vector2d(1, 2));
+  const SceneSpec pair = read(bodies +
+                              "joint lead (a b) { type=hingeZ ctrl_limits=[2 30 0] damping=.1 friction=.2 }\n"
+                              "joint (a c) { mimic=lead mimic_ratio=-2 mimic_offset=.5 }");
+  EXPECT_EQ(pair.joints[0].maxVelocity, 2);
+  EXPECT_EQ(pair.joints[0].maxEffort, 30);
+  EXPECT_EQ(pair.joints[0].damping, .1);
+  EXPECT_EQ(pair.joints[0].friction, .2);
+  EXPECT_EQ(pair.joints[1].mimic, "lead");
+  EXPECT_EQ(pair.joints[1].axis, Eigen::Vector3d::UnitZ());  // the type is that of the joint it follows
+  EXPECT_EQ(pair.joints[1].mimicRatio, -2);
+  EXPECT_EQ(pair.joints[1].mimicOffset, .5);
+  EXPECT_EQ(read(bodies + "joint (world b) {}").joints[0].parent, "world");
+  const JointSpec half = read(bodies + "joint (a b) { limits=[-inf 1] axis=[1e200 0 0] }").joints[0];
+  EXPECT_EQ(half.lower[0], -std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(half.X_PF.R.isIdentity(0));
 }
 
-// QQQ marks the typo in an otherwise right snippet.
-TEST(OrsReader, SaysWhatIsWrongWhere) {
-  const std::string bodies = "body arm {}\nbody hand {}\n";
-  EXPECT_REX_ERROR(
-      read("bodyQ a {}"),
-      "f:1:1: unknown statement: found 'bodyQ', wanted 'body', 'shape' or 'joint' (did you mean 'body'?)");
-  EXPECT_REX_ERROR(read("body { mass=1 }"), "f:1:1: body without a name: wanted 'body NAME { ... }'");
-  EXPECT_REX_ERROR(read("body a\n{ mass=1 }"),
-                   "f:2:1: a value without a name: found {...}, wanted '{' on the line");
-  EXPECT_REX_ERROR(read("body a = 3"), "f:1:10: body 'a': found the number 3, wanted {attributes}");
-  EXPECT_REX_ERROR(read("body a {}\nbody b (a) {}"),
-                   "f:2:9: body 'b': found parents, wanted none: joints connect bodies");
-  EXPECT_REX_ERROR(read("body a { mass=QQQ }"),
-                   "f:1:15: body 'a': attribute 'mass': found 'QQQ', wanted a number");
-  EXPECT_REX_ERROR(read("body a { mass=-1 }"), "body 'a': attribute 'mass': found -1, wanted a mass >= 0 kg");
-  EXPECT_REX_ERROR(read("body a { X=[1 2 3] }"), "attribute 'X': found an array of 3, wanted a pose <T ...>");
-  EXPECT_REX_ERROR(read("body a { type=77 }"),
-                   "f:1:15: body 'a': unknown type: found the number 77, wanted a number from 0 to 9");
-  EXPECT_REX_ERROR(read("body a { type=ST_capsul }"),
-                   "unknown type: found 'ST_capsul', wanted a number from 0 to 9 or a name such as 'ST_box' "
-                   "(did you mean 'ST_capsule'?)");
-  EXPECT_REX_ERROR(
-      read("body a { type=0 size=[1 2] }"),
-      "f:1:22: body 'a': attribute 'size': found an array of 2, wanted an array of 3 or 4 numbers");
-  EXPECT_REX_ERROR(read("body a { type=0 size=[1 2 -3] }"),
-                   "attribute 'size': found -3, wanted lengths that are not negative");
-  EXPECT_REX_ERROR(read("body a { dyntype=5 }"), "unknown dyntype: found the number 5");
-  EXPECT_REX_ERROR(
-      read(bodies + "shape (amr) { type=0 }"),
-      "f:3:8: shape: unknown parent: found 'amr', wanted the name of an earlier body (did you mean 'arm'?)");
-  EXPECT_REX_ERROR(read(bodies + "shape s (arm) { size=[1 1 1] }"),
-                   "f:3:1: shape 's': attribute 'type' is missing: wanted type=0 .. type=9");
-  EXPECT_REX_ERROR(read(bodies + "shape s (arm hand) { type=0 }"),
-                   "f:3:14: shape 's': found 2 parents, wanted one body, or none");
-  EXPECT_REX_ERROR(read(bodies + "joint (arm hnad) {}"),
-                   "f:3:12: joint 'arm>hnad': unknown parent: found 'hnad', wanted the name of an earlier "
-                   "body (did you mean 'hand'?)");
-  EXPECT_REX_ERROR(read(bodies + "joint j (arm) {}"),
-                   "f:3:1: joint 'j': found 1 bodies, wanted two: joint NAME (FROM TO) {...}");
-  EXPECT_REX_ERROR(
-      read(bodies + "joint j (arm hand) { type=hingQ }"),
-      "unknown type: found 'hingQ', wanted a number from 0 to 14 or a name such as 'hingeX' (did you mean");
-  EXPECT_REX_ERROR(read(bodies + "joint j (arm hand) { axis=[0 0 0] }"),
-                   "attribute 'axis': found a zero vector, wanted a direction");
-  EXPECT_REX_ERROR(read(bodies + "joint j (arm hand) { limits=[1] }"),
-                   "attribute 'limits': found an array of 1, wanted an array of 2 numbers");
-  EXPECT_REX_ERROR(read(bodies + "joint j (arm hand) { limits=[1 -1] }"),
-                   "attribute 'limits': found 1 > -1, wanted pairs 'low high'");
-  EXPECT_REX_ERROR(read(bodies + "joint j (arm hand) { type=9 q=1 }"),
-                   "attribute 'q': found a number, wanted Q=<T ...>, because this joint has 2 coordinates");
-  EXPECT_REX_ERROR(read(bodies + "joint j (arm hand) { X=<T> }"),
-                   "attribute 'X' is not supported yet: wanted 'A' and 'B'");
-  EXPECT_REX_ERROR(read("Include='other.ors'"), "f:1:1: statement 'Include' is not supported yet");
+TEST(OrsReader, PlacesJointsByTheirWorldFrame) {
+  const std::string bodies = "body a { X=<T t(1 0 0) d(90 0 0 1)> }\nbody b { X=<T t(1 2 3) d(40 1 1 0)> }\n";
+  const SceneSpec spec = read(bodies + "joint (a b) { X=<T t(1 1 1) d(30 0 1 0)> }");
+  const Pose X_WF = spec.bodies[0].X_WB * spec.joints[0].X_PF;
+  EXPECT_TRUE(isApprox(X_WF, translation(1, 1, 1) * rotation(std::numbers::pi / 6, {0, 1, 0}), 1e-15));
+  EXPECT_TRUE(isApprox(X_WF * spec.joints[0].X_MC, spec.bodies[1].X_WB, 1e-15));
+}
+
+TEST(OrsReader, ReadsWhatElseABodyCanSay) {
+  const SceneSpec spec =
+      read("body fixed contact post { com=[0 0 1] type=ST_mesh mesh='a.stl' hidden meshscale=2 }");
+  EXPECT_EQ(spec.bodies[0].name, "post");
+  EXPECT_EQ(spec.bodies[0].kind, BodyKind::kStatic);  // words before the name are flags
+  EXPECT_EQ(spec.bodies[0].p_BBcm, Eigen::Vector3d::UnitZ());
+  const ShapeSpec shape = spec.bodies[0].shapes.at(0);
+  EXPECT_TRUE(shape.contact);
+  EXPECT_FALSE(shape.visible);
+  EXPECT_EQ(shape.meshScale, Eigen::Vector3d::Constant(2));
+  EXPECT_EQ(read("shape { type=3 mesh='a.stl' meshscale=[1 2 3] }").worldShapes[0].meshScale,
+            Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(read("shape { type=6 }").worldShapes[0].shape.type, ShapeType::kRoundedBox);
+}
+
+TEST(OrsReader, HangsShapesOnFurtherBodiesOfAName) {
+  const SceneSpec spec =
+      read("body a {}\nbody a {}\nshape (a) { type=0 }\nshape (-2) { type=1 }\nshape (world) { type=4 }");
+  ASSERT_EQ(spec.bodies[0].shapes.size(), 1u);
+  ASSERT_EQ(spec.bodies[1].shapes.size(), 1u);
+  EXPECT_EQ(spec.bodies[1].shapes[0].shape.type, ShapeType::kSphere);
+  EXPECT_EQ(spec.worldShapes.size(), 1u);
+  EXPECT_EQ(read("body a {}\nbody b {}\njoint (-2 -1) {}").joints[0].name, "a>b");
+}
+
+TEST(OrsReader, FindsMeshesWhereChDirLeads) {
+  const auto mesh = [](const std::string& text) { return read(text).worldShapes.at(0).meshFile; };
+  EXPECT_EQ(mesh("ChDir='parts/../arm/'\nshape { type=3 mesh='a.stl' }"), "arm/a.stl");
+  EXPECT_EQ(mesh("ChDir='parts'\nChDir='..'\nshape { type=3 mesh='a.stl' }"), "a.stl");
+  EXPECT_EQ(mesh("ChDir='..'\nshape { type=3 mesh='a.stl' }"), "../a.stl");
+  EXPECT_EQ(mesh("ChDir='parts'\nshape { type=3 mesh='package://p/a.stl' }"), "package://p/a.stl");
+  EXPECT_EQ(mesh("ChDir='parts'\nshape { type=3 mesh='/a.stl' }"), "/a.stl");
+}
+
+TEST(OrsReader, LoadsAThousandBodiesInAChain) {
+  std::string chain = "body b0 { mass=1 }\n";
+  for (int i = 1; i < 1000; ++i)
+    chain += fmt::format("body b{} {{ mass=1 }}\njoint (b{} b{}) {{}}\n", i, i - 1, i);
+  EXPECT_EQ(compile(read(chain)).nq(), 999);
+  chain += "body c {}\nbody d {}\njoint (b0 c) {}\njoint (b0 d) {}\n";
+  EXPECT_REX_ERROR(read(chain), "f:2003:1: too many joints: wanted at most 1000");
+}
+
+TEST(OrsReader, LeavesOutNotesWhenThereAreTooMany) {
+  std::string text;
+  for (int i = 0; i < 600; ++i) text += "body a { colour, sizes, masses }\n";
+  const Diagnostics notes = parseOrs(text, "f").notes;
+  ASSERT_EQ(notes.size(), 1001u);
+  EXPECT_EQ(toString(notes.back()), "f:334:18: note: further notes are left out");
 }
 
 TEST(OrsReader, SaysWhichFileIsMissing) {

@@ -1,0 +1,164 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "scene/ors_attributes_internal.h"
+#include "scene/ors_limits_internal.h"
+
+namespace rex::ors {
+namespace {
+
+const Graph kNone;
+
+bool hasKey(const Node& node, std::string_view name) {
+  return std::any_of(node.keys.begin(), node.keys.end(), [&](const Word& key) { return key.text == name; });
+}
+
+// "a number or an array of 3 or 4 numbers".
+std::string rowOf(std::initializer_list<int> counts) {
+  std::string number, arrays;
+  for (const int count : counts) {
+    if (count == 1) {
+      number = "a number";
+    } else {
+      arrays += (arrays.empty() ? "an array of " : " or ") + std::to_string(count);
+    }
+  }
+  if (arrays.empty()) return number;
+  return number + (number.empty() ? "" : " or ") + arrays + " numbers";
+}
+
+// A long list of notes helps nobody and takes long to make.
+bool isFull(Diagnostics& notes, const Place& where) {
+  if (notes.size() == kMostNotes) notes.push_back({where, "further notes are left out"});
+  return notes.size() > kMostNotes;
+}
+
+}  // namespace
+
+Attributes::Attributes(const Node& node, std::string owner)
+    : node_(node), owner_(std::move(owner)), graph_(std::get_if<Graph>(&node.value)) {
+  if (graph_) return;
+  graph_ = &kNone;
+  if (const bool* flag = std::get_if<bool>(&node.value); flag && *flag) return;
+  throw Error({.what = owner_,
+               .where = node.valueWhere,
+               .found = describe(node.value),
+               .wanted = "{attributes} on the line of its name"});
+}
+
+const Node* Attributes::find(std::string_view name) const {
+  const auto found = std::find_if(graph_->begin(), graph_->end(),
+                                  [&](const Node& attribute) { return hasKey(attribute, name); });
+  return found == graph_->end() ? nullptr : &*found;
+}
+
+bool Attributes::flag(std::string_view name) const {
+  if (const Node* attribute = find(name)) {
+    const bool* value = std::get_if<bool>(&attribute->value);
+    return !value || *value;
+  }
+  for (std::size_t i = 1; i + 1 < node_.keys.size(); ++i)
+    if (node_.keys[i].text == name) return true;
+  return false;
+}
+
+template <class T>
+std::optional<T> Attributes::get(std::string_view name, const char* wanted) const {
+  const Node* attribute = find(name);
+  if (!attribute) return std::nullopt;
+  if (const T* value = std::get_if<T>(&attribute->value)) return *value;
+  fail(name, describe(attribute->value), wanted);
+}
+
+std::optional<double> Attributes::number(std::string_view name) const {
+  return get<double>(name, "a number");
+}
+
+std::optional<double> Attributes::size(std::string_view name) const {
+  const auto value = number(name);
+  if (value && *value < 0) fail(name, fmt::format("{}", *value), "a number >= 0");
+  return value;
+}
+
+std::optional<Pose> Attributes::pose(std::string_view name) const {
+  return get<Pose>(name, "a pose <T ...>");
+}
+
+std::optional<std::string> Attributes::text(std::string_view name, const char* wanted) const {
+  return get<std::string>(name, wanted);
+}
+
+std::optional<FileName> Attributes::file(std::string_view name) const {
+  return get<FileName>(name, "a file name in single quotes");
+}
+
+std::optional<Eigen::VectorXd> Attributes::row(std::string_view name, std::initializer_list<int> counts,
+                                               bool mayBeInfinite) const {
+  const Node* attribute = find(name);
+  if (!attribute) return std::nullopt;
+  const auto isCount = [&](Eigen::Index n) {
+    return std::find(counts.begin(), counts.end(), n) != counts.end();
+  };
+  if (const double* value = std::get_if<double>(&attribute->value); value && isCount(1))
+    return Eigen::VectorXd::Constant(1, *value);
+  const auto* array = std::get_if<Eigen::MatrixXd>(&attribute->value);
+  if (!array || array->rows() > 1 || !isCount(array->size()))
+    fail(name, describe(attribute->value), rowOf(counts));
+  if (!mayBeInfinite && !array->allFinite()) fail(name, "an infinite number", "finite numbers");
+  return Eigen::VectorXd(array->reshaped());
+}
+
+std::optional<std::size_t> Attributes::choice(std::string_view name, std::span<const Choice> choices) const {
+  const Node* attribute = find(name);
+  if (!attribute) return std::nullopt;
+  const double* number = std::get_if<double>(&attribute->value);
+  const std::string* word = std::get_if<std::string>(&attribute->value);
+  std::vector<std::string> known;
+  int largest = 0;
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    const Choice& choice = choices[i];
+    if (number && choice.number >= 0 && *number == choice.number) return i;
+    if (word && !word->empty() && *word == choice.name) return i;
+    largest = std::max(largest, choice.number);
+    if (*choice.name) known.emplace_back(choice.name);
+  }
+  throw Error({.what = fmt::format("{}: unknown {}", owner_, name),
+               .where = attribute->valueWhere,
+               .found = describe(attribute->value),
+               .wanted = fmt::format("a number from 0 to {} or a name such as '{}'", largest, known.front()),
+               .nearest = nearestNames(word ? *word : "", known)});
+}
+
+void Attributes::noteUnknown(const std::vector<std::string>& known, Diagnostics& notes) const {
+  for (const Node& attribute : *graph_) {
+    for (const Word& key : attribute.keys) {
+      if (std::find(known.begin(), known.end(), key.text) != known.end()) continue;
+      if (isFull(notes, key.where)) return;
+      std::string text = fmt::format("{}: unknown attribute '{}' is ignored", owner_, key.text);
+      const auto nearest = key.text.size() > 1 ? nearestNames(key.text, known) : std::vector<std::string>();
+      if (!nearest.empty()) text += fmt::format(" (did you mean '{}'?)", nearest.front());
+      notes.push_back({key.where, text, nearest.empty() ? Severity::kNote : Severity::kWarning});
+    }
+  }
+}
+
+void Attributes::note(std::string_view name, std::string_view text, Severity severity,
+                      Diagnostics& notes) const {
+  if (isFull(notes, where(name))) return;
+  notes.push_back({where(name), fmt::format("{}: attribute '{}' {}", owner_, name, text), severity});
+}
+
+Place Attributes::where(std::string_view name) const {
+  const Node* attribute = find(name);
+  return attribute ? attribute->valueWhere : node_.where;
+}
+
+void Attributes::fail(std::string_view name, std::string found, std::string wanted) const {
+  throw Error({.what = fmt::format("{}: attribute '{}'", owner_, name),
+               .where = where(name),
+               .found = std::move(found),
+               .wanted = std::move(wanted)});
+}
+
+}  // namespace rex::ors

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <initializer_list>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "scene/ors_graph_internal.h"
+
+namespace rex::ors {
+
+/// A value that is given by name, or by number unless that is -1. A name may be empty.
+struct Choice {
+  int number;
+  const char* name;
+};
+
+/// The attributes of one body, shape or joint, with typed access. Wrong kinds of values are Errors that name
+/// the owner, the attribute and the place.
+class Attributes {
+ public:
+  /// `owner` is what messages begin with: "body 'arm'".
+  Attributes(const Node& node, std::string owner);
+
+  /// The first attribute that has `name` among its keys.
+  const Node* find(std::string_view name) const;
+  bool has(std::string_view name) const { return find(name) != nullptr; }
+
+  /// `contact`, `contact=true` or a key that shares another's value: true. `contact!`, `contact=false`:
+  /// false. So is a word between role and name: `body fixed post {...}`.
+  bool flag(std::string_view name) const;
+  std::optional<double> number(std::string_view name) const;
+  /// A number >= 0.
+  std::optional<double> size(std::string_view name) const;
+  std::optional<Pose> pose(std::string_view name) const;
+  std::optional<std::string> text(std::string_view name, const char* wanted) const;
+  std::optional<FileName> file(std::string_view name) const;
+  /// One row of numbers, whose count must be one of `counts`; a single number is a row of one.
+  std::optional<Eigen::VectorXd> row(std::string_view name, std::initializer_list<int> counts,
+                                     bool mayBeInfinite = false) const;
+  /// The index of what was chosen.
+  std::optional<std::size_t> choice(std::string_view name, std::span<const Choice> choices) const;
+
+  /// Tells of each attribute that is not `known`: a warning if it looks like a misspelling.
+  void noteUnknown(const std::vector<std::string>& known, Diagnostics& notes) const;
+  void note(std::string_view name, std::string_view text, Severity severity, Diagnostics& notes) const;
+
+  const std::string& owner() const { return owner_; }
+  /// The place of an attribute's value, or of its owner.
+  Place where(std::string_view name) const;
+  /// Throws Error about an attribute.
+  [[noreturn]] void fail(std::string_view name, std::string found, std::string wanted) const;
+
+ private:
+  template <class T>
+  std::optional<T> get(std::string_view name, const char* wanted) const;
+
+  const Node& node_;
+  std::string owner_;
+  const Graph* graph_;
+};
+
+}  // namespace rex::ors

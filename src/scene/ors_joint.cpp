@@ -1,0 +1,157 @@
+#include <fmt/format.h>
+
+#include "geometry/rotation.h"
+#include "scene/ors_joint_internal.h"
+
+namespace rex::ors {
+namespace {
+
+// Screw and cylindrical joints are an extension of ours and have no numbers.
+constexpr Choice kTypes[] = {{0, "hingeX"},      {1, "hingeY"},    {2, "hingeZ"},  {3, "transX"},
+                             {4, "transY"},      {5, "transZ"},    {6, "transXY"}, {7, "trans3"},
+                             {8, "transXYPhi"},  {9, "universal"}, {10, "rigid"},  {11, "quatBall"},
+                             {12, "phiTransXY"}, {13, "glue"},     {14, "free"},   {-1, "screw"},
+                             {-1, "cylindrical"}};
+constexpr JointType kMeaning[] = {JointType::kHinge,       JointType::kHinge,        JointType::kHinge,
+                                  JointType::kSlider,      JointType::kSlider,       JointType::kSlider,
+                                  JointType::kPlanarXY,    JointType::kTranslation3, JointType::kPlanarXYPhi,
+                                  JointType::kUniversal,   JointType::kRigid,        JointType::kBall,
+                                  JointType::kPlanarPhiXY, JointType::kRigid,        JointType::kFree,
+                                  JointType::kScrew,       JointType::kCylindrical};
+constexpr std::size_t kAlongAxes = 6;  // the first types turn about or move along x, y, z
+
+// Of another length, also where the square of its own would overflow.
+Eigen::Vector3d readAxis(const Attributes& attributes, const Eigen::Vector3d& axis) {
+  const double largest = axis.cwiseAbs().maxCoeff();
+  if (!(largest > 0)) attributes.fail("axis", "a zero vector", "a direction");
+  return axis / largest;
+}
+
+void readType(const Attributes& attributes, const JointSpec* followed, JointSpec& joint) {
+  const std::size_t type = attributes.choice("type", kTypes).value_or(0);
+  joint.type = kMeaning[type];
+  if (type < kAlongAxes) joint.axis = Eigen::Vector3d::Unit(static_cast<int>(type) % 3);
+  if (followed && !attributes.has("type")) {
+    joint.type = followed->type;
+    joint.axis = followed->axis;
+    joint.pitch = followed->pitch;
+  }
+  if (attributes.flag("fixed")) joint.type = JointType::kRigid;
+  const auto pitch = attributes.number("pitch");
+  if (pitch) joint.pitch = *pitch;
+  if (!pitch && !followed && joint.type == JointType::kScrew) {
+    throw Error({.what = attributes.owner() + ": attribute 'pitch' is missing",
+                 .where = attributes.where("type"),
+                 .wanted = "metres per turn of the screw"});
+  }
+}
+
+void readFrames(const Attributes& attributes, const JointSurroundings& around, JointSpec& joint,
+                Diagnostics& notes) {
+  const auto A = attributes.has("from") ? attributes.pose("from") : attributes.pose("A");
+  const auto B = attributes.has("to") ? attributes.pose("to") : attributes.pose("B");
+  joint.X_PF = A.value_or(Pose{});
+  joint.X_MC = B ? *B : attributes.flag("BinvA") ? joint.X_PF.inverse() : Pose{};
+  if (const auto X_WF = attributes.pose("X")) {
+    if (isApprox(joint.X_PF, Pose{}, 0) && isApprox(joint.X_MC, Pose{}, 0)) {
+      joint.X_PF = around.X_WP.inverse() * *X_WF;
+      joint.X_MC = X_WF->inverse() * around.X_WC;
+    } else {
+      attributes.note("X", "is ignored: the joint has A or B", Severity::kNote, notes);
+    }
+  }
+  if (const auto axis = attributes.row("axis", {3})) {
+    const Pose X_FT{rotationBetween(Eigen::Vector3d::UnitX(), readAxis(attributes, *axis)),
+                    Eigen::Vector3d::Zero()};
+    joint.X_PF = joint.X_PF * X_FT;
+    joint.X_MC = X_FT.inverse() * joint.X_MC;
+  }
+}
+
+void readStart(const Attributes& attributes, JointSpec& joint) {
+  const auto Q = attributes.pose("Q");
+  if (joint.type == JointType::kRigid) {
+    // Nothing moves: both become part of the fixed pose, q as a turn about x.
+    const double q = attributes.number("q").value_or(0);
+    joint.X_PF = joint.X_PF * Q.value_or(Pose{}) * rotation(q, Eigen::Vector3d::UnitX());
+    return;
+  }
+  if (Q) joint.q0 = jointCoordinates(joint.type, joint.axis, *Q);
+  if (const auto q = attributes.row("q", {positionCount(joint.type)})) {
+    const bool hasQuaternion = joint.type == JointType::kBall || joint.type == JointType::kFree;
+    if (hasQuaternion && q->tail<4>().isZero(0))
+      attributes.fail("q", "the quaternion (0, 0, 0, 0)", "a quaternion w x y z that is not zero");
+    joint.q0 = *q;
+  }
+}
+
+void readLimits(const Attributes& attributes, JointSpec& joint) {
+  const int n = positionCount(joint.type);
+  if (const auto limits = attributes.row("limits", {2 * n}, true)) {
+    const auto pairs = limits->reshaped(2, n);
+    joint.lower = pairs.row(0);
+    joint.upper = pairs.row(1);
+    for (int i = 0; i < n; ++i) {
+      if (joint.lower[i] > joint.upper[i]) {
+        attributes.fail("limits", fmt::format("{} > {}", joint.lower[i], joint.upper[i]),
+                        "pairs 'low high' with low <= high");
+      }
+    }
+  }
+  if (const auto limits = attributes.row("ctrl_limits", {2, 3}, true)) {
+    if (limits->minCoeff() < 0)
+      attributes.fail("ctrl_limits", fmt::format("{}", limits->minCoeff()),
+                      "the largest velocity and effort, both >= 0");
+    joint.maxVelocity = (*limits)[0];
+    joint.maxEffort = (*limits)[1];
+  }
+}
+
+}  // namespace
+
+std::string readMimic(const Attributes& attributes) {
+  return attributes.text("mimic", "the name of a joint").value_or("");
+}
+
+void readJoint(const Attributes& attributes, const JointSurroundings& around, JointSpec& joint,
+               Diagnostics& notes) {
+  static const std::vector<std::string> kKnown = {"A",
+                                                  "from",
+                                                  "B",
+                                                  "to",
+                                                  "BinvA",
+                                                  "Q",
+                                                  "X",
+                                                  "type",
+                                                  "axis",
+                                                  "q",
+                                                  "pitch",
+                                                  "limits",
+                                                  "ctrl_limits",
+                                                  "ctrl_H",
+                                                  "mimic",
+                                                  "mimic_ratio",
+                                                  "mimic_offset",
+                                                  "fixed",
+                                                  "damping",
+                                                  "friction",
+                                                  "agent",
+                                                  "gains",
+                                                  "m"};
+  attributes.noteUnknown(kKnown, notes);
+  joint.mimic = readMimic(attributes);
+  joint.mimicRatio = attributes.number("mimic_ratio").value_or(1);
+  joint.mimicOffset = attributes.number("mimic_offset").value_or(0);
+  readType(attributes, around.followed, joint);
+  readFrames(attributes, around, joint, notes);
+  readStart(attributes, joint);
+  readLimits(attributes, joint);
+  joint.damping = attributes.size("damping").value_or(0);
+  joint.friction = attributes.size("friction").value_or(0);
+  if (attributes.number("agent").value_or(0) != 0)
+    attributes.note("agent", "is ignored: one agent moves all joints", Severity::kNote, notes);
+  if (attributes.has("gains"))
+    attributes.note("gains", "is ignored: controllers are written in programs", Severity::kNote, notes);
+}
+
+}  // namespace rex::ors

@@ -1,0 +1,307 @@
+#include "scene/ors_writer.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "scene/ors_limits_internal.h"
+#include "scene/ors_text_internal.h"
+
+namespace rex {
+namespace {
+
+using ors::arrayText;
+using ors::numberText;
+using ors::poseText;
+
+using Parts = std::vector<std::string>;  // the attributes of a statement
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t kWidestColumn = 32;
+
+void requireName(const char* role, const std::string& name, const SourceLocation& where) {
+  const bool isWord = !name.empty() && name.size() <= ors::kLongestWord &&
+                      name.find_first_of(" \t\r\n,;()[]{}=!<\"'#") == std::string::npos && name[0] != '>' &&
+                      name[0] != '-';
+  if (isWord) return;
+  throw Error({.what = fmt::format("{} '{}': not a name in .ors", role, name),
+               .where = where,
+               .found = fmt::format("'{}'", name),
+               .wanted = "a word of at most 256 bytes without blanks and any of ,;()[]{}=!<>\"'#-"});
+}
+
+std::string quotedFile(const std::string& what, const std::string& file, const SourceLocation& where) {
+  if (file.empty() || file.size() > ors::kLongestWord || file.find('\'') != std::string::npos) {
+    throw Error({.what = what + ": mesh",
+                 .where = where,
+                 .found = file.empty() ? "no file" : fmt::format("'{}'", file),
+                 .wanted = "a file whose name has at most 256 bytes and no '"});
+  }
+  return fmt::format("'{}'", file);
+}
+
+bool isIdentity(const Pose& X) { return isApprox(X, Pose{}, 0); }
+
+std::string typeName(ShapeType type) {
+  switch (type) {
+    case ShapeType::kBox:
+      return "ST_box";
+    case ShapeType::kSphere:
+      return "ST_sphere";
+    case ShapeType::kCapsule:
+      return "ST_capsule";
+    case ShapeType::kMesh:
+      return "ST_mesh";
+    case ShapeType::kCylinder:
+      return "ST_cylinder";
+    case ShapeType::kMarker:
+      return "ST_marker";
+    case ShapeType::kPointCloud:
+      return "ST_pointCloud";
+    case ShapeType::kSphereSweptConvex:
+      return "ST_ssCvx";
+    case ShapeType::kRoundedBox:
+      return "ST_ssBox";
+  }
+  return "";
+}
+
+bool hasAxis(JointType type) {
+  return type == JointType::kHinge || type == JointType::kSlider || type == JointType::kScrew ||
+         type == JointType::kCylindrical;
+}
+
+// 'X', 'Y' or 'Z' if the axis points along it, else '\0'.
+char letterOf(const Eigen::Vector3d& axis) {
+  for (int i = 0; i < 3; ++i)
+    if (axis[i] > 0 && axis[(i + 1) % 3] == 0 && axis[(i + 2) % 3] == 0) return "XYZ"[i];
+  return '\0';
+}
+
+// Joints with an axis are called after it; where it is none of x, y, z the attribute 'axis' turns that of x.
+std::string typeName(const JointSpec& joint) {
+  const char letter = letterOf(joint.axis);
+  switch (joint.type) {
+    case JointType::kRigid:
+      return "rigid";
+    case JointType::kHinge:
+      return fmt::format("hinge{}", letter ? letter : 'X');
+    case JointType::kSlider:
+      return fmt::format("trans{}", letter ? letter : 'X');
+    case JointType::kScrew:
+      return "screw";
+    case JointType::kCylindrical:
+      return "cylindrical";
+    case JointType::kPlanarXY:
+      return "transXY";
+    case JointType::kTranslation3:
+      return "trans3";
+    case JointType::kPlanarXYPhi:
+      return "transXYPhi";
+    case JointType::kPlanarPhiXY:
+      return "phiTransXY";
+    case JointType::kUniversal:
+      return "universal";
+    case JointType::kBall:
+      return "quatBall";
+    case JointType::kFree:
+      return "free";
+  }
+  return "";
+}
+
+bool needsAxis(const JointSpec& joint) {
+  const char letter = letterOf(joint.axis);
+  const bool inName = joint.type == JointType::kHinge || joint.type == JointType::kSlider;
+  return hasAxis(joint.type) && letter != 'X' && !(inName && letter);
+}
+
+std::string numbersText(const Eigen::VectorXd& values) {
+  return values.size() == 1 ? numberText(values[0]) : arrayText(values);
+}
+
+// A joint that is called as it is read without a name needs none.
+std::string jointHead(const JointSpec& joint) {
+  const bool isDefault = joint.name.empty() || joint.name == joint.parent + ">" + joint.child;
+  if (!isDefault) requireName("joint", joint.name, joint.where);
+  return fmt::format("joint {}({} {})", isDefault ? "" : joint.name + " ", joint.parent, joint.child);
+}
+
+void addType(const JointSpec& joint, Parts& parts) {
+  const std::string type = typeName(joint);
+  // A joint that mimics and gives no type has that of the joint it follows.
+  if (type != "hingeX" || !joint.mimic.empty()) parts.push_back("type=" + type);
+  if (needsAxis(joint)) parts.push_back("axis=" + arrayText(joint.axis));
+  if (joint.type == JointType::kScrew) parts.push_back("pitch=" + numberText(joint.pitch));
+}
+
+void addLimits(const JointSpec& joint, Parts& parts) {
+  const int n = positionCount(joint.type);
+  if (joint.lower.size() > 0 || joint.upper.size() > 0) {
+    Eigen::Matrix2Xd limits(2, n);
+    limits.row(0).setConstant(-kInfinity);
+    limits.row(1).setConstant(kInfinity);
+    if (joint.lower.size() > 0) limits.row(0) = joint.lower;
+    if (joint.upper.size() > 0) limits.row(1) = joint.upper;
+    parts.push_back("limits=" + arrayText(limits.reshaped()));
+  }
+  if (std::isfinite(joint.maxVelocity) || std::isfinite(joint.maxEffort))
+    parts.push_back("ctrl_limits=" + arrayText(Eigen::Vector2d(joint.maxVelocity, joint.maxEffort)));
+}
+
+void addNumber(const char* name, double value, double usual, Parts& parts) {
+  if (value != usual) parts.push_back(fmt::format("{}={}", name, numberText(value)));
+}
+
+void addMimic(const JointSpec& joint, Parts& parts) {
+  if (joint.mimic.empty()) return;
+  const bool isWord = std::isalpha(static_cast<unsigned char>(joint.mimic[0])) != 0 &&
+                      joint.mimic != "true" && joint.mimic != "false";
+  parts.push_back(isWord ? "mimic=" + joint.mimic : fmt::format("mimic=\"{}\"", joint.mimic));
+  addNumber("mimic_ratio", joint.mimicRatio, 1, parts);
+  addNumber("mimic_offset", joint.mimicOffset, 0, parts);
+}
+
+Parts jointParts(const JointSpec& joint) {
+  Parts parts;
+  addType(joint, parts);
+  if (!isIdentity(joint.X_PF)) parts.push_back("A=" + poseText(joint.X_PF));
+  if (!isIdentity(joint.X_MC)) parts.push_back("B=" + poseText(joint.X_MC));
+  if (joint.q0.size() > 0 && joint.q0 != jointCoordinates(joint.type, joint.axis, Pose{}))
+    parts.push_back("q=" + numbersText(joint.q0));
+  addLimits(joint, parts);
+  addMimic(joint, parts);
+  addNumber("damping", joint.damping, 0, parts);
+  addNumber("friction", joint.friction, 0, parts);
+  return parts;
+}
+
+Parts bodyParts(const BodySpec& body) {
+  Parts parts;
+  if (!isIdentity(body.X_WB)) parts.push_back("X=" + poseText(body.X_WB));
+  addNumber("mass", body.mass, 0, parts);
+  if (!body.p_BBcm.isZero(0)) parts.push_back("com=" + arrayText(body.p_BBcm));
+  if (body.inertia) {
+    const Eigen::Matrix3d& I = *body.inertia;
+    Eigen::VectorXd entries(6);
+    entries << I.diagonal(), I(0, 1), I(0, 2), I(1, 2);
+    parts.push_back("inertia=" + arrayText(entries.tail(3).isZero(0) ? entries.head(3).eval() : entries));
+  }
+  if (body.kind == BodyKind::kStatic) parts.emplace_back("fixed");
+  if (body.kind == BodyKind::kKinematic) parts.emplace_back("kinematic");
+  return parts;
+}
+
+// One line, or two columns of several.
+struct Line {
+  std::string head;
+  Parts parts;
+};
+
+std::string linesText(const std::vector<Line>& lines) {
+  std::size_t width = 0;
+  for (const Line& line : lines)
+    if (line.head.size() <= kWidestColumn) width = std::max(width, line.head.size());
+  std::string text;
+  for (const Line& line : lines)
+    text += fmt::format("{:{}} {{ {}{}}}\n", line.head, width, fmt::join(line.parts, " "),
+                        line.parts.empty() ? "" : " ");
+  return text;
+}
+
+class Writer {
+ public:
+  explicit Writer(const std::filesystem::path& folder) : folder_(folder) {}
+
+  std::string write(const SceneSpec& spec) {
+    std::vector<Line> shapes, bodies, joints;
+    for (const ShapeSpec& shape : spec.worldShapes) shapes.push_back({shapeHead(shape), shapeParts(shape)});
+    for (const BodySpec& body : spec.bodies) addBody(body, bodies);
+    for (const JointSpec& joint : spec.joints) joints.push_back({jointHead(joint), jointParts(joint)});
+    std::string text;
+    for (const std::vector<Line>& group : {shapes, bodies, joints}) {
+      if (!text.empty() && !group.empty()) text += "\n";
+      text += linesText(group);
+    }
+    return text;
+  }
+
+ private:
+  static std::string shapeHead(const ShapeSpec& shape) {
+    if (!shape.name.empty()) requireName("shape", shape.name, shape.where);
+    return shape.name.empty() ? "shape" : "shape " + shape.name;
+  }
+
+  // A shape called like its body is written with it, if it comes first.
+  void addBody(const BodySpec& body, std::vector<Line>& lines) {
+    requireName("body", body.name, body.where);
+    if (body.name == "world") {
+      throw Error({.what = "body 'world'",
+                   .where = body.where,
+                   .found = "the name of the world itself",
+                   .wanted = "another name"});
+    }
+    // A name means the first body that has it; the shapes of a further one count back to their body.
+    const bool isFirst = names_.insert(body.name).second;
+    Line line{"body " + body.name, bodyParts(body)};
+    const std::size_t own = !body.shapes.empty() && body.shapes[0].name == body.name ? 1 : 0;
+    if (own == 1) {
+      const Parts parts = shapeParts(body.shapes[0]);
+      line.parts.insert(line.parts.end(), parts.begin(), parts.end());
+    }
+    lines.push_back(std::move(line));
+    for (std::size_t i = own; i < body.shapes.size(); ++i) {
+      const ShapeSpec& shape = body.shapes[i];
+      const std::string parent = isFirst ? body.name : fmt::format("-{}", i - own + 1);
+      lines.push_back({fmt::format("{} ({})", shapeHead(shape), parent), shapeParts(shape)});
+    }
+  }
+
+  Parts shapeParts(const ShapeSpec& shape) const {
+    Parts parts = {"type=" + typeName(shape.shape.type)};
+    const Shape usual;
+    if (shape.shape.extent != usual.extent || shape.shape.radius != usual.radius) {
+      Eigen::Vector4d size;
+      size << shape.shape.extent, shape.shape.radius;
+      parts.push_back("size=" + arrayText(size.head(shape.shape.radius == 0 ? 3 : 4)));
+    }
+    if (!isIdentity(shape.X_BS)) parts.push_back("rel=" + poseText(shape.X_BS));
+    if (shape.color != ShapeSpec().color)
+      parts.push_back("color=" + arrayText(shape.color.head(shape.color[3] == 1 ? 3 : 4)));
+    if (shape.contact) parts.emplace_back("contact");
+    if (!shape.visible) parts.emplace_back("hidden");
+    addMesh(shape, parts);
+    return parts;
+  }
+
+  void addMesh(const ShapeSpec& shape, Parts& parts) const {
+    if (!usesMesh(shape.shape.type) && shape.meshFile.empty()) return;
+    const std::string what = fmt::format("shape '{}'", shape.name);
+    parts.push_back("mesh=" + quotedFile(what, meshFile(shape), shape.where));
+    const Eigen::Vector3d& scale = shape.meshScale;
+    if (scale == Eigen::Vector3d::Ones()) return;
+    const bool isUniform = scale == Eigen::Vector3d::Constant(scale[0]);
+    parts.push_back("meshscale=" + (isUniform ? numberText(scale[0]) : arrayText(scale)));
+  }
+
+  std::string meshFile(const ShapeSpec& shape) const {
+    if (shape.meshPath.empty() || folder_.empty()) return shape.meshFile;
+    return std::filesystem::proximate(shape.meshPath, folder_).generic_string();
+  }
+
+  const std::filesystem::path& folder_;
+  std::set<std::string> names_;
+};
+
+}  // namespace
+
+std::string writeOrs(const SceneSpec& spec, const std::filesystem::path& folder) {
+  return Writer(folder).write(spec);
+}
+
+}  // namespace rex

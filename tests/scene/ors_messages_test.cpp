@@ -1,0 +1,252 @@
+// What is said about broken scenes: each row is a valid scene with one typo.
+#include <gtest/gtest.h>
+
+#include "scene/model.h"
+#include "scene/ors_reader.h"
+
+namespace rex {
+namespace {
+
+// The typo stands between two @, and `right` in its place makes the scene valid. The message is about the
+// place of the typo, or about the ^ if there is one.
+struct Row {
+  std::string_view text, right, message;
+};
+
+std::string without(std::string_view marks, std::string text) {
+  std::erase_if(text, [&](char c) { return marks.find(c) != std::string_view::npos; });
+  return text;
+}
+
+std::string withTypo(const Row& row) { return without("^@", std::string(row.text)); }
+
+std::string corrected(const Row& row) {
+  std::string text(row.text);
+  const std::size_t start = text.find('@'), end = text.find('@', start + 1);
+  text.replace(start, end - start + 1, row.right);
+  return without("^", text);
+}
+
+// "f:line:column: message".
+std::string expected(const Row& row) {
+  const std::size_t mark = row.text.find('^');
+  const std::string_view before =
+      row.text.substr(0, mark == std::string_view::npos ? row.text.find('@') : mark);
+  const auto line = std::count(before.begin(), before.end(), '\n') + 1;
+  const std::string last = without("^@", std::string(before.substr(before.rfind('\n') + 1)));
+  return "f:" + std::to_string(line) + ":" + std::to_string(last.size() + 1) + ": " +
+         std::string(row.message);
+}
+
+std::string errorOf(const std::string& text) {
+  try {
+    static_cast<void>(compile(parseOrs(text, "f").spec));
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+constexpr Row kErrors[] = {
+    // the grammar
+    {"body a ^{\n  mass=1 @@", "}", "'{' is never closed: wanted a matching '}' before the end of the file"},
+    {"body a { mass=1 }\n@}@", "", "unmatched '}': wanted a body, shape or joint, or the end of the file"},
+    {"body a {}\nshape s ^(a@@ {type=0}", ")", "'(' is never closed: wanted a ')' before '{type'"},
+    {"body a { mass=@1.2.3@ }", "1.2", "not a number: found '1.2.3', wanted a number"},
+    {"body a { mass=@1e999@ }", "1e9", "not a number: found '1e999', wanted a number"},
+    {"body a { mass=@-inf@ }", "0", "not a number: found '-inf', wanted a number"},
+    {"body a { com=[0 @nan@ 0] }", "0", "not a number: found 'nan', wanted a number or ']'"},
+    {"body a { com=[0 @zero@ 0] }", "0", "not a number: found 'zero', wanted a number or ']'"},
+    {"body a { com=[0 0 0 @@^}", "] ", "not a number: found '}', wanted a number or ']'"},
+    {"body a { com=[0 0 0]\n X=^@[0@", "<T>}", "'[' is never closed: wanted a ']'"},
+    {"body a { size=[1 2; 3@@^] }", " 4", "row of an array: found 1 numbers, wanted 2 as in the first row"},
+    {"body a { com=^[<@4@> 0 0 0] }", "3", "array with explicit dimensions: found 3 numbers, wanted 1 x 4"},
+    {"body a { com=[<1 3@ 1@>^ 0 0 0] }", "", "array dimensions: found 3 of them, wanted one or two"},
+    {"body a { com=[<1 @2.5@^> 0 0 0] }", "3", "array dimension: found 2.5, wanted a count"},
+    {"body a {}\nbody b {}\nbody c {}\njoint j (a b) { mimic=^\"k@@ }\njoint k (a c) {}", "\"",
+     "text is never closed: wanted a second \""},
+    {"body a { mesh=^'arm.obj@@ }", "'", "text is never closed: wanted a second '"},
+    {"body a { unknown=^<Q 1 2@@ }", ">", "'<' is never closed: wanted a second >"},
+    {"body a { X=^<T t(0 0 1)@@", "> }", "'<T' is never closed: wanted a '>'"},
+    {"body a { X=<T t(0 0@@^)> }", " 0", "too few numbers in a pose: found ')', wanted three numbers"},
+    {"body a { X=<T t(0 0 1 @2@)> }", "", "pose element 't': found '2', wanted ')' after 3 numbers"},
+    {"body a { X=<T t^@ @(0 0 1)> }", "", "pose element 't': found ' ', wanted '('"},
+    {"body a { X=<T @s@(2 0 0)> }", "t",
+     "unknown element of a pose: found 's', wanted t(..), d(..), r(..), q(..), E(..), seven numbers, or '>'"},
+    {"body a { X=<T 1 2 3 1 0 0@@^> }", " 0",
+     "too few numbers in a pose: found '>', wanted x y z qw qx qy qz"},
+    {"body a { X=<T ^q(0 0 0 @0@)> }", "1",
+     "quaternion: found (0, 0, 0, 0), wanted a quaternion w x y z that is not zero"},
+    {"body a { X=^<T t(1e308 0 0) t(@1e308@ 0 0)> }", "1",
+     "pose: found a place farther than numbers reach, wanted metres"},
+    {"body a { mass=@)@ }", "1",
+     "syntax error: found ')', wanted a value: a number, word, \"text\", [array], <T pose> or {attributes}"},
+    {"body a @)@ {}", "", "syntax error: found ')', wanted a name"},
+    {"body a {}\n@;@", "", "syntax error: found ';', wanted a name such as 'body', 'shape' or 'joint'"},
+    {"body a { mass=@\x01@ }", "1",
+     "syntax error: found '\\x01', wanted a value: a number, word, \"text\", [array], <T pose> or "
+     "{attributes}"},
+    // statements
+    {"@bodi@ a {}", "body",
+     "unknown statement: found 'bodi', wanted 'body', 'shape' or 'joint' (did you mean 'body'?)"},
+    {"^@body@ { mass=1 }", "body a", "body without a name: wanted 'body NAME { ... }'"},
+    {"body a@\n@^{ mass=1 }", "",
+     "a value without a name: found {...}, wanted '{' on the line of its body, shape or joint"},
+    {"body a = @3@", "{}", "body 'a': found the number 3, wanted {attributes} on the line of its name"},
+    {"body a {}\nbody b @(^a)@ {}", "", "body 'b': found parents, wanted none: joints connect bodies"},
+    {"@Include=^'arm.ors'@\nbody a {}", "",
+     "Include 'arm.ors': found a scene that was given as text, wanted no Include: only scenes in files "
+     "include "
+     "others"},
+    {"ChDir=@parts@\nbody a {}", "'parts'", "ChDir: found 'parts', wanted ChDir='FOLDER'"},
+    {"body a {}\n^Delete@@", " a",
+     "Delete: found no names, wanted the words of a statement: Delete body NAME"},
+    {"body a {}\nDelete a @{}@", "", "Delete: found {...}, wanted only the words of a statement"},
+    {"body a {}\n^Edit@@ {}", " body a",
+     "Edit: found no names, wanted the words of a statement: Edit body NAME"},
+    {"body arm {}\n^Edit body @amr@ { mass=1 }", "arm",
+     "nothing to edit: found 'body amr', wanted the words of an earlier statement (did you mean 'body "
+     "arm'?)"},
+    {"body a { mass=1 }\n^Edit body a @= 3@", "{}",
+     "Edit of 'body a': found the number 3, wanted {attributes}"},
+    // bodies
+    {"body a { mass=@heavy@ }", "1", "body 'a': attribute 'mass': found 'heavy', wanted a number"},
+    {"body a { mass=@-1@ }", "1", "body 'a': attribute 'mass': found -1, wanted a mass >= 0 kg"},
+    {"body a { X=@[1 2 3]@ }", "<T>", "body 'a': attribute 'X': found an array of 3, wanted a pose <T ...>"},
+    {"body a { com=@[1 2]@ }", "[1 2 3]",
+     "body 'a': attribute 'com': found an array of 2, wanted an array of 3 numbers"},
+    {"body a { com=@[1; 2; 3]@ }", "[1 2 3]",
+     "body 'a': attribute 'com': found an array of 3 x 1, wanted an array of 3 numbers"},
+    {"body a { com=@[0 inf 0]@ }", "[0 0 0]",
+     "body 'a': attribute 'com': found an infinite number, wanted finite numbers"},
+    {"body a { inertia=@[1 1]@ }", "[1 1 1]",
+     "body 'a': attribute 'inertia': found an array of 2, wanted an array of 3 or 6 numbers"},
+    {"body a { inertia=@[1 1 -1]@ }", "[1 1 1]",
+     "body 'a': attribute 'inertia': found a negative principal moment, wanted principal moments >= 0"},
+    {"body a { inertia=@[1 1 1 2 0 0]@ }", "[1 1 1 .2 0 0]",
+     "body 'a': attribute 'inertia': found a negative principal moment, wanted principal moments >= 0"},
+    {"body a { dyntype=@5@ }", "2",
+     "body 'a': unknown dyntype: found the number 5, wanted a number from 0 to 2 or a name such as "
+     "'dynamic'"},
+    {"^body @world@ {}", "earth", "body 'world': found the name of the world itself, wanted another name"},
+    // shapes
+    {"body a { type=@77@ }", "7",
+     "body 'a': unknown type: found the number 77, wanted a number from 0 to 9 or a name such as 'ST_box'"},
+    {"body a { type=@ST_capsul@ }", "ST_capsule",
+     "body 'a': unknown type: found 'ST_capsul', wanted a number from 0 to 9 or a name such as 'ST_box' (did "
+     "you mean 'ST_capsule'?)"},
+    {"body a { type=0 size=@[1 2]@ }", "[1 2 3]",
+     "body 'a': attribute 'size': found an array of 2, wanted an array of 3 or 4 numbers"},
+    {"body a { type=0 size=@[1 2 -3]@ }", "[1 2 3]",
+     "body 'a': attribute 'size': found -3, wanted lengths that are not negative"},
+    {"body a { type=3 mesh=@arm.obj@ }", "'arm.obj'",
+     "body 'a': attribute 'mesh': found 'arm.obj', wanted a file name in single quotes"},
+    {"body a { type=3 mesh='a.obj' meshscale=@[1 2]@ }", "[1 2 3]",
+     "body 'a': attribute 'meshscale': found an array of 2, wanted a number or an array of 3 numbers"},
+    {"body arm {}\nshape (@amr@) { type=0 }", "arm",
+     "shape: unknown parent: found 'amr', wanted the name of an earlier body (did you mean 'arm'?)"},
+    {"body a {}\nbody b {}\n^shape s (a) { size=[1 1 1]@@ }", " type=0",
+     "shape 's': attribute 'type' is missing: wanted type=0 .. type=9"},
+    {"body a {}\nbody b {}\nshape s (a @b@) { type=0 }", "",
+     "shape 's': found 2 parents, wanted one body, or none"},
+    {"body a {}\nshape (@-2@) { type=0 }", "-1",
+     "parent: found -2, wanted -1 to -1, the statements before this one"},
+    {"body a {}\nshape (a) { type=0 }\nshape (@-1@) { type=0 }", "-2",
+     "shape: parent: found -1, which is no body, wanted the count of statements back to a body"},
+    // joints
+    {"body arm {}\nbody hand {}\njoint (arm @hnad@) {}", "hand",
+     "joint 'arm>hnad': unknown parent: found 'hnad', wanted the name of an earlier body (did you mean "
+     "'hand'?)"},
+    {"body a {}\nbody b {}\n^joint j (a@@) {}", " b",
+     "joint 'j': found 1 bodies, wanted two: joint NAME (FROM TO) {...}"},
+    {"body a {}\nbody b {}\njoint j (a @a@) {}", "b",
+     "joint 'j': found 'a' hung on itself, wanted two different bodies"},
+    {"body a {}\nbody b {}\njoint j (a @world@) {}", "b",
+     "joint 'j': found the world as the body that moves, wanted a body"},
+    {"body a {}\nbody b {}\nbody b {}\njoint j (a @-1@) {}", "-2",
+     "joint 'j': found -1, a further body 'b', wanted the first body of its name"},
+    {"body a {}\nbody b {}\njoint j (a b) { type=@hingQ@ }", "hingeZ",
+     "joint 'j': unknown type: found 'hingQ', wanted a number from 0 to 14 or a name such as 'hingeX' (did "
+     "you "
+     "mean 'hingeX', 'hingeY' or 'hingeZ'?)"},
+    {"body a {}\nbody b {}\njoint j (a b) { type=^screw@@ }", " pitch=.1",
+     "joint 'j': attribute 'pitch' is missing: wanted metres per turn of the screw"},
+    {"body a {}\nbody b {}\njoint j (a b) { axis=^[0 0 @0@] }", "1",
+     "joint 'j': attribute 'axis': found a zero vector, wanted a direction"},
+    {"body a {}\nbody b {}\njoint j (a b) { limits=@[1]@ }", "[1 2]",
+     "joint 'j': attribute 'limits': found an array of 1, wanted an array of 2 numbers"},
+    {"body a {}\nbody b {}\njoint j (a b) { limits=@[1 -1]@ }", "[-1 1]",
+     "joint 'j': attribute 'limits': found 1 > -1, wanted pairs 'low high' with low <= high"},
+    {"body a {}\nbody b {}\njoint j (a b) { ctrl_limits=@[1 -1 0]@ }", "[1 1 0]",
+     "joint 'j': attribute 'ctrl_limits': found -1, wanted the largest velocity and effort, both >= 0"},
+    {"body a {}\nbody b {}\njoint j (a b) { damping=@-1@ }", "1",
+     "joint 'j': attribute 'damping': found -1, wanted a number >= 0"},
+    {"body a {}\nbody b {}\njoint j (a b) { type=universal q=@1@ }", "[1 0]",
+     "joint 'j': attribute 'q': found the number 1, wanted an array of 2 numbers"},
+    {"body a {}\nbody b {}\njoint j (a b) { type=quatBall q=@[0 0 0 0]@ }", "[1 0 0 0]",
+     "joint 'j': attribute 'q': found the quaternion (0, 0, 0, 0), wanted a quaternion w x y z that is not "
+     "zero"},
+    {"body a {}\nbody b {}\njoint j (a b) { mimic=@3@ }\nbody c {}\njoint three (a c) {}", "three",
+     "joint 'j': attribute 'mimic': found the number 3, wanted the name of a joint"},
+    // the tree
+    {"body a {}\nbody b {}\nbody c {}\nbody d {}\njoint j (a b) {}\n^joint k (c @b@) {}", "d",
+     "joint 'k': body 'b' already hangs on a joint: found joint 'j', wanted one joint into each body"},
+    {"body a {}\nbody b {}\nbody c {}\njoint j (a b) {}\n^joint @j@ (a c) {}", "k",
+     "duplicate joint 'j': wanted a name of its own: the first stands at f:4:1"},
+    {"body a {}\nbody b {}\nbody c {}\njoint j (a b) {}\n^joint k (b @a@) {}", "c",
+     "joint 'k': joints form a loop: found b > a > b, wanted a tree"},
+    {"body a {}\nbody b {}\nbody c {}\njoint lead (a b) {}\n^joint j (a c) { mimic=@laed@ }", "lead",
+     "joint 'j': mimic: found 'laed', wanted a joint that mimics none, of the same type or like this one "
+     "with "
+     "one coordinate (did you mean 'lead'?)"},
+    {"body a {}\nbody b {}\nbody c {}\nbody d {}\njoint one (a b) {}\njoint two (a c) { mimic=one }\n"
+     "^joint three (a d) { mimic=@two@ }",
+     "one",
+     "joint 'three': mimic: found 'two', wanted a joint that mimics none, of the same type or like this one "
+     "with one coordinate"},
+};
+
+constexpr Row kNotes[] = {
+    {"body a { @mas@=1 }", "mass",
+     "warning: body 'a': unknown attribute 'mas' is ignored (did you mean 'mass'?)"},
+    {"body a { @wheels@=4 }", "mass", "note: body 'a': unknown attribute 'wheels' is ignored"},
+    {"body a { mass=1 inertia=@[1 1 5]@ }", "[1 1 1]",
+     "warning: body 'a': attribute 'inertia' belongs to no solid: one principal moment exceeds the sum of "
+     "the "
+     "others"},
+    {"body a { @@size=^[1 1 1] }", "type=0 ",
+     "note: body 'a': attribute 'size' is ignored: without 'type' the body has no shape"},
+    {"body a { type=@6@ }", "9",
+     "note: body 'a': attribute 'type' 6 is retired: read as ST_ssBox, a rounded box"},
+    {"body a {}\n^Delete body @b@\nbody b {}", "a",
+     "warning: nothing to delete: no earlier statement has the words 'body b'"},
+    {"body a {}\nbody b {}\njoint (a b) { m agent=@1@ }", "0",
+     "note: joint 'a>b': attribute 'agent' is ignored: one agent moves all joints"},
+    {"body a {}\nbody b {}\njoint (a b) { @gains=^[1 1]@ ctrl_H=1 }", "",
+     "note: joint 'a>b': attribute 'gains' is ignored: controllers are written in programs"},
+    {"body a {}\nbody b {}\njoint (a b) { A=<T t(0 0 1)> @X=^<T>@ }", "",
+     "note: joint 'a>b': attribute 'X' is ignored: the joint has A or B"},
+    {"body a {}\nbody b {}\njoint (a b) { @limit@=[-1 1] }", "limits",
+     "warning: joint 'a>b': unknown attribute 'limit' is ignored (did you mean 'limits'?)"},
+};
+
+TEST(OrsMessages, SayWhatIsWrongWhere) {
+  for (const Row& row : kErrors) {
+    SCOPED_TRACE(row.text);
+    EXPECT_EQ(errorOf(withTypo(row)), expected(row));
+    EXPECT_EQ(errorOf(corrected(row)), "");
+  }
+}
+
+TEST(OrsMessages, TellWhatIsIgnoredOrStrange) {
+  for (const Row& row : kNotes) {
+    SCOPED_TRACE(row.text);
+    const Diagnostics notes = parseOrs(withTypo(row), "f").notes;
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_EQ(toString(notes[0]), expected(row));
+    EXPECT_TRUE(parseOrs(corrected(row), "f").notes.empty());
+  }
+}
+
+}  // namespace
+}  // namespace rex
