@@ -3,6 +3,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "geometry/rotation.h"

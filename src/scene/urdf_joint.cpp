@@ -1,5 +1,5 @@
+#include <algorithm>
 #include <array>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -98,14 +98,14 @@ std::string readEnd(const Tag& joint, const char* name, SourceLocation& where) {
 
 }  // namespace
 
-ReadJoint readJoint(Reading& reading, const xml::Element& element) {
+ReadJoint readJoint(const Tag& tag) {
   static const Known kKnown = {{"name", "type"},
                                {"origin", "parent", "child", "axis", "limit", "dynamics", "mimic"},
                                {"safety_controller", "calibration", "gazebo"}};
   ReadJoint read;
   JointSpec& spec = read.spec;
-  spec.name = Tag(reading, element, "<joint>").nameIn("name");
-  const Tag joint(reading, element, fmt::format("joint '{}'", spec.name));
+  spec.name = tag.nameIn("name");
+  const Tag joint = tag.of(fmt::format("joint '{}'", spec.name));
   joint.expect(kKnown);
   spec.where = joint.where();
   const std::string& type = joint.text("type");
@@ -118,7 +118,8 @@ ReadJoint readJoint(Reading& reading, const xml::Element& element) {
   spec.parent = readEnd(joint, "parent", read.parentAt);
   spec.child = readEnd(joint, "child", read.childAt);
   spec.X_PF = joint.origin();
-  spec.axis = readAxis(joint);
+  // Others have none; exporters write zeros there.
+  if (type != "fixed" && type != "floating") spec.axis = readAxis(joint);
   if (spec.type == JointType::kPlanarXYPhi) turnPlane(spec);
   readLimit(joint, type == "revolute" || type == "prismatic", spec);
   readDynamics(joint, spec);

@@ -1,4 +1,4 @@
-#include <cmath>
+#include <algorithm>
 
 #include <fmt/format.h>
 
@@ -134,7 +134,7 @@ void readInertial(const Tag& tag, BodySpec& body) {
   const Pose X_BI = tag.origin();
   const Tag mass = tag.neededChild("mass");
   mass.expect(kKnownOfMass);
-  body.mass = mass.notNegative("value", 0);
+  body.mass = mass.notNegative("value");
   body.p_BBcm = X_BI.p;
   const Tag inertia = tag.neededChild("inertia");
   const Eigen::Matrix3d I = readMoments(inertia);
@@ -146,6 +146,8 @@ void readInertial(const Tag& tag, BodySpec& body) {
   const Eigen::Matrix3d I_B = X_BI.R * I * X_BI.R.transpose();
   body.inertia = (I_B + I_B.transpose()) / 2;
 }
+
+std::string thingOf(const Tag& link) { return fmt::format("link '{}'", link.nameIn("name")); }
 
 }  // namespace
 
@@ -162,26 +164,28 @@ Materials readMaterials(const Tag& robot) {
       material.fail(material.where("name"), "a second material of this name", xml::quoted(name),
                     "a name of its own");
   }
-  for (const Tag& link : robot.children("link"))
-    for (const Tag& visual : link.children("visual"))
+  for (const Tag& link : robot.children("link")) {
+    if (!link.has("name")) continue;  // readLink() says so
+    for (const Tag& visual : link.of(thingOf(link.of("<link>"))).children("visual"))
       for (const Tag& material : visual.children("material"))
         if (material.has("name"))
           for (const Tag& color : material.children("color"))
             materials.emplace(material.text("name"), color.numbers("rgba", 4));
+  }
   return materials;
 }
 
-BodySpec readLink(Reading& reading, const xml::Element& element, const Materials& materials) {
+BodySpec readLink(const Tag& tag, const Materials& materials) {
   static const Known kKnown = {{"name"}, {"inertial", "visual", "collision"}, {"sensor", "gazebo"}};
+  const Tag link = tag.of(thingOf(tag));
   BodySpec body;
-  body.name = Tag(reading, element, "<link>").nameIn("name");
-  const Tag link(reading, element, fmt::format("link '{}'", body.name));
+  body.name = link.text("name");
   link.expect(kKnown);
   body.where = link.where();
   if (const std::optional<Tag> inertial = link.child("inertial")) readInertial(*inertial, body);
-  for (const Tag& tag : link.children()) {
-    if (tag.name() == "visual" || tag.name() == "collision")
-      body.shapes.push_back(readShape(tag, body.name, materials));
+  for (const Tag& part : link.children()) {
+    if (part.name() == "visual" || part.name() == "collision")
+      body.shapes.push_back(readShape(part, body.name, materials));
   }
   return body;
 }

@@ -18,14 +18,14 @@ using Materials = std::unordered_map<std::string, Eigen::Vector4d>;
 [[nodiscard]] Materials readMaterials(const Tag& robot);
 
 /// A <link> with its shapes; meshes are known by name only.
-[[nodiscard]] BodySpec readLink(Reading& reading, const xml::Element& link, const Materials& materials);
+[[nodiscard]] BodySpec readLink(const Tag& tag, const Materials& materials);
 
 /// A <joint>, and where it names other things.
 struct ReadJoint {
   JointSpec spec;
   SourceLocation parentAt, childAt, mimicAt;
 };
-[[nodiscard]] ReadJoint readJoint(Reading& reading, const xml::Element& joint);
+[[nodiscard]] ReadJoint readJoint(const Tag& tag);
 
 /// Refuses whatever is not one tree: unknown or repeated names, loops, several roots; and mimics of nothing.
 /// Returns the index of the root.

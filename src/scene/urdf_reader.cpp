@@ -96,10 +96,9 @@ SceneFile parseUrdf(std::string_view text, const std::string& name, const ReadOp
   SceneFile file;
   file.spec.name = name;
   std::vector<ReadJoint> joints;
-  for (const xml::Element& element : document.root.children) {
-    if (element.name == "link") file.spec.bodies.push_back(readLink(reading, element, materials));
-    if (element.name == "joint") joints.push_back(readJoint(reading, element));
-  }
+  for (const Tag& link : robot.children("link"))
+    file.spec.bodies.push_back(readLink(link.of("<link>"), materials));
+  for (const Tag& joint : robot.children("joint")) joints.push_back(readJoint(joint.of("<joint>")));
   const std::size_t root = requireTree(file.spec.bodies, joints, robot.where());
   for (ReadJoint& joint : joints) file.spec.joints.push_back(std::move(joint.spec));
   placeRoot(file.spec, root, options.freeBase, reading.notes);

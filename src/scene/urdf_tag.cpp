@@ -161,8 +161,8 @@ Eigen::VectorXd Tag::numbers(const char* attribute, int count) const {
   return Eigen::Map<const Eigen::VectorXd>(numbers.values.data(), count);
 }
 
-double Tag::notNegative(const char* attribute, double otherwise) const {
-  const double value = number(attribute, otherwise);
+double Tag::notNegative(const char* attribute) const {
+  const double value = number(attribute);
   if (value < 0) failAt(attribute, fmt::format("{}", value), "a number >= 0");
   return value;
 }

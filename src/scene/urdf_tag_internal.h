@@ -49,6 +49,9 @@ class Tag {
   /// The tag of a thing of its own, "link 'arm'", which begins all messages about it and its children.
   Tag(Reading& reading, const xml::Element& element, std::string thing);
 
+  /// The same tag as part of another thing.
+  Tag of(const std::string& thing) const { return Tag(*reading_, *element_, thing); }
+
   std::string_view name() const { return element_->name; }
   SourceLocation where() const { return reading_->document.where(element_->at); }
   SourceLocation where(const char* attribute) const;
@@ -66,7 +69,10 @@ class Tag {
     return has(attribute) ? number(attribute) : otherwise;
   }
   /// The same, not negative; positive() not zero either.
-  double notNegative(const char* attribute, double otherwise) const;
+  double notNegative(const char* attribute) const;
+  double notNegative(const char* attribute, double otherwise) const {
+    return has(attribute) ? notNegative(attribute) : otherwise;
+  }
   double positive(const char* attribute) const;
   Eigen::VectorXd numbers(const char* attribute, int count) const;
 

@@ -53,7 +53,7 @@ struct Hold {
 };
 
 std::vector<Hold> connect(const std::vector<BodySpec>& links, const std::vector<ReadJoint>& joints) {
-  const Index<BodySpec> index("link", links);
+  const Index index("link", links);
   std::vector<Hold> holds(links.size());
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const JointSpec& joint = joints[j].spec;
@@ -113,8 +113,7 @@ void refuseLoops(const std::vector<BodySpec>& links, const std::vector<ReadJoint
   }
 }
 
-void checkMimics(const std::vector<ReadJoint>& joints) {
-  const Index<ReadJoint> index("joint", joints);
+void checkMimics(const std::vector<ReadJoint>& joints, const Index<ReadJoint>& index) {
   for (const ReadJoint& joint : joints) {
     const std::string& name = joint.spec.mimic;
     if (name.empty()) continue;
@@ -133,9 +132,10 @@ void checkMimics(const std::vector<ReadJoint>& joints) {
 std::size_t requireTree(const std::vector<BodySpec>& links, const std::vector<ReadJoint>& joints,
                         const SourceLocation& robot) {
   if (links.empty()) fail(robot, "<robot>: no link", "", "at least one <link>");
+  const Index jointIndex("joint", joints);
   const std::vector<Hold> holds = connect(links, joints);
   refuseLoops(links, joints, holds);
-  checkMimics(joints);
+  checkMimics(joints, jointIndex);
   return requireOneRoot(links, holds);
 }
 

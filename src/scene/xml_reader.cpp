@@ -59,7 +59,7 @@ class Builder {
       if (encoding && !isKnownEncoding(encoding)) of(self).refuseEncoding(quoted(encoding));
     });
     XML_SetStartDoctypeDeclHandler(parser_.get(), [](void* self, const char*, const char*, const char*, int) {
-      of(self).stop("a document type", "<!DOCTYPE", "none: entities of one's own are not read");
+      of(self).refuseDocumentType();
     });
   }
 
@@ -83,8 +83,17 @@ class Builder {
 
   // Exceptions must not cross expat: what is wrong waits until it has returned.
   void stop(std::string what, std::string found, std::string wanted) {
-    breach_ = {std::move(what), document_.where(here()), std::move(found), std::move(wanted)};
+    stopAt(here(), std::move(what), std::move(found), std::move(wanted));
+  }
+  void stopAt(std::size_t at, std::string what, std::string found, std::string wanted) {
+    const SourceLocation where = document_.where(static_cast<std::uint32_t>(at));
+    breach_ = {std::move(what), where, std::move(found), std::move(wanted)};
     XML_StopParser(parser_.get(), XML_FALSE);
+  }
+
+  void refuseDocumentType() {  // expat has read more than its beginning
+    stopAt(std::min<std::size_t>(text_.rfind("<!DOCTYPE", here()), here()), "a document type", "<!DOCTYPE",
+           "none: entities of one's own are not read");
   }
 
   void refuseEncoding(const std::string& encoding) {
