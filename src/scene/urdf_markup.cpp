@@ -8,20 +8,29 @@
 namespace rex::urdf {
 namespace {
 
+// XML lacks some characters, and bytes that are not UTF-8.
+void requireXml(const std::string& text, const std::string& markup) {
+  try {
+    static_cast<void>(xml::parse(fmt::format("<a b=\"{}\"/>", markup), "name"));
+  } catch (const Error&) {
+    throw Error(
+        {.what = "a name in URDF", .found = xml::quoted(text), .wanted = "characters of XML, in UTF-8"});
+  }
+}
+
 std::string escaped(const std::string& text) {
   std::string result;
+  bool isPlain = true;
   for (const char c : text) {
     const bool isControl = static_cast<unsigned char>(c) < 0x20;
-    if (isControl && c != '\t' && c != '\n' && c != '\r')
-      throw Error({.what = "a name in URDF",
-                   .found = fmt::format("a control character in {}", xml::quoted(text)),
-                   .wanted = "characters that XML has"});
+    isPlain = isPlain && !isControl && static_cast<unsigned char>(c) < 0x7f;
     if (isControl || c == '&' || c == '<' || c == '>' || c == '"') {
       result += fmt::format("&#{};", static_cast<int>(c));
     } else {
       result += c;
     }
   }
+  if (!isPlain) requireXml(text, result);
   return result;
 }
 

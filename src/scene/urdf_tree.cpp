@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -46,6 +48,14 @@ class Index {
   std::unordered_map<std::string, std::size_t> byName_;
 };
 
+// Names for a message, the first few of many.
+std::string listed(const std::vector<std::string>& names, const char* between) {
+  constexpr std::size_t kShown = 8;
+  const auto end = names.begin() + static_cast<std::ptrdiff_t>(std::min(kShown, names.size()));
+  const std::string shown = fmt::format("'{}'", fmt::join(names.begin(), end, fmt::format("'{}'", between)));
+  return names.size() > kShown ? fmt::format("{}{}{} more", shown, between, names.size() - kShown) : shown;
+}
+
 // A link as the tree knows it.
 struct Hold {
   std::size_t joint = kNone;   // that moves it
@@ -79,14 +89,10 @@ std::size_t requireOneRoot(const std::vector<BodySpec>& links, const std::vector
   for (std::size_t i = 0; i < links.size(); ++i)
     if (holds[i].joint == kNone) roots.push_back(i);
   if (roots.size() == 1) return roots.front();
-  constexpr std::size_t kShown = 5;
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < std::min(kShown, roots.size()); ++i)
-    names.push_back(fmt::format("'{}'", links[roots[i]].name));
-  if (roots.size() > kShown) names.push_back(fmt::format("{} more", roots.size() - kShown));
+  for (const std::size_t root : roots) names.push_back(links[root].name);
   if (roots.size() > 1)
-    fail(links[roots[1]].where, "links that no joint holds together",
-         fmt::format("{}", fmt::join(names, ", ")), "one root");
+    fail(links[roots[1]].where, "links that no joint holds together", listed(names, ", "), "one root");
   return kNone;
 }
 
@@ -103,11 +109,11 @@ void refuseLoops(const std::vector<BodySpec>& links, const std::vector<ReadJoint
       path.push_back(at);
     }
     if (at != kNone && marks[at] == Mark::kOnPath) {
-      std::string loop = fmt::format("'{}'", links[at].name);
-      for (std::size_t up = holds[at].parent; up != at; up = holds[up].parent)
-        loop = fmt::format("'{}' > {}", links[up].name, loop);
-      fail(joints[holds[at].joint].spec.where, "joints form a loop",
-           fmt::format("'{}' > {}", links[at].name, loop), "a tree");
+      std::vector<std::string> loop = {links[at].name};
+      for (std::size_t up = holds[at].parent; up != at; up = holds[up].parent) loop.push_back(links[up].name);
+      loop.push_back(links[at].name);
+      std::reverse(loop.begin(), loop.end());
+      fail(joints[holds[at].joint].spec.where, "joints form a loop", listed(loop, " > "), "a tree");
     }
     for (const std::size_t link : path) marks[link] = Mark::kDone;
   }

@@ -8,9 +8,12 @@
 
 #include "base/rng.h"
 #include "kinematics/jacobians.h"
+#include "scene/ors_reader.h"
 #include "scene/urdf_reader.h"
+#include "scene/urdf_writer.h"
 #include "support/file_text.h"
 #include "support/kdl_tree.h"
+#include "support/random_scene.h"
 #include "support/urdf_samples.h"
 #include "support/urdfdom_robot.h"
 
@@ -84,6 +87,17 @@ void expectSameRobot(const std::string& text) {
 }
 
 TEST(UrdfPeer, AgreesOnATrickyRobot) { expectSameRobot(kTrickyRobot); }
+
+TEST(UrdfPeer, ReadsWhatWeWrite) {
+  Rng rng(62);
+  SceneSpec spec = randomScene(rng, 40);
+  for (JointSpec& joint : spec.joints) {
+    const bool hasPeer = positionCount(joint.type) < 3 || joint.type == JointType::kTranslation3;
+    if (!hasPeer) joint.type = JointType::kHinge;
+  }
+  expectSameRobot(writeUrdf(spec).text);
+  expectSameRobot(writeUrdf(readOrs(sourcePath("data/robots/man.ors")).spec).text);
+}
 
 TEST(UrdfPeer, AgreesOnAllFiles) {
   const auto files = urdfFiles();

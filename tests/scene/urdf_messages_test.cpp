@@ -79,6 +79,12 @@ TEST(UrdfMessages, OfXml) {
   });
 }
 
+std::string numbered(int from, int to) {
+  std::string links;
+  for (int i = from; i < to; ++i) links += "<link name='" + std::to_string(i) + "'/>";
+  return links;
+}
+
 std::string repeated(const std::string& text, int times) {
   std::string all;
   for (int i = 0; i < times; ++i) all += text;
@@ -86,10 +92,9 @@ std::string repeated(const std::string& text, int times) {
 }
 
 TEST(UrdfMessages, OfLimits) {
-  std::string attributes, joints, links;
+  std::string attributes, joints;
   for (int i = 0; i < 65; ++i) attributes += " a" + std::to_string(i) + "=''";
   for (int i = 0; i < 1000; ++i) joints += "<joint name='" + std::to_string(i) + "'/>";
-  for (int i = 0; i < 1001; ++i) links += "<link name='" + std::to_string(i) + "'/>";
   check({
       {repeated("<a>", 100) + "@" + repeated("<a>", 60'000),
        "elements nested too deep: found level 101, wanted at most 100"},
@@ -102,7 +107,7 @@ TEST(UrdfMessages, OfLimits) {
        "name of an attribute too long: found 257 bytes, wanted at most 256"},
       {"<robot>" + joints + "@<joint/></robot>",
        "<robot>: too many <joint>: found number 1001, wanted at most 1000"},
-      {"<robot>" + links + "@<link/></robot>",
+      {"<robot>" + numbered(0, 1001) + "@<link/></robot>",
        "<robot>: too many <link>: found number 1002, wanted at most 1001"},
       {robot("<link name='@" + std::string(257, 'a') + "'/>"),
        "<link>: attribute 'name': found 257 bytes, wanted at most 256"},
@@ -281,9 +286,9 @@ TEST(UrdfMessages, OfTrees) {
       {robot("<link name='a'/><link name='b'/>\n@<link name='c'/>\n<joint name='j' type='fixed'>"
              "<parent link='a'/><child link='b'/></joint>"),
        "links that no joint holds together: found 'a', 'c', wanted one root"},
-      {robot("<link name='a'/>@<link name='b'/><link name='c'/><link name='d'/><link name='e'/><link "
-             "name='g'/><link name='h'/>"),
-       "links that no joint holds together: found 'a', 'b', 'c', 'd', 'e', 2 more, wanted one root"},
+      {robot("<link name='0'/>@" + numbered(1, 10)),
+       "links that no joint holds together: found '0', '1', '2', '3', '4', '5', '6', '7', 2 more, wanted one "
+       "root"},
       {robot("<link name='a'/><link name='b'/><link name='c'/>\n"
              "@<joint name='j' type='fixed'><parent link='c'/><child link='b'/></joint>\n"
              "<joint name='k' type='fixed'><parent link='b'/><child link='c'/></joint>"),

@@ -127,7 +127,7 @@ TEST(UrdfWriter, KeepsAllKindsOfJointsAndShapes) {
                 ends + "<origin xyz='1 2 3' rpy='.1 .2 .3'/><axis xyz='1 -2 .5'/></joint></robot>");
   }
   expectWhole(
-      "<robot name='r'><link name='a&lt;&amp;&gt;&quot;&#10;'>"
+      "<robot name='r'><link name='Kn\xc3\xb6&lt;&amp;&gt;&quot;&#10;'>"
       "<visual name='v'><origin xyz='1 0 0' rpy='0 1.5707963 .3'/><geometry><box size='.1 .2 .3'/></geometry>"
       "<material name='m'><color rgba='.1 .2 .3 .4'/></material></visual>"
       "<collision><geometry><cylinder radius='.1' length='.2'/></geometry></collision>"
@@ -307,8 +307,11 @@ TEST(UrdfWriter, SaysWhatItCannotWrite) {
   unplaced.bodies = {{.name = "", .X_WB = {}}};
   EXPECT_REX_ERROR(writeUrdf(unplaced), "a body without a name: wanted a name");
   unplaced.bodies = {{.name = "a\x01", .X_WB = {}}};
-  EXPECT_REX_ERROR(writeUrdf(unplaced),
-                   "a name in URDF: found a control character in 'a\\x01', wanted characters that XML has");
+  EXPECT_REX_ERROR(writeUrdf(unplaced), "a name in URDF: found 'a\\x01', wanted characters of XML, in UTF-8");
+  unplaced.bodies = {{.name = "Kn\xf6"
+                              "chel",
+                      .X_WB = {}}};
+  EXPECT_REX_ERROR(writeUrdf(unplaced), "wanted characters of XML, in UTF-8");
   EXPECT_REX_ERROR(writeUrdf(ors("body a {}\nbody b {}\njoint j (a b) { type=quatBall }")),
                    "f:3:1: joint 'j': URDF has no ball joint: wanted three hinges, say");
   EXPECT_REX_ERROR(writeUrdf(ors("body a {}\nbody b {}\nbody c {}\njoint j (a b) { type=free }\n"
