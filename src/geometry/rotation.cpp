@@ -124,8 +124,10 @@ Eigen::Matrix3d rotationFromRollPitchYaw(const Eigen::Vector3d& rollPitchYaw) {
 Eigen::Vector3d rollPitchYawFromRotation(const Eigen::Matrix3d& R) {
   const double cosPitch = std::hypot(R(0, 0), R(1, 0));
   const double pitch = std::atan2(-R(2, 0), cosPitch);
-  if (cosPitch < 1e-12) return {0, pitch, std::atan2(-R(0, 1), R(1, 1))};
-  return {std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0))};
+  const double roll = cosPitch < 1e-15 ? 0 : std::atan2(R(2, 1), R(2, 2));
+  // Near pitch = pi/2 the roll is vague; the second column of R Rx(-roll) holds the yaw that goes with it.
+  const double c = std::cos(roll), s = std::sin(roll);
+  return {roll, pitch, std::atan2(R(0, 2) * s - R(0, 1) * c, R(1, 1) * c - R(1, 2) * s)};
 }
 
 Eigen::Matrix3d rotationBetween(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {

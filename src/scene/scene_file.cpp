@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "scene/ors_reader.h"
+#include "scene/urdf_reader.h"
 
 namespace rex {
 namespace {
@@ -27,11 +28,12 @@ namespace fs = std::filesystem;
 
 SceneFile readScene(const fs::path& file, const ReadOptions& options) {
   if (file.extension() == ".ors") return readOrs(file, options);
+  if (file.extension() == ".urdf") return readUrdf(file, options);
   refuseEnding(file);
 }
 
-SceneFile parseScene(std::string_view text, const std::string& name, const ReadOptions&) {
-  return parseOrs(text, name);
+SceneFile parseScene(std::string_view text, const std::string& name, const ReadOptions& options) {
+  return name.ends_with(".urdf") ? parseUrdf(text, name, options) : parseOrs(text, name);
 }
 
 std::string readSceneText(const fs::path& file, std::size_t most) {

@@ -104,9 +104,13 @@ TEST(RollPitchYaw, RoundTripsAndMatchesItsDefinition) {
     const Eigen::Vector3d rpy = rng.uniformVector(3, -1.5, 1.5);
     EXPECT_LT(distance(rollPitchYawFromRotation(rotationFromRollPitchYaw(rpy)), rpy), 1e-13);
   }
-  for (double pitch : {pi / 2, -pi / 2}) {  // gimbal lock: the rotation still comes back
-    const Eigen::Matrix3d R = rotationFromRollPitchYaw({0.3, pitch, 0.8});
-    EXPECT_LT(distance(rotationFromRollPitchYaw(rollPitchYawFromRotation(R)), R), 1e-12);
+  for (double off :
+       {0., 1e-16, 1e-13, 1e-10, 1e-7, 1e-4}) {  // near gimbal lock the rotation still comes back
+    for (double pitch : {pi / 2 - off, off - pi / 2}) {
+      const Eigen::Matrix3d R =
+          expSO3(Eigen::Vector3d(0, 0, 0.8)) * rotationFromRollPitchYaw({0.3, pitch, 0});
+      EXPECT_LT(distance(rotationFromRollPitchYaw(rollPitchYawFromRotation(R)), R), 2e-15) << off;
+    }
   }
   Eigen::Matrix3d yaw90;
   yaw90 << 0, -1, 0, 1, 0, 0, 0, 0, 1;

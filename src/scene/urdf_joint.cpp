@@ -1,0 +1,130 @@
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "geometry/rotation.h"
+#include "scene/urdf_parts_internal.h"
+
+namespace rex::urdf {
+namespace {
+
+const std::vector<std::string> kTypes = {"revolute", "continuous", "prismatic",
+                                         "fixed",    "floating",   "planar"};
+constexpr std::array<JointType, 6> kMeaning = {JointType::kHinge, JointType::kHinge, JointType::kSlider,
+                                               JointType::kRigid, JointType::kFree,  JointType::kPlanarXYPhi};
+
+Eigen::Vector3d readAxis(const Tag& joint) {
+  const std::optional<Tag> tag = joint.child("axis");
+  if (!tag) return Eigen::Vector3d::UnitX();
+  static const Known kKnown = {{"xyz"}, {}};
+  tag->expect(kKnown);
+  const Eigen::Vector3d axis = tag->numbers("xyz", 3);
+  constexpr double kTiny = 1e-100;
+  if (!(axis.stableNorm() > kTiny && axis.stableNorm() < 1 / kTiny))
+    tag->failAt("xyz", xml::quoted(tag->text("xyz")), "a direction");
+  return axis;
+}
+
+// The plane of a planar joint stands across its axis; ours is that of x and y.
+void turnPlane(JointSpec& joint) {
+  const Eigen::Matrix3d R = rotationBetween(Eigen::Vector3d::UnitZ(), joint.axis);
+  joint.X_PF.R *= R;
+  joint.X_MC.R = R.transpose();
+  joint.axis = Eigen::Vector3d::UnitX();
+}
+
+void readRange(const Tag& limit, JointSpec& joint) {
+  const double lower = limit.number("lower", 0), upper = limit.number("upper", 0);
+  if (lower > upper)
+    limit.failAt("lower", fmt::format("{} > {}", lower, upper), "a lower limit that is not above the upper");
+  if (!limit.has("lower") && !limit.has("upper"))
+    limit.warn(limit.where(), "without 'lower' and 'upper' the joint stays at 0");
+  joint.lower = Eigen::VectorXd::Constant(1, lower);
+  joint.upper = Eigen::VectorXd::Constant(1, upper);
+}
+
+void readLimit(const Tag& tag, bool hasRange, JointSpec& joint) {
+  static const Known kKnown = {{"lower", "upper", "velocity", "effort"}, {}};
+  const std::optional<Tag> limit = hasRange ? tag.neededChild("limit") : tag.child("limit");
+  if (!limit) return;
+  limit->expect(kKnown);
+  if (hasRange) {
+    readRange(*limit, joint);
+  } else if (limit->has("lower") || limit->has("upper")) {
+    limit->ignore(fmt::format("the range in <limit> of joints of type '{}'", tag.text("type")));
+  }
+  if (joint.type == JointType::kRigid) return;
+  for (const char* needed : {"velocity", "effort"}) {
+    if (!limit->has(needed))
+      limit->warn(limit->where(),
+                  fmt::format("attribute '{}' is missing, so there is no such limit", needed));
+  }
+  joint.maxVelocity = limit->notNegative("velocity", joint.maxVelocity);
+  joint.maxEffort = limit->notNegative("effort", joint.maxEffort);
+}
+
+void readDynamics(const Tag& joint, JointSpec& spec) {
+  const std::optional<Tag> tag = joint.child("dynamics");
+  if (!tag) return;
+  static const Known kKnown = {{"damping", "friction"}, {}};
+  tag->expect(kKnown);
+  spec.damping = tag->notNegative("damping", 0);
+  spec.friction = tag->notNegative("friction", 0);
+}
+
+void readMimic(const Tag& joint, ReadJoint& read) {
+  const std::optional<Tag> tag = joint.child("mimic");
+  if (!tag) return;
+  static const Known kKnown = {{"joint", "multiplier", "offset"}, {}};
+  tag->expect(kKnown);
+  if (positionCount(read.spec.type) != 1) {
+    tag->fail(tag->where(), "mimic", fmt::format("a joint of type '{}'", joint.text("type")),
+              "revolute, continuous or prismatic");
+  }
+  read.spec.mimic = tag->nameIn("joint");
+  read.mimicAt = tag->where("joint");
+  read.spec.mimicRatio = tag->number("multiplier", 1);
+  read.spec.mimicOffset = tag->number("offset", 0);
+}
+
+std::string readEnd(const Tag& joint, const char* name, SourceLocation& where) {
+  static const Known kKnown = {{"link"}, {}};
+  const Tag tag = joint.neededChild(name);
+  tag.expect(kKnown);
+  where = tag.where("link");
+  return tag.nameIn("link");
+}
+
+}  // namespace
+
+ReadJoint readJoint(const Tag& tag) {
+  static const Known kKnown = {{"name", "type"},
+                               {"origin", "parent", "child", "axis", "limit", "dynamics", "mimic"},
+                               {"safety_controller", "calibration", "gazebo"}};
+  ReadJoint read;
+  JointSpec& spec = read.spec;
+  spec.name = tag.nameIn("name");
+  const Tag joint = tag.of(fmt::format("joint '{}'", spec.name));
+  joint.expect(kKnown);
+  spec.where = joint.where();
+  const std::string& type = joint.text("type");
+  const auto known = std::find(kTypes.begin(), kTypes.end(), type);
+  if (known == kTypes.end()) {
+    joint.fail(joint.where("type"), "unknown type", xml::quoted(type),
+               "revolute, continuous, prismatic, fixed, floating or planar", nearestNames(type, kTypes));
+  }
+  spec.type = kMeaning[static_cast<std::size_t>(known - kTypes.begin())];
+  spec.parent = readEnd(joint, "parent", read.parentAt);
+  spec.child = readEnd(joint, "child", read.childAt);
+  spec.X_PF = joint.origin();
+  // Others have none; exporters write zeros there.
+  if (type != "fixed" && type != "floating") spec.axis = readAxis(joint);
+  if (spec.type == JointType::kPlanarXYPhi) turnPlane(spec);
+  readLimit(joint, type == "revolute" || type == "prismatic", spec);
+  readDynamics(joint, spec);
+  readMimic(joint, read);
+  return read;
+}
+
+}  // namespace rex::urdf

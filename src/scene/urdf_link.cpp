@@ -1,0 +1,193 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "geometry/inertia.h"
+#include "scene/urdf_parts_internal.h"
+
+namespace rex::urdf {
+namespace {
+
+Eigen::Vector4d readColor(const Tag& tag) {
+  static const Known kKnown = {{"rgba"}, {}};
+  tag.expect(kKnown);
+  const Eigen::Vector4d color = tag.numbers("rgba", 4);
+  if (color.minCoeff() < 0 || color.maxCoeff() > 1)
+    tag.failAt("rgba", xml::quoted(tag.text("rgba")), "4 numbers from 0 to 1");
+  return color;
+}
+
+const Known& knownOfMaterial() {
+  static const Known kKnown = {{"name"}, {"color", "texture"}};
+  return kKnown;
+}
+
+// The colour that a material gives here, else that of its name.
+Eigen::Vector4d colorOf(const Tag& material, const Materials& materials, const Eigen::Vector4d& otherwise) {
+  material.expect(knownOfMaterial());
+  const std::optional<Tag> texture = material.child("texture");
+  if (texture) texture->ignore("<texture>");
+  if (const std::optional<Tag> color = material.child("color")) return readColor(*color);
+  if (texture) return otherwise;
+  const std::string& name = material.nameIn("name");
+  if (const auto found = materials.find(name); found != materials.end()) return found->second;
+  std::vector<std::string> known;
+  for (const auto& [other, color] : materials)
+    if (known.size() < 100) known.push_back(other);
+  std::sort(known.begin(), known.end());
+  const std::vector<std::string> nearest = nearestNames(name, known);
+  material.warn(material.where("name"),
+                fmt::format("unknown material {} is drawn grey{}", xml::quoted(name),
+                            nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest.front())));
+  return otherwise;
+}
+
+Shape roundShape(const Tag& tag, ShapeType type) {
+  static const Known kKnown = {{"radius", "length"}, {}};
+  tag.expect(kKnown);
+  return {.type = type, .extent = {0, 0, tag.positive("length")}, .radius = tag.positive("radius")};
+}
+
+Shape boxShape(const Tag& tag) {
+  static const Known kKnown = {{"size"}, {}};
+  tag.expect(kKnown);
+  const Eigen::Vector3d size = tag.numbers("size", 3);
+  if (!(size.minCoeff() > 0)) tag.failAt("size", xml::quoted(tag.text("size")), "3 numbers > 0");
+  return {.type = ShapeType::kBox, .extent = size};
+}
+
+Shape sphereShape(const Tag& tag) {
+  static const Known kKnown = {{"radius"}, {}};
+  tag.expect(kKnown);
+  return {.type = ShapeType::kSphere, .extent = Eigen::Vector3d::Zero(), .radius = tag.positive("radius")};
+}
+
+void readMesh(const Tag& tag, ShapeSpec& spec) {
+  static const Known kKnown = {{"filename", "scale"}, {}};
+  tag.expect(kKnown);
+  spec.shape.type = ShapeType::kMesh;
+  spec.meshFile = tag.text("filename");
+  spec.where = tag.where("filename");
+  if (spec.meshFile.empty()) tag.failAt("filename", "nothing", "a file");
+  if (!tag.has("scale")) return;
+  spec.meshScale = tag.numbers("scale", 3);
+  if ((spec.meshScale.array() == 0).any())
+    tag.failAt("scale", xml::quoted(tag.text("scale")), "3 numbers that are not 0");
+}
+
+void readGeometry(const Tag& geometry, ShapeSpec& spec) {
+  static const Known kKnown = {{}, {"box", "cylinder", "sphere", "capsule", "mesh"}};
+  geometry.expect(kKnown);
+  std::optional<Tag> only;
+  for (const std::string& name : kKnown.children) {
+    const std::optional<Tag> shape = geometry.child(name.c_str());
+    if (shape && only)
+      geometry.fail(shape->where(), "two shapes", fmt::format("<{}> and <{}>", only->name(), name), "one");
+    if (shape) only = shape;
+  }
+  if (!only)
+    geometry.fail(geometry.where(), "no shape", "", "<box>, <cylinder>, <sphere>, <capsule> or <mesh>");
+  if (only->name() == "box") spec.shape = boxShape(*only);
+  if (only->name() == "cylinder") spec.shape = roundShape(*only, ShapeType::kCylinder);
+  if (only->name() == "sphere") spec.shape = sphereShape(*only);
+  if (only->name() == "capsule") spec.shape = roundShape(*only, ShapeType::kCapsule);
+  if (only->name() == "mesh") readMesh(*only, spec);
+}
+
+// <visual> or <collision>.
+ShapeSpec readShape(const Tag& tag, const std::string& link, const Materials& materials) {
+  static const Known kVisual = {{"name"}, {"origin", "geometry", "material"}};
+  static const Known kCollision = {{"name"}, {"origin", "geometry"}, {"material"}};
+  const bool visible = tag.name() == "visual";
+  tag.expect(visible ? kVisual : kCollision);
+  ShapeSpec spec;
+  spec.name = tag.has("name") && !tag.text("name").empty() ? tag.nameIn("name") : link;
+  spec.X_BS = tag.origin();
+  spec.visible = visible;
+  spec.contact = !visible;
+  spec.where = tag.where();
+  readGeometry(tag.neededChild("geometry"), spec);
+  if (const std::optional<Tag> material = visible ? tag.child("material") : std::nullopt)
+    spec.color = colorOf(*material, materials, spec.color);
+  return spec;
+}
+
+// About the centre of mass, along the axes of <inertial>.
+Eigen::Matrix3d readMoments(const Tag& tag) {
+  static const Known kKnown = {{"ixx", "iyy", "izz", "ixy", "ixz", "iyz"}, {}};
+  tag.expect(kKnown);
+  const double xx = tag.number("ixx"), yy = tag.number("iyy"), zz = tag.number("izz");
+  const double xy = tag.number("ixy"), xz = tag.number("ixz"), yz = tag.number("iyz");
+  const Eigen::Matrix3d I = (Eigen::Matrix3d() << xx, xy, xz, xy, yy, yz, xz, yz, zz).finished();
+  const InertiaFault fault = inertiaFault(I);
+  if (fault == InertiaFault::kNegative)
+    tag.fail(tag.where(), "a negative principal moment", "", "principal moments >= 0");
+  if (fault == InertiaFault::kTriangle)
+    tag.warn(tag.where(), "no body has this inertia: one principal moment exceeds the sum of the others");
+  return I;
+}
+
+void readInertial(const Tag& tag, BodySpec& body) {
+  static const Known kKnown = {{}, {"origin", "mass", "inertia"}};
+  static const Known kKnownOfMass = {{"value"}, {}};
+  tag.expect(kKnown);
+  const Pose X_BI = tag.origin();
+  const Tag mass = tag.neededChild("mass");
+  mass.expect(kKnownOfMass);
+  body.mass = mass.notNegative("value");
+  body.p_BBcm = X_BI.p;
+  const Tag inertia = tag.neededChild("inertia");
+  const Eigen::Matrix3d I = readMoments(inertia);
+  if (body.mass == 0) {
+    if (!I.isZero(0)) mass.fail(mass.where("value"), "an inertia without mass", "0", "a mass > 0 kg");
+    mass.warn(mass.where("value"), "0 kg: the link has no mass, as without <inertial>");
+    return;
+  }
+  const Eigen::Matrix3d I_B = X_BI.R * I * X_BI.R.transpose();
+  body.inertia = (I_B + I_B.transpose()) / 2;
+}
+
+std::string thingOf(const Tag& link) { return fmt::format("link '{}'", link.nameIn("name")); }
+
+}  // namespace
+
+Materials readMaterials(const Tag& robot) {
+  Materials materials;
+  for (const Tag& material : robot.children("material")) {
+    material.expect(knownOfMaterial());
+    const std::string& name = material.nameIn("name");
+    const std::optional<Tag> color = material.child("color"), texture = material.child("texture");
+    if (texture) texture->ignore("<texture>");
+    if (!color && !texture) material.fail(material.where(), "<color> is missing", "", "");
+    const bool isNew = materials.emplace(name, color ? readColor(*color) : ShapeSpec{}.color).second;
+    if (!isNew)
+      material.fail(material.where("name"), "a second material of this name", xml::quoted(name),
+                    "a name of its own");
+  }
+  for (const Tag& link : robot.children("link")) {
+    if (!link.has("name")) continue;  // readLink() says so
+    for (const Tag& visual : link.of(thingOf(link.of("<link>"))).children("visual"))
+      for (const Tag& material : visual.children("material"))
+        if (material.has("name"))
+          for (const Tag& color : material.children("color"))
+            materials.emplace(material.text("name"), color.numbers("rgba", 4));
+  }
+  return materials;
+}
+
+BodySpec readLink(const Tag& tag, const Materials& materials) {
+  static const Known kKnown = {{"name"}, {"inertial", "visual", "collision"}, {"sensor", "gazebo"}};
+  const Tag link = tag.of(thingOf(tag));
+  BodySpec body;
+  body.name = link.text("name");
+  link.expect(kKnown);
+  body.where = link.where();
+  if (const std::optional<Tag> inertial = link.child("inertial")) readInertial(*inertial, body);
+  for (const Tag& part : link.children()) {
+    if (part.name() == "visual" || part.name() == "collision")
+      body.shapes.push_back(readShape(part, body.name, materials));
+  }
+  return body;
+}
+
+}  // namespace rex::urdf

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <Eigen/Core>
+
+#include "geometry/pose.h"
+
+namespace rex::urdf {
+
+/// The shortest text that reads back as the same number.
+[[nodiscard]] std::string numeral(double number);
+[[nodiscard]] std::string numeral(const Eigen::VectorXd& numbers);
+
+/// XML as it is written: tags in order, indented by their depth. Attributes without a value are left out.
+class Markup {
+ public:
+  using Attributes = std::initializer_list<std::pair<const char*, std::string>>;
+
+  void open(const char* tag, Attributes attributes = {}) { line(tag, attributes, ">"), ++depth_; }
+  void close(const char* tag);
+  void empty(const char* tag, Attributes attributes) { line(tag, attributes, "/>"); }
+  /// <origin>, unless it is the identity.
+  void origin(const Pose& X);
+
+  std::string text = "<?xml version=\"1.0\"?>\n";
+
+ private:
+  void line(const char* tag, Attributes attributes, const char* end);
+  std::size_t depth_ = 0;
+};
+
+}  // namespace rex::urdf

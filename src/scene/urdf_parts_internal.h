@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <unordered_map>
+
+#include "scene/scene_file.h"
+#include "scene/urdf_tag_internal.h"
+
+// The steps of reading a robot, in their order. All throw Error with the place.
+namespace rex::urdf {
+
+/// Refuses elements and attributes that xacro must work on first.
+void refuseXacro(const xml::Document& document);
+
+/// The colours of materials by their name. A name belongs to the first material that gives it a colour, at
+/// the top of the robot before those in links.
+using Materials = std::unordered_map<std::string, Eigen::Vector4d>;
+[[nodiscard]] Materials readMaterials(const Tag& robot);
+
+/// A <link> with its shapes; meshes are known by name only.
+[[nodiscard]] BodySpec readLink(const Tag& tag, const Materials& materials);
+
+/// A <joint>, and where it names other things.
+struct ReadJoint {
+  JointSpec spec;
+  SourceLocation parentAt, childAt, mimicAt;
+};
+[[nodiscard]] ReadJoint readJoint(const Tag& tag);
+
+/// Refuses whatever is not one tree: unknown or repeated names, loops, several roots; and mimics of nothing.
+/// Returns the index of the root.
+[[nodiscard]] std::size_t requireTree(const std::vector<BodySpec>& links,
+                                      const std::vector<ReadJoint>& joints, const SourceLocation& robot);
+
+}  // namespace rex::urdf

@@ -1,0 +1,116 @@
+#include "scene/urdf_reader.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "scene/scene_meshes.h"
+#include "scene/urdf_parts_internal.h"
+
+namespace rex {
+namespace {
+
+using namespace urdf;
+
+constexpr std::string_view kWorldName = "world";
+constexpr std::size_t kMostJoints = 1000;
+
+const std::vector<std::string> kIgnored = {"transmission", "gazebo", "ros2_control", "sensor"};
+
+// The place of the count-th child of a name.
+void refuseMore(const xml::Document& document, const char* name, std::size_t most) {
+  std::size_t count = 0;
+  for (const xml::Element& element : document.root.children) {
+    if (element.name != name || ++count <= most) continue;
+    throw Error({.what = fmt::format("<robot>: too many <{}>", name),
+                 .where = document.where(element.at),
+                 .found = fmt::format("number {}", count),
+                 .wanted = fmt::format("at most {}", most)});
+  }
+}
+
+Tag robotTag(Reading& reading) {
+  const xml::Document& document = reading.document;
+  if (document.root.name != "robot") {
+    throw Error({.what = "not a URDF robot",
+                 .where = document.where(document.root.at),
+                 .found = fmt::format("<{}>", document.root.name),
+                 .wanted = "<robot>",
+                 .nearest = nearestNames(document.root.name, {"robot"})});
+  }
+  static const Known kKnown = {{"name", "version"}, {"link", "joint", "material"}, kIgnored};
+  const Tag robot(reading, document.root, "<robot>");
+  robot.expect(kKnown);
+  if (!robot.has("name")) robot.warn(robot.where(), "attribute 'name' is missing");
+  refuseMore(document, "joint", kMostJoints);
+  refuseMore(document, "link", kMostJoints + 1);
+  return robot;
+}
+
+// A root called "world" is the world itself.
+void becomeWorld(SceneSpec& spec, std::size_t root, Notes& notes) {
+  BodySpec& world = spec.bodies[root];
+  if (world.mass > 0) notes.ignore(world.where, "the <inertial> of the link 'world'");
+  spec.worldShapes = std::move(world.shapes);
+  spec.bodies.erase(spec.bodies.begin() + static_cast<std::ptrdiff_t>(root));
+}
+
+void freeRoot(SceneSpec& spec, const BodySpec& root) {
+  const std::string name = fmt::format("{}>{}", kWorldName, root.name);
+  const auto same = [&](const JointSpec& joint) { return joint.name == name; };
+  const auto taken = std::find_if(spec.joints.begin(), spec.joints.end(), same);
+  if (taken != spec.joints.end())
+    throw Error({.what = "joint of the free base",
+                 .where = taken->where,
+                 .found = fmt::format("another joint '{}'", name),
+                 .wanted = "another name for that"});
+  JointSpec joint;
+  joint.name = name;
+  joint.parent = kWorldName;
+  joint.child = root.name;
+  joint.type = JointType::kFree;
+  joint.where = root.where;
+  spec.joints.insert(spec.joints.begin(), std::move(joint));
+}
+
+void placeRoot(SceneSpec& spec, std::size_t root, bool freeBase, Notes& notes) {
+  const bool isWorld = spec.bodies[root].name == kWorldName;
+  if (isWorld && freeBase) {
+    throw Error({.what = "a free base",
+                 .where = spec.bodies[root].where,
+                 .found = "the root 'world', which holds the robot",
+                 .wanted = "a root of another name, or a joint of type 'floating' below 'world'"});
+  }
+  if (isWorld) becomeWorld(spec, root, notes);
+  if (freeBase) freeRoot(spec, spec.bodies[root]);
+}
+
+}  // namespace
+
+SceneFile parseUrdf(std::string_view text, const std::string& name, const ReadOptions& options) {
+  const xml::Document document = xml::parse(text, name);
+  refuseXacro(document);
+  Reading reading{document};
+  const Tag robot = robotTag(reading);
+  const Materials materials = readMaterials(robot);
+  SceneFile file;
+  file.spec.name = name;
+  std::vector<ReadJoint> joints;
+  for (const Tag& link : robot.children("link"))
+    file.spec.bodies.push_back(readLink(link.of("<link>"), materials));
+  for (const Tag& joint : robot.children("joint")) joints.push_back(readJoint(joint.of("<joint>")));
+  const std::size_t root = requireTree(file.spec.bodies, joints, robot.where());
+  for (ReadJoint& joint : joints) file.spec.joints.push_back(std::move(joint.spec));
+  placeRoot(file.spec, root, options.freeBase, reading.notes);
+  file.notes = reading.notes.take();
+  return file;
+}
+
+SceneFile readUrdf(const std::filesystem::path& file, const ReadOptions& options) {
+  constexpr std::size_t kLargest = 8u << 20;
+  SceneFile scene = parseUrdf(readSceneText(file, kLargest), file.string(), options);
+  loadMeshes(scene, Assets(file, options.assetRoot));
+  return scene;
+}
+
+}  // namespace rex

@@ -1,0 +1,236 @@
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "geometry/rotation.h"
+#include "scene/urdf_tag_internal.h"
+
+namespace rex::urdf {
+namespace {
+
+constexpr std::string_view kBlank = " \t\r\n";
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool belongsToXml(const std::string& attribute) {
+  return attribute == "xmlns" || attribute.starts_with("xmlns:") || attribute.starts_with("xml:");
+}
+
+std::string guess(const std::string& name, const std::vector<std::string>& known) {
+  const std::vector<std::string> nearest = nearestNames(name, known);
+  return nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest.front());
+}
+
+// The numbers of a text, and where the first word that is none begins.
+struct Numbers {
+  std::vector<double> values;
+  std::optional<std::size_t> faultAt{};
+  std::string fault{};
+  bool isNumber = false;  // the fault is one, but not finite
+};
+
+Numbers parseNumbers(std::string_view text, std::size_t most) {
+  Numbers numbers;
+  for (std::size_t at = text.find_first_not_of(kBlank); at != std::string_view::npos;
+       at = text.find_first_not_of(kBlank, at)) {
+    const std::size_t end = std::min(text.find_first_of(kBlank, at), text.size());
+    const std::string_view word = text.substr(at, end - at);
+    const std::string_view digits = word.substr(word.size() > 1 && word[0] == '+' && word[1] != '-' ? 1 : 0);
+    double value = 0;
+    const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    const bool isWhole = result.ptr == digits.data() + digits.size();
+    if (!isWhole || result.ec != std::errc() || !std::isfinite(value)) {
+      numbers.faultAt = at;
+      numbers.fault = word;
+      numbers.isNumber = isWhole && result.ec != std::errc::invalid_argument;
+      return numbers;
+    }
+    numbers.values.push_back(value);
+    if (numbers.values.size() > most) return numbers;
+    at = end;
+  }
+  return numbers;
+}
+
+}  // namespace
+
+void Notes::warn(const SourceLocation& where, const std::string& message) {
+  if (isFull()) {
+    ++unlisted_;
+  } else {
+    found_.push_back({where, message, Severity::kWarning});
+  }
+}
+
+void Notes::ignore(const SourceLocation& where, const std::string& kind) {
+  Ignored& ignored = ignored_[kind];
+  if (ignored.count++ == 0) ignored.first = where;
+}
+
+Diagnostics Notes::take() {
+  if (unlisted_ > 0)
+    found_.push_back({{found_.back().where.file},
+                      fmt::format("{} more warnings are not listed", unlisted_),
+                      Severity::kWarning});
+  for (const auto& [kind, ignored] : ignored_) {
+    const std::string times = ignored.count > 1 ? fmt::format(" ({} times)", ignored.count) : "";
+    found_.push_back({ignored.first, fmt::format("{} is ignored{}", kind, times)});
+  }
+  return std::move(found_);
+}
+
+Tag::Tag(Reading& reading, const xml::Element& element, std::string thing)
+    : reading_(&reading), element_(&element), owner_(thing), thing_(std::move(thing)) {}
+
+Tag::Tag(const Tag& parent, const xml::Element& element)
+    : reading_(parent.reading_),
+      element_(&element),
+      owner_(parent.owner_),
+      thing_(fmt::format("{}: <{}>", owner_, element.name)) {}
+
+SourceLocation Tag::where(const char* attribute) const {
+  const xml::Attribute* found = find(attribute);
+  return found ? reading_->document.where(found->valueAt) : where();
+}
+
+void Tag::expect(const Known& known) const {
+  const xml::Document& document = reading_->document;
+  for (const xml::Attribute& attribute : element_->attributes) {
+    if (belongsToXml(attribute.name) || contains(known.attributes, attribute.name)) continue;
+    if (reading_->notes.isFull()) {
+      reading_->notes.warn({}, "");
+      continue;
+    }
+    warn(document.where(attribute.at), fmt::format("unknown attribute '{}' is ignored{}", attribute.name,
+                                                   guess(attribute.name, known.attributes)));
+  }
+  for (const xml::Element& element : element_->children) {
+    if (contains(known.children, element.name)) continue;
+    if (contains(known.ignoredChildren, element.name)) {
+      reading_->notes.ignore(document.where(element.at), fmt::format("<{}>", element.name));
+    } else if (reading_->notes.isFull()) {
+      reading_->notes.warn({}, "");
+    } else {
+      warn(document.where(element.at),
+           fmt::format("unknown tag <{}> is ignored{}", element.name, guess(element.name, known.children)));
+    }
+  }
+  if (element_->textAt) warn(document.where(*element_->textAt), "text is ignored");
+}
+
+const xml::Attribute* Tag::find(std::string_view attribute) const {
+  const auto found = std::find_if(element_->attributes.begin(), element_->attributes.end(),
+                                  [&](const xml::Attribute& a) { return a.name == attribute; });
+  return found == element_->attributes.end() ? nullptr : &*found;
+}
+
+const xml::Attribute& Tag::need(std::string_view attribute) const {
+  if (const xml::Attribute* found = find(attribute)) return *found;
+  std::vector<std::string> present;
+  for (const xml::Attribute& a : element_->attributes) present.push_back(a.name);
+  const std::vector<std::string> nearest = nearestNames(attribute, present);
+  fail(where(), fmt::format("attribute '{}' is missing", attribute),
+       nearest.empty() ? "" : xml::quoted(nearest.front()), "");
+}
+
+const std::string& Tag::text(const char* attribute) const { return need(attribute).value; }
+
+const std::string& Tag::nameIn(const char* attribute) const {
+  constexpr std::size_t kLongest = 256;
+  const std::string& name = text(attribute);
+  if (name.empty()) failAt(attribute, "nothing", "a name");
+  if (name.size() > kLongest)
+    failAt(attribute, fmt::format("{} bytes", name.size()), fmt::format("at most {}", kLongest));
+  return name;
+}
+
+Eigen::VectorXd Tag::numbers(const char* attribute, int count) const {
+  const xml::Attribute& given = need(attribute);
+  const std::string wanted = count == 1 ? "a number" : fmt::format("{} numbers", count);
+  const Numbers numbers = parseNumbers(given.value, static_cast<std::size_t>(count));
+  if (numbers.faultAt) {
+    fail(reading_->document.where(given, *numbers.faultAt), fmt::format("attribute '{}'", attribute),
+         xml::quoted(numbers.fault), numbers.isNumber ? "finite numbers that fit into 64 bits" : wanted);
+  }
+  if (numbers.values.size() != static_cast<std::size_t>(count))
+    failAt(attribute, xml::quoted(given.value), wanted);
+  return Eigen::Map<const Eigen::VectorXd>(numbers.values.data(), count);
+}
+
+double Tag::notNegative(const char* attribute) const {
+  const double value = number(attribute);
+  if (value < 0) failAt(attribute, fmt::format("{}", value), "a number >= 0");
+  return value;
+}
+
+double Tag::positive(const char* attribute) const {
+  const double value = number(attribute);
+  if (!(value > 0)) failAt(attribute, fmt::format("{}", value), "a number > 0");
+  return value;
+}
+
+std::optional<Tag> Tag::child(const char* name) const {
+  const xml::Element* only = nullptr;
+  for (const xml::Element& element : element_->children) {
+    if (element.name != name) continue;
+    if (only)
+      fail(reading_->document.where(element.at), fmt::format("a second <{}>", name), "",
+           fmt::format("one: the first stands at {}", toString(reading_->document.where(only->at))));
+    only = &element;
+  }
+  return only ? std::optional(Tag(*this, *only)) : std::nullopt;
+}
+
+Tag Tag::neededChild(const char* name) const {
+  if (std::optional<Tag> found = child(name)) return *std::move(found);
+  std::vector<std::string> present;
+  for (const xml::Element& element : element_->children)
+    if (present.size() < 100) present.push_back(element.name);
+  const std::vector<std::string> nearest = nearestNames(name, present);
+  fail(where(), fmt::format("<{}> is missing", name),
+       nearest.empty() ? "" : fmt::format("<{}>", nearest.front()), "");
+}
+
+std::vector<Tag> Tag::children(std::string_view name) const {
+  std::vector<Tag> found;
+  for (const xml::Element& element : element_->children)
+    if (element.name == name) found.push_back(Tag(*this, element));
+  return found;
+}
+
+std::vector<Tag> Tag::children() const {
+  std::vector<Tag> found;
+  for (const xml::Element& element : element_->children) found.push_back(Tag(*this, element));
+  return found;
+}
+
+Pose Tag::origin() const {
+  const std::optional<Tag> tag = child("origin");
+  if (!tag) return {};
+  static const Known kKnown = {{"xyz", "rpy"}, {}};
+  tag->expect(kKnown);
+  Pose X;
+  if (tag->has("xyz")) X.p = tag->numbers("xyz", 3);
+  if (tag->has("rpy")) X.R = rotationFromRollPitchYaw(tag->numbers("rpy", 3));
+  return X;
+}
+
+void Tag::warn(const SourceLocation& where, const std::string& message) const {
+  reading_->notes.warn(where, fmt::format("{}: {}", thing_, message));
+}
+
+void Tag::fail(const SourceLocation& where, const std::string& what, std::string found, std::string wanted,
+               std::vector<std::string> nearest) const {
+  throw Error(
+      {fmt::format("{}: {}", thing_, what), where, std::move(found), std::move(wanted), std::move(nearest)});
+}
+
+void Tag::failAt(const char* attribute, std::string found, std::string wanted) const {
+  fail(where(attribute), fmt::format("attribute '{}'", attribute), std::move(found), std::move(wanted));
+}
+
+}  // namespace rex::urdf

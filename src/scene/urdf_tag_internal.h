@@ -1,0 +1,103 @@
+#pragma once
+
+#include <initializer_list>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/diagnostic.h"
+#include "geometry/pose.h"
+#include "scene/xml_element_internal.h"
+
+namespace rex::urdf {
+
+/// What is noticed while reading: the first thousand findings, and how often what is known was ignored.
+class Notes {
+ public:
+  void warn(const SourceLocation& where, const std::string& message);
+  /// A tag of a kind that we know and do not use.
+  void ignore(const SourceLocation& where, const std::string& kind);
+  bool isFull() const { return found_.size() >= kMost; }
+  [[nodiscard]] Diagnostics take();
+
+ private:
+  static constexpr std::size_t kMost = 1000;
+  struct Ignored {
+    SourceLocation first;
+    int count = 0;
+  };
+  Diagnostics found_;
+  std::size_t unlisted_ = 0;
+  std::map<std::string, Ignored> ignored_;
+};
+
+struct Reading {
+  const xml::Document& document;
+  Notes notes{};
+};
+
+/// What a tag may hold; everything else is worth a warning.
+struct Known {
+  std::vector<std::string> attributes, children, ignoredChildren{};
+};
+
+/// An element with typed access to what it holds. Throws Error with the place for what is wrong with it.
+class Tag {
+ public:
+  /// The tag of a thing of its own, "link 'arm'", which begins all messages about it and its children.
+  Tag(Reading& reading, const xml::Element& element, std::string thing);
+
+  /// The same tag as part of another thing.
+  Tag of(const std::string& thing) const { return Tag(*reading_, *element_, thing); }
+
+  std::string_view name() const { return element_->name; }
+  SourceLocation where() const { return reading_->document.where(element_->at); }
+  SourceLocation where(const char* attribute) const;
+
+  /// Notes all attributes, children and texts that are not known.
+  void expect(const Known& known) const;
+
+  bool has(std::string_view attribute) const { return find(attribute) != nullptr; }
+  /// The text of an attribute that must be there.
+  const std::string& text(const char* attribute) const;
+  /// The same, neither empty nor longer than 256 bytes.
+  const std::string& nameIn(const char* attribute) const;
+  double number(const char* attribute) const { return numbers(attribute, 1)[0]; }
+  double number(const char* attribute, double otherwise) const {
+    return has(attribute) ? number(attribute) : otherwise;
+  }
+  /// The same, not negative; positive() not zero either.
+  double notNegative(const char* attribute) const;
+  double notNegative(const char* attribute, double otherwise) const {
+    return has(attribute) ? notNegative(attribute) : otherwise;
+  }
+  double positive(const char* attribute) const;
+  Eigen::VectorXd numbers(const char* attribute, int count) const;
+
+  /// The child of that name, of which there may be only one.
+  std::optional<Tag> child(const char* name) const;
+  Tag neededChild(const char* name) const;
+  std::vector<Tag> children(std::string_view name) const;
+  std::vector<Tag> children() const;
+  /// The pose that the child <origin> gives; without one the identity.
+  Pose origin() const;
+
+  void warn(const SourceLocation& where, const std::string& message) const;
+  void ignore(const std::string& kind) const { reading_->notes.ignore(where(), kind); }
+  [[noreturn]] void fail(const SourceLocation& where, const std::string& what, std::string found,
+                         std::string wanted, std::vector<std::string> nearest = {}) const;
+  [[noreturn]] void failAt(const char* attribute, std::string found, std::string wanted) const;
+
+ private:
+  Tag(const Tag& parent, const xml::Element& element);
+  const xml::Attribute* find(std::string_view attribute) const;
+  const xml::Attribute& need(std::string_view attribute) const;
+
+  Reading* reading_;
+  const xml::Element* element_;
+  std::string owner_, thing_;
+};
+
+}  // namespace rex::urdf

@@ -1,0 +1,248 @@
+#include "scene/urdf_writer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+#include "scene/model.h"
+#include "scene/urdf_expansion_internal.h"
+#include "scene/urdf_markup_internal.h"
+
+namespace rex {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace urdf;
+
+const std::string kWorldName = "world";
+constexpr double kWide = 1e9;  // stands for "no limit", which URDF cannot say
+
+// URDF tells things by their names.
+template <class Things>
+void requireNames(const Things& things, const char* kind) {
+  std::unordered_map<std::string, SourceLocation> first;
+  for (const auto& thing : things) {
+    if (thing.name.empty())
+      throw Error(
+          {.what = fmt::format("a {} without a name", kind), .where = thing.where, .wanted = "a name"});
+    const auto [at, isNew] = first.emplace(thing.name, thing.where);
+    if (isNew) continue;
+    const std::string place = toString(at->second);
+    throw Error(
+        {.what = fmt::format("two {} '{}'", kind == std::string("body") ? "bodies" : "joints", thing.name),
+         .where = thing.where,
+         .wanted =
+             "a name of its own" + (place.empty() ? "" : fmt::format(": the first stands at {}", place))});
+  }
+}
+
+class Writer {
+ public:
+  Writer(const SceneSpec& spec, fs::path folder)
+      : model_(compile(spec)), folder_(std::move(folder)), spec_(expand(spec, losses_)) {
+    for (const BodySpec& body : spec.bodies)
+      if (body.kind != BodyKind::kDynamic) losses_.add("kinds of bodies are left out", body.name, body.where);
+    for (const JointSpec& joint : spec.joints) noteLosses(joint);
+  }
+
+  UrdfText write() {
+    const std::string name = fs::path(spec_.name).stem().string();
+    markup_.open("robot", {{"name", name.empty() ? "scene" : name}});
+    if (needsWorld()) writeWorld();
+    for (const BodySpec& body : spec_.bodies) writeLink(body);
+    for (const JointSpec& joint : spec_.joints) writeJoint(joint);
+    markup_.close("robot");
+    return {std::move(markup_.text), losses_.take()};
+  }
+
+ private:
+  void noteLosses(const JointSpec& joint) {
+    if (joint.q0.size() > 0 && joint.q0 != jointCoordinates(joint.type, joint.axis, Pose{}))
+      losses_.add("initial coordinates are left out", joint.name, joint.where);
+    const bool isWhole = joint.type == JointType::kPlanarXYPhi || joint.type == JointType::kFree;
+    if (isWhole && (joint.lower.size() > 0 || joint.upper.size() > 0))
+      losses_.add("limits of planar and free joints are left out", joint.name, joint.where);
+  }
+
+  bool needsWorld() const {
+    const auto isOnWorld = [](const JointSpec& joint) { return joint.parent == kWorldName; };
+    return spec_.bodies.empty() || !spec_.worldShapes.empty() ||
+           std::any_of(spec_.joints.begin(), spec_.joints.end(), isOnWorld);
+  }
+
+  void writeWorld() {
+    markup_.open("link", {{"name", kWorldName}});
+    for (const ShapeSpec& shape : spec_.worldShapes) writeShape(shape, kWorldName);
+    markup_.close("link");
+  }
+
+  void writeLink(const BodySpec& body) {
+    markup_.open("link", {{"name", body.name}});
+    if (body.mass > 0) {
+      const Body& known = model_[model_.body(body.name)];
+      writeInertial(known.mass, known.p_BBcm, known.I_BBcm_B);
+    } else if (body.inertia && !body.inertia->isZero(0)) {
+      losses_.add("inertias without mass are left out", body.name, body.where);
+    }
+    for (const ShapeSpec& shape : body.shapes) writeShape(shape, body.name);
+    markup_.close("link");
+  }
+
+  void writeInertial(double mass, const Eigen::Vector3d& p_BBcm, const Eigen::Matrix3d& I) {
+    markup_.open("inertial");
+    markup_.origin({Eigen::Matrix3d::Identity(), p_BBcm});
+    markup_.empty("mass", {{"value", numeral(mass)}});
+    markup_.empty("inertia", {{"ixx", numeral(I(0, 0))},
+                              {"ixy", numeral(I(0, 1))},
+                              {"ixz", numeral(I(0, 2))},
+                              {"iyy", numeral(I(1, 1))},
+                              {"iyz", numeral(I(1, 2))},
+                              {"izz", numeral(I(2, 2))}});
+    markup_.close("inertial");
+  }
+
+  void writeShape(const ShapeSpec& shape, const std::string& owner) {
+    const std::string name = shape.name.empty() ? owner : shape.name;
+    if (!shape.visible && !shape.contact)
+      losses_.add("shapes neither drawn nor touched are left out", name, shape.where);
+    for (const bool visible : {true, false})
+      if (visible ? shape.visible : shape.contact)
+        writeSolids(shape, name, owner, visible ? "visual" : "collision");
+  }
+
+  void writeSolids(const ShapeSpec& shape, const std::string& name, const std::string& owner,
+                   const char* tag) {
+    const Shape& s = shape.shape;
+    const auto lose = [&](const char* kind) { losses_.add(kind, name, shape.where); };
+    const auto solid = [&](const Pose& X_SG, const char* kind, Markup::Attributes sizes) {
+      markup_.open(tag, {{"name", name == owner ? "" : name}});
+      markup_.origin(shape.X_BS * X_SG);
+      markup_.open("geometry");
+      markup_.empty(kind, sizes);
+      markup_.close("geometry");
+      if (tag == std::string("visual")) writeMaterial(shape.color);
+      markup_.close(tag);
+    };
+    const std::string radius = numeral(s.radius), length = numeral(s.extent.z());
+    const bool isRound = s.radius > 0, isLong = s.extent.z() > 0;
+    switch (s.type) {
+      case ShapeType::kRoundedBox:
+        lose("rounded boxes became boxes");
+        [[fallthrough]];
+      case ShapeType::kBox:
+        if (!(s.extent.minCoeff() > 0)) return lose("shapes without size are left out");
+        return solid({}, "box", {{"size", numeral(s.extent)}});
+      case ShapeType::kSphere:
+        if (!isRound) return lose("shapes without size are left out");
+        return solid({}, "sphere", {{"radius", radius}});
+      case ShapeType::kCylinder:
+        if (!isRound || !isLong) return lose("shapes without size are left out");
+        return solid({}, "cylinder", {{"radius", radius}, {"length", length}});
+      case ShapeType::kCapsule:
+        if (!isRound) return lose("shapes without size are left out");
+        lose("capsules became cylinders and spheres");
+        if (isLong) solid({}, "cylinder", {{"radius", radius}, {"length", length}});
+        if (isLong) solid(translation(0, 0, s.extent.z() / 2), "sphere", {{"radius", radius}});
+        return solid(translation(0, 0, -s.extent.z() / 2), "sphere", {{"radius", radius}});
+      case ShapeType::kSphereSweptConvex:
+        lose("sphere-swept meshes became meshes");
+        [[fallthrough]];
+      case ShapeType::kMesh:
+        if (shape.meshFile.empty() && shape.meshPath.empty())
+          return lose("meshes without a file are left out");
+        return solid({}, "mesh", {{"filename", fileOf(shape)}, {"scale", numeral(shape.meshScale)}});
+      case ShapeType::kMarker:
+        return lose("markers are left out");
+      case ShapeType::kPointCloud:
+        return lose("point clouds are left out");
+    }
+  }
+
+  std::string fileOf(const ShapeSpec& shape) const {
+    if (shape.meshPath.empty()) return shape.meshFile;
+    return folder_.empty() ? shape.meshPath.generic_string()
+                           : fs::proximate(shape.meshPath, folder_).generic_string();
+  }
+
+  // Materials of one name must agree, so the name is the colour.
+  void writeMaterial(const Eigen::Vector4d& color) {
+    const std::string rgba = numeral(color.cwiseMax(0).cwiseMin(1));
+    markup_.open("material", {{"name", rgba}});
+    markup_.empty("color", {{"rgba", rgba}});
+    markup_.close("material");
+  }
+
+  static bool hasLimit(const JointSpec& joint) {
+    const auto finite = [](const Eigen::VectorXd& v) { return v.size() == 1 && std::isfinite(v[0]); };
+    return finite(joint.lower) || finite(joint.upper);
+  }
+
+  static const char* typeOf(const JointSpec& joint) {
+    switch (joint.type) {
+      case JointType::kHinge:
+        return hasLimit(joint) ? "revolute" : "continuous";
+      case JointType::kSlider:
+        return "prismatic";
+      case JointType::kFree:
+        return "floating";
+      case JointType::kPlanarXYPhi:
+        return "planar";
+      default:
+        return "fixed";
+    }
+  }
+
+  void writeJoint(const JointSpec& joint) {
+    const bool isRigid = joint.type == JointType::kRigid;
+    markup_.open("joint", {{"name", joint.name}, {"type", typeOf(joint)}});
+    markup_.origin(joint.X_PF);
+    markup_.empty("parent", {{"link", joint.parent}});
+    markup_.empty("child", {{"link", joint.child}});
+    if (!isRigid && joint.type != JointType::kFree) markup_.empty("axis", {{"xyz", numeral(joint.axis)}});
+    if (!isRigid) writeLimit(joint);
+    if (!isRigid && (joint.damping != 0 || joint.friction != 0))
+      markup_.empty("dynamics", {{"damping", numeral(joint.damping)}, {"friction", numeral(joint.friction)}});
+    if (!joint.mimic.empty())
+      markup_.empty("mimic", {{"joint", joint.mimic},
+                              {"multiplier", numeral(joint.mimicRatio)},
+                              {"offset", numeral(joint.mimicOffset)}});
+    markup_.close("joint");
+  }
+
+  void writeLimit(const JointSpec& joint) {
+    const auto bounded = [&](double value) {
+      if (std::isfinite(value)) return numeral(value);
+      losses_.add("missing limits became 1e9", joint.name, joint.where);
+      return numeral(std::copysign(kWide, value));
+    };
+    const auto at = [](const Eigen::VectorXd& v, double none) { return v.size() > 0 ? v[0] : none; };
+    const std::string type = typeOf(joint);
+    if (type == "revolute" || type == "prismatic") {
+      markup_.empty("limit", {{"lower", bounded(at(joint.lower, -HUGE_VAL))},
+                              {"upper", bounded(at(joint.upper, HUGE_VAL))},
+                              {"velocity", bounded(joint.maxVelocity)},
+                              {"effort", bounded(joint.maxEffort)}});
+    } else if (std::isfinite(joint.maxVelocity) || std::isfinite(joint.maxEffort)) {
+      markup_.empty("limit",
+                    {{"velocity", bounded(joint.maxVelocity)}, {"effort", bounded(joint.maxEffort)}});
+    }
+  }
+
+  const Model model_;
+  fs::path folder_;
+  Losses losses_;
+  SceneSpec spec_;
+  Markup markup_;
+};
+
+}  // namespace
+
+UrdfText writeUrdf(const SceneSpec& spec, const std::filesystem::path& folder) {
+  requireNames(spec.bodies, "body");
+  requireNames(spec.joints, "joint");
+  return Writer(spec, folder).write();
+}
+
+}  // namespace rex

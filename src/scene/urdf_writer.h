@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "base/diagnostic.h"
+#include "scene/scene_spec.h"
+
+namespace rex {
+
+/// A robot as URDF, and what of the scene URDF cannot say: one note for each kind of loss.
+struct UrdfText {
+  std::string text;
+  Diagnostics notes;
+};
+
+/// Writes a scene as URDF. Bodies keep their names, poses and inertias, and joints their coordinates; joints
+/// that URDF lacks become chains, as share/doc/urdf.md says. Files of meshes are named relative to `folder`
+/// (empty: where they lie). Throws Error as compile(), and for two bodies of one name, a ball joint, a mimic
+/// of a planar or free joint, and characters in names that XML lacks.
+[[nodiscard]] UrdfText writeUrdf(const SceneSpec& spec, const std::filesystem::path& folder = {});
+
+}  // namespace rex

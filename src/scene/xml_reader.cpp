@@ -1,0 +1,211 @@
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstring>
+#include <memory>
+
+#include <expat.h>
+#include <fmt/format.h>
+
+#include "scene/xml_element_internal.h"
+
+namespace rex::xml {
+namespace {
+
+constexpr std::size_t kLargestFile = 8u << 20;
+constexpr std::size_t kDeepest = 100;
+constexpr std::size_t kMostElements = 200'000;
+constexpr std::size_t kMostAttributes = 64;
+constexpr std::size_t kLongestName = 256;
+constexpr std::string_view kBlank = " \t\r\n";
+
+[[noreturn]] void fail(const SourceLocation& where, std::string what, std::string found, std::string wanted) {
+  throw Error({std::move(what), where, std::move(found), std::move(wanted)});
+}
+
+bool isKnownEncoding(std::string_view name) {
+  constexpr std::array<std::string_view, 3> kKnown = {"utf-8", "us-ascii", "iso-8859-1"};
+  std::string lower(name);
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+  return std::find(kKnown.begin(), kKnown.end(), lower) != kKnown.end();
+}
+
+// Gives the attributes of the tag that begins at `at` their places; expat knows that it is well-formed.
+void findPlaces(std::string_view text, std::size_t at, std::vector<Attribute>& attributes) {
+  at = text.find_first_of(" \t\r\n/>", at);
+  for (Attribute& attribute : attributes) {
+    at = text.find_first_not_of(kBlank, at);
+    attribute.at = static_cast<std::uint32_t>(at);
+    at = text.find_first_of("\"'", at);
+    attribute.valueAt = static_cast<std::uint32_t>(at + 1);
+    at = text.find(text[at], at + 1) + 1;
+  }
+}
+
+// Builds the tree out of what expat reports, and stops it at the first breach of a limit.
+class Builder {
+ public:
+  Builder(std::string_view text, const std::string& file)
+      : text_(text), document_(text, file), parser_(XML_ParserCreate(nullptr)) {
+    XML_SetUserData(parser_.get(), this);
+    XML_SetElementHandler(
+        parser_.get(),
+        [](void* self, const char* name, const char** attributes) { of(self).start(name, attributes); },
+        [](void* self, const char*) { of(self).end(); });
+    XML_SetCharacterDataHandler(parser_.get(), [](void* self, const char* part, int size) {
+      of(self).characters({part, static_cast<std::size_t>(size)});
+    });
+    XML_SetXmlDeclHandler(parser_.get(), [](void* self, const char*, const char* encoding, int) {
+      if (encoding && !isKnownEncoding(encoding)) of(self).refuseEncoding(quoted(encoding));
+    });
+    XML_SetStartDoctypeDeclHandler(parser_.get(), [](void* self, const char*, const char*, const char*, int) {
+      of(self).refuseDocumentType();
+    });
+  }
+
+  Document build() {
+    if (text_.starts_with("\xff\xfe") || text_.starts_with("\xfe\xff")) {
+      refuseEncoding("UTF-16");
+    } else if (XML_Parse(parser_.get(), text_.data(), static_cast<int>(text_.size()), 1) != XML_STATUS_OK &&
+               breach_.what.empty()) {
+      failAtSyntax();
+    }
+    if (!breach_.what.empty()) throw Error(breach_);
+    return std::move(document_);
+  }
+
+ private:
+  static Builder& of(void* self) { return *static_cast<Builder*>(self); }
+
+  std::uint32_t here() const {
+    return static_cast<std::uint32_t>(std::max<XML_Index>(0, XML_GetCurrentByteIndex(parser_.get())));
+  }
+
+  // Exceptions must not cross expat: what is wrong waits until it has returned.
+  void stop(std::string what, std::string found, std::string wanted) {
+    stopAt(here(), std::move(what), std::move(found), std::move(wanted));
+  }
+  void stopAt(std::size_t at, std::string what, std::string found, std::string wanted) {
+    const SourceLocation where = document_.where(static_cast<std::uint32_t>(at));
+    breach_ = {std::move(what), where, std::move(found), std::move(wanted)};
+    XML_StopParser(parser_.get(), XML_FALSE);
+  }
+
+  void refuseDocumentType() {  // expat has read more than its beginning
+    stopAt(std::min<std::size_t>(text_.rfind("<!DOCTYPE", here()), here()), "a document type", "<!DOCTYPE",
+           "none: entities of one's own are not read");
+  }
+
+  void refuseEncoding(const std::string& encoding) {
+    stop("encoding of the file", encoding, "UTF-8, US-ASCII or ISO-8859-1");
+  }
+
+  [[noreturn]] void failAtSyntax() const {
+    const XML_Error code = XML_GetErrorCode(parser_.get());
+    const bool isOpen = code == XML_ERROR_TAG_MISMATCH || code == XML_ERROR_NO_ELEMENTS;
+    fail(document_.where(here()), fmt::format("not well-formed XML: {}", XML_ErrorString(code)), "",
+         isOpen && !open_.empty() ? fmt::format("</{}> first", open_.back()->name) : "");
+  }
+
+  bool isWithinLimits(std::string_view name, std::size_t attributes) {
+    if (name.size() > kLongestName) {
+      stop("name too long", fmt::format("{} bytes", name.size()), fmt::format("at most {}", kLongestName));
+    } else if (open_.size() >= kDeepest) {
+      stop("elements nested too deep", fmt::format("level {}", open_.size() + 1),
+           fmt::format("at most {}", kDeepest));
+    } else if (++elements_ > kMostElements) {
+      stop("too many elements", fmt::format("number {}", elements_),
+           fmt::format("at most {}", kMostElements));
+    } else if (attributes > kMostAttributes) {
+      stop(fmt::format("<{}>", name), fmt::format("{} attributes", attributes),
+           fmt::format("at most {}", kMostAttributes));
+    }
+    return breach_.what.empty();
+  }
+
+  void start(const char* name, const char** attributes) {
+    const auto count = static_cast<std::size_t>(XML_GetSpecifiedAttributeCount(parser_.get())) / 2;
+    if (!breach_.what.empty() || !isWithinLimits(name, count)) return;
+    Element element{.name = name, .attributes = {}, .children = {}, .at = here()};
+    element.attributes.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      element.attributes.push_back({attributes[2 * i], attributes[2 * i + 1]});
+      if (const std::size_t size = element.attributes.back().name.size(); size > kLongestName)
+        return stop("name of an attribute too long", fmt::format("{} bytes", size),
+                    fmt::format("at most {}", kLongestName));
+    }
+    findPlaces(text_, element.at, element.attributes);
+    // Only the innermost open element grows, so that pointers to open ones stay right.
+    if (open_.empty()) {
+      document_.root = std::move(element);
+      open_.push_back(&document_.root);
+    } else {
+      open_.push_back(&open_.back()->children.emplace_back(std::move(element)));
+    }
+  }
+
+  void end() {
+    if (breach_.what.empty()) open_.pop_back();
+  }
+
+  void characters(std::string_view text) {
+    if (!breach_.what.empty() || open_.back()->textAt) return;
+    const std::size_t first = text.find_first_not_of(kBlank);
+    if (first != std::string_view::npos) open_.back()->textAt = here() + static_cast<std::uint32_t>(first);
+  }
+
+  struct Free {
+    void operator()(XML_Parser parser) const { XML_ParserFree(parser); }
+  };
+
+  std::string_view text_;
+  Document document_;
+  std::unique_ptr<std::remove_pointer_t<XML_Parser>, Free> parser_;
+  std::vector<Element*> open_;
+  std::size_t elements_ = 0;
+  ErrorParts breach_;
+};
+
+}  // namespace
+
+Document::Document(std::string_view text, std::string file) : text_(text), file_(std::move(file)), lines_{0} {
+  for (std::size_t at = text.find('\n'); at != std::string_view::npos; at = text.find('\n', at + 1))
+    lines_.push_back(static_cast<std::uint32_t>(at + 1));
+}
+
+SourceLocation Document::where(std::uint32_t offset) const {
+  const auto after = std::upper_bound(lines_.begin(), lines_.end(), offset);
+  return {file_, static_cast<int>(after - lines_.begin()), static_cast<int>(offset - after[-1]) + 1};
+}
+
+SourceLocation Document::where(const Attribute& attribute, std::size_t index) const {
+  std::size_t at = attribute.valueAt;
+  for (; index > 0 && at + 1 < text_.size(); --index) {
+    if (text_[at] == '&') at = std::min(text_.find(';', at), text_.size() - 1);
+    if (text_.substr(at, 2) == "\r\n") ++at;
+    ++at;
+  }
+  return where(static_cast<std::uint32_t>(at));
+}
+
+Document parse(std::string_view text, const std::string& fileName) {
+  if (text.size() > kLargestFile) {
+    fail({fileName}, "scene file too large", fmt::format("{} bytes", text.size()),
+         fmt::format("at most {} MiB", kLargestFile >> 20));
+  }
+  return Builder(text, fileName).build();
+}
+
+std::string quoted(std::string_view text) {
+  std::size_t most = 60;
+  const bool isLong = text.size() > most;
+  while (isLong && most > 0 && (text[most] & 0xc0) == 0x80) --most;  // never half a letter of UTF-8
+  std::string shown = "'";
+  for (const char c : text.substr(0, most)) {
+    const auto byte = static_cast<unsigned char>(c);
+    shown += byte < 0x20 || byte == 0x7f ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
+  }
+  return shown + (isLong ? "...'" : "'");
+}
+
+}  // namespace rex::xml

@@ -1,0 +1,120 @@
+// A second opinion: urdfdom reads the same robots, and KDL computes the same poses and Jacobians.
+#include <gtest/gtest.h>
+
+#ifdef REX_WITH_URDFDOM
+
+#include <kdl/chainfksolverpos_recursive.hpp>
+#include <kdl/chainjnttojacsolver.hpp>
+
+#include "base/rng.h"
+#include "kinematics/jacobians.h"
+#include "scene/ors_reader.h"
+#include "scene/urdf_reader.h"
+#include "scene/urdf_writer.h"
+#include "support/file_text.h"
+#include "support/kdl_tree.h"
+#include "support/random_scene.h"
+#include "support/urdf_samples.h"
+#include "support/urdfdom_robot.h"
+
+namespace rex {
+namespace {
+
+constexpr double kTolerance = 1e-12;
+
+void expectSame(const UrdfdomRobot& robot, const Model& model, const Eigen::VectorXd& q,
+                const std::string& link) {
+  KDL::Chain chain;
+  ASSERT_TRUE(robot.tree.getChain(robot.root, link, chain)) << link;
+  std::map<std::string, int> index;
+  for (const Joint& joint : model.joints())
+    if (joint.nq == 1 && !joint.mimics) index[joint.name] = joint.qIndex;
+
+  std::vector<int> columns;
+  std::vector<double> multipliers;
+  KDL::JntArray chainQ(chain.getNrOfJoints());
+  for (const KDL::Segment& segment : chain.segments) {
+    if (segment.getJoint().getType() == KDL::Joint::Fixed) continue;
+    const UrdfdomRobot::Follow& follow = robot.joints.at(segment.getJoint().getName());
+    ASSERT_TRUE(index.contains(follow.target)) << follow.target;
+    chainQ(static_cast<unsigned>(columns.size())) =
+        follow.multiplier * q[index[follow.target]] + follow.offset;
+    columns.push_back(index[follow.target]);
+    multipliers.push_back(follow.multiplier);
+  }
+
+  const BodyPoses poses = forwardKinematics(model, q);
+  const BodyId body = model.body(link);
+  KDL::Frame frame;
+  ASSERT_EQ(KDL::ChainFkSolverPos_recursive(chain).JntToCart(chainQ, frame), 0) << link;
+  EXPECT_TRUE(isApprox(poses[body], poseFrom(frame), kTolerance)) << link;
+
+  KDL::Jacobian chainJ(chain.getNrOfJoints());
+  ASSERT_EQ(KDL::ChainJntToJacSolver(chain).JntToJac(chainQ, chainJ), 0) << link;
+  Eigen::MatrixXd theirs = Eigen::MatrixXd::Zero(6, model.nv()), ours(6, model.nv());
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    theirs.col(columns[i]) += multipliers[i] * chainJ.data.col(static_cast<Eigen::Index>(i));
+  ours << positionJacobian(model, poses, body, Eigen::Vector3d::Zero()), angularJacobian(model, poses, body);
+  EXPECT_TRUE(((ours - theirs).array().abs() <= kTolerance).all()) << link;
+}
+
+void expectSameInertias(const UrdfdomRobot& robot, const Model& model) {
+  int withMass = 0;
+  for (const Body& body : model.bodies()) withMass += body.mass > 0;
+  int compared = 0;
+  for (const auto& [link, theirs] : robot.inertials) {
+    const Body& ours = model[model.body(link)];
+    EXPECT_EQ(ours.mass, theirs.mass) << link;
+    if (theirs.mass == 0) continue;
+    ++compared;
+    EXPECT_EQ(ours.p_BBcm, theirs.X_BI.p) << link;
+    const Eigen::Matrix3d I = theirs.X_BI.R * theirs.I * theirs.X_BI.R.transpose();
+    EXPECT_LE((ours.I_BBcm_B - I).cwiseAbs().maxCoeff(), kTolerance) << link;
+  }
+  EXPECT_EQ(compared, withMass);
+}
+
+void expectSameRobot(const std::string& text) {
+  const UrdfdomRobot robot = urdfdomRobot(text);
+  const Model model = compile(parseUrdf(text, "robot.urdf").spec);
+  expectSameInertias(robot, model);
+  ASSERT_EQ(robot.tree.getNrOfSegments() + (robot.root == "world" ? 0u : 1u), model.bodies().size() - 1);
+  Rng rng(61);
+  for (int i = 0; i < 10; ++i) {
+    const Eigen::VectorXd q = 3 * rng.normalVector(model.nq());
+    for (const Body& body : model.bodies().subspan(1)) expectSame(robot, model, q, body.name);
+  }
+}
+
+TEST(UrdfPeer, AgreesOnATrickyRobot) { expectSameRobot(kTrickyRobot); }
+
+TEST(UrdfPeer, ReadsWhatWeWrite) {
+  Rng rng(62);
+  SceneSpec spec = randomScene(rng, 40);
+  for (JointSpec& joint : spec.joints) {
+    const bool hasPeer = positionCount(joint.type) < 3 || joint.type == JointType::kTranslation3;
+    if (!hasPeer) joint.type = JointType::kHinge;
+  }
+  expectSameRobot(writeUrdf(spec).text);
+  expectSameRobot(writeUrdf(readOrs(sourcePath("data/robots/man.ors")).spec).text);
+}
+
+TEST(UrdfPeer, AgreesOnAllFiles) {
+  const auto files = urdfFiles();
+  if (files.empty()) GTEST_SKIP() << "no .urdf file in data/ and ../shared/data/urdf";
+  for (const std::filesystem::path& file : files) {
+    SCOPED_TRACE(file.filename());
+    expectSameRobot(fileText(file));
+  }
+}
+
+}  // namespace
+}  // namespace rex
+
+#else
+
+TEST(UrdfPeer, AgreesOnAllFiles) {
+  GTEST_SKIP() << "install liborocos-kdl-dev and liburdfdom-dev to compare";
+}
+
+#endif
