@@ -307,7 +307,7 @@ class Parser {
   }
 
   Eigen::Matrix3d rotationFromFile(const Eigen::Vector4d& quaternion) const {
-    if (!(quaternion.norm() > 0)) fail("quaternion", "(0, 0, 0, 0)", "a quaternion w x y z that is not zero");
+    if (quaternion.isZero(0)) fail("quaternion", "(0, 0, 0, 0)", "a quaternion w x y z that is not zero");
     return rotationFromQuaternion(quaternion);
   }
 
