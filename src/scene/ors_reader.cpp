@@ -108,11 +108,9 @@ int tableIndex(const Attributes& attributes, std::string_view attribute,
                const std::array<const char*, N>& names, int fallback) {
   const Node* node = attributes.find(attribute);
   if (!node) return fallback;
-  if (const double* number = std::get_if<double>(&node->value)) {
+  if (const double* number = std::get_if<double>(&node->value); number && *number >= 0 && *number < N) {
     const int index = static_cast<int>(*number);
-    if (*number == index && index >= 0 && index < static_cast<int>(N) &&
-        *names[static_cast<std::size_t>(index)])
-      return index;
+    if (*number == index && *names[static_cast<std::size_t>(index)]) return index;
   }
   std::vector<std::string> known;
   for (std::size_t i = 0; i < N; ++i) {
