@@ -29,6 +29,16 @@ Sinc sincs(double t) {
   return {std::sin(t) / t, 2 * half * half, c};
 }
 
+// v at length 1, also where the squares of its numbers would be too large or too small; zero stays.
+template <class Vector>
+Vector unit(const Vector& v) {
+  constexpr double kLeast = 1e-140, kMost = 1e140;
+  const double largest = v.cwiseAbs().maxCoeff();
+  if (largest == 0) return v;
+  const Vector scaled = largest > kLeast && largest < kMost ? v : Vector(v / largest);
+  return scaled / scaled.norm();
+}
+
 }  // namespace
 
 Eigen::Matrix3d skew(const Eigen::Vector3d& w) {
@@ -38,9 +48,8 @@ Eigen::Matrix3d skew(const Eigen::Vector3d& w) {
 }
 
 Eigen::Matrix3d rotationAboutAxis(double angle, const Eigen::Vector3d& axis) {
-  const double length = axis.norm();
-  if (length == 0 || angle == 0) return Eigen::Matrix3d::Identity();
-  const Eigen::Vector3d a = axis / length;
+  if (axis.isZero(0) || angle == 0) return Eigen::Matrix3d::Identity();
+  const Eigen::Vector3d a = unit(axis);
   const double s = std::sin(angle), c = std::cos(angle);
   return c * Eigen::Matrix3d::Identity() + s * skew(a) + (1 - c) * a * a.transpose();
 }
@@ -75,13 +84,13 @@ Eigen::Matrix3d leftJacobianSO3(const Eigen::Vector3d& w) {
 Eigen::Matrix3d rightJacobianSO3(const Eigen::Vector3d& w) { return leftJacobianSO3(w).transpose(); }
 
 Eigen::Matrix3d rotationFromQuaternion(const Quaternion& q) {
-  const double norm = q.norm();
-  if (!(norm > 0) || !std::isfinite(norm)) {
+  if (!q.allFinite() || q.isZero(0)) {
     throw Error({.what = "quaternion",
                  .found = fmt::format("({}, {}, {}, {})", q[0], q[1], q[2], q[3]),
                  .wanted = "finite numbers, not all zero"});
   }
-  const double w = q[0] / norm, x = q[1] / norm, y = q[2] / norm, z = q[3] / norm;
+  const Quaternion u = unit(q);
+  const double w = u[0], x = u[1], y = u[2], z = u[3];
   Eigen::Matrix3d R;
   R << 1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y),  //
       2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x),   //
@@ -131,11 +140,11 @@ Eigen::Vector3d rollPitchYawFromRotation(const Eigen::Matrix3d& R) {
 }
 
 Eigen::Matrix3d rotationBetween(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-  if (!(from.norm() > 0) || !(to.norm() > 0)) {
+  if (from.isZero(0) || to.isZero(0)) {
     throw Error(
         {.what = "rotation between two directions", .found = "a zero vector", .wanted = "two directions"});
   }
-  const Eigen::Vector3d a = from.normalized(), b = to.normalized();
+  const Eigen::Vector3d a = unit(from), b = unit(to);
   const Eigen::Vector3d axis = a.cross(b);
   const double sine = axis.norm(), cosine = a.dot(b);
   if (sine > 1e-12) return rotationAboutAxis(std::atan2(sine, cosine), axis);

@@ -230,7 +230,7 @@ void checkJoint(const JointSpec& joint) {
   const int n = positionCount(joint.type);
   if (!isFinite(joint.X_PF) || !isFinite(joint.X_MC))
     fail(joint.where, what + ": frames", "a number that is not finite", "finite numbers");
-  if (!joint.axis.allFinite() || !(joint.axis.norm() > 0))
+  if (!std::isfinite(joint.axis.norm()) || joint.axis.norm() == 0)
     fail(joint.where, what + ": axis", "a zero or non-finite vector", "a direction");
   const auto requireNumber = [&](double number, const char* name, bool isRight, const char* wanted) {
     if (!isRight) fail(joint.where, fmt::format("{}: {}", what, name), fmt::format("{}", number), wanted);

@@ -129,6 +129,19 @@ TEST(RotationBetween, TurnsOneDirectionToTheOther) {
                    "rotation between two directions: found a zero vector");
 }
 
+TEST(Rotations, AreProperForVectorsOfAnyLength) {
+  for (const double length : {5e-324, 1e-200, 1e-160, 1., 1e160, 1.7e308}) {
+    const Eigen::Vector3d axis(0, length, length);
+    EXPECT_LT(distance(rotationAboutAxis(0.3, axis), rotationAboutAxis(0.3, {0, 1, 1})), 1e-15) << length;
+    EXPECT_LT(distance(rotationFromQuaternion(Quaternion(length, 0, 0, -length)),
+                       rotationAboutAxis(-pi / 2, Eigen::Vector3d::UnitZ())),
+              1e-15);
+    EXPECT_LT(distance(rotationBetween(axis, {length, 0, 0}) * Eigen::Vector3d(0, 1, 1).normalized(),
+                       Eigen::Vector3d::UnitX()),
+              1e-15);
+  }
+}
+
 TEST(WrapAngle, StaysInTheHalfOpenInterval) {
   EXPECT_DOUBLE_EQ(wrapAngle(pi), pi);
   EXPECT_DOUBLE_EQ(wrapAngle(-pi), pi);

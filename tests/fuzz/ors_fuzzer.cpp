@@ -1,0 +1,17 @@
+#include <optional>
+
+#include "fuzz/sound_scene.h"
+#include "scene/ors_reader.h"
+
+// The input is the text of an .ors file.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  std::optional<rex::SceneFile> scene;
+  try {
+    scene = rex::parseOrs(text, "scene.ors");
+  } catch (const rex::Error& error) {
+    rex::fuzz::requirePlace(error, text);
+  }
+  if (scene) rex::fuzz::requireSound(*scene);
+  return 0;
+}
