@@ -2,7 +2,7 @@
 
 from math import pi
 
-from solid import Z_TO_Y, around, bar, box, cylinder, lathe, limb, slab, circle
+from solid import Z_TO_Y, around, bar, box, circle, cylinder, lathe, limb, slab
 from urdf import Box, Cylinder, Robot, Visual
 
 FORK, NECK = 0.18, 0.20  # lengths at scale 1: from a roll axis up to a bend axis, and on to the next roll axis

@@ -2,7 +2,7 @@
 
 from math import cos, pi, sin, tau
 
-from solid import Z_TO_X, Z_TO_Y, around, bar, box, circle, cylinder, hoop, lathe, limb, rectangle, slab
+from solid import Z_TO_X, Z_TO_Y, around, bar, cylinder, hoop, lathe, limb, rectangle, slab
 from urdf import Box, Cylinder, Robot, Visual
 
 WHEEL, TRACK = 0.10, 0.30  # radius; distance between the wheels' middles

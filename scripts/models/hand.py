@@ -2,7 +2,7 @@
 
 from math import pi
 
-from solid import Z_TO_X, Z_TO_Y, bar, box, circle, cylinder, lathe, limb, rectangle, slab
+from solid import Z_TO_Y, bar, cylinder, lathe, limb, rectangle, slab
 from urdf import Box, Cylinder, Robot, Visual
 
 # Of each finger: where it leaves the palm, how it fans out, its size. Lengths of the phalanges at size 1.
@@ -20,8 +20,9 @@ def phalanx(length, width):
 def meshes(robot):
     robot.mesh("palm", limb([(0.004, 0.03, 0.052, 0.014, 0), (0.02, 0.032, 0.066, 0.015, 0),
                              (0.06, 0.032, 0.086, 0.015, 0), (0.092, 0.025, 0.088, 0.012, 0)], 0.005, 5))
-    robot.mesh("palm_trim", *(slab(rectangle(y, z, 0.014, 4), 0.006, 0.002, 1).moved((x, shift, 0.05), (pi / 2, 0, pi / 2))
-                              for x, y, z, shift in ((-0.0155, 0.056, 0.05, -0.002), (0.0155, 0.058, 0.056, -0.006))),
+    cushions = [slab(rectangle(y, z, 0.014, 4), 0.006, 0.002, 1).moved((x, shift, 0.05), (pi / 2, 0, pi / 2))
+                for x, y, z, shift in ((-0.0155, 0.056, 0.05, -0.002), (0.0155, 0.058, 0.056, -0.006))]
+    robot.mesh("palm_trim", *cushions,
                *(bar(0.009, 0.0075, 0.012, 0.017 * size, 0.002, 5).moved((0, at[1], at[2] - 0.012))
                  for _, at, _, size in FINGERS),
                limb([(0.012, 0.026, 0.024, 0.009, 0), (0.045, 0.024, 0.022, 0.009, 0)], 0.004)
@@ -31,14 +32,15 @@ def meshes(robot):
     robot.mesh("proximal", *phalanx(PROXIMAL, 0.014))
     robot.mesh("middle", *phalanx(MIDDLE, 0.013))
     robot.mesh("distal", bar(0.008, 0.0058, 0.0095, 0.0125, 0.003, 10))
-    robot.mesh("pad", limb([(0.0065, 0.0162, 0.0145, 0.006, 0), (0.012, 0.0165, 0.015, 0.0062, 0.0006),
-                            (0.0185, 0.0145, 0.0132, 0.0055, 0.001), (0.0235, 0.0085, 0.008, 0.0035, 0.0005)], 0.0014, 5))
+    robot.mesh("tip", limb([(0.0065, 0.0162, 0.0145, 0.006, 0), (0.012, 0.0165, 0.015, 0.0062, 0.0006),
+                            (0.0185, 0.0145, 0.0132, 0.0055, 0.001), (0.0235, 0.0085, 0.008, 0.0035, 0.0005)],
+                           0.0014, 5))
     robot.mesh("pin", cylinder(0.0052, 0.0185, 0.0008, 20).moved(turned=Z_TO_Y))
 
 
-def finger(robot, name, root, size, last_ratio):
-    """The three phalanges above the link `root`; fingers bend towards x."""
-    parent, up = root, 0
+def finger(robot, name, up, size, last_ratio):
+    """The three phalanges, from `up` above the link NAME_base; they bend towards x."""
+    parent = f"{name}_base"
     for part, length, limits, effort in (("proximal", PROXIMAL, (-0.2, 1.6), 1.2), ("middle", MIDDLE, (0, 1.75), 0.8),
                                          ("distal", DISTAL, (0, 1.4), 0.4)):
         joint = {"proximal": "knuckle", "middle": "middle_bend", "distal": "distal_bend"}[part]
@@ -47,7 +49,7 @@ def finger(robot, name, root, size, last_ratio):
                     effort=effort, velocity=6, damping=0.01, friction=0.005, mimic=follows)
         looks = [Visual(part, "shell", scale=size), Visual("pin", "graphite", scale=size)]
         if part == "distal":
-            looks.append(Visual("pad", "blue", scale=size))
+            looks.append(Visual("tip", "blue", scale=size))
         mass = {"proximal": 0.022, "middle": 0.014, "distal": 0.009}[part] * size
         robot.link(f"{name}_{part}", mass, [Box(0.016 * size, 0.015 * size, length * size, (0, 0, length * size / 2))],
                    looks)
@@ -62,17 +64,18 @@ def robot():
                  {"shell": (0.90, 0.91, 0.92), "graphite": (0.22, 0.24, 0.27), "blue": (0.12, 0.45, 0.75),
                   "accent": (0.95, 0.49, 0.10)})
     meshes(hand)
-    hand.link("palm", 0.38, [Box(0.032, 0.086, 0.085, (0, 0, 0.05)), Cylinder(0.028, 0.045, (0, 0, -0.02))],
+    hand.link("palm", 0.38, [Box(0.032, 0.086, 0.08, (0, 0, 0.05)), Cylinder(0.028, 0.045, (0, 0, -0.02))],
               [Visual("palm", "shell"), Visual("palm_trim", "graphite"), Visual("wrist", "graphite"),
                Visual("wrist_ring", "accent")])
     for name, at, fan, size in FINGERS:
-        hand.joint(f"{name}_spread", "revolute", "palm", f"{name}_base", at, (-fan, 0, 0), (1, 0, 0), (-0.3, 0.3), 0.6, 6,
-                   0.01, 0.005)
+        hand.joint(f"{name}_spread", "revolute", "palm", f"{name}_base", at, (-fan, 0, 0), (1, 0, 0), (-0.3, 0.3),
+                   effort=0.6, velocity=6, damping=0.01, friction=0.005)
         hand.link(f"{name}_base", 0.006, [Cylinder(0.008 * size, 0.016 * size, turned=Z_TO_Y)],
                   [Visual("pin", "graphite", scale=size)])
-        finger(hand, name, f"{name}_base", size, 0.75)
+        finger(hand, name, 0, size, 0.75)
     hand.joint("thumb_opposition", "revolute", "palm", "thumb_base", (0.006, 0.036, 0.028), (-0.75, 0, 0.5), (0, 0, 1),
-               (-0.3, 1.4), 1.2, 6, 0.01, 0.005)
-    hand.link("thumb_base", 0.015, [Cylinder(0.009, 0.018, turned=Z_TO_Y)], [Visual("pin", "graphite", scale=1.2)])
-    finger(hand, "thumb", "thumb_base", 1.05, 0.7)
+               (-0.3, 1.4), effort=1.2, velocity=6, damping=0.01, friction=0.005)
+    hand.link("thumb_base", 0.015, [Cylinder(0.008, 0.026, (0, 0, 0.013))],
+              [Visual("pin", "graphite", scale=1.2), Visual("middle", "graphite", scale=0.95)])
+    finger(hand, "thumb", 0.026, 1.05, 0.7)
     return hand

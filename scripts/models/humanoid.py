@@ -2,7 +2,7 @@
 
 from math import pi
 
-from solid import Z_TO_X, Z_TO_Y, ball, bar, box, circle, cylinder, limb, rectangle, slab
+from solid import Z_TO_X, Z_TO_Y, ball, bar, box, cylinder, limb, rectangle, slab
 from urdf import Box, Cylinder, Robot, Sphere, Visual
 
 HIP = (0, 0.095, -0.09)  # of the left one, from the middle of the pelvis
@@ -114,7 +114,7 @@ def leg(robot, side, sign):
 
 
 def robot():
-    man = Robot("humanoid", ["A humanoid of 25 hinges, 1.6 m tall; x is forward, y to its left, the root is the pelvis.",
+    man = Robot("humanoid", ["A humanoid of 25 hinges, 1.6 m tall; x is forward, the root is the pelvis.",
                              "Legs: hip yaw, roll and pitch (axes cross), knee, ankle pitch and roll (axes cross).",
                              "At zero it stands straight, its soles 0.885 m below the root."],
                 {"white": (0.92, 0.93, 0.94), "graphite": (0.20, 0.22, 0.25), "teal": (0.05, 0.55, 0.56),
@@ -122,7 +122,7 @@ def robot():
     trunk_meshes(man)
     arm_meshes(man)
     leg_meshes(man)
-    man.link("pelvis", 6.5, [Box(0.14, 0.22, 0.13)], [Visual("pelvis", "white")])
+    man.link("pelvis", 6.5, [Box(0.14, 0.22, 0.09, (0, 0, 0.02))], [Visual("pelvis", "white")])
     for side, sign in (("left", 1), ("right", -1)):
         leg(man, side, sign)
     man.joint("waist_yaw", "revolute", "pelvis", "torso", (0, 0, 0.08), axis=(0, 0, 1), limits=(-1.2, 1.2), effort=120,

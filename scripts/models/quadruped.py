@@ -2,7 +2,7 @@
 
 from math import pi
 
-from solid import Z_TO_X, Z_TO_Y, ball, bar, box, circle, cylinder, limb, rectangle, slab
+from solid import Z_TO_X, Z_TO_Y, ball, bar, box, cylinder, limb, rectangle, slab
 from urdf import Box, Cylinder, Robot, Sphere, Visual
 
 HIP = (0.20, 0.06)  # of the front left one: before and beside the middle

@@ -11,7 +11,7 @@ ORIGIN = (0, 0, 0)
 
 def text(*numbers):
     """Six digits are enough for a drawing of a robot; the last zero keeps -0 away."""
-    return " ".join(f"{round(x, 9) + 0.0:.6g}" for x in numbers)
+    return " ".join(f"{round(x, 12) + 0.0:.6g}" for x in numbers)
 
 
 @dataclass

@@ -20,6 +20,8 @@ struct Entry {
   double mass = 0;
 };
 
+void PrintTo(const Entry& entry, std::ostream* out) { *out << entry.file; }
+
 const std::vector<Entry> kData = {{"robots/man.ors", 27, 13.06},
                                   {"robots/arm3.ors", 3, 3.5},
                                   {"robots/pegArm.ors", 3, 0.4},
