@@ -9,9 +9,9 @@ from solid import rotation
 ORIGIN = (0, 0, 0)
 
 
-def text(*numbers):
-    """Six digits are enough for a drawing of a robot; the last zero keeps -0 away."""
-    return " ".join(f"{round(x, 12) + 0.0:.6g}" for x in numbers)
+def text(*numbers, digits=6):
+    """Numbers for the file; adding zero keeps -0 away."""
+    return " ".join(f"{round(x, 12) + 0.0:.{digits}g}" for x in numbers)
 
 
 @dataclass
@@ -95,7 +95,7 @@ def mass_properties(mass, shapes):
 def origin(at, turned):
     if at == ORIGIN and turned == ORIGIN:
         return []
-    turn = f' rpy="{text(*turned)}"' if turned != ORIGIN else ""
+    turn = f' rpy="{text(*turned, digits=10)}"' if turned != ORIGIN else ""
     return [f'<origin xyz="{text(*at)}"{turn}/>']
 
 
@@ -112,7 +112,7 @@ class Robot:
     def painted_mesh(self, name, parts):
         """Parts are pairs (colour, solids)."""
         self.meshes[f"meshes/{name}.obj"] = mesh_file.obj(parts, f"{name}.mtl")
-        self.meshes[f"meshes/{name}.mtl"] = mesh_file.mtl({color: self.colors[color][:3] for color, _ in parts})
+        self.meshes[f"meshes/{name}.mtl"] = mesh_file.mtl({color: self.colors[color] for color, _ in parts})
 
     def part(self, head, content):
         """An element whose content stands on lines of its own."""
