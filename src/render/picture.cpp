@@ -71,9 +71,19 @@ void requireText(const Color& color, double scale, const std::string& thing) {
   require(scale > 0 && scale <= 100, thing, "a strange scale", "above 0, at most 100");
 }
 
+Bounds boundsOfMesh(const Solid& solid) {
+  const bool isSwept = solid.shape.type == ShapeType::kSphereSweptConvex;
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(isSwept ? solid.shape.radius : 0);
+  Bounds box;
+  for (const Eigen::Vector3f& p : solid.shape.mesh.positions()) box.include(solid.X_WS * p.cast<double>());
+  return {box.low - margin, box.high + margin};
+}
+
 }  // namespace
 
 Bounds bounds(const Solid& solid) {
+  // A mesh may lie to one side of its frame, so that a box about the origin would be far too large.
+  if (!solid.shape.mesh.isEmpty() && usesMesh(solid.shape.type)) return boundsOfMesh(solid);
   const Eigen::Vector3d half = solid.X_WS.R.cwiseAbs() * halfBounds(solid.shape);
   Bounds box;
   box.include(solid.X_WS.p - half);

@@ -2,6 +2,7 @@
 
 #include "gallery/figures.h"
 #include "gallery/pictures.h"
+#include "gallery/robots.h"
 #include "render/png.h"
 
 namespace rex::gallery {
@@ -12,6 +13,7 @@ constexpr const char* kIntroduction = R"(# Gallery
 What rex draws, without a screen.
 
 - [tests/gallery/pictures.cpp](../../tests/gallery/pictures.cpp) has the code of each picture,
+- [tests/gallery/robots.cpp](../../tests/gallery/robots.cpp) that of robots and scenes,
 - [tests/gallery/figures.cpp](../../tests/gallery/figures.cpp) that of each figure;
 - `scripts/gallery` draws them again, and a test in [tests/gallery](../../tests/gallery) compares.
 
@@ -19,13 +21,23 @@ Pictures move, too: `scripts/rex render man.ors -o man.mp4` walks around a robot
 you turn it and motions play. `scripts/rex render --help` tells more.
 )";
 
+std::string section(const std::string& title, const std::vector<Drawing>& drawings) {
+  std::string text = "\n## " + title + "\n";
+  for (const Drawing& drawing : drawings)
+    text += "\n### " + drawing.title + "\n\n" + drawing.text + "\n\n![" + drawing.title + "](gallery/" +
+            drawing.name + ".png)\n";
+  return text;
+}
+
 }  // namespace
 
 std::vector<std::string> drawAll(const std::filesystem::path& folder) {
   std::vector<std::string> names;
-  for (const Drawing& drawing : pictures()) {
-    writePng(drawing.draw(), folder / (drawing.name + ".png"));
-    names.push_back(drawing.name);
+  for (const auto& drawings : {pictures(), robotPictures()}) {
+    for (const Drawing& drawing : drawings) {
+      writePng(drawing.draw(), folder / (drawing.name + ".png"));
+      names.push_back(drawing.name);
+    }
   }
   for (const auto& [name, figure] : galleryFigures()) {
     writeFigure(figure, folder / (name + ".png"));
@@ -36,10 +48,7 @@ std::vector<std::string> drawAll(const std::filesystem::path& folder) {
 
 std::string page() {
   std::string text = kIntroduction;
-  text += "\n## Pictures\n";
-  for (const Drawing& drawing : pictures())
-    text += "\n### " + drawing.title + "\n\n" + drawing.text + "\n\n![" + drawing.title + "](gallery/" +
-            drawing.name + ".png)\n";
+  text += section("Pictures", pictures()) + section("Robots and scenes", robotPictures());
   text += "\n## Figures\n";
   for (const auto& [name, figure] : galleryFigures())
     text += "\n### " + figure.title + "\n\n![" + figure.title + "](gallery/" + name + ".png)\n";

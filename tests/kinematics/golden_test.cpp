@@ -92,7 +92,7 @@ TEST_P(GoldenScene, HistoricalFileMatches) {
   compareWithGolden(scene, GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(Course, GoldenScene, testing::Values("man", "pegInAHole", "pegArm"),
+INSTANTIATE_TEST_SUITE_P(Course, GoldenScene, testing::Values("man", "pegInAHole", "pegArm", "arm3"),
                          [](const auto& i) { return i.param; });
 
 }  // namespace

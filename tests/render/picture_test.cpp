@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <limits>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -26,6 +27,18 @@ Picture full() {
   picture.labels.push_back({"here"});
   picture.captions.push_back({"title"});
   return picture;
+}
+
+TEST(PictureBounds, HoldOnlyTheCornersOfAMesh) {
+  const TriangleMesh mesh({{1, 0, 0}, {2, 0, 0}, {2, 0, 3}}, {}, {});
+  Solid solid{.shape = {.type = ShapeType::kPointCloud, .radius = 0.5, .mesh = mesh},
+              .X_WS = {expSO3(Eigen::Vector3d(0, 0, std::numbers::pi / 2)), {0, 0, 1}}};
+  EXPECT_LT((bounds(solid).low - Eigen::Vector3d(0, 1, 1)).norm(), 1e-12);
+  EXPECT_LT((bounds(solid).high - Eigen::Vector3d(0, 2, 4)).norm(), 1e-12);
+  solid.shape.type = ShapeType::kSphereSweptConvex;
+  EXPECT_LT((bounds(solid).low - Eigen::Vector3d(-0.5, 0.5, 0.5)).norm(), 1e-12);
+  solid.shape.mesh = {};
+  EXPECT_LT((bounds(solid).low - Eigen::Vector3d(-0.5, -0.5, 0.5)).norm(), 1e-12);
 }
 
 TEST(PictureBounds, HoldEverythingThatHasAPlace) {

@@ -1,0 +1,153 @@
+#include "gallery/robots.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "kinematics/inverse_kinematics.h"
+#include "kinematics/jacobians.h"
+#include "render/contact_sheet.h"
+#include "render/renderer.h"
+#include "render/scene_picture.h"
+#include "scene/scene_file.h"
+#include "support/paths.h"
+
+namespace rex::gallery {
+namespace {
+
+using Eigen::Vector3d;
+using Posture = std::vector<std::pair<std::string, double>>;
+
+// How a scene is shown: its posture, by the names of joints; which bodies reach for which others; from where.
+struct Portrait {
+  std::string file{};  // below data
+  Posture posture{};
+  std::vector<std::pair<std::string, std::string>> reaching{};
+  Vector3d direction = kDefaultView;
+  double cell = 0.25;  // of the ground
+};
+
+Eigen::VectorXd postureOf(const Model& model, const Portrait& portrait) {
+  Eigen::VectorXd q = model.initialPositions();
+  for (const auto& [name, value] : portrait.posture) {
+    const auto joint = std::find_if(model.joints().begin(), model.joints().end(),
+                                    [&name = name](const Joint& one) { return one.name == name; });
+    if (joint == model.joints().end()) throw Error({.what = portrait.file + ": no joint " + name});
+    q[joint->qIndex] = value;
+  }
+  const auto count = static_cast<Eigen::Index>(portrait.reaching.size());
+  Eigen::MatrixXd J(3 * count, model.nv());
+  Eigen::VectorXd miss(3 * count);
+  for (int step = 0; count > 0 && step < 60; ++step) {
+    const BodyPoses poses = forwardKinematics(model, q);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const auto& [hand, target] = portrait.reaching[static_cast<std::size_t>(i)];
+      J.middleRows(3 * i, 3) = positionJacobian(model, poses, model.body(hand), Vector3d::Zero());
+      miss.segment(3 * i, 3) = poses[model.body(target)].p - poses[model.body(hand)].p;
+    }
+    q += inverseKinematicsStep(J, miss, 0.1);
+  }
+  return q;
+}
+
+Image drawn(const Portrait& portrait, int width = 560, int height = 420) {
+  const Model model = compile(readScene(sourcePath("data") / portrait.file).spec);
+  Picture picture = pictureOf(model, forwardKinematics(model, postureOf(model, portrait)));
+  picture.ground.cell = portrait.cell;
+  // The light comes over the left shoulder of who looks.
+  const Vector3d& d = portrait.direction;
+  picture.toLight = {0.6 * d.x() + 0.7 * d.y(), 0.6 * d.y() - 0.7 * d.x(), 0.9 * d.norm()};
+  return Renderer({.width = width, .height = height})
+      .draw(picture, framing(bounds(picture), d, static_cast<double>(width) / height));
+}
+
+Image courseRobots() {
+  std::vector<KeyFrame> frames;
+  for (const char* name : {"arm3", "pegArm", "pegArm2", "pegInAHole", "arm7", "pin_balancing"}) {
+    const std::string file = name + std::string(".ors");
+    frames.push_back({drawn({.file = "robots/" + file, .cell = 0.5}, 260, 240), file});
+  }
+  return contactSheet(frames);
+}
+
+Posture standing() {
+  Posture posture;
+  for (const std::string leg : {"front_left", "front_right", "rear_left", "rear_right"}) {
+    posture.emplace_back(leg + "_hip_pitch", 0.75);
+    posture.emplace_back(leg + "_knee", -1.5);
+  }
+  return posture;
+}
+
+Posture halfClosed() {
+  Posture posture = {{"thumb_knuckle", 0.3}, {"thumb_opposition", 0.4}, {"thumb_middle_bend", 0.3}};
+  double bend = 0.3;
+  for (const std::string finger : {"index", "middle", "ring", "little"}) {
+    posture.emplace_back(finger + "_knuckle", bend);
+    posture.emplace_back(finger + "_middle_bend", 0.4);
+    bend += 0.06;
+  }
+  return posture;
+}
+
+Posture waving() {
+  return {{"right_shoulder_pitch", -1.2}, {"right_shoulder_roll", -0.5},
+          {"right_elbow", -1.9},          {"left_shoulder_roll", 0.12},
+          {"left_elbow", -0.5},           {"neck_yaw", -0.3},
+          {"left_hip_pitch", -0.35},      {"left_knee", 0.4},
+          {"left_ankle_pitch", -0.05}};
+}
+
+}  // namespace
+
+std::vector<Drawing> robotPictures() {
+  const auto portrait = [](std::string name, std::string title, std::string text, Portrait one) {
+    return Drawing{std::move(name), std::move(title), std::move(text), [one] { return drawn(one); }};
+  };
+  return {
+      {"course-robots", "The arms of the course",
+       "As their files show them, `data/robots/*.ors`: links are capsules, joints are hinges.", courseRobots},
+      portrait("arm7dof", "An arm with seven joints",
+               "`data/robots/arm7dof/arm7dof.urdf` rolls and bends by turns: a link turns about z, the next "
+               "about y.",
+               {.file = "robots/arm7dof/arm7dof.urdf",
+                .posture = {{"shoulder_yaw", -0.6},
+                            {"shoulder_pitch", 0.5},
+                            {"elbow_pitch", 1.2},
+                            {"wrist_pitch", 0.9}},
+                .direction = {1.5, -2, 0.7}}),
+      portrait("balancer", "A robot on two wheels",
+               "`data/robots/balancer/balancer.urdf` falls without control.",
+               {.file = "robots/balancer/balancer.urdf", .direction = {1.5, -1.2, 0.6}}),
+      portrait(
+          "quadruped", "A quadruped",
+          "`data/robots/quadruped/quadruped.urdf`, a dog with three hinges in each leg.",
+          {.file = "robots/quadruped/quadruped.urdf", .posture = standing(), .direction = {1.6, -1.6, 0.6}}),
+      portrait("humanoid", "A humanoid",
+               "`data/robots/humanoid/humanoid.urdf` has 25 hinges and is built to walk: flat feet, and hips "
+               "and ankles whose axes cross.",
+               {.file = "robots/humanoid/humanoid.urdf",
+                .posture = waving(),
+                .direction = {1.9, -1.2, 0.5},
+                .cell = 0.5}),
+      portrait("hand", "A hand",
+               "`data/robots/hand/hand.urdf`: fifteen hinges move it; the last joint of each finger follows "
+               "the one before.",
+               {.file = "robots/hand/hand.urdf",
+                .posture = halfClosed(),
+                .direction = {1.6, 1.2, 0.5},
+                .cell = 0.05}),
+      portrait("table", "The man of the course at a table",
+               "`data/scenes/table.ors` includes the man, moves his targets and adds the table. Inverse "
+               "kinematics has led his hands to the targets.",
+               {.file = "scenes/table.ors",
+                .reaching = {{"handR", "rightTarget"}, {"handL", "leftTarget"}},
+                .direction = {1.6, -1.6, 0.8},
+                .cell = 0.5}),
+      portrait("board", "A planar arm above a board",
+               "`data/scenes/board.ors`, a scene for planners of paths.",
+               {.file = "scenes/board.ors", .direction = {2, -0.9, 0.7}}),
+      portrait("maze", "A cart in four rooms", "`data/scenes/maze.ors`, a scene for planners of paths.",
+               {.file = "scenes/maze.ors", .direction = {-0.9, -1.5, 2.0}, .cell = 0.5})};
+}
+
+}  // namespace rex::gallery
