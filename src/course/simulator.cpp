@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <iostream>
 
 #include <fmt/format.h>
 
@@ -10,10 +11,25 @@
 #include "kinematics/center_of_mass.h"
 #include "kinematics/jacobians.h"
 #include "scene/find_scene.h"
+#include "scene/ors_writer.h"
 #include "scene/scene_file.h"
-#include "scene/scene_meshes.h"
 
 namespace rex {
+namespace {
+
+// The text of the file, or where that needs other files, the scene written anew.
+std::string selfContainedText(const std::filesystem::path& file, const SceneSpec& spec) {
+  std::string text = readSceneText(file);
+  try {
+    static_cast<void>(parseScene(text, file.string()));
+    return text;
+  } catch (const Error&) {
+    return writeOrs(spec);
+  }
+}
+
+}  // namespace
+
 struct Simulator::Parts {
   std::string sceneName, sceneText;
   Model model;
@@ -24,10 +40,13 @@ struct Simulator::Parts {
 
 Simulator::Simulator(const std::string& sceneFile) {
   const std::filesystem::path path = findScene(sceneFile, REX_DATA_DIR);
-  const std::string text = readSceneText(path);
-  SceneFile scene = parseScene(text, sceneFile);
-  loadMeshes(scene, Assets(path));
-  start({.sceneName = sceneFile, .sceneText = text, .q = {}}, compile(scene.spec));
+  SceneFile scene = readScene(path);
+  for (const Diagnostic& one : scene.notes)
+    if (one.severity == Severity::kWarning) std::cerr << toString(one) << "\n";
+  const bool hasEnding = std::filesystem::path(sceneFile).has_extension();
+  scene.spec.name = hasEnding ? sceneFile : path.filename().string();
+  start({.sceneName = scene.spec.name, .sceneText = selfContainedText(path, scene.spec), .q = {}},
+        compile(scene.spec));
 }
 
 // The text may come from another process, whose files are none of ours: meshes stay away.

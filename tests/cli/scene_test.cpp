@@ -1,4 +1,5 @@
 // `rex scene` as a user meets it.
+#include <algorithm>
 #include <fstream>
 
 #include <gmock/gmock.h>
@@ -150,6 +151,30 @@ TEST_F(SceneCommand, RenderDrawsChosenShapes) {
   EXPECT_EQ(readPng(in("visible.png")), readPng(in("plain.png")));
 }
 
+TEST_F(SceneCommand, ConvertWritesBothFormats) {
+  ASSERT_EQ(scene({"man", "convert", "made/man.urdf"}).output, "made/man.urdf\n");
+  const ProcessResult back = scene({"made/man.urdf", "convert", "man.ors"});
+  ASSERT_EQ(back.exitCode, 0) << back.error;
+  const std::string q =
+      "0.1,0.2,0.3,0.1,0.2,0.3,0.1,0.2,0.3,0.1,0.2,0.3,0.1,0.2,0.3,0.1,0.2,0.3,0.1,0.2,0.3,0.1,0.2,0.3,"
+      "0.1,0.2,0.3";
+  const json before = jsonOf({"man", "fk", "--q", q}), after = jsonOf({"man.ors", "fk", "--q", q});
+  for (const json& body : before["bodies"]) {
+    const auto same = std::find_if(after["bodies"].begin(), after["bodies"].end(),
+                                   [&](const json& one) { return one["name"] == body["name"]; });
+    ASSERT_NE(same, after["bodies"].end()) << body["name"];
+    for (int i = 0; i < 3; ++i)
+      EXPECT_NEAR((*same)["pos"][i].get<double>(), body["pos"][i].get<double>(), 1e-12) << body["name"];
+  }
+  EXPECT_NEAR(jsonOf({"man.ors"})["mass"].get<double>(), jsonOf({"man"})["mass"].get<double>(), 1e-12);
+}
+
+TEST_F(SceneCommand, ConvertTakesMeshesAlong) {
+  ASSERT_EQ(scene({"hand", "convert", "here/hand.ors", "--assets", REX_SOURCE_DIR}).exitCode, 0);
+  EXPECT_THAT(fileText(in("here/hand.ors")), HasSubstr(".stl'"));
+  EXPECT_EQ(scene({"here/hand.ors", "info", "--assets", "/"}).exitCode, 0);
+}
+
 TEST_F(SceneCommand, SaysWhatIsUsedWrongly) {
   const auto expectRefusal = [&](const std::vector<std::string>& arguments, const std::string& text) {
     const ProcessResult result = scene(arguments);
@@ -166,6 +191,12 @@ TEST_F(SceneCommand, SaysWhatIsUsedWrongly) {
                 "--point: found 1 numbers, wanted three");
   expectRefusal({"arm.ors", "render", "--shapes", "contacts", "-o", "a.png"},
                 "--shapes: found 'contacts', wanted visible, contact or all (did you mean 'contact'?)");
+  expectRefusal(
+      {"arm.ors", "convert", "arm.udrf"},
+      "cannot write 'arm.udrf': found the ending '.udrf', wanted .ors or .urdf (did you mean '.urdf'?)");
+  expectRefusal({"arm.ors", "convert", "arm"}, "cannot write 'arm': found no ending");
+  std::ofstream(in("ball.ors")) << "body a {} body b {}\njoint (a b) { type=quatBall }";
+  expectRefusal({"ball.ors", "convert", "ball.urdf"}, "ball.ors:2:1: joint 'a>b'");
   std::ofstream(in("bad.ors")) << "body a {";
   expectRefusal({"bad.ors"}, "bad.ors:1:8: '{' is never closed");
 }

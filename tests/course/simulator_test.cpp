@@ -56,6 +56,28 @@ TEST_F(SimulatorTest, LoadsTheMeshesOfAFileButNotThoseOfADescription) {
   EXPECT_NO_THROW(Simulator(S.description()));
 }
 
+TEST_F(SimulatorTest, LoadsUrdfByName) {
+  const Simulator S("quadruped");
+  EXPECT_EQ(S.getJointDimension(), 12);
+  EXPECT_EQ(Simulator(S.description()).kinematicsPos("front_left_foot"), S.kinematicsPos("front_left_foot"));
+}
+
+TEST_F(SimulatorTest, DescribesScenesOfSeveralFiles) {
+  std::ofstream(in("post.ors")) << "body post { X=<T t(0 0 2)> }";
+  std::ofstream(in("scene.ors"))
+      << "Include='post.ors'\nbody arm {}\njoint (post arm) { A=<T t(0 0 .5)> q=.3 }";
+  const Simulator S(in("scene.ors")), copy(S.description());
+  EXPECT_EQ(copy.kinematicsPos("arm"), Eigen::Vector3d(0, 0, 2.5));
+  EXPECT_EQ(copy.getJointAngles(), S.getJointAngles());
+}
+
+TEST_F(SimulatorTest, PrintsWarningsOfTheReader) {
+  std::ofstream(in("scene.ors")) << "body arm { mas=2 }";
+  testing::internal::CaptureStderr();
+  const Simulator S(in("scene.ors"));
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), testing::HasSubstr("scene.ors:1:12: warning: "));
+}
+
 // The lecture's numbers for exercise 3.2: |y - y*| after full steps and after steps of a tenth.
 TEST_F(SimulatorTest, ReproducesTheTaskErrorsOfTheCourse) {
   const Eigen::Vector3d target(-.2, -.4, 1.1);
