@@ -7,6 +7,7 @@
 #include "scene/ors_files_internal.h"
 #include "scene/ors_graph_internal.h"
 #include "scene/ors_limits_internal.h"
+#include "scene/ors_merger_internal.h"
 #include "scene/ors_node_list_internal.h"
 #include "scene/ors_values_internal.h"
 
@@ -208,8 +209,7 @@ class Parser {
     if (const bool* value = std::get_if<bool>(&node.value); !value || !*value)
       Cursor::failAt(node.valueWhere, "Delete", describe(node.value), "only the words of a statement");
     if (list.erase(std::span(node.keys).subspan(1)) > 0) return;
-    std::string words;
-    for (std::size_t i = 1; i < node.keys.size(); ++i) words += (i > 1 ? " " : "") + node.keys[i].text;
+    const std::string words = joinedKeys(node).substr(node.keys[0].text.size() + 1);
     scene_.document.notes.push_back(
         {node.where, fmt::format("nothing to delete: no earlier statement has the words '{}'", words),
          Severity::kWarning});

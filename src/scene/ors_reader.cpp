@@ -76,6 +76,8 @@ class Reader {
   }
 
   SceneFile read(const ors::Graph& graph) {
+    firstOfName_.reserve(graph.size());
+    bodyOfNode_.reserve(graph.size());
     for (const Node& node : graph) {
       if (node.keys.empty()) {
         fail(node.where, "a value without a name", ors::describe(node.value),

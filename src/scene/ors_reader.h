@@ -4,12 +4,13 @@
 
 namespace rex {
 
-/// Reads an .ors scene and its meshes. Throws Error with file:line:column, what, found and wanted: file
-/// missing or over 32 MiB, syntax, unknown parent, wrong kind of value, bad sizes; and as loadMeshes().
+/// Reads an .ors scene, the files it includes, and its meshes; share/doc/ors-format.md tells all. Throws
+/// Error with file:line:column, what, found and wanted: a file that is missing or outside the asset root,
+/// syntax, unknown names, wrong kinds of values, more than the limits allow; and as loadMeshes().
 [[nodiscard]] SceneFile readOrs(const std::filesystem::path& file, const ReadOptions& options = {});
 
 /// The same for text at hand; `name` stands for the file in messages. Reads no file: shapes know their mesh
-/// by name only.
+/// by name only, and an Include is an Error.
 [[nodiscard]] SceneFile parseOrs(std::string_view text, const std::string& name);
 
 }  // namespace rex

@@ -79,6 +79,13 @@ void compareWithGolden(const std::filesystem::path& scene, const std::string& na
     compareConfiguration(model, golden, configuration);
 }
 
+// Of this one there is no file of our own.
+TEST(Golden, HistoricalArmMatches) {
+  if (!std::filesystem::exists(sharedPath("data/ors/arm3.ors")))
+    GTEST_SKIP() << "the sample scenes of the historical course are not here";
+  compareWithGolden(sharedPath("data/ors/arm3.ors"), "arm3");
+}
+
 class GoldenScene : public testing::TestWithParam<std::string> {};
 
 TEST_P(GoldenScene, OwnFileMatches) {
