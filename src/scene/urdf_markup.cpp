@@ -56,7 +56,7 @@ void Markup::origin(const Pose& X) {
   empty("origin", {{"xyz", numeral(X.p)}, {"rpy", numeral(rollPitchYawFromRotation(X.R))}});
 }
 
-void Markup::line(const char* tag, Attributes attributes, const char* end) {
+void Markup::line(const char* tag, const Attributes& attributes, const char* end) {
   text += fmt::format("{:{}}<{}", "", 2 * depth_, tag);
   for (const auto& [name, value] : attributes)
     if (!value.empty()) text += fmt::format(" {}=\"{}\"", name, escaped(value));

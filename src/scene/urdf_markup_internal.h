@@ -1,9 +1,9 @@
 #pragma once
 
-#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -18,18 +18,18 @@ namespace rex::urdf {
 /// XML as it is written: tags in order, indented by their depth. Attributes without a value are left out.
 class Markup {
  public:
-  using Attributes = std::initializer_list<std::pair<const char*, std::string>>;
+  using Attributes = std::vector<std::pair<const char*, std::string>>;
 
-  void open(const char* tag, Attributes attributes = {}) { line(tag, attributes, ">"), ++depth_; }
+  void open(const char* tag, const Attributes& attributes = {}) { line(tag, attributes, ">"), ++depth_; }
   void close(const char* tag);
-  void empty(const char* tag, Attributes attributes) { line(tag, attributes, "/>"); }
+  void empty(const char* tag, const Attributes& attributes) { line(tag, attributes, "/>"); }
   /// <origin>, unless it is the identity.
   void origin(const Pose& X);
 
   std::string text = "<?xml version=\"1.0\"?>\n";
 
  private:
-  void line(const char* tag, Attributes attributes, const char* end);
+  void line(const char* tag, const Attributes& attributes, const char* end);
   std::size_t depth_ = 0;
 };
 

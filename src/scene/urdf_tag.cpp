@@ -99,24 +99,24 @@ SourceLocation Tag::where(const char* attribute) const {
 
 void Tag::expect(const Known& known) const {
   const xml::Document& document = reading_->document;
+  Notes& notes = reading_->notes;
+  const auto noteUnknown = [&](std::uint32_t at, const std::string& what, const std::string& name,
+                               const std::vector<std::string>& names) {
+    if (notes.isFull()) return notes.warn({}, {});  // is only counted
+    warn(document.where(at), fmt::format("unknown {} is ignored{}", what, guess(name, names)));
+  };
   for (const xml::Attribute& attribute : element_->attributes) {
     if (belongsToXml(attribute.name) || contains(known.attributes, attribute.name)) continue;
-    if (reading_->notes.isFull()) {
-      reading_->notes.warn({}, "");
-      continue;
-    }
-    warn(document.where(attribute.at), fmt::format("unknown attribute '{}' is ignored{}", attribute.name,
-                                                   guess(attribute.name, known.attributes)));
+    noteUnknown(attribute.at, fmt::format("attribute '{}'", attribute.name), attribute.name,
+                known.attributes);
   }
   for (const xml::Element& element : element_->children) {
     if (contains(known.children, element.name)) continue;
+    const std::string tag = fmt::format("<{}>", element.name);
     if (contains(known.ignoredChildren, element.name)) {
-      reading_->notes.ignore(document.where(element.at), fmt::format("<{}>", element.name));
-    } else if (reading_->notes.isFull()) {
-      reading_->notes.warn({}, "");
+      notes.ignore(document.where(element.at), tag);
     } else {
-      warn(document.where(element.at),
-           fmt::format("unknown tag <{}> is ignored{}", element.name, guess(element.name, known.children)));
+      noteUnknown(element.at, "tag " + tag, element.name, known.children);
     }
   }
   if (element_->textAt) warn(document.where(*element_->textAt), "text is ignored");

@@ -33,6 +33,7 @@ class Notes {
   std::map<std::string, Ignored> ignored_;
 };
 
+/// A file that is being read, and what was noticed in it.
 struct Reading {
   const xml::Document& document;
   Notes notes{};

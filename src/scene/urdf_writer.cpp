@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <unordered_map>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -37,6 +39,13 @@ void requireNames(const Things& things, const char* kind) {
              "a name of its own" + (place.empty() ? "" : fmt::format(": the first stands at {}", place))});
   }
 }
+
+// A solid as URDF has them, in the frame of the shape.
+struct Solid {
+  Pose X_SG;
+  const char* tag;
+  Markup::Attributes sizes;
+};
 
 class Writer {
  public:
@@ -106,58 +115,70 @@ class Writer {
   void writeShape(const ShapeSpec& shape, const std::string& owner) {
     const std::string name = shape.name.empty() ? owner : shape.name;
     if (!shape.visible && !shape.contact)
-      losses_.add("shapes neither drawn nor touched are left out", name, shape.where);
-    for (const bool visible : {true, false})
-      if (visible ? shape.visible : shape.contact)
-        writeSolids(shape, name, owner, visible ? "visual" : "collision");
+      return losses_.add("shapes neither drawn nor touched are left out", name, shape.where);
+    const std::vector<Solid> solids = solidsOf(shape, name);
+    for (const char* tag : {"visual", "collision"}) {
+      const bool visible = tag == std::string_view("visual");
+      if (!(visible ? shape.visible : shape.contact)) continue;
+      for (const Solid& solid : solids) {
+        markup_.open(tag, {{"name", name == owner ? "" : name}});
+        markup_.origin(shape.X_BS * solid.X_SG);
+        markup_.open("geometry");
+        markup_.empty(solid.tag, solid.sizes);
+        markup_.close("geometry");
+        if (visible) writeMaterial(shape.color);
+        markup_.close(tag);
+      }
+    }
   }
 
-  void writeSolids(const ShapeSpec& shape, const std::string& name, const std::string& owner,
-                   const char* tag) {
+  // What URDF has for a shape.
+  std::vector<Solid> solidsOf(const ShapeSpec& shape, const std::string& name) {
     const Shape& s = shape.shape;
     const auto lose = [&](const char* kind) { losses_.add(kind, name, shape.where); };
-    const auto solid = [&](const Pose& X_SG, const char* kind, Markup::Attributes sizes) {
-      markup_.open(tag, {{"name", name == owner ? "" : name}});
-      markup_.origin(shape.X_BS * X_SG);
-      markup_.open("geometry");
-      markup_.empty(kind, sizes);
-      markup_.close("geometry");
-      if (tag == std::string("visual")) writeMaterial(shape.color);
-      markup_.close(tag);
+    const auto leaveOut = [&](const char* kind) {
+      lose(kind);
+      return std::vector<Solid>{};
     };
     const std::string radius = numeral(s.radius), length = numeral(s.extent.z());
-    const bool isRound = s.radius > 0, isLong = s.extent.z() > 0;
+    const Pose top = translation(0, 0, s.extent.z() / 2), bottom = top.inverse();
+    if (!hasSize(s)) return leaveOut("shapes without size are left out");
     switch (s.type) {
       case ShapeType::kRoundedBox:
         lose("rounded boxes became boxes");
         [[fallthrough]];
       case ShapeType::kBox:
-        if (!(s.extent.minCoeff() > 0)) return lose("shapes without size are left out");
-        return solid({}, "box", {{"size", numeral(s.extent)}});
+        return {{{}, "box", {{"size", numeral(s.extent)}}}};
       case ShapeType::kSphere:
-        if (!isRound) return lose("shapes without size are left out");
-        return solid({}, "sphere", {{"radius", radius}});
+        return {{{}, "sphere", {{"radius", radius}}}};
       case ShapeType::kCylinder:
-        if (!isRound || !isLong) return lose("shapes without size are left out");
-        return solid({}, "cylinder", {{"radius", radius}, {"length", length}});
+        return {{{}, "cylinder", {{"radius", radius}, {"length", length}}}};
       case ShapeType::kCapsule:
-        if (!isRound) return lose("shapes without size are left out");
         lose("capsules became cylinders and spheres");
-        if (isLong) solid({}, "cylinder", {{"radius", radius}, {"length", length}});
-        if (isLong) solid(translation(0, 0, s.extent.z() / 2), "sphere", {{"radius", radius}});
-        return solid(translation(0, 0, -s.extent.z() / 2), "sphere", {{"radius", radius}});
+        if (s.extent.z() == 0) return {{{}, "sphere", {{"radius", radius}}}};
+        return {{{}, "cylinder", {{"radius", radius}, {"length", length}}},
+                {top, "sphere", {{"radius", radius}}},
+                {bottom, "sphere", {{"radius", radius}}}};
       case ShapeType::kSphereSweptConvex:
         lose("sphere-swept meshes became meshes");
         [[fallthrough]];
       case ShapeType::kMesh:
         if (shape.meshFile.empty() && shape.meshPath.empty())
-          return lose("meshes without a file are left out");
-        return solid({}, "mesh", {{"filename", fileOf(shape)}, {"scale", numeral(shape.meshScale)}});
+          return leaveOut("meshes without a file are left out");
+        return {{{}, "mesh", {{"filename", fileOf(shape)}, {"scale", numeral(shape.meshScale)}}}};
       case ShapeType::kMarker:
-        return lose("markers are left out");
+        return leaveOut("markers are left out");
       case ShapeType::kPointCloud:
-        return lose("point clouds are left out");
+        return leaveOut("point clouds are left out");
     }
+    return {};
+  }
+
+  static bool hasSize(const Shape& s) {
+    if (s.type == ShapeType::kBox || s.type == ShapeType::kRoundedBox) return s.extent.minCoeff() > 0;
+    if (s.type == ShapeType::kCylinder) return s.radius > 0 && s.extent.z() > 0;
+    if (s.type == ShapeType::kSphere || s.type == ShapeType::kCapsule) return s.radius > 0;
+    return true;
   }
 
   std::string fileOf(const ShapeSpec& shape) const {
@@ -204,7 +225,7 @@ class Writer {
     if (!isRigid) writeLimit(joint);
     if (!isRigid && (joint.damping != 0 || joint.friction != 0))
       markup_.empty("dynamics", {{"damping", numeral(joint.damping)}, {"friction", numeral(joint.friction)}});
-    if (!joint.mimic.empty())
+    if (!isRigid && !joint.mimic.empty())
       markup_.empty("mimic", {{"joint", joint.mimic},
                               {"multiplier", numeral(joint.mimicRatio)},
                               {"offset", numeral(joint.mimicOffset)}});

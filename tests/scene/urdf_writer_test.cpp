@@ -247,6 +247,21 @@ TEST(UrdfWriter, FindsFreeNames) {
   EXPECT_EQ(model.bodies().size(), 7u);  // world, four of ours, two of the chain
 }
 
+TEST(UrdfWriter, BuildsCapsulesOfThreeSolids) {
+  const SceneSpec spec =
+      parseOrs("body a { type=2 size=[0 0 1 .1] contact }\nbody b { type=2 size=[0 0 0 .1] }", "f").spec;
+  const SceneSpec read = again(spec);
+  const std::vector<ShapeSpec>& shapes = read.bodies.at(0).shapes;
+  ASSERT_EQ(shapes.size(), 6u);
+  EXPECT_EQ(shapes[0].shape.type, ShapeType::kCylinder);
+  EXPECT_EQ(shapes[0].shape.extent.z(), 1);
+  EXPECT_EQ(shapes[1].shape.radius, .1);
+  EXPECT_EQ(shapes[1].X_BS.p.z(), .5);
+  EXPECT_EQ(shapes[2].X_BS.p.z(), -.5);
+  EXPECT_TRUE(shapes[5].contact && !shapes[5].visible);
+  EXPECT_EQ(read.bodies.at(1).shapes.size(), 1u);
+}
+
 TEST(UrdfWriter, NamesMeshesRelativeToTheFolder) {
   const TemporaryFolder folder;
   ShapeSpec shape{.name = "s", .X_BS = {}, .shape = {.type = ShapeType::kMesh}};
@@ -270,6 +285,7 @@ TEST(UrdfWriter, NotesWhatUrdfCannotSay) {
   };
   EXPECT_EQ(shape("type=9 size=[1 1 1 .1]"), Notes{"rounded boxes became boxes: 'a'"});
   EXPECT_EQ(shape("type=2 size=[0 0 1 .1]"), Notes{"capsules became cylinders and spheres: 'a'"});
+  EXPECT_EQ(shape("type=2 size=[0 0 1 .1] contact"), Notes{"capsules became cylinders and spheres: 'a'"});
   EXPECT_EQ(shape("type=5 size=[1 1 1 0]"), Notes{"markers are left out: 'a'"});
   EXPECT_EQ(shape("type=7 mesh='a.obj'"), Notes{"point clouds are left out: 'a'"});
   EXPECT_EQ(shape("type=8 mesh='a.obj'"), Notes{"sphere-swept meshes became meshes: 'a'"});
