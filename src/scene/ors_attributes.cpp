@@ -55,8 +55,9 @@ const Node* Attributes::find(std::string_view name) const {
 
 bool Attributes::flag(std::string_view name) const {
   if (const Node* attribute = find(name)) {
-    const bool* value = std::get_if<bool>(&attribute->value);
-    return !value || *value;
+    if (const bool* value = std::get_if<bool>(&attribute->value)) return *value;
+    const double* number = std::get_if<double>(&attribute->value);
+    return !number || *number != 0 || attribute->keys.size() > 1;
   }
   for (std::size_t i = 1; i + 1 < node_.keys.size(); ++i)
     if (node_.keys[i].text == name) return true;

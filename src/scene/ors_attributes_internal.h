@@ -30,8 +30,8 @@ class Attributes {
   const Node* find(std::string_view name) const;
   bool has(std::string_view name) const { return find(name) != nullptr; }
 
-  /// `contact`, `contact=true` or a key that shares another's value: true. `contact!`, `contact=false`:
-  /// false. So is a word between role and name: `body fixed post {...}`.
+  /// `contact`, `contact=true`, `contact=1` or a key that shares another's value: true. `contact!`,
+  /// `contact=false`, `contact=0`: false. True is also a word between role and name: `body fixed post {...}`.
   bool flag(std::string_view name) const;
   std::optional<double> number(std::string_view name) const;
   /// A number >= 0.

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "geometry/rotation.h"
@@ -79,8 +81,11 @@ void readStart(const Attributes& attributes, JointSpec& joint) {
   if (Q) joint.q0 = jointCoordinates(joint.type, joint.axis, *Q);
   if (const auto q = attributes.row("q", {positionCount(joint.type)})) {
     const bool hasQuaternion = joint.type == JointType::kBall || joint.type == JointType::kFree;
-    if (hasQuaternion && q->tail<4>().isZero(0))
-      attributes.fail("q", "the quaternion (0, 0, 0, 0)", "a quaternion w x y z that is not zero");
+    const double length = hasQuaternion ? q->tail<4>().norm() : 1;
+    if (!(length > 0) || !std::isfinite(length)) {
+      attributes.fail("q", fmt::format("a quaternion of length {}", length),
+                      "a quaternion w x y z that can be normalised");
+    }
     joint.q0 = *q;
   }
 }

@@ -18,6 +18,12 @@ std::string joined(const Eigen::Ref<const Eigen::VectorXd>& values) {
   return text;
 }
 
+// The same number without the last digits, if those come from rounding only.
+double neat(double value) {
+  const double rounded = std::round(value * 1e9) / 1e9;
+  return std::abs(rounded - value) <= kExact ? rounded : value;
+}
+
 // The turn about one coordinate axis, if R is one; in round degrees if they do.
 std::optional<std::string> degreesText(const Eigen::Matrix3d& R) {
   constexpr double kDegree = std::numbers::pi / 180;
@@ -52,7 +58,8 @@ std::string arrayText(const Eigen::Ref<const Eigen::VectorXd>& values) { return 
 
 std::string poseText(const Pose& X) {
   std::string text = "<T";
-  if (!X.p.isZero(0)) text += " t(" + joined(X.p) + ")";
+  const Eigen::Vector3d p = X.p.unaryExpr(&neat);
+  if (!p.isZero(0)) text += " t(" + joined(p) + ")";
   if (!isApprox({X.R, {0, 0, 0}}, Pose{}, kExact))
     text += " " + degreesText(X.R).value_or(quaternionText(X.R));
   return text + ">";

@@ -15,8 +15,8 @@ namespace rex::ors {
 /// "[1 2 3]".
 [[nodiscard]] std::string arrayText(const Eigen::Ref<const Eigen::VectorXd>& values);
 
-/// "<T t(0 0 1) d(90 1 0 0)>". A turn about a coordinate axis is written in degrees, as people do, if that
-/// is exact to 1e-15; all others as a quaternion, the shortest form that is exact near every rotation.
+/// "<T t(0 0 1) d(90 1 0 0)>", exact to some 1e-15. A turn about a coordinate axis is written in degrees, as
+/// people do, any other as a quaternion, which is exact near every rotation.
 [[nodiscard]] std::string poseText(const Pose& X);
 
 }  // namespace rex::ors

@@ -7,10 +7,10 @@
 
 namespace rex {
 
-/// The scene as .ors text that readOrs() reads back: same tree, numbers to the last digit, rotations to some
-/// 1e-15. Meshes that were found are named relative to `folder`, where the text shall lie; without a folder
-/// as they are called in the spec. Throws Error, naming the thing, for a name that the format has no words
-/// for and for a mesh that is in no file.
+/// The scene as .ors text that readOrs() reads back: same tree, poses to some 1e-15, other numbers to the
+/// last digit. Meshes that were found are named relative to `folder`, where the text shall lie; without a
+/// folder as they are called in the spec. Throws Error, naming the thing, for a name that the format has no
+/// words for and for a mesh that is in no file.
 [[nodiscard]] std::string writeOrs(const SceneSpec& spec, const std::filesystem::path& folder = {});
 
 }  // namespace rex

@@ -184,8 +184,8 @@ constexpr Row kErrors[] = {
     {"body a {}\nbody b {}\njoint j (a b) { type=universal q=@1@ }", "[1 0]",
      "joint 'j': attribute 'q': found the number 1, wanted an array of 2 numbers"},
     {"body a {}\nbody b {}\njoint j (a b) { type=quatBall q=@[0 0 0 0]@ }", "[1 0 0 0]",
-     "joint 'j': attribute 'q': found the quaternion (0, 0, 0, 0), wanted a quaternion w x y z that is not "
-     "zero"},
+     "joint 'j': attribute 'q': found a quaternion of length 0, wanted a quaternion w x y z that can be "
+     "normalised"},
     {"body a {}\nbody b {}\njoint j (a b) { mimic=@3@ }\nbody c {}\njoint three (a c) {}", "three",
      "joint 'j': attribute 'mimic': found the number 3, wanted the name of a joint"},
     // the tree

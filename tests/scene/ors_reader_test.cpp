@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "base/rng.h"
 #include "scene/model.h"
 #include "support/expect_error.h"
 #include "support/paths.h"
@@ -38,6 +39,9 @@ TEST(OrsReader, ReadsABody) {
 TEST(OrsReader, HonoursFlagsAndSharedKeys) {
   EXPECT_EQ(read("body a { fixed! }").bodies[0].kind, BodyKind::kDynamic);
   EXPECT_EQ(read("body a { fixed=false }").bodies[0].kind, BodyKind::kDynamic);
+  EXPECT_EQ(read("body a { fixed=0 }").bodies[0].kind, BodyKind::kDynamic);
+  EXPECT_EQ(read("body a { fixed=1 }").bodies[0].kind, BodyKind::kStatic);
+  EXPECT_EQ(read("body a { fixed mass=0 }").bodies[0].kind, BodyKind::kStatic);  // two names, one value
   EXPECT_EQ(read("body a { kinematic }").bodies[0].kind, BodyKind::kKinematic);
   EXPECT_EQ(read("body a { dyntype=2 }").bodies[0].kind, BodyKind::kStatic);
   const ShapeSpec shape = read("body a { type=1 contact color=[0 1 0] }").bodies[0].shapes[0];
@@ -175,6 +179,36 @@ TEST(OrsReader, LeavesOutNotesWhenThereAreTooMany) {
   const Diagnostics notes = parseOrs(text, "f").notes;
   ASSERT_EQ(notes.size(), 1001u);
   EXPECT_EQ(toString(notes.back()), "f:334:18: note: further notes are left out");
+}
+
+// Whatever is done to a scene, it is read or refused with a place.
+TEST(OrsReader, SurvivesDamagedScenes) {
+  const std::string good =
+      "body a { X=<T t(0 0 1) d(90 1 0 0)> type=2 size=[1 1 1 .1] mass=1 inertia=[1 1 1] }\n"
+      "body b { com=[0 0 1] dyntype=1 }\nshape s (-1) { type=ST_mesh mesh='m.obj' contact color=[1 0 0] }\n"
+      "joint j (a b) { type=free q=[0 0 0 1 0 0 0] limits=[-1 1 -1 1 -1 1 -1 1 -1 1 -1 1 -1 1] }\n"
+      "body c {}\njoint k (b c) { axis=[0 0 1] q=.1 }\nbody d {}\njoint (-3 d) { mimic=k mimic_ratio=2 }\n"
+      "ChDir='x'\nEdit body a { mass=2 size=[1 2 3] }\nDelete shape s\n";
+  EXPECT_EQ(compile(read(good)).nq(), 8);
+  Rng rng(1);
+  int refused = 0;
+  for (int i = 0; i < 20000; ++i) {
+    std::string text = good;
+    for (int k = rng.index(4); k >= 0; --k) {
+      const auto from = static_cast<std::size_t>(rng.index(static_cast<int>(good.size())));
+      const auto to = static_cast<std::size_t>(rng.index(static_cast<int>(text.size())));
+      text.replace(to, static_cast<std::size_t>(rng.index(4)),
+                   good.substr(from, static_cast<std::size_t>(rng.index(9))));
+    }
+    try {
+      static_cast<void>(compile(read(text)));
+    } catch (const Error& error) {
+      ++refused;
+      ASSERT_TRUE(std::string_view(error.what()).starts_with("f:")) << error.what() << "\n" << text;
+    }
+  }
+  EXPECT_GT(refused, 1000);
+  EXPECT_LT(refused, 19000);
 }
 
 TEST(OrsReader, SaysWhichFileIsMissing) {

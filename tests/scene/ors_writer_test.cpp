@@ -153,6 +153,8 @@ TEST(OrsWriter, WritesPosesAsShortAsTheyAreExact) {
   using ors::poseText;
   EXPECT_EQ(poseText({}), "<T>");
   EXPECT_EQ(poseText(translation(1, -0.0, .1)), "<T t(1 0 0.1)>");
+  EXPECT_EQ(poseText(translation(.1 + .2, 3e-18, 1e300)), "<T t(0.3 0 1e+300)>");
+  EXPECT_EQ(poseText(translation(1e-8, 1. / 3, 0)), "<T t(1e-08 0.3333333333333333 0)>");
   EXPECT_EQ(poseText(rotation(std::numbers::pi / 2, {1, 0, 0})), "<T d(90 1 0 0)>");
   EXPECT_EQ(poseText(rotation(std::numbers::pi, {0, 0, 2})), "<T d(180 0 0 1)>");
   EXPECT_EQ(poseText(rotation(-std::numbers::pi / 6, {0, 1, 0})), "<T d(-30 0 1 0)>");
