@@ -398,7 +398,7 @@ SceneFile parseOrs(std::string_view text, const std::string& name) {
 
 SceneFile readOrs(const std::filesystem::path& file, const ReadOptions& options) {
   SceneFile scene = parseOrs(readSceneText(file), file.string());
-  loadMeshes(scene, Assets(file, options.assetRoot));
+  loadMeshes(scene, Assets(file, options.assetRoot), options.allowMissingMeshes);
   return scene;
 }
 
