@@ -134,7 +134,9 @@ class Qhull {
  public:
   Qhull() { qh_zero(&qh_, errors_); }
   ~Qhull() {
-    qh_freeqhull(&qh_, qh_ALL);
+    int leftBlocks = 0, leftBytes = 0;
+    qh_freeqhull(&qh_, !qh_ALL);
+    qh_memfreeshort(&qh_, &leftBlocks, &leftBytes);
     std::fclose(errors_);
     std::free(text_);
   }
