@@ -36,6 +36,7 @@ struct Shape {
   Eigen::Vector3d extent = Eigen::Vector3d::Ones();
   double radius = 0;
   TriangleMesh mesh{};
+  TriangleMesh hull{};  ///< convex hull of `mesh`, of shapes in contact; see loadMeshes()
 };
 
 /// Half edge lengths of the smallest box about the origin and along the axes of the shape that holds it.

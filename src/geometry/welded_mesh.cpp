@@ -148,6 +148,7 @@ TriangleMesh weldedMesh(const std::vector<Vector3f>& positions, const std::vecto
   if (enclosedVolume(places.positions, faces) < 0 && isClosed(faces)) turnInsideOut(faces);
 
   constexpr float kSame = 1e-8f;
+  const double leastCosine = std::cos(creaseAngle);
   std::vector<Vector3f> vertices, normals;
   std::vector<Triangle> kept(faces.size());
   const auto corners = cornersAtPlaces(places.positions.size(), faces);
@@ -156,7 +157,7 @@ TriangleMesh weldedMesh(const std::vector<Vector3f>& positions, const std::vecto
     const bool isFan = corners[place].size() > kMostMeeting;
     for (const Corner& corner : corners[place]) {
       const Vector3f normal = isFan ? Vector3f(faces[corner.face].normal.cast<float>())
-                                    : normalAt(corner, corners[place], faces, std::cos(creaseAngle));
+                                    : normalAt(corner, corners[place], faces, leastCosine);
       std::size_t vertex = isFan ? normals.size() : first;
       while (vertex < normals.size() && (normals[vertex] - normal).squaredNorm() > kSame) ++vertex;
       if (vertex == normals.size()) {

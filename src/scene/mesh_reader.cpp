@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <fstream>
-#include <iterator>
 #include <span>
 
 #include <Eigen/LU>
@@ -13,10 +11,11 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "base/error.h"
 #include "geometry/welded_mesh.h"
+#include "scene/mesh_folder_internal.h"
+#include "scene/mesh_limits_internal.h"
 
 namespace rex {
 namespace {
@@ -25,19 +24,9 @@ namespace fs = std::filesystem;
 using Eigen::Matrix4d;
 using Index = std::uint32_t;
 
-const std::vector<std::string> kEndings = {".stl", ".obj", ".ply", ".dae", ".gltf", ".glb", ".off"};
-
-[[noreturn]] void fail(const fs::path& file, std::string what, std::string found, std::string wanted = "",
+[[noreturn]] void fail(const std::string& name, std::string what, std::string found, std::string wanted = "",
                        std::vector<std::string> nearest = {}) {
-  throw Error(
-      {std::move(what), {.file = file.string()}, std::move(found), std::move(wanted), std::move(nearest)});
-}
-
-std::string endingOf(const fs::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; });
-  return ending;
+  throw Error({std::move(what), {.file = name}, std::move(found), std::move(wanted), std::move(nearest)});
 }
 
 std::vector<std::string> namesBeside(const fs::path& file) {
@@ -62,90 +51,27 @@ std::string whyUnreadable(const fs::path& file) {
   }
 }
 
-void requireReadable(const fs::path& file, const Eigen::Vector3d& scale) {
-  constexpr std::uintmax_t kLargestFile = 256u << 20;
-  if (!scale.allFinite() || (scale.array() == 0).any())
-    fail(file, "scale of the mesh", fmt::format("({}, {}, {})", scale.x(), scale.y(), scale.z()),
-         "finite numbers other than 0");
-  const std::string ending = endingOf(file);
-  if (std::find(kEndings.begin(), kEndings.end(), ending) == kEndings.end())
-    fail(file, "not a kind of mesh file that rex reads",
-         ending.empty() ? "no ending" : fmt::format("'{}'", ending),
-         fmt::format("{}", fmt::join(kEndings, ", ")), nearestNames(ending, kEndings));
+std::string readBytes(const fs::path& file) {
   if (const std::string obstacle = whyUnreadable(file); !obstacle.empty())
-    fail(file, "cannot read the mesh file", obstacle, "a file",
+    fail(file.string(), "cannot read the mesh file", obstacle, "a file",
          nearestNames(file.filename().string(), namesBeside(file)));
   std::error_code problem;
   const std::uintmax_t size = fs::file_size(file, problem);
-  if (size > kLargestFile)
-    fail(file, "mesh file too large", fmt::format("{} bytes", size), "at most 256 MiB");
-}
-
-// The JSON of a glTF file; of a binary one, its first part.
-std::string_view jsonOf(std::string_view bytes, bool binary) {
-  constexpr std::size_t kHead = 20;
-  if (!binary || bytes.size() < kHead) return bytes;
-  std::uint32_t length = 0;
-  std::memcpy(&length, bytes.data() + 12, sizeof(length));
-  return bytes.substr(kHead, length);
-}
-
-// How deep the text of a file is nested at most.
-struct Depth {
-  std::size_t brackets = 0;
-  std::size_t nodes = 0;
-};
-
-// Of glTF nodes it counts all that have others below them, which stand side by side in the text.
-Depth depthOfJson(std::string_view json) {
-  Depth depth;
-  std::size_t open = 0;
-  for (std::size_t i = 0; i < json.size(); ++i) {
-    if (json[i] == '{' || json[i] == '[') depth.brackets = std::max(depth.brackets, ++open);
-    if ((json[i] == '}' || json[i] == ']') && open > 0) --open;
-    if (json[i] != '"') continue;
-    const std::size_t start = ++i;
-    while (i < json.size() && json[i] != '"') i += json[i] == '\\' ? 2 : 1;
-    if (json.substr(start, i - start) == "children") ++depth.nodes;
-  }
-  return depth;
-}
-
-Depth depthOfCollada(std::string_view xml) {
-  Depth depth;
-  std::size_t open = 0;
-  for (std::size_t at = xml.find('<'); at < xml.size(); at = xml.find('<', at)) {
-    const std::string_view tag = xml.substr(at, xml.find('>', at) - at);
-    at += tag.size();
-    if (tag.starts_with("</node")) open -= open > 0 ? 1 : 0;
-    if (tag.starts_with("<node") && !tag.ends_with('/')) depth.nodes = std::max(depth.nodes, ++open);
-  }
-  return depth;
-}
-
-// assimp follows brackets and nodes by recursion, and deep ones to the end of the stack.
-void requireShallow(const fs::path& file) {
-  constexpr std::size_t kMostBrackets = 100, kMostNodes = 5'000;
-  const std::string ending = endingOf(file);
-  if (ending != ".gltf" && ending != ".glb" && ending != ".dae") return;
+  mesh::requireSize(size, file.string());
+  std::string bytes(size, '\0');
   std::ifstream stream(file, std::ios::binary);
-  const std::string bytes(std::istreambuf_iterator<char>(stream), {});
-  const Depth depth = ending == ".dae" ? depthOfCollada(bytes) : depthOfJson(jsonOf(bytes, ending == ".glb"));
-  if (depth.brackets > kMostBrackets)
-    fail(file, "mesh file", fmt::format("{} brackets in each other", depth.brackets),
-         fmt::format("at most {}", kMostBrackets));
-  if (depth.nodes > kMostNodes)
-    fail(file, "mesh file", fmt::format("{} nodes below each other", depth.nodes),
-         fmt::format("at most {}", kMostNodes));
+  stream.read(bytes.data(), static_cast<std::streamsize>(size));
+  if (!stream) fail(file.string(), "cannot read the mesh file", "no way to open it", "a file");
+  return bytes;
 }
 
 // assimp's own work on a mesh trusts its indices.
-void requireIndices(const fs::path& file, const aiScene& scene) {
+void requireIndices(const std::string& name, const aiScene& scene) {
   for (const aiMesh* mesh : std::span(scene.mMeshes, scene.mNumMeshes))
     for (const aiFace& face : std::span(mesh->mFaces, mesh->mNumFaces))
       for (const unsigned corner : std::span(face.mIndices, face.mNumIndices))
         if (corner >= mesh->mNumVertices)
-          fail(file, "mesh", fmt::format("a face with corner {}", corner),
+          fail(name, "mesh", fmt::format("a face with corner {}", corner),
                fmt::format("indices below {}, the number of vertices", mesh->mNumVertices));
 }
 
@@ -176,31 +102,38 @@ Matrix4d matrixOf(const aiMatrix4x4& m) {
   return matrix;
 }
 
+// To z up, from y up: that is glTF's way, and assimp's for DAE, where it has turned what points elsewhere.
+Matrix4d fromYUp() {
+  Matrix4d turn;
+  turn << 1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1;
+  return turn;
+}
+
 // All meshes of a file, as its nodes place them, in one.
 class Collector {
  public:
-  Collector(const fs::path& file, const aiScene& scene, const Eigen::Vector3d& scale)
-      : file_(file), scene_(scene), scale_(scale) {
-    const std::string ending = endingOf(file);
+  Collector(const std::string& name, const aiScene& scene, const Eigen::Vector3d& scale)
+      : name_(name), scene_(scene), scale_(scale) {
+    const std::string ending = mesh::endingOf(name);
     linearLight_ = ending == ".gltf" || ending == ".glb";
-    addNodes();
+    addNodes(linearLight_ || ending == ".dae" ? fromYUp() : Matrix4d(Matrix4d::Identity()));
   }
 
   TriangleMesh mesh() && {
-    if (positions_.empty()) fail(file_, "mesh", "no vertices", "some");
+    if (positions_.empty()) fail(name_, "mesh", "no vertices", "some");
     if (triangles_.empty()) return {std::move(positions_), {}, {}};
     TriangleMesh mesh = weldedMesh(positions_, triangles_, parts_);
     if (mesh.isEmpty())
-      fail(file_, "mesh", fmt::format("{} triangles, none of which has an area", triangles_.size()),
+      fail(name_, "mesh", fmt::format("{} triangles, none of which has an area", triangles_.size()),
            "a surface");
     return mesh;
   }
 
  private:
   // Each node before its children, without recursion: a chain may be thousands long.
-  void addNodes() {
+  void addNodes(const Matrix4d& top) {
     std::vector<std::pair<const aiNode*, Matrix4d>> waiting;  // with the place of the parent
-    if (scene_.mRootNode != nullptr) waiting.emplace_back(scene_.mRootNode, Matrix4d::Identity());
+    if (scene_.mRootNode != nullptr) waiting.emplace_back(scene_.mRootNode, top);
     while (!waiting.empty()) {
       const auto [node, parent] = waiting.back();
       waiting.pop_back();
@@ -211,10 +144,10 @@ class Collector {
   }
 
   void addMesh(const aiMesh& mesh, const Matrix4d& placed) {
-    constexpr std::size_t kMost = 10'000'000;
     const std::size_t first = positions_.size();
-    if (first + mesh.mNumVertices > 3 * kMost || triangles_.size() + mesh.mNumFaces > kMost)
-      fail(file_, "mesh too large", "more than ten million triangles", "fewer");
+    if (first + mesh.mNumVertices > mesh::kMostVertices ||
+        triangles_.size() + mesh.mNumFaces > mesh::kMostTriangles)
+      fail(name_, "mesh too large", "more than two million triangles", "fewer");
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) addVertex(mesh.mVertices[i], placed);
     TriangleMesh::Part part{.color = colorOf(*scene_.mMaterials[mesh.mMaterialIndex], linearLight_),
                             .firstTriangle = static_cast<Index>(triangles_.size())};
@@ -232,15 +165,14 @@ class Collector {
   }
 
   void addVertex(const aiVector3D& v, const Matrix4d& placed) {
-    constexpr double kLargest = 1e9;
     const Eigen::Vector3d p = scale_.cwiseProduct((placed * Eigen::Vector4d(v.x, v.y, v.z, 1)).head<3>());
-    if (!p.allFinite() || p.cwiseAbs().maxCoeff() > kLargest)
-      fail(file_, "mesh", fmt::format("vertex {} at ({}, {}, {})", positions_.size(), p.x(), p.y(), p.z()),
-           "finite numbers up to 1e9");
+    if (!p.allFinite() || p.cwiseAbs().maxCoeff() > mesh::kLargestCoordinate)
+      fail(name_, "mesh", fmt::format("vertex {} at ({}, {}, {})", positions_.size(), p.x(), p.y(), p.z()),
+           "finite numbers up to 1e6");
     positions_.push_back(p.cast<float>());
   }
 
-  const fs::path& file_;
+  const std::string& name_;
   const aiScene& scene_;
   Eigen::Vector3d scale_;
   bool linearLight_;  // glTF counts colours in light, all others as a screen shows them
@@ -249,19 +181,40 @@ class Collector {
   std::vector<TriangleMesh::Part> parts_;
 };
 
+// A file in `folder`, which it may name others of.
+TriangleMesh meshOf(std::string_view bytes, const std::string& name, const Eigen::Vector3d& scale,
+                    const fs::path& folder) {
+  mesh::requireSize(bytes.size(), name);
+  mesh::requireHarmless(bytes, name);
+  const std::string alias = "mesh" + mesh::endingOf(name);
+  Assimp::Importer importer;
+  importer.SetIOHandler(new mesh::MeshFolder(alias, bytes, folder));  // which deletes it
+  const aiScene* scene = importer.ReadFile(alias, 0);
+  if (scene != nullptr) {
+    requireIndices(name, *scene);
+    scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
+  }
+  if (scene == nullptr) fail(name, "cannot read the mesh file", importer.GetErrorString(), "a mesh");
+  return Collector(name, *scene, scale).mesh();
+}
+
+void requireScale(const Eigen::Vector3d& scale, const std::string& name) {
+  if (!scale.allFinite() || (scale.array() == 0).any())
+    fail(name, "scale of the mesh", fmt::format("({}, {}, {})", scale.x(), scale.y(), scale.z()),
+         "finite numbers other than 0");
+}
+
 }  // namespace
 
 TriangleMesh readMesh(const fs::path& file, const Eigen::Vector3d& scale) {
-  requireReadable(file, scale);
-  requireShallow(file);
-  Assimp::Importer importer;
-  const aiScene* scene = importer.ReadFile(file.string(), 0);
-  if (scene != nullptr) {
-    requireIndices(file, *scene);
-    scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
-  }
-  if (scene == nullptr) fail(file, "cannot read the mesh file", importer.GetErrorString(), "a mesh");
-  return Collector(file, *scene, scale).mesh();
+  requireScale(scale, file.string());
+  static_cast<void>(mesh::largestFile(file.string()));  // the ending first, then the file
+  return meshOf(readBytes(file), file.string(), scale, file.has_parent_path() ? file.parent_path() : ".");
+}
+
+TriangleMesh parseMesh(std::string_view bytes, const std::string& name, const Eigen::Vector3d& scale) {
+  requireScale(scale, name);
+  return meshOf(bytes, name, scale, {});
 }
 
 }  // namespace rex

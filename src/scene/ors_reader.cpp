@@ -235,7 +235,7 @@ SceneFile parseOrs(std::string_view text, const std::string& name) { return read
 SceneFile readOrs(const std::filesystem::path& file, const ReadOptions& options) {
   const Assets assets(file, options.assetRoot);
   SceneFile scene = read(readSceneText(file), file.string(), &assets);
-  loadMeshes(scene, assets);
+  loadMeshes(scene, assets, options.allowMissingMeshes);
   return scene;
 }
 

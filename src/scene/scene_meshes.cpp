@@ -1,10 +1,12 @@
 #include "scene/scene_meshes.h"
 
 #include <array>
+#include <deque>
 #include <map>
 
 #include <fmt/format.h>
 
+#include "geometry/convex_hull.h"
 #include "scene/mesh_reader.h"
 
 namespace rex {
@@ -12,16 +14,23 @@ namespace {
 
 class Loader {
  public:
-  explicit Loader(const Assets& assets) : assets_(assets) {}
+  Loader(const Assets& assets, bool allowMissing, Diagnostics& notes)
+      : assets_(assets), allowMissing_(allowMissing), notes_(notes) {}
 
   void load(ShapeSpec& shape) {
-    if (!usesMesh(shape.shape.type) || !shape.shape.mesh.isEmpty()) return;
+    if (!usesMesh(shape.shape.type)) return;
+    if (shape.shape.mesh.isEmpty()) readMeshOf(shape);
+    if (shape.contact) shape.shape.hull = hullOf(shape.shape.mesh);
+  }
+
+ private:
+  void readMeshOf(ShapeSpec& shape) {
     const std::string thing = fmt::format("shape '{}'", shape.name);
     if (shape.meshFile.empty())
       throw Error({.what = thing + ": attribute 'mesh' is missing",
                    .where = shape.where,
                    .wanted = "the file of its mesh, in single quotes"});
-    shape.meshPath = assets_.find(shape.meshFile, shape.where, thing + ": mesh");
+    if (!find(shape, thing + ": mesh")) return;
     try {
       shape.shape.mesh = read(shape.meshPath, shape.meshScale);
     } catch (const Error& error) {
@@ -32,7 +41,31 @@ class Loader {
     }
   }
 
- private:
+  // Whether the file is there; if not, and that may be, a marker takes the place of the shape.
+  bool find(ShapeSpec& shape, const std::string& what) {
+    constexpr double kMarkerSize = 0.1;
+    try {
+      shape.meshPath = assets_.find(shape.meshFile, shape.where, what);
+      return true;
+    } catch (const Error& error) {
+      if (!allowMissing_) throw;
+      ErrorParts parts = error.parts();
+      parts.where = {};
+      notes_.push_back(
+          {shape.where, fmt::format("{}; a marker stands for it", Error(parts).what()), Severity::kWarning});
+      shape.shape = {.type = ShapeType::kMarker, .extent = Eigen::Vector3d::Constant(kMarkerSize)};
+      shape.contact = false;
+      return false;
+    }
+  }
+
+  // Shapes with the same mesh share its hull.
+  const TriangleMesh& hullOf(const TriangleMesh& mesh) {
+    for (const auto& [known, hull] : hulls_)
+      if (known == mesh) return hull;
+    return hulls_.emplace_back(mesh, convexHull(mesh)).second;
+  }
+
   // Shapes with the same file share its mesh.
   const TriangleMesh& read(const std::filesystem::path& file, const Eigen::Vector3d& scale) {
     const Key key(file.string(), {scale.x(), scale.y(), scale.z()});
@@ -42,13 +75,16 @@ class Loader {
 
   using Key = std::pair<std::string, std::array<double, 3>>;
   const Assets& assets_;
+  bool allowMissing_;
+  Diagnostics& notes_;
   std::map<Key, TriangleMesh> read_;
+  std::deque<std::pair<TriangleMesh, TriangleMesh>> hulls_;
 };
 
 }  // namespace
 
-void loadMeshes(SceneFile& scene, const Assets& assets) {
-  Loader loader(assets);
+void loadMeshes(SceneFile& scene, const Assets& assets, bool allowMissing) {
+  Loader loader(assets, allowMissing, scene.notes);
   for (ShapeSpec& shape : scene.spec.worldShapes) loader.load(shape);
   for (BodySpec& body : scene.spec.bodies)
     for (ShapeSpec& shape : body.shapes) loader.load(shape);

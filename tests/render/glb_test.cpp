@@ -16,6 +16,7 @@
 
 #include "base/rng.h"
 #include "render/glb_mesh_internal.h"
+#include "scene/mesh_reader.h"
 #include "support/expect_error.h"
 #include "support/file_text.h"
 #include "support/fresh_folder.h"
@@ -287,6 +288,19 @@ TEST(Glb, HasASurfaceForEachShape) {
     expectSurface(file, node, halfBounds(shape));
     EXPECT_NEAR(volume(file, node), wanted, 0.05 * wanted);
   }
+}
+
+TEST(Glb, IsReadBackAsItStood) {
+  const fs::path file = freshFolder("glb_read_back") / "box.glb";
+  Picture picture;
+  picture.ground.visible = false;
+  picture.solids = {{{ShapeType::kBox, {0.2, 0.4, 0.6}, 0}, translation(1, 2, 3)}};
+  writeGlb(filmOfOne(picture), file);
+  const TriangleMesh mesh = readMesh(file);
+  Eigen::Vector3f low = mesh.positions()[0], high = low;
+  for (const Eigen::Vector3f& p : mesh.positions()) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  EXPECT_LT((low - Eigen::Vector3f(0.9f, 1.8f, 2.7f)).norm(), 1e-6f);
+  EXPECT_LT((high - Eigen::Vector3f(1.1f, 2.2f, 3.3f)).norm(), 1e-6f);
 }
 
 TEST(Glb, StoresEqualShapesOnce) {

@@ -131,6 +131,70 @@ std::string base64(const std::string& bytes) {
   return text;
 }
 
+// A tetrahedron with edges of 1, 2 and 3 along x, y and z of the file.
+std::string collada(const std::string& asset) {
+  return R"(<?xml version="1.0"?><COLLADA version="1.4.1"><asset>)" + asset +
+         R"(</asset><library_geometries><geometry id="g"><mesh>
+    <source id="p"><float_array id="a" count="12">0 0 0 1 0 0 0 2 0 0 0 3</float_array><technique_common>
+    <accessor source="#a" count="4" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+    <param name="Z" type="float"/></accessor></technique_common></source>
+    <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+    <triangles count="4"><input semantic="VERTEX" source="#v" offset="0"/><p>0 2 1 0 1 3 1 2 3 0 3 2</p>
+    </triangles></mesh></geometry></library_geometries><library_visual_scenes><visual_scene id="s"><node>
+    <instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
+    <scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
+}
+
+TEST_F(MeshReader, RespectsUnitsAndUpwardAxisOfCollada) {
+  struct Case {
+    const char* asset;
+    double metre;
+    Eigen::Matrix3f turn;  // columns: where x, y and z of the file point
+  };
+  Eigen::Matrix3f xUp, yUp;
+  xUp << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+  yUp << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  const Eigen::Matrix3f zUp = Eigen::Matrix3f::Identity();
+  for (const Case& c : {Case{"<up_axis>Z_UP</up_axis>", 1, zUp},
+                        Case{"<unit meter='0.001'/><up_axis>Z_UP</up_axis>", 0.001, zUp},
+                        Case{"<unit meter='0.0254' name='inch'/><up_axis>Y_UP</up_axis>", 0.0254, yUp},
+                        Case{"", 1, yUp}, Case{"<up_axis>X_UP</up_axis>", 1, xUp}}) {
+    const TriangleMesh mesh = parseMesh(collada(c.asset), "edges.dae");
+    EXPECT_NEAR(volumeOf(mesh) / std::pow(c.metre, 3), 1, 1e-5) << c.asset;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vector3f tip = c.turn.col(axis) * static_cast<float>((axis + 1) * c.metre);
+      EXPECT_TRUE(std::any_of(mesh.positions().begin(), mesh.positions().end(),
+                              [&](const Vector3f& p) { return (p - tip).norm() < 1e-5 * c.metre; }))
+          << c.asset << ": " << tip.transpose();
+    }
+  }
+}
+
+TEST_F(MeshReader, TakesOtherKindsAsTheyStand) {
+  EXPECT_EQ(parseMesh("v 0 0 0\nv 1 0 0\nv 0 2 3\nf 1 2 3\n", "a.obj").halfBounds(),
+            Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(parseMesh("OFF\n3 1 3\n0 0 0\n1 0 0\n0 2 3\n3 0 1 2\n", "a.off").halfBounds(),
+            Eigen::Vector3d(1, 2, 3));
+}
+
+TEST_F(MeshReader, SeesOnlyFilesOfItsFolder) {
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n";
+  fs::create_directories(folder_.path() / "meshes/deeper");
+  for (const char* name : {"secret.mtl", "meshes/near.mtl", "meshes/deeper/far.mtl"})
+    write(name, "newmtl red\nKd 1 0 0\n");
+  fs::create_symlink("../secret.mtl", folder_.path() / "meshes/link.mtl");
+  const auto isRed = [&](const std::string& library) {
+    const auto color =
+        readMesh(write("meshes/a.obj", "mtllib " + library + "\n" + triangle)).parts()[0].color;
+    return color && color->isApprox(Eigen::Vector4f(1, 0, 0, 1));
+  };
+  EXPECT_TRUE(isRed("near.mtl"));
+  EXPECT_TRUE(isRed("deeper/far.mtl"));
+  EXPECT_FALSE(isRed("../secret.mtl"));
+  EXPECT_FALSE(isRed("link.mtl"));
+  EXPECT_FALSE(isRed((folder_.path() / "secret.mtl").string()));
+}
+
 // A tetrahedron, mirrored in x and moved by nested nodes.
 TEST_F(MeshReader, PlacesTheNodesOfGltf) {
   const std::array<float, 12> positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -150,7 +214,8 @@ TEST_F(MeshReader, PlacesTheNodesOfGltf) {
                   {"bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR"}]})";
   const TriangleMesh mesh = readMesh(write("tetrahedron.gltf", text));
   EXPECT_NEAR(volumeOf(mesh), 2. / 6, 1e-6) << "not inside out, though mirrored";
-  EXPECT_EQ(mesh.halfBounds(), Eigen::Vector3d(2, 1, 6));
+  EXPECT_EQ(mesh.halfBounds(), Eigen::Vector3d(2, 6, 1)) << "y is up in the file, z here";
+  EXPECT_EQ(readMesh(folder_.path() / "tetrahedron.gltf", {1, 1, 2}).halfBounds(), Eigen::Vector3d(2, 6, 2));
   ASSERT_TRUE(mesh.parts()[0].color.has_value());
   EXPECT_LT((*mesh.parts()[0].color - Eigen::Vector4f(1, 0.5019608f, 0, 1)).norm(), 1e-4f)
       << "linear light becomes sRGB";
@@ -187,13 +252,14 @@ TEST_F(MeshReader, NamesWhatIsWrong) {
   EXPECT_REX_ERROR(readMesh(write("nan.stl",
                                   "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 nan\n"
                                   "vertex 0 1 0\nendloop\nendfacet\nendsolid x\n")),
-                   "nan.stl: mesh: found vertex 1 at (nan, nan, nan), wanted finite numbers up to 1e9");
-  EXPECT_REX_ERROR(readMesh(good, Eigen::Vector3d::Constant(2e9)),
-                   "tetrahedron.off: mesh: found vertex 1 at (2000000000, 0, 0)");
+                   "nan.stl: mesh: found vertex 1 at (nan, nan, nan), wanted finite numbers up to 1e6");
+  EXPECT_REX_ERROR(readMesh(good, Eigen::Vector3d::Constant(2e6)),
+                   "tetrahedron.off: mesh: found vertex 1 at (2000000, 0, 0)");
   std::error_code problem;
-  fs::resize_file(write("large.stl", "x"), (256u << 20) + 1, problem);
+  fs::resize_file(write("large.stl", "x"), (32u << 20) + 1, problem);
   EXPECT_REX_ERROR(readMesh(folder_.path() / "large.stl"),
-                   "large.stl: mesh file too large: found 268435457 bytes, wanted at most 256 MiB");
+                   "large.stl: mesh file too large: found 33554433 bytes, wanted at most 32 MiB");
+  EXPECT_REX_ERROR(parseMesh(std::string((16u << 20) + 1, ' '), "large.obj"), "wanted at most 16 MiB");
 }
 
 TEST_F(MeshReader, RefusesIndicesOfNoVertex) {
@@ -236,7 +302,7 @@ std::string chain(int length) {
 
 TEST_F(MeshReader, RefusesDeepGltf) {
   const TriangleMesh mesh = readMesh(write("deep.gltf", gltf(chain(5'001), 1)));
-  EXPECT_NEAR(mesh.halfBounds().z(), 5, 1e-3);
+  EXPECT_NEAR(mesh.halfBounds().y(), 5, 1e-3);
   EXPECT_REX_ERROR(readMesh(write("deeper.gltf", gltf(chain(50'001), 1))),
                    "deeper.gltf: mesh file: found 50000 nodes below each other, wanted at most 5000");
   std::string binary(20, ' ');
@@ -264,8 +330,23 @@ TEST_F(MeshReader, RefusesMoreThanItCanHold) {
   for (int i = 2; i <= 101; ++i) nodes += ", " + std::to_string(i);
   nodes += "]}";
   for (int i = 1; i <= 101; ++i) nodes += R"(, {"mesh": 0})";
-  EXPECT_REX_ERROR(readMesh(write("many.gltf", gltf(nodes, 100'000))),
-                   "many.gltf: mesh too large: found more than ten million triangles, wanted fewer");
+  EXPECT_REX_ERROR(readMesh(write("many.gltf", gltf(nodes, 20'000))),
+                   "many.gltf: mesh too large: found more than two million triangles, wanted fewer");
+  std::string text = gltf("{}", 1);
+  const std::size_t count = text.find("\"count\": 3");
+  EXPECT_REX_ERROR(parseMesh(text.replace(count, 10, "\"count\": 9000000"), "claims.gltf"),
+                   "claims.gltf: mesh too large: found a count of 6000001, wanted at most 2100000");
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nend_header\n0\n";
+  EXPECT_REX_ERROR(parseMesh(ply, "claims.ply"),
+                   "claims.ply: mesh too large: found a count of 4000000000, wanted at most 2100000");
+  EXPECT_REX_ERROR(parseMesh("OFF # 1\n8 99999999999999999999 1\n", "claims.off"), "mesh too large");
+  EXPECT_REX_ERROR(parseMesh("<COLLADA><float_array count=\"7000000\">", "claims.dae"),
+                   "found a count of 7000000, wanted at most 6000000");
+  std::string groups;
+  for (int i = 0; i <= 10'000; ++i) groups += "g\n";
+  EXPECT_REX_ERROR(parseMesh(groups, "groups.obj"),
+                   "groups.obj: mesh file: found 10001 materials, groups and objects, wanted at most 10000");
 }
 
 }  // namespace

@@ -69,6 +69,44 @@ TEST_F(SceneMeshes, AreNamesOnlyInText) {
   EXPECT_EQ(compile(spec).shapes().size(), 1u);
 }
 
+TEST_F(SceneMeshes, HaveHullsWhereTheyCollide) {
+  const SceneSpec spec = readOrs(scene("body a { type=3 mesh='meshes/pyramid.off' contact }\n"
+                                       "shape (a) { type=3 mesh='meshes/pyramid.off' contact }\n"
+                                       "shape (a) { type=3 mesh='meshes/pyramid.off' }"))
+                             .spec;
+  const auto& shapes = spec.bodies[0].shapes;
+  EXPECT_EQ(shapes[0].shape.hull.positions().size(), 5u);
+  EXPECT_EQ(shapes[0].shape.hull.triangles().size(), 6u);
+  EXPECT_EQ(shapes[0].shape.hull, shapes[1].shape.hull) << "one mesh has one hull";
+  EXPECT_TRUE(shapes[2].shape.hull.isEmpty());
+  EXPECT_EQ(halfBounds(shapes[0].shape), halfBounds(shapes[2].shape));
+}
+
+TEST_F(SceneMeshes, ThatAreMissingMayBecomeMarkers) {
+  const SceneFile file = readOrs(scene("body a { type=3 mesh='meshes/pyramit.off' contact size=[1 1 1 .3] }\n"
+                                       "shape (a) { type=3 mesh='meshes/pyramid.off' }"),
+                                 {.allowMissingMeshes = true});
+  const ShapeSpec& shape = file.spec.bodies[0].shapes[0];
+  EXPECT_EQ(shape.shape.type, ShapeType::kMarker);
+  EXPECT_EQ(shape.shape.extent, Eigen::Vector3d::Constant(0.1));
+  EXPECT_FALSE(shape.contact);
+  EXPECT_EQ(shape.meshFile, "meshes/pyramit.off");
+  EXPECT_EQ(file.spec.bodies[0].shapes[1].shape.type, ShapeType::kMesh);
+  ASSERT_EQ(file.notes.size(), 1u);
+  EXPECT_EQ(file.notes[0].severity, Severity::kWarning);
+  EXPECT_EQ(toString(file.notes[0]),
+            (folder_.path() / "scene.ors").string() + ":1:1: warning: shape 'a': mesh: found no file " +
+                "'meshes/pyramit.off', wanted one of " + (folder_.path() / "meshes/pyramit.off").string() +
+                " (did you mean 'pyramid.off'?); a marker stands for it");
+  EXPECT_EQ(compile(file.spec).shapes().size(), 2u);
+}
+
+TEST_F(SceneMeshes, ThatAreBrokenAreNeverMarkers) {
+  std::ofstream(folder_.path() / "meshes/broken.off") << "OFF\n0 0 0\n";
+  EXPECT_REX_ERROR(readOrs(scene("body a { type=3 mesh='meshes/broken.off' }"), {.allowMissingMeshes = true}),
+                   "shape 'a': mesh '");
+}
+
 TEST_F(SceneMeshes, ThatAreMissingAreNamedWithTheirPlace) {
   EXPECT_REX_ERROR(readOrs(scene("body a {}\nshape hat (a) { type=3 mesh='meshes/pyramit.off' }")),
                    "scene.ors:2:1: shape 'hat': mesh: found no file 'meshes/pyramit.off', wanted one of " +

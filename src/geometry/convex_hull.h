@@ -1,0 +1,19 @@
+#pragma once
+
+#include <span>
+
+#include "geometry/triangle_mesh.h"
+
+namespace rex {
+
+/// The convex hull of points: a closed surface of outward triangles whose vertices are extreme points, each
+/// once; normals are averages over the triangles at a vertex. The same points in the same order give the same
+/// hull. What is thinner than a ten-millionth of its size counts as flat and gives a polygon with both its
+/// sides, a straight line its two ends, a single place one point, the last two without triangles. No points
+/// give nothing. Throws Error for a number that is not finite.
+[[nodiscard]] TriangleMesh convexHull(std::span<const Eigen::Vector3f> points);
+
+/// The hull of all positions of a mesh.
+[[nodiscard]] TriangleMesh convexHull(const TriangleMesh& mesh);
+
+}  // namespace rex

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include <assimp/IOSystem.hpp>
+
+namespace rex::mesh {
+
+/// All that assimp gets to see of the disk: the mesh file, whose bytes are at hand, under a name of our own,
+/// and for reading the files in its folder or below, links followed. Without a folder there is nothing else.
+class MeshFolder : public Assimp::IOSystem {
+ public:
+  /// Neither name nor bytes are copied.
+  MeshFolder(const std::string& name, std::string_view bytes, std::filesystem::path folder)
+      : name_(name), bytes_(bytes), folder_(std::move(folder)) {}
+
+  bool Exists(const char* name) const override;
+  char getOsSeparator() const override { return '/'; }
+  Assimp::IOStream* Open(const char* name, const char* mode) override;
+  void Close(Assimp::IOStream* stream) override;
+
+ private:
+  [[nodiscard]] std::filesystem::path find(const char* name) const;
+
+  const std::string& name_;
+  std::string_view bytes_;
+  std::filesystem::path folder_;
+};
+
+}  // namespace rex::mesh

@@ -1,0 +1,203 @@
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "scene/mesh_limits_internal.h"
+
+namespace rex::mesh {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::size_t kMostNodesDeep = 5'000;
+constexpr int kMostBrackets = 100;
+
+struct Kind {
+  const char* ending;
+  std::size_t mostMiB;
+};
+constexpr Kind kKinds[] = {{".stl", 32},  {".obj", 16}, {".ply", 32}, {".dae", 16},
+                           {".gltf", 16}, {".glb", 32}, {".off", 16}};
+
+[[noreturn]] void fail(const std::string& name, std::string what, std::string found, std::string wanted = "",
+                       std::vector<std::string> nearest = {}) {
+  throw Error({std::move(what), {.file = name}, std::move(found), std::move(wanted), std::move(nearest)});
+}
+
+void requireCount(std::size_t count, const std::string& name, std::size_t most = kMostVertices) {
+  if (count > most)
+    fail(name, "mesh too large", fmt::format("a count of {}", count), fmt::format("at most {}", most));
+}
+
+void requireNodes(std::size_t deep, const std::string& name) {
+  if (deep > kMostNodesDeep)
+    fail(name, "mesh file", fmt::format("{} nodes below each other", deep),
+         fmt::format("at most {}", kMostNodesDeep));
+}
+
+// The whole number at the begin of a text; 0 without, and as many as there can be for one that is too large.
+std::size_t numberAt(std::string_view text) {
+  std::size_t number = 0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return problem == std::errc::result_out_of_range ? ~std::size_t{0} : number;
+}
+
+std::string_view nextWord(std::string_view& text) {
+  constexpr const char* kSpace = " \t\r\n\f\v";
+  text.remove_prefix(std::min(text.find_first_not_of(kSpace), text.size()));
+  const std::string_view word = text.substr(0, text.find_first_of(kSpace));
+  text.remove_prefix(word.size());
+  return word;
+}
+
+// assimp looks through all materials and groups for each that it meets.
+void checkObj(std::string_view bytes, const std::string& name) {
+  constexpr std::size_t kMostGroups = 10'000;
+  std::size_t groups = 0;
+  for (std::size_t line = 0; line < bytes.size();
+       line = bytes.find('\n', line), line += line < bytes.size()) {
+    const std::size_t word = bytes.find_first_not_of(" \t", line);
+    if (word < bytes.size() && (bytes[word] == 'g' || bytes[word] == 'o' || bytes[word] == 'u')) ++groups;
+  }
+  if (groups > kMostGroups)
+    fail(name, "mesh file", fmt::format("{} materials, groups and objects", groups),
+         fmt::format("at most {}", kMostGroups));
+}
+
+// "element vertex 8": the words before end_header that are numbers, and stand where a count may.
+void checkPly(std::string_view bytes, const std::string& name) {
+  std::string_view words = bytes.substr(0, bytes.find("end_header"));
+  while (!words.empty())
+    if (nextWord(words) == "element") {
+      nextWord(words);
+      requireCount(numberAt(nextWord(words)), name);
+    }
+}
+
+// The counts are the first numbers that are not part of a comment.
+void checkOff(std::string_view bytes, const std::string& name) {
+  int numbers = 0;
+  while (!bytes.empty() && numbers < 3) {
+    const std::string_view word = nextWord(bytes);
+    if (word.starts_with('#')) {
+      bytes.remove_prefix(std::min(bytes.find('\n'), bytes.size()));
+    } else if (!word.empty() && word[0] >= '0' && word[0] <= '9') {
+      requireCount(numberAt(word), name);
+      ++numbers;
+    }
+  }
+}
+
+void checkCollada(std::string_view xml, const std::string& name) {
+  constexpr std::string_view kCount = "count=";
+  std::size_t open = 0;
+  for (std::size_t at = xml.find('<'); at < xml.size(); at = xml.find('<', at)) {
+    const std::string_view tag = xml.substr(at, xml.find('>', at) - at);
+    at += tag.size();
+    if (tag.starts_with("</node")) open -= open > 0 ? 1 : 0;
+    if (tag.starts_with("<node") && !tag.ends_with('/')) requireNodes(++open, name);
+    if (const std::size_t count = tag.find(kCount); count != std::string_view::npos && count + 7 < tag.size())
+      requireCount(numberAt(tag.substr(count + kCount.size() + 1)), name, 3 * kMostTriangles);
+  }
+}
+
+// The JSON of a glTF file; of a binary one, its first part.
+std::string_view jsonOf(std::string_view bytes, bool binary) {
+  constexpr std::size_t kHead = 20;
+  if (!binary || bytes.size() < kHead) return bytes;
+  std::uint32_t length = 0;
+  std::memcpy(&length, bytes.data() + 12, sizeof(length));
+  return bytes.substr(kHead, length);
+}
+
+int bracketsDeep(std::string_view json) {
+  int open = 0, deepest = 0;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    if (json[i] == '{' || json[i] == '[') deepest = std::max(deepest, ++open);
+    if (json[i] == '}' || json[i] == ']') --open;
+    if (json[i] != '"') continue;
+    for (++i; i < json.size() && json[i] != '"'; ++i)
+      if (json[i] == '\\') ++i;
+  }
+  return deepest;
+}
+
+const Json& at(const Json& parent, const char* key) {
+  static const Json kNone;
+  const auto found = parent.is_object() ? parent.find(key) : parent.end();
+  return parent.is_object() && found != parent.end() ? *found : kNone;
+}
+
+// How much of each accessor a primitive asks for: its corners are copied for each that uses them.
+std::size_t countOf(const Json& accessors, const Json& index) {
+  if (!index.is_number_unsigned() || !accessors.is_array() || index.get<std::size_t>() >= accessors.size())
+    return 0;
+  const Json& count = at(accessors[index.get<std::size_t>()], "count");
+  return count.is_number_unsigned() ? std::min<std::size_t>(count.get<std::size_t>(), 3 * kMostTriangles + 1)
+                                    : 0;
+}
+
+void checkGltf(std::string_view text, const std::string& name) {
+  if (const int deep = bracketsDeep(text); deep > kMostBrackets)
+    fail(name, "mesh file", fmt::format("{} brackets in each other", deep),
+         fmt::format("at most {}", kMostBrackets));
+  const Json json = Json::parse(text, nullptr, false);
+  std::size_t vertices = 0, corners = 0;
+  for (const Json& mesh : at(json, "meshes"))
+    for (const Json& primitive : at(mesh, "primitives")) {
+      vertices += countOf(at(json, "accessors"), at(at(primitive, "attributes"), "POSITION"));
+      corners += countOf(at(json, "accessors"), at(primitive, "indices"));
+      requireCount(vertices, name);
+      requireCount(corners, name, 3 * kMostTriangles);
+    }
+  // An upper bound of what may stand below each other.
+  std::size_t parents = 0;
+  for (const Json& node : at(json, "nodes")) parents += at(node, "children").empty() ? 0 : 1;
+  requireNodes(parents, name);
+}
+
+}  // namespace
+
+std::string endingOf(const std::string& name) {
+  const std::size_t dot = name.find_last_of("./");
+  std::string ending = dot == std::string::npos || name[dot] == '/' ? "" : name.substr(dot);
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return ending;
+}
+
+std::size_t largestFile(const std::string& name) {
+  const std::string ending = endingOf(name);
+  std::vector<std::string> known;
+  for (const Kind& kind : kKinds) {
+    if (ending == kind.ending) return kind.mostMiB << 20;
+    known.emplace_back(kind.ending);
+  }
+  fail(name, "not a kind of mesh file that rex reads",
+       ending.empty() ? "no ending" : fmt::format("'{}'", ending), fmt::format("{}", fmt::join(known, ", ")),
+       nearestNames(ending, known));
+}
+
+void requireSize(std::size_t bytes, const std::string& name) {
+  const std::size_t most = largestFile(name);
+  if (bytes > most)
+    fail(name, "mesh file too large", fmt::format("{} bytes", bytes),
+         fmt::format("at most {} MiB", most >> 20));
+}
+
+void requireHarmless(std::string_view bytes, const std::string& name) {
+  const std::string ending = endingOf(name);
+  if (ending == ".obj") checkObj(bytes, name);
+  if (ending == ".ply") checkPly(bytes, name);
+  if (ending == ".off") checkOff(bytes, name);
+  if (ending == ".dae") checkCollada(bytes, name);
+  if (ending == ".gltf" || ending == ".glb") checkGltf(jsonOf(bytes, ending == ".glb"), name);
+}
+
+}  // namespace rex::mesh

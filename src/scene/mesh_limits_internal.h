@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+// What a mesh file may ask for. assimp follows nesting by recursion, and believes the counts that a file
+// declares.
+namespace rex::mesh {
+
+inline constexpr std::size_t kMostTriangles = 2'000'000;
+inline constexpr std::size_t kMostVertices = 2'100'000;  ///< three for each triangle of the largest STL file
+inline constexpr double kLargestCoordinate = 1e6;        ///< metres
+
+/// The ending of a name in small letters, with its point.
+[[nodiscard]] std::string endingOf(const std::string& name);
+
+/// How large a file of this name may be, bytes: 32 MiB of STL, PLY and GLB, else 16 MiB, so that all take
+/// less than a second and 512 MB. Throws Error for an ending of no kind that rex reads.
+[[nodiscard]] std::size_t largestFile(const std::string& name);
+
+/// Throws Error if a file of this name has more bytes.
+void requireSize(std::size_t bytes, const std::string& name);
+
+/// Throws Error naming the file if its bytes ask for more than the limits allow: counts of vertices and
+/// faces, and nesting.
+void requireHarmless(std::string_view bytes, const std::string& name);
+
+}  // namespace rex::mesh

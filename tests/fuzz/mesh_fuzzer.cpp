@@ -1,0 +1,43 @@
+#include <iterator>
+
+#include "base/error.h"
+#include "fuzz/require.h"
+#include "geometry/convex_hull.h"
+#include "scene/mesh_reader.h"
+
+namespace {
+
+using rex::TriangleMesh;
+using rex::fuzz::require;
+
+void requireSound(const TriangleMesh& mesh) {
+  require(!mesh.isEmpty(), "a mesh has vertices");
+  require(mesh.halfBounds().maxCoeff() <= 1.0001e6, "vertices lie within a thousand kilometres");
+  if (mesh.triangles().empty()) return;
+  require(mesh.normals().size() == mesh.positions().size(), "each vertex has a normal");
+  for (const Eigen::Vector3f& normal : mesh.normals())
+    require(std::abs(normal.norm() - 1) < 1e-3f, "normals have length 1");
+}
+
+void requireHull(const TriangleMesh& hull, const TriangleMesh& mesh) {
+  require(!hull.isEmpty() && hull.positions().size() <= mesh.positions().size(),
+          "a hull is made of vertices");
+  require((hull.halfBounds() - mesh.halfBounds()).isZero(0), "a hull reaches as far as its mesh");
+}
+
+}  // namespace
+
+// The first byte says the kind, the others are the file.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const std::string kNames[] = {"a.stl", "a.obj", "a.ply", "a.dae", "a.gltf", "a.glb", "a.off"};
+  if (size == 0) return 0;
+  const std::string_view bytes(reinterpret_cast<const char*>(data + 1), size - 1);
+  try {
+    const TriangleMesh mesh = rex::parseMesh(bytes, kNames[data[0] % std::size(kNames)]);
+    requireSound(mesh);
+    requireHull(rex::convexHull(mesh), mesh);
+  } catch (const rex::Error& error) {
+    require(!error.parts().what.empty(), "a refusal has a reason");
+  }
+  return 0;
+}
