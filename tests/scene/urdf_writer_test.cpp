@@ -216,6 +216,14 @@ TEST(UrdfWriter, AddsLinksOnlyWhereItMust) {
   EXPECT_EQ(count(JointType::kUniversal, Pose{}), 3u);
 }
 
+TEST(UrdfWriter, GivesPartsOfJointsTheirLimits) {
+  const SceneSpec spec =
+      parseOrs("body a {}\nbody b {}\njoint j (a b) { type=trans3 limits=[-1 1 -2 2 -3 3] }", "f").spec;
+  const Model model = compile(again(spec));
+  EXPECT_EQ(model.lowerLimits(), Eigen::Vector3d(-1, -2, -3));
+  EXPECT_EQ(model.upperLimits(), Eigen::Vector3d(1, 2, 3));
+}
+
 TEST(UrdfWriter, HangsSeveralRootsOnTheWorld) {
   const SceneSpec spec =
       parseOrs(
