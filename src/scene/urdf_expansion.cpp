@@ -55,24 +55,20 @@ std::vector<Part> partsOf(const JointSpec& joint) {
 // Moves X_MC to the other side of the motion, where the motion allows it: all of its rotation, and of its
 // way what the motion does not turn.
 bool absorbChildFrame(JointSpec& joint) {
-  const Pose& X = joint.X_MC;
-  const Eigen::Vector3d a = joint.axis.normalized();
+  const Pose X = joint.X_MC;
+  if (X.R.isIdentity(0) && X.p.isZero(0)) return true;
   const Eigen::Vector3d seen = X.R.transpose() * joint.axis;
-  const bool isIdentity = X.R.isIdentity(0) && X.p.isZero(0);
   const bool can = [&] {
     switch (joint.type) {
       case JointType::kHinge:
-        return a.cross(X.p).norm() <= 1e-15;
+        return joint.axis.normalized().cross(X.p).norm() <= 1e-15;
       case JointType::kPlanarXYPhi:
         return X.p.isZero(0) &&
                rotationBetween(Eigen::Vector3d::UnitZ(), seen).isApprox(X.R.transpose(), 1e-14);
-      case JointType::kFree:
-        return isIdentity;
       default:
-        return true;
+        return joint.type != JointType::kFree;
     }
   }();
-  if (isIdentity) return true;
   if (!can) return false;
   joint.X_PF = joint.X_PF * X;
   joint.axis = seen;

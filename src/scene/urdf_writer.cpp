@@ -159,17 +159,18 @@ class Writer {
         return {{{}, "cylinder", {{"radius", radius}, {"length", length}}},
                 {top, "sphere", {{"radius", radius}}},
                 {bottom, "sphere", {{"radius", radius}}}};
+      case ShapeType::kPointCloud:
+        return leaveOut("point clouds are left out");
       case ShapeType::kSphereSweptConvex:
         lose("sphere-swept meshes became meshes");
         [[fallthrough]];
       case ShapeType::kMesh:
         if (shape.meshFile.empty() && shape.meshPath.empty())
           return leaveOut("meshes without a file are left out");
-        return {{{}, "mesh", {{"filename", fileOf(shape)}, {"scale", numeral(shape.meshScale)}}}};
-      case ShapeType::kMarker:
-        return leaveOut("markers are left out");
-      case ShapeType::kPointCloud:
-        return leaveOut("point clouds are left out");
+        return meshOf(shape);
+      case ShapeType::kMarker:  // with a file it stands for a mesh that is missing
+        if (shape.meshFile.empty()) return leaveOut("markers are left out");
+        return meshOf(shape);
     }
     return {};
   }
@@ -179,6 +180,10 @@ class Writer {
     if (s.type == ShapeType::kCylinder) return s.radius > 0 && s.extent.z() > 0;
     if (s.type == ShapeType::kSphere || s.type == ShapeType::kCapsule) return s.radius > 0;
     return true;
+  }
+
+  std::vector<Solid> meshOf(const ShapeSpec& shape) const {
+    return {{{}, "mesh", {{"filename", fileOf(shape)}, {"scale", numeral(shape.meshScale)}}}};
   }
 
   std::string fileOf(const ShapeSpec& shape) const {

@@ -216,6 +216,14 @@ TEST(UrdfWriter, AddsLinksOnlyWhereItMust) {
   EXPECT_EQ(count(JointType::kUniversal, Pose{}), 3u);
 }
 
+TEST(UrdfWriter, GivesPartsOfJointsTheirLimits) {
+  const SceneSpec spec =
+      parseOrs("body a {}\nbody b {}\njoint j (a b) { type=trans3 limits=[-1 1 -2 2 -3 3] }", "f").spec;
+  const Model model = compile(again(spec));
+  EXPECT_EQ(model.lowerLimits(), Eigen::Vector3d(-1, -2, -3));
+  EXPECT_EQ(model.upperLimits(), Eigen::Vector3d(1, 2, 3));
+}
+
 TEST(UrdfWriter, HangsSeveralRootsOnTheWorld) {
   const SceneSpec spec =
       parseOrs(
@@ -273,6 +281,8 @@ TEST(UrdfWriter, NamesMeshesRelativeToTheFolder) {
   };
   EXPECT_EQ(fileOf(folder.path() / "robots"), "../m.stl");
   spec.bodies[0].shapes[0].meshPath = folder.path() / "meshes" / "m.stl";
+  EXPECT_EQ(fileOf(folder.path() / "robots"), "../meshes/m.stl");
+  spec.bodies[0].shapes[0].shape.type = ShapeType::kMarker;  // in place of a mesh that was not found
   EXPECT_EQ(fileOf(folder.path() / "robots"), "../meshes/m.stl");
   EXPECT_EQ(fileOf({}), spec.bodies[0].shapes[0].meshPath.string());
 }
