@@ -109,7 +109,7 @@ SceneFile parseUrdf(std::string_view text, const std::string& name, const ReadOp
 SceneFile readUrdf(const std::filesystem::path& file, const ReadOptions& options) {
   constexpr std::size_t kLargest = 8u << 20;
   SceneFile scene = parseUrdf(readSceneText(file, kLargest), file.string(), options);
-  loadMeshes(scene, Assets(file, options.assetRoot));
+  loadMeshes(scene, Assets(file, options.assetRoot), options.allowMissingMeshes);
   return scene;
 }
 
