@@ -53,7 +53,8 @@ std::string Cursor::word(std::string_view terminators) {
   const std::size_t end = std::min(text_.find_first_of(terminators, at_), text_.size());
   if (end - at_ > kLongestWord)
     fail("word too long", fmt::format("{} bytes", end - at_), fmt::format("at most {}", kLongestWord));
-  return std::string(text_.substr(std::exchange(at_, end), end - at_));
+  const std::size_t start = std::exchange(at_, end);
+  return std::string(text_.substr(start, end - start));
 }
 
 std::string Cursor::upTo(char closing, const Place& open, const char* what) {

@@ -1,7 +1,17 @@
 #include <optional>
 
+#include "fuzz/require.h"
 #include "fuzz/sound_scene.h"
 #include "scene/ors_reader.h"
+#include "scene/ors_writer.h"
+
+namespace {
+
+std::string writtenAgain(const rex::SceneSpec& spec) { return rex::writeOrs(spec); }
+
+rex::SceneSpec read(const std::string& text) { return rex::parseOrs(text, "again.ors").spec; }
+
+}  // namespace
 
 // The input is the text of an .ors file.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -12,6 +22,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } catch (const rex::Error& error) {
     rex::fuzz::requirePlace(error, text);
   }
-  if (scene) rex::fuzz::requireSound(*scene);
+  if (scene) rex::fuzz::requireSound(*scene, writtenAgain, read);
   return 0;
 }

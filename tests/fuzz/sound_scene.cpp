@@ -1,6 +1,7 @@
 #include "fuzz/sound_scene.h"
 
 #include <algorithm>
+#include <optional>
 #include <string_view>
 
 #include "fuzz/require.h"
@@ -23,19 +24,50 @@ void requireSound(const Model& model) {
             "joints have coordinates of the model");
   }
   require(coordinates == model.nq(), "each coordinate belongs to one joint");
-  if (model.bodies().size() > kSmall) return;
-  const BodyPoses poses = forwardKinematics(model, model.initialPositions());
+}
+
+BodyPoses placesOf(const Model& model) {
+  BodyPoses poses = forwardKinematics(model, model.initialPositions());
   for (const Pose& X_WB : poses.X_WB) require(isRotation(X_WB.R), "bodies stand with proper rotations");
+  return poses;
+}
+
+// Numbers so large that a metre is lost in them say nothing about places.
+bool isOfOurWorld(const BodyPoses& poses) {
+  return std::all_of(poses.X_WB.begin(), poses.X_WB.end(),
+                     [](const Pose& X) { return X.p.cwiseAbs().maxCoeff() < 1e3; });
+}
+
+std::optional<Model> compiled(const SceneSpec& spec) {
+  try {
+    return compile(spec);
+  } catch (const Error& error) {
+    require(!error.parts().what.empty(), "a refusal has a reason");
+    return {};
+  }
 }
 
 }  // namespace
 
-void requireSound(const SceneFile& scene) {
+void requireSound(const SceneFile& scene, std::string (*write)(const SceneSpec&),
+                  SceneSpec (*read)(const std::string&)) {
+  const std::optional<Model> model = compiled(scene.spec);
+  if (!model) return;
+  requireSound(*model);
+  if (model->bodies().size() > kSmall) return;
+  const BodyPoses poses = placesOf(*model);
+  if (!isOfOurWorld(poses)) return;
+  std::string text;
   try {
-    requireSound(compile(scene.spec));
-  } catch (const Error& error) {
-    require(!error.parts().what.empty(), "a refusal has a reason");
+    text = write(scene.spec);
+  } catch (const Error&) {
+    return;
   }
+  const Model again = compile(read(text));
+  const BodyPoses places = placesOf(again);
+  for (const Body& body : model->bodies())
+    require(isApprox(poses[model->body(body.name)], places[again.body(body.name)], 1e-6),
+            "a scene that was written and read again stands as before");
 }
 
 void requirePlace(const Error& error, std::string_view text) {
