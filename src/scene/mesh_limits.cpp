@@ -70,26 +70,63 @@ void checkObj(std::string_view bytes, const std::string& name) {
          fmt::format("at most {}", kMostGroups));
 }
 
-// "element vertex 8": the words before end_header that are numbers, and stand where a count may.
-void checkPly(std::string_view bytes, const std::string& name) {
-  std::string_view words = bytes.substr(0, bytes.find("end_header"));
-  while (!words.empty())
-    if (nextWord(words) == "element") {
-      nextWord(words);
-      requireCount(numberAt(nextWord(words)), name);
-    }
+std::string_view nextLine(std::string_view& text) {
+  const std::string_view line = text.substr(0, text.find('\n'));
+  text.remove_prefix(std::min(line.size() + 1, text.size()));
+  return line;
 }
 
-// The counts are the first numbers that are not part of a comment.
+bool isPlyType(std::string_view word, bool whole) {
+  constexpr std::string_view kWhole[] = {"char", "uchar", "short", "ushort", "int",   "uint",
+                                         "int8", "uint8", "int16", "uint16", "int32", "uint32"};
+  constexpr std::string_view kReal[] = {"float", "double", "float32", "float64"};
+  const auto holds = [&](const auto& types) {
+    return std::find(std::begin(types), std::end(types), word) != std::end(types);
+  };
+  return holds(kWhole) || (!whole && holds(kReal));
+}
+
+// "property float x" and "property list uchar int vertex_indices", after the first word.
+bool isPlyProperty(std::string_view line) {
+  const std::string_view type = nextWord(line);
+  const bool isList = type == "list";
+  if (isList && (!isPlyType(nextWord(line), true) || !isPlyType(nextWord(line), false))) return false;
+  return (isList || isPlyType(type, false)) && !nextWord(line).empty();
+}
+
+// assimp crashes on headers that are not quite right.
+void checkPly(std::string_view bytes, const std::string& name) {
+  constexpr std::string_view kFree[] = {"ply", "format", "comment", "obj_info", ""};
+  for (;;) {
+    if (bytes.empty()) fail(name, "header of the PLY file", "no 'end_header'", "one");
+    const std::string_view whole = nextLine(bytes);
+    std::string_view line = whole;
+    const std::string_view word = nextWord(line);
+    if (word == "end_header") return;
+    if (word == "element") {
+      nextWord(line);
+      requireCount(numberAt(nextWord(line)), name);
+    } else if (word == "property" ? !isPlyProperty(line)
+                                  : std::find(std::begin(kFree), std::end(kFree), word) == std::end(kFree)) {
+      fail(name, "header of the PLY file", fmt::format("{} bytes of an unknown line", whole.size()),
+           "'element NAME COUNT', 'property TYPE NAME' or 'property list TYPE TYPE NAME'");
+    }
+  }
+}
+
+// The counts are the first numbers. assimp runs over words that are none.
 void checkOff(std::string_view bytes, const std::string& name) {
   int numbers = 0;
-  while (!bytes.empty() && numbers < 3) {
+  while (!bytes.empty()) {
     const std::string_view word = nextWord(bytes);
+    double value = 0;
+    const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (word.starts_with('#')) {
-      bytes.remove_prefix(std::min(bytes.find('\n'), bytes.size()));
-    } else if (!word.empty() && word[0] >= '0' && word[0] <= '9') {
-      requireCount(numberAt(word), name);
-      ++numbers;
+      nextLine(bytes);
+    } else if (problem == std::errc() && end == word.data() + word.size()) {
+      if (numbers++ < 3) requireCount(numberAt(word), name);
+    } else if (numbers > 0 && !word.empty()) {
+      fail(name, "OFF file", "a word that is no number", "numbers");
     }
   }
 }
@@ -107,13 +144,21 @@ void checkCollada(std::string_view xml, const std::string& name) {
   }
 }
 
-// The JSON of a glTF file; of a binary one, its first part.
-std::string_view jsonOf(std::string_view bytes, bool binary) {
-  constexpr std::size_t kHead = 20;
-  if (!binary || bytes.size() < kHead) return bytes;
-  std::uint32_t length = 0;
-  std::memcpy(&length, bytes.data() + 12, sizeof(length));
-  return bytes.substr(kHead, length);
+// The JSON of a binary glTF file, its first part, between whose sizes and the file's assimp does not compare.
+std::string_view jsonOfGlb(std::string_view bytes, const std::string& name) {
+  constexpr std::size_t kHead = 12, kPartHead = 8;
+  std::string_view json, rest = bytes.substr(std::min(kHead, bytes.size()));
+  for (int part = 0; part < 2 && rest.size() >= kPartHead; ++part) {
+    std::uint32_t length = 0;
+    std::memcpy(&length, rest.data(), sizeof(length));
+    rest.remove_prefix(kPartHead);
+    if (length > rest.size())
+      fail(name, "GLB file", fmt::format("a part of {} bytes", length),
+           fmt::format("the {} that follow", rest.size()));
+    if (part == 0) json = rest.substr(0, length);
+    rest.remove_prefix(length);
+  }
+  return json;
 }
 
 int bracketsDeep(std::string_view json) {
@@ -197,7 +242,8 @@ void requireHarmless(std::string_view bytes, const std::string& name) {
   if (ending == ".ply") checkPly(bytes, name);
   if (ending == ".off") checkOff(bytes, name);
   if (ending == ".dae") checkCollada(bytes, name);
-  if (ending == ".gltf" || ending == ".glb") checkGltf(jsonOf(bytes, ending == ".glb"), name);
+  if (ending == ".gltf") checkGltf(bytes, name);
+  if (ending == ".glb") checkGltf(jsonOfGlb(bytes, name), name);
 }
 
 }  // namespace rex::mesh

@@ -262,6 +262,19 @@ TEST_F(MeshReader, NamesWhatIsWrong) {
   EXPECT_REX_ERROR(parseMesh(std::string((16u << 20) + 1, ' '), "large.obj"), "wanted at most 16 MiB");
 }
 
+TEST_F(MeshReader, RefusesBrokenHeaders) {
+  EXPECT_REX_ERROR(parseMesh("ply\nformat ascii 1.0\n", "a.ply"),
+                   "a.ply: header of the PLY file: found no 'end_header', wanted one");
+  for (const char* line :
+       {"property flot x", "property list float int i", "property list uchar", "propery int x"})
+    EXPECT_REX_ERROR(parseMesh("ply\nelement vertex 1\n" + std::string(line) + "\nend_header\n", "a.ply"),
+                     "bytes of an unknown line, wanted 'element NAME COUNT', 'property TYPE NAME' or");
+  EXPECT_REX_ERROR(parseMesh(std::string("glTF\2\0\0\0\40\0\0\0\20\0\0\0JSON{}", 22), "a.glb"),
+                   "a.glb: GLB file: found a part of 16 bytes, wanted the 2 that follow");
+  EXPECT_REX_ERROR(parseMesh("OFF\n3 1 3\n0 0 0\n1 0 0\n2 0 0\n3 0 1</p> 2\n", "a.off"),
+                   "a.off: OFF file: found a word that is no number, wanted numbers");
+}
+
 TEST_F(MeshReader, RefusesIndicesOfNoVertex) {
   const std::string head =
       "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
