@@ -131,12 +131,22 @@ void checkOff(std::string_view bytes, const std::string& name) {
   }
 }
 
+// assimp waits for ever for the end of a list that holds anything else.
+void requireIndices(std::string_view text, const std::string& name) {
+  const std::size_t end = text.find_first_not_of("0123456789 \t\r\n");
+  if (end != std::string_view::npos && text[end] != '<')
+    fail(name, "DAE file", "a list of indices with other things in it", "whole numbers");
+}
+
 void checkCollada(std::string_view xml, const std::string& name) {
   constexpr std::string_view kCount = "count=";
   std::size_t open = 0;
   for (std::size_t at = xml.find('<'); at < xml.size(); at = xml.find('<', at)) {
     const std::string_view tag = xml.substr(at, xml.find('>', at) - at);
     at += tag.size();
+    const std::string_view element = tag.substr(0, tag.find_first_of(" \t\r\n"));
+    if (element == "<p" || element == "<vcount")
+      requireIndices(xml.substr(std::min(at + 1, xml.size())), name);
     if (tag.starts_with("</node")) open -= open > 0 ? 1 : 0;
     if (tag.starts_with("<node") && !tag.ends_with('/')) requireNodes(++open, name);
     if (const std::size_t count = tag.find(kCount); count != std::string_view::npos && count + 7 < tag.size())

@@ -170,6 +170,13 @@ TEST_F(MeshReader, RespectsUnitsAndUpwardAxisOfCollada) {
   }
 }
 
+TEST_F(MeshReader, RefusesIndicesOfColladaThatAreNone) {
+  std::string text = collada("");
+  text.replace(text.find("<p>0 2 1"), 8, "<p>0 2'1");
+  EXPECT_REX_ERROR(parseMesh(text, "a.dae"),
+                   "a.dae: DAE file: found a list of indices with other things in it, wanted whole numbers");
+}
+
 TEST_F(MeshReader, TakesOtherKindsAsTheyStand) {
   EXPECT_EQ(parseMesh("v 0 0 0\nv 1 0 0\nv 0 2 3\nf 1 2 3\n", "a.obj").halfBounds(),
             Eigen::Vector3d(1, 2, 3));
