@@ -20,6 +20,7 @@ struct ReadOptions {
       assetRoot{};                  ///< holds all files that the scene names, see Assets; empty: its default
   bool allowMissingMeshes = false;  ///< draw a marker instead, and warn
   bool freeBase = false;            ///< of a URDF robot: its root moves freely
+  Diagnostics* notesOfFailure = nullptr;  ///< where notes go that were made before an Error
 };
 
 /// Reads a scene with its meshes; the ending of the file says how, .ors or .urdf. Throws Error: another
