@@ -17,10 +17,13 @@ struct Verdict {
   std::optional<ErrorParts> error{};
 };
 
-Verdict judge(const std::filesystem::path& file, const ReadOptions& options) {
-  Verdict verdict{.file = file.string()};
+Verdict judge(const Project& project, const SceneOption& option) {
+  Verdict verdict{.file = option.file.string()};
+  ReadOptions options = option.reading;
+  options.notesOfFailure = &verdict.notes;
   try {
-    SceneFile scene = readScene(file, options);
+    verdict.file = fileOf(project, option).string();
+    SceneFile scene = readScene(verdict.file, options);
     verdict.notes = std::move(scene.notes);
     static_cast<void>(compile(scene.spec));
   } catch (const Error& error) {
@@ -67,7 +70,7 @@ void sayText(const Verdict& verdict) {
 }  // namespace
 
 ExitCode sceneCheck(const Project& project, const SceneOptions& options) {
-  const Verdict verdict = judge(fileOf(project, options.scene), options.scene.reading);
+  const Verdict verdict = judge(project, options.scene);
   options.json ? sayJson(verdict) : sayText(verdict);
   return verdict.error ? ExitCode::kBelow : ExitCode::kFull;
 }

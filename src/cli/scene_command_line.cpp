@@ -68,7 +68,7 @@ void addInfo(CLI::App& scene, Action& action, const std::shared_ptr<SceneOptions
 }
 
 void addCheck(CLI::App& scene, Action& action, const std::shared_ptr<SceneOptions>& options) {
-  CLI::App* verb = addVerb(scene, "check", "Say everything that is wrong with a file",
+  CLI::App* verb = addVerb(scene, "check", "Say whether a file loads, and what is doubtful in it",
                            "Example: scripts/rex scene man.ors check\n"
                            "Exit codes: 0 the scene loads, perhaps with warnings; 1 it does not.");
   addJson(verb, options->json);
@@ -110,6 +110,7 @@ void addConvert(CLI::App& scene, Action& action, const std::shared_ptr<SceneOpti
       ->type_name("")
       ->required();
   verb->callback([&action, options, own] {
+    if (options->json) throw CLI::ExcludesError("--json", "convert");
     own->scene = options->scene;
     action = [own](const Project& p) { return sceneConvert(p, *own); };
   });
@@ -123,6 +124,7 @@ void addSceneRender(CLI::App& scene, Action& action, const std::shared_ptr<Scene
   addRenderOptions(verb, *own);
   addGl(verb, own->gl);
   verb->callback([&action, options, own] {
+    if (options->json) throw CLI::ExcludesError("--json", "render");
     const std::string shapes = own->scene.shapes;
     own->scene = options->scene;
     own->scene.shapes = shapes;
@@ -136,9 +138,12 @@ void addScene(CLI::App& program, Action& action) {
   const auto options = std::make_shared<SceneOptions>();
   CLI::App* scene = add(program, "scene", "Look into a scene, check it, convert it",
                         "Examples:\n  scripts/rex scene man\n  scripts/rex scene my_robot.urdf check\n"
-                        "`scripts/rex scene FILE COMMAND --help` explains a command.");
+                        "`scripts/rex scene FILE COMMAND --help` explains a command.\n"
+                        "Exit codes: 0 done, 1 `check` found a file that does not load, 64 wrong use, or a\n"
+                        "scene that does not load.");
   scene->add_option("FILE", options->scene.file, kSceneHelp)->type_name("")->required();
   addReading(scene, options->scene.reading);
+  addJson(scene, options->json);
   scene->require_subcommand(0, 1);
   addInfo(*scene, action, options), addCheck(*scene, action, options);
   addKinematics(*scene, action, options), addJacobian(*scene, action, options);

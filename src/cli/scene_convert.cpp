@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <system_error>
+
 #include <fmt/format.h>
 
 #include "cli/commands.h"
@@ -11,6 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+fs::path folderOf(const fs::path& file) { return fs::absolute(file).lexically_normal().parent_path(); }
+
 void requireEnding(const fs::path& out) {
   const std::string ending = out.extension().string();
   if (ending == ".ors" || ending == ".urdf") return;
@@ -20,12 +25,39 @@ void requireEnding(const fs::path& out) {
                     .nearest = nearestNames(ending, {".ors", ".urdf"})});
 }
 
+void requireAnother(const fs::path& in, const fs::path& out) {
+  std::error_code ignored;
+  if (fs::equivalent(in, out, ignored))
+    throw UsageError({.what = fmt::format("'{}' is the scene itself", harmless(out.string())),
+                      .wanted = "another file to write"});
+}
+
+// What the new file names may lie outside the folder in which its readers look.
+void warnOfMeshesOutside(const SceneSpec& spec, const fs::path& out) {
+  const fs::path above = fs::weakly_canonical(folderOf(out) / "..");
+  fs::path root = above;
+  const auto widen = [&](const std::vector<ShapeSpec>& shapes) {
+    for (const ShapeSpec& shape : shapes) {
+      if (shape.meshPath.empty()) continue;
+      const fs::path mesh = fs::weakly_canonical(shape.meshPath);
+      while (std::mismatch(root.begin(), root.end(), mesh.begin(), mesh.end()).first != root.end())
+        root = root.parent_path();
+    }
+  };
+  widen(spec.worldShapes);
+  for (const BodySpec& body : spec.bodies) widen(body.shapes);
+  if (root == above) return;
+  note(wrap(fmt::format("its meshes stay where they are; read it with --assets {}", harmless(root.string())),
+            2, 0));
+}
+
 }  // namespace
 
 ExitCode sceneConvert(const Project& project, const ConvertOptions& options) {
   requireEnding(options.out);
+  requireAnother(fileOf(project, options.scene), options.out);
   const SceneSpec spec = loadSpec(project, options.scene);
-  const fs::path folder = options.out.has_parent_path() ? options.out.parent_path() : ".";
+  const fs::path folder = folderOf(options.out);
   if (options.out.extension() == ".ors") {
     grading::writeTextFile(options.out, asWrongUse([&] { return writeOrs(spec, folder); }));
   } else {
@@ -33,6 +65,7 @@ ExitCode sceneConvert(const Project& project, const ConvertOptions& options) {
     for (const Diagnostic& one : urdf.notes) note(wrap(harmless(toString(one)), 2, 0));
     grading::writeTextFile(options.out, urdf.text);
   }
+  warnOfMeshesOutside(spec, options.out);
   say(shown(options.out));
   return ExitCode::kFull;
 }

@@ -15,7 +15,7 @@ namespace {
 
 // "q3", "q3..q5", or what the joint has instead.
 std::string coordinatesOf(const Joint& joint) {
-  if (joint.nq == 0) return "-";
+  if (joint.nq == 0) return "rigid";
   const std::string last = joint.nq > 1 ? fmt::format("..q{}", joint.qIndex + joint.nq - 1) : "";
   const std::string own = fmt::format("q{}{}", joint.qIndex, last);
   if (!joint.mimics || (joint.ratio == 1 && joint.offset == 0)) return joint.mimics ? "as " + own : own;
@@ -23,16 +23,21 @@ std::string coordinatesOf(const Joint& joint) {
   return fmt::format("{:g} {}{}", joint.ratio, own, offset);
 }
 
-std::string shapesOf(const Model& model, BodyId body) {
-  std::vector<std::string> shapes;
+// "2 mesh, box" of the shapes that are `chosen`.
+template <class Chosen>
+std::string shapesOf(const Model& model, BodyId body, const Chosen& chosen) {
+  std::vector<std::pair<std::string, int>> counts;
   for (const ModelShape& shape : model.shapes()) {
-    if (shape.body != body) continue;
-    std::string text(toString(shape.shape.type));
-    if (shape.contact) text += shape.visible ? " (contact)" : " (contact only)";
-    const bool isKnown = std::find(shapes.begin(), shapes.end(), text) != shapes.end();
-    if (!isKnown) shapes.push_back(text);
+    if (shape.body != body || !chosen(shape)) continue;
+    const std::string type(toString(shape.shape.type));
+    const auto known =
+        std::find_if(counts.begin(), counts.end(), [&](auto& one) { return one.first == type; });
+    known == counts.end() ? counts.emplace_back(type, 1).second : ++known->second;
   }
-  return fmt::format("{}", fmt::join(shapes, ", "));
+  std::vector<std::string> texts;
+  for (const auto& [type, count] : counts)
+    texts.push_back(count == 1 ? type : fmt::format("{} {}", count, type));
+  return fmt::format("{}", fmt::join(texts, ", "));
 }
 
 std::vector<std::vector<BodyId>> childrenOf(const Model& model) {
@@ -74,7 +79,7 @@ void sayTree(const Model& model) {
   const std::vector<std::vector<BodyId>> children = childrenOf(model);
   std::vector<std::pair<BodyId, std::size_t>> waiting = {{kWorld, 0}};
   Table table;
-  table.add({"body", "kg", "joint", "type", "place in q", "shapes"});
+  table.add({"body", "kg", "joint", "place in q"});
   while (!waiting.empty()) {
     const auto [id, depth] = waiting.back();
     waiting.pop_back();
@@ -82,8 +87,7 @@ void sayTree(const Model& model) {
     const bool hangs = body.joint != kNoJoint;
     table.add({indented(harmless(body.name), depth), body.mass == 0 ? "-" : fmt::format("{:.4g}", body.mass),
                hangs ? harmless(model[body.joint].name) : "-",
-               hangs ? std::string(toString(model[body.joint].type)) : "-",
-               hangs ? coordinatesOf(model[body.joint]) : "-", shapesOf(model, id)});
+               hangs ? coordinatesOf(model[body.joint]) : "-"});
     const auto& below = children[static_cast<std::size_t>(id)];
     for (auto child = below.rbegin(); child != below.rend(); ++child) waiting.emplace_back(*child, depth + 1);
   }
@@ -109,6 +113,28 @@ void sayCoordinates(const Model& model) {
   table.print();
 }
 
+void sayShapes(const Model& model) {
+  Table table;
+  table.add({"body", "drawn", "in contact"});
+  for (std::size_t b = 0; b < model.bodies().size(); ++b) {
+    const BodyId id{static_cast<int>(b)};
+    const std::string drawn = shapesOf(model, id, [](const ModelShape& shape) { return shape.visible; });
+    const std::string contact = shapesOf(model, id, [](const ModelShape& shape) { return shape.contact; });
+    if (drawn.empty() && contact.empty()) continue;
+    table.add({harmless(model[id].name), drawn.empty() ? "-" : drawn, contact.empty() ? "-" : contact});
+  }
+  table.print();
+}
+
+// Of a joint that mimics: which, and how.
+Json mimicOf(const Model& model, const Joint& joint) {
+  if (!joint.mimics) return {};
+  const auto target = std::find_if(model.joints().begin(), model.joints().end(), [&](const Joint& other) {
+    return !other.mimics && other.nq > 0 && other.qIndex == joint.qIndex;
+  });
+  return {{"joint", target->name}, {"ratio", joint.ratio}, {"offset", joint.offset}};
+}
+
 Json infoOf(const Model& model) {
   Json joints = Json::array(), bodies = Json::array(), masses = Json::array(), shapes = Json::array();
   for (const Joint& joint : model.joints()) {
@@ -118,7 +144,7 @@ Json infoOf(const Model& model) {
                                          {"type", toString(joint.type)},
                                          {"q_index", joint.qIndex},
                                          {"dim", joint.nq},
-                                         {"mimics", joint.mimics}});
+                                         {"mimics", mimicOf(model, joint)}});
     if (joint.nq == 0) continue;
     one["low"] = jsonOf(model.lowerLimits().segment(joint.qIndex, joint.nq));
     one["high"] = jsonOf(model.upperLimits().segment(joint.qIndex, joint.nq));
@@ -156,9 +182,14 @@ ExitCode sceneInfo(const Project& project, const SceneOptions& options) {
                   count(model.shapes().size(), "shape", "shapes"), model.mass()));
   say();
   sayTree(model);
-  if (model.nq() == 0) return ExitCode::kFull;
-  say();
-  sayCoordinates(model);
+  if (model.nq() > 0) {
+    say();
+    sayCoordinates(model);
+  }
+  if (!model.shapes().empty()) {
+    say();
+    sayShapes(model);
+  }
   return ExitCode::kFull;
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -18,15 +19,37 @@ Eigen::VectorXd postureOf(const Model& model, const std::string& text) {
   return text.empty() ? model.initialPositions() : parsePosture(model, text);
 }
 
+// Nine columns each, also of numbers that are very large; what rounds to zero has no sign.
 std::string numbers(const Eigen::Ref<const Eigen::VectorXd>& values) {
   std::string line;
-  for (const double value : values) line += fmt::format(" {:10.6f}", std::abs(value) < 5e-7 ? 0. : value);
+  for (const double value : values) {
+    if (std::abs(value) >= 1e3)
+      line += fmt::format(" {:9.3g}", value);
+    else
+      line += fmt::format(" {:9.5f}", std::abs(value) < 5e-6 ? 0. : value);
+  }
   return line;
 }
 
-void sayRows(const std::string& title, const Eigen::Ref<const Eigen::MatrixXd>& matrix) {
-  say(title);
-  for (const auto& row : matrix.rowwise()) say(numbers(row.transpose()));
+std::string heads(const std::vector<const char*>& names) {
+  std::string line;
+  for (const char* name : names) line += fmt::format(" {:>9}", name);
+  return line;
+}
+
+// What each column of a Jacobian belongs to: a velocity of a joint.
+std::vector<std::string> velocityNames(const Model& model) {
+  std::vector<std::string> names(static_cast<std::size_t>(model.nv()));
+  for (const Joint& joint : model.joints())
+    for (int i = 0; i < joint.nv && !joint.mimics; ++i)
+      names[static_cast<std::size_t>(joint.vIndex + i)] =
+          harmless(joint.name) + (joint.nv > 1 ? fmt::format(" [{}]", i) : "");
+  return names;
+}
+
+std::size_t widest(const std::vector<std::string>& names, std::size_t least) {
+  for (const std::string& name : names) least = std::max(least, name.size());
+  return least;
 }
 
 }  // namespace
@@ -36,11 +59,11 @@ ExitCode sceneKinematics(const Project& project, const SceneOptions& options) {
   const Eigen::VectorXd q = postureOf(model, options.posture);
   const BodyPoses poses = forwardKinematics(model, q);
   Json bodies = Json::array();
-  std::size_t width = 4;
-  for (const Body& body : model.bodies()) width = std::max(width, harmless(body.name).size());
+  std::vector<std::string> names;
+  for (const Body& body : model.bodies()) names.push_back(harmless(body.name));
+  const std::size_t width = widest(names, 4);
   if (!options.json)
-    say(fmt::format("{:{}} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10}", "body", width, "x", "y", "z",
-                    "qw", "qx", "qy", "qz"));
+    say(fmt::format("{:{}}", "body", width) + heads({"x", "y", "z", "qw", "qx", "qy", "qz"}));
   for (const BodyId id : model.bodiesInFileOrder()) {
     const Quaternion quaternion = quaternionFromRotation(poses[id].R);
     if (options.json)
@@ -65,8 +88,13 @@ ExitCode sceneJacobian(const Project& project, const JacobianOptions& options) {
     say(dump(Json{{"pos", jsonOfRows(position)}, {"rot", jsonOfRows(angular)}}));
     return ExitCode::kFull;
   }
-  sayRows(fmt::format("velocity of the point by v, m per unit ({} columns)", model.nv()), position);
-  sayRows("angular velocity by v, rad per unit", angular);
+  const std::vector<std::string> names = velocityNames(model);
+  const std::size_t width = widest(names, 8);
+  say("velocity of the point and angular velocity, per unit of each joint's velocity");
+  say(fmt::format("{:{}}", "joint", width) + heads({"x", "y", "z", "wx", "wy", "wz"}));
+  for (int i = 0; i < model.nv(); ++i)
+    say(fmt::format("{:{}}", names[static_cast<std::size_t>(i)], width) + numbers(position.col(i)) +
+        numbers(angular.col(i)));
   return ExitCode::kFull;
 }
 

@@ -10,9 +10,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// What is drawn only on request lies around what is seen anyway.
 void choose(ShapeSpec& shape, const std::string& shapes) {
+  constexpr double kTranslucent = 0.35;
   if (shapes == "contact") shape.visible = shape.contact;
-  if (shapes == "all") shape.visible = true;
+  if (shapes != "all" || shape.visible) return;
+  shape.visible = true;
+  shape.color[3] *= kTranslucent;
 }
 
 void chooseShapes(SceneSpec& spec, const std::string& shapes) {
@@ -22,9 +26,37 @@ void chooseShapes(SceneSpec& spec, const std::string& shapes) {
                       .found = "'" + harmless(shapes) + "'",
                       .wanted = "visible, contact or all",
                       .nearest = nearestNames(shapes, known)});
-  for (ShapeSpec& shape : spec.worldShapes) choose(shape, shapes);
-  for (BodySpec& body : spec.bodies)
-    for (ShapeSpec& shape : body.shapes) choose(shape, shapes);
+  bool anyContact = false;
+  const auto chooseAll = [&](std::vector<ShapeSpec>& some) {
+    for (ShapeSpec& shape : some) {
+      choose(shape, shapes);
+      anyContact |= shape.contact;
+    }
+  };
+  chooseAll(spec.worldShapes);
+  for (BodySpec& body : spec.bodies) chooseAll(body.shapes);
+  if (shapes == "contact" && !anyContact)
+    throw UsageError({.what = "--shapes contact", .found = "no shape that takes part in contacts"});
+}
+
+void requireMeaning(const fs::path& file, const ReadOptions& reading) {
+  if (reading.freeBase && file.extension() == ".ors")
+    throw UsageError({.what = "--free-base",
+                      .found = "an .ors file",
+                      .wanted = "a .urdf file; in .ors, a joint of type free says it"});
+}
+
+// Those who bring a robot without its meshes need not search for the way out.
+SceneFile read(const fs::path& file, const ReadOptions& reading) {
+  return asWrongUse([&] {
+    try {
+      return readScene(file, reading);
+    } catch (const Error& error) {
+      if (error.parts().what.ends_with(": mesh"))
+        note("--assets DIR names the folder of all meshes, --allow-missing-meshes draws boxes instead");
+      throw;
+    }
+  });
 }
 
 }  // namespace
@@ -35,11 +67,12 @@ fs::path fileOf(const Project& project, const SceneOption& scene) {
 
 SceneSpec loadSpec(const Project& project, const SceneOption& scene) {
   const fs::path file = fileOf(project, scene);
-  SceneFile read = asWrongUse([&] { return readScene(file, scene.reading); });
-  for (const Diagnostic& one : read.notes) note(wrap(harmless(toString(one)), 2, 0));
-  read.spec.name = scene.file.filename().string();
-  chooseShapes(read.spec, scene.shapes);
-  return std::move(read.spec);
+  requireMeaning(file, scene.reading);
+  SceneFile loaded = read(file, scene.reading);
+  for (const Diagnostic& one : loaded.notes) note(wrap(harmless(toString(one)), 2, 0));
+  loaded.spec.name = scene.file.filename().string();
+  chooseShapes(loaded.spec, scene.shapes);
+  return std::move(loaded.spec);
 }
 
 Model loadScene(const Project& project, const SceneOption& scene) {

@@ -40,7 +40,7 @@ struct Simulator::Parts {
 
 Simulator::Simulator(const std::string& sceneFile) {
   const std::filesystem::path path = findScene(sceneFile, REX_DATA_DIR);
-  SceneFile scene = readScene(path);
+  SceneFile scene = readScene(path, {.allowMissingMeshes = true});
   for (const Diagnostic& one : scene.notes)
     if (one.severity == Severity::kWarning) std::cerr << toString(one) << "\n";
   const bool hasEnding = std::filesystem::path(sceneFile).has_extension();

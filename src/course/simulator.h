@@ -24,8 +24,8 @@ struct SimulatorDescription {
 class Simulator {
  public:
   /// Loads an .ors or .urdf file: a path, or the name of one of the course's scenes, such as "man.ors".
-  /// Throws Error with file:line:column for a missing or broken file, also one of a mesh. Prints the reader's
-  /// warnings.
+  /// Throws Error with file:line:column for a missing or broken file, also one of a mesh. Boxes stand for
+  /// meshes that are missing; the reader's warnings are printed.
   explicit Simulator(const std::string& sceneFile);
   /// Reads no file: shapes described by a mesh are not drawn.
   explicit Simulator(const SimulatorDescription& description);

@@ -177,10 +177,9 @@ TEST_F(RenderCommand, FindsScenesByName) {
   EXPECT_EQ(rex({"render", "pegArm", "-o", "a.glb"}).exitCode, 0);
   const ProcessResult near = rex({"render", "mann.ors", "-o", "a.png"});
   EXPECT_EQ(near.exitCode, 64);
-  EXPECT_EQ(flat(near.error),
-            "rex: there is no scene 'mann.ors': wanted an .ors or .urdf file, or one of the course: man.ors, "
-            "pegArm.ors, pegInAHole.ors (did you mean 'man.ors'?) ");
-  EXPECT_THAT(flat(rex({"render", "mann", "-o", "a.png"}).error), HasSubstr("(did you mean 'man'?)"));
+  EXPECT_THAT(flat(near.error), HasSubstr("rex: there is no scene 'mann.ors': wanted an .ors or .urdf file"));
+  EXPECT_THAT(flat(near.error), HasSubstr("(did you mean 'man.ors'"));
+  EXPECT_THAT(flat(rex({"render", "mann", "-o", "a.png"}).error), HasSubstr("(did you mean 'man'"));
   EXPECT_EQ(rex({"render", "no/man.ors", "-o", "a.png"}).exitCode, 64);
   EXPECT_EQ(rex({"render", ".", "-o", "a.png"}).exitCode, 64);
   std::ofstream(in("broken.ors")) << "body a { X=";

@@ -70,7 +70,7 @@ TEST_F(SceneCommand, InfoShowsTheTreeToPeople) {
   EXPECT_THAT(result.output, HasSubstr("arm.ors: 3 bodies, 2 joints, 3 degrees of freedom, 3 shapes, 3 kg"));
   EXPECT_THAT(result.output,
               HasSubstr("    upper    2   shoulder  hinge      q0          capsule (contact)"));
-  EXPECT_THAT(result.output, HasSubstr("sphere (contact only)"));
+  EXPECT_THAT(result.output, HasSubstr("lower  -        sphere\n"));
   EXPECT_THAT(result.output, HasSubstr("0  shoulder  hinge      0.25   -2   2"));
   EXPECT_EQ(scene({"arm.ors"}).output, result.output) << "what it does without a command";
 }
@@ -110,10 +110,19 @@ TEST_F(SceneCommand, PosturesMayBeZeroOrThatOfTheFile) {
 
 TEST_F(SceneCommand, TextAlignsForPeople) {
   EXPECT_THAT(scene({"arm.ors", "fk", "--q", "0"}).output,
-              HasSubstr("upper   0.000000   0.000000   2.200000   1.000000"));
+              HasSubstr("upper   0.00000   0.00000   2.20000   1.00000   0.00000"));
   const std::string J = scene({"arm.ors", "jacobian", "--body", "tip", "--q", "0"}).output;
-  EXPECT_THAT(J, HasSubstr("velocity of the point by v, m per unit (3 columns)\n   0.400000"));
-  EXPECT_THAT(J, HasSubstr("angular velocity by v, rad per unit\n   0.000000   1.000000   0.000000"));
+  EXPECT_THAT(J, HasSubstr("shoulder    0.40000   0.00000   0.00000   0.00000   1.00000   0.00000\n"));
+  EXPECT_THAT(J, HasSubstr("elbow [1]   0.00000"));
+  std::ofstream(in("far.ors")) << "body far { X=<T t(1e30 0 -12345)> }";
+  EXPECT_THAT(scene({"far.ors", "fk"}).output, HasSubstr("far       1e+30   0.00000 -1.23e+04"));
+}
+
+TEST_F(SceneCommand, TakesJsonBeforeAndBehindTheCommand) {
+  const std::string info = scene({"arm.ors", "info", "--json"}).output;
+  EXPECT_EQ(scene({"arm.ors", "--json", "info"}).output, info);
+  EXPECT_EQ(scene({"arm.ors", "--json"}).output, info);
+  EXPECT_EQ(scene({"arm.ors", "convert", "a.urdf", "--json"}).exitCode, 64);
 }
 
 TEST_F(SceneCommand, CheckTellsAllThatIsWrong) {
@@ -137,6 +146,11 @@ TEST_F(SceneCommand, CheckTellsAllThatIsWrong) {
   EXPECT_EQ(verdict["messages"].back()["line"], 4);
   EXPECT_THAT(verdict["messages"].back()["text"].get<std::string>(), HasSubstr("loop"));
   EXPECT_EQ(json::parse(scene({"odd.ors", "check", "--json"}).output)["ok"], true);
+  const ProcessResult missing = scene({"nowhere.ors", "check", "--json"});
+  EXPECT_EQ(missing.exitCode, 1);
+  EXPECT_EQ(json::parse(missing.output)["ok"], false);
+  std::ofstream(in("both.ors")) << "body a { colour=[1 0 0] type=0 }\nbody b { X=";
+  EXPECT_THAT(scene({"both.ors", "check"}).output, HasSubstr("both.ors:1:10: warning"));
 }
 
 TEST_F(SceneCommand, RenderDrawsChosenShapes) {
@@ -164,15 +178,27 @@ TEST_F(SceneCommand, ConvertWritesBothFormats) {
                                    [&](const json& one) { return one["name"] == body["name"]; });
     ASSERT_NE(same, after["bodies"].end()) << body["name"];
     for (int i = 0; i < 3; ++i)
-      EXPECT_NEAR((*same)["pos"][i].get<double>(), body["pos"][i].get<double>(), 1e-12) << body["name"];
+      ASSERT_NEAR((*same)["pos"][i].get<double>(), body["pos"][i].get<double>(), 1e-12) << body["name"];
   }
   EXPECT_NEAR(jsonOf({"man.ors"})["mass"].get<double>(), jsonOf({"man"})["mass"].get<double>(), 1e-12);
 }
 
 TEST_F(SceneCommand, ConvertTakesMeshesAlong) {
-  ASSERT_EQ(scene({"hand", "convert", "here/hand.ors", "--assets", REX_SOURCE_DIR}).exitCode, 0);
-  EXPECT_THAT(fileText(in("here/hand.ors")), HasSubstr(".stl'"));
+  ASSERT_EQ(scene({"hand", "convert", "here/hand.ors"}).exitCode, 0);
+  EXPECT_THAT(fileText(in("here/hand.ors")), HasSubstr("='../"));
+  EXPECT_EQ(scene({"here/hand.ors", "info"}).exitCode, 64);
   EXPECT_EQ(scene({"here/hand.ors", "info", "--assets", "/"}).exitCode, 0);
+}
+
+TEST_F(SceneCommand, MissingMeshesAreRefusedWithAWayOut) {
+  std::ofstream(in("robot.urdf"))
+      << "<robot name='r'><link name='a'><visual><geometry>"
+         "<mesh filename='package://r/a.stl'/></geometry></visual></link></robot>";
+  const ProcessResult refused = scene({"robot.urdf"});
+  EXPECT_EQ(refused.exitCode, 64);
+  EXPECT_THAT(refused.error, HasSubstr("--allow-missing-meshes draws boxes instead"));
+  EXPECT_EQ(scene({"robot.urdf", "--allow-missing-meshes"}).exitCode, 0);
+  EXPECT_EQ(scene({"robot.urdf", "fk", "--allow-missing-meshes"}).exitCode, 0) << "also behind the command";
 }
 
 TEST_F(SceneCommand, SaysWhatIsUsedWrongly) {
@@ -191,6 +217,10 @@ TEST_F(SceneCommand, SaysWhatIsUsedWrongly) {
                 "--point: found 1 numbers, wanted three");
   expectRefusal({"arm.ors", "render", "--shapes", "contacts", "-o", "a.png"},
                 "--shapes: found 'contacts', wanted visible, contact or all (did you mean 'contact'?)");
+  expectRefusal({"man", "render", "--shapes", "contact", "-o", "a.png"},
+                "--shapes contact: found no shape that takes part in contacts");
+  expectRefusal({"arm.ors", "fk", "--free-base"}, "--free-base: found an .ors file, wanted a .urdf file");
+  expectRefusal({"arm.ors", "convert", "arm.ors"}, "'arm.ors' is the scene itself: wanted another file");
   expectRefusal(
       {"arm.ors", "convert", "arm.udrf"},
       "cannot write 'arm.udrf': found the ending '.udrf', wanted .ors or .urdf (did you mean '.urdf'?)");

@@ -40,7 +40,7 @@ TEST_F(SimulatorTest, FindsScenesByPathToo) {
   EXPECT_EQ(Simulator(sourcePath("data/robots/pegArm.ors").string()).getJointDimension(), 3);
   EXPECT_EQ(Simulator("pegArm").getJointDimension(), 3);
   EXPECT_REX_ERROR(Simulator("mann.ors"), "there is no scene 'mann.ors': wanted an .ors or .urdf file");
-  EXPECT_REX_ERROR(Simulator("mann.ors"), "(did you mean 'man.ors'?)");
+  EXPECT_REX_ERROR(Simulator("mann.ors"), "(did you mean 'man.ors'");
   EXPECT_REX_ERROR(Simulator("no/such.ors"), "there is no scene 'no/such.ors'");
 }
 
@@ -52,7 +52,9 @@ TEST_F(SimulatorTest, LoadsTheMeshesOfAFileButNotThoseOfADescription) {
   EXPECT_EQ(S.model().shapes()[0].shape.mesh.triangles().size(), 4u);
   EXPECT_TRUE(Simulator(S.description()).model().shapes()[0].shape.mesh.isEmpty());
   fs::remove(in("wedge.off"));
-  EXPECT_REX_ERROR(Simulator(in("scene.ors")), "shape 'wedge': mesh: found no file 'wedge.off'");
+  testing::internal::CaptureStderr();
+  EXPECT_NO_THROW(Simulator(in("scene.ors"))) << "a box stands for it";
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), testing::HasSubstr("warning: "));
   EXPECT_NO_THROW(Simulator(S.description()));
 }
 
