@@ -172,7 +172,7 @@ Parts jointParts(const JointSpec& joint) {
   addType(joint, parts);
   if (!isIdentity(joint.X_PF)) parts.push_back("A=" + poseText(joint.X_PF));
   if (!isIdentity(joint.X_MC)) parts.push_back("B=" + poseText(joint.X_MC));
-  if (joint.q0.size() > 0 && joint.q0 != jointCoordinates(joint.type, joint.axis, Pose{}))
+  if (joint.start() != jointCoordinates(joint.type, joint.axis, Pose{}))
     parts.push_back("q=" + numbersText(joint.q0));
   addLimits(joint, parts);
   addMimic(joint, parts);

@@ -91,6 +91,9 @@ struct JointSpec {
   double damping = 0;                                            ///< N m s/rad or N s/m
   double friction = 0;                                           ///< N m or N
   SourceLocation where{};
+
+  /// q0, or the zero position if that is empty.
+  [[nodiscard]] Eigen::VectorXd start() const;
 };
 
 /// A scene as it is read and edited. Bodies keep file order; compile() turns it into a Model.
