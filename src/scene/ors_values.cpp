@@ -51,6 +51,8 @@ Eigen::VectorXd readNumbers(Cursor& cursor, int count, const char* wanted) {
   Eigen::VectorXd values(count);
   for (double& value : values) {
     cursor.skip(kSpace);
+    if (cursor.peek() == ',')
+      cursor.fail("a comma in a pose", cursor.found(), fmt::format("{} separated by blanks", wanted));
     if (cursor.atEnd() || contains(")>", cursor.peek()))
       cursor.fail("too few numbers in a pose", cursor.found(), wanted);
     value = cursor.number(wanted);
@@ -77,7 +79,7 @@ Pose readPoseElement(Cursor& cursor) {
     return {rotationFromFile(start, n.tail<4>()), n.head<3>()};
   }
   const char kind = cursor.peek();
-  if (!contains("tdrqE", kind)) {
+  if (!contains("tdrqE", kind) || cursor.found() != fmt::format("'{}'", kind)) {
     cursor.fail("unknown element of a pose", cursor.found(),
                 "t(..), d(..), r(..), q(..), E(..), seven numbers, or '>'");
   }
@@ -90,6 +92,8 @@ Pose readPoseElement(Cursor& cursor) {
   cursor.skip(kSpace);
   if (cursor.peek() != ')') cursor.fail(name, cursor.found(), fmt::format("')' after {} numbers", n.size()));
   cursor.take();
+  if ((kind == 'd' || kind == 'r') && n[0] != 0 && n.tail<3>().isZero(0))
+    cursor.warn(start, name + " about a zero axis turns nothing: give the axis x y z");
   switch (kind) {
     case 't':
       return translation(n[0], n[1], n[2]);

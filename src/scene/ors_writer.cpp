@@ -23,6 +23,7 @@ using Parts = std::vector<std::string>;  // the attributes of a statement
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kWidestColumn = 32;
+constexpr double kInertiaPerMass = 0.2;  // what compile() takes when only a mass is given
 
 void requireName(const char* role, const std::string& name, const SourceLocation& where) {
   const bool isWord = !name.empty() && name.size() <= ors::kLongestWord &&
@@ -186,7 +187,8 @@ Parts bodyParts(const BodySpec& body) {
   if (!isIdentity(body.X_WB)) parts.push_back("X=" + poseText(body.X_WB));
   addNumber("mass", body.mass, 0, parts);
   if (!body.p_BBcm.isZero(0)) parts.push_back("com=" + arrayText(body.p_BBcm));
-  if (body.inertia) {
+  const Eigen::Matrix3d usual = kInertiaPerMass * body.mass * Eigen::Matrix3d::Identity();
+  if (body.inertia && *body.inertia != usual) {
     const Eigen::Matrix3d& I = *body.inertia;
     Eigen::VectorXd entries(6);
     entries << I.diagonal(), I(0, 1), I(0, 2), I(1, 2);

@@ -207,6 +207,14 @@ TEST(OrsWriter, WritesTheMeshForWhichAMarkerStands) {
   EXPECT_EQ(writeOrs(spec), text);
 }
 
+TEST(OrsWriter, LeavesOutTheInertiaThatAMassHasAnyway) {
+  SceneSpec spec = parseOrs("body a { mass=3 }", "f").spec;
+  spec.bodies[0].inertia = 0.2 * 3 * Eigen::Matrix3d::Identity();
+  EXPECT_EQ(writeOrs(spec), "body a { mass=3 }\n");
+  spec.bodies[0].inertia = 3 * Eigen::Matrix3d::Identity();
+  EXPECT_EQ(writeOrs(spec), "body a { mass=3 inertia=[3 3 3] }\n");
+}
+
 TEST(OrsWriter, RefusesWhatTheFormatCannotSay) {
   const SceneSpec good = parseOrs("body a {}\nbody b { type=3 mesh='m.obj' }\njoint j (a b) {}", "f").spec;
   const auto refused = [&](auto spoil) {
