@@ -51,9 +51,9 @@ TEST(OrsReader, HonoursFlagsAndSharedKeys) {
 
 TEST(OrsReader, ReadsInertia) {
   EXPECT_FALSE(read("body a { mass=1 }").bodies[0].inertia.has_value());
-  EXPECT_EQ(*read("body a { inertia=[1 2 3] }").bodies[0].inertia,
+  EXPECT_EQ(*read("body a { mass=1 inertia=[1 2 3] }").bodies[0].inertia,
             Eigen::Matrix3d(Eigen::Vector3d(1, 2, 3).asDiagonal()));
-  EXPECT_EQ((*read("body a { inertia=[1 2 3 .1 .2 .3] }").bodies[0].inertia)(1, 2), .3);
+  EXPECT_EQ((*read("body a { mass=1 inertia=[1 2 3 .1 .2 .3] }").bodies[0].inertia)(1, 2), .3);
 }
 
 TEST(OrsReader, PutsShapesOnTheirBodyOrInTheWorld) {
