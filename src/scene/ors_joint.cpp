@@ -29,13 +29,6 @@ constexpr Alias kOfUrdf[] = {{"prismatic", "transX"},  {"revolute", "hingeX"}, {
 constexpr double kNear = 1e-4;         // files may give six digits
 constexpr std::size_t kAlongAxes = 6;  // the first types turn about or move along x, y, z
 
-// Of another length, also where the square of its own would overflow.
-Eigen::Vector3d readAxis(const Attributes& attributes, const Eigen::Vector3d& axis) {
-  const double largest = axis.cwiseAbs().maxCoeff();
-  if (!(largest > 0)) attributes.fail("axis", "a zero vector", "a direction");
-  return axis / largest;
-}
-
 void readType(const Attributes& attributes, const JointSpec* followed, JointSpec& joint) {
   const std::size_t type = attributes.choice("type", kTypes, kOfUrdf).value_or(0);
   joint.type = kMeaning[type];
@@ -69,8 +62,8 @@ void readFrames(const Attributes& attributes, const JointSurroundings& around, J
     }
   }
   if (const auto axis = attributes.row("axis", {3})) {
-    const Pose X_FT{rotationBetween(Eigen::Vector3d::UnitX(), readAxis(attributes, *axis)),
-                    Eigen::Vector3d::Zero()};
+    if (axis->isZero(0)) attributes.fail("axis", "a zero vector", "a direction");
+    const Pose X_FT{rotationBetween(Eigen::Vector3d::UnitX(), *axis), Eigen::Vector3d::Zero()};
     joint.X_PF = joint.X_PF * X_FT;
     joint.X_MC = X_FT.inverse() * joint.X_MC;
   }

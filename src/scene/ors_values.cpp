@@ -60,16 +60,10 @@ Eigen::VectorXd readNumbers(Cursor& cursor, int count, const char* wanted) {
   return values;
 }
 
-// Scaled so that no length overflows or vanishes.
-Eigen::VectorXd direction(const Eigen::VectorXd& v) {
-  const double largest = v.cwiseAbs().maxCoeff();
-  return largest > 0 ? Eigen::VectorXd(v / largest) : v;
-}
-
 Eigen::Matrix3d rotationFromFile(const Place& where, const Eigen::Vector4d& quaternion) {
   if (quaternion.isZero(0))
     Cursor::failAt(where, "quaternion", "(0, 0, 0, 0)", "a quaternion w x y z that is not zero");
-  return rotationFromQuaternion(direction(quaternion));
+  return rotationFromQuaternion(quaternion);
 }
 
 Pose readPoseElement(Cursor& cursor) {
@@ -98,9 +92,9 @@ Pose readPoseElement(Cursor& cursor) {
     case 't':
       return translation(n[0], n[1], n[2]);
     case 'd':
-      return rotation(n[0] * std::numbers::pi / 180, direction(n.tail<3>()));
+      return rotation(n[0] * std::numbers::pi / 180, n.tail<3>());
     case 'r':
-      return rotation(n[0], direction(n.tail<3>()));
+      return rotation(n[0], n.tail<3>());
     case 'q':
       return {rotationFromFile(start, n), Eigen::Vector3d::Zero()};
     default:
