@@ -27,7 +27,7 @@ TEST(PoseText, ThatIsNoneIsRefused) {
   EXPECT_REX_ERROR(parsePose("<T>\n<T>", "hand"), "hand:2:1: text after a pose: wanted one pose <T ...>");
   EXPECT_REX_ERROR(parsePose("<T t(1 2)>", "hand"), "hand:1:9: too few numbers in a pose");
   EXPECT_REX_ERROR(parsePose("<T t(1e308 0 0) t(1e308 0 0)>", "hand"),
-                   "hand:1:1: pose: found numbers too large, wanted a finite pose");
+                   "hand:1:1: pose: found a place farther than numbers reach, wanted metres");
 }
 
 }  // namespace
