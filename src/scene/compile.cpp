@@ -219,9 +219,13 @@ void checkBody(const BodySpec& body) {
 void checkShape(const ShapeSpec& shape) {
   const Shape& s = shape.shape;
   if (!isFinite(shape.X_BS) || !s.extent.allFinite() || !(s.extent.minCoeff() >= 0) || !(s.radius >= 0) ||
-      !std::isfinite(s.radius) || !shape.color.allFinite()) {
-    fail(shape.where, fmt::format("shape '{}'", shape.name), "",
-         "a finite pose, finite sizes >= 0, a finite colour");
+      !std::isfinite(s.radius)) {
+    fail(shape.where, fmt::format("shape '{}'", shape.name), "", "a finite pose, finite sizes >= 0");
+  }
+  for (const double part : shape.color) {
+    if (!(part >= 0 && part <= 1))
+      fail(shape.where, fmt::format("shape '{}': colour", shape.name), fmt::format("{}", part),
+           "numbers from 0 to 1");
   }
 }
 
@@ -254,6 +258,12 @@ void checkJoint(const JointSpec& joint) {
   checkCount(joint.q0, "initial coordinates");
   checkCount(joint.lower, "lower limits");
   checkCount(joint.upper, "upper limits");
+  if (!joint.q0.allFinite()) fail(joint.where, what + ": initial coordinates", "inf", "finite numbers");
+  for (Eigen::Index i = 0; i < std::min(joint.lower.size(), joint.upper.size()); ++i) {
+    if (joint.lower[i] > joint.upper[i])
+      fail(joint.where, what + ": limits", fmt::format("{} > {}", joint.lower[i], joint.upper[i]),
+           "lower <= upper");
+  }
 }
 
 Joint makeJoint(const JointSpec& spec, BodyId parent, BodyId child) {
@@ -289,11 +299,6 @@ void addSubtreeMasses(std::vector<Body>& bodies) {
   }
 }
 
-Eigen::VectorXd startOf(const JointSpec& spec) {
-  if (spec.q0.size() > 0) return spec.q0;
-  return jointCoordinates(spec.type, spec.axis, Pose{});
-}
-
 void append(Eigen::VectorXd& all, const Eigen::VectorXd& more) {
   all.conservativeResize(all.size() + more.size());
   all.tail(more.size()) = more;
@@ -317,7 +322,7 @@ Coordinates indexCoordinates(std::vector<Joint>& joints, const std::vector<const
     const auto limit = [&](const Eigen::VectorXd& given, double none) {
       return given.size() > 0 ? given : Eigen::VectorXd::Constant(joint.nq, none);
     };
-    append(all.q0, startOf(spec));
+    append(all.q0, spec.start());
     append(all.lower, limit(spec.lower, -kInfinity));
     append(all.upper, limit(spec.upper, kInfinity));
   }
@@ -372,8 +377,13 @@ Model compile(const SceneSpec& spec) {
   model.bodies_.push_back(Body{.name = kWorldName});
   const auto addShape = [&](const ShapeSpec& shape, BodyId body) {
     checkShape(shape);
-    model.shapes_.push_back(
-        {shape.name, body, shape.X_BS, shape.shape, shape.color, shape.contact, shape.visible});
+    model.shapes_.push_back({.name = shape.name,
+                             .body = body,
+                             .X_BS = shape.X_BS,
+                             .shape = shape.shape,
+                             .color = shape.color,
+                             .contact = shape.contact && !shape.meshMissing,
+                             .visible = shape.visible});
   };
   for (const ShapeSpec& shape : spec.worldShapes) addShape(shape, kWorld);
 

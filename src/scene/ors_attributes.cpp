@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,11 @@ const Graph kNone;
 
 bool hasKey(const Node& node, std::string_view name) {
   return std::any_of(node.keys.begin(), node.keys.end(), [&](const Word& key) { return key.text == name; });
+}
+
+bool isNumber(std::string_view word) {
+  const std::size_t first = word.find_first_not_of("+-.");
+  return first != std::string_view::npos && word[first] >= '0' && word[first] <= '9';
 }
 
 // "a number or an array of 3 or 4 numbers".
@@ -57,11 +63,28 @@ bool Attributes::flag(std::string_view name) const {
   if (const Node* attribute = find(name)) {
     if (const bool* value = std::get_if<bool>(&attribute->value)) return *value;
     const double* number = std::get_if<double>(&attribute->value);
+    const std::string* word = std::get_if<std::string>(&attribute->value);
+    if (word && (*word == "no" || *word == "off")) return attribute->keys.size() > 1;
     return !number || *number != 0 || attribute->keys.size() > 1;
   }
   for (std::size_t i = 1; i + 1 < node_.keys.size(); ++i)
     if (node_.keys[i].text == name) return true;
   return false;
+}
+
+void Attributes::noteFlags(std::initializer_list<const char*> names, Diagnostics& notes) const {
+  static const std::vector<std::string> kKnown = {"true", "false", "yes", "no", "on", "off"};
+  for (const char* name : names) {
+    const Node* attribute = find(name);
+    const std::string* word = attribute ? std::get_if<std::string>(&attribute->value) : nullptr;
+    if (!word || attribute->keys.size() > 1) continue;
+    if (std::find(kKnown.begin(), kKnown.end(), *word) != kKnown.end()) continue;
+    const std::vector<std::string> nearest = nearestNames(*word, kKnown);
+    note(name,
+         fmt::format("counts as true: '{}' is neither true nor false{}", *word,
+                     nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest.front())),
+         Severity::kWarning, notes);
+  }
 }
 
 template <class T>
@@ -110,7 +133,8 @@ std::optional<Eigen::VectorXd> Attributes::row(std::string_view name, std::initi
   return Eigen::VectorXd(array->reshaped());
 }
 
-std::optional<std::size_t> Attributes::choice(std::string_view name, std::span<const Choice> choices) const {
+std::optional<std::size_t> Attributes::choice(std::string_view name, std::span<const Choice> choices,
+                                              std::span<const Alias> aliases) const {
   const Node* attribute = find(name);
   if (!attribute) return std::nullopt;
   const double* number = std::get_if<double>(&attribute->value);
@@ -124,24 +148,50 @@ std::optional<std::size_t> Attributes::choice(std::string_view name, std::span<c
     largest = std::max(largest, choice.number);
     if (*choice.name) known.emplace_back(choice.name);
   }
+  std::vector<std::string> nearest = nearestNames(word ? *word : "", known);
+  for (const Alias& alias : aliases)
+    if (word && *word == alias.name) nearest = {alias.meaning};
   throw Error({.what = fmt::format("{}: unknown {}", owner_, name),
                .where = attribute->valueWhere,
                .found = describe(attribute->value),
                .wanted = fmt::format("a number from 0 to {} or a name such as '{}'", largest, known.front()),
-               .nearest = nearestNames(word ? *word : "", known)});
+               .nearest = std::move(nearest)});
 }
 
 void Attributes::noteUnknown(const std::vector<std::string>& known, Diagnostics& notes) const {
+  std::set<std::string_view> seen;
   for (const Node& attribute : *graph_) {
     for (const Word& key : attribute.keys) {
-      if (std::find(known.begin(), known.end(), key.text) != known.end()) continue;
+      if (isNumber(key.text)) failAtNumber(attribute, key);
+      const bool isKnown = std::find(known.begin(), known.end(), key.text) != known.end();
+      if (isKnown && seen.insert(key.text).second) continue;
       if (isFull(notes, key.where)) return;
+      if (isKnown) {
+        notes.push_back({key.where,
+                         fmt::format("{}: attribute '{}' is given twice: the first counts", owner_, key.text),
+                         Severity::kWarning});
+        continue;
+      }
       std::string text = fmt::format("{}: unknown attribute '{}' is ignored", owner_, key.text);
       const auto nearest = key.text.size() > 1 ? nearestNames(key.text, known) : std::vector<std::string>();
       if (!nearest.empty()) text += fmt::format(" (did you mean '{}'?)", nearest.front());
       notes.push_back({key.where, text, nearest.empty() ? Severity::kNote : Severity::kWarning});
     }
   }
+}
+
+void Attributes::failAtNumber(const Node& attribute, const Word& key) const {
+  const std::string& first = attribute.keys.front().text;
+  if (&key == &attribute.keys.front()) {
+    throw Error({.what = fmt::format("{}: a number without a name", owner_),
+                 .where = key.where,
+                 .found = fmt::format("'{}'", key.text),
+                 .wanted = "'.' as decimal mark, or an attribute NAME=VALUE"});
+  }
+  throw Error({.what = fmt::format("{}: attribute '{}': '=' is missing", owner_, first),
+               .where = key.where,
+               .found = fmt::format("'{}'", key.text),
+               .wanted = fmt::format("{}={}", first, key.text)});
 }
 
 void Attributes::note(std::string_view name, std::string_view text, Severity severity,

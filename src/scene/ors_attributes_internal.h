@@ -19,6 +19,12 @@ struct Choice {
   const char* name;
 };
 
+/// What other formats call a choice, to guess what was meant.
+struct Alias {
+  const char* name;
+  const char* meaning;
+};
+
 /// The attributes of one body, shape or joint, with typed access. Wrong kinds of values are Errors that name
 /// the owner, the attribute and the place.
 class Attributes {
@@ -31,8 +37,11 @@ class Attributes {
   bool has(std::string_view name) const { return find(name) != nullptr; }
 
   /// `contact`, `contact=true`, `contact=1` or a key that shares another's value: true. `contact!`,
-  /// `contact=false`, `contact=0`: false. True is also a word between role and name: `body fixed post {...}`.
+  /// `contact=false`, `contact=no`, `contact=off`, `contact=0`: false. True is also a word between role and
+  /// name: `body fixed post {...}`.
   bool flag(std::string_view name) const;
+  /// Warns of each flag whose value says neither yes nor no.
+  void noteFlags(std::initializer_list<const char*> names, Diagnostics& notes) const;
   std::optional<double> number(std::string_view name) const;
   /// A number >= 0.
   std::optional<double> size(std::string_view name) const;
@@ -43,9 +52,11 @@ class Attributes {
   std::optional<Eigen::VectorXd> row(std::string_view name, std::initializer_list<int> counts,
                                      bool mayBeInfinite = false) const;
   /// The index of what was chosen.
-  std::optional<std::size_t> choice(std::string_view name, std::span<const Choice> choices) const;
+  std::optional<std::size_t> choice(std::string_view name, std::span<const Choice> choices,
+                                    std::span<const Alias> aliases = {}) const;
 
-  /// Tells of each attribute that is not `known`: a warning if it looks like a misspelling.
+  /// Tells of each attribute that is not `known`, a warning if it looks like a misspelling, and of each that
+  /// is there twice. Throws Error for one whose name is a number.
   void noteUnknown(const std::vector<std::string>& known, Diagnostics& notes) const;
   void note(std::string_view name, std::string_view text, Severity severity, Diagnostics& notes) const;
 
@@ -56,6 +67,7 @@ class Attributes {
   [[noreturn]] void fail(std::string_view name, std::string found, std::string wanted) const;
 
  private:
+  [[noreturn]] void failAtNumber(const Node& attribute, const Word& key) const;
   template <class T>
   std::optional<T> get(std::string_view name, const char* wanted) const;
 

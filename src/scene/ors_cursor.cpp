@@ -9,6 +9,15 @@
 #include "scene/ors_limits_internal.h"
 
 namespace rex::ors {
+namespace {
+
+// Whether a number that no double holds is too near to zero for one, rather than too far from it.
+bool isTiny(const char* first, const char* last) {
+  long double parsed = 0;
+  return std::from_chars(first, last, parsed).ec == std::errc() && std::abs(parsed) < 1;
+}
+
+}  // namespace
 
 char Cursor::take() {
   const char c = text_[at_++];
@@ -71,14 +80,22 @@ std::string Cursor::upTo(char closing, const Place& open, const char* what) {
 
 double Cursor::number(const char* wanted, bool mayBeInfinite) {
   const char* const last = text_.data() + text_.size();
+  const char* const first = text_.data() + at_ + (peek() == '+' ? 1 : 0);
   double parsed = 0;
-  const auto [end, error] = std::from_chars(text_.data() + at_ + (peek() == '+' ? 1 : 0), last, parsed);
-  const bool followed = end == last || contains(" \t\r\n,;})]>", *end);
+  const auto [end, error] = std::from_chars(first, last, parsed);
+  const bool hasOneSign = peek() != '+' || first == last || *first != '-';
+  const bool followed = end == last || contains(" \t\r\n,;})]>#", *end);
   const bool inRange = std::isfinite(parsed) || (mayBeInfinite && std::isinf(parsed));
-  if (error != std::errc() || !followed || !inRange) fail("not a number", found(), wanted);
+  const bool isRead = error == std::errc() || (error == std::errc::result_out_of_range && isTiny(first, end));
+  if (!isRead || !hasOneSign || !followed || !inRange) fail("not a number", found(), wanted);
   countWord();
   at_ = static_cast<std::size_t>(end - text_.data());
   return parsed;
+}
+
+void Cursor::warn(const Place& where, std::string text) const {
+  if (budget_.notes.size() < kMostNotes)
+    budget_.notes.push_back({where, std::move(text), Severity::kWarning});
 }
 
 void Cursor::fail(std::string what, std::string found, std::string wanted) const {

@@ -7,11 +7,12 @@
 
 namespace rex::ors {
 
-/// How much was read so far, over all files of a scene.
+/// How much was read so far, over all files of a scene, and what was strange there.
 struct Budget {
   int nodes = 0;
   int words = 0;
   int directives = 0;
+  Diagnostics notes{};
 };
 
 /// Whether `c` is one of the characters; never true of the '\0' that Cursor::peek() gives at the end.
@@ -43,7 +44,7 @@ class Cursor {
   /// A finite number, or also inf and -inf.
   double number(const char* wanted, bool mayBeInfinite = false);
 
-  Budget& budget() { return budget_; }
+  void warn(const Place& where, std::string text) const;
 
   [[noreturn]] void fail(std::string what, std::string found, std::string wanted) const;
   [[noreturn]] static void failAt(const Place& where, std::string what, std::string found,

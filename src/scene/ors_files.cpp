@@ -41,6 +41,12 @@ Files::Opened Files::open(const FileName& file, const Place& where) {
   return opened;
 }
 
+bool Files::hasFolder(const std::string& folder) const {
+  std::error_code problem;
+  return !assets_ || folder.find("://") != std::string::npos ||
+         fs::is_directory(open_.front().parent_path() / folder, problem);
+}
+
 std::string inFolder(const std::string& folder, const std::string& name) {
   const bool isComplete = name.starts_with('/') || name.find("://") != std::string::npos;
   return folder.empty() || isComplete ? name : folder + "/" + name;

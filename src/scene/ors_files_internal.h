@@ -23,6 +23,8 @@ class Files {
   };
   [[nodiscard]] Opened open(const FileName& file, const Place& where);
   void close() { open_.pop_back(); }
+  /// Whether a folder that ChDir names is there; always so of a scene that was given as text.
+  [[nodiscard]] bool hasFolder(const std::string& folder) const;
 
  private:
   const Assets* assets_;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <filesystem>
@@ -21,6 +22,21 @@ std::string shortest(const std::filesystem::path& folder) {
   return text == "." ? "" : text;
 }
 
+// Without the mark of UTF-8. Throws Error for what is no .ors at all.
+std::string_view requireOrs(std::string_view text, const std::string& file) {
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+    throw Error({.what = "text in UTF-16", .where = {file, 1, 1}, .wanted = "UTF-8"});
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+  const std::size_t start = std::min(text.find_first_not_of(" \t\r\n"), text.size());
+  const std::string_view first = text.substr(start);
+  if (first.starts_with("<?xml") || first.starts_with("<robot") || first.starts_with("<!--")) {
+    throw Error({.what = "this is XML",
+                 .where = {file, 1, 1},
+                 .wanted = ".ors; if it is a robot in URDF, name it .urdf"});
+  }
+  return text;
+}
+
 // What all files of a scene share.
 struct Scene {
   Files files;
@@ -32,7 +48,7 @@ struct Scene {
 class Parser {
  public:
   Parser(std::string_view text, const std::string& file, std::string folder, Scene& scene)
-      : cursor_(text, file, scene.budget), folder_(std::move(folder)), scene_(scene) {}
+      : cursor_(requireOrs(text, file), file, scene.budget), folder_(std::move(folder)), scene_(scene) {}
 
   void readFile(NodeList& list, int depth) {
     readNodes(list, depth);
@@ -66,6 +82,10 @@ class Parser {
          cursor_.skip(" \t")) {
       if (contains(")]>\"'", cursor_.peek())) cursor_.fail("syntax error", cursor_.found(), "a name");
       addWord(node.keys, " \t\r\n,;([{}=!");
+      const Word& word = node.keys.back();
+      if (word.text.starts_with("//") || word.text.starts_with("/*"))
+        Cursor::failAt(word.where, "a comment of another language", fmt::format("'{}'", word.text),
+                       "'#', with which comments begin");
     }
     if (cursor_.peek() == '(') {
       readParents(node, list);
@@ -202,6 +222,8 @@ class Parser {
       Cursor::failAt(node.valueWhere, "ChDir: path too long", fmt::format("{} bytes", folder_.size()),
                      fmt::format("at most {}", kLongestWord));
     }
+    if (!scene_.files.hasFolder(folder_))
+      cursor_.warn(node.valueWhere, fmt::format("ChDir: no folder '{}' beside the scene", folder_));
   }
 
   void erase(const Node& node, NodeList& list) {
@@ -210,9 +232,8 @@ class Parser {
       Cursor::failAt(node.valueWhere, "Delete", describe(node.value), "only the words of a statement");
     if (list.erase(std::span(node.keys).subspan(1)) > 0) return;
     const std::string words = joinedKeys(node).substr(node.keys[0].text.size() + 1);
-    scene_.document.notes.push_back(
-        {node.where, fmt::format("nothing to delete: no earlier statement has the words '{}'", words),
-         Severity::kWarning});
+    cursor_.warn(node.where,
+                 fmt::format("nothing to delete: no earlier statement has the words '{}'", words));
   }
 
   Cursor cursor_;
@@ -238,12 +259,19 @@ std::string describe(const Value& value) {
   return std::visit(Describer{}, value);
 }
 
-Document parseGraph(std::string_view text, const std::string& fileName, const Assets* assets) {
+Document parseGraph(std::string_view text, const std::string& fileName, const Assets* assets,
+                    Diagnostics* notesOfFailure) {
   Scene scene{.files = Files(assets, fileName, text.size())};
   scene.document.files.push_back(fileName);
   NodeList list;
-  Parser(text, scene.document.files.back(), "", scene).readFile(list, 0);
-  scene.document.nodes = list.finish();
+  try {
+    Parser(text, scene.document.files.back(), "", scene).readFile(list, 0);
+    scene.document.nodes = list.finish();
+  } catch (const Error&) {
+    if (notesOfFailure) *notesOfFailure = std::move(scene.budget.notes);
+    throw;
+  }
+  scene.document.notes = std::move(scene.budget.notes);
   return std::move(scene.document);
 }
 

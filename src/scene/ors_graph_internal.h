@@ -62,8 +62,9 @@ struct Document {
 [[nodiscard]] std::string describe(const Value& value);
 
 /// Parses a whole file. Throws Error with file, line and column for every breach of the grammar and of the
-/// limits, and for an Include unless there are `assets` to find the file.
+/// limits, and for an Include unless there are `assets` to find the file; what was noted before that goes to
+/// `notesOfFailure`.
 [[nodiscard]] Document parseGraph(std::string_view text, const std::string& fileName,
-                                  const Assets* assets = nullptr);
+                                  const Assets* assets = nullptr, Diagnostics* notesOfFailure = nullptr);
 
 }  // namespace rex::ors

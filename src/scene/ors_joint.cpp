@@ -1,4 +1,7 @@
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -20,17 +23,14 @@ constexpr JointType kMeaning[] = {JointType::kHinge,       JointType::kHinge,   
                                   JointType::kUniversal,   JointType::kRigid,        JointType::kBall,
                                   JointType::kPlanarPhiXY, JointType::kRigid,        JointType::kFree,
                                   JointType::kScrew,       JointType::kCylindrical};
+constexpr Alias kOfUrdf[] = {{"prismatic", "transX"},  {"revolute", "hingeX"}, {"continuous", "hingeX"},
+                             {"fixed", "rigid"},       {"floating", "free"},   {"planar", "transXYPhi"},
+                             {"spherical", "quatBall"}};
+constexpr double kNear = 1e-4;         // files may give six digits
 constexpr std::size_t kAlongAxes = 6;  // the first types turn about or move along x, y, z
 
-// Of another length, also where the square of its own would overflow.
-Eigen::Vector3d readAxis(const Attributes& attributes, const Eigen::Vector3d& axis) {
-  const double largest = axis.cwiseAbs().maxCoeff();
-  if (!(largest > 0)) attributes.fail("axis", "a zero vector", "a direction");
-  return axis / largest;
-}
-
 void readType(const Attributes& attributes, const JointSpec* followed, JointSpec& joint) {
-  const std::size_t type = attributes.choice("type", kTypes).value_or(0);
+  const std::size_t type = attributes.choice("type", kTypes, kOfUrdf).value_or(0);
   joint.type = kMeaning[type];
   if (type < kAlongAxes) joint.axis = Eigen::Vector3d::Unit(static_cast<int>(type) % 3);
   if (followed && !attributes.has("type")) {
@@ -38,7 +38,6 @@ void readType(const Attributes& attributes, const JointSpec* followed, JointSpec
     joint.axis = followed->axis;
     joint.pitch = followed->pitch;
   }
-  if (attributes.flag("fixed")) joint.type = JointType::kRigid;
   const auto pitch = attributes.number("pitch");
   if (pitch) joint.pitch = *pitch;
   if (!pitch && !followed && joint.type == JointType::kScrew) {
@@ -63,14 +62,14 @@ void readFrames(const Attributes& attributes, const JointSurroundings& around, J
     }
   }
   if (const auto axis = attributes.row("axis", {3})) {
-    const Pose X_FT{rotationBetween(Eigen::Vector3d::UnitX(), readAxis(attributes, *axis)),
-                    Eigen::Vector3d::Zero()};
+    if (axis->isZero(0)) attributes.fail("axis", "a zero vector", "a direction");
+    const Pose X_FT{rotationBetween(Eigen::Vector3d::UnitX(), *axis), Eigen::Vector3d::Zero()};
     joint.X_PF = joint.X_PF * X_FT;
     joint.X_MC = X_FT.inverse() * joint.X_MC;
   }
 }
 
-void readStart(const Attributes& attributes, JointSpec& joint) {
+void readStart(const Attributes& attributes, JointSpec& joint, Diagnostics& notes) {
   const auto Q = attributes.pose("Q");
   if (joint.type == JointType::kRigid) {
     // Nothing moves: both become part of the fixed pose, q as a turn about x.
@@ -78,7 +77,14 @@ void readStart(const Attributes& attributes, JointSpec& joint) {
     joint.X_PF = joint.X_PF * Q.value_or(Pose{}) * rotation(q, Eigen::Vector3d::UnitX());
     return;
   }
-  if (Q) joint.q0 = jointCoordinates(joint.type, joint.axis, *Q);
+  if (Q) {
+    joint.q0 = jointCoordinates(joint.type, joint.axis, *Q);
+    const Pose X_FM = jointMotion(joint.type, joint.axis, joint.pitch, joint.q0.data());
+    if (!isApprox(X_FM, *Q, kNear) && !attributes.flag("fixed")) {
+      attributes.note("Q", "is no motion of this joint: only the part that is one counts", Severity::kWarning,
+                      notes);
+    }
+  }
   if (const auto q = attributes.row("q", {positionCount(joint.type)})) {
     const bool hasQuaternion = joint.type == JointType::kBall || joint.type == JointType::kFree;
     const double length = hasQuaternion ? q->tail<4>().norm() : 1;
@@ -110,6 +116,41 @@ void readLimits(const Attributes& attributes, JointSpec& joint) {
     joint.maxVelocity = (*limits)[0];
     joint.maxEffort = (*limits)[1];
   }
+}
+
+void noteStrangeAngles(const Attributes& attributes, const JointSpec& joint, Diagnostics& notes) {
+  constexpr double kMost = 4 * std::numbers::pi;
+  if (joint.type != JointType::kHinge) return;
+  const auto isStrange = [](const Eigen::VectorXd& q) {
+    return std::any_of(q.begin(), q.end(), [](double x) { return std::isfinite(x) && std::abs(x) > kMost; });
+  };
+  for (const auto& [name, isSo] : {std::pair("limits", isStrange(joint.lower) || isStrange(joint.upper)),
+                                   std::pair("q", isStrange(joint.q0))}) {
+    if (isSo)
+      attributes.note(name, "is more than two turns: degrees? Angles are radians", Severity::kWarning, notes);
+  }
+}
+
+void noteStartOutside(const Attributes& attributes, const JointSpec& joint, Diagnostics& notes) {
+  if (joint.q0.size() == 0 || joint.lower.size() == 0) return;
+  for (Eigen::Index i = 0; i < joint.q0.size(); ++i) {
+    if (joint.q0[i] >= joint.lower[i] - kNear && joint.q0[i] <= joint.upper[i] + kNear) continue;
+    attributes.note(attributes.has("q") ? "q" : "Q",
+                    fmt::format("starts outside the limits: {} is not in {} .. {}", joint.q0[i],
+                                joint.lower[i], joint.upper[i]),
+                    Severity::kWarning, notes);
+    return;
+  }
+}
+
+// Nothing moves any more: where the joint starts becomes part of its frame.
+void fix(const Attributes& attributes, JointSpec& joint) {
+  const bool isFree = joint.type != JointType::kRigid;
+  const auto Q = isFree && !attributes.has("q") ? attributes.pose("Q") : std::nullopt;
+  const Eigen::VectorXd q = joint.start();
+  joint.X_PF = joint.X_PF * (Q ? *Q : jointMotion(joint.type, joint.axis, joint.pitch, q.data()));
+  joint.type = JointType::kRigid;
+  for (Eigen::VectorXd* values : {&joint.q0, &joint.lower, &joint.upper}) values->resize(0);
 }
 
 }  // namespace
@@ -149,8 +190,12 @@ void readJoint(const Attributes& attributes, const JointSurroundings& around, Jo
   joint.mimicOffset = attributes.number("mimic_offset").value_or(0);
   readType(attributes, around.followed, joint);
   readFrames(attributes, around, joint, notes);
-  readStart(attributes, joint);
+  readStart(attributes, joint, notes);
   readLimits(attributes, joint);
+  noteStartOutside(attributes, joint, notes);
+  noteStrangeAngles(attributes, joint, notes);
+  attributes.noteFlags({"fixed", "BinvA"}, notes);
+  if (attributes.flag("fixed")) fix(attributes, joint);
   joint.damping = attributes.size("damping").value_or(0);
   joint.friction = attributes.size("friction").value_or(0);
   if (attributes.number("agent").value_or(0) != 0)

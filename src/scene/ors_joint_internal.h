@@ -8,7 +8,7 @@ namespace rex::ors {
 /// What a joint knows of the scene around it.
 struct JointSurroundings {
   Pose X_WP, X_WC;                      ///< of the bodies it connects, as the file has them
-  const JointSpec* followed = nullptr;  ///< the earlier joint that its attribute 'mimic' names
+  const JointSpec* followed = nullptr;  ///< the joint that its attribute 'mimic' names
 };
 
 /// Reads what the attributes say into a joint that has its name and its bodies. Throws Error at the

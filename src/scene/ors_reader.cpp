@@ -70,12 +70,9 @@ const std::vector<std::string>& bodyAttributes() {
 
 class Reader {
  public:
-  Reader(const std::string& name, Diagnostics notes) {
-    file_.spec.name = name;
-    file_.notes = std::move(notes);
-  }
+  explicit Reader(SceneFile& file) : file_(file) {}
 
-  SceneFile read(const ors::Graph& graph) {
+  void read(const ors::Graph& graph) {
     firstOfName_.reserve(graph.size());
     bodyOfNode_.reserve(graph.size());
     for (const Node& node : graph) {
@@ -95,7 +92,7 @@ class Reader {
              nearestNames(role, {"body", "shape", "joint", "Include", "ChDir", "Delete", "Edit"}));
       }
     }
-    return std::move(file_);
+    for (const Waiting& joint : waiting_) readAttributes(joint);
   }
 
  private:
@@ -135,6 +132,9 @@ class Reader {
     if (body.mass < 0) attributes.fail("mass", fmt::format("{}", body.mass), "a mass >= 0 kg");
     if (const auto com = attributes.row("com", {3})) body.p_BBcm = *com;
     body.inertia = readInertia(attributes, file_.notes);
+    if (body.inertia && !body.inertia->isZero(0) && body.mass == 0)
+      fail(attributes.where("inertia"), owner + ": an inertia without mass", "0", "a mass > 0 kg");
+    attributes.noteFlags({"fixed", "static", "kinematic"}, file_.notes);
     body.kind = readKind(attributes);
     if (attributes.has("type")) {
       body.shapes.push_back(ors::readShape(attributes, name, node.where, file_.notes));
@@ -142,14 +142,17 @@ class Reader {
       noteNoShape(attributes);
     }
     bodyOfNode_.emplace(node.id, file_.spec.bodies.size());
-    firstOfName_.emplace(name, file_.spec.bodies.size());
+    const bool isFirst = firstOfName_.emplace(name, file_.spec.bodies.size()).second;
+    if (!isFirst && file_.notes.size() < ors::kMostNotes)
+      file_.notes.push_back({node.where, owner + ": a second body of this name: references mean the first"});
     file_.spec.bodies.push_back(std::move(body));
   }
 
   void noteNoShape(const Attributes& attributes) {
-    for (const char* name : {"size", "rel", "mesh"}) {
+    for (const char* name : {"size", "rel", "mesh", "meshscale", "color", "contact", "hidden"}) {
       if (!attributes.has(name)) continue;
-      attributes.note(name, "is ignored: without 'type' the body has no shape", Severity::kNote, file_.notes);
+      attributes.note(name, "is ignored: without 'type' the body has no shape", Severity::kWarning,
+                      file_.notes);
       return;
     }
   }
@@ -192,11 +195,31 @@ class Reader {
       fail(node.parents[1].where, attributes.owner(), fmt::format("'{}' hung on itself", joint.child),
            "two different bodies");
     }
-    const auto followed = jointOfName_.find(ors::readMimic(attributes));
-    if (followed != jointOfName_.end()) around.followed = &file_.spec.joints[followed->second];
-    ors::readJoint(attributes, around, joint, file_.notes);
+    const std::string mimic = ors::readMimic(attributes);
+    const Waiting waiting{&node, file_.spec.joints.size(), around};
+    const bool mustWait = !mimic.empty() && !jointOfName_.contains(mimic);
     jointOfName_.emplace(std::move(name), file_.spec.joints.size());
     file_.spec.joints.push_back(std::move(joint));
+    if (mustWait) {
+      waiting_.push_back(waiting);
+    } else {
+      readAttributes(waiting);
+    }
+  }
+
+  // A joint whose attributes are not read yet: one may follow another that comes later.
+  struct Waiting {
+    const Node* node;
+    std::size_t index;
+    ors::JointSurroundings around;
+  };
+
+  void readAttributes(Waiting joint) {
+    const Attributes attributes(*joint.node, called("joint", file_.spec.joints[joint.index].name));
+    const auto followed = jointOfName_.find(ors::readMimic(attributes));
+    if (followed != jointOfName_.end() && followed->second != joint.index)
+      joint.around.followed = &file_.spec.joints[followed->second];
+    ors::readJoint(attributes, joint.around, file_.spec.joints[joint.index], file_.notes);
   }
 
   // What a joint calls the body, whose pose is X_WB.
@@ -218,25 +241,39 @@ class Reader {
     return body == bodyOfNode_.end() ? parent.text : file_.spec.bodies[body->second].name;
   }
 
-  SceneFile file_;
+  SceneFile& file_;
+  std::vector<Waiting> waiting_;
   std::unordered_map<std::string, std::size_t> firstOfName_, jointOfName_;
   std::unordered_map<int, std::size_t> bodyOfNode_;
 };
 
-SceneFile read(std::string_view text, const std::string& name, const Assets* assets) {
-  ors::Document document = ors::parseGraph(text, name, assets);
-  return Reader(name, std::move(document.notes)).read(document.nodes);
+SceneFile read(std::string_view text, const std::string& name, const Assets* assets,
+               const ReadOptions& options) {
+  SceneFile file;
+  file.spec.name = name;
+  try {
+    ors::Document document = ors::parseGraph(text, name, assets, &file.notes);
+    file.notes = std::move(document.notes);
+    if (document.nodes.empty())
+      file.notes.push_back({{name, 1, 1}, "no statement: the scene is empty", Severity::kWarning});
+    Reader(file).read(document.nodes);
+    if (assets) loadMeshes(file, *assets, options.allowMissingMeshes);
+    return file;
+  } catch (const Error&) {
+    if (options.notesOfFailure) *options.notesOfFailure = std::move(file.notes);
+    throw;
+  }
 }
 
 }  // namespace
 
-SceneFile parseOrs(std::string_view text, const std::string& name) { return read(text, name, nullptr); }
+SceneFile parseOrs(std::string_view text, const std::string& name, const ReadOptions& options) {
+  return read(text, name, nullptr, options);
+}
 
 SceneFile readOrs(const std::filesystem::path& file, const ReadOptions& options) {
   const Assets assets(file, options.assetRoot);
-  SceneFile scene = read(readSceneText(file), file.string(), &assets);
-  loadMeshes(scene, assets, options.allowMissingMeshes);
-  return scene;
+  return read(readSceneText(file), file.string(), &assets, options);
 }
 
 }  // namespace rex

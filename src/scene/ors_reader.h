@@ -11,6 +11,7 @@ namespace rex {
 
 /// The same for text at hand; `name` stands for the file in messages. Reads no file: shapes know their mesh
 /// by name only, and an Include is an Error.
-[[nodiscard]] SceneFile parseOrs(std::string_view text, const std::string& name);
+[[nodiscard]] SceneFile parseOrs(std::string_view text, const std::string& name,
+                                 const ReadOptions& options = {});
 
 }  // namespace rex

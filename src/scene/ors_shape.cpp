@@ -28,13 +28,21 @@ ShapeType readType(const Attributes& attributes, const Place& where, Diagnostics
   return kMeaning[*type];
 }
 
-void readSize(const Attributes& attributes, Shape& shape) {
+// Whether the fourth number of its size matters, and a shape without it is likely a mistake.
+bool hasRadius(ShapeType type) {
+  return type == ShapeType::kSphere || type == ShapeType::kCapsule || type == ShapeType::kCylinder ||
+         type == ShapeType::kRoundedBox;
+}
+
+void readSize(const Attributes& attributes, Shape& shape, Diagnostics& notes) {
   const auto size = attributes.row("size", {3, 4});
   if (!size) return;
   shape.extent = size->head<3>();
   shape.radius = size->size() == 4 ? (*size)[3] : 0;
   if (size->minCoeff() < 0)
     attributes.fail("size", fmt::format("{}", size->minCoeff()), "lengths that are not negative");
+  if (size->size() == 3 && hasRadius(shape.type))
+    attributes.note("size", "has three numbers: the radius, its fourth, is 0", Severity::kWarning, notes);
 }
 
 }  // namespace
@@ -59,9 +67,14 @@ ShapeSpec readShape(const Attributes& attributes, std::string name, const Place&
   spec.name = std::move(name);
   spec.where = where;
   spec.shape.type = readType(attributes, where, notes);
-  readSize(attributes, spec.shape);
+  readSize(attributes, spec.shape, notes);
   spec.X_BS = attributes.pose("rel").value_or(Pose{});
-  if (const auto color = attributes.row("color", {3, 4})) spec.color.head(color->size()) = *color;
+  attributes.noteFlags({"contact", "hidden"}, notes);
+  if (const auto color = attributes.row("color", {3, 4})) {
+    for (const double part : *color)
+      if (part < 0 || part > 1) attributes.fail("color", fmt::format("{}", part), "numbers from 0 to 1");
+    spec.color.head(color->size()) = *color;
+  }
   spec.contact = attributes.flag("contact");
   spec.visible = !attributes.flag("hidden");
   if (const auto mesh = attributes.file("mesh")) spec.meshFile = mesh->path;

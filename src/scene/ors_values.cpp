@@ -51,6 +51,8 @@ Eigen::VectorXd readNumbers(Cursor& cursor, int count, const char* wanted) {
   Eigen::VectorXd values(count);
   for (double& value : values) {
     cursor.skip(kSpace);
+    if (cursor.peek() == ',')
+      cursor.fail("a comma in a pose", cursor.found(), fmt::format("{} separated by blanks", wanted));
     if (cursor.atEnd() || contains(")>", cursor.peek()))
       cursor.fail("too few numbers in a pose", cursor.found(), wanted);
     value = cursor.number(wanted);
@@ -58,16 +60,10 @@ Eigen::VectorXd readNumbers(Cursor& cursor, int count, const char* wanted) {
   return values;
 }
 
-// Scaled so that no length overflows or vanishes.
-Eigen::VectorXd direction(const Eigen::VectorXd& v) {
-  const double largest = v.cwiseAbs().maxCoeff();
-  return largest > 0 ? Eigen::VectorXd(v / largest) : v;
-}
-
 Eigen::Matrix3d rotationFromFile(const Place& where, const Eigen::Vector4d& quaternion) {
   if (quaternion.isZero(0))
     Cursor::failAt(where, "quaternion", "(0, 0, 0, 0)", "a quaternion w x y z that is not zero");
-  return rotationFromQuaternion(direction(quaternion));
+  return rotationFromQuaternion(quaternion);
 }
 
 Pose readPoseElement(Cursor& cursor) {
@@ -77,7 +73,7 @@ Pose readPoseElement(Cursor& cursor) {
     return {rotationFromFile(start, n.tail<4>()), n.head<3>()};
   }
   const char kind = cursor.peek();
-  if (!contains("tdrqE", kind)) {
+  if (!contains("tdrqE", kind) || cursor.found() != fmt::format("'{}'", kind)) {
     cursor.fail("unknown element of a pose", cursor.found(),
                 "t(..), d(..), r(..), q(..), E(..), seven numbers, or '>'");
   }
@@ -90,13 +86,15 @@ Pose readPoseElement(Cursor& cursor) {
   cursor.skip(kSpace);
   if (cursor.peek() != ')') cursor.fail(name, cursor.found(), fmt::format("')' after {} numbers", n.size()));
   cursor.take();
+  if ((kind == 'd' || kind == 'r') && n[0] != 0 && n.tail<3>().isZero(0))
+    cursor.warn(start, name + " about a zero axis turns nothing: give the axis x y z");
   switch (kind) {
     case 't':
       return translation(n[0], n[1], n[2]);
     case 'd':
-      return rotation(n[0] * std::numbers::pi / 180, direction(n.tail<3>()));
+      return rotation(n[0] * std::numbers::pi / 180, n.tail<3>());
     case 'r':
-      return rotation(n[0], direction(n.tail<3>()));
+      return rotation(n[0], n.tail<3>());
     case 'q':
       return {rotationFromFile(start, n), Eigen::Vector3d::Zero()};
     default:

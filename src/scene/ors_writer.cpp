@@ -23,6 +23,7 @@ using Parts = std::vector<std::string>;  // the attributes of a statement
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kWidestColumn = 32;
+constexpr double kInertiaPerMass = 0.2;  // what compile() takes when only a mass is given
 
 void requireName(const char* role, const std::string& name, const SourceLocation& where) {
   const bool isWord = !name.empty() && name.size() <= ors::kLongestWord &&
@@ -172,7 +173,7 @@ Parts jointParts(const JointSpec& joint) {
   addType(joint, parts);
   if (!isIdentity(joint.X_PF)) parts.push_back("A=" + poseText(joint.X_PF));
   if (!isIdentity(joint.X_MC)) parts.push_back("B=" + poseText(joint.X_MC));
-  if (joint.q0.size() > 0 && joint.q0 != jointCoordinates(joint.type, joint.axis, Pose{}))
+  if (joint.start() != jointCoordinates(joint.type, joint.axis, Pose{}))
     parts.push_back("q=" + numbersText(joint.q0));
   addLimits(joint, parts);
   addMimic(joint, parts);
@@ -186,7 +187,8 @@ Parts bodyParts(const BodySpec& body) {
   if (!isIdentity(body.X_WB)) parts.push_back("X=" + poseText(body.X_WB));
   addNumber("mass", body.mass, 0, parts);
   if (!body.p_BBcm.isZero(0)) parts.push_back("com=" + arrayText(body.p_BBcm));
-  if (body.inertia) {
+  const Eigen::Matrix3d usual = kInertiaPerMass * body.mass * Eigen::Matrix3d::Identity();
+  if (body.inertia && *body.inertia != usual) {
     const Eigen::Matrix3d& I = *body.inertia;
     Eigen::VectorXd entries(6);
     entries << I.diagonal(), I(0, 1), I(0, 2), I(1, 2);
@@ -263,9 +265,11 @@ class Writer {
   }
 
   Parts shapeParts(const ShapeSpec& shape) const {
-    Parts parts = {"type=" + typeName(shape.shape.type)};
     const Shape usual;
-    if (shape.shape.extent != usual.extent || shape.shape.radius != usual.radius) {
+    Parts parts = {"type=" + typeName(shape.meshMissing ? ShapeType::kMesh : shape.shape.type)};
+    // What stands for a missing mesh is not part of the scene.
+    const bool isUsual = shape.shape.extent == usual.extent && shape.shape.radius == usual.radius;
+    if (!isUsual && !shape.meshMissing) {
       Eigen::Vector4d size;
       size << shape.shape.extent, shape.shape.radius;
       parts.push_back("size=" + arrayText(size.head(shape.shape.radius == 0 ? 3 : 4)));

@@ -11,6 +11,7 @@ namespace rex {
 /// last digit. Meshes that were found are named relative to `folder`, where the text shall lie; without a
 /// folder as they are called in the spec. Throws Error, naming the thing, for a name that the format has no
 /// words for and for a mesh that is in no file.
+/// Read again, only meshes load that lie in the asset root of the new place.
 [[nodiscard]] std::string writeOrs(const SceneSpec& spec, const std::filesystem::path& folder = {});
 
 }  // namespace rex

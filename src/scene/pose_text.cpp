@@ -22,9 +22,6 @@ Pose parsePose(std::string_view text, const std::string& name) {
          .wanted = kWanted});
   if (graph.size() > 1)
     throw Error({.what = "text after a pose", .where = graph[1].where, .wanted = kWanted});
-  if (!pose->R.allFinite() || !pose->p.allFinite())
-    throw Error(
-        {.what = "pose", .where = node.where, .found = "numbers too large", .wanted = "a finite pose"});
   return *pose;
 }
 

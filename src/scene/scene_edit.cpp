@@ -1,6 +1,7 @@
 #include "scene/scene_edit.h"
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -56,13 +57,24 @@ const JointSpec* follower(const SceneSpec& spec, const JointSpec& joint) {
   return found == spec.joints.end() ? nullptr : &*found;
 }
 
+Eigen::VectorXd initialCoordinates(const JointSpec& joint) {
+  const Eigen::VectorXd q = joint.start();
+  const int n = positionCount(joint.type);
+  if (q.size() != n)
+    fail(joint, "initial coordinates", fmt::format("{} numbers", q.size()), fmt::format("{}", n));
+  return q;
+}
+
 Eigen::VectorXd initialCoordinates(const SceneSpec& spec, const JointSpec& joint) {
-  if (!joint.mimic.empty()) {
-    for (const JointSpec& target : spec.joints)
-      if (target.name == joint.mimic)
-        return (joint.mimicRatio * initialCoordinates(spec, target).array() + joint.mimicOffset).matrix();
+  if (joint.mimic.empty()) return initialCoordinates(joint);
+  const auto target = std::find_if(spec.joints.begin(), spec.joints.end(),
+                                   [&](const JointSpec& other) { return other.name == joint.mimic; });
+  if (target == spec.joints.end() || !target->mimic.empty() ||
+      positionCount(target->type) != positionCount(joint.type)) {
+    fail(joint, "mimic", fmt::format("'{}'", joint.mimic),
+         "a joint that mimics none, with as many coordinates");
   }
-  return joint.q0.size() > 0 ? joint.q0 : jointCoordinates(joint.type, joint.axis, Pose{});
+  return (joint.mimicRatio * initialCoordinates(*target).array() + joint.mimicOffset).matrix();
 }
 
 Pose initialMotion(const SceneSpec& spec, const JointSpec& joint) {
@@ -112,6 +124,11 @@ void requireReversible(const SceneSpec& spec, const JointSpec& joint) {
     fail(joint, "cannot be turned round", "several coordinates that mimic", "one, or no mimic");
   if (joint.type == JointType::kFree && joint.lower.size() > 0)
     fail(joint, "cannot be turned round", "limits of a free joint", "none");
+  for (const Eigen::VectorXd* limits : {&joint.lower, &joint.upper}) {
+    if (limits->size() != 0 && limits->size() != positionCount(joint.type))
+      fail(joint, "limits", fmt::format("{} numbers", limits->size()),
+           fmt::format("{}", positionCount(joint.type)));
+  }
 }
 
 // X_FM(q)^-1 is again the motion of a joint: of one coordinate about the opposite axis.
@@ -128,6 +145,10 @@ void reverse(JointSpec& joint) {
   joint.type = reversal.type;
   if (reversal.coordinates.empty()) return;
   joint.q0 = reordered(joint.q0, reversal);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const int n = positionCount(joint.type);
+  if (joint.lower.size() == 0 && joint.upper.size() > 0) joint.lower.setConstant(n, -kInfinity);
+  if (joint.upper.size() == 0 && joint.lower.size() > 0) joint.upper.setConstant(n, kInfinity);
   const Eigen::VectorXd one = reordered(joint.lower, reversal), other = reordered(joint.upper, reversal);
   joint.lower = one.cwiseMin(other);
   joint.upper = one.cwiseMax(other);
@@ -207,6 +228,8 @@ SceneSpec unglueBody(SceneSpec spec, const std::string& child, const std::option
                  .where = body.where,
                  .found = glue == nullptr ? "no joint" : fmt::format("joint '{}'", glue->name),
                  .wanted = "a rigid joint"});
+  if (former && !former->mimic.empty())
+    fail(*former, "cannot be put back", fmt::format("a mimic of '{}'", former->mimic), "none");
   const Pose X_WC = initialPose(spec, child);
   removeJoint(spec, std::string(glue->name));
   if (!former) {

@@ -36,7 +36,7 @@ struct Glued {
 
 /// Undoes glueBodies(): takes away the rigid joint of `child` and puts `former` back, with the coordinates
 /// that come nearest to where the body stands now. Without `former` the body becomes a root that stands where
-/// it stood. Throws Error if `child` does not hang on a rigid joint.
+/// it stood. Throws Error if `child` does not hang on a rigid joint, and if `former` mimics another joint.
 [[nodiscard]] SceneSpec unglueBody(SceneSpec spec, const std::string& child,
                                    const std::optional<JointSpec>& former = {});
 

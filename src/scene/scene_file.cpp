@@ -33,7 +33,7 @@ SceneFile readScene(const fs::path& file, const ReadOptions& options) {
 }
 
 SceneFile parseScene(std::string_view text, const std::string& name, const ReadOptions& options) {
-  return name.ends_with(".urdf") ? parseUrdf(text, name, options) : parseOrs(text, name);
+  return name.ends_with(".urdf") ? parseUrdf(text, name, options) : parseOrs(text, name, options);
 }
 
 std::string readSceneText(const fs::path& file, std::size_t most) {

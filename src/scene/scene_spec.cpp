@@ -150,4 +150,6 @@ Eigen::VectorXd jointCoordinates(JointType type, const Eigen::Vector3d& axis, co
   return q;
 }
 
+Eigen::VectorXd JointSpec::start() const { return q0.size() > 0 ? q0 : jointCoordinates(type, axis, Pose{}); }
+
 }  // namespace rex

@@ -56,6 +56,7 @@ struct ShapeSpec {
   std::string meshFile{};                   ///< what `shape.mesh` is read from, see loadMeshes()
   Eigen::Vector3d meshScale = Eigen::Vector3d::Ones();
   std::filesystem::path meshPath{};  ///< where loadMeshes() found it; empty before
+  bool meshMissing = false;          ///< `shape` only stands for the mesh, and compile() gives it no contact
   SourceLocation where{};
 };
 
@@ -90,6 +91,9 @@ struct JointSpec {
   double damping = 0;                                            ///< N m s/rad or N s/m
   double friction = 0;                                           ///< N m or N
   SourceLocation where{};
+
+  /// q0, or the zero position if that is empty.
+  [[nodiscard]] Eigen::VectorXd start() const;
 };
 
 /// A scene as it is read and edited. Bodies keep file order; compile() turns it into a Model.

@@ -134,12 +134,31 @@ TEST(Compile, RefusesBadNumbersInAnEditedSpec) {
   EXPECT_REX_ERROR(
       compile(broken([&](SceneSpec& s) { s.joints[0].lower = Eigen::VectorXd::Constant(1, nan); })),
       "joint 'j': lower limits: found nan");
+  const auto one = [](double number) { return Eigen::VectorXd::Constant(1, number); };
+  EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].q0 = one(HUGE_VAL); })),
+                   "joint 'j': initial coordinates: found inf, wanted finite numbers");
+  EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) {
+                     s.joints[0].lower = one(2);
+                     s.joints[0].upper = one(1);
+                   })),
+                   "joint 'j': limits: found 2 > 1, wanted lower <= upper");
+  EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.bodies[0].shapes[0].color[1] = 255; })),
+                   "shape 'a': colour: found 255, wanted numbers from 0 to 1");
+  EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.bodies[0].shapes[0].color[3] = nan; })),
+                   "shape 'a': colour: found nan");
   EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].parent = "c"; })),
                    "f:3:1: joint 'j': unknown parent: found 'c', wanted the name of a body");
   EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].child = "c"; })),
                    "joint 'j': unknown child: found 'c'");
   EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].mimic = "k"; })),
                    "joint 'j': mimic: found 'k', wanted a joint that mimics none, of the same type");
+}
+
+TEST(Compile, LetsNothingCollideWithWhatStandsForAMesh) {
+  SceneSpec spec = parseOrs("body a { type=0 contact }", "f").spec;
+  EXPECT_TRUE(compile(spec).shapes()[0].contact);
+  spec.bodies[0].shapes[0].meshMissing = true;
+  EXPECT_FALSE(compile(spec).shapes()[0].contact);
 }
 
 TEST(Compile, LetsJointsHangOnTheWorld) {

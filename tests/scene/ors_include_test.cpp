@@ -37,6 +37,16 @@ TEST_F(OrsInclude, ReadsNodesInPlace) {
   EXPECT_EQ(spec.bodies[2].where.file, path("parts/tools/hand.ors").string());
 }
 
+TEST_F(OrsInclude, WarnsOfAFolderThatIsNotThere) {
+  write("main.ors", "body a {}\nChDir='meshs'");
+  const Diagnostics notes = readOrs(path("main.ors")).notes;
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(toString(notes[0]),
+            path("main.ors").string() + ":2:7: warning: ChDir: no folder 'meshs' beside the scene");
+  fs::create_directories(path("meshs"));
+  EXPECT_TRUE(readOrs(path("main.ors")).notes.empty());
+}
+
 TEST_F(OrsInclude, SharesAttributes) {
   write("steel.ors", "mass=7 color=[.5 .5 .6]");
   const SceneSpec spec = read("body a { type=0 Include='steel.ors' }\nbody b { Include='steel.ors' mass=1 }");

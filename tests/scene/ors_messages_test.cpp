@@ -48,7 +48,28 @@ std::string errorOf(const std::string& text) {
 }
 
 constexpr Row kErrors[] = {
+    // what is no .ors
+    {"@\xff\xfe@body a {}", "", "text in UTF-16: wanted UTF-8"},
+    {"@<robot name='r'/>@", "body a {}", "this is XML: wanted .ors; if it is a robot in URDF, name it .urdf"},
+    {"@//@ an arm\nbody a {}", "#",
+     "a comment of another language: found '//', wanted '#', with which comments begin"},
     // the grammar
+    {"body a { mass=@+-@5 }", "+", "not a number: found '+-5', wanted a number"},
+    {"body a { X=<T t(0@,@ 0 1)> }", "",
+     "a comma in a pose: found ',', wanted three numbers separated by blanks"},
+    {"body a { X=<T @tt@(0 0 1)> }", "t",
+     "unknown element of a pose: found 'tt', wanted t(..), d(..), r(..), q(..), E(..), seven numbers, or "
+     "'>'"},
+    {"body a { mass=0@,@^5 }", ".",
+     "body 'a': a number without a name: found '5', wanted '.' as decimal mark, or an attribute NAME=VALUE"},
+    {"body a { mass@ @^1 }", "=", "body 'a': attribute 'mass': '=' is missing: found '1', wanted mass=1"},
+    {"body a { type=0 color=^[@255@ 0 0] }", "1",
+     "body 'a': attribute 'color': found 255, wanted numbers from 0 to 1"},
+    {"body a { @@inertia=^[1 1 1] }", "mass=1 ",
+     "body 'a': an inertia without mass: found 0, wanted a mass > 0 kg"},
+    {"body a {}\nbody b {}\njoint j (a b) { type=@prismatic@ }", "transX",
+     "joint 'j': unknown type: found 'prismatic', wanted a number from 0 to 14 or a name such as 'hingeX' "
+     "(did you mean 'transX'?)"},
     {"body a ^{\n  mass=1 @@", "}", "'{' is never closed: wanted a matching '}' before the end of the file"},
     {"body a { mass=1 }\n@}@", "", "unmatched '}': wanted a body, shape or joint, or the end of the file"},
     {"body a {}\nshape s ^(a@@ {type=0}", ")", "'(' is never closed: wanted a ')' before '{type'"},
@@ -119,11 +140,11 @@ constexpr Row kErrors[] = {
      "body 'a': attribute 'com': found an array of 3 x 1, wanted an array of 3 numbers"},
     {"body a { com=@[0 inf 0]@ }", "[0 0 0]",
      "body 'a': attribute 'com': found an infinite number, wanted finite numbers"},
-    {"body a { inertia=@[1 1]@ }", "[1 1 1]",
+    {"body a { mass=1 inertia=@[1 1]@ }", "[1 1 1]",
      "body 'a': attribute 'inertia': found an array of 2, wanted an array of 3 or 6 numbers"},
-    {"body a { inertia=@[1 1 -1]@ }", "[1 1 1]",
+    {"body a { mass=1 inertia=@[1 1 -1]@ }", "[1 1 1]",
      "body 'a': attribute 'inertia': found a negative principal moment, wanted principal moments >= 0"},
-    {"body a { inertia=@[1 1 1 2 0 0]@ }", "[1 1 1 .2 0 0]",
+    {"body a { mass=1 inertia=@[1 1 1 2 0 0]@ }", "[1 1 1 .2 0 0]",
      "body 'a': attribute 'inertia': found a negative principal moment, wanted principal moments >= 0"},
     {"body a { dyntype=@5@ }", "2",
      "body 'a': unknown dyntype: found the number 5, wanted a number from 0 to 2 or a name such as "
@@ -207,6 +228,25 @@ constexpr Row kErrors[] = {
 };
 
 constexpr Row kNotes[] = {
+    {"@@# nothing", "body a {}", "warning: no statement: the scene is empty"},
+    {"body a {}\n^body @a@ {}", "b", "note: body 'a': a second body of this name: references mean the first"},
+    {"body a { mass=1 @mass=2@ }", "",
+     "warning: body 'a': attribute 'mass' is given twice: the first counts"},
+    {"body a { type=0 contact=@flase@ }", "false",
+     "warning: body 'a': attribute 'contact' counts as true: 'flase' is neither true nor false (did you mean "
+     "'false'?)"},
+    {"body a { @@color=^[1 0 0] }", "type=0 ",
+     "warning: body 'a': attribute 'color' is ignored: without 'type' the body has no shape"},
+    {"body a { type=1 size=^[0 0 0@@] }", " 1",
+     "warning: body 'a': attribute 'size' has three numbers: the radius, its fourth, is 0"},
+    {"body a { X=<T ^d(90 0 0 @0@)> }", "1",
+     "warning: pose element 'd' about a zero axis turns nothing: give the axis x y z"},
+    {"body a {}\nbody b {}\njoint j (a b) { type=hingeZ Q=^<T d(90 0 @1 0@)> }", "0 1",
+     "warning: joint 'j': attribute 'Q' is no motion of this joint: only the part that is one counts"},
+    {"body a {}\nbody b {}\njoint j (a b) { limits=[-1 1] q=@2@ }", "1",
+     "warning: joint 'j': attribute 'q' starts outside the limits: 2 is not in -1 .. 1"},
+    {"body a {}\nbody b {}\njoint j (a b) { limits=@[-90 90]@ }", "[-1 1]",
+     "warning: joint 'j': attribute 'limits' is more than two turns: degrees? Angles are radians"},
     {"body a { @mas@=1 }", "mass",
      "warning: body 'a': unknown attribute 'mas' is ignored (did you mean 'mass'?)"},
     {"body a { @wheels@=4 }", "mass", "note: body 'a': unknown attribute 'wheels' is ignored"},
@@ -215,7 +255,7 @@ constexpr Row kNotes[] = {
      "the "
      "others"},
     {"body a { @@size=^[1 1 1] }", "type=0 ",
-     "note: body 'a': attribute 'size' is ignored: without 'type' the body has no shape"},
+     "warning: body 'a': attribute 'size' is ignored: without 'type' the body has no shape"},
     {"body a { type=@6@ }", "9",
      "note: body 'a': attribute 'type' 6 is retired: read as ST_ssBox, a rounded box"},
     {"body a {}\n^Delete body @b@\nbody b {}", "a",

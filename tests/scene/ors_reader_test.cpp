@@ -51,9 +51,9 @@ TEST(OrsReader, HonoursFlagsAndSharedKeys) {
 
 TEST(OrsReader, ReadsInertia) {
   EXPECT_FALSE(read("body a { mass=1 }").bodies[0].inertia.has_value());
-  EXPECT_EQ(*read("body a { inertia=[1 2 3] }").bodies[0].inertia,
+  EXPECT_EQ(*read("body a { mass=1 inertia=[1 2 3] }").bodies[0].inertia,
             Eigen::Matrix3d(Eigen::Vector3d(1, 2, 3).asDiagonal()));
-  EXPECT_EQ((*read("body a { inertia=[1 2 3 .1 .2 .3] }").bodies[0].inertia)(1, 2), .3);
+  EXPECT_EQ((*read("body a { mass=1 inertia=[1 2 3 .1 .2 .3] }").bodies[0].inertia)(1, 2), .3);
 }
 
 TEST(OrsReader, PutsShapesOnTheirBodyOrInTheWorld) {
@@ -84,6 +84,9 @@ TEST(OrsReader, ReadsJoints) {
   EXPECT_EQ(joint("fixed").type, JointType::kRigid);
   EXPECT_TRUE(isApprox(joint("type=10 Q=<T t(1 0 0)> q=.1").X_PF,
                        translation(1, 0, 0) * rotation(.1, {1, 0, 0}), 1e-15));
+  EXPECT_TRUE(isApprox(joint("type=hingeZ q=.1 limits=[-1 1] fixed").X_PF, rotation(.1, {0, 0, 1}), 1e-15));
+  EXPECT_EQ(joint("type=hingeZ q=.1 limits=[-1 1] fixed").lower.size(), 0);
+  EXPECT_TRUE(isApprox(joint("fixed Q=<T t(1 2 3)>").X_PF, translation(1, 2, 3), 0));
   EXPECT_TRUE(isApprox(joint("A=<T t(1 0 0)> BinvA").X_MC, translation(-1, 0, 0), 0));
   EXPECT_EQ(joint("A=<T t(1 0 0)> from=<T t(2 0 0)>").X_PF.p.x(), 2);
   EXPECT_EQ(joint("to=<T t(2 0 0)>").X_MC.p.x(), 2);
@@ -116,10 +119,34 @@ TEST(OrsReader, ReadsJointsOfOurOwn) {
   EXPECT_EQ(pair.joints[1].axis, Eigen::Vector3d::UnitZ());  // the type is that of the joint it follows
   EXPECT_EQ(pair.joints[1].mimicRatio, -2);
   EXPECT_EQ(pair.joints[1].mimicOffset, .5);
+  const SceneSpec later = read(bodies + "joint (a c) { mimic=lead }\njoint lead (a b) { type=transY }");
+  EXPECT_EQ(later.joints[0].type, JointType::kSlider);
+  EXPECT_EQ(later.joints[0].axis, Eigen::Vector3d::UnitY());
   EXPECT_EQ(read(bodies + "joint (world b) {}").joints[0].parent, "world");
   const JointSpec half = read(bodies + "joint (a b) { limits=[-inf 1] axis=[1e200 0 0] }").joints[0];
   EXPECT_EQ(half.lower[0], -std::numeric_limits<double>::infinity());
   EXPECT_TRUE(half.X_PF.R.isIdentity(0));
+}
+
+TEST(OrsReader, ReadsNumbersAndFlagsAsPeopleWriteThem) {
+  EXPECT_EQ(read("body a { mass=1#kg\n}").bodies[0].mass, 1);
+  EXPECT_EQ(read("body a { mass=1e-400 }").bodies[0].mass, 0);
+  EXPECT_EQ(read("body a { mass=+5 }").bodies[0].mass, 5);
+  EXPECT_EQ(read("\xef\xbb\xbf"
+                 "body a {}")
+                .bodies.size(),
+            1u);
+  EXPECT_FALSE(read("body a { type=0 contact=no }").bodies[0].shapes[0].contact);
+  EXPECT_FALSE(read("body a { type=0 contact=off }").bodies[0].shapes[0].contact);
+  EXPECT_TRUE(read("body a { type=0 contact=yes }").bodies[0].shapes[0].contact);
+}
+
+TEST(OrsReader, LeavesItsNotesWhenItFails) {
+  for (const char* broken : {"body a { mas=1 }\nbody", "Delete body b\nbody a { mass=x1 mas=1 "}) {
+    Diagnostics notes;
+    EXPECT_THROW(static_cast<void>(parseOrs(broken, "f", {.notesOfFailure = &notes})), Error);
+    EXPECT_EQ(notes.size(), 1u);
+  }
 }
 
 TEST(OrsReader, PlacesJointsByTheirWorldFrame) {
@@ -175,10 +202,10 @@ TEST(OrsReader, LoadsAThousandBodiesInAChain) {
 
 TEST(OrsReader, LeavesOutNotesWhenThereAreTooMany) {
   std::string text;
-  for (int i = 0; i < 600; ++i) text += "body a { colour, sizes, masses }\n";
+  for (int i = 0; i < 600; ++i) text += fmt::format("body a{:03} {{ colour, sizes, masses }}\n", i);
   const Diagnostics notes = parseOrs(text, "f").notes;
   ASSERT_EQ(notes.size(), 1001u);
-  EXPECT_EQ(toString(notes.back()), "f:334:18: note: further notes are left out");
+  EXPECT_EQ(toString(notes.back()), "f:334:21: note: further notes are left out");
 }
 
 // Whatever is done to a scene, it is read or refused with a place.

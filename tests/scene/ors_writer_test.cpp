@@ -199,6 +199,22 @@ TEST(OrsWriter, NamesMeshesAsSeenFromTheFolder) {
   EXPECT_NE(writeOrs(spec, folder.path()).find("mesh='meshes/a.obj'"), std::string::npos);
 }
 
+TEST(OrsWriter, WritesTheMeshForWhichAMarkerStands) {
+  const std::string text = "shape s { type=ST_mesh contact mesh='gone.obj' }\n";
+  SceneSpec spec = parseOrs(text, "f").spec;
+  spec.worldShapes[0].shape = {.type = ShapeType::kBox, .extent = Eigen::Vector3d::Constant(0.1)};
+  spec.worldShapes[0].meshMissing = true;
+  EXPECT_EQ(writeOrs(spec), text);
+}
+
+TEST(OrsWriter, LeavesOutTheInertiaThatAMassHasAnyway) {
+  SceneSpec spec = parseOrs("body a { mass=3 }", "f").spec;
+  spec.bodies[0].inertia = 0.2 * 3 * Eigen::Matrix3d::Identity();
+  EXPECT_EQ(writeOrs(spec), "body a { mass=3 }\n");
+  spec.bodies[0].inertia = 3 * Eigen::Matrix3d::Identity();
+  EXPECT_EQ(writeOrs(spec), "body a { mass=3 inertia=[3 3 3] }\n");
+}
+
 TEST(OrsWriter, RefusesWhatTheFormatCannotSay) {
   const SceneSpec good = parseOrs("body a {}\nbody b { type=3 mesh='m.obj' }\njoint j (a b) {}", "f").spec;
   const auto refused = [&](auto spoil) {

@@ -71,6 +71,23 @@ TEST(InitialPose, IsThatOfForwardKinematics) {
   EXPECT_REX_ERROR(initialPose(spec, "b99"), "scene 'random' has no body 'b99'");
 }
 
+TEST(InitialPose, SaysWhichCoordinatesAreWrong) {
+  SceneSpec spec = smallTree();
+  spec.joints[0].mimic = "second";
+  EXPECT_REX_ERROR(initialPose(spec, "b2"),
+                   "joint 'first': mimic: found 'second', wanted a joint that mimics none, with as many "
+                   "coordinates");
+  spec.joints[0].mimic = "first";
+  EXPECT_REX_ERROR(initialPose(spec, "b1"), "joint 'first': mimic: found 'first'");
+  spec.joints[0].mimic = "nobody";
+  EXPECT_REX_ERROR(initialPose(spec, "b1"), "joint 'first': mimic: found 'nobody'");
+  spec = smallTree();
+  spec.joints[1].type = JointType::kBall;
+  EXPECT_REX_ERROR(initialPose(spec, "b2"), "joint 'second': mimic: found 'first'");
+  spec.joints[2].q0 = Eigen::Vector2d(1, 0);
+  EXPECT_REX_ERROR(initialPose(spec, "b3"), "joint 'third': initial coordinates: found 2 numbers, wanted 4");
+}
+
 TEST(ReconfigureRoot, LeavesAllBodiesWhereTheyStand) {
   Rng rng(3);
   for (int round = 0; round < 40; ++round) {
@@ -131,6 +148,17 @@ TEST(ReconfigureRoot, TurnsLimitsRound) {
       EXPECT_TRUE((turned.lower.array() < turned.upper.array()).all());
     }
   }
+}
+
+TEST(ReconfigureRoot, TurnsALimitOfOneSideRound) {
+  SceneSpec spec = smallTree();
+  spec.joints[2].type = JointType::kPlanarXY;
+  spec.joints[2].lower = Eigen::Vector2d(-1, -2);
+  const JointSpec turned = reconfigureRoot(spec, "b3").joints[2];
+  EXPECT_EQ(turned.lower, Eigen::Vector2d::Constant(-std::numeric_limits<double>::infinity()));
+  EXPECT_EQ(turned.upper, Eigen::Vector2d(1, 2));
+  spec.joints[2].lower.setConstant(3, -1);
+  EXPECT_REX_ERROR(reconfigureRoot(spec, "b3"), "joint 'third': limits: found 3 numbers, wanted 2");
 }
 
 TEST(ReconfigureRoot, SaysWhatCannotBeTurned) {
@@ -195,6 +223,9 @@ TEST(GlueBodies, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(glueBodies(taken, "b0", "b3"), "joint 'b0>b3': duplicate joint");
   EXPECT_REX_ERROR(unglueBody(spec, "b0"), "body 'b0' is not glued: found no joint, wanted a rigid joint");
   EXPECT_REX_ERROR(unglueBody(spec, "b3"), "body 'b3' is not glued: found joint 'third'");
+  const Glued held = glueBodies(spec, "b0", "b2");
+  EXPECT_REX_ERROR(unglueBody(held.spec, "b2", held.former),
+                   "joint 'second': cannot be put back: found a mimic of 'first', wanted none");
   SceneSpec loop = spec;
   loop.joints.push_back({.name = "back", .parent = "b2", .child = "b0", .X_PF = {}, .X_MC = {}});
   EXPECT_REX_ERROR(initialPose(loop, "b2"), "loop: found joints that lead back to it, wanted a tree");
