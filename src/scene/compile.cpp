@@ -372,8 +372,13 @@ Model compile(const SceneSpec& spec) {
   model.bodies_.push_back(Body{.name = kWorldName});
   const auto addShape = [&](const ShapeSpec& shape, BodyId body) {
     checkShape(shape);
-    model.shapes_.push_back(
-        {shape.name, body, shape.X_BS, shape.shape, shape.color, shape.contact, shape.visible});
+    model.shapes_.push_back({.name = shape.name,
+                             .body = body,
+                             .X_BS = shape.X_BS,
+                             .shape = shape.shape,
+                             .color = shape.color,
+                             .contact = shape.contact && !shape.meshMissing,
+                             .visible = shape.visible});
   };
   for (const ShapeSpec& shape : spec.worldShapes) addShape(shape, kWorld);
 

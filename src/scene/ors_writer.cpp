@@ -263,9 +263,11 @@ class Writer {
   }
 
   Parts shapeParts(const ShapeSpec& shape) const {
-    Parts parts = {"type=" + typeName(shape.shape.type)};
     const Shape usual;
-    if (shape.shape.extent != usual.extent || shape.shape.radius != usual.radius) {
+    Parts parts = {"type=" + typeName(shape.meshMissing ? ShapeType::kMesh : shape.shape.type)};
+    // What stands for a missing mesh is not part of the scene.
+    const bool isUsual = shape.shape.extent == usual.extent && shape.shape.radius == usual.radius;
+    if (!isUsual && !shape.meshMissing) {
       Eigen::Vector4d size;
       size << shape.shape.extent, shape.shape.radius;
       parts.push_back("size=" + arrayText(size.head(shape.shape.radius == 0 ? 3 : 4)));

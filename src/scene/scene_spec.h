@@ -56,6 +56,7 @@ struct ShapeSpec {
   std::string meshFile{};                   ///< what `shape.mesh` is read from, see loadMeshes()
   Eigen::Vector3d meshScale = Eigen::Vector3d::Ones();
   std::filesystem::path meshPath{};  ///< where loadMeshes() found it; empty before
+  bool meshMissing = false;          ///< `shape` only stands for the mesh, and compile() gives it no contact
   SourceLocation where{};
 };
 

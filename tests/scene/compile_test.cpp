@@ -142,6 +142,13 @@ TEST(Compile, RefusesBadNumbersInAnEditedSpec) {
                    "joint 'j': mimic: found 'k', wanted a joint that mimics none, of the same type");
 }
 
+TEST(Compile, LetsNothingCollideWithWhatStandsForAMesh) {
+  SceneSpec spec = parseOrs("body a { type=0 contact }", "f").spec;
+  EXPECT_TRUE(compile(spec).shapes()[0].contact);
+  spec.bodies[0].shapes[0].meshMissing = true;
+  EXPECT_FALSE(compile(spec).shapes()[0].contact);
+}
+
 TEST(Compile, LetsJointsHangOnTheWorld) {
   SceneSpec spec;
   spec.bodies = {{.name = "cart", .X_WB = translation(9, 9, 9)}, {.name = "post", .X_WB = {}}};

@@ -199,6 +199,14 @@ TEST(OrsWriter, NamesMeshesAsSeenFromTheFolder) {
   EXPECT_NE(writeOrs(spec, folder.path()).find("mesh='meshes/a.obj'"), std::string::npos);
 }
 
+TEST(OrsWriter, WritesTheMeshForWhichAMarkerStands) {
+  const std::string text = "shape s { type=ST_mesh contact mesh='gone.obj' }\n";
+  SceneSpec spec = parseOrs(text, "f").spec;
+  spec.worldShapes[0].shape = {.type = ShapeType::kBox, .extent = Eigen::Vector3d::Constant(0.1)};
+  spec.worldShapes[0].meshMissing = true;
+  EXPECT_EQ(writeOrs(spec), text);
+}
+
 TEST(OrsWriter, RefusesWhatTheFormatCannotSay) {
   const SceneSpec good = parseOrs("body a {}\nbody b { type=3 mesh='m.obj' }\njoint j (a b) {}", "f").spec;
   const auto refused = [&](auto spoil) {
