@@ -1,44 +1,28 @@
 #include "scene/assets.h"
 
-#include <algorithm>
 #include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "scene/files_internal.h"
+
 namespace rex {
 namespace {
 
 namespace fs = std::filesystem;
+using namespace internal;
 
 constexpr std::string_view kPackage = "package://";
 constexpr std::string_view kFile = "file://";
-
-fs::path folderOf(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : "."; }
-
-fs::path real(const fs::path& path) {
-  std::error_code ignored;
-  const fs::path found = fs::weakly_canonical(path, ignored);
-  return found.empty() ? fs::absolute(path).lexically_normal() : found;
-}
-
-bool isFile(const fs::path& path) {
-  std::error_code ignored;
-  return fs::exists(path, ignored) && !fs::is_directory(path, ignored);
-}
-
-bool isInside(const fs::path& path, const fs::path& root) {
-  const fs::path inner = real(path), outer = real(root);
-  return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
-}
 
 // Where the path within a package may lie: in a folder called like it above the scene, or in the root.
 std::vector<fs::path> placesOf(const std::string& package, const fs::path& rest, const fs::path& folder,
                                const fs::path& root) {
   std::vector<fs::path> places;
-  const fs::path top = real(root);
-  for (fs::path above = real(folder); isInside(above, top); above = above.parent_path()) {
+  const fs::path top = realPath(root);
+  for (fs::path above = realPath(folder); isInside(above, top); above = above.parent_path()) {
     if (above.filename() == package) places.push_back(above / rest);
     places.push_back(above / package / rest);
     if (above == top) break;
@@ -47,19 +31,32 @@ std::vector<fs::path> placesOf(const std::string& package, const fs::path& rest,
   return places;
 }
 
-std::vector<std::string> namesBeside(const std::vector<std::string>& files) {
+// Where the scene may have meant the file, links followed, of which only those in the root are looked at.
+std::vector<fs::path> inRoot(const std::vector<fs::path>& places, const fs::path& root) {
+  std::vector<fs::path> inside;
+  for (const fs::path& place : places)
+    if (isInside(place, root)) inside.push_back(realPath(place));
+  return inside;
+}
+
+std::vector<std::string> namesBesideAll(const std::vector<fs::path>& files) {
   std::vector<std::string> names;
-  std::error_code ignored;
-  for (const fs::path file : files)
-    for (const auto& entry : fs::directory_iterator(folderOf(file), ignored))
-      names.push_back(entry.path().filename().string());
+  for (const fs::path& file : files) {
+    const std::vector<std::string> more = namesBeside(file);
+    names.insert(names.end(), more.begin(), more.end());
+  }
   return names;
 }
 
 }  // namespace
 
 Assets::Assets(const fs::path& sceneFile, const fs::path& root)
-    : folder_(folderOf(sceneFile)), root_(root.empty() ? folder_ / ".." : root) {}
+    : folder_(folderOf(sceneFile)), root_(root.empty() ? folder_ / ".." : root) {
+  if (!root.empty() && !fs::is_directory(root))
+    throw Error({.what = "the folder of all assets",
+                 .found = fmt::format("no such folder: {}", realPath(root).string()),
+                 .wanted = "a folder"});
+}
 
 fs::path Assets::find(const std::string& name, const SourceLocation& where, const std::string& what) const {
   const auto fail = [&](const std::string& found, const std::string& wanted) {
@@ -77,19 +74,21 @@ fs::path Assets::find(const std::string& name, const SourceLocation& where, cons
   } else {
     places.push_back(folder_ / (name.starts_with(kFile) ? name.substr(kFile.size()) : name));
   }
-  std::vector<std::string> tried;
-  for (const fs::path& place : places) {
-    if (!isInside(place, root_)) continue;
-    if (isFile(place)) return place.lexically_normal();
-    tried.push_back(place.lexically_normal().string());
-  }
+  const std::vector<fs::path> tried = inRoot(places, root_);
   if (tried.empty())
-    fail(fmt::format("'{}'", name), fmt::format("a file inside the asset root {}", real(root_).string()));
+    fail(fmt::format("'{}'", name), fmt::format("a file inside the asset root {}", realPath(root_).string()));
+  std::vector<std::string> paths;
+  for (const fs::path& path : tried) {
+    const std::string obstacle = obstacleAt(path);
+    if (obstacle.empty()) return path;
+    if (obstacle != kNoSuchFile) fail(fmt::format("{}: {}", obstacle, path.string()), "a file");
+    paths.push_back(path.string());
+  }
   throw Error({.what = what,
                .where = where,
                .found = fmt::format("no file '{}'", name),
-               .wanted = fmt::format("one of {}", fmt::join(tried, ", ")),
-               .nearest = nearestNames(fs::path(name).filename().string(), namesBeside(tried))});
+               .wanted = fmt::format("{}{}", paths.size() > 1 ? "one of " : "", fmt::join(paths, ", ")),
+               .nearest = nearestNames(fs::path(name).filename().string(), namesBesideAll(tried))});
 }
 
 }  // namespace rex

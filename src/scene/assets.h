@@ -11,15 +11,16 @@ namespace rex {
 class Assets {
  public:
   /// For the scene in `sceneFile`. Without a `root` it is the folder above that of the scene, so that a scene
-  /// reaches the meshes beside its own folder.
+  /// reaches the meshes beside its own folder. Throws Error if a `root` is given that is no folder.
   explicit Assets(const std::filesystem::path& sceneFile, const std::filesystem::path& root = {});
 
   /// The folder of the scene, to which relative names refer.
   const std::filesystem::path& folder() const { return folder_; }
 
-  /// Where `name` lies: a path relative to folder(), or package://PACKAGE/PATH, which is looked up in folders
-  /// called PACKAGE above and beside the scene, then in the root. Throws Error at `where`, beginning with
-  /// `what`: an address on the network, a path out of the root, or no such file, with all paths tried.
+  /// Where `name` lies, without links: a path relative to folder(), or package://PACKAGE/PATH, which is
+  /// looked up in folders called PACKAGE above and beside the scene, then in the root. Throws Error at
+  /// `where`, beginning with `what`: an address on the network, a path out of the root, no file that can be
+  /// read, or no such file, with all paths tried.
   [[nodiscard]] std::filesystem::path find(const std::string& name, const SourceLocation& where,
                                            const std::string& what) const;
 

@@ -9,16 +9,13 @@
 #include <fmt/ranges.h>
 
 #include "base/error.h"
+#include "scene/files_internal.h"
 
 namespace rex {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool isFile(const fs::path& path) {
-  std::error_code ignored;
-  return fs::exists(path, ignored) && !fs::is_directory(path, ignored);
-}
+using namespace internal;
 
 // A robot that has meshes has a folder of its own.
 std::vector<fs::path> scenesIn(const fs::path& library) {
@@ -28,25 +25,38 @@ std::vector<fs::path> scenesIn(const fs::path& library) {
     for (const auto& entry : fs::directory_iterator(library / folder, ignored)) {
       const fs::path path = entry.path(), inner = path / path.filename().concat(".urdf");
       if (path.extension() == ".ors") scenes.push_back(path);
-      if (isFile(inner)) scenes.push_back(inner);
+      if (isRegularFile(inner)) scenes.push_back(inner);
     }
   }
   std::sort(scenes.begin(), scenes.end());
   return scenes;
 }
 
+// A path leads to what lies there, a bare name also to the scenes of the course.
+[[noreturn]] void failAtPath(const fs::path& scene) {
+  throw Error({.what = fmt::format("there is no scene '{}'", scene.string()),
+               .wanted = "an .ors or .urdf file",
+               .nearest = nearestNames(scene.filename().string(), namesBeside(scene))});
+}
+
 }  // namespace
 
 fs::path findScene(const fs::path& scene, const fs::path& library) {
-  if (isFile(scene)) return scene;
-  const std::vector<fs::path> known = scenesIn(library);
+  if (isRegularFile(scene)) return scene;
+  const bool isBare = !scene.empty() && !scene.has_parent_path();
+  const fs::path meant = scene.stem().string() + endingOf(scene);
   std::vector<std::string> names, asTyped;
-  for (const fs::path& one : known) {
-    const bool isBare = !scene.empty() && !scene.has_parent_path();
-    if (isBare && (scene == one.filename() || scene == one.stem())) return one;
+  for (const fs::path& one : scenesIn(library)) {
+    if (isBare && (meant == one.filename() || meant == one.stem())) return one;
     names.push_back(one.filename().string());
     asTyped.push_back(scene.has_extension() ? one.filename().string() : one.stem().string());
   }
+  const std::string obstacle = obstacleAt(scene);
+  if (!scene.empty() && obstacle != kNoSuchFile)
+    throw Error({.what = fmt::format("cannot read the scene '{}'", scene.string()),
+                 .found = obstacle,
+                 .wanted = "an .ors or .urdf file"});
+  if (!isBare && !scene.empty()) failAtPath(scene);
   throw Error(
       {.what = fmt::format("there is no scene '{}'", scene.string()),
        .wanted = fmt::format("an .ors or .urdf file, or one of the course: {}", fmt::join(names, ", ")),

@@ -23,16 +23,17 @@ struct ReadOptions {
   Diagnostics* notesOfFailure = nullptr;  ///< where notes go that were made before an Error
 };
 
-/// Reads a scene with its meshes; the ending of the file says how, .ors or .urdf. Throws Error: another
-/// ending, and as readOrs() or readUrdf().
+/// Reads a scene with its meshes; the ending of the file, in any case, says how: .ors or .urdf. Throws Error:
+/// another ending, and as readOrs() or readUrdf().
 [[nodiscard]] SceneFile readScene(const std::filesystem::path& file, const ReadOptions& options = {});
 
-/// The same for text at hand, which is .ors unless `name` ends in .urdf. Reads no file, so shapes know their
-/// mesh by name only.
+/// The same for text at hand, which is .ors unless `name` ends in .urdf; of .xacro it throws Error. Reads no
+/// file, so shapes know their mesh by name only.
 [[nodiscard]] SceneFile parseScene(std::string_view text, const std::string& name,
                                    const ReadOptions& options = {});
 
-/// The text of a scene file. Throws Error if it is missing or larger than `most` bytes.
+/// The text of a scene file. Throws Error if it is missing, no file that can be read, or larger than `most`
+/// bytes.
 [[nodiscard]] std::string readSceneText(const std::filesystem::path& file, std::size_t most = 32u << 20);
 
 }  // namespace rex

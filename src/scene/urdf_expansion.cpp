@@ -2,6 +2,7 @@
 #include <numbers>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -76,6 +77,64 @@ bool absorbChildFrame(JointSpec& joint) {
   return true;
 }
 
+JointSpec withMotion(const JointSpec& joint, const Part& part) {
+  JointSpec made = joint;
+  made.type = part.type;
+  made.axis = part.axis;
+  return made;
+}
+
+std::size_t lengthOf(const JointSpec& joint) {
+  const std::vector<Part> parts = partsOf(joint);
+  JointSpec last = withMotion(joint, parts.back());
+  return parts.size() + (absorbChildFrame(last) ? 0 : 1);
+}
+
+// Coordinates count up breadth first, so chains that moving joints hang on must be of one length wherever
+// joints stand at one depth. Then all bodies of a depth still do, in their old order, and so do the joints.
+class Levels {
+ public:
+  Levels() = default;
+  explicit Levels(const SceneSpec& spec) {
+    for (const JointSpec& joint : spec.joints) incoming_[joint.child] = &joint;
+    for (const JointSpec& joint : spec.joints)
+      if (positionCount(joint.type) > 0) markCarriers(joint.parent);
+    lengths_.resize(spec.joints.size() + 1, 1);
+    for (const JointSpec& joint : spec.joints) {
+      std::size_t& longest = lengths_[depthOf(joint)];
+      if (carriers_.contains(joint.child)) longest = std::max(longest, lengthOf(joint));
+    }
+  }
+
+  // How many links a chain of this length at a joint into `child` lacks.
+  std::size_t missing(const std::string& child, std::size_t depth, std::size_t length) const {
+    return carriers_.contains(child) ? lengths_[depth] - length : 0;
+  }
+
+  // How many joints lie above a joint: roots are at the depth of what hangs on the world.
+  std::size_t depthOf(const JointSpec& joint) const {
+    std::size_t depth = 0;
+    for (const JointSpec* at = &joint; at && at->parent != kWorldName; ++depth) {
+      const auto above = incoming_.find(at->parent);
+      at = above == incoming_.end() ? nullptr : above->second;
+    }
+    return depth;
+  }
+
+ private:
+  void markCarriers(const std::string& body) {
+    for (const std::string* at = &body; carriers_.insert(*at).second;) {
+      const auto above = incoming_.find(*at);
+      if (above == incoming_.end()) return;
+      at = &above->second->parent;
+    }
+  }
+
+  std::unordered_map<std::string, const JointSpec*> incoming_;  // by the body that it moves
+  std::unordered_set<std::string> carriers_;                    // bodies below which something moves
+  std::vector<std::size_t> lengths_;                            // of chains, by depth
+};
+
 class Expansion {
  public:
   Expansion(const SceneSpec& spec, Losses& losses) : spec_(spec), losses_(losses) {
@@ -92,6 +151,7 @@ class Expansion {
     result_.name = spec_.name;
     result_.bodies = spec_.bodies;
     result_.worldShapes = spec_.worldShapes;
+    levels_ = Levels(spec_);
     hangRoots();
     for (const JointSpec& joint : spec_.joints) addJoint(joint);
     return std::move(result_);
@@ -115,18 +175,20 @@ class Expansion {
       if (!moved.contains(body.name)) roots.push_back(&body);
     const auto isAtHome = [](const BodySpec* root) { return isApprox(root->X_WB, Pose{}, 0); };
     if (!needsWorld && roots.size() == 1 && isAtHome(roots[0])) return;
-    for (const BodySpec* root : roots)
-      addRigid(unique(jointNames_, kWorldName + ">" + root->name), kWorldName, root->name, root->X_WB);
+    for (const BodySpec* root : roots) {
+      JointSpec joint = rigid(unique(jointNames_, kWorldName + ">" + root->name), kWorldName, root->X_WB);
+      joint.child = root->name;
+      addLast(std::move(joint), levels_.missing(root->name, 0, 1));
+    }
   }
 
-  void addRigid(const std::string& name, const std::string& parent, const std::string& child, const Pose& X) {
+  static JointSpec rigid(const std::string& name, const std::string& parent, const Pose& X) {
     JointSpec joint;
     joint.name = name;
     joint.parent = parent;
-    joint.child = child;
     joint.type = JointType::kRigid;
     joint.X_PF = X;
-    result_.joints.push_back(joint);
+    return joint;
   }
 
   std::string addMassless(const std::string& name) {
@@ -136,10 +198,8 @@ class Expansion {
 
   // Part i of a joint: its own coordinate and limits, without place and parent.
   JointSpec partOf(const JointSpec& joint, const Part& part, std::size_t i) const {
-    JointSpec made = joint;
+    JointSpec made = withMotion(joint, part);
     made.name = partNames_.at(joint.name)[i];
-    made.type = part.type;
-    made.axis = part.axis;
     made.X_PF = i == 0 ? joint.X_PF : Pose{};
     if (!joint.mimic.empty()) made.mimic = partNames_.at(joint.mimic)[i];
     const auto index = static_cast<Eigen::Index>(i);
@@ -185,28 +245,34 @@ class Expansion {
         parent = made.child = addMassless(made.name);
         result_.joints.push_back(std::move(made));
       } else {
-        addLast(std::move(made));
+        addLast(std::move(made), levels_.missing(joint.child, levels_.depthOf(joint), lengthOf(joint)));
       }
     }
   }
 
-  void addLast(JointSpec joint) {
+  // With massless links that carry the frame on the child, if it needs one, and fill up the chain.
+  void addLast(JointSpec joint, std::size_t fillers) {
     const std::string child = joint.child;
-    const Pose X_MC = joint.X_MC;
+    Pose X_MC = joint.X_MC;
     if (absorbChildFrame(joint)) {
-      result_.joints.push_back(std::move(joint));
-      return;
+      X_MC = Pose{};
+    } else {
+      ++fillers;
     }
-    joint.child = addMassless(child + "_joint");
     joint.X_MC = Pose{};
-    const std::string moved = joint.child;
+    for (; fillers > 0; --fillers) {
+      const std::string moved = joint.child = addMassless(child + "_joint");
+      result_.joints.push_back(std::move(joint));
+      joint = rigid(unique(jointNames_, moved), moved, std::exchange(X_MC, Pose{}));
+    }
+    joint.child = child;
     result_.joints.push_back(std::move(joint));
-    addRigid(unique(jointNames_, moved), moved, child, X_MC);
   }
 
   const SceneSpec& spec_;
   Losses& losses_;
   SceneSpec result_;
+  Levels levels_;
   std::unordered_set<std::string> bodyNames_, jointNames_;
   std::unordered_map<std::string, std::vector<std::string>> partNames_;
 };

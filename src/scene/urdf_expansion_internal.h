@@ -25,7 +25,8 @@ class Losses {
 
 /// The same scene with joints as URDF has them: hinges, sliders, rigid, free, and planar ones whose `axis` is
 /// the normal; all with X_MC = 1. Other joints become chains over massless bodies. Without a single root at
-/// the identity, or with shapes of the world, all roots hang on joints of the parent "world".
+/// the identity, or with shapes of the world, all roots hang on joints of the parent "world". Massless links
+/// fill up chains, so that the first coordinates of joints keep compile()'s order.
 [[nodiscard]] SceneSpec expand(const SceneSpec& spec, Losses& losses);
 
 }  // namespace rex::urdf

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "geometry/inertia.h"
@@ -7,6 +5,9 @@
 
 namespace rex::urdf {
 namespace {
+
+// Bounds the work for the names in messages.
+constexpr std::size_t kMostGuesses = 100, kLongestGuess = 32;
 
 Eigen::Vector4d readColor(const Tag& tag) {
   static const Known kKnown = {{"rgba"}, {}};
@@ -30,15 +31,14 @@ Eigen::Vector4d colorOf(const Tag& material, const Materials& materials, const E
   if (const std::optional<Tag> color = material.child("color")) return readColor(*color);
   if (texture) return otherwise;
   const std::string& name = material.nameIn("name");
-  if (const auto found = materials.find(name); found != materials.end()) return found->second;
-  std::vector<std::string> known;
-  for (const auto& [other, color] : materials)
-    if (known.size() < 100) known.push_back(other);
-  std::sort(known.begin(), known.end());
-  const std::vector<std::string> nearest = nearestNames(name, known);
-  material.warn(material.where("name"),
-                fmt::format("unknown material {} is drawn grey{}", xml::quoted(name),
-                            nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest.front())));
+  if (const auto found = materials.colors.find(name); found != materials.colors.end()) return found->second;
+  material.warn(material.where("name"), [&] {
+    const bool isShort = name.size() <= kLongestGuess;
+    const std::vector<std::string> nearest =
+        nearestNames(name, isShort ? materials.guesses : std::vector<std::string>{});
+    return fmt::format("unknown material {} is drawn grey{}", xml::quoted(name),
+                       nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest.front()));
+  });
   return otherwise;
 }
 
@@ -151,6 +151,12 @@ std::string thingOf(const Tag& link) { return fmt::format("link '{}'", link.name
 
 }  // namespace
 
+bool Materials::add(const std::string& name, const Eigen::Vector4d& color) {
+  const bool isNew = colors.emplace(name, color).second;
+  if (isNew && guesses.size() < kMostGuesses && name.size() <= kLongestGuess) guesses.push_back(name);
+  return isNew;
+}
+
 Materials readMaterials(const Tag& robot) {
   Materials materials;
   for (const Tag& material : robot.children("material")) {
@@ -159,7 +165,7 @@ Materials readMaterials(const Tag& robot) {
     const std::optional<Tag> color = material.child("color"), texture = material.child("texture");
     if (texture) texture->ignore("<texture>");
     if (!color && !texture) material.fail(material.where(), "<color> is missing", "", "");
-    const bool isNew = materials.emplace(name, color ? readColor(*color) : ShapeSpec{}.color).second;
+    const bool isNew = materials.add(name, color ? readColor(*color) : ShapeSpec{}.color);
     if (!isNew)
       material.fail(material.where("name"), "a second material of this name", xml::quoted(name),
                     "a name of its own");
@@ -170,7 +176,7 @@ Materials readMaterials(const Tag& robot) {
       for (const Tag& material : visual.children("material"))
         if (material.has("name"))
           for (const Tag& color : material.children("color"))
-            materials.emplace(material.text("name"), color.numbers("rgba", 4));
+            materials.add(material.text("name"), color.numbers("rgba", 4));
   }
   return materials;
 }

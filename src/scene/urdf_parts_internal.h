@@ -2,6 +2,7 @@
 
 #include <string>
 #include <unordered_map>
+#include <vector>
 
 #include "scene/scene_file.h"
 #include "scene/urdf_tag_internal.h"
@@ -14,7 +15,12 @@ void refuseXacro(const xml::Document& document);
 
 /// The colours of materials by their name. A name belongs to the first material that gives it a colour, at
 /// the top of the robot before those in links.
-using Materials = std::unordered_map<std::string, Eigen::Vector4d>;
+struct Materials {
+  std::unordered_map<std::string, Eigen::Vector4d> colors;
+  std::vector<std::string> guesses;  ///< some of the names, in the order of the file, for messages
+
+  bool add(const std::string& name, const Eigen::Vector4d& color);  ///< whether the name is new
+};
 [[nodiscard]] Materials readMaterials(const Tag& robot);
 
 /// A <link> with its shapes; meshes are known by name only.

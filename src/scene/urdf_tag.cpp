@@ -102,8 +102,8 @@ void Tag::expect(const Known& known) const {
   Notes& notes = reading_->notes;
   const auto noteUnknown = [&](std::uint32_t at, const std::string& what, const std::string& name,
                                const std::vector<std::string>& names) {
-    if (notes.isFull()) return notes.warn({}, {});  // is only counted
-    warn(document.where(at), fmt::format("unknown {} is ignored{}", what, guess(name, names)));
+    warn(document.where(at),
+         [&] { return fmt::format("unknown {} is ignored{}", what, guess(name, names)); });
   };
   for (const xml::Attribute& attribute : element_->attributes) {
     if (belongsToXml(attribute.name) || contains(known.attributes, attribute.name)) continue;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "base/diagnostic.h"
@@ -85,6 +86,12 @@ class Tag {
   Pose origin() const;
 
   void warn(const SourceLocation& where, const std::string& message) const;
+  /// The same for a message that costs time, and is only made while it is listed.
+  template <class Message>
+  requires std::is_invocable_v<Message>
+  void warn(const SourceLocation& where, const Message& message) const {
+    warn(where, reading_->notes.isFull() ? std::string() : message());
+  }
   void ignore(const std::string& kind) const { reading_->notes.ignore(where(), kind); }
   [[noreturn]] void fail(const SourceLocation& where, const std::string& what, std::string found,
                          std::string wanted, std::vector<std::string> nearest = {}) const;

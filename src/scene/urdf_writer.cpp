@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -22,22 +24,39 @@ const std::string kWorldName = "world";
 constexpr double kWide = 1e9;  // stands for "no limit", which URDF cannot say
 
 // URDF tells things by their names.
-template <class Things>
-void requireNames(const Things& things, const char* kind) {
+void requireNames(const SceneSpec& spec) {
+  const auto requireName = [](const auto& thing, const char* what) {
+    if (thing.name.empty()) throw Error({.what = what, .where = thing.where, .wanted = "a name"});
+  };
   std::unordered_map<std::string, SourceLocation> first;
-  for (const auto& thing : things) {
-    if (thing.name.empty())
-      throw Error(
-          {.what = fmt::format("a {} without a name", kind), .where = thing.where, .wanted = "a name"});
-    const auto [at, isNew] = first.emplace(thing.name, thing.where);
+  for (const BodySpec& body : spec.bodies) requireName(body, "a body without a name");
+  for (const JointSpec& joint : spec.joints) {
+    requireName(joint, "a joint without a name");
+    const auto [at, isNew] = first.emplace(joint.name, joint.where);
     if (isNew) continue;
     const std::string place = toString(at->second);
-    throw Error(
-        {.what = fmt::format("two {} '{}'", kind == std::string("body") ? "bodies" : "joints", thing.name),
-         .where = thing.where,
-         .wanted =
-             "a name of its own" + (place.empty() ? "" : fmt::format(": the first stands at {}", place))});
+    throw Error({.what = fmt::format("two joints '{}'", joint.name),
+                 .where = joint.where,
+                 .wanted = "a name of its own" +
+                           (place.empty() ? "" : fmt::format(": the first stands at {}", place))});
   }
+}
+
+// Joints name the first body of a name, so others can be called differently.
+SceneSpec withOwnNames(SceneSpec spec, Losses& losses) {
+  std::unordered_set<std::string> given, taken;
+  for (const BodySpec& body : spec.bodies) given.insert(body.name);
+  for (BodySpec& body : spec.bodies) {
+    if (taken.insert(body.name).second) continue;
+    losses.add("bodies of a name that was taken got a number", body.name, body.where);
+    std::string name;
+    for (int number = 2; name.empty() || given.contains(name); ++number)
+      name = fmt::format("{}_{}", body.name, number);
+    body.name = name;
+    given.insert(name);
+    taken.insert(name);
+  }
+  return spec;
 }
 
 // A solid as URDF has them, in the frame of the shape.
@@ -49,8 +68,11 @@ struct Solid {
 
 class Writer {
  public:
-  Writer(const SceneSpec& spec, fs::path folder)
-      : model_(compile(spec)), folder_(std::move(folder)), spec_(expand(spec, losses_)) {
+  Writer(const SceneSpec& spec, fs::path folder, Losses losses)
+      : model_(compile(spec)),
+        folder_(std::move(folder)),
+        losses_(std::move(losses)),
+        spec_(expand(spec, losses_)) {
     for (const BodySpec& body : spec.bodies)
       if (body.kind != BodyKind::kDynamic) losses_.add("kinds of bodies are left out", body.name, body.where);
     for (const JointSpec& joint : spec.joints) noteLosses(joint);
@@ -266,9 +288,10 @@ class Writer {
 }  // namespace
 
 UrdfText writeUrdf(const SceneSpec& spec, const std::filesystem::path& folder) {
-  requireNames(spec.bodies, "body");
-  requireNames(spec.joints, "joint");
-  return Writer(spec, folder).write();
+  requireNames(spec);
+  Losses losses;
+  const SceneSpec named = withOwnNames(spec, losses);
+  return Writer(named, folder, std::move(losses)).write();
 }
 
 }  // namespace rex

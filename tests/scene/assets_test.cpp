@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
@@ -59,6 +60,36 @@ TEST_F(AssetsOfAnArm, StayInsideTheirRoot) {
   }
 }
 
+// Where a folder is a link, ".." leads to the folder above its target: what is judged must be what is read.
+TEST_F(AssetsOfAnArm, StayInsideTheirRootBehindLinksOfFolders) {
+  fs::create_directories(top() / "arm_description/real/deep");
+  fs::create_directory_symlink("../real/deep", top() / "arm_description/urdf/link");
+  std::ofstream(top() / "arm_description/real/palm.stl") << "of the target";
+  std::ofstream(top() / "arm_description/urdf/palm.stl") << "beside the link";
+  EXPECT_EQ(Assets(arm()).find("link/../palm.stl", kHere, "mesh"), top() / "arm_description/real/palm.stl");
+  const Assets narrow(arm(), top() / "arm_description/urdf");
+  EXPECT_REX_ERROR(narrow.find("link/../palm.stl", kHere, "mesh"),
+                   "mesh: found 'link/../palm.stl', wanted a file inside the asset root " +
+                       (top() / "arm_description/urdf").string());
+}
+
+TEST_F(AssetsOfAnArm, MustBeFilesThatCanBeRead) {
+  const auto place = [&](const char* name) { return (top() / "arm_description/urdf" / name).string(); };
+  fs::create_directory(place("folder"));
+  ASSERT_EQ(::mkfifo(place("pipe").c_str(), 0600), 0);
+  EXPECT_REX_ERROR(Assets(arm()).find("folder", kHere, "mesh"),
+                   "arm.urdf:3:7: mesh: found a folder: " + place("folder") + ", wanted a file");
+  EXPECT_REX_ERROR(Assets(arm()).find("pipe", kHere, "mesh"),
+                   "arm.urdf:3:7: mesh: found a pipe or device: " + place("pipe") + ", wanted a file");
+}
+
+TEST_F(AssetsOfAnArm, NeedARootThatIsAFolder) {
+  for (const char* name : {"none", "secret.stl"}) {
+    EXPECT_REX_ERROR(Assets(arm(), top() / name), "the folder of all assets: found no such folder: " +
+                                                      (top() / name).string() + ", wanted a folder");
+  }
+}
+
 TEST_F(AssetsOfAnArm, AreNotFetched) {
   EXPECT_REX_ERROR(Assets(arm()).find("http://example.org/a.stl", kHere, "mesh"),
                    "arm.urdf:3:7: mesh: found 'http://example.org/a.stl', wanted a file: nothing is fetched");
@@ -72,7 +103,9 @@ TEST_F(AssetsOfAnArm, ThatAreMissingAreListedWithAllPathsTried) {
       "link 'a': mesh: found no file 'package://arm_description/meshes/lnik.stl', wanted one of");
   EXPECT_REX_ERROR(Assets(arm()).find("package://arm_description/meshes/lnik.stl", kHere, "mesh"),
                    (top() / "arm_description/meshes/lnik.stl").string());
-  EXPECT_REX_ERROR(Assets(arm()).find("../meshes/lnik.stl", kHere, "mesh"), "(did you mean 'link.stl'?)");
+  EXPECT_REX_ERROR(Assets(arm()).find("../meshes/lnik.stl", kHere, "mesh"),
+                   "mesh: found no file '../meshes/lnik.stl', wanted " +
+                       (top() / "arm_description/meshes/lnik.stl").string() + " (did you mean 'link.stl'?)");
 }
 
 }  // namespace

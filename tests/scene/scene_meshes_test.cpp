@@ -96,7 +96,7 @@ TEST_F(SceneMeshes, ThatAreMissingMayBecomeMarkers) {
   EXPECT_EQ(file.notes[0].severity, Severity::kWarning);
   EXPECT_EQ(toString(file.notes[0]),
             (folder_.path() / "scene.ors").string() + ":1:1: warning: shape 'a': mesh: found no file " +
-                "'meshes/pyramit.off', wanted one of " + (folder_.path() / "meshes/pyramit.off").string() +
+                "'meshes/pyramit.off', wanted " + (folder_.path() / "meshes/pyramit.off").string() +
                 " (did you mean 'pyramid.off'?); a marker stands for it");
   EXPECT_EQ(compile(file.spec).shapes().size(), 2u);
 }
@@ -109,7 +109,7 @@ TEST_F(SceneMeshes, ThatAreBrokenAreNeverMarkers) {
 
 TEST_F(SceneMeshes, ThatAreMissingAreNamedWithTheirPlace) {
   EXPECT_REX_ERROR(readOrs(scene("body a {}\nshape hat (a) { type=3 mesh='meshes/pyramit.off' }")),
-                   "scene.ors:2:1: shape 'hat': mesh: found no file 'meshes/pyramit.off', wanted one of " +
+                   "scene.ors:2:1: shape 'hat': mesh: found no file 'meshes/pyramit.off', wanted " +
                        (folder_.path() / "meshes/pyramit.off").string() + " (did you mean 'pyramid.off'?)");
   EXPECT_REX_ERROR(readOrs(scene("body a { type=3 }")),
                    "shape 'a': attribute 'mesh' is missing: wanted the file of its mesh, in single quotes");

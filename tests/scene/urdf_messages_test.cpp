@@ -323,6 +323,9 @@ TEST(UrdfMessages, OfWarnings) {
       {link("<visual>\n @here " + sphere + "</visual>"), "warning: link 'a': <visual>: text is ignored"},
       {visual(sphere + "<material name='@gray'/>"),
        "warning: link 'a': <material>: unknown material 'gray' is drawn grey"},
+      {robot("<material name='steel'><color rgba='1 1 1 1'/></material><link name='a'><visual>" + sphere +
+             "<material name='@steal'/></visual></link>"),
+       "warning: link 'a': <material>: unknown material 'steal' is drawn grey (did you mean 'steel'?)"},
       {inertial("<mass value='@0'/><inertia ixx='0' iyy='0' izz='0' ixy='0' ixz='0' iyz='0'/>"),
        "warning: link 'a': <mass>: 0 kg: the link has no mass, as without <inertial>"},
       {inertial("<mass value='1'/>@<inertia ixx='3' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/>"),
