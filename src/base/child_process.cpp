@@ -12,45 +12,18 @@
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
-#include <sys/signalfd.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "base/error.h"
 #include "base/interruption.h"
 #include "base/pipe.h"
+#include "base/stop_requests_internal.h"
 
 namespace rex {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-// Takes the requests to stop that somebody holds back; without one, nothing ever arrives.
-class StopRequests {
- public:
-  StopRequests() {
-    const sigset_t wanted = stopSignals();
-    sigset_t held, both;
-    ::sigprocmask(SIG_BLOCK, nullptr, &held);
-    ::sigandset(&both, &wanted, &held);
-    fd_ = ::signalfd(-1, &both, SFD_CLOEXEC | SFD_NONBLOCK);
-  }
-  ~StopRequests() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  StopRequests(const StopRequests&) = delete;
-  StopRequests& operator=(const StopRequests&) = delete;
-
-  int fd() const { return fd_; }
-  /// The signal that arrived, or 0.
-  int take() const {
-    signalfd_siginfo info{};
-    return ::read(fd_, &info, sizeof info) == sizeof info ? static_cast<int>(info.ssi_signo) : 0;
-  }
-
- private:
-  int fd_ = -1;
-};
 
 bool limit(int resource, rlim_t soft, rlim_t hard) {
   if (soft == 0) return true;

@@ -8,6 +8,9 @@
 #include <numeric>
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "base/error.h"
 
 extern "C" {
 #include <libqhull_r/qhull_ra.h>
@@ -215,6 +218,10 @@ TriangleMesh convexHull(std::span<const Vector3f> points) {
   requireSurface({points.begin(), points.end()}, {}, {});
   if (points.empty()) return {};
   Points all = distinct(points);
+  if (all.at.size() > kMostHullPoints)
+    throw Error({.what = "convex hull",
+                 .found = fmt::format("{} different points", all.at.size()),
+                 .wanted = fmt::format("at most {}", kMostHullPoints)});
   const Extent extent = extentOf(all.at);
   if (extent.dimension < 2) {
     std::vector<Vector3f> ends = {points[all.index[extent.ends[0]]]};

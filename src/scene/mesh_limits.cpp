@@ -25,16 +25,6 @@ struct Kind {
 constexpr Kind kKinds[] = {{".stl", 32},  {".obj", 16}, {".ply", 32}, {".dae", 16},
                            {".gltf", 16}, {".glb", 32}, {".off", 16}};
 
-[[noreturn]] void fail(const std::string& name, std::string what, std::string found, std::string wanted = "",
-                       std::vector<std::string> nearest = {}) {
-  throw Error({std::move(what), {.file = name}, std::move(found), std::move(wanted), std::move(nearest)});
-}
-
-void requireCount(std::size_t count, const std::string& name, std::size_t most = kMostVertices) {
-  if (count > most)
-    fail(name, "mesh too large", fmt::format("a count of {}", count), fmt::format("at most {}", most));
-}
-
 void requireNodes(std::size_t deep, const std::string& name) {
   if (deep > kMostNodesDeep)
     fail(name, "mesh file", fmt::format("{} nodes below each other", deep),
@@ -56,24 +46,33 @@ std::string_view nextWord(std::string_view& text) {
   return word;
 }
 
-// assimp looks through all materials and groups for each that it meets.
-void checkObj(std::string_view bytes, const std::string& name) {
-  constexpr std::size_t kMostGroups = 10'000;
-  std::size_t groups = 0;
-  for (std::size_t line = 0; line < bytes.size();
-       line = bytes.find('\n', line), line += line < bytes.size()) {
-    const std::size_t word = bytes.find_first_not_of(" \t", line);
-    if (word < bytes.size() && (bytes[word] == 'g' || bytes[word] == 'o' || bytes[word] == 'u')) ++groups;
-  }
-  if (groups > kMostGroups)
-    fail(name, "mesh file", fmt::format("{} materials, groups and objects", groups),
-         fmt::format("at most {}", kMostGroups));
-}
-
 std::string_view nextLine(std::string_view& text) {
   const std::string_view line = text.substr(0, text.find('\n'));
   text.remove_prefix(std::min(line.size() + 1, text.size()));
   return line;
+}
+
+// How many triangles a face of an OBJ file becomes, after its first word.
+std::size_t trianglesOf(std::string_view corners) {
+  std::size_t count = 0;
+  while (!nextWord(corners).empty()) ++count;
+  return count - std::min<std::size_t>(count, 2);
+}
+
+// assimp looks through all materials and groups for each that it meets.
+void checkObj(std::string_view bytes, const std::string& name) {
+  constexpr std::size_t kMostGroups = 10'000;
+  std::size_t groups = 0, triangles = 0;
+  while (!bytes.empty()) {
+    std::string_view line = nextLine(bytes);
+    const std::string_view word = nextWord(line);
+    if (word.starts_with('g') || word.starts_with('o') || word.starts_with('u')) ++groups;
+    if (word == "f") triangles += trianglesOf(line);
+  }
+  if (groups > kMostGroups)
+    fail(name, "mesh file", fmt::format("{} materials, groups and objects", groups),
+         fmt::format("at most {}", kMostGroups));
+  requireTriangles(triangles, name);
 }
 
 bool isPlyType(std::string_view word, bool whole) {
@@ -219,6 +218,11 @@ void checkGltf(std::string_view text, const std::string& name) {
 
 }  // namespace
 
+void fail(const std::string& name, std::string what, std::string found, std::string wanted,
+          std::vector<std::string> nearest) {
+  throw Error({std::move(what), {.file = name}, std::move(found), std::move(wanted), std::move(nearest)});
+}
+
 std::string endingOf(const std::string& name) {
   const std::size_t dot = name.find_last_of("./");
   std::string ending = dot == std::string::npos || name[dot] == '/' ? "" : name.substr(dot);
@@ -244,6 +248,17 @@ void requireSize(std::size_t bytes, const std::string& name) {
   if (bytes > most)
     fail(name, "mesh file too large", fmt::format("{} bytes", bytes),
          fmt::format("at most {} MiB", most >> 20));
+}
+
+void requireCount(std::size_t count, const std::string& name, std::size_t most) {
+  if (count > most)
+    fail(name, "mesh too large", fmt::format("a count of {}", count), fmt::format("at most {}", most));
+}
+
+void requireTriangles(std::size_t count, const std::string& name) {
+  if (count > kMostTriangles)
+    fail(name, "mesh too large", fmt::format("{} triangles", count),
+         fmt::format("at most {}", kMostTriangles));
 }
 
 void requireHarmless(std::string_view bytes, const std::string& name) {

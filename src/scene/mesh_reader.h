@@ -16,8 +16,10 @@ namespace rex {
 /// below.
 ///
 /// Throws Error naming the file: missing, of another kind, over 32 MiB (STL, PLY, GLB) or 16 MiB, faulty,
-/// with numbers that are not finite or beyond 1e6 m, with more than two million triangles or 5000 nodes below
-/// each other (of glTF: nodes that have children), or with nothing but triangles without area.
+/// with numbers that are not finite or beyond 1e6 m, with more than a million triangles, 2.1 million
+/// vertices, 1000 corners of a face or 5000 nodes below each other (of glTF: nodes that have children), or
+/// with nothing but triangles without area. Works in a process of its own for at most 10 s and 1 GiB;
+/// Interrupted as of callIsolated(). Measured, files of a million triangles: 0.7 s, 350 MB.
 [[nodiscard]] TriangleMesh readMesh(const std::filesystem::path& file,
                                     const Eigen::Vector3d& scale = Eigen::Vector3d::Ones());
 

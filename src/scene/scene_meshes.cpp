@@ -20,7 +20,7 @@ class Loader {
   void load(ShapeSpec& shape) {
     if (!usesMesh(shape.shape.type)) return;
     if (shape.shape.mesh.isEmpty()) readMeshOf(shape);
-    if (shape.contact) shape.shape.hull = hullOf(shape.shape.mesh);
+    if (shape.contact) shape.shape.hull = hullOf(shape);
   }
 
  private:
@@ -60,10 +60,19 @@ class Loader {
   }
 
   // Shapes with the same mesh share its hull.
-  const TriangleMesh& hullOf(const TriangleMesh& mesh) {
+  const TriangleMesh& hullOf(const ShapeSpec& shape) {
+    const TriangleMesh& mesh = shape.shape.mesh;
     for (const auto& [known, hull] : hulls_)
       if (known == mesh) return hull;
-    return hulls_.emplace_back(mesh, convexHull(mesh)).second;
+    try {
+      return hulls_.emplace_back(mesh, convexHull(mesh)).second;
+    } catch (const Error& error) {
+      ErrorParts parts = error.parts();
+      parts.what = fmt::format("shape '{}': mesh in contact: {}", shape.name, parts.what);
+      parts.where = shape.where;
+      parts.wanted += ": a coarser mesh for contact, or none";
+      throw Error(parts);
+    }
   }
 
   // Shapes with the same file share its mesh.

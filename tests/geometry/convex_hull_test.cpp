@@ -182,6 +182,11 @@ TEST(ConvexHull, IsTheSameEachTime) {
 TEST(ConvexHull, RefusesWhatIsNotFinite) {
   const std::vector<Vector3f> points = {{0, 0, 0}, {0, NAN, 0}};
   EXPECT_REX_ERROR(convexHull(points), "mesh: found vertex 1 = (0, nan, 0), wanted finite numbers");
+  std::vector<Vector3f> many(200'001);
+  for (std::size_t k = 0; k < many.size(); ++k) many[k].setConstant(static_cast<float>(k / 2));
+  EXPECT_REX_ERROR(convexHull(many), "convex hull: found 100001 different points, wanted at most 100000");
+  many.pop_back();
+  EXPECT_EQ(convexHull(many).positions().size(), 2u);
 }
 
 }  // namespace

@@ -351,18 +351,26 @@ TEST_F(MeshReader, RefusesMoreThanItCanHold) {
   nodes += "]}";
   for (int i = 1; i <= 101; ++i) nodes += R"(, {"mesh": 0})";
   EXPECT_REX_ERROR(readMesh(write("many.gltf", gltf(nodes, 20'000))),
-                   "many.gltf: mesh too large: found more than two million triangles, wanted fewer");
+                   "many.gltf: mesh too large: found 1020000 triangles, wanted at most 1000000");
   std::string text = gltf("{}", 1);
   const std::size_t count = text.find("\"count\": 3");
   EXPECT_REX_ERROR(parseMesh(text.replace(count, 10, "\"count\": 9000000"), "claims.gltf"),
-                   "claims.gltf: mesh too large: found a count of 6000001, wanted at most 2100000");
+                   "claims.gltf: mesh too large: found a count of 3000001, wanted at most 2100000");
   const std::string ply =
       "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nend_header\n0\n";
   EXPECT_REX_ERROR(parseMesh(ply, "claims.ply"),
                    "claims.ply: mesh too large: found a count of 4000000000, wanted at most 2100000");
   EXPECT_REX_ERROR(parseMesh("OFF # 1\n8 99999999999999999999 1\n", "claims.off"), "mesh too large");
   EXPECT_REX_ERROR(parseMesh("<COLLADA><float_array count=\"7000000\">", "claims.dae"),
-                   "found a count of 7000000, wanted at most 6000000");
+                   "found a count of 7000000, wanted at most 3000000");
+  const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  std::string face = corners + "f", faces = corners;
+  for (int i = 0; i < 334; ++i) face += "\t1 2 3 ";
+  EXPECT_REX_ERROR(parseMesh(face + "\n", "a.obj"),
+                   "a.obj: mesh: found a face with 1002 corners, wanted at most 1000");
+  for (int i = 0; i <= 1'000'000; ++i) faces += "f 1 2 3\n";
+  EXPECT_REX_ERROR(parseMesh(faces, "a.obj"),
+                   "a.obj: mesh too large: found 1000001 triangles, wanted at most 1000000");
   std::string groups;
   for (int i = 0; i <= 10'000; ++i) groups += "g\n";
   EXPECT_REX_ERROR(parseMesh(groups, "groups.obj"),

@@ -82,6 +82,17 @@ TEST_F(SceneMeshes, HaveHullsWhereTheyCollide) {
   EXPECT_EQ(halfBounds(shapes[0].shape), halfBounds(shapes[2].shape));
 }
 
+TEST_F(SceneMeshes, AreRefusedWhereTheyCollideWithTooManyVertices) {
+  std::ofstream file(folder_.path() / "meshes/fine.obj");
+  for (int i = 0; i <= 100'000; ++i) file << "v " << i << " 0 " << i % 2 << '\n';
+  for (int i = 3; i <= 100'001; ++i) file << "f " << i - 2 << ' ' << i - 1 << ' ' << i << '\n';
+  file.close();
+  EXPECT_EQ(readOrs(scene("body a { type=3 mesh='meshes/fine.obj' }")).spec.bodies.size(), 1u);
+  EXPECT_REX_ERROR(readOrs(scene("body a {}\nshape hat (a) { type=3 mesh='meshes/fine.obj' contact }")),
+                   "scene.ors:2:1: shape 'hat': mesh in contact: convex hull: found 100001 different points, "
+                   "wanted at most 100000: a coarser mesh for contact, or none");
+}
+
 TEST_F(SceneMeshes, ThatAreMissingMayBecomeMarkers) {
   const SceneFile file = readOrs(scene("body a { type=3 mesh='meshes/pyramit.off' contact size=[1 1 1 .3] }\n"
                                        "shape (a) { type=3 mesh='meshes/pyramid.off' }"),

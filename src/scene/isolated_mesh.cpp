@@ -1,0 +1,76 @@
+#include <cstring>
+#include <type_traits>
+
+#include "scene/assimp_mesh_internal.h"
+#include "scene/isolated_mesh_internal.h"
+#include "scene/mesh_limits_internal.h"
+
+namespace rex::mesh {
+namespace {
+
+// A mesh on its way between processes: for each of its lists a count and the elements as they lie in memory.
+template <class T>
+void addList(std::string& bytes, std::span<const T> list) {
+  const std::uint64_t count = list.size();
+  bytes.append(reinterpret_cast<const char*>(&count), sizeof count);
+  bytes.append(reinterpret_cast<const char*>(list.data()), list.size_bytes());
+}
+
+std::string toBytes(const TriangleMesh& mesh) {
+  constexpr std::size_t kCounts = 4 * sizeof(std::uint64_t);
+  std::string bytes;
+  bytes.reserve(kCounts + mesh.positions().size_bytes() + mesh.normals().size_bytes() +
+                mesh.triangles().size_bytes() + mesh.parts().size_bytes());
+  addList(bytes, mesh.positions());
+  addList(bytes, mesh.normals());
+  addList(bytes, mesh.triangles());
+  addList(bytes, mesh.parts());
+  return bytes;
+}
+
+// Believes no count: a process that a file has harmed may say anything.
+template <class T>
+std::vector<T> takeList(std::string_view& bytes) {
+  std::uint64_t count = 0;
+  if (bytes.size() < sizeof count) return {};
+  std::memcpy(&count, bytes.data(), sizeof count);
+  bytes.remove_prefix(sizeof count);
+  if (count > bytes.size() / sizeof(T)) return {};
+  std::vector<T> list(count);
+  if (count > 0) std::memcpy(static_cast<void*>(list.data()), bytes.data(), count * sizeof(T));
+  bytes.remove_prefix(count * sizeof(T));
+  return list;
+}
+
+TriangleMesh fromBytes(std::string_view bytes) {
+  auto positions = takeList<Eigen::Vector3f>(bytes);
+  auto normals = takeList<Eigen::Vector3f>(bytes);
+  auto triangles = takeList<TriangleMesh::Triangle>(bytes);
+  auto parts = takeList<TriangleMesh::Part>(bytes);
+  return {std::move(positions), std::move(normals), std::move(triangles), std::move(parts)};
+}
+
+const char* complaint(IsolatedEnd end) {
+  switch (end) {
+    case IsolatedEnd::kTookTooLong:
+      return "one that assimp does not finish reading";
+    case IsolatedEnd::kOutOfMemory:
+      return "one for which assimp needs too much memory";
+    default:
+      return "one on which assimp crashes";
+  }
+}
+
+}  // namespace
+
+TriangleMesh readIsolated(std::string_view bytes, const std::string& name, const Eigen::Vector3d& scale,
+                          const std::filesystem::path& folder, const IsolationLimits& limits) {
+  const auto read = [&] { return toBytes(readByAssimp(bytes, name, scale, folder)); };
+  const IsolatedResult result = callIsolated(read, limits);
+  if (result.end != IsolatedEnd::kReturned)
+    fail(name, "cannot read the mesh file", complaint(result.end),
+         "a mesh, e.g. the same saved by another program or as STL");
+  return fromBytes(result.bytes);
+}
+
+}  // namespace rex::mesh
