@@ -18,7 +18,7 @@ struct SceneFile {
 struct ReadOptions {
   std::filesystem::path
       assetRoot{};                  ///< holds all files that the scene names, see Assets; empty: its default
-  bool allowMissingMeshes = false;  ///< draw a marker instead, and warn
+  bool allowMissingMeshes = false;  ///< draw a box instead, and warn
   bool freeBase = false;            ///< of a URDF robot: its root moves freely
   Diagnostics* notesOfFailure = nullptr;  ///< where notes go that were made before an Error
 };
