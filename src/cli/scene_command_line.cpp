@@ -12,7 +12,8 @@ void addReading(CLI::App* command, ReadOptions& reading) {
   command
       ->add_option("--assets", reading.assetRoot, "folder of all meshes (default: above that of the scene)")
       ->type_name("DIR");
-  command->add_flag("--allow-missing-meshes", reading.allowMissingMeshes, "a marker for each mesh not found");
+  command->add_flag("--allow-missing-meshes", reading.allowMissingMeshes,
+                    "boxes for meshes that are not found");
   command->add_flag("--free-base", reading.freeBase, "let the root of a .urdf move freely");
 }
 

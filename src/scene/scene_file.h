@@ -16,11 +16,15 @@ struct SceneFile {
 };
 
 struct ReadOptions {
-  std::filesystem::path
-      assetRoot{};                  ///< holds all files that the scene names, see Assets; empty: its default
-  bool allowMissingMeshes = false;  ///< draw a marker instead, and warn
-  bool freeBase = false;            ///< of a URDF robot: its root moves freely
+  /// Holds all files that the scene names, see Assets; empty: its default.
+  std::filesystem::path assetRoot{};
+  bool allowMissingMeshes = false;        ///< boxes stand for them, and a warning tells
+  bool freeBase = false;                  ///< of a URDF robot: its root moves freely
   Diagnostics* notesOfFailure = nullptr;  ///< where notes go that were made before an Error
+};                                ///< holds all files that the scene names, see Assets; empty: its default
+bool allowMissingMeshes = false;  ///< draw a box instead, and warn
+bool freeBase = false;            ///< of a URDF robot: its root moves freely
+Diagnostics* notesOfFailure = nullptr;  ///< where notes go that were made before an Error
 };
 
 /// Reads a scene with its meshes; the ending of the file, in any case, says how: .ors or .urdf. Throws Error:

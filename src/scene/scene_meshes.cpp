@@ -1,8 +1,13 @@
 #include "scene/scene_meshes.h"
 
+#include <algorithm>
 #include <array>
 #include <deque>
 #include <map>
+#include <set>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -12,16 +17,65 @@
 namespace rex {
 namespace {
 
+// Meshes that were not found: one warning for each package or folder.
+class Missing {
+ public:
+  void add(const ShapeSpec& shape, const ErrorParts& reason) {
+    const auto [owner, name] = split(shape.meshFile);
+    const auto same = [&](const Group& group) { return group.owner == owner; };
+    auto group = std::find_if(groups_.begin(), groups_.end(), same);
+    if (group == groups_.end()) group = groups_.insert(groups_.end(), {owner, name, shape.where, reason, {}});
+    group->files.insert(shape.meshFile);
+  }
+
+  void addNotes(Diagnostics& notes) const {
+    for (const Group& group : groups_) {
+      const std::size_t count = group.files.size();
+      const std::string which = count == 1
+                                    ? fmt::format("mesh '{}' of {} was not found", group.first, group.owner)
+                                    : fmt::format("{} meshes of {} were not found, the first is '{}'", count,
+                                                  group.owner, group.first);
+      const std::string guess = group.reason.nearest.empty()
+                                    ? ""
+                                    : fmt::format(" (did you mean '{}'?)", group.reason.nearest.front());
+      notes.push_back({group.where,
+                       fmt::format("{}{}; boxes of 0.1 m stand for what is missing; wanted {}", which, guess,
+                                   group.reason.wanted),
+                       Severity::kWarning});
+    }
+  }
+
+ private:
+  struct Group {
+    std::string owner, first;
+    SourceLocation where;
+    ErrorParts reason;
+    std::set<std::string> files;
+  };
+
+  // The package or folder, and the path in it.
+  static std::pair<std::string, std::string> split(const std::string& file) {
+    constexpr std::string_view kPackage = "package://";
+    const std::size_t slash = file.starts_with(kPackage) ? file.find('/', kPackage.size()) : file.rfind('/');
+    if (slash == std::string::npos) return {"the folder of the scene", file};
+    return {file.starts_with(kPackage) ? file.substr(0, slash) : fmt::format("'{}'", file.substr(0, slash)),
+            file.substr(slash + 1)};
+  }
+
+  std::vector<Group> groups_;
+};
+
 class Loader {
  public:
-  Loader(const Assets& assets, bool allowMissing, Diagnostics& notes)
-      : assets_(assets), allowMissing_(allowMissing), notes_(notes) {}
+  Loader(const Assets& assets, bool allowMissing) : assets_(assets), allowMissing_(allowMissing) {}
 
   void load(ShapeSpec& shape) {
     if (!usesMesh(shape.shape.type)) return;
     if (shape.shape.mesh.isEmpty()) readMeshOf(shape);
-    if (shape.contact) shape.shape.hull = hullOf(shape);
+    if (shape.contact && !shape.meshMissing) shape.shape.hull = hullOf(shape);
   }
+
+  void addNotes(Diagnostics& notes) const { missing_.addNotes(notes); }
 
  private:
   void readMeshOf(ShapeSpec& shape) {
@@ -41,20 +95,16 @@ class Loader {
     }
   }
 
-  // Whether the file is there; if not, and that may be, a marker takes the place of the shape.
+  // Whether the file is there; if not, and that may be, a box takes the place of the shape.
   bool find(ShapeSpec& shape, const std::string& what) {
-    constexpr double kMarkerSize = 0.1;
     try {
       shape.meshPath = assets_.find(shape.meshFile, shape.where, what);
       return true;
     } catch (const Error& error) {
       if (!allowMissing_) throw;
-      ErrorParts parts = error.parts();
-      parts.where = {};
-      notes_.push_back(
-          {shape.where, fmt::format("{}; a marker stands for it", Error(parts).what()), Severity::kWarning});
-      shape.shape = {.type = ShapeType::kMarker, .extent = Eigen::Vector3d::Constant(kMarkerSize)};
-      shape.contact = false;
+      missing_.add(shape, error.parts());
+      shape.shape = {.type = ShapeType::kBox, .extent = Eigen::Vector3d::Constant(0.1)};
+      shape.meshMissing = true;
       return false;
     }
   }
@@ -85,7 +135,7 @@ class Loader {
   using Key = std::pair<std::string, std::array<double, 3>>;
   const Assets& assets_;
   bool allowMissing_;
-  Diagnostics& notes_;
+  Missing missing_;
   std::map<Key, TriangleMesh> read_;
   std::deque<std::pair<TriangleMesh, TriangleMesh>> hulls_;
 };
@@ -93,10 +143,11 @@ class Loader {
 }  // namespace
 
 void loadMeshes(SceneFile& scene, const Assets& assets, bool allowMissing) {
-  Loader loader(assets, allowMissing, scene.notes);
+  Loader loader(assets, allowMissing);
   for (ShapeSpec& shape : scene.spec.worldShapes) loader.load(shape);
   for (BodySpec& body : scene.spec.bodies)
     for (ShapeSpec& shape : body.shapes) loader.load(shape);
+  loader.addNotes(scene.notes);
 }
 
 }  // namespace rex

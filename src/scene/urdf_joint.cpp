@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -40,13 +42,21 @@ void readRange(const Tag& limit, JointSpec& joint) {
     limit.failAt("lower", fmt::format("{} > {}", lower, upper), "a lower limit that is not above the upper");
   if (!limit.has("lower") && !limit.has("upper"))
     limit.warn(limit.where(), "without 'lower' and 'upper' the joint stays at 0");
+  // Larger numbers stand for no limit.
+  constexpr double kTwoTurns = 4 * std::numbers::pi, kLargestAngle = 1000;
+  const double largest = std::max(std::abs(lower), std::abs(upper));
+  if (joint.type == JointType::kHinge && largest > kTwoTurns && largest <= kLargestAngle)
+    limit.warn(limit.where(),
+               fmt::format("the range is {} to {}: degrees? angles are radians", lower, upper));
   joint.lower = Eigen::VectorXd::Constant(1, lower);
   joint.upper = Eigen::VectorXd::Constant(1, upper);
 }
 
 void readLimit(const Tag& tag, bool hasRange, JointSpec& joint) {
   static const Known kKnown = {{"lower", "upper", "velocity", "effort"}, {}};
-  const std::optional<Tag> limit = hasRange ? tag.neededChild("limit") : tag.child("limit");
+  const std::string wanted = fmt::format("<limit lower=.. upper=.. effort=.. velocity=..>{}",
+                                         joint.type == JointType::kHinge ? " or type 'continuous'" : "");
+  const std::optional<Tag> limit = hasRange ? tag.neededChild("limit", wanted) : tag.child("limit");
   if (!limit) return;
   limit->expect(kKnown);
   if (hasRange) {
@@ -79,8 +89,8 @@ void readMimic(const Tag& joint, ReadJoint& read) {
   static const Known kKnown = {{"joint", "multiplier", "offset"}, {}};
   tag->expect(kKnown);
   if (positionCount(read.spec.type) != 1) {
-    tag->fail(tag->where(), "mimic", fmt::format("a joint of type '{}'", joint.text("type")),
-              "revolute, continuous or prismatic");
+    joint.fail(tag->where(), "<mimic>", fmt::format("a joint of type '{}'", joint.text("type")),
+               "revolute, continuous or prismatic");
   }
   read.spec.mimic = tag->nameIn("joint");
   read.mimicAt = tag->where("joint");

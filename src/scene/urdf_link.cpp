@@ -85,8 +85,12 @@ void readGeometry(const Tag& geometry, ShapeSpec& spec) {
       geometry.fail(shape->where(), "two shapes", fmt::format("<{}> and <{}>", only->name(), name), "one");
     if (shape) only = shape;
   }
-  if (!only)
-    geometry.fail(geometry.where(), "no shape", "", "<box>, <cylinder>, <sphere>, <capsule> or <mesh>");
+  if (!only) {
+    const std::vector<Tag> others = geometry.children();
+    const std::string found = others.empty() ? "" : std::string(others.front().name());
+    geometry.fail(geometry.where(), "no shape", found.empty() ? "" : fmt::format("<{}>", found),
+                  "<box>, <cylinder>, <sphere>, <capsule> or <mesh>", nearestNames(found, kKnown.children));
+  }
   if (only->name() == "box") spec.shape = boxShape(*only);
   if (only->name() == "cylinder") spec.shape = roundShape(*only, ShapeType::kCylinder);
   if (only->name() == "sphere") spec.shape = sphereShape(*only);

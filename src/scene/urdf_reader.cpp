@@ -17,16 +17,16 @@ constexpr std::size_t kMostJoints = 1000;
 
 const std::vector<std::string> kIgnored = {"transmission", "gazebo", "ros2_control", "sensor"};
 
-// The place of the count-th child of a name.
 void refuseMore(const xml::Document& document, const char* name, std::size_t most) {
   std::size_t count = 0;
-  for (const xml::Element& element : document.root.children) {
-    if (element.name != name || ++count <= most) continue;
-    throw Error({.what = fmt::format("<robot>: too many <{}>", name),
-                 .where = document.where(element.at),
-                 .found = fmt::format("number {}", count),
-                 .wanted = fmt::format("at most {}", most)});
-  }
+  const xml::Element* tooMuch = nullptr;
+  for (const xml::Element& element : document.root.children)
+    if (element.name == name && ++count == most + 1) tooMuch = &element;
+  if (!tooMuch) return;
+  throw Error({.what = fmt::format("<robot>: too many <{}>", name),
+               .where = document.where(tooMuch->at),
+               .found = fmt::format("{}", count),
+               .wanted = fmt::format("at most {}", most)});
 }
 
 Tag robotTag(Reading& reading) {
@@ -85,31 +85,49 @@ void placeRoot(SceneSpec& spec, std::size_t root, bool freeBase, Notes& notes) {
   if (freeBase) freeRoot(spec, spec.bodies[root]);
 }
 
+void append(Diagnostics& notes, const Diagnostics& more) {
+  notes.insert(notes.end(), more.begin(), more.end());
+}
+
+SceneSpec readRobot(Reading& reading, const std::string& name, bool freeBase) {
+  const Tag robot = robotTag(reading);
+  const Materials materials = readMaterials(robot);
+  SceneSpec spec;
+  spec.name = name;
+  std::vector<ReadJoint> joints;
+  for (const Tag& link : robot.children("link"))
+    spec.bodies.push_back(readLink(link.of("<link>"), materials));
+  for (const Tag& joint : robot.children("joint")) joints.push_back(readJoint(joint.of("<joint>")));
+  const std::size_t root = requireTree(spec.bodies, joints, robot.where());
+  for (ReadJoint& joint : joints) spec.joints.push_back(std::move(joint.spec));
+  placeRoot(spec, root, freeBase, reading.notes);
+  return spec;
+}
+
 }  // namespace
 
 SceneFile parseUrdf(std::string_view text, const std::string& name, const ReadOptions& options) {
   const xml::Document document = xml::parse(text, name);
   refuseXacro(document);
   Reading reading{document};
-  const Tag robot = robotTag(reading);
-  const Materials materials = readMaterials(robot);
-  SceneFile file;
-  file.spec.name = name;
-  std::vector<ReadJoint> joints;
-  for (const Tag& link : robot.children("link"))
-    file.spec.bodies.push_back(readLink(link.of("<link>"), materials));
-  for (const Tag& joint : robot.children("joint")) joints.push_back(readJoint(joint.of("<joint>")));
-  const std::size_t root = requireTree(file.spec.bodies, joints, robot.where());
-  for (ReadJoint& joint : joints) file.spec.joints.push_back(std::move(joint.spec));
-  placeRoot(file.spec, root, options.freeBase, reading.notes);
-  file.notes = reading.notes.take();
-  return file;
+  try {
+    SceneSpec spec = readRobot(reading, name, options.freeBase);
+    return {std::move(spec), reading.notes.take()};
+  } catch (const Error&) {
+    if (options.notesOfFailure) append(*options.notesOfFailure, reading.notes.take());
+    throw;
+  }
 }
 
 SceneFile readUrdf(const std::filesystem::path& file, const ReadOptions& options) {
   constexpr std::size_t kLargest = 8u << 20;
   SceneFile scene = parseUrdf(readSceneText(file, kLargest), file.string(), options);
-  loadMeshes(scene, Assets(file, options.assetRoot), options.allowMissingMeshes);
+  try {
+    loadMeshes(scene, Assets(file, options.assetRoot), options.allowMissingMeshes);
+  } catch (const Error&) {
+    if (options.notesOfFailure) append(*options.notesOfFailure, scene.notes);
+    throw;
+  }
   return scene;
 }
 

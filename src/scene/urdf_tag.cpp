@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -98,6 +99,7 @@ SourceLocation Tag::where(const char* attribute) const {
 }
 
 void Tag::expect(const Known& known) const {
+  known_ = &known;
   const xml::Document& document = reading_->document;
   Notes& notes = reading_->notes;
   const auto noteUnknown = [&](std::uint32_t at, const std::string& what, const std::string& name,
@@ -130,9 +132,11 @@ const xml::Attribute* Tag::find(std::string_view attribute) const {
 
 const xml::Attribute& Tag::need(std::string_view attribute) const {
   if (const xml::Attribute* found = find(attribute)) return *found;
-  std::vector<std::string> present;
-  for (const xml::Attribute& a : element_->attributes) present.push_back(a.name);
-  const std::vector<std::string> nearest = nearestNames(attribute, present);
+  std::vector<std::string> strange;
+  for (const xml::Attribute& a : element_->attributes)
+    if (!known_ || !contains(known_->attributes, a.name)) strange.push_back(a.name);
+  std::vector<std::string> nearest = nearestNames(attribute, strange);
+  if (nearest.empty() && known_ && strange.size() == 1) nearest = strange;
   fail(where(), fmt::format("attribute '{}' is missing", attribute),
        nearest.empty() ? "" : xml::quoted(nearest.front()), "");
 }
@@ -185,14 +189,14 @@ std::optional<Tag> Tag::child(const char* name) const {
   return only ? std::optional(Tag(*this, *only)) : std::nullopt;
 }
 
-Tag Tag::neededChild(const char* name) const {
+Tag Tag::neededChild(const char* name, const std::string& wanted) const {
   if (std::optional<Tag> found = child(name)) return *std::move(found);
   std::vector<std::string> present;
   for (const xml::Element& element : element_->children)
     if (present.size() < 100) present.push_back(element.name);
   const std::vector<std::string> nearest = nearestNames(name, present);
   fail(where(), fmt::format("<{}> is missing", name),
-       nearest.empty() ? "" : fmt::format("<{}>", nearest.front()), "");
+       nearest.empty() ? "" : fmt::format("<{}>", nearest.front()), wanted);
 }
 
 std::vector<Tag> Tag::children(std::string_view name) const {
@@ -215,7 +219,13 @@ Pose Tag::origin() const {
   tag->expect(kKnown);
   Pose X;
   if (tag->has("xyz")) X.p = tag->numbers("xyz", 3);
-  if (tag->has("rpy")) X.R = rotationFromRollPitchYaw(tag->numbers("rpy", 3));
+  if (tag->has("rpy")) {
+    const Eigen::Vector3d angles = tag->numbers("rpy", 3);
+    if (angles.cwiseAbs().maxCoeff() > 2 * std::numbers::pi)
+      tag->warn(tag->where("rpy"), fmt::format("attribute 'rpy' is {}: degrees? angles are radians",
+                                               xml::quoted(tag->text("rpy"))));
+    X.R = rotationFromRollPitchYaw(angles);
+  }
   return X;
 }
 

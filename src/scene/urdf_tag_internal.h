@@ -57,7 +57,7 @@ class Tag {
   SourceLocation where() const { return reading_->document.where(element_->at); }
   SourceLocation where(const char* attribute) const;
 
-  /// Notes all attributes, children and texts that are not known.
+  /// Notes all attributes, children and texts that are not known; `known` must outlive the tag.
   void expect(const Known& known) const;
 
   bool has(std::string_view attribute) const { return find(attribute) != nullptr; }
@@ -79,7 +79,8 @@ class Tag {
 
   /// The child of that name, of which there may be only one.
   std::optional<Tag> child(const char* name) const;
-  Tag neededChild(const char* name) const;
+  /// The same, which must be there; `wanted` is for the message.
+  Tag neededChild(const char* name, const std::string& wanted = "") const;
   std::vector<Tag> children(std::string_view name) const;
   std::vector<Tag> children() const;
   /// The pose that the child <origin> gives; without one the identity.
@@ -105,6 +106,7 @@ class Tag {
   Reading* reading_;
   const xml::Element* element_;
   std::string owner_, thing_;
+  mutable const Known* known_ = nullptr;  // since expect(): tells what is misspelt from what is meant
 };
 
 }  // namespace rex::urdf

@@ -164,6 +164,7 @@ class Writer {
     };
     const std::string radius = numeral(s.radius), length = numeral(s.extent.z());
     const Pose top = translation(0, 0, s.extent.z() / 2), bottom = top.inverse();
+    if (shape.meshMissing) return meshOf(shape);
     if (!hasSize(s)) return leaveOut("shapes without size are left out");
     switch (s.type) {
       case ShapeType::kRoundedBox:
@@ -190,9 +191,8 @@ class Writer {
         if (shape.meshFile.empty() && shape.meshPath.empty())
           return leaveOut("meshes without a file are left out");
         return meshOf(shape);
-      case ShapeType::kMarker:  // with a file it stands for a mesh that is missing
-        if (shape.meshFile.empty()) return leaveOut("markers are left out");
-        return meshOf(shape);
+      case ShapeType::kMarker:
+        return leaveOut("markers are left out");
     }
     return {};
   }

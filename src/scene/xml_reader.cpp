@@ -3,6 +3,7 @@
 #include <cctype>
 #include <cstring>
 #include <memory>
+#include <optional>
 
 #include <expat.h>
 #include <fmt/format.h>
@@ -101,10 +102,29 @@ class Builder {
   }
 
   [[noreturn]] void failAtSyntax() const {
+    const std::size_t first = text_.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+    if (first != std::string_view::npos && text_[first] != '<') {
+      fail(document_.where(static_cast<std::uint32_t>(first)), "not XML at all",
+           quoted(text_.substr(first, std::min<std::size_t>(20, text_.find_first_of("\r\n", first) - first))),
+           "<robot ...>");
+    }
     const XML_Error code = XML_GetErrorCode(parser_.get());
+    if (code == XML_ERROR_INVALID_TOKEN) {
+      const std::optional<std::size_t> bare = bareAnd();
+      fail(document_.where(bare ? static_cast<std::uint32_t>(*bare) : here()),
+           "not well-formed XML: invalid token", "", bare ? "&amp; where the text has a bare &" : "");
+    }
     const bool isOpen = code == XML_ERROR_TAG_MISMATCH || code == XML_ERROR_NO_ELEMENTS;
     fail(document_.where(here()), fmt::format("not well-formed XML: {}", XML_ErrorString(code)), "",
          isOpen && !open_.empty() ? fmt::format("</{}> first", open_.back()->name) : "");
+  }
+
+  // The '&' behind which expat stopped, for only with a name and ';' is it a reference.
+  std::optional<std::size_t> bareAnd() const {
+    const std::size_t before = std::min<std::size_t>(here(), text_.size() - 1);
+    const std::size_t at = text_.find_last_of("&<>;\"'", before);
+    if (at == std::string_view::npos || text_[at] != '&') return std::nullopt;
+    return at;
   }
 
   bool isWithinLimits(std::string_view name, std::size_t attributes) {

@@ -93,26 +93,43 @@ TEST_F(SceneMeshes, AreRefusedWhereTheyCollideWithTooManyVertices) {
                    "wanted at most 100000: a coarser mesh for contact, or none");
 }
 
-TEST_F(SceneMeshes, ThatAreMissingMayBecomeMarkers) {
+TEST_F(SceneMeshes, ThatAreMissingMayBecomeBoxes) {
   const SceneFile file = readOrs(scene("body a { type=3 mesh='meshes/pyramit.off' contact size=[1 1 1 .3] }\n"
                                        "shape (a) { type=3 mesh='meshes/pyramid.off' }"),
                                  {.allowMissingMeshes = true});
   const ShapeSpec& shape = file.spec.bodies[0].shapes[0];
-  EXPECT_EQ(shape.shape.type, ShapeType::kMarker);
+  EXPECT_EQ(shape.shape.type, ShapeType::kBox);
   EXPECT_EQ(shape.shape.extent, Eigen::Vector3d::Constant(0.1));
-  EXPECT_FALSE(shape.contact);
+  EXPECT_TRUE(shape.contact && shape.meshMissing);
   EXPECT_EQ(shape.meshFile, "meshes/pyramit.off");
   EXPECT_EQ(file.spec.bodies[0].shapes[1].shape.type, ShapeType::kMesh);
+  EXPECT_FALSE(file.spec.bodies[0].shapes[1].meshMissing);
   ASSERT_EQ(file.notes.size(), 1u);
   EXPECT_EQ(file.notes[0].severity, Severity::kWarning);
   EXPECT_EQ(toString(file.notes[0]),
-            (folder_.path() / "scene.ors").string() + ":1:1: warning: shape 'a': mesh: found no file " +
-                "'meshes/pyramit.off', wanted " + (folder_.path() / "meshes/pyramit.off").string() +
-                " (did you mean 'pyramid.off'?); a marker stands for it");
+            (folder_.path() / "scene.ors").string() +
+                ":1:1: warning: mesh 'pyramit.off' of 'meshes' was not " +
+                "found (did you mean 'pyramid.off'?); boxes of 0.1 m stand for what is missing; wanted " +
+                (folder_.path() / "meshes/pyramit.off").string());
   EXPECT_EQ(compile(file.spec).shapes().size(), 2u);
 }
 
-TEST_F(SceneMeshes, ThatAreBrokenAreNeverMarkers) {
+TEST_F(SceneMeshes, ThatAreMissingShareAWarningInAPackageOrFolder) {
+  const auto mesh = [](const std::string& name) { return "shape { type=3 mesh='" + name + "' }\n"; };
+  const SceneFile file =
+      readOrs(scene(mesh("package://dog/dae/base.dae") + mesh("x.stl") + mesh("package://dog/dae/leg.dae") +
+                    mesh("package://dog/hip.stl") + mesh("package://dog/hip.stl")),
+              {.allowMissingMeshes = true});
+  ASSERT_EQ(file.notes.size(), 2u);
+  EXPECT_THAT(
+      toString(file.notes[0]),
+      testing::HasSubstr("scene.ors:1:1: warning: 3 meshes of package://dog were not found, the first "
+                         "is 'dae/base.dae'; boxes of 0.1 m stand for what is missing; wanted one of "));
+  EXPECT_THAT(toString(file.notes[1]),
+              testing::HasSubstr(":2:1: warning: mesh 'x.stl' of the folder of the scene was not found"));
+}
+
+TEST_F(SceneMeshes, ThatAreBrokenAreNeverBoxes) {
   std::ofstream(folder_.path() / "meshes/broken.off") << "OFF\n0 0 0\n";
   EXPECT_REX_ERROR(readOrs(scene("body a { type=3 mesh='meshes/broken.off' }"), {.allowMissingMeshes = true}),
                    "shape 'a': mesh '");

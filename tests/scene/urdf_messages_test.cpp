@@ -65,7 +65,10 @@ TEST(UrdfMessages, OfXml) {
       {"<robot>\n<link name='a'>\n</@link2>\n</robot>",
        "not well-formed XML: mismatched tag: wanted </link> first"},
       {"<robot>\n<link name='a'>\n@", "not well-formed XML: no element found: wanted </link> first"},
-      {"<robot>\n<link name=@a/></robot>", "not well-formed XML: not well-formed (invalid token)"},
+      {"<robot>\n<link name=@a/></robot>", "not well-formed XML: invalid token"},
+      {"<robot name='a @& b'/>",
+       "not well-formed XML: invalid token: wanted &amp; where the text has a bare &"},
+      {"\n @body a {}\n", "not XML at all: found 'body a {}', wanted <robot ...>"},
       {"<robot>\n<link name='a' @name='b'/></robot>", "not well-formed XML: duplicate attribute"},
       {"@<robot name='&pi;'/>", "not well-formed XML: undefined entity"},
       {"<robot/>@<robot/>", "not well-formed XML: junk after document element"},
@@ -105,10 +108,10 @@ TEST(UrdfMessages, OfLimits) {
        "name too long: found 257 bytes, wanted at most 256"},
       {"<robot>@<a " + std::string(257, 'a') + "=''/></robot>",
        "name of an attribute too long: found 257 bytes, wanted at most 256"},
-      {"<robot>" + joints + "@<joint/></robot>",
-       "<robot>: too many <joint>: found number 1001, wanted at most 1000"},
+      {"<robot>" + joints + "@<joint/><joint/></robot>",
+       "<robot>: too many <joint>: found 1002, wanted at most 1000"},
       {"<robot>" + numbered(0, 1001) + "@<link/></robot>",
-       "<robot>: too many <link>: found number 1002, wanted at most 1001"},
+       "<robot>: too many <link>: found 1002, wanted at most 1001"},
       {robot("<link name='@" + std::string(257, 'a') + "'/>"),
        "<link>: attribute 'name': found 257 bytes, wanted at most 256"},
   });
@@ -168,6 +171,9 @@ TEST(UrdfMessages, OfShapes) {
   check({
       {geometry("").insert(geometry("").find("<geometry>"), "@"),
        "link 'a': <geometry>: no shape: wanted <box>, <cylinder>, <sphere>, <capsule> or <mesh>"},
+      {geometry("<shpere radius='1'/>").insert(geometry("").find("<geometry>"), "@"),
+       "link 'a': <geometry>: no shape: found <shpere>, wanted <box>, <cylinder>, <sphere>, <capsule> or "
+       "<mesh> (did you mean 'sphere'?)"},
       {geometry("<box size='1 1 1'/>@<sphere radius='1'/>"),
        "link 'a': <geometry>: two shapes: found <box> and <sphere>, wanted one"},
       {geometry("<box size='@1 0 1'/>"),
@@ -212,7 +218,7 @@ TEST(UrdfMessages, OfInertias) {
       {inertial("<mass value='@0'/>" + kMoments),
        "link 'a': <mass>: an inertia without mass: found 0, wanted a mass > 0 kg"},
       {inertial("<mass value='1'/>@<inertia ixx='1' iyy='1' izz='1'/>"),
-       "link 'a': <inertia>: attribute 'ixy' is missing: found 'ixx'"},
+       "link 'a': <inertia>: attribute 'ixy' is missing"},
       {inertial("<mass value='1'/>@<inertia ixx='1' iyy='1' izz='1' ixy='2' ixz='0' iyz='0'/>"),
        "link 'a': <inertia>: a negative principal moment: wanted principal moments >= 0"},
   });
@@ -227,6 +233,8 @@ TEST(UrdfMessages, OfJoints) {
       {two("@<joint name='j' type='fixed'><parent link='arm'/></joint>"), "joint 'j': <child> is missing"},
       {two("<joint name='j' type='fixed'>@<parent/><child link='hand'/></joint>"),
        "joint 'j': <parent>: attribute 'link' is missing"},
+      {two("<joint name='j' type='fixed'>@<parent name='arm'/><child link='hand'/></joint>"),
+       "joint 'j': <parent>: attribute 'link' is missing: found 'name'"},
       {two("<joint name='j' type='fixed'><parent link='@amr'/><child link='hand'/></joint>"),
        "joint 'j': unknown parent: found 'amr', wanted the name of a link (did you mean 'arm'?)"},
       {two("<joint name='j' type='fixed'><parent link='arm'/><child link='@hnad'/></joint>"),
@@ -238,9 +246,12 @@ TEST(UrdfMessages, OfJoints) {
       {joint("continuous", "@<axis/>"), "joint 'j': <axis>: attribute 'xyz' is missing"},
       {joint("continuous", "<axis xyz='0 0 1'/>@<axis xyz='0 0 1'/>"),
        "joint 'j': a second <axis>: wanted one: the first stands at f:5:41"},
-      {two("@<joint name='j' type='revolute'>" + kEnds + "</joint>"), "joint 'j': <limit> is missing"},
+      {two("@<joint name='j' type='revolute'>" + kEnds + "</joint>"),
+       "joint 'j': <limit> is missing: wanted <limit lower=.. upper=.. effort=.. velocity=..> or type "
+       "'continuous'"},
       {two("@<joint name='j' type='prismatic'><limits/>" + kEnds + "</joint>"),
-       "joint 'j': <limit> is missing: found <limits>"},
+       "joint 'j': <limit> is missing: found <limits>, wanted <limit lower=.. upper=.. effort=.. "
+       "velocity=..>"},
       {joint("revolute", "<limit lower='@1' upper='-1' velocity='1' effort='1'/>"),
        "joint 'j': <limit>: attribute 'lower': found 1 > -1, wanted a lower limit that is not above the "
        "upper"},
@@ -266,7 +277,7 @@ TEST(UrdfMessages, OfMimics) {
       {mimic("fixed", "<mimic joint='@j'/>"), "joint 'k': mimic: found 'j'" + wanted},
       {mimic("floating", "<mimic joint='@j'/>"), "joint 'k': mimic: found 'j'" + wanted},
       {joint("planar", "@<mimic joint='j'/>"),
-       "joint 'j': <mimic>: mimic: found a joint of type 'planar', wanted revolute, continuous or prismatic"},
+       "joint 'j': <mimic>: found a joint of type 'planar', wanted revolute, continuous or prismatic"},
       {mimic("continuous", "<mimic joint='j' multiplier='@x'/>"),
        "joint 'k': <mimic>: attribute 'multiplier': found 'x', wanted a number"},
       {robot(
@@ -331,6 +342,10 @@ TEST(UrdfMessages, OfWarnings) {
       {inertial("<mass value='1'/>@<inertia ixx='3' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/>"),
        "warning: link 'a': <inertia>: no body has this inertia: one principal moment exceeds the sum of the "
        "others"},
+      {visual("<origin rpy='@0 0 90'/>" + sphere),
+       "warning: link 'a': <origin>: attribute 'rpy' is '0 0 90': degrees? angles are radians"},
+      {joint("revolute", "@<limit lower='-90' upper='90' velocity='1' effort='1'/>"),
+       "warning: joint 'j': <limit>: the range is -90 to 90: degrees? angles are radians"},
       {joint("revolute", "@<limit velocity='1' effort='1'/>"),
        "warning: joint 'j': <limit>: without 'lower' and 'upper' the joint stays at 0"},
       {joint("revolute", "@<limit lower='0' upper='1' effort='1'/>"),
@@ -354,6 +369,15 @@ TEST(UrdfMessages, OfWarnings) {
     ASSERT_EQ(notes.size(), 1u) << row.text;
     EXPECT_EQ(toString(notes[0]), wanted);
   }
+}
+
+TEST(UrdfMessages, IncludeTheNotesBeforeAFailure) {
+  Diagnostics notes;
+  EXPECT_THROW(static_cast<void>(parseUrdf(robot("<lnk name='a'/>"), "f", {.notesOfFailure = &notes})),
+               Error);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(toString(notes[0]),
+            "f:2:1: warning: <robot>: unknown tag <lnk> is ignored (did you mean 'link'?)");
 }
 
 TEST(UrdfMessages, StopAtAThousandWarnings) {

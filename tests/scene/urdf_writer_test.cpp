@@ -333,7 +333,8 @@ TEST(UrdfWriter, NamesMeshesRelativeToTheFolder) {
   EXPECT_EQ(fileOf(folder.path() / "robots"), "../m.stl");
   spec.bodies[0].shapes[0].meshPath = folder.path() / "meshes" / "m.stl";
   EXPECT_EQ(fileOf(folder.path() / "robots"), "../meshes/m.stl");
-  spec.bodies[0].shapes[0].shape.type = ShapeType::kMarker;  // in place of a mesh that was not found
+  spec.bodies[0].shapes[0].shape.type = ShapeType::kBox;
+  spec.bodies[0].shapes[0].meshMissing = true;
   EXPECT_EQ(fileOf(folder.path() / "robots"), "../meshes/m.stl");
   EXPECT_EQ(fileOf({}), spec.bodies[0].shapes[0].meshPath.string());
 }
