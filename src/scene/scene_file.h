@@ -21,10 +21,6 @@ struct ReadOptions {
   bool allowMissingMeshes = false;        ///< boxes stand for them, and a warning tells
   bool freeBase = false;                  ///< of a URDF robot: its root moves freely
   Diagnostics* notesOfFailure = nullptr;  ///< where notes go that were made before an Error
-};                                ///< holds all files that the scene names, see Assets; empty: its default
-bool allowMissingMeshes = false;  ///< draw a box instead, and warn
-bool freeBase = false;            ///< of a URDF robot: its root moves freely
-Diagnostics* notesOfFailure = nullptr;  ///< where notes go that were made before an Error
 };
 
 /// Reads a scene with its meshes; the ending of the file, in any case, says how: .ors or .urdf. Throws Error:
