@@ -85,7 +85,7 @@ TEST_F(OrsInclude, SaysWhichFileIsWrong) {
   write("closing.ors", "body a {} }");
   EXPECT_REX_ERROR(read("body b { Include='closing.ors' }"), "closing.ors:1:11: unmatched '}'");
   EXPECT_REX_ERROR(read("body a {}\nInclude='bat.ors'"),
-                   "main.ors:2:9: Include 'bat.ors': found no file 'bat.ors', wanted one of " +
+                   "main.ors:2:9: Include 'bat.ors': found no file 'bat.ors', wanted " +
                        path("bat.ors").string() + " (did you mean 'bad.ors'?)");
   EXPECT_REX_ERROR(read("Include=bad.ors"), "main.ors:1:9: Include: found 'bad.ors', wanted Include='FILE'");
   EXPECT_REX_ERROR(parseOrs("\nInclude='bad.ors'", "f"),
