@@ -97,11 +97,18 @@ rlim_t presentSize() {
   return n > 0 ? std::strtoull(text, nullptr, 10) * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) : 0;
 }
 
+// The sanitizers reserve all addresses at once.
+#ifdef REX_ADDRESS_SANITIZER
+constexpr bool kLimitsMemory = false;
+#else
+constexpr bool kLimitsMemory = true;
+#endif
+
 void applyLimits(const IsolationLimits& limits) {
   const auto seconds = static_cast<rlim_t>(std::ceil(limits.cpuSeconds));
   lower(RLIMIT_CPU, seconds, seconds + 1);
   lower(RLIMIT_CORE, 0, 0);
-  if (!limitsMemory()) return;
+  if (!kLimitsMemory) return;
   const rlim_t memory = presentSize() + limits.memory;
   lower(RLIMIT_AS, memory, memory);
 }
@@ -269,14 +276,6 @@ IsolatedResult callIsolated(const std::function<std::string()>& function, const 
   if (!isWhole || status != 0) return failureOf(status, reader.isLate(), child.cpuSeconds(), limits);
   if (head.kind == Head::kError) throw Error(unpacked(bytes));
   return {.end = IsolatedEnd::kReturned, .exitCode = 0, .bytes = std::move(bytes)};
-}
-
-bool limitsMemory() {
-#ifdef REX_ADDRESS_SANITIZER
-  return false;
-#else
-  return true;
-#endif
 }
 
 }  // namespace rex

@@ -31,7 +31,4 @@ struct IsolatedResult {
 [[nodiscard]] IsolatedResult callIsolated(const std::function<std::string()>& function,
                                           const IsolationLimits& limits = {});
 
-/// Whether limits of memory hold in this build.
-[[nodiscard]] bool limitsMemory();
-
 }  // namespace rex

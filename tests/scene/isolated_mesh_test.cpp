@@ -42,14 +42,15 @@ TEST(ReadIsolated, RefusesWhatAssimpDoesNotSurvive) {
       "a.obj: cannot read the mesh file: found one that assimp does not finish reading, wanted a mesh");
 }
 
+#ifndef __SANITIZE_ADDRESS__  // sanitizers reserve all addresses
 TEST(ReadIsolated, RefusesWhatNeedsTooMuchMemory) {
-  if (!limitsMemory()) GTEST_SKIP() << "sanitizers reserve all addresses";
   std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   for (int i = 0; i < 100'000; ++i) text += "f 1 2 3\n";
   EXPECT_REX_ERROR(
       readIsolated(text, "a.obj", Vector3d::Ones(), {}, {.memory = 4u << 20}),
       "a.obj: cannot read the mesh file: found one for which assimp needs too much memory, wanted a mesh");
 }
+#endif
 
 }  // namespace
 }  // namespace rex::mesh
