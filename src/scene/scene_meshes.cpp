@@ -22,7 +22,7 @@ class Missing {
  public:
   void add(const ShapeSpec& shape, const ErrorParts& reason) {
     const auto [owner, name] = split(shape.meshFile);
-    const auto same = [&](const Group& group) { return group.owner == owner; };
+    const auto same = [&owner = owner](const Group& group) { return group.owner == owner; };
     auto group = std::find_if(groups_.begin(), groups_.end(), same);
     if (group == groups_.end()) group = groups_.insert(groups_.end(), {owner, name, shape.where, reason, {}});
     group->files.insert(shape.meshFile);
