@@ -17,6 +17,7 @@
 namespace rex {
 
 using VectorArg = Eigen::Ref<const Eigen::VectorXd>;
+using MatrixArg = Eigen::Ref<const Eigen::MatrixXd>;
 
 /// Handles into a Model: positions in bodies() and joints(). kWorld is body 0.
 enum class BodyId : int {};

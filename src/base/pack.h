@@ -1,0 +1,106 @@
+#pragma once
+
+#include <cmath>
+
+// Numbers in lanes, for kernels: templates on T, which is double or a Pack. A kernel is compiled once per
+// number of lanes, with other machine instructions each time; so everything here and in a kernel lies in an
+// anonymous namespace, and uses no templates of Eigen or the standard library, whose code the linker would
+// share. All operations round as the standard demands: a lane has the bits that one double would have.
+namespace rex {
+namespace {
+
+// Spelled out, because g++ 12 takes the size of a vector for a plain double where it depends on a template.
+template <int kLanes>
+struct LaneTypes;
+template <>
+struct LaneTypes<2> {
+  typedef double Numbers __attribute__((vector_size(16)));
+  typedef long long Mask __attribute__((vector_size(16)));
+};
+template <>
+struct LaneTypes<4> {
+  typedef double Numbers __attribute__((vector_size(32)));
+  typedef long long Mask __attribute__((vector_size(32)));
+};
+
+/// kLanes numbers that are computed with as if they were one.
+template <int kLanes>
+struct Pack {
+  using Numbers = typename LaneTypes<kLanes>::Numbers;
+  using Mask = typename LaneTypes<kLanes>::Mask;  ///< all bits of a lane, or none
+
+  Numbers numbers;
+
+  Pack() = default;
+  Pack(Numbers given) : numbers(given) {}
+  Pack(double all) : numbers(all - Numbers{}) {}
+
+  friend Pack operator+(Pack a, Pack b) { return a.numbers + b.numbers; }
+  friend Pack operator-(Pack a, Pack b) { return a.numbers - b.numbers; }
+  friend Pack operator*(Pack a, Pack b) { return a.numbers * b.numbers; }
+  friend Pack operator/(Pack a, Pack b) { return a.numbers / b.numbers; }
+  friend Pack operator-(Pack a) { return -a.numbers; }
+  friend Mask operator<(Pack a, Pack b) { return a.numbers < b.numbers; }
+  friend Mask operator>(Pack a, Pack b) { return a.numbers > b.numbers; }
+  friend Mask operator<=(Pack a, Pack b) { return a.numbers <= b.numbers; }
+  friend Mask operator>=(Pack a, Pack b) { return a.numbers >= b.numbers; }
+};
+
+/// How many lanes a T has.
+template <class T>
+inline constexpr int kLanesOf = sizeof(T) / sizeof(double);
+
+/// Lane by lane: a where the mask holds, else b.
+inline double select(bool mask, double a, double b) { return mask ? a : b; }
+template <int kLanes>
+inline Pack<kLanes> select(typename Pack<kLanes>::Mask mask, Pack<kLanes> a, Pack<kLanes> b) {
+  return mask ? a.numbers : b.numbers;
+}
+
+/// Whether the mask holds in one lane at least.
+inline bool any(bool mask) { return mask; }
+template <class Mask>
+inline bool any(Mask mask) {
+  bool found = false;
+  for (unsigned i = 0; i < sizeof(Mask) / sizeof(long long); ++i) found |= mask[i] != 0;
+  return found;
+}
+
+inline double squareRoot(double x) { return __builtin_sqrt(x); }
+template <int kLanes>
+inline Pack<kLanes> squareRoot(Pack<kLanes> x) {
+  for (int i = 0; i < kLanes; ++i) x.numbers[i] = __builtin_sqrt(x.numbers[i]);
+  return x;
+}
+
+/// The numbers from `from` on, one per lane; and back.
+template <class T>
+inline T load(const double* from) {
+  T result;
+  __builtin_memcpy(&result, from, sizeof(T));
+  return result;
+}
+template <class T>
+inline void store(const T& x, double* to) {
+  __builtin_memcpy(to, &x, sizeof(T));
+}
+
+template <class T>
+inline T smaller(T a, T b) {
+  return select(a < b, a, b);
+}
+template <class T>
+inline T larger(T a, T b) {
+  return select(a > b, a, b);
+}
+template <class T>
+inline T absolute(T a) {
+  return select(a < T(0.0), -a, a);
+}
+template <class T>
+inline T clamped(T a, T low, T high) {
+  return smaller(larger(a, low), high);
+}
+
+}  // namespace
+}  // namespace rex

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "scene/model.h"
+
+namespace rex {
+
+/// Two shapes by their places in Model::shapes(), a < b.
+struct ShapePair {
+  int a, b;
+  bool operator==(const ShapePair&) const = default;
+};
+
+/// What of a model may collide, sorted for fast queries. It copies what it needs; copies share it.
+class ContactModel {
+ public:
+  /// All pairs of contact shapes except: of one body; of directly linked bodies; of bodies that are both
+  /// within four generations below a common ancestor, itself included. Markers never collide. Throws Error
+  /// for a shape in contact whose mesh is not loaded.
+  explicit ContactModel(const Model& model);
+  ContactModel(const Model& model, std::span<const ShapePair> pairs);
+
+  [[nodiscard]] std::span<const ShapePair> pairs() const;
+  [[nodiscard]] BodyId body(int shape) const;
+
+  struct Data;
+  [[nodiscard]] const Data& data() const { return *data_; }
+
+ private:
+  std::shared_ptr<const Data> data_;
+};
+
+}  // namespace rex

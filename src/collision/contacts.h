@@ -1,0 +1,35 @@
+#pragma once
+
+#include "collision/contact_model.h"
+#include "collision/proximity.h"
+#include "kinematics/task_map.h"
+
+namespace rex {
+
+/// A pair of shapes near one another.
+struct Proxy {
+  ShapePair pair;
+  Proximity proximity;
+};
+
+/// Margin and reach of queries where none is given, metres.
+inline constexpr double kContactMargin = 0.1, kQueryCutoff = 0.5;
+
+/// All pairs nearer than `cutoff` metres, in the order of contacts.pairs().
+[[nodiscard]] std::vector<Proxy> proxies(const ContactModel& contacts, const BodyPoses& poses,
+                                         double cutoff = kQueryCutoff);
+
+/// Derivative of the distance of a pair by v: 1 x nv, metres per unit of v. One-sided where the nearest
+/// points jump.
+[[nodiscard]] Eigen::RowVectorXd distanceJacobian(const Model& model, const BodyPoses& poses,
+                                                  const Proxy& proxy, const ContactModel& contacts);
+
+/// Cost of being nearer than the margin m > 0, metres: the sum over all pairs of [1 - d/m]^+ (slide 2:60 as
+/// corrected in the errata), with negative d in overlap. 0 exactly where all are m apart.
+[[nodiscard]] double contactCost(const ContactModel& contacts, const BodyPoses& poses,
+                                 double margin = kContactMargin);
+
+/// The same as a task map of one dimension, with its Jacobian.
+[[nodiscard]] TaskMap contactTask(ContactModel contacts, double margin = kContactMargin);
+
+}  // namespace rex

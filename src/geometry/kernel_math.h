@@ -1,0 +1,73 @@
+#pragma once
+
+#include "base/pack.h"
+
+// Vectors, rotations and poses of kernels; T is double or a Pack. See base/pack.h for why all is anonymous.
+namespace rex {
+namespace {
+
+template <class T>
+struct Vec3 {
+  T x, y, z;
+
+  friend Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }
+  friend Vec3 operator*(const T& s, const Vec3& a) { return {s * a.x, s * a.y, s * a.z}; }
+};
+
+template <class T>
+inline T dot(const Vec3<T>& a, const Vec3<T>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+template <class T>
+inline Vec3<T> cross(const Vec3<T>& a, const Vec3<T>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// A matrix by its columns, as Eigen stores it.
+template <class T>
+struct Mat3 {
+  Vec3<T> c0, c1, c2;
+
+  friend Vec3<T> operator*(const Mat3& m, const Vec3<T>& v) {
+    return {m.c0.x * v.x + m.c1.x * v.y + m.c2.x * v.z, m.c0.y * v.x + m.c1.y * v.y + m.c2.y * v.z,
+            m.c0.z * v.x + m.c1.z * v.y + m.c2.z * v.z};
+  }
+  friend Mat3 operator*(const Mat3& a, const Mat3& b) { return {a * b.c0, a * b.c1, a * b.c2}; }
+};
+
+/// Transpose of m times v: a world vector in the frame whose axes are the columns.
+template <class T>
+inline Vec3<T> transposedTimes(const Mat3<T>& m, const Vec3<T>& v) {
+  return {dot(m.c0, v), dot(m.c1, v), dot(m.c2, v)};
+}
+
+/// The layout of rex::Pose: the rotation by columns, then the origin.
+template <class T>
+struct KernelPose {
+  Mat3<T> R;
+  Vec3<T> p;
+
+  friend KernelPose operator*(const KernelPose& a, const KernelPose& b) {
+    return {a.R * b.R, a.R * b.p + a.p};
+  }
+};
+
+/// The same constant in all lanes.
+template <class T>
+inline Vec3<T> broadcast(const Vec3<double>& v) {
+  return {T(v.x), T(v.y), T(v.z)};
+}
+template <class T>
+inline Mat3<T> broadcast(const Mat3<double>& m) {
+  return {broadcast<T>(m.c0), broadcast<T>(m.c1), broadcast<T>(m.c2)};
+}
+template <class T>
+inline KernelPose<T> broadcast(const KernelPose<double>& X) {
+  return {broadcast<T>(X.R), broadcast<T>(X.p)};
+}
+
+}  // namespace
+}  // namespace rex
