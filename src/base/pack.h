@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cmath>
-
 // Numbers in lanes, for kernels: templates on T, which is double or a Pack. A kernel is compiled once per
 // number of lanes, with other machine instructions each time; so everything here and in a kernel lies in an
 // anonymous namespace, and uses no templates of Eigen or the standard library, whose code the linker would

@@ -69,8 +69,8 @@ inline KernelPose<T> broadcast(const KernelPose<double>& X) {
   return {broadcast<T>(X.R), broadcast<T>(X.p)};
 }
 
-/// Vectors and poses from numbers that stand `stride` apart, a T each, and back: a stride of
-/// LaneBlocks::kLanes for blocks of configurations (kinematics/lane_blocks.h), 1 for one alone.
+/// Vectors and poses from numbers that stand `stride` apart, a T each, and back: the stride is 1 for one
+/// configuration, and 8 for blocks of them.
 template <class T>
 inline Vec3<T> loadVec3(const double* from, int stride) {
   return {load<T>(from), load<T>(from + stride), load<T>(from + 2 * stride)};

@@ -38,7 +38,7 @@ class PoseBatch {
 
 /// Where all bodies are at each column of Q (nq x N): the same bits as forwardKinematics() gives, several
 /// times as fast. Allocates nothing once `out` has been used with this model and as many columns. Throws
-/// Error if Q has the wrong number of rows.
+/// as forwardKinematics().
 void forwardKinematicsBatch(const Model& model, const MatrixArg& Q, PoseBatch& out);
 
 }  // namespace rex
