@@ -64,6 +64,11 @@ CoreProximity flatDepth(const CoreDifference& difference, const Vector3d& normal
   return {other, kFlat, -normal, touching};
 }
 
+// The gap along n is a lower bound of the distance.
+void keepBetter(const Vector3d& n, const DifferencePoint& lowest, CoreProximity& best) {
+  if (const double gap = n.dot(lowest.x); gap > best.distance) best.distance = gap, best.normal = n;
+}
+
 }  // namespace
 
 CoreProximity coreDepth(const CoreDifference& difference, const DifferencePoint& touching) {
@@ -78,7 +83,10 @@ CoreProximity coreDepth(const CoreDifference& difference, const DifferencePoint&
     const int index = polytope.nearestFace();
     const GrowingPolytope::Face& face = polytope.face(index);
     const DifferencePoint w = difference.lowest(face.n);
-    if (const double gap = face.n.dot(w.x); gap > best.distance) best.distance = gap, best.normal = face.n;
+    keepBetter(face.n, w, best);
+    if (difference.isCurved())
+      for (const Vector3d& ridge : difference.ridges(face.n))
+        if (ridge.norm() > kFlat) keepBetter(ridge.normalized(), difference.lowest(ridge), best);
     best.slack = face.offset - best.distance;
     grows = best.slack > enough && polytope.add(w, index);
   }

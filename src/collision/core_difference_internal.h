@@ -1,5 +1,9 @@
 #pragma once
 
+#include <array>
+
+#include <Eigen/Geometry>
+
 #include "collision/convex_core_internal.h"
 #include "geometry/pose.h"
 
@@ -26,6 +30,12 @@ class CoreDifference {
   /// From the middle of B to that of A.
   Eigen::Vector3d centres() const { return -X_AB_.p; }
   bool isCurved() const { return a_.isCurved() || b_.isCurved(); }
+  /// Directions near n along which the gap has sharp ridges, since the sides of cylinders are straight.
+  std::array<Eigen::Vector3d, 3> ridges(const Eigen::Vector3d& n) const {
+    const Eigen::Vector3d axisA = Eigen::Vector3d::UnitZ(), axisB = X_AB_.R.col(2);
+    const Eigen::Vector3d both = axisA.cross(axisB);
+    return {n - n.dot(axisA) * axisA, n - n.dot(axisB) * axisB, n.dot(both) < 0 ? Eigen::Vector3d(-both) : both};
+  }
 
  private:
   const ConvexCore& a_;
