@@ -1,10 +1,9 @@
-#include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <limits>
 
-#include <fmt/format.h>
-
-#include "base/error.h"
 #include "collision/convex_core_internal.h"
+#include "collision/core_internal.h"
 
 namespace rex::internal {
 
@@ -12,15 +11,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-std::span<const Eigen::Vector3f> cornersOf(const Shape& shape) {
-  const std::span corners = (shape.hull.isEmpty() ? shape.mesh : shape.hull).positions();
-  if (corners.empty())
-    throw Error({.what = "distance of shapes",
-                 .found = fmt::format("a {} without points", toString(shape.type)),
-                 .wanted = "its mesh to be loaded"});
-  return corners;
-}
-
+// A plain scan: to walk from corner to corner would need neighbours, which nobody has prepared.
 Vector3d supportOf(std::span<const Eigen::Vector3f> points, const Vector3d& direction) {
   std::size_t best = 0;
   double most = -std::numeric_limits<double>::infinity();
@@ -32,36 +23,19 @@ Vector3d supportOf(std::span<const Eigen::Vector3f> points, const Vector3d& dire
 }  // namespace
 
 ConvexCore::ConvexCore(const Shape& shape) {
-  const double halfLength = shape.extent.z() / 2;
-  switch (shape.type) {
-    case ShapeType::kBox:
-      half_ = shape.extent / 2;
-      return;
-    case ShapeType::kRoundedBox:
-      radius_ = std::min(shape.radius, shape.extent.minCoeff() / 2);
-      half_ = shape.extent / 2 - Vector3d::Constant(radius_);
-      return;
-    case ShapeType::kSphere:
-      radius_ = shape.radius;
-      return;
-    case ShapeType::kCapsule:
-      radius_ = shape.radius;
-      half_ = {0, 0, halfLength};
-      return;
-    case ShapeType::kCylinder:
-      kind_ = Kind::kCylinder;
-      half_ = {shape.radius, shape.radius, halfLength};
-      return;
-    case ShapeType::kSphereSweptConvex:
-      radius_ = shape.radius;
-      [[fallthrough]];
-    case ShapeType::kMesh:
-    case ShapeType::kPointCloud:
-      kind_ = Kind::kPoints;
-      points_ = cornersOf(shape);
-      return;
-    case ShapeType::kMarker:
-      throw Error({.what = "distance of shapes", .found = "a marker", .wanted = "a solid"});
+  if (shape.type == ShapeType::kCylinder) {
+    kind_ = Kind::kCylinder;
+    half_ = {shape.radius, shape.radius, shape.extent.z() / 2};
+  } else if (usesMesh(shape.type)) {
+    kind_ = Kind::kPoints;
+    // Without a hull all points do as well, only slower.
+    points_ = (shape.hull.isEmpty() ? shape.mesh : shape.hull).positions();
+    radius_ = shape.type == ShapeType::kSphereSweptConvex ? shape.radius : 0;
+    assert(!points_.empty());
+  } else {
+    const Core core = coreOf(shape);
+    half_ = core.half;
+    radius_ = core.radius;
   }
 }
 

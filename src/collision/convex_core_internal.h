@@ -6,15 +6,16 @@
 
 namespace rex::internal {
 
-/// A convex solid as all points within `radius` metres of a core: of a sphere the core is a point, of a
-/// capsule a segment, of a rounded box a box; meshes and clouds have their points as corners. It refers to
-/// the points of the shape, which must outlive it. Throws Error for a marker, and for a missing mesh.
+/// A solid as all points within `radius` metres of a convex core, as Core has it, but also of cylinders and
+/// of meshes and clouds, whose points are the corners. It refers to the points of the shape, which must
+/// outlive it.
 class ConvexCore {
  public:
+  /// Of shapes that pass requireSolid().
   explicit ConvexCore(const Shape& shape);
 
   double radius() const { return radius_; }
-  /// Whether the core has curved sides, which no finite number of support points describes.
+  /// Whether the core has curved sides, which no finite number of points describes.
   bool isCurved() const { return kind_ == Kind::kCylinder; }
   /// A point of the core that lies farthest along `direction`, in the frame of the shape.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;

@@ -10,10 +10,11 @@ struct CertifiedProximity {
   double slack = 0;
 };
 
-/// The proximity of two convex solids of any type, by their support points alone. The slack is 1e-10 where
-/// the cores lie apart or have flat sides, 5e-7 where the core of a cylinder is overlapped; more, up to 1e-4
-/// of the size, only where some hundred directions out of an overlap are equally short within that. Throws
-/// Error for a marker, and for a shape that needs a mesh and has none.
+/// The proximity of two convex solids that pass requireSolid(), by their support points alone. The slack is
+/// at most 1e-10 m where the cores (see Core) lie apart or have flat sides, 1e-9 if a core is flat, and 5e-7
+/// where that of a cylinder is overlapped. It is more only where hundreds of directions lead out of an
+/// overlap on ways of nearly one length, as between cylinders around one axis; then the error stays below
+/// 1e-8.
 [[nodiscard]] CertifiedProximity certifiedProximity(const Shape& a, const Pose& X_WA, const Shape& b,
                                                     const Pose& X_WB);
 [[nodiscard]] Proximity convexProximity(const Shape& a, const Pose& X_WA, const Shape& b, const Pose& X_WB);

@@ -1,10 +1,9 @@
-#include "collision/core_depth_internal.h"
-
 #include <array>
 #include <limits>
 
 #include <Eigen/Geometry>
 
+#include "collision/core_depth_internal.h"
 #include "collision/growing_polytope_internal.h"
 
 namespace rex::internal {

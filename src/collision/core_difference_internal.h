@@ -34,7 +34,8 @@ class CoreDifference {
   std::array<Eigen::Vector3d, 3> ridges(const Eigen::Vector3d& n) const {
     const Eigen::Vector3d axisA = Eigen::Vector3d::UnitZ(), axisB = X_AB_.R.col(2);
     const Eigen::Vector3d both = axisA.cross(axisB);
-    return {n - n.dot(axisA) * axisA, n - n.dot(axisB) * axisB, n.dot(both) < 0 ? Eigen::Vector3d(-both) : both};
+    return {n - n.dot(axisA) * axisA, n - n.dot(axisB) * axisB,
+            n.dot(both) < 0 ? Eigen::Vector3d(-both) : both};
   }
 
  private:

@@ -1,9 +1,9 @@
-#include "collision/core_gap_internal.h"
-
 #include <array>
 #include <limits>
 
 #include <Eigen/Geometry>
+
+#include "collision/core_gap_internal.h"
 
 namespace rex::internal {
 namespace {
@@ -83,7 +83,9 @@ void tryTriangle(const DifferencePoint& p, const DifferencePoint& q, const Diffe
 
 bool holdsOrigin(const Simplex& s, const DifferencePoint& w) {
   if (s.size < 3) return false;
-  const auto volume = [](const Vector3d& a, const Vector3d& b, const Vector3d& c) { return a.cross(b).dot(c); };
+  const auto volume = [](const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+    return a.cross(b).dot(c);
+  };
   const Vector3d &p = s.points[0].x, &q = s.points[1].x, &r = s.points[2].x;
   const double whole = volume(q - p, r - p, w.x - p);
   const double sign = whole < 0 ? -1 : 1;

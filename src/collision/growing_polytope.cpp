@@ -19,7 +19,8 @@ GrowingPolytope::GrowingPolytope(const std::array<DifferencePoint, 4>& corners, 
     : precision_(precision), cornerCount_(4), faceCount_(4) {
   std::copy(corners.begin(), corners.end(), corners_.begin());
   const Vector3d& p = corners[0].x;
-  if ((corners[1].x - p).cross(corners[2].x - p).dot(corners[3].x - p) < 0) std::swap(corners_[0], corners_[1]);
+  if ((corners[1].x - p).cross(corners[2].x - p).dot(corners[3].x - p) < 0)
+    std::swap(corners_[0], corners_[1]);
   setFace(0, {0, 1, 2}, {1, 3, 2});
   setFace(1, {0, 3, 1}, {2, 3, 0});
   setFace(2, {0, 2, 3}, {0, 3, 1});
