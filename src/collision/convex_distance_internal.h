@@ -4,7 +4,7 @@
 
 namespace rex::internal {
 
-/// A proximity and how sure it is: the true distance lies within [distance, distance + slack], metres.
+/// A proximity and how sure it is: the distance is the true one within `slack`, metres.
 struct CertifiedProximity {
   Proximity proximity;
   double slack = 0;

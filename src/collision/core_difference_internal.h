@@ -44,7 +44,7 @@ class CoreDifference {
   Pose X_AB_;
 };
 
-/// What is known of two cores: their signed distance lies within [distance, distance + slack], metres.
+/// What is known of two cores: their signed distance, which is `distance` within `slack`, metres.
 struct CoreProximity {
   double distance = 0, slack = 0;
   Eigen::Vector3d normal;  ///< unit vector from B towards A

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -109,20 +110,17 @@ CoreProximity coreGap(const CoreDifference& difference) {
   Simplex simplex;
   const Vector3d start = difference.centres();
   tryPoint(difference.lowest(start.squaredNorm() > 0 ? start : Vector3d::UnitX()), simplex);
-  CoreProximity best;
-  best.distance = -std::numeric_limits<double>::infinity();
+  double widest = -std::numeric_limits<double>::infinity();
   for (int step = 0; step < kMostSteps && simplex.distance > kTouch; ++step) {
     const DifferencePoint w = difference.lowest(simplex.n);
     const double gap = simplex.n.dot(w.x);
-    if (gap > best.distance) best.distance = gap, best.normal = simplex.n;
-    if (simplex.distance - best.distance <= kSlack || holdsOrigin(simplex, w)) break;
+    widest = std::max(widest, gap);
+    if (simplex.distance - gap <= kSlack || holdsOrigin(simplex, w)) break;
     const Simplex next = nearestWith(simplex, w);
     if (!(next.distance < simplex.distance)) break;
     simplex = next;
   }
-  best.nearest = simplex.sum();
-  best.slack = simplex.distance - best.distance;
-  return best;
+  return {widest > 0 ? simplex.distance : 0, simplex.distance - widest, simplex.n, simplex.sum()};
 }
 
 }  // namespace rex::internal

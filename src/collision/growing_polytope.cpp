@@ -12,6 +12,8 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double kNone = -std::numeric_limits<double>::infinity();
+constexpr double kGrazing = 1e-9;   // the sine of an angle
+constexpr double kOnePlane = 1e-9;  // metres
 
 }  // namespace
 
@@ -45,29 +47,38 @@ int GrowingPolytope::nearestFace() const {
 }
 
 DifferencePoint GrowingPolytope::pointAgainst(const Vector3d& n) const {
+  const auto way = [&](const Face& face) {
+    const double slope = face.n.dot(n);
+    return slope > kGrazing ? face.offset / slope : kNone;
+  };
+  double nearest = kNone;
+  for (int i = 0; i < faceCount_; ++i) nearest = std::max(nearest, way(faces_[i]));
+  // Of faces in one plane, the one that holds the point.
   int hit = nearestFace();
-  double way = kNone;
+  Vector3d shares = Vector3d::Constant(kNone);
   for (int i = 0; i < faceCount_; ++i) {
-    const double slope = faces_[i].n.dot(n);
-    if (slope > 1e-9 && faces_[i].offset / slope > way) way = faces_[i].offset / slope, hit = i;
+    if (!(way(faces_[i]) >= nearest - kOnePlane)) continue;
+    const Vector3d found = sharesOf(faces_[i], nearest * n);
+    if (found.minCoeff() > shares.minCoeff()) shares = found, hit = i;
   }
-  return pointOf(faces_[hit], way * n);
-}
-
-// The point x of the face, by its shares of the corners.
-DifferencePoint GrowingPolytope::pointOf(const Face& face, const Vector3d& x) const {
-  std::array<Vector3d, 3> to;
-  for (int k = 0; k < 3; ++k) to[k] = corners_[face.corners[k]].x - x;
-  Vector3d share;
-  for (int k = 0; k < 3; ++k) share[k] = std::max(face.n.dot(to[(k + 1) % 3].cross(to[(k + 2) % 3])), 0.0);
-  if (!(share.sum() > 0)) share.setOnes();
-  share /= share.sum();
+  shares = shares.cwiseMax(0);
+  shares /= shares.sum();
   DifferencePoint point{Vector3d::Zero(), Vector3d::Zero()};
   for (int k = 0; k < 3; ++k) {
-    point.x += share[k] * corners_[face.corners[k]].x;
-    point.onA += share[k] * corners_[face.corners[k]].onA;
+    const DifferencePoint& corner = corners_[faces_[hit].corners[k]];
+    point.x += shares[k] * corner.x;
+    point.onA += shares[k] * corner.onA;
   }
   return point;
+}
+
+// How the corners of a face make up the point x of its plane.
+Vector3d GrowingPolytope::sharesOf(const Face& face, const Vector3d& x) const {
+  std::array<Vector3d, 3> to;
+  for (int k = 0; k < 3; ++k) to[k] = corners_[face.corners[k]].x - x;
+  Vector3d shares;
+  for (int k = 0; k < 3; ++k) shares[k] = face.n.dot(to[(k + 1) % 3].cross(to[(k + 2) % 3]));
+  return shares / shares.sum();
 }
 
 bool GrowingPolytope::add(const DifferencePoint& point, int seen) {

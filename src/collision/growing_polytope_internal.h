@@ -44,7 +44,7 @@ class GrowingPolytope {
   void findSeen(const Eigen::Vector3d& x, int first);
   bool findRim();
   void coverRim(int apex);
-  DifferencePoint pointOf(const Face& face, const Eigen::Vector3d& x) const;
+  Eigen::Vector3d sharesOf(const Face& face, const Eigen::Vector3d& x) const;
 
   double precision_;
   int cornerCount_ = 0, faceCount_ = 0, freeCount_ = 0, seenCount_ = 0, rimSize_ = 0;
