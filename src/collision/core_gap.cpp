@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -14,7 +13,8 @@ using Eigen::Vector3d;
 constexpr double kSlack = 1e-10;   // metres, between the bounds that end the search
 constexpr double kTouch = 1e-12;   // metres: nearer than this there is no direction to go by
 constexpr double kSliver = 1e-10;  // the sine of the least angle that counts
-constexpr int kMostSteps = 200;
+constexpr double kNoFarther = 1 + 1e-15;
+constexpr int kMostSteps = 100;
 
 // Up to four points, and the weights that make their sum the point nearest to the origin.
 struct Simplex {
@@ -110,17 +110,19 @@ CoreProximity coreGap(const CoreDifference& difference) {
   Simplex simplex;
   const Vector3d start = difference.centres();
   tryPoint(difference.lowest(start.squaredNorm() > 0 ? start : Vector3d::UnitX()), simplex);
-  double widest = -std::numeric_limits<double>::infinity();
+  CoreProximity best;
+  best.slack = std::numeric_limits<double>::infinity();
   for (int step = 0; step < kMostSteps && simplex.distance > kTouch; ++step) {
     const DifferencePoint w = difference.lowest(simplex.n);
-    const double gap = simplex.n.dot(w.x);
-    widest = std::max(widest, gap);
-    if (simplex.distance - gap <= kSlack || holdsOrigin(simplex, w)) break;
+    const double slack = simplex.distance - simplex.n.dot(w.x);
+    if (slack < best.slack) best = {simplex.distance, slack, simplex.n, simplex.sum()};
+    if (slack <= kSlack || holdsOrigin(simplex, w)) break;
     const Simplex next = nearestWith(simplex, w);
-    if (!(next.distance < simplex.distance)) break;
+    if (!(next.distance <= simplex.distance * kNoFarther)) break;
     simplex = next;
   }
-  return {widest > 0 ? simplex.distance : 0, simplex.distance - widest, simplex.n, simplex.sum()};
+  if (simplex.distance > kTouch && best.distance > best.slack) return best;
+  return {0, 0, Vector3d::Zero(), simplex.sum()};
 }
 
 }  // namespace rex::internal
