@@ -23,6 +23,7 @@ struct ContactModel::Data {
   std::vector<ShapePair> pairs;
   std::vector<ContactSolid> solids;
   std::vector<int> solidOf;   ///< of each shape of the model, -1: it takes no part
+  std::vector<double> X_BS;   ///< 12 numbers of each solid
   std::vector<double> sizes;  ///< kSizeNumbers of each solid, the same in all lanes
   std::array<std::vector<internal::CorePair>, 3> cores;  ///< as in ContactKernel::pairs
   std::vector<internal::CorePair> others;                ///< for convexProximity()

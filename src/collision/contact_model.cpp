@@ -66,6 +66,9 @@ int solidOf(ContactModel::Data& data, const Model& model, int place) {
       shape.shape);
   const internal::Core core = internal::coreOf(shape.shape);
   data.solids.push_back({place, shape.body, shape.X_BS, shape.shape, core, halfBounds(shape.shape).norm()});
+  const Pose& X_BS = shape.X_BS;
+  data.X_BS.insert(data.X_BS.end(), X_BS.R.data(), X_BS.R.data() + 9);
+  data.X_BS.insert(data.X_BS.end(), X_BS.p.data(), X_BS.p.data() + 3);
   for (const double number : {core.half.x(), core.half.y(), core.half.z(), core.radius})
     data.sizes.insert(data.sizes.end(), internal::kContactLanes, number);
   return solid;
