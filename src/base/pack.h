@@ -69,13 +69,43 @@ inline Pack<kLanes> select(typename Pack<kLanes>::Mask mask, Pack<kLanes> a, Pac
   return mask ? a.numbers : b.numbers;
 }
 
-/// Whether the mask holds in one lane at least.
+/// A bit per lane in which the mask holds.
+inline int lanesOf(LaneTypes<2>::Mask mask) {
+  return __builtin_ia32_movmskpd(reinterpret_cast<LaneTypes<2>::Numbers>(mask));
+}
+#ifdef __AVX__
+inline int lanesOf(LaneTypes<4>::Mask mask) {
+  return __builtin_ia32_movmskpd256(reinterpret_cast<LaneTypes<4>::Numbers>(mask));
+}
+#endif
+
+/// Whether the mask holds in one lane at least; whether in all.
 inline bool any(bool mask) { return mask; }
+inline bool all(bool mask) { return mask; }
 template <class Mask>
 inline bool any(Mask mask) {
-  bool found = false;
-  for (unsigned i = 0; i < sizeof(Mask) / sizeof(long long); ++i) found |= mask[i] != 0;
-  return found;
+  return lanesOf(mask) != 0;
+}
+template <class Mask>
+inline bool all(Mask mask) {
+  return lanesOf(mask) == (1 << sizeof(Mask) / sizeof(long long)) - 1;
+}
+
+/// The bits of each lane as an integer to compute with, and back.
+inline long long bitsOf(double x) {
+  long long bits;
+  __builtin_memcpy(&bits, &x, sizeof bits);
+  return bits;
+}
+template <int kLanes>
+inline typename Pack<kLanes>::Mask bitsOf(Pack<kLanes> x) {
+  return reinterpret_cast<typename Pack<kLanes>::Mask>(x.numbers);
+}
+template <class T, class Bits>
+inline T fromBits(Bits bits) {
+  T x;
+  __builtin_memcpy(&x, &bits, sizeof x);
+  return x;
 }
 
 inline double squareRoot(double x) { return __builtin_sqrt(x); }
@@ -107,7 +137,7 @@ inline T larger(T a, T b) {
 }
 template <class T>
 inline T absolute(T a) {
-  return select(a < T(0.0), -a, a);
+  return fromBits<T>(bitsOf(a) & 0x7fffffffffffffff);
 }
 template <class T>
 inline T clamped(T a, T low, T high) {

@@ -5,37 +5,57 @@
 namespace rex {
 namespace {
 
-/// d/dt of half the squared distance of p + t d from the box about the origin.
+/// Where a moving coordinate p_i + t d_i lies between two faces: the interval of t, and d_i squared.
 template <class T>
-inline T slope(const Vec3<T>& p, const Vec3<T>& d, const Vec3<T>& half, const T& t) {
-  const Vec3<T> x = p + t * d;
-  return dot(x - clampedTo(half, x), d);
-}
+struct Passage {
+  Passage(const T& p_i, const T& d_i, const T& half_i) : weight(d_i * d_i) {
+    const T inverse = T(1.0) / select(absolute(d_i) > T(1e-30), d_i, T(1e-30));
+    const T middle = -p_i * inverse, reach = half_i * absolute(inverse);
+    begin = middle - reach;
+    end = middle + reach;
+  }
+  T begin, end, weight;
+};
 
-/// The t in [-1, 1] for which p + t d is nearest to the box about the origin. The slope is linear between the
-/// crossings of the planes of the six faces: each crossing narrows the interval in which it changes its sign.
+/// An interval of t in which the slope changes its sign, with its values at the ends.
+template <class T>
+struct Bracket {
+  T low, high, atLow, atHigh;
+
+  void narrow(const T& t, const T& slope) {
+    const auto isBefore = slope < T(0.0);
+    low = larger(low, select(isBefore, t, low));
+    atLow = larger(atLow, select(isBefore, slope, atLow));
+    high = smaller(high, select(isBefore, high, t));
+    atHigh = smaller(atHigh, select(isBefore, atHigh, slope));
+  }
+};
+
+/// The t in [-1, 1] for which p + t d is nearest to the box about the origin. The squared distance is convex,
+/// and its slope linear between the crossings of the six faces: among these lies the root.
 template <class T>
 inline T nearestParameter(const Vec3<T>& p, const Vec3<T>& d, const Vec3<T>& half) {
-  T low(-1.0), high(1.0);
-  T atLow = slope(p, d, half, low), atHigh = slope(p, d, half, high);
+  const T one(1.0);
+  const Passage<T> x(p.x, d.x, half.x), y(p.y, d.y, half.y), z(p.z, d.z, half.z);
+  const auto slope = [&](const T& t) {
+    return x.weight * (t - clamped(t, x.begin, x.end)) + y.weight * (t - clamped(t, y.begin, y.end)) +
+           z.weight * (t - clamped(t, z.begin, z.end));
+  };
+  Bracket<T> root{-one, one, slope(-one), slope(one)};
+  const T atStart = root.atLow;
   const auto narrow = [&](const T& crossing) {
-    const T t = clamped(crossing, low, high), at = slope(p, d, half, t);
-    const auto ahead = at < T(0.0);
-    low = select(ahead, t, low);
-    atLow = select(ahead, at, atLow);
-    high = select(ahead, high, t);
-    atHigh = select(ahead, atHigh, at);
+    const T t = clamped(crossing, -one, one);
+    root.narrow(t, slope(t));
   };
-  const auto narrowByFaces = [&](const T& p_i, const T& d_i, const T& half_i) {
-    const T inverse = T(1.0) / select(absolute(d_i) > T(1e-30), d_i, T(1e-30));
-    narrow((-half_i - p_i) * inverse);
-    narrow((half_i - p_i) * inverse);
-  };
-  narrowByFaces(p.x, d.x, half.x);
-  narrowByFaces(p.y, d.y, half.y);
-  narrowByFaces(p.z, d.z, half.z);
-  const T root = low - (high - low) * (atLow / larger(atHigh - atLow, T(kTiny)));
-  return select(atLow < T(0.0), smaller(root, high), low);
+  narrow(x.begin);
+  narrow(x.end);
+  narrow(y.begin);
+  narrow(y.end);
+  narrow(z.begin);
+  narrow(z.end);
+  const T steepness = larger(root.atHigh - root.atLow, T(kTiny));
+  const T t = root.low - (root.high - root.low) * (root.atLow / steepness);
+  return select(atStart < T(0.0), smaller(t, root.high), -one);
 }
 
 /// The direction in which two solids are apart by most, or overlap least.

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "collision/contact_data_internal.h"
 #include "kinematics/jacobians.h"
 
 namespace rex {
@@ -41,20 +40,6 @@ double costOf(const Proxy& proxy, double margin) {
 }
 
 }  // namespace
-
-std::vector<Proxy> proxies(const ContactModel& contacts, const BodyPoses& poses, double cutoff) {
-  const ContactModel::Data& data = contacts.data();
-  std::vector<Proxy> near;
-  for (const ShapePair& pair : data.pairs) {
-    const ContactShape& a = data.shapes[static_cast<std::size_t>(pair.a)];
-    const ContactShape& b = data.shapes[static_cast<std::size_t>(pair.b)];
-    const Pose X_WA = poses[a.body] * a.X_BS, X_WB = poses[b.body] * b.X_BS;
-    if ((X_WA.p - X_WB.p).norm() - a.reach - b.reach >= cutoff) continue;
-    const Proxy proxy{pair, proximity(a.shape, X_WA, b.shape, X_WB)};
-    if (proxy.proximity.distance < cutoff) near.push_back(proxy);
-  }
-  return near;
-}
 
 Eigen::RowVectorXd distanceJacobian(const Model& model, const BodyPoses& poses, const Proxy& proxy,
                                     const ContactModel& contacts) {

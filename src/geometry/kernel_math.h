@@ -69,5 +69,35 @@ inline KernelPose<T> broadcast(const KernelPose<double>& X) {
   return {broadcast<T>(X.R), broadcast<T>(X.p)};
 }
 
+/// Vectors and poses from numbers that stand `stride` apart, a T each, and back: a stride of
+/// LaneBlocks::kLanes for blocks of configurations (kinematics/lane_blocks.h), 1 for one alone.
+template <class T>
+inline Vec3<T> loadVec3(const double* from, int stride) {
+  return {load<T>(from), load<T>(from + stride), load<T>(from + 2 * stride)};
+}
+template <class T>
+inline KernelPose<T> loadPose(const double* from, int stride) {
+  return {{loadVec3<T>(from, stride), loadVec3<T>(from + 3 * stride, stride),
+           loadVec3<T>(from + 6 * stride, stride)},
+          loadVec3<T>(from + 9 * stride, stride)};
+}
+template <class T>
+inline void storeVec3(const Vec3<T>& v, double* to, int stride) {
+  store(v.x, to);
+  store(v.y, to + stride);
+  store(v.z, to + 2 * stride);
+}
+
+/// The vector or pose (by columns) at `from` in all lanes.
+template <class T>
+inline Vec3<T> broadcastVec3(const double* from) {
+  return {T(from[0]), T(from[1]), T(from[2])};
+}
+template <class T>
+inline KernelPose<T> broadcastPose(const double* from) {
+  return {{broadcastVec3<T>(from), broadcastVec3<T>(from + 3), broadcastVec3<T>(from + 6)},
+          broadcastVec3<T>(from + 9)};
+}
+
 }  // namespace
 }  // namespace rex

@@ -4,24 +4,20 @@
 
 #include <Eigen/Geometry>
 
+#include "base/cpu_lanes.h"
+#include "kinematics/freedoms_internal.h"
+#include "kinematics/jacobian_kernel_internal.h"
+
 namespace rex {
 namespace {
 
-// Calls visit(column, freedom, X) for each degree of freedom between the root and the body; X is the pose in
-// W of the frame in which the freedom is given.
-template <class Visit>
-void forEachFreedomAbove(const Model& model, const BodyPoses& poses, BodyId body, const Visit& visit) {
-  assert(poses.X_WB.size() == model.bodies().size());
-  for (BodyId at = body; at != kWorld; at = model[at].parent) {
-    if (model[at].joint == kNoJoint) continue;
-    const Joint& joint = model[model[at].joint];
-    for (int i = 0; i < joint.nv; ++i) {
-      const DegreeOfFreedom& freedom = joint.freedoms[static_cast<std::size_t>(i)];
-      const bool inParent = freedom.frame == DegreeOfFreedom::Frame::kParent;
-      visit(joint.vIndex + i, freedom, poses[inParent ? joint.parent : at]);
-    }
-  }
-}
+using internal::forEachFreedomAbove;
+
+// The kernel that takes one configuration.
+internal::JacobianKernel::Functions kernel() { return kernelFor<internal::JacobianKernel>(cpuLanes()).one; }
+
+// The numbers of a pose, by columns.
+const double* numbers(const Pose& X) { return X.R.data(); }
 
 }  // namespace
 
@@ -36,21 +32,25 @@ Eigen::Vector3d direction(const BodyPoses& poses, BodyId body, const Eigen::Vect
 void positionJacobian(const Model& model, const BodyPoses& poses, BodyId body, const Eigen::Vector3d& p_BQ,
                       Eigen::Ref<Eigen::Matrix3Xd> J) {
   assert(J.cols() == model.nv());
-  const Eigen::Vector3d p_WQ = position(poses, body, p_BQ);
+  assert(poses.X_WB.size() == model.bodies().size());
+  const internal::JacobianKernel::Functions one = kernel();
+  Eigen::Vector3d p_WQ;
+  one.point(numbers(poses[body]), p_BQ.data(), p_WQ.data());
   J.setZero();
-  // += because joints that mimic one another share a column.
-  forEachFreedomAbove(model, poses, body, [&](int column, const DegreeOfFreedom& f, const Pose& X) {
-    const Eigen::Vector3d axis = X.R * f.angular;
-    J.col(column) += axis.cross(p_WQ - X.p) + X.R * f.linear;
+  forEachFreedomAbove(model, body, [&](int column, const DegreeOfFreedom& f, BodyId frame) {
+    one.addVelocity(numbers(poses[frame]), f.angular.data(), f.linear.data(), p_WQ.data(),
+                    J.col(column).data());
   });
 }
 
 void angularJacobian(const Model& model, const BodyPoses& poses, BodyId body,
                      Eigen::Ref<Eigen::Matrix3Xd> J) {
   assert(J.cols() == model.nv());
+  assert(poses.X_WB.size() == model.bodies().size());
+  const auto addAngular = kernel().addAngular;
   J.setZero();
-  forEachFreedomAbove(model, poses, body, [&](int column, const DegreeOfFreedom& f, const Pose& X) {
-    J.col(column) += X.R * f.angular;
+  forEachFreedomAbove(model, body, [&](int column, const DegreeOfFreedom& f, BodyId frame) {
+    addAngular(numbers(poses[frame]), f.angular.data(), J.col(column).data());
   });
 }
 

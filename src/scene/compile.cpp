@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "geometry/inertia.h"
-#include "geometry/rotation.h"
 #include "scene/model.h"
+#include "scene/motion_steps_internal.h"
 
 namespace rex {
 namespace {
@@ -72,30 +72,6 @@ std::vector<DegreeOfFreedom> freedomsOf(JointType type, const Eigen::Vector3d& a
 DegreeOfFreedom seenThrough(const Pose& X, const DegreeOfFreedom& freedom) {
   const Eigen::Vector3d angular = X.R * freedom.angular;
   return {angular, X.R * freedom.linear - angular.cross(X.p), freedom.frame};
-}
-
-LinearMotion::Matrix34 matrixOf(const Pose& X) { return (LinearMotion::Matrix34() << X.R, X.p).finished(); }
-
-// Rodrigues' formula turns by a a^T + cos q (1 - a a^T) + sin q [a]x, each part framed by X_PF and X_MC.
-LinearMotion linearMotion(const JointSpec& spec, const Eigen::Vector3d& axis) {
-  const Pose& X_PF = spec.X_PF;
-  const Pose& X_MC = spec.X_MC;
-  const auto turned = [&](const Eigen::Matrix3d& part) {
-    const Eigen::Matrix3d R = X_PF.R * part;
-    return matrixOf({R * X_MC.R, R * X_MC.p});
-  };
-  LinearMotion motion;
-  if (spec.type == JointType::kSlider) {
-    motion.constant = matrixOf(X_PF * X_MC);
-    motion.first.col(3) = X_PF.R * axis;
-  } else if (spec.type == JointType::kHinge) {
-    const Eigen::Matrix3d along = axis * axis.transpose();
-    motion.constant = turned(along);
-    motion.constant.col(3) += X_PF.p;
-    motion.first = turned(Eigen::Matrix3d::Identity() - along);
-    motion.second = turned(skew(axis));
-  }
-  return motion;
 }
 
 // The tree of a scene: indices into the spec, checked.
@@ -287,7 +263,6 @@ Joint makeJoint(const JointSpec& spec, BodyId parent, BodyId child) {
   std::transform(freedoms.begin(), freedoms.end(), joint.freedoms.begin(), [&](const DegreeOfFreedom& f) {
     return seenThrough(f.frame == DegreeOfFreedom::Frame::kParent ? spec.X_PF : X_CM, f);
   });
-  joint.motion = linearMotion(spec, joint.axis);
   return joint;
 }
 
@@ -416,6 +391,7 @@ Model compile(const SceneSpec& spec) {
   model.mass_ = model.bodies_.front().subtreeMass;
   Coordinates coordinates = indexCoordinates(model.joints_, jointSpecs);
   shareCoordinates(model.joints_, jointSpecs);
+  model.motionSteps_ = internal::motionSteps(model);
   model.q0_ = std::move(coordinates.q0);
   model.lower_ = std::move(coordinates.lower);
   model.upper_ = std::move(coordinates.upper);

@@ -12,6 +12,7 @@
 
 #include "geometry/pose.h"
 #include "geometry/shape.h"
+#include "scene/motion_step.h"
 #include "scene/scene_spec.h"
 
 namespace rex {
@@ -48,13 +49,6 @@ struct DegreeOfFreedom {
   Frame frame = Frame::kParent;
 };
 
-/// The pose of a hinge's or slider's child is linear in two numbers, [R_PC p_PC] = constant + a first + b
-/// second: a = cos q and b = sin q of a hinge, a = q and b = 0 of a slider. Saves products at each posture.
-struct LinearMotion {
-  using Matrix34 = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
-  Matrix34 constant = Matrix34::Zero(), first = Matrix34::Zero(), second = Matrix34::Zero();
-};
-
 /// A joint: X_PC = X_PF * X_FM(q) * X_MC. Joints that mimic share q and v indices with their target; their
 /// own coordinate is ratio * q + offset, and their freedoms move by ratio * v.
 struct Joint {
@@ -72,7 +66,6 @@ struct Joint {
   double maxEffort = std::numeric_limits<double>::infinity();
   double damping = 0, friction = 0;
   std::array<DegreeOfFreedom, 6> freedoms{};  ///< the first nv count
-  LinearMotion motion{};                      ///< of hinge and slider
 };
 
 /// A shape in its place.
@@ -100,6 +93,9 @@ class Model {
   const Body& operator[](BodyId id) const { return bodies_[static_cast<std::size_t>(id)]; }
   const Joint& operator[](JointId id) const { return joints_[static_cast<std::size_t>(id)]; }
 
+  /// How to place all bodies but the world, one after the other: the joints and fixed bodies for kernels.
+  std::span<const MotionStep> motionSteps() const { return motionSteps_; }
+
   /// All bodies but the world, in the order of the scene file.
   std::span<const BodyId> bodiesInFileOrder() const { return fileOrder_; }
 
@@ -123,6 +119,7 @@ class Model {
   std::vector<Body> bodies_;
   std::vector<Joint> joints_;
   std::vector<ModelShape> shapes_;
+  std::vector<MotionStep> motionSteps_;
   std::vector<BodyId> fileOrder_;
   std::unordered_map<std::string, BodyId> bodyByName_;
   Eigen::VectorXd q0_, lower_, upper_;

@@ -1,6 +1,8 @@
 #include "collision/contacts.h"
 
+#include <algorithm>
 #include <fstream>
+#include <map>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -23,34 +25,53 @@ Eigen::VectorXd vectorFrom(const nlohmann::json& numbers) {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
-double radiusOf(const Model& model, int shape) {
-  return model.shapes()[static_cast<std::size_t>(shape)].shape.radius;
+// Our place of each recorded shape: recorded in file order, which is that of a body's shapes for us as well.
+std::vector<int> placesOf(const nlohmann::json& recorded, const Model& model) {
+  std::vector<int> places;
+  for (std::size_t i = 0; i < recorded.size(); ++i) {
+    const std::string body = recorded[i].at("body");
+    const auto before = std::count_if(recorded.begin(), recorded.begin() + static_cast<long>(i),
+                                      [&](const nlohmann::json& shape) { return shape.at("body") == body; });
+    int place = -1;
+    for (long seen = -1; seen < before;)
+      seen += model[model.shapes()[static_cast<std::size_t>(++place)].body].name == body;
+    places.push_back(place);
+  }
+  return places;
+}
+
+// Of a pair of a capsule and a box.
+double radiusOf(const Model& model, const ShapePair& pair) {
+  const auto radius = [&](int i) { return model.shapes()[static_cast<std::size_t>(i)].shape.radius; };
+  return std::max(radius(pair.a), radius(pair.b));
 }
 
 // Numbers recorded from an independent implementation. It knows no depth of a capsule's core, and counts
 // overlap as distance zero in its cost.
 TEST(Contacts, AreThoseRecordedOfPegInAHole) {
   std::ifstream file(sourcePath("tests/golden/pegInAHole.json"));
-  const nlohmann::json golden = nlohmann::json::parse(file).at("contacts_exact");
+  const nlohmann::json golden = nlohmann::json::parse(file);
   const Model model = pegInAHole();
   const ContactModel contacts(model);
-  ASSERT_GE(golden.size(), 20u);
-  for (const nlohmann::json& posture : golden) {
+  const std::vector<int> places = placesOf(golden.at("shapes"), model);
+  ASSERT_GE(golden.at("contacts_exact").size(), 20u);
+  for (const nlohmann::json& posture : golden["contacts_exact"]) {
+    std::map<std::pair<int, int>, double> wanted;
+    for (const nlohmann::json& pair : posture.at("pairs"))
+      wanted[std::minmax(places.at(pair.at("a")), places.at(pair.at("b")))] = pair.at("d");
     const BodyPoses poses = forwardKinematics(model, vectorFrom(posture.at("q")));
     const std::vector<Proxy> near = proxies(contacts, poses);
     const double margin = posture.at("margin");
-    ASSERT_EQ(near.size(), posture.at("pairs").size());
+    ASSERT_EQ(near.size(), wanted.size());
     double clampedCost = 0, cost = 0;
-    for (std::size_t i = 0; i < near.size(); ++i) {
-      const nlohmann::json& wanted = posture["pairs"][i];
-      const ShapePair pair = near[i].pair;
-      const double distance = near[i].proximity.distance;
-      EXPECT_EQ(pair, (ShapePair{wanted.at("a"), wanted.at("b")}));
-      EXPECT_NEAR(std::max(distance, -radiusOf(model, pair.a)), wanted.at("d").get<double>(), 1e-9);
-      clampedCost += std::clamp(1 - distance / margin, 0., 1.);
-      cost += std::max(0., 1 - distance / margin);
+    for (const auto& [pair, proximity] : near) {
+      ASSERT_TRUE(wanted.contains(std::pair(pair.a, pair.b)));
+      EXPECT_NEAR(std::max(proximity.distance, -radiusOf(model, pair)), wanted.at(std::pair(pair.a, pair.b)),
+                  1e-9);
+      clampedCost += std::clamp(1 - proximity.distance / margin, 0., 1.);
+      cost += std::max(0., 1 - proximity.distance / margin);
     }
-    EXPECT_NEAR(clampedCost, posture.at("cost_slide").get<double>(), 1e-6);
+    EXPECT_NEAR(clampedCost, posture.at("cost_slide").get<double>(), 1e-9);
     EXPECT_NEAR(contactCost(contacts, poses, margin), cost, 1e-12);
   }
 }
@@ -113,8 +134,9 @@ class ContactDerivative : public testing::TestWithParam<std::tuple<ShapeType, Sh
     const VectorFunction alongV = [&](const Eigen::VectorXd& v) {
       return Eigen::VectorXd::Constant(1, f(forwardKinematics(model, integrate(model, q, v))));
     };
-    const JacobianCheck check = checkJacobian(alongV, J, Eigen::VectorXd::Zero(model.nv()), 1e-7);
-    EXPECT_TRUE(check.ok) << check.message;
+    // Small steps, because faces, edges and corners take turns at being nearest.
+    const Eigen::MatrixXd differences = numericJacobian(alongV, Eigen::VectorXd::Zero(model.nv()), 1e-5);
+    EXPECT_LE((J - differences).cwiseAbs().maxCoeff(), 1e-7) << J << "\nand\n" << differences;
   }
 };
 
@@ -138,7 +160,7 @@ TEST_P(ContactDerivative, AgreesWithDifferences) {
     EXPECT_EQ(value.y[0], contactCost(contacts, poses, 10));
     expectDerivative(model, q, value.J, [&](const BodyPoses& at) { return contactCost(contacts, at, 10); });
   }
-  EXPECT_GT(overlaps, size < 1 ? 29 : 0);
+  EXPECT_GT(overlaps, size < 1 ? 25 : 0);
 }
 
 constexpr ShapeType kExactTypes[] = {ShapeType::kBox, ShapeType::kSphere, ShapeType::kCapsule};

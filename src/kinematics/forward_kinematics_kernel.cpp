@@ -1,0 +1,106 @@
+#include "base/sin_cos.h"
+#include "geometry/kernel_math.h"
+#include "kinematics/forward_kinematics_kernel_internal.h"
+
+namespace rex::internal {
+namespace {
+
+using Kind = MotionStep::Kind;
+
+// Coordinate i of one configuration per lane.
+inline void gather(const double* const* q, int i, double& x) { x = q[0][i]; }
+template <int kLanes>
+inline void gather(const double* const* q, int i, Pack<kLanes>& x) {
+  for (int lane = 0; lane < kLanes; ++lane) x.numbers[lane] = q[lane][i];
+}
+template <class T>
+inline T gathered(const double* const* q, int i) {
+  T x;
+  gather(q, i, x);
+  return x;
+}
+
+// The two numbers in which all motions but that of a quaternion are linear.
+template <class T>
+struct Factors {
+  T first, second;
+};
+
+template <class T>
+inline Factors<T> factors(const MotionStep& step, const double* const* q) {
+  if (step.kind != Kind::kHinge && step.kind != Kind::kSlider) return {T(0.0), T(0.0)};
+  const T x = T(step.ratio) * gathered<T>(q, step.qIndex) + T(step.offset);
+  if (step.kind == Kind::kSlider) return {x, T(0.0)};
+  const SinCos<T> turn = sinCos(x);
+  return {turn.cosine, turn.sine};
+}
+
+// The rotation of a quaternion of any length but zero, which need not be squared as it is.
+template <class T>
+inline Mat3<T> rotationOfQuaternion(const double* const* q, int i) {
+  const T w0 = gathered<T>(q, i), x0 = gathered<T>(q, i + 1), y0 = gathered<T>(q, i + 2),
+          z0 = gathered<T>(q, i + 3);
+  const T size = larger(larger(absolute(w0), absolute(x0)), larger(absolute(y0), absolute(z0)));
+  const T w = w0 / size, x = x0 / size, y = y0 / size, z = z0 / size;
+  const T s = T(2.0) / (w * w + x * x + y * y + z * z), one(1.0);
+  return {{one - s * (y * y + z * z), s * (x * y + w * z), s * (x * z - w * y)},
+          {s * (x * y - w * z), one - s * (x * x + z * z), s * (y * z + w * x)},
+          {s * (x * z + w * y), s * (y * z - w * x), one - s * (x * x + y * y)}};
+}
+
+// X times the pose with these columns, one after the other, so that X stays in registers.
+template <class T, class Column>
+inline void storeProduct(const KernelPose<T>& X, const Column& column, double* to, int stride) {
+  for (int i = 0; i < 9; i += 3) storeVec3(X.R * column(i), to + i * stride, stride);
+  storeVec3(X.R * column(9) + X.p, to + 9 * stride, stride);
+}
+
+template <class T>
+inline void place(const MotionStep& step, const Factors<T>& f, const double* const* q, const double* X_WP,
+                  double* X_WC, int stride) {
+  KernelPose<T> X = loadPose<T>(X_WP, stride);
+  if (step.kind != Kind::kQuaternion) {
+    const auto column = [&](int i) {
+      return broadcastVec3<T>(step.constant + i) + f.first * broadcastVec3<T>(step.first + i) +
+             f.second * broadcastVec3<T>(step.second + i);
+    };
+    storeProduct(X, column, X_WC, stride);
+    return;
+  }
+  X = X * broadcastPose<T>(step.constant);
+  X.R = X.R * rotationOfQuaternion<T>(q, step.qIndex);
+  storeProduct(
+      X, [&](int i) { return broadcastVec3<T>(step.first + i); }, X_WC, stride);
+}
+
+// Sines do not depend on one another, poses do, and mixed each sine would be waited for: so some sines first,
+// then the poses.
+template <class T, int kCount>
+void placeAll(const MotionStep* steps, int stepCount, const double* const* q, double* X_WB) {
+  constexpr int kAhead = 16, kPacks = kCount / kLanesOf<T>;
+  Factors<T> ahead[kAhead][kPacks];
+  for (int begin = 0; begin < stepCount; begin += kAhead) {
+    const int end = begin + kAhead < stepCount ? begin + kAhead : stepCount;
+    for (int s = begin; s < end; ++s) {
+      for (int i = 0; i < kPacks; ++i) ahead[s - begin][i] = factors<T>(steps[s], q + i * kLanesOf<T>);
+    }
+    for (int s = begin; s < end; ++s) {
+      const double* X_WP = X_WB + MotionStep::kPoseSize * kCount * steps[s].from;
+      double* X_WC = X_WB + MotionStep::kPoseSize * kCount * steps[s].to;
+      for (int i = 0; i < kPacks; ++i) {
+        const int k = i * kLanesOf<T>;
+        place<T>(steps[s], ahead[s - begin][i], q + k, X_WP + k, X_WC + k, kCount);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+template <int kLanes>
+ForwardKinematicsKernel ForwardKinematicsKernel::compiled() {
+  return {&placeAll<double, 1>, &placeAll<InLanes<kLanes>, kBlock>};
+}
+template ForwardKinematicsKernel ForwardKinematicsKernel::compiled<REX_LANES>();
+
+}  // namespace rex::internal

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "kinematics/forward_kinematics_kernel_internal.h"
+#include "kinematics/pose_batch.h"
+
+namespace rex::internal {
+
+/// forwardKinematicsBatch() by a kernel of the caller's choice.
+void forwardKinematicsBatch(const ForwardKinematicsKernel& kernel, const Model& model, const MatrixArg& Q,
+                            PoseBatch& out);
+
+/// Throws Error unless the quaternions in q are finite and not zero.
+void requireQuaternions(const Model& model, const double* q);
+
+}  // namespace rex::internal
