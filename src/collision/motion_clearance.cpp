@@ -60,8 +60,8 @@ class MotionSearch {
  private:
   // Of the distance of a pair: metres per whole motion. Joints that carry both shapes do not count.
   double speed(const ShapePair& pair) const {
-    const ContactShape& a = shape(pair.a);
-    const ContactShape& b = shape(pair.b);
+    const ContactSolid& a = solid(pair.a);
+    const ContactSolid& b = solid(pair.b);
     std::vector<BodyId> above = {a.body};
     while (above.back() != kWorld) above.push_back(model_[above.back()].parent);
     BodyId common = b.body;
@@ -69,16 +69,16 @@ class MotionSearch {
     return speedBelow(common, a) + speedBelow(common, b);
   }
 
-  // Of the points of a shape, seen from a body that carries it. From where they are in the middle of the
+  // Of the points of a solid, seen from a body that carries it. From where they are in the middle of the
   // motion they never go farther than half of their way, so a ball of growing radius holds them.
-  double speedBelow(BodyId carrier, const ContactShape& shape) const {
-    const Vector3d centre = middle_[shape.body] * shape.X_BS.p;
+  double speedBelow(BodyId carrier, const ContactSolid& solid) const {
+    const Vector3d centre = middle_[solid.body] * solid.X_BS.p;
     double sum = 0;
-    for (BodyId at = shape.body; at != carrier && model_[at].joint != kNoJoint; at = model_[at].parent) {
+    for (BodyId at = solid.body; at != carrier && model_[at].joint != kNoJoint; at = model_[at].parent) {
       const Joint& joint = model_[model_[at].joint];
       const JointTravel& travel = travels_[static_cast<std::size_t>(model_[at].joint)];
       const Pose X_WM = middle_[at] * joint.X_MC.inverse();
-      sum += travel.way + travel.angle * (lever(joint, X_WM.inverse() * centre) + shape.reach + sum / 2);
+      sum += travel.way + travel.angle * (lever(joint, X_WM.inverse() * centre) + solid.reach + sum / 2);
     }
     return sum;
   }
@@ -91,12 +91,14 @@ class MotionSearch {
 
   double distance(std::size_t pair, double t) {
     forwardKinematics(model_, (1 - t) * from_ + t * to_, poses_);
-    const ContactShape& a = shape(data_.pairs[pair].a);
-    const ContactShape& b = shape(data_.pairs[pair].b);
-    return proximity(a.shape, poses_[a.body] * a.X_BS, b.shape, poses_[b.body] * b.X_BS).distance;
+    const ContactSolid& a = solid(data_.pairs[pair].a);
+    const ContactSolid& b = solid(data_.pairs[pair].b);
+    return proximity(a.form, poses_[a.body] * a.X_BS, b.form, poses_[b.body] * b.X_BS).distance;
   }
 
-  const ContactShape& shape(int place) const { return data_.shapes[static_cast<std::size_t>(place)]; }
+  const ContactSolid& solid(int shape) const {
+    return data_.solids[static_cast<std::size_t>(data_.solidOf[static_cast<std::size_t>(shape)])];
+  }
 
   const Model& model_;
   const ContactModel::Data& data_;
