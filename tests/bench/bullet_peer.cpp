@@ -10,8 +10,8 @@ namespace {
 
 btTransform toBullet(const Pose& X) {
   const auto& R = X.R;
-  return {btMatrix3x3(R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1), R(1, 2), R(2, 0), R(2, 1), R(2, 2)),
-          btVector3(X.p.x(), X.p.y(), X.p.z())};
+  const btMatrix3x3 rotation(R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1), R(1, 2), R(2, 0), R(2, 1), R(2, 2));
+  return btTransform(rotation, btVector3(X.p.x(), X.p.y(), X.p.z()));
 }
 
 std::unique_ptr<btCollisionShape> toBullet(const Shape& shape) {

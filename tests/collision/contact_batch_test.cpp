@@ -1,5 +1,7 @@
 #include "collision/contact_batch.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
@@ -81,6 +83,19 @@ TEST_P(ContactBatch, IsFreeWhereAllDistancesAre) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfAllSizes, ContactBatch, testing::Values(0, 1, 7, 8, 9, 100));
+
+TEST(ContactBatchOfNoNumbers, IsNotFree) {
+  const Model model = compile(readOrs(sourcePath("data/robots/pegInAHole.ors")).spec);
+  const ContactModel contacts(model);
+  Eigen::MatrixXd Q = Eigen::MatrixXd::Zero(model.nq(), 10);
+  Q(2, 9) = std::nan("");
+  PoseBatch poses;
+  forwardKinematicsBatch(model, Q, poses);
+  Eigen::Array<bool, Eigen::Dynamic, 1> free;
+  contactFreeBatch(contacts, poses, 0, free);
+  EXPECT_TRUE(free.head(9).all());
+  EXPECT_FALSE(free[9]);
+}
 
 TEST(ContactBatchOfNone, TakesModelsWithoutPairs) {
   const Model model = compile(readOrs(sourcePath("data/robots/man.ors")).spec);
