@@ -101,7 +101,7 @@ inline Separation<T> separation(const Vec3<T>& half, const Vec3<T>& c, const Vec
 /// A segment and a box. In overlap, what moves the segment out soonest is a direction across a face, or
 /// across an edge and the segment; then both touch in one point at least.
 template <class T>
-inline Gap<T> gap(const Segment<T>& A, const Box<T>& B) {
+[[gnu::always_inline]] inline Gap<T> gap(const Segment<T>& A, const Box<T>& B) {
   const Vec3<T> p = transposedTimes(B.X.R, A.p - B.X.p), d = transposedTimes(B.X.R, A.d);
   const Vec3<T> x = p + nearestParameter(p, d, B.half) * d;
   Vec3<T> onBox = clampedTo(B.half, x);

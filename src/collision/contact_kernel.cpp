@@ -89,14 +89,53 @@ void proximities(const CorePair& pair, int lanes, const LaneSolids& solids, Lane
   }
 }
 
-// The lanes in which a is smaller than b, as bits.
+// Whether a is smaller than b in some lane; what is not a number counts as small, so that it is never free.
+template <class T>
+bool isAnyBelow(const T& a, const T& b) {
+  return any(select(a >= b, T(0.0), T(1.0)) > T(0.0));
+}
+
+// The lanes in which it is, as bits.
 template <class T>
 unsigned lanesBelow(const T& a, const T& b) {
   double isBelow[kLanesOf<T>];
-  store(select(a < b, T(1.0), T(0.0)), isBelow);
+  store(select(a >= b, T(0.0), T(1.0)), isBelow);
   unsigned bits = 0;
   for (int i = 0; i < kLanesOf<T>; ++i) bits |= isBelow[i] != 0 ? 1u << i : 0u;
   return bits;
+}
+
+// Whether in some lane the spheres about both solids are nearer than the margin.
+template <class T>
+bool areSpheresNear(const Solid& a, const Solid& b, double reach, double margin) {
+  const Vec3<T> apart = a.origin<T>() - b.origin<T>();
+  const double near = reach + margin;
+  return isAnyBelow(dot(apart, apart), T(near * near));
+}
+
+// The same of the sphere about a segment and the box itself.
+template <class T>
+bool isSphereNear(const Solid& segment, const Solid& box, double margin) {
+  const Mat3<T> R{box.axis<T>(0), box.axis<T>(1), box.axis<T>(2)};
+  const Vec3<T> p = transposedTimes(R, segment.origin<T>() - box.origin<T>());
+  const Vec3<T> apart = p - clampedTo(loadVector<T>(box.size), p);
+  const T near = load<T>(segment.size + 2 * kLane) + segment.radius<T>() + box.radius<T>() + T(margin);
+  return isAnyBelow(dot(apart, apart), near * near);
+}
+
+template <class A, class B>
+constexpr bool kIsSegmentAndBox = false;
+template <class T>
+constexpr bool kIsSegmentAndBox<Segment<T>, Box<T>> = true;
+
+// The lanes, as bits, in which a pair is nearer than the margin.
+template <class T, class A, class B>
+unsigned hitsOf(const Solid& a, const Solid& b, double reach, double margin) {
+  if (!areSpheresNear<T>(a, b, reach, margin)) return 0;
+  if constexpr (kIsSegmentAndBox<A, B>) {
+    if (!isSphereNear<T>(a, b, margin)) return 0;
+  }
+  return lanesBelow(distanceOf<T, A, B>(a, b), T(margin));
 }
 
 template <class T, class A, class B>
@@ -107,10 +146,7 @@ unsigned hits(const CorePair* pairs, int count, const LaneSolids& solids, double
     unsigned here = found >> lane & kAll;
     for (const CorePair* pair = pairs; pair < pairs + count && here != kAll; ++pair) {
       const Solid a(solids, pair->a, lane), b(solids, pair->b, lane);
-      const Vec3<T> apart = a.origin<T>() - b.origin<T>();
-      const double reach = pair->reach + margin;
-      if (!any(dot(apart, apart) < T(reach * reach))) continue;
-      here |= lanesBelow(distanceOf<T, A, B>(a, b), T(margin));
+      here |= hitsOf<T, A, B>(a, b, pair->reach, margin);
     }
     found |= here << lane;
   }

@@ -58,11 +58,12 @@ double contactCost(const ContactModel& contacts, const BodyPoses& poses, double 
 
 TaskMap contactTask(ContactModel contacts, double margin) {
   requireMargin(margin);
-  return [contacts = std::move(contacts), margin, J = Eigen::Matrix3Xd()](const Posture& at,
-                                                                          TaskValue& value) mutable {
+  return [contacts = std::move(contacts), margin, storage = ProxyStorage(), J = Eigen::Matrix3Xd()](
+             const Posture& at, TaskValue& value) mutable {
     value.y.setZero(1);
     value.J.setZero(1, at.model.nv());
-    for (const Proxy& proxy : proxies(contacts, at.poses, margin)) {
+    proxies(contacts, at.poses, margin, storage);
+    for (const Proxy& proxy : storage.near) {
       value.y[0] += costOf(proxy, margin);
       addDistanceDerivative(at.model, at.poses, proxy, contacts, -1 / margin, J, value.J);
     }

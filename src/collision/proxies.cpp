@@ -1,4 +1,5 @@
 #include <limits>
+#include <utility>
 
 #include "base/cpu_lanes.h"
 #include "collision/contact_data_internal.h"
@@ -21,11 +22,11 @@ class PairsInLanes {
   [[nodiscard]] bool isFull() const { return count_ == kContactLanes; }
 
   void add(const CorePair& pair, const ContactSolid& a, const Pose& X_WA, const ContactSolid& b,
-           const Pose& X_WB, bool swap) {
+           const Pose& X_WB) {
     put(0, a, X_WA);
     put(1, b, X_WB);
     rows_[count_] = pair.row;
-    swapped_[count_++] = swap;
+    swapped_[count_++] = b.shape < a.shape;
   }
 
   // Asks the kernel, and empties the lanes.
@@ -77,21 +78,21 @@ void forEachNear(const ContactModel::Data& data, const std::vector<CorePair>& pa
 
 }  // namespace
 
-std::vector<Proxy> proxies(const ContactModel& contacts, const BodyPoses& poses, double cutoff) {
+void proxies(const ContactModel& contacts, const BodyPoses& poses, double cutoff, ProxyStorage& storage) {
   const ContactModel::Data& data = contacts.data();
-  std::vector<Pose> X_WS;
-  X_WS.reserve(data.solids.size());
+  auto& [near, X_WS, found] = storage;
+  X_WS.clear();
   for (const ContactSolid& solid : data.solids) X_WS.push_back(poses[solid.body] * solid.X_BS);
-
-  std::vector<Proximity> found(data.pairs.size());
+  found.resize(data.pairs.size());
   for (Proximity& proximity : found) proximity.distance = std::numeric_limits<double>::infinity();
+
   const auto kernel = kernelFor<ContactKernel>(cpuLanes());
   for (std::size_t type = 0; type < data.cores.size(); ++type) {
     PairsInLanes lanes(kernel.pairs[type]);
     forEachNear(data, data.cores[type], X_WS, cutoff,
                 [&](const CorePair& pair, const ContactSolid& a, const Pose& X_WA, const ContactSolid& b,
                     const Pose& X_WB) {
-                  lanes.add(pair, a, X_WA, b, X_WB, b.shape < a.shape);
+                  lanes.add(pair, a, X_WA, b, X_WB);
                   if (lanes.isFull()) lanes.measure(found);
                 });
     lanes.measure(found);
@@ -102,10 +103,15 @@ std::vector<Proxy> proxies(const ContactModel& contacts, const BodyPoses& poses,
                 found[static_cast<std::size_t>(pair.row)] = proximity(a.form, X_WA, b.form, X_WB);
               });
 
-  std::vector<Proxy> near;
+  near.clear();
   for (std::size_t row = 0; row < found.size(); ++row)
     if (found[row].distance < cutoff) near.push_back({data.pairs[row], found[row]});
-  return near;
+}
+
+std::vector<Proxy> proxies(const ContactModel& contacts, const BodyPoses& poses, double cutoff) {
+  ProxyStorage storage;
+  proxies(contacts, poses, cutoff, storage);
+  return std::move(storage.near);
 }
 
 }  // namespace rex

@@ -30,7 +30,7 @@ inline Vec3<T> acrossBoth(const Vec3<T>& a, const Vec3<T>& b) {
 /// Two segments. Each step is exact where the others meet no end (Ericson, Real-Time Collision Detection,
 /// 5.1.9).
 template <class T>
-inline Gap<T> gap(const Segment<T>& A, const Segment<T>& B) {
+[[gnu::always_inline]] inline Gap<T> gap(const Segment<T>& A, const Segment<T>& B) {
   const T one(1.0), ab = dot(A.d, B.d);
   const T aa = larger(dot(A.d, A.d), T(kTiny)), bb = larger(dot(B.d, B.d), T(kTiny));
   const Vec3<T> r = A.p - B.p;

@@ -87,6 +87,13 @@ inline void storeVec3(const Vec3<T>& v, double* to, int stride) {
   store(v.y, to + stride);
   store(v.z, to + 2 * stride);
 }
+template <class T>
+inline void storePose(const KernelPose<T>& X, double* to, int stride) {
+  storeVec3(X.R.c0, to, stride);
+  storeVec3(X.R.c1, to + 3 * stride, stride);
+  storeVec3(X.R.c2, to + 6 * stride, stride);
+  storeVec3(X.p, to + 9 * stride, stride);
+}
 
 /// The vector or pose (by columns) at `from` in all lanes.
 template <class T>

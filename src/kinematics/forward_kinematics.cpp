@@ -9,7 +9,7 @@ namespace rex {
 void forwardKinematics(const Model& model, const VectorArg& q, BodyPoses& out) {
   static_assert(sizeof(Pose) == MotionStep::kPoseSize * sizeof(double));
   requireSize("joint positions q", q.size(), model.nq());
-  internal::requireQuaternions(model, q.data());
+  if (internal::hasQuaternions(model)) internal::requireQuaternions(model, q.data());
   out.X_WB.resize(model.bodies().size());
   out.X_WB.front() = Pose{};
   const std::span<const MotionStep> steps = model.motionSteps();
@@ -25,7 +25,6 @@ BodyPoses forwardKinematics(const Model& model, const VectorArg& q) {
 }
 
 void internal::requireQuaternions(const Model& model, const double* q) {
-  if (model.nq() == model.nv()) return;
   for (const MotionStep& step : model.motionSteps()) {
     if (step.kind == MotionStep::Kind::kQuaternion)
       static_cast<void>(rotationFromQuaternion(Quaternion(q + step.qIndex)));

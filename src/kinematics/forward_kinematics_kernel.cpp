@@ -58,6 +58,10 @@ inline void storeProduct(const KernelPose<T>& X, const Column& column, double* t
 template <class T>
 inline void place(const MotionStep& step, const Factors<T>& f, const double* const* q, const double* X_WP,
                   double* X_WC, int stride) {
+  if (step.kind == Kind::kFixed && step.from == 0) {
+    storePose(broadcastPose<T>(step.constant), X_WC, stride);
+    return;
+  }
   KernelPose<T> X = loadPose<T>(X_WP, stride);
   if (step.kind != Kind::kQuaternion) {
     const auto column = [&](int i) {

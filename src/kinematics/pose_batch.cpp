@@ -9,7 +9,9 @@
 namespace rex {
 
 void PoseBatch::resize(int bodies, int count) {
+  const int oldBodies = numbers_.items(), oldBlocks = blocks();
   numbers_.resize(bodies, count);
+  if (bodies == oldBodies && blocks() == oldBlocks) return;
   for (int b = 0; b < blocks(); ++b) {
     for (int i = 0; i < 12; ++i)
       std::fill_n(block(b, kWorld).begin() + kLanes * i, kLanes, i < 9 && i % 4 == 0 ? 1. : 0.);
@@ -33,7 +35,9 @@ void forwardKinematicsBatch(const ForwardKinematicsKernel& kernel, const Model& 
   constexpr int kLanes = PoseBatch::kLanes;
   static_assert(ForwardKinematicsKernel::kBlock == kLanes);
   requireSize("joint positions, a column of Q", Q.rows(), model.nq());
-  for (const auto& q : Q.colwise()) requireQuaternions(model, q.data());
+  if (hasQuaternions(model)) {
+    for (const auto& q : Q.colwise()) requireQuaternions(model, q.data());
+  }
   const int count = static_cast<int>(Q.cols());
   out.resize(static_cast<int>(model.bodies().size()), count);
   const std::span<const MotionStep> steps = model.motionSteps();

@@ -9,6 +9,8 @@ namespace rex::internal {
 void forwardKinematicsBatch(const ForwardKinematicsKernel& kernel, const Model& model, const MatrixArg& Q,
                             PoseBatch& out);
 
+/// Whether q has quaternions; nothing else makes it longer than v.
+inline bool hasQuaternions(const Model& model) { return model.nq() != model.nv(); }
 /// Throws Error unless the quaternions in q are finite and not zero.
 void requireQuaternions(const Model& model, const double* q);
 

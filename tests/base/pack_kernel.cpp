@@ -35,11 +35,20 @@ void applyToAll(const double* x, const double* y, int count, double* results) {
   for (int i = 0; i < count; i += kLanesOf<T>) apply<T>(x + i, y + i, results + PackKernel::kOperations * i);
 }
 
+template <class T>
+void compareAll(const double* x, const double* y, int count, bool* isAny, bool* isAll) {
+  for (int i = 0; i < count; i += kLanesOf<T>) {
+    const auto less = load<T>(x + i) < load<T>(y + i);
+    *isAny++ = any(less);
+    *isAll++ = all(less);
+  }
+}
+
 }  // namespace
 
 template <int kLanes>
 PackKernel PackKernel::compiled() {
-  return {&applyToAll<InLanes<kLanes>>};
+  return {&applyToAll<InLanes<kLanes>>, &compareAll<InLanes<kLanes>>};
 }
 template PackKernel PackKernel::compiled<REX_LANES>();
 

@@ -8,6 +8,8 @@ struct PackKernel {
   /// results[kOperations * i] and on.
   static constexpr int kOperations = 15;
   void (*operations)(const double* x, const double* y, int count, double* results);
+  /// Writes for each pack of lanes from the front whether x < y in any of them, and whether in all.
+  void (*compare)(const double* x, const double* y, int count, bool* isAny, bool* isAll);
 
   template <int kLanes>
   static PackKernel compiled();

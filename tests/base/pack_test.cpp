@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -50,6 +51,23 @@ TEST_P(PackOfLanes, HasTheBitsOfDoubles) {
     ASSERT_EQ(std::memcmp(&alone[i], &packed[i], sizeof(double)), 0)
         << "operation " << i % PackKernel::kOperations << " of " << numbers.x[i / PackKernel::kOperations]
         << " and " << numbers.y[i / PackKernel::kOperations] << ": " << alone[i] << " and " << packed[i];
+  }
+}
+
+TEST_P(PackOfLanes, SeesWhetherAnyOrAllLanesHold) {
+  if (GetParam() > cpuLanes()) GTEST_SKIP() << "this CPU has no AVX2";
+  constexpr int kCount = 64;  // in fours, in which the lanes take all 16 cases in turn
+  double x[kCount], y[kCount];
+  for (int i = 0; i < kCount; ++i) {
+    x[i] = (i / 4) >> (i % 4) & 1 ? 0 : 2;
+    y[i] = 1;
+  }
+  bool isAny[kCount], isAll[kCount];
+  kernelFor<PackKernel>(GetParam()).compare(x, y, kCount, isAny, isAll);
+  for (int begin = 0; begin < kCount; begin += GetParam()) {
+    const auto isLess = [](double number) { return number < 1; };
+    EXPECT_EQ(isAny[begin / GetParam()], std::any_of(x + begin, x + begin + GetParam(), isLess)) << begin;
+    EXPECT_EQ(isAll[begin / GetParam()], std::all_of(x + begin, x + begin + GetParam(), isLess)) << begin;
   }
 }
 

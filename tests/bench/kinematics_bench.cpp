@@ -1,10 +1,13 @@
 #include <memory>
 #include <stdexcept>
 
+#include "base/cpu_lanes.h"
 #include "bench/kinematics_peer.h"
 #include "bench/row.h"
 #include "kinematics/center_of_mass.h"
+#include "kinematics/jacobian_batch.h"
 #include "kinematics/jacobians.h"
+#include "kinematics/pose_batch_internal.h"
 
 namespace rex::bench {
 namespace {
@@ -22,9 +25,19 @@ struct Workspace {
     forwardKinematics(k);
     rex::centerOfMassJacobian(robot.model, poses, moments, J);
   }
+  void forwardKinematicsBatch(int lanes) {
+    const auto kernel = kernelFor<internal::ForwardKinematicsKernel>(lanes);
+    internal::forwardKinematicsBatch(kernel, robot.model, robot.Q, poseBatch);
+  }
+  void jacobianBatch() {
+    forwardKinematicsBatch(cpuLanes());
+    positionJacobianBatch(robot.model, poseBatch, robot.tip, Eigen::Vector3d::Zero(), jacobians);
+  }
 
   Robot robot;
   BodyPoses poses;
+  PoseBatch poseBatch;
+  JacobianBatch jacobians;
   Eigen::Matrix3Xd J, moments;
 };
 
@@ -32,6 +45,11 @@ struct Workspace {
 Measurement timedInTurn(const std::function<void(int k)>& work) {
   if (!work) return {};
   return timed([work, k = 0]() mutable { work(k = (k + 1) % Robot::kPostures); });
+}
+
+// Times the work at all postures at once, per posture.
+Measurement timedPerPosture(const std::function<void()>& work) {
+  return [all = timed(work)] { return all() / Robot::kPostures; };
 }
 
 }  // namespace
@@ -51,11 +69,18 @@ std::vector<Row> kinematicsRows() {
     const auto fk = timedInTurn([ours](int k) { ours->forwardKinematics(k); });
     const auto jacobian = timedInTurn([ours](int k) { ours->jacobian(k); });
     const auto com = timedInTurn([ours](int k) { ours->centerOfMassJacobian(k); });
+    const auto fkBatch = [ours](int lanes) {
+      return timedPerPosture([=] { ours->forwardKinematicsBatch(lanes); });
+    };
+    const auto jacobianBatch = timedPerPosture([ours] { ours->jacobianBatch(); });
     const std::string on = "-" + ours->robot.name;
     rows.push_back({"fk" + on, fk, "KDL", timedInTurn(kdl.forwardKinematics), 0.35});
     rows.push_back({"fk" + on + "-mujoco", fk, "MuJoCo", timedInTurn(mujoco.forwardKinematics)});
     rows.push_back({"jacobian" + on, jacobian, "KDL", timedInTurn(kdl.jacobian), 0.3});
     rows.push_back({"jacobian" + on + "-mujoco", jacobian, "MuJoCo", timedInTurn(mujoco.jacobian)});
+    rows.push_back({"fk-batch" + on, fkBatch(cpuLanes()), "KDL", timedInTurn(kdl.forwardKinematics), 0.1});
+    rows.push_back({"fk-batch-2-lanes" + on, fkBatch(2), "KDL", timedInTurn(kdl.forwardKinematics), 0.25});
+    rows.push_back({"jacobian-batch" + on, jacobianBatch, "KDL", timedInTurn(kdl.jacobian)});
     rows.push_back({"com" + on, com, "MuJoCo", timedInTurn(mujoco.centerOfMassJacobian), 0.35});
   }
   return rows;

@@ -1,5 +1,7 @@
 #include "collision/contact_batch.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
@@ -10,20 +12,19 @@
 namespace rex {
 namespace {
 
-// The arm and the frame of pegInAHole, and a box, a ball and a rounded box at its links.
+// The arm and the frame of pegInAHole, and a box, a ball, a rounded box and a cylinder at its links.
 Model crowdedArm() {
   SceneSpec spec = readOrs(sourcePath("data/robots/pegInAHole.ors")).spec;
-  ShapeType type = ShapeType::kBox;
+  constexpr ShapeType kTypes[] = {ShapeType::kBox, ShapeType::kSphere, ShapeType::kRoundedBox,
+                                  ShapeType::kCylinder};
+  std::size_t next = 0;
   for (BodySpec& body : spec.bodies) {
     for (ShapeSpec& shape : body.shapes) shape.contact = shape.shape.type != ShapeType::kMarker;
     if (!body.name.starts_with("arm")) continue;
     body.shapes.push_back({.name = "",
                            .X_BS = translation(0.1, 0.05, 0.1),
-                           .shape = {.type = type, .extent = {0.2, 0.3, 0.25}, .radius = 0.1},
+                           .shape = {.type = kTypes[next++ % 4], .extent = {0.2, 0.3, 0.25}, .radius = 0.1},
                            .contact = true});
-    type = type == ShapeType::kBox      ? ShapeType::kSphere
-           : type == ShapeType::kSphere ? ShapeType::kRoundedBox
-                                        : ShapeType::kBox;
   }
   return compile(spec);
 }
@@ -81,6 +82,19 @@ TEST_P(ContactBatch, IsFreeWhereAllDistancesAre) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfAllSizes, ContactBatch, testing::Values(0, 1, 7, 8, 9, 100));
+
+TEST(ContactBatchOfNoNumbers, IsNotFree) {
+  const Model model = compile(readOrs(sourcePath("data/robots/pegInAHole.ors")).spec);
+  const ContactModel contacts(model);
+  Eigen::MatrixXd Q = Eigen::MatrixXd::Zero(model.nq(), 10);
+  Q(2, 9) = std::nan("");
+  PoseBatch poses;
+  forwardKinematicsBatch(model, Q, poses);
+  Eigen::Array<bool, Eigen::Dynamic, 1> free;
+  contactFreeBatch(contacts, poses, 0, free);
+  EXPECT_TRUE(free.head(9).all());
+  EXPECT_FALSE(free[9]);
+}
 
 TEST(ContactBatchOfNone, TakesModelsWithoutPairs) {
   const Model model = compile(readOrs(sourcePath("data/robots/man.ors")).spec);

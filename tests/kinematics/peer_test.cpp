@@ -6,6 +6,7 @@
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <kdl/chainjnttojacsolver.hpp>
 
+#include "kinematics/jacobian_batch.h"
 #include "kinematics/jacobians.h"
 #include "support/kdl_tree.h"
 #include "support/random_scene.h"
@@ -54,10 +55,39 @@ TEST(Peer, KdlAgreesOnRandomTrees) {
   }
 }
 
+TEST(Peer, KdlAgreesOnBatches) {
+  Rng rng(32);
+  const Model model = randomPeerScene(rng, 12);
+  const BodyId body{static_cast<int>(model.bodies().size()) - 1};
+  const KdlChain kdl = kdlChain(model, kdlTree(model), body);
+  Eigen::MatrixXd Q(model.nq(), 11);
+  for (auto q : Q.colwise()) q = 3 * rng.normalVector(model.nq());
+  PoseBatch poses;
+  JacobianBatch linear, angular;
+  forwardKinematicsBatch(model, Q, poses);
+  positionJacobianBatch(model, poses, body, Eigen::Vector3d::Zero(), linear);
+  angularJacobianBatch(model, poses, body, angular);
+  for (int k = 0; k < poses.count(); ++k) {
+    KDL::JntArray chainQ(kdl.chain.getNrOfJoints());
+    chainQ.data = Q(kdl.indices, k);
+    KDL::Frame frame;
+    KDL::Jacobian J(kdl.chain.getNrOfJoints());
+    ASSERT_EQ(KDL::ChainFkSolverPos_recursive(kdl.chain).JntToCart(chainQ, frame), 0);
+    ASSERT_EQ(KDL::ChainJntToJacSolver(kdl.chain).JntToJac(chainQ, J), 0);
+    EXPECT_TRUE(isApprox(poses.pose(body, k), poseFrom(frame), kTolerance));
+    EXPECT_TRUE(linear.jacobian(k)(Eigen::all, kdl.indices).isApprox(J.data.topRows<3>(), kTolerance));
+    EXPECT_TRUE(angular.jacobian(k)(Eigen::all, kdl.indices).isApprox(J.data.bottomRows<3>(), kTolerance));
+  }
+}
+
 }  // namespace
 }  // namespace rex
 
 #else
+
+TEST(Peer, KdlAgreesOnBatches) {
+  GTEST_SKIP() << "KDL (liborocos-kdl-dev) was not found when this was built";
+}
 
 TEST(Peer, KdlAgreesOnRandomTrees) {
   GTEST_SKIP() << "KDL (liborocos-kdl-dev) was not found when this was built";
