@@ -18,12 +18,15 @@ struct ShapePair {
 class ContactModel {
  public:
   /// All pairs of contact shapes except: of one body; of directly linked bodies; of bodies that are both
-  /// within four generations below a common ancestor, itself included. Markers never collide. Throws Error
-  /// for a shape in contact whose mesh is not loaded.
+  /// within four generations below a common ancestor, itself included. The world is nobody's ancestor, and
+  /// what a free joint links to it may collide with it. Markers never collide. Throws Error for a shape in
+  /// contact whose mesh is not loaded.
   explicit ContactModel(const Model& model);
+  /// The given pairs. Throws Error for a pair of no shapes, a marker, and a mesh that is not loaded.
   ContactModel(const Model& model, std::span<const ShapePair> pairs);
 
   [[nodiscard]] std::span<const ShapePair> pairs() const;
+  /// The body of a shape of some pair.
   [[nodiscard]] BodyId body(int shape) const;
 
   struct Data;

@@ -46,7 +46,8 @@ std::vector<Group> select(std::vector<Group> groups, const std::vector<std::stri
 }
 
 void run(const std::vector<std::string>& names, bool asJson) {
-  const std::vector<Group> groups = select({{"grading", gradingRows()},
+  const std::vector<Group> groups = select({{"collision", collisionRows()},
+                                            {"grading", gradingRows()},
                                             {"kinematics", kinematicsRows()},
                                             {"render", renderRows()},
                                             {"scene", sceneRows()}},

@@ -1,0 +1,121 @@
+#include "collision/contact_batch.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "base/cpu_lanes.h"
+#include "collision/contact_data_internal.h"
+#include "collision/proximity.h"
+
+namespace rex {
+namespace {
+
+using internal::ContactKernel;
+using internal::CorePair;
+using internal::kContactLanes;
+using internal::kPoseNumbers;
+
+static_assert(kContactLanes == PoseBatch::kLanes);
+
+// What works through a batch, a block of configurations after the other.
+class Blocks {
+ public:
+  Blocks(const ContactModel& contacts, const PoseBatch& poses)
+      : data_(contacts.data()),
+        poses_(poses),
+        kernel_(kernelFor<ContactKernel>(cpuLanes())),
+        X_WS_(std::make_unique_for_overwrite<double[]>(data_.solids.size() * kPoseNumbers)) {}
+
+  [[nodiscard]] int count() const { return (poses_.count() + kContactLanes - 1) / kContactLanes; }
+  [[nodiscard]] int lanesOf(int block) const {
+    return std::min(kContactLanes, poses_.count() - block * kContactLanes);
+  }
+
+  // The numbers of row i in all lanes go to [i * kContactLanes].
+  void measure(int block, double* distances) {
+    place(block);
+    for (std::size_t type = 0; type < data_.cores.size(); ++type) {
+      const std::vector<CorePair>& pairs = data_.cores[type];
+      kernel_.pairs[type].distances(pairs.data(), static_cast<int>(pairs.size()), solids(), distances);
+    }
+    for (const CorePair& pair : data_.others) {
+      for (int lane = 0; lane < lanesOf(block); ++lane)
+        distances[pair.row * kContactLanes + lane] = distanceOf(pair, block, lane);
+    }
+  }
+
+  // The lanes, as bits, in which some pair is nearer than the margin.
+  unsigned hits(int block, double margin) {
+    place(block);
+    const unsigned all = (1u << lanesOf(block)) - 1;
+    unsigned found = ~all & ((1u << kContactLanes) - 1);
+    for (std::size_t type = 0; type < data_.cores.size(); ++type) {
+      const std::vector<CorePair>& pairs = data_.cores[type];
+      found = kernel_.pairs[type].hits(pairs.data(), static_cast<int>(pairs.size()), solids(), margin, found);
+    }
+    for (const CorePair& pair : data_.others) {
+      for (int lane = 0; lane < lanesOf(block); ++lane)
+        if ((found >> lane & 1) == 0 && distanceOf(pair, block, lane) < margin) found |= 1u << lane;
+    }
+    return found & all;
+  }
+
+ private:
+  [[nodiscard]] internal::LaneSolids solids() const { return {X_WS_.get(), data_.sizes.data()}; }
+
+  void place(int block) {
+    for (std::size_t i = 0; i < data_.solids.size(); ++i) {
+      const ContactSolid& solid = data_.solids[i];
+      kernel_.place(poses_.block(block, solid.body).data(), data_.X_BS.data() + 12 * i,
+                    X_WS_.get() + i * kPoseNumbers);
+    }
+  }
+
+  [[nodiscard]] double distanceOf(const CorePair& pair, int block, int lane) const {
+    const ContactSolid& a = data_.solids[static_cast<std::size_t>(pair.a)];
+    const ContactSolid& b = data_.solids[static_cast<std::size_t>(pair.b)];
+    const int k = block * kContactLanes + lane;
+    return proximity(a.form, poses_.pose(a.body, k) * a.X_BS, b.form, poses_.pose(b.body, k) * b.X_BS)
+        .distance;
+  }
+
+  const ContactModel::Data& data_;
+  const PoseBatch& poses_;
+  ContactKernel kernel_;
+  std::unique_ptr<double[]> X_WS_;
+};
+
+}  // namespace
+
+void contactDistancesBatch(const ContactModel& contacts, const PoseBatch& poses, Eigen::MatrixXd& distances) {
+  using RowsInLanes = Eigen::Matrix<double, kContactLanes, Eigen::Dynamic>;
+  Blocks blocks(contacts, poses);
+  const auto rows = static_cast<Eigen::Index>(contacts.pairs().size());
+  distances.resize(rows, poses.count());
+  RowsInLanes measured(kContactLanes, rows);
+  for (int block = 0; block < blocks.count(); ++block) {
+    blocks.measure(block, measured.data());
+    const int lanes = blocks.lanesOf(block);
+    distances.middleCols(block * kContactLanes, lanes) = measured.topRows(lanes).transpose();
+  }
+}
+
+void contactFreeBatch(const ContactModel& contacts, const PoseBatch& poses, double margin,
+                      Eigen::Array<bool, Eigen::Dynamic, 1>& free) {
+  Blocks blocks(contacts, poses);
+  free.resize(poses.count());
+  for (int block = 0; block < blocks.count(); ++block) {
+    const unsigned hits = blocks.hits(block, margin);
+    for (int lane = 0; lane < blocks.lanesOf(block); ++lane)
+      free[block * kContactLanes + lane] = (hits >> lane & 1) == 0;
+  }
+}
+
+bool allContactFree(const ContactModel& contacts, const PoseBatch& poses, double margin) {
+  Blocks blocks(contacts, poses);
+  for (int block = 0; block < blocks.count(); ++block)
+    if (blocks.hits(block, margin) != 0) return false;
+  return true;
+}
+
+}  // namespace rex

@@ -1,0 +1,183 @@
+#include "collision/box_box_kernel_internal.h"
+#include "collision/contact_kernel_internal.h"
+#include "collision/segment_kernel_internal.h"
+
+namespace rex::internal {
+namespace {
+
+constexpr int kLane = kContactLanes;
+
+template <class T>
+Vec3<T> loadVector(const double* from) {
+  return {load<T>(from), load<T>(from + kLane), load<T>(from + 2 * kLane)};
+}
+
+template <class T>
+void storeVector(const Vec3<T>& v, double* to) {
+  store(v.x, to);
+  store(v.y, to + kLane);
+  store(v.z, to + 2 * kLane);
+}
+
+// The numbers of a solid from some lane on.
+struct Solid {
+  Solid(const LaneSolids& all, int place, int lane)
+      : X_WS(all.X_WS + place * kPoseNumbers + lane), size(all.size + place * kSizeNumbers + lane) {}
+
+  template <class T>
+  Vec3<T> axis(int i) const {
+    return loadVector<T>(X_WS + 3 * i * kLane);
+  }
+  template <class T>
+  Vec3<T> origin() const {
+    return loadVector<T>(X_WS + 9 * kLane);
+  }
+  template <class T>
+  T radius() const {
+    return load<T>(size + 3 * kLane);
+  }
+
+  const double* X_WS;
+  const double* size;
+};
+
+template <class T>
+void loadCore(const Solid& solid, Segment<T>& core) {
+  core = {solid.origin<T>(), load<T>(solid.size + 2 * kLane) * solid.axis<T>(2)};
+}
+
+template <class T>
+void loadCore(const Solid& solid, Box<T>& core) {
+  core = {{{solid.axis<T>(0), solid.axis<T>(1), solid.axis<T>(2)}, solid.origin<T>()},
+          loadVector<T>(solid.size)};
+}
+
+template <class T, class A, class B>
+Gap<T> gapOf(const Solid& a, const Solid& b) {
+  A coreA;
+  B coreB;
+  loadCore(a, coreA);
+  loadCore(b, coreB);
+  return gap(coreA, coreB);
+}
+
+template <class T, class A, class B>
+T distanceOf(const Solid& a, const Solid& b) {
+  return gapOf<T, A, B>(a, b).width - a.radius<T>() - b.radius<T>();
+}
+
+template <class T, class A, class B>
+void distances(const CorePair* pairs, int count, const LaneSolids& solids, double* distances) {
+  for (const CorePair* pair = pairs; pair < pairs + count; ++pair) {
+    for (int lane = 0; lane < kLane; lane += kLanesOf<T>) {
+      const Solid a(solids, pair->a, lane), b(solids, pair->b, lane);
+      store(distanceOf<T, A, B>(a, b), distances + pair->row * kLane + lane);
+    }
+  }
+}
+
+template <class T, class A, class B>
+void proximities(const CorePair& pair, int lanes, const LaneSolids& solids, LaneProximities& found) {
+  for (int lane = 0; lane < lanes; lane += kLanesOf<T>) {
+    const Solid a(solids, pair.a, lane), b(solids, pair.b, lane);
+    const Gap<T> gap = gapOf<T, A, B>(a, b);
+    const T radiusA = a.radius<T>(), radiusB = b.radius<T>();
+    store(gap.width - radiusA - radiusB, found.distance + lane);
+    storeVector(gap.p_B + (gap.width - radiusA) * gap.normal, found.p_WA + lane);
+    storeVector(gap.p_B + radiusB * gap.normal, found.p_WB + lane);
+    storeVector(gap.normal, found.normal_W + lane);
+  }
+}
+
+// Whether a is smaller than b in some lane; what is not a number counts as small, so that it is never free.
+template <class T>
+bool isAnyBelow(const T& a, const T& b) {
+  return any(select(a >= b, T(0.0), T(1.0)) > T(0.0));
+}
+
+// The lanes in which it is, as bits.
+template <class T>
+unsigned lanesBelow(const T& a, const T& b) {
+  double isBelow[kLanesOf<T>];
+  store(select(a >= b, T(0.0), T(1.0)), isBelow);
+  unsigned bits = 0;
+  for (int i = 0; i < kLanesOf<T>; ++i) bits |= isBelow[i] != 0 ? 1u << i : 0u;
+  return bits;
+}
+
+// Whether in some lane the spheres about both solids are nearer than the margin.
+template <class T>
+bool areSpheresNear(const Solid& a, const Solid& b, double reach, double margin) {
+  const Vec3<T> apart = a.origin<T>() - b.origin<T>();
+  const double near = reach + margin;
+  return isAnyBelow(dot(apart, apart), T(near * near));
+}
+
+// The same of the sphere about a segment and the box itself.
+template <class T>
+bool isSphereNear(const Solid& segment, const Solid& box, double margin) {
+  const Mat3<T> R{box.axis<T>(0), box.axis<T>(1), box.axis<T>(2)};
+  const Vec3<T> p = transposedTimes(R, segment.origin<T>() - box.origin<T>());
+  const Vec3<T> apart = p - clampedTo(loadVector<T>(box.size), p);
+  const T near = load<T>(segment.size + 2 * kLane) + segment.radius<T>() + box.radius<T>() + T(margin);
+  return isAnyBelow(dot(apart, apart), near * near);
+}
+
+template <class A, class B>
+constexpr bool kIsSegmentAndBox = false;
+template <class T>
+constexpr bool kIsSegmentAndBox<Segment<T>, Box<T>> = true;
+
+// The lanes, as bits, in which a pair is nearer than the margin.
+template <class T, class A, class B>
+unsigned hitsOf(const Solid& a, const Solid& b, double reach, double margin) {
+  if (!areSpheresNear<T>(a, b, reach, margin)) return 0;
+  if constexpr (kIsSegmentAndBox<A, B>) {
+    if (!isSphereNear<T>(a, b, margin)) return 0;
+  }
+  return lanesBelow(distanceOf<T, A, B>(a, b), T(margin));
+}
+
+template <class T, class A, class B>
+unsigned hits(const CorePair* pairs, int count, const LaneSolids& solids, double margin, unsigned known) {
+  constexpr unsigned kAll = (1u << kLanesOf<T>)-1;
+  unsigned found = known;
+  for (int lane = 0; lane < kLane; lane += kLanesOf<T>) {
+    unsigned here = found >> lane & kAll;
+    for (const CorePair* pair = pairs; pair < pairs + count && here != kAll; ++pair) {
+      const Solid a(solids, pair->a, lane), b(solids, pair->b, lane);
+      here |= hitsOf<T, A, B>(a, b, pair->reach, margin);
+    }
+    found |= here << lane;
+  }
+  return found;
+}
+
+template <class T>
+void placeShape(const double* X_WB, const double* X_BS, double* X_WS) {
+  const auto column = [&](int i) { return Vec3<T>{T(X_BS[3 * i]), T(X_BS[3 * i + 1]), T(X_BS[3 * i + 2])}; };
+  for (int lane = 0; lane < kLane; lane += kLanesOf<T>) {
+    const auto axis = [&](int i) { return loadVector<T>(X_WB + 3 * i * kLane + lane); };
+    const Mat3<T> R{axis(0), axis(1), axis(2)};
+    for (int i = 0; i < 3; ++i) storeVector(R * column(i), X_WS + 3 * i * kLane + lane);
+    storeVector(R * column(3) + axis(3), X_WS + 9 * kLane + lane);
+  }
+}
+
+template <class T, class A, class B>
+constexpr PairKernel pairKernel() {
+  return {&distances<T, A, B>, &proximities<T, A, B>, &hits<T, A, B>};
+}
+
+}  // namespace
+
+template <int kLanes>
+ContactKernel ContactKernel::compiled() {
+  using T = InLanes<kLanes>;
+  return {&placeShape<T>,
+          {pairKernel<T, Segment<T>, Segment<T>>(), pairKernel<T, Segment<T>, Box<T>>(),
+           pairKernel<T, Box<T>, Box<T>>()}};
+}
+template ContactKernel ContactKernel::compiled<REX_LANES>();
+
+}  // namespace rex::internal

@@ -1,0 +1,41 @@
+#include <memory>
+
+#include "bench/contact_scene.h"
+#include "bench/row.h"
+#include "collision/contacts.h"
+
+namespace rex::bench {
+namespace {
+
+// The time for one posture of work that takes all of them.
+Measurement perPosture(std::function<void()> work) {
+  return [all = timed(std::move(work))] { return all() / ContactScene::kPostures; };
+}
+
+Measurement inTurn(const ContactPeer& peer) {
+  if (!peer) return {};
+  return perPosture([peer] {
+    for (int k = 0; k < ContactScene::kPostures; ++k) static_cast<void>(peer(k));
+  });
+}
+
+}  // namespace
+
+std::vector<Row> collisionRows() {
+  const auto scene = std::make_shared<ContactScene>();
+  const Measurement bullet = inTurn(bulletPeer(*scene)), fcl = inTurn(fclPeer(*scene));
+  const auto distances = [scene, out = Eigen::MatrixXd()]() mutable {
+    contactDistancesBatch(scene->contacts, scene->batch, out);
+  };
+  const auto free = [scene, out = Eigen::Array<bool, Eigen::Dynamic, 1>()]() mutable {
+    contactFreeBatch(scene->contacts, scene->batch, 0, out);
+  };
+  const auto single = [scene] {
+    for (const BodyPoses& poses : scene->poses) static_cast<void>(proxies(scene->contacts, poses));
+  };
+  return {{"distances-arm7", perPosture(distances), "Bullet", bullet, 0.2},
+          {"contact-free-arm7", perPosture(free), "FCL", fcl, 0.15},
+          {"proxies-arm7", perPosture(single), "Bullet", bullet}};
+}
+
+}  // namespace rex::bench

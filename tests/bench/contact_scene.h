@@ -1,0 +1,48 @@
+#pragma once
+
+#include <functional>
+
+#include "collision/contact_batch.h"
+#include "kinematics/forward_kinematics.h"
+
+namespace rex::bench {
+
+/// The arm of data/robots/pegInAHole.ors before its frame of four boxes, at random postures. Pairs: each of
+/// its seven capsules with each box, and with each capsule that is not next to it; 43 in all.
+struct ContactScene {
+  static constexpr int kPostures = 256;
+  ContactScene();
+
+  Model model;
+  ContactModel contacts;
+  std::vector<BodyPoses> poses;  ///< kPostures
+  PoseBatch batch;               ///< the same
+  Eigen::MatrixXd distances;     ///< of all pairs, in columns
+
+  [[nodiscard]] const ModelShape& shape(int i) const { return model.shapes()[static_cast<std::size_t>(i)]; }
+  /// X_WS of a shape at posture k.
+  [[nodiscard]] Pose shapePose(int i, int k) const {
+    return poses[static_cast<std::size_t>(k)][shape(i).body] * shape(i).X_BS;
+  }
+};
+
+/// Whether there is contact at posture k of the scene, as peers say; throw std::logic_error where they and we
+/// disagree by more than their own tolerance. Empty: not installed.
+using ContactPeer = std::function<bool(int k)>;
+#ifdef REX_WITH_BULLET
+[[nodiscard]] ContactPeer bulletPeer(const ContactScene& scene);
+#else
+[[nodiscard]] inline ContactPeer bulletPeer(const ContactScene&) { return {}; }
+#endif
+#ifdef REX_WITH_FCL
+[[nodiscard]] ContactPeer fclPeer(const ContactScene& scene);
+#else
+[[nodiscard]] inline ContactPeer fclPeer(const ContactScene&) { return {}; }
+#endif
+
+/// Throws std::logic_error where the peer finds contact though all pairs are `tolerance` apart, or finds none
+/// though two overlap by that.
+void requireAgreement(const std::string& name, const ContactScene& scene, const ContactPeer& peer,
+                      double tolerance);
+
+}  // namespace rex::bench

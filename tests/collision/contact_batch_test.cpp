@@ -1,0 +1,112 @@
+#include "collision/contact_batch.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "base/rng.h"
+#include "collision/contacts.h"
+#include "scene/ors_reader.h"
+#include "support/paths.h"
+
+namespace rex {
+namespace {
+
+// The arm and the frame of pegInAHole, and a box, a ball, a rounded box and a cylinder at its links.
+Model crowdedArm() {
+  SceneSpec spec = readOrs(sourcePath("data/robots/pegInAHole.ors")).spec;
+  constexpr ShapeType kTypes[] = {ShapeType::kBox, ShapeType::kSphere, ShapeType::kRoundedBox,
+                                  ShapeType::kCylinder};
+  std::size_t next = 0;
+  for (BodySpec& body : spec.bodies) {
+    for (ShapeSpec& shape : body.shapes) shape.contact = shape.shape.type != ShapeType::kMarker;
+    if (!body.name.starts_with("arm")) continue;
+    body.shapes.push_back({.name = "",
+                           .X_BS = translation(0.1, 0.05, 0.1),
+                           .shape = {.type = kTypes[next++ % 4], .extent = {0.2, 0.3, 0.25}, .radius = 0.1},
+                           .contact = true});
+  }
+  return compile(spec);
+}
+
+class ContactBatch : public testing::TestWithParam<int> {
+ protected:
+  void SetUp() override {
+    Rng rng(81);
+    Q.resize(model.nq(), GetParam());
+    for (auto q : Q.colwise()) q = rng.uniformVector(model.nq(), -1.5, 1.5);
+    forwardKinematicsBatch(model, Q, poses);
+  }
+
+  // Of configuration k, by one query for each.
+  [[nodiscard]] std::vector<Proxy> single(int k) const {
+    return proxies(contacts, forwardKinematics(model, Q.col(k)), 1e3);
+  }
+
+  const Model model = crowdedArm();
+  const ContactModel contacts{model};
+  Eigen::MatrixXd Q;
+  PoseBatch poses;
+};
+
+TEST_P(ContactBatch, MeasuresAsSingleQueriesDo) {
+  Eigen::MatrixXd distances;
+  contactDistancesBatch(contacts, poses, distances);
+  ASSERT_EQ(distances.rows(), static_cast<Eigen::Index>(contacts.pairs().size()));
+  ASSERT_EQ(distances.cols(), GetParam());
+  for (int k = 0; k < GetParam(); ++k) {
+    const std::vector<Proxy> wanted = single(k);
+    ASSERT_EQ(wanted.size(), contacts.pairs().size());
+    for (std::size_t row = 0; row < wanted.size(); ++row)
+      EXPECT_NEAR(distances(static_cast<Eigen::Index>(row), k), wanted[row].proximity.distance, 1e-14);
+  }
+}
+
+TEST_P(ContactBatch, IsFreeWhereAllDistancesAre) {
+  Eigen::MatrixXd distances;
+  contactDistancesBatch(contacts, poses, distances);
+  int freeOnes = 0;
+  for (const double margin : {-0.3, -0.22, -0.1, 0., 0.1, 0.2}) {
+    Eigen::Array<bool, Eigen::Dynamic, 1> free;
+    contactFreeBatch(contacts, poses, margin, free);
+    ASSERT_EQ(free.size(), GetParam());
+    for (int k = 0; k < GetParam(); ++k) {
+      EXPECT_EQ(free[k], (distances.col(k).array() >= margin).all()) << k;
+      freeOnes += free[k];
+    }
+    EXPECT_EQ(allContactFree(contacts, poses, margin), free.all());
+  }
+  if (GetParam() < 64) return;
+  EXPECT_GT(freeOnes, GetParam());
+  EXPECT_LT(freeOnes, 6 * GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(OfAllSizes, ContactBatch, testing::Values(0, 1, 7, 8, 9, 100));
+
+TEST(ContactBatchOfNoNumbers, IsNotFree) {
+  const Model model = compile(readOrs(sourcePath("data/robots/pegInAHole.ors")).spec);
+  const ContactModel contacts(model);
+  Eigen::MatrixXd Q = Eigen::MatrixXd::Zero(model.nq(), 10);
+  Q(2, 9) = std::nan("");
+  PoseBatch poses;
+  forwardKinematicsBatch(model, Q, poses);
+  Eigen::Array<bool, Eigen::Dynamic, 1> free;
+  contactFreeBatch(contacts, poses, 0, free);
+  EXPECT_TRUE(free.head(9).all());
+  EXPECT_FALSE(free[9]);
+}
+
+TEST(ContactBatchOfNone, TakesModelsWithoutPairs) {
+  const Model model = compile(readOrs(sourcePath("data/robots/man.ors")).spec);
+  const ContactModel contacts(model);
+  PoseBatch poses;
+  forwardKinematicsBatch(model, Eigen::MatrixXd::Zero(model.nq(), 3), poses);
+  Eigen::MatrixXd distances;
+  contactDistancesBatch(contacts, poses, distances);
+  EXPECT_EQ(distances.rows(), 0);
+  EXPECT_EQ(distances.cols(), 3);
+  EXPECT_TRUE(allContactFree(contacts, poses, 1));
+}
+
+}  // namespace
+}  // namespace rex
