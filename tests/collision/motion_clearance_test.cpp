@@ -90,6 +90,62 @@ TEST(MotionClearance, IsInfiniteWithoutPairs) {
   EXPECT_EQ(motionClearance(model, nothing, q, q, 1e-3), std::numeric_limits<double>::infinity());
 }
 
+// Two balls on bodies of a random tree, which fill one place at a random time and so are as deep in each
+// other as balls can be. Right before and after, the distance changes as fast as they move.
+TEST(MotionClearance, FindsTheMomentWhenBallsFillOnePlace) {
+  constexpr double kTolerance = 1e-3, kRadius = 0.01;
+  for (int seed = 0; seed < 500; ++seed) {
+    Rng rng(static_cast<std::uint64_t>(seed));
+    SceneSpec spec = randomScene(rng, 2 + seed % 4);
+    for (JointSpec& joint : spec.joints) joint.type = kAllJointTypes[1 + rng.index(11)], joint.q0 = {};
+    const Model bare = compile(spec);
+    const VectorXd from = randomPositions(rng, bare.nq());
+    VectorXd to = from + 0.5 * rng.normalVector(bare.nq());
+    const double meeting = rng.uniform();
+    const BodyPoses poses = forwardKinematics(bare, (1 - meeting) * from + meeting * to);
+    const std::size_t b = spec.bodies.size() - 1,
+                      a = static_cast<std::size_t>(rng.index(static_cast<int>(b)));
+    const Pose X_WS{Eigen::Matrix3d::Identity(),
+                    poses[bare.body(spec.bodies[b].name)] * Eigen::Vector3d(rng.normalVector(3) / 2)};
+    for (const std::size_t i : {a, b}) {
+      const Pose X_BS = poses[bare.body(spec.bodies[i].name)].inverse() * X_WS;
+      spec.bodies[i].shapes = {contactShape(sphere(kRadius), X_BS)};
+    }
+    const Model model = compile(spec);
+    const double clearance = motionClearance(model, ContactModel(model, kBoth), from, to, kTolerance);
+    EXPECT_LE(clearance, -2 * kRadius + 1e-12) << "seed " << seed;
+    EXPECT_GE(clearance, -2 * kRadius - kTolerance) << "seed " << seed;
+  }
+}
+
+// The far end of a bar that turns about its middle passes through a ball.
+TEST(MotionClearance, KnowsHowFastTheEndsOfALongShapeMove) {
+  Rng rng(81);
+  for (int i = 0; i < 100; ++i) {
+    SceneSpec spec;
+    spec.bodies.push_back(
+        {.name = "bar",
+         .X_WB = {},
+         .shapes = {contactShape({.type = ShapeType::kCapsule, .extent = {0, 0, 2}, .radius = 0.01},
+                                 rotation(M_PI_2, {0, 1, 0}))}});
+    spec.joints.push_back({.name = "axle",
+                           .parent = "world",
+                           .child = "bar",
+                           .type = JointType::kHinge,
+                           .X_PF = {},
+                           .X_MC = {},
+                           .axis = {0, 0, 1}});
+    const double meeting = rng.uniform(0.1, 3);
+    spec.worldShapes.push_back(
+        contactShape(sphere(0.01), translation(std::cos(meeting), std::sin(meeting), 0)));
+    const Model model = compile(spec);
+    const double clearance = motionClearance(model, ContactModel(model, kBoth), VectorXd::Constant(1, 0),
+                                             VectorXd::Constant(1, 3.1), 1e-4);
+    EXPECT_LE(clearance, -0.02 + 1e-12) << i;
+    EXPECT_GE(clearance, -0.02 - 1e-4) << i;
+  }
+}
+
 // Joints of all types, joints that follow others, and quaternions of any length.
 TEST(MotionClearance, BoundsDenseSamples) {
   constexpr double kTolerance = 3e-3;
@@ -111,6 +167,37 @@ TEST(MotionClearance, BoundsDenseSamples) {
     const double sampled = sampledClearance(model, contacts, from, to);
     EXPECT_LE(clearance, sampled + 1e-9) << "seed " << seed;
     EXPECT_GE(clearance, sampled - kTolerance - 1e-5) << "seed " << seed;
+  }
+}
+
+// A ball slides outwards on a turning arm and passes another far out, faster than where it was in the middle.
+TEST(MotionClearance, KnowsThatJointsCarryWhatOthersMove) {
+  for (int i = 0; i < 100; ++i) {
+    SceneSpec spec;
+    spec.bodies.push_back({.name = "arm", .X_WB = {}});
+    spec.bodies.push_back({.name = "ball", .X_WB = {}, .shapes = {contactShape(sphere(0.01))}});
+    spec.joints.push_back({.name = "axle",
+                           .parent = "world",
+                           .child = "arm",
+                           .type = JointType::kHinge,
+                           .X_PF = {},
+                           .X_MC = {},
+                           .axis = {0, 0, 1}});
+    spec.joints.push_back({.name = "rail",
+                           .parent = "arm",
+                           .child = "ball",
+                           .type = JointType::kSlider,
+                           .X_PF = {},
+                           .X_MC = {},
+                           .axis = {1, 0, 0}});
+    const double t = 0.9 + 1e-3 * i, angle = 6 * t, radius = 0.5 + t;
+    spec.worldShapes.push_back(
+        contactShape(sphere(0.01), translation(radius * std::cos(angle), radius * std::sin(angle), 0)));
+    const Model model = compile(spec);
+    const double clearance = motionClearance(model, ContactModel(model, kBoth), Eigen::Vector2d(0, 0.5),
+                                             Eigen::Vector2d(6, 1.5), 1e-4);
+    EXPECT_LE(clearance, -0.02 + 1e-12) << i;
+    EXPECT_GE(clearance, -0.02 - 1e-4) << i;
   }
 }
 
