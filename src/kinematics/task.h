@@ -14,8 +14,8 @@ inline constexpr double kNoTolerance = std::numeric_limits<double>::infinity();
 
 /// Something a robot shall do, one of several: bring the value of a map to a target (slide 2:47).
 struct Task {
-  std::string name;          ///< for messages
-  TaskMap map;               ///< gives y, d
+  std::string name{};        ///< for messages
+  TaskMap map{};             ///< gives y, d
   Eigen::VectorXd target{};  ///< y*, d; empty: zero
   double precision = 1;      ///< rho > 0: the task costs rho |y - y*|^2
   double tolerance = 1e-6;   ///< the task is fulfilled where max |y - y*| is at most this; see kNoTolerance
