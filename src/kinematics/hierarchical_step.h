@@ -15,8 +15,8 @@ struct TaskLevel {
 struct HierarchyOptions {
   Eigen::MatrixXd W{};  ///< n x n, symmetric and positive definite: the price of posture changes; empty: Id
   Eigen::VectorXd a{};  ///< n: the posture change wished for where all levels leave a choice; empty: zero
-  double damping =
-      1e-3;  ///< singular values of a level below this are divided through as if they were larger
+  /// Singular values of a level below this are divided through as if they were larger; in units of y per v.
+  double damping = 1e-3;
 };
 
 /// Strict priorities: the dq that fulfils the first level as well as it can be, of those the one that best

@@ -41,6 +41,7 @@ IkPeer::Solve ours(const std::shared_ptr<ReachableRobot>& robot) {
   };
 }
 
+// By its pose alone: a posture beyond the limits counts for a peer that knows none.
 bool isSolved(const ReachableRobot& robot, const Eigen::VectorXd& q, std::size_t k) {
   const Pose &X_WT = robot.targets[k], X_WB = forwardKinematics(robot.model, q)[robot.tip];
   const double turn = logSO3(X_WB.R * X_WT.R.transpose()).lpNorm<Eigen::Infinity>();

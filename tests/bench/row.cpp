@@ -45,7 +45,7 @@ Measurement timed(std::function<void()> work) {
 }
 
 std::optional<double> Result::ratio() const {
-  return ours && peer ? std::optional(*ours / *peer) : std::nullopt;
+  return ours && peer && *peer > 0 ? std::optional(*ours / *peer) : std::nullopt;
 }
 
 Result measure(const Row& row) {

@@ -17,6 +17,18 @@
 #include "support/paths.h"
 #include "support/random_scene.h"
 
+// Counts what malloc is asked for, by Eigen too. A sanitizer brings its own malloc.
+#ifndef __SANITIZE_ADDRESS__
+namespace {
+long allocations = 0;
+}
+extern "C" void* __libc_malloc(std::size_t size);
+extern "C" void* malloc(std::size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
+#endif
+
 namespace rex {
 namespace {
 
@@ -202,6 +214,29 @@ TEST(SolveInverseKinematics, DoesNothingWhereNothingIsToDo) {
     EXPECT_THAT(result.message, testing::StartsWith("solved after "));
   }
 }
+
+#ifndef __SANITIZE_ADDRESS__
+TEST(SolveInverseKinematics, AllocatesNothingPerIteration) {
+  const Model model = compile(readScene(sourcePath("data/robots/arm7dof/arm7dof.urdf")).spec);
+  const BodyId flange = model.body("flange");
+  const Pose X_WT = translation(3, 2, 1);  // out of reach
+  const Task pose{.name = "pose", .map = poseTask(flange, X_WT)};
+  const Task point{.name = "point", .map = positionTask(flange), .target = X_WT.p};
+  for (const std::vector<Task>& tasks : {std::vector{point}, std::vector{pose}, std::vector{pose, point}}) {
+    const auto spent = [&](int iterations) {
+      const long before = allocations;
+      const auto result = solve(model, tasks, model.initialPositions(), {.maxIterations = iterations});
+      const long count = allocations - before;
+      EXPECT_EQ(result.status, Status::kIterationLimit) << result.message;
+      EXPECT_EQ(result.iterations, 52 * iterations);
+      return count;
+    };
+    const long few = spent(2);
+    EXPECT_GT(few, 0);
+    EXPECT_EQ(spent(4), few);
+  }
+}
+#endif
 
 TEST(SolveInverseKinematics, IsTheSameForTheSameSeed) {
   const Model model = planarArm(1, 0.7);
