@@ -6,7 +6,7 @@
 namespace rex {
 
 struct InverseKinematicsOptions {
-  int maxIterations = 100;      ///< of each start
+  int maxIterations = 500;      ///< of each start
   int maxRestarts = 50;         ///< from random postures, after the given one
   double stepTolerance = 1e-9;  ///< a start has converged where a step moves no joint further, in units of v
 };
