@@ -196,13 +196,17 @@ void showOptimisation() {
                             way("Gauss-Newton", newton, SeriesStyle::kLinesPoints)},
                  .heatMap = map});
   const auto depths = [](const std::string& label, const std::vector<Eigen::VectorXd>& points) {
-    Series series{.label = label, .style = SeriesStyle::kLinesPoints};
-    for (const Eigen::VectorXd& x : points) series.y.push_back(std::max(depth(x), 1e-16));
+    Series series{.label = label};
+    for (const Eigen::VectorXd& x : points) {
+      series.x.push_back(static_cast<double>(series.x.size() + 1));
+      series.y.push_back(std::max(depth(x), 1e-16));
+    }
     return series;
   };
   plot("convergence", {.title = "How fast f falls",
-                       .xLabel = "step",
+                       .xLabel = "number of points visited",
                        .yLabel = "f(x)",
+                       .logX = true,
                        .logY = true,
                        .series = {depths("gradient descent", descent), depths("Gauss-Newton", newton)}});
 }
@@ -227,6 +231,7 @@ void showBook() {
                 .xLabel = "x of the world [m]",
                 .yLabel = "y of the world [m]",
                 .equalAxes = true,
+                .yRange = AxisRange{-0.2, 2.3},
                 .legend = Legend::kOutside};
   figure.series = {before, after};
   figure.series.push_back({.label = "dot p", .x = {p_W.x()}, .y = {p_W.y()}, .style = SeriesStyle::kPoints});
@@ -340,7 +345,7 @@ Eigen::VectorXd inTriangle(const Eigen::VectorXd& mu) {
 
 void showDirichlet() {
   const Eigen::Vector3d wheel(0.5, 0.3, 0.2);
-  Rng rng(2);
+  Rng rng(5);
   Eigen::VectorXd alpha = Eigen::Vector3d(1, 1, 1);
   std::vector<Eigen::VectorXd> guesses = {inTriangle(nextOutcome(alpha))};
   for (int t = 0; t < 40; ++t) {
@@ -355,7 +360,7 @@ void showDirichlet() {
     return std::exp((alpha[0] - 1) * std::log(mu1) + (alpha[1] - 1) * std::log(mu2) +
                     (alpha[2] - 1) * std::log(mu3));
   };
-  HeatMap map = heatMapOf(density, {-0.05, 1.05}, {-0.05, 0.95}, 330, 300);
+  HeatMap map = heatMapOf(density, {-0.05, 1.05}, {-0.05, 1.05}, 330, 330);
   map.values /= map.values.maxCoeff();
   Series truth = way("true mu", {inTriangle(wheel)}, SeriesStyle::kPoints);
   truth.size = 2;
@@ -366,7 +371,7 @@ void showDirichlet() {
                 .colorLabel = "density / its maximum",
                 .equalAxes = true,
                 .legend = Legend::kTopRight};
-  figure.series = {way("mean of mu, turn by turn", guesses, SeriesStyle::kLine), truth, triangle};
+  figure.series = {triangle, way("mean of mu, turn by turn", guesses, SeriesStyle::kLine), truth};
   figure.heatMap = map;
   plot("dirichlet", figure);
 }
