@@ -345,7 +345,7 @@ Eigen::VectorXd inTriangle(const Eigen::VectorXd& mu) {
 
 void showDirichlet() {
   const Eigen::Vector3d wheel(0.5, 0.3, 0.2);
-  Rng rng(5);
+  Rng rng(4);
   Eigen::VectorXd alpha = Eigen::Vector3d(1, 1, 1);
   std::vector<Eigen::VectorXd> guesses = {inTriangle(nextOutcome(alpha))};
   for (int t = 0; t < 40; ++t) {
