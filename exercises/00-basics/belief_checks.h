@@ -1,0 +1,136 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+
+#include "grading/check.h"
+#include "interface.h"
+#include "random_matrices.h"
+
+// Part 5: beliefs are compared as densities, with samples, and with sums over a grid.
+
+inline GaussianBelief randomGaussian(rex::Rng& rng, int n) {
+  return {rng.normalVector(n), positiveDefinite(rng, n)};
+}
+
+// A Gaussian the grader can compute with.
+inline void checkGaussian(rex::grading::Check& check, const GaussianBelief& belief, Eigen::Index n) {
+  check.shape("mean", belief.mean, n, 1);
+  check.shape("covariance", belief.cov, n, n);
+  check.near("covariance against its transpose", belief.cov, belief.cov.transpose(),
+             1e-9 * (1 + belief.cov.norm()));
+  check.that("the covariance is positive definite", belief.cov.llt().info() == Eigen::Success);
+}
+
+// ln N(x | mean, cov), up to what does not depend on x.
+inline double logDensity(const GaussianBelief& belief, const Eigen::VectorXd& x) {
+  return -0.5 * belief.cov.llt().matrixL().solve(x - belief.mean).squaredNorm();
+}
+
+// The densities themselves are compared, at random places: p q / result must be the same everywhere.
+inline void productFits(rex::grading::Check& check, Student& student, int n) {
+  const GaussianBelief p = randomGaussian(check.rng(), n), q = randomGaussian(check.rng(), n);
+  check.input(fmt::format("two random Gaussians in {} dimensions", n));
+  const GaussianBelief both = student.product(p, q);
+  checkGaussian(check, both, n);
+  const auto logRatio = [&](const Eigen::VectorXd& x) {
+    return logDensity(p, x) + logDensity(q, x) - logDensity(both, x);
+  };
+  const double atMean = logRatio(p.mean);
+  for (int i = 0; i < 10 + n * n; ++i) {
+    const Eigen::VectorXd x = p.mean + check.rng().normalVector(n);
+    check.near("ln(p(x) q(x) / product(x)), which should not depend on x", logRatio(x), atMean,
+               1e-8 * (1 + std::abs(logDensity(both, x)) + std::abs(atMean)));
+  }
+}
+
+// Whitened by a right mean and covariance, samples have mean 0 and covariance Id. The limits are more than
+// six standard deviations: less than one false alarm in 1e7 calls.
+inline void fitsSamples(rex::grading::Check& check, const GaussianBelief& belief,
+                        const Eigen::MatrixXd& samples) {
+  checkGaussian(check, belief, samples.rows());
+  const double count = static_cast<double>(samples.cols());
+  const Eigen::MatrixXd Z = belief.cov.llt().matrixL().solve(samples.colwise() - belief.mean);
+  const Eigen::MatrixXd Id = Eigen::MatrixXd::Identity(Z.rows(), Z.rows());
+  check.atMost("difference to the mean of samples, in standard deviations of the belief",
+               Z.rowwise().mean().cwiseAbs().maxCoeff(), 6.2 / std::sqrt(count));
+  check.atMost("difference to the covariance of samples, relative",
+               (Z * Z.transpose() / count - Id).cwiseAbs().maxCoeff(), 6.8 * std::sqrt(2 / count));
+}
+
+inline void propagationFitsSamples(rex::grading::Check& check, Student& student, int n, int m) {
+  rex::Rng& rng = check.rng();
+  const GaussianBelief y = randomGaussian(rng, n);
+  const Eigen::VectorXd a = rng.normalVector(m);
+  const Eigen::MatrixXd F = randomMatrix(rng, m, n), A = positiveDefinite(rng, m);
+  const Eigen::MatrixXd rootY = y.cov.llt().matrixL(), rootA = A.llt().matrixL();
+  Eigen::MatrixXd samples(m, 20000);
+  for (auto x : samples.colwise()) {
+    x = a + F * (y.mean + rootY * rng.normalVector(n)) + rootA * rng.normalVector(m);
+  }
+  check.input(sizes("random y, a, A, and F", m, n) + ", against 20000 samples");
+  fitsSamples(check, student.propagated(y, a, F, A), samples);
+}
+
+// Posterior / (likelihood * prior) must be the same for all mu of a grid.
+inline void betaFits(rex::grading::Check& check, Student& student, int throws) {
+  rex::Rng& rng = check.rng();
+  const BetaBelief prior{.a = rng.uniform(0.5, 4), .b = rng.uniform(0.5, 4)};
+  const double truth = rng.uniform(0.1, 0.9);
+  std::vector<int> data;
+  for (int i = 0; i < throws; ++i) data.push_back(rng.uniform() < truth ? 1 : 0);
+  check.input(fmt::format("prior Beta({:.3f}, {:.3f}), data {}", prior.a, prior.b, fmt::join(data, "")));
+  const BetaBelief belief = student.betaPosterior(prior, data);
+  const auto logRatio = [&](double mu) {
+    double sum = (prior.a - belief.a) * std::log(mu) + (prior.b - belief.b) * std::log(1 - mu);
+    for (const int x : data) sum += std::log(x == 1 ? mu : 1 - mu);
+    return sum;
+  };
+  for (double mu = 0.05; mu < 0.99; mu += 0.05) {
+    check.near("ln(likelihood * prior / posterior), which should not depend on mu", logRatio(mu),
+               logRatio(0.5), 1e-9 * (1 + throws));
+  }
+}
+
+inline void dirichletFits(rex::grading::Check& check, Student& student, int outcomes, int turns) {
+  rex::Rng& rng = check.rng();
+  const Eigen::VectorXd alpha = rng.uniformVector(outcomes, 0.5, 4);
+  std::vector<int> data;
+  for (int i = 0; i < turns; ++i) data.push_back(1 + std::min(rng.index(outcomes), rng.index(outcomes)));
+  check.input(fmt::format("prior Dir with {} outcomes, data {}", outcomes, fmt::join(data, " ")));
+  const Eigen::VectorXd posterior = student.dirichletPosterior(alpha, data);
+  check.shape("parameters of the posterior", posterior, outcomes, 1);
+  const auto logRatio = [&](const Eigen::VectorXd& mu) {
+    double sum = (alpha - posterior).dot(Eigen::VectorXd(mu.array().log()));
+    for (const int x : data) sum += std::log(mu[x - 1]);
+    return sum;
+  };
+  const Eigen::VectorXd middle = Eigen::VectorXd::Constant(outcomes, 1. / outcomes);
+  for (int i = 0; i < 5 * outcomes; ++i) {
+    const Eigen::VectorXd weights = rng.uniformVector(outcomes, 0.05, 1);
+    check.near("ln(likelihood * prior / posterior), which should not depend on mu",
+               logRatio(weights / weights.sum()), logRatio(middle), 1e-9 * (1 + turns));
+  }
+}
+
+// The mean of mu under Dir(mu | alpha), by summing over a grid on the triangle of three outcomes.
+inline Eigen::Vector3d meanOnGrid(const Eigen::Vector3d& alpha) {
+  constexpr int kCells = 400;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  double total = 0;
+  for (int i = 1; i < kCells; ++i) {
+    for (int j = 1; i + j < kCells; ++j) {
+      const Eigen::Vector3d mu(1. * i / kCells, 1. * j / kCells, 1. * (kCells - i - j) / kCells);
+      const double density = std::exp((alpha.array() - 1).matrix().dot(mu.array().log().matrix()));
+      mean += density * mu;
+      total += density;
+    }
+  }
+  return mean / total;
+}
+
+inline void predictionFits(rex::grading::Check& check, Student& student) {
+  const Eigen::Vector3d alpha = check.rng().uniformVector(3, 2, 6);
+  check.input(fmt::format("alpha = ({:.3f}, {:.3f}, {:.3f})", alpha[0], alpha[1], alpha[2]));
+  check.near("P(next outcome) against the mean of mu on a grid", student.nextOutcome(alpha),
+             meanOnGrid(alpha), 1e-3);
+}

@@ -1,0 +1,401 @@
+#include "grading/check.h"
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "belief_checks.h"
+#include "descent_checks.h"
+#include "interface.h"
+#include "matrix_checks.h"
+
+using namespace rex;
+using grading::Check;
+using grading::Group;
+
+namespace {
+
+void squareEquations(Check& check, Student& student) {
+  for (const int n : {1, 3, 5}) equationAHolds(check, student, n);
+  for (const int n : {1, 2, 4}) equationBHolds(check, student, n, n == 1 ? 1 : 3);
+}
+
+void tallEquations(Check& check, Student& student) {
+  for (const int n : {1, 2, 4}) equationCHolds(check, student, 6, n);
+  for (const int n : {1, 3, 8}) equationDHolds(check, student, 6, n);
+}
+
+void derivatives(Check& check, Student& student) {
+  for (const int n : {1, 2, 4}) derivativeFits(check, student, 3, n);
+}
+
+void minima(Check& check, Student& student) {
+  for (const int n : {1, 3, 5}) minimumIsLeast(check, student, 4, n);
+}
+
+// Part 2.
+
+void descendsBowlAndHole(Check& check, Student& student) {
+  check.forEachCase(8, [&](int i) {
+    Rng& rng = check.rng();
+    const int n = 1 + rng.index(4);
+    const SearchOptions options{.decrease = i < 4 ? 0.01 : 0.3};
+    descends(check, student, i % 2 == 0 ? bowl(rng, n) : hole(rng, n), options);
+  });
+}
+
+void gaussNewtonOnKnownProblems(Check& check, Student& student) {
+  const SearchOptions few{.maxSteps = 40};
+  followsGaussNewton(check, student, affine(check.rng(), 5, 3), {.maxSteps = 1});
+  followsGaussNewton(check, student, curvedValley(check.rng()), few);
+  followsGaussNewton(check, student, arcTangent(check.rng(), 2), few);
+}
+
+// Part 3.
+
+Eigen::Matrix3d pose(const Eigen::Vector2d& move, double angle) {
+  return Eigen::Isometry2d(Eigen::Translation2d(move) * Eigen::Rotation2Dd(angle)).matrix();
+}
+
+Eigen::Matrix3d randomPose(Rng& rng) { return pose(rng.normalVector(2), rng.uniform(-3, 3)); }
+
+void bookAndDot(Check& check, Student& student) {
+  const double root = std::sqrt(2);
+  check.input("the book is moved by (1, 0) and turned by 45 degrees");
+  const Eigen::Matrix3d X_WB = student.bookPose({1, 0}, M_PI / 4);
+  check.shape("X_WB", X_WB, 3, 3);
+  check.near("where the book's origin is", X_WB.topRightCorner(2, 1), Eigen::Vector2d(1, 0), 1e-12, "m");
+  check.near("X_WB (1, 1, 1)", X_WB * Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(1, root, 1), 1e-12, "m");
+  check.near("last row of X_WB", X_WB.row(2), Eigen::RowVector3d(0, 0, 1), 1e-12);
+  check.near("dot p in the world", student.mapped(pose({1, 0}, M_PI / 4), {1, 1}), Eigen::Vector2d(1, root),
+             1e-12, "m");
+  check.near("the book moved without turning it", student.bookPose({2, -3}, 0), pose({2, -3}, 0), 1e-12);
+}
+
+void backAndRelative(Check& check, Student& student, const Eigen::Matrix3d& X_WA,
+                     const Eigen::Matrix3d& X_WB) {
+  check.near("X_WB times its inverse", X_WB * student.inverted(X_WB), Eigen::Matrix3d::Identity(), 1e-11);
+  check.near("X_WA times X_AB, seen from A", X_WA * student.seenFrom(X_WA, X_WB), X_WB, 1e-11);
+}
+
+void frames(Check& check, Student& student) {
+  check.input("the book of the script");
+  const Eigen::Vector3d x_B = student.inverted(pose({1, 0}, M_PI / 4)) * Eigen::Vector3d(0, 1, 1);
+  check.near("point x in the book's frame", x_B, Eigen::Vector3d(0, std::sqrt(2), 1), 1e-12, "m");
+  for (int i = 0; i < 5; ++i) {
+    check.input("two random frames A and B");
+    backAndRelative(check, student, randomPose(check.rng()), randomPose(check.rng()));
+  }
+}
+
+// Part 4.
+
+// Exact fractions: all counts over one common denominator.
+void fruitOf(Check& check, Student& student, const std::vector<int>& apples,
+             const std::vector<int>& oranges) {
+  check.input(
+      fmt::format("boxes with {} apples and {} oranges", fmt::join(apples, ", "), fmt::join(oranges, ", ")));
+  const std::size_t boxes = apples.size();
+  std::int64_t all = 1, sum = 0;
+  for (std::size_t i = 0; i < boxes; ++i) all *= apples[i] + oranges[i];
+  std::vector<std::int64_t> share(boxes);
+  for (std::size_t i = 0; i < boxes; ++i) sum += share[i] = all / (apples[i] + oranges[i]) * apples[i];
+  const Fruit fruit = student.fruitBoxes(apples, oranges);
+  const int n = static_cast<int>(boxes);
+  check.shape("P(box | apple)", fruit.boxGivenApple, n, 1);
+  check.near("P(apple)", fruit.apple, static_cast<double>(sum) / static_cast<double>(all * n), 1e-12);
+  for (int i = 0; i < n; ++i) {
+    check.near("P(box | apple)", fruit.boxGivenApple[i],
+               static_cast<double>(share[static_cast<std::size_t>(i)]) / static_cast<double>(sum), 1e-12);
+  }
+}
+
+// All that can happen, one by one: your box is number 0, bits say which boxes the host opens.
+double chanceOfSwapping(int boxes, int opened) {
+  double chance = 0;
+  for (int prize = 0; prize < boxes; ++prize) {
+    int ways = 0;
+    double wins = 0;
+    for (unsigned open = 0; open < (1u << boxes); ++open) {
+      if (std::popcount(open) != opened || (open & 1u) != 0 || (open >> prize & 1u) != 0) continue;
+      ++ways;
+      for (int taken = 1; taken < boxes; ++taken) {
+        if (taken == prize) wins += 1. / (boxes - 1 - opened);
+      }
+    }
+    chance += wins / ways / boxes;
+  }
+  return chance;
+}
+
+void doorsOf(Check& check, Student& student, int boxes, int opened) {
+  check.input(fmt::format("{} boxes, the host opens {}", boxes, opened));
+  const Doors doors = student.montyHall(boxes, opened);
+  check.near("P(prize) for who stays", doors.stay, 1. / boxes, 1e-12);
+  check.near("P(prize) for who swaps", doors.swap, chanceOfSwapping(boxes, opened), 1e-12);
+}
+
+void tableOf(Check& check, Student& student, const Eigen::MatrixXd& P_XY, bool independent) {
+  check.input(sizes(independent ? "a table of independent X and Y" : "a table of dependent X and Y",
+                    static_cast<int>(P_XY.rows()), static_cast<int>(P_XY.cols())));
+  const TableAnswers answers = student.jointTable(P_XY);
+  const Eigen::Index rows = P_XY.rows(), cols = P_XY.cols();
+  check.near("P(X)", answers.PX, P_XY * Eigen::VectorXd::Ones(cols), 1e-12);
+  check.near("P(Y)", answers.PY, P_XY.transpose() * Eigen::VectorXd::Ones(rows), 1e-12);
+  check.shape("P(X | Y)", answers.XGivenY, rows, cols);
+  check.near("sums of the columns of P(X | Y)", answers.XGivenY.colwise().sum(),
+             Eigen::RowVectorXd::Ones(cols), 1e-12);
+  for (Eigen::Index y = 0; y < cols; ++y) {
+    check.near("P(X | Y) P(Y) against the table", answers.XGivenY.col(y) * answers.PY[y], P_XY.col(y), 1e-12);
+  }
+  check.that("whether X and Y are independent is told right", answers.independent == independent);
+}
+
+void boxesAndDoors(Check& check, Student& student) {
+  fruitOf(check, student, {8, 10}, {4, 2});
+  fruitOf(check, student, {1, 3}, {1, 9});
+  doorsOf(check, student, 3, 1);
+  doorsOf(check, student, 10, 8);
+}
+
+void tables(Check& check, Student& student) {
+  tableOf(check, student, (Eigen::MatrixXd(2, 2) << .06, .24, .14, .56).finished(), true);
+  tableOf(check, student, (Eigen::MatrixXd(2, 3) << .1, .2, .1, .3, .1, .2).finished(), false);
+}
+
+// Part 5.
+
+void products(Check& check, Student& student) {
+  for (const int n : {1, 2, 3}) productFits(check, student, n);
+}
+
+void propagations(Check& check, Student& student) {
+  propagationFitsSamples(check, student, 1, 1);
+  propagationFitsSamples(check, student, 2, 2);
+  propagationFitsSamples(check, student, 3, 2);
+}
+
+void conjugates(Check& check, Student& student) {
+  betaFits(check, student, 12);
+  dirichletFits(check, student, 3, 15);
+  for (int i = 0; i < 2; ++i) predictionFits(check, student);
+}
+
+// <hidden>
+void equationsOfAnySize(Check& check, Student& student) {
+  check.forEachCase(18, [&](int i) {
+    const int d = 1 + check.rng().index(12), n = 1 + check.rng().index(12);
+    const int least = std::min(d, n), most = std::max(d, n);
+    if (i % 6 == 0) equationAHolds(check, student, d);
+    if (i % 6 == 1) equationBHolds(check, student, d, n);
+    if (i % 6 == 2) equationCHolds(check, student, most + 1, least);
+    if (i % 6 == 3) equationDHolds(check, student, d, n);
+    if (i % 6 == 4) derivativeFits(check, student, d, n);
+    if (i % 6 == 5) minimumIsLeast(check, student, d, n);
+  });
+}
+
+// c^T x - sum ln(1 - x_i^2): infinite outside of a cube.
+Landscape barrier(Rng& rng, int n) {
+  const Eigen::VectorXd c = rng.uniformVector(n, -3, 3);
+  return {"a function that is infinite outside of a cube",
+          [=](const Eigen::VectorXd& x) {
+            if (x.cwiseAbs().maxCoeff() >= 1) return std::numeric_limits<double>::infinity();
+            return c.dot(x) - (1 - x.array().square()).log().sum();
+          },
+          [=](const Eigen::VectorXd& x) {
+            return Eigen::VectorXd(c.array() + 2 * x.array() / (1 - x.array().square()));
+          },
+          rng.uniformVector(n, -0.9, 0.9)};
+}
+
+Landscape valleyFloor(Rng& rng) {
+  const Residuals valley = curvedValley(rng);
+  return {
+      "the sum of squares of " + valley.name,
+      [=](const Eigen::VectorXd& x) { return valley.phi(x).squaredNorm(); },
+      [=](const Eigen::VectorXd& x) { return Eigen::VectorXd(2 * valley.J(x).transpose() * valley.phi(x)); },
+      valley.start};
+}
+
+void descendsElsewhere(Check& check, Student& student) {
+  const Landscape known = bowl(check.rng(), 3);
+  check.near("number of points of a path that starts at the minimum",
+             static_cast<double>(
+                 student.gradientDescent(known.f, known.gradient, known.start, {.tolerance = 1e9}).size()),
+             1, 0);
+  check.forEachCase(10, [&](int i) {
+    Rng& rng = check.rng();
+    SearchOptions options{.shrink = rng.uniform(0.3, 0.7),
+                          .grow = rng.uniform(1.2, 2),
+                          .decrease = rng.uniform(0.01, 0.4),
+                          .maxSteps = 20000};
+    if (i < 4) return descends(check, student, barrier(rng, 1 + rng.index(6)), options);
+    if (i < 7) return descends(check, student, bowl(rng, 6 + rng.index(6)), options);
+    descends(check, student, valleyFloor(rng), options);
+  });
+}
+
+// Distances to beacons on the corners of a cube: where is the receiver?
+Residuals beacons(Rng& rng) {
+  std::vector<Eigen::Vector3d> places;
+  for (int i = 0; i < 8; ++i) places.emplace_back(i & 1 ? 2 : -2, i & 2 ? 2 : -2, i & 4 ? 2 : -2);
+  const Eigen::Vector3d truth = rng.uniformVector(3, -1, 1);
+  Eigen::VectorXd measured = 0.05 * rng.normalVector(8);
+  for (int i = 0; i < 8; ++i) measured[i] += (truth - places[static_cast<std::size_t>(i)]).norm();
+  return {"distances to eight beacons",
+          [=](const Eigen::VectorXd& x) {
+            Eigen::VectorXd phi = -measured;
+            for (int i = 0; i < 8; ++i) phi[i] += (x - places[static_cast<std::size_t>(i)]).norm();
+            return phi;
+          },
+          [=](const Eigen::VectorXd& x) {
+            Eigen::MatrixXd J(8, 3);
+            for (int i = 0; i < 8; ++i)
+              J.row(i) = (x - places[static_cast<std::size_t>(i)]).normalized().transpose();
+            return J;
+          },
+          rng.uniformVector(3, -1, 1)};
+}
+
+// a exp(-b t) through noisy samples.
+Residuals decay(Rng& rng) {
+  const Eigen::ArrayXd t = Eigen::ArrayXd::LinSpaced(15, 0, 3);
+  const Eigen::ArrayXd y =
+      rng.uniform(1, 3) * (-rng.uniform(0.5, 1.5) * t).exp() + 0.02 * rng.normalVector(15).array();
+  return {"a exp(-b t) through fifteen samples",
+          [=](const Eigen::VectorXd& x) { return Eigen::VectorXd(x[0] * (-x[1] * t).exp() - y); },
+          [=](const Eigen::VectorXd& x) {
+            Eigen::MatrixXd J(15, 2);
+            J.col(0) = (-x[1] * t).exp();
+            J.col(1) = -x[0] * t * (-x[1] * t).exp();
+            return J;
+          },
+          Eigen::Vector2d(rng.uniform(0.5, 4), rng.uniform(0.2, 2))};
+}
+
+void gaussNewtonElsewhere(Check& check, Student& student) {
+  check.forEachCase(9, [&](int i) {
+    Rng& rng = check.rng();
+    const SearchOptions options{.shrink = 0.4, .decrease = rng.uniform(0.01, 0.3), .maxSteps = 100};
+    const Residuals problem = i % 3 == 0 ? beacons(rng) : i % 3 == 1 ? decay(rng) : arcTangent(rng, 4);
+    followsGaussNewton(check, student, problem, options);
+  });
+}
+
+void framesElsewhere(Check& check, Student& student) {
+  check.forEachCase(10, [&](int) {
+    Rng& rng = check.rng();
+    const Eigen::Vector2d move = rng.normalVector(2), p_B = rng.normalVector(2);
+    const double angle = rng.uniform(-7, 7);
+    const Eigen::Matrix3d X_WA = randomPose(rng), X_WB = pose(move, angle);
+    check.near("pose of the book", student.bookPose(move, angle), X_WB, 1e-11);
+    check.near("point of the book in the world", student.mapped(X_WB, p_B),
+               (X_WB * p_B.homogeneous()).eval().head(2), 1e-11, "m");
+    backAndRelative(check, student, X_WA, X_WB);
+  });
+}
+
+void bayesElsewhere(Check& check, Student& student) {
+  check.forEachCase(12, [&](int i) {
+    Rng& rng = check.rng();
+    if (i < 4) {
+      std::vector<int> apples = {1 + rng.index(9)}, oranges = {rng.index(9)};
+      for (int box = rng.index(5); box >= 0; --box) {
+        apples.push_back(rng.index(9));
+        oranges.push_back(1 + rng.index(9));
+      }
+      fruitOf(check, student, apples, oranges);
+    } else if (i < 8) {
+      const int boxes = 3 + rng.index(7);
+      doorsOf(check, student, boxes, 1 + rng.index(boxes - 2));
+    } else {
+      const int rows = 2 + rng.index(4), cols = 2 + rng.index(4);
+      const Eigen::VectorXd px = rng.uniformVector(rows, 0.2, 1), py = rng.uniformVector(cols, 0.2, 1);
+      Eigen::MatrixXd P_XY = px * py.transpose();
+      // Keeps both marginals, so only the table itself shows that X and Y depend on each other.
+      const double change = i % 2 == 0 ? 0 : 0.02;
+      P_XY.topLeftCorner(2, 2) += change * (Eigen::Matrix2d() << 1, -1, -1, 1).finished();
+      tableOf(check, student, P_XY / P_XY.sum(), i % 2 == 0);
+    }
+  });
+}
+
+// The integral of slide 6:28, summed over a fine grid, at some x.
+void propagationFitsIntegral(Check& check, Student& student) {
+  Rng& rng = check.rng();
+  const auto density = [](double x, double mean, double var) {
+    return std::exp(-0.5 * (x - mean) * (x - mean) / var) / std::sqrt(2 * M_PI * var);
+  };
+  const double b = rng.normal(), B = rng.uniform(0.3, 2), a = rng.normal(), F = rng.uniform(0.5, 2),
+               A = rng.uniform(0.3, 2);
+  const auto number = [](double x) { return Eigen::MatrixXd::Constant(1, 1, x).eval(); };
+  const GaussianBelief x = student.propagated({number(b), number(B)}, number(a), number(F), number(A));
+  checkGaussian(check, x, 1);
+  const double deviation = std::sqrt(B), width = 0.01 * deviation;
+  for (double at = a + F * b - 3; at <= a + F * b + 3; at += 1) {
+    double sum = 0;
+    for (int i = -1000; i <= 1000; ++i) {
+      const double y = b + i * width;
+      sum += width * density(at, a + F * y, A) * density(y, b, B);
+    }
+    check.near("density of x against the integral", density(at, x.mean[0], x.cov(0, 0)), sum, 1e-8);
+  }
+}
+
+void beliefsElsewhere(Check& check, Student& student) {
+  check.forEachCase(15, [&](int i) {
+    Rng& rng = check.rng();
+    if (i % 5 == 0) productFits(check, student, 1 + rng.index(8));
+    if (i % 5 == 1) propagationFitsIntegral(check, student);
+    if (i % 5 == 2) propagationFitsSamples(check, student, 1 + rng.index(5), 1 + rng.index(5));
+    if (i % 5 == 3) betaFits(check, student, rng.index(40));
+    if (i % 5 == 4) dirichletFits(check, student, 2 + rng.index(6), rng.index(40));
+  });
+}
+// </hidden>
+
+}  // namespace
+
+grading::Checks<Student> checks() {
+  return {
+      {"square-equations", "matrices", "equations a and b hold", 1, Group::visible, squareEquations},
+      {"tall-equations", "matrices", "equations c and d hold", 1, Group::visible, tallEquations},
+      {"derivative", "matrices", "the derivative of f^T C g", 1, Group::visible, derivatives},
+      {"minimum", "matrices", "the quadratic minimum", 1, Group::visible, minima},
+      // <hidden>
+      {"any-size", "matrices", "equations, derivative and minimum of any size", 1, Group::hidden,
+       equationsOfAnySize},
+      // </hidden>
+      {"descent", "optimisation", "gradient descent in a bowl and a hole", 2, Group::visible,
+       descendsBowlAndHole},
+      {"gauss-newton", "optimisation", "Gauss-Newton on three sums of squares", 1, Group::visible,
+       gaussNewtonOnKnownProblems},
+      // <hidden>
+      {"descent-elsewhere", "optimisation", "gradient descent on other functions", 1, Group::hidden,
+       descendsElsewhere},
+      {"gauss-newton-elsewhere", "optimisation", "Gauss-Newton on other sums of squares", 1, Group::hidden,
+       gaussNewtonElsewhere},
+      // </hidden>
+      {"book", "book", "the book of the script and its dot", 1, Group::visible, bookAndDot},
+      {"frames", "book", "the way back, and one frame seen from another", 1, Group::visible, frames},
+      // <hidden>
+      {"frames-elsewhere", "book", "other books and frames", 1, Group::hidden, framesElsewhere},
+      // </hidden>
+      {"boxes", "bayes", "the boxes with fruit and the boxes with a prize", 1, Group::visible, boxesAndDoors},
+      {"table", "bayes", "the joint table", 1, Group::visible, tables},
+      // <hidden>
+      {"bayes-elsewhere", "bayes", "other boxes, doors and tables", 1, Group::hidden, bayesElsewhere},
+      // </hidden>
+      {"product", "beliefs", "the product of two Gaussians", 1, Group::visible, products},
+      {"propagation", "beliefs", "a Gaussian sent through a linear map", 1, Group::visible, propagations},
+      {"conjugate", "beliefs", "Beta and Dirichlet beliefs and predictions", 1, Group::visible, conjugates},
+      // <hidden>
+      {"beliefs-elsewhere", "beliefs", "other beliefs", 1, Group::hidden, beliefsElsewhere},
+      // </hidden>
+  };
+}

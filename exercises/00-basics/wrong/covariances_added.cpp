@@ -1,0 +1,7 @@
+// caught by: product, beliefs-elsewhere
+// mistake: Adds covariances instead of precisions: two sources of knowledge would tell less than one.
+
+// <solution product>
+const Eigen::MatrixXd precisionP = inverse(p.cov), precisionQ = inverse(q.cov);
+return {inverse(precisionP + precisionQ) * (precisionP * p.mean + precisionQ * q.mean), p.cov + q.cov};
+// </solution>
