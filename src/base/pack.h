@@ -46,6 +46,18 @@ struct Pack {
   friend Mask operator>=(Pack a, Pack b) { return a.numbers >= b.numbers; }
 };
 
+/// A number in so many lanes: a double or a Pack.
+template <int kLanes>
+struct InLanesType {
+  using Type = Pack<kLanes>;
+};
+template <>
+struct InLanesType<1> {
+  using Type = double;
+};
+template <int kLanes>
+using InLanes = typename InLanesType<kLanes>::Type;
+
 /// How many lanes a T has.
 template <class T>
 inline constexpr int kLanesOf = sizeof(T) / sizeof(double);

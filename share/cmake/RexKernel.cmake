@@ -1,0 +1,16 @@
+# rex_kernel(TARGET kernel.cpp ...)
+#
+# Compiles kernels (see src/base/pack.h), all that TARGET has, three times, with REX_LANES = 1, 2 and 4: the first two
+# for every x86-64, the last for AVX2, and without FMA, so that all give the same bits. src/base/cpu_lanes.h chooses.
+# Headers of Eigen are out of reach: of a template the linker might keep the copy that needs AVX2.
+function(rex_kernel target)
+  foreach(lanes 1 2 4)
+    set(objects ${target}_${lanes}_lanes)
+    add_library(${objects} OBJECT ${ARGN})
+    target_include_directories(${objects} PRIVATE ${PROJECT_SOURCE_DIR}/src ${CMAKE_CURRENT_SOURCE_DIR})
+    target_compile_definitions(${objects} PRIVATE REX_LANES=${lanes})
+    target_compile_options(${objects} PRIVATE ${REX_WARNINGS})
+    target_sources(${target} PRIVATE $<TARGET_OBJECTS:${objects}>)
+  endforeach()
+  target_compile_options(${target}_4_lanes PRIVATE -mavx2)
+endfunction()

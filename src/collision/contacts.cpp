@@ -1,0 +1,87 @@
+#include "collision/contacts.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "collision/contact_data_internal.h"
+#include "kinematics/jacobians.h"
+
+namespace rex {
+namespace {
+
+void requireMargin(double margin) {
+  if (!(margin > 0)) {
+    throw Error({.what = "margin of contact costs",
+                 .found = fmt::format("{} m", margin),
+                 .wanted = "a positive length"});
+  }
+}
+
+Eigen::Vector3d inBody(const Pose& X_WB, const Eigen::Vector3d& p_W) {
+  return X_WB.R.transpose() * (p_W - X_WB.p);
+}
+
+// Adds weight times the derivative of the pair's distance to `row` (1 x nv); J is storage for 3 x nv numbers.
+void addDistanceDerivative(const Model& model, const BodyPoses& poses, const Proxy& proxy,
+                           const ContactModel& contacts, double weight, Eigen::Matrix3Xd& J,
+                           Eigen::MatrixXd& row) {
+  J.resize(3, model.nv());
+  const Eigen::RowVector3d direction = weight * proxy.proximity.normal_W.transpose();
+  const BodyId a = contacts.body(proxy.pair.a), b = contacts.body(proxy.pair.b);
+  positionJacobian(model, poses, a, inBody(poses[a], proxy.proximity.p_WA), J);
+  row.noalias() += direction * J;
+  positionJacobian(model, poses, b, inBody(poses[b], proxy.proximity.p_WB), J);
+  row.noalias() -= direction * J;
+}
+
+double costOf(const Proxy& proxy, double margin) {
+  return std::max(0., 1 - proxy.proximity.distance / margin);
+}
+
+}  // namespace
+
+std::vector<Proxy> proxies(const ContactModel& contacts, const BodyPoses& poses, double cutoff) {
+  const ContactModel::Data& data = contacts.data();
+  std::vector<Proxy> near;
+  for (const ShapePair& pair : data.pairs) {
+    const ContactShape& a = data.shapes[static_cast<std::size_t>(pair.a)];
+    const ContactShape& b = data.shapes[static_cast<std::size_t>(pair.b)];
+    const Pose X_WA = poses[a.body] * a.X_BS, X_WB = poses[b.body] * b.X_BS;
+    if ((X_WA.p - X_WB.p).norm() - a.reach - b.reach >= cutoff) continue;
+    const Proxy proxy{pair, proximity(a.shape, X_WA, b.shape, X_WB)};
+    if (proxy.proximity.distance < cutoff) near.push_back(proxy);
+  }
+  return near;
+}
+
+Eigen::RowVectorXd distanceJacobian(const Model& model, const BodyPoses& poses, const Proxy& proxy,
+                                    const ContactModel& contacts) {
+  Eigen::MatrixXd row = Eigen::MatrixXd::Zero(1, model.nv());
+  Eigen::Matrix3Xd J;
+  addDistanceDerivative(model, poses, proxy, contacts, 1, J, row);
+  return row;
+}
+
+double contactCost(const ContactModel& contacts, const BodyPoses& poses, double margin) {
+  requireMargin(margin);
+  double cost = 0;
+  for (const Proxy& proxy : proxies(contacts, poses, margin)) cost += costOf(proxy, margin);
+  return cost;
+}
+
+TaskMap contactTask(ContactModel contacts, double margin) {
+  requireMargin(margin);
+  return [contacts = std::move(contacts), margin, J = Eigen::Matrix3Xd()](const Posture& at,
+                                                                          TaskValue& value) mutable {
+    value.y.setZero(1);
+    value.J.setZero(1, at.model.nv());
+    for (const Proxy& proxy : proxies(contacts, at.poses, margin)) {
+      value.y[0] += costOf(proxy, margin);
+      addDistanceDerivative(at.model, at.poses, proxy, contacts, -1 / margin, J, value.J);
+    }
+  };
+}
+
+}  // namespace rex
