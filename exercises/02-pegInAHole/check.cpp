@@ -154,8 +154,8 @@ struct Circle {
 const Circle kCircle{"handR", kTarget, 0.2, "handL"};
 
 Motion circleOf(Check& check, Student& student, const Simulator& S, const Circle& circle, int T) {
-  const Motion motion = student.circleWithTasks(S.description(), circle.hand, circle.center, circle.radius,
-                                                circle.pointing, T);
+  const Motion motion =
+      student.circleWithTasks(S.description(), circle.hand, circle.center, circle.radius, circle.pointing, T);
   checkPostures(check, motion, T, S.getJointDimension());
   return motion;
 }
@@ -187,7 +187,7 @@ void staysAtHome(Check& check, const Simulator& S, const Motion& motion) {
   const double away = largest(S, motion, 1, [&](const Simulator& moved, int) {
     return (moved.getJointAngles() - home).cwiseAbs().maxCoeff();
   });
-  check.atMost("largest angle between a joint and its place at home", away, 1.5, "rad");
+  check.atMost("largest angle between a joint and its place at home", away, 2.2, "rad");
 }
 
 void pointsUpwards(Check& check, const Simulator& S, const Circle& circle, const Motion& motion) {
@@ -253,6 +253,23 @@ void interpolates(Check& check, Student& student) {
   }
 }
 
+constexpr double kMargin = 0.02;
+const Eigen::Vector3d kHole(0, -1, 1);
+// The peg above the hole, but the elbow so near the frame that it touches unless it is kept away.
+const Eigen::VectorXd kAbove =
+    (Eigen::VectorXd(7) << 0.967552, -0.251879, -1.18846, 1.4825, 1.42033, 0.215273, -2.64193).finished();
+// Bent, away from the hole; small steps lead from here to postures with room for the elbow.
+const Eigen::VectorXd kStart = 0.6 * kAbove;
+
+// An arm with a peg, a hole, and where to start.
+struct Scene {
+  Simulator S;
+  std::string peg;
+  Eigen::Vector3d hole;
+};
+
+Scene pegInAHole(const Eigen::VectorXd& q) { return {at(Simulator("pegInAHole.ors"), q), "peg", kHole}; }
+
 // The least distance of two shapes that may collide, metres; 0.5 where it is more.
 double clearance(const Model& model, const ContactModel& contacts, const Eigen::VectorXd& q) {
   double least = kQueryCutoff;
@@ -261,7 +278,7 @@ double clearance(const Model& model, const ContactModel& contacts, const Eigen::
   return least;
 }
 
-void clearanceIsKept(Check& check, const Simulator& S, const Motion& motion, double margin) {
+void clearanceIsKept(Check& check, const Simulator& S, const Motion& motion) {
   const ContactModel contacts(S.model());
   Eigen::VectorXd before = S.getJointAngles();
   double least = kQueryCutoff;
@@ -270,63 +287,106 @@ void clearanceIsKept(Check& check, const Simulator& S, const Motion& motion, dou
       least = std::min(least, clearance(S.model(), contacts, before + i / 10. * (q - before)));
     before = q;
   }
-  check.atLeast("least clearance along the motion", least, 0.5 * margin, "m");
+  check.atLeast("least clearance along the motion", least, 0.5 * kMargin, "m");
 }
 
-void pegIsAt(Check& check, const Simulator& S, const Eigen::VectorXd& q, const Eigen::Vector3d& place,
-             const Eigen::Vector3d& direction) {
-  const Simulator there = at(S, q);
-  check.atMost("distance of the peg from its place", (there.kinematicsPos("peg") - place).norm(), 1e-3, "m");
-  check.atMost("|z axis of the peg - its direction|", (there.kinematicsVec("peg") - direction).norm(), 0.01);
+void pegIsAt(Check& check, const Scene& scene, const Eigen::VectorXd& q, const Eigen::Vector3d& place,
+             const Eigen::Vector3d& direction, double slack = 1) {
+  const Simulator there = at(scene.S, q);
+  check.atMost("distance of the peg from its place", (there.kinematicsPos(scene.peg) - place).norm(),
+               1e-3 * slack, "m");
+  check.atMost("|z axis of the peg - its direction|", (there.kinematicsVec(scene.peg) - direction).norm(),
+               0.01 * slack);
 }
 
-constexpr double kMargin = 0.02;
-const Eigen::Vector3d kHole(0, -1, 1);
-
-void postureIsRight(Check& check, Student& student, const Simulator& S, const Eigen::Vector3d& place,
-                    const Eigen::Vector3d& direction) {
-  const Eigen::VectorXd q = student.pegPosture(S.description(), "peg", place, direction, kMargin);
-  check.shape("posture", q, S.getJointDimension(), 1);
-  pegIsAt(check, S, q, place, direction);
-  check.atLeast("clearance", clearance(S.model(), ContactModel(S.model()), q), 0.5 * kMargin, "m");
+void postureIsRight(Check& check, Student& student, const Scene& scene, const Eigen::Vector3d& place) {
+  const Eigen::VectorXd q = student.pegPosture(scene.S.description(), scene.peg, place, kDown, kMargin);
+  check.shape("posture", q, scene.S.getJointDimension(), 1);
+  pegIsAt(check, scene, q, place, kDown);
+  const Model& model = scene.S.model();
+  check.atLeast("clearance", clearance(model, ContactModel(model), q), 0.5 * kMargin, "m");
 }
 
-// The peg goes from its place in S straight to `place` in T steps.
-void movesStraight(Check& check, Student& student, const Simulator& S, const Eigen::Vector3d& place, int T) {
-  const Eigen::Vector3d start = S.kinematicsPos("peg"), direction = S.kinematicsVec("peg");
-  const Motion motion = student.taskSpaceMotion(S.description(), "peg", place, kMargin, T);
-  checkPostures(check, motion, T, S.getJointDimension());
+void postureAboveAndIn(Check& check, Student& student) {
+  check.input("pegInAHole.ors, arm bent, place (0, -1, 1.6) above the hole, downwards");
+  postureIsRight(check, student, pegInAHole(kStart), kHole - 0.6 * kDown);
+  check.input("pegInAHole.ors, peg above the hole, place (0, -1, 1) in the hole, downwards");
+  postureIsRight(check, student, pegInAHole(kAbove), kHole);
+}
+
+// The peg goes from its place straight into the hole.
+void movesStraight(Check& check, Student& student) {
+  const int T = 150;
+  const Scene scene = pegInAHole(kAbove);
+  check.input("pegInAHole.ors, from above the hole to (0, -1, 1) in 150 steps");
+  const Eigen::Vector3d start = scene.S.kinematicsPos("peg"), direction = scene.S.kinematicsVec("peg");
+  const Motion motion = student.taskSpaceMotion(scene.S.description(), "peg", kHole, kMargin, T);
+  checkPostures(check, motion, T, scene.S.getJointDimension());
   for (int t = 1; t <= T; ++t) {
     const double share = (1 - std::cos(std::numbers::pi * t / T)) / 2;
-    pegIsAt(check, S, motion[static_cast<std::size_t>(t) - 1], start + share * (place - start), direction);
+    pegIsAt(check, scene, motion[static_cast<std::size_t>(t) - 1], start + share * (kHole - start), direction,
+            t < T ? 5 : 1);
   }
-  clearanceIsKept(check, S, motion, kMargin);
+  clearanceIsKept(check, scene.S, motion);
 }
 
-void goesIn(Check& check, Student& student, const Simulator& S, const Eigen::Vector3d& inside,
-            const Eigen::Vector3d& direction) {
-  const Motion motion = student.insertPeg(S.description(), "peg", inside, direction, kMargin);
+void goesIn(Check& check, Student& student, const Scene& scene) {
+  const Motion motion = student.insertPeg(scene.S.description(), scene.peg, scene.hole, kDown, kMargin);
   check.atLeast("number of postures", static_cast<double>(motion.size()), 10);
   check.atMost("number of postures", static_cast<double>(motion.size()), 1000);
-  Eigen::VectorXd before = S.getJointAngles();
+  Eigen::VectorXd before = scene.S.getJointAngles();
   double widest = 0;
   for (const Eigen::VectorXd& q : motion) {
-    check.shape("posture", q, S.getJointDimension(), 1);
+    check.shape("posture", q, scene.S.getJointDimension(), 1);
     widest = std::max(widest, (q - before).cwiseAbs().maxCoeff());
     before = q;
   }
   check.atMost("largest turn of a joint from one posture to the next", widest, 0.1, "rad");
-  pegIsAt(check, S, motion.back(), inside, direction);
-  clearanceIsKept(check, S, motion, kMargin);
+  pegIsAt(check, scene, motion.back(), scene.hole, kDown);
+  clearanceIsKept(check, scene.S, motion);
 }
 
-void finalPosture(Check& check, Student& student) {
-  const Simulator S("pegInAHole.ors");
-  check.input("pegInAHole.ors at q = 0, place (0, -1, 1.6) above the hole, downwards");
-  postureIsRight(check, student, S, kHole - 0.6 * kDown, kDown);
-  check.input("pegInAHole.ors at q = 0, place (0, -1, 1) in the hole, downwards");
-  postureIsRight(check, student, S, kHole, kDown);
+void goesIntoTheHole(Check& check, Student& student) {
+  check.input("pegInAHole.ors, arm bent, into the hole at (0, -1, 1) downwards");
+  goesIn(check, student, pegInAHole(kStart));
 }
+
+// <hidden>
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  for (std::size_t place = text.find(what); place != std::string::npos;
+       place = text.find(what, place + by.size()))
+    text.replace(place, what.size(), by);
+  return text;
+}
+
+// Another hole, a thicker rod instead of the peg, another start.
+Scene anotherHole(Rng& rng) {
+  SimulatorDescription description = Simulator("pegInAHole.ors").description();
+  const Eigen::Vector3d hole = kHole + rng.uniformVector(3, -0.08, 0.08);
+  const auto number = [](double x) { return std::to_string(x); };
+  const std::string place = number(hole.x()) + " " + number(hole.y()) + " " + number(hole.z());
+  description.sceneText = replaced(description.sceneText, "t(0 -1 1)", "t(" + place + ")");
+  description.sceneText = replaced(description.sceneText, "[0 0 0.6 0.05]", "[0 0 0.6 0.06]");
+  description.sceneText = replaced(description.sceneText, "peg", "rod");
+  description.q = kStart + rng.uniformVector(7, -0.1, 0.1);
+  const Simulator S(description);
+  return {S, "rod", S.kinematicsPos("hole")};
+}
+
+void anotherPegAndHole(Check& check, Student& student) {
+  check.forEachCase(4, [&](int i) {
+    const Scene other = anotherHole(check.rng());
+    if (i < 2) {
+      goesIn(check, student, other);
+    } else if (i == 2) {
+      postureIsRight(check, student, other, other.hole - 0.6 * kDown);
+    } else {
+      const Eigen::VectorXd near = kAbove + check.rng().uniformVector(7, -0.02, 0.02);
+      postureIsRight(check, student, pegInAHole(near), kHole);
+    }
+  });
+}
+// </hidden>
 
 // Part 4.
 
@@ -358,9 +418,10 @@ Eigen::VectorXd stepOf(Check& check, Student& student, const TwoTasks& tasks) {
 
 void firstIsFulfilled(Check& check, const TwoTasks& tasks, const Eigen::VectorXd& dq) {
   const Eigen::VectorXd missing = tasks.J1.transpose() * (tasks.J1 * dq - tasks.dy1);
-  check.atMost("gradient of the error of the first task, relative",
-               missing.norm() / (tasks.J1.squaredNorm() * dq.norm() + (tasks.J1.transpose() * tasks.dy1).norm()),
-               1e-7);
+  check.atMost(
+      "gradient of the error of the first task, relative",
+      missing.norm() / (tasks.J1.squaredNorm() * dq.norm() + (tasks.J1.transpose() * tasks.dy1).norm()),
+      1e-7);
 }
 
 void secondIsAsGoodAsItCan(Check& check, const TwoTasks& tasks, const Eigen::VectorXd& dq) {
@@ -419,8 +480,7 @@ void circlesUndisturbed(Check& check, Student& student) {
     tasks.dy2 << start - S.kinematicsPos("handR"), kUp - S.kinematicsVec("handR");
     tasks.dy2 *= 0.1;
     S.setJointAngles(S.getJointAngles() + stepOf(check, student, tasks));
-    if (t >= 20)
-      error = std::max(error, (S.kinematicsPos("handR") - wanted).norm());
+    if (t >= 20) error = std::max(error, (S.kinematicsPos("handR") - wanted).norm());
   }
   check.atMost("largest distance of the hand from the point on the circle", error, 2e-3, "m");
   check.atMost("|z axis of the hand - up| in the end", (S.kinematicsVec("handR") - kUp).norm(), 0.05);
@@ -466,7 +526,15 @@ grading::Checks<Student> checks() {
       // </hidden>
       {"interpolation", "peg", "joint-space interpolation with the sine profile", 1, Group::visible,
        interpolates},
-      {"peg-posture", "peg", "postures above the hole and in it", 1, Group::visible, finalPosture},
+      {"peg-posture", "peg", "postures above the hole and in it", 1, Group::visible, postureAboveAndIn},
+      {"peg-straight", "peg", "the peg moves straight into the hole and touches nothing", 1, Group::visible,
+       movesStraight},
+      {"peg-insert", "peg", "the whole way into the hole, and between the postures", 2, Group::visible,
+       goesIntoTheHole},
+      // <hidden>
+      {"peg-other-hole", "peg", "another peg, another hole, another start", 2, Group::hidden,
+       anotherPegAndHole},
+      // </hidden>
       {"priority-first", "priority", "the second task never disturbs the first", 1, Group::visible,
        firstComesFirst},
       {"priority-second", "priority", "the second task gets all that the first leaves", 1, Group::visible,

@@ -6,7 +6,8 @@
 #include "course/course.h"
 
 // The functions you complete in main.cpp. n is the number of joint angles of the robot in S; positions are
-// metres in the world frame, directions unit vectors in it, angles radians. Slides are named as chapter:number.
+// metres in the world frame, directions unit vectors in it, angles radians. Slides are named as
+// chapter:number.
 
 // Part 1, one task and its nullspace (12.4.1).
 
@@ -58,16 +59,17 @@ std::vector<Eigen::VectorXd> jointSpaceMotion(const Eigen::VectorXd& q0, const E
 Eigen::VectorXd pegPosture(rex::Simulator& S, const std::string& peg, const Eigen::Vector3d& place,
                            const Eigen::Vector3d& direction, double margin);
 
-/// Task-space interpolation (2:42): in T steps the peg moves from where it is to `place`, on the straight line
-/// with the sine profile (within 1 mm at each step), keeps the direction it starts with (within 0.01), and a
-/// clearance of at least margin / 2. Moves S, and returns q_1, ..., q_T.
+/// Task-space interpolation (2:42): in T steps the peg moves from where it is to `place`, on the straight
+/// line with the sine profile (within 5 mm at each step, 1 mm at the last), in the direction that it has at
+/// the start (within 0.05, then 0.01), with a clearance of at least margin / 2 all the way, as it has at the
+/// start. Moves S, and returns q_1, ..., q_T.
 std::vector<Eigen::VectorXd> taskSpaceMotion(rex::Simulator& S, const std::string& peg,
                                              const Eigen::Vector3d& place, double margin, int T);
 
-/// From the posture of S into the hole: postures one after the other, the last with `peg` at `inside`,
-/// pointing along `direction`, both as exact as in pegPosture. On the straight line between two of them no
-/// joint turns by more than 0.1, and nothing comes nearer than margin / 2. 10 to 1000 postures, without the one
-/// of S. The way to `inside` is straight along `direction` and free from 0.6 m before it.
+/// From the posture of S into the hole: 10 to 1000 postures one after the other, without that of S. In the
+/// last, `peg` is at `inside` and points along `direction`, as exactly as in pegPosture. From each to the
+/// next all joints turn evenly, none by more than 0.1, and nothing comes nearer than margin / 2, between them
+/// neither. The hole is entered along `direction`; 0.6 m before `inside` the peg is still outside.
 std::vector<Eigen::VectorXd> insertPeg(rex::Simulator& S, const std::string& peg,
                                        const Eigen::Vector3d& inside, const Eigen::Vector3d& direction,
                                        double margin);

@@ -64,8 +64,8 @@ std::vector<Eigen::VectorXd> circleWithTasks(Simulator& S, const std::string& ha
     postures.push_back(S.getJointAngles());
   }
   // <todo>
-  //| // TODO: T steps, each with three tasks at the present posture: circle, pointing upwards, and the posture
-  //| // that S has now, before the first step. What is the Jacobian of q itself?
+  //| // TODO: T steps, each with three tasks at the present posture: circle, pointing upwards, and the
+  // posture | // that S has now, before the first step. What is the Jacobian of q itself?
   // </solution>
   return postures;
 }
@@ -82,8 +82,7 @@ double sineProfile(double s) {
 std::vector<Eigen::VectorXd> jointSpaceMotion(const Eigen::VectorXd& q0, const Eigen::VectorXd& qT, int T) {
   std::vector<Eigen::VectorXd> postures;
   // <solution jointSpaceMotion>
-  for (int t = 1; t <= T; ++t)
-    postures.push_back(q0 + sineProfile(static_cast<double>(t) / T) * (qT - q0));
+  for (int t = 1; t <= T; ++t) postures.push_back(q0 + sineProfile(static_cast<double>(t) / T) * (qT - q0));
   // <todo>
   //| // TODO: slide 2:41, step 2.
   // </solution>
@@ -158,8 +157,7 @@ Eigen::VectorXd priorityStep(const Eigen::MatrixXd& J1, const Eigen::VectorXd& d
     const SingularValues parts = svd(J);
     Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(J.cols(), J.rows());
     for (Eigen::Index i = 0; i < parts.s.size(); ++i)
-      if (parts.s[i] > smallest)
-        inverse += parts.V.col(i) * parts.U.col(i).transpose() / parts.s[i];
+      if (parts.s[i] > smallest) inverse += parts.V.col(i) * parts.U.col(i).transpose() / parts.s[i];
     return inverse;
   };
   // What the first task demands, and then in its nullspace only what is still missing of the second: there
@@ -181,6 +179,10 @@ namespace {
 const Eigen::Vector3d kTarget(-0.2, -0.4, 1.1);  // the centre of the circle, where the red ball is
 const Eigen::Vector3d kHole(0, -1, 1), kDown(0, 0, -1);
 constexpr double kMargin = 0.02;
+// Of the arm: bent and away from the hole; and with the peg above it, but the elbow near the frame.
+const Eigen::VectorXd kAbove =
+    (Eigen::VectorXd(7) << 0.967552, -0.251879, -1.18846, 1.4825, 1.42033, 0.215273, -2.64193).finished();
+const Eigen::VectorXd kStart = 0.6 * kAbove;
 
 using Motion = std::vector<Eigen::VectorXd>;
 
@@ -213,9 +215,7 @@ std::vector<double> positive(std::vector<double> values) {
   return values;
 }
 
-double errorOnCircle(const Simulator& S, int t) {
-  return (S.kinematicsPos("handR") - onCircle(t)).norm();
-}
+double errorOnCircle(const Simulator& S, int t) { return (S.kinematicsPos("handR") - onCircle(t)).norm(); }
 
 // The circle of exercise 01, with no other task: nothing tells which posture to prefer.
 Motion circleAlone(Simulator& S, int T) {
@@ -248,20 +248,22 @@ void showCircles() {
   const auto tilt = [](const Simulator& S, int) {
     return (S.kinematicsVec("handL") - Eigen::Vector3d::UnitZ()).norm();
   };
-  const Figure errors{.title = "Following the circle",
-                      .xLabel = "step",
-                      .yLabel = "tracking error [m]",
-                      .logY = true,
-                      .legend = Legend::kBottomRight,
-                      .series = {{.label = "circle alone", .y = positive(along("man.ors", lost, errorOnCircle))},
-                                 {.label = "with home and pointing tasks",
-                                  .y = positive(along("man.ors", kept, errorOnCircle))}}};
-  const Figure posture{.title = "How far the posture is from home",
-                       .xLabel = "step",
-                       .yLabel = "length of q [rad]",
-                       .legend = Legend::kTopLeft,
-                       .series = {{.label = "circle alone", .y = along("man.ors", lost, length)},
-                                  {.label = "with home and pointing tasks", .y = along("man.ors", kept, length)}}};
+  const Figure errors{
+      .title = "Following the circle",
+      .xLabel = "step",
+      .yLabel = "tracking error [m]",
+      .logY = true,
+      .legend = Legend::kBottomRight,
+      .series = {
+          {.label = "circle alone", .y = positive(along("man.ors", lost, errorOnCircle))},
+          {.label = "with home and pointing tasks", .y = positive(along("man.ors", kept, errorOnCircle))}}};
+  const Figure posture{
+      .title = "How far the posture is from home",
+      .xLabel = "step",
+      .yLabel = "length of q [rad]",
+      .legend = Legend::kTopLeft,
+      .series = {{.label = "circle alone", .y = along("man.ors", lost, length)},
+                 {.label = "with home and pointing tasks", .y = along("man.ors", kept, length)}}};
   const Figure pointing{.title = "How far the left hand is from pointing upwards",
                         .xLabel = "step",
                         .yLabel = "|z axis - up|",
@@ -273,8 +275,9 @@ void showCircles() {
   alone.watch("circle_alone_after_2000_steps");
   tasks.watch("circle_with_tasks_after_2000_steps");
   circleWithTasks(film, "handR", kTarget, 0.2, "handL", 380);
-  const PictureOptions look{
-      .caption = "12.4.2: a circle, home, and the left hand up", .traces = {"handR"}, .paths = {wholeCircle()}};
+  const PictureOptions look{.caption = "12.4.2: a circle, home, and the left hand up",
+                            .traces = {"handR"},
+                            .paths = {wholeCircle()}};
   writeVideo(film, "circle", look);
   writeReplay(film, "circle", look, {errors, posture, pointing});
 }
@@ -285,7 +288,9 @@ double contactCost(const Simulator& S, int) {
 }
 
 void showPeg() {
-  Simulator S("pegInAHole.ors"), search("pegInAHole.ors");
+  Simulator S("pegInAHole.ors"), straight("pegInAHole.ors");
+  S.setJointAngles(kStart);
+  S.clearRecording();
   const Motion motion = insertPeg(S, "peg", kHole, kDown, kMargin);
   print("postures on the way into the hole", static_cast<double>(motion.size()));
   print("peg", S.kinematicsPos("peg"));
@@ -293,24 +298,27 @@ void showPeg() {
   S.reportProxies();
 
   // From above the hole into it, in two ways. The contact cost rises where something comes too near.
-  const Eigen::VectorXd above = pegPosture(search, "peg", kHole - 0.6 * kDown, kDown, kMargin);
-  const Motion straight = taskSpaceMotion(search, "peg", kHole, kMargin, 100);
-  const Motion bent = jointSpaceMotion(above, search.getJointAngles(), 100);
+  straight.setJointAngles(kAbove);
+  const Motion inTaskSpace = taskSpaceMotion(straight, "peg", kHole, kMargin, 150);
+  const Motion inJointSpace = jointSpaceMotion(kAbove, straight.getJointAngles(), 150);
   const auto beside = [](const Simulator& at, int) {
     return (at.kinematicsPos("peg") - kHole).head<2>().norm();
   };
-  plot("interpolation", {.title = "From above the hole into it",
-                         .xLabel = "step",
-                         .yLabel = "distance of the peg from the middle line [m]",
-                         .series = {{.label = "joint space", .y = along("pegInAHole.ors", bent, beside)},
-                                    {.label = "task space", .y = along("pegInAHole.ors", straight, beside)}}});
-  const Figure cost{.title = "Coming too near",
-                    .xLabel = "step",
-                    .yLabel = "contact cost, margin 0.02 m",
-                    .series = {{.label = "joint space", .y = along("pegInAHole.ors", bent, contactCost)},
-                               {.label = "task space", .y = along("pegInAHole.ors", straight, contactCost)}}};
+  plot("interpolation",
+       {.title = "From above the hole into it",
+        .xLabel = "step",
+        .yLabel = "distance of the peg from the middle line [m]",
+        .series = {{.label = "joint space", .y = along("pegInAHole.ors", inJointSpace, beside)},
+                   {.label = "task space", .y = along("pegInAHole.ors", inTaskSpace, beside)}}});
+  const Figure cost{
+      .title = "Coming too near",
+      .xLabel = "step",
+      .yLabel = "contact cost, margin 0.02 m",
+      .series = {{.label = "joint space", .y = along("pegInAHole.ors", inJointSpace, contactCost)},
+                 {.label = "task space", .y = along("pegInAHole.ors", inTaskSpace, contactCost)}}};
   plot("contacts", cost);
-  const PictureOptions look{.caption = "The peg on its way into the hole", .traces = {"peg"}, .view = {1, -1, 0.7}};
+  const PictureOptions look{
+      .caption = "The peg on its way into the hole", .traces = {"peg"}, .view = {1, -1, 0.7}};
   writeVideo(S, "peg", look);
   writeContactSheet(S, "peg_sheet", look);
   writeReplay(S, "peg", look, {cost});
@@ -343,14 +351,14 @@ void showPriority() {
     const Eigen::MatrixXd W = Eigen::MatrixXd::Identity(J1.cols(), J1.cols());
     return multiTaskStep({TaskTerm{-dy1, J1, 1e4}, TaskTerm{-dy2, J2, 1e2}}, W);
   };
-  plot("priority", {.title = "A second wish that pulls the hand away",
-                    .xLabel = "step",
-                    .yLabel = "tracking error [m]",
-                    .logY = true,
-                    .series = {{.label = "weights 100 : 1",
-                                .y = positive(along("man.ors", circleWithASecondWish(weighted), errorOnCircle))},
-                               {.label = "strict priority",
-                                .y = positive(along("man.ors", strict, errorOnCircle))}}});
+  plot("priority",
+       {.title = "A second wish that pulls the hand away",
+        .xLabel = "step",
+        .yLabel = "tracking error [m]",
+        .logY = true,
+        .series = {{.label = "weights 100 : 1",
+                    .y = positive(along("man.ors", circleWithASecondWish(weighted), errorOnCircle))},
+                   {.label = "strict priority", .y = positive(along("man.ors", strict, errorOnCircle))}}});
 }
 
 }  // namespace

@@ -36,8 +36,8 @@ std::string proxyReport(const Model& model, std::span<const Proxy> proxies) {
   std::size_t width = 0;
   for (const std::string& name : names) width = std::max(width, name.size());
 
-  std::string text = fmt::format("{:{}} {:>9} {:>27} {:>27}\n", names[0], width, "distance", "point of the first",
-                                 "point of the second");
+  std::string text = fmt::format("{:{}} {:>9} {:>27} {:>27}\n", names[0], width, "distance",
+                                 "point of the first", "point of the second");
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     const Proximity& near = sorted[i].proximity;
     text += fmt::format("{:{}} {:9.4f} {} {}\n", names[i + 1], width, near.distance, pointText(near.p_WA),

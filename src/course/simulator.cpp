@@ -188,8 +188,9 @@ void Simulator::anchorKinematicChainIn(const std::string& body) {
   SceneSpec spec = reconfigureRoot(atPositions(*parts_->spec, parts_->q), root);
   // The name tells how the text is read, and the text is .ors now.
   spec.name = std::filesystem::path(parts_->sceneName).replace_extension(".ors").string();
-  start({.sceneName = spec.name, .sceneText = writeOrs(spec), .q = {}, .contactMargin = parts_->contactMargin},
-        std::move(spec));
+  start(
+      {.sceneName = spec.name, .sceneText = writeOrs(spec), .q = {}, .contactMargin = parts_->contactMargin},
+      std::move(spec));
 }
 
 // The script's forms with an output argument.

@@ -13,9 +13,9 @@ struct SceneSpec;
 
 /// All it takes to make the same simulator elsewhere: the text of its scene, a posture, and what was set.
 struct SimulatorDescription {
-  std::string sceneName;  ///< stands for the file in messages
-  std::string sceneText;  ///< the text of the file
-  Eigen::VectorXd q;      ///< joint angles; empty: the posture of the file
+  std::string sceneName;       ///< stands for the file in messages
+  std::string sceneText;       ///< the text of the file
+  Eigen::VectorXd q;           ///< joint angles; empty: the posture of the file
   double contactMargin = 0.1;  ///< metres, see Simulator::setContactMargin()
 };
 
@@ -82,15 +82,16 @@ class Simulator {
   Eigen::MatrixXd jacobianCOM() const;
   void jacobianCOM(Eigen::MatrixXd& J) const;
 
-  /// Contact cost, one number: the sum over all pairs of shapes that may collide of 1 - d / margin where their
-  /// distance d is below the margin; negative d is overlap. Slide 2:60, see collision/contacts.h. Throws Error
-  /// if a shape that may collide has no mesh.
+  /// Contact cost, one number: the sum over all pairs of shapes that may collide of 1 - d / margin where
+  /// their distance d is below the margin; negative d is overlap. Slide 2:60, see collision/contacts.h.
+  /// Throws Error if a shape that may collide has no mesh.
   Eigen::VectorXd kinematicsContacts() const;
   void kinematicsContacts(Eigen::VectorXd& y) const;
   /// Its Jacobian by q, 1 x n.
   Eigen::MatrixXd jacobianContacts() const;
   void jacobianContacts(Eigen::MatrixXd& J) const;
-  /// Sets the margin of the contact cost, metres; 0.1 at first. Throws Error unless it is positive and finite.
+  /// Sets the margin of the contact cost, metres; 0.1 at first. Throws Error unless it is positive and
+  /// finite.
   void setContactMargin(double margin);
   /// Prints proxyReport().
   void reportProxies() const;
@@ -99,9 +100,9 @@ class Simulator {
   std::string proxyReport() const;
 
   /// Holds `body` where it stands now and hangs the rest of its chain on it, as on a foot that stands on the
-  /// ground. The world looks as before, but joints count from the new root, so that the numbers of q may stand
-  /// in another order and with another sign; the recording starts anew. Throws Error as reconfigureRoot()
-  /// (scene/scene_edit.h), and for a mesh that is in no file.
+  /// ground. The world looks as before, but joints count from the new root, so that the numbers of q may
+  /// stand in another order and with another sign; the recording starts anew. Throws Error as
+  /// reconfigureRoot() (scene/scene_edit.h), and for a mesh that is in no file.
   void anchorKinematicChainIn(const std::string& body);
 
   /// Draws the present posture into the picture NAME.png. Never opens a window.
