@@ -33,15 +33,20 @@ inline void tryEdges(NearPoints<T>& best, const Vec3<T>& p_A, const Vec3<T>& u, 
   }
 }
 
-/// Tries the eight corners of B; X is the pose of A in its frame.
+/// The point of box A, which stands at X, that is nearest to x.
+template <class T>
+inline Vec3<T> nearestOn(const KernelPose<T>& X, const Vec3<T>& half, const Vec3<T>& x) {
+  return X.R * clampedTo(half, transposedTimes(X.R, x - X.p)) + X.p;
+}
+
+/// Tries the eight corners of B.
 template <class T>
 inline void tryCorners(NearPoints<T>& best, const KernelPose<T>& X, const Vec3<T>& half_A,
                        const Vec3<T>& half_B) {
   for (int i = 0; i < 8; ++i) {
     const Vec3<T> corner{i & 1 ? half_B.x : -half_B.x, i & 2 ? half_B.y : -half_B.y,
                          i & 4 ? half_B.z : -half_B.z};
-    const Vec3<T> onA = clampedTo(half_A, transposedTimes(X.R, corner - X.p));
-    keepNearer(best, X.R * onA + X.p, corner);
+    keepNearer(best, nearestOn(X, half_A, corner), corner);
   }
 }
 
@@ -65,10 +70,14 @@ inline Gap<T> gap(const Box<T>& A, const Box<T>& B) {
   tryEdges(near, moved.p, edges[0], edges[1], edges[2], B.half);
   tryCorners(near, moved, A.half, B.half);
 
+  // Squared distances tell the nearest points to half of the digits only; the rest comes from looking back.
+  near.onA = nearestOn(moved, A.half, near.onB);
+  near.onB = clampedTo(B.half, near.onA);
+  const Vec3<T> apart = near.onA - near.onB;
+  const T distance = squareRoot(dot(apart, apart));
   const auto isApart = out.width > T(kTouching);
-  const T distance = squareRoot(near.distance2);
-  const Vec3<T> apart = (T(1.0) / larger(distance, T(kTouching))) * (near.onA - near.onB);
-  return {B.X.R * near.onB + B.X.p, B.X.R * select(isApart, apart, out.normal),
+  const Vec3<T> direction = (T(1.0) / larger(distance, T(kTouching))) * apart;
+  return {B.X.R * near.onB + B.X.p, B.X.R * select(isApart, direction, out.normal),
           select(isApart, distance, out.width)};
 }
 

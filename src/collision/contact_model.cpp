@@ -63,7 +63,7 @@ ContactModel::ContactModel(const Model& model, std::span<const ShapePair> pairs)
   data->pairs.assign(pairs.begin(), pairs.end());
   for (const ShapePair& pair : pairs) {
     if (pair.a < 0 || pair.a >= pair.b || pair.b >= count) {
-      throw Error({.what = fmt::format("pair of shapes in contact in scene '{}'", model.name()),
+      throw Error({.what = fmt::format("scene '{}': pair of shapes in contact", model.name()),
                    .found = fmt::format("({}, {})", pair.a, pair.b),
                    .wanted = fmt::format("0 <= a < b < {}", count)});
     }

@@ -1,7 +1,7 @@
 #include "collision/proximity.h"
 
-#include "base/error.h"
 #include "collision/box_box_kernel_internal.h"
+#include "collision/convex_distance_internal.h"
 #include "collision/core_internal.h"
 #include "collision/segment_kernel_internal.h"
 
@@ -46,7 +46,7 @@ Proximity proximity(const Shape& a, const Pose& X_WA, const Shape& b, const Pose
   internal::requireSolid("proximity", b);
   const Core coreA = internal::coreOf(a), coreB = internal::coreOf(b);
   if (coreA.type == CoreType::kOther || coreB.type == CoreType::kOther)
-    throw Error({.what = "proximity", .found = "a shape other than box, sphere and capsule"});
+    return internal::convexProximity(a, X_WA, b, X_WB);
   return between(coreA, X_WA, coreB, X_WB);
 }
 

@@ -17,14 +17,14 @@ inline Vec3<T> across(const Vec3<T>& v) {
   return select(size2 > T(kTiny), unit, Vec3<T>{zero, zero, T(1.0)});
 }
 
-/// A unit vector across both a and b, which may be parallel or zero.
+/// A unit vector across a and b, which are at right angles, or zero.
 template <class T>
 inline Vec3<T> acrossBoth(const Vec3<T>& a, const Vec3<T>& b) {
-  const T a2 = dot(a, a), b2 = dot(b, b);
   const Vec3<T> n = cross(a, b);
-  const T size2 = dot(n, n), enough = larger(T(1e-20) * (a2 * b2), T(kTiny));
-  const Vec3<T> unit = (T(1.0) / squareRoot(larger(size2, enough))) * n;
-  return select(size2 > enough, unit, across(select(a2 > b2, a, b)));
+  const T size2 = dot(n, n);
+  const auto isDirection = size2 > T(kTiny);
+  const Vec3<T> unit = (T(1.0) / squareRoot(select(isDirection, size2, T(1.0)))) * n;
+  return select(isDirection, unit, across(select(dot(a, a) > dot(b, b), a, b)));
 }
 
 /// Two segments. Each step is exact where the others meet no end (Ericson, Real-Time Collision Detection,
@@ -47,7 +47,7 @@ inline Gap<T> gap(const Segment<T>& A, const Segment<T>& B) {
   const T width = squareRoot(dot(apart, apart));
   const auto isApart = width > T(kTouching);
   Vec3<T> normal = (one / larger(width, T(kTouching))) * apart;
-  if (any(width <= T(kTouching))) normal = select(isApart, normal, acrossBoth(A.d, B.d));
+  if (any(width <= T(kTouching))) normal = select(isApart, normal, acrossBoth(A.d, seen));
   return {p_B, normal, width};
 }
 

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "collision/contact_model.h"
+
+namespace rex {
+
+/// The smallest distance of all pairs while q moves straight from `from` to `to`, metres: a lower bound, at
+/// most `tolerance` metres below the truth. Negative in overlap, infinite without pairs. It halves stretches
+/// of the motion whose ends allow that a pair comes nearer in between, given how fast the joints can move any
+/// point (conservative advancement); a pair that moves along at one distance takes in proportion to
+/// 1/tolerance. Throws Error for
+/// vectors that are not nq long or not finite, a tolerance below 1e-9, and a quaternion that is zero on the
+/// way.
+[[nodiscard]] double motionClearance(const Model& model, const ContactModel& contacts, const VectorArg& from,
+                                     const VectorArg& to, double tolerance);
+
+}  // namespace rex

@@ -1,0 +1,171 @@
+#include "collision/contacts.h"
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "base/rng.h"
+#include "geometry/rotation.h"
+#include "optim/derivative_check.h"
+#include "scene/ors_reader.h"
+#include "scene/state.h"
+#include "support/expect_error.h"
+#include "support/paths.h"
+
+namespace rex {
+namespace {
+
+Model pegInAHole() { return compile(readOrs(sourcePath("data/robots/pegInAHole.ors")).spec); }
+
+Eigen::VectorXd vectorFrom(const nlohmann::json& numbers) {
+  const auto values = numbers.get<std::vector<double>>();
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+double radiusOf(const Model& model, int shape) {
+  return model.shapes()[static_cast<std::size_t>(shape)].shape.radius;
+}
+
+// Numbers recorded from an independent implementation. It knows no depth of a capsule's core, and counts
+// overlap as distance zero in its cost.
+TEST(Contacts, AreThoseRecordedOfPegInAHole) {
+  std::ifstream file(sourcePath("tests/golden/pegInAHole.json"));
+  const nlohmann::json golden = nlohmann::json::parse(file).at("contacts_exact");
+  const Model model = pegInAHole();
+  const ContactModel contacts(model);
+  ASSERT_GE(golden.size(), 20u);
+  for (const nlohmann::json& posture : golden) {
+    const BodyPoses poses = forwardKinematics(model, vectorFrom(posture.at("q")));
+    const std::vector<Proxy> near = proxies(contacts, poses);
+    const double margin = posture.at("margin");
+    ASSERT_EQ(near.size(), posture.at("pairs").size());
+    double clampedCost = 0, cost = 0;
+    for (std::size_t i = 0; i < near.size(); ++i) {
+      const nlohmann::json& wanted = posture["pairs"][i];
+      const ShapePair pair = near[i].pair;
+      const double distance = near[i].proximity.distance;
+      EXPECT_EQ(pair, (ShapePair{wanted.at("a"), wanted.at("b")}));
+      EXPECT_NEAR(std::max(distance, -radiusOf(model, pair.a)), wanted.at("d").get<double>(), 1e-9);
+      clampedCost += std::clamp(1 - distance / margin, 0., 1.);
+      cost += std::max(0., 1 - distance / margin);
+    }
+    EXPECT_NEAR(clampedCost, posture.at("cost_slide").get<double>(), 1e-6);
+    EXPECT_NEAR(contactCost(contacts, poses, margin), cost, 1e-12);
+  }
+}
+
+TEST(Contacts, AreThoseOfAllPairsNearerThanTheCutoff) {
+  Rng rng(61);
+  const Model model = pegInAHole();
+  const ContactModel contacts(model);
+  for (int i = 0; i < 50; ++i) {
+    const BodyPoses poses = forwardKinematics(model, rng.uniformVector(model.nq(), -2, 2));
+    std::vector<Proxy> all;
+    for (const ShapePair& pair : contacts.pairs()) {
+      const ModelShape& a = model.shapes()[static_cast<std::size_t>(pair.a)];
+      const ModelShape& b = model.shapes()[static_cast<std::size_t>(pair.b)];
+      all.push_back({pair, proximity(a.shape, poses[a.body] * a.X_BS, b.shape, poses[b.body] * b.X_BS)});
+    }
+    for (const double cutoff : {-0.05, 0.02, 0.3, 2.}) {
+      std::vector<Proxy> wanted;
+      for (const Proxy& proxy : all)
+        if (proxy.proximity.distance < cutoff) wanted.push_back(proxy);
+      const std::vector<Proxy> found = proxies(contacts, poses, cutoff);
+      ASSERT_EQ(found.size(), wanted.size());
+      for (std::size_t k = 0; k < found.size(); ++k) {
+        EXPECT_EQ(found[k].pair, wanted[k].pair);
+        EXPECT_EQ(found[k].proximity.distance, wanted[k].proximity.distance);
+        EXPECT_EQ(found[k].proximity.p_WA, wanted[k].proximity.p_WA);
+        EXPECT_EQ(found[k].proximity.normal_W, wanted[k].proximity.normal_W);
+      }
+    }
+  }
+}
+
+// Two bodies that move freely, each of one shape that is not in the middle.
+Model twoFreeBodies(const Shape& a, const Shape& b, Rng& rng) {
+  SceneSpec spec;
+  for (const Shape* shape : {&a, &b}) {
+    BodySpec body{.name = shape == &a ? "a" : "b", .X_WB = {}};
+    body.shapes.push_back({.name = "",
+                           .X_BS = {expSO3(rng.normalVector(3)), rng.uniformVector(3, -0.1, 0.1)},
+                           .shape = *shape,
+                           .contact = true});
+    spec.joints.push_back({.name = body.name,
+                           .parent = "world",
+                           .child = body.name,
+                           .type = JointType::kFree,
+                           .X_PF = {},
+                           .X_MC = {}});
+    spec.bodies.push_back(body);
+  }
+  return compile(spec);
+}
+
+Shape shapeOf(ShapeType type) { return {.type = type, .extent = {0.3, 0.4, 0.5}, .radius = 0.1}; }
+
+class ContactDerivative : public testing::TestWithParam<std::tuple<ShapeType, ShapeType, double>> {
+ protected:
+  // Along v, which for quaternions is not the same as along q.
+  void expectDerivative(const Model& model, const Eigen::VectorXd& q, const Eigen::MatrixXd& J,
+                        const std::function<double(const BodyPoses&)>& f) {
+    const VectorFunction alongV = [&](const Eigen::VectorXd& v) {
+      return Eigen::VectorXd::Constant(1, f(forwardKinematics(model, integrate(model, q, v))));
+    };
+    const JacobianCheck check = checkJacobian(alongV, J, Eigen::VectorXd::Zero(model.nv()), 1e-7);
+    EXPECT_TRUE(check.ok) << check.message;
+  }
+};
+
+TEST_P(ContactDerivative, AgreesWithDifferences) {
+  const auto [typeA, typeB, size] = GetParam();
+  Rng rng(62);
+  int overlaps = 0;
+  for (int i = 0; i < 30; ++i) {
+    const Model model = twoFreeBodies(shapeOf(typeA), shapeOf(typeB), rng);
+    const ContactModel contacts(model);
+    const Eigen::VectorXd v = size * rng.normalVector(model.nv()) * (i % 2 == 0 ? 0.3 : 0.6);
+    const Eigen::VectorXd q = integrate(model, model.initialPositions(), v);
+    const BodyPoses poses = forwardKinematics(model, q);
+    const Proxy proxy = proxies(contacts, poses, 1e3).at(0);
+    overlaps += proxy.proximity.distance < 0;
+    expectDerivative(model, q, distanceJacobian(model, poses, proxy, contacts), [&](const BodyPoses& at) {
+      return proxies(contacts, at, 1e3).at(0).proximity.distance;
+    });
+    TaskValue value;
+    contactTask(contacts, 10)({model, q, poses}, value);
+    EXPECT_EQ(value.y[0], contactCost(contacts, poses, 10));
+    expectDerivative(model, q, value.J, [&](const BodyPoses& at) { return contactCost(contacts, at, 10); });
+  }
+  EXPECT_GT(overlaps, size < 1 ? 29 : 0);
+}
+
+constexpr ShapeType kExactTypes[] = {ShapeType::kBox, ShapeType::kSphere, ShapeType::kCapsule};
+INSTANTIATE_TEST_SUITE_P(AtZeroTinyAndRandom, ContactDerivative,
+                         testing::Combine(testing::ValuesIn(kExactTypes), testing::ValuesIn(kExactTypes),
+                                          testing::Values(0., 1e-8, 1.)));
+
+TEST(ContactTask, IsZeroExactlyWhereAllAreApart) {
+  const Model model = pegInAHole();
+  const Eigen::VectorXd q = Eigen::VectorXd::Zero(model.nq());
+  const BodyPoses poses = forwardKinematics(model, q);
+  const ContactModel contacts(model);
+  TaskValue value;
+  contactTask(contacts)({model, q, poses}, value);
+  EXPECT_EQ(value.y, Eigen::VectorXd::Zero(1));
+  EXPECT_EQ(value.J, Eigen::MatrixXd::Zero(1, model.nv()));
+}
+
+TEST(ContactCost, NeedsAPositiveMargin) {
+  const Model model = pegInAHole();
+  const ContactModel contacts(model);
+  const BodyPoses poses = forwardKinematics(model, model.initialPositions());
+  for (const double margin : {0., -1., std::nan("")}) {
+    EXPECT_REX_ERROR(contactCost(contacts, poses, margin), "margin of contact costs: found ");
+    EXPECT_REX_ERROR(contactTask(contacts, margin), ", wanted a positive length");
+  }
+}
+
+}  // namespace
+}  // namespace rex
