@@ -3,7 +3,16 @@
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
 
+#include "kinematics/metric_internal.h"
+
 namespace rex {
+namespace {
+
+StepForm cheaperForm(const internal::Metric& W, Eigen::Index d, Eigen::Index n) {
+  return W.isDiagonal() && d < n ? StepForm::kTaskSpace : StepForm::kJointSpace;
+}
+
+}  // namespace
 
 Eigen::VectorXd inverseKinematicsStep(const Eigen::Ref<const Eigen::MatrixXd>& J, const VectorArg& dy,
                                       double sigma) {
@@ -14,6 +23,25 @@ Eigen::VectorXd inverseKinematicsStep(const Eigen::Ref<const Eigen::MatrixXd>& J
   const Eigen::MatrixXd JJt =
       J * J.transpose() + sigma * sigma * Eigen::MatrixXd::Identity(J.rows(), J.rows());
   return J.transpose() * JJt.llt().solve(dy);
+}
+
+Eigen::VectorXd inverseKinematicsStep(const MatrixArg& J, const VectorArg& dy, const StepOptions& options) {
+  const Eigen::Index d = J.rows(), n = J.cols();
+  requireSize("task change dy", dy.size(), d);
+  const internal::Metric W("metric W", options.W, n), C("metric C", options.C, d);
+  Eigen::VectorXd a = options.a;
+  if (a.size() == 0) a.setZero(n);
+  requireSize("wished posture change a", a.size(), n);
+
+  const Eigen::VectorXd missing = dy - J * a;  // what a leaves to be done
+  const StepForm form = options.form == StepForm::kCheaper ? cheaperForm(W, d, n) : options.form;
+  if (form == StepForm::kJointSpace) {
+    const Eigen::MatrixXd JtC = J.transpose() * C.matrix();
+    return a + (JtC * J + W.matrix()).llt().solve(JtC * missing);
+  }
+  const Eigen::MatrixXd WinvJt = W.solve(J.transpose());
+  const Eigen::MatrixXd Cinv = C.solve(Eigen::MatrixXd::Identity(d, d));
+  return a + WinvJt * (J * WinvJt + Cinv).llt().solve(missing);
 }
 
 }  // namespace rex

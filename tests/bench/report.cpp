@@ -67,7 +67,7 @@ std::string json(const std::vector<Line>& lines) {
   for (const Line& line : lines) {
     rows.push_back({{"group", line.group},
                     {"name", line.row.name},
-                    {"ours", line.result.ours},
+                    {"ours", orNull(line.result.ours)},
                     {"peer", orNull(line.result.peer)},
                     {"peer_name", line.row.peerName.empty() ? Json() : Json(line.row.peerName)},
                     {"unit", line.row.unit},

@@ -22,7 +22,8 @@ class Collector : public benchmark::BenchmarkReporter {
 };
 
 double perSecond(const std::string& unit) {
-  static const std::map<std::string, double> kPerSecond{{"ns", 1e9}, {"us", 1e6}, {"ms", 1e3}, {"s", 1}};
+  static const std::map<std::string, double> kPerSecond{
+      {"ns", 1e9}, {"us", 1e6}, {"ms", 1e3}, {"s", 1}, {"%", 100}};
   return kPerSecond.at(unit);
 }
 
@@ -43,9 +44,12 @@ Measurement timed(std::function<void()> work) {
   };
 }
 
-std::optional<double> Result::ratio() const { return peer ? std::optional(ours / *peer) : std::nullopt; }
+std::optional<double> Result::ratio() const {
+  return ours && peer ? std::optional(*ours / *peer) : std::nullopt;
+}
 
 Result measure(const Row& row) {
+  if (!row.ours) return {};
   // In turn, so that a slow moment of the machine meets both sides.
   double ours = std::numeric_limits<double>::infinity(), peer = ours;
   for (int i = 0; i < row.repetitions; ++i) {

@@ -16,18 +16,17 @@ using Measurement = std::function<double()>;
 /// One line of the table: ours against a peer that does the same, or against a fixed limit.
 struct Row {
   std::string name;
-  Measurement ours{};
+  Measurement ours{};              ///< empty: what it needs is absent, as peerName says
   std::string peerName{};          ///< empty: nothing to compare with; "limit": `peer` returns a fixed number
   Measurement peer{};              ///< empty: the peer is not installed
   std::optional<double> target{};  ///< what ours / peer should not exceed
-  std::string unit = "ns";         ///< ns, us, ms or s
+  std::string unit = "ns";         ///< ns, us, ms, s or, of shares, %
   int repetitions = 15;            ///< measurements of each side
 };
 
 /// The smallest of several measurements of each side, taken in turn, in the row's unit.
 struct Result {
-  double ours = 0;
-  std::optional<double> peer{};
+  std::optional<double> ours{}, peer{};
   [[nodiscard]] std::optional<double> ratio() const;
 };
 [[nodiscard]] Result measure(const Row& row);
@@ -35,6 +34,7 @@ struct Result {
 /// The groups, a file each. Setting one up takes little time; it throws std::logic_error where ours and a
 /// peer do not compute the same.
 [[nodiscard]] std::vector<Row> gradingRows();
+[[nodiscard]] std::vector<Row> ikRows();
 [[nodiscard]] std::vector<Row> kinematicsRows();
 [[nodiscard]] std::vector<Row> renderRows();
 [[nodiscard]] std::vector<Row> sceneRows();

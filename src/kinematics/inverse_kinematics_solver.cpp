@@ -1,0 +1,235 @@
+#include "kinematics/inverse_kinematics_solver.h"
+
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "kinematics/damped_step_internal.h"
+#include "kinematics/joint_limits_internal.h"
+#include "scene/state.h"
+
+namespace rex {
+namespace {
+
+using Result = InverseKinematicsResult;
+using Options = InverseKinematicsOptions;
+
+// Damping of the normal equations, lambda = factor * cost, vanishes at a solution and so keeps Gauss-Newton's
+// speed there (Sugihara 2011). The factors were chosen on poses of two 7-jointed arms; a third or three times
+// of any changes the time by less than a third.
+constexpr double kFirstDamping = 0.1, kLeastDamping = 1e-5, kMostDamping = 1e3;
+constexpr double kDampingAfterFullStep = 0.3, kDampingAfterShortStep = 4;
+// For singular Jacobians: a share of their squared size that is always added.
+constexpr double kLeastRelativeDamping = 1e-12;
+// A start is given up where a few iterations do not even halve the cost.
+constexpr int kIterationsToHalve = 5;
+// Line search: the share of the promised gain that is enough, and when to stop halving.
+constexpr double kSufficientGain = 1e-4;
+constexpr int kMostHalvings = 30;
+
+// Draws postures: uniform within limits, about a centre where there are none.
+class PostureSampler {
+ public:
+  PostureSampler(const Model& model, const Eigen::VectorXd& center) : q_(center) {
+    internal::forEachPlainCoordinate(model, [&](int iq, int, const DegreeOfFreedom& freedom) {
+      const double reach = freedom.angular.isZero(0) ? 1 : std::numbers::pi;
+      const double lower = model.lowerLimits()[iq], upper = model.upperLimits()[iq];
+      ranges_.push_back({iq, std::isfinite(lower) ? lower : std::min(center[iq], upper) - reach,
+                         std::isfinite(upper) ? upper : std::max(center[iq], lower) + reach});
+    });
+    internal::forEachQuaternion(model, [&](int iq, int) { quaternions_.push_back(iq); });
+  }
+
+  const Eigen::VectorXd& draw(Rng& rng) {
+    for (const Range& range : ranges_) q_[range.iq] = rng.uniform(range.lower, range.upper);
+    for (const int iq : quaternions_)
+      for (int i = 0; i < 4; ++i) q_[iq + i] = rng.normal();
+    return q_;
+  }
+
+ private:
+  struct Range {
+    int iq;
+    double lower, upper;
+  };
+  std::vector<Range> ranges_;
+  std::vector<int> quaternions_;
+  Eigen::VectorXd q_;
+};
+
+// A posture, and what the tasks say there.
+struct Point {
+  Eigen::VectorXd q;
+  TaskValue phi;
+  std::vector<TaskValue> values;
+  double cost = 0;
+  bool fulfilled = false;  // all tasks are within their tolerances
+};
+
+// A descent from one posture, with storage that serves the next one too.
+class Descent {
+ public:
+  enum class End { kConverged, kGivenUp, kIterationLimit };
+
+  Descent(const Model& model, std::span<const Task> tasks, const Options& options)
+      : model_(model), tasks_(tasks), options_(options), limits_(internal::jointLimits(model)) {
+    for (const Task& task : tasks) isWeighed_ = isWeighed_ || task.tolerance == kNoTolerance;
+  }
+
+  // `patient`: to the very end, also where the targets come no nearer.
+  End run(const Eigen::VectorXd& start, bool patient) {
+    here_.q = start;
+    internal::clampToLimits(limits_, here_.q);
+    evaluate(here_);
+    double damping = kFirstDamping, costBefore = here_.cost;
+    for (int i = 1; i <= options_.maxIterations; ++i) {
+      if (here_.fulfilled && !isWeighed_) return End::kConverged;
+      ++iterations_;
+      findDirection(damping);
+      if (direction_.lpNorm<Eigen::Infinity>() <= options_.stepTolerance) return End::kConverged;
+      const int halvings = searchLine();
+      if (halvings > kMostHalvings) return End::kConverged;  // rounding errors hide what could be gained
+      damping = halvings == 0 ? std::max(kLeastDamping, kDampingAfterFullStep * damping)
+                              : std::min(kMostDamping, kDampingAfterShortStep * damping);
+      if (i % kIterationsToHalve > 0) continue;
+      if (!patient && !here_.fulfilled && here_.cost > costBefore / 2) return End::kGivenUp;
+      costBefore = here_.cost;
+    }
+    return here_.fulfilled && !isWeighed_ ? End::kConverged : End::kIterationLimit;
+  }
+
+  const Point& here() const { return here_; }
+  int iterations() const { return iterations_; }
+
+ private:
+  void evaluate(Point& at) {
+    forwardKinematics(model_, at.q, poses_);
+    stackTasks(tasks_, {model_, at.q, poses_}, at.values, at.phi);
+    at.cost = at.phi.y.squaredNorm();
+    at.fulfilled = true;
+    for (std::size_t i = 0; i < tasks_.size(); ++i)
+      at.fulfilled = at.fulfilled && taskError(tasks_[i], at.values[i]) <= tasks_[i].tolerance;
+  }
+
+  // A joint at its limit that would leave it takes no part.
+  void findDirection(double damping) {
+    gradient_.noalias() = here_.phi.J.transpose() * here_.phi.y;
+    J_ = here_.phi.J;
+    for (const internal::JointLimit& limit : limits_) {
+      const double q = here_.q[limit.iq], slope = gradient_[limit.iv];
+      if ((q <= limit.lower && slope > 0) || (q >= limit.upper && slope < 0)) J_.col(limit.iv).setZero();
+    }
+    const double lambda = damping * here_.cost + kLeastRelativeDamping * J_.squaredNorm();
+    if (lambda > 0) {
+      step_.solve(J_, here_.phi.y, lambda, direction_);
+      direction_ *= -1;
+    } else {
+      direction_.setZero(J_.cols());  // at zero cost with a Jacobian of zeros
+    }
+  }
+
+  // Halves the step until it gains as much as the slope promises (Armijo along the projected path, Bertsekas
+  // 1976). Returns how often; more than kMostHalvings if nothing helps.
+  int searchLine() {
+    double share = 1;
+    for (int halvings = 0; halvings <= kMostHalvings; ++halvings, share /= 2) {
+      const double promised = moveAlong(share);
+      if (!(promised < 0)) continue;
+      evaluate(there_);
+      if (there_.cost > here_.cost + kSufficientGain * promised) continue;
+      std::swap(here_, there_);
+      return halvings;
+    }
+    return kMostHalvings + 1;
+  }
+
+  // Puts a share of the step, cut at the limits, into there_.q. Returns the change of the cost that the
+  // gradient promises for it.
+  double moveAlong(double share) {
+    move_ = share * direction_;
+    if (model_.nq() == model_.nv()) {
+      there_.q = here_.q + move_;
+    } else {
+      there_.q = integrate(model_, here_.q, move_);
+    }
+    internal::clampToLimits(limits_, there_.q);
+    for (const internal::JointLimit& limit : limits_)
+      move_[limit.iv] = there_.q[limit.iq] - here_.q[limit.iq];
+    return 2 * gradient_.dot(move_);
+  }
+
+  const Model& model_;
+  const std::span<const Task> tasks_;
+  const Options options_;
+  const std::vector<internal::JointLimit> limits_;
+  bool isWeighed_ = false;  // some task has no tolerance, so that fulfilling the others is not the end
+  int iterations_ = 0;
+  Point here_, there_;
+  BodyPoses poses_;
+  Eigen::MatrixXd J_;
+  Eigen::VectorXd gradient_, direction_, move_;
+  internal::DampedStep step_;
+};
+
+void requireProblem(const Model& model, std::span<const Task> tasks, const VectorArg& start,
+                    const Options& options) {
+  if (tasks.empty())
+    throw Error({.what = "inverse kinematics", .found = "no task", .wanted = "at least one"});
+  requireSize("start posture", start.size(), model.nq());
+  if (!start.allFinite())
+    throw Error(
+        {.what = "start posture", .found = "a number that is not finite", .wanted = "finite numbers"});
+  if (options.maxIterations < 1 || options.maxRestarts < 0 || !(options.stepTolerance > 0)) {
+    throw Error({.what = "options of inverse kinematics",
+                 .found = fmt::format("{} iterations, {} restarts, step tolerance {}", options.maxIterations,
+                                      options.maxRestarts, options.stepTolerance),
+                 .wanted = "at least one iteration, no negative number of restarts, a positive tolerance"});
+  }
+}
+
+std::string message(std::span<const Task> tasks, const Result& result) {
+  const std::string effort =
+      fmt::format("after {} iterations and {} restarts", result.iterations, result.restarts);
+  if (result.status == Result::Status::kSolved) return "solved " + effort;
+  std::string misses;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    if (result.residuals[i] <= tasks[i].tolerance) continue;
+    misses += fmt::format("{}task '{}' misses its target by {:.3g}", misses.empty() ? "" : ", ",
+                          tasks[i].name, result.residuals[i]);
+  }
+  return (misses.empty() ? "tasks without tolerance might still improve " : misses + " ") + effort;
+}
+
+Result resultOf(std::span<const Task> tasks, const Descent& descent, Descent::End end, int restarts) {
+  using Status = Result::Status;
+  const Point& at = descent.here();
+  Result result{.q = at.q, .cost = at.cost, .iterations = descent.iterations(), .restarts = restarts};
+  for (std::size_t i = 0; i < tasks.size(); ++i)
+    result.residuals.push_back(taskError(tasks[i], at.values[i]));
+  if (end == Descent::End::kConverged) result.status = at.fulfilled ? Status::kSolved : Status::kUnreached;
+  result.message = message(tasks, result);
+  return result;
+}
+
+}  // namespace
+
+Result solveInverseKinematics(const Model& model, std::span<const Task> tasks, const VectorArg& start,
+                              const Options& options, Rng& rng) {
+  requireProblem(model, tasks, start, options);
+  Descent descent(model, tasks, options);
+  PostureSampler sampler(model, start);
+  Eigen::VectorXd q = start, nearest = start;
+  double leastCost = std::numeric_limits<double>::infinity();
+  for (int restarts = 0; restarts <= options.maxRestarts; ++restarts) {
+    if (restarts > 0) q = sampler.draw(rng);
+    const Descent::End end = descent.run(q, false);
+    if (descent.here().fulfilled) return resultOf(tasks, descent, end, restarts);
+    if (descent.here().cost >= leastCost) continue;
+    leastCost = descent.here().cost;
+    nearest = descent.here().q;
+  }
+  const Descent::End end = descent.run(nearest, true);
+  return resultOf(tasks, descent, end, options.maxRestarts);
+}
+
+}  // namespace rex

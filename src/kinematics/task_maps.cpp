@@ -1,0 +1,197 @@
+#include "kinematics/task_maps.h"
+
+#include <cmath>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <fmt/format.h>
+
+#include "kinematics/center_of_mass.h"
+#include "kinematics/coordinates_internal.h"
+#include "kinematics/jacobians.h"
+#include "scene/state.h"
+
+namespace rex {
+namespace {
+
+using Columns = Eigen::Ref<Eigen::Matrix3Xd>;
+
+Eigen::Vector3d cross(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.cross(b); }
+
+// Each column times v, as "A x v" on slide 2:54.
+void crossColumns(Columns A, const Eigen::Vector3d& v) {
+  for (auto column : A.colwise()) column = cross(column, v);
+}
+
+void transformColumns(const Eigen::Matrix3d& M, Columns A) {
+  for (auto column : A.colwise()) column = M * Eigen::Vector3d(column);
+}
+
+// Angular velocity of B relative to A, in A's axes, per unit of v.
+Eigen::Matrix3Xd relativeAngularJacobian(const Posture& at, BodyId body, BodyId a) {
+  Eigen::Matrix3Xd J = angularJacobian(at.model, at.poses, body) - angularJacobian(at.model, at.poses, a);
+  transformColumns(at.poses[a].R.transpose(), J);
+  return J;
+}
+
+// Which of the two quaternions of an orientation is meant, and how it changes: q' = (0, w) o q / 2 for an
+// angular velocity w in the axes that the orientation is seen from.
+void writeQuaternion(const Eigen::Matrix3d& R, const Eigen::Matrix3Xd& angular, const Quaternion& nearest,
+                     TaskValue& out) {
+  const Quaternion q = quaternionFromRotation(R);
+  out.y = q.dot(nearest) < 0 ? Quaternion(-q) : q;
+  const double w = out.y[0];
+  const Eigen::Vector3d v = out.y.tail<3>();
+  out.J.resize(4, angular.cols());
+  for (Eigen::Index i = 0; i < angular.cols(); ++i) {
+    const Eigen::Vector3d omega = angular.col(i);
+    out.J.col(i) << -0.5 * omega.dot(v), 0.5 * (w * omega + omega.cross(v));
+  }
+}
+
+void requireDirection(const Quaternion& nearest) {
+  static_cast<void>(rotationFromQuaternion(nearest));  // throws for zero and numbers that are not finite
+}
+
+void writePosition(const Posture& at, BodyId body, const Eigen::Vector3d& p_BQ, const Eigen::Vector3d& p_WT,
+                   Eigen::Ref<Eigen::VectorXd> y, Columns J) {
+  y = position(at.poses, body, p_BQ) - p_WT;
+  positionJacobian(at.model, at.poses, body, p_BQ, J);
+}
+
+void writeOrientation(const Posture& at, BodyId body, const Eigen::Matrix3d& R_WT,
+                      Eigen::Ref<Eigen::VectorXd> y, Columns J) {
+  const Eigen::Vector3d e = logSO3(at.poses[body].R * R_WT.transpose());
+  y = e;
+  angularJacobian(at.model, at.poses, body, J);
+  transformColumns(leftJacobianSO3(e).inverse(), J);
+}
+
+void writeVector(const Posture& at, BodyId body, const Eigen::Vector3d& vector_B, TaskValue& out) {
+  out.y = direction(at.poses, body, vector_B);
+  out.J.resize(3, at.model.nv());
+  angularJacobian(at.model, at.poses, body, out.J);
+  crossColumns(out.J, out.y);
+}
+
+}  // namespace
+
+TaskMap positionTask(BodyId body, const Eigen::Vector3d& p_BQ) {
+  return [=](const Posture& at, TaskValue& out) {
+    out.y.resize(3);
+    out.J.resize(3, at.model.nv());
+    writePosition(at, body, p_BQ, Eigen::Vector3d::Zero(), out.y, out.J);
+  };
+}
+
+TaskMap vectorTask(BodyId body, const Eigen::Vector3d& vector_B) {
+  return [=](const Posture& at, TaskValue& out) { writeVector(at, body, vector_B, out); };
+}
+
+TaskMap quaternionTask(BodyId body, const Quaternion& nearest) {
+  requireDirection(nearest);
+  return [=](const Posture& at, TaskValue& out) {
+    writeQuaternion(at.poses[body].R, angularJacobian(at.model, at.poses, body), nearest, out);
+  };
+}
+
+TaskMap orientationTask(BodyId body, const Eigen::Matrix3d& R_WT) {
+  return [=](const Posture& at, TaskValue& out) {
+    out.y.resize(3);
+    out.J.resize(3, at.model.nv());
+    writeOrientation(at, body, R_WT, out.y, out.J);
+  };
+}
+
+TaskMap poseTask(BodyId body, const Pose& X_WT, const Eigen::Vector3d& p_BQ) {
+  return [=](const Posture& at, TaskValue& out) {
+    out.y.resize(6);
+    out.J.resize(6, at.model.nv());
+    writePosition(at, body, p_BQ, X_WT.p, out.y.head<3>(), out.J.topRows<3>());
+    writeOrientation(at, body, X_WT.R, out.y.tail<3>(), out.J.bottomRows<3>());
+  };
+}
+
+TaskMap relativePositionTask(BodyId body, const Eigen::Vector3d& p_BQ, BodyId a,
+                             const Eigen::Vector3d& p_AP) {
+  return [=](const Posture& at, TaskValue& out) {
+    const Eigen::Vector3d p_PQ_W = position(at.poses, body, p_BQ) - position(at.poses, a, p_AP);
+    Eigen::Matrix3Xd turning = angularJacobian(at.model, at.poses, a);
+    crossColumns(turning, p_PQ_W);
+    const Eigen::Matrix3d R_AW = at.poses[a].R.transpose();
+    out.y = R_AW * p_PQ_W;
+    out.J = positionJacobian(at.model, at.poses, body, p_BQ) - positionJacobian(at.model, at.poses, a, p_AP) -
+            turning;
+    transformColumns(R_AW, out.J);
+  };
+}
+
+TaskMap relativeVectorTask(BodyId body, const Eigen::Vector3d& vector_B, BodyId a) {
+  return [=](const Posture& at, TaskValue& out) {
+    out.y = at.poses[a].R.transpose() * direction(at.poses, body, vector_B);
+    out.J = relativeAngularJacobian(at, body, a);
+    crossColumns(out.J, out.y);
+  };
+}
+
+TaskMap relativeQuaternionTask(BodyId body, BodyId a, const Quaternion& nearest) {
+  requireDirection(nearest);
+  return [=](const Posture& at, TaskValue& out) {
+    writeQuaternion(at.poses[a].R.transpose() * at.poses[body].R, relativeAngularJacobian(at, body, a),
+                    nearest, out);
+  };
+}
+
+TaskMap alignmentTask(BodyId body, const Eigen::Vector3d& vector_B, const Eigen::Vector3d& vector_W) {
+  return [=](const Posture& at, TaskValue& out) {
+    out.y = vector_W.transpose() * direction(at.poses, body, vector_B);
+    out.J = vector_W.transpose() * directionJacobian(at.model, at.poses, body, vector_B);
+  };
+}
+
+TaskMap relativeAlignmentTask(BodyId body, const Eigen::Vector3d& vector_B, BodyId a,
+                              const Eigen::Vector3d& vector_A) {
+  return [=](const Posture& at, TaskValue& out) {
+    const Eigen::Vector3d v_W = direction(at.poses, body, vector_B), u_W = direction(at.poses, a, vector_A);
+    out.y = u_W.transpose() * v_W;
+    out.J = u_W.transpose() * directionJacobian(at.model, at.poses, body, vector_B) +
+            v_W.transpose() * directionJacobian(at.model, at.poses, a, vector_A);
+  };
+}
+
+TaskMap jointLimitsTask(double margin) {
+  if (!(margin > 0 && std::isfinite(margin)))
+    throw Error({.what = "margin of joint limits",
+                 .found = fmt::format("{}", margin),
+                 .wanted = "a positive number"});
+  return [=](const Posture& at, TaskValue& out) {
+    out.y.setZero(1);
+    out.J.setZero(1, at.model.nv());
+    internal::forEachPlainCoordinate(at.model, [&](int iq, int iv, const DegreeOfFreedom&) {
+      const double tooLow = margin - (at.q[iq] - at.model.lowerLimits()[iq]);
+      const double tooHigh = margin - (at.model.upperLimits()[iq] - at.q[iq]);
+      out.y[0] += (std::max(0., tooLow) + std::max(0., tooHigh)) / margin;
+      out.J(0, iv) = ((tooHigh > 0 ? 1 : 0) - (tooLow > 0 ? 1 : 0)) / margin;
+    });
+  };
+}
+
+TaskMap centerOfMassTask() {
+  return [](const Posture& at, TaskValue& out) {
+    out.y = centerOfMass(at.model, at.poses);
+    out.J = centerOfMassJacobian(at.model, at.poses);
+  };
+}
+
+TaskMap homingTask(const VectorArg& home) {
+  return [home = Eigen::VectorXd(home)](const Posture& at, TaskValue& out) {
+    requireSize("home posture", home.size(), at.model.nq());
+    out.y = difference(at.model, home, at.q);
+    out.J.setIdentity(at.model.nv(), at.model.nv());
+    internal::forEachQuaternion(at.model, [&](int, int iv) {
+      out.J.block<3, 3>(iv, iv) = rightJacobianSO3(out.y.segment<3>(iv)).inverse();
+    });
+  };
+}
+
+}  // namespace rex
