@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "exercise.h"
+#include "kinematics/hierarchical_step.h"
 
 using namespace rex;
 
@@ -64,8 +65,8 @@ std::vector<Eigen::VectorXd> circleWithTasks(Simulator& S, const std::string& ha
     postures.push_back(S.getJointAngles());
   }
   // <todo>
-  //| // TODO: T steps, each with three tasks at the present posture: circle, pointing upwards, and the
-  // posture | // that S has now, before the first step. What is the Jacobian of q itself?
+  //| // TODO: T steps, each with three tasks at the present posture: the circle, pointing upwards, and the
+  //| // posture of S before the first step. What is the Jacobian of q itself?
   // </solution>
   return postures;
 }
@@ -288,14 +289,14 @@ double contactCost(const Simulator& S, int) {
 }
 
 void showPeg() {
-  Simulator S("pegInAHole.ors"), straight("pegInAHole.ors");
+  Simulator S("pegInAHole.ors"), straight("pegInAHole.ors"), film("pegInAHole.ors");
   S.setJointAngles(kStart);
-  S.clearRecording();
-  const Motion motion = insertPeg(S, "peg", kHole, kDown, kMargin);
-  print("postures on the way into the hole", static_cast<double>(motion.size()));
-  print("peg", S.kinematicsPos("peg"));
-  S.setContactMargin(kMargin);
-  S.reportProxies();
+  film.clearRecording();
+  film.setJointAngles(kStart);
+  for (const Eigen::VectorXd& q : insertPeg(S, "peg", kHole, kDown, kMargin)) film.setJointAngles(q);
+  print("peg", film.kinematicsPos("peg"));
+  film.setContactMargin(kMargin);
+  film.reportProxies();
 
   // From above the hole into it, in two ways. The contact cost rises where something comes too near.
   straight.setJointAngles(kAbove);
@@ -319,46 +320,56 @@ void showPeg() {
   plot("contacts", cost);
   const PictureOptions look{
       .caption = "The peg on its way into the hole", .traces = {"peg"}, .view = {1, -1, 0.7}};
-  writeVideo(S, "peg", look);
-  writeContactSheet(S, "peg_sheet", look);
-  writeReplay(S, "peg", look, {cost});
+  writeVideo(film, "peg", look);
+  writeContactSheet(film, "peg_sheet", look);
+  writeReplay(film, "peg", look, {cost});
 }
 
 // The hand shall circle; less important, it shall stay where it was, and its z axis shall point upwards.
-// `step` gives dq from the Jacobians and wanted changes of both tasks.
+struct TwoWishes {
+  Eigen::MatrixXd J1;
+  Eigen::VectorXd dy1;
+  Eigen::MatrixXd J2;
+  Eigen::VectorXd dy2;
+};
+
+TwoWishes wishesAt(const Simulator& S, const Eigen::Vector3d& start, int t) {
+  TwoWishes wishes{S.jacobianPos("handR"), onCircle(t) - S.kinematicsPos("handR"),
+                   Eigen::MatrixXd(6, S.getJointDimension()), Eigen::VectorXd(6)};
+  wishes.J2 << S.jacobianPos("handR"), S.jacobianVec("handR");
+  wishes.dy2 << start - S.kinematicsPos("handR"), Eigen::Vector3d::UnitZ() - S.kinematicsVec("handR");
+  wishes.dy2 *= 0.1;  // a tenth of the wish at a time, so that the steps stay small
+  return wishes;
+}
+
+// `step` gives dq from the wishes.
 template <class Step>
 Motion circleWithASecondWish(const Step& step) {
   Simulator S("man.ors");
   const Eigen::Vector3d start = S.kinematicsPos("handR");
   Motion postures;
   for (int t = 1; t <= 380; ++t) {
-    Eigen::MatrixXd J2(6, S.getJointDimension());
-    J2 << S.jacobianPos("handR"), S.jacobianVec("handR");
-    Eigen::VectorXd dy2(6);
-    dy2 << start - S.kinematicsPos("handR"), Eigen::Vector3d::UnitZ() - S.kinematicsVec("handR");
-    const Eigen::VectorXd dy1 = onCircle(t) - S.kinematicsPos("handR");
-    // A tenth of the wish at a time, so that the steps stay small.
-    S.setJointAngles(S.getJointAngles() + step(S.jacobianPos("handR"), dy1, J2, 0.1 * dy2));
+    S.setJointAngles(S.getJointAngles() + step(wishesAt(S, start, t)));
     postures.push_back(S.getJointAngles());
   }
   return postures;
 }
 
-void showPriority() {
-  const Motion strict = circleWithASecondWish(priorityStep);
-  const auto weighted = [](const Eigen::MatrixXd& J1, const Eigen::VectorXd& dy1, const Eigen::MatrixXd& J2,
-                           const Eigen::VectorXd& dy2) {
-    const Eigen::MatrixXd W = Eigen::MatrixXd::Identity(J1.cols(), J1.cols());
-    return multiTaskStep({TaskTerm{-dy1, J1, 1e4}, TaskTerm{-dy2, J2, 1e2}}, W);
-  };
-  plot("priority",
-       {.title = "A second wish that pulls the hand away",
-        .xLabel = "step",
-        .yLabel = "tracking error [m]",
-        .logY = true,
-        .series = {{.label = "weights 100 : 1",
-                    .y = positive(along("man.ors", circleWithASecondWish(weighted), errorOnCircle))},
-                   {.label = "strict priority", .y = positive(along("man.ors", strict, errorOnCircle))}}});
+void showPriority(const Motion& byLibrary) {
+  const Eigen::MatrixXd W = Eigen::MatrixXd::Identity(27, 27);
+  const Motion weighted = circleWithASecondWish([&](const TwoWishes& wishes) {
+    return multiTaskStep({TaskTerm{-wishes.dy1, wishes.J1, 1e4}, TaskTerm{-wishes.dy2, wishes.J2, 1e3}}, W);
+  });
+  const Motion strict = circleWithASecondWish(
+      [](const TwoWishes& wishes) { return priorityStep(wishes.J1, wishes.dy1, wishes.J2, wishes.dy2); });
+  const auto errors = [](const Motion& motion) { return positive(along("man.ors", motion, errorOnCircle)); };
+  plot("priority", {.title = "A second wish that pulls the hand away",
+                    .xLabel = "step",
+                    .yLabel = "tracking error [m]",
+                    .logY = true,
+                    .series = {{.label = "weights 10 : 1", .y = errors(weighted)},
+                               {.label = "strict priority", .y = errors(strict)},
+                               {.label = "strict, library", .y = errors(byLibrary), .dashed = true}}});
 }
 
 }  // namespace
@@ -367,5 +378,16 @@ int main() {
   showNullspace();
   showCircles();
   showPeg();
-  showPriority();
+
+  // Once your own step works, it lies on the library's.
+  Simulator S("man.ors");
+  const Eigen::Vector3d start = S.kinematicsPos("handR");
+  Motion byLibrary;
+  for (int t = 1; t <= 380; ++t) {
+    const TwoWishes wishes = wishesAt(S, start, t);
+    S.setJointAngles(S.getJointAngles() +
+                     hierarchicalStep({{wishes.J1, wishes.dy1}, {wishes.J2, wishes.dy2}}));
+    byLibrary.push_back(S.getJointAngles());
+  }
+  showPriority(byLibrary);
 }

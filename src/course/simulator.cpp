@@ -12,9 +12,9 @@
 #include "collision/proxy_report.h"
 #include "course/pictures.h"
 #include "course/recording.h"
-#include "geometry/rotation.h"
 #include "kinematics/center_of_mass.h"
 #include "kinematics/jacobians.h"
+#include "kinematics/task_maps.h"
 #include "scene/find_scene.h"
 #include "scene/ors_writer.h"
 #include "scene/scene_edit.h"
@@ -60,6 +60,11 @@ struct Simulator::Parts {
   const ContactModel& requireContacts() const {
     if (const Error* error = std::get_if<Error>(&contacts)) throw *error;
     return std::get<ContactModel>(contacts);
+  }
+  TaskValue valueOf(const TaskMap& map) const {
+    TaskValue value;
+    map({model, q, poses}, value);
+    return value;
   }
 };
 
@@ -142,17 +147,11 @@ Eigen::MatrixXd Simulator::jacobianCOM() const {
 }
 
 Eigen::Vector4d Simulator::kinematicsQuat(const std::string& body) const {
-  return quaternionFromRotation(parts_->poses[parts_->model.body(body)].R);
+  return parts_->valueOf(quaternionTask(parts_->model.body(body))).y;
 }
 
-// A body that turns with angular velocity w has the quaternion rate (0, w) o q / 2.
 Eigen::MatrixXd Simulator::jacobianQuat(const std::string& body) const {
-  const Quaternion q = kinematicsQuat(body);
-  const Eigen::Matrix3Xd angular = angularJacobian(parts_->model, parts_->poses, parts_->model.body(body));
-  Eigen::MatrixXd J(4, angular.cols());
-  for (Eigen::Index i = 0; i < J.cols(); ++i)
-    J.col(i) = quaternionProduct(Quaternion(0, angular(0, i), angular(1, i), angular(2, i)), q) / 2;
-  return J;
+  return parts_->valueOf(quaternionTask(parts_->model.body(body))).J;
 }
 
 Eigen::VectorXd Simulator::kinematicsContacts() const {
@@ -161,10 +160,7 @@ Eigen::VectorXd Simulator::kinematicsContacts() const {
 }
 
 Eigen::MatrixXd Simulator::jacobianContacts() const {
-  TaskValue value;
-  contactTask(parts_->requireContacts(), parts_->contactMargin)({parts_->model, parts_->q, parts_->poses},
-                                                                value);
-  return value.J;
+  return parts_->valueOf(contactTask(parts_->requireContacts(), parts_->contactMargin)).J;
 }
 
 void Simulator::setContactMargin(double margin) {

@@ -130,7 +130,8 @@ TEST_F(SimulatorTest, JacobiansAgreeWithDifferences) {
     check([&](const Eigen::VectorXd& x) { return at(x).kinematicsVec("head", rel); },
           at(q).jacobianVec("head", rel));
     check([&](const Eigen::VectorXd& x) { return at(x).kinematicsCOM(); }, at(q).jacobianCOM());
-    check([&](const Eigen::VectorXd& x) { return at(x).kinematicsQuat("handL"); }, at(q).jacobianQuat("handL"));
+    check([&](const Eigen::VectorXd& x) { return at(x).kinematicsQuat("handL"); },
+          at(q).jacobianQuat("handL"));
   }
 }
 
@@ -166,8 +167,9 @@ TEST_F(SimulatorTest, ContactCostsAreThoseOfTheCourse) {
 
 TEST_F(SimulatorTest, ReportsWhatIsNear) {
   Simulator S("pegInAHole.ors");
-  S.setJointAngles((Eigen::VectorXd(7) << 0.945499, 0.431195, -1.97155, 0.623969, 2.22355, -0.665206, -1.48356)
-                       .finished());
+  S.setJointAngles(
+      (Eigen::VectorXd(7) << 0.945499, 0.431195, -1.97155, 0.623969, 2.22355, -0.665206, -1.48356)
+          .finished());
   const std::string report = S.proxyReport();
   EXPECT_THAT(report, testing::StartsWith("pair           distance           point of the first"));
   EXPECT_EQ(std::count(report.begin(), report.end(), '\n'), 13) << "all twelve pairs are near";
@@ -238,7 +240,8 @@ TEST_F(SimulatorTest, AnchorsTheChainInABody) {
 TEST_F(SimulatorTest, AnchorsAUrdfToo) {
   Simulator S("quadruped");
   S.anchorKinematicChainIn("front_left_foot");
-  EXPECT_LT((Simulator(S.description()).kinematicsPos("rear_right_foot") - S.kinematicsPos("rear_right_foot")).norm(),
+  EXPECT_LT((Simulator(S.description()).kinematicsPos("rear_right_foot") - S.kinematicsPos("rear_right_foot"))
+                .norm(),
             1e-12);
 }
 
