@@ -75,8 +75,9 @@ Simulator::Simulator(const std::string& sceneFile) {
     if (one.severity == Severity::kWarning) std::cerr << toString(one) << "\n";
   const bool hasEnding = std::filesystem::path(sceneFile).has_extension();
   scene.spec.name = hasEnding ? sceneFile : path.filename().string();
-  start({.sceneName = scene.spec.name, .sceneText = selfContainedText(path, scene.spec), .q = {}},
-        std::move(scene.spec));
+  const SimulatorDescription description{
+      .sceneName = scene.spec.name, .sceneText = selfContainedText(path, scene.spec), .q = {}};
+  start(description, std::move(scene.spec));
 }
 
 // The text may come from another process, whose files are none of ours: meshes stay away.
@@ -184,9 +185,9 @@ void Simulator::anchorKinematicChainIn(const std::string& body) {
   SceneSpec spec = reconfigureRoot(atPositions(*parts_->spec, parts_->q), root);
   // The name tells how the text is read, and the text is .ors now.
   spec.name = std::filesystem::path(parts_->sceneName).replace_extension(".ors").string();
-  start(
-      {.sceneName = spec.name, .sceneText = writeOrs(spec), .q = {}, .contactMargin = parts_->contactMargin},
-      std::move(spec));
+  const SimulatorDescription description{
+      .sceneName = spec.name, .sceneText = writeOrs(spec), .q = {}, .contactMargin = parts_->contactMargin};
+  start(description, std::move(spec));
 }
 
 // The script's forms with an output argument.
