@@ -34,6 +34,15 @@ Simulator at(const Simulator& S, const Eigen::VectorXd& q) {
   return Simulator(description);
 }
 
+// Columns that span what J does not notice.
+Eigen::MatrixXd nullspace(const Eigen::MatrixXd& J) {
+  Eigen::MatrixXd square = Eigen::MatrixXd::Zero(std::max(J.rows(), J.cols()), J.cols());
+  square.topRows(J.rows()) = J;
+  const SingularValues parts = svd(square);
+  const auto rank = (parts.s.array() > 1e-9 * parts.s[0]).count();
+  return parts.V.rightCols(J.cols() - rank);
+}
+
 // As many postures as asked for, each of n finite numbers.
 void checkPostures(Check& check, const Motion& motion, int count, int n) {
   check.near("number of postures", static_cast<double>(motion.size()), count, 0);
@@ -124,9 +133,9 @@ void stepIsTheMinimum(Check& check, Student& student, const std::vector<TaskTerm
   check.shape("dq", dq, W.rows(), 1);
   Eigen::VectorXd gradient = W * dq;
   double scale = W.norm() * dq.norm();
-  for (const TaskTerm& task : tasks) {
-    gradient += task.precision * task.J.transpose() * (task.error + task.J * dq);
-    scale += task.precision * (task.J.norm() * task.error.norm() + task.J.squaredNorm() * dq.norm());
+  for (const auto& [error, J, precision] : tasks) {
+    gradient += precision * J.transpose() * (error + J * dq);
+    scale += precision * (J.norm() * error.norm() + J.squaredNorm() * dq.norm());
   }
   check.atMost("gradient of the cost at dq, relative", gradient.norm() / scale, 1e-8);
 }
@@ -184,9 +193,9 @@ void tracks(Check& check, const Simulator& S, const Circle& circle, const Motion
 }
 
 void staysAtHome(Check& check, const Simulator& S, const Motion& motion) {
-  const Eigen::VectorXd home = S.getJointAngles();
+  const Eigen::VectorXd atFirst = S.getJointAngles();
   const double away = largest(S, motion, 1, [&](const Simulator& moved, int) {
-    return (moved.getJointAngles() - home).cwiseAbs().maxCoeff();
+    return (moved.getJointAngles() - atFirst).cwiseAbs().maxCoeff();
   });
   check.atMost("largest angle between a joint and its place at home", away, 2.2, "rad");
 }
@@ -219,12 +228,26 @@ void circlePoints(Check& check, Student& student) {
 }
 
 // <hidden>
+// Around a circle without radius the posture comes to rest. What it then still misses of home is what the
+// other tasks need: home pulls against them, and against nothing else.
+void restsNearHome(Check& check, Student& student, const Simulator& S, Circle circle) {
+  circle.radius = 0;
+  const Motion motion = circleOf(check, student, S, circle, 1200);
+  const Simulator end = at(S, motion.back());
+  Eigen::MatrixXd J(6, S.getJointDimension());
+  J << end.jacobianPos(circle.hand), end.jacobianVec(circle.pointing);
+  const Eigen::VectorXd away = motion.back() - S.getJointAngles();
+  check.atMost("part of the way from home that no other task asks for",
+               (nullspace(J).transpose() * away).norm(), 0.02, "rad");
+}
+
 void circleOfTheOtherHand(Check& check, Student& student) {
-  check.forEachCase(2, [&](int) {
+  check.forEachCase(3, [&](int i) {
     Rng& rng = check.rng();
     const Simulator S = at(Simulator("man.ors"), rng.uniformVector(27, -0.1, 0.1));
     const Circle circle{"handL", Eigen::Vector3d(0.2, -0.4, 1.1) + rng.uniformVector(3, -0.03, 0.03),
                         rng.uniform(0.1, 0.18), "handR"};
+    if (i == 2) return restsNearHome(check, student, S, circle);
     const Motion motion = circleOf(check, student, S, circle, 600);
     tracks(check, S, circle, motion);
     staysAtHome(check, S, motion);
@@ -400,15 +423,6 @@ struct TwoTasks {
 
 TwoTasks randomTasks(Rng& rng, int d1, int d2, int n) {
   return {randomMatrix(rng, d1, n), rng.normalVector(d1), randomMatrix(rng, d2, n), rng.normalVector(d2)};
-}
-
-// Columns that span what J does not notice.
-Eigen::MatrixXd nullspace(const Eigen::MatrixXd& J) {
-  Eigen::MatrixXd square = Eigen::MatrixXd::Zero(std::max(J.rows(), J.cols()), J.cols());
-  square.topRows(J.rows()) = J;
-  const SingularValues parts = svd(square);
-  const auto rank = (parts.s.array() > 1e-9 * parts.s[0]).count();
-  return parts.V.rightCols(J.cols() - rank);
 }
 
 Eigen::VectorXd stepOf(Check& check, Student& student, const TwoTasks& tasks) {

@@ -1,4 +1,4 @@
-// caught by: priority-first, priority-circle
+// caught by: priority-first
 // mistake: Where the tasks disagree, J2 N1 is rounding and nothing else; measured by itself it seems to
 // matter.
 
