@@ -76,6 +76,13 @@ struct JacobianOptions {
 };
 ExitCode sceneJacobian(const Project& project, const JacobianOptions& options);
 
+struct ContactsOptions {
+  SceneOptions scene{};
+  std::optional<double> margin{};  ///< metres; 0.1
+};
+/// What may collide and is near, and what that costs.
+ExitCode sceneContacts(const Project& project, const ContactsOptions& options);
+
 struct ConvertOptions {
   SceneOption scene{};
   std::filesystem::path out{};  ///< its ending says which format

@@ -102,6 +102,21 @@ void addJacobian(CLI::App& scene, Action& action, const std::shared_ptr<SceneOpt
   });
 }
 
+void addContacts(CLI::App& scene, Action& action, const std::shared_ptr<SceneOptions>& options) {
+  const auto own = std::make_shared<ContactsOptions>();
+  CLI::App* verb =
+      addVerb(scene, "contacts", "List the shapes that may collide and are near, nearest first",
+              "Example: scripts/rex scene pegInAHole contacts --q 0.6,0.5,0,0,0,0,0 --margin 0.02");
+  verb->add_option("--margin", own->margin, "the contact cost counts what is nearer (default: 0.1)")
+      ->type_name("METRES");
+  addPosture(verb, options->posture);
+  addJson(verb, options->json);
+  verb->callback([&action, options, own] {
+    own->scene = *options;
+    action = [own](const Project& p) { return sceneContacts(p, *own); };
+  });
+}
+
 void addConvert(CLI::App& scene, Action& action, const std::shared_ptr<SceneOptions>& options) {
   const auto own = std::make_shared<ConvertOptions>();
   CLI::App* verb = addVerb(scene, "convert", "Write the scene as .ors or .urdf",
@@ -148,6 +163,7 @@ void addScene(CLI::App& program, Action& action) {
   scene->require_subcommand(0, 1);
   addInfo(*scene, action, options), addCheck(*scene, action, options);
   addKinematics(*scene, action, options), addJacobian(*scene, action, options);
+  addContacts(*scene, action, options);
   addSceneRender(*scene, action, options), addConvert(*scene, action, options);
   scene->callback([&action, scene, options] {
     if (scene->get_subcommands().empty())

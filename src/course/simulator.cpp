@@ -1,17 +1,23 @@
 #include "course/simulator.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <variant>
 
 #include <fmt/format.h>
 
+#include "collision/contacts.h"
+#include "collision/proxy_report.h"
 #include "course/pictures.h"
 #include "course/recording.h"
 #include "kinematics/center_of_mass.h"
 #include "kinematics/jacobians.h"
+#include "kinematics/task_maps.h"
 #include "scene/find_scene.h"
 #include "scene/ors_writer.h"
+#include "scene/scene_edit.h"
 #include "scene/scene_file.h"
 
 namespace rex {
@@ -28,14 +34,38 @@ std::string selfContainedText(const std::filesystem::path& file, const SceneSpec
   }
 }
 
+// What may collide, or why that cannot be told: it matters only to those who ask.
+using Contacts = std::variant<ContactModel, Error>;
+
+Contacts contactsOf(const Model& model) {
+  try {
+    return ContactModel(model);
+  } catch (const Error& error) {
+    return error;
+  }
+}
+
 }  // namespace
 
 struct Simulator::Parts {
   std::string sceneName, sceneText;
+  std::shared_ptr<const SceneSpec> spec;  // never changes; copies of a simulator share it
   Model model;
-  Eigen::VectorXd q;
-  BodyPoses poses;
-  Recording recording;
+  Contacts contacts;
+  double contactMargin = kContactMargin;
+  Eigen::VectorXd q{};
+  BodyPoses poses{};
+  Recording recording{};
+
+  const ContactModel& requireContacts() const {
+    if (const Error* error = std::get_if<Error>(&contacts)) throw *error;
+    return std::get<ContactModel>(contacts);
+  }
+  TaskValue valueOf(const TaskMap& map) const {
+    TaskValue value;
+    map({model, q, poses}, value);
+    return value;
+  }
 };
 
 Simulator::Simulator(const std::string& sceneFile) {
@@ -45,18 +75,24 @@ Simulator::Simulator(const std::string& sceneFile) {
     if (one.severity == Severity::kWarning) std::cerr << toString(one) << "\n";
   const bool hasEnding = std::filesystem::path(sceneFile).has_extension();
   scene.spec.name = hasEnding ? sceneFile : path.filename().string();
-  start({.sceneName = scene.spec.name, .sceneText = selfContainedText(path, scene.spec), .q = {}},
-        compile(scene.spec));
+  const SimulatorDescription description{
+      .sceneName = scene.spec.name, .sceneText = selfContainedText(path, scene.spec), .q = {}};
+  start(description, std::move(scene.spec));
 }
 
 // The text may come from another process, whose files are none of ours: meshes stay away.
 Simulator::Simulator(const SimulatorDescription& description) {
-  start(description, compile(parseScene(description.sceneText, description.sceneName).spec));
+  start(description, parseScene(description.sceneText, description.sceneName).spec);
 }
 
-void Simulator::start(const SimulatorDescription& description, Model model) {
+void Simulator::start(const SimulatorDescription& description, SceneSpec spec) {
+  Model model = compile(spec);
+  Contacts contacts = contactsOf(model);
   const Eigen::VectorXd q = description.q.size() > 0 ? description.q : model.initialPositions();
-  parts_.reset(new Parts{description.sceneName, description.sceneText, std::move(model), q, {}, {}});
+  parts_.reset(new Parts{description.sceneName, description.sceneText,
+                         std::make_shared<const SceneSpec>(std::move(spec)), std::move(model),
+                         std::move(contacts)});
+  setContactMargin(description.contactMargin);
   setJointAngles(q);
 }
 
@@ -111,6 +147,49 @@ Eigen::MatrixXd Simulator::jacobianCOM() const {
   return centerOfMassJacobian(parts_->model, parts_->poses).topRows<2>();
 }
 
+Eigen::Vector4d Simulator::kinematicsQuat(const std::string& body) const {
+  return parts_->valueOf(quaternionTask(parts_->model.body(body))).y;
+}
+
+Eigen::MatrixXd Simulator::jacobianQuat(const std::string& body) const {
+  return parts_->valueOf(quaternionTask(parts_->model.body(body))).J;
+}
+
+Eigen::VectorXd Simulator::kinematicsContacts() const {
+  return Eigen::VectorXd::Constant(
+      1, contactCost(parts_->requireContacts(), parts_->poses, parts_->contactMargin));
+}
+
+Eigen::MatrixXd Simulator::jacobianContacts() const {
+  return parts_->valueOf(contactTask(parts_->requireContacts(), parts_->contactMargin)).J;
+}
+
+void Simulator::setContactMargin(double margin) {
+  if (!(margin > 0) || !std::isfinite(margin)) {
+    throw Error({.what = "setContactMargin",
+                 .found = fmt::format("{:g}", margin),
+                 .wanted = "a positive, finite number of metres"});
+  }
+  parts_->contactMargin = margin;
+}
+
+std::string Simulator::proxyReport() const {
+  const double reach = std::max(kQueryCutoff, parts_->contactMargin);
+  return rex::proxyReport(parts_->model, proxies(parts_->requireContacts(), parts_->poses, reach));
+}
+
+void Simulator::reportProxies() const { fmt::print("{}", proxyReport()); }
+
+void Simulator::anchorKinematicChainIn(const std::string& body) {
+  const std::string& root = parts_->model[parts_->model.body(body)].name;
+  SceneSpec spec = reconfigureRoot(atPositions(*parts_->spec, parts_->q), root);
+  // The name tells how the text is read, and the text is .ors now.
+  spec.name = std::filesystem::path(parts_->sceneName).replace_extension(".ors").string();
+  const SimulatorDescription description{
+      .sceneName = spec.name, .sceneText = writeOrs(spec), .q = {}, .contactMargin = parts_->contactMargin};
+  start(description, std::move(spec));
+}
+
 // The script's forms with an output argument.
 void Simulator::kinematicsPos(Eigen::VectorXd& y, const std::string& body, const Eigen::Vector3d& rel) const {
   y = kinematicsPos(body, rel);
@@ -127,10 +206,17 @@ void Simulator::jacobianVec(Eigen::MatrixXd& J, const std::string& body, const E
 void Simulator::kinematicsCOM(Eigen::VectorXd& y) const { y = kinematicsCOM(); }
 void Simulator::jacobianCOM(Eigen::MatrixXd& J) const { J = jacobianCOM(); }
 
+void Simulator::kinematicsQuat(Eigen::VectorXd& y, const std::string& body) const {
+  y = kinematicsQuat(body);
+}
+void Simulator::jacobianQuat(Eigen::MatrixXd& J, const std::string& body) const { J = jacobianQuat(body); }
+void Simulator::kinematicsContacts(Eigen::VectorXd& y) const { y = kinematicsContacts(); }
+void Simulator::jacobianContacts(Eigen::MatrixXd& J) const { J = jacobianContacts(); }
+
 void Simulator::watch(const std::string& name) const { writePicture(*this, name + ".png"); }
 
 SimulatorDescription Simulator::description() const {
-  return {parts_->sceneName, parts_->sceneText, parts_->q};
+  return {parts_->sceneName, parts_->sceneText, parts_->q, parts_->contactMargin};
 }
 const Model& Simulator::model() const { return parts_->model; }
 const Recording& Simulator::recording() const { return parts_->recording; }

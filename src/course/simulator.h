@@ -9,12 +9,14 @@ namespace rex {
 
 class Model;
 class Recording;
+struct SceneSpec;
 
-/// All it takes to make the same simulator elsewhere: the text of its scene and a posture.
+/// All it takes to make the same simulator elsewhere: the text of its scene, a posture, and what was set.
 struct SimulatorDescription {
-  std::string sceneName;  ///< stands for the file in messages
-  std::string sceneText;  ///< the text of the file
-  Eigen::VectorXd q;      ///< joint angles; empty: the posture of the file
+  std::string sceneName;       ///< stands for the file in messages
+  std::string sceneText;       ///< the text of the file
+  Eigen::VectorXd q;           ///< joint angles; empty: the posture of the file
+  double contactMargin = 0.1;  ///< metres, see Simulator::setContactMargin()
 };
 
 /// A robot in its world, with the names of the course script. Positions are metres in the world frame, z up;
@@ -66,6 +68,13 @@ class Simulator {
   void jacobianVec(Eigen::MatrixXd& J, const std::string& body,
                    const Eigen::Vector3d& vec = Eigen::Vector3d::UnitZ()) const;
 
+  /// Orientation of a body: the unit quaternion w, x, y, z of its frame in the world, w >= 0. Slide 2:10.
+  Eigen::Vector4d kinematicsQuat(const std::string& body) const;
+  void kinematicsQuat(Eigen::VectorXd& y, const std::string& body) const;
+  /// Its Jacobian by q, 4 x n. Where w is 0, the quaternion jumps to its opposite.
+  Eigen::MatrixXd jacobianQuat(const std::string& body) const;
+  void jacobianQuat(Eigen::MatrixXd& J, const std::string& body) const;
+
   /// Centre of mass, x and y only, as in the course. Throws Error for a scene without mass. Slide 2:61.
   Eigen::Vector2d kinematicsCOM() const;
   void kinematicsCOM(Eigen::VectorXd& y) const;
@@ -73,10 +82,33 @@ class Simulator {
   Eigen::MatrixXd jacobianCOM() const;
   void jacobianCOM(Eigen::MatrixXd& J) const;
 
+  /// Contact cost, one number: the sum over all pairs of shapes that may collide of 1 - d / margin where
+  /// their distance d is below the margin; negative d is overlap. Slide 2:60, see collision/contacts.h.
+  /// Throws Error if a shape that may collide has no mesh.
+  Eigen::VectorXd kinematicsContacts() const;
+  void kinematicsContacts(Eigen::VectorXd& y) const;
+  /// Its Jacobian by q, 1 x n.
+  Eigen::MatrixXd jacobianContacts() const;
+  void jacobianContacts(Eigen::MatrixXd& J) const;
+  /// Sets the margin of the contact cost, metres; 0.1 at first. Throws Error unless it is positive and
+  /// finite.
+  void setContactMargin(double margin);
+  /// Prints proxyReport().
+  void reportProxies() const;
+  /// The pairs of shapes nearer than 0.5 m (or the margin, if that is more), nearest first: their names,
+  /// distance and nearest points, metres.
+  std::string proxyReport() const;
+
+  /// Holds `body` where it stands now and hangs the rest of its chain on it, as on a foot that stands on the
+  /// ground. The world looks as before, but joints count from the new root, so that the numbers of q may
+  /// stand in another order and with another sign; the recording starts anew. Throws Error as
+  /// reconfigureRoot() (scene/scene_edit.h), and for a mesh that is in no file.
+  void anchorKinematicChainIn(const std::string& body);
+
   /// Draws the present posture into the picture NAME.png. Never opens a window.
   void watch(const std::string& name = "watch") const;
 
-  /// The scene and the posture, enough to make this simulator again.
+  /// The scene as it is anchored now, posture and margin: enough to make this simulator again.
   SimulatorDescription description() const;
   /// What the core of rex works on; see scene/model.h.
   const Model& model() const;
@@ -86,7 +118,7 @@ class Simulator {
 
  private:
   struct Parts;
-  void start(const SimulatorDescription& description, Model model);
+  void start(const SimulatorDescription& description, SceneSpec spec);
 
   std::unique_ptr<Parts> parts_;
 };

@@ -100,6 +100,43 @@ TEST_F(SceneCommand, FkAndJacobianAreThoseOfTheLibrary) {
   }
 }
 
+constexpr const char* kWall =
+    "body wall { type=ST_box size=[.2 2 2] contact }\n"
+    "shape (wall) { rel=<T t(0 0 1.5)> type=ST_box size=[.2 2 1] contact }\n"
+    "body post { X=<T t(1 0 0)> }\n"
+    "body ball { type=ST_sphere size=[0 0 0 .1] contact }\n"
+    "joint slide (post ball) { type=transX }\n";
+
+TEST_F(SceneCommand, ContactsAreThoseOfGeometry) {
+  std::ofstream(in("wall.ors")) << kWall;
+  const json contacts = jsonOf({"wall.ors", "contacts", "--q", "-0.75", "--margin", "0.2"});
+  EXPECT_DOUBLE_EQ(contacts["cost"].get<double>(), 1 - (0.25 - 0.1 - 0.1) / 0.2);
+  ASSERT_EQ(contacts["pairs"].size(), 1u) << "the upper part of the wall is a metre away";
+  const json& pair = contacts["pairs"][0];
+  EXPECT_EQ(pair["a"], "wall");
+  EXPECT_EQ(pair["b"], "ball");
+  EXPECT_NEAR(pair["distance"].get<double>(), 0.05, 1e-12);
+  EXPECT_NEAR(pair["pa"][0].get<double>(), 0.1, 1e-12);
+  EXPECT_NEAR(pair["pb"][0].get<double>(), 0.15, 1e-12);
+  EXPECT_NEAR(jsonOf({"wall.ors", "contacts", "--q", "-0.85"})["pairs"][0]["distance"].get<double>(), -0.05,
+              1e-12)
+      << "overlap";
+  EXPECT_EQ(jsonOf({"wall.ors", "contacts"})["pairs"], json::array()) << "further than half a metre";
+  EXPECT_EQ(jsonOf({"wall.ors", "contacts", "--margin", "2"})["pairs"].size(), 2u);
+}
+
+TEST_F(SceneCommand, ContactsAlignForPeople) {
+  std::ofstream(in("wall.ors")) << kWall;
+  EXPECT_EQ(
+      scene({"wall.ors", "contacts", "--q", "-0.75"}).output,
+      "2 pairs of shapes may collide, 1 are nearer than 0.5 m; contact cost 0.5 with a margin of 0.1 m\n"
+      "pair         distance          point of the first         point of the second\n"
+      "wall - ball    0.0500    0.1000   0.0000   0.0000    0.1500   0.0000   0.0000\n");
+  EXPECT_EQ(
+      scene({"wall.ors", "contacts"}).output,
+      "2 pairs of shapes may collide, 0 are nearer than 0.5 m; contact cost 0 with a margin of 0.1 m\n");
+}
+
 TEST_F(SceneCommand, PosturesMayBeZeroOrThatOfTheFile) {
   EXPECT_EQ(jsonOf({"arm.ors", "fk", "--q", "0"})["q"], json({0.0, 0.0, 0.0}));
   EXPECT_EQ(jsonOf({"arm.ors", "fk", "--q", "file"})["q"], json({0.25, 0.0, 0.0}));
@@ -214,6 +251,9 @@ TEST_F(SceneCommand, SaysWhatIsUsedWrongly) {
                 "--body: scene 'arm.ors' has no body 'uper' (did you mean 'upper'?)");
   expectRefusal({"arm.ors", "jacobian", "--body", "tip", "--point", "1"},
                 "--point: found 1 numbers, wanted three");
+  for (const std::string margin : {"0", "-1", "nan", "inf"})
+    expectRefusal({"arm.ors", "contacts", "--margin", margin},
+                  "--margin: found " + margin + ", wanted a positive number of metres");
   expectRefusal({"arm.ors", "render", "--shapes", "contacts", "-o", "a.png"},
                 "--shapes: found 'contacts', wanted visible, contact or all (did you mean 'contact'?)");
   expectRefusal({"man", "render", "--shapes", "contact", "-o", "a.png"},
@@ -231,13 +271,14 @@ TEST_F(SceneCommand, SaysWhatIsUsedWrongly) {
 }
 
 TEST_F(SceneCommand, DoesWhatItsExamplesSay) {
-  for (const char* verb : {"info", "fk", "jacobian"}) {
+  for (const char* verb : {"info", "fk", "jacobian", "contacts"}) {
     const std::string help = scene({"man", verb, "--help"}).output;
     EXPECT_THAT(help, HasSubstr("Usage: rex scene FILE " + std::string(verb)));
     EXPECT_THAT(help, HasSubstr("scripts/rex scene "));
   }
   EXPECT_EQ(scene({"pegArm", "jacobian", "--body", "peg", "--point", "0,0,0.3", "--q", "0"}).exitCode, 0);
   EXPECT_EQ(scene({"man", "info"}).exitCode, 0);
+  EXPECT_EQ(scene({"pegInAHole", "contacts", "--q", "0.6,0.5,0,0,0,0,0", "--margin", "0.02"}).exitCode, 0);
   EXPECT_EQ(jsonOf({"man", "fk", "--q", "0"})["bodies"].size(), 30u);
 }
 

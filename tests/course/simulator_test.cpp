@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "base/process.h"
@@ -127,7 +130,124 @@ TEST_F(SimulatorTest, JacobiansAgreeWithDifferences) {
     check([&](const Eigen::VectorXd& x) { return at(x).kinematicsVec("head", rel); },
           at(q).jacobianVec("head", rel));
     check([&](const Eigen::VectorXd& x) { return at(x).kinematicsCOM(); }, at(q).jacobianCOM());
+    check([&](const Eigen::VectorXd& x) { return at(x).kinematicsQuat("handL"); },
+          at(q).jacobianQuat("handL"));
   }
+}
+
+// One that penetrates, one that nearly touches, one that is free.
+TEST_F(SimulatorTest, ContactCostsAreThoseOfTheCourse) {
+  Simulator S("pegInAHole.ors");
+  S.setContactMargin(.02);
+  const Eigen::VectorXd inTheHole =
+      (Eigen::VectorXd(7) << 0.945499, 0.431195, -1.97155, 0.623969, 2.22355, -0.665206, -1.48356).finished();
+  const Eigen::VectorXd inTheWall = (Eigen::VectorXd(7) << 0.891517560122, 0.334051987365, -1.81008497784,
+                                     0.524757936631, 1.97316199614, -0.426071069568, -1.31115913687)
+                                        .finished();
+  for (const Eigen::VectorXd& free : {Eigen::VectorXd(Eigen::VectorXd::Zero(7)), inTheHole}) {
+    S.setJointAngles(free);
+    EXPECT_EQ(S.kinematicsContacts(), Eigen::VectorXd::Zero(1));
+    EXPECT_EQ(S.jacobianContacts(), Eigen::MatrixXd::Zero(1, 7));
+  }
+  S.setContactMargin(.06);  // the peg is 0.05 from all four walls
+  EXPECT_NEAR(
+      S.kinematicsContacts()[0],
+      6 - (0.050010855025 + 0.049981552391 + 0.049992976099 + 0.050003138974 + 2 * 0.024491145218) / .06,
+      1e-9);
+  S.setContactMargin(.1);
+  S.setJointAngles(inTheWall);
+  EXPECT_GT(S.kinematicsContacts()[0], 2.5);
+  const VectorFunction cost = [&](const Eigen::VectorXd& q) {
+    S.setJointAngles(q);
+    return S.kinematicsContacts();
+  };
+  // Where the peg is parallel to its walls, the nearest points jump.
+  const Eigen::VectorXd aslant = inTheHole + Eigen::VectorXd::LinSpaced(7, -.02, .01);
+  for (const Eigen::VectorXd& q : {aslant, Eigen::VectorXd(aslant.array() + 1e-8), inTheWall}) {
+    S.setJointAngles(q);
+    const JacobianCheck check = checkJacobian(cost, S.jacobianContacts(), q, 1e-5);
+    EXPECT_TRUE(check.ok) << check.message;
+  }
+}
+
+TEST_F(SimulatorTest, ReportsWhatIsNear) {
+  Simulator S("pegInAHole.ors");
+  S.setJointAngles(
+      (Eigen::VectorXd(7) << 0.945499, 0.431195, -1.97155, 0.623969, 2.22355, -0.665206, -1.48356)
+          .finished());
+  const std::string report = S.proxyReport();
+  EXPECT_THAT(report, testing::StartsWith("pair           distance          point of the first"));
+  EXPECT_EQ(std::count(report.begin(), report.end(), '\n'), 13) << "all twelve pairs are near";
+  EXPECT_LT(report.find("hole#2 - arm5    0.0245"), report.find("hole#1 - peg     0.0500")) << report;
+  testing::internal::CaptureStdout();
+  S.reportProxies();
+  fflush(stdout);
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), report);
+  EXPECT_EQ(Simulator("man.ors").proxyReport().find('\n') + 1, Simulator("man.ors").proxyReport().size())
+      << "nothing of the man collides";
+}
+
+TEST_F(SimulatorTest, RefusesMarginsThatAreNone) {
+  Simulator S("pegInAHole.ors");
+  for (const double margin : {0., -1., std::nan(""), std::numeric_limits<double>::infinity()})
+    EXPECT_REX_ERROR(S.setContactMargin(margin), "wanted a positive, finite number of metres");
+  EXPECT_REX_ERROR(S.setContactMargin(-1), "setContactMargin: found -1");
+  EXPECT_REX_ERROR(Simulator({.sceneName = "a.ors", .sceneText = "body a {}", .q = {}, .contactMargin = 0}),
+                   "setContactMargin: found 0");
+}
+
+// Whoever never asks for contacts does not need them.
+TEST_F(SimulatorTest, RefusesContactsOfMeshesThatAreNotThere) {
+  std::ofstream(in("wedge.off"))
+      << "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+  std::ofstream(in("scene.ors")) << "body wedge { type=3 mesh='wedge.off' contact }\n"
+                                    "body ball { X=<T t(0 0 2)> type=1 size=[0 0 0 .1] contact }";
+  const Simulator S(in("scene.ors")), without(S.description());
+  EXPECT_EQ(S.kinematicsContacts().size(), 1);
+  EXPECT_REX_ERROR(without.kinematicsContacts(), "mesh");
+  EXPECT_REX_ERROR(without.jacobianContacts(), "mesh");
+  EXPECT_REX_ERROR(without.proxyReport(), "mesh");
+}
+
+// The humanoid steps from one foot to the other.
+TEST_F(SimulatorTest, AnchorsTheChainInABody) {
+  Simulator S("man.ors");
+  Rng rng(2);
+  S.setJointAngles(.3 * rng.normalVector(27));
+  S.setContactMargin(.05);
+  const Simulator before = S;
+  S.anchorKinematicChainIn("rfoot");
+  EXPECT_EQ(S.getJointDimension(), 27);
+  for (const char* body : {"rfoot", "handR", "head", "waist", "lfoot"}) {
+    EXPECT_LT((S.kinematicsPos(body, {.1, .2, .3}) - before.kinematicsPos(body, {.1, .2, .3})).norm(), 1e-12);
+    EXPECT_LT((S.kinematicsVec(body) - before.kinematicsVec(body)).norm(), 1e-12);
+  }
+  EXPECT_LT((S.kinematicsCOM() - before.kinematicsCOM()).norm(), 1e-12);
+  EXPECT_EQ(S.recording().count(), 1u) << "older postures have another meaning";
+
+  const Eigen::Vector3d foot = S.kinematicsPos("rfoot"), hand = S.kinematicsPos("handR");
+  S.setJointAngles(S.getJointAngles() + .1 * rng.normalVector(27));
+  EXPECT_EQ(S.kinematicsPos("rfoot"), foot);
+  EXPECT_GT((S.kinematicsPos("waist") - before.kinematicsPos("waist")).norm(), 1e-3);
+  EXPECT_GT((S.kinematicsPos("handR") - hand).norm(), 1e-3);
+  EXPECT_EQ(S.jacobianPos("rfoot"), Eigen::MatrixXd::Zero(3, 27));
+
+  const Simulator copy(S.description());
+  EXPECT_EQ(copy.getJointAngles(), S.getJointAngles());
+  EXPECT_LT((copy.kinematicsPos("handR") - S.kinematicsPos("handR")).norm(), 1e-12);
+  EXPECT_EQ(copy.description().contactMargin, .05);
+  EXPECT_REX_ERROR(S.anchorKinematicChainIn("rfot"), "has no body 'rfot' (did you mean 'rfoot'");
+  S.anchorKinematicChainIn("lfoot");
+  EXPECT_LT((S.kinematicsPos("handR") - copy.kinematicsPos("handR")).norm(), 1e-12);
+}
+
+// Its description is .ors, whatever the file was.
+TEST_F(SimulatorTest, AnchorsAUrdfToo) {
+  Simulator S("quadruped");
+  S.anchorKinematicChainIn("front_left_foot");
+  EXPECT_LT((Simulator(S.description()).kinematicsPos("rear_right_foot") - S.kinematicsPos("rear_right_foot"))
+                .norm(),
+            1e-12);
 }
 
 TEST_F(SimulatorTest, OffersTheScriptsFormsToo) {
@@ -148,6 +268,17 @@ TEST_F(SimulatorTest, OffersTheScriptsFormsToo) {
   EXPECT_EQ(y, S.kinematicsCOM());
   S.jacobianCOM(J);
   EXPECT_EQ(J, S.jacobianCOM());
+  S.kinematicsQuat(y, "peg");
+  EXPECT_EQ(y, S.kinematicsQuat("peg"));
+  S.jacobianQuat(J, "peg");
+  EXPECT_EQ(J, S.jacobianQuat("peg"));
+  S.setContactMargin(.5);
+  S.setJointAngles(Eigen::VectorXd::Constant(7, .4));
+  S.kinematicsContacts(y);
+  EXPECT_EQ(y, S.kinematicsContacts());
+  EXPECT_NE(y[0], 0);
+  S.jacobianContacts(J);
+  EXPECT_EQ(J, S.jacobianContacts());
 }
 
 TEST_F(SimulatorTest, ExplainsMistakes) {

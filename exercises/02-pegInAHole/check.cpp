@@ -1,0 +1,563 @@
+#include "grading/check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "collision/contacts.h"
+#include "collision/motion_clearance.h"
+#include "interface.h"
+#include "scene/model.h"
+
+using namespace rex;
+using grading::Check;
+using grading::Group;
+
+namespace {
+
+using Motion = std::vector<Eigen::VectorXd>;
+
+const Eigen::Vector3d kTarget(-0.2, -0.4, 1.1), kUp(0, 0, 1), kDown(0, 0, -1);
+
+Eigen::MatrixXd randomMatrix(Rng& rng, int rows, int columns) {
+  return rng.normalVector(rows * columns).reshaped(rows, columns);
+}
+
+Eigen::MatrixXd randomMetric(Rng& rng, int n) {
+  const Eigen::MatrixXd A = randomMatrix(rng, n, n);
+  return A * A.transpose() / n + 0.3 * Eigen::MatrixXd::Identity(n, n);
+}
+
+Simulator at(const Simulator& S, const Eigen::VectorXd& q) {
+  SimulatorDescription description = S.description();
+  description.q = q;
+  return Simulator(description);
+}
+
+// Columns that span what J does not notice.
+Eigen::MatrixXd nullspace(const Eigen::MatrixXd& J) {
+  Eigen::MatrixXd square = Eigen::MatrixXd::Zero(std::max(J.rows(), J.cols()), J.cols());
+  square.topRows(J.rows()) = J;
+  const SingularValues parts = svd(square);
+  const auto rank = (parts.s.array() > 1e-9 * parts.s[0]).count();
+  return parts.V.rightCols(J.cols() - rank);
+}
+
+// As many postures as asked for, each of n finite numbers.
+void checkPostures(Check& check, const Motion& motion, int count, int n) {
+  check.near("number of postures", static_cast<double>(motion.size()), count, 0);
+  for (const Eigen::VectorXd& q : motion) check.shape("posture", q, n, 1);
+}
+
+// Part 1.
+
+// X minimises precision * |J X dy - dy|^2 + |X dy|_W^2 for every dy where this gradient vanishes.
+void inverseIsTheMinimum(Check& check, Student& student, const Eigen::MatrixXd& J, const Eigen::MatrixXd& W,
+                         double precision) {
+  const Eigen::MatrixXd X = student.regularisedInverse(J, W, precision);
+  check.shape("J#", X, J.cols(), J.rows());
+  const Eigen::MatrixXd gradient =
+      precision * J.transpose() * (J * X - Eigen::MatrixXd::Identity(J.rows(), J.rows())) + W * X;
+  const double scale = (precision * J.squaredNorm() + W.norm()) * X.norm() + precision * J.norm();
+  check.atMost("gradient of the cost at J# dy, relative", gradient.norm() / scale, 1e-8);
+}
+
+void inverses(Check& check, Student& student) {
+  check.forEachCase(10, [&](int) {
+    Rng& rng = check.rng();
+    const int d = 1 + rng.index(4), n = d + rng.index(8);
+    check.input("a random Jacobian, a random metric W, a precision between 0.1 and 1e4");
+    inverseIsTheMinimum(check, student, randomMatrix(rng, d, n), randomMetric(rng, n),
+                        std::pow(10, rng.uniform(-1, 4)));
+  });
+}
+
+void isTheProjector(Check& check, Student& student, const Eigen::MatrixXd& J, int rank) {
+  const Eigen::Index n = J.cols();
+  const Eigen::MatrixXd N = student.nullspaceProjector(J);
+  check.shape("N", N, n, n);
+  check.atMost("largest entry of J N, relative", (J * N).cwiseAbs().maxCoeff() / J.cwiseAbs().maxCoeff(),
+               1e-6);
+  check.near("N N", N * N, N, 1e-6);
+  check.near("N transposed (W is the identity)", N.transpose(), N, 1e-6);
+  check.near("trace of N, the number of free directions", N.trace(), static_cast<double>(n) - rank, 1e-5);
+}
+
+void projectors(Check& check, Student& student) {
+  check.forEachCase(6, [&](int i) {
+    Rng& rng = check.rng();
+    if (i < 2) {
+      Simulator S("man.ors");
+      S.setJointAngles(0.3 * rng.normalVector(27));
+      check.input("man.ors in a random posture, the Jacobian of the right hand");
+      isTheProjector(check, student, S.jacobianPos("handR"), 3);
+    } else {
+      const int d = 1 + rng.index(3), n = d + 2 + rng.index(8);
+      check.input("a random Jacobian of full rank");
+      isTheProjector(check, student, randomMatrix(rng, d, n), d);
+    }
+  });
+}
+
+void projectorsOfLessRank(Check& check, Student& student) {
+  check.input("pegArm.ors stretched out (q = 0), the Jacobian of the peg: it can only move up or down");
+  isTheProjector(check, student, Simulator("pegArm.ors").jacobianPos("peg"), 1);
+  check.input("a random Jacobian whose last row is the sum of the others");
+  Eigen::MatrixXd J = randomMatrix(check.rng(), 4, 7);
+  J.row(3) = J.topRows(3).colwise().sum();
+  isTheProjector(check, student, J, 3);
+}
+
+// <hidden>
+void inversesOfAnySize(Check& check, Student& student) {
+  check.forEachCase(10, [&](int i) {
+    Rng& rng = check.rng();
+    if (i < 5) {
+      const int d = 1 + rng.index(9), n = 1 + rng.index(9);
+      inverseIsTheMinimum(check, student, randomMatrix(rng, d, n), randomMetric(rng, n),
+                          std::pow(10, rng.uniform(-1, 4)));
+    } else {
+      // A product of thin matrices has their width as its rank.
+      const int rank = 1 + rng.index(3), d = rank + rng.index(3), n = rank + rng.index(6);
+      isTheProjector(check, student, randomMatrix(rng, d, rank) * randomMatrix(rng, rank, n), rank);
+    }
+  });
+}
+// </hidden>
+
+// Part 2.
+
+void stepIsTheMinimum(Check& check, Student& student, const std::vector<TaskTerm>& tasks,
+                      const Eigen::MatrixXd& W) {
+  const Eigen::VectorXd dq = student.multiTaskStep(tasks, W);
+  check.shape("dq", dq, W.rows(), 1);
+  Eigen::VectorXd gradient = W * dq;
+  double scale = W.norm() * dq.norm();
+  for (const auto& [error, J, precision] : tasks) {
+    gradient += precision * J.transpose() * (error + J * dq);
+    scale += precision * (J.norm() * error.norm() + J.squaredNorm() * dq.norm());
+  }
+  check.atMost("gradient of the cost at dq, relative", gradient.norm() / scale, 1e-8);
+}
+
+void stackedSteps(Check& check, Student& student) {
+  check.forEachCase(10, [&](int i) {
+    Rng& rng = check.rng();
+    const int n = 2 + rng.index(10);
+    std::vector<TaskTerm> tasks;
+    for (int k = 0; k < 1 + i % 4; ++k) {
+      const int d = 1 + rng.index(4);
+      tasks.push_back({rng.normalVector(d), randomMatrix(rng, d, n), std::pow(10, rng.uniform(-2, 4))});
+    }
+    check.input("random tasks with precisions between 0.01 and 1e4, and a random metric W");
+    stepIsTheMinimum(check, student, tasks, randomMetric(rng, n));
+  });
+}
+
+struct Circle {
+  std::string hand;
+  Eigen::Vector3d center;
+  double radius;
+  std::string pointing;
+};
+
+const Circle kCircle{"handR", kTarget, 0.2, "handL"};
+
+Motion circleOf(Check& check, Student& student, const Simulator& S, const Circle& circle, int T) {
+  const Motion motion =
+      student.circleWithTasks(S.description(), circle.hand, circle.center, circle.radius, circle.pointing, T);
+  checkPostures(check, motion, T, S.getJointDimension());
+  return motion;
+}
+
+// The largest f(S, t) from step `first` on.
+template <class F>
+double largest(const Simulator& S, const Motion& motion, int first, const F& f) {
+  double most = 0;
+  Simulator moved = S;
+  for (int t = first; t <= static_cast<int>(motion.size()); ++t) {
+    moved.setJointAngles(motion[static_cast<std::size_t>(t) - 1]);
+    most = std::max(most, f(moved, t));
+  }
+  return most;
+}
+
+// 2e-4 m is usual; the home task pulls the hand off its circle by its share of the precisions.
+void tracks(Check& check, const Simulator& S, const Circle& circle, const Motion& motion) {
+  const double error = largest(S, motion, 20, [&](const Simulator& moved, int t) {
+    const Eigen::Vector3d wanted =
+        circle.center + circle.radius * Eigen::Vector3d(std::cos(t / 20.), 0, std::sin(t / 20.));
+    return (moved.kinematicsPos(circle.hand) - wanted).norm();
+  });
+  check.atMost("largest distance from the point on the circle", error, 2e-3, "m");
+}
+
+void staysAtHome(Check& check, const Simulator& S, const Motion& motion) {
+  const Eigen::VectorXd atFirst = S.getJointAngles();
+  const double away = largest(S, motion, 1, [&](const Simulator& moved, int) {
+    return (moved.getJointAngles() - atFirst).cwiseAbs().maxCoeff();
+  });
+  check.atMost("largest angle between a joint and its place at home", away, 2.2, "rad");
+}
+
+void pointsUpwards(Check& check, const Simulator& S, const Circle& circle, const Motion& motion) {
+  const double tilt = largest(S, motion, 100, [&](const Simulator& moved, int) {
+    return (moved.kinematicsVec(circle.pointing) - kUp).norm();
+  });
+  check.atMost("largest |z axis - up| of the hand that points", tilt, 0.05);
+}
+
+void circleTracks(Check& check, Student& student) {
+  check.input("man.ors, handR around (-0.2, -0.4, 1.1), radius 0.2 m, handL up, steps 20 to 300");
+  const Simulator S("man.ors");
+  tracks(check, S, kCircle, circleOf(check, student, S, kCircle, 300));
+}
+
+void circleStaysAtHome(Check& check, Student& student) {
+  check.input("man.ors, handR around (-0.2, -0.4, 1.1), radius 0.2 m, handL up, 1500 steps");
+  const Simulator S("man.ors");
+  const Motion motion = circleOf(check, student, S, kCircle, 1500);
+  staysAtHome(check, S, motion);
+  tracks(check, S, kCircle, motion);
+}
+
+void circlePoints(Check& check, Student& student) {
+  check.input("man.ors, handR around (-0.2, -0.4, 1.1), radius 0.2 m, handL up, steps 100 to 200");
+  const Simulator S("man.ors");
+  pointsUpwards(check, S, kCircle, circleOf(check, student, S, kCircle, 200));
+}
+
+// <hidden>
+// Around a circle without radius the posture comes to rest. What it then still misses of home is what the
+// other tasks need: home pulls against them, and against nothing else.
+void restsNearHome(Check& check, Student& student, const Simulator& S, Circle circle) {
+  circle.radius = 0;
+  const Motion motion = circleOf(check, student, S, circle, 1200);
+  const Simulator end = at(S, motion.back());
+  Eigen::MatrixXd J(6, S.getJointDimension());
+  J << end.jacobianPos(circle.hand), end.jacobianVec(circle.pointing);
+  const Eigen::VectorXd away = motion.back() - S.getJointAngles();
+  check.atMost("part of the way from home that no other task asks for",
+               (nullspace(J).transpose() * away).norm(), 0.02, "rad");
+}
+
+void circleOfTheOtherHand(Check& check, Student& student) {
+  check.forEachCase(3, [&](int i) {
+    Rng& rng = check.rng();
+    const Simulator S = at(Simulator("man.ors"), rng.uniformVector(27, -0.1, 0.1));
+    const Circle circle{"handL", Eigen::Vector3d(0.2, -0.4, 1.1) + rng.uniformVector(3, -0.03, 0.03),
+                        rng.uniform(0.1, 0.18), "handR"};
+    if (i == 2) return restsNearHome(check, student, S, circle);
+    const Motion motion = circleOf(check, student, S, circle, 600);
+    tracks(check, S, circle, motion);
+    staysAtHome(check, S, motion);
+    pointsUpwards(check, S, circle, motion);
+  });
+}
+// </hidden>
+
+// Part 3.
+
+void interpolates(Check& check, Student& student) {
+  for (int i = 0; i <= 10; ++i) {
+    const double s = i / 10.;
+    check.near("sineProfile(" + std::to_string(s).substr(0, 3) + ")", student.sineProfile(s),
+               (1 - std::cos(std::numbers::pi * s)) / 2, 1e-9);
+  }
+  Rng& rng = check.rng();
+  const int n = 2 + rng.index(6), T = 10 + rng.index(20);
+  const Eigen::VectorXd q0 = rng.normalVector(n), qT = rng.normalVector(n);
+  const Motion motion = student.jointSpaceMotion(q0, qT, T);
+  check.input("two random postures");
+  checkPostures(check, motion, T, n);
+  for (int t = 1; t <= T; ++t) {
+    const double share = (1 - std::cos(std::numbers::pi * t / T)) / 2;
+    check.near("posture " + std::to_string(t) + " of the motion", motion[static_cast<std::size_t>(t) - 1],
+               q0 + share * (qT - q0), 1e-9, "rad");
+  }
+}
+
+constexpr double kMargin = 0.02;
+const Eigen::Vector3d kHole(0, -1, 1);
+// The peg above the hole, but the elbow so near the frame that it touches unless it is kept away.
+const Eigen::VectorXd kAbove =
+    (Eigen::VectorXd(7) << 0.967552, -0.251879, -1.18846, 1.4825, 1.42033, 0.215273, -2.64193).finished();
+// Bent, away from the hole; small steps lead from here to postures with room for the elbow.
+const Eigen::VectorXd kStart = 0.6 * kAbove;
+
+// An arm with a peg, a hole, and where to start.
+struct Scene {
+  Simulator S;
+  std::string peg;
+  Eigen::Vector3d hole;
+};
+
+Scene pegInAHole(const Eigen::VectorXd& q) { return {at(Simulator("pegInAHole.ors"), q), "peg", kHole}; }
+
+// The least distance of two shapes that may collide, metres; 0.5 if that is less.
+double clearance(const Model& model, const ContactModel& contacts, const Eigen::VectorXd& q) {
+  double least = kQueryCutoff;
+  for (const Proxy& one : proxies(contacts, forwardKinematics(model, q)))
+    least = std::min(least, one.proximity.distance);
+  return least;
+}
+
+// What happens between the postures counts, too. The bound is at most a tenth of a millimetre too low.
+void clearanceIsKept(Check& check, const Simulator& S, const Motion& motion) {
+  const ContactModel contacts(S.model());
+  Eigen::VectorXd before = S.getJointAngles();
+  double least = kQueryCutoff;
+  for (const Eigen::VectorXd& q : motion) {
+    least = std::min(least, motionClearance(S.model(), contacts, before, q, 1e-4));
+    before = q;
+  }
+  check.atLeast("least clearance along the motion", least, 0.5 * kMargin, "m");
+}
+
+void pegIsAt(Check& check, const Scene& scene, const Eigen::VectorXd& q, const Eigen::Vector3d& place,
+             const Eigen::Vector3d& direction, double slack = 1) {
+  const Simulator there = at(scene.S, q);
+  check.atMost("distance of the peg from its place", (there.kinematicsPos(scene.peg) - place).norm(),
+               1e-3 * slack, "m");
+  check.atMost("|z axis of the peg - its direction|", (there.kinematicsVec(scene.peg) - direction).norm(),
+               0.01 * slack);
+}
+
+void postureIsRight(Check& check, Student& student, const Scene& scene, const Eigen::Vector3d& place) {
+  const Eigen::VectorXd q = student.pegPosture(scene.S.description(), scene.peg, place, kDown, kMargin);
+  check.shape("posture", q, scene.S.getJointDimension(), 1);
+  pegIsAt(check, scene, q, place, kDown);
+  const Model& model = scene.S.model();
+  check.atLeast("clearance", clearance(model, ContactModel(model), q), 0.5 * kMargin, "m");
+}
+
+void postureAboveAndIn(Check& check, Student& student) {
+  check.input("pegInAHole.ors, arm bent, place (0, -1, 1.6) above the hole, downwards");
+  postureIsRight(check, student, pegInAHole(kStart), kHole - 0.6 * kDown);
+  check.input("pegInAHole.ors, peg above the hole, place (0, -1, 1) in the hole, downwards");
+  postureIsRight(check, student, pegInAHole(kAbove), kHole);
+}
+
+// The peg goes from its place straight into the hole.
+void movesStraight(Check& check, Student& student) {
+  const int T = 150;
+  const Scene scene = pegInAHole(kAbove);
+  check.input("pegInAHole.ors, from above the hole to (0, -1, 1) in 150 steps");
+  const Eigen::Vector3d start = scene.S.kinematicsPos("peg"), direction = scene.S.kinematicsVec("peg");
+  const Motion motion = student.taskSpaceMotion(scene.S.description(), "peg", kHole, kMargin, T);
+  checkPostures(check, motion, T, scene.S.getJointDimension());
+  for (int t = 1; t <= T; ++t) {
+    const double share = (1 - std::cos(std::numbers::pi * t / T)) / 2;
+    pegIsAt(check, scene, motion[static_cast<std::size_t>(t) - 1], start + share * (kHole - start), direction,
+            t < T ? 5 : 1);
+  }
+  clearanceIsKept(check, scene.S, motion);
+}
+
+void goesIn(Check& check, Student& student, const Scene& scene) {
+  const Motion motion = student.insertPeg(scene.S.description(), scene.peg, scene.hole, kDown, kMargin);
+  check.atLeast("number of postures", static_cast<double>(motion.size()), 10);
+  check.atMost("number of postures", static_cast<double>(motion.size()), 1000);
+  Eigen::VectorXd before = scene.S.getJointAngles();
+  double widest = 0;
+  for (const Eigen::VectorXd& q : motion) {
+    check.shape("posture", q, scene.S.getJointDimension(), 1);
+    widest = std::max(widest, (q - before).cwiseAbs().maxCoeff());
+    before = q;
+  }
+  check.atMost("largest turn of a joint from one posture to the next", widest, 0.1, "rad");
+  pegIsAt(check, scene, motion.back(), scene.hole, kDown);
+  clearanceIsKept(check, scene.S, motion);
+}
+
+void goesIntoTheHole(Check& check, Student& student) {
+  check.input("pegInAHole.ors, arm bent, into the hole at (0, -1, 1) downwards");
+  goesIn(check, student, pegInAHole(kStart));
+}
+
+// <hidden>
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  for (std::size_t place = text.find(what); place != std::string::npos;
+       place = text.find(what, place + by.size()))
+    text.replace(place, what.size(), by);
+  return text;
+}
+
+// Another hole, a thicker rod instead of the peg, another start.
+Scene anotherHole(Rng& rng) {
+  SimulatorDescription description = Simulator("pegInAHole.ors").description();
+  const Eigen::Vector3d hole = kHole + rng.uniformVector(3, -0.08, 0.08);
+  const auto number = [](double x) { return std::to_string(x); };
+  const std::string place = number(hole.x()) + " " + number(hole.y()) + " " + number(hole.z());
+  description.sceneText = replaced(description.sceneText, "t(0 -1 1)", "t(" + place + ")");
+  description.sceneText = replaced(description.sceneText, "[0 0 0.6 0.05]", "[0 0 0.6 0.06]");
+  description.sceneText = replaced(description.sceneText, "peg", "rod");
+  description.q = kStart + rng.uniformVector(7, -0.1, 0.1);
+  const Simulator S(description);
+  return {S, "rod", S.kinematicsPos("hole")};
+}
+
+void anotherPegAndHole(Check& check, Student& student) {
+  check.forEachCase(4, [&](int i) {
+    const Scene other = anotherHole(check.rng());
+    if (i < 2) {
+      goesIn(check, student, other);
+    } else if (i == 2) {
+      postureIsRight(check, student, other, other.hole - 0.6 * kDown);
+    } else {
+      const Eigen::VectorXd near = kAbove + check.rng().uniformVector(7, -0.02, 0.02);
+      postureIsRight(check, student, pegInAHole(near), kHole);
+    }
+  });
+}
+// </hidden>
+
+// Part 4.
+
+struct TwoTasks {
+  Eigen::MatrixXd J1;
+  Eigen::VectorXd dy1;
+  Eigen::MatrixXd J2;
+  Eigen::VectorXd dy2;
+};
+
+TwoTasks randomTasks(Rng& rng, int d1, int d2, int n) {
+  return {randomMatrix(rng, d1, n), rng.normalVector(d1), randomMatrix(rng, d2, n), rng.normalVector(d2)};
+}
+
+Eigen::VectorXd stepOf(Check& check, Student& student, const TwoTasks& tasks) {
+  const Eigen::VectorXd dq = student.priorityStep(tasks.J1, tasks.dy1, tasks.J2, tasks.dy2);
+  check.shape("dq", dq, tasks.J1.cols(), 1);
+  return dq;
+}
+
+void firstIsFulfilled(Check& check, const TwoTasks& tasks, const Eigen::VectorXd& dq) {
+  const Eigen::VectorXd missing = tasks.J1.transpose() * (tasks.J1 * dq - tasks.dy1);
+  check.atMost(
+      "gradient of the error of the first task, relative",
+      missing.norm() / (tasks.J1.squaredNorm() * dq.norm() + (tasks.J1.transpose() * tasks.dy1).norm()),
+      1e-7);
+}
+
+void secondIsAsGoodAsItCan(Check& check, const TwoTasks& tasks, const Eigen::VectorXd& dq) {
+  const Eigen::MatrixXd free = nullspace(tasks.J1);
+  const Eigen::VectorXd missing = tasks.J2 * dq - tasks.dy2;
+  check.atMost("gradient of the error of the second task where the first leaves freedom, relative",
+               (free.transpose() * tasks.J2.transpose() * missing).norm() /
+                   (tasks.J2.squaredNorm() * dq.norm() + tasks.J2.norm() * tasks.dy2.norm()),
+               1e-7);
+}
+
+void isTheShortest(Check& check, const TwoTasks& tasks, const Eigen::VectorXd& dq) {
+  Eigen::MatrixXd both(tasks.J1.rows() + tasks.J2.rows(), dq.size());
+  both << tasks.J1, tasks.J2;
+  check.atMost("part of dq that neither task asks for, relative",
+               (nullspace(both).transpose() * dq).norm() / dq.norm(), 1e-7);
+}
+
+void firstComesFirst(Check& check, Student& student) {
+  check.forEachCase(10, [&](int i) {
+    Rng& rng = check.rng();
+    TwoTasks tasks = randomTasks(rng, 3, 1 + rng.index(3), 7);
+    check.input("two random tasks for 7 joints");
+    if (i >= 5) {
+      tasks.J2 = randomMatrix(rng, static_cast<int>(tasks.J2.rows()), 3) * tasks.J1;
+      check.input("a second task that sees no joint motion but those of the first, and wants something else");
+    }
+    const Eigen::VectorXd dq = stepOf(check, student, tasks);
+    firstIsFulfilled(check, tasks, dq);
+    check.near("J1 dq", tasks.J1 * dq, tasks.dy1, 1e-6);
+  });
+}
+
+void secondComesSecond(Check& check, Student& student) {
+  check.forEachCase(10, [&](int) {
+    const TwoTasks tasks = randomTasks(check.rng(), 3, 1 + check.rng().index(3), 7);
+    check.input("two random tasks for 7 joints, which can both be fulfilled");
+    const Eigen::VectorXd dq = stepOf(check, student, tasks);
+    firstIsFulfilled(check, tasks, dq);
+    secondIsAsGoodAsItCan(check, tasks, dq);
+    isTheShortest(check, tasks, dq);
+  });
+}
+
+// The hand circles; less important, it should stay where it was, which cannot be, and point upwards.
+void circlesUndisturbed(Check& check, Student& student) {
+  Simulator S("man.ors");
+  const Eigen::Vector3d start = S.kinematicsPos("handR");
+  check.input("man.ors, first handR on the circle, second handR at its start and its z axis upwards");
+  double error = 0;
+  for (int t = 1; t <= 200; ++t) {
+    const Eigen::Vector3d wanted = kTarget + 0.2 * Eigen::Vector3d(std::cos(t / 20.), 0, std::sin(t / 20.));
+    TwoTasks tasks{S.jacobianPos("handR"), wanted - S.kinematicsPos("handR"), Eigen::MatrixXd(6, 27),
+                   Eigen::VectorXd(6)};
+    tasks.J2 << tasks.J1, S.jacobianVec("handR");
+    tasks.dy2 << start - S.kinematicsPos("handR"), kUp - S.kinematicsVec("handR");
+    tasks.dy2 *= 0.1;
+    S.setJointAngles(S.getJointAngles() + stepOf(check, student, tasks));
+    if (t >= 20) error = std::max(error, (S.kinematicsPos("handR") - wanted).norm());
+  }
+  check.atMost("largest distance of the hand from the point on the circle", error, 2e-3, "m");
+  check.atMost("|z axis of the hand - up| in the end", (S.kinematicsVec("handR") - kUp).norm(), 0.05);
+}
+
+// <hidden>
+void anyTwoTasks(Check& check, Student& student) {
+  check.forEachCase(12, [&](int i) {
+    Rng& rng = check.rng();
+    const int n = 3 + rng.index(8);
+    TwoTasks tasks = randomTasks(rng, 1 + rng.index(6), 1 + rng.index(6), n);
+    // The first loses rank, so that it cannot be fulfilled; the second sees some of its motions, or all.
+    if (i % 3 > 0)
+      tasks.J1 = randomMatrix(rng, static_cast<int>(tasks.J1.rows()), 1) * randomMatrix(rng, 1, n);
+    if (i % 3 > 1) tasks.J2.row(0) = tasks.J1.row(0);
+    const Eigen::VectorXd dq = stepOf(check, student, tasks);
+    firstIsFulfilled(check, tasks, dq);
+    secondIsAsGoodAsItCan(check, tasks, dq);
+    isTheShortest(check, tasks, dq);
+  });
+}
+// </hidden>
+
+}  // namespace
+
+grading::Checks<Student> checks() {
+  return {
+      {"inverse", "nullspace", "regularisedInverse minimises its cost", 1, Group::visible, inverses},
+      {"projector", "nullspace", "the projector onto the nullspace", 1, Group::visible, projectors},
+      {"projector-singular", "nullspace", "the projector where the Jacobian loses rank", 1, Group::visible,
+       projectorsOfLessRank},
+      // <hidden>
+      {"nullspace-any-size", "nullspace", "Jacobians of any size and rank", 1, Group::hidden,
+       inversesOfAnySize},
+      // </hidden>
+      {"stack", "tasks", "multiTaskStep minimises the sum of its costs", 1, Group::visible, stackedSteps},
+      {"circle-tracks", "tasks", "the hand follows the circle", 1, Group::visible, circleTracks},
+      {"circle-home", "tasks", "the posture stays near home", 1, Group::visible, circleStaysAtHome},
+      {"circle-points", "tasks", "the other hand points upwards", 1, Group::visible, circlePoints},
+      // <hidden>
+      {"circle-other-hand", "tasks", "the circle with the other hand, from another posture", 1, Group::hidden,
+       circleOfTheOtherHand},
+      // </hidden>
+      {"interpolation", "peg", "joint-space interpolation with the sine profile", 1, Group::visible,
+       interpolates},
+      {"peg-posture", "peg", "postures above the hole and in it", 1, Group::visible, postureAboveAndIn},
+      {"peg-straight", "peg", "the peg moves straight into the hole and touches nothing", 1, Group::visible,
+       movesStraight},
+      {"peg-insert", "peg", "the whole way into the hole, and between the postures", 2, Group::visible,
+       goesIntoTheHole},
+      // <hidden>
+      {"peg-other-hole", "peg", "another peg, another hole, another start", 2, Group::hidden,
+       anotherPegAndHole},
+      // </hidden>
+      {"priority-first", "priority", "the second task never disturbs the first", 1, Group::visible,
+       firstComesFirst},
+      {"priority-second", "priority", "the second task gets all that the first leaves", 1, Group::visible,
+       secondComesSecond},
+      {"priority-circle", "priority", "the hand keeps to its circle against a second wish", 1, Group::visible,
+       circlesUndisturbed},
+      // <hidden>
+      {"priority-any", "priority", "tasks of any size and rank", 1, Group::hidden, anyTwoTasks},
+      // </hidden>
+  };
+}
