@@ -12,22 +12,11 @@
 #include "scene/scene_file.h"
 #include "scene/state.h"
 #include "scene/urdf_reader.h"
+#include "support/allocations.h"
 #include "support/expect_error.h"
 #include "support/file_text.h"
 #include "support/paths.h"
 #include "support/random_scene.h"
-
-// Counts what malloc is asked for, by Eigen too. A sanitizer brings its own malloc.
-#ifndef __SANITIZE_ADDRESS__
-namespace {
-long allocations = 0;
-}
-extern "C" void* __libc_malloc(std::size_t size);
-extern "C" void* malloc(std::size_t size) {
-  ++allocations;
-  return __libc_malloc(size);
-}
-#endif
 
 namespace rex {
 namespace {
@@ -224,9 +213,9 @@ TEST(SolveInverseKinematics, AllocatesNothingPerIteration) {
   const Task point{.name = "point", .map = positionTask(flange), .target = X_WT.p};
   for (const std::vector<Task>& tasks : {std::vector{point}, std::vector{pose}, std::vector{pose, point}}) {
     const auto spent = [&](int iterations) {
-      const long before = allocations;
+      const long before = allocations();
       const auto result = solve(model, tasks, model.initialPositions(), {.maxIterations = iterations});
-      const long count = allocations - before;
+      const long count = allocations() - before;
       EXPECT_EQ(result.status, Status::kIterationLimit) << result.message;
       EXPECT_EQ(result.iterations, 52 * iterations);
       return count;

@@ -1,16 +1,10 @@
 #pragma once
 
 // Counts what a program of tests allocates, with new or malloc, in our code or in Eigen's. To be included by
-// one file of it. The sanitizers bring allocators of their own, for which nothing is counted.
+// one file of it, and used where no sanitizer is, which brings an allocator of its own.
 #include <cstddef>
 
 namespace rex {
-
-#ifdef __SANITIZE_ADDRESS__
-inline constexpr bool kCountsAllocations = false;
-#else
-inline constexpr bool kCountsAllocations = true;
-#endif
 
 inline long allocationCount = 0;
 
