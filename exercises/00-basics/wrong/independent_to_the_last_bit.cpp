@@ -1,4 +1,4 @@
-// caught by: table, bayes-elsewhere
+// caught by: bayes-elsewhere
 // mistake: Compares rounded numbers for equality.
 
 // <solution jointTable>
