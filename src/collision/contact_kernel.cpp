@@ -7,18 +7,6 @@ namespace {
 
 constexpr int kLane = kContactLanes;
 
-template <class T>
-Vec3<T> loadVector(const double* from) {
-  return {load<T>(from), load<T>(from + kLane), load<T>(from + 2 * kLane)};
-}
-
-template <class T>
-void storeVector(const Vec3<T>& v, double* to) {
-  store(v.x, to);
-  store(v.y, to + kLane);
-  store(v.z, to + 2 * kLane);
-}
-
 // The numbers of a solid from some lane on.
 struct Solid {
   Solid(const LaneSolids& all, int place, int lane)
@@ -26,11 +14,11 @@ struct Solid {
 
   template <class T>
   Vec3<T> axis(int i) const {
-    return loadVector<T>(X_WS + 3 * i * kLane);
+    return loadVec3<T>(X_WS + 3 * i * kLane, kLane);
   }
   template <class T>
   Vec3<T> origin() const {
-    return loadVector<T>(X_WS + 9 * kLane);
+    return loadVec3<T>(X_WS + 9 * kLane, kLane);
   }
   template <class T>
   T radius() const {
@@ -48,8 +36,7 @@ void loadCore(const Solid& solid, Segment<T>& core) {
 
 template <class T>
 void loadCore(const Solid& solid, Box<T>& core) {
-  core = {{{solid.axis<T>(0), solid.axis<T>(1), solid.axis<T>(2)}, solid.origin<T>()},
-          loadVector<T>(solid.size)};
+  core = {loadPose<T>(solid.X_WS, kLane), loadVec3<T>(solid.size, kLane)};
 }
 
 template <class T, class A, class B>
@@ -83,9 +70,9 @@ void proximities(const CorePair& pair, int lanes, const LaneSolids& solids, Lane
     const Gap<T> gap = gapOf<T, A, B>(a, b);
     const T radiusA = a.radius<T>(), radiusB = b.radius<T>();
     store(gap.width - radiusA - radiusB, found.distance + lane);
-    storeVector(gap.p_B + (gap.width - radiusA) * gap.normal, found.p_WA + lane);
-    storeVector(gap.p_B + radiusB * gap.normal, found.p_WB + lane);
-    storeVector(gap.normal, found.normal_W + lane);
+    storeVec3(gap.p_B + (gap.width - radiusA) * gap.normal, found.p_WA + lane, kLane);
+    storeVec3(gap.p_B + radiusB * gap.normal, found.p_WB + lane, kLane);
+    storeVec3(gap.normal, found.normal_W + lane, kLane);
   }
 }
 
@@ -118,7 +105,7 @@ template <class T>
 bool isSphereNear(const Solid& segment, const Solid& box, double margin) {
   const Mat3<T> R{box.axis<T>(0), box.axis<T>(1), box.axis<T>(2)};
   const Vec3<T> p = transposedTimes(R, segment.origin<T>() - box.origin<T>());
-  const Vec3<T> apart = p - clampedTo(loadVector<T>(box.size), p);
+  const Vec3<T> apart = p - clampedTo(loadVec3<T>(box.size, kLane), p);
   const T near = load<T>(segment.size + 2 * kLane) + segment.radius<T>() + box.radius<T>() + T(margin);
   return isAnyBelow(dot(apart, apart), near * near);
 }
@@ -157,10 +144,9 @@ template <class T>
 void placeShape(const double* X_WB, const double* X_BS, double* X_WS) {
   const auto column = [&](int i) { return Vec3<T>{T(X_BS[3 * i]), T(X_BS[3 * i + 1]), T(X_BS[3 * i + 2])}; };
   for (int lane = 0; lane < kLane; lane += kLanesOf<T>) {
-    const auto axis = [&](int i) { return loadVector<T>(X_WB + 3 * i * kLane + lane); };
-    const Mat3<T> R{axis(0), axis(1), axis(2)};
-    for (int i = 0; i < 3; ++i) storeVector(R * column(i), X_WS + 3 * i * kLane + lane);
-    storeVector(R * column(3) + axis(3), X_WS + 9 * kLane + lane);
+    const KernelPose<T> X = loadPose<T>(X_WB + lane, kLane);
+    for (int i = 0; i < 3; ++i) storeVec3(X.R * column(i), X_WS + 3 * i * kLane + lane, kLane);
+    storeVec3(X.R * column(3) + X.p, X_WS + 9 * kLane + lane, kLane);
   }
 }
 

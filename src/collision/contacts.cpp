@@ -35,8 +35,9 @@ void addDistanceDerivative(const Model& model, const BodyPoses& poses, const Pro
   row.noalias() -= direction * J;
 }
 
+// Not a number where the distance is none: std::max takes its first argument then.
 double costOf(const Proxy& proxy, double margin) {
-  return std::max(0., 1 - proxy.proximity.distance / margin);
+  return std::max(1 - proxy.proximity.distance / margin, 0.);
 }
 
 }  // namespace

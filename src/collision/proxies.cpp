@@ -65,13 +65,14 @@ class PairsInLanes {
   double X_WS_[2 * kPoseNumbers] = {}, sizes_[2 * kSizeNumbers] = {};
 };
 
-// Calls visit(pair, solid a, X_WA, solid b, X_WB) for the pairs whose spheres are nearer than the cutoff.
+// Calls visit(pair, solid a, X_WA, solid b, X_WB) for the pairs whose spheres are nearer than the cutoff;
+// here and below, what is not a number is never far.
 template <class Visit>
 void forEachNear(const ContactModel::Data& data, const std::vector<CorePair>& pairs,
                  const std::vector<Pose>& X_WS, double cutoff, const Visit& visit) {
   for (const CorePair& pair : pairs) {
     const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
-    if ((X_WS[a].p - X_WS[b].p).norm() < pair.reach + cutoff)
+    if (!((X_WS[a].p - X_WS[b].p).norm() >= pair.reach + cutoff))
       visit(pair, data.solids[a], X_WS[a], data.solids[b], X_WS[b]);
   }
 }
@@ -105,7 +106,7 @@ void proxies(const ContactModel& contacts, const BodyPoses& poses, double cutoff
 
   near.clear();
   for (std::size_t row = 0; row < found.size(); ++row)
-    if (found[row].distance < cutoff) near.push_back({data.pairs[row], found[row]});
+    if (!(found[row].distance >= cutoff)) near.push_back({data.pairs[row], found[row]});
 }
 
 std::vector<Proxy> proxies(const ContactModel& contacts, const BodyPoses& poses, double cutoff) {

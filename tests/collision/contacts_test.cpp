@@ -1,6 +1,7 @@
 #include "collision/contacts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <map>
 
@@ -177,6 +178,13 @@ TEST(ContactTask, IsZeroExactlyWhereAllAreApart) {
   contactTask(contacts)({model, q, poses}, value);
   EXPECT_EQ(value.y, Eigen::VectorXd::Zero(1));
   EXPECT_EQ(value.J, Eigen::MatrixXd::Zero(1, model.nv()));
+}
+
+TEST(ContactCost, IsNoNumberWhereThePostureIsNone) {
+  const Model model = pegInAHole();
+  Eigen::VectorXd q = model.initialPositions();
+  q[2] = std::nan("");
+  EXPECT_TRUE(std::isnan(contactCost(ContactModel(model), forwardKinematics(model, q))));
 }
 
 TEST(ContactCost, NeedsAPositiveMargin) {
