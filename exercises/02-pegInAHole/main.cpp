@@ -125,13 +125,13 @@ double errorOnCircle(const Simulator& S, int t) { return (S.kinematicsPos("handR
 // The circle of exercise 01, with no other task: nothing tells which posture to prefer.
 Motion circleAlone(Simulator& S, int T) {
   const Eigen::MatrixXd W = Eigen::MatrixXd::Identity(S.getJointDimension(), S.getJointDimension());
-  Motion postures;
+  Motion motion;
   for (int t = 1; t <= T; ++t) {
     const TaskTerm circle{S.kinematicsPos("handR") - onCircle(t), S.jacobianPos("handR"), 1e4};
     S.setJointAngles(S.getJointAngles() + multiTaskStep({circle}, W));
-    postures.push_back(S.getJointAngles());
+    motion.push_back(S.getJointAngles());
   }
-  return postures;
+  return motion;
 }
 
 void showNullspace() {
@@ -251,12 +251,12 @@ template <class Step>
 Motion circleWithASecondWish(const Step& step) {
   Simulator S("man.ors");
   const Eigen::Vector3d start = S.kinematicsPos("handR");
-  Motion postures;
+  Motion motion;
   for (int t = 1; t <= 380; ++t) {
     S.setJointAngles(S.getJointAngles() + step(wishesAt(S, start, t)));
-    postures.push_back(S.getJointAngles());
+    motion.push_back(S.getJointAngles());
   }
-  return postures;
+  return motion;
 }
 
 void showPriority(const Motion& byLibrary) {
