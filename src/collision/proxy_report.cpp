@@ -42,7 +42,7 @@ std::string proxyReport(const Model& model, std::span<const Proxy> proxies) {
                                  "point of the first", "point of the second");
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     const Proximity& near = sorted[i].proximity;
-    text += fmt::format("{:{}} {:9.4f} {} {}\n", names[i + 1], width, near.distance, pointText(near.p_WA),
+    text += fmt::format("{:{}} {:>9.4f} {} {}\n", names[i + 1], width, near.distance, pointText(near.p_WA),
                         pointText(near.p_WB));
   }
   return text;

@@ -49,7 +49,8 @@ TEST(ProxyReport, ListsWhatIsNoNumberBeforeAllOthers) {
   ASSERT_EQ(near.size(), 3u);
   near[1].proximity.distance = std::nan("");
   const std::string report = proxyReport(model, near);
-  EXPECT_LT(report.find("gate - bead         nan"), report.find("wall#1 - bead    0.0500"));
+  EXPECT_THAT(report, HasSubstr("gate - bead         nan "));
+  EXPECT_LT(report.find("gate"), report.find("wall#1"));
   EXPECT_LT(report.find("wall#1"), report.find("wall#2"));
 }
 
