@@ -92,12 +92,12 @@ unsigned lanesBelow(const T& a, const T& b) {
   return bits;
 }
 
-// Whether a vector is not surely longer than `near` in some lane. Of what is not positive nothing is surely
-// longer: with a margin below zero that is what a sphere inside of a solid leaves.
+// Whether in some lane a vector is not surely longer than `near`, which a margin below zero may make
+// negative: then everything is longer but zero, which stands for a point inside of a box.
 template <class T>
 bool isAnyShorter(const Vec3<T>& apart, const T& near) {
-  const T enough = near + T(kCullSlack);
-  return isAnyBelow(dot(apart, apart), select(enough > T(0.0), enough * enough, T(1e300)));
+  const T enough = absolute(near) + T(kCullSlack);
+  return isAnyBelow(dot(apart, apart), enough * enough);
 }
 
 // Whether in some lane the spheres about both solids are nearer than the margin.

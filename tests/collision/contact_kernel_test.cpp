@@ -174,7 +174,7 @@ TEST(ContactKernel, HitsExactlyWhatIsNearer) {
         for (const CorePair& pair : pairs) {
           double distances[kContactLanes];
           kernel.pairs[type].distances(&pair, 1, solids.lanes(), distances);
-          std::vector<double> margins{0, -0.1};
+          std::vector<double> margins{0, -0.1, -kCullSlack};
           for (const double d : distances) {
             for (const double side : {-1e9, 1e9}) margins.push_back(std::nextafter(d, side));
             margins.push_back(d);
