@@ -179,7 +179,13 @@ TEST_P(ContactBatchPair, IsNotFreeWhereItIsNoNumber) {
 constexpr ShapeType kSolidTypes[] = {ShapeType::kBox,        ShapeType::kSphere,   ShapeType::kCapsule,
                                      ShapeType::kRoundedBox, ShapeType::kCylinder, ShapeType::kMesh};
 INSTANTIATE_TEST_SUITE_P(OfAllTypes, ContactBatchPair,
-                         testing::Combine(testing::ValuesIn(kSolidTypes), testing::ValuesIn(kSolidTypes)));
+                         testing::Combine(testing::ValuesIn(kSolidTypes), testing::ValuesIn(kSolidTypes)),
+                         [](const auto& i) {
+                           std::string name = std::string(toString(std::get<0>(i.param))) + "And" +
+                                              std::string(toString(std::get<1>(i.param)));
+                           std::erase(name, ' ');
+                           return name;
+                         });
 
 TEST(ContactBatchOfNone, TakesModelsWithoutPairs) {
   const Model model = compile(readOrs(sourcePath("data/robots/man.ors")).spec);
