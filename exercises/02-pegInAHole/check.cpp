@@ -294,11 +294,13 @@ struct Scene {
 
 Scene pegInAHole(const Eigen::VectorXd& q) { return {at(Simulator("pegInAHole.ors"), q), "peg", kHole}; }
 
-// The least distance of two shapes that may collide, metres; 0.5 if that is less.
+// The least distance of two shapes that may collide, metres; 0.5 if that is less. No number if one is none.
 double clearance(const Model& model, const ContactModel& contacts, const Eigen::VectorXd& q) {
   double least = kQueryCutoff;
-  for (const Proxy& one : proxies(contacts, forwardKinematics(model, q)))
+  for (const Proxy& one : proxies(contacts, forwardKinematics(model, q))) {
+    if (std::isnan(one.proximity.distance)) return one.proximity.distance;
     least = std::min(least, one.proximity.distance);
+  }
   return least;
 }
 

@@ -5,7 +5,7 @@
 
 #include "base/cpu_lanes.h"
 #include "collision/contact_data_internal.h"
-#include "collision/proximity.h"
+#include "collision/convex_distance_internal.h"
 
 namespace rex {
 namespace {
@@ -39,8 +39,10 @@ class Blocks {
       kernel_.pairs[type].distances(pairs.data(), static_cast<int>(pairs.size()), solids(), distances);
     }
     for (const CorePair& pair : data_.others) {
+      const ContactSolid &a = solid(pair.a), &b = solid(pair.b);
       for (int lane = 0; lane < lanesOf(block); ++lane)
-        distances[pair.row * kContactLanes + lane] = distanceOf(pair, block, lane);
+        distances[pair.row * kContactLanes + lane] =
+            internal::convexProximity(a.form, pose(pair.a, lane), b.form, pose(pair.b, lane)).distance;
     }
   }
 
@@ -55,7 +57,7 @@ class Blocks {
     }
     for (const CorePair& pair : data_.others) {
       for (int lane = 0; lane < lanesOf(block); ++lane)
-        if ((found >> lane & 1) == 0 && distanceOf(pair, block, lane) < margin) found |= 1u << lane;
+        if ((found >> lane & 1) == 0 && isNearer(pair, lane, margin)) found |= 1u << lane;
     }
     return found & all;
   }
@@ -71,12 +73,22 @@ class Blocks {
     }
   }
 
-  [[nodiscard]] double distanceOf(const CorePair& pair, int block, int lane) const {
-    const ContactSolid& a = data_.solids[static_cast<std::size_t>(pair.a)];
-    const ContactSolid& b = data_.solids[static_cast<std::size_t>(pair.b)];
-    const int k = block * kContactLanes + lane;
-    return proximity(a.form, poses_.pose(a.body, k) * a.X_BS, b.form, poses_.pose(b.body, k) * b.X_BS)
-        .distance;
+  [[nodiscard]] const ContactSolid& solid(int i) const { return data_.solids[static_cast<std::size_t>(i)]; }
+
+  // Of solid i, in a lane of the block that is placed.
+  [[nodiscard]] Pose pose(int i, int lane) const {
+    const double* numbers = X_WS_.get() + i * kPoseNumbers + lane;
+    Pose X_WS;
+    for (int k = 0; k < 9; ++k) X_WS.R.data()[k] = numbers[k * kContactLanes];
+    for (int k = 0; k < 3; ++k) X_WS.p[k] = numbers[(9 + k) * kContactLanes];
+    return X_WS;
+  }
+
+  // What is not a number is never far.
+  [[nodiscard]] bool isNearer(const CorePair& pair, int lane, double margin) const {
+    const Pose X_WA = pose(pair.a, lane), X_WB = pose(pair.b, lane);
+    if ((X_WA.p - X_WB.p).norm() >= pair.reach + margin + internal::kCullSlack) return false;
+    return internal::isNearer(solid(pair.a).form, X_WA, solid(pair.b).form, X_WB, margin);
   }
 
   const ContactModel::Data& data_;

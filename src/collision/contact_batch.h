@@ -9,7 +9,9 @@ namespace rex {
 /// its rows to contacts.pairs(). As proximity() says, negative in overlap. Resizes `distances`.
 void contactDistancesBatch(const ContactModel& contacts, const PoseBatch& poses, Eigen::MatrixXd& distances);
 
-/// Whether each configuration keeps all pairs at least `margin` metres apart. Resizes `free`.
+/// Whether each configuration keeps all pairs at least `margin` metres apart: where contactDistancesBatch()
+/// says so, but that cylinders and meshes which touch are not free at margin 0. What is not a number is not
+/// free. Resizes `free`.
 void contactFreeBatch(const ContactModel& contacts, const PoseBatch& poses, double margin,
                       Eigen::Array<bool, Eigen::Dynamic, 1>& free);
 

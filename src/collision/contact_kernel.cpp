@@ -92,12 +92,18 @@ unsigned lanesBelow(const T& a, const T& b) {
   return bits;
 }
 
+// Whether in some lane a vector is not surely longer than `near`, which a margin below zero may make
+// negative: then everything is longer but zero, which stands for a point inside of a box.
+template <class T>
+bool isAnyShorter(const Vec3<T>& apart, const T& near) {
+  const T enough = absolute(near) + T(kCullSlack);
+  return isAnyBelow(dot(apart, apart), enough * enough);
+}
+
 // Whether in some lane the spheres about both solids are nearer than the margin.
 template <class T>
 bool areSpheresNear(const Solid& a, const Solid& b, double reach, double margin) {
-  const Vec3<T> apart = a.origin<T>() - b.origin<T>();
-  const double near = reach + margin;
-  return isAnyBelow(dot(apart, apart), T(near * near));
+  return isAnyShorter(a.origin<T>() - b.origin<T>(), T(reach + margin));
 }
 
 // The same of the sphere about a segment and the box itself.
@@ -106,8 +112,8 @@ bool isSphereNear(const Solid& segment, const Solid& box, double margin) {
   const Mat3<T> R{box.axis<T>(0), box.axis<T>(1), box.axis<T>(2)};
   const Vec3<T> p = transposedTimes(R, segment.origin<T>() - box.origin<T>());
   const Vec3<T> apart = p - clampedTo(loadVec3<T>(box.size, kLane), p);
-  const T near = load<T>(segment.size + 2 * kLane) + segment.radius<T>() + box.radius<T>() + T(margin);
-  return isAnyBelow(dot(apart, apart), near * near);
+  const T radius = load<T>(segment.size + 2 * kLane) + segment.radius<T>();
+  return isAnyShorter(apart, radius + box.radius<T>() + T(margin));
 }
 
 template <class A, class B>

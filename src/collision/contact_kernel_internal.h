@@ -8,6 +8,10 @@ inline constexpr int kContactLanes = 8;
 inline constexpr int kPoseNumbers = 12 * kContactLanes;  ///< rotations by columns, then origins, as in Pose
 inline constexpr int kSizeNumbers = 4 * kContactLanes;   ///< half sizes of the core, then the radius
 
+/// Solids are passed over only where spheres about them are farther apart than asked for by this, metres:
+/// more than any rounding. Else the answer for a lane would depend on whether those beside it are looked at.
+inline constexpr double kCullSlack = 1e-9;
+
 /// Solids one after the other: kPoseNumbers each at X_WS, kSizeNumbers each at size.
 struct LaneSolids {
   const double* X_WS;

@@ -40,7 +40,8 @@ void proxies(const ContactModel& contacts, const BodyPoses& poses, double cutoff
 [[nodiscard]] double contactCost(const ContactModel& contacts, const BodyPoses& poses,
                                  double margin = kContactMargin);
 
-/// The same as a task map of one dimension, with its Jacobian. Throws as contactCost().
+/// The same as a task map of one dimension, with its Jacobian. It keeps room to work in, so threads must not
+/// share one: give each a copy. Throws as contactCost().
 [[nodiscard]] TaskMap contactTask(ContactModel contacts, double margin = kContactMargin);
 
 }  // namespace rex

@@ -26,4 +26,11 @@ Proximity convexProximity(const Shape& a, const Pose& X_WA, const Shape& b, cons
   return certifiedProximity(a, X_WA, b, X_WB).proximity;
 }
 
+bool isNearer(const Shape& a, const Pose& X_WA, const Shape& b, const Pose& X_WB, double margin) {
+  if (margin < 0) return !(convexProximity(a, X_WA, b, X_WB).distance >= margin);
+  const ConvexCore coreA(a), coreB(b);
+  const double cores = coreGap(CoreDifference(coreA, coreB, X_WA.inverse() * X_WB)).distance;
+  return !(cores > 0 && cores - coreA.radius() - coreB.radius() >= margin);
+}
+
 }  // namespace rex::internal

@@ -19,4 +19,9 @@ struct CertifiedProximity {
                                                     const Pose& X_WB);
 [[nodiscard]] Proximity convexProximity(const Shape& a, const Pose& X_WA, const Shape& b, const Pose& X_WB);
 
+/// Whether they are nearer than `margin` metres, or not a number. Only for a negative margin does it find out
+/// how deep cores overlap; for others those that touch are nearer.
+[[nodiscard]] bool isNearer(const Shape& a, const Pose& X_WA, const Shape& b, const Pose& X_WB,
+                            double margin);
+
 }  // namespace rex::internal

@@ -65,14 +65,14 @@ class PairsInLanes {
   double X_WS_[2 * kPoseNumbers] = {}, sizes_[2 * kSizeNumbers] = {};
 };
 
-// Calls visit(pair, solid a, X_WA, solid b, X_WB) for the pairs whose spheres are nearer than the cutoff;
-// here and below, what is not a number is never far.
+// Calls visit(pair, solid a, X_WA, solid b, X_WB) for the pairs whose spheres are nearer than the cutoff, or
+// would be if rounded otherwise; here and below, what is not a number is never far.
 template <class Visit>
 void forEachNear(const ContactModel::Data& data, const std::vector<CorePair>& pairs,
                  const std::vector<Pose>& X_WS, double cutoff, const Visit& visit) {
   for (const CorePair& pair : pairs) {
     const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
-    if (!((X_WS[a].p - X_WS[b].p).norm() >= pair.reach + cutoff))
+    if (!((X_WS[a].p - X_WS[b].p).norm() >= pair.reach + cutoff + internal::kCullSlack))
       visit(pair, data.solids[a], X_WS[a], data.solids[b], X_WS[b]);
   }
 }

@@ -1,6 +1,7 @@
 #include "collision/proxy_report.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -28,7 +29,8 @@ std::string shapeLabel(const Model& model, int shape) {
 std::string proxyReport(const Model& model, std::span<const Proxy> proxies) {
   std::vector<Proxy> sorted(proxies.begin(), proxies.end());
   std::stable_sort(sorted.begin(), sorted.end(), [](const Proxy& one, const Proxy& other) {
-    return one.proximity.distance < other.proximity.distance;
+    const double d = one.proximity.distance, e = other.proximity.distance;
+    return d < e || (std::isnan(d) && !std::isnan(e));
   });
   std::vector<std::string> names = {"pair"};
   for (const Proxy& one : sorted)
@@ -40,7 +42,7 @@ std::string proxyReport(const Model& model, std::span<const Proxy> proxies) {
                                  "point of the first", "point of the second");
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     const Proximity& near = sorted[i].proximity;
-    text += fmt::format("{:{}} {:9.4f} {} {}\n", names[i + 1], width, near.distance, pointText(near.p_WA),
+    text += fmt::format("{:{}} {:>9.4f} {} {}\n", names[i + 1], width, near.distance, pointText(near.p_WA),
                         pointText(near.p_WB));
   }
   return text;

@@ -12,7 +12,7 @@ namespace rex {
 [[nodiscard]] std::string shapeLabel(const Model& model, int shape);
 
 /// A table of the pairs, nearest first, a line each under a headline: names, distance, the nearest points of
-/// both shapes in W, metres.
+/// both shapes in W, metres. Distances that are not a number come before all others.
 [[nodiscard]] std::string proxyReport(const Model& model, std::span<const Proxy> proxies);
 
 }  // namespace rex

@@ -11,7 +11,7 @@ namespace rex {
 void PoseBatch::resize(int bodies, int count) {
   const int oldBodies = numbers_.items(), oldBlocks = blocks();
   numbers_.resize(bodies, count);
-  if (bodies == oldBodies && blocks() == oldBlocks) return;
+  if (bodies == 0 || (bodies == oldBodies && blocks() == oldBlocks)) return;
   for (int b = 0; b < blocks(); ++b) {
     for (int i = 0; i < 12; ++i)
       std::fill_n(block(b, kWorld).begin() + kLanes * i, kLanes, i < 9 && i % 4 == 0 ? 1. : 0.);

@@ -13,8 +13,8 @@ class PoseBatch {
  public:
   static constexpr int kLanes = LaneBlocks<12>::kLanes;
 
-  /// Puts the world in its place; poses of bodies are not kept. Allocates nothing where there were as many
-  /// before.
+  /// Puts the world in its place, which is body 0; poses of bodies are not kept. Allocates nothing where
+  /// there were as many before.
   void resize(int bodies, int count);
   int bodies() const { return numbers_.items(); }
   /// Configurations, and the blocks they take; the lanes behind the last one repeat it.

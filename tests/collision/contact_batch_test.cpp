@@ -96,6 +96,97 @@ TEST(ContactBatchOfNoNumbers, IsNotFree) {
   EXPECT_FALSE(free[9]);
 }
 
+// A solid that slides along x, and one that stands.
+Model sliding(const Shape& slider, const Shape& stand) {
+  SceneSpec spec;
+  spec.bodies.push_back(
+      {.name = "slider",
+       .X_WB = {},
+       .shapes = {{.name = "", .X_BS = translation(0, 0.01, 0.02), .shape = slider, .contact = true}}});
+  spec.worldShapes.push_back({.name = "", .X_BS = {}, .shape = stand, .contact = true});
+  spec.joints.push_back({.name = "slide",
+                         .parent = "world",
+                         .child = "slider",
+                         .type = JointType::kSlider,
+                         .X_PF = {},
+                         .X_MC = {},
+                         .axis = Eigen::Vector3d::UnitX()});
+  return compile(spec);
+}
+
+Shape shapeOf(ShapeType type, double radius) {
+  Shape shape{.type = type, .extent = {0.6, 0.5, 0.4}, .radius = radius};
+  if (usesMesh(type))
+    shape.mesh = TriangleMesh({{0.3f, 0, 0}, {-0.2f, 0.2f, 0}, {-0.2f, -0.2f, 0}, {0, 0, 0.4f}}, {}, {});
+  return shape;
+}
+
+class ContactBatchPair : public testing::TestWithParam<std::tuple<ShapeType, ShapeType>> {
+ protected:
+  [[nodiscard]] Model model(double radius) const {
+    const auto [slider, stand] = GetParam();
+    return sliding(shapeOf(slider, radius), shapeOf(stand, 0.1));
+  }
+  [[nodiscard]] static ContactModel contacts(const Model& model) {
+    const ShapePair pair{0, 1};
+    return ContactModel(model, std::span(&pair, 1));
+  }
+};
+
+// Also of points, and at margins that leave only points of a ball.
+TEST_P(ContactBatchPair, IsFreeWhereItsDistanceIs) {
+  for (const double radius : {0., 0.1}) {
+    const Model model = this->model(radius);
+    const ContactModel contacts = this->contacts(model);
+    PoseBatch poses;
+    forwardKinematicsBatch(model, Eigen::RowVectorXd::LinSpaced(101, -2, 2), poses);
+    Eigen::MatrixXd distances;
+    contactDistancesBatch(contacts, poses, distances);
+    EXPECT_LT(distances.minCoeff(), 0);
+    EXPECT_GT(distances.maxCoeff(), 0.5);
+    Eigen::Array<bool, Eigen::Dynamic, 1> free;
+    for (const double margin : {-0.3, -0.2, -0.1, 0., 0.1, 0.3, distances(0, 3), distances(0, 60)}) {
+      contactFreeBatch(contacts, poses, margin, free);
+      for (int k = 0; k < poses.count(); ++k)
+        EXPECT_EQ(free[k], distances(0, k) >= margin) << margin << ' ' << distances(0, k);
+    }
+  }
+}
+
+TEST_P(ContactBatchPair, IsNotFreeWhereItIsNoNumber) {
+  const Model model = this->model(0.1);
+  const ContactModel contacts = this->contacts(model);
+  PoseBatch poses;
+  Eigen::RowVectorXd Q = Eigen::RowVectorXd::Constant(10, 5);
+  Q[3] = std::nan("");
+  forwardKinematicsBatch(model, Q, poses);
+  Eigen::MatrixXd distances;
+  contactDistancesBatch(contacts, poses, distances);
+  for (const double margin : {-1., 0., 1.}) {
+    Eigen::Array<bool, Eigen::Dynamic, 1> free;
+    contactFreeBatch(contacts, poses, margin, free);
+    for (int k = 0; k < 10; ++k) {
+      EXPECT_EQ(std::isnan(distances(0, k)), k == 3);
+      EXPECT_EQ(free[k], k != 3);
+    }
+    EXPECT_FALSE(allContactFree(contacts, poses, margin));
+  }
+  const std::vector<Proxy> near = proxies(contacts, forwardKinematics(model, Q.col(3)));
+  ASSERT_EQ(near.size(), 1u);
+  EXPECT_TRUE(std::isnan(near[0].proximity.distance));
+}
+
+constexpr ShapeType kSolidTypes[] = {ShapeType::kBox,        ShapeType::kSphere,   ShapeType::kCapsule,
+                                     ShapeType::kRoundedBox, ShapeType::kCylinder, ShapeType::kMesh};
+INSTANTIATE_TEST_SUITE_P(OfAllTypes, ContactBatchPair,
+                         testing::Combine(testing::ValuesIn(kSolidTypes), testing::ValuesIn(kSolidTypes)),
+                         [](const auto& i) {
+                           std::string name = std::string(toString(std::get<0>(i.param))) + "And" +
+                                              std::string(toString(std::get<1>(i.param)));
+                           std::erase(name, ' ');
+                           return name;
+                         });
+
 TEST(ContactBatchOfNone, TakesModelsWithoutPairs) {
   const Model model = compile(readOrs(sourcePath("data/robots/man.ors")).spec);
   const ContactModel contacts(model);

@@ -1,5 +1,8 @@
 // One lane, two and four must give the same bits, and those of proximity().
+#include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -17,10 +20,11 @@ namespace {
 struct RandomSolids {
   static constexpr int kCount = 40;
 
-  explicit RandomSolids(Rng& rng) : X_WS(kCount * kPoseNumbers), size(kCount * kSizeNumbers) {
+  explicit RandomSolids(Rng& rng, double spread = 0.4)
+      : X_WS(kCount * kPoseNumbers), size(kCount * kSizeNumbers) {
     for (int i = 0; i < kCount; ++i) {
       for (int lane = 0; lane < kContactLanes; ++lane) {
-        Pose X{expSO3(rng.normalVector(3)), rng.uniformVector(3, -0.4, 0.4)};
+        Pose X{expSO3(rng.normalVector(3)), rng.uniformVector(3, -spread, spread)};
         Eigen::Vector3d half = rng.uniformVector(3, 0, 0.4);
         if (lane % 2 == 1) {
           X.R.setIdentity();
@@ -56,16 +60,26 @@ struct RandomSolids {
     return {.type = isBox ? ShapeType::kBox : ShapeType::kCapsule, .extent = extent, .radius = radius};
   }
 
+  // Of a sphere that holds the solids of all lanes.
+  [[nodiscard]] double reach(int i) const {
+    double most = 0;
+    for (int lane = 0; lane < kContactLanes; ++lane) {
+      const Shape core = shape(i, lane, true);
+      most = std::max(most, core.extent.norm() / 2 + core.radius);
+    }
+    return most;
+  }
+
   [[nodiscard]] LaneSolids lanes() const { return {X_WS.data(), size.data()}; }
 
   std::vector<double> X_WS, size;
 };
 
-std::vector<CorePair> allPairs() {
+std::vector<CorePair> allPairs(const RandomSolids& solids) {
   std::vector<CorePair> pairs;
   for (int a = 0; a < RandomSolids::kCount; ++a)
     for (int b = a + 1; b < RandomSolids::kCount; ++b)
-      pairs.push_back({a, b, static_cast<int>(pairs.size()), 1.6});
+      pairs.push_back({a, b, static_cast<int>(pairs.size()), solids.reach(a) + solids.reach(b)});
   return pairs;
 }
 
@@ -96,7 +110,7 @@ class ContactKernelLanes : public testing::TestWithParam<int> {
 TEST_P(ContactKernelLanes, GiveTheBitsOfOne) {
   Rng rng(71);
   const RandomSolids solids(rng);
-  const std::vector<CorePair> pairs = allPairs();
+  const std::vector<CorePair> pairs = allPairs(solids);
   const auto one = kernelFor<ContactKernel>(1), more = kernelFor<ContactKernel>(GetParam());
   for (int type = 0; type < 3; ++type) {
     const std::vector<double> wanted = results(one.pairs[type], pairs, solids);
@@ -117,17 +131,83 @@ TEST(ContactKernel, AgreesWithProximity) {
   Rng rng(72);
   const RandomSolids solids(rng);
   const auto kernel = kernelFor<ContactKernel>(cpuLanes());
-  for (const CorePair& pair : allPairs()) {
+  for (const CorePair& pair : allPairs(solids)) {
     for (int type = 0; type < 3; ++type) {
       LaneProximities found;
       kernel.pairs[type].proximities(pair, kContactLanes, solids.lanes(), found);
       for (int lane = 0; lane < kContactLanes; ++lane) {
         const Shape a = solids.shape(pair.a, lane, type == 2), b = solids.shape(pair.b, lane, type >= 1);
         // Boxes of proximity() have no balls.
-        const double sweep = (type == 2 ? a.radius : 0) + (type >= 1 ? b.radius : 0);
+        const double sweepA = type == 2 ? a.radius : 0, sweepB = type >= 1 ? b.radius : 0;
         const Proximity wanted = proximity(a, solids.pose(pair.a, lane), b, solids.pose(pair.b, lane));
-        EXPECT_NEAR(found.distance[lane], wanted.distance - sweep, 1e-15);
-        EXPECT_EQ(found.normal_W[lane], wanted.normal_W.x());
+        EXPECT_NEAR(found.distance[lane], wanted.distance - sweepA - sweepB, 1e-15);
+        for (int i = 0; i < 3; ++i) {
+          const int at = i * kContactLanes + lane;
+          EXPECT_EQ(found.normal_W[at], wanted.normal_W[i]);
+          EXPECT_NEAR(found.p_WA[at], wanted.p_WA[i] - sweepA * wanted.normal_W[i], 1e-15);
+          EXPECT_NEAR(found.p_WB[at], wanted.p_WB[i] + sweepB * wanted.normal_W[i], 1e-15);
+        }
+      }
+    }
+  }
+}
+
+// The lanes in which a number is less than the margin, as bits.
+unsigned lanesBelow(const double* numbers, double margin) {
+  unsigned bits = 0;
+  for (int lane = 0; lane < kContactLanes; ++lane) bits |= numbers[lane] < margin ? 1u << lane : 0u;
+  return bits;
+}
+
+// Margins at which one of the lanes is just hit, or just not: what is left out because of spheres must
+// neither depend on the other lanes nor on how anything is rounded.
+TEST(ContactKernel, HitsExactlyWhatIsNearer) {
+  Rng rng(73);
+  for (const double spread : {0., 0.4, 3.}) {
+    const RandomSolids solids(rng, spread);
+    std::vector<CorePair> pairs = allPairs(solids);
+    std::erase_if(pairs, [](const CorePair& pair) { return pair.row % 4 != 0; });
+    for (CorePair& pair : pairs) pair.row = 0;
+    for (int lanes = 1; lanes <= cpuLanes(); lanes *= 2) {
+      const auto kernel = kernelFor<ContactKernel>(lanes);
+      for (int type = 0; type < 3; ++type) {
+        for (const CorePair& pair : pairs) {
+          double distances[kContactLanes];
+          kernel.pairs[type].distances(&pair, 1, solids.lanes(), distances);
+          std::vector<double> margins{0, -0.1, -kCullSlack};
+          for (const double d : distances) {
+            for (const double side : {-1e9, 1e9}) margins.push_back(std::nextafter(d, side));
+            margins.push_back(d);
+          }
+          for (const double margin : margins)
+            ASSERT_EQ(kernel.pairs[type].hits(&pair, 1, solids.lanes(), margin, 0),
+                      lanesBelow(distances, margin))
+                << type << ' ' << margin << ' ' << lanes;
+        }
+      }
+    }
+  }
+}
+
+// Any number of a pose, of either solid.
+TEST(ContactKernel, GivesNoNumberWhereAPoseHasNone) {
+  Rng rng(74);
+  const RandomSolids solids(rng);
+  const auto kernel = kernelFor<ContactKernel>(cpuLanes());
+  constexpr int kLane = 2;
+  for (int type = 0; type < 3; ++type) {
+    for (const int solid : {0, 1}) {
+      for (int k = 0; k < 12; ++k) {
+        // The other axes of a segment do not matter.
+        if (k < 6 && (type == 0 || (type == 1 && solid == 0))) continue;
+        RandomSolids broken = solids;
+        broken.X_WS[solid * kPoseNumbers + k * kContactLanes + kLane] = std::nan("");
+        LaneProximities found;
+        const CorePair pair{0, 1, 0, solids.reach(0) + solids.reach(1)};
+        kernel.pairs[type].proximities(pair, kContactLanes, broken.lanes(), found);
+        for (int lane = 0; lane < kContactLanes; ++lane)
+          EXPECT_EQ(std::isnan(found.distance[lane]), lane == kLane) << type << ' ' << solid << ' ' << k;
+        EXPECT_TRUE(kernel.pairs[type].hits(&pair, 1, broken.lanes(), -10, 0) >> kLane & 1);
       }
     }
   }

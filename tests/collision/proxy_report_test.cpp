@@ -1,5 +1,7 @@
 #include "collision/proxy_report.h"
 
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -38,6 +40,18 @@ TEST(ProxyReport, ListsTheNearestFirst) {
   EXPECT_LT(report.find("gate"), report.find("wall#2"));
   EXPECT_EQ(proxyReport(model, {}),
             "pair  distance          point of the first         point of the second\n");
+}
+
+TEST(ProxyReport, ListsWhatIsNoNumberBeforeAllOthers) {
+  const Model model = modelOf(kWall);
+  const BodyPoses poses = forwardKinematics(model, model.initialPositions());
+  std::vector<Proxy> near = proxies(ContactModel(model), poses, 10);
+  ASSERT_EQ(near.size(), 3u);
+  near[1].proximity.distance = std::nan("");
+  const std::string report = proxyReport(model, near);
+  EXPECT_THAT(report, HasSubstr("gate - bead         nan "));
+  EXPECT_LT(report.find("gate"), report.find("wall#1"));
+  EXPECT_LT(report.find("wall#1"), report.find("wall#2"));
 }
 
 }  // namespace

@@ -144,6 +144,15 @@ TEST(PoseBatch, HoldsNoConfigurationWhereThereIsNone) {
   EXPECT_EQ(jacobians.columns(), model.nv());
 }
 
+TEST(PoseBatch, TakesNoBodies) {
+  PoseBatch poses;
+  poses.resize(0, 20);
+  EXPECT_EQ(poses.bodies(), 0);
+  EXPECT_EQ(poses.count(), 20);
+  poses.resize(1, 20);
+  for (int k = 0; k < 20; ++k) EXPECT_EQ(poses.pose(kWorld, k).R, Eigen::Matrix3d::Identity());
+}
+
 TEST(PoseBatch, NamesWrongSizesAndZeroQuaternions) {
   Rng rng(66);
   const Model model = compile(randomScene(rng, 12));
