@@ -304,6 +304,17 @@ double clearance(const Model& model, const ContactModel& contacts, const Eigen::
   return least;
 }
 
+// Motions are for real joints, and wide turns take long to check.
+void turnsAreSmall(Check& check, const Simulator& S, const Motion& motion) {
+  Eigen::VectorXd before = S.getJointAngles();
+  double widest = 0;
+  for (const Eigen::VectorXd& q : motion) {
+    widest = std::max(widest, (q - before).cwiseAbs().maxCoeff());
+    before = q;
+  }
+  check.atMost("largest turn of a joint from one posture to the next", widest, 0.1, "rad");
+}
+
 // What happens between the postures counts, too. The bound is at most a tenth of a millimetre too low.
 void clearanceIsKept(Check& check, const Simulator& S, const Motion& motion) {
   const ContactModel contacts(S.model());
@@ -353,6 +364,7 @@ void movesStraight(Check& check, Student& student) {
     pegIsAt(check, scene, motion[static_cast<std::size_t>(t) - 1], start + share * (kHole - start), direction,
             t < T ? 5 : 1);
   }
+  turnsAreSmall(check, scene.S, motion);
   clearanceIsKept(check, scene.S, motion);
 }
 
@@ -360,14 +372,8 @@ void goesIn(Check& check, Student& student, const Scene& scene) {
   const Motion motion = student.insertPeg(scene.S.description(), scene.peg, scene.hole, kDown, kMargin);
   check.atLeast("number of postures", static_cast<double>(motion.size()), 10);
   check.atMost("number of postures", static_cast<double>(motion.size()), 1000);
-  Eigen::VectorXd before = scene.S.getJointAngles();
-  double widest = 0;
-  for (const Eigen::VectorXd& q : motion) {
-    check.shape("posture", q, scene.S.getJointDimension(), 1);
-    widest = std::max(widest, (q - before).cwiseAbs().maxCoeff());
-    before = q;
-  }
-  check.atMost("largest turn of a joint from one posture to the next", widest, 0.1, "rad");
+  for (const Eigen::VectorXd& q : motion) check.shape("posture", q, scene.S.getJointDimension(), 1);
+  turnsAreSmall(check, scene.S, motion);
   pegIsAt(check, scene, motion.back(), scene.hole, kDown);
   clearanceIsKept(check, scene.S, motion);
 }

@@ -12,9 +12,9 @@ struct CertifiedProximity {
 
 /// The proximity of two convex solids that pass requireSolid(), by their support points alone. The slack is
 /// at most 1e-10 m where the cores (see Core) lie apart or have flat sides, 1e-9 if a core is flat, and 5e-7
-/// where that of a cylinder is overlapped. It is more only where hundreds of directions lead out of an
-/// overlap on ways of nearly one length, as between cylinders around one axis; then the error measured is
-/// below 1e-7.
+/// where that of a cylinder is overlapped. It may be more only between cylinders of more than 10 m radius
+/// around one axis, where too many directions lead out on ways of nearly one length. Such cases cost
+/// milliseconds.
 [[nodiscard]] CertifiedProximity certifiedProximity(const Shape& a, const Pose& X_WA, const Shape& b,
                                                     const Pose& X_WB);
 [[nodiscard]] Proximity convexProximity(const Shape& a, const Pose& X_WA, const Shape& b, const Pose& X_WB);

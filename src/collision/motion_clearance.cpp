@@ -1,7 +1,9 @@
 #include "collision/motion_clearance.h"
 
 #include <algorithm>
-#include <queue>
+#include <cmath>
+#include <limits>
+#include <vector>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -19,13 +21,13 @@ using Eigen::Vector3d;
 using internal::JointTravel;
 
 constexpr double kLeastTolerance = 1e-9;  // metres: rounding does not allow for less
+constexpr double kFiner = 16;             // by so much each pass has a smaller tolerance than the one before
+constexpr int kMostMeasurements = 500'000;
 
-// A stretch of the motion, 0 <= start < end <= 1, of one pair.
+// What is known of one pair at the ends of a stretch of the motion, and then in its middle; metres.
 struct Stretch {
-  double bound;  // no distance in it is below
   std::size_t pair;
-  double start, end, atStart, atEnd;
-  bool operator<(const Stretch& other) const { return bound > other.bound; }
+  double atStart, atEnd, atMiddle = 0;
 };
 
 class MotionSearch {
@@ -33,31 +35,77 @@ class MotionSearch {
   MotionSearch(const Model& model, const ContactModel& contacts, const VectorArg& from, const VectorArg& to)
       : model_(model), data_(contacts.data()), from_(from), to_(to) {
     for (const Joint& joint : model.joints()) travels_.push_back(internal::jointTravel(joint, from, to));
-    forwardKinematics(model, (from + to) / 2, middle_);
+    forwardKinematics(model, (from + to) / 2, poses_);
     for (const ShapePair& pair : data_.pairs) speeds_.push_back(speed(pair));
+    measureEnds();
   }
 
+  // Coarse passes find the least distance, so that fine ones may leave out all that stays away from it.
   double run(double tolerance) {
-    std::priority_queue<Stretch> stretches;
-    double least = std::numeric_limits<double>::infinity();
-    const auto add = [&](std::size_t pair, double start, double end, double atStart, double atEnd) {
-      least = std::min({least, atStart, atEnd});
-      const double mayLose = std::max(0., speeds_[pair] * (end - start) - std::abs(atStart - atEnd)) / 2;
-      stretches.push({std::min(atStart, atEnd) - mayLose, pair, start, end, atStart, atEnd});
-    };
-    for (std::size_t i = 0; i < speeds_.size(); ++i) add(i, 0, 1, distance(i, 0), distance(i, 1));
-    if (stretches.empty()) return least;
-    while (least - stretches.top().bound > tolerance) {
-      const Stretch at = stretches.top();
-      stretches.pop();
-      const double middle = (at.start + at.end) / 2, atMiddle = distance(at.pair, middle);
-      add(at.pair, at.start, middle, at.atStart, atMiddle);
-      add(at.pair, middle, at.end, atMiddle, at.atEnd);
+    const std::vector<Stretch> whole = stretches_;
+    double known = boundOf(whole);
+    const auto isUseful = [&] { return std::isfinite(known) && least_ - known > tolerance && left_ > 0; };
+    for (bool isFine = false; !isFine && isUseful();) {
+      tolerance_ = std::max(tolerance, (least_ - known) / kFiner);
+      isFine = tolerance_ == tolerance;
+      bound_ = std::numeric_limits<double>::infinity();
+      stretches_.clear();
+      for (const Stretch& stretch : whole) keepUnlessBounded(stretch, 1);
+      search(0, 1, 0);
+      known = std::max(known, bound_);
     }
-    return stretches.top().bound;
+    return known;
   }
 
  private:
+  void measureEnds() {
+    stretches_.resize(speeds_.size());
+    moveTo(0);
+    for (std::size_t i = 0; i < speeds_.size(); ++i) stretches_[i] = {i, measured(i), 0};
+    moveTo(1);
+    for (Stretch& stretch : stretches_) stretch.atEnd = measured(stretch.pair);
+  }
+
+  // No distance of the pair in a stretch of that length is below.
+  double bound(const Stretch& stretch, double length) const {
+    const auto& [pair, atStart, atEnd, unused] = stretch;
+    const double mayLose = std::max(0., speeds_[pair] * length - std::abs(atStart - atEnd)) / 2;
+    return std::min(atStart, atEnd) - mayLose;
+  }
+
+  double boundOf(const std::vector<Stretch>& whole) const {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const Stretch& stretch : whole) lowest = std::min(lowest, bound(stretch, 1));
+    return lowest;
+  }
+
+  // The least distance can only fall, so what is not far below it now never will be.
+  void keepUnlessBounded(const Stretch& stretch, double length) {
+    const double atLeast = bound(stretch, length);
+    if (least_ - atLeast > tolerance_ && left_ > 0) {
+      stretches_.push_back(stretch);
+    } else {
+      bound_ = std::min(bound_, atLeast);
+    }
+  }
+
+  // Of the stretches from place `first` on, which all reach from start to end. Halves them, and takes them
+  // away.
+  void search(double start, double end, std::size_t first) {
+    const std::size_t last = stretches_.size();
+    if (first == last) return;
+    const double middle = (start + end) / 2, length = (end - start) / 2;
+    moveTo(middle);
+    for (std::size_t i = first; i < last; ++i) stretches_[i].atMiddle = measured(stretches_[i].pair);
+    for (std::size_t i = first; i < last; ++i)
+      keepUnlessBounded({stretches_[i].pair, stretches_[i].atStart, stretches_[i].atMiddle}, length);
+    search(start, middle, last);
+    for (std::size_t i = first; i < last; ++i)
+      keepUnlessBounded({stretches_[i].pair, stretches_[i].atMiddle, stretches_[i].atEnd}, length);
+    search(middle, end, last);
+    stretches_.resize(first);
+  }
+
   // Of the distance of a pair: metres per whole motion. Joints that carry both shapes do not count.
   double speed(const ShapePair& pair) const {
     const ContactSolid& a = solid(pair.a);
@@ -69,15 +117,15 @@ class MotionSearch {
     return speedBelow(common, a) + speedBelow(common, b);
   }
 
-  // Of the points of a solid, seen from a body that carries it. From where they are in the middle of the
-  // motion they never go farther than half of their way, so a ball of growing radius holds them.
+  // Of the points of a solid, seen from a body that carries it. From where they are now, in the middle of the
+  // motion, they never go farther than half of their way, so a ball of growing radius holds them.
   double speedBelow(BodyId carrier, const ContactSolid& solid) const {
-    const Vector3d centre = middle_[solid.body] * solid.X_BS.p;
+    const Vector3d centre = poses_[solid.body] * solid.X_BS.p;
     double sum = 0;
     for (BodyId at = solid.body; at != carrier && model_[at].joint != kNoJoint; at = model_[at].parent) {
       const Joint& joint = model_[model_[at].joint];
       const JointTravel& travel = travels_[static_cast<std::size_t>(model_[at].joint)];
-      const Pose X_WM = middle_[at] * joint.X_MC.inverse();
+      const Pose X_WM = poses_[at] * joint.X_MC.inverse();
       sum += travel.way + travel.angle * (lever(joint, X_WM.inverse() * centre) + solid.reach + sum / 2);
     }
     return sum;
@@ -89,11 +137,16 @@ class MotionSearch {
     return turnsAboutAxis ? joint.axis.cross(p_MQ).norm() : p_MQ.norm();
   }
 
-  double distance(std::size_t pair, double t) {
-    forwardKinematics(model_, (1 - t) * from_ + t * to_, poses_);
+  void moveTo(double t) { forwardKinematics(model_, (1 - t) * from_ + t * to_, poses_); }
+
+  double measured(std::size_t pair) {
     const ContactSolid& a = solid(data_.pairs[pair].a);
     const ContactSolid& b = solid(data_.pairs[pair].b);
-    return proximity(a.form, poses_[a.body] * a.X_BS, b.form, poses_[b.body] * b.X_BS).distance;
+    const double distance =
+        proximity(a.form, poses_[a.body] * a.X_BS, b.form, poses_[b.body] * b.X_BS).distance;
+    least_ = std::min(least_, distance);
+    --left_;
+    return distance;
   }
 
   const ContactSolid& solid(int shape) const {
@@ -105,7 +158,11 @@ class MotionSearch {
   const Eigen::VectorXd from_, to_;
   std::vector<JointTravel> travels_;
   std::vector<double> speeds_;
-  BodyPoses middle_, poses_;
+  BodyPoses poses_;
+  std::vector<Stretch> stretches_;
+  double least_ = std::numeric_limits<double>::infinity();  // distance measured
+  double bound_ = 0, tolerance_ = 0;                        // of this pass
+  int left_ = kMostMeasurements;
 };
 
 void requirePosture(const char* what, const VectorArg& q, const Model& model) {

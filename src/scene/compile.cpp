@@ -198,6 +198,11 @@ void checkShape(const ShapeSpec& shape) {
       !std::isfinite(s.radius)) {
     fail(shape.where, fmt::format("shape '{}'", shape.name), "", "a finite pose, finite sizes >= 0");
   }
+  if (s.type == ShapeType::kRoundedBox && s.radius > s.extent.minCoeff() / 2) {
+    fail(shape.where, fmt::format("shape '{}': radius of the rounded edges", shape.name),
+         fmt::format("{} m", s.radius),
+         fmt::format("at most half of the shortest edge, {} m", s.extent.minCoeff() / 2));
+  }
   for (const double part : shape.color) {
     if (!(part >= 0 && part <= 1))
       fail(shape.where, fmt::format("shape '{}': colour", shape.name), fmt::format("{}", part),

@@ -83,6 +83,36 @@ TEST(MotionClearance, IsTheDistanceWhereNothingMoves) {
   EXPECT_NEAR(motionClearance(model, ContactModel(model, kBoth), q, q, 1e-9), 0.2, 1e-12);
 }
 
+// What turns about its axis keeps its distance, however finely one looks: 0.2 m from the hand, which moves by
+// metres in between.
+TEST(MotionClearance, GivesTheBoundItHasProvedWhenItGivesUp) {
+  SceneSpec spec;
+  spec.bodies.push_back(
+      {.name = "wheel",
+       .X_WB = {},
+       .shapes = {contactShape({.type = ShapeType::kCapsule, .extent = {0, 0, 1}, .radius = 0.3})}});
+  spec.joints.push_back({.name = "axle",
+                         .parent = "world",
+                         .child = "wheel",
+                         .type = JointType::kHinge,
+                         .X_PF = {},
+                         .X_MC = {},
+                         .axis = {0, 0, 1}});
+  spec.worldShapes.push_back(contactShape(sphere(0.1), translation(0.6, 0, 0)));
+  const Model model = compile(spec);
+  const ContactModel contacts(model, kBoth);
+  const VectorXd from = VectorXd::Zero(1);
+  const auto clearance = [&](double angle) {
+    return motionClearance(model, contacts, from, VectorXd::Constant(1, angle), 1e-9);
+  };
+  const double proved = clearance(10), atFullTurns = clearance(1e7), atEndless = clearance(1e300);
+  EXPECT_LE(proved, 0.2);
+  EXPECT_GE(proved, 0.2 - 1e-3);
+  EXPECT_LE(atFullTurns, 0.2);
+  EXPECT_GE(atFullTurns, -1e7);
+  EXPECT_LE(atEndless, 0.2);
+}
+
 TEST(MotionClearance, IsInfiniteWithoutPairs) {
   const Model model = clock();
   const ContactModel nothing(model, std::span<const ShapePair>{});

@@ -107,6 +107,16 @@ TEST(Compile, RefusesBadNumbersInAnEditedSpec) {
       "body 'a': inertia: wanted a finite symmetric matrix");
   EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.bodies[0].shapes[0].shape.radius = -1; })),
                    "shape 'a': wanted a finite pose, finite sizes >= 0");
+  const auto roundedBox = [&](double radius) {
+    return broken([&](SceneSpec& s) {
+      s.bodies[0].shapes[0].shape = {
+          .type = ShapeType::kRoundedBox, .extent = {0.3, 0.2, 0.4}, .radius = radius};
+    });
+  };
+  EXPECT_NO_THROW(static_cast<void>(compile(roundedBox(0.1))));
+  EXPECT_REX_ERROR(compile(roundedBox(0.11)),
+                   "shape 'a': radius of the rounded edges: found 0.11 m, wanted at most half of the "
+                   "shortest edge, 0.1 m");
   EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].axis.setZero(); })),
                    "joint 'j': axis: found a zero or non-finite vector");
   EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.bodies[0].p_BBcm.z() = nan; })),
