@@ -98,8 +98,7 @@ TEST(Compile, AllowsWhatAllJointsOfACoordinateAllow) {
     const Model m = compile(spec);
     for (int k = 0; k < 20; ++k) {
       const double q = rng.uniform(-2, 2);
-      const bool isAllowed =
-          std::abs(q) <= 1 && std::abs(m.joints()[0].ratio * q + m.joints()[0].offset) <= 1;
+      const bool isAllowed = std::abs(q) <= 1 && std::abs(left.mimicRatio * q + left.mimicOffset) <= 1;
       EXPECT_EQ(m.lowerLimits()[0] <= q && q <= m.upperLimits()[0], isAllowed) << q;
       allowed += isAllowed;
     }
