@@ -4,8 +4,9 @@
 
 namespace rex::internal {
 
-/// Steps (J^T J + lambda Id)^-1 J^T e of Levenberg and Marquardt, by the smaller of the two Woodbury forms.
-/// It keeps its storage, and allocates nothing once it has been used with these sizes.
+/// Steps (J^T J + lambda Id)^-1 J^T e of Levenberg and Marquardt, by the smaller of the two Woodbury forms:
+/// inverseKinematicsStep() for iterations. It keeps its storage, and allocates nothing once it has been used
+/// with these sizes.
 class DampedStep {
  public:
   /// J: d x n. e: d. lambda > 0. `step` becomes n numbers.

@@ -15,15 +15,18 @@ struct TaskLevel {
 struct HierarchyOptions {
   Eigen::MatrixXd W{};  ///< n x n, symmetric and positive definite: the price of posture changes; empty: Id
   Eigen::VectorXd a{};  ///< n: the posture change wished for where all levels leave a choice; empty: zero
-  /// Singular values of a level below this are divided through as if they were larger; in units of y per v.
+  /// Singular values s of a level below this count as damping^2 / s; in units of y per v, see
+  /// hierarchicalStep.
   double damping = 1e-3;
 };
 
 /// Strict priorities: the dq that fulfils the first level as well as it can be, of those the one that best
 /// fulfils the second, and so on; then nearest to `a` in W. The limit of slide 2:50 for precisions rho_1 >>
 /// rho_2 >> ..., by dq += (J2 N)# (dy2 - J2 dq) in the nullspace N of all levels above (see the errata: the
-/// printed form is not). Where a level is singular, or in conflict with those above, its step stays bounded
-/// by |dy| / damping. Throws Error if sizes disagree, W is not positive definite or damping is negative.
+/// printed form is not). Where a level is singular, or in conflict with those above, its share of dq stays
+/// bounded: |share|_W <= |dy - J dq| / damping for the dq of the levels above. Singular values are those of J
+/// U^-1 for W = U^T U, within N; below 1e-10 |J U^-1| they count as zero. Throws Error if sizes disagree, a
+/// number is not finite, W is not positive definite or damping is negative.
 [[nodiscard]] Eigen::VectorXd hierarchicalStep(const std::vector<TaskLevel>& levels,
                                                const HierarchyOptions& options = {});
 

@@ -12,6 +12,15 @@ StepForm cheaperForm(const internal::Metric& W, Eigen::Index d, Eigen::Index n) 
   return W.isDiagonal() && d < n ? StepForm::kTaskSpace : StepForm::kJointSpace;
 }
 
+// W^-1 J^T (J W^-1 J^T + C^-1)^-1 dy. The factors are given as they are, which keeps transposes and multiples
+// of the identity from being copied.
+template <class WinvTransposed, class Inverse>
+Eigen::VectorXd taskSpaceStep(const MatrixArg& J, const WinvTransposed& WinvJt, const Inverse& Cinv,
+                              const VectorArg& dy) {
+  const Eigen::MatrixXd A = J * WinvJt + Cinv;
+  return WinvJt * A.llt().solve(dy);
+}
+
 }  // namespace
 
 Eigen::VectorXd inverseKinematicsStep(const Eigen::Ref<const Eigen::MatrixXd>& J, const VectorArg& dy,
@@ -20,9 +29,8 @@ Eigen::VectorXd inverseKinematicsStep(const Eigen::Ref<const Eigen::MatrixXd>& J
   if (!(sigma > 0))
     throw Error({.what = "regularisation sigma", .found = fmt::format("{}", sigma), .wanted = "sigma > 0"});
   // The smaller of the two equal forms (Woodbury): a task has fewer dimensions than a robot has joints.
-  const Eigen::MatrixXd JJt =
-      J * J.transpose() + sigma * sigma * Eigen::MatrixXd::Identity(J.rows(), J.rows());
-  return J.transpose() * JJt.llt().solve(dy);
+  const auto sigma2 = sigma * sigma * Eigen::MatrixXd::Identity(J.rows(), J.rows());
+  return taskSpaceStep(J, J.transpose(), sigma2, dy);
 }
 
 Eigen::VectorXd inverseKinematicsStep(const MatrixArg& J, const VectorArg& dy, const StepOptions& options) {
@@ -41,7 +49,7 @@ Eigen::VectorXd inverseKinematicsStep(const MatrixArg& J, const VectorArg& dy, c
   }
   const Eigen::MatrixXd WinvJt = W.solve(J.transpose());
   const Eigen::MatrixXd Cinv = C.solve(Eigen::MatrixXd::Identity(d, d));
-  return a + WinvJt * (J * WinvJt + Cinv).llt().solve(missing);
+  return a + taskSpaceStep(J, WinvJt, Cinv, missing);
 }
 
 }  // namespace rex

@@ -6,6 +6,7 @@
 
 #include "kinematics/damped_step_internal.h"
 #include "kinematics/joint_limits_internal.h"
+#include "scene/coordinates.h"
 #include "scene/state.h"
 
 namespace rex {
@@ -26,18 +27,22 @@ constexpr int kIterationsToHalve = 5;
 // Line search: the share of the promised gain that is enough, and when to stop halving.
 constexpr double kSufficientGain = 1e-4;
 constexpr int kMostHalvings = 30;
+// A joint so near a limit counts as at it (Bertsekas 1982), in units of q: otherwise all steps, cut short by
+// the limit, might fail to descend. A longer way than the last halving leaves of the longest step, that of
+// the least damping: 2^-kMostHalvings / (2 sqrt(kLeastDamping)).
+constexpr double kAtLimit = 2e-7;
 
 // Draws postures: uniform within limits, about a centre where there are none.
 class PostureSampler {
  public:
   PostureSampler(const Model& model, const Eigen::VectorXd& center) : q_(center) {
-    internal::forEachPlainCoordinate(model, [&](int iq, int, const DegreeOfFreedom& freedom) {
+    forEachPlainCoordinate(model, [&](int iq, int, const DegreeOfFreedom& freedom) {
       const double reach = freedom.angular.isZero(0) ? 1 : std::numbers::pi;
       const double lower = model.lowerLimits()[iq], upper = model.upperLimits()[iq];
       ranges_.push_back({iq, std::isfinite(lower) ? lower : std::min(center[iq], upper) - reach,
                          std::isfinite(upper) ? upper : std::max(center[iq], lower) + reach});
     });
-    internal::forEachQuaternion(model, [&](int iq, int) { quaternions_.push_back(iq); });
+    forEachQuaternion(model, [&](int iq, int) { quaternions_.push_back(iq); });
   }
 
   const Eigen::VectorXd& draw(Rng& rng) {
@@ -73,6 +78,7 @@ class Descent {
 
   Descent(const Model& model, std::span<const Task> tasks, const Options& options)
       : model_(model), tasks_(tasks), options_(options), limits_(internal::jointLimits(model)) {
+    held_.reserve(limits_.size());
     for (const Task& task : tasks) isWeighed_ = isWeighed_ || task.tolerance == kNoTolerance;
   }
 
@@ -111,13 +117,17 @@ class Descent {
       at.fulfilled = at.fulfilled && taskError(tasks_[i], at.values[i]) <= tasks_[i].tolerance;
   }
 
-  // A joint at its limit that would leave it takes no part.
+  // A joint at its limit that would leave it takes no part, but for what is left of its way.
   void findDirection(double damping) {
     gradient_.noalias() = here_.phi.J.transpose() * here_.phi.y;
     J_ = here_.phi.J;
+    held_.clear();
     for (const internal::JointLimit& limit : limits_) {
-      const double q = here_.q[limit.iq], slope = gradient_[limit.iv];
-      if ((q <= limit.lower && slope > 0) || (q >= limit.upper && slope < 0)) J_.col(limit.iv).setZero();
+      const double slope = gradient_[limit.iv];
+      const double way = (slope > 0 ? limit.lower : limit.upper) - here_.q[limit.iq];
+      if (slope == 0 || std::abs(way) > kAtLimit) continue;
+      J_.col(limit.iv).setZero();
+      held_.push_back({limit.iv, way});
     }
     const double lambda = damping * here_.cost + kLeastRelativeDamping * J_.squaredNorm();
     if (lambda > 0) {
@@ -126,6 +136,7 @@ class Descent {
     } else {
       direction_.setZero(J_.cols());  // at zero cost with a Jacobian of zeros
     }
+    for (const auto& [iv, way] : held_) direction_[iv] = way;
   }
 
   // Halves the step until it gains as much as the slope promises (Armijo along the projected path, Bertsekas
@@ -162,6 +173,7 @@ class Descent {
   const std::span<const Task> tasks_;
   const Options options_;
   const std::vector<internal::JointLimit> limits_;
+  std::vector<std::pair<int, double>> held_;  // joints at limits: place in v, and what is left of the way
   bool isWeighed_ = false;  // some task has no tolerance, so that fulfilling the others is not the end
   int iterations_ = 0;
   Point here_, there_;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "kinematics/coordinates_internal.h"
+#include "scene/coordinates.h"
 
 namespace rex::internal {
 

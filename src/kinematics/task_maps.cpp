@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "kinematics/center_of_mass.h"
-#include "kinematics/coordinates_internal.h"
 #include "kinematics/jacobians.h"
+#include "scene/coordinates.h"
 #include "scene/state.h"
 
 namespace rex {
@@ -167,7 +167,7 @@ TaskMap jointLimitsTask(double margin) {
   return [=](const Posture& at, TaskValue& out) {
     out.y.setZero(1);
     out.J.setZero(1, at.model.nv());
-    internal::forEachPlainCoordinate(at.model, [&](int iq, int iv, const DegreeOfFreedom&) {
+    forEachPlainCoordinate(at.model, [&](int iq, int iv, const DegreeOfFreedom&) {
       const double tooLow = margin - (at.q[iq] - at.model.lowerLimits()[iq]);
       const double tooHigh = margin - (at.model.upperLimits()[iq] - at.q[iq]);
       out.y[0] += (std::max(0., tooLow) + std::max(0., tooHigh)) / margin;
@@ -188,7 +188,7 @@ TaskMap homingTask(const VectorArg& home) {
     requireSize("home posture", home.size(), at.model.nq());
     out.y = difference(at.model, home, at.q);
     out.J.setIdentity(at.model.nv(), at.model.nv());
-    internal::forEachQuaternion(at.model, [&](int, int iv) {
+    forEachQuaternion(at.model, [&](int, int iv) {
       out.J.block<3, 3>(iv, iv) = rightJacobianSO3(out.y.segment<3>(iv)).inverse();
     });
   };

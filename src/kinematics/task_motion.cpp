@@ -4,6 +4,7 @@
 
 #include "kinematics/inverse_kinematics.h"
 #include "kinematics/joint_limits_internal.h"
+#include "kinematics/metric_internal.h"
 #include "scene/state.h"
 
 namespace rex {
@@ -47,6 +48,8 @@ FollowedTask followTask(const Model& model, const Task& followed, const MatrixAr
   TaskValue phi;
   BodyPoses poses;
   const StepOptions options{.W = W};
+  requireSize("start posture q0", q0.size(), model.nq());
+  static_cast<void>(internal::Metric("metric W", W, model.nv()));
 
   Eigen::VectorXd q = q0;
   FollowedTask motion{Eigen::MatrixXd(model.nq(), Y.cols()), Eigen::VectorXd(Y.cols())};

@@ -290,6 +290,11 @@ struct Coordinates {
   int nv = 0;
 };
 
+// Of one side of a joint, nq: those of the spec, or `none` each.
+Eigen::VectorXd limitsOf(const Eigen::VectorXd& given, int nq, double none) {
+  return given.size() > 0 ? given : Eigen::VectorXd::Constant(nq, none);
+}
+
 Coordinates indexCoordinates(std::vector<Joint>& joints, const std::vector<const JointSpec*>& specs) {
   Coordinates all;
   for (std::size_t j = 0; j < specs.size(); ++j) {
@@ -299,12 +304,9 @@ Coordinates indexCoordinates(std::vector<Joint>& joints, const std::vector<const
     joint.qIndex = static_cast<int>(all.q0.size());
     joint.vIndex = all.nv;
     all.nv += joint.nv;
-    const auto limit = [&](const Eigen::VectorXd& given, double none) {
-      return given.size() > 0 ? given : Eigen::VectorXd::Constant(joint.nq, none);
-    };
     append(all.q0, spec.start());
-    append(all.lower, limit(spec.lower, -kInfinity));
-    append(all.upper, limit(spec.upper, kInfinity));
+    append(all.lower, limitsOf(spec.lower, joint.nq, -kInfinity));
+    append(all.upper, limitsOf(spec.upper, joint.nq, kInfinity));
   }
   return all;
 }
@@ -316,8 +318,30 @@ bool canFollow(const JointSpec& follower, const JointSpec& target) {
   return follower.type == target.type && follower.mimicRatio == 1 && follower.mimicOffset == 0;
 }
 
+// Keeps the coordinate that a joint follows to where its own limits hold too.
+void narrowLimits(const JointSpec& spec, const Joint& joint, Coordinates& all) {
+  if (joint.ratio == 0) return;  // it stands still
+  const auto followed = [&](const Eigen::VectorXd& own) {
+    return Eigen::VectorXd((own.array() - joint.offset) / joint.ratio);
+  };
+  Eigen::VectorXd lower = followed(limitsOf(spec.lower, joint.nq, -kInfinity));
+  Eigen::VectorXd upper = followed(limitsOf(spec.upper, joint.nq, kInfinity));
+  if (joint.ratio < 0) lower.swap(upper);
+  for (int i = 0; i < joint.nq; ++i) {
+    double& least = all.lower[joint.qIndex + i];
+    double& most = all.upper[joint.qIndex + i];
+    least = std::max(least, lower[i]);
+    most = std::min(most, upper[i]);
+    if (least <= most) continue;
+    fail(spec.where, fmt::format("joint '{}': limits", spec.name),
+         fmt::format("joint '{}' may be nowhere: {:.6g} > {:.6g}", spec.mimic, least, most),
+         "limits that both joints can keep");
+  }
+}
+
 // Gives each joint that mimics the indices of its target.
-void shareCoordinates(std::vector<Joint>& joints, const std::vector<const JointSpec*>& specs) {
+void shareCoordinates(std::vector<Joint>& joints, const std::vector<const JointSpec*>& specs,
+                      Coordinates& all) {
   for (std::size_t j = 0; j < specs.size(); ++j) {
     const JointSpec& spec = *specs[j];
     if (spec.mimic.empty()) continue;
@@ -342,6 +366,7 @@ void shareCoordinates(std::vector<Joint>& joints, const std::vector<const JointS
       freedom.angular *= spec.mimicRatio;
       freedom.linear *= spec.mimicRatio;
     }
+    narrowLimits(spec, joint, all);
   }
 }
 
@@ -395,7 +420,7 @@ Model compile(const SceneSpec& spec) {
   addSubtreeMasses(model.bodies_);
   model.mass_ = model.bodies_.front().subtreeMass;
   Coordinates coordinates = indexCoordinates(model.joints_, jointSpecs);
-  shareCoordinates(model.joints_, jointSpecs);
+  shareCoordinates(model.joints_, jointSpecs, coordinates);
   model.motionSteps_ = internal::motionSteps(model);
   model.q0_ = std::move(coordinates.q0);
   model.lower_ = std::move(coordinates.lower);

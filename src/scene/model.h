@@ -105,7 +105,8 @@ class Model {
 
   /// The posture the file describes, nq.
   const Eigen::VectorXd& initialPositions() const { return q0_; }
-  /// Limits of each coordinate, nq; infinite where there are none.
+  /// Limits of each coordinate, nq; infinite where there are none. They hold for the joints that mimic too:
+  /// within them, ratio * q + offset keeps to each one's own.
   const Eigen::VectorXd& lowerLimits() const { return lower_; }
   const Eigen::VectorXd& upperLimits() const { return upper_; }
   /// Sum of all masses, kg.
@@ -129,8 +130,9 @@ class Model {
 
 /// Checks a scene and freezes it. Throws Error, with the place in the file where it is known, for: a joint to
 /// an unknown body, two joints of one name, two joints into one body, a loop, a mimic of an unknown or
-/// different joint, and masses, sizes, poses or limits that are not finite or have the wrong sign or number.
-/// An inertia with a negative principal moment is refused, one that breaks the triangle inequality is not.
+/// different joint or with limits that leave that none, and masses, sizes, poses or limits that are not
+/// finite or have the wrong sign or number. An inertia with a negative principal moment is refused, one that
+/// breaks the triangle inequality is not.
 [[nodiscard]] Model compile(const SceneSpec& spec);
 
 }  // namespace rex

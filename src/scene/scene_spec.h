@@ -83,7 +83,7 @@ struct JointSpec {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< if its type has one, in F; any length but zero
   double pitch = 0;                                 ///< of a screw: metres per turn
   Eigen::VectorXd q0{};                             ///< initial coordinates; empty: the zero position
-  Eigen::VectorXd lower{}, upper{};                 ///< limits of each coordinate; empty: none
+  Eigen::VectorXd lower{}, upper{};                 ///< limits of each coordinate, its own; empty: none
   std::string mimic{};  ///< a joint that moves this one: q = ratio * q of that joint + offset; empty: none
   double mimicRatio = 1, mimicOffset = 0;  ///< other than 1 and 0 only for joints of one coordinate
   double maxVelocity = std::numeric_limits<double>::infinity();  ///< rad/s or m/s

@@ -40,8 +40,10 @@ void readRange(const Tag& limit, JointSpec& joint) {
   const double lower = limit.number("lower", 0), upper = limit.number("upper", 0);
   if (lower > upper)
     limit.failAt("lower", fmt::format("{} > {}", lower, upper), "a lower limit that is not above the upper");
-  if (!limit.has("lower") && !limit.has("upper"))
+  if (!limit.has("lower") && !limit.has("upper")) {
+    if (!joint.mimic.empty()) return;  // the other's range is meant
     limit.warn(limit.where(), "without 'lower' and 'upper' the joint stays at 0");
+  }
   // Larger numbers stand for no limit.
   constexpr double kTwoTurns = 4 * std::numbers::pi, kLargestAngle = 1000;
   const double largest = std::max(std::abs(lower), std::abs(upper));
@@ -131,9 +133,9 @@ ReadJoint readJoint(const Tag& tag) {
   // Others have none; exporters write zeros there.
   if (type != "fixed" && type != "floating") spec.axis = readAxis(joint);
   if (spec.type == JointType::kPlanarXYPhi) turnPlane(spec);
+  readMimic(joint, read);
   readLimit(joint, type == "revolute" || type == "prismatic", spec);
   readDynamics(joint, spec);
-  readMimic(joint, read);
   return read;
 }
 

@@ -1,5 +1,7 @@
 #include "kinematics/hierarchical_step.h"
 
+#include <cmath>
+
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
@@ -115,6 +117,28 @@ TEST(HierarchicalStep, StaysBoundedWhereSingular) {
   EXPECT_NEAR(hierarchicalStep({level})[1], 100, 1e-9);
 }
 
+// What a level adds, measured in W, against the bound of the header.
+TEST(HierarchicalStep, BoundsTheShareOfEachLevel) {
+  const std::vector<TaskLevel> conflict{{.J = Eigen::RowVector2d(1, 0), .dy = Eigen::VectorXd::Ones(1)},
+                                        {.J = Eigen::RowVector2d(100, 1e-3), .dy = Eigen::VectorXd::Zero(1)}};
+  EXPECT_LT((hierarchicalStep(conflict) - Eigen::Vector2d(1, -1e5)).norm(), 1e-6);
+  Rng rng(7);
+  double greatest = 0;
+  for (int i = 0; i < 50; ++i) {
+    const TaskLevel first = randomLevel(rng, 3, 7);
+    TaskLevel second = first;
+    second.J += std::pow(10, rng.uniform(-6, 0)) * rng.normalVector(21).reshaped(3, 7);
+    const Eigen::MatrixXd W = randomMetric(rng, 7);
+    const double damping = std::pow(10, rng.uniform(-4, -1));
+    const Eigen::VectorXd before = hierarchicalStep({first}, {.W = W, .damping = damping});
+    const Eigen::VectorXd share = hierarchicalStep({first, second}, {.W = W, .damping = damping}) - before;
+    const double bound = (second.dy - second.J * before).norm() / damping;
+    EXPECT_LE(std::sqrt(share.dot(W * share)), bound * (1 + 1e-9) + 1e-12);
+    greatest = std::max(greatest, std::sqrt(share.dot(W * share)) / bound);
+  }
+  EXPECT_GT(greatest, 0.1);
+}
+
 TEST(HierarchicalStep, RefusesBadArguments) {
   Rng rng(6);
   const TaskLevel level = randomLevel(rng, 3, 7);
@@ -128,6 +152,15 @@ TEST(HierarchicalStep, RefusesBadArguments) {
                    "metric W: wanted a symmetric, positive definite matrix");
   EXPECT_REX_ERROR(hierarchicalStep({level}, {.a = Eigen::Vector2d(1, 1)}),
                    "wished posture change a: found a vector of size 2, wanted size 7");
+  for (const double bad : {std::nan(""), HUGE_VAL}) {
+    const auto broken = [&](int size) { return Eigen::VectorXd::Constant(size, bad); };
+    EXPECT_REX_ERROR(hierarchicalStep({level, {.J = broken(7).transpose(), .dy = Eigen::VectorXd::Ones(1)}}),
+                     "Jacobian of a level: found a number that is not finite, wanted finite numbers");
+    EXPECT_REX_ERROR(hierarchicalStep({{.J = level.J, .dy = broken(3)}}),
+                     "task change dy of a level: found a number that is not finite");
+    EXPECT_REX_ERROR(hierarchicalStep({level}, {.a = broken(7)}),
+                     "wished posture change a: found a number that is not finite");
+  }
 }
 
 }  // namespace

@@ -102,6 +102,46 @@ TEST(SolveInverseKinematics, StopsExactlyAtLimits) {
   EXPECT_TRUE(isWithinLimits(model, found.q));
 }
 
+// A step that a limit cuts short must not look like the end: where a start ends, the slope vanishes but for
+// what leads beyond limits.
+TEST(SolveInverseKinematics, IsNotHeldUpByALimitNearby) {
+  const double limit = 2;
+  const Model model = planarArm(1, 0.7, limit);
+  Rng rng(9);
+  int unreached = 0;
+  for (const double gap : {0., 1e-15, 1e-12, 1e-9, 1e-7, 3e-7, 1e-6}) {
+    for (int i = 0; i < 300; ++i) {
+      const Eigen::VectorXd goal = rng.uniformVector(2, -limit, limit);
+      Eigen::VectorXd start = rng.uniformVector(2, -limit, limit);
+      start[rng.index(2)] = rng.index(2) == 0 ? gap - limit : limit - gap;
+      const std::vector<Task> tasks{
+          reach(model, "lower", forwardKinematics(model, goal)[model.body("lower")].p)};
+      const auto result = solve(model, tasks, start, {.maxRestarts = 0});
+      ASSERT_NE(result.status, Status::kIterationLimit) << result.message;
+      if (result.status == Status::kSolved) continue;
+      ++unreached;
+      const TaskValue phi = stackTasks(tasks, {model, result.q, forwardKinematics(model, result.q)});
+      const Eigen::VectorXd downhill = result.q - phi.J.transpose() * phi.y;
+      EXPECT_LT((downhill.cwiseMax(-limit).cwiseMin(limit) - result.q).norm(), 1e-4) << gap << ", " << start;
+    }
+  }
+  EXPECT_GT(unreached, 10);  // local minima
+}
+
+// The follower may move by half a metre, twice as far as what it follows.
+TEST(SolveInverseKinematics, KeepsTheLimitsOfJointsThatMimic) {
+  const Model model =
+      compile(parseOrs("body a {}\nbody sled {}\nbody follower {}\n"
+                       "joint rail (a sled) { type=transX limits=[-1 1] }\n"
+                       "joint (a follower) { type=transX mimic=rail mimic_ratio=2 limits=[-.5 .5] }",
+                       "f")
+                  .spec);
+  const auto result = solve(model, {reach(model, "sled", {0.9, 0, 0})}, Eigen::VectorXd::Zero(1));
+  EXPECT_EQ(result.status, Status::kUnreached);
+  EXPECT_EQ(forwardKinematics(model, result.q)[model.body("follower")].p.x(), 0.5);
+  EXPECT_NEAR(result.residuals.at(0), 0.65, 1e-15);
+}
+
 // Random poses within reach, from the middle of all joints: the protocol of `rex bench ik`. Forward
 // kinematics is the judge.
 void expectSolvesPoses(const Model& model, BodyId tip, int count, int leastSolved) {

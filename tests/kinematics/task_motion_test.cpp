@@ -129,6 +129,13 @@ TEST(TaskMotion, RefusesBadArguments) {
   EXPECT_REX_ERROR(
       followTask(reach.model, reach.task, reach.way(2), reach.q0, {}, Eigen::Matrix2d::Identity()),
       "metric W: found 2 x 2");
+  const Eigen::MatrixXd noTargets(3, 0);
+  EXPECT_EQ(followTask(reach.model, reach.task, noTargets, reach.q0).Q.cols(), 0);
+  EXPECT_REX_ERROR(followTask(reach.model, reach.task, noTargets, Eigen::Vector2d(1, 2)),
+                   "start posture q0: found a vector of size 2, wanted size ");
+  EXPECT_REX_ERROR(
+      followTask(reach.model, reach.task, noTargets, reach.q0, {}, -Eigen::MatrixXd::Identity(29, 29)),
+      "metric W: ");
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/rng.h"
 #include "scene/model.h"
 #include "scene/ors_reader.h"
 #include "support/expect_error.h"
@@ -62,6 +63,54 @@ TEST(Compile, LetsAJointMimicAnother) {
   EXPECT_EQ(m.nq(), 1);
   EXPECT_EQ(m.initialPositions()[0], .3);
   EXPECT_EQ(m.joints()[0].qIndex, m.joints()[1].qIndex);
+}
+
+constexpr const char* kPair =
+    "body a {}\nbody b {}\nbody c {}\njoint right (a c) { type=transX limits=[-1 1] }\n"
+    "joint left (a b) { type=transX mimic=right ";
+
+TEST(Compile, NarrowsLimitsToThoseOfJointsThatMimic) {
+  const auto limits = [](const std::string& left) {
+    const Model m = model(kPair + left + " }");
+    return Eigen::Vector2d(m.lowerLimits()[0], m.upperLimits()[0]);
+  };
+  EXPECT_EQ(limits("mimic_ratio=2 limits=[-.5 .75]"), Eigen::Vector2d(-0.25, 0.375));
+  EXPECT_EQ(limits("mimic_ratio=-2 mimic_offset=1 limits=[0 2]"), Eigen::Vector2d(-0.5, 0.5));
+  EXPECT_EQ(limits("mimic_ratio=-.5 limits=[-2 .25]"), Eigen::Vector2d(-0.5, 1));
+  EXPECT_EQ(limits("mimic_offset=-7"), Eigen::Vector2d(-1, 1));
+  EXPECT_EQ(limits("mimic_ratio=0 limits=[-.5 .5]"), Eigen::Vector2d(-1, 1));
+  const Model planar = model(
+      "body a {}\nbody b {}\nbody c {}\njoint left (a b) { type=transXYPhi mimic=right limits=[-1 5 2 3 -4 "
+      "0] }\n"
+      "joint right (a c) { type=transXYPhi limits=[-2 4 -3 3 -3 3] }");
+  EXPECT_EQ(planar.lowerLimits(), Eigen::Vector3d(-1, 2, -3));
+  EXPECT_EQ(planar.upperLimits(), Eigen::Vector3d(4, 3, 0));
+}
+
+TEST(Compile, AllowsWhatAllJointsOfACoordinateAllow) {
+  SceneSpec spec = parseOrs(std::string(kPair) + "limits=[-1 1] }", "f").spec;
+  Rng rng(1);
+  int allowed = 0;
+  for (int i = 0; i < 200; ++i) {
+    JointSpec& left = spec.joints[1];
+    left.mimicRatio = rng.normal();
+    left.mimicOffset = rng.uniform(-1, 1);
+    const Model m = compile(spec);
+    for (int k = 0; k < 20; ++k) {
+      const double q = rng.uniform(-2, 2);
+      const bool isAllowed = std::abs(q) <= 1 && std::abs(left.mimicRatio * q + left.mimicOffset) <= 1;
+      EXPECT_EQ(m.lowerLimits()[0] <= q && q <= m.upperLimits()[0], isAllowed) << q;
+      allowed += isAllowed;
+    }
+  }
+  EXPECT_GT(allowed, 100);
+}
+
+TEST(Compile, RefusesLimitsThatNoPositionKeeps) {
+  EXPECT_REX_ERROR(
+      model(std::string(kPair) + "mimic_ratio=2 mimic_offset=3 limits=[0 .5] }"),
+      "f:5:1: joint 'left': limits: found joint 'right' may be nowhere: -1 > -1.25, wanted limits "
+      "that both joints can keep");
 }
 
 TEST(Compile, ReadsTheStartFromQ) {

@@ -156,6 +156,15 @@ TEST(UrdfReader, LetsJointsMimic) {
   ASSERT_EQ(model.nq(), 1);
   const Pose c = forwardKinematics(model, Eigen::VectorXd::Constant(1, .25))[model.body("c")];
   EXPECT_LT((c.p - Eigen::Vector3d(1, 0, 0)).norm(), 1e-15);
+  EXPECT_EQ(model.lowerLimits()[0], -0.25);
+  EXPECT_EQ(model.upperLimits()[0], 0.25);
+}
+
+TEST(UrdfReader, TakesNoRangeFromAJointThatMimicsWithoutOne) {
+  std::string text = kThree;
+  text.replace(text.find("lower='0' upper='1'"), 19, "");
+  EXPECT_EQ(parse(text).spec.joints[0].upper.size(), 0);
+  EXPECT_EQ(compile(parse(text).spec).upperLimits()[0], HUGE_VAL);
 }
 
 TEST(UrdfReader, FixesOrFreesTheRoot) {

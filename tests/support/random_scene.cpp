@@ -89,6 +89,9 @@ void addDetails(Rng& rng, SceneSpec& spec) {
     if (positionCount(spec.joints[j].type) != 1) continue;
     spec.joints[j].mimicRatio = rng.normal();
     spec.joints[j].mimicOffset = rng.normal();
+    // At q = 0 both joints are within their limits.
+    spec.joints[j].lower.array() += spec.joints[j].mimicOffset;
+    spec.joints[j].upper.array() += spec.joints[j].mimicOffset;
   }
 }
 

@@ -2,7 +2,7 @@
 
 #include "scene/model.h"
 
-namespace rex::internal {
+namespace rex {
 
 /// Calls visit(iq, iv, freedom) for each coordinate that is a plain number, at q[iq] with rate v[iv]: all but
 /// those of quaternions. Joints that mimic are left out, because their target's coordinate is theirs.
@@ -25,4 +25,4 @@ void forEachQuaternion(const Model& model, const Visit& visit) {
   }
 }
 
-}  // namespace rex::internal
+}  // namespace rex
