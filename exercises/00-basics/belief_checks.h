@@ -128,6 +128,28 @@ inline Eigen::Vector3d meanOnGrid(const Eigen::Vector3d& alpha) {
   return mean / total;
 }
 
+// The same for any number of outcomes: the k-th mean is B(alpha + e_k) / B(alpha), where B is the integral
+// over mu of the product of all mu_k^(alpha_k - 1).
+inline Eigen::VectorXd meanByIntegrals(const Eigen::VectorXd& alpha) {
+  const auto logB = [](const Eigen::VectorXd& exponents) {
+    double sum = -std::lgamma(exponents.sum());
+    for (const double a : exponents) sum += std::lgamma(a);
+    return sum;
+  };
+  Eigen::VectorXd mean(alpha.size());
+  for (Eigen::Index k = 0; k < alpha.size(); ++k) {
+    mean[k] = std::exp(logB(alpha + Eigen::VectorXd::Unit(alpha.size(), k)) - logB(alpha));
+  }
+  return mean;
+}
+
+inline void predictionIsTheMean(rex::grading::Check& check, Student& student, int outcomes) {
+  const Eigen::VectorXd alpha = check.rng().uniformVector(outcomes, 0.3, 6);
+  check.input(fmt::format("alpha = ({:.3f})", fmt::join(alpha, ", ")));
+  check.near("P(next outcome) against the mean of mu", student.nextOutcome(alpha), meanByIntegrals(alpha),
+             1e-10);
+}
+
 inline void predictionFits(rex::grading::Check& check, Student& student) {
   const Eigen::Vector3d alpha = check.rng().uniformVector(3, 2, 6);
   check.input(fmt::format("alpha = ({:.3f}, {:.3f}, {:.3f})", alpha[0], alpha[1], alpha[2]));

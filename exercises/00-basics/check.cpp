@@ -164,6 +164,9 @@ void boxesAndDoors(Check& check, Student& student) {
 
 void tables(Check& check, Student& student) {
   tableOf(check, student, (Eigen::MatrixXd(2, 2) << .06, .24, .14, .56).finished(), true);
+  // Here rounding makes P(X) P(Y) differ from the table in the last bit, in whatever order one adds.
+  tableOf(check, student, (Eigen::MatrixXd(3, 3) << .03, .03, .04, .06, .06, .08, .21, .21, .28).finished(),
+          true);
   tableOf(check, student, (Eigen::MatrixXd(2, 3) << .1, .2, .1, .3, .1, .2).finished(), false);
 }
 
@@ -348,13 +351,14 @@ void propagationFitsIntegral(Check& check, Student& student) {
 }
 
 void beliefsElsewhere(Check& check, Student& student) {
-  check.forEachCase(15, [&](int i) {
+  check.forEachCase(18, [&](int i) {
     Rng& rng = check.rng();
-    if (i % 5 == 0) productFits(check, student, 1 + rng.index(8));
-    if (i % 5 == 1) propagationFitsIntegral(check, student);
-    if (i % 5 == 2) propagationFitsSamples(check, student, 1 + rng.index(5), 1 + rng.index(5));
-    if (i % 5 == 3) betaFits(check, student, rng.index(40));
-    if (i % 5 == 4) dirichletFits(check, student, 2 + rng.index(6), rng.index(40));
+    if (i % 6 == 0) productFits(check, student, 1 + rng.index(8));
+    if (i % 6 == 1) propagationFitsIntegral(check, student);
+    if (i % 6 == 2) propagationFitsSamples(check, student, 1 + rng.index(5), 1 + rng.index(5));
+    if (i % 6 == 3) betaFits(check, student, rng.index(40));
+    if (i % 6 == 4) dirichletFits(check, student, 2 + rng.index(6), rng.index(40));
+    if (i % 6 == 5) predictionIsTheMean(check, student, 2 + rng.index(6));
   });
 }
 // </hidden>

@@ -58,7 +58,8 @@ inline void decreases(rex::grading::Check& check, double before, double after, d
 inline void descends(rex::grading::Check& check, Student& student, const Landscape& land,
                      SearchOptions options) {
   options.tolerance = 1e-5 * land.gradient(land.start).norm();
-  check.input(land.name + fmt::format(", decrease {:.2f}, grow {:.2f}", options.decrease, options.grow));
+  check.input(land.name + fmt::format(", shrink {:.2f}, grow {:.2f}, decrease {:.2f}", options.shrink,
+                                      options.grow, options.decrease));
   const std::vector<Eigen::VectorXd> path =
       student.gradientDescent(land.f, land.gradient, land.start, options);
   checkPath(check, path, land.start, options.maxSteps);
@@ -70,6 +71,9 @@ inline void descends(rex::grading::Check& check, Student& student, const Landsca
                alpha > 0 && (step + alpha * g).norm() <= 1e-5 * step.norm() + 1e-13 * path[t].norm());
     decreases(check, land.f(path[t - 1]), land.f(path[t]), alpha, -g.squaredNorm(), options.decrease);
     check.atMost("step size, relative to its first trial", alpha / firstTrial, 1 + 1e-4);
+    const double shrunk = std::log(alpha / firstTrial) / std::log(options.shrink);
+    check.atMost("log(step size / first trial) / log(shrink), from the nearest whole number",
+                 std::abs(shrunk - std::round(shrunk)), 0.02);
     firstTrial = alpha * options.grow;
   }
   check.atMost("gradient at the end, relative to that at the start",

@@ -83,7 +83,7 @@ Eigen::Matrix3d bookPose(const Eigen::Vector2d& move, double angle);
 /// p_A of a point p_B.
 Eigen::Vector2d mapped(const Eigen::Matrix3d& X_AB, const Eigen::Vector2d& p_B);
 
-/// X_BA, the transform the other way round.
+/// X_BA, the transform the other way round. Any way to it counts, `inverse(X_AB)` too.
 Eigen::Matrix3d inverted(const Eigen::Matrix3d& X_AB);
 
 /// X_AB: frame B as it is seen from frame A, when both are known in the world.

@@ -370,7 +370,7 @@ void showDirichlet() {
                 .yLabel = "towards outcome 3",
                 .colorLabel = "density / its maximum",
                 .equalAxes = true,
-                .legend = Legend::kTopRight};
+                .legend = Legend::kOutside};
   figure.series = {triangle, way("mean of mu, turn by turn", guesses, SeriesStyle::kLine), truth};
   figure.heatMap = map;
   plot("dirichlet", figure);

@@ -62,14 +62,16 @@ Eigen::VectorXd pegPosture(rex::Simulator& S, const std::string& peg, const Eige
 /// Task-space interpolation (2:42): in T steps the peg moves from where it is to `place`, on the straight
 /// line with the sine profile (within 5 mm at each step, 1 mm at the last), in the direction that it has at
 /// the start (within 0.05, then 0.01), with a clearance of at least margin / 2 all the way, as it has at the
-/// start. Moves S, and returns q_1, ..., q_T.
+/// start. For T >= 100 no joint turns by more than 0.1 from one posture to the next. Moves S, and returns
+/// q_1, ..., q_T.
 std::vector<Eigen::VectorXd> taskSpaceMotion(rex::Simulator& S, const std::string& peg,
                                              const Eigen::Vector3d& place, double margin, int T);
 
-/// From the posture of S into the hole: 10 to 1000 postures one after the other, without that of S. In the
-/// last, `peg` is at `inside` and points along `direction`, as exactly as in pegPosture. From each to the
-/// next all joints turn evenly, none by more than 0.1, and nothing comes nearer than margin / 2, between them
-/// neither. The hole is entered along `direction`; 0.6 m before `inside` the peg is still outside.
+/// From the posture of S, which keeps the margin, into the hole: 10 to 1000 postures one after the other,
+/// without that of S. In the last, `peg` is at `inside` and points along `direction`, as exactly as in
+/// pegPosture. From each to the next all joints turn evenly, none by more than 0.1, and nothing comes nearer
+/// than margin / 2, between them neither. The hole is entered along `direction`; 0.6 m before `inside` the
+/// peg is still outside.
 std::vector<Eigen::VectorXd> insertPeg(rex::Simulator& S, const std::string& peg,
                                        const Eigen::Vector3d& inside, const Eigen::Vector3d& direction,
                                        double margin);

@@ -1,4 +1,4 @@
-// caught by: bayes-elsewhere
+// caught by: table, bayes-elsewhere
 // mistake: Compares rounded numbers for equality.
 
 // <solution jointTable>

@@ -1,4 +1,4 @@
-// caught by: conjugate
+// caught by: conjugate, beliefs-elsewhere
 // mistake: Predicts with the most likely mu, which leaves out how much is not known.
 
 // <solution nextOutcome>

@@ -3,5 +3,5 @@
 
 // <solution nullspaceProjector>
 const Eigen::MatrixXd W = Eigen::MatrixXd::Identity(J.cols(), J.cols());
-return W - regularisedInverse(J, W, 1e4) * J;
+return W - regularisedInverse(J, W, 1e9) * J;
 // </solution>
