@@ -101,7 +101,7 @@ std::vector<Eigen::Vector3d> wholeCircle() {
   return points;
 }
 
-// f(S, t) in each posture of a motion, t = 1, 2, ...
+// f(S, t) in each posture of a motion, t = 1, 2, ...; of one that is not there yet, where the robot starts.
 template <class F>
 std::vector<double> along(const std::string& scene, const Motion& motion, const F& f) {
   Simulator S(scene);
@@ -111,6 +111,7 @@ std::vector<double> along(const std::string& scene, const Motion& motion, const 
     S.setJointAngles(q);
     values.push_back(f(S, static_cast<int>(values.size()) + 1));
   }
+  if (motion.empty()) values.push_back(f(S, 1));
   return values;
 }
 
