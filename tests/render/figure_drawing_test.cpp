@@ -28,7 +28,7 @@ using Eigen::Vector2d;
 class Drawing {
  public:
   explicit Drawing(const Figure& figure) {
-    const fs::path path = freshFolder("figure-drawing") / "a.svg";
+    const fs::path path = freshFolderOfTest("figure-drawing") / "a.svg";
     writeFigure(figure, path);
     svg_ = fileText(path);
     static const std::regex tic(

@@ -18,7 +18,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Figure plain() { return {.title = "F", .xLabel = "x [m]", .yLabel = "y [m]"}; }
 
-void draw(const Figure& figure) { writeFigure(figure, freshFolder("figure-errors") / "a.png"); }
+void draw(const Figure& figure) { writeFigure(figure, freshFolderOfTest("figure-errors") / "a.png"); }
 
 TEST(FigureErrors, EveryAxisNeedsALabel) {
   Figure figure = plain();

@@ -232,7 +232,7 @@ class FigureWithOtherGnuplot : public testing::Test {
     fs::permissions(program, fs::perms::owner_all);
   }
   std::string path_ = std::getenv("PATH");
-  fs::path folder_ = freshFolder("figure-gnuplot");
+  fs::path folder_ = freshFolderOfTest("figure-gnuplot");
 };
 
 TEST_F(FigureWithOtherGnuplot, NamesThePackageWhenMissing) {
