@@ -9,7 +9,7 @@ using Eigen::Vector3d;
 
 CertifiedProximity certifiedProximity(const Shape& a, const Pose& X_WA, const Shape& b, const Pose& X_WB) {
   const ConvexCore coreA(a), coreB(b);
-  const CoreDifference difference(coreA, coreB, X_WA.inverse() * X_WB);
+  const MinkowskiDifference difference(coreA, coreB, X_WA.inverse() * X_WB);
   CoreProximity cores = coreGap(difference);
   if (!(cores.distance > 0)) cores = coreDepth(difference, cores.nearest);
 
@@ -29,7 +29,7 @@ Proximity convexProximity(const Shape& a, const Pose& X_WA, const Shape& b, cons
 bool isNearer(const Shape& a, const Pose& X_WA, const Shape& b, const Pose& X_WB, double margin) {
   if (margin < 0) return !(convexProximity(a, X_WA, b, X_WB).distance >= margin);
   const ConvexCore coreA(a), coreB(b);
-  const double cores = coreGap(CoreDifference(coreA, coreB, X_WA.inverse() * X_WB)).distance;
+  const double cores = coreGap(MinkowskiDifference(coreA, coreB, X_WA.inverse() * X_WB)).distance;
   return !(cores > 0 && cores - coreA.radius() - coreB.radius() >= margin);
 }
 

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "collision/core_depth_internal.h"
-#include "collision/growing_polytope_internal.h"
+#include "collision/expanding_polytope_internal.h"
 
 namespace rex::internal {
 namespace {
@@ -23,7 +23,7 @@ struct Span {
 };
 
 template <class Measure, class... Directions>
-double findFarthest(const CoreDifference& difference, const Measure& measure, DifferencePoint& farthest,
+double findFarthest(const MinkowskiDifference& difference, const Measure& measure, DifferencePoint& farthest,
                     const Directions&... directions) {
   double most = -1;
   const auto ask = [&](const Vector3d& n) {
@@ -34,7 +34,7 @@ double findFarthest(const CoreDifference& difference, const Measure& measure, Di
   return most;
 }
 
-Span spanOf(const CoreDifference& difference) {
+Span spanOf(const MinkowskiDifference& difference) {
   Span span;
   auto& [p, q, r, s] = span.corners;
   double size = -1;
@@ -55,7 +55,7 @@ Span spanOf(const CoreDifference& difference) {
   return span;
 }
 
-CoreProximity flatDepth(const CoreDifference& difference, const Vector3d& normal,
+CoreProximity flatDepth(const MinkowskiDifference& difference, const Vector3d& normal,
                         const DifferencePoint& touching) {
   const double one = normal.dot(difference.lowest(normal).x);
   const double other = -normal.dot(difference.lowest(-normal).x);
@@ -70,17 +70,17 @@ void keepBetter(const Vector3d& n, const DifferencePoint& lowest, CoreProximity&
 
 }  // namespace
 
-CoreProximity coreDepth(const CoreDifference& difference, const DifferencePoint& touching) {
+CoreProximity coreDepth(const MinkowskiDifference& difference, const DifferencePoint& touching) {
   const Span span = spanOf(difference);
   if (span.isFlat) return flatDepth(difference, span.normal, touching);
   const double size = (span.corners[1].x - span.corners[0].x).norm();
   const double enough = difference.isCurved() ? kCurvedSlack : kSlack;
-  GrowingPolytope polytope(span.corners, kPrecision * size);
+  ExpandingPolytope polytope(span.corners, kPrecision * size);
   CoreProximity best;
   best.distance = -std::numeric_limits<double>::infinity();
   for (bool grows = true; grows;) {
     const int index = polytope.nearestFace();
-    const GrowingPolytope::Face& face = polytope.face(index);
+    const ExpandingPolytope::Face& face = polytope.face(index);
     const DifferencePoint w = difference.lowest(face.n);
     keepBetter(face.n, w, best);
     if (difference.isCurved())

@@ -106,7 +106,7 @@ Simplex nearestWith(const Simplex& old, const DifferencePoint& w) {
 
 }  // namespace
 
-CoreProximity coreGap(const CoreDifference& difference) {
+CoreProximity coreGap(const MinkowskiDifference& difference) {
   Simplex simplex;
   const Vector3d start = difference.centres();
   tryPoint(difference.lowest(start.squaredNorm() > 0 ? start : Vector3d::UnitX()), simplex);

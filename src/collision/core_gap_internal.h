@@ -1,6 +1,6 @@
 #pragma once
 
-#include "collision/core_difference_internal.h"
+#include "collision/minkowski_difference_internal.h"
 
 namespace rex::internal {
 
@@ -8,6 +8,6 @@ namespace rex::internal {
 /// blur the direction. If they touch or overlap, zero, and then only `nearest` counts: the origin if the
 /// difference is flat. Gilbert, Johnson and Keerthi, 1988, with the nearest point of a simplex by trying all
 /// its sides.
-[[nodiscard]] CoreProximity coreGap(const CoreDifference& difference);
+[[nodiscard]] CoreProximity coreGap(const MinkowskiDifference& difference);
 
 }  // namespace rex::internal

@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-#include "collision/growing_polytope_internal.h"
+#include "collision/expanding_polytope_internal.h"
 
 namespace rex::internal {
 
@@ -18,7 +18,7 @@ constexpr std::size_t kUsualCorners = 256;  // fits into the room
 
 }  // namespace
 
-GrowingPolytope::GrowingPolytope(const std::array<DifferencePoint, 4>& corners, double precision)
+ExpandingPolytope::ExpandingPolytope(const std::array<DifferencePoint, 4>& corners, double precision)
     : precision_(precision) {
   corners_.reserve(kUsualCorners);
   faces_.reserve(2 * kUsualCorners);
@@ -35,7 +35,7 @@ GrowingPolytope::GrowingPolytope(const std::array<DifferencePoint, 4>& corners, 
   setFace(3, {1, 3, 2}, {1, 2, 0});
 }
 
-int GrowingPolytope::newFace() {
+int ExpandingPolytope::newFace() {
   if (!free_.empty()) {
     const int index = free_.back();
     free_.pop_back();
@@ -46,8 +46,8 @@ int GrowingPolytope::newFace() {
   return static_cast<int>(faces_.size()) - 1;
 }
 
-void GrowingPolytope::setFace(int index, const std::array<int, 3>& corners,
-                              const std::array<int, 3>& neighbours) {
+void ExpandingPolytope::setFace(int index, const std::array<int, 3>& corners,
+                                const std::array<int, 3>& neighbours) {
   Face& face = faces_[place(index)];
   const Vector3d& p = corner(corners[0]);
   face.corners = corners;
@@ -59,7 +59,7 @@ void GrowingPolytope::setFace(int index, const std::array<int, 3>& corners,
   std::push_heap(order_.begin(), order_.end());
 }
 
-DifferencePoint GrowingPolytope::pointAgainst(const Vector3d& n) const {
+DifferencePoint ExpandingPolytope::pointAgainst(const Vector3d& n) const {
   const auto way = [&](const Face& face) {
     const double slope = face.n.dot(n);
     return slope > kGrazing ? face.offset / slope : kNone;
@@ -86,7 +86,7 @@ DifferencePoint GrowingPolytope::pointAgainst(const Vector3d& n) const {
 }
 
 // How the corners of a face make up the point x of its plane.
-Vector3d GrowingPolytope::sharesOf(const Face& face, const Vector3d& x) const {
+Vector3d ExpandingPolytope::sharesOf(const Face& face, const Vector3d& x) const {
   std::array<Vector3d, 3> to;
   for (int k = 0; k < 3; ++k) to[k] = corner(face.corners[k]) - x;
   Vector3d shares;
@@ -94,7 +94,7 @@ Vector3d GrowingPolytope::sharesOf(const Face& face, const Vector3d& x) const {
   return shares / shares.sum();
 }
 
-bool GrowingPolytope::add(const DifferencePoint& point, int seen) {
+bool ExpandingPolytope::add(const DifferencePoint& point, int seen) {
   if (corners_.size() == kMostCorners) return false;
   findSeen(point.x, seen);
   const bool hasRim = findRim();
@@ -107,13 +107,13 @@ bool GrowingPolytope::add(const DifferencePoint& point, int seen) {
 
 // Also where x would make a sliver with an edge: it lies in the plane beyond, and the sliver would have no
 // normal.
-bool GrowingPolytope::sees(const Vector3d& x, int face, int from, int to) const {
+bool ExpandingPolytope::sees(const Vector3d& x, int face, int from, int to) const {
   if (faces_[place(face)].n.dot(x) < faces_[place(face)].offset - precision_) return true;
   const Vector3d edge = corner(to) - corner(from);
   return edge.cross(x - corner(from)).squaredNorm() <= precision_ * precision_ * edge.squaredNorm();
 }
 
-void GrowingPolytope::findSeen(const Vector3d& x, int first) {
+void ExpandingPolytope::findSeen(const Vector3d& x, int first) {
   seen_.assign(1, first);
   isSeen_[place(first)] = true;
   for (std::size_t i = 0; i < seen_.size(); ++i) {
@@ -128,7 +128,7 @@ void GrowingPolytope::findSeen(const Vector3d& x, int first) {
 }
 
 // The edges around what is seen, one after the other; false unless they make one simple ring.
-bool GrowingPolytope::findRim() {
+bool ExpandingPolytope::findRim() {
   rim_.clear();
   for (const int index : seen_) {
     const Face& face = faces_[place(index)];
@@ -145,7 +145,7 @@ bool GrowingPolytope::findRim() {
   return rim_.back().to == rim_[0].from;
 }
 
-void GrowingPolytope::coverRim(int apex) {
+void ExpandingPolytope::coverRim(int apex) {
   for (const int face : seen_) faces_[place(face)].offset = kNone;
   free_.insert(free_.end(), seen_.begin(), seen_.end());
   for (RimEdge& edge : rim_) edge.face = newFace();

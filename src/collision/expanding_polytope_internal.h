@@ -5,13 +5,13 @@
 #include <memory_resource>
 #include <vector>
 
-#include "collision/core_difference_internal.h"
+#include "collision/minkowski_difference_internal.h"
 
 namespace rex::internal {
 
 /// A convex polytope of triangles that grows by points outside of it. Its normals point inwards. Some 100 kB
 /// lie in itself, room for a few hundred corners; only beyond those does it allocate.
-class GrowingPolytope {
+class ExpandingPolytope {
  public:
   static constexpr int kMostCorners = 1 << 15;
 
@@ -23,9 +23,9 @@ class GrowingPolytope {
   };
 
   /// A tetrahedron. What is nearer than `precision` metres counts as equal.
-  GrowingPolytope(const std::array<DifferencePoint, 4>& corners, double precision);
-  GrowingPolytope(const GrowingPolytope&) = delete;
-  GrowingPolytope& operator=(const GrowingPolytope&) = delete;
+  ExpandingPolytope(const std::array<DifferencePoint, 4>& corners, double precision);
+  ExpandingPolytope(const ExpandingPolytope&) = delete;
+  ExpandingPolytope& operator=(const ExpandingPolytope&) = delete;
 
   /// The face with the largest offset: the one nearest to the origin, if that lies inside.
   [[nodiscard]] int nearestFace() const { return order_.front().face; }

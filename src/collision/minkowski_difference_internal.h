@@ -18,9 +18,10 @@ struct DifferencePoint {
 /// The convex set of all differences of a point of core A and one of core B, seen from A. Its signed distance
 /// from the origin is that of the cores: the largest gap(n) of all unit vectors n, where gap(n) is the least
 /// n.x of all x of the set. So any n gives a lower bound.
-class CoreDifference {
+class MinkowskiDifference {
  public:
-  CoreDifference(const ConvexCore& a, const ConvexCore& b, const Pose& X_AB) : a_(a), b_(b), X_AB_(X_AB) {}
+  MinkowskiDifference(const ConvexCore& a, const ConvexCore& b, const Pose& X_AB)
+      : a_(a), b_(b), X_AB_(X_AB) {}
 
   /// A point with the least n.x.
   DifferencePoint lowest(const Eigen::Vector3d& n) const {
