@@ -8,10 +8,14 @@
 
 #include <fmt/format.h>
 
+#include "base/rng.h"
 #include "collision/contacts.h"
 #include "collision/proxy_report.h"
 #include "course/pictures.h"
 #include "course/recording.h"
+#include "dynamics/energy.h"
+#include "dynamics/mass_matrix.h"
+#include "dynamics/stepper.h"
 #include "kinematics/center_of_mass.h"
 #include "kinematics/jacobians.h"
 #include "kinematics/task_maps.h"
@@ -45,6 +49,17 @@ Contacts contactsOf(const Model& model) {
   }
 }
 
+void requireFinite(const char* method, const char* what, const Eigen::VectorXd& numbers, int size) {
+  requireSize(method, numbers.size(), size);
+  for (Eigen::Index i = 0; i < numbers.size(); ++i) {
+    if (!std::isfinite(numbers[i])) {
+      throw Error({.what = fmt::format("{}: {} {}", method, what, i),
+                   .found = fmt::format("{}", numbers[i]),
+                   .wanted = "a finite number"});
+    }
+  }
+}
+
 }  // namespace
 
 struct Simulator::Parts {
@@ -53,10 +68,21 @@ struct Simulator::Parts {
   Model model;
   Contacts contacts;
   double contactMargin = kContactMargin;
-  Eigen::VectorXd q{};
+  Eigen::VectorXd q{}, v{};
   BodyPoses poses{};
   Recording recording{};
+  double dynamicNoise = 0;
+  bool gravity = true;
+  std::uint64_t seed = 0;
+  Rng rng{};
 
+  void moveTo(const Eigen::VectorXd& newQ, const Eigen::VectorXd& newV) {
+    q = newQ;
+    v = newV;
+    forwardKinematics(model, q, poses);
+    recording.add(q);
+  }
+  Eigen::Vector3d gravity_W() const { return gravity ? earthGravity() : Eigen::Vector3d::Zero(); }
   const ContactModel& requireContacts() const {
     if (const Error* error = std::get_if<Error>(&contacts)) throw *error;
     return std::get<ContactModel>(contacts);
@@ -93,7 +119,11 @@ void Simulator::start(const SimulatorDescription& description, SceneSpec spec) {
                          std::make_shared<const SceneSpec>(std::move(spec)), std::move(model),
                          std::move(contacts)});
   setContactMargin(description.contactMargin);
-  setJointAngles(q);
+  setDynamicSimulationNoise(description.dynamicNoise);
+  setDynamicGravity(description.gravity);
+  setSeed(description.seed);
+  setJointAnglesAndVels(q,
+                        description.v.size() > 0 ? description.v : Eigen::VectorXd::Zero(parts_->model.nv()));
 }
 
 Simulator::Simulator(const Simulator& other) : parts_(std::make_unique<Parts>(*other.parts_)) {}
@@ -110,17 +140,54 @@ int Simulator::getJointDimension() const { return parts_->model.nq(); }
 Eigen::VectorXd Simulator::getJointAngles() const { return parts_->q; }
 
 void Simulator::setJointAngles(const Eigen::VectorXd& q) {
-  requireSize("setJointAngles", q.size(), parts_->model.nq());
-  for (Eigen::Index i = 0; i < q.size(); ++i) {
-    if (!std::isfinite(q[i])) {
-      throw Error({.what = fmt::format("setJointAngles: angle {}", i),
-                   .found = fmt::format("{}", q[i]),
-                   .wanted = "a finite number"});
-    }
+  requireFinite("setJointAngles", "angle", q, parts_->model.nq());
+  parts_->moveTo(q, parts_->v);
+}
+
+Eigen::VectorXd Simulator::getJointVels() const { return parts_->v; }
+
+void Simulator::getJointAnglesAndVels(Eigen::VectorXd& q, Eigen::VectorXd& qdot) const {
+  q = parts_->q;
+  qdot = parts_->v;
+}
+
+void Simulator::setJointAnglesAndVels(const Eigen::VectorXd& q, const Eigen::VectorXd& qdot) {
+  requireFinite("setJointAnglesAndVels", "angle", q, parts_->model.nq());
+  requireFinite("setJointAnglesAndVels", "velocity", qdot, parts_->model.nv());
+  parts_->moveTo(q, qdot);
+}
+
+void Simulator::getDynamics(Eigen::MatrixXd& M, Eigen::VectorXd& F) const {
+  const EquationOfMotion motion = equationOfMotion(parts_->model, parts_->q, parts_->v, parts_->gravity_W());
+  M = motion.M;
+  F = motion.F;
+}
+
+double Simulator::getEnergy() const {
+  return energy(parts_->model, parts_->q, parts_->v, parts_->gravity_W()).total();
+}
+
+void Simulator::stepDynamics(const Eigen::VectorXd& u, double tau) {
+  Stepper stepper(parts_->model, {.gravity_W = parts_->gravity_W(), .noise = parts_->dynamicNoise});
+  State state{parts_->q, parts_->v};
+  stepper.step(state, u, tau, parts_->rng);
+  parts_->moveTo(state.q, state.v);
+}
+
+void Simulator::setDynamicSimulationNoise(double noise) {
+  if (!(noise >= 0) || !std::isfinite(noise)) {
+    throw Error({.what = "setDynamicSimulationNoise",
+                 .found = fmt::format("{:g}", noise),
+                 .wanted = "zero or a positive, finite number"});
   }
-  parts_->q = q;
-  forwardKinematics(parts_->model, q, parts_->poses);
-  parts_->recording.add(q);
+  parts_->dynamicNoise = noise;
+}
+
+void Simulator::setDynamicGravity(bool gravity) { parts_->gravity = gravity; }
+
+void Simulator::setSeed(std::uint64_t seed) {
+  parts_->seed = seed;
+  parts_->rng = Rng(seed);
 }
 
 Eigen::Vector3d Simulator::kinematicsPos(const std::string& body, const Eigen::Vector3d& rel) const {
@@ -185,8 +252,11 @@ void Simulator::anchorKinematicChainIn(const std::string& body) {
   SceneSpec spec = reconfigureRoot(atPositions(*parts_->spec, parts_->q), root);
   // The name tells how the text is read, and the text is .ors now.
   spec.name = std::filesystem::path(parts_->sceneName).replace_extension(".ors").string();
-  const SimulatorDescription description{
-      .sceneName = spec.name, .sceneText = writeOrs(spec), .q = {}, .contactMargin = parts_->contactMargin};
+  SimulatorDescription description = this->description();
+  description.sceneName = spec.name;
+  description.sceneText = writeOrs(spec);
+  description.q.resize(0);
+  description.v.resize(0);
   start(description, std::move(spec));
 }
 
@@ -216,7 +286,8 @@ void Simulator::jacobianContacts(Eigen::MatrixXd& J) const { J = jacobianContact
 void Simulator::watch(const std::string& name) const { writePicture(*this, name + ".png"); }
 
 SimulatorDescription Simulator::description() const {
-  return {parts_->sceneName, parts_->sceneText, parts_->q, parts_->contactMargin};
+  return {parts_->sceneName, parts_->sceneText,    parts_->q,       parts_->contactMargin,
+          parts_->v,         parts_->dynamicNoise, parts_->gravity, parts_->seed};
 }
 const Model& Simulator::model() const { return parts_->model; }
 const Recording& Simulator::recording() const { return parts_->recording; }

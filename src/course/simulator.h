@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -17,6 +18,10 @@ struct SimulatorDescription {
   std::string sceneText;       ///< the text of the file
   Eigen::VectorXd q;           ///< joint angles; empty: the posture of the file
   double contactMargin = 0.1;  ///< metres, see Simulator::setContactMargin()
+  Eigen::VectorXd v{};         ///< joint velocities; empty: at rest
+  double dynamicNoise = 0;     ///< see Simulator::setDynamicSimulationNoise()
+  bool gravity = true;         ///< see Simulator::setDynamicGravity()
+  std::uint64_t seed = 0;      ///< of the noise
 };
 
 /// A robot in its world, with the names of the course script. Positions are metres in the world frame, z up;
@@ -98,6 +103,30 @@ class Simulator {
   /// The pairs of shapes nearer than 0.5 m (or the margin, if that is more), nearest first: their names,
   /// distance and nearest points, metres.
   std::string proxyReport() const;
+
+  /// Joint angles and velocities: n numbers each, or v one less for each ball joint (see Joint::nv). Angles
+  /// set by setJointAngles() leave the velocities as they are; at first the robot is at rest.
+  void getJointAnglesAndVels(Eigen::VectorXd& q, Eigen::VectorXd& qdot) const;
+  Eigen::VectorXd getJointVels() const;
+  void setJointAnglesAndVels(const Eigen::VectorXd& q, const Eigen::VectorXd& qdot);
+  /// M (n x n) and F (n) of the equation of motion M qddot + F = u, at the present angles and velocities.
+  /// Slide 3:28.
+  void getDynamics(Eigen::MatrixXd& M, Eigen::VectorXd& F) const;
+  /// Kinetic and potential energy, joules; a body at height z has m 9.81 z.
+  double getEnergy() const;
+  /// Moves the robot on by tau > 0 seconds under the joint forces u (n numbers, N m or N), which are held:
+  /// one step of Runge and Kutta, without contacts, limits or friction, and then the noise. Records the
+  /// posture. Throws Error, and moves nothing, for numbers that are not finite and for a joint that moves no
+  /// mass.
+  void stepDynamics(const Eigen::VectorXd& u, double tau);
+  /// From now on each stepDynamics() adds sqrt(tau) * noise * N(0, 1) to each velocity. The numbers are the
+  /// same in every run, see setSeed().
+  void setDynamicSimulationNoise(double noise);
+  void setDynamicsSimulationNoise(double noise) { setDynamicSimulationNoise(noise); }
+  /// Turns gravity on (as it is at first) or off, for getDynamics, getEnergy, stepDynamics and stepPhysics.
+  void setDynamicGravity(bool gravity);
+  /// Starts the noise anew, with other numbers for another seed.
+  void setSeed(std::uint64_t seed);
 
   /// Holds `body` where it stands now and hangs the rest of its chain on it, as on a foot that stands on the
   /// ground. The world looks as before, but joints count from the new root, so that the numbers of q may

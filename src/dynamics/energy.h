@@ -1,0 +1,18 @@
+#pragma once
+
+#include "dynamics/inverse_dynamics.h"
+
+namespace rex {
+
+/// Joules. Potential energy is zero where the centre of mass is at the height of the world's origin.
+struct Energy {
+  double kinetic = 0, potential = 0;
+  [[nodiscard]] double total() const { return kinetic + potential; }
+};
+
+/// T = sum of m v^2 / 2 + w^T I w / 2, and U = -sum of m g^T p, over all bodies with mass, also those that
+/// cannot move. Slides 3:22 and 3:25. Throws as inverseDynamics.
+[[nodiscard]] Energy energy(const Model& model, const VectorArg& q, const VectorArg& v,
+                            const Eigen::Vector3d& gravity_W = earthGravity());
+
+}  // namespace rex
