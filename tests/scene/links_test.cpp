@@ -71,7 +71,7 @@ Moments ofLinks(const Model& model, const Eigen::VectorXd& q) {
   return sum;
 }
 
-// Two of the first bodies lose their joints or hang rigidly on the world, which takes them out.
+// Nothing hangs rigidly on the first body, which stands still: all others move.
 SceneSpec randomTree(Rng& rng, int bodies) {
   SceneSpec spec = randomScene(rng, bodies);
   addDetails(rng, spec);
