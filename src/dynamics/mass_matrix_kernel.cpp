@@ -16,13 +16,51 @@ struct Part {
   int lastFreedom;  // its own last
 };
 
-// A coordinate's twist at O, per unit of v.
-struct Freedom {
-  Vec3<double> angular, linear;
-  int parent;  // the one before on the way to the world, or kNone
-  int column;
-};
 constexpr int kNone = -1;
+
+// The coordinates, one after the other as links are. Entry e of the twist of freedom i, at O and per unit of
+// v, stands at twists[e * room + i]: so those of a run, in which each is the parent of the next, are one
+// load.
+struct Freedoms {
+  double* twists;  // angular, then linear
+  int* parents;    // the one before on the way to the world, or kNone
+  int* starts;     // the first of the run
+  int* columns;
+  int room, count;
+
+  static constexpr int kNumbersEach = 8;  // of memory
+  static constexpr int kSpare = 4;        // so that lanes may begin at the last
+
+  void add(const Vec3<double>& angular, const Vec3<double>& linear, int parent, int column) {
+    const int i = count++;
+    storeVec3(angular, twists + i, room);
+    storeVec3(linear, twists + 3 * room + i, room);
+    parents[i] = parent;
+    starts[i] = parent == i - 1 && parent != kNone ? starts[parent] : i;
+    columns[i] = column;
+  }
+  // What lanes read behind the last.
+  void addSpare() {
+    for (int i = count; i < count + kSpare; ++i) {
+      for (int e = 0; e < 6; ++e) twists[e * room + i] = 0;
+    }
+  }
+  template <class T>
+  Vec3<T> angular(int i) const {
+    return loadVec3<T>(twists + i, room);
+  }
+  template <class T>
+  Vec3<T> linear(int i) const {
+    return loadVec3<T>(twists + 3 * room + i, room);
+  }
+};
+
+inline Freedoms freedomsIn(void* memory, int linkCount) {
+  const int room = 3 * linkCount + Freedoms::kSpare;
+  double* twists = static_cast<double*>(memory);
+  int* parents = reinterpret_cast<int*>(twists + 6 * room);
+  return {twists, parents, parents + room, parents + 2 * room, room, 0};
+}
 
 // a b^T + b a^T.
 inline Sym3<double> symmetricProduct(const Vec3<double>& a, const Vec3<double>& b) {
@@ -62,76 +100,81 @@ inline void weigh(const Link& link, const Vec3<double>& p_OL, Part& part) {
                   I.yy + (trace - moved.yy), I.yz - moved.yz, I.zz + (trace - moved.zz)};
 }
 
-// Appends the freedoms of the link.
-inline int appendFreedoms(const Link& link, const KernelPose<double>& X, const Vec3<double>& p_OL, int parent,
-                          Freedom* freedoms, int count) {
-  const auto turn = [&](const Vec3<double>& axis, int column) {
-    freedoms[count] = {axis, cross(p_OL, axis), parent, column};
-    parent = count++;
-  };
+// Appends the freedoms of the link, below freedom `parent`.
+inline void appendFreedoms(const Link& link, const KernelPose<double>& X, const Vec3<double>& p_OL,
+                           int parent, Freedoms& freedoms) {
   const Vec3<double> zero{0, 0, 0}, axis = link.ratio * X.R.c2;
+  const int i = freedoms.count, column = link.vIndex;
   switch (link.kind) {
     case Link::Kind::kHinge:
-      turn(axis, link.vIndex);
-      break;
+      freedoms.add(axis, cross(p_OL, axis), parent, column);
+      return;
     case Link::Kind::kScrew:
-      turn(axis, link.vIndex);
-      freedoms[parent].linear = freedoms[parent].linear + link.pitch * axis;
-      break;
+      freedoms.add(axis, cross(p_OL, axis) + link.pitch * axis, parent, column);
+      return;
     case Link::Kind::kSlider:
-      freedoms[count] = {zero, axis, parent, link.vIndex};
-      ++count;
-      break;
+      freedoms.add(zero, axis, parent, column);
+      return;
     case Link::Kind::kQuaternion:
-      turn(X.R.c0, link.vIndex);
-      turn(X.R.c1, link.vIndex + 1);
-      turn(X.R.c2, link.vIndex + 2);
-      break;
+      freedoms.add(X.R.c0, cross(p_OL, X.R.c0), parent, column);
+      freedoms.add(X.R.c1, cross(p_OL, X.R.c1), i, column + 1);
+      freedoms.add(X.R.c2, cross(p_OL, X.R.c2), i + 1, column + 2);
+      return;
   }
-  return count;
 }
 
-// The momentum that a freedom gives to a part and what that carries, seen by the freedoms above. Joints that
-// share a column add up there.
-inline void addRow(const Part& part, const Freedom* freedoms, int own, double* M, long stride) {
-  const Freedom& f = freedoms[own];
-  const Vec3<double> torque = part.inertia * f.angular + cross(part.moment, f.linear);
-  const Vec3<double> force = part.mass * f.linear + cross(f.angular, part.moment);
-  double* column = M + stride * f.column;
-  column[f.column] += dot(f.angular, torque) + dot(f.linear, force);
-  for (int i = f.parent; i != kNone; i = freedoms[i].parent) {
-    const double x = dot(freedoms[i].angular, torque) + dot(freedoms[i].linear, force);
-    column[freedoms[i].column] += x;
-    M[stride * freedoms[i].column + f.column] += x;
+// The momentum that a freedom gives to a part with all it carries, seen by that freedom and those above.
+// Joints that share a column add up there.
+template <class T>
+inline void addRow(const Part& part, const Freedoms& freedoms, int own, double* M, long stride) {
+  const Vec3<double> w = freedoms.angular<double>(own), v = freedoms.linear<double>(own);
+  const Vec3<double> torque = part.inertia * w + cross(part.moment, v);
+  const Vec3<double> force = part.mass * v + cross(w, part.moment);
+  const int column = freedoms.columns[own];
+  M[stride * column + column] += dot(w, torque) + dot(v, force);
+  const Vec3<T> torques = broadcast<T>(torque), forces = broadcast<T>(force);
+  for (int last = freedoms.parents[own]; last != kNone;) {
+    const int start = freedoms.starts[last];
+    for (int first = start; first <= last; first += kLanesOf<T>) {
+      double seen[kLanesOf<T>];
+      store(dot(freedoms.angular<T>(first), torques) + dot(freedoms.linear<T>(first), forces), seen);
+      const int count = last - first + 1 < kLanesOf<T> ? last - first + 1 : kLanesOf<T>;
+      for (int i = 0; i < count; ++i) {
+        const int row = freedoms.columns[first + i];
+        M[stride * column + row] += seen[i];
+        M[stride * row + column] += seen[i];
+      }
+    }
+    last = freedoms.parents[start];
   }
 }
 
 // Composite rigid bodies.
+template <class T>
 void compute(const Link* links, int linkCount, const double* q, void* memory, double* M, long stride,
              int nv) {
   Part* parts = static_cast<Part*>(memory);
-  Freedom* freedoms = reinterpret_cast<Freedom*>(parts + linkCount);
+  Freedoms freedoms = freedomsIn(parts + linkCount, linkCount);
+  const auto lastAbove = [&](int i) {
+    return links[i].parent == Link::kNoParent ? kNone : parts[links[i].parent].lastFreedom;
+  };
   place(links, linkCount, q, parts);
-  int count = 0;
   for (int i = 0; i < linkCount; ++i) {
-    const int parent = links[i].parent;
     Part& part = parts[i];
     const Vec3<double> p_OL = part.X.p - parts[parts[part.root].origin].X.p;
     weigh(links[i], p_OL, part);
-    const int above = parent == Link::kNoParent ? kNone : parts[parent].lastFreedom;
-    count = appendFreedoms(links[i], part.X, p_OL, above, freedoms, count);
-    part.lastFreedom = count - 1;
+    appendFreedoms(links[i], part.X, p_OL, lastAbove(i), freedoms);
+    part.lastFreedom = freedoms.count - 1;
   }
+  freedoms.addSpare();
   for (int k = 0; k < nv; ++k)
     __builtin_memset(M + stride * k, 0, sizeof(double) * static_cast<unsigned long>(nv));
   for (int i = linkCount - 1; i >= 0; --i) {
     const Part& part = parts[i];
-    const int parent = links[i].parent;
-    const int above = parent == Link::kNoParent ? kNone : parts[parent].lastFreedom;
-    for (int own = part.lastFreedom; own != above; own = freedoms[own].parent)
-      addRow(part, freedoms, own, M, stride);
-    if (parent == Link::kNoParent) continue;
-    Part& carrier = parts[parent];
+    for (int own = part.lastFreedom; own != lastAbove(i); own = freedoms.parents[own])
+      addRow<T>(part, freedoms, own, M, stride);
+    if (links[i].parent == Link::kNoParent) continue;
+    Part& carrier = parts[links[i].parent];
     carrier.mass += part.mass;
     carrier.moment = carrier.moment + part.moment;
     carrier.inertia = carrier.inertia + part.inertia;
@@ -142,7 +185,7 @@ void compute(const Link* links, int linkCount, const double* q, void* memory, do
 
 template <int kLanes>
 MassMatrixKernel MassMatrixKernel::compiled() {
-  return {&compute, kLanesOf<Part> + 3 * kLanesOf<Freedom>, 0};
+  return {&compute<InLanes<kLanes>>, kLanesOf<Part> + 3 * Freedoms::kNumbersEach, 0};
 }
 template MassMatrixKernel MassMatrixKernel::compiled<REX_LANES>();
 

@@ -8,7 +8,7 @@
 #include "kinematics/center_of_mass.h"
 #include "kinematics/jacobians.h"
 #include "support/expect_error.h"
-#include "support/random_tree.h"
+#include "support/random_motion.h"
 
 namespace rex {
 namespace {
@@ -22,7 +22,7 @@ Eigen::VectorXd momenta(const Centroidal& all) {
 TEST(Centroidal, IsTheSumOverBodies) {
   Rng rng(321);
   for (int i = 0; i < 20; ++i) {
-    const Model model = randomTree(rng, 2 + 2 * i);
+    const Model model = randomModel(rng, 2 + 2 * i, Followers::kSome);
     const BodyPoses poses = forwardKinematics(model, randomPositions(rng, model.nq()));
     const Eigen::VectorXd v = rng.normalVector(model.nv());
     const Centroidal found = centroidal(model, poses, v);

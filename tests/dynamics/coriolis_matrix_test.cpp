@@ -6,7 +6,7 @@
 #include "scene/state.h"
 #include "support/expect_error.h"
 #include "support/mass_matrix_by_jacobians.h"
-#include "support/random_tree.h"
+#include "support/random_motion.h"
 
 namespace rex {
 namespace {
@@ -27,7 +27,7 @@ class CoriolisMatrixOfRandomTree : public testing::TestWithParam<double> {};
 TEST_P(CoriolisMatrixOfRandomTree, SplitsTheBiasAndTheRateOfTheMassMatrix) {
   Rng rng(311);
   for (int i = 0; i < 10; ++i) {
-    const Model model = randomTree(rng, 13 + 2 * i);
+    const Model model = randomModel(rng, 13 + 2 * i, Followers::kSome);
     const int n = model.nv();
     const Eigen::VectorXd q = randomPositions(rng, model.nq()), way = rng.normalVector(n),
                           v = GetParam() * way;

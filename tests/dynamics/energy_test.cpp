@@ -9,7 +9,7 @@
 #include "scene/state.h"
 #include "support/expect_error.h"
 #include "support/mass_matrix_by_jacobians.h"
-#include "support/random_tree.h"
+#include "support/random_motion.h"
 
 namespace rex {
 namespace {
@@ -19,7 +19,7 @@ const Eigen::Vector3d kGravity(0.5, -1, -9.81);
 TEST(Energy, IsThatOfTheMassMatrixAndTheCentreOfMass) {
   Rng rng(301);
   for (int i = 0; i < 20; ++i) {
-    const Model model = randomTree(rng, 2 + 2 * i);
+    const Model model = randomModel(rng, 2 + 2 * i, Followers::kSome);
     const Eigen::VectorXd q = randomPositions(rng, model.nq()), v = rng.normalVector(model.nv());
     const Energy found = energy(model, q, v, kGravity);
     const double kinetic = v.dot(massMatrixByJacobians(model, q) * v) / 2;
@@ -52,7 +52,7 @@ class EnergyGradientOfRandomTree : public testing::TestWithParam<double> {};
 TEST_P(EnergyGradientOfRandomTree, AgreesWithDifferences) {
   Rng rng(302);
   for (int i = 0; i < 10; ++i) {
-    const Model model = randomTree(rng, 13 + 2 * i);
+    const Model model = randomModel(rng, 13 + 2 * i, Followers::kSome);
     const Eigen::VectorXd q =
         integrate(model, model.initialPositions(), GetParam() * rng.normalVector(model.nv()));
     const Eigen::VectorXd v = GetParam() * rng.normalVector(model.nv());
@@ -76,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(AtZeroTinyAndRandom, EnergyGradientOfRandomTree, testin
 
 TEST(EnergyGradient, IsGravityForcesAtRest) {
   Rng rng(303);
-  const Model model = randomTree(rng, 40);
+  const Model model = randomModel(rng, 40, Followers::kSome);
   const Eigen::VectorXd q = randomPositions(rng, model.nq()), rest = Eigen::VectorXd::Zero(model.nv());
   const EnergyGradient gradient = energyGradient(model, q, rest);
   EXPECT_LE((gradient.byPosition - gravityForces(model, q)).norm(), 1e-12 * gradient.byPosition.norm());

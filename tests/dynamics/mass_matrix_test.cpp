@@ -7,7 +7,7 @@
 #include "support/expect_error.h"
 #include "support/mass_matrix_by_jacobians.h"
 #include "support/paths.h"
-#include "support/random_tree.h"
+#include "support/random_motion.h"
 
 namespace rex {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 TEST(MassMatrix, IsTheSumOverJacobians) {
   Rng rng(351);
   for (int i = 0; i < 50; ++i) {
-    const Model model = randomTree(rng, 2 + i);
+    const Model model = randomModel(rng, 2 + i, Followers::kSome);
     const Eigen::VectorXd q = randomPositions(rng, model.nq());
     const Eigen::MatrixXd M = massMatrix(model, q), wanted = massMatrixByJacobians(model, q);
     EXPECT_LE((M - wanted).norm(), 1e-12 * wanted.norm());
@@ -48,7 +48,7 @@ TEST(MassMatrix, IsExactFarAway) {
 
 TEST(MassMatrix, FillsAPartOfAMatrixAndAllocatesNothing) {
   Rng rng(354);
-  const Model model = randomTree(rng, 40);
+  const Model model = randomModel(rng, 40, Followers::kSome);
   const int n = model.nv();
   const Eigen::VectorXd q = randomPositions(rng, model.nq());
   const Eigen::MatrixXd wanted = massMatrix(model, q);
@@ -71,7 +71,7 @@ TEST(MassMatrix, OfASceneThatCannotMoveIsEmpty) {
 
 TEST(EquationOfMotion, HoldsBothTerms) {
   Rng rng(355);
-  const Model model = randomTree(rng, 30);
+  const Model model = randomModel(rng, 30, Followers::kSome);
   const Eigen::VectorXd q = randomPositions(rng, model.nq()), v = rng.normalVector(model.nv());
   const Eigen::VectorXd a = rng.normalVector(model.nv());
   const EquationOfMotion motion = equationOfMotion(model, q, v);

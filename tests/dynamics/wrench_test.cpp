@@ -7,7 +7,7 @@
 #include "kinematics/jacobians.h"
 #include "optim/derivative_check.h"
 #include "scene/state.h"
-#include "support/random_tree.h"
+#include "support/random_motion.h"
 
 namespace rex {
 namespace {
@@ -25,7 +25,7 @@ std::vector<Wrench> randomWrenches(Rng& rng, const Model& model, int count) {
 TEST(WrenchForces, AreTheTransposedJacobiansTimesTheWrenches) {
   Rng rng(331);
   for (int i = 0; i < 20; ++i) {
-    const Model model = randomTree(rng, 2 + 2 * i);
+    const Model model = randomModel(rng, 2 + 2 * i, Followers::kSome);
     const BodyPoses poses = forwardKinematics(model, randomPositions(rng, model.nq()));
     const std::vector<Wrench> wrenches = randomWrenches(rng, model, 5);
     Eigen::VectorXd wanted = Eigen::VectorXd::Zero(model.nv());
@@ -39,7 +39,7 @@ TEST(WrenchForces, AreTheTransposedJacobiansTimesTheWrenches) {
 // Velocities by differences of poses, not by Jacobians.
 TEST(WrenchForces, DoTheWorkOfTheWrenches) {
   Rng rng(332);
-  const Model model = randomTree(rng, 40);
+  const Model model = randomModel(rng, 40, Followers::kSome);
   const Eigen::VectorXd q = randomPositions(rng, model.nq()), v = rng.normalVector(model.nv());
   const BodyPoses poses = forwardKinematics(model, q);
   const std::vector<Wrench> wrenches = randomWrenches(rng, model, 20);
@@ -58,7 +58,7 @@ TEST(WrenchForces, DoTheWorkOfTheWrenches) {
 // Weight as wrenches on centres of mass is what gravity does.
 TEST(WrenchForces, OfTheWeightsBalanceGravity) {
   Rng rng(333);
-  const Model model = randomTree(rng, 40);
+  const Model model = randomModel(rng, 40, Followers::kSome);
   const Eigen::VectorXd q = randomPositions(rng, model.nq());
   std::vector<Wrench> weights;
   for (int b = 1; b < static_cast<int>(model.bodies().size()); ++b)
@@ -71,7 +71,7 @@ TEST(WrenchForces, OfTheWeightsBalanceGravity) {
 
 TEST(WrenchForces, OfNoneAndOnTheWorldAreZero) {
   Rng rng(334);
-  const Model model = randomTree(rng, 13);
+  const Model model = randomModel(rng, 13, Followers::kSome);
   const BodyPoses poses = forwardKinematics(model, randomPositions(rng, model.nq()));
   EXPECT_EQ(wrenchForces(model, poses, {}), Eigen::VectorXd::Zero(model.nv()));
   const Wrench onWorld{.force_W = {1, 2, 3}, .torque_W = {4, 5, 6}};
