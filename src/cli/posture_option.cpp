@@ -61,7 +61,7 @@ std::optional<double> numberIn(std::string_view word) {
   return number;
 }
 
-// Coordinates that an option gives: positions q or velocities v.
+// Coordinates that an option gives: positions q, velocities v or forces u.
 struct Coordinates {
   std::string option;  // "--q"
   std::string letter;  // "q"
@@ -70,6 +70,7 @@ struct Coordinates {
 };
 const Coordinates kPositions{"--q", "q", &Joint::qIndex, &Joint::nq};
 const Coordinates kVelocities{"--v", "v", &Joint::vIndex, &Joint::nv};
+const Coordinates kForces{"--u", "u", &Joint::vIndex, &Joint::nv};
 
 double requireNumber(const Coordinates& kind, const std::string& word) {
   if (const auto number = numberIn(word)) return *number;
@@ -131,6 +132,12 @@ Eigen::VectorXd parseCoordinates(const Model& model, const Coordinates& kind, co
                       .wanted = fmt::format("{}, one for each coordinate of {}", x.size(), model.name())});
   for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = requireNumber(kind, all[static_cast<std::size_t>(i)]);
   return x;
+}
+
+// Zero but for what is given.
+Eigen::VectorXd parseRates(const Model& model, const Coordinates& kind, const std::string& text) {
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(model.nv());
+  return text == "0" ? zero : parseCoordinates(model, kind, text, zero);
 }
 
 void requireLength(double seconds, const std::string& what, const SourceLocation& where) {
@@ -241,8 +248,11 @@ Eigen::VectorXd parsePosture(const Model& model, const std::string& text) {
 }
 
 Eigen::VectorXd parseVelocities(const Model& model, const std::string& text) {
-  const Eigen::VectorXd still = Eigen::VectorXd::Zero(model.nv());
-  return text == "0" ? still : parseCoordinates(model, kVelocities, text, still);
+  return parseRates(model, kVelocities, text);
+}
+
+Eigen::VectorXd parseForces(const Model& model, const std::string& text) {
+  return parseRates(model, kForces, text);
 }
 
 Eigen::Vector3d parsePoint(const std::string& text, const std::string& option) {

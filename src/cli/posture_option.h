@@ -18,6 +18,9 @@ namespace rex::cli {
 /// "0". Throws as parsePosture.
 [[nodiscard]] Eigen::VectorXd parseVelocities(const Model& model, const std::string& text);
 
+/// The forces of joints (nv) that `--u TEXT` asks for, as parseVelocities.
+[[nodiscard]] Eigen::VectorXd parseForces(const Model& model, const std::string& text);
+
 /// The three numbers that `option` gives. Throws UsageError for another count, or the word that is no number.
 [[nodiscard]] Eigen::Vector3d parsePoint(const std::string& text, const std::string& option);
 
