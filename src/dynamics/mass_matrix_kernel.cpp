@@ -29,7 +29,6 @@ struct Freedoms {
   int room, count;
 
   static constexpr int kNumbersEach = 8;  // of memory
-  static constexpr int kSpare = 4;        // so that lanes may begin at the last
 
   void add(const Vec3<double>& angular, const Vec3<double>& linear, int parent, int column) {
     const int i = count++;
@@ -38,12 +37,6 @@ struct Freedoms {
     parents[i] = parent;
     starts[i] = parent == i - 1 && parent != kNone ? starts[parent] : i;
     columns[i] = column;
-  }
-  // What lanes read behind the last.
-  void addSpare() {
-    for (int i = count; i < count + kSpare; ++i) {
-      for (int e = 0; e < 6; ++e) twists[e * room + i] = 0;
-    }
   }
   template <class T>
   Vec3<T> angular(int i) const {
@@ -56,7 +49,7 @@ struct Freedoms {
 };
 
 inline Freedoms freedomsIn(void* memory, int linkCount) {
-  const int room = 3 * linkCount + Freedoms::kSpare;
+  const int room = 3 * linkCount;
   double* twists = static_cast<double*>(memory);
   int* parents = reinterpret_cast<int*>(twists + 6 * room);
   return {twists, parents, parents + room, parents + 2 * room, room, 0};
@@ -132,19 +125,22 @@ inline void addRow(const Part& part, const Freedoms& freedoms, int own, double* 
   const Vec3<double> force = part.mass * v + cross(w, part.moment);
   const int column = freedoms.columns[own];
   M[stride * column + column] += dot(w, torque) + dot(v, force);
+  const auto add = [&](int i, double seen) {
+    const int row = freedoms.columns[i];
+    M[stride * column + row] += seen;
+    M[stride * row + column] += seen;
+  };
   const Vec3<T> torques = broadcast<T>(torque), forces = broadcast<T>(force);
   for (int last = freedoms.parents[own]; last != kNone;) {
     const int start = freedoms.starts[last];
-    for (int first = start; first <= last; first += kLanesOf<T>) {
+    for (; last - start + 1 >= kLanesOf<T>; last -= kLanesOf<T>) {
+      const int first = last - kLanesOf<T> + 1;
       double seen[kLanesOf<T>];
       store(dot(freedoms.angular<T>(first), torques) + dot(freedoms.linear<T>(first), forces), seen);
-      const int count = last - first + 1 < kLanesOf<T> ? last - first + 1 : kLanesOf<T>;
-      for (int i = 0; i < count; ++i) {
-        const int row = freedoms.columns[first + i];
-        M[stride * column + row] += seen[i];
-        M[stride * row + column] += seen[i];
-      }
+      for (int i = 0; i < kLanesOf<T>; ++i) add(first + i, seen[i]);
     }
+    for (; last >= start; --last)
+      add(last, dot(freedoms.angular<double>(last), torque) + dot(freedoms.linear<double>(last), force));
     last = freedoms.parents[start];
   }
 }
@@ -166,7 +162,6 @@ void compute(const Link* links, int linkCount, const double* q, void* memory, do
     appendFreedoms(links[i], part.X, p_OL, lastAbove(i), freedoms);
     part.lastFreedom = freedoms.count - 1;
   }
-  freedoms.addSpare();
   for (int k = 0; k < nv; ++k)
     __builtin_memset(M + stride * k, 0, sizeof(double) * static_cast<unsigned long>(nv));
   for (int i = linkCount - 1; i >= 0; --i) {
