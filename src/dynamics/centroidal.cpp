@@ -37,10 +37,10 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> centroidalMomentumMatrix(const Model& m
     internal::Matrix6d& I = inertia[static_cast<std::size_t>(i)];
     I += MassInWorld(model[id], poses[id]).spatialInertia();
     inertia[static_cast<std::size_t>(model[id].parent)] += I;
-    internal::forEachFreedomOf(model, id,
-                               [&](int column, const Joint& joint, const DegreeOfFreedom& freedom) {
-                                 A.col(column) += I * internal::freedomTwist(joint, freedom, poses);
-                               });
+    const auto add = [&](int column, const Joint& joint, const DegreeOfFreedom& freedom) {
+      A.col(column) += I * internal::freedomTwist(joint, freedom, poses);
+    };
+    internal::forEachFreedomOf(model, id, add);
   }
   A.bottomRows<3>() -= skew(center) * A.topRows<3>();
   return A;

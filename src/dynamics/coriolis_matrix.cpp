@@ -43,16 +43,17 @@ struct Freedom {
   Vector6d s, rate;
 };
 
+// Those of the joint into each body.
 std::vector<std::vector<Freedom>> freedoms(const Model& model, const BodyPoses& poses,
                                            const std::vector<Vector6d>& V) {
   std::vector<std::vector<Freedom>> all(V.size());
   for (int i = 1; i < static_cast<int>(V.size()); ++i) {
-    internal::forEachFreedomOf(model, BodyId{i},
-                               [&](int column, const Joint& joint, const DegreeOfFreedom& freedom) {
-                                 const Vector6d s = internal::freedomTwist(joint, freedom, poses);
-                                 all[static_cast<std::size_t>(i)].push_back(
-                                     {column, s, internal::freedomTwistRate(joint, freedom, s, V)});
-                               });
+    const auto append = [&](int column, const Joint& joint, const DegreeOfFreedom& freedom) {
+      const Vector6d s = internal::freedomTwist(joint, freedom, poses);
+      const Vector6d rate = internal::freedomTwistRate(joint, freedom, s, V);
+      all[static_cast<std::size_t>(i)].push_back({column, s, rate});
+    };
+    internal::forEachFreedomOf(model, BodyId{i}, append);
   }
   return all;
 }

@@ -31,20 +31,19 @@ EnergyGradient energyGradient(const Model& model, const VectorArg& q, const Vect
   std::vector<Vector6d> momentum(V.size(), Vector6d::Zero()), weight(V.size(), Vector6d::Zero());
   EnergyGradient gradient{Eigen::VectorXd::Zero(model.nv()), Eigen::VectorXd::Zero(model.nv())};
   for (int i = static_cast<int>(V.size()) - 1; i > 0; --i) {
-    const std::size_t at = static_cast<std::size_t>(i),
-                      parent = static_cast<std::size_t>(model[BodyId{i}].parent);
+    const std::size_t at = static_cast<std::size_t>(i);
+    const std::size_t parent = static_cast<std::size_t>(model[BodyId{i}].parent);
     const MassInWorld body(model[BodyId{i}], poses[BodyId{i}]);
     momentum[at] += body.momentum(V[at]), weight[at] += internal::forceAt(body.p, body.mass * gravity_W);
     momentum[parent] += momentum[at], weight[parent] += weight[at];
-    internal::forEachFreedomOf(model, BodyId{i},
-                               [&](int column, const Joint& joint, const DegreeOfFreedom& freedom) {
-                                 const Vector6d s = internal::freedomTwist(joint, freedom, poses);
-                                 const Vector6d rate = internal::freedomTwistRate(joint, freedom, s, V);
-                                 // dT/dq = C^T v, in which each body adds its momentum along the rates of the
-                                 // twists above it.
-                                 gradient.byPosition[column] += rate.dot(momentum[at]) - s.dot(weight[at]);
-                                 gradient.byVelocity[column] += s.dot(momentum[at]);
-                               });
+    // dT/dq = C^T v, in which each body adds its momentum along the rates of the twists above it.
+    const auto add = [&](int column, const Joint& joint, const DegreeOfFreedom& freedom) {
+      const Vector6d s = internal::freedomTwist(joint, freedom, poses);
+      const Vector6d rate = internal::freedomTwistRate(joint, freedom, s, V);
+      gradient.byPosition[column] += rate.dot(momentum[at]) - s.dot(weight[at]);
+      gradient.byVelocity[column] += s.dot(momentum[at]);
+    };
+    internal::forEachFreedomOf(model, BodyId{i}, add);
   }
   // At a quaternion v is no rate of coordinates but turns with the body; Euler's w x p stands for that.
   forEachQuaternion(model, [&](int, int iv) {

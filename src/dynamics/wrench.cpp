@@ -18,10 +18,10 @@ Eigen::VectorXd wrenchForces(const Model& model, const BodyPoses& poses, std::sp
   for (int i = static_cast<int>(force.size()) - 1; i > 0; --i) {
     const Vector6d& f = force[static_cast<std::size_t>(i)];
     force[static_cast<std::size_t>(model[BodyId{i}].parent)] += f;
-    internal::forEachFreedomOf(model, BodyId{i},
-                               [&](int column, const Joint& joint, const DegreeOfFreedom& freedom) {
-                                 u[column] += internal::freedomTwist(joint, freedom, poses).dot(f);
-                               });
+    const auto add = [&](int column, const Joint& joint, const DegreeOfFreedom& freedom) {
+      u[column] += internal::freedomTwist(joint, freedom, poses).dot(f);
+    };
+    internal::forEachFreedomOf(model, BodyId{i}, add);
   }
   return u;
 }

@@ -98,7 +98,7 @@ std::string bareRobot(const std::filesystem::path& file) {
   return xml;
 }
 
-// The robot on a joint that lets its root, "ROOT", move freely.
+// The robot on a joint that lets its root move freely.
 std::string floating(std::string xml, const std::string& root) {
   xml.insert(xml.find("</robot>"),
              "<link name='world'/><joint name='base' type='floating'>"
@@ -126,7 +126,6 @@ class MujocoRobot {
   }
 
   int nv() const { return model_->nv; }
-  const Eigen::MatrixXd& P() const { return P_; }
 
   void set(const VectorXd& q, const VectorXd& v) {
     for (const Joint& joint : ours_.joints()) {
@@ -178,7 +177,7 @@ void expectNear(const Eigen::MatrixXd& ours, const Eigen::MatrixXd& theirs, cons
   EXPECT_LE((ours - theirs).cwiseAbs().maxCoeff(), kTolerance * theirs.cwiseAbs().maxCoeff()) << what;
 }
 
-VectorXd randomState(Rng& rng, const Model& model) {
+VectorXd randomPositions(Rng& rng, const Model& model) {
   VectorXd q = rng.normalVector(model.nq());
   for (const Joint& joint : model.joints())
     if (joint.type == JointType::kFree) q.segment<4>(joint.qIndex + 3).normalize();
@@ -191,7 +190,7 @@ void expectSameDynamics(const std::string& xml) {
   const bool mimics = mujoco.nv() != model.nv();
   Rng rng(361);
   for (int i = 0; i < 10; ++i) {
-    const VectorXd q = randomState(rng, model), v = 2 * rng.normalVector(model.nv());
+    const VectorXd q = randomPositions(rng, model), v = 2 * rng.normalVector(model.nv());
     const VectorXd a = 5 * rng.normalVector(model.nv());
     mujoco.set(q, v);
     const VectorXd u = mujoco.inverseDynamics(a);
