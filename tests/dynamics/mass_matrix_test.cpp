@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "base/cpu_lanes.h"
+#include "dynamics/kernel_room_internal.h"
+#include "dynamics/mass_matrix_kernel_internal.h"
 #include "scene/ors_reader.h"
 #include "support/allocations.h"
 #include "support/expect_error.h"
@@ -61,6 +64,23 @@ TEST(MassMatrix, FillsAPartOfAMatrixAndAllocatesNothing) {
   EXPECT_EQ(all.block(1, 1, n, n), wanted);
   all.block(1, 1, n, n).setConstant(7);
   EXPECT_EQ(all, Eigen::MatrixXd::Constant(n + 3, n + 2, 7)) << "what lies around it";
+}
+
+TEST(MassMatrix, HasTheSameBitsInAllLanes) {
+  Rng rng(357);
+  for (int i = 0; i < 20; ++i) {
+    const Model model = randomModel(rng, 2 + 2 * i, Followers::kSome);
+    const Eigen::VectorXd q = randomPositions(rng, model.nq());
+    const Eigen::MatrixXd wanted = massMatrix(model, q);
+    for (int lanes = 1; lanes <= cpuLanes(); lanes *= 2) {
+      const auto kernel = kernelFor<internal::MassMatrixKernel>(lanes);
+      Eigen::MatrixXd M(model.nv(), model.nv());
+      DynamicsWorkspace workspace;
+      kernel.one(model.links().data(), static_cast<int>(model.links().size()), q.data(),
+                 internal::roomFor(kernel, model, 1, workspace), M.data(), M.outerStride(), model.nv());
+      EXPECT_EQ(M, wanted) << lanes;
+    }
+  }
 }
 
 TEST(MassMatrix, OfASceneThatCannotMoveIsEmpty) {
