@@ -83,6 +83,14 @@ struct ContactsOptions {
 /// What may collide and is near, and what that costs.
 ExitCode sceneContacts(const Project& project, const ContactsOptions& options);
 
+struct DynamicsOptions {
+  SceneOptions scene{};
+  std::string velocity{};  ///< see parseVelocities(); empty: at rest
+  std::string force{};     ///< see parseForces(); empty: none
+};
+/// Mass matrix, bias forces, energies, and how the joints accelerate.
+ExitCode sceneDynamics(const Project& project, const DynamicsOptions& options);
+
 struct ConvertOptions {
   SceneOption scene{};
   std::filesystem::path out{};  ///< its ending says which format

@@ -117,6 +117,25 @@ void addContacts(CLI::App& scene, Action& action, const std::shared_ptr<SceneOpt
   });
 }
 
+void addDynamics(CLI::App& scene, Action& action, const std::shared_ptr<SceneOptions>& options) {
+  const auto own = std::make_shared<DynamicsOptions>();
+  CLI::App* verb =
+      addVerb(scene, "dynamics", "Compute M and F of M qdd + F = u, energies, and qdd",
+              "Examples:\n  scripts/rex scene pegArm dynamics --q 0.1,0.2,0.3 --v 0,1,0\n"
+              "  scripts/rex scene arm3 dynamics --u 5,0,0 --json\n\n"
+              "Gravity is 9.81 m/s^2 along -z. Joints are free: without friction, limits and contacts.");
+  addPosture(verb, options->posture);
+  verb->add_option("--v", own->velocity, "all velocities, or joint=number,... (default: 0)")
+      ->type_name("VELOCITY");
+  verb->add_option("--u", own->force, "forces of all joints, or joint=number,... (default: 0)")
+      ->type_name("FORCE");
+  addJson(verb, options->json);
+  verb->callback([&action, options, own] {
+    own->scene = *options;
+    action = [own](const Project& p) { return sceneDynamics(p, *own); };
+  });
+}
+
 void addConvert(CLI::App& scene, Action& action, const std::shared_ptr<SceneOptions>& options) {
   const auto own = std::make_shared<ConvertOptions>();
   CLI::App* verb = addVerb(scene, "convert", "Write the scene as .ors or .urdf",
@@ -163,7 +182,7 @@ void addScene(CLI::App& program, Action& action) {
   scene->require_subcommand(0, 1);
   addInfo(*scene, action, options), addCheck(*scene, action, options);
   addKinematics(*scene, action, options), addJacobian(*scene, action, options);
-  addContacts(*scene, action, options);
+  addContacts(*scene, action, options), addDynamics(*scene, action, options);
   addSceneRender(*scene, action, options), addConvert(*scene, action, options);
   scene->callback([&action, scene, options] {
     if (scene->get_subcommands().empty())

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -8,6 +7,7 @@
 #include "cli/commands.h"
 #include "cli/json_internal.h"
 #include "cli/posture_option.h"
+#include "cli/velocity_names.h"
 #include "cli/wrong_use_internal.h"
 #include "geometry/rotation.h"
 #include "kinematics/jacobians.h"
@@ -37,21 +37,6 @@ std::string heads(const std::vector<const char*>& names) {
   return line;
 }
 
-// What each column of a Jacobian belongs to: a velocity of a joint.
-std::vector<std::string> velocityNames(const Model& model) {
-  std::vector<std::string> names(static_cast<std::size_t>(model.nv()));
-  for (const Joint& joint : model.joints())
-    for (int i = 0; i < joint.nv && !joint.mimics; ++i)
-      names[static_cast<std::size_t>(joint.vIndex + i)] =
-          harmless(joint.name) + (joint.nv > 1 ? fmt::format(" [{}]", i) : "");
-  return names;
-}
-
-std::size_t widest(const std::vector<std::string>& names, std::size_t least) {
-  for (const std::string& name : names) least = std::max(least, name.size());
-  return least;
-}
-
 }  // namespace
 
 ExitCode sceneKinematics(const Project& project, const SceneOptions& options) {
@@ -61,7 +46,7 @@ ExitCode sceneKinematics(const Project& project, const SceneOptions& options) {
   Json bodies = Json::array();
   std::vector<std::string> names;
   for (const Body& body : model.bodies()) names.push_back(harmless(body.name));
-  const std::size_t width = widest(names, 4);
+  const std::size_t width = widestOf(names, 4);
   if (!options.json)
     say(fmt::format("{:{}}", "body", width) + heads({"x", "y", "z", "qw", "qx", "qy", "qz"}));
   for (const BodyId id : model.bodiesInFileOrder()) {
@@ -89,7 +74,7 @@ ExitCode sceneJacobian(const Project& project, const JacobianOptions& options) {
     return ExitCode::kFull;
   }
   const std::vector<std::string> names = velocityNames(model);
-  const std::size_t width = widest(names, 8);
+  const std::size_t width = widestOf(names, 8);
   say("velocity of the point and angular velocity, per unit of each joint's velocity");
   say(fmt::format("{:{}}", "joint", width) + heads({"x", "y", "z", "wx", "wy", "wz"}));
   for (int i = 0; i < model.nv(); ++i)

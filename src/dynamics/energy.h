@@ -15,4 +15,14 @@ struct Energy {
 [[nodiscard]] Energy energy(const Model& model, const VectorArg& q, const VectorArg& v,
                             const Eigen::Vector3d& gravity_W = earthGravity());
 
+/// Derivatives of the total energy T + U (nv each).
+struct EnergyGradient {
+  Eigen::VectorXd byPosition;  ///< per way that each entry of v leads, as integrate() goes it, with v held
+  Eigen::VectorXd byVelocity;  ///< M v: the momenta of the joints
+};
+
+/// dE/dq and dE/dv. Along a motion dE/dt = byPosition . v + byVelocity . a. Throws as inverseDynamics.
+[[nodiscard]] EnergyGradient energyGradient(const Model& model, const VectorArg& q, const VectorArg& v,
+                                            const Eigen::Vector3d& gravity_W = earthGravity());
+
 }  // namespace rex

@@ -1,22 +1,21 @@
 #include "dynamics/mass_matrix.h"
 
+#include "base/cpu_lanes.h"
 #include "base/error.h"
-#include "kinematics/jacobians.h"
+#include "dynamics/kernel_room_internal.h"
+#include "dynamics/mass_matrix_kernel_internal.h"
+#include "dynamics/requirements_internal.h"
 
 namespace rex {
 
-void massMatrix(const Model& model, const VectorArg& q, DynamicsWorkspace&, Eigen::Ref<Eigen::MatrixXd> M) {
+void massMatrix(const Model& model, const VectorArg& q, DynamicsWorkspace& workspace,
+                Eigen::Ref<Eigen::MatrixXd> M) {
+  internal::requirePositions(model, q);
   requireSize("rows of the mass matrix M", M.rows(), model.nv());
   requireSize("columns of the mass matrix M", M.cols(), model.nv());
-  const BodyPoses poses = forwardKinematics(model, q);
-  M.setZero();
-  for (std::size_t i = 1; i < model.bodies().size(); ++i) {
-    const Body& body = model.bodies()[i];
-    const BodyId id{static_cast<int>(i)};
-    const Eigen::Matrix3Xd J = positionJacobian(model, poses, id, body.p_BBcm);
-    const Eigen::Matrix3Xd Jw = poses[id].R.transpose() * angularJacobian(model, poses, id);
-    M += body.mass * J.transpose() * J + Jw.transpose() * body.I_BBcm_B * Jw;
-  }
+  const auto kernel = kernelFor<internal::MassMatrixKernel>(cpuLanes());
+  kernel.one(model.links().data(), static_cast<int>(model.links().size()), q.data(),
+             internal::roomFor(kernel, model, 1, workspace), M.data(), M.outerStride(), model.nv());
 }
 
 Eigen::MatrixXd massMatrix(const Model& model, const VectorArg& q) {

@@ -6,6 +6,7 @@
 #include "bench/row.h"
 #include "dynamics/dynamics_batch_internal.h"
 #include "dynamics/forward_dynamics.h"
+#include "dynamics/mass_matrix.h"
 
 namespace rex::bench {
 namespace {
@@ -13,7 +14,10 @@ namespace {
 // Ours, with the storage a hot loop keeps.
 struct Workspace {
   explicit Workspace(MovingRobot r)
-      : robot(std::move(r)), result(robot.model.nv()), results(robot.model.nv(), Robot::kPostures) {}
+      : robot(std::move(r)),
+        M(robot.model.nv(), robot.model.nv()),
+        result(robot.model.nv()),
+        results(robot.model.nv(), Robot::kPostures) {}
 
   void inverseDynamics(int k) {
     rex::inverseDynamics(robot.model, robot.Q.col(k), robot.V.col(k), robot.A.col(k), gravity_W, memory,
@@ -23,6 +27,7 @@ struct Workspace {
     rex::forwardDynamics(robot.model, robot.Q.col(k), robot.V.col(k), robot.U.col(k), gravity_W, memory,
                          result);
   }
+  void massMatrix(int k) { rex::massMatrix(robot.model, robot.Q.col(k), memory, M); }
   void inverseDynamicsBatch(int lanes) {
     internal::inverseDynamicsBatch(kernelFor<internal::InverseDynamicsKernel>(lanes), robot.model, robot.Q,
                                    robot.V, robot.A, gravity_W, memory, results);
@@ -35,6 +40,7 @@ struct Workspace {
   MovingRobot robot;
   Eigen::Vector3d gravity_W = earthGravity();
   DynamicsWorkspace memory;
+  Eigen::MatrixXd M;
   Eigen::VectorXd result;
   Eigen::MatrixXd results;
 };
@@ -48,6 +54,11 @@ void addInverseDynamics(const Ours& ours, const DynamicsPeer& mujoco, std::vecto
       {"rnea" + on, timedInTurn([ours](int k) { ours->inverseDynamics(k); }), "MuJoCo", theirs, 0.3});
   rows.push_back({"rnea-batch" + on, batch(cpuLanes()), "MuJoCo", theirs, 0.08});
   rows.push_back({"rnea-batch-2-lanes" + on, batch(2), "MuJoCo", theirs, 0.2});
+}
+
+void addMassMatrix(const Ours& ours, const DynamicsPeer& mujoco, std::vector<Row>& rows) {
+  rows.push_back({"crba-" + ours->robot.name, timedInTurn([ours](int k) { ours->massMatrix(k); }), "MuJoCo",
+                  timedInTurn(mujoco.massMatrix), 0.4});
 }
 
 void addForwardDynamics(const Ours& ours, const DynamicsPeer& mujoco, std::vector<Row>& rows) {
@@ -81,6 +92,7 @@ std::vector<Row> dynamicsRows() {
     const DynamicsPeer mujoco = mujocoDynamicsPeer(robot);
     const Ours ours = std::make_shared<Workspace>(std::move(robot));
     addInverseDynamics(ours, mujoco, rows);
+    addMassMatrix(ours, mujoco, rows);
     addForwardDynamics(ours, mujoco, rows);
   }
   return rows;

@@ -14,7 +14,7 @@ struct MovingRobot : Robot {
 
 /// What a peer does with a robot in its state k, with the kinematics it needs. Empty: it cannot.
 struct DynamicsPeer {
-  std::function<void(int k)> inverseDynamics{}, forwardDynamics{};
+  std::function<void(int k)> inverseDynamics{}, massMatrix{}, forwardDynamics{};
 };
 
 /// Throws std::logic_error where it computes anything else than rex. Without MuJoCo all calls are empty.

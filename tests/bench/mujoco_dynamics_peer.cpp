@@ -6,6 +6,7 @@
 #include "bench/dynamics_peer.h"
 #include "bench/mujoco_model.h"
 #include "dynamics/forward_dynamics.h"
+#include "dynamics/mass_matrix.h"
 
 namespace rex::bench {
 namespace {
@@ -43,11 +44,14 @@ struct Simulation {
     mj_comVel(model.get(), data.get());
     mj_rne(model.get(), data.get(), 1, result.data());
   }
-  void forwardDynamics(int k) {
+  void massMatrix(int k) {
     setState(k);
     mj_kinematics(model.get(), data.get());
     mj_comPos(model.get(), data.get());
     mj_crb(model.get(), data.get());
+  }
+  void forwardDynamics(int k) {
+    massMatrix(k);
     mj_factorM(model.get(), data.get());
     mj_comVel(model.get(), data.get());
     mj_rne(model.get(), data.get(), 0, data->qfrc_bias);
@@ -73,6 +77,11 @@ void requireSameResults(const MovingRobot& robot, Simulation& mujoco, int k) {
   requireAgreement(robot.name + ": MuJoCo forces",
                    inverseDynamics(robot.model, robot.Q.col(k), robot.V.col(k), robot.A.col(k)),
                    mujoco.result(mujoco.columns));
+  mujoco.massMatrix(k);
+  Eigen::MatrixXd M(robot.model.nv(), robot.model.nv());  // symmetric: rows or columns first is the same
+  mj_fullM(mujoco.model.get(), M.data(), mujoco.data->qM);
+  requireAgreement(robot.name + ": MuJoCo mass matrix", massMatrix(robot.model, robot.Q.col(k)).reshaped(),
+                   M(mujoco.columns, mujoco.columns).reshaped());
   mujoco.forwardDynamics(k);
   requireAgreement(robot.name + ": MuJoCo accelerations",
                    forwardDynamics(robot.model, robot.Q.col(k), robot.V.col(k), robot.U.col(k)),
@@ -85,6 +94,7 @@ DynamicsPeer mujocoDynamicsPeer(const MovingRobot& robot) {
   const auto mujoco = std::make_shared<Simulation>(robot);
   for (int k = 0; k < Robot::kPostures; ++k) requireSameResults(robot, *mujoco, k);
   return {.inverseDynamics = [mujoco](int k) { mujoco->inverseDynamics(k); },
+          .massMatrix = [mujoco](int k) { mujoco->massMatrix(k); },
           .forwardDynamics = [mujoco](int k) { mujoco->forwardDynamics(k); }};
 }
 

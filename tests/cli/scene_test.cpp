@@ -1,12 +1,16 @@
 // `rex scene` as a user meets it.
 #include <algorithm>
 #include <fstream>
+#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "cli/rex_command.h"
+#include "dynamics/energy.h"
+#include "dynamics/forward_dynamics.h"
+#include "dynamics/mass_matrix.h"
 #include "geometry/rotation.h"
 #include "kinematics/jacobians.h"
 #include "render/png.h"
@@ -137,6 +141,57 @@ TEST_F(SceneCommand, ContactsAlignForPeople) {
       "2 pairs of shapes may collide, 0 are nearer than 0.5 m; contact cost 0 with a margin of 0.1 m\n");
 }
 
+constexpr const char* kPendulum =
+    "body post {}\nbody rod { mass=2 }\njoint pin (post rod) { type=hingeY B=<T t(0 0 -.5)> }\n";
+
+TEST_F(SceneCommand, DynamicsAreThoseOfTheLibrary) {
+  const Model model = compile(readScene(in("arm.ors")).spec);
+  const Eigen::Vector3d q(0.1, -0.7, 0.2), v(1, 2, -3), u(0, 5, 0.5);
+  const json found = jsonOf({"arm.ors", "dynamics", "--q", "0.1,-0.7,0.2", "--v", "1 2 -3", "--u", "0,5,.5"});
+  const EquationOfMotion motion = equationOfMotion(model, q, v);
+  const Eigen::VectorXd qdd = forwardDynamicsByMassMatrix(model, q, v, u);
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(found["M"][i][k].get<double>(), motion.M(i, k));
+    EXPECT_EQ(found["F"][i].get<double>(), motion.F[i]);
+    EXPECT_NEAR(found["qdd"][i].get<double>(), qdd[i], 1e-10 * qdd.norm());
+  }
+  EXPECT_EQ(found["kinetic"].get<double>(), energy(model, q, v).kinetic);
+  EXPECT_EQ(found["potential"].get<double>(), energy(model, q, v).potential);
+  EXPECT_EQ(found.size(), 5u);
+}
+
+TEST_F(SceneCommand, DynamicsAtRestAreThoseOfTheFile) {
+  const json found = jsonOf({"arm.ors", "dynamics"});
+  EXPECT_EQ(found, jsonOf({"arm.ors", "dynamics", "--q", "file", "--v", "0", "--u", "shoulder=0"}));
+  EXPECT_EQ(found["kinetic"], 0.0);
+}
+
+TEST_F(SceneCommand, DynamicsAlignForPeople) {
+  std::ofstream(in("pendulum.ors")) << kPendulum;
+  EXPECT_EQ(scene({"pendulum.ors", "dynamics", "--q", "0.3", "--v", "pin=2", "--u", "1"}).output,
+            "kinetic energy 1.8 J, potential energy -9.37185 J; M qdd + F = u\n"
+            "joint          v          u          F        qdd\n"
+            "pin            2          1      2.899      -2.11\n"
+            "\n"
+            "M             v0\n"
+            "pin          0.9\n");
+  std::istringstream man(scene({"man", "dynamics", "--v", "upArmR>dnArmR=1.5"}).output);
+  int lines = 0;
+  for (std::string line; std::getline(man, line); ++lines) EXPECT_LE(line.size(), 80u) << line;
+  EXPECT_GT(lines, 4 * 27) << "M in bands";
+}
+
+TEST_F(SceneCommand, DynamicsNeedMasses) {
+  std::ofstream(in("ghost.ors")) << kPendulum << "body flag {}\njoint hinge (rod flag) { type=hingeX }\n";
+  for (const char* format : {"--json", "--assets=."}) {
+    const ProcessResult result = scene({"ghost.ors", "dynamics", format});
+    EXPECT_EQ(result.exitCode, 64);
+    EXPECT_THAT(flat(result.error),
+                HasSubstr("joint 'hinge' moves no mass: wanted some: give body 'flag' a mass"));
+    EXPECT_EQ(result.output, "");
+  }
+}
+
 TEST_F(SceneCommand, PosturesMayBeZeroOrThatOfTheFile) {
   EXPECT_EQ(jsonOf({"arm.ors", "fk", "--q", "0"})["q"], json({0.0, 0.0, 0.0}));
   EXPECT_EQ(jsonOf({"arm.ors", "fk", "--q", "file"})["q"], json({0.25, 0.0, 0.0}));
@@ -254,6 +309,11 @@ TEST_F(SceneCommand, SaysWhatIsUsedWrongly) {
   for (const std::string margin : {"0", "-1", "nan", "inf"})
     expectRefusal({"arm.ors", "contacts", "--margin", margin},
                   "--margin: found " + margin + ", wanted a positive number of metres");
+  expectRefusal({"arm.ors", "dynamics", "--q", "1"}, "--q: found 1 number, wanted 3");
+  expectRefusal({"arm.ors", "dynamics", "--v", "1,2"}, "--v: found 2 numbers, wanted 3");
+  expectRefusal({"arm.ors", "dynamics", "--u", "1,2,nan"}, "--u: found 'nan', wanted a number");
+  expectRefusal({"arm.ors", "dynamics", "--u", "elbow=1"}, "--u: joint 'elbow': found 2 coordinates");
+  expectRefusal({"arm.ors", "dynamics", "--v", "sholder=1"}, "(did you mean 'shoulder'?)");
   expectRefusal({"arm.ors", "render", "--shapes", "contacts", "-o", "a.png"},
                 "--shapes: found 'contacts', wanted visible, contact or all (did you mean 'contact'?)");
   expectRefusal({"man", "render", "--shapes", "contact", "-o", "a.png"},
@@ -271,7 +331,7 @@ TEST_F(SceneCommand, SaysWhatIsUsedWrongly) {
 }
 
 TEST_F(SceneCommand, DoesWhatItsExamplesSay) {
-  for (const char* verb : {"info", "fk", "jacobian", "contacts"}) {
+  for (const char* verb : {"info", "fk", "jacobian", "contacts", "dynamics"}) {
     const std::string help = scene({"man", verb, "--help"}).output;
     EXPECT_THAT(help, HasSubstr("Usage: rex scene FILE " + std::string(verb)));
     EXPECT_THAT(help, HasSubstr("scripts/rex scene "));
@@ -279,6 +339,8 @@ TEST_F(SceneCommand, DoesWhatItsExamplesSay) {
   EXPECT_EQ(scene({"pegArm", "jacobian", "--body", "peg", "--point", "0,0,0.3", "--q", "0"}).exitCode, 0);
   EXPECT_EQ(scene({"man", "info"}).exitCode, 0);
   EXPECT_EQ(scene({"pegInAHole", "contacts", "--q", "0.6,0.5,0,0,0,0,0", "--margin", "0.02"}).exitCode, 0);
+  EXPECT_EQ(scene({"pegArm", "dynamics", "--q", "0.1,0.2,0.3", "--v", "0,1,0"}).exitCode, 0);
+  EXPECT_EQ(jsonOf({"arm3", "dynamics", "--u", "5,0,0"})["M"].size(), 3u);
   EXPECT_EQ(jsonOf({"man", "fk", "--q", "0"})["bodies"].size(), 30u);
 }
 

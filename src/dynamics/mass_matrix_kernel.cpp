@@ -1,0 +1,187 @@
+#include "dynamics/link_kernel_internal.h"
+#include "dynamics/mass_matrix_kernel_internal.h"
+
+namespace rex::internal {
+namespace {
+
+// A link, in the axes of the world and about the origin O of its tree; mass, moment and inertia are in the
+// end those of all that it carries.
+struct Part {
+  KernelPose<double> X;  // in the parent, then in the world
+  double mass;
+  Vec3<double> moment;
+  Sym3<double> inertia;
+  int root;         // of its tree
+  int origin;       // of a root: the part whose origin is O
+  int lastFreedom;  // its own last
+};
+
+constexpr int kNone = -1;
+
+// The coordinates, one after the other as links are. Entry e of the twist of freedom i, at O and per unit of
+// v, stands at twists[e * room + i]: so those of a run, in which each is the parent of the next, are one
+// load.
+struct Freedoms {
+  double* twists;  // angular, then linear
+  int* parents;    // the one before on the way to the world, or kNone
+  int* starts;     // the first of the run
+  int* columns;
+  int room, count;
+
+  static constexpr int kNumbersEach = 8;  // of memory
+
+  void add(const Vec3<double>& angular, const Vec3<double>& linear, int parent, int column) {
+    const int i = count++;
+    storeVec3(angular, twists + i, room);
+    storeVec3(linear, twists + 3 * room + i, room);
+    parents[i] = parent;
+    starts[i] = parent == i - 1 && parent != kNone ? starts[parent] : i;
+    columns[i] = column;
+  }
+  template <class T>
+  Vec3<T> angular(int i) const {
+    return loadVec3<T>(twists + i, room);
+  }
+  template <class T>
+  Vec3<T> linear(int i) const {
+    return loadVec3<T>(twists + 3 * room + i, room);
+  }
+};
+
+inline Freedoms freedomsIn(void* memory, int linkCount) {
+  const int room = 3 * linkCount;
+  double* twists = static_cast<double*>(memory);
+  int* parents = reinterpret_cast<int*>(twists + 6 * room);
+  return {twists, parents, parents + room, parents + 2 * room, room, 0};
+}
+
+// a b^T + b a^T.
+inline Sym3<double> symmetricProduct(const Vec3<double>& a, const Vec3<double>& b) {
+  return {2 * a.x * b.x, a.x * b.y + a.y * b.x, a.x * b.z + a.z * b.x,
+          2 * a.y * b.y, a.y * b.z + a.z * b.y, 2 * a.z * b.z};
+}
+
+// Poses do not wait for one another until they are multiplied: first all sines, then the chain. O is the
+// origin of the first link with a mass: far from the world's origin too, inertias stay small.
+inline void place(const Link* links, int count, const double* q, Part* parts) {
+  for (int i = 0; i < count; ++i) parts[i].X = poseInParent<double>(links[i], &q);
+  for (int i = 0; i < count; ++i) {
+    const int parent = links[i].parent;
+    Part& part = parts[i];
+    if (parent == Link::kNoParent) {
+      part.root = part.origin = i;
+      continue;
+    }
+    part.X = parts[parent].X * part.X;
+    part.root = parts[parent].root;
+    Part& root = parts[part.root];
+    if (links[root.origin].mass == 0) root.origin = i;
+  }
+}
+
+// What the link weighs alone.
+inline void weigh(const Link& link, const Vec3<double>& p_OL, Part& part) {
+  const Vec3<double> h = part.X.R * broadcastVec3<double>(link.moment);
+  // About O, from the squares of r = p + d with the link's d: r r = p p + (p d + d p) + d d, summed by mass.
+  const Vec3<double> twice = link.mass * p_OL + 2.0 * h;
+  const Sym3<double> moved = symmetricProduct(0.5 * p_OL, twice);
+  const double trace = moved.xx + moved.yy + moved.zz;
+  const Sym3<double> I = rotated(part.X.R, broadcastSym3<double>(link.inertia));
+  part.mass = link.mass;
+  part.moment = h + link.mass * p_OL;
+  part.inertia = {I.xx + (trace - moved.xx), I.xy - moved.xy, I.xz - moved.xz,
+                  I.yy + (trace - moved.yy), I.yz - moved.yz, I.zz + (trace - moved.zz)};
+}
+
+// Appends the freedoms of the link, below freedom `parent`.
+inline void appendFreedoms(const Link& link, const KernelPose<double>& X, const Vec3<double>& p_OL,
+                           int parent, Freedoms& freedoms) {
+  const Vec3<double> zero{0, 0, 0}, axis = link.ratio * X.R.c2;
+  const int i = freedoms.count, column = link.vIndex;
+  switch (link.kind) {
+    case Link::Kind::kHinge:
+      freedoms.add(axis, cross(p_OL, axis), parent, column);
+      return;
+    case Link::Kind::kScrew:
+      freedoms.add(axis, cross(p_OL, axis) + link.pitch * axis, parent, column);
+      return;
+    case Link::Kind::kSlider:
+      freedoms.add(zero, axis, parent, column);
+      return;
+    case Link::Kind::kQuaternion:
+      freedoms.add(X.R.c0, cross(p_OL, X.R.c0), parent, column);
+      freedoms.add(X.R.c1, cross(p_OL, X.R.c1), i, column + 1);
+      freedoms.add(X.R.c2, cross(p_OL, X.R.c2), i + 1, column + 2);
+      return;
+  }
+}
+
+// The momentum that a freedom gives to a part with all it carries, seen by that freedom and those above.
+// Joints that share a column add up there.
+template <class T>
+inline void addRow(const Part& part, const Freedoms& freedoms, int own, double* M, long stride) {
+  const Vec3<double> w = freedoms.angular<double>(own), v = freedoms.linear<double>(own);
+  const Vec3<double> torque = part.inertia * w + cross(part.moment, v);
+  const Vec3<double> force = part.mass * v + cross(w, part.moment);
+  const int column = freedoms.columns[own];
+  M[stride * column + column] += dot(w, torque) + dot(v, force);
+  const auto add = [&](int i, double seen) {
+    const int row = freedoms.columns[i];
+    M[stride * column + row] += seen;
+    M[stride * row + column] += seen;
+  };
+  const Vec3<T> torques = broadcast<T>(torque), forces = broadcast<T>(force);
+  for (int last = freedoms.parents[own]; last != kNone;) {
+    const int start = freedoms.starts[last];
+    for (; last - start + 1 >= kLanesOf<T>; last -= kLanesOf<T>) {
+      const int first = last - kLanesOf<T> + 1;
+      double seen[kLanesOf<T>];
+      store(dot(freedoms.angular<T>(first), torques) + dot(freedoms.linear<T>(first), forces), seen);
+      for (int i = 0; i < kLanesOf<T>; ++i) add(first + i, seen[i]);
+    }
+    for (; last >= start; --last)
+      add(last, dot(freedoms.angular<double>(last), torque) + dot(freedoms.linear<double>(last), force));
+    last = freedoms.parents[start];
+  }
+}
+
+// Composite rigid bodies.
+template <class T>
+void compute(const Link* links, int linkCount, const double* q, void* memory, double* M, long stride,
+             int nv) {
+  Part* parts = static_cast<Part*>(memory);
+  Freedoms freedoms = freedomsIn(parts + linkCount, linkCount);
+  const auto lastAbove = [&](int i) {
+    return links[i].parent == Link::kNoParent ? kNone : parts[links[i].parent].lastFreedom;
+  };
+  place(links, linkCount, q, parts);
+  for (int i = 0; i < linkCount; ++i) {
+    Part& part = parts[i];
+    const Vec3<double> p_OL = part.X.p - parts[parts[part.root].origin].X.p;
+    weigh(links[i], p_OL, part);
+    appendFreedoms(links[i], part.X, p_OL, lastAbove(i), freedoms);
+    part.lastFreedom = freedoms.count - 1;
+  }
+  for (int k = 0; k < nv; ++k)
+    __builtin_memset(M + stride * k, 0, sizeof(double) * static_cast<unsigned long>(nv));
+  for (int i = linkCount - 1; i >= 0; --i) {
+    const Part& part = parts[i];
+    for (int own = part.lastFreedom; own != lastAbove(i); own = freedoms.parents[own])
+      addRow<T>(part, freedoms, own, M, stride);
+    if (links[i].parent == Link::kNoParent) continue;
+    Part& carrier = parts[links[i].parent];
+    carrier.mass += part.mass;
+    carrier.moment = carrier.moment + part.moment;
+    carrier.inertia = carrier.inertia + part.inertia;
+  }
+}
+
+}  // namespace
+
+template <int kLanes>
+MassMatrixKernel MassMatrixKernel::compiled() {
+  return {&compute<InLanes<kLanes>>, kLanesOf<Part> + 3 * Freedoms::kNumbersEach, 0};
+}
+template MassMatrixKernel MassMatrixKernel::compiled<REX_LANES>();
+
+}  // namespace rex::internal
