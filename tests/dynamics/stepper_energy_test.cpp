@@ -40,7 +40,7 @@ double swingDrift(Integrator integrator) {
 TEST(StepperEnergy, SwingsFreelyWithoutLoss) {
   EXPECT_LE(swingDrift(Integrator::kRungeKutta4), 5.4e-8);
   EXPECT_LE(swingDrift(Integrator::kBeeman), 2e-5);
-  EXPECT_LE(swingDrift(Integrator::kLeapfrog), 1e-3);
+  EXPECT_LE(swingDrift(Integrator::kLeapfrog), 3e-4);
   EXPECT_LE(swingDrift(Integrator::kSemiImplicitEuler), 3e-2);
   EXPECT_GT(swingDrift(Integrator::kEuler), 3e-2) << "the script's Euler gains energy";
 }
@@ -61,7 +61,7 @@ TEST(StepperEnergy, SwingsAsItsClosedForm) {
   }
 }
 
-// One link, from 1 rad to the side of hanging down: a hundred swings, slow enough for the eye.
+// One link, from 1 rad to the side of hanging down: some sixty swings.
 TEST(StepperEnergy, OneLinkSwingsForLong) {
   SceneSpec spec = swingScene();
   spec.bodies.resize(1);
@@ -73,7 +73,7 @@ TEST(StepperEnergy, OneLinkSwingsForLong) {
     return drifts(model, start, {.integrator = integrator}, 0.01, 10000, 9.81, 10);
   };
   for (const auto& [integrator, most] :
-       {std::pair(Integrator::kSemiImplicitEuler, 0.03), std::pair(Integrator::kLeapfrog, 3e-4)}) {
+       {std::pair(Integrator::kSemiImplicitEuler, 5e-3), std::pair(Integrator::kLeapfrog, 1e-4)}) {
     const std::vector<double> drift = overTime(integrator);
     for (const double one : drift) {
       EXPECT_LT(one, most);
@@ -89,8 +89,8 @@ TEST(StepperEnergy, LeapfrogDoesNotDrift) {
   const double scale = energy(model, model.initialPositions(), Eigen::Vector3d::Zero()).potential;
   const std::vector<double> drift =
       drifts(model, initialState(model), {.integrator = Integrator::kLeapfrog}, 2e-3, 50000, scale, 10);
-  EXPECT_LT(*std::max_element(drift.begin(), drift.end()), 1e-2);
-  EXPECT_LT(drift.back(), 3 * drift.front()) << "errors come and go";
+  EXPECT_LT(*std::max_element(drift.begin(), drift.end()), 5e-5);
+  EXPECT_LT(drift.back(), 2 * drift.front()) << "errors come and go";
 }
 
 class CourseScenes : public testing::TestWithParam<const char*> {};
@@ -99,12 +99,12 @@ TEST_P(CourseScenes, KeepTheirEnergy) {
   const Model model = compile(readOrs(sourcePath("data/robots") / (std::string(GetParam()) + ".ors")).spec);
   Rng rng(4);
   const State start{model.initialPositions(), 0.5 * rng.normalVector(model.nv())};
-  const auto drift = [&](Integrator integrator, double h) {
-    return drifts(model, start, {.integrator = integrator}, h, static_cast<int>(std::lround(0.3 / h)), 1)[0];
+  const auto drift = [&](Integrator integrator) {
+    return drifts(model, start, {.integrator = integrator}, 1e-3, 300, 1)[0];
   };
-  EXPECT_LT(drift(Integrator::kRungeKutta4, 1e-3), 1e-7);
-  EXPECT_LT(drift(Integrator::kBeeman, 1e-3), 1e-5);
-  EXPECT_LT(drift(Integrator::kLeapfrog, 1e-3), 1e-2);
+  EXPECT_LT(drift(Integrator::kRungeKutta4), 1e-10);
+  EXPECT_LT(drift(Integrator::kBeeman), 1e-8);
+  EXPECT_LT(drift(Integrator::kLeapfrog), 1e-4);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, CourseScenes, testing::Values("man", "pegArm", "pegArm2", "arm3", "pegInAHole"),
