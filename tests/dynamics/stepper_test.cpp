@@ -424,7 +424,7 @@ TEST(Stepper, NamesWhatMovesNoMass) {
     const Model model = stone(0);
     State state = initialState(model);
     EXPECT_REX_ERROR(Stepper(model, {.integrator = integrator}).step(state, Eigen::VectorXd::Zero(1), 0.01),
-                     "joint 'fall'");
+                     "joint 'fall' moves no mass: wanted some: give body 'stone' a mass");
   }
 }
 
