@@ -221,11 +221,11 @@ TEST(SimulatorDynamics, AnAnchoredChainIsAtRest) {
 
 // A ball joint has four angles and three velocities.
 TEST(SimulatorDynamics, BallJointsHaveAVelocityLess) {
-  Simulator S({.sceneName = "ball.ors",
-               .sceneText = "body post { fixed }\n"
-                            "body bob { mass=2 }\n"
-                            "joint (post bob) { type=quatBall B=<T t(0 0 -.5)> }",
-               .q = {}});
+  Simulator S(SimulatorDescription{.sceneName = "ball.ors",
+                                   .sceneText = "body post { fixed }\n"
+                                                "body bob { mass=2 }\n"
+                                                "joint (post bob) { type=quatBall B=<T t(0 0 -.5)> }",
+                                   .q = {}});
   ASSERT_EQ(S.getJointDimension(), 4);
   ASSERT_EQ(S.getJointVels().size(), 3);
   const Eigen::VectorXd q = S.getJointAngles();
@@ -278,7 +278,8 @@ TEST_F(SimulatorDynamicsErrors, OfSteps) {
   expectError([&] { S.stepDynamics(kNoForce, -.01); }, "wanted a positive, finite number of seconds");
   expectError([&] { S.stepDynamics(Eigen::Vector2d::Zero(), .01); },
               "joint forces u: found a vector of size 2, wanted size 3");
-  expectError([&] { S.stepDynamics({{0, std::nan(""), 0}}, .01); }, "joint forces u: number 1, of joint '");
+  expectError([&] { S.stepDynamics(Eigen::Vector3d(0, std::nan(""), 0), .01); },
+              "joint forces u: number 1, of joint '");
 }
 
 TEST_F(SimulatorDynamicsErrors, OfAnglesAndVelocities) {
@@ -319,9 +320,10 @@ TEST_F(SimulatorDynamicsErrors, OfMotionsWithoutBounds) {
 }
 
 TEST(SimulatorDynamics, NamesTheBodyThatNeedsAMass) {
-  Simulator S({.sceneName = "bare.ors",
-               .sceneText = "body post { fixed }\nbody stick {}\njoint hinge (post stick) {}",
-               .q = {}});
+  Simulator S(
+      SimulatorDescription{.sceneName = "bare.ors",
+                           .sceneText = "body post { fixed }\nbody stick {}\njoint hinge (post stick) {}",
+                           .q = {}});
   const Eigen::VectorXd u = Eigen::VectorXd::Zero(1);
   EXPECT_REX_ERROR(S.stepDynamics(u, .01), "moves no mass: wanted some: give body 'stick' a mass");
   EXPECT_EQ(S.getJointAngles()[0], 0);
