@@ -17,11 +17,18 @@ using internal::DynamicsTask;
 
 constexpr int kMostLanes = 4;
 
+// What the columns of Q, V, A and U are called, one and all of them.
+struct Names {
+  const char *column, *columns;
+};
+constexpr Names kVelocities{"joint velocities V, a column", "joint velocities V, columns"};
+constexpr Names kAccelerations{"joint accelerations A, a column", "joint accelerations A, columns"};
+constexpr Names kForces{"joint forces U, a column", "joint forces U, columns"};
+
 // As many columns as Q has, of the length of v.
-void requireColumns(const std::string& name, const MatrixArg& columns, const Model& model,
-                    const MatrixArg& Q) {
-  requireSize(name + ", a column", columns.rows(), model.nv());
-  requireSize(name + ", columns", columns.cols(), Q.cols());
+void requireColumns(const Names& names, const MatrixArg& columns, const Model& model, const MatrixArg& Q) {
+  requireSize(names.column, columns.rows(), model.nv());
+  requireSize(names.columns, columns.cols(), Q.cols());
 }
 
 void requireStates(const Model& model, const MatrixArg& Q, const MatrixArg& V) {
@@ -29,7 +36,7 @@ void requireStates(const Model& model, const MatrixArg& Q, const MatrixArg& V) {
   if (model.nq() != model.nv()) {
     for (const auto& q : Q.colwise()) internal::requirePositions(model, q);
   }
-  requireColumns("joint velocities V", V, model, Q);
+  requireColumns(kVelocities, V, model, Q);
 }
 
 // Calls solve(task) for each block of columns; in the last one the last column may stand several times.
@@ -69,8 +76,8 @@ void internal::inverseDynamicsBatch(const InverseDynamicsKernel& kernel, const M
                                     const Eigen::Vector3d& gravity_W, DynamicsWorkspace& workspace,
                                     Eigen::Ref<Eigen::MatrixXd> U) {
   requireStates(model, Q, V);
-  requireColumns("joint accelerations A", A, model, Q);
-  requireColumns("joint forces U", U, model, Q);
+  requireColumns(kAccelerations, A, model, Q);
+  requireColumns(kForces, U, model, Q);
   forEachBlock(kernel, model, Q, V, A, gravity_W, workspace, U, kernel.block);
 }
 
@@ -79,8 +86,8 @@ void internal::forwardDynamicsBatch(const ForwardDynamicsKernel& kernel, const M
                                     const Eigen::Vector3d& gravity_W, DynamicsWorkspace& workspace,
                                     Eigen::Ref<Eigen::MatrixXd> A) {
   requireStates(model, Q, V);
-  requireColumns("joint forces U", U, model, Q);
-  requireColumns("joint accelerations A", A, model, Q);
+  requireColumns(kForces, U, model, Q);
+  requireColumns(kAccelerations, A, model, Q);
   if (hasMimics(model)) {
     for (Eigen::Index k = 0; k < Q.cols(); ++k)
       forwardDynamics(model, Q.col(k), V.col(k), U.col(k), gravity_W, workspace, A.col(k));

@@ -46,7 +46,9 @@ Eigen::VectorXd worldFrameInverseDynamics(const Model& model, const VectorArg& q
   const std::size_t count = model.bodies().size();
   std::vector<Spatial> V(count), A(count), f(count);
   A[0].linear = -gravity_W;
-  const auto isOfParent = [](const DegreeOfFreedom& f) { return f.frame == DegreeOfFreedom::Frame::kParent; };
+  const auto isOfParent = [](const DegreeOfFreedom& freedom) {
+    return freedom.frame == DegreeOfFreedom::Frame::kParent;
+  };
   const auto twistOf = [&](const Joint& joint, const DegreeOfFreedom& freedom) {
     return twist(poses[isOfParent(freedom) ? joint.parent : joint.child], freedom);
   };
