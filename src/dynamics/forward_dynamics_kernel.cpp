@@ -17,11 +17,11 @@ struct SpatialMotion {
   Vec3<T> angular, linear;
 };
 template <class T>
-inline T dot(const SpatialForce<T>& w, const SpatialMotion<T>& a) {
-  return dot(w.torque, a.angular) + dot(w.force, a.linear);
+inline T dot(const SpatialForce<T>& f, const SpatialMotion<T>& a) {
+  return dot(f.torque, a.angular) + dot(f.force, a.linear);
 }
 
-// What a link with all it carries resists accelerations by, when the joints below give way:
+// An articulated body: what accelerating a link takes while the joints below it give way to their forces,
 // torque = A angular + B linear, force = B^T angular + D linear.
 template <class T>
 struct Inertia {
@@ -34,25 +34,26 @@ struct Inertia {
   }
 };
 
+// All in the frame of the link, and of its origin.
 template <class T>
 struct State {
   KernelPose<T> X_PL;
   Vec3<T> angularVelocity;
-  SpatialMotion<T> bias;  // what the velocities add to that of the parent
+  SpatialMotion<T> bias;  // what the velocities add to the acceleration of the parent
   SpatialMotion<T> acceleration;
   Inertia<T> inertia;
-  SpatialForce<T> resistance;  // the forces at no acceleration
+  SpatialForce<T> resistance;  // what no acceleration takes
 };
 
-// A coordinate, as it is solved for: acceleration = (rest - work with column of all other accelerations) /
-// inertia.
+// A coordinate as it is solved for: its acceleration is (rest - column * all other accelerations) / inertia.
 template <class T>
 struct Freedom {
   SpatialForce<T> column;  // what its unit acceleration takes
   T perInertia, rest;
 };
 
-// The wrench that a unit acceleration along the coordinate takes, and what the coordinate sees of a wrench.
+// What unit acceleration of the coordinate takes, what of a force the coordinate bears, and what its
+// acceleration adds.
 template <class T>
 inline SpatialForce<T> columnOf(const Link& link, const Inertia<T>& I) {
   const SpatialForce<T> turning{{I.A.xz, I.A.yz, I.A.zz}, {I.B.c0.z, I.B.c1.z, I.B.c2.z}};
@@ -61,15 +62,15 @@ inline SpatialForce<T> columnOf(const Link& link, const Inertia<T>& I) {
   return link.kind == Link::Kind::kSlider ? moving : turning + T(link.pitch) * moving;
 }
 template <class T>
-inline T seen(const Link& link, const SpatialForce<T>& w) {
-  if (link.kind == Link::Kind::kHinge) return w.torque.z;
-  return link.kind == Link::Kind::kSlider ? w.force.z : w.torque.z + T(link.pitch) * w.force.z;
+inline T borne(const Link& link, const SpatialForce<T>& f) {
+  if (link.kind == Link::Kind::kHinge) return f.torque.z;
+  return link.kind == Link::Kind::kSlider ? f.force.z : f.torque.z + T(link.pitch) * f.force.z;
 }
 template <class T>
 inline void accelerate(const Link& link, const T& x, SpatialMotion<T>& a) {
+  if (link.kind != Link::Kind::kHinge)
+    a.linear.z = a.linear.z + (link.kind == Link::Kind::kSlider ? x : T(link.pitch) * x);
   if (link.kind != Link::Kind::kSlider) a.angular.z = a.angular.z + x;
-  if (link.kind == Link::Kind::kSlider) a.linear.z = a.linear.z + x;
-  if (link.kind == Link::Kind::kScrew) a.linear.z = a.linear.z + T(link.pitch) * x;
 }
 
 // Lets a coordinate give way to its force: what is left resists the other accelerations.
@@ -85,13 +86,19 @@ inline void eliminate(const Freedom<T>& freedom, Inertia<T>& I, SpatialForce<T>&
   resistance = resistance + freedom.rest * SpatialForce<T>{dt, df};
 }
 
-// The same inertia seen from the parent's frame.
+// The same seen from the parent's frame.
 template <class T>
 inline Inertia<T> inParent(const KernelPose<T>& X, const Inertia<T>& I) {
   const Sym3<T> D = rotated(X.R, I.D);
   const Mat3<T> Bt = X.R * transposed(I.B) * transposed(X.R);
   const Mat3<T> B = transposed(Bt) + cross(X.p, full(D));
   return {rotated(X.R, I.A) + symmetric(transposed(cross(X.p, transposed(B))) + cross(X.p, Bt)), D, B};
+}
+
+template <class T>
+inline SpatialForce<T> inParent(const KernelPose<T>& X, const SpatialForce<T>& f) {
+  const Vec3<T> force = X.R * f.force;
+  return {X.R * f.torque + cross(X.p, force), force};
 }
 
 // How the velocities move the link.
@@ -144,7 +151,7 @@ inline bool solveForFreedoms(const Link& link, const double* const* u, State<T>&
   const Inertia<T>& I = state.inertia;
   if (link.kind != Link::Kind::kQuaternion) {
     own->column = columnOf(link, I);
-    return solve(*own, 0, seen(link, own->column), seen(link, state.resistance));
+    return solve(*own, 0, borne(link, own->column), borne(link, state.resistance));
   }
   own[0].column = {{I.A.xx, I.A.xy, I.A.xz}, {I.B.c0.x, I.B.c1.x, I.B.c2.x}};
   bool regular = solve(own[0], 0, I.A.xx, state.resistance.torque.x);
@@ -171,7 +178,8 @@ inline void setAcceleration(const Link& link, const Freedom<T>* own, double* con
   all.angular.x = all.angular.x + solved(0);
 }
 
-// That all accelerates upwards stands for gravity.
+// Featherstone, Rigid Body Dynamics Algorithms, table 7.1, but with the accelerations of the origins, which
+// need no linear velocities. That all accelerates upwards stands for gravity.
 template <class T>
 inline int solve(const DynamicsTask& task, const double* const* q, const double* const* v,
                  const double* const* u, double* const* a) {
@@ -181,9 +189,10 @@ inline int solve(const DynamicsTask& task, const double* const* q, const double*
   *world = {};
   world->acceleration.linear = -broadcastVec3<T>(task.gravity_W);
 
+  // In a loop of their own, because sines do not wait for one another, but velocities do.
+  for (int i = 0; i < task.linkCount; ++i) states[i].X_PL = poseInParent<T>(task.links[i], q);
   for (int i = 0; i < task.linkCount; ++i) {
     const Link& link = task.links[i];
-    states[i].X_PL = poseInParent<T>(link, q);
     setVelocity(link, states[link.parent], v, states[i]);
     setInertia(link, states[i]);
   }
@@ -194,10 +203,8 @@ inline int solve(const DynamicsTask& task, const double* const* q, const double*
     if (link.parent == Link::kNoParent) continue;
     State<T>& parent = states[link.parent];
     parent.inertia = parent.inertia + inParent(state.X_PL, state.inertia);
-    const SpatialForce<T> w = state.resistance + state.inertia * state.bias;
-    const Vec3<T> force = state.X_PL.R * w.force;
     parent.resistance =
-        parent.resistance + SpatialForce<T>{state.X_PL.R * w.torque + cross(state.X_PL.p, force), force};
+        parent.resistance + inParent(state.X_PL, state.resistance + state.inertia * state.bias);
   }
   for (int i = 0; i < task.linkCount; ++i) {
     const Link& link = task.links[i];

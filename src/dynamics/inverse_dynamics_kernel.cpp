@@ -3,7 +3,7 @@
 namespace rex::internal {
 namespace {
 
-// All in the frame of the link, and of its origin.
+// All in the frame of the link; accelerations and torques are those of its origin.
 template <class T>
 struct Motion {
   KernelPose<T> X_PL;
@@ -21,7 +21,7 @@ inline Mat3<T> spinOf(const Vec3<T>& w, const Vec3<T>& dw) {
       {-yy - zz, xy + dw.z, xz - dw.y}, {xy - dw.z, -xx - zz, yz + dw.x}, {xz + dw.y, yz - dw.x, -xx - yy}};
 }
 
-// Adds to how the parent moves the link what its own coordinate does: its rate, and the rate's rate.
+// Adds what its own coordinate does to how the parent moves the link.
 template <class T>
 inline void addFreedom(const Link& link, const double* const* v, const double* const* a, Motion<T>& m) {
   const int i = link.vIndex;
@@ -77,7 +77,8 @@ inline void addToForces(const Link& link, const Motion<T>& m, T* forces) {
   }
 }
 
-// Newton and Euler's recursion. That all accelerates upwards stands for gravity.
+// Newton and Euler's recursion, outwards with accelerations of origins, inwards with forces. That all
+// accelerates upwards stands for gravity.
 template <class T>
 inline void solve(const DynamicsTask& task, const double* const* q, const double* const* v,
                   const double* const* a, double* const* u) {
@@ -89,11 +90,12 @@ inline void solve(const DynamicsTask& task, const double* const* q, const double
   world->acceleration = -broadcastVec3<T>(task.gravity_W);
   for (int i = 0; i < task.nv; ++i) forces[i] = zero;
 
+  // In a loop of their own, because sines do not wait for one another, but motions do.
+  for (int i = 0; i < task.linkCount; ++i) motions[i].X_PL = poseInParent<T>(task.links[i], q);
   for (int i = 0; i < task.linkCount; ++i) {
     const Link& link = task.links[i];
     const Motion<T>& parent = motions[link.parent];
     Motion<T>& m = motions[i];
-    m.X_PL = poseInParent<T>(link, q);
     m.angularVelocity = transposedTimes(m.X_PL.R, parent.angularVelocity);
     m.angularAcceleration = transposedTimes(m.X_PL.R, parent.angularAcceleration);
     m.acceleration = transposedTimes(m.X_PL.R, parent.acceleration + parent.spin * m.X_PL.p);

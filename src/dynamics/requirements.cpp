@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "base/error.h"
@@ -22,7 +20,9 @@ void requireVelocities(const Model& model, const VectorArg& v) {
 }
 
 bool hasMimics(const Model& model) {
-  return std::ranges::any_of(model.joints(), [](const Joint& joint) { return joint.mimics; });
+  const int quaternions = model.nq() - model.nv();
+  const int linksOfTheirOwn = model.nv() - 2 * quaternions;  // a quaternion's link has three velocities
+  return static_cast<int>(model.links().size()) > linksOfTheirOwn;
 }
 
 void throwSingular(const Model& model, const Link& link) {

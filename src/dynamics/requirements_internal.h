@@ -9,7 +9,7 @@ namespace rex::internal {
 void requirePositions(const Model& model, const VectorArg& q);
 void requireVelocities(const Model& model, const VectorArg& v);
 
-/// Whether joints share coordinates.
+/// Whether links share coordinates.
 [[nodiscard]] bool hasMimics(const Model& model);
 
 /// Throws Error: the joint of the link moves no mass. Says which body needs some.
