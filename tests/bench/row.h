@@ -40,5 +40,6 @@ struct Result {
 [[nodiscard]] std::vector<Row> kinematicsRows();
 [[nodiscard]] std::vector<Row> renderRows();
 [[nodiscard]] std::vector<Row> sceneRows();
+[[nodiscard]] std::vector<Row> steppingRows();
 
 }  // namespace rex::bench
