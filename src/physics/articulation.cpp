@@ -203,18 +203,19 @@ void Articulation::setGoals(const Coordinate& one, int place, const Motor& motor
                             JointRow& row) const {
   const double q = body_->getJointPosMultiDof(one.link)[place];
   const double v = body_->getJointVelMultiDof(one.link)[place];
-  row.clear();
+  row.clearGoals();
   if (motor.kind != Motor::Kind::kForce) {
     const double rate = std::min(kPositionRate, 1 / h);
     const double wanted = motor.kind == Motor::Kind::kVelocity ? motor.target : rate * (motor.target - q);
-    row.add({std::clamp(wanted, -one.maxVelocity, one.maxVelocity), -motor.maxForce * h, motor.maxForce * h});
+    row.set(JointRow::kMotor,
+            {std::clamp(wanted, -one.maxVelocity, one.maxVelocity), -motor.maxForce * h, motor.maxForce * h});
   }
-  if (one.damping > 0) row.add({0, -kInfinity, kInfinity, 1 / (one.damping * h)});
-  if (one.friction > 0) row.add({0, -one.friction * h, one.friction * h});
+  if (one.damping > 0) row.set(JointRow::kDamping, {0, -kInfinity, kInfinity, 1 / (one.damping * h)});
+  if (one.friction > 0) row.set(JointRow::kFriction, {0, -one.friction * h, one.friction * h});
   const double reach = kLimitReach + 2 * h * std::abs(v);
   const auto backOff = [&](double beyond) { return beyond * (beyond > 0 ? kLimitShare : 1) / h; };
-  if (one.lower - q > -reach) row.add({backOff(one.lower - q), 0, kInfinity});
-  if (q - one.upper > -reach) row.add({-backOff(q - one.upper), -kInfinity, 0});
+  if (one.lower - q > -reach) row.set(JointRow::kLowerLimit, {backOff(one.lower - q), 0, kInfinity});
+  if (q - one.upper > -reach) row.set(JointRow::kUpperLimit, {-backOff(q - one.upper), -kInfinity, 0});
 }
 
 FreeMotion::LinkMotion Articulation::baseMotion() const {
@@ -232,6 +233,7 @@ void Articulation::setBase(const FreeMotion::LinkMotion& motion) {
 void Articulation::update() {
   body_->clearForcesAndTorques();
   body_->clearConstraintForces();
+  for (const auto& row : rows_) row->forget();
   body_->forwardKinematics(rotations_, origins_);
   body_->updateCollisionObjectWorldTransforms(rotations_, origins_);
   body_->updateCollisionObjectInterpolationWorldTransforms(rotations_, origins_);

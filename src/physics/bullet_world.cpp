@@ -2,6 +2,7 @@
 #include <cmath>
 #include <tuple>
 
+#include <BulletCollision/NarrowPhaseCollision/btRaycastCallback.h>
 #include <fmt/format.h>
 
 #include "base/error.h"
@@ -18,6 +19,11 @@ namespace {
 
 // kg or kg m^2; what a joint moves has to be more than numerical noise.
 constexpr double kLeastInertia = 1e-12;
+// Contacts yield a little, in parts of the resistance of a body of mean mass, and give back a tenth of what
+// is in overlap per step. The load of a stack then spreads over its contacts in one way only, and the solver,
+// which starts each step from the forces of the last one, comes to rest: 20 boxes of 0.2 m sink 0.3 mm at
+// steps of 1 ms and then stay.
+constexpr double kSoftness = 0.05, kOverlapShare = 0.1;
 
 void requireOwnCoordinates(const Model& model) {
   for (const Joint& joint : model.joints()) {
@@ -100,7 +106,7 @@ BulletWorld::BulletWorld(const Model& model, const PhysicsOptions& options)
   }
   world_.setGravity(toBullet(options.gravity_W));
   world_.getPairCache()->setOverlapFilterCallback(pairs_.get());
-  world_.getSolverInfo().m_numIterations = options.iterations;
+  setUpSolver(model, options);
   for (std::size_t i = 0; i < model.bodies().size(); ++i) {
     const BodyId body{static_cast<int>(i)};
     if (all.isStill[i]) addStill(model, body, all.X_WB[i], options);
@@ -114,6 +120,27 @@ BulletWorld::BulletWorld(const Model& model, const PhysicsOptions& options)
 }
 
 BulletWorld::~BulletWorld() { removeAll(); }
+
+void BulletWorld::setUpSolver(const Model& model, const PhysicsOptions& options) {
+  btContactSolverInfo& info = world_.getSolverInfo();
+  info.m_numIterations = options.iterations;
+  info.m_solverMode |= SOLVER_USE_ARTICULATED_WARMSTARTING;
+  info.m_warmstartingFactor = info.m_articulatedWarmstartingFactor = 1;
+  info.m_erp2 = kOverlapShare;
+  // What bounces must not get energy from yielding or from being pushed out: bodies are moved out instead.
+  if (options.restitution > 0) {
+    info.m_splitImpulsePenetrationThreshold = 0;
+  } else if (model.mass() > 0) {
+    double bodies = 0;
+    for (const Body& body : model.bodies()) bodies += body.mass > 0 ? 1 : 0;
+    softness_ = kSoftness * bodies / model.mass();
+  }
+}
+
+void BulletWorld::step(double h) {
+  world_.getSolverInfo().m_globalCfm = softness_ * h;
+  world_.stepSimulation(h, 0);
+}
 
 btCollisionShape* BulletWorld::addShape(const Model& model, BodyId body, const Pose& X_BL) {
   auto compound = std::make_unique<btCompoundShape>();
@@ -229,6 +256,7 @@ std::optional<RayHit> BulletWorld::rayCast(const Eigen::Vector3d& from_W, const 
       return ClosestRayResultCallback::addSingleResult(result, isNormalInWorld);
     }
   } closest(toBullet(from_W), toBullet(to_W));
+  closest.m_flags = btTriangleRaycastCallback::kF_UseGjkConvexCastRaytest;
   world_.rayTest(toBullet(from_W), toBullet(to_W), closest);
   if (!closest.hasHit()) return std::nullopt;
   return RayHit{.shape = shapeOf(*closest.m_collisionObject, closest.child),

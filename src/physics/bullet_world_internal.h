@@ -36,12 +36,13 @@ class BulletWorld {
   [[nodiscard]] const std::vector<std::unique_ptr<Mover>>& movers() const { return movers_; }
   /// Sets the state and forgets all contacts, so that the same steps follow as from a new world.
   void reset(const State& state);
-  void step(double h) { world_.stepSimulation(h, 0); }
+  void step(double h);
   [[nodiscard]] std::vector<PhysicsContact> contacts() const;
   [[nodiscard]] std::optional<RayHit> rayCast(const Eigen::Vector3d& from_W,
                                               const Eigen::Vector3d& to_W) const;
 
  private:
+  void setUpSolver(const Model& model, const PhysicsOptions& options);
   btCollisionShape* addShape(const Model& model, BodyId body, const Pose& X_BL);
   void addStill(const Model& model, BodyId body, const Pose& X_WB, const PhysicsOptions& options);
   void addMover(const Model& model, std::span<const BodyId> bodies, const Pose& X_WP,
@@ -62,6 +63,7 @@ class BulletWorld {
   btMultiBodyConstraintSolver solver_;
   btMultiBodyDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
   std::unique_ptr<BodyPairs> pairs_;
+  double softness_ = 0;  // of contacts, 1/kg
 };
 
 }  // namespace rex::internal

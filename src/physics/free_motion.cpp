@@ -1,8 +1,7 @@
-#include "physics/free_motion_internal.h"
-
 #include <Eigen/Geometry>
 
 #include "geometry/rotation.h"
+#include "physics/free_motion_internal.h"
 
 namespace rex::internal {
 

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <limits>
+#include <array>
+#include <optional>
 
 #include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
 
@@ -18,11 +19,16 @@ class JointRow : public btMultiBodyConstraint {
     double softness = 0;
   };
 
+  enum Purpose { kMotor, kDamping, kFriction, kLowerLimit, kUpperLimit, kPurposes };
+
   /// Of the freedom `place` of a link; both count from 0.
   JointRow(btMultiBody& body, int link, int place);
 
-  void clear() { count_ = 0; }
-  void add(const Goal& goal) { goals_[count_++] = goal; }
+  /// Forgets the goals, or also the impulses of the last step, from which the solver starts
+  /// otherwise.
+  void clearGoals() { goals_.fill(std::nullopt); }
+  void forget();
+  void set(Purpose purpose, const Goal& goal) { goals_[purpose] = goal; }
 
   void finalizeMultiDof() override;
   int getIslandIdA() const override;
@@ -32,10 +38,8 @@ class JointRow : public btMultiBodyConstraint {
   void debugDraw(btIDebugDraw*) override {}
 
  private:
-  static constexpr int kMostGoals = 5;
   int place_;
-  int count_ = 0;
-  Goal goals_[kMostGoals];
+  std::array<std::optional<Goal>, kPurposes> goals_;
 };
 
 }  // namespace rex::internal

@@ -65,7 +65,8 @@ class PhysicsWorld {
   void step(double h);
   /// The contacts of the last step, in a fixed order.
   [[nodiscard]] std::vector<PhysicsContact> contacts() const;
-  /// The first shape between two points, if any.
+  /// The first shape between two points, if any: flat faces exactly, round ones to a millimetre. Throws Error
+  /// for numbers that are not finite.
   [[nodiscard]] std::optional<RayHit> rayCast(const Eigen::Vector3d& from_W,
                                               const Eigen::Vector3d& to_W) const;
 

@@ -84,16 +84,15 @@ TEST(PhysicsDynamics, GivesBackTheState) {
   }
 }
 
-// Rays find a small ball on every body where forward kinematics says.
+// Rays along the axes of a small box on every body meet its faces where forward kinematics says.
 TEST(PhysicsDynamics, PutsBodiesWhereForwardKinematicsDoes) {
   Rng rng(2);
   for (int i = 0; i < 10; ++i) {
     SceneSpec spec = randomTree(rng, 12, i % 2 == 0);
-    const Eigen::Vector3d p_BS(0.3, -0.2, 0.5);
     for (BodySpec& body : spec.bodies) {
       ShapeSpec& shape = body.shapes.emplace_back();
-      shape.X_BS.p = p_BS;
-      shape.shape = ballShape(1e-4);
+      shape.X_BS = randomPose(rng);
+      shape.shape = boxShape(0.02, 0.04, 0.06);
       shape.contact = true;
     }
     const Model model = compile(spec);
@@ -102,11 +101,15 @@ TEST(PhysicsDynamics, PutsBodiesWhereForwardKinematicsDoes) {
     world.setState(state);
     const BodyPoses poses = forwardKinematics(model, state.q);
     for (std::size_t k = 0; k < model.shapes().size(); ++k) {
-      const Eigen::Vector3d center = poses[model.shapes()[k].body] * p_BS;
-      const auto hit = world.rayCast(center + Eigen::Vector3d(0, 0, 0.001), center);
-      ASSERT_TRUE(hit) << k;
-      EXPECT_EQ(hit->shape, static_cast<int>(k));
-      EXPECT_LT((hit->p_WQ - center - Eigen::Vector3d(0, 0, 1e-4)).norm(), 1e-6);
+      const Pose X_WS = poses[model.shapes()[k].body] * model.shapes()[k].X_BS;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double half = 0.01 * (axis + 1);
+        const auto hit = world.rayCast(X_WS * (2 * half * Eigen::Vector3d::Unit(axis)), X_WS.p);
+        ASSERT_TRUE(hit) << k;
+        EXPECT_EQ(hit->shape, static_cast<int>(k));
+        EXPECT_LT((hit->p_WQ - X_WS * (half * Eigen::Vector3d::Unit(axis))).norm(), 1e-9);
+        EXPECT_LT((hit->normal_W - X_WS.R.col(axis)).norm(), 1e-9);
+      }
     }
   }
 }
