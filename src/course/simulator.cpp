@@ -11,6 +11,7 @@
 #include "base/rng.h"
 #include "collision/contacts.h"
 #include "collision/proxy_report.h"
+#include "course/contact_world_internal.h"
 #include "course/pictures.h"
 #include "course/recording.h"
 #include "dynamics/energy.h"
@@ -75,6 +76,8 @@ struct Simulator::Parts {
   bool gravity = true;
   std::uint64_t seed = 0;
   Rng rng{};
+  internal::ContactWorld contactWorld{};
+  double physicsTime = 0;
 
   void moveTo(const Eigen::VectorXd& newQ, const Eigen::VectorXd& newV) {
     q = newQ;
@@ -171,6 +174,13 @@ void Simulator::stepDynamics(const Eigen::VectorXd& u, double tau) {
   Stepper stepper(parts_->model, {.gravity_W = parts_->gravity_W(), .noise = parts_->dynamicNoise});
   State state{parts_->q, parts_->v};
   stepper.step(state, u, tau, parts_->rng);
+  parts_->moveTo(state.q, state.v);
+}
+
+void Simulator::stepPhysics(const Eigen::VectorXd& u, double tau) {
+  State state{parts_->q, parts_->v, parts_->physicsTime};
+  parts_->contactWorld.step(parts_->model, parts_->gravity_W(), u, tau, state);
+  parts_->physicsTime = state.time;
   parts_->moveTo(state.q, state.v);
 }
 
