@@ -35,6 +35,7 @@ FreeMotion::LinkMotion FreeBody::current() const {
 }
 
 void FreeBody::drive(std::span<const Motor> motors, double) {
+  if (motion_.isIdle(motors)) return;
   const FreeMotion::Wrench wrench = motion_.wrench(motors, current());
   body_.applyCentralForce(toBullet(wrench.force_W));
   body_.applyTorque(toBullet(wrench.torque_W));

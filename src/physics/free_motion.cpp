@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <Eigen/Geometry>
 
 #include "geometry/rotation.h"
@@ -29,6 +31,12 @@ void FreeMotion::read(const LinkMotion& motion, State& state) const {
   const Eigen::Vector3d linear_W = motion.linear_W - motion.angular_W.cross(X_WM.R * X_ML_.p);
   state.v.segment<3>(vIndex_) = X_WF_.R.transpose() * linear_W;
   state.v.segment<3>(vIndex_ + 3) = X_WM.R.transpose() * motion.angular_W;
+}
+
+bool FreeMotion::isIdle(std::span<const Motor> motors) const {
+  const auto mine = motors.subspan(static_cast<std::size_t>(vIndex_), 6);
+  return damping_ == 0 &&
+         std::all_of(mine.begin(), mine.end(), [](const Motor& one) { return one.target == 0; });
 }
 
 FreeMotion::Wrench FreeMotion::wrench(std::span<const Motor> motors, const LinkMotion& motion) const {

@@ -19,6 +19,8 @@ class FreeMotion {
   [[nodiscard]] LinkMotion linkMotion(const State& state) const;
   void read(const LinkMotion& motion, State& state) const;
 
+  /// Whether wrench() is zero, whatever the motion.
+  [[nodiscard]] bool isIdle(std::span<const Motor> motors) const;
   /// Force and torque at the link's origin, in W: what the motors (forces all) demand, less the joint's
   /// damping.
   struct Wrench {
