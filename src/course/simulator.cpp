@@ -12,6 +12,7 @@
 #include "base/rng.h"
 #include "collision/contacts.h"
 #include "collision/proxy_report.h"
+#include "course/contact_world_internal.h"
 #include "course/pictures.h"
 #include "course/recording.h"
 #include "dynamics/energy.h"
@@ -78,6 +79,7 @@ struct Simulator::Parts {
   Rng rng{};
   std::optional<Stepper> stepper{};  // made for the first step, and anew when gravity or noise change
   State next{};                      // where a step leads; its time is that of all steps
+  internal::ContactWorld contactWorld{};
 
   // A posture that is refused changes nothing.
   void moveTo(const Eigen::VectorXd& newQ, const Eigen::VectorXd& newV) {
@@ -179,6 +181,13 @@ void Simulator::stepDynamics(const Eigen::VectorXd& u, double tau) {
   parts_->next.q = parts_->q;
   parts_->next.v = parts_->v;
   parts_->stepper->step(parts_->next, u, tau, parts_->rng);
+  parts_->moveTo(parts_->next.q, parts_->next.v);
+}
+
+void Simulator::stepPhysics(const Eigen::VectorXd& u, double tau) {
+  parts_->next.q = parts_->q;
+  parts_->next.v = parts_->v;
+  parts_->contactWorld.step(parts_->model, parts_->gravity_W(), u, tau, parts_->next);
   parts_->moveTo(parts_->next.q, parts_->next.v);
 }
 

@@ -52,6 +52,7 @@ void run(const std::vector<std::string>& names, bool asJson) {
                                             {"grading", gradingRows()},
                                             {"ik", ikRows()},
                                             {"kinematics", kinematicsRows()},
+                                            {"physics", physicsRows()},
                                             {"render", renderRows()},
                                             {"scene", sceneRows()}},
                                            names);

@@ -3,7 +3,7 @@
 
 #include <mujoco/mujoco.h>
 
-#include "support/mujoco_model.h"
+#include "bench/mujoco_model.h"
 #include "bench/stepping_peer.h"
 #include "dynamics/stepper.h"
 

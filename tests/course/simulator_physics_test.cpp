@@ -1,0 +1,72 @@
+#include <cmath>
+
+#include "course/recording.h"
+#include "course/simulator.h"
+#include "support/expect_error.h"
+
+namespace rex {
+namespace {
+
+// A ball of 1 kg and 0.1 m above the ground, free to move.
+SimulatorDescription ballOverGround() {
+  return {.sceneName = "ball.ors",
+          .sceneText =
+              "shape ground { rel=<T t(0 0 -0.5)> type=ST_box size=[10 10 1 0] contact }\n"
+              "body root {}\n"
+              "body ball { mass=1 type=ST_sphere size=[0 0 0 0.1] contact }\n"
+              "joint drop (root ball) { type=transZ q=1 }\n",
+          .q = {}};
+}
+
+TEST(SimulatorPhysics, FallsAndLies) {
+  Simulator S(ballOverGround());
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(1);
+  const double height = S.kinematicsPos("ball").z();
+  ASSERT_GT(height, 0.5);
+  S.stepPhysics(none, 0.1);
+  EXPECT_NEAR(S.kinematicsPos("ball").z(), height - 9.81 * 0.01 / 2, 9.81 * 0.1 * 1e-3);
+  for (int i = 0; i < 20; ++i) S.stepPhysics(none, 0.1);
+  EXPECT_NEAR(S.kinematicsPos("ball").z(), 0.1, 1e-3);
+  EXPECT_NEAR(S.getJointVels()[0], 0, 1e-6);
+  EXPECT_EQ(S.recording().count(), 22u);
+}
+
+TEST(SimulatorPhysics, FeelsForcesAndGravity) {
+  Simulator S(ballOverGround());
+  const double height = S.kinematicsPos("ball").z();
+  S.stepPhysics(Eigen::VectorXd::Constant(1, 9.81), 0.5);
+  EXPECT_NEAR(S.kinematicsPos("ball").z(), height, 1e-9);
+  S.setDynamicGravity(false);
+  S.stepPhysics(Eigen::VectorXd::Constant(1, 2), 0.5);
+  EXPECT_NEAR(S.getJointVels()[0], 1, 1e-9);
+}
+
+TEST(SimulatorPhysics, CopiesGoTheirOwnWay) {
+  Simulator S(ballOverGround());
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(1);
+  S.stepPhysics(none, 0.2);
+  Simulator copy = S;
+  S.stepPhysics(none, 0.1);
+  EXPECT_GT(copy.kinematicsPos("ball").z(), S.kinematicsPos("ball").z());
+  copy.stepPhysics(none, 0.1);
+  EXPECT_EQ(copy.getJointAngles(), S.getJointAngles());
+  copy.setJointAngles(Eigen::VectorXd::Zero(1));
+  copy.stepPhysics(none, 1e-3);
+  EXPECT_NEAR(copy.getJointAngles()[0], 0, 0.01);
+}
+
+TEST(SimulatorPhysics, RefusesWrongNumbersAndStays) {
+  Simulator S(ballOverGround());
+  const Eigen::VectorXd q = S.getJointAngles(), none = Eigen::VectorXd::Zero(1);
+  EXPECT_REX_ERROR(S.stepPhysics(Eigen::VectorXd::Zero(2), 0.1),
+                   "stepPhysics: joint forces u: found a vector of");
+  for (const double tau : {0.0, -1.0, 1001.0, std::nan("")})
+    EXPECT_REX_ERROR(S.stepPhysics(none, tau), "stepPhysics: tau: found");
+  EXPECT_REX_ERROR(S.stepPhysics(Eigen::VectorXd::Constant(1, std::nan("")), 0.1),
+                   "joint 'drop': target: found nan");
+  EXPECT_REX_ERROR(S.stepPhysics(Eigen::VectorXd::Constant(1, 1e12), 0.1), "joint 'drop' at 0.001 s");
+  EXPECT_EQ(S.getJointAngles(), q);
+}
+
+}  // namespace
+}  // namespace rex
