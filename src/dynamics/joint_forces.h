@@ -10,7 +10,8 @@ struct JointForces {
   bool friction = false;
   double frictionSpeed = 1e-2;  ///< where friction has reached three quarters, rad/s or m/s
   /// Limits push back with limitStiffness per unit that a coordinate is beyond, and limitDamping per unit of
-  /// v while it is: soft forces, N m/rad and N m s/rad, or N/m and N s/m. 0: limits are not felt.
+  /// v while it is: soft forces, N m/rad and N m s/rad, or N/m and N s/m. 0: limits are not felt. Quaternions
+  /// have none.
   double limitStiffness = 0;
   double limitDamping = 0;
   [[nodiscard]] bool any() const { return friction || limitStiffness > 0 || limitDamping > 0; }
@@ -20,5 +21,11 @@ struct JointForces {
 /// finite.
 [[nodiscard]] Eigen::VectorXd jointForces(const Model& model, const VectorArg& q, const VectorArg& v,
                                           const JointForces& forces);
+/// Overload for hot loops. The caller owns u, which must be nv already.
+void jointForces(const Model& model, const VectorArg& q, const VectorArg& v, const JointForces& forces,
+                 Eigen::Ref<Eigen::VectorXd> u);
+
+/// Throws Error naming the setting that is negative or not finite, or a frictionSpeed of 0.
+void requireValid(const JointForces& forces);
 
 }  // namespace rex

@@ -6,46 +6,117 @@
 
 #include "base/error.h"
 #include "base/rng.h"
-#include "dynamics/forward_dynamics.h"
+#include "dynamics/integrators_internal.h"
 
 namespace rex {
+namespace {
+
+void requireFinite(const std::string& what, double number) {
+  if (std::isfinite(number)) return;
+  throw Error({.what = what, .found = fmt::format("{:g}", number), .wanted = "a finite number"});
+}
+
+// `jointOf` tells which joint a number belongs to.
+template <class JointOf>
+void requireFinite(const char* what, const Model& model, const VectorArg& numbers, const JointOf& jointOf) {
+  for (Eigen::Index i = 0; i < numbers.size(); ++i) {
+    if (!std::isfinite(numbers[i]))
+      requireFinite(fmt::format("{}: number {}, of joint '{}'", what, i, jointOf(model, i)), numbers[i]);
+  }
+}
+
+void requireValid(const StepperOptions& options) {
+  for (const double g : options.gravity_W) requireFinite("gravity", g);
+  requireValid(options.jointForces);
+  if (!(options.noise >= 0) || !std::isfinite(options.noise)) {
+    throw Error({.what = "noise",
+                 .found = fmt::format("{:g}", options.noise),
+                 .wanted = "zero or a positive, finite number"});
+  }
+}
+
+void requireStep(double h, bool mayBeNegative) {
+  if (std::isfinite(h) && (h > 0 || (mayBeNegative && h < 0))) return;
+  throw Error({.what = "time step",
+               .found = fmt::format("{:g}", h),
+               .wanted = mayBeNegative ? "a finite number of seconds other than zero"
+                                       : "a positive, finite number of seconds"});
+}
+
+void requireState(const Model& model, const State& state) {
+  requireSize("joint positions q", state.q.size(), model.nq());
+  requireSize("joint velocities v", state.v.size(), model.nv());
+  requireFinite("joint positions q", model, state.q, internal::jointOfPosition);
+  requireFinite("joint velocities v", model, state.v, internal::jointOfVelocity);
+  requireFinite("time of the state", state.time);
+}
+
+}  // namespace
 
 struct Stepper::Parts {
-  Model model;
-  StepperOptions options;
+  internal::HeldMotion motion;
+  Integrator integrator;
+  double noise;
+  internal::Euler euler{};
+  internal::RungeKutta rungeKutta{};
+  internal::Beeman beeman{};
+  internal::Leapfrog leapfrog{};
+  State next{};
+
+  // Into `next`.
+  void advance(const State& state, const VectorArg& u, double h) {
+    requireStep(h, integrator == Integrator::kLeapfrog);
+    requireState(motion.model(), state);
+    requireSize("joint forces u", u.size(), motion.model().nv());
+    requireFinite("joint forces u", motion.model(), u, internal::jointOfVelocity);
+    next.time = state.time + h;
+    motion.hold(u, next.time);
+    switch (integrator) {
+      case Integrator::kEuler:
+      case Integrator::kSemiImplicitEuler:
+        euler.step(motion, state, h, integrator == Integrator::kSemiImplicitEuler, next);
+        break;
+      case Integrator::kRungeKutta4:
+        rungeKutta.step(motion, state, h, next);
+        break;
+      case Integrator::kBeeman:
+        beeman.step(motion, state, u, h, next);
+        break;
+      case Integrator::kLeapfrog:
+        leapfrog.step(motion, state, h, next);
+        break;
+    }
+    motion.requireBounded(next.q, next.v);
+  }
 };
 
-Stepper::Stepper(const Model& model, const StepperOptions& options)
-    : parts_(std::make_unique<Parts>(Parts{model, options})) {}
+Stepper::Stepper(const Model& model, const StepperOptions& options) {
+  requireValid(options);
+  parts_.reset(new Parts{internal::HeldMotion(model, options.gravity_W, options.jointForces),
+                         options.integrator, options.noise});
+}
+Stepper::Stepper(const Stepper& other) : parts_(std::make_unique<Parts>(*other.parts_)) {}
+Stepper& Stepper::operator=(const Stepper& other) {
+  if (this != &other) parts_ = std::make_unique<Parts>(*other.parts_);
+  return *this;
+}
 Stepper::Stepper(Stepper&&) noexcept = default;
 Stepper& Stepper::operator=(Stepper&&) noexcept = default;
 Stepper::~Stepper() = default;
 
 void Stepper::step(State& state, const VectorArg& u, double h) {
-  if (!(h > 0) || !std::isfinite(h)) {
-    throw Error(
-        {.what = "time step", .found = fmt::format("{:g}", h), .wanted = "a positive number of seconds"});
-  }
-  const Model& model = parts_->model;
-  requireSize("joint forces u", u.size(), model.nv());
-  const auto acceleration = [&](const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
-    return forwardDynamics(model, q, v, u, parts_->options.gravity_W);
-  };
-  const Eigen::VectorXd &q = state.q, &v1 = state.v;
-  const Eigen::VectorXd a1 = acceleration(q, v1), v2 = v1 + h / 2 * a1;
-  const Eigen::VectorXd a2 = acceleration(integrate(model, q, h / 2 * v1), v2), v3 = v1 + h / 2 * a2;
-  const Eigen::VectorXd a3 = acceleration(integrate(model, q, h / 2 * v2), v3), v4 = v1 + h * a3;
-  const Eigen::VectorXd a4 = acceleration(integrate(model, q, h * v3), v4);
-  State next{integrate(model, q, h / 6 * (v1 + 2 * v2 + 2 * v3 + v4)),
-             v1 + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4), state.time + h};
-  state = std::move(next);
+  parts_->advance(state, u, h);
+  state = parts_->next;
 }
 
 void Stepper::step(State& state, const VectorArg& u, double h, Rng& rng) {
-  step(state, u, h);
-  state.v += std::sqrt(h) * parts_->options.noise * rng.normalVector(static_cast<int>(state.v.size()));
+  parts_->advance(state, u, h);
+  if (parts_->noise > 0) {
+    for (double& v : parts_->next.v) v += std::sqrt(std::abs(h)) * parts_->noise * rng.normal();
+  }
+  state = parts_->next;
 }
 
-void Stepper::reset() {}
+void Stepper::reset() { parts_->beeman.reset(); }
 
 }  // namespace rex

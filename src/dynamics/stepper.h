@@ -16,8 +16,10 @@ enum class Integrator {
   kEuler,              ///< 1, first order: q with the old v. The script's, to learn from
   kSemiImplicitEuler,  ///< 1, first order: q with the new v
   kRungeKutta4,        ///< 4, fourth order: the default
-  kBeeman,             ///< 1, third order: extrapolates from two old accelerations, see Stepper::reset()
-  kLeapfrog            ///< several, second order, reversible: a step of -h undoes a step of h
+  kBeeman,             ///< 1, fourth order: extrapolates from two old accelerations, see Stepper::reset()
+  /// Several, second order, reversible: a step of -h undoes a step of h. The implicit midpoint rule with the
+  /// middle posture half a step of the old velocity away; iterated until only rounding changes it.
+  kLeapfrog
 };
 
 struct StepperOptions {
@@ -28,22 +30,28 @@ struct StepperOptions {
   double noise = 0;
 };
 
-/// Moves states of one model on in time. It copies what it needs of the model; step() allocates nothing.
+/// Moves states of one model on in time. It keeps a copy of the model (copies of a mesh are one mesh), and
+/// step() allocates nothing after the first time. A copy of it goes on as the original would.
 class Stepper {
  public:
+  /// Throws Error for options that are not finite, and those that are negative but must not be.
   explicit Stepper(const Model& model, const StepperOptions& options = {});
+  Stepper(const Stepper& other);
+  Stepper& operator=(const Stepper& other);
   Stepper(Stepper&&) noexcept;
   Stepper& operator=(Stepper&&) noexcept;
   ~Stepper();
 
   /// Moves the state on by h > 0 seconds (kLeapfrog: any h but 0) under joint forces u (nv). Throws Error,
   /// and leaves the state as it was, for wrong sizes, for numbers that are not finite, as forwardDynamics
-  /// does, and if the motion grows without bounds, naming time and joint.
+  /// does, and if the motion grows without bounds (a joint faster than light), naming time and joint.
   void step(State& state, const VectorArg& u, double h);
-  /// The same, and adds the noise of the options.
+  /// The same, and adds the noise of the options. Without noise, the Rng is left alone.
   void step(State& state, const VectorArg& u, double h, Rng& rng);
 
-  /// Forgets old accelerations. kBeeman needs that after a jump: of the state, or of u.
+  /// Forgets old accelerations. kBeeman does so by itself where q, v, u or h are not those of its last step,
+  /// and starts again with two steps of Runge and Kutta: under a u that changes with each step, and with
+  /// noise, it is no better than kRungeKutta4. What needs telling are jumps that it cannot see: none of ours.
   void reset();
 
  private:

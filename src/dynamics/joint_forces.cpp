@@ -1,0 +1,66 @@
+#include "dynamics/joint_forces.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "scene/coordinates.h"
+
+namespace rex {
+namespace {
+
+// A joint that mimics moves at `ratio` times v, and its force acts on v with that lever.
+void addFriction(const Model& model, const VectorArg& v, double frictionSpeed,
+                 Eigen::Ref<Eigen::VectorXd> u) {
+  for (const Joint& joint : model.joints()) {
+    for (int i = joint.vIndex; i < joint.vIndex + joint.nv; ++i) {
+      const double rate = joint.ratio * v[i];
+      u[i] -= joint.ratio * (joint.damping * rate + joint.friction * std::tanh(rate / frictionSpeed));
+    }
+  }
+}
+
+void addLimits(const Model& model, const VectorArg& q, const VectorArg& v, const JointForces& forces,
+               Eigen::Ref<Eigen::VectorXd> u) {
+  forEachPlainCoordinate(model, [&](int iq, int iv, const DegreeOfFreedom&) {
+    const double below = model.lowerLimits()[iq] - q[iq], above = q[iq] - model.upperLimits()[iq];
+    if (below > 0) u[iv] += forces.limitStiffness * below - forces.limitDamping * v[iv];
+    if (above > 0) u[iv] -= forces.limitStiffness * above + forces.limitDamping * v[iv];
+  });
+}
+
+}  // namespace
+
+void requireValid(const JointForces& forces) {
+  const auto require = [](bool holds, const char* what, double found, const char* wanted) {
+    if (holds) return;
+    throw Error({.what = what, .found = fmt::format("{:g}", found), .wanted = wanted});
+  };
+  const auto isFriendly = [](double x) { return x >= 0 && std::isfinite(x); };
+  constexpr const char* kWanted = "zero or a positive, finite number";
+  require(isFriendly(forces.frictionSpeed) && forces.frictionSpeed > 0, "joint forces: friction speed",
+          forces.frictionSpeed, "a positive, finite number");
+  require(isFriendly(forces.limitStiffness), "joint forces: limit stiffness", forces.limitStiffness, kWanted);
+  require(isFriendly(forces.limitDamping), "joint forces: limit damping", forces.limitDamping, kWanted);
+}
+
+void jointForces(const Model& model, const VectorArg& q, const VectorArg& v, const JointForces& forces,
+                 Eigen::Ref<Eigen::VectorXd> u) {
+  requireSize("joint positions q", q.size(), model.nq());
+  requireSize("joint velocities v", v.size(), model.nv());
+  requireSize("joint forces u", u.size(), model.nv());
+  requireValid(forces);
+  u.setZero();
+  if (forces.friction) addFriction(model, v, forces.frictionSpeed, u);
+  if (forces.limitStiffness > 0 || forces.limitDamping > 0) addLimits(model, q, v, forces, u);
+}
+
+Eigen::VectorXd jointForces(const Model& model, const VectorArg& q, const VectorArg& v,
+                            const JointForces& forces) {
+  Eigen::VectorXd u(model.nv());
+  jointForces(model, q, v, forces, u);
+  return u;
+}
+
+}  // namespace rex
