@@ -61,9 +61,19 @@ std::optional<double> numberIn(std::string_view word) {
   return number;
 }
 
-double requireNumber(const std::string& word) {
+// Coordinates that an option gives: positions q or velocities v.
+struct Coordinates {
+  std::string option;  // "--q"
+  std::string letter;  // "q"
+  int Joint::*index;
+  int Joint::*count;
+};
+const Coordinates kPositions{"--q", "q", &Joint::qIndex, &Joint::nq};
+const Coordinates kVelocities{"--v", "v", &Joint::vIndex, &Joint::nv};
+
+double requireNumber(const Coordinates& kind, const std::string& word) {
   if (const auto number = numberIn(word)) return *number;
-  throw UsageError({.what = "--q", .found = "'" + word + "'", .wanted = "a number, or joint=number"});
+  throw UsageError({.what = kind.option, .found = "'" + word + "'", .wanted = "a number, or joint=number"});
 }
 
 Eigen::VectorXd zeroPositions(const Model& model) {
@@ -81,22 +91,46 @@ std::string listed(const std::vector<std::string>& names) {
   return list;
 }
 
-const Joint& movableJoint(const Model& model, const std::string& name) {
+// The place of a joint's only coordinate.
+int placeOf(const Model& model, const Coordinates& kind, const std::string& name, Eigen::Index all) {
   std::vector<std::string> movable;  // joints stand in the order of q
   for (const Joint& joint : model.joints()) {
     const bool isMovable = joint.nq > 0 && !joint.mimics;
     if (joint.name == name && isMovable) {
-      if (joint.nq == 1) return joint;
-      throw UsageError({.what = "--q: joint '" + name + "'",
-                        .found = fmt::format("{} coordinates", joint.nq),
-                        .wanted = fmt::format("one; give all {} numbers of q instead", model.nq())});
+      if (joint.*kind.count == 1) return joint.*kind.index;
+      throw UsageError({.what = kind.option + ": joint '" + name + "'",
+                        .found = fmt::format("{} coordinates", joint.*kind.count),
+                        .wanted = fmt::format("one; give all {} numbers of {} instead", all, kind.letter)});
     }
     if (isMovable) movable.push_back(joint.name);
   }
   const std::vector<std::string> nearest = nearestNames(name, movable);
-  throw UsageError({.what = "--q: " + model.name() + " has no joint '" + name + "' that moves",
+  throw UsageError({.what = kind.option + ": " + model.name() + " has no joint '" + name + "' that moves",
                     .wanted = nearest.empty() ? listed(movable) : "",
                     .nearest = nearest});
+}
+
+// All numbers, or those of some joints, the others as they are.
+Eigen::VectorXd parseCoordinates(const Model& model, const Coordinates& kind, const std::string& text,
+                                 Eigen::VectorXd x) {
+  const std::vector<std::string> all = words(text, [&](const auto& found, const auto& wanted) {
+    throw UsageError({.what = kind.option, .found = found, .wanted = wanted});
+  });
+  if (text.find('=') != std::string::npos) {
+    for (const std::string& word : all) {
+      const std::size_t sign = word.find('=');
+      if (sign == std::string::npos)
+        throw UsageError({.what = kind.option, .found = "'" + word + "'", .wanted = "joint=number"});
+      x[placeOf(model, kind, word.substr(0, sign), x.size())] = requireNumber(kind, word.substr(sign + 1));
+    }
+    return x;
+  }
+  if (static_cast<Eigen::Index>(all.size()) != x.size())
+    throw UsageError({.what = kind.option,
+                      .found = fmt::format("{} number{}", all.size(), all.size() == 1 ? "" : "s"),
+                      .wanted = fmt::format("{}, one for each coordinate of {}", x.size(), model.name())});
+  for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = requireNumber(kind, all[static_cast<std::size_t>(i)]);
+  return x;
 }
 
 void requireLength(double seconds, const std::string& what, const SourceLocation& where) {
@@ -203,25 +237,12 @@ Motion evenly(const Motion& motion, double rate) {
 Eigen::VectorXd parsePosture(const Model& model, const std::string& text) {
   if (text == "0") return zeroPositions(model);
   if (text == "file") return model.initialPositions();
-  const std::vector<std::string> all = words(text, [](const auto& found, const auto& wanted) {
-    throw UsageError({.what = "--q", .found = found, .wanted = wanted});
-  });
-  Eigen::VectorXd q = model.initialPositions();
-  if (text.find('=') != std::string::npos) {
-    for (const std::string& word : all) {
-      const std::size_t sign = word.find('=');
-      if (sign == std::string::npos)
-        throw UsageError({.what = "--q", .found = "'" + word + "'", .wanted = "joint=number"});
-      q[movableJoint(model, word.substr(0, sign)).qIndex] = requireNumber(word.substr(sign + 1));
-    }
-    return q;
-  }
-  if (static_cast<Eigen::Index>(all.size()) != q.size())
-    throw UsageError({.what = "--q",
-                      .found = fmt::format("{} number{}", all.size(), all.size() == 1 ? "" : "s"),
-                      .wanted = fmt::format("{}, one for each coordinate of {}", q.size(), model.name())});
-  for (Eigen::Index i = 0; i < q.size(); ++i) q[i] = requireNumber(all[static_cast<std::size_t>(i)]);
-  return q;
+  return parseCoordinates(model, kPositions, text, model.initialPositions());
+}
+
+Eigen::VectorXd parseVelocities(const Model& model, const std::string& text) {
+  const Eigen::VectorXd still = Eigen::VectorXd::Zero(model.nv());
+  return text == "0" ? still : parseCoordinates(model, kVelocities, text, still);
 }
 
 Eigen::Vector3d parsePoint(const std::string& text, const std::string& option) {

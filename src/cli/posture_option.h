@@ -14,6 +14,10 @@ namespace rex::cli {
 /// the word that is no number, or the nearest joints, the first dozen where none is near.
 [[nodiscard]] Eigen::VectorXd parsePosture(const Model& model, const std::string& text);
 
+/// The velocities (nv) that `--v TEXT` asks for: all numbers, "joint=number,..." with the others at rest, or
+/// "0". Throws as parsePosture.
+[[nodiscard]] Eigen::VectorXd parseVelocities(const Model& model, const std::string& text);
+
 /// The three numbers that `option` gives. Throws UsageError for another count, or the word that is no number.
 [[nodiscard]] Eigen::Vector3d parsePoint(const std::string& text, const std::string& option);
 

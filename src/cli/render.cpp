@@ -1,5 +1,4 @@
 #include <filesystem>
-#include <numbers>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -7,6 +6,7 @@
 #include "base/error.h"
 #include "base/interruption.h"
 #include "cli/commands.h"
+#include "cli/film_file.h"
 #include "cli/motion_pictures.h"
 #include "cli/posture_option.h"
 #include "cli/render_plan.h"
@@ -14,7 +14,6 @@
 #include "cli/terminal.h"
 #include "render/contact_sheet.h"
 #include "render/glb.h"
-#include "render/make_frame_sink.h"
 #include "render/png.h"
 #include "render/report.h"
 
@@ -23,14 +22,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kRate = VideoOptions().rate;  // frames per second
-
 Motion motionOf(const Model& model, const RenderOptions& options, double seconds) {
-  if (!options.motion.empty()) return readMotion(model, options.motion, kRate);
+  if (!options.motion.empty()) return readMotion(model, options.motion, kFilmRate);
   std::vector<Eigen::VectorXd> keys;
   for (const std::string& text : options.postures) keys.push_back(parsePosture(model, text));
   if (keys.empty()) keys.push_back(model.initialPositions());
-  return moveThrough(model, keys, seconds, kRate);
+  return moveThrough(model, keys, seconds, kFilmRate);
 }
 
 // Of a motion a still shows the key frames only.
@@ -55,34 +52,6 @@ void writeStill(const MotionPictures& pictures, const RenderPlan& plan, const fs
   studio.requireSomethingSeen();
   throwIfInterrupted();
   writePng(whole, out);
-}
-
-// Without ffmpeg the frames go into a folder of that name.
-MadeSink openSink(fs::path& out) {
-  MadeSink made = makeFrameSink(out);
-  if (made.missing.empty()) return made;
-  note(made.missing + "; the frames go into a folder instead");
-  return makeFrameSink(out.replace_extension());
-}
-
-// A film of one posture becomes a walk around it. Nothing is made before something was seen.
-fs::path writeFilm(const MotionPictures& pictures, const RenderPlan& plan, fs::path out) {
-  constexpr std::size_t kTurn = 120;  // frames
-  const bool isWalk = pictures.size() == 1;
-  const std::size_t count = isWalk ? kTurn : pictures.size();
-  Studio studio(plan, isWalk ? turningBox(pictures.bounds()) : pictures.bounds());
-  note(studio.describe());
-  const auto draw = [&](std::size_t i) {
-    const double angle = isWalk ? 2 * std::numbers::pi * static_cast<double>(i) / kTurn : 0;
-    return studio.draw(pictures.picture(isWalk ? 0 : i), angle);
-  };
-  for (std::size_t i = 0; i < count && !studio.sawSomething(); ++i) static_cast<void>(draw(i));
-  studio.requireSomethingSeen();
-  const MadeSink made = openSink(out);
-  for (std::size_t i = 0; i < count; ++i) made.sink->add(draw(i));
-  throwIfInterrupted();
-  made.sink->finish();
-  return out;
 }
 
 void writePage(const MotionPictures& pictures, const RenderPlan& plan, const RenderOptions& options) {

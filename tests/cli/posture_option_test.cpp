@@ -72,6 +72,22 @@ TEST(PostureOption, ExplainsWhatItCannotRead) {
                    "found 7 coordinates, wanted one; give all 7 numbers of q instead");
 }
 
+TEST(VelocityOption, TakesAllNumbersOrSomeJoints) {
+  const Model arm = robot("pegArm.ors");
+  EXPECT_EQ(parseVelocities(arm, "0.5,-1,2"), Vector3d(0.5, -1, 2));
+  EXPECT_EQ(parseVelocities(arm, "0"), Vector3d(0, 0, 0));
+  EXPECT_EQ(parseVelocities(arm, "arm1>arm2=-0.25"), Vector3d(0, -0.25, 0));
+  EXPECT_REX_ERROR(parseVelocities(arm, "1"), "--v: found 1 number, wanted 3, one for each coordinate of");
+  EXPECT_REX_ERROR(parseVelocities(arm, "1,2,x"), "--v: found 'x', wanted a number, or joint=number");
+  EXPECT_REX_ERROR(parseVelocities(arm, "1,,2"), "--v: found an empty field");
+  EXPECT_REX_ERROR(parseVelocities(arm, "arm=1,5"), "--v: ");
+  const Model floating =
+      compile(parseOrs("body a {}\nbody b {}\njoint free (a b) { type=free }", "f.ors").spec);
+  EXPECT_EQ(parseVelocities(floating, "1 2 3 4 5 6").size(), 6);
+  EXPECT_REX_ERROR(parseVelocities(floating, floating.joints()[0].name + "=1"),
+                   "found 6 coordinates, wanted one; give all 6 numbers of v instead");
+}
+
 TEST_F(MotionFile, IsReadWithAndWithoutTimes) {
   const Motion plain = readMotion(arm, file("# a comment\nq0,q1,q2\n0,0,0\n1 2 3\n\n2,2,2\r\n"), 10);
   ASSERT_EQ(plain.postures.size(), 3u);

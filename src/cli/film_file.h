@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+
+#include "cli/motion_pictures.h"
+#include "cli/render_plan.h"
+#include "render/video_sink.h"
+
+namespace rex::cli {
+
+inline constexpr double kFilmRate = VideoOptions().rate;  ///< frames per second
+
+/// Draws the pictures as the plan asks for into the film `out`, or without ffmpeg into a folder of frames
+/// beside it, and gives back which; of one picture it becomes a walk around. Nothing is made before something
+/// was seen. Throws as Studio and makeFrameSink().
+std::filesystem::path writeFilm(const MotionPictures& pictures, const RenderPlan& plan,
+                                std::filesystem::path out);
+
+}  // namespace rex::cli
