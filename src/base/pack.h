@@ -125,6 +125,24 @@ inline void store(const T& x, double* to) {
   __builtin_memcpy(to, &x, sizeof(T));
 }
 
+/// Number i of a row per lane: one of lane[0], the next of lane[1], and so on; and back.
+inline void gather(const double* const* lane, int i, double& x) { x = lane[0][i]; }
+template <int kLanes>
+inline void gather(const double* const* lane, int i, Pack<kLanes>& x) {
+  for (int k = 0; k < kLanes; ++k) x.numbers[k] = lane[k][i];
+}
+template <class T>
+inline T gathered(const double* const* lane, int i) {
+  T x;
+  gather(lane, i, x);
+  return x;
+}
+inline void scatter(double x, double* const* lane, int i) { lane[0][i] = x; }
+template <int kLanes>
+inline void scatter(Pack<kLanes> x, double* const* lane, int i) {
+  for (int k = 0; k < kLanes; ++k) lane[k][i] = x.numbers[k];
+}
+
 template <class T>
 inline T smaller(T a, T b) {
   return select(a < b, a, b);

@@ -87,8 +87,7 @@ std::string logOf(const std::vector<Moment>& moments) {
 // Potential energy from that of the start, because its zero lies anywhere. Of very many moments some
 // thousand: a picture has no more columns.
 Figure energyFigure(const std::vector<Moment>& moments, const std::string& title) {
-  Series kinetic{.label = "kinetic"}, potential{.label = "potential, from the start's"};
-  Series sum{.label = "sum", .size = 1.5};
+  Series kinetic{.label = "kinetic"}, potential{.label = "potential"}, sum{.label = "sum", .size = 1.5};
   const double zero = moments.front().energy.potential;
   const std::size_t stride = 1 + moments.size() / 4000;
   for (std::size_t i = 0; i < moments.size(); i += stride) {
@@ -100,7 +99,7 @@ Figure energyFigure(const std::vector<Moment>& moments, const std::string& title
   }
   return {.title = title,
           .xLabel = "time [s]",
-          .yLabel = "energy [J]",
+          .yLabel = "energy [J], potential 0 at the start",
           .legend = Legend::kOutside,
           .series = {kinetic, potential, sum}};
 }

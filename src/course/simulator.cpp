@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <variant>
 
 #include <fmt/format.h>
@@ -75,11 +76,14 @@ struct Simulator::Parts {
   bool gravity = true;
   std::uint64_t seed = 0;
   Rng rng{};
+  std::optional<Stepper> stepper{};  // made for the first step, and anew when gravity or noise change
+  State next{};                      // where a step leads; its time is that of all steps
 
+  // A posture that is refused changes nothing.
   void moveTo(const Eigen::VectorXd& newQ, const Eigen::VectorXd& newV) {
+    forwardKinematics(model, newQ, poses);
     q = newQ;
     v = newV;
-    forwardKinematics(model, q, poses);
     recording.add(q);
   }
   Eigen::Vector3d gravity_W() const { return gravity ? earthGravity() : Eigen::Vector3d::Zero(); }
@@ -168,10 +172,14 @@ double Simulator::getEnergy() const {
 }
 
 void Simulator::stepDynamics(const Eigen::VectorXd& u, double tau) {
-  Stepper stepper(parts_->model, {.gravity_W = parts_->gravity_W(), .noise = parts_->dynamicNoise});
-  State state{parts_->q, parts_->v};
-  stepper.step(state, u, tau, parts_->rng);
-  parts_->moveTo(state.q, state.v);
+  if (!parts_->stepper) {
+    const StepperOptions options{.gravity_W = parts_->gravity_W(), .noise = parts_->dynamicNoise};
+    parts_->stepper.emplace(parts_->model, options);
+  }
+  parts_->next.q = parts_->q;
+  parts_->next.v = parts_->v;
+  parts_->stepper->step(parts_->next, u, tau, parts_->rng);
+  parts_->moveTo(parts_->next.q, parts_->next.v);
 }
 
 void Simulator::setDynamicSimulationNoise(double noise) {
@@ -181,9 +189,13 @@ void Simulator::setDynamicSimulationNoise(double noise) {
                  .wanted = "zero or a positive, finite number"});
   }
   parts_->dynamicNoise = noise;
+  parts_->stepper.reset();
 }
 
-void Simulator::setDynamicGravity(bool gravity) { parts_->gravity = gravity; }
+void Simulator::setDynamicGravity(bool gravity) {
+  parts_->gravity = gravity;
+  parts_->stepper.reset();
+}
 
 void Simulator::setSeed(std::uint64_t seed) {
   parts_->seed = seed;

@@ -114,10 +114,10 @@ class Simulator {
   void getDynamics(Eigen::MatrixXd& M, Eigen::VectorXd& F) const;
   /// Kinetic and potential energy, joules; a body at height z has m 9.81 z.
   double getEnergy() const;
-  /// Moves the robot on by tau > 0 seconds under the joint forces u (n numbers, N m or N), which are held:
+  /// Moves the robot on by tau > 0 seconds under the joint forces u (one per velocity, N m or N), held:
   /// one step of Runge and Kutta, without contacts, limits or friction, and then the noise. Records the
-  /// posture. Throws Error, and moves nothing, for numbers that are not finite and for a joint that moves no
-  /// mass.
+  /// posture. Throws Error, and moves nothing, for numbers that are not finite, for a joint that moves no
+  /// mass, and for a motion that grows without bounds, with its time, which counts from the first step.
   void stepDynamics(const Eigen::VectorXd& u, double tau);
   /// From now on each stepDynamics() adds sqrt(tau) * noise * N(0, 1) to each velocity. The numbers are the
   /// same in every run, see setSeed().
@@ -130,8 +130,8 @@ class Simulator {
 
   /// Holds `body` where it stands now and hangs the rest of its chain on it, as on a foot that stands on the
   /// ground. The world looks as before, but joints count from the new root, so that the numbers of q may
-  /// stand in another order and with another sign; the recording starts anew. Throws Error as
-  /// reconfigureRoot() (scene/scene_edit.h), and for a mesh that is in no file.
+  /// stand in another order and with another sign. The robot is at rest afterwards; recording, noise and time
+  /// start anew. Throws Error as reconfigureRoot() (scene/scene_edit.h), and for a mesh that is in no file.
   void anchorKinematicChainIn(const std::string& body);
 
   /// Draws the present posture into the picture NAME.png. Never opens a window.

@@ -1,6 +1,7 @@
 #include "dynamics/stepper.h"
 
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -11,9 +12,9 @@
 namespace rex {
 namespace {
 
-void requireFinite(const std::string& what, double number) {
+void requireFinite(std::string_view what, double number) {
   if (std::isfinite(number)) return;
-  throw Error({.what = what, .found = fmt::format("{:g}", number), .wanted = "a finite number"});
+  throw Error({.what = std::string(what), .found = fmt::format("{:g}", number), .wanted = "a finite number"});
 }
 
 // `jointOf` tells which joint a number belongs to.

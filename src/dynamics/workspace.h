@@ -2,12 +2,21 @@
 
 #include <vector>
 
+#include <Eigen/Core>
+
 namespace rex {
 
 /// Memory that functions of this module work in, kept by the caller of a hot loop: they allocate nothing once
 /// it has been used with a model.
 struct DynamicsWorkspace {
-  std::vector<double> numbers{};
+  /// As many numbers as a kernel takes at once, at addresses that suit it.
+  struct alignas(64) Line {
+    double numbers[8];
+  };
+  std::vector<Line> lines{};
+  /// M and F of models in which joints mimic others.
+  Eigen::MatrixXd M{};
+  Eigen::VectorXd F{};
 };
 
 }  // namespace rex

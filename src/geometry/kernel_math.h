@@ -44,6 +44,20 @@ inline Vec3<T> transposedTimes(const Mat3<T>& m, const Vec3<T>& v) {
   return {dot(m.c0, v), dot(m.c1, v), dot(m.c2, v)};
 }
 
+/// The rotation of the quaternion from number i on of each row: of any length but zero, which need not be
+/// squared as it is.
+template <class T>
+inline Mat3<T> rotationOfQuaternion(const double* const* lane, int i) {
+  const T w0 = gathered<T>(lane, i), x0 = gathered<T>(lane, i + 1), y0 = gathered<T>(lane, i + 2),
+          z0 = gathered<T>(lane, i + 3);
+  const T size = larger(larger(absolute(w0), absolute(x0)), larger(absolute(y0), absolute(z0)));
+  const T w = w0 / size, x = x0 / size, y = y0 / size, z = z0 / size;
+  const T s = T(2.0) / (w * w + x * x + y * y + z * z), one(1.0);
+  return {{one - s * (y * y + z * z), s * (x * y + w * z), s * (x * z - w * y)},
+          {s * (x * y - w * z), one - s * (x * x + z * z), s * (y * z + w * x)},
+          {s * (x * z + w * y), s * (y * z - w * x), one - s * (x * x + y * y)}};
+}
+
 /// The layout of rex::Pose: the rotation by columns, then the origin.
 template <class T>
 struct KernelPose {

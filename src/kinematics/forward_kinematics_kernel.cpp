@@ -7,19 +7,6 @@ namespace {
 
 using Kind = MotionStep::Kind;
 
-// Coordinate i of one configuration per lane.
-inline void gather(const double* const* q, int i, double& x) { x = q[0][i]; }
-template <int kLanes>
-inline void gather(const double* const* q, int i, Pack<kLanes>& x) {
-  for (int lane = 0; lane < kLanes; ++lane) x.numbers[lane] = q[lane][i];
-}
-template <class T>
-inline T gathered(const double* const* q, int i) {
-  T x;
-  gather(q, i, x);
-  return x;
-}
-
 // The two numbers in which all motions but that of a quaternion are linear.
 template <class T>
 struct Factors {
@@ -33,19 +20,6 @@ inline Factors<T> factors(const MotionStep& step, const double* const* q) {
   if (step.kind == Kind::kSlider) return {x, T(0.0)};
   const SinCos<T> turn = sinCos(x);
   return {turn.cosine, turn.sine};
-}
-
-// The rotation of a quaternion of any length but zero, which need not be squared as it is.
-template <class T>
-inline Mat3<T> rotationOfQuaternion(const double* const* q, int i) {
-  const T w0 = gathered<T>(q, i), x0 = gathered<T>(q, i + 1), y0 = gathered<T>(q, i + 2),
-          z0 = gathered<T>(q, i + 3);
-  const T size = larger(larger(absolute(w0), absolute(x0)), larger(absolute(y0), absolute(z0)));
-  const T w = w0 / size, x = x0 / size, y = y0 / size, z = z0 / size;
-  const T s = T(2.0) / (w * w + x * x + y * y + z * z), one(1.0);
-  return {{one - s * (y * y + z * z), s * (x * y + w * z), s * (x * z - w * y)},
-          {s * (x * y - w * z), one - s * (x * x + z * z), s * (y * z + w * x)},
-          {s * (x * z + w * y), s * (y * z - w * x), one - s * (x * x + y * y)}};
 }
 
 // X times the pose with these columns, one after the other, so that X stays in registers.

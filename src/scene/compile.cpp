@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "geometry/inertia.h"
+#include "scene/links_internal.h"
 #include "scene/model.h"
 #include "scene/motion_steps_internal.h"
 
@@ -422,6 +423,7 @@ Model compile(const SceneSpec& spec) {
   Coordinates coordinates = indexCoordinates(model.joints_, jointSpecs);
   shareCoordinates(model.joints_, jointSpecs, coordinates);
   model.motionSteps_ = internal::motionSteps(model);
+  model.links_ = internal::links(model);
   model.q0_ = std::move(coordinates.q0);
   model.lower_ = std::move(coordinates.lower);
   model.upper_ = std::move(coordinates.upper);

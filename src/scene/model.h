@@ -12,6 +12,7 @@
 
 #include "geometry/pose.h"
 #include "geometry/shape.h"
+#include "scene/link.h"
 #include "scene/motion_step.h"
 #include "scene/scene_spec.h"
 
@@ -96,6 +97,9 @@ class Model {
   /// How to place all bodies but the world, one after the other: the joints and fixed bodies for kernels.
   std::span<const MotionStep> motionSteps() const { return motionSteps_; }
 
+  /// The parts that move, for kernels of dynamics: what is fixed to the world belongs to none.
+  std::span<const Link> links() const { return links_; }
+
   /// All bodies but the world, in the order of the scene file.
   std::span<const BodyId> bodiesInFileOrder() const { return fileOrder_; }
 
@@ -121,6 +125,7 @@ class Model {
   std::vector<Joint> joints_;
   std::vector<ModelShape> shapes_;
   std::vector<MotionStep> motionSteps_;
+  std::vector<Link> links_;
   std::vector<BodyId> fileOrder_;
   std::unordered_map<std::string, BodyId> bodyByName_;
   Eigen::VectorXd q0_, lower_, upper_;

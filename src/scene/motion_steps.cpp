@@ -1,6 +1,5 @@
-#include <numbers>
-
 #include "geometry/rotation.h"
+#include "scene/joint_movements_internal.h"
 #include "scene/motion_steps_internal.h"
 
 namespace rex::internal {
@@ -9,54 +8,8 @@ namespace {
 using Kind = MotionStep::Kind;
 using Matrix34 = Eigen::Matrix<double, 3, 4>;
 
-// One of the movements that a joint type does one after the other, with its coordinate. `axis` says how far a
-// slider goes per unit.
-struct Movement {
-  Kind kind;
-  int coordinate = 0;
-  Eigen::Vector3d axis = Eigen::Vector3d::Zero();
-};
-
-std::vector<Movement> movements(const Joint& joint) {
-  const auto turn = [](int coordinate, const Eigen::Vector3d& axis) {
-    return Movement{Kind::kHinge, coordinate, axis};
-  };
-  const auto move = [](int coordinate, const Eigen::Vector3d& way) {
-    return Movement{Kind::kSlider, coordinate, way};
-  };
-  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(),
-                        z = Eigen::Vector3d::UnitZ();
-  switch (joint.type) {
-    case JointType::kRigid:
-      return {{Kind::kFixed}};
-    case JointType::kHinge:
-      return {turn(0, joint.axis)};
-    case JointType::kSlider:
-      return {move(0, joint.axis)};
-    case JointType::kScrew:
-      return {turn(0, joint.axis), move(0, joint.pitch / (2 * std::numbers::pi) * joint.axis)};
-    case JointType::kCylindrical:
-      return {turn(0, joint.axis), move(1, joint.axis)};
-    case JointType::kPlanarXY:
-      return {move(0, x), move(1, y)};
-    case JointType::kTranslation3:
-      return {move(0, x), move(1, y), move(2, z)};
-    case JointType::kPlanarXYPhi:
-      return {move(0, x), move(1, y), turn(2, z)};
-    case JointType::kPlanarPhiXY:
-      return {turn(0, z), move(1, x), move(2, y)};
-    case JointType::kUniversal:
-      return {turn(0, x), turn(1, y)};
-    case JointType::kBall:
-      return {{Kind::kQuaternion}};
-    case JointType::kFree:
-      return {move(0, x), move(1, y), move(2, z), {Kind::kQuaternion, 3}};
-  }
-  return {};
-}
-
 // The movement between two fixed frames: X = X_before * movement * X_after.
-void setMotion(const Movement& movement, const Pose& X_before, const Pose& X_after, MotionStep& step) {
+void setMotion(const JointMovement& movement, const Pose& X_before, const Pose& X_after, MotionStep& step) {
   const auto set = [](double* numbers, const Eigen::Matrix3d& R, const Eigen::Vector3d& p) {
     Eigen::Map<Matrix34>{numbers} << R, p;
   };
@@ -87,8 +40,8 @@ void setMotion(const Movement& movement, const Pose& X_before, const Pose& X_aft
 
 void append(const Joint& joint, std::vector<MotionStep>& steps) {
   const int child = static_cast<int>(joint.child);
-  const std::vector<Movement> all = movements(joint);
-  for (const Movement& movement : all) {
+  const std::vector<JointMovement> all = movements(joint);
+  for (const JointMovement& movement : all) {
     const bool isFirst = &movement == &all.front(), isLast = &movement == &all.back();
     steps.push_back({.kind = movement.kind,
                      .from = isFirst ? static_cast<int>(joint.parent) : child,

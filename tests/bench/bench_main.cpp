@@ -47,6 +47,8 @@ std::vector<Group> select(std::vector<Group> groups, const std::vector<std::stri
 
 void run(const std::vector<std::string>& names, bool asJson) {
   const std::vector<Group> groups = select({{"collision", collisionRows()},
+                                            {"dynamics", dynamicsRows()},
+                                            {"dynamics", steppingRows()},
                                             {"grading", gradingRows()},
                                             {"ik", ikRows()},
                                             {"kinematics", kinematicsRows()},

@@ -41,17 +41,6 @@ struct Workspace {
   Eigen::Matrix3Xd J, moments;
 };
 
-// Times the work at one posture after the other.
-Measurement timedInTurn(const std::function<void(int k)>& work) {
-  if (!work) return {};
-  return timed([work, k = 0]() mutable { work(k = (k + 1) % Robot::kPostures); });
-}
-
-// Times the work at all postures at once, per posture.
-Measurement timedPerPosture(const std::function<void()>& work) {
-  return [all = timed(work)] { return all() / Robot::kPostures; };
-}
-
 }  // namespace
 
 void requireAgreement(const std::string& what, const Eigen::MatrixXd& ours, const Eigen::MatrixXd& theirs) {

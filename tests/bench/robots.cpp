@@ -63,4 +63,13 @@ std::vector<Robot> robots() {
   return all;
 }
 
+Measurement timedInTurn(const std::function<void(int k)>& work) {
+  if (!work) return {};
+  return timed([work, k = 0]() mutable { work(k = (k + 1) % Robot::kPostures); });
+}
+
+Measurement timedPerPosture(const std::function<void()>& work) {
+  return [all = timed(work)] { return all() / Robot::kPostures; };
+}
+
 }  // namespace rex::bench

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bench/row.h"
 #include "scene/model.h"
 
 namespace rex::bench {
@@ -16,5 +17,10 @@ struct Robot {
 /// An arm of seven hinges with the frames of a common industrial robot, "arm7"; a chain of 30 links with
 /// random frames, "chain30"; and the humanoid of data/robots, "man", with its hand.
 [[nodiscard]] std::vector<Robot> robots();
+
+/// Measures the work at one posture after the other, and at all postures at once, per posture. Empty without
+/// work.
+[[nodiscard]] Measurement timedInTurn(const std::function<void(int k)>& work);
+[[nodiscard]] Measurement timedPerPosture(const std::function<void()>& work);
 
 }  // namespace rex::bench

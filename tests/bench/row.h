@@ -34,10 +34,12 @@ struct Result {
 /// The groups, a file each. Setting one up takes little time; it throws std::logic_error where ours and a
 /// peer do not compute the same.
 [[nodiscard]] std::vector<Row> collisionRows();
+[[nodiscard]] std::vector<Row> dynamicsRows();
 [[nodiscard]] std::vector<Row> gradingRows();
 [[nodiscard]] std::vector<Row> ikRows();
 [[nodiscard]] std::vector<Row> kinematicsRows();
 [[nodiscard]] std::vector<Row> renderRows();
 [[nodiscard]] std::vector<Row> sceneRows();
+[[nodiscard]] std::vector<Row> steppingRows();
 
 }  // namespace rex::bench

@@ -1,0 +1,232 @@
+#include "dynamics/forward_dynamics_kernel_internal.h"
+
+namespace rex::internal {
+namespace {
+
+// A torque about the origin of a frame with a force, and the acceleration of a frame with that of its origin.
+template <class T>
+struct SpatialForce {
+  Vec3<T> torque, force;
+  friend SpatialForce operator+(const SpatialForce& a, const SpatialForce& b) {
+    return {a.torque + b.torque, a.force + b.force};
+  }
+  friend SpatialForce operator*(const T& s, const SpatialForce& a) { return {s * a.torque, s * a.force}; }
+};
+template <class T>
+struct SpatialMotion {
+  Vec3<T> angular, linear;
+};
+template <class T>
+inline T dot(const SpatialForce<T>& w, const SpatialMotion<T>& a) {
+  return dot(w.torque, a.angular) + dot(w.force, a.linear);
+}
+
+// What a link with all it carries resists accelerations by, when the joints below give way:
+// torque = A angular + B linear, force = B^T angular + D linear.
+template <class T>
+struct Inertia {
+  Sym3<T> A, D;
+  Mat3<T> B;
+
+  friend Inertia operator+(const Inertia& a, const Inertia& b) { return {a.A + b.A, a.D + b.D, a.B + b.B}; }
+  friend SpatialForce<T> operator*(const Inertia& I, const SpatialMotion<T>& a) {
+    return {I.A * a.angular + I.B * a.linear, transposedTimes(I.B, a.angular) + I.D * a.linear};
+  }
+};
+
+template <class T>
+struct State {
+  KernelPose<T> X_PL;
+  Vec3<T> angularVelocity;
+  SpatialMotion<T> bias;  // what the velocities add to that of the parent
+  SpatialMotion<T> acceleration;
+  Inertia<T> inertia;
+  SpatialForce<T> resistance;  // the forces at no acceleration
+};
+
+// A coordinate, as it is solved for: acceleration = (rest - work with column of all other accelerations) /
+// inertia.
+template <class T>
+struct Freedom {
+  SpatialForce<T> column;  // what its unit acceleration takes
+  T perInertia, rest;
+};
+
+// The wrench that a unit acceleration along the coordinate takes, and what the coordinate sees of a wrench.
+template <class T>
+inline SpatialForce<T> columnOf(const Link& link, const Inertia<T>& I) {
+  const SpatialForce<T> turning{{I.A.xz, I.A.yz, I.A.zz}, {I.B.c0.z, I.B.c1.z, I.B.c2.z}};
+  if (link.kind == Link::Kind::kHinge) return turning;
+  const SpatialForce<T> moving{I.B.c2, {I.D.xz, I.D.yz, I.D.zz}};
+  return link.kind == Link::Kind::kSlider ? moving : turning + T(link.pitch) * moving;
+}
+template <class T>
+inline T seen(const Link& link, const SpatialForce<T>& w) {
+  if (link.kind == Link::Kind::kHinge) return w.torque.z;
+  return link.kind == Link::Kind::kSlider ? w.force.z : w.torque.z + T(link.pitch) * w.force.z;
+}
+template <class T>
+inline void accelerate(const Link& link, const T& x, SpatialMotion<T>& a) {
+  if (link.kind != Link::Kind::kSlider) a.angular.z = a.angular.z + x;
+  if (link.kind == Link::Kind::kSlider) a.linear.z = a.linear.z + x;
+  if (link.kind == Link::Kind::kScrew) a.linear.z = a.linear.z + T(link.pitch) * x;
+}
+
+// Lets a coordinate give way to its force: what is left resists the other accelerations.
+template <class T>
+inline void eliminate(const Freedom<T>& freedom, Inertia<T>& I, SpatialForce<T>& resistance) {
+  const Vec3<T> t = freedom.column.torque, f = freedom.column.force;
+  const Vec3<T> dt = freedom.perInertia * t, df = freedom.perInertia * f;
+  I.A = {I.A.xx - dt.x * t.x, I.A.xy - dt.x * t.y, I.A.xz - dt.x * t.z,
+         I.A.yy - dt.y * t.y, I.A.yz - dt.y * t.z, I.A.zz - dt.z * t.z};
+  I.D = {I.D.xx - df.x * f.x, I.D.xy - df.x * f.y, I.D.xz - df.x * f.z,
+         I.D.yy - df.y * f.y, I.D.yz - df.y * f.z, I.D.zz - df.z * f.z};
+  I.B = {I.B.c0 - f.x * dt, I.B.c1 - f.y * dt, I.B.c2 - f.z * dt};
+  resistance = resistance + freedom.rest * SpatialForce<T>{dt, df};
+}
+
+// The same inertia seen from the parent's frame.
+template <class T>
+inline Inertia<T> inParent(const KernelPose<T>& X, const Inertia<T>& I) {
+  const Sym3<T> D = rotated(X.R, I.D);
+  const Mat3<T> Bt = X.R * transposed(I.B) * transposed(X.R);
+  const Mat3<T> B = transposed(Bt) + cross(X.p, full(D));
+  return {rotated(X.R, I.A) + symmetric(transposed(cross(X.p, transposed(B))) + cross(X.p, Bt)), D, B};
+}
+
+// How the velocities move the link.
+template <class T>
+inline void setVelocity(const Link& link, const State<T>& parent, const double* const* v, State<T>& state) {
+  const Vec3<T>& w_P = parent.angularVelocity;
+  const int i = link.vIndex;
+  Vec3<T> w = transposedTimes(state.X_PL.R, w_P);
+  state.bias = {{}, transposedTimes(state.X_PL.R, cross(w_P, cross(w_P, state.X_PL.p)))};
+  if (link.kind == Link::Kind::kQuaternion) {
+    const Vec3<T> rate{gathered<T>(v, i), gathered<T>(v, i + 1), gathered<T>(v, i + 2)};
+    state.bias.angular = cross(w, rate);
+    state.angularVelocity = w + rate;
+    return;
+  }
+  const T rate = gathered<T>(v, i);
+  const Vec3<T> sideways = rate * crossZ(w);
+  if (link.kind != Link::Kind::kHinge) {
+    const T perRate(link.kind == Link::Kind::kSlider ? 1 : link.pitch);
+    state.bias.linear = state.bias.linear + T(2.0) * perRate * sideways;  // Coriolis'
+  }
+  if (link.kind != Link::Kind::kSlider) {
+    state.bias.angular = sideways;
+    w.z = w.z + rate;
+  }
+  state.angularVelocity = w;
+}
+
+// The link alone.
+template <class T>
+inline void setInertia(const Link& link, State<T>& state) {
+  const T zero(0.0), mass(link.mass);
+  const Vec3<T> h = broadcastVec3<T>(link.moment), w = state.angularVelocity;
+  const Sym3<T> I = broadcastSym3<T>(link.inertia);
+  state.inertia = {
+      I, {mass, zero, zero, mass, zero, mass}, {{zero, h.z, -h.y}, {-h.z, zero, h.x}, {h.y, -h.x, zero}}};
+  state.resistance = {cross(w, I * w), cross(w, cross(w, h))};
+}
+
+// Takes the freedoms of the link out of what it resists. Returns whether they all meet some inertia.
+template <class T>
+inline bool solveForFreedoms(const Link& link, const double* const* u, State<T>& state, Freedom<T>* own) {
+  const T least(ForwardDynamicsKernel::kLeastShare * link.largestInertia);
+  const auto solve = [&](Freedom<T>& freedom, int i, T inertia, T resistance) {
+    freedom.perInertia = T(1.0) / inertia;
+    freedom.rest = gathered<T>(u, link.vIndex + i) - resistance;
+    eliminate(freedom, state.inertia, state.resistance);
+    return !any(inertia <= least);
+  };
+  const Inertia<T>& I = state.inertia;
+  if (link.kind != Link::Kind::kQuaternion) {
+    own->column = columnOf(link, I);
+    return solve(*own, 0, seen(link, own->column), seen(link, state.resistance));
+  }
+  own[0].column = {{I.A.xx, I.A.xy, I.A.xz}, {I.B.c0.x, I.B.c1.x, I.B.c2.x}};
+  bool regular = solve(own[0], 0, I.A.xx, state.resistance.torque.x);
+  own[1].column = {{I.A.xy, I.A.yy, I.A.yz}, {I.B.c0.y, I.B.c1.y, I.B.c2.y}};
+  regular = solve(own[1], 1, I.A.yy, state.resistance.torque.y) && regular;
+  own[2].column = {{I.A.xz, I.A.yz, I.A.zz}, {I.B.c0.z, I.B.c1.z, I.B.c2.z}};
+  return solve(own[2], 2, I.A.zz, state.resistance.torque.z) && regular;
+}
+
+template <class T>
+inline void setAcceleration(const Link& link, const Freedom<T>* own, double* const* a,
+                            SpatialMotion<T>& all) {
+  const auto solved = [&](int i) {
+    const T x = own[i].perInertia * (own[i].rest - dot(own[i].column, all));
+    scatter(x, a, link.vIndex + i);
+    return x;
+  };
+  if (link.kind != Link::Kind::kQuaternion) {
+    accelerate(link, solved(0), all);
+    return;
+  }
+  all.angular.z = all.angular.z + solved(2);
+  all.angular.y = all.angular.y + solved(1);
+  all.angular.x = all.angular.x + solved(0);
+}
+
+// That all accelerates upwards stands for gravity.
+template <class T>
+inline int solve(const DynamicsTask& task, const double* const* q, const double* const* v,
+                 const double* const* u, double* const* a) {
+  State<T>* world = static_cast<State<T>*>(task.memory);
+  State<T>* states = world + 1;  // so that the world is the parent Link::kNoParent
+  Freedom<T>* freedoms = reinterpret_cast<Freedom<T>*>(states + task.linkCount);
+  *world = {};
+  world->acceleration.linear = -broadcastVec3<T>(task.gravity_W);
+
+  for (int i = 0; i < task.linkCount; ++i) {
+    const Link& link = task.links[i];
+    states[i].X_PL = poseInParent<T>(link, q);
+    setVelocity(link, states[link.parent], v, states[i]);
+    setInertia(link, states[i]);
+  }
+  for (int i = task.linkCount - 1; i >= 0; --i) {
+    const Link& link = task.links[i];
+    State<T>& state = states[i];
+    if (!solveForFreedoms(link, u, state, freedoms + link.vIndex)) return i;
+    if (link.parent == Link::kNoParent) continue;
+    State<T>& parent = states[link.parent];
+    parent.inertia = parent.inertia + inParent(state.X_PL, state.inertia);
+    const SpatialForce<T> w = state.resistance + state.inertia * state.bias;
+    const Vec3<T> force = state.X_PL.R * w.force;
+    parent.resistance =
+        parent.resistance + SpatialForce<T>{state.X_PL.R * w.torque + cross(state.X_PL.p, force), force};
+  }
+  for (int i = 0; i < task.linkCount; ++i) {
+    const Link& link = task.links[i];
+    const KernelPose<T>& X = states[i].X_PL;
+    const SpatialMotion<T>& parent = states[link.parent].acceleration;
+    SpatialMotion<T>& all = states[i].acceleration;
+    all.angular = transposedTimes(X.R, parent.angular) + states[i].bias.angular;
+    all.linear = transposedTimes(X.R, parent.linear + cross(parent.angular, X.p)) + states[i].bias.linear;
+    setAcceleration(link, freedoms + link.vIndex, a, all);
+  }
+  return ForwardDynamicsKernel::kRegular;
+}
+
+template <class T, int kCount>
+int solveAll(const DynamicsTask& task) {
+  for (int k = 0; k < kCount; k += kLanesOf<T>) {
+    const int link = solve<T>(task, task.q + k, task.v + k, task.given + k, task.result + k);
+    if (link != ForwardDynamicsKernel::kRegular) return link;
+  }
+  return ForwardDynamicsKernel::kRegular;
+}
+
+}  // namespace
+
+template <int kLanes>
+ForwardDynamicsKernel ForwardDynamicsKernel::compiled() {
+  return {&solveAll<double, 1>, &solveAll<InLanes<kLanes>, DynamicsTask::kBlock>, kLanesOf<State<double>>,
+          kLanesOf<Freedom<double>>};
+}
+template ForwardDynamicsKernel ForwardDynamicsKernel::compiled<REX_LANES>();
+
+}  // namespace rex::internal

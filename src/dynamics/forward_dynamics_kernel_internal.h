@@ -1,0 +1,25 @@
+#pragma once
+
+#include "dynamics/link_kernel_internal.h"
+
+namespace rex::internal {
+
+/// Forward dynamics in plain numbers, for models without joints that mimic: given are forces, results are
+/// accelerations.
+struct ForwardDynamicsKernel {
+  /// Returns kRegular, or the place of a link whose coordinate meets no inertia; no result is written then.
+  using Solve = int (*)(const DynamicsTask& task);
+  static constexpr int kRegular = -1;
+  /// An inertia below this share of Link::largestInertia is none: rounding leaves some 1e-16 of a chain that
+  /// has none, and a thousand times as much leaves three digits of the acceleration.
+  static constexpr double kLeastShare = 1e-13;
+
+  Solve one;                              ///< of one state
+  Solve block;                            ///< of DynamicsTask::kBlock states
+  int numbersPerLink, numbersPerFreedom;  ///< of memory, per lane; the world counts as a link
+
+  template <int kLanes>
+  static ForwardDynamicsKernel compiled();
+};
+
+}  // namespace rex::internal

@@ -1,0 +1,132 @@
+#include "dynamics/inverse_dynamics_kernel_internal.h"
+
+namespace rex::internal {
+namespace {
+
+// All in the frame of the link, and of its origin.
+template <class T>
+struct Motion {
+  KernelPose<T> X_PL;
+  Vec3<T> angularVelocity, angularAcceleration, acceleration;
+  Mat3<T> spin;           // how much more a point accelerates than the origin, per metre
+  Vec3<T> torque, force;  // it takes to move it and what it carries
+};
+
+// [dw]x + [w]x [w]x.
+template <class T>
+inline Mat3<T> spinOf(const Vec3<T>& w, const Vec3<T>& dw) {
+  const T xx = w.x * w.x, yy = w.y * w.y, zz = w.z * w.z;
+  const T xy = w.x * w.y, xz = w.x * w.z, yz = w.y * w.z;
+  return {
+      {-yy - zz, xy + dw.z, xz - dw.y}, {xy - dw.z, -xx - zz, yz + dw.x}, {xz + dw.y, yz - dw.x, -xx - yy}};
+}
+
+// Adds to how the parent moves the link what its own coordinate does: its rate, and the rate's rate.
+template <class T>
+inline void addFreedom(const Link& link, const double* const* v, const double* const* a, Motion<T>& m) {
+  const int i = link.vIndex;
+  if (link.kind == Link::Kind::kQuaternion) {
+    const Vec3<T> w{gathered<T>(v, i), gathered<T>(v, i + 1), gathered<T>(v, i + 2)};
+    const Vec3<T> dw{gathered<T>(a, i), gathered<T>(a, i + 1), gathered<T>(a, i + 2)};
+    m.angularAcceleration = m.angularAcceleration + cross(m.angularVelocity, w) + dw;
+    m.angularVelocity = m.angularVelocity + w;
+    return;
+  }
+  const T rate = T(link.ratio) * gathered<T>(v, i), acceleration = T(link.ratio) * gathered<T>(a, i);
+  const Vec3<T> sideways = rate * crossZ(m.angularVelocity);
+  if (link.kind != Link::Kind::kHinge) {
+    const T perRate(link.kind == Link::Kind::kSlider ? 1 : link.pitch);
+    m.acceleration = m.acceleration + T(2.0) * perRate * sideways;  // Coriolis'
+    m.acceleration.z = m.acceleration.z + perRate * acceleration;
+    if (link.kind == Link::Kind::kSlider) return;
+  }
+  m.angularAcceleration = m.angularAcceleration + sideways;
+  m.angularAcceleration.z = m.angularAcceleration.z + acceleration;
+  m.angularVelocity.z = m.angularVelocity.z + rate;
+}
+
+// What it takes to move the link alone.
+template <class T>
+inline void setForces(const Link& link, Motion<T>& m) {
+  const Vec3<T> moment = broadcastVec3<T>(link.moment);
+  const Sym3<T> I = broadcastSym3<T>(link.inertia);
+  m.force = T(link.mass) * m.acceleration + m.spin * moment;
+  m.torque = I * m.angularAcceleration + cross(m.angularVelocity, I * m.angularVelocity) +
+             cross(moment, m.acceleration);
+}
+
+template <class T>
+inline void addToForces(const Link& link, const Motion<T>& m, T* forces) {
+  T* own = forces + link.vIndex;
+  const T ratio(link.ratio);
+  switch (link.kind) {
+    case Link::Kind::kHinge:
+      own[0] = own[0] + ratio * m.torque.z;
+      return;
+    case Link::Kind::kScrew:
+      own[0] = own[0] + ratio * (m.torque.z + T(link.pitch) * m.force.z);
+      return;
+    case Link::Kind::kSlider:
+      own[0] = own[0] + ratio * m.force.z;
+      return;
+    case Link::Kind::kQuaternion:
+      own[0] = own[0] + m.torque.x;
+      own[1] = own[1] + m.torque.y;
+      own[2] = own[2] + m.torque.z;
+      return;
+  }
+}
+
+// Newton and Euler's recursion. That all accelerates upwards stands for gravity.
+template <class T>
+inline void solve(const DynamicsTask& task, const double* const* q, const double* const* v,
+                  const double* const* a, double* const* u) {
+  Motion<T>* world = static_cast<Motion<T>*>(task.memory);
+  Motion<T>* motions = world + 1;  // so that the world is the parent Link::kNoParent
+  T* forces = reinterpret_cast<T*>(motions + task.linkCount);
+  const T zero(0.0);
+  *world = {};
+  world->acceleration = -broadcastVec3<T>(task.gravity_W);
+  for (int i = 0; i < task.nv; ++i) forces[i] = zero;
+
+  for (int i = 0; i < task.linkCount; ++i) {
+    const Link& link = task.links[i];
+    const Motion<T>& parent = motions[link.parent];
+    Motion<T>& m = motions[i];
+    m.X_PL = poseInParent<T>(link, q);
+    m.angularVelocity = transposedTimes(m.X_PL.R, parent.angularVelocity);
+    m.angularAcceleration = transposedTimes(m.X_PL.R, parent.angularAcceleration);
+    m.acceleration = transposedTimes(m.X_PL.R, parent.acceleration + parent.spin * m.X_PL.p);
+    addFreedom(link, v, a, m);
+    m.spin = spinOf(m.angularVelocity, m.angularAcceleration);
+    setForces(link, m);
+  }
+  for (int i = task.linkCount - 1; i >= 0; --i) {
+    const Link& link = task.links[i];
+    const Motion<T>& m = motions[i];
+    addToForces(link, m, forces);
+    if (link.parent == Link::kNoParent) continue;
+    Motion<T>& parent = motions[link.parent];
+    const Vec3<T> force = m.X_PL.R * m.force;
+    parent.force = parent.force + force;
+    parent.torque = parent.torque + m.X_PL.R * m.torque + cross(m.X_PL.p, force);
+  }
+  for (int i = 0; i < task.nv; ++i) scatter(forces[i], u, i);
+}
+
+template <class T, int kCount>
+void solveAll(const DynamicsTask& task) {
+  for (int k = 0; k < kCount; k += kLanesOf<T>)
+    solve<T>(task, task.q + k, task.v + k, task.given + k, task.result + k);
+}
+
+}  // namespace
+
+template <int kLanes>
+InverseDynamicsKernel InverseDynamicsKernel::compiled() {
+  return {&solveAll<double, 1>, &solveAll<InLanes<kLanes>, DynamicsTask::kBlock>, kLanesOf<Motion<double>>,
+          1};
+}
+template InverseDynamicsKernel InverseDynamicsKernel::compiled<REX_LANES>();
+
+}  // namespace rex::internal

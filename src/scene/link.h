@@ -1,0 +1,35 @@
+#pragma once
+
+namespace rex {
+
+/// A moving part of the tree in plain numbers, for the kernels of dynamics: each has one coordinate, or one
+/// quaternion, and all that hangs on it rigidly is part of it. A joint of several coordinates is a chain of
+/// links, all but the last without mass. Parents stand before children. Frame L of the link moves in that of
+/// its parent P as
+///   kHinge:       X_PL = constant * Rz(x)
+///   kScrew:       X_PL = constant * Rz(x) * translation along z by pitch x
+///   kSlider:      X_PL = constant * translation along z by x
+///   kQuaternion:  X_PL = constant * R(q[qIndex] to q[qIndex + 3])
+/// with x = ratio * q[qIndex] + offset. Its rate is ratio * v[vIndex]; that of a quaternion is the angular
+/// velocity in L, v[vIndex] to v[vIndex + 2].
+struct Link {
+  enum class Kind { kHinge, kScrew, kSlider, kQuaternion };
+  static constexpr int kNoParent = -1;  ///< it moves in the world
+
+  Kind kind = Kind::kHinge;
+  int parent = kNoParent;  ///< a place in Model::links()
+  int body = 0;            ///< the child of the joint it belongs to
+  int qIndex = 0, vIndex = 0;
+  double ratio = 1, offset = 0;
+  double pitch = 0;  ///< of a screw: metres per radian
+
+  double X_PL[12]{};    ///< the constant, stored by columns as rex::Pose
+  double mass = 0;      ///< kg
+  double moment[3]{};   ///< mass times centre of mass, in L, kg m
+  double inertia[6]{};  ///< about L's origin, in L, kg m^2: xx, xy, xz, yy, yz, zz
+  /// No less than the inertia that its coordinate can meet (kg m^2, or of a slider kg) as long as sliders
+  /// below stay within reach of their zero: a scale to tell a small inertia from none.
+  double largestInertia = 0;
+};
+
+}  // namespace rex

@@ -1,0 +1,116 @@
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
+
+#include "geometry/rotation.h"
+#include "scene/joint_movements_internal.h"
+#include "scene/links_internal.h"
+
+namespace rex::internal {
+namespace {
+
+using Kind = Link::Kind;
+
+// A frame fixed in a link, or in the world.
+struct Place {
+  int link = Link::kNoParent;
+  Pose X_LA{};
+};
+
+// The frame with that z axis, which joints are brought to.
+Pose frameAlong(const Eigen::Vector3d& z) {
+  const Eigen::Vector3d x = z.unitOrthogonal();
+  Pose X;
+  X.R << x, z.cross(x), z;
+  return X;
+}
+
+Kind kindOf(const Joint& joint, const JointMovement& movement) {
+  if (movement.kind == MotionStep::Kind::kQuaternion) return Kind::kQuaternion;
+  if (movement.kind == MotionStep::Kind::kSlider) return Kind::kSlider;
+  return joint.type == JointType::kScrew ? Kind::kScrew : Kind::kHinge;
+}
+
+// Appends the links of a joint. Returns the place of its child.
+Place append(const Joint& joint, const Place& parent, std::vector<Link>& links) {
+  Place at{parent.link, parent.X_LA * joint.X_PF};
+  if (joint.type == JointType::kRigid) return {at.link, at.X_LA * joint.X_MC};
+  std::vector<JointMovement> all = movements(joint);
+  if (joint.type == JointType::kScrew) all.resize(1);  // it turns and moves by one coordinate
+  for (const JointMovement& movement : all) {
+    Link link{.kind = kindOf(joint, movement),
+              .parent = at.link,
+              .body = static_cast<int>(joint.child),
+              .qIndex = joint.qIndex + movement.coordinate,
+              .vIndex = joint.vIndex + movement.coordinate,
+              .ratio = joint.ratio,
+              .offset = joint.offset};
+    if (link.kind == Kind::kScrew) link.pitch = joint.pitch / (2 * std::numbers::pi);
+    const Pose X_AL = link.kind == Kind::kQuaternion ? Pose{} : frameAlong(movement.axis);
+    const Pose X_PL = at.X_LA * X_AL;
+    Eigen::Map<Eigen::Matrix<double, 3, 4>>{link.X_PL} << X_PL.R, X_PL.p;
+    at = {static_cast<int>(links.size()), X_AL.inverse()};
+    links.push_back(link);
+  }
+  return {at.link, at.X_LA * joint.X_MC};
+}
+
+void addMass(const Body& body, const Pose& X_LB, Link& link) {
+  const Eigen::Vector3d c = X_LB * body.p_BBcm;
+  const Eigen::Matrix3d C = skew(c);
+  const Eigen::Matrix3d I = X_LB.R * body.I_BBcm_B * X_LB.R.transpose() - body.mass * C * C;
+  link.mass += body.mass;
+  Eigen::Map<Eigen::Vector3d>{link.moment} += body.mass * c;
+  const double sixOfI[] = {I(0, 0), I(0, 1), I(0, 2), I(1, 1), I(1, 2), I(2, 2)};
+  for (int i = 0; i < 6; ++i) link.inertia[i] += sixOfI[i];
+}
+
+// Bounds of a subtree: its mass, and the trace of its inertia about the origin of its root, if the distances
+// from one origin to the next add up. Roots of the trace are norms of how far all mass is away, times
+// sqrt(2), so they keep to the triangle inequality.
+struct Reach {
+  double mass = 0, inertia = 0;
+  void add(const Reach& below, double distance) {
+    const double root = std::sqrt(below.inertia) + distance * std::sqrt(2 * below.mass);
+    mass += below.mass;
+    inertia += root * root;
+  }
+};
+
+void setLargestInertias(std::vector<Link>& links) {
+  std::vector<Reach> reaches(links.size());
+  for (std::size_t i = links.size(); i-- > 0;) {
+    Link& link = links[i];
+    Reach& reach = reaches[i];
+    const double* I = link.inertia;
+    reach.add({link.mass, I[0] + I[3] + I[5]}, 0);
+    const double turning = reach.inertia, moving = reach.mass;
+    link.largestInertia = link.kind == Kind::kSlider ? moving : turning + link.pitch * link.pitch * moving;
+    if (link.parent == Link::kNoParent) continue;
+    const Eigen::Vector3d p_PL = Eigen::Map<const Eigen::Vector3d>(link.X_PL + 9);
+    reaches[static_cast<std::size_t>(link.parent)].add(reach, p_PL.norm());
+  }
+}
+
+}  // namespace
+
+std::vector<Link> links(const Model& model) {
+  std::vector<Link> links;
+  std::vector<Place> places(model.bodies().size());
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    const Body& body = model.bodies()[i];
+    const Place& parent = places[static_cast<std::size_t>(body.parent)];
+    if (body.joint == kNoJoint) {
+      places[i] = {parent.link, parent.X_LA * body.X_PB};
+    } else {
+      places[i] = append(model[body.joint], parent, links);
+    }
+    if (places[i].link != Link::kNoParent)
+      addMass(body, places[i].X_LA, links[static_cast<std::size_t>(places[i].link)]);
+  }
+  setLargestInertias(links);
+  return links;
+}
+
+}  // namespace rex::internal

@@ -1,0 +1,89 @@
+#include <memory>
+
+#include "base/cpu_lanes.h"
+#include "base/rng.h"
+#include "bench/dynamics_peer.h"
+#include "bench/row.h"
+#include "dynamics/dynamics_batch_internal.h"
+#include "dynamics/forward_dynamics.h"
+
+namespace rex::bench {
+namespace {
+
+// Ours, with the storage a hot loop keeps.
+struct Workspace {
+  explicit Workspace(MovingRobot r)
+      : robot(std::move(r)), result(robot.model.nv()), results(robot.model.nv(), Robot::kPostures) {}
+
+  void inverseDynamics(int k) {
+    rex::inverseDynamics(robot.model, robot.Q.col(k), robot.V.col(k), robot.A.col(k), gravity_W, memory,
+                         result);
+  }
+  void forwardDynamics(int k) {
+    rex::forwardDynamics(robot.model, robot.Q.col(k), robot.V.col(k), robot.U.col(k), gravity_W, memory,
+                         result);
+  }
+  void inverseDynamicsBatch(int lanes) {
+    internal::inverseDynamicsBatch(kernelFor<internal::InverseDynamicsKernel>(lanes), robot.model, robot.Q,
+                                   robot.V, robot.A, gravity_W, memory, results);
+  }
+  void forwardDynamicsBatch(int lanes) {
+    internal::forwardDynamicsBatch(kernelFor<internal::ForwardDynamicsKernel>(lanes), robot.model, robot.Q,
+                                   robot.V, robot.U, gravity_W, memory, results);
+  }
+
+  MovingRobot robot;
+  Eigen::Vector3d gravity_W = earthGravity();
+  DynamicsWorkspace memory;
+  Eigen::VectorXd result;
+  Eigen::MatrixXd results;
+};
+using Ours = std::shared_ptr<Workspace>;
+
+void addInverseDynamics(const Ours& ours, const DynamicsPeer& mujoco, std::vector<Row>& rows) {
+  const auto theirs = timedInTurn(mujoco.inverseDynamics);
+  const auto batch = [&](int lanes) { return timedPerPosture([=] { ours->inverseDynamicsBatch(lanes); }); };
+  const std::string on = "-" + ours->robot.name;
+  rows.push_back(
+      {"rnea" + on, timedInTurn([ours](int k) { ours->inverseDynamics(k); }), "MuJoCo", theirs, 0.3});
+  rows.push_back({"rnea-batch" + on, batch(cpuLanes()), "MuJoCo", theirs, 0.08});
+  rows.push_back({"rnea-batch-2-lanes" + on, batch(2), "MuJoCo", theirs, 0.2});
+}
+
+void addForwardDynamics(const Ours& ours, const DynamicsPeer& mujoco, std::vector<Row>& rows) {
+  const auto theirs = timedInTurn(mujoco.forwardDynamics);
+  const auto batch = [&](int lanes) { return timedPerPosture([=] { ours->forwardDynamicsBatch(lanes); }); };
+  const std::string on = "-" + ours->robot.name;
+  rows.push_back({"forward-dynamics" + on, timedInTurn([ours](int k) { ours->forwardDynamics(k); }), "MuJoCo",
+                  theirs, 0.5});
+  rows.push_back({"forward-dynamics-batch" + on, batch(cpuLanes()), "MuJoCo", theirs, 0.14});
+  rows.push_back({"forward-dynamics-batch-2-lanes" + on, batch(2), "MuJoCo", theirs, 0.35});
+}
+
+}  // namespace
+
+std::vector<MovingRobot> movingRobots() {
+  Rng rng(2);
+  std::vector<MovingRobot> all;
+  for (Robot& robot : robots()) {
+    const int nv = robot.model.nv();
+    const auto columns = [&] {
+      return Eigen::MatrixXd::NullaryExpr(nv, Robot::kPostures, [&] { return rng.normal(); });
+    };
+    all.push_back({std::move(robot), columns(), columns(), columns()});
+  }
+  return all;
+}
+
+std::vector<Row> dynamicsRows() {
+  std::vector<Row> rows;
+  for (MovingRobot& robot : movingRobots()) {
+    const DynamicsPeer mujoco = mujocoDynamicsPeer(robot);
+    const Ours ours = std::make_shared<Workspace>(std::move(robot));
+    addInverseDynamics(ours, mujoco, rows);
+    addForwardDynamics(ours, mujoco, rows);
+  }
+  return rows;
+}
+
+}  // namespace rex::bench
