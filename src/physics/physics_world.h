@@ -15,6 +15,7 @@ struct PhysicsOptions {
   double restitution = 0;  ///< 0: nothing bounces, 1: without loss
   bool jointLimits = true;
   bool jointFriction = true;  ///< Joint::damping and friction of the scene
+  int iterations = 20;        ///< of the solver, per step
 };
 
 /// What drives a coordinate of v (see Joint::vIndex): a force, or a motor that holds a velocity or a position

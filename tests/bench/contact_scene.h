@@ -29,11 +29,7 @@ struct ContactScene {
 /// Whether there is contact at posture k of the scene, as peers say; throw std::logic_error where they and we
 /// disagree by more than their own tolerance. Empty: not installed.
 using ContactPeer = std::function<bool(int k)>;
-#ifdef REX_WITH_BULLET
 [[nodiscard]] ContactPeer bulletPeer(const ContactScene& scene);
-#else
-[[nodiscard]] inline ContactPeer bulletPeer(const ContactScene&) { return {}; }
-#endif
 #ifdef REX_WITH_FCL
 [[nodiscard]] ContactPeer fclPeer(const ContactScene& scene);
 #else

@@ -1,0 +1,275 @@
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "physics/articulation_internal.h"
+#include "physics/bullet_math_internal.h"
+#include "physics/elementary_moves_internal.h"
+
+namespace rex::internal {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kBaseVelocities = 6;
+// A position motor closes the way to its target at this rate, 1/s: slow enough for arms to brake.
+constexpr double kPositionRate = 20;
+// The share of an overstepped joint limit that a step takes back, as Bullet does at contacts.
+constexpr double kLimitShare = 0.2;
+// Limits take part from this far, radians or metres, and from twice the way of a step.
+constexpr double kLimitReach = 0.01;
+
+int linkCount(const Model& model, std::span<const BodyId> bodies) {
+  std::size_t count = 0;
+  for (const BodyId body : bodies) count += elementaryMoves(model[model[body].joint]).size();
+  return static_cast<int>(count);
+}
+
+}  // namespace
+
+Articulation::Articulation(const Model& model, std::span<const BodyId> bodies, const Pose& X_WP,
+                           std::span<btCollisionShape* const> shapes, const PhysicsOptions& options)
+    : options_(options) {
+  const Joint& first = model[model[bodies.front()].joint];
+  std::vector<Grown> grown(model.bodies().size(), {-1, X_WP.inverse()});
+  const bool isFree = first.type == JointType::kFree;
+  if (isFree) {
+    const Link link = linkOf(model[first.child]);
+    base_.emplace(first, X_WP, link.X_BL, options);
+    baseVIndex_ = first.vIndex;
+    grown[static_cast<std::size_t>(first.child)] = {-1, link.X_BL};
+    body_.emplace(linkCount(model, bodies.subspan(1)), link.mass, link.inertia, false, false);
+  } else {
+    body_.emplace(linkCount(model, bodies), 0, btVector3(0, 0, 0), true, false);
+  }
+  addCollider(-1, isFree ? first.child : kWorld, isFree ? shapes.front() : nullptr);
+  for (std::size_t i = isFree ? 1 : 0; i < bodies.size(); ++i) {
+    const Joint& joint = model[model[bodies[i]].joint];
+    const Grown& parent = grown[static_cast<std::size_t>(joint.parent)];
+    Grown& child = grown[static_cast<std::size_t>(bodies[i])];
+    child = grow(model, joint, linkOf(model[bodies[i]]), parent);
+    if (shapes[i] != nullptr) addCollider(child.link, bodies[i], shapes[i]);
+  }
+  body_->finalizeMultiDof();
+  body_->setLinearDamping(0);
+  body_->setAngularDamping(0);
+  body_->setMaxCoordinateVelocity(kInfinity);
+  body_->setHasSelfCollision(true);
+  addRows();
+}
+
+Articulation::Grown Articulation::grow(const Model& model, const Joint& joint, const Link& link,
+                                       Grown parent) {
+  const std::vector<ElementaryMove> moves = elementaryMoves(joint);
+  Pose X_LF = parent.X_BL.inverse() * joint.X_PF;
+  int at = parent.link;
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    const bool isLast = i + 1 == moves.size();
+    const Pose X_ML = isLast ? joint.X_MC * link.X_BL : Pose{};
+    const double mass = isLast ? link.mass : 0;
+    const btVector3 inertia = isLast ? link.inertia : btVector3(0, 0, 0);
+    const btQuaternion R_LF = bulletQuaternion((X_LF.R * X_ML.R).transpose());
+    const btVector3 axis = toBullet(X_ML.R.transpose() * moves[i].axis);
+    const btVector3 toPivot = toBullet(X_LF.p), toCenter = toBullet(X_ML.R.transpose() * X_ML.p);
+    switch (moves[i].kind) {
+      case ElementaryMove::Kind::kTurn:
+        body_->setupRevolute(next_, mass, inertia, at, R_LF, axis, toPivot, toCenter);
+        break;
+      case ElementaryMove::Kind::kSlide:
+        body_->setupPrismatic(next_, mass, inertia, at, R_LF, axis, toPivot, toCenter, false);
+        break;
+      case ElementaryMove::Kind::kBall:
+        body_->setupSpherical(next_, mass, inertia, at, R_LF, toPivot, toCenter);
+        break;
+      case ElementaryMove::Kind::kNone:
+        body_->setupFixed(next_, mass, inertia, at, R_LF, toPivot, toCenter, false);
+        break;
+    }
+    if (moves[i].kind != ElementaryMove::Kind::kNone)
+      addCoordinate(model, joint, static_cast<int>(i), moves[i].kind == ElementaryMove::Kind::kBall, X_ML.R);
+    at = next_++;
+    X_LF = Pose{};
+  }
+  return {at, link.X_BL};
+}
+
+void Articulation::addCoordinate(const Model& model, const Joint& joint, int place, bool isBall,
+                                 const Eigen::Matrix3d& R_ML) {
+  Coordinate coordinate{.link = next_,
+                        .qIndex = joint.qIndex + place,
+                        .vIndex = joint.vIndex + place,
+                        .isBall = isBall,
+                        .R_ML = R_ML,
+                        .lower = -kInfinity,
+                        .upper = kInfinity,
+                        .damping = options_.jointFriction ? joint.damping : 0,
+                        .friction = options_.jointFriction ? joint.friction : 0,
+                        .maxVelocity = joint.maxVelocity};
+  if (!isBall && options_.jointLimits) {
+    coordinate.lower = model.lowerLimits()[coordinate.qIndex];
+    coordinate.upper = model.upperLimits()[coordinate.qIndex];
+  }
+  coordinates_.push_back(coordinate);
+}
+
+void Articulation::addCollider(int link, BodyId body, btCollisionShape* shape) {
+  auto object = std::make_unique<btMultiBodyLinkCollider>(&*body_, link);
+  object->setCollisionShape(shape != nullptr ? shape : &nothing_);
+  object->setActivationState(DISABLE_DEACTIVATION);
+  if (link < 0) {
+    body_->setBaseCollider(object.get());
+  } else {
+    body_->getLink(link).m_collider = object.get();
+  }
+  colliders_.push_back({std::move(object), body});
+}
+
+void Articulation::addRows() {
+  for (const Coordinate& coordinate : coordinates_) {
+    for (int place = 0; place < (coordinate.isBall ? 3 : 1); ++place)
+      rows_.push_back(std::make_unique<JointRow>(*body_, coordinate.link, place));
+  }
+}
+
+void Articulation::addTo(btMultiBodyDynamicsWorld& world) {
+  world.addMultiBody(&*body_);
+  for (const Collider& collider : colliders_) world.addCollisionObject(collider.object.get());
+  for (const auto& row : rows_) world.addMultiBodyConstraint(row.get());
+}
+
+void Articulation::removeFrom(btMultiBodyDynamicsWorld& world) {
+  for (const auto& row : rows_) world.removeMultiBodyConstraint(row.get());
+  for (const Collider& collider : colliders_) world.removeCollisionObject(collider.object.get());
+  world.removeMultiBody(&*body_);
+}
+
+void Articulation::place(const State& state) {
+  if (base_) setBase(base_->linkMotion(state));
+  for (const Coordinate& one : coordinates_) {
+    if (one.isBall) {
+      const Quaternion q = state.q.segment<4>(one.qIndex).normalized();
+      const Eigen::Vector3d turn = one.R_ML.transpose() * q.tail<3>();
+      const Eigen::Vector3d v = one.R_ML.transpose() * state.v.segment<3>(one.vIndex);
+      const double position[4] = {turn.x(), turn.y(), turn.z(), q[0]};
+      body_->setJointPosMultiDof(one.link, position);
+      body_->setJointVelMultiDof(one.link, v.data());
+    } else {
+      body_->setJointPos(one.link, state.q[one.qIndex]);
+      body_->setJointVel(one.link, state.v[one.vIndex]);
+    }
+  }
+  update();
+}
+
+void Articulation::read(State& state) const {
+  if (base_) base_->read(baseMotion(), state);
+  for (const Coordinate& one : coordinates_) {
+    const double* const q = body_->getJointPosMultiDof(one.link);
+    const double* const v = body_->getJointVelMultiDof(one.link);
+    if (one.isBall) {
+      state.q[one.qIndex] = q[3];
+      state.q.segment<3>(one.qIndex + 1) = one.R_ML * Eigen::Vector3d(q[0], q[1], q[2]);
+      state.v.segment<3>(one.vIndex) = one.R_ML * Eigen::Vector3d(v[0], v[1], v[2]);
+    } else {
+      state.q[one.qIndex] = q[0];
+      state.v[one.vIndex] = v[0];
+    }
+  }
+}
+
+void Articulation::drive(std::span<const Motor> motors, double h) {
+  if (base_) {
+    const FreeMotion::Wrench wrench = base_->wrench(motors, baseMotion());
+    body_->addBaseForce(toBullet(wrench.force_W));
+    body_->addBaseTorque(toBullet(wrench.torque_W));
+  }
+  std::size_t row = 0;
+  for (const Coordinate& one : coordinates_) {
+    const Motor* const motor = &motors[static_cast<std::size_t>(one.vIndex)];
+    if (one.isBall) {
+      const Eigen::Vector3d force =
+          one.R_ML.transpose() * Eigen::Vector3d(motor[0].target, motor[1].target, motor[2].target);
+      for (int i = 0; i < 3; ++i) {
+        body_->addJointTorqueMultiDof(one.link, i, force[i]);
+        setGoals(one, i, Motor{}, h, *rows_[row++]);
+      }
+    } else {
+      if (motor->kind == Motor::Kind::kForce) body_->addJointTorque(one.link, motor->target);
+      setGoals(one, 0, *motor, h, *rows_[row++]);
+    }
+  }
+}
+
+void Articulation::setGoals(const Coordinate& one, int place, const Motor& motor, double h,
+                            JointRow& row) const {
+  const double q = body_->getJointPosMultiDof(one.link)[place];
+  const double v = body_->getJointVelMultiDof(one.link)[place];
+  row.clear();
+  if (motor.kind != Motor::Kind::kForce) {
+    const double rate = std::min(kPositionRate, 1 / h);
+    const double wanted = motor.kind == Motor::Kind::kVelocity ? motor.target : rate * (motor.target - q);
+    row.add({std::clamp(wanted, -one.maxVelocity, one.maxVelocity), -motor.maxForce * h, motor.maxForce * h});
+  }
+  if (one.damping > 0) row.add({0, -kInfinity, kInfinity, 1 / (one.damping * h)});
+  if (one.friction > 0) row.add({0, -one.friction * h, one.friction * h});
+  const double reach = kLimitReach + 2 * h * std::abs(v);
+  const auto backOff = [&](double beyond) { return beyond * (beyond > 0 ? kLimitShare : 1) / h; };
+  if (one.lower - q > -reach) row.add({backOff(one.lower - q), 0, kInfinity});
+  if (q - one.upper > -reach) row.add({-backOff(q - one.upper), -kInfinity, 0});
+}
+
+FreeMotion::LinkMotion Articulation::baseMotion() const {
+  return {fromBullet(body_->getBaseWorldTransform()), fromBullet(body_->getBaseVel()),
+          fromBullet(body_->getBaseOmega())};
+}
+
+void Articulation::setBase(const FreeMotion::LinkMotion& motion) {
+  body_->setBasePos(toBullet(motion.X_WL.p));
+  body_->setWorldToBaseRot(bulletQuaternion(motion.X_WL.R.transpose()));
+  body_->setBaseVel(toBullet(motion.linear_W));
+  body_->setBaseOmega(toBullet(motion.angular_W));
+}
+
+void Articulation::update() {
+  body_->clearForcesAndTorques();
+  body_->clearConstraintForces();
+  body_->forwardKinematics(rotations_, origins_);
+  body_->updateCollisionObjectWorldTransforms(rotations_, origins_);
+  body_->updateCollisionObjectInterpolationWorldTransforms(rotations_, origins_);
+}
+
+void Articulation::remember() {
+  const int velocities = kBaseVelocities + body_->getNumDofs();
+  rememberedBase_ = body_->getBaseWorldTransform();
+  remembered_.assign(body_->getVelocityVector(), body_->getVelocityVector() + velocities);
+  for (const Coordinate& one : coordinates_) {
+    const double* const q = body_->getJointPosMultiDof(one.link);
+    remembered_.insert(remembered_.end(), q, q + (one.isBall ? 4 : 1));
+  }
+}
+
+void Articulation::undo() {
+  const double* v = remembered_.data();
+  const double* q = v + kBaseVelocities + body_->getNumDofs();
+  body_->setBaseWorldTransform(rememberedBase_);
+  body_->setBaseOmega({v[0], v[1], v[2]});
+  body_->setBaseVel({v[3], v[4], v[5]});
+  for (const Coordinate& one : coordinates_) {
+    body_->setJointPosMultiDof(one.link, q);
+    body_->setJointVelMultiDof(one.link, v + kBaseVelocities + body_->getLink(one.link).m_dofOffset);
+    q += one.isBall ? 4 : 1;
+  }
+  update();
+}
+
+int Articulation::runaway(double limit) const {
+  const auto isTame = [&](const double* v, int count) {
+    return std::all_of(v, v + count, [&](double x) { return std::abs(x) < limit; });
+  };
+  if (base_ && !isTame(body_->getVelocityVector(), kBaseVelocities)) return baseVIndex_;
+  for (const Coordinate& one : coordinates_) {
+    if (!isTame(body_->getJointVelMultiDof(one.link), one.isBall ? 3 : 1)) return one.vIndex;
+  }
+  return -1;
+}
+
+}  // namespace rex::internal

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <BulletCollision/CollisionShapes/btEmptyShape.h>
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
+
+#include "physics/free_motion_internal.h"
+#include "physics/joint_row_internal.h"
+
+namespace rex::internal {
+
+/// A tree of bodies on joints as one of Bullet's multibodies. Joints of several coordinates become chains of
+/// links without mass, of one coordinate or one quaternion each.
+class Articulation : public Mover {
+ public:
+  /// `bodies` hang on one joint of what stands still at X_WP, parents first. `shapes` are in the frames of
+  /// the links and must outlive it; null: none.
+  Articulation(const Model& model, std::span<const BodyId> bodies, const Pose& X_WP,
+               std::span<btCollisionShape* const> shapes, const PhysicsOptions& options);
+
+  void addTo(btMultiBodyDynamicsWorld& world) override;
+  void removeFrom(btMultiBodyDynamicsWorld& world) override;
+  void place(const State& state) override;
+  void read(State& state) const override;
+  void drive(std::span<const Motor> motors, double h) override;
+  void remember() override;
+  void undo() override;
+  [[nodiscard]] int runaway(double limit) const override;
+
+  /// Calls visit(object, body) for what collides of each body.
+  template <class Visit>
+  void forEachObject(const Visit& visit) {
+    for (const auto& collider : colliders_) visit(*collider.object, collider.body);
+  }
+
+ private:
+  // A link that moves: its coordinates, and how they are turned. Bullet's spherical joints count in the frame
+  // of the link.
+  struct Coordinate {
+    int link = 0, qIndex = 0, vIndex = 0;
+    bool isBall = false;
+    Eigen::Matrix3d R_ML = Eigen::Matrix3d::Identity();  // of balls
+    double lower = 0, upper = 0, damping = 0, friction = 0, maxVelocity = 0;
+  };
+  struct Collider {
+    std::unique_ptr<btMultiBodyLinkCollider> object;
+    BodyId body;
+  };
+  // Where the links of a tree have got to while it is built.
+  struct Grown {
+    int link;
+    Pose X_BL;
+  };
+
+  Grown grow(const Model& model, const Joint& joint, const Link& link, Grown parent);
+  void addCoordinate(const Model& model, const Joint& joint, int place, bool isBall,
+                     const Eigen::Matrix3d& R_ML);
+  void addCollider(int link, BodyId body, btCollisionShape* shape);
+  void addRows();
+  void setGoals(const Coordinate& one, int place, const Motor& motor, double h, JointRow& row) const;
+  [[nodiscard]] FreeMotion::LinkMotion baseMotion() const;
+  void setBase(const FreeMotion::LinkMotion& motion);
+  void update();
+
+  PhysicsOptions options_;
+  btEmptyShape nothing_;
+  std::optional<FreeMotion> base_;  // of trees on a free joint
+  int baseVIndex_ = 0;
+  int next_ = 0;  // link to be built
+  std::optional<btMultiBody> body_;
+  std::vector<Coordinate> coordinates_;
+  std::vector<Collider> colliders_;
+  std::vector<std::unique_ptr<JointRow>> rows_;  // one per coordinate, three per ball
+  btAlignedObjectArray<btQuaternion> rotations_;
+  btAlignedObjectArray<btVector3> origins_;
+  btTransform rememberedBase_;
+  std::vector<double> remembered_;
+};
+
+}  // namespace rex::internal

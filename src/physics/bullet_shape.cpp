@@ -1,0 +1,69 @@
+#include <algorithm>
+
+#include "physics/bullet_math_internal.h"
+#include "physics/bullet_shape_internal.h"
+
+namespace rex::internal {
+namespace {
+
+// Bullet rounds the edges of boxes and cylinders inwards by its margin, where it does not know a pair's exact
+// contacts. A millimetre is as sharp as its search for nearest points allows.
+constexpr double kMargin = 1e-3;
+
+template <class Solid>
+std::unique_ptr<btCollisionShape> withEdges(const Eigen::Vector3d& half) {
+  auto solid = std::make_unique<Solid>(toBullet(half));
+  solid->setMargin(std::min(kMargin, half.minCoeff() / 10));
+  return solid;
+}
+
+std::unique_ptr<btConvexHullShape> hullOf(std::span<const Eigen::Vector3f> points, double radius) {
+  auto hull = std::make_unique<btConvexHullShape>();
+  for (const Eigen::Vector3f& point : points) hull->addPoint(toBullet(point.cast<double>()), false);
+  hull->recalcLocalAabb();
+  hull->setMargin(radius);
+  return hull;
+}
+
+// Exactly the box: a core of eight corners, and the ball around each.
+std::unique_ptr<btCollisionShape> roundedBox(const Eigen::Vector3d& half, double radius) {
+  auto hull = std::make_unique<btConvexHullShape>();
+  const Eigen::Vector3d core = half.array() - radius;
+  for (int corner = 0; corner < 8; ++corner) {
+    const btVector3 point((corner & 1) != 0 ? core.x() : -core.x(), (corner & 2) != 0 ? core.y() : -core.y(),
+                          (corner & 4) != 0 ? core.z() : -core.z());
+    hull->addPoint(point, false);
+  }
+  hull->recalcLocalAabb();
+  hull->setMargin(radius);
+  return hull;
+}
+
+}  // namespace
+
+std::unique_ptr<btCollisionShape> bulletShape(const Shape& shape) {
+  switch (shape.type) {
+    case ShapeType::kBox:
+      return withEdges<btBoxShape>(shape.extent / 2);
+    case ShapeType::kSphere:
+      return std::make_unique<btSphereShape>(shape.radius);
+    case ShapeType::kCapsule:
+      return std::make_unique<btCapsuleShapeZ>(shape.radius, shape.extent.z());
+    case ShapeType::kCylinder:
+      return withEdges<btCylinderShapeZ>({shape.radius, shape.radius, shape.extent.z() / 2});
+    case ShapeType::kRoundedBox:
+      return roundedBox(shape.extent / 2, shape.radius);
+    case ShapeType::kMesh:
+    case ShapeType::kPointCloud:
+    case ShapeType::kSphereSweptConvex: {
+      const TriangleMesh& mesh = shape.hull.isEmpty() ? shape.mesh : shape.hull;
+      const double radius = shape.type == ShapeType::kSphereSweptConvex ? shape.radius : 0;
+      return mesh.isEmpty() ? nullptr : hullOf(mesh.positions(), radius);
+    }
+    case ShapeType::kMarker:
+      break;
+  }
+  return nullptr;
+}
+
+}  // namespace rex::internal

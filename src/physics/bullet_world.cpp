@@ -1,0 +1,240 @@
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "collision/contact_model.h"
+#include "dynamics/mass_matrix.h"
+#include "physics/articulation_internal.h"
+#include "physics/bullet_math_internal.h"
+#include "physics/bullet_shape_internal.h"
+#include "physics/bullet_world_internal.h"
+#include "physics/free_body_internal.h"
+
+namespace rex::internal {
+namespace {
+
+// kg or kg m^2; what a joint moves has to be more than numerical noise.
+constexpr double kLeastInertia = 1e-12;
+
+void requireOwnCoordinates(const Model& model) {
+  for (const Joint& joint : model.joints()) {
+    if (!joint.mimics) continue;
+    throw Error({.what = fmt::format("physics: joint '{}'", joint.name),
+                 .found = "a joint that mimics another",
+                 .wanted = "joints that move by themselves: let it be moved by a position motor, or "
+                           "simulate without contact (Stepper, stepDynamics)"});
+  }
+}
+
+void requireMasses(const Model& model) {
+  const Eigen::VectorXd inertia = massMatrix(model, model.initialPositions()).diagonal();
+  for (const Joint& joint : model.joints()) {
+    if (joint.nv == 0 || inertia.segment(joint.vIndex, joint.nv).minCoeff() > kLeastInertia) continue;
+    const std::string& child = model[joint.child].name;
+    throw Error({.what = fmt::format("physics: joint '{}'", joint.name),
+                 .found = fmt::format("no mass that resists it in body '{}' and what hangs on it", child),
+                 .wanted = fmt::format("a mass and an inertia of body '{}'", child)});
+  }
+}
+
+// Of each body: whether nothing moves it, and the first body of its chain that moves.
+struct Stillness {
+  std::vector<bool> isStill;
+  std::vector<Pose> X_WB;  // of what stands still
+  std::vector<BodyId> root;
+};
+
+Stillness stillness(const Model& model) {
+  const std::size_t count = model.bodies().size();
+  Stillness all{std::vector<bool>(count, true), std::vector<Pose>(count), std::vector<BodyId>(count, kWorld)};
+  for (std::size_t i = 1; i < count; ++i) {
+    const Body& body = model.bodies()[i];
+    const auto parent = static_cast<std::size_t>(body.parent);
+    const bool hasJoint = body.joint != kNoJoint;
+    all.isStill[i] = all.isStill[parent] && (!hasJoint || model[body.joint].nv == 0);
+    if (all.isStill[i]) {
+      const Pose X_PB = hasJoint ? model[body.joint].X_PF * model[body.joint].X_MC : body.X_PB;
+      all.X_WB[i] = all.X_WB[parent] * X_PB;
+    } else {
+      all.root[i] = all.isStill[parent] ? BodyId{static_cast<int>(i)} : all.root[parent];
+    }
+  }
+  return all;
+}
+
+bool isIdentity(const Pose& X) { return X.R.isIdentity(0) && X.p.isZero(0); }
+
+}  // namespace
+
+BodyPairs::BodyPairs(const Model& model, const std::vector<bool>& isStill)
+    : bodies_(model.bodies().size()), collide_(bodies_ * bodies_) {
+  const ContactModel contacts(model);
+  for (const ShapePair& pair : contacts.pairs()) {
+    const auto a = static_cast<std::size_t>(contacts.body(pair.a)),
+               b = static_cast<std::size_t>(contacts.body(pair.b));
+    collide_[a * bodies_ + b] = collide_[b * bodies_ + a] = !isStill[a] || !isStill[b];
+  }
+}
+
+bool BodyPairs::needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const {
+  const auto body = [](const btBroadphaseProxy* proxy) {
+    return static_cast<std::size_t>(
+        static_cast<const btCollisionObject*>(proxy->m_clientObject)->getUserIndex());
+  };
+  return collide_[body(a) * bodies_ + body(b)];
+}
+
+BulletWorld::BulletWorld(const Model& model, const PhysicsOptions& options)
+    : shapesOf_(model.bodies().size()) {
+  requireOwnCoordinates(model);
+  requireMasses(model);
+  const Stillness all = stillness(model);
+  pairs_ = std::make_unique<BodyPairs>(model, all.isStill);
+  for (std::size_t i = 0; i < model.shapes().size(); ++i) {
+    const ModelShape& shape = model.shapes()[i];
+    if (shape.contact && shape.shape.type != ShapeType::kMarker)
+      shapesOf_[static_cast<std::size_t>(shape.body)].push_back(static_cast<int>(i));
+  }
+  world_.setGravity(toBullet(options.gravity_W));
+  world_.getPairCache()->setOverlapFilterCallback(pairs_.get());
+  world_.getSolverInfo().m_numIterations = options.iterations;
+  for (std::size_t i = 0; i < model.bodies().size(); ++i) {
+    const BodyId body{static_cast<int>(i)};
+    if (all.isStill[i]) addStill(model, body, all.X_WB[i], options);
+    if (all.root[i] != body || body == kWorld) continue;
+    std::vector<BodyId> tree;
+    for (std::size_t j = i; j < model.bodies().size(); ++j)
+      if (all.root[j] == body) tree.push_back(BodyId{static_cast<int>(j)});
+    addMover(model, tree, all.X_WB[static_cast<std::size_t>(model[body].parent)], options);
+  }
+  addAll();
+}
+
+BulletWorld::~BulletWorld() { removeAll(); }
+
+btCollisionShape* BulletWorld::addShape(const Model& model, BodyId body, const Pose& X_BL) {
+  auto compound = std::make_unique<btCompoundShape>();
+  std::vector<int>& places = shapesOf_[static_cast<std::size_t>(body)];
+  std::erase_if(places, [&](int place) {
+    const ModelShape& shape = model.shapes()[static_cast<std::size_t>(place)];
+    std::unique_ptr<btCollisionShape> solid = bulletShape(shape.shape);
+    if (solid == nullptr) return true;
+    compound->addChildShape(toBullet(X_BL.inverse() * shape.X_BS), solid.get());
+    shapes_.push_back(std::move(solid));
+    return false;
+  });
+  if (places.empty()) return nullptr;
+  if (places.size() == 1 &&
+      isIdentity(X_BL.inverse() * model.shapes()[static_cast<std::size_t>(places.front())].X_BS))
+    return shapes_.back().get();
+  return shapes_.emplace_back(std::move(compound)).get();
+}
+
+// Where two objects touch, Bullet multiplies their numbers.
+void BulletWorld::setUp(btCollisionObject& object, BodyId body, const PhysicsOptions& options) {
+  object.setUserIndex(static_cast<int>(body));
+  object.setFriction(std::sqrt(options.friction));
+  object.setRestitution(std::sqrt(options.restitution));
+}
+
+void BulletWorld::addStill(const Model& model, BodyId body, const Pose& X_WB, const PhysicsOptions& options) {
+  btCollisionShape* const shape = addShape(model, body, {});
+  if (shape == nullptr) return;
+  auto object = std::make_unique<btCollisionObject>();
+  object->setCollisionShape(shape);
+  object->setWorldTransform(toBullet(X_WB));
+  setUp(*object, body, options);
+  still_.push_back(std::move(object));
+}
+
+void BulletWorld::addMover(const Model& model, std::span<const BodyId> bodies, const Pose& X_WP,
+                           const PhysicsOptions& options) {
+  const Joint& joint = model[model[bodies.front()].joint];
+  std::vector<btCollisionShape*> shapes;
+  for (const BodyId body : bodies) shapes.push_back(addShape(model, body, linkOf(model[body]).X_BL));
+  if (bodies.size() == 1 && joint.type == JointType::kFree) {
+    if (shapes.front() == nullptr) shapes.front() = &nothing_;
+    auto body = std::make_unique<FreeBody>(joint, linkOf(model[joint.child]), X_WP, shapes.front(), options);
+    setUp(body->object(), joint.child, options);
+    movers_.push_back(std::move(body));
+  } else {
+    auto tree = std::make_unique<Articulation>(model, bodies, X_WP, shapes, options);
+    tree->forEachObject([&](btCollisionObject& object, BodyId body) { setUp(object, body, options); });
+    movers_.push_back(std::move(tree));
+  }
+}
+
+void BulletWorld::addAll() {
+  for (const auto& object : still_) world_.addCollisionObject(object.get());
+  for (const auto& mover : movers_) mover->addTo(world_);
+}
+
+void BulletWorld::removeAll() {
+  for (const auto& mover : movers_) mover->removeFrom(world_);
+  for (const auto& object : still_) world_.removeCollisionObject(object.get());
+}
+
+void BulletWorld::reset(const State& state) {
+  removeAll();
+  broadphase_.resetPool(&dispatcher_);
+  solver_.reset();
+  for (const auto& mover : movers_) mover->place(state);
+  addAll();
+}
+
+int BulletWorld::shapeOf(const btCollisionObject& object, int child) const {
+  const std::vector<int>& shapes = shapesOf_[static_cast<std::size_t>(object.getUserIndex())];
+  return shapes[static_cast<std::size_t>(std::max(child, 0))];
+}
+
+std::vector<PhysicsContact> BulletWorld::contacts() const {
+  std::vector<PhysicsContact> all;
+  for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold =
+        *const_cast<btCollisionDispatcher&>(dispatcher_).getManifoldByIndexInternal(i);
+    for (int k = 0; k < manifold.getNumContacts(); ++k) {
+      const btManifoldPoint& point = manifold.getContactPoint(k);
+      if (point.getDistance() > 0 && point.getAppliedImpulse() == 0) continue;
+      PhysicsContact contact{.shapeA = shapeOf(*manifold.getBody0(), point.m_index0),
+                             .shapeB = shapeOf(*manifold.getBody1(), point.m_index1),
+                             .p_WA = fromBullet(point.getPositionWorldOnA()),
+                             .p_WB = fromBullet(point.getPositionWorldOnB()),
+                             .normal_W = fromBullet(point.m_normalWorldOnB),
+                             .distance = point.getDistance(),
+                             .impulse = point.getAppliedImpulse()};
+      if (contact.shapeA > contact.shapeB) {
+        std::swap(contact.shapeA, contact.shapeB);
+        std::swap(contact.p_WA, contact.p_WB);
+        contact.normal_W = -contact.normal_W;
+      }
+      all.push_back(contact);
+    }
+  }
+  const auto key = [](const PhysicsContact& one) {
+    return std::tuple(one.shapeA, one.shapeB, one.p_WA.x(), one.p_WA.y(), one.p_WA.z());
+  };
+  std::sort(all.begin(), all.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
+  return all;
+}
+
+std::optional<RayHit> BulletWorld::rayCast(const Eigen::Vector3d& from_W, const Eigen::Vector3d& to_W) const {
+  struct Closest : btCollisionWorld::ClosestRayResultCallback {
+    using ClosestRayResultCallback::ClosestRayResultCallback;
+    int child = -1;
+    btScalar addSingleResult(btCollisionWorld::LocalRayResult& result, bool isNormalInWorld) override {
+      child = result.m_localShapeInfo != nullptr ? result.m_localShapeInfo->m_triangleIndex : -1;
+      return ClosestRayResultCallback::addSingleResult(result, isNormalInWorld);
+    }
+  } closest(toBullet(from_W), toBullet(to_W));
+  world_.rayTest(toBullet(from_W), toBullet(to_W), closest);
+  if (!closest.hasHit()) return std::nullopt;
+  return RayHit{.shape = shapeOf(*closest.m_collisionObject, closest.child),
+                .p_WQ = fromBullet(closest.m_hitPointWorld),
+                .normal_W = fromBullet(closest.m_hitNormalWorld),
+                .distance = closest.m_closestHitFraction * (to_W - from_W).norm()};
+}
+
+}  // namespace rex::internal

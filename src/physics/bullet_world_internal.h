@@ -1,0 +1,67 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <BulletCollision/CollisionShapes/btEmptyShape.h>
+#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <btBulletCollisionCommon.h>
+
+#include "physics/mover_internal.h"
+
+namespace rex::internal {
+
+/// Lets the bodies collide that ContactModel lets collide, unless both stand still. Objects know their body
+/// by their user index.
+class BodyPairs : public btOverlapFilterCallback {
+ public:
+  BodyPairs(const Model& model, const std::vector<bool>& isStill);
+  bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override;
+
+ private:
+  std::size_t bodies_;
+  std::vector<bool> collide_;
+};
+
+/// A model in Bullet's hands: what moves, what stands still, and what holds between them.
+class BulletWorld {
+ public:
+  /// Throws Error as PhysicsWorld.
+  BulletWorld(const Model& model, const PhysicsOptions& options);
+  ~BulletWorld();
+  BulletWorld(const BulletWorld&) = delete;
+  BulletWorld& operator=(const BulletWorld&) = delete;
+
+  [[nodiscard]] const std::vector<std::unique_ptr<Mover>>& movers() const { return movers_; }
+  /// Sets the state and forgets all contacts, so that the same steps follow as from a new world.
+  void reset(const State& state);
+  void step(double h) { world_.stepSimulation(h, 0); }
+  [[nodiscard]] std::vector<PhysicsContact> contacts() const;
+  [[nodiscard]] std::optional<RayHit> rayCast(const Eigen::Vector3d& from_W,
+                                              const Eigen::Vector3d& to_W) const;
+
+ private:
+  btCollisionShape* addShape(const Model& model, BodyId body, const Pose& X_BL);
+  void addStill(const Model& model, BodyId body, const Pose& X_WB, const PhysicsOptions& options);
+  void addMover(const Model& model, std::span<const BodyId> bodies, const Pose& X_WP,
+                const PhysicsOptions& options);
+  void setUp(btCollisionObject& object, BodyId body, const PhysicsOptions& options);
+  void addAll();
+  void removeAll();
+  [[nodiscard]] int shapeOf(const btCollisionObject& object, int child) const;
+
+  btEmptyShape nothing_;
+  std::vector<std::vector<int>> shapesOf_;  // of each body: places in Model::shapes()
+  std::vector<std::unique_ptr<btCollisionShape>> shapes_;
+  std::vector<std::unique_ptr<btCollisionObject>> still_;
+  std::vector<std::unique_ptr<Mover>> movers_;
+  btDefaultCollisionConfiguration configuration_;
+  btCollisionDispatcher dispatcher_{&configuration_};
+  btDbvtBroadphase broadphase_;
+  btMultiBodyConstraintSolver solver_;
+  btMultiBodyDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
+  std::unique_ptr<BodyPairs> pairs_;
+};
+
+}  // namespace rex::internal

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "physics/mover_internal.h"
+
+namespace rex::internal {
+
+/// How the coordinates of a free joint of the world describe the motion of its link, whose frame L is where
+/// linkOf() puts it.
+class FreeMotion {
+ public:
+  /// X_WP is the pose of the joint's parent, which stands still.
+  FreeMotion(const Joint& joint, const Pose& X_WP, const Pose& X_BL, const PhysicsOptions& options);
+
+  /// Pose of the link, and velocity of its origin, in W.
+  struct LinkMotion {
+    Pose X_WL{};
+    Eigen::Vector3d linear_W, angular_W;
+  };
+  [[nodiscard]] LinkMotion linkMotion(const State& state) const;
+  void read(const LinkMotion& motion, State& state) const;
+
+  /// Force and torque at the link's origin, in W: what the motors (forces all) demand, less the joint's
+  /// damping.
+  struct Wrench {
+    Eigen::Vector3d force_W, torque_W;
+  };
+  [[nodiscard]] Wrench wrench(std::span<const Motor> motors, const LinkMotion& motion) const;
+
+ private:
+  int qIndex_, vIndex_;
+  double damping_ = 0;
+  Pose X_WF_, X_ML_, X_LM_;
+};
+
+}  // namespace rex::internal

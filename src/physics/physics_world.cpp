@@ -1,0 +1,130 @@
+#include "physics/physics_world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "physics/bullet_math_internal.h"
+#include "physics/bullet_world_internal.h"
+
+namespace rex {
+namespace {
+
+// Faster than this, in rad/s or m/s, nothing moves that is simulated well.
+constexpr double kRunawaySpeed = 1e6;
+
+void require(bool isRight, const char* what, double found, const char* wanted) {
+  if (!isRight) throw Error({.what = what, .found = fmt::format("{:g}", found), .wanted = wanted});
+}
+
+void requireFinite(const char* what, const Eigen::VectorXd& numbers) {
+  for (const double number : numbers) require(std::isfinite(number), what, number, "finite numbers");
+}
+
+const Joint& jointOf(const Model& model, int iv) {
+  const auto joint = std::find_if(model.joints().begin(), model.joints().end(), [&](const Joint& one) {
+    return one.vIndex <= iv && iv < one.vIndex + one.nv;
+  });
+  return *joint;
+}
+
+void requireOptions(const PhysicsOptions& options) {
+  requireFinite("physics: gravity", options.gravity_W);
+  require(options.friction >= 0 && std::isfinite(options.friction), "physics: friction", options.friction,
+          "zero or a positive number");
+  require(options.restitution >= 0 && options.restitution <= 1, "physics: restitution", options.restitution,
+          "a number from 0 to 1");
+  require(options.iterations > 0, "physics: iterations", options.iterations, "one or more");
+}
+
+void requireMotor(const Model& model, int iv, const Motor& motor) {
+  const Joint& joint = jointOf(model, iv);
+  const std::string what = fmt::format("physics: motor of joint '{}'", joint.name);
+  require(std::isfinite(motor.target), (what + ": target").c_str(), motor.target, "a finite number");
+  if (motor.kind == Motor::Kind::kForce) return;
+  require(motor.maxForce >= 0, (what + ": maxForce").c_str(), motor.maxForce, "zero or a positive number");
+  if (joint.nq == joint.nv) return;
+  throw Error({.what = what,
+               .found = fmt::format("a target for a {} joint", toString(joint.type)),
+               .wanted = "forces: only plain coordinates can be held"});
+}
+
+}  // namespace
+
+struct PhysicsWorld::Parts {
+  Model model;
+  std::vector<Motor> motors;
+  double time = 0;
+  internal::BulletWorld world;
+
+  Parts(const Model& m, const PhysicsOptions& options)
+      : model(m), motors(static_cast<std::size_t>(m.nv())), world(model, options) {}
+};
+
+PhysicsWorld::PhysicsWorld(const Model& model, const PhysicsOptions& options) {
+  requireOptions(options);
+  parts_ = std::make_unique<Parts>(model, options);
+  setState(initialState(model));
+}
+PhysicsWorld::PhysicsWorld(PhysicsWorld&&) noexcept = default;
+PhysicsWorld& PhysicsWorld::operator=(PhysicsWorld&&) noexcept = default;
+PhysicsWorld::~PhysicsWorld() = default;
+
+State PhysicsWorld::state() const {
+  State state = initialState(parts_->model);
+  for (const auto& mover : parts_->world.movers()) mover->read(state);
+  state.time = parts_->time;
+  return state;
+}
+
+void PhysicsWorld::setState(const State& state) {
+  const Model& model = parts_->model;
+  requireSize("physics: joint positions q", state.q.size(), model.nq());
+  requireSize("physics: joint velocities v", state.v.size(), model.nv());
+  requireFinite("physics: joint positions q", state.q);
+  requireFinite("physics: joint velocities v", state.v);
+  require(std::isfinite(state.time), "physics: time", state.time, "finite numbers");
+  parts_->world.reset(state);
+  parts_->time = state.time;
+}
+
+void PhysicsWorld::setMotors(std::span<const Motor> motors) {
+  requireSize("physics: motors", static_cast<long>(motors.size()), parts_->model.nv());
+  for (std::size_t i = 0; i < motors.size(); ++i) requireMotor(parts_->model, static_cast<int>(i), motors[i]);
+  parts_->motors.assign(motors.begin(), motors.end());
+}
+
+void PhysicsWorld::step(double h) {
+  require(h > 0 && std::isfinite(h), "physics: time step", h, "a positive number of seconds");
+  internal::BulletWorld& world = parts_->world;
+  for (const auto& mover : world.movers()) {
+    mover->remember();
+    mover->drive(parts_->motors, h);
+  }
+  world.step(h);
+  for (const auto& mover : world.movers()) {
+    const int iv = mover->runaway(kRunawaySpeed);
+    if (iv < 0) continue;
+    for (const auto& any : world.movers()) any->undo();
+    world.reset(state());
+    throw Error({.what = fmt::format("physics: joint '{}' at {:.6g} s", jointOf(parts_->model, iv).name,
+                                     parts_->time + h),
+                 .found = "a motion that grows without bounds",
+                 .wanted = "shorter steps or smaller forces"});
+  }
+  parts_->time += h;
+}
+
+std::vector<PhysicsContact> PhysicsWorld::contacts() const { return parts_->world.contacts(); }
+
+std::optional<RayHit> PhysicsWorld::rayCast(const Eigen::Vector3d& from_W,
+                                            const Eigen::Vector3d& to_W) const {
+  requireFinite("physics: start of the ray", from_W);
+  requireFinite("physics: end of the ray", to_W);
+  return parts_->world.rayCast(from_W, to_W);
+}
+
+}  // namespace rex

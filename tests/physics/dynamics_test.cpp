@@ -1,0 +1,199 @@
+// Without contact, Bullet's articulated bodies are held against ours.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "dynamics/energy.h"
+#include "dynamics/forward_dynamics.h"
+#include "dynamics/stepper.h"
+#include "geometry/rotation.h"
+#include "kinematics/forward_kinematics.h"
+#include "physics/physics_world.h"
+#include "physics/small_scenes.h"
+#include "scene/scene_file.h"
+#include "support/paths.h"
+#include "support/random_scene.h"
+
+namespace rex {
+namespace {
+
+const PhysicsOptions kBare{.jointLimits = false, .jointFriction = false};
+
+// Without screws, which Bullet does not know, and with inertias along no axis of the body.
+SceneSpec randomTree(Rng& rng, int bodies, bool isFree) {
+  SceneSpec spec = randomScene(rng, bodies);
+  for (JointSpec& joint : spec.joints)
+    if (joint.type == JointType::kScrew) joint.type = JointType::kHinge;
+  for (BodySpec& body : spec.bodies) {
+    const Eigen::Matrix3d R = expSO3(rng.normalVector(3));
+    body.inertia = R * Eigen::Vector3d(rng.uniformVector(3, 0.1, 0.2)).asDiagonal() * R.transpose();
+    body.inertia = (*body.inertia + body.inertia->transpose()) / 2;
+  }
+  if (isFree) {
+    JointSpec root;
+    root.name = "root";
+    root.parent = "world";
+    root.child = "b0";
+    root.type = JointType::kFree;
+    root.X_PF = randomPose(rng);
+    root.X_MC = randomPose(rng);
+    spec.joints.push_back(root);
+  }
+  return spec;
+}
+
+State randomState(Rng& rng, const Model& model) {
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(model.nv());
+  return {integrate(model, randomPositions(rng, model.nq()), zero), rng.normalVector(model.nv()), 0};
+}
+
+// The largest difference of accelerations, as a share of the largest acceleration.
+double accelerationError(const Model& model, const State& state, const Eigen::VectorXd& u) {
+  constexpr double kStep = 1e-7;
+  PhysicsWorld world(model, kBare);
+  world.setState(state);
+  std::vector<Motor> motors;
+  for (const double force : u) motors.push_back({.target = force});
+  world.setMotors(motors);
+  world.step(kStep);
+  const Eigen::VectorXd bullet = (world.state().v - state.v) / kStep;
+  const Eigen::VectorXd ours = forwardDynamics(model, state.q, state.v, u);
+  return (bullet - ours).lpNorm<Eigen::Infinity>() / ours.lpNorm<Eigen::Infinity>();
+}
+
+Model robotWithoutContact(const char* file) {
+  SceneSpec spec = readScene(sourcePath(file)).spec;
+  for (BodySpec& body : spec.bodies)
+    for (ShapeSpec& shape : body.shapes) shape.contact = false;
+  for (ShapeSpec& shape : spec.worldShapes) shape.contact = false;
+  return compile(spec);
+}
+
+TEST(PhysicsDynamics, GivesBackTheState) {
+  Rng rng(1);
+  for (int i = 0; i < 20; ++i) {
+    const Model model = compile(randomTree(rng, 14, i % 2 == 0));
+    PhysicsWorld world(model, kBare);
+    State state = randomState(rng, model);
+    state.time = 2.5;
+    world.setState(state);
+    const State back = world.state();
+    EXPECT_LT(difference(model, state.q, back.q).norm(), 1e-12);
+    EXPECT_LT((state.v - back.v).norm(), 1e-12);
+    EXPECT_EQ(back.time, 2.5);
+  }
+}
+
+// Rays find a small ball on every body where forward kinematics says.
+TEST(PhysicsDynamics, PutsBodiesWhereForwardKinematicsDoes) {
+  Rng rng(2);
+  for (int i = 0; i < 10; ++i) {
+    SceneSpec spec = randomTree(rng, 12, i % 2 == 0);
+    const Eigen::Vector3d p_BS(0.3, -0.2, 0.5);
+    for (BodySpec& body : spec.bodies) {
+      ShapeSpec& shape = body.shapes.emplace_back();
+      shape.X_BS.p = p_BS;
+      shape.shape = ballShape(1e-4);
+      shape.contact = true;
+    }
+    const Model model = compile(spec);
+    PhysicsWorld world(model, kBare);
+    const State state = randomState(rng, model);
+    world.setState(state);
+    const BodyPoses poses = forwardKinematics(model, state.q);
+    for (std::size_t k = 0; k < model.shapes().size(); ++k) {
+      const Eigen::Vector3d center = poses[model.shapes()[k].body] * p_BS;
+      const auto hit = world.rayCast(center + Eigen::Vector3d(0, 0, 0.001), center);
+      ASSERT_TRUE(hit) << k;
+      EXPECT_EQ(hit->shape, static_cast<int>(k));
+      EXPECT_LT((hit->p_WQ - center - Eigen::Vector3d(0, 0, 1e-4)).norm(), 1e-6);
+    }
+  }
+}
+
+TEST(PhysicsDynamics, AcceleratesRandomTreesAsWeDo) {
+  Rng rng(3);
+  double worst = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Model model = compile(randomTree(rng, 2 + i % 13, i % 2 == 0));
+    worst = std::max(worst, accelerationError(model, randomState(rng, model), rng.normalVector(model.nv())));
+  }
+  RecordProperty("worst", std::to_string(worst));
+  EXPECT_LT(worst, 1e-6);
+}
+
+class PhysicsRobots : public testing::TestWithParam<const char*> {};
+
+TEST_P(PhysicsRobots, AccelerateAsOurs) {
+  Rng rng(4);
+  const Model model = robotWithoutContact(GetParam());
+  for (int i = 0; i < 5; ++i) {
+    State state{integrate(model, model.initialPositions(), 0.3 * rng.normalVector(model.nv())),
+                rng.normalVector(model.nv()), 0};
+    EXPECT_LT(accelerationError(model, state, rng.normalVector(model.nv())), 1e-6);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, PhysicsRobots,
+                         testing::Values("data/robots/arm3.ors", "data/robots/arm7.ors",
+                                         "data/robots/arm7dof/arm7dof.urdf",
+                                         "data/robots/balancer/balancer.urdf",
+                                         "data/robots/humanoid/humanoid.urdf", "data/robots/man.ors",
+                                         "data/robots/pegArm.ors", "data/robots/pegArm2.ors",
+                                         "data/robots/quadruped/quadruped.urdf"));
+
+// Bullet steps v first, then q with the new v: the first-order error shrinks with the step.
+TEST(PhysicsDynamics, SwingsLikeRungeKutta) {
+  const Model model = robotWithoutContact("data/robots/arm3.ors");
+  const auto error = [&](double h) {
+    PhysicsWorld world(model, kBare);
+    Stepper stepper(model);
+    State ours = initialState(model);
+    for (int i = 0; i < static_cast<int>(std::lround(0.5 / h)); ++i) {
+      world.step(h);
+      stepper.step(ours, Eigen::VectorXd::Zero(model.nv()), h);
+    }
+    return (world.state().q - ours.q).norm();
+  };
+  const double coarse = error(1e-3), fine = error(5e-4);
+  EXPECT_LT(coarse, 0.05);
+  EXPECT_NEAR(coarse / fine, 2, 0.2);
+}
+
+TEST(PhysicsDynamics, PendulumKeepsItsEnergy) {
+  SceneSpec spec;
+  addHinged(spec, "bob", 1, 1e-3).X_MC = translation(0.5, 0, 0);
+  const Model model = compile(spec);
+  PhysicsWorld world(model);
+  const double before = energy(model, world.state().q, world.state().v).total();
+  double worst = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    world.step(5e-4);
+    const State state = world.state();
+    worst = std::max(worst, std::abs(energy(model, state.q, state.v).total() - before));
+  }
+  EXPECT_LT(worst, 0.01 * 9.81 * 0.5);  // of what it swings through, without any trend over 10 s
+}
+
+// A joint slows as the equation of motion with its damping says, however stiff that is.
+TEST(PhysicsDynamics, DampsAndRubsInJoints) {
+  SceneSpec spec;
+  addHinged(spec, "wheel", 1, 0.01).damping = 0.05;
+  const auto speedAfter = [&](double h, double seconds) {
+    const Model model = compile(spec);
+    PhysicsWorld world(model);
+    world.setState({model.initialPositions(), Eigen::VectorXd::Constant(1, 3), 0});
+    for (int i = 0; i < static_cast<int>(std::lround(seconds / h)); ++i) world.step(h);
+    return world.state().v[0];
+  };
+  EXPECT_NEAR(speedAfter(1e-3, 0.2), 3 * std::exp(-0.05 * 0.2 / 0.01), 0.01);
+  spec.joints[0].damping = 1000;
+  EXPECT_NEAR(speedAfter(1e-3, 0.01), 0, 1e-6);
+  spec.joints[0].damping = 0;
+  spec.joints[0].friction = 0.1;
+  EXPECT_NEAR(speedAfter(1e-3, 0.2), 3 - 0.1 / 0.01 * 0.2, 1e-9);
+  EXPECT_NEAR(speedAfter(1e-3, 0.4), 0, 1e-12);
+}
+
+}  // namespace
+}  // namespace rex
