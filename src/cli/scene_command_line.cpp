@@ -197,13 +197,13 @@ void addSimulate(CLI::App& program, Action& action) {
           "Examples:\n  scripts/rex simulate pegArm -o fall\n"
           "  scripts/rex simulate arm3 --q 0.5,-0.5,0.3 --v 0,2,0 --hold --seconds 2 -o hold\n"
           "  scripts/rex simulate pegArm --engine euler --tau 0.01 -o euler\n\n"
-          "Joints are free, without contacts and limits. DIR gets log.csv (time, q, v and energies of\n"
-          "every step), energy.png, energy.svg and simulate.mp4.");
+          "Joints are free; only bullet knows contacts and limits of joints. DIR gets log.csv (time, q, v\n"
+          "and energies of every step), energy.png, energy.svg and simulate.mp4.");
   command->add_option("SCENE", options->scene.file, kSceneHelp)->type_name("")->required();
   command->add_option("-o,--out", options->out, "folder for what is written")->type_name("DIR")->required();
   command
       ->add_option("--engine", options->engine,
-                   "rk4, beeman, leapfrog, semi-implicit or euler (default: rk4)")
+                   "rk4, beeman, leapfrog, semi-implicit, euler; bullet (default: rk4)")
       ->type_name("NAME");
   command->add_option("--seconds", options->seconds, "how long (default: 5)")->type_name("S");
   command->add_option("--tau", options->tau, "seconds per step (default: 0.001)")->type_name("S");

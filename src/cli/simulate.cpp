@@ -23,26 +23,24 @@ namespace fs = std::filesystem;
 
 constexpr double kMostSteps = 1e6;
 
-struct Engine {
-  const char* name;
-  Integrator integrator;
-};
-constexpr Engine kEngines[] = {{"rk4", Integrator::kRungeKutta4},
-                               {"beeman", Integrator::kBeeman},
-                               {"leapfrog", Integrator::kLeapfrog},
-                               {"semi-implicit", Integrator::kSemiImplicitEuler},
-                               {"euler", Integrator::kEuler}};
+constexpr const char* kBullet = "bullet";
 
-Integrator integratorOf(const std::string& name) {
-  std::vector<std::string> names;
-  for (const Engine& engine : kEngines) {
-    if (name == engine.name) return engine.integrator;
-    names.emplace_back(engine.name);
+Integrator integratorOf(const std::string& engine) {
+  const std::vector<std::pair<std::string, Integrator>> known = {
+      {"rk4", Integrator::kRungeKutta4},
+      {"beeman", Integrator::kBeeman},
+      {"leapfrog", Integrator::kLeapfrog},
+      {"semi-implicit", Integrator::kSemiImplicitEuler},
+      {"euler", Integrator::kEuler}};
+  std::vector<std::string> names = {kBullet};
+  for (const auto& [name, integrator] : known) {
+    if (engine == name) return integrator;
+    names.push_back(name);
   }
   throw UsageError({.what = "--engine",
-                    .found = "'" + harmless(name) + "'",
-                    .wanted = "rk4, beeman, leapfrog, semi-implicit or euler",
-                    .nearest = nearestNames(name, names)});
+                    .found = "'" + harmless(engine) + "'",
+                    .wanted = "rk4, beeman, leapfrog, semi-implicit, euler or bullet",
+                    .nearest = nearestNames(engine, names)});
 }
 
 void requireBetween(const char* option, double number, double least, double most) {
@@ -54,8 +52,14 @@ void requireBetween(const char* option, double number, double least, double most
 
 SimulationPlan planOf(const Model& model, const SimulateOptions& options) {
   SimulationPlan plan{.tau = options.tau, .isHeld = options.hold, .seed = options.seed};
-  plan.stepper = {.integrator = integratorOf(options.engine), .noise = options.noise};
-  plan.stepper.jointForces.friction = options.friction;
+  if (options.engine == kBullet)
+    plan.physics = {.jointFriction = options.friction};
+  else
+    plan.stepper = {.integrator = integratorOf(options.engine),
+                    .jointForces = {.friction = options.friction},
+                    .noise = options.noise};
+  if (plan.physics && options.noise != 0)
+    throw UsageError({.what = "--noise", .found = "--engine bullet", .wanted = "another engine"});
   requireBetween("--tau", options.tau, 1e-6, 1);
   requireBetween("--seconds", options.seconds, 1e-6, 120);
   requireBetween("--noise", options.noise, 0, 1e6);

@@ -75,7 +75,7 @@ TEST_F(SimulateCommand, AnswersPrograms) {
   EXPECT_EQ(rk4.at("q").size(), 3u);
   EXPECT_EQ(rk4.at("files").size(), 3u);
   EXPECT_LT(rk4.at("energy").at("largest_change"), 1e-4);
-  for (const char* engine : {"beeman", "leapfrog", "semi-implicit", "euler"}) {
+  for (const char* engine : {"beeman", "leapfrog", "semi-implicit", "euler", "bullet"}) {
     const nlohmann::json other = answer(engine);
     EXPECT_EQ(other.at("engine"), engine);
     EXPECT_NE(other.at("q"), rk4.at("q"));
@@ -107,6 +107,9 @@ TEST_F(SimulateCommand, RefusesWhatItCannotSimulate) {
   expectRefusal({"--seconds", "100", "--tau", "1e-5"}, "--seconds / --tau, steps: found 1e+07");
   expectRefusal({"--noise", "-1"}, "--noise: found -1, wanted 0 to 1e+06");
   expectRefusal({"--engine", "rk5"}, "--engine: found 'rk5', wanted rk4, beeman, leapfrog");
+  expectRefusal({"--engine", "bulet"}, "did you mean 'bullet'?");
+  expectRefusal({"--engine", "bullet", "--noise", "1"},
+                "--noise: found --engine bullet, wanted another engine");
   expectRefusal({"--q", "1,2"}, "--q: found 2 numbers, wanted 3");
   expectRefusal({"--v", "1,2"}, "--v: found 2 numbers, wanted 3");
   expectRefusal({"--v", "0,inf,0"}, "--v: found 'inf', wanted a number");
@@ -122,6 +125,14 @@ TEST_F(SimulateCommand, ReportsABlowUpAndWritesNothing) {
                                           "--v",      "1000,-1000,1000", "--seconds", "100"};
   expectRefusal(words, "joint '");
   expectRefusal(words, " s");
+}
+
+TEST_F(SimulateCommand, NamesTheBodyWithoutMass) {
+  std::ofstream(in("light.ors")) << "body a { mass=1 }\nbody b { }\njoint turn (a b) { }\n";
+  const ProcessResult result = simulate({"light.ors", "-o", "out"});
+  EXPECT_EQ(result.exitCode, 64) << result.error;
+  EXPECT_THAT(flat(result.error), HasSubstr("'b'"));
+  EXPECT_FALSE(fs::exists(in("out")));
 }
 
 TEST_F(SimulateCommand, DoesWhatItsExamplesSay) {

@@ -51,6 +51,21 @@ TEST(Simulation, TakesItsNoiseFromTheSeed) {
   EXPECT_NE(simulate(kArm, plan).back().state.q, once);
 }
 
+// Bullet's steps are of first order: near the fine steps of Runge and Kutta for a while, and held alike.
+TEST(Simulation, FallsInAWorldWithContactsToo) {
+  SimulationPlan plan = fall();
+  plan.steps = 200;
+  const State fine = simulate(kArm, plan).back().state;
+  plan.physics = {.jointLimits = false, .jointFriction = false};
+  const State bullet = simulate(kArm, plan).back().state;
+  EXPECT_NEAR(bullet.time, fine.time, 1e-12);
+  EXPECT_GT((fine.q - plan.start.q).norm(), 0.1);
+  EXPECT_LT((bullet.q - fine.q).norm(), 0.02);
+  EXPECT_NE(bullet.q, fine.q);
+  plan.isHeld = true, plan.steps = 1000;
+  EXPECT_LT((simulate(kArm, plan).back().state.q - plan.start.q).norm(), 5e-3);
+}
+
 TEST(Simulation, IsShownAtTheRateOfAFilm) {
   std::vector<Moment> moments;
   for (int i = 0; i <= 100; ++i)
