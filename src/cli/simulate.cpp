@@ -21,8 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMostSteps = 1e6;
-
+constexpr double kMostSteps = 2e5;  // of which the log takes some hundred megabytes, at most
 constexpr const char* kBullet = "bullet";
 
 Integrator integratorOf(const std::string& engine) {
@@ -65,6 +64,7 @@ SimulationPlan planOf(const Model& model, const SimulateOptions& options) {
   requireBetween("--noise", options.noise, 0, 1e6);
   requireBetween("--seconds / --tau, steps", options.seconds / options.tau, 1, kMostSteps);
   plan.steps = static_cast<int>(std::lround(options.seconds / options.tau));
+  for (const std::string& body : options.traces) asWrongUse([&] { return model.body(body); }, "--trace: ");
   if (model.nv() == 0) throw UsageError({.what = model.name(), .found = "no joint that moves"});
   plan.start = initialState(model);
   if (!options.posture.empty()) plan.start.q = parsePosture(model, options.posture);
@@ -91,21 +91,21 @@ std::string logOf(const std::vector<Moment>& moments) {
 // Potential energy from that of the start, because its zero lies anywhere. Of very many moments some
 // thousand: a picture has no more columns.
 Figure energyFigure(const std::vector<Moment>& moments, const std::string& title) {
-  Series kinetic{.label = "kinetic"}, potential{.label = "potential"}, sum{.label = "sum", .size = 1.5};
+  Series kinetic{.label = "kinetic"}, potential{.label = "potential"}, total{.label = "total", .size = 1.5};
   const double zero = moments.front().energy.potential;
   const std::size_t stride = 1 + moments.size() / 4000;
   for (std::size_t i = 0; i < moments.size(); i += stride) {
     const auto& [state, energy] = moments[i];
-    for (Series* series : {&kinetic, &potential, &sum}) series->x.push_back(state.time);
+    for (Series* series : {&kinetic, &potential, &total}) series->x.push_back(state.time);
     kinetic.y.push_back(energy.kinetic);
     potential.y.push_back(energy.potential - zero);
-    sum.y.push_back(energy.total() - zero);
+    total.y.push_back(energy.total() - zero);
   }
   return {.title = title,
           .xLabel = "time [s]",
           .yLabel = "energy [J], potential 0 at the start",
           .legend = Legend::kOutside,
-          .series = {kinetic, potential, sum}};
+          .series = {kinetic, potential, total}};
 }
 
 // How far the total energy was from that of the start.
@@ -130,6 +130,9 @@ fs::path writeMotion(const Model& model, const std::vector<Moment>& moments, con
   return writeFilm(pictures, film, options.out / "simulate.mp4");
 }
 
+// What rounds to zero has no sign.
+double rounded(double x) { return std::abs(x) < 5e-6 ? 0 : x; }
+
 // Where each coordinate was at first, and is in the end.
 void sayPostures(const Model& model, const Eigen::VectorXd& first, const Eigen::VectorXd& last) {
   std::size_t width = 0;
@@ -137,7 +140,8 @@ void sayPostures(const Model& model, const Eigen::VectorXd& first, const Eigen::
   for (const Joint& joint : model.joints()) {
     if (joint.mimics) continue;
     for (int i = joint.qIndex; i < joint.qIndex + joint.nq; ++i)
-      say(fmt::format("q{:<3} {:{}}  {:9.5f} -> {:9.5f}", i, harmless(joint.name), width, first[i], last[i]));
+      say(fmt::format("q{:<3} {:{}}  {:9.5f} -> {:9.5f}", i, harmless(joint.name), width, rounded(first[i]),
+                      rounded(last[i])));
   }
 }
 

@@ -103,13 +103,14 @@ TEST_F(SimulateCommand, RefusesWhatItCannotSimulate) {
   expectRefusal({"--tau", "nan"}, "--tau: found nan");
   expectRefusal({"--seconds", "-1"}, "--seconds: found -1, wanted 1e-06 to 120");
   expectRefusal({"--seconds", "0.01", "--tau", "0.1"},
-                "--seconds / --tau, steps: found 0.1, wanted 1 to 1e+06");
+                "--seconds / --tau, steps: found 0.1, wanted 1 to 200000");
   expectRefusal({"--seconds", "100", "--tau", "1e-5"}, "--seconds / --tau, steps: found 1e+07");
   expectRefusal({"--noise", "-1"}, "--noise: found -1, wanted 0 to 1e+06");
   expectRefusal({"--engine", "rk5"}, "--engine: found 'rk5', wanted rk4, beeman, leapfrog");
   expectRefusal({"--engine", "bulet"}, "did you mean 'bullet'?");
   expectRefusal({"--engine", "bullet", "--noise", "1"},
                 "--noise: found --engine bullet, wanted another engine");
+  expectRefusal({"--trace", "pge"}, "--trace: scene 'pegArm.ors' has no body 'pge' (did you mean 'peg'?)");
   expectRefusal({"--q", "1,2"}, "--q: found 2 numbers, wanted 3");
   expectRefusal({"--v", "1,2"}, "--v: found 2 numbers, wanted 3");
   expectRefusal({"--v", "0,inf,0"}, "--v: found 'inf', wanted a number");
