@@ -38,7 +38,7 @@ First steps
   scripts/rex test 01           grade it
 
 All commands
-  list   run   test   debug   scene   render   doctor   bench   dev
+  list   run   test   debug   scene   render   simulate   doctor   bench   dev
 `scripts/rex COMMAND --help` explains one. An exercise may be called by its number, its
 topic or its whole name: 01, kinematics, 01-kinematics.)";
 
@@ -221,7 +221,7 @@ Action parseCommandLine(int argc, const char* const* argv) {
   program.get_formatter()->label("REQUIRED", "");
   addList(program, action), addRun(program, action), addTest(program, action);
   addDebug(program, action), addScene(program, action), addRender(program, action);
-  addDoctor(program, action);
+  addSimulate(program, action), addDoctor(program, action);
   addBench(program, action);
   CLI::App* dev =
       add(program, "dev", "For those who write exercises: new, check, strip",

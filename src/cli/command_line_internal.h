@@ -18,8 +18,9 @@ CLI::App* add(CLI::App& parent, const std::string& name, const std::string& purp
 
 void addGl(CLI::App* command, std::string& gl);
 
-/// `rex scene FILE VERB` and `rex render FILE`.
+/// `rex scene FILE VERB`, `rex render FILE` and `rex simulate FILE`.
 void addScene(CLI::App& program, Action& action);
 void addRender(CLI::App& program, Action& action);
+void addSimulate(CLI::App& program, Action& action);
 
 }  // namespace rex::cli

@@ -57,6 +57,26 @@ struct RenderOptions {
 };
 ExitCode render(const Project& project, const RenderOptions& options);
 
+struct SimulateOptions {
+  SceneOption scene{};
+  std::string posture{};   ///< see parsePosture(); empty: that of the file
+  std::string velocity{};  ///< see parseVelocities(); empty: at rest
+  std::string engine = "rk4";
+  double seconds = 5;
+  double tau = 1e-3;      ///< seconds per step
+  bool hold = false;      ///< computed torque holds the posture
+  bool friction = false;  ///< that of the joints, as in the scene
+  double noise = 0;       ///< see StepperOptions
+  std::uint64_t seed = 0;
+  bool noFilm = false;
+  RenderOptions film{};               ///< cameras, size and gl of the film
+  std::vector<std::string> traces{};  ///< bodies whose way is drawn
+  bool json = false;
+  std::filesystem::path out{};  ///< a folder
+};
+/// Lets a scene move under gravity; writes log, energy plot and film.
+ExitCode simulate(const Project& project, const SimulateOptions& options);
+
 struct SceneOptions {
   SceneOption scene{};
   std::string posture{};  ///< see parsePosture(); empty: that of the file

@@ -209,4 +209,45 @@ void addRender(CLI::App& program, Action& action) {
       [&action, options] { action = [options](const Project& p) { return render(p, *options); }; });
 }
 
+void addSimulate(CLI::App& program, Action& action) {
+  const auto options = std::make_shared<SimulateOptions>();
+  CLI::App* command =
+      add(program, "simulate", "Let a robot fall, or hold it: a log, an energy plot and a film",
+          "Examples:\n  scripts/rex simulate pegArm -o fall\n"
+          "  scripts/rex simulate arm3 --q 0.5,-0.5,0.3 --v 0,2,0 --hold --seconds 2 -o hold\n"
+          "  scripts/rex simulate pegArm --engine euler --tau 0.01 -o euler\n\n"
+          "Joints are free; only bullet knows contacts and limits of joints. DIR gets log.csv (time, q, v\n"
+          "and energies of every step), energy.png, energy.svg and simulate.mp4.");
+  command->add_option("SCENE", options->scene.file, kSceneHelp)->type_name("")->required();
+  command->add_option("-o,--out", options->out, "folder for what is written")->type_name("DIR")->required();
+  command
+      ->add_option("--engine", options->engine,
+                   "rk4, beeman, leapfrog, semi-implicit, euler; bullet (default: rk4)")
+      ->type_name("NAME");
+  command->add_option("--seconds", options->seconds, "how long (default: 5)")->type_name("S");
+  command->add_option("--tau", options->tau, "seconds per step (default: 0.001)")->type_name("S");
+  addPosture(command, options->posture);
+  command->add_option("--v", options->velocity, "all velocities, or joint=number,... (default: 0)")
+      ->type_name("VELOCITY");
+  command->add_flag("--hold", options->hold, "computed torque holds the posture of the start");
+  command->add_flag("--friction", options->friction, "with friction and damping of the scene's joints");
+  command->add_option("--noise", options->noise, "each step adds sqrt(tau) * X * N(0, 1) to velocities")
+      ->type_name("X");
+  command->add_option("--seed", options->seed, "of the noise (default: 0)")->type_name("N");
+  command->add_flag("--no-film", options->noFilm, "no simulate.mp4");
+  command->add_option("--camera", options->film.cameras, "as for `rex render`; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("VIEW");
+  command->add_option("--trace", options->traces, "whose way is drawn as a line")
+      ->allow_extra_args(false)
+      ->type_name("BODY");
+  command->add_option("--size", options->film.size, "pixels of the film (default: 640x480)")
+      ->type_name("WxH");
+  addJson(command, options->json);
+  addReading(command, options->scene.reading);
+  addGl(command, options->film.gl);
+  command->callback(
+      [&action, options] { action = [options](const Project& p) { return simulate(p, *options); }; });
+}
+
 }  // namespace rex::cli

@@ -33,6 +33,7 @@ TEST(Program, WelcomesAndHelps) {
                                              {"bench", "--help"},
                                              {"debug", "--help"},
                                              {"render", "--help"},
+                                             {"simulate", "--help"},
                                              {"doctor", "--help"},
                                              {"dev"},
                                              {"dev", "new", "--help"},
@@ -58,7 +59,8 @@ TEST(Program, NamesTheValuesOfOptionsAndTheEnvironmentOnce) {
 }
 
 TEST(Program, KeepsHelpWithin100ColumnsAndFreeOfColour) {
-  for (const char* command : {"list", "run", "test", "bench", "debug", "render", "doctor", "dev"}) {
+  for (const char* command :
+       {"list", "run", "test", "bench", "debug", "render", "simulate", "doctor", "dev"}) {
     const std::string help = rex({command, "--help"}).output;
     EXPECT_EQ(help.find('\033'), std::string::npos);
     for (std::size_t start = 0; start < help.size();) {

@@ -1,0 +1,197 @@
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "cli/commands.h"
+#include "cli/film_file.h"
+#include "cli/json_internal.h"
+#include "cli/simulation.h"
+#include "cli/wrong_use_internal.h"
+#include "grading/text_file.h"
+#include "render/figure.h"
+
+namespace rex::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kMostSteps = 2e5;  // of which the log takes some hundred megabytes, at most
+constexpr const char* kBullet = "bullet";
+
+Integrator integratorOf(const std::string& engine) {
+  const std::vector<std::pair<std::string, Integrator>> known = {
+      {"rk4", Integrator::kRungeKutta4},
+      {"beeman", Integrator::kBeeman},
+      {"leapfrog", Integrator::kLeapfrog},
+      {"semi-implicit", Integrator::kSemiImplicitEuler},
+      {"euler", Integrator::kEuler}};
+  std::vector<std::string> names = {kBullet};
+  for (const auto& [name, integrator] : known) {
+    if (engine == name) return integrator;
+    names.push_back(name);
+  }
+  throw UsageError({.what = "--engine",
+                    .found = "'" + harmless(engine) + "'",
+                    .wanted = "rk4, beeman, leapfrog, semi-implicit, euler or bullet",
+                    .nearest = nearestNames(engine, names)});
+}
+
+void requireBetween(const char* option, double number, double least, double most) {
+  if (number >= least && number <= most) return;
+  throw UsageError({.what = option,
+                    .found = fmt::format("{:g}", number),
+                    .wanted = fmt::format("{:g} to {:g}", least, most)});
+}
+
+SimulationPlan planOf(const Model& model, const SimulateOptions& options) {
+  SimulationPlan plan{.tau = options.tau, .isHeld = options.hold, .seed = options.seed};
+  if (options.engine == kBullet)
+    plan.physics = {.jointFriction = options.friction};
+  else
+    plan.stepper = {.integrator = integratorOf(options.engine),
+                    .jointForces = {.friction = options.friction},
+                    .noise = options.noise};
+  if (plan.physics && options.noise != 0)
+    throw UsageError({.what = "--noise", .found = "--engine bullet", .wanted = "another engine"});
+  requireBetween("--tau", options.tau, 1e-6, 1);
+  requireBetween("--seconds", options.seconds, 1e-6, 120);
+  requireBetween("--noise", options.noise, 0, 1e6);
+  requireBetween("--seconds / --tau, steps", options.seconds / options.tau, 1, kMostSteps);
+  plan.steps = static_cast<int>(std::lround(options.seconds / options.tau));
+  for (const std::string& body : options.traces) asWrongUse([&] { return model.body(body); }, "--trace: ");
+  if (model.nv() == 0) throw UsageError({.what = model.name(), .found = "no joint that moves"});
+  plan.start = initialState(model);
+  if (!options.posture.empty()) plan.start.q = parsePosture(model, options.posture);
+  if (!options.velocity.empty()) plan.start.v = parseVelocities(model, options.velocity);
+  return plan;
+}
+
+std::string logOf(const std::vector<Moment>& moments) {
+  fmt::memory_buffer log;
+  const auto out = std::back_inserter(log);
+  fmt::format_to(out, "time");
+  for (Eigen::Index i = 0; i < moments[0].state.q.size(); ++i) fmt::format_to(out, ",q{}", i);
+  for (Eigen::Index i = 0; i < moments[0].state.v.size(); ++i) fmt::format_to(out, ",v{}", i);
+  fmt::format_to(out, ",kinetic,potential,total\n");
+  for (const auto& [state, energy] : moments) {
+    fmt::format_to(out, "{}", state.time);
+    for (const double x : state.q) fmt::format_to(out, ",{}", x);
+    for (const double x : state.v) fmt::format_to(out, ",{}", x);
+    fmt::format_to(out, ",{},{},{}\n", energy.kinetic, energy.potential, energy.total());
+  }
+  return fmt::to_string(log);
+}
+
+// Potential energy from that of the start, because its zero lies anywhere. Of very many moments some
+// thousand: a picture has no more columns.
+Figure energyFigure(const std::vector<Moment>& moments, const std::string& title) {
+  Series kinetic{.label = "kinetic"}, potential{.label = "potential"}, total{.label = "total", .size = 1.5};
+  const double zero = moments.front().energy.potential;
+  const std::size_t stride = 1 + moments.size() / 4000;
+  for (std::size_t i = 0; i < moments.size(); i += stride) {
+    const auto& [state, energy] = moments[i];
+    for (Series* series : {&kinetic, &potential, &total}) series->x.push_back(state.time);
+    kinetic.y.push_back(energy.kinetic);
+    potential.y.push_back(energy.potential - zero);
+    total.y.push_back(energy.total() - zero);
+  }
+  return {.title = title,
+          .xLabel = "time [s]",
+          .yLabel = "energy [J], potential 0 at the start",
+          .legend = Legend::kOutside,
+          .series = {kinetic, potential, total}};
+}
+
+// How far the total energy was from that of the start.
+double largestChange(const std::vector<Moment>& moments) {
+  double change = 0;
+  for (const Moment& moment : moments)
+    change = std::max(change, std::abs(moment.energy.total() - moments.front().energy.total()));
+  return change;
+}
+
+std::string titleOf(const Model& model, const SimulateOptions& options) {
+  return fmt::format("{}, {}, {}, steps of {:g} ms", model.name(), options.hold ? "held" : "free",
+                     options.engine, 1000 * options.tau);
+}
+
+fs::path writeMotion(const Model& model, const std::vector<Moment>& moments, const SimulateOptions& options,
+                     const RenderPlan& film) {
+  const Motion motion = motionOf(moments, options.tau, kFilmRate);
+  std::vector<std::size_t> shown(motion.postures.size());
+  std::iota(shown.begin(), shown.end(), std::size_t{0});
+  const MotionPictures pictures(model, motion, shown, options.traces, titleOf(model, options));
+  return writeFilm(pictures, film, options.out / "simulate.mp4");
+}
+
+// What rounds to zero has no sign.
+double rounded(double x) { return std::abs(x) < 5e-6 ? 0 : x; }
+
+// Where each coordinate was at first, and is in the end.
+void sayPostures(const Model& model, const Eigen::VectorXd& first, const Eigen::VectorXd& last) {
+  std::size_t width = 0;
+  for (const Joint& joint : model.joints()) width = std::max(width, harmless(joint.name).size());
+  for (const Joint& joint : model.joints()) {
+    if (joint.mimics) continue;
+    for (int i = joint.qIndex; i < joint.qIndex + joint.nq; ++i)
+      say(fmt::format("q{:<3} {:{}}  {:9.5f} -> {:9.5f}", i, harmless(joint.name), width, rounded(first[i]),
+                      rounded(last[i])));
+  }
+}
+
+void report(const Model& model, const std::vector<Moment>& moments, const SimulateOptions& options,
+            const std::vector<std::string>& files) {
+  const Moment &first = moments.front(), &last = moments.back();
+  const std::size_t steps = moments.size() - 1;
+  if (options.json) {
+    say(dump(Json{{"scene", model.name()},
+                  {"engine", options.engine},
+                  {"held", options.hold},
+                  {"tau", options.tau},
+                  {"steps", steps},
+                  {"energy",
+                   {{"start", first.energy.total()},
+                    {"end", last.energy.total()},
+                    {"largest_change", largestChange(moments)}}},
+                  {"q", jsonOf(last.state.q)},
+                  {"v", jsonOf(last.state.v)},
+                  {"files", files}}));
+    return;
+  }
+  say(fmt::format("{}: {} steps, {:g} s", titleOf(model, options), steps, last.state.time));
+  say(fmt::format("energy: {:.6g} J at first, {:.6g} J in the end, largest change {:.2g} J",
+                  first.energy.total(), last.energy.total(), largestChange(moments)));
+  sayPostures(model, first.state.q, last.state.q);
+  for (const std::string& file : files) say(file);
+}
+
+}  // namespace
+
+ExitCode simulate(const Project& project, const SimulateOptions& options) {
+  RenderOptions filmOptions = options.film;
+  filmOptions.out = options.out / "simulate.mp4";
+  const RenderPlan film = planOf(filmOptions);
+  const Model model = loadScene(project, options.scene);
+  const SimulationPlan plan = planOf(model, options);
+  const std::vector<Moment> moments = asWrongUse([&] { return simulate(model, plan); });
+
+  std::vector<std::string> files;
+  grading::writeTextFile(options.out / "log.csv", logOf(moments));
+  files.push_back(shown(options.out / "log.csv"));
+  const Figure figure = energyFigure(moments, titleOf(model, options));
+  for (const char* name : {"energy.png", "energy.svg"}) {
+    writeFigure(figure, options.out / name);
+    files.push_back(shown(options.out / name));
+  }
+  if (!options.noFilm) files.push_back(shown(writeMotion(model, moments, options, film)));
+  report(model, moments, options, files);
+  return ExitCode::kFull;
+}
+
+}  // namespace rex::cli

@@ -1,0 +1,103 @@
+#include "control/operational_space.h"
+
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Cholesky>
+
+#include "base/error.h"
+#include "dynamics/mass_matrix.h"
+#include "kinematics/hierarchical_step.h"
+#include "kinematics/inverse_kinematics.h"
+#include "optim/derivative_check.h"
+
+namespace rex {
+namespace {
+
+// A reference with the size of its task; empty means zero.
+Eigen::VectorXd referenceOf(const Task& task, const char* what, const Eigen::VectorXd& given,
+                            Eigen::Index size) {
+  if (given.size() == 0) return Eigen::VectorXd::Zero(size);
+  requireSize("task '" + task.name + "': " + what, given.size(), size);
+  return given;
+}
+
+// The acceleration that a task asks of its value, beyond J' v.
+Eigen::VectorXd wishedAcceleration(const OperationalTask& one, const TaskValue& value, const State& state) {
+  const Eigen::Index d = value.y.size();
+  const Eigen::VectorXd target = referenceOf(one.task, "target", one.task.target, d);
+  const Eigen::VectorXd velocity = referenceOf(one.task, "reference velocity", one.velocity, d);
+  const Eigen::VectorXd acceleration = referenceOf(one.task, "reference acceleration", one.acceleration, d);
+  return acceleration + one.gains.Kp * (target - value.y) + one.gains.Kd * (velocity - value.J * state.v);
+}
+
+// What each task wants of the forces: T u = y''* - J' v + T F.
+std::vector<TaskLevel> wishesOf(const Model& model, const State& state,
+                                std::span<const OperationalTask> tasks, const Eigen::Vector3d& gravity_W) {
+  const auto [M, F] = equationOfMotion(model, state.q, state.v, gravity_W);
+  const Eigen::LLT<Eigen::MatrixXd> factors(M);
+  if (factors.info() != Eigen::Success)
+    throw Error({.what = model.name() + ": mass matrix",
+                 .found = "one that is singular",
+                 .wanted = "mass at the end of every joint"});
+  std::vector<Task> plain;
+  for (const OperationalTask& one : tasks) plain.push_back(one.task);
+  std::vector<TaskValue> values;
+  TaskValue stack;
+  const BodyPoses poses = forwardKinematics(model, state.q);
+  stackTasks(plain, {model, state.q, poses}, values, stack);
+
+  std::vector<TaskLevel> wishes;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    const Eigen::MatrixXd T = factors.solve(values[i].J.transpose()).transpose();
+    wishes.push_back({T, wishedAcceleration(tasks[i], values[i], state) -
+                             velocityAcceleration(model, state, tasks[i].task.map) + T * F});
+  }
+  return wishes;
+}
+
+}  // namespace
+
+Eigen::VectorXd velocityAcceleration(const Model& model, const State& state, const TaskMap& map) {
+  requireSize("joint velocities v", state.v.size(), model.nv());
+  Eigen::VectorXd q(model.nq());
+  BodyPoses poses;
+  TaskValue value;
+  const double speed = state.v.size() > 0 ? state.v.cwiseAbs().maxCoeff() : 0;
+  const Eigen::VectorXd direction = speed > 0 ? Eigen::VectorXd(state.v / speed) : state.v;
+  const auto velocityAt = [&](const Eigen::VectorXd& way) {
+    q = integrate(model, state.q, way[0] * direction);
+    forwardKinematics(model, q, poses);
+    map({model, q, poses}, value);
+    return Eigen::VectorXd(value.J * direction);
+  };
+  return speed * speed * numericJacobian(velocityAt, Eigen::VectorXd::Zero(1));
+}
+
+Eigen::VectorXd operationalSpaceForces(const Model& model, const State& state,
+                                       std::span<const OperationalTask> tasks,
+                                       const OperationalSpaceOptions& options) {
+  const std::vector<TaskLevel> wishes = wishesOf(model, state, tasks, options.gravity_W);
+  Eigen::Index rows = 0;
+  for (const TaskLevel& wish : wishes) rows += wish.J.rows();
+  Eigen::MatrixXd T(rows, model.nv());
+  Eigen::VectorXd b(rows);
+  rows = 0;
+  for (std::size_t i = 0; i < wishes.size(); ++i) {
+    const Eigen::Index d = wishes[i].J.rows();
+    const double weight = std::sqrt(tasks[i].task.precision);
+    T.middleRows(rows, d) = weight * wishes[i].J;
+    b.segment(rows, d) = weight * wishes[i].dy;
+    rows += d;
+  }
+  return inverseKinematicsStep(T, b, StepOptions{.W = options.H, .a = options.u0});
+}
+
+Eigen::VectorXd prioritisedForces(const Model& model, const State& state,
+                                  std::span<const OperationalTask> tasks,
+                                  const OperationalSpaceOptions& options) {
+  return hierarchicalStep(wishesOf(model, state, tasks, options.gravity_W),
+                          {.W = options.H, .a = options.u0, .damping = options.damping});
+}
+
+}  // namespace rex

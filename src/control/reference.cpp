@@ -1,0 +1,45 @@
+#include "control/reference.h"
+
+#include <algorithm>
+
+#include "control/require_internal.h"
+
+namespace rex {
+
+Reference standAt(const Model& model, const VectorArg& q) {
+  requireSize("posture q", q.size(), model.nq());
+  const Eigen::VectorXd still = Eigen::VectorXd::Zero(model.nv());
+  return {q, still, still};
+}
+
+Reference referenceAlong(const Model& model, const VectorArg& q0, const VectorArg& qT, double seconds,
+                         double t, const MotionProfile& profile) {
+  internal::requirePositive("seconds", seconds);
+  const ProfilePoint at = profileAt(profile, t / seconds);
+  const Eigen::VectorXd way = difference(model, q0, qT);
+  return {integrate(model, q0, at.position * way), at.velocity / seconds * way,
+          at.acceleration / (seconds * seconds) * way};
+}
+
+Reference referenceAt(const Model& model, const MatrixArg& Q, double tau, int i) {
+  internal::requirePositive("time between samples tau", tau);
+  const int last = static_cast<int>(Q.cols()) - 1;
+  if (i < 0 || i > last)
+    throw Error({.what = "sample of a reference",
+                 .found = fmt::format("{}", i),
+                 .wanted = fmt::format("0 to {}", last)});
+  const Eigen::VectorXd before = difference(model, Q.col(std::max(i - 1, 0)), Q.col(i)) / tau;
+  const Eigen::VectorXd after = difference(model, Q.col(i), Q.col(std::min(i + 1, last))) / tau;
+  return {Q.col(i), (before + after) / 2, (after - before) / tau};
+}
+
+Eigen::VectorXd followReference(const Model& model, const State& state, const Reference& reference,
+                                const PdGains& gains) {
+  requireSize("reference velocities", reference.v.size(), model.nv());
+  requireSize("reference accelerations", reference.a.size(), model.nv());
+  requireSize("joint velocities v", state.v.size(), model.nv());
+  return reference.a + gains.Kp * difference(model, state.q, reference.q) +
+         gains.Kd * (reference.v - state.v);
+}
+
+}  // namespace rex

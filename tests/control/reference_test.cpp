@@ -1,0 +1,115 @@
+#include "control/reference.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "kinematics/task_motion.h"
+#include "support/expect_error.h"
+#include "support/random_scene.h"
+
+namespace rex {
+namespace {
+
+// A robot with joints of all types, also quaternions.
+const Model kModel = [] {
+  Rng rng(3);
+  return compile(randomScene(rng, 14));
+}();
+
+Eigen::VectorXd posture(Rng& rng) {
+  return integrate(kModel, kModel.initialPositions(), 0.3 * rng.normalVector(kModel.nv()));
+}
+
+TEST(Reference, StandsStill) {
+  const Reference still = standAt(kModel, kModel.initialPositions());
+  EXPECT_EQ(still.q, kModel.initialPositions());
+  EXPECT_EQ(still.v, Eigen::VectorXd::Zero(kModel.nv()));
+  EXPECT_EQ(still.a, Eigen::VectorXd::Zero(kModel.nv()));
+}
+
+// Velocity and acceleration by differences of the postures, of which the frames are those of v.
+TEST(Reference, HasTheDerivativesOfItsWay) {
+  Rng rng(4);
+  const Eigen::VectorXd q0 = posture(rng), qT = posture(rng);
+  const double h = 1e-4;
+  for (const double t : {0.3, 1., 1.9}) {
+    const auto at = [&](double when) {
+      return referenceAlong(kModel, q0, qT, 2, when, {.shape = ProfileShape::kMinimumJerk});
+    };
+    const Reference now = at(t), before = at(t - h), after = at(t + h);
+    EXPECT_LT((difference(kModel, before.q, after.q) / (2 * h) - now.v).norm(), 1e-6);
+    EXPECT_LT(((after.v - before.v) / (2 * h) - now.a).norm(), 1e-6);
+    EXPECT_GT(now.v.norm(), 0.01);
+  }
+  const Reference start = referenceAlong(kModel, q0, qT, 2, 0), end = referenceAlong(kModel, q0, qT, 2, 5);
+  EXPECT_LT(difference(kModel, start.q, q0).norm(), 1e-12);
+  EXPECT_LT(difference(kModel, end.q, qT).norm(), 1e-12);
+  EXPECT_EQ(end.v, Eigen::VectorXd::Zero(kModel.nv()));
+}
+
+TEST(Reference, IsReadFromSamples) {
+  Rng rng(5);
+  const Eigen::VectorXd q0 = posture(rng), qT = posture(rng);
+  double before = 0;
+  for (const int steps : {50, 100, 200}) {
+    const Eigen::MatrixXd Q = interpolatePostures(kModel, q0, qT, steps);
+    double worst = 0;
+    for (int i = 1; i < steps; ++i) {
+      const Reference exact = referenceAlong(kModel, q0, qT, 2, 2. * i / steps);
+      const Reference sampled = referenceAt(kModel, Q, 2. / steps, i);
+      EXPECT_EQ(sampled.q, Q.col(i));
+      worst = std::max({worst, (sampled.v - exact.v).norm(), (sampled.a - exact.a).norm()});
+    }
+    EXPECT_LT(worst, 0.01);
+    if (before > 0) {  // second order
+      EXPECT_NEAR(before / worst, 4, 0.2);
+    }
+    before = worst;
+  }
+}
+
+TEST(Reference, RestsBeforeTheFirstSampleAndAfterTheLast) {
+  Rng rng(6);
+  const Eigen::MatrixXd Q = interpolatePostures(kModel, posture(rng), posture(rng), 3);
+  const Eigen::VectorXd step = difference(kModel, Q.col(0), Q.col(1));
+  const Reference first = referenceAt(kModel, Q, 0.1, 0), last = referenceAt(kModel, Q, 0.1, 3);
+  EXPECT_LT((first.v - step / 0.2).norm(), 1e-12);
+  EXPECT_LT((first.a - step / 0.01).norm(), 1e-10);
+  EXPECT_LT((last.a + difference(kModel, Q.col(2), Q.col(3)) / 0.01).norm(), 1e-10);
+}
+
+TEST(FollowReference, PullsLikeASpringToTheReference) {
+  Rng rng(7);
+  const Reference reference{posture(rng), rng.normalVector(kModel.nv()), rng.normalVector(kModel.nv())};
+  const PdGains gains{.Kp = 7, .Kd = 3};
+  EXPECT_LT((followReference(kModel, {reference.q, reference.v}, reference, gains) - reference.a).norm(),
+            1e-12);
+  const Eigen::VectorXd behind = 0.1 * rng.normalVector(kModel.nv()), slower = rng.normalVector(kModel.nv());
+  const State state{integrate(kModel, reference.q, -behind), reference.v - slower};
+  EXPECT_LT(
+      (followReference(kModel, state, reference, gains) - (reference.a + 7 * behind + 3 * slower)).norm(),
+      1e-12);
+}
+
+TEST(Reference, RefusesWhatIsNone) {
+  const Eigen::VectorXd& q = kModel.initialPositions();
+  const Eigen::MatrixXd Q = q.replicate(1, 3);
+  const Eigen::VectorXd wrong = Eigen::VectorXd::Zero(2);
+  EXPECT_REX_ERROR(standAt(kModel, wrong), "posture q: found a vector of size 2");
+  EXPECT_REX_ERROR(referenceAlong(kModel, q, q, 0, 1), "seconds: found 0, wanted a positive number");
+  EXPECT_REX_ERROR(referenceAlong(kModel, q, wrong, 1, 1), "found a vector of size 2");
+  EXPECT_REX_ERROR(referenceAt(kModel, Q, 0, 1), "time between samples tau: found 0");
+  EXPECT_REX_ERROR(referenceAt(kModel, Q, 1, 3), "sample of a reference: found 3, wanted 0 to 2");
+  EXPECT_REX_ERROR(referenceAt(kModel, Q, 1, -1), "sample of a reference: found -1");
+  Reference reference = standAt(kModel, q);
+  const State state = initialState(kModel);
+  EXPECT_REX_ERROR(followReference(kModel, {q, wrong}, reference, {}), "joint velocities v: found a vector");
+  reference.a = wrong;
+  EXPECT_REX_ERROR(followReference(kModel, state, reference, {}), "reference accelerations: found a vector");
+  reference.v = wrong;
+  EXPECT_REX_ERROR(followReference(kModel, state, reference, {}), "reference velocities: found a vector");
+}
+
+}  // namespace
+}  // namespace rex
