@@ -50,6 +50,7 @@ void run(const std::vector<std::string>& names, bool asJson) {
                                             {"grading", gradingRows()},
                                             {"ik", ikRows()},
                                             {"kinematics", kinematicsRows()},
+                                            {"planning", planningRows()},
                                             {"render", renderRows()},
                                             {"scene", sceneRows()}},
                                            names);

@@ -37,6 +37,7 @@ struct Result {
 [[nodiscard]] std::vector<Row> gradingRows();
 [[nodiscard]] std::vector<Row> ikRows();
 [[nodiscard]] std::vector<Row> kinematicsRows();
+[[nodiscard]] std::vector<Row> planningRows();
 [[nodiscard]] std::vector<Row> renderRows();
 [[nodiscard]] std::vector<Row> sceneRows();
 
