@@ -130,6 +130,21 @@ void addDebug(CLI::App& program, Action& action) {
       [&action, options] { action = [options](const Project& p) { return debug(p, *options); }; });
 }
 
+void addCurves(CLI::App& program, Action& action) {
+  const auto options = std::make_shared<CurvesOptions>();
+  CLI::App* command = add(program, "curves", "Find the shortest ways of a car with a turning radius",
+                          "Examples:\n  scripts/rex curves --to 0,2,3.14159\n"
+                          "  scripts/rex curves --from 0,0,0 --to -1,1,0 --radius 2 --json\n\n"
+                          "Dubins' car drives forward only, that of Reeds and Shepp also backward.");
+  command->add_option("--from", options->from, "where it starts (default: 0,0,0)")->type_name("x,y,th");
+  command->add_option("--to", options->to, "where it goes: metres, and the heading in radians")
+      ->type_name("x,y,th")
+      ->required();
+  command->add_option("--radius", options->radius, "of the tightest turn (default: 1)")->type_name("METRES");
+  command->add_flag("--json", options->json, "print JSON");
+  command->callback([&action, options] { action = [options](const Project&) { return curves(*options); }; });
+}
+
 void addDoctor(CLI::App& program, Action& action) {
   const auto options = std::make_shared<DoctorOptions>();
   CLI::App* command = add(program, "doctor", "Try all that pictures need on this machine",
@@ -221,7 +236,7 @@ Action parseCommandLine(int argc, const char* const* argv) {
   program.get_formatter()->label("REQUIRED", "");
   addList(program, action), addRun(program, action), addTest(program, action);
   addDebug(program, action), addScene(program, action), addRender(program, action);
-  addSimulate(program, action), addDoctor(program, action);
+  addSimulate(program, action), addCurves(program, action), addDoctor(program, action);
   addBench(program, action);
   CLI::App* dev =
       add(program, "dev", "For those who write exercises: new, check, strip",

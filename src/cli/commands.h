@@ -117,6 +117,14 @@ struct ConvertOptions {
 };
 ExitCode sceneConvert(const Project& project, const ConvertOptions& options);
 
+struct CurvesOptions {
+  std::string from{}, to{};  ///< x,y,heading; metres and radians
+  double radius = 1;         ///< metres
+  bool json = false;
+};
+/// The shortest ways of a car that drives forward only, and of one that may drive backward.
+ExitCode curves(const CurvesOptions& options);
+
 struct DoctorOptions {
   std::string gl;  ///< auto, osmesa or egl; empty: auto
   bool json = false;

@@ -53,6 +53,7 @@ void run(const std::vector<std::string>& names, bool asJson) {
                                             {"ik", ikRows()},
                                             {"kinematics", kinematicsRows()},
                                             {"physics", physicsRows()},
+                                            {"planning", planningRows()},
                                             {"render", renderRows()},
                                             {"scene", sceneRows()}},
                                            names);

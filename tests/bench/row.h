@@ -39,6 +39,7 @@ struct Result {
 [[nodiscard]] std::vector<Row> ikRows();
 [[nodiscard]] std::vector<Row> kinematicsRows();
 [[nodiscard]] std::vector<Row> physicsRows();
+[[nodiscard]] std::vector<Row> planningRows();
 [[nodiscard]] std::vector<Row> renderRows();
 [[nodiscard]] std::vector<Row> sceneRows();
 [[nodiscard]] std::vector<Row> steppingRows();

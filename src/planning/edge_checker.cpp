@@ -1,0 +1,54 @@
+#include "planning/edge_checker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace rex {
+namespace {
+
+constexpr int kBlock = 8;
+
+// A step that visits all of 0 .. count - 1 and never stays near where it was: coprime to count, about .38 of
+// it.
+int wideStep(int count) {
+  int step = std::max(1, static_cast<int>(.382 * count));
+  while (std::gcd(step, count) != 1) ++step;
+  return step;
+}
+
+}  // namespace
+
+EdgeChecker::EdgeChecker(const Space& space, AllValid allValid, double resolution)
+    : space_(space), allValid_(std::move(allValid)), resolution_(resolution), block_(space.size(), kBlock) {
+  if (!(resolution > 0) || !std::isfinite(resolution)) {
+    throw Error({.what = "resolution of a path check",
+                 .found = fmt::format("{:g}", resolution),
+                 .wanted = "a positive, finite distance"});
+  }
+}
+
+bool EdgeChecker::isValid(const VectorArg& q) {
+  ++asked_;
+  return allValid_(q);
+}
+
+bool EdgeChecker::isValid(const VectorArg& from, const VectorArg& to) {
+  const int points = std::max(1, static_cast<int>(std::ceil(space_.distance(from, to) / resolution_)));
+  const int blocks = (points + kBlock - 1) / kBlock, step = wideStep(blocks);
+  for (int i = 0, first = 0; i < blocks; ++i, first = (first + step) % blocks) {
+    int filled = 0;
+    for (int k = points - first; k > 0; k -= blocks)  // the end belongs to the first block
+      space_.interpolate(from, to, static_cast<double>(k) / points, block_.col(filled++));
+    asked_ += filled;
+    if (!allValid_(block_.leftCols(filled))) return false;
+  }
+  return true;
+}
+
+}  // namespace rex

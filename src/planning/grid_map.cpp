@@ -1,0 +1,165 @@
+#include "planning/grid_map.h"
+
+#include <cctype>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "render/png.h"
+
+namespace rex {
+namespace {
+
+constexpr std::size_t kMostCells = 100'000'000;
+
+// A P2 or P5 picture as it is read: numbers between blanks, and comments.
+class PgmReader {
+ public:
+  PgmReader(std::string_view bytes, std::string file) : bytes_(bytes), file_(std::move(file)) {}
+
+  GridMap read(double cellSize) {
+    const bool isText = bytes_.starts_with("P2"), isBinary = bytes_.starts_with("P5");
+    if (!isText && !isBinary) refuse("no picture", "one that begins with P2 or P5");
+    at_ = 2;
+    const int width = number("a width", 1, 1 << 20), height = number("a height", 1, 1 << 20);
+    const int white = number("the grey of white", 1, 65535);
+    if (isBinary && white > 255) refuse("two bytes for each pixel", "one");
+    GridMap map(width, height, cellSize);
+    if (isBinary) ++at_;  // the blank behind the head
+    for (int y = height - 1; y >= 0; --y) {
+      for (int x = 0; x < width; ++x) {
+        const int grey = isBinary ? byte() : number("a grey", 0, white);
+        map.setBlocked({x, y}, 2 * grey < white);
+      }
+    }
+    return map;
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& found, const std::string& wanted) const {
+    throw Error({.what = "grid map", .where = {.file = file_}, .found = found, .wanted = wanted});
+  }
+  int byte() {
+    if (at_ >= bytes_.size()) refuse("the end of the file", "more pixels");
+    return static_cast<unsigned char>(bytes_[at_++]);
+  }
+  int number(const std::string& what, int least, int most) {
+    while (at_ < bytes_.size() &&
+           (std::isspace(static_cast<unsigned char>(bytes_[at_])) || bytes_[at_] == '#')) {
+      if (bytes_[at_] == '#')
+        while (at_ < bytes_.size() && bytes_[at_] != '\n') ++at_;
+      else
+        ++at_;
+    }
+    int value = 0;
+    const std::size_t begin = at_;
+    for (; at_ < bytes_.size() && bytes_[at_] >= '0' && bytes_[at_] <= '9' && value <= most; ++at_)
+      value = 10 * value + (bytes_[at_] - '0');
+    if (at_ == begin) refuse(at_ < bytes_.size() ? "no number" : "the end of the file", what);
+    if (value < least || value > most)
+      refuse(fmt::format("{}", value), fmt::format("{} from {} to {}", what, least, most));
+    return value;
+  }
+
+  std::string_view bytes_;
+  std::string file_;
+  std::size_t at_ = 0;
+};
+
+GridMap mapOf(const Image& image, double cellSize) {
+  GridMap map(image.width, image.height, cellSize);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const auto [red, green, blue] = image.at(x, y);
+      map.setBlocked({x, image.height - 1 - y}, 2 * (red + green + blue) < 3 * 255);
+    }
+  }
+  return map;
+}
+
+}  // namespace
+
+GridMap::GridMap(int width, int height, double cellSize, const Eigen::Vector2d& origin)
+    : width_(width), height_(height), cellSize_(cellSize), origin_(origin) {
+  if (width < 1 || height < 1 ||
+      static_cast<std::size_t>(width) * static_cast<std::size_t>(height) > kMostCells) {
+    throw Error({.what = "grid map",
+                 .found = fmt::format("{} x {} cells", width, height),
+                 .wanted = fmt::format("at least 1 x 1, at most {} in all", kMostCells)});
+  }
+  if (!(cellSize > 0) || !std::isfinite(cellSize)) {
+    throw Error({.what = "grid map",
+                 .found = fmt::format("cells of {:g} m", cellSize),
+                 .wanted = "a positive, finite size"});
+  }
+  blocked_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+}
+
+Eigen::Vector2d GridMap::center(GridCell cell) const {
+  return origin_ + cellSize_ * Eigen::Vector2d(cell.x + .5, cell.y + .5);
+}
+
+GridCell GridMap::cellAt(const Eigen::Vector2d& point) const {
+  const Eigen::Vector2d cell = (point - origin_) / cellSize_;
+  // Beyond the map one cell is as good as another, and must fit into an int.
+  const auto place = [](double x, int size) {
+    return static_cast<int>(std::floor(std::fmin(std::fmax(x, -1), size)));
+  };
+  return {place(cell.x(), width_), place(cell.y(), height_)};
+}
+
+void GridMap::requireFree(std::string_view what, GridCell cell) const {
+  if (!isBlocked(cell)) return;
+  throw Error(
+      {.what = std::string(what),
+       .found = fmt::format("cell ({}, {}), {}", cell.x, cell.y, contains(cell) ? "blocked" : "outside"),
+       .wanted = fmt::format("a free cell of {} x {}", width_, height_)});
+}
+
+GridMap parseGridMap(std::string_view text, const std::string& name, double cellSize) {
+  std::vector<std::string_view> rows;
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    std::string_view row = text.substr(0, end);
+    if (row.ends_with('\r')) row.remove_suffix(1);
+    rows.push_back(row);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  }
+  while (!rows.empty() && rows.back().empty()) rows.pop_back();
+  const auto refuse = [&](std::size_t row, std::size_t column, const std::string& found,
+                          const std::string& wanted) {
+    throw Error({.what = "grid map",
+                 .where = {name, static_cast<int>(row + 1), static_cast<int>(column + 1)},
+                 .found = found,
+                 .wanted = wanted});
+  };
+  if (rows.empty()) refuse(0, 0, "no rows", "rows of '#' and '.'");
+  GridMap map(std::max(1, static_cast<int>(rows[0].size())), static_cast<int>(rows.size()), cellSize);
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    const std::size_t known = std::min(rows[row].find_first_not_of("#."), rows[row].size());
+    if (known < rows[row].size())
+      refuse(row, known, fmt::format("'{}'", rows[row].substr(known, 1)), "'#' for blocked or '.' for free");
+    if (rows[row].size() != rows[0].size() || rows[row].empty())
+      refuse(row, rows[row].size(), fmt::format("a row of {} cells", rows[row].size()),
+             fmt::format("{}, as in the first row", std::max<std::size_t>(1, rows[0].size())));
+    for (std::size_t x = 0; x < rows[row].size(); ++x)
+      map.setBlocked({static_cast<int>(x), static_cast<int>(rows.size() - 1 - row)}, rows[row][x] == '#');
+  }
+  return map;
+}
+
+GridMap readGridMap(const std::filesystem::path& file, double cellSize) {
+  if (file.extension() == ".png") return mapOf(readPng(file), cellSize);
+  std::ifstream input(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(input), {}};
+  if (!input)
+    throw Error(
+        {.what = "grid map", .where = {.file = file.string()}, .found = "a file that cannot be read"});
+  if (file.extension() == ".pgm") return PgmReader(bytes, file.string()).read(cellSize);
+  return parseGridMap(bytes, file.string(), cellSize);
+}
+
+}  // namespace rex

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace rex {
+
+/// A cell by column and row, from the lower left.
+struct GridCell {
+  int x = 0, y = 0;
+  bool operator==(const GridCell&) const = default;
+};
+
+/// A rectangle of square cells, each free or blocked. Cell (0, 0) has its lower left corner at the origin.
+class GridMap {
+ public:
+  /// All free. Throws Error for sizes that are not positive, and more than 100 million cells.
+  GridMap(int width, int height, double cellSize = 1,
+          const Eigen::Vector2d& origin = Eigen::Vector2d::Zero());
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  double cellSize() const { return cellSize_; }
+  bool contains(GridCell cell) const {
+    return 0 <= cell.x && cell.x < width_ && 0 <= cell.y && cell.y < height_;
+  }
+  /// Outside, all is blocked.
+  bool isBlocked(GridCell cell) const { return !contains(cell) || blocked_[index(cell)] != 0; }
+  /// The cell must be inside.
+  void setBlocked(GridCell cell, bool blocked = true) { blocked_[index(cell)] = blocked ? 1 : 0; }
+  /// Place of a cell in lists of all cells: row by row, from the lowest.
+  std::size_t index(GridCell cell) const {
+    return static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(cell.x);
+  }
+  std::size_t count() const { return blocked_.size(); }
+
+  /// Metres.
+  [[nodiscard]] Eigen::Vector2d center(GridCell cell) const;
+  [[nodiscard]] GridCell cellAt(const Eigen::Vector2d& point) const;
+
+  /// Throws Error for a cell outside or blocked; `what` names it.
+  void requireFree(std::string_view what, GridCell cell) const;
+
+ private:
+  int width_, height_;
+  double cellSize_;
+  Eigen::Vector2d origin_;
+  std::vector<std::uint8_t> blocked_;
+};
+
+/// Reads a map of '#' (blocked) and '.' (free), a row per line, the highest first. Throws Error with
+/// file:line:column for other characters, rows of different length, and a map without cells.
+[[nodiscard]] GridMap parseGridMap(std::string_view text, const std::string& name, double cellSize = 1);
+
+/// Reads a .png or .pgm picture, in which what is darker than half is blocked, or any other file as
+/// parseGridMap() does. Throws Error naming the file and what is wrong with it.
+[[nodiscard]] GridMap readGridMap(const std::filesystem::path& file, double cellSize = 1);
+
+}  // namespace rex

@@ -1,0 +1,267 @@
+#include "planning/nearest_neighbors.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace rex {
+namespace {
+
+using Kind = SpacePart::Kind;
+constexpr double kPi = std::numbers::pi;
+
+// Between two angles of [-pi, pi], at most pi.
+double angleBetween(double a, double b) {
+  const double turn = std::abs(a - b);
+  return std::min(turn, 2 * kPi - turn);
+}
+
+// The square of a weighted distance by that of two angles, which grows with it.
+double squaredTurn(const SpacePart& part, double turn) {
+  if (part.kind == Kind::kCircle) return part.weight * part.weight * turn * turn;
+  const double chord = 2 * part.weight * std::sin(turn / 2);
+  return chord * chord;
+}
+
+double squaredGap(double x, double lower, double upper) {
+  const double gap = std::max({lower - x, x - upper, 0.});
+  return gap * gap;
+}
+
+// Distance and number of a point; of equally near ones the first comes first.
+using Neighbor = std::pair<double, int>;
+
+std::vector<int> pointsOf(std::vector<Neighbor> neighbors) {
+  std::sort(neighbors.begin(), neighbors.end());
+  std::vector<int> points;
+  for (const Neighbor& neighbor : neighbors) points.push_back(neighbor.second);
+  return points;
+}
+
+}  // namespace
+
+NearestNeighbors::NearestNeighbors(Space space) : space_(std::move(space)) {}
+
+// Lines and quaternions times their weights; angles as they are, from -pi to pi.
+Eigen::VectorXd NearestNeighbors::scaled(const VectorArg& q) const {
+  requireSize("configuration", q.size(), space_.size());
+  if (!q.allFinite()) {
+    throw Error(
+        {.what = "configuration", .found = "a number that is not finite", .wanted = "finite numbers"});
+  }
+  Eigen::VectorXd x = q;
+  Eigen::Index i = 0;
+  for (const SpacePart& part : space_.parts()) {
+    const int count = sizeOf(part.kind);
+    const bool isAngle = part.kind == Kind::kCircle || part.kind == Kind::kChord;
+    if (isAngle)
+      x[i] = std::remainder(x[i], 2 * kPi);
+    else
+      x.segment(i, count) *= part.weight;
+    i += count;
+  }
+  return x;
+}
+
+int NearestNeighbors::newLeaf() {
+  nodes_.push_back({.bucket = static_cast<int>(buckets_.size())});
+  buckets_.push_back({std::vector<double>(size() * kBucket), {}});
+  boxes_.insert(boxes_.end(), size(), std::numeric_limits<double>::infinity());
+  boxes_.insert(boxes_.end(), size(), -std::numeric_limits<double>::infinity());
+  return static_cast<int>(nodes_.size()) - 1;
+}
+
+void NearestNeighbors::put(int leaf, const double* x, int point) {
+  Bucket& bucket = buckets_[static_cast<std::size_t>(node(leaf).bucket)];
+  const std::size_t slot = bucket.points.size();
+  for (std::size_t i = 0; i < size(); ++i) bucket.numbers[i * kBucket + slot] = x[i];
+  bucket.points.push_back(point);
+}
+
+void NearestNeighbors::grow(int at, const double* x) {
+  ++node(at).count;
+  double* lower = box(at);
+  for (std::size_t i = 0; i < size(); ++i) {
+    lower[i] = std::min(lower[i], x[i]);
+    lower[size() + i] = std::max(lower[size() + i], x[i]);
+  }
+}
+
+// Where the box has less to grow; of equals, where there are fewer points.
+int NearestNeighbors::branchFor(const Node& at, const double* x) const {
+  const auto growth = [&](int branch) {
+    const double *lower = box(branch), *upper = lower + size();
+    double sum = 0;
+    for (std::size_t i = 0; i < size(); ++i) sum += std::max({lower[i] - x[i], x[i] - upper[i], 0.});
+    return sum;
+  };
+  const double left = growth(at.left), right = growth(at.right);
+  if (left != right) return left < right ? at.left : at.right;
+  return node(at.left).count <= node(at.right).count ? at.left : at.right;
+}
+
+// Halves a full leaf across the side on which its box is longest.
+void NearestNeighbors::split(int at) {
+  const double *lower = box(at), *upper = lower + size();
+  std::size_t longest = 0;
+  for (std::size_t i = 1; i < size(); ++i)
+    if (upper[i] - lower[i] > upper[longest] - lower[longest]) longest = i;
+  const Bucket full = std::exchange(buckets_[static_cast<std::size_t>(node(at).bucket)], Bucket{});
+  std::array<int, kBucket> order;
+  for (int k = 0; k < kBucket; ++k) order[static_cast<std::size_t>(k)] = k;
+  const double* numbers = full.numbers.data() + longest * kBucket;
+  std::nth_element(order.begin(), order.begin() + kBucket / 2, order.end(),
+                   [&](int a, int b) { return std::pair(numbers[a], a) < std::pair(numbers[b], b); });
+  const int left = newLeaf(), right = newLeaf();
+  Eigen::VectorXd x(space_.size());
+  for (int k = 0; k < kBucket; ++k) {
+    const auto slot = static_cast<std::size_t>(order[static_cast<std::size_t>(k)]);
+    for (std::size_t i = 0; i < size(); ++i)
+      x[static_cast<Eigen::Index>(i)] = full.numbers[i * kBucket + slot];
+    const int leaf = k < kBucket / 2 ? left : right;
+    grow(leaf, x.data());
+    put(leaf, x.data(), full.points[slot]);
+  }
+  node(at).left = left;
+  node(at).right = right;
+}
+
+int NearestNeighbors::add(const VectorArg& q) {
+  const Eigen::VectorXd x = scaled(q);
+  const int point = count();
+  points_.insert(points_.end(), q.begin(), q.end());
+  if (nodes_.empty()) newLeaf();
+  int at = 0;
+  for (grow(at, x.data()); !isLeaf(at) || isFull(at); grow(at, x.data())) {
+    if (isLeaf(at)) split(at);
+    at = branchFor(node(at), x.data());
+  }
+  put(at, x.data(), point);
+  return point;
+}
+
+Eigen::VectorXd NearestNeighbors::point(int i) const {
+  return Eigen::Map<const Eigen::VectorXd>(points_.data() + static_cast<std::size_t>(i) * size(),
+                                           space_.size());
+}
+
+// Of x from the box of a node: at most that from any point below.
+double NearestNeighbors::boxDistance2(int at, const double* x) const {
+  const double *lower = box(at), *upper = lower + size();
+  double sum = 0;
+  std::size_t i = 0;
+  for (const SpacePart& part : space_.parts()) {
+    if (part.kind == Kind::kLine) {
+      sum += squaredGap(x[i], lower[i], upper[i]);
+    } else if (part.kind == Kind::kQuaternion) {
+      double same = 0, opposite = 0;
+      for (std::size_t k = i; k < i + 4; ++k) {
+        same += squaredGap(x[k], lower[k], upper[k]);
+        opposite += squaredGap(-x[k], lower[k], upper[k]);
+      }
+      sum += std::min(same, opposite);
+    } else if (x[i] < lower[i] || x[i] > upper[i]) {
+      sum += squaredTurn(part, std::min(angleBetween(x[i], lower[i]), angleBetween(x[i], upper[i])));
+    }
+    i += static_cast<std::size_t>(sizeOf(part.kind));
+  }
+  return sum;
+}
+
+void NearestNeighbors::bucketDistances2(const Bucket& bucket, const double* x, double* distances) const {
+  std::fill_n(distances, kBucket, 0.);
+  const double* numbers = bucket.numbers.data();
+  for (const SpacePart& part : space_.parts()) {
+    if (part.kind == Kind::kLine) {
+      for (int k = 0; k < kBucket; ++k) distances[k] += (*x - numbers[k]) * (*x - numbers[k]);
+    } else if (part.kind == Kind::kQuaternion) {
+      for (int k = 0; k < kBucket; ++k) {
+        double same = 0, opposite = 0;
+        for (int i = 0; i < 4; ++i) {
+          const double number = numbers[i * kBucket + k];
+          same += (x[i] - number) * (x[i] - number);
+          opposite += (x[i] + number) * (x[i] + number);
+        }
+        distances[k] += std::min(same, opposite);
+      }
+    } else {
+      for (int k = 0; k < kBucket; ++k) distances[k] += squaredTurn(part, angleBetween(*x, numbers[k]));
+    }
+    x += sizeOf(part.kind);
+    numbers += sizeOf(part.kind) * kBucket;
+  }
+}
+
+// Calls visit(squared distance, point) for all points that may be within the squared distance that it
+// returned last, near branches first.
+template <class Visit>
+void NearestNeighbors::search(const double* x, double reach2, const Visit& visit) const {
+  if (nodes_.empty()) return;
+  std::vector<Neighbor> open{{boxDistance2(0, x), 0}};
+  std::array<double, kBucket> distances;
+  while (!open.empty()) {
+    const auto [bound, at] = open.back();
+    open.pop_back();
+    if (bound > reach2) continue;
+    if (isLeaf(at)) {
+      const Bucket& bucket = buckets_[static_cast<std::size_t>(node(at).bucket)];
+      bucketDistances2(bucket, x, distances.data());
+      for (std::size_t k = 0; k < bucket.points.size(); ++k)
+        if (distances[k] <= reach2) reach2 = visit(distances[k], bucket.points[k]);
+      continue;
+    }
+    const Neighbor left{boxDistance2(node(at).left, x), node(at).left};
+    const Neighbor right{boxDistance2(node(at).right, x), node(at).right};
+    open.push_back(std::max(left, right));
+    open.push_back(std::min(left, right));
+  }
+}
+
+int NearestNeighbors::nearest(const VectorArg& q) const {
+  const Eigen::VectorXd x = scaled(q);
+  if (count() == 0)
+    throw Error({.what = "nearest neighbour", .found = "no points", .wanted = "at least one"});
+  Neighbor best{std::numeric_limits<double>::infinity(), 0};
+  search(x.data(), best.first, [&](double distance2, int point) {
+    best = std::min(best, {distance2, point});
+    return best.first;
+  });
+  return best.second;
+}
+
+std::vector<int> NearestNeighbors::nearest(const VectorArg& q, int most) const {
+  const Eigen::VectorXd x = scaled(q);
+  std::vector<Neighbor> heap;
+  const auto limit = static_cast<std::size_t>(std::max(0, most));
+  if (limit == 0) return {};
+  search(x.data(), std::numeric_limits<double>::infinity(), [&](double distance2, int point) {
+    heap.emplace_back(distance2, point);
+    std::push_heap(heap.begin(), heap.end());
+    if (heap.size() > limit) {
+      std::pop_heap(heap.begin(), heap.end());
+      heap.pop_back();
+    }
+    return heap.size() < limit ? std::numeric_limits<double>::infinity() : heap.front().first;
+  });
+  return pointsOf(std::move(heap));
+}
+
+std::vector<int> NearestNeighbors::within(const VectorArg& q, double radius) const {
+  const Eigen::VectorXd x = scaled(q);
+  if (!(radius >= 0)) return {};
+  std::vector<Neighbor> found;
+  search(x.data(), radius * radius, [&](double distance2, int point) {
+    found.emplace_back(distance2, point);
+    return radius * radius;
+  });
+  return pointsOf(std::move(found));
+}
+
+}  // namespace rex

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <vector>
+
+#include "planning/space.h"
+
+namespace rex {
+
+/// The configurations of a tree or roadmap, to be asked for those nearest to another. Points come one at a
+/// time; a k-d tree with boxes around its branches splits where they gather (Friedman, Bentley and Finkel
+/// 1977), so that asking n points takes time like log n while they spread over few dimensions. Answers are
+/// those of a look at all points; of equally near ones the first added comes first.
+class NearestNeighbors {
+ public:
+  explicit NearestNeighbors(Space space);
+
+  int count() const { return static_cast<int>(points_.size() / size()); }
+  /// Numbers of the points: 0, 1, 2, ... in the order they are added. Throws Error for a wrong size or
+  /// numbers that are not finite.
+  int add(const VectorArg& q);
+  [[nodiscard]] Eigen::VectorXd point(int i) const;
+
+  /// The nearest point. Throws Error if there is none, and as add().
+  [[nodiscard]] int nearest(const VectorArg& q) const;
+  /// The `most` nearest points, or all if there are fewer, nearest first. Throws as add().
+  [[nodiscard]] std::vector<int> nearest(const VectorArg& q, int most) const;
+  /// All points at most `radius` away, nearest first. Throws as add().
+  [[nodiscard]] std::vector<int> within(const VectorArg& q, double radius) const;
+
+ private:
+  // A leaf holds up to kBucket points, any other node two nodes.
+  static constexpr int kBucket = 32;
+  struct Node {
+    int left = -1, right = -1;  // a leaf has none
+    int count = 0;              // points below
+    int bucket = -1;            // of a leaf
+  };
+  struct Bucket {
+    std::vector<double> numbers;  // number i of point k stands at [i * kBucket + k]
+    std::vector<int> points;
+  };
+
+  Node& node(int i) { return nodes_[static_cast<std::size_t>(i)]; }
+  const Node& node(int i) const { return nodes_[static_cast<std::size_t>(i)]; }
+  double* box(int i) { return boxes_.data() + 2 * static_cast<std::size_t>(i) * size(); }
+  const double* box(int i) const { return boxes_.data() + 2 * static_cast<std::size_t>(i) * size(); }
+  std::size_t size() const { return static_cast<std::size_t>(space_.size()); }
+  bool isLeaf(int i) const { return node(i).left < 0; }
+  bool isFull(int i) const { return node(i).count > kBucket; }
+
+  [[nodiscard]] Eigen::VectorXd scaled(const VectorArg& q) const;
+  int newLeaf();
+  void put(int leaf, const double* x, int point);
+  void grow(int at, const double* x);
+  int branchFor(const Node& at, const double* x) const;
+  void split(int at);
+  double boxDistance2(int at, const double* x) const;
+  void bucketDistances2(const Bucket& bucket, const double* x, double* distances) const;
+  template <class Visit>
+  void search(const double* x, double reach2, const Visit& visit) const;
+
+  Space space_;
+  std::vector<double> points_;  // as added
+  std::vector<double> boxes_;   // lower corners, then upper ones, of each node's scaled points
+  std::vector<Node> nodes_;
+  std::vector<Bucket> buckets_;
+};
+
+}  // namespace rex

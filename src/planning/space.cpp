@@ -1,0 +1,153 @@
+#include "planning/space.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/rng.h"
+#include "geometry/rotation.h"
+
+namespace rex {
+namespace {
+
+using Kind = SpacePart::Kind;
+constexpr double kPi = std::numbers::pi;
+
+void requireSound(const SpacePart& part, std::size_t i) {
+  const auto refuse = [&](const std::string& found, const std::string& wanted) {
+    throw Error({.what = fmt::format("part {} of a space", i), .found = found, .wanted = wanted});
+  };
+  if (!(part.weight > 0) || !std::isfinite(part.weight))
+    refuse(fmt::format("weight {:g}", part.weight), "a positive, finite weight");
+  const bool hasRange = std::isfinite(part.lower) && std::isfinite(part.upper) && part.lower <= part.upper;
+  if (part.kind == Kind::kLine && !hasRange)
+    refuse(fmt::format("bounds {:g} and {:g}", part.lower, part.upper), "finite bounds, the lower one first");
+}
+
+double turn(double from, double to) { return std::remainder(to - from, 2 * kPi); }
+
+double squaredDistance(const SpacePart& part, const double* a, const double* b) {
+  switch (part.kind) {
+    case Kind::kLine:
+      return (*a - *b) * (*a - *b);
+    case Kind::kCircle:
+      return turn(*a, *b) * turn(*a, *b);
+    case Kind::kChord:
+      return 2 - 2 * std::cos(*a - *b);
+    case Kind::kQuaternion: {
+      double minus = 0, plus = 0;
+      for (int i = 0; i < 4; ++i) {
+        minus += (a[i] - b[i]) * (a[i] - b[i]);
+        plus += (a[i] + b[i]) * (a[i] + b[i]);
+      }
+      return std::min(minus, plus);
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+
+Space::Space(std::vector<SpacePart> parts) : parts_(std::move(parts)) {
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    requireSound(parts_[i], i);
+    size_ += sizeOf(parts_[i].kind);
+  }
+}
+
+Space Space::box(const VectorArg& lower, const VectorArg& upper) {
+  requireSize("upper bounds of a space", upper.size(), lower.size());
+  std::vector<SpacePart> parts;
+  for (Eigen::Index i = 0; i < lower.size(); ++i) parts.push_back({.lower = lower[i], .upper = upper[i]});
+  return Space(std::move(parts));
+}
+
+Space Space::se2(const Eigen::Vector2d& lower, const Eigen::Vector2d& upper, double headingWeight) {
+  Space space = box(lower, upper);
+  space.parts_.push_back({.kind = Kind::kCircle, .weight = headingWeight});
+  return Space(std::move(space.parts_));
+}
+
+Space Space::se3(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper, double rotationWeight) {
+  Space space = box(lower, upper);
+  space.parts_.push_back({.kind = Kind::kQuaternion, .weight = rotationWeight});
+  return Space(std::move(space.parts_));
+}
+
+double Space::distance(const VectorArg& a, const VectorArg& b) const {
+  requireSize("configuration", a.size(), size_);
+  requireSize("configuration", b.size(), size_);
+  double sum = 0;
+  Eigen::Index i = 0;
+  for (const SpacePart& part : parts_) {
+    sum += part.weight * part.weight * squaredDistance(part, a.data() + i, b.data() + i);
+    i += sizeOf(part.kind);
+  }
+  return std::sqrt(sum);
+}
+
+void Space::interpolate(const VectorArg& a, const VectorArg& b, double t,
+                        Eigen::Ref<Eigen::VectorXd> out) const {
+  requireSize("configuration", a.size(), size_);
+  requireSize("configuration", b.size(), size_);
+  requireSize("configuration", out.size(), size_);
+  Eigen::Index i = 0;
+  for (const SpacePart& part : parts_) {
+    if (part.kind == Kind::kQuaternion) {
+      const Quaternion from = a.segment<4>(i), to = b.segment<4>(i);
+      const double cosine = from.dot(to), sign = cosine < 0 ? -1 : 1;
+      const double half = std::acos(std::min(1., std::abs(cosine)));
+      // Nearly equal rotations: the sines would cancel, and the straight way is the arc.
+      const bool isSmall = half < 1e-6;
+      const double x = isSmall ? 1 - t : std::sin((1 - t) * half) / std::sin(half);
+      const double y = isSmall ? t : std::sin(t * half) / std::sin(half);
+      out.segment<4>(i) = (x * from + sign * y * to).normalized();
+    } else if (part.kind == Kind::kLine) {
+      out[i] = (1 - t) * a[i] + t * b[i];
+    } else {
+      out[i] = a[i] + t * turn(a[i], b[i]);
+    }
+    i += sizeOf(part.kind);
+  }
+}
+
+void Space::sample(Rng& rng, Eigen::Ref<Eigen::VectorXd> out) const {
+  requireSize("configuration", out.size(), size_);
+  Eigen::Index i = 0;
+  for (const SpacePart& part : parts_) {
+    if (part.kind == Kind::kQuaternion)
+      out.segment<4>(i) =
+          rng.normalVector(4).normalized();  // uniform, as normals have no preferred direction
+    else if (part.kind == Kind::kLine)
+      out[i] = rng.uniform(part.lower, part.upper);
+    else
+      out[i] = rng.uniform(-kPi, kPi);
+    i += sizeOf(part.kind);
+  }
+}
+
+void Space::require(std::string_view what, const VectorArg& q) const {
+  requireSize(what, q.size(), size_);
+  const auto refuse = [&](Eigen::Index i, const std::string& wanted) {
+    throw Error({.what = fmt::format("{}: number {}", what, i),
+                 .found = fmt::format("{:g}", q[i]),
+                 .wanted = wanted});
+  };
+  Eigen::Index i = 0;
+  for (const SpacePart& part : parts_) {
+    for (int k = 0; k < sizeOf(part.kind); ++k)
+      if (!std::isfinite(q[i + k])) refuse(i + k, "a finite number");
+    if (part.kind == Kind::kLine && q[i] < part.lower)
+      refuse(i, fmt::format("at least {:g}: it is {:g} below", part.lower, part.lower - q[i]));
+    if (part.kind == Kind::kLine && q[i] > part.upper)
+      refuse(i, fmt::format("at most {:g}: it is {:g} above", part.upper, q[i] - part.upper));
+    if (part.kind == Kind::kQuaternion && std::abs(q.segment<4>(i).norm() - 1) > 1e-6)
+      refuse(i, fmt::format("a unit quaternion: its length is {:g}", q.segment<4>(i).norm()));
+    i += sizeOf(part.kind);
+  }
+}
+
+}  // namespace rex

@@ -1,0 +1,69 @@
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/rng.h"
+#include "planning/tree_growth_internal.h"
+
+namespace rex::internal {
+namespace {
+
+void requireSound(const RrtOptions& options) {
+  const auto refuse = [](const char* what, double found, const char* wanted) {
+    throw Error({.what = what, .found = fmt::format("{:g}", found), .wanted = wanted});
+  };
+  if (!(options.stepSize > 0) || !std::isfinite(options.stepSize))
+    refuse("step size of a tree", options.stepSize, "a positive, finite distance");
+  if (!(options.goalBias >= 0 && options.goalBias <= 1))
+    refuse("goal bias of a tree", options.goalBias, "a number from 0 to 1");
+  if (options.maxSamples < 1) refuse("number of samples", options.maxSamples, "at least 1");
+}
+
+}  // namespace
+
+TreeGrowth::TreeGrowth(const PathProblem& problem, const RrtOptions& options, Rng& rng)
+    : problem_(problem),
+      options_(options),
+      rng_(rng),
+      edges_(problem.space, problem.allValid, problem.resolution),
+      target_(problem.space.size()),
+      to_(problem.space.size()) {
+  requireSound(options);
+  rex::requireSound(problem);
+}
+
+const Eigen::VectorXd& TreeGrowth::draw(double goalBias) {
+  ++result_.samples;
+  if (goalBias > 0 && rng_.uniform() < goalBias)
+    target_ = problem_.goal;
+  else
+    problem_.space.sample(rng_, target_);
+  return target_;
+}
+
+int TreeGrowth::extend(SearchTree& tree, const VectorArg& target) {
+  const int near = tree.points().nearest(target);
+  from_ = tree.points().point(near);
+  stepTowards(space(), from_, target, options_.stepSize, to_);
+  return edges_.isValid(from_, to_) ? tree.add(to_, near) : -1;
+}
+
+PathResult TreeGrowth::finish(Eigen::MatrixXd path, std::initializer_list<const SearchTree*> trees) {
+  const bool isFound = path.cols() > 0;
+  result_.status = isFound ? PathStatus::kFound : PathStatus::kBudgetSpent;
+  result_.path = std::move(path);
+  result_.length = pathLength(space(), result_.path);
+  result_.asked = edges_.asked();
+  int nodes = 0;
+  for (const SearchTree* tree : trees) {
+    result_.trees.push_back(tree->drawn());
+    nodes += tree->count();
+  }
+  result_.message = fmt::format("{} after {} samples: {} nodes, {} configurations checked",
+                                isFound ? "found a path" : "no path", result_.samples, nodes, result_.asked);
+  return std::move(result_);
+}
+
+}  // namespace rex::internal

@@ -1,0 +1,125 @@
+#include "planning/control_tree.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "base/rng.h"
+#include "planning/car.h"
+#include "planning/phase_space.h"
+#include "planning/reeds_shepp.h"
+#include "support/expect_error.h"
+
+namespace rex {
+namespace {
+
+constexpr double kSteering = .6;
+
+ControlSystem carSystem() {
+  const Car car{.wheelbase = .3, .maxSteering = kSteering};
+  return {.space = Space::se2({0, 0}, {4, 4}, .3),
+          .lower = Eigen::Vector2d(-1, -kSteering),
+          .upper = Eigen::Vector2d(1, kSteering),
+          .motion = [car](const VectorArg& x, const VectorArg& u, double seconds) -> Eigen::VectorXd {
+            return driveCar(car, x, u, seconds);
+          }};
+}
+
+// A lot with a wall that leaves a gate.
+PathProblem lot() {
+  return {.space = Space::se2({0, 0}, {4, 4}, .3),
+          .allValid = eachColumn([](const VectorArg& q) {
+            const bool isInside = q[0] > 0 && q[0] < 4 && q[1] > 0 && q[1] < 4;
+            return isInside && (std::abs(q[0] - 2) > .1 || q[1] > 2.8);
+          }),
+          .start = Eigen::Vector3d(.5, .5, 0),
+          .goal = Eigen::Vector3d(3.5, .5, -1.5)};
+}
+
+void expectDriven(const ControlSystem& system, const PathProblem& problem, const ControlTreeOptions& options,
+                  const ControlPath& path) {
+  ASSERT_EQ(path.found.status, PathStatus::kFound) << path.found.message;
+  ASSERT_EQ(path.controls.cols() + 1, path.found.path.cols());
+  EXPECT_EQ(path.found.path.col(0), problem.start);
+  for (Eigen::Index k = 0; k < path.controls.cols(); ++k) {
+    const Eigen::VectorXd u = path.controls.col(k), x = path.found.path.col(k);
+    EXPECT_TRUE((u.array() >= system.lower.array()).all() && (u.array() <= system.upper.array()).all());
+    EXPECT_LT((system.motion(x, u, path.duration) - path.found.path.col(k + 1)).norm(), 1e-12);
+    for (int i = 1; i <= options.checks; ++i)
+      EXPECT_TRUE(problem.allValid(system.motion(x, u, path.duration * i / options.checks)));
+  }
+  EXPECT_LE(system.space.distance(path.found.path.rightCols<1>(), problem.goal), options.tolerance);
+}
+
+TEST(ControlTree, DrivesACarThroughAGate) {
+  const ControlSystem system = carSystem();
+  const PathProblem problem = lot();
+  const ControlTreeOptions options{.tolerance = .25, .maxSamples = 60000};
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    Rng rng(seed);
+    expectDriven(system, problem, options, growControlTree(system, problem, options, rng));
+  }
+}
+
+TEST(ControlTree, TakesTheDistanceOfTheSystem) {
+  ControlSystem system = carSystem();
+  system.distance = [](const VectorArg& from, const VectorArg& to) {
+    return reedsSheppLength(from, to, .3 / std::tan(kSteering));
+  };
+  const PathProblem problem = lot();
+  const ControlTreeOptions options{.tolerance = .4, .maxSamples = 4000};
+  Rng rng(1), again(1);
+  const ControlPath path = growControlTree(system, problem, options, rng);
+  ASSERT_EQ(path.found.status, PathStatus::kFound) << path.found.message;
+  EXPECT_LE(system.distance(path.found.path.rightCols<1>(), problem.goal), options.tolerance);
+  EXPECT_EQ(growControlTree(system, problem, options, again).found.path, path.found.path)
+      << "same seed, same path";
+}
+
+// What slide 4:53 says: without targets a tree hardly leaves its start.
+TEST(ControlTree, ExploresLessByRandomControls) {
+  const ControlSystem system = carSystem();
+  PathProblem problem = lot();
+  problem.goal = Eigen::Vector3d(3.9, 3.9, 3);
+  const auto reach = [&](bool towardsTargets) {
+    Rng rng(3);
+    const ControlPath path = growControlTree(
+        system, problem,
+        {.towardsTargets = towardsTargets, .goalBias = 0, .tolerance = 0, .maxSamples = 1000}, rng);
+    EXPECT_EQ(path.found.status, PathStatus::kBudgetSpent);
+    EXPECT_EQ(path.controls.cols(), 0);
+    const Eigen::MatrixXd& nodes = path.found.trees[0].nodes;
+    return (nodes.topRows<2>().colwise() - problem.start.head<2>()).colwise().norm().mean();
+  };
+  EXPECT_GT(reach(true), 1.3 * reach(false));
+}
+
+TEST(ControlTree, SaysWhatIsWrong) {
+  const ControlSystem system = carSystem();
+  const PathProblem problem = lot();
+  Rng rng(1);
+  const auto grow = [&](const ControlSystem& one, const ControlTreeOptions& options) {
+    static_cast<void>(growControlTree(one, problem, options, rng));
+  };
+  EXPECT_REX_ERROR(grow(system, {.duration = 0}), "duration of controls: found 0, wanted seconds above 0");
+  EXPECT_REX_ERROR(grow(system, {.checks = 0}), "checks of a motion: found 0, wanted at least 1");
+  EXPECT_REX_ERROR(grow(system, {.trials = 0}), "trials of controls: found 0, wanted at least 1");
+  EXPECT_REX_ERROR(grow(system, {.maxSamples = 0}), "number of samples: found 0, wanted at least 1");
+  ControlSystem broken = system;
+  broken.motion = {};
+  EXPECT_REX_ERROR(grow(broken, {}),
+                   "control system: found no motion, wanted a function that moves a state on");
+  broken.motion = [](const VectorArg& x, const VectorArg&, double) -> Eigen::VectorXd { return x * NAN; };
+  EXPECT_REX_ERROR(grow(broken, {}), "motion from (0.5, 0.5, 0) by (");
+  broken.motion = [](const VectorArg& x, const VectorArg&, double) -> Eigen::VectorXd { return x.head(2); };
+  EXPECT_REX_ERROR(grow(broken, {}), "state after a motion: found a vector of size 2, wanted size 3");
+  broken = system;
+  broken.distance = [](const VectorArg&, const VectorArg&) { return NAN; };
+  EXPECT_REX_ERROR(grow(broken, {}), "distance from (0.5, 0.5, 0) to (3.5, 0.5, -1.5): found not a number");
+  broken = system;
+  broken.upper = Eigen::VectorXd::Ones(3);
+  EXPECT_REX_ERROR(grow(broken, {}), "upper bounds of controls: found a vector of size 3, wanted size 2");
+}
+
+}  // namespace
+}  // namespace rex

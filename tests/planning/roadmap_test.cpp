@@ -1,0 +1,104 @@
+#include "planning/roadmap.h"
+
+#include <gtest/gtest.h>
+
+#include "base/rng.h"
+#include "planning/wall.h"
+#include "support/expect_error.h"
+
+namespace rex {
+namespace {
+
+Roadmap roadmapOf(const PathProblem& problem, const RoadmapOptions& options, std::uint64_t seed = 1) {
+  Rng rng(seed);
+  return Roadmap(problem.space, problem.allValid, problem.resolution, options, rng);
+}
+
+// The second opinion: Dijkstra over all pairs of nodes, by rounds of relaxing every edge (Bellman and Ford).
+double shortestByRelaxing(const Roadmap& roadmap, const Space& space, int from, int to) {
+  std::vector<double> cost(static_cast<std::size_t>(roadmap.nodes()), 1e9);
+  cost[static_cast<std::size_t>(from)] = 0;
+  const auto edges = roadmap.edges();
+  for (bool isChanged = true; isChanged;) {
+    isChanged = false;
+    for (const auto& [a, b] : edges) {
+      const double length = space.distance(roadmap.node(a), roadmap.node(b));
+      double &one = cost[static_cast<std::size_t>(a)], &other = cost[static_cast<std::size_t>(b)];
+      if (one + length < other - 1e-12) other = one + length, isChanged = true;
+      if (other + length < one - 1e-12) one = other + length, isChanged = true;
+    }
+  }
+  return cost[static_cast<std::size_t>(to)];
+}
+
+TEST(Roadmap, IsFreeAndAnswersWithTheShortestWay) {
+  PathProblem problem = wallWithHole(2, .3);
+  EdgeChecker checker(problem.space, problem.allValid, problem.resolution);
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Roadmap roadmap = roadmapOf(problem, {.nodes = 200}, seed);
+    ASSERT_EQ(roadmap.nodes(), 200);
+    const PathResult result = roadmap.query(problem);
+    ASSERT_EQ(result.status, PathStatus::kFound) << result.message;
+    for (const auto& [a, b] : roadmap.edges()) EXPECT_TRUE(checker.isValid(roadmap.node(a), roadmap.node(b)));
+    EXPECT_EQ(result.path.col(0), problem.start);
+    EXPECT_EQ(result.path.rightCols(1), problem.goal);
+    EXPECT_NEAR(result.length, shortestByRelaxing(roadmap, problem.space, 200, 201), 1e-9);
+    EXPECT_NEAR(result.length, pathLength(problem.space, result.path), 1e-12);
+  }
+}
+
+TEST(Roadmap, AnswersLazilyWithTheSameWaysForLess) {
+  const PathProblem problem = wallWithHole(2, .3);
+  EdgeChecker checker(problem.space, problem.allValid, problem.resolution);
+  Roadmap lazy = roadmapOf(problem, {.nodes = 400, .lazy = true});
+  Roadmap eager = roadmapOf(problem, {.nodes = 400});
+  const PathResult first = lazy.query(problem), again = lazy.query(problem);
+  ASSERT_EQ(first.status, PathStatus::kFound);
+  for (Eigen::Index k = 1; k < first.path.cols(); ++k)
+    EXPECT_TRUE(checker.isValid(first.path.col(k - 1), first.path.col(k)));
+  EXPECT_NEAR(first.length, shortestByRelaxing(lazy, problem.space, 400, 401), .3)
+      << "unchecked edges may be shorter";
+  EXPECT_LE(again.length, first.length + 1e-9);
+  EXPECT_LT(again.asked, first.asked) << "what it has learnt";
+  EXPECT_EQ(eager.query(problem).status, PathStatus::kFound);
+}
+
+TEST(Roadmap, ComesNearTheShortestPathWithMoreNodes) {
+  const struct {
+    int dimension, few, many;
+    double gap, shortest, within;
+  } cases[] = {{2, 300, 3000, .1, 1.089949, 1.03}, {3, 500, 4000, .2, 1.2, 1.2}};
+  for (const auto& one : cases) {
+    const PathProblem problem = wallWithHole(one.dimension, one.gap);
+    const PathResult rough = roadmapOf(problem, {.nodes = one.few, .neighbors = 0}).query(problem);
+    const PathResult fine = roadmapOf(problem, {.nodes = one.many, .neighbors = 0}).query(problem);
+    ASSERT_EQ(fine.status, PathStatus::kFound) << fine.message;
+    EXPECT_LT(fine.length, one.within * one.shortest) << one.dimension;
+    EXPECT_GT(fine.length, one.shortest - 2 * problem.resolution);
+    if (rough.status == PathStatus::kFound) {
+      EXPECT_LT(fine.length, rough.length);
+    }
+  }
+}
+
+TEST(Roadmap, SaysWhenThereIsNoWay) {
+  const PathProblem problem = wallWithHole(2, 0);
+  for (const bool lazy : {false, true}) {
+    const PathResult result = roadmapOf(problem, {.nodes = 200, .lazy = lazy}).query(problem);
+    EXPECT_EQ(result.status, PathStatus::kBudgetSpent);
+    EXPECT_EQ(result.path.cols(), 0);
+    EXPECT_NE(result.message.find("no way in a roadmap of 202 nodes"), std::string::npos) << result.message;
+  }
+  const Roadmap few = roadmapOf(problem, {.nodes = 200, .maxSamples = 50});
+  EXPECT_LE(few.nodes(), 50);
+}
+
+TEST(Roadmap, RefusesWhatItCannotMake) {
+  const PathProblem problem = wallWithHole(2, .1);
+  EXPECT_REX_ERROR(roadmapOf(problem, {.nodes = 0}), "nodes of a roadmap: found 0, wanted at least 1");
+  EXPECT_REX_ERROR(roadmapOf(problem, {.neighbors = -1}), "neighbours in a roadmap: found -1");
+  EXPECT_REX_ERROR(roadmapOf(problem, {.maxSamples = 0}), "number of samples: found 0");
+}
+
+}  // namespace
+}  // namespace rex

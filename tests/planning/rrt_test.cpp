@@ -1,0 +1,165 @@
+// Trees in the unit cube with a wall: laws that every path keeps, and shortest lengths that are known.
+#include "planning/rrt.h"
+
+#include <gtest/gtest.h>
+
+#include "base/rng.h"
+#include "planning/wall.h"
+#include "support/expect_error.h"
+
+namespace rex {
+namespace {
+
+using Planner = std::function<PathResult(const PathProblem&, Rng&)>;
+
+Planner rrt(double goalBias = .05) {
+  return [=](const PathProblem& problem, Rng& rng) {
+    return growRrt(problem, {.stepSize = .1, .goalBias = goalBias}, rng);
+  };
+}
+Planner connect() {
+  return [](const PathProblem& problem, Rng& rng) { return connectRrts(problem, {.stepSize = .1}, rng); };
+}
+Planner star(int samples) {
+  return [=](const PathProblem& problem, Rng& rng) {
+    return growRrtStar(problem, {.growth = {.stepSize = .2, .maxSamples = samples}}, rng);
+  };
+}
+
+// Ten times as fine as the planner looked.
+bool isValidAllAlong(const PathProblem& problem, const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
+  Eigen::VectorXd q(from.size());
+  const int points = 1 + static_cast<int>(10 * problem.space.distance(from, to) / problem.resolution);
+  for (int i = 0; i <= points; ++i) {
+    problem.space.interpolate(from, to, static_cast<double>(i) / points, q);
+    // An edge may graze a corner between two of its points, by no more than they are apart.
+    if (!problem.allValid(q)) return false;
+  }
+  return true;
+}
+
+void expectTree(const PathProblem& problem, const PathTree& tree, double stepSize) {
+  for (Eigen::Index k = 0; k < tree.nodes.cols(); ++k) {
+    const int parent = tree.parents[static_cast<std::size_t>(k)];
+    if (parent < 0) continue;
+    EXPECT_LT(parent, tree.nodes.cols());
+    EXPECT_LE(problem.space.distance(tree.nodes.col(k), tree.nodes.col(parent)), stepSize + 1e-12);
+    EXPECT_TRUE(problem.allValid(tree.nodes.col(k)));
+  }
+}
+
+void expectPath(const PathProblem& problem, const PathResult& result) {
+  ASSERT_EQ(result.status, PathStatus::kFound) << result.message;
+  EXPECT_EQ(result.path.col(0), problem.start);
+  EXPECT_EQ(result.path.rightCols(1), problem.goal);
+  EXPECT_NEAR(result.length, pathLength(problem.space, result.path), 1e-12);
+  EXPECT_GT(result.asked, 0);
+}
+
+TEST(Rrt, KeepsItsLawsOverManySeeds) {
+  const PathProblem problem = wallWithHole(2, .2);
+  int grazing = 0, edges = 0;
+  for (int seed = 0; seed < 350; ++seed) {
+    for (const Planner& planner : {rrt(), rrt(0), connect()}) {
+      Rng rng(static_cast<std::uint64_t>(seed));
+      const PathResult result = planner(problem, rng);
+      expectPath(problem, result);
+      for (const PathTree& tree : result.trees) expectTree(problem, tree, .1);
+      for (Eigen::Index k = 1; k < result.path.cols(); ++k) {
+        ++edges;
+        grazing += isValidAllAlong(problem, result.path.col(k - 1), result.path.col(k)) ? 0 : 1;
+      }
+      EXPECT_GE(result.length, .35 * 2 + .1);
+    }
+  }
+  EXPECT_LT(grazing, edges / 100) << "corners may be cut between two points of a check, but rarely";
+}
+
+TEST(Rrt, IsTheSameForTheSameSeed) {
+  const PathProblem problem = wallWithHole(3, .3);
+  for (const Planner& planner : {rrt(), connect(), star(500)}) {
+    Rng one(7), again(7), other(8);
+    const PathResult a = planner(problem, one), b = planner(problem, again), c = planner(problem, other);
+    EXPECT_EQ(a.trees.front().nodes, b.trees.front().nodes);
+    EXPECT_EQ(a.path, b.path);
+    EXPECT_NE(a.trees.front().nodes, c.trees.front().nodes);
+  }
+}
+
+TEST(Rrt, SaysWhenTheBudgetIsSpent) {
+  const PathProblem problem = wallWithHole(2, 0);
+  Rng rng(1);
+  const PathResult result = connectRrts(problem, {.stepSize = .1, .maxSamples = 300}, rng);
+  EXPECT_EQ(result.status, PathStatus::kBudgetSpent);
+  EXPECT_EQ(result.samples, 300);
+  EXPECT_EQ(result.path.cols(), 0);
+  EXPECT_EQ(result.trees.size(), 2u);
+  EXPECT_GT(result.trees[0].nodes.cols(), 20) << "what was explored is there to be seen";
+  EXPECT_NE(result.message.find("no path after 300 samples"), std::string::npos) << result.message;
+}
+
+TEST(Rrt, PlansWhereAnglesCloseUp) {
+  // A bar at heading 0 bars the way; it leads through pi.
+  const PathProblem problem{.space = Space::se2({0, 0}, {1, 1}),
+                            .allValid = eachColumn([](const VectorArg& q) {
+                              return std::abs(std::remainder(q[2], 2 * M_PI)) > .5;
+                            }),
+                            .start = Eigen::Vector3d(.5, .5, 2.5),
+                            .goal = Eigen::Vector3d(.5, .5, -2.5)};
+  Rng rng(3);
+  const PathResult result = connectRrts(problem, {.stepSize = 10}, rng);
+  expectPath(problem, result);
+  EXPECT_LT(result.length, 5) << "not the long way round";
+}
+
+TEST(RrtStar, ComesNearTheShortestPath) {
+  const struct {
+    int dimension;
+    double gap, shortest, within;
+    int samples;
+  } cases[] = {{2, .1, 1.089949, 1.03, 6000}, {3, .2, 1.2, 1.08, 8000}};
+  for (const auto& one : cases) {
+    const PathProblem problem = wallWithHole(one.dimension, one.gap);
+    for (std::uint64_t seed = 0; seed < 3; ++seed) {
+      Rng few(seed), many(seed);
+      const PathResult early = star(one.samples / 4)(problem, few), late = star(one.samples)(problem, many);
+      expectPath(problem, late);
+      EXPECT_LT(late.length, one.within * one.shortest) << one.dimension;
+      EXPECT_GT(late.length, one.shortest - 2 * problem.resolution) << one.dimension;
+      ASSERT_EQ(early.status, PathStatus::kFound);
+      EXPECT_LE(late.length, early.length + 1e-12);
+    }
+  }
+}
+
+TEST(Rrt, RefusesWhatItCannotPlan) {
+  PathProblem problem = wallWithHole(2, .1);
+  Rng rng(1);
+  const auto plan = [&](const RrtOptions& options) { static_cast<void>(growRrt(problem, options, rng)); };
+  EXPECT_REX_ERROR(plan({.stepSize = 0}), "step size of a tree: found 0, wanted a positive, finite distance");
+  EXPECT_REX_ERROR(plan({.goalBias = 1.5}), "goal bias of a tree: found 1.5, wanted a number from 0 to 1");
+  EXPECT_REX_ERROR(plan({.maxSamples = 0}), "number of samples: found 0, wanted at least 1");
+  problem.resolution = 0;
+  EXPECT_REX_ERROR(plan({}), "resolution of a path check: found 0, wanted a positive, finite distance");
+  problem = wallWithHole(2, .1);
+  problem.goal[0] = .5;
+  EXPECT_REX_ERROR(plan({}), "goal: found a configuration that is not valid, wanted a valid one");
+  problem.reason = [](const VectorArg& q) { return "a wall " + std::to_string(q[0] - .45) + " away"; };
+  EXPECT_REX_ERROR(plan({}), "goal: found a wall 0.05");
+  problem.start[1] = 1.5;
+  EXPECT_REX_ERROR(plan({}), "start: number 1: found 1.5, wanted at most 1: it is 0.5 above");
+  problem.start = Eigen::Vector3d(0, 0, 0);
+  EXPECT_REX_ERROR(plan({}), "start: found a vector of size 3, wanted size 2");
+}
+
+TEST(Rrt, NamesTheConfigurationOfAClearanceThatIsNoNumber) {
+  PathProblem problem = wallWithHole(2, .5);
+  problem.allValid = whereClear([](const VectorArg& q) { return q[0] > .5 ? NAN : 1.; });
+  problem.goal[0] = .3;
+  Rng rng(1);
+  EXPECT_REX_ERROR(static_cast<void>(growRrt(problem, {.goalBias = 0, .maxSamples = 10000}, rng)),
+                   "clearance at (0.5");
+}
+
+}  // namespace
+}  // namespace rex
