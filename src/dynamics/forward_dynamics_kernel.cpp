@@ -86,13 +86,31 @@ inline void eliminate(const Freedom<T>& freedom, Inertia<T>& I, SpatialForce<T>&
   resistance = resistance + freedom.rest * SpatialForce<T>{dt, df};
 }
 
+// An articulated body with A, B^T and D in the axes of a frame, about its origin p below.
+template <class T>
+inline Inertia<T> moved(const Vec3<T>& p, const Sym3<T>& A, const Mat3<T>& Bt, const Sym3<T>& D) {
+  const Mat3<T> B = transposed(Bt) + cross(p, full(D));
+  return {A + symmetric(transposed(cross(p, transposed(B))) + cross(p, Bt)), D, B};
+}
+
 // The same seen from the parent's frame.
 template <class T>
 inline Inertia<T> inParent(const KernelPose<T>& X, const Inertia<T>& I) {
-  const Sym3<T> D = rotated(X.R, I.D);
-  const Mat3<T> Bt = X.R * transposed(I.B) * transposed(X.R);
-  const Mat3<T> B = transposed(Bt) + cross(X.p, full(D));
-  return {rotated(X.R, I.A) + symmetric(transposed(cross(X.p, transposed(B))) + cross(X.p, Bt)), D, B};
+  return moved(X.p, rotated(X.R, I.A), X.R * transposed(I.B) * transposed(X.R), rotated(X.R, I.D));
+}
+
+// The same of a link whose hinge gave way: it resists no torque about z, so that a third of the products is
+// zero.
+template <class T>
+inline Inertia<T> inParentOfHinge(const KernelPose<T>& X, const Inertia<T>& I) {
+  const Vec3<T>&x = X.R.c0, &y = X.R.c1;
+  const Vec3<T> Ax = I.A.xx * x + I.A.xy * y, Ay = I.A.xy * x + I.A.yy * y;
+  const Sym3<T> A{x.x * Ax.x + y.x * Ay.x, x.x * Ax.y + y.x * Ay.y, x.x * Ax.z + y.x * Ay.z,
+                  x.y * Ax.y + y.y * Ay.y, x.y * Ax.z + y.y * Ay.z, x.z * Ax.z + y.z * Ay.z};
+  const Vec3<T> Bx = X.R * Vec3<T>{I.B.c0.x, I.B.c1.x, I.B.c2.x},
+                By = X.R * Vec3<T>{I.B.c0.y, I.B.c1.y, I.B.c2.y};
+  const Mat3<T> Bt{x.x * Bx + y.x * By, x.y * Bx + y.y * By, x.z * Bx + y.z * By};
+  return moved(X.p, A, Bt, rotated(X.R, I.D));
 }
 
 template <class T>
@@ -202,7 +220,9 @@ inline int solve(const DynamicsTask& task, const double* const* q, const double*
     if (!solveForFreedoms(link, u, state, freedoms + link.vIndex)) return i;
     if (link.parent == Link::kNoParent) continue;
     State<T>& parent = states[link.parent];
-    parent.inertia = parent.inertia + inParent(state.X_PL, state.inertia);
+    parent.inertia =
+        parent.inertia + (link.kind == Link::Kind::kHinge ? inParentOfHinge(state.X_PL, state.inertia)
+                                                          : inParent(state.X_PL, state.inertia));
     parent.resistance =
         parent.resistance + inParent(state.X_PL, state.resistance + state.inertia * state.bias);
   }
