@@ -220,8 +220,7 @@ int BulletWorld::shapeOf(const btCollisionObject& object, int child) const {
 std::vector<PhysicsContact> BulletWorld::contacts() const {
   std::vector<PhysicsContact> all;
   for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
-    const btPersistentManifold& manifold =
-        *const_cast<btCollisionDispatcher&>(dispatcher_).getManifoldByIndexInternal(i);
+    const btPersistentManifold& manifold = *dispatcher_.getManifoldByIndexInternal(i);
     for (int k = 0; k < manifold.getNumContacts(); ++k) {
       const btManifoldPoint& point = manifold.getContactPoint(k);
       if (point.getDistance() > 0 && point.getAppliedImpulse() == 0) continue;
