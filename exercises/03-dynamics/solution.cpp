@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -8,14 +9,16 @@
 
 using namespace rex;
 
+// Keeps the compiler quiet about what a function below does not use yet.
+template <class... Unused>
+void notUsedYet(const Unused&...) {}
+
 PointState eulerStep(const PointState& at, double u, double mass, double tau) {
   // <solution eulerStep>
   return {at.q + tau * at.v, at.v + tau * u / mass};
   // <todo>
   //| // TODO: both rows of the system equation, with what is known before the step.
-  //| static_cast<void>(u);
-  //| static_cast<void>(mass);
-  //| static_cast<void>(tau);
+  //| notUsedYet(u, mass, tau);
   //| return at;
   // </solution>
 }
@@ -25,9 +28,7 @@ double pdForce(const PointState& at, const PointState& wanted, const Gains& gain
   return gains.Kp * (wanted.q - at.q) + gains.Kd * (wanted.v - at.v);
   // <todo>
   //| // TODO: slide 3:10.
-  //| static_cast<void>(at);
-  //| static_cast<void>(wanted);
-  //| static_cast<void>(gains);
+  //| notUsedYet(at, wanted, gains);
   //| return 0;
   // </solution>
 }
@@ -48,9 +49,7 @@ Gains gainsFor(Regime regime, double T, double mass) {
   return {mass / (lambda * lambda), 2 * mass * xi / lambda};
   // <todo>
   //| // TODO: choose xi for the regime, then lambda for T, and compute the gains from both (3:14).
-  //| static_cast<void>(regime);
-  //| static_cast<void>(T);
-  //| static_cast<void>(mass);
+  //| notUsedYet(regime, T, mass);
   //| return {};
   // </solution>
 }
@@ -63,11 +62,7 @@ PidStep pidStep(const PointState& at, const PointState& wanted, const PidGains& 
   return {u, integral + tau * (wanted.q - at.q)};
   // <todo>
   //| // TODO: slide 3:16. What does the integral start from when the controller is switched on?
-  //| static_cast<void>(at);
-  //| static_cast<void>(wanted);
-  //| static_cast<void>(gains);
-  //| static_cast<void>(tau);
-  //| static_cast<void>(restart);
+  //| notUsedYet(at, wanted, gains, tau, restart);
   //| return {0, integral};
   // </solution>
 }
@@ -80,8 +75,7 @@ bool isStable(const PidGains& gains, double mass) {
   return gains.Ki > 0 && gains.Kd > 0 && gains.Kp * gains.Kd > mass * gains.Ki;
   // <todo>
   //| // TODO: insert q = q* + exp(s t) into the differential equation. Where must all s lie?
-  //| static_cast<void>(gains);
-  //| static_cast<void>(mass);
+  //| notUsedYet(gains, mass);
   //| return true;
   // </solution>
 }
@@ -92,10 +86,7 @@ double followForce(const PointState& at, double t, double mass, Regime regime) {
   return mass * -std::cos(t) + pdForce(at, reference, gainsFor(regime, 1, mass));
   // <todo>
   //| // TODO: which force does a point need that is on the reference already? And what if it is not?
-  //| static_cast<void>(at);
-  //| static_cast<void>(t);
-  //| static_cast<void>(mass);
-  //| static_cast<void>(regime);
+  //| notUsedYet(at, t, mass, regime);
   //| return 0;
   // </solution>
 }
@@ -108,7 +99,7 @@ Eigen::VectorXd holdArm(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
   return -Kp.cwiseProduct(q) - Kd.cwiseProduct(v);
   // <todo>
   //| // TODO: gains for each of the three joints. Let main() show you what they do.
-  //| static_cast<void>(v);
+  //| notUsedYet(v);
   //| return Eigen::VectorXd::Zero(q.size());
   // </solution>
 }
@@ -119,10 +110,7 @@ Eigen::VectorXd wantedAcceleration(const Eigen::VectorXd& y, const Eigen::Vector
   return reference.ydd + (reference.y - y) / (lambda * lambda) + 2 * xi / lambda * (reference.yd - yd);
   // <todo>
   //| // TODO: the last line of slide 3:30.
-  //| static_cast<void>(yd);
-  //| static_cast<void>(reference);
-  //| static_cast<void>(lambda);
-  //| static_cast<void>(xi);
+  //| notUsedYet(yd, reference, lambda, xi);
   //| return Eigen::VectorXd::Zero(y.size());
   // </solution>
 }
@@ -133,8 +121,7 @@ Eigen::VectorXd computedTorque(const Eigen::MatrixXd& M, const Eigen::VectorXd& 
   return M * qdd + F;
   // <todo>
   //| // TODO: inverse dynamics of slide 3:29.
-  //| static_cast<void>(F);
-  //| static_cast<void>(qdd);
+  //| notUsedYet(F, qdd);
   //| return Eigen::VectorXd::Zero(M.rows());
   // </solution>
 }
@@ -152,8 +139,7 @@ Eigen::Vector3d accelerationBias(Simulator& S, const std::string& body) {
   return (later - before) * v / (2 * h);
   // <todo>
   //| // TODO: S can take postures a little later and a little earlier. How much does J differ?
-  //| static_cast<void>(S);
-  //| static_cast<void>(body);
+  //| notUsedYet(S, body);
   //| return Eigen::Vector3d::Zero();
   // </solution>
 }
@@ -165,9 +151,7 @@ Eigen::VectorXd operationalForce(const AccelerationTask& task, const Eigen::Matr
   return solve(T.transpose() * task.C * T + H, T.transpose() * task.C * (task.ydd - task.bias + T * F));
   // <todo>
   //| // TODO: slide 3:33, with the bias once, not twice. solve(A, B) gives the X with A X = B.
-  //| static_cast<void>(task);
-  //| static_cast<void>(M);
-  //| static_cast<void>(H);
+  //| notUsedYet(task, M, H);
   //| return Eigen::VectorXd::Zero(F.size());
   // </solution>
 }
@@ -190,8 +174,7 @@ Eigen::VectorXd followWithHand(Simulator& S, const std::string& hand, const Refe
   // <todo>
   //| // TODO: an AccelerationTask for the hand, and its force. What do the joints do that the hand leaves
   //| // free? Slide 3:35: a task may be made of two, one below the other.
-  //| static_cast<void>(hand);
-  //| static_cast<void>(reference);
+  //| notUsedYet(hand, reference);
   //| return Eigen::VectorXd::Zero(n);
   // </solution>
 }
@@ -230,10 +213,7 @@ Eigen::VectorXd newtonEuler(const std::vector<Link>& chain, const Eigen::VectorX
   // <todo>
   //| // TODO: from the first link to the last: how does it turn and accelerate, and which force and torque
   //| // does that take? Then from the last to the first: who hands them on, and what does the hinge feel?
-  //| static_cast<void>(q);
-  //| static_cast<void>(v);
-  //| static_cast<void>(a);
-  //| static_cast<void>(gravity);
+  //| notUsedYet(q, v, a, gravity);
   // </solution>
   return u;
 }
@@ -245,8 +225,7 @@ Eigen::VectorXd gravityTerm(const std::vector<Link>& chain, const Eigen::VectorX
   return newtonEuler(chain, q, zero, zero, gravity);
   // <todo>
   //| // TODO: slide 3:24.
-  //| static_cast<void>(chain);
-  //| static_cast<void>(gravity);
+  //| notUsedYet(chain, gravity);
   //| return Eigen::VectorXd::Zero(q.size());
   // </solution>
 }
@@ -257,8 +236,7 @@ Eigen::VectorXd coriolisTerm(const std::vector<Link>& chain, const Eigen::Vector
   return newtonEuler(chain, q, v, Eigen::VectorXd::Zero(q.size()), Eigen::Vector3d::Zero());
   // <todo>
   //| // TODO: slide 3:24, without the gravity that is in its second line.
-  //| static_cast<void>(chain);
-  //| static_cast<void>(v);
+  //| notUsedYet(chain, v);
   //| return Eigen::VectorXd::Zero(q.size());
   // </solution>
 }
@@ -271,7 +249,7 @@ Eigen::MatrixXd inertiaMatrix(const std::vector<Link>& chain, const Eigen::Vecto
     M.col(i) = newtonEuler(chain, q, zero, Eigen::VectorXd::Unit(q.size(), i), Eigen::Vector3d::Zero());
   // <todo>
   //| // TODO: slide 3:24 once more, column by column; what does gravity have to be?
-  //| static_cast<void>(chain);
+  //| notUsedYet(chain);
   // </solution>
   return M;
 }
@@ -313,33 +291,26 @@ Eigen::VectorXd balancePin(Simulator& S, const Eigen::VectorXd& home) {
   // <todo>
   //| // TODO: the tilt of the pin is a task for the six joints with a motor. Which H keeps the others out?
   //| // Where does the arm go if it does nothing but keep the pin upright, and how can the pin bring it back?
-  //| static_cast<void>(S);
-  //| static_cast<void>(home);
+  //| notUsedYet(S, home);
   // </solution>
   return u;
 }
 
-// From here on everything is given: the parts of the exercise one after another, with pictures. Change it as
-// you like.
+// From here on everything is given: all parts one after another, with pictures. Change it as you like.
 
 namespace {
 
 constexpr double kTau = 0.01, kMass = 3.456;
 const Eigen::Vector3d kGravity(0, 0, -9.81);
-const Eigen::VectorXd kBent =
-    (Eigen::VectorXd(7) << 0.58, -0.15, -0.71, 0.89, 0.85, 0.13, -1.58).finished();  // of pegArm2
+// Of pegArm2, and of pin_balancing.
+const Eigen::VectorXd kBent = (Eigen::VectorXd(7) << 0.6, -0.2, -0.7, 0.9, 0.9, 0.1, -1.6).finished();
 const Eigen::VectorXd kPinUp =
     (Eigen::VectorXd(8) << 0, 1.0472, 1.0472, 0.523599, 0, 0, 2.34565, 0.00194306).finished();
 
-struct NamedRegime {
-  std::string name;
-  Regime regime;
-};
-const std::vector<NamedRegime> kRegimes = {{"oscillatory", Regime::kOscillatory},
-                                           {"critical", Regime::kCritical},
-                                           {"over-damped", Regime::kOverdamped}};
+const std::vector<std::pair<std::string, Regime>> kRegimes = {{"oscillatory", Regime::kOscillatory},
+                                                              {"critical", Regime::kCritical},
+                                                              {"over-damped", Regime::kOverdamped}};
 
-// A simulated point: its state after 0, 1, 2, ... steps.
 struct PointMotion {
   std::vector<double> t, q, v;
   void add(const PointState& at) {
@@ -351,8 +322,9 @@ struct PointMotion {
 
 // `seconds` of a point from rest at 0; u(at, t) is the force on it.
 template <class Force>
-PointMotion simulate(PointState at, double seconds, const Force& u) {
+PointMotion simulate(double seconds, const Force& u) {
   PointMotion motion;
+  PointState at;
   for (motion.add(at); motion.t.back() < seconds; motion.add(at))
     at = eulerStep(at, u(at, motion.t.back()), kMass, kTau);
   return motion;
@@ -360,46 +332,56 @@ PointMotion simulate(PointState at, double seconds, const Force& u) {
 
 PointMotion reach(Regime regime, double T) {
   const Gains gains = gainsFor(regime, T, kMass);
-  return simulate({}, 1.5 * T, [&](const PointState& at, double) { return pdForce(at, {1, 0}, gains); });
+  return simulate(1.5 * T, [&](const PointState& at, double) { return pdForce(at, {1, 0}, gains); });
+}
+
+Series curve(const std::string& label, const PointMotion& motion) {
+  return {.label = label, .x = motion.t, .y = motion.q};
+}
+
+Figure overTime(const std::string& title, const std::string& yLabel, const std::vector<Series>& series) {
+  return {.title = title,
+          .xLabel = "time [s]",
+          .yLabel = yLabel,
+          .legend = series.size() > 1 ? Legend::kOutside : Legend::kNone,
+          .series = series};
+}
+
+// A point that shall get to 1 m.
+void plotWay(const std::string& name, const std::string& title, const std::vector<Series>& series,
+             const std::vector<Guide>& moments = {}) {
+  Figure figure = overTime(title, "position [m]", series);
+  figure.horizontalLines = {{1, "goal"}};
+  figure.verticalLines = moments;
+  plot(name, figure);
 }
 
 void showPoint() {
-  Figure time{.title = "Three ways to reach the goal in one second",
-              .xLabel = "time [s]",
-              .yLabel = "position [m]",
-              .legend = Legend::kBottomRight,
-              .verticalLines = {{1, "T"}},
-              .horizontalLines = {{1, "goal"}}};
-  Figure phase{.title = "The same ways in phase space",
-               .xLabel = "position [m]",
-               .yLabel = "velocity [m/s]",
-               .legend = Legend::kTopRight};
+  std::vector<Series> ways, phases, horizons;
   for (const auto& [name, regime] : kRegimes) {
     const PointMotion motion = reach(regime, 1);
-    time.series.push_back({.label = name, .x = motion.t, .y = motion.q});
-    phase.series.push_back({.label = name, .x = motion.q, .y = motion.v});
+    ways.push_back(curve(name, motion));
+    phases.push_back({.label = name, .x = motion.q, .y = motion.v});
   }
-  plot("regimes", time);
-  plot("phase", phase);
-  Figure horizons{.title = "Critically damped, in one, two and five seconds",
-                  .xLabel = "time [s]",
-                  .yLabel = "position [m]",
-                  .legend = Legend::kBottomRight,
-                  .horizontalLines = {{1, "goal"}}};
+  plotWay("regimes", "Three ways to reach the goal in one second", ways, {{1, "T"}});
+  plot("phase", {.title = "The same ways in phase space",
+                 .xLabel = "position [m]",
+                 .yLabel = "velocity [m/s]",
+                 .legend = Legend::kOutside,
+                 .series = phases});
   for (const int T : {1, 2, 5}) {
-    const PointMotion motion = reach(Regime::kCritical, T);
     const Gains gains = gainsFor(Regime::kCritical, T, kMass);
-    horizons.series.push_back({.label = "T = " + std::to_string(T) + " s", .x = motion.t, .y = motion.q});
+    horizons.push_back(curve("T = " + std::to_string(T) + " s", reach(Regime::kCritical, T)));
     print("Kp, Kd for T = " + std::to_string(T) + " s", Eigen::RowVector2d(gains.Kp, gains.Kd));
   }
-  plot("horizons", horizons);
+  plotWay("horizons", "Critically damped, in one, two and five seconds", horizons);
 }
 
 // PID control of a point to 1 m against a steady push [N]. Until `released` it is held where it is, but the
 // controller works on; then it is switched on anew, or not.
 PointMotion pidMotion(const PidGains& gains, double seconds, double push, double released, bool restart) {
   double integral = 0;
-  return simulate({}, seconds, [&](const PointState& at, double t) {
+  return simulate(seconds, [&](const PointState& at, double t) {
     const bool first = t < 0.5 * kTau || (restart && std::abs(t - released) < 0.5 * kTau);
     const PidStep step = pidStep(at, {1, 0}, gains, integral, kTau, first);
     integral = step.integral;
@@ -408,72 +390,48 @@ PointMotion pidMotion(const PidGains& gains, double seconds, double push, double
 }
 
 void showPid() {
-  const PidGains pd{60, 25, 0}, pid{60, 25, 40};
-  const auto curve = [](const std::string& label, const PointMotion& motion) {
-    return Series{.label = label, .x = motion.t, .y = motion.q};
-  };
-  plot("load", {.title = "Against a steady push of 10 N",
-                .xLabel = "time [s]",
-                .yLabel = "position [m]",
-                .legend = Legend::kBottomRight,
-                .series = {curve("PD", pidMotion(pd, 8, -10, 0, false)),
-                           curve("PID", pidMotion(pid, 8, -10, 0, false))},
-                .horizontalLines = {{1, "goal"}}});
-  plot("integral", {.title = "What an integral does without the others",
-                    .xLabel = "time [s]",
-                    .yLabel = "position [m]",
-                    .legend = Legend::kTopLeft,
-                    .series = {curve("Ki alone", pidMotion({0, 0, 2}, 6, 0, 0, false)),
-                               curve("Ki and Kd", pidMotion({0, 2, 2}, 6, 0, 0, false)),
-                               curve("all three", pidMotion({10, 8, 4}, 6, 0, 0, false))},
-                    .horizontalLines = {{1, "goal"}}});
-  plot("restart", {.title = "Held for three seconds, then released",
-                   .xLabel = "time [s]",
-                   .yLabel = "position [m]",
-                   .legend = Legend::kBottomRight,
-                   .series = {curve("integral kept", pidMotion(pid, 12, 0, 3, false)),
-                              curve("integral restarted", pidMotion(pid, 12, 0, 3, true))},
-                   .verticalLines = {{3, "released"}},
-                   .horizontalLines = {{1, "goal"}}});
-  for (const PidGains& gains : {PidGains{0, 0, 2}, PidGains{0, 2, 2}, PidGains{10, 8, 4}})
+  const PidGains pd{60, 25, 0}, pid{60, 25, 40}, alone{0, 0, 2}, damped{0, 2, 2}, all{10, 8, 4};
+  plotWay("load", "Against a steady push of 10 N",
+          {curve("PD", pidMotion(pd, 8, -10, 0, false)), curve("PID", pidMotion(pid, 8, -10, 0, false))});
+  plotWay("integral", "What an integral does without the others",
+          {curve("Ki alone", pidMotion(alone, 10, 0, 0, false)),
+           curve("Ki and Kd", pidMotion(damped, 10, 0, 0, false)),
+           curve("all three", pidMotion(all, 10, 0, 0, false))});
+  plotWay("restart", "Held for three seconds, then released",
+          {curve("integral kept", pidMotion(pid, 12, 0, 3, false)),
+           curve("integral restarted", pidMotion(pid, 12, 0, 3, true))},
+          {{3, "released"}});
+  for (const PidGains& gains : {alone, damped, all})
     print("Kp, Kd, Ki and whether stable",
           Eigen::RowVector4d(gains.Kp, gains.Kd, gains.Ki, isStable(gains, kMass) ? 1 : 0));
 }
 
 void showFollowing() {
-  Figure way{.title = "Following a cosine, with a kick every second",
-             .xLabel = "time [s]",
-             .yLabel = "position [m]",
-             .legend = Legend::kBottomRight};
-  Figure error = way;
-  error.title = "The way back after each kick";
-  error.yLabel = "distance from the reference [mm]";
+  std::vector<Series> ways;
   for (const auto& [name, regime] : kRegimes) {
     Rng rng(3);
     PointState at{1, 0};
-    PointMotion motion, off;
+    PointMotion off;
     for (int step = 0; step <= 600; ++step) {
       const double t = kTau * step;
       if (step > 0 && step % 100 == 0) at.v += 0.1 * rng.normal();
-      motion.add(at);
       off.add({1e3 * (at.q - std::cos(t)), 0});
       at = eulerStep(at, followForce(at, t, kMass, regime), kMass, kTau);
     }
-    way.series.push_back({.label = name, .x = motion.t, .y = motion.q});
-    error.series.push_back({.label = name, .x = off.t, .y = off.q});
+    ways.push_back(curve(name, off));
   }
-  std::vector<double> t, reference;
-  for (int step = 0; step <= 600; ++step) {
-    t.push_back(kTau * step);
-    reference.push_back(std::cos(t.back()));
-  }
-  way.series.push_back({.label = "cos t", .x = t, .y = reference, .dashed = true});
-  plot("following", way);
-  plot("kicks", error);
+  plot("kicks", overTime("Following a cosine, with a kick every second", "distance from it [mm]", ways));
 }
 
-// Four seconds of an arm, with a push of 1 rad/s after one: u(q, v, S) are the forces. Returns the
-// angle of the joint that is farthest from zero.
+// y at 0.01, 0.02, ... seconds.
+Series everyStep(const std::string& label, const std::vector<double>& y) {
+  Series series{.label = label, .y = y};
+  for (std::size_t i = 1; i <= y.size(); ++i) series.x.push_back(kTau * static_cast<double>(i));
+  return series;
+}
+
+// Four seconds of an arm, under noise with a push of 1 rad/s after one: u(q, v, S) are the forces. Returns
+// the angle of the joint that is farthest from zero.
 template <class Force>
 std::vector<double> swing(Simulator& S, double noise, const Force& u) {
   S.setDynamicSimulationNoise(noise);
@@ -488,6 +446,10 @@ std::vector<double> swing(Simulator& S, double noise, const Force& u) {
   return farthest;
 }
 
+Eigen::VectorXd byPd(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Simulator&) {
+  return holdArm(q, v);
+}
+
 Eigen::VectorXd byComputedTorque(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Simulator& S) {
   Eigen::MatrixXd M;
   Eigen::VectorXd F;
@@ -496,18 +458,11 @@ Eigen::VectorXd byComputedTorque(const Eigen::VectorXd& q, const Eigen::VectorXd
   return computedTorque(M, F, wantedAcceleration(q, v, {zero, zero, zero}, 0.2, 1));
 }
 
-std::vector<double> seconds(std::size_t count) {
-  std::vector<double> t;
-  for (std::size_t i = 1; i <= count; ++i) t.push_back(kTau * static_cast<double>(i));
-  return t;
-}
-
 void film(const Simulator& S, const std::string& name, const PictureOptions& look) {
   writeVideo(S, name, look);
   writeContactSheet(S, name + "_sheet", look);
 }
 
-// Falling freely, an arm keeps its energy; only the simulation does not quite.
 void showFall() {
   Simulator falling("pegArm.ors");
   const double atFirst = falling.getEnergy();
@@ -516,40 +471,26 @@ void showFall() {
     drift.push_back(1e6 * (S.getEnergy() - atFirst));
     return Eigen::VectorXd::Zero(q.size()).eval();
   });
-  plot("energy", {.title = "Energy of a falling arm, by Runge and Kutta",
-                  .xLabel = "time [s]",
-                  .yLabel = "energy gained [uJ]",
-                  .legend = Legend::kNone,
-                  .series = {{.x = seconds(drift.size()), .y = drift}}});
+  plot("energy", overTime("Energy of a falling arm", "energy gained [uJ]", {everyStep("", drift)}));
   film(falling, "fall", {.caption = "Without forces", .traces = {"peg"}, .view = {1, -0.3, 0.3}});
 }
 
 void showArms() {
   Simulator held("pegArm.ors"), known("pegArm.ors"), known2("pegArm2.ors");
-  const auto byPd = [](const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Simulator&) {
-    return holdArm(q, v);
-  };
-  const std::vector<double> heldAngles = swing(held, 1, byPd),
-                            knownAngles = swing(known, 1, byComputedTorque),
-                            knownAngles2 = swing(known2, 1, byComputedTorque);
-  plot("holding", {.title = "Holding arms at zero, under noise and a push",
-                   .xLabel = "time [s]",
-                   .yLabel = "joint farthest from zero [rad]",
-                   .legend = Legend::kOutside,
-                   .series = {{.label = "PD, pegArm", .x = seconds(400), .y = heldAngles},
-                              {.label = "M and F, pegArm", .x = seconds(400), .y = knownAngles},
-                              {.label = "M and F, pegArm2", .x = seconds(400), .y = knownAngles2}},
-                   .verticalLines = {{1, "push"}}});
-  const Eigen::Vector3d side(1, -0.3, 0.3);
-  film(held, "hold", {.caption = "PD in each joint", .view = side});
-  film(known, "torque", {.caption = "Computed torque", .view = side});
+  Figure figure = overTime("Holding arms at zero, under noise and a push", "joint farthest from zero [rad]",
+                           {everyStep("PD, pegArm", swing(held, 1, byPd)),
+                            everyStep("M and F, pegArm", swing(known, 1, byComputedTorque)),
+                            everyStep("M and F, pegArm2", swing(known2, 1, byComputedTorque))});
+  figure.verticalLines = {{1, "push"}};
+  plot("holding", figure);
+  film(held, "hold", {.caption = "PD in each joint", .view = {1, -0.3, 0.3}});
+  film(known, "torque", {.caption = "Computed torque", .view = {1, -0.3, 0.3}});
 }
 
 // The hand on a circle of 20 cm radius from where it is, once round in three seconds, from rest to rest.
 Reference onCircle(const Eigen::Vector3d& start, double t) {
-  const double w = std::numbers::pi / 3, angle = std::numbers::pi * (1 - std::cos(w * t));
-  const double rate = std::numbers::pi * w * std::sin(w * t),
-               growth = std::numbers::pi * w * w * std::cos(w * t);
+  const double pi = std::numbers::pi, w = pi / 3, angle = pi * (1 - std::cos(w * t));
+  const double rate = pi * w * std::sin(w * t), growth = pi * w * w * std::cos(w * t);
   const Eigen::Vector3d out(0, std::sin(angle), std::cos(angle)), along(0, std::cos(angle), -std::sin(angle));
   return {start + 0.2 * (out - Eigen::Vector3d::UnitZ()), 0.2 * rate * along,
           0.2 * (growth * along - rate * rate * out)};
@@ -564,16 +505,13 @@ void showHand() {
   std::vector<Eigen::Vector3d> circle;
   for (int step = 0; step < 300; ++step) {
     const Reference reference = onCircle(start, kTau * step);
-    error.push_back(1e3 * (S.kinematicsPos("peg") - reference.y).norm());
     circle.emplace_back(reference.y);
     Simulator here = S;
     S.stepDynamics(followWithHand(here, "peg", reference), kTau);
+    error.push_back(1e3 * (S.kinematicsPos("peg") - onCircle(start, kTau * (step + 1)).y).norm());
   }
-  const Figure figure{.title = "The hand on its circle",
-                      .xLabel = "time [s]",
-                      .yLabel = "distance from the reference [mm]",
-                      .legend = Legend::kNone,
-                      .series = {{.x = seconds(error.size()), .y = error}}};
+  const Figure figure =
+      overTime("The hand on its circle", "distance from its reference [mm]", {everyStep("", error)});
   const PictureOptions look{
       .caption = "Operational space control", .traces = {"peg"}, .paths = {circle}, .view = {1, -0.6, 0.4}};
   plot("hand", figure);
@@ -595,37 +533,33 @@ std::vector<Link> chainOf(const Model& model) {
   return chain;
 }
 
-// A swing of pegArm2 through both sides of zero.
-struct Swing {
-  Eigen::VectorXd q, v, a;
-};
-Swing swingAt(double t) {
+// q, v and a of a swing of pegArm2 through both sides of zero.
+std::array<Eigen::VectorXd, 3> swingAt(double t) {
   const Eigen::VectorXd far = Eigen::VectorXd::LinSpaced(7, 1.2, -0.8);
   return {std::sin(2 * t) * far, 2 * std::cos(2 * t) * far, -4 * std::sin(2 * t) * far};
 }
 
-// `byLibrary` are its forces at t = 0.01, 0.02, ... seconds of the swing.
 void showNewtonEuler(const std::vector<Link>& chain, const std::vector<Eigen::VectorXd>& byLibrary) {
-  Figure figure{.title = "The forces of a swing of pegArm2: yours, and the library's (dashed)",
-                .xLabel = "time [s]",
-                .yLabel = "joint force [N m]",
-                .legend = Legend::kOutside};
-  const std::vector<double> t = seconds(byLibrary.size());
+  std::vector<Series> yours, library;
   for (const int joint : {0, 2, 4}) {
-    Series yours{.label = "joint " + std::to_string(joint + 1), .x = t}, library{.x = t, .dashed = true};
-    for (std::size_t i = 0; i < t.size(); ++i) {
-      const auto [q, v, a] = swingAt(t[i]);
-      yours.y.push_back(newtonEuler(chain, q, v, a, kGravity)[joint]);
-      library.y.push_back(byLibrary[i][joint]);
+    std::vector<double> u, expected;
+    for (std::size_t i = 0; i < byLibrary.size(); ++i) {
+      const auto [q, v, a] = swingAt(kTau * static_cast<double>(i + 1));
+      u.push_back(newtonEuler(chain, q, v, a, kGravity)[joint]);
+      expected.push_back(byLibrary[i][joint]);
     }
-    library.color = Color{0, 0, 0};
-    figure.series.insert(figure.series.begin() + joint / 2, yours);
-    figure.series.push_back(library);
+    yours.push_back(everyStep("joint " + std::to_string(joint + 1), u));
+    library.push_back(everyStep("", expected));
+    library.back().dashed = true;
+    library.back().color = Color{0, 0, 0};
   }
-  plot("newtonEuler", figure);
-  print("M of pegArm2 when bent", inertiaMatrix(chain, kBent));
-  print("G", gravityTerm(chain, kBent, kGravity));
-  print("C v when all joints turn at 1 rad/s", coriolisTerm(chain, kBent, Eigen::VectorXd::Ones(7)));
+  yours.insert(yours.end(), library.begin(), library.end());
+  plot("newtonEuler",
+       overTime("A swing of pegArm2: your forces, and the library's (dashed)", "joint force [N m]", yours));
+  Eigen::MatrixXd terms(7, 9);
+  terms << inertiaMatrix(chain, kBent), gravityTerm(chain, kBent, kGravity),
+      coriolisTerm(chain, kBent, Eigen::VectorXd::Ones(7));
+  print("M, G and C v of pegArm2, bent and turning at 1 rad/s", terms);
 }
 
 void showPin() {
@@ -636,16 +570,11 @@ void showPin() {
   S.clearRecording();
   std::vector<double> tilt;
   for (int step = 0; step < 500; ++step) {
-    tilt.push_back(std::acos(std::clamp(S.kinematicsVec("pin").z(), -1., 1.)));
     Simulator here = S;
     S.stepDynamics(balancePin(here, kPinUp), kTau);
+    tilt.push_back(std::acos(std::clamp(S.kinematicsVec("pin").z(), -1., 1.)));
   }
-  const Figure figure{.title = "A pin that started at 0.05 rad",
-                      .xLabel = "time [s]",
-                      .yLabel = "tilt of the pin [rad]",
-                      .legend = Legend::kNone,
-                      .series = {{.x = seconds(tilt.size()), .y = tilt}}};
-  plot("pin", figure);
+  plot("pin", overTime("A pin that starts at 0.05 rad", "tilt of the pin [rad]", {everyStep("", tilt)}));
   film(S, "pin", {.caption = "Balancing a pin", .traces = {"universalJoint"}, .view = {1, -1, 0.4}});
 }
 
@@ -663,8 +592,8 @@ int main() {
   // Once your own recursion works, it lies on the library's.
   const Simulator S("pegArm2.ors");
   std::vector<Eigen::VectorXd> byLibrary;
-  for (const double t : seconds(300)) {
-    const auto [q, v, a] = swingAt(t);
+  for (int step = 1; step <= 300; ++step) {
+    const auto [q, v, a] = swingAt(kTau * step);
     byLibrary.push_back(inverseDynamics(S.model(), q, v, a, kGravity));
   }
   showNewtonEuler(chainOf(S.model()), byLibrary);
