@@ -222,8 +222,8 @@ Simulator arm(const std::string& scene, const Eigen::VectorXd& q) {
 
 // Part 4.
 
-// Over 200 seeds and masses the reference got no farther than 0.37 rad (0.6 are allowed), 0.11 on average
-// (0.25) and never faster than 1.5 rad/s (3).
+// Over 200 seeds and masses the reference got no farther than 0.38 rad (0.6 are allowed), 0.10 on average
+// (0.25) and never faster than 1.8 rad/s (3).
 void isHeld(Check& check, Student& student, const Simulator& S) {
   const auto farthest =
       shaken(check, S, [&](const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Simulator&) {
@@ -314,13 +314,14 @@ void holdsWithTorques(Check& check, Student& student) {
 }
 
 // <hidden>
-// Holding the force for tau costs up to tau / 2 times the velocity in position, 5 mrad here.
+// Holding the force for tau costs 19 mrad, 24 at most in 200 cases. Without the acceleration of the
+// reference, a joint is off by lambda^2 times that, 0.1 rad.
 void followsWithTheOtherArm(Check& check, Student& student) {
   check.forEachCase(3, [&](int) {
     Rng& rng = check.rng();
     Simulator S = withOtherMasses("pegArm2.ors", 0.5, rng);
-    const Eigen::VectorXd middle = rng.uniformVector(7, -1, 1), swing = rng.uniformVector(7, 0.3, 0.6);
-    const double w = rng.uniform(2, 3);
+    const Eigen::VectorXd middle = rng.uniformVector(7, -1, 1), swing = rng.uniformVector(7, 0.4, 0.5);
+    const double w = 2.5;
     S.setJointAnglesAndVels(middle, w * swing);
     double error = 0;
     for (int step = 0; step < 200; ++step) {
@@ -330,7 +331,7 @@ void followsWithTheOtherArm(Check& check, Student& student) {
       error = std::max(error, (S.getJointAngles() - reference.y).cwiseAbs().maxCoeff());
       advance(check, S, torques(check, student, S, reference, 0.2, 1));
     }
-    check.atMost("largest distance of a joint from its reference", error, 0.02, "rad");
+    check.atMost("largest distance of a joint from its reference", error, 0.06, "rad");
   });
 }
 // </hidden>
@@ -396,7 +397,7 @@ struct Path {
   }
 };
 
-// 0.3 mm and 2.5 rad/s are usual.
+// The reference keeps to 0.6 mm and 0.6 rad/s on all of 60 paths.
 void handFollows(Check& check, Student& student, Simulator S, const std::string& hand, const Path& path) {
   double error = 0, speed = 0;
   for (int step = 0; step <= 300; ++step) {
@@ -492,12 +493,15 @@ void anyChain(Check& check, Student& student) {
 const Eigen::VectorXd kPinUp =
     (Eigen::VectorXd(8) << 0, 1.0472, 1.0472, 0.523599, 0, 0, 2.34565, 0.00194306).finished();
 
-// 0.07 rad at most and 0.002 in the end are usual.
+// In 48 directions the reference never tilts by more than at first, by 0.001 rad in the end, with its foot 4
+// cm from home. Without anything to bring it home, the foot is 13 to 50 cm away.
 void balances(Check& check, Student& student, double tilt, double direction) {
   Eigen::VectorXd q = kPinUp;
   q.tail(2) += tilt * Eigen::Vector2d(std::cos(direction), std::sin(direction));
   Simulator S = arm("pin_balancing.ors", q);
   const auto angle = [&] { return std::acos(std::clamp(S.kinematicsVec("pin").z(), -1., 1.)); };
+  const auto foot = [&] { return Eigen::Vector2d(S.kinematicsPos("universalJoint").head<2>()); };
+  const Eigen::Vector2d home = arm("pin_balancing.ors", kPinUp).kinematicsPos("universalJoint").head<2>();
   double most = 0;
   for (int step = 0; step < 500; ++step) {
     const Eigen::VectorXd u = student.balancePin(S.description(), kPinUp);
@@ -505,20 +509,21 @@ void balances(Check& check, Student& student, double tilt, double direction) {
     check.near("forces of the joints without a motor", u.tail(2), Eigen::Vector2d::Zero(), 0, "N m");
     advance(check, S, u);
     most = std::max(most, angle());
-    check.atMost("tilt of the pin", most, 0.2, "rad");
+    check.atMost("tilt of the pin", most, 0.1, "rad");
   }
-  check.atMost("tilt of the pin after 5 s", angle(), 0.03, "rad");
+  check.atMost("tilt of the pin after 5 s", angle(), 0.01, "rad");
+  check.atMost("distance of the foot from home after 5 s", (foot() - home).norm(), 0.08, "m");
 }
 
 void balancesThePin(Check& check, Student& student) {
-  check.input("pin_balancing.ors with the pin upright, tilted by 0.05 rad");
-  balances(check, student, 0.05, 0);
+  check.input("pin_balancing.ors with the pin upright, tilted by 0.02 rad");
+  balances(check, student, 0.02, 0);
 }
 
 // <hidden>
 void balancesAnyTilt(Check& check, Student& student) {
   check.forEachCase(3, [&](int i) {
-    balances(check, student, i == 0 ? 0.05 : 0.03, check.rng().uniform(-std::numbers::pi, std::numbers::pi));
+    balances(check, student, i == 0 ? 0.02 : 0.01, check.rng().uniform(-std::numbers::pi, std::numbers::pi));
   });
 }
 // </hidden>

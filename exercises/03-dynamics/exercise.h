@@ -149,6 +149,7 @@ Eigen::MatrixXd inertiaMatrix(const std::vector<Link>& chain, const Eigen::Vecto
 
 /// The forces (8, N m) that keep the pin of pin_balancing.ors upright, in the present posture and velocities
 /// of S. Its last two joints have no motor: their forces are zero. `home` (8) is a posture in which the pin
-/// stands upright. From there, with the pin tilted by up to 0.05 rad and all at rest, it does not tilt by
-/// more than 0.2 rad in the next 5 s, and by no more than 0.03 rad at their end. S may move.
+/// stands upright. From there, with the pin tilted by up to 0.02 rad and all at rest, it does not tilt by
+/// more than 0.1 rad in the next 5 s; at their end by 0.01 rad at most, and its foot, the universalJoint, is
+/// within 8 cm of where it is at home, seen from above. S may move.
 Eigen::VectorXd balancePin(rex::Simulator& S, const Eigen::VectorXd& home);

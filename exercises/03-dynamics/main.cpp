@@ -401,7 +401,7 @@ void showNewtonEuler(const std::vector<Link>& chain, const std::vector<Eigen::Ve
 void showPin() {
   Simulator S("pin_balancing.ors");
   Eigen::VectorXd q = kPinUp;
-  q[6] += 0.05;
+  q[6] += 0.02;
   S.setJointAngles(q);
   S.clearRecording();
   std::vector<double> tilt;
@@ -410,7 +410,7 @@ void showPin() {
     S.stepDynamics(balancePin(here, kPinUp), kTau);
     tilt.push_back(std::acos(std::clamp(S.kinematicsVec("pin").z(), -1., 1.)));
   }
-  plot("pin", overTime("A pin that starts at 0.05 rad", "tilt of the pin [rad]", {everyStep("", tilt)}));
+  plot("pin", overTime("A pin that starts at 0.02 rad", "tilt of the pin [rad]", {everyStep("", tilt)}));
   film(S, "pin", {.caption = "Balancing a pin", .traces = {"universalJoint"}, .view = {1, -1, 0.4}});
 }
 
