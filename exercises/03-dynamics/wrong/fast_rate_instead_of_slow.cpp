@@ -13,5 +13,5 @@ if (regime == Regime::kOverdamped) {
   xi = 1.5;
   lambda = (xi + std::sqrt(xi * xi - 1)) * T / 7;
 }
-return {mass / (lambda * lambda), 2 * mass * xi / lambda};
+return {mass / (lambda * lambda), 2 * mass* xi / lambda};
 // </solution>

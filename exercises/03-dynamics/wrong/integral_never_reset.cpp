@@ -4,5 +4,5 @@
 // <solution pidStep>
 static_cast<void>(restart);
 const double u = pdForce(at, wanted, {gains.Kp, gains.Kd}) + gains.Ki * integral;
-return {u, integral + tau * (wanted.q - at.q)};
+return {u, integral + tau*(wanted.q - at.q)};
 // </solution>

@@ -3,5 +3,5 @@
 
 // <solution gainsFor>
 const double xi = regime == Regime::kCritical ? 1 : regime == Regime::kOscillatory ? 0.5 : 1.5;
-return {mass / (T * T), 2 * mass * xi / T};
+return {mass / (T * T), 2 * mass* xi / T};
 // </solution>
