@@ -13,5 +13,6 @@ if (regime == Regime::kOverdamped) {
   xi = 1.5;
   lambda = (xi + std::sqrt(xi * xi - 1)) * T / 7;
 }
-return {mass / (lambda * lambda), 2 * mass* xi / lambda};
+const double Kp = mass / (lambda * lambda), Kd = 2 * mass * xi / lambda;
+return {Kp, Kd};
 // </solution>
