@@ -1,0 +1,576 @@
+#include "grading/check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "approach_checks.h"
+#include "arm_checks.h"
+#include "dynamics/inverse_dynamics.h"
+#include "dynamics/mass_matrix.h"
+#include "interface.h"
+#include "random_chain.h"
+
+using namespace rex;
+using grading::Check;
+using grading::Group;
+
+namespace {
+
+constexpr double kMass = 3.456;
+const std::array<Regime, 3> kRegimes = {Regime::kOscillatory, Regime::kCritical, Regime::kOverdamped};
+
+std::string nameOf(Regime regime) {
+  return regime == Regime::kOscillatory ? "oscillatory"
+         : regime == Regime::kCritical  ? "critical"
+                                        : "over-damped";
+}
+
+std::string text(double x) { return std::to_string(x).substr(0, 5); }
+
+Eigen::MatrixXd randomMatrix(Rng& rng, int rows, int columns) {
+  return rng.normalVector(rows * columns).reshaped(rows, columns);
+}
+
+// Symmetric, positive definite.
+Eigen::MatrixXd randomMetric(Rng& rng, int n) {
+  const Eigen::MatrixXd A = randomMatrix(rng, n, n);
+  return A * A.transpose() / n + 0.3 * Eigen::MatrixXd::Identity(n, n);
+}
+
+// Part 1.
+
+void stepsAndPulls(Check& check, Student& student) {
+  check.forEachCase(5, [&](int) {
+    Rng& rng = check.rng();
+    const PointState at{rng.normal(), rng.normal()}, wanted{rng.normal(), rng.normal()};
+    const double u = rng.normal(), mass = rng.uniform(0.5, 5), tau = rng.uniform(0.005, 0.1);
+    const Gains gains{rng.uniform(1, 50), rng.uniform(1, 20)};
+    check.input("a random state, force, mass and step; random gains");
+    const PointState next = student.eulerStep(at, u, mass, tau);
+    check.near("position after one step", next.q, at.q + tau * at.v, 1e-12, "m");
+    check.near("velocity after one step", next.v, at.v + tau * u / mass, 1e-12, "m/s");
+    check.near("force of PD control", student.pdForce(at, wanted, gains),
+               gains.Kp * (wanted.q - at.q) + gains.Kd * (wanted.v - at.v), 1e-9, "N");
+  });
+}
+
+void reaches(Check& check, Student& student, Regime regime, double T, double mass) {
+  check.input(nameOf(regime) + ", T = " + text(T) + " s, mass = " + text(mass) + " kg, from 0 to 1 m");
+  const Gains gains = student.gainsFor(regime, T, mass);
+  check.that("the gains are positive and finite",
+             gains.Kp > 0 && gains.Kd > 0 && std::isfinite(gains.Kp) && std::isfinite(gains.Kd));
+  Approach approach;
+  PointState at{};
+  for (double t = 0; t < 3 * T; t += kTau) {
+    approach.push_back(1 - at.q);
+    check.that("the point stays within 10 m", std::abs(at.q) < 10);
+    at = moved(at, gains.Kp * (1 - at.q) - gains.Kd * at.v, mass);
+  }
+  isInRegime(check, approach, regime);
+  arrivesInTime(check, approach, T);
+}
+
+void reachesInEveryRegime(Check& check, Student& student) {
+  for (const double T : {1., 2., 5.})
+    for (const Regime regime : kRegimes) reaches(check, student, regime, T, kMass);
+}
+
+// <hidden>
+void reachesWithAnyMass(Check& check, Student& student) {
+  check.forEachCase(9, [&](int i) {
+    Rng& rng = check.rng();
+    reaches(check, student, kRegimes[static_cast<std::size_t>(i % 3)], rng.uniform(1, 5),
+            std::exp(rng.uniform(-2, 3)));
+  });
+}
+// </hidden>
+
+// Part 2.
+
+void pidSteps(Check& check, Student& student) {
+  Rng& rng = check.rng();
+  for (const bool restart : {false, true}) {
+    check.input(restart ? "a random state and gains, switched on now" : "a random state and gains");
+    const PointState at{rng.normal(), rng.normal()}, wanted{rng.normal(), rng.normal()};
+    const PidGains gains{rng.uniform(1, 50), rng.uniform(1, 20), rng.uniform(1, 20)};
+    const double before = rng.uniform(0.5, 2), sum = restart ? 0 : before;
+    const PidStep step = student.pidStep(at, wanted, gains, before, kTau, restart);
+    check.near("force", step.u, gains.Kp * (wanted.q - at.q) + gains.Kd * (wanted.v - at.v) + gains.Ki * sum,
+               1e-9, "N");
+    check.near("integral after the step", step.integral, sum + kTau * (wanted.q - at.q), 1e-12, "m s");
+  }
+  check.input("Kp = 60, Kd = 25, Ki = 40 against a push of 5 to 15 N, from 0 to 1 m");
+  const double push = -rng.uniform(5, 15);
+  double integral = 0;
+  PointState at{};
+  for (int i = 0; i < 1500; ++i) {
+    const PidStep step = student.pidStep(at, {1, 0}, {60, 25, 40}, integral, kTau, i == 0);
+    integral = step.integral;
+    at = moved(at, step.u + push, kMass);
+    check.that("the point stays within 100 m", std::abs(at.q) < 100);
+  }
+  check.near("position after 15 s", at.q, 1, 1e-3, "m");
+}
+
+void judgesStability(Check& check, Student& student, const PidGains& gains, double mass, bool stable) {
+  check.input("Kp = " + text(gains.Kp) + ", Kd = " + text(gains.Kd) + ", Ki = " + text(gains.Ki) +
+              ", mass = " + text(mass) + " kg");
+  check.that("the answer is right", student.isStable(gains, mass) == stable);
+}
+
+// The greatest real part of the roots of m s^3 + Kd s^2 + Kp s + Ki, or without s^0 if Ki is zero.
+double growth(const PidGains& gains, double mass) {
+  const int order = gains.Ki == 0 ? 2 : 3;
+  const Eigen::Vector3d coefficients = -Eigen::Vector3d(gains.Kd, gains.Kp, gains.Ki) / mass;
+  Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(order, order);
+  companion.row(0) = coefficients.head(order).transpose();
+  companion.bottomLeftCorner(order - 1, order - 1).setIdentity();
+  return eigenvalues(companion).real().maxCoeff();
+}
+
+// The roots of random gains are told apart from the imaginary axis only at a distance from it; the cases on
+// it are exact.
+void judgesPid(Check& check, Student& student) {
+  judgesStability(check, student, {0, 0, 2}, kMass, false);  // Ki alone
+  judgesStability(check, student, {0, 3, 2}, kMass, false);  // Ki and Kd
+  judgesStability(check, student, {5, 0, 0}, kMass, false);  // oscillates for ever
+  judgesStability(check, student, {0, 5, 0}, kMass, false);  // rests anywhere
+  judgesStability(check, student, {5, 3, 0}, kMass, true);
+  judgesStability(check, student, {4, 3, 6}, 2, false);  // on the border
+  judgesStability(check, student, {-4, -3, 1}, 2, false);
+  Rng& rng = check.rng();
+  for (int wanted = 0; wanted < 60;) {
+    const PidGains gains{rng.uniform(-3, 10), rng.uniform(-3, 10),
+                         rng.index(3) == 0 ? 0 : rng.uniform(-3, 10)};
+    const double mass = rng.uniform(0.5, 5), rate = growth(gains, mass);
+    // Half of the cases are stable, half are not.
+    if (std::abs(rate) < 1e-3 || (rate < 0) != (wanted % 2 == 0)) continue;
+    judgesStability(check, student, gains, mass, rate < 0);
+    ++wanted;
+  }
+}
+
+// Part 3.
+
+// The distance from cos t, step by step, of a point that starts at a distance, with the reference's velocity;
+// kick(step) is added to its velocity.
+template <class Kick>
+std::vector<double> distances(Check& check, Student& student, Regime regime, double mass, double start,
+                              double t0, int steps, const Kick& kick) {
+  std::vector<double> off;
+  PointState at{std::cos(t0) + start, -std::sin(t0)};
+  for (int i = 0; i < steps; ++i) {
+    const double t = t0 + kTau * i;
+    at.v += kick(i);
+    off.push_back(at.q - std::cos(t));
+    at = moved(at, student.followForce(at, t, mass, regime), mass);
+    check.that("the point stays within 10 m", std::abs(at.q) < 10);
+  }
+  return off;
+}
+
+double none(int) { return 0; }
+
+// A cosine in Euler steps is off by tau / 2 times its acceleration at each velocity, which PD control turns
+// into 2 lambda tau / 2 = 1.5 mm at most; so the way back is the difference to a point that was not pushed.
+void comesBack(Check& check, Student& student, Regime regime, double mass, double t0) {
+  check.input(nameOf(regime) + ", mass = " + text(mass) + " kg, 0.5 m off the reference at t = " + text(t0));
+  const auto pushed = distances(check, student, regime, mass, 0.5, t0, 300, none);
+  const auto still = distances(check, student, regime, mass, 0, t0, 300, none);
+  Approach approach;
+  for (std::size_t i = 0; i < pushed.size(); ++i) approach.push_back((pushed[i] - still[i]) / 0.5);
+  isInRegime(check, approach, regime);
+  arrivesInTime(check, approach, 1);
+}
+
+void followsTheCosine(Check& check, Student& student) {
+  for (const Regime regime : kRegimes) {
+    const double t = check.rng().uniform(0, 6);
+    check.input(nameOf(regime) + ", on the reference at t = " + text(t) + " s");
+    check.near("force on the reference", student.followForce({std::cos(t), -std::sin(t)}, t, kMass, regime),
+               -kMass * std::cos(t), 1e-9, "N");
+    comesBack(check, student, regime, kMass, t);
+  }
+}
+
+// <hidden>
+// A kick of 0.5 m/s (five standard deviations) has shrunk to 3 mm before the next, and 1.5 mm are always
+// there: 10 mm are never reached.
+void followsUnderKicks(Check& check, Student& student) {
+  check.forEachCase(6, [&](int i) {
+    Rng& rng = check.rng();
+    const Regime regime = kRegimes[static_cast<std::size_t>(i % 3)];
+    const double mass = rng.uniform(0.5, 10);
+    if (i < 3) return comesBack(check, student, regime, mass, rng.uniform(0, 6));
+    const auto off = distances(check, student, regime, mass, 0, 0, 500,
+                               [&](int step) { return step % 100 == 0 ? 0.1 * rng.normal() : 0; });
+    for (std::size_t step = 99; step < off.size(); step += 100)
+      check.atMost("distance from the reference just before the next kick", std::abs(off[step]), 0.01, "m");
+  });
+}
+// </hidden>
+
+// Parts 4 to 6: arms.
+
+Simulator arm(const std::string& scene, const Eigen::VectorXd& q) {
+  Simulator S(scene);
+  S.setJointAngles(q);
+  return S;
+}
+
+// Part 4.
+
+// Over 200 seeds and masses the reference got no farther than 0.38 rad (0.6 are allowed), 0.10 on average
+// (0.25) and never faster than 1.8 rad/s (3).
+void isHeld(Check& check, Student& student, const Simulator& S) {
+  const auto farthest =
+      shaken(check, S, [&](const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Simulator&) {
+        return student.holdArm(q, v);
+      });
+  check.atMost("angle farthest from zero", largest(farthest), 0.6, "rad");
+  double sum = 0;
+  for (std::size_t step = 300; step < 400; ++step) sum += farthest[step] / 100;
+  check.atMost("angle farthest from zero, on average over the last second", sum, 0.25, "rad");
+}
+
+void holdsTheArm(Check& check, Student& student) {
+  Rng& rng = check.rng();
+  check.input("q = 0 and v = 0; then one joint alone is moved");
+  check.near("forces at rest at zero", student.holdArm(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()),
+             Eigen::Vector3d::Zero(), 1e-12, "N m");
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d q = rng.normal() * Eigen::Vector3d::Unit(i),
+                          v = rng.normal() * Eigen::Vector3d::Unit(i);
+    Eigen::VectorXd u = student.holdArm(q, v);
+    check.shape("joint forces", u, 3, 1);
+    u[i] = 0;
+    check.near("forces on the other joints", u, Eigen::Vector3d::Zero(), 1e-12, "N m");
+  }
+  check.input("pegArm.ors at q = 0, noise 1, a push of 1 rad/s after one second");
+  isHeld(check, student, Simulator("pegArm.ors"));
+}
+
+// <hidden>
+void holdsOtherArms(Check& check, Student& student) {
+  check.forEachCase(4,
+                    [&](int) { isHeld(check, student, withOtherMasses("pegArm.ors", 0.15, check.rng())); });
+}
+// </hidden>
+
+// Part 5.
+
+Eigen::VectorXd torques(Check& check, Student& student, const Simulator& S, const Reference& reference,
+                        double lambda, double xi) {
+  Eigen::MatrixXd M;
+  Eigen::VectorXd F;
+  S.getDynamics(M, F);
+  const Eigen::VectorXd a =
+      student.wantedAcceleration(S.getJointAngles(), S.getJointVels(), reference, lambda, xi);
+  check.shape("wanted acceleration", a, S.getJointDimension(), 1);
+  return student.computedTorque(M, F, a);
+}
+
+void accelerates(Check& check, Student& student) {
+  check.forEachCase(6, [&](int) {
+    Rng& rng = check.rng();
+    const int n = 1 + rng.index(7);
+    const double lambda = rng.uniform(0.1, 2), xi = rng.uniform(0.3, 2);
+    const Eigen::VectorXd y = rng.normalVector(n), yd = rng.normalVector(n), F = rng.normalVector(n);
+    const Reference reference{rng.normalVector(n), rng.normalVector(n), rng.normalVector(n)};
+    const Eigen::MatrixXd M = randomMetric(rng, n);
+    check.input("random states and references, random M and F");
+    const Eigen::VectorXd a = student.wantedAcceleration(y, yd, reference, lambda, xi);
+    check.shape("wanted acceleration", a, n, 1);
+    // In the distance from the reference, this is the point of mass 1 of slide 3:14.
+    check.near(
+        "lambda^2 e'' + 2 xi lambda e' + e for e = y - its reference",
+        lambda * lambda * (a - reference.ydd) + 2 * xi * lambda * (yd - reference.yd) + y - reference.y,
+        Eigen::VectorXd::Zero(n), 1e-9);
+    const Eigen::VectorXd u = student.computedTorque(M, F, a);
+    check.shape("joint forces", u, n, 1);
+    check.near("acceleration under these forces", solve(M, u - F), a, 1e-8, "rad/s^2");
+  });
+}
+
+// The noise moves a joint by sqrt(lambda^3 / 4) = 0.045 rad (one standard deviation), the push by 0.07: 0.5
+// is far beyond what 1200 numbers reach. Without noise, nothing is left of the push after two seconds but
+// 2e-4.
+void holdsWithTorques(Check& check, Student& student) {
+  const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
+  const Reference rest{zero, zero, zero};
+  check.input("pegArm.ors at q = 0, lambda = 0.2 s, xi = 1, noise 1, a push of 1 rad/s after one second");
+  const auto farthest = shaken(check, Simulator("pegArm.ors"),
+                               [&](const Eigen::VectorXd&, const Eigen::VectorXd&, const Simulator& S) {
+                                 return torques(check, student, S, rest, 0.2, 1);
+                               });
+  check.atMost("angle farthest from zero", largest(farthest), 0.5, "rad");
+  check.input("pegArm.ors at q = 0, lambda = 0.2 s, xi = 1, pushed by 1 rad/s");
+  Simulator S("pegArm.ors");
+  S.setJointAnglesAndVels(zero, Eigen::Vector3d::Ones());
+  for (int step = 0; step < 200; ++step) advance(check, S, torques(check, student, S, rest, 0.2, 1));
+  check.atMost("angle farthest from zero after 2 s", S.getJointAngles().cwiseAbs().maxCoeff(), 2e-3, "rad");
+}
+
+// <hidden>
+// Holding the force for tau costs 19 mrad, 24 at most in 200 cases. Without the acceleration of the
+// reference, a joint is off by lambda^2 times that, 0.1 rad.
+void followsWithTheOtherArm(Check& check, Student& student) {
+  check.forEachCase(3, [&](int) {
+    Rng& rng = check.rng();
+    Simulator S = withOtherMasses("pegArm2.ors", 0.5, rng);
+    const Eigen::VectorXd middle = rng.uniformVector(7, -1, 1), swing = rng.uniformVector(7, 0.4, 0.5);
+    const double w = 2.5;
+    S.setJointAnglesAndVels(middle, w * swing);
+    double error = 0;
+    for (int step = 0; step < 200; ++step) {
+      const double t = kTau * step;
+      const Reference reference{middle + std::sin(w * t) * swing, w * std::cos(w * t) * swing,
+                                -w * w * std::sin(w * t) * swing};
+      error = std::max(error, (S.getJointAngles() - reference.y).cwiseAbs().maxCoeff());
+      advance(check, S, torques(check, student, S, reference, 0.2, 1));
+    }
+    check.atMost("largest distance of a joint from its reference", error, 0.06, "rad");
+  });
+}
+// </hidden>
+
+// Part 6.
+
+Simulator inMotion(Simulator S, Rng& rng) {
+  const int n = S.getJointDimension();
+  S.setJointAnglesAndVels(rng.uniformVector(n, -1, 1), rng.uniformVector(n, -2, 2));
+  return S;
+}
+
+// How the body accelerates along q + t v, by a second difference; good to 1e-6 at these speeds.
+Eigen::Vector3d secondDifference(Simulator S, const std::string& body) {
+  const Eigen::VectorXd middle = S.getJointAngles(), rate = S.getJointVels();
+  const double h = 2e-4;
+  const auto place = [&](double t) {
+    S.setJointAngles(middle + t * rate);
+    return S.kinematicsPos(body);
+  };
+  return (place(h) - 2 * place(0) + place(-h)) / (h * h);
+}
+
+void biasAndForce(Check& check, Student& student) {
+  check.forEachCase(8, [&](int i) {
+    Rng& rng = check.rng();
+    if (i < 4) {
+      const Simulator S = inMotion(Simulator(i < 2 ? "pegArm2.ors" : "arm3.ors"), rng);
+      const std::string body = i < 2 ? "peg" : "eff";
+      check.input(S.description().sceneName + ", body '" + body + "', random posture and velocities");
+      const Eigen::Vector3d wanted = secondDifference(S, body);
+      check.near("acceleration at constant joint velocities", student.accelerationBias(S.description(), body),
+                 wanted, 1e-4 * std::max(1., wanted.norm()), "m/s^2");
+      return;
+    }
+    const int d = 1 + rng.index(4), n = d + rng.index(5);
+    const AccelerationTask task{randomMatrix(rng, d, n), rng.normalVector(d), rng.normalVector(d),
+                                100 * randomMetric(rng, d)};
+    const Eigen::MatrixXd M = randomMetric(rng, n), H = randomMetric(rng, n);
+    const Eigen::VectorXd F = rng.normalVector(n);
+    check.input("a random task, M, F and H");
+    const Eigen::VectorXd u = student.operationalForce(task, M, F, H);
+    check.shape("joint forces", u, n, 1);
+    const Eigen::MatrixXd T = task.J * inverse(M);
+    const Eigen::VectorXd miss = T * (u - F) + task.bias - task.ydd, pull = T.transpose() * task.C * miss;
+    const double scale =
+        T.norm() * task.C.norm() * (T.norm() * (u.norm() + F.norm()) + 2) + H.norm() * u.norm();
+    check.atMost("gradient of the cost at u, relative", (pull + H * u).norm() / scale, 1e-10);
+  });
+}
+
+// Where a hand shall be: once along a path, from rest to rest in three seconds, by the sine profile.
+struct Path {
+  Eigen::Vector3d start, along, out;  ///< a line to start + along; with `out`, a circle with that radius
+  Reference at(double t) const {
+    const double w = std::numbers::pi / 3, s = (1 - std::cos(w * t)) / 2, sd = w * std::sin(w * t) / 2,
+                 sdd = w * w * std::cos(w * t) / 2;
+    if (out.isZero()) return {start + s * along, sd * along, sdd * along};
+    const double turn = 2 * std::numbers::pi, angle = turn * s;
+    const Eigen::Vector3d x = std::cos(angle) * out + std::sin(angle) * along,
+                          xd = turn * (-std::sin(angle) * out + std::cos(angle) * along);
+    return {start + x - out, sd * xd, sdd * xd - turn * turn * sd * sd * x};
+  }
+};
+
+// The reference keeps to 0.6 mm and 0.6 rad/s on all of 60 paths.
+void handFollows(Check& check, Student& student, Simulator S, const std::string& hand, const Path& path) {
+  double error = 0, speed = 0;
+  for (int step = 0; step <= 300; ++step) {
+    const Reference reference = path.at(kTau * step);
+    error = std::max(error, (S.kinematicsPos(hand) - reference.y).norm());
+    speed = std::max(speed, S.getJointVels().cwiseAbs().maxCoeff());
+    if (step < 300) advance(check, S, student.followWithHand(S.description(), hand, reference));
+  }
+  check.atMost("largest distance of the hand from its reference", error, 5e-3, "m");
+  check.atMost("largest joint speed", speed, 5, "rad/s");
+}
+
+const Eigen::VectorXd kBent = (Eigen::VectorXd(7) << 0.6, -0.2, -0.7, 0.9, 0.9, 0.1, -1.6).finished();
+
+void followsACircle(Check& check, Student& student) {
+  check.input("pegArm2.ors, bent, the peg on a circle of 0.2 m radius in 3 s");
+  const Simulator S = arm("pegArm2.ors", kBent);
+  handFollows(check, student, S, "peg", {S.kinematicsPos("peg"), {0, 0.2, 0}, {0, 0, 0.2}});
+}
+
+// <hidden>
+void followsALine(Check& check, Student& student) {
+  check.forEachCase(3, [&](int i) {
+    Rng& rng = check.rng();
+    Simulator S = withOtherMasses("pegArm2.ors", 0.5, rng);
+    S.setJointAngles(kBent + rng.uniformVector(7, -0.1, 0.1));
+    const Eigen::Vector3d start = S.kinematicsPos("peg"), along = 0.2 * rng.normalVector(3).normalized();
+    const Eigen::Vector3d out = 0.2 * along.cross(Eigen::Vector3d(rng.normalVector(3))).normalized();
+    handFollows(check, student, S, "peg", {start, along, i == 0 ? Eigen::Vector3d::Zero().eval() : out});
+  });
+}
+// </hidden>
+
+// Part 7.
+
+void forcesOf(Check& check, Student& student, const std::vector<Link>& chain,
+              const Eigen::Vector3d& gravity) {
+  Rng& rng = check.rng();
+  const auto n = static_cast<int>(chain.size());
+  const Eigen::VectorXd q = 2 * rng.normalVector(n), v = rng.normalVector(n), a = rng.normalVector(n);
+  const Eigen::VectorXd wanted = inverseDynamics(modelOf(chain), q, v, a, gravity);
+  check.near("joint forces", student.newtonEuler(chain, q, v, a, gravity), wanted, 1e-9 * (1 + wanted.norm()),
+             "N m");
+}
+
+void newtonAndEuler(Check& check, Student& student) {
+  Rng& rng = check.rng();
+  check.input("a pendulum: one link, axis x, its centre below the hinge (3:21)");
+  const double mass = rng.uniform(0.5, 2), length = rng.uniform(0.3, 1), moment = 0.02;
+  const Link link{
+      Eigen::Matrix3d::Identity(),         {0, 0, 2}, Eigen::Vector3d::UnitX(), mass, {0, 0, -length},
+      moment * Eigen::Matrix3d::Identity()};
+  const Eigen::VectorXd q = rng.normalVector(1), v = rng.normalVector(1), a = rng.normalVector(1);
+  const double wanted = (mass * length * length + moment) * a[0] + mass * 9.81 * length * std::sin(q[0]);
+  check.near("joint force", student.newtonEuler({link}, q, v, a, {0, 0, -9.81}),
+             Eigen::VectorXd::Constant(1, wanted), 1e-9, "N m");
+  for (const int n : {1, 2, 3, 7}) {
+    check.input("a random chain of " + std::to_string(n) + ", gravity downwards");
+    forcesOf(check, student, randomChain(rng, n), earthGravity());
+  }
+}
+
+void terms(Check& check, Student& student) {
+  Rng& rng = check.rng();
+  for (const int n : {2, 5}) {
+    check.input("a random chain of " + std::to_string(n));
+    const std::vector<Link> chain = randomChain(rng, n);
+    const Model model = modelOf(chain);
+    const Eigen::VectorXd q = rng.normalVector(n), v = rng.normalVector(n);
+    const auto near = [&](const std::string& property, const Eigen::MatrixXd& got,
+                          const Eigen::MatrixXd& wanted) {
+      check.near(property, got, wanted, 1e-9 * (1 + wanted.norm()));
+    };
+    near("M", student.inertiaMatrix(chain, q), massMatrix(model, q));
+    near("G", student.gravityTerm(chain, q, earthGravity()), gravityForces(model, q));
+    near("C v", student.coriolisTerm(chain, q, v), biasForces(model, q, v, Eigen::Vector3d::Zero()));
+  }
+}
+
+// <hidden>
+void anyChain(Check& check, Student& student) {
+  check.forEachCase(8, [&](int i) {
+    Rng& rng = check.rng();
+    const std::vector<Link> chain = randomChain(rng, 1 + rng.index(9));
+    forcesOf(check, student, chain,
+             i < 2 ? Eigen::Vector3d::Zero() : Eigen::Vector3d(9 * rng.normalVector(3)));
+  });
+}
+// </hidden>
+
+// Part 8.
+
+const Eigen::VectorXd kPinUp =
+    (Eigen::VectorXd(8) << 0, 1.0472, 1.0472, 0.523599, 0, 0, 2.34565, 0.00194306).finished();
+
+// In 48 directions the reference never tilts by more than at first, by 0.001 rad in the end, with its foot 4
+// cm from home. Without anything to bring it home, the foot is 13 to 50 cm away.
+void balances(Check& check, Student& student, double tilt, double direction) {
+  Eigen::VectorXd q = kPinUp;
+  q.tail(2) += tilt * Eigen::Vector2d(std::cos(direction), std::sin(direction));
+  Simulator S = arm("pin_balancing.ors", q);
+  const auto angle = [&] { return std::acos(std::clamp(S.kinematicsVec("pin").z(), -1., 1.)); };
+  const auto foot = [&] { return Eigen::Vector2d(S.kinematicsPos("universalJoint").head<2>()); };
+  const Eigen::Vector2d home = arm("pin_balancing.ors", kPinUp).kinematicsPos("universalJoint").head<2>();
+  double most = 0;
+  for (int step = 0; step < 500; ++step) {
+    const Eigen::VectorXd u = student.balancePin(S.description(), kPinUp);
+    check.shape("joint forces", u, 8, 1);
+    check.near("forces of the joints without a motor", u.tail(2), Eigen::Vector2d::Zero(), 0, "N m");
+    advance(check, S, u);
+    most = std::max(most, angle());
+    check.atMost("tilt of the pin", most, 0.1, "rad");
+  }
+  check.atMost("tilt of the pin after 5 s", angle(), 0.01, "rad");
+  check.atMost("distance of the foot from home after 5 s", (foot() - home).norm(), 0.08, "m");
+}
+
+void balancesThePin(Check& check, Student& student) {
+  check.input("pin_balancing.ors with the pin upright, tilted by 0.02 rad");
+  balances(check, student, 0.02, 0);
+}
+
+// <hidden>
+void balancesAnyTilt(Check& check, Student& student) {
+  check.forEachCase(3, [&](int i) {
+    balances(check, student, i == 0 ? 0.02 : 0.01, check.rng().uniform(-std::numbers::pi, std::numbers::pi));
+  });
+}
+// </hidden>
+
+}  // namespace
+
+grading::Checks<Student> checks() {
+  return {
+      {"point-step", "point", "one Euler step, and the force of PD control", 1, Group::visible,
+       stepsAndPulls},
+      {"point-regimes", "point", "three regimes reach the goal in 1, 2 and 5 s", 1, Group::visible,
+       reachesInEveryRegime},
+      // <hidden>
+      {"point-any-mass", "point", "other masses and times", 1, Group::hidden, reachesWithAnyMass},
+      // </hidden>
+      {"pid-step", "pid", "PID control, and its restart", 1, Group::visible, pidSteps},
+      {"pid-stability", "pid", "which gains are stable", 1, Group::visible, judgesPid},
+      {"follow-cosine", "follow", "on the reference, and the way back to it", 1, Group::visible,
+       followsTheCosine},
+      // <hidden>
+      {"follow-kicks", "follow", "other masses, and kicks every second", 1, Group::hidden, followsUnderKicks},
+      // </hidden>
+      {"hold-arm", "hold", "the arm is held under noise and a push", 1, Group::visible, holdsTheArm},
+      // <hidden>
+      {"hold-other-masses", "hold", "arms with other masses are held, too", 1, Group::hidden, holdsOtherArms},
+      // </hidden>
+      {"torque-equations", "torque", "the wanted acceleration, and the forces for it", 1, Group::visible,
+       accelerates},
+      {"torque-hold", "torque", "the arm is held with M and F", 1, Group::visible, holdsWithTorques},
+      // <hidden>
+      {"torque-other-arm", "torque", "another arm follows a reference", 1, Group::hidden,
+       followsWithTheOtherArm},
+      // </hidden>
+      {"hand-equations", "hand", "accelerationBias, and operationalForce minimises its cost", 1,
+       Group::visible, biasAndForce},
+      {"hand-circle", "hand", "the hand follows a circle", 1, Group::visible, followsACircle},
+      // <hidden>
+      {"hand-other-paths", "hand", "other paths, other masses", 1, Group::hidden, followsALine},
+      // </hidden>
+      {"chain-forces", "chain", "a pendulum, and chains under gravity", 1, Group::visible, newtonAndEuler},
+      {"chain-terms", "chain", "M, G and C v", 1, Group::visible, terms},
+      // <hidden>
+      {"chain-any", "chain", "other chains, other gravity", 1, Group::hidden, anyChain},
+      // </hidden>
+      {"pin-upright", "pin", "the pin stays upright", 1, Group::visible, balancesThePin},
+      // <hidden>
+      {"pin-any-tilt", "pin", "other tilts", 1, Group::hidden, balancesAnyTilt},
+      // </hidden>
+  };
+}

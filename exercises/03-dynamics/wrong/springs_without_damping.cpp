@@ -1,0 +1,7 @@
+// caught by: hold-arm, hold-other-masses
+// mistake: no Kd: the held force feeds the oscillation.
+
+// <solution holdArm>
+static_cast<void>(v);
+return -Eigen::Vector3d(45, 20, 7).cwiseProduct(q);
+// </solution>
