@@ -493,7 +493,7 @@ void anyChain(Check& check, Student& student) {
 const Eigen::VectorXd kPinUp =
     (Eigen::VectorXd(8) << 0, 1.0472, 1.0472, 0.523599, 0, 0, 2.34565, 0.00194306).finished();
 
-// In 48 directions the reference never tilts by more than at first, by 0.001 rad in the end, with its foot 4
+// In 24 directions the reference never tilts by more than at first, by 0.001 rad in the end, with its foot 4
 // cm from home. Without anything to bring it home, the foot is 13 to 50 cm away.
 void balances(Check& check, Student& student, double tilt, double direction) {
   Eigen::VectorXd q = kPinUp;

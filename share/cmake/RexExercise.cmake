@@ -7,7 +7,7 @@ set(REX_STUDENT_FLAGS -std=c++20 -O1 -ffp-contract=off -fno-math-errno -Wall -We
                       -ffunction-sections --param=ggc-min-expand=400 --param=ggc-min-heapsize=1000000)
 set(REX_STUDENT_LINK_FLAGS "")
 if(REX_SANITIZE)
-  list(APPEND REX_STUDENT_FLAGS -g -fsanitize=address,undefined -fno-sanitize-recover=undefined
+  list(APPEND REX_STUDENT_FLAGS -g1 -fsanitize=address,undefined -fno-sanitize-recover=undefined
                                 -fno-omit-frame-pointer)
   list(APPEND REX_STUDENT_LINK_FLAGS -fsanitize=address,undefined)
 endif()

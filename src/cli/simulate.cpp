@@ -178,6 +178,11 @@ ExitCode simulate(const Project& project, const SimulateOptions& options) {
   filmOptions.out = options.out / "simulate.mp4";
   const RenderPlan film = planOf(filmOptions);
   const Model model = loadScene(project, options.scene);
+  const bool isVisible =
+      std::ranges::any_of(model.shapes(), [](const ModelShape& one) { return one.visible; });
+  if (!options.noFilm && !isVisible)
+    throw UsageError(
+        {.what = model.name(), .found = "no shape that a film could show", .wanted = "--no-film"});
   const SimulationPlan plan = planOf(model, options);
   const std::vector<Moment> moments = asWrongUse([&] { return simulate(model, plan); });
 

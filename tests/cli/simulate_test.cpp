@@ -121,6 +121,15 @@ TEST_F(SimulateCommand, RefusesWhatItCannotSimulate) {
               HasSubstr("still.ors: found no joint that moves"));
 }
 
+TEST_F(SimulateCommand, RefusesAFilmThatShowsNothing) {
+  std::ofstream(in("bare.ors"))
+      << "body a { mass=1 } body b { mass=1 } joint (a b) { type=hingeX B=<T t(0 0 1)> }\n";
+  const ProcessResult result = simulate({"bare.ors", "-o", "out"});
+  EXPECT_EQ(result.exitCode, 64);
+  EXPECT_THAT(flat(result.error), HasSubstr("found no shape that a film could show, wanted --no-film"));
+  EXPECT_FALSE(fs::exists(in("out")));
+}
+
 TEST_F(SimulateCommand, ReportsABlowUpAndWritesNothing) {
   const std::vector<std::string> words = {"--engine", "euler",           "--tau",     "1",
                                           "--v",      "1000,-1000,1000", "--seconds", "100"};
