@@ -216,8 +216,8 @@ void addSimulate(CLI::App& program, Action& action) {
           "Examples:\n  scripts/rex simulate pegArm -o fall\n"
           "  scripts/rex simulate arm3 --q 0.5,-0.5,0.3 --v 0,2,0 --hold --seconds 2 -o hold\n"
           "  scripts/rex simulate pegArm --engine euler --tau 0.01 -o euler\n\n"
-          "Joints are free; only bullet knows contacts and limits of joints. DIR gets log.csv (time, q, v\n"
-          "and energies of every step), energy.png, energy.svg and simulate.mp4.");
+          "Joints are free; only bullet knows contacts and limits of joints. DIR gets log.csv\n"
+          "(time, q, v and energies of every step), energy.png, energy.svg and simulate.mp4.");
   command->add_option("SCENE", options->scene.file, kSceneHelp)->type_name("")->required();
   command->add_option("-o,--out", options->out, "folder for what is written")->type_name("DIR")->required();
   command
