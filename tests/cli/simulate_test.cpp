@@ -121,6 +121,18 @@ TEST_F(SimulateCommand, RefusesWhatItCannotSimulate) {
               HasSubstr("still.ors: found no joint that moves"));
 }
 
+TEST_F(SimulateCommand, DropsRobotsOnAFloor) {
+  REX_NEEDS_GNUPLOT();
+  std::ofstream(in("ball.ors")) << "body ball { mass=1 type=1 size=[0 0 0 .1] contact }\n"
+                                   "joint (world ball) { type=free q=[0 0 1 1 0 0 0] }\n";
+  const ProcessResult result = simulate({"ball.ors", "--engine", "bullet", "--floor", "0.5", "--seconds", "2",
+                                         "--no-film", "--json", "-o", "fallen"});
+  ASSERT_EQ(result.exitCode, 0) << result.error;
+  EXPECT_NEAR(nlohmann::json::parse(result.output)["q"][2].get<double>(), .6, 2e-3);
+  expectRefusal({"--floor", "0"}, "--floor: found --engine rk4, wanted bullet");
+  expectRefusal({"--floor", "1e9", "--engine", "bullet"}, "--floor: found 1e+09, wanted -1000 to 1000");
+}
+
 TEST_F(SimulateCommand, RefusesAFilmThatShowsNothing) {
   std::ofstream(in("bare.ors"))
       << "body a { mass=1 } body b { mass=1 } joint (a b) { type=hingeX B=<T t(0 0 1)> }\n";
