@@ -13,8 +13,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kBaseVelocities = 6;
 // A position motor closes the way to its target at this rate, 1/s: slow enough for arms to brake.
 constexpr double kPositionRate = 20;
-// The share of an overstepped joint limit that a step takes back, as Bullet does at contacts.
-constexpr double kLimitShare = 0.2;
+// Joints beyond a limit come back at this rate, 1/s, and at most this fast, rad/s or m/s: they keep the speed
+// when they are back, so that more would throw a robot that starts beyond its limits.
+constexpr double kLimitRate = 20, kLimitSpeed = 1;
 // Limits take part from this far, radians or metres, and from twice the way of a step.
 constexpr double kLimitReach = 0.01;
 
@@ -213,7 +214,9 @@ void Articulation::setGoals(const Coordinate& one, int place, const Motor& motor
   if (one.damping > 0) row.set(JointRow::kDamping, {0, -kInfinity, kInfinity, 1 / (one.damping * h)});
   if (one.friction > 0) row.set(JointRow::kFriction, {0, -one.friction * h, one.friction * h});
   const double reach = kLimitReach + 2 * h * std::abs(v);
-  const auto backOff = [&](double beyond) { return beyond * (beyond > 0 ? kLimitShare : 1) / h; };
+  const auto backOff = [&](double beyond) {
+    return beyond > 0 ? std::min(kLimitRate * beyond, kLimitSpeed) : beyond / h;
+  };
   if (one.lower - q > -reach) row.set(JointRow::kLowerLimit, {backOff(one.lower - q), 0, kInfinity});
   if (q - one.upper > -reach) row.set(JointRow::kUpperLimit, {-backOff(q - one.upper), -kInfinity, 0});
 }

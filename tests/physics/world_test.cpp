@@ -191,6 +191,29 @@ TEST(PhysicsWorld, StopsAtJointLimits) {
   EXPECT_NEAR(world.state().q[0], -0.4, 1e-4);
 }
 
+TEST(PhysicsWorld, ComesBackSlowlyFromBeyondALimit) {
+  SceneSpec spec;
+  JointSpec& joint = addHinged(spec, "arm", 1, 0.01);
+  joint.lower = Eigen::VectorXd::Constant(1, -0.4);
+  joint.upper = Eigen::VectorXd::Constant(1, 0.6);
+  const Model model = compile(spec);
+  for (const double beyond : {-0.5, -0.07, 0.07, 0.5}) {
+    PhysicsWorld world(model);
+    State state = initialState(model);
+    state.q[0] = beyond > 0 ? 0.6 + beyond : -0.4 + beyond;
+    world.setState(state);
+    double fastest = 0;
+    for (int i = 0; i < 700; ++i) {
+      world.step(1e-3);
+      fastest = std::max(fastest, std::abs(world.state().v[0]));
+    }
+    EXPECT_LT(fastest, 1 + 1e-9) << beyond;
+    EXPECT_GT(fastest, 0.9) << beyond;
+    EXPECT_GE(world.state().q[0], -0.4) << beyond;
+    EXPECT_LE(world.state().q[0], 0.6) << beyond;
+  }
+}
+
 // Forces on free joints act at the joint's moved frame, as in forwardDynamics.
 TEST(PhysicsWorld, ADogStandsOnItsMotors) {
   SceneSpec spec = readScene(sourcePath("data/robots/quadruped/quadruped.urdf")).spec;
