@@ -4,10 +4,12 @@
 
 #include "physics/articulation_internal.h"
 #include "physics/bullet_math_internal.h"
-#include "physics/elementary_moves_internal.h"
+#include "scene/joint_movements.h"
 
 namespace rex::internal {
 namespace {
+
+using Kind = MotionStep::Kind;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kBaseVelocities = 6;
@@ -21,7 +23,7 @@ constexpr double kLimitReach = 0.01;
 
 int linkCount(const Model& model, std::span<const BodyId> bodies) {
   std::size_t count = 0;
-  for (const BodyId body : bodies) count += elementaryMoves(model[model[body].joint]).size();
+  for (const BodyId body : bodies) count += movements(model[model[body].joint]).size();
   return static_cast<int>(count);
 }
 
@@ -34,7 +36,7 @@ Articulation::Articulation(const Model& model, std::span<const BodyId> bodies, c
   std::vector<Grown> grown(model.bodies().size(), {-1, X_WP.inverse()});
   const bool isFree = first.type == JointType::kFree;
   if (isFree) {
-    const Link link = linkOf(model[first.child]);
+    const BulletLink link = bulletLink(model[first.child]);
     base_.emplace(first, X_WP, link.X_BL, options);
     baseVIndex_ = first.vIndex;
     grown[static_cast<std::size_t>(first.child)] = {-1, link.X_BL};
@@ -47,7 +49,7 @@ Articulation::Articulation(const Model& model, std::span<const BodyId> bodies, c
     const Joint& joint = model[model[bodies[i]].joint];
     const Grown& parent = grown[static_cast<std::size_t>(joint.parent)];
     Grown& child = grown[static_cast<std::size_t>(bodies[i])];
-    child = grow(model, joint, linkOf(model[bodies[i]]), parent);
+    child = grow(model, joint, bulletLink(model[bodies[i]]), parent);
     if (shapes[i] != nullptr) addCollider(child.link, bodies[i], shapes[i]);
   }
   body_->finalizeMultiDof();
@@ -58,9 +60,9 @@ Articulation::Articulation(const Model& model, std::span<const BodyId> bodies, c
   addRows();
 }
 
-Articulation::Grown Articulation::grow(const Model& model, const Joint& joint, const Link& link,
+Articulation::Grown Articulation::grow(const Model& model, const Joint& joint, const BulletLink& link,
                                        Grown parent) {
-  const std::vector<ElementaryMove> moves = elementaryMoves(joint);
+  const std::vector<JointMovement> moves = movements(joint);
   Pose X_LF = parent.X_BL.inverse() * joint.X_PF;
   int at = parent.link;
   for (std::size_t i = 0; i < moves.size(); ++i) {
@@ -72,21 +74,21 @@ Articulation::Grown Articulation::grow(const Model& model, const Joint& joint, c
     const btVector3 axis = toBullet(X_ML.R.transpose() * moves[i].axis);
     const btVector3 toPivot = toBullet(X_LF.p), toCenter = toBullet(X_ML.R.transpose() * X_ML.p);
     switch (moves[i].kind) {
-      case ElementaryMove::Kind::kTurn:
+      case Kind::kHinge:
         body_->setupRevolute(next_, mass, inertia, at, R_LF, axis, toPivot, toCenter);
         break;
-      case ElementaryMove::Kind::kSlide:
+      case Kind::kSlider:
         body_->setupPrismatic(next_, mass, inertia, at, R_LF, axis, toPivot, toCenter, false);
         break;
-      case ElementaryMove::Kind::kBall:
+      case Kind::kQuaternion:
         body_->setupSpherical(next_, mass, inertia, at, R_LF, toPivot, toCenter);
         break;
-      case ElementaryMove::Kind::kNone:
+      case Kind::kFixed:
         body_->setupFixed(next_, mass, inertia, at, R_LF, toPivot, toCenter, false);
         break;
     }
-    if (moves[i].kind != ElementaryMove::Kind::kNone)
-      addCoordinate(model, joint, static_cast<int>(i), moves[i].kind == ElementaryMove::Kind::kBall, X_ML.R);
+    if (moves[i].kind != Kind::kFixed)
+      addCoordinate(model, joint, moves[i].coordinate, moves[i].kind == Kind::kQuaternion, X_ML.R);
     at = next_++;
     X_LF = Pose{};
   }

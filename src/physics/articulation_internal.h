@@ -55,7 +55,7 @@ class Articulation : public Mover {
     Pose X_BL;
   };
 
-  Grown grow(const Model& model, const Joint& joint, const Link& link, Grown parent);
+  Grown grow(const Model& model, const Joint& joint, const BulletLink& link, Grown parent);
   void addCoordinate(const Model& model, const Joint& joint, int place, bool isBall,
                      const Eigen::Matrix3d& R_ML);
   void addCollider(int link, BodyId body, btCollisionShape* shape);

@@ -27,11 +27,14 @@ constexpr double kSoftness = 0.05, kOverlapShare = 0.1;
 
 void requireOwnCoordinates(const Model& model) {
   for (const Joint& joint : model.joints()) {
-    if (!joint.mimics) continue;
+    const char* const found = joint.mimics                      ? "a joint that mimics another"
+                              : joint.type == JointType::kScrew ? "a screw"
+                                                                : nullptr;
+    if (found == nullptr) continue;
     throw Error({.what = fmt::format("physics: joint '{}'", joint.name),
-                 .found = "a joint that mimics another",
-                 .wanted = "joints that move by themselves: let it be moved by a position motor, or "
-                           "simulate without contact (Stepper, stepDynamics)"});
+                 .found = found,
+                 .wanted = "joints whose coordinates are their own; without contact it can be simulated "
+                           "(stepDynamics, rex simulate --engine rk4)"});
   }
 }
 
@@ -181,10 +184,11 @@ void BulletWorld::addMover(const Model& model, std::span<const BodyId> bodies, c
                            const PhysicsOptions& options) {
   const Joint& joint = model[model[bodies.front()].joint];
   std::vector<btCollisionShape*> shapes;
-  for (const BodyId body : bodies) shapes.push_back(addShape(model, body, linkOf(model[body]).X_BL));
+  for (const BodyId body : bodies) shapes.push_back(addShape(model, body, bulletLink(model[body]).X_BL));
   if (bodies.size() == 1 && joint.type == JointType::kFree) {
     if (shapes.front() == nullptr) shapes.front() = &nothing_;
-    auto body = std::make_unique<FreeBody>(joint, linkOf(model[joint.child]), X_WP, shapes.front(), options);
+    auto body =
+        std::make_unique<FreeBody>(joint, bulletLink(model[joint.child]), X_WP, shapes.front(), options);
     setUp(body->object(), joint.child, options);
     movers_.push_back(std::move(body));
   } else {

@@ -5,7 +5,7 @@
 
 namespace rex::internal {
 
-FreeBody::FreeBody(const Joint& joint, const Link& link, const Pose& X_WP, btCollisionShape* shape,
+FreeBody::FreeBody(const Joint& joint, const BulletLink& link, const Pose& X_WP, btCollisionShape* shape,
                    const PhysicsOptions& options)
     : motion_(joint, X_WP, link.X_BL, options),
       body_(link.mass, nullptr, shape, link.inertia),

@@ -8,7 +8,7 @@ namespace rex::internal {
 class FreeBody : public Mover {
  public:
   /// The shape, in the frame of the link, must outlive it.
-  FreeBody(const Joint& joint, const Link& link, const Pose& X_WP, btCollisionShape* shape,
+  FreeBody(const Joint& joint, const BulletLink& link, const Pose& X_WP, btCollisionShape* shape,
            const PhysicsOptions& options);
 
   btCollisionObject& object() { return body_; }

@@ -5,7 +5,7 @@
 namespace rex::internal {
 
 /// How the coordinates of a free joint of the world describe the motion of its link, whose frame L is where
-/// linkOf() puts it.
+/// bulletLink() puts it.
 class FreeMotion {
  public:
   /// X_WP is the pose of the joint's parent, which stands still.

@@ -318,10 +318,11 @@ TEST(PhysicsWorld, RefusesWhatItCannotSimulate) {
   spec.bodies[1].mass = 1;
   spec.bodies[1].inertia = Eigen::Matrix3d::Identity();
   spec.joints[1].type = JointType::kScrew;
-  EXPECT_REX_ERROR(PhysicsWorld(compile(spec)), "joint 'hand': found a screw, wanted a hinge, a slider");
+  EXPECT_REX_ERROR(PhysicsWorld(compile(spec)), "joint 'hand': found a screw, wanted joints whose coordinates are their own");
   spec.joints[1].type = JointType::kHinge;
   spec.joints[1].mimic = "arm";
   EXPECT_REX_ERROR(PhysicsWorld(compile(spec)), "joint 'hand': found a joint that mimics another");
+  EXPECT_REX_ERROR(PhysicsWorld(compile(spec)), "can be simulated (stepDynamics, rex simulate --engine rk4)");
 }
 
 TEST(PhysicsWorld, ReportsABlowUpAndGoesBack) {
