@@ -149,7 +149,7 @@ void Articulation::place(const State& state) {
   if (base_) setBase(base_->linkMotion(state));
   for (const Coordinate& one : coordinates_) {
     if (one.isBall) {
-      const Quaternion q = state.q.segment<4>(one.qIndex).normalized();
+      const Quaternion q = state.q.segment<4>(one.qIndex).stableNormalized();
       const Eigen::Vector3d turn = one.R_ML.transpose() * q.tail<3>();
       const Eigen::Vector3d v = one.R_ML.transpose() * state.v.segment<3>(one.vIndex);
       const double position[4] = {turn.x(), turn.y(), turn.z(), q[0]};

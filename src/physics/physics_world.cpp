@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "physics/bullet_math_internal.h"
 #include "physics/bullet_world_internal.h"
+#include "scene/coordinates.h"
 
 namespace rex {
 namespace {
@@ -29,6 +30,15 @@ const Joint& jointOf(const Model& model, int iv) {
     return one.vIndex <= iv && iv < one.vIndex + one.nv;
   });
   return *joint;
+}
+
+void requireQuaternions(const Model& model, const Eigen::VectorXd& q) {
+  forEachQuaternion(model, [&](int iq, int iv) {
+    if (!q.segment<4>(iq).isZero(0)) return;
+    throw Error({.what = fmt::format("physics: quaternion of joint '{}'", jointOf(model, iv).name),
+                 .found = "zero",
+                 .wanted = "four numbers that are not all zero"});
+  });
 }
 
 void requireOptions(const PhysicsOptions& options) {
@@ -86,6 +96,7 @@ void PhysicsWorld::setState(const State& state) {
   requireSize("physics: joint velocities v", state.v.size(), model.nv());
   requireFinite("physics: joint positions q", state.q);
   requireFinite("physics: joint velocities v", state.v);
+  requireQuaternions(model, state.q);
   require(std::isfinite(state.time), "physics: time", state.time, "finite numbers");
   parts_->world.reset(state);
   parts_->time = state.time;

@@ -291,9 +291,40 @@ TEST(PhysicsWorld, RefusesWrongNumbers) {
   wrong.time = std::nan("");
   EXPECT_REX_ERROR(world.setState(wrong), "physics: time: found nan");
   wrong = state;
-  wrong.q.setZero();
-  EXPECT_REX_ERROR(world.setState(wrong), "quaternion");
-  EXPECT_EQ(world.state().q, state.q);
+  wrong.q.tail<4>().setZero();
+  EXPECT_REX_ERROR(world.setState(wrong), "physics: quaternion of joint 'thing5': found zero");
+}
+
+// As if the refused state had never been given.
+TEST(PhysicsWorld, GoesOnAfterARefusedState) {
+  SceneSpec spec;
+  addGround(spec);
+  addLoose(spec, "box", 1, boxShape(0.2, 0.2, 0.2), translation(0, 0, 0.1));
+  addHinged(spec, "arm", 1, 0.1).type = JointType::kBall;
+  const Model model = compile(spec);
+  for (const Joint& joint : model.joints()) {
+    PhysicsWorld world(model), undisturbed(model);
+    run(world, 0.1);
+    run(undisturbed, 0.1);
+    State wrong = world.state();
+    wrong.q.segment<4>(joint.qIndex + joint.nq - 4).setZero();
+    EXPECT_REX_ERROR(world.setState(wrong), "physics: quaternion of joint '" + joint.name + "': found");
+    EXPECT_REX_ERROR(world.setState(wrong), "found zero, wanted four numbers that are not all zero");
+    run(world, 0.1);
+    run(undisturbed, 0.1);
+    EXPECT_EQ(numbersOf(world), numbersOf(undisturbed));
+  }
+}
+
+TEST(PhysicsWorld, TakesQuaternionsOfAnyLength) {
+  SceneSpec spec;
+  addHinged(spec, "arm", 1, 0.1).type = JointType::kBall;
+  const Model model = compile(spec);
+  PhysicsWorld world(model);
+  State state = initialState(model);
+  state.q = Eigen::Vector4d(3e-200, 0, 4e-200, 0);
+  world.setState(state);
+  EXPECT_LT((world.state().q - Eigen::Vector4d(0.6, 0, 0.8, 0)).norm(), 1e-15);
 }
 
 TEST(PhysicsWorld, RefusesWrongMotors) {
@@ -318,7 +349,8 @@ TEST(PhysicsWorld, RefusesWhatItCannotSimulate) {
   spec.bodies[1].mass = 1;
   spec.bodies[1].inertia = Eigen::Matrix3d::Identity();
   spec.joints[1].type = JointType::kScrew;
-  EXPECT_REX_ERROR(PhysicsWorld(compile(spec)), "joint 'hand': found a screw, wanted joints whose coordinates are their own");
+  EXPECT_REX_ERROR(PhysicsWorld(compile(spec)),
+                   "joint 'hand': found a screw, wanted joints whose coordinates are their own");
   spec.joints[1].type = JointType::kHinge;
   spec.joints[1].mimic = "arm";
   EXPECT_REX_ERROR(PhysicsWorld(compile(spec)), "joint 'hand': found a joint that mimics another");
