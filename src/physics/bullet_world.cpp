@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "collision/contact_model.h"
+#include "dynamics/forward_dynamics.h"
 #include "dynamics/mass_matrix.h"
 #include "physics/articulation_internal.h"
 #include "physics/bullet_math_internal.h"
@@ -17,8 +18,8 @@
 namespace rex::internal {
 namespace {
 
-// kg or kg m^2; what a joint moves has to be more than numerical noise.
-constexpr double kLeastInertia = 1e-12;
+// kg or kg m^2; Bullet holds joints still that have less than 2.2e-16 to move.
+constexpr double kLeastInertia = 1e-15;
 // Contacts yield a little, in parts of the resistance of a body of mean mass, and give back a tenth of what
 // is in overlap per step. The load of a stack then spreads over its contacts in one way only, and the solver,
 // which starts each step from the forces of the last one, comes to rest: 20 boxes of 0.2 m sink 0.3 mm at
@@ -38,14 +39,16 @@ void requireOwnCoordinates(const Model& model) {
   }
 }
 
+// Whatever moves must resist: articulated bodies find the joint where something does not, at any scale.
 void requireMasses(const Model& model) {
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(model.nv());
+  static_cast<void>(forwardDynamics(model, model.initialPositions(), none, none));
   const Eigen::VectorXd inertia = massMatrix(model, model.initialPositions()).diagonal();
   for (const Joint& joint : model.joints()) {
-    if (joint.nv == 0 || inertia.segment(joint.vIndex, joint.nv).minCoeff() > kLeastInertia) continue;
-    const std::string& child = model[joint.child].name;
+    if (joint.nv == 0 || inertia.segment(joint.vIndex, joint.nv).minCoeff() >= kLeastInertia) continue;
     throw Error({.what = fmt::format("physics: joint '{}'", joint.name),
-                 .found = fmt::format("no mass that resists it in body '{}' and what hangs on it", child),
-                 .wanted = fmt::format("a mass and an inertia of body '{}'", child)});
+                 .found = "less to move than numbers can hold",
+                 .wanted = fmt::format("{:g} kg or kg m^2 at least", kLeastInertia)});
   }
 }
 

@@ -340,13 +340,30 @@ TEST(PhysicsWorld, RefusesWrongMotors) {
   EXPECT_REX_ERROR(world.setMotors(motors), "motor of joint 'thing1': maxForce: found -1");
 }
 
+// A wheel of a hundredth of a milligram, a millimetre wide.
+TEST(PhysicsWorld, MovesWhatIsTiny) {
+  SceneSpec spec;
+  addHinged(spec, "wheel", 1e-8, 1e-14);
+  PhysicsWorld world(compile(spec));
+  world.setMotors(std::vector<Motor>{{.target = 3e-14}});
+  run(world, 0.5);
+  EXPECT_NEAR(world.state().v[0], 1.5, 1e-9);
+}
+
 TEST(PhysicsWorld, RefusesWhatItCannotSimulate) {
   SceneSpec spec;
   addHinged(spec, "arm", 1, 0.1);
   addHinged(spec, "hand", 0, 0).parent = "arm";
-  EXPECT_REX_ERROR(PhysicsWorld(compile(spec)), "joint 'hand': found no mass that resists it in body 'hand'");
-  EXPECT_REX_ERROR(PhysicsWorld(compile(spec)), "wanted a mass and an inertia of body 'hand'");
-  spec.bodies[1].mass = 1;
+  EXPECT_REX_ERROR(PhysicsWorld(compile(spec)),
+                   "joint 'hand' moves no mass: wanted some: give body 'hand' a");
+  std::swap(spec.bodies[0].mass, spec.bodies[1].mass);
+  std::swap(spec.bodies[0].inertia, spec.bodies[1].inertia);
+  EXPECT_REX_ERROR(PhysicsWorld(compile(spec)), "joint 'arm' moves no mass: wanted some: give body 'arm' a");
+  spec.bodies[0].mass = 1;
+  spec.bodies[0].inertia = 1e-15 / 2 * Eigen::Matrix3d::Identity();
+  spec.bodies[1].inertia = 1e-15 / 4 * Eigen::Matrix3d::Identity();
+  EXPECT_REX_ERROR(PhysicsWorld(compile(spec)), "joint 'arm': found less to move than numbers can hold");
+  EXPECT_REX_ERROR(PhysicsWorld(compile(spec)), "wanted 1e-15 kg or kg m^2 at least");
   spec.bodies[1].inertia = Eigen::Matrix3d::Identity();
   spec.joints[1].type = JointType::kScrew;
   EXPECT_REX_ERROR(PhysicsWorld(compile(spec)),
