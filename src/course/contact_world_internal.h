@@ -14,7 +14,7 @@ class ContactWorld {
   ContactWorld(const ContactWorld&) {}
   ContactWorld& operator=(const ContactWorld&) = delete;
 
-  /// Moves the state on by tau seconds under joint forces u (nv), in equal steps of a millisecond at most.
+  /// Moves the state on by tau seconds under joint forces u (nv).
   /// Throws Error as Simulator::stepPhysics.
   void step(const Model& model, const Eigen::Vector3d& gravity_W, const Eigen::VectorXd& u, double tau,
             State& state);

@@ -14,6 +14,11 @@
 namespace rex {
 namespace {
 
+// Bullet turns free bodies by 45 degrees in a step at most, and its contacts want steps of a millisecond.
+constexpr double kInnerStep = 1e-3;
+// Seconds. Bullet leaves out steps that are a good deal shorter; longer ones are slips, such as milliseconds
+// for seconds, and take minutes.
+constexpr double kShortestStep = 1e-9, kLongestStep = 1000;
 // Faster than this, in rad/s or m/s, nothing moves that is simulated well.
 constexpr double kRunawaySpeed = 1e6;
 
@@ -72,6 +77,15 @@ struct PhysicsWorld::Parts {
 
   Parts(const Model& m, const PhysicsOptions& options)
       : model(m), motors(static_cast<std::size_t>(m.nv())), world(model, options) {}
+
+  // The place in v of what has become too fast, or -1.
+  [[nodiscard]] int runaway() const {
+    for (const auto& mover : world.movers()) {
+      const int iv = mover->runaway(kRunawaySpeed);
+      if (iv >= 0) return iv;
+    }
+    return -1;
+  }
 };
 
 PhysicsWorld::PhysicsWorld(const Model& model, const PhysicsOptions& options) {
@@ -109,20 +123,20 @@ void PhysicsWorld::setMotors(std::span<const Motor> motors) {
 }
 
 void PhysicsWorld::step(double h) {
-  require(h > 0 && std::isfinite(h), "physics: time step", h, "a positive number of seconds");
+  require(h >= kShortestStep && h <= kLongestStep, "physics: time step", h,
+          fmt::format("{:g} to {} seconds", kShortestStep, kLongestStep).c_str());
   internal::BulletWorld& world = parts_->world;
-  for (const auto& mover : world.movers()) {
-    mover->remember();
-    mover->drive(parts_->motors, h);
-  }
-  world.step(h);
-  for (const auto& mover : world.movers()) {
-    const int iv = mover->runaway(kRunawaySpeed);
+  const double count = std::ceil(h / kInnerStep * (1 - 1e-9));
+  for (const auto& mover : world.movers()) mover->remember();
+  for (double i = 0; i < count; ++i) {
+    for (const auto& mover : world.movers()) mover->drive(parts_->motors, h / count);
+    world.step(h / count);
+    const int iv = parts_->runaway();
     if (iv < 0) continue;
-    for (const auto& any : world.movers()) any->undo();
+    for (const auto& mover : world.movers()) mover->undo();
     world.reset(state());
     throw Error({.what = fmt::format("physics: joint '{}' at {:.6g} s", jointOf(parts_->model, iv).name,
-                                     parts_->time + h),
+                                     parts_->time + (i + 1) * h / count),
                  .found = "a motion that grows without bounds",
                  .wanted = "shorter steps or smaller forces"});
   }

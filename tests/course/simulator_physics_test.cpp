@@ -61,7 +61,7 @@ TEST(SimulatorPhysics, RefusesWrongNumbersAndStays) {
   EXPECT_REX_ERROR(S.stepPhysics(Eigen::VectorXd::Zero(2), 0.1),
                    "stepPhysics: joint forces u: found a vector of");
   for (const double tau : {0.0, -1.0, 1001.0, std::nan("")})
-    EXPECT_REX_ERROR(S.stepPhysics(none, tau), "stepPhysics: tau: found");
+    EXPECT_REX_ERROR(S.stepPhysics(none, tau), "physics: time step: found");
   EXPECT_REX_ERROR(S.stepPhysics(Eigen::VectorXd::Constant(1, std::nan("")), 0.1),
                    "joint 'drop': target: found nan");
   EXPECT_REX_ERROR(S.stepPhysics(Eigen::VectorXd::Constant(1, 1e12), 0.1), "joint 'drop' at 0.001 s");

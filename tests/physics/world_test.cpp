@@ -273,8 +273,9 @@ TEST(PhysicsWorld, RefusesWrongNumbers) {
   EXPECT_REX_ERROR(PhysicsWorld(model, {.iterations = 0}), "iterations: found 0, wanted one or more");
   PhysicsWorld world(model);
   const State state = world.state();
-  for (const double h : {0.0, -1e-3}) EXPECT_REX_ERROR(world.step(h), "time step: found");
-  EXPECT_REX_ERROR(world.step(std::nan("")), "time step: found nan, wanted a positive number of seconds");
+  for (const double h : {0.0, -1e-3, 9e-10, 1001.0, static_cast<double>(INFINITY)})
+    EXPECT_REX_ERROR(world.step(h), "time step: found");
+  EXPECT_REX_ERROR(world.step(std::nan("")), "time step: found nan, wanted 1e-09 to 1000 seconds");
   State wrong = state;
   wrong.q.conservativeResize(3);
   EXPECT_REX_ERROR(world.setState(wrong), "positions q: found a vector of size 3, wanted size 42");
@@ -372,6 +373,40 @@ TEST(PhysicsWorld, RefusesWhatItCannotSimulate) {
   spec.joints[1].mimic = "arm";
   EXPECT_REX_ERROR(PhysicsWorld(compile(spec)), "joint 'hand': found a joint that mimics another");
   EXPECT_REX_ERROR(PhysicsWorld(compile(spec)), "can be simulated (stepDynamics, rex simulate --engine rk4)");
+}
+
+TEST(PhysicsWorld, LongStepsAreManyShortOnes) {
+  const Model model = heap();
+  PhysicsWorld world(model), inStrides(model);
+  run(world, 0.5);
+  inStrides.step(0.3);
+  inStrides.step(0.2);
+  EXPECT_LT((world.state().q - inStrides.state().q).norm(), 1e-9);
+  EXPECT_NEAR(inStrides.state().time, 0.5, 1e-12);
+}
+
+TEST(PhysicsWorld, TurnsAsFarAsItSpins) {
+  SceneSpec spec;
+  addLoose(spec, "ball", 1, ballShape(0.1), {});
+  const Model model = compile(spec);
+  State state = initialState(model);
+  state.v[5] = 100;
+  PhysicsWorld world(model);
+  world.setState(state);
+  world.step(0.1);
+  const Eigen::Matrix3d wanted = expSO3(Eigen::Vector3d(0, 0, 10));
+  EXPECT_LT((rotationFromQuaternion(world.state().q.tail<4>()) - wanted).norm(), 1e-9);
+}
+
+TEST(PhysicsWorld, GoesBackToTheStartOfALongStep) {
+  SceneSpec spec;
+  addHinged(spec, "wheel", 1, 0.5);
+  PhysicsWorld world(compile(spec), {.gravity_W = Eigen::Vector3d::Zero()});
+  world.setMotors(std::vector<Motor>{{.target = 5e7}});  // beyond 1e6 rad/s after 10 ms
+  EXPECT_REX_ERROR(world.step(0.1), "joint 'wheel' at 0.01 s");
+  EXPECT_EQ(world.state().q[0], 0);
+  EXPECT_EQ(world.state().v[0], 0);
+  EXPECT_EQ(world.state().time, 0);
 }
 
 TEST(PhysicsWorld, ReportsABlowUpAndGoesBack) {
