@@ -224,28 +224,43 @@ int BulletWorld::shapeOf(const btCollisionObject& object, int child) const {
   return shapes[static_cast<std::size_t>(std::max(child, 0))];
 }
 
-std::vector<PhysicsContact> BulletWorld::contacts() const {
-  std::vector<PhysicsContact> all;
+// Calls visit(manifold, point) for all that touches.
+template <class Visit>
+void BulletWorld::forEachContact(const Visit& visit) const {
   for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
     const btPersistentManifold& manifold = *dispatcher_.getManifoldByIndexInternal(i);
     for (int k = 0; k < manifold.getNumContacts(); ++k) {
       const btManifoldPoint& point = manifold.getContactPoint(k);
-      if (point.getDistance() > 0 && point.getAppliedImpulse() == 0) continue;
-      PhysicsContact contact{.shapeA = shapeOf(*manifold.getBody0(), point.m_index0),
-                             .shapeB = shapeOf(*manifold.getBody1(), point.m_index1),
-                             .p_WA = fromBullet(point.getPositionWorldOnA()),
-                             .p_WB = fromBullet(point.getPositionWorldOnB()),
-                             .normal_W = fromBullet(point.m_normalWorldOnB),
-                             .distance = point.getDistance(),
-                             .impulse = point.getAppliedImpulse()};
-      if (contact.shapeA > contact.shapeB) {
-        std::swap(contact.shapeA, contact.shapeB);
-        std::swap(contact.p_WA, contact.p_WB);
-        contact.normal_W = -contact.normal_W;
-      }
-      all.push_back(contact);
+      if (point.getDistance() <= 0 || point.getAppliedImpulse() != 0) visit(manifold, point);
     }
   }
+}
+
+void BulletWorld::collectTouching(std::vector<std::pair<int, int>>& pairs) const {
+  pairs.clear();
+  forEachContact([&](const btPersistentManifold& manifold, const btManifoldPoint& point) {
+    pairs.push_back(std::minmax(
+        {shapeOf(*manifold.getBody0(), point.m_index0), shapeOf(*manifold.getBody1(), point.m_index1)}));
+  });
+}
+
+std::vector<PhysicsContact> BulletWorld::contacts() const {
+  std::vector<PhysicsContact> all;
+  forEachContact([&](const btPersistentManifold& manifold, const btManifoldPoint& point) {
+    PhysicsContact contact{.shapeA = shapeOf(*manifold.getBody0(), point.m_index0),
+                           .shapeB = shapeOf(*manifold.getBody1(), point.m_index1),
+                           .p_WA = fromBullet(point.getPositionWorldOnA()),
+                           .p_WB = fromBullet(point.getPositionWorldOnB()),
+                           .normal_W = fromBullet(point.m_normalWorldOnB),
+                           .distance = point.getDistance(),
+                           .impulse = point.getAppliedImpulse()};
+    if (contact.shapeA > contact.shapeB) {
+      std::swap(contact.shapeA, contact.shapeB);
+      std::swap(contact.p_WA, contact.p_WB);
+      contact.normal_W = -contact.normal_W;
+    }
+    all.push_back(contact);
+  });
   const auto key = [](const PhysicsContact& one) {
     return std::tuple(one.shapeA, one.shapeB, one.p_WA.x(), one.p_WA.y(), one.p_WA.z());
   };

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "physics/bullet_math_internal.h"
 #include "physics/bullet_world_internal.h"
+#include "physics/contact_events_internal.h"
 #include "scene/coordinates.h"
 
 namespace rex {
@@ -74,6 +75,7 @@ struct PhysicsWorld::Parts {
   std::vector<Motor> motors;
   double time = 0;
   internal::BulletWorld world;
+  internal::ContactEvents events{};
 
   Parts(const Model& m, const PhysicsOptions& options)
       : model(m), motors(static_cast<std::size_t>(m.nv())), world(model, options) {}
@@ -113,6 +115,7 @@ void PhysicsWorld::setState(const State& state) {
   requireQuaternions(model, state.q);
   require(std::isfinite(state.time), "physics: time", state.time, "finite numbers");
   parts_->world.reset(state);
+  parts_->events.reset();
   parts_->time = state.time;
 }
 
@@ -127,14 +130,18 @@ void PhysicsWorld::step(double h) {
           fmt::format("{:g} to {} seconds", kShortestStep, kLongestStep).c_str());
   internal::BulletWorld& world = parts_->world;
   const double count = std::ceil(h / kInnerStep * (1 - 1e-9));
+  parts_->events.clear();
   for (const auto& mover : world.movers()) mover->remember();
   for (double i = 0; i < count; ++i) {
     for (const auto& mover : world.movers()) mover->drive(parts_->motors, h / count);
     world.step(h / count);
+    world.collectTouching(parts_->events.touching());
+    parts_->events.update(parts_->time + i * h / count);
     const int iv = parts_->runaway();
     if (iv < 0) continue;
     for (const auto& mover : world.movers()) mover->undo();
     world.reset(state());
+    parts_->events.reset();
     throw Error({.what = fmt::format("physics: joint '{}' at {:.6g} s", jointOf(parts_->model, iv).name,
                                      parts_->time + (i + 1) * h / count),
                  .found = "a motion that grows without bounds",
@@ -144,6 +151,8 @@ void PhysicsWorld::step(double h) {
 }
 
 std::vector<PhysicsContact> PhysicsWorld::contacts() const { return parts_->world.contacts(); }
+
+std::vector<ContactEvent> PhysicsWorld::events() const { return parts_->events.events(); }
 
 std::optional<RayHit> PhysicsWorld::rayCast(const Eigen::Vector3d& from_W,
                                             const Eigen::Vector3d& to_W) const {

@@ -37,6 +37,14 @@ struct PhysicsContact {
   double impulse = 0;          ///< N s along the normal, of the inner step
 };
 
+/// Two shapes that begin or cease to touch: places in Model::shapes(), the smaller one first.
+struct ContactEvent {
+  enum class Kind { kBegin, kEnd };
+  Kind kind = Kind::kBegin;
+  int shapeA = 0, shapeB = 0;
+  double time = 0;  ///< seconds; start of the first inner step in which they do
+};
+
 /// What a ray hits first.
 struct RayHit {
   int shape = 0;  ///< place in Model::shapes()
@@ -69,6 +77,9 @@ class PhysicsWorld {
   void step(double h);
   /// The contacts of the last inner step, in a fixed order.
   [[nodiscard]] std::vector<PhysicsContact> contacts() const;
+  /// What began and ended between shapes in the last step, also if it was over at once, by time. After
+  /// setState() everything begins anew.
+  [[nodiscard]] std::vector<ContactEvent> events() const;
   /// The first shape between two points, if any: flat faces exactly, round ones to a millimetre. Throws Error
   /// for numbers that are not finite.
   [[nodiscard]] std::optional<RayHit> rayCast(const Eigen::Vector3d& from_W,
