@@ -2,6 +2,8 @@
 #include <cassert>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "physics/articulation_internal.h"
 #include "physics/bullet_math_internal.h"
 #include "scene/joint_movements.h"
@@ -37,8 +39,9 @@ Articulation::Articulation(const Model& model, std::span<const BodyId> bodies, c
   const bool isFree = first.type == JointType::kFree;
   if (isFree) {
     const BulletLink link = bulletLink(model[first.child]);
-    base_.emplace(first, X_WP, link.X_BL, options);
+    base_.emplace(first, X_WP, link.X_BL);
     baseVIndex_ = first.vIndex;
+    baseDamping_ = options.jointFriction ? first.damping : 0;
     grown[static_cast<std::size_t>(first.child)] = {-1, link.X_BL};
     body_.emplace(linkCount(model, bodies.subspan(1)), link.mass, link.inertia, false, false);
   } else {
@@ -127,6 +130,9 @@ void Articulation::addCollider(int link, BodyId body, btCollisionShape* shape) {
 }
 
 void Articulation::addRows() {
+  if (baseDamping_ > 0) {
+    for (int i = 0; i < kBaseVelocities; ++i) rows_.push_back(std::make_unique<JointRow>(*body_));
+  }
   for (const Coordinate& coordinate : coordinates_) {
     for (int place = 0; place < (coordinate.isBall ? 3 : 1); ++place)
       rows_.push_back(std::make_unique<JointRow>(*body_, coordinate.link, place));
@@ -180,12 +186,8 @@ void Articulation::read(State& state) const {
 }
 
 void Articulation::drive(std::span<const Motor> motors, double h) {
-  if (base_) {
-    const FreeMotion::Wrench wrench = base_->wrench(motors, baseMotion());
-    body_->addBaseForce(toBullet(wrench.force_W));
-    body_->addBaseTorque(toBullet(wrench.torque_W));
-  }
-  std::size_t row = 0;
+  if (base_) driveBase(motors, h);
+  std::size_t row = baseDamping_ > 0 ? kBaseVelocities : 0;
   for (const Coordinate& one : coordinates_) {
     const Motor* const motor = &motors[static_cast<std::size_t>(one.vIndex)];
     if (one.isBall) {
@@ -199,6 +201,24 @@ void Articulation::drive(std::span<const Motor> motors, double h) {
       if (motor->kind == Motor::Kind::kForce) body_->addJointTorque(one.link, motor->target);
       setGoals(one, 0, *motor, h, *rows_[row++]);
     }
+  }
+}
+
+// Damping is the same in all directions, so that the axes of W do for rows.
+void Articulation::driveBase(std::span<const Motor> motors, double h) {
+  const FreeMotion::LinkMotion motion = baseMotion();
+  const FreeMotion::Wrench wrench = base_->wrench(motors, motion);
+  body_->addBaseForce(toBullet(wrench.force_W));
+  body_->addBaseTorque(toBullet(wrench.torque_W));
+  if (baseDamping_ == 0) return;
+  for (std::size_t i = 0; i < kBaseVelocities; ++i) {
+    const Eigen::Vector3d axis = Eigen::Vector3d::Unit(static_cast<Eigen::Index>(i % 3));
+    if (i < 3)
+      rows_[i]->measureBase(toBullet(base_->p_LM_W(motion).cross(axis)), toBullet(axis));
+    else
+      rows_[i]->measureBase(toBullet(axis), {0, 0, 0});
+    rows_[i]->clearGoals();
+    rows_[i]->set(JointRow::kDamping, {0, -kInfinity, kInfinity, 1 / (baseDamping_ * h)});
   }
 }
 

@@ -188,10 +188,10 @@ void BulletWorld::addMover(const Model& model, std::span<const BodyId> bodies, c
   const Joint& joint = model[model[bodies.front()].joint];
   std::vector<btCollisionShape*> shapes;
   for (const BodyId body : bodies) shapes.push_back(addShape(model, body, bulletLink(model[body]).X_BL));
-  if (bodies.size() == 1 && joint.type == JointType::kFree) {
+  const bool isDamped = options.jointFriction && joint.damping > 0;
+  if (bodies.size() == 1 && joint.type == JointType::kFree && !isDamped) {
     if (shapes.front() == nullptr) shapes.front() = &nothing_;
-    auto body =
-        std::make_unique<FreeBody>(joint, bulletLink(model[joint.child]), X_WP, shapes.front(), options);
+    auto body = std::make_unique<FreeBody>(joint, bulletLink(model[joint.child]), X_WP, shapes.front());
     setUp(body->object(), joint.child, options);
     movers_.push_back(std::move(body));
   } else {
