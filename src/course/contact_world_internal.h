@@ -7,7 +7,7 @@
 namespace rex::internal {
 
 /// The world in which a simulator moves with contact, made for the first step and kept for the next. A copy
-/// starts a fresh one.
+/// starts a fresh one, without the contact forces of the last step, from which the solver would start.
 class ContactWorld {
  public:
   ContactWorld() = default;
