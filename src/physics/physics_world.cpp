@@ -80,6 +80,13 @@ struct PhysicsWorld::Parts {
   Parts(const Model& m, const PhysicsOptions& options)
       : model(m), motors(static_cast<std::size_t>(m.nv())), world(model, options) {}
 
+  void innerStep(double h, double now) {
+    for (const auto& mover : world.movers()) mover->drive(motors, h);
+    world.step(h);
+    world.collectTouching(events.touching());
+    events.update(now);
+  }
+
   // The place in v of what has become too fast, or -1.
   [[nodiscard]] int runaway() const {
     for (const auto& mover : world.movers()) {
@@ -126,17 +133,17 @@ void PhysicsWorld::setMotors(std::span<const Motor> motors) {
 }
 
 void PhysicsWorld::step(double h) {
-  require(h >= kShortestStep && h <= kLongestStep, "physics: time step", h,
-          fmt::format("{:g} to {} seconds", kShortestStep, kLongestStep).c_str());
+  if (!(h >= kShortestStep && h <= kLongestStep)) {
+    throw Error({.what = "physics: time step",
+                 .found = fmt::format("{:g}", h),
+                 .wanted = fmt::format("{:g} to {:g} seconds", kShortestStep, kLongestStep)});
+  }
   internal::BulletWorld& world = parts_->world;
   const double count = std::ceil(h / kInnerStep * (1 - 1e-9));
   parts_->events.clear();
   for (const auto& mover : world.movers()) mover->remember();
   for (double i = 0; i < count; ++i) {
-    for (const auto& mover : world.movers()) mover->drive(parts_->motors, h / count);
-    world.step(h / count);
-    world.collectTouching(parts_->events.touching());
-    parts_->events.update(parts_->time + i * h / count);
+    parts_->innerStep(h / count, parts_->time + i * h / count);
     const int iv = parts_->runaway();
     if (iv < 0) continue;
     for (const auto& mover : world.movers()) mover->undo();
