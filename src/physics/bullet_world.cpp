@@ -239,8 +239,9 @@ void BulletWorld::forEachContact(const Visit& visit) const {
 void BulletWorld::collectTouching(std::vector<std::pair<int, int>>& pairs) const {
   pairs.clear();
   forEachContact([&](const btPersistentManifold& manifold, const btManifoldPoint& point) {
-    pairs.push_back(std::minmax(
-        {shapeOf(*manifold.getBody0(), point.m_index0), shapeOf(*manifold.getBody1(), point.m_index1)}));
+    const std::pair<int, int> pair = std::minmax(
+        {shapeOf(*manifold.getBody0(), point.m_index0), shapeOf(*manifold.getBody1(), point.m_index1)});
+    if (pairs.empty() || pairs.back() != pair) pairs.push_back(pair);
   });
 }
 

@@ -39,7 +39,7 @@ class BulletWorld {
   void reset(const State& state);
   void step(double h);
   [[nodiscard]] std::vector<PhysicsContact> contacts() const;
-  /// The shapes of contacts(), the smaller place first; repeats itself, in any order.
+  /// The shapes of contacts(), the smaller place first, in any order; some come twice.
   void collectTouching(std::vector<std::pair<int, int>>& pairs) const;
   [[nodiscard]] std::optional<RayHit> rayCast(const Eigen::Vector3d& from_W,
                                               const Eigen::Vector3d& to_W) const;

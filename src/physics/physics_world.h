@@ -11,9 +11,9 @@ namespace rex {
 
 struct PhysicsOptions {
   Eigen::Vector3d gravity_W{0, 0, -9.81};
-  double friction = 0.6;   ///< of every shape that touches
-  double restitution = 0;  ///< 0: nothing bounces, 1: without loss. Stacks stand best with 0
-  bool jointLimits = true;
+  double friction = 0.6;      ///< of every shape that touches
+  double restitution = 0;     ///< 0: nothing bounces, 1: without loss. Stacks stand best with 0
+  bool jointLimits = true;    ///< what starts beyond comes back at 1 rad/s or m/s at most
   bool jointFriction = true;  ///< Joint::damping and friction of the scene (of free joints, damping only)
   int iterations = 20;        ///< of the solver, per step
 };
