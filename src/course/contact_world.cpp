@@ -1,27 +1,11 @@
-#include <cmath>
-
-#include <fmt/format.h>
-
 #include "base/error.h"
 #include "course/contact_world_internal.h"
 
 namespace rex::internal {
-namespace {
-
-constexpr double kLongestStep = 1e-3;
-// So many steps take minutes: more is a slip, such as milliseconds for seconds.
-constexpr double kLongestTime = 1000;
-
-}  // namespace
 
 void ContactWorld::step(const Model& model, const Eigen::Vector3d& gravity_W, const Eigen::VectorXd& u,
                         double tau, State& state) {
   requireSize("stepPhysics: joint forces u", u.size(), model.nv());
-  if (!(tau > 0 && tau <= kLongestTime)) {
-    throw Error({.what = "stepPhysics: tau",
-                 .found = fmt::format("{:g}", tau),
-                 .wanted = fmt::format("a positive number of seconds, at most {}", kLongestTime)});
-  }
   if (world_ == nullptr || gravity_W != gravity_W_) {
     world_ = std::make_unique<PhysicsWorld>(model, PhysicsOptions{.gravity_W = gravity_W});
     gravity_W_ = gravity_W;
@@ -32,8 +16,7 @@ void ContactWorld::step(const Model& model, const Eigen::Vector3d& gravity_W, co
   // Contacts of the last step help the next one, so that only a jump makes the world start anew.
   const State last = world_->state();
   if (last.q != state.q || last.v != state.v || last.time != state.time) world_->setState(state);
-  const double steps = std::ceil(tau / kLongestStep * (1 - 1e-9));
-  for (double i = 0; i < steps; ++i) world_->step(tau / steps);
+  world_->step(tau);
   state = world_->state();
 }
 

@@ -2,25 +2,30 @@
 #include <cassert>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "physics/articulation_internal.h"
 #include "physics/bullet_math_internal.h"
-#include "physics/elementary_moves_internal.h"
+#include "scene/joint_movements.h"
 
 namespace rex::internal {
 namespace {
+
+using Kind = MotionStep::Kind;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kBaseVelocities = 6;
 // A position motor closes the way to its target at this rate, 1/s: slow enough for arms to brake.
 constexpr double kPositionRate = 20;
-// The share of an overstepped joint limit that a step takes back, as Bullet does at contacts.
-constexpr double kLimitShare = 0.2;
+// Joints beyond a limit come back at this rate, 1/s, and at most this fast, rad/s or m/s: they keep the speed
+// when they are back, so that more would throw a robot that starts beyond its limits.
+constexpr double kLimitRate = 20, kLimitSpeed = 1;
 // Limits take part from this far, radians or metres, and from twice the way of a step.
 constexpr double kLimitReach = 0.01;
 
 int linkCount(const Model& model, std::span<const BodyId> bodies) {
   std::size_t count = 0;
-  for (const BodyId body : bodies) count += elementaryMoves(model[model[body].joint]).size();
+  for (const BodyId body : bodies) count += movements(model[model[body].joint]).size();
   return static_cast<int>(count);
 }
 
@@ -33,9 +38,10 @@ Articulation::Articulation(const Model& model, std::span<const BodyId> bodies, c
   std::vector<Grown> grown(model.bodies().size(), {-1, X_WP.inverse()});
   const bool isFree = first.type == JointType::kFree;
   if (isFree) {
-    const Link link = linkOf(model[first.child]);
-    base_.emplace(first, X_WP, link.X_BL, options);
+    const BulletLink link = bulletLink(model[first.child]);
+    base_.emplace(first, X_WP, link.X_BL);
     baseVIndex_ = first.vIndex;
+    baseDamping_ = options.jointFriction ? first.damping : 0;
     grown[static_cast<std::size_t>(first.child)] = {-1, link.X_BL};
     body_.emplace(linkCount(model, bodies.subspan(1)), link.mass, link.inertia, false, false);
   } else {
@@ -46,7 +52,7 @@ Articulation::Articulation(const Model& model, std::span<const BodyId> bodies, c
     const Joint& joint = model[model[bodies[i]].joint];
     const Grown& parent = grown[static_cast<std::size_t>(joint.parent)];
     Grown& child = grown[static_cast<std::size_t>(bodies[i])];
-    child = grow(model, joint, linkOf(model[bodies[i]]), parent);
+    child = grow(model, joint, bulletLink(model[bodies[i]]), parent);
     if (shapes[i] != nullptr) addCollider(child.link, bodies[i], shapes[i]);
   }
   body_->finalizeMultiDof();
@@ -57,9 +63,9 @@ Articulation::Articulation(const Model& model, std::span<const BodyId> bodies, c
   addRows();
 }
 
-Articulation::Grown Articulation::grow(const Model& model, const Joint& joint, const Link& link,
+Articulation::Grown Articulation::grow(const Model& model, const Joint& joint, const BulletLink& link,
                                        Grown parent) {
-  const std::vector<ElementaryMove> moves = elementaryMoves(joint);
+  const std::vector<JointMovement> moves = movements(joint);
   Pose X_LF = parent.X_BL.inverse() * joint.X_PF;
   int at = parent.link;
   for (std::size_t i = 0; i < moves.size(); ++i) {
@@ -71,21 +77,21 @@ Articulation::Grown Articulation::grow(const Model& model, const Joint& joint, c
     const btVector3 axis = toBullet(X_ML.R.transpose() * moves[i].axis);
     const btVector3 toPivot = toBullet(X_LF.p), toCenter = toBullet(X_ML.R.transpose() * X_ML.p);
     switch (moves[i].kind) {
-      case ElementaryMove::Kind::kTurn:
+      case Kind::kHinge:
         body_->setupRevolute(next_, mass, inertia, at, R_LF, axis, toPivot, toCenter);
         break;
-      case ElementaryMove::Kind::kSlide:
+      case Kind::kSlider:
         body_->setupPrismatic(next_, mass, inertia, at, R_LF, axis, toPivot, toCenter, false);
         break;
-      case ElementaryMove::Kind::kBall:
+      case Kind::kQuaternion:
         body_->setupSpherical(next_, mass, inertia, at, R_LF, toPivot, toCenter);
         break;
-      case ElementaryMove::Kind::kNone:
+      case Kind::kFixed:
         body_->setupFixed(next_, mass, inertia, at, R_LF, toPivot, toCenter, false);
         break;
     }
-    if (moves[i].kind != ElementaryMove::Kind::kNone)
-      addCoordinate(model, joint, static_cast<int>(i), moves[i].kind == ElementaryMove::Kind::kBall, X_ML.R);
+    if (moves[i].kind != Kind::kFixed)
+      addCoordinate(model, joint, moves[i].coordinate, moves[i].kind == Kind::kQuaternion, X_ML.R);
     at = next_++;
     X_LF = Pose{};
   }
@@ -124,6 +130,9 @@ void Articulation::addCollider(int link, BodyId body, btCollisionShape* shape) {
 }
 
 void Articulation::addRows() {
+  if (baseDamping_ > 0) {
+    for (int i = 0; i < kBaseVelocities; ++i) rows_.push_back(std::make_unique<JointRow>(*body_));
+  }
   for (const Coordinate& coordinate : coordinates_) {
     for (int place = 0; place < (coordinate.isBall ? 3 : 1); ++place)
       rows_.push_back(std::make_unique<JointRow>(*body_, coordinate.link, place));
@@ -146,7 +155,7 @@ void Articulation::place(const State& state) {
   if (base_) setBase(base_->linkMotion(state));
   for (const Coordinate& one : coordinates_) {
     if (one.isBall) {
-      const Quaternion q = state.q.segment<4>(one.qIndex).normalized();
+      const Quaternion q = state.q.segment<4>(one.qIndex).stableNormalized();
       const Eigen::Vector3d turn = one.R_ML.transpose() * q.tail<3>();
       const Eigen::Vector3d v = one.R_ML.transpose() * state.v.segment<3>(one.vIndex);
       const double position[4] = {turn.x(), turn.y(), turn.z(), q[0]};
@@ -177,12 +186,8 @@ void Articulation::read(State& state) const {
 }
 
 void Articulation::drive(std::span<const Motor> motors, double h) {
-  if (base_) {
-    const FreeMotion::Wrench wrench = base_->wrench(motors, baseMotion());
-    body_->addBaseForce(toBullet(wrench.force_W));
-    body_->addBaseTorque(toBullet(wrench.torque_W));
-  }
-  std::size_t row = 0;
+  if (base_) driveBase(motors, h);
+  std::size_t row = baseDamping_ > 0 ? kBaseVelocities : 0;
   for (const Coordinate& one : coordinates_) {
     const Motor* const motor = &motors[static_cast<std::size_t>(one.vIndex)];
     if (one.isBall) {
@@ -196,6 +201,24 @@ void Articulation::drive(std::span<const Motor> motors, double h) {
       if (motor->kind == Motor::Kind::kForce) body_->addJointTorque(one.link, motor->target);
       setGoals(one, 0, *motor, h, *rows_[row++]);
     }
+  }
+}
+
+// Damping is the same in all directions, so that the axes of W do for rows.
+void Articulation::driveBase(std::span<const Motor> motors, double h) {
+  const FreeMotion::LinkMotion motion = baseMotion();
+  const FreeMotion::Wrench wrench = base_->wrench(motors, motion);
+  body_->addBaseForce(toBullet(wrench.force_W));
+  body_->addBaseTorque(toBullet(wrench.torque_W));
+  if (baseDamping_ == 0) return;
+  for (std::size_t i = 0; i < kBaseVelocities; ++i) {
+    const Eigen::Vector3d axis = Eigen::Vector3d::Unit(static_cast<Eigen::Index>(i % 3));
+    if (i < 3)
+      rows_[i]->measureBase(toBullet(base_->p_LM_W(motion).cross(axis)), toBullet(axis));
+    else
+      rows_[i]->measureBase(toBullet(axis), {0, 0, 0});
+    rows_[i]->clearGoals();
+    rows_[i]->set(JointRow::kDamping, {0, -kInfinity, kInfinity, 1 / (baseDamping_ * h)});
   }
 }
 
@@ -213,7 +236,9 @@ void Articulation::setGoals(const Coordinate& one, int place, const Motor& motor
   if (one.damping > 0) row.set(JointRow::kDamping, {0, -kInfinity, kInfinity, 1 / (one.damping * h)});
   if (one.friction > 0) row.set(JointRow::kFriction, {0, -one.friction * h, one.friction * h});
   const double reach = kLimitReach + 2 * h * std::abs(v);
-  const auto backOff = [&](double beyond) { return beyond * (beyond > 0 ? kLimitShare : 1) / h; };
+  const auto backOff = [&](double beyond) {
+    return beyond > 0 ? std::min(kLimitRate * beyond, kLimitSpeed) : beyond / h;
+  };
   if (one.lower - q > -reach) row.set(JointRow::kLowerLimit, {backOff(one.lower - q), 0, kInfinity});
   if (q - one.upper > -reach) row.set(JointRow::kUpperLimit, {-backOff(q - one.upper), -kInfinity, 0});
 }

@@ -55,12 +55,13 @@ class Articulation : public Mover {
     Pose X_BL;
   };
 
-  Grown grow(const Model& model, const Joint& joint, const Link& link, Grown parent);
+  Grown grow(const Model& model, const Joint& joint, const BulletLink& link, Grown parent);
   void addCoordinate(const Model& model, const Joint& joint, int place, bool isBall,
                      const Eigen::Matrix3d& R_ML);
   void addCollider(int link, BodyId body, btCollisionShape* shape);
   void addRows();
   void setGoals(const Coordinate& one, int place, const Motor& motor, double h, JointRow& row) const;
+  void driveBase(std::span<const Motor> motors, double h);
   [[nodiscard]] FreeMotion::LinkMotion baseMotion() const;
   void setBase(const FreeMotion::LinkMotion& motion);
   void update();
@@ -69,11 +70,13 @@ class Articulation : public Mover {
   btEmptyShape nothing_;
   std::optional<FreeMotion> base_;  // of trees on a free joint
   int baseVIndex_ = 0;
+  double baseDamping_ = 0;
   int next_ = 0;  // link to be built
   std::optional<btMultiBody> body_;
   std::vector<Coordinate> coordinates_;
   std::vector<Collider> colliders_;
-  std::vector<std::unique_ptr<JointRow>> rows_;  // one per coordinate, three per ball
+  // Six for a base that is damped, linear before angular; then one per coordinate, three per ball.
+  std::vector<std::unique_ptr<JointRow>> rows_;
   btAlignedObjectArray<btQuaternion> rotations_;
   btAlignedObjectArray<btVector3> origins_;
   btTransform rememberedBase_;

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "collision/contact_model.h"
+#include "dynamics/forward_dynamics.h"
 #include "dynamics/mass_matrix.h"
 #include "physics/articulation_internal.h"
 #include "physics/bullet_math_internal.h"
@@ -17,8 +18,8 @@
 namespace rex::internal {
 namespace {
 
-// kg or kg m^2; what a joint moves has to be more than numerical noise.
-constexpr double kLeastInertia = 1e-12;
+// kg or kg m^2; Bullet holds joints still that have less than 2.2e-16 to move.
+constexpr double kLeastInertia = 1e-15;
 // Contacts yield a little, in parts of the resistance of a body of mean mass, and give back a tenth of what
 // is in overlap per step. The load of a stack then spreads over its contacts in one way only, and the solver,
 // which starts each step from the forces of the last one, comes to rest: 20 boxes of 0.2 m sink 0.3 mm at
@@ -27,22 +28,27 @@ constexpr double kSoftness = 0.05, kOverlapShare = 0.1;
 
 void requireOwnCoordinates(const Model& model) {
   for (const Joint& joint : model.joints()) {
-    if (!joint.mimics) continue;
+    const char* const found = joint.mimics                      ? "a joint that mimics another"
+                              : joint.type == JointType::kScrew ? "a screw"
+                                                                : nullptr;
+    if (found == nullptr) continue;
     throw Error({.what = fmt::format("physics: joint '{}'", joint.name),
-                 .found = "a joint that mimics another",
-                 .wanted = "joints that move by themselves: let it be moved by a position motor, or "
-                           "simulate without contact (Stepper, stepDynamics)"});
+                 .found = found,
+                 .wanted = "joints whose coordinates are their own; without contact it can be simulated "
+                           "(stepDynamics, rex simulate --engine rk4)"});
   }
 }
 
+// Whatever moves must resist: articulated bodies find the joint where something does not, at any scale.
 void requireMasses(const Model& model) {
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(model.nv());
+  static_cast<void>(forwardDynamics(model, model.initialPositions(), none, none));
   const Eigen::VectorXd inertia = massMatrix(model, model.initialPositions()).diagonal();
   for (const Joint& joint : model.joints()) {
-    if (joint.nv == 0 || inertia.segment(joint.vIndex, joint.nv).minCoeff() > kLeastInertia) continue;
-    const std::string& child = model[joint.child].name;
+    if (joint.nv == 0 || inertia.segment(joint.vIndex, joint.nv).minCoeff() >= kLeastInertia) continue;
     throw Error({.what = fmt::format("physics: joint '{}'", joint.name),
-                 .found = fmt::format("no mass that resists it in body '{}' and what hangs on it", child),
-                 .wanted = fmt::format("a mass and an inertia of body '{}'", child)});
+                 .found = "less to move than numbers can hold",
+                 .wanted = fmt::format("{:g} kg or kg m^2 at least", kLeastInertia)});
   }
 }
 
@@ -181,10 +187,11 @@ void BulletWorld::addMover(const Model& model, std::span<const BodyId> bodies, c
                            const PhysicsOptions& options) {
   const Joint& joint = model[model[bodies.front()].joint];
   std::vector<btCollisionShape*> shapes;
-  for (const BodyId body : bodies) shapes.push_back(addShape(model, body, linkOf(model[body]).X_BL));
-  if (bodies.size() == 1 && joint.type == JointType::kFree) {
+  for (const BodyId body : bodies) shapes.push_back(addShape(model, body, bulletLink(model[body]).X_BL));
+  const bool isDamped = options.jointFriction && joint.damping > 0;
+  if (bodies.size() == 1 && joint.type == JointType::kFree && !isDamped) {
     if (shapes.front() == nullptr) shapes.front() = &nothing_;
-    auto body = std::make_unique<FreeBody>(joint, linkOf(model[joint.child]), X_WP, shapes.front(), options);
+    auto body = std::make_unique<FreeBody>(joint, bulletLink(model[joint.child]), X_WP, shapes.front());
     setUp(body->object(), joint.child, options);
     movers_.push_back(std::move(body));
   } else {
@@ -217,28 +224,44 @@ int BulletWorld::shapeOf(const btCollisionObject& object, int child) const {
   return shapes[static_cast<std::size_t>(std::max(child, 0))];
 }
 
-std::vector<PhysicsContact> BulletWorld::contacts() const {
-  std::vector<PhysicsContact> all;
+// Calls visit(manifold, point) for all that touches.
+template <class Visit>
+void BulletWorld::forEachContact(const Visit& visit) const {
   for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
     const btPersistentManifold& manifold = *dispatcher_.getManifoldByIndexInternal(i);
     for (int k = 0; k < manifold.getNumContacts(); ++k) {
       const btManifoldPoint& point = manifold.getContactPoint(k);
-      if (point.getDistance() > 0 && point.getAppliedImpulse() == 0) continue;
-      PhysicsContact contact{.shapeA = shapeOf(*manifold.getBody0(), point.m_index0),
-                             .shapeB = shapeOf(*manifold.getBody1(), point.m_index1),
-                             .p_WA = fromBullet(point.getPositionWorldOnA()),
-                             .p_WB = fromBullet(point.getPositionWorldOnB()),
-                             .normal_W = fromBullet(point.m_normalWorldOnB),
-                             .distance = point.getDistance(),
-                             .impulse = point.getAppliedImpulse()};
-      if (contact.shapeA > contact.shapeB) {
-        std::swap(contact.shapeA, contact.shapeB);
-        std::swap(contact.p_WA, contact.p_WB);
-        contact.normal_W = -contact.normal_W;
-      }
-      all.push_back(contact);
+      if (point.getDistance() <= 0 || point.getAppliedImpulse() != 0) visit(manifold, point);
     }
   }
+}
+
+void BulletWorld::collectTouching(std::vector<std::pair<int, int>>& pairs) const {
+  pairs.clear();
+  forEachContact([&](const btPersistentManifold& manifold, const btManifoldPoint& point) {
+    const std::pair<int, int> pair = std::minmax(
+        {shapeOf(*manifold.getBody0(), point.m_index0), shapeOf(*manifold.getBody1(), point.m_index1)});
+    if (pairs.empty() || pairs.back() != pair) pairs.push_back(pair);
+  });
+}
+
+std::vector<PhysicsContact> BulletWorld::contacts() const {
+  std::vector<PhysicsContact> all;
+  forEachContact([&](const btPersistentManifold& manifold, const btManifoldPoint& point) {
+    PhysicsContact contact{.shapeA = shapeOf(*manifold.getBody0(), point.m_index0),
+                           .shapeB = shapeOf(*manifold.getBody1(), point.m_index1),
+                           .p_WA = fromBullet(point.getPositionWorldOnA()),
+                           .p_WB = fromBullet(point.getPositionWorldOnB()),
+                           .normal_W = fromBullet(point.m_normalWorldOnB),
+                           .distance = point.getDistance(),
+                           .impulse = point.getAppliedImpulse()};
+    if (contact.shapeA > contact.shapeB) {
+      std::swap(contact.shapeA, contact.shapeB);
+      std::swap(contact.p_WA, contact.p_WB);
+      contact.normal_W = -contact.normal_W;
+    }
+    all.push_back(contact);
+  });
   const auto key = [](const PhysicsContact& one) {
     return std::tuple(one.shapeA, one.shapeB, one.p_WA.x(), one.p_WA.y(), one.p_WA.z());
   };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <BulletCollision/CollisionShapes/btEmptyShape.h>
@@ -38,6 +39,8 @@ class BulletWorld {
   void reset(const State& state);
   void step(double h);
   [[nodiscard]] std::vector<PhysicsContact> contacts() const;
+  /// The shapes of contacts(), the smaller place first, in any order; some come twice.
+  void collectTouching(std::vector<std::pair<int, int>>& pairs) const;
   [[nodiscard]] std::optional<RayHit> rayCast(const Eigen::Vector3d& from_W,
                                               const Eigen::Vector3d& to_W) const;
 
@@ -50,6 +53,8 @@ class BulletWorld {
   void setUp(btCollisionObject& object, BodyId body, const PhysicsOptions& options);
   void addAll();
   void removeAll();
+  template <class Visit>
+  void forEachContact(const Visit& visit) const;
   [[nodiscard]] int shapeOf(const btCollisionObject& object, int child) const;
 
   btEmptyShape nothing_;

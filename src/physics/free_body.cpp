@@ -5,11 +5,8 @@
 
 namespace rex::internal {
 
-FreeBody::FreeBody(const Joint& joint, const Link& link, const Pose& X_WP, btCollisionShape* shape,
-                   const PhysicsOptions& options)
-    : motion_(joint, X_WP, link.X_BL, options),
-      body_(link.mass, nullptr, shape, link.inertia),
-      vIndex_(joint.vIndex) {
+FreeBody::FreeBody(const Joint& joint, const BulletLink& link, const Pose& X_WP, btCollisionShape* shape)
+    : motion_(joint, X_WP, link.X_BL), body_(link.mass, nullptr, shape, link.inertia), vIndex_(joint.vIndex) {
   body_.setDamping(0, 0);
   body_.setActivationState(DISABLE_DEACTIVATION);
 }

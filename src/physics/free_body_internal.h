@@ -4,12 +4,11 @@
 
 namespace rex::internal {
 
-/// A single body on a free joint of the world.
+/// A single body on a free joint of the world, which does not damp it.
 class FreeBody : public Mover {
  public:
   /// The shape, in the frame of the link, must outlive it.
-  FreeBody(const Joint& joint, const Link& link, const Pose& X_WP, btCollisionShape* shape,
-           const PhysicsOptions& options);
+  FreeBody(const Joint& joint, const BulletLink& link, const Pose& X_WP, btCollisionShape* shape);
 
   btCollisionObject& object() { return body_; }
   void addTo(btMultiBodyDynamicsWorld& world) override { world.addRigidBody(&body_); }

@@ -7,10 +7,9 @@
 
 namespace rex::internal {
 
-FreeMotion::FreeMotion(const Joint& joint, const Pose& X_WP, const Pose& X_BL, const PhysicsOptions& options)
+FreeMotion::FreeMotion(const Joint& joint, const Pose& X_WP, const Pose& X_BL)
     : qIndex_(joint.qIndex),
       vIndex_(joint.vIndex),
-      damping_(options.jointFriction ? joint.damping : 0),
       X_WF_(X_WP * joint.X_PF),
       X_ML_(joint.X_MC * X_BL),
       X_LM_(X_ML_.inverse()) {}
@@ -35,8 +34,7 @@ void FreeMotion::read(const LinkMotion& motion, State& state) const {
 
 bool FreeMotion::isIdle(std::span<const Motor> motors) const {
   const auto mine = motors.subspan(static_cast<std::size_t>(vIndex_), 6);
-  return damping_ == 0 &&
-         std::all_of(mine.begin(), mine.end(), [](const Motor& one) { return one.target == 0; });
+  return std::all_of(mine.begin(), mine.end(), [](const Motor& one) { return one.target == 0; });
 }
 
 FreeMotion::Wrench FreeMotion::wrench(std::span<const Motor> motors, const LinkMotion& motion) const {
@@ -45,11 +43,8 @@ FreeMotion::Wrench FreeMotion::wrench(std::span<const Motor> motors, const LinkM
     force[i] = motors[static_cast<std::size_t>(vIndex_ + i)].target;
     torque[i] = motors[static_cast<std::size_t>(vIndex_ + 3 + i)].target;
   }
-  const Eigen::Matrix3d R_WM = motion.X_WL.R * X_LM_.R;
-  const Eigen::Vector3d p_LM_W = motion.X_WL.R * X_LM_.p;
-  const Eigen::Vector3d linear_W = motion.linear_W + motion.angular_W.cross(p_LM_W);
-  const Eigen::Vector3d force_W = X_WF_.R * force - damping_ * linear_W;
-  return {force_W, R_WM * torque - damping_ * motion.angular_W + p_LM_W.cross(force_W)};
+  const Eigen::Vector3d force_W = X_WF_.R * force;
+  return {force_W, motion.X_WL.R * (X_LM_.R * torque) + p_LM_W(motion).cross(force_W)};
 }
 
 }  // namespace rex::internal

@@ -5,11 +5,11 @@
 namespace rex::internal {
 
 /// How the coordinates of a free joint of the world describe the motion of its link, whose frame L is where
-/// linkOf() puts it.
+/// bulletLink() puts it.
 class FreeMotion {
  public:
   /// X_WP is the pose of the joint's parent, which stands still.
-  FreeMotion(const Joint& joint, const Pose& X_WP, const Pose& X_BL, const PhysicsOptions& options);
+  FreeMotion(const Joint& joint, const Pose& X_WP, const Pose& X_BL);
 
   /// Pose of the link, and velocity of its origin, in W.
   struct LinkMotion {
@@ -21,16 +21,16 @@ class FreeMotion {
 
   /// Whether wrench() is zero, whatever the motion.
   [[nodiscard]] bool isIdle(std::span<const Motor> motors) const;
-  /// Force and torque at the link's origin, in W: what the motors (forces all) demand, less the joint's
-  /// damping.
+  /// Force and torque at the link's origin, in W: what the motors (forces all) demand.
   struct Wrench {
     Eigen::Vector3d force_W, torque_W;
   };
+  /// From the link's origin to that of the joint's moved frame, in W.
+  [[nodiscard]] Eigen::Vector3d p_LM_W(const LinkMotion& motion) const { return motion.X_WL.R * X_LM_.p; }
   [[nodiscard]] Wrench wrench(std::span<const Motor> motors, const LinkMotion& motion) const;
 
  private:
   int qIndex_, vIndex_;
-  double damping_ = 0;
   Pose X_WF_, X_ML_, X_LM_;
 };
 

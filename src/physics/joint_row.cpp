@@ -13,10 +13,22 @@ JointRow::JointRow(btMultiBody& body, int link, int place)
   JointRow::finalizeMultiDof();
 }
 
+JointRow::JointRow(btMultiBody& body)
+    : btMultiBodyConstraint(&body, &body, -1, -1, kPurposes, true, MULTIBODY_CONSTRAINT_1DOF_JOINT_MOTOR) {
+  JointRow::finalizeMultiDof();
+}
+
 void JointRow::finalizeMultiDof() {
   allocateJacobiansMultiDof();
   constexpr int kBaseVelocities = 6;
-  jacobianA(0)[kBaseVelocities + m_bodyA->getLink(m_linkA).m_dofOffset + place_] = 1;
+  if (m_linkA >= 0) jacobianA(0)[kBaseVelocities + m_bodyA->getLink(m_linkA).m_dofOffset + place_] = 1;
+}
+
+void JointRow::measureBase(const btVector3& angular, const btVector3& linear) {
+  for (int i = 0; i < 3; ++i) {
+    jacobianA(0)[i] = angular[i];
+    jacobianA(0)[3 + i] = linear[i];
+  }
 }
 
 void JointRow::forget() {

@@ -7,8 +7,8 @@
 
 namespace rex::internal {
 
-/// Constraints on one velocity of a joint, all solved along with the contacts: motor, limits, friction,
-/// damping.
+/// Constraints on one velocity of a joint or of a base that is free, all solved along with the contacts:
+/// motor, limits, friction, damping.
 class JointRow : public btMultiBodyConstraint {
  public:
   /// Wants the velocity to be `velocity`, with impulses within bounds. It yields by `softness` times the
@@ -23,6 +23,11 @@ class JointRow : public btMultiBodyConstraint {
 
   /// Of the freedom `place` of a link; both count from 0.
   JointRow(btMultiBody& body, int link, int place);
+  /// Of a base; measureBase() tells which velocity.
+  explicit JointRow(btMultiBody& body);
+
+  /// The velocity is angular * omega + linear * v, of the origin of the base; all in W.
+  void measureBase(const btVector3& angular, const btVector3& linear);
 
   /// Forgets the goals, or also the impulses of the last step, from which the solver starts
   /// otherwise.
@@ -38,7 +43,7 @@ class JointRow : public btMultiBodyConstraint {
   void debugDraw(btIDebugDraw*) override {}
 
  private:
-  int place_;
+  int place_ = 0;
   std::array<std::optional<Goal>, kPurposes> goals_;
 };
 

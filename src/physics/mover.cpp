@@ -5,7 +5,7 @@
 
 namespace rex::internal {
 
-Link linkOf(const Body& body) {
+BulletLink bulletLink(const Body& body) {
   const Eigen::Matrix3d& I = body.I_BBcm_B;
   if (I.isDiagonal(0)) return {{Eigen::Matrix3d::Identity(), body.p_BBcm}, body.mass, toBullet(I.diagonal())};
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(I);

@@ -10,12 +10,12 @@ namespace rex::internal {
 
 /// A body with what Bullet wants to know of it: its frame L at the centre of mass, along the principal axes
 /// of its inertia.
-struct Link {
+struct BulletLink {
   Pose X_BL{};
   double mass = 0;
   btVector3 inertia{0, 0, 0};  ///< principal moments, kg m^2
 };
-[[nodiscard]] Link linkOf(const Body& body);
+[[nodiscard]] BulletLink bulletLink(const Body& body);
 
 /// Part of the model that moves by itself: what hangs on one joint of the world.
 class Mover {

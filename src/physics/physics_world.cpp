@@ -9,10 +9,17 @@
 #include "base/error.h"
 #include "physics/bullet_math_internal.h"
 #include "physics/bullet_world_internal.h"
+#include "physics/contact_events_internal.h"
+#include "scene/coordinates.h"
 
 namespace rex {
 namespace {
 
+// Bullet turns free bodies by 45 degrees in a step at most, and its contacts want steps of a millisecond.
+constexpr double kInnerStep = 1e-3;
+// Seconds. Bullet leaves out steps that are a good deal shorter; longer ones are slips, such as milliseconds
+// for seconds, and take minutes.
+constexpr double kShortestStep = 1e-9, kLongestStep = 1000;
 // Faster than this, in rad/s or m/s, nothing moves that is simulated well.
 constexpr double kRunawaySpeed = 1e6;
 
@@ -29,6 +36,15 @@ const Joint& jointOf(const Model& model, int iv) {
     return one.vIndex <= iv && iv < one.vIndex + one.nv;
   });
   return *joint;
+}
+
+void requireQuaternions(const Model& model, const Eigen::VectorXd& q) {
+  forEachQuaternion(model, [&](int iq, int iv) {
+    if (!q.segment<4>(iq).isZero(0)) return;
+    throw Error({.what = fmt::format("physics: quaternion of joint '{}'", jointOf(model, iv).name),
+                 .found = "zero",
+                 .wanted = "four numbers that are not all zero"});
+  });
 }
 
 void requireOptions(const PhysicsOptions& options) {
@@ -59,9 +75,26 @@ struct PhysicsWorld::Parts {
   std::vector<Motor> motors;
   double time = 0;
   internal::BulletWorld world;
+  internal::ContactEvents events{};
 
   Parts(const Model& m, const PhysicsOptions& options)
       : model(m), motors(static_cast<std::size_t>(m.nv())), world(model, options) {}
+
+  void innerStep(double h, double now) {
+    for (const auto& mover : world.movers()) mover->drive(motors, h);
+    world.step(h);
+    world.collectTouching(events.touching());
+    events.update(now);
+  }
+
+  // The place in v of what has become too fast, or -1.
+  [[nodiscard]] int runaway() const {
+    for (const auto& mover : world.movers()) {
+      const int iv = mover->runaway(kRunawaySpeed);
+      if (iv >= 0) return iv;
+    }
+    return -1;
+  }
 };
 
 PhysicsWorld::PhysicsWorld(const Model& model, const PhysicsOptions& options) {
@@ -86,8 +119,10 @@ void PhysicsWorld::setState(const State& state) {
   requireSize("physics: joint velocities v", state.v.size(), model.nv());
   requireFinite("physics: joint positions q", state.q);
   requireFinite("physics: joint velocities v", state.v);
+  requireQuaternions(model, state.q);
   require(std::isfinite(state.time), "physics: time", state.time, "finite numbers");
   parts_->world.reset(state);
+  parts_->events.reset();
   parts_->time = state.time;
 }
 
@@ -98,20 +133,24 @@ void PhysicsWorld::setMotors(std::span<const Motor> motors) {
 }
 
 void PhysicsWorld::step(double h) {
-  require(h > 0 && std::isfinite(h), "physics: time step", h, "a positive number of seconds");
-  internal::BulletWorld& world = parts_->world;
-  for (const auto& mover : world.movers()) {
-    mover->remember();
-    mover->drive(parts_->motors, h);
+  if (!(h >= kShortestStep && h <= kLongestStep)) {
+    throw Error({.what = "physics: time step",
+                 .found = fmt::format("{:g}", h),
+                 .wanted = fmt::format("{:g} to {:g} seconds", kShortestStep, kLongestStep)});
   }
-  world.step(h);
-  for (const auto& mover : world.movers()) {
-    const int iv = mover->runaway(kRunawaySpeed);
+  internal::BulletWorld& world = parts_->world;
+  const double count = std::ceil(h / kInnerStep * (1 - 1e-9));
+  parts_->events.clear();
+  for (const auto& mover : world.movers()) mover->remember();
+  for (double i = 0; i < count; ++i) {
+    parts_->innerStep(h / count, parts_->time + i * h / count);
+    const int iv = parts_->runaway();
     if (iv < 0) continue;
-    for (const auto& any : world.movers()) any->undo();
+    for (const auto& mover : world.movers()) mover->undo();
     world.reset(state());
+    parts_->events.reset();
     throw Error({.what = fmt::format("physics: joint '{}' at {:.6g} s", jointOf(parts_->model, iv).name,
-                                     parts_->time + h),
+                                     parts_->time + (i + 1) * h / count),
                  .found = "a motion that grows without bounds",
                  .wanted = "shorter steps or smaller forces"});
   }
@@ -119,6 +158,8 @@ void PhysicsWorld::step(double h) {
 }
 
 std::vector<PhysicsContact> PhysicsWorld::contacts() const { return parts_->world.contacts(); }
+
+std::vector<ContactEvent> PhysicsWorld::events() const { return parts_->events.events(); }
 
 std::optional<RayHit> PhysicsWorld::rayCast(const Eigen::Vector3d& from_W,
                                             const Eigen::Vector3d& to_W) const {

@@ -1,8 +1,8 @@
+#include "scene/joint_movements.h"
+
 #include <numbers>
 
-#include "scene/joint_movements_internal.h"
-
-namespace rex::internal {
+namespace rex {
 
 std::vector<JointMovement> movements(const Joint& joint) {
   using Kind = MotionStep::Kind;
@@ -43,4 +43,4 @@ std::vector<JointMovement> movements(const Joint& joint) {
   return {};
 }
 
-}  // namespace rex::internal
+}  // namespace rex

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "geometry/rotation.h"
-#include "scene/joint_movements_internal.h"
+#include "scene/joint_movements.h"
 #include "scene/links_internal.h"
 
 namespace rex::internal {

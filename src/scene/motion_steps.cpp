@@ -1,5 +1,5 @@
 #include "geometry/rotation.h"
-#include "scene/joint_movements_internal.h"
+#include "scene/joint_movements.h"
 #include "scene/motion_steps_internal.h"
 
 namespace rex::internal {

@@ -18,6 +18,19 @@ SimulatorDescription ballOverGround() {
           .q = {}};
 }
 
+// A box of 1 kg that lies on the ground, free to slide along x and to rise.
+SimulatorDescription boxOnGround() {
+  return {.sceneName = "box.ors",
+          .sceneText =
+              "shape ground { rel=<T t(0 0 -0.5)> type=ST_box size=[10 10 1 0] contact }\n"
+              "body root {}\n"
+              "body rail { mass=0.01 }\n"
+              "body box { mass=0.99 type=ST_box size=[0.2 0.2 0.2 0] contact }\n"
+              "joint slide (root rail) { type=transX }\n"
+              "joint rise (rail box) { type=transZ q=0.1 }\n",
+          .q = {}};
+}
+
 TEST(SimulatorPhysics, FallsAndLies) {
   Simulator S(ballOverGround());
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(1);
@@ -55,13 +68,54 @@ TEST(SimulatorPhysics, CopiesGoTheirOwnWay) {
   EXPECT_NEAR(copy.getJointAngles()[0], 0, 0.01);
 }
 
+// A copy finds the contact forces anew: copies are equal to the bit, and nearly so to the original.
+TEST(SimulatorPhysics, CopiesInContactGoOnAlike) {
+  Simulator S(boxOnGround());
+  const Eigen::VectorXd push = Eigen::Vector2d(7, 0);  // more than 0.6 m g
+  S.stepPhysics(push, 0.2);
+  ASSERT_GT(S.getJointVels()[0], 0.1);
+  Simulator first = S, second = S;
+  for (Simulator* one : {&S, &first, &second}) one->stepPhysics(push, 0.2);
+  EXPECT_EQ(first.getJointAngles(), second.getJointAngles());
+  EXPECT_EQ(first.getJointVels(), second.getJointVels());
+  EXPECT_LT((first.getJointAngles() - S.getJointAngles()).norm(), 1e-4);
+  EXPECT_LT((first.getJointVels() - S.getJointVels()).norm(), 1e-3);
+}
+
+TEST(SimulatorPhysics, RubsWithSixTenthsAndDoesNotBounce) {
+  Simulator S(boxOnGround());
+  S.stepPhysics(Eigen::Vector2d(5.5, 0), 1);
+  EXPECT_NEAR(S.getJointAngles()[0], 0, 1e-3);
+  S.stepPhysics(Eigen::Vector2d(7, 0), 1);
+  EXPECT_NEAR(S.getJointVels()[0], 7 - 0.6 * 0.99 * 9.81, 1e-3);
+  S.setJointAnglesAndVels(Eigen::Vector2d(0, 0.3), Eigen::Vector2d::Zero());
+  double highest = 0;
+  for (int i = 0; i < 50; ++i) {
+    S.stepPhysics(Eigen::Vector2d::Zero(), 0.01);
+    if (i > 25) highest = std::max(highest, S.getJointAngles()[1] - 0.1);  // it lies after 0.2 s
+  }
+  EXPECT_LT(highest, 1e-3);
+  EXPECT_NEAR(S.kinematicsPos("box").z(), 0.1, 1e-3);
+}
+
+TEST(SimulatorPhysics, RefusesScrews) {
+  Simulator S(SimulatorDescription{.sceneName = "nut.ors",
+                                   .sceneText = "body bolt {}\n"
+                                                "body nut { mass=1 type=ST_box size=[0.1 0.1 0.1 0] }\n"
+                                                "joint thread (bolt nut) { type=screw pitch=0.01 }\n",
+                                   .q = {}});
+  EXPECT_REX_ERROR(S.stepPhysics(Eigen::VectorXd::Zero(1), 0.1), "joint 'thread': found a screw");
+  EXPECT_REX_ERROR(S.stepPhysics(Eigen::VectorXd::Zero(1), 0.1),
+                   "without contact it can be simulated (stepD");
+}
+
 TEST(SimulatorPhysics, RefusesWrongNumbersAndStays) {
   Simulator S(ballOverGround());
   const Eigen::VectorXd q = S.getJointAngles(), none = Eigen::VectorXd::Zero(1);
   EXPECT_REX_ERROR(S.stepPhysics(Eigen::VectorXd::Zero(2), 0.1),
                    "stepPhysics: joint forces u: found a vector of");
   for (const double tau : {0.0, -1.0, 1001.0, std::nan("")})
-    EXPECT_REX_ERROR(S.stepPhysics(none, tau), "stepPhysics: tau: found");
+    EXPECT_REX_ERROR(S.stepPhysics(none, tau), "physics: time step: found");
   EXPECT_REX_ERROR(S.stepPhysics(Eigen::VectorXd::Constant(1, std::nan("")), 0.1),
                    "joint 'drop': target: found nan");
   EXPECT_REX_ERROR(S.stepPhysics(Eigen::VectorXd::Constant(1, 1e12), 0.1), "joint 'drop' at 0.001 s");

@@ -96,12 +96,50 @@ TEST(PhysicsContacts, BouncesByTheRestitution) {
     PhysicsWorld world(model, {.restitution = e});
     const double fall = std::sqrt(2 / kGravity);
     run(world, fall + 0.02);
-    double highest = 0;
-    for (int i = 0; i < static_cast<int>(2 * e * fall / kStep); ++i) {
+    double highest = -1;
+    const double flight = std::max(2 * e * fall, 0.1);
+    for (int i = 0; i < static_cast<int>(flight / kStep); ++i) {
       world.step(kStep);
       highest = std::max(highest, world.state().q[2] - 0.1);
     }
     EXPECT_NEAR(highest, e * e, 0.02) << e;
+  }
+}
+
+// A ball that falls 0.2 m, and leaves the ground at once with its whole speed.
+TEST(PhysicsContacts, EventsSayWhatBeganAndEnded) {
+  PhysicsWorld world(looseOnGround(ballShape(0.1), translation(0, 0, 0.3)), {.restitution = 1});
+  const double fall = std::sqrt(2 * 0.2 / kGravity);
+  world.step(0.1);
+  EXPECT_TRUE(world.events().empty());
+  world.step(0.15);
+  ASSERT_EQ(world.events().size(), 2u);
+  const ContactEvent begin = world.events()[0], end = world.events()[1];
+  EXPECT_EQ(begin.kind, ContactEvent::Kind::kBegin);
+  EXPECT_EQ(end.kind, ContactEvent::Kind::kEnd);
+  for (const ContactEvent& event : {begin, end}) {
+    EXPECT_EQ(event.shapeA, 0);
+    EXPECT_EQ(event.shapeB, 1);
+    EXPECT_NEAR(event.time, fall, 5 * kStep);
+  }
+  EXPECT_GT(end.time, begin.time);
+  EXPECT_TRUE(world.contacts().empty());
+  world.step(0.1);
+  EXPECT_TRUE(world.events().empty());
+}
+
+TEST(PhysicsContacts, WhatLiesBeginsOnceUntilTheStateIsSet) {
+  const Model model = looseOnGround(boxShape(0.2, 0.2, 0.2), translation(0, 0, 0.1));
+  PhysicsWorld world(model);
+  for (int round = 0; round < 2; ++round) {
+    world.step(0.1);
+    ASSERT_EQ(world.events().size(), 1u);
+    EXPECT_EQ(world.events()[0].kind, ContactEvent::Kind::kBegin);
+    world.step(1);
+    EXPECT_TRUE(world.events().empty());
+    EXPECT_FALSE(world.contacts().empty());
+    world.setState(initialState(model));
+    EXPECT_TRUE(world.events().empty());
   }
 }
 

@@ -198,5 +198,61 @@ TEST(PhysicsDynamics, DampsAndRubsInJoints) {
   EXPECT_NEAR(speedAfter(1e-3, 0.4), 0, 1e-12);
 }
 
+// A body off the middle of its free joint, and one that hangs on it.
+Model dampedPair(double damping, bool isAlone) {
+  Rng rng(5);
+  SceneSpec spec;
+  addLoose(spec, "first", 1, boxShape(0.2, 0.3, 0.4), {});
+  if (!isAlone) addHinged(spec, "second", 0.5, 0.02).parent = "first";
+  spec.joints[0].damping = damping;
+  spec.joints[0].X_PF = randomPose(rng);
+  spec.joints[0].X_MC = {expSO3(rng.normalVector(3)), {0.05, -0.1, 0.02}};
+  return compile(spec);
+}
+
+TEST(PhysicsDynamics, DampsFreeJointsLikeRungeKutta) {
+  Rng rng(6);
+  for (const bool isAlone : {true, false}) {
+    const Model model = dampedPair(2, isAlone);
+    const State start = randomState(rng, model);
+    const auto error = [&](double h) {
+      PhysicsWorld world(model);
+      world.setState(start);
+      Stepper stepper(model, {.jointForces = {.friction = true}});
+      State ours = start;
+      for (int i = 0; i < static_cast<int>(std::lround(0.2 / h)); ++i) {
+        world.step(h);
+        stepper.step(ours, Eigen::VectorXd::Zero(model.nv()), h);
+      }
+      return (world.state().v - ours.v).norm();
+    };
+    const double coarse = error(1e-3), fine = error(5e-4);
+    EXPECT_LT(coarse, 0.05) << isAlone;
+    EXPECT_NEAR(coarse / fine, 2, 0.3) << isAlone;
+  }
+}
+
+// In honey everything falls at m g / damping in the end, however stiff that is.
+TEST(PhysicsDynamics, DampsFreeJointsHoweverStiff) {
+  Rng rng(7);
+  for (const double damping : {1e3, 1e5, 1e8}) {
+    for (const bool isAlone : {true, false}) {
+      const Model model = dampedPair(damping, isAlone);
+      PhysicsWorld world(model);
+      State start = randomState(rng, model);
+      if (!isAlone) start.v[6] = 0;
+      world.setState(start);
+      for (int i = 0; i < 100; ++i) world.step(1e-3);
+      EXPECT_LT(world.state().v.head<6>().norm(), 10 * model.mass() * 9.81 / damping) << damping << isAlone;
+    }
+    SceneSpec spec;
+    addLoose(spec, "ball", 2, ballShape(0.1), {});
+    spec.joints[0].damping = damping;
+    PhysicsWorld world(compile(spec));
+    for (int i = 0; i < 100; ++i) world.step(1e-3);
+    EXPECT_NEAR(world.state().v[2], -2 * 9.81 / damping, 1e-9 * 2 * 9.81 / damping);
+  }
+}
+
 }  // namespace
 }  // namespace rex

@@ -191,6 +191,29 @@ TEST(PhysicsWorld, StopsAtJointLimits) {
   EXPECT_NEAR(world.state().q[0], -0.4, 1e-4);
 }
 
+TEST(PhysicsWorld, ComesBackSlowlyFromBeyondALimit) {
+  SceneSpec spec;
+  JointSpec& joint = addHinged(spec, "arm", 1, 0.01);
+  joint.lower = Eigen::VectorXd::Constant(1, -0.4);
+  joint.upper = Eigen::VectorXd::Constant(1, 0.6);
+  const Model model = compile(spec);
+  for (const double beyond : {-0.5, -0.07, 0.07, 0.5}) {
+    PhysicsWorld world(model);
+    State state = initialState(model);
+    state.q[0] = beyond > 0 ? 0.6 + beyond : -0.4 + beyond;
+    world.setState(state);
+    double fastest = 0;
+    for (int i = 0; i < 700; ++i) {
+      world.step(1e-3);
+      fastest = std::max(fastest, std::abs(world.state().v[0]));
+    }
+    EXPECT_LT(fastest, 1 + 1e-9) << beyond;
+    EXPECT_GT(fastest, 0.9) << beyond;
+    EXPECT_GE(world.state().q[0], -0.4) << beyond;
+    EXPECT_LE(world.state().q[0], 0.6) << beyond;
+  }
+}
+
 // Forces on free joints act at the joint's moved frame, as in forwardDynamics.
 TEST(PhysicsWorld, ADogStandsOnItsMotors) {
   SceneSpec spec = readScene(sourcePath("data/robots/quadruped/quadruped.urdf")).spec;
@@ -250,8 +273,9 @@ TEST(PhysicsWorld, RefusesWrongNumbers) {
   EXPECT_REX_ERROR(PhysicsWorld(model, {.iterations = 0}), "iterations: found 0, wanted one or more");
   PhysicsWorld world(model);
   const State state = world.state();
-  for (const double h : {0.0, -1e-3}) EXPECT_REX_ERROR(world.step(h), "time step: found");
-  EXPECT_REX_ERROR(world.step(std::nan("")), "time step: found nan, wanted a positive number of seconds");
+  for (const double h : {0.0, -1e-3, 9e-10, 1001.0, static_cast<double>(INFINITY)})
+    EXPECT_REX_ERROR(world.step(h), "time step: found");
+  EXPECT_REX_ERROR(world.step(std::nan("")), "time step: found nan, wanted 1e-09 to 1000 seconds");
   State wrong = state;
   wrong.q.conservativeResize(3);
   EXPECT_REX_ERROR(world.setState(wrong), "positions q: found a vector of size 3, wanted size 42");
@@ -268,9 +292,40 @@ TEST(PhysicsWorld, RefusesWrongNumbers) {
   wrong.time = std::nan("");
   EXPECT_REX_ERROR(world.setState(wrong), "physics: time: found nan");
   wrong = state;
-  wrong.q.setZero();
-  EXPECT_REX_ERROR(world.setState(wrong), "quaternion");
-  EXPECT_EQ(world.state().q, state.q);
+  wrong.q.tail<4>().setZero();
+  EXPECT_REX_ERROR(world.setState(wrong), "physics: quaternion of joint 'thing5': found zero");
+}
+
+// As if the refused state had never been given.
+TEST(PhysicsWorld, GoesOnAfterARefusedState) {
+  SceneSpec spec;
+  addGround(spec);
+  addLoose(spec, "box", 1, boxShape(0.2, 0.2, 0.2), translation(0, 0, 0.1));
+  addHinged(spec, "arm", 1, 0.1).type = JointType::kBall;
+  const Model model = compile(spec);
+  for (const Joint& joint : model.joints()) {
+    PhysicsWorld world(model), undisturbed(model);
+    run(world, 0.1);
+    run(undisturbed, 0.1);
+    State wrong = world.state();
+    wrong.q.segment<4>(joint.qIndex + joint.nq - 4).setZero();
+    EXPECT_REX_ERROR(world.setState(wrong), "physics: quaternion of joint '" + joint.name + "': found");
+    EXPECT_REX_ERROR(world.setState(wrong), "found zero, wanted four numbers that are not all zero");
+    run(world, 0.1);
+    run(undisturbed, 0.1);
+    EXPECT_EQ(numbersOf(world), numbersOf(undisturbed));
+  }
+}
+
+TEST(PhysicsWorld, TakesQuaternionsOfAnyLength) {
+  SceneSpec spec;
+  addHinged(spec, "arm", 1, 0.1).type = JointType::kBall;
+  const Model model = compile(spec);
+  PhysicsWorld world(model);
+  State state = initialState(model);
+  state.q = Eigen::Vector4d(3e-200, 0, 4e-200, 0);
+  world.setState(state);
+  EXPECT_LT((world.state().q - Eigen::Vector4d(0.6, 0, 0.8, 0)).norm(), 1e-15);
 }
 
 TEST(PhysicsWorld, RefusesWrongMotors) {
@@ -286,19 +341,72 @@ TEST(PhysicsWorld, RefusesWrongMotors) {
   EXPECT_REX_ERROR(world.setMotors(motors), "motor of joint 'thing1': maxForce: found -1");
 }
 
+// A wheel of a hundredth of a milligram, a millimetre wide.
+TEST(PhysicsWorld, MovesWhatIsTiny) {
+  SceneSpec spec;
+  addHinged(spec, "wheel", 1e-8, 1e-14);
+  PhysicsWorld world(compile(spec));
+  world.setMotors(std::vector<Motor>{{.target = 3e-14}});
+  run(world, 0.5);
+  EXPECT_NEAR(world.state().v[0], 1.5, 1e-9);
+}
+
 TEST(PhysicsWorld, RefusesWhatItCannotSimulate) {
   SceneSpec spec;
   addHinged(spec, "arm", 1, 0.1);
   addHinged(spec, "hand", 0, 0).parent = "arm";
-  EXPECT_REX_ERROR(PhysicsWorld(compile(spec)), "joint 'hand': found no mass that resists it in body 'hand'");
-  EXPECT_REX_ERROR(PhysicsWorld(compile(spec)), "wanted a mass and an inertia of body 'hand'");
-  spec.bodies[1].mass = 1;
+  EXPECT_REX_ERROR(PhysicsWorld(compile(spec)),
+                   "joint 'hand' moves no mass: wanted some: give body 'hand' a");
+  std::swap(spec.bodies[0].mass, spec.bodies[1].mass);
+  std::swap(spec.bodies[0].inertia, spec.bodies[1].inertia);
+  EXPECT_REX_ERROR(PhysicsWorld(compile(spec)), "joint 'arm' moves no mass: wanted some: give body 'arm' a");
+  spec.bodies[0].mass = 1;
+  spec.bodies[0].inertia = 1e-15 / 2 * Eigen::Matrix3d::Identity();
+  spec.bodies[1].inertia = 1e-15 / 4 * Eigen::Matrix3d::Identity();
+  EXPECT_REX_ERROR(PhysicsWorld(compile(spec)), "joint 'arm': found less to move than numbers can hold");
+  EXPECT_REX_ERROR(PhysicsWorld(compile(spec)), "wanted 1e-15 kg or kg m^2 at least");
   spec.bodies[1].inertia = Eigen::Matrix3d::Identity();
   spec.joints[1].type = JointType::kScrew;
-  EXPECT_REX_ERROR(PhysicsWorld(compile(spec)), "joint 'hand': found a screw, wanted a hinge, a slider");
+  EXPECT_REX_ERROR(PhysicsWorld(compile(spec)),
+                   "joint 'hand': found a screw, wanted joints whose coordinates are their own");
   spec.joints[1].type = JointType::kHinge;
   spec.joints[1].mimic = "arm";
   EXPECT_REX_ERROR(PhysicsWorld(compile(spec)), "joint 'hand': found a joint that mimics another");
+  EXPECT_REX_ERROR(PhysicsWorld(compile(spec)), "can be simulated (stepDynamics, rex simulate --engine rk4)");
+}
+
+TEST(PhysicsWorld, LongStepsAreManyShortOnes) {
+  const Model model = heap();
+  PhysicsWorld world(model), inStrides(model);
+  run(world, 0.5);
+  inStrides.step(0.3);
+  inStrides.step(0.2);
+  EXPECT_LT((world.state().q - inStrides.state().q).norm(), 1e-9);
+  EXPECT_NEAR(inStrides.state().time, 0.5, 1e-12);
+}
+
+TEST(PhysicsWorld, TurnsAsFarAsItSpins) {
+  SceneSpec spec;
+  addLoose(spec, "ball", 1, ballShape(0.1), {});
+  const Model model = compile(spec);
+  State state = initialState(model);
+  state.v[5] = 100;
+  PhysicsWorld world(model);
+  world.setState(state);
+  world.step(0.1);
+  const Eigen::Matrix3d wanted = expSO3(Eigen::Vector3d(0, 0, 10));
+  EXPECT_LT((rotationFromQuaternion(world.state().q.tail<4>()) - wanted).norm(), 1e-9);
+}
+
+TEST(PhysicsWorld, GoesBackToTheStartOfALongStep) {
+  SceneSpec spec;
+  addHinged(spec, "wheel", 1, 0.5);
+  PhysicsWorld world(compile(spec), {.gravity_W = Eigen::Vector3d::Zero()});
+  world.setMotors(std::vector<Motor>{{.target = 5e7}});  // beyond 1e6 rad/s after 10 ms
+  EXPECT_REX_ERROR(world.step(0.1), "joint 'wheel' at 0.01 s");
+  EXPECT_EQ(world.state().q[0], 0);
+  EXPECT_EQ(world.state().v[0], 0);
+  EXPECT_EQ(world.state().time, 0);
 }
 
 TEST(PhysicsWorld, ReportsABlowUpAndGoesBack) {
