@@ -51,11 +51,11 @@ void byMassMatrix(const Model& model, const VectorArg& q, const VectorArg& v, co
   workspace.M.resize(model.nv(), model.nv());
   workspace.F.resize(model.nv());
   massMatrix(model, q, workspace, workspace.M);
-  a.setZero();
-  inverseDynamics(model, q, v, a, gravity_W, workspace, workspace.F);
-  a = u - workspace.F;
-  const int freedom = solveFromLast(workspace.M, a);
+  biasForces(model, q, v, gravity_W, workspace, workspace.F);
+  workspace.F = u - workspace.F;
+  const int freedom = solveFromLast(workspace.M, workspace.F);
   if (freedom != kRegular) internal::throwSingular(model, linkOf(model, freedom));
+  a = workspace.F;
 }
 
 void requireSizes(const Model& model, const VectorArg& q, const VectorArg& v, const VectorArg& u) {
