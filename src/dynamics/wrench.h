@@ -17,7 +17,8 @@ struct Wrench {
 /// What wrenches do at the joints (nv), to be added to u: the sum of J_Q^T force + J_w^T torque.
 [[nodiscard]] Eigen::VectorXd wrenchForces(const Model& model, const BodyPoses& poses,
                                            std::span<const Wrench> wrenches);
-/// Overload for hot loops. The caller owns u, which must be nv already. Leaves the workspace's poses alone.
+/// Overload for hot loops. The caller owns u, which must be nv already; else throws Error naming both sizes.
+/// The poses may be those of the workspace.
 void wrenchForces(const Model& model, const BodyPoses& poses, std::span<const Wrench> wrenches,
                   DynamicsWorkspace& workspace, Eigen::Ref<Eigen::VectorXd> u);
 
