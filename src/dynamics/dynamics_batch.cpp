@@ -95,8 +95,7 @@ void internal::forwardDynamicsBatch(const ForwardDynamicsKernel& kernel, const M
   }
   forEachBlock(kernel, model, Q, V, U, gravity_W, workspace, A, [&](const DynamicsTask& task) {
     const int link = kernel.block(task);
-    if (link != ForwardDynamicsKernel::kRegular)
-      throwSingular(model, model.links()[static_cast<std::size_t>(link)]);
+    if (link != ForwardDynamicsKernel::kRegular) throwSingular(model, jointOfLink(model, link));
   });
 }
 

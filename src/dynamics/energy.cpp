@@ -8,18 +8,25 @@ namespace rex {
 
 using internal::MassInWorld;
 
-Energy energy(const Model& model, const VectorArg& q, const VectorArg& v, const Eigen::Vector3d& gravity_W) {
+Energy energy(const Model& model, const VectorArg& q, const VectorArg& v, const Eigen::Vector3d& gravity_W,
+              DynamicsWorkspace& workspace) {
   requireSize("joint velocities v", v.size(), model.nv());
-  const BodyPoses poses = forwardKinematics(model, q);
-  const std::vector<Vector6d> V = internal::bodyTwists(model, poses, v);
+  forwardKinematics(model, q, workspace.poses);
+  internal::bodyTwists(model, workspace.poses, v, workspace.perBody);
+  const std::vector<Vector6d>& V = workspace.perBody;
   Energy energy;
   for (std::size_t i = 0; i < V.size(); ++i) {
-    const MassInWorld body(model.bodies()[i], poses.X_WB[i]);
+    const MassInWorld body(model.bodies()[i], workspace.poses.X_WB[i]);
     const Eigen::Vector3d w = V[i].tail<3>();
     energy.kinetic += 0.5 * (body.mass * body.velocity(V[i]).squaredNorm() + w.dot(body.I * w));
     energy.potential -= body.mass * gravity_W.dot(body.p);
   }
   return energy;
+}
+
+Energy energy(const Model& model, const VectorArg& q, const VectorArg& v, const Eigen::Vector3d& gravity_W) {
+  DynamicsWorkspace workspace;
+  return energy(model, q, v, gravity_W, workspace);
 }
 
 EnergyGradient energyGradient(const Model& model, const VectorArg& q, const VectorArg& v,

@@ -14,6 +14,9 @@ struct Energy {
 /// cannot move. Slides 3:22 and 3:25. Throws as inverseDynamics.
 [[nodiscard]] Energy energy(const Model& model, const VectorArg& q, const VectorArg& v,
                             const Eigen::Vector3d& gravity_W = earthGravity());
+/// Overload for hot loops.
+[[nodiscard]] Energy energy(const Model& model, const VectorArg& q, const VectorArg& v,
+                            const Eigen::Vector3d& gravity_W, DynamicsWorkspace& workspace);
 
 /// Derivatives of the total energy T + U (nv each).
 struct EnergyGradient {

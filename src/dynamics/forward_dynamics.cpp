@@ -1,6 +1,5 @@
 #include "dynamics/forward_dynamics.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/cpu_lanes.h"
@@ -9,6 +8,7 @@
 #include "dynamics/kernel_room_internal.h"
 #include "dynamics/mass_matrix.h"
 #include "dynamics/requirements_internal.h"
+#include "scene/coordinates.h"
 
 namespace rex {
 namespace {
@@ -36,26 +36,17 @@ int solveFromLast(Eigen::MatrixXd& M, Eigen::Ref<Eigen::VectorXd> b) {
   return kRegular;
 }
 
-// The link that a freedom moves first.
-const Link& linkOf(const Model& model, int freedom) {
-  return *std::ranges::find_if(model.links(), [&](const Link& link) {
-    const int count = link.kind == Link::Kind::kQuaternion ? 3 : 1;
-    return link.vIndex <= freedom && freedom < link.vIndex + count &&
-           !model[model[BodyId{link.body}].joint].mimics;
-  });
-}
-
 void byMassMatrix(const Model& model, const VectorArg& q, const VectorArg& v, const VectorArg& u,
                   const Eigen::Vector3d& gravity_W, DynamicsWorkspace& workspace,
                   Eigen::Ref<Eigen::VectorXd> a) {
   workspace.M.resize(model.nv(), model.nv());
   workspace.F.resize(model.nv());
   massMatrix(model, q, workspace, workspace.M);
-  a.setZero();
-  inverseDynamics(model, q, v, a, gravity_W, workspace, workspace.F);
-  a = u - workspace.F;
-  const int freedom = solveFromLast(workspace.M, a);
-  if (freedom != kRegular) internal::throwSingular(model, linkOf(model, freedom));
+  biasForces(model, q, v, gravity_W, workspace, workspace.F);
+  workspace.F = u - workspace.F;
+  const int freedom = solveFromLast(workspace.M, workspace.F);
+  if (freedom != kRegular) internal::throwSingular(model, jointOfVelocity(model, freedom));
+  a = workspace.F;
 }
 
 void requireSizes(const Model& model, const VectorArg& q, const VectorArg& v, const VectorArg& u) {
@@ -84,7 +75,7 @@ void forwardDynamics(const Model& model, const VectorArg& q, const VectorArg& v,
                                .given = &forces,
                                .result = &accelerations,
                                .memory = internal::roomFor(kernel, model, 1, workspace)});
-  if (link != kRegular) internal::throwSingular(model, model.links()[static_cast<std::size_t>(link)]);
+  if (link != kRegular) internal::throwSingular(model, internal::jointOfLink(model, link));
 }
 
 Eigen::VectorXd forwardDynamics(const Model& model, const VectorArg& q, const VectorArg& v,

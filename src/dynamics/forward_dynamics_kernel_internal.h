@@ -7,7 +7,8 @@ namespace rex::internal {
 /// Forward dynamics in plain numbers, for models without joints that mimic: given are forces, results are
 /// accelerations.
 struct ForwardDynamicsKernel {
-  /// Returns kRegular, or the place of a link whose coordinate meets no inertia; no result is written then.
+  /// Returns kRegular, or the place of a link whose coordinate meets no inertia. Results of that state are
+  /// not written then, nor of those after it; those of states before it in a block may be.
   using Solve = int (*)(const DynamicsTask& task);
   static constexpr int kRegular = -1;
   /// An inertia below this share of Link::largestInertia is none: rounding leaves some 1e-16 of a chain that

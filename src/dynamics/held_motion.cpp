@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -39,31 +37,15 @@ Quaternion turnBy(const Eigen::Vector3d& rotationVector) {
   return turn;
 }
 
-template <class Index, class Count>
-const std::string& jointWith(const Model& model, Eigen::Index i, const Index& index, const Count& count) {
-  const auto found = std::find_if(model.joints().begin(), model.joints().end(), [&](const Joint& joint) {
-    return !joint.mimics && i >= joint.*index && i < joint.*index + joint.*count;
-  });
-  assert(found != model.joints().end());
-  return found->name;
-}
-
 }  // namespace
-
-const std::string& jointOfPosition(const Model& model, Eigen::Index i) {
-  return jointWith(model, i, &Joint::qIndex, &Joint::nq);
-}
-
-const std::string& jointOfVelocity(const Model& model, Eigen::Index i) {
-  return jointWith(model, i, &Joint::vIndex, &Joint::nv);
-}
 
 HeldMotion::HeldMotion(const Model& model, const Eigen::Vector3d& gravity_W, const JointForces& jointForces)
     : model_(model),
       gravity_W_(gravity_W),
       jointForces_(jointForces),
       u_(Eigen::VectorXd::Zero(model.nv())),
-      forces_(Eigen::VectorXd::Zero(model.nv())) {
+      forces_(Eigen::VectorXd::Zero(model.nv())),
+      added_(Eigen::VectorXd::Zero(model.nv())) {
   forEachQuaternion(model, [&](int iq, int iv) { quaternions_.push_back({iq, iv}); });
 }
 
@@ -74,13 +56,17 @@ void HeldMotion::hold(const VectorArg& u, double time) {
 
 void HeldMotion::accelerate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& a) {
   requireBounded(q, v);
+  forces_ = u_;
   if (jointForces_.any()) {
-    jointForces(model_, q, v, jointForces_, forces_);
-    forces_ += u_;
-    forwardDynamics(model_, q, v, forces_, gravity_W_, workspace_, a);
-  } else {
-    forwardDynamics(model_, q, v, u_, gravity_W_, workspace_, a);
+    jointForces(model_, q, v, jointForces_, added_);
+    forces_ += added_;
   }
+  if (!wrenches_.empty()) {
+    forwardKinematics(model_, q, workspace_.poses);
+    wrenchForces(model_, workspace_.poses, wrenches_, workspace_, added_);
+    forces_ += added_;
+  }
+  forwardDynamics(model_, q, v, forces_, gravity_W_, workspace_, a);
 }
 
 void HeldMotion::rate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& dq) const {
@@ -115,9 +101,9 @@ void HeldMotion::requireBounded(const Eigen::VectorXd& q, const Eigen::VectorXd&
                  .wanted = "less than the speed of light: take shorter steps or smaller forces"});
   };
   for (Eigen::Index i = 0; i < v.size(); ++i)
-    if (!(std::abs(v[i]) < kSpeedOfLight)) fail(jointOfVelocity(model_, i), "velocity", v[i]);
+    if (!(std::abs(v[i]) < kSpeedOfLight)) fail(jointOfVelocity(model_, i).name, "velocity", v[i]);
   for (Eigen::Index i = 0; i < q.size(); ++i)
-    if (!std::isfinite(q[i])) fail(jointOfPosition(model_, i), "position", q[i]);
+    if (!std::isfinite(q[i])) fail(jointOfPosition(model_, i).name, "position", q[i]);
 }
 
 }  // namespace rex::internal

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "dynamics/inverse_dynamics.h"
 #include "dynamics/joint_forces.h"
+#include "dynamics/wrench.h"
 
 namespace rex::internal {
 
@@ -24,8 +26,11 @@ class HeldMotion {
 
   /// What holds until the next call: u, and the time that errors name.
   void hold(const VectorArg& u, double time);
+  /// What pushes until the next call: none at first.
+  void push(std::vector<Wrench> wrenches) { wrenches_ = std::move(wrenches); }
 
-  /// dv/dt (nv), with the forces that joints add. Throws Error as forwardDynamics and requireBounded.
+  /// dv/dt (nv), with the forces that joints and wrenches add. Throws Error as forwardDynamics and
+  /// requireBounded.
   void accelerate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& a);
   /// dq/dt (nq): v, and of quaternions q o (0, v) / 2. Linear in q, so they need not be unit ones.
   void rate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& dq) const;
@@ -41,13 +46,10 @@ class HeldMotion {
   Eigen::Vector3d gravity_W_;
   JointForces jointForces_;
   std::vector<QuaternionPlace> quaternions_;
+  std::vector<Wrench> wrenches_{};
   DynamicsWorkspace workspace_{};
-  Eigen::VectorXd u_, forces_;
+  Eigen::VectorXd u_, forces_, added_;  // forces_: u_ and all that is added
   double time_ = 0;
 };
-
-/// The name of the joint that q[i] or v[i] belongs to.
-[[nodiscard]] const std::string& jointOfPosition(const Model& model, Eigen::Index i);
-[[nodiscard]] const std::string& jointOfVelocity(const Model& model, Eigen::Index i);
 
 }  // namespace rex::internal

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "dynamics/integrators_internal.h"
+#include "scene/coordinates.h"
 
 namespace rex::internal {
 
@@ -106,11 +107,13 @@ void Leapfrog::findMiddle(HeldMotion& motion, const Eigen::VectorXd& v, double h
         change <= kSmall * (a_.lpNorm<Eigen::Infinity>() + v.lpNorm<Eigen::Infinity>() / std::abs(h));
     if (change == 0 || (isSmall && change >= before / 2)) return;
   }
-  throw Error(
-      {.what = fmt::format("leapfrog: the acceleration in the middle of the step to {:g} s is not found",
-                           motion.time()),
-       .found = fmt::format("a step of {:g} s", h),
-       .wanted = "a shorter one"});
+  Eigen::Index most = 0;
+  (next_ - a_).cwiseAbs().maxCoeff(&most);
+  throw Error({.what = fmt::format(
+                   "joint '{}': its acceleration in the middle of the leapfrog to {:g} s is not found",
+                   jointOfVelocity(motion.model(), most).name, motion.time()),
+               .found = fmt::format("a step of {:g} s", h),
+               .wanted = "a shorter one"});
 }
 
 }  // namespace rex::internal

@@ -50,10 +50,11 @@ class Beeman {
 };
 
 /// Half a step with the old velocity, a kick, half a step with the new one. The acceleration of the kick is
-/// that in the middle, at the mean of both velocities: with h and -h the same.
+/// that in the middle, at the mean of both velocities: with h and -h the same. Where forces depend on q only,
+/// this is the textbook's.
 class Leapfrog {
  public:
-  /// Throws Error naming time and h if that acceleration is not found.
+  /// Throws Error naming time, h and the joint that changes most if that acceleration is not found.
   void step(HeldMotion& motion, const State& from, double h, State& to);
 
  private:

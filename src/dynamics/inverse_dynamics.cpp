@@ -37,13 +37,31 @@ Eigen::VectorXd inverseDynamics(const Model& model, const VectorArg& q, const Ve
   return u;
 }
 
+void biasForces(const Model& model, const VectorArg& q, const VectorArg& v, const Eigen::Vector3d& gravity_W,
+                DynamicsWorkspace& workspace, Eigen::Ref<Eigen::VectorXd> F) {
+  workspace.zeros.setZero(model.nv());
+  inverseDynamics(model, q, v, workspace.zeros, gravity_W, workspace, F);
+}
+
 Eigen::VectorXd biasForces(const Model& model, const VectorArg& q, const VectorArg& v,
                            const Eigen::Vector3d& gravity_W) {
-  return inverseDynamics(model, q, v, Eigen::VectorXd::Zero(model.nv()), gravity_W);
+  DynamicsWorkspace workspace;
+  Eigen::VectorXd F(model.nv());
+  biasForces(model, q, v, gravity_W, workspace, F);
+  return F;
+}
+
+void gravityForces(const Model& model, const VectorArg& q, const Eigen::Vector3d& gravity_W,
+                   DynamicsWorkspace& workspace, Eigen::Ref<Eigen::VectorXd> G) {
+  workspace.zeros.setZero(model.nv());
+  inverseDynamics(model, q, workspace.zeros, workspace.zeros, gravity_W, workspace, G);
 }
 
 Eigen::VectorXd gravityForces(const Model& model, const VectorArg& q, const Eigen::Vector3d& gravity_W) {
-  return biasForces(model, q, Eigen::VectorXd::Zero(model.nv()), gravity_W);
+  DynamicsWorkspace workspace;
+  Eigen::VectorXd G(model.nv());
+  gravityForces(model, q, gravity_W, workspace, G);
+  return G;
 }
 
 }  // namespace rex

@@ -17,7 +17,7 @@ inline Eigen::Vector3d earthGravity() { return {0, 0, -9.81}; }
 [[nodiscard]] Eigen::VectorXd inverseDynamics(const Model& model, const VectorArg& q, const VectorArg& v,
                                               const VectorArg& a,
                                               const Eigen::Vector3d& gravity_W = earthGravity());
-/// Overload for hot loops. The caller owns u, which must be nv already.
+/// Overload for hot loops. The caller owns u, which must be nv already and may be a or v.
 void inverseDynamics(const Model& model, const VectorArg& q, const VectorArg& v, const VectorArg& a,
                      const Eigen::Vector3d& gravity_W, DynamicsWorkspace& workspace,
                      Eigen::Ref<Eigen::VectorXd> u);
@@ -25,8 +25,15 @@ void inverseDynamics(const Model& model, const VectorArg& q, const VectorArg& v,
 /// F(q, v), Coriolis, centrifugal and gravity terms: the forces that keep the velocity. Slide 3:24.
 [[nodiscard]] Eigen::VectorXd biasForces(const Model& model, const VectorArg& q, const VectorArg& v,
                                          const Eigen::Vector3d& gravity_W = earthGravity());
+/// Overload for hot loops. The caller owns F, which must be nv already and may be v.
+void biasForces(const Model& model, const VectorArg& q, const VectorArg& v, const Eigen::Vector3d& gravity_W,
+                DynamicsWorkspace& workspace, Eigen::Ref<Eigen::VectorXd> F);
+
 /// G(q), the forces that hold the robot still: the derivative of its potential energy. Slide 3:24.
 [[nodiscard]] Eigen::VectorXd gravityForces(const Model& model, const VectorArg& q,
                                             const Eigen::Vector3d& gravity_W = earthGravity());
+/// Overload for hot loops. The caller owns G, which must be nv already.
+void gravityForces(const Model& model, const VectorArg& q, const Eigen::Vector3d& gravity_W,
+                   DynamicsWorkspace& workspace, Eigen::Ref<Eigen::VectorXd> G);
 
 }  // namespace rex

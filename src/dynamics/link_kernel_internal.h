@@ -69,7 +69,7 @@ inline Sym3<T> symmetric(const Mat3<T>& m) {
 }
 /// R S R^T.
 template <class T>
-inline Sym3<T> rotated(const Mat3<T>& R, const Sym3<T>& S) {
+[[gnu::always_inline]] inline Sym3<T> rotated(const Mat3<T>& R, const Sym3<T>& S) {
   return symmetric(R * full(S) * transposed(R));
 }
 template <class T>

@@ -27,7 +27,18 @@ Eigen::MatrixXd massMatrix(const Model& model, const VectorArg& q) {
 
 EquationOfMotion equationOfMotion(const Model& model, const VectorArg& q, const VectorArg& v,
                                   const Eigen::Vector3d& gravity_W) {
-  return {massMatrix(model, q), biasForces(model, q, v, gravity_W)};
+  DynamicsWorkspace workspace;
+  EquationOfMotion motion;
+  equationOfMotion(model, q, v, gravity_W, workspace, motion);
+  return motion;
+}
+
+void equationOfMotion(const Model& model, const VectorArg& q, const VectorArg& v,
+                      const Eigen::Vector3d& gravity_W, DynamicsWorkspace& workspace, EquationOfMotion& out) {
+  out.M.resize(model.nv(), model.nv());
+  out.F.resize(model.nv());
+  massMatrix(model, q, workspace, out.M);
+  biasForces(model, q, v, gravity_W, workspace, out.F);
 }
 
 }  // namespace rex

@@ -18,5 +18,8 @@ struct EquationOfMotion {
 };
 [[nodiscard]] EquationOfMotion equationOfMotion(const Model& model, const VectorArg& q, const VectorArg& v,
                                                 const Eigen::Vector3d& gravity_W = earthGravity());
+/// Overload for hot loops. Gives M and F their sizes, which allocates at most once.
+void equationOfMotion(const Model& model, const VectorArg& q, const VectorArg& v,
+                      const Eigen::Vector3d& gravity_W, DynamicsWorkspace& workspace, EquationOfMotion& out);
 
 }  // namespace rex

@@ -25,14 +25,17 @@ bool hasMimics(const Model& model) {
   return static_cast<int>(model.links().size()) > linksOfTheirOwn;
 }
 
-void throwSingular(const Model& model, const Link& link) {
-  const Body& body = model[BodyId{link.body}];
-  const std::string& joint = model[body.joint].name;
+const Joint& jointOfLink(const Model& model, int link) {
+  return model[model[BodyId{model.links()[static_cast<std::size_t>(link)].body}].joint];
+}
+
+void throwSingular(const Model& model, const Joint& joint) {
+  const Body& body = model[joint.child];
   if (body.mass > 0) {
-    throw Error({.what = fmt::format("joint '{}' moves no inertia", joint),
+    throw Error({.what = fmt::format("joint '{}' moves no inertia", joint.name),
                  .wanted = fmt::format("some about its axis: give body '{}' an inertia", body.name)});
   }
-  throw Error({.what = fmt::format("joint '{}' moves no mass", joint),
+  throw Error({.what = fmt::format("joint '{}' moves no mass", joint.name),
                .wanted = fmt::format("some: give body '{}' a mass", body.name)});
 }
 

@@ -12,7 +12,10 @@ void requireVelocities(const Model& model, const VectorArg& v);
 /// Whether links share coordinates.
 [[nodiscard]] bool hasMimics(const Model& model);
 
-/// Throws Error: the joint of the link moves no mass. Says which body needs some.
-[[noreturn]] void throwSingular(const Model& model, const Link& link);
+/// The joint that the link at this place of Model::links() belongs to.
+[[nodiscard]] const Joint& jointOfLink(const Model& model, int link);
+
+/// Throws Error: the joint moves no mass. Says which body needs some.
+[[noreturn]] void throwSingular(const Model& model, const Joint& joint);
 
 }  // namespace rex::internal

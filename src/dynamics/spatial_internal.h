@@ -49,9 +49,10 @@ void forEachFreedomOf(const Model& model, BodyId body, const Visit& visit) {
     visit(joint.vIndex + i, joint, joint.freedoms[static_cast<std::size_t>(i)]);
 }
 
-/// Twists of all bodies, by BodyId.
-inline std::vector<Vector6d> bodyTwists(const Model& model, const BodyPoses& poses, const VectorArg& v) {
-  std::vector<Vector6d> V(model.bodies().size(), Vector6d::Zero());
+/// Twists of all bodies, by BodyId, into V.
+inline void bodyTwists(const Model& model, const BodyPoses& poses, const VectorArg& v,
+                       std::vector<Vector6d>& V) {
+  V.assign(model.bodies().size(), Vector6d::Zero());
   for (int i = 1; i < static_cast<int>(V.size()); ++i) {
     const std::size_t at = static_cast<std::size_t>(i);
     V[at] = V[static_cast<std::size_t>(model[BodyId{i}].parent)];
@@ -59,6 +60,10 @@ inline std::vector<Vector6d> bodyTwists(const Model& model, const BodyPoses& pos
       V[at] += v[column] * freedomTwist(joint, freedom, poses);
     });
   }
+}
+inline std::vector<Vector6d> bodyTwists(const Model& model, const BodyPoses& poses, const VectorArg& v) {
+  std::vector<Vector6d> V;
+  bodyTwists(model, poses, v, V);
   return V;
 }
 

@@ -2,12 +2,14 @@
 
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/rng.h"
 #include "dynamics/integrators_internal.h"
+#include "scene/coordinates.h"
 
 namespace rex {
 namespace {
@@ -22,7 +24,7 @@ template <class JointOf>
 void requireFinite(const char* what, const Model& model, const VectorArg& numbers, const JointOf& jointOf) {
   for (Eigen::Index i = 0; i < numbers.size(); ++i) {
     if (!std::isfinite(numbers[i]))
-      requireFinite(fmt::format("{}: number {}, of joint '{}'", what, i, jointOf(model, i)), numbers[i]);
+      requireFinite(fmt::format("{}: number {}, of joint '{}'", what, i, jointOf(model, i).name), numbers[i]);
   }
 }
 
@@ -47,8 +49,8 @@ void requireStep(double h, bool mayBeNegative) {
 void requireState(const Model& model, const State& state) {
   requireSize("joint positions q", state.q.size(), model.nq());
   requireSize("joint velocities v", state.v.size(), model.nv());
-  requireFinite("joint positions q", model, state.q, internal::jointOfPosition);
-  requireFinite("joint velocities v", model, state.v, internal::jointOfVelocity);
+  requireFinite("joint positions q", model, state.q, jointOfPosition);
+  requireFinite("joint velocities v", model, state.v, jointOfVelocity);
   requireFinite("time of the state", state.time);
 }
 
@@ -69,7 +71,7 @@ struct Stepper::Parts {
     requireStep(h, integrator == Integrator::kLeapfrog);
     requireState(motion.model(), state);
     requireSize("joint forces u", u.size(), motion.model().nv());
-    requireFinite("joint forces u", motion.model(), u, internal::jointOfVelocity);
+    requireFinite("joint forces u", motion.model(), u, jointOfVelocity);
     next.time = state.time + h;
     motion.hold(u, next.time);
     switch (integrator) {
@@ -113,9 +115,18 @@ void Stepper::step(State& state, const VectorArg& u, double h) {
 void Stepper::step(State& state, const VectorArg& u, double h, Rng& rng) {
   parts_->advance(state, u, h);
   if (parts_->noise > 0) {
-    for (double& v : parts_->next.v) v += std::sqrt(std::abs(h)) * parts_->noise * rng.normal();
+    Rng drawn = rng;
+    for (double& v : parts_->next.v) v += std::sqrt(std::abs(h)) * parts_->noise * drawn.normal();
+    parts_->motion.requireBounded(parts_->next.q, parts_->next.v);
+    rng = drawn;
   }
   state = parts_->next;
+}
+
+void Stepper::setWrenches(std::vector<Wrench> wrenches) {
+  requireValid(parts_->motion.model(), wrenches);
+  parts_->motion.push(std::move(wrenches));
+  reset();
 }
 
 void Stepper::reset() { parts_->beeman.reset(); }

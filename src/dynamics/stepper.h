@@ -1,9 +1,11 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "dynamics/inverse_dynamics.h"
 #include "dynamics/joint_forces.h"
+#include "dynamics/wrench.h"
 #include "scene/state.h"
 
 namespace rex {
@@ -17,8 +19,9 @@ enum class Integrator {
   kSemiImplicitEuler,  ///< 1, first order: q with the new v
   kRungeKutta4,        ///< 4, fourth order: the default
   kBeeman,             ///< 1, fourth order: extrapolates from two old accelerations, see Stepper::reset()
-  /// Several, second order, reversible: a step of -h undoes a step of h. The implicit midpoint rule with the
-  /// middle posture half a step of the old velocity away; iterated until only rounding changes it.
+  /// Several, second order, reversible: a step of -h undoes a step of h. The textbook's drift-kick-drift
+  /// (half a step later its kick-drift-kick), but as forces depend on v, v is kicked by the implicit midpoint
+  /// rule, iterated until only rounding changes it.
   kLeapfrog
 };
 
@@ -46,12 +49,17 @@ class Stepper {
   /// and leaves the state as it was, for wrong sizes, for numbers that are not finite, as forwardDynamics
   /// does, and if the motion grows without bounds (a joint faster than light), naming time and joint.
   void step(State& state, const VectorArg& u, double h);
-  /// The same, and adds the noise of the options. Without noise, the Rng is left alone.
+  /// The same, and adds the noise of the options. Without noise, or if it throws, the Rng is left alone.
   void step(State& state, const VectorArg& u, double h, Rng& rng);
 
-  /// Forgets old accelerations. kBeeman does so by itself where q, v, u or h are not those of its last step,
-  /// and starts again with two steps of Runge and Kutta: under a u that changes with each step, and with
-  /// noise, it is no better than kRungeKutta4. What needs telling are jumps that it cannot see: none of ours.
+  /// Pushes from outside, during all steps to come: constant in W, on points that move with their bodies.
+  /// None at first. Throws as requireValid(model, wrenches).
+  void setWrenches(std::vector<Wrench> wrenches);
+
+  /// Forgets old accelerations. Only kBeeman keeps some, and forgets them by itself where q, v, u, h or
+  /// wrenches are not those of its last step; it starts again with two steps of Runge and Kutta, so under a u
+  /// that changes with each step, and with noise, it is no better than kRungeKutta4. To be called only where
+  /// a run from the state of the last step shall have the bytes of one with a new Stepper.
   void reset();
 
  private:

@@ -2,7 +2,8 @@
 
 #include <vector>
 
-#include <Eigen/Core>
+#include "geometry/lie.h"
+#include "kinematics/forward_kinematics.h"
 
 namespace rex {
 
@@ -17,6 +18,11 @@ struct DynamicsWorkspace {
   /// M and F of models in which joints mimic others.
   Eigen::MatrixXd M{};
   Eigen::VectorXd F{};
+  /// What stands for no velocity or no acceleration.
+  Eigen::VectorXd zeros{};
+  /// Where bodies are, and a twist or a force of each.
+  BodyPoses poses{};
+  std::vector<Vector6d> perBody{};
 };
 
 }  // namespace rex

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "kinematics/forward_kinematics.h"
+#include "dynamics/workspace.h"
 
 namespace rex {
 
@@ -17,5 +17,12 @@ struct Wrench {
 /// What wrenches do at the joints (nv), to be added to u: the sum of J_Q^T force + J_w^T torque.
 [[nodiscard]] Eigen::VectorXd wrenchForces(const Model& model, const BodyPoses& poses,
                                            std::span<const Wrench> wrenches);
+/// Overload for hot loops. The caller owns u, which must be nv already; else throws Error naming both sizes.
+/// The poses may be those of the workspace.
+void wrenchForces(const Model& model, const BodyPoses& poses, std::span<const Wrench> wrenches,
+                  DynamicsWorkspace& workspace, Eigen::Ref<Eigen::VectorXd> u);
+
+/// Throws Error for a body that the model does not have, and naming the body for numbers that are not finite.
+void requireValid(const Model& model, std::span<const Wrench> wrenches);
 
 }  // namespace rex

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cassert>
+
 #include "scene/model.h"
 
 namespace rex {
@@ -23,6 +26,22 @@ void forEachQuaternion(const Model& model, const Visit& visit) {
     if (!joint.mimics && joint.nq != joint.nv)
       visit(joint.qIndex + joint.nq - 4, joint.vIndex + joint.nv - 3);
   }
+}
+
+/// The joint that q[i] or v[i] belongs to, 0 <= i < nq or nv: not one of those that mimic it.
+[[nodiscard]] inline const Joint& jointOfPosition(const Model& model, Eigen::Index i) {
+  const auto found = std::find_if(model.joints().begin(), model.joints().end(), [&](const Joint& joint) {
+    return !joint.mimics && joint.qIndex <= i && i < joint.qIndex + joint.nq;
+  });
+  assert(found != model.joints().end());
+  return *found;
+}
+[[nodiscard]] inline const Joint& jointOfVelocity(const Model& model, Eigen::Index i) {
+  const auto found = std::find_if(model.joints().begin(), model.joints().end(), [&](const Joint& joint) {
+    return !joint.mimics && joint.vIndex <= i && i < joint.vIndex + joint.nv;
+  });
+  assert(found != model.joints().end());
+  return *found;
 }
 
 }  // namespace rex

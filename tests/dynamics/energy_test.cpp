@@ -7,6 +7,7 @@
 #include "kinematics/center_of_mass.h"
 #include "optim/derivative_check.h"
 #include "scene/state.h"
+#include "support/allocations.h"
 #include "support/expect_error.h"
 #include "support/mass_matrix_by_jacobians.h"
 #include "support/random_motion.h"
@@ -82,6 +83,21 @@ TEST(EnergyGradient, IsGravityForcesAtRest) {
   EXPECT_LE((gradient.byPosition - gravityForces(model, q)).norm(), 1e-12 * gradient.byPosition.norm());
   EXPECT_EQ(gradient.byVelocity, rest);
 }
+
+#ifndef __SANITIZE_ADDRESS__
+TEST(Energy, AllocatesOnlyAtFirst) {
+  Rng rng(305);
+  const Model model = randomModel(rng, 30, Followers::kSome);
+  const Eigen::VectorXd q = randomPositions(rng, model.nq()), v = rng.normalVector(model.nv());
+  DynamicsWorkspace workspace;
+  const long before = allocations();
+  const double total = energy(model, q, v, kGravity, workspace).total();
+  const long first = allocations();
+  EXPECT_EQ(energy(model, q, v, kGravity, workspace).total(), total);
+  EXPECT_GT(first, before);
+  EXPECT_EQ(allocations(), first);
+}
+#endif
 
 TEST(Energy, NamesWrongSizes) {
   Rng rng(304);

@@ -184,10 +184,39 @@ TEST(ForwardDynamics, NamesWrongSizesAndZeroQuaternions) {
                    "joint accelerations a: found a vector of size 2, wanted size 27");
 }
 
+class ForwardDynamicsOfTrees : public testing::TestWithParam<Followers> {};
+
+// The forces, or the velocities, turn into accelerations where they stand; those of a singular tree stay.
+TEST_P(ForwardDynamicsOfTrees, WorksInPlace) {
+  Rng rng(40);
+  const Model model = randomModel(rng, 30, GetParam());
+  const RandomMotion at(rng, model);
+  const Eigen::VectorXd u = rng.normalVector(model.nv()), wanted = forwardDynamics(model, at.q, at.v, u);
+  DynamicsWorkspace workspace;
+  Eigen::VectorXd x = u;
+  forwardDynamics(model, at.q, at.v, x, earthGravity(), workspace, x);
+  EXPECT_EQ(x, wanted);
+  x = at.v;
+  forwardDynamics(model, at.q, x, u, earthGravity(), workspace, x);
+  EXPECT_EQ(x, wanted);
+}
+
+TEST_P(ForwardDynamicsOfTrees, LeavesWhatItCannotSolveForAsItWas) {
+  SceneSpec spec = chain({1, 0, 0});
+  if (GetParam() == Followers::kSome) spec.joints[2].mimic = "joint1";
+  const Model model = compile(spec);
+  const Eigen::VectorXd zeros = Eigen::VectorXd::Zero(model.nv());
+  Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(model.nv(), 1, 2);
+  const Eigen::VectorXd before = x;
+  DynamicsWorkspace workspace;
+  EXPECT_REX_ERROR(forwardDynamics(model, zeros, zeros, x, earthGravity(), workspace, x), "moves no mass");
+  EXPECT_EQ(x, before);
+}
+
 #ifndef __SANITIZE_ADDRESS__
-TEST(ForwardDynamics, AllocatesOnlyAtFirst) {
+TEST_P(ForwardDynamicsOfTrees, AllocatesOnlyAtFirst) {
   Rng rng(38);
-  const Model model = randomModel(rng, 30, Followers::kNone);
+  const Model model = randomModel(rng, 30, GetParam());
   const RandomMotion at(rng, model);
   const Eigen::VectorXd u = rng.normalVector(model.nv());
   Eigen::VectorXd a(model.nv());
@@ -200,6 +229,9 @@ TEST(ForwardDynamics, AllocatesOnlyAtFirst) {
   EXPECT_EQ(allocations(), first);
 }
 #endif
+
+INSTANTIATE_TEST_SUITE_P(PlainAndMimicking, ForwardDynamicsOfTrees,
+                         testing::Values(Followers::kNone, Followers::kSome));
 
 }  // namespace
 }  // namespace rex

@@ -104,6 +104,25 @@ TEST(InverseDynamics, NamesWrongSizesAndQuaternions) {
   EXPECT_REX_ERROR(inverseDynamics(model, at.q, at.v, a), "quaternion: found (inf, ");
 }
 
+TEST(InverseDynamics, WorksInPlace) {
+  Rng rng(26);
+  const Model model = randomModel(rng, 30, Followers::kSome);
+  const RandomMotion at(rng, model);
+  const Eigen::VectorXd a = rng.normalVector(model.nv());
+  DynamicsWorkspace workspace;
+  Eigen::VectorXd x = a;
+  inverseDynamics(model, at.q, at.v, x, earthGravity(), workspace, x);
+  EXPECT_EQ(x, inverseDynamics(model, at.q, at.v, a));
+  x = at.v;
+  inverseDynamics(model, at.q, x, a, earthGravity(), workspace, x);
+  EXPECT_EQ(x, inverseDynamics(model, at.q, at.v, a));
+  x = at.v;
+  biasForces(model, at.q, x, earthGravity(), workspace, x);
+  EXPECT_EQ(x, biasForces(model, at.q, at.v));
+  gravityForces(model, at.q, earthGravity(), workspace, x);
+  EXPECT_EQ(x, gravityForces(model, at.q));
+}
+
 #ifndef __SANITIZE_ADDRESS__
 TEST(InverseDynamics, AllocatesOnlyAtFirst) {
   Rng rng(25);
@@ -118,6 +137,12 @@ TEST(InverseDynamics, AllocatesOnlyAtFirst) {
   inverseDynamics(model, at.q, at.v, a, earthGravity(), workspace, u);
   EXPECT_GT(first, before);
   EXPECT_EQ(allocations(), first);
+
+  biasForces(model, at.q, at.v, earthGravity(), workspace, u);
+  const long withZeros = allocations();
+  biasForces(model, at.q, at.v, earthGravity(), workspace, u);
+  gravityForces(model, at.q, earthGravity(), workspace, u);
+  EXPECT_EQ(allocations(), withZeros);
 }
 #endif
 

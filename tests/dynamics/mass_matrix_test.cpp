@@ -99,6 +99,26 @@ TEST(EquationOfMotion, HoldsBothTerms) {
   EXPECT_LE((motion.M * a + motion.F - u).norm(), 1e-12 * u.norm());
 }
 
+#ifndef __SANITIZE_ADDRESS__
+TEST(EquationOfMotion, AllocatesOnlyAtFirst) {
+  Rng rng(357);
+  const Model model = randomModel(rng, 30, Followers::kSome);
+  const Eigen::VectorXd q = randomPositions(rng, model.nq()), v = rng.normalVector(model.nv());
+  DynamicsWorkspace workspace;
+  EquationOfMotion motion;
+  const long before = allocations();
+  equationOfMotion(model, q, v, earthGravity(), workspace, motion);
+  const long first = allocations();
+  motion.M.setZero();
+  motion.F.setZero();
+  equationOfMotion(model, q, v, earthGravity(), workspace, motion);
+  EXPECT_GT(first, before);
+  EXPECT_EQ(allocations(), first);
+  EXPECT_EQ(motion.M, massMatrix(model, q));
+  EXPECT_EQ(motion.F, biasForces(model, q, v));
+}
+#endif
+
 TEST(MassMatrix, NamesWrongSizes) {
   Rng rng(356);
   const Model model = compile(randomScene(rng, 3));

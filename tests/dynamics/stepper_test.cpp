@@ -14,7 +14,7 @@
 #include "support/allocations.h"
 #include "support/expect_error.h"
 #include "support/planar_chain.h"
-#include "support/random_scene.h"
+#include "support/random_motion.h"
 
 namespace rex {
 namespace {
@@ -185,7 +185,7 @@ TEST(Stepper, BeemanStartsAgainAtJumps) {
     if (what == 2) force[0] += 1e-9;
     if (what == 3) h *= 1.5;
   };
-  for (int what = 0; what < 5; ++what) {
+  for (int what = 0; what < 6; ++what) {
     Stepper stepper(model, options);
     State state = initialState(model);
     Eigen::VectorXd force = u;
@@ -194,6 +194,10 @@ TEST(Stepper, BeemanStartsAgainAtJumps) {
     jump(what, state, force, h);
     if (what == 4) stepper.reset();
     Stepper fresh(model, options);
+    if (what == 5) {
+      stepper.setWrenches({{.body = model.body("link2"), .force_W = {0, 0, 1}}});
+      fresh.setWrenches({{.body = model.body("link2"), .force_W = {0, 0, 1}}});
+    }
     State other = state;
     for (int i = 0; i < 10; ++i) {
       stepper.step(state, force, h);
@@ -242,21 +246,25 @@ TEST(Stepper, AllocatesNothing) {
   GTEST_SKIP() << "the sanitizer has an allocator of its own";
 #endif
   Rng rng(8);
-  const Model model = compile(randomScene(rng, 13));
-  for (const Integrator integrator : kAll) {
-    Stepper stepper(
-        model,
-        {.integrator = integrator, .jointForces = {.friction = true, .limitStiffness = 1}, .noise = 1e-3});
-    State state{randomPositions(rng, model.nq()), 0.1 * rng.normalVector(model.nv())};
-    const Eigen::VectorXd u = Eigen::VectorXd::Zero(model.nv());
-    const auto steps = [&] {
-      stepper.step(state, u, 0.001, rng);  // a jump for Beeman's
-      for (int i = 0; i < 4; ++i) stepper.step(state, u, 0.001);
-    };
-    steps();
-    const long before = allocations();
-    steps();
-    EXPECT_EQ(allocations(), before) << int(integrator);
+  const Model plain = randomModel(rng, 13, Followers::kNone),
+              mimicking = randomModel(rng, 16, Followers::kSome);
+  for (const Model& model : {plain, mimicking}) {
+    for (const Integrator integrator : kAll) {
+      Stepper stepper(
+          model,
+          {.integrator = integrator, .jointForces = {.friction = true, .limitStiffness = 1}, .noise = 1e-3});
+      stepper.setWrenches({{.body = BodyId{7}, .force_W = {1, 2, 3}}});
+      State state{randomPositions(rng, model.nq()), 0.1 * rng.normalVector(model.nv())};
+      const Eigen::VectorXd u = Eigen::VectorXd::Zero(model.nv());
+      const auto steps = [&] {
+        stepper.step(state, u, 0.001, rng);  // a jump for Beeman's
+        for (int i = 0; i < 4; ++i) stepper.step(state, u, 0.001);
+      };
+      steps();
+      const long before = allocations();
+      steps();
+      EXPECT_EQ(allocations(), before) << int(integrator);
+    }
   }
 }
 
@@ -373,7 +381,13 @@ TEST_P(StepperErrors, ReportWhatGrowsWithoutBounds) {
   } catch (const Error& error) {
     message = error.what();
   }
-  EXPECT_THAT(message, testing::AnyOf(testing::HasSubstr("joint 'hinge"), testing::HasSubstr("leapfrog")));
+  const auto unbounded = testing::HasSubstr("': its motion grows without bounds at ");
+  EXPECT_THAT(message, testing::StartsWith("joint 'hinge"));
+  if (GetParam() == Integrator::kLeapfrog) {
+    EXPECT_THAT(message, testing::AnyOf(unbounded, testing::HasSubstr("': its acceleration in the middle")));
+  } else {
+    EXPECT_THAT(message, unbounded);
+  }
   EXPECT_TRUE(state.v.allFinite());
   expectError(state, u_, 0.1, message);
 }
@@ -407,6 +421,21 @@ TEST(Stepper, ReportsPositionsThatOverflow) {
                    "joint 'fall': its motion grows without bounds at 1e+301 s: found a position of inf");
 }
 
+// Numbers that are too large only with the noise.
+TEST_P(StepperErrors, ReportNoiseBeyondLight) {
+  for (const double noise : {1e12, 1e308}) {
+    Stepper stepper(model_, {.integrator = GetParam(), .noise = noise});
+    State state = start_;
+    Rng rng(1);
+    EXPECT_REX_ERROR(stepper.step(state, u_, 0.01, rng),
+                     "': its motion grows without bounds at 0.01 s: found a velocity of ");
+    EXPECT_EQ(rng.state(), Rng(1).state());
+    EXPECT_EQ(state.q, start_.q);
+    EXPECT_EQ(state.v, start_.v);
+    EXPECT_EQ(state.time, 0);
+  }
+}
+
 // Damping so strong that the mean velocity cannot be found one guess after the other.
 TEST(Stepper, LeapfrogReportsStepsItCannotTake) {
   Stepper stepper(stone(2, 400), {.integrator = Integrator::kLeapfrog, .jointForces = {.friction = true}});
@@ -414,9 +443,31 @@ TEST(Stepper, LeapfrogReportsStepsItCannotTake) {
   stepper.step(state, Eigen::VectorXd::Zero(1), 0.005);
   const State before = state;
   EXPECT_REX_ERROR(stepper.step(state, Eigen::VectorXd::Zero(1), 0.01),
-                   "leapfrog: the acceleration in the middle of the step to 0.015 s is not found: "
+                   "joint 'fall': its acceleration in the middle of the leapfrog to 0.015 s is not found: "
                    "found a step of 0.01 s, wanted a shorter one");
   EXPECT_EQ(state.v, before.v);
+}
+
+// Of two stones side by side, the second is the one that is damped.
+TEST(Stepper, LeapfrogNamesTheJointThatChangesMost) {
+  SceneSpec spec{.name = "stones", .bodies = {}, .joints = {}, .worldShapes = {}};
+  for (const char* name : {"light", "damped"}) {
+    spec.bodies.push_back({.name = name, .X_WB = {}, .mass = 2});
+    spec.joints.push_back({.name = std::string(name) + "Fall",
+                           .parent = "world",
+                           .child = name,
+                           .type = JointType::kSlider,
+                           .X_PF = {},
+                           .X_MC = {}});
+  }
+  spec.joints[1].damping = 404;
+  const Model model = compile(spec);
+  State state = initialState(model);
+  state.v.setOnes();
+  Stepper stepper(model, {.integrator = Integrator::kLeapfrog, .jointForces = {.friction = true}});
+  EXPECT_REX_ERROR(
+      stepper.step(state, Eigen::Vector2d::Zero(), 0.01),
+      "joint 'dampedFall': its acceleration in the middle of the leapfrog to 0.01 s is not found");
 }
 
 TEST(Stepper, NamesWhatMovesNoMass) {

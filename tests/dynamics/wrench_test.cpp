@@ -7,6 +7,7 @@
 #include "kinematics/jacobians.h"
 #include "optim/derivative_check.h"
 #include "scene/state.h"
+#include "support/expect_error.h"
 #include "support/random_motion.h"
 
 namespace rex {
@@ -76,6 +77,16 @@ TEST(WrenchForces, OfNoneAndOnTheWorldAreZero) {
   EXPECT_EQ(wrenchForces(model, poses, {}), Eigen::VectorXd::Zero(model.nv()));
   const Wrench onWorld{.force_W = {1, 2, 3}, .torque_W = {4, 5, 6}};
   EXPECT_EQ(wrenchForces(model, poses, {&onWorld, 1}), Eigen::VectorXd::Zero(model.nv()));
+}
+
+TEST(WrenchForces, NamesWrongSizes) {
+  Rng rng(335);
+  const Model model = compile(randomScene(rng, 3));
+  DynamicsWorkspace workspace;
+  Eigen::VectorXd five(5);
+  EXPECT_REX_ERROR(
+      wrenchForces(model, forwardKinematics(model, Eigen::Vector2d::Zero()), {}, workspace, five),
+      "joint forces u: found a vector of size 5, wanted size 2");
 }
 
 }  // namespace
