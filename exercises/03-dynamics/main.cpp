@@ -31,14 +31,14 @@ Gains gainsFor(Regime regime, double T, double mass) {
   return {};
 }
 
-PidStep pidStep(const PointState& at, const PointState& wanted, const PidGains& gains, double integral,
+PidStep pidStep(const PointState& at, const PointState& wanted, const PidSettings& gains, double integral,
                 double tau, bool restart) {
   // TODO: slide 3:16. What does the integral start from when the controller is switched on?
   notUsedYet(at, wanted, gains, tau, restart);
   return {0, integral};
 }
 
-bool isStable(const PidGains& gains, double mass) {
+bool isStable(const PidSettings& gains, double mass) {
   // TODO: insert q = q* + exp(s t) into the differential equation. Where must all s lie?
   notUsedYet(gains, mass);
   return true;
@@ -57,7 +57,7 @@ Eigen::VectorXd holdArm(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
 }
 
 Eigen::VectorXd wantedAcceleration(const Eigen::VectorXd& y, const Eigen::VectorXd& yd,
-                                   const Reference& reference, double lambda, double xi) {
+                                   const PathPoint& reference, double lambda, double xi) {
   // TODO: the last line of slide 3:30.
   notUsedYet(yd, reference, lambda, xi);
   return Eigen::VectorXd::Zero(y.size());
@@ -83,7 +83,7 @@ Eigen::VectorXd operationalForce(const AccelerationTask& task, const Eigen::Matr
   return Eigen::VectorXd::Zero(F.size());
 }
 
-Eigen::VectorXd followWithHand(Simulator& S, const std::string& hand, const Reference& reference) {
+Eigen::VectorXd followWithHand(Simulator& S, const std::string& hand, const PathPoint& reference) {
   const int n = S.getJointDimension();
   // TODO: an AccelerationTask for the hand, and its force. What do the joints do that the hand leaves
   // free? Slide 3:35: a task may be made of two, one below the other.
@@ -91,7 +91,7 @@ Eigen::VectorXd followWithHand(Simulator& S, const std::string& hand, const Refe
   return Eigen::VectorXd::Zero(n);
 }
 
-Eigen::VectorXd newtonEuler(const std::vector<Link>& chain, const Eigen::VectorXd& q,
+Eigen::VectorXd newtonEuler(const std::vector<ChainLink>& chain, const Eigen::VectorXd& q,
                             const Eigen::VectorXd& v, const Eigen::VectorXd& a,
                             const Eigen::Vector3d& gravity) {
   const auto n = static_cast<Eigen::Index>(chain.size());
@@ -102,21 +102,21 @@ Eigen::VectorXd newtonEuler(const std::vector<Link>& chain, const Eigen::VectorX
   return u;
 }
 
-Eigen::VectorXd gravityTerm(const std::vector<Link>& chain, const Eigen::VectorXd& q,
+Eigen::VectorXd gravityTerm(const std::vector<ChainLink>& chain, const Eigen::VectorXd& q,
                             const Eigen::Vector3d& gravity) {
   // TODO: slide 3:24.
   notUsedYet(chain, gravity);
   return Eigen::VectorXd::Zero(q.size());
 }
 
-Eigen::VectorXd coriolisTerm(const std::vector<Link>& chain, const Eigen::VectorXd& q,
+Eigen::VectorXd coriolisTerm(const std::vector<ChainLink>& chain, const Eigen::VectorXd& q,
                              const Eigen::VectorXd& v) {
   // TODO: slide 3:24, without the gravity that is in its second line.
   notUsedYet(chain, v);
   return Eigen::VectorXd::Zero(q.size());
 }
 
-Eigen::MatrixXd inertiaMatrix(const std::vector<Link>& chain, const Eigen::VectorXd& q) {
+Eigen::MatrixXd inertiaMatrix(const std::vector<ChainLink>& chain, const Eigen::VectorXd& q) {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(q.size());
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(q.size(), q.size());
   // TODO: slide 3:24 once more, column by column; what does gravity have to be?
@@ -215,7 +215,7 @@ void showPoint() {
 
 // PID control of a point to 1 m against a steady push [N]. Until `released` it is held where it is, but the
 // controller works on; then it is switched on anew, or not.
-PointMotion pidMotion(const PidGains& gains, double seconds, double push, double released, bool restart) {
+PointMotion pidMotion(const PidSettings& gains, double seconds, double push, double released, bool restart) {
   double integral = 0;
   return simulate(seconds, [&](const PointState& at, double t) {
     const bool first = t < 0.5 * kTau || (restart && std::abs(t - released) < 0.5 * kTau);
@@ -226,7 +226,7 @@ PointMotion pidMotion(const PidGains& gains, double seconds, double push, double
 }
 
 void showPid() {
-  const PidGains pd{60, 25, 0}, pid{60, 25, 40}, alone{0, 0, 2}, damped{0, 2, 2}, all{10, 8, 4};
+  const PidSettings pd{60, 0, 25}, pid{60, 40, 25}, alone{0, 2, 0}, damped{0, 2, 2}, all{10, 4, 8};
   plotWay("load", "Against a steady push of 10 N",
           {curve("PD", pidMotion(pd, 8, -10, 0, false)), curve("PID", pidMotion(pid, 8, -10, 0, false))});
   plotWay("integral", "What an integral does without the others",
@@ -237,9 +237,9 @@ void showPid() {
           {curve("integral kept", pidMotion(pid, 12, 0, 3, false)),
            curve("integral restarted", pidMotion(pid, 12, 0, 3, true))},
           {{3, "released"}});
-  for (const PidGains& gains : {alone, damped, all})
-    print("Kp, Kd, Ki and whether stable",
-          Eigen::RowVector4d(gains.Kp, gains.Kd, gains.Ki, isStable(gains, kMass) ? 1 : 0));
+  for (const PidSettings& gains : {alone, damped, all})
+    print("Kp, Ki, Kd and whether stable",
+          Eigen::RowVector4d(gains.Kp, gains.Ki, gains.Kd, isStable(gains, kMass) ? 1 : 0));
 }
 
 void showFollowing() {
@@ -324,7 +324,7 @@ void showArms() {
 }
 
 // The hand on a circle of 20 cm radius from where it is, once round in three seconds, from rest to rest.
-Reference onCircle(const Eigen::Vector3d& start, double t) {
+PathPoint onCircle(const Eigen::Vector3d& start, double t) {
   const double pi = std::numbers::pi, w = pi / 3, angle = pi * (1 - std::cos(w * t));
   const double rate = pi * w * std::sin(w * t), growth = pi * w * w * std::cos(w * t);
   const Eigen::Vector3d out(0, std::sin(angle), std::cos(angle)), along(0, std::cos(angle), -std::sin(angle));
@@ -340,7 +340,7 @@ void showHand() {
   std::vector<double> error;
   std::vector<Eigen::Vector3d> circle;
   for (int step = 0; step < 300; ++step) {
-    const Reference reference = onCircle(start, kTau * step);
+    const PathPoint reference = onCircle(start, kTau * step);
     circle.emplace_back(reference.y);
     Simulator here = S;
     S.stepDynamics(followWithHand(here, "peg", reference), kTau);
@@ -356,8 +356,8 @@ void showHand() {
 }
 
 // A chain for newtonEuler(): the frame of each link is that of its hinge.
-std::vector<Link> chainOf(const Model& model) {
-  std::vector<Link> chain;
+std::vector<ChainLink> chainOf(const Model& model) {
+  std::vector<ChainLink> chain;
   Pose X_PB = model.bodies()[static_cast<std::size_t>(model.joints()[0].parent)].X_PB;
   for (const Joint& joint : model.joints()) {
     const Body& body = model[joint.child];
@@ -375,7 +375,7 @@ std::array<Eigen::VectorXd, 3> swingAt(double t) {
   return {std::sin(2 * t) * far, 2 * std::cos(2 * t) * far, -4 * std::sin(2 * t) * far};
 }
 
-void showNewtonEuler(const std::vector<Link>& chain, const std::vector<Eigen::VectorXd>& byLibrary) {
+void showNewtonEuler(const std::vector<ChainLink>& chain, const std::vector<Eigen::VectorXd>& byLibrary) {
   std::vector<Series> yours, library;
   for (const int joint : {0, 2, 4}) {
     std::vector<double> u, expected;

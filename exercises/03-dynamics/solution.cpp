@@ -54,7 +54,7 @@ Gains gainsFor(Regime regime, double T, double mass) {
   // </solution>
 }
 
-PidStep pidStep(const PointState& at, const PointState& wanted, const PidGains& gains, double integral,
+PidStep pidStep(const PointState& at, const PointState& wanted, const PidSettings& gains, double integral,
                 double tau, bool restart) {
   // <solution pidStep>
   if (restart) integral = 0;
@@ -67,7 +67,7 @@ PidStep pidStep(const PointState& at, const PointState& wanted, const PidGains& 
   // </solution>
 }
 
-bool isStable(const PidGains& gains, double mass) {
+bool isStable(const PidSettings& gains, double mass) {
   // <solution isStable>
   // All roots of m s^3 + Kd s^2 + Kp s + Ki have to lie in the left half plane (Routh and Hurwitz). Without
   // Ki the root s = 0 belongs to an integral that moves nothing.
@@ -105,7 +105,7 @@ Eigen::VectorXd holdArm(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
 }
 
 Eigen::VectorXd wantedAcceleration(const Eigen::VectorXd& y, const Eigen::VectorXd& yd,
-                                   const Reference& reference, double lambda, double xi) {
+                                   const PathPoint& reference, double lambda, double xi) {
   // <solution wantedAcceleration>
   return reference.ydd + (reference.y - y) / (lambda * lambda) + 2 * xi / lambda * (reference.yd - yd);
   // <todo>
@@ -156,7 +156,7 @@ Eigen::VectorXd operationalForce(const AccelerationTask& task, const Eigen::Matr
   // </solution>
 }
 
-Eigen::VectorXd followWithHand(Simulator& S, const std::string& hand, const Reference& reference) {
+Eigen::VectorXd followWithHand(Simulator& S, const std::string& hand, const PathPoint& reference) {
   const int n = S.getJointDimension();
   // <solution followWithHand>
   const Eigen::VectorXd v = S.getJointVels();
@@ -179,7 +179,7 @@ Eigen::VectorXd followWithHand(Simulator& S, const std::string& hand, const Refe
   // </solution>
 }
 
-Eigen::VectorXd newtonEuler(const std::vector<Link>& chain, const Eigen::VectorXd& q,
+Eigen::VectorXd newtonEuler(const std::vector<ChainLink>& chain, const Eigen::VectorXd& q,
                             const Eigen::VectorXd& v, const Eigen::VectorXd& a,
                             const Eigen::Vector3d& gravity) {
   const auto n = static_cast<Eigen::Index>(chain.size());
@@ -191,7 +191,7 @@ Eigen::VectorXd newtonEuler(const std::vector<Link>& chain, const Eigen::VectorX
   std::vector<Eigen::Vector3d> f, torque;
   Eigen::Vector3d w = Eigen::Vector3d::Zero(), wd = Eigen::Vector3d::Zero(), pdd = -gravity;
   for (Eigen::Index i = 0; i < n; ++i) {
-    const Link& link = chain[static_cast<std::size_t>(i)];
+    const ChainLink& link = chain[static_cast<std::size_t>(i)];
     const Eigen::Matrix3d R = link.R_PL0 * Eigen::AngleAxisd(q[i], link.axis).toRotationMatrix();
     pdd = R.transpose() * (pdd + wd.cross(link.p_PL) + w.cross(w.cross(link.p_PL)));
     const Eigen::Vector3d carried = R.transpose() * w;
@@ -218,7 +218,7 @@ Eigen::VectorXd newtonEuler(const std::vector<Link>& chain, const Eigen::VectorX
   return u;
 }
 
-Eigen::VectorXd gravityTerm(const std::vector<Link>& chain, const Eigen::VectorXd& q,
+Eigen::VectorXd gravityTerm(const std::vector<ChainLink>& chain, const Eigen::VectorXd& q,
                             const Eigen::Vector3d& gravity) {
   // <solution gravityTerm>
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(q.size());
@@ -230,7 +230,7 @@ Eigen::VectorXd gravityTerm(const std::vector<Link>& chain, const Eigen::VectorX
   // </solution>
 }
 
-Eigen::VectorXd coriolisTerm(const std::vector<Link>& chain, const Eigen::VectorXd& q,
+Eigen::VectorXd coriolisTerm(const std::vector<ChainLink>& chain, const Eigen::VectorXd& q,
                              const Eigen::VectorXd& v) {
   // <solution coriolisTerm>
   return newtonEuler(chain, q, v, Eigen::VectorXd::Zero(q.size()), Eigen::Vector3d::Zero());
@@ -241,7 +241,7 @@ Eigen::VectorXd coriolisTerm(const std::vector<Link>& chain, const Eigen::Vector
   // </solution>
 }
 
-Eigen::MatrixXd inertiaMatrix(const std::vector<Link>& chain, const Eigen::VectorXd& q) {
+Eigen::MatrixXd inertiaMatrix(const std::vector<ChainLink>& chain, const Eigen::VectorXd& q) {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(q.size());
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(q.size(), q.size());
   // <solution inertiaMatrix>
@@ -277,10 +277,10 @@ Eigen::VectorXd balancePin(Simulator& S, const Eigen::VectorXd& home) {
   // ways are left to the arm; in those it goes home.
   const Eigen::Vector2d foot = S.kinematicsPos("universalJoint").head<2>();
   const Eigen::Vector2d footVelocity = S.jacobianPos("universalJoint").topRows(2) * v;
-  const Reference stay{footAtHome, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+  const PathPoint stay{footAtHome, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
   const Eigen::VectorXd lean = wantedAcceleration(foot, footVelocity, stay, 2, 1) / 9.81;
-  const Reference upright{lean, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
-  const Reference atHome{home.head(6), Eigen::VectorXd::Zero(6), Eigen::VectorXd::Zero(6)};
+  const PathPoint upright{lean, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+  const PathPoint atHome{home.head(6), Eigen::VectorXd::Zero(6), Eigen::VectorXd::Zero(6)};
   task.ydd << wantedAcceleration(S.kinematicsVec("pin").head(2), J(0) * v, upright, 0.25, 1),
       wantedAcceleration(q.head(6), v.head(6), atHome, 0.5, 1);
   task.C.topLeftCorner(2, 2) *= 1e4;
@@ -379,7 +379,7 @@ void showPoint() {
 
 // PID control of a point to 1 m against a steady push [N]. Until `released` it is held where it is, but the
 // controller works on; then it is switched on anew, or not.
-PointMotion pidMotion(const PidGains& gains, double seconds, double push, double released, bool restart) {
+PointMotion pidMotion(const PidSettings& gains, double seconds, double push, double released, bool restart) {
   double integral = 0;
   return simulate(seconds, [&](const PointState& at, double t) {
     const bool first = t < 0.5 * kTau || (restart && std::abs(t - released) < 0.5 * kTau);
@@ -390,7 +390,7 @@ PointMotion pidMotion(const PidGains& gains, double seconds, double push, double
 }
 
 void showPid() {
-  const PidGains pd{60, 25, 0}, pid{60, 25, 40}, alone{0, 0, 2}, damped{0, 2, 2}, all{10, 8, 4};
+  const PidSettings pd{60, 0, 25}, pid{60, 40, 25}, alone{0, 2, 0}, damped{0, 2, 2}, all{10, 4, 8};
   plotWay("load", "Against a steady push of 10 N",
           {curve("PD", pidMotion(pd, 8, -10, 0, false)), curve("PID", pidMotion(pid, 8, -10, 0, false))});
   plotWay("integral", "What an integral does without the others",
@@ -401,9 +401,9 @@ void showPid() {
           {curve("integral kept", pidMotion(pid, 12, 0, 3, false)),
            curve("integral restarted", pidMotion(pid, 12, 0, 3, true))},
           {{3, "released"}});
-  for (const PidGains& gains : {alone, damped, all})
-    print("Kp, Kd, Ki and whether stable",
-          Eigen::RowVector4d(gains.Kp, gains.Kd, gains.Ki, isStable(gains, kMass) ? 1 : 0));
+  for (const PidSettings& gains : {alone, damped, all})
+    print("Kp, Ki, Kd and whether stable",
+          Eigen::RowVector4d(gains.Kp, gains.Ki, gains.Kd, isStable(gains, kMass) ? 1 : 0));
 }
 
 void showFollowing() {
@@ -488,7 +488,7 @@ void showArms() {
 }
 
 // The hand on a circle of 20 cm radius from where it is, once round in three seconds, from rest to rest.
-Reference onCircle(const Eigen::Vector3d& start, double t) {
+PathPoint onCircle(const Eigen::Vector3d& start, double t) {
   const double pi = std::numbers::pi, w = pi / 3, angle = pi * (1 - std::cos(w * t));
   const double rate = pi * w * std::sin(w * t), growth = pi * w * w * std::cos(w * t);
   const Eigen::Vector3d out(0, std::sin(angle), std::cos(angle)), along(0, std::cos(angle), -std::sin(angle));
@@ -504,7 +504,7 @@ void showHand() {
   std::vector<double> error;
   std::vector<Eigen::Vector3d> circle;
   for (int step = 0; step < 300; ++step) {
-    const Reference reference = onCircle(start, kTau * step);
+    const PathPoint reference = onCircle(start, kTau * step);
     circle.emplace_back(reference.y);
     Simulator here = S;
     S.stepDynamics(followWithHand(here, "peg", reference), kTau);
@@ -520,8 +520,8 @@ void showHand() {
 }
 
 // A chain for newtonEuler(): the frame of each link is that of its hinge.
-std::vector<Link> chainOf(const Model& model) {
-  std::vector<Link> chain;
+std::vector<ChainLink> chainOf(const Model& model) {
+  std::vector<ChainLink> chain;
   Pose X_PB = model.bodies()[static_cast<std::size_t>(model.joints()[0].parent)].X_PB;
   for (const Joint& joint : model.joints()) {
     const Body& body = model[joint.child];
@@ -539,7 +539,7 @@ std::array<Eigen::VectorXd, 3> swingAt(double t) {
   return {std::sin(2 * t) * far, 2 * std::cos(2 * t) * far, -4 * std::sin(2 * t) * far};
 }
 
-void showNewtonEuler(const std::vector<Link>& chain, const std::vector<Eigen::VectorXd>& byLibrary) {
+void showNewtonEuler(const std::vector<ChainLink>& chain, const std::vector<Eigen::VectorXd>& byLibrary) {
   std::vector<Series> yours, library;
   for (const int joint : {0, 2, 4}) {
     std::vector<double> u, expected;
