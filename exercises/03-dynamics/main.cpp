@@ -3,7 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "dynamics/inverse_dynamics.h"
+#include "control/point_mass.h"
+#include "dynamics/dynamics_batch.h"
 #include "exercise.h"
 #include "scene/model.h"
 
@@ -137,7 +138,6 @@ Eigen::VectorXd balancePin(Simulator& S, const Eigen::VectorXd& home) {
 namespace {
 
 constexpr double kTau = 0.01, kMass = 3.456;
-const Eigen::Vector3d kGravity(0, 0, -9.81);
 // Of pegArm2, and of pin_balancing.
 const Eigen::VectorXd kBent = (Eigen::VectorXd(7) << 0.6, -0.2, -0.7, 0.9, 0.9, 0.1, -1.6).finished();
 const Eigen::VectorXd kPinUp =
@@ -183,6 +183,11 @@ Figure overTime(const std::string& title, const std::string& yLabel, const std::
           .series = series};
 }
 
+// What the library has to say, on top of yours.
+Series dashed(const std::vector<double>& x, const std::vector<double>& y) {
+  return {.x = x, .y = y, .dashed = true, .color = Color{0, 0, 0}};
+}
+
 // A point that shall get to 1 m.
 void plotWay(const std::string& name, const std::string& title, const std::vector<Series>& series,
              const std::vector<Guide>& moments = {}) {
@@ -192,19 +197,21 @@ void plotWay(const std::string& name, const std::string& title, const std::vecto
   plot(name, figure);
 }
 
-void showPoint() {
-  std::vector<Series> ways, phases, horizons;
+// exact(gains, t): where the point is after t seconds [m] without the error of Euler steps.
+void showPoint(double (*exact)(const Gains& gains, double t)) {
+  std::vector<Series> ways, exactWays, phases, horizons;
   for (const auto& [name, regime] : kRegimes) {
     const PointMotion motion = reach(regime, 1);
     ways.push_back(curve(name, motion));
     phases.push_back({.label = name, .x = motion.q, .y = motion.v});
+    exactWays.push_back(dashed(motion.t, motion.t));
+    for (double& y : exactWays.back().y) y = exact(gainsFor(regime, 1, kMass), y);
   }
-  plotWay("regimes", "Three ways to reach the goal in one second", ways, {{1, "T"}});
-  plot("phase", {.title = "The same ways in phase space",
-                 .xLabel = "position [m]",
-                 .yLabel = "velocity [m/s]",
-                 .legend = Legend::kOutside,
-                 .series = phases});
+  ways.insert(ways.end(), exactWays.begin(), exactWays.end());
+  plotWay("regimes", "Three ways to the goal in one second (dashed: exact motion)", ways, {{1, "T"}});
+  Figure phase = overTime("The same ways in phase space", "velocity [m/s]", phases);
+  phase.xLabel = "position [m]";
+  plot("phase", phase);
   for (const int T : {1, 2, 5}) {
     const Gains gains = gainsFor(Regime::kCritical, T, kMass);
     horizons.push_back(curve("T = " + std::to_string(T) + " s", reach(Regime::kCritical, T)));
@@ -282,10 +289,6 @@ std::vector<double> swing(Simulator& S, double noise, const Force& u) {
   return farthest;
 }
 
-Eigen::VectorXd byPd(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Simulator&) {
-  return holdArm(q, v);
-}
-
 Eigen::VectorXd byComputedTorque(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Simulator& S) {
   Eigen::MatrixXd M;
   Eigen::VectorXd F;
@@ -294,9 +297,10 @@ Eigen::VectorXd byComputedTorque(const Eigen::VectorXd& q, const Eigen::VectorXd
   return computedTorque(M, F, wantedAcceleration(q, v, {zero, zero, zero}, 0.2, 1));
 }
 
-void film(const Simulator& S, const std::string& name, const PictureOptions& look) {
-  writeVideo(S, name, look);
-  writeContactSheet(S, name + "_sheet", look);
+// In real time: 30 frames a second.
+void film(const Simulator& S, const std::string& name, const PictureOptions& look, int seconds) {
+  writeVideo(S, name, look, 30 * seconds);
+  writeContactSheet(S, name + "_sheet", look, 6, 30 * seconds);
 }
 
 void showFall() {
@@ -308,19 +312,20 @@ void showFall() {
     return Eigen::VectorXd::Zero(q.size()).eval();
   });
   plot("energy", overTime("Energy of a falling arm", "energy gained [uJ]", {everyStep("", drift)}));
-  film(falling, "fall", {.caption = "Without forces", .traces = {"peg"}, .view = {1, -0.3, 0.3}});
+  film(falling, "fall", {.caption = "Without forces", .traces = {"peg"}, .view = {1, -0.3, 0.3}}, 4);
 }
 
 void showArms() {
   Simulator held("pegArm.ors"), known("pegArm.ors"), known2("pegArm2.ors");
+  const auto byPd = [](const auto& q, const auto& v, const Simulator&) { return holdArm(q, v); };
   Figure figure = overTime("Holding arms at zero, under noise and a push", "joint farthest from zero [rad]",
                            {everyStep("PD, pegArm", swing(held, 1, byPd)),
                             everyStep("M and F, pegArm", swing(known, 1, byComputedTorque)),
                             everyStep("M and F, pegArm2", swing(known2, 1, byComputedTorque))});
   figure.verticalLines = {{1, "push"}};
   plot("holding", figure);
-  film(held, "hold", {.caption = "PD in each joint", .view = {1, -0.3, 0.3}});
-  film(known, "torque", {.caption = "Computed torque", .view = {1, -0.3, 0.3}});
+  film(held, "hold", {.caption = "PD in each joint", .view = {1, -0.3, 0.3}}, 4);
+  film(known, "torque", {.caption = "Computed torque", .view = {1, -0.3, 0.3}}, 4);
 }
 
 // The hand on a circle of 20 cm radius from where it is, once round in three seconds, from rest to rest.
@@ -351,8 +356,8 @@ void showHand() {
   const PictureOptions look{
       .caption = "Operational space control", .traces = {"peg"}, .paths = {circle}, .view = {1, -0.6, 0.4}};
   plot("hand", figure);
-  film(S, "circle", look);
-  writeReplay(S, "circle", look, {figure});
+  film(S, "circle", look, 3);
+  writeReplay(S, "circle", look, {figure}, 90);
 }
 
 // A chain for newtonEuler(): the frame of each link is that of its hinge.
@@ -369,31 +374,34 @@ std::vector<ChainLink> chainOf(const Model& model) {
   return chain;
 }
 
-// q, v and a of a swing of pegArm2 through both sides of zero.
-std::array<Eigen::VectorXd, 3> swingAt(double t) {
+// q, v and a of a swing of pegArm2 through both sides of zero, a column for each step.
+std::array<Eigen::MatrixXd, 3> wideSwing() {
   const Eigen::VectorXd far = Eigen::VectorXd::LinSpaced(7, 1.2, -0.8);
-  return {std::sin(2 * t) * far, 2 * std::cos(2 * t) * far, -4 * std::sin(2 * t) * far};
+  Eigen::MatrixXd Q(7, 300), V(7, 300);
+  for (int step = 0; step < 300; ++step) {
+    Q.col(step) = std::sin(2 * kTau * (step + 1)) * far;
+    V.col(step) = 2 * std::cos(2 * kTau * (step + 1)) * far;
+  }
+  return {Q, V, -4 * Q};
 }
 
-void showNewtonEuler(const std::vector<ChainLink>& chain, const std::vector<Eigen::VectorXd>& byLibrary) {
+void showNewtonEuler(const std::vector<ChainLink>& chain, const Eigen::MatrixXd& byLibrary) {
+  const auto [Q, V, A] = wideSwing();
   std::vector<Series> yours, library;
   for (const int joint : {0, 2, 4}) {
     std::vector<double> u, expected;
-    for (std::size_t i = 0; i < byLibrary.size(); ++i) {
-      const auto [q, v, a] = swingAt(kTau * static_cast<double>(i + 1));
-      u.push_back(newtonEuler(chain, q, v, a, kGravity)[joint]);
-      expected.push_back(byLibrary[i][joint]);
+    for (int step = 0; step < Q.cols(); ++step) {
+      u.push_back(newtonEuler(chain, Q.col(step), V.col(step), A.col(step), earthGravity())[joint]);
+      expected.push_back(byLibrary(joint, step));
     }
     yours.push_back(everyStep("joint " + std::to_string(joint + 1), u));
-    library.push_back(everyStep("", expected));
-    library.back().dashed = true;
-    library.back().color = Color{0, 0, 0};
+    library.push_back(dashed(yours.back().x, expected));
   }
   yours.insert(yours.end(), library.begin(), library.end());
   plot("newtonEuler",
        overTime("A swing of pegArm2: your forces, and the library's (dashed)", "joint force [N m]", yours));
   Eigen::MatrixXd terms(7, 9);
-  terms << inertiaMatrix(chain, kBent), gravityTerm(chain, kBent, kGravity),
+  terms << inertiaMatrix(chain, kBent), gravityTerm(chain, kBent, earthGravity()),
       coriolisTerm(chain, kBent, Eigen::VectorXd::Ones(7));
   print("M, G and C v of pegArm2, bent and turning at 1 rad/s", terms);
 }
@@ -411,13 +419,13 @@ void showPin() {
     tilt.push_back(std::acos(std::clamp(S.kinematicsVec("pin").z(), -1., 1.)));
   }
   plot("pin", overTime("A pin that starts at 0.02 rad", "tilt of the pin [rad]", {everyStep("", tilt)}));
-  film(S, "pin", {.caption = "Balancing a pin", .traces = {"universalJoint"}, .view = {1, -1, 0.4}});
+  film(S, "pin", {.caption = "Balancing a pin", .traces = {"universalJoint"}, .view = {1, -1, 0.4}}, 5);
 }
 
 }  // namespace
 
 int main() {
-  showPoint();
+  showPoint([](const Gains& g, double t) { return pdResponse({kMass}, {g.Kp, g.Kd}, {}, 1, t).q; });
   showPid();
   showFollowing();
   showFall();
@@ -425,12 +433,11 @@ int main() {
   showHand();
   showPin();
 
-  // Once your own recursion works, it lies on the library's.
+  // Once your own recursion works, it lies on the library's, which takes all moments at once.
   const Simulator S("pegArm2.ors");
-  std::vector<Eigen::VectorXd> byLibrary;
-  for (int step = 1; step <= 300; ++step) {
-    const auto [q, v, a] = swingAt(kTau * step);
-    byLibrary.push_back(inverseDynamics(S.model(), q, v, a, kGravity));
-  }
-  showNewtonEuler(chainOf(S.model()), byLibrary);
+  const auto [Q, V, A] = wideSwing();
+  Eigen::MatrixXd U = Q;
+  DynamicsWorkspace workspace;
+  inverseDynamicsBatch(S.model(), Q, V, A, earthGravity(), workspace, U);
+  showNewtonEuler(chainOf(S.model()), U);
 }
