@@ -7,6 +7,8 @@
 #include "approach_checks.h"
 #include "grading/check.h"
 #include "interface.h"
+#include "scene/ors_reader.h"
+#include "scene/ors_writer.h"
 
 // Arms that the grader simulates while the student's functions control them: parts 4 to 6 and 8.
 
@@ -23,13 +25,16 @@ inline void advance(rex::grading::Check& check, rex::Simulator& S, const Eigen::
   check.atMost("largest joint speed", S.getJointVels().cwiseAbs().maxCoeff(), 200, "rad/s");
 }
 
-// Every mass of a scene times a factor between 1 - share and 1 + share.
+// Every mass of a scene, with its inertia, times a factor between 1 - share and 1 + share.
 inline rex::Simulator withOtherMasses(const std::string& scene, double share, rex::Rng& rng) {
   rex::SimulatorDescription description = rex::Simulator(scene).description();
-  std::string& text = description.sceneText;
-  const std::string mass = "mass=0.1";
-  for (std::size_t at = text.find(mass); at != std::string::npos; at = text.find(mass, at + 5))
-    text.replace(at, mass.size(), "mass=" + std::to_string(0.1 * rng.uniform(1 - share, 1 + share)));
+  rex::SceneSpec spec = rex::parseOrs(description.sceneText, description.sceneName).spec;
+  for (rex::BodySpec& body : spec.bodies) {
+    const double factor = rng.uniform(1 - share, 1 + share);
+    body.mass *= factor;
+    if (body.inertia) *body.inertia *= factor;
+  }
+  description.sceneText = rex::writeOrs(spec);
   return rex::Simulator(description);
 }
 

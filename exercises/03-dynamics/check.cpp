@@ -94,19 +94,19 @@ void pidSteps(Check& check, Student& student) {
   for (const bool restart : {false, true}) {
     check.input(restart ? "a random state and gains, switched on now" : "a random state and gains");
     const PointState at{rng.normal(), rng.normal()}, wanted{rng.normal(), rng.normal()};
-    const PidGains gains{rng.uniform(1, 50), rng.uniform(1, 20), rng.uniform(1, 20)};
+    const PidSettings gains{rng.uniform(1, 50), rng.uniform(1, 20), rng.uniform(1, 20)};
     const double before = rng.uniform(0.5, 2), sum = restart ? 0 : before;
     const PidStep step = student.pidStep(at, wanted, gains, before, kTau, restart);
     check.near("force", step.u, gains.Kp * (wanted.q - at.q) + gains.Kd * (wanted.v - at.v) + gains.Ki * sum,
                1e-9, "N");
     check.near("integral after the step", step.integral, sum + kTau * (wanted.q - at.q), 1e-12, "m s");
   }
-  check.input("Kp = 60, Kd = 25, Ki = 40 against a push of 5 to 15 N, from 0 to 1 m");
+  check.input("Kp = 60, Ki = 40, Kd = 25 against a push of 5 to 15 N, from 0 to 1 m");
   const double push = -rng.uniform(5, 15);
   double integral = 0;
   PointState at{};
   for (int i = 0; i < 1500; ++i) {
-    const PidStep step = student.pidStep(at, {1, 0}, {60, 25, 40}, integral, kTau, i == 0);
+    const PidStep step = student.pidStep(at, {1, 0}, {60, 40, 25}, integral, kTau, i == 0);
     integral = step.integral;
     at = moved(at, step.u + push, kMass);
     check.that("the point stays within 100 m", std::abs(at.q) < 100);
@@ -114,14 +114,14 @@ void pidSteps(Check& check, Student& student) {
   check.near("position after 15 s", at.q, 1, 1e-3, "m");
 }
 
-void judgesStability(Check& check, Student& student, const PidGains& gains, double mass, bool stable) {
-  check.input("Kp = " + text(gains.Kp) + ", Kd = " + text(gains.Kd) + ", Ki = " + text(gains.Ki) +
+void judgesStability(Check& check, Student& student, const PidSettings& gains, double mass, bool stable) {
+  check.input("Kp = " + text(gains.Kp) + ", Ki = " + text(gains.Ki) + ", Kd = " + text(gains.Kd) +
               ", mass = " + text(mass) + " kg");
   check.that("the answer is right", student.isStable(gains, mass) == stable);
 }
 
 // The greatest real part of the roots of m s^3 + Kd s^2 + Kp s + Ki, or without s^0 if Ki is zero.
-double growth(const PidGains& gains, double mass) {
+double growth(const PidSettings& gains, double mass) {
   const int order = gains.Ki == 0 ? 2 : 3;
   const Eigen::Vector3d coefficients = -Eigen::Vector3d(gains.Kd, gains.Kp, gains.Ki) / mass;
   Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(order, order);
@@ -133,17 +133,17 @@ double growth(const PidGains& gains, double mass) {
 // The roots of random gains are told apart from the imaginary axis only at a distance from it; the cases on
 // it are exact.
 void judgesPid(Check& check, Student& student) {
-  judgesStability(check, student, {0, 0, 2}, kMass, false);  // Ki alone
-  judgesStability(check, student, {0, 3, 2}, kMass, false);  // Ki and Kd
+  judgesStability(check, student, {0, 2, 0}, kMass, false);  // Ki alone
+  judgesStability(check, student, {0, 2, 3}, kMass, false);  // Ki and Kd
   judgesStability(check, student, {5, 0, 0}, kMass, false);  // oscillates for ever
-  judgesStability(check, student, {0, 5, 0}, kMass, false);  // rests anywhere
-  judgesStability(check, student, {5, 3, 0}, kMass, true);
-  judgesStability(check, student, {4, 3, 6}, 2, false);  // on the border
-  judgesStability(check, student, {-4, -3, 1}, 2, false);
+  judgesStability(check, student, {0, 0, 5}, kMass, false);  // rests anywhere
+  judgesStability(check, student, {5, 0, 3}, kMass, true);
+  judgesStability(check, student, {4, 6, 3}, 2, false);  // on the border
+  judgesStability(check, student, {-4, 1, -3}, 2, false);
   Rng& rng = check.rng();
   for (int wanted = 0; wanted < 60;) {
-    const PidGains gains{rng.uniform(-3, 10), rng.uniform(-3, 10),
-                         rng.index(3) == 0 ? 0 : rng.uniform(-3, 10)};
+    const PidSettings gains{rng.uniform(-3, 10), rng.index(3) == 0 ? 0 : rng.uniform(-3, 10),
+                            rng.uniform(-3, 10)};
     const double mass = rng.uniform(0.5, 5), rate = growth(gains, mass);
     // Half of the cases are stable, half are not.
     if (std::abs(rate) < 1e-3 || (rate < 0) != (wanted % 2 == 0)) continue;
@@ -261,7 +261,7 @@ void holdsOtherArms(Check& check, Student& student) {
 
 // Part 5.
 
-Eigen::VectorXd torques(Check& check, Student& student, const Simulator& S, const Reference& reference,
+Eigen::VectorXd torques(Check& check, Student& student, const Simulator& S, const PathPoint& reference,
                         double lambda, double xi) {
   Eigen::MatrixXd M;
   Eigen::VectorXd F;
@@ -278,7 +278,7 @@ void accelerates(Check& check, Student& student) {
     const int n = 1 + rng.index(7);
     const double lambda = rng.uniform(0.1, 2), xi = rng.uniform(0.3, 2);
     const Eigen::VectorXd y = rng.normalVector(n), yd = rng.normalVector(n), F = rng.normalVector(n);
-    const Reference reference{rng.normalVector(n), rng.normalVector(n), rng.normalVector(n)};
+    const PathPoint reference{rng.normalVector(n), rng.normalVector(n), rng.normalVector(n)};
     const Eigen::MatrixXd M = randomMetric(rng, n);
     check.input("random states and references, random M and F");
     const Eigen::VectorXd a = student.wantedAcceleration(y, yd, reference, lambda, xi);
@@ -299,7 +299,7 @@ void accelerates(Check& check, Student& student) {
 // 2e-4.
 void holdsWithTorques(Check& check, Student& student) {
   const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
-  const Reference rest{zero, zero, zero};
+  const PathPoint rest{zero, zero, zero};
   check.input("pegArm.ors at q = 0, lambda = 0.2 s, xi = 1, noise 1, a push of 1 rad/s after one second");
   const auto farthest = shaken(check, Simulator("pegArm.ors"),
                                [&](const Eigen::VectorXd&, const Eigen::VectorXd&, const Simulator& S) {
@@ -326,7 +326,7 @@ void followsWithTheOtherArm(Check& check, Student& student) {
     double error = 0;
     for (int step = 0; step < 200; ++step) {
       const double t = kTau * step;
-      const Reference reference{middle + std::sin(w * t) * swing, w * std::cos(w * t) * swing,
+      const PathPoint reference{middle + std::sin(w * t) * swing, w * std::cos(w * t) * swing,
                                 -w * w * std::sin(w * t) * swing};
       error = std::max(error, (S.getJointAngles() - reference.y).cwiseAbs().maxCoeff());
       advance(check, S, torques(check, student, S, reference, 0.2, 1));
@@ -386,7 +386,7 @@ void biasAndForce(Check& check, Student& student) {
 // Where a hand shall be: once along a path, from rest to rest in three seconds, by the sine profile.
 struct Path {
   Eigen::Vector3d start, along, out;  ///< a line to start + along; with `out`, a circle with that radius
-  Reference at(double t) const {
+  PathPoint at(double t) const {
     const double w = std::numbers::pi / 3, s = (1 - std::cos(w * t)) / 2, sd = w * std::sin(w * t) / 2,
                  sdd = w * w * std::cos(w * t) / 2;
     if (out.isZero()) return {start + s * along, sd * along, sdd * along};
@@ -401,7 +401,7 @@ struct Path {
 void handFollows(Check& check, Student& student, Simulator S, const std::string& hand, const Path& path) {
   double error = 0, speed = 0;
   for (int step = 0; step <= 300; ++step) {
-    const Reference reference = path.at(kTau * step);
+    const PathPoint reference = path.at(kTau * step);
     error = std::max(error, (S.kinematicsPos(hand) - reference.y).norm());
     speed = std::max(speed, S.getJointVels().cwiseAbs().maxCoeff());
     if (step < 300) advance(check, S, student.followWithHand(S.description(), hand, reference));
@@ -433,7 +433,7 @@ void followsALine(Check& check, Student& student) {
 
 // Part 7.
 
-void forcesOf(Check& check, Student& student, const std::vector<Link>& chain,
+void forcesOf(Check& check, Student& student, const std::vector<ChainLink>& chain,
               const Eigen::Vector3d& gravity) {
   Rng& rng = check.rng();
   const auto n = static_cast<int>(chain.size());
@@ -447,7 +447,7 @@ void newtonAndEuler(Check& check, Student& student) {
   Rng& rng = check.rng();
   check.input("a pendulum: one link, axis x, its centre below the hinge (3:21)");
   const double mass = rng.uniform(0.5, 2), length = rng.uniform(0.3, 1), moment = 0.02;
-  const Link link{
+  const ChainLink link{
       Eigen::Matrix3d::Identity(),         {0, 0, 2}, Eigen::Vector3d::UnitX(), mass, {0, 0, -length},
       moment * Eigen::Matrix3d::Identity()};
   const Eigen::VectorXd q = rng.normalVector(1), v = rng.normalVector(1), a = rng.normalVector(1);
@@ -464,7 +464,7 @@ void terms(Check& check, Student& student) {
   Rng& rng = check.rng();
   for (const int n : {2, 5}) {
     check.input("a random chain of " + std::to_string(n));
-    const std::vector<Link> chain = randomChain(rng, n);
+    const std::vector<ChainLink> chain = randomChain(rng, n);
     const Model model = modelOf(chain);
     const Eigen::VectorXd q = rng.normalVector(n), v = rng.normalVector(n);
     const auto near = [&](const std::string& property, const Eigen::MatrixXd& got,
@@ -481,7 +481,7 @@ void terms(Check& check, Student& student) {
 void anyChain(Check& check, Student& student) {
   check.forEachCase(8, [&](int i) {
     Rng& rng = check.rng();
-    const std::vector<Link> chain = randomChain(rng, 1 + rng.index(9));
+    const std::vector<ChainLink> chain = randomChain(rng, 1 + rng.index(9));
     forcesOf(check, student, chain,
              i < 2 ? Eigen::Vector3d::Zero() : Eigen::Vector3d(9 * rng.normalVector(3)));
   });

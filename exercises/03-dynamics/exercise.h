@@ -38,8 +38,9 @@ Gains gainsFor(Regime regime, double T, double mass);
 
 // Part 2, PID control (12.5.1 c).
 
-struct PidGains {
-  double Kp = 0, Kd = 0, Ki = 0;
+/// Gains of a PID controller: N/m, N/(m s) and N s/m.
+struct PidSettings {
+  double Kp = 0, Ki = 0, Kd = 0;
 };
 
 /// The force u [N], and the integral of the position error [m s] to hand to the next step.
@@ -50,13 +51,13 @@ struct PidStep {
 /// One step of PID control: 3:15 and 3:16. The force counts what `integral` was summed up to by the steps
 /// before; then it grows by tau times the present error, as in an Euler step. `restart` is true when the
 /// controller is switched on: what was summed up before then counts no more.
-PidStep pidStep(const PointState& at, const PointState& wanted, const PidGains& gains, double integral,
+PidStep pidStep(const PointState& at, const PointState& wanted, const PidSettings& gains, double integral,
                 double tau, bool restart);
 
 /// Whether a point of that mass [kg] under this control (in continuous time) comes to rest at its goal, from
 /// wherever it starts. Gains may be zero or negative. Exact: an oscillation that neither grows nor dies does
 /// not come to rest.
-bool isStable(const PidGains& gains, double mass);
+bool isStable(const PidSettings& gains, double mass);
 
 // Part 3, following a reference (12.5.2).
 
@@ -77,14 +78,14 @@ Eigen::VectorXd holdArm(const Eigen::VectorXd& q, const Eigen::VectorXd& v);
 // Part 5, computed torque (12.6.2 b).
 
 /// A point on a path in joint or task space: where it is, how fast, and its acceleration. d numbers each.
-struct Reference {
+struct PathPoint {
   Eigen::VectorXd y, yd, ydd;
 };
 
 /// The acceleration (d) that lets y (d), which moves with yd (d), come back to its reference like a point of
 /// mass 1 with wave length lambda [s] and damping ratio xi: 3:14 with 3:30 or 3:34.
 Eigen::VectorXd wantedAcceleration(const Eigen::VectorXd& y, const Eigen::VectorXd& yd,
-                                   const Reference& reference, double lambda, double xi);
+                                   const PathPoint& reference, double lambda, double xi);
 
 /// The joint forces (n) that give the joints the acceleration qdd (n), with M (n x n) and F (n) of 3:28.
 Eigen::VectorXd computedTorque(const Eigen::MatrixXd& M, const Eigen::VectorXd& F,
@@ -114,13 +115,13 @@ Eigen::VectorXd operationalForce(const AccelerationTask& task, const Eigen::Matr
 /// present posture and velocities of S. Asked anew at every step, it keeps the hand within 5 mm of a line or
 /// a circle on which it starts, and no joint turns faster than 5 rad/s, although the hand leaves some free. S
 /// may move.
-Eigen::VectorXd followWithHand(rex::Simulator& S, const std::string& hand, const Reference& reference);
+Eigen::VectorXd followWithHand(rex::Simulator& S, const std::string& hand, const PathPoint& reference);
 
 // Part 7, Newton and Euler (3:23, 3:24).
 
 /// A link of a chain of hinges. Its frame L turns about its own origin: at angle q it stands in the frame P
 /// of the link before (the world, for the first) at p_PL, with the rotation R_PL0 * rotation(axis, q).
-struct Link {
+struct ChainLink {
   Eigen::Matrix3d R_PL0 = Eigen::Matrix3d::Identity();
   Eigen::Vector3d p_PL = Eigen::Vector3d::Zero();
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();    ///< in L, a unit vector
@@ -132,18 +133,18 @@ struct Link {
 /// The joint forces (n, N m) that accelerate the chain by a (n) at angles q (n) and velocities v (n), under
 /// gravity [m/s^2, in the world frame], by the recursion of 3:23. The first link comes first; there is at
 /// least one.
-Eigen::VectorXd newtonEuler(const std::vector<Link>& chain, const Eigen::VectorXd& q,
+Eigen::VectorXd newtonEuler(const std::vector<ChainLink>& chain, const Eigen::VectorXd& q,
                             const Eigen::VectorXd& v, const Eigen::VectorXd& a,
                             const Eigen::Vector3d& gravity);
 
 /// G(q) of 3:24, n numbers.
-Eigen::VectorXd gravityTerm(const std::vector<Link>& chain, const Eigen::VectorXd& q,
+Eigen::VectorXd gravityTerm(const std::vector<ChainLink>& chain, const Eigen::VectorXd& q,
                             const Eigen::Vector3d& gravity);
 /// C(q, v) v of 3:24, without gravity, n numbers.
-Eigen::VectorXd coriolisTerm(const std::vector<Link>& chain, const Eigen::VectorXd& q,
+Eigen::VectorXd coriolisTerm(const std::vector<ChainLink>& chain, const Eigen::VectorXd& q,
                              const Eigen::VectorXd& v);
 /// M(q) of 3:24, n x n.
-Eigen::MatrixXd inertiaMatrix(const std::vector<Link>& chain, const Eigen::VectorXd& q);
+Eigen::MatrixXd inertiaMatrix(const std::vector<ChainLink>& chain, const Eigen::VectorXd& q);
 
 // Part 8, a bonus: balancing a pin.
 

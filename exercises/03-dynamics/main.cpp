@@ -3,7 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "dynamics/inverse_dynamics.h"
+#include "control/point_mass.h"
+#include "dynamics/dynamics_batch.h"
 #include "exercise.h"
 #include "scene/model.h"
 
@@ -31,14 +32,14 @@ Gains gainsFor(Regime regime, double T, double mass) {
   return {};
 }
 
-PidStep pidStep(const PointState& at, const PointState& wanted, const PidGains& gains, double integral,
+PidStep pidStep(const PointState& at, const PointState& wanted, const PidSettings& gains, double integral,
                 double tau, bool restart) {
   // TODO: slide 3:16. What does the integral start from when the controller is switched on?
   notUsedYet(at, wanted, gains, tau, restart);
   return {0, integral};
 }
 
-bool isStable(const PidGains& gains, double mass) {
+bool isStable(const PidSettings& gains, double mass) {
   // TODO: insert q = q* + exp(s t) into the differential equation. Where must all s lie?
   notUsedYet(gains, mass);
   return true;
@@ -57,7 +58,7 @@ Eigen::VectorXd holdArm(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
 }
 
 Eigen::VectorXd wantedAcceleration(const Eigen::VectorXd& y, const Eigen::VectorXd& yd,
-                                   const Reference& reference, double lambda, double xi) {
+                                   const PathPoint& reference, double lambda, double xi) {
   // TODO: the last line of slide 3:30.
   notUsedYet(yd, reference, lambda, xi);
   return Eigen::VectorXd::Zero(y.size());
@@ -83,7 +84,7 @@ Eigen::VectorXd operationalForce(const AccelerationTask& task, const Eigen::Matr
   return Eigen::VectorXd::Zero(F.size());
 }
 
-Eigen::VectorXd followWithHand(Simulator& S, const std::string& hand, const Reference& reference) {
+Eigen::VectorXd followWithHand(Simulator& S, const std::string& hand, const PathPoint& reference) {
   const int n = S.getJointDimension();
   // TODO: an AccelerationTask for the hand, and its force. What do the joints do that the hand leaves
   // free? Slide 3:35: a task may be made of two, one below the other.
@@ -91,7 +92,7 @@ Eigen::VectorXd followWithHand(Simulator& S, const std::string& hand, const Refe
   return Eigen::VectorXd::Zero(n);
 }
 
-Eigen::VectorXd newtonEuler(const std::vector<Link>& chain, const Eigen::VectorXd& q,
+Eigen::VectorXd newtonEuler(const std::vector<ChainLink>& chain, const Eigen::VectorXd& q,
                             const Eigen::VectorXd& v, const Eigen::VectorXd& a,
                             const Eigen::Vector3d& gravity) {
   const auto n = static_cast<Eigen::Index>(chain.size());
@@ -102,21 +103,21 @@ Eigen::VectorXd newtonEuler(const std::vector<Link>& chain, const Eigen::VectorX
   return u;
 }
 
-Eigen::VectorXd gravityTerm(const std::vector<Link>& chain, const Eigen::VectorXd& q,
+Eigen::VectorXd gravityTerm(const std::vector<ChainLink>& chain, const Eigen::VectorXd& q,
                             const Eigen::Vector3d& gravity) {
   // TODO: slide 3:24.
   notUsedYet(chain, gravity);
   return Eigen::VectorXd::Zero(q.size());
 }
 
-Eigen::VectorXd coriolisTerm(const std::vector<Link>& chain, const Eigen::VectorXd& q,
+Eigen::VectorXd coriolisTerm(const std::vector<ChainLink>& chain, const Eigen::VectorXd& q,
                              const Eigen::VectorXd& v) {
   // TODO: slide 3:24, without the gravity that is in its second line.
   notUsedYet(chain, v);
   return Eigen::VectorXd::Zero(q.size());
 }
 
-Eigen::MatrixXd inertiaMatrix(const std::vector<Link>& chain, const Eigen::VectorXd& q) {
+Eigen::MatrixXd inertiaMatrix(const std::vector<ChainLink>& chain, const Eigen::VectorXd& q) {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(q.size());
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(q.size(), q.size());
   // TODO: slide 3:24 once more, column by column; what does gravity have to be?
@@ -137,7 +138,6 @@ Eigen::VectorXd balancePin(Simulator& S, const Eigen::VectorXd& home) {
 namespace {
 
 constexpr double kTau = 0.01, kMass = 3.456;
-const Eigen::Vector3d kGravity(0, 0, -9.81);
 // Of pegArm2, and of pin_balancing.
 const Eigen::VectorXd kBent = (Eigen::VectorXd(7) << 0.6, -0.2, -0.7, 0.9, 0.9, 0.1, -1.6).finished();
 const Eigen::VectorXd kPinUp =
@@ -183,6 +183,11 @@ Figure overTime(const std::string& title, const std::string& yLabel, const std::
           .series = series};
 }
 
+// What the library has to say, on top of yours.
+Series dashed(const std::vector<double>& x, const std::vector<double>& y) {
+  return {.x = x, .y = y, .dashed = true, .color = Color{0, 0, 0}};
+}
+
 // A point that shall get to 1 m.
 void plotWay(const std::string& name, const std::string& title, const std::vector<Series>& series,
              const std::vector<Guide>& moments = {}) {
@@ -192,19 +197,21 @@ void plotWay(const std::string& name, const std::string& title, const std::vecto
   plot(name, figure);
 }
 
-void showPoint() {
-  std::vector<Series> ways, phases, horizons;
+// exact(gains, t): where the point is after t seconds [m] without the error of Euler steps.
+void showPoint(double (*exact)(const Gains& gains, double t)) {
+  std::vector<Series> ways, exactWays, phases, horizons;
   for (const auto& [name, regime] : kRegimes) {
     const PointMotion motion = reach(regime, 1);
     ways.push_back(curve(name, motion));
     phases.push_back({.label = name, .x = motion.q, .y = motion.v});
+    exactWays.push_back(dashed(motion.t, motion.t));
+    for (double& y : exactWays.back().y) y = exact(gainsFor(regime, 1, kMass), y);
   }
-  plotWay("regimes", "Three ways to reach the goal in one second", ways, {{1, "T"}});
-  plot("phase", {.title = "The same ways in phase space",
-                 .xLabel = "position [m]",
-                 .yLabel = "velocity [m/s]",
-                 .legend = Legend::kOutside,
-                 .series = phases});
+  ways.insert(ways.end(), exactWays.begin(), exactWays.end());
+  plotWay("regimes", "Three ways to the goal in one second (dashed: exact motion)", ways, {{1, "T"}});
+  Figure phase = overTime("The same ways in phase space", "velocity [m/s]", phases);
+  phase.xLabel = "position [m]";
+  plot("phase", phase);
   for (const int T : {1, 2, 5}) {
     const Gains gains = gainsFor(Regime::kCritical, T, kMass);
     horizons.push_back(curve("T = " + std::to_string(T) + " s", reach(Regime::kCritical, T)));
@@ -215,7 +222,7 @@ void showPoint() {
 
 // PID control of a point to 1 m against a steady push [N]. Until `released` it is held where it is, but the
 // controller works on; then it is switched on anew, or not.
-PointMotion pidMotion(const PidGains& gains, double seconds, double push, double released, bool restart) {
+PointMotion pidMotion(const PidSettings& gains, double seconds, double push, double released, bool restart) {
   double integral = 0;
   return simulate(seconds, [&](const PointState& at, double t) {
     const bool first = t < 0.5 * kTau || (restart && std::abs(t - released) < 0.5 * kTau);
@@ -226,7 +233,7 @@ PointMotion pidMotion(const PidGains& gains, double seconds, double push, double
 }
 
 void showPid() {
-  const PidGains pd{60, 25, 0}, pid{60, 25, 40}, alone{0, 0, 2}, damped{0, 2, 2}, all{10, 8, 4};
+  const PidSettings pd{60, 0, 25}, pid{60, 40, 25}, alone{0, 2, 0}, damped{0, 2, 2}, all{10, 4, 8};
   plotWay("load", "Against a steady push of 10 N",
           {curve("PD", pidMotion(pd, 8, -10, 0, false)), curve("PID", pidMotion(pid, 8, -10, 0, false))});
   plotWay("integral", "What an integral does without the others",
@@ -237,9 +244,9 @@ void showPid() {
           {curve("integral kept", pidMotion(pid, 12, 0, 3, false)),
            curve("integral restarted", pidMotion(pid, 12, 0, 3, true))},
           {{3, "released"}});
-  for (const PidGains& gains : {alone, damped, all})
-    print("Kp, Kd, Ki and whether stable",
-          Eigen::RowVector4d(gains.Kp, gains.Kd, gains.Ki, isStable(gains, kMass) ? 1 : 0));
+  for (const PidSettings& gains : {alone, damped, all})
+    print("Kp, Ki, Kd and whether stable",
+          Eigen::RowVector4d(gains.Kp, gains.Ki, gains.Kd, isStable(gains, kMass) ? 1 : 0));
 }
 
 void showFollowing() {
@@ -282,10 +289,6 @@ std::vector<double> swing(Simulator& S, double noise, const Force& u) {
   return farthest;
 }
 
-Eigen::VectorXd byPd(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Simulator&) {
-  return holdArm(q, v);
-}
-
 Eigen::VectorXd byComputedTorque(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Simulator& S) {
   Eigen::MatrixXd M;
   Eigen::VectorXd F;
@@ -294,9 +297,10 @@ Eigen::VectorXd byComputedTorque(const Eigen::VectorXd& q, const Eigen::VectorXd
   return computedTorque(M, F, wantedAcceleration(q, v, {zero, zero, zero}, 0.2, 1));
 }
 
-void film(const Simulator& S, const std::string& name, const PictureOptions& look) {
-  writeVideo(S, name, look);
-  writeContactSheet(S, name + "_sheet", look);
+// In real time: 30 frames a second.
+void film(const Simulator& S, const std::string& name, const PictureOptions& look, int seconds) {
+  writeVideo(S, name, look, 30 * seconds);
+  writeContactSheet(S, name + "_sheet", look, 6, 30 * seconds);
 }
 
 void showFall() {
@@ -308,23 +312,24 @@ void showFall() {
     return Eigen::VectorXd::Zero(q.size()).eval();
   });
   plot("energy", overTime("Energy of a falling arm", "energy gained [uJ]", {everyStep("", drift)}));
-  film(falling, "fall", {.caption = "Without forces", .traces = {"peg"}, .view = {1, -0.3, 0.3}});
+  film(falling, "fall", {.caption = "Without forces", .traces = {"peg"}, .view = {1, -0.3, 0.3}}, 4);
 }
 
 void showArms() {
   Simulator held("pegArm.ors"), known("pegArm.ors"), known2("pegArm2.ors");
+  const auto byPd = [](const auto& q, const auto& v, const Simulator&) { return holdArm(q, v); };
   Figure figure = overTime("Holding arms at zero, under noise and a push", "joint farthest from zero [rad]",
                            {everyStep("PD, pegArm", swing(held, 1, byPd)),
                             everyStep("M and F, pegArm", swing(known, 1, byComputedTorque)),
                             everyStep("M and F, pegArm2", swing(known2, 1, byComputedTorque))});
   figure.verticalLines = {{1, "push"}};
   plot("holding", figure);
-  film(held, "hold", {.caption = "PD in each joint", .view = {1, -0.3, 0.3}});
-  film(known, "torque", {.caption = "Computed torque", .view = {1, -0.3, 0.3}});
+  film(held, "hold", {.caption = "PD in each joint", .view = {1, -0.3, 0.3}}, 4);
+  film(known, "torque", {.caption = "Computed torque", .view = {1, -0.3, 0.3}}, 4);
 }
 
 // The hand on a circle of 20 cm radius from where it is, once round in three seconds, from rest to rest.
-Reference onCircle(const Eigen::Vector3d& start, double t) {
+PathPoint onCircle(const Eigen::Vector3d& start, double t) {
   const double pi = std::numbers::pi, w = pi / 3, angle = pi * (1 - std::cos(w * t));
   const double rate = pi * w * std::sin(w * t), growth = pi * w * w * std::cos(w * t);
   const Eigen::Vector3d out(0, std::sin(angle), std::cos(angle)), along(0, std::cos(angle), -std::sin(angle));
@@ -340,7 +345,7 @@ void showHand() {
   std::vector<double> error;
   std::vector<Eigen::Vector3d> circle;
   for (int step = 0; step < 300; ++step) {
-    const Reference reference = onCircle(start, kTau * step);
+    const PathPoint reference = onCircle(start, kTau * step);
     circle.emplace_back(reference.y);
     Simulator here = S;
     S.stepDynamics(followWithHand(here, "peg", reference), kTau);
@@ -351,13 +356,13 @@ void showHand() {
   const PictureOptions look{
       .caption = "Operational space control", .traces = {"peg"}, .paths = {circle}, .view = {1, -0.6, 0.4}};
   plot("hand", figure);
-  film(S, "circle", look);
-  writeReplay(S, "circle", look, {figure});
+  film(S, "circle", look, 3);
+  writeReplay(S, "circle", look, {figure}, 90);
 }
 
 // A chain for newtonEuler(): the frame of each link is that of its hinge.
-std::vector<Link> chainOf(const Model& model) {
-  std::vector<Link> chain;
+std::vector<ChainLink> chainOf(const Model& model) {
+  std::vector<ChainLink> chain;
   Pose X_PB = model.bodies()[static_cast<std::size_t>(model.joints()[0].parent)].X_PB;
   for (const Joint& joint : model.joints()) {
     const Body& body = model[joint.child];
@@ -369,31 +374,34 @@ std::vector<Link> chainOf(const Model& model) {
   return chain;
 }
 
-// q, v and a of a swing of pegArm2 through both sides of zero.
-std::array<Eigen::VectorXd, 3> swingAt(double t) {
+// q, v and a of a swing of pegArm2 through both sides of zero, a column for each step.
+std::array<Eigen::MatrixXd, 3> wideSwing() {
   const Eigen::VectorXd far = Eigen::VectorXd::LinSpaced(7, 1.2, -0.8);
-  return {std::sin(2 * t) * far, 2 * std::cos(2 * t) * far, -4 * std::sin(2 * t) * far};
+  Eigen::MatrixXd Q(7, 300), V(7, 300);
+  for (int step = 0; step < 300; ++step) {
+    Q.col(step) = std::sin(2 * kTau * (step + 1)) * far;
+    V.col(step) = 2 * std::cos(2 * kTau * (step + 1)) * far;
+  }
+  return {Q, V, -4 * Q};
 }
 
-void showNewtonEuler(const std::vector<Link>& chain, const std::vector<Eigen::VectorXd>& byLibrary) {
+void showNewtonEuler(const std::vector<ChainLink>& chain, const Eigen::MatrixXd& byLibrary) {
+  const auto [Q, V, A] = wideSwing();
   std::vector<Series> yours, library;
   for (const int joint : {0, 2, 4}) {
     std::vector<double> u, expected;
-    for (std::size_t i = 0; i < byLibrary.size(); ++i) {
-      const auto [q, v, a] = swingAt(kTau * static_cast<double>(i + 1));
-      u.push_back(newtonEuler(chain, q, v, a, kGravity)[joint]);
-      expected.push_back(byLibrary[i][joint]);
+    for (int step = 0; step < Q.cols(); ++step) {
+      u.push_back(newtonEuler(chain, Q.col(step), V.col(step), A.col(step), earthGravity())[joint]);
+      expected.push_back(byLibrary(joint, step));
     }
     yours.push_back(everyStep("joint " + std::to_string(joint + 1), u));
-    library.push_back(everyStep("", expected));
-    library.back().dashed = true;
-    library.back().color = Color{0, 0, 0};
+    library.push_back(dashed(yours.back().x, expected));
   }
   yours.insert(yours.end(), library.begin(), library.end());
   plot("newtonEuler",
        overTime("A swing of pegArm2: your forces, and the library's (dashed)", "joint force [N m]", yours));
   Eigen::MatrixXd terms(7, 9);
-  terms << inertiaMatrix(chain, kBent), gravityTerm(chain, kBent, kGravity),
+  terms << inertiaMatrix(chain, kBent), gravityTerm(chain, kBent, earthGravity()),
       coriolisTerm(chain, kBent, Eigen::VectorXd::Ones(7));
   print("M, G and C v of pegArm2, bent and turning at 1 rad/s", terms);
 }
@@ -411,13 +419,13 @@ void showPin() {
     tilt.push_back(std::acos(std::clamp(S.kinematicsVec("pin").z(), -1., 1.)));
   }
   plot("pin", overTime("A pin that starts at 0.02 rad", "tilt of the pin [rad]", {everyStep("", tilt)}));
-  film(S, "pin", {.caption = "Balancing a pin", .traces = {"universalJoint"}, .view = {1, -1, 0.4}});
+  film(S, "pin", {.caption = "Balancing a pin", .traces = {"universalJoint"}, .view = {1, -1, 0.4}}, 5);
 }
 
 }  // namespace
 
 int main() {
-  showPoint();
+  showPoint([](const Gains& g, double t) { return pdResponse({kMass}, {g.Kp, g.Kd}, {}, 1, t).q; });
   showPid();
   showFollowing();
   showFall();
@@ -425,12 +433,11 @@ int main() {
   showHand();
   showPin();
 
-  // Once your own recursion works, it lies on the library's.
+  // Once your own recursion works, it lies on the library's, which takes all moments at once.
   const Simulator S("pegArm2.ors");
-  std::vector<Eigen::VectorXd> byLibrary;
-  for (int step = 1; step <= 300; ++step) {
-    const auto [q, v, a] = swingAt(kTau * step);
-    byLibrary.push_back(inverseDynamics(S.model(), q, v, a, kGravity));
-  }
-  showNewtonEuler(chainOf(S.model()), byLibrary);
+  const auto [Q, V, A] = wideSwing();
+  Eigen::MatrixXd U = Q;
+  DynamicsWorkspace workspace;
+  inverseDynamicsBatch(S.model(), Q, V, A, earthGravity(), workspace, U);
+  showNewtonEuler(chainOf(S.model()), U);
 }

@@ -11,9 +11,9 @@
 
 // Chains of links for part 7, and the same for the library.
 
-inline std::vector<Link> randomChain(rex::Rng& rng, int n) {
+inline std::vector<ChainLink> randomChain(rex::Rng& rng, int n) {
   const auto turned = [&] { return rex::rotation(rng.uniform(-3, 3), rng.normalVector(3)).R; };
-  std::vector<Link> chain;
+  std::vector<ChainLink> chain;
   for (int i = 0; i < n; ++i) {
     // Moments of an ellipsoid with random axes, about random directions.
     const Eigen::Vector3d squares = rng.uniformVector(3, 0.01, 0.2);
@@ -27,10 +27,10 @@ inline std::vector<Link> randomChain(rex::Rng& rng, int n) {
 }
 
 // The same chain for the library.
-inline rex::Model modelOf(const std::vector<Link>& chain) {
+inline rex::Model modelOf(const std::vector<ChainLink>& chain) {
   rex::SceneSpec spec{.name = "chain", .bodies = {}, .joints = {}, .worldShapes = {}};
   std::string parent = "world";
-  for (const Link& link : chain) {
+  for (const ChainLink& link : chain) {
     rex::BodySpec body;
     body.name = "link" + std::to_string(spec.bodies.size());
     body.mass = link.mass;

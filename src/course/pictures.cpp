@@ -86,12 +86,11 @@ void writeVideo(const Simulator& simulator, const std::string& name, const Pictu
 }
 
 void writeContactSheet(const Simulator& simulator, const std::string& name, const PictureOptions& options,
-                       int pictures) {
-  constexpr int kMost = 120;  // as in a video, so that traces are as smooth and times the same
+                       int pictures, int most) {
   const ContactSheetOptions layout{.pictures = pictures};
   requireValid(layout);
   requireValid(RendererOptions{.width = options.width, .height = options.height});
-  const Film film = filmOf(simulator, options, kMost);
+  const Film film = filmOf(simulator, options, most);
   if (film.empty()) throw Error({.what = "no postures for a contact sheet", .where = {name + ".png"}});
   const Camera camera = cameraFor(film, options);
   // Drawn at the size at which they appear, text stays readable.

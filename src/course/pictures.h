@@ -32,14 +32,15 @@ void writeFrames(const Simulator& simulator, const std::string& folder, const Pi
                  int most = 120);
 
 /// writeFrames() into the folder NAME, and the video NAME.mp4 of them. Without ffmpeg there are only the
-/// frames, and a line on standard error says so. Throws as writeFrames, and Error when ffmpeg fails.
+/// frames, and a line on standard error says so. It plays 30 frames a second: in real time if `most` is 30
+/// times the recorded seconds. Throws as writeFrames, and Error when ffmpeg fails.
 void writeVideo(const Simulator& simulator, const std::string& name, const PictureOptions& options = {},
                 int most = 120);
 
 /// Draws moments of the recording, evenly spaced, side by side into NAME.png: at most `pictures`, first and
-/// last included, with the times they have in the film of writeVideo(). Throws as writePicture, and Error
-/// when nothing is recorded or `pictures` is below 2.
+/// last included, with the times they have in the film that writeVideo() makes of at most `most` frames.
+/// Throws as writeFrames, and Error when nothing is recorded or `pictures` is below 2.
 void writeContactSheet(const Simulator& simulator, const std::string& name,
-                       const PictureOptions& options = {}, int pictures = 6);
+                       const PictureOptions& options = {}, int pictures = 6, int most = 120);
 
 }  // namespace rex

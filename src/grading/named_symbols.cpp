@@ -40,13 +40,18 @@ void addCodeWords(const std::string& source, Words& words) {
   }
 }
 
-Words knownWords(const fs::path& root, const fs::path& exercise) {
+Words libraryWords(const fs::path& root) {
   Words words;
-  for (const char* name : {"exercise.h", "main.cpp"})
-    if (fs::exists(exercise / name)) addCodeWords(readTextFile(exercise / name), words);
   if (fs::exists(root / "src"))
     for (const auto& entry : fs::recursive_directory_iterator(root / "src"))
       if (entry.path().extension() == ".h") addCodeWords(readTextFile(entry.path()), words);
+  return words;
+}
+
+Words exerciseWords(const fs::path& exercise) {
+  Words words;
+  for (const char* name : {"exercise.h", "main.cpp"})
+    if (fs::exists(exercise / name)) addCodeWords(readTextFile(exercise / name), words);
   return words;
 }
 
@@ -78,7 +83,12 @@ bool looksLikeName(const std::string& text) {
 class Checker {
  public:
   Checker(fs::path root, fs::path exercise)
-      : root_(std::move(root)), exercise_(std::move(exercise)), words_(knownWords(root_, exercise_)) {}
+      : root_(std::move(root)),
+        exercise_(std::move(exercise)),
+        library_(libraryWords(root_)),
+        words_(exerciseWords(exercise_)) {
+    words_.insert(library_.begin(), library_.end());
+  }
 
   // Looks at the text between each pair of backticks of a line.
   void checkLine(const std::string& line, const SourceLocation& where) {
@@ -92,6 +102,14 @@ class Checker {
     }
   }
 
+  // Looks at a line `function = "rex::name"` of exercise.toml.
+  void checkForbidden(const std::string& line, const SourceLocation& where) {
+    const std::size_t open = line.find('"'), close = line.find('"', open + 1);
+    if (!line.starts_with("function") || close == std::string::npos) return;
+    checkWords(line.substr(open + 1, close - open - 1), {where.file, where.line, static_cast<int>(open) + 2},
+               library_);
+  }
+
   std::vector<DeadName> dead() && { return std::move(dead_); }
 
  private:
@@ -99,16 +117,20 @@ class Checker {
     if (looksLikeFile(name)) {
       if (!fileExists(name, root_, exercise_, words_)) dead_.push_back({where, name, {}});
     } else if (looksLikeName(name)) {
-      for (const std::string& word : wordsOf(name.substr(0, name.find('('))))
-        if (word.size() > 1 && !words_.contains(word)) {
-          dead_.push_back({where, name, nearestNames(word, {words_.begin(), words_.end()})});
-          return;
-        }
+      checkWords(name, where, words_);
     }
   }
 
+  void checkWords(const std::string& name, const SourceLocation& where, const Words& known) {
+    for (const std::string& word : wordsOf(name.substr(0, name.find('('))))
+      if (word.size() > 1 && !known.contains(word)) {
+        dead_.push_back({where, name, nearestNames(word, {known.begin(), known.end()})});
+        return;
+      }
+  }
+
   fs::path root_, exercise_;
-  Words words_;
+  Words library_, words_;
   std::vector<DeadName> dead_;
 };
 
@@ -116,15 +138,19 @@ class Checker {
 
 std::vector<DeadName> deadNames(const fs::path& root, const fs::path& exercise) {
   Checker checker(root, exercise);
-  for (const char* name : {"README.md", "solution.cpp"}) {
+  for (const char* name : {"README.md", "solution.cpp", "exercise.toml"}) {
     const fs::path file = exercise / name;
     if (!fs::exists(file)) continue;
     std::istringstream lines(readTextFile(file));
-    const bool readme = file.extension() == ".md";
+    const bool readme = file.extension() == ".md", description = file.extension() == ".toml";
     bool fenced = false;
     int number = 0;
     for (std::string line; std::getline(lines, line);) {
       ++number;
+      if (description) {
+        checker.checkForbidden(line, {file.string(), number});
+        continue;
+      }
       if (line.starts_with("```")) fenced = !fenced;
       const bool relevant = readme ? !fenced : line.find("//|") != std::string::npos;
       if (relevant) checker.checkLine(line, {file.string(), number});

@@ -383,6 +383,20 @@ TEST_F(SimulatorTest, ShowsItsWayOnAContactSheet) {
   EXPECT_GT(imageDifference(cut(10), last, 8).mean, 2);
 }
 
+TEST_F(SimulatorTest, TellsTheTimesOfTheFilmOnAContactSheet) {
+  Simulator S("pegArm.ors");
+  const auto sheet = [&](const std::string& name, int most) {
+    writeContactSheet(S, in(name), {.width = 160, .height = 120}, 2, most);
+    return readPng(in(name + ".png"));
+  };
+  S.setJointAngles(Eigen::Vector3d::Ones());
+  const Image two = sheet("two", 120);
+  for (int i = 0; i < 28; ++i) S.setJointAngles(Eigen::Vector3d::Ones());
+  EXPECT_EQ(sheet("thinned", 2), two) << "the last of two frames is at 1/30 s";
+  EXPECT_FALSE(sheet("all", 120) == two) << "that of thirty is at 29/30 s";
+  EXPECT_REX_ERROR(writeContactSheet(S, in("x"), {}, 6, 1), "number of postures: found 1, wanted at least 2");
+}
+
 TEST_F(SimulatorTest, ReplacesFramesOfAnEarlierRun) {
   Simulator S("pegArm.ors");
   const PictureOptions small{.width = 64, .height = 48};

@@ -60,5 +60,16 @@ TEST_F(DeadNamesTest, ReadTheTodosOfTheSolutionOnly) {
   EXPECT_THAT(dead("", "// `nobody` asks\n//| // TODO: call `jacobianPoss`.\n"), ElementsAre("jacobianPoss"));
 }
 
+TEST_F(DeadNamesTest, FindForbiddenFunctionsThatTheLibraryDoesNotHave) {
+  write("exercises/01-demo/exercise.toml",
+        "[[forbidden]]\nfunction = \"Simulator::jacobianPos\"\nreason = \"`nothing` here counts\"\n"
+        "[[forbidden]]\nfunction = \"Simulator::jacobianPoss\"\n"
+        "[[forbidden]]\nfunction = \"ikStep\"\n");  // the exercise has it, the library does not
+  EXPECT_THAT(dead(""), ElementsAre("Simulator::jacobianPoss", "ikStep"));
+  EXPECT_EQ(places_[0].where.line, 5);
+  EXPECT_EQ(places_[0].where.column, 13);
+  EXPECT_THAT(places_[0].nearest, ElementsAre("jacobianPos"));
+}
+
 }  // namespace
 }  // namespace rex::grading

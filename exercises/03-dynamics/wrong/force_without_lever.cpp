@@ -8,7 +8,7 @@ std::vector<Eigen::Matrix3d> R_PL;
 std::vector<Eigen::Vector3d> f, torque;
 Eigen::Vector3d w = Eigen::Vector3d::Zero(), wd = Eigen::Vector3d::Zero(), pdd = -gravity;
 for (Eigen::Index i = 0; i < n; ++i) {
-  const Link& link = chain[static_cast<std::size_t>(i)];
+  const ChainLink& link = chain[static_cast<std::size_t>(i)];
   const Eigen::Matrix3d R = link.R_PL0 * Eigen::AngleAxisd(q[i], link.axis).toRotationMatrix();
   pdd = R.transpose() * (pdd + wd.cross(link.p_PL) + w.cross(w.cross(link.p_PL)));
   const Eigen::Vector3d carried = R.transpose() * w;

@@ -22,10 +22,10 @@ task.J << J(0), Eigen::MatrixXd::Identity(6, 8);
 // ways are left to the arm; in those it goes home.
 const Eigen::Vector2d foot = S.kinematicsPos("universalJoint").head<2>();
 const Eigen::Vector2d footVelocity = S.jacobianPos("universalJoint").topRows(2) * v;
-const Reference stay{footAtHome, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+const PathPoint stay{footAtHome, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
 const Eigen::VectorXd lean = wantedAcceleration(foot, footVelocity, stay, 2, 1) / 9.81;
-const Reference upright{lean, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
-const Reference atHome{home.head(6), Eigen::VectorXd::Zero(6), Eigen::VectorXd::Zero(6)};
+const PathPoint upright{lean, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+const PathPoint atHome{home.head(6), Eigen::VectorXd::Zero(6), Eigen::VectorXd::Zero(6)};
 task.ydd << wantedAcceleration(S.kinematicsVec("pin").head(2), J(0) * v, upright, 0.25, 1),
     wantedAcceleration(q.head(6), v.head(6), atHome, 0.5, 1);
 task.C.topLeftCorner(2, 2) *= 1e4;

@@ -1,0 +1,7 @@
+// caught by: forbidden-call
+// mistake: asks the library about an arm that happens to be of the same size, as one state of many.
+
+// <solution newtonEuler>
+DynamicsWorkspace workspace;
+inverseDynamicsBatch(Simulator("pegArm2.ors").model(), q, v, a, gravity, workspace, u);
+// </solution>
