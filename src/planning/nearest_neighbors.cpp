@@ -7,9 +7,8 @@
 #include <numbers>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "base/error.h"
+#include "base/require_finite.h"
 
 namespace rex {
 namespace {
@@ -52,10 +51,7 @@ NearestNeighbors::NearestNeighbors(Space space) : space_(std::move(space)) {}
 // Lines and quaternions times their weights; angles as they are, from -pi to pi.
 Eigen::VectorXd NearestNeighbors::scaled(const VectorArg& q) const {
   requireSize("configuration", q.size(), space_.size());
-  if (!q.allFinite()) {
-    throw Error(
-        {.what = "configuration", .found = "a number that is not finite", .wanted = "finite numbers"});
-  }
+  requireFinite("configuration", q);
   Eigen::VectorXd x = q;
   Eigen::Index i = 0;
   for (const SpacePart& part : space_.parts()) {

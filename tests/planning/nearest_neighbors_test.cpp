@@ -99,7 +99,8 @@ TEST(NearestNeighbors, RefuseWhatIsNoPoint) {
   EXPECT_TRUE(tree.nearest(Eigen::Vector2d(0, 0), 3).empty());
   EXPECT_REX_ERROR(tree.add(Eigen::Vector3d(0, 0, 0)),
                    "configuration: found a vector of size 3, wanted size 2");
-  EXPECT_REX_ERROR(tree.add(Eigen::Vector2d(0, NAN)), "configuration: found a number that is not finite");
+  EXPECT_REX_ERROR(tree.add(Eigen::Vector2d(0, NAN)),
+                   "configuration: number 1: found nan, wanted a finite number");
 }
 
 }  // namespace
