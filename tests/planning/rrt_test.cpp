@@ -132,6 +132,20 @@ TEST(RrtStar, ComesNearTheShortestPath) {
   }
 }
 
+TEST(RrtStar, FindsTheGoalWithoutEverAimingAtIt) {
+  const Space square = Space::box(Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 1));
+  const PathProblem problem{.space = square,
+                            .allValid = eachColumn([](const VectorArg&) { return true; }),
+                            .start = Eigen::Vector2d(.1, .1),
+                            .goal = Eigen::Vector2d(.9, .8)};
+  Rng rng(5);
+  const RrtOptions growth{.stepSize = .1, .goalBias = 0, .maxSamples = 2000};
+  const PathResult result = growRrtStar(problem, {.growth = growth}, rng);
+  expectPath(problem, result);
+  expectTree(problem, result.trees.front(), .1);
+  EXPECT_LT(result.length, 1.05 * std::hypot(.8, .7));
+}
+
 TEST(Rrt, RefusesWhatItCannotPlan) {
   PathProblem problem = wallWithHole(2, .1);
   Rng rng(1);
