@@ -3,6 +3,8 @@
 #include <limits>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "base/error.h"
 #include "planning/tree_growth_internal.h"
 
@@ -109,6 +111,11 @@ int goalBehind(CostTree& tree, int node, const PathProblem& problem, double step
 
 PathResult growRrtStar(const PathProblem& problem, const RrtStarOptions& options, Rng& rng) {
   TreeGrowth growth(problem, options.growth, rng);
+  if (!(options.gamma >= 0)) {
+    throw Error({.what = "gamma of RRT*",
+                 .found = fmt::format("{:g}", options.gamma),
+                 .wanted = "zero or a positive number"});
+  }
   const Extent extent = extentOf(problem.space);
   const double power = 1. / extent.dimension;
   const double gamma =

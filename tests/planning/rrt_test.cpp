@@ -153,6 +153,10 @@ TEST(Rrt, RefusesWhatItCannotPlan) {
   EXPECT_REX_ERROR(plan({.stepSize = 0}), "step size of a tree: found 0, wanted a positive, finite distance");
   EXPECT_REX_ERROR(plan({.goalBias = 1.5}), "goal bias of a tree: found 1.5, wanted a number from 0 to 1");
   EXPECT_REX_ERROR(plan({.maxSamples = 0}), "number of samples: found 0, wanted at least 1");
+  for (const double gamma : {-1., std::nan("")})
+    EXPECT_REX_ERROR(static_cast<void>(growRrtStar(problem, {.gamma = gamma}, rng)),
+                     "gamma of RRT*: found " + std::string(gamma < 0 ? "-1" : "nan") +
+                         ", wanted zero or a positive number");
   problem.resolution = 0;
   EXPECT_REX_ERROR(plan({}), "resolution of a path check: found 0, wanted a positive, finite distance");
   problem = wallWithHole(2, .1);
