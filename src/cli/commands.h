@@ -63,10 +63,11 @@ struct SimulateOptions {
   std::string velocity{};  ///< see parseVelocities(); empty: at rest
   std::string engine = "rk4";
   double seconds = 5;
-  double tau = 1e-3;      ///< seconds per step
-  bool hold = false;      ///< computed torque holds the posture
-  bool friction = false;  ///< that of the joints, as in the scene
-  double noise = 0;       ///< see StepperOptions
+  double tau = 1e-3;              ///< seconds per step
+  bool hold = false;              ///< computed torque holds the posture
+  bool friction = false;          ///< that of the joints, as in the scene
+  double noise = 0;               ///< see StepperOptions
+  std::optional<double> floor{};  ///< its height, metres; empty: none but what the scene has
   std::uint64_t seed = 0;
   bool noFilm = false;
   RenderOptions film{};               ///< cameras, size and gl of the film

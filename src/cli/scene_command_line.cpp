@@ -215,7 +215,8 @@ void addSimulate(CLI::App& program, Action& action) {
       add(program, "simulate", "Let a robot fall, or hold it: a log, an energy plot and a film",
           "Examples:\n  scripts/rex simulate pegArm -o fall\n"
           "  scripts/rex simulate arm3 --q 0.5,-0.5,0.3 --v 0,2,0 --hold --seconds 2 -o hold\n"
-          "  scripts/rex simulate pegArm --engine euler --tau 0.01 -o euler\n\n"
+          "  scripts/rex simulate pegArm --engine euler --tau 0.01 -o euler\n"
+          "  scripts/rex simulate quadruped --free-base --engine bullet --floor -0.9 -o drop\n\n"
           "Joints are free; only bullet knows contacts and limits of joints. DIR gets log.csv (time, q, v\n"
           "and energies of every step), energy.png, energy.svg and simulate.mp4.");
   command->add_option("SCENE", options->scene.file, kSceneHelp)->type_name("")->required();
@@ -234,6 +235,8 @@ void addSimulate(CLI::App& program, Action& action) {
   command->add_option("--noise", options->noise, "each step adds sqrt(tau) * X * N(0, 1) to velocities")
       ->type_name("X");
   command->add_option("--seed", options->seed, "of the noise (default: 0)")->type_name("N");
+  command->add_option("--floor", options->floor, "a floor at that height, metres (bullet; default: none)")
+      ->type_name("Z");
   command->add_flag("--no-film", options->noFilm, "no simulate.mp4");
   command->add_option("--camera", options->film.cameras, "as for `rex render`; may be repeated")
       ->allow_extra_args(false)
