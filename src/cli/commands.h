@@ -66,8 +66,8 @@ struct SimulateOptions {
   double tau = 1e-3;              ///< seconds per step
   bool hold = false;              ///< computed torque holds the posture
   bool friction = false;          ///< that of the joints, as in the scene
-  std::optional<double> floor{};  ///< height of a floor under all, for bullet, metres
   double noise = 0;               ///< see StepperOptions
+  std::optional<double> floor{};  ///< its height, metres; empty: none but what the scene has
   std::uint64_t seed = 0;
   bool noFilm = false;
   RenderOptions film{};               ///< cameras, size and gl of the film

@@ -216,7 +216,7 @@ void addSimulate(CLI::App& program, Action& action) {
           "Examples:\n  scripts/rex simulate pegArm -o fall\n"
           "  scripts/rex simulate arm3 --q 0.5,-0.5,0.3 --v 0,2,0 --hold --seconds 2 -o hold\n"
           "  scripts/rex simulate pegArm --engine euler --tau 0.01 -o euler\n"
-          "  scripts/rex simulate quadruped --free-base --engine bullet --floor -1 -o drop\n\n"
+          "  scripts/rex simulate quadruped --free-base --engine bullet --floor -0.9 -o drop\n\n"
           "Joints are free; only bullet knows contacts and limits of joints. DIR gets log.csv\n"
           "(time, q, v and energies of every step), energy.png, energy.svg and simulate.mp4.");
   command->add_option("SCENE", options->scene.file, kSceneHelp)->type_name("")->required();
@@ -232,10 +232,11 @@ void addSimulate(CLI::App& program, Action& action) {
       ->type_name("VELOCITY");
   command->add_flag("--hold", options->hold, "computed torque holds the posture of the start");
   command->add_flag("--friction", options->friction, "with friction and damping of the scene's joints");
-  command->add_option("--floor", options->floor, "a floor at that height, for bullet")->type_name("METRES");
   command->add_option("--noise", options->noise, "each step adds sqrt(tau) * X * N(0, 1) to velocities")
       ->type_name("X");
   command->add_option("--seed", options->seed, "of the noise (default: 0)")->type_name("N");
+  command->add_option("--floor", options->floor, "a floor at that height, metres (bullet; default: none)")
+      ->type_name("Z");
   command->add_flag("--no-film", options->noFilm, "no simulate.mp4");
   command->add_option("--camera", options->film.cameras, "as for `rex render`; may be repeated")
       ->allow_extra_args(false)

@@ -49,25 +49,6 @@ void requireBetween(const char* option, double number, double least, double most
                     .wanted = fmt::format("{:g} to {:g}", least, most)});
 }
 
-// With the floor that is asked for: a thick box, so that nothing falls through it.
-Model loadScene(const Project& project, const SimulateOptions& options) {
-  SceneSpec spec = loadSpec(project, options.scene);
-  if (options.floor) {
-    if (options.engine != kBullet)
-      throw UsageError(
-          {.what = "--floor", .found = "--engine " + harmless(options.engine), .wanted = "bullet"});
-    requireBetween("--floor", *options.floor, -1e3, 1e3);
-    ShapeSpec floor;
-    floor.name = "floor";
-    floor.contact = true;
-    floor.visible = false;
-    floor.X_BS.p.z() = *options.floor - 1;
-    floor.shape.extent = {200, 200, 2};
-    spec.worldShapes.push_back(std::move(floor));
-  }
-  return asWrongUse([&] { return compile(spec); });
-}
-
 SimulationPlan planOf(const Model& model, const SimulateOptions& options) {
   SimulationPlan plan{.tau = options.tau, .isHeld = options.hold, .seed = options.seed};
   if (options.engine == kBullet)
@@ -190,13 +171,36 @@ void report(const Model& model, const std::vector<Moment>& moments, const Simula
   for (const std::string& file : files) say(file);
 }
 
+// A slab that is not drawn: films have a ground of their own, which lies where the lowest shape comes to.
+ShapeSpec floorAt(double height) {
+  constexpr double kThickness = 1, kWidth = 100;
+  return {.name = "floor",
+          .X_BS = translation(0, 0, height - kThickness / 2),
+          .shape = {.type = ShapeType::kBox, .extent = {kWidth, kWidth, kThickness}},
+          .contact = true,
+          .visible = false};
+}
+
+Model modelOf(const Project& project, const SimulateOptions& options) {
+  SceneSpec spec = loadSpec(project, options.scene);
+  if (options.floor) {
+    requireBetween("--floor", *options.floor, -1e3, 1e3);
+    if (options.engine != kBullet)
+      throw UsageError({.what = "--floor",
+                        .found = "--engine " + harmless(options.engine),
+                        .wanted = "--engine bullet, which knows contacts"});
+    spec.worldShapes.push_back(floorAt(*options.floor));
+  }
+  return asWrongUse([&] { return compile(spec); });
+}
+
 }  // namespace
 
 ExitCode simulate(const Project& project, const SimulateOptions& options) {
   RenderOptions filmOptions = options.film;
   filmOptions.out = options.out / "simulate.mp4";
   const RenderPlan film = planOf(filmOptions);
-  const Model model = loadScene(project, options);
+  const Model model = modelOf(project, options);
   const bool isVisible =
       std::ranges::any_of(model.shapes(), [](const ModelShape& one) { return one.visible; });
   if (!options.noFilm && !isVisible)

@@ -1,11 +1,13 @@
 #include "control/operational_space.h"
 
+#include <cassert>
 #include <cmath>
 #include <vector>
 
 #include <Eigen/Cholesky>
 
-#include "base/error.h"
+#include "control/require_internal.h"
+#include "dynamics/forward_dynamics.h"
 #include "dynamics/mass_matrix.h"
 #include "kinematics/hierarchical_step.h"
 #include "kinematics/inverse_kinematics.h"
@@ -18,28 +20,35 @@ namespace {
 Eigen::VectorXd referenceOf(const Task& task, const char* what, const Eigen::VectorXd& given,
                             Eigen::Index size) {
   if (given.size() == 0) return Eigen::VectorXd::Zero(size);
-  requireSize("task '" + task.name + "': " + what, given.size(), size);
+  const std::string name = "task '" + task.name + "': " + what;
+  requireSize(name, given.size(), size);
+  requireFinite(name, given);
   return given;
 }
 
 // The acceleration that a task asks of its value, beyond J' v.
 Eigen::VectorXd wishedAcceleration(const OperationalTask& one, const TaskValue& value, const State& state) {
   const Eigen::Index d = value.y.size();
+  requireFinite("task '" + one.task.name + "': gain Kp", one.gains.Kp);
+  requireFinite("task '" + one.task.name + "': gain Kd", one.gains.Kd);
   const Eigen::VectorXd target = referenceOf(one.task, "target", one.task.target, d);
   const Eigen::VectorXd velocity = referenceOf(one.task, "reference velocity", one.velocity, d);
   const Eigen::VectorXd acceleration = referenceOf(one.task, "reference acceleration", one.acceleration, d);
   return acceleration + one.gains.Kp * (target - value.y) + one.gains.Kd * (velocity - value.J * state.v);
 }
 
-// What each task wants of the forces: T u = y''* - J' v + T F.
+// What each task wants of the forces: T u = y''* - J' v + T F, where -T F = J a is how it accelerates
+// without.
 std::vector<TaskLevel> wishesOf(const Model& model, const State& state,
                                 std::span<const OperationalTask> tasks, const Eigen::Vector3d& gravity_W) {
-  const auto [M, F] = equationOfMotion(model, state.q, state.v, gravity_W);
-  const Eigen::LLT<Eigen::MatrixXd> factors(M);
-  if (factors.info() != Eigen::Success)
-    throw Error({.what = model.name() + ": mass matrix",
-                 .found = "one that is singular",
-                 .wanted = "mass at the end of every joint"});
+  internal::requireFinite(state);
+  requireFinite("gravity", gravity_W);
+  // Throws where M is singular, naming the joint and the body: sooner than a factorisation fails, which
+  // rounding now and then lets pass.
+  const Eigen::VectorXd fall =
+      forwardDynamics(model, state.q, state.v, Eigen::VectorXd::Zero(model.nv()), gravity_W);
+  const Eigen::LLT<Eigen::MatrixXd> factors(massMatrix(model, state.q));
+  assert(factors.info() == Eigen::Success);
   std::vector<Task> plain;
   for (const OperationalTask& one : tasks) plain.push_back(one.task);
   std::vector<TaskValue> values;
@@ -51,7 +60,7 @@ std::vector<TaskLevel> wishesOf(const Model& model, const State& state,
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     const Eigen::MatrixXd T = factors.solve(values[i].J.transpose()).transpose();
     wishes.push_back({T, wishedAcceleration(tasks[i], values[i], state) -
-                             velocityAcceleration(model, state, tasks[i].task.map) + T * F});
+                             velocityAcceleration(model, state, tasks[i].task.map) - values[i].J * fall});
   }
   return wishes;
 }
@@ -60,6 +69,7 @@ std::vector<TaskLevel> wishesOf(const Model& model, const State& state,
 
 Eigen::VectorXd velocityAcceleration(const Model& model, const State& state, const TaskMap& map) {
   requireSize("joint velocities v", state.v.size(), model.nv());
+  internal::requireFinite(state);
   Eigen::VectorXd q(model.nq());
   BodyPoses poses;
   TaskValue value;

@@ -40,7 +40,7 @@ struct OperationalSpaceOptions {
 /// The forces u (nv) that minimise the sum of rho_i |y_i'' - y_i''*|^2 over all tasks, rho_i being their
 /// precision, plus |u - u0|_H^2: u = T# (y''* - J' v + T F) + (Id - T# T) u0, T# = (T^T C T + H)^-1 T^T C.
 /// Slides 3:33 and 3:35. Throws Error as stackTasks and inverseKinematicsStep, for a velocity or acceleration
-/// of another size, and for a mass matrix that is singular.
+/// of another size, numbers that are not finite, and a mass matrix that is singular, as forwardDynamics.
 [[nodiscard]] Eigen::VectorXd operationalSpaceForces(const Model& model, const State& state,
                                                      std::span<const OperationalTask> tasks,
                                                      const OperationalSpaceOptions& options = {});

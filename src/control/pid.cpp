@@ -8,9 +8,9 @@ namespace rex {
 namespace {
 
 void requireGains(const PidGains& gains) {
-  internal::requireFinite("gain Kp", gains.Kp);
-  internal::requireFinite("gain Ki", gains.Ki);
-  internal::requireFinite("gain Kd", gains.Kd);
+  requireFinite("gain Kp", gains.Kp);
+  requireFinite("gain Ki", gains.Ki);
+  requireFinite("gain Kd", gains.Kd);
 }
 
 }  // namespace
@@ -32,25 +32,32 @@ Pid::Pid(const PidOptions& options) : options_(options) {
 }
 
 double Pid::step(double error, double velocityError, double h) {
-  internal::requireFinite("error", error);
-  internal::requireFinite("velocity error", velocityError);
+  requireFinite("error", error);
+  requireFinite("velocity error", velocityError);
   internal::requirePositive("time step h", h);
   const PidGains& gains = options_.gains;
   const double wished = gains.Kp * error + gains.Ki * integral_ + gains.Kd * velocityError;
   const double u = std::clamp(wished, options_.lowest, options_.highest);
   const double push = gains.Ki * error;
   const bool windsUp = (wished > u && push > 0) || (wished < u && push < 0);
-  if (!windsUp) integral_ += h * error;
+  const double integral = windsUp ? integral_ : integral_ + h * error;
+  requireFinite("force u", u);
+  requireFinite("integral of the error", integral);
+  integral_ = integral;
   return u;
 }
 
 double Pid::step(double error, double h) {
-  internal::requireFinite("error", error);
+  requireFinite("error", error);
   internal::requirePositive("time step h", h);
   // Backward Euler of filterTime slope' + slope = e': stable for every h.
-  if (lastError_) slope_ += ((error - *lastError_) - h * slope_) / (options_.filterTime + h);
+  const double change = lastError_ ? error - *lastError_ - h * slope_ : 0;
+  const double slope = slope_ + change / (options_.filterTime + h);
+  requireFinite("difference of the last two errors, per second", slope);
+  const double u = step(error, slope, h);
+  slope_ = slope;
   lastError_ = error;
-  return step(error, slope_, h);
+  return u;
 }
 
 void Pid::reset() {

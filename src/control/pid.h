@@ -33,7 +33,8 @@ class Pid {
   explicit Pid(const PidOptions& options);
 
   /// The force for the error e = q* - q and its velocity v* - v, held for h seconds, over which the integral
-  /// then grows by h e. Throws Error for h <= 0 and numbers that are not finite.
+  /// then grows by h e. Throws Error for h <= 0, numbers that are not finite, and where the force or the
+  /// integral would not be; nothing has changed then.
   double step(double error, double velocityError, double h);
   /// The same for those who measure no velocity: by differences of the error, smoothed by a filter of first
   /// order. The first step after a reset() has no difference yet, and takes it to be zero.

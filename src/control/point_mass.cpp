@@ -36,15 +36,15 @@ Modes modesAt(double damping, double stiffness, double t) {
 
 void requireState(const PointMass& point, const PointMassState& at) {
   internal::requirePositive("mass", point.mass);
-  internal::requireFinite("position q", at.q);
-  internal::requireFinite("velocity v", at.v);
+  requireFinite("position q", at.q);
+  requireFinite("velocity v", at.v);
 }
 
 }  // namespace
 
 PointMassState PointMass::eulerStep(const PointMassState& at, double u, double h) const {
   requireState(*this, at);
-  internal::requireFinite("force u", u);
+  requireFinite("force u", u);
   internal::requirePositive("time step h", h);
   return {.q = at.q + h * at.v, .v = at.v + h * u / mass};
 }
@@ -52,9 +52,8 @@ PointMassState PointMass::eulerStep(const PointMassState& at, double u, double h
 PointMassState pdResponse(const PointMass& point, const PdGains& gains, const PointMassState& start,
                           double target, double t) {
   requireState(point, start);
-  internal::requireFinite("gain Kp", gains.Kp);
-  internal::requireFinite("gain Kd", gains.Kd);
-  internal::requireFinite("target", target);
+  internal::requireFinite(gains);
+  requireFinite("target", target);
   internal::requireNotNegative("time t", t);
   const double damping = gains.Kd / point.mass / 2, stiffness = gains.Kp / point.mass;
   const double e = start.q - target;

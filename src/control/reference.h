@@ -6,6 +6,9 @@
 
 namespace rex {
 
+// All functions allocate what they return. They throw Error for vectors of the wrong size and numbers that
+// are not finite, saying which, and as named below.
+
 /// Where a robot shall be at one moment, how fast, and how that changes: q (nq), v and a (nv).
 struct Reference {
   Eigen::VectorXd q, v, a;
@@ -15,7 +18,7 @@ struct Reference {
 [[nodiscard]] Reference standAt(const Model& model, const VectorArg& q);
 
 /// On the straight way from posture q0 to qT, which takes `seconds` from time 0 and rests before and after:
-/// at time t. Throws Error as profileAt and difference, and unless seconds > 0.
+/// at time t. Throws Error as profileAt, and unless seconds > 0.
 [[nodiscard]] Reference referenceAlong(const Model& model, const VectorArg& q0, const VectorArg& qT,
                                        double seconds, double t, const MotionProfile& profile = {});
 
@@ -26,7 +29,7 @@ struct Reference {
 
 /// The acceleration (nv) that makes each joint behave like a point of mass one on a spring to the reference:
 /// a* = a_ref + Kp (q_ref - q) + Kd (v_ref - v). Slide 3:30; at quaternions, q_ref - q is difference(). Gains
-/// are those of pdGains(1, lambda, xi). Throws Error for wrong sizes.
+/// are those of pdGains(1, lambda, xi); negative ones, which push away, are taken as they are.
 [[nodiscard]] Eigen::VectorXd followReference(const Model& model, const State& state,
                                               const Reference& reference, const PdGains& gains);
 

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "base/require_finite.h"
 #include "base/rng.h"
 #include "collision/contacts.h"
 #include "collision/proxy_report.h"
@@ -51,15 +52,10 @@ Contacts contactsOf(const Model& model) {
   }
 }
 
-void requireFinite(const char* method, const char* what, const Eigen::VectorXd& numbers, int size) {
+void requireNumbers(const char* method, const char* what, const Eigen::VectorXd& numbers, int size) {
   requireSize(method, numbers.size(), size);
-  for (Eigen::Index i = 0; i < numbers.size(); ++i) {
-    if (!std::isfinite(numbers[i])) {
-      throw Error({.what = fmt::format("{}: {} {}", method, what, i),
-                   .found = fmt::format("{}", numbers[i]),
-                   .wanted = "a finite number"});
-    }
-  }
+  for (Eigen::Index i = 0; i < size; ++i)
+    requireFinite(fmt::format("{}: {} {}", method, what, i), numbers[i]);
 }
 
 }  // namespace
@@ -146,7 +142,7 @@ int Simulator::getJointDimension() const { return parts_->model.nq(); }
 Eigen::VectorXd Simulator::getJointAngles() const { return parts_->q; }
 
 void Simulator::setJointAngles(const Eigen::VectorXd& q) {
-  requireFinite("setJointAngles", "angle", q, parts_->model.nq());
+  requireNumbers("setJointAngles", "angle", q, parts_->model.nq());
   parts_->moveTo(q, parts_->v);
 }
 
@@ -158,8 +154,8 @@ void Simulator::getJointAnglesAndVels(Eigen::VectorXd& q, Eigen::VectorXd& qdot)
 }
 
 void Simulator::setJointAnglesAndVels(const Eigen::VectorXd& q, const Eigen::VectorXd& qdot) {
-  requireFinite("setJointAnglesAndVels", "angle", q, parts_->model.nq());
-  requireFinite("setJointAnglesAndVels", "velocity", qdot, parts_->model.nv());
+  requireNumbers("setJointAnglesAndVels", "angle", q, parts_->model.nq());
+  requireNumbers("setJointAnglesAndVels", "velocity", qdot, parts_->model.nv());
   parts_->moveTo(q, qdot);
 }
 

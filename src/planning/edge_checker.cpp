@@ -13,6 +13,7 @@ namespace rex {
 namespace {
 
 constexpr int kBlock = 8;
+constexpr double kMostPoints = 1e8;  // on one way: minutes of work even where a check takes a microsecond
 
 // A step that visits all of 0 .. count - 1 and never stays near where it was: coprime to count, about .38 of
 // it.
@@ -38,8 +39,17 @@ bool EdgeChecker::isValid(const VectorArg& q) {
   return allValid_(q);
 }
 
+int EdgeChecker::pointsBetween(const VectorArg& from, const VectorArg& to) const {
+  const double distance = space_.distance(from, to), points = std::ceil(distance / resolution_);
+  if (points <= kMostPoints) return std::max(1, static_cast<int>(points));
+  throw Error(
+      {.what = fmt::format("resolution of a path check: {:g} on a way of length {:g}", resolution_, distance),
+       .found = std::isfinite(distance) ? fmt::format("{:g} points", points) : "no finite distance",
+       .wanted = fmt::format("a coarser one: at most {:g} points", kMostPoints)});
+}
+
 bool EdgeChecker::isValid(const VectorArg& from, const VectorArg& to) {
-  const int points = std::max(1, static_cast<int>(std::ceil(space_.distance(from, to) / resolution_)));
+  const int points = pointsBetween(from, to);
   const int blocks = (points + kBlock - 1) / kBlock, step = wideStep(blocks);
   for (int i = 0, first = 0; i < blocks; ++i, first = (first + step) % blocks) {
     int filled = 0;

@@ -14,12 +14,15 @@ class EdgeChecker {
   EdgeChecker(const Space& space, AllValid allValid, double resolution);
 
   [[nodiscard]] bool isValid(const VectorArg& q);
-  /// The way from a valid configuration to another, that one included. Throws Error for wrong sizes.
+  /// The way from a valid configuration to another, that one included. Throws Error for wrong sizes,
+  /// and unless it takes at most 1e8 points, naming resolution and distance.
   [[nodiscard]] bool isValid(const VectorArg& from, const VectorArg& to);
   /// How many configurations were handed to the validity function so far.
   long asked() const { return asked_; }
 
  private:
+  [[nodiscard]] int pointsBetween(const VectorArg& from, const VectorArg& to) const;
+
   Space space_;
   AllValid allValid_;
   double resolution_;

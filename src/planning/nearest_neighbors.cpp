@@ -10,12 +10,14 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require_finite.h"
 
 namespace rex {
 namespace {
 
 using Kind = SpacePart::Kind;
 constexpr double kPi = std::numbers::pi;
+constexpr std::size_t kUsualDepth = 64;  // of a search; deeper ones take more memory
 
 // Between two angles of [-pi, pi], at most pi.
 double angleBetween(double a, double b) {
@@ -52,10 +54,7 @@ NearestNeighbors::NearestNeighbors(Space space) : space_(std::move(space)) {}
 // Lines and quaternions times their weights; angles as they are, from -pi to pi.
 Eigen::VectorXd NearestNeighbors::scaled(const VectorArg& q) const {
   requireSize("configuration", q.size(), space_.size());
-  if (!q.allFinite()) {
-    throw Error(
-        {.what = "configuration", .found = "a number that is not finite", .wanted = "finite numbers"});
-  }
+  requireFinite("configuration", q);
   Eigen::VectorXd x = q;
   Eigen::Index i = 0;
   for (const SpacePart& part : space_.parts()) {
@@ -81,7 +80,7 @@ int NearestNeighbors::newLeaf() {
 void NearestNeighbors::put(int leaf, const double* x, int point) {
   Bucket& bucket = buckets_[static_cast<std::size_t>(node(leaf).bucket)];
   const std::size_t slot = bucket.points.size();
-  for (std::size_t i = 0; i < size(); ++i) bucket.numbers[i * kBucket + slot] = x[i];
+  for (std::size_t i = 0; i < size(); ++i) bucket.numbers[place(i, slot)] = x[i];
   bucket.points.push_back(point);
 }
 
@@ -116,15 +115,16 @@ void NearestNeighbors::split(int at) {
   const Bucket full = std::exchange(buckets_[static_cast<std::size_t>(node(at).bucket)], Bucket{});
   std::array<int, kBucket> order;
   for (int k = 0; k < kBucket; ++k) order[static_cast<std::size_t>(k)] = k;
-  const double* numbers = full.numbers.data() + longest * kBucket;
+  const auto key = [&](int k) {
+    return std::pair(full.numbers[place(longest, static_cast<std::size_t>(k))], k);
+  };
   std::nth_element(order.begin(), order.begin() + kBucket / 2, order.end(),
-                   [&](int a, int b) { return std::pair(numbers[a], a) < std::pair(numbers[b], b); });
+                   [&](int a, int b) { return key(a) < key(b); });
   const int left = newLeaf(), right = newLeaf();
   Eigen::VectorXd x(space_.size());
   for (int k = 0; k < kBucket; ++k) {
     const auto slot = static_cast<std::size_t>(order[static_cast<std::size_t>(k)]);
-    for (std::size_t i = 0; i < size(); ++i)
-      x[static_cast<Eigen::Index>(i)] = full.numbers[i * kBucket + slot];
+    for (std::size_t i = 0; i < size(); ++i) x[static_cast<Eigen::Index>(i)] = full.numbers[place(i, slot)];
     const int leaf = k < kBucket / 2 ? left : right;
     grow(leaf, x.data());
     put(leaf, x.data(), full.points[slot]);
@@ -175,28 +175,29 @@ double NearestNeighbors::boxDistance2(int at, const double* x) const {
   return sum;
 }
 
-void NearestNeighbors::bucketDistances2(const Bucket& bucket, const double* x, double* distances) const {
-  std::fill_n(distances, kBucket, 0.);
-  const double* numbers = bucket.numbers.data();
+// Of x from the points of a chunk, and the smallest of them, or less: zeros stand where there are no points.
+double NearestNeighbors::chunkDistances2(const double* numbers, const double* x, double* distances) const {
+  using Lanes = Eigen::Array<double, kChunk, 1>;
+  Lanes sum = Lanes::Zero();
   for (const SpacePart& part : space_.parts()) {
     if (part.kind == Kind::kLine) {
-      for (int k = 0; k < kBucket; ++k) distances[k] += (*x - numbers[k]) * (*x - numbers[k]);
+      sum += (*x - Eigen::Map<const Lanes>(numbers)).square();
     } else if (part.kind == Kind::kQuaternion) {
-      for (int k = 0; k < kBucket; ++k) {
-        double same = 0, opposite = 0;
-        for (int i = 0; i < 4; ++i) {
-          const double number = numbers[i * kBucket + k];
-          same += (x[i] - number) * (x[i] - number);
-          opposite += (x[i] + number) * (x[i] + number);
-        }
-        distances[k] += std::min(same, opposite);
+      Lanes same = Lanes::Zero(), opposite = Lanes::Zero();
+      for (int i = 0; i < 4; ++i) {
+        const Eigen::Map<const Lanes> number(numbers + i * kChunk);
+        same += (x[i] - number).square();
+        opposite += (x[i] + number).square();
       }
+      sum += same.min(opposite);
     } else {
-      for (int k = 0; k < kBucket; ++k) distances[k] += squaredTurn(part, angleBetween(*x, numbers[k]));
+      for (int k = 0; k < kChunk; ++k) sum[k] += squaredTurn(part, angleBetween(*x, numbers[k]));
     }
     x += sizeOf(part.kind);
-    numbers += sizeOf(part.kind) * kBucket;
+    numbers += sizeOf(part.kind) * kChunk;
   }
+  Eigen::Map<Lanes>(distances, kChunk) = sum;
+  return sum.minCoeff();
 }
 
 // Calls visit(squared distance, point) for all points that may be within the squared distance that it
@@ -205,16 +206,20 @@ template <class Visit>
 void NearestNeighbors::search(const double* x, double reach2, const Visit& visit) const {
   if (nodes_.empty()) return;
   std::vector<Neighbor> open{{boxDistance2(0, x), 0}};
-  std::array<double, kBucket> distances;
+  open.reserve(kUsualDepth);
+  std::array<double, kChunk> distances;
   while (!open.empty()) {
     const auto [bound, at] = open.back();
     open.pop_back();
     if (bound > reach2) continue;
     if (isLeaf(at)) {
       const Bucket& bucket = buckets_[static_cast<std::size_t>(node(at).bucket)];
-      bucketDistances2(bucket, x, distances.data());
-      for (std::size_t k = 0; k < bucket.points.size(); ++k)
-        if (distances[k] <= reach2) reach2 = visit(distances[k], bucket.points[k]);
+      for (std::size_t first = 0; first < bucket.points.size(); first += kChunk) {
+        if (chunkDistances2(bucket.numbers.data() + first * size(), x, distances.data()) > reach2) continue;
+        const std::size_t count = std::min<std::size_t>(kChunk, bucket.points.size() - first);
+        for (std::size_t k = 0; k < count; ++k)
+          if (distances[k] <= reach2) reach2 = visit(distances[k], bucket.points[first + k]);
+      }
       continue;
     }
     const Neighbor left{boxDistance2(node(at).left, x), node(at).left};
@@ -255,7 +260,11 @@ std::vector<int> NearestNeighbors::nearest(const VectorArg& q, int most) const {
 
 std::vector<int> NearestNeighbors::within(const VectorArg& q, double radius) const {
   const Eigen::VectorXd x = scaled(q);
-  if (!(radius >= 0)) return {};
+  if (!(radius >= 0)) {
+    throw Error({.what = "radius around a configuration",
+                 .found = fmt::format("{:g}", radius),
+                 .wanted = "zero or a positive distance"});
+  }
   std::vector<Neighbor> found;
   search(x.data(), radius * radius, [&](double distance2, int point) {
     found.emplace_back(distance2, point);

@@ -16,27 +16,30 @@ class NearestNeighbors {
 
   int count() const { return static_cast<int>(points_.size() / size()); }
   /// Numbers of the points: 0, 1, 2, ... in the order they are added. Throws Error for a wrong size or
-  /// numbers that are not finite.
+  /// numbers that are not finite, saying which.
   int add(const VectorArg& q);
   [[nodiscard]] Eigen::VectorXd point(int i) const;
 
   /// The nearest point. Throws Error if there is none, and as add().
   [[nodiscard]] int nearest(const VectorArg& q) const;
-  /// The `most` nearest points, or all if there are fewer, nearest first. Throws as add().
+  /// The `most` nearest points, or all if there are fewer, nearest first; none for most <= 0. Throws as
+  /// add().
   [[nodiscard]] std::vector<int> nearest(const VectorArg& q, int most) const;
-  /// All points at most `radius` away, nearest first. Throws as add().
+  /// All points at most `radius` away, nearest first. Throws as add(), and for a radius that is negative or
+  /// no number.
   [[nodiscard]] std::vector<int> within(const VectorArg& q, double radius) const;
 
  private:
-  // A leaf holds up to kBucket points, any other node two nodes.
-  static constexpr int kBucket = 32;
+  // A leaf holds up to kBucket points, any other node two nodes. Distances are taken of kChunk points at
+  // once.
+  static constexpr int kBucket = 64, kChunk = 8;
   struct Node {
     int left = -1, right = -1;  // a leaf has none
     int count = 0;              // points below
     int bucket = -1;            // of a leaf
   };
   struct Bucket {
-    std::vector<double> numbers;  // number i of point k stands at [i * kBucket + k]
+    std::vector<double> numbers;  // chunk after chunk: number i of point k of a chunk at [i * kChunk + k]
     std::vector<int> points;
   };
 
@@ -46,6 +49,9 @@ class NearestNeighbors {
   const double* box(int i) const { return boxes_.data() + 2 * static_cast<std::size_t>(i) * size(); }
   std::size_t size() const { return static_cast<std::size_t>(space_.size()); }
   bool isLeaf(int i) const { return node(i).left < 0; }
+  std::size_t place(std::size_t i, std::size_t slot) const {
+    return (slot / kChunk * size() + i) * kChunk + slot % kChunk;
+  }
   bool isFull(int i) const { return node(i).count > kBucket; }
 
   [[nodiscard]] Eigen::VectorXd scaled(const VectorArg& q) const;
@@ -55,7 +61,7 @@ class NearestNeighbors {
   int branchFor(const Node& at, const double* x) const;
   void split(int at);
   double boxDistance2(int at, const double* x) const;
-  void bucketDistances2(const Bucket& bucket, const double* x, double* distances) const;
+  double chunkDistances2(const double* numbers, const double* x, double* distances) const;
   template <class Visit>
   void search(const double* x, double reach2, const Visit& visit) const;
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require_finite.h"
 
 namespace rex {
 namespace {
@@ -16,10 +17,8 @@ Eigen::Vector2d multipliers(const Eigen::Vector2d& from, const Eigen::Vector2d& 
                  .found = fmt::format("{:g}", duration),
                  .wanted = "a positive, finite number of seconds"});
   }
-  if (!from.allFinite() || !to.allFinite()) {
-    throw Error(
-        {.what = "state in phase space", .found = "a number that is not finite", .wanted = "finite numbers"});
-  }
+  requireFinite("state in phase space", from);
+  requireFinite("state in phase space", to);
   const double T = duration, position = to[0] - from[0] - T * from[1], velocity = to[1] - from[1];
   return {12 / (T * T * T) * position - 6 / (T * T) * velocity, 4 / T * velocity - 6 / (T * T) * position};
 }
@@ -32,12 +31,14 @@ double leastEffort(const Eigen::Vector2d& from, const Eigen::Vector2d& to, doubl
 }
 
 double leastEffortForce(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double duration, double t) {
+  requireFinite("time of a motion", t);
   const Eigen::Vector2d p = multipliers(from, to, duration);
   return (duration - t) * p[0] + p[1];
 }
 
 Eigen::Vector2d leastEffortState(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double duration,
                                  double t) {
+  requireFinite("time of a motion", t);
   const Eigen::Vector2d p = multipliers(from, to, duration);
   const double first = duration * p[0] + p[1];  // the force at the start
   return {from[0] + t * from[1] + t * t / 2 * first - t * t * t / 6 * p[0],

@@ -10,7 +10,7 @@ namespace rex {
 /// that is not positive, and numbers that are not finite.
 [[nodiscard]] double leastEffort(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double duration);
 
-/// The force at time t of that motion: it changes linearly in time.
+/// The force at time t of that motion: it changes linearly in time. Throws as leastEffort.
 [[nodiscard]] double leastEffortForce(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double duration,
                                       double t);
 

@@ -3,6 +3,8 @@
 #include <limits>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "base/error.h"
 #include "planning/tree_growth_internal.h"
 
@@ -96,10 +98,24 @@ int bestParent(const CostTree& tree, const std::vector<int>& near, const Eigen::
   return -1;
 }
 
+// The goal as a node, if a new node is it, or a step that nothing bars leads there; -1 otherwise. The new one
+// is the only parent that it can have: older ones near it were tried when they were new.
+int goalBehind(CostTree& tree, int node, const PathProblem& problem, double stepSize, EdgeChecker& edges) {
+  const Eigen::VectorXd q = tree.tree().points().point(node);
+  if (q == problem.goal) return node;
+  const bool isNear = problem.space.distance(q, problem.goal) <= stepSize;
+  return isNear && edges.isValid(q, problem.goal) ? tree.add(problem.goal, node) : -1;
+}
+
 }  // namespace
 
 PathResult growRrtStar(const PathProblem& problem, const RrtStarOptions& options, Rng& rng) {
   TreeGrowth growth(problem, options.growth, rng);
+  if (!(options.gamma >= 0)) {
+    throw Error({.what = "gamma of RRT*",
+                 .found = fmt::format("{:g}", options.gamma),
+                 .wanted = "zero or a positive number"});
+  }
   const Extent extent = extentOf(problem.space);
   const double power = 1. / extent.dimension;
   const double gamma =
@@ -120,7 +136,7 @@ PathResult growRrtStar(const PathProblem& problem, const RrtStarOptions& options
     const int parent = bestParent(tree, near, q, growth.edges());
     if (parent < 0) continue;
     const int node = tree.add(q, parent);
-    if (goal < 0 && q == problem.goal) goal = node;
+    if (goal < 0) goal = goalBehind(tree, node, problem, options.growth.stepSize, growth.edges());
     for (const int other : near) {
       const Eigen::VectorXd at = tree.tree().points().point(other);
       if (tree.costThrough(node, at) < tree.cost(other) && growth.edges().isValid(q, at))

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require_finite.h"
 #include "base/rng.h"
 #include "geometry/rotation.h"
 
@@ -131,6 +132,7 @@ void Space::sample(Rng& rng, Eigen::Ref<Eigen::VectorXd> out) const {
 
 void Space::require(std::string_view what, const VectorArg& q) const {
   requireSize(what, q.size(), size_);
+  requireFinite(what, q);
   const auto refuse = [&](Eigen::Index i, const std::string& wanted) {
     throw Error({.what = fmt::format("{}: number {}", what, i),
                  .found = fmt::format("{:g}", q[i]),
@@ -138,8 +140,6 @@ void Space::require(std::string_view what, const VectorArg& q) const {
   };
   Eigen::Index i = 0;
   for (const SpacePart& part : parts_) {
-    for (int k = 0; k < sizeOf(part.kind); ++k)
-      if (!std::isfinite(q[i + k])) refuse(i + k, "a finite number");
     if (part.kind == Kind::kLine && q[i] < part.lower)
       refuse(i, fmt::format("at least {:g}: it is {:g} below", part.lower, part.lower - q[i]));
     if (part.kind == Kind::kLine && q[i] > part.upper)

@@ -8,6 +8,7 @@
 #include "bench/ompl_peer.h"
 #include "bench/row.h"
 #include "planning/dubins.h"
+#include "planning/nearest_neighbors.h"
 #include "planning/reeds_shepp.h"
 
 namespace rex::bench {
@@ -44,6 +45,39 @@ void requireSame(const std::vector<Eigen::Vector3d>& poses, const CurvePeer::Len
       throw std::logic_error("lengths of curves differ from ours");
 }
 
+// The nearest of 1000 points in seven dimensions, by the tree and by a look at all: the mean over many
+// questions.
+Row nearestRow() {
+  constexpr int kDimension = 7, kPoints = 1000, kQuestions = 200;
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(kDimension);
+  const Space space = Space::box(-ones, ones);
+  const auto tree = std::make_shared<NearestNeighbors>(space);
+  Rng rng(2);
+  Eigen::MatrixXd points(kDimension, kPoints), questions(kDimension, kQuestions);
+  for (Eigen::Index k = 0; k < kPoints; ++k) {
+    space.sample(rng, points.col(k));
+    tree->add(points.col(k));
+  }
+  for (Eigen::Index k = 0; k < kQuestions; ++k) space.sample(rng, questions.col(k));
+  const auto byTree = [=](Eigen::Index k) { return tree->nearest(questions.col(k)); };
+  const auto byLook = [=](Eigen::Index k) {
+    int nearest = 0;
+    (points.colwise() - questions.col(k)).colwise().squaredNorm().minCoeff(&nearest);
+    return nearest;
+  };
+  for (Eigen::Index k = 0; k < kQuestions; ++k)
+    if (byTree(k) != byLook(k)) throw std::logic_error("the nearest point is another");
+  const auto perQuestion = [](const auto& ask) -> Measurement {
+    const Measurement all = timed([=] {
+      long sum = 0;
+      for (Eigen::Index k = 0; k < kQuestions; ++k) sum += ask(k);
+      if (sum == 0) throw std::logic_error("all questions have the same answer");
+    });
+    return [all] { return all() / kQuestions; };
+  };
+  return {"nearest-7d", perQuestion(byTree), "look at all", perQuestion(byLook), 1.};
+}
+
 }  // namespace
 
 std::vector<Row> planningRows() {
@@ -54,7 +88,8 @@ std::vector<Row> planningRows() {
   requireSame(*poses, dubins, ompl.dubins);
   requireSame(*poses, reedsShepp, ompl.reedsShepp);
   return {{"dubins", perWay(poses, dubins), "OMPL", perWay(poses, ompl.dubins), 0.3},
-          {"reeds-shepp", perWay(poses, reedsShepp), "OMPL", perWay(poses, ompl.reedsShepp), 0.3}};
+          {"reeds-shepp", perWay(poses, reedsShepp), "OMPL", perWay(poses, ompl.reedsShepp), 0.3},
+          nearestRow()};
 }
 
 }  // namespace rex::bench

@@ -101,11 +101,15 @@ TEST(ComputedTorque, HoldsQuaternionJoints) {
   EXPECT_LT(difference(model, state.q, target.q).norm(), 2e-3 * e.norm());
 }
 
-TEST(ComputedTorque, RefusesWrongSizes) {
+TEST(ComputedTorque, RefusesWhatGivesNoForces) {
   const Model model = robot("pegArm");
   const Reference target = standAt(model, model.initialPositions());
   EXPECT_REX_ERROR(computedTorque(model, {target.q, Eigen::VectorXd::Zero(2)}, target, {}),
                    "joint velocities v: found a vector of size 2, wanted size 3");
+  const State state = initialState(model);
+  EXPECT_REX_ERROR(computedTorque(model, state, target, {.Kp = std::nan("")}), "gain Kp: found nan");
+  EXPECT_REX_ERROR(computedTorque(model, state, target, {}, {0, 0, std::nan("")}),
+                   "gravity: number 2: found nan");
 }
 
 }  // namespace

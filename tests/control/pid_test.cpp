@@ -175,5 +175,28 @@ TEST(Pid, RefusesBadNumbers) {
   EXPECT_REX_ERROR(pidIsStable(1, {.Kp = nan}), "gain Kp: found nan");
 }
 
+// The next step is the one that a controller takes which never saw the bad one.
+TEST(Pid, StaysAsItWasWhenAStepFails) {
+  const double huge = 1e308;
+  const auto failsAlike = [](const PidOptions& options, double e, double h, const std::string& text) {
+    Pid pid(options), other(options);
+    for (Pid* one : {&pid, &other}) static_cast<void>(one->step(-1e307, 1));
+    EXPECT_REX_ERROR(pid.step(e, h), text);
+    EXPECT_EQ(pid.integral(), other.integral());
+    EXPECT_EQ(pid.step(-1e306, 1), other.step(-1e306, 1));
+    EXPECT_EQ(pid.integral(), other.integral());
+  };
+  failsAlike({.gains = {.Kd = 1}, .filterTime = 1e-3}, huge, 1e-3,
+             "difference of the last two errors, per second: found inf, wanted a finite number");
+  failsAlike({.gains = {.Kp = 10}}, huge, 1, "force u: found inf, wanted a finite number");
+  failsAlike({.gains = {.Kp = 10, .Kd = -10}, .filterTime = 1}, huge, 1, "force u: found nan");
+  failsAlike({.gains = {.Ki = 0.01}}, huge, 1e3, "integral of the error: found inf, wanted a finite number");
+}
+
+TEST(Pid, KeepsAForceWithinItsLimitsThatWouldOverflow) {
+  Pid pid({.gains = {.Kp = 10}, .lowest = -5, .highest = 5});
+  EXPECT_EQ(pid.step(1e308, 0, 1e-3), 5);
+}
+
 }  // namespace
 }  // namespace rex

@@ -111,5 +111,43 @@ TEST(Reference, RefusesWhatIsNone) {
   EXPECT_REX_ERROR(followReference(kModel, state, reference, {}), "reference velocities: found a vector");
 }
 
+TEST(Reference, RefusesNumbersThatAreNotFinite) {
+  const double nan = std::nan("");
+  const Eigen::VectorXd q = kModel.initialPositions();
+  Eigen::VectorXd bad = q;
+  bad[1] = nan;
+  EXPECT_REX_ERROR(standAt(kModel, bad), "posture q: number 1: found nan, wanted a finite number");
+  EXPECT_REX_ERROR(referenceAlong(kModel, bad, q, 1, 0), "posture q0: number 1: found nan");
+  EXPECT_REX_ERROR(referenceAlong(kModel, q, bad, 1, 0), "posture qT: number 1: found nan");
+  EXPECT_REX_ERROR(referenceAlong(kModel, q, q, 1, nan), "time of a motion profile: found nan");
+  Eigen::MatrixXd Q = q.replicate(1, 4);
+  Q.col(2) = bad;
+  for (const int i : {1, 2, 3})
+    EXPECT_REX_ERROR(referenceAt(kModel, Q, 1, i), "sample 2 of a reference: number 1: found nan");
+  EXPECT_NO_THROW(static_cast<void>(referenceAt(kModel, Q, 1, 0)));
+}
+
+TEST(FollowReference, RefusesNumbersThatAreNotFinite) {
+  const double nan = std::nan("");
+  const Reference good = standAt(kModel, kModel.initialPositions());
+  const auto follow = [&](const State& state, const Reference& reference, const PdGains& gains = {}) {
+    return followReference(kModel, state, reference, gains);
+  };
+  State state = initialState(kModel);
+  EXPECT_REX_ERROR(follow(state, good, {.Kp = nan}), "gain Kp: found nan, wanted a finite number");
+  EXPECT_REX_ERROR(follow(state, good, {.Kd = nan}), "gain Kd: found nan");
+  Reference reference = good;
+  reference.a[2] = nan;
+  EXPECT_REX_ERROR(follow(state, reference), "reference accelerations: number 2: found nan");
+  reference.v[1] = nan;
+  EXPECT_REX_ERROR(follow(state, reference), "reference velocities: number 1: found nan");
+  reference.q[0] = nan;
+  EXPECT_REX_ERROR(follow(state, reference), "reference positions: number 0: found nan");
+  state.v[3] = nan;
+  EXPECT_REX_ERROR(follow(state, good), "joint velocities v: number 3: found nan");
+  state.q[3] = nan;
+  EXPECT_REX_ERROR(follow(state, good), "joint positions q: number 3: found nan");
+}
+
 }  // namespace
 }  // namespace rex

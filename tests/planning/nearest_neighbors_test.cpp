@@ -97,9 +97,17 @@ TEST(NearestNeighbors, RefuseWhatIsNoPoint) {
   EXPECT_REX_ERROR(static_cast<void>(tree.nearest(Eigen::Vector2d(0, 0))),
                    "nearest neighbour: found no points, wanted at least one");
   EXPECT_TRUE(tree.nearest(Eigen::Vector2d(0, 0), 3).empty());
+  tree.add(Eigen::Vector2d(0, 0));
+  EXPECT_REX_ERROR(static_cast<void>(tree.within(Eigen::Vector2d(0, 0), NAN)),
+                   "radius around a configuration: found nan, wanted zero or a positive distance");
+  EXPECT_REX_ERROR(static_cast<void>(tree.within(Eigen::Vector2d(0, 0), -1)), "found -1");
+  EXPECT_REX_ERROR(static_cast<void>(tree.within(Eigen::Vector2d(INFINITY, 0), 1)), "number 0: found inf");
+  EXPECT_EQ(tree.within(Eigen::Vector2d(9, 9), INFINITY), std::vector<int>{0});
+  EXPECT_TRUE(tree.nearest(Eigen::Vector2d(0, 0), -3).empty());
   EXPECT_REX_ERROR(tree.add(Eigen::Vector3d(0, 0, 0)),
                    "configuration: found a vector of size 3, wanted size 2");
-  EXPECT_REX_ERROR(tree.add(Eigen::Vector2d(0, NAN)), "configuration: found a number that is not finite");
+  EXPECT_REX_ERROR(tree.add(Eigen::Vector2d(0, NAN)),
+                   "configuration: number 1: found nan, wanted a finite number");
 }
 
 }  // namespace

@@ -49,7 +49,13 @@ TEST(PhaseSpace, RefusesWhatIsNoMotion) {
   EXPECT_REX_ERROR(static_cast<void>(leastEffort({0, 1}, {1, 1}, 0)),
                    "duration of a motion: found 0, wanted a positive, finite number of seconds");
   EXPECT_REX_ERROR(static_cast<void>(leastEffort({0, NAN}, {1, 1}, 1)),
-                   "state in phase space: found a number that is not finite");
+                   "state in phase space: number 1: found nan, wanted a finite number");
+  EXPECT_REX_ERROR(static_cast<void>(leastEffort({0, 1}, {INFINITY, 1}, 1)),
+                   "state in phase space: number 0: found inf");
+  EXPECT_REX_ERROR(static_cast<void>(leastEffortForce({0, 1}, {1, 1}, 1, NAN)),
+                   "time of a motion: found nan");
+  EXPECT_REX_ERROR(static_cast<void>(leastEffortState({0, 1}, {1, 1}, 1, NAN)),
+                   "time of a motion: found nan");
 }
 
 }  // namespace

@@ -132,6 +132,20 @@ TEST(RrtStar, ComesNearTheShortestPath) {
   }
 }
 
+TEST(RrtStar, FindsTheGoalWithoutEverAimingAtIt) {
+  const Space square = Space::box(Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 1));
+  const PathProblem problem{.space = square,
+                            .allValid = eachColumn([](const VectorArg&) { return true; }),
+                            .start = Eigen::Vector2d(.1, .1),
+                            .goal = Eigen::Vector2d(.9, .8)};
+  Rng rng(5);
+  const RrtOptions growth{.stepSize = .1, .goalBias = 0, .maxSamples = 2000};
+  const PathResult result = growRrtStar(problem, {.growth = growth}, rng);
+  expectPath(problem, result);
+  expectTree(problem, result.trees.front(), .1);
+  EXPECT_LT(result.length, 1.05 * std::hypot(.8, .7));
+}
+
 TEST(Rrt, RefusesWhatItCannotPlan) {
   PathProblem problem = wallWithHole(2, .1);
   Rng rng(1);
@@ -139,6 +153,10 @@ TEST(Rrt, RefusesWhatItCannotPlan) {
   EXPECT_REX_ERROR(plan({.stepSize = 0}), "step size of a tree: found 0, wanted a positive, finite distance");
   EXPECT_REX_ERROR(plan({.goalBias = 1.5}), "goal bias of a tree: found 1.5, wanted a number from 0 to 1");
   EXPECT_REX_ERROR(plan({.maxSamples = 0}), "number of samples: found 0, wanted at least 1");
+  for (const double gamma : {-1., std::nan("")})
+    EXPECT_REX_ERROR(static_cast<void>(growRrtStar(problem, {.gamma = gamma}, rng)),
+                     "gamma of RRT*: found " + std::string(gamma < 0 ? "-1" : "nan") +
+                         ", wanted zero or a positive number");
   problem.resolution = 0;
   EXPECT_REX_ERROR(plan({}), "resolution of a path check: found 0, wanted a positive, finite distance");
   problem = wallWithHole(2, .1);
