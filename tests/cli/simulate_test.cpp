@@ -158,7 +158,7 @@ TEST_F(SimulateCommand, ReportsABlowUpAndWritesNothing) {
 
 TEST_F(SimulateCommand, NamesTheBodyWithoutMass) {
   std::ofstream(in("light.ors")) << "body a { mass=1 }\nbody b { }\njoint turn (a b) { }\n";
-  const ProcessResult result = simulate({"light.ors", "-o", "out"});
+  const ProcessResult result = simulate({"light.ors", "--no-film", "-o", "out"});
   EXPECT_EQ(result.exitCode, 64) << result.error;
   EXPECT_THAT(flat(result.error), HasSubstr("'b'"));
   EXPECT_FALSE(fs::exists(in("out")));
