@@ -29,6 +29,10 @@ void requireSound(const ControlSystem& system, const ControlTreeOptions& options
     refuse("duration of controls", fmt::format("{:g}", options.duration), "seconds above 0");
   if (options.checks < 1) refuse("checks of a motion", fmt::format("{}", options.checks), "at least 1");
   if (options.trials < 1) refuse("trials of controls", fmt::format("{}", options.trials), "at least 1");
+  if (!(options.goalBias >= 0 && options.goalBias <= 1))
+    refuse("goal bias of a tree", fmt::format("{:g}", options.goalBias), "a number from 0 to 1");
+  if (!(options.tolerance >= 0))
+    refuse("tolerance of a goal", fmt::format("{:g}", options.tolerance), "zero or more");
   if (options.maxSamples < 1)
     refuse("number of samples", fmt::format("{}", options.maxSamples), "at least 1");
 }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require_finite.h"
 #include "render/png.h"
 
 namespace rex {
@@ -95,6 +96,7 @@ GridMap::GridMap(int width, int height, double cellSize, const Eigen::Vector2d& 
                  .found = fmt::format("cells of {:g} m", cellSize),
                  .wanted = "a positive, finite size"});
   }
+  requireFinite("origin of a grid map", origin);
   blocked_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
 }
 

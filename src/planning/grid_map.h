@@ -19,7 +19,8 @@ struct GridCell {
 /// A rectangle of square cells, each free or blocked. Cell (0, 0) has its lower left corner at the origin.
 class GridMap {
  public:
-  /// All free. Throws Error for sizes that are not positive, and more than 100 million cells.
+  /// All free. Throws Error for sizes that are not positive, an origin that is not finite, and more than 100
+  /// million cells.
   GridMap(int width, int height, double cellSize = 1,
           const Eigen::Vector2d& origin = Eigen::Vector2d::Zero());
 

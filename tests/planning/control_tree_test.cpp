@@ -105,6 +105,9 @@ TEST(ControlTree, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(grow(system, {.checks = 0}), "checks of a motion: found 0, wanted at least 1");
   EXPECT_REX_ERROR(grow(system, {.trials = 0}), "trials of controls: found 0, wanted at least 1");
   EXPECT_REX_ERROR(grow(system, {.maxSamples = 0}), "number of samples: found 0, wanted at least 1");
+  EXPECT_REX_ERROR(grow(system, {.goalBias = -1}),
+                   "goal bias of a tree: found -1, wanted a number from 0 to 1");
+  EXPECT_REX_ERROR(grow(system, {.tolerance = NAN}), "tolerance of a goal: found nan, wanted zero or more");
   ControlSystem broken = system;
   broken.motion = {};
   EXPECT_REX_ERROR(grow(broken, {}),
