@@ -46,9 +46,9 @@ inline std::vector<double> shaken(rex::grading::Check& check, rex::Simulator S, 
   S.setSeed(check.rng().next());
   std::vector<double> farthest;
   for (int step = 0; step < 400; ++step) {
-    const Eigen::VectorXd q = S.getJointAngles();
-    if (step == 100) S.setJointAnglesAndVels(q, S.getJointVels() + Eigen::VectorXd::Ones(q.size()));
-    advance(check, S, u(q, S.getJointVels(), S));
+    const Eigen::VectorXd angles = S.getJointAngles();
+    if (step == 100) S.setJointAnglesAndVels(angles, S.getJointVels() + Eigen::VectorXd::Ones(angles.size()));
+    advance(check, S, u(angles, S.getJointVels(), S));
     farthest.push_back(S.getJointAngles().cwiseAbs().maxCoeff());
     if (step >= 300)
       check.atMost("largest joint speed in the last second", S.getJointVels().cwiseAbs().maxCoeff(), 3,

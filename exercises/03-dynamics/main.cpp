@@ -280,10 +280,10 @@ std::vector<double> swing(Simulator& S, double noise, const Force& u) {
   S.setDynamicSimulationNoise(noise);
   std::vector<double> farthest;
   for (int step = 0; step < 400; ++step) {
-    const Eigen::VectorXd q = S.getJointAngles();
+    const Eigen::VectorXd angles = S.getJointAngles();
     if (noise > 0 && step == 100)
-      S.setJointAnglesAndVels(q, S.getJointVels() + Eigen::VectorXd::Ones(q.size()));
-    S.stepDynamics(u(q, S.getJointVels(), S), kTau);
+      S.setJointAnglesAndVels(angles, S.getJointVels() + Eigen::VectorXd::Ones(angles.size()));
+    S.stepDynamics(u(angles, S.getJointVels(), S), kTau);
     farthest.push_back(S.getJointAngles().cwiseAbs().maxCoeff());
   }
   return farthest;

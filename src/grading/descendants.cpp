@@ -6,7 +6,6 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <thread>
 
@@ -20,7 +19,8 @@ namespace {
 // The parent's id is the second field after the program name, which may itself contain spaces and brackets.
 pid_t parentOf(const std::filesystem::path& process) {
   std::ifstream file(process / "stat");
-  const std::string stat{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  std::string stat;
+  std::getline(file, stat, '\0');  // leaves nothing, where iterators throw, if the process ends meanwhile
   const std::size_t nameEnd = stat.rfind(')');
   if (nameEnd == std::string::npos || nameEnd + 4 > stat.size()) return 0;
   pid_t parent = 0;

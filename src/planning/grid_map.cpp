@@ -156,10 +156,10 @@ GridMap parseGridMap(std::string_view text, const std::string& name, double cell
 GridMap readGridMap(const std::filesystem::path& file, double cellSize) {
   if (file.extension() == ".png") return mapOf(readPng(file), cellSize);
   std::ifstream input(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(input), {}};
-  if (!input)
+  if (!input || !std::filesystem::is_regular_file(file))
     throw Error(
         {.what = "grid map", .where = {.file = file.string()}, .found = "a file that cannot be read"});
+  const std::string bytes{std::istreambuf_iterator<char>(input), {}};
   if (file.extension() == ".pgm") return PgmReader(bytes, file.string()).read(cellSize);
   return parseGridMap(bytes, file.string(), cellSize);
 }

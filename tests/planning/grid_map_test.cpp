@@ -53,6 +53,7 @@ TEST_F(GridFile, SaysWhatIsWrongAndWhere) {
                    "m.txt:2:3: grid map: found a row of 2 cells, wanted 3");
   EXPECT_REX_ERROR(parseGridMap("\n", "m.txt"), "m.txt:1:1: grid map: found no rows");
   EXPECT_REX_ERROR(parseGridMap("\n#", "m.txt"), "m.txt:1:1: grid map: found a row of 0 cells, wanted 1");
+  EXPECT_REX_ERROR(readGridMap(folder_.path()), "grid map: found a file that cannot be read");
   EXPECT_REX_ERROR(readGridMap(folder_.path() / "none.txt"),
                    "none.txt: grid map: found a file that cannot be read");
   EXPECT_REX_ERROR(readGridMap(write("a.pgm", "P6 1 1 255 ")), "a.pgm: grid map: found no picture");
