@@ -12,6 +12,8 @@
 namespace rex::cli {
 namespace {
 
+constexpr const char* kForm = "x,y,th";
+
 Json jsonOf(const Curve& curve) {
   Json segments = Json::array();
   const std::string word = curve.word();
@@ -33,8 +35,8 @@ std::string described(const std::string& name, const Curve& curve) {
 
 ExitCode curves(const CurvesOptions& options) {
   const Eigen::Vector3d from =
-      options.from.empty() ? Eigen::Vector3d::Zero() : parsePoint(options.from, "--from");
-  const Eigen::Vector3d to = parsePoint(options.to, "--to");
+      options.from.empty() ? Eigen::Vector3d::Zero() : parsePoint(options.from, "--from", kForm);
+  const Eigen::Vector3d to = parsePoint(options.to, "--to", kForm);
   const auto [dubins, reedsShepp] = asWrongUse([&] {
     return std::pair{dubinsCurve(from, to, options.radius), reedsSheppCurve(from, to, options.radius)};
   });

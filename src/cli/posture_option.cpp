@@ -255,12 +255,12 @@ Eigen::VectorXd parseForces(const Model& model, const std::string& text) {
   return parseRates(model, kForces, text);
 }
 
-Eigen::Vector3d parsePoint(const std::string& text, const std::string& option) {
+Eigen::Vector3d parsePoint(const std::string& text, const std::string& option, const std::string& form) {
   const auto refuse = [&](const std::string& found, const std::string& wanted) {
     throw UsageError({.what = option, .found = found, .wanted = wanted});
   };
   const std::vector<std::string> all = words(text, refuse);
-  if (all.size() != 3) refuse(fmt::format("{} numbers", all.size()), "three: x,y,z");
+  if (all.size() != 3) refuse(fmt::format("{} numbers", all.size()), "three: " + form);
   Eigen::Vector3d point;
   for (int i = 0; i < 3; ++i) {
     const auto number = numberIn(all[static_cast<std::size_t>(i)]);

@@ -21,8 +21,10 @@ namespace rex::cli {
 /// The forces of joints (nv) that `--u TEXT` asks for, as parseVelocities.
 [[nodiscard]] Eigen::VectorXd parseForces(const Model& model, const std::string& text);
 
-/// The three numbers that `option` gives. Throws UsageError for another count, or the word that is no number.
-[[nodiscard]] Eigen::Vector3d parsePoint(const std::string& text, const std::string& option);
+/// The three numbers that `option` gives, called by `form`. Throws UsageError for another count, or the word
+/// that is no number.
+[[nodiscard]] Eigen::Vector3d parsePoint(const std::string& text, const std::string& option,
+                                         const std::string& form = "x,y,z");
 
 /// Postures and the times at which they are taken, seconds from 0.
 struct Motion {

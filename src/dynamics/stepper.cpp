@@ -1,12 +1,12 @@
 #include "dynamics/stepper.h"
 
 #include <cmath>
-#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require_finite.h"
 #include "base/rng.h"
 #include "dynamics/integrators_internal.h"
 #include "scene/coordinates.h"
@@ -14,14 +14,10 @@
 namespace rex {
 namespace {
 
-void requireFinite(std::string_view what, double number) {
-  if (std::isfinite(number)) return;
-  throw Error({.what = std::string(what), .found = fmt::format("{:g}", number), .wanted = "a finite number"});
-}
-
 // `jointOf` tells which joint a number belongs to.
 template <class JointOf>
-void requireFinite(const char* what, const Model& model, const VectorArg& numbers, const JointOf& jointOf) {
+void requireAllFinite(const char* what, const Model& model, const VectorArg& numbers,
+                      const JointOf& jointOf) {
   for (Eigen::Index i = 0; i < numbers.size(); ++i) {
     if (!std::isfinite(numbers[i]))
       requireFinite(fmt::format("{}: number {}, of joint '{}'", what, i, jointOf(model, i).name), numbers[i]);
@@ -29,7 +25,7 @@ void requireFinite(const char* what, const Model& model, const VectorArg& number
 }
 
 void requireValid(const StepperOptions& options) {
-  for (const double g : options.gravity_W) requireFinite("gravity", g);
+  requireFinite("gravity", options.gravity_W);
   requireValid(options.jointForces);
   if (!(options.noise >= 0) || !std::isfinite(options.noise)) {
     throw Error({.what = "noise",
@@ -49,8 +45,8 @@ void requireStep(double h, bool mayBeNegative) {
 void requireState(const Model& model, const State& state) {
   requireSize("joint positions q", state.q.size(), model.nq());
   requireSize("joint velocities v", state.v.size(), model.nv());
-  requireFinite("joint positions q", model, state.q, jointOfPosition);
-  requireFinite("joint velocities v", model, state.v, jointOfVelocity);
+  requireAllFinite("joint positions q", model, state.q, jointOfPosition);
+  requireAllFinite("joint velocities v", model, state.v, jointOfVelocity);
   requireFinite("time of the state", state.time);
 }
 
@@ -71,7 +67,7 @@ struct Stepper::Parts {
     requireStep(h, integrator == Integrator::kLeapfrog);
     requireState(motion.model(), state);
     requireSize("joint forces u", u.size(), motion.model().nv());
-    requireFinite("joint forces u", motion.model(), u, jointOfVelocity);
+    requireAllFinite("joint forces u", motion.model(), u, jointOfVelocity);
     next.time = state.time + h;
     motion.hold(u, next.time);
     switch (integrator) {

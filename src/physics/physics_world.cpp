@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require_finite.h"
 #include "physics/bullet_math_internal.h"
 #include "physics/bullet_world_internal.h"
 #include "physics/contact_events_internal.h"
@@ -27,21 +28,10 @@ void require(bool isRight, const char* what, double found, const char* wanted) {
   if (!isRight) throw Error({.what = what, .found = fmt::format("{:g}", found), .wanted = wanted});
 }
 
-void requireFinite(const char* what, const Eigen::VectorXd& numbers) {
-  for (const double number : numbers) require(std::isfinite(number), what, number, "finite numbers");
-}
-
-const Joint& jointOf(const Model& model, int iv) {
-  const auto joint = std::find_if(model.joints().begin(), model.joints().end(), [&](const Joint& one) {
-    return one.vIndex <= iv && iv < one.vIndex + one.nv;
-  });
-  return *joint;
-}
-
 void requireQuaternions(const Model& model, const Eigen::VectorXd& q) {
   forEachQuaternion(model, [&](int iq, int iv) {
     if (!q.segment<4>(iq).isZero(0)) return;
-    throw Error({.what = fmt::format("physics: quaternion of joint '{}'", jointOf(model, iv).name),
+    throw Error({.what = fmt::format("physics: quaternion of joint '{}'", jointOfVelocity(model, iv).name),
                  .found = "zero",
                  .wanted = "four numbers that are not all zero"});
   });
@@ -57,9 +47,9 @@ void requireOptions(const PhysicsOptions& options) {
 }
 
 void requireMotor(const Model& model, int iv, const Motor& motor) {
-  const Joint& joint = jointOf(model, iv);
+  const Joint& joint = jointOfVelocity(model, iv);
   const std::string what = fmt::format("physics: motor of joint '{}'", joint.name);
-  require(std::isfinite(motor.target), (what + ": target").c_str(), motor.target, "a finite number");
+  requireFinite(what + ": target", motor.target);
   if (motor.kind == Motor::Kind::kForce) return;
   require(motor.maxForce >= 0, (what + ": maxForce").c_str(), motor.maxForce, "zero or a positive number");
   if (joint.nq == joint.nv) return;
@@ -120,7 +110,7 @@ void PhysicsWorld::setState(const State& state) {
   requireFinite("physics: joint positions q", state.q);
   requireFinite("physics: joint velocities v", state.v);
   requireQuaternions(model, state.q);
-  require(std::isfinite(state.time), "physics: time", state.time, "finite numbers");
+  requireFinite("physics: time", state.time);
   parts_->world.reset(state);
   parts_->events.reset();
   parts_->time = state.time;
@@ -149,10 +139,11 @@ void PhysicsWorld::step(double h) {
     for (const auto& mover : world.movers()) mover->undo();
     world.reset(state());
     parts_->events.reset();
-    throw Error({.what = fmt::format("physics: joint '{}' at {:.6g} s", jointOf(parts_->model, iv).name,
-                                     parts_->time + (i + 1) * h / count),
-                 .found = "a motion that grows without bounds",
-                 .wanted = "shorter steps or smaller forces"});
+    throw Error(
+        {.what = fmt::format("physics: joint '{}' at {:.6g} s", jointOfVelocity(parts_->model, iv).name,
+                             parts_->time + (i + 1) * h / count),
+         .found = "a motion that grows without bounds",
+         .wanted = "shorter steps or smaller forces"});
   }
   parts_->time += h;
 }

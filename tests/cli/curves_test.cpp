@@ -45,7 +45,7 @@ TEST_F(CurvesCommand, SaysWhatIsWrong) {
   const ProcessResult few = rex({"curves", "--to", "1,2"}), word = rex({"curves", "--to", "1,2,x"});
   const ProcessResult tight = rex({"curves", "--to", "1,2,3", "--radius", "0"}), none = rex({"curves"});
   for (const ProcessResult& result : {few, word, tight, none}) EXPECT_EQ(result.exitCode, 64) << result.error;
-  EXPECT_THAT(few.error, HasSubstr("--to"));
+  EXPECT_THAT(few.error, HasSubstr("--to: found 2 numbers, wanted three: x,y,th"));
   EXPECT_THAT(word.error, HasSubstr("'x'"));
   EXPECT_THAT(flat(tight.error),
               HasSubstr("turning radius: found 0, wanted a positive, finite number of metres"));

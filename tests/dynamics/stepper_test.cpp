@@ -484,7 +484,7 @@ TEST(Stepper, RefusesOptionsThatAreNone) {
     EXPECT_REX_ERROR(Stepper(model, {.noise = noise}), "noise: found ");
   EXPECT_REX_ERROR(Stepper(model, {.noise = -1}), "wanted zero or a positive, finite number");
   EXPECT_REX_ERROR(Stepper(model, {.gravity_W = {0, std::nan(""), 0}}),
-                   "gravity: found nan, wanted a finite number");
+                   "gravity: number 1: found nan, wanted a finite number");
 }
 
 TEST(Stepper, RefusesQuaternionsThatAreZero) {

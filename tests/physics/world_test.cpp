@@ -134,8 +134,8 @@ TEST(PhysicsWorld, RaysHitWhatTheyMeetFirst) {
   EXPECT_EQ(ground.shape, 0);
   EXPECT_NEAR(ground.distance, 5, 1e-9);
   EXPECT_FALSE(world.rayCast({0, 0, 5}, {20, 0, 5}));
-  EXPECT_REX_ERROR(world.rayCast({0, 0, std::nan("")}, {1, 0, 0}), "start of the ray: found nan");
-  EXPECT_REX_ERROR(world.rayCast({0, 0, 0}, {1, 0, std::nan("")}), "end of the ray: found nan");
+  EXPECT_REX_ERROR(world.rayCast({0, 0, std::nan("")}, {1, 0, 0}), "start of the ray: number 2: found nan");
+  EXPECT_REX_ERROR(world.rayCast({0, 0, 0}, {1, 0, std::nan("")}), "end of the ray: number 2: found nan");
 }
 
 TEST(PhysicsWorld, MotorsReachTheirTargets) {
@@ -267,7 +267,8 @@ TEST(PhysicsWorld, NeighboursDoNotCollide) {
 
 TEST(PhysicsWorld, RefusesWrongNumbers) {
   const Model model = heap();
-  EXPECT_REX_ERROR(PhysicsWorld(model, {.gravity_W = {0, 0, std::nan("")}}), "physics: gravity: found nan");
+  EXPECT_REX_ERROR(PhysicsWorld(model, {.gravity_W = {0, 0, std::nan("")}}),
+                   "physics: gravity: number 2: found nan");
   EXPECT_REX_ERROR(PhysicsWorld(model, {.friction = -1}), "physics: friction: found -1, wanted zero or");
   EXPECT_REX_ERROR(PhysicsWorld(model, {.restitution = 1.5}), "restitution: found 1.5, wanted a number from");
   EXPECT_REX_ERROR(PhysicsWorld(model, {.iterations = 0}), "iterations: found 0, wanted one or more");
@@ -284,10 +285,10 @@ TEST(PhysicsWorld, RefusesWrongNumbers) {
   EXPECT_REX_ERROR(world.setState(wrong), "velocities v: found a vector of size 3, wanted size 36");
   wrong = state;
   wrong.v[2] = INFINITY;
-  EXPECT_REX_ERROR(world.setState(wrong), "velocities v: found inf, wanted finite numbers");
+  EXPECT_REX_ERROR(world.setState(wrong), ": found inf, wanted a finite number");
   wrong = state;
   wrong.q[2] = std::nan("");
-  EXPECT_REX_ERROR(world.setState(wrong), "positions q: found nan, wanted finite numbers");
+  EXPECT_REX_ERROR(world.setState(wrong), ": found nan, wanted a finite number");
   wrong = state;
   wrong.time = std::nan("");
   EXPECT_REX_ERROR(world.setState(wrong), "physics: time: found nan");
