@@ -15,4 +15,7 @@ function(rex_test module name)
   endforeach()
   gtest_discover_tests(${target} TEST_PREFIX ${module}/${name}. DISCOVERY_TIMEOUT 60
     PROPERTIES LABELS ${module} TIMEOUT 300)
+  if(NOT module STREQUAL cli)
+    set_property(GLOBAL APPEND PROPERTY REX_LIBRARY_TESTS ${target})
+  endif()
 endfunction()
