@@ -49,7 +49,10 @@ std::vector<int> pointsOf(std::vector<Neighbor> neighbors) {
 
 }  // namespace
 
-NearestNeighbors::NearestNeighbors(Space space) : space_(std::move(space)) {}
+NearestNeighbors::NearestNeighbors(Space space)
+    : space_(std::move(space)),
+      isPlain_(std::all_of(space_.parts().begin(), space_.parts().end(),
+                           [](const SpacePart& part) { return part.kind == Kind::kLine; })) {}
 
 // Lines and quaternions times their weights; angles as they are, from -pi to pi.
 Eigen::VectorXd NearestNeighbors::scaled(const VectorArg& q) const {
@@ -60,10 +63,10 @@ Eigen::VectorXd NearestNeighbors::scaled(const VectorArg& q) const {
   for (const SpacePart& part : space_.parts()) {
     const int count = sizeOf(part.kind);
     const bool isAngle = part.kind == Kind::kCircle || part.kind == Kind::kChord;
-    if (isAngle)
-      x[i] = std::remainder(x[i], 2 * kPi);
-    else
+    if (!isAngle)
       x.segment(i, count) *= part.weight;
+    else if (std::abs(x[i]) > kPi)
+      x[i] = std::remainder(x[i], 2 * kPi);
     i += count;
   }
   return x;
@@ -156,6 +159,10 @@ Eigen::VectorXd NearestNeighbors::point(int i) const {
 double NearestNeighbors::boxDistance2(int at, const double* x) const {
   const double *lower = box(at), *upper = lower + size();
   double sum = 0;
+  if (isPlain_) {
+    for (std::size_t k = 0; k < size(); ++k) sum += squaredGap(x[k], lower[k], upper[k]);
+    return sum;
+  }
   std::size_t i = 0;
   for (const SpacePart& part : space_.parts()) {
     if (part.kind == Kind::kLine) {
@@ -179,6 +186,12 @@ double NearestNeighbors::boxDistance2(int at, const double* x) const {
 double NearestNeighbors::chunkDistances2(const double* numbers, const double* x, double* distances) const {
   using Lanes = Eigen::Array<double, kChunk, 1>;
   Lanes sum = Lanes::Zero();
+  if (isPlain_) {
+    for (std::size_t i = 0; i < size(); ++i)
+      sum += (x[i] - Eigen::Map<const Lanes>(numbers + i * kChunk)).square();
+    Eigen::Map<Lanes>(distances, kChunk) = sum;
+    return sum.minCoeff();
+  }
   for (const SpacePart& part : space_.parts()) {
     if (part.kind == Kind::kLine) {
       sum += (*x - Eigen::Map<const Lanes>(numbers)).square();
@@ -190,6 +203,9 @@ double NearestNeighbors::chunkDistances2(const double* numbers, const double* x,
         opposite += (x[i] + number).square();
       }
       sum += same.min(opposite);
+    } else if (part.kind == Kind::kCircle) {
+      const Lanes turn = (*x - Eigen::Map<const Lanes>(numbers)).abs();
+      sum += (part.weight * turn.min(2 * kPi - turn)).square();
     } else {
       for (int k = 0; k < kChunk; ++k) sum[k] += squaredTurn(part, angleBetween(*x, numbers[k]));
     }
@@ -200,32 +216,40 @@ double NearestNeighbors::chunkDistances2(const double* numbers, const double* x,
   return sum.minCoeff();
 }
 
+// Calls visit(squared distance, point) for the points of a leaf within reach, and takes up the new one.
+template <class Visit>
+void NearestNeighbors::searchLeaf(int leaf, const double* x, double& reach2, const Visit& visit) const {
+  const Bucket& bucket = buckets_[static_cast<std::size_t>(node(leaf).bucket)];
+  std::array<double, kChunk> distances;
+  for (std::size_t first = 0; first < bucket.points.size(); first += kChunk) {
+    if (chunkDistances2(bucket.numbers.data() + first * size(), x, distances.data()) > reach2) continue;
+    const std::size_t count = std::min<std::size_t>(kChunk, bucket.points.size() - first);
+    for (std::size_t k = 0; k < count; ++k)
+      if (distances[k] <= reach2) reach2 = visit(distances[k], bucket.points[first + k]);
+  }
+}
+
 // Calls visit(squared distance, point) for all points that may be within the squared distance that it
 // returned last, near branches first.
 template <class Visit>
 void NearestNeighbors::search(const double* x, double reach2, const Visit& visit) const {
   if (nodes_.empty()) return;
-  std::vector<Neighbor> open{{boxDistance2(0, x), 0}};
-  open.reserve(kUsualDepth);
-  std::array<double, kChunk> distances;
-  while (!open.empty()) {
-    const auto [bound, at] = open.back();
-    open.pop_back();
-    if (bound > reach2) continue;
-    if (isLeaf(at)) {
-      const Bucket& bucket = buckets_[static_cast<std::size_t>(node(at).bucket)];
-      for (std::size_t first = 0; first < bucket.points.size(); first += kChunk) {
-        if (chunkDistances2(bucket.numbers.data() + first * size(), x, distances.data()) > reach2) continue;
-        const std::size_t count = std::min<std::size_t>(kChunk, bucket.points.size() - first);
-        for (std::size_t k = 0; k < count; ++k)
-          if (distances[k] <= reach2) reach2 = visit(distances[k], bucket.points[first + k]);
-      }
-      continue;
+  std::vector<Neighbor> open;  // branches that were left for later
+  Neighbor at{0, 0};
+  for (;;) {
+    while (!isLeaf(at.second)) {
+      Neighbor near{boxDistance2(node(at.second).left, x), node(at.second).left};
+      Neighbor far{boxDistance2(node(at.second).right, x), node(at.second).right};
+      if (far < near) std::swap(near, far);
+      if (open.empty()) open.reserve(kUsualDepth);
+      if (far.first <= reach2) open.push_back(far);
+      at = near;
     }
-    const Neighbor left{boxDistance2(node(at).left, x), node(at).left};
-    const Neighbor right{boxDistance2(node(at).right, x), node(at).right};
-    open.push_back(std::max(left, right));
-    open.push_back(std::min(left, right));
+    if (at.first <= reach2) searchLeaf(at.second, x, reach2, visit);
+    while (!open.empty() && open.back().first > reach2) open.pop_back();
+    if (open.empty()) return;
+    at = open.back();
+    open.pop_back();
   }
 }
 

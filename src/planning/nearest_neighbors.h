@@ -63,9 +63,12 @@ class NearestNeighbors {
   double boxDistance2(int at, const double* x) const;
   double chunkDistances2(const double* numbers, const double* x, double* distances) const;
   template <class Visit>
+  void searchLeaf(int leaf, const double* x, double& reach2, const Visit& visit) const;
+  template <class Visit>
   void search(const double* x, double reach2, const Visit& visit) const;
 
   Space space_;
+  bool isPlain_;                // all parts are lines
   std::vector<double> points_;  // as added
   std::vector<double> boxes_;   // lower corners, then upper ones, of each node's scaled points
   std::vector<Node> nodes_;
