@@ -37,13 +37,10 @@ double squaredGap(double x, double lower, double upper) {
   return gap * gap;
 }
 
-// Distance and number of a point; of equally near ones the first comes first.
-using Neighbor = std::pair<double, int>;
-
 std::vector<int> pointsOf(std::vector<Neighbor> neighbors) {
   std::sort(neighbors.begin(), neighbors.end());
   std::vector<int> points;
-  for (const Neighbor& neighbor : neighbors) points.push_back(neighbor.second);
+  for (const Neighbor& neighbor : neighbors) points.push_back(neighbor.point);
   return points;
 }
 
@@ -150,9 +147,8 @@ int NearestNeighbors::add(const VectorArg& q) {
   return point;
 }
 
-Eigen::VectorXd NearestNeighbors::point(int i) const {
-  return Eigen::Map<const Eigen::VectorXd>(points_.data() + static_cast<std::size_t>(i) * size(),
-                                           space_.size());
+Eigen::Map<const Eigen::VectorXd> NearestNeighbors::point(int i) const {
+  return {points_.data() + static_cast<std::size_t>(i) * size(), space_.size()};
 }
 
 // Of x from the box of a node: at most that from any point below.
@@ -234,19 +230,23 @@ void NearestNeighbors::searchLeaf(int leaf, const double* x, double& reach2, con
 template <class Visit>
 void NearestNeighbors::search(const double* x, double reach2, const Visit& visit) const {
   if (nodes_.empty()) return;
-  std::vector<Neighbor> open;  // branches that were left for later
-  Neighbor at{0, 0};
+  struct Branch {
+    double bound;  // of squared distances
+    int node;
+  };
+  std::vector<Branch> open;  // left for later
+  Branch at{0, 0};
   for (;;) {
-    while (!isLeaf(at.second)) {
-      Neighbor near{boxDistance2(node(at.second).left, x), node(at.second).left};
-      Neighbor far{boxDistance2(node(at.second).right, x), node(at.second).right};
-      if (far < near) std::swap(near, far);
+    while (!isLeaf(at.node)) {
+      Branch near{boxDistance2(node(at.node).left, x), node(at.node).left};
+      Branch far{boxDistance2(node(at.node).right, x), node(at.node).right};
+      if (far.bound < near.bound) std::swap(near, far);
       if (open.empty()) open.reserve(kUsualDepth);
-      if (far.first <= reach2) open.push_back(far);
+      if (far.bound <= reach2) open.push_back(far);
       at = near;
     }
-    if (at.first <= reach2) searchLeaf(at.second, x, reach2, visit);
-    while (!open.empty() && open.back().first > reach2) open.pop_back();
+    if (at.bound <= reach2) searchLeaf(at.node, x, reach2, visit);
+    while (!open.empty() && open.back().bound > reach2) open.pop_back();
     if (open.empty()) return;
     at = open.back();
     open.pop_back();
@@ -258,11 +258,11 @@ int NearestNeighbors::nearest(const VectorArg& q) const {
   if (count() == 0)
     throw Error({.what = "nearest neighbour", .found = "no points", .wanted = "at least one"});
   Neighbor best{std::numeric_limits<double>::infinity(), 0};
-  search(x.data(), best.first, [&](double distance2, int point) {
+  search(x.data(), best.distance, [&](double distance2, int point) {
     best = std::min(best, {distance2, point});
-    return best.first;
+    return best.distance;
   });
-  return best.second;
+  return best.point;
 }
 
 std::vector<int> NearestNeighbors::nearest(const VectorArg& q, int most) const {
@@ -271,29 +271,34 @@ std::vector<int> NearestNeighbors::nearest(const VectorArg& q, int most) const {
   const auto limit = static_cast<std::size_t>(std::max(0, most));
   if (limit == 0) return {};
   search(x.data(), std::numeric_limits<double>::infinity(), [&](double distance2, int point) {
-    heap.emplace_back(distance2, point);
+    heap.push_back({distance2, point});
     std::push_heap(heap.begin(), heap.end());
     if (heap.size() > limit) {
       std::pop_heap(heap.begin(), heap.end());
       heap.pop_back();
     }
-    return heap.size() < limit ? std::numeric_limits<double>::infinity() : heap.front().first;
+    return heap.size() < limit ? std::numeric_limits<double>::infinity() : heap.front().distance;
   });
   return pointsOf(std::move(heap));
 }
 
-std::vector<int> NearestNeighbors::within(const VectorArg& q, double radius) const {
+void NearestNeighbors::within(const VectorArg& q, double radius, std::vector<Neighbor>& out) const {
   const Eigen::VectorXd x = scaled(q);
   if (!(radius >= 0)) {
     throw Error({.what = "radius around a configuration",
                  .found = fmt::format("{:g}", radius),
                  .wanted = "zero or a positive distance"});
   }
-  std::vector<Neighbor> found;
+  out.clear();
   search(x.data(), radius * radius, [&](double distance2, int point) {
-    found.emplace_back(distance2, point);
+    out.push_back({std::sqrt(distance2), point});
     return radius * radius;
   });
+}
+
+std::vector<int> NearestNeighbors::within(const VectorArg& q, double radius) const {
+  std::vector<Neighbor> found;
+  within(q, radius, found);
   return pointsOf(std::move(found));
 }
 

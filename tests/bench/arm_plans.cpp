@@ -29,9 +29,9 @@ ArmPlan tipInHole(const ContactScene& scene) {
   return planTo(scene, q);
 }
 
-ArmPlan pegThroughHole(const ContactScene& scene) {
+ArmPlan pegInHole(const ContactScene& scene) {
   Eigen::VectorXd q(7);
-  q << 2.4696, -2.3262, 0.396973, -0.40325, 2.11834, -0.711117, -1.22298;
+  q << 1.14568, -0.607103, -0.941697, 1.37137, 1.98598, -1.48701, -1.41685;
   return planTo(scene, q);
 }
 

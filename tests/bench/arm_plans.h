@@ -8,14 +8,14 @@
 
 namespace rex::bench {
 
-/// The arm shall go from its zero posture to where the tip of the peg is in the hole of the frame, or the
-/// whole peg through it; ways are checked at points a hundredth of the largest distance apart.
+/// The arm shall go from its zero posture to where 0.1 or 0.35 m of the peg are in the hole of the frame; ways
+/// are checked at points a hundredth of the largest distance apart.
 struct ArmPlan {
   PathProblem problem;
   double range;  ///< how far trees grow at once: a fifth of the largest distance, as OMPL has it
 };
 [[nodiscard]] ArmPlan tipInHole(const ContactScene& scene);
-[[nodiscard]] ArmPlan pegThroughHole(const ContactScene& scene);
+[[nodiscard]] ArmPlan pegInHole(const ContactScene& scene);
 
 /// CPU time of one search by RRT-Connect, each time with another seed. Throw std::logic_error where there is
 /// no path.

@@ -48,7 +48,8 @@ ob::SpaceInformationPtr informationOf(const ContactScene& scene, const ArmPlan& 
 
 Measurement omplConnect(const ContactScene& scene, const ArmPlan& plan) {
   ompl::msg::setLogLevel(ompl::msg::LOG_ERROR);
-  ompl::RNG::setSeed(1);
+  static const bool kIsSeeded = (ompl::RNG::setSeed(1), true);  // before its first number, and never again
+  static_cast<void>(kIsSeeded);
   const ob::SpaceInformationPtr information = informationOf(scene, plan);
   const auto definition = std::make_shared<ob::ProblemDefinition>(information);
   definition->setStartAndGoalStates(stateOf(information, plan.problem.start),
