@@ -8,8 +8,8 @@
 
 namespace rex::bench {
 
-/// The arm shall go from its zero posture to where 0.1 or 0.35 m of the peg are in the hole of the frame; ways
-/// are checked at points a hundredth of the largest distance apart.
+/// The arm shall go from its zero posture to where 0.1 or 0.35 m of the peg are in the hole of the frame;
+/// ways are checked at points a hundredth of the largest distance apart.
 struct ArmPlan {
   PathProblem problem;
   double range;  ///< how far trees grow at once: a fifth of the largest distance, as OMPL has it
