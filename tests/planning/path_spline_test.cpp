@@ -73,6 +73,7 @@ double expectValid(const PathProblem& problem, const PathSpline& spline) {
 }
 
 TEST(PathSpline, GoesThroughTheHoleInTheWall) {
+  int smooth = 0;
   for (const int dimension : {2, 3}) {
     const PathProblem problem = wallWithHole(dimension, .2), thick = thickened(problem);
     const MotionLimits limits = limitsOf(dimension);
@@ -81,6 +82,7 @@ TEST(PathSpline, GoesThroughTheHoleInTheWall) {
       const SplineResult result = splineAlong(thick, path, limits);
       ASSERT_NE(result.status, SplineStatus::kInvalid) << result.message;
       EXPECT_EQ(result.status == SplineStatus::kSmooth, result.stops == 0);
+      smooth += result.stops == 0 ? 1 : 0;
       const PathSpline& spline = result.spline;
       EXPECT_LT((spline.position(0) - problem.start).norm(), 1e-15);
       EXPECT_LT((spline.position(spline.duration()) - problem.goal).norm(), 1e-15);
@@ -101,6 +103,7 @@ TEST(PathSpline, GoesThroughTheHoleInTheWall) {
       EXPECT_TRUE(fastest > .3 || hardest > 1.2) << "it does not dawdle";
     }
   }
+  EXPECT_GT(smooth, 20) << "of 30";
 }
 
 TEST(PathSpline, IsSmoothWhereThereIsRoom) {

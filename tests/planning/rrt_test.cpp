@@ -82,19 +82,26 @@ TEST(Rrt, PlansWhereAnglesCloseUp) {
 TEST(RrtStar, ComesNearTheShortestPath) {
   const struct {
     int dimension;
-    double gap, shortest, within;
-    int samples;
-  } cases[] = {{2, .1, 1.089949, 1.03, 6000}, {3, .2, 1.2, 1.08, 8000}};
+    double gap, shortest, within, stepSize;
+    int samples, seeds;
+  } cases[] = {{2, .1, 1.089949, 1.01, .2, 6000, 3},
+               {3, .2, 1.2, 1.05, .5, 8000, 3},
+               {6, .4, 1.235783, 1.3, 1, 12000, 1}};
   for (const auto& one : cases) {
     const PathProblem problem = wallWithHole(one.dimension, one.gap);
-    for (std::uint64_t seed = 0; seed < 3; ++seed) {
-      Rng few(seed), many(seed);
-      const PathResult early = star(one.samples / 4)(problem, few), late = star(one.samples)(problem, many);
+    const auto grown = [&](int samples, bool isInformed, int seed) {
+      Rng rng(static_cast<std::uint64_t>(seed));
+      const RrtOptions growth{.stepSize = one.stepSize, .maxSamples = samples};
+      return growRrtStar(problem, {.growth = growth, .isInformed = isInformed}, rng);
+    };
+    for (int seed = 0; seed < one.seeds; ++seed) {
+      const PathResult early = grown(one.samples / 4, true, seed), late = grown(one.samples, true, seed);
       expectPath(problem, late);
       EXPECT_LT(late.length, one.within * one.shortest) << one.dimension;
       EXPECT_GT(late.length, one.shortest - 2 * problem.resolution) << one.dimension;
       ASSERT_EQ(early.status, PathStatus::kFound);
       EXPECT_LE(late.length, early.length + 1e-12);
+      EXPECT_LT(late.length, grown(one.samples, false, seed).length) << "what targets that matter are for";
     }
   }
 }
