@@ -19,22 +19,29 @@ using Kind = SpacePart::Kind;
 constexpr double kPi = std::numbers::pi;
 constexpr std::size_t kUsualDepth = 64;  // of a search; deeper ones take more memory
 
-// Between two angles of [-pi, pi], at most pi.
-double angleBetween(double a, double b) {
-  const double turn = std::abs(a - b);
-  return std::min(turn, 2 * kPi - turn);
-}
+constexpr double kEndless = std::numeric_limits<double>::infinity();
 
-// The square of a weighted distance by that of two angles, which grows with it.
-double squaredTurn(const SpacePart& part, double turn) {
-  if (part.kind == Kind::kCircle) return part.weight * part.weight * turn * turn;
-  const double chord = 2 * part.weight * std::sin(turn / 2);
+// Of two angles of [-pi, pi].
+double squaredChord(const SpacePart& part, double a, double b) {
+  const double chord = 2 * part.weight * std::sin((a - b) / 2);
   return chord * chord;
 }
 
-double squaredGap(double x, double lower, double upper) {
+// Of x from an interval on a line that closes up after `period`.
+double squaredGap(double x, double lower, double upper, double period = kEndless) {
   const double gap = std::max({lower - x, x - upper, 0.});
-  return gap * gap;
+  const double shorter = std::min(gap, period - (upper - lower) - gap);
+  return shorter * shorter;
+}
+
+// Adds those of x from points there.
+template <class Lanes>
+inline void addSquaredGaps(double x, const double* points, double period, Lanes& sum) {
+  const Lanes gap = x - Lanes::Map(points);
+  if (period < kEndless)
+    sum += gap.abs().min(period - gap.abs()).square();
+  else
+    sum += gap.square();
 }
 
 std::vector<int> pointsOf(std::vector<Neighbor> neighbors) {
@@ -46,12 +53,14 @@ std::vector<int> pointsOf(std::vector<Neighbor> neighbors) {
 
 }  // namespace
 
-NearestNeighbors::NearestNeighbors(Space space)
-    : space_(std::move(space)),
-      isPlain_(std::all_of(space_.parts().begin(), space_.parts().end(),
-                           [](const SpacePart& part) { return part.kind == Kind::kLine; })) {}
+NearestNeighbors::NearestNeighbors(Space space) : space_(std::move(space)), isFlat_(true) {
+  for (const SpacePart& part : space_.parts()) {
+    isFlat_ = isFlat_ && (part.kind == Kind::kLine || part.kind == Kind::kCircle);
+    periods_.push_back(part.kind == Kind::kCircle ? 2 * kPi * part.weight : kEndless);
+  }
+}
 
-// Lines and quaternions times their weights; angles as they are, from -pi to pi.
+// Times their weights, but for chords; angles from -pi to pi before that.
 Eigen::VectorXd NearestNeighbors::scaled(const VectorArg& q) const {
   requireSize("configuration", q.size(), space_.size());
   requireFinite("configuration", q);
@@ -60,10 +69,8 @@ Eigen::VectorXd NearestNeighbors::scaled(const VectorArg& q) const {
   for (const SpacePart& part : space_.parts()) {
     const int count = sizeOf(part.kind);
     const bool isAngle = part.kind == Kind::kCircle || part.kind == Kind::kChord;
-    if (!isAngle)
-      x.segment(i, count) *= part.weight;
-    else if (std::abs(x[i]) > kPi)
-      x[i] = std::remainder(x[i], 2 * kPi);
+    if (isAngle && std::abs(x[i]) > kPi) x[i] = std::remainder(x[i], 2 * kPi);
+    if (part.kind != Kind::kChord) x.segment(i, count) *= part.weight;
     i += count;
   }
   return x;
@@ -72,8 +79,8 @@ Eigen::VectorXd NearestNeighbors::scaled(const VectorArg& q) const {
 int NearestNeighbors::newLeaf() {
   nodes_.push_back({.bucket = static_cast<int>(buckets_.size())});
   buckets_.push_back({std::vector<double>(size() * kBucket), {}});
-  boxes_.insert(boxes_.end(), size(), std::numeric_limits<double>::infinity());
-  boxes_.insert(boxes_.end(), size(), -std::numeric_limits<double>::infinity());
+  boxes_.insert(boxes_.end(), size(), kEndless);
+  boxes_.insert(boxes_.end(), size(), -kEndless);
   return static_cast<int>(nodes_.size()) - 1;
 }
 
@@ -155,23 +162,24 @@ Eigen::Map<const Eigen::VectorXd> NearestNeighbors::point(int i) const {
 double NearestNeighbors::boxDistance2(int at, const double* x) const {
   const double *lower = box(at), *upper = lower + size();
   double sum = 0;
-  if (isPlain_) {
-    for (std::size_t k = 0; k < size(); ++k) sum += squaredGap(x[k], lower[k], upper[k]);
+  if (isFlat_) {
+    for (std::size_t i = 0; i < size(); ++i) sum += squaredGap(x[i], lower[i], upper[i], periods_[i]);
     return sum;
   }
   std::size_t i = 0;
-  for (const SpacePart& part : space_.parts()) {
-    if (part.kind == Kind::kLine) {
-      sum += squaredGap(x[i], lower[i], upper[i]);
-    } else if (part.kind == Kind::kQuaternion) {
+  for (std::size_t p = 0; p < periods_.size(); ++p) {
+    const SpacePart& part = space_.parts()[p];
+    if (part.kind == Kind::kQuaternion) {
       double same = 0, opposite = 0;
       for (std::size_t k = i; k < i + 4; ++k) {
         same += squaredGap(x[k], lower[k], upper[k]);
         opposite += squaredGap(-x[k], lower[k], upper[k]);
       }
       sum += std::min(same, opposite);
+    } else if (part.kind != Kind::kChord) {
+      sum += squaredGap(x[i], lower[i], upper[i], periods_[p]);
     } else if (x[i] < lower[i] || x[i] > upper[i]) {
-      sum += squaredTurn(part, std::min(angleBetween(x[i], lower[i]), angleBetween(x[i], upper[i])));
+      sum += std::min(squaredChord(part, x[i], lower[i]), squaredChord(part, x[i], upper[i]));
     }
     i += static_cast<std::size_t>(sizeOf(part.kind));
   }
@@ -181,34 +189,31 @@ double NearestNeighbors::boxDistance2(int at, const double* x) const {
 // Of x from the points of a chunk, and the smallest of them, or less: zeros stand where there are no points.
 double NearestNeighbors::chunkDistances2(const double* numbers, const double* x, double* distances) const {
   using Lanes = Eigen::Array<double, kChunk, 1>;
+  const auto lanes = [numbers](std::size_t i) { return Lanes::Map(numbers + i * kChunk); };
   Lanes sum = Lanes::Zero();
-  if (isPlain_) {
-    for (std::size_t i = 0; i < size(); ++i)
-      sum += (x[i] - Eigen::Map<const Lanes>(numbers + i * kChunk)).square();
-    Eigen::Map<Lanes>(distances, kChunk) = sum;
+  if (isFlat_) {
+    for (std::size_t i = 0; i < size(); ++i) addSquaredGaps(x[i], numbers + i * kChunk, periods_[i], sum);
+    Lanes::Map(distances) = sum;
     return sum.minCoeff();
   }
-  for (const SpacePart& part : space_.parts()) {
-    if (part.kind == Kind::kLine) {
-      sum += (*x - Eigen::Map<const Lanes>(numbers)).square();
-    } else if (part.kind == Kind::kQuaternion) {
+  std::size_t i = 0;
+  for (std::size_t p = 0; p < periods_.size(); ++p) {
+    const SpacePart& part = space_.parts()[p];
+    if (part.kind == Kind::kQuaternion) {
       Lanes same = Lanes::Zero(), opposite = Lanes::Zero();
-      for (int i = 0; i < 4; ++i) {
-        const Eigen::Map<const Lanes> number(numbers + i * kChunk);
-        same += (x[i] - number).square();
-        opposite += (x[i] + number).square();
+      for (std::size_t k = i; k < i + 4; ++k) {
+        same += (x[k] - lanes(k)).square();
+        opposite += (x[k] + lanes(k)).square();
       }
       sum += same.min(opposite);
-    } else if (part.kind == Kind::kCircle) {
-      const Lanes turn = (*x - Eigen::Map<const Lanes>(numbers)).abs();
-      sum += (part.weight * turn.min(2 * kPi - turn)).square();
+    } else if (part.kind != Kind::kChord) {
+      addSquaredGaps(x[i], numbers + i * kChunk, periods_[p], sum);
     } else {
-      for (int k = 0; k < kChunk; ++k) sum[k] += squaredTurn(part, angleBetween(*x, numbers[k]));
+      for (int k = 0; k < kChunk; ++k) sum[k] += squaredChord(part, x[i], lanes(i)[k]);
     }
-    x += sizeOf(part.kind);
-    numbers += sizeOf(part.kind) * kChunk;
+    i += static_cast<std::size_t>(sizeOf(part.kind));
   }
-  Eigen::Map<Lanes>(distances, kChunk) = sum;
+  Lanes::Map(distances) = sum;
   return sum.minCoeff();
 }
 
@@ -257,7 +262,7 @@ int NearestNeighbors::nearest(const VectorArg& q) const {
   const Eigen::VectorXd x = scaled(q);
   if (count() == 0)
     throw Error({.what = "nearest neighbour", .found = "no points", .wanted = "at least one"});
-  Neighbor best{std::numeric_limits<double>::infinity(), 0};
+  Neighbor best{kEndless, 0};
   search(x.data(), best.distance, [&](double distance2, int point) {
     best = std::min(best, {distance2, point});
     return best.distance;
@@ -270,14 +275,14 @@ std::vector<int> NearestNeighbors::nearest(const VectorArg& q, int most) const {
   std::vector<Neighbor> heap;
   const auto limit = static_cast<std::size_t>(std::max(0, most));
   if (limit == 0) return {};
-  search(x.data(), std::numeric_limits<double>::infinity(), [&](double distance2, int point) {
+  search(x.data(), kEndless, [&](double distance2, int point) {
     heap.push_back({distance2, point});
     std::push_heap(heap.begin(), heap.end());
     if (heap.size() > limit) {
       std::pop_heap(heap.begin(), heap.end());
       heap.pop_back();
     }
-    return heap.size() < limit ? std::numeric_limits<double>::infinity() : heap.front().distance;
+    return heap.size() < limit ? kEndless : heap.front().distance;
   });
   return pointsOf(std::move(heap));
 }

@@ -79,9 +79,10 @@ class NearestNeighbors {
   void search(const double* x, double reach2, const Visit& visit) const;
 
   Space space_;
-  bool isPlain_;                // all parts are lines
-  std::vector<double> points_;  // as added
-  std::vector<double> boxes_;   // lower corners, then upper ones, of each node's scaled points
+  bool isFlat_;                  // all parts are lines or circles
+  std::vector<double> periods_;  // of the scaled circle of each part; infinite for other parts
+  std::vector<double> points_;   // as added
+  std::vector<double> boxes_;    // lower corners, then upper ones, of each node's scaled points
   std::vector<Node> nodes_;
   std::vector<Bucket> buckets_;
 };
