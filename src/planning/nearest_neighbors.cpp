@@ -19,39 +19,48 @@ using Kind = SpacePart::Kind;
 constexpr double kPi = std::numbers::pi;
 constexpr std::size_t kUsualDepth = 64;  // of a search; deeper ones take more memory
 
-// Between two angles of [-pi, pi], at most pi.
-double angleBetween(double a, double b) {
-  const double turn = std::abs(a - b);
-  return std::min(turn, 2 * kPi - turn);
-}
+constexpr double kEndless = std::numeric_limits<double>::infinity();
 
-// The square of a weighted distance by that of two angles, which grows with it.
-double squaredTurn(const SpacePart& part, double turn) {
-  if (part.kind == Kind::kCircle) return part.weight * part.weight * turn * turn;
-  const double chord = 2 * part.weight * std::sin(turn / 2);
+// Of two angles of [-pi, pi].
+double squaredChord(const SpacePart& part, double a, double b) {
+  const double chord = 2 * part.weight * std::sin((a - b) / 2);
   return chord * chord;
 }
 
-double squaredGap(double x, double lower, double upper) {
+// Of x from an interval on a line that closes up after `period`.
+double squaredGap(double x, double lower, double upper, double period = kEndless) {
   const double gap = std::max({lower - x, x - upper, 0.});
-  return gap * gap;
+  const double shorter = std::min(gap, period - (upper - lower) - gap);
+  return shorter * shorter;
 }
 
-// Distance and number of a point; of equally near ones the first comes first.
-using Neighbor = std::pair<double, int>;
+// Adds those of x from points there.
+template <class Lanes>
+inline void addSquaredGaps(double x, const double* points, double period, Lanes& sum) {
+  const Lanes gap = x - Lanes::Map(points);
+  if (period < kEndless)
+    sum += gap.abs().min(period - gap.abs()).square();
+  else
+    sum += gap.square();
+}
 
 std::vector<int> pointsOf(std::vector<Neighbor> neighbors) {
   std::sort(neighbors.begin(), neighbors.end());
   std::vector<int> points;
-  for (const Neighbor& neighbor : neighbors) points.push_back(neighbor.second);
+  for (const Neighbor& neighbor : neighbors) points.push_back(neighbor.point);
   return points;
 }
 
 }  // namespace
 
-NearestNeighbors::NearestNeighbors(Space space) : space_(std::move(space)) {}
+NearestNeighbors::NearestNeighbors(Space space) : space_(std::move(space)), isFlat_(true) {
+  for (const SpacePart& part : space_.parts()) {
+    isFlat_ = isFlat_ && (part.kind == Kind::kLine || part.kind == Kind::kCircle);
+    periods_.push_back(part.kind == Kind::kCircle ? 2 * kPi * part.weight : kEndless);
+  }
+}
 
-// Lines and quaternions times their weights; angles as they are, from -pi to pi.
+// Times their weights, but for chords; angles from -pi to pi before that.
 Eigen::VectorXd NearestNeighbors::scaled(const VectorArg& q) const {
   requireSize("configuration", q.size(), space_.size());
   requireFinite("configuration", q);
@@ -60,10 +69,8 @@ Eigen::VectorXd NearestNeighbors::scaled(const VectorArg& q) const {
   for (const SpacePart& part : space_.parts()) {
     const int count = sizeOf(part.kind);
     const bool isAngle = part.kind == Kind::kCircle || part.kind == Kind::kChord;
-    if (isAngle)
-      x[i] = std::remainder(x[i], 2 * kPi);
-    else
-      x.segment(i, count) *= part.weight;
+    if (isAngle && std::abs(x[i]) > kPi) x[i] = std::remainder(x[i], 2 * kPi);
+    if (part.kind != Kind::kChord) x.segment(i, count) *= part.weight;
     i += count;
   }
   return x;
@@ -72,8 +79,8 @@ Eigen::VectorXd NearestNeighbors::scaled(const VectorArg& q) const {
 int NearestNeighbors::newLeaf() {
   nodes_.push_back({.bucket = static_cast<int>(buckets_.size())});
   buckets_.push_back({std::vector<double>(size() * kBucket), {}});
-  boxes_.insert(boxes_.end(), size(), std::numeric_limits<double>::infinity());
-  boxes_.insert(boxes_.end(), size(), -std::numeric_limits<double>::infinity());
+  boxes_.insert(boxes_.end(), size(), kEndless);
+  boxes_.insert(boxes_.end(), size(), -kEndless);
   return static_cast<int>(nodes_.size()) - 1;
 }
 
@@ -147,28 +154,32 @@ int NearestNeighbors::add(const VectorArg& q) {
   return point;
 }
 
-Eigen::VectorXd NearestNeighbors::point(int i) const {
-  return Eigen::Map<const Eigen::VectorXd>(points_.data() + static_cast<std::size_t>(i) * size(),
-                                           space_.size());
+Eigen::Map<const Eigen::VectorXd> NearestNeighbors::point(int i) const {
+  return {points_.data() + static_cast<std::size_t>(i) * size(), space_.size()};
 }
 
 // Of x from the box of a node: at most that from any point below.
 double NearestNeighbors::boxDistance2(int at, const double* x) const {
   const double *lower = box(at), *upper = lower + size();
   double sum = 0;
+  if (isFlat_) {
+    for (std::size_t i = 0; i < size(); ++i) sum += squaredGap(x[i], lower[i], upper[i], periods_[i]);
+    return sum;
+  }
   std::size_t i = 0;
-  for (const SpacePart& part : space_.parts()) {
-    if (part.kind == Kind::kLine) {
-      sum += squaredGap(x[i], lower[i], upper[i]);
-    } else if (part.kind == Kind::kQuaternion) {
+  for (std::size_t p = 0; p < periods_.size(); ++p) {
+    const SpacePart& part = space_.parts()[p];
+    if (part.kind == Kind::kQuaternion) {
       double same = 0, opposite = 0;
       for (std::size_t k = i; k < i + 4; ++k) {
         same += squaredGap(x[k], lower[k], upper[k]);
         opposite += squaredGap(-x[k], lower[k], upper[k]);
       }
       sum += std::min(same, opposite);
+    } else if (part.kind != Kind::kChord) {
+      sum += squaredGap(x[i], lower[i], upper[i], periods_[p]);
     } else if (x[i] < lower[i] || x[i] > upper[i]) {
-      sum += squaredTurn(part, std::min(angleBetween(x[i], lower[i]), angleBetween(x[i], upper[i])));
+      sum += std::min(squaredChord(part, x[i], lower[i]), squaredChord(part, x[i], upper[i]));
     }
     i += static_cast<std::size_t>(sizeOf(part.kind));
   }
@@ -178,26 +189,45 @@ double NearestNeighbors::boxDistance2(int at, const double* x) const {
 // Of x from the points of a chunk, and the smallest of them, or less: zeros stand where there are no points.
 double NearestNeighbors::chunkDistances2(const double* numbers, const double* x, double* distances) const {
   using Lanes = Eigen::Array<double, kChunk, 1>;
+  const auto lanes = [numbers](std::size_t i) { return Lanes::Map(numbers + i * kChunk); };
   Lanes sum = Lanes::Zero();
-  for (const SpacePart& part : space_.parts()) {
-    if (part.kind == Kind::kLine) {
-      sum += (*x - Eigen::Map<const Lanes>(numbers)).square();
-    } else if (part.kind == Kind::kQuaternion) {
+  if (isFlat_) {
+    for (std::size_t i = 0; i < size(); ++i) addSquaredGaps(x[i], numbers + i * kChunk, periods_[i], sum);
+    Lanes::Map(distances) = sum;
+    return sum.minCoeff();
+  }
+  std::size_t i = 0;
+  for (std::size_t p = 0; p < periods_.size(); ++p) {
+    const SpacePart& part = space_.parts()[p];
+    if (part.kind == Kind::kQuaternion) {
       Lanes same = Lanes::Zero(), opposite = Lanes::Zero();
-      for (int i = 0; i < 4; ++i) {
-        const Eigen::Map<const Lanes> number(numbers + i * kChunk);
-        same += (x[i] - number).square();
-        opposite += (x[i] + number).square();
+      for (std::size_t k = i; k < i + 4; ++k) {
+        same += (x[k] - lanes(k)).square();
+        opposite += (x[k] + lanes(k)).square();
       }
       sum += same.min(opposite);
+    } else if (part.kind != Kind::kChord) {
+      addSquaredGaps(x[i], numbers + i * kChunk, periods_[p], sum);
     } else {
-      for (int k = 0; k < kChunk; ++k) sum[k] += squaredTurn(part, angleBetween(*x, numbers[k]));
+      for (int k = 0; k < kChunk; ++k) sum[k] += squaredChord(part, x[i], lanes(i)[k]);
     }
-    x += sizeOf(part.kind);
-    numbers += sizeOf(part.kind) * kChunk;
+    i += static_cast<std::size_t>(sizeOf(part.kind));
   }
-  Eigen::Map<Lanes>(distances, kChunk) = sum;
+  Lanes::Map(distances) = sum;
   return sum.minCoeff();
+}
+
+// Calls visit(squared distance, point) for the points of a leaf within reach, and takes up the new one.
+template <class Visit>
+void NearestNeighbors::searchLeaf(int leaf, const double* x, double& reach2, const Visit& visit) const {
+  const Bucket& bucket = buckets_[static_cast<std::size_t>(node(leaf).bucket)];
+  std::array<double, kChunk> distances;
+  for (std::size_t first = 0; first < bucket.points.size(); first += kChunk) {
+    if (chunkDistances2(bucket.numbers.data() + first * size(), x, distances.data()) > reach2) continue;
+    const std::size_t count = std::min<std::size_t>(kChunk, bucket.points.size() - first);
+    for (std::size_t k = 0; k < count; ++k)
+      if (distances[k] <= reach2) reach2 = visit(distances[k], bucket.points[first + k]);
+  }
 }
 
 // Calls visit(squared distance, point) for all points that may be within the squared distance that it
@@ -205,27 +235,26 @@ double NearestNeighbors::chunkDistances2(const double* numbers, const double* x,
 template <class Visit>
 void NearestNeighbors::search(const double* x, double reach2, const Visit& visit) const {
   if (nodes_.empty()) return;
-  std::vector<Neighbor> open{{boxDistance2(0, x), 0}};
-  open.reserve(kUsualDepth);
-  std::array<double, kChunk> distances;
-  while (!open.empty()) {
-    const auto [bound, at] = open.back();
-    open.pop_back();
-    if (bound > reach2) continue;
-    if (isLeaf(at)) {
-      const Bucket& bucket = buckets_[static_cast<std::size_t>(node(at).bucket)];
-      for (std::size_t first = 0; first < bucket.points.size(); first += kChunk) {
-        if (chunkDistances2(bucket.numbers.data() + first * size(), x, distances.data()) > reach2) continue;
-        const std::size_t count = std::min<std::size_t>(kChunk, bucket.points.size() - first);
-        for (std::size_t k = 0; k < count; ++k)
-          if (distances[k] <= reach2) reach2 = visit(distances[k], bucket.points[first + k]);
-      }
-      continue;
+  struct Branch {
+    double bound;  // of squared distances
+    int node;
+  };
+  std::vector<Branch> open;  // left for later
+  Branch at{0, 0};
+  for (;;) {
+    while (!isLeaf(at.node)) {
+      Branch near{boxDistance2(node(at.node).left, x), node(at.node).left};
+      Branch far{boxDistance2(node(at.node).right, x), node(at.node).right};
+      if (far.bound < near.bound) std::swap(near, far);
+      if (open.empty()) open.reserve(kUsualDepth);
+      if (far.bound <= reach2) open.push_back(far);
+      at = near;
     }
-    const Neighbor left{boxDistance2(node(at).left, x), node(at).left};
-    const Neighbor right{boxDistance2(node(at).right, x), node(at).right};
-    open.push_back(std::max(left, right));
-    open.push_back(std::min(left, right));
+    if (at.bound <= reach2) searchLeaf(at.node, x, reach2, visit);
+    while (!open.empty() && open.back().bound > reach2) open.pop_back();
+    if (open.empty()) return;
+    at = open.back();
+    open.pop_back();
   }
 }
 
@@ -233,12 +262,12 @@ int NearestNeighbors::nearest(const VectorArg& q) const {
   const Eigen::VectorXd x = scaled(q);
   if (count() == 0)
     throw Error({.what = "nearest neighbour", .found = "no points", .wanted = "at least one"});
-  Neighbor best{std::numeric_limits<double>::infinity(), 0};
-  search(x.data(), best.first, [&](double distance2, int point) {
+  Neighbor best{kEndless, 0};
+  search(x.data(), best.distance, [&](double distance2, int point) {
     best = std::min(best, {distance2, point});
-    return best.first;
+    return best.distance;
   });
-  return best.second;
+  return best.point;
 }
 
 std::vector<int> NearestNeighbors::nearest(const VectorArg& q, int most) const {
@@ -246,30 +275,35 @@ std::vector<int> NearestNeighbors::nearest(const VectorArg& q, int most) const {
   std::vector<Neighbor> heap;
   const auto limit = static_cast<std::size_t>(std::max(0, most));
   if (limit == 0) return {};
-  search(x.data(), std::numeric_limits<double>::infinity(), [&](double distance2, int point) {
-    heap.emplace_back(distance2, point);
+  search(x.data(), kEndless, [&](double distance2, int point) {
+    heap.push_back({distance2, point});
     std::push_heap(heap.begin(), heap.end());
     if (heap.size() > limit) {
       std::pop_heap(heap.begin(), heap.end());
       heap.pop_back();
     }
-    return heap.size() < limit ? std::numeric_limits<double>::infinity() : heap.front().first;
+    return heap.size() < limit ? kEndless : heap.front().distance;
   });
   return pointsOf(std::move(heap));
 }
 
-std::vector<int> NearestNeighbors::within(const VectorArg& q, double radius) const {
+void NearestNeighbors::within(const VectorArg& q, double radius, std::vector<Neighbor>& out) const {
   const Eigen::VectorXd x = scaled(q);
   if (!(radius >= 0)) {
     throw Error({.what = "radius around a configuration",
                  .found = fmt::format("{:g}", radius),
                  .wanted = "zero or a positive distance"});
   }
-  std::vector<Neighbor> found;
+  out.clear();
   search(x.data(), radius * radius, [&](double distance2, int point) {
-    found.emplace_back(distance2, point);
+    out.push_back({std::sqrt(distance2), point});
     return radius * radius;
   });
+}
+
+std::vector<int> NearestNeighbors::within(const VectorArg& q, double radius) const {
+  std::vector<Neighbor> found;
+  within(q, radius, found);
   return pointsOf(std::move(found));
 }
 

@@ -71,4 +71,18 @@ Sampler bridgeSampler(const Space& space, AllValid allValid, double sigma) {
   };
 }
 
+Sampler informedSampler(const Space& space, const VectorArg& start, const VectorArg& goal, double length) {
+  const double apart = space.distance(start, goal);
+  if (!(length >= apart)) {
+    throw Error({.what = "length of a way",
+                 .found = fmt::format("{:g}", length),
+                 .wanted = fmt::format("at least {:g}, the distance of start and goal", apart)});
+  }
+  return [space, start = Eigen::VectorXd(start), goal = Eigen::VectorXd(goal), length](
+             Rng& rng, Eigen::Ref<Eigen::VectorXd> q) {
+    space.sample(rng, q);
+    return space.distance(start, q) + space.distance(q, goal) < length;
+  };
+}
+
 }  // namespace rex

@@ -23,4 +23,10 @@ using Sampler = std::function<bool(Rng& rng, Eigen::Ref<Eigen::VectorXd> q)>;
 /// Hsu, Jiang, Reif and Sun 2003. Throws as gaussianSampler.
 [[nodiscard]] Sampler bridgeSampler(const Space& space, AllValid allValid, double sigma);
 
+/// Any configuration through which a way from start to goal may lead that is shorter than `length`: what is
+/// left to look at once one of that length is known (Gammell, Srinivasa and Barfoot 2014). Throws Error for a
+/// length below the distance of start and goal.
+[[nodiscard]] Sampler informedSampler(const Space& space, const VectorArg& start, const VectorArg& goal,
+                                      double length);
+
 }  // namespace rex

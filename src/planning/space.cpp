@@ -28,7 +28,10 @@ void requireSound(const SpacePart& part, std::size_t i) {
     refuse(fmt::format("bounds {:g} and {:g}", part.lower, part.upper), "finite bounds, the lower one first");
 }
 
-double turn(double from, double to) { return std::remainder(to - from, 2 * kPi); }
+double turn(double from, double to) {
+  const double way = to - from;
+  return std::abs(way) <= kPi ? way : std::remainder(way, 2 * kPi);
+}
 
 double squaredDistance(const SpacePart& part, const double* a, const double* b) {
   switch (part.kind) {

@@ -65,6 +65,11 @@ TEST(NearestNeighbors, AgreeWithALookAtAllPoints) {
       while (inside < all.size() && all[inside].first <= radius) ++inside;
       ASSERT_EQ(near.size(), inside);
       for (std::size_t k = 0; k < inside; ++k) EXPECT_EQ(near[k], all[k].second);
+      std::vector<Neighbor> unsorted;
+      tree.within(q, radius, unsorted);
+      std::sort(unsorted.begin(), unsorted.end());
+      ASSERT_EQ(unsorted.size(), inside);
+      for (std::size_t k = 0; k < inside; ++k) EXPECT_NEAR(unsorted[k].distance, all[k].first, 1e-12);
     }
     EXPECT_EQ(tree.count(), 3000);
     EXPECT_EQ(tree.point(1234), points[1234]);

@@ -67,7 +67,8 @@ TEST(Roadmap, ComesNearTheShortestPathWithMoreNodes) {
   const struct {
     int dimension, few, many;
     double gap, shortest, within;
-  } cases[] = {{2, 300, 3000, .1, 1.089949, 1.03}, {3, 500, 4000, .2, 1.2, 1.2}};
+  } cases[] = {
+      {2, 300, 3000, .1, 1.089949, 1.03}, {3, 500, 4000, .2, 1.2, 1.2}, {6, 2000, 15000, .4, 1.235783, 2}};
   for (const auto& one : cases) {
     const PathProblem problem = wallWithHole(one.dimension, one.gap);
     const PathResult rough = roadmapOf(problem, {.nodes = one.few, .neighbors = 0}).query(problem);
@@ -79,6 +80,23 @@ TEST(Roadmap, ComesNearTheShortestPathWithMoreNodes) {
       EXPECT_LT(fine.length, rough.length);
     }
   }
+}
+
+// In six dimensions nodes are far between, unless they are drawn where a shorter way may lead than is known.
+TEST(Roadmap, ComesNearerByNodesBetweenStartAndGoal) {
+  const PathProblem problem = wallWithHole(6, .4);
+  Rng rng(1);
+  std::vector<double> lengths{3};
+  for (int stage = 0; stage < 5; ++stage) {
+    RoadmapOptions options{.nodes = 2000, .neighbors = 100, .maxSamples = 1'000'000};
+    options.sampler = informedSampler(problem.space, problem.start, problem.goal, lengths.back());
+    Roadmap roadmap(problem.space, problem.allValid, problem.resolution, options, rng);
+    const PathResult result = roadmap.query(problem);
+    ASSERT_EQ(result.status, PathStatus::kFound) << result.message;
+    lengths.push_back(std::min(lengths.back(), result.length));
+  }
+  EXPECT_LT(lengths.back(), .95 * lengths[1]);
+  EXPECT_LT(lengths.back(), 1.7 * 1.235783);
 }
 
 TEST(Roadmap, SaysWhenThereIsNoWay) {

@@ -6,7 +6,6 @@
 
 #include "base/rng.h"
 #include "collision/contacts.h"
-#include "collision/motion_clearance.h"
 #include "planning/rrt.h"
 #include "scene/ors_reader.h"
 #include "support/expect_error.h"
@@ -84,20 +83,6 @@ TEST(RobotProblem, SaysWhichShapesAreInTheWay) {
       nearestContact(scene("body a { type=1 size=[0 0 0 1] contact }"),
                      ContactModel(scene("body a { type=1 size=[0 0 0 1] contact }")), Eigen::VectorXd()),
       "all shapes apart");
-}
-
-// Between the points that are checked the arm cannot move farther than the margin.
-TEST(RobotProblem, BringsThePegIntoTheHole) {
-  const Model model = pegInAHole();
-  const ContactModel contacts(model);
-  const PathProblem problem = pegProblem(model, contacts);
-  for (std::uint64_t seed = 0; seed < 5; ++seed) {
-    Rng rng(seed);
-    const PathResult result = connectRrts(problem, {.stepSize = .3, .maxSamples = 300000}, rng);
-    ASSERT_EQ(result.status, PathStatus::kFound) << result.message;
-    for (Eigen::Index k = 1; k < result.path.cols(); ++k)
-      ASSERT_GT(motionClearance(model, contacts, result.path.col(k - 1), result.path.col(k), 1e-3), 0);
-  }
 }
 
 }  // namespace

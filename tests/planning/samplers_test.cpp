@@ -71,5 +71,24 @@ TEST(Samplers, RefuseASpreadThatIsNone) {
   EXPECT_REX_ERROR(bridgeSampler(problem.space, problem.allValid, NAN), "sigma of a sampler: found nan");
 }
 
+TEST(InformedSampler, ProposesAllThroughWhichAShorterWayMayLead) {
+  const Space space = Space::box(Eigen::Vector2d(-1, -1), Eigen::Vector2d(1, 1));
+  const Eigen::Vector2d start(-.3, 0), goal(.3, 0);
+  const Sampler sampler = informedSampler(space, start, goal, 1);
+  Rng rng(1);
+  Eigen::VectorXd q(2);
+  int inside = 0;
+  constexpr int kProposals = 20000;
+  for (int i = 0; i < kProposals; ++i) {
+    const bool isProposed = sampler(rng, q);
+    // The ellipse with half axes 0.5 and 0.4.
+    EXPECT_EQ(isProposed, std::pow(q[0] / .5, 2) + std::pow(q[1] / .4, 2) < 1);
+    inside += isProposed ? 1 : 0;
+  }
+  EXPECT_NEAR(static_cast<double>(inside) / kProposals, M_PI * .5 * .4 / 4, .01);
+  EXPECT_REX_ERROR(static_cast<void>(informedSampler(space, start, goal, .5)),
+                   "length of a way: found 0.5, wanted at least 0.6, the distance of start and goal");
+}
+
 }  // namespace
 }  // namespace rex
