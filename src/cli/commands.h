@@ -90,9 +90,9 @@ struct PlanOptions {
   std::uint64_t seed = 0;
   int seeds = 1;  ///< searches, each with the next seed
   bool noSmooth = false;
-  double speed = 1;       ///< of the motion along the path, in the metric of the space per second
-  std::string body{};     ///< whose ways are drawn; empty: farthestBody()
-  RenderOptions film{};   ///< cameras, size and gl of the pictures
+  double speed = 1;      ///< of the motion along the path, in the metric of the space per second
+  std::string body{};    ///< whose ways are drawn; empty: farthestBody()
+  RenderOptions film{};  ///< cameras, size and gl of the pictures
   bool noFilm = false;
   bool json = false;
   std::filesystem::path out{};  ///< a folder

@@ -44,18 +44,19 @@ double pieceLength(const Space& space, const std::vector<PathGraph>& graphs) {
 Eigen::MatrixXd pointsBetween(const Space& space, const VectorArg& a, const VectorArg& b, double piece) {
   const int pieces = std::max(1, static_cast<int>(std::ceil(space.distance(a, b) / piece)));
   Eigen::MatrixXd points(a.size(), pieces + 1);
-  for (int i = 0; i <= pieces; ++i)
-    space.interpolate(a, b, static_cast<double>(i) / pieces, points.col(i));
+  for (int i = 0; i <= pieces; ++i) space.interpolate(a, b, static_cast<double>(i) / pieces, points.col(i));
   return points;
 }
+
+// What is behind very many lines shows through.
+float opacityOf(std::size_t edges) { return std::clamp(800 / static_cast<float>(edges), 0.08f, 0.5f); }
 
 LineSet linesOf(const Model& model, const Space& space, BodyId body, const PathGraph& graph, double piece) {
   LineSet lines;
   for (const auto& [a, b] : graph.edges) {
     const std::vector<Vector3d> places =
         placesOf(model, body, pointsBetween(space, graph.nodes.col(a), graph.nodes.col(b), piece));
-    for (std::size_t i = 1; i < places.size(); ++i)
-      lines.segments.emplace_back(places[i - 1], places[i]);
+    for (std::size_t i = 1; i < places.size(); ++i) lines.segments.emplace_back(places[i - 1], places[i]);
   }
   return lines;
 }
@@ -97,13 +98,15 @@ BodyId farthestBody(const Model& model) {
   return BodyId(static_cast<int>(farthest));
 }
 
-Picture exploredPicture(const Model& model, const PathProblem& problem, BodyId body, const FoundPath& found) {
+Picture exploredPicture(const PathTask& task, BodyId body, const FoundPath& found) {
+  const auto& [model, contacts, problem] = task;
   Picture picture = pictureOf(model, forwardKinematics(model, problem.start));
   addFaintly(picture, pictureOf(model, forwardKinematics(model, problem.goal)));
   const double piece = pieceLength(problem.space, found.explored);
   for (std::size_t i = 0; i < found.explored.size(); ++i) {
     picture.lineSets.push_back(linesOf(model, problem.space, body, found.explored[i], piece));
     picture.lineSets.back().color = kGraphColors[i % kGraphColors.size()];
+    picture.lineSets.back().color.a = opacityOf(found.explored[i].edges.size());
   }
   if (found.isFound()) picture.polylines.push_back(wayOf(model, problem.space, body, found.path));
   Eigen::MatrixXd ends(problem.start.size(), 2);
@@ -113,10 +116,8 @@ Picture exploredPicture(const Model& model, const PathProblem& problem, BodyId b
 }
 
 Figure jointsFigure(const Model& model, const Motion& motion) {
-  Figure figure{.title = "joints",
-                .xLabel = "time [s]",
-                .yLabel = "position [rad, m]",
-                .legend = Legend::kOutside};
+  Figure figure{
+      .title = "joints", .xLabel = "time [s]", .yLabel = "position [rad, m]", .legend = Legend::kOutside};
   const std::vector<std::string> names = positionNames(model);
   for (std::size_t i = 0; i < names.size(); ++i) {
     Series series{.label = names[i], .x = motion.times};

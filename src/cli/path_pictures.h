@@ -14,10 +14,8 @@ namespace rex::cli {
 [[nodiscard]] BodyId farthestBody(const Model& model);
 
 /// What a search explored, in the workspace: the ways of a body's origin between joined configurations, each
-/// tree in its own colour, and the path on top; around them the scene at the start, and faintly where `goal`
-/// has it.
-[[nodiscard]] Picture exploredPicture(const Model& model, const PathProblem& problem, BodyId body,
-                                      const FoundPath& found);
+/// tree in its own colour, and the path on top; around them the scene at the start, and faintly at the goal.
+[[nodiscard]] Picture exploredPicture(const PathTask& task, BodyId body, const FoundPath& found);
 
 /// The joints over time.
 [[nodiscard]] Figure jointsFigure(const Model& model, const Motion& motion);

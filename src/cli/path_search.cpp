@@ -1,5 +1,6 @@
 #include "cli/path_search.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <ctime>
 
@@ -15,7 +16,7 @@ namespace rex::cli {
 namespace {
 
 constexpr int kShortcuts = 200, kRoundings = 3;
-constexpr int kNeighbors = 10;  // of a node of PRM
+constexpr int kNeighbors = 10;       // of a node of PRM
 
 double cpuTime() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -86,15 +87,15 @@ bool growsTrees(Planner planner) {
   return planner == Planner::kRrt || planner == Planner::kRrtConnect || planner == Planner::kRrtStar;
 }
 
-FoundPath searchPath(const Model& model, const ContactModel& contacts, const PathProblem& problem,
-                     const PathSearch& search, std::uint64_t seed) {
+FoundPath searchPath(const PathTask& task, const PathSearch& search, std::uint64_t seed) {
+  const Space& space = task.problem.space;
   FoundPath found{.seed = seed};
-  PathProblem counted = problem;
-  counted.allValid = watched(problem.allValid, found.checks);
+  PathProblem problem = task.problem;
+  problem.allValid = watched(task.problem.allValid, found.checks);
   Rng rng(seed);
   const double begin = cpuTime();
-  PathResult result = growsTrees(search.planner) ? growTrees(counted, search, rng, found)
-                                                 : askRoadmap(counted, search, rng, found);
+  PathResult result = growsTrees(search.planner) ? growTrees(problem, search, rng, found)
+                                                 : askRoadmap(problem, search, rng, found);
   const double planned = cpuTime();
   found.planningTime = planned - begin;
   for (const PathGraph& graph : found.explored) found.nodes += static_cast<int>(graph.nodes.cols());
@@ -102,11 +103,28 @@ FoundPath searchPath(const Model& model, const ContactModel& contacts, const Pat
   if (result.status != PathStatus::kFound) return found;
   found.plannedLength = result.length;
   if (search.smooth)
-    result.path = roundCorners(counted, shortcut(counted, result.path, kShortcuts, rng), kRoundings);
+    result.path = roundCorners(problem, shortcut(problem, result.path, kShortcuts, rng), kRoundings);
   found.smoothingTime = cpuTime() - planned;
-  found.path = unrolled(problem.space, std::move(result.path));
-  found.length = pathLength(problem.space, found.path);
-  found.clearance = pathClearance(model, contacts, problem.space, found.path);
+  found.path = unrolled(space, std::move(result.path));
+  found.length = pathLength(space, found.path);
+  found.clearance = pathClearance(task.model, task.contacts, space, found.path, kClearanceTolerance);
+  return found;
+}
+
+int FoundPaths::successes() const {
+  return static_cast<int>(std::ranges::count_if(all, &FoundPath::isFound));
+}
+
+FoundPaths searchPaths(const PathTask& task, const PathSearch& search, std::uint64_t firstSeed, int count) {
+  FoundPaths found{.all = {searchPath(task, search, firstSeed)}};
+  for (int i = 1; i < count; ++i) {
+    FoundPath next = searchPath(task, search, firstSeed + static_cast<std::uint64_t>(i));
+    const FoundPath& best = found.shortest();
+    const bool isBetter = next.isFound() && (!best.isFound() || next.length < best.length);
+    (isBetter ? found.all[found.best] : next).explored.clear();
+    found.all.push_back(std::move(next));
+    if (isBetter) found.best = found.all.size() - 1;
+  }
   return found;
 }
 

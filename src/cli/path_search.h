@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -7,8 +8,12 @@
 
 #include "collision/contact_model.h"
 #include "planning/path_problem.h"
+#include "scene/model.h"
 
 namespace rex::cli {
+
+/// By so much a clearance may be below the truth, metres.
+inline constexpr double kClearanceTolerance = 1e-4;
 
 enum class Planner { kRrt, kRrtConnect, kRrtStar, kPrm, kPrmStar, kLazyPrm };
 
@@ -16,6 +21,13 @@ enum class Planner { kRrt, kRrtConnect, kRrtStar, kPrm, kPrmStar, kLazyPrm };
 [[nodiscard]] Planner plannerOf(const std::string& name);
 /// Whether it grows trees, by steps; otherwise it makes a roadmap.
 [[nodiscard]] bool growsTrees(Planner planner);
+
+/// A robot, which of its shapes may collide, and from where to where it shall go.
+struct PathTask {
+  Model model;
+  ContactModel contacts;
+  PathProblem problem;
+};
 
 /// How `rex plan` searches.
 struct PathSearch {
@@ -34,8 +46,9 @@ struct PathGraph {
 /// What a search with one seed found.
 struct FoundPath {
   std::uint64_t seed = 0;
-  Eigen::MatrixXd path{};  ///< one posture per column, angles that run on across whole turns; empty: none found
-  double length = 0;       ///< of the path, and of what the planner gave before it was smoothed
+  Eigen::MatrixXd
+      path{};         ///< one posture per column, angles that run on across whole turns; empty: none found
+  double length = 0;  ///< of the path, and of what the planner gave before it was smoothed
   double plannedLength = 0;
   double clearance = 0;  ///< metres, all along the path: see pathClearance()
   int samples = 0;
@@ -51,7 +64,20 @@ struct FoundPath {
 
 /// Searches once. The same seed finds the same, but for the times. Throws Error as the planner, and
 /// Interrupted.
-[[nodiscard]] FoundPath searchPath(const Model& model, const ContactModel& contacts,
-                                   const PathProblem& problem, const PathSearch& search, std::uint64_t seed);
+[[nodiscard]] FoundPath searchPath(const PathTask& task, const PathSearch& search, std::uint64_t seed);
+
+/// What searches with several seeds found. Only the best one keeps what it explored.
+struct FoundPaths {
+  std::vector<FoundPath> all{};  ///< at least one
+  std::size_t best = 0;          ///< has the shortest path; where none was found, the first
+
+  [[nodiscard]] const FoundPath& shortest() const { return all[best]; }
+  /// How many have a path.
+  [[nodiscard]] int successes() const;
+};
+
+/// Searches with `count` seeds, at least one, from `firstSeed` on. Throws as searchPath().
+[[nodiscard]] FoundPaths searchPaths(const PathTask& task, const PathSearch& search, std::uint64_t firstSeed,
+                                     int count);
 
 }  // namespace rex::cli

@@ -261,9 +261,9 @@ void addPlan(CLI::App& program, Action& action) {
   const auto options = std::make_shared<PlanOptions>();
   CLI::App* command = add(
       program, "plan", "Find a way for a robot past all obstacles: path, film and replay",
-      "Examples:\n  scripts/rex plan board --goal 0.9,0.6,0.6 -o around\n"
+      "Examples:\n  scripts/rex plan board --goal 1.5,-1.1,-1 -o around\n"
       "  scripts/rex plan maze --goal 3,0,0 --planner rrt-star --speed 0.5 -o rooms\n"
-      "  scripts/rex plan pegInAHole --start 0 --margin 0.02 --seeds 10 -o peg\\\n"
+      "  scripts/rex plan pegInAHole --start 0 --margin 0.02 --seeds 10 -o peg \\\n"
       "      --goal 0.945499,0.431195,-1.97155,0.623969,2.22355,-0.665206,-1.48356\n\n"
       "Lengths are those of postures as vectors: root of the sum of squares of rad and m. Turning joints\n"
       "without limits turn the shorter way round. DIR gets path.csv (time and joints; `rex render --motion`\n"
@@ -290,7 +290,8 @@ void addPlan(CLI::App& program, Action& action) {
   command->add_option("--seed", options->seed, "of the random numbers (default: 0)")->type_name("N");
   command->add_option("--seeds", options->seeds, "searches with so many seeds, and prints a table")
       ->type_name("N");
-  CLI::Option* smooth = command->add_flag("--smooth")->description("shortcuts, then rounded corners (default)");
+  CLI::Option* smooth =
+      command->add_flag("--smooth")->description("shortcuts, then rounded corners (default)");
   command->add_flag("--no-smooth", options->noSmooth, "the path as the planner finds it")->excludes(smooth);
   command->add_option("--speed", options->speed, "along the path, length per second (default: 1)")
       ->type_name("X");

@@ -38,9 +38,8 @@ std::optional<Integrator> integratorOf(const std::string& engine) {
 SimulationPlan planOf(const Model& model, const SimulateOptions& options) {
   SimulationPlan plan{.tau = options.tau, .isHeld = options.hold, .seed = options.seed};
   if (const auto integrator = integratorOf(options.engine))
-    plan.stepper = {.integrator = *integrator,
-                    .jointForces = {.friction = options.friction},
-                    .noise = options.noise};
+    plan.stepper = {
+        .integrator = *integrator, .jointForces = {.friction = options.friction}, .noise = options.noise};
   else
     plan.physics = {.jointFriction = options.friction};
   if (plan.physics && options.noise != 0)
