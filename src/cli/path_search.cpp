@@ -99,7 +99,6 @@ FoundPath searchPath(const PathTask& task, const PathSearch& search, std::uint64
   const double planned = cpuTime();
   found.planningTime = planned - begin;
   for (const PathGraph& graph : found.explored) found.nodes += static_cast<int>(graph.nodes.cols());
-  found.message = std::move(result.message);
   if (result.status != PathStatus::kFound) return found;
   found.plannedLength = result.length;
   if (search.smooth)

@@ -56,7 +56,6 @@ struct FoundPath {
   long checks = 0;           ///< configurations that were looked at, those for smoothing included
   double planningTime = 0;   ///< seconds of CPU time
   double smoothingTime = 0;  ///< the same, of what comes after
-  std::string message{};
   std::vector<PathGraph> explored{};  ///< trees (of two, the first is that of the start), or a roadmap
 
   [[nodiscard]] bool isFound() const { return path.cols() > 0; }

@@ -15,7 +15,7 @@ namespace {
 
 std::string summaryOfOne(const PathTask& task, const PlanOptions& options, const FoundPath& found) {
   std::string text = fmt::format("{}: {}\n", titleOf(task, options, found),
-                                 found.isFound() ? "found a path" : found.message);
+                                 found.isFound() ? "found a path" : "no path within the budget of --samples");
   text += fmt::format("explored   {} nodes of {} samples, {} configurations checked\n", found.nodes,
                       found.samples, found.checks);
   text += fmt::format("CPU time   {:.1f} ms for planning", 1e3 * found.planningTime);

@@ -263,8 +263,7 @@ void addPlan(CLI::App& program, Action& action) {
       program, "plan", "Find a way for a robot past all obstacles: path, film and replay",
       "Examples:\n  scripts/rex plan board --goal 1.5,-1.1,-1 -o around\n"
       "  scripts/rex plan maze --goal 3,0,0 --planner rrt-star --speed 0.5 -o rooms\n"
-      "  scripts/rex plan pegInAHole --start 0 --margin 0.02 --seeds 10 -o peg \\\n"
-      "      --goal 0.945499,0.431195,-1.97155,0.623969,2.22355,-0.665206,-1.48356\n\n"
+      "  scripts/rex plan board --goal 'stem>arm1=1.5' --planner lazy-prm --seeds 20 -o compare\n\n"
       "Lengths are those of postures as vectors: root of the sum of squares of rad and m. Turning joints\n"
       "without limits turn the shorter way round. DIR gets path.csv (time and joints; `rex render --motion`\n"
       "reads it), tree.png (what was explored), path.mp4 and path.html (a replay).\n"
