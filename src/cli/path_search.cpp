@@ -16,7 +16,7 @@ namespace rex::cli {
 namespace {
 
 constexpr int kShortcuts = 200, kRoundings = 3;
-constexpr int kNeighbors = 10;       // of a node of PRM
+constexpr int kNeighbors = 10;  // of a node of PRM
 
 double cpuTime() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 

@@ -53,9 +53,9 @@ struct FoundPath {
   double clearance = 0;  ///< metres, all along the path: see pathClearance()
   int samples = 0;
   int nodes = 0;
-  long checks = 0;           ///< configurations that were looked at, those for smoothing included
-  double planningTime = 0;   ///< seconds of CPU time
-  double smoothingTime = 0;  ///< the same, of what comes after
+  long checks = 0;                    ///< configurations that were looked at, those for smoothing included
+  double planningTime = 0;            ///< seconds of CPU time
+  double smoothingTime = 0;           ///< the same, of what comes after
   std::vector<PathGraph> explored{};  ///< trees (of two, the first is that of the start), or a roadmap
 
   [[nodiscard]] bool isFound() const { return path.cols() > 0; }

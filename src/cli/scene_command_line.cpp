@@ -289,9 +289,9 @@ void addPlan(CLI::App& program, Action& action) {
   command->add_option("--seed", options->seed, "of the random numbers (default: 0)")->type_name("N");
   command->add_option("--seeds", options->seeds, "searches with so many seeds, and prints a table")
       ->type_name("N");
-  CLI::Option* smooth =
-      command->add_flag("--smooth")->description("shortcuts, then rounded corners (default)");
-  command->add_flag("--no-smooth", options->noSmooth, "the path as the planner finds it")->excludes(smooth);
+  CLI::Option* smooth = command->add_flag("--smooth");
+  smooth->description("shortcuts, then rounded corners (default)");
+  command->add_flag("--no-smooth", options->noSmooth, "the path as the planner finds it");
   command->add_option("--speed", options->speed, "along the path, length per second (default: 1)")
       ->type_name("X");
   command->add_option("--body", options->body, "whose ways are drawn (default: that which most joints move)")
@@ -301,8 +301,10 @@ void addPlan(CLI::App& program, Action& action) {
   addJson(command, options->json);
   addReading(command, options->scene.reading);
   addGl(command, options->film.gl);
-  command->callback(
-      [&action, options] { action = [options](const Project& p) { return planPath(p, *options); }; });
+  command->callback([&action, options, smooth] {
+    if (options->noSmooth && smooth->count() > 0) throw CLI::ExcludesError("--smooth", "--no-smooth");
+    action = [options](const Project& p) { return planPath(p, *options); };
+  });
 }
 
 }  // namespace rex::cli
