@@ -73,7 +73,7 @@ Polyline wayOf(const Model& model, const Space& space, BodyId body, const Matrix
 
 // What moves, once more at another posture.
 void addFaintly(Picture& picture, const Picture& other) {
-  constexpr float kFaint = 0.3f;
+  constexpr float kFaint = 0.45f;
   const std::size_t count = picture.solids.size();
   for (std::size_t i = 0; i < count; ++i) {
     Solid solid = other.solids[i];
