@@ -32,7 +32,7 @@ PathSearch searchOf(const PlanOptions& options) {
         {.what = "--step", .found = "--planner " + options.planner, .wanted = "a planner that grows trees"});
   search.step = options.step.value_or(search.step);
   requireBetween("--step", search.step, 1e-3, 1e3);
-  if (search.planner == Planner::kRrtStar) search.samples = 5000;  // it spends them all
+  if (search.planner == Planner::kRrtStar) search.samples = 10'000;  // it spends them all
   if (!growsTrees(search.planner)) search.samples = 2000;
   search.samples = options.samples.value_or(search.samples);
   requireBetween("--samples", search.samples, 1, growsTrees(search.planner) ? 1e7 : 1e5);

@@ -284,7 +284,7 @@ void addPlan(CLI::App& program, Action& action) {
   command->add_option("--step", options->step, "by which trees grow (default: 0.3)")->type_name("LENGTH");
   command
       ->add_option("--samples", options->samples,
-                   "the budget (default: 100000; rrt-star 5000, roadmaps 2000)")
+                   "the budget (default: 100000; rrt-star 10000, roadmaps 2000)")
       ->type_name("N");
   command->add_option("--seed", options->seed, "of the random numbers (default: 0)")->type_name("N");
   command->add_option("--seeds", options->seeds, "searches with so many seeds, and prints a table")
