@@ -46,16 +46,19 @@ class Blocks {
     }
   }
 
-  // The lanes, as bits, in which some pair is nearer than the margin.
-  unsigned hits(int block, double margin) {
+  // The lanes, as bits, in which some pair is nearer than the margin; if one is enough, at least one of them.
+  unsigned hits(int block, double margin, bool isOneEnough) {
     place(block);
     const unsigned all = (1u << lanesOf(block)) - 1;
     unsigned found = ~all & ((1u << kContactLanes) - 1);
-    for (std::size_t type = 0; type < data_.cores.size(); ++type) {
+    const auto isEnough = [&] { return isOneEnough && (found & all) != 0; };
+    for (std::size_t type = 0; type < data_.cores.size() && !isEnough(); ++type) {
       const std::vector<CorePair>& pairs = data_.cores[type];
-      found = kernel_.pairs[type].hits(pairs.data(), static_cast<int>(pairs.size()), solids(), margin, found);
+      found = kernel_.pairs[type].hits(pairs.data(), static_cast<int>(pairs.size()), solids(), margin, found,
+                                       isOneEnough);
     }
     for (const CorePair& pair : data_.others) {
+      if (isEnough()) break;
       for (int lane = 0; lane < lanesOf(block); ++lane)
         if ((found >> lane & 1) == 0 && isNearer(pair, lane, margin)) found |= 1u << lane;
     }
@@ -117,7 +120,7 @@ void contactFreeBatch(const ContactModel& contacts, const PoseBatch& poses, doub
   Blocks blocks(contacts, poses);
   free.resize(poses.count());
   for (int block = 0; block < blocks.count(); ++block) {
-    const unsigned hits = blocks.hits(block, margin);
+    const unsigned hits = blocks.hits(block, margin, false);
     for (int lane = 0; lane < blocks.lanesOf(block); ++lane)
       free[block * kContactLanes + lane] = (hits >> lane & 1) == 0;
   }
@@ -126,7 +129,7 @@ void contactFreeBatch(const ContactModel& contacts, const PoseBatch& poses, doub
 bool allContactFree(const ContactModel& contacts, const PoseBatch& poses, double margin) {
   Blocks blocks(contacts, poses);
   for (int block = 0; block < blocks.count(); ++block)
-    if (blocks.hits(block, margin) != 0) return false;
+    if (blocks.hits(block, margin, true) != 0) return false;
   return true;
 }
 

@@ -132,7 +132,8 @@ unsigned hitsOf(const Solid& a, const Solid& b, double reach, double margin) {
 }
 
 template <class T, class A, class B>
-unsigned hits(const CorePair* pairs, int count, const LaneSolids& solids, double margin, unsigned known) {
+unsigned hits(const CorePair* pairs, int count, const LaneSolids& solids, double margin, unsigned known,
+              bool isOneEnough) {
   constexpr unsigned kAll = (1u << kLanesOf<T>)-1;
   unsigned found = known;
   for (int lane = 0; lane < kLane; lane += kLanesOf<T>) {
@@ -140,6 +141,7 @@ unsigned hits(const CorePair* pairs, int count, const LaneSolids& solids, double
     for (const CorePair* pair = pairs; pair < pairs + count && here != kAll; ++pair) {
       const Solid a(solids, pair->a, lane), b(solids, pair->b, lane);
       here |= hitsOf<T, A, B>(a, b, pair->reach, margin);
+      if (isOneEnough && (found | here << lane) != known) return found | here << lane;
     }
     found |= here << lane;
   }

@@ -38,8 +38,9 @@ struct PairKernel {
   /// One pair, in the first `lanes` lanes at least.
   void (*proximities)(const CorePair& pair, int lanes, const LaneSolids& solids, LaneProximities& found);
   /// The lanes, as bits, in which some pair is nearer than `margin`; of the lanes in `known` this need not be
-  /// found out again.
-  unsigned (*hits)(const CorePair* pairs, int count, const LaneSolids& solids, double margin, unsigned known);
+  /// found out again. If one is enough, it stops at the first that was not known.
+  unsigned (*hits)(const CorePair* pairs, int count, const LaneSolids& solids, double margin, unsigned known,
+                   bool isOneEnough);
 };
 
 struct ContactKernel {

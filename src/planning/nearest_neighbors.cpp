@@ -37,19 +37,19 @@ double squaredGap(double x, double lower, double upper) {
   return gap * gap;
 }
 
-// Distance and number of a point; of equally near ones the first comes first.
-using Neighbor = std::pair<double, int>;
-
 std::vector<int> pointsOf(std::vector<Neighbor> neighbors) {
   std::sort(neighbors.begin(), neighbors.end());
   std::vector<int> points;
-  for (const Neighbor& neighbor : neighbors) points.push_back(neighbor.second);
+  for (const Neighbor& neighbor : neighbors) points.push_back(neighbor.point);
   return points;
 }
 
 }  // namespace
 
-NearestNeighbors::NearestNeighbors(Space space) : space_(std::move(space)) {}
+NearestNeighbors::NearestNeighbors(Space space)
+    : space_(std::move(space)),
+      isPlain_(std::all_of(space_.parts().begin(), space_.parts().end(),
+                           [](const SpacePart& part) { return part.kind == Kind::kLine; })) {}
 
 // Lines and quaternions times their weights; angles as they are, from -pi to pi.
 Eigen::VectorXd NearestNeighbors::scaled(const VectorArg& q) const {
@@ -60,10 +60,10 @@ Eigen::VectorXd NearestNeighbors::scaled(const VectorArg& q) const {
   for (const SpacePart& part : space_.parts()) {
     const int count = sizeOf(part.kind);
     const bool isAngle = part.kind == Kind::kCircle || part.kind == Kind::kChord;
-    if (isAngle)
-      x[i] = std::remainder(x[i], 2 * kPi);
-    else
+    if (!isAngle)
       x.segment(i, count) *= part.weight;
+    else if (std::abs(x[i]) > kPi)
+      x[i] = std::remainder(x[i], 2 * kPi);
     i += count;
   }
   return x;
@@ -147,15 +147,18 @@ int NearestNeighbors::add(const VectorArg& q) {
   return point;
 }
 
-Eigen::VectorXd NearestNeighbors::point(int i) const {
-  return Eigen::Map<const Eigen::VectorXd>(points_.data() + static_cast<std::size_t>(i) * size(),
-                                           space_.size());
+Eigen::Map<const Eigen::VectorXd> NearestNeighbors::point(int i) const {
+  return {points_.data() + static_cast<std::size_t>(i) * size(), space_.size()};
 }
 
 // Of x from the box of a node: at most that from any point below.
 double NearestNeighbors::boxDistance2(int at, const double* x) const {
   const double *lower = box(at), *upper = lower + size();
   double sum = 0;
+  if (isPlain_) {
+    for (std::size_t k = 0; k < size(); ++k) sum += squaredGap(x[k], lower[k], upper[k]);
+    return sum;
+  }
   std::size_t i = 0;
   for (const SpacePart& part : space_.parts()) {
     if (part.kind == Kind::kLine) {
@@ -179,6 +182,12 @@ double NearestNeighbors::boxDistance2(int at, const double* x) const {
 double NearestNeighbors::chunkDistances2(const double* numbers, const double* x, double* distances) const {
   using Lanes = Eigen::Array<double, kChunk, 1>;
   Lanes sum = Lanes::Zero();
+  if (isPlain_) {
+    for (std::size_t i = 0; i < size(); ++i)
+      sum += (x[i] - Eigen::Map<const Lanes>(numbers + i * kChunk)).square();
+    Eigen::Map<Lanes>(distances, kChunk) = sum;
+    return sum.minCoeff();
+  }
   for (const SpacePart& part : space_.parts()) {
     if (part.kind == Kind::kLine) {
       sum += (*x - Eigen::Map<const Lanes>(numbers)).square();
@@ -190,6 +199,9 @@ double NearestNeighbors::chunkDistances2(const double* numbers, const double* x,
         opposite += (x[i] + number).square();
       }
       sum += same.min(opposite);
+    } else if (part.kind == Kind::kCircle) {
+      const Lanes turn = (*x - Eigen::Map<const Lanes>(numbers)).abs();
+      sum += (part.weight * turn.min(2 * kPi - turn)).square();
     } else {
       for (int k = 0; k < kChunk; ++k) sum[k] += squaredTurn(part, angleBetween(*x, numbers[k]));
     }
@@ -200,32 +212,44 @@ double NearestNeighbors::chunkDistances2(const double* numbers, const double* x,
   return sum.minCoeff();
 }
 
+// Calls visit(squared distance, point) for the points of a leaf within reach, and takes up the new one.
+template <class Visit>
+void NearestNeighbors::searchLeaf(int leaf, const double* x, double& reach2, const Visit& visit) const {
+  const Bucket& bucket = buckets_[static_cast<std::size_t>(node(leaf).bucket)];
+  std::array<double, kChunk> distances;
+  for (std::size_t first = 0; first < bucket.points.size(); first += kChunk) {
+    if (chunkDistances2(bucket.numbers.data() + first * size(), x, distances.data()) > reach2) continue;
+    const std::size_t count = std::min<std::size_t>(kChunk, bucket.points.size() - first);
+    for (std::size_t k = 0; k < count; ++k)
+      if (distances[k] <= reach2) reach2 = visit(distances[k], bucket.points[first + k]);
+  }
+}
+
 // Calls visit(squared distance, point) for all points that may be within the squared distance that it
 // returned last, near branches first.
 template <class Visit>
 void NearestNeighbors::search(const double* x, double reach2, const Visit& visit) const {
   if (nodes_.empty()) return;
-  std::vector<Neighbor> open{{boxDistance2(0, x), 0}};
-  open.reserve(kUsualDepth);
-  std::array<double, kChunk> distances;
-  while (!open.empty()) {
-    const auto [bound, at] = open.back();
-    open.pop_back();
-    if (bound > reach2) continue;
-    if (isLeaf(at)) {
-      const Bucket& bucket = buckets_[static_cast<std::size_t>(node(at).bucket)];
-      for (std::size_t first = 0; first < bucket.points.size(); first += kChunk) {
-        if (chunkDistances2(bucket.numbers.data() + first * size(), x, distances.data()) > reach2) continue;
-        const std::size_t count = std::min<std::size_t>(kChunk, bucket.points.size() - first);
-        for (std::size_t k = 0; k < count; ++k)
-          if (distances[k] <= reach2) reach2 = visit(distances[k], bucket.points[first + k]);
-      }
-      continue;
+  struct Branch {
+    double bound;  // of squared distances
+    int node;
+  };
+  std::vector<Branch> open;  // left for later
+  Branch at{0, 0};
+  for (;;) {
+    while (!isLeaf(at.node)) {
+      Branch near{boxDistance2(node(at.node).left, x), node(at.node).left};
+      Branch far{boxDistance2(node(at.node).right, x), node(at.node).right};
+      if (far.bound < near.bound) std::swap(near, far);
+      if (open.empty()) open.reserve(kUsualDepth);
+      if (far.bound <= reach2) open.push_back(far);
+      at = near;
     }
-    const Neighbor left{boxDistance2(node(at).left, x), node(at).left};
-    const Neighbor right{boxDistance2(node(at).right, x), node(at).right};
-    open.push_back(std::max(left, right));
-    open.push_back(std::min(left, right));
+    if (at.bound <= reach2) searchLeaf(at.node, x, reach2, visit);
+    while (!open.empty() && open.back().bound > reach2) open.pop_back();
+    if (open.empty()) return;
+    at = open.back();
+    open.pop_back();
   }
 }
 
@@ -234,11 +258,11 @@ int NearestNeighbors::nearest(const VectorArg& q) const {
   if (count() == 0)
     throw Error({.what = "nearest neighbour", .found = "no points", .wanted = "at least one"});
   Neighbor best{std::numeric_limits<double>::infinity(), 0};
-  search(x.data(), best.first, [&](double distance2, int point) {
+  search(x.data(), best.distance, [&](double distance2, int point) {
     best = std::min(best, {distance2, point});
-    return best.first;
+    return best.distance;
   });
-  return best.second;
+  return best.point;
 }
 
 std::vector<int> NearestNeighbors::nearest(const VectorArg& q, int most) const {
@@ -247,29 +271,34 @@ std::vector<int> NearestNeighbors::nearest(const VectorArg& q, int most) const {
   const auto limit = static_cast<std::size_t>(std::max(0, most));
   if (limit == 0) return {};
   search(x.data(), std::numeric_limits<double>::infinity(), [&](double distance2, int point) {
-    heap.emplace_back(distance2, point);
+    heap.push_back({distance2, point});
     std::push_heap(heap.begin(), heap.end());
     if (heap.size() > limit) {
       std::pop_heap(heap.begin(), heap.end());
       heap.pop_back();
     }
-    return heap.size() < limit ? std::numeric_limits<double>::infinity() : heap.front().first;
+    return heap.size() < limit ? std::numeric_limits<double>::infinity() : heap.front().distance;
   });
   return pointsOf(std::move(heap));
 }
 
-std::vector<int> NearestNeighbors::within(const VectorArg& q, double radius) const {
+void NearestNeighbors::within(const VectorArg& q, double radius, std::vector<Neighbor>& out) const {
   const Eigen::VectorXd x = scaled(q);
   if (!(radius >= 0)) {
     throw Error({.what = "radius around a configuration",
                  .found = fmt::format("{:g}", radius),
                  .wanted = "zero or a positive distance"});
   }
-  std::vector<Neighbor> found;
+  out.clear();
   search(x.data(), radius * radius, [&](double distance2, int point) {
-    found.emplace_back(distance2, point);
+    out.push_back({std::sqrt(distance2), point});
     return radius * radius;
   });
+}
+
+std::vector<int> NearestNeighbors::within(const VectorArg& q, double radius) const {
+  std::vector<Neighbor> found;
+  within(q, radius, found);
   return pointsOf(std::move(found));
 }
 

@@ -1,10 +1,18 @@
 #pragma once
 
+#include <compare>
 #include <vector>
 
 #include "planning/space.h"
 
 namespace rex {
+
+/// A point by its number, and how far it is, in the metric of the space.
+struct Neighbor {
+  double distance;
+  int point;
+  auto operator<=>(const Neighbor&) const = default;
+};
 
 /// The configurations of a tree or roadmap, to be asked for those nearest to another. Points come one at a
 /// time; a k-d tree with boxes around its branches splits where they gather (Friedman, Bentley and Finkel
@@ -18,7 +26,8 @@ class NearestNeighbors {
   /// Numbers of the points: 0, 1, 2, ... in the order they are added. Throws Error for a wrong size or
   /// numbers that are not finite, saying which.
   int add(const VectorArg& q);
-  [[nodiscard]] Eigen::VectorXd point(int i) const;
+  /// Valid until the next add().
+  [[nodiscard]] Eigen::Map<const Eigen::VectorXd> point(int i) const;
 
   /// The nearest point. Throws Error if there is none, and as add().
   [[nodiscard]] int nearest(const VectorArg& q) const;
@@ -28,6 +37,8 @@ class NearestNeighbors {
   /// All points at most `radius` away, nearest first. Throws as add(), and for a radius that is negative or
   /// no number.
   [[nodiscard]] std::vector<int> within(const VectorArg& q, double radius) const;
+  /// The same into a caller's storage, in no order worth knowing.
+  void within(const VectorArg& q, double radius, std::vector<Neighbor>& out) const;
 
  private:
   // A leaf holds up to kBucket points, any other node two nodes. Distances are taken of kChunk points at
@@ -63,9 +74,12 @@ class NearestNeighbors {
   double boxDistance2(int at, const double* x) const;
   double chunkDistances2(const double* numbers, const double* x, double* distances) const;
   template <class Visit>
+  void searchLeaf(int leaf, const double* x, double& reach2, const Visit& visit) const;
+  template <class Visit>
   void search(const double* x, double reach2, const Visit& visit) const;
 
   Space space_;
+  bool isPlain_;                // all parts are lines
   std::vector<double> points_;  // as added
   std::vector<double> boxes_;   // lower corners, then upper ones, of each node's scaled points
   std::vector<Node> nodes_;

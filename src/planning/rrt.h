@@ -26,6 +26,9 @@ struct RrtStarOptions {
   /// Nodes within gamma (log n / n)^(1/d), and within a step, are considered as parents and rewired; 0: as
   /// large as optimality asks for in a space of this size (Karaman and Frazzoli 2011, theorem 38).
   double gamma = 0;
+  /// Once there is a path, draw only targets between start and goal through which a shorter one may lead
+  /// (Gammell, Srinivasa and Barfoot, Informed RRT*, 2014), and look only as far as they ask for.
+  bool isInformed = true;
 };
 
 /// A tree whose nodes keep the best parent around, rewired as it grows, so that its path to the goal becomes

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -14,6 +15,8 @@ namespace {
 using internal::SearchTree;
 using internal::stepTowards;
 using internal::TreeGrowth;
+
+constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 // How many dimensions a space has as a manifold, and its volume by its own metric.
 struct Extent {
@@ -41,6 +44,35 @@ double volumeOfUnitBall(int dimension) {
   return std::pow(std::numbers::pi, dimension / 2.) / std::tgamma(dimension / 2. + 1);
 }
 
+// Of all points whose distances from two others, `apart`, sum up to at most `length`.
+double volumeOfEllipsoid(int dimension, double apart, double length) {
+  const double thin = std::sqrt(std::max(0., length * length - apart * apart)) / 2;
+  return volumeOfUnitBall(dimension) * length / 2 * std::pow(thin, dimension - 1);
+}
+
+// Up to which distance neighbours are looked at, for the tree to become optimal (Karaman and Frazzoli 2011,
+// theorem 38). Once only ways through the ellipsoid matter that are shorter than the best, its volume counts.
+class Reach {
+ public:
+  Reach(const PathProblem& problem, const RrtStarOptions& options)
+      : extent_(extentOf(problem.space)),
+        apart_(problem.space.distance(problem.start, problem.goal)),
+        stepSize_(options.growth.stepSize),
+        gamma_(options.gamma) {}
+
+  double radius(double nodes, double length) const {
+    const double power = 1. / extent_.dimension;
+    const double volume = std::min(extent_.volume, volumeOfEllipsoid(extent_.dimension, apart_, length));
+    const double gamma =
+        gamma_ > 0 ? gamma_ : 2 * std::pow((1 + power) * volume / volumeOfUnitBall(extent_.dimension), power);
+    return std::min(stepSize_, gamma * std::pow(std::log(nodes) / nodes, power));
+  }
+
+ private:
+  Extent extent_;
+  double apart_, stepSize_, gamma_;
+};
+
 // A tree that knows what it costs to come to each node.
 class CostTree {
  public:
@@ -51,24 +83,20 @@ class CostTree {
 
   const SearchTree& tree() const { return tree_; }
   double cost(int node) const { return costs_[static_cast<std::size_t>(node)]; }
-  double costThrough(int node, const Eigen::VectorXd& q) const {
-    return cost(node) + space_.distance(tree_.points().point(node), q);
-  }
-
-  int add(const Eigen::VectorXd& q, int parent) {
+  int add(const VectorArg& q, int parent) {
+    costs_.push_back(cost(parent) + space_.distance(tree_.points().point(parent), q));
     const int node = tree_.add(q, parent);
-    costs_.push_back(costThrough(parent, q));
     children_.emplace_back();
     childrenOf(parent).push_back(node);
     return node;
   }
 
-  // Hangs a node on another parent; all that hangs on it becomes cheaper.
-  void move(int node, int parent) {
+  // Hangs a node on another parent, so that it costs less; so does all that hangs on it.
+  void move(int node, int parent, double newCost) {
     std::erase(childrenOf(tree_.parent(node)), node);
     childrenOf(parent).push_back(node);
     tree_.setParent(node, parent);
-    const double gain = cost(node) - costThrough(parent, tree_.points().point(node));
+    const double gain = cost(node) - newCost;
     std::vector<int> open{node};
     while (!open.empty()) {
       const int at = open.back();
@@ -87,14 +115,17 @@ class CostTree {
   std::vector<std::vector<int>> children_;
 };
 
-// The neighbour from which q is reached at the least cost, -1 if from none.
-int bestParent(const CostTree& tree, const std::vector<int>& near, const Eigen::VectorXd& q,
-               EdgeChecker& edges) {
-  std::vector<std::pair<double, int>> candidates;
-  for (const int node : near) candidates.emplace_back(tree.costThrough(node, q), node);
-  std::sort(candidates.begin(), candidates.end());
-  for (const auto& [cost, node] : candidates)
+// The neighbour from which q is reached at the least cost, -1 if from none. `open` is room to work in.
+int bestParent(const CostTree& tree, const std::vector<Neighbor>& near, const VectorArg& q,
+               EdgeChecker& edges, std::vector<Neighbor>& open) {
+  open.clear();
+  for (const auto& [distance, node] : near) open.push_back({tree.cost(node) + distance, node});
+  std::make_heap(open.begin(), open.end(), std::greater<>());
+  for (; !open.empty(); open.pop_back()) {
+    const int node = open.front().point;
     if (edges.isValid(tree.tree().points().point(node), q)) return node;
+    std::pop_heap(open.begin(), open.end(), std::greater<>());
+  }
   return -1;
 }
 
@@ -116,31 +147,28 @@ PathResult growRrtStar(const PathProblem& problem, const RrtStarOptions& options
                  .found = fmt::format("{:g}", options.gamma),
                  .wanted = "zero or a positive number"});
   }
-  const Extent extent = extentOf(problem.space);
-  const double power = 1. / extent.dimension;
-  const double gamma =
-      options.gamma > 0
-          ? options.gamma
-          : 2 * std::pow((1 + power) * extent.volume / volumeOfUnitBall(extent.dimension), power);
+  const Reach reach(problem, options);
   CostTree tree(problem);
+  const NearestNeighbors& points = tree.tree().points();
   int goal = -1;
   Eigen::VectorXd q(problem.space.size());
+  std::vector<Neighbor> near, open;
   while (!growth.isSpent()) {
-    const Eigen::VectorXd& target = growth.draw(goal < 0 ? options.growth.goalBias : 0);
-    const int nearest = tree.tree().points().nearest(target);
-    stepTowards(problem.space, tree.tree().points().point(nearest), target, options.growth.stepSize, q);
-    const double n = tree.tree().count();
-    const double radius = std::min(options.growth.stepSize, gamma * std::pow(std::log(n) / n, power));
-    std::vector<int> near = tree.tree().points().within(q, radius);
-    if (std::find(near.begin(), near.end(), nearest) == near.end()) near.push_back(nearest);
-    const int parent = bestParent(tree, near, q, growth.edges());
+    const double best = goal >= 0 && options.isInformed ? tree.cost(goal) : kEndless;
+    const Eigen::VectorXd& target = growth.draw(goal < 0 ? options.growth.goalBias : 0, best);
+    const int nearest = points.nearest(target);
+    stepTowards(problem.space, points.point(nearest), target, options.growth.stepSize, q);
+    points.within(q, reach.radius(tree.tree().count(), best), near);
+    if (std::none_of(near.begin(), near.end(), [&](const Neighbor& one) { return one.point == nearest; }))
+      near.push_back({problem.space.distance(points.point(nearest), q), nearest});
+    const int parent = bestParent(tree, near, q, growth.edges(), open);
     if (parent < 0) continue;
     const int node = tree.add(q, parent);
     if (goal < 0) goal = goalBehind(tree, node, problem, options.growth.stepSize, growth.edges());
-    for (const int other : near) {
-      const Eigen::VectorXd at = tree.tree().points().point(other);
-      if (tree.costThrough(node, at) < tree.cost(other) && growth.edges().isValid(q, at))
-        tree.move(other, node);
+    for (const auto& [distance, other] : near) {
+      const double cost = tree.cost(node) + distance;
+      if (cost < tree.cost(other) && growth.edges().isValid(q, points.point(other)))
+        tree.move(other, node, cost);
     }
   }
   return growth.finish(goal < 0 ? Eigen::MatrixXd() : tree.tree().wayTo(goal), {&tree.tree()});

@@ -10,6 +10,8 @@
 namespace rex::internal {
 namespace {
 
+constexpr int kMostRedraws = 100;  // then any target will do: the ways may be too narrow to be met
+
 void requireSound(const RrtOptions& options) {
   const auto refuse = [](const char* what, double found, const char* wanted) {
     throw Error({.what = what, .found = fmt::format("{:g}", found), .wanted = wanted});
@@ -34,12 +36,14 @@ TreeGrowth::TreeGrowth(const PathProblem& problem, const RrtOptions& options, Rn
   rex::requireSound(problem);
 }
 
-const Eigen::VectorXd& TreeGrowth::draw(double goalBias) {
+const Eigen::VectorXd& TreeGrowth::draw(double goalBias, double length) {
   ++result_.samples;
-  if (goalBias > 0 && rng_.uniform() < goalBias)
-    target_ = problem_.goal;
-  else
-    problem_.space.sample(rng_, target_);
+  if (goalBias > 0 && rng_.uniform() < goalBias) return target_ = problem_.goal;
+  const auto isOff = [&] {
+    return space().distance(problem_.start, target_) + space().distance(target_, problem_.goal) > length;
+  };
+  space().sample(rng_, target_);
+  for (int i = 0; i < kMostRedraws && isOff(); ++i) space().sample(rng_, target_);
   return target_;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <limits>
 
 #include "planning/edge_checker.h"
 #include "planning/rrt.h"
@@ -19,8 +20,9 @@ class TreeGrowth {
   EdgeChecker& edges() { return edges_; }
   bool isSpent() const { return result_.samples >= options_.maxSamples; }
 
-  /// A random target, or the goal with that probability.
-  const Eigen::VectorXd& draw(double goalBias);
+  /// A random target, or the goal with that probability. Where only ways from start to goal shorter than
+  /// `length` matter, targets off all of them are drawn anew, which counts as one sample.
+  const Eigen::VectorXd& draw(double goalBias, double length = std::numeric_limits<double>::infinity());
   /// The node that a tree gains by one step towards a target, -1 if something is in the way.
   int extend(SearchTree& tree, const VectorArg& target);
   [[nodiscard]] PathResult finish(Eigen::MatrixXd path, std::initializer_list<const SearchTree*> trees);

@@ -32,6 +32,8 @@ using ContactPeer = std::function<bool(int k)>;
 [[nodiscard]] ContactPeer bulletPeer(const ContactScene& scene);
 #ifdef REX_WITH_FCL
 [[nodiscard]] ContactPeer fclPeer(const ContactScene& scene);
+/// Whether there is contact where the bodies are there.
+[[nodiscard]] std::function<bool(const BodyPoses&)> fclContact(const ContactScene& scene);
 #else
 [[nodiscard]] inline ContactPeer fclPeer(const ContactScene&) { return {}; }
 #endif

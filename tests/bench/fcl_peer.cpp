@@ -1,5 +1,6 @@
 #include <map>
 #include <memory>
+#include <span>
 
 #include <fcl/fcl.h>
 
@@ -23,17 +24,18 @@ class Pairs {
       for (const int i : {pair.a, pair.b}) {
         if (!places.emplace(i, objects_.size()).second) continue;
         objects_.emplace_back(toFcl(scene.shape(i).shape));
-        std::vector<Pose>& poses = poses_.emplace_back();
-        for (int k = 0; k < ContactScene::kPostures; ++k) poses.push_back(scene.shapePose(i, k));
+        shapes_.push_back(i);
       }
       pairs_.emplace_back(places[pair.a], places[pair.b]);
     }
   }
 
-  bool collides(int k) {
+  const std::vector<int>& shapes() const { return shapes_; }
+
+  // `poses` are X_WS of shapes().
+  bool collides(std::span<const Pose> poses) {
     for (std::size_t i = 0; i < objects_.size(); ++i) {
-      const Pose& X_WS = poses_[i][static_cast<std::size_t>(k)];
-      objects_[i].setTransform(X_WS.R, X_WS.p);
+      objects_[i].setTransform(poses[i].R, poses[i].p);
       objects_[i].computeAABB();
     }
     for (const auto& [a, b] : pairs_) {
@@ -46,7 +48,7 @@ class Pairs {
 
  private:
   std::vector<fcl::CollisionObjectd> objects_;
-  std::vector<std::vector<Pose>> poses_;
+  std::vector<int> shapes_;
   std::vector<std::pair<std::size_t, std::size_t>> pairs_;
   fcl::CollisionRequestd request_;
 };
@@ -55,9 +57,24 @@ class Pairs {
 
 ContactPeer fclPeer(const ContactScene& scene) {
   const auto pairs = std::make_shared<Pairs>(scene);
-  const ContactPeer peer = [pairs](int k) { return pairs->collides(k); };
+  std::vector<std::vector<Pose>> poses(ContactScene::kPostures);
+  for (int k = 0; k < ContactScene::kPostures; ++k)
+    for (const int i : pairs->shapes()) poses[static_cast<std::size_t>(k)].push_back(scene.shapePose(i, k));
+  const ContactPeer peer = [pairs, poses](int k) {
+    return pairs->collides(poses[static_cast<std::size_t>(k)]);
+  };
   requireAgreement("FCL", scene, peer, 1e-3);
   return peer;
+}
+
+std::function<bool(const BodyPoses&)> fclContact(const ContactScene& scene) {
+  const auto pairs = std::make_shared<Pairs>(scene);
+  std::vector<ModelShape> shapes;
+  for (const int i : pairs->shapes()) shapes.push_back(scene.shape(i));
+  return [pairs, shapes, X_WS = std::vector<Pose>(shapes.size())](const BodyPoses& poses) mutable {
+    for (std::size_t i = 0; i < shapes.size(); ++i) X_WS[i] = poses[shapes[i].body] * shapes[i].X_BS;
+    return pairs->collides(X_WS);
+  };
 }
 
 }  // namespace rex::bench

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/rng.h"
+#include "bench/arm_plans.h"
 #include "bench/ompl_peer.h"
 #include "bench/row.h"
 #include "planning/dubins.h"
@@ -78,6 +79,11 @@ Row nearestRow() {
   return {"nearest-7d", perQuestion(byTree), "look at all", perQuestion(byLook), 1.};
 }
 
+// A seed is soon done or takes long: medians need many.
+Row connectRow(const std::string& name, const ArmPlan& plan, const ContactScene& scene, int seeds) {
+  return {name, ourConnect(plan), "OMPL+FCL", omplConnect(scene, plan), 0.25, "ms", seeds, true};
+}
+
 }  // namespace
 
 std::vector<Row> planningRows() {
@@ -85,11 +91,14 @@ std::vector<Row> planningRows() {
   const auto dubins = [](const auto& from, const auto& to) { return dubinsLength(from, to, 1); };
   const auto reedsShepp = [](const auto& from, const auto& to) { return reedsSheppLength(from, to, 1); };
   const CurvePeer ompl = omplCurvePeer();
+  const ContactScene scene;
   requireSame(*poses, dubins, ompl.dubins);
   requireSame(*poses, reedsShepp, ompl.reedsShepp);
   return {{"dubins", perWay(poses, dubins), "OMPL", perWay(poses, ompl.dubins), 0.3},
           {"reeds-shepp", perWay(poses, reedsShepp), "OMPL", perWay(poses, ompl.reedsShepp), 0.3},
-          nearestRow()};
+          nearestRow(),
+          connectRow("rrt-connect-tip", tipInHole(scene), scene, 201),
+          connectRow("rrt-connect-peg", pegInHole(scene), scene, 41)};
 }
 
 }  // namespace rex::bench

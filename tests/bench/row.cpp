@@ -1,7 +1,6 @@
 #include "bench/row.h"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 
 #include <benchmark/benchmark.h>
@@ -51,14 +50,17 @@ std::optional<double> Result::ratio() const {
 Result measure(const Row& row) {
   if (!row.ours) return {};
   // In turn, so that a slow moment of the machine meets both sides.
-  double ours = std::numeric_limits<double>::infinity(), peer = ours;
+  std::vector<double> ours, peer;
   for (int i = 0; i < row.repetitions; ++i) {
-    ours = std::min(ours, row.ours());
-    if (row.peer) peer = std::min(peer, row.peer());
+    ours.push_back(row.ours());
+    if (row.peer) peer.push_back(row.peer());
   }
-  Result result{.ours = ours * perSecond(row.unit)};
-  if (row.peer) result.peer = peer * perSecond(row.unit);
-  return result;
+  const auto result = [&](std::vector<double>& measured) {
+    const auto taken = measured.begin() + (row.isMedian ? row.repetitions / 2 : 0);
+    std::nth_element(measured.begin(), taken, measured.end());
+    return *taken * perSecond(row.unit);
+  };
+  return {.ours = result(ours), .peer = row.peer ? std::optional(result(peer)) : std::nullopt};
 }
 
 }  // namespace rex::bench

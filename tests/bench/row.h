@@ -22,9 +22,10 @@ struct Row {
   std::optional<double> target{};  ///< what ours / peer should not exceed
   std::string unit = "ns";         ///< ns, us, ms, s or, of shares, %
   int repetitions = 15;            ///< measurements of each side
+  bool isMedian = false;           ///< each measurement is of another case: take medians, not the smallest
 };
 
-/// The smallest of several measurements of each side, taken in turn, in the row's unit.
+/// The smallest or the median of several measurements of each side, taken in turn, in the row's unit.
 struct Result {
   std::optional<double> ours{}, peer{};
   [[nodiscard]] std::optional<double> ratio() const;

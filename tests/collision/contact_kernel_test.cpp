@@ -95,7 +95,7 @@ std::vector<double> results(const PairKernel& kernel, const std::vector<CorePair
     const double* numbers = found.distance;
     all.insert(all.end(), numbers, numbers + sizeof(LaneProximities) / sizeof(double));
     for (const double margin : {-0.1, 0.05, 0.3})
-      all.push_back(kernel.hits(&pair, 1, solids.lanes(), margin, 0));
+      all.push_back(kernel.hits(&pair, 1, solids.lanes(), margin, 0, false));
   }
   return all;
 }
@@ -180,7 +180,7 @@ TEST(ContactKernel, HitsExactlyWhatIsNearer) {
             margins.push_back(d);
           }
           for (const double margin : margins)
-            ASSERT_EQ(kernel.pairs[type].hits(&pair, 1, solids.lanes(), margin, 0),
+            ASSERT_EQ(kernel.pairs[type].hits(&pair, 1, solids.lanes(), margin, 0, false),
                       lanesBelow(distances, margin))
                 << type << ' ' << margin << ' ' << lanes;
         }
@@ -207,7 +207,7 @@ TEST(ContactKernel, GivesNoNumberWhereAPoseHasNone) {
         kernel.pairs[type].proximities(pair, kContactLanes, broken.lanes(), found);
         for (int lane = 0; lane < kContactLanes; ++lane)
           EXPECT_EQ(std::isnan(found.distance[lane]), lane == kLane) << type << ' ' << solid << ' ' << k;
-        EXPECT_TRUE(kernel.pairs[type].hits(&pair, 1, broken.lanes(), -10, 0) >> kLane & 1);
+        EXPECT_TRUE(kernel.pairs[type].hits(&pair, 1, broken.lanes(), -10, 0, false) >> kLane & 1);
       }
     }
   }
