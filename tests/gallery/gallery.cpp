@@ -1,6 +1,7 @@
 #include "gallery/gallery.h"
 
 #include "gallery/figures.h"
+#include "gallery/paths.h"
 #include "gallery/pictures.h"
 #include "gallery/robots.h"
 #include "render/png.h"
@@ -14,6 +15,7 @@ What rex draws, without a screen.
 
 - [tests/gallery/pictures.cpp](../../tests/gallery/pictures.cpp) has the code of each picture,
 - [tests/gallery/robots.cpp](../../tests/gallery/robots.cpp) that of robots and scenes,
+- [tests/gallery/paths.cpp](../../tests/gallery/paths.cpp) that of paths,
 - [tests/gallery/figures.cpp](../../tests/gallery/figures.cpp) that of each figure;
 - `scripts/gallery` draws them again, and a test in [tests/gallery](../../tests/gallery) compares.
 
@@ -33,7 +35,7 @@ std::string section(const std::string& title, const std::vector<Drawing>& drawin
 
 std::vector<std::string> drawAll(const std::filesystem::path& folder) {
   std::vector<std::string> names;
-  for (const auto& drawings : {pictures(), robotPictures()}) {
+  for (const auto& drawings : {pictures(), robotPictures(), pathPictures()}) {
     for (const Drawing& drawing : drawings) {
       writePng(drawing.draw(), folder / (drawing.name + ".png"));
       names.push_back(drawing.name);
@@ -48,7 +50,8 @@ std::vector<std::string> drawAll(const std::filesystem::path& folder) {
 
 std::string page() {
   std::string text = kIntroduction;
-  text += section("Pictures", pictures()) + section("Robots and scenes", robotPictures());
+  text += section("Pictures", pictures()) + section("Robots and scenes", robotPictures()) +
+          section("Paths", pathPictures());
   text += "\n## Figures\n";
   for (const auto& [name, figure] : galleryFigures())
     text += "\n### " + figure.title + "\n\n![" + figure.title + "](gallery/" + name + ".png)\n";
