@@ -38,7 +38,8 @@ First steps
   scripts/rex test 01           grade it
 
 All commands
-  list   run   test   debug   scene   render   simulate   doctor   bench   dev
+  list   run   test   debug   scene   render   simulate   plan   curves
+  doctor   bench   dev
 `scripts/rex COMMAND --help` explains one. An exercise may be called by its number, its
 topic or its whole name: 01, kinematics, 01-kinematics.)";
 
@@ -236,8 +237,8 @@ Action parseCommandLine(int argc, const char* const* argv) {
   program.get_formatter()->label("REQUIRED", "");
   addList(program, action), addRun(program, action), addTest(program, action);
   addDebug(program, action), addScene(program, action), addRender(program, action);
-  addSimulate(program, action), addCurves(program, action), addDoctor(program, action);
-  addBench(program, action);
+  addSimulate(program, action), addPlan(program, action), addCurves(program, action);
+  addDoctor(program, action), addBench(program, action);
   CLI::App* dev =
       add(program, "dev", "For those who write exercises: new, check, strip",
           "Examples:\n  scripts/rex dev new 99-demo\n  scripts/rex dev check\n  scripts/rex dev strip 01");

@@ -18,9 +18,10 @@ CLI::App* add(CLI::App& parent, const std::string& name, const std::string& purp
 
 void addGl(CLI::App* command, std::string& gl);
 
-/// `rex scene FILE VERB`, `rex render FILE` and `rex simulate FILE`.
+/// `rex scene FILE VERB`, `rex render FILE`, `rex simulate FILE` and `rex plan FILE`.
 void addScene(CLI::App& program, Action& action);
 void addRender(CLI::App& program, Action& action);
 void addSimulate(CLI::App& program, Action& action);
+void addPlan(CLI::App& program, Action& action);
 
 }  // namespace rex::cli

@@ -78,6 +78,29 @@ struct SimulateOptions {
 /// Lets a scene move under gravity; writes log, energy plot and film.
 ExitCode simulate(const Project& project, const SimulateOptions& options);
 
+struct PlanOptions {
+  SceneOption scene{};
+  std::string start{};  ///< see parsePosture(); empty: that of the file
+  std::string goal{};
+  std::string planner = "rrt-connect";
+  double margin = 0.01;  ///< metres between all pairs of shapes
+  double resolution = 0.02;
+  std::optional<double> step{};  ///< of trees; see PathSearch
+  std::optional<int> samples{};
+  std::uint64_t seed = 0;
+  int seeds = 1;  ///< searches, each with the next seed
+  bool noSmooth = false;
+  double speed = 1;      ///< of the motion along the path, in the metric of the space per second
+  std::string body{};    ///< whose ways are drawn; empty: farthestBody()
+  RenderOptions film{};  ///< cameras, size and gl of the pictures
+  bool noFilm = false;
+  bool json = false;
+  std::filesystem::path out{};  ///< a folder
+};
+/// Looks for a way of a robot past all obstacles; writes the path, what was explored, a film and a replay.
+/// kBelow if there is no path, or one that is not clear.
+ExitCode planPath(const Project& project, const PlanOptions& options);
+
 struct SceneOptions {
   SceneOption scene{};
   std::string posture{};  ///< see parsePosture(); empty: that of the file

@@ -1,7 +1,9 @@
 #include "cli/film_file.h"
 
+#include <algorithm>
 #include <numbers>
 
+#include "base/error.h"
 #include "base/interruption.h"
 #include "cli/studio.h"
 #include "cli/terminal.h"
@@ -19,6 +21,11 @@ MadeSink openSink(std::filesystem::path& out) {
 }
 
 }  // namespace
+
+void requireFilmable(const Model& model) {
+  if (std::ranges::any_of(model.shapes(), [](const ModelShape& one) { return one.visible; })) return;
+  throw UsageError({.what = model.name(), .found = "no shape that a film could show", .wanted = "--no-film"});
+}
 
 std::filesystem::path writeFilm(const MotionPictures& pictures, const RenderPlan& plan,
                                 std::filesystem::path out) {

@@ -242,9 +242,15 @@ Motion evenly(const Motion& motion, double rate) {
 }  // namespace
 
 Eigen::VectorXd parsePosture(const Model& model, const std::string& text) {
+  return parsePostureOf(model, kPositions.option, text);
+}
+
+Eigen::VectorXd parsePostureOf(const Model& model, const std::string& option, const std::string& text) {
   if (text == "0") return zeroPositions(model);
   if (text == "file") return model.initialPositions();
-  return parseCoordinates(model, kPositions, text, model.initialPositions());
+  Coordinates kind = kPositions;
+  kind.option = option;
+  return parseCoordinates(model, kind, text, model.initialPositions());
 }
 
 Eigen::VectorXd parseVelocities(const Model& model, const std::string& text) {

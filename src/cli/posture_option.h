@@ -13,6 +13,9 @@ namespace rex::cli {
 /// (quaternions at the identity), "file" is the posture of the file. Throws UsageError naming both sizes,
 /// the word that is no number, or the nearest joints, the first dozen where none is near.
 [[nodiscard]] Eigen::VectorXd parsePosture(const Model& model, const std::string& text);
+/// The same for another option than --q, such as "--goal".
+[[nodiscard]] Eigen::VectorXd parsePostureOf(const Model& model, const std::string& option,
+                                             const std::string& text);
 
 /// The velocities (nv) that `--v TEXT` asks for: all numbers, "joint=number,..." with the others at rest, or
 /// "0". Throws as parsePosture.

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "base/error.h"
+#include "cli/option_value_internal.h"
 #include "render/draw_film.h"
 
 namespace rex::cli {
@@ -43,20 +43,6 @@ std::pair<int, int> sizeOf(const std::string& text) {
   throw UsageError({.what = "--size",
                     .found = "'" + text + "'",
                     .wanted = fmt::format("WIDTHxHEIGHT, 1 to {} pixels each, such as 640x480", kLargest)});
-}
-
-template <typename Value>
-Value choose(const char* option, const std::string& name,
-             const std::vector<std::pair<std::string, Value>>& choices) {
-  std::vector<std::string> names;
-  for (const auto& [known, value] : choices) {
-    if (name == known) return value;
-    names.push_back(known);
-  }
-  throw UsageError({.what = option,
-                    .found = "'" + name + "'",
-                    .wanted = fmt::format("{}", fmt::join(names, ", ")),
-                    .nearest = nearestNames(name, names)});
 }
 
 Show showOf(const std::string& name) {

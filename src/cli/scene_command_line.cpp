@@ -46,6 +46,14 @@ void addRenderOptions(CLI::App* command, RenderOptions& options) {
       ->type_name("KIND");
 }
 
+// Of the film that a command writes besides.
+void addFilmOptions(CLI::App* command, RenderOptions& film) {
+  command->add_option("--camera", film.cameras, "as for `rex render`; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("VIEW");
+  command->add_option("--size", film.size, "pixels of the film (default: 640x480)")->type_name("WxH");
+}
+
 CLI::App* addVerb(CLI::App& scene, const std::string& name, const std::string& purpose,
                   const std::string& examples) {
   CLI::App* verb = add(scene, name, purpose, examples);
@@ -238,19 +246,64 @@ void addSimulate(CLI::App& program, Action& action) {
   command->add_option("--floor", options->floor, "a floor at that height, metres (bullet; default: none)")
       ->type_name("Z");
   command->add_flag("--no-film", options->noFilm, "no simulate.mp4");
-  command->add_option("--camera", options->film.cameras, "as for `rex render`; may be repeated")
-      ->allow_extra_args(false)
-      ->type_name("VIEW");
+  addFilmOptions(command, options->film);
   command->add_option("--trace", options->traces, "whose way is drawn as a line")
       ->allow_extra_args(false)
       ->type_name("BODY");
-  command->add_option("--size", options->film.size, "pixels of the film (default: 640x480)")
-      ->type_name("WxH");
   addJson(command, options->json);
   addReading(command, options->scene.reading);
   addGl(command, options->film.gl);
   command->callback(
       [&action, options] { action = [options](const Project& p) { return simulate(p, *options); }; });
+}
+
+void addPlan(CLI::App& program, Action& action) {
+  const auto options = std::make_shared<PlanOptions>();
+  CLI::App* command = add(
+      program, "plan", "Find a way for a robot past all obstacles: path, film and replay",
+      "Examples:\n  scripts/rex plan board --goal 1.5,-1.1,-1 -o around\n"
+      "  scripts/rex plan maze --goal 3,0,0 --planner rrt-star --speed 0.5 -o rooms\n"
+      "  scripts/rex plan pegInAHole --start 0 --margin 0.02 --seeds 10 -o peg \\\n"
+      "      --goal 0.945499,0.431195,-1.97155,0.623969,2.22355,-0.665206,-1.48356\n\n"
+      "Lengths are those of postures as vectors: root of the sum of squares of rad and m. Turning joints\n"
+      "without limits turn the shorter way round. DIR gets path.csv (time and joints; `rex render --motion`\n"
+      "reads it), tree.png (what was explored), path.mp4 and path.html (a replay).\n"
+      "Exit codes: 0 found a path, 1 found none, or one that is not clear, 64 wrong use.");
+  command->add_option("SCENE", options->scene.file, kSceneHelp)->type_name("")->required();
+  command->add_option("-o,--out", options->out, "folder for what is written")->type_name("DIR")->required();
+  command->add_option("--start", options->start, "all numbers, joint=number,..., 0, or file (default: file)")
+      ->type_name("POSTURE");
+  command->add_option("--goal", options->goal, "the same")->type_name("POSTURE")->required();
+  command
+      ->add_option("--planner", options->planner,
+                   "rrt, rrt-connect, rrt-star; prm, prm-star, lazy-prm (default: rrt-connect)")
+      ->type_name("NAME");
+  command->add_option("--margin", options->margin, "between all shapes on the way (default: 0.01)")
+      ->type_name("METRES");
+  command->add_option("--resolution", options->resolution, "of the checks along ways (default: 0.02)")
+      ->type_name("LENGTH");
+  command->add_option("--step", options->step, "by which trees grow (default: 0.3)")->type_name("LENGTH");
+  command
+      ->add_option("--samples", options->samples,
+                   "the budget (default: 100000; rrt-star 5000, roadmaps 2000)")
+      ->type_name("N");
+  command->add_option("--seed", options->seed, "of the random numbers (default: 0)")->type_name("N");
+  command->add_option("--seeds", options->seeds, "searches with so many seeds, and prints a table")
+      ->type_name("N");
+  CLI::Option* smooth =
+      command->add_flag("--smooth")->description("shortcuts, then rounded corners (default)");
+  command->add_flag("--no-smooth", options->noSmooth, "the path as the planner finds it")->excludes(smooth);
+  command->add_option("--speed", options->speed, "along the path, length per second (default: 1)")
+      ->type_name("X");
+  command->add_option("--body", options->body, "whose ways are drawn (default: that which most joints move)")
+      ->type_name("NAME");
+  command->add_flag("--no-film", options->noFilm, "no path.mp4 and path.html");
+  addFilmOptions(command, options->film);
+  addJson(command, options->json);
+  addReading(command, options->scene.reading);
+  addGl(command, options->film.gl);
+  command->callback(
+      [&action, options] { action = [options](const Project& p) { return planPath(p, *options); }; });
 }
 
 }  // namespace rex::cli

@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "cli/coordinate_names.h"
 #include "cli/json_internal.h"
 #include "cli/posture_option.h"
-#include "cli/velocity_names.h"
 #include "cli/wrong_use_internal.h"
 #include "dynamics/energy.h"
 #include "dynamics/forward_dynamics.h"

@@ -11,6 +11,7 @@
 #include "cli/commands.h"
 #include "cli/film_file.h"
 #include "cli/json_internal.h"
+#include "cli/option_value_internal.h"
 #include "cli/simulation.h"
 #include "cli/wrong_use_internal.h"
 #include "grading/text_file.h"
@@ -22,41 +23,25 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kMostSteps = 2e5;  // of which the log takes some hundred megabytes, at most
-constexpr const char* kBullet = "bullet";
 
-Integrator integratorOf(const std::string& engine) {
-  const std::vector<std::pair<std::string, Integrator>> known = {
-      {"rk4", Integrator::kRungeKutta4},
-      {"beeman", Integrator::kBeeman},
-      {"leapfrog", Integrator::kLeapfrog},
-      {"semi-implicit", Integrator::kSemiImplicitEuler},
-      {"euler", Integrator::kEuler}};
-  std::vector<std::string> names = {kBullet};
-  for (const auto& [name, integrator] : known) {
-    if (engine == name) return integrator;
-    names.push_back(name);
-  }
-  throw UsageError({.what = "--engine",
-                    .found = "'" + harmless(engine) + "'",
-                    .wanted = "rk4, beeman, leapfrog, semi-implicit, euler or bullet",
-                    .nearest = nearestNames(engine, names)});
-}
-
-void requireBetween(const char* option, double number, double least, double most) {
-  if (number >= least && number <= most) return;
-  throw UsageError({.what = option,
-                    .found = fmt::format("{:g}", number),
-                    .wanted = fmt::format("{:g} to {:g}", least, most)});
+// None: Bullet, which takes steps of its own.
+std::optional<Integrator> integratorOf(const std::string& engine) {
+  return choose<std::optional<Integrator>>("--engine", engine,
+                                           {{"rk4", Integrator::kRungeKutta4},
+                                            {"beeman", Integrator::kBeeman},
+                                            {"leapfrog", Integrator::kLeapfrog},
+                                            {"semi-implicit", Integrator::kSemiImplicitEuler},
+                                            {"euler", Integrator::kEuler},
+                                            {"bullet", std::nullopt}});
 }
 
 SimulationPlan planOf(const Model& model, const SimulateOptions& options) {
   SimulationPlan plan{.tau = options.tau, .isHeld = options.hold, .seed = options.seed};
-  if (options.engine == kBullet)
-    plan.physics = {.jointFriction = options.friction};
+  if (const auto integrator = integratorOf(options.engine))
+    plan.stepper = {
+        .integrator = *integrator, .jointForces = {.friction = options.friction}, .noise = options.noise};
   else
-    plan.stepper = {.integrator = integratorOf(options.engine),
-                    .jointForces = {.friction = options.friction},
-                    .noise = options.noise};
+    plan.physics = {.jointFriction = options.friction};
   if (plan.physics && options.noise != 0)
     throw UsageError({.what = "--noise", .found = "--engine bullet", .wanted = "another engine"});
   requireBetween("--tau", options.tau, 1e-6, 1);
@@ -185,7 +170,7 @@ Model modelOf(const Project& project, const SimulateOptions& options) {
   SceneSpec spec = loadSpec(project, options.scene);
   if (options.floor) {
     requireBetween("--floor", *options.floor, -1e3, 1e3);
-    if (options.engine != kBullet)
+    if (integratorOf(options.engine))
       throw UsageError({.what = "--floor",
                         .found = "--engine " + harmless(options.engine),
                         .wanted = "--engine bullet, which knows contacts"});
@@ -201,11 +186,7 @@ ExitCode simulate(const Project& project, const SimulateOptions& options) {
   filmOptions.out = options.out / "simulate.mp4";
   const RenderPlan film = planOf(filmOptions);
   const Model model = modelOf(project, options);
-  const bool isVisible =
-      std::ranges::any_of(model.shapes(), [](const ModelShape& one) { return one.visible; });
-  if (!options.noFilm && !isVisible)
-    throw UsageError(
-        {.what = model.name(), .found = "no shape that a film could show", .wanted = "--no-film"});
+  if (!options.noFilm) requireFilmable(model);
   const SimulationPlan plan = planOf(model, options);
   const std::vector<Moment> moments = asWrongUse([&] { return simulate(model, plan); });
 

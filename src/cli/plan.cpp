@@ -1,0 +1,134 @@
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "cli/commands.h"
+#include "cli/film_file.h"
+#include "cli/option_value_internal.h"
+#include "cli/path_files.h"
+#include "cli/path_pictures.h"
+#include "cli/path_summary.h"
+#include "cli/wrong_use_internal.h"
+#include "collision/contacts.h"
+#include "planning/robot_problem.h"
+#include "scene/coordinates.h"
+
+namespace rex::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+PathSearch searchOf(const PlanOptions& options) {
+  PathSearch search{.planner = plannerOf(options.planner), .smooth = !options.noSmooth};
+  requireBetween("--margin", options.margin, 0, kQueryCutoff);
+  requireBetween("--resolution", options.resolution, 1e-4, 10);
+  requireBetween("--speed", options.speed, 1e-3, 1e3);
+  requireBetween("--seeds", options.seeds, 1, 10'000);
+  if (options.step && !growsTrees(search.planner))
+    throw UsageError(
+        {.what = "--step", .found = "--planner " + options.planner, .wanted = "a planner that grows trees"});
+  search.step = options.step.value_or(search.step);
+  requireBetween("--step", search.step, 1e-3, 1e3);
+  if (search.planner == Planner::kRrtStar) search.samples = 5000;  // it spends them all
+  if (!growsTrees(search.planner)) search.samples = 2000;
+  search.samples = options.samples.value_or(search.samples);
+  requireBetween("--samples", search.samples, 1, growsTrees(search.planner) ? 1e7 : 1e5);
+  return search;
+}
+
+void requireWithinLimits(const Model& model, const std::string& option, const VectorArg& q) {
+  for (Eigen::Index i = 0; i < q.size(); ++i) {
+    const double lower = model.lowerLimits()[i], upper = model.upperLimits()[i];
+    const double outside = std::max(lower - q[i], q[i] - upper);
+    if (outside <= 0) continue;
+    throw UsageError(
+        {.what = fmt::format("{}: joint '{}' (q{})", option, harmless(jointOfPosition(model, i).name), i),
+         .found = fmt::format("{:g}, out of bounds by {:.4g}", q[i], outside),
+         .wanted = fmt::format("{:g} to {:g}", lower, upper)});
+  }
+}
+
+Eigen::VectorXd postureOf(const Model& model, const std::string& option, const std::string& text) {
+  Eigen::VectorXd q = parsePostureOf(model, option, text);
+  forEachQuaternion(model, [&](int iq, int) {
+    if (q.segment<4>(iq).isZero(0))
+      throw UsageError({.what = option, .found = "a quaternion of zeros", .wanted = "a rotation"});
+    q.segment<4>(iq).normalize();
+  });
+  requireWithinLimits(model, option, q);
+  return q;
+}
+
+PathTask taskOf(Model model, const PlanOptions& options) {
+  const ContactModel contacts = asWrongUse([&] { return ContactModel(model); });
+  if (contacts.pairs().empty())
+    note(harmless(model.name()) + ": no two shapes may collide: all ways are free");
+  const Eigen::VectorXd start = postureOf(model, "--start", options.start.empty() ? "file" : options.start);
+  const Eigen::VectorXd goal = postureOf(model, "--goal", options.goal);
+  PathProblem problem = asWrongUse(
+      [&] { return robotProblem(model, contacts, start, goal, options.margin, options.resolution); });
+  const auto requireFree = [&](const char* option, const Eigen::VectorXd& q) {
+    if (problem.allValid(q)) return;
+    throw UsageError({.what = option,
+                      .found = harmless(problem.reason(q)),
+                      .wanted = fmt::format("all shapes {:g} m apart, the --margin", options.margin)});
+  };
+  requireFree("--start", start);
+  requireFree("--goal", goal);
+  return {std::move(model), contacts, std::move(problem)};
+}
+
+BodyId drawnBody(const Model& model, const std::string& name) {
+  if (name.empty()) return farthestBody(model);
+  const BodyId body = asWrongUse([&] { return model.body(name); }, "--body: ");
+  for (BodyId at = body; at != kWorld; at = model[at].parent)
+    if (model[at].joint != kNoJoint && model[model[at].joint].nv > 0) return body;
+  throw UsageError({.what = "--body", .found = "'" + harmless(name) + "', which no joint moves"});
+}
+
+void makeFolder(const fs::path& folder) {
+  std::error_code problem;
+  fs::create_directories(folder, problem);
+  if (!problem && fs::is_directory(folder)) return;
+  throw UsageError({.what = "-o " + harmless(folder.string()),
+                    .found = problem ? problem.message() : "a file",
+                    .wanted = "a folder"});
+}
+
+}  // namespace
+
+ExitCode planPath(const Project& project, const PlanOptions& options) {
+  RenderOptions filmOptions = options.film;
+  filmOptions.out = options.out / "path.mp4";
+  const RenderPlan pictures = planOf(filmOptions);
+  const PathSearch search = searchOf(options);
+  Model model = loadScene(project, options.scene);
+  if (model.nv() == 0) throw UsageError({.what = model.name(), .found = "no joint that moves"});
+  if (!options.noFilm) requireFilmable(model);
+  const BodyId body = drawnBody(model, options.body);
+  const PathTask task = taskOf(std::move(model), options);
+  makeFolder(options.out);
+
+  const FoundPaths found = asWrongUse([&] { return searchPaths(task, search, options.seed, options.seeds); });
+  const std::vector<std::string> files = writePathFiles(task, options, pictures, body, found.shortest());
+  if (options.json) {
+    say(jsonSummaryOf(task, options, found, files));
+  } else {
+    say(summaryOf(task, options, found));
+    for (const std::string& file : files) say(file);
+  }
+  // Who wants no margin may touch: that cannot be told from a little overlap.
+  const double least = options.margin > 0 ? 0 : -kClearanceTolerance;
+  const bool isClear = std::ranges::all_of(
+      found.all, [&](const FoundPath& one) { return !one.isFound() || one.clearance > least; });
+  if (!isClear)
+    note(
+        "shapes overlap between the postures that were checked: give a finer --resolution or a larger "
+        "--margin");
+  return isClear && found.successes() > 0 ? ExitCode::kFull : ExitCode::kBelow;
+}
+
+}  // namespace rex::cli
