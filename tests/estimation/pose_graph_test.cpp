@@ -3,7 +3,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <numbers>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -19,6 +18,7 @@
 #include "geometry/rotation.h"
 #include "optim/derivative_check.h"
 #include "random_gaussian.h"
+#include "street_graph.h"
 #include "support/expect_error.h"
 
 namespace rex {
@@ -26,43 +26,13 @@ namespace {
 
 using internal::PlanarGraphTraits;
 using internal::SpatialGraphTraits;
-using std::numbers::pi;
+using test::planarMotion;
+using test::streets;
 
 constexpr PoseGraphObjective kObjectives[] = {PoseGraphObjective::kChi2, PoseGraphObjective::kSESync};
 
 Pose randomPose(Rng& rng, double spread) {
   return {expSO3(spread * rng.normalVector(3)), spread * rng.normalVector(3)};
-}
-
-Eigen::Vector3d planarMotion(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  const double c = std::cos(a[2]), s = std::sin(a[2]);
-  const double x = b[0] - a[0], y = b[1] - a[1];
-  return {c * x + s * y, -s * x + c * y, wrapAngle(b[2] - a[2])};
-}
-
-// A walk over a grid of streets: odometry, and closures where the robot comes by again.
-PlanarPoseGraph streets(int poses, double noise, Rng& rng, Eigen::Matrix3Xd* truth = nullptr) {
-  Eigen::Matrix3Xd X(3, poses);
-  X.col(0).setZero();
-  for (int i = 1; i < poses; ++i) {
-    const double turn = i % 5 != 0 ? 0 : (rng.index(3) - 1) * pi / 2;
-    const double heading = X(2, i - 1) + turn;
-    X.col(i) << X(0, i - 1) + std::cos(heading), X(1, i - 1) + std::sin(heading), wrapAngle(heading);
-  }
-  PlanarPoseGraph graph{Eigen::Matrix3Xd::Zero(3, poses), {}};
-  const auto measure = [&](int i, int j) {
-    const Eigen::Vector3d deviations(noise, noise, noise / 2);
-    graph.edges.push_back({i, j,
-                           planarMotion(X.col(i), X.col(j)) + deviations.cwiseProduct(rng.normalVector(3)),
-                           deviations.cwiseAbs2().cwiseInverse().asDiagonal()});
-  };
-  for (int i = 1; i < poses; ++i) measure(i - 1, i);
-  for (int j = 0; j < poses; ++j)
-    for (int i = 0; i + 10 < j; ++i)
-      if ((X.col(i) - X.col(j)).head<2>().norm() < .5) (rng.uniform() < .5) ? measure(i, j) : measure(j, i);
-  if (truth) *truth = X;
-  setOdometryPoses(graph);
-  return graph;
 }
 
 SpatialPoseGraph ball(int poses, double noise, Rng& rng) {
@@ -250,6 +220,21 @@ TEST(PoseGraph, KernelsResistWrongClosures) {
     const double error = (graph.poses - truth).topRows<2>().colwise().norm().maxCoeff();
     EXPECT_LT((isHuber ? 1.2 : 3.) * error, (plain.poses - truth).topRows<2>().colwise().norm().maxCoeff())
         << static_cast<int>(kernel) << ": " << result.message;
+  }
+}
+
+TEST(PoseGraph, ExampleIsAsItIsMade) {
+  Rng rng(7);
+  const PlanarPoseGraph made = streets(400, .06, rng);
+  const auto file = std::get<PlanarPoseGraph>(
+      readG2o(std::filesystem::path(REX_SOURCE_DIR) / "data/graphs/streets.g2o").graph);
+  EXPECT_LT((made.poses - file.poses).cwiseAbs().maxCoeff(), 1e-9);
+  ASSERT_EQ(made.edges.size(), file.edges.size());
+  for (std::size_t k = 0; k < made.edges.size(); ++k) {
+    EXPECT_EQ(made.edges[k].from, file.edges[k].from);
+    EXPECT_EQ(made.edges[k].to, file.edges[k].to);
+    EXPECT_LT((made.edges[k].motion - file.edges[k].motion).norm(), 1e-9);
+    EXPECT_LT((made.edges[k].information - file.edges[k].information).norm(), 1e-6);
   }
 }
 
