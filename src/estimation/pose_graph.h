@@ -83,6 +83,12 @@ struct PoseGraphResult {
 PoseGraphResult optimize(PlanarPoseGraph& graph, const PoseGraphOptions& options = {});
 PoseGraphResult optimize(SpatialPoseGraph& graph, const PoseGraphOptions& options = {});
 
+/// By how much other poses could at most have a lower cost of kSESync than these: nearly zero proves that
+/// these are the best of all, not only around here. From the dual problem (Rosen et al. 2019, theorem 7);
+/// infinite where that says nothing. Throws as optimize.
+[[nodiscard]] double certifiedGap(const PlanarPoseGraph& graph);
+[[nodiscard]] double certifiedGap(const SpatialPoseGraph& graph);
+
 /// Poses from motions alone: each by the edge that reaches it first, breadth first from pose 0, in the order
 /// of the edges. Throws as optimize.
 void setOdometryPoses(PlanarPoseGraph& graph);

@@ -197,6 +197,27 @@ TEST(PoseGraph, FindsTheMinimumFromAnywhere) {
   }
 }
 
+// What is best of all is known to be; what is only best around is not.
+TEST(PoseGraph, ProvesThatItIsTheBest) {
+  Rng rng(59);
+  const PoseGraphOptions sesync{.objective = PoseGraphObjective::kSESync};
+  PlanarPoseGraph graph = streets(300, .05, rng), lost = graph;
+  const PoseGraphResult best = optimize(graph, sesync);
+  EXPECT_LT(certifiedGap(graph), 1e-6 * best.cost);
+  for (Eigen::Index i = 1; i < lost.poses.cols(); ++i) lost.poses.col(i) = 20 * rng.normalVector(3);
+  PoseGraphOptions blind = sesync;
+  blind.chordalStart = false;
+  const PoseGraphResult trapped = optimize(lost, blind);
+  ASSERT_GT(trapped.cost, 2 * best.cost) << "the start was to lead into a trap";
+  EXPECT_GT(certifiedGap(lost), trapped.cost - best.cost);
+
+  SpatialPoseGraph space = ball(120, .1, rng);
+  const PoseGraphResult spatial = optimize(space, sesync);
+  EXPECT_LT(certifiedGap(space), 1e-6 * spatial.cost);
+  space.poses[5].R = space.poses[5].R * expSO3({0, 0, .1});
+  EXPECT_GT(certifiedGap(space), poseGraphCost(space, sesync) - spatial.cost);
+}
+
 // A robust kernel leaves wrong loop closures aside, those that grow slowly enough (Huber's) in part.
 TEST(PoseGraph, KernelsResistWrongClosures) {
   for (const RobustKernel kernel :
@@ -263,6 +284,7 @@ TEST_P(ClassicMap, ReachesTheCertifiedOptimum) {
     const PoseGraphResult sesync = optimize(start, {.objective = PoseGraphObjective::kSESync});
     EXPECT_EQ(sesync.status, PoseGraphStatus::kConverged) << sesync.message;
     EXPECT_NEAR(sesync.cost / optima["sesync"].get<double>(), 1, 1e-9);
+    EXPECT_LT(certifiedGap(start), 1e-5 * sesync.cost);
   }
 }
 INSTANTIATE_TEST_SUITE_P(G2o, ClassicMap, testing::Values("intel", "CSAIL"));
