@@ -38,7 +38,7 @@ First steps
   scripts/rex test 01           grade it
 
 All commands
-  list   run   test   debug   scene   render   simulate   plan   curves
+  list   run   test   debug   scene   render   simulate   plan   curves   slam
   doctor   bench   dev
 `scripts/rex COMMAND --help` explains one. An exercise may be called by its number, its
 topic or its whole name: 01, kinematics, 01-kinematics.)";
@@ -146,6 +146,33 @@ void addCurves(CLI::App& program, Action& action) {
   command->callback([&action, options] { action = [options](const Project&) { return curves(*options); }; });
 }
 
+void addSlam(CLI::App& program, Action& action) {
+  const auto options = std::make_shared<SlamOptions>();
+  CLI::App* command =
+      add(program, "slam", "Make the map of a pose graph fit its measurements",
+          "Examples:\n  scripts/rex slam data/graphs/streets.g2o --plot streets.png\n"
+          "  scripts/rex slam data/graphs/streets.g2o -o better.g2o --json\n\n"
+          "The file is one of g2o. Costs are sums of e^T information e over its edges, without a\n"
+          "factor 1/2; --objective sesync takes the distances of rotation matrices instead.\n"
+          "Exit code 1: it did not converge.");
+  command->add_option("file", options->file, "pose graph (.g2o)")->type_name("FILE")->required();
+  command->add_option("--objective", options->objective, "chi2 or sesync (default: chi2)")->type_name("NAME");
+  command->add_option("--start", options->start, "chordal, file or odometry (default: chordal)")
+      ->type_name("NAME");
+  command
+      ->add_option("--kernel", options->kernel,
+                   "how large errors count: none, huber, cauchy or geman-mcclure (default: none)")
+      ->type_name("NAME");
+  command->add_option("--kernel-size", options->kernelSize, "from how many deviations on (default: 1)")
+      ->type_name("NUMBER");
+  command->add_option("--iterations", options->iterations, "at most (default: 100)")->type_name("COUNT");
+  command->add_option("--plot", options->plot, "draw the poses before and after")->type_name("FILE.png");
+  command->add_option("-o,--out", options->out, "write the graph with its new poses")->type_name("FILE.g2o");
+  command->add_flag("--json", options->json, "print JSON");
+  command->callback(
+      [&action, options] { action = [options](const Project& p) { return slam(p, *options); }; });
+}
+
 void addDoctor(CLI::App& program, Action& action) {
   const auto options = std::make_shared<DoctorOptions>();
   CLI::App* command = add(program, "doctor", "Try all that pictures need on this machine",
@@ -237,7 +264,8 @@ Action parseCommandLine(int argc, const char* const* argv) {
   program.get_formatter()->label("REQUIRED", "");
   addList(program, action), addRun(program, action), addTest(program, action);
   addDebug(program, action), addScene(program, action), addRender(program, action);
-  addSimulate(program, action), addPlan(program, action), addCurves(program, action);
+  addSimulate(program, action), addPlan(program, action), addCurves(program, action),
+      addSlam(program, action);
   addDoctor(program, action), addBench(program, action);
   CLI::App* dev =
       add(program, "dev", "For those who write exercises: new, check, strip",

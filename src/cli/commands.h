@@ -141,6 +141,20 @@ struct ConvertOptions {
 };
 ExitCode sceneConvert(const Project& project, const ConvertOptions& options);
 
+struct SlamOptions {
+  std::filesystem::path file{};  ///< where it is not, below the project's root
+  std::string objective = "chi2";
+  std::string start = "chordal";
+  std::string kernel = "none";
+  double kernelSize = 1;
+  int iterations = 100;
+  bool json = false;
+  std::filesystem::path out{};   ///< a .g2o file; empty: none
+  std::filesystem::path plot{};  ///< a .png or .svg file; empty: none
+};
+/// Makes the map of a pose graph fit its measurements. kBelow if it does not converge.
+ExitCode slam(const Project& project, const SlamOptions& options);
+
 struct CurvesOptions {
   std::string from{}, to{};  ///< x,y,heading; metres and radians
   double radius = 1;         ///< metres

@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include "base/vector_arg.h"
 #include "geometry/pose.h"
 #include "geometry/shape.h"
 #include "scene/link.h"
@@ -17,9 +18,6 @@
 #include "scene/scene_spec.h"
 
 namespace rex {
-
-using VectorArg = Eigen::Ref<const Eigen::VectorXd>;
-using MatrixArg = Eigen::Ref<const Eigen::MatrixXd>;
 
 /// Handles into a Model: positions in bodies() and joints(). kWorld is body 0.
 enum class BodyId : int {};

@@ -49,6 +49,7 @@ void run(const std::vector<std::string>& names, bool asJson) {
   const std::vector<Group> groups = select({{"collision", collisionRows()},
                                             {"dynamics", dynamicsRows()},
                                             {"dynamics", steppingRows()},
+                                            {"estimation", estimationRows()},
                                             {"grading", gradingRows()},
                                             {"ik", ikRows()},
                                             {"kinematics", kinematicsRows()},

@@ -1,0 +1,71 @@
+#include <cmath>
+#include <complex>
+
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "control/riccati.h"
+
+// Both equations are solved column by column in the Schur basis A = U T U^*, where they are triangular
+// (Bartels and Stewart 1972).
+namespace rex {
+namespace {
+
+using Complex = std::complex<double>;
+
+void requireInput(const MatrixArg& A, const MatrixArg& Q) {
+  requireSize("columns of A", A.cols(), A.rows());
+  requireSize("rows of Q", Q.rows(), A.rows());
+  requireSize("columns of Q", Q.cols(), A.rows());
+  if (!A.allFinite()) throw Error({.what = "matrix A", .found = "entries that are not finite"});
+  if (!Q.allFinite()) throw Error({.what = "matrix Q", .found = "entries that are not finite"});
+}
+
+// Solves (s T^* + t) y = b with a lower triangular T^*; throws where an entry of the diagonal vanishes.
+Eigen::VectorXcd solveShifted(const Eigen::MatrixXcd& T, Complex s, Complex t, Eigen::VectorXcd b,
+                              const char* condition) {
+  const double scale = std::abs(s) * T.cwiseAbs().maxCoeff() + std::abs(t);
+  for (Eigen::Index i = 0; i < b.size(); ++i) {
+    const Complex pivot = s * std::conj(T(i, i)) + t;
+    if (std::abs(pivot) <= 1e-15 * scale)
+      throw Error({.what = "Lyapunov equation",
+                   .found = fmt::format("the eigenvalue {:.6g}{:+.6g}i of A and another with {}",
+                                        T(i, i).real(), T(i, i).imag(), condition),
+                   .wanted = "no such pair"});
+    b[i] = (b[i] - s * T.col(i).head(i).dot(b.head(i))) / pivot;
+  }
+  return b;
+}
+
+Eigen::MatrixXd backFrom(const Eigen::MatrixXcd& U, const Eigen::MatrixXcd& Y) {
+  const Eigen::MatrixXd X = (U * Y * U.adjoint()).real();
+  return 0.5 * (X + X.transpose());
+}
+
+}  // namespace
+
+Eigen::MatrixXd solveLyapunov(const MatrixArg& A, const MatrixArg& Q) {
+  requireInput(A, Q);
+  const Eigen::ComplexSchur<Eigen::MatrixXcd> schur(A.cast<Complex>());
+  const Eigen::MatrixXcd &T = schur.matrixT(), &U = schur.matrixU();
+  const Eigen::MatrixXcd C = U.adjoint() * Q.cast<Complex>() * U;
+  Eigen::MatrixXcd Y = Eigen::MatrixXcd::Zero(A.rows(), A.rows());
+  for (Eigen::Index j = 0; j < A.rows(); ++j)
+    Y.col(j) = solveShifted(T, 1, T(j, j), -C.col(j) - Y.leftCols(j) * T.col(j).head(j), "a sum of zero");
+  return backFrom(U, Y);
+}
+
+Eigen::MatrixXd solveDiscreteLyapunov(const MatrixArg& A, const MatrixArg& Q) {
+  requireInput(A, Q);
+  const Eigen::ComplexSchur<Eigen::MatrixXcd> schur(A.cast<Complex>());
+  const Eigen::MatrixXcd &T = schur.matrixT(), &U = schur.matrixU();
+  const Eigen::MatrixXcd C = U.adjoint() * Q.cast<Complex>() * U;
+  Eigen::MatrixXcd Y = Eigen::MatrixXcd::Zero(A.rows(), A.rows());
+  for (Eigen::Index j = 0; j < A.rows(); ++j)
+    Y.col(j) = solveShifted(T, T(j, j), -1, -C.col(j) - T.adjoint() * (Y.leftCols(j) * T.col(j).head(j)),
+                            "a product of one");
+  return backFrom(U, Y);
+}
+
+}  // namespace rex

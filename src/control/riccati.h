@@ -1,0 +1,50 @@
+#pragma once
+
+#include <string>
+
+#include <Eigen/Core>
+
+#include "base/vector_arg.h"
+
+namespace rex {
+
+enum class RiccatiStatus {
+  kSolved,
+  kNotStabilizable,  ///< a mode that does not decay cannot be reached by u
+  kNotDetectable,    ///< a mode that does not decay costs nothing
+  kOnBoundary,  ///< closed-loop eigenvalues on the imaginary axis or unit circle: X is the limit, to half the
+                ///< digits
+  kFailed       ///< no solution, or none that doubles can tell
+};
+
+/// A solution of an algebraic Riccati equation. X and K are empty unless status is kSolved or kOnBoundary.
+struct RiccatiResult {
+  RiccatiStatus status = RiccatiStatus::kFailed;
+  Eigen::MatrixXd X{};            ///< symmetric, n x n
+  Eigen::MatrixXd K{};            ///< m x n: u = -K x
+  Eigen::VectorXcd closedLoop{};  ///< eigenvalues of A - B K
+  double residual = 0;            ///< of the equation, relative to its largest term
+  std::string message{};
+};
+
+/// Solves 0 = A^T X + X A - X B R^-1 B^T X + Q for the X that makes A - B K stable, K = R^-1 B^T X. Slide
+/// 8:19, algebraic and continuous. By the ordered Schur form of an extended pencil (Van Dooren 1981),
+/// balanced, and Newton steps with residuals in extended precision. Throws Error for sizes that do not fit,
+/// entries that are not finite, Q or R that are not symmetric, and an R that is not positive definite, naming
+/// each. Q may be indefinite; then there need not be a solution.
+[[nodiscard]] RiccatiResult solveCare(const MatrixArg& A, const MatrixArg& B, const MatrixArg& Q,
+                                      const MatrixArg& R);
+
+/// Solves X = A^T X A - A^T X B (R + B^T X B)^-1 B^T X A + Q, K = (R + B^T X B)^-1 B^T X A. Slide 8:19,
+/// algebraic and discrete. R may be singular as long as R + B^T X B is not. Otherwise as solveCare.
+[[nodiscard]] RiccatiResult solveDare(const MatrixArg& A, const MatrixArg& B, const MatrixArg& Q,
+                                      const MatrixArg& R);
+
+/// The symmetric X of A^T X + X A + Q = 0. Throws Error for sizes, entries that are not finite, and where two
+/// eigenvalues of A sum to zero.
+[[nodiscard]] Eigen::MatrixXd solveLyapunov(const MatrixArg& A, const MatrixArg& Q);
+/// The symmetric X of A^T X A - X + Q = 0. Throws as solveLyapunov, where two eigenvalues have a product of
+/// one.
+[[nodiscard]] Eigen::MatrixXd solveDiscreteLyapunov(const MatrixArg& A, const MatrixArg& Q);
+
+}  // namespace rex

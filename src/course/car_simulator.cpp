@@ -1,0 +1,158 @@
+#include "course/car_simulator.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/require_finite.h"
+#include "estimation/landmark_sensor.h"
+
+namespace rex {
+namespace {
+
+constexpr double kLandmarkDeviation = 10;  // of each coordinate
+
+void requireOptions(const CarOptions& options) {
+  const auto require = [](bool isRight, const char* what, double found, const char* wanted) {
+    if (!isRight) throw Error({.what = what, .found = fmt::format("{:g}", found), .wanted = wanted});
+  };
+  require(options.tau > 0 && std::isfinite(options.tau), "car: tau", options.tau, "a positive number");
+  require(options.wheelbase > 0 && std::isfinite(options.wheelbase), "car: wheelbase", options.wheelbase,
+          "a positive number");
+  for (const double noise : {options.dynamicsNoise, options.observationNoise, options.bearingNoise})
+    require(noise >= 0 && std::isfinite(noise), "car: noise", noise, "zero or a positive number");
+  require(options.maxRange > 0, "car: largest range", options.maxRange, "a positive number");
+  require(options.fieldOfView > 0, "car: field of view", options.fieldOfView, "a positive angle");
+}
+
+void requireNumbers(const char* what, const Eigen::VectorXd& numbers, Eigen::Index size) {
+  requireSize(what, numbers.size(), size);
+  requireFinite(what, numbers);
+}
+
+LandmarkSensor sensorOf(const CarOptions& options) {
+  return {.kind =
+              options.rangeBearing ? LandmarkSensor::Kind::kRangeBearing : LandmarkSensor::Kind::kCartesian};
+}
+
+}  // namespace
+
+CarSimulator::CarSimulator(std::uint64_t seed, int landmarks, const CarOptions& options)
+    : options_(options), state_(Eigen::Vector3d::Zero()), rng_(seed) {
+  requireOptions(options);
+  if (landmarks < 0)
+    throw Error({.what = "car: landmarks", .found = fmt::format("{}", landmarks), .wanted = "zero or more"});
+  landmarks_.resize(2, landmarks);
+  for (auto landmark : landmarks_.colwise()) landmark = kLandmarkDeviation * rng_.normalVector(2);
+}
+
+CarSimulator::CarSimulator(const Eigen::Matrix2Xd& landmarks, const CarOptions& options) : options_(options) {
+  requireOptions(options);
+  setLandmarks(landmarks);
+}
+
+void CarSimulator::setLandmarks(const Eigen::Matrix2Xd& landmarks) {
+  requireFinite("landmarks", landmarks.reshaped());
+  landmarks_ = landmarks;
+}
+
+void CarSimulator::requireTruth(const char* method) const {
+  if (!state_)
+    throw Error({.what = fmt::format("CarSimulator::{}", method),
+                 .found = "a car whose true state is not known here",
+                 .wanted = "the observations that your function is given"});
+}
+
+Eigen::Vector3d CarSimulator::getState() const {
+  requireTruth("getState");
+  return *state_;
+}
+
+void CarSimulator::setState(const Eigen::VectorXd& x) {
+  requireNumbers("state", x, 3);
+  requireTruth("setState");
+  state_ = x;
+}
+
+Eigen::VectorXd CarSimulator::getMeanStateAfterStep(const Eigen::VectorXd& x,
+                                                    const Eigen::VectorXd& u) const {
+  requireNumbers("state", x, 3);
+  requireNumbers("control", u, 2);
+  return Eigen::Vector3d(x[0] + options_.tau * u[0] * std::cos(x[2]),
+                         x[1] + options_.tau * u[0] * std::sin(x[2]),
+                         x[2] + options_.tau * u[0] / options_.wheelbase * std::tan(u[1]));
+}
+
+Eigen::MatrixXd CarSimulator::getStateJacobian(const Eigen::VectorXd& x, const Eigen::VectorXd& u) const {
+  requireNumbers("state", x, 3);
+  requireNumbers("control", u, 2);
+  Eigen::Matrix3d A = Eigen::Matrix3d::Identity();
+  A(0, 2) = -options_.tau * u[0] * std::sin(x[2]);
+  A(1, 2) = options_.tau * u[0] * std::cos(x[2]);
+  return A;
+}
+
+void CarSimulator::step(const Eigen::VectorXd& u) {
+  requireTruth("step");
+  state_ = getMeanStateAfterStep(*state_, u) + options_.dynamicsNoise * rng_.normalVector(3);
+}
+
+Eigen::VectorXd CarSimulator::getRealNoisyObservation() {
+  requireTruth("getRealNoisyObservation");
+  Eigen::VectorXd y = getMeanObservationAtState(*state_);
+  for (Eigen::Index i = 0; i < y.size(); ++i)
+    y[i] += (options_.rangeBearing && i % 2 == 1 ? options_.bearingNoise : options_.observationNoise) *
+            rng_.normal();
+  return y;
+}
+
+std::vector<int> CarSimulator::getVisibleLandmarks() const {
+  requireTruth("getVisibleLandmarks");
+  const LandmarkSensor sensor{.kind = LandmarkSensor::Kind::kRangeBearing};
+  std::vector<int> visible;
+  for (int i = 0; i < countLandmarks(); ++i) {
+    const Eigen::Vector2d y = viewOf(sensor, *state_, landmarks_.col(i)).y;
+    if (y[0] <= options_.maxRange && 2 * std::abs(y[1]) <= options_.fieldOfView) visible.push_back(i);
+  }
+  return visible;
+}
+
+Eigen::VectorXd CarSimulator::getMeanObservationAtState(const Eigen::VectorXd& x) const {
+  return getMeanObservationAtStateAndLandmarks(x, landmarks_.reshaped());
+}
+
+Eigen::MatrixXd CarSimulator::getObservationJacobianAtState(const Eigen::VectorXd& x) const {
+  return getObservationJacobianAtStateAndLandmarks(x, landmarks_.reshaped()).leftCols<3>();
+}
+
+void CarSimulator::getLinearObservationModelAtState(Eigen::MatrixXd& C, Eigen::VectorXd& c,
+                                                    const Eigen::VectorXd& x) const {
+  C = getObservationJacobianAtState(x);
+  c = getMeanObservationAtState(x) - C * x;
+}
+
+Eigen::VectorXd CarSimulator::getMeanObservationAtStateAndLandmarks(const Eigen::VectorXd& x,
+                                                                    const Eigen::VectorXd& landmarks) const {
+  requireNumbers("state", x, 3);
+  requireNumbers("landmarks", landmarks, landmarks_.size());
+  Eigen::VectorXd y(landmarks.size());
+  for (Eigen::Index i = 0; i < landmarks.size(); i += 2)
+    y.segment<2>(i) = viewOf(sensorOf(options_), x, landmarks.segment<2>(i)).y;
+  return y;
+}
+
+Eigen::MatrixXd CarSimulator::getObservationJacobianAtStateAndLandmarks(
+    const Eigen::VectorXd& x, const Eigen::VectorXd& landmarks) const {
+  requireNumbers("state", x, 3);
+  requireNumbers("landmarks", landmarks, landmarks_.size());
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(landmarks.size(), 3 + landmarks.size());
+  for (Eigen::Index i = 0; i < landmarks.size(); i += 2) {
+    const LandmarkView view = viewOf(sensorOf(options_), x, landmarks.segment<2>(i));
+    J.block<2, 3>(i, 0) = view.Jx;
+    J.block<2, 2>(i, 3 + i) = view.Jl;
+  }
+  return J;
+}
+
+}  // namespace rex

@@ -1,0 +1,109 @@
+#include <cmath>
+#include <vector>
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+
+#include "estimation/pose_edge_internal.h"
+
+// Two linear least-squares problems (Carlone, Tron, Daniilidis and Dellaert 2015): the rotations as free
+// matrices, which are then made rotations, and the positions that fit these. Pose 0 is given in both.
+namespace rex::internal {
+namespace {
+
+// Rows w (x_j - M x_i - b) = 0 for vectors x_1.. of one size, several right-hand sides at once.
+template <int Size, int Columns>
+class LinearGraph {
+ public:
+  using Matrix = Eigen::Matrix<double, Size, Size>;
+  using Value = Eigen::Matrix<double, Size, Columns>;
+
+  LinearGraph(int poses, const Value& first) : first_(first) {
+    rhs_.setZero(Size * (poses - 1), Columns);
+    // An anchor so weak that it only serves poses whose edges weigh nothing.
+    for (int k = 0; k < rhs_.rows(); ++k) entries_.emplace_back(k, k, 1e-14);
+  }
+
+  void add(int i, int j, double w, const Matrix& M, const Value& b) {
+    if (j > 0) addBlock(j, j, w * Matrix::Identity());
+    if (i > 0) addBlock(i, i, w * M.transpose() * M);
+    if (i > 0 && j > 0) (i > j ? addBlock(i, j, -w * M.transpose()) : addBlock(j, i, -w * M));
+    const Value known = (i == 0 ? Value(M * first_) : Value::Zero()) - (j == 0 ? first_ : Value::Zero()) + b;
+    if (j > 0) rhs_.middleRows(Size * (j - 1), Size) += w * known;
+    if (i > 0) rhs_.middleRows(Size * (i - 1), Size) -= w * M.transpose() * known;
+  }
+
+  // One row of blocks for each pose but the first.
+  Eigen::MatrixXd solve() const {
+    Eigen::SparseMatrix<double> H(rhs_.rows(), rhs_.rows());
+    H.setFromTriplets(entries_.begin(), entries_.end());
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(H);
+    return factor.solve(rhs_);
+  }
+
+ private:
+  void addBlock(int row, int column, const Matrix& block) {
+    for (int c = 0; c < Size; ++c)
+      for (int r = 0; r < Size; ++r)
+        if (row != column || r >= c)
+          entries_.emplace_back(Size * (row - 1) + r, Size * (column - 1) + c, block(r, c));
+  }
+
+  Value first_;
+  Eigen::MatrixXd rhs_;
+  std::vector<Eigen::Triplet<double>> entries_;
+};
+
+Eigen::Matrix2d rotationOf(double angle) {
+  Eigen::Matrix2d R;
+  R << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+  return R;
+}
+
+}  // namespace
+
+void setChordalPoses(PlanarPoseGraph& graph) {
+  const int poses = PlanarGraphTraits::poses(graph);
+  // First columns of the rotations, as (cos, sin): R_j e = R_i R_ij e turns that of i by the angle.
+  LinearGraph<2, 1> rotations(poses, rotationOf(graph.poses(2, 0)).col(0));
+  for (const PlanarEdge& edge : graph.edges)
+    rotations.add(edge.from, edge.to, isotropic(edge).rotation, rotationOf(edge.motion[2]),
+                  Eigen::Vector2d::Zero());
+  const Eigen::MatrixXd headings = rotations.solve();
+  for (int i = 1; i < poses; ++i)
+    graph.poses(2, i) = std::atan2(headings(2 * i - 1, 0), headings(2 * i - 2, 0));
+  LinearGraph<2, 1> positions(poses, graph.poses.col(0).head<2>());
+  for (const PlanarEdge& edge : graph.edges)
+    positions.add(edge.from, edge.to, isotropic(edge).translation, Eigen::Matrix2d::Identity(),
+                  rotationOf(graph.poses(2, edge.from)) * edge.motion.head<2>());
+  const Eigen::MatrixXd found = positions.solve();
+  for (int i = 1; i < poses; ++i) graph.poses.col(i).head<2>() = found.middleRows<2>(2 * (i - 1));
+}
+
+void setChordalPoses(SpatialPoseGraph& graph) {
+  const int poses = SpatialGraphTraits::poses(graph);
+  // Transposed rotations: R_j^T = R_ij^T R_i^T.
+  LinearGraph<3, 3> rotations(poses, graph.poses[0].R.transpose());
+  for (const SpatialEdge& edge : graph.edges)
+    rotations.add(edge.from, edge.to, isotropic(edge).rotation, edge.motion.R.transpose(),
+                  Eigen::Matrix3d::Zero());
+  const Eigen::MatrixXd free = rotations.solve();
+  for (int i = 1; i < poses; ++i) {
+    const Eigen::Matrix3d M = free.middleRows<3>(3 * (i - 1)).transpose();
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
+    graph.poses[static_cast<std::size_t>(i)].R =
+        svd.matrixU() * Eigen::Vector3d(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
+  }
+  LinearGraph<3, 1> positions(poses, graph.poses[0].p);
+  for (const SpatialEdge& edge : graph.edges)
+    positions.add(edge.from, edge.to, isotropic(edge).translation, Eigen::Matrix3d::Identity(),
+                  graph.poses[static_cast<std::size_t>(edge.from)].R * edge.motion.p);
+  const Eigen::MatrixXd found = positions.solve();
+  for (int i = 1; i < poses; ++i)
+    graph.poses[static_cast<std::size_t>(i)].p = found.middleRows<3>(3 * (i - 1));
+}
+
+}  // namespace rex::internal

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "estimation/ekf_slam.h"
+#include "estimation/landmark_sensor.h"
+#include "estimation/resampling.h"
+
+namespace rex {
+
+class Rng;
+
+/// A landmark that was seen, with its name.
+struct LandmarkSighting {
+  int landmark = 0;
+  Eigen::Vector2d y = Eigen::Vector2d::Zero();
+};
+
+struct FastSlamOptions {
+  int particles = 100;
+  /// FastSLAM 2: poses are drawn where the sightings are likely (Montemerlo et al. 2003), not from the motion
+  /// alone.
+  bool observedProposal = false;
+  double threshold = 0.5;  ///< resample when the effective sample size falls below this share
+};
+
+struct FastSlamStep {
+  double effectiveSize = 0;  ///< after weighing
+  bool resampled = false;
+  bool lost = false;  ///< no particle explains the sightings: weights stayed as they were
+};
+
+/// SLAM with particles: each is a path of poses and has its own map, in which landmarks are independent
+/// Gaussians. Slides 7:39-7:42.
+class FastSlam {
+ public:
+  /// All particles start at the pose. Throws Error for options out of range, a pose that is not finite, and a
+  /// sensor whose W is not definite.
+  FastSlam(const Eigen::Vector3d& pose, const LandmarkSensor& sensor, const FastSlamOptions& options = {});
+
+  /// Moves all particles, and weighs them by what is seen there. Landmarks count from 0 in the order in which
+  /// they appear first. Throws Error as EkfSlam, and for a landmark that is neither known nor the next.
+  FastSlamStep step(const PoseTransition& transition, std::span<const LandmarkSighting> sightings, Rng& rng);
+
+  int landmarks() const { return landmarks_; }
+  const Eigen::Matrix3Xd& poses() const { return poses_; }     ///< one particle per column
+  const Eigen::VectorXd& weights() const { return weights_; }  ///< sum to one
+  [[nodiscard]] Gaussian landmark(int particle, int i) const;  ///< throws Error where there is none
+  [[nodiscard]] int likeliest() const;                         ///< the particle of the largest weight
+  [[nodiscard]] Eigen::Vector3d meanPose() const;              ///< headings averaged on the circle
+
+ private:
+  struct Landmark {
+    Eigen::Vector2d mean;
+    Eigen::Matrix2d covariance;
+  };
+  [[nodiscard]] Landmark& at(Eigen::Index particle, int i) {
+    return maps_[static_cast<std::size_t>(particle) * static_cast<std::size_t>(room_) +
+                 static_cast<std::size_t>(i)];
+  }
+  void makeRoom(int landmarks);
+  void resampleParticles(Rng& rng);
+  /// Draws the next pose of a particle; returns the log weight that the draw adds.
+  double drawPose(Eigen::Index particle, const PoseTransition& transition, const Eigen::Matrix3d& root,
+                  std::span<const LandmarkSighting> known, Rng& rng);
+  double seeLandmark(Eigen::Index particle, const LandmarkSighting& sighting, bool isNew);
+
+  LandmarkSensor sensor_;
+  FastSlamOptions options_;
+  Eigen::Matrix3Xd poses_;
+  Eigen::VectorXd weights_;
+  std::vector<Landmark> maps_;  // of each particle, `room_` landmarks
+  int landmarks_ = 0, room_ = 8;
+};
+
+}  // namespace rex

@@ -1,0 +1,140 @@
+#include "estimation/gaussian.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/require_finite.h"
+#include "base/rng.h"
+#include "estimation/covariance.h"
+
+namespace rex {
+namespace {
+
+void requireGaussian(const Gaussian& x, Definiteness wanted = Definiteness::kSemidefinite) {
+  requireFinite("mean", x.mean);
+  requireCovariance("covariance", x.covariance, x.mean.size(), wanted);
+}
+
+// A factor of a covariance that must be definite.
+Eigen::LLT<Eigen::MatrixXd> factorOf(const char* what, const MatrixArg& A) {
+  const Eigen::LLT<Eigen::MatrixXd> factor(A);
+  if (factor.info() != Eigen::Success) requireCovariance(what, A, A.rows(), Definiteness::kPositive);
+  return factor;
+}
+
+// log N(error | 0, A).
+double logNormal(const Eigen::LLT<Eigen::MatrixXd>& factor, const VectorArg& error) {
+  const double n = static_cast<double>(error.size());
+  const double logDeterminant = 2 * factor.matrixLLT().diagonal().array().log().sum();
+  const double distance = factor.matrixL().solve(error).squaredNorm();
+  return -0.5 * (n * std::log(2 * std::numbers::pi) + logDeterminant + distance);
+}
+
+}  // namespace
+
+CanonicalGaussian toCanonical(const Gaussian& x) {
+  requireGaussian(x, Definiteness::kPositive);
+  const auto factor = factorOf("covariance", x.covariance);
+  const auto identity = Eigen::MatrixXd::Identity(x.mean.size(), x.mean.size());
+  return {factor.solve(x.mean), symmetrized(factor.solve(identity))};
+}
+
+Gaussian toNormal(const CanonicalGaussian& x) {
+  requireFinite("coefficient a", x.a);
+  requireCovariance("precision", x.A, x.a.size(), Definiteness::kPositive);
+  const auto factor = factorOf("precision", x.A);
+  const auto identity = Eigen::MatrixXd::Identity(x.a.size(), x.a.size());
+  return {factor.solve(x.a), symmetrized(factor.solve(identity))};
+}
+
+double logDensity(const Gaussian& gaussian, const VectorArg& x) {
+  requireGaussian(gaussian, Definiteness::kPositive);
+  requireSize("point", x.size(), gaussian.mean.size());
+  return logNormal(factorOf("covariance", gaussian.covariance), x - gaussian.mean);
+}
+
+double squaredMahalanobis(const Gaussian& gaussian, const VectorArg& x) {
+  requireGaussian(gaussian, Definiteness::kPositive);
+  requireSize("point", x.size(), gaussian.mean.size());
+  return factorOf("covariance", gaussian.covariance).matrixL().solve(x - gaussian.mean).squaredNorm();
+}
+
+Eigen::VectorXd sample(const Gaussian& gaussian, Rng& rng) {
+  requireGaussian(gaussian);
+  return gaussian.mean +
+         covarianceRoot(gaussian.covariance) * rng.normalVector(static_cast<int>(gaussian.mean.size()));
+}
+
+GaussianProduct multiplied(const Gaussian& a, const Gaussian& b) {
+  requireGaussian(a);
+  requireGaussian(b);
+  requireSize("mean of the second Gaussian", b.mean.size(), a.mean.size());
+  const auto factor = factorOf("sum of the covariances", a.covariance + b.covariance);
+  const Eigen::MatrixXd gain = factor.solve(a.covariance).transpose();  // A (A + B)^-1
+  GaussianProduct product;
+  product.gaussian.mean = a.mean + gain * (b.mean - a.mean);
+  product.gaussian.covariance = symmetrized(gain * b.covariance);
+  product.logFactor = logNormal(factor, a.mean - b.mean);
+  return product;
+}
+
+CanonicalGaussian multiplied(const CanonicalGaussian& a, const CanonicalGaussian& b) {
+  requireFinite("coefficient a", a.a);
+  requireFinite("coefficient b", b.a);
+  requireSize("coefficient b", b.a.size(), a.a.size());
+  requireCovariance("precision A", a.A, a.a.size());
+  requireCovariance("precision B", b.A, a.a.size());
+  return {a.a + b.a, a.A + b.A};
+}
+
+Gaussian propagated(const Gaussian& y, const MatrixArg& F, const VectorArg& f, const MatrixArg& Q) {
+  requireGaussian(y);
+  requireSize("columns of F", F.cols(), y.mean.size());
+  requireSize("offset f", f.size(), F.rows());
+  requireCovariance("noise Q", Q, F.rows());
+  return {f + F * y.mean, symmetrized(F * y.covariance * F.transpose() + Q)};
+}
+
+GaussianProduct pulledBack(const Gaussian& y, const MatrixArg& F, const VectorArg& f) {
+  requireGaussian(y);
+  requireSize("rows of F", F.rows(), y.mean.size());
+  requireSize("columns of F", F.cols(), y.mean.size());
+  requireSize("offset f", f.size(), y.mean.size());
+  const Eigen::FullPivLU<Eigen::MatrixXd> factor(F);
+  if (!factor.isInvertible())
+    throw Error({.what = "transformation F",
+                 .found = fmt::format("rank {}", factor.rank()),
+                 .wanted = fmt::format("an invertible matrix, of rank {}", F.rows())});
+  const Eigen::MatrixXd inverse = factor.inverse();
+  const double logFactor = -factor.matrixLU().diagonal().cwiseAbs().array().log().sum();
+  return {{inverse * (y.mean - f), symmetrized(inverse * y.covariance * inverse.transpose())}, logFactor};
+}
+
+Gaussian marginal(const Gaussian& joint, int first, int count) {
+  requireGaussian(joint);
+  if (first < 0 || count < 0 || first + count > joint.mean.size()) {
+    throw Error({.what = "marginal",
+                 .found = fmt::format("numbers {} to {}", first, first + count - 1),
+                 .wanted = fmt::format("numbers of 0 to {}", joint.mean.size() - 1)});
+  }
+  return {joint.mean.segment(first, count), joint.covariance.block(first, first, count, count)};
+}
+
+Gaussian conditional(const Gaussian& joint, const VectorArg& firstNumbers) {
+  requireGaussian(joint);
+  requireFinite("given numbers", firstNumbers);
+  const Eigen::Index n = firstNumbers.size(), m = joint.mean.size() - n;
+  if (m < 0) requireSize("given numbers", n, joint.mean.size());
+  const auto factor = factorOf("covariance of the given numbers", joint.covariance.topLeftCorner(n, n));
+  const Eigen::MatrixXd gain = factor.solve(joint.covariance.topRightCorner(n, m)).transpose();
+  const Eigen::MatrixXd reduced =
+      joint.covariance.bottomRightCorner(m, m) - gain * joint.covariance.topRightCorner(n, m);
+  return {joint.mean.tail(m) + gain * (firstNumbers - joint.mean.head(n)), symmetrized(reduced)};
+}
+
+}  // namespace rex

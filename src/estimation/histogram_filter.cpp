@@ -1,0 +1,99 @@
+#include "estimation/histogram_filter.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace rex {
+namespace {
+
+constexpr double kTolerance = 1e-9;
+
+void requireNotNegative(const char* what, const VectorArg& numbers) {
+  for (Eigen::Index i = 0; i < numbers.size(); ++i) {
+    if (numbers[i] >= 0 && std::isfinite(numbers[i])) continue;
+    throw Error({.what = fmt::format("{} of cell {}", what, i),
+                 .found = fmt::format("{:g}", numbers[i]),
+                 .wanted = "a finite number, zero or more"});
+  }
+}
+
+void requireBelief(const VectorArg& belief) {
+  requireNotNegative("probability", belief);
+  if (std::abs(belief.sum() - 1) <= kTolerance) return;
+  throw Error({.what = "belief",
+               .found = fmt::format("probabilities that sum to {:g}", belief.sum()),
+               .wanted = "a sum of 1"});
+}
+
+void requireTransition(const CellTransition& transition, Eigen::Index cells) {
+  requireSize("columns of the transition", transition.cols(), cells);
+  requireSize("rows of the transition", transition.rows(), cells);
+  for (Eigen::Index j = 0; j < transition.outerSize(); ++j) {
+    double sum = 0;
+    bool isSound = true;
+    for (CellTransition::InnerIterator entry(transition, j); entry; ++entry) {
+      isSound = isSound && entry.value() >= 0;
+      sum += entry.value();
+    }
+    if (isSound && std::abs(sum - 1) <= kTolerance) continue;
+    throw Error(
+        {.what = fmt::format("transition from cell {}", j),
+         .found = isSound ? fmt::format("probabilities that sum to {:g}", sum) : "a negative probability",
+         .wanted = "probabilities that sum to 1"});
+  }
+}
+
+}  // namespace
+
+Eigen::VectorXd predictCells(const VectorArg& belief, const CellTransition& transition) {
+  requireBelief(belief);
+  requireTransition(transition, belief.size());
+  return transition * belief;
+}
+
+CellUpdate updateCells(const VectorArg& predicted, const VectorArg& likelihood) {
+  requireBelief(predicted);
+  requireSize("likelihoods", likelihood.size(), predicted.size());
+  requireNotNegative("likelihood", likelihood);
+  CellUpdate update;
+  update.belief = predicted.cwiseProduct(likelihood);
+  update.evidence = update.belief.sum();
+  update.lost = !(update.evidence > 0);
+  if (update.lost) {
+    update.belief = predicted;
+  } else {
+    update.belief /= update.evidence;
+  }
+  return update;
+}
+
+std::vector<Eigen::VectorXd> smoothedCells(const VectorArg& prior,
+                                           std::span<const CellTransition> transitions,
+                                           std::span<const Eigen::VectorXd> likelihoods) {
+  if (likelihoods.empty()) return {};
+  requireSize("transitions between the observations", static_cast<long>(transitions.size()),
+              static_cast<long>(likelihoods.size()) - 1);
+  std::vector<Eigen::VectorXd> beliefs;
+  for (std::size_t t = 0; t < likelihoods.size(); ++t) {
+    const Eigen::VectorXd predicted =
+        t == 0 ? Eigen::VectorXd(prior) : predictCells(beliefs.back(), transitions[t - 1]);
+    CellUpdate update = updateCells(predicted, likelihoods[t]);
+    if (update.lost)
+      throw Error({.what = fmt::format("observation at time {}", t), .found = "no cell that explains it"});
+    beliefs.push_back(std::move(update.belief));
+  }
+  // beta, scaled so that it does not vanish over time.
+  Eigen::VectorXd later = Eigen::VectorXd::Ones(prior.size());
+  for (std::size_t t = transitions.size(); t-- > 0;) {
+    later = transitions[t].transpose() * later.cwiseProduct(likelihoods[t + 1]);
+    later /= later.maxCoeff();
+    beliefs[t] = beliefs[t].cwiseProduct(later);
+    beliefs[t] /= beliefs[t].sum();
+  }
+  return beliefs;
+}
+
+}  // namespace rex

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "base/vector_arg.h"
+
+namespace rex {
+
+/// What a range scanner on a planar robot measures: one distance along each direction.
+struct RangeScanner {
+  std::vector<double> angles{};  ///< of its rays, from the robot's heading, radians
+  double maxRange = 10;          ///< metres; where nothing is hit before, it reads this
+};
+
+/// How much one ray says: the odds of a cell that stopped it, and of cells it passed.
+struct RayEvidence {
+  double hit = 0.85, miss = 0.3;  ///< probabilities of being occupied, hit above and miss below one half
+  double bound = 0.999;           ///< no cell becomes more certain than this, so that it can be changed again
+};
+
+/// Square cells, each with the logarithm of its odds of being occupied; 0: not known. Slide 7:33; Moravec and
+/// Elfes 1985. Cell (0, 0) has its lower left corner at the origin.
+class OccupancyMap {
+ public:
+  /// Throws Error for less than one cell or more than 1e8, a cell size that is not positive and an origin
+  /// that is not finite.
+  OccupancyMap(int width, int height, double cellSize, const Eigen::Vector2d& origin = {0, 0});
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  double cellSize() const { return cellSize_; }
+  const Eigen::Vector2d& origin() const { return origin_; }
+
+  bool contains(int x, int y) const { return 0 <= x && x < width_ && 0 <= y && y < height_; }
+  /// Of a cell that the map contains.
+  [[nodiscard]] double logOdds(int x, int y) const { return cells_[place(x, y)]; }
+  void setLogOdds(int x, int y, double logOdds) { cells_[place(x, y)] = logOdds; }
+  [[nodiscard]] double probability(int x, int y) const;
+  bool isOccupied(int x, int y) const { return contains(x, y) && logOdds(x, y) > 0; }
+  /// The cell of a point, which the map may not contain.
+  [[nodiscard]] Eigen::Vector2i cellAt(const Eigen::Vector2d& p) const;
+
+  /// Metres from p along the angle to the first occupied cell, at most maxRange; 0 from within one. Cells are
+  /// met exactly in their order (Amanatides and Woo 1987).
+  [[nodiscard]] double distanceToOccupied(const Eigen::Vector2d& p, double angle, double maxRange) const;
+  /// What a scanner without noise would read at pose (x, y, heading).
+  void scan(const RangeScanner& scanner, const Eigen::Vector3d& pose,
+            Eigen::Ref<Eigen::VectorXd> ranges) const;
+
+  /// Adds what a scan from a pose says about the cells along each ray. Throws Error for a count of ranges
+  /// that is not the scanner's, a pose or range that is not finite or negative, and evidence out of order.
+  void observe(const RangeScanner& scanner, const Eigen::Vector3d& pose, const VectorArg& ranges,
+               const RayEvidence& evidence = {});
+
+ private:
+  std::size_t place(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+  }
+
+  int width_, height_;
+  double cellSize_;
+  Eigen::Vector2d origin_;
+  std::vector<double> cells_;
+};
+
+}  // namespace rex

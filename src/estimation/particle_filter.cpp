@@ -1,0 +1,167 @@
+#include "estimation/particle_filter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/rng.h"
+#include "estimation/covariance.h"
+
+namespace rex {
+namespace {
+
+constexpr int kChunk = 64;
+
+void requireOptions(const ParticleFilterOptions& options, Eigen::Index stateSize) {
+  const auto require = [](bool isRight, const char* what, double found, const char* wanted) {
+    if (!isRight) throw Error({.what = what, .found = fmt::format("{:g}", found), .wanted = wanted});
+  };
+  require(options.threshold >= 0 && options.threshold <= 1, "threshold of resampling", options.threshold,
+          "0 to 1");
+  require(options.fewest >= 1, "fewest particles", options.fewest, "one or more");
+  require(options.most >= options.fewest, "most particles", options.most, "at least the fewest");
+  require(options.error > 0, "error of the adaptive count", options.error, "more than 0");
+  if (options.cellSize.size() == 0) return;
+  requireSize("sizes of cells", options.cellSize.size(), stateSize);
+  for (const double size : options.cellSize)
+    require(size >= 0 && std::isfinite(size), "size of a cell", size, "a finite number, zero or more");
+}
+
+void requireNumbers(const Eigen::MatrixXd& states) {
+  if (states.allFinite()) return;
+  for (Eigen::Index i = 0; i < states.cols(); ++i)
+    if (!states.col(i).allFinite())
+      throw Error({.what = fmt::format("state of particle {}", i), .found = "numbers that are not finite"});
+}
+
+// The cell that a state lies in.
+std::vector<long> cellOf(const VectorArg& state, const Eigen::VectorXd& size) {
+  std::vector<long> cell;
+  for (Eigen::Index i = 0; i < size.size(); ++i)
+    if (size[i] > 0) cell.push_back(std::lround(std::floor(state[i] / size[i])));
+  return cell;
+}
+
+}  // namespace
+
+Particles sampledParticles(const Gaussian& gaussian, int count, Rng& rng) {
+  if (count < 1)
+    throw Error({.what = "particles", .found = fmt::format("{}", count), .wanted = "one or more"});
+  requireCovariance("covariance", gaussian.covariance, gaussian.mean.size());
+  const Eigen::MatrixXd root = covarianceRoot(gaussian.covariance);
+  const Eigen::Index n = gaussian.mean.size();
+  Particles particles{Eigen::MatrixXd(n, count), Eigen::VectorXd::Constant(count, 1.0 / count)};
+  for (int i = 0; i < count; ++i)
+    particles.states.col(i) = gaussian.mean + root * rng.normalVector(static_cast<int>(n));
+  return particles;
+}
+
+Gaussian momentsOf(const Particles& particles) {
+  requireSize("weights", particles.weights.size(), particles.states.cols());
+  const Eigen::VectorXd mean = particles.states * particles.weights;
+  const Eigen::MatrixXd offsets = particles.states.colwise() - mean;
+  return {mean, symmetrized(offsets * particles.weights.asDiagonal() * offsets.transpose())};
+}
+
+ParticleFilter::ParticleFilter(Particles particles, ParticleFilterOptions options)
+    : particles_(std::move(particles)), options_(std::move(options)) {
+  requireOptions(options_, particles_.states.rows());
+  if (particles_.states.cols() == 0)
+    throw Error({.what = "particles", .found = "none", .wanted = "one or more"});
+  requireSize("weights", particles_.weights.size(), particles_.states.cols());
+  requireNumbers(particles_.states);
+  (void)effectiveSampleSize(particles_.weights);  // throws for weights that are none
+  particles_.weights /= particles_.weights.sum();
+}
+
+bool ParticleFilter::shouldResample() const {
+  const double count = static_cast<double>(particles_.weights.size());
+  return options_.threshold >= 1 || effectiveSampleSize(particles_.weights) < options_.threshold * count;
+}
+
+void ParticleFilter::gather(const std::vector<int>& parents) {
+  next_.resize(particles_.states.rows(), static_cast<Eigen::Index>(parents.size()));
+  for (std::size_t k = 0; k < parents.size(); ++k)
+    next_.col(static_cast<Eigen::Index>(k)) = particles_.states.col(parents[k]);
+}
+
+void ParticleFilter::proposeAll(const Propose& propose, Rng& rng) {
+  gather(parents_);
+  logWeights_.setZero(next_.cols());
+  propose(next_, logWeights_, rng);
+  std::swap(particles_.states, next_);
+}
+
+// Draws on until the cells that the particles occupy ask for no more.
+void ParticleFilter::proposeAdaptively(const Propose& propose, Rng& rng) {
+  std::set<std::vector<long>> cells;
+  std::vector<Eigen::MatrixXd> chunks;
+  Eigen::VectorXd logWeights(options_.most);
+  int count = 0;
+  for (int wanted = options_.fewest; count < wanted;) {
+    const int size = std::min(kChunk, wanted - count);
+    resample(particles_.weights, size, Resampling::kMultinomial, rng, parents_);
+    gather(parents_);
+    logWeights.segment(count, size).setZero();
+    propose(next_, logWeights.segment(count, size), rng);
+    requireNumbers(next_);
+    for (int k = 0; k < size; ++k) cells.insert(cellOf(next_.col(k), options_.cellSize));
+    chunks.push_back(next_);
+    count += size;
+    const int enough = adaptiveSampleSize(static_cast<int>(cells.size()), options_.error);
+    wanted = std::clamp(enough, options_.fewest, options_.most);
+  }
+  particles_.states.resize(next_.rows(), count);
+  Eigen::Index column = 0;
+  for (const Eigen::MatrixXd& chunk : chunks) {
+    particles_.states.middleCols(column, chunk.cols()) = chunk;
+    column += chunk.cols();
+  }
+  logWeights_ = logWeights.head(count);
+}
+
+ParticleStep ParticleFilter::step(const Propose& propose, const Weigh& weigh, Rng& rng) {
+  ParticleStep report;
+  const bool isAdaptive = options_.cellSize.size() > 0;
+  report.resampled = isAdaptive || shouldResample();
+  if (isAdaptive) {
+    proposeAdaptively(propose, rng);
+  } else if (report.resampled) {
+    resample(particles_.weights, static_cast<int>(particles_.weights.size()), options_.resampling, rng,
+             parents_);
+    proposeAll(propose, rng);
+  } else {
+    logWeights_ = particles_.weights.array().log();
+    propose(particles_.states, logWeights_, rng);
+  }
+  const double count = static_cast<double>(particles_.states.cols());
+  if (report.resampled) logWeights_.array() -= std::log(count);
+  requireNumbers(particles_.states);
+  const Eigen::VectorXd before = logWeights_;
+  weigh(particles_.states, logWeights_);
+  for (Eigen::Index i = 0; i < logWeights_.size(); ++i) {
+    if (!(logWeights_[i] < std::numeric_limits<double>::infinity()))
+      throw Error({.what = fmt::format("log weight of particle {}", i),
+                   .found = fmt::format("{:g}", std::abs(logWeights_[i])),
+                   .wanted = "a number, or minus infinity"});
+  }
+  double largest = logWeights_.maxCoeff();
+  report.lost = std::isinf(largest);
+  if (report.lost) {
+    logWeights_ = before;
+    largest = logWeights_.maxCoeff();
+  }
+  particles_.weights = (logWeights_.array() - largest).exp();
+  const double sum = particles_.weights.sum();
+  particles_.weights /= sum;
+  report.logEvidence = report.lost ? -std::numeric_limits<double>::infinity() : largest + std::log(sum);
+  report.effectiveSize = effectiveSampleSize(particles_.weights);
+  return report;
+}
+
+}  // namespace rex

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "estimation/pose_graph.h"
+
+namespace rex::internal {
+
+/// What one edge adds to the normal equations: its error e, the derivatives by the steps of both poses, and
+/// the information that weighs it.
+template <int Size>
+struct EdgeTerm {
+  Eigen::Matrix<double, Size, 1> e;
+  Eigen::Matrix<double, Size, Size> Ji, Jj, information;
+};
+
+/// A planar pose steps by (x, y, heading) of the world.
+struct PlanarGraphTraits {
+  using Graph = PlanarPoseGraph;
+  static constexpr int kSize = 3;
+  static int poses(const Graph& graph) { return static_cast<int>(graph.poses.cols()); }
+  static EdgeTerm<kSize> term(const Graph& graph, const PlanarEdge& edge, PoseGraphObjective objective);
+  static void step(Graph& graph, const Eigen::VectorXd& delta);
+};
+
+/// A spatial pose steps by (x, y, z) of the world, then a rotation vector in its own frame.
+struct SpatialGraphTraits {
+  using Graph = SpatialPoseGraph;
+  static constexpr int kSize = 6;
+  static int poses(const Graph& graph) { return static_cast<int>(graph.poses.size()); }
+  static EdgeTerm<kSize> term(const Graph& graph, const SpatialEdge& edge, PoseGraphObjective objective);
+  static void step(Graph& graph, const Eigen::VectorXd& delta);
+};
+
+/// tau and kappa of SE-Sync's objective.
+struct IsotropicWeights {
+  double translation = 0, rotation = 0;
+};
+[[nodiscard]] IsotropicWeights isotropic(const PlanarEdge& edge);
+[[nodiscard]] IsotropicWeights isotropic(const SpatialEdge& edge);
+
+/// Throws Error naming the edge that is not sound, or the pose that no edges join to pose 0.
+void requireSound(const PlanarPoseGraph& graph);
+void requireSound(const SpatialPoseGraph& graph);
+void requireConnected(const PlanarPoseGraph& graph);
+void requireConnected(const SpatialPoseGraph& graph);
+
+/// Sets the poses to the chordal start; pose 0 stays.
+void setChordalPoses(PlanarPoseGraph& graph);
+void setChordalPoses(SpatialPoseGraph& graph);
+
+}  // namespace rex::internal

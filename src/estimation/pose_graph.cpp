@@ -1,0 +1,236 @@
+#include "estimation/pose_graph.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "estimation/pose_edge_internal.h"
+
+namespace rex {
+namespace {
+
+using internal::EdgeTerm;
+using internal::PlanarGraphTraits;
+using internal::SpatialGraphTraits;
+
+// How much a squared error counts, and the weight that gives its step the right slope.
+struct Robust {
+  double cost, weight;
+};
+Robust robust(double s, const PoseGraphOptions& options) {
+  const double k = options.kernelSize, k2 = k * k;
+  switch (options.kernel) {
+    case RobustKernel::kNone:
+      break;
+    case RobustKernel::kHuber:
+      if (s > k2) return {2 * k * std::sqrt(s) - k2, k / std::sqrt(s)};
+      break;
+    case RobustKernel::kCauchy:
+      return {k2 * std::log1p(s / k2), 1 / (1 + s / k2)};
+    case RobustKernel::kGemanMcClure:
+      return {s / (1 + s / k2), 1 / ((1 + s / k2) * (1 + s / k2))};
+  }
+  return {s, 1};
+}
+
+void requireOptions(const PoseGraphOptions& options) {
+  const auto require = [](bool isRight, const char* what, double found, const char* wanted) {
+    if (!isRight) throw Error({.what = what, .found = fmt::format("{:g}", found), .wanted = wanted});
+  };
+  require(options.kernelSize > 0, "size of the robust kernel", options.kernelSize, "a positive number");
+  require(options.maxIterations >= 0, "iterations", options.maxIterations, "zero or more");
+  require(options.tolerance >= 0, "tolerance", options.tolerance, "zero or more");
+}
+
+template <class Traits>
+double cost(const typename Traits::Graph& graph, const PoseGraphOptions& options) {
+  double sum = 0;
+  for (const auto& edge : graph.edges) {
+    const auto term = Traits::term(graph, edge, options.objective);
+    sum += robust(term.e.dot(term.information * term.e), options).cost;
+  }
+  return sum;
+}
+
+// H delta = -g, of all poses but the first: the lower triangle of H by blocks. Where each block lies in the
+// values of H is found once, since edges do not change.
+template <class Traits>
+class NormalEquations {
+ public:
+  static constexpr int kSize = Traits::kSize;
+  using Block = Eigen::Matrix<double, kSize, kSize>;
+
+  explicit NormalEquations(const typename Traits::Graph& graph) {
+    const int blocks = Traits::poses(graph) - 1;
+    std::vector<std::vector<int>> below(static_cast<std::size_t>(blocks));  // of each column of blocks, rows
+    for (int i = 0; i < blocks; ++i) below[static_cast<std::size_t>(i)].push_back(i);
+    for (const auto& edge : graph.edges)
+      if (edge.from > 0 && edge.to > 0)
+        below[static_cast<std::size_t>(std::min(edge.from, edge.to) - 1)].push_back(
+            std::max(edge.from, edge.to) - 1);
+    for (auto& rows : below) {
+      std::sort(rows.begin(), rows.end());
+      rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    }
+    layOut(below);
+    for (const auto& edge : graph.edges) {
+      const int row = std::max(edge.from, edge.to) - 1, column = std::min(edge.from, edge.to) - 1;
+      if (column < 0) {
+        places_.push_back(0);
+        continue;
+      }
+      const auto& rows = below[static_cast<std::size_t>(column)];
+      places_.push_back(static_cast<int>(std::lower_bound(rows.begin(), rows.end(), row) - rows.begin()));
+    }
+    g_.setZero(H_.rows());
+  }
+
+  void assemble(const typename Traits::Graph& graph, const PoseGraphOptions& options) {
+    std::fill_n(H_.valuePtr(), H_.nonZeros(), 0.);
+    g_.setZero();
+    for (std::size_t k = 0; k < graph.edges.size(); ++k) {
+      const auto& edge = graph.edges[k];
+      auto term = Traits::term(graph, edge, options.objective);
+      const Eigen::Matrix<double, kSize, 1> weighed = term.information * term.e;
+      const double weight = robust(term.e.dot(weighed), options).weight;
+      const Block WJi = weight * term.information * term.Ji, WJj = weight * term.information * term.Jj;
+      if (edge.from > 0)
+        add(edge.from, 0, term.Ji.transpose() * WJi, term.Ji.transpose() * (weight * weighed));
+      if (edge.to > 0) add(edge.to, 0, term.Jj.transpose() * WJj, term.Jj.transpose() * (weight * weighed));
+      if (edge.from > 0 && edge.to > 0)
+        addBlock(std::min(edge.from, edge.to), places_[k],
+                 edge.from > edge.to ? Block(term.Ji.transpose() * WJj) : Block(term.Jj.transpose() * WJi));
+    }
+  }
+
+  // Empty where H + damping is not positive definite.
+  Eigen::VectorXd solve(double damping) {
+    if (!analysed_) factor_.analyzePattern(H_);
+    analysed_ = true;
+    factor_.setShift(damping);
+    factor_.factorize(H_);
+    if (factor_.info() != Eigen::Success) return {};
+    return factor_.solve(-g_);
+  }
+
+  double largestDiagonal() const { return Eigen::VectorXd(H_.diagonal()).maxCoeff(); }
+  const Eigen::VectorXd& gradient() const { return g_; }
+
+ private:
+  void layOut(const std::vector<std::vector<int>>& below) {
+    const int size = kSize * static_cast<int>(below.size());
+    H_.resize(size, size);
+    Eigen::VectorXi counts(size);
+    for (int j = 0; j < size; ++j)
+      counts[j] = kSize * static_cast<int>(below[static_cast<std::size_t>(j / kSize)].size());
+    H_.reserve(counts);
+    for (int j = 0; j < size; ++j)
+      for (const int row : below[static_cast<std::size_t>(j / kSize)])
+        for (int r = 0; r < kSize; ++r) H_.insert(kSize * row + r, j) = 0;
+    H_.makeCompressed();
+  }
+  template <class Diagonal, class Slope>
+  void add(int pose, int place, const Diagonal& block, const Slope& slope) {
+    addBlock(pose, place, block);
+    g_.template segment<kSize>(kSize * (pose - 1)) += slope;
+  }
+  void addBlock(int columnPose, int place, const Block& block) {
+    for (int c = 0; c < kSize; ++c) {
+      double* values = H_.valuePtr() + H_.outerIndexPtr()[kSize * (columnPose - 1) + c] + kSize * place;
+      for (int r = 0; r < kSize; ++r) values[r] += block(r, c);
+    }
+  }
+
+  Eigen::SparseMatrix<double> H_;
+  Eigen::VectorXd g_;
+  std::vector<int> places_;  // of each edge: which block of its column
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
+  bool analysed_ = false;
+};
+
+constexpr double kLeastDamping = 1e-10, kMostDamping = 1e12;
+
+// Levenberg and Marquardt's steps; the damping follows how well the model foretold the gain (Nielsen 1999).
+template <class Traits>
+void descend(typename Traits::Graph& graph, const PoseGraphOptions& options, PoseGraphResult& result) {
+  NormalEquations<Traits> equations(graph);
+  equations.assemble(graph, options);
+  double damping = 0, growth = 10;  // damping relative to the largest entry of the diagonal
+  while (result.iterations < options.maxIterations) {
+    ++result.iterations;
+    const double shift = damping * equations.largestDiagonal();
+    const Eigen::VectorXd delta = equations.solve(shift);
+    const bool isStep = delta.size() > 0 && delta.allFinite();
+    auto moved = graph;
+    if (isStep) Traits::step(moved, delta);
+    const double lower = isStep ? cost<Traits>(moved, options) : result.cost;
+    // What rounding makes of a cost at its minimum may be a hair more than before.
+    const double gain = result.cost - lower, hair = 1e-13 * result.cost;
+    if (!isStep || !(gain >= -hair)) {
+      damping = std::max(growth * damping, kLeastDamping);
+      growth *= 4;
+      if (damping < kMostDamping) continue;
+      result.status = PoseGraphStatus::kNoProgress;
+      return;
+    }
+    const double foretold = delta.dot(shift * delta - equations.gradient());
+    graph = std::move(moved);
+    result.cost = std::min(lower, result.cost);
+    if (foretold <= options.tolerance * result.cost + hair) {
+      result.status = PoseGraphStatus::kConverged;
+      return;
+    }
+    damping *= std::max(0.1, 1 - std::pow(2 * gain / foretold - 1, 3));
+    if (damping < kLeastDamping) damping = 0;
+    growth = 10;
+    equations.assemble(graph, options);
+  }
+}
+
+template <class Traits>
+PoseGraphResult optimizeGraph(typename Traits::Graph& graph, const PoseGraphOptions& options) {
+  internal::requireSound(graph);
+  internal::requireConnected(graph);
+  requireOptions(options);
+  PoseGraphResult result;
+  result.cost = result.initialCost = cost<Traits>(graph, options);
+  if (options.chordalStart && Traits::poses(graph) > 1) {
+    internal::setChordalPoses(graph);
+    result.cost = cost<Traits>(graph, options);
+  }
+  if (Traits::poses(graph) > 1)
+    descend<Traits>(graph, options, result);
+  else
+    result.status = PoseGraphStatus::kConverged;
+  const char* end = result.status == PoseGraphStatus::kConverged    ? "converged"
+                    : result.status == PoseGraphStatus::kNoProgress ? "no step lowers the cost"
+                                                                    : "the iterations are spent";
+  result.message = fmt::format("{} after {} iterations: cost {:.10g}, {:.10g} at the start", end,
+                               result.iterations, result.cost, result.initialCost);
+  return result;
+}
+
+}  // namespace
+
+double poseGraphCost(const PlanarPoseGraph& graph, const PoseGraphOptions& options) {
+  internal::requireSound(graph);
+  return cost<PlanarGraphTraits>(graph, options);
+}
+double poseGraphCost(const SpatialPoseGraph& graph, const PoseGraphOptions& options) {
+  internal::requireSound(graph);
+  return cost<SpatialGraphTraits>(graph, options);
+}
+
+PoseGraphResult optimize(PlanarPoseGraph& graph, const PoseGraphOptions& options) {
+  return optimizeGraph<PlanarGraphTraits>(graph, options);
+}
+PoseGraphResult optimize(SpatialPoseGraph& graph, const PoseGraphOptions& options) {
+  return optimizeGraph<SpatialGraphTraits>(graph, options);
+}
+
+}  // namespace rex

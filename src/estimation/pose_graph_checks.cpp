@@ -1,0 +1,137 @@
+#include <cmath>
+#include <queue>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "estimation/covariance.h"
+#include "estimation/pose_edge_internal.h"
+#include "geometry/rotation.h"
+
+namespace rex {
+namespace {
+
+int posesOf(const PlanarPoseGraph& graph) { return internal::PlanarGraphTraits::poses(graph); }
+int posesOf(const SpatialPoseGraph& graph) { return internal::SpatialGraphTraits::poses(graph); }
+
+std::string nameOf(std::size_t k, int from, int to) {
+  return fmt::format("edge {} from pose {} to pose {}", k, from, to);
+}
+
+bool isSound(const Eigen::Vector3d& motion) { return motion.allFinite(); }
+bool isSound(const Pose& motion) {
+  return motion.p.allFinite() && motion.R.allFinite() && isRotation(motion.R);
+}
+
+template <class Graph>
+void requireEdges(const Graph& graph) {
+  for (std::size_t k = 0; k < graph.edges.size(); ++k) {
+    const auto& edge = graph.edges[k];
+    const std::string name = nameOf(k, edge.from, edge.to);
+    for (const int pose : {edge.from, edge.to}) {
+      if (pose >= 0 && pose < posesOf(graph)) continue;
+      throw Error({.what = name,
+                   .found = fmt::format("pose {}", pose),
+                   .wanted = fmt::format("0 to {}", posesOf(graph) - 1)});
+    }
+    if (edge.from == edge.to)
+      throw Error({.what = name, .found = "one pose", .wanted = "two different ones"});
+    if (!isSound(edge.motion)) throw Error({.what = name + ": motion", .found = "numbers that are no pose"});
+    requireCovariance(name + ": information", edge.information, edge.information.rows());
+  }
+}
+
+// Edges of each pose: the edge, and the pose at its other end.
+template <class Graph>
+std::vector<std::vector<std::pair<std::size_t, int>>> edgesByPose(const Graph& graph) {
+  std::vector<std::vector<std::pair<std::size_t, int>>> result(static_cast<std::size_t>(posesOf(graph)));
+  for (std::size_t k = 0; k < graph.edges.size(); ++k) {
+    const auto& edge = graph.edges[k];
+    result[static_cast<std::size_t>(edge.from)].emplace_back(k, edge.to);
+    result[static_cast<std::size_t>(edge.to)].emplace_back(k, edge.from);
+  }
+  return result;
+}
+
+// Calls reach(edge, known pose, new pose) breadth first from pose 0; returns who was reached.
+template <class Graph, class Reach>
+std::vector<bool> spread(const Graph& graph, const Reach& reach) {
+  const auto edges = edgesByPose(graph);
+  std::vector<bool> isReached(edges.size(), false);
+  std::queue<int> waiting;
+  if (!edges.empty()) waiting.push(0);
+  if (!edges.empty()) isReached[0] = true;
+  for (; !waiting.empty(); waiting.pop()) {
+    const int known = waiting.front();
+    for (const auto& [edge, other] : edges[static_cast<std::size_t>(known)]) {
+      if (isReached[static_cast<std::size_t>(other)]) continue;
+      isReached[static_cast<std::size_t>(other)] = true;
+      reach(graph.edges[edge], known, other);
+      waiting.push(other);
+    }
+  }
+  return isReached;
+}
+
+template <class Graph>
+void requireAllReached(const Graph& graph) {
+  const std::vector<bool> isReached = spread(graph, [](const auto&, int, int) {});
+  for (std::size_t i = 0; i < isReached.size(); ++i)
+    if (!isReached[i])
+      throw Error({.what = fmt::format("pose graph: pose {}", i),
+                   .found = "no edges that join it to pose 0",
+                   .wanted = "a graph in one piece"});
+}
+
+Pose spatial(const Eigen::Vector3d& planar) {
+  return translation(planar[0], planar[1], 0) * rotation(planar[2], Eigen::Vector3d::UnitZ());
+}
+Eigen::Vector3d planar(const Pose& pose) {
+  return {pose.p[0], pose.p[1], std::atan2(pose.R(1, 0), pose.R(0, 0))};
+}
+
+}  // namespace
+
+namespace internal {
+
+void requireSound(const PlanarPoseGraph& graph) {
+  for (Eigen::Index i = 0; i < graph.poses.cols(); ++i)
+    if (!graph.poses.col(i).allFinite())
+      throw Error({.what = fmt::format("pose {}", i), .found = "numbers that are not finite"});
+  requireEdges(graph);
+}
+
+void requireSound(const SpatialPoseGraph& graph) {
+  for (std::size_t i = 0; i < graph.poses.size(); ++i)
+    if (!isSound(graph.poses[i]))
+      throw Error({.what = fmt::format("pose {}", i), .found = "numbers that are no pose"});
+  requireEdges(graph);
+}
+
+void requireConnected(const PlanarPoseGraph& graph) { requireAllReached(graph); }
+void requireConnected(const SpatialPoseGraph& graph) { requireAllReached(graph); }
+
+}  // namespace internal
+
+void setOdometryPoses(PlanarPoseGraph& graph) {
+  internal::requireSound(graph);
+  internal::requireConnected(graph);
+  spread(graph, [&](const PlanarEdge& edge, int known, int other) {
+    const Pose motion = spatial(edge.motion), X = spatial(graph.poses.col(known));
+    graph.poses.col(other) = planar(X * (known == edge.from ? motion : motion.inverse()));
+  });
+}
+
+void setOdometryPoses(SpatialPoseGraph& graph) {
+  internal::requireSound(graph);
+  internal::requireConnected(graph);
+  spread(graph, [&](const SpatialEdge& edge, int known, int other) {
+    graph.poses[static_cast<std::size_t>(other)] = graph.poses[static_cast<std::size_t>(known)] *
+                                                   (known == edge.from ? edge.motion : edge.motion.inverse());
+  });
+}
+
+}  // namespace rex

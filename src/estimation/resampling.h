@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "base/vector_arg.h"
+
+namespace rex {
+
+class Rng;
+
+/// How parents are drawn by their weights; all are unbiased: parent i has `count` w_i children on average.
+/// Douc, Cappe and Moulines 2005.
+enum class Resampling {
+  kMultinomial,  ///< each child by itself
+  kResidual,  ///< the whole part of count w_i for certain, the rest by chance (slide 7:23; Liu and Chen 1998)
+  kStratified,  ///< one draw in each of `count` equal slices
+  kSystematic   ///< the same place in each slice: one random number
+};
+
+/// The parents of `count` children, in ascending order. Weights need not sum to one. Throws Error for weights
+/// that are negative or not finite, naming the first, or all zero, and a negative count.
+[[nodiscard]] std::vector<int> resampled(const VectorArg& weights, int count, Resampling how, Rng& rng);
+/// Into a vector that is resized.
+void resample(const VectorArg& weights, int count, Resampling how, Rng& rng, std::vector<int>& parents);
+
+/// (sum w)^2 / sum w^2: how many particles of equal weight would be as good. Throws as resampled.
+[[nodiscard]] double effectiveSampleSize(const VectorArg& weights);
+
+/// How many particles keep the Kullback-Leibler distance to a distribution on `cells` occupied cells below
+/// `error` with the probability whose normal quantile is given (2.326: 99 %). Fox 2003, equation 7. Throws
+/// Error for an error or quantile that is not positive, and less than one cell.
+[[nodiscard]] int adaptiveSampleSize(int cells, double error, double quantile = 2.326);
+
+}  // namespace rex

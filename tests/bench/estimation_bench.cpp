@@ -1,0 +1,74 @@
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "base/rng.h"
+#include "bench/row.h"
+#include "estimation/ekf_slam.h"
+#include "estimation/pose_graph.h"
+#include "estimation/street_graph.h"
+#ifdef REX_WITH_CERES
+#include "bench/ceres_peer.h"
+#endif
+
+namespace rex::bench {
+namespace {
+
+// As large as the well-known map of Manhattan.
+constexpr int kPoses = 3500;
+
+Row poseGraphRow() {
+  Rng rng(1);
+  const auto graph = std::make_shared<const PlanarPoseGraph>(test::streets(kPoses, 0.05, rng));
+  const auto ours = [graph] {
+    PlanarPoseGraph moved = *graph;
+    return optimize(moved).cost;
+  };
+  Row row{.name = "pose-graph-3500",
+          .ours = timed([=] { (void)ours(); }),
+          .peerName = "Ceres",
+          .target = 0.25,
+          .unit = "ms",
+          .repetitions = 5};
+#ifdef REX_WITH_CERES
+  const auto peer = [graph] {
+    PlanarPoseGraph moved = *graph;
+    return optimizeByCeres(moved);
+  };
+  if (ours() > peer() * (1 + 1e-6)) throw std::logic_error("Ceres finds a better map");
+  row.peer = timed([=] { (void)peer(); });
+#endif
+  return row;
+}
+
+// An update of 500 landmarks and a pose by one sighting, against what it cannot do without: a symmetric
+// update of that covariance by two columns.
+Row slamUpdateRow() {
+  constexpr int kLandmarks = 500;
+  Rng rng(2);
+  const auto slam = std::make_shared<EkfSlam>(
+      Gaussian{Eigen::Vector3d::Zero(), 0.01 * Eigen::Matrix3d::Identity()}, LandmarkSensor{});
+  for (int i = 0; i < kLandmarks; ++i) slam->observe(i, 20 * Eigen::Vector2d(rng.normalVector(2)));
+  const auto sighted = std::make_shared<int>(0);
+  const auto ours = timed([=] {
+    const int i = *sighted = (*sighted + 1) % kLandmarks;
+    slam->observe(i, slam->landmark(i).mean);
+  });
+  const Eigen::Index n = 3 + 2 * kLandmarks;
+  const auto covariance = std::make_shared<Eigen::MatrixXd>(Eigen::MatrixXd::Identity(n, n));
+  const Eigen::MatrixXd columns = 1e-3 * Eigen::MatrixXd::Random(n, 2);
+  const auto floor = timed([=] { covariance->selfadjointView<Eigen::Lower>().rankUpdate(columns, -1e-9); });
+  return {.name = "ekf-slam-500",
+          .ours = ours,
+          .peerName = "rank-2 update",
+          .peer = floor,
+          .target = 2.,
+          .unit = "us"};
+}
+
+}  // namespace
+
+std::vector<Row> estimationRows() { return {poseGraphRow(), slamUpdateRow()}; }
+
+}  // namespace rex::bench

@@ -1,0 +1,172 @@
+#include "control/riccati.h"
+
+#include <cmath>
+#include <fstream>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <unsupported/Eigen/KroneckerProduct>
+
+#include "base/rng.h"
+#include "support/expect_error.h"
+
+namespace rex {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+Eigen::MatrixXd matrixOf(const json& rows) {
+  Eigen::MatrixXd M(rows.size(), rows[0].size());
+  for (Eigen::Index i = 0; i < M.rows(); ++i)
+    for (Eigen::Index k = 0; k < M.cols(); ++k)
+      M(i, k) = rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)].get<double>();
+  return M;
+}
+
+bool isReal(const json& one) {
+  for (const char* key : {"A", "B", "Q", "R"})
+    if (!one[key].is_array()) return false;
+  return true;
+}
+
+Eigen::MatrixXd randomMatrix(Eigen::Index rows, Eigen::Index cols, Rng& rng) {
+  Eigen::MatrixXd M(rows, cols);
+  for (auto column : M.colwise()) column = rng.normalVector(static_cast<int>(rows));
+  return M;
+}
+
+// References of 80 digits. Each within ten times the error of a well-known solver, at least 1e-13.
+TEST(Riccati, AgreesWithTheGoldenNumbers) {
+  std::ifstream stream(REX_SOURCE_DIR "/tests/golden/riccati.json");
+  const json golden = json::parse(stream);
+  int count = 0;
+  for (const char* kind : {"care", "dare"}) {
+    for (const json& one : golden[kind]) {
+      if (!isReal(one)) continue;
+      ++count;
+      const auto solve = std::string(kind) == "care" ? solveCare : solveDare;
+      const RiccatiResult result =
+          solve(matrixOf(one["A"]), matrixOf(one["B"]), matrixOf(one["Q"]), matrixOf(one["R"]));
+      const bool isLimit =
+          one.contains("note") && one["note"].get<std::string>().find("ON the") != std::string::npos;
+      EXPECT_EQ(result.status, isLimit ? RiccatiStatus::kOnBoundary : RiccatiStatus::kSolved)
+          << one["id"] << result.message;
+      const Eigen::MatrixXd X = matrixOf(one["X"]), K = matrixOf(one["K"]);
+      const double bar = std::max(1e-13, 10 * one["scipy_relerr"].get<double>());
+      EXPECT_LE((result.X - X).norm(), bar * X.norm()) << one["id"];
+      EXPECT_LE((result.K - K).norm(), std::max(1e-10, 10 * bar) * std::max(K.norm(), 1e-3)) << one["id"];
+    }
+  }
+  EXPECT_EQ(count, 19);
+}
+
+TEST(Riccati, RandomProblemsAreSolvedAndStable) {
+  Rng rng(41);
+  for (int round = 0; round < 200; ++round) {
+    const int n = 1 + rng.index(8), m = 1 + rng.index(3);
+    const Eigen::MatrixXd A = randomMatrix(n, n, rng), B = randomMatrix(n, m, rng),
+                          C = randomMatrix(n, n, rng);
+    const Eigen::MatrixXd Q = C * C.transpose(),
+                          R = Eigen::MatrixXd::Identity(m, m) * std::pow(10, rng.uniform(-3, 3));
+    const RiccatiResult care = solveCare(A, B, Q, R), dare = solveDare(A, B, Q, R);
+    ASSERT_EQ(care.status, RiccatiStatus::kSolved) << care.message;
+    ASSERT_EQ(dare.status, RiccatiStatus::kSolved) << dare.message;
+    EXPECT_LT(care.closedLoop.real().maxCoeff(), 0);
+    EXPECT_LT(dare.closedLoop.cwiseAbs().maxCoeff(), 1);
+    const Eigen::MatrixXd &X = care.X, &Y = dare.X;
+    const Eigen::MatrixXd continuous =
+        A.transpose() * X + X * A - X * B * R.inverse() * B.transpose() * X + Q;
+    EXPECT_LT(continuous.norm(),
+              1e-9 * (X.norm() * A.norm() + (X * B * R.inverse() * B.transpose() * X).norm()));
+    const Eigen::MatrixXd gain = (R + B.transpose() * Y * B).inverse() * B.transpose() * Y * A;
+    EXPECT_LT((A.transpose() * Y * (A - B * gain) + Q - Y).norm(), 1e-9 * Y.norm() * (1 + A.squaredNorm()));
+    EXPECT_LT((gain - dare.K).norm(), 1e-9 * (1 + gain.norm()));
+  }
+}
+
+// The discrete equation iterated from the end of a long horizon, slide 8:19.
+TEST(Riccati, IsTheLimitOfAFiniteHorizon) {
+  Rng rng(42);
+  const Eigen::MatrixXd A = randomMatrix(4, 4, rng), B = randomMatrix(4, 2, rng);
+  const Eigen::MatrixXd Q = Eigen::MatrixXd::Identity(4, 4), R = Eigen::MatrixXd::Identity(2, 2);
+  Eigen::MatrixXd X = Q;
+  for (int t = 0; t < 2000; ++t) {
+    const Eigen::MatrixXd K = (R + B.transpose() * X * B).inverse() * B.transpose() * X * A;
+    X = A.transpose() * X * (A - B * K) + Q;
+  }
+  EXPECT_LT((solveDare(A, B, Q, R).X - X).norm(), 1e-10 * X.norm());
+}
+
+TEST(Riccati, LyapunovEquationsAreLinearSystems) {
+  Rng rng(43);
+  for (int n = 1; n <= 6; ++n) {
+    const Eigen::MatrixXd A = randomMatrix(n, n, rng), C = randomMatrix(n, n, rng), Q = C + C.transpose();
+    const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(n, n), At = A.transpose();
+    const Eigen::MatrixXd continuous = Eigen::kroneckerProduct(I, At) + Eigen::kroneckerProduct(At, I);
+    const Eigen::MatrixXd discrete =
+        Eigen::MatrixXd(Eigen::kroneckerProduct(At, At)) - Eigen::MatrixXd::Identity(n * n, n * n);
+    const Eigen::VectorXd q = -Q.reshaped();
+    const Eigen::VectorXd x = continuous.fullPivLu().solve(q), y = discrete.fullPivLu().solve(q);
+    EXPECT_LT((solveLyapunov(A, Q).reshaped() - x).norm(), 1e-9 * (1 + x.norm()));
+    EXPECT_LT((solveDiscreteLyapunov(A, Q).reshaped() - y).norm(), 1e-9 * (1 + y.norm()));
+  }
+}
+
+TEST(Riccati, NamesTheModeThatIsInTheWay) {
+  const Eigen::Matrix2d A = Eigen::Vector2d(1, -1).asDiagonal(), I = Eigen::Matrix2d::Identity();
+  const Eigen::Matrix2d turning = (Eigen::Matrix2d() << 0, 2, -2, 0).finished();
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(1, 1);
+  const RiccatiResult unreachable = solveCare(A, Eigen::Vector2d(0, 1), I, one);
+  EXPECT_EQ(unreachable.status, RiccatiStatus::kNotStabilizable);
+  EXPECT_THAT(unreachable.message, HasSubstr("the control cannot reach the mode of eigenvalue 1"));
+  EXPECT_EQ(unreachable.X.size(), 0);
+  EXPECT_EQ(solveCare(A, Eigen::Vector2d(1, 0), I, one).status, RiccatiStatus::kSolved)
+      << "the other mode decays";
+  const RiccatiResult unseen = solveCare(turning, Eigen::Vector2d(0, 1), Eigen::Matrix2d::Zero(), one);
+  EXPECT_EQ(unseen.status, RiccatiStatus::kNotDetectable);
+  EXPECT_THAT(unseen.message, HasSubstr("the cost does not see the mode of eigenvalue 0"));
+  EXPECT_THAT(unseen.message, HasSubstr("2i"));
+  const RiccatiResult outside =
+      solveDare(Eigen::Vector2d(2, .5).asDiagonal().toDenseMatrix(), Eigen::Vector2d(0, 1), I, one);
+  EXPECT_EQ(outside.status, RiccatiStatus::kNotStabilizable);
+  EXPECT_THAT(outside.message, HasSubstr("eigenvalue 2"));
+  const RiccatiResult circling = solveDare(I, Eigen::Vector2d(1, 0), Eigen::Matrix2d::Zero(), one);
+  EXPECT_NE(circling.status, RiccatiStatus::kSolved);
+  const RiccatiResult impossible = solveCare(I, I, -100 * I, I);
+  EXPECT_EQ(impossible.status, RiccatiStatus::kFailed) << impossible.message;
+  EXPECT_THAT(impossible.message, HasSubstr("no stabilizing solution"));
+}
+
+TEST(Riccati, SaysWhatIsWrong) {
+  const Eigen::Matrix2d I = Eigen::Matrix2d::Identity();
+  const Eigen::Vector2d b(0, 1);
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(1, 1);
+  EXPECT_REX_ERROR(solveCare(Eigen::MatrixXd::Zero(2, 3), b, I, one),
+                   "columns of A: found a vector of size 3, wanted size 2");
+  EXPECT_REX_ERROR(solveCare(I, Eigen::Vector3d(0, 0, 1), I, one), "rows of B: found a vector of size 3");
+  EXPECT_REX_ERROR(solveCare(I, b, one, one), "rows of Q: found a vector of size 1");
+  EXPECT_REX_ERROR(solveCare(I, b, I, I), "rows of R: found a vector of size 2");
+  EXPECT_REX_ERROR(solveCare(I * NAN, b, I, one), "matrix A: found entries that are not finite");
+  EXPECT_REX_ERROR(solveCare(I, b, I, 0 * one),
+                   "matrix R: found the eigenvalue 0, wanted a positive definite matrix");
+  EXPECT_REX_ERROR(solveCare(I, b, I, -one),
+                   "matrix R: found the eigenvalue -1, wanted a positive definite matrix");
+  EXPECT_REX_ERROR(solveDare(I, b, I, -one),
+                   "matrix R: found the eigenvalue -1, wanted no negative eigenvalue");
+  const Eigen::Matrix2d skewed = (Eigen::Matrix2d() << 1, 1, 0, 1).finished();
+  EXPECT_REX_ERROR(solveCare(I, b, skewed, one), "matrix Q: found a matrix that is not symmetric");
+  EXPECT_REX_ERROR(solveCare(Eigen::MatrixXd(0, 0), Eigen::MatrixXd(0, 1), Eigen::MatrixXd(0, 0), one),
+                   "no state or no control");
+  EXPECT_REX_ERROR(solveLyapunov(Eigen::Vector2d(1, -1).asDiagonal().toDenseMatrix(), I),
+                   "Lyapunov equation: found the eigenvalue -1+0i of A and another with a sum of zero");
+  EXPECT_REX_ERROR(solveDiscreteLyapunov(I, I), "of A and another with a product of one");
+  EXPECT_REX_ERROR(solveLyapunov(I, one), "rows of Q: found a vector of size 1, wanted size 2");
+  EXPECT_REX_ERROR(solveLyapunov(I * INFINITY, I), "matrix A: found entries that are not finite");
+  EXPECT_REX_ERROR(solveLyapunov(I, I * INFINITY), "matrix Q: found entries that are not finite");
+}
+
+}  // namespace
+}  // namespace rex

@@ -1,0 +1,116 @@
+#include "estimation/fast_slam.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "slam_world.h"
+#include "support/expect_error.h"
+
+namespace rex {
+namespace {
+
+using Kind = LandmarkSensor::Kind;
+
+struct Outcome {
+  double poseError = 0, mapError = 0, effectiveSize = 0;
+};
+
+Outcome run(Kind kind, bool observed, int particles, Rng& rng) {
+  test::SlamWorld world(kind, 5, rng);
+  FastSlam slam(Eigen::Vector3d::Zero(), world.sensor,
+                {.particles = particles, .observedProposal = observed});
+  Outcome outcome;
+  const int steps = 40;
+  for (int t = 0; t < steps; ++t) {
+    world.drive(rng);
+    std::vector<LandmarkSighting> sightings;
+    for (int i = 0; i < 5; ++i) sightings.push_back({i, world.look(static_cast<std::size_t>(i), rng)});
+    const FastSlamStep step = slam.step(world.transition(), sightings, rng);
+    EXPECT_FALSE(step.lost);
+    outcome.effectiveSize += step.effectiveSize / steps / particles;
+    outcome.poseError += (slam.meanPose() - world.x).head<2>().norm() / steps;
+  }
+  for (int i = 0; i < 5; ++i)
+    outcome.mapError +=
+        (slam.landmark(slam.likeliest(), i).mean - world.landmarks[static_cast<std::size_t>(i)]).norm() / 5;
+  return outcome;
+}
+
+// As good as Kalman SLAM on the same problem, for which all is nearly linear.
+TEST(FastSlam, MapsAndLocalises) {
+  for (const Kind kind : {Kind::kCartesian, Kind::kRangeBearing}) {
+    for (const bool observed : {false, true}) {
+      Outcome mean;
+      double ekf = 0;
+      const int runs = 10;
+      for (int seed = 0; seed < runs; ++seed) {
+        Rng rng(static_cast<std::uint64_t>(70 + seed)), same = rng;
+        const Outcome one = run(kind, observed, 200, rng);
+        mean.poseError += one.poseError / runs;
+        mean.mapError += one.mapError / runs;
+        test::SlamWorld world(kind, 5, same);
+        EkfSlam slam({Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()}, world.sensor);
+        for (int t = 0; t < 40; ++t) {
+          world.drive(same);
+          slam.predict(world.transition());
+          for (int i = 0; i < 5; ++i) slam.observe(i, world.look(static_cast<std::size_t>(i), same));
+        }
+        for (int i = 0; i < 5; ++i)
+          ekf += (slam.landmark(i).mean - world.landmarks[static_cast<std::size_t>(i)]).norm() / 5 / runs;
+      }
+      EXPECT_LT(mean.poseError, .2);
+      EXPECT_LT(mean.mapError, 1.6 * ekf + .05);
+    }
+  }
+}
+
+TEST(FastSlam, DrawingWhereSightingsAreLikelyKeepsParticlesAlive) {
+  double plain = 0, observed = 0;
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    Rng a(seed), b(seed);
+    plain += run(Kind::kRangeBearing, false, 50, a).effectiveSize / 5;
+    observed += run(Kind::kRangeBearing, true, 50, b).effectiveSize / 5;
+  }
+  EXPECT_GT(observed, plain);
+}
+
+TEST(FastSlam, SameSeedSameMap) {
+  Rng a(1), b(1);
+  const Outcome first = run(Kind::kCartesian, true, 30, a), second = run(Kind::kCartesian, true, 30, b);
+  EXPECT_EQ(first.mapError, second.mapError);
+  EXPECT_EQ(first.poseError, second.poseError);
+}
+
+TEST(FastSlam, SurvivesWhatNoParticleExplains) {
+  Rng rng(2);
+  const test::SlamWorld world(Kind::kCartesian, 1, rng);
+  FastSlam slam(Eigen::Vector3d::Zero(), world.sensor, {.particles = 20});
+  const LandmarkSighting near{0, {1, 1}}, absurd{0, {1e200, 0}};
+  EXPECT_FALSE(slam.step(world.transition(), std::vector{near}, rng).lost);
+  EXPECT_TRUE(slam.step(world.transition(), std::vector{absurd}, rng).lost);
+  EXPECT_NEAR(slam.weights().sum(), 1, 1e-12);
+}
+
+TEST(FastSlam, SaysWhatIsWrong) {
+  Rng rng(3);
+  const test::SlamWorld world(Kind::kCartesian, 1, rng);
+  EXPECT_REX_ERROR(FastSlam(Eigen::Vector3d::Zero(), {}, {.particles = 0}),
+                   "particles: found 0, wanted one or more");
+  EXPECT_REX_ERROR(FastSlam(Eigen::Vector3d::Zero(), {}, {.threshold = 2}),
+                   "threshold of resampling: found 2");
+  EXPECT_REX_ERROR(FastSlam(Eigen::Vector3d(0, 0, INFINITY), {}), "pose: number 2: found inf");
+  EXPECT_REX_ERROR(FastSlam(Eigen::Vector3d::Zero(), {.W = -Eigen::Matrix2d::Identity()}),
+                   "covariance of the sensor");
+  FastSlam slam(Eigen::Vector3d::Zero(), world.sensor, {.particles = 3});
+  const LandmarkSighting second{1, {1, 1}}, wrong{0, {std::nan(""), 0}};
+  EXPECT_REX_ERROR(slam.step(world.transition(), std::vector{second}, rng),
+                   "landmark that is seen: found 1, wanted 0 to -1, or 0 for a new one");
+  EXPECT_REX_ERROR(slam.step(world.transition(), std::vector{wrong}, rng), "sighting: number 0: found nan");
+  EXPECT_REX_ERROR(slam.step({}, {}, rng), "transition: found no function for its mean");
+  EXPECT_REX_ERROR(slam.landmark(0, 0), "landmark: found 0");
+  EXPECT_REX_ERROR(slam.landmark(3, 0), "particle: found 3, wanted 0 to 2");
+}
+
+}  // namespace
+}  // namespace rex

@@ -1,0 +1,113 @@
+#include "estimation/g2o_file.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "support/expect_error.h"
+
+namespace rex {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* kPlanar =
+    "# two rooms\n"
+    "VERTEX_SE2 7 1 +2 0.5\r\n"
+    "VERTEX_SE2 3 0 0 0\n"
+    "FIX 3\n\n"
+    "EDGE_SE2 3 7 1 2 .5 10 1 2 20 3 30\n";
+
+constexpr const char* kSpatial =
+    "EDGE_SE3:QUAT 0 1 1 0 0 0 0 0.6 0.8 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 4 0 0 4 0 4\n"
+    "EDGE_SE3:QUAT 1 2 0 1 0 0 0 0 1 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 4 0 0 4 0 4\n";
+
+TEST(G2oFile, ReadsPlanarPoses) {
+  const G2oFile file = parseG2o(kPlanar);
+  const auto& graph = std::get<PlanarPoseGraph>(file.graph);
+  EXPECT_TRUE(file.hasPoses);
+  EXPECT_THAT(file.ids, testing::ElementsAre(3, 7));
+  EXPECT_EQ(graph.poses.col(1), Eigen::Vector3d(1, 2, .5));
+  ASSERT_EQ(graph.edges.size(), 1u);
+  EXPECT_EQ(graph.edges[0].to, 1);
+  Eigen::Matrix3d information;
+  information << 10, 1, 2, 1, 20, 3, 2, 3, 30;
+  EXPECT_EQ(graph.edges[0].information, information);
+  EXPECT_TRUE(file.notes.empty()) << "the first pose is fixed anyway";
+}
+
+TEST(G2oFile, PosesFollowFromMotions) {
+  const G2oFile file = parseG2o(kSpatial);
+  const auto& graph = std::get<SpatialPoseGraph>(file.graph);
+  EXPECT_FALSE(file.hasPoses);
+  // The first motion turns by 2 asin(0.6) about z.
+  EXPECT_NEAR((graph.poses[2].p - Eigen::Vector3d(1 - .96, .28, 0)).norm(), 0, 1e-12);
+}
+
+TEST(G2oFile, WritesWhatItReads) {
+  const std::string planar = writeG2o(parseG2o(kPlanar));
+  EXPECT_EQ(writeG2o(parseG2o(planar)), planar);
+  const auto space = std::get<SpatialPoseGraph>(parseG2o(kSpatial).graph);
+  const G2oFile written = parseG2o(writeG2o(parseG2o(kSpatial)));
+  EXPECT_TRUE(written.hasPoses);
+  const auto spaceAgain = std::get<SpatialPoseGraph>(written.graph);
+  ASSERT_EQ(spaceAgain.poses.size(), space.poses.size());
+  for (std::size_t i = 0; i < space.poses.size(); ++i)
+    EXPECT_TRUE(isApprox(spaceAgain.poses[i], space.poses[i], 1e-15));
+  EXPECT_EQ(spaceAgain.edges[1].information, space.edges[1].information);
+  const auto first = std::get<PlanarPoseGraph>(parseG2o(kPlanar).graph);
+  const auto again = std::get<PlanarPoseGraph>(parseG2o(writeG2o(parseG2o(kPlanar))).graph);
+  EXPECT_EQ(first.poses, again.poses);
+  EXPECT_EQ(first.edges[0].motion, again.edges[0].motion);
+  EXPECT_EQ(first.edges[0].information, again.edges[0].information);
+}
+
+TEST(G2oFile, NotesWhatItDoesNotNeed) {
+  std::string text = kPlanar;
+  text.replace(text.find("FIX 3"), 5, "FIX 7");
+  const G2oFile file = parseG2o(text, "map.g2o");
+  ASSERT_EQ(file.notes.size(), 1u);
+  EXPECT_THAT(toString(file.notes[0]), HasSubstr("map.g2o:4:5: note: FIX 7 is not needed: pose 3 stays"));
+}
+
+std::string with(const char* line) { return std::string(kPlanar) + line; }
+
+TEST(G2oFile, SaysWhereAndWhatIsWrong) {
+  const auto read = [](const std::string& text) { return parseG2o(text, "map.g2o"); };
+  EXPECT_REX_ERROR(read(with("EDGE_SE3 1 2\n")),
+                   "map.g2o:7:1: pose graph: found 'EDGE_SE3', wanted VERTEX_SE2");
+  EXPECT_REX_ERROR(read(with("EDGE_SE22 1 2\n")), "did you mean 'EDGE_SE2'");
+  EXPECT_REX_ERROR(read(with("VERTEX_SE2 9 0 0\n")), "map.g2o:7:16: VERTEX_SE2: found 3 numbers, wanted 4");
+  EXPECT_REX_ERROR(read(with("VERTEX_SE2 9 0 0 0 0\n")),
+                   "map.g2o:7:20: VERTEX_SE2: found 5 numbers, wanted 4");
+  EXPECT_REX_ERROR(read(with("VERTEX_SE2 9 0 zero 0\n")),
+                   "map.g2o:7:16: VERTEX_SE2: found 'zero', wanted a finite number");
+  EXPECT_REX_ERROR(read(with("VERTEX_SE2 9 0 nan 0\n")), "found 'nan', wanted a finite number");
+  EXPECT_REX_ERROR(read(with("VERTEX_SE2 9 0 1e999 0\n")), "found '1e999', wanted a finite number");
+  EXPECT_REX_ERROR(read(with("VERTEX_SE2 1.5 0 0 0\n")),
+                   "map.g2o:7:12: VERTEX_SE2: found '1.5', wanted a whole number");
+  EXPECT_REX_ERROR(read(with("VERTEX_SE2 7 0 0 0\n")), "map.g2o:7:12: VERTEX_SE2: found a second pose 7");
+  EXPECT_REX_ERROR(read(with("EDGE_SE2 3 8 1 2 .5 10 0 0 20 0 30\n")),
+                   "map.g2o:7:12: EDGE_SE2: found pose 8, which the file does not have");
+  EXPECT_REX_ERROR(read(with("EDGE_SE2 3 3 1 2 .5 10 0 0 20 0 30\n")),
+                   "map.g2o:7:12: EDGE_SE2: found pose 3 again, wanted two different poses");
+  EXPECT_REX_ERROR(
+      read(with("EDGE_SE2 3 7 1 2 .5 10 0 0 20 0 -30\n")),
+      "map.g2o:7: EDGE_SE2: information: found the eigenvalue -30, wanted no negative eigenvalue");
+  EXPECT_REX_ERROR(read(with("FIX 8\n")), "map.g2o:7:5: FIX: found pose 8, which the file does not have");
+  EXPECT_REX_ERROR(
+      read(with("VERTEX_SE3:QUAT 9 0 0 0 0 0 0 1\n")),
+      "map.g2o:7:1: pose graph: found VERTEX_SE3:QUAT among VERTEX_SE2, wanted planar or spatial poses only");
+  EXPECT_REX_ERROR(read("VERTEX_SE3:QUAT 9 0 0 0 0 0 0 2\nEDGE_SE3:QUAT 1 2\n"),
+                   "map.g2o:1:25: VERTEX_SE3:QUAT: quaternion: found length 2, wanted length 1");
+  EXPECT_REX_ERROR(read("VERTEX_SE2 9 0 0 0\n"), "map.g2o: pose graph: found no edges, wanted one or more");
+  EXPECT_REX_ERROR(read(""), "map.g2o: pose graph: found no edges");
+  EXPECT_REX_ERROR(readG2o("none.g2o"), "none.g2o: pose graph: found no file that can be read");
+  EXPECT_REX_ERROR(readG2o("."), "found no file that can be read");
+  EXPECT_REX_ERROR(read("EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2 2 3 1 0 0 1 0 0 1 0 1\n"),
+                   "pose graph: pose 2: found no edges that join it to pose 0");
+}
+
+}  // namespace
+}  // namespace rex

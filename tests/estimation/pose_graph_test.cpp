@@ -1,0 +1,329 @@
+#include "estimation/pose_graph.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "base/rng.h"
+#include "estimation/g2o_file.h"
+#include "estimation/kalman_filter.h"
+#include "estimation/pose_edge_internal.h"
+#include "estimation/smoother.h"
+#include "geometry/lie.h"
+#include "geometry/rotation.h"
+#include "optim/derivative_check.h"
+#include "random_gaussian.h"
+#include "street_graph.h"
+#include "support/expect_error.h"
+
+namespace rex {
+namespace {
+
+using internal::PlanarGraphTraits;
+using internal::SpatialGraphTraits;
+using test::planarMotion;
+using test::streets;
+
+constexpr PoseGraphObjective kObjectives[] = {PoseGraphObjective::kChi2, PoseGraphObjective::kSESync};
+
+Pose randomPose(Rng& rng, double spread) {
+  return {expSO3(spread * rng.normalVector(3)), spread * rng.normalVector(3)};
+}
+
+SpatialPoseGraph ball(int poses, double noise, Rng& rng) {
+  std::vector<Pose> X;
+  for (int i = 0; i < poses; ++i) {
+    const double turn = .3 * i, height = 2. * i / poses - 1;
+    const double radius = std::sqrt(1 - height * height);
+    X.push_back({expSO3({.2 * i, .1 * i, turn}),
+                 10 * Eigen::Vector3d(radius * std::cos(turn), radius * std::sin(turn), height)});
+  }
+  SpatialPoseGraph graph{std::vector<Pose>(X.size()), {}};
+  graph.poses[0] = X[0];
+  const auto measure = [&](std::size_t i, std::size_t j) {
+    const Pose motion = X[i].inverse() * X[j];
+    Matrix6d information = Matrix6d::Identity() / noise / noise;
+    information.bottomRightCorner<3, 3>() *= 16;
+    graph.edges.push_back(
+        {static_cast<int>(i),
+         static_cast<int>(j),
+         {motion.R * expSO3(.5 * noise * rng.normalVector(3)), motion.p + noise * rng.normalVector(3)},
+         information});
+  };
+  for (std::size_t i = 1; i < X.size(); ++i) measure(i - 1, i);
+  for (std::size_t i = 0; i + 21 < X.size(); ++i) measure(i, i + 21);
+  setOdometryPoses(graph);
+  return graph;
+}
+
+// Every Jacobian of an edge against differences, at no error, at 1e-8 and at random.
+TEST(PoseGraph, PlanarJacobiansAreDerivatives) {
+  Rng rng(51);
+  for (const PoseGraphObjective objective : kObjectives) {
+    for (const double size : {0., 1e-8, 1.}) {
+      PlanarPoseGraph graph{Eigen::Matrix3Xd(3, 3), {}};
+      graph.poses.col(0).setZero();
+      graph.poses.col(1) = rng.normalVector(3);
+      graph.poses.col(2) = rng.normalVector(3);
+      const Eigen::Vector3d exact = planarMotion(graph.poses.col(1), graph.poses.col(2));
+      graph.edges.push_back({1, 2, exact + size * rng.normalVector(3), test::randomCovariance(3, rng)});
+      const auto term = PlanarGraphTraits::term(graph, graph.edges[0], objective);
+      Eigen::MatrixXd J(3, 6);
+      J << term.Ji, term.Jj;
+      const auto error = [&](const Eigen::VectorXd& delta) -> Eigen::VectorXd {
+        PlanarPoseGraph moved = graph;
+        PlanarGraphTraits::step(moved, delta);
+        return PlanarGraphTraits::term(moved, moved.edges[0], objective).e;
+      };
+      const JacobianCheck check = checkJacobian(error, J, Eigen::VectorXd::Zero(6), 1e-7);
+      EXPECT_TRUE(check.ok) << check.message;
+    }
+  }
+}
+
+TEST(PoseGraph, SpatialJacobiansAreDerivatives) {
+  Rng rng(52);
+  for (const double size : {0., 1e-8, .7}) {
+    SpatialPoseGraph graph{{Pose{}, randomPose(rng, 1), randomPose(rng, 1)}, {}};
+    const Pose exact = graph.poses[1].inverse() * graph.poses[2];
+    graph.edges.push_back({1, 2, exact * randomPose(rng, size), test::randomCovariance(6, rng)});
+    const auto term = SpatialGraphTraits::term(graph, graph.edges[0], PoseGraphObjective::kChi2);
+    Eigen::MatrixXd J(6, 12);
+    J << term.Ji, term.Jj;
+    const auto error = [&](const Eigen::VectorXd& delta) -> Eigen::VectorXd {
+      SpatialPoseGraph moved = graph;
+      SpatialGraphTraits::step(moved, delta);
+      return SpatialGraphTraits::term(moved, moved.edges[0], PoseGraphObjective::kChi2).e;
+    };
+    const JacobianCheck check = checkJacobian(error, J, Eigen::VectorXd::Zero(12), 1e-7);
+    EXPECT_TRUE(check.ok) << check.message;
+  }
+}
+
+// The objectives as their papers write them.
+TEST(PoseGraph, CostsAreTheFormulas) {
+  Rng rng(53);
+  const PlanarPoseGraph graph = streets(60, .2, rng);
+  double chi2 = 0, sesync = 0;
+  for (const PlanarEdge& edge : graph.edges) {
+    const auto R = [](double a) -> Eigen::Matrix2d { return Eigen::Rotation2Dd(a).toRotationMatrix(); };
+    const Eigen::Vector3d xi = graph.poses.col(edge.from), xj = graph.poses.col(edge.to);
+    const Eigen::Vector3d relative = planarMotion(xi, xj), e = planarMotion(edge.motion, relative);
+    chi2 += e.dot(edge.information * e);
+    const double tau = 2 / edge.information.topLeftCorner<2, 2>().inverse().trace();
+    sesync += edge.information(2, 2) * (R(xj[2]) - R(xi[2]) * R(edge.motion[2])).squaredNorm() +
+              tau * (xj.head<2>() - xi.head<2>() - R(xi[2]) * edge.motion.head<2>()).squaredNorm();
+  }
+  EXPECT_NEAR(poseGraphCost(graph), chi2, 1e-9 * chi2);
+  EXPECT_NEAR(poseGraphCost(graph, {.objective = PoseGraphObjective::kSESync}), sesync, 1e-9 * sesync);
+
+  const SpatialPoseGraph space = ball(40, .2, rng);
+  sesync = 0;
+  for (const SpatialEdge& edge : space.edges) {
+    const Pose &X_i = space.poses[static_cast<std::size_t>(edge.from)],
+               &X_j = space.poses[static_cast<std::size_t>(edge.to)];
+    const double tau = 3 / edge.information.topLeftCorner<3, 3>().inverse().trace();
+    const double kappa = 1.5 / edge.information.bottomRightCorner<3, 3>().inverse().trace();
+    sesync += kappa * (X_j.R - X_i.R * edge.motion.R).squaredNorm() +
+              tau * (X_j.p - X_i.p - X_i.R * edge.motion.p).squaredNorm();
+  }
+  EXPECT_NEAR(poseGraphCost(space, {.objective = PoseGraphObjective::kSESync}), sesync, 1e-9 * sesync);
+}
+
+// Along a line nothing turns, so that the graph is a linear-Gaussian problem: a smoother solves it, too.
+TEST(PoseGraph, IsTheSmootherOnALine) {
+  Rng rng(54);
+  const int steps = 20;
+  const auto number = [](double v) { return Eigen::MatrixXd::Constant(1, 1, v); };
+  PlanarPoseGraph graph{Eigen::Matrix3Xd::Zero(3, steps + 1), {}};
+  std::vector<Gaussian> filtered{{number(0), number(0)}};
+  std::vector<LinearModel> walks;
+  double x = 0;
+  for (int t = 1; t <= steps; ++t) {
+    const double move = 1 + .3 * rng.normal();
+    x += move + .2 * rng.normal();
+    graph.edges.push_back({t - 1, t, {move, 0, 0}, Eigen::Vector3d(25, 1, 1).asDiagonal()});
+    walks.push_back({number(1), number(move), number(.04)});
+    Gaussian belief = kalmanPredict(filtered.back(), walks.back());
+    if (t % 3 == 0) {
+      const double seen = x + .1 * rng.normal();
+      graph.edges.push_back({0, t, {seen, 0, 0}, Eigen::Vector3d(100, 1, 1).asDiagonal()});
+      belief = kalmanUpdate(belief, {number(1), number(0), number(.01)}, number(seen)).belief;
+    }
+    filtered.push_back(belief);
+  }
+  ASSERT_EQ(optimize(graph).status, PoseGraphStatus::kConverged);
+  const std::vector<Gaussian> later = smoothed(filtered, walks);
+  for (int t = 0; t <= steps; ++t)
+    EXPECT_NEAR(graph.poses(0, t), later[static_cast<std::size_t>(t)].mean[0], 1e-10);
+}
+
+TEST(PoseGraph, ExactMotionsGiveTheTruth) {
+  Rng rng(55);
+  Eigen::Matrix3Xd truth;
+  PlanarPoseGraph graph = streets(200, 1e-5, rng, &truth);
+  graph.poses.setRandom();
+  graph.poses.col(0).setZero();
+  const PoseGraphResult result = optimize(graph);
+  EXPECT_EQ(result.status, PoseGraphStatus::kConverged) << result.message;
+  EXPECT_LT((graph.poses - truth).topRows<2>().cwiseAbs().maxCoeff(), 1e-3);
+}
+
+// From odometry and from nonsense the same minimum is found; steps of a plain gradient do not go lower.
+TEST(PoseGraph, FindsTheMinimumFromAnywhere) {
+  Rng rng(56);
+  for (const PoseGraphObjective objective : kObjectives) {
+    PlanarPoseGraph graph = streets(300, .05, rng), lost = graph;
+    for (Eigen::Index i = 1; i < lost.poses.cols(); ++i) lost.poses.col(i) = 20 * rng.normalVector(3);
+    const PoseGraphResult result = optimize(graph, {.objective = objective});
+    ASSERT_EQ(result.status, PoseGraphStatus::kConverged) << result.message;
+    EXPECT_LT(result.cost, .5 * result.initialCost);
+    EXPECT_NEAR(optimize(lost, {.objective = objective}).cost, result.cost, 1e-9 * result.cost);
+    for (int i = 0; i < 50; ++i) {
+      PlanarPoseGraph moved = graph;
+      PlanarGraphTraits::step(moved, 1e-4 * rng.normalVector(3 * 299));
+      EXPECT_GT(poseGraphCost(moved, {.objective = objective}), result.cost);
+    }
+    SpatialPoseGraph space = ball(120, .1, rng), spaceLost = space;
+    for (std::size_t i = 1; i < spaceLost.poses.size(); ++i) spaceLost.poses[i] = randomPose(rng, 3);
+    const PoseGraphResult spatial = optimize(space, {.objective = objective});
+    ASSERT_EQ(spatial.status, PoseGraphStatus::kConverged) << spatial.message;
+    EXPECT_NEAR(optimize(spaceLost, {.objective = objective}).cost, spatial.cost, 1e-9 * spatial.cost);
+  }
+}
+
+// What is best of all is known to be; what is only best around is not.
+TEST(PoseGraph, ProvesThatItIsTheBest) {
+  Rng rng(59);
+  const PoseGraphOptions sesync{.objective = PoseGraphObjective::kSESync};
+  PlanarPoseGraph graph = streets(300, .05, rng), lost = graph;
+  const PoseGraphResult best = optimize(graph, sesync);
+  EXPECT_LT(certifiedGap(graph), 1e-6 * best.cost);
+  for (Eigen::Index i = 1; i < lost.poses.cols(); ++i) lost.poses.col(i) = 20 * rng.normalVector(3);
+  PoseGraphOptions blind = sesync;
+  blind.chordalStart = false;
+  const PoseGraphResult trapped = optimize(lost, blind);
+  ASSERT_GT(trapped.cost, 2 * best.cost) << "the start was to lead into a trap";
+  EXPECT_GT(certifiedGap(lost), trapped.cost - best.cost);
+
+  SpatialPoseGraph space = ball(120, .1, rng);
+  const PoseGraphResult spatial = optimize(space, sesync);
+  EXPECT_LT(certifiedGap(space), 1e-6 * spatial.cost);
+  space.poses[5].R = space.poses[5].R * expSO3({0, 0, .1});
+  EXPECT_GT(certifiedGap(space), poseGraphCost(space, sesync) - spatial.cost);
+}
+
+// A robust kernel leaves wrong loop closures aside, those that grow slowly enough (Huber's) in part.
+TEST(PoseGraph, KernelsResistWrongClosures) {
+  for (const RobustKernel kernel :
+       {RobustKernel::kHuber, RobustKernel::kCauchy, RobustKernel::kGemanMcClure}) {
+    Rng rng(57);
+    Eigen::Matrix3Xd truth;
+    PlanarPoseGraph graph = streets(200, .02, rng, &truth), plain;
+    const bool isHuber = kernel == RobustKernel::kHuber;
+    const double size = isHuber ? .1 : 1;
+    for (int i = 0; i < 5; ++i) {
+      const Eigen::Vector3d exact = planarMotion(truth.col(10 * i), truth.col(190 - 13 * i));
+      graph.edges.push_back({10 * i, 190 - 13 * i, exact + size * Eigen::Vector3d(5, -4, 2),
+                             Eigen::Vector3d(2500, 2500, 1e4).asDiagonal()});
+    }
+    plain = graph;
+    ASSERT_EQ(optimize(plain).status, PoseGraphStatus::kConverged);
+    const PoseGraphResult result = optimize(
+        graph,
+        {.kernel = kernel, .kernelSize = 3, .chordalStart = false, .maxIterations = 1000, .tolerance = 1e-9});
+    EXPECT_EQ(result.status, PoseGraphStatus::kConverged) << result.message;
+    const double error = (graph.poses - truth).topRows<2>().colwise().norm().maxCoeff();
+    EXPECT_LT((isHuber ? 1.2 : 3.) * error, (plain.poses - truth).topRows<2>().colwise().norm().maxCoeff())
+        << static_cast<int>(kernel) << ": " << result.message;
+  }
+}
+
+TEST(PoseGraph, ExampleIsAsItIsMade) {
+  Rng rng(7);
+  const PlanarPoseGraph made = streets(400, .06, rng);
+  const auto file = std::get<PlanarPoseGraph>(
+      readG2o(std::filesystem::path(REX_SOURCE_DIR) / "data/graphs/streets.g2o").graph);
+  EXPECT_LT((made.poses - file.poses).cwiseAbs().maxCoeff(), 1e-9);
+  ASSERT_EQ(made.edges.size(), file.edges.size());
+  for (std::size_t k = 0; k < made.edges.size(); ++k) {
+    EXPECT_EQ(made.edges[k].from, file.edges[k].from);
+    EXPECT_EQ(made.edges[k].to, file.edges[k].to);
+    EXPECT_LT((made.edges[k].motion - file.edges[k].motion).norm(), 1e-9);
+    EXPECT_LT((made.edges[k].information - file.edges[k].information).norm(), 1e-6);
+  }
+}
+
+// Certified optima of two classic maps; chi2 from the file's poses and from odometry alone.
+class ClassicMap : public testing::TestWithParam<const char*> {};
+
+TEST_P(ClassicMap, ReachesTheCertifiedOptimum) {
+  const std::filesystem::path folder = std::filesystem::path(REX_SOURCE_DIR) / "../shared/data/g2o";
+  const std::string name = GetParam();
+  if (!std::filesystem::exists(folder / (name + ".g2o")))
+    GTEST_SKIP() << "needs the pose graph " << name << ".g2o";
+  std::ifstream stream(folder / "optima.json");
+  const nlohmann::json optima = nlohmann::json::parse(stream)["datasets"][name];
+  const auto graph = std::get<PlanarPoseGraph>(readG2o(folder / (name + ".g2o")).graph);
+  ASSERT_EQ(graph.poses.cols(), optima["n"].get<int>());
+  ASSERT_EQ(graph.edges.size(), optima["m"].get<std::size_t>());
+  PlanarPoseGraph odometry = graph;
+  setOdometryPoses(odometry);
+  if (optima.contains("chi2_g2o_at_file_initial")) {
+    EXPECT_NEAR(poseGraphCost(graph), optima["chi2_g2o_at_file_initial"].get<double>(), 1e-6);
+  }
+  for (PlanarPoseGraph start : {graph, odometry}) {
+    const PoseGraphResult chi2 = optimize(start);
+    EXPECT_EQ(chi2.status, PoseGraphStatus::kConverged) << chi2.message;
+    EXPECT_NEAR(chi2.cost / optima["chi2_g2o"].get<double>(), 1, 1e-9);
+    const PoseGraphResult sesync = optimize(start, {.objective = PoseGraphObjective::kSESync});
+    EXPECT_EQ(sesync.status, PoseGraphStatus::kConverged) << sesync.message;
+    EXPECT_NEAR(sesync.cost / optima["sesync"].get<double>(), 1, 1e-9);
+    EXPECT_LT(certifiedGap(start), 1e-5 * sesync.cost);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(G2o, ClassicMap, testing::Values("intel", "CSAIL"));
+
+TEST(PoseGraph, SaysWhatIsWrong) {
+  Rng rng(58);
+  const PlanarPoseGraph good = streets(6, .1, rng);
+  PlanarPoseGraph bad = good;
+  bad.edges[2].to = 9;
+  EXPECT_REX_ERROR(optimize(bad), "edge 2 from pose 2 to pose 9: found pose 9, wanted 0 to 5");
+  bad = good;
+  bad.edges[2].to = 2;
+  EXPECT_REX_ERROR(poseGraphCost(bad),
+                   "edge 2 from pose 2 to pose 2: found one pose, wanted two different ones");
+  bad = good;
+  bad.edges[1].information(0, 0) = -1;
+  EXPECT_REX_ERROR(optimize(bad), "edge 1 from pose 1 to pose 2: information: found the eigenvalue -1");
+  bad = good;
+  bad.edges[1].motion[2] = std::nan("");
+  EXPECT_REX_ERROR(optimize(bad), "edge 1 from pose 1 to pose 2: motion: found numbers that are no pose");
+  bad = good;
+  bad.edges.erase(bad.edges.begin() + 2);
+  EXPECT_REX_ERROR(optimize(bad), "pose graph: pose 3: found no edges that join it to pose 0");
+  EXPECT_REX_ERROR(setOdometryPoses(bad), "pose graph: pose 3: found no edges that join it to pose 0");
+  bad = good;
+  bad.poses(0, 4) = INFINITY;
+  EXPECT_REX_ERROR(optimize(bad), "pose 4: found numbers that are not finite");
+  SpatialPoseGraph space = ball(30, .1, rng);
+  space.poses[3].R *= 2;
+  EXPECT_REX_ERROR(optimize(space), "pose 3: found numbers that are no pose");
+  bad = good;
+  EXPECT_REX_ERROR(optimize(bad, {.kernelSize = 0}),
+                   "size of the robust kernel: found 0, wanted a positive number");
+  EXPECT_REX_ERROR(optimize(bad, {.maxIterations = -1}), "iterations: found -1, wanted zero or more");
+  EXPECT_REX_ERROR(optimize(bad, {.tolerance = -1}), "tolerance: found -1, wanted zero or more");
+  const PoseGraphResult spent = optimize(bad, {.maxIterations = 0});
+  EXPECT_EQ(spent.status, PoseGraphStatus::kBudgetSpent);
+  EXPECT_THAT(spent.message, testing::HasSubstr("the iterations are spent after 0 iterations"));
+}
+
+}  // namespace
+}  // namespace rex
