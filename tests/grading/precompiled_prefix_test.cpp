@@ -132,7 +132,9 @@ TEST_F(PrefixTest, ChangesNoMessageAndNoSymbol) {
     const StudentObject b = compile(without, source);
     EXPECT_EQ(a.ok, rest == good) << source;
     EXPECT_EQ(a.ok, b.ok) << source;
-    if (b.ok) EXPECT_EQ(symbols, runProcess({"nm", b.object}).output) << source;
+    if (b.ok) {
+      EXPECT_EQ(symbols, runProcess({"nm", b.object}).output) << source;
+    }
     EXPECT_FALSE(a.messages.empty()) << source;
     ASSERT_EQ(a.messages.size(), b.messages.size()) << source;
     for (std::size_t k = 0; k < a.messages.size(); ++k)
