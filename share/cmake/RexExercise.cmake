@@ -54,7 +54,8 @@ function(rex_student_prefix folder)
   get_target_property(eigen Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
   add_custom_command(OUTPUT ${prefix}.gch
     COMMAND ${CMAKE_CXX_COMPILER} ${REX_STUDENT_FLAGS} -isystem ${PROJECT_SOURCE_DIR}/src -isystem ${eigen}
-            -MD -MF ${prefix}.d -MQ ${prefix}.gch -x c++-header ${prefix} -o ${prefix}.gch
+            -MD -MF ${prefix}.d -MQ ${prefix}.gch -x c++-header ${prefix} -o ${prefix}.new
+    COMMAND ${CMAKE_COMMAND} -E rename ${prefix}.new ${prefix}.gch  # nobody meets half of it
     DEPENDS ${prefix} DEPFILE ${prefix}.d COMMENT "Precompiling course/course.h" VERBATIM)
   add_custom_target(rex_student_prefix DEPENDS ${prefix}.gch)
   add_dependencies(rex_student rex_student_prefix)
