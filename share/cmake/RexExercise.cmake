@@ -35,6 +35,32 @@ function(rex_student_library)
   endforeach()
 endfunction()
 
+# course/course.h, precompiled with the flags of a student's program: prefix.h.gch, and in prefix.h.d the files it was
+# made of. Leaves the place in REX_PREFIX where the exercise's header includes it, and elsewhere nothing. The sanitizers
+# and other compilers go without.
+function(rex_student_prefix folder)
+  set(REX_PREFIX "" PARENT_SCOPE)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${folder}/exercise.h)
+  file(STRINGS ${folder}/exercise.h uses REGEX "^#include \"course/course.h\"")
+  if(NOT uses OR REX_SANITIZE OR NOT CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    return()
+  endif()
+  set(prefix ${PROJECT_BINARY_DIR}/student/prefix.h)
+  set(REX_PREFIX ${prefix} PARENT_SCOPE)
+  if(TARGET rex_student_prefix)
+    return()
+  endif()
+  file(CONFIGURE OUTPUT ${prefix} CONTENT "#include \"course/course.h\"\n")
+  get_target_property(eigen Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
+  add_custom_command(OUTPUT ${prefix}.gch
+    COMMAND ${CMAKE_CXX_COMPILER} ${REX_STUDENT_FLAGS} -isystem ${PROJECT_SOURCE_DIR}/src -isystem ${eigen}
+            -MD -MF ${prefix}.d -MQ ${prefix}.gch -x c++-header ${prefix} -o ${prefix}.new
+    COMMAND ${CMAKE_COMMAND} -E rename ${prefix}.new ${prefix}.gch  # nobody meets half of it
+    DEPENDS ${prefix} DEPFILE ${prefix}.d COMMENT "Precompiling course/course.h" VERBATIM)
+  add_custom_target(rex_student_prefix DEPENDS ${prefix}.gch)
+  add_dependencies(rex_student rex_student_prefix)
+endfunction()
+
 function(rex_json_strings variable)
   list(TRANSFORM ARGN REPLACE "(.+)" "\"\\1\"")
   list(JOIN ARGN ", " text)
@@ -94,6 +120,7 @@ function(rex_exercise name)
                                              "SHELL:-iquote \"${ARG_OUTPUT}\"")
   endforeach()
   set_property(GLOBAL APPEND PROPERTY REX_GRADERS ${name}_grader ${name}_worker)
+  rex_student_prefix(${ARG_FOLDER})
   rex_exercise_description()
   rex_exercise_editor_support()
 endfunction()

@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/process.h"
+#include "grading/precompiled_prefix.h"
 #include "grading/symbol_scan.h"
 
 namespace rex::grading {
@@ -69,7 +70,8 @@ std::string whyItGaveUp(const ProcessResult& run, const StudentBuildOptions& lim
   return "the compiler gave up: " + firstLine;
 }
 
-std::vector<std::string> compileCommand(const Toolchain& toolchain, const StudentBuildOptions& options) {
+std::vector<std::string> compileCommand(const Toolchain& toolchain, const StudentBuildOptions& options,
+                                        const std::string& source) {
   std::vector<std::string> command = {toolchain.compiler};
   command.insert(command.end(), toolchain.flags.begin(), toolchain.flags.end());
   command.insert(command.end(), {"-ftemplate-depth=200"});
@@ -78,7 +80,10 @@ std::vector<std::string> compileCommand(const Toolchain& toolchain, const Studen
     command.insert(
         command.end(),
         {"-g", "-O0", fmt::format("-fdebug-prefix-map={}={}", options.workFolder.string(), folder.string())});
+    return command;
   }
+  const std::vector<std::string> prefix = prefixFlags(toolchain.prefix, source);
+  command.insert(command.end(), prefix.begin(), prefix.end());
   return command;
 }
 
@@ -203,7 +208,7 @@ StudentObject compileStudent(const Toolchain& toolchain, const std::vector<Forbi
   result.object = folder / "student.o";
   StudentBuildOptions absolute = options;
   absolute.workFolder = folder;
-  compile(compileCommand(toolchain, absolute), name, absolute, result);
+  compile(compileCommand(toolchain, absolute, result.source), name, absolute, result);
   if (!result.ok) return result;
 
   const std::vector<CompileDiagnostic> calls =

@@ -20,6 +20,7 @@ Toolchain readToolchain(const std::filesystem::path& buildJson) {
             .workerObject = json.at("worker_object").get<std::string>(),
             .grader = json.at("grader").get<std::string>(),
             .studentLibrary = json.at("student_library").get<std::string>(),
+            .prefix = json.value("prefix", ""),
             .objcopy = json.value("objcopy", "objcopy"),
             .objdump = json.value("objdump", "objdump")};
   } catch (const nlohmann::json::exception& error) {

@@ -14,6 +14,7 @@ struct Toolchain {
   std::filesystem::path workerObject;  ///< the loop that answers the grader
   std::filesystem::path grader;
   std::filesystem::path studentLibrary;  ///< shared; all of rex that students may call
+  std::filesystem::path prefix{};        ///< see prefixFlags(); empty: none
   std::string objcopy = "objcopy";
   std::string objdump = "objdump";
 };

@@ -262,7 +262,7 @@ TEST_F(StudentBuildTest, ReadsBuildJson) {
   write(
       file,
       R"({"compiler": "g++", "compile_flags": ["-O1"], "link_flags": ["-g"], "worker_object": "w.o", "grader": "g",
-                  "student_library": "s.so", "objcopy": "oc", "objdump": "od"})");
+                  "student_library": "s.so", "prefix": "p.h", "objcopy": "oc", "objdump": "od"})");
   const Toolchain read = readToolchain(file);
   EXPECT_EQ(read.compiler, "g++");
   EXPECT_EQ(read.flags, std::vector<std::string>{"-O1"});
@@ -270,6 +270,7 @@ TEST_F(StudentBuildTest, ReadsBuildJson) {
   EXPECT_EQ(read.workerObject, "w.o");
   EXPECT_EQ(read.grader, "g");
   EXPECT_EQ(read.studentLibrary, "s.so");
+  EXPECT_EQ(read.prefix, "p.h");
   EXPECT_EQ(read.objcopy, "oc");
   EXPECT_EQ(read.objdump, "od");
 }

@@ -1,0 +1,146 @@
+#include "grading/precompiled_prefix.h"
+
+#include <chrono>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "base/process.h"
+#include "grading/student_build.h"
+#include "grading/text_file.h"
+#include "support/temporary_folder.h"
+
+namespace rex::grading {
+namespace {
+
+using std::filesystem::path;
+using namespace std::chrono_literals;
+
+TEST(OpensWithExerciseHeader, BehindOtherHeadersAndComments) {
+  EXPECT_TRUE(opensWithExerciseHeader("#include \"exercise.h\""));
+  EXPECT_TRUE(
+      opensWithExerciseHeader("// Mine.\r\n\n#include <cmath>\n  #include\t\"control/pid.h\"  // why\n"
+                              "#include <exercise.h>\nint x;\n"));
+}
+
+TEST(OpensWithExerciseHeader, NotBehindWhatCouldChangeIt) {
+  for (const char* first : {"#define EIGEN_NO_IO", "#include \"/tmp/a.h\"", "#include \"../a.h\"", "int x;",
+                            "#include \"main.cpp\"", "#include NAME", "/*", "// on and on \\", "#if 0",
+                            "#include <cmath", "#pragma GCC system_header"})
+    EXPECT_FALSE(opensWithExerciseHeader(std::string(first) + "\n#include \"exercise.h\"\n")) << first;
+  EXPECT_FALSE(opensWithExerciseHeader(""));
+  EXPECT_FALSE(opensWithExerciseHeader("#include <cmath>\n"));
+}
+
+constexpr const char* kSource = "#include \"exercise.h\"\n";
+
+// A small exercise in a folder with a blank in its name, and the precompiled header of its course.
+class PrefixTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    shared_ = std::make_unique<TemporaryFolder>();
+    writeTextFile(
+        folder() / "src/course/course.h",
+        "#pragma once\n#include <Eigen/Core>\n#include <vector>\nnamespace rex { double same(double); "
+        "inline int half(int a) { return a / 2; } }\n");
+    writeTextFile(folder() / "exercise/exercise.h",
+                  "#pragma once\n#include \"course/course.h\"\nint twice(int a);\n");
+    writeTextFile(prefix(), "#include \"course/course.h\"\n");
+    std::vector<std::string> command = {"g++"};
+    for (const std::string& flag : toolchain().flags) command.push_back(flag);
+    const path precompiled = prefix().string() + ".gch";
+    command.insert(command.end(), {"-MD", "-MF", prefix().string() + ".d", "-MQ", precompiled, "-x",
+                                   "c++-header", prefix(), "-o", precompiled});
+    const ProcessResult made = runProcess(command, {.directory = folder()});
+    ASSERT_TRUE(made.ok()) << made.error;
+  }
+  static void TearDownTestSuite() { shared_.reset(); }
+  void TearDown() override { setAge(folder() / "src/course/course.h", 1h); }
+  void SetUp() override { TearDown(); }
+
+  static path folder() { return shared_->path() / "a folder"; }
+  static path prefix() { return folder() / "prefix.h"; }
+  static void setAge(const path& file, std::chrono::hours age) {
+    std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now() - age);
+  }
+
+  static Toolchain toolchain() {
+    return {.compiler = "g++",
+            .flags = {"-std=c++20", "-O1", "-Wall", "-Wextra", "-iquote", folder() / "exercise", "-isystem",
+                      folder() / "src", "-isystem", "/usr/include/eigen3"},
+            .linkFlags = {},
+            .workerObject = {},
+            .grader = {},
+            .studentLibrary = {},
+            .prefix = prefix()};
+  }
+
+  static StudentObject compile(const Toolchain& toolchain, const std::string& source) {
+    writeTextFile(shared_->path() / "main.cpp", source);
+    return compileStudent(toolchain, {},
+                          {.main = shared_->path() / "main.cpp", .workFolder = shared_->path() / "work"});
+  }
+
+  static std::unique_ptr<TemporaryFolder> shared_;
+};
+std::unique_ptr<TemporaryFolder> PrefixTest::shared_;
+
+TEST_F(PrefixTest, GivesFlagsWhileItIsCurrent) {
+  EXPECT_EQ(prefixFlags(prefix(), kSource), (std::vector<std::string>{"-include", prefix()}));
+  EXPECT_TRUE(prefixFlags(prefix(), "int x;\n").empty());
+  EXPECT_TRUE(prefixFlags({}, kSource).empty());
+  setAge(folder() / "src/course/course.h", -1h);
+  EXPECT_TRUE(prefixFlags(prefix(), kSource).empty());
+}
+
+TEST_F(PrefixTest, GivesNoFlagsWhereAFileIsMissing) {
+  const path other = folder() / "other.h";
+  EXPECT_TRUE(prefixFlags(other, kSource).empty());
+  writeTextFile(other.string() + ".gch", "");
+  EXPECT_TRUE(prefixFlags(other, kSource).empty());
+  writeTextFile(other.string() + ".d", "other.h.gch: no\\ such\\ file.h\n");
+  EXPECT_TRUE(prefixFlags(other, kSource).empty());
+  writeTextFile(other.string() + ".d", "");
+  EXPECT_TRUE(prefixFlags(other, kSource).empty());
+}
+
+TEST_F(PrefixTest, IsTakenByTheCompiler) {
+  // The compiler reads this only if it does not take what was made before.
+  writeTextFile(prefix(), "#error not precompiled\n");
+  setAge(prefix(), 1h);
+  const StudentObject object =
+      compile(toolchain(), "#include \"exercise.h\"\nint twice(int a) { return a; }\n");
+  writeTextFile(prefix(), "#include \"course/course.h\"\n");
+  setAge(prefix(), 1h);
+  EXPECT_TRUE(object.ok) << object.log;
+}
+
+TEST_F(PrefixTest, ChangesNoMessageAndNoSymbol) {
+  Toolchain without = toolchain();
+  without.prefix.clear();
+  const std::string good =
+      "int twice(int a) {\n  int unused;\n  return rex::half(4 * a) + (int)std::vector<int>(3).size();\n}\n";
+  const std::string bad =
+      "long twice(int a) { return a; }\nnamespace rex {\nint same(double);\nint half(int a) { return a; "
+      "}\n}\n"
+      "std::vector<int&> all;\nstd::map<int, int> unknown;\nint x = ;\nint y = z;\n"
+      "Eigen::Vector3d f(Eigen::Vector3d a, Eigen::Vector2d b) {\n  return a + b;\n}\n";
+  for (const std::string& rest : {good, bad, std::string("#include \"none.h\"\n")}) {
+    const std::string source = std::string("#include <cassert>\n\n// Mine.\n") + kSource + rest;
+    const StudentObject a = compile(toolchain(), source);
+    const std::string symbols = a.ok ? runProcess({"nm", a.object}).output : "";
+    const StudentObject b = compile(without, source);
+    EXPECT_EQ(a.ok, rest == good) << source;
+    EXPECT_EQ(a.ok, b.ok) << source;
+    if (b.ok) {
+      EXPECT_EQ(symbols, runProcess({"nm", b.object}).output) << source;
+    }
+    EXPECT_FALSE(a.messages.empty()) << source;
+    ASSERT_EQ(a.messages.size(), b.messages.size()) << source;
+    for (std::size_t k = 0; k < a.messages.size(); ++k)
+      EXPECT_EQ(toString(a.messages[k]), toString(b.messages[k])) << source;
+  }
+}
+
+}  // namespace
+}  // namespace rex::grading
