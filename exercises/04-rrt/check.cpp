@@ -126,12 +126,14 @@ enum class Way { kFree, kEndBlocked, kOnlyMiddleBlocked };
 
 void stepsWell(Check& check, Student& student, const PlaneWorld& world, Way wanted) {
   Rng& rng = check.rng();
-  const double stepSize = rng.uniform(0.05, 0.15);
-  Tree tree = wildTree(world, 60, rng);
+  const double stepSize = rng.uniform(0.08, 0.15);
+  const EdgeTest isFree = freeIn(world);
+  Tree tree;
   Eigen::VectorXd target, q;
   int parent = 0;
-  const EdgeTest isFree = freeIn(world);
-  for (bool found = false; !found;) {
+  bool found = false;
+  for (int i = 0; !found; ++i) {
+    if (i % 100 == 0) tree = wildTree(world, 60, rng);  // not every tree has nodes beside a wall
     target = rng.uniformVector(2, 0, 1);
     parent = nearestOf(tree.nodes, target);
     const Eigen::VectorXd& from = tree.nodes[static_cast<std::size_t>(parent)];
@@ -143,18 +145,18 @@ void stepsWell(Check& check, Student& student, const PlaneWorld& world, Way want
   EdgeRecord record(isFree, 2);
   check.input("a tree of 60 nodes in the unit square with walls and discs, a random target, stepSize = " +
               text(stepSize));
-  const std::optional<NewNode> made = student.rrtStep(tree, target, stepSize, record.test());
+  const std::optional<NewNode> got = student.rrtStep(tree, target, stepSize, record.test());
   askedWell(check, record);
   if (wanted == Way::kFree) {
-    check.that("a free step gives a node", made.has_value());
-    check.near("parent of the new node", made->parent, parent, 0);
-    check.near("new node", made->q, q, 1e-12);
+    check.that("a free step gives a node", got.has_value());
+    check.near("parent of the new node", got->parent, parent, 0);
+    check.near("new node", got->q, q, 1e-12);
     check.that("edgeFree was asked for the new edge",
-               record.wasFree(tree.nodes[static_cast<std::size_t>(parent)], made->q));
+               record.wasFree(tree.nodes[static_cast<std::size_t>(parent)], got->q));
   } else if (wanted == Way::kEndBlocked) {
-    check.that("a step into an obstacle gives no node", !made.has_value());
+    check.that("a step into an obstacle gives no node", !got.has_value());
   } else {
-    check.that("a step through an obstacle gives no node", !made.has_value());
+    check.that("a step through an obstacle gives no node", !got.has_value());
   }
 }
 
@@ -206,12 +208,12 @@ void growsBackward(Check& check, Student& student) {
   }
 }
 
-// Nothing is in the way, so that each target gives a node, and one in five leads straight to the start, forty
-// steps away. That takes 200 targets, with a standard deviation of 28; without aim it takes thousands.
+// Nothing is in the way, so that each target gives a node. One in five leads straight to the start, eighty
+// steps away, and some of the others help: AIMNODES. One that only aims has 80, one that never does thousands.
 void aimsAtTheStart(Check& check, Student& student) {
   const Eigen::VectorXd start = check.rng().uniformVector(2, -1, 1);
   const double angle = check.rng().uniform(-4, 4);
-  const Eigen::VectorXd goal = start + 4 * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+  const Eigen::VectorXd goal = start + 8 * Eigen::Vector2d(std::cos(angle), std::sin(angle));
   const SearchSettings settings{Eigen::Vector2d(-20, -20), Eigen::Vector2d(20, 20), 0.1, 0.2, 2000};
   const EdgeTest isFree = [](const Eigen::VectorXd&, const Eigen::VectorXd&) { return true; };
   EdgeRecord record(isFree, 2);
@@ -219,9 +221,9 @@ void aimsAtTheStart(Check& check, Student& student) {
       student.growBackward(start, goal, settings, record.test(), Rng(check.rng().next()));
   backwardIsSound(check, search, {{}, start, goal}, settings, record, isFree);
   check.atLeast("nodes of a tree that aims at the start with goalBias = 0.2",
-                static_cast<double>(search.tree.nodes.size()), 70);
+                static_cast<double>(search.tree.nodes.size()), 105);
   check.atMost("nodes of a tree that aims at the start with goalBias = 0.2",
-               static_cast<double>(search.tree.nodes.size()), 450);
+               static_cast<double>(search.tree.nodes.size()), 600);
 }
 
 void backwardAnywhere(Check& check, Student& student) {

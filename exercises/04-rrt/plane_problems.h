@@ -50,10 +50,11 @@ inline PlaneProblem twoWalls(rex::Rng& rng) {
        .boxes = {{{first, 0}, {first + 0.015, 1 - gap}}, {{second, gap}, {second + 0.015, 1}}}},
       {},
       {}};
+  const EdgeTest hasRoom = freeIn(problem.world, -0.01);
   do {
     problem.start = Eigen::Vector2d(rng.uniform(0.05, 0.15), rng.uniform(0.05, 0.95));
     problem.goal = Eigen::Vector2d(rng.uniform(0.8, 0.95), rng.uniform(0.05, 0.95));
-  } while (!wayIsFree(problem.world, problem.goal, problem.goal));
+  } while (!hasRoom(problem.goal, problem.goal) || !hasRoom(problem.start, problem.start));
   const int way = rng.index(4);
   return turned(problem, way % 2 == 1, way > 1);
 }
