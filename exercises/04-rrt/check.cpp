@@ -209,7 +209,8 @@ void growsBackward(Check& check, Student& student) {
 }
 
 // Nothing is in the way, so that each target gives a node. One in five leads straight to the start, eighty
-// steps away, and some of the others help: AIMNODES. One that only aims has 80, one that never does thousands.
+// steps away, and some of the others help: 172 nodes, with a standard deviation of 17. One that only aims has
+// 80, one that never does thousands.
 void aimsAtTheStart(Check& check, Student& student) {
   const Eigen::VectorXd start = check.rng().uniformVector(2, -1, 1);
   const double angle = check.rng().uniform(-4, 4);
@@ -221,7 +222,7 @@ void aimsAtTheStart(Check& check, Student& student) {
       student.growBackward(start, goal, settings, record.test(), Rng(check.rng().next()));
   backwardIsSound(check, search, {{}, start, goal}, settings, record, isFree);
   check.atLeast("nodes of a tree that aims at the start with goalBias = 0.2",
-                static_cast<double>(search.tree.nodes.size()), 105);
+                static_cast<double>(search.tree.nodes.size()), 95);
   check.atMost("nodes of a tree that aims at the start with goalBias = 0.2",
                static_cast<double>(search.tree.nodes.size()), 600);
 }
@@ -364,7 +365,7 @@ void staysFree(Check& check, Student& student) {
 // <hidden>
 void staysNearTheDisc(Check& check, Student& student) {
   double given = 0, left = 0;
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < 24; ++i) {
     const DiscProblem disc = oneDisc(check.rng());
     Path path = jaggedPath(disc.problem, check.rng());
     // Only one way round the disc is the shortest, and shortening does not lead to the other side.
@@ -372,7 +373,8 @@ void staysNearTheDisc(Check& check, Student& student) {
     given += lengthOf(path) - disc.shortest;
     left += shortenedLength(check, student, disc.problem, path) - disc.shortest;
   }
-  check.atMost("what is left of twelve detours around a disc, as a share", left / given, 0.5);
+  // Leaving out nodes leaves 0.27, with a standard deviation of 0.04; random places on edges leave 0.11.
+  check.atMost("what is left of many detours around a disc, as a share", left / given, 0.5);
 }
 // </hidden>
 
@@ -550,6 +552,7 @@ void comesNearTheShortest(Check& check, Student& student) {
     const DiscProblem disc = oneDisc(check.rng());
     excess += starIsSound(check, student, disc.problem, inThePlane(0.1, 0.05, 1500)) / disc.shortest - 1;
   }
+  // Usually 0.019, with a standard deviation of 0.004; the path of an RRT is longer by 0.3.
   check.atMost("how much longer than the shortest way, on average over four worlds", excess / count, 0.06);
 }
 // </hidden>

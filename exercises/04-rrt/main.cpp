@@ -165,7 +165,7 @@ void showHand() {
                 .xLabel = "distance r [m]",
                 .yLabel = "density [1/m]",
                 .yRange = AxisRange(0, 6),
-                .legend = Legend::kTopRight,
+                .legend = Legend::kOutside,
                 .series = {{.label = "p(r)", .x = r, .y = density, .size = 1.5, .color = kOrange}},
                 .histograms = {sampled}});
   plot("hand_plane", {.title = "Where the hand is",
@@ -266,10 +266,9 @@ void showArm() {
       S, "arm_both.png",
       {.caption = "The peg in the tree from q = 0", .paths = pegEdges(both.fromStart), .view = {1, -1, 0.7}});
   const Path better = both.path.empty() ? both.path : shortened(both.path, edgeFree, rng);
+  const auto nodes = [](const Tree& tree) { return static_cast<double>(tree.nodes.size()); };
   print("nodes: backward, from the start, from the goal",
-        Eigen::RowVector3d(static_cast<double>(backward.tree.nodes.size()),
-                           static_cast<double>(both.fromStart.nodes.size()),
-                           static_cast<double>(both.fromGoal.nodes.size())));
+        Eigen::RowVector3d(nodes(backward.tree), nodes(both.fromStart), nodes(both.fromGoal)));
   print("lengths: backward, from both sides, that shortened",
         Eigen::RowVector3d(lengthOf(backward.path), lengthOf(both.path), lengthOf(better)));
   filmPath("path", "The path from both sides, as it was found", both.path);
