@@ -357,7 +357,6 @@ void showStar(const std::function<double(int n)>& cost) {
                  .xRange = AxisRange(0, settings.maxSamples),
                  .series = costs,
                  .horizontalLines = {{kShortest, "shortest way"}}});
-
   Rng rng(1);
   const Tree plain = grow(kLeft, settings, edgeFree);
   const Path best = star.goal < 0 ? Path() : wayFromRoot(star.tree, star.goal);
