@@ -273,14 +273,14 @@ Tree rewired(Tree tree, const std::vector<int>& near, int node, const EdgeTest& 
   }
   if (!any) return tree;
   // Whoever moved takes along all that hangs on it: from the new node down, costs are counted afresh.
-  std::vector<std::vector<std::size_t>> children(tree.nodes.size());
+  std::vector<std::vector<std::size_t>> below(tree.nodes.size());
   for (std::size_t i = 0; i < tree.parents.size(); ++i)
-    if (tree.parents[i] >= 0) children[static_cast<std::size_t>(tree.parents[i])].push_back(i);
+    if (tree.parents[i] >= 0) below[static_cast<std::size_t>(tree.parents[i])].push_back(i);
   std::vector<std::size_t> open{n};
   while (!open.empty()) {
     const std::size_t at = open.back();
     open.pop_back();
-    for (const std::size_t child : children[at]) {
+    for (const std::size_t child : below[at]) {
       tree.costs[child] = tree.costs[at] + (tree.nodes[child] - tree.nodes[at]).norm();
       open.push_back(child);
     }
@@ -301,8 +301,8 @@ StarSearch growStar(const Eigen::VectorXd& start, const Eigen::VectorXd& goal, c
   for (int i = 0; i < settings.maxSamples; ++i) {
     const Eigen::VectorXd target = drawTarget(now, goal, rng);
     const int nearest = nearestNode(tree.nodes, target);
-    const Eigen::VectorXd q =
-        stepTowards(tree.nodes[static_cast<std::size_t>(nearest)], target, settings.stepSize);
+    const Eigen::VectorXd from = tree.nodes[static_cast<std::size_t>(nearest)];
+    const Eigen::VectorXd q = stepTowards(from, target, settings.stepSize);
     const double n = static_cast<double>(tree.nodes.size());
     const double radius =
         std::min(settings.stepSize, gamma * std::pow(std::log(n) / n, 1. / static_cast<double>(q.size())));
