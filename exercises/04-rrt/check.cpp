@@ -20,10 +20,6 @@ namespace {
 
 std::string text(double x) { return std::to_string(x).substr(0, 5); }
 
-SearchSettings inThePlane(double stepSize, double goalBias, int maxSamples) {
-  return {Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 1), stepSize, goalBias, maxSamples};
-}
-
 // Part 1.
 
 // The share of postures with the hand nearer than r: those with the second angle beyond that of r.
@@ -180,10 +176,13 @@ void stepsPastCorners(Check& check, Student& student) {
 // Part 3.
 
 void readsTheWay(Check& check, Student& student) {
-  const Tree tree = wildTree({}, 50, check.rng());
-  check.input("a random tree of 50 nodes in the plane");
-  for (const int node : {0, 1, 10, 25, 40, 49})
-    isPath(check, student.wayFromRoot(tree, node), wayOf(tree, node));
+  for (const int count : {1, 2, 5, 12}) {
+    const Path way = randomPath(count, check.rng());
+    const TreeWithWay made = treeAround(way, check.rng());
+    check.input("a random tree in the plane, and a node with " + std::to_string(count - 1) +
+                " edges between it and the root");
+    isPath(check, student.wayFromRoot(made.tree, made.last), way);
+  }
 }
 
 void backwardIsSound(Check& check, const TreeSearch& search, const PlaneProblem& problem,
@@ -256,17 +255,15 @@ void backwardOutOfTheHole(Check& check, Student& student) {
 void joinsWays(Check& check, Student& student) {
   for (int i = 0; i < 10; ++i) {
     Rng& rng = check.rng();
-    const Tree one = wildTree({}, 30, rng);
-    Tree other = wildTree({}, 30, rng);
-    const int a = rng.index(30), b = rng.index(30);
+    const int count = 3 + rng.index(10), split = 1 + rng.index(count - 2);
     const bool meets = i % 2 == 0;
-    if (meets) other.nodes[static_cast<std::size_t>(b)] = one.nodes[static_cast<std::size_t>(a)];
+    const Path whole = randomPath(count, rng);
+    const Path first(whole.begin(), whole.begin() + split + 1);
+    const Path second(whole.rbegin(), whole.rend() - split - (meets ? 0 : 1));
+    const TreeWithWay one = treeAround(first, rng), other = treeAround(second, rng);
     check.input(meets ? "two random trees, nodes a and b are the same configuration"
                       : "two random trees, nodes a and b are different configurations");
-    Path wanted = wayOf(one, a);
-    const Path rest = wayOf(other, b);
-    wanted.insert(wanted.end(), rest.rbegin() + (meets ? 1 : 0), rest.rend());
-    isPath(check, student.joinedPath(one, a, other, b), wanted);
+    isPath(check, student.joinedPath(one.tree, one.last, other.tree, other.last), whole);
   }
 }
 
@@ -460,42 +457,51 @@ void choosesTheBest(Check& check, Student& student) {
     Eigen::VectorXd q = rng.uniformVector(2, 0, 1);
     while (!wayIsFree(world, q, q)) q = rng.uniformVector(2, 0, 1);
     const std::vector<int> near = nodesNear(tree, q, i == 0 ? 0. : 0.35, rng);
-    std::optional<ParentChoice> best;
-    for (const int k : near) {
-      const Eigen::VectorXd& from = tree.nodes[static_cast<std::size_t>(k)];
-      const double cost = tree.costs[static_cast<std::size_t>(k)] + (from - q).norm();
-      if (wayIsFree(world, from, q) && (!best || cost < best->cost)) best = {k, cost};
-    }
+    bool anyFree = false;
+    for (const int k : near)
+      anyFree = anyFree || wayIsFree(world, tree.nodes[static_cast<std::size_t>(k)], q);
     EdgeRecord record(freeIn(world), 2);
     check.input("a random tree in the plane, and " + std::to_string(near.size()) + " of its nodes as `near`");
     const std::optional<ParentChoice> chosen = student.bestParent(tree, near, q, record.test());
     askedWell(check, record);
-    check.that("there is a parent if, and only if, an edge is free", chosen.has_value() == best.has_value());
-    if (!best) continue;
-    check.near("cost of the new node", chosen->cost, best->cost, 1e-9);
-    check.near("its parent", chosen->parent, best->parent, 0);
-    check.that("edgeFree was asked for the new edge",
-               record.wasFree(tree.nodes[static_cast<std::size_t>(best->parent)], q));
+    check.that("there is a parent if, and only if, an edge is free", chosen.has_value() == anyFree);
+    if (!chosen) continue;
+    check.that("the parent is one of `near`",
+               std::find(near.begin(), near.end(), chosen->parent) != near.end());
+    // With q as a node that hangs on it, nobody else would be the better parent.
+    const Eigen::VectorXd& from = tree.nodes[static_cast<std::size_t>(chosen->parent)];
+    check.that("edgeFree was asked for the new edge, and held", record.wasFree(from, q));
+    check.near("cost of the new node", chosen->cost,
+               tree.costs[static_cast<std::size_t>(chosen->parent)] + (q - from).norm(), 1e-9);
+    Tree grown = tree;
+    grown.nodes.push_back(q);
+    grown.costs.push_back(chosen->cost);
+    for (const int k : near)
+      check.that("no other parent gives less cost over a free edge",
+                 !gains(world, grown, static_cast<int>(tree.nodes.size()), k));
   }
 }
 
+// Whoever is near and gains by it hangs on the node afterwards, nobody else moved, and all costs are lengths
+// of ways again. The order of `near` does not matter: who becomes cheaper because its parent does would still
+// be cheaper through the node, by the triangle inequality.
 void rewires(Check& check, Student& student) {
   for (int i = 0; i < 15; ++i) {
     Rng& rng = check.rng();
     const PlaneWorld world = twoWalls(rng).world;
-    Tree tree, wanted;
-    std::vector<int> near;
     const int node = 79;
-    // Until some nodes are hung on another parent, and more become cheaper by that.
-    for (int moved = 0, cheaper = 0; moved < 2 || cheaper <= moved;) {
+    Tree tree;
+    std::vector<int> near;
+    // At least two gain, and one of those has others that hang on it.
+    for (int gaining = 0, carried = 0; gaining < 2 || carried == 0;) {
       tree = wildTree(world, node + 1, rng);
       near = nodesNear(tree, tree.nodes.back(), 0.35, rng);
       near.erase(std::find(near.begin(), near.end(), node));
-      wanted = rewiredTree(world, tree, near, node);
-      moved = cheaper = 0;
-      for (std::size_t k = 0; k < tree.nodes.size(); ++k) {
-        moved += wanted.parents[k] != tree.parents[k] ? 1 : 0;
-        cheaper += wanted.costs[k] < tree.costs[k] - 1e-6 ? 1 : 0;
+      gaining = carried = 0;
+      for (const int other : near) {
+        if (!gains(world, tree, other, node)) continue;
+        ++gaining;
+        carried += static_cast<int>(std::count(tree.parents.begin(), tree.parents.end(), other));
       }
     }
     EdgeRecord record(freeIn(world), 2);
@@ -503,13 +509,17 @@ void rewires(Check& check, Student& student) {
     const Tree got = student.rewired(tree, near, node, record.test());
     askedWell(check, record);
     isPath(check, got.nodes, tree.nodes);
-    check.near("number of parents", static_cast<double>(got.parents.size()), node + 1, 0);
+    isTree(check, got, tree.nodes[0], false);
     check.near("number of costs", static_cast<double>(got.costs.size()), node + 1, 0);
-    for (std::size_t k = 0; k < got.nodes.size(); ++k) {
-      check.near("parent of a node", got.parents[k], wanted.parents[k], 0);
-      check.near("cost of a node", got.costs[k], wanted.costs[k], 1e-9);
-      if (got.parents[k] != tree.parents[k])
-        check.that("edgeFree was asked for the new edges", record.wasFree(got.nodes[k], got.nodes[node]));
+    const std::vector<double> costs = costsOf(got);
+    for (int k = 0; k <= node; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      const bool isNear = std::find(near.begin(), near.end(), k) != near.end();
+      const bool moves = isNear && gains(world, tree, k, node);
+      check.near("parent of a node", got.parents[at], moves ? node : tree.parents[at], 0);
+      check.near("cost of a node, against the length of its way", got.costs[at], costs[at], 1e-9);
+      if (moves)
+        check.that("edgeFree was asked for the new edges", record.wasFree(got.nodes[at], got.nodes[node]));
     }
   }
 }

@@ -48,6 +48,10 @@ class EdgeRecord {
   std::set<std::vector<double>> free_;
 };
 
+inline SearchSettings inThePlane(double stepSize, double goalBias, int maxSamples) {
+  return {Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 1), stepSize, goalBias, maxSamples};
+}
+
 inline double lengthOf(const Path& path) {
   double length = 0;
   for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
@@ -121,13 +125,13 @@ inline void pathIsOfTrees(rex::grading::Check& check, const Path& path, const st
 inline Tree wildTree(const PlaneWorld& world, int n, rex::Rng& rng) {
   Tree tree;
   while (static_cast<int>(tree.nodes.size()) < n) {
-    const Eigen::VectorXd q = rng.uniformVector(2, 0, 1);
-    if (!wayIsFree(world, q, q)) continue;
+    const Eigen::VectorXd place = rng.uniformVector(2, 0, 1);
+    if (!wayIsFree(world, place, place)) continue;
     const int parent = tree.nodes.empty() ? -1 : rng.index(static_cast<int>(tree.nodes.size()));
     const auto p = static_cast<std::size_t>(std::max(parent, 0));
-    if (parent >= 0 && !wayIsFree(world, tree.nodes[p], q)) continue;
-    tree.costs.push_back(parent < 0 ? 0 : tree.costs[p] + (q - tree.nodes[p]).norm());
-    tree.nodes.push_back(q);
+    if (parent >= 0 && !wayIsFree(world, tree.nodes[p], place)) continue;
+    tree.costs.push_back(parent < 0 ? 0 : tree.costs[p] + (place - tree.nodes[p]).norm());
+    tree.nodes.push_back(place);
     tree.parents.push_back(parent);
   }
   return tree;
@@ -156,11 +160,31 @@ inline int nearestOf(const std::vector<Eigen::VectorXd>& nodes, const Eigen::Vec
   return static_cast<int>(std::min_element(nodes.begin(), nodes.end(), nearer) - nodes.begin());
 }
 
-inline Path wayOf(const Tree& tree, int node) {
+/// Random configurations in the plane.
+inline Path randomPath(int count, rex::Rng& rng) {
   Path path;
-  for (int at = node; at >= 0; at = tree.parents[static_cast<std::size_t>(at)])
-    path.insert(path.begin(), tree.nodes[static_cast<std::size_t>(at)]);
+  for (int i = 0; i < count; ++i) path.emplace_back(rng.uniformVector(2, 0, 1));
   return path;
+}
+
+/// A tree with a given way from its root to its node `last`, and with other branches.
+struct TreeWithWay {
+  Tree tree{};
+  int last = -1;
+};
+
+inline TreeWithWay treeAround(const Path& way, rex::Rng& rng) {
+  TreeWithWay made;
+  for (const Eigen::VectorXd& place : way) {
+    made.tree.nodes.push_back(place);
+    made.tree.parents.push_back(made.last);
+    made.last = static_cast<int>(made.tree.nodes.size()) - 1;
+    for (const Eigen::VectorXd& leaf : randomPath(rng.index(4), rng)) {
+      made.tree.nodes.push_back(leaf);
+      made.tree.parents.push_back(rng.index(made.last + 1));
+    }
+  }
+  return made;
 }
 
 inline void isPath(rex::grading::Check& check, const Path& path, const Path& wanted) {
@@ -180,16 +204,9 @@ inline std::vector<int> nodesNear(const Tree& tree, const Eigen::VectorXd& q, do
   return near;
 }
 
-/// What is cheaper through the node hangs on it. The order does not matter: by the triangle inequality what
-/// becomes cheaper because its parent does would still not be cheaper than through the node.
-inline Tree rewiredTree(const PlaneWorld& world, Tree tree, const std::vector<int>& near, int node) {
-  const auto n = static_cast<std::size_t>(node);
-  for (const int i : near) {
-    const auto k = static_cast<std::size_t>(i);
-    if (tree.costs[n] + (tree.nodes[k] - tree.nodes[n]).norm() < tree.costs[k] &&
-        wayIsFree(world, tree.nodes[n], tree.nodes[k]))
-      tree.parents[k] = node;
-  }
-  tree.costs = costsOf(tree);
-  return tree;
+/// Whether a node of the tree would be reached at less cost through another, over a free edge.
+inline bool gains(const PlaneWorld& world, const Tree& tree, int one, int through) {
+  const auto i = static_cast<std::size_t>(one), by = static_cast<std::size_t>(through);
+  const Eigen::VectorXd &q = tree.nodes[i], &via = tree.nodes[by];
+  return tree.costs[by] + (q - via).norm() < tree.costs[i] - 1e-9 && wayIsFree(world, via, q);
 }
