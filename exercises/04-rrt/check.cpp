@@ -9,7 +9,6 @@
 #include "peg_problem.h"
 #include "plane_problems.h"
 #include "planning/phase_space.h"
-#include "planning/rrt.h"
 #include "tree_checks.h"
 
 using namespace rex;
@@ -242,12 +241,15 @@ void armPathIsSound(Check& check, const Simulator& S, const Path& path) {
 void backwardOutOfTheHole(Check& check, Student& student) {
   const Simulator S("pegInAHole.ors");
   const EdgeTest isFree = freeForArm(S);
-  EdgeRecord record(isFree, 7);
   check.input("pegInAHole.ors, from q = 0 into the hole, stepSize = 0.1, goalBias = 0.1");
-  const TreeSearch search =
-      student.growBackward(kZero, kInTheHole, kArmSettings, record.test(), Rng(check.rng().next()));
-  backwardIsSound(check, search, {{}, kZero, kInTheHole}, kArmSettings, record, isFree);
-  armPathIsSound(check, S, search.path);
+  for (int i = 1; i <= kArmTries; ++i) {
+    EdgeRecord record(isFree, 7);
+    const TreeSearch search =
+        student.growBackward(kZero, kInTheHole, kArmSettings, record.test(), Rng(check.rng().next()));
+    if (search.path.empty() && i < kArmTries) continue;
+    backwardIsSound(check, search, {{}, kZero, kInTheHole}, kArmSettings, record, isFree);
+    return armPathIsSound(check, S, search.path);
+  }
 }
 
 // Part 4.
@@ -300,29 +302,18 @@ void growsFromBothSides(Check& check, Student& student) {
 void bothSidesIntoTheHole(Check& check, Student& student) {
   const Simulator S("pegInAHole.ors");
   const EdgeTest isFree = freeForArm(S);
-  EdgeRecord record(isFree, 7);
   check.input("pegInAHole.ors, from q = 0 into the hole, stepSize = 0.1");
-  const TwoTreeSearch search =
-      student.growBoth(kZero, kInTheHole, kArmSettings, record.test(), Rng(check.rng().next()));
-  twoTreesAreSound(check, search, {{}, kZero, kInTheHole}, kArmSettings.stepSize, record, isFree);
-  armPathIsSound(check, S, search.path);
+  for (int i = 1; i <= kArmTries; ++i) {
+    EdgeRecord record(isFree, 7);
+    const TwoTreeSearch search =
+        student.growBoth(kZero, kInTheHole, kArmSettings, record.test(), Rng(check.rng().next()));
+    if (search.path.empty() && i < kArmTries) continue;
+    twoTreesAreSound(check, search, {{}, kZero, kInTheHole}, kArmSettings.stepSize, record, isFree);
+    return armPathIsSound(check, S, search.path);
+  }
 }
 
 // Part 5.
-
-// A jagged path, as trees make them, by the library, at a small distance from what is in the way.
-Path jaggedPath(const PlaneProblem& problem, Rng& rng) {
-  const EdgeTest isFree = freeIn(problem.world, -0.004);
-  const PathProblem planned{.space = Space::box(Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 1)),
-                            .allValid = eachColumn([&](const Eigen::VectorXd& q) { return isFree(q, q); }),
-                            .start = problem.start,
-                            .goal = problem.goal,
-                            .resolution = 0.002};
-  const PathResult found = connectRrts(planned, {.stepSize = 0.05}, rng);
-  Path path;
-  for (Eigen::Index i = 0; i < found.path.cols(); ++i) path.emplace_back(found.path.col(i));
-  return path;
-}
 
 // What is left of the path after it was shortened: free, with the same ends, not longer.
 double shortenedLength(Check& check, Student& student, const PlaneProblem& problem, const Path& path) {

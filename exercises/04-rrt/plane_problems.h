@@ -6,6 +6,7 @@
 #include "base/rng.h"
 #include "exercise.h"
 #include "plane_world.h"
+#include "planning/rrt.h"
 
 // Worlds in the plane that nobody has seen before.
 
@@ -78,4 +79,19 @@ inline DiscProblem oneDisc(rex::Rng& rng) {
       std::sqrt(a.squaredNorm() - radius * radius) + std::sqrt(b.squaredNorm() - radius * radius);
   const int way = rng.index(4);
   return {turned({{.discs = {{center, radius}}}, start, goal}, way % 2 == 1, way > 1), lines + radius * arc};
+}
+
+/// A jagged path, as trees make them, by the library, at a small distance from what is in the way.
+inline Path jaggedPath(const PlaneProblem& problem, rex::Rng& rng) {
+  const EdgeTest isFree = freeIn(problem.world, -0.004);
+  const rex::PathProblem planned{
+      .space = rex::Space::box(Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 1)),
+      .allValid = rex::eachColumn([&](const Eigen::VectorXd& q) { return isFree(q, q); }),
+      .start = problem.start,
+      .goal = problem.goal,
+      .resolution = 0.002};
+  const rex::PathResult found = rex::connectRrts(planned, {.stepSize = 0.05}, rng);
+  Path path;
+  for (Eigen::Index i = 0; i < found.path.cols(); ++i) path.emplace_back(found.path.col(i));
+  return path;
 }
