@@ -1,0 +1,590 @@
+#include "grading/check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "collision/motion_clearance.h"
+#include "interface.h"
+#include "peg_problem.h"
+#include "plane_problems.h"
+#include "planning/phase_space.h"
+#include "tree_checks.h"
+
+using namespace rex;
+using grading::Check;
+using grading::Group;
+
+namespace {
+
+std::string text(double x) { return std::to_string(x).substr(0, 5); }
+
+// Part 1.
+
+// The share of postures with the hand nearer than r: those with the second angle beyond that of r.
+double shareWithin(double r, double l1, double l2) {
+  const double cosine = std::clamp((r * r - l1 * l1 - l2 * l2) / (2 * l1 * l2), -1., 1.);
+  return 1 - std::acos(cosine) / std::numbers::pi;
+}
+
+// Away from both ends by a share of the way between them, where differences of 1e-5 m are exact to 1e-6.
+void densitiesAreRight(Check& check, Student& student, double l1, double l2, bool inThePlane) {
+  Rng& rng = check.rng();
+  const double least = std::abs(l1 - l2), most = l1 + l2, h = 1e-5;
+  for (int i = 0; i < 10; ++i) {
+    const double r = least + rng.uniform(0.02, 0.98) * (most - least);
+    const double wanted = (shareWithin(r + h, l1, l2) - shareWithin(r - h, l1, l2)) / (2 * h);
+    check.input("l1 = " + text(l1) + " m, l2 = " + text(l2) + " m, r = " + text(r) + " m");
+    check.near("density of r", student.radiusDensity(r, l1, l2), wanted, 1e-5 * wanted, "1/m");
+    if (!inThePlane) continue;
+    const double angle = rng.uniform(-4, 4);
+    check.near("density in the plane",
+               student.handDensity({r * std::cos(angle), r * std::sin(angle)}, l1, l2),
+               wanted / (2 * std::numbers::pi * r), 1e-5 * wanted / r, "1/m^2");
+  }
+  check.input("l1 = " + text(l1) + " m, l2 = " + text(l2) + " m, where no hand can be");
+  check.near("density of r", student.radiusDensity(1.01 * most, l1, l2), 0, 0, "1/m");
+  if (inThePlane) check.near("density in the plane", student.handDensity({0, 1.2 * most}, l1, l2), 0, 0);
+  if (least > 0.01) check.near("density of r", student.radiusDensity(0.98 * least, l1, l2), 0, 0, "1/m");
+}
+
+void radiusOfTwoArms(Check& check, Student& student) {
+  densitiesAreRight(check, student, 0.6, 0.4, false);
+  densitiesAreRight(check, student, 0.5, 0.9, false);
+}
+
+// <hidden>
+void anyArm(Check& check, Student& student) {
+  for (int i = 0; i < 6; ++i) {
+    const double l1 = check.rng().uniform(0.2, 2), l2 = i == 0 ? l1 : check.rng().uniform(0.2, 2);
+    densitiesAreRight(check, student, l1, l2, true);
+  }
+}
+// </hidden>
+
+// Part 2.
+
+void nearestAndStep(Check& check, Student& student) {
+  Rng& rng = check.rng();
+  for (int i = 0; i < 20; ++i) {
+    const int d = 1 + rng.index(7), count = i == 0 ? 1 : 2 + rng.index(100);
+    std::vector<Eigen::VectorXd> nodes;
+    for (int k = 0; k < count; ++k) nodes.emplace_back(rng.uniformVector(d, -2, 2));
+    const Eigen::VectorXd target = rng.uniformVector(d, -2, 2);
+    check.input(std::to_string(count) + " random nodes and a target, d = " + std::to_string(d));
+    check.near("number of the nearest node", student.nearestNode(nodes, target), nearestOf(nodes, target), 0);
+    const Eigen::VectorXd& from = nodes[0];
+    const double distance = (target - from).norm(), share = rng.uniform(0.1, 0.9);
+    check.near("a step towards a target that is farther", student.stepTowards(from, target, share * distance),
+               from + share * (target - from), 1e-12);
+    check.near("a step towards a target that is nearer", student.stepTowards(from, target, 2 * distance),
+               target, 1e-12);
+    check.near("a step from the target to itself", student.stepTowards(target, target, 0.1), target, 0);
+  }
+}
+
+// n draws. Shares and moments are within 5.5 standard deviations, which one right answer in 25 million is
+// not.
+void drawsWell(Check& check, Student& student, double goalBias, int n) {
+  const Eigen::Vector3d lower(-1, 2, -0.5), upper(1, 2.5, 6), aim(7, 8, 9), size = upper - lower;
+  const SearchSettings settings{lower, upper, 0.1, goalBias, 1000};
+  check.input("a box from (-1, 2, -0.5) to (1, 2.5, 6), goalBias = " + text(goalBias));
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero(), squares = Eigen::Vector3d::Zero();
+  int others = 0;
+  for (int i = 0; i < n; ++i) {
+    const Eigen::VectorXd target = student.drawTarget(settings, aim, Rng(check.rng().next()));
+    check.shape("target", target, 3, 1);
+    if (target == aim) continue;
+    const Eigen::Array3d place = (target - lower).array() / size.array() - 0.5;
+    check.atMost("how far a target is from the middle of the box, in its sizes", place.abs().maxCoeff(), 0.5);
+    sum += place.matrix();
+    squares += place.square().matrix();
+    ++others;
+  }
+  const double sigmas = 5.5, count = std::max(others, 1);
+  check.near("share of draws that are the aim", 1 - static_cast<double>(others) / n, goalBias,
+             sigmas * std::sqrt(goalBias * (1 - goalBias) / n));
+  if (others == 0) return;
+  check.near("mean of the others, in sizes of the box", sum / count, Eigen::Vector3d::Zero(),
+             sigmas / std::sqrt(12 * count));
+  check.near("mean square of the others, in sizes of the box", squares / count,
+             Eigen::Vector3d::Constant(1 / 12.), sigmas / std::sqrt(180 * count));
+}
+
+void targets(Check& check, Student& student) {
+  for (const double goalBias : {0., 0.1, 0.5, 1.}) drawsWell(check, student, goalBias, 1500);
+  drawsWell(check, student, check.rng().uniform(0.2, 0.9), 1500);
+}
+
+// What lies on the way from the nearest node to the new one.
+enum class Way { kFree, kEndBlocked, kOnlyMiddleBlocked };
+
+void stepsWell(Check& check, Student& student, const PlaneWorld& world, Way wanted) {
+  Rng& rng = check.rng();
+  const double stepSize = rng.uniform(0.08, 0.15);
+  const EdgeTest isFree = freeIn(world);
+  Tree tree;
+  Eigen::VectorXd target, q;
+  int parent = 0;
+  bool found = false;
+  for (int i = 0; !found; ++i) {
+    if (i % 100 == 0) tree = wildTree(world, 60, rng);  // not every tree has nodes beside a wall
+    target = rng.uniformVector(2, 0, 1);
+    parent = nearestOf(tree.nodes, target);
+    const Eigen::VectorXd& from = tree.nodes[static_cast<std::size_t>(parent)];
+    q = from + std::min(1., stepSize / (target - from).norm()) * (target - from);
+    found = isFree(from, q) ? wanted == Way::kFree
+                            : wanted == (isFree(q, q) ? Way::kOnlyMiddleBlocked : Way::kEndBlocked);
+  }
+  tree.costs.clear();
+  EdgeRecord record(isFree, 2);
+  check.input("a tree of 60 nodes in the unit square with walls and discs, a random target, stepSize = " +
+              text(stepSize));
+  const std::optional<NewNode> got = student.rrtStep(tree, target, stepSize, record.test());
+  askedWell(check, record);
+  if (wanted == Way::kFree) {
+    check.that("a free step gives a node", got.has_value());
+    check.near("parent of the new node", got->parent, parent, 0);
+    check.near("new node", got->q, q, 1e-12);
+    check.that("edgeFree was asked for the new edge",
+               record.wasFree(tree.nodes[static_cast<std::size_t>(parent)], got->q));
+  } else if (wanted == Way::kEndBlocked) {
+    check.that("a step into an obstacle gives no node", !got.has_value());
+  } else {
+    check.that("a step through an obstacle gives no node", !got.has_value());
+  }
+}
+
+const PlaneWorld kThinWalls{.boxes = {{{0.3, 0}, {0.32, 0.75}}, {{0.65, 0.25}, {0.67, 1}}}};
+
+void stepsInThePlane(Check& check, Student& student) {
+  for (int i = 0; i < 12; ++i)
+    stepsWell(check, student, kThinWalls, i % 2 == 0 ? Way::kFree : Way::kEndBlocked);
+}
+
+// <hidden>
+void stepsPastCorners(Check& check, Student& student) {
+  for (int i = 0; i < 18; ++i)
+    stepsWell(check, student, twoWalls(check.rng()).world,
+              i % 3 == 0   ? Way::kFree
+              : i % 3 == 1 ? Way::kEndBlocked
+                           : Way::kOnlyMiddleBlocked);
+}
+// </hidden>
+
+// Part 3.
+
+void readsTheWay(Check& check, Student& student) {
+  for (const int count : {1, 2, 5, 12}) {
+    const Path way = randomPath(count, check.rng());
+    const TreeWithWay made = treeAround(way, check.rng());
+    check.input("a random tree in the plane, and a node with " + std::to_string(count - 1) +
+                " edges between it and the root");
+    isPath(check, student.wayFromRoot(made.tree, made.last), way);
+  }
+}
+
+void backwardIsSound(Check& check, const TreeSearch& search, const PlaneProblem& problem,
+                     const SearchSettings& settings, const EdgeRecord& record, const EdgeTest& isFree) {
+  askedWell(check, record);
+  isTree(check, search.tree, problem.goal, true);
+  edgesAreSound(check, search.tree, settings.stepSize, record, isFree);
+  pathIsSound(check, search.path, problem.start, problem.goal, settings.stepSize, isFree);
+  pathIsOfTrees(check, {search.path.begin() + 1, search.path.end()}, {search.tree});
+}
+
+// <hidden>
+void growsBackward(Check& check, Student& student) {
+  for (int i = 0; i < 4; ++i) {
+    const PlaneProblem problem = twoWalls(check.rng());
+    const SearchSettings settings = inThePlane(0.06, 0.1, 20000);
+    const EdgeTest isFree = freeIn(problem.world);
+    EdgeRecord record(isFree, 2);
+    const TreeSearch search =
+        student.growBackward(problem.start, problem.goal, settings, record.test(), Rng(check.rng().next()));
+    backwardIsSound(check, search, problem, settings, record, isFree);
+  }
+}
+
+// Nothing is in the way, so that each target gives a node. One in five leads straight to the start, eighty
+// steps away, and some of the others help: 172 nodes, with a standard deviation of 17. One that only aims has
+// 80, one that never does thousands.
+void aimsAtTheStart(Check& check, Student& student) {
+  const Eigen::VectorXd start = check.rng().uniformVector(2, -1, 1);
+  const double angle = check.rng().uniform(-4, 4);
+  const Eigen::VectorXd goal = start + 8 * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+  const SearchSettings settings{Eigen::Vector2d(-20, -20), Eigen::Vector2d(20, 20), 0.1, 0.2, 2000};
+  const EdgeTest isFree = [](const Eigen::VectorXd&, const Eigen::VectorXd&) { return true; };
+  EdgeRecord record(isFree, 2);
+  const TreeSearch search =
+      student.growBackward(start, goal, settings, record.test(), Rng(check.rng().next()));
+  backwardIsSound(check, search, {{}, start, goal}, settings, record, isFree);
+  check.atLeast("nodes of a tree that aims at the start with goalBias = 0.2",
+                static_cast<double>(search.tree.nodes.size()), 95);
+  check.atMost("nodes of a tree that aims at the start with goalBias = 0.2",
+               static_cast<double>(search.tree.nodes.size()), 600);
+}
+
+void backwardAnywhere(Check& check, Student& student) {
+  growsBackward(check, student);
+  aimsAtTheStart(check, student);
+}
+// </hidden>
+
+void armPathIsSound(Check& check, const Simulator& S, const Path& path) {
+  pathIsSound(check, path, kZero, kInTheHole, kArmSettings.stepSize,
+              [&](const Eigen::VectorXd& qa, const Eigen::VectorXd& qb) {
+                return motionClearance(S.model(), ContactModel(S.model()), qa, qb, 1e-3) > 0;
+              });
+}
+
+void backwardOutOfTheHole(Check& check, Student& student) {
+  const Simulator S("pegInAHole.ors");
+  const EdgeTest isFree = freeForArm(S);
+  check.input("pegInAHole.ors, from q = 0 into the hole, stepSize = 0.1, goalBias = 0.1");
+  for (int i = 1; i <= kArmTries; ++i) {
+    EdgeRecord record(isFree, 7);
+    const TreeSearch search =
+        student.growBackward(kZero, kInTheHole, kArmSettings, record.test(), Rng(check.rng().next()));
+    if (search.path.empty() && i < kArmTries) continue;
+    backwardIsSound(check, search, {{}, kZero, kInTheHole}, kArmSettings, record, isFree);
+    return armPathIsSound(check, S, search.path);
+  }
+}
+
+// Part 4.
+
+void joinsWays(Check& check, Student& student) {
+  for (int i = 0; i < 10; ++i) {
+    Rng& rng = check.rng();
+    const int count = 3 + rng.index(10), split = 1 + rng.index(count - 2);
+    const bool meets = i % 2 == 0;
+    const Path whole = randomPath(count, rng);
+    const Path first(whole.begin(), whole.begin() + split + 1);
+    const Path second(whole.rbegin(), whole.rend() - split - (meets ? 0 : 1));
+    const TreeWithWay one = treeAround(first, rng), other = treeAround(second, rng);
+    check.input(meets ? "two random trees, nodes a and b are the same configuration"
+                      : "two random trees, nodes a and b are different configurations");
+    isPath(check, student.joinedPath(one.tree, one.last, other.tree, other.last), whole);
+  }
+}
+
+void twoTreesAreSound(Check& check, const TwoTreeSearch& search, const PlaneProblem& problem, double stepSize,
+                      const EdgeRecord& record, const EdgeTest& isFree) {
+  askedWell(check, record);
+  isTree(check, search.fromStart, problem.start, true);
+  isTree(check, search.fromGoal, problem.goal, true);
+  edgesAreSound(check, search.fromStart, stepSize, record, isFree);
+  edgesAreSound(check, search.fromGoal, stepSize, record, isFree);
+  pathIsSound(check, search.path, problem.start, problem.goal, stepSize, isFree);
+  pathIsOfTrees(check, search.path, {search.fromStart, search.fromGoal});
+}
+
+// <hidden>
+// In these worlds both trees have to grow, as one alone does not get through two gaps that soon: at least
+// one node in twenty belongs to the smaller of the two.
+void growsFromBothSides(Check& check, Student& student) {
+  for (int i = 0; i < 5; ++i) {
+    const PlaneProblem problem = twoWalls(check.rng());
+    const SearchSettings settings = inThePlane(0.06, 0.1, 20000);
+    const EdgeTest isFree = freeIn(problem.world);
+    EdgeRecord record(isFree, 2);
+    const TwoTreeSearch search =
+        student.growBoth(problem.start, problem.goal, settings, record.test(), Rng(check.rng().next()));
+    twoTreesAreSound(check, search, problem, settings.stepSize, record, isFree);
+    const double one = static_cast<double>(search.fromStart.nodes.size());
+    const double other = static_cast<double>(search.fromGoal.nodes.size());
+    check.atLeast("share of nodes in the smaller tree", std::min(one, other) / (one + other), 0.05);
+  }
+}
+// </hidden>
+
+void bothSidesIntoTheHole(Check& check, Student& student) {
+  const Simulator S("pegInAHole.ors");
+  const EdgeTest isFree = freeForArm(S);
+  check.input("pegInAHole.ors, from q = 0 into the hole, stepSize = 0.1");
+  for (int i = 1; i <= kArmTries; ++i) {
+    EdgeRecord record(isFree, 7);
+    const TwoTreeSearch search =
+        student.growBoth(kZero, kInTheHole, kArmSettings, record.test(), Rng(check.rng().next()));
+    if (search.path.empty() && i < kArmTries) continue;
+    twoTreesAreSound(check, search, {{}, kZero, kInTheHole}, kArmSettings.stepSize, record, isFree);
+    return armPathIsSound(check, S, search.path);
+  }
+}
+
+// Part 5.
+
+// What is left of the path after it was shortened: free, with the same ends, not longer.
+double shortenedLength(Check& check, Student& student, const PlaneProblem& problem, const Path& path) {
+  EdgeRecord record(freeIn(problem.world), 2);
+  const Path better = student.shortened(path, record.test(), Rng(check.rng().next()));
+  askedWell(check, record);
+  // Pieces of free edges are free, but for the last digits.
+  pathIsSound(check, better, problem.start, problem.goal, 2, freeIn(problem.world, 1e-9));
+  check.atMost("length of the shortened path", lengthOf(better), lengthOf(path) + 1e-9);
+  return lengthOf(better);
+}
+
+void staysFree(Check& check, Student& student) {
+  for (int i = 0; i < 6; ++i) {
+    const PlaneProblem problem = twoWalls(check.rng());
+    check.input("the path of two trees between two thin walls in the unit square");
+    const Path path = jaggedPath(problem, check.rng());
+    check.that("the shortened path is really shorter",
+               shortenedLength(check, student, problem, path) < lengthOf(path) - 1e-3);
+  }
+  const PlaneProblem empty{{}, Eigen::Vector2d(0.1, 0.2), Eigen::Vector2d(0.9, 0.6)};
+  double given = 0, left = 0;
+  for (int i = 0; i < 6; ++i) {
+    check.input("a jagged path where nothing is in the way");
+    Path path{empty.start};
+    for (int k = 1; k < 12; ++k)
+      path.emplace_back(empty.start + k / 12. * (empty.goal - empty.start) +
+                        check.rng().uniformVector(2, -0.06, 0.06));
+    path.push_back(empty.goal);
+    const double shortest = (empty.goal - empty.start).norm();
+    given += lengthOf(path) - shortest;
+    left += shortenedLength(check, student, empty, path) - shortest;
+  }
+  check.atMost("what is left of six detours, as a share", left / given, 0.1);
+}
+
+// <hidden>
+void staysNearTheDisc(Check& check, Student& student) {
+  double given = 0, left = 0;
+  for (int i = 0; i < 24; ++i) {
+    const DiscProblem disc = oneDisc(check.rng());
+    Path path = jaggedPath(disc.problem, check.rng());
+    // Only one way round the disc is the shortest, and shortening does not lead to the other side.
+    while (lengthOf(path) > 1.6 * disc.shortest) path = jaggedPath(disc.problem, check.rng());
+    given += lengthOf(path) - disc.shortest;
+    left += shortenedLength(check, student, disc.problem, path) - disc.shortest;
+  }
+  // Leaving out nodes leaves 0.27, with a standard deviation of 0.04; random places on edges leave 0.11.
+  check.atMost("what is left of many detours around a disc, as a share", left / given, 0.5);
+}
+// </hidden>
+
+// Part 6.
+
+// Integral by Simpson's rule, exact for cubics: f at 21 moments between 0 and T.
+template <class F>
+double integral(double T, const F& f) {
+  const int n = 20;
+  double sum = 0;
+  for (int i = 0; i <= n; ++i) sum += (i == 0 || i == n ? 1 : i % 2 == 1 ? 4 : 2) * f(i);
+  return sum * T / (3 * n);
+}
+
+struct Transfer {
+  Eigen::Vector2d from, to;
+  double T;
+};
+
+Transfer randomTransfer(Rng& rng) {
+  return {rng.uniformVector(2, -3, 3), rng.uniformVector(2, -3, 3), rng.uniform(0.5, 4)};
+}
+
+// The force is what brings the point there, and what costs least: adding a force that changes nothing in the
+// end must not change the effort at first order, whatever that force is.
+void leastEffortIsRight(Check& check, Student& student, const Transfer& x) {
+  const double T = x.T;
+  std::vector<double> u;
+  for (int i = 0; i <= 20; ++i) u.push_back(student.forceAt(x.from, x.to, T, T * i / 20));
+  const auto at = [&](int i) { return u[static_cast<std::size_t>(i)]; };
+  const double scale = 1 + std::abs(at(0)) + std::abs(at(20));
+  check.near("velocity in the end, by that force", x.from[1] + integral(T, at), x.to[1], 1e-9 * scale, "m/s");
+  check.near("position in the end, by that force",
+             x.from[0] + T * x.from[1] + integral(T, [&](int i) { return T * (1 - i / 20.) * at(i); }),
+             x.to[0], 1e-9 * scale, "m");
+  const double needed = integral(T, [&](int i) { return at(i) * at(i); });
+  check.near("effort, against the integral of the squared force", student.effort(x.from, x.to, T), needed,
+             1e-8 * scale * scale, "N^2 s");
+  const double change = integral(T, [&](int i) {
+    const double s =
+        i / 10. - 1;  // from -1 to 1: (3 s^2 - 1) / 2 moves neither the velocity nor the position
+    return at(i) * (1.5 * s * s - 0.5);
+  });
+  check.near("change of the effort with a change of the force that leaves the end as it is", change, 0,
+             0.02 * scale * T);
+}
+
+void effortOfTransfers(Check& check, Student& student) {
+  for (int i = 0; i < 12; ++i) {
+    check.input("random states, T between 0.5 and 4 s");
+    leastEffortIsRight(check, student, randomTransfer(check.rng()));
+  }
+  const Transfer drift{{0.3, -1}, {0.3 - 2, -1}, 2};
+  check.input("a state that the point drifts to by itself");
+  check.near("effort of nothing", student.effort(drift.from, drift.to, drift.T), 0, 1e-12, "N^2 s");
+}
+
+// <hidden>
+void stepsInPhaseSpace(Check& check, Student& student) {
+  for (int i = 0; i < 12; ++i) {
+    Rng& rng = check.rng();
+    std::vector<Eigen::Vector2d> states;
+    for (int k = 0; k < 40; ++k) states.emplace_back(rng.uniformVector(2, -3, 3));
+    const Transfer x = randomTransfer(rng);
+    const double tau = i == 0 ? x.T : rng.uniform(0.05, 1) * x.T;
+    std::size_t nearest = 0;
+    for (std::size_t k = 1; k < states.size(); ++k)
+      if (leastEffort(states[k], x.to, x.T) < leastEffort(states[nearest], x.to, x.T)) nearest = k;
+    const PhaseNode node = student.phaseStep(states, x.to, x.T, tau);
+    check.near("state from which the target is nearest", node.parent, static_cast<double>(nearest), 0);
+    check.near("state after tau seconds", node.x, leastEffortState(states[nearest], x.to, x.T, tau), 1e-8);
+  }
+}
+// </hidden>
+
+// Part 7.
+
+void choosesTheBest(Check& check, Student& student) {
+  for (int i = 0; i < 25; ++i) {
+    Rng& rng = check.rng();
+    const PlaneWorld world = twoWalls(rng).world;
+    const Tree tree = wildTree(world, 60, rng);
+    Eigen::VectorXd q = rng.uniformVector(2, 0, 1);
+    while (!wayIsFree(world, q, q)) q = rng.uniformVector(2, 0, 1);
+    const std::vector<int> near = nodesNear(tree, q, i == 0 ? 0. : 0.35, rng);
+    bool anyFree = false;
+    for (const int k : near)
+      anyFree = anyFree || wayIsFree(world, tree.nodes[static_cast<std::size_t>(k)], q);
+    EdgeRecord record(freeIn(world), 2);
+    check.input("a random tree in the plane, and " + std::to_string(near.size()) + " of its nodes as `near`");
+    const std::optional<ParentChoice> chosen = student.bestParent(tree, near, q, record.test());
+    askedWell(check, record);
+    check.that("there is a parent if, and only if, an edge is free", chosen.has_value() == anyFree);
+    if (!chosen) continue;
+    check.that("the parent is one of `near`",
+               std::find(near.begin(), near.end(), chosen->parent) != near.end());
+    // With q as a node that hangs on it, nobody else would be the better parent.
+    const Eigen::VectorXd& from = tree.nodes[static_cast<std::size_t>(chosen->parent)];
+    check.that("edgeFree was asked for the new edge, and held", record.wasFree(from, q));
+    check.near("cost of the new node", chosen->cost,
+               tree.costs[static_cast<std::size_t>(chosen->parent)] + (q - from).norm(), 1e-9);
+    Tree grown = tree;
+    grown.nodes.push_back(q);
+    grown.costs.push_back(chosen->cost);
+    for (const int k : near)
+      check.that("no other parent gives less cost over a free edge",
+                 !gains(world, grown, static_cast<int>(tree.nodes.size()), k));
+  }
+}
+
+// Whoever is near and gains by it hangs on the node afterwards, nobody else moved, and all costs are lengths
+// of ways again. The order of `near` does not matter: who becomes cheaper because its parent does would still
+// be cheaper through the node, by the triangle inequality.
+void rewires(Check& check, Student& student) {
+  for (int i = 0; i < 15; ++i) {
+    Rng& rng = check.rng();
+    const PlaneWorld world = twoWalls(rng).world;
+    const int node = 79;
+    Tree tree;
+    std::vector<int> near;
+    // At least two gain, and one of those has others that hang on it.
+    for (int gaining = 0, carried = 0; gaining < 2 || carried == 0;) {
+      tree = wildTree(world, node + 1, rng);
+      near = nodesNear(tree, tree.nodes.back(), 0.35, rng);
+      near.erase(std::find(near.begin(), near.end(), node));
+      gaining = carried = 0;
+      for (const int other : near) {
+        if (!gains(world, tree, other, node)) continue;
+        ++gaining;
+        carried += static_cast<int>(std::count(tree.parents.begin(), tree.parents.end(), other));
+      }
+    }
+    EdgeRecord record(freeIn(world), 2);
+    check.input("a random tree in the plane, its last node, and all nodes within 0.35 of that");
+    const Tree got = student.rewired(tree, near, node, record.test());
+    askedWell(check, record);
+    isPath(check, got.nodes, tree.nodes);
+    isTree(check, got, tree.nodes[0], false);
+    check.near("number of costs", static_cast<double>(got.costs.size()), node + 1, 0);
+    const std::vector<double> costs = costsOf(got);
+    for (int k = 0; k <= node; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      const bool isNear = std::find(near.begin(), near.end(), k) != near.end();
+      const bool moves = isNear && gains(world, tree, k, node);
+      check.near("parent of a node", got.parents[at], moves ? node : tree.parents[at], 0);
+      check.near("cost of a node, against the length of its way", got.costs[at], costs[at], 1e-9);
+      if (moves)
+        check.that("edgeFree was asked for the new edges", record.wasFree(got.nodes[at], got.nodes[node]));
+    }
+  }
+}
+
+// <hidden>
+// All that holds for every tree of RRT*, and the cost of its path, which is infinite if there is none.
+double starIsSound(Check& check, Student& student, const PlaneProblem& problem,
+                   const SearchSettings& settings) {
+  const EdgeTest isFree = freeIn(problem.world);
+  EdgeRecord record(isFree, 2);
+  const StarSearch search =
+      student.growStar(problem.start, problem.goal, settings, 1.5, record.test(), Rng(check.rng().next()));
+  const Tree& tree = search.tree;
+  askedWell(check, record);
+  isTree(check, tree, problem.start, false);
+  edgesAreSound(check, tree, settings.stepSize, record, isFree);
+  check.near("number of costs", static_cast<double>(tree.costs.size()),
+             static_cast<double>(tree.nodes.size()), 0);
+  const std::vector<double> costs = costsOf(tree);
+  for (std::size_t i = 0; i < costs.size(); ++i)
+    check.near("cost of a node, against the length of its way", tree.costs[i], costs[i], 1e-9);
+  check.near("number of costs in `best`", static_cast<double>(search.best.size()), settings.maxSamples, 0);
+  for (std::size_t i = 1; i < search.best.size(); ++i)
+    check.that("the cost of the goal never grows", search.best[i] <= search.best[i - 1]);
+  check.that("the goal is reached", search.goal >= 0 && search.goal < static_cast<int>(tree.nodes.size()));
+  const auto goal = static_cast<std::size_t>(search.goal);
+  check.near("the node that is the goal", tree.nodes[goal], problem.goal, 0);
+  check.near("the last cost of the goal", search.best.back(), costs[goal], 1e-9);
+  return costs[goal];
+}
+
+void growsAroundWalls(Check& check, Student& student) {
+  for (int i = 0; i < 3; ++i) starIsSound(check, student, twoWalls(check.rng()), inThePlane(0.1, 0.1, 1500));
+}
+
+void comesNearTheShortest(Check& check, Student& student) {
+  double excess = 0;
+  const int count = 4;
+  for (int i = 0; i < count; ++i) {
+    const DiscProblem disc = oneDisc(check.rng());
+    excess += starIsSound(check, student, disc.problem, inThePlane(0.1, 0.05, 1500)) / disc.shortest - 1;
+  }
+  // Usually 0.019, with a standard deviation of 0.004; the path of an RRT is longer by 0.36, and at least by
+  // 0.2.
+  check.atMost("how much longer than the shortest way, on average over four worlds", excess / count, 0.06);
+}
+// </hidden>
+
+}  // namespace
+
+rex::grading::Checks<Student> checks() {
+  return {
+      {"reach-radius", "reach", "How far the hand is", 1, Group::visible, radiusOfTwoArms},
+      {"step-nearest", "step", "The nearest node, and a step that does not overshoot", 1, Group::visible,
+       nearestAndStep},
+      {"step-target", "step", "Random targets with a goal bias", 1, Group::visible, targets},
+      {"step-plane", "step", "A step in the plane", 1, Group::visible, stepsInThePlane},
+      {"backward-way", "backward", "The way from the root to a node", 1, Group::visible, readsTheWay},
+      {"backward-arm", "backward", "From the hole back to q = 0", 1, Group::visible, backwardOutOfTheHole},
+      {"connect-joined", "connect", "Two ways joined to a path", 1, Group::visible, joinsWays},
+      {"connect-arm", "connect", "From both sides into the hole", 1, Group::visible, bothSidesIntoTheHole},
+      {"smooth-free", "smooth", "Shorter, with the same ends, and free", 1, Group::visible, staysFree},
+      {"phase-effort", "phase", "The least effort and its force", 1, Group::visible, effortOfTransfers},
+      {"star-parent", "star", "The best parent", 1, Group::visible, choosesTheBest},
+      {"star-rewired", "star", "Rewiring, and what follows from it", 1, Group::visible, rewires},
+      // <hidden>
+      {"reach-any-arm", "reach", "Other arms, and the density in the plane", 1, Group::hidden, anyArm},
+      {"step-corners", "step", "Steps past corners of other worlds", 1, Group::hidden, stepsPastCorners},
+      {"backward-worlds", "backward", "Other worlds, and the aim", 1, Group::hidden, backwardAnywhere},
+      {"connect-worlds", "connect", "From both sides in other worlds", 1, Group::hidden, growsFromBothSides},
+      {"smooth-disc", "smooth", "How much shorter", 1, Group::hidden, staysNearTheDisc},
+      {"phase-step", "phase", "Growing a tree in phase space", 1, Group::hidden, stepsInPhaseSpace},
+      {"star-worlds", "star", "Trees and costs in other worlds", 1, Group::hidden, growsAroundWalls},
+      {"star-shortest", "star", "Near the shortest way", 1, Group::hidden, comesNearTheShortest},
+      // </hidden>
+  };
+}

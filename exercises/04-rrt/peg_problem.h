@@ -1,0 +1,30 @@
+#pragma once
+
+#include <numbers>
+
+#include "collision/contact_model.h"
+#include "exercise.h"
+#include "planning/edge_checker.h"
+#include "planning/robot_problem.h"
+
+// The arm with the peg, on its way from q = 0 into the hole. Used by main() and by the grader.
+
+inline const Eigen::VectorXd kZero = Eigen::VectorXd::Zero(7);
+inline const Eigen::VectorXd kInTheHole =
+    (Eigen::VectorXd(7) << 0.945499, 0.431195, -1.97155, 0.623969, 2.22355, -0.665206, -1.48356).finished();
+
+inline const SearchSettings kArmSettings{Eigen::VectorXd::Constant(7, -2 * std::numbers::pi),
+                                         Eigen::VectorXd::Constant(7, 2 * std::numbers::pi), 0.1, 0.1, 25000};
+
+/// Most searches end before 10000 targets, but one in KMANY is unlucky for long. Starting afresh helps.
+inline constexpr int kArmTries = 6;
+
+/// Ways of the arm are looked at in steps of 0.05, and free where all things are 0.02 m apart. Between the
+/// steps nothing comes so much nearer.
+inline EdgeTest freeForArm(const rex::Simulator& S) {
+  const rex::Space space = rex::Space::box(kArmSettings.lower, kArmSettings.upper);
+  rex::EdgeChecker checker(space, rex::contactFree(S.model(), rex::ContactModel(S.model()), 0.02), 0.05);
+  return [checker](const Eigen::VectorXd& qa, const Eigen::VectorXd& qb) mutable {
+    return checker.isValid(qa, qb);
+  };
+}

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include <Eigen/Core>
+
+// Worlds that are cheap to ask: the unit square with discs and boxes in it. Used by main() and by the grader.
+
+struct PlaneDisc {
+  Eigen::Vector2d center;
+  double radius;
+};
+
+struct PlaneBox {
+  Eigen::Vector2d lower, upper;
+};
+
+struct PlaneWorld {
+  std::vector<PlaneDisc> discs{};
+  std::vector<PlaneBox> boxes{};
+};
+
+/// Whether a box has a point of the straight way from a to b inside: the way is in all four half planes at
+/// once for some of its length.
+inline bool meets(const PlaneBox& box, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  double first = 0, last = 1;
+  for (int i = 0; i < 2; ++i) {
+    const double along = b[i] - a[i];
+    if (along == 0) {
+      if (a[i] <= box.lower[i] || a[i] >= box.upper[i]) return false;
+      continue;
+    }
+    const double one = (box.lower[i] - a[i]) / along, other = (box.upper[i] - a[i]) / along;
+    first = std::max(first, std::min(one, other));
+    last = std::min(last, std::max(one, other));
+  }
+  return first < last;
+}
+
+/// Whether a disc has a point of the straight way inside: its nearest point.
+inline bool meets(const PlaneDisc& disc, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  const Eigen::Vector2d along = b - a, toCenter = disc.center - a;
+  const double length2 = along.squaredNorm();
+  const double share = length2 > 0 ? std::clamp(toCenter.dot(along) / length2, 0., 1.) : 0;
+  return (toCenter - share * along).norm() < disc.radius;
+}
+
+/// Whether the straight way from a to b stays in the square and meets nothing: exact, not by samples.
+inline bool wayIsFree(const PlaneWorld& world, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  const auto meetsIt = [&](const auto& obstacle) { return meets(obstacle, a, b); };
+  return a.minCoeff() >= 0 && b.minCoeff() >= 0 && a.maxCoeff() <= 1 && b.maxCoeff() <= 1 &&
+         std::none_of(world.discs.begin(), world.discs.end(), meetsIt) &&
+         std::none_of(world.boxes.begin(), world.boxes.end(), meetsIt);
+}

@@ -1,0 +1,13 @@
+// caught by: star-rewired, star-worlds, star-shortest
+// mistake: a node that is hung on another parent becomes cheaper, but not what hangs on it.
+
+// <solution rewired>
+const auto n = static_cast<std::size_t>(node);
+for (const int i : near) {
+  const auto k = static_cast<std::size_t>(i);
+  const double cost = tree.costs[n] + (tree.nodes[k] - tree.nodes[n]).norm();
+  if (cost >= tree.costs[k] || !edgeFree(tree.nodes[n], tree.nodes[k])) continue;
+  tree.parents[k] = node;
+  tree.costs[k] = cost;
+}
+// </solution>
