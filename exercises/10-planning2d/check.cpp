@@ -159,10 +159,6 @@ void unseenMaps(Check& check, Student& student) {
 
 // Part 3.
 
-FieldGains randomGains(Rng& rng) {
-  return {rng.uniform(0.5, 2), rng.uniform(0.05, 0.5), rng.uniform(0.5, 1.5)};
-}
-
 void potentials(Check& check, Student& student) {
   check.forEachCase(6, [&](int i) {
     Rng& rng = check.rng();
@@ -220,20 +216,8 @@ void slidesInTheTrap(Check& check, Student& student) {
 // Half of the cases are cut off from the goal, half are easy. See there what that means.
 void slidesAnywhere(Check& check, Student& student) {
   check.forEachCase(8, [&](int i) {
-    Rng& rng = check.rng();
-    while (true) {
-      Slide slide{randomYard(rng, {8, 6}, 5, 0.5), {}, {1, rng.uniform(0.05, 0.2), rng.uniform(0.4, 1)}, {}};
-      slide.goal = randomFreePlace(slide.yard, rng);
-      slide.start = randomFreePlace(slide.yard, rng);
-      const bool isFar =
-          std::all_of(slide.yard.blocks.begin(), slide.yard.blocks.end(), [&](const Block& block) {
-            return (slide.goal - nearestPoint(block, slide.goal)).norm() > slide.gains.reach &&
-                   (slide.start - nearestPoint(block, slide.start)).norm() > 0.3;
-          });
-      if (!isFar || (slide.goal - slide.start).norm() < 3) continue;
-      if (i % 2 == 0 ? !isCutOff(slide) : !isEasy(slide)) continue;
-      return slides(check, student, slide, i % 2 == 0 ? Ending::kStuck : Ending::kAtGoal);
-    }
+    if (i % 2 == 0) return slides(check, student, randomTrap(check.rng()), Ending::kStuck);
+    slides(check, student, randomPass(check.rng()), Ending::kAtGoal);
   });
 }
 // </hidden>
@@ -274,7 +258,7 @@ std::vector<Eigen::Vector2d> randomNodes(const Yard& yard, int count, Rng& rng) 
 void roadmaps(Check& check, Student& student) {
   check.forEachCase(5, [&](int i) {
     Rng& rng = check.rng();
-    const Yard yard = i == 0 ? slotYard(2.8, 0.4) : randomYard(rng, {6, 6}, 8, 0.5);
+    const Yard yard = i == 0 ? slotYard(1.8, 0.4) : randomYard(rng, {6, 6}, 8, 0.5);
     const int k = 3 + rng.index(6);
     check.input(i == 0 ? "slotYard() of maps.h, 50 nodes" : "a random yard, 50 nodes");
     const std::vector<Eigen::Vector2d> nodes = randomNodes(yard, 50, rng);
@@ -304,7 +288,7 @@ double lengthOver(const Yard& yard, std::vector<Eigen::Vector2d> nodes, Network 
 void queries(Check& check, Student& student) {
   check.forEachCase(8, [&](int i) {
     Rng& rng = check.rng();
-    const Yard yard = i < 2 ? slotYard(rng.uniform(1, 4), 0.4) : randomYard(rng, {6, 6}, 8, 0.5);
+    const Yard yard = i < 2 ? slotYard(rng.uniform(0.5, 3), 0.4) : randomYard(rng, {6, 6}, 8, 0.5);
     const std::vector<Eigen::Vector2d> nodes = randomNodes(yard, 60, rng);
     const std::array<Eigen::Vector2d, 2> ends{randomFreePlace(yard, rng), randomFreePlace(yard, rng)};
     const Network roadmap = roadmapOf(yard, nodes, 6, 0.05, Straight::kFree);
@@ -334,7 +318,7 @@ template <class Sample>
 Samples gathered(Check& check, const Yard& yard, int count, int attempts, const Sample& sample) {
   Samples samples;
   for (int i = 0; i < attempts && std::ssize(samples) < count; ++i) {
-    const std::optional<Eigen::Vector2d> q = sample(check.rng().split(check.rng().next()));
+    const std::optional<Eigen::Vector2d> q = sample(Rng(check.rng().next()));
     if (!q) continue;
     check.that("every node is free", q->allFinite() && isFree(yard, *q));
     samples.push_back(*q);
@@ -375,17 +359,17 @@ void samplers(Check& check, Student& student) {
   check.near("mean distance of Gaussian nodes from the wall", sum / count, 0.627 * 0.3,
              6 * 0.523 * 0.3 / std::sqrt(count), "m");
   // To be 3.5 sigma from all that is blocked, the ends of a bridge would have to be 7 sigma apart.
-  const Yard slot = slotYard(2.9, 0.2);
+  const Yard slot = slotYard(1.9, 0.2);
   check.input("slotYard() of maps.h, 0.2 m wide; sigma = 0.3 m");
   const Samples bridge =
       gathered(check, slot, 60, 6000, [&](Rng rng) { return student.bridgeSample(slot, 0.3, rng); });
-  check.atLeast("number of bridge nodes of 6000 attempts", static_cast<double>(bridge.size()), 20);
+  check.atLeast("number of bridge nodes of 6000 attempts", static_cast<double>(bridge.size()), 10);
   for (const Eigen::Vector2d& q : bridge) {
     double distance = fromBorder(slot, q);
     for (const Block& block : slot.blocks) distance = std::min(distance, (q - nearestPoint(block, q)).norm());
     check.atMost("distance of a bridge node from what is blocked", distance, 3.5 * 0.3, "m");
   }
-  check.atLeast("share of bridge nodes in the slot", share(bridge, {{4, 2.9}, {6, 3.1}}), 0.4);
+  check.atLeast("share of bridge nodes in the slot", share(bridge, {{2, 1.9}, {4, 2.1}}), 0.4);
 }
 
 // <hidden>
@@ -396,29 +380,39 @@ bool isSolved(const Yard& yard, Samples nodes) {
   return std::isfinite(slowDistances(roadmapOf(yard, nodes, 8, 0.05, Straight::kFree), start)[start + 1]);
 }
 
-// 40 nodes each: all uniform, or half of them by another strategy.
-void narrowPassages(Check& check, Student& student) {
-  const int runs = 20;
-  double uniform = 0, gaussian = 0, bridge = 0;
-  for (int run = 0; run < runs; ++run) {
-    const Yard yard = slotYard(check.rng().uniform(1.5, 4.3), 0.2);
-    Samples nodes = gathered(check, yard, 20, 200, [&](Rng rng) { return student.uniformSample(yard, rng); });
-    const auto solvedWith = [&](const Samples& others) {
-      Samples all = nodes;
-      all.insert(all.end(), others.begin(), others.end());
-      return isSolved(yard, all) ? 1. / runs : 0.;
-    };
-    uniform +=
-        solvedWith(gathered(check, yard, 20, 200, [&](Rng rng) { return student.uniformSample(yard, rng); }));
-    gaussian += solvedWith(
-        gathered(check, yard, 20, 2000, [&](Rng rng) { return student.gaussianSample(yard, 0.3, rng); }));
-    bridge += solvedWith(
-        gathered(check, yard, 20, 4000, [&](Rng rng) { return student.bridgeSample(yard, 0.3, rng); }));
+// How often 40 nodes, half of them uniform, join start and goal: 1000 draws from both pools.
+double rateOf(const Yard& yard, const Samples& uniform, const Samples& others, Rng& rng) {
+  double solved = 0;
+  for (int run = 0; run < 1000; ++run) {
+    Samples nodes;
+    for (const Samples* pool : {&uniform, &others})
+      for (int i = 0; i < 20; ++i)
+        nodes.push_back((*pool)[static_cast<std::size_t>(rng.index(static_cast<int>(pool->size())))]);
+    solved += isSolved(yard, nodes) ? 1 : 0;
   }
-  std::fprintf(stderr, "RATES %g %g %g\n", uniform, gaussian, bridge);
-  check.atLeast("rate of solved runs with Gaussian nodes above that of uniform ones", gaussian - uniform,
-                0.1);
-  check.atLeast("rate of solved runs with bridge nodes above that of uniform ones", bridge - uniform, 0.2);
+  return solved / 1000;
+}
+
+// Over 100 seeds, 13 % of the draws are solved with uniform nodes. Gaussian ones solve more by 0.145 with a
+// standard deviation of 0.033, bridges by 0.49 with one of 0.09, at least 0.2. In the slot are 11 % of the
+// Gaussian nodes with a standard deviation of 1 %, and 2.7 % of uniform ones.
+void narrowPassages(Check& check, Student& student) {
+  const double low = check.rng().uniform(1, 2.8);
+  const Yard yard = slotYard(low, 0.2);
+  const Samples uniform =
+      gathered(check, yard, 1000, 3000, [&](Rng rng) { return student.uniformSample(yard, rng); });
+  const Samples gaussian =
+      gathered(check, yard, 1000, 9000, [&](Rng rng) { return student.gaussianSample(yard, 0.2, rng); });
+  const Samples bridge =
+      gathered(check, yard, 100, 30000, [&](Rng rng) { return student.bridgeSample(yard, 0.3, rng); });
+  check.atLeast("number of uniform nodes of 3000 attempts", static_cast<double>(uniform.size()), 1000);
+  check.atLeast("number of Gaussian nodes of 9000 attempts", static_cast<double>(gaussian.size()), 1000);
+  check.atLeast("number of bridge nodes of 30000 attempts", static_cast<double>(bridge.size()), 60);
+  check.atLeast("share of Gaussian nodes in the slot", share(gaussian, {{2, low}, {4, low + 0.2}}), 0.06);
+  const double usual = rateOf(yard, uniform, uniform, check.rng());
+  const auto gain = [&](const Samples& others) { return rateOf(yard, uniform, others, check.rng()) - usual; };
+  check.atLeast("rate of success with Gaussian nodes, minus that with uniform ones", gain(gaussian), 0.01);
+  check.atLeast("rate of success with bridge nodes, minus that with uniform ones", gain(bridge), 0.1);
 }
 // </hidden>
 

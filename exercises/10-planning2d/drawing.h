@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -71,6 +72,22 @@ inline std::vector<Eigen::Vector2d> centersOf(const CellMap& map, const std::vec
   std::vector<Eigen::Vector2d> centers;
   for (const std::size_t place : places) centers.push_back(centerOf(map.cellAt(place)));
   return centers;
+}
+
+// The numbers of all cells as colours, as far as they are finite and not below `least`.
+inline void addNumbers(rex::Figure& figure, const CellMap& map, const std::string& label,
+                       const std::vector<double>& numbers, double least) {
+  rex::Series cells{.style = rex::SeriesStyle::kPoints, .marker = rex::Marker::kSquare, .size = 3.6};
+  for (std::size_t place = 0; place < numbers.size(); ++place) {
+    const Eigen::Vector2d center = centerOf(map.cellAt(place));
+    if (!map.isFree(map.cellAt(place)) || !std::isfinite(numbers[place]) || numbers[place] < least) continue;
+    cells.x.push_back(center.x());
+    cells.y.push_back(center.y());
+    cells.values.push_back(numbers[place]);
+  }
+  if (cells.values.empty()) return;
+  figure.colorLabel = label;
+  figure.series.push_back(cells);
 }
 
 inline void addEnds(rex::Figure& figure, const Eigen::Vector2d& start, const Eigen::Vector2d& goal) {

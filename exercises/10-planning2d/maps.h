@@ -62,12 +62,12 @@ inline const Eigen::Vector2d kTrapGoal(9, 3);
 
 /// A wall with a slot of that width [m] that begins at a height of `low`, and blocks on both sides.
 inline Yard slotYard(double low, double width) {
-  return {{10, 6},
-          {{{4, 0}, {6, low}},
-           {{4, low + width}, {6, 6}},
-           {{1.5, 1}, {2.5, 2}},
-           {{1.2, 3.8}, {2.6, 4.6}},
-           {{7.4, 3.4}, {8.4, 4.8}},
-           {{7.8, 1}, {8.6, 1.8}}}};
+  return {{6, 4},
+          {{{2, 0}, {4, low}},
+           {{2, low + width}, {4, 4}},
+           {{0.6, 0.6}, {1.2, 1.2}},
+           {{0.5, 2.6}, {1.3, 3.1}},
+           {{4.8, 2.3}, {5.4, 3.2}},
+           {{4.9, 0.7}, {5.4, 1.3}}}};
 }
-inline const Eigen::Vector2d kSlotStart(0.5, 3), kSlotGoal(9.5, 3);
+inline const Eigen::Vector2d kSlotStart(0.3, 2), kSlotGoal(5.7, 2);

@@ -404,31 +404,18 @@ void showBug(const CellMap& map, Cell start, Cell goal, const std::vector<Eigen:
   writeReplay(S, "bug", look, {figure}, 300);
 }
 
-HeatMap colorsOf(const CellMap& map, const std::vector<double>& numbers) {
-  HeatMap colors{.xRange = {0, map.width}, .yRange = {0, map.height}};
-  colors.values.resize(map.height, map.width);
-  for (std::size_t place = 0; place < numbers.size(); ++place) {
-    const Cell cell = map.cellAt(place);
-    colors.values(cell.y, cell.x) = std::isfinite(numbers[place]) ? numbers[place] : 0;
-  }
-  return colors;
-}
-
 void showGrid(const std::vector<double>& byLibrary) {
   const CellMap map = roomMap();
   const std::vector<int> waves = waveNumbers(map, kRoomGoal);
   Figure figure = planOf("The wavefront from the goal", map);
-  figure.colorLabel = "number";
-  figure.heatMap = colorsOf(map, {waves.begin(), waves.end()});
+  addNumbers(figure, map, "number", {waves.begin(), waves.end()}, 2);
   addEnds(figure, centerOf(kRoomStart), centerOf(kRoomGoal));
   plot("wavefront", figure);
 
   const Network network = cellNetwork(map);
   const std::vector<double> distances = dijkstra(network, map.placeOf(kRoomGoal));
   figure = planOf("Distances by Dijkstra, and the way down", map);
-  figure.colorLabel = "distance [m]";
-  figure.heatMap = colorsOf(map, distances);
-  figure.heatMap->contours = 12;
+  addNumbers(figure, map, "distance [m]", distances, 0);
   addLine(figure, centersOf(map, wayDown(network, distances, map.placeOf(kRoomStart))),
           {.size = 2, .color = kRed});
   addEnds(figure, centerOf(kRoomStart), centerOf(kRoomGoal));
@@ -502,7 +489,7 @@ void walkArcs(const Network& roadmap, std::size_t node, std::vector<bool>& isSee
 
 void addRoadmap(Figure& figure, const Yard& yard, Strategy strategy, const Eigen::Vector2d& shift) {
   Rng rng(5);
-  const std::vector<Eigen::Vector2d> nodes = nodesOf(yard, strategy, 120, rng);
+  const std::vector<Eigen::Vector2d> nodes = nodesOf(yard, strategy, 100, rng);
   const Network roadmap = joinNearest(yard, nodes, kNeighbors, kResolution);
   const auto shifted = [&](std::vector<Eigen::Vector2d> points) {
     for (Eigen::Vector2d& p : points) p += shift;
@@ -524,18 +511,18 @@ void addRoadmap(Figure& figure, const Yard& yard, Strategy strategy, const Eigen
 }
 
 void showRoadmaps() {
-  const Yard yard = slotYard(2.6, 0.2);
-  Figure figure{.title = "120 nodes: uniform; half of them Gaussian; half of them bridges",
+  const Yard yard = slotYard(1.7, 0.2);
+  Figure figure{.title = "100 nodes: uniform; half of them Gaussian; half of them bridges",
                 .xLabel = "x [m]",
                 .yLabel = "y [m]",
                 .equalAxes = true,
-                .xRange = AxisRange{-0.3, 33.3},
-                .yRange = AxisRange{-0.3, 6.3},
+                .xRange = AxisRange{-0.2, 20.2},
+                .yRange = AxisRange{-0.2, 4.2},
                 .legend = Legend::kNone,
                 .width = 1600,
-                .height = 420};
+                .height = 460};
   for (const Strategy strategy : {Strategy::kUniform, Strategy::kGaussian, Strategy::kBridge}) {
-    const Eigen::Vector2d shift(11.5 * static_cast<double>(strategy), 0);
+    const Eigen::Vector2d shift(7 * static_cast<double>(strategy), 0);
     for (const Block& block : yard.blocks)
       figure.regions.push_back(rectangle(block.lower + shift, block.upper + shift));
     addRoadmap(figure, yard, strategy, shift);
@@ -556,7 +543,7 @@ void showRoadmaps() {
       double found = 0;
       for (std::uint64_t run = 0; run < 50; ++run) {
         Rng rng(run);
-        const Yard slot = slotYard(rng.uniform(1.5, 4.3), 0.2);
+        const Yard slot = slotYard(rng.uniform(1, 2.8), 0.2);
         const std::vector<Eigen::Vector2d> nodes = nodesOf(slot, strategy, count, rng);
         const Network roadmap = joinNearest(slot, nodes, kNeighbors, kResolution);
         const auto way = queryRoadmap(slot, nodes, roadmap, kSlotStart, kSlotGoal, kNeighbors, kResolution);
@@ -585,8 +572,7 @@ void showSearches() {
     const auto way = aStar(arcsOf, map.placeOf(kRoomStart), map.placeOf(kRoomGoal), estimates);
     const std::string name = isInformed ? "A*" : "Without an estimate";
     Figure figure = planOf(name + ": " + std::to_string(static_cast<int>(asked)) + " cells looked at", map);
-    figure.colorLabel = "when";
-    figure.heatMap = colorsOf(map, order);
+    addNumbers(figure, map, "when", order, 1);
     figure.colorRange = AxisRange{0, 450};
     addLine(figure, centersOf(map, way), {.size = 2, .color = kRed});
     addEnds(figure, centerOf(kRoomStart), centerOf(kRoomGoal));

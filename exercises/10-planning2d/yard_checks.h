@@ -86,6 +86,12 @@ inline Eigen::Vector2d trueGradient(const Yard& yard, const Eigen::Vector2d& goa
   return {(U(h, 0) - U(-h, 0)) / (2 * h), (U(0, h) - U(0, -h)) / (2 * h)};
 }
 
+// Whether p is farther than that from all blocks.
+inline bool isClear(const Yard& yard, const Eigen::Vector2d& p, double distance) {
+  return std::all_of(yard.blocks.begin(), yard.blocks.end(),
+                     [&](const Block& block) { return (p - nearestPoint(block, p)).norm() > distance; });
+}
+
 struct Slide {
   Yard yard;
   Eigen::Vector2d goal;
@@ -133,12 +139,59 @@ inline bool isEasy(const Slide& slide) {
     for (int step = 0; (p - slide.goal).norm() > slide.stepSize; ++step) {
       const Eigen::Vector2d gradient = trueGradient(slide.yard, slide.goal, slide.gains, p);
       const double distance = (p - slide.goal).norm();
-      if (!gradient.allFinite() || gradient.norm() < 0.3 * slide.gains.attraction * distance || step > 2000)
+      if (!gradient.allFinite() || gradient.norm() < 0.3 * slide.gains.attraction * distance || step > 1000)
         return false;
       p -= std::min(slide.stepSize, 0.02) * gradient.normalized();
     }
   }
   return true;
+}
+
+inline FieldGains randomGains(rex::Rng& rng) {
+  return {rng.uniform(0.5, 2), rng.uniform(0.05, 0.5), rng.uniform(0.4, 1.2)};
+}
+
+// A block with two arms, open to any of four sides, with the start between the arms and the goal behind the
+// block, among others.
+inline Slide randomTrap(rex::Rng& rng) {
+  while (true) {
+    Slide slide{randomYard(rng, {8, 8}, 3, 0.5), {}, randomGains(rng), {}};
+    const double width = 1 + 0.5 * rng.index(2), arm = 1 + 0.5 * rng.index(2);
+    std::vector<Eigen::Vector2d> places{{4, 3 - width},
+                                        {4.5, 5 + width},
+                                        {4 - arm, 3 - width},
+                                        {4, 4 - width},
+                                        {4 - arm, 4 + width},
+                                        {4, 5 + width},
+                                        {4 - rng.uniform(0.4, 0.8), rng.uniform(3.6, 4.4)},
+                                        {4.5 + rng.uniform(1, 2), rng.uniform(3.5, 4.5)}};
+    const bool isMirrored = rng.index(2) == 0, isTurned = rng.index(2) == 0;
+    for (Eigen::Vector2d& p : places) {
+      if (isMirrored) p.x() = 8 - p.x();
+      if (isTurned) p = {p.y(), p.x()};
+    }
+    for (std::size_t i = 0; i < 6; i += 2)
+      slide.yard.blocks.push_back({places[i].cwiseMin(places[i + 1]), places[i].cwiseMax(places[i + 1])});
+    slide.start = places[6];
+    slide.goal = places[7];
+    if (isFree(slide.yard, slide.start) && isClear(slide.yard, slide.goal, slide.gains.reach) &&
+        isCutOff(slide))
+      return slide;
+  }
+}
+
+// A goal in sight, and a block near the straight way to it.
+inline Slide randomPass(rex::Rng& rng) {
+  while (true) {
+    Slide slide{randomYard(rng, {8, 8}, 5, 0.5), {}, randomGains(rng), {}};
+    slide.goal = randomFreePlace(slide.yard, rng);
+    slide.start = randomFreePlace(slide.yard, rng);
+    const bool isFar = (slide.goal - slide.start).norm() > 3;
+    const bool isNear = !isClear(slide.yard, (slide.start + slide.goal) / 2, slide.gains.reach);
+    if (isFar && isNear && isClear(slide.yard, slide.start, 0.3) &&
+        isClear(slide.yard, slide.goal, slide.gains.reach) && isEasy(slide))
+      return slide;
+  }
 }
 
 inline void slides(rex::grading::Check& check, Student& student, const Slide& slide, Ending wanted) {
