@@ -77,7 +77,7 @@ inline std::vector<Eigen::Vector2d> centersOf(const CellMap& map, const std::vec
 // The numbers of all cells as colours, as far as they are finite and not below `least`.
 inline void addNumbers(rex::Figure& figure, const CellMap& map, const std::string& label,
                        const std::vector<double>& numbers, double least) {
-  rex::Series cells{.style = rex::SeriesStyle::kPoints, .marker = rex::Marker::kSquare, .size = 3.6};
+  rex::Series cells{.style = rex::SeriesStyle::kPoints, .marker = rex::Marker::kSquare, .size = 3.1};
   for (std::size_t place = 0; place < numbers.size(); ++place) {
     const Eigen::Vector2d center = centerOf(map.cellAt(place));
     if (!map.isFree(map.cellAt(place)) || !std::isfinite(numbers[place]) || numbers[place] < least) continue;
@@ -111,7 +111,7 @@ inline rex::Simulator sceneOf(const CellMap& map, Cell start, Cell goal) {
                      box(map.width, map.height, 0.1) + " color=[.82 .82 .80] fixed }\n";
   for (const Block& wall : wallsOf(map)) {
     const Eigen::Vector2d center = (wall.lower + wall.upper) / 2, size = wall.upper - wall.lower;
-    text += "body wall { X=<T " + at(center.x(), center.y(), 0.4) + ">" + box(size.x(), size.y(), 0.8) +
+    text += "body wall { X=<T " + at(center.x(), center.y(), 0.25) + ">" + box(size.x(), size.y(), 0.5) +
             " color=[.25 .35 .60] fixed }\n";
   }
   text += "body goal { X=<T " + at(g.x(), g.y(), 0.01) + "> type=ST_cylinder size=[0 0 0.02 0.45]" +
@@ -119,4 +119,18 @@ inline rex::Simulator sceneOf(const CellMap& map, Cell start, Cell goal) {
           "body robot { type=ST_cylinder size=[0 0 0.5 0.4] color=[.90 .58 .18] }\n" +
           "joint drive (base robot) { type=transXY }\n";
   return rex::Simulator(rex::SimulatorDescription{.sceneName = "map.ors", .sceneText = text, .q = {}});
+}
+
+// All arcs that hang together as one line, there and back again.
+inline void walkArcs(const Network& roadmap, std::size_t node, std::vector<bool>& isSeen,
+                     std::vector<std::size_t>& line) {
+  isSeen[node] = true;
+  line.push_back(node);
+  for (const Arc& arc : roadmap[node]) {
+    if (isSeen[arc.to])
+      line.push_back(arc.to);
+    else
+      walkArcs(roadmap, arc.to, isSeen, line);
+    line.push_back(node);
+  }
 }

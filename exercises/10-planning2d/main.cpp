@@ -248,23 +248,9 @@ std::vector<Eigen::Vector2d> nodesOf(const Yard& yard, Strategy strategy, int co
   return nodes;
 }
 
-// All arcs that hang together as one line, there and back again.
-void walkArcs(const Network& roadmap, std::size_t node, std::vector<bool>& isSeen,
-              std::vector<std::size_t>& line) {
-  isSeen[node] = true;
-  line.push_back(node);
-  for (const Arc& arc : roadmap[node]) {
-    if (isSeen[arc.to])
-      line.push_back(arc.to);
-    else
-      walkArcs(roadmap, arc.to, isSeen, line);
-    line.push_back(node);
-  }
-}
-
 void addRoadmap(Figure& figure, const Yard& yard, Strategy strategy, const Eigen::Vector2d& shift) {
-  Rng rng(5);
-  const std::vector<Eigen::Vector2d> nodes = nodesOf(yard, strategy, 100, rng);
+  Rng rng(7);
+  const std::vector<Eigen::Vector2d> nodes = nodesOf(yard, strategy, 80, rng);
   const Network roadmap = joinNearest(yard, nodes, kNeighbors, kResolution);
   const auto shifted = [&](std::vector<Eigen::Vector2d> points) {
     for (Eigen::Vector2d& p : points) p += shift;
@@ -287,7 +273,7 @@ void addRoadmap(Figure& figure, const Yard& yard, Strategy strategy, const Eigen
 
 void showRoadmaps() {
   const Yard yard = slotYard(1.7, 0.2);
-  Figure figure{.title = "100 nodes: uniform; half of them Gaussian; half of them bridges",
+  Figure figure{.title = "80 nodes: uniform; half of them Gaussian; half of them bridges",
                 .xLabel = "x [m]",
                 .yLabel = "y [m]",
                 .equalAxes = true,
@@ -348,7 +334,7 @@ void showSearches() {
     const std::string name = isInformed ? "A*" : "Without an estimate";
     Figure figure = planOf(name + ": " + std::to_string(static_cast<int>(asked)) + " cells looked at", map);
     addNumbers(figure, map, "when", order, 1);
-    figure.colorRange = AxisRange{0, 450};
+    figure.colorRange = AxisRange{0, 500};
     addLine(figure, centersOf(map, way), {.size = 2, .color = kRed});
     addEnds(figure, centerOf(kRoomStart), centerOf(kRoomGoal));
     plot(isInformed ? "astar" : "uninformed", figure);
