@@ -36,16 +36,23 @@ void bugsOnKnownMaps(Check& check, Student& student) {
   bugObeys(check, student, roomMap(), kRoomStart, kRoomGoal);
 }
 
-void bugsThatGiveUp(Check& check, Student& student) {
-  check.input("the goal in a closed room");
-  CellMap map = hookMap();
-  enclose(map, kHookGoal, 1);
-  bugObeys(check, student, map, kHookStart, kHookGoal);
-  check.input("the start in a closed room");
-  bugObeys(check, student, map, kHookGoal, kHookStart);
-  map = pocketMap();
-  enclose(map, {1, 5}, 1);
-  bugObeys(check, student, map, {1, 5}, {13, 5});
+// A closed room, and the same with a door: to stay where it is would not do.
+void bugsAndRooms(Check& check, Student& student) {
+  for (const bool isOpen : {false, true}) {
+    const std::string room = isOpen ? "a room with a door" : "a closed room";
+    CellMap map = hookMap();
+    enclose(map, kHookGoal, 1);
+    if (isOpen) map.blocked[map.placeOf({kHookGoal.x, kHookGoal.y - 1})] = 0;
+    check.input("hookMap() of maps.h, the goal in " + room);
+    bugObeys(check, student, map, kHookStart, kHookGoal);
+    check.input("hookMap() of maps.h, the start in " + room);
+    bugObeys(check, student, map, kHookGoal, kHookStart);
+    map = pocketMap();
+    enclose(map, {1, 5}, 1);
+    if (isOpen) map.blocked[map.placeOf({1, 4})] = 0;
+    check.input("a wall with two pockets, the start in " + room);
+    bugObeys(check, student, map, {1, 5}, {13, 5});
+  }
 }
 
 // <hidden>
@@ -190,8 +197,8 @@ void gradients(Check& check, Student& student) {
     for (int place = 0; place < 20;) {
       const Eigen::Vector2d p = randomFreePlace(yard, rng);
       const bool isPlain = std::all_of(yard.blocks.begin(), yard.blocks.end(), [&](const Block& block) {
-        const double distance = (p - nearestPoint(block, p)).norm();
-        return distance > 0.1 && std::abs(distance - gains.reach) > 1e-4;
+        const double apart = (p - nearestPoint(block, p)).norm();
+        return apart > 0.1 && std::abs(apart - gains.reach) > 1e-4;
       });
       if (!isPlain) continue;
       const Eigen::Vector2d wanted = trueGradient(yard, goal, gains, p);
@@ -503,7 +510,7 @@ grading::Checks<Student> checks() {
   return {
       {"bug-known-maps", "bug", "around obstacles, back to the line, to the goal", 1, Group::visible,
        bugsOnKnownMaps},
-      {"bug-gives-up", "bug", "where no way leads, the bug says so", 1, Group::visible, bugsThatGiveUp},
+      {"bug-rooms", "bug", "where no way leads, the bug says so", 1, Group::visible, bugsAndRooms},
       // <hidden>
       {"bug-any-map", "bug", "unseen maps", 1, Group::hidden, bugsAnywhere},
       // </hidden>

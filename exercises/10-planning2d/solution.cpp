@@ -93,14 +93,14 @@ std::vector<int> waveNumbers(const CellMap& map, Cell goal) {
 Network cellNetwork(const CellMap& map) {
   Network network(map.blocked.size());
   // <solution cellNetwork>
-  for (std::size_t place = 0; place < network.size(); ++place) {
-    const Cell at = map.cellAt(place);
+  for (std::size_t here = 0; here < network.size(); ++here) {
+    const Cell at = map.cellAt(here);
     for (int y = at.y - 1; map.isFree(at) && y <= at.y + 1; ++y) {
       for (int x = at.x - 1; x <= at.x + 1; ++x) {
         // For a step to the side these two cells are both ends of it.
         const bool hasRoom = map.isFree({x, at.y}) && map.isFree({at.x, y});
         if (Cell{x, y} == at || !map.isFree({x, y}) || !hasRoom) continue;
-        network[place].push_back({map.placeOf({x, y}), x != at.x && y != at.y ? std::numbers::sqrt2 : 1});
+        network[here].push_back({map.placeOf({x, y}), x != at.x && y != at.y ? std::numbers::sqrt2 : 1});
       }
     }
   }

@@ -1,4 +1,4 @@
-// caught by: prm-straight, prm-join, prm-query
+// caught by: prm-straight, prm-join
 // mistake: tests the ends of an edge, not what lies between.
 
 // <solution straightIsFree>
