@@ -1,5 +1,5 @@
 // caught by: grid-way
-// mistake: goes to the lowest neighbour, as slide 4:25 says of cells; with arcs of any length that is a detour.
+// mistake: goes to the lowest neighbour, as slide 4:25 says; where arcs differ, that is a detour.
 
 // <solution wayDown>
 if (distances[start] == kInfinite) return {};
