@@ -192,7 +192,7 @@ inline RandomNetwork randomNetwork(rex::Rng& rng, int nodes, double reach, doubl
 // Bellman and Ford: as simple as it is slow.
 inline std::vector<double> slowDistances(const Network& network, std::size_t from) {
   std::vector<double> distances(network.size(), std::numeric_limits<double>::infinity());
-  distances[from] = 0;
+  distances.at(from) = 0;
   for (bool isChanging = true; isChanging;) {
     isChanging = false;
     for (std::size_t node = 0; node < network.size(); ++node)

@@ -216,8 +216,9 @@ void showField() {
   figure.colorLabel = "U, 50 J at most";
   figure.heatMap = heatMapOf(U, {0, yard.size.x()}, {0, yard.size.y()}, 200, 120);
   figure.heatMap->contours = 25;
-  figure.arrows = {arrowsOf(force, {0.2, yard.size.x() - 0.2}, {0.2, yard.size.y() - 0.2}, 25, 15)};
-  figure.arrows.front().color = Color{1, 1, 1};
+  Arrows arrows = arrowsOf(force, {0.2, yard.size.x() - 0.2}, {0.2, yard.size.y() - 0.2}, 25, 15);
+  arrows.color = Color{1, 1, 1};
+  if (!arrows.x.empty()) figure.arrows = {arrows};
   for (const double y : {0.3, 1.2, 2.4, 3., 3.9, 5., 5.7}) {
     const FieldTrail trail = slideDown(yard, kTrapGoal, gains, {0.5, y}, 0.05);
     const bool isStuck = trail.ending == Ending::kStuck;

@@ -113,18 +113,18 @@ Network cellNetwork(const CellMap& map) {
 std::vector<double> dijkstra(const Network& network, std::size_t from) {
   std::vector<double> distances(network.size(), kInfinite);
   // <solution dijkstra>
-  using Open = std::pair<double, std::size_t>;
-  std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
+  using Entry = std::pair<double, std::size_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   distances[from] = 0;
-  open.emplace(0, from);
-  while (!open.empty()) {
-    const auto [distance, node] = open.top();
-    open.pop();
+  queue.emplace(0, from);
+  while (!queue.empty()) {
+    const auto [distance, node] = queue.top();
+    queue.pop();
     if (distance > distances[node]) continue;  // it was reached on a shorter way since
     for (const Arc& arc : network[node]) {
       if (distance + arc.length >= distances[arc.to]) continue;
       distances[arc.to] = distance + arc.length;
-      open.emplace(distances[arc.to], arc.to);
+      queue.emplace(distances[arc.to], arc.to);
     }
   }
   // <todo>
@@ -348,13 +348,13 @@ std::vector<std::size_t> aStar(const std::function<std::vector<Arc>(std::size_t)
   std::vector<double> lengths(estimates.size(), kInfinite);
   std::vector<std::size_t> from(estimates.size(), start);
   std::vector<bool> isDone(estimates.size());
-  using Open = std::pair<double, std::size_t>;
-  std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
+  using Entry = std::pair<double, std::size_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   lengths[start] = 0;
-  open.emplace(estimates[start], start);
-  while (!open.empty() && open.top().second != goal) {
-    const std::size_t node = open.top().second;
-    open.pop();
+  queue.emplace(estimates[start], start);
+  while (!queue.empty() && queue.top().second != goal) {
+    const std::size_t node = queue.top().second;
+    queue.pop();
     if (isDone[node]) continue;
     isDone[node] = true;
     for (const Arc& arc : arcsOf(node)) {
@@ -362,7 +362,7 @@ std::vector<std::size_t> aStar(const std::function<std::vector<Arc>(std::size_t)
       if (length >= lengths[arc.to]) continue;
       lengths[arc.to] = length;
       from[arc.to] = node;
-      open.emplace(length + estimates[arc.to], arc.to);
+      queue.emplace(length + estimates[arc.to], arc.to);
     }
   }
   if (lengths[goal] == kInfinite) return {};
@@ -441,8 +441,9 @@ void showField() {
   figure.colorLabel = "U, 50 J at most";
   figure.heatMap = heatMapOf(U, {0, yard.size.x()}, {0, yard.size.y()}, 200, 120);
   figure.heatMap->contours = 25;
-  figure.arrows = {arrowsOf(force, {0.2, yard.size.x() - 0.2}, {0.2, yard.size.y() - 0.2}, 25, 15)};
-  figure.arrows.front().color = Color{1, 1, 1};
+  Arrows arrows = arrowsOf(force, {0.2, yard.size.x() - 0.2}, {0.2, yard.size.y() - 0.2}, 25, 15);
+  arrows.color = Color{1, 1, 1};
+  if (!arrows.x.empty()) figure.arrows = {arrows};
   for (const double y : {0.3, 1.2, 2.4, 3., 3.9, 5., 5.7}) {
     const FieldTrail trail = slideDown(yard, kTrapGoal, gains, {0.5, y}, 0.05);
     const bool isStuck = trail.ending == Ending::kStuck;

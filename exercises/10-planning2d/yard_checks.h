@@ -59,9 +59,9 @@ enum class Straight { kFree, kEither, kBlocked };
 inline Straight judged(const Yard& yard, const Eigen::Vector2d& a, const Eigen::Vector2d& b,
                        double resolution) {
   Straight result = Straight::kFree;
-  for (const Block& block : yard.blocks) {
+  for (const auto& [lower, upper] : yard.blocks) {
     const Eigen::Vector2d rim = Eigen::Vector2d::Constant(1e-9);
-    const double length = lengthIn({block.lower - rim, block.upper + rim}, a, b);
+    const double length = lengthIn({lower - rim, upper + rim}, a, b);
     if (length > resolution * (1 + 1e-6) + 1e-8) return Straight::kBlocked;
     if (length >= 0) result = Straight::kEither;
   }
@@ -71,9 +71,9 @@ inline Straight judged(const Yard& yard, const Eigen::Vector2d& a, const Eigen::
 // U of part 3, and its gradient by differences.
 inline double trueU(const Yard& yard, const Eigen::Vector2d& goal, const FieldGains& gains,
                     const Eigen::Vector2d& p) {
-  double U = gains.attraction * (p - goal).squaredNorm() / 2;
-  for (const Block& block : yard.blocks) {
-    const double nearness = 1 / (nearestPoint(block, p) - p).norm() - 1 / gains.reach;
+  double U = gains.attraction / 2 * (p - goal).squaredNorm();
+  for (const Block& pusher : yard.blocks) {
+    const double nearness = 1 / (nearestPoint(pusher, p) - p).norm() - 1 / gains.reach;
     if (nearness > 0) U += gains.repulsion * nearness * nearness / 2;
   }
   return U;

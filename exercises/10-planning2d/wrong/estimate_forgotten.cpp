@@ -5,13 +5,13 @@
 std::vector<double> lengths(estimates.size(), kInfinite);
 std::vector<std::size_t> from(estimates.size(), start);
 std::vector<bool> isDone(estimates.size());
-using Open = std::pair<double, std::size_t>;
-std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
+using Entry = std::pair<double, std::size_t>;
+std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
 lengths[start] = 0;
-open.emplace(estimates[start], start);
-while (!open.empty() && open.top().second != goal) {
-  const std::size_t node = open.top().second;
-  open.pop();
+queue.emplace(estimates[start], start);
+while (!queue.empty() && queue.top().second != goal) {
+  const std::size_t node = queue.top().second;
+  queue.pop();
   if (isDone[node]) continue;
   isDone[node] = true;
   for (const Arc& arc : arcsOf(node)) {
@@ -19,7 +19,7 @@ while (!open.empty() && open.top().second != goal) {
     if (length >= lengths[arc.to]) continue;
     lengths[arc.to] = length;
     from[arc.to] = node;
-    open.emplace(length + estimates[start], arc.to);
+    queue.emplace(length + estimates[start], arc.to);
   }
 }
 if (lengths[goal] == kInfinite) return {};
