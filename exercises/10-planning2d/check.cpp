@@ -121,22 +121,21 @@ void networksOfMaps(Check& check, Student& student) {
   networkFits(check, student, roomMap());
 }
 
-// With a reach of 0.16, some of 80 points are usually out of reach of the others.
+// With a reach of 0.1, points have 2.5 neighbours on average, and most cannot be reached.
 void distancesOnNetworks(Check& check, Student& student) {
   check.forEachCase(6, [&](int i) {
     check.input("a random network");
-    const RandomNetwork made = randomNetwork(check.rng(), 80, i % 2 == 0 ? 0.3 : 0.16, 3);
+    const RandomNetwork made = randomNetwork(check.rng(), 80, i % 2 == 0 ? 0.3 : 0.1, 3);
     const auto from = static_cast<std::size_t>(check.rng().index(80));
     distancesAgree(check, student.dijkstra(made.network, from), slowDistances(made.network, from));
   });
 }
 
-// Given the right distances. In 500 random networks of this kind, a way that always goes to the neighbour
-// with the least distance was longer than the shortest in all but one of six from random starts or more.
+// Given the right distances.
 void waysDown(Check& check, Student& student) {
   check.forEachCase(6, [&](int i) {
     check.input("a random network with its distances");
-    const RandomNetwork made = randomNetwork(check.rng(), 80, i % 2 == 0 ? 0.3 : 0.16, 3);
+    const RandomNetwork made = randomNetwork(check.rng(), 80, i % 2 == 0 ? 0.3 : 0.1, 3);
     const auto goal = static_cast<std::size_t>(check.rng().index(80));
     const std::vector<double> distances = slowDistances(made.network, goal);
     for (std::size_t start = 0; start < 80; start += 5)
@@ -400,26 +399,26 @@ double rateOf(const Yard& yard, const Samples& uniform, const Samples& others, R
   return solved / 1000;
 }
 
-// Over 100 seeds, 13 % of the draws are solved with uniform nodes. Gaussian ones solve more by 0.145 with a
-// standard deviation of 0.033, bridges by 0.49 with one of 0.09, at least 0.2. In the slot are 11 % of the
-// Gaussian nodes with a standard deviation of 1 %, and 2.7 % of uniform ones.
+// Over 60 seeds, 14 % of the draws are solved with uniform nodes. Gaussian ones solve more by 0.13 with a
+// standard deviation of 0.028, bridges by 0.57 with one of 0.063. In the slot are 10.7 % of the Gaussian
+// nodes, with a standard deviation of 0.7 %, and 2.6 % of the uniform ones.
 void narrowPassages(Check& check, Student& student) {
-  const double low = check.rng().uniform(1, 2.8);
+  const double low = check.rng().uniform(1.3, 2.1);
   const Yard yard = slotYard(low, 0.2);
   const Samples uniform =
-      gathered(check, yard, 1000, 3000, [&](Rng rng) { return student.uniformSample(yard, rng); });
+      gathered(check, yard, 3000, 8000, [&](Rng rng) { return student.uniformSample(yard, rng); });
   const Samples gaussian =
-      gathered(check, yard, 1000, 9000, [&](Rng rng) { return student.gaussianSample(yard, 0.2, rng); });
+      gathered(check, yard, 2000, 16000, [&](Rng rng) { return student.gaussianSample(yard, 0.2, rng); });
   const Samples bridge =
       gathered(check, yard, 100, 30000, [&](Rng rng) { return student.bridgeSample(yard, 0.3, rng); });
-  check.atLeast("number of uniform nodes of 3000 attempts", static_cast<double>(uniform.size()), 1000);
-  check.atLeast("number of Gaussian nodes of 9000 attempts", static_cast<double>(gaussian.size()), 1000);
+  check.atLeast("number of uniform nodes of 8000 attempts", static_cast<double>(uniform.size()), 3000);
+  check.atLeast("number of Gaussian nodes of 16000 attempts", static_cast<double>(gaussian.size()), 2000);
   check.atLeast("number of bridge nodes of 30000 attempts", static_cast<double>(bridge.size()), 60);
   check.atLeast("share of Gaussian nodes in the slot", share(gaussian, {{2, low}, {4, low + 0.2}}), 0.06);
   const double usual = rateOf(yard, uniform, uniform, check.rng());
   const auto gain = [&](const Samples& others) { return rateOf(yard, uniform, others, check.rng()) - usual; };
   check.atLeast("rate of success with Gaussian nodes, minus that with uniform ones", gain(gaussian), 0.01);
-  check.atLeast("rate of success with bridge nodes, minus that with uniform ones", gain(bridge), 0.1);
+  check.atLeast("rate of success with bridge nodes, minus that with uniform ones", gain(bridge), 0.25);
 }
 // </hidden>
 
