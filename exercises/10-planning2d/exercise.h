@@ -1,0 +1,166 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "course/course.h"
+
+// The functions you complete in main.cpp. Metres, in the plane. Slides are named as chapter:number.
+
+// Maps of cells, for parts 1, 2 and 5.
+
+/// A square of one metre by its column and row, from the lower left.
+struct Cell {
+  int x = 0, y = 0;
+  bool operator==(const Cell&) const = default;
+};
+
+/// A rectangle of cells. Lists of all cells go row by row, from the lowest.
+struct CellMap {
+  int width = 0, height = 0;
+  std::vector<int> blocked;  ///< 1 or 0 for each cell
+
+  std::size_t placeOf(Cell cell) const { return static_cast<std::size_t>(cell.y * width + cell.x); }
+  Cell cellAt(std::size_t place) const {
+    return {static_cast<int>(place) % width, static_cast<int>(place) / width};
+  }
+  /// Outside nothing is free.
+  bool isFree(Cell cell) const {
+    return 0 <= cell.x && cell.x < width && 0 <= cell.y && cell.y < height && blocked[placeOf(cell)] == 0;
+  }
+};
+
+/// Nodes 0, 1, ... and, for each, where its arcs lead and how long they are. Every arc has one of the same
+/// length that leads back.
+struct Arc {
+  std::size_t to = 0;
+  double length = 0;
+};
+using Network = std::vector<std::vector<Arc>>;
+
+// Part 1, a bug (4:7 to 4:11).
+
+/// Where a bug went, from its start on, each cell beside the one before; and whether it got to its goal.
+struct BugTrail {
+  bool reached = false;
+  std::vector<Cell> cells;
+};
+
+/// Bug 2 (4:11). The m-line leads from start (its first cell) to goal (its last), each cell beside the one
+/// before; start and goal are free. isFree(cell) may be asked only about the eight cells that touch one where
+/// the bug goes; it moves up, down, left and right. It leaves the m-line only for an obstacle that it touches
+/// all the way (corner to corner counts), always turns to the same side, and comes back to the line as soon
+/// as it meets a cell of it that is nearer to the goal, counted along the line. It gives up when it has come
+/// round: when it is where it met the obstacle and would make the same step again.
+BugTrail bugTwo(const std::vector<Cell>& mLine, const std::function<bool(Cell)>& isFree);
+
+// Part 2, wavefront and Dijkstra (4:17 to 4:26).
+
+/// The numbers of slides 4:18 to 4:25 for all cells: 2 at the goal, which is free, one more with each step to
+/// one of the eight cells around, 1 where blocked, 0 where no way leads.
+std::vector<int> waveNumbers(const CellMap& map, Cell goal);
+
+/// All cells as nodes, in the order of lists. Arcs join free cells: sides 1 m, diagonals sqrt(2) m. A
+/// diagonal arc is there only if both cells beside it are free, so that nothing scrapes along a corner.
+Network cellNetwork(const CellMap& map);
+
+/// The length of the shortest way from one node to every node, itself included; infinite where there is none
+/// (4:26). All arcs have a positive length.
+std::vector<double> dijkstra(const Network& network, std::size_t from);
+
+/// A shortest way from `start` to where `distances` (of dijkstra()) are zero, both included; none: empty.
+std::vector<std::size_t> wayDown(const Network& network, const std::vector<double>& distances,
+                                 std::size_t start);
+
+// A yard with blocks in it, for parts 3 and 4.
+
+struct Block {
+  Eigen::Vector2d lower = Eigen::Vector2d::Zero(), upper = Eigen::Vector2d::Zero();  ///< its corners
+};
+/// The rectangle from (0, 0) to `size`. Blocks may overlap.
+struct Yard {
+  Eigen::Vector2d size = Eigen::Vector2d::Zero();
+  std::vector<Block> blocks;
+};
+
+/// The point of a block that is nearest to p; p itself if that is inside.
+inline Eigen::Vector2d nearestPoint(const Block& block, const Eigen::Vector2d& p) {
+  return {std::clamp(p.x(), block.lower.x(), block.upper.x()),
+          std::clamp(p.y(), block.lower.y(), block.upper.y())};
+}
+
+/// Whether p is in the yard and in no block.
+inline bool isFree(const Yard& yard, const Eigen::Vector2d& p) {
+  if (nearestPoint({Eigen::Vector2d::Zero(), yard.size}, p) != p) return false;
+  for (const Block& block : yard.blocks)
+    if (nearestPoint(block, p) == p) return false;
+  return true;
+}
+
+// Part 3, potential fields (4:13 to 4:16).
+
+struct FieldGains {
+  double attraction = 1;  ///< k
+  double repulsion = 1;   ///< eta
+  double reach = 1;       ///< rho [m]
+};
+
+/// U = k |p - goal|^2 / 2 + the sum over all blocks at a distance d < rho of eta (1/d - 1/rho)^2 / 2.
+/// Infinite in blocks. The border of the yard does not push.
+double fieldPotential(const Yard& yard, const Eigen::Vector2d& goal, const FieldGains& gains,
+                      const Eigen::Vector2d& p);
+
+/// Its derivative by p, outside of blocks, as a column.
+Eigen::Vector2d fieldGradient(const Yard& yard, const Eigen::Vector2d& goal, const FieldGains& gains,
+                              const Eigen::Vector2d& p);
+
+/// Where a point slid down, and how that ended.
+enum class Ending { kAtGoal, kStuck };
+struct FieldTrail {
+  Ending ending = Ending::kStuck;
+  std::vector<Eigen::Vector2d> points;
+};
+
+/// From `start` (outside of blocks) down the potential, in steps of at most `stepSize` metres; each point is
+/// lower than the one before. It ends within stepSize of the goal, or stuck elsewhere, where the gradient is
+/// shorter than k times 0.01 m: slide 4:16.
+FieldTrail slideDown(const Yard& yard, const Eigen::Vector2d& goal, const FieldGains& gains,
+                     const Eigen::Vector2d& start, double stepSize);
+
+// Part 4, probabilistic roadmaps (4:28 to 4:36).
+
+/// The local planner of slide 4:32: whether the points of the straight way from a to b, both included and no
+/// more than `resolution` metres apart, are free.
+bool straightIsFree(const Yard& yard, const Eigen::Vector2d& a, const Eigen::Vector2d& b, double resolution);
+
+/// One attempt each to find a free node; none: not this time. Slides 4:31 (line 3 and 4) and 4:35. N(q1,
+/// sigma) adds a normal number of standard deviation sigma [m] to each coordinate; q2 may leave the yard,
+/// where nothing is free.
+std::optional<Eigen::Vector2d> uniformSample(const Yard& yard, rex::Rng& rng);
+std::optional<Eigen::Vector2d> gaussianSample(const Yard& yard, double sigma, rex::Rng& rng);
+std::optional<Eigen::Vector2d> bridgeSample(const Yard& yard, double sigma, rex::Rng& rng);
+
+/// Lines 6 to 11 of slide 4:31 for nodes that are all different and more than k: an arc and the one back for
+/// each node q and each of the k other nodes nearest to it, where the straight way between is free; none
+/// twice.
+Network joinNearest(const Yard& yard, const std::vector<Eigen::Vector2d>& nodes, int k, double resolution);
+
+/// The shortest way from start over the roadmap to goal, both included, when each of these two is joined to
+/// those of the k nodes nearest to it that a free straight way leads to; none: empty.
+std::vector<Eigen::Vector2d> queryRoadmap(const Yard& yard, const std::vector<Eigen::Vector2d>& nodes,
+                                          const Network& roadmap, const Eigen::Vector2d& start,
+                                          const Eigen::Vector2d& goal, int k, double resolution);
+
+// Part 5, A*: Dijkstra that knows where the goal is.
+
+/// The length of the shortest way in a cellNetwork() of an endless map without obstacles.
+double emptyMapDistance(Cell from, Cell to);
+
+/// A shortest way from start to goal, both included; none: empty. `estimates` has a number for each node that
+/// is never more than the way from there to the goal, and differs along an arc by at most its length.
+/// arcsOf(node) gives the arcs of a node; it is dear: ask for no node twice, and only where the way from the
+/// start to the node plus its estimate is at most the length of the way you return.
+std::vector<std::size_t> aStar(const std::function<std::vector<Arc>(std::size_t)>& arcsOf, std::size_t start,
+                               std::size_t goal, const std::vector<double>& estimates);

@@ -1,0 +1,233 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "exercise.h"
+#include "grading/check.h"
+#include "interface.h"
+#include "maps.h"
+#include "planning/grid_search.h"
+
+// What parts 1, 2 and 5 are judged by: maps, and what is known about ways on them.
+
+inline rex::GridMap gridMapOf(const CellMap& map) {
+  rex::GridMap grid(map.width, map.height);
+  for (std::size_t place = 0; place < map.blocked.size(); ++place) {
+    const Cell cell = map.cellAt(place);
+    grid.setBlocked({cell.x, cell.y}, map.blocked[place] != 0);
+  }
+  return grid;
+}
+
+inline std::vector<double> distancesOn(const CellMap& map, Cell from, rex::Connectivity connectivity) {
+  return rex::gridDistances(gridMapOf(map), {from.x, from.y}, connectivity);
+}
+
+inline Cell randomFreeCell(const CellMap& map, rex::Rng& rng) {
+  while (true) {
+    const Cell cell{rng.index(map.width), rng.index(map.height)};
+    if (map.isFree(cell)) return cell;
+  }
+}
+
+inline void block(CellMap& map, Cell cell) {
+  if (map.isFree(cell)) map.blocked[map.placeOf(cell)] = 1;
+}
+
+// Walls that turn corners, and single cells; some walls lean on the border.
+inline CellMap randomMap(rex::Rng& rng, int width, int height) {
+  CellMap map = mapOf(std::vector<std::string>(static_cast<std::size_t>(height),
+                                               std::string(static_cast<std::size_t>(width), '.')));
+  for (int wall = 0; wall < 4; ++wall) {
+    Cell cell{rng.index(width), rng.index(height)};
+    for (int piece = 0; piece < 4; ++piece) {
+      const int step = rng.index(2) == 0 ? 1 : -1;
+      for (int length = 3 + rng.index(6); length > 0; --length) {
+        block(map, cell);
+        (piece % 2 == 0 ? cell.x : cell.y) += step;
+      }
+    }
+  }
+  for (int i = 0; i < width * height / 30; ++i) block(map, {rng.index(width), rng.index(height)});
+  return map;
+}
+
+// A closed wall around a rectangle of cells with that middle.
+inline void enclose(CellMap& map, Cell middle, int reach) {
+  for (int i = -reach; i <= reach; ++i)
+    for (const int side : {-reach, reach}) {
+      block(map, {middle.x + i, middle.y + side});
+      block(map, {middle.x + side, middle.y + i});
+    }
+}
+
+// How many sides the obstacles have in common with free cells, told at each of their cells. Obstacles that
+// touch at a corner are one, and all that touch the border are one with it. A frame is added around the map.
+class Obstacles {
+ public:
+  explicit Obstacles(const CellMap& map) : map_(map) {
+    const auto cells = static_cast<std::size_t>((map.width + 2) * (map.height + 2));
+    obstacleOf_.assign(cells, -1);
+    for (int y = -1; y <= map.height; ++y)
+      for (int x = -1; x <= map.width; ++x)
+        if (!map.isFree({x, y}) && obstacleAt({x, y}) < 0) collect({x, y});
+  }
+
+  int sidesAt(Cell cell) const { return sides_[static_cast<std::size_t>(obstacleOf_[placeOf(cell)])]; }
+
+ private:
+  bool isInFrame(Cell cell) const {
+    return -1 <= cell.x && cell.x <= map_.width && -1 <= cell.y && cell.y <= map_.height;
+  }
+  std::size_t placeOf(Cell cell) const {
+    return static_cast<std::size_t>((cell.y + 1) * (map_.width + 2) + cell.x + 1);
+  }
+  int obstacleAt(Cell cell) const { return obstacleOf_[placeOf(cell)]; }
+
+  void collect(Cell first) {
+    int sides = 0;
+    std::vector<Cell> open{first};
+    obstacleOf_[placeOf(first)] = static_cast<int>(sides_.size());
+    while (!open.empty()) {
+      const Cell at = open.back();
+      open.pop_back();
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) {
+          const Cell next{at.x + dx, at.y + dy};
+          if (map_.isFree(next)) sides += dx == 0 || dy == 0 ? 1 : 0;
+          if (!isInFrame(next) || map_.isFree(next) || obstacleAt(next) >= 0) continue;
+          obstacleOf_[placeOf(next)] = static_cast<int>(sides_.size());
+          open.push_back(next);
+        }
+    }
+    sides_.push_back(sides);
+  }
+
+  const CellMap& map_;
+  std::vector<int> obstacleOf_, sides_;
+};
+
+// Lumelsky and Stepanov's bound, in cells: the m-line, and for each time that it enters an obstacle once
+// around that. Half the crossings with the border of an obstacle enter it: this is D + sum n p / 2. To go
+// round along sides of cells takes p + 4 steps: two at a corner that sticks out, none at one that does not,
+// and there are four more of the first kind.
+inline double bugBound(const CellMap& map, const std::vector<Cell>& line) {
+  const Obstacles obstacles(map);
+  double bound = static_cast<double>(line.size()) - 1;
+  for (std::size_t i = 1; i < line.size(); ++i)
+    if (map.isFree(line[i - 1]) && !map.isFree(line[i])) bound += obstacles.sidesAt(line[i]) + 4;
+  return bound;
+}
+
+inline bool touchesObstacle(const CellMap& map, Cell cell) {
+  for (int y = cell.y - 1; y <= cell.y + 1; ++y)
+    for (int x = cell.x - 1; x <= cell.x + 1; ++x)
+      if (!map.isFree({x, y})) return true;
+  return false;
+}
+
+inline bool isBeside(Cell a, Cell b) { return std::abs(a.x - b.x) + std::abs(a.y - b.y) == 1; }
+inline bool touches(Cell a, Cell b) { return std::abs(a.x - b.x) <= 1 && std::abs(a.y - b.y) <= 1; }
+
+// A bug that runs in circles is stopped by what it asks: a right one needs four answers a step at most, and
+// gets forty.
+inline void bugObeys(rex::grading::Check& check, Student& student, const CellMap& map, Cell start,
+                     Cell goal) {
+  const std::vector<Cell> line = straightCells(start, goal);
+  const double bound = bugBound(map, line);
+  std::vector<Cell> asked;
+  const BugTrail trail = student.bugTwo(line, [&](Cell cell) {
+    asked.push_back(cell);
+    check.atMost("number of questions to isFree", static_cast<double>(asked.size()), 40 * (bound + 10));
+    return map.isFree(cell);
+  });
+  const std::vector<Cell>& cells = trail.cells;
+  check.that("the trail begins at the start", !cells.empty() && cells.front() == start);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    check.that("each cell of the trail is free", map.isFree(cells[i]));
+    if (i > 0)
+      check.that("each cell of the trail is beside the one before", isBeside(cells[i], cells[i - 1]));
+    check.that("the bug leaves the m-line only along obstacles",
+               std::find(line.begin(), line.end(), cells[i]) != line.end() || touchesObstacle(map, cells[i]));
+  }
+  const bool isReachable =
+      std::isfinite(distancesOn(map, start, rex::Connectivity::kFour)[map.placeOf(goal)]);
+  if (isReachable) {
+    check.that("the goal can be reached, and is", trail.reached && cells.back() == goal);
+  } else {
+    check.that("the goal cannot be reached, and the bug says so", !trail.reached);
+  }
+  check.atMost("steps", static_cast<double>(cells.size()) - 1, bound);
+  for (const Cell cell : asked)
+    check.that("isFree is asked only about cells that touch the trail",
+               std::any_of(cells.begin(), cells.end(), [&](Cell at) { return touches(at, cell); }));
+}
+
+// Points in a square of 1 m, joined where they are near; far from all others there may be lonely ones.
+struct RandomNetwork {
+  std::vector<Eigen::Vector2d> places;
+  Network network;
+};
+
+// Arcs are longer than straight, by up to `detour`.
+inline RandomNetwork randomNetwork(rex::Rng& rng, int nodes, double reach, double detour) {
+  RandomNetwork made;
+  for (int i = 0; i < nodes; ++i) made.places.emplace_back(rng.uniformVector(2, 0, 1));
+  made.network.resize(made.places.size());
+  for (std::size_t i = 0; i < made.places.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const double straight = (made.places[i] - made.places[j]).norm();
+      if (straight > reach) continue;
+      const double length = straight * rng.uniform(1, 1 + detour);
+      made.network[i].push_back({j, length});
+      made.network[j].push_back({i, length});
+    }
+  return made;
+}
+
+// Bellman and Ford: as simple as it is slow.
+inline std::vector<double> slowDistances(const Network& network, std::size_t from) {
+  std::vector<double> distances(network.size(), std::numeric_limits<double>::infinity());
+  distances.at(from) = 0;
+  for (bool isChanging = true; isChanging;) {
+    isChanging = false;
+    for (std::size_t node = 0; node < network.size(); ++node)
+      for (const Arc& arc : network[node])
+        if (distances[node] + arc.length < distances[arc.to] - 1e-12) {
+          distances[arc.to] = distances[node] + arc.length;
+          isChanging = true;
+        }
+  }
+  return distances;
+}
+
+inline void distancesAgree(rex::grading::Check& check, const std::vector<double>& got,
+                           const std::vector<double>& wanted) {
+  check.that("there is a distance for each node", got.size() == wanted.size());
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (std::isfinite(wanted[i]))
+      check.near("distance", got[i], wanted[i], 1e-9, "m");
+    else
+      check.that("where no way leads, the distance is infinite", got[i] == wanted[i]);
+  }
+}
+
+// A way between two nodes along arcs, of that length; if that is infinite, none.
+inline void isWay(rex::grading::Check& check, const Network& network, const std::vector<std::size_t>& way,
+                  std::size_t from, std::size_t to, double length) {
+  if (!std::isfinite(length)) return check.that("the way is empty where none leads", way.empty());
+  check.that("the way begins and ends where it should",
+             !way.empty() && way.front() == from && way.back() == to);
+  double sum = 0;
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    const std::vector<Arc>& arcs = network[way[i - 1]];
+    const auto arc = std::find_if(arcs.begin(), arcs.end(), [&](const Arc& a) { return a.to == way[i]; });
+    check.that("each step of the way is an arc", arc != arcs.end());
+    sum += arc->length;
+  }
+  check.near("length of the way", sum, length, 1e-9, "m");
+}

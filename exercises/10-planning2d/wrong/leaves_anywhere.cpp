@@ -1,0 +1,32 @@
+// caught by: bug-known-maps
+// mistake: goes back to the m-line wherever it meets it, as on the first slides of Bug 2: it runs in circles.
+
+// <solution bugTwo>
+const auto leftmost = [&](Cell cell, int heading) {
+  for (int turn = 0; turn < 4; ++turn, --heading)
+    if (isFree(ahead(cell, heading))) return heading;
+  return heading;
+};
+for (std::size_t at = 0; at + 1 < mLine.size();) {
+  if (isFree(mLine[at + 1])) {
+    trail.cells.push_back(mLine[++at]);
+    continue;
+  }
+  Cell cell = mLine[at];
+  int heading = 0;
+  while (ahead(cell, heading) != mLine[at + 1]) ++heading;
+  heading = leftmost(cell, heading - 1);
+  const int first = heading;
+  if (!isFree(ahead(cell, heading))) return trail;
+  const std::size_t hit = at;
+  do {
+    cell = ahead(cell, heading);
+    trail.cells.push_back(cell);
+    heading = leftmost(cell, heading + 1);
+    const auto onLine = std::find(mLine.begin(), mLine.end(), cell);
+    if (onLine != mLine.end()) at = static_cast<std::size_t>(onLine - mLine.begin());
+    if (at == hit && cell == mLine[hit] && ((heading - first) & 3) == 0) return trail;
+  } while (at == hit);
+}
+trail.reached = true;
+// </solution>

@@ -1,0 +1,7 @@
+// caught by: prm-straight, prm-join
+// mistake: tests the ends of an edge, not what lies between.
+
+// <solution straightIsFree>
+static_cast<void>(resolution);
+return isFree(yard, a) && isFree(yard, b);
+// </solution>
