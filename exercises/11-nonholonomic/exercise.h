@@ -55,10 +55,9 @@ struct Block {
 /// Whether the body of the car at q overlaps none of the blocks. Right up to 1 mm.
 bool isFree(const CarModel& car, const Eigen::Vector3d& q, const std::vector<Block>& blocks);
 
-/// Lines 5 to 7 of 4:58. Draws at least 20 pairs of a speed, from -1 to 1 m/s, and a steering angle within
-/// the limits of the car, and returns the one that, held for so many `seconds`, leads nearest to the target
-/// by poseDistance(); of those only whose way is free, tested every 10 cm at least. None: all ways are
-/// blocked.
+/// Lines 5 to 7 of 4:58. Draws at least 20 pairs of a speed, -1 or 1 m/s, and a steering angle within the
+/// limits of the car, and returns the one that, held for so many `seconds`, leads nearest to the target by
+/// poseDistance(); of those only whose way is free, tested every 10 cm at least. None: all ways are blocked.
 std::optional<Drive> driveTowards(const CarModel& car, const Eigen::Vector3d& from,
                                   const Eigen::Vector3d& target, double seconds,
                                   const std::vector<Block>& blocks, rex::Rng& rng);
@@ -78,8 +77,8 @@ struct CarNode {
   Drive by;
 };
 
-/// A tree of controls that grows from the start until it reaches the goal, within 1 by poseDistance().
-/// Parents come before their children; the last node is the one at the goal. Speeds as for driveTowards(); an
+/// A tree of controls that grows from the start until it reaches the goal, within 0.6 by poseDistance().
+/// Parents come before their children; the last node is the one at the goal. Speeds are 1 m/s at most, an
 /// edge lasts 10 s at most, and on its way the body of the car touches nothing.
 std::vector<CarNode> growTree(const CarModel& car, const World& world, rex::Rng& rng);
 

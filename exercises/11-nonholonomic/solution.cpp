@@ -131,8 +131,8 @@ std::optional<Drive> driveTowards(const CarModel& car, const Eigen::Vector3d& fr
   // <solution driveTowards>
   std::vector<std::pair<double, Drive>> trials;
   for (int i = 0; i < 20; ++i) {
-    const double speed = rng.uniform(-1, 1), steering = rng.uniform(car.minSteering, car.maxSteering);
-    const Drive drive{speed, steering, seconds};
+    const double speed = rng.index(2) == 0 ? 1 : -1;
+    const Drive drive{speed, rng.uniform(car.minSteering, car.maxSteering), seconds};
     trials.emplace_back(poseDistance(driven(car, from, drive), target), drive);
   }
   std::ranges::sort(trials, {}, [](const auto& trial) { return trial.first; });
@@ -149,7 +149,7 @@ std::optional<Drive> driveTowards(const CarModel& car, const Eigen::Vector3d& fr
 std::vector<CarNode> growTree(const CarModel& car, const World& world, Rng& rng) {
   std::vector<CarNode> tree{{world.start, -1, {}}};
   // <solution growTree>
-  for (int i = 0; i < 300000 && poseDistance(tree.back().q, world.goal) > 0.99; ++i) {
+  for (int i = 0; i < 300000 && poseDistance(tree.back().q, world.goal) > 0.59; ++i) {
     if (tree.size() > 3000) tree.resize(1);  // most trees need fewer; a new one is cheaper than a larger one
     Eigen::Vector3d target(rng.uniform(world.lower.x(), world.upper.x()),
                            rng.uniform(world.lower.y(), world.upper.y()), rng.uniform(-4, 4));
@@ -524,7 +524,7 @@ void showDubins(double (*byLibrary)(const Eigen::Vector3d&, const Eigen::Vector3
     for (int i = 0; i < 12; ++i) {
       const Eigen::Vector3d to = place + Eigen::Vector3d(0, 0, kPi / 6 * i);
       const Poses way = along(car, start, drivesOf(car, shortestDubins(start, to, radius)), 0.1);
-      fan.series.push_back(line("", way, way.size() % 2 == 0 ? kGround : kSoft, 1));
+      fan.series.push_back(line("", way, {}, 1));
       fan.series.back().color.reset();
     }
   }
@@ -687,14 +687,14 @@ void showTrailer() {
   above.horizontalLines = {{0, ""}};
   for (const Reversing* run : {&straight, &steered}) {
     const Color& color = run == &straight ? kSoft : kAccent;
-    for (std::size_t i = 0; i < run->states.size(); i += 250) {
+    for (std::size_t i = 0; i < run->states.size(); i += 500) {
       const Eigen::Vector4d& q = run->states[i];
-      above.series.push_back(outline(rig.car, q.head<3>(), kGround));
+      above.series.push_back(outline(rig.car, q.head<3>(), color));
       above.series.push_back(outline({q[0], q[1], q[3]}, rig.hitchLength + 0.9, -0.8, rig.car.width, color));
     }
   }
   plot("reversing", above);
-  World road{.blocks = {}, .lower = {-24, -5}, .upper = {22, 5}};
+  World road{.blocks = {}, .lower = {-22, -4}, .upper = {20, 4}};
   Simulator S = filmSet(rig.car, road, rig.hitchLength);
   S.clearRecording();
   for (std::size_t i = 0; i < steered.states.size(); i += 5) {
