@@ -502,7 +502,7 @@ Eigen::Vector4d rigMotion(const Rig& rig, const Eigen::Vector4d& q, double speed
 }
 
 void rigMoves(Check& check, Student& student) {
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < 25; ++i) {
     Rng& rng = check.rng();
     Rig rig;
     rig.car = randomCar(rng);
@@ -526,8 +526,8 @@ void rigMoves(Check& check, Student& student) {
 
 void reverses(Check& check, Student& student, const Rig& rig) {
   Rng& rng = check.rng();
-  const double trailer = rng.uniform(-0.3, 0.3), offset = rng.uniform(-1, 1);
-  Eigen::Vector4d q(0, offset + rig.hitchLength * std::sin(trailer), rng.uniform(-0.3, 0.3), trailer);
+  const double trailer = rng.uniform(-0.25, 0.25), offset = rng.uniform(-1, 1);
+  Eigen::Vector4d q(0, offset + rig.hitchLength * std::sin(trailer), rng.uniform(-0.25, 0.25), trailer);
   for (int step = 0; step < 1000; ++step) {
     const double steering = student.reverseSteering(rig, q);
     checkLimits(check, rig.car, {1, steering, 1});
@@ -541,7 +541,7 @@ void reverses(Check& check, Student& student, const Rig& rig) {
 }
 
 void reversesATrailer(Check& check, Student& student) {
-  check.input("a hitch of 4 m, up to 1 m beside the axis, headings up to 0.3 rad off it, 50 m backward");
+  check.input("a hitch of 4 m, up to 1 m beside the axis, headings up to 0.25 rad off it, 50 m backward");
   check.forEachCase(4, [&](int) { reverses(check, student, {}); });
 }
 
@@ -549,7 +549,7 @@ void reversesATrailer(Check& check, Student& student) {
 void reversesAnyTrailer(Check& check, Student& student) {
   check.forEachCase(6, [&](int) {
     Rig rig;
-    rig.hitchLength = check.rng().uniform(2, 5);
+    rig.hitchLength = check.rng().uniform(2.5, 5);
     reverses(check, student, rig);
   });
 }

@@ -127,6 +127,6 @@ double hitchGrowth(const Rig& rig, double speed);
 
 /// Steering angle of a rig that drives backward along the x axis, towards -x, at -1 m/s. Asked anew every 50
 /// ms, it brings the axle of the trailer to the axis, from up to 1 m beside it, with headings of car and
-/// trailer up to 0.3 rad off it: after 40 m it is and stays within 5 cm, and both headings within 0.05 rad.
-/// On the way the angle between car and trailer stays below 1.2 rad. Hitches are 2 to 5 m long.
+/// trailer up to 0.25 rad off it: after 40 m it is and stays within 5 cm, and both headings within 0.05 rad.
+/// On the way the angle between car and trailer stays below 1.2 rad. Hitches are 2.5 to 5 m long.
 double reverseSteering(const Rig& rig, const Eigen::Vector4d& q);

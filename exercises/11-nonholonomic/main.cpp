@@ -115,6 +115,11 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 const Color kGround{0.15f, 0.3f, 0.5f}, kAccent{0.8f, 0.25f, 0.1f}, kSoft{0.6f, 0.7f, 0.8f};
 
+const std::array kWords{"LSL", "LSR", "RSL", "RSR", "LRL", "RLR"};
+const std::array<Color, 6> kWordColors{Color{0, 0.45f, 0.7f},  Color{0.85f, 0.37f, 0},
+                                       Color{0, 0.62f, 0.45f}, Color{0.8f, 0.47f, 0.65f},
+                                       Color{0.9f, 0.62f, 0},  Color{0.34f, 0.71f, 0.91f}};
+
 using Poses = std::vector<Eigen::Vector3d>;
 
 // The poses at which a car is every so many metres of its way.
@@ -222,7 +227,7 @@ void goAround(const CarModel& car, const std::vector<CarNode>& tree,
 void showTree() {
   const CarModel car;
   const World world = room();
-  Rng rng(5);
+  Rng rng(22);
   const std::vector<CarNode> tree = growTree(car, world, rng);
   std::vector<std::vector<std::size_t>> children(tree.size());
   for (std::size_t i = 1; i < tree.size(); ++i)
@@ -240,8 +245,7 @@ void showTree() {
 }
 
 std::vector<Drive> drivesOf(const CarModel& car, const DubinsWay& way) {
-  const char* letters =
-      std::array{"LSL", "LSR", "RSL", "RSR", "LRL", "RLR"}[static_cast<std::size_t>(way.word)];
+  const char* letters = kWords[static_cast<std::size_t>(way.word)];
   std::vector<Drive> drives;
   for (std::size_t i = 0; i < 3; ++i)
     drives.push_back({1,
@@ -258,17 +262,18 @@ void showDubins(double (*byLibrary)(const Eigen::Vector3d&, const Eigen::Vector3
   const double radius = car.wheelbase / std::tan(car.maxSteering);
   const Eigen::Vector3d start = Eigen::Vector3d::Zero();
   Figure fan = seenFromAbove("Shortest ways forward to twelve headings at two places", {});
+  fan.legend = Legend::kOutside;
+  std::set<DubinsWord> named;
   for (const Eigen::Vector3d& place : {Eigen::Vector3d(14, 3, 0), Eigen::Vector3d(-4, -3, 0)}) {
     for (int i = 0; i < 12; ++i) {
-      const Eigen::Vector3d to = place + Eigen::Vector3d(0, 0, kPi / 6 * i);
-      const Poses way = along(car, start, drivesOf(car, shortestDubins(start, to, radius)), 0.1);
-      fan.series.push_back(line("", way, {}, 1));
-      fan.series.back().color.reset();
+      const DubinsWay way = shortestDubins(start, place + Eigen::Vector3d(0, 0, kPi / 6 * i), radius);
+      const auto word = static_cast<std::size_t>(way.word);
+      fan.series.push_back(line(named.insert(way.word).second ? kWords[word] : "",
+                                along(car, start, drivesOf(car, way), 0.1), kWordColors[word], 1));
     }
   }
   fan.series.push_back(outline(car, start, {0, 0, 0}));
   plot("fan", fan);
-  const std::array names{"LSL", "LSR", "RSL", "RSR", "LRL", "RLR"};
   Figure lengths{.title = "The six words to the pose (5, 3, heading)",
                  .xLabel = "heading at the goal [rad]",
                  .yLabel = "length [m]",
@@ -291,7 +296,8 @@ void showDubins(double (*byLibrary)(const Eigen::Vector3d&, const Eigen::Vector3
   }
   lengths.series.push_back(yours);
   for (std::size_t k = 0; k < 6; ++k) {
-    words[k].label = names[k];
+    words[k].label = kWords[k];
+    words[k].color = kWordColors[k];
     words[k].style = SeriesStyle::kPoints;
     words[k].marker = Marker::kDot;
     if (!words[k].x.empty()) lengths.series.push_back(words[k]);
