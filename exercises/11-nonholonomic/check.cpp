@@ -228,8 +228,7 @@ std::optional<double> rankOf(Rng& rng, const CarModel& car, const Eigen::Vector3
                              double reached) {
   int free = 0, nearer = 0;
   for (int i = 0; i < 200; ++i) {
-    const double speed = rng.index(2) == 0 ? 1 : -1;
-    const Drive drive{speed, rng.uniform(car.minSteering, car.maxSteering), seconds};
+    const Drive drive{2. * rng.index(2) - 1, rng.uniform(car.minSteering, car.maxSteering), seconds};
     bool isFree = true;
     for (int k = 1; k <= 10 && isFree; ++k)
       isFree = !touches(grown(car, 0.1), exact(car, from, drive, 0.1 * k), blocks);
@@ -242,7 +241,7 @@ std::optional<double> rankOf(Rng& rng, const CarModel& car, const Eigen::Vector3
   return 1. * nearer / free;
 }
 
-// The best of 20 has a rank of 1 / 21 on average; over 40 cases it never was above 0.08 in 2000 seeds.
+// The best of 20 has a rank of 1 / 21 on average, any control one of 1 / 2.
 void drivesTowards(Check& check, Student& student) {
   check.input(
       "60 random targets, drives of 1 s, or of 7 s: longer than the car; a wall and a post stand about");

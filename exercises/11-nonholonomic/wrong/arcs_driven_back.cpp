@@ -23,6 +23,6 @@ if (letters[1] == 'S') {
 if (distance > 4 * radius) return {};
 const double middle = 2 * (std::numbers::pi - std::asin(distance / (4 * radius)));
 const double heading = direction + first * middle / 2;  // at the end of the first arc
-return std::array{radius * turn(first * (heading - from[2])), radius * middle,
-                  radius * turn(first * (to[2] - heading) + middle)};
+return std::array{radius * turn(first * (heading - from[2])), radius* middle,
+                  radius* turn(first*(to[2] - heading) + middle)};
 // </solution>

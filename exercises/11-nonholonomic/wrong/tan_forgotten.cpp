@@ -2,5 +2,5 @@
 // mistake: the front wheels turn the car by their angle, not by its tangent.
 
 // <solution velocityOf>
-return {speed * std::cos(q[2]), speed * std::sin(q[2]), speed / car.wheelbase * steering};
+return {speed * std::cos(q[2]), speed* std::sin(q[2]), speed / car.wheelbase* steering};
 // </solution>
