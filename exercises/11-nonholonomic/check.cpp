@@ -284,22 +284,21 @@ void drivesTowards(Check& check, Student& student) {
              !student.driveTowards({}, {0, 0, 0}, {9, 0, 0}, 1.5, {{{2, 0, 0}, 9, 9}}, given).has_value());
 }
 
-// A room with a few things in it, 24 m x 16 m, and a start and a goal far apart.
+// A room of 24 m x 16 m: two walls that leave a gap of 4 m at one end at least, something small between them,
+// and a start and a goal on the far sides.
 World room(Rng& rng) {
-  const CarModel car;
+  const CarModel larger = grown({}, 0.7);
   while (true) {
     World world{.start = {3.5, rng.uniform(3, 13), rng.uniform(-0.6, 0.6)},
                 .goal = {20, rng.uniform(4, 12), rng.uniform(-1.6, 1.6)},
                 .blocks = {},
                 .lower = {0, 0},
                 .upper = {24, 16}};
-    for (int i = 0; i < 3; ++i)
-      world.blocks.push_back({{rng.uniform(8, 16), rng.uniform(1, 15), rng.uniform(-3, 3)},
-                              rng.uniform(1, 6),
-                              rng.uniform(0.5, 1.5)});
+    for (const double x : {8.5, 15.5})
+      world.blocks.push_back({{x, rng.uniform(2, 14), rng.uniform(1, 2)}, rng.uniform(2, 7), 0.6});
+    world.blocks.push_back({{12, rng.uniform(1, 15), rng.uniform(-3, 3)}, rng.uniform(0.5, 1.5), 1});
     fence(world);
-    if (!touches(grown(car, 0.7), world.start, world.blocks) &&
-        !touches(grown(car, 0.7), world.goal, world.blocks))
+    if (!touches(larger, world.start, world.blocks) && !touches(larger, world.goal, world.blocks))
       return world;
   }
 }
