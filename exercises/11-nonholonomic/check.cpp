@@ -1,0 +1,590 @@
+#include "grading/check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "interface.h"
+#include "lots.h"
+#include "planning/car.h"
+#include "planning/dubins.h"
+
+using namespace rex;
+using grading::Check;
+using grading::Group;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+using Poses = std::vector<Eigen::Vector3d>;
+
+double wrapped(double angle) { return std::remainder(angle, 2 * kPi); }
+
+// Where a drive leads, by the library, which knows no limits here.
+Eigen::Vector3d exact(const CarModel& car, const Eigen::Vector3d& q, const Drive& drive, double share = 1) {
+  return driveCar({car.wheelbase, 1.5}, q, {drive.speed, drive.steering}, share * drive.seconds);
+}
+
+CarModel randomCar(Rng& rng) {
+  CarModel car;
+  car.wheelbase = rng.uniform(2.2, 3.2);
+  car.maxSteering = rng.uniform(0.45, 0.65);
+  car.minSteering = -car.maxSteering;
+  car.back = rng.uniform(0.5, 1);
+  car.front = car.wheelbase + rng.uniform(0.5, 1);
+  car.width = rng.uniform(1.5, 1.9);
+  return car;
+}
+
+Eigen::Vector3d randomPose(Rng& rng, double reach) {
+  return {rng.uniform(-reach, reach), rng.uniform(-reach, reach), rng.uniform(-10, 10)};
+}
+
+void checkLimits(Check& check, const CarModel& car, const Drive& drive) {
+  check.atMost("speed, forward or backward", std::abs(drive.speed), 1 + 1e-9, "m/s");
+  check.atMost("steering angle", drive.steering, car.maxSteering + 1e-9, "rad");
+  check.atLeast("steering angle", drive.steering, car.minSteering - 1e-9, "rad");
+  check.that("drives last a finite time above zero", drive.seconds >= 0 && drive.seconds <= 200);
+}
+
+// Rectangles overlap unless a side of one of them has the other wholly on its far side: corner by corner,
+// where the solution compares shadows.
+bool overlap(const CarModel& car, const Eigen::Vector3d& q, const Block& block) {
+  const auto corners = [](const Eigen::Vector3d& X, double back, double front, double half) {
+    std::array<Eigen::Vector2d, 4> p;
+    for (std::size_t i = 0; i < 4; ++i)
+      p[i] = moved(X, {i == 0 || i == 3 ? -back : front, i < 2 ? -half : half, 0}).head<2>();
+    return p;
+  };
+  const auto a = corners(q, car.back, car.front, car.width / 2);
+  const auto b = corners(block.middle, block.length / 2, block.length / 2, block.width / 2);
+  const auto separates = [](const auto& of, const auto& from) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Eigen::Vector2d side = of[(i + 1) % 4] - of[i];
+      if (std::ranges::all_of(from, [&](const Eigen::Vector2d& p) {
+            return side.x() * (p.y() - of[i].y()) - side.y() * (p.x() - of[i].x()) < 0;
+          }))
+        return true;
+    }
+    return false;
+  };
+  return !separates(a, b) && !separates(b, a);
+}
+
+bool touches(const CarModel& car, const Eigen::Vector3d& q, const std::vector<Block>& blocks) {
+  return std::ranges::any_of(blocks, [&](const Block& block) {
+    const double reach = car.front + car.width + (block.length + block.width) / 2;
+    return (block.middle - q).head<2>().norm() < reach && overlap(car, q, block);
+  });
+}
+
+// A car that is smaller, or larger, on all sides.
+CarModel grown(CarModel car, double by) {
+  car.front += by;
+  car.back += by;
+  car.width += 2 * by;
+  return car;
+}
+
+// Every 4 cm of the way: corners then move by 6 cm at most, and 5 cm are forgiven.
+void isFreeAlong(Check& check, const CarModel& car, const Eigen::Vector3d& from, const Drive& drive,
+                 const std::vector<Block>& blocks) {
+  const CarModel smaller = grown(car, -0.05);
+  const int tests = std::max(1, static_cast<int>(std::ceil(std::abs(drive.speed) * drive.seconds / 0.04)));
+  bool isFree = true;
+  for (int i = 0; i <= tests && isFree; ++i)
+    isFree = !touches(smaller, exact(car, from, drive, 1. * i / tests), blocks);
+  check.that("the body of the car touches nothing on its way", isFree);
+}
+
+// Part 1.
+
+void moves(Check& check, Student& student, const CarModel& car, double mostSpeed) {
+  Rng& rng = check.rng();
+  const Eigen::Vector3d q = randomPose(rng, 10);
+  const double speed = rng.uniform(0.3, mostSpeed) * (rng.index(2) == 0 ? -1 : 1);
+  const double steering = rng.uniform(car.minSteering, car.maxSteering);
+  const Eigen::Vector3d v = student.velocityOf(car, q, speed, steering);
+  check.near("velocity", v, carVelocity({car.wheelbase, 1.5}, q, {speed, steering}), 1e-9, "m/s, rad/s");
+  for (const double angle : {steering, 0., 1e-9}) {
+    const Drive drive{speed, angle, rng.uniform(0.5, 8)};
+    const double way = std::abs(speed) * drive.seconds;
+    const Eigen::Vector3d end = student.driven(car, q, drive);
+    check.near("where the car gets to", end.head<2>(), exact(car, q, drive).head<2>(), 1e-3 * way + 1e-9,
+               "m");
+    check.near("its heading, up to whole turns", wrapped(end[2] - exact(car, q, drive)[2]), 0,
+               1e-3 * way + 1e-9, "rad");
+  }
+}
+
+void carMoves(Check& check, Student& student) {
+  check.input("the usual car, random controls, up to 8 s; then with a steering angle of 0, and of 1e-9");
+  check.forEachCase(10, [&](int) { moves(check, student, {}, 2); });
+}
+
+// <hidden>
+void anyCarMoves(Check& check, Student& student) {
+  check.forEachCase(20, [&](int) { moves(check, student, randomCar(check.rng()), 5); });
+}
+// </hidden>
+
+Poses drivenPath(Rng& rng, const CarModel& car) {
+  Poses path{randomPose(rng, 5)};
+  for (int i = 0; i < 12; ++i) {
+    const double way = (rng.index(2) == 0 ? -1 : 1) * rng.uniform(0.3, 1.9);
+    const double limit = std::min(0.99, std::atan(0.59 * car.wheelbase / std::abs(way)) / car.maxSteering);
+    const double steering = rng.uniform(limit * car.minSteering, limit * car.maxSteering);
+    path.push_back(exact(car, path.back(), {way, steering, 1}));
+    path.back()[2] += 2 * kPi * (rng.index(3) - 1);
+  }
+  return path;
+}
+
+// Breaks a path from the pose `at` on: to the side, by a turn on the spot, or by an arc that is too tight.
+void breakPath(Rng& rng, const CarModel& car, Poses& path, std::size_t at, int how) {
+  const Eigen::Vector3d& before = path[at - 1];
+  const double sign = rng.index(2) == 0 ? -1 : 1;
+  Eigen::Vector3d wrong = before;
+  if (how == 0) wrong = moved(before, {1, sign * rng.uniform(0.05, 0.5), 0});
+  if (how == 1) wrong[2] += sign * rng.uniform(0.1, 0.5);
+  if (how == 2) wrong = exact(car, before, {1, sign * (1.15 * car.maxSteering), 1});
+  if (how == 3) wrong = moved(before, {0, sign * rng.uniform(0.1, 0.5), 0});
+  path.resize(at);
+  path.push_back(wrong);
+}
+
+void followsTrajectories(Check& check, Student& student) {
+  for (int i = 0; i < 40; ++i) {
+    Rng& rng = check.rng();
+    CarModel car;
+    if (i % 4 == 0) car.minSteering = 0;
+    Poses path = drivenPath(rng, car);
+    check.input("twelve arcs, driven forward and backward");
+    check.that("a path of arcs can be followed", student.canFollow(car, path));
+    check.input(std::array{"at one place to the side", "at one place turning on the spot",
+                           "at one place an arc that is too tight",
+                           "at one place only to the side"}[static_cast<std::size_t>(i % 4)]);
+    breakPath(rng, car, path, static_cast<std::size_t>(1 + rng.index(12)), i % 4);
+    check.that("a path that breaks the constraint, or a limit, cannot be followed",
+               !student.canFollow(car, path));
+  }
+  CarModel left;
+  left.minSteering = 0;
+  check.input("an arc to the right, and a car that turns left only");
+  check.that("that cannot be followed",
+             !student.canFollow(left, {{0, 0, 0}, exact(left, {0, 0, 0}, {1, -0.3, 1})}));
+}
+
+// Part 2.
+
+void distances(Check& check, Student& student) {
+  for (int i = 0; i < 30; ++i) {
+    const Eigen::Vector3d a = randomPose(check.rng(), 3), b = randomPose(check.rng(), 3);
+    check.input("two random poses, headings from -10 to 10 rad");
+    const Eigen::Vector4d A(a[0], a[1], std::cos(a[2]), std::sin(a[2])),
+        B(b[0], b[1], std::cos(b[2]), std::sin(b[2]));
+    check.near("distance of two poses", student.poseDistance(a, b), (A - B).norm(), 1e-9);
+    check.input("two random angles from -10 to 10 rad");
+    // The angle between the two directions, from their cosine and sine.
+    const double angle = std::atan2(A[2] * B[3] - A[3] * B[2], A[2] * B[2] + A[3] * B[3]);
+    check.near("distance of two angles", student.angleDistance(a[2], b[2]), std::abs(angle), 1e-9, "rad");
+  }
+}
+
+void findsOverlaps(Check& check, Student& student) {
+  check.input("a long wall across the car, no corner of one inside of the other");
+  const CarModel usual;
+  check.that("a wall across the car is in its way",
+             !student.isFree(usual, {0, 0, 0}, {{{1, 0, kPi / 2}, 8, 0.2}}));
+  check.input("a small block in the middle of the roof");
+  check.that("a block within the car is in its way",
+             !student.isFree(usual, {0, 0, 1}, {{{0.4, 0.5, 0}, 0.2, 0.2}}));
+  check.input("no blocks at all");
+  check.that("nothing is in the way where nothing is", student.isFree(usual, {0, 0, 1}, {}));
+  Rng& rng = check.rng();
+  for (int i = 0; i < 150;) {
+    const CarModel car = randomCar(rng);
+    const Eigen::Vector3d q = randomPose(rng, 3);
+    std::vector<Block> blocks;
+    for (int k = 0; k < 1 + i % 2; ++k)
+      blocks.push_back({randomPose(rng, 5), rng.uniform(0.3, 6), rng.uniform(0.3, 3)});
+    const bool isTouched = touches(car, q, blocks);
+    // As many of one kind as of the other, none of them by less than a centimetre.
+    if (isTouched != (i % 2 == 0) || touches(grown(car, 0.01), q, blocks) != isTouched ||
+        touches(grown(car, -0.01), q, blocks) != isTouched)
+      continue;
+    check.input(std::string("a random car among one or two random blocks, ") +
+                (isTouched ? "one in its way" : "none in its way"));
+    check.that("whether the car is free", student.isFree(car, q, blocks) == !isTouched);
+    ++i;
+  }
+}
+
+// The share of random controls, of those whose way is free, that lead nearer to the target. None if fewer
+// than half of them are free.
+std::optional<double> rankOf(Rng& rng, const CarModel& car, const Eigen::Vector3d& from,
+                             const Eigen::Vector3d& target, double seconds, const std::vector<Block>& blocks,
+                             double reached) {
+  int free = 0, nearer = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Drive drive{2. * rng.index(2) - 1, rng.uniform(car.minSteering, car.maxSteering), seconds};
+    bool isFree = true;
+    for (int k = 1; k <= 10 && isFree; ++k)
+      isFree = !touches(grown(car, 0.1), exact(car, from, drive, 0.1 * k), blocks);
+    if (!isFree) continue;
+    ++free;
+    const Eigen::Vector3d end = exact(car, from, drive), d = end - target;
+    if (std::hypot(d[0], d[1], 2 * std::sin(d[2] / 2)) < reached) ++nearer;
+  }
+  if (free < 100) return {};
+  return 1. * nearer / free;
+}
+
+// The best of 20 has a rank of 1 / 21 on average, any control one of 1 / 2.
+void drivesTowards(Check& check, Student& student) {
+  check.input(
+      "60 random targets, drives of 1 s, or of 7 s: longer than the car; a wall and a post stand about");
+  Rng& rng = check.rng();
+  double sum = 0;
+  int count = 0;
+  for (int i = 0; i < 60; ++i) {
+    const CarModel car = i % 3 == 0 ? randomCar(rng) : CarModel{};
+    const double seconds = i % 2 == 0 ? 1 : 7;
+    const Eigen::Vector3d from = randomPose(rng, 5), target = moved(from, randomPose(rng, 12));
+    const double side = rng.index(2) == 0 ? -1 : 1;
+    const std::vector<Block> blocks{
+        {moved(from, {side > 0 ? car.front + 1.2 : -car.back - 1.2, rng.uniform(-2, 2), kPi / 2}), 6, 0.15},
+        {moved(from, {rng.uniform(-4, 4), rng.uniform(2, 3), 0}), 0.15, 0.15}};
+    if (touches(grown(car, 0.1), from, blocks)) continue;
+    Rng given = rng.split(static_cast<std::uint64_t>(i));
+    const auto drive = student.driveTowards(car, from, target, seconds, blocks, given);
+    Rng own = rng.split(static_cast<std::uint64_t>(1000 + i));
+    if (!drive) {
+      check.that("there is a drive where half of all controls are free",
+                 !rankOf(own, car, from, target, seconds, blocks, 1e9));
+      continue;
+    }
+    checkLimits(check, car, *drive);
+    check.near("duration of the drive", drive->seconds, seconds, 1e-9, "s");
+    isFreeAlong(check, car, from, *drive, blocks);
+    const Eigen::Vector3d d = exact(car, from, *drive) - target;
+    const auto rank =
+        rankOf(own, car, from, target, seconds, blocks, std::hypot(d[0], d[1], 2 * std::sin(d[2] / 2)));
+    if (!rank || d.head<2>().norm() < 2) continue;
+    sum += *rank;
+    ++count;
+  }
+  check.atLeast("targets that the drives can be judged by", count, 15);
+  check.atMost("share of random controls that lead nearer to the target, on average",
+               sum / std::max(1, count), 0.2);
+  check.input("a block that the car stands in");
+  Rng given = rng.split(99);
+  check.that("no drive where all ways are blocked",
+             !student.driveTowards({}, {0, 0, 0}, {9, 0, 0}, 1.5, {{{2, 0, 0}, 9, 9}}, given).has_value());
+}
+
+// A room of 24 m x 16 m: two walls that leave a gap of 4 m at one end at least, something small between them,
+// and a start and a goal on the far sides.
+World room(Rng& rng) {
+  const CarModel larger = grown({}, 0.7);
+  while (true) {
+    World world{.start = {3.5, rng.uniform(3, 13), rng.uniform(-0.6, 0.6)},
+                .goal = {20, rng.uniform(4, 12), rng.uniform(-1.6, 1.6)},
+                .blocks = {},
+                .lower = {0, 0},
+                .upper = {24, 16}};
+    for (const double x : {8.5, 15.5})
+      world.blocks.push_back({{x, rng.uniform(2, 14), rng.uniform(1, 2)}, rng.uniform(2, 7), 0.6});
+    world.blocks.push_back({{12, rng.uniform(1, 15), rng.uniform(-3, 3)}, rng.uniform(0.5, 1.5), 1});
+    fence(world);
+    if (!touches(larger, world.start, world.blocks) && !touches(larger, world.goal, world.blocks))
+      return world;
+  }
+}
+
+void treeReaches(Check& check, Student& student, const CarModel& car, const World& world) {
+  Rng given = check.rng().split(7);
+  const std::vector<CarNode> tree = student.growTree(car, world, given);
+  check.atLeast("number of nodes", static_cast<double>(tree.size()), 2);
+  check.near("pose of the first node", tree[0].q, world.start, 1e-9, "m, rad");
+  for (std::size_t i = 1; i < tree.size(); ++i) {
+    const CarNode& node = tree[i];
+    check.that("parents come before their children",
+               node.parent >= 0 && static_cast<std::size_t>(node.parent) < i);
+    checkLimits(check, car, node.by);
+    check.atMost("duration of an edge", node.by.seconds, 10, "s");
+    check.shape("pose of a node", node.q, 3, 1);
+    const Eigen::Vector3d from = tree[static_cast<std::size_t>(node.parent)].q,
+                          end = exact(car, from, node.by);
+    const double way = std::abs(node.by.speed) * node.by.seconds;
+    check.near("pose of a node, from its parent by its controls",
+               Eigen::Vector3d(node.q[0], node.q[1], wrapped(node.q[2] - end[2])),
+               Eigen::Vector3d(end[0], end[1], 0), 2e-3 * way + 1e-6, "m, rad");
+    isFreeAlong(check, car, from, node.by, world.blocks);
+  }
+  const Eigen::Vector3d d = tree.back().q - world.goal;
+  check.atMost("distance of the last node from the goal", std::hypot(d[0], d[1], 2 * std::sin(d[2] / 2)),
+               0.6 + 1e-6);
+}
+
+void treeInARoom(Check& check, Student& student) {
+  check.input("a room of 24 m x 16 m with three things in it");
+  treeReaches(check, student, {}, room(check.rng()));
+}
+
+// <hidden>
+void treeAnywhere(Check& check, Student& student) {
+  check.forEachCase(4, [&](int) {
+    CarModel car;
+    car.wheelbase = check.rng().uniform(2.2, 2.8);
+    treeReaches(check, student, car, placed(room(check.rng()), anywhere(check.rng())));
+  });
+}
+// </hidden>
+
+// Part 3.
+
+const std::array<std::string, 6> kNames{"LSL", "LSR", "RSL", "RSR", "LRL", "RLR"};
+
+// Where the pieces lead. The steering angle of a car with a wheelbase of 1 makes the radius.
+Eigen::Vector3d endOf(const std::string& word, const std::array<double, 3>& lengths, Eigen::Vector3d q,
+                      double radius) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double steering = word[i] == 'S' ? 0 : std::atan(1 / radius) * (word[i] == 'L' ? 1 : -1);
+    q = driveCar({1, 1.57}, q, {1, steering}, lengths[i]);
+  }
+  return q;
+}
+
+// Between the centres of the first and the last circle.
+double gapOf(const std::string& word, const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius) {
+  const auto center = [&](const Eigen::Vector3d& q, char side) {
+    return moved(q, {0, side == 'L' ? radius : -radius, 0}).head<2>().eval();
+  };
+  return (center(to, word[2]) - center(from, word[0])).norm();
+}
+
+void checkPieces(Check& check, const std::string& word, const std::array<double, 3>& lengths,
+                 const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    check.atLeast("length of a piece", lengths[i], 0, "m");
+    if (word[i] != 'S') check.atMost("length of an arc", lengths[i], 2 * kPi * radius + 1e-6, "m");
+    check.atMost("length of a piece", lengths[i], 1000 * radius, "m");
+  }
+  if (word[1] != 'S') check.atLeast("length of the middle arc", lengths[1], kPi * radius - 1e-6, "m");
+  const Eigen::Vector3d end = endOf(word, lengths, from, radius);
+  check.near("where the pieces lead", end.head<2>(), to.head<2>(), 1e-5, "m");
+  check.near("heading at the end, up to whole turns", wrapped(end[2] - to[2]), 0, 1e-5, "rad");
+}
+
+void wordsLead(Check& check, Student& student) {
+  check.forEachCase(6, [&](int k) {
+    const auto word = static_cast<DubinsWord>(k);
+    const std::string& name = kNames[static_cast<std::size_t>(k)];
+    for (int i = 0; i < 30; ++i) {
+      Rng& rng = check.rng();
+      const double radius = rng.uniform(0.5, 5);
+      const Eigen::Vector3d from = randomPose(rng, 10);
+      Eigen::Vector3d to = randomPose(rng, i % 2 == 0 ? 4 * radius : radius);
+      to.head<2>() += from.head<2>();
+      const double gap = gapOf(name, from, to, radius) / radius;
+      const bool crosses = name[1] == 'S' && name[0] != name[2], turns = name[1] != 'S';
+      if ((crosses && std::abs(gap - 2) < 1e-3) || (turns && std::abs(gap - 4) < 1e-3)) continue;
+      const bool exists = crosses ? gap > 2 : turns ? gap < 4 : true;
+      check.input(name + " between two random poses");
+      const auto lengths = student.dubinsLengths(word, from, to, radius);
+      check.that(exists ? "the word leads there" : "the word does not lead there",
+                 lengths.has_value() == exists);
+      if (lengths) checkPieces(check, name, *lengths, from, to, radius);
+    }
+  });
+}
+
+void isShortest(Check& check, Student& student, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                double radius) {
+  const DubinsWay way = student.shortestDubins(from, to, radius);
+  const auto word = static_cast<std::size_t>(way.word);
+  check.that("the word is one of the six", word < 6);
+  checkPieces(check, kNames[word], way.lengths, from, to, radius);
+  check.near("length of the shortest", way.lengths[0] + way.lengths[1] + way.lengths[2],
+             dubinsLength(from, to, radius), 1e-6, "m");
+}
+
+void shortestOfSix(Check& check, Student& student) {
+  for (int i = 0; i < 60; ++i) {
+    Rng& rng = check.rng();
+    const double radius = 3.8;
+    const Eigen::Vector3d from = randomPose(rng, 10);
+    Eigen::Vector3d to = randomPose(rng, i % 2 == 0 ? 15 : 4);
+    to.head<2>() += from.head<2>();
+    check.input("two random poses, and a radius of 3.8 m");
+    isShortest(check, student, from, to, radius);
+  }
+}
+
+// <hidden>
+void shortestAnywhere(Check& check, Student& student) {
+  check.forEachCase(40, [&](int i) {
+    Rng& rng = check.rng();
+    const double radius = std::exp(rng.uniform(-2, 2));
+    const Eigen::Vector3d from = randomPose(rng, 10);
+    if (i % 4 == 0) {  // straight on: both arcs vanish
+      check.input("a goal straight ahead");
+      return isShortest(check, student, from, moved(from, {rng.uniform(1, 9), 0, 0}), radius);
+    }
+    Eigen::Vector3d to = randomPose(rng, radius * rng.uniform(0.5, 6));
+    to.head<2>() += from.head<2>();
+    isShortest(check, student, from, to, radius);
+  });
+}
+// </hidden>
+
+// Part 4.
+
+// The car's own drives lead from start to goal, by the grader's motion; every piece is free.
+void parks(Check& check, Student& student, const CarModel& car, const World& lot) {
+  const std::vector<Drive> plan = student.park(car, lot);
+  check.atLeast("number of drives", static_cast<double>(plan.size()), 1);
+  check.atMost("number of drives", static_cast<double>(plan.size()), 500);
+  double way = 0;
+  Eigen::Vector3d q = lot.start;
+  for (const Drive& drive : plan) {
+    checkLimits(check, car, drive);
+    way += std::abs(drive.speed) * drive.seconds;
+    check.atMost("length of the whole way", way, 200, "m");
+    isFreeAlong(check, car, q, drive, lot.blocks);
+    q = exact(car, q, drive);
+  }
+  check.near("where the car stands at the end", q.head<2>(), lot.goal.head<2>(), 0.1, "m");
+  check.near("heading at the end, from that of the space", wrapped(q[2] - lot.goal[2]), 0, 0.05, "rad");
+}
+
+CarModel leftOnly() { return {.minSteering = 0}; }
+
+void parksAtTheKerb(Check& check, Student& student) {
+  check.input("a space at the kerb, 2.4 m longer than the car; the street is 7 m wide");
+  parks(check, student, {}, streetLot(check.rng(), 7, 2.4));
+}
+
+void parksTurningLeft(Check& check, Student& student) {
+  check.input(
+      "a space at the kerb, 3.5 m longer than the car, that turns left only; the street is 10 m wide");
+  parks(check, student, leftOnly(), streetLot(check.rng(), 10, 3.5));
+}
+
+// <hidden>
+void parksAnywhere(Check& check, Student& student) {
+  check.forEachCase(5, [&](int i) {
+    Rng& rng = check.rng();
+    World lot = i < 3 ? streetLot(rng, 7, rng.uniform(1.6, 2.4)) : bayLot(rng, 6.5, i == 3);
+    if (i == 1) lot = mirrored(lot);
+    parks(check, student, {}, placed(lot, anywhere(rng)));
+  });
+}
+
+void parksTurningLeftAnywhere(Check& check, Student& student) {
+  check.forEachCase(4, [&](int i) {
+    Rng& rng = check.rng();
+    const World lot = i < 3 ? streetLot(rng, 10, rng.uniform(2.8, 3.6)) : bayLot(rng, 9, false);
+    parks(check, student, leftOnly(), placed(lot, anywhere(rng)));
+  });
+}
+// </hidden>
+
+// Part 5.
+
+Eigen::Vector4d rigMotion(const Rig& rig, const Eigen::Vector4d& q, double speed, double steering,
+                          double seconds) {
+  return driveTrailer({{rig.car.wheelbase, 1.5}, rig.hitchLength}, q, {speed, steering}, seconds);
+}
+
+void rigMoves(Check& check, Student& student) {
+  for (int i = 0; i < 25; ++i) {
+    Rng& rng = check.rng();
+    Rig rig;
+    rig.car = randomCar(rng);
+    rig.hitchLength = rng.uniform(2, 5);
+    const Eigen::Vector4d q = rng.uniformVector(4, -3, 3);
+    const double speed = rng.uniform(-2, 2), steering = rng.uniform(-0.6, 0.6);
+    check.input("a random car, trailer, state and controls");
+    const Eigen::Vector4d v = student.rigVelocity(rig, q, speed, steering);
+    check.near("velocity of the car", v.head<3>(),
+               carVelocity({rig.car.wheelbase, 1.5}, q.head<3>(), {speed, steering}), 1e-9, "m/s, rad/s");
+    // The axle is d behind the hitch. It must not slide: its velocity has no part across the trailer.
+    const double across = -v[0] * std::sin(q[3]) + v[1] * std::cos(q[3]) - rig.hitchLength * v[3];
+    check.near("speed at which the axle of the trailer slides sideways", across, 0, 1e-9, "m/s");
+    check.input("wheels straight, an angle of 1e-5 rad at the hitch, one second");
+    const double rate = student.hitchGrowth(rig, speed);
+    const Eigen::Vector4d later = rigMotion(rig, {0, 0, 0, -1e-5}, speed, 0, 1);
+    check.near("logarithm of the growth in a second", rate, std::log((later[2] - later[3]) / 1e-5), 1e-4,
+               "1/s");
+  }
+}
+
+void reverses(Check& check, Student& student, const Rig& rig) {
+  Rng& rng = check.rng();
+  const double trailer = rng.uniform(-0.25, 0.25), offset = rng.uniform(-1, 1);
+  Eigen::Vector4d q(0, offset + rig.hitchLength * std::sin(trailer), rng.uniform(-0.25, 0.25), trailer);
+  for (int step = 0; step < 1000; ++step) {
+    const double steering = student.reverseSteering(rig, q);
+    checkLimits(check, rig.car, {1, steering, 1});
+    q = rigMotion(rig, q, -1, steering, 0.05);
+    check.atMost("angle between car and trailer", std::abs(q[2] - q[3]), 1.2, "rad");
+    if (step < 800) continue;
+    check.near("distance of the trailer's axle from the axis", q[1] - rig.hitchLength * std::sin(q[3]), 0,
+               0.05, "m");
+    check.near("headings of car and trailer", q.tail<2>(), Eigen::Vector2d::Zero(), 0.05, "rad");
+  }
+}
+
+void reversesATrailer(Check& check, Student& student) {
+  check.input("a hitch of 4 m, up to 1 m beside the axis, headings up to 0.25 rad off it, 50 m backward");
+  check.forEachCase(4, [&](int) { reverses(check, student, {}); });
+}
+
+// <hidden>
+void reversesAnyTrailer(Check& check, Student& student) {
+  check.forEachCase(6, [&](int) {
+    Rig rig;
+    rig.hitchLength = check.rng().uniform(2.5, 5);
+    reverses(check, student, rig);
+  });
+}
+// </hidden>
+
+}  // namespace
+
+rex::grading::Checks<Student> checks() {
+  return {
+      {"car-moves", "car", "Velocity, and where a drive leads", 1, Group::visible, carMoves},
+      {"car-follows", "car", "Could a car follow this trajectory?", 1, Group::visible, followsTrajectories},
+      // <hidden>
+      {"car-any", "car", "Cars of other sizes", 1, Group::hidden, anyCarMoves},
+      // </hidden>
+      {"tree-metrics", "tree", "Distances of poses and of angles", 1, Group::visible, distances},
+      {"tree-overlap", "tree", "Whether the body of a car is free", 1, Group::visible, findsOverlaps},
+      {"tree-drive", "tree", "One drive towards a target", 1, Group::visible, drivesTowards},
+      {"tree-room", "tree", "A tree reaches its goal", 1, Group::visible, treeInARoom},
+      // <hidden>
+      {"tree-any", "tree", "Rooms that you have not seen", 2, Group::hidden, treeAnywhere},
+      // </hidden>
+      {"dubins-words", "dubins", "The six words, one by one", 2, Group::visible, wordsLead},
+      {"dubins-shortest", "dubins", "The shortest of them", 1, Group::visible, shortestOfSix},
+      // <hidden>
+      {"dubins-any", "dubins", "Other radii, near and far goals", 1, Group::hidden, shortestAnywhere},
+      // </hidden>
+      {"park-kerb", "parking", "A space at the kerb", 1, Group::visible, parksAtTheKerb},
+      {"park-left", "parking", "Turning left only", 1, Group::visible, parksTurningLeft},
+      // <hidden>
+      {"park-any", "parking", "Spaces that you have not seen", 1, Group::hidden, parksAnywhere},
+      {"park-left-any", "parking", "Turning left only, elsewhere", 1, Group::hidden,
+       parksTurningLeftAnywhere},
+      // </hidden>
+      {"trailer-moves", "trailer", "How a trailer moves", 1, Group::visible, rigMoves},
+      {"trailer-reverses", "trailer", "Backward along a line", 1, Group::visible, reversesATrailer},
+      // <hidden>
+      {"trailer-any", "trailer", "Short and long trailers", 1, Group::hidden, reversesAnyTrailer},
+      // </hidden>
+  };
+}

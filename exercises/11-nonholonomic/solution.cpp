@@ -1,0 +1,731 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <queue>
+#include <set>
+
+#include "exercise.h"
+#include "planning/dubins.h"
+
+using namespace rex;
+
+// Keeps the compiler quiet about what a function below does not use yet.
+template <class... Unused>
+void notUsedYet(const Unused&...) {}
+
+Eigen::Vector3d velocityOf(const CarModel& car, const Eigen::Vector3d& q, double speed, double steering) {
+  // <solution velocityOf>
+  return {speed * std::cos(q[2]), speed * std::sin(q[2]), speed / car.wheelbase * std::tan(steering)};
+  // <todo>
+  //| // TODO: slide 4:48. What does its third line say about a car that stands?
+  //| notUsedYet(car, q, speed, steering);
+  //| return Eigen::Vector3d::Zero();
+  // </solution>
+}
+
+Eigen::Vector3d driven(const CarModel& car, const Eigen::Vector3d& q, const Drive& drive) {
+  // <solution driven>
+  // The chord of an arc has the direction halfway between the two headings, and a length of way sin(a) / a.
+  const double way = drive.speed * drive.seconds, half = way * std::tan(drive.steering) / car.wheelbase / 2;
+  const double chord = std::abs(half) < 1e-6 ? way : way * std::sin(half) / half;
+  return {q[0] + chord * std::cos(q[2] + half), q[1] + chord * std::sin(q[2] + half), q[2] + 2 * half};
+  // <todo>
+  //| // TODO: the car drives on a circle, or in many small steps with velocityOf().
+  //| notUsedYet(car, drive);
+  //| return q;
+  // </solution>
+}
+
+bool canFollow(const CarModel& car, const std::vector<Eigen::Vector3d>& path) {
+  // <solution canFollow>
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Eigen::Vector3d &a = path[i - 1], &b = path[i];
+    const double turn = std::remainder(b[2] - a[2], 2 * std::numbers::pi), middle = a[2] + turn / 2;
+    const double dx = b[0] - a[0], dy = b[1] - a[1];
+    // The constraint of 4:49 holds for the chord of an arc with the heading in the middle of it.
+    if (std::abs(dx * std::sin(middle) - dy * std::cos(middle)) > 1e-4) return false;
+    const double chord = dx * std::cos(middle) + dy * std::sin(middle);
+    if (std::abs(chord) < 1e-4) {
+      if (std::abs(turn) > 1e-4) return false;
+      continue;
+    }
+    const double curvature = 2 * std::sin(turn / 2) / chord, steering = std::atan(car.wheelbase * curvature);
+    if (steering < car.minSteering - 0.01 || steering > car.maxSteering + 0.01) return false;
+  }
+  return true;
+  // <todo>
+  //| // TODO: between two poses lies an arc. Which direction has its chord, and how large is its radius?
+  //| notUsedYet(car, path);
+  //| return true;
+  // </solution>
+}
+
+double poseDistance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  // <solution poseDistance>
+  const double heading = 2 * std::sin((a[2] - b[2]) / 2);
+  return std::hypot(a[0] - b[0], a[1] - b[1], heading);
+  // <todo>
+  //| // TODO: slide 4:59, a), and then with x and y.
+  //| notUsedYet(a, b);
+  //| return 0;
+  // </solution>
+}
+
+double angleDistance(double a, double b) {
+  // <solution angleDistance>
+  return std::abs(std::remainder(a - b, 2 * std::numbers::pi));
+  // <todo>
+  //| // TODO: slide 4:59, b). What if one angle is 7 turns?
+  //| notUsedYet(a, b);
+  //| return 0;
+  // </solution>
+}
+
+bool isFree(const CarModel& car, const Eigen::Vector3d& q, const std::vector<Block>& blocks) {
+  // <solution isFree>
+  // Two rectangles overlap unless one of their four sides' directions sees a gap between their shadows.
+  const double a = (car.front + car.back) / 2, b = car.width / 2, ahead = (car.front - car.back) / 2;
+  const double cosine = std::cos(q[2]), sine = std::sin(q[2]);
+  for (const Block& block : blocks) {
+    const double A = block.length / 2, B = block.width / 2;
+    const double dx = block.middle[0] - q[0] - ahead * cosine, dy = block.middle[1] - q[1] - ahead * sine;
+    const double reach = std::hypot(a, b) + std::hypot(A, B);
+    if (dx * dx + dy * dy > reach * reach) continue;
+    const double c = std::cos(block.middle[2]), s = std::sin(block.middle[2]);
+    const double along = std::abs(cosine * c + sine * s), across = std::abs(cosine * s - sine * c);
+    const bool gap = std::abs(dx * cosine + dy * sine) > a + A * along + B * across ||
+                     std::abs(dy * cosine - dx * sine) > b + A * across + B * along ||
+                     std::abs(dx * c + dy * s) > A + a * along + b * across ||
+                     std::abs(dy * c - dx * s) > B + a * across + b * along;
+    if (!gap) return false;
+  }
+  return true;
+  // <todo>
+  //| // TODO: do two rectangles overlap? It is not enough to look at their corners.
+  //| notUsedYet(car, q, blocks);
+  //| return true;
+  // </solution>
+}
+
+// <solution isFreeOnTheWay>
+// Tested every 10 cm, and with a car that is 3 cm larger on all sides: it stands for what lies between.
+bool isFreeOnTheWay(CarModel car, const Eigen::Vector3d& from, const Drive& drive,
+                    const std::vector<Block>& blocks) {
+  const int tests = std::max(1, static_cast<int>(std::ceil(10 * std::abs(drive.speed) * drive.seconds)));
+  car.front += 0.03;
+  car.back += 0.03;
+  car.width += 0.06;
+  for (int i = 1; i <= tests; ++i) {
+    const Drive part{drive.speed, drive.steering, drive.seconds * i / tests};
+    if (!isFree(car, driven(car, from, part), blocks)) return false;
+  }
+  return true;
+}
+// <todo>
+//| // TODO: you may want a function that tests the whole way of a drive.
+// </solution>
+
+std::optional<Drive> driveTowards(const CarModel& car, const Eigen::Vector3d& from,
+                                  const Eigen::Vector3d& target, double seconds,
+                                  const std::vector<Block>& blocks, Rng& rng) {
+  // <solution driveTowards>
+  std::vector<std::pair<double, Drive>> trials;
+  for (int i = 0; i < 20; ++i) {
+    const double speed = rng.index(2) == 0 ? 1 : -1;
+    const Drive drive{speed, rng.uniform(car.minSteering, car.maxSteering), seconds};
+    trials.emplace_back(poseDistance(driven(car, from, drive), target), drive);
+  }
+  std::ranges::sort(trials, {}, [](const auto& trial) { return trial.first; });
+  for (const auto& [distance, drive] : trials)
+    if (isFreeOnTheWay(car, from, drive, blocks)) return drive;
+  return {};
+  // <todo>
+  //| // TODO: which of 20 random controls leads nearest to the target, with nothing in its way?
+  //| notUsedYet(car, from, target, seconds, blocks, rng);
+  //| return {};
+  // </solution>
+}
+
+std::vector<CarNode> growTree(const CarModel& car, const World& world, Rng& rng) {
+  std::vector<CarNode> tree{{world.start, -1, {}}};
+  // <solution growTree>
+  for (int i = 0; i < 300000 && poseDistance(tree.back().q, world.goal) > 0.59; ++i) {
+    if (tree.size() > 3000) tree.resize(1);  // most trees need fewer; a new one is cheaper than a larger one
+    Eigen::Vector3d target(rng.uniform(world.lower.x(), world.upper.x()),
+                           rng.uniform(world.lower.y(), world.upper.y()), rng.uniform(-4, 4));
+    if (rng.index(10) == 0) target = world.goal;
+    int near = 0;
+    double least = 1e9;
+    for (std::size_t i = 0; i < tree.size(); ++i) {
+      const double distance = poseDistance(tree[i].q, target);
+      if (distance >= least) continue;
+      least = distance;
+      near = static_cast<int>(i);
+    }
+    const Eigen::Vector3d from = tree[static_cast<std::size_t>(near)].q;
+    const auto drive = driveTowards(car, from, target, rng.uniform(0.3, 2), world.blocks, rng);
+    if (drive) tree.push_back({driven(car, from, *drive), near, *drive});
+  }
+  // <todo>
+  //| // TODO: slide 4:58. Aim at the goal now and then.
+  //| notUsedYet(car, rng);
+  // </solution>
+  return tree;
+}
+
+std::optional<std::array<double, 3>> dubinsLengths(DubinsWord word, const Eigen::Vector3d& from,
+                                                   const Eigen::Vector3d& to, double radius) {
+  // <solution dubinsLengths>
+  const auto left = [&](char letter) { return letter == 'L' ? 1 : -1; };
+  const char* letters = std::array{"LSL", "LSR", "RSL", "RSR", "LRL", "RLR"}[static_cast<std::size_t>(word)];
+  const int first = left(letters[0]), last = left(letters[2]);
+  // From the centre of the first circle to that of the last.
+  const double dx = to[0] - last * radius * std::sin(to[2]) - from[0] + first * radius * std::sin(from[2]);
+  const double dy = to[1] + last * radius * std::cos(to[2]) - from[1] - first * radius * std::cos(from[2]);
+  const double distance = std::hypot(dx, dy), direction = std::atan2(dy, dx);
+  // Between 0 and 2 pi; what rounding pushes below 0 is no whole turn.
+  const auto turn = [](double angle) {
+    const double rest = angle - 2 * std::numbers::pi * std::floor(angle / (2 * std::numbers::pi));
+    return rest > 2 * std::numbers::pi - 1e-9 ? 0 : rest;
+  };
+  if (letters[1] == 'S') {
+    // Outside of both circles, or across from one to the other: then the way and two radii span a triangle.
+    const double across = first == last ? 0 : 2 * radius;
+    if (distance < across) return {};
+    const double straight = std::sqrt(distance * distance - across * across);
+    const double heading = direction + first * std::atan2(across, straight);
+    return std::array{radius * turn(first * (heading - from[2])), straight,
+                      radius * turn(last * (to[2] - heading))};
+  }
+  // A third circle touches both: its centre is 2 r away from both of theirs.
+  if (distance > 4 * radius) return {};
+  const double middle = 2 * (std::numbers::pi - std::asin(distance / (4 * radius)));
+  const double heading = direction + first * middle / 2;  // at the end of the first arc
+  return std::array{radius * turn(first * (heading - from[2])), radius * middle,
+                    radius * turn(first * (to[2] - heading) + middle)};
+  // <todo>
+  //| // TODO: where are the centres of the first and of the last circle, and how far apart?
+  //| notUsedYet(word, from, to, radius);
+  //| return {};
+  // </solution>
+}
+
+DubinsWay shortestDubins(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius) {
+  DubinsWay best;
+  // <solution shortestDubins>
+  double least = 1e300;
+  for (int i = 0; i < 6; ++i) {
+    const auto word = static_cast<DubinsWord>(i);
+    const auto lengths = dubinsLengths(word, from, to, radius);
+    if (!lengths) continue;
+    const double length = (*lengths)[0] + (*lengths)[1] + (*lengths)[2];
+    if (length >= least) continue;
+    least = length;
+    best = {word, *lengths};
+  }
+  // <todo>
+  //| // TODO: ask for all six.
+  //| notUsedYet(from, to, radius);
+  // </solution>
+  return best;
+}
+
+// <solution waysToPark>
+// The shortest Dubins curve that the car can drive and that nothing blocks, forward or backward. Driven
+// backward, a car moves like one that looks the other way and steers to the other side.
+std::vector<Drive> curveTo(const CarModel& car, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                           const std::vector<Block>& blocks) {
+  const double steering = car.minSteering < 0 ? std::min(car.maxSteering, -car.minSteering) : car.maxSteering;
+  const double radius = car.wheelbase / std::tan(steering);
+  std::vector<std::pair<double, std::vector<Drive>>> curves;
+  for (const double speed : {1., -1.}) {
+    const Eigen::Vector3d turned(0, 0, speed > 0 ? 0 : std::numbers::pi);
+    for (int i = 0; i < 6; ++i) {
+      const auto lengths = dubinsLengths(static_cast<DubinsWord>(i), from + turned, to + turned, radius);
+      if (!lengths) continue;
+      const std::string letters =
+          std::array{"LSL", "LSR", "RSL", "RSR", "LRL", "RLR"}[static_cast<std::size_t>(i)];
+      std::vector<Drive> drives;
+      double way = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double angle = letters[k] == 'S' ? 0 : letters[k] == 'L' ? speed * steering : -speed * steering;
+        if ((*lengths)[k] > 0) drives.push_back({speed, angle, (*lengths)[k]});
+        way += (*lengths)[k];
+      }
+      if (std::ranges::all_of(drives, [&](const Drive& d) { return d.steering >= car.minSteering; }))
+        curves.emplace_back(way, drives);
+    }
+  }
+  std::ranges::sort(curves, {}, [](const auto& curve) { return curve.first; });
+  for (const auto& [way, drives] : curves) {
+    Eigen::Vector3d q = from;
+    if (std::ranges::all_of(drives, [&](const Drive& drive) {
+          const Eigen::Vector3d before = q;
+          q = driven(car, q, drive);
+          return isFreeOnTheWay(car, before, drive, blocks);
+        }))
+      return drives;
+  }
+  return {};
+}
+
+// Out of the space is easier than in: a tree grows from there, cheapest nodes first, until a curve leads from
+// the start to one of them. Every way out is a way in, driven backward.
+std::vector<Drive> parkInSteps(const CarModel& car, const World& lot, double step) {
+  struct Way {
+    double cost;
+    std::size_t node;
+    bool operator<(const Way& other) const { return cost > other.cost; }
+  };
+  std::vector<CarNode> tree{{lot.goal, -1, {}}};
+  std::priority_queue<Way> open;
+  open.push({0, 0});
+  std::set<std::array<double, 3>> seen;
+  while (!open.empty() && tree.size() < 100000) {
+    const auto [cost, at] = open.top();
+    open.pop();
+    const CarNode from = tree[at];
+    std::vector<Drive> plan;
+    if (at % 3 == 0) plan = curveTo(car, lot.start, from.q, lot.blocks);  // every third is enough
+    if (!plan.empty()) {
+      for (std::size_t k = at; k > 0; k = static_cast<std::size_t>(tree[k].parent))
+        plan.push_back({-tree[k].by.speed, tree[k].by.steering, tree[k].by.seconds});
+      return plan;
+    }
+    for (const double speed : {1., -1.}) {
+      for (const double steering : {car.minSteering, 0., car.maxSteering}) {
+        const Drive drive{speed, steering, step};
+        const Eigen::Vector3d q = driven(car, from.q, drive);
+        const double heading = std::remainder(q[2], 2 * std::numbers::pi);
+        const std::array cell{std::floor(q[0] / (0.7 * step)), std::floor(q[1] / (0.7 * step)),
+                              std::floor(heading / (0.25 * step))};
+        if (seen.contains(cell) || !isFreeOnTheWay(car, from.q, drive, lot.blocks)) continue;
+        seen.insert(cell);
+        // A metre for stopping to drive the other way.
+        open.push({cost + step + (at > 0 && from.by.speed == speed ? 0 : 1), tree.size()});
+        tree.push_back({q, static_cast<int>(at), drive});
+      }
+    }
+  }
+  return {};
+}
+// <todo>
+//| // TODO: what else parking needs: curves and parts of a way as your own functions.
+// </solution>
+
+std::vector<Drive> park(const CarModel& car, const World& lot) {
+  // <solution park>
+  // Coarse steps find a way soon; where the space is narrow, they find none.
+  for (const double step : {0.4, 0.2}) {
+    const std::vector<Drive> plan = parkInSteps(car, lot, step);
+    if (!plan.empty()) return plan;
+  }
+  return {};
+  // <todo>
+  //| // TODO: a way out of the space, driven backward, is a way in.
+  //| notUsedYet(car, lot);
+  //| return {};
+  // </solution>
+}
+
+Eigen::Vector4d rigVelocity(const Rig& rig, const Eigen::Vector4d& q, double speed, double steering) {
+  Eigen::Vector4d velocity = Eigen::Vector4d::Zero();
+  // <solution rigVelocity>
+  velocity.head(3) = velocityOf(rig.car, q.head<3>(), speed, steering);
+  velocity[3] = speed / rig.hitchLength * std::sin(q[2] - q[3]);
+  // <todo>
+  //| // TODO: where is the axle of the trailer, how does it move, and in which direction can it?
+  //| notUsedYet(rig, q, speed, steering);
+  // </solution>
+  return velocity;
+}
+
+double hitchGrowth(const Rig& rig, double speed) {
+  // <solution hitchGrowth>
+  return -speed / rig.hitchLength;
+  // <todo>
+  //| // TODO: the equation of the angle between car and trailer, near zero.
+  //| notUsedYet(rig, speed);
+  //| return 0;
+  // </solution>
+}
+
+double reverseSteering(const Rig& rig, const Eigen::Vector4d& q) {
+  // <solution reverseSteering>
+  // From outside to inside, each orders the next: the offset a heading of the trailer, this an angle at the
+  // hitch, and this a steering angle. Rates are per metre of way; each is faster than the one outside.
+  const double trailer = std::remainder(q[3], 2 * std::numbers::pi);
+  const double hitch = std::remainder(q[2] - q[3], 2 * std::numbers::pi);
+  const double offset = q[1] - rig.hitchLength * std::sin(trailer);
+  const double heading = std::clamp(0.15 * offset, -0.4, 0.4);
+  // Beyond d tan(steering) / L nothing folds the rig back: stay well below.
+  const double most = 0.6 * std::min(1., rig.hitchLength * std::tan(rig.car.maxSteering) / rig.car.wheelbase);
+  const double angle = std::clamp(rig.hitchLength * 0.5 * (trailer - heading), -most, most);
+  const double curvature = std::sin(hitch) / rig.hitchLength + 1.5 * (hitch - angle);
+  const double steering = std::atan(rig.car.wheelbase * curvature);
+  return std::clamp(steering, rig.car.minSteering, rig.car.maxSteering);
+  // <todo>
+  //| // TODO: which heading should the trailer have beside the axis? Which angle at the hitch turns it there,
+  //| // and which steering angle makes that?
+  //| notUsedYet(rig, q);
+  //| return 0;
+  // </solution>
+}
+
+// From here on everything is given: all parts one after another, with pictures. Change it as you like.
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+const Color kGround{0.15f, 0.3f, 0.5f}, kAccent{0.8f, 0.25f, 0.1f}, kSoft{0.6f, 0.7f, 0.8f};
+
+const std::array kWords{"LSL", "LSR", "RSL", "RSR", "LRL", "RLR"};
+const std::array<Color, 6> kWordColors{Color{0, 0.45f, 0.7f},  Color{0.85f, 0.37f, 0},
+                                       Color{0, 0.62f, 0.45f}, Color{0.8f, 0.47f, 0.65f},
+                                       Color{0.9f, 0.62f, 0},  Color{0.34f, 0.71f, 0.91f}};
+
+using Poses = std::vector<Eigen::Vector3d>;
+
+// The poses at which a car is every so many metres of its way.
+Poses along(const CarModel& car, Eigen::Vector3d q, const std::vector<Drive>& drives, double every) {
+  Poses poses{q};
+  for (const Drive& drive : drives) {
+    const int parts = std::max(1, static_cast<int>(std::abs(drive.speed) * drive.seconds / every + 0.5));
+    for (int i = 1; i <= parts; ++i)
+      poses.push_back(driven(car, q, {drive.speed, drive.steering, drive.seconds * i / parts}));
+    q = poses.back();
+  }
+  return poses;
+}
+
+// A rectangle around p, from `back` behind to `front` before it.
+Series outline(const Eigen::Vector3d& p, double back, double front, double width, const Color& color) {
+  Series series{.size = 0.5, .color = color};
+  const double c = std::cos(p[2]), s = std::sin(p[2]);
+  for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}}) {
+    const double ahead = x < 0 ? -back : front, left = y * width / 2;
+    series.x.push_back(p[0] + c * ahead - s * left);
+    series.y.push_back(p[1] + s * ahead + c * left);
+  }
+  return series;
+}
+
+Series outline(const CarModel& car, const Eigen::Vector3d& q, const Color& color) {
+  return outline(q, car.back, car.front, car.width, color);
+}
+
+Series line(const std::string& label, const Poses& poses, const Color& color, double size) {
+  Series series{.label = label, .size = size, .color = color};
+  for (const Eigen::Vector3d& q : poses) {
+    series.x.push_back(q[0]);
+    series.y.push_back(q[1]);
+  }
+  return series;
+}
+
+Figure seenFromAbove(const std::string& title, const std::vector<Block>& blocks) {
+  Figure figure{.title = title,
+                .xLabel = "x [m]",
+                .yLabel = "y [m]",
+                .equalAxes = true,
+                .legend = Legend::kNone,
+                .width = 1000,
+                .height = 560};
+  for (const Block& block : blocks) {
+    const Series edge = outline(block.middle, block.length / 2, block.length / 2, block.width, {});
+    figure.regions.push_back({.x = edge.x, .y = edge.y});
+  }
+  return figure;
+}
+
+// The world of main(): a room with things in it, 24 m x 16 m.
+World room() {
+  return {.start = {3, 3, 0},
+          .goal = {20, 12.5, kPi / 2},
+          .blocks = {{{12, -0.2, 0}, 24.8, 0.4},
+                     {{12, 16.2, 0}, 24.8, 0.4},
+                     {{-0.2, 8, kPi / 2}, 16.8, 0.4},
+                     {{24.2, 8, kPi / 2}, 16.8, 0.4},
+                     {{8.5, 8, 0.4}, 8, 2},
+                     {{16, 4.5, 1.2}, 7, 1.5},
+                     {{15.5, 13, 0}, 1.5, 6}},
+          .lower = {0, 0},
+          .upper = {24, 16}};
+}
+
+// A street with cars at its kerb and one space; the other side is a wall, `width` away from that row.
+World street(double width, double slot) {
+  World lot{
+      .start = {-6, 3.6, 0}, .goal = {-1.3, 0, 0}, .blocks = {}, .lower = {-14, -1.2}, .upper = {14, width}};
+  for (const double side : {-1., 1.})
+    for (const double next : {0., 5.})
+      lot.blocks.push_back({{side * (slot / 2 + 2.1 + next), 0, 0}, 4.2, 1.75});
+  lot.blocks.push_back({{0, -1.4, 0}, 28, 0.4});
+  lot.blocks.push_back({{0, width + 0.2, 0}, 28, 0.4});
+  return lot;
+}
+
+World bays() {
+  World lot{.start = {-9, 5, 0},
+            .goal = {0, -1.3, kPi / 2},
+            .blocks = {},
+            .lower = {-13, -2.5},
+            .upper = {13, 8.5}};
+  for (const int i : {-4, -3, -2, -1, 1, 2, 3, 4}) lot.blocks.push_back({{2.6 * i, 0, kPi / 2}, 4.2, 1.75});
+  lot.blocks.push_back({{0, -2.7, 0}, 26, 0.4});
+  lot.blocks.push_back({{0, 8.7, 0}, 26, 0.4});
+  return lot;
+}
+
+// A tree as one line that goes along every branch and back.
+void goAround(const CarModel& car, const std::vector<CarNode>& tree,
+              const std::vector<std::vector<std::size_t>>& children, std::size_t at, Poses& around) {
+  for (const std::size_t child : children[at]) {
+    const Poses edge = along(car, tree[at].q, {tree[child].by}, 0.3);
+    around.insert(around.end(), edge.begin(), edge.end());
+    goAround(car, tree, children, child, around);
+    around.insert(around.end(), edge.rbegin(), edge.rend());
+  }
+}
+
+void showTree() {
+  const CarModel car;
+  const World world = room();
+  Rng rng(22);
+  const std::vector<CarNode> tree = growTree(car, world, rng);
+  std::vector<std::vector<std::size_t>> children(tree.size());
+  for (std::size_t i = 1; i < tree.size(); ++i)
+    children[static_cast<std::size_t>(tree[i].parent)].push_back(i);
+  std::vector<Drive> way;
+  for (std::size_t i = tree.size() - 1; i > 0; i = static_cast<std::size_t>(tree[i].parent))
+    way.insert(way.begin(), tree[i].by);
+  Poses around{world.start};
+  goAround(car, tree, children, 0, around);
+  Figure figure =
+      seenFromAbove("A tree of controls, " + std::to_string(tree.size()) + " nodes", world.blocks);
+  figure.series = {line("", around, kSoft, 0.6), line("", along(car, world.start, way, 0.1), kAccent, 2),
+                   outline(car, world.start, kGround), outline(car, world.goal, kAccent)};
+  plot("tree", figure);
+}
+
+std::vector<Drive> drivesOf(const CarModel& car, const DubinsWay& way) {
+  const char* letters = kWords[static_cast<std::size_t>(way.word)];
+  std::vector<Drive> drives;
+  for (std::size_t i = 0; i < 3; ++i)
+    drives.push_back({1,
+                      letters[i] == 'S'   ? 0
+                      : letters[i] == 'L' ? car.maxSteering
+                                          : -car.maxSteering,
+                      way.lengths[i]});
+  return drives;
+}
+
+// byLibrary(from, to, radius): the length of a Dubins curve [m].
+void showDubins(double (*byLibrary)(const Eigen::Vector3d&, const Eigen::Vector3d&, double)) {
+  const CarModel car;
+  const double radius = car.wheelbase / std::tan(car.maxSteering);
+  const Eigen::Vector3d start = Eigen::Vector3d::Zero();
+  Figure fan = seenFromAbove("Shortest ways forward to twelve headings at two places", {});
+  fan.legend = Legend::kOutside;
+  std::set<DubinsWord> named;
+  for (const Eigen::Vector3d& place : {Eigen::Vector3d(14, 3, 0), Eigen::Vector3d(-4, -3, 0)}) {
+    for (int i = 0; i < 12; ++i) {
+      const DubinsWay way = shortestDubins(start, place + Eigen::Vector3d(0, 0, kPi / 6 * i), radius);
+      const auto word = static_cast<std::size_t>(way.word);
+      fan.series.push_back(line(named.insert(way.word).second ? kWords[word] : "",
+                                along(car, start, drivesOf(car, way), 0.1), kWordColors[word], 1));
+    }
+  }
+  fan.series.push_back(outline(car, start, {0, 0, 0}));
+  plot("fan", fan);
+  Figure lengths{.title = "The six words to the pose (5, 3, heading)",
+                 .xLabel = "heading at the goal [rad]",
+                 .yLabel = "length [m]",
+                 .legend = Legend::kOutside};
+  std::array<Series, 6> words;
+  Series library{.label = "library's", .dashed = true, .color = Color{0, 0, 0}},
+      yours{.label = "yours", .size = 5, .color = Color{1, 0.85f, 0.3f}};
+  for (int i = 0; i <= 400; ++i) {
+    const Eigen::Vector3d to(5, 3, -kPi + 2 * kPi * i / 400);
+    for (std::size_t k = 0; k < 6; ++k) {
+      const auto way = dubinsLengths(static_cast<DubinsWord>(k), start, to, radius);
+      if (!way) continue;
+      words[k].x.push_back(to[2]);
+      words[k].y.push_back((*way)[0] + (*way)[1] + (*way)[2]);
+    }
+    const DubinsWay best = shortestDubins(start, to, radius);
+    for (Series* series : {&library, &yours}) series->x.push_back(to[2]);
+    yours.y.push_back(best.lengths[0] + best.lengths[1] + best.lengths[2]);
+    library.y.push_back(byLibrary(start, to, radius));
+  }
+  lengths.series.push_back(yours);
+  for (std::size_t k = 0; k < 6; ++k) {
+    words[k].label = kWords[k];
+    words[k].color = kWordColors[k];
+    words[k].style = SeriesStyle::kPoints;
+    words[k].marker = Marker::kDot;
+    if (!words[k].x.empty()) lengths.series.push_back(words[k]);
+  }
+  lengths.series.push_back(library);
+  plot("dubins", lengths);
+}
+
+std::string text(const std::vector<double>& numbers) {
+  std::string all;
+  for (const double number : numbers) all += std::to_string(number) + ' ';
+  return all;
+}
+
+std::string box(const std::string& head, const std::vector<double>& place, double heading,
+                const std::vector<double>& size, const std::string& look) {
+  return head + "=<T t(" + text(place) + ") r(" + text({heading}) + " 0 0 1)> type=ST_ssBox size=[" +
+         text(size) + " 0.05] " + look + " }\n";
+}
+
+// A scene with a car, its front wheels and a trailer: 6 joint angles, or 5 without the trailer.
+Simulator filmSet(const CarModel& car, const World& world, double hitchLength = 0) {
+  const std::string paint = "color=[.90 .58 .18]", dark = "color=[.2 .22 .27]";
+  const double low = -car.back, length = car.front + car.back, axle = car.width / 2 - 0.15;
+  std::string scene =
+      box("shape ground (world) { rel",
+          {(world.lower.x() + world.upper.x()) / 2, (world.lower.y() + world.upper.y()) / 2, -0.1}, 0,
+          {world.upper.x() - world.lower.x(), world.upper.y() - world.lower.y(), 0.1}, "color=[.62 .64 .66]");
+  for (const Block& block : world.blocks) {
+    const bool isCar = block.width > 1 && block.length > 4 && block.length < 5;
+    const std::vector<double> middle{block.middle[0], block.middle[1]};
+    scene += box("shape (world) { rel", {middle[0], middle[1], isCar ? 0.55 : 0.15}, block.middle[2],
+                 {block.length, block.width, isCar ? 0.6 : 0.3},
+                 isCar ? "color=[.35 .45 .6]" : "color=[.45 .47 .5]");
+    if (isCar)
+      scene += box("shape (world) { rel", {middle[0], middle[1], 1.05}, block.middle[2],
+                   {block.length * 0.5, block.width * 0.9, 0.5}, "color=[.55 .63 .74]");
+  }
+  const auto wheel = [&](double x, double y) {
+    return "rel=<T t(" + text({x, y, 0.3}) + ") d(90 1 0 0)> type=ST_cylinder size=[0 0 0.2 0.3] " + dark +
+           " }\n";
+  };
+  scene += "body car { }\njoint (world car) { type=transXYPhi }\n";
+  scene += box("shape (car) { rel", {low + length / 2, 0, 0.55}, 0, {length, car.width, 0.5}, paint);
+  scene += box("shape (car) { rel", {low + 0.45 * length, 0, 1.05}, 0, {0.5 * length, 0.9 * car.width, 0.5},
+               paint);
+  for (const double y : {-axle, axle}) {
+    const std::string name = y < 0 ? "right" : "left";
+    scene += "shape (car) { " + wheel(0, y) + "body " + name + " { }\nshape (" + name + ") { " + wheel(0, 0);
+    scene += "joint (car " + name + ") { type=hingeZ A=<T t(" + text({car.wheelbase, y, 0}) + ")> }\n";
+  }
+  if (hitchLength > 0) {
+    scene += "body trailer { }\njoint (car trailer) { type=hingeZ }\n";
+    scene += box("shape (trailer) { rel", {-hitchLength - 0.3, 0, 0.9}, 0, {hitchLength, car.width, 1.2},
+                 "color=[.8 .8 .78]");
+    scene += box("shape (trailer) { rel", {-hitchLength / 2, 0, 0.4}, 0, {hitchLength, 0.15, 0.15}, dark);
+    for (const double y : {-axle, axle}) scene += "shape (trailer) { " + wheel(-hitchLength, y);
+  }
+  return Simulator(SimulatorDescription{.sceneName = "car", .sceneText = scene, .q = {}});
+}
+
+void showParking(const std::string& name, const std::string& title, const CarModel& car, const World& lot) {
+  const std::vector<Drive> plan = park(car, lot);
+  Poses bodies = along(car, lot.start, plan, 0.7);
+  Figure figure = seenFromAbove(title, lot.blocks);
+  for (const Eigen::Vector3d& q : bodies) figure.series.push_back(outline(car, q, kSoft));
+  figure.series.push_back(line("", along(car, lot.start, plan, 0.05), kAccent, 1.5));
+  figure.series.push_back(outline(car, lot.start, kGround));
+  figure.series.push_back(outline(car, bodies.back(), kAccent));
+  plot(name, figure);
+  Simulator S = filmSet(car, lot);
+  S.clearRecording();
+  Eigen::Vector3d q = lot.start;
+  const auto show = [&](double steering) {
+    Eigen::VectorXd all(5);
+    all << q, steering, steering;
+    S.setJointAngles(all);
+  };
+  show(0);
+  for (const Drive& drive : plan)
+    for (const Poses way = along(car, q, {drive}, 0.05); const Eigen::Vector3d& next : way) {
+      q = next;
+      show(drive.steering);
+    }
+  const PictureOptions look{.caption = title, .view = {-0.3, -0.8, 1}};
+  writeVideo(S, name, look, 240);
+  writeContactSheet(S, name + "_sheet", look, 6, 240);
+  if (name == "street") writeReplay(S, name, look, {figure});
+}
+
+struct Reversing {
+  std::vector<double> way, hitch, offset;
+  std::vector<Eigen::Vector4d> states;
+  std::vector<double> steering;
+};
+
+// 30 m backward at 1 m/s, or until the rig folds up.
+Reversing reverse(const Rig& rig, Eigen::Vector4d q, bool feedback) {
+  Reversing run;
+  constexpr double kStep = 0.01;
+  for (int i = 0; i <= 3000 && std::abs(q[2] - q[3]) < 1.5; ++i) {
+    const double steering = feedback ? reverseSteering(rig, q) : 0;
+    run.way.push_back(kStep * i);
+    run.hitch.push_back(q[2] - q[3]);
+    run.offset.push_back(q[1] - rig.hitchLength * std::sin(q[3]));
+    run.states.push_back(q);
+    run.steering.push_back(steering);
+    q += kStep * rigVelocity(rig, q, -1, steering);
+  }
+  return run;
+}
+
+void showTrailer() {
+  const Rig rig;
+  const Eigen::Vector4d start(15, 1, 0.05, 0.04);
+  const Reversing straight = reverse(rig, start, false), steered = reverse(rig, start, true);
+  Series law{.label = "exp(rate t)", .dashed = true, .color = Color{0, 0, 0}};
+  for (const double t : straight.way) {
+    law.x.push_back(t);
+    law.y.push_back(0.01 * std::exp(hitchGrowth(rig, -1) * t));
+    if (law.y.back() > 1.5) break;
+  }
+  Figure angles{.title = "Backward with a trailer, at 1 m/s",
+                .xLabel = "time [s]",
+                .yLabel = "angle between car and trailer [rad]",
+                .series = {{.label = "wheels straight", .x = straight.way, .y = straight.hitch},
+                           {.label = "with feedback", .x = steered.way, .y = steered.hitch},
+                           law}};
+  plot("hitch", angles);
+  Figure above = seenFromAbove("Backward along the x axis, from the right to the left", {});
+  above.horizontalLines = {{0, ""}};
+  for (const Reversing* run : {&straight, &steered}) {
+    const Color& color = run == &straight ? kSoft : kAccent;
+    for (std::size_t i = 0; i < run->states.size(); i += 500) {
+      const Eigen::Vector4d& q = run->states[i];
+      above.series.push_back(outline(rig.car, q.head<3>(), color));
+      above.series.push_back(outline({q[0], q[1], q[3]}, rig.hitchLength + 0.9, -0.8, rig.car.width, color));
+    }
+  }
+  plot("reversing", above);
+  World road{.blocks = {}, .lower = {-22, -4}, .upper = {20, 4}};
+  Simulator S = filmSet(rig.car, road, rig.hitchLength);
+  S.clearRecording();
+  for (std::size_t i = 0; i < steered.states.size(); i += 5) {
+    const Eigen::Vector4d& q = steered.states[i];
+    Eigen::VectorXd all(6);
+    all << q.head<3>(), steered.steering[i], steered.steering[i], q[3] - q[2];
+    S.setJointAngles(all);
+  }
+  const PictureOptions look{.caption = "Backward with a trailer", .view = {-0.2, -0.8, 0.8}};
+  writeVideo(S, "trailer", look, 240);
+  writeContactSheet(S, "trailer_sheet", look, 6, 240);
+}
+
+}  // namespace
+
+int main() {
+  showTree();
+  // Once your own curves work, the shortest ones lie on the library's.
+  showDubins([](const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius) {
+    return dubinsLength(from, to, radius);
+  });
+  showParking("street", "Into a space at the kerb", {}, street(7, 6.4));
+  showParking("bay", "Backward into a bay", {}, bays());
+  showParking("left", "The same street, turning left only", {.minSteering = 0}, street(10, 7.4));
+  showTrailer();
+}
