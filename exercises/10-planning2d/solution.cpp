@@ -452,7 +452,8 @@ void showField() {
       addLine(figure, {trail.points.back()},
               {.style = SeriesStyle::kPoints, .marker = Marker::kCross, .size = 3, .color = kRed});
   }
-  figure.notes = {{"goal", kTrapGoal.x() + 0.1, kTrapGoal.y() + 0.3}};
+  addLine(figure, {kTrapGoal},
+          {.style = SeriesStyle::kPoints, .marker = Marker::kDot, .size = 2.5, .color = Color{1, 1, 1}});
   plot("field", figure);
 }
 
