@@ -242,7 +242,7 @@ std::optional<double> rankOf(Rng& rng, const CarModel& car, const Eigen::Vector3
 }
 
 // The best of 20 has a rank of 1 / 21 on average, any control one of 1 / 2. Over the
-// targets of a run the reference came to 0.09 at most.
+// targets of a run the reference came to 0.11 at most, in 300 runs.
 void drivesTowards(Check& check, Student& student) {
   check.input(
       "60 random targets, drives of 1 s, or of 7 s: longer than the car; a wall and a post stand about");
