@@ -20,15 +20,16 @@ void requireInput(const MatrixArg& A, const MatrixArg& Q) {
   requireSize("columns of Q", Q.cols(), A.rows());
   if (!A.allFinite()) throw Error({.what = "matrix A", .found = "entries that are not finite"});
   if (!Q.allFinite()) throw Error({.what = "matrix Q", .found = "entries that are not finite"});
+  if ((Q - Q.transpose()).cwiseAbs().maxCoeff() > 1e-9 * Q.cwiseAbs().maxCoeff())
+    throw Error({.what = "matrix Q", .found = "a matrix that is not symmetric", .wanted = "a symmetric one"});
 }
 
 // Solves (s T^* + t) y = b with a lower triangular T^*; throws where an entry of the diagonal vanishes.
 Eigen::VectorXcd solveShifted(const Eigen::MatrixXcd& T, Complex s, Complex t, Eigen::VectorXcd b,
                               const char* condition) {
-  const double scale = std::abs(s) * T.cwiseAbs().maxCoeff() + std::abs(t);
   for (Eigen::Index i = 0; i < b.size(); ++i) {
     const Complex pivot = s * std::conj(T(i, i)) + t;
-    if (std::abs(pivot) <= 1e-15 * scale)
+    if (std::abs(pivot) <= 1e-15 * (std::abs(s * T(i, i)) + std::abs(t)))
       throw Error({.what = "Lyapunov equation",
                    .found = fmt::format("the eigenvalue {:.6g}{:+.6g}i of A and another with {}",
                                         T(i, i).real(), T(i, i).imag(), condition),

@@ -78,10 +78,11 @@ void requireSound(const Problem& problem) {
       throw Error({.what = what, .found = fmt::format("the eigenvalue {:.6g}", least), .wanted = wanted});
   };
   const double scaleR = problem.R.cwiseAbs().maxCoeff();
-  if (problem.kind == Kind::kContinuous)
-    require("matrix R", leastEigenvalue(problem.R), std::max(1e-15 * scaleR, 1e-300),
-            "a positive definite matrix");
-  else
+  if (problem.kind == Kind::kContinuous) {
+    if (Eigen::LLT<Eigen::MatrixXd>(problem.R).info() != Eigen::Success)
+      require("matrix R", leastEigenvalue(problem.R), std::numeric_limits<double>::infinity(),
+              "a positive definite matrix");
+  } else
     require("matrix R", leastEigenvalue(problem.R), -1e-9 * scaleR, "no negative eigenvalue");
 }
 
@@ -114,6 +115,8 @@ Pencil pencilOf(const Problem& problem) {
   return pencil;
 }
 
+constexpr int kMostRounds = 1000;
+
 // Powers of two, so that nothing is rounded; states and costates get inverse factors, which keeps the
 // structure.
 void balance(Pencil& pencil, Eigen::Index n) {
@@ -121,13 +124,14 @@ void balance(Pencil& pencil, Eigen::Index n) {
   Eigen::MatrixXd M = pencil.H.cwiseAbs() + pencil.J.cwiseAbs();
   M.diagonal().setZero();
   Eigen::VectorXd factors = Eigen::VectorXd::Ones(size);
-  for (bool changed = true; changed;) {  // Osborne 1960, as in LAPACK's dgebal
+  bool changed = true;
+  for (int round = 0; changed && round < kMostRounds; ++round) {  // Osborne 1960, as in LAPACK's dgebal
     changed = false;
     for (Eigen::Index i = 0; i < size; ++i) {
-      const double column = M.col(i).norm(), row = M.row(i).norm();
+      const double column = M.col(i).stableNorm(), row = M.row(i).stableNorm();
       if (column == 0 || row == 0) continue;
-      const double factor = std::exp2(std::round(0.5 * std::log2(row / column)));
-      if (factor * column + row / factor >= 0.95 * (column + row)) continue;
+      const double factor = std::exp2(std::round(0.5 * (std::log2(row) - std::log2(column))));
+      if (!(factor * column + row / factor < 0.95 * (column + row))) continue;
       changed = true;
       factors[i] *= factor;
       M.col(i) *= factor;
@@ -279,21 +283,21 @@ RiccatiResult solve(const Problem& problem) {
     result.message = std::move(message);
     return result;
   };
-  if (const auto mode = badMode(problem, problem.A, problem.B))
-    return fail(RiccatiStatus::kNotStabilizable,
-                fmt::format("not stabilizable: the control cannot reach the mode of eigenvalue {}",
-                            described(*mode)));
-  const auto start = bySchurForm(problem);
-  const auto mode = badMode(problem, problem.A.transpose(), problem.Q);
-  const auto undetectable = [&] {
-    return fail(
-        RiccatiStatus::kNotDetectable,
-        fmt::format("not detectable: the cost does not see the mode of eigenvalue {}", described(*mode)));
+  // Only explains what went wrong: with entries of very different size the tests themselves may err.
+  const auto explain = [&](const std::string& otherwise) {
+    if (const auto mode = badMode(problem, problem.A, problem.B))
+      return fail(RiccatiStatus::kNotStabilizable,
+                  fmt::format("not stabilizable: the control cannot reach the mode of eigenvalue {}",
+                              described(*mode)));
+    if (const auto mode = badMode(problem, problem.A.transpose(), problem.Q))
+      return fail(
+          RiccatiStatus::kNotDetectable,
+          fmt::format("not detectable: the cost does not see the mode of eigenvalue {}", described(*mode)));
+    return fail(RiccatiStatus::kFailed, otherwise);
   };
-  if (!start && mode) return undetectable();
+  const auto start = bySchurForm(problem);
   if (!start)
-    return fail(RiccatiStatus::kFailed,
-                fmt::format("no stabilizing solution: eigenvalues of the pencil lie on the {}", edge));
+    return explain(fmt::format("no stabilizing solution: eigenvalues of the pencil lie on the {}", edge));
   const Extended X = refined(problem, *start);
   const Residual at = residualAt(problem, X);
   result.X = X.cast<double>();
@@ -302,19 +306,21 @@ RiccatiResult solve(const Problem& problem) {
   result.residual = at.size;
   const Eigen::MatrixXd closed = problem.A - problem.B * result.K;
   result.closedLoop = Eigen::EigenSolver<Eigen::MatrixXd>(closed, false).eigenvalues();
-  double margin = -std::numeric_limits<double>::infinity();
-  for (const std::complex<double> lambda : result.closedLoop)
-    margin = std::max(margin, instability(problem.kind, lambda.real(), lambda.imag(), 1));
-  const double near = 1e-7 * (problem.kind == Kind::kContinuous ? std::max(closed.norm(), 1e-300) : 1);
-  if (!(result.residual < 1e-6) || margin > near) {
-    if (mode) return undetectable();
-    return fail(
-        RiccatiStatus::kFailed,
+  // The least stable eigenvalue, and how far rounding may have moved it: a double one moves by the root.
+  double margin = -std::numeric_limits<double>::infinity(), doubt = 0;
+  for (const std::complex<double> lambda : result.closedLoop) {
+    const double instable = instability(problem.kind, lambda.real(), lambda.imag(), 1);
+    if (instable <= margin) continue;
+    margin = instable;
+    doubt = problem.kind == Kind::kContinuous ? 1e-7 * std::abs(lambda) : 1e-9;
+  }
+  if (!(result.residual < 1e-6) || margin > doubt)
+    return explain(
         fmt::format("no stabilizing solution was found: relative residual {:.2g}, closed-loop margin {:.2g}",
                     at.size, -margin));
-  }
-  if (margin > -near) {
-    if (mode) return undetectable();
+  if (margin > -doubt) {
+    if (badMode(problem, problem.A, problem.B) || badMode(problem, problem.A.transpose(), problem.Q))
+      return explain("");
     result.status = RiccatiStatus::kOnBoundary;
     result.message = fmt::format(
         "closed-loop eigenvalues lie on the {}: X is the limit of stabilizing solutions, to about half the "

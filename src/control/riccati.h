@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 
 #include <Eigen/Core>
@@ -23,7 +24,8 @@ struct RiccatiResult {
   Eigen::MatrixXd X{};            ///< symmetric, n x n
   Eigen::MatrixXd K{};            ///< m x n: u = -K x
   Eigen::VectorXcd closedLoop{};  ///< eigenvalues of A - B K
-  double residual = 0;            ///< of the equation, relative to its largest term
+  /// Of the equation, relative to its largest term.
+  double residual = std::numeric_limits<double>::infinity();
   std::string message{};
 };
 

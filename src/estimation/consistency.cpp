@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require_finite.h"
 #include "geometry/lie.h"
 #include "geometry/rotation.h"
 
@@ -42,6 +43,12 @@ void requireDegrees(double degrees) {
       {.what = "degrees of freedom", .found = fmt::format("{:g}", degrees), .wanted = "a positive number"});
 }
 
+void requireProbability(double probability) {
+  if (probability > 0 && probability < 1) return;
+  throw Error(
+      {.what = "probability", .found = fmt::format("{:g}", probability), .wanted = "between 0 and 1"});
+}
+
 void requireSteps(long estimated, long wanted, int steps) {
   requireSize("estimated poses", estimated, wanted);
   if (steps > 0 && steps < wanted) return;
@@ -54,21 +61,27 @@ void requireSteps(long estimated, long wanted, int steps) {
 
 double estimationErrorSquared(const Gaussian& belief, const VectorArg& truth, std::span<const int> angles) {
   requireSize("truth", truth.size(), belief.mean.size());
+  requireFinite("truth", truth);
   Eigen::VectorXd near = truth;
-  for (const int i : angles) near[i] = belief.mean[i] + wrapAngle(truth[i] - belief.mean[i]);
+  for (const int i : angles) {
+    if (i < 0 || i >= truth.size())
+      throw Error({.what = "angle among the numbers",
+                   .found = fmt::format("number {}", i),
+                   .wanted = fmt::format("0 to {}", truth.size() - 1)});
+    near[i] = belief.mean[i] + wrapAngle(truth[i] - belief.mean[i]);
+  }
   return squaredMahalanobis(belief, near);
 }
 
 double chiSquareProbability(double x, double degrees) {
   requireDegrees(degrees);
-  return lowerGamma(degrees / 2, x / 2);
+  if (std::isnan(x)) requireFinite("chi-square number", x);
+  return std::isinf(x) ? (x > 0 ? 1 : 0) : lowerGamma(degrees / 2, x / 2);
 }
 
 double chiSquareQuantile(double probability, double degrees) {
   requireDegrees(degrees);
-  if (!(probability > 0 && probability < 1))
-    throw Error(
-        {.what = "probability", .found = fmt::format("{:g}", probability), .wanted = "between 0 and 1"});
+  requireProbability(probability);
   double low = 0, high = degrees + 10;
   while (chiSquareProbability(high, degrees) < probability) high *= 2;
   for (int i = 0; i < 200 && high - low > 1e-15 * high; ++i) {
@@ -80,6 +93,7 @@ double chiSquareQuantile(double probability, double degrees) {
 
 ConsistencyBand consistencyBand(int runs, double degrees, double probability) {
   if (runs < 1) throw Error({.what = "runs", .found = fmt::format("{}", runs), .wanted = "one or more"});
+  requireProbability(probability);
   // The sum of the runs is chi-square, too.
   const double tail = (1 - probability) / 2;
   return {chiSquareQuantile(tail, runs * degrees) / runs, chiSquareQuantile(1 - tail, runs * degrees) / runs};

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <string>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
@@ -14,11 +13,15 @@ namespace {
 
 constexpr double kTolerance = 1e-9;
 
+// What an entry may be at most in a semidefinite matrix, and so the measure of its rounding.
+double sizeOf(const MatrixArg& A, Eigen::Index i, Eigen::Index j) {
+  return std::sqrt(std::abs(A(i, i))) * std::sqrt(std::abs(A(j, j)));
+}
+
 void requireSymmetric(const std::string& what, const MatrixArg& A) {
-  const double scale = A.cwiseAbs().maxCoeff();
   for (Eigen::Index j = 0; j < A.cols(); ++j) {
     for (Eigen::Index i = 0; i < j; ++i) {
-      if (std::abs(A(i, j) - A(j, i)) <= kTolerance * scale) continue;
+      if (std::abs(A(i, j) - A(j, i)) <= kTolerance * sizeOf(A, i, j)) continue;
       throw Error(
           {.what = what,
            .found = fmt::format("{:g} at ({}, {}) and {:g} at ({}, {})", A(i, j), i, j, A(j, i), j, i),
@@ -27,10 +30,21 @@ void requireSymmetric(const std::string& what, const MatrixArg& A) {
   }
 }
 
-// A factorisation tells at a fraction of the price whether eigenvalues must be looked at.
-bool isClearlyDefinite(const MatrixArg& A) {
-  const Eigen::LLT<Eigen::MatrixXd> factor(A);
-  return factor.info() == Eigen::Success;
+// The least eigenvalue of the matrix scaled to a unit diagonal, so that large variances do not hide small
+// ones.
+double leastCorrelation(const MatrixArg& A) {
+  const Eigen::VectorXd scale = A.diagonal().unaryExpr([](double v) { return v > 0 ? 1 / std::sqrt(v) : 1; });
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * A * scale.asDiagonal();
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .minCoeff();
+}
+
+[[noreturn]] void refuse(const std::string& what, double eigenvalue, Definiteness wanted) {
+  throw Error({.what = what,
+               .found = fmt::format("the eigenvalue {:g}", eigenvalue),
+               .wanted = wanted == Definiteness::kPositive ? "a positive definite matrix"
+                                                           : "no negative eigenvalue"});
 }
 
 }  // namespace
@@ -45,23 +59,38 @@ void requireCovariance(std::string_view what, const MatrixArg& A, Eigen::Index s
   if (size == 0) return;
   if (!A.allFinite()) throw Error({.what = name, .found = "entries that are not finite"});
   requireSymmetric(name, A);
-  if (isClearlyDefinite(A)) return;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(A, Eigen::EigenvaluesOnly);
-  const double least = solver.eigenvalues().minCoeff();
-  const bool isPositive = wanted == Definiteness::kPositive;
-  if (!isPositive && least >= -kTolerance * A.cwiseAbs().maxCoeff()) return;
-  throw Error({.what = name,
-               .found = fmt::format("the eigenvalue {:g}", least),
-               .wanted = isPositive ? "a positive definite matrix" : "no negative eigenvalue"});
+  const Eigen::LLT<Eigen::MatrixXd> factor(A);
+  // A factorisation tells at a fraction of the price whether eigenvalues must be looked at.
+  if (factor.info() == Eigen::Success && isDefinite(factor, A)) return;
+  const double least = leastCorrelation(A);
+  if (wanted == Definiteness::kPositive || A.diagonal().minCoeff() < 0 || least < -kTolerance)
+    refuse(name,
+           Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A, Eigen::EigenvaluesOnly).eigenvalues().minCoeff(),
+           wanted);
+}
+
+bool isDefinite(const Eigen::LLT<Eigen::MatrixXd>& factor, const MatrixArg& A) {
+  // A pivot that is nothing but rounding of its diagonal entry is none.
+  const double rounding = 4e-16 * static_cast<double>(A.rows());
+  const auto pivots = factor.matrixLLT().diagonal().array().square();
+  return factor.info() == Eigen::Success && (pivots > rounding * A.diagonal().array()).all() &&
+         pivots.isFinite().all();
+}
+
+Eigen::LLT<Eigen::MatrixXd> definiteFactor(std::string_view what, const MatrixArg& A) {
+  Eigen::LLT<Eigen::MatrixXd> factor(A);
+  if (A.allFinite() && isDefinite(factor, A)) return factor;
+  requireCovariance(what, A, A.rows(), Definiteness::kPositive);
+  return factor;  // for a compiler that does not see that the line before throws
 }
 
 Eigen::MatrixXd symmetrized(const MatrixArg& A) { return 0.5 * (A + A.transpose()); }
 
 Eigen::MatrixXd covarianceRoot(const MatrixArg& A) {
-  const Eigen::LDLT<Eigen::MatrixXd> factor(A);
-  const Eigen::VectorXd roots = factor.vectorD().cwiseMax(0).cwiseSqrt();
-  const Eigen::MatrixXd L = factor.matrixL();
-  return factor.transpositionsP().transpose() * (L * roots.asDiagonal());
+  const Eigen::LLT<Eigen::MatrixXd> factor(A);
+  if (isDefinite(factor, A)) return factor.matrixL();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(A);
+  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
 }
 
 }  // namespace rex

@@ -1,9 +1,7 @@
 #include "estimation/gaussian.h"
 
 #include <cmath>
-#include <numbers>
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <fmt/format.h>
 
@@ -11,6 +9,7 @@
 #include "base/require_finite.h"
 #include "base/rng.h"
 #include "estimation/covariance.h"
+#include "estimation/innovation_internal.h"
 
 namespace rex {
 namespace {
@@ -20,26 +19,11 @@ void requireGaussian(const Gaussian& x, Definiteness wanted = Definiteness::kSem
   requireCovariance("covariance", x.covariance, x.mean.size(), wanted);
 }
 
-// A factor of a covariance that must be definite.
-Eigen::LLT<Eigen::MatrixXd> factorOf(const char* what, const MatrixArg& A) {
-  const Eigen::LLT<Eigen::MatrixXd> factor(A);
-  if (factor.info() != Eigen::Success) requireCovariance(what, A, A.rows(), Definiteness::kPositive);
-  return factor;
-}
-
-// log N(error | 0, A).
-double logNormal(const Eigen::LLT<Eigen::MatrixXd>& factor, const VectorArg& error) {
-  const double n = static_cast<double>(error.size());
-  const double logDeterminant = 2 * factor.matrixLLT().diagonal().array().log().sum();
-  const double distance = factor.matrixL().solve(error).squaredNorm();
-  return -0.5 * (n * std::log(2 * std::numbers::pi) + logDeterminant + distance);
-}
-
 }  // namespace
 
 CanonicalGaussian toCanonical(const Gaussian& x) {
   requireGaussian(x, Definiteness::kPositive);
-  const auto factor = factorOf("covariance", x.covariance);
+  const auto factor = definiteFactor("covariance", x.covariance);
   const auto identity = Eigen::MatrixXd::Identity(x.mean.size(), x.mean.size());
   return {factor.solve(x.mean), symmetrized(factor.solve(identity))};
 }
@@ -47,7 +31,7 @@ CanonicalGaussian toCanonical(const Gaussian& x) {
 Gaussian toNormal(const CanonicalGaussian& x) {
   requireFinite("coefficient a", x.a);
   requireCovariance("precision", x.A, x.a.size(), Definiteness::kPositive);
-  const auto factor = factorOf("precision", x.A);
+  const auto factor = definiteFactor("precision", x.A);
   const auto identity = Eigen::MatrixXd::Identity(x.a.size(), x.a.size());
   return {factor.solve(x.a), symmetrized(factor.solve(identity))};
 }
@@ -55,13 +39,13 @@ Gaussian toNormal(const CanonicalGaussian& x) {
 double logDensity(const Gaussian& gaussian, const VectorArg& x) {
   requireGaussian(gaussian, Definiteness::kPositive);
   requireSize("point", x.size(), gaussian.mean.size());
-  return logNormal(factorOf("covariance", gaussian.covariance), x - gaussian.mean);
+  return internal::logNormal(definiteFactor("covariance", gaussian.covariance), x - gaussian.mean);
 }
 
 double squaredMahalanobis(const Gaussian& gaussian, const VectorArg& x) {
   requireGaussian(gaussian, Definiteness::kPositive);
   requireSize("point", x.size(), gaussian.mean.size());
-  return factorOf("covariance", gaussian.covariance).matrixL().solve(x - gaussian.mean).squaredNorm();
+  return definiteFactor("covariance", gaussian.covariance).matrixL().solve(x - gaussian.mean).squaredNorm();
 }
 
 Eigen::VectorXd sample(const Gaussian& gaussian, Rng& rng) {
@@ -74,12 +58,12 @@ GaussianProduct multiplied(const Gaussian& a, const Gaussian& b) {
   requireGaussian(a);
   requireGaussian(b);
   requireSize("mean of the second Gaussian", b.mean.size(), a.mean.size());
-  const auto factor = factorOf("sum of the covariances", a.covariance + b.covariance);
+  const auto factor = definiteFactor("sum of the covariances", a.covariance + b.covariance);
   const Eigen::MatrixXd gain = factor.solve(a.covariance).transpose();  // A (A + B)^-1
   GaussianProduct product;
   product.gaussian.mean = a.mean + gain * (b.mean - a.mean);
   product.gaussian.covariance = symmetrized(gain * b.covariance);
-  product.logFactor = logNormal(factor, a.mean - b.mean);
+  product.logFactor = internal::logNormal(factor, a.mean - b.mean);
   return product;
 }
 
@@ -117,9 +101,9 @@ GaussianProduct pulledBack(const Gaussian& y, const MatrixArg& F, const VectorAr
 
 Gaussian marginal(const Gaussian& joint, int first, int count) {
   requireGaussian(joint);
-  if (first < 0 || count < 0 || first + count > joint.mean.size()) {
+  if (first < 0 || count < 0 || count > joint.mean.size() - first) {
     throw Error({.what = "marginal",
-                 .found = fmt::format("numbers {} to {}", first, first + count - 1),
+                 .found = fmt::format("{} numbers from {} on", count, first),
                  .wanted = fmt::format("numbers of 0 to {}", joint.mean.size() - 1)});
   }
   return {joint.mean.segment(first, count), joint.covariance.block(first, first, count, count)};
@@ -130,7 +114,7 @@ Gaussian conditional(const Gaussian& joint, const VectorArg& firstNumbers) {
   requireFinite("given numbers", firstNumbers);
   const Eigen::Index n = firstNumbers.size(), m = joint.mean.size() - n;
   if (m < 0) requireSize("given numbers", n, joint.mean.size());
-  const auto factor = factorOf("covariance of the given numbers", joint.covariance.topLeftCorner(n, n));
+  const auto factor = definiteFactor("covariance of the given numbers", joint.covariance.topLeftCorner(n, n));
   const Eigen::MatrixXd gain = factor.solve(joint.covariance.topRightCorner(n, m)).transpose();
   const Eigen::MatrixXd reduced =
       joint.covariance.bottomRightCorner(m, m) - gain * joint.covariance.topRightCorner(n, m);

@@ -22,7 +22,11 @@ void requireModel(const char* what, const LinearModel& model, Eigen::Index n) {
 
 Eigen::VectorXd difference(const NonlinearModel& model, const Eigen::VectorXd& y1,
                            const Eigen::VectorXd& y2) {
-  return model.difference ? model.difference(y1, y2) : Eigen::VectorXd(y1 - y2);
+  requireSize("value of the model", y1.size(), y2.size());
+  const Eigen::VectorXd result = model.difference ? model.difference(y1, y2) : Eigen::VectorXd(y1 - y2);
+  requireSize("difference of values of the model", result.size(), y2.size());
+  requireFinite("difference of values of the model", result);
+  return result;
 }
 
 LinearModel linearized(const NonlinearModel& model, const VectorArg& x) {

@@ -30,7 +30,7 @@ struct NonlinearModel {
   std::function<Eigen::VectorXd(const Eigen::VectorXd& y1, const Eigen::VectorXd& y2)> difference{};
 };
 
-/// y1 - y2 as the model says.
+/// y1 - y2 as the model says. Throws Error for sizes that differ, and what is not finite.
 [[nodiscard]] Eigen::VectorXd difference(const NonlinearModel& model, const Eigen::VectorXd& y1,
                                          const Eigen::VectorXd& y2);
 

@@ -24,7 +24,7 @@ void requireBelief(const VectorArg& belief) {
   requireNotNegative("probability", belief);
   if (std::abs(belief.sum() - 1) <= kTolerance) return;
   throw Error({.what = "belief",
-               .found = fmt::format("probabilities that sum to {:g}", belief.sum()),
+               .found = fmt::format("probabilities that sum to {:.12g}", belief.sum()),
                .wanted = "a sum of 1"});
 }
 
@@ -34,6 +34,10 @@ void requireTransition(const CellTransition& transition, Eigen::Index cells) {
   for (Eigen::Index j = 0; j < transition.outerSize(); ++j) {
     double sum = 0;
     bool isSound = true;
+    for (CellTransition::InnerIterator entry(transition, j); entry; ++entry)
+      if (!std::isfinite(entry.value()))
+        throw Error(
+            {.what = fmt::format("transition from cell {}", j), .found = "a probability that is not finite"});
     for (CellTransition::InnerIterator entry(transition, j); entry; ++entry) {
       isSound = isSound && entry.value() >= 0;
       sum += entry.value();
@@ -41,7 +45,7 @@ void requireTransition(const CellTransition& transition, Eigen::Index cells) {
     if (isSound && std::abs(sum - 1) <= kTolerance) continue;
     throw Error(
         {.what = fmt::format("transition from cell {}", j),
-         .found = isSound ? fmt::format("probabilities that sum to {:g}", sum) : "a negative probability",
+         .found = isSound ? fmt::format("probabilities that sum to {:.12g}", sum) : "a negative probability",
          .wanted = "probabilities that sum to 1"});
   }
 }
@@ -51,7 +55,8 @@ void requireTransition(const CellTransition& transition, Eigen::Index cells) {
 Eigen::VectorXd predictCells(const VectorArg& belief, const CellTransition& transition) {
   requireBelief(belief);
   requireTransition(transition, belief.size());
-  return transition * belief;
+  const Eigen::VectorXd next = transition * belief;
+  return next / next.sum();  // what is forgiven must not add up
 }
 
 CellUpdate updateCells(const VectorArg& predicted, const VectorArg& likelihood) {
@@ -59,14 +64,15 @@ CellUpdate updateCells(const VectorArg& predicted, const VectorArg& likelihood) 
   requireSize("likelihoods", likelihood.size(), predicted.size());
   requireNotNegative("likelihood", likelihood);
   CellUpdate update;
-  update.belief = predicted.cwiseProduct(likelihood);
-  update.evidence = update.belief.sum();
-  update.lost = !(update.evidence > 0);
-  if (update.lost) {
-    update.belief = predicted;
-  } else {
-    update.belief /= update.evidence;
-  }
+  // Over the likeliest cell that is possible, so that small numbers do not vanish.
+  const double largest = (predicted.array() > 0).select(likelihood.array(), 0.).maxCoeff();
+  update.lost = !(largest > 0);
+  update.belief = predicted;
+  if (update.lost) return update;
+  update.belief = predicted.cwiseProduct(likelihood / largest);
+  const double sum = update.belief.sum();
+  update.evidence = sum * largest;
+  update.belief /= sum;
   return update;
 }
 
@@ -76,21 +82,21 @@ std::vector<Eigen::VectorXd> smoothedCells(const VectorArg& prior,
   if (likelihoods.empty()) return {};
   requireSize("transitions between the observations", static_cast<long>(transitions.size()),
               static_cast<long>(likelihoods.size()) - 1);
-  std::vector<Eigen::VectorXd> beliefs;
+  std::vector<Eigen::VectorXd> beliefs, predictions;
   for (std::size_t t = 0; t < likelihoods.size(); ++t) {
-    const Eigen::VectorXd predicted =
-        t == 0 ? Eigen::VectorXd(prior) : predictCells(beliefs.back(), transitions[t - 1]);
-    CellUpdate update = updateCells(predicted, likelihoods[t]);
+    predictions.push_back(t == 0 ? Eigen::VectorXd(prior) : predictCells(beliefs.back(), transitions[t - 1]));
+    CellUpdate update = updateCells(predictions.back(), likelihoods[t]);
     if (update.lost)
       throw Error({.what = fmt::format("observation at time {}", t), .found = "no cell that explains it"});
     beliefs.push_back(std::move(update.belief));
   }
-  // beta, scaled so that it does not vanish over time.
-  Eigen::VectorXd later = Eigen::VectorXd::Ones(prior.size());
+  // The backward filter as a correction of the forward one, posterior over prediction, which neither vanishes
+  // nor overflows over time.
   for (std::size_t t = transitions.size(); t-- > 0;) {
-    later = transitions[t].transpose() * later.cwiseProduct(likelihoods[t + 1]);
-    later /= later.maxCoeff();
-    beliefs[t] = beliefs[t].cwiseProduct(later);
+    const Eigen::VectorXd& predicted = predictions[t + 1];
+    const Eigen::VectorXd ratio =
+        (predicted.array() > 0).select(beliefs[t + 1].array() / predicted.array(), 0.);
+    beliefs[t] = beliefs[t].cwiseProduct(transitions[t].transpose() * ratio);
     beliefs[t] /= beliefs[t].sum();
   }
   return beliefs;

@@ -33,11 +33,11 @@ CanonicalGaussian informationPredict(const CanonicalGaussian& belief, const Line
   const Eigen::MatrixXd back = forward.inverse();
   const Eigen::MatrixXd B = symmetrized(back.transpose() * belief.A * back);
   const Eigen::VectorXd b = back.transpose() * belief.a + B * transition.c;
-  // (B^-1 + Q)^-1 = B - B (B + Q^-1)^-1 B, which needs no inverse of B.
+  // (B^-1 + Q)^-1 = P (B + P)^-1 B with P = Q^-1, which needs no inverse of B and takes nothing away.
   const Eigen::LLT<Eigen::MatrixXd> noise(transition.W);
-  const Eigen::MatrixXd P = noise.solve(Eigen::MatrixXd::Identity(n, n));
-  const Eigen::LLT<Eigen::MatrixXd> sum(B + symmetrized(P));
-  return {b - B * sum.solve(b), symmetrized(B - B * sum.solve(B))};
+  const Eigen::MatrixXd P = symmetrized(noise.solve(Eigen::MatrixXd::Identity(n, n)));
+  const Eigen::LLT<Eigen::MatrixXd> sum(B + P);
+  return {P * sum.solve(b), symmetrized(P * sum.solve(B))};
 }
 
 CanonicalGaussian informationUpdate(const CanonicalGaussian& predicted, const LinearModel& observation,

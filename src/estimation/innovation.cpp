@@ -10,16 +10,17 @@
 
 namespace rex::internal {
 
-Eigen::MatrixXd weighInnovation(const Eigen::MatrixXd& cross, KalmanUpdate& update) {
-  const Eigen::LLT<Eigen::MatrixXd> factor(update.innovationCovariance);
-  if (factor.info() != Eigen::Success)
-    requireCovariance("covariance of the innovation", update.innovationCovariance, update.innovation.size(),
-                      Definiteness::kPositive);
-  update.squaredInnovation = factor.matrixL().solve(update.innovation).squaredNorm();
+double logNormal(const Eigen::LLT<Eigen::MatrixXd>& factor, const VectorArg& error) {
+  const double n = static_cast<double>(error.size());
   const double logDeterminant = 2 * factor.matrixLLT().diagonal().array().log().sum();
-  const double m = static_cast<double>(update.innovation.size());
-  update.logLikelihood =
-      -0.5 * (m * std::log(2 * std::numbers::pi) + logDeterminant + update.squaredInnovation);
+  const double distance = factor.matrixL().solve(error).squaredNorm();
+  return -0.5 * (n * std::log(2 * std::numbers::pi) + logDeterminant + distance);
+}
+
+Eigen::MatrixXd weighInnovation(const Eigen::MatrixXd& cross, KalmanUpdate& update) {
+  const auto factor = definiteFactor("covariance of the innovation", update.innovationCovariance);
+  update.squaredInnovation = factor.matrixL().solve(update.innovation).squaredNorm();
+  update.logLikelihood = logNormal(factor, update.innovation);
   return factor.solve(cross.transpose()).transpose();
 }
 

@@ -50,13 +50,13 @@ struct RootGaussian {
 /// Where the unscented transform puts its points, and how it weighs them: (alpha, beta, kappa) of Julier and
 /// Uhlmann, and Wan and van der Merwe 2000. The points lie alpha sqrt(n + kappa) deviations away.
 struct UnscentedOptions {
-  double alpha = 1;  ///< > 0
+  double alpha = 1;  ///< at least 1e-6
   double beta = 2;   ///< 2 fits Gaussians
   double kappa = 0;  ///< > -n
 };
 
 /// The unscented Kalman filter: models at 2 n + 1 points, refitted by a Gaussian. Slide 7:28. Throws Error
-/// for options out of range, too.
+/// for options out of range, too, and for those with which the fit is no Gaussian.
 [[nodiscard]] Gaussian unscentedPredict(const Gaussian& belief, const NonlinearModel& transition,
                                         const UnscentedOptions& options = {});
 [[nodiscard]] KalmanUpdate unscentedUpdate(const Gaussian& predicted, const NonlinearModel& observation,

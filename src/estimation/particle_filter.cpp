@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require_finite.h"
 #include "base/rng.h"
 #include "estimation/covariance.h"
 
@@ -39,6 +40,15 @@ void requireNumbers(const Eigen::MatrixXd& states) {
       throw Error({.what = fmt::format("state of particle {}", i), .found = "numbers that are not finite"});
 }
 
+void requireLogWeights(const Eigen::VectorXd& logWeights) {
+  for (Eigen::Index i = 0; i < logWeights.size(); ++i) {
+    if (logWeights[i] < std::numeric_limits<double>::infinity()) continue;
+    throw Error({.what = fmt::format("log weight of particle {}", i),
+                 .found = fmt::format("{:g}", std::abs(logWeights[i])),
+                 .wanted = "a number, or minus infinity"});
+  }
+}
+
 // The cell that a state lies in.
 std::vector<long> cellOf(const VectorArg& state, const Eigen::VectorXd& size) {
   std::vector<long> cell;
@@ -52,6 +62,7 @@ std::vector<long> cellOf(const VectorArg& state, const Eigen::VectorXd& size) {
 Particles sampledParticles(const Gaussian& gaussian, int count, Rng& rng) {
   if (count < 1)
     throw Error({.what = "particles", .found = fmt::format("{}", count), .wanted = "one or more"});
+  requireFinite("mean", gaussian.mean);
   requireCovariance("covariance", gaussian.covariance, gaussian.mean.size());
   const Eigen::MatrixXd root = covarianceRoot(gaussian.covariance);
   const Eigen::Index n = gaussian.mean.size();
@@ -63,9 +74,10 @@ Particles sampledParticles(const Gaussian& gaussian, int count, Rng& rng) {
 
 Gaussian momentsOf(const Particles& particles) {
   requireSize("weights", particles.weights.size(), particles.states.cols());
-  const Eigen::VectorXd mean = particles.states * particles.weights;
+  const Eigen::VectorXd weights = particles.weights / particles.weights.sum();
+  const Eigen::VectorXd mean = particles.states * weights;
   const Eigen::MatrixXd offsets = particles.states.colwise() - mean;
-  return {mean, symmetrized(offsets * particles.weights.asDiagonal() * offsets.transpose())};
+  return {mean, symmetrized(offsets * weights.asDiagonal() * offsets.transpose())};
 }
 
 ParticleFilter::ParticleFilter(Particles particles, ParticleFilterOptions options)
@@ -90,39 +102,26 @@ void ParticleFilter::gather(const std::vector<int>& parents) {
     next_.col(static_cast<Eigen::Index>(k)) = particles_.states.col(parents[k]);
 }
 
-void ParticleFilter::proposeAll(const Propose& propose, Rng& rng) {
-  gather(parents_);
-  logWeights_.setZero(next_.cols());
-  propose(next_, logWeights_, rng);
-  std::swap(particles_.states, next_);
-}
-
 // Draws on until the cells that the particles occupy ask for no more.
 void ParticleFilter::proposeAdaptively(const Propose& propose, Rng& rng) {
   std::set<std::vector<long>> cells;
-  std::vector<Eigen::MatrixXd> chunks;
-  Eigen::VectorXd logWeights(options_.most);
+  chunk_.resize(particles_.states.rows(), options_.most);
+  logWeights_.setZero(options_.most);
   int count = 0;
   for (int wanted = options_.fewest; count < wanted;) {
     const int size = std::min(kChunk, wanted - count);
     resample(particles_.weights, size, Resampling::kMultinomial, rng, parents_);
     gather(parents_);
-    logWeights.segment(count, size).setZero();
-    propose(next_, logWeights.segment(count, size), rng);
+    propose(next_, logWeights_.segment(count, size), rng);
     requireNumbers(next_);
     for (int k = 0; k < size; ++k) cells.insert(cellOf(next_.col(k), options_.cellSize));
-    chunks.push_back(next_);
+    chunk_.middleCols(count, size) = next_;
     count += size;
     const int enough = adaptiveSampleSize(static_cast<int>(cells.size()), options_.error);
     wanted = std::clamp(enough, options_.fewest, options_.most);
   }
-  particles_.states.resize(next_.rows(), count);
-  Eigen::Index column = 0;
-  for (const Eigen::MatrixXd& chunk : chunks) {
-    particles_.states.middleCols(column, chunk.cols()) = chunk;
-    column += chunk.cols();
-  }
-  logWeights_ = logWeights.head(count);
+  next_ = chunk_.leftCols(count);
+  logWeights_.conservativeResize(count);
 }
 
 ParticleStep ParticleFilter::step(const Propose& propose, const Weigh& weigh, Rng& rng) {
@@ -131,35 +130,31 @@ ParticleStep ParticleFilter::step(const Propose& propose, const Weigh& weigh, Rn
   report.resampled = isAdaptive || shouldResample();
   if (isAdaptive) {
     proposeAdaptively(propose, rng);
-  } else if (report.resampled) {
-    resample(particles_.weights, static_cast<int>(particles_.weights.size()), options_.resampling, rng,
-             parents_);
-    proposeAll(propose, rng);
   } else {
-    logWeights_ = particles_.weights.array().log();
-    propose(particles_.states, logWeights_, rng);
+    const int count = static_cast<int>(particles_.weights.size());
+    if (report.resampled) {
+      resample(particles_.weights, count, options_.resampling, rng, parents_);
+      gather(parents_);
+      logWeights_.setZero(count);
+    } else {
+      next_ = particles_.states;
+      logWeights_ = particles_.weights.array().log();
+    }
+    propose(next_, logWeights_, rng);
+    requireNumbers(next_);
   }
-  const double count = static_cast<double>(particles_.states.cols());
-  if (report.resampled) logWeights_.array() -= std::log(count);
-  requireNumbers(particles_.states);
-  const Eigen::VectorXd before = logWeights_;
-  weigh(particles_.states, logWeights_);
-  for (Eigen::Index i = 0; i < logWeights_.size(); ++i) {
-    if (!(logWeights_[i] < std::numeric_limits<double>::infinity()))
-      throw Error({.what = fmt::format("log weight of particle {}", i),
-                   .found = fmt::format("{:g}", std::abs(logWeights_[i])),
-                   .wanted = "a number, or minus infinity"});
-  }
-  double largest = logWeights_.maxCoeff();
-  report.lost = std::isinf(largest);
-  if (report.lost) {
-    logWeights_ = before;
-    largest = logWeights_.maxCoeff();
-  }
-  particles_.weights = (logWeights_.array() - largest).exp();
-  const double sum = particles_.weights.sum();
-  particles_.weights /= sum;
+  if (report.resampled) logWeights_.array() -= std::log(static_cast<double>(next_.cols()));
+  Eigen::VectorXd proposed = logWeights_;
+  weigh(next_, logWeights_);
+  requireLogWeights(logWeights_);
+  report.lost = std::isinf(logWeights_.maxCoeff());
+  if (report.lost) logWeights_ = std::isinf(proposed.maxCoeff()) ? proposed.setZero() : proposed;
+  const double largest = logWeights_.maxCoeff();
+  Eigen::VectorXd weights = (logWeights_.array() - largest).exp();
+  const double sum = weights.sum();
   report.logEvidence = report.lost ? -std::numeric_limits<double>::infinity() : largest + std::log(sum);
+  std::swap(particles_.states, next_);
+  particles_.weights = weights / sum;
   report.effectiveSize = effectiveSampleSize(particles_.weights);
   return report;
 }

@@ -33,12 +33,12 @@ using Weigh = std::function<void(const MatrixArg& X, Eigen::Ref<Eigen::VectorXd>
 [[nodiscard]] Weigh observationWeights(NonlinearModel observation, const VectorArg& y);
 /// Draws from p(next | state, y), as far as the observation is linear around the mean of the motion:
 /// particles go where the observation is likely (slide 7:25; Doucet, Godsill and Andrieu 2000). Weigh them by
-/// observationWeights as always.
+/// observationWeights as always. Both noises must be definite.
 [[nodiscard]] Propose observedProposal(NonlinearModel transition, NonlinearModel observation,
                                        const VectorArg& y);
 
 struct ParticleFilterOptions {
-  Resampling resampling = Resampling::kResidual;
+  Resampling resampling = Resampling::kResidual;  ///< with cellSize always multinomial, and at every step
   /// Resample when the effective sample size falls below this share of the particles; 1: at every step, as
   /// slide 7:22 does.
   double threshold = 1;
@@ -64,19 +64,19 @@ class ParticleFilter {
   explicit ParticleFilter(Particles particles, ParticleFilterOptions options = {});
 
   const Particles& particles() const { return particles_; }
-  /// Throws Error naming the particle for states or weights that are not a number.
-  ParticleStep step(const Propose& propose, const Weigh& weigh, Rng& rng);
+  /// Throws Error naming the particle for states or weights that are not a number; the particles stay then.
+  [[nodiscard]] ParticleStep step(const Propose& propose, const Weigh& weigh, Rng& rng);
 
  private:
   void gather(const std::vector<int>& parents);
-  void proposeAll(const Propose& propose, Rng& rng);
   void proposeAdaptively(const Propose& propose, Rng& rng);
   [[nodiscard]] bool shouldResample() const;
 
   Particles particles_;
   ParticleFilterOptions options_;
   std::vector<int> parents_;
-  Eigen::MatrixXd next_;
+  // Of the step that is under way.
+  Eigen::MatrixXd next_, chunk_;
   Eigen::VectorXd logWeights_;
 };
 

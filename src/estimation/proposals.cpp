@@ -6,6 +6,7 @@
 #include "base/require_finite.h"
 #include "base/rng.h"
 #include "estimation/covariance.h"
+#include "estimation/innovation_internal.h"
 #include "estimation/kalman_filter.h"
 #include "estimation/particle_filter.h"
 
@@ -53,13 +54,25 @@ Weigh observationWeights(NonlinearModel observation, const VectorArg& y) {
 Propose observedProposal(NonlinearModel transition, NonlinearModel observation, const VectorArg& y) {
   requireFunction("transition", transition);
   requireFunction("observation model", observation);
+  requireFinite("observation", y);
+  requireCovariance("transition: covariance of the noise", transition.W, transition.W.rows(),
+                    Definiteness::kPositive);
+  requireCovariance("observation model: covariance of the noise", observation.W, y.size(),
+                    Definiteness::kPositive);
   return [transition = std::move(transition), observation = std::move(observation), y = Eigen::VectorXd(y)](
              Eigen::Ref<Eigen::MatrixXd> X, Eigen::Ref<Eigen::VectorXd> logWeights, Rng& rng) {
+    const auto sensor = definiteFactor("observation model: covariance of the noise", observation.W);
     for (Eigen::Index i = 0; i < X.cols(); ++i) {
+      // For the model along its tangent, p(next | state) / p(next | state, y) is p(y | state) / p(y | next).
       const Gaussian motion{transition.g(X.col(i)), transition.W};
-      const Gaussian seen = extendedUpdate(motion, observation, y).belief;
-      const Eigen::VectorXd next = sample(seen, rng);
-      logWeights[i] += logDensity(motion, next) - logDensity(seen, next);
+      requireSize("next state", motion.mean.size(), X.rows());
+      const KalmanUpdate seen = extendedUpdate(motion, observation, y);
+      const Eigen::VectorXd offset =
+          covarianceRoot(seen.belief.covariance) * rng.normalVector(static_cast<int>(X.rows()));
+      const Eigen::VectorXd next = seen.belief.mean + offset;
+      const Eigen::VectorXd error =
+          seen.innovation - linearized(observation, motion.mean).C * (next - motion.mean);
+      logWeights[i] += seen.logLikelihood - internal::logNormal(sensor, error);
       X.col(i) = next;
     }
   };

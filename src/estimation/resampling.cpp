@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,16 +13,17 @@
 namespace rex {
 namespace {
 
-double requireWeights(const VectorArg& weights) {
+// The weights divided by the largest, so that no sum of them overflows or vanishes.
+Eigen::VectorXd scaledWeights(const VectorArg& weights) {
   for (Eigen::Index i = 0; i < weights.size(); ++i) {
     if (weights[i] >= 0 && std::isfinite(weights[i])) continue;
     throw Error({.what = fmt::format("weight of particle {}", i),
                  .found = fmt::format("{:g}", weights[i]),
                  .wanted = "a finite number, zero or more"});
   }
-  const double sum = weights.sum();
-  if (!(sum > 0)) throw Error({.what = "weights", .found = "only zeros", .wanted = "a positive one"});
-  return sum;
+  const double largest = weights.size() == 0 ? 0 : weights.maxCoeff();
+  if (!(largest > 0)) throw Error({.what = "weights", .found = "only zeros", .wanted = "a positive one"});
+  return weights / largest;
 }
 
 // Calls take(i) for each of `count` ascending places place(k) in [0, total), with the weight it falls into.
@@ -56,7 +59,8 @@ void drawEachAlone(int size, int count, double total, const WeightOf& weightOf, 
 template <class WeightOf>
 void drawResidual(int size, int count, double total, const WeightOf& weightOf, Rng& rng,
                   std::vector<int>& parents) {
-  const auto share = [&](int i) { return count * (weightOf(i) / total); };
+  // A share that is a whole number but for rounding is one.
+  const auto share = [&](int i) { return count * (weightOf(i) / total) * (1 + 1e-12); };
   double left = 0;
   int certain = 0;
   for (int i = 0; i < size; ++i) {
@@ -82,16 +86,17 @@ void drawResidual(int size, int count, double total, const WeightOf& weightOf, R
 }  // namespace
 
 void resample(const VectorArg& weights, int count, Resampling how, Rng& rng, std::vector<int>& parents) {
-  const double total = requireWeights(weights);
+  const Eigen::VectorXd scaled = scaledWeights(weights);
+  const double total = scaled.sum();
   if (count < 0)
     throw Error({.what = "particles to draw", .found = fmt::format("{}", count), .wanted = "zero or more"});
   parents.clear();
   parents.reserve(static_cast<std::size_t>(count));
   // Up to the last weight that is not zero: rounding must not lead beyond.
-  int size = static_cast<int>(weights.size());
-  while (weights[size - 1] == 0) --size;
+  int size = static_cast<int>(scaled.size());
+  while (scaled[size - 1] == 0) --size;
   const double slice = total / count;
-  const auto weightOf = [&](int i) { return weights[i]; };
+  const auto weightOf = [&](int i) { return scaled[i]; };
   const auto take = [&](int i) { parents.push_back(i); };
   switch (how) {
     case Resampling::kMultinomial:
@@ -116,22 +121,21 @@ std::vector<int> resampled(const VectorArg& weights, int count, Resampling how, 
 }
 
 double effectiveSampleSize(const VectorArg& weights) {
-  // Divided by the largest, so that squares of small weights do not vanish.
-  const double total = requireWeights(weights), largest = weights.maxCoeff();
-  return (total / largest) * (total / largest) / (weights / largest).squaredNorm();
+  const Eigen::VectorXd scaled = scaledWeights(weights);
+  return scaled.sum() * scaled.sum() / scaled.squaredNorm();
 }
 
 int adaptiveSampleSize(int cells, double error, double quantile) {
   if (cells < 1)
     throw Error({.what = "occupied cells", .found = fmt::format("{}", cells), .wanted = "one or more"});
-  if (!(error > 0))
-    throw Error({.what = "error", .found = fmt::format("{:g}", error), .wanted = "more than 0"});
-  if (!(quantile > 0))
-    throw Error({.what = "quantile", .found = fmt::format("{:g}", quantile), .wanted = "more than 0"});
+  for (const auto& [what, number] : {std::pair{"error", error}, {"quantile", quantile}})
+    if (!(number > 0) || !std::isfinite(number))
+      throw Error({.what = what, .found = fmt::format("{:g}", number), .wanted = "a positive number"});
   if (cells == 1) return 1;
   const double k = cells - 1, part = 2 / (9 * k);
   const double root = 1 - part + std::sqrt(part) * quantile;
-  return static_cast<int>(std::ceil(k / (2 * error) * root * root * root));
+  const double count = std::ceil(k / (2 * error) * root * root * root);
+  return static_cast<int>(std::clamp(count, 1., static_cast<double>(std::numeric_limits<int>::max())));
 }
 
 }  // namespace rex

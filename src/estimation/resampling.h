@@ -28,7 +28,7 @@ void resample(const VectorArg& weights, int count, Resampling how, Rng& rng, std
 
 /// How many particles keep the Kullback-Leibler distance to a distribution on `cells` occupied cells below
 /// `error` with the probability whose normal quantile is given (2.326: 99 %). Fox 2003, equation 7. Throws
-/// Error for an error or quantile that is not positive, and less than one cell.
+/// Error for an error or quantile that is not positive and finite, and less than one cell.
 [[nodiscard]] int adaptiveSampleSize(int cells, double error, double quantile = 2.326);
 
 }  // namespace rex

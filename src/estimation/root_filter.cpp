@@ -61,9 +61,12 @@ RootGaussian rootUpdate(const RootGaussian& predicted, const LinearModel& observ
   array.bottomRightCorner(n, n) = predicted.L;
   const Eigen::MatrixXd turned = lowerRoot(array);
   const auto innovationRoot = turned.topLeftCorner(m, m);
-  if (!(innovationRoot.diagonal().minCoeff() > 0))
-    requireCovariance("covariance of the innovation", innovationRoot * innovationRoot.transpose(), m,
-                      Definiteness::kPositive);
+  // Each diagonal entry is what is left of the length of its row.
+  const Eigen::VectorXd rounding = 4e-16 * static_cast<double>(m + n) * innovationRoot.rowwise().norm();
+  if (!(innovationRoot.diagonal().array() > rounding.array()).all())
+    throw Error({.what = "covariance of the innovation",
+                 .found = "a singular matrix",
+                 .wanted = "a positive definite matrix"});
   const Eigen::VectorXd innovation = y - observation.C * predicted.mean - observation.c;
   const Eigen::VectorXd whitened = innovationRoot.triangularView<Eigen::Lower>().solve(innovation);
   return {predicted.mean + turned.bottomLeftCorner(n, m) * whitened, turned.bottomRightCorner(n, n)};

@@ -1,10 +1,13 @@
 #include "estimation/smoother.h"
 
+#include <algorithm>
+
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 
 #include "base/error.h"
 #include "estimation/covariance.h"
+#include "estimation/innovation_internal.h"
 #include "estimation/kalman_filter.h"
 
 namespace rex {
@@ -21,9 +24,10 @@ Eigen::MatrixXd dividedBy(const Eigen::MatrixXd& B, const Eigen::MatrixXd& A) {
 
 std::vector<Gaussian> smoothed(std::span<const Gaussian> filtered, std::span<const LinearModel> transitions) {
   std::vector<Gaussian> result(filtered.begin(), filtered.end());
-  if (filtered.empty()) return result;
   requireSize("transitions between the beliefs", static_cast<long>(transitions.size()),
-              static_cast<long>(filtered.size()) - 1);
+              std::max(0L, static_cast<long>(filtered.size()) - 1));
+  if (filtered.empty()) return result;
+  internal::requireBelief(filtered.back());
   for (std::size_t t = transitions.size(); t-- > 0;) {
     const Gaussian predicted = kalmanPredict(filtered[t], transitions[t]);
     const Gaussian& later = result[t + 1];

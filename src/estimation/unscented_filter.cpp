@@ -21,10 +21,10 @@ struct Spread {
 
 void requireOptions(const UnscentedOptions& options, double n) {
   requireFinite("unscented transform: beta", options.beta);
-  if (!(options.alpha > 0) || !std::isfinite(options.alpha)) {
+  if (!(options.alpha >= 1e-6) || !std::isfinite(options.alpha)) {
     throw Error({.what = "unscented transform: alpha",
                  .found = fmt::format("{:g}", options.alpha),
-                 .wanted = "a positive number"});
+                 .wanted = "at least 1e-6"});
   }
   if (!(options.kappa > -n) || !std::isfinite(options.kappa)) {
     throw Error({.what = "unscented transform: kappa",
@@ -70,8 +70,11 @@ Eigen::VectorXd centred(Spread& points) {
 }
 
 Eigen::MatrixXd covarianceOf(const Spread& points, const Eigen::MatrixXd& noise) {
-  return symmetrized(points.values * points.covarianceWeights.asDiagonal() * points.values.transpose() +
-                     noise);
+  const Eigen::MatrixXd covariance =
+      symmetrized(points.values * points.covarianceWeights.asDiagonal() * points.values.transpose() + noise);
+  // A negative weight of the middle can outweigh all others.
+  requireCovariance("unscented transform with these options: covariance", covariance, covariance.rows());
+  return covariance;
 }
 
 }  // namespace

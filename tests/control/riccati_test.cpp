@@ -52,7 +52,7 @@ TEST(Riccati, AgreesWithTheGoldenNumbers) {
           solve(matrixOf(one["A"]), matrixOf(one["B"]), matrixOf(one["Q"]), matrixOf(one["R"]));
       const bool isLimit =
           one.contains("note") && one["note"].get<std::string>().find("ON the") != std::string::npos;
-      EXPECT_EQ(result.status, isLimit ? RiccatiStatus::kOnBoundary : RiccatiStatus::kSolved)
+      ASSERT_EQ(result.status, isLimit ? RiccatiStatus::kOnBoundary : RiccatiStatus::kSolved)
           << one["id"] << result.message;
       const Eigen::MatrixXd X = matrixOf(one["X"]), K = matrixOf(one["K"]);
       const double bar = std::max(1e-13, 10 * one["scipy_relerr"].get<double>());
@@ -117,7 +117,8 @@ TEST(Riccati, LyapunovEquationsAreLinearSystems) {
 
 TEST(Riccati, NamesTheModeThatIsInTheWay) {
   const Eigen::Matrix2d A = Eigen::Vector2d(1, -1).asDiagonal(), I = Eigen::Matrix2d::Identity();
-  const Eigen::Matrix2d turning = (Eigen::Matrix2d() << 0, 2, -2, 0).finished();
+  Eigen::MatrixXd turning(2, 2);
+  turning << 0, 2, -2, 0;
   const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(1, 1);
   const RiccatiResult unreachable = solveCare(A, Eigen::Vector2d(0, 1), I, one);
   EXPECT_EQ(unreachable.status, RiccatiStatus::kNotStabilizable);
@@ -140,6 +141,27 @@ TEST(Riccati, NamesTheModeThatIsInTheWay) {
   EXPECT_THAT(impossible.message, HasSubstr("no stabilizing solution"));
 }
 
+// Systems with very fast and slow modes, or very large numbers, are neither refused nor called marginal.
+TEST(Riccati, TakesStiffAndLargeProblems) {
+  const Eigen::Matrix2d I = Eigen::Matrix2d::Identity();
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(1, 1);
+  const Eigen::Matrix2d fast = Eigen::Vector2d(-1, -1e8).asDiagonal();
+  EXPECT_EQ(solveCare(fast, I, I, I).status, RiccatiStatus::kSolved);
+  for (const double speed : {1e6, 1e8, 1e9}) {
+    Eigen::MatrixXd actuator(2, 2);
+    actuator << 0, 1, 0, -speed;
+    const RiccatiResult result = solveCare(actuator, Eigen::Vector2d(0, speed), I, one);
+    EXPECT_EQ(result.status, RiccatiStatus::kSolved) << result.message;
+  }
+  const double h = 1e-6;
+  EXPECT_EQ(solveDare(one, h * one, .01 * h * one, h * one).status, RiccatiStatus::kSolved);
+  for (const double q : {1e80, 1e155, 1e200}) {
+    const RiccatiResult result = solveCare(one, one, q * one, one);
+    if (result.status != RiccatiStatus::kSolved) continue;
+    EXPECT_NEAR(result.K(0, 0) / (1 + std::sqrt(1 + q)), 1, 1e-12);
+  }
+}
+
 TEST(Riccati, SaysWhatIsWrong) {
   const Eigen::Matrix2d I = Eigen::Matrix2d::Identity();
   const Eigen::Vector2d b(0, 1);
@@ -156,7 +178,8 @@ TEST(Riccati, SaysWhatIsWrong) {
                    "matrix R: found the eigenvalue -1, wanted a positive definite matrix");
   EXPECT_REX_ERROR(solveDare(I, b, I, -one),
                    "matrix R: found the eigenvalue -1, wanted no negative eigenvalue");
-  const Eigen::Matrix2d skewed = (Eigen::Matrix2d() << 1, 1, 0, 1).finished();
+  Eigen::MatrixXd skewed(2, 2);
+  skewed << 1, 1, 0, 1;
   EXPECT_REX_ERROR(solveCare(I, b, skewed, one), "matrix Q: found a matrix that is not symmetric");
   EXPECT_REX_ERROR(solveCare(Eigen::MatrixXd(0, 0), Eigen::MatrixXd(0, 1), Eigen::MatrixXd(0, 0), one),
                    "no state or no control");
@@ -164,6 +187,8 @@ TEST(Riccati, SaysWhatIsWrong) {
                    "Lyapunov equation: found the eigenvalue -1+0i of A and another with a sum of zero");
   EXPECT_REX_ERROR(solveDiscreteLyapunov(I, I), "of A and another with a product of one");
   EXPECT_REX_ERROR(solveLyapunov(I, one), "rows of Q: found a vector of size 1, wanted size 2");
+  EXPECT_REX_ERROR(solveLyapunov(-I, skewed), "matrix Q: found a matrix that is not symmetric");
+  EXPECT_NO_THROW((void)solveLyapunov(Eigen::Vector2d(-1, -1e16).asDiagonal().toDenseMatrix(), I));
   EXPECT_REX_ERROR(solveLyapunov(I * INFINITY, I), "matrix A: found entries that are not finite");
   EXPECT_REX_ERROR(solveLyapunov(I, I * INFINITY), "matrix Q: found entries that are not finite");
 }

@@ -88,13 +88,25 @@ TEST(Consistency, RelativeErrorsAreThoseOfSteps) {
 TEST(Consistency, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(chiSquareQuantile(1, 2), "probability: found 1, wanted between 0 and 1");
   EXPECT_REX_ERROR(chiSquareProbability(1, 0), "degrees of freedom: found 0, wanted a positive number");
+  EXPECT_REX_ERROR(consistencyBand(5, 2, 1), "probability: found 1, wanted between 0 and 1");
+  EXPECT_REX_ERROR(chiSquareProbability(std::nan(""), 2), "chi-square number: found nan");
+  EXPECT_EQ(chiSquareProbability(INFINITY, 2), 1);
+  const Gaussian round{Eigen::Vector2d(0, 0), Eigen::Matrix2d::Identity()};
+  const int none[] = {-1}, beyond[] = {2};
+  EXPECT_REX_ERROR(estimationErrorSquared(round, Eigen::Vector2d(0, 0), none),
+                   "angle among the numbers: found number -1");
+  EXPECT_REX_ERROR(estimationErrorSquared(round, Eigen::Vector2d(0, 0), beyond),
+                   "found number 2, wanted 0 to 1");
+  EXPECT_REX_ERROR(estimationErrorSquared(round, Eigen::Vector2d(0, NAN)), "truth: number 1: found nan");
+  EXPECT_REX_ERROR(estimationErrorSquared(round, Eigen::Vector3d(0, 0, 0)),
+                   "truth: found a vector of size 3");
   EXPECT_REX_ERROR(consistencyBand(0, 2), "runs: found 0, wanted one or more");
-  const Eigen::MatrixXd planar = Eigen::MatrixXd::Zero(3, 4), none(2, 0);
+  const Eigen::MatrixXd planar = Eigen::MatrixXd::Zero(3, 4), empty(2, 0);
   EXPECT_REX_ERROR(relativePoseError(planar, planar, 4),
                    "steps of the relative error: found 4, wanted 1 to 3");
   EXPECT_REX_ERROR(relativePoseError(planar.leftCols(3), planar),
                    "estimated poses: found a vector of size 3");
-  EXPECT_REX_ERROR(absoluteTrajectoryError(none, none), "trajectory: found no positions");
+  EXPECT_REX_ERROR(absoluteTrajectoryError(empty, empty), "trajectory: found no positions");
   const Gaussian flat{Eigen::Vector2d(0, 0), Eigen::Matrix2d::Zero()};
   EXPECT_REX_ERROR(estimationErrorSquared(flat, Eigen::Vector2d(0, 0)), "covariance: found the eigenvalue 0");
 }

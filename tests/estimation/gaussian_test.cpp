@@ -1,6 +1,7 @@
 #include "estimation/gaussian.h"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <Eigen/Dense>
@@ -115,6 +116,24 @@ TEST(Covariance, RootIsARoot) {
   }
 }
 
+// Large variances hide neither small negative ones nor what small ones have in common.
+TEST(Covariance, IsJudgedEntryByEntry) {
+  const auto judge = [](double a, double b, double c, double d) {
+    const Eigen::Matrix2d A = (Eigen::Matrix2d() << a, b, c, d).finished();
+    requireCovariance("covariance", A, 2);
+  };
+  EXPECT_REX_ERROR(judge(1e10, 0, 0, -1),
+                   "covariance: found the eigenvalue -1, wanted no negative eigenvalue");
+  EXPECT_REX_ERROR(judge(1e10, 5, 0, 25), "covariance: found 5 at (0, 1) and 0 at (1, 0)");
+  EXPECT_REX_ERROR(judge(1e10, 0, 0, NAN), "covariance: found entries that are not finite");
+  EXPECT_NO_THROW(judge(1e10, 0, 0, 0));
+  EXPECT_NO_THROW(judge(1e10, 1, 1, 1e-10));
+  Eigen::Matrix3d small = Eigen::Vector3d(1, 1e-20, 1e-20).asDiagonal();
+  small(1, 2) = small(2, 1) = 1e-20;
+  const Eigen::MatrixXd S = covarianceRoot(small);
+  EXPECT_NEAR((S * S.transpose())(2, 2), 1e-20, 1e-16);
+}
+
 TEST(Gaussian, SaysWhatIsWrong) {
   const Gaussian good{Eigen::Vector2d(0, 0), Eigen::Matrix2d::Identity()};
   Gaussian bad = good;
@@ -138,7 +157,21 @@ TEST(Gaussian, SaysWhatIsWrong) {
                    "precision: found the eigenvalue 0, wanted a positive definite matrix");
   EXPECT_REX_ERROR((void)pulledBack(good, Eigen::Matrix2d::Ones(), Eigen::Vector2d(0, 0)),
                    "transformation F: found rank 1, wanted an invertible matrix, of rank 2");
-  EXPECT_REX_ERROR((void)marginal(good, 1, 2), "marginal: found numbers 1 to 2, wanted numbers of 0 to 1");
+  EXPECT_REX_ERROR((void)marginal(good, std::numeric_limits<int>::max(), 1),
+                   "marginal: found 1 numbers from");
+  EXPECT_REX_ERROR((void)logDensity(good, Eigen::Vector3d(0, 0, 0)), "point: found a vector of size 3");
+  EXPECT_REX_ERROR(
+      (void)propagated(good, Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero(), good.covariance),
+      "columns of F");
+  EXPECT_REX_ERROR(
+      (void)propagated(good, Eigen::Matrix2d::Identity(), Eigen::Vector3d::Zero(), good.covariance),
+      "offset f");
+  EXPECT_REX_ERROR(
+      (void)propagated(good, Eigen::Matrix2d::Identity(), Eigen::Vector2d::Zero(), -good.covariance),
+      "noise Q");
+  EXPECT_REX_ERROR((void)pulledBack(good, Eigen::Matrix3d::Identity(), Eigen::Vector2d::Zero()), "rows of F");
+  EXPECT_REX_ERROR((void)marginal(good, 1, 2),
+                   "marginal: found 2 numbers from 1 on, wanted numbers of 0 to 1");
   EXPECT_REX_ERROR((void)conditional(good, Eigen::Vector3d(0, 0, 0)),
                    "given numbers: found a vector of size 3");
   EXPECT_REX_ERROR((void)multiplied(good, {Eigen::VectorXd::Zero(1), Eigen::MatrixXd::Identity(1, 1)}),

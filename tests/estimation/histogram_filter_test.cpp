@@ -115,6 +115,18 @@ TEST(HistogramFilter, SaysWhenItIsLost) {
   EXPECT_FALSE(updateCells(Eigen::Vector2d(1, 0), Eigen::Vector2d(.1, 1)).lost);
 }
 
+// Cells that cannot be reached do not matter, whatever they would say, and however long it goes on.
+TEST(HistogramFilter, LastsLong) {
+  const CellTransition stay = Eigen::Matrix2d::Identity().sparseView();
+  const std::vector<CellTransition> moves(1999, stay);
+  const std::vector<Eigen::VectorXd> likelihoods(2000, Eigen::Vector2d(.1, 1));
+  for (const Eigen::VectorXd& belief : smoothedCells(Eigen::Vector2d(1, 0), moves, likelihoods))
+    EXPECT_EQ(belief, Eigen::Vector2d(1, 0));
+  const CellUpdate faint = updateCells(Eigen::Vector2d(1, 1e-200), Eigen::Vector2d(0, 1e-200));
+  EXPECT_FALSE(faint.lost);
+  EXPECT_EQ(faint.belief, Eigen::Vector2d(0, 1));
+}
+
 TEST(HistogramFilter, SaysWhatIsWrong) {
   const Eigen::Vector2d half(.5, .5);
   CellTransition move = Eigen::Matrix2d::Identity().sparseView();
@@ -127,6 +139,12 @@ TEST(HistogramFilter, SaysWhatIsWrong) {
   move.coeffRef(1, 1) = 1.5;
   move.coeffRef(0, 1) = -.5;
   EXPECT_REX_ERROR(predictCells(half, move), "transition from cell 1: found a negative probability");
+  move.coeffRef(0, 1) = std::nan("");
+  EXPECT_REX_ERROR(predictCells(half, move),
+                   "transition from cell 1: found a probability that is not finite");
+  EXPECT_REX_ERROR(updateCells(half, Eigen::Vector3d(1, 1, 1)), "likelihoods: found a vector of size 3");
+  EXPECT_REX_ERROR(predictCells(half, CellTransition(3, 2)),
+                   "rows of the transition: found a vector of size 3");
   EXPECT_REX_ERROR(updateCells(half, Eigen::Vector2d(1, INFINITY)), "likelihood of cell 1: found inf");
   const std::vector<Eigen::VectorXd> never{half, Eigen::Vector2d(0, 0)};
   const std::vector<CellTransition> stay{Eigen::Matrix2d::Identity().sparseView()};

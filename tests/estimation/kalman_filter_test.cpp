@@ -159,15 +159,42 @@ TEST(KalmanFilter, InformationMayBeNone) {
   EXPECT_LT(apart(plain, toNormal(belief)), 1e-8);
 }
 
-// A plain filter would lose the smaller variance to rounding.
-TEST(KalmanFilter, RootsKeepWhatRoundingTakes) {
-  RootGaussian root{Eigen::Vector2d(0, 0), Eigen::Vector2d(1e6, 1e-6).asDiagonal()};
-  const LinearModel see{Eigen::RowVector2d(1, 1), Eigen::VectorXd::Zero(1),
-                        Eigen::MatrixXd::Constant(1, 1, 1e-12)};
-  root = rootUpdate(root, see, Eigen::VectorXd::Zero(1));
-  // The first number is then known as well as the second and the sensor: to a variance of 2e-12.
-  EXPECT_NEAR(root.L.row(1).norm(), 1e-6, 1e-9);
-  EXPECT_NEAR(root.L.row(0).norm(), std::sqrt(2e-12), 1e-9);
+// Where variances differ by more than doubles have digits, the information filter keeps the more precise.
+TEST(KalmanFilter, InformationKeepsWhatItKnows) {
+  const auto number = [](double v) { return Eigen::MatrixXd::Constant(1, 1, v); };
+  for (const double B : {1., 1e6, 1e12, 1e18}) {
+    const CanonicalGaussian next =
+        informationPredict({number(2 * B), number(B)}, {number(1), number(0), number(1)});
+    EXPECT_NEAR(next.A(0, 0), 1 / (1 / B + 1), 1e-15);
+    EXPECT_NEAR(next.a[0], 2 / (1 / B + 1), 1e-14);
+  }
+}
+
+// The moments of a square of a normal number: 1 and 2.
+TEST(KalmanFilter, UnscentedTransformSquares) {
+  const NonlinearModel square{.g = [](const Eigen::VectorXd& x) -> Eigen::VectorXd { return x.cwiseAbs2(); },
+                              .W = Eigen::MatrixXd::Constant(1, 1, .01)};
+  const Gaussian normal{Eigen::VectorXd::Zero(1), Eigen::MatrixXd::Identity(1, 1)};
+  const Gaussian squared = unscentedPredict(normal, square);
+  EXPECT_NEAR(squared.mean[0], 1, 1e-12);
+  EXPECT_NEAR(squared.covariance(0, 0), 2.01, 1e-12);
+  EXPECT_REX_ERROR((void)unscentedPredict(normal, square, {.beta = 0, .kappa = -.5}),
+                   "unscented transform with these options: covariance: found the eigenvalue -0.49");
+}
+
+// Two readings of the same number without noise contradict each other; rounding must not hide it.
+TEST(KalmanFilter, RefusesReadingsWithoutNoiseThatRepeat) {
+  Rng rng(16);
+  for (int i = 0; i < 300; ++i) {
+    const Gaussian belief{Eigen::Vector2d(0, 0), rng.uniform(.1, 2) * Eigen::Matrix2d::Identity()};
+    const Eigen::Vector2d row = rng.normalVector(2);
+    LinearModel see{Eigen::Matrix2d(), Eigen::Vector2d(0, 0), Eigen::Matrix2d::Zero()};
+    see.C << row.transpose(), rng.uniform(.5, 2) * row.transpose();
+    EXPECT_REX_ERROR((void)kalmanUpdate(belief, see, Eigen::Vector2d(1, 1.1)),
+                     "covariance of the innovation");
+    EXPECT_REX_ERROR((void)rootUpdate(toRoot(belief), see, Eigen::Vector2d(1, 1.1)),
+                     "covariance of the innovation");
+  }
 }
 
 // A pendulum seen from the side: NEES must lie in its band over many runs, for both filters.
@@ -237,7 +264,7 @@ TEST(KalmanFilter, SaysWhatIsWrong) {
   EXPECT_REX_ERROR((void)kalmanUpdate(belief, see, y),
                    "covariance of the innovation: found the eigenvalue 0");
   EXPECT_REX_ERROR((void)rootUpdate(toRoot(belief), see, y),
-                   "covariance of the innovation: found the eigenvalue 0");
+                   "covariance of the innovation: found a singular matrix");
   EXPECT_REX_ERROR((void)informationUpdate(toCanonical(belief), see, y),
                    "observation model: covariance of the noise: found the eigenvalue 0");
   see.C = Eigen::RowVector3d(1, 0, 0);
@@ -255,6 +282,20 @@ TEST(KalmanFilter, SaysWhatIsWrong) {
       .W = Eigen::Matrix2d::Identity()};
   EXPECT_REX_ERROR((void)extendedPredict(belief, same),
                    "Jacobian of the model: found 1 rows, wanted 2, as the model has values");
+  const NonlinearModel wrongDifference{
+      .g = [](const Eigen::VectorXd& x) { return x; },
+      .W = Eigen::Matrix2d::Identity(),
+      .difference = [](const Eigen::VectorXd&, const Eigen::VectorXd&) -> Eigen::VectorXd {
+        return Eigen::Vector2d(NAN, 0);
+      }};
+  EXPECT_REX_ERROR((void)extendedUpdate(belief, wrongDifference, Eigen::Vector2d(0, 0)),
+                   "difference of values of the model: number 0: found nan");
+  const Gaussian negative{Eigen::Vector2d(0, 0), -5 * Eigen::Matrix2d::Identity()};
+  const LinearModel stay{Eigen::Matrix2d::Identity(), Eigen::Vector2d(0, 0), Eigen::Matrix2d::Identity()};
+  EXPECT_REX_ERROR((void)smoothed(std::vector{belief, negative}, std::vector{stay}),
+                   "covariance of the belief: found the eigenvalue -5");
+  EXPECT_REX_ERROR((void)smoothed({}, std::vector{stay}),
+                   "transitions between the beliefs: found a vector of size 1, wanted size 0");
   EXPECT_REX_ERROR((void)unscentedPredict(belief, same, {.alpha = 0}), "unscented transform: alpha: found 0");
   EXPECT_REX_ERROR((void)unscentedPredict(belief, same, {.kappa = -2}),
                    "unscented transform: kappa: found -2");

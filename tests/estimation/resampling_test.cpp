@@ -1,6 +1,8 @@
 #include "estimation/resampling.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -74,10 +76,25 @@ TEST(Resampling, ResidualKeepsWholeParts) {
       EXPECT_LE(std::abs(systematic[i] - share[i]), 1 + 1e-9);
     }
   }
-  // Whole parts that rounding could spoil.
+  // Equal weights change nothing, whatever rounding makes of their shares.
+  for (int count = 1; count < 2000; ++count) {
+    const Eigen::VectorXd equal = Eigen::VectorXd::Constant(count, 1. / count);
+    EXPECT_EQ(childrenOf(resampled(equal, count, Resampling::kResidual, rng), count).maxCoeff(), 1) << count;
+  }
   const Eigen::VectorXd thirds = Eigen::VectorXd::Constant(3, 1. / 3);
   for (int count = 3; count < 300; count += 3)
     EXPECT_EQ(childrenOf(resampled(thirds, count, Resampling::kResidual, rng), 3).maxCoeff(), count / 3);
+}
+
+// Sums of these would overflow, or vanish.
+TEST(Resampling, TakesWeightsOfAnySize) {
+  Rng rng(5);
+  for (const double size : {1e308, 1e-300, 5e-324})
+    for (const Resampling how : kAll) {
+      const Eigen::VectorXd children = childrenOf(resampled(Eigen::Vector2d(size, size), 400, how, rng), 2);
+      EXPECT_NEAR(children[0], 200, 60) << size;
+      EXPECT_DOUBLE_EQ(effectiveSampleSize(Eigen::Vector2d(size, size)), 2);
+    }
 }
 
 TEST(Resampling, CountsEffectiveParticles) {
@@ -94,6 +111,8 @@ TEST(Resampling, AdaptiveSizeIsTheQuantile) {
     EXPECT_NEAR(adaptiveSampleSize(cells, .05, 2.3263), exact, .02 * exact + 1);
   }
   EXPECT_EQ(adaptiveSampleSize(1, .05), 1);
+  EXPECT_EQ(adaptiveSampleSize(2, 1e10), 1);
+  EXPECT_EQ(adaptiveSampleSize(5000, 1e-7), std::numeric_limits<int>::max()) << "more than can be counted";
 }
 
 TEST(Resampling, SaysWhatIsWrong) {
@@ -107,8 +126,8 @@ TEST(Resampling, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(resampled(Eigen::Vector2d(1, 0), -1, Resampling::kResidual, rng),
                    "particles to draw: found -1, wanted zero or more");
   EXPECT_REX_ERROR(adaptiveSampleSize(0, .1), "occupied cells: found 0, wanted one or more");
-  EXPECT_REX_ERROR(adaptiveSampleSize(2, 0), "error: found 0, wanted more than 0");
-  EXPECT_REX_ERROR(adaptiveSampleSize(2, .1, -1), "quantile: found -1, wanted more than 0");
+  EXPECT_REX_ERROR(adaptiveSampleSize(2, 0), "error: found 0, wanted a positive number");
+  EXPECT_REX_ERROR(adaptiveSampleSize(2, .1, -1), "quantile: found -1, wanted a positive number");
 }
 
 }  // namespace
