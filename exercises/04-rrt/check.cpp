@@ -7,6 +7,7 @@
 #include "collision/motion_clearance.h"
 #include "interface.h"
 #include "peg_problem.h"
+#include "phase_checks.h"
 #include "plane_problems.h"
 #include "planning/phase_space.h"
 #include "tree_checks.h"
@@ -53,6 +54,8 @@ void radiusOfTwoArms(Check& check, Student& student) {
   densitiesAreRight(check, student, 0.5, 0.9, false);
 }
 
+void planeOfOneArm(Check& check, Student& student) { densitiesAreRight(check, student, 0.6, 0.4, true); }
+
 // <hidden>
 void anyArm(Check& check, Student& student) {
   for (int i = 0; i < 6; ++i) {
@@ -78,7 +81,7 @@ void nearestAndStep(Check& check, Student& student) {
     check.near("a step towards a target that is farther", student.stepTowards(from, target, share * distance),
                from + share * (target - from), 1e-12);
     check.near("a step towards a target that is nearer", student.stepTowards(from, target, 2 * distance),
-               target, 1e-12);
+               target, 0);
     check.near("a step from the target to itself", student.stepTowards(target, target, 0.1), target, 0);
   }
 }
@@ -89,16 +92,18 @@ void drawsWell(Check& check, Student& student, double goalBias, int n) {
   const Eigen::Vector3d lower(-1, 2, -0.5), upper(1, 2.5, 6), aim(7, 8, 9), size = upper - lower;
   const SearchSettings settings{lower, upper, 0.1, goalBias, 1000};
   check.input("a box from (-1, 2, -0.5) to (1, 2.5, 6), goalBias = " + text(goalBias));
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero(), squares = Eigen::Vector3d::Zero();
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
   int others = 0;
   for (int i = 0; i < n; ++i) {
     const Eigen::VectorXd target = student.drawTarget(settings, aim, Rng(check.rng().next()));
     check.shape("target", target, 3, 1);
     if (target == aim) continue;
-    const Eigen::Array3d place = (target - lower).array() / size.array() - 0.5;
-    check.atMost("how far a target is from the middle of the box, in its sizes", place.abs().maxCoeff(), 0.5);
-    sum += place.matrix();
-    squares += place.square().matrix();
+    const Eigen::Vector3d place = ((target - lower).array() / size.array() - 0.5).matrix();
+    check.atMost("how far a target is from the middle of the box, in its sizes", place.cwiseAbs().maxCoeff(),
+                 0.5);
+    sum += place;
+    products += place * place.transpose();
     ++others;
   }
   const double sigmas = 5.5, count = std::max(others, 1);
@@ -107,8 +112,11 @@ void drawsWell(Check& check, Student& student, double goalBias, int n) {
   if (others == 0) return;
   check.near("mean of the others, in sizes of the box", sum / count, Eigen::Vector3d::Zero(),
              sigmas / std::sqrt(12 * count));
-  check.near("mean square of the others, in sizes of the box", squares / count,
+  check.near("mean square of the others, in sizes of the box", products.diagonal() / count,
              Eigen::Vector3d::Constant(1 / 12.), sigmas / std::sqrt(180 * count));
+  check.near("mean products of two coordinates of the others, each from the middle",
+             Eigen::Vector3d(products(0, 1), products(0, 2), products(1, 2)) / count, Eigen::Vector3d::Zero(),
+             sigmas / (12 * std::sqrt(count)));
 }
 
 void targets(Check& check, Student& student) {
@@ -154,8 +162,6 @@ void stepsWell(Check& check, Student& student, const PlaneWorld& world, Way want
     check.that("a step through an obstacle gives no node", !got.has_value());
   }
 }
-
-const PlaneWorld kThinWalls{.boxes = {{{0.3, 0}, {0.32, 0.75}}, {{0.65, 0.25}, {0.67, 1}}}};
 
 void stepsInThePlane(Check& check, Student& student) {
   for (int i = 0; i < 12; ++i)
@@ -206,23 +212,33 @@ void growsBackward(Check& check, Student& student) {
   }
 }
 
-// Nothing is in the way, so that each target gives a node. One in five leads straight to the start, eighty
-// steps away, and some of the others help: 172 nodes, with a standard deviation of 17. One that only aims has
-// 80, one that never does thousands.
+// The mean number of nodes of that many searches, eighty steps from root to start. Nothing is in the way, so
+// that each target gives a node.
+double nodesWithBias(Check& check, Student& student, double goalBias, int searches) {
+  double sum = 0;
+  for (int i = 0; i < searches; ++i) {
+    const Eigen::VectorXd start = check.rng().uniformVector(2, -1, 1);
+    const double angle = check.rng().uniform(-4, 4);
+    const Eigen::VectorXd goal = start + 8 * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+    const SearchSettings settings{Eigen::Vector2d(-20, -20), Eigen::Vector2d(20, 20), 0.1, goalBias, 4000};
+    const EdgeTest isFree = [](const Eigen::VectorXd&, const Eigen::VectorXd&) { return true; };
+    EdgeRecord record(isFree, 2);
+    const TreeSearch search =
+        student.growBackward(start, goal, settings, record.test(), Rng(check.rng().next()));
+    backwardIsSound(check, search, {{}, start, goal}, settings, record, isFree);
+    sum += static_cast<double>(search.tree.nodes.size());
+  }
+  return sum / searches;
+}
+
+// Over 30 seeds, four searches have 230 nodes with a standard deviation of 23, or 130 with one of 4. With a
+// bias of 0.2 they have 172, with 0.5 they have 115, whatever was asked for.
 void aimsAtTheStart(Check& check, Student& student) {
-  const Eigen::VectorXd start = check.rng().uniformVector(2, -1, 1);
-  const double angle = check.rng().uniform(-4, 4);
-  const Eigen::VectorXd goal = start + 8 * Eigen::Vector2d(std::cos(angle), std::sin(angle));
-  const SearchSettings settings{Eigen::Vector2d(-20, -20), Eigen::Vector2d(20, 20), 0.1, 0.2, 2000};
-  const EdgeTest isFree = [](const Eigen::VectorXd&, const Eigen::VectorXd&) { return true; };
-  EdgeRecord record(isFree, 2);
-  const TreeSearch search =
-      student.growBackward(start, goal, settings, record.test(), Rng(check.rng().next()));
-  backwardIsSound(check, search, {{}, start, goal}, settings, record, isFree);
-  check.atLeast("nodes of a tree that aims at the start with goalBias = 0.2",
-                static_cast<double>(search.tree.nodes.size()), 95);
-  check.atMost("nodes of a tree that aims at the start with goalBias = 0.2",
-               static_cast<double>(search.tree.nodes.size()), 600);
+  const double rare = nodesWithBias(check, student, 0.1, 8), often = nodesWithBias(check, student, 0.4, 4);
+  check.atLeast("mean number of nodes of trees with goalBias = 0.1", rare, 150);
+  check.atMost("mean number of nodes of trees with goalBias = 0.1", rare, 340);
+  check.atLeast("mean number of nodes of trees with goalBias = 0.4", often, 105);
+  check.atMost("mean number of nodes of trees with goalBias = 0.4", often, 155);
 }
 
 void backwardAnywhere(Check& check, Student& student) {
@@ -368,48 +384,6 @@ void staysNearTheDisc(Check& check, Student& student) {
 
 // Part 6.
 
-// Integral by Simpson's rule, exact for cubics: f at 21 moments between 0 and T.
-template <class F>
-double integral(double T, const F& f) {
-  const int n = 20;
-  double sum = 0;
-  for (int i = 0; i <= n; ++i) sum += (i == 0 || i == n ? 1 : i % 2 == 1 ? 4 : 2) * f(i);
-  return sum * T / (3 * n);
-}
-
-struct Transfer {
-  Eigen::Vector2d from, to;
-  double T;
-};
-
-Transfer randomTransfer(Rng& rng) {
-  return {rng.uniformVector(2, -3, 3), rng.uniformVector(2, -3, 3), rng.uniform(0.5, 4)};
-}
-
-// The force is what brings the point there, and what costs least: adding a force that changes nothing in the
-// end must not change the effort at first order, whatever that force is.
-void leastEffortIsRight(Check& check, Student& student, const Transfer& x) {
-  const double T = x.T;
-  std::vector<double> u;
-  for (int i = 0; i <= 20; ++i) u.push_back(student.forceAt(x.from, x.to, T, T * i / 20));
-  const auto at = [&](int i) { return u[static_cast<std::size_t>(i)]; };
-  const double scale = 1 + std::abs(at(0)) + std::abs(at(20));
-  check.near("velocity in the end, by that force", x.from[1] + integral(T, at), x.to[1], 1e-9 * scale, "m/s");
-  check.near("position in the end, by that force",
-             x.from[0] + T * x.from[1] + integral(T, [&](int i) { return T * (1 - i / 20.) * at(i); }),
-             x.to[0], 1e-9 * scale, "m");
-  const double needed = integral(T, [&](int i) { return at(i) * at(i); });
-  check.near("effort, against the integral of the squared force", student.effort(x.from, x.to, T), needed,
-             1e-8 * scale * scale, "N^2 s");
-  const double change = integral(T, [&](int i) {
-    const double s =
-        i / 10. - 1;  // from -1 to 1: (3 s^2 - 1) / 2 moves neither the velocity nor the position
-    return at(i) * (1.5 * s * s - 0.5);
-  });
-  check.near("change of the effort with a change of the force that leaves the end as it is", change, 0,
-             0.02 * scale * T);
-}
-
 void effortOfTransfers(Check& check, Student& student) {
   for (int i = 0; i < 12; ++i) {
     check.input("random states, T between 0.5 and 4 s");
@@ -417,7 +391,18 @@ void effortOfTransfers(Check& check, Student& student) {
   }
   const Transfer drift{{0.3, -1}, {0.3 - 2, -1}, 2};
   check.input("a state that the point drifts to by itself");
-  check.near("effort of nothing", student.effort(drift.from, drift.to, drift.T), 0, 1e-12, "N^2 s");
+  check.near("effort of nothing", student.effort(drift.from, drift.to, drift.T), 0, 1e-8, "N^2 s");
+}
+
+// The whole motion at once ends at its target.
+void stepsToTheTarget(Check& check, Student& student) {
+  for (int i = 0; i < 4; ++i) {
+    const Transfer x = randomTransfer(check.rng());
+    check.input("one state, and tau = T: the whole motion to the target");
+    const PhaseNode node = student.phaseStep({x.from}, x.to, x.T, x.T);
+    check.near("state from which the target is nearest", node.parent, 0, 0);
+    check.near("state after T seconds", node.x, x.to, 1e-8 * (1 + x.T * x.T));
+  }
 }
 
 // <hidden>
@@ -515,7 +500,6 @@ void rewires(Check& check, Student& student) {
   }
 }
 
-// <hidden>
 // All that holds for every tree of RRT*, and the cost of its path, which is infinite if there is none.
 double starIsSound(Check& check, Student& student, const PlaneProblem& problem,
                    const SearchSettings& settings) {
@@ -523,25 +507,31 @@ double starIsSound(Check& check, Student& student, const PlaneProblem& problem,
   EdgeRecord record(isFree, 2);
   const StarSearch search =
       student.growStar(problem.start, problem.goal, settings, 1.5, record.test(), Rng(check.rng().next()));
-  const Tree& tree = search.tree;
+  const Tree& grown = search.tree;
   askedWell(check, record);
-  isTree(check, tree, problem.start, false);
-  edgesAreSound(check, tree, settings.stepSize, record, isFree);
-  check.near("number of costs", static_cast<double>(tree.costs.size()),
-             static_cast<double>(tree.nodes.size()), 0);
-  const std::vector<double> costs = costsOf(tree);
+  isTree(check, grown, problem.start, false);
+  edgesAreSound(check, grown, settings.stepSize, record, isFree);
+  check.near("number of costs", static_cast<double>(grown.costs.size()),
+             static_cast<double>(grown.nodes.size()), 0);
+  const std::vector<double> costs = costsOf(grown);
   for (std::size_t i = 0; i < costs.size(); ++i)
-    check.near("cost of a node, against the length of its way", tree.costs[i], costs[i], 1e-9);
+    check.near("cost of a node, against the length of its way", grown.costs[i], costs[i], 1e-9);
   check.near("number of costs in `best`", static_cast<double>(search.best.size()), settings.maxSamples, 0);
   for (std::size_t i = 1; i < search.best.size(); ++i)
     check.that("the cost of the goal never grows", search.best[i] <= search.best[i - 1]);
-  check.that("the goal is reached", search.goal >= 0 && search.goal < static_cast<int>(tree.nodes.size()));
+  check.that("the goal is reached", search.goal >= 0 && search.goal < static_cast<int>(grown.nodes.size()));
   const auto goal = static_cast<std::size_t>(search.goal);
-  check.near("the node that is the goal", tree.nodes[goal], problem.goal, 0);
+  check.near("the node that is the goal", grown.nodes[goal], problem.goal, 0);
   check.near("the last cost of the goal", search.best.back(), costs[goal], 1e-9);
   return costs[goal];
 }
 
+void growsAroundThinWalls(Check& check, Student& student) {
+  check.input("two thin walls in the unit square, from (0.1, 0.1) to (0.9, 0.9)");
+  starIsSound(check, student, {kThinWalls, kLowerLeft, kUpperRight}, inThePlane(0.1, 0.1, 1500));
+}
+
+// <hidden>
 void growsAroundWalls(Check& check, Student& student) {
   for (int i = 0; i < 3; ++i) starIsSound(check, student, twoWalls(check.rng()), inThePlane(0.1, 0.1, 1500));
 }
@@ -564,6 +554,8 @@ void comesNearTheShortest(Check& check, Student& student) {
 rex::grading::Checks<Student> checks() {
   return {
       {"reach-radius", "reach", "How far the hand is", 1, Group::visible, radiusOfTwoArms},
+      {"reach-plane", "reach", "Where in the plane, for one arm (no points)", 0, Group::visible,
+       planeOfOneArm},
       {"step-nearest", "step", "The nearest node, and a step that does not overshoot", 1, Group::visible,
        nearestAndStep},
       {"step-target", "step", "Random targets with a goal bias", 1, Group::visible, targets},
@@ -574,8 +566,12 @@ rex::grading::Checks<Student> checks() {
       {"connect-arm", "connect", "From both sides into the hole", 1, Group::visible, bothSidesIntoTheHole},
       {"smooth-free", "smooth", "Shorter, with the same ends, and free", 1, Group::visible, staysFree},
       {"phase-effort", "phase", "The least effort and its force", 1, Group::visible, effortOfTransfers},
+      {"phase-whole-step", "phase", "The whole motion as one step (no points)", 0, Group::visible,
+       stepsToTheTarget},
       {"star-parent", "star", "The best parent", 1, Group::visible, choosesTheBest},
       {"star-rewired", "star", "Rewiring, and what follows from it", 1, Group::visible, rewires},
+      {"star-thin-walls", "star", "A whole tree between thin walls (no points)", 0, Group::visible,
+       growsAroundThinWalls},
       // <hidden>
       {"reach-any-arm", "reach", "Other arms, and the density in the plane", 1, Group::hidden, anyArm},
       {"step-corners", "step", "Steps past corners of other worlds", 1, Group::hidden, stepsPastCorners},

@@ -77,7 +77,7 @@ struct TreeSearch {
 
 /// Grows a tree from its root `goal` by rrtStep() towards drawTarget(), which aims at `start`. As soon as a
 /// new node is at most stepSize from `start`, with a free way between them, the path is complete: `start`,
-/// that node, ..., `goal`. Nothing is asked about the tree's size; after maxSamples targets the path is
+/// that node, ..., `goal`. How soon that is must show the goalBias; after maxSamples targets the path is
 /// empty.
 TreeSearch growBackward(const Eigen::VectorXd& start, const Eigen::VectorXd& goal,
                         const SearchSettings& settings, const EdgeTest& edgeFree, rex::Rng& rng);
@@ -109,7 +109,8 @@ Path shortened(const Path& path, const EdgeTest& edgeFree, rex::Rng& rng);
 
 // Part 6, distance in phase space (12.7.2). A point of 1 kg on a line has the state (position [m],
 // velocity [m/s]); the force u(t) [N] brings it from one state to another in just T seconds, with the least
-// effort, which is the integral of u(t)^2.
+// effort, which is the integral of u(t)^2. All numbers are exact up to 1e-8 of the largest that they come
+// from.
 
 /// That least effort [N^2 s].
 double effort(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double T);

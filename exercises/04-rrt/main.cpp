@@ -123,20 +123,6 @@ StarSearch growStar(const Eigen::VectorXd& start, const Eigen::VectorXd& goal, c
 
 namespace {
 
-EdgeTest freeIn(const PlaneWorld& world) {
-  return [world](const Eigen::VectorXd& qa, const Eigen::VectorXd& qb) { return wayIsFree(world, qa, qb); };
-}
-
-SearchSettings inThePlane(double stepSize, double goalBias, int maxSamples) {
-  return {Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 1), stepSize, goalBias, maxSamples};
-}
-
-double lengthOf(const Path& path) {
-  double length = 0;
-  for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
-  return length;
-}
-
 std::string text(double x) { return std::to_string(x).substr(0, 5); }
 
 // Part 1.
@@ -191,9 +177,6 @@ Tree grow(const Eigen::VectorXd& root, const SearchSettings& settings, const Edg
   }
   return tree;
 }
-
-const PlaneWorld kThinWalls{.boxes = {{{0.3, 0}, {0.32, 0.75}}, {{0.65, 0.25}, {0.67, 1}}}};
-const Eigen::Vector2d kLowerLeft(0.1, 0.1), kUpperRight(0.9, 0.9);
 
 void showSteps() {
   const EdgeTest edgeFree = freeIn(kThinWalls);

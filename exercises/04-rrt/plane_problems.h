@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <utility>
 
 #include "base/rng.h"
 #include "exercise.h"
@@ -9,16 +8,6 @@
 #include "planning/rrt.h"
 
 // Worlds in the plane that nobody has seen before.
-
-/// `slack` widens the gaps: for ways that follow from others, which were free, up to rounding.
-inline EdgeTest freeIn(PlaneWorld world, double slack = 0) {
-  for (PlaneDisc& disc : world.discs) disc.radius -= slack;
-  for (PlaneBox& box : world.boxes) {
-    box.lower.array() += slack;
-    box.upper.array() -= slack;
-  }
-  return [world](const Eigen::VectorXd& qa, const Eigen::VectorXd& qb) { return wayIsFree(world, qa, qb); };
-}
 
 /// What to plan in the plane.
 struct PlaneProblem {
@@ -90,7 +79,9 @@ inline Path jaggedPath(const PlaneProblem& problem, rex::Rng& rng) {
       .start = problem.start,
       .goal = problem.goal,
       .resolution = 0.002};
-  const rex::PathResult found = rex::connectRrts(planned, {.stepSize = 0.05}, rng);
+  rex::PathResult found;
+  do found = rex::connectRrts(planned, {.stepSize = 0.05}, rng);
+  while (found.status != rex::PathStatus::kFound);
   Path path;
   for (Eigen::Index i = 0; i < found.path.cols(); ++i) path.emplace_back(found.path.col(i));
   return path;

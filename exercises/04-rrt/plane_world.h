@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include <Eigen/Core>
+#include "exercise.h"
 
 // Worlds that are cheap to ask: the unit square with discs and boxes in it. Used by main() and by the grader.
 
@@ -53,3 +53,28 @@ inline bool wayIsFree(const PlaneWorld& world, const Eigen::Vector2d& a, const E
          std::none_of(world.discs.begin(), world.discs.end(), meetsIt) &&
          std::none_of(world.boxes.begin(), world.boxes.end(), meetsIt);
 }
+
+/// The same as an EdgeTest. `slack` widens the gaps: for ways that follow from others, which were free, up to
+/// rounding.
+inline EdgeTest freeIn(PlaneWorld world, double slack = 0) {
+  for (PlaneDisc& disc : world.discs) disc.radius -= slack;
+  for (PlaneBox& box : world.boxes) {
+    box.lower.array() += slack;
+    box.upper.array() -= slack;
+  }
+  return [world](const Eigen::VectorXd& qa, const Eigen::VectorXd& qb) { return wayIsFree(world, qa, qb); };
+}
+
+inline SearchSettings inThePlane(double stepSize, double goalBias, int maxSamples) {
+  return {Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 1), stepSize, goalBias, maxSamples};
+}
+
+inline double lengthOf(const Path& path) {
+  double length = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
+  return length;
+}
+
+/// Two walls, thinner than a step.
+inline const PlaneWorld kThinWalls{.boxes = {{{0.3, 0}, {0.32, 0.75}}, {{0.65, 0.25}, {0.67, 1}}}};
+inline const Eigen::Vector2d kLowerLeft(0.1, 0.1), kUpperRight(0.9, 0.9);

@@ -48,16 +48,6 @@ class EdgeRecord {
   std::set<std::vector<double>> free_;
 };
 
-inline SearchSettings inThePlane(double stepSize, double goalBias, int maxSamples) {
-  return {Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 1), stepSize, goalBias, maxSamples};
-}
-
-inline double lengthOf(const Path& path) {
-  double length = 0;
-  for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
-  return length;
-}
-
 inline void askedWell(rex::grading::Check& check, const EdgeRecord& record) {
   check.that("edgeFree is asked about configurations of the right size, with finite numbers",
              !record.isMalformed());

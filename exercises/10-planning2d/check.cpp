@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "grid_checks.h"
 #include "interface.h"
@@ -91,19 +92,16 @@ void wavesOnKnownMaps(Check& check, Student& student) {
 }
 
 void networkFits(Check& check, Student& student, const CellMap& map) {
-  const Network network = student.cellNetwork(map);
+  const Network network = student.cellNetwork(map), wanted = networkOf(map);
   check.that("there is a list of arcs for each cell", network.size() == map.blocked.size());
   for (std::size_t place = 0; place < network.size(); ++place) {
     const Cell at = map.cellAt(place);
-    int expected = 0;
-    for (int i = 0; i < 9; ++i) {
-      const int dx = i % 3 - 1, dy = i / 3 - 1;
-      const bool hasRoom = map.isFree({at.x + dx, at.y}) && map.isFree({at.x, at.y + dy});
-      expected += i != 4 && map.isFree(at) && map.isFree({at.x + dx, at.y + dy}) && hasRoom ? 1 : 0;
-    }
-    check.near("number of arcs of a cell", static_cast<double>(network[place].size()), expected, 0);
+    check.near("number of arcs of a cell", static_cast<double>(network[place].size()),
+               static_cast<double>(wanted[place].size()), 0);
+    std::set<std::size_t> ends;
     for (const auto& [to, length] : network[place]) {
       check.that("arcs lead to cells of the map", to < network.size());
+      check.that("no arc is there twice", ends.insert(to).second);
       const Cell end = map.cellAt(to);
       check.that("arcs lead to free cells that touch", map.isFree(end) && touches(at, end) && !(at == end));
       check.that("no diagonal arc leads past a blocked cell",
@@ -272,6 +270,31 @@ void roadmaps(Check& check, Student& student) {
   });
 }
 
+// Four nodes in and before the slot, two of them side by side: the way leads over the better one. Without the
+// arcs to the slot there is none.
+void queriesInTheSlotYard(Check& check, Student& student) {
+  const Yard yard = slotYard(1.8, 0.4);
+  const std::vector<Eigen::Vector2d> nodes{{1.6, 2}, {3, 2.15}, {3, 2.01}, {4.4, 2}};
+  const auto joined = [&](const std::vector<std::pair<std::size_t, std::size_t>>& pairs) {
+    Network network(nodes.size());
+    for (const auto& [a, b] : pairs) {
+      network[a].push_back({b, (nodes[a] - nodes[b]).norm()});
+      network[b].push_back({a, (nodes[a] - nodes[b]).norm()});
+    }
+    return network;
+  };
+  check.input("slotYard(1.8, 0.4) of maps.h, a node on each side of the slot, two in it, k = 1");
+  const auto way = student.queryRoadmap(yard, nodes, joined({{0, 1}, {0, 2}, {1, 3}, {2, 3}}), kSlotStart,
+                                        kSlotGoal, 1, 0.05);
+  check.near("number of points of the way", static_cast<double>(way.size()), 5, 0);
+  const std::array<Eigen::Vector2d, 5> wanted{kSlotStart, nodes[0], nodes[2], nodes[3], kSlotGoal};
+  for (std::size_t i = 0; i < wanted.size(); ++i) check.near("point of the way", way[i], wanted[i], 0, "m");
+  check.input("the same, with no arc that leaves the slot to the right");
+  check.that(
+      "the way is empty where none leads",
+      student.queryRoadmap(yard, nodes, joined({{0, 1}, {0, 2}}), kSlotStart, kSlotGoal, 1, 0.05).empty());
+}
+
 // <hidden>
 // The length of the shortest way when both ends are joined to their k nearest nodes.
 double lengthOver(const Yard& yard, std::vector<Eigen::Vector2d> nodes, Network network,
@@ -289,30 +312,34 @@ double lengthOver(const Yard& yard, std::vector<Eigen::Vector2d> nodes, Network 
   return slowDistances(network, old.size())[old.size() + 1];
 }
 
-// Ways that pass for either leave room: the shortest is at most as long as without all of these, and at least
-// as with them.
+// Between two random places, over a roadmap of 60 nodes. Ways that pass for either leave room: the shortest
+// is at most as long as without all of these, and at least as with them.
+void queryFits(Check& check, Student& student, const Yard& yard) {
+  Rng& rng = check.rng();
+  const std::vector<Eigen::Vector2d> nodes = randomNodes(yard, 60, rng);
+  const std::array<Eigen::Vector2d, 2> ends{randomFreePlace(yard, rng), randomFreePlace(yard, rng)};
+  const Network roadmap = roadmapOf(yard, nodes, 6, 0.05, Straight::kFree);
+  const auto way = student.queryRoadmap(yard, nodes, roadmap, ends[0], ends[1], 6, 0.05);
+  const double least = lengthOver(yard, nodes, roadmap, ends, 6, Straight::kEither),
+               most = lengthOver(yard, nodes, roadmap, ends, 6, Straight::kFree);
+  if (way.empty()) return check.that("a way is found where there is one", !std::isfinite(most));
+  check.that("a way is found only where there is one", std::isfinite(least));
+  check.near("first point of the way", way.front(), ends[0], 0, "m");
+  check.near("last point of the way", way.back(), ends[1], 0, "m");
+  double length = 0;
+  for (std::size_t leg = 1; leg < way.size(); ++leg) {
+    length += (way[leg] - way[leg - 1]).norm();
+    check.that("every leg of the way is free",
+               judged(yard, way[leg - 1], way[leg], 0.05) != Straight::kBlocked);
+  }
+  check.atLeast("length of the way", length, least - 1e-9, "m");
+  if (std::isfinite(most)) check.atMost("length of the way", length, most + 1e-9, "m");
+}
+
 void queries(Check& check, Student& student) {
   check.forEachCase(8, [&](int i) {
     Rng& rng = check.rng();
-    const Yard yard = i < 2 ? slotYard(rng.uniform(0.5, 3), 0.4) : randomYard(rng, {6, 6}, 8, 0.5);
-    const std::vector<Eigen::Vector2d> nodes = randomNodes(yard, 60, rng);
-    const std::array<Eigen::Vector2d, 2> ends{randomFreePlace(yard, rng), randomFreePlace(yard, rng)};
-    const Network roadmap = roadmapOf(yard, nodes, 6, 0.05, Straight::kFree);
-    const auto way = student.queryRoadmap(yard, nodes, roadmap, ends[0], ends[1], 6, 0.05);
-    const double least = lengthOver(yard, nodes, roadmap, ends, 6, Straight::kEither),
-                 most = lengthOver(yard, nodes, roadmap, ends, 6, Straight::kFree);
-    if (way.empty()) return check.that("a way is found where there is one", !std::isfinite(most));
-    check.that("a way is found only where there is one", std::isfinite(least));
-    check.near("first point of the way", way.front(), ends[0], 0, "m");
-    check.near("last point of the way", way.back(), ends[1], 0, "m");
-    double length = 0;
-    for (std::size_t leg = 1; leg < way.size(); ++leg) {
-      length += (way[leg] - way[leg - 1]).norm();
-      check.that("every leg of the way is free",
-                 judged(yard, way[leg - 1], way[leg], 0.05) != Straight::kBlocked);
-    }
-    check.atLeast("length of the way", length, least - 1e-9, "m");
-    if (std::isfinite(most)) check.atMost("length of the way", length, most + 1e-9, "m");
+    queryFits(check, student, i < 2 ? slotYard(rng.uniform(0.5, 3), 0.4) : randomYard(rng, {6, 6}, 8, 0.5));
   });
 }
 // </hidden>
@@ -455,18 +482,12 @@ void searches(Check& check, Student& student, const Network& network, std::size_
 }
 
 void searchesMap(Check& check, Student& student, const CellMap& map, Cell start, Cell goal) {
-  Network network(map.blocked.size());
+  const Network network = networkOf(map);
   std::vector<double> estimates(network.size());
   for (std::size_t place = 0; place < network.size(); ++place) {
     const Cell at = map.cellAt(place);
     const int dx = std::abs(at.x - goal.x), dy = std::abs(at.y - goal.y);
     estimates[place] = std::numbers::sqrt2 * std::min(dx, dy) + std::abs(dx - dy);
-    for (int i = 0; i < 9; ++i) {
-      const Cell next{at.x + i % 3 - 1, at.y + i / 3 - 1};
-      const bool hasRoom = map.isFree({next.x, at.y}) && map.isFree({at.x, next.y});
-      if (i == 4 || !map.isFree(at) || !map.isFree(next) || !hasRoom) continue;
-      network[place].push_back({map.placeOf(next), std::hypot(next.x - at.x, next.y - at.y)});
-    }
   }
   searches(check, student, network, map.placeOf(start), map.placeOf(goal), estimates,
            distancesOn(map, start, Connectivity::kEightWithRoom));
@@ -528,6 +549,8 @@ grading::Checks<Student> checks() {
       // </hidden>
       {"prm-straight", "prm", "the local planner", 1, Group::visible, straightWays},
       {"prm-join", "prm", "the roadmap", 1, Group::visible, roadmaps},
+      {"prm-slot", "prm", "ways over a roadmap with a slot (no points)", 0, Group::visible,
+       queriesInTheSlotYard},
       {"prm-samplers", "prm", "where the nodes are", 1, Group::visible, samplers},
       // <hidden>
       {"prm-query", "prm", "ways over a roadmap", 1, Group::hidden, queries},

@@ -50,13 +50,15 @@ struct BugTrail {
 
 /// Bug 2 (4:11). The m-line leads from start (its first cell) to goal (its last), each cell beside the one
 /// before; start and goal are free. isFree(cell) may be asked only about the eight cells that touch one where
-/// the bug goes; it moves up, down, left and right. It leaves the m-line only for an obstacle that it touches
-/// all the way (corner to corner counts), always turns to the same side, and comes back to the line as soon
-/// as it meets a cell of it that is nearer to the goal, counted along the line. It gives up when it has come
-/// round: when it is where it met the obstacle and would make the same step again.
+/// the bug goes; it moves up, down, left and right. Off the m-line it touches an obstacle in each cell
+/// (corner to corner counts). It takes at most the steps of the m-line, and for each time that this enters an
+/// obstacle once around it: four, and one for each side of a cell that it has in common with free ones.
+/// (Outside of the map is an obstacle, too.) It reaches the goal, or says that no way leads there. For that,
+/// Bug 2 turns to the same side each time, comes back to cells of the line that are nearer to the goal, and
+/// gives up when it is where it met the obstacle and would make the same step again.
 BugTrail bugTwo(const std::vector<Cell>& mLine, const std::function<bool(Cell)>& isFree);
 
-// Part 2, wavefront and Dijkstra (4:17 to 4:26).
+// Part 2, wavefront and Dijkstra (4:18 to 4:26).
 
 /// The numbers of slides 4:18 to 4:25 for all cells: 2 at the goal, which is free, one more with each step to
 /// one of the eight cells around, 1 where blocked, 0 where no way leads.
@@ -99,7 +101,7 @@ inline bool isFree(const Yard& yard, const Eigen::Vector2d& p) {
   return true;
 }
 
-// Part 3, potential fields (4:13 to 4:16).
+// Part 3, potential fields (4:13 to 4:17).
 
 struct FieldGains {
   double attraction = 1;  ///< k

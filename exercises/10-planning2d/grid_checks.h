@@ -123,6 +123,21 @@ inline double bugBound(const CellMap& map, const std::vector<Cell>& line) {
   return bound;
 }
 
+// The network that cellNetwork() asks for.
+inline Network networkOf(const CellMap& map) {
+  Network network(map.blocked.size());
+  for (std::size_t place = 0; place < network.size(); ++place) {
+    const Cell at = map.cellAt(place);
+    for (int i = 0; i < 9; ++i) {
+      const Cell next{at.x + i % 3 - 1, at.y + i / 3 - 1};
+      const bool hasRoom = map.isFree({next.x, at.y}) && map.isFree({at.x, next.y});
+      if (i == 4 || !map.isFree(at) || !map.isFree(next) || !hasRoom) continue;
+      network[place].push_back({map.placeOf(next), std::hypot(next.x - at.x, next.y - at.y)});
+    }
+  }
+  return network;
+}
+
 inline bool touchesObstacle(const CellMap& map, Cell cell) {
   for (int y = cell.y - 1; y <= cell.y + 1; ++y)
     for (int x = cell.x - 1; x <= cell.x + 1; ++x)
@@ -141,6 +156,8 @@ inline void bugObeys(rex::grading::Check& check, Student& student, const CellMap
   const double bound = bugBound(map, line);
   std::vector<Cell> asked;
   const BugTrail trail = student.bugTwo(line, [&](Cell cell) {
+    check.that("isFree is asked only about cells that touch the trail",
+               -1 <= cell.x && cell.x <= map.width && -1 <= cell.y && cell.y <= map.height);
     asked.push_back(cell);
     check.atMost("number of questions to isFree", static_cast<double>(asked.size()), 40 * (bound + 10));
     return map.isFree(cell);

@@ -7,6 +7,7 @@
 
 #include "interface.h"
 #include "lots.h"
+#include "overlaps.h"
 #include "planning/car.h"
 #include "planning/dubins.h"
 
@@ -46,45 +47,6 @@ void checkLimits(Check& check, const CarModel& car, const Drive& drive) {
   check.atMost("steering angle", drive.steering, car.maxSteering + 1e-9, "rad");
   check.atLeast("steering angle", drive.steering, car.minSteering - 1e-9, "rad");
   check.that("drives last a finite time above zero", drive.seconds >= 0 && drive.seconds <= 200);
-}
-
-// Rectangles overlap unless a side of one of them has the other wholly on its far side: corner by corner,
-// where the solution compares shadows.
-bool overlap(const CarModel& car, const Eigen::Vector3d& q, const Block& block) {
-  const auto corners = [](const Eigen::Vector3d& X, double back, double front, double half) {
-    std::array<Eigen::Vector2d, 4> p;
-    for (std::size_t i = 0; i < 4; ++i)
-      p[i] = moved(X, {i == 0 || i == 3 ? -back : front, i < 2 ? -half : half, 0}).head<2>();
-    return p;
-  };
-  const auto a = corners(q, car.back, car.front, car.width / 2);
-  const auto b = corners(block.middle, block.length / 2, block.length / 2, block.width / 2);
-  const auto separates = [](const auto& of, const auto& from) {
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Eigen::Vector2d side = of[(i + 1) % 4] - of[i];
-      if (std::ranges::all_of(from, [&](const Eigen::Vector2d& p) {
-            return side.x() * (p.y() - of[i].y()) - side.y() * (p.x() - of[i].x()) < 0;
-          }))
-        return true;
-    }
-    return false;
-  };
-  return !separates(a, b) && !separates(b, a);
-}
-
-bool touches(const CarModel& car, const Eigen::Vector3d& q, const std::vector<Block>& blocks) {
-  return std::ranges::any_of(blocks, [&](const Block& block) {
-    const double reach = car.front + car.width + (block.length + block.width) / 2;
-    return (block.middle - q).head<2>().norm() < reach && overlap(car, q, block);
-  });
-}
-
-// A car that is smaller, or larger, on all sides.
-CarModel grown(CarModel car, double by) {
-  car.front += by;
-  car.back += by;
-  car.width += 2 * by;
-  return car;
 }
 
 // Every 4 cm of the way: corners then move by 6 cm at most, and 5 cm are forgiven.
@@ -129,29 +91,36 @@ void anyCarMoves(Check& check, Student& student) {
 }
 // </hidden>
 
-Poses drivenPath(Rng& rng, const CarModel& car) {
-  Poses path{randomPose(rng, 5)};
-  for (int i = 0; i < 12; ++i) {
+// Arcs on from the last pose, until there are 13 poses.
+void driveOn(Rng& rng, const CarModel& car, Poses& path) {
+  while (path.size() < 13) {
     const double way = (rng.index(2) == 0 ? -1 : 1) * rng.uniform(0.3, 1.9);
     const double limit = std::min(0.99, std::atan(0.59 * car.wheelbase / std::abs(way)) / car.maxSteering);
     const double steering = rng.uniform(limit * car.minSteering, limit * car.maxSteering);
     path.push_back(exact(car, path.back(), {way, steering, 1}));
     path.back()[2] += 2 * kPi * (rng.index(3) - 1);
   }
-  return path;
 }
 
-// Breaks a path from the pose `at` on: to the side, by a turn on the spot, or by an arc that is too tight.
+// Breaks a path between two of its poses: to the side, by a turn on the spot, or by an arc that is too tight.
+// What follows are arcs again, wherever the break leads to.
 void breakPath(Rng& rng, const CarModel& car, Poses& path, std::size_t at, int how) {
   const Eigen::Vector3d& before = path[at - 1];
   const double sign = rng.index(2) == 0 ? -1 : 1;
   Eigen::Vector3d wrong = before;
-  if (how == 0) wrong = moved(before, {1, sign * rng.uniform(0.05, 0.5), 0});
+  if (how == 0) wrong = moved(before, {1, sign * rng.uniform(0.012, 0.2), 0});
   if (how == 1) wrong[2] += sign * rng.uniform(0.1, 0.5);
-  if (how == 2) wrong = exact(car, before, {1, sign * (1.15 * car.maxSteering), 1});
-  if (how == 3) wrong = moved(before, {0, sign * rng.uniform(0.1, 0.5), 0});
+  if (how == 2) wrong = exact(car, before, {1, sign * (1.1 * car.maxSteering), 1});
+  if (how == 3) wrong = moved(before, {0, sign * rng.uniform(0.012, 0.2), 0});
   path.resize(at);
   path.push_back(wrong);
+  driveOn(rng, car, path);
+}
+
+// The error that poses come with.
+Poses measured(Rng& rng, Poses path) {
+  for (Eigen::Vector3d& q : path) q += rng.uniformVector(3, -1e-6, 1e-6);
+  return path;
 }
 
 void followsTrajectories(Check& check, Student& student) {
@@ -159,15 +128,16 @@ void followsTrajectories(Check& check, Student& student) {
     Rng& rng = check.rng();
     CarModel car;
     if (i % 4 == 0) car.minSteering = 0;
-    Poses path = drivenPath(rng, car);
+    Poses path{randomPose(rng, 5)};
+    driveOn(rng, car, path);
     check.input("twelve arcs, driven forward and backward");
-    check.that("a path of arcs can be followed", student.canFollow(car, path));
+    check.that("a path of arcs can be followed", student.canFollow(car, measured(rng, path)));
     check.input(std::array{"at one place to the side", "at one place turning on the spot",
                            "at one place an arc that is too tight",
                            "at one place only to the side"}[static_cast<std::size_t>(i % 4)]);
     breakPath(rng, car, path, static_cast<std::size_t>(1 + rng.index(12)), i % 4);
     check.that("a path that breaks the constraint, or a limit, cannot be followed",
-               !student.canFollow(car, path));
+               !student.canFollow(car, measured(rng, path)));
   }
   CarModel left;
   left.minSteering = 0;
@@ -241,15 +211,16 @@ std::optional<double> rankOf(Rng& rng, const CarModel& car, const Eigen::Vector3
   return 1. * nearer / free;
 }
 
-// The best of 20 has a rank of 1 / 21 on average, any control one of 1 / 2. Over the
-// targets of a run the reference came to 0.11 at most, in 300 runs.
+// The best of 20 has a rank of 1 / 21 on average, the best of n one of 1 / (n + 1); where some ways are
+// blocked, n is smaller. Over the targets of a run the reference has 0.065, with a standard deviation of
+// 0.007.
 void drivesTowards(Check& check, Student& student) {
   check.input(
-      "60 random targets, drives of 1 s, or of 7 s: longer than the car; a wall and a post stand about");
+      "150 random targets, drives of 1 s, or of 7 s: longer than the car; a wall and a post stand about");
   Rng& rng = check.rng();
   double sum = 0;
   int count = 0;
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 150; ++i) {
     const CarModel car = i % 3 == 0 ? randomCar(rng) : CarModel{};
     const double seconds = i % 2 == 0 ? 1 : 7;
     const Eigen::Vector3d from = randomPose(rng, 5), target = moved(from, randomPose(rng, 12));
@@ -276,9 +247,9 @@ void drivesTowards(Check& check, Student& student) {
     sum += *rank;
     ++count;
   }
-  check.atLeast("targets that the drives can be judged by", count, 15);
+  check.atLeast("targets that the drives can be judged by", count, 40);
   check.atMost("share of random controls that lead nearer to the target, on average",
-               sum / std::max(1, count), 0.2);
+               sum / std::max(1, count), 0.1);
   check.input("a block that the car stands in");
   Rng given = rng.split(99);
   check.that("no drive where all ways are blocked",
@@ -524,25 +495,27 @@ void rigMoves(Check& check, Student& student) {
 }
 
 // Over 2000 seeds the reference was never farther off than 2 mm and 1 mrad, and folded up by 0.6 rad at most.
-void reverses(Check& check, Student& student, const Rig& rig) {
+void reverses(Check& check, Student& student, const Rig& rig, int mostTurns) {
   Rng& rng = check.rng();
   const double trailer = rng.uniform(-0.25, 0.25), offset = rng.uniform(-1, 1);
   Eigen::Vector4d q(0, offset + rig.hitchLength * std::sin(trailer), rng.uniform(-0.25, 0.25), trailer);
+  for (const int i : {2, 3}) q[i] += 2 * kPi * mostTurns * (rng.index(3) - 1);
   for (int step = 0; step < 1000; ++step) {
     const double steering = student.reverseSteering(rig, q);
     checkLimits(check, rig.car, {1, steering, 1});
     q = rigMotion(rig, q, -1, steering, 0.05);
-    check.atMost("angle between car and trailer", std::abs(q[2] - q[3]), 1.2, "rad");
+    check.atMost("angle between car and trailer", std::abs(wrapped(q[2] - q[3])), 1.2, "rad");
     if (step < 800) continue;
     check.near("distance of the trailer's axle from the axis", q[1] - rig.hitchLength * std::sin(q[3]), 0,
                0.05, "m");
-    check.near("headings of car and trailer", q.tail<2>(), Eigen::Vector2d::Zero(), 0.05, "rad");
+    check.near("headings of car and trailer, up to whole turns",
+               Eigen::Vector2d(wrapped(q[2]), wrapped(q[3])), Eigen::Vector2d::Zero(), 0.05, "rad");
   }
 }
 
 void reversesATrailer(Check& check, Student& student) {
   check.input("a hitch of 4 m, up to 1 m beside the axis, headings up to 0.25 rad off it, 50 m backward");
-  check.forEachCase(4, [&](int) { reverses(check, student, {}); });
+  check.forEachCase(4, [&](int) { reverses(check, student, {}, 0); });
 }
 
 // <hidden>
@@ -550,7 +523,11 @@ void reversesAnyTrailer(Check& check, Student& student) {
   check.forEachCase(6, [&](int) {
     Rig rig;
     rig.hitchLength = check.rng().uniform(2.5, 5);
-    reverses(check, student, rig);
+    rig.car = randomCar(check.rng());
+    rig.car.wheelbase = check.rng().uniform(2.3, 3);
+    rig.car.maxSteering = check.rng().uniform(0.5, 0.65);
+    rig.car.minSteering = -rig.car.maxSteering;
+    reverses(check, student, rig, 1);
   });
 }
 // </hidden>

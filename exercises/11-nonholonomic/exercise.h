@@ -106,7 +106,9 @@ DubinsWay shortestDubins(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
 /// How a car gets from the start into a parking space, the goal of the world: one drive after the other, at 1
 /// m/s at most, 500 of them at most, 200 m at most. It ends within 0.1 m of the goal, in x and in y, and
 /// within 0.05 rad; it never steers beyond its limits, and nowhere on the way does its body touch a block. A
-/// scratch of 5 cm is forgiven, here and in part 2. Some cars turn left only.
+/// scratch of 5 cm is forgiven, here and in part 2. Some cars turn left only. Spaces at the kerb are at least
+/// 1.6 m longer than the car (2.8 m for those cars), spaces across the street at least 2.5 m apart from
+/// middle to middle; streets are 6.5 to 10 m wide. A check has up to five of them, and 10 s for all.
 std::vector<Drive> park(const CarModel& car, const World& lot);
 
 // Part 5, a trailer (4:57).
@@ -128,5 +130,6 @@ double hitchGrowth(const Rig& rig, double speed);
 /// Steering angle of a rig that drives backward along the x axis, towards -x, at -1 m/s. Asked anew every 50
 /// ms, it brings the axle of the trailer to the axis, from up to 1 m beside it, with headings of car and
 /// trailer up to 0.25 rad off it: after 40 m it is and stays within 5 cm, and both headings within 0.05 rad.
-/// On the way the angle between car and trailer stays below 1.2 rad. Hitches are 2.5 to 5 m long.
+/// On the way the angle between car and trailer stays below 1.2 rad. Hitches are 2.5 to 5 m long, wheelbases
+/// 2.3 to 3 m, and cars steer by 0.5 rad at least. Whole turns may have been added to either heading.
 double reverseSteering(const Rig& rig, const Eigen::Vector4d& q);

@@ -4,6 +4,7 @@
 #include <queue>
 #include <set>
 
+#include "car_pictures.h"
 #include "exercise.h"
 #include "planning/dubins.h"
 
@@ -112,15 +113,10 @@ double reverseSteering(const Rig& rig, const Eigen::Vector4d& q) {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-const Color kGround{0.15f, 0.3f, 0.5f}, kAccent{0.8f, 0.25f, 0.1f}, kSoft{0.6f, 0.7f, 0.8f};
-
 const std::array kWords{"LSL", "LSR", "RSL", "RSR", "LRL", "RLR"};
 const std::array<Color, 6> kWordColors{Color{0, 0.45f, 0.7f},  Color{0.85f, 0.37f, 0},
                                        Color{0, 0.62f, 0.45f}, Color{0.8f, 0.47f, 0.65f},
                                        Color{0.9f, 0.62f, 0},  Color{0.34f, 0.71f, 0.91f}};
-
-using Poses = std::vector<Eigen::Vector3d>;
 
 // The poses at which a car is every so many metres of its way.
 Poses along(const CarModel& car, Eigen::Vector3d q, const std::vector<Drive>& drives, double every) {
@@ -132,85 +128,6 @@ Poses along(const CarModel& car, Eigen::Vector3d q, const std::vector<Drive>& dr
     q = poses.back();
   }
   return poses;
-}
-
-// A rectangle around p, from `back` behind to `front` before it.
-Series outline(const Eigen::Vector3d& p, double back, double front, double width, const Color& color) {
-  Series series{.size = 0.5, .color = color};
-  const double c = std::cos(p[2]), s = std::sin(p[2]);
-  for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}}) {
-    const double ahead = x < 0 ? -back : front, left = y * width / 2;
-    series.x.push_back(p[0] + c * ahead - s * left);
-    series.y.push_back(p[1] + s * ahead + c * left);
-  }
-  return series;
-}
-
-Series outline(const CarModel& car, const Eigen::Vector3d& q, const Color& color) {
-  return outline(q, car.back, car.front, car.width, color);
-}
-
-Series line(const std::string& label, const Poses& poses, const Color& color, double size) {
-  Series series{.label = label, .size = size, .color = color};
-  for (const Eigen::Vector3d& q : poses) {
-    series.x.push_back(q[0]);
-    series.y.push_back(q[1]);
-  }
-  return series;
-}
-
-Figure seenFromAbove(const std::string& title, const std::vector<Block>& blocks) {
-  Figure figure{.title = title,
-                .xLabel = "x [m]",
-                .yLabel = "y [m]",
-                .equalAxes = true,
-                .legend = Legend::kNone,
-                .width = 1000,
-                .height = 560};
-  for (const Block& block : blocks) {
-    const Series edge = outline(block.middle, block.length / 2, block.length / 2, block.width, {});
-    figure.regions.push_back({.x = edge.x, .y = edge.y});
-  }
-  return figure;
-}
-
-// The world of main(): a room with things in it, 24 m x 16 m.
-World room() {
-  return {.start = {3, 3, 0},
-          .goal = {20, 12.5, kPi / 2},
-          .blocks = {{{12, -0.2, 0}, 24.8, 0.4},
-                     {{12, 16.2, 0}, 24.8, 0.4},
-                     {{-0.2, 8, kPi / 2}, 16.8, 0.4},
-                     {{24.2, 8, kPi / 2}, 16.8, 0.4},
-                     {{8.5, 8, 0.4}, 8, 2},
-                     {{16, 4.5, 1.2}, 7, 1.5},
-                     {{15.5, 13, 0}, 1.5, 6}},
-          .lower = {0, 0},
-          .upper = {24, 16}};
-}
-
-// A street with cars at its kerb and one space; the other side is a wall, `width` away from that row.
-World street(double width, double slot) {
-  World lot{
-      .start = {-6, 3.6, 0}, .goal = {-1.3, 0, 0}, .blocks = {}, .lower = {-14, -1.2}, .upper = {14, width}};
-  for (const double side : {-1., 1.})
-    for (const double next : {0., 5.})
-      lot.blocks.push_back({{side * (slot / 2 + 2.1 + next), 0, 0}, 4.2, 1.75});
-  lot.blocks.push_back({{0, -1.4, 0}, 28, 0.4});
-  lot.blocks.push_back({{0, width + 0.2, 0}, 28, 0.4});
-  return lot;
-}
-
-World bays() {
-  World lot{.start = {-9, 5, 0},
-            .goal = {0, -1.3, kPi / 2},
-            .blocks = {},
-            .lower = {-13, -2.5},
-            .upper = {13, 8.5}};
-  for (const int i : {-4, -3, -2, -1, 1, 2, 3, 4}) lot.blocks.push_back({{2.6 * i, 0, kPi / 2}, 4.2, 1.75});
-  lot.blocks.push_back({{0, -2.7, 0}, 26, 0.4});
-  lot.blocks.push_back({{0, 8.7, 0}, 26, 0.4});
-  return lot;
 }
 
 // A tree as one line that goes along every branch and back.
@@ -304,59 +221,6 @@ void showDubins(double (*byLibrary)(const Eigen::Vector3d&, const Eigen::Vector3
   }
   lengths.series.push_back(library);
   plot("dubins", lengths);
-}
-
-std::string text(const std::vector<double>& numbers) {
-  std::string all;
-  for (const double number : numbers) all += std::to_string(number) + ' ';
-  return all;
-}
-
-std::string box(const std::string& head, const std::vector<double>& place, double heading,
-                const std::vector<double>& size, const std::string& look) {
-  return head + "=<T t(" + text(place) + ") r(" + text({heading}) + " 0 0 1)> type=ST_ssBox size=[" +
-         text(size) + " 0.05] " + look + " }\n";
-}
-
-// A scene with a car, its front wheels and a trailer: 6 joint angles, or 5 without the trailer.
-Simulator filmSet(const CarModel& car, const World& world, double hitchLength = 0) {
-  const std::string paint = "color=[.90 .58 .18]", dark = "color=[.2 .22 .27]";
-  const double low = -car.back, length = car.front + car.back, axle = car.width / 2 - 0.15;
-  std::string scene =
-      box("shape ground (world) { rel",
-          {(world.lower.x() + world.upper.x()) / 2, (world.lower.y() + world.upper.y()) / 2, -0.1}, 0,
-          {world.upper.x() - world.lower.x(), world.upper.y() - world.lower.y(), 0.1}, "color=[.62 .64 .66]");
-  for (const Block& block : world.blocks) {
-    const bool isCar = block.width > 1 && block.length > 4 && block.length < 5;
-    const std::vector<double> middle{block.middle[0], block.middle[1]};
-    scene += box("shape (world) { rel", {middle[0], middle[1], isCar ? 0.55 : 0.15}, block.middle[2],
-                 {block.length, block.width, isCar ? 0.6 : 0.3},
-                 isCar ? "color=[.35 .45 .6]" : "color=[.45 .47 .5]");
-    if (isCar)
-      scene += box("shape (world) { rel", {middle[0], middle[1], 1.05}, block.middle[2],
-                   {block.length * 0.5, block.width * 0.9, 0.5}, "color=[.55 .63 .74]");
-  }
-  const auto wheel = [&](double x, double y) {
-    return "rel=<T t(" + text({x, y, 0.3}) + ") d(90 1 0 0)> type=ST_cylinder size=[0 0 0.2 0.3] " + dark +
-           " }\n";
-  };
-  scene += "body car { }\njoint (world car) { type=transXYPhi }\n";
-  scene += box("shape (car) { rel", {low + length / 2, 0, 0.55}, 0, {length, car.width, 0.5}, paint);
-  scene += box("shape (car) { rel", {low + 0.45 * length, 0, 1.05}, 0, {0.5 * length, 0.9 * car.width, 0.5},
-               paint);
-  for (const double y : {-axle, axle}) {
-    const std::string name = y < 0 ? "right" : "left";
-    scene += "shape (car) { " + wheel(0, y) + "body " + name + " { }\nshape (" + name + ") { " + wheel(0, 0);
-    scene += "joint (car " + name + ") { type=hingeZ A=<T t(" + text({car.wheelbase, y, 0}) + ")> }\n";
-  }
-  if (hitchLength > 0) {
-    scene += "body trailer { }\njoint (car trailer) { type=hingeZ }\n";
-    scene += box("shape (trailer) { rel", {-hitchLength - 0.3, 0, 0.9}, 0, {hitchLength, car.width, 1.2},
-                 "color=[.8 .8 .78]");
-    scene += box("shape (trailer) { rel", {-hitchLength / 2, 0, 0.4}, 0, {hitchLength, 0.15, 0.15}, dark);
-    for (const double y : {-axle, axle}) scene += "shape (trailer) { " + wheel(-hitchLength, y);
-  }
-  return Simulator(SimulatorDescription{.sceneName = "car", .sceneText = scene, .q = {}});
 }
 
 void showParking(const std::string& name, const std::string& title, const CarModel& car, const World& lot) {

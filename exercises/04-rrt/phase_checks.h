@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "exercise.h"
+#include "grading/check.h"
+#include "interface.h"
+
+// What motions with the least effort must keep.
+
+/// Integral by Simpson's rule, exact for cubics: f at 21 moments between 0 and T.
+template <class F>
+double integral(double T, const F& f) {
+  const int n = 20;
+  double sum = 0;
+  for (int i = 0; i <= n; ++i) sum += (i == 0 || i == n ? 1 : i % 2 == 1 ? 4 : 2) * f(i);
+  return sum * T / (3 * n);
+}
+
+struct Transfer {
+  Eigen::Vector2d from, to;
+  double T;
+};
+
+inline Transfer randomTransfer(rex::Rng& rng) {
+  return {rng.uniformVector(2, -3, 3), rng.uniformVector(2, -3, 3), rng.uniform(0.5, 4)};
+}
+
+/// The force is what brings the point there, and what costs least: pushes at three moments one after another,
+/// in proportion to 1, -2 and 1, change neither velocity nor position in the end, so that none of them may
+/// change the effort at first order. All that leaves the end as it is consists of these.
+inline void leastEffortIsRight(rex::grading::Check& check, Student& student, const Transfer& x) {
+  const double T = x.T;
+  std::vector<double> u;
+  for (int i = 0; i <= 20; ++i) u.push_back(student.forceAt(x.from, x.to, T, T * i / 20));
+  const auto at = [&](int i) { return u[static_cast<std::size_t>(i)]; };
+  const double scale = 1 + std::abs(at(0)) + std::abs(at(20));
+  check.near("velocity in the end, by that force", x.from[1] + integral(T, at), x.to[1], 1e-8 * scale, "m/s");
+  check.near("position in the end, by that force",
+             x.from[0] + T * x.from[1] + integral(T, [&](int i) { return T * (1 - i / 20.) * at(i); }),
+             x.to[0], 1e-8 * scale * T, "m");
+  const double needed = integral(T, [&](int i) { return at(i) * at(i); });
+  check.near("effort, against the integral of the squared force", student.effort(x.from, x.to, T), needed,
+             1e-8 * scale * scale * T, "N^2 s");
+  for (int i = 1; i < 20; ++i)
+    check.near("change of the effort with pushes that leave the end as it is",
+               at(i - 1) - 2 * at(i) + at(i + 1), 0, 4e-8 * scale, "N");
+}
