@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <Eigen/Cholesky>
@@ -150,6 +151,26 @@ double FastSlam::seeLandmark(Eigen::Index particle, const LandmarkSighting& sigh
   return logWeight;
 }
 
+Eigen::VectorXd FastSlam::advance(const PoseTransition& transition, std::span<const LandmarkSighting> known,
+                                  std::span<const LandmarkSighting> fresh, int landmarks, Rng& rng) {
+  makeRoom(landmarks);
+  const Eigen::Matrix3d root = covarianceRoot(transition.noise);
+  Eigen::VectorXd logWeights = weights_.array().log();
+  for (Eigen::Index k = 0; k < weights_.size(); ++k) {
+    logWeights[k] += drawPose(k, transition, root, known, rng);
+    for (const LandmarkSighting& sighting : known) logWeights[k] += seeLandmark(k, sighting, false);
+    int seen = landmarks_;
+    for (const LandmarkSighting& sighting : fresh) {
+      const bool isNew = sighting.landmark == seen;
+      if (isNew) ++seen;
+      logWeights[k] += seeLandmark(k, sighting, isNew);
+    }
+    if (std::isnan(logWeights[k])) logWeights[k] = -std::numeric_limits<double>::infinity();
+  }
+  landmarks_ = landmarks;
+  return logWeights;
+}
+
 FastSlamStep FastSlam::step(const PoseTransition& transition, std::span<const LandmarkSighting> sightings,
                             Rng& rng) {
   requireTransition(transition, options_.observedProposal);
@@ -168,27 +189,20 @@ FastSlamStep FastSlam::step(const PoseTransition& transition, std::span<const La
       if (sighting.landmark == next) ++next;
     }
   }
-  makeRoom(next);
-  FastSlamStep report;
-  const Eigen::Matrix3d root = covarianceRoot(transition.noise);
-  Eigen::VectorXd logWeights = weights_.array().log();
-  for (Eigen::Index k = 0; k < weights_.size(); ++k) {
-    logWeights[k] += drawPose(k, transition, root, known, rng);
-    for (const LandmarkSighting& sighting : known) logWeights[k] += seeLandmark(k, sighting, false);
-    int seen = landmarks_;
-    for (const LandmarkSighting& sighting : fresh) {
-      const bool isNew = sighting.landmark == seen;
-      if (isNew) ++seen;
-      logWeights[k] += seeLandmark(k, sighting, isNew);
-    }
-  }
-  landmarks_ = next;
+  // On a copy: maps that nothing explains are not kept, and a throw changes nothing.
+  FastSlam moved(*this);
+  const Eigen::VectorXd logWeights = moved.advance(transition, known, fresh, next, rng);
   const double largest = logWeights.maxCoeff();
+  FastSlamStep report;
   report.lost = !std::isfinite(largest);
-  if (!report.lost) {
-    weights_ = (logWeights.array() - largest).exp();
-    weights_ /= weights_.sum();
+  if (report.lost) {
+    moved = *this;
+    (void)moved.advance(transition, {}, {}, landmarks_, rng);
+  } else {
+    moved.weights_ = (logWeights.array() - largest).exp();
+    moved.weights_ /= moved.weights_.sum();
   }
+  *this = std::move(moved);
   report.effectiveSize = effectiveSampleSize(weights_);
   report.resampled = report.effectiveSize < options_.threshold * static_cast<double>(weights_.size());
   if (report.resampled) resampleParticles(rng);
