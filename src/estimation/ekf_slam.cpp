@@ -12,6 +12,7 @@
 #include "base/require_finite.h"
 #include "estimation/covariance.h"
 #include "estimation/innovation_internal.h"
+#include "estimation/pose_transition_internal.h"
 
 namespace rex {
 namespace {
@@ -19,6 +20,11 @@ namespace {
 constexpr int kFirstRoom = 3 + 2 * 16;
 
 }  // namespace
+
+void internal::requireTransition(const PoseTransition& transition, Definiteness noise) {
+  if (!transition.mean) throw Error({.what = "transition", .found = "no function for its mean"});
+  requireCovariance("transition: covariance of the noise", transition.noise, 3, noise);
+}
 
 EkfSlam::EkfSlam(const Gaussian& pose, const LandmarkSensor& sensor)
     : sensor_(sensor), mean_(kFirstRoom), covariance_(kFirstRoom, kFirstRoom), gain_(kFirstRoom, 2) {
@@ -47,9 +53,8 @@ Gaussian EkfSlam::joint() const {
 }
 
 void EkfSlam::predict(const PoseTransition& transition) {
-  if (!transition.mean || !transition.jacobian)
-    throw Error({.what = "transition", .found = "no function for its mean or its derivative"});
-  requireCovariance("transition: covariance of the noise", transition.noise, 3);
+  internal::requireTransition(transition, Definiteness::kSemidefinite);
+  if (!transition.jacobian) throw Error({.what = "transition", .found = "no function for its derivative"});
   const Eigen::Vector3d next = transition.mean(poseMean());
   const Eigen::Matrix3d A = transition.jacobian(poseMean());
   requireFinite("next pose", next);

@@ -13,6 +13,7 @@
 #include "base/require_finite.h"
 #include "base/rng.h"
 #include "estimation/covariance.h"
+#include "estimation/pose_transition_internal.h"
 
 namespace rex {
 namespace {
@@ -23,12 +24,6 @@ double logNormal(const Eigen::Matrix<double, Size, 1>& error, const Eigen::Matri
   const Eigen::LLT<Eigen::Matrix<double, Size, Size>> factor(S);
   return -0.5 * factor.matrixL().solve(error).squaredNorm() -
          factor.matrixLLT().diagonal().array().log().sum();
-}
-
-void requireTransition(const PoseTransition& transition, bool needsDefiniteNoise) {
-  if (!transition.mean) throw Error({.what = "transition", .found = "no function for its mean"});
-  requireCovariance("transition: covariance of the noise", transition.noise, 3,
-                    needsDefiniteNoise ? Definiteness::kPositive : Definiteness::kSemidefinite);
 }
 
 }  // namespace
@@ -173,7 +168,8 @@ Eigen::VectorXd FastSlam::advance(const PoseTransition& transition, std::span<co
 
 FastSlamStep FastSlam::step(const PoseTransition& transition, std::span<const LandmarkSighting> sightings,
                             Rng& rng) {
-  requireTransition(transition, options_.observedProposal);
+  internal::requireTransition(
+      transition, options_.observedProposal ? Definiteness::kPositive : Definiteness::kSemidefinite);
   int next = landmarks_;
   std::vector<LandmarkSighting> known, fresh;
   for (const LandmarkSighting& sighting : sightings) {
