@@ -7,11 +7,13 @@
 #include "base/error.h"
 #include "base/require_finite.h"
 #include "estimation/landmark_sensor.h"
+#include "geometry/rotation.h"
 
 namespace rex {
 namespace {
 
 constexpr double kLandmarkDeviation = 10;  // of each coordinate
+constexpr std::uint64_t kPlaceStream = 0, kNoiseStream = 1;
 
 void requireOptions(const CarOptions& options) {
   const auto require = [](bool isRight, const char* what, double found, const char* wanted) {
@@ -24,6 +26,11 @@ void requireOptions(const CarOptions& options) {
     require(noise >= 0 && std::isfinite(noise), "car: noise", noise, "zero or a positive number");
   require(options.maxRange > 0, "car: largest range", options.maxRange, "a positive number");
   require(options.fieldOfView > 0, "car: field of view", options.fieldOfView, "a positive angle");
+}
+
+void requireCount(int landmarks) {
+  if (landmarks < 0)
+    throw Error({.what = "car: landmarks", .found = fmt::format("{}", landmarks), .wanted = "zero or more"});
 }
 
 void requireNumbers(const char* what, const Eigen::VectorXd& numbers, Eigen::Index size) {
@@ -39,12 +46,12 @@ LandmarkSensor sensorOf(const CarOptions& options) {
 }  // namespace
 
 CarSimulator::CarSimulator(std::uint64_t seed, int landmarks, const CarOptions& options)
-    : options_(options), state_(Eigen::Vector3d::Zero()), rng_(seed) {
+    : options_(options), state_(Eigen::Vector3d::Zero()), rng_(Rng(seed).split(kNoiseStream)) {
   requireOptions(options);
-  if (landmarks < 0)
-    throw Error({.what = "car: landmarks", .found = fmt::format("{}", landmarks), .wanted = "zero or more"});
+  requireCount(landmarks);
   landmarks_.resize(2, landmarks);
-  for (auto landmark : landmarks_.colwise()) landmark = kLandmarkDeviation * rng_.normalVector(2);
+  Rng places = Rng(seed).split(kPlaceStream);
+  for (auto landmark : landmarks_.colwise()) landmark = kLandmarkDeviation * places.normalVector(2);
 }
 
 CarSimulator::CarSimulator(const Eigen::Matrix2Xd& landmarks, const CarOptions& options) : options_(options) {
@@ -52,9 +59,29 @@ CarSimulator::CarSimulator(const Eigen::Matrix2Xd& landmarks, const CarOptions& 
   setLandmarks(landmarks);
 }
 
+CarSimulator CarSimulator::withoutPlaces(int landmarks, const CarOptions& options) {
+  requireCount(landmarks);
+  CarSimulator car(Eigen::Matrix2Xd::Zero(2, landmarks), options);
+  car.hasPlaces_ = false;
+  return car;
+}
+
+const Eigen::Matrix2Xd& CarSimulator::getLandmarks() const {
+  requirePlaces("getLandmarks");
+  return landmarks_;
+}
+
 void CarSimulator::setLandmarks(const Eigen::Matrix2Xd& landmarks) {
   requireFinite("landmarks", landmarks.reshaped());
   landmarks_ = landmarks;
+  hasPlaces_ = true;
+}
+
+void CarSimulator::requirePlaces(const char* method) const {
+  if (!hasPlaces_)
+    throw Error({.what = fmt::format("CarSimulator::{}", method),
+                 .found = "landmarks whose places are not known here",
+                 .wanted = "the method that is given landmarks"});
 }
 
 void CarSimulator::requireTruth(const char* method) const {
@@ -101,35 +128,47 @@ void CarSimulator::step(const Eigen::VectorXd& u) {
 Eigen::VectorXd CarSimulator::getRealNoisyObservation() {
   requireTruth("getRealNoisyObservation");
   Eigen::VectorXd y = getMeanObservationAtState(*state_);
-  for (Eigen::Index i = 0; i < y.size(); ++i)
-    y[i] += (options_.rangeBearing && i % 2 == 1 ? options_.bearingNoise : options_.observationNoise) *
-            rng_.normal();
+  for (Eigen::Index i = 0; i < y.size(); ++i) {
+    const bool isBearing = options_.rangeBearing && i % 2 == 1;
+    y[i] += (isBearing ? options_.bearingNoise : options_.observationNoise) * rng_.normal();
+    if (isBearing) y[i] = wrapAngle(y[i]);
+  }
   return y;
 }
 
 std::vector<int> CarSimulator::getVisibleLandmarks() const {
   requireTruth("getVisibleLandmarks");
-  const LandmarkSensor sensor{.kind = LandmarkSensor::Kind::kRangeBearing};
   std::vector<int> visible;
   for (int i = 0; i < countLandmarks(); ++i) {
-    const Eigen::Vector2d y = viewOf(sensor, *state_, landmarks_.col(i)).y;
-    if (y[0] <= options_.maxRange && 2 * std::abs(y[1]) <= options_.fieldOfView) visible.push_back(i);
+    const Eigen::Vector2d d = landmarks_.col(i) - state_->head<2>();
+    // At the car itself every direction will do, and there is no bearing.
+    const double bearing = d.isZero(0) ? 0 : wrapAngle(std::atan2(d[1], d[0]) - (*state_)[2]);
+    if (d.norm() <= options_.maxRange && 2 * std::abs(bearing) <= options_.fieldOfView) visible.push_back(i);
   }
   return visible;
 }
 
 Eigen::VectorXd CarSimulator::getMeanObservationAtState(const Eigen::VectorXd& x) const {
+  requirePlaces("getMeanObservationAtState");
   return getMeanObservationAtStateAndLandmarks(x, landmarks_.reshaped());
 }
 
 Eigen::MatrixXd CarSimulator::getObservationJacobianAtState(const Eigen::VectorXd& x) const {
+  requirePlaces("getObservationJacobianAtState");
   return getObservationJacobianAtStateAndLandmarks(x, landmarks_.reshaped()).leftCols<3>();
 }
 
 void CarSimulator::getLinearObservationModelAtState(Eigen::MatrixXd& C, Eigen::VectorXd& c,
                                                     const Eigen::VectorXd& x) const {
-  C = getObservationJacobianAtState(x);
-  c = getMeanObservationAtState(x) - C * x;
+  requireNumbers("state", x, 3);
+  if (options_.rangeBearing)
+    throw Error({.what = "CarSimulator::getLinearObservationModelAtState",
+                 .found = "a car that observes distances and bearings",
+                 .wanted = "one that observes (ahead, left), which is linear in the landmarks"});
+  const LandmarkView view = viewOf(sensorOf(options_), x, {0, 0});
+  C = Eigen::MatrixXd::Zero(landmarks_.size(), landmarks_.size());
+  for (Eigen::Index i = 0; i < C.rows(); i += 2) C.block<2, 2>(i, i) = view.Jl;
+  c = view.y.replicate(countLandmarks(), 1);
 }
 
 Eigen::VectorXd CarSimulator::getMeanObservationAtStateAndLandmarks(const Eigen::VectorXd& x,

@@ -28,15 +28,19 @@ struct CarOptions {
 /// for numbers that are not finite.
 class CarSimulator {
  public:
-  /// A car at (0, 0, 0) among `landmarks` of them, each coordinate normal with deviation 10. Throws Error for
-  /// options out of range and a negative count.
+  /// A car at (0, 0, 0) among `landmarks` of them, each coordinate normal with deviation 10. Places and noise
+  /// come from separate streams of the seed: the ones do not tell the other. Throws Error for options out of
+  /// range and a negative count.
   explicit CarSimulator(std::uint64_t seed = 0, int landmarks = 2, const CarOptions& options = {});
   /// Only what may be known of one: it has no state, so that what asks for the truth throws Error.
   CarSimulator(const Eigen::Matrix2Xd& landmarks, const CarOptions& options);
+  /// Only what may be known of one whose map is to be found: how many landmarks there are. What asks for the
+  /// truth or for their places throws Error; what is given landmarks does not. Throws as the first.
+  [[nodiscard]] static CarSimulator withoutPlaces(int landmarks, const CarOptions& options = {});
 
   const CarOptions& options() const { return options_; }
   int countLandmarks() const { return static_cast<int>(landmarks_.cols()); }
-  const Eigen::Matrix2Xd& getLandmarks() const { return landmarks_; }
+  [[nodiscard]] const Eigen::Matrix2Xd& getLandmarks() const;
   void setLandmarks(const Eigen::Matrix2Xd& landmarks);
 
   /// One step of Euler with the heading before it (slide 4:48, errata 9), then noise.
@@ -70,7 +74,8 @@ class CarSimulator {
   [[nodiscard]] Eigen::MatrixXd getObservationJacobian(const Eigen::VectorXd& x) const {
     return getObservationJacobianAtState(x);
   }
-  /// y = C x + c near x.
+  /// y = C l + c of all landmarks l, stacked: 2 N x 2 N and 2 N numbers. Throws Error with rangeBearing,
+  /// which is not linear in them.
   void getLinearObservationModelAtState(Eigen::MatrixXd& C, Eigen::VectorXd& c,
                                         const Eigen::VectorXd& x) const;
 
@@ -91,9 +96,11 @@ class CarSimulator {
 
  private:
   void requireTruth(const char* method) const;
+  void requirePlaces(const char* method) const;
 
   CarOptions options_;
   Eigen::Matrix2Xd landmarks_;
+  bool hasPlaces_ = true;
   std::optional<Eigen::Vector3d> state_;
   Rng rng_;
 };

@@ -1,4 +1,4 @@
-#include <cmath>
+#include <algorithm>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -9,10 +9,12 @@
 #include "estimation/pose_edge_internal.h"
 #include "estimation/pose_graph.h"
 
-// With Y = [t_1 .. t_n, R_1 .. R_n] the cost is tr(Y M Y^T). At its minimum Y M = [0, Lambda_i R_i ..] with
-// symmetric multipliers, S = M - diag(0, Lambda_i) is positive semidefinite, and for all other poses the cost
-// is higher by tr(Y' S Y'^T). Where S + eps on the rotations is positive definite, it is lower by no more
-// than eps |R_1 .. R_n|^2 = eps d n. Position 0 is left out: moving all poses costs nothing.
+// With Y = [t_1 .. t_n, R_1 .. R_n] the cost is f(Y) = tr(Y M Y^T). With any symmetric multipliers Lambda_i
+// and S = M - diag(0, Lambda_i), all poses Y' have f(Y') = tr(Y' S Y'^T) + sum tr Lambda_i, since rotations
+// are orthonormal. Where S + eps on the rotations is positive definite, f(Y') is therefore no less than
+// sum tr Lambda_i - eps d n. The multipliers are the symmetric parts of R_i^T (Y M)_i, which are those of the
+// minimum at the minimum; f(Y) - sum tr Lambda_i is what positions add: sum t_i . (Y M)_i, zero where they
+// are stationary. Position 0 is left out: moving all poses costs nothing.
 namespace rex {
 namespace {
 
@@ -58,8 +60,10 @@ class Certificate {
     Eigen::SparseMatrix<double> S(size_, size_);
     S.setFromTriplets(entries_.begin(), entries_.end());
     const Eigen::MatrixXd YM = Y_ * S.selfadjointView<Eigen::Lower>();
+    double atPositions = 0;
     for (std::size_t i = 0; i < R_.size(); ++i) {
       const int at = rotation(static_cast<int>(i));
+      if (i > 0) atPositions += Y_.col(at - 1).dot(YM.col(at - 1));
       const Rotation multiplier = R_[i].transpose() * YM.template middleCols<D>(at);
       for (int c = 0; c < D; ++c)
         for (int r = c; r < D; ++r) S.coeffRef(at + r, at + c) -= 0.5 * (multiplier(r, c) + multiplier(c, r));
@@ -76,7 +80,7 @@ class Certificate {
               share * scale;
       factor.factorize(shifted);
       if (factor.info() == Eigen::Success && factor.vectorD().minCoeff() > 0)
-        return share * scale * D * static_cast<double>(R_.size());
+        return std::max(atPositions, 0.) + share * scale * D * static_cast<double>(R_.size());
     }
     return std::numeric_limits<double>::infinity();
   }
@@ -97,32 +101,29 @@ class Certificate {
   std::vector<Eigen::Triplet<double>> entries_;
 };
 
-Eigen::Matrix2d rotationOf(double angle) {
-  return (Eigen::Matrix2d() << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle))
-      .finished();
-}
-
 }  // namespace
 
 double certifiedGap(const PlanarPoseGraph& graph) {
   internal::requireSound(graph);
   internal::requireConnected(graph);
+  if (graph.poses.cols() < 2) return 0;
   std::vector<Eigen::Matrix2d> R;
   std::vector<Eigen::Vector2d> t;
   for (const auto& pose : graph.poses.colwise()) {
-    R.push_back(rotationOf(pose[2]));
+    R.push_back(internal::planarRotation(pose[2]));
     t.push_back(pose.head<2>());
   }
   Certificate<2> certificate(std::move(R), t);
   for (const PlanarEdge& edge : graph.edges)
-    certificate.add(
-        {edge.from, edge.to, rotationOf(edge.motion[2]), edge.motion.head<2>(), internal::isotropic(edge)});
+    certificate.add({edge.from, edge.to, internal::planarRotation(edge.motion[2]), edge.motion.head<2>(),
+                     internal::isotropic(edge)});
   return certificate.gap();
 }
 
 double certifiedGap(const SpatialPoseGraph& graph) {
   internal::requireSound(graph);
   internal::requireConnected(graph);
+  if (graph.poses.size() < 2) return 0;
   std::vector<Eigen::Matrix3d> R;
   std::vector<Eigen::Vector3d> t;
   for (const Pose& pose : graph.poses) {

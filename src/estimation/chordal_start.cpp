@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <Eigen/LU>
@@ -20,13 +22,15 @@ class LinearGraph {
   using Matrix = Eigen::Matrix<double, Size, Size>;
   using Value = Eigen::Matrix<double, Size, Columns>;
 
-  LinearGraph(int poses, const Value& first) : first_(first) {
+  LinearGraph(int poses, const Value& first) : first_(first), heaviest_(static_cast<std::size_t>(poses), 0) {
     rhs_.setZero(Size * (poses - 1), Columns);
-    // An anchor so weak that it only serves poses whose edges weigh nothing.
-    for (int k = 0; k < rhs_.rows(); ++k) entries_.emplace_back(k, k, 1e-14);
   }
 
   void add(int i, int j, double w, const Matrix& M, const Value& b) {
+    for (const int pose : {i, j}) {
+      double& heaviest = heaviest_[static_cast<std::size_t>(pose)];
+      heaviest = std::max(heaviest, w);
+    }
     if (j > 0) addBlock(j, j, w * Matrix::Identity());
     if (i > 0) addBlock(i, i, w * M.transpose() * M);
     if (i > 0 && j > 0) (i > j ? addBlock(i, j, -w * M.transpose()) : addBlock(j, i, -w * M));
@@ -35,12 +39,23 @@ class LinearGraph {
     if (i > 0) rhs_.middleRows(Size * (i - 1), Size) -= w * M.transpose() * known;
   }
 
-  // One row of blocks for each pose but the first.
+  // Ties pose i to the value it has, so weakly that it only serves poses whose edges weigh nothing. After
+  // add.
+  void anchor(int i, const Value& value) {
+    const double heaviest = heaviest_[static_cast<std::size_t>(i)], w = heaviest > 0 ? 1e-14 * heaviest : 1;
+    addBlock(i, i, w * Matrix::Identity());
+    rhs_.middleRows(Size * (i - 1), Size) += w * value;
+  }
+
+  // One row of blocks for each pose but the first; empty where rounding left nothing to solve.
   Eigen::MatrixXd solve() const {
     Eigen::SparseMatrix<double> H(rhs_.rows(), rhs_.rows());
     H.setFromTriplets(entries_.begin(), entries_.end());
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(H);
-    return factor.solve(rhs_);
+    if (factor.info() != Eigen::Success) return {};
+    Eigen::MatrixXd values = factor.solve(rhs_);
+    if (!values.allFinite()) values.resize(0, 0);
+    return values;
   }
 
  private:
@@ -52,58 +67,63 @@ class LinearGraph {
   }
 
   Value first_;
+  std::vector<double> heaviest_;  // weight of the edges of each pose
   Eigen::MatrixXd rhs_;
   std::vector<Eigen::Triplet<double>> entries_;
 };
-
-Eigen::Matrix2d rotationOf(double angle) {
-  Eigen::Matrix2d R;
-  R << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
-  return R;
-}
 
 }  // namespace
 
 void setChordalPoses(PlanarPoseGraph& graph) {
   const int poses = PlanarGraphTraits::poses(graph);
+  Eigen::Matrix3Xd start = graph.poses;
   // First columns of the rotations, as (cos, sin): R_j e = R_i R_ij e turns that of i by the angle.
-  LinearGraph<2, 1> rotations(poses, rotationOf(graph.poses(2, 0)).col(0));
+  LinearGraph<2, 1> rotations(poses, planarRotation(start(2, 0)).col(0));
   for (const PlanarEdge& edge : graph.edges)
-    rotations.add(edge.from, edge.to, isotropic(edge).rotation, rotationOf(edge.motion[2]),
+    rotations.add(edge.from, edge.to, isotropic(edge).rotation, planarRotation(edge.motion[2]),
                   Eigen::Vector2d::Zero());
+  for (int i = 1; i < poses; ++i) rotations.anchor(i, planarRotation(start(2, i)).col(0));
   const Eigen::MatrixXd headings = rotations.solve();
-  for (int i = 1; i < poses; ++i)
-    graph.poses(2, i) = std::atan2(headings(2 * i - 1, 0), headings(2 * i - 2, 0));
-  LinearGraph<2, 1> positions(poses, graph.poses.col(0).head<2>());
+  if (headings.size() == 0) return;
+  for (int i = 1; i < poses; ++i) start(2, i) = std::atan2(headings(2 * i - 1, 0), headings(2 * i - 2, 0));
+  LinearGraph<2, 1> positions(poses, start.col(0).head<2>());
   for (const PlanarEdge& edge : graph.edges)
     positions.add(edge.from, edge.to, isotropic(edge).translation, Eigen::Matrix2d::Identity(),
-                  rotationOf(graph.poses(2, edge.from)) * edge.motion.head<2>());
+                  planarRotation(start(2, edge.from)) * edge.motion.head<2>());
+  for (int i = 1; i < poses; ++i) positions.anchor(i, start.col(i).head<2>());
   const Eigen::MatrixXd found = positions.solve();
-  for (int i = 1; i < poses; ++i) graph.poses.col(i).head<2>() = found.middleRows<2>(2 * (i - 1));
+  if (found.size() == 0) return;
+  for (int i = 1; i < poses; ++i) start.col(i).head<2>() = found.middleRows<2>(2 * (i - 1));
+  graph.poses = std::move(start);
 }
 
 void setChordalPoses(SpatialPoseGraph& graph) {
   const int poses = SpatialGraphTraits::poses(graph);
+  std::vector<Pose> start = graph.poses;
+  const auto at = [&](int i) -> Pose& { return start[static_cast<std::size_t>(i)]; };
   // Transposed rotations: R_j^T = R_ij^T R_i^T.
-  LinearGraph<3, 3> rotations(poses, graph.poses[0].R.transpose());
+  LinearGraph<3, 3> rotations(poses, at(0).R.transpose());
   for (const SpatialEdge& edge : graph.edges)
     rotations.add(edge.from, edge.to, isotropic(edge).rotation, edge.motion.R.transpose(),
                   Eigen::Matrix3d::Zero());
+  for (int i = 1; i < poses; ++i) rotations.anchor(i, at(i).R.transpose());
   const Eigen::MatrixXd free = rotations.solve();
+  if (free.size() == 0) return;
   for (int i = 1; i < poses; ++i) {
     const Eigen::Matrix3d M = free.middleRows<3>(3 * (i - 1)).transpose();
     const Eigen::JacobiSVD<Eigen::Matrix3d> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
     const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
-    graph.poses[static_cast<std::size_t>(i)].R =
-        svd.matrixU() * Eigen::Vector3d(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
+    at(i).R = svd.matrixU() * Eigen::Vector3d(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
   }
-  LinearGraph<3, 1> positions(poses, graph.poses[0].p);
+  LinearGraph<3, 1> positions(poses, at(0).p);
   for (const SpatialEdge& edge : graph.edges)
     positions.add(edge.from, edge.to, isotropic(edge).translation, Eigen::Matrix3d::Identity(),
-                  graph.poses[static_cast<std::size_t>(edge.from)].R * edge.motion.p);
+                  at(edge.from).R * edge.motion.p);
+  for (int i = 1; i < poses; ++i) positions.anchor(i, at(i).p);
   const Eigen::MatrixXd found = positions.solve();
-  for (int i = 1; i < poses; ++i)
-    graph.poses[static_cast<std::size_t>(i)].p = found.middleRows<3>(3 * (i - 1));
+  if (found.size() == 0) return;
+  for (int i = 1; i < poses; ++i) at(i).p = found.middleRows<3>(3 * (i - 1));
+  graph.poses = std::move(start);
 }
 
 }  // namespace rex::internal

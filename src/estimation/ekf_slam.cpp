@@ -12,6 +12,7 @@
 #include "base/require_finite.h"
 #include "estimation/covariance.h"
 #include "estimation/innovation_internal.h"
+#include "estimation/pose_transition_internal.h"
 
 namespace rex {
 namespace {
@@ -19,6 +20,11 @@ namespace {
 constexpr int kFirstRoom = 3 + 2 * 16;
 
 }  // namespace
+
+void internal::requireTransition(const PoseTransition& transition, Definiteness noise) {
+  if (!transition.mean) throw Error({.what = "transition", .found = "no function for its mean"});
+  requireCovariance("transition: covariance of the noise", transition.noise, 3, noise);
+}
 
 EkfSlam::EkfSlam(const Gaussian& pose, const LandmarkSensor& sensor)
     : sensor_(sensor), mean_(kFirstRoom), covariance_(kFirstRoom, kFirstRoom), gain_(kFirstRoom, 2) {
@@ -47,9 +53,8 @@ Gaussian EkfSlam::joint() const {
 }
 
 void EkfSlam::predict(const PoseTransition& transition) {
-  if (!transition.mean || !transition.jacobian)
-    throw Error({.what = "transition", .found = "no function for its mean or its derivative"});
-  requireCovariance("transition: covariance of the noise", transition.noise, 3);
+  internal::requireTransition(transition, Definiteness::kSemidefinite);
+  if (!transition.jacobian) throw Error({.what = "transition", .found = "no function for its derivative"});
   const Eigen::Vector3d next = transition.mean(poseMean());
   const Eigen::Matrix3d A = transition.jacobian(poseMean());
   requireFinite("next pose", next);
@@ -78,9 +83,12 @@ EkfSlam::Innovation EkfSlam::innovate(int landmark, const Eigen::Vector2d& y) co
   const Eigen::Matrix2d cross = result.view.Jl * P_lx * result.view.Jx.transpose();
   result.S = result.view.Jx * P_xx * result.view.Jx.transpose() + cross + cross.transpose() +
              result.view.Jl * P_ll * result.view.Jl.transpose() + sensor_.W;
+  result.S = (0.5 * (result.S + result.S.transpose())).eval();
   const Eigen::LLT<Eigen::Matrix2d> factor(result.S);
+  if (!result.S.allFinite() || factor.info() != Eigen::Success)
+    requireCovariance("covariance of the innovation", result.S, 2, Definiteness::kPositive);
   result.squared = factor.matrixL().solve(result.error).squaredNorm();
-  result.cost = result.squared + std::log(result.S.determinant());
+  result.cost = result.squared + 2 * factor.matrixLLT().diagonal().array().log().sum();
   return result;
 }
 
@@ -120,10 +128,22 @@ void EkfSlam::update(int landmark, const Innovation& innovation) {
   U.bottomRows(n - at - 2).noalias() += covariance_.block(at + 2, at, n - at - 2, 2) * Hl;
   const Eigen::LLT<Eigen::Matrix2d> factor(innovation.S);
   factor.matrixU().solveInPlace<Eigen::OnTheRight>(U);
+  requireVariances(n);
   mean_.head(n).noalias() += U * factor.matrixL().solve(innovation.error);
   for (int j = 0; j < n; ++j)
     covariance_.col(j).segment(j, n - j).noalias() -=
         U(j, 0) * U.col(0).tail(n - j) + U(j, 1) * U.col(1).tail(n - j);
+}
+
+// Cancellation leaves no digits where the sensor is far more exact than what was known.
+void EkfSlam::requireVariances(int n) const {
+  for (int i = 0; i < n; ++i) {
+    const double before = covariance_(i, i), after = before - gain_.row(i).squaredNorm();
+    if (after > 0 || (before == 0 && after == 0)) continue;
+    throw Error({.what = fmt::format("covariance after the observation: variance {}", i),
+                 .found = fmt::format("{:g}, from {:g} before", after, before),
+                 .wanted = "a positive number: the sensor's noise is too small beside it"});
+  }
 }
 
 LandmarkUpdate EkfSlam::observe(int landmark, const Eigen::Vector2d& y) {
@@ -144,6 +164,11 @@ LandmarkUpdate EkfSlam::observe(int landmark, const Eigen::Vector2d& y) {
 
 std::vector<std::optional<LandmarkUpdate>> EkfSlam::observe(std::span<const Eigen::Vector2d> ys,
                                                             const AssociationGates& gates) {
+  if (!(gates.same > 0 && gates.same <= gates.different))
+    throw Error({.what = "gates of association",
+                 .found = fmt::format("same {:g}, different {:g}", gates.same, gates.different),
+                 .wanted = "0 < same <= different"});
+  for (const Eigen::Vector2d& y : ys) requireFinite("observation", y);
   struct Pair {
     double cost;
     std::size_t observation;
@@ -152,7 +177,6 @@ std::vector<std::optional<LandmarkUpdate>> EkfSlam::observe(std::span<const Eige
   std::vector<Pair> pairs;
   std::vector<double> nearest(ys.size(), std::numeric_limits<double>::infinity());
   for (std::size_t k = 0; k < ys.size(); ++k) {
-    requireFinite("observation", ys[k]);
     for (int i = 0; i < landmarks_; ++i) {
       const Innovation innovation = innovate(i, ys[k]);
       nearest[k] = std::min(nearest[k], innovation.squared);

@@ -32,7 +32,8 @@ struct AssociationGates {
 };
 
 /// Kalman SLAM: one Gaussian of the pose and all landmarks, 3 + 2 N numbers, along tangents. Slide 7:38;
-/// exercise 12.13. A landmark enters when it is first seen; its size grows then, and nothing else allocates.
+/// exercise 12.13. A landmark enters when it is first seen; its size grows then. An observation by name of
+/// a known landmark does not allocate.
 class EkfSlam {
  public:
   /// Throws Error for a pose that is no Gaussian of three numbers and a sensor whose W is not definite.
@@ -48,10 +49,12 @@ class EkfSlam {
   /// Throws Error for a transition without functions, and values that are not finite.
   void predict(const PoseTransition& transition);
   /// An observation of a landmark that is known by name; the next number, landmarks(), is a new one. Throws
-  /// Error for another, and an observation that is not finite.
+  /// Error for another, an observation that is not finite, and where rounding leaves a covariance that is not
+  /// one, of the innovation or after it: nothing has changed then.
   LandmarkUpdate observe(int landmark, const Eigen::Vector2d& y);
   /// Observations without names, of different landmarks each: the likeliest pairs first. Empty where one is
-  /// too far from all landmarks to be one of them and too near to be new.
+  /// too far from all landmarks to be one of them and too near to be new, and where another took the landmark
+  /// it is near to. Throws as the above, and Error unless 0 < same <= different.
   std::vector<std::optional<LandmarkUpdate>> observe(std::span<const Eigen::Vector2d> ys,
                                                      const AssociationGates& gates = {});
 
@@ -67,6 +70,7 @@ class EkfSlam {
   [[nodiscard]] Innovation innovate(int landmark, const Eigen::Vector2d& y) const;
   void add(const Eigen::Vector2d& y);
   void update(int landmark, const Innovation& innovation);
+  void requireVariances(int n) const;
   int size() const { return 3 + 2 * landmarks_; }
 
   LandmarkSensor sensor_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <Eigen/Cholesky>
@@ -12,6 +13,7 @@
 #include "base/require_finite.h"
 #include "base/rng.h"
 #include "estimation/covariance.h"
+#include "estimation/pose_transition_internal.h"
 
 namespace rex {
 namespace {
@@ -22,12 +24,6 @@ double logNormal(const Eigen::Matrix<double, Size, 1>& error, const Eigen::Matri
   const Eigen::LLT<Eigen::Matrix<double, Size, Size>> factor(S);
   return -0.5 * factor.matrixL().solve(error).squaredNorm() -
          factor.matrixLLT().diagonal().array().log().sum();
-}
-
-void requireTransition(const PoseTransition& transition, bool needsDefiniteNoise) {
-  if (!transition.mean) throw Error({.what = "transition", .found = "no function for its mean"});
-  requireCovariance("transition: covariance of the noise", transition.noise, 3,
-                    needsDefiniteNoise ? Definiteness::kPositive : Definiteness::kSemidefinite);
 }
 
 }  // namespace
@@ -150,9 +146,30 @@ double FastSlam::seeLandmark(Eigen::Index particle, const LandmarkSighting& sigh
   return logWeight;
 }
 
+Eigen::VectorXd FastSlam::advance(const PoseTransition& transition, std::span<const LandmarkSighting> known,
+                                  std::span<const LandmarkSighting> fresh, int landmarks, Rng& rng) {
+  makeRoom(landmarks);
+  const Eigen::Matrix3d root = covarianceRoot(transition.noise);
+  Eigen::VectorXd logWeights = weights_.array().log();
+  for (Eigen::Index k = 0; k < weights_.size(); ++k) {
+    logWeights[k] += drawPose(k, transition, root, known, rng);
+    for (const LandmarkSighting& sighting : known) logWeights[k] += seeLandmark(k, sighting, false);
+    int seen = landmarks_;
+    for (const LandmarkSighting& sighting : fresh) {
+      const bool isNew = sighting.landmark == seen;
+      if (isNew) ++seen;
+      logWeights[k] += seeLandmark(k, sighting, isNew);
+    }
+    if (std::isnan(logWeights[k])) logWeights[k] = -std::numeric_limits<double>::infinity();
+  }
+  landmarks_ = landmarks;
+  return logWeights;
+}
+
 FastSlamStep FastSlam::step(const PoseTransition& transition, std::span<const LandmarkSighting> sightings,
                             Rng& rng) {
-  requireTransition(transition, options_.observedProposal);
+  internal::requireTransition(
+      transition, options_.observedProposal ? Definiteness::kPositive : Definiteness::kSemidefinite);
   int next = landmarks_;
   std::vector<LandmarkSighting> known, fresh;
   for (const LandmarkSighting& sighting : sightings) {
@@ -168,27 +185,20 @@ FastSlamStep FastSlam::step(const PoseTransition& transition, std::span<const La
       if (sighting.landmark == next) ++next;
     }
   }
-  makeRoom(next);
-  FastSlamStep report;
-  const Eigen::Matrix3d root = covarianceRoot(transition.noise);
-  Eigen::VectorXd logWeights = weights_.array().log();
-  for (Eigen::Index k = 0; k < weights_.size(); ++k) {
-    logWeights[k] += drawPose(k, transition, root, known, rng);
-    for (const LandmarkSighting& sighting : known) logWeights[k] += seeLandmark(k, sighting, false);
-    int seen = landmarks_;
-    for (const LandmarkSighting& sighting : fresh) {
-      const bool isNew = sighting.landmark == seen;
-      if (isNew) ++seen;
-      logWeights[k] += seeLandmark(k, sighting, isNew);
-    }
-  }
-  landmarks_ = next;
+  // On a copy: maps that nothing explains are not kept, and a throw changes nothing.
+  FastSlam moved(*this);
+  const Eigen::VectorXd logWeights = moved.advance(transition, known, fresh, next, rng);
   const double largest = logWeights.maxCoeff();
+  FastSlamStep report;
   report.lost = !std::isfinite(largest);
-  if (!report.lost) {
-    weights_ = (logWeights.array() - largest).exp();
-    weights_ /= weights_.sum();
+  if (report.lost) {
+    moved = *this;
+    (void)moved.advance(transition, {}, {}, landmarks_, rng);
+  } else {
+    moved.weights_ = (logWeights.array() - largest).exp();
+    moved.weights_ /= moved.weights_.sum();
   }
+  *this = std::move(moved);
   report.effectiveSize = effectiveSampleSize(weights_);
   report.resampled = report.effectiveSize < options_.threshold * static_cast<double>(weights_.size());
   if (report.resampled) resampleParticles(rng);

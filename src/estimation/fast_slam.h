@@ -30,7 +30,7 @@ struct FastSlamOptions {
 struct FastSlamStep {
   double effectiveSize = 0;  ///< after weighing
   bool resampled = false;
-  bool lost = false;  ///< no particle explains the sightings: weights stayed as they were
+  bool lost = false;  ///< no particle explains the sightings: poses moved, weights and maps stayed
 };
 
 /// SLAM with particles: each is a path of poses and has its own map, in which landmarks are independent
@@ -42,7 +42,8 @@ class FastSlam {
   FastSlam(const Eigen::Vector3d& pose, const LandmarkSensor& sensor, const FastSlamOptions& options = {});
 
   /// Moves all particles, and weighs them by what is seen there. Landmarks count from 0 in the order in which
-  /// they appear first. Throws Error as EkfSlam, and for a landmark that is neither known nor the next.
+  /// they appear first. Throws Error as EkfSlam, and for a landmark that is neither known nor the next; then
+  /// nothing has changed but rng.
   FastSlamStep step(const PoseTransition& transition, std::span<const LandmarkSighting> sightings, Rng& rng);
 
   int landmarks() const { return landmarks_; }
@@ -61,6 +62,9 @@ class FastSlam {
     return maps_[static_cast<std::size_t>(particle) * static_cast<std::size_t>(room_) +
                  static_cast<std::size_t>(i)];
   }
+  /// Moves and sees without a look at whether that is likely; returns the logarithms of the weights.
+  Eigen::VectorXd advance(const PoseTransition& transition, std::span<const LandmarkSighting> known,
+                          std::span<const LandmarkSighting> fresh, int landmarks, Rng& rng);
   void makeRoom(int landmarks);
   void resampleParticles(Rng& rng);
   /// Draws the next pose of a particle; returns the log weight that the draw adds.

@@ -13,12 +13,14 @@
 
 #include "base/error.h"
 #include "estimation/covariance.h"
+#include "estimation/pose_edge_internal.h"
 #include "geometry/rotation.h"
 
 namespace rex {
 namespace {
 
-const std::vector<std::string> kTags = {"VERTEX_SE2", "EDGE_SE2", "VERTEX_SE3:QUAT", "EDGE_SE3:QUAT", "FIX"};
+constexpr const char* kFix = "FIX";
+const std::vector<std::string> kTags = {"VERTEX_SE2", "EDGE_SE2", "VERTEX_SE3:QUAT", "EDGE_SE3:QUAT", kFix};
 
 // A line of words.
 struct Line {
@@ -134,7 +136,7 @@ class Reader {
     const std::string_view tag = line.words[0].first;
     if (tag == Kind::kVertex) return readVertex(line);
     if (tag == Kind::kEdge) return readEdge(line);
-    if (tag == "FIX") return fixes_.push_back(line);
+    if (tag == kFix) return fixes_.push_back(line);
     throw Error({.what = "pose graph",
                  .where = line.at(0),
                  .found = fmt::format("{} among {}", tag, Kind::kVertex),
@@ -146,15 +148,15 @@ class Reader {
     result.hasPoses = !vertices_.empty();
     if (!result.hasPoses)
       for (const auto& [line, from, to, edge] : edges_)
-        vertices_.try_emplace(from), vertices_.try_emplace(to);
+        vertices_.try_emplace(from, line.at(1)), vertices_.try_emplace(to, line.at(2));
     typename Kind::Graph graph;
     Kind::resize(graph, vertices_.size());
     std::map<long, int> places;
-    for (const auto& [id, pose] : vertices_) {
+    for (const auto& [id, vertex] : vertices_) {
       const int place = static_cast<int>(result.ids.size());
       places[id] = place;
       result.ids.push_back(id);
-      if (result.hasPoses) Kind::set(graph, place, *pose);
+      if (vertex.pose) Kind::set(graph, place, *vertex.pose);
     }
     const auto placeOf = [&](const Line& line, std::size_t word, long id) {
       const auto place = places.find(id);
@@ -169,7 +171,14 @@ class Reader {
       edge.to = placeOf(line, 2, to);
       graph.edges.push_back(edge);
     }
-    for (const Line& line : fixes_) noteFix(line, placeOf, result);
+    noteFixes(placeOf, result);
+    if (const auto loose = internal::loosePose(graph)) {
+      const long id = result.ids[static_cast<std::size_t>(*loose)];
+      throw Error({.what = "pose graph",
+                   .where = vertices_.at(id).where,
+                   .found = fmt::format("pose {}, which no edges join to pose {}", id, result.ids.front()),
+                   .wanted = "a graph in one piece"});
+    }
     if (!result.hasPoses) setOdometryPoses(graph);
     result.graph = std::move(graph);
     return result;
@@ -179,7 +188,7 @@ class Reader {
   void readVertex(const Line& line) {
     requireCount(line, 1 + Kind::kPoseNumbers);
     const long id = number<long>(line, 1, "a whole number");
-    if (!vertices_.try_emplace(id, Kind::pose(line, 2, numbers(line, 2))).second)
+    if (!vertices_.try_emplace(id, line.at(1), Kind::pose(line, 2, numbers(line, 2))).second)
       throw Error({.what = fmt::format("{}", line.words[0].first),
                    .where = line.at(1),
                    .found = fmt::format("a second pose {}", id)});
@@ -200,14 +209,26 @@ class Reader {
     edges_.push_back({line, from, to, edge});
   }
   template <class PlaceOf>
-  static void noteFix(const Line& line, const PlaceOf& placeOf, G2oFile& result) {
-    requireCount(line, 1);
-    const long id = number<long>(line, 1, "a whole number");
-    if (placeOf(line, 1, id) == 0) return;
-    result.notes.push_back(
-        {line.at(1), fmt::format("FIX {} is not needed: pose {} stays where it is, and costs do "
-                                 "not depend on which one stays",
-                                 id, result.ids.front())});
+  void noteFixes(const PlaceOf& placeOf, G2oFile& result) const {
+    std::optional<long> fixed;
+    for (const Line& line : fixes_) {
+      if (line.words.size() < 2) requireCount(line, 1);
+      for (std::size_t word = 1; word < line.words.size(); ++word) {
+        const long id = number<long>(line, word, "a whole number");
+        const int place = placeOf(line, word, id);
+        if (fixed && *fixed != id)
+          throw Error({.what = kFix,
+                       .where = line.at(word),
+                       .found = fmt::format("pose {} besides pose {}", id, *fixed),
+                       .wanted = "one pose that is fixed"});
+        if (place != 0 && !fixed)
+          result.notes.push_back(
+              {line.at(word), fmt::format("FIX {} is not needed: pose {} stays where it is, and costs do "
+                                          "not depend on which one stays",
+                                          id, result.ids.front())});
+        fixed = id;
+      }
+    }
   }
 
   struct ReadEdge {
@@ -216,7 +237,12 @@ class Reader {
     typename Kind::Edge edge;
   };
   using PoseOf = decltype(Kind::pose({}, 0, {}));
-  std::map<long, std::optional<PoseOf>> vertices_;
+  struct Vertex {
+    SourceLocation where;
+    std::optional<PoseOf> pose{};
+    Vertex(SourceLocation place, std::optional<PoseOf> read = {}) : where(std::move(place)), pose(read) {}
+  };
+  std::map<long, Vertex> vertices_;
   std::vector<ReadEdge> edges_;
   std::vector<Line> fixes_;
 };
@@ -233,7 +259,7 @@ G2oFile readAll(const std::vector<Line>& lines) {
 G2oFile parseG2o(std::string_view text, const std::string& file) {
   std::vector<Line> lines;
   int number = 0;
-  bool isSpatial = false, hasEdges = false;
+  bool isSpatial = false, isKnown = false, hasEdges = false;
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     Line line = wordsOf(text.substr(0, end), file, ++number);
@@ -246,7 +272,8 @@ G2oFile parseG2o(std::string_view text, const std::string& file) {
                    .found = fmt::format("'{}'", tag),
                    .wanted = "VERTEX_SE2, EDGE_SE2, VERTEX_SE3:QUAT, EDGE_SE3:QUAT or FIX",
                    .nearest = nearestNames(tag, kTags)});
-    if (lines.empty() || lines[0].words[0].first == "FIX") isSpatial = tag.find("SE3") != std::string::npos;
+    if (!isKnown) isSpatial = tag.find("SE3") != std::string::npos;
+    isKnown = isKnown || tag != kFix;
     hasEdges = hasEdges || tag.starts_with("EDGE");
     lines.push_back(std::move(line));
   }
@@ -281,13 +308,20 @@ std::string numbersOf(const Pose& pose) {
 }
 
 template <class Kind, class PoseAt>
-std::string write(const G2oFile& file, const typename Kind::Graph& graph, const PoseAt& poseAt) {
+std::string write(const G2oFile& file, const typename Kind::Graph& graph, std::size_t poses,
+                  const PoseAt& poseAt) {
+  internal::requireSound(graph);
+  if (!file.ids.empty() && file.ids.size() != poses)
+    throw Error({.what = "pose graph: ids",
+                 .found = fmt::format("{}", file.ids.size()),
+                 .wanted = fmt::format("{}, one for each pose, or none", poses)});
+  const auto idOf = [&](std::size_t i) { return file.ids.empty() ? static_cast<long>(i) : file.ids[i]; };
   std::string text;
-  for (std::size_t i = 0; i < file.ids.size(); ++i)
-    text += fmt::format("{} {}{}\n", Kind::kVertex, file.ids[i], numbersOf(poseAt(i)));
+  for (std::size_t i = 0; i < poses; ++i)
+    text += fmt::format("{} {}{}\n", Kind::kVertex, idOf(i), numbersOf(poseAt(i)));
   for (const auto& edge : graph.edges) {
-    text += fmt::format("{} {} {}{}", Kind::kEdge, file.ids.at(static_cast<std::size_t>(edge.from)),
-                        file.ids.at(static_cast<std::size_t>(edge.to)), numbersOf(edge.motion));
+    text += fmt::format("{} {} {}{}", Kind::kEdge, idOf(static_cast<std::size_t>(edge.from)),
+                        idOf(static_cast<std::size_t>(edge.to)), numbersOf(edge.motion));
     appendUpper(text, edge.information);
   }
   return text;
@@ -297,11 +331,11 @@ std::string write(const G2oFile& file, const typename Kind::Graph& graph, const 
 
 std::string writeG2o(const G2oFile& file) {
   if (const auto* planar = std::get_if<PlanarPoseGraph>(&file.graph))
-    return write<Planar>(file, *planar, [&](std::size_t i) -> Eigen::Vector3d {
-      return planar->poses.col(static_cast<Eigen::Index>(i));
-    });
+    return write<Planar>(
+        file, *planar, static_cast<std::size_t>(planar->poses.cols()),
+        [&](std::size_t i) -> Eigen::Vector3d { return planar->poses.col(static_cast<Eigen::Index>(i)); });
   const auto& spatial = std::get<SpatialPoseGraph>(file.graph);
-  return write<Spatial>(file, spatial, [&](std::size_t i) { return spatial.poses.at(i); });
+  return write<Spatial>(file, spatial, spatial.poses.size(), [&](std::size_t i) { return spatial.poses[i]; });
 }
 
 }  // namespace rex

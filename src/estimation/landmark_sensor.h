@@ -30,6 +30,7 @@ struct LandmarkPlace {
   Eigen::Matrix<double, 2, 3> Jx;  ///< dl/dx
   Eigen::Matrix2d Jy;              ///< dl/dy
 };
+/// Throws Error for a range that is not positive.
 [[nodiscard]] LandmarkPlace placeOf(const LandmarkSensor& sensor, const Eigen::Vector3d& x,
                                     const Eigen::Vector2d& y);
 

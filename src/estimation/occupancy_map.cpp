@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/require_finite.h"
+#include "estimation/range_scan_internal.h"
 
 namespace rex {
 namespace {
@@ -16,33 +17,66 @@ constexpr double kMostCells = 1e8;
 
 double logOddsOf(double probability) { return std::log(probability / (1 - probability)); }
 
-// Walks the cells along a ray; visit(x, y, entered, left) gets where the ray enters and leaves each, in
-// metres, and says whether to go on.
+// The part of a ray, in metres along it, within the map's box; empty unless first < last.
+struct Stretch {
+  double first = 0, last = std::numeric_limits<double>::infinity();
+};
+Stretch within(const Eigen::Vector2d& start, const Eigen::Vector2d& direction, const OccupancyMap& map) {
+  Stretch stretch;
+  for (int k = 0; k < 2; ++k) {
+    const double size = k == 0 ? map.width() : map.height();
+    if (direction[k] == 0) {
+      if (!(0 <= start[k] && start[k] < size)) return {1, 0};
+      continue;
+    }
+    const double metres = map.cellSize() / direction[k];
+    const double a = -start[k] * metres, b = (size - start[k]) * metres;
+    stretch.first = std::max(stretch.first, std::min(a, b));
+    stretch.last = std::min(stretch.last, std::max(a, b));
+  }
+  return stretch;
+}
+
+// Walks the cells of the map along a ray; visit(x, y, entered, left) gets where the ray enters and leaves
+// each, in metres, and says whether to go on. What lies before the map is left out, so that cells are small
+// numbers however far away the ray starts.
 template <class Visit>
 void walk(const OccupancyMap& map, const Eigen::Vector2d& p, double angle, double length,
           const Visit& visit) {
   const double inverse = 1 / map.cellSize();
   const Eigen::Vector2d start = (p - map.origin()) * inverse, direction(std::cos(angle), std::sin(angle));
+  const Stretch stretch = within(start, direction, map);
+  if (!(stretch.first < stretch.last && stretch.first < length)) return;
+  const int sizes[2] = {map.width(), map.height()};
   int cell[2], step[2];
   double next[2], gap[2];  // metres to the next border across each axis, and between borders
   for (int k = 0; k < 2; ++k) {
-    cell[k] = static_cast<int>(std::floor(start[k]));
+    const double at = start[k] + direction[k] * (stretch.first * inverse);
+    cell[k] = static_cast<int>(std::clamp(std::floor(at), 0., sizes[k] - 1.));
     step[k] = direction[k] < 0 ? -1 : 1;
     gap[k] = map.cellSize() / std::max(std::abs(direction[k]), 1e-300);
-    const double share = direction[k] < 0 ? start[k] - cell[k] : cell[k] + 1 - start[k];
-    next[k] = share * gap[k];
+    const double share = direction[k] < 0 ? at - cell[k] : cell[k] + 1 - at;
+    next[k] = stretch.first + share * gap[k];
   }
-  for (double entered = 0; entered < length;) {
+  for (double entered = stretch.first; entered < length;) {
     const int axis = next[0] < next[1] ? 0 : 1;
     const double left = next[axis];
     if (!visit(cell[0], cell[1], entered, left)) return;
-    // Beyond the map in this direction nothing follows.
-    const int size = axis == 0 ? map.width() : map.height();
-    if (step[axis] < 0 ? cell[axis] < 0 : cell[axis] >= size) return;
     cell[axis] += step[axis];
+    if (cell[axis] < 0 || cell[axis] >= sizes[axis]) return;
     next[axis] += gap[axis];
     entered = left;
   }
+}
+
+double lengthOfRay(const OccupancyMap& map, const Eigen::Vector2d& p, double angle, double maxRange) {
+  double distance = maxRange;
+  walk(map, p, angle, maxRange, [&](int x, int y, double entered, double) {
+    if (!map.isOccupied(x, y)) return true;
+    distance = entered;
+    return false;
+  });
+  return distance;
 }
 
 void requireEvidence(const RayEvidence& evidence) {
@@ -56,6 +90,27 @@ void requireEvidence(const RayEvidence& evidence) {
 }
 
 }  // namespace
+
+void internal::requireScanner(const RangeScanner& scanner) {
+  if (!(scanner.maxRange > 0) || !std::isfinite(scanner.maxRange))
+    throw Error({.what = "scanner: largest range",
+                 .found = fmt::format("{:g}", scanner.maxRange),
+                 .wanted = "a positive number"});
+  for (std::size_t i = 0; i < scanner.angles.size(); ++i)
+    if (!std::isfinite(scanner.angles[i]))
+      requireFinite(fmt::format("scanner: angle {}", i), scanner.angles[i]);
+}
+
+void internal::requireRanges(const RangeScanner& scanner, const VectorArg& ranges) {
+  requireScanner(scanner);
+  requireSize("ranges", ranges.size(), static_cast<long>(scanner.angles.size()));
+  requireFinite("ranges", ranges);
+  for (Eigen::Index i = 0; i < ranges.size(); ++i)
+    if (ranges[i] < 0)
+      throw Error({.what = fmt::format("ranges: number {}", i),
+                   .found = fmt::format("{:g}", ranges[i]),
+                   .wanted = "zero or more"});
+}
 
 OccupancyMap::OccupancyMap(int width, int height, double cellSize, const Eigen::Vector2d& origin)
     : width_(width), height_(height), cellSize_(cellSize), origin_(origin) {
@@ -74,45 +129,41 @@ OccupancyMap::OccupancyMap(int width, int height, double cellSize, const Eigen::
 double OccupancyMap::probability(int x, int y) const { return 1 / (1 + std::exp(-logOdds(x, y))); }
 
 Eigen::Vector2i OccupancyMap::cellAt(const Eigen::Vector2d& p) const {
+  requireFinite("point", p);
   const Eigen::Vector2d share = ((p - origin_) / cellSize_).array().floor();
   return share.cwiseMax(-1).cwiseMin(std::max(width_, height_)).cast<int>();
 }
 
 double OccupancyMap::distanceToOccupied(const Eigen::Vector2d& p, double angle, double maxRange) const {
-  double distance = maxRange;
-  walk(*this, p, angle, maxRange, [&](int x, int y, double entered, double) {
-    if (!isOccupied(x, y)) return true;
-    distance = entered;
-    return false;
-  });
-  return distance;
+  requireFinite("start of the ray", p);
+  requireFinite("angle of the ray", angle);
+  if (!(maxRange >= 0))
+    throw Error({.what = "largest range", .found = fmt::format("{:g}", maxRange), .wanted = "zero or more"});
+  return lengthOfRay(*this, p, angle, maxRange);
 }
 
 void OccupancyMap::scan(const RangeScanner& scanner, const Eigen::Vector3d& pose,
                         Eigen::Ref<Eigen::VectorXd> ranges) const {
+  internal::requireScanner(scanner);
   requireSize("ranges", ranges.size(), static_cast<long>(scanner.angles.size()));
+  requireFinite("pose of the scanner", pose);
   for (std::size_t i = 0; i < scanner.angles.size(); ++i)
     ranges[static_cast<Eigen::Index>(i)] =
-        distanceToOccupied(pose.head<2>(), pose[2] + scanner.angles[i], scanner.maxRange);
+        lengthOfRay(*this, pose.head<2>(), pose[2] + scanner.angles[i], scanner.maxRange);
 }
 
 void OccupancyMap::observe(const RangeScanner& scanner, const Eigen::Vector3d& pose, const VectorArg& ranges,
                            const RayEvidence& evidence) {
-  requireSize("ranges", ranges.size(), static_cast<long>(scanner.angles.size()));
+  internal::requireRanges(scanner, ranges);
   requireFinite("pose of the scanner", pose);
-  requireFinite("ranges", ranges);
   requireEvidence(evidence);
   const double hit = logOddsOf(evidence.hit), miss = logOddsOf(evidence.miss),
                bound = logOddsOf(evidence.bound);
   const auto add = [&](int x, int y, double value) {
-    if (contains(x, y)) setLogOdds(x, y, std::clamp(logOdds(x, y) + value, -bound, bound));
+    setLogOdds(x, y, std::clamp(logOdds(x, y) + value, -bound, bound));
   };
   for (std::size_t i = 0; i < scanner.angles.size(); ++i) {
     const double range = ranges[static_cast<Eigen::Index>(i)];
-    if (range < 0)
-      throw Error({.what = fmt::format("ranges: number {}", i),
-                   .found = fmt::format("{:g}", range),
-                   .wanted = "zero or more"});
     const bool isHit = range < scanner.maxRange;
     // The end lies on the border of the cell that stopped the ray: a hair beyond.
     const double end = std::min(range, scanner.maxRange) + (isHit ? 1e-6 * cellSize_ : 0);

@@ -39,18 +39,21 @@ class OccupancyMap {
   void setLogOdds(int x, int y, double logOdds) { cells_[place(x, y)] = logOdds; }
   [[nodiscard]] double probability(int x, int y) const;
   bool isOccupied(int x, int y) const { return contains(x, y) && logOdds(x, y) > 0; }
-  /// The cell of a point, which the map may not contain.
+  /// The cell of a point, which the map may not contain. Throws Error for a point that is not finite.
   [[nodiscard]] Eigen::Vector2i cellAt(const Eigen::Vector2d& p) const;
 
   /// Metres from p along the angle to the first occupied cell, at most maxRange; 0 from within one. Cells are
-  /// met exactly in their order (Amanatides and Woo 1987).
+  /// met exactly in their order (Amanatides and Woo 1987). Throws Error for numbers that are not finite, but
+  /// maxRange may be infinite, and a negative maxRange.
   [[nodiscard]] double distanceToOccupied(const Eigen::Vector2d& p, double angle, double maxRange) const;
-  /// What a scanner without noise would read at pose (x, y, heading).
+  /// What a scanner without noise would read at pose (x, y, heading). Throws Error for a count of ranges that
+  /// is not the scanner's, a pose or angle that is not finite, and a maxRange that is not finite and
+  /// positive.
   void scan(const RangeScanner& scanner, const Eigen::Vector3d& pose,
             Eigen::Ref<Eigen::VectorXd> ranges) const;
 
-  /// Adds what a scan from a pose says about the cells along each ray. Throws Error for a count of ranges
-  /// that is not the scanner's, a pose or range that is not finite or negative, and evidence out of order.
+  /// Adds what a scan from a pose says about the cells along each ray. Throws Error as scan, and for a range
+  /// that is not finite or negative, and evidence out of order; then the map is as it was.
   void observe(const RangeScanner& scanner, const Eigen::Vector3d& pose, const VectorArg& ranges,
                const RayEvidence& evidence = {});
 

@@ -1,7 +1,5 @@
 #include <cmath>
-#include <numbers>
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include "estimation/pose_edge_internal.h"
@@ -18,6 +16,11 @@ double inverseTrace(const Information& information) {
 }
 
 }  // namespace
+
+Eigen::Matrix2d planarRotation(double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return (Eigen::Matrix2d() << c, -s, s, c).finished();
+}
 
 IsotropicWeights isotropic(const PlanarEdge& edge) {
   return {2 * inverseTrace(Eigen::Matrix2d(edge.information.topLeftCorner<2, 2>())), edge.information(2, 2)};
@@ -42,6 +45,8 @@ EdgeTerm<3> PlanarGraphTraits::term(const Graph& graph, const PlanarEdge& edge,
   const double angle = wrapAngle(xj[2] - xi[2] - edge.motion[2]);
   EdgeTerm<3> term;
   term.e << R_T * d - R_ij_T * edge.motion.head<2>(), angle;
+  const double reach = (xi.cwiseAbs() + xj.cwiseAbs() + edge.motion.cwiseAbs()).head<2>().sum();
+  term.scale << reach, reach, std::abs(xi[2]) + std::abs(xj[2]) + std::abs(edge.motion[2]);
   term.Ji.setZero();
   term.Jj.setZero();
   term.Ji.topLeftCorner<2, 2>() = -R_T;
@@ -80,6 +85,8 @@ EdgeTerm<6> SpatialGraphTraits::term(const Graph& graph, const SpatialEdge& edge
   const Eigen::Matrix3d cross = skew(q.tail<3>()), even = q[0] * Eigen::Matrix3d::Identity();
   EdgeTerm<6> term;
   term.e << edge.motion.R.transpose() * (d_i - edge.motion.p), q.tail<3>();
+  const double reach = (X_i.p.cwiseAbs() + X_j.p.cwiseAbs() + edge.motion.p.cwiseAbs()).sum();
+  term.scale << Eigen::Vector3d::Constant(reach), Eigen::Vector3d::Ones();
   term.Ji.setZero();
   term.Jj.setZero();
   term.Ji.topLeftCorner<3, 3>() = -R_T;

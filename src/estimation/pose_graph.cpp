@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <Eigen/SparseCholesky>
@@ -42,9 +43,11 @@ void requireOptions(const PoseGraphOptions& options) {
   const auto require = [](bool isRight, const char* what, double found, const char* wanted) {
     if (!isRight) throw Error({.what = what, .found = fmt::format("{:g}", found), .wanted = wanted});
   };
-  require(options.kernelSize > 0, "size of the robust kernel", options.kernelSize, "a positive number");
+  require(options.kernelSize > 0 && std::isfinite(options.kernelSize), "size of the robust kernel",
+          options.kernelSize, "a positive number");
   require(options.maxIterations >= 0, "iterations", options.maxIterations, "zero or more");
-  require(options.tolerance >= 0, "tolerance", options.tolerance, "zero or more");
+  require(options.tolerance >= 0 && std::isfinite(options.tolerance), "tolerance", options.tolerance,
+          "zero or more");
 }
 
 template <class Traits>
@@ -56,6 +59,8 @@ double cost(const typename Traits::Graph& graph, const PoseGraphOptions& options
   }
   return sum;
 }
+
+constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();  // of a few operations
 
 // H delta = -g, of all poses but the first: the lower triangle of H by blocks. Where each block lies in the
 // values of H is found once, since edges do not change.
@@ -93,11 +98,13 @@ class NormalEquations {
   void assemble(const typename Traits::Graph& graph, const PoseGraphOptions& options) {
     std::fill_n(H_.valuePtr(), H_.nonZeros(), 0.);
     g_.setZero();
+    rounding_ = 0;
     for (std::size_t k = 0; k < graph.edges.size(); ++k) {
       const auto& edge = graph.edges[k];
       auto term = Traits::term(graph, edge, options.objective);
       const Eigen::Matrix<double, kSize, 1> weighed = term.information * term.e;
       const double weight = robust(term.e.dot(weighed), options).weight;
+      rounding_ += kRounding * kRounding * term.scale.cwiseAbs2().dot(term.information.diagonal());
       const Block WJi = weight * term.information * term.Ji, WJj = weight * term.information * term.Jj;
       if (edge.from > 0)
         add(edge.from, 0, term.Ji.transpose() * WJi, term.Ji.transpose() * (weight * weighed));
@@ -114,12 +121,14 @@ class NormalEquations {
     analysed_ = true;
     factor_.setShift(damping);
     factor_.factorize(H_);
-    if (factor_.info() != Eigen::Success) return {};
+    if (factor_.info() != Eigen::Success || !(factor_.vectorD().minCoeff() > 0)) return {};
     return factor_.solve(-g_);
   }
 
   double largestDiagonal() const { return Eigen::VectorXd(H_.diagonal()).maxCoeff(); }
   const Eigen::VectorXd& gradient() const { return g_; }
+  // The cost that rounding alone can make of edges that fit exactly.
+  double rounding() const { return rounding_; }
 
  private:
   void layOut(const std::vector<std::vector<int>>& below) {
@@ -151,6 +160,7 @@ class NormalEquations {
   std::vector<int> places_;  // of each edge: which block of its column
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
   bool analysed_ = false;
+  double rounding_ = 0;
 };
 
 constexpr double kLeastDamping = 1e-10, kMostDamping = 1e12;
@@ -161,28 +171,32 @@ void descend(typename Traits::Graph& graph, const PoseGraphOptions& options, Pos
   NormalEquations<Traits> equations(graph);
   equations.assemble(graph, options);
   double damping = 0, growth = 10;  // damping relative to the largest entry of the diagonal
+  auto before = graph.poses;
   while (result.iterations < options.maxIterations) {
     ++result.iterations;
     const double shift = damping * equations.largestDiagonal();
     const Eigen::VectorXd delta = equations.solve(shift);
     const bool isStep = delta.size() > 0 && delta.allFinite();
-    auto moved = graph;
-    if (isStep) Traits::step(moved, delta);
-    const double lower = isStep ? cost<Traits>(moved, options) : result.cost;
+    before = graph.poses;
+    if (isStep) Traits::step(graph, delta);
+    const double lower = isStep ? cost<Traits>(graph, options) : result.cost;
     // What rounding makes of a cost at its minimum may be a hair more than before.
-    const double gain = result.cost - lower, hair = 1e-13 * result.cost;
-    if (!isStep || !(gain >= -hair)) {
+    const double gain = result.cost - lower, hair = 1e-13 * result.cost + equations.rounding();
+    const double foretold = isStep ? delta.dot(shift * delta - equations.gradient()) : 0;
+    const bool isDone = isStep && gain >= -hair && foretold <= options.tolerance * lower + hair;
+    if (isStep && gain >= 0)
+      result.cost = lower;
+    else
+      std::swap(graph.poses, before);
+    if (isDone) {
+      result.status = PoseGraphStatus::kConverged;
+      return;
+    }
+    if (!isStep || !(gain >= 0)) {
       damping = std::max(growth * damping, kLeastDamping);
       growth *= 4;
       if (damping < kMostDamping) continue;
       result.status = PoseGraphStatus::kNoProgress;
-      return;
-    }
-    const double foretold = delta.dot(shift * delta - equations.gradient());
-    graph = std::move(moved);
-    result.cost = std::min(lower, result.cost);
-    if (foretold <= options.tolerance * result.cost + hair) {
-      result.status = PoseGraphStatus::kConverged;
       return;
     }
     damping *= std::max(0.1, 1 - std::pow(2 * gain / foretold - 1, 3));
@@ -200,8 +214,13 @@ PoseGraphResult optimizeGraph(typename Traits::Graph& graph, const PoseGraphOpti
   PoseGraphResult result;
   result.cost = result.initialCost = cost<Traits>(graph, options);
   if (options.chordalStart && Traits::poses(graph) > 1) {
+    auto given = graph.poses;
     internal::setChordalPoses(graph);
-    result.cost = cost<Traits>(graph, options);
+    const double chordal = cost<Traits>(graph, options);
+    if (chordal < result.cost)
+      result.cost = chordal;
+    else
+      graph.poses = std::move(given);
   }
   if (Traits::poses(graph) > 1)
     descend<Traits>(graph, options, result);
@@ -218,10 +237,12 @@ PoseGraphResult optimizeGraph(typename Traits::Graph& graph, const PoseGraphOpti
 }  // namespace
 
 double poseGraphCost(const PlanarPoseGraph& graph, const PoseGraphOptions& options) {
+  requireOptions(options);
   internal::requireSound(graph);
   return cost<PlanarGraphTraits>(graph, options);
 }
 double poseGraphCost(const SpatialPoseGraph& graph, const PoseGraphOptions& options) {
+  requireOptions(options);
   internal::requireSound(graph);
   return cost<SpatialGraphTraits>(graph, options);
 }

@@ -55,10 +55,11 @@ struct PoseGraphOptions {
   RobustKernel kernel = RobustKernel::kNone;
   double kernelSize = 1;  ///< k
   /// Start from the rotations that fit best when they need not be rotations (Carlone et al. 2015), then the
-  /// positions that fit those, instead of the poses given: no local minimum traps it on usual maps.
+  /// positions that fit those, where that costs less than the poses given: no local minimum traps it on usual
+  /// maps.
   bool chordalStart = true;
   int maxIterations = 100;
-  double tolerance = 1e-12;  ///< done when a step lowers the cost by less, relative to it
+  double tolerance = 1e-12;  ///< done when a step lowers the cost by less, relative to it, or by rounding
 };
 
 enum class PoseGraphStatus { kConverged, kBudgetSpent, kNoProgress };
@@ -73,19 +74,19 @@ struct PoseGraphResult {
 
 /// The cost at the poses of the graph. Throws Error for an edge that leads to a pose that is not there, or to
 /// itself, numbers that are not finite, and information that is not symmetric and positive semidefinite,
-/// naming the edge.
+/// naming the edge; and for options out of range.
 [[nodiscard]] double poseGraphCost(const PlanarPoseGraph& graph, const PoseGraphOptions& options = {});
 [[nodiscard]] double poseGraphCost(const SpatialPoseGraph& graph, const PoseGraphOptions& options = {});
 
 /// Moves the poses to where the cost is least; pose 0 stays. Levenberg and Marquardt's steps on the sparse
 /// normal equations (Lu and Milios 1997; Kuemmerle et al., g2o, 2011). Throws as poseGraphCost, and Error
-/// naming a pose that no edges join to pose 0, and for options out of range.
+/// naming a pose that no edges join to pose 0.
 PoseGraphResult optimize(PlanarPoseGraph& graph, const PoseGraphOptions& options = {});
 PoseGraphResult optimize(SpatialPoseGraph& graph, const PoseGraphOptions& options = {});
 
 /// By how much other poses could at most have a lower cost of kSESync than these: nearly zero proves that
-/// these are the best of all, not only around here. From the dual problem (Rosen et al. 2019, theorem 7);
-/// infinite where that says nothing. Throws as optimize.
+/// these are the best of all, not only around here. From the dual problem (Rosen et al. 2019, theorem 7),
+/// whatever the poses are; infinite where that says nothing. Throws as optimize.
 [[nodiscard]] double certifiedGap(const PlanarPoseGraph& graph);
 [[nodiscard]] double certifiedGap(const SpatialPoseGraph& graph);
 

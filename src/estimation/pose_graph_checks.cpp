@@ -1,9 +1,12 @@
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <queue>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include "base/error.h"
@@ -17,8 +20,16 @@ namespace {
 int posesOf(const PlanarPoseGraph& graph) { return internal::PlanarGraphTraits::poses(graph); }
 int posesOf(const SpatialPoseGraph& graph) { return internal::SpatialGraphTraits::poses(graph); }
 
-std::string nameOf(std::size_t k, int from, int to) {
-  return fmt::format("edge {} from pose {} to pose {}", k, from, to);
+template <class Edge>
+std::string nameOf(std::size_t k, const Edge& edge) {
+  return fmt::format("edge {} from pose {} to pose {}", k, edge.from, edge.to);
+}
+
+// What requireCovariance lets pass at once, without memory of its own.
+template <class Information>
+bool isClearlyDefinite(const Information& information) {
+  return information.allFinite() && information == information.transpose() &&
+         Eigen::LLT<Information>(information).info() == Eigen::Success;
 }
 
 bool isSound(const Eigen::Vector3d& motion) { return motion.allFinite(); }
@@ -30,17 +41,18 @@ template <class Graph>
 void requireEdges(const Graph& graph) {
   for (std::size_t k = 0; k < graph.edges.size(); ++k) {
     const auto& edge = graph.edges[k];
-    const std::string name = nameOf(k, edge.from, edge.to);
     for (const int pose : {edge.from, edge.to}) {
       if (pose >= 0 && pose < posesOf(graph)) continue;
-      throw Error({.what = name,
+      throw Error({.what = nameOf(k, edge),
                    .found = fmt::format("pose {}", pose),
                    .wanted = fmt::format("0 to {}", posesOf(graph) - 1)});
     }
     if (edge.from == edge.to)
-      throw Error({.what = name, .found = "one pose", .wanted = "two different ones"});
-    if (!isSound(edge.motion)) throw Error({.what = name + ": motion", .found = "numbers that are no pose"});
-    requireCovariance(name + ": information", edge.information, edge.information.rows());
+      throw Error({.what = nameOf(k, edge), .found = "one pose", .wanted = "two different ones"});
+    if (!isSound(edge.motion))
+      throw Error({.what = nameOf(k, edge) + ": motion", .found = "numbers that are no pose"});
+    if (!isClearlyDefinite(edge.information))
+      requireCovariance(nameOf(k, edge) + ": information", edge.information, edge.information.rows());
   }
 }
 
@@ -77,13 +89,19 @@ std::vector<bool> spread(const Graph& graph, const Reach& reach) {
 }
 
 template <class Graph>
-void requireAllReached(const Graph& graph) {
+std::optional<int> firstLoose(const Graph& graph) {
   const std::vector<bool> isReached = spread(graph, [](const auto&, int, int) {});
-  for (std::size_t i = 0; i < isReached.size(); ++i)
-    if (!isReached[i])
-      throw Error({.what = fmt::format("pose graph: pose {}", i),
-                   .found = "no edges that join it to pose 0",
-                   .wanted = "a graph in one piece"});
+  const auto loose = std::find(isReached.begin(), isReached.end(), false);
+  if (loose == isReached.end()) return {};
+  return static_cast<int>(loose - isReached.begin());
+}
+
+template <class Graph>
+void requireAllReached(const Graph& graph) {
+  if (const auto loose = firstLoose(graph))
+    throw Error({.what = fmt::format("pose graph: pose {}", *loose),
+                 .found = "no edges that join it to pose 0",
+                 .wanted = "a graph in one piece"});
 }
 
 Pose spatial(const Eigen::Vector3d& planar) {
@@ -111,6 +129,9 @@ void requireSound(const SpatialPoseGraph& graph) {
   requireEdges(graph);
 }
 
+std::optional<int> loosePose(const PlanarPoseGraph& graph) { return firstLoose(graph); }
+std::optional<int> loosePose(const SpatialPoseGraph& graph) { return firstLoose(graph); }
+
 void requireConnected(const PlanarPoseGraph& graph) { requireAllReached(graph); }
 void requireConnected(const SpatialPoseGraph& graph) { requireAllReached(graph); }
 
@@ -129,8 +150,11 @@ void setOdometryPoses(SpatialPoseGraph& graph) {
   internal::requireSound(graph);
   internal::requireConnected(graph);
   spread(graph, [&](const SpatialEdge& edge, int known, int other) {
-    graph.poses[static_cast<std::size_t>(other)] = graph.poses[static_cast<std::size_t>(known)] *
-                                                   (known == edge.from ? edge.motion : edge.motion.inverse());
+    Pose& X = graph.poses[static_cast<std::size_t>(other)];
+    X = graph.poses[static_cast<std::size_t>(known)] *
+        (known == edge.from ? edge.motion : edge.motion.inverse());
+    // Rounding, and rotations that were measured as such only nearly, would add up along the way.
+    X.R = rotationFromQuaternion(quaternionFromRotation(X.R));
   });
 }
 

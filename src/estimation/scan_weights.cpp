@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/require_finite.h"
+#include "estimation/range_scan_internal.h"
 
 namespace rex {
 namespace {
@@ -32,8 +32,7 @@ void requireModel(const BeamModel& model) {
 Weigh scanWeights(const OccupancyMap& map, RangeScanner scanner, const VectorArg& ranges,
                   const BeamModel& model) {
   requireModel(model);
-  requireSize("ranges", ranges.size(), static_cast<long>(scanner.angles.size()));
-  requireFinite("ranges", ranges);
+  internal::requireRanges(scanner, ranges);
   return [&map, scanner = std::move(scanner), read = Eigen::VectorXd(ranges), model](
              const MatrixArg& X, Eigen::Ref<Eigen::VectorXd> logWeights) {
     const double height = model.bell / (model.deviation * std::sqrt(2 * std::numbers::pi));

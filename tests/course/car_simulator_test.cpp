@@ -52,11 +52,22 @@ TEST(CarSimulator, JacobiansAreDerivatives) {
       const auto move = [&](const Eigen::VectorXd& at) { return car.getMeanStateAfterStep(at, u); };
       const JacobianCheck moved = checkJacobian(move, car.getStateJacobian(x, u), x, 1e-7);
       EXPECT_TRUE(moved.ok) << moved.message;
-      Eigen::MatrixXd C;
-      Eigen::VectorXd c;
-      car.getLinearObservationModelAtState(C, c, x);
-      EXPECT_LT((C * x + c - car.getMeanObservationAtState(x)).norm(), 1e-12);
     }
+  }
+}
+
+TEST(CarSimulator, ObservationIsLinearInTheLandmarks) {
+  Rng rng(9);
+  const CarSimulator car(3, 4);
+  for (int i = 0; i < 10; ++i) {
+    const Eigen::VectorXd x = 5 * rng.normalVector(3), landmarks = 10 * rng.normalVector(8);
+    Eigen::MatrixXd C;
+    Eigen::VectorXd c;
+    car.getLinearObservationModelAtState(C, c, x);
+    ASSERT_EQ(C.rows(), 8);
+    ASSERT_EQ(C.cols(), 8);
+    EXPECT_LT((C * landmarks + c - car.getMeanObservationAtStateAndLandmarks(x, landmarks)).norm(), 1e-12);
+    EXPECT_LT((c + C * Eigen::Vector2d(x.head<2>()).replicate(4, 1)).norm(), 1e-12) << "c = -C p";
   }
 }
 
@@ -86,6 +97,8 @@ TEST(CarSimulator, SeesWhatIsInRangeAndInView) {
   landmarks << 4, 6, 2, -3, 0, 0, 3, 0;
   car.setLandmarks(landmarks);
   EXPECT_EQ(car.getVisibleLandmarks(), (std::vector<int>{0, 2}));
+  car.setState(Eigen::Vector3d(6, 0, 0));
+  EXPECT_EQ(car.getVisibleLandmarks(), (std::vector<int>{1})) << "at the car itself";
   car.setState(Eigen::Vector3d(0, 0, M_PI));
   EXPECT_EQ(car.getVisibleLandmarks(), (std::vector<int>{3}));
 }
@@ -109,7 +122,42 @@ TEST(CarSimulator, HidesTheTruthWhereThereIsNone) {
   EXPECT_EQ(car.getMeanObservationAtState(Eigen::Vector3d(1, 0, 0)), Eigen::Vector2d(-1, 0));
 }
 
+// Drawing on with the generator that drew the places does not give the noise.
+TEST(CarSimulator, PlacesDoNotTellTheNoise) {
+  CarSimulator few(11, 1), many(11, 6);
+  EXPECT_EQ(few.getLandmarks().col(0), many.getLandmarks().col(0));
+  few.step(Eigen::Vector2d(.1, .2));
+  many.step(Eigen::Vector2d(.1, .2));
+  EXPECT_EQ(few.getState(), many.getState()) << "the noise does not follow on the places";
+}
+
+TEST(CarSimulator, BearingsStayAngles) {
+  CarSimulator car(12, 1, {.rangeBearing = true, .bearingNoise = .5});
+  car.setLandmarks(Eigen::Vector2d(-5, 0));
+  for (int i = 0; i < 100; ++i) EXPECT_LE(std::abs(car.getRealNoisyObservation()[1]), M_PI);
+}
+
+TEST(CarSimulator, HidesPlacesWhereAMapIsToBeFound) {
+  CarSimulator car = CarSimulator::withoutPlaces(2);
+  const Eigen::Vector3d x(1, 2, .5);
+  EXPECT_EQ(car.countLandmarks(), 2);
+  EXPECT_REX_ERROR(car.getLandmarks(), "CarSimulator::getLandmarks: found landmarks whose places are not");
+  EXPECT_REX_ERROR(car.getMeanObservationAtState(x), "CarSimulator::getMeanObservationAtState");
+  EXPECT_REX_ERROR(car.getObservationJacobianAtState(x), "CarSimulator::getObservationJacobianAtState");
+  EXPECT_REX_ERROR(car.getState(), "CarSimulator::getState");
+  EXPECT_REX_ERROR(CarSimulator::withoutPlaces(-1), "car: landmarks: found -1, wanted zero or more");
+  const Eigen::Vector4d landmarks(3, 1, -2, 4);
+  const Eigen::VectorXd y = car.getMeanObservationAtStateAndLandmarks(x, landmarks);
+  car.setLandmarks(landmarks.reshaped(2, 2));
+  EXPECT_EQ(car.getMeanObservationAtState(x), y);
+}
+
 TEST(CarSimulator, SaysWhatIsWrong) {
+  Eigen::MatrixXd C;
+  Eigen::VectorXd c;
+  EXPECT_REX_ERROR(CarSimulator(0, 2, {.rangeBearing = true})
+                       .getLinearObservationModelAtState(C, c, Eigen::Vector3d::Zero()),
+                   "getLinearObservationModelAtState: found a car that observes distances and bearings");
   EXPECT_REX_ERROR(CarSimulator(0, -1), "car: landmarks: found -1, wanted zero or more");
   EXPECT_REX_ERROR(CarSimulator(0, 2, {.tau = 0}), "car: tau: found 0, wanted a positive number");
   EXPECT_REX_ERROR(CarSimulator(0, 2, {.wheelbase = -1}), "car: wheelbase: found -1");

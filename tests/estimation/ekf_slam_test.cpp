@@ -165,6 +165,41 @@ TEST(EkfSlam, FindsOutWhichLandmarkItSees) {
   }
 }
 
+// An exact sensor after a wide prior leaves no digit of the variances: that is said, and changes nothing.
+TEST(EkfSlam, RefusesCovariancesThatRoundingSpoils) {
+  for (const Kind kind : kKinds) {
+    EkfSlam slam({Eigen::Vector3d::Zero(), 1e4 * Eigen::Matrix3d::Identity()},
+                 {.kind = kind, .W = 1e-10 * Eigen::Matrix2d::Identity()});
+    int refused = 0;
+    Rng rng(65);
+    for (int i = 0; i < 3; ++i) slam.observe(i, {30 + 20 * i, .5 * i});
+    for (int i = 0; i < 60; ++i) {
+      const Gaussian before = slam.joint();
+      try {
+        slam.observe(i % 3, Eigen::Vector2d(30 + 20 * (i % 3), .5 * (i % 3)) + 1e-5 * rng.normalVector(2));
+      } catch (const Error& error) {
+        ++refused;
+        EXPECT_THAT(error.what(), testing::HasSubstr("covariance "));
+        EXPECT_EQ(slam.joint().mean, before.mean);
+        EXPECT_EQ(slam.joint().covariance, before.covariance);
+      }
+      ASSERT_GT(slam.joint().covariance.diagonal().minCoeff(), 0) << i;
+    }
+    EXPECT_GT(refused, 0);
+  }
+}
+
+TEST(EkfSlam, LeavesOutWhatAnotherObservationTook) {
+  EkfSlam slam(kStart, {.W = .01 * Eigen::Matrix2d::Identity()});
+  slam.observe(0, {5, 0});
+  const std::vector<Eigen::Vector2d> ys{{5.05, 0}, {5, 0}};
+  const auto updates = slam.observe(ys);
+  EXPECT_FALSE(updates[0]);
+  ASSERT_TRUE(updates[1]);
+  EXPECT_EQ(updates[1]->landmark, 0);
+  EXPECT_EQ(slam.landmarks(), 1);
+}
+
 TEST(EkfSlam, SaysWhatIsWrong) {
   EkfSlam slam(kStart, {});
   EXPECT_REX_ERROR(EkfSlam({Eigen::Vector2d(0, 0), Eigen::Matrix2d::Zero()}, {}),
@@ -175,7 +210,16 @@ TEST(EkfSlam, SaysWhatIsWrong) {
                    "landmark that is observed: found 1, wanted 0 to -1, or 0 for a new one");
   EXPECT_REX_ERROR(slam.observe(0, {0, std::nan("")}), "observation: number 1: found nan");
   EXPECT_REX_ERROR(slam.landmark(0), "landmark: found 0");
-  EXPECT_REX_ERROR(slam.predict({}), "transition: found no function for its mean or its derivative");
+  const std::vector<Eigen::Vector2d> ys{{1, 1}};
+  EXPECT_REX_ERROR(slam.observe(ys, {.same = 0}),
+                   "gates of association: found same 0, different 18.42, wanted 0 < same <= different");
+  EXPECT_REX_ERROR(slam.observe(ys, {.same = 9, .different = 3}), "gates of association: found same 9");
+  EXPECT_REX_ERROR(slam.observe(ys, {.same = std::nan("")}), "gates of association: found same nan");
+  EXPECT_REX_ERROR(placeOf({.kind = Kind::kRangeBearing}, {0, 0, 0}, {0, 1}),
+                   "range of a new landmark: found 0, wanted a positive number");
+  EXPECT_REX_ERROR(slam.predict({}), "transition: found no function for its mean");
+  EXPECT_REX_ERROR(slam.predict({.mean = [](const Eigen::Vector3d& x) { return x; }}),
+                   "transition: found no function for its derivative");
   PoseTransition move{
       .mean = [](const Eigen::Vector3d& x) -> Eigen::Vector3d { return x / 0; },
       .jacobian = [](const Eigen::Vector3d&) -> Eigen::Matrix3d { return Eigen::Matrix3d::Identity(); }};

@@ -85,11 +85,28 @@ TEST(FastSlam, SameSeedSameMap) {
 TEST(FastSlam, SurvivesWhatNoParticleExplains) {
   Rng rng(2);
   const test::SlamWorld world(Kind::kCartesian, 1, rng);
-  FastSlam slam(Eigen::Vector3d::Zero(), world.sensor, {.particles = 20});
-  const LandmarkSighting near{0, {1, 1}}, absurd{0, {1e200, 0}};
-  EXPECT_FALSE(slam.step(world.transition(), std::vector{near}, rng).lost);
-  EXPECT_TRUE(slam.step(world.transition(), std::vector{absurd}, rng).lost);
-  EXPECT_NEAR(slam.weights().sum(), 1, 1e-12);
+  for (const bool observed : {false, true}) {
+    FastSlam slam(Eigen::Vector3d::Zero(), world.sensor, {.particles = 20, .observedProposal = observed});
+    const LandmarkSighting near{0, {1, 1}}, absurd{0, {1e200, 0}};
+    EXPECT_FALSE(slam.step(world.transition(), std::vector{near}, rng).lost);
+    const Gaussian before = slam.landmark(3, 0);
+    const Eigen::VectorXd weights = slam.weights();
+    const Eigen::Matrix3Xd poses = slam.poses();
+    EXPECT_TRUE(slam.step(world.transition(), std::vector{absurd}, rng).lost);
+    EXPECT_EQ(slam.weights(), weights);
+    EXPECT_EQ(slam.landmark(3, 0).mean, before.mean);
+    EXPECT_EQ(slam.landmark(3, 0).covariance, before.covariance);
+    EXPECT_EQ(slam.landmarks(), 1);
+    EXPECT_NE(slam.poses(), poses) << "the motion happened all the same";
+    EXPECT_LT((slam.poses() - poses).cwiseAbs().maxCoeff(), .5);
+    EXPECT_FALSE(slam.step(world.transition(), std::vector{near}, rng).lost);
+    EXPECT_LT((slam.landmark(slam.likeliest(), 0).mean - Eigen::Vector2d(1, 1)).norm(), 1);
+    const LandmarkSighting backwards{0, {-1, 0}};
+    FastSlam bearing(Eigen::Vector3d::Zero(), {.kind = Kind::kRangeBearing}, {.particles = 2});
+    EXPECT_REX_ERROR(bearing.step(world.transition(), std::vector{backwards}, rng),
+                     "range of a new landmark: found -1, wanted a positive number");
+    EXPECT_EQ(bearing.poses(), Eigen::Matrix3Xd::Zero(3, 2)) << "a throw changes nothing";
+  }
 }
 
 TEST(FastSlam, SaysWhatIsWrong) {

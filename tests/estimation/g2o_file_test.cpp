@@ -71,6 +71,24 @@ TEST(G2oFile, NotesWhatItDoesNotNeed) {
   EXPECT_THAT(toString(file.notes[0]), HasSubstr("map.g2o:4:5: note: FIX 7 is not needed: pose 3 stays"));
 }
 
+TEST(G2oFile, MayBeginWithAFixedPose) {
+  const G2oFile file = parseG2o("FIX 0\n" + std::string(kSpatial) + "FIX 0 0\n");
+  EXPECT_EQ(std::get<SpatialPoseGraph>(file.graph).poses.size(), 3u);
+  EXPECT_TRUE(file.notes.empty());
+  std::string planar = kPlanar;
+  planar.insert(0, "FIX 3\n");
+  EXPECT_EQ(std::get<PlanarPoseGraph>(parseG2o(planar).graph).poses.cols(), 2);
+  EXPECT_REX_ERROR(
+      parseG2o("FIX 0\n" + std::string(kSpatial) + "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n", "map.g2o"),
+      "map.g2o:4:1: pose graph: found EDGE_SE2 among VERTEX_SE3:QUAT");
+}
+
+TEST(G2oFile, NumbersPosesThatHaveNoIds) {
+  G2oFile file = parseG2o(kPlanar);
+  file.ids.clear();
+  EXPECT_THAT(parseG2o(writeG2o(file)).ids, testing::ElementsAre(0, 1));
+}
+
 std::string with(const char* line) { return std::string(kPlanar) + line; }
 
 TEST(G2oFile, SaysWhereAndWhatIsWrong) {
@@ -105,8 +123,20 @@ TEST(G2oFile, SaysWhereAndWhatIsWrong) {
   EXPECT_REX_ERROR(read(""), "map.g2o: pose graph: found no edges");
   EXPECT_REX_ERROR(readG2o("none.g2o"), "none.g2o: pose graph: found no file that can be read");
   EXPECT_REX_ERROR(readG2o("."), "found no file that can be read");
-  EXPECT_REX_ERROR(read("EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2 2 3 1 0 0 1 0 0 1 0 1\n"),
-                   "pose graph: pose 2: found no edges that join it to pose 0");
+  EXPECT_REX_ERROR(
+      read("EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2 2 3 1 0 0 1 0 0 1 0 1\n"),
+      "map.g2o:2:10: pose graph: found pose 2, which no edges join to pose 0, wanted a graph in one");
+  EXPECT_REX_ERROR(read(with("VERTEX_SE2 9 0 0 0\n")),
+                   "map.g2o:7:12: pose graph: found pose 9, which no edges join to pose 3");
+  EXPECT_REX_ERROR(read(with("FIX 7\n")),
+                   "map.g2o:7:5: FIX: found pose 7 besides pose 3, wanted one pose that is fixed");
+  EXPECT_REX_ERROR(read(with("FIX 3 7\n")), "map.g2o:7:7: FIX: found pose 7 besides pose 3");
+  EXPECT_REX_ERROR(read(with("FIX\n")), "FIX: found 0 numbers, wanted 1");
+  G2oFile file = parseG2o(kPlanar);
+  file.ids.pop_back();
+  EXPECT_REX_ERROR(writeG2o(file), "pose graph: ids: found 1, wanted 2, one for each pose, or none");
+  std::get<PlanarPoseGraph>(file.graph).edges[0].to = 5;
+  EXPECT_REX_ERROR(writeG2o(file), "edge 0 from pose 0 to pose 5: found pose 5, wanted 0 to 1");
 }
 
 }  // namespace

@@ -52,6 +52,37 @@ TEST(OccupancyMap, MeetsCellsInTheirOrder) {
   EXPECT_EQ(map.distanceToOccupied({-.95, 0}, 0, 3), 0) << "within a wall";
 }
 
+// From outside, also from afar, a ray meets the same cells as from where it enters.
+TEST(OccupancyMap, RaysComeInFromOutside) {
+  const OccupancyMap map = room();
+  Rng rng(83);
+  for (int i = 0; i < 300; ++i) {
+    const Eigen::Vector2d inside(rng.uniform(-.9, 4.9), rng.uniform(-1.9, 1.9));
+    const double angle = i % 10 == 0 ? pi / 2 * rng.index(4) : rng.uniform(-10, 10);
+    const Eigen::Vector2d ahead(std::cos(angle), std::sin(angle));
+    double way = 0;
+    const auto hit = [&](double at) {
+      const Eigen::Vector2i cell = map.cellAt(inside + at * ahead);
+      return map.isOccupied(cell[0], cell[1]);
+    };
+    for (way = -10; way < 10 && !hit(way);) way += 1e-4;
+    EXPECT_NEAR(map.distanceToOccupied(inside - 10 * ahead, angle, 100), 10 + way, 2e-3);
+    EXPECT_EQ(map.distanceToOccupied(inside - 10 * ahead, angle + pi, 100), 100) << "away from the map";
+  }
+  for (const double far : {1e6, 1e12, 1e300}) {
+    const double met = map.distanceToOccupied({-far, 0}, 0, 2 * far);
+    EXPECT_NEAR(met, far < 1e15 ? far - 1 : 2 * far, 1e-3 * far / 1e6)
+        << "a room too far away to be aimed at";
+    EXPECT_EQ(map.distanceToOccupied({far, 0}, 0, INFINITY), INFINITY);
+    EXPECT_EQ(map.distanceToOccupied({far, far}, pi / 2, far), far);
+  }
+  OccupancyMap strip(5, 1, 1);
+  strip.observe({.angles = {0}, .maxRange = 100}, {-50, .5, 0}, Eigen::VectorXd::Constant(1, 52.5));
+  EXPECT_TRUE(strip.isOccupied(2, 0));
+  EXPECT_LT(strip.logOdds(1, 0), 0);
+  EXPECT_EQ(strip.logOdds(3, 0), 0);
+}
+
 TEST(OccupancyMap, IsDrawnByScans) {
   const OccupancyMap truth = room();
   OccupancyMap drawn(60, 40, .1, {-1, -2});
@@ -131,6 +162,22 @@ TEST(OccupancyMap, SaysWhatIsWrong) {
                    "ranges: found a vector of size 3, wanted size 2");
   EXPECT_REX_ERROR(map.observe(eye, pose, Eigen::Vector2d(1, -1)),
                    "ranges: number 1: found -1, wanted zero or more");
+  EXPECT_EQ(map.logOdds(1, 1), 0) << "nothing of a wrong scan is in the map";
+  EXPECT_REX_ERROR(map.cellAt({0, std::nan("")}), "point: number 1: found nan");
+  EXPECT_REX_ERROR(map.distanceToOccupied({INFINITY, 0}, 0, 1), "start of the ray: number 0: found inf");
+  EXPECT_REX_ERROR(map.distanceToOccupied({0, 0}, INFINITY, 1), "angle of the ray: found inf");
+  EXPECT_REX_ERROR(map.distanceToOccupied({0, 0}, 0, std::nan("")), "largest range: found nan");
+  EXPECT_REX_ERROR(map.distanceToOccupied({0, 0}, 0, -1), "largest range: found -1, wanted zero or more");
+  Eigen::VectorXd ranges(2);
+  EXPECT_REX_ERROR(map.scan(eye, {0, std::nan(""), 0}, ranges), "pose of the scanner: number 1: found nan");
+  EXPECT_REX_ERROR(map.scan({.angles = {0, INFINITY}}, pose, ranges), "scanner: angle 1: found inf");
+  for (const double maxRange : {0., double{INFINITY}}) {
+    const RangeScanner wrong{.angles = {0, 1}, .maxRange = maxRange};
+    EXPECT_REX_ERROR(map.scan(wrong, pose, ranges), "scanner: largest range: found");
+    EXPECT_REX_ERROR(map.observe(wrong, pose, Eigen::Vector2d(1, 1)), "scanner: largest range: found");
+    EXPECT_REX_ERROR(scanWeights(map, wrong, Eigen::Vector2d(1, 1)), "wanted a positive number");
+  }
+  EXPECT_REX_ERROR(scanWeights(map, eye, Eigen::Vector2d(1, -1)), "ranges: number 1: found -1");
   EXPECT_REX_ERROR(map.observe(eye, pose, Eigen::Vector2d(1, std::nan(""))), "ranges: number 1: found nan");
   EXPECT_REX_ERROR(map.observe(eye, {0, 0, INFINITY}, Eigen::Vector2d(1, 1)),
                    "pose of the scanner: number 2: found inf");

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -105,6 +106,15 @@ TEST(PoseGraph, SpatialJacobiansAreDerivatives) {
   }
 }
 
+// Motions that are rotations only to six digits, one after the other.
+TEST(PoseGraph, OdometryKeepsRotations) {
+  SpatialPoseGraph graph{std::vector<Pose>(400), {}};
+  for (int i = 0; i < 399; ++i)
+    graph.edges.push_back({i, i + 1, {(1 + 3e-7) * expSO3({.1, .2, .3}), {1, 0, 0}}});
+  setOdometryPoses(graph);
+  EXPECT_TRUE(isRotation(graph.poses[399].R, 1e-14));
+}
+
 // The objectives as their papers write them.
 TEST(PoseGraph, CostsAreTheFormulas) {
   Rng rng(53);
@@ -167,14 +177,68 @@ TEST(PoseGraph, ExactMotionsGiveTheTruth) {
   Rng rng(55);
   Eigen::Matrix3Xd truth;
   PlanarPoseGraph graph = streets(200, 1e-5, rng, &truth);
-  graph.poses.setRandom();
-  graph.poses.col(0).setZero();
+  for (Eigen::Index i = 1; i < graph.poses.cols(); ++i) graph.poses.col(i) = rng.normalVector(3);
   const PoseGraphResult result = optimize(graph);
   EXPECT_EQ(result.status, PoseGraphStatus::kConverged) << result.message;
   EXPECT_LT((graph.poses - truth).topRows<2>().cwiseAbs().maxCoeff(), 1e-3);
 }
 
-// From odometry and from nonsense the same minimum is found; steps of a plain gradient do not go lower.
+// Four corners of a square, each edge followed by a quarter turn: nothing but rounding is left to lower.
+TEST(PoseGraph, GraphsThatFitExactlyConverge) {
+  constexpr double kQuarter = std::numbers::pi / 2;
+  for (const PoseGraphObjective objective : kObjectives)
+    for (const double size : {1e-3, 1., 1e4})
+      for (const bool chordal : {true, false}) {
+        const PoseGraphOptions options{.objective = objective, .chordalStart = chordal};
+        PlanarPoseGraph square{Eigen::Matrix3Xd::Zero(3, 4), {}};
+        SpatialPoseGraph space{std::vector<Pose>(4), {}};
+        for (int i = 0; i < 4; ++i) {
+          square.edges.push_back({i, (i + 1) % 4, {size, 0, kQuarter}});
+          space.edges.push_back({i, (i + 1) % 4, {expSO3({0, 0, kQuarter}), {size, 0, 0}}});
+        }
+        setOdometryPoses(square);
+        setOdometryPoses(space);
+        const PoseGraphResult planar = optimize(square, options), spatial = optimize(space, options);
+        EXPECT_EQ(planar.status, PoseGraphStatus::kConverged) << planar.message;
+        EXPECT_EQ(spatial.status, PoseGraphStatus::kConverged) << spatial.message;
+        EXPECT_LE(planar.iterations, 2);
+        EXPECT_LE(spatial.iterations, 2);
+        EXPECT_LT((square.poses.col(2) - Eigen::Vector3d(size, size, 2 * kQuarter)).head<2>().norm(),
+                  1e-14 * size);
+        EXPECT_LT((space.poses[2].p - Eigen::Vector3d(size, size, 0)).norm(), 1e-14 * size);
+      }
+}
+
+// Weights that no linear solution survives, and weights that a fixed anchor would drown.
+TEST(PoseGraph, StartsWellWhateverTheWeights) {
+  for (const double heavy : {1., 1e8, 1e17}) {
+    PlanarPoseGraph chain{Eigen::Matrix3Xd::Zero(3, 4), {}};
+    SpatialPoseGraph space{std::vector<Pose>(4), {}};
+    for (int i = 0; i < 3; ++i) {
+      const double weight = i == 0 ? 1 : heavy;
+      chain.edges.push_back({i, i + 1, {1, 0, .1}, weight * Eigen::Matrix3d::Identity()});
+      space.edges.push_back({i, i + 1, {expSO3({.1, 0, 0}), {1, 0, 0}}, weight * Matrix6d::Identity()});
+    }
+    setOdometryPoses(chain);
+    setOdometryPoses(space);
+    const Eigen::Matrix3Xd truth = chain.poses;
+    const Pose last = space.poses[3];
+    EXPECT_LT(optimize(chain).cost, 1e-28 * heavy);
+    EXPECT_LT(optimize(space).cost, 1e-28 * heavy);
+    EXPECT_LT((chain.poses - truth).norm(), 1e-9) << heavy;
+    EXPECT_TRUE(isApprox(space.poses[3], last, 1e-9)) << heavy;
+  }
+  for (const double light : {1e-16, 1e-30}) {
+    Rng rng(61);
+    PlanarPoseGraph graph = streets(60, .05, rng), lighter = graph;
+    for (PlanarEdge& edge : lighter.edges) edge.information *= light;
+    const double cost = optimize(graph).cost;
+    EXPECT_NEAR(optimize(lighter, {.maxIterations = 5}).cost, light * cost, 1e-6 * light * cost);
+    EXPECT_LT((graph.poses - lighter.poses).cwiseAbs().maxCoeff(), 1e-3);
+  }
+}
+
+// From odometry and from nonsense the same minimum is found; no small random step goes lower.
 TEST(PoseGraph, FindsTheMinimumFromAnywhere) {
   Rng rng(56);
   for (const PoseGraphObjective objective : kObjectives) {
@@ -216,6 +280,56 @@ TEST(PoseGraph, ProvesThatItIsTheBest) {
   EXPECT_LT(certifiedGap(space), 1e-6 * spatial.cost);
   space.poses[5].R = space.poses[5].R * expSO3({0, 0, .1});
   EXPECT_GT(certifiedGap(space), poseGraphCost(space, sesync) - spatial.cost);
+}
+
+// Where rotations or positions are not stationary the bound still holds: the cost of the best is no lower.
+TEST(PoseGraph, ProvesNothingThatIsWrong) {
+  const PoseGraphOptions sesync{.objective = PoseGraphObjective::kSESync};
+  PlanarPoseGraph two{Eigen::Matrix3Xd::Zero(3, 2), {{0, 1, {1, 0, 0}}}};
+  for (const double x : {3., -2., .5, 1.}) {
+    two.poses(0, 1) = x;
+    EXPECT_GE(certifiedGap(two), poseGraphCost(two, sesync)) << x;
+  }
+  EXPECT_LT(certifiedGap(two), 1e-10) << "1 m is the best";
+  Rng rng(60);
+  PlanarPoseGraph graph = streets(100, .05, rng);
+  const double best = optimize(graph, sesync).cost;
+  SpatialPoseGraph space = ball(80, .1, rng);
+  const double spatial = optimize(space, sesync).cost;
+  for (int i = 0; i < 30; ++i) {
+    const double size = std::pow(10., -i / 6);
+    PlanarPoseGraph moved = graph;
+    SpatialPoseGraph away = space;
+    moved.poses.col(7 + i) += size * rng.normalVector(3).cwiseProduct(Eigen::Vector3d(1, 1, i % 2));
+    away.poses[static_cast<std::size_t>(7 + i)].p += size * rng.normalVector(3);
+    const double excess = poseGraphCost(moved, sesync) - best;
+    EXPECT_GE(certifiedGap(moved), excess) << size;
+    EXPECT_GE(certifiedGap(away), poseGraphCost(away, sesync) - spatial) << size;
+  }
+  EXPECT_EQ(certifiedGap(PlanarPoseGraph{}), 0);
+  EXPECT_EQ(certifiedGap(SpatialPoseGraph{}), 0);
+  EXPECT_EQ(certifiedGap(PlanarPoseGraph{Eigen::Matrix3Xd::Zero(3, 1), {}}), 0);
+  EXPECT_EQ(certifiedGap(SpatialPoseGraph{std::vector<Pose>(1), {}}), 0);
+}
+
+// Wrong closures spoil the chordal start: poses that were good already do not become worse by it.
+TEST(PoseGraph, KeepsTheBetterStart) {
+  for (const RobustKernel kernel :
+       {RobustKernel::kHuber, RobustKernel::kCauchy, RobustKernel::kGemanMcClure}) {
+    Rng rng(57);
+    Eigen::Matrix3Xd truth;
+    PlanarPoseGraph graph = streets(200, .02, rng, &truth);
+    for (int i = 0; i < 5; ++i)
+      graph.edges.push_back(
+          {10 * i, 190 - 13 * i,
+           planarMotion(truth.col(10 * i), truth.col(190 - 13 * i)) + Eigen::Vector3d(5, -4, 2),
+           Eigen::Vector3d(2500, 2500, 1e4).asDiagonal()});
+    PoseGraphOptions options{.kernel = kernel, .kernelSize = 3, .chordalStart = false, .maxIterations = 1000};
+    const double reached = optimize(graph, options).cost;
+    options.chordalStart = true;
+    const PoseGraphResult again = optimize(graph, options);
+    EXPECT_LE(again.cost, reached) << again.message;
+  }
 }
 
 // A robust kernel leaves wrong loop closures aside, those that grow slowly enough (Huber's) in part.
@@ -277,14 +391,17 @@ TEST_P(ClassicMap, ReachesTheCertifiedOptimum) {
   if (optima.contains("chi2_g2o_at_file_initial")) {
     EXPECT_NEAR(poseGraphCost(graph), optima["chi2_g2o_at_file_initial"].get<double>(), 1e-6);
   }
-  for (PlanarPoseGraph start : {graph, odometry}) {
-    const PoseGraphResult chi2 = optimize(start);
-    EXPECT_EQ(chi2.status, PoseGraphStatus::kConverged) << chi2.message;
-    EXPECT_NEAR(chi2.cost / optima["chi2_g2o"].get<double>(), 1, 1e-9);
-    const PoseGraphResult sesync = optimize(start, {.objective = PoseGraphObjective::kSESync});
-    EXPECT_EQ(sesync.status, PoseGraphStatus::kConverged) << sesync.message;
-    EXPECT_NEAR(sesync.cost / optima["sesync"].get<double>(), 1, 1e-9);
-    EXPECT_LT(certifiedGap(start), 1e-5 * sesync.cost);
+  for (const bool chordal : {true, false}) {
+    for (PlanarPoseGraph start : {graph, odometry}) {
+      const PoseGraphResult chi2 = optimize(start, {.chordalStart = chordal});
+      EXPECT_EQ(chi2.status, PoseGraphStatus::kConverged) << chi2.message;
+      EXPECT_NEAR(chi2.cost / optima["chi2_g2o"].get<double>(), 1, 1e-9);
+      const PoseGraphResult sesync =
+          optimize(start, {.objective = PoseGraphObjective::kSESync, .chordalStart = chordal});
+      EXPECT_EQ(sesync.status, PoseGraphStatus::kConverged) << sesync.message;
+      EXPECT_NEAR(sesync.cost / optima["sesync"].get<double>(), 1, 1e-9);
+      EXPECT_LT(certifiedGap(start), 1e-5 * sesync.cost);
+    }
   }
 }
 INSTANTIATE_TEST_SUITE_P(G2o, ClassicMap, testing::Values("intel", "CSAIL"));
@@ -320,6 +437,14 @@ TEST(PoseGraph, SaysWhatIsWrong) {
                    "size of the robust kernel: found 0, wanted a positive number");
   EXPECT_REX_ERROR(optimize(bad, {.maxIterations = -1}), "iterations: found -1, wanted zero or more");
   EXPECT_REX_ERROR(optimize(bad, {.tolerance = -1}), "tolerance: found -1, wanted zero or more");
+  EXPECT_REX_ERROR(optimize(bad, {.kernelSize = INFINITY}), "size of the robust kernel: found inf");
+  EXPECT_REX_ERROR(optimize(bad, {.tolerance = INFINITY}), "tolerance: found inf");
+  EXPECT_REX_ERROR(poseGraphCost(bad, {.kernelSize = -1}), "size of the robust kernel: found -1");
+  EXPECT_REX_ERROR(poseGraphCost(SpatialPoseGraph{}, {.kernelSize = 0}),
+                   "size of the robust kernel: found 0");
+  bad.edges[1].information(0, 1) = 1;
+  EXPECT_REX_ERROR(optimize(bad), "edge 1 from pose 1 to pose 2: information: found 1 at (0, 1) and 0");
+  bad = good;
   const PoseGraphResult spent = optimize(bad, {.maxIterations = 0});
   EXPECT_EQ(spent.status, PoseGraphStatus::kBudgetSpent);
   EXPECT_THAT(spent.message, testing::HasSubstr("the iterations are spent after 0 iterations"));
