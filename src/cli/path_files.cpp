@@ -43,7 +43,7 @@ Report replayOf(const PathTask& task, const PlanOptions& options, const FoundPat
                           {"configurations checked", fmt::format("{}", found.checks)}}};
   if (!task.contacts.pairs().empty()) {
     report.figures.push_back({clearanceFigure(task.model, task.contacts, motion, options.margin)});
-    report.facts.emplace_back("clearance", fmt::format("{:.4g} m", found.clearance));
+    report.facts.emplace_back("clearance", fmt::format("{:.4g} m", found.clearance.atLeast));
   }
   for (ReportFigure& item : report.figures) item.figure.width = 560, item.figure.height = 360;
   return report;

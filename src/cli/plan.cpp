@@ -89,6 +89,23 @@ BodyId drawnBody(const Model& model, const std::string& name) {
   throw UsageError({.what = "--body", .found = "'" + harmless(name) + "', which no joint moves"});
 }
 
+// Whether all paths are, and says how they are not.
+bool isClear(const FoundPaths& found, double margin) {
+  // Who wants no margin may touch: that cannot be told from a little overlap.
+  const double least = margin > 0 ? 0 : -kClearanceTolerance;
+  const auto all = [&](double ClearanceBounds::*bound) {
+    return std::ranges::all_of(
+        found.all, [&](const FoundPath& one) { return !one.isFound() || one.clearance.*bound > least; });
+  };
+  if (all(&ClearanceBounds::atLeast)) return true;
+  note(all(&ClearanceBounds::atMost)
+           ? "it is not proven that shapes stay apart between the postures that were checked: give a larger "
+             "--margin"
+           : "shapes overlap between the postures that were checked: give a finer --resolution or a larger "
+             "--margin");
+  return false;
+}
+
 void makeFolder(const fs::path& folder) {
   std::error_code problem;
   fs::create_directories(folder, problem);
@@ -120,15 +137,7 @@ ExitCode planPath(const Project& project, const PlanOptions& options) {
     say(summaryOf(task, options, found));
     for (const std::string& file : files) say(file);
   }
-  // Who wants no margin may touch: that cannot be told from a little overlap.
-  const double least = options.margin > 0 ? 0 : -kClearanceTolerance;
-  const bool isClear = std::ranges::all_of(
-      found.all, [&](const FoundPath& one) { return !one.isFound() || one.clearance > least; });
-  if (!isClear)
-    note(
-        "shapes overlap between the postures that were checked: give a finer --resolution or a larger "
-        "--margin");
-  return isClear && found.successes() > 0 ? ExitCode::kFull : ExitCode::kBelow;
+  return isClear(found, options.margin) && found.successes() > 0 ? ExitCode::kFull : ExitCode::kBelow;
 }
 
 }  // namespace rex::cli

@@ -40,7 +40,7 @@ bool EdgeChecker::isValid(const VectorArg& q) {
 }
 
 int EdgeChecker::pointsBetween(const VectorArg& from, const VectorArg& to) const {
-  const double distance = space_.distance(from, to), points = std::ceil(distance / resolution_);
+  const double distance = space_.wayLength(from, to), points = std::ceil(distance / resolution_);
   if (points <= kMostPoints) return std::max(1, static_cast<int>(points));
   throw Error(
       {.what = fmt::format("resolution of a path check: {:g} on a way of length {:g}", resolution_, distance),
