@@ -300,7 +300,7 @@ TEST(PlannerLaws, HoldForControlTrees) {
   int found = 0;
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     SCOPED_TRACE(seed);
-    World world = randomWorld(seed - seed % 4);
+    World world = randomWorld(4 * seed);
     PathProblem& problem = world.problem;
     problem.space = system.space;
     problem.start = Eigen::Vector3d(.05, .05, .7);
