@@ -53,6 +53,17 @@ TEST(Rrt, IsTheSameForTheSameSeed) {
   }
 }
 
+TEST(Rrt, TakesNoLongerStepsOnAnglesMeasuredByChords) {
+  const PathProblem problem{.space = Space({{.kind = SpacePart::Kind::kChord}}),
+                            .allValid = eachColumn([](const VectorArg&) { return true; }),
+                            .start = Eigen::VectorXd::Zero(1),
+                            .goal = Eigen::VectorXd::Constant(1, 3.1)};
+  Rng rng(1);
+  const PathResult result = growRrt(problem, {.stepSize = .2, .goalBias = 1}, rng);
+  expectPath(problem, result);
+  expectTree(problem, result.trees.front(), .2);
+}
+
 TEST(Rrt, StaysWhereTheGoalIsTheStart) {
   PathProblem problem = wallWithHole(2, .3);
   for (const double apart : {0., .05}) {
