@@ -41,8 +41,10 @@ endfunction()
 function(rex_student_prefix folder)
   set(REX_PREFIX "" PARENT_SCOPE)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${folder}/exercise.h)
-  file(STRINGS ${folder}/exercise.h uses REGEX "^#include \"course/course.h\"")
-  if(NOT uses OR REX_SANITIZE OR NOT CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  # Nothing before it may change what it says.
+  file(READ ${folder}/exercise.h header)
+  if(NOT header MATCHES "^((//[^\n]*|#pragma once|#include [^\n]*)?\n)*#include \"course/course.h\""
+     OR REX_SANITIZE OR NOT CMAKE_CXX_COMPILER_ID STREQUAL GNU)
     return()
   endif()
   set(prefix ${PROJECT_BINARY_DIR}/student/prefix.h)

@@ -1,12 +1,18 @@
 #include "cli/path_files.h"
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <numeric>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/error.h"
 #include "cli/film_file.h"
 #include "cli/path_motion.h"
 #include "cli/path_pictures.h"
@@ -22,6 +28,16 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kLongestFilm = 120;  // seconds, as of other films
+
+constexpr std::array kFiles = {"tree.png", "path.csv", "path.mp4", "path.html"};
+
+// The frames of a film that was made without ffmpeg; a folder with anything else stays.
+void removeFrames(const fs::path& folder) {
+  std::error_code unused;
+  for (int i = 0; fs::remove(folder / fmt::format("{:04}.png", i), unused); ++i) {
+  }
+  if (fs::is_directory(folder, unused)) fs::remove(folder, unused);
+}
 
 void writeExplored(Picture picture, RenderPlan plan, std::string caption, const fs::path& out) {
   picture.captions.push_back({.text = std::move(caption)});
@@ -43,7 +59,7 @@ Report replayOf(const PathTask& task, const PlanOptions& options, const FoundPat
                           {"configurations checked", fmt::format("{}", found.checks)}}};
   if (!task.contacts.pairs().empty()) {
     report.figures.push_back({clearanceFigure(task.model, task.contacts, motion, options.margin)});
-    report.facts.emplace_back("clearance", fmt::format("{:.4g} m", found.clearance));
+    report.facts.emplace_back("clearance", fmt::format("{:.4g} m", found.clearance.atLeast));
   }
   for (ReportFigure& item : report.figures) item.figure.width = 560, item.figure.height = 360;
   return report;
@@ -75,9 +91,25 @@ std::string titleOf(const PathTask& task, const PlanOptions& options, const Foun
   return fmt::format("{}, {}, seed {}", harmless(task.model.name()), options.planner, found.seed);
 }
 
+void makeFolder(const fs::path& folder) {
+  const auto refuse = [](const fs::path& path, const std::string& found, const std::string& wanted) {
+    throw UsageError({.what = "-o " + harmless(path.string()), .found = found, .wanted = wanted});
+  };
+  std::error_code problem;
+  fs::create_directories(folder, problem);
+  if (problem || !fs::is_directory(folder))
+    refuse(folder, problem ? problem.message() : "a file", "a folder");
+  if (!std::ofstream(folder / kFiles.front(), std::ios::app))
+    refuse(folder, std::strerror(errno), "a folder to write to");
+  removeFrames(folder / "path");
+  for (const char* name : kFiles) {
+    fs::remove(folder / name, problem);
+    if (problem) refuse(folder / name, problem.message(), "a file, or nothing");
+  }
+}
+
 std::vector<std::string> writePathFiles(const PathTask& task, const PlanOptions& options,
                                         const RenderPlan& pictures, BodyId body, const FoundPath& found) {
-  for (const char* name : {"path.csv", "tree.png", "path.mp4", "path.html"}) fs::remove(options.out / name);
   std::vector<fs::path> files = {options.out / "tree.png"};
   writeExplored(exploredPicture(task, body, found), pictures,
                 fmt::format("{}: {} nodes", titleOf(task, options, found), found.nodes), files.back());

@@ -62,11 +62,12 @@ LineSet linesOf(const Model& model, const Space& space, BodyId body, const PathG
 }
 
 Polyline wayOf(const Model& model, const Space& space, BodyId body, const MatrixArg& path) {
-  constexpr double kPiece = 0.03;
+  constexpr double kFine = 0.03, kMostPieces = 60'000;
+  const double piece = std::max(kFine, pathLength(space, path) / kMostPieces);
   Polyline way{.color = kPathColor, .width = 5};
   for (Eigen::Index k = 1; k < path.cols(); ++k)
     for (const Vector3d& place :
-         placesOf(model, body, pointsBetween(space, path.col(k - 1), path.col(k), kPiece)))
+         placesOf(model, body, pointsBetween(space, path.col(k - 1), path.col(k), piece)))
       way.points.push_back(place);
   return way;
 }

@@ -62,15 +62,6 @@ PathResult askRoadmap(const PathProblem& problem, const PathSearch& search, Rng&
   return result;
 }
 
-// The same postures, in numbers that do not jump.
-Eigen::MatrixXd unrolled(const Space& space, Eigen::MatrixXd path) {
-  for (Eigen::Index k = 1; k < path.cols(); ++k) {
-    const Eigen::VectorXd to = path.col(k);
-    space.interpolate(path.col(k - 1), to, 1, path.col(k));
-  }
-  return path;
-}
-
 }  // namespace
 
 Planner plannerOf(const std::string& name) {

@@ -6,13 +6,13 @@
 #include <utility>
 #include <vector>
 
-#include "collision/contact_model.h"
+#include "collision/motion_clearance.h"
 #include "planning/path_problem.h"
 #include "scene/model.h"
 
 namespace rex::cli {
 
-/// By so much a clearance may be below the truth, metres.
+/// Bounds of a clearance are as near together, metres, unless that takes too long: see pathClearance().
 inline constexpr double kClearanceTolerance = 1e-4;
 
 enum class Planner { kRrt, kRrtConnect, kRrtStar, kPrm, kPrmStar, kLazyPrm };
@@ -50,7 +50,7 @@ struct FoundPath {
       path{};         ///< one posture per column, angles that run on across whole turns; empty: none found
   double length = 0;  ///< of the path, and of what the planner gave before it was smoothed
   double plannedLength = 0;
-  double clearance = 0;  ///< metres, all along the path: see pathClearance()
+  ClearanceBounds clearance{};  ///< all along the path
   int samples = 0;
   int nodes = 0;
   long checks = 0;                    ///< configurations that were looked at, those for smoothing included

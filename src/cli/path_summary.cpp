@@ -23,10 +23,12 @@ std::string summaryOfOne(const PathTask& task, const PlanOptions& options, const
   text += fmt::format(", {:.1f} ms for smoothing\n", 1e3 * found.smoothingTime);
   text += fmt::format("length     {:.3f}, before smoothing {:.3f}; {:.1f} s at a speed of {:g}\n",
                       found.length, found.plannedLength, found.length / options.speed, options.speed);
-  return text + (std::isfinite(found.clearance)
-                     ? fmt::format("clearance  {:.4f} m all along the path, margin {:g} m", found.clearance,
-                                   options.margin)
-                     : "clearance  nothing can collide");
+  const auto& [atLeast, atMost] = found.clearance;
+  if (!std::isfinite(atLeast)) return text + "clearance  nothing can collide";
+  const bool isProven = atMost - atLeast <= 2 * kClearanceTolerance;
+  return text + fmt::format("clearance  {:.4f} m all along the path{}, margin {:g} m", atLeast,
+                            isProven ? "" : fmt::format(" is proven, {:.4f} m measured", atMost),
+                            options.margin);
 }
 
 std::string row(const char* name, std::vector<double> values) {
@@ -56,7 +58,7 @@ std::string summaryOfAll(const PathTask& task, const PlanOptions& options, const
   text +=
       row("smoothing, CPU ms", valuesOf(true, [](const FoundPath& one) { return 1e3 * one.smoothingTime; }));
   text += row("length", valuesOf(true, [](const FoundPath& one) { return one.length; }));
-  text += row("clearance, m", valuesOf(true, [](const FoundPath& one) { return one.clearance; }));
+  text += row("clearance, m", valuesOf(true, [](const FoundPath& one) { return one.clearance.atLeast; }));
   if (found.successes() > 0) text += fmt::format("\nshortest: seed {}", found.shortest().seed);
   return text;
 }
@@ -68,7 +70,9 @@ Json jsonOf(const FoundPath& found) {
   json["smoothing_seconds"] = found.smoothingTime;
   json["planned_length"] = found.plannedLength;
   json["length"] = found.length;
-  json["clearance"] = std::isfinite(found.clearance) ? Json(found.clearance) : Json();
+  const bool canCollide = std::isfinite(found.clearance.atLeast);
+  json["clearance"] = canCollide ? Json(found.clearance.atLeast) : Json();
+  json["clearance_measured"] = canCollide ? Json(found.clearance.atMost) : Json();
   return json;
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
-#include <system_error>
+#include <cstdint>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -19,14 +20,17 @@
 namespace rex::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
 PathSearch searchOf(const PlanOptions& options) {
   PathSearch search{.planner = plannerOf(options.planner), .smooth = !options.noSmooth};
   requireBetween("--margin", options.margin, 0, kQueryCutoff);
   requireBetween("--resolution", options.resolution, 1e-4, 10);
   requireBetween("--speed", options.speed, 1e-3, 1e3);
   requireBetween("--seeds", options.seeds, 1, 10'000);
+  if (const auto others = static_cast<std::uint64_t>(options.seeds) - 1;
+      options.seed > std::numeric_limits<std::uint64_t>::max() - others)
+    throw UsageError({.what = "--seed",
+                      .found = fmt::format("{}", options.seed),
+                      .wanted = fmt::format("a seed that {} others can follow", others)});
   if (options.step && !growsTrees(search.planner))
     throw UsageError(
         {.what = "--step", .found = "--planner " + options.planner, .wanted = "a planner that grows trees"});
@@ -89,13 +93,32 @@ BodyId drawnBody(const Model& model, const std::string& name) {
   throw UsageError({.what = "--body", .found = "'" + harmless(name) + "', which no joint moves"});
 }
 
-void makeFolder(const fs::path& folder) {
-  std::error_code problem;
-  fs::create_directories(folder, problem);
-  if (!problem && fs::is_directory(folder)) return;
-  throw UsageError({.what = "-o " + harmless(folder.string()),
-                    .found = problem ? problem.message() : "a file",
-                    .wanted = "a folder"});
+// Whether all paths are, and says how they are not.
+bool isClear(const FoundPaths& found, double margin) {
+  // Who wants no margin may touch: that cannot be told from a little overlap.
+  const double least = margin > 0 ? 0 : -kClearanceTolerance;
+  const auto all = [&](double ClearanceBounds::*bound) {
+    return std::ranges::all_of(
+        found.all, [&](const FoundPath& one) { return !one.isFound() || one.clearance.*bound > least; });
+  };
+  if (all(&ClearanceBounds::atLeast)) return true;
+  note(all(&ClearanceBounds::atMost)
+           ? "it is not proven that shapes stay apart between the postures that were checked: give a larger "
+             "--margin"
+           : "shapes overlap between the postures that were checked: give a finer --resolution or a larger "
+             "--margin");
+  return false;
+}
+
+// The table has a row for each frame of a film.
+void requireFewPostures(double length, double speed) {
+  constexpr double kMostPostures = 1e6;
+  const double postures = length / speed * kFilmRate;
+  if (postures <= kMostPostures) return;
+  throw UsageError(
+      {.what = "--speed",
+       .found = fmt::format("{:g}: {:.3g} postures on a way of length {:g}", speed, postures, length),
+       .wanted = fmt::format("at least {:.3g}", length * kFilmRate / kMostPostures)});
 }
 
 }  // namespace
@@ -110,9 +133,11 @@ ExitCode planPath(const Project& project, const PlanOptions& options) {
   if (!options.noFilm) requireFilmable(model);
   const BodyId body = drawnBody(model, options.body);
   const PathTask task = taskOf(std::move(model), options);
+  requireFewPostures(task.problem.space.distance(task.problem.start, task.problem.goal), options.speed);
   makeFolder(options.out);
 
   const FoundPaths found = asWrongUse([&] { return searchPaths(task, search, options.seed, options.seeds); });
+  requireFewPostures(found.shortest().length, options.speed);
   const std::vector<std::string> files = writePathFiles(task, options, pictures, body, found.shortest());
   if (options.json) {
     say(jsonSummaryOf(task, options, found, files));
@@ -120,15 +145,7 @@ ExitCode planPath(const Project& project, const PlanOptions& options) {
     say(summaryOf(task, options, found));
     for (const std::string& file : files) say(file);
   }
-  // Who wants no margin may touch: that cannot be told from a little overlap.
-  const double least = options.margin > 0 ? 0 : -kClearanceTolerance;
-  const bool isClear = std::ranges::all_of(
-      found.all, [&](const FoundPath& one) { return !one.isFound() || one.clearance > least; });
-  if (!isClear)
-    note(
-        "shapes overlap between the postures that were checked: give a finer --resolution or a larger "
-        "--margin");
-  return isClear && found.successes() > 0 ? ExitCode::kFull : ExitCode::kBelow;
+  return isClear(found, options.margin) && found.successes() > 0 ? ExitCode::kFull : ExitCode::kBelow;
 }
 
 }  // namespace rex::cli

@@ -41,7 +41,7 @@ class MotionSearch {
   }
 
   // Coarse passes find the least distance, so that fine ones may leave out all that stays away from it.
-  double run(double tolerance) {
+  ClearanceBounds run(double tolerance) {
     const std::vector<Stretch> whole = stretches_;
     double known = boundOf(whole);
     const auto isUseful = [&] { return std::isfinite(known) && least_ - known > tolerance && left_ > 0; };
@@ -54,7 +54,7 @@ class MotionSearch {
       search(0, 1, 0);
       known = std::max(known, bound_);
     }
-    return known;
+    return {known, least_};
   }
 
  private:
@@ -172,8 +172,8 @@ void requirePosture(const char* what, const VectorArg& q, const Model& model) {
 
 }  // namespace
 
-double motionClearance(const Model& model, const ContactModel& contacts, const VectorArg& from,
-                       const VectorArg& to, double tolerance) {
+ClearanceBounds clearanceBounds(const Model& model, const ContactModel& contacts, const VectorArg& from,
+                                const VectorArg& to, double tolerance) {
   requirePosture("start of the motion", from, model);
   requirePosture("end of the motion", to, model);
   if (!(tolerance >= kLeastTolerance))
@@ -181,6 +181,11 @@ double motionClearance(const Model& model, const ContactModel& contacts, const V
                  .found = fmt::format("{} m", tolerance),
                  .wanted = fmt::format("at least {} m", kLeastTolerance)});
   return MotionSearch(model, contacts, from, to).run(tolerance);
+}
+
+double motionClearance(const Model& model, const ContactModel& contacts, const VectorArg& from,
+                       const VectorArg& to, double tolerance) {
+  return clearanceBounds(model, contacts, from, to, tolerance).atLeast;
 }
 
 }  // namespace rex

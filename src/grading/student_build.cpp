@@ -82,7 +82,7 @@ std::vector<std::string> compileCommand(const Toolchain& toolchain, const Studen
         {"-g", "-O0", fmt::format("-fdebug-prefix-map={}={}", options.workFolder.string(), folder.string())});
     return command;
   }
-  const std::vector<std::string> prefix = prefixFlags(toolchain.prefix, source);
+  const std::vector<std::string> prefix = prefixFlags(toolchain.prefix, source, toolchain.flags);
   command.insert(command.end(), prefix.begin(), prefix.end());
   return command;
 }

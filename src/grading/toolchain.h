@@ -19,7 +19,8 @@ struct Toolchain {
   std::string objdump = "objdump";
 };
 
-/// Reads build.json. Throws Error when it is missing (the exercise is not built) or a key is.
+/// Reads build.json. Throws Error when it is missing (the exercise is not built), or a key other than prefix,
+/// objcopy and objdump is.
 [[nodiscard]] Toolchain readToolchain(const std::filesystem::path& buildJson);
 
 }  // namespace rex::grading

@@ -21,8 +21,6 @@ class EdgeChecker {
   long asked() const { return asked_; }
 
  private:
-  [[nodiscard]] int pointsBetween(const VectorArg& from, const VectorArg& to) const;
-
   Space space_;
   AllValid allValid_;
   double resolution_;

@@ -2,39 +2,49 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/error.h"
-#include "collision/motion_clearance.h"
 
 namespace rex {
 namespace {
 
-// The same posture in numbers to which the way from another is straight.
-Eigen::VectorXd unrolled(const Space& space, const VectorArg& from, const VectorArg& to) {
-  Eigen::VectorXd q = to;
+// Into how many pieces a way is cut, so that in none a ball joint turns by more than 0.05 rad: there the
+// chord of the quaternions, which a straight motion follows, and their arc are at nearly the same place at
+// any time.
+int piecesOf(const Space& space, const VectorArg& from, const VectorArg& to) {
+  constexpr double kTurn = 0.05;
+  double longest = 0;
   Eigen::Index i = 0;
   for (const SpacePart& part : space.parts()) {
     if (part.kind == SpacePart::Kind::kQuaternion) {
-      if (from.segment<4>(i).dot(to.segment<4>(i)) < 0) q.segment<4>(i) *= -1;
-    } else if (part.kind != SpacePart::Kind::kLine) {
-      q[i] = from[i] + std::remainder(to[i] - from[i], 2 * std::numbers::pi);
+      const double cosine = std::abs(from.segment<4>(i).dot(to.segment<4>(i)));
+      longest = std::max(longest, 2 * std::acos(std::min(1., cosine)));
     }
     i += sizeOf(part.kind);
   }
-  return q;
+  return std::max(1, static_cast<int>(std::ceil(longest / kTurn)));
 }
 
 }  // namespace
 
-double pathClearance(const Model& model, const ContactModel& contacts, const Space& space,
-                     const MatrixArg& path, double tolerance) {
+ClearanceBounds pathClearance(const Model& model, const ContactModel& contacts, const Space& space,
+                              const MatrixArg& path, double tolerance) {
   requireSize("postures of a path", path.rows(), space.size());
   if (path.cols() == 0) throw Error({.what = "path", .found = "no postures", .wanted = "at least one"});
-  double least = motionClearance(model, contacts, path.col(0), path.col(0), tolerance);
-  for (Eigen::Index k = 1; k < path.cols(); ++k) {
-    const Eigen::VectorXd to = unrolled(space, path.col(k - 1), path.col(k));
-    least = std::min(least, motionClearance(model, contacts, path.col(k - 1), to, tolerance));
+  ClearanceBounds least = clearanceBounds(model, contacts, path.col(0), path.col(0), tolerance);
+  const Eigen::MatrixXd postures = unrolled(space, path);
+  Eigen::VectorXd from = postures.col(0), to = from;
+  for (Eigen::Index k = 1; k < postures.cols(); ++k) {
+    const auto start = postures.col(k - 1), end = postures.col(k);
+    const int pieces = piecesOf(space, start, end);
+    for (int i = 1; i <= pieces; ++i, from = to) {
+      if (i < pieces)
+        space.interpolate(start, end, static_cast<double>(i) / pieces, to);
+      else
+        to = end;
+      const ClearanceBounds piece = clearanceBounds(model, contacts, from, to, tolerance);
+      least = {std::min(least.atLeast, piece.atLeast), std::min(least.atMost, piece.atMost)};
+    }
   }
   return least;
 }

@@ -22,4 +22,8 @@ double pathLength(const Space& space, const MatrixArg& path) {
   return length;
 }
 
+double lengthThrough(const Space& space, const VectorArg& a, const VectorArg& via, const VectorArg& b) {
+  return space.distance(a, via) + space.distance(via, b);
+}
+
 }  // namespace rex

@@ -35,7 +35,7 @@ struct PathResult {
   PathStatus status = PathStatus::kBudgetSpent;
   Eigen::MatrixXd path{};  ///< from start to goal, one configuration per column; empty where none was found
   double length = 0;       ///< of the path, in the metric of the space
-  int samples = 0;         ///< random configurations that were drawn
+  int samples = 0;         ///< random targets; RRT* may draw up to 101 configurations for an informed one
   long asked = 0;          ///< configurations that the validity function was asked for
   std::vector<PathTree> trees{};
   std::string message{};
@@ -43,5 +43,9 @@ struct PathResult {
 
 /// The length of a path, one configuration per column.
 [[nodiscard]] double pathLength(const Space& space, const MatrixArg& path);
+
+/// No way from a to b through `via` is shorter.
+[[nodiscard]] double lengthThrough(const Space& space, const VectorArg& a, const VectorArg& via,
+                                   const VectorArg& b);
 
 }  // namespace rex

@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require_finite.h"
 #include "planning/edge_checker.h"
+#include "planning/spread_check_internal.h"
 
 namespace rex {
 namespace {
@@ -45,8 +46,9 @@ void requireSound(const PathProblem& problem, const MatrixArg& path, const Motio
   const auto require = [&](const char* what, const Eigen::VectorXd& limit) {
     requireSize(what, limit.size(), space.size());
     for (const double number : limit)
-      if (!(number > 0))
-        throw Error({.what = what, .found = fmt::format("{:g}", number), .wanted = "positive numbers"});
+      if (!(number > 0) || !std::isfinite(number))
+        throw Error(
+            {.what = what, .found = fmt::format("{:g}", number), .wanted = "positive, finite numbers"});
   };
   require("limits of velocity", limits.velocity);
   if (limits.acceleration.size() > 0) require("limits of acceleration", limits.acceleration);
@@ -55,15 +57,8 @@ void requireSound(const PathProblem& problem, const MatrixArg& path, const Motio
 // The path with angles that do not jump, stopping at both ends.
 Polygon polygonOf(const Space& space, const MatrixArg& path) {
   Polygon polygon;
-  for (const auto& column : path.colwise()) {
-    Eigen::VectorXd q = column;
-    for (Eigen::Index i = 0; i < q.size() && !polygon.empty(); ++i) {
-      const double last = polygon.back().q[i];
-      if (space.parts()[static_cast<std::size_t>(i)].kind != SpacePart::Kind::kLine)
-        q[i] = last + std::remainder(q[i] - last, 2 * std::numbers::pi);
-    }
-    polygon.push_back({q, static_cast<double>(polygon.size())});
-  }
+  const Eigen::MatrixXd corners = unrolled(space, path);
+  for (const auto& q : corners.colwise()) polygon.push_back({q, static_cast<double>(polygon.size())});
   polygon.front().isStop = polygon.back().isStop = true;
   return polygon;
 }
@@ -80,11 +75,11 @@ std::vector<std::size_t> cornersOf(const Polygon& polygon) {
 bool isValid(const PathProblem& problem, const Eigen::Ref<const Eigen::MatrixXd>& four) {
   double longest = 0;
   for (Eigen::Index k = 1; k < 4; ++k)
-    longest = std::max(longest, problem.space.distance(four.col(k - 1), four.col(k)));
-  const int points = std::max(1, static_cast<int>(std::ceil(longest / problem.resolution)));
-  Eigen::MatrixXd Q(four.rows(), points);
-  for (int i = 0; i < points; ++i) Q.col(i) = four * weights((i + 1.) / points, 0);
-  return problem.allValid(Q);
+    longest = std::max(longest, problem.space.wayLength(four.col(k - 1), four.col(k)));
+  const int points = internal::pointsOn(longest, problem.resolution);
+  Eigen::MatrixXd block(four.rows(), internal::kBlock);
+  return internal::isValidSpread(problem.allValid, points, block,
+                                 [&](double share, auto out) { out = four * weights(share, 0); });
 }
 
 // The corners of control points between which the spline leaves the path where that is not valid.
@@ -120,15 +115,31 @@ bool isPathValid(const PathProblem& problem, const MatrixArg& path) {
   return isValid;
 }
 
-// The shortest that keeps velocities and accelerations, which lie between the first and second differences of
-// control points, within their limits.
+// The largest share of the limits that the velocity reaches in the segment between two control points, where
+// one such step takes a second. Its number at the share s is that of a quadratic B-spline of three steps: it
+// is largest at an end, or where it turns.
+double velocityShare(const Eigen::Ref<const Eigen::MatrixXd>& four, const Eigen::VectorXd& limit) {
+  double largest = 0;
+  for (Eigen::Index i = 0; i < four.rows(); ++i) {
+    const double first = four(i, 1) - four(i, 0), second = four(i, 2) - four(i, 1);
+    const double third = four(i, 3) - four(i, 2), rise = second - first, fall = second - third;
+    double fastest = std::max(std::abs(first + second), std::abs(second + third)) / 2;
+    if (rise * fall > 0)  // it turns at rise / (rise + fall)
+      fastest = std::max(fastest, std::abs((first + second + rise * rise / (rise + fall)) / 2));
+    largest = std::max(largest, fastest / limit[i]);
+  }
+  return largest;
+}
+
+// The shortest that keeps velocities and accelerations within their limits. The latter are linear between
+// control points, where they are second differences.
 double intervalFor(const Eigen::MatrixXd& control, const MotionLimits& limits) {
   double interval = 0;
-  for (Eigen::Index k = 1; k < control.cols(); ++k) {
-    const Eigen::ArrayXd step = control.col(k) - control.col(k - 1);
-    interval = std::max(interval, (step.abs() / limits.velocity.array()).maxCoeff());
-    if (k == 1 || limits.acceleration.size() == 0) continue;
-    const Eigen::ArrayXd turn = step - (control.col(k - 1) - control.col(k - 2)).array();
+  for (Eigen::Index k = 0; k + 3 < control.cols(); ++k)
+    interval = std::max(interval, velocityShare(control.middleCols<4>(k), limits.velocity));
+  if (limits.acceleration.size() == 0) return interval;
+  for (Eigen::Index k = 2; k < control.cols(); ++k) {
+    const Eigen::ArrayXd turn = control.col(k) - 2 * control.col(k - 1) + control.col(k - 2);
     interval = std::max(interval, std::sqrt((turn.abs() / limits.acceleration.array()).maxCoeff()));
   }
   return interval;
@@ -146,13 +157,23 @@ SplineResult resultOf(const Polygon& polygon, const Eigen::MatrixXd& control, co
 }  // namespace
 
 PathSpline::PathSpline(Eigen::MatrixXd control, double interval)
-    : control_(std::move(control)), interval_(interval) {}
+    : control_(std::move(control)), interval_(interval) {
+  if (control_.cols() == 0)
+    throw Error({.what = "spline", .found = "no control points", .wanted = "at least one"});
+  if (!(interval >= 0) || !std::isfinite(interval))
+    throw Error({.what = "interval of a spline",
+                 .found = fmt::format("{:g} s", interval),
+                 .wanted = "a finite time, zero or more"});
+}
 
 double PathSpline::duration() const {
   return interval_ * static_cast<double>(std::max<Eigen::Index>(0, control_.cols() - 3));
 }
 
 Eigen::VectorXd PathSpline::value(double t, int derivative) const {
+  if (control_.cols() == 0)
+    throw Error({.what = "spline", .found = "no control points", .wanted = "one that splineAlong() found"});
+  requireFinite("time on a spline", t);
   const bool isPoint = !(duration() > 0);
   if (isPoint)
     return derivative == 0 ? Eigen::VectorXd(control_.col(0)) : Eigen::VectorXd(0 * control_.col(0));

@@ -10,12 +10,14 @@ namespace rex {
 class PathSpline {
  public:
   PathSpline() = default;
-  /// Control points, one per column, the ends three times; seconds from one to the next.
+  /// Control points, one per column, the ends three times; seconds from one to the next. Throws Error without
+  /// points, and for a time that is negative or not finite.
   PathSpline(Eigen::MatrixXd control, double interval);
 
   const Eigen::MatrixXd& control() const { return control_; }
   [[nodiscard]] double duration() const;
-  /// At t seconds, and at an end before 0 and after duration(). Angles are not wrapped.
+  /// At t seconds, and at an end before 0 and after duration(). Angles are not wrapped. These three throw
+  /// Error for a time that is not finite, and for a spline without control points.
   [[nodiscard]] Eigen::VectorXd position(double t) const { return value(t, 0); }
   [[nodiscard]] Eigen::VectorXd velocity(double t) const { return value(t, 1); }
   [[nodiscard]] Eigen::VectorXd acceleration(double t) const { return value(t, 2); }
@@ -27,8 +29,8 @@ class PathSpline {
   double interval_ = 0;
 };
 
-/// The largest velocity and acceleration of each number of a configuration, per second and second squared;
-/// accelerations may be empty: any.
+/// The largest velocity and acceleration of each number of a configuration, per second and second squared,
+/// positive and finite; accelerations may be empty: any.
 struct MotionLimits {
   Eigen::VectorXd velocity{}, acceleration{};
 };
@@ -46,12 +48,13 @@ struct SplineResult {
   std::string message{};
 };
 
-/// The fastest motion within the limits on a spline that has a path for control polygon: it cuts corners.
+/// A motion on a spline that has a path for control polygon: it cuts corners. It goes from one control point
+/// to the next in equal times, the shortest within the limits: one of them is reached in some place.
 /// Where that is not valid at the resolution of the problem, the polygon gets more points, so that the spline
 /// comes nearer to the path, and in the end follows it and stops at its corners. Never longer than the path;
 /// pieces that lie on it are not looked at in other points than those of an edge check. Throws Error for a
-/// path of another size or without points, a space with quaternions, and limits that are not positive, or of
-/// another size.
+/// path of another size or without points, a space with quaternions, and limits that are not positive or not
+/// finite, or of another size.
 [[nodiscard]] SplineResult splineAlong(const PathProblem& problem, const MatrixArg& path,
                                        const MotionLimits& limits);
 

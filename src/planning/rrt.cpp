@@ -11,6 +11,11 @@ using internal::SearchTree;
 using internal::stepTowards;
 using internal::TreeGrowth;
 
+// Whether one step that nothing bars leads from a configuration to the goal.
+bool reachesGoal(const PathProblem& problem, const VectorArg& q, double stepSize, EdgeChecker& edges) {
+  return problem.space.distance(q, problem.goal) <= stepSize && edges.isValid(q, problem.goal);
+}
+
 Eigen::MatrixXd joined(const Eigen::MatrixXd& fromStart, const Eigen::MatrixXd& fromGoal) {
   Eigen::MatrixXd path(fromStart.rows(), fromStart.cols() + fromGoal.cols() - 1);
   path.leftCols(fromStart.cols()) = fromStart;
@@ -23,21 +28,20 @@ Eigen::MatrixXd joined(const Eigen::MatrixXd& fromStart, const Eigen::MatrixXd& 
 PathResult growRrt(const PathProblem& problem, const RrtOptions& options, Rng& rng) {
   TreeGrowth growth(problem, options, rng);
   SearchTree tree(problem.space, problem.start);
-  while (!growth.isSpent()) {
-    const int node = growth.extend(tree, growth.draw(options.goalBias));
-    if (node < 0) continue;
-    const Eigen::VectorXd q = tree.points().point(node);
-    if (problem.space.distance(q, problem.goal) > options.stepSize) continue;
-    if (!growth.edges().isValid(q, problem.goal)) continue;
-    return growth.finish(tree.wayTo(tree.add(problem.goal, node)), {&tree});
+  for (int node = 0;; node = growth.extend(tree, growth.draw(options.goalBias))) {
+    if (node >= 0 && reachesGoal(problem, tree.points().point(node), options.stepSize, growth.edges()))
+      return growth.finish(tree.wayTo(tree.add(problem.goal, node)), {&tree});
+    if (growth.isSpent()) return growth.finish({}, {&tree});
   }
-  return growth.finish({}, {&tree});
 }
 
 PathResult connectRrts(const PathProblem& problem, const RrtOptions& options, Rng& rng) {
   TreeGrowth growth(problem, options, rng);
   std::array<SearchTree, 2> trees{SearchTree(problem.space, problem.start),
                                   SearchTree(problem.space, problem.goal)};
+  if (reachesGoal(problem, problem.start, options.stepSize, growth.edges()))
+    return growth.finish(joined(trees[0].wayTo(trees[0].add(problem.goal, 0)), trees[1].wayTo(0)),
+                         {&trees[0], &trees[1]});
   for (std::size_t turn = 0; !growth.isSpent(); turn = 1 - turn) {
     SearchTree &one = trees[turn], &other = trees[1 - turn];
     const int node = growth.extend(one, growth.draw(0));

@@ -13,8 +13,9 @@ struct RrtOptions {
 };
 
 /// A tree from the start that grows towards random targets and, now and then, the goal: slides 4:39 and 4:40,
-/// with steps that do not overshoot and edges that are checked all along (errata). LaValle 1998. Throws as
-/// requireSound, and for options out of range.
+/// with steps that do not overshoot and edges that are checked all along (errata). LaValle 1998. A goal
+/// within a step of the start is joined before any target is drawn. Throws as requireSound, and for options
+/// out of range.
 [[nodiscard]] PathResult growRrt(const PathProblem& problem, const RrtOptions& options, Rng& rng);
 
 /// Two trees, from start and goal: one takes a step towards a random target, the other runs towards the new
@@ -27,7 +28,8 @@ struct RrtStarOptions {
   /// large as optimality asks for in a space of this size (Karaman and Frazzoli 2011, theorem 38).
   double gamma = 0;
   /// Once there is a path, draw only targets between start and goal through which a shorter one may lead
-  /// (Gammell, Srinivasa and Barfoot, Informed RRT*, 2014), and look only as far as they ask for.
+  /// (Gammell, Srinivasa and Barfoot, Informed RRT*, 2014), and in spaces of lines look only as far as they
+  /// ask for.
   bool isInformed = true;
 };
 

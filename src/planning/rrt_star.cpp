@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <numbers>
@@ -51,26 +52,47 @@ double volumeOfEllipsoid(int dimension, double apart, double length) {
 }
 
 // Up to which distance neighbours are looked at, for the tree to become optimal (Karaman and Frazzoli 2011,
-// theorem 38). Once only ways through the ellipsoid matter that are shorter than the best, its volume counts.
+// theorem 38). Once only ways matter that are shorter than the best, these lie in an ellipsoid, and its
+// volume and the nodes in it count. Where angles close up, it may meet its own images: there the whole space
+// counts.
 class Reach {
  public:
   Reach(const PathProblem& problem, const RrtStarOptions& options)
-      : extent_(extentOf(problem.space)),
-        apart_(problem.space.distance(problem.start, problem.goal)),
-        stepSize_(options.growth.stepSize),
-        gamma_(options.gamma) {}
+      : problem_(problem), options_(options), extent_(extentOf(problem.space)) {
+    const auto parts = problem.space.parts();
+    isFlat_ = std::all_of(parts.begin(), parts.end(),
+                          [](const SpacePart& part) { return part.kind == SpacePart::Kind::kLine; });
+    apart_ = problem.space.distance(problem.start, problem.goal);
+    add(problem.start);
+  }
 
-  double radius(double nodes, double length) const {
-    const double power = 1. / extent_.dimension;
-    const double volume = std::min(extent_.volume, volumeOfEllipsoid(extent_.dimension, apart_, length));
+  void add(const VectorArg& node) {
+    lengths_.push_back(lengthThrough(problem_.space, problem_.start, node, problem_.goal));
+    if (lengths_.back() <= best_) ++inside_;
+  }
+
+  // `best` is the length of the shortest way that is known.
+  double radius(double best) {
+    if (isFlat_ && best < best_) {
+      best_ = best;
+      inside_ = std::count_if(lengths_.begin(), lengths_.end(), [=](double one) { return one <= best; });
+    }
+    const double power = 1. / extent_.dimension, nodes = std::max(2., static_cast<double>(inside_));
+    const double volume = std::min(extent_.volume, volumeOfEllipsoid(extent_.dimension, apart_, best_));
     const double gamma =
-        gamma_ > 0 ? gamma_ : 2 * std::pow((1 + power) * volume / volumeOfUnitBall(extent_.dimension), power);
-    return std::min(stepSize_, gamma * std::pow(std::log(nodes) / nodes, power));
+        options_.gamma > 0 ? options_.gamma
+                           : 2 * std::pow((1 + power) * volume / volumeOfUnitBall(extent_.dimension), power);
+    return std::min(options_.growth.stepSize, gamma * std::pow(std::log(nodes) / nodes, power));
   }
 
  private:
+  const PathProblem& problem_;
+  const RrtStarOptions& options_;
   Extent extent_;
-  double apart_, stepSize_, gamma_;
+  bool isFlat_;
+  double apart_, best_ = kEndless;
+  std::vector<double> lengths_;  // of the nodes: no way through one is shorter
+  std::ptrdiff_t inside_ = 0;    // nodes through which a way may be as short as the best
 };
 
 // A tree that knows what it costs to come to each node.
@@ -147,10 +169,15 @@ PathResult growRrtStar(const PathProblem& problem, const RrtStarOptions& options
                  .found = fmt::format("{:g}", options.gamma),
                  .wanted = "zero or a positive number"});
   }
-  const Reach reach(problem, options);
+  Reach reach(problem, options);
   CostTree tree(problem);
   const NearestNeighbors& points = tree.tree().points();
-  int goal = -1;
+  const auto joinGoal = [&](int node) {
+    const int goal = goalBehind(tree, node, problem, options.growth.stepSize, growth.edges());
+    if (goal > node) reach.add(problem.goal);
+    return goal;
+  };
+  int goal = joinGoal(0);
   Eigen::VectorXd q(problem.space.size());
   std::vector<Neighbor> near, open;
   while (!growth.isSpent()) {
@@ -158,13 +185,14 @@ PathResult growRrtStar(const PathProblem& problem, const RrtStarOptions& options
     const Eigen::VectorXd& target = growth.draw(goal < 0 ? options.growth.goalBias : 0, best);
     const int nearest = points.nearest(target);
     stepTowards(problem.space, points.point(nearest), target, options.growth.stepSize, q);
-    points.within(q, reach.radius(tree.tree().count(), best), near);
+    points.within(q, reach.radius(best), near);
     if (std::none_of(near.begin(), near.end(), [&](const Neighbor& one) { return one.point == nearest; }))
       near.push_back({problem.space.distance(points.point(nearest), q), nearest});
     const int parent = bestParent(tree, near, q, growth.edges(), open);
     if (parent < 0) continue;
     const int node = tree.add(q, parent);
-    if (goal < 0) goal = goalBehind(tree, node, problem, options.growth.stepSize, growth.edges());
+    reach.add(q);
+    if (goal < 0) goal = joinGoal(node);
     for (const auto& [distance, other] : near) {
       const double cost = tree.cost(node) + distance;
       if (cost < tree.cost(other) && growth.edges().isValid(q, points.point(other)))

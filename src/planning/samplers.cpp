@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/rng.h"
 #include "geometry/rotation.h"
+#include "planning/path_problem.h"
 
 namespace rex {
 namespace {
@@ -81,7 +82,7 @@ Sampler informedSampler(const Space& space, const VectorArg& start, const Vector
   return [space, start = Eigen::VectorXd(start), goal = Eigen::VectorXd(goal), length](
              Rng& rng, Eigen::Ref<Eigen::VectorXd> q) {
     space.sample(rng, q);
-    return space.distance(start, q) + space.distance(q, goal) < length;
+    return lengthThrough(space, start, q, goal) < length;
   };
 }
 

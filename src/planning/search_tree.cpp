@@ -29,12 +29,12 @@ PathTree SearchTree::drawn() const {
 
 bool stepTowards(const Space& space, const VectorArg& near, const VectorArg& target, double stepSize,
                  Eigen::Ref<Eigen::VectorXd> out) {
-  const double distance = space.distance(near, target);
-  if (distance <= stepSize) {
+  const double length = space.wayLength(near, target);
+  if (length <= stepSize) {
     out = target;
     return true;
   }
-  space.interpolate(near, target, stepSize / distance, out);
+  space.interpolate(near, target, stepSize / length, out);
   return false;
 }
 

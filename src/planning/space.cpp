@@ -33,6 +33,12 @@ double turn(double from, double to) {
   return std::abs(way) <= kPi ? way : std::remainder(way, 2 * kPi);
 }
 
+// Half the angle between two rotations, which is the arc between the quaternions.
+double halfTurn(const Quaternion& a, const Quaternion& b) {
+  const double minus = (a - b).norm(), plus = (a + b).norm();
+  return 2 * std::atan2(std::min(minus, plus), std::max(minus, plus));
+}
+
 double squaredDistance(const SpacePart& part, const double* a, const double* b) {
   switch (part.kind) {
     case Kind::kLine:
@@ -93,6 +99,21 @@ double Space::distance(const VectorArg& a, const VectorArg& b) const {
   return std::sqrt(sum);
 }
 
+double Space::wayLength(const VectorArg& a, const VectorArg& b) const {
+  requireSize("configuration", a.size(), size_);
+  requireSize("configuration", b.size(), size_);
+  double sum = 0;
+  Eigen::Index i = 0;
+  for (const SpacePart& part : parts_) {
+    const double length = part.kind == Kind::kLine         ? b[i] - a[i]
+                          : part.kind == Kind::kQuaternion ? halfTurn(a.segment<4>(i), b.segment<4>(i))
+                                                           : turn(a[i], b[i]);
+    sum += part.weight * part.weight * length * length;
+    i += sizeOf(part.kind);
+  }
+  return std::sqrt(sum);
+}
+
 void Space::interpolate(const VectorArg& a, const VectorArg& b, double t,
                         Eigen::Ref<Eigen::VectorXd> out) const {
   requireSize("configuration", a.size(), size_);
@@ -131,6 +152,22 @@ void Space::sample(Rng& rng, Eigen::Ref<Eigen::VectorXd> out) const {
       out[i] = rng.uniform(-kPi, kPi);
     i += sizeOf(part.kind);
   }
+}
+
+Eigen::MatrixXd unrolled(const Space& space, Eigen::MatrixXd path) {
+  requireSize("configurations of a path", path.rows(), space.size());
+  for (Eigen::Index k = 1; k < path.cols(); ++k) {
+    Eigen::Index i = 0;
+    for (const SpacePart& part : space.parts()) {
+      if (part.kind == Kind::kQuaternion) {
+        if (path.col(k - 1).segment<4>(i).dot(path.col(k).segment<4>(i)) < 0) path.col(k).segment<4>(i) *= -1;
+      } else if (part.kind != Kind::kLine) {
+        path(i, k) = path(i, k - 1) + turn(path(i, k - 1), path(i, k));
+      }
+      i += sizeOf(part.kind);
+    }
+  }
+  return path;
 }
 
 void Space::require(std::string_view what, const VectorArg& q) const {

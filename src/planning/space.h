@@ -41,6 +41,9 @@ class Space {
   std::span<const SpacePart> parts() const { return parts_; }
 
   [[nodiscard]] double distance(const VectorArg& a, const VectorArg& b) const;
+  /// How long the way from a to b is that interpolate() follows: more than distance() where that cuts through
+  /// the circle or the sphere.
+  [[nodiscard]] double wayLength(const VectorArg& a, const VectorArg& b) const;
   /// The configuration at the share t of the way from a (0) to b (1): straight, the shorter way round, and
   /// turning about one axis.
   void interpolate(const VectorArg& a, const VectorArg& b, double t, Eigen::Ref<Eigen::VectorXd> out) const;
@@ -54,6 +57,10 @@ class Space {
   std::vector<SpacePart> parts_;
   int size_ = 0;
 };
+
+/// The same postures, one per column, in numbers that do not jump: each angle is at most half a turn from the
+/// one before, each quaternion has the sign that is nearer. Throws Error for columns of the wrong size.
+[[nodiscard]] Eigen::MatrixXd unrolled(const Space& space, Eigen::MatrixXd path);
 
 /// How many numbers a part has.
 [[nodiscard]] constexpr int sizeOf(SpacePart::Kind kind) {

@@ -39,9 +39,7 @@ TreeGrowth::TreeGrowth(const PathProblem& problem, const RrtOptions& options, Rn
 const Eigen::VectorXd& TreeGrowth::draw(double goalBias, double length) {
   ++result_.samples;
   if (goalBias > 0 && rng_.uniform() < goalBias) return target_ = problem_.goal;
-  const auto isOff = [&] {
-    return space().distance(problem_.start, target_) + space().distance(target_, problem_.goal) > length;
-  };
+  const auto isOff = [&] { return lengthThrough(space(), problem_.start, target_, problem_.goal) > length; };
   space().sample(rng_, target_);
   for (int i = 0; i < kMostRedraws && isOff(); ++i) space().sample(rng_, target_);
   return target_;

@@ -56,9 +56,9 @@ TEST_P(EachPlanner, FindsAWayThatIsClear) {
       nearest = std::min(nearest, nearestAt(task, q));
     }
   }
-  EXPECT_GT(found.clearance, 0);
-  EXPECT_LE(found.clearance, nearest + 1e-12);
-  EXPECT_GT(found.clearance, nearest - 5e-3);
+  EXPECT_GT(found.clearance.atLeast, 0);
+  EXPECT_LE(found.clearance.atLeast, nearest + 1e-12);
+  EXPECT_GT(found.clearance.atLeast, nearest - 5e-3);
 }
 
 TEST_P(EachPlanner, TellsWhatItExplored) {

@@ -21,7 +21,7 @@ class Summary : public ::testing::Test {
             .path = Eigen::MatrixXd::Zero(1, 2),
             .length = length,
             .plannedLength = 2 * length,
-            .clearance = 0.02,
+            .clearance = {0.02, 0.0201},
             .samples = 9,
             .nodes = static_cast<int>(seed),
             .checks = 100,
@@ -45,8 +45,13 @@ TEST_F(Summary, TellsOfOneSearch) {
             "length     3.000, before smoothing 6.000; 1.5 s at a speed of 2\n"
             "clearance  0.0200 m all along the path, margin 0.01 m");
   FoundPath free = path(7, 3);
-  free.clearance = std::numeric_limits<double>::infinity();
+  constexpr double kEndless = std::numeric_limits<double>::infinity();
+  free.clearance = {kEndless, kEndless};
   EXPECT_THAT(summaryOf(task, options, {.all = {free}}), HasSubstr("nothing can collide"));
+  FoundPath open = path(7, 3);
+  open.clearance = {-0.01, 0.02};
+  EXPECT_THAT(summaryOf(task, options, {.all = {open}}),
+              HasSubstr("-0.0100 m all along the path is proven, 0.0200 m measured, margin"));
   EXPECT_EQ(summaryOf(task, options, {.all = {{.samples = 4, .nodes = 2, .checks = 5}}}),
             "pole, rrt-connect, seed 0: no path within the budget of --samples\n"
             "explored   2 nodes of 4 samples, 5 configurations checked\n"

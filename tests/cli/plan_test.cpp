@@ -21,6 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 constexpr const char* kGoal = "1.5,-1.1,-1";
@@ -159,15 +160,17 @@ TEST_F(PlanCommand, TellsOfAPathThatIsNotClear) {
       "body rail {} body ball { type=1 size=[0 0 0 .05] contact }\n"
       "body wall { type=0 size=[.02 1 1 0] contact }\n"
       "joint slide (rail ball) { A=<T t(-1 0 0)> type=transX limits=[0 2] }\n");
-  const auto plan2 = [&](const char* resolution) {
+  const auto plan2 = [&](const char* resolution, const char* margin) {
     return plan({file.string(), "--goal", "2", "--resolution", resolution, "--step", "2", "--samples", "50",
-                 "--no-film", "-o", "out"});
+                 "--margin", margin, "--no-film", "-o", "out"});
   };
-  const ProcessResult coarse = plan2("2");
-  EXPECT_EQ(coarse.exitCode, 1);
-  EXPECT_THAT(coarse.output, HasSubstr("found a path"));
-  EXPECT_THAT(flat(coarse.error), HasSubstr("give a finer --resolution or a larger --margin"));
-  const ProcessResult fine = plan2("0.02");
+  for (const char* margin : {"0.01", "0"}) {
+    const ProcessResult coarse = plan2("2", margin);
+    EXPECT_EQ(coarse.exitCode, 1) << margin;
+    EXPECT_THAT(coarse.output, HasSubstr("found a path"));
+    EXPECT_THAT(flat(coarse.error), HasSubstr("give a finer --resolution or a larger --margin"));
+  }
+  const ProcessResult fine = plan2("0.02", "0.01");
   EXPECT_EQ(fine.exitCode, 1);
   EXPECT_THAT(fine.output, HasSubstr("no path within the budget"));
 }
@@ -232,6 +235,8 @@ TEST_F(PlanCommand, RefusesOptionsThatMakeNoSense) {
   expectRefusalOnBoard({"--planner", "prm", "--samples", "1000000"},
                        "--samples: found 1e+06, wanted 1 to 100000");
   expectRefusalOnBoard({"--seeds", "0"}, "--seeds: found 0, wanted 1 to 10000");
+  expectRefusalOnBoard({"--seed", "18446744073709551615", "--seeds", "2"},
+                       "--seed: found 18446744073709551615, wanted a seed that 1 others can follow");
   expectRefusalOnBoard({"--speed", "0"}, "--speed: found 0, wanted 0.001 to 1000");
   expectRefusalOnBoard({"--body", "stme"}, "--body: scene 'board' has no body 'stme' (did you mean 'stem'?)");
   expectRefusalOnBoard({"--body", "stem"}, "--body: found 'stem', which no joint moves");
@@ -247,6 +252,63 @@ TEST_F(PlanCommand, RefusesAFolderThatCannotBe) {
     EXPECT_THAT(flat(result.error), HasSubstr("-o " + std::string(out) + ": found "));
     EXPECT_THAT(flat(result.error), HasSubstr("wanted a folder"));
   }
+}
+
+TEST_F(PlanCommand, RefusesAFolderThatTakesNoFiles) {
+  fs::create_directories(in("out/path.csv/inside"));
+  const ProcessResult blocked = planBoard({});
+  EXPECT_EQ(blocked.exitCode, 64);
+  EXPECT_THAT(flat(blocked.error), HasSubstr("-o out/path.csv: found "));
+  EXPECT_THAT(flat(blocked.error), HasSubstr("wanted a file, or nothing"));
+  EXPECT_EQ(blocked.output, "") << "before the search";
+  const ProcessResult locked = plan({"board", "--goal", kGoal, "-o", "/proc"});
+  EXPECT_EQ(locked.exitCode, 64);
+  EXPECT_THAT(flat(locked.error), HasSubstr("-o /proc: found "));
+  EXPECT_THAT(flat(locked.error), HasSubstr("wanted a folder to write to"));
+}
+
+TEST_F(PlanCommand, TakesAwayTheFramesOfAnEarlierFilm) {
+  REX_NEEDS_OSMESA();
+  fs::create_directories(in("out/path"));
+  for (const char* name : {"out/path/0000.png", "out/path/0001.png"}) std::ofstream(in(name)) << "x";
+  ASSERT_EQ(planBoard({"--samples", "1"}).exitCode, 1);
+  EXPECT_FALSE(fs::exists(in("out/path")));
+  fs::create_directories(in("out/path"));
+  std::ofstream(in("out/path/mine.txt")) << "x";
+  ASSERT_EQ(planBoard({"--samples", "1"}).exitCode, 1);
+  EXPECT_TRUE(fs::exists(in("out/path/mine.txt")));
+}
+
+// A ball 1 mm above a plate on a way that asks for more distances than are measured.
+TEST_F(PlanCommand, SaysThatAClearanceIsNotProven) {
+  REX_NEEDS_OSMESA();
+  const fs::path file = scene(
+      "body rail {} body ball { type=1 size=[0 0 0 .05] contact }\n"
+      "body plate { X=<T t(0 0 -.101)> type=0 size=[3000 1 .1 0] contact }\n"
+      "joint slide (rail ball) { type=transX limits=[-1000 1000] }\n");
+  const ProcessResult result =
+      plan({file.string(), "--start", "-900", "--goal", "900", "--margin", "0.0005", "--resolution", "1",
+            "--step", "100", "--no-film", "--size", "64x48", "-o", "out"});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_THAT(result.output, HasSubstr(" m all along the path is proven, 0.0010 m measured"));
+  EXPECT_THAT(flat(result.error), HasSubstr("it is not proven that shapes stay apart"));
+  EXPECT_THAT(flat(result.error), Not(HasSubstr("overlap")));
+}
+
+TEST_F(PlanCommand, RefusesPathsOfTooManyPostures) {
+  const fs::path file = scene(
+      "body rail {} body ball { type=1 size=[0 0 0 .05] contact }\n"
+      "joint slide (rail ball) { type=transX limits=[0 100000] }\n");
+  expectRefusal({file.string(), "--goal", "50000", "--speed", "0.001", "--step", "1000"},
+                "--speed: found 0.001: 1.5e+09 postures on a way of length 50000, wanted at least 1.5");
+}
+
+TEST_F(PlanCommand, StaysWhereItIs) {
+  REX_NEEDS_OSMESA();
+  const ProcessResult result = plan(
+      {"board", "--start", kGoal, "--goal", kGoal, "--no-film", "--json", "--size", "64x48", "-o", "out"});
+  ASSERT_EQ(result.exitCode, 0) << result.error;
+  EXPECT_EQ(nlohmann::json::parse(result.output).at("runs")[0].at("planned_length"), 0);
 }
 
 TEST_F(PlanCommand, DoesWhatItsExamplesSay) {

@@ -8,6 +8,7 @@
 #include "base/process.h"
 #include "grading/student_build.h"
 #include "grading/text_file.h"
+#include "support/paths.h"
 #include "support/temporary_folder.h"
 
 namespace rex::grading {
@@ -16,20 +17,30 @@ namespace {
 using std::filesystem::path;
 using namespace std::chrono_literals;
 
+const std::vector<std::string>& flags() {
+  static const std::vector<std::string> kFlags = {"-O1", "-iquote", sourcePath("tests/grading/sample"),
+                                                  "-isystem", sourcePath("src")};
+  return kFlags;
+}
+
 TEST(OpensWithExerciseHeader, BehindOtherHeadersAndComments) {
-  EXPECT_TRUE(opensWithExerciseHeader("#include \"exercise.h\""));
+  EXPECT_TRUE(opensWithExerciseHeader("#include \"exercise.h\"", {}));
   EXPECT_TRUE(
       opensWithExerciseHeader("// Mine.\r\n\n#include <cmath>\n  #include\t\"control/pid.h\"  // why\n"
-                              "#include <exercise.h>\nint x;\n"));
+                              "#include <exercise.h>\nint x;\n",
+                              flags()));
 }
 
 TEST(OpensWithExerciseHeader, NotBehindWhatCouldChangeIt) {
-  for (const char* first : {"#define EIGEN_NO_IO", "#include \"/tmp/a.h\"", "#include \"../a.h\"", "int x;",
-                            "#include \"main.cpp\"", "#include NAME", "/*", "// on and on \\", "#if 0",
-                            "#include <cmath", "#pragma GCC system_header"})
-    EXPECT_FALSE(opensWithExerciseHeader(std::string(first) + "\n#include \"exercise.h\"\n")) << first;
-  EXPECT_FALSE(opensWithExerciseHeader(""));
-  EXPECT_FALSE(opensWithExerciseHeader("#include <cmath>\n"));
+  for (const char* first :
+       {"#define EIGEN_NO_IO", "#include \"/tmp/a.h\"", "#include \"../src/control/pid.h\"", "int x;",
+        "#include \"main.cpp\"", "#include NAME", "/*", "// on and on \\", "#if 0", "#include <cmath",
+        "#pragma GCC system_header", "#include <cstdlib> /*", "#include <X11/Xlib.h>", "#include \"mine.h\"",
+        "#include <math.h>", "#include \"good.cpp\""})
+    EXPECT_FALSE(opensWithExerciseHeader(std::string(first) + "\n#include \"exercise.h\"\n", flags()))
+        << first;
+  EXPECT_FALSE(opensWithExerciseHeader("", flags()));
+  EXPECT_FALSE(opensWithExerciseHeader("#include <cmath>\n", flags()));
 }
 
 constexpr const char* kSource = "#include \"exercise.h\"\n";
@@ -86,22 +97,22 @@ class PrefixTest : public ::testing::Test {
 std::unique_ptr<TemporaryFolder> PrefixTest::shared_;
 
 TEST_F(PrefixTest, GivesFlagsWhileItIsCurrent) {
-  EXPECT_EQ(prefixFlags(prefix(), kSource), (std::vector<std::string>{"-include", prefix()}));
-  EXPECT_TRUE(prefixFlags(prefix(), "int x;\n").empty());
-  EXPECT_TRUE(prefixFlags({}, kSource).empty());
+  EXPECT_EQ(prefixFlags(prefix(), kSource, {}), (std::vector<std::string>{"-include", prefix()}));
+  EXPECT_TRUE(prefixFlags(prefix(), "int x;\n", {}).empty());
+  EXPECT_TRUE(prefixFlags({}, kSource, {}).empty());
   setAge(folder() / "src/course/course.h", -1h);
-  EXPECT_TRUE(prefixFlags(prefix(), kSource).empty());
+  EXPECT_TRUE(prefixFlags(prefix(), kSource, {}).empty());
 }
 
 TEST_F(PrefixTest, GivesNoFlagsWhereAFileIsMissing) {
   const path other = folder() / "other.h";
-  EXPECT_TRUE(prefixFlags(other, kSource).empty());
+  EXPECT_TRUE(prefixFlags(other, kSource, {}).empty());
   writeTextFile(other.string() + ".gch", "");
-  EXPECT_TRUE(prefixFlags(other, kSource).empty());
+  EXPECT_TRUE(prefixFlags(other, kSource, {}).empty());
   writeTextFile(other.string() + ".d", "other.h.gch: no\\ such\\ file.h\n");
-  EXPECT_TRUE(prefixFlags(other, kSource).empty());
+  EXPECT_TRUE(prefixFlags(other, kSource, {}).empty());
   writeTextFile(other.string() + ".d", "");
-  EXPECT_TRUE(prefixFlags(other, kSource).empty());
+  EXPECT_TRUE(prefixFlags(other, kSource, {}).empty());
 }
 
 TEST_F(PrefixTest, IsTakenByTheCompiler) {
@@ -127,6 +138,7 @@ TEST_F(PrefixTest, ChangesNoMessageAndNoSymbol) {
       "Eigen::Vector3d f(Eigen::Vector3d a, Eigen::Vector2d b) {\n  return a + b;\n}\n";
   for (const std::string& rest : {good, bad, std::string("#include \"none.h\"\n")}) {
     const std::string source = std::string("#include <cassert>\n\n// Mine.\n") + kSource + rest;
+    ASSERT_FALSE(prefixFlags(prefix(), source, toolchain().flags).empty()) << source;
     const StudentObject a = compile(toolchain(), source);
     const std::string symbols = a.ok ? runProcess({"nm", a.object}).output : "";
     const StudentObject b = compile(without, source);
@@ -140,6 +152,36 @@ TEST_F(PrefixTest, ChangesNoMessageAndNoSymbol) {
     for (std::size_t k = 0; k < a.messages.size(); ++k)
       EXPECT_EQ(toString(a.messages[k]), toString(b.messages[k])) << source;
   }
+}
+
+// The header of the course itself, by the flags of an exercise: g++ names what it takes behind a "!".
+TEST(Prefix, OfTheCourseIsTakenForAnExercise) {
+  const Toolchain toolchain = readToolchain(path(REX_BINARY_DIR) / "exercises/04-rrt/build.json");
+  if (toolchain.prefix.empty())
+    GTEST_SKIP() << "this build, with sanitizers or not by g++, has no precompiled header";
+  const std::vector<std::string> prefix = prefixFlags(toolchain.prefix, kSource, toolchain.flags);
+  ASSERT_FALSE(prefix.empty());
+  const TemporaryFolder folder;
+  writeTextFile(folder.path() / "main.cpp", kSource);
+  std::vector<std::string> command = {toolchain.compiler};
+  command.insert(command.end(), toolchain.flags.begin(), toolchain.flags.end());
+  command.insert(command.end(), prefix.begin(), prefix.end());
+  command.insert(command.end(), {"-H", "-Winvalid-pch", "-fsyntax-only", folder.path() / "main.cpp"});
+  const ProcessResult made = runProcess(command, {.directory = folder.path()});
+  EXPECT_TRUE(made.ok()) << made.error;
+  EXPECT_EQ(made.error.find("! " + toolchain.prefix.string() + ".gch"), 0u) << made.error.substr(0, 400);
+}
+
+TEST(Prefix, IsForWhatStudentsStartFrom) {
+  int exercises = 0;
+  for (const auto& folder : std::filesystem::directory_iterator(path(REX_BINARY_DIR) / "exercises")) {
+    if (!std::filesystem::exists(folder.path() / "build.json")) continue;
+    const Toolchain toolchain = readToolchain(folder.path() / "build.json");
+    const path main = sourcePath("exercises") / folder.path().filename() / "main.cpp";
+    EXPECT_TRUE(opensWithExerciseHeader(readTextFile(main), toolchain.flags)) << main;
+    ++exercises;
+  }
+  EXPECT_GT(exercises, 5);
 }
 
 }  // namespace

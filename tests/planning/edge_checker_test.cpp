@@ -57,5 +57,20 @@ TEST(EdgeChecker, RefusesAWayOfTooManyPoints) {
   EXPECT_REX_ERROR(EdgeChecker(kLine, unless(.4, .6), 0), "resolution of a path check: found 0");
 }
 
+// The chord from a point to the opposite one is shorter than the way.
+TEST(EdgeChecker, LooksAtPointsThatAreNearAlsoOnTheCircle) {
+  const Space space({{.kind = SpacePart::Kind::kChord}});
+  std::vector<double> asked{0};
+  const AllValid all = [&](const MatrixArg& Q) {
+    for (const double angle : Q.row(0)) asked.push_back(angle);
+    return true;
+  };
+  EdgeChecker checker(space, all, .1);
+  EXPECT_TRUE(checker.isValid(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Constant(1, 3.1)));
+  std::sort(asked.begin(), asked.end());
+  for (std::size_t i = 1; i < asked.size(); ++i)
+    EXPECT_LE(2 * std::sin((asked[i] - asked[i - 1]) / 2), .1 + 1e-12);
+}
+
 }  // namespace
 }  // namespace rex

@@ -1,5 +1,8 @@
 #include "planning/roadmap.h"
 
+#include <cstdint>
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
@@ -63,22 +66,29 @@ TEST(Roadmap, AnswersLazilyWithTheSameWaysForLess) {
   EXPECT_EQ(eager.query(problem).status, PathStatus::kFound);
 }
 
-TEST(Roadmap, ComesNearTheShortestPathWithMoreNodes) {
+// The mean over seeds falls with the budget. In six dimensions, where a thousand nodes are three to a side,
+// it is still far from the optimum.
+TEST(Roadmap, ComesNearerToTheShortestPathWithMoreNodes) {
   const struct {
-    int dimension, few, many;
+    int dimension, few, factor;
     double gap, shortest, within;
-  } cases[] = {
-      {2, 300, 3000, .1, 1.089949, 1.03}, {3, 500, 4000, .2, 1.2, 1.2}, {6, 2000, 15000, .4, 1.235783, 2}};
+  } cases[] = {{2, 400, 3, .1, 1.089949, 1.02}, {3, 500, 3, .2, 1.2, 1.13}, {6, 1000, 2, .4, 1.235783, 1.95}};
   for (const auto& one : cases) {
     const PathProblem problem = wallWithHole(one.dimension, one.gap);
-    const PathResult rough = roadmapOf(problem, {.nodes = one.few, .neighbors = 0}).query(problem);
-    const PathResult fine = roadmapOf(problem, {.nodes = one.many, .neighbors = 0}).query(problem);
-    ASSERT_EQ(fine.status, PathStatus::kFound) << fine.message;
-    EXPECT_LT(fine.length, one.within * one.shortest) << one.dimension;
-    EXPECT_GT(fine.length, one.shortest - 2 * problem.resolution);
-    if (rough.status == PathStatus::kFound) {
-      EXPECT_LT(fine.length, rough.length);
+    double last = std::numeric_limits<double>::infinity();
+    for (const int nodes : {one.few, one.few * one.factor, one.few * one.factor * one.factor}) {
+      constexpr int kSeeds = 3;
+      double mean = 0;
+      for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+        const PathResult result = roadmapOf(problem, {.nodes = nodes, .neighbors = 0}, seed).query(problem);
+        ASSERT_EQ(result.status, PathStatus::kFound) << result.message << one.dimension;
+        EXPECT_GT(result.length, one.shortest - 2 * problem.resolution);
+        mean += result.length / kSeeds;
+      }
+      EXPECT_LT(mean, last) << one.dimension << " dimensions, " << nodes << " nodes";
+      last = mean;
     }
+    EXPECT_LT(last, one.within * one.shortest) << one.dimension;
   }
 }
 
@@ -95,8 +105,8 @@ TEST(Roadmap, ComesNearerByNodesBetweenStartAndGoal) {
     ASSERT_EQ(result.status, PathStatus::kFound) << result.message;
     lengths.push_back(std::min(lengths.back(), result.length));
   }
-  EXPECT_LT(lengths.back(), .95 * lengths[1]);
-  EXPECT_LT(lengths.back(), 1.7 * 1.235783);
+  EXPECT_LT(lengths.back(), .9 * lengths[1]);
+  EXPECT_LT(lengths.back(), 1.47 * 1.235783);
 }
 
 TEST(Roadmap, SaysWhenThereIsNoWay) {

@@ -53,6 +53,32 @@ TEST(Rrt, IsTheSameForTheSameSeed) {
   }
 }
 
+TEST(Rrt, TakesNoLongerStepsOnAnglesMeasuredByChords) {
+  const PathProblem problem{.space = Space({{.kind = SpacePart::Kind::kChord}}),
+                            .allValid = eachColumn([](const VectorArg&) { return true; }),
+                            .start = Eigen::VectorXd::Zero(1),
+                            .goal = Eigen::VectorXd::Constant(1, 3.1)};
+  Rng rng(1);
+  const PathResult result = growRrt(problem, {.stepSize = .2, .goalBias = 1}, rng);
+  expectPath(problem, result);
+  expectTree(problem, result.trees.front(), .2);
+}
+
+TEST(Rrt, StaysWhereTheGoalIsTheStart) {
+  PathProblem problem = wallWithHole(2, .3);
+  for (const double apart : {0., .05}) {
+    problem.goal = problem.start + Eigen::Vector2d(apart, 0);
+    for (const Planner& planner : {rrt(), connect(), star(100)}) {
+      Rng rng(1);
+      const PathResult result = planner(problem, rng);
+      expectPath(problem, result);
+      EXPECT_NEAR(result.length, apart, 1e-15);
+    }
+    Rng rng(1);
+    EXPECT_EQ(rrt()(problem, rng).samples + connect()(problem, rng).samples, 0);
+  }
+}
+
 TEST(Rrt, SaysWhenTheBudgetIsSpent) {
   const PathProblem problem = wallWithHole(2, 0);
   Rng rng(1);
@@ -104,6 +130,25 @@ TEST(RrtStar, ComesNearTheShortestPath) {
       EXPECT_LT(late.length, grown(one.samples, false, seed).length) << "what targets that matter are for";
     }
   }
+}
+
+// Short steps fill the square before the goal is met; then only the few nodes between start and goal count.
+TEST(RrtStar, LooksAsFarAsTheNodesThatMatterAskFor) {
+  const Space square = Space::box(Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 1));
+  const PathProblem problem{.space = square,
+                            .allValid = eachColumn([](const VectorArg&) { return true; }),
+                            .start = Eigen::Vector2d(.45, .5),
+                            .goal = Eigen::Vector2d(.55, .5)};
+  double excess = 0;
+  constexpr int kSeeds = 20;
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    Rng rng(seed);
+    const RrtOptions growth{.stepSize = .03, .goalBias = 0, .maxSamples = 3000};
+    const PathResult result = growRrtStar(problem, {.growth = growth}, rng);
+    expectPath(problem, result);
+    excess += (result.length / .1 - 1) / kSeeds;
+  }
+  EXPECT_LT(excess, .01);
 }
 
 TEST(RrtStar, FindsTheGoalWithoutEverAimingAtIt) {

@@ -65,6 +65,43 @@ TEST(Space, LeadsTheShorterWay) {
   EXPECT_NEAR(std::abs(half[2]), pi, 1e-12);
 }
 
+// By the sum of many small distances.
+TEST(Space, KnowsHowLongItsWaysAre) {
+  const Space space({{.lower = -9, .upper = 9, .weight = 2},
+                     {.kind = Kind::kCircle},
+                     {.kind = Kind::kChord, .weight = 3},
+                     {.kind = Kind::kQuaternion, .weight = 2}});
+  Rng rng(4);
+  Eigen::VectorXd a(space.size()), b(space.size()), last(space.size()), q(space.size());
+  for (int k = 0; k < 20; ++k) {
+    space.sample(rng, a);
+    space.sample(rng, b);
+    double sum = 0;
+    last = a;
+    for (int i = 1; i <= 1000; ++i, last = q) {
+      space.interpolate(a, b, i / 1000., q);
+      sum += space.distance(last, q);
+    }
+    EXPECT_NEAR(space.wayLength(a, b), sum, 1e-5 * sum);
+    EXPECT_GE(space.wayLength(a, b), space.distance(a, b));
+  }
+  EXPECT_EQ(space.wayLength(a, a), 0);
+}
+
+TEST(Space, UnrollsPaths) {
+  const Space space({{}, {.kind = Kind::kCircle}, {.kind = Kind::kChord}, {.kind = Kind::kQuaternion}});
+  Eigen::MatrixXd path(7, 3);
+  path << 0, 1, -1, 3, -3, 3, -3, 3, .5, 1, -.8, .6, 0, -.6, .8, 0, 0, 0, 0, 0, 0;
+  const Eigen::MatrixXd even = unrolled(space, path);
+  EXPECT_EQ(even.row(0), path.row(0));
+  EXPECT_LT((even.row(1) - Eigen::RowVector3d(3, 2 * pi - 3, 3)).norm(), 1e-14);
+  EXPECT_LT((even.row(2) - Eigen::RowVector3d(-3, 3 - 2 * pi, .5 - 2 * pi)).norm(), 1e-14);
+  EXPECT_EQ(even.row(3), Eigen::RowVector3d(1, .8, .6));
+  EXPECT_EQ(even.row(4), Eigen::RowVector3d(0, .6, .8));
+  EXPECT_REX_ERROR(static_cast<void>(unrolled(space, Eigen::MatrixXd::Zero(6, 2))),
+                   "configurations of a path: found a vector of size 6, wanted size 7");
+}
+
 TEST(Space, SamplesAllOfItself) {
   const Space space({{.lower = 2, .upper = 5}, {.kind = Kind::kCircle}, {.kind = Kind::kQuaternion}});
   Rng rng(3);
