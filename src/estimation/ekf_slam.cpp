@@ -5,7 +5,6 @@
 #include <limits>
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "base/error.h"

@@ -242,22 +242,26 @@ TEST(PoseGraph, StartsWellWhateverTheWeights) {
 TEST(PoseGraph, FindsTheMinimumFromAnywhere) {
   Rng rng(56);
   for (const PoseGraphObjective objective : kObjectives) {
-    PlanarPoseGraph graph = streets(300, .05, rng), lost = graph;
+    PlanarPoseGraph graph = streets(300, .05, rng), lost = graph, odometry = graph;
     for (Eigen::Index i = 1; i < lost.poses.cols(); ++i) lost.poses.col(i) = 20 * rng.normalVector(3);
     const PoseGraphResult result = optimize(graph, {.objective = objective});
     ASSERT_EQ(result.status, PoseGraphStatus::kConverged) << result.message;
     EXPECT_LT(result.cost, .5 * result.initialCost);
     EXPECT_NEAR(optimize(lost, {.objective = objective}).cost, result.cost, 1e-9 * result.cost);
+    EXPECT_NEAR(optimize(odometry, {.objective = objective, .chordalStart = false}).cost, result.cost,
+                1e-9 * result.cost);
     for (int i = 0; i < 50; ++i) {
       PlanarPoseGraph moved = graph;
       PlanarGraphTraits::step(moved, 1e-4 * rng.normalVector(3 * 299));
       EXPECT_GT(poseGraphCost(moved, {.objective = objective}), result.cost);
     }
-    SpatialPoseGraph space = ball(120, .1, rng), spaceLost = space;
+    SpatialPoseGraph space = ball(120, .1, rng), spaceLost = space, spaceOdometry = space;
     for (std::size_t i = 1; i < spaceLost.poses.size(); ++i) spaceLost.poses[i] = randomPose(rng, 3);
     const PoseGraphResult spatial = optimize(space, {.objective = objective});
     ASSERT_EQ(spatial.status, PoseGraphStatus::kConverged) << spatial.message;
     EXPECT_NEAR(optimize(spaceLost, {.objective = objective}).cost, spatial.cost, 1e-9 * spatial.cost);
+    EXPECT_NEAR(optimize(spaceOdometry, {.objective = objective, .chordalStart = false}).cost, spatial.cost,
+                1e-9 * spatial.cost);
   }
 }
 
