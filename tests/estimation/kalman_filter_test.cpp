@@ -188,8 +188,9 @@ TEST(KalmanFilter, RefusesReadingsWithoutNoiseThatRepeat) {
   for (int i = 0; i < 300; ++i) {
     const Gaussian belief{Eigen::Vector2d(0, 0), rng.uniform(.1, 2) * Eigen::Matrix2d::Identity()};
     const Eigen::Vector2d row = rng.normalVector(2);
-    LinearModel see{Eigen::Matrix2d(), Eigen::Vector2d(0, 0), Eigen::Matrix2d::Zero()};
-    see.C << row.transpose(), rng.uniform(.5, 2) * row.transpose();
+    Eigen::MatrixXd C(2, 2);
+    C << row.transpose(), rng.uniform(.5, 2) * row.transpose();
+    const LinearModel see{C, Eigen::Vector2d(0, 0), Eigen::Matrix2d::Zero()};
     EXPECT_REX_ERROR((void)kalmanUpdate(belief, see, Eigen::Vector2d(1, 1.1)),
                      "covariance of the innovation");
     EXPECT_REX_ERROR((void)rootUpdate(toRoot(belief), see, Eigen::Vector2d(1, 1.1)),
