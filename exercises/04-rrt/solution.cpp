@@ -276,13 +276,12 @@ Tree rewired(Tree tree, const std::vector<int>& near, int node, const EdgeTest& 
   std::vector<std::vector<std::size_t>> below(tree.nodes.size());
   for (std::size_t i = 0; i < tree.parents.size(); ++i)
     if (tree.parents[i] >= 0) below[static_cast<std::size_t>(tree.parents[i])].push_back(i);
-  std::vector<std::size_t> open{n};
-  while (!open.empty()) {
-    const std::size_t at = open.back();
-    open.pop_back();
+  for (std::vector<std::size_t> waiting{n}; !waiting.empty();) {
+    const std::size_t at = waiting.back();
+    waiting.pop_back();
     for (const std::size_t child : below[at]) {
       tree.costs[child] = tree.costs[at] + (tree.nodes[child] - tree.nodes[at]).norm();
-      open.push_back(child);
+      waiting.push_back(child);
     }
   }
   // <todo>

@@ -49,8 +49,9 @@ inline rex::Figure seenFromAbove(const std::string& title, const std::vector<Blo
                      .legend = rex::Legend::kNone,
                      .width = 1000,
                      .height = 560};
-  for (const Block& block : blocks) {
-    const rex::Series edge = outline(block.middle, block.length / 2, block.length / 2, block.width, {});
+  for (const Block& obstacle : blocks) {
+    const rex::Series edge =
+        outline(obstacle.middle, obstacle.length / 2, obstacle.length / 2, obstacle.width, {});
     figure.regions.push_back({.x = edge.x, .y = edge.y});
   }
   return figure;

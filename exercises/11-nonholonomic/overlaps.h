@@ -34,8 +34,8 @@ inline bool overlap(const CarModel& car, const Eigen::Vector3d& q, const Block& 
 
 inline bool touches(const CarModel& car, const Eigen::Vector3d& q, const std::vector<Block>& blocks) {
   return std::ranges::any_of(blocks, [&](const Block& block) {
-    const double reach = car.front + car.width + (block.length + block.width) / 2;
-    return (block.middle - q).head<2>().norm() < reach && overlap(car, q, block);
+    const double farthest = car.front + car.width + (block.length + block.width) / 2;
+    return (block.middle - q).head<2>().norm() < farthest && overlap(car, q, block);
   });
 }
 

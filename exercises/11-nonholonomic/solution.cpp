@@ -39,8 +39,8 @@ Eigen::Vector3d driven(const CarModel& car, const Eigen::Vector3d& q, const Driv
 
 bool canFollow(const CarModel& car, const std::vector<Eigen::Vector3d>& path) {
   // <solution canFollow>
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    const Eigen::Vector3d &a = path[i - 1], &b = path[i];
+  for (std::size_t k = 1; k < path.size(); ++k) {
+    const Eigen::Vector3d &a = path[k - 1], &b = path[k];
     const double turn = std::remainder(b[2] - a[2], 2 * std::numbers::pi), middle = a[2] + turn / 2;
     const double dx = b[0] - a[0], dy = b[1] - a[1];
     // The constraint of 4:49 holds for the chord of an arc with the heading in the middle of it.
@@ -131,7 +131,7 @@ std::optional<Drive> driveTowards(const CarModel& car, const Eigen::Vector3d& fr
                                   const std::vector<Block>& blocks, Rng& rng) {
   // <solution driveTowards>
   std::vector<std::pair<double, Drive>> trials;
-  for (int i = 0; i < 20; ++i) {
+  while (trials.size() < 20) {
     const double speed = rng.index(2) == 0 ? 1 : -1;
     const Drive drive{speed, rng.uniform(car.minSteering, car.maxSteering), seconds};
     trials.emplace_back(poseDistance(driven(car, from, drive), target), drive);
@@ -215,8 +215,8 @@ DubinsWay shortestDubins(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
   DubinsWay best;
   // <solution shortestDubins>
   double least = 1e300;
-  for (int i = 0; i < 6; ++i) {
-    const auto word = static_cast<DubinsWord>(i);
+  for (int w = 0; w < 6; ++w) {
+    const auto word = static_cast<DubinsWord>(w);
     const auto lengths = dubinsLengths(word, from, to, radius);
     if (!lengths) continue;
     const double length = (*lengths)[0] + (*lengths)[1] + (*lengths)[2];
@@ -241,11 +241,11 @@ std::vector<Drive> curveTo(const CarModel& car, const Eigen::Vector3d& from, con
   std::vector<std::pair<double, std::vector<Drive>>> curves;
   for (const double speed : {1., -1.}) {
     const Eigen::Vector3d turned(0, 0, speed > 0 ? 0 : std::numbers::pi);
-    for (int i = 0; i < 6; ++i) {
-      const auto lengths = dubinsLengths(static_cast<DubinsWord>(i), from + turned, to + turned, radius);
+    for (int w = 0; w < 6; ++w) {
+      const auto lengths = dubinsLengths(static_cast<DubinsWord>(w), from + turned, to + turned, radius);
       if (!lengths) continue;
       const std::string letters =
-          std::array{"LSL", "LSR", "RSL", "RSR", "LRL", "RLR"}[static_cast<std::size_t>(i)];
+          std::array{"LSL", "LSR", "RSL", "RSR", "LRL", "RLR"}[static_cast<std::size_t>(w)];
       std::vector<Drive> drives;
       double way = 0;
       for (std::size_t k = 0; k < 3; ++k) {
