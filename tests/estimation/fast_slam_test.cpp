@@ -14,53 +14,60 @@ using Kind = LandmarkSensor::Kind;
 
 struct Outcome {
   double poseError = 0, mapError = 0, effectiveSize = 0;
+  double kalmanMapError = 0;  // of Kalman SLAM on the same sightings
 };
+
+// Where a landmark is on the mean of all particles.
+Eigen::Vector2d placeOfLandmark(const FastSlam& slam, int i) {
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (int k = 0; k < slam.weights().size(); ++k) mean += slam.weights()[k] * slam.landmark(k, i).mean;
+  return mean;
+}
 
 Outcome run(Kind kind, bool observed, int particles, Rng& rng) {
   test::SlamWorld world(kind, 5, rng);
   FastSlam slam(Eigen::Vector3d::Zero(), world.sensor,
                 {.particles = particles, .observedProposal = observed});
+  EkfSlam kalman({Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()}, world.sensor);
   Outcome outcome;
   const int steps = 40;
   for (int t = 0; t < steps; ++t) {
     world.drive(rng);
+    kalman.predict(world.transition());
     std::vector<LandmarkSighting> sightings;
-    for (int i = 0; i < 5; ++i) sightings.push_back({i, world.look(static_cast<std::size_t>(i), rng)});
+    for (int i = 0; i < 5; ++i) {
+      sightings.push_back({i, world.look(static_cast<std::size_t>(i), rng)});
+      kalman.observe(i, sightings.back().y);
+    }
     const FastSlamStep step = slam.step(world.transition(), sightings, rng);
     EXPECT_FALSE(step.lost);
     outcome.effectiveSize += step.effectiveSize / steps / particles;
     outcome.poseError += (slam.meanPose() - world.x).head<2>().norm() / steps;
   }
-  for (int i = 0; i < 5; ++i)
-    outcome.mapError +=
-        (slam.landmark(slam.likeliest(), i).mean - world.landmarks[static_cast<std::size_t>(i)]).norm() / 5;
+  for (int i = 0; i < 5; ++i) {
+    const Eigen::Vector2d& truth = world.landmarks[static_cast<std::size_t>(i)];
+    outcome.mapError += (placeOfLandmark(slam, i) - truth).norm() / 5;
+    outcome.kalmanMapError += (kalman.landmark(i).mean - truth).norm() / 5;
+  }
   return outcome;
 }
 
-// As good as Kalman SLAM on the same problem, for which all is nearly linear.
+// Nearly as good as Kalman SLAM on the same sightings, for which all is nearly linear. Drawn from the motion
+// alone, particles that once were right die out: FastSLAM 1 maps worse (1.40 and 1.24 times the error).
 TEST(FastSlam, MapsAndLocalises) {
   for (const Kind kind : {Kind::kCartesian, Kind::kRangeBearing}) {
     for (const bool observed : {false, true}) {
       Outcome mean;
-      double ekf = 0;
-      const int runs = 10;
-      for (int seed = 0; seed < runs; ++seed) {
-        Rng rng(static_cast<std::uint64_t>(70 + seed)), same = rng;
+      const int runs = 20;
+      for (std::uint64_t seed = 0; seed < runs; ++seed) {
+        Rng rng(70 + seed);
         const Outcome one = run(kind, observed, 200, rng);
         mean.poseError += one.poseError / runs;
         mean.mapError += one.mapError / runs;
-        test::SlamWorld world(kind, 5, same);
-        EkfSlam slam({Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()}, world.sensor);
-        for (int t = 0; t < 40; ++t) {
-          world.drive(same);
-          slam.predict(world.transition());
-          for (int i = 0; i < 5; ++i) slam.observe(i, world.look(static_cast<std::size_t>(i), same));
-        }
-        for (int i = 0; i < 5; ++i)
-          ekf += (slam.landmark(i).mean - world.landmarks[static_cast<std::size_t>(i)]).norm() / 5 / runs;
+        mean.kalmanMapError += one.kalmanMapError / runs;
       }
       EXPECT_LT(mean.poseError, .2);
-      EXPECT_LT(mean.mapError, 1.6 * ekf + .05);
+      EXPECT_LT(mean.mapError, (observed ? 1.15 : 1.6) * mean.kalmanMapError);
     }
   }
 }
