@@ -71,9 +71,9 @@ TEST(ParticleFilter, ComesToTheKalmanFilter) {
   const Answer exact = exactly(walk);
   for (const bool looksAhead : {false, true}) {
     for (const double threshold : {1., .5}) {
-      const Answer found = byParticles(walk, 20000, looksAhead, {.threshold = threshold}, rng);
+      const Answer found = byParticles(walk, 40000, looksAhead, {.threshold = threshold}, rng);
       EXPECT_LT((found.belief.mean - exact.belief.mean).norm(), .03);
-      EXPECT_LT((found.belief.covariance - exact.belief.covariance).norm(), .05);
+      EXPECT_LT((found.belief.covariance - exact.belief.covariance).norm(), .03);
       EXPECT_NEAR(found.logEvidence, exact.logEvidence, .1);
     }
   }
