@@ -15,7 +15,8 @@
 namespace rex::internal {
 namespace {
 
-// Rows w (x_j - M x_i - b) = 0 for vectors x_1.. of one size, several right-hand sides at once.
+// Rows w (x_j - M x_i - b) = 0 for vectors x_1.. of one size, several right-hand sides at once. M is square of
+// Size; where no M turns anything, Size is 1 and the coordinates are right-hand sides.
 template <int Size, int Columns>
 class LinearGraph {
  public:
@@ -72,6 +73,9 @@ class LinearGraph {
   std::vector<Eigen::Triplet<double>> entries_;
 };
 
+using Scalar = Eigen::Matrix<double, 1, 1>;
+const Scalar kUnturned(1.0);
+
 }  // namespace
 
 void setChordalPoses(PlanarPoseGraph& graph) {
@@ -86,14 +90,14 @@ void setChordalPoses(PlanarPoseGraph& graph) {
   const Eigen::MatrixXd headings = rotations.solve();
   if (headings.size() == 0) return;
   for (int i = 1; i < poses; ++i) start(2, i) = std::atan2(headings(2 * i - 1, 0), headings(2 * i - 2, 0));
-  LinearGraph<2, 1> positions(poses, start.col(0).head<2>());
+  LinearGraph<1, 2> positions(poses, start.col(0).head<2>().transpose());
   for (const PlanarEdge& edge : graph.edges)
-    positions.add(edge.from, edge.to, isotropic(edge).translation, Eigen::Matrix2d::Identity(),
-                  planarRotation(start(2, edge.from)) * edge.motion.head<2>());
-  for (int i = 1; i < poses; ++i) positions.anchor(i, start.col(i).head<2>());
+    positions.add(edge.from, edge.to, isotropic(edge).translation, kUnturned,
+                  (planarRotation(start(2, edge.from)) * edge.motion.head<2>()).transpose());
+  for (int i = 1; i < poses; ++i) positions.anchor(i, start.col(i).head<2>().transpose());
   const Eigen::MatrixXd found = positions.solve();
   if (found.size() == 0) return;
-  for (int i = 1; i < poses; ++i) start.col(i).head<2>() = found.middleRows<2>(2 * (i - 1));
+  start.topRightCorner(2, poses - 1) = found.transpose();
   graph.poses = std::move(start);
 }
 
@@ -115,14 +119,14 @@ void setChordalPoses(SpatialPoseGraph& graph) {
     const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
     at(i).R = svd.matrixU() * Eigen::Vector3d(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
   }
-  LinearGraph<3, 1> positions(poses, at(0).p);
+  LinearGraph<1, 3> positions(poses, at(0).p.transpose());
   for (const SpatialEdge& edge : graph.edges)
-    positions.add(edge.from, edge.to, isotropic(edge).translation, Eigen::Matrix3d::Identity(),
-                  at(edge.from).R * edge.motion.p);
-  for (int i = 1; i < poses; ++i) positions.anchor(i, at(i).p);
+    positions.add(edge.from, edge.to, isotropic(edge).translation, kUnturned,
+                  (at(edge.from).R * edge.motion.p).transpose());
+  for (int i = 1; i < poses; ++i) positions.anchor(i, at(i).p.transpose());
   const Eigen::MatrixXd found = positions.solve();
   if (found.size() == 0) return;
-  for (int i = 1; i < poses; ++i) at(i).p = found.middleRows<3>(3 * (i - 1));
+  for (int i = 1; i < poses; ++i) at(i).p = found.row(i - 1).transpose();
   graph.poses = std::move(start);
 }
 
