@@ -54,7 +54,8 @@ class EkfSlam {
   LandmarkUpdate observe(int landmark, const Eigen::Vector2d& y);
   /// Observations without names, of different landmarks each: the likeliest pairs first. Empty where one is
   /// too far from all landmarks to be one of them and too near to be new, and where another took the landmark
-  /// it is near to. Throws as the above, and Error unless 0 < same <= different.
+  /// it is near to. Throws as the above, where those taken before stay, and Error unless 0 < same <=
+  /// different.
   std::vector<std::optional<LandmarkUpdate>> observe(std::span<const Eigen::Vector2d> ys,
                                                      const AssociationGates& gates = {});
 
