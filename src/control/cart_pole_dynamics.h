@@ -6,8 +6,8 @@
 namespace rex {
 
 /// A pole that stands on a cart, as of slide 8:1 and exercise 12.11: the pole is an even rod, `l` from the
-/// hinge to its middle. States are (x, x', theta, theta'), theta from upright towards x; u is the force on the
-/// cart. Methods throw Error for constants that are not positive, and numbers that are not finite.
+/// hinge to its middle. States are (x, x', theta, theta'), theta from upright towards x; u is the force on
+/// the cart. Methods throw Error for constants that are not positive, and numbers that are not finite.
 struct CartPoleDynamics {
   double poleMass = 1, cartMass = 1;  ///< kg
   double l = 1;                       ///< metres

@@ -2,8 +2,8 @@
 
 #include "base/sin_cos.h"
 
-// Normal numbers for kernels; see base/pack.h. Each lane draws from a sequence of its own, so what it gets does
-// not depend on the others; and all operations are ours, so that it is the same on every CPU.
+// Normal numbers for kernels; see base/pack.h. Each lane draws from a sequence of its own, so what it gets
+// does not depend on the others; and all operations are ours, so that it is the same on every CPU.
 namespace rex::internal {
 namespace {
 

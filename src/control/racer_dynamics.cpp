@@ -64,7 +64,8 @@ LinearizedPlant RacerDynamics::linearized(const Eigen::Vector4d& x, double u) co
   const auto [s, c] = sinCos(x[1]);
   const double w = x[3], mixed = k.coupling * c, swing = k.coupling * s;
   const double alongX = u * k.perRadius + swing * w * w, aboutAxis = swing * k.gravity - u;
-  const double determinant = k.inertiaX * k.inertiaTheta - mixed * mixed, determinantByAngle = 2 * mixed * swing;
+  const double determinant = k.inertiaX * k.inertiaTheta - mixed * mixed,
+               determinantByAngle = 2 * mixed * swing;
   const auto a = internal::racerAccelerations(k, x[1], w, u);
 
   LinearizedPlant linear;

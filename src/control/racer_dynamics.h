@@ -6,14 +6,14 @@
 namespace rex {
 
 /// An inverted pendulum on a wheel, exercises 12.6.1 and 12.12: body A is the wheel, B the pendulum. q = (x,
-/// theta), theta from upright towards x; states are (x, theta, x', theta'); u is the torque of the motor, which
-/// turns the wheel forwards and the pendulum back. Methods throw Error for constants that are not positive,
-/// and numbers that are not finite.
+/// theta), theta from upright towards x; states are (x, theta, x', theta'); u is the torque of the motor,
+/// which turns the wheel forwards and the pendulum back. Methods throw Error for constants that are not
+/// positive, and numbers that are not finite.
 struct RacerDynamics {
-  double r = 0.05, l = 0.5;             ///< radius of the wheel; from its axis to the centre of B; metres
-  double mA = 0.05, mB = 0.5;           ///< kg
-  double IA = 3.125e-5, IB = 0.005;     ///< about the centres, kg m^2
-  double g = 9.8;                       ///< m/s^2
+  double r = 0.05, l = 0.5;          ///< radius of the wheel; from its axis to the centre of B; metres
+  double mA = 0.05, mB = 0.5;        ///< kg
+  double IA = 3.125e-5, IB = 0.005;  ///< about the centres, kg m^2
+  double g = 9.8;                    ///< m/s^2
 
   /// M(q) q'' + F(q, q') = B u. F is corrected: errata, historical defect 6.
   [[nodiscard]] Eigen::Matrix2d massMatrix(const Eigen::Vector2d& q) const;

@@ -6,9 +6,9 @@
 
 namespace rex {
 
-/// Which features of what a racer measured a policy takes, exercise 12.12, in this order: 1 and y always; then
-/// the rates y' of y; averages of y and rates over the past with factor .5, and with .9; and the two last
-/// controls.
+/// Which features of what a racer measured a policy takes, exercise 12.12, in this order: 1 and y always;
+/// then the rates y' of y; averages of y and rates over the past with factor .5, and with .9; and the two
+/// last controls.
 struct RacerFeatures {
   bool rates = false;          ///< (y - last y) / tau; zero at first
   bool averages = false;       ///< a <- factor a + (1 - factor) y, of both factors; y at first
@@ -18,7 +18,8 @@ struct RacerFeatures {
   [[nodiscard]] int count() const { return 5 + 4 * rates + 8 * averages + 8 * averagedRates + 2 * controls; }
 };
 
-/// The policy u = w . features of exercise 12.12, within +-limit, of a racer that measures once in tau seconds.
+/// The policy u = w . features of exercise 12.12, within +-limit, of a racer that measures once in tau
+/// seconds.
 class RacerPolicy {
  public:
   static constexpr int kMostFeatures = 27;

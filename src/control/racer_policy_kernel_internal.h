@@ -8,8 +8,8 @@ namespace {
 
 inline constexpr int kRacerFeatures = 27;
 /// Where features of all four sensors begin, and those of controls. The others are 1.
-inline constexpr int kSensorPlace = 1, kRatePlace = 5, kAveragePlaces[] = {9, 17}, kAveragedRatePlaces[] = {13, 21},
-                     kControlPlace = 25;
+inline constexpr int kSensorPlace = 1, kRatePlace = 5, kAveragePlaces[] = {9, 17},
+                     kAveragedRatePlaces[] = {13, 21}, kControlPlace = 25;
 inline constexpr double kRacerFactors[] = {0.5, 0.9};
 
 /// As if y had been measured for ever without any control.

@@ -12,7 +12,7 @@ namespace rex {
 
 /// What a step costs in the state it leads to: weights of squares.
 struct RacerCost {
-  double x = 1, theta = 10;   ///< of the state, as exercise 12.12 has it
+  double x = 1, theta = 10;    ///< of the state, as exercise 12.12 has it
   double gyro = 0, wheel = 0;  ///< of y2 and y3: 1 and 0.1 where only sensors are known
   double failure = 10;         ///< for each step that is missing after a failure
 };

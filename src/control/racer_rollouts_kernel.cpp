@@ -1,7 +1,6 @@
-#include "control/racer_rollouts_kernel_internal.h"
-
 #include "control/normal_pair_internal.h"
 #include "control/racer_policy_kernel_internal.h"
+#include "control/racer_rollouts_kernel_internal.h"
 
 namespace rex::internal {
 namespace {
@@ -27,8 +26,8 @@ void runLanes(const RacerRolloutsRules& rules, RacerRolloutsTask& task, int lane
   LaneRng<T> rng;
   for (int i = 0; i < RacerRolloutsTask::kWords; ++i)
     __builtin_memcpy(&rng.state[i], task.random[i] + lane, sizeof(T));
-  RacerState<T> s{load<T>(task.start[0] + lane), load<T>(task.start[1] + lane),
-                  load<T>(task.start[2] + lane), load<T>(task.start[3] + lane)};
+  RacerState<T> s{load<T>(task.start[0] + lane), load<T>(task.start[1] + lane), load<T>(task.start[2] + lane),
+                  load<T>(task.start[3] + lane)};
   racerMeasure(rules.sensors, s, y);
   beginFeatures(y, features);
 

@@ -11,10 +11,10 @@ struct RacerRolloutsTask {
   static constexpr int kBlock = 8;
   static constexpr int kWeights = 27, kStates = 4, kWords = 4;
 
-  double weights[kWeights][kBlock];        ///< of all features
+  double weights[kWeights][kBlock];  ///< of all features
   double start[kStates][kBlock];
-  std::uint64_t random[kWords][kBlock];    ///< states of Rng
-  double cost[kBlock], steps[kBlock];      ///< results
+  std::uint64_t random[kWords][kBlock];  ///< states of Rng
+  double cost[kBlock], steps[kBlock];    ///< results
 };
 
 /// What holds for all of them.
