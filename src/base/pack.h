@@ -107,11 +107,10 @@ inline T fromBits(Bits bits) {
 }
 
 inline double squareRoot(double x) { return __builtin_sqrt(x); }
-template <int kLanes>
-inline Pack<kLanes> squareRoot(Pack<kLanes> x) {
-  for (int i = 0; i < kLanes; ++i) x.numbers[i] = __builtin_sqrt(x.numbers[i]);
-  return x;
-}
+inline Pack<2> squareRoot(Pack<2> x) { return __builtin_ia32_sqrtpd(x.numbers); }
+#ifdef __AVX__
+inline Pack<4> squareRoot(Pack<4> x) { return __builtin_ia32_sqrtpd256(x.numbers); }
+#endif
 
 /// The numbers from `from` on, one per lane; and back.
 template <class T>
@@ -127,10 +126,14 @@ inline void store(const T& x, double* to) {
 
 /// Number i of a row per lane: one of lane[0], the next of lane[1], and so on; and back.
 inline void gather(const double* const* lane, int i, double& x) { x = lane[0][i]; }
-template <int kLanes>
-inline void gather(const double* const* lane, int i, Pack<kLanes>& x) {
-  for (int k = 0; k < kLanes; ++k) x.numbers[k] = lane[k][i];
+inline void gather(const double* const* lane, int i, Pack<2>& x) {
+  x.numbers = LaneTypes<2>::Numbers{lane[0][i], lane[1][i]};
 }
+#ifdef __AVX__
+inline void gather(const double* const* lane, int i, Pack<4>& x) {
+  x.numbers = LaneTypes<4>::Numbers{lane[0][i], lane[1][i], lane[2][i], lane[3][i]};
+}
+#endif
 template <class T>
 inline T gathered(const double* const* lane, int i) {
   T x;
@@ -138,10 +141,18 @@ inline T gathered(const double* const* lane, int i) {
   return x;
 }
 inline void scatter(double x, double* const* lane, int i) { lane[0][i] = x; }
-template <int kLanes>
-inline void scatter(Pack<kLanes> x, double* const* lane, int i) {
-  for (int k = 0; k < kLanes; ++k) lane[k][i] = x.numbers[k];
+inline void scatter(const Pack<2>& x, double* const* lane, int i) {
+  lane[0][i] = x.numbers[0];
+  lane[1][i] = x.numbers[1];
 }
+#ifdef __AVX__
+inline void scatter(const Pack<4>& x, double* const* lane, int i) {
+  lane[0][i] = x.numbers[0];
+  lane[1][i] = x.numbers[1];
+  lane[2][i] = x.numbers[2];
+  lane[3][i] = x.numbers[3];
+}
+#endif
 
 template <class T>
 inline T smaller(T a, T b) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/pack.h"
+#include "base/polynomial.h"
 
 // Sine and cosine for kernels; see base/pack.h. The library's own would have other bits on other CPUs.
 namespace rex {
@@ -20,13 +20,6 @@ template <class T>
 struct SinCos {
   T sine, cosine;
 };
-
-template <class T>
-inline T polynomial(const double (&factors)[kSeriesTerms], const T& z) {
-  T sum(factors[kSeriesTerms - 1]);
-  for (int i = kSeriesTerms - 2; i >= 0; --i) sum = T(factors[i]) + z * sum;
-  return sum;
-}
 
 // In lanes where the angle is large or not a number, the library's.
 template <class T>

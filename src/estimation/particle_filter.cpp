@@ -8,10 +8,12 @@
 
 #include <fmt/format.h>
 
+#include "base/cpu_lanes.h"
 #include "base/error.h"
 #include "base/require_finite.h"
 #include "base/rng.h"
 #include "estimation/covariance.h"
+#include "estimation/weights_kernel_internal.h"
 
 namespace rex {
 namespace {
@@ -41,6 +43,7 @@ void requireNumbers(const Eigen::MatrixXd& states) {
 }
 
 void requireLogWeights(const Eigen::VectorXd& logWeights) {
+  if (logWeights.maxCoeff<Eigen::PropagateNaN>() < std::numeric_limits<double>::infinity()) return;
   for (Eigen::Index i = 0; i < logWeights.size(); ++i) {
     if (logWeights[i] < std::numeric_limits<double>::infinity()) continue;
     throw Error({.what = fmt::format("log weight of particle {}", i),
@@ -97,9 +100,13 @@ bool ParticleFilter::shouldResample() const {
 }
 
 void ParticleFilter::gather(const std::vector<int>& parents) {
-  next_.resize(particles_.states.rows(), static_cast<Eigen::Index>(parents.size()));
-  for (std::size_t k = 0; k < parents.size(); ++k)
-    next_.col(static_cast<Eigen::Index>(k)) = particles_.states.col(parents[k]);
+  const Eigen::Index n = particles_.states.rows();
+  next_.resize(n, static_cast<Eigen::Index>(parents.size()));
+  double* child = next_.data();
+  for (const int parent : parents) {
+    const double* state = particles_.states.data() + n * parent;
+    for (Eigen::Index i = 0; i < n; ++i) *child++ = state[i];
+  }
 }
 
 // Draws on until the cells that the particles occupy ask for no more.
@@ -122,6 +129,7 @@ void ParticleFilter::proposeAdaptively(const Propose& propose, Rng& rng) {
   }
   next_ = chunk_.leftCols(count);
   logWeights_.conservativeResize(count);
+  logWeights_.array() -= std::log(static_cast<double>(count));
 }
 
 ParticleStep ParticleFilter::step(const Propose& propose, const Weigh& weigh, Rng& rng) {
@@ -135,7 +143,7 @@ ParticleStep ParticleFilter::step(const Propose& propose, const Weigh& weigh, Rn
     if (report.resampled) {
       resample(particles_.weights, count, options_.resampling, rng, parents_);
       gather(parents_);
-      logWeights_.setZero(count);
+      logWeights_.setConstant(count, -std::log(static_cast<double>(count)));
     } else {
       next_ = particles_.states;
       logWeights_ = particles_.weights.array().log();
@@ -143,19 +151,21 @@ ParticleStep ParticleFilter::step(const Propose& propose, const Weigh& weigh, Rn
     propose(next_, logWeights_, rng);
     requireNumbers(next_);
   }
-  if (report.resampled) logWeights_.array() -= std::log(static_cast<double>(next_.cols()));
-  Eigen::VectorXd proposed = logWeights_;
+  proposed_ = logWeights_;
   weigh(next_, logWeights_);
   requireLogWeights(logWeights_);
   report.lost = std::isinf(logWeights_.maxCoeff());
-  if (report.lost) logWeights_ = std::isinf(proposed.maxCoeff()) ? proposed.setZero() : proposed;
+  if (report.lost) logWeights_ = std::isinf(proposed_.maxCoeff()) ? proposed_.setZero() : proposed_;
   const double largest = logWeights_.maxCoeff();
-  Eigen::VectorXd weights = (logWeights_.array() - largest).exp();
+  std::swap(particles_.states, next_);
+  Eigen::VectorXd& weights = particles_.weights;
+  weights.resize(logWeights_.size());
+  kernelFor<internal::WeightsKernel>(cpuLanes())
+      .exponentials(logWeights_.data(), largest, weights.size(), weights.data());
   const double sum = weights.sum();
   report.logEvidence = report.lost ? -std::numeric_limits<double>::infinity() : largest + std::log(sum);
-  std::swap(particles_.states, next_);
-  particles_.weights = weights / sum;
-  report.effectiveSize = effectiveSampleSize(particles_.weights);
+  weights /= sum;
+  report.effectiveSize = 1 / weights.squaredNorm();
   return report;
 }
 

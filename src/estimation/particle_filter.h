@@ -77,7 +77,7 @@ class ParticleFilter {
   std::vector<int> parents_;
   // Of the step that is under way.
   Eigen::MatrixXd next_, chunk_;
-  Eigen::VectorXd logWeights_;
+  Eigen::VectorXd logWeights_, proposed_;
 };
 
 }  // namespace rex
