@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/exp_log.h"
 #include "base/sin_cos.h"
 
 // Normal numbers for kernels; see base/pack.h. Each lane draws from a sequence of its own, so what it gets
@@ -49,26 +50,6 @@ struct LaneRng {
     return result;
   }
 };
-
-/// The natural logarithm of normal positive numbers, to 3e-16 of the larger of it and 1: x = 2^k m with m
-/// between sqrt(1/2) and sqrt(2), and log m = 2 atanh f by its series, f = (m - 1) / (m + 1).
-template <class T>
-inline T logarithm(const T& x) {
-  constexpr unsigned long long kOne = 0x3ff0000000000000, kRootOfHalf = 0x3fe6a09e667f3bcd;
-  constexpr unsigned long long kBigBits = 0x4330000000000000;  // of 2^52, whose last bits count ones
-  constexpr double kBig = 0x1p52, kBias = 1023, kLog2 = 0x1.62e42fefa39efp-1;
-  constexpr int kTerms = 11;
-
-  RandomBits<T> bits;
-  __builtin_memcpy(&bits, &x, sizeof bits);
-  const RandomBits<T> exponent = (bits - kRootOfHalf + kOne) >> 52;
-  const T m = fromBits<T>(bits - (exponent << 52) + kOne);
-  const T k = fromBits<T>(exponent | kBigBits) - T(kBig + kBias);
-  const T f = (m - T(1.0)) / (m + T(1.0)), z = f * f;
-  T series(1.0 / (2 * kTerms - 1));
-  for (int i = kTerms - 2; i >= 0; --i) series = T(1.0 / (2 * i + 1)) + z * series;
-  return k * T(kLog2) + T(2.0) * f * series;
-}
 
 template <class T>
 struct NormalPair {

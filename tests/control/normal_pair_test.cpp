@@ -9,17 +9,6 @@
 namespace rex {
 namespace {
 
-TEST(NormalPair, LogarithmIsTheLibrarys) {
-  Rng rng(1);
-  for (int i = 0; i < 100000; ++i) {
-    const double x = std::exp2(-100 * rng.uniform());
-    ASSERT_NEAR(internal::logarithm(x), std::log(x), 4e-16 * std::max(1., -std::log(x))) << x;
-  }
-  for (const double x : {1., 1 - 0x1p-53, std::sqrt(0.5), std::nextafter(std::sqrt(0.5), 0), 0x1p-52, 0.5})
-    EXPECT_NEAR(internal::logarithm(x), std::log(x), 4e-16 * std::max(1., -std::log(x))) << x;
-  EXPECT_EQ(internal::logarithm(1.), 0);
-}
-
 TEST(NormalPair, IsWhatBoxAndMullerSay) {
   Rng rng(2);
   for (int i = 0; i < 10000; ++i) {
