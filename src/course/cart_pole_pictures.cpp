@@ -14,16 +14,22 @@ constexpr double kMetresPerNewton = 0.05, kShortestArrow = 0.02, kLongestArrow =
 constexpr Color kCartColor{0.0f, 0.45f, 0.7f}, kPoleColor{0.90f, 0.62f, 0.0f},
     kRailColor{0.45f, 0.48f, 0.52f};
 
-// Half its length: whole metres, so that it seldom changes.
-double railFor(double position) { return std::max(2., std::ceil(std::abs(position) + 0.5)); }
+// From whole metres to whole metres, so that it seldom changes.
+struct Rail {
+  double begin = -2, end = 2;
+  void reach(double position) {
+    begin = std::min(begin, std::floor(position - 0.5));
+    end = std::max(end, std::ceil(position + 0.5));
+  }
+};
 
-void addRail(Picture& picture, double half) {
-  constexpr double kTop = kHeight - 0.1, kThickness = 0.06;
-  const Shape rail{.extent = {2 * half, 0.12, kThickness}}, post{.extent = {0.08, 0.08, kTop - kThickness}};
-  picture.solids.push_back({rail, translation(0, 0, kTop - kThickness / 2), kRailColor, "rail"});
-  for (const double side : {-1., 1.})
-    picture.solids.push_back(
-        {post, translation(side * (half - 0.1), 0, (kTop - kThickness) / 2), kRailColor, "post"});
+void addRail(Picture& picture, const Rail& rail) {
+  constexpr double kTop = kHeight - 0.1, kThickness = 0.06, kFoot = 0.08, kPost = kTop - kThickness;
+  const Shape bar{.extent = {rail.end - rail.begin, 0.12, kThickness}}, post{.extent = {kFoot, kFoot, kPost}};
+  const Pose X_WR = translation((rail.begin + rail.end) / 2, 0, kTop - kThickness / 2);
+  picture.solids.push_back({bar, X_WR, kRailColor, "rail"});
+  for (const double place : {rail.begin + kFoot, rail.end - kFoot})
+    picture.solids.push_back({post, translation(place, 0, kPost / 2), kRailColor, "post"});
 }
 
 void addForce(Picture& picture, const CartPoleView& view) {
@@ -33,11 +39,11 @@ void addForce(Picture& picture, const CartPoleView& view) {
   picture.arrows.push_back({from, from + length * Eigen::Vector3d::UnitX(), {0.84f, 0.37f, 0.0f}, 0.02});
 }
 
-Picture pictureOn(double halfRail, const CartPoleView& view) {
+Picture pictureOn(const Rail& rail, const CartPoleView& view) {
   requireFinite("cart pole: state", view.x);
   requireFinite("cart pole: control u", view.u);
   Picture picture;
-  addRail(picture, halfRail);
+  addRail(picture, rail);
   const Pose X_WC = translation(view.x[0], 0, kHeight),
              X_WP = X_WC * rotation(view.x[2], Eigen::Vector3d::UnitY());
   picture.solids.push_back({{.extent = {1, 0.2, 0.2}}, X_WC, kCartColor, "cart"});
@@ -49,7 +55,11 @@ Picture pictureOn(double halfRail, const CartPoleView& view) {
 
 }  // namespace
 
-Picture pictureOf(const CartPoleView& view) { return pictureOn(railFor(view.x[0]), view); }
+Picture pictureOf(const CartPoleView& view) {
+  Rail rail;
+  rail.reach(view.x[0]);
+  return pictureOn(rail, view);
+}
 
 void writePicture(const CartPoleView& view, const std::string& file, const PlantFilmOptions& options) {
   internal::writePlantPicture(pictureOf(view), file, options);
@@ -57,8 +67,8 @@ void writePicture(const CartPoleView& view, const std::string& file, const Plant
 
 void writeFilm(const std::vector<CartPoleView>& views, const std::string& name,
                const PlantFilmOptions& options) {
-  double rail = 0;
-  for (const CartPoleView& view : views) rail = std::max(rail, railFor(view.x[0]));
+  Rail rail;
+  for (const CartPoleView& view : views) rail.reach(view.x[0]);
   const auto at = [&](int i) { return pictureOn(rail, views[static_cast<std::size_t>(i)]); };
   internal::writePlantFilm(static_cast<int>(views.size()), at, name, options);
 }

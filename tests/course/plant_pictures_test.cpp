@@ -54,7 +54,11 @@ TEST(CartPolePicture, ShowsCartPoleAndForce) {
 TEST(CartPolePicture, RailReachesTheCart) {
   for (const double position : {0., 1.4, -3.7, 30.}) {
     const Picture picture = pictureOf(CartPoleView{{position, 0, 0, 0}});
-    EXPECT_GE(named(picture, "rail").shape.extent.x() / 2, std::abs(position) + 0.5);
+    const double middle = named(picture, "rail").X_WS.p.x(),
+                 half = named(picture, "rail").shape.extent.x() / 2;
+    EXPECT_LE(middle - half, std::min(-2., position - 0.5));
+    EXPECT_GE(middle + half, std::max(2., position + 0.5));
+    EXPECT_LE(2 * half, 4 + std::abs(position));
   }
 }
 
