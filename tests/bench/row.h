@@ -42,6 +42,7 @@ struct Result {
 [[nodiscard]] std::vector<Row> kinematicsRows();
 [[nodiscard]] std::vector<Row> physicsRows();
 [[nodiscard]] std::vector<Row> planningRows();
+[[nodiscard]] std::vector<Row> policySearchRows();
 [[nodiscard]] std::vector<Row> renderRows();
 [[nodiscard]] std::vector<Row> sceneRows();
 [[nodiscard]] std::vector<Row> steppingRows();

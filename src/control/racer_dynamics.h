@@ -1,0 +1,40 @@
+#pragma once
+
+#include "base/rng.h"
+#include "control/linearized_plant.h"
+
+namespace rex {
+
+/// An inverted pendulum on a wheel, exercises 12.6.1 and 12.12: body A is the wheel, B the pendulum. q = (x,
+/// theta), theta from upright towards x; states are (x, theta, x', theta'); u is the torque of the motor,
+/// which turns the wheel forwards and the pendulum back. Methods throw Error for constants that are not
+/// positive, and numbers that are not finite.
+struct RacerDynamics {
+  double r = 0.05, l = 0.5;          ///< radius of the wheel; from its axis to the centre of B; metres
+  double mA = 0.05, mB = 0.5;        ///< kg
+  double IA = 3.125e-5, IB = 0.005;  ///< about the centres, kg m^2
+  double g = 9.8;                    ///< m/s^2
+
+  /// M(q) q'' + F(q, q') = B u. F is corrected: errata, historical defect 6.
+  [[nodiscard]] Eigen::Matrix2d massMatrix(const Eigen::Vector2d& q) const;
+  [[nodiscard]] Eigen::Vector2d forces(const Eigen::Vector2d& q, const Eigen::Vector2d& v) const;
+  [[nodiscard]] Eigen::Vector2d controlDirection() const;
+
+  /// x' under the control u.
+  [[nodiscard]] Eigen::Vector4d derivative(const Eigen::Vector4d& x, double u) const;
+  /// Its exact derivatives.
+  [[nodiscard]] LinearizedPlant linearized(const Eigen::Vector4d& x, double u) const;
+  /// Kinetic and potential energy, joules; the latter is zero on the ground.
+  [[nodiscard]] double energy(const Eigen::Vector4d& x) const;
+  /// (x, z, angle) of the wheel and of the pendulum in the plane, angles from the vertical: 3 x 2.
+  [[nodiscard]] Eigen::Matrix<double, 3, 2> poses(const Eigen::Vector2d& q) const;
+
+  /// tau seconds by the classic method of Runge and Kutta, with u held.
+  [[nodiscard]] Eigen::Vector4d rungeKuttaStep(const Eigen::Vector4d& x, double u, double tau) const;
+  /// The same, and then both velocities change by normal numbers of deviation sqrt(tau) `noise`. Throws Error
+  /// also for a negative noise.
+  [[nodiscard]] Eigen::Vector4d noisyStep(const Eigen::Vector4d& x, double u, double tau, double noise,
+                                          Rng& rng) const;
+};
+
+}  // namespace rex

@@ -1,0 +1,11 @@
+#include "course/cart_pole.h"
+
+namespace rex {
+
+CartPole::CartPole(std::uint64_t seed, const CartPoleOptions& options) : options_(options), rng_(seed) {
+  Rng draws = rng_;
+  // A step that is not kept refuses what is out of range.
+  (void)options.dynamics.noisyStep(x, 0, options.tau, options.noise, draws);
+}
+
+}  // namespace rex

@@ -1,0 +1,63 @@
+#include "course/plant_film.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "course/film_files.h"
+#include "course/gl_choice.h"
+#include "course/plant_film_internal.h"
+#include "render/contact_sheet.h"
+#include "render/png.h"
+#include "render/renderer.h"
+
+namespace rex {
+namespace {
+
+double aspectOf(const PlantFilmOptions& options) {
+  requireValid(RendererOptions{.width = options.width, .height = options.height});
+  return static_cast<double>(options.width) / options.height;
+}
+
+void requireFilm(int count, const PlantFilmOptions& options) {
+  if (count < 1) throw Error({.what = "film of a plant", .found = "no views", .wanted = "at least one"});
+  requireValid(ContactSheetOptions{.pictures = options.moments});
+  if (!(options.step > 0) || !std::isfinite(options.step))
+    throw Error({.what = "film of a plant",
+                 .found = fmt::format("a step of {:g} s", options.step),
+                 .wanted = "more than 0"});
+  if (options.rate < 1)
+    throw Error({.what = "film of a plant",
+                 .found = fmt::format("{} frames per second", options.rate),
+                 .wanted = "at least 1"});
+}
+
+}  // namespace
+
+void internal::writePlantPicture(const Picture& picture, const std::string& file,
+                                 const PlantFilmOptions& options) {
+  const Camera camera = framing(bounds(picture), options.view, aspectOf(options));
+  Renderer renderer({.width = options.width, .height = options.height, .gl = glChoice()});
+  writePng(renderer.draw(picture, camera), file);
+}
+
+// Of a frame, the view that is nearest in time; where views are rarer than frames, one frame for each.
+void internal::writePlantFilm(int count, const std::function<Picture(int)>& at, const std::string& name,
+                              const PlantFilmOptions& options) {
+  requireFilm(count, options);
+  const double aspect = aspectOf(options), perFrame = std::max(1., 1 / (options.rate * options.step));
+  Film film;
+  for (int i = 0; std::lround(i * perFrame) < count; ++i) {
+    const int view = static_cast<int>(std::lround(i * perFrame));
+    film.push_back({view * options.step, at(view)});
+  }
+  settleGround(film);
+  const Shot shot{framing(film, options.view, aspect), options.width, options.height};
+  const int rate = std::max(1, static_cast<int>(std::lround(1 / (perFrame * options.step))));
+  writeFilmVideo(film, shot, name, rate);
+  writeFilmSheet(film, shot, name + "_sheet.png", options.moments);
+}
+
+}  // namespace rex

@@ -1,0 +1,97 @@
+#include "optim/cma_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/require_finite.h"
+
+namespace rex {
+namespace {
+
+constexpr int kLargestPopulation = 1'000'000;
+
+void requireSound(const VectorArg& low, const VectorArg& high, const RestartOptions& options) {
+  requireSize("restarts: upper ends of the box", high.size(), low.size());
+  requireFinite("restarts: lower ends of the box", low);
+  requireFinite("restarts: upper ends of the box", high);
+  for (Eigen::Index i = 0; i < low.size(); ++i)
+    if (low[i] > high[i])
+      throw Error({.what = fmt::format("restarts: coordinate {} of the box", i),
+                   .found = fmt::format("{:g} to {:g}", low[i], high[i]),
+                   .wanted = "the lower end first"});
+  if (!(options.growth >= 1 && options.growth <= 100))
+    throw Error({.what = "restarts: growth of the population",
+                 .found = fmt::format("{:g}", options.growth),
+                 .wanted = "1 to 100"});
+  if (options.maxRestarts < 0)
+    throw Error({.what = "restarts", .found = fmt::format("{}", options.maxRestarts), .wanted = "0 or more"});
+}
+
+Eigen::VectorXd pointBetween(const VectorArg& low, const VectorArg& high, Rng& rng) {
+  Eigen::VectorXd x(low.size());
+  for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = rng.uniform(low[i], high[i]);
+  return x;
+}
+
+void addRun(RestartResult& all, SearchResult run) {
+  if (run.value < all.value || all.runs.empty()) {
+    all.value = run.value;
+    all.x = run.x;
+  }
+  all.evaluations += run.evaluations;
+  all.iterations += run.iterations;
+  all.invalid += run.invalid;
+  all.runs.push_back(std::move(run));
+}
+
+}  // namespace
+
+SearchResult minimizeByCma(const BatchObjective& f, const VectorArg& start, const VectorArg& deviations,
+                           Rng& rng, const CmaOptions& options, const CmaLimits& limits) {
+  CmaEs es(start, deviations, options);
+  CmaTermination termination(es, limits);
+  Eigen::MatrixXd X(es.dimension(), es.lambda());
+  Eigen::VectorXd values(es.lambda());
+  std::optional<SearchStatus> status;
+  if (es.lambda() > limits.maxEvaluations) status = SearchStatus::kBudgetSpent;
+  while (!status) {
+    es.sample(X, rng);
+    f(X, values);
+    es.update(X, values);
+    status = termination.check(es, values);
+  }
+  SearchResult result = es.result();
+  result.end(*status);
+  return result;
+}
+
+RestartResult minimizeByRestarts(const BatchObjective& f, const VectorArg& low, const VectorArg& high,
+                                 const VectorArg& deviations, Rng& rng, const RestartOptions& options) {
+  requireSound(low, high, options);
+  RestartResult all;
+  CmaOptions now = options.first;
+  CmaLimits limits = options.limits;
+  for (int run = 0; run <= options.maxRestarts; ++run) {
+    const Eigen::VectorXd start = pointBetween(low, high, rng);
+    now.lambda = CmaEs(start, deviations, now).lambda();
+    addRun(all, minimizeByCma(f, start, deviations, rng, now, limits));
+    all.end(all.runs.back().status);
+    if (all.status == SearchStatus::kTargetReached || all.status == SearchStatus::kBudgetSpent) break;
+    limits.maxEvaluations = options.limits.maxEvaluations - all.evaluations;
+    now.lambda =
+        static_cast<int>(std::min<double>(kLargestPopulation, std::ceil(now.lambda * options.growth)));
+    if (now.mu > 0)
+      now.mu = static_cast<int>(std::min<double>(now.lambda, std::ceil(now.mu * options.growth)));
+    if (now.lambda > limits.maxEvaluations) {
+      all.end(SearchStatus::kBudgetSpent);
+      break;
+    }
+  }
+  return all;
+}
+
+}  // namespace rex
