@@ -162,7 +162,8 @@ TEST(CarParticles, RefuseWhatIsWrong) {
   EXPECT_REX_ERROR(carProposal({}, {nan, 0}), "control of the car: number 0: found nan");
 
   const Eigen::Vector2d landmark(3, 4), y(1, 2);
-  EXPECT_REX_ERROR(landmarkWeights({}, landmark, Eigen::Vector4d::Zero()), "sightings: found a vector of size 4");
+  EXPECT_REX_ERROR(landmarkWeights({}, landmark, Eigen::Vector4d::Zero()),
+                   "sightings: found a vector of size 4");
   EXPECT_REX_ERROR(landmarkWeights({}, landmark, Eigen::Vector2d(nan, 0)), "sightings: number 0: found nan");
   EXPECT_REX_ERROR(landmarkWeights({}, Eigen::Vector2d(0, nan), y), "landmarks: number 1: found nan");
   LandmarkSensor blurred;
@@ -172,7 +173,8 @@ TEST(CarParticles, RefuseWhatIsWrong) {
   Rng rng(1);
   Eigen::MatrixXd planar = Eigen::MatrixXd::Zero(2, 4);
   Eigen::VectorXd logWeights = Eigen::VectorXd::Zero(4);
-  EXPECT_REX_ERROR(carProposal({}, kControl)(planar, logWeights, rng), "state of the car: found a vector of size 2");
+  EXPECT_REX_ERROR(carProposal({}, kControl)(planar, logWeights, rng),
+                   "state of the car: found a vector of size 2");
   for (const Kind kind : {Kind::kCartesian, Kind::kRangeBearing})
     EXPECT_REX_ERROR(landmarkWeights({.kind = kind}, landmark, y)(planar, logWeights),
                      "state of the car: found a vector of size 2");
