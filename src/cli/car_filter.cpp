@@ -135,7 +135,8 @@ class ParticleCarFilter final : public CarFilter {
     const Weigh blind = [](const MatrixArg&, Eigen::Ref<Eigen::VectorXd>) {};
     const Weigh weigh =
         seen.landmarks.empty() ? blind : observationWeights(sightingModel(car_, seen.landmarks), seen.y);
-    return {.lost = filter_.step(motionProposal(motionModel(car_, u)), weigh, rng_).lost};
+    const ParticleStep step = filter_.step(motionProposal(motionModel(car_, u)), weigh, rng_);
+    return {.lost = step.lost, .effectiveParticles = step.effectiveSize};
   }
   Gaussian pose() const override { return momentsOf(filter_.particles()); }
   void addTo(CarView& view) const override {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -42,6 +43,7 @@ struct CarUpdate {
   double nis = 0;  ///< squared innovations of so many numbers; 0 of 0 for filters without any
   int degrees = 0;
   bool lost = false;  ///< no particle explains what was seen
+  double effectiveParticles = std::numeric_limits<double>::infinity();  ///< effective sample size
 };
 
 /// A landmark that a filter found.

@@ -76,7 +76,8 @@ class FastSlamCar final : public CarFilter {
     for (std::size_t i = 0; i < seen.landmarks.size(); ++i)
       sightings.push_back(
           {seen_.numberOf(seen.landmarks[i]), seen.y.segment<2>(2 * static_cast<Eigen::Index>(i))});
-    return {.lost = slam_.step(transitionOf(car_, u), sightings, rng_).lost};
+    const FastSlamStep step = slam_.step(transitionOf(car_, u), sightings, rng_);
+    return {.lost = step.lost, .effectiveParticles = step.effectiveSize};
   }
   Gaussian pose() const override {
     const Eigen::Vector3d mean = slam_.meanPose();

@@ -200,7 +200,7 @@ void addFilter(CLI::App& program, Action& action) {
   number("--field-of-view", options->fieldOfView, "around its heading (default: all)", "RADIANS");
   number("--assume-dynamics", options->assumeDynamics, "the filter believes in X times that noise", "X");
   number("--assume-observation", options->assumeObservation, "the same for what is seen", "X");
-  number("--particles", options->particles, "how many (default: 1000; fast-slam 100)", "N");
+  number("--particles", options->particles, "how many (default: 1000; fast-slam 300)", "N");
   number("--seed", options->seed, "of landmarks and noise (default: 0)", "N");
   number("--seeds", options->seeds, "runs with so many seeds", "N");
   number("-o,--out", options->out, "folder for what is written", "DIR");

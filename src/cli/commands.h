@@ -170,7 +170,7 @@ struct FilterOptions {
   bool json = false;
   std::filesystem::path out{};  ///< a folder; empty: nothing is written
 };
-/// Lets a filter follow the car of the course. kBelow if it lost it.
+/// Lets a filter follow the car of the course; tells its errors and consistency.
 ExitCode filter(const FilterOptions& options);
 
 struct CurvesOptions {

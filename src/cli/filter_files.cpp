@@ -23,40 +23,55 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kTau = CarOptions().tau;
 constexpr int kMostFrames = 150, kRate = 15;
 
-Eigen::Matrix3Xd meansOf(const FilterRun& run) {
+// Steps from frame to frame.
+int filmStride(int steps) { return (steps + kMostFrames - 1) / kMostFrames; }
+
+// Poses at the times 0, 1, ..., one per column.
+struct Ways {
+  Eigen::Matrix3Xd truth, estimate, deadReckoning;
+};
+
+Ways waysOf(const FilterRun& run) {
+  const auto fromStart = [](const Eigen::Matrix3Xd& poses) {
+    Eigen::Matrix3Xd way = Eigen::Matrix3Xd::Zero(3, poses.cols() + 1);
+    way.rightCols(poses.cols()) = poses;
+    return way;
+  };
   Eigen::Matrix3Xd means(3, run.steps());
   for (Eigen::Index t = 0; t < means.cols(); ++t) means.col(t) = run.poses[static_cast<std::size_t>(t)].mean;
-  return means;
+  return {fromStart(run.truth), fromStart(means), fromStart(run.deadReckoning)};
 }
 
-// Up to a step, from the start on; of very many steps some thousand.
-Eigen::Matrix2Xd wayOf(const Eigen::Matrix3Xd& poses, int step) {
-  const int stride = 1 + step / 2000;
-  Eigen::Matrix2Xd way = Eigen::Matrix2Xd::Zero(2, step / stride + 2);
-  for (Eigen::Index i = 1; i < way.cols(); ++i)
-    way.col(i) = poses.col(std::min(static_cast<int>(i - 1) * stride, step)).head<2>();
-  way.rightCols<1>() = poses.col(step).head<2>();
-  return way;
+// Up to a time; of very many positions some thousand.
+Eigen::Matrix2Xd pointsOf(const Eigen::Matrix3Xd& poses, int time) {
+  const int stride = 1 + time / 2000;
+  Eigen::Matrix2Xd points(2, time / stride + 2);
+  for (Eigen::Index i = 0; i + 1 < points.cols(); ++i) points.col(i) = poses.col(i * stride).head<2>();
+  points.rightCols<1>() = poses.col(time).head<2>();
+  return points;
 }
 
 PlanarGaussian positionOf(const Gaussian& pose) {
   return {pose.mean.head<2>(), pose.covariance.topLeftCorner<2, 2>()};
 }
 
-void complete(CarView& view, const FilterRun& run, const Eigen::Matrix3Xd& means, int step,
-              const std::string& caption) {
-  view.car = run.truth.col(step);
-  view.estimate = means.col(step);
-  view.poseBeliefs = {positionOf(run.poses[static_cast<std::size_t>(step)])};
-  view.ways = {{"dead reckoning", wayOf(run.deadReckoning, step), kDeadReckoningColor, true},
-               {"true way", wayOf(run.truth, step), kTruthColor},
-               {"estimate", wayOf(means, step), kEstimateColor}};
-  view.caption = caption;
+// Adds what is known only after the run.
+void complete(CarView& view, const FilterRun& run, const Ways& ways, int time, const std::string& name) {
+  constexpr Color kLightTruth{0.45f, 0.48f, 0.54f};
+  view.car = ways.truth.col(time);
+  view.estimate = ways.estimate.col(time);
+  if (time > 0) view.poseBeliefs = {positionOf(run.poses[static_cast<std::size_t>(time - 1)])};
+  view.ways = {
+      {"dead reckoning", pointsOf(ways.deadReckoning, time), kDeadReckoningColor, true},
+      {.name = "true way", .points = pointsOf(ways.truth, time), .color = kLightTruth, .width = 5},
+      {.name = "estimate", .points = pointsOf(ways.estimate, time), .color = kEstimateColor, .width = 2}};
+  view.caption = fmt::format("{}, {:g} s", name, time * kTau);
 }
 
-Figure errorFigure(const FilterRun& run, int number, const std::string& title, double tau) {
+Figure errorFigure(const FilterRun& run, int number, const std::string& title) {
   constexpr const char* kLabels[] = {"error of x [m]", "error of y [m]", "error of the heading [rad]"};
   const Eigen::Matrix3Xd errors = run.errors();
   Series error{.label = "error", .color = kEstimateColor};
@@ -65,7 +80,7 @@ Figure errorFigure(const FilterRun& run, int number, const std::string& title, d
   for (int t = 0; t < run.steps(); t += stride) {
     const double variance = run.poses[static_cast<std::size_t>(t)].covariance(number, number);
     const double bound = 2 * std::sqrt(std::max(variance, 0.));
-    error.x.push_back((t + 1) * tau);
+    error.x.push_back((t + 1) * kTau);
     error.y.push_back(errors(number, t));
     band.low.push_back(-bound);
     band.high.push_back(bound);
@@ -79,18 +94,21 @@ Figure errorFigure(const FilterRun& run, int number, const std::string& title, d
           .bands = {band}};
 }
 
-Figure neesFigure(const FilterStatistics& statistics, const std::string& title, double tau) {
+Figure neesFigure(const FilterStatistics& statistics, const std::string& title) {
   const auto [lower, upper] = statistics.stepBand;
-  const double end = static_cast<double>(statistics.stepNees.size()) * tau;
+  const double end = static_cast<double>(statistics.stepNees.size()) * kTau;
   Series nees{.label = fmt::format("mean of {} runs", statistics.runs.size()), .color = kEstimateColor};
   const std::size_t stride = 1 + statistics.stepNees.size() / 4000;
   for (std::size_t t = 0; t < statistics.stepNees.size(); t += stride) {
-    nees.x.push_back(static_cast<double>(t + 1) * tau);
+    nees.x.push_back(static_cast<double>(t + 1) * kTau);
     nees.y.push_back(statistics.stepNees[t]);
   }
+  // One step without luck may be a thousand times as high as the band.
+  const double highest = *std::ranges::max_element(nees.y);
   return {.title = title,
           .xLabel = "time [s]",
           .yLabel = "NEES [1]",
+          .yRange = AxisRange{0, std::clamp(1.1 * highest, 1.5 * upper, 6 * upper)},
           .legend = Legend::kOutside,
           .series = {nees},
           .horizontalLines = {{.at = 3, .label = "consistent"}},
@@ -113,13 +131,7 @@ Figure mapFigure(CarView view, const FilterRun& run) {
 
 }  // namespace
 
-std::vector<int> filmedSteps(int steps) {
-  const int frames = std::min(steps, kMostFrames);
-  std::vector<int> filmed;
-  for (int i = 0; i < frames; ++i)
-    filmed.push_back(frames < 2 ? 0 : static_cast<int>(static_cast<long>(i) * (steps - 1) / (frames - 1)));
-  return filmed;
-}
+bool isFilmed(int step, int steps) { return step % filmStride(steps) == 0; }
 
 void makeFilterFolder(const fs::path& folder) {
   const auto refuse = [&](const std::string& found, const std::string& wanted) {
@@ -133,7 +145,7 @@ void makeFilterFolder(const fs::path& folder) {
   for (const char* name : {"filter.mp4", "filter_sheet.png"}) fs::remove(folder / name, problem);
 }
 
-std::string csvOf(const FilterRun& run, double tau) {
+std::string csvOf(const FilterRun& run) {
   fmt::memory_buffer table;
   const auto out = std::back_inserter(table);
   fmt::format_to(out,
@@ -142,7 +154,7 @@ std::string csvOf(const FilterRun& run, double tau) {
                  "nees,nis,innovations,seen\n");
   for (int t = 0; t < run.steps(); ++t) {
     const auto i = static_cast<std::size_t>(t);
-    fmt::format_to(out, "{}", (t + 1) * tau);
+    fmt::format_to(out, "{}", (t + 1) * kTau);
     const auto add = [&](const auto& numbers) {
       for (const double number : numbers) fmt::format_to(out, ",{}", number);
     };
@@ -156,29 +168,30 @@ std::string csvOf(const FilterRun& run, double tau) {
 }
 
 std::vector<std::string> writeFilterFiles(const FilterOptions& options, const FilterRun& run,
-                                          const FilterStatistics& statistics, std::vector<CarView> views) {
-  const double tau = CarOptions().tau;
+                                          const FilterStatistics& statistics, ShownRun shownRun) {
   std::vector<fs::path> files = {"filter.csv"};
-  grading::writeTextFile(options.out / files.back(), csvOf(run, tau));
-  const Eigen::Matrix3Xd means = meansOf(run);
-  const std::vector<int> steps = filmedSteps(run.steps());
-  for (std::size_t i = 0; i < views.size(); ++i)
-    complete(views[i], run, means, steps[i], fmt::format("{}, {} s", options.filter, (steps[i] + 1) * tau));
+  grading::writeTextFile(options.out / files.back(), csvOf(run));
+  const Ways ways = waysOf(run);
+  complete(shownRun.end, run, ways, run.steps(), options.filter);
   const std::string title = fmt::format("{}, seed {}", options.filter, run.seed);
   const std::vector<std::pair<const char*, Figure>> figures = {
-      {"error_x", errorFigure(run, 0, title, tau)},
-      {"error_y", errorFigure(run, 1, title, tau)},
-      {"error_heading", errorFigure(run, 2, title, tau)},
-      {"nees", neesFigure(statistics, options.filter, tau)},
-      {"map", mapFigure(views.back(), run)}};
+      {"error_x", errorFigure(run, 0, title)},
+      {"error_y", errorFigure(run, 1, title)},
+      {"error_heading", errorFigure(run, 2, title)},
+      {"nees", neesFigure(statistics, options.filter)},
+      {"map", mapFigure(std::move(shownRun.end), run)}};
   for (const auto& [name, figure] : figures) {
     plot((options.out / name).string(), figure);
-    files.push_back(fmt::format("{}.png", name));
+    files.emplace_back(fmt::format("{}.png", name));
   }
   if (!options.noFilm) {
-    writeFilm(views, (options.out / "filter").string(), {.rate = kRate, .step = tau});
-    const bool isVideo = fs::exists(options.out / "filter.mp4");
-    files.emplace_back(isVideo ? "filter.mp4" : "filter");
+    std::vector<CarView>& frames = shownRun.frames;
+    frames.insert(frames.begin(), CarView{.landmarks = run.landmarks});
+    const int stride = filmStride(run.steps());
+    for (std::size_t i = 0; i < frames.size(); ++i)
+      complete(frames[i], run, ways, static_cast<int>(i) * stride, options.filter);
+    writeFilm(frames, (options.out / "filter").string(), {.rate = kRate, .step = stride * kTau});
+    files.emplace_back(fs::exists(options.out / "filter.mp4") ? "filter.mp4" : "filter");
     files.emplace_back("filter_sheet.png");
   }
   std::vector<std::string> names;

@@ -44,8 +44,10 @@ CarView viewOf(const CarFilter& filter, const FilterRun& run, const std::vector<
   return view;
 }
 
-double squaredError(const Gaussian& pose, const Eigen::Vector3d& truth) {
+double squaredError(const Gaussian& pose, const CarUpdate& update, const Eigen::Vector3d& truth) {
   constexpr int kHeading[] = {2};
+  constexpr double kFewest = 4;  // fewer points do not span three dimensions
+  if (update.effectiveParticles < kFewest) return std::numeric_limits<double>::infinity();
   const Eigen::LLT<Eigen::MatrixXd> factor(pose.covariance);
   if (!isDefinite(factor, pose.covariance)) return std::numeric_limits<double>::infinity();
   return estimationErrorSquared(pose, truth, kHeading);
@@ -95,12 +97,13 @@ FilterRun runFilter(const CarScenario& scenario, std::uint64_t seed, const OnSte
         },
         fmt::format("seed {}, step {}: ", seed, t + 1));
     run.seen.push_back(seen.landmarks);
-    if (watch) watch(t, [&] { return viewOf(*filter, run, seen.landmarks); });
+    if (watch) watch(t + 1, [&] { return viewOf(*filter, run, seen.landmarks); });
   }
   run.map = filter->map();
   if (scenario.filter == CarFilterKind::kSmoother) asWrongUse([&] { return smooth(run.poses, model), 0; });
-  for (int t = 0; t < scenario.steps; ++t)
-    run.nees.push_back(squaredError(run.poses[static_cast<std::size_t>(t)], run.truth.col(t)));
+  for (std::size_t t = 0; t < run.poses.size(); ++t)
+    run.nees.push_back(
+        squaredError(run.poses[t], run.updates[t], run.truth.col(static_cast<Eigen::Index>(t))));
   return run;
 }
 

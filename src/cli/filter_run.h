@@ -26,7 +26,7 @@ struct FilterRun {
   Eigen::Matrix3Xd truth{};
   Eigen::Matrix3Xd deadReckoning{};
   std::vector<Gaussian> poses{};
-  std::vector<double> nees{};  ///< infinite where the covariance is singular
+  std::vector<double> nees{};  ///< infinite where the covariance is singular, or nearly so
   std::vector<CarUpdate> updates{};
   std::vector<std::vector<int>> seen{};
   std::vector<FoundLandmark> map{};  ///< in the end
@@ -36,7 +36,8 @@ struct FilterRun {
   int steps() const { return static_cast<int>(truth.cols()); }
 };
 
-/// Called after each step; `view` tells what the filter shows then: landmarks, sightings, particles and map.
+/// Called after step 1, 2, ...; `view` tells what the filter shows then: landmarks, sightings, particles and
+/// map.
 using OnStep = std::function<void(int step, const std::function<CarView()>& view)>;
 
 /// Drives and filters; the same seed gives the same. `watch` may be empty. Throws Error naming seed and step

@@ -114,6 +114,7 @@ Figure figureOf(const CarView& view) {
     if (way.points.cols() == 0) continue;
     figure.series.push_back(seriesOf(way.name, way.points, way.color));
     figure.series.back().dashed = way.dashed;
+    figure.series.back().size = way.width / Way().width;
   }
   addDots(figure, "landmarks", view.landmarks, kLandmarkColor, Marker::kTriangle, 1.5);
   return figure;

@@ -36,7 +36,7 @@ CarView fullView() {
   view.particles = cloud(40);
   view.poseBeliefs = {{{1.5, 2.5}, (Eigen::Matrix2d() << 4, 0, 0, 0.25).finished()}};
   view.landmarkBeliefs = {{{4, 7}, Eigen::Matrix2d::Identity()}, {{-5, 8}, Eigen::Matrix2d::Zero()}};
-  view.ways = {{"true way", view.landmarks, kTruthColor}, {"", view.landmarks, kEstimateColor, true}};
+  view.ways = {{"true way", view.landmarks, kTruthColor}, {"", view.landmarks, kEstimateColor, true, 4}};
   view.sightings = view.landmarks.leftCols(2);
   view.scan = view.landmarks;
   view.caption = "a car";
@@ -69,6 +69,7 @@ TEST(CarPicture, ShowsCarsAndLandmarksWhereTheyAre) {
   EXPECT_LT(picture.solids[5].color.a, 1);
   EXPECT_EQ(picture.captions.size(), 2u) << "the caption and the named way";
   EXPECT_EQ(picture.captions[1].color, kTruthColor);
+  EXPECT_EQ(picture.polylines.at(1).width, 4);
 }
 
 TEST(CarPicture, EllipsesHaveTheirSigmas) {
@@ -149,6 +150,8 @@ TEST(CarPicture, SaysWhatCannotBeDrawn) {
   expect([&](CarView& v) { v.landmarkBeliefs[0].mean.x() = kNan; }, "belief of a landmark 0: number 0");
   expect([](CarView& v) { v.landmarkBeliefs[0].covariance *= 1e10; },
          "belief of a landmark 0: number 0: found 1e+10");
+  expect([](CarView& v) { v.ways[0].width = 0; },
+         "way 'true way', width: found 0, wanted more than 0, at most 50 pixels");
   expect([](CarView& v) { v.sigmas = 0; }, "sigmas: found 0, wanted more than 0");
   expect([&](CarView& v) { v.sigmas = kNan; }, "sigmas: found nan");
   expect([](CarView& v) { v.car.reset(), v.estimate.reset(); },
@@ -199,7 +202,8 @@ TEST_F(CarFilm, SaysWhatCannotBe) {
   EXPECT_REX_ERROR(writeFilm({}, in("x")), "film of the car: found no views, wanted at least one");
   EXPECT_REX_ERROR(writeFilm(drive(2), in("x"), {.step = 0}), "found a step of 0 s, wanted more than 0");
   EXPECT_REX_ERROR(writeFilm(drive(2), in("x"), {.moments = 1}), "pictures: found 1, wanted at least 2");
-  EXPECT_REX_ERROR(writeFilm(drive(2), in("x"), {.rate = 0}), "rate");
+  EXPECT_REX_ERROR(writeFilm(drive(2), in("x"), {.rate = 0}),
+                   "x.mp4: frames per second: found 0, wanted 1 to 1000");
   EXPECT_REX_ERROR(writeFilm(drive(2), in("x"), {.width = 0}), "picture size: found 0 x 480");
   EXPECT_REX_ERROR(writePicture(fullView(), in("x.png"), {.height = 0}), "picture size: found 640 x 0");
   EXPECT_REX_ERROR(writePicture(fullView(), in("x.png"), {.view = Eigen::Vector3d::Zero()}),
