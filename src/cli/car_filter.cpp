@@ -136,7 +136,7 @@ class ParticleCarFilter final : public CarFilter {
     const Weigh weigh =
         seen.landmarks.empty() ? blind : observationWeights(sightingModel(car_, seen.landmarks), seen.y);
     const ParticleStep step = filter_.step(motionProposal(motionModel(car_, u)), weigh, rng_);
-    return {.lost = step.lost, .effectiveParticles = step.effectiveSize};
+    return {.effectiveParticles = step.lost ? 0 : step.effectiveSize};
   }
   Gaussian pose() const override { return momentsOf(filter_.particles()); }
   void addTo(CarView& view) const override {

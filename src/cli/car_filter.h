@@ -42,8 +42,7 @@ struct CarSightings {
 struct CarUpdate {
   double nis = 0;  ///< squared innovations of so many numbers; 0 of 0 for filters without any
   int degrees = 0;
-  bool lost = false;  ///< no particle explains what was seen
-  double effectiveParticles = std::numeric_limits<double>::infinity();  ///< effective sample size
+  double effectiveParticles = std::numeric_limits<double>::infinity();  ///< 0: none explains what was seen
 };
 
 /// A landmark that a filter found.

@@ -77,7 +77,7 @@ class FastSlamCar final : public CarFilter {
       sightings.push_back(
           {seen_.numberOf(seen.landmarks[i]), seen.y.segment<2>(2 * static_cast<Eigen::Index>(i))});
     const FastSlamStep step = slam_.step(transitionOf(car_, u), sightings, rng_);
-    return {.lost = step.lost, .effectiveParticles = step.effectiveSize};
+    return {.effectiveParticles = step.lost ? 0 : step.effectiveSize};
   }
   Gaussian pose() const override {
     const Eigen::Vector3d mean = slam_.meanPose();

@@ -183,9 +183,7 @@ void addFilter(CLI::App& program, Action& action) {
       "  scripts/rex filter --filter ekf --assume-observation 0.3 --seeds 50 --json\n\n"
       "The car drives with u = (0.1, 0.2) from a start that is known. Filters: ekf, ukf, information, root,\n"
       "rts (ekf, then smoothed), particles; without a map ekf-slam, fast-slam, fast-slam-2; dead-reckoning.\n"
-      "DIR gets filter.csv, figures of errors, NEES and map, and the film filter.mp4, all of the first "
-      "seed.\n"
-      "Exit code 1: the filter lost the car.");
+      "DIR gets filter.csv, figures of errors, NEES and map, and the film filter.mp4 of the first run.");
   const auto number = [&](const char* name, auto& value, const char* help, const char* unit) {
     command->add_option(name, value, help)->type_name(unit);
   };
@@ -200,7 +198,7 @@ void addFilter(CLI::App& program, Action& action) {
   number("--field-of-view", options->fieldOfView, "around its heading (default: all)", "RADIANS");
   number("--assume-dynamics", options->assumeDynamics, "the filter believes in X times that noise", "X");
   number("--assume-observation", options->assumeObservation, "the same for what is seen", "X");
-  number("--particles", options->particles, "how many (default: 1000; fast-slam 300)", "N");
+  number("--particles", options->particles, "how many (default: 1000)", "N");
   number("--seed", options->seed, "of landmarks and noise (default: 0)", "N");
   number("--seeds", options->seeds, "runs with so many seeds", "N");
   number("-o,--out", options->out, "folder for what is written", "DIR");

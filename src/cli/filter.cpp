@@ -55,7 +55,7 @@ CarScenario scenarioOf(const FilterOptions& options) {
   scenario.steps = options.steps;
   scenario.assumeDynamics = options.assumeDynamics;
   scenario.assumeObservation = options.assumeObservation;
-  scenario.particles = options.particles.value_or(makesMap(scenario.filter) ? 300 : 1000);
+  scenario.particles = options.particles.value_or(scenario.particles);
   requireBetween("--particles", scenario.particles, 2, 100'000);
   return scenario;
 }
@@ -75,10 +75,7 @@ std::string textOf(const FilterOptions& options, const FilterStatistics& all) {
   if (all.innovations > 0)
     text += fmt::format("\nNIS        {:.4g} for each number, consistent: {:.4g} to {:.4g}", all.nis,
                         all.nisBand.lower, all.nisBand.upper);
-  if (all.lost > 0)
-    text += fmt::format("\nlost       no particle explains what is seen in {} steps", all.lost);
-  if (all.singular > 0)
-    text += fmt::format("\nsingular   covariances of {} steps, which NEES leaves out", all.singular);
+  if (all.singular > 0) text += fmt::format("\nsingular   covariances, left out of NEES: {}", all.singular);
   return text;
 }
 
@@ -99,7 +96,6 @@ std::string jsonTextOf(const FilterOptions& options, const FilterStatistics& all
             {"map", all.foundLandmarks > 0 ? Json(all.map) : Json()},
             {"nees", {{"mean", all.nees}, {"band", jsonOf(all.stepBand)}, {"inside", all.insideBand}}},
             {"nis", Json()},
-            {"lost", all.lost},
             {"singular", all.singular},
             {"runs", std::move(runs)},
             {"files", files}};

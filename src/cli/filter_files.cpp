@@ -94,29 +94,30 @@ Figure errorFigure(const FilterRun& run, int number, const std::string& title) {
           .bands = {band}};
 }
 
+// On a logarithmic axis where an overconfident filter would leave nothing of the band to see.
 Figure neesFigure(const FilterStatistics& statistics, const std::string& title) {
   const auto [lower, upper] = statistics.stepBand;
   const double end = static_cast<double>(statistics.stepNees.size()) * kTau;
+  Figure figure{.title = title,
+                .xLabel = "time [s]",
+                .yLabel = "NEES [1]",
+                .legend = Legend::kOutside,
+                .horizontalLines = {{.at = 3, .label = "consistent"}},
+                .bands = {{.label = "95 %",
+                           .x = {0, end},
+                           .low = {lower, lower},
+                           .high = {upper, upper},
+                           .color = kLandmarkColor}}};
   Series nees{.label = fmt::format("mean of {} runs", statistics.runs.size()), .color = kEstimateColor};
   const std::size_t stride = 1 + statistics.stepNees.size() / 4000;
   for (std::size_t t = 0; t < statistics.stepNees.size(); t += stride) {
+    if (!(statistics.stepNees[t] > 0)) continue;  // of singular covariances
     nees.x.push_back(static_cast<double>(t + 1) * kTau);
     nees.y.push_back(statistics.stepNees[t]);
+    figure.logY |= nees.y.back() > 6 * upper;
   }
-  // One step without luck may be a thousand times as high as the band.
-  const double highest = *std::ranges::max_element(nees.y);
-  return {.title = title,
-          .xLabel = "time [s]",
-          .yLabel = "NEES [1]",
-          .yRange = AxisRange{0, std::clamp(1.1 * highest, 1.5 * upper, 6 * upper)},
-          .legend = Legend::kOutside,
-          .series = {nees},
-          .horizontalLines = {{.at = 3, .label = "consistent"}},
-          .bands = {{.label = "95 %",
-                     .x = {0, end},
-                     .low = {lower, lower},
-                     .high = {upper, upper},
-                     .color = kLandmarkColor}}};
+  if (!nees.x.empty()) figure.series = {std::move(nees)};
+  return figure;
 }
 
 // The end of the run, with ellipses on the way.

@@ -16,7 +16,7 @@ struct CarScenario {
   CarOptions car{};
   double assumeDynamics = 1,
          assumeObservation = 1;  ///< factors of the deviations that the filter believes in
-  int particles = 500;
+  int particles = 1000;
 };
 
 /// What happened with one seed; vectors and columns count the steps.

@@ -22,7 +22,6 @@ void FilterStatisticsBuilder::add(const FilterRun& run) {
   for (std::size_t t = 0; t < steps; ++t) {
     sums_.nis += run.updates[t].nis;
     sums_.innovations += run.updates[t].degrees;
-    sums_.lost += run.updates[t].lost;
     if (!std::isfinite(run.nees[t])) continue;
     nees += run.nees[t];
     ++regular;

@@ -29,7 +29,7 @@ struct FilterStatistics {
   int innovations = 0;             ///< how many numbers; without any, there is no NIS
   ConsistencyBand nisBand{};
   int foundLandmarks = 0;
-  int lost = 0, singular = 0;  ///< so many steps
+  int singular = 0;  ///< steps with covariances that are, or nearly so
 };
 
 /// Adds up runs one by one, so that not all must be kept.

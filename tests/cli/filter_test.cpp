@@ -101,7 +101,7 @@ TEST_F(FilterCommand, TellsWhereTooFewParticlesAreLeft) {
   const ProcessResult result =
       filter({"--filter", "particles", "--particles", "5", "--steps", "30", "--assume-observation", "0.002"});
   EXPECT_EQ(result.exitCode, 0) << result.error;
-  EXPECT_THAT(result.output, HasSubstr("\nsingular   covariances of 30 steps, which NEES leaves out"));
+  EXPECT_THAT(result.output, HasSubstr("\nsingular   covariances, left out of NEES: 30"));
   EXPECT_THAT(result.output, HasSubstr("in 0.0 % of the steps"));
 }
 
