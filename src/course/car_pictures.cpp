@@ -70,7 +70,7 @@ void addParticles(Picture& picture, const CarView& view) {
   constexpr double kStroke = 0.9;  // metres
   for (const internal::ParticleGroup& group : internal::particleGroups(view)) {
     PointSet dots{.color = faded(kEstimateColor, group.strength), .size = 3};
-    LineSet strokes{.color = faded(kEstimateColor, 0.6 * group.strength), .width = 1};
+    LineSet strokes{.color = faded(kEstimateColor, 0.4 * group.strength), .width = 1};
     for (const Eigen::Vector3d& pose : group.poses) {
       dots.points.push_back(lifted(pose.head<2>(), kPoseHeight));
       strokes.segments.emplace_back(dots.points.back(), lifted(placeAt(pose, kStroke, 0), kPoseHeight));
