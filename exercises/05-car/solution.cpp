@@ -1,0 +1,188 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "exercise.h"
+
+using namespace rex;
+
+Eigen::Vector3d carStep(const Eigen::Vector3d& x, const Eigen::Vector2d& u, const CarWorld& world) {
+  // <solution carStep>
+  const double way = world.tau * u[0];
+  return {x[0] + way * std::cos(x[2]), x[1] + way * std::sin(x[2]),
+          x[2] + way / world.wheelbase * std::tan(u[1])};
+  // <todo>
+  //| // TODO: slide 4:48, with a dot over the theta of its third line.
+  //| static_cast<void>(u);
+  //| return x;
+  // </solution>
+}
+
+Eigen::MatrixXd moved(const Eigen::MatrixXd& states, const Eigen::Vector2d& u, const CarWorld& world,
+                      Rng& rng) {
+  Eigen::MatrixXd next = states;
+  // <solution moved>
+  for (Eigen::Index i = 0; i < states.cols(); ++i)
+    next.col(i) = carStep(states.col(i), u, world) + world.dynamicsNoise * rng.normalVector(3);
+  // <todo>
+  //| // TODO: each column one step on. rng.normal() is one number of standard deviation 1, rng.normalVector(3)
+  //| // are three.
+  // </solution>
+  return next;
+}
+
+Eigen::VectorXd viewFrom(const Eigen::Vector3d& x, const CarWorld& world) {
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(2 * world.landmarks.cols());
+  // <solution viewFrom>
+  const double c = std::cos(x[2]), s = std::sin(x[2]);
+  for (Eigen::Index i = 0; i < world.landmarks.cols(); ++i) {
+    const double dx = world.landmarks(0, i) - x[0], dy = world.landmarks(1, i) - x[1];
+    const double ahead = c * dx + s * dy, left = c * dy - s * dx;
+    y[2 * i] = world.rangeBearing ? std::hypot(ahead, left) : ahead;
+    y[2 * i + 1] = world.rangeBearing ? std::atan2(left, ahead) : left;
+  }
+  // <todo>
+  //| // TODO: the landmarks in the frame of the car. Part 6: their distances and bearings, too.
+  //| static_cast<void>(x);
+  // </solution>
+  return y;
+}
+
+Eigen::VectorXd logLikelihoods(const Eigen::MatrixXd& states, const Eigen::VectorXd& y,
+                               const CarWorld& world) {
+  Eigen::VectorXd logarithms = Eigen::VectorXd::Zero(states.cols());
+  // <solution logLikelihoods>
+  for (Eigen::Index i = 0; i < states.cols(); ++i) {
+    const Eigen::VectorXd seen = viewFrom(states.col(i), world);
+    for (Eigen::Index k = 0; k < y.size(); ++k) {
+      const bool isBearing = world.rangeBearing && k % 2 == 1;
+      const double error = isBearing ? std::remainder(y[k] - seen[k], 2 * std::numbers::pi) : y[k] - seen[k];
+      const double deviations = error / (isBearing ? world.bearingNoise : world.observationNoise);
+      logarithms[i] -= deviations * deviations / 2;
+    }
+  }
+  // <todo>
+  //| // TODO: the logarithm of a normal density, for each particle over all that was seen. How often is a
+  //| // noise of 0.5 off by 1?
+  //| static_cast<void>(y);
+  //| static_cast<void>(world);
+  // </solution>
+  return logarithms;
+}
+
+Eigen::VectorXd weightsOf(const Eigen::VectorXd& logarithms) {
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(logarithms.size());
+  // <solution weightsOf>
+  // A common factor cancels. With this one the largest weight is exp(0): the sum is at least 1.
+  const double largest = logarithms.maxCoeff();
+  for (Eigen::Index i = 0; i < weights.size(); ++i)
+    weights[i] = std::isfinite(largest) ? std::exp(logarithms[i] - largest) : 1;
+  weights /= weights.sum();
+  // <todo>
+  //| // TODO: what is exp(-10000), and what is 0 / 0? Which factor may all weights have?
+  // </solution>
+  return weights;
+}
+
+std::vector<int> resampledParents(const Eigen::VectorXd& weights, int count, Rng& rng) {
+  std::vector<int> parents;
+  // <solution resampledParents>
+  // The whole parts are certain. For what remains, `count` - `parents` places stand on the line of the
+  // fractions, one apart, and all are shifted by the same random number.
+  Eigen::VectorXd rest = count * weights;
+  for (int i = 0; i < rest.size(); ++i) {
+    const int whole = static_cast<int>(rest[i] + 1e-9);
+    parents.insert(parents.end(), static_cast<std::size_t>(whole), i);
+    rest[i] = std::max(0., rest[i] - whole);
+  }
+  double place = rng.uniform(), end = 0;
+  for (int i = 0; i < rest.size(); ++i)
+    for (end += rest[i]; place < end && static_cast<int>(parents.size()) < count; place += 1)
+      parents.push_back(i);
+  // A place may fall off the end of the line by rounding.
+  int heaviest = 0;
+  weights.maxCoeff(&heaviest);
+  parents.resize(static_cast<std::size_t>(count), heaviest);
+  // <todo>
+  //| // TODO: slide 7:23: whole parts for certain, the rest by chance. rng.uniform() is in [0, 1).
+  //| static_cast<void>(weights);
+  //| static_cast<void>(rng);
+  //| for (int i = 0; i < count; ++i) parents.push_back(i);
+  // </solution>
+  return parents;
+}
+
+double effectiveSize(const Eigen::VectorXd& weights) {
+  // <solution effectiveSize>
+  return 1 / weights.squaredNorm();
+  // <todo>
+  //| // TODO: 1 for one particle that has it all, N for N that share it.
+  //| return static_cast<double>(weights.size());
+  // </solution>
+}
+
+Cloud filterStep(const Cloud& before, const Eigen::Vector2d& u, const Eigen::VectorXd& y,
+                 const CarWorld& world, Rng& rng) {
+  Cloud after = before;
+  // <solution filterStep>
+  const std::vector<int> parents =
+      resampledParents(before.weights, static_cast<int>(before.weights.size()), rng);
+  for (std::size_t i = 0; i < parents.size(); ++i)
+    after.states.col(static_cast<Eigen::Index>(i)) = before.states.col(parents[i]);
+  after.states = moved(after.states, u, world, rng);
+  after.weights = weightsOf(logLikelihoods(after.states, y, world));
+  // <todo>
+  //| // TODO: resample, move, weigh. You have functions for all three.
+  //| static_cast<void>(u);
+  //| static_cast<void>(y);
+  //| static_cast<void>(world);
+  //| static_cast<void>(rng);
+  // </solution>
+  return after;
+}
+
+Eigen::Vector3d meanPose(const Cloud& cloud) {
+  // <solution meanPose>
+  double c = 0, s = 0;
+  for (Eigen::Index i = 0; i < cloud.weights.size(); ++i) {
+    c += cloud.weights[i] * std::cos(cloud.states(2, i));
+    s += cloud.weights[i] * std::sin(cloud.states(2, i));
+  }
+  Eigen::Vector3d mean = cloud.states * cloud.weights;
+  mean[2] = std::atan2(s, c);
+  return mean;
+  // <todo>
+  //| // TODO: which direction lies between the headings 3.1 and -3.1?
+  //| static_cast<void>(cloud);
+  //| return Eigen::Vector3d::Zero();
+  // </solution>
+}
+
+double likelyNoise(const DriveLog& log, const CarWorld& world, Rng& rng) {
+  // <solution likelyNoise>
+  // What the filter does not explain is noise. The better the assumed noise, the better the filter, and with
+  // it the noise: four rounds are enough even from a factor of ten.
+  CarWorld assumed = world;
+  for (int round = 0; round < 4; ++round) {
+    Cloud cloud{log.start.replicate(1, 300), Eigen::VectorXd::Constant(300, 1. / 300)};
+    double sum = 0, count = 0;
+    for (std::size_t t = 0; t < log.controls.size(); ++t) {
+      cloud = filterStep(cloud, log.controls[t], log.observations[t], assumed, rng);
+      sum += (log.observations[t] - viewFrom(meanPose(cloud), assumed)).squaredNorm();
+      count += static_cast<double>(log.observations[t].size());
+    }
+    assumed.observationNoise = std::sqrt(sum / count);
+  }
+  return assumed.observationNoise;
+  // <todo>
+  //| // TODO: how large is what the car saw, without what your filter explains of it?
+  //| static_cast<void>(log);
+  //| static_cast<void>(rng);
+  //| return world.observationNoise;
+  // </solution>
+}
+
+// From here on everything is given: the parts of the exercise one after another, with pictures. Change it as
+// you like.
+
+int main() {}
