@@ -86,7 +86,8 @@ void spreadsInOneStep(Check& check, Student& student) {
     for (Eigen::Index i = 0; i < states.cols(); ++i)
       d.col(i) = poseError(next.col(i), map.getMeanStateAfterStep(states.col(i), u)) / noise;
     isNoise(check, d);
-    check.that("another generator gives other noise", student.moved(states, u, world, Rng(rng.next())) != next);
+    check.that("another generator gives other noise",
+               student.moved(states, u, world, Rng(rng.next())) != next);
   }
 }
 
@@ -117,12 +118,12 @@ void driftsAsTheModelSays(Check& check, Student& student) {
   double square = 2 * steps * variance;
   for (int s = 0; s < steps; ++s) {
     const auto i = static_cast<std::size_t>(s);
-    mean += ways[i] * std::exp(-s * variance / 2) *
-            Eigen::Vector2d(std::cos(headings[i]), std::sin(headings[i]));
+    mean +=
+        ways[i] * std::exp(-s * variance / 2) * Eigen::Vector2d(std::cos(headings[i]), std::sin(headings[i]));
     for (int t = 0; t < steps; ++t) {
       const auto k = static_cast<std::size_t>(t);
-      square += ways[i] * ways[k] * std::cos(headings[i] - headings[k]) *
-                std::exp(-std::abs(s - t) * variance / 2);
+      square +=
+          ways[i] * ways[k] * std::cos(headings[i] - headings[k]) * std::exp(-std::abs(s - t) * variance / 2);
     }
   }
   square -= (mean - start.head<2>()).squaredNorm();
@@ -165,7 +166,8 @@ void areLogarithms(Check& check, const Eigen::VectorXd& got, const Eigen::Vector
 Eigen::MatrixXd posesAround(const Eigen::Vector3d& x, double distance, double angle, int count, Rng& rng) {
   Eigen::MatrixXd states(3, count);
   for (Eigen::Index i = 0; i < count; ++i)
-    states.col(i) = x + Eigen::Vector3d(distance * rng.normal(), distance * rng.normal(), angle * rng.normal());
+    states.col(i) =
+        x + Eigen::Vector3d(distance * rng.normal(), distance * rng.normal(), angle * rng.normal());
   return states;
 }
 
@@ -216,7 +218,8 @@ void weighsAnywhere(Check& check, Student& student) {
     const Driven one = drive(world, randomPose(rng), {1, -0.2}, 1, rng);
     const Eigen::VectorXd& y = one.log.observations[0];
     const Eigen::MatrixXd states = posesAround(one.truth[0], away, 1, 30, rng);
-    const Eigen::VectorXd wanted = logDensities(world, states, y), got = student.logLikelihoods(states, y, world);
+    const Eigen::VectorXd wanted = logDensities(world, states, y),
+                          got = student.logLikelihoods(states, y, world);
     areLogarithms(check, got, wanted);
     areWeights(check, student.weightsOf(got), got);
   }
@@ -243,7 +246,8 @@ Eigen::VectorXd childrenOf(Check& check, Student& student, const Eigen::VectorXd
   return children;
 }
 
-void keepsWholeParts(Check& check, const Eigen::VectorXd& weights, int count, const Eigen::VectorXd& children) {
+void keepsWholeParts(Check& check, const Eigen::VectorXd& weights, int count,
+                     const Eigen::VectorXd& children) {
   double missing = 0;
   for (Eigen::Index i = 0; i < weights.size(); ++i) {
     missing = std::max(missing, std::floor(count * weights[i] - 1e-6) - children[i]);
@@ -265,12 +269,11 @@ void wholePartsForCertain(Check& check, Student& student) {
   }
 }
 
-// The mean number of children in `calls` calls. Above the whole part f more are due on average; their variance
-// is f (1 - f) if all are drawn with one random number, and f at most if each is drawn by itself.
+// The mean number of children in `calls` calls. Above the whole part f more are due on average; their
+// variance is f (1 - f) if all are drawn with one random number, and f at most if each is drawn by itself.
 void isUnbiased(Check& check, Student& student, const Eigen::VectorXd& weights, int count, int calls) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(weights.size());
-  for (int i = 0; i < calls; ++i)
-    sum += childrenOf(check, student, weights, count, check.rng().next());
+  for (int i = 0; i < calls; ++i) sum += childrenOf(check, student, weights, count, check.rng().next());
   for (Eigen::Index i = 0; i < weights.size(); ++i) {
     const double due = count * weights[i], rest = due - std::floor(due + 1e-9);
     check.near("children of a particle with count * weight = " + text(due) + ", on average", sum[i] / calls,
@@ -424,26 +427,30 @@ void survives(Check& check, Student& student) {
   const Driven driven = drive(world, randomPose(rng), {0.5, 0.2}, 2, rng);
   const Cloud before = cloudAt(driven.log.start, 50);
   check.input("an observation of 1e200 m, so that all weights are zero");
-  const Cloud lost = student.filterStep(before, {0.5, 0.2}, Eigen::VectorXd::Constant(6, 1e200), world,
-                                        Rng(rng.next()));
+  const Cloud lost =
+      student.filterStep(before, {0.5, 0.2}, Eigen::VectorXd::Constant(6, 1e200), world, Rng(rng.next()));
   isCloud(check, lost, 50);
   check.near("weights", lost.weights, Eigen::VectorXd::Constant(50, 0.02), 1e-12);
   check.input("the step after that, with an observation as always");
-  const Cloud found = student.filterStep(lost, {0.5, 0.2}, driven.log.observations[1], world, Rng(rng.next()));
+  const Cloud found =
+      student.filterStep(lost, {0.5, 0.2}, driven.log.observations[1], world, Rng(rng.next()));
   isCloud(check, found, 50);
   check.near("weights", found.weights,
              weightsBeside(logDensities(world, found.states, driven.log.observations[1])), 1e-9);
 }
 
 // <hidden>
+// The squared error over the covariance of the particles is a chi-square number of 3 degrees: half of them
+// are above 2.37. Their median hardly notices the few drives in which a handful of particles have all the
+// weight.
 void isConsistent(Check& check, Student& student) {
   Rng& rng = check.rng();
-  const int drives = 20, steps = 30, count = 300;
-  double squares = 0;
+  const int drives = 21, steps = 30, count = 500;
+  std::vector<double> squares;
   for (int i = 0; i < drives; ++i) {
     CarWorld world = worldWith(3 + rng.index(3), rng);
-    world.dynamicsNoise = rng.uniform(0.02, 0.06);
-    world.observationNoise = rng.uniform(0.2, 1);
+    world.dynamicsNoise = rng.uniform(0.02, 0.05);
+    world.observationNoise = rng.uniform(0.4, 1);
     const Eigen::Vector2d u(rng.uniform(0.2, 0.8), rng.uniform(-0.4, 0.4));
     const Driven driven = drive(world, randomPose(rng), u, steps, rng);
     Cloud cloud = cloudAt(driven.log.start, count);
@@ -452,10 +459,12 @@ void isConsistent(Check& check, Student& student) {
       isCloud(check, cloud, count);
     }
     const Eigen::Vector3d mean = student.meanPose(cloud), error = poseError(mean, driven.truth.back());
-    squares += error.dot(covarianceAround(cloud, mean).inverse() * error) / drives;
+    squares.push_back(error.dot(covarianceAround(cloud, mean).inverse() * error));
   }
-  check.atLeast("mean of the squared error over the covariance of the particles", squares, 1);
-  check.atMost("mean of the squared error over the covariance of the particles", squares, 7);
+  std::sort(squares.begin(), squares.end());
+  const double median = squares[drives / 2];
+  check.atLeast("squared error over the covariance of the particles, median of 21 drives", median, 0.5);
+  check.atMost("squared error over the covariance of the particles, median of 21 drives", median, 8);
 }
 // </hidden>
 

@@ -61,8 +61,7 @@ inline Eigen::VectorXd logDensities(const CarWorld& world, const Eigen::MatrixXd
                                     const Eigen::VectorXd& y) {
   const rex::CarSimulator map = mapOf(world);
   Eigen::VectorXd result(states.cols());
-  for (Eigen::Index i = 0; i < states.cols(); ++i)
-    result[i] = logDensityAt(world, map, states.col(i), y);
+  for (Eigen::Index i = 0; i < states.cols(); ++i) result[i] = logDensityAt(world, map, states.col(i), y);
   return result;
 }
 

@@ -5,8 +5,8 @@
 #include "course/course.h"
 
 // The functions you complete in main.cpp. Metres, seconds, radians; left turns count positive. The state of
-// the car is x = (x, y, heading), a heading any angle: two that differ by whole turns are the same. Slides are
-// named as chapter:number.
+// the car is x = (x, y, heading), a heading any angle: two that differ by whole turns are the same. Slides
+// are named as chapter:number.
 
 /// What a filter assumes of a car and its sensor. Noises are standard deviations of normal numbers around
 /// zero, each independent of all others.
@@ -54,8 +54,8 @@ Eigen::VectorXd weightsOf(const Eigen::VectorXd& logarithms);
 
 // Part 3, resampling (7:23).
 
-/// The parents of `count` particles, numbers from 0, in any order. Parent i occurs count * weights[i] times on
-/// average, and never less often than the whole part of that. The weights sum to one.
+/// The parents of `count` particles, numbers from 0, in any order. Parent i occurs count * weights[i] times
+/// on average, and never less often than the whole part of that. The weights sum to one.
 std::vector<int> resampledParents(const Eigen::VectorXd& weights, int count, rex::Rng& rng);
 
 /// One over the sum of the squared weights: how many particles of equal weight would be worth as much. The
