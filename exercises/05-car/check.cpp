@@ -77,14 +77,14 @@ void spreadsInOneStep(Check& check, Student& student) {
     const Eigen::Vector2d u(rng.uniform(0.5, 2), rng.uniform(-0.5, 0.5));
     Eigen::MatrixXd states(3, 3000);
     const Eigen::Vector3d a = randomPose(rng), b = randomPose(rng);
-    for (Eigen::Index i = 0; i < states.cols(); ++i) states.col(i) = i % 2 == 0 ? a : b;
+    for (Eigen::Index k = 0; k < states.cols(); ++k) states.col(k) = k % 2 == 0 ? a : b;
     check.input("3000 particles in two places, dynamicsNoise = " + text(noise));
     const Eigen::MatrixXd next = student.moved(states, u, world, Rng(rng.next()));
     check.shape("states after a step", next, 3, states.cols());
     const CarSimulator map = mapOf(world);
     Eigen::MatrixXd d(3, states.cols());
-    for (Eigen::Index i = 0; i < states.cols(); ++i)
-      d.col(i) = poseError(next.col(i), map.getMeanStateAfterStep(states.col(i), u)) / noise;
+    for (Eigen::Index k = 0; k < states.cols(); ++k)
+      d.col(k) = poseError(next.col(k), map.getMeanStateAfterStep(states.col(k), u)) / noise;
     isNoise(check, d);
     check.that("another generator gives other noise",
                student.moved(states, u, world, Rng(rng.next())) != next);
@@ -249,9 +249,9 @@ Eigen::VectorXd childrenOf(Check& check, Student& student, const Eigen::VectorXd
 void keepsWholeParts(Check& check, const Eigen::VectorXd& weights, int count,
                      const Eigen::VectorXd& children) {
   double missing = 0;
-  for (Eigen::Index i = 0; i < weights.size(); ++i) {
-    missing = std::max(missing, std::floor(count * weights[i] - 1e-6) - children[i]);
-    check.that("no particle of weight zero is a parent", weights[i] > 0 || children[i] == 0);
+  for (Eigen::Index k = 0; k < weights.size(); ++k) {
+    missing = std::max(missing, std::floor(count * weights[k] - 1e-6) - children[k]);
+    check.that("no particle of weight zero is a parent", weights[k] > 0 || children[k] == 0);
   }
   check.atMost("children that a particle lacks to the whole part of count * weight", missing, 0);
 }
@@ -271,13 +271,14 @@ void wholePartsForCertain(Check& check, Student& student) {
 
 // The mean number of children in `calls` calls. Above the whole part f more are due on average; their
 // variance is f (1 - f) if all are drawn with one random number, and f at most if each is drawn by itself.
+// What is due almost never may happen five times all the same.
 void isUnbiased(Check& check, Student& student, const Eigen::VectorXd& weights, int count, int calls) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(weights.size());
   for (int i = 0; i < calls; ++i) sum += childrenOf(check, student, weights, count, check.rng().next());
-  for (Eigen::Index i = 0; i < weights.size(); ++i) {
-    const double due = count * weights[i], rest = due - std::floor(due + 1e-9);
-    check.near("children of a particle with count * weight = " + text(due) + ", on average", sum[i] / calls,
-               due, kSigmas * std::sqrt(std::max(rest, 0.) / calls) + 1e-6);
+  for (Eigen::Index k = 0; k < weights.size(); ++k) {
+    const double due = count * weights[k], rest = due - std::floor(due + 1e-9);
+    check.near("children of a particle with count * weight = " + text(due) + ", on average", sum[k] / calls,
+               due, kSigmas * std::sqrt(std::max(rest, 0.) / calls) + 5. / calls);
   }
 }
 
@@ -425,7 +426,7 @@ void survives(Check& check, Student& student) {
   Rng& rng = check.rng();
   const CarWorld world = worldWith(3, rng);
   const Driven driven = drive(world, randomPose(rng), {0.5, 0.2}, 2, rng);
-  const Cloud before = cloudAt(driven.log.start, 50);
+  const Cloud before{posesAround(driven.log.start, 0.3, 0.05, 50, rng), Eigen::VectorXd::Constant(50, 0.02)};
   check.input("an observation of 1e200 m, so that all weights are zero");
   const Cloud lost =
       student.filterStep(before, {0.5, 0.2}, Eigen::VectorXd::Constant(6, 1e200), world, Rng(rng.next()));
@@ -470,30 +471,35 @@ void isConsistent(Check& check, Student& student) {
 
 // Part 5.
 
+// Of 480 answers of a filter with 300 particles all were within 10 %, with a spread of 2 %; estimates from
+// the residuals are some 4 % low, for a part of the noise goes into the states. What is found with the noise
+// assumed ten times too large is 20 to 80 % too much.
 void findsNoise(Check& check, Student& student, const CarWorld& world, double factor) {
   Rng& rng = check.rng();
   const Eigen::Vector2d u(rng.uniform(0.1, 0.5), rng.uniform(-0.3, 0.3));
-  const Driven driven = drive(world, randomPose(rng), u, 80, rng);
+  const Driven driven = drive(world, randomPose(rng), u, 150, rng);
   CarWorld assumed = world;
   assumed.observationNoise *= factor;
-  check.input(std::to_string(world.landmarks.cols()) + " landmarks, 80 steps, assumed noise " +
+  check.input(std::to_string(world.landmarks.cols()) + " landmarks, 150 steps, assumed noise " +
               text(assumed.observationNoise) + " m");
   const double got = student.likelyNoise(driven.log, assumed, Rng(rng.next()));
-  check.near("noise found, of that of the drive", got / world.observationNoise, 1, 0.25);
+  check.near("noise found, of that of the drive", got / world.observationNoise, 1, 0.15);
 }
 
-void noiseOfTheSheet(Check& check, Student& student) {
-  const CarWorld world = worldWith(8, check.rng());
+void noiseOfOneCar(Check& check, Student& student) {
+  CarWorld world = worldWith(8, check.rng());
+  world.dynamicsNoise = 0.05;
+  world.observationNoise = 0.3;
   for (const double factor : {1., 10., 0.1}) findsNoise(check, student, world, factor);
 }
 
 // <hidden>
 void noiseOfOthers(Check& check, Student& student) {
   Rng& rng = check.rng();
-  for (int i = 0; i < 6; ++i) {
+  for (int i = 0; i < 4; ++i) {
     CarWorld world = worldWith(8 + rng.index(5), rng);
-    world.dynamicsNoise = rng.uniform(0.01, 0.03);
-    world.observationNoise = rng.uniform(0.3, 1.5);
+    world.dynamicsNoise = rng.uniform(0.03, 0.05);
+    world.observationNoise = i == 0 ? 0.3 : rng.uniform(0.3, 1);
     findsNoise(check, student, world, std::pow(10, i == 0 ? 1 : i == 1 ? -1 : rng.uniform(-1, 1)));
   }
 }
@@ -582,7 +588,7 @@ grading::Checks<Student> checks() {
       {"consistent", "filter", "other worlds: as wrong as the cloud is wide", 1, Group::hidden, isConsistent},
       // </hidden>
       {"noise", "noise", "the noise from assumptions ten times too large and too small", 1, Group::visible,
-       noiseOfTheSheet},
+       noiseOfOneCar},
       // <hidden>
       {"noise-elsewhere", "noise", "other noise in other worlds", 1, Group::hidden, noiseOfOthers},
       // </hidden>

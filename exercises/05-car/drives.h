@@ -61,7 +61,7 @@ inline Eigen::VectorXd logDensities(const CarWorld& world, const Eigen::MatrixXd
                                     const Eigen::VectorXd& y) {
   const rex::CarSimulator map = mapOf(world);
   Eigen::VectorXd result(states.cols());
-  for (Eigen::Index i = 0; i < states.cols(); ++i) result[i] = logDensityAt(world, map, states.col(i), y);
+  for (Eigen::Index k = 0; k < states.cols(); ++k) result[k] = logDensityAt(world, map, states.col(k), y);
   return result;
 }
 

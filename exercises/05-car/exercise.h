@@ -83,9 +83,9 @@ struct DriveLog {
   std::vector<Eigen::VectorXd> observations;
 };
 
-/// The observationNoise that the drive was made with, within a quarter of it. What `world` says of it may be
-/// ten times too much or too little; all else that it says is right. There are 8 landmarks or more, 60 steps
-/// or more, and no rangeBearing.
+/// The observationNoise that the drive was made with, within 15 % of it. What `world` says of it may be ten
+/// times too much or too little; all else that it says is right. There are 8 landmarks or more, 100 steps or
+/// more, and no rangeBearing.
 double likelyNoise(const DriveLog& log, const CarWorld& world, rex::Rng& rng);
 
 // Part 6, distances and bearings: viewFrom() and logLikelihoods() with rangeBearing.

@@ -168,7 +168,7 @@ double likelyNoise(const DriveLog& log, const CarWorld& world, Rng& rng) {
   // it the noise: four rounds are enough even from a factor of ten.
   CarWorld assumed = world;
   for (int round = 0; round < 4; ++round) {
-    Cloud cloud{log.start.replicate(1, 300), Eigen::VectorXd::Constant(300, 1. / 300)};
+    Cloud cloud{log.start.replicate(1, 200), Eigen::VectorXd::Constant(200, 1. / 200)};
     double sum = 0, count = 0;
     for (std::size_t t = 0; t < log.controls.size(); ++t) {
       cloud = filterStep(cloud, log.controls[t], log.observations[t], assumed, rng);
