@@ -236,10 +236,10 @@ Eigen::VectorXd randomWeights(int count, Rng& rng) {
 // How often each is a parent; `least` of count * weight for certain.
 Eigen::VectorXd childrenOf(Check& check, Student& student, const Eigen::VectorXd& weights, int count,
                            std::uint64_t seed) {
-  const std::vector<int> parents = student.resampledParents(weights, count, Rng(seed));
-  check.near("how many parents there are", static_cast<double>(parents.size()), count, 0);
+  const std::vector<int> drawn = student.resampledParents(weights, count, Rng(seed));
+  check.near("how many parents there are", static_cast<double>(drawn.size()), count, 0);
   Eigen::VectorXd children = Eigen::VectorXd::Zero(weights.size());
-  for (const int parent : parents) {
+  for (const int parent : drawn) {
     check.that("every parent is one of the particles", parent >= 0 && parent < weights.size());
     children[parent] += 1;
   }
@@ -410,15 +410,16 @@ Errors follow(Check& check, Student& student, const CarWorld& world, const Drive
   return {std::sqrt(errors.place), std::sqrt(errors.heading)};
 }
 
+// In 1000 runs TRACKS. Dead reckoning is off by more than a metre and 0.3 rad.
 void tracks(Check& check, Student& student) {
   CarWorld world;
   world.landmarks = (Eigen::MatrixXd(2, 2) << 10, -6, 8, 12).finished();
-  check.input("the car of the sheet for 100 steps, 100 particles, landmarks at (10, 8) and (-6, 12)");
+  check.input("the car of the sheet for 200 steps, 100 particles, landmarks at (10, 8) and (-6, 12)");
   for (int i = 0; i < 3; ++i) {
-    const Driven driven = drive(world, Eigen::Vector3d::Zero(), {0.1, 0.2}, 100, check.rng());
+    const Driven driven = drive(world, Eigen::Vector3d::Zero(), {0.1, 0.2}, 200, check.rng());
     const Errors errors = follow(check, student, world, driven, 100);
-    check.atMost("error of the place, root mean square", errors.place, 0.6, "m");
-    check.atMost("error of the heading, root mean square", errors.heading, 0.12, "rad");
+    check.atMost("error of the place, root mean square", errors.place, 0.5, "m");
+    check.atMost("error of the heading, root mean square", errors.heading, 0.08, "rad");
   }
 }
 
@@ -478,11 +479,11 @@ void findsNoise(Check& check, Student& student, const CarWorld& world, double fa
   Rng& rng = check.rng();
   const Eigen::Vector2d u(rng.uniform(0.1, 0.5), rng.uniform(-0.3, 0.3));
   const Driven driven = drive(world, randomPose(rng), u, 150, rng);
-  CarWorld assumed = world;
-  assumed.observationNoise *= factor;
+  CarWorld told = world;
+  told.observationNoise *= factor;
   check.input(std::to_string(world.landmarks.cols()) + " landmarks, 150 steps, assumed noise " +
-              text(assumed.observationNoise) + " m");
-  const double got = student.likelyNoise(driven.log, assumed, Rng(rng.next()));
+              text(told.observationNoise) + " m");
+  const double got = student.likelyNoise(driven.log, told, Rng(rng.next()));
   check.near("noise found, of that of the drive", got / world.observationNoise, 1, 0.15);
 }
 
@@ -534,7 +535,8 @@ void bearings(Check& check, Student& student) {
 }
 
 // <hidden>
-// Which way the car looks is not known at first. With 3000 particles some hundred look about right.
+// Which way the car looks is not known at first, nor exactly where it is: a few of the 2000 particles are
+// right.
 void findsItsHeading(Check& check, Student& student) {
   Rng& rng = check.rng();
   for (int i = 0; i < 4; ++i) {

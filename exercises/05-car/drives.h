@@ -77,9 +77,9 @@ inline Eigen::Vector3d poseError(const Eigen::Vector3d& a, const Eigen::Vector3d
 // Covariance of the particles around `mean`.
 inline Eigen::Matrix3d covarianceAround(const Cloud& cloud, const Eigen::Vector3d& mean) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  for (Eigen::Index i = 0; i < cloud.weights.size(); ++i) {
-    const Eigen::Vector3d d = poseError(cloud.states.col(i), mean);
-    sum += cloud.weights[i] * d * d.transpose();
+  for (Eigen::Index k = 0; k < cloud.weights.size(); ++k) {
+    const Eigen::Vector3d d = poseError(cloud.states.col(k), mean);
+    sum += cloud.weights[k] * d * d.transpose();
   }
   return sum;
 }

@@ -52,7 +52,7 @@ std::vector<int> resampledParents(const Eigen::VectorXd& weights, int count, Rng
   // TODO: slide 7:23: whole parts for certain, the rest by chance. rng.uniform() is in [0, 1).
   static_cast<void>(weights);
   static_cast<void>(rng);
-  for (int i = 0; i < count; ++i) parents.push_back(i);
+  parents.assign(static_cast<std::size_t>(count), 0);
   return parents;
 }
 
@@ -142,6 +142,7 @@ void showMap(const std::string& name, const std::string& title, const Belief& be
   for (Series& series : map.series)
     if (series.label == "particles") series.values = steps;
   map.colorLabel = "step";
+  map.colorRange = AxisRange{0, 360};
   map.legend = Legend::kBottomLeft;
   map.xRange = AxisRange{-14, 20};
   map.yRange = AxisRange{-3, 25};

@@ -111,7 +111,7 @@ std::vector<int> resampledParents(const Eigen::VectorXd& weights, int count, Rng
   //| // TODO: slide 7:23: whole parts for certain, the rest by chance. rng.uniform() is in [0, 1).
   //| static_cast<void>(weights);
   //| static_cast<void>(rng);
-  //| for (int i = 0; i < count; ++i) parents.push_back(i);
+  //| parents.assign(static_cast<std::size_t>(count), 0);
   // </solution>
   return parents;
 }
@@ -169,13 +169,13 @@ double likelyNoise(const DriveLog& log, const CarWorld& world, Rng& rng) {
   CarWorld assumed = world;
   for (int round = 0; round < 4; ++round) {
     Cloud cloud{log.start.replicate(1, 200), Eigen::VectorXd::Constant(200, 1. / 200)};
-    double sum = 0, count = 0;
+    double squares = 0, numbers = 0;
     for (std::size_t t = 0; t < log.controls.size(); ++t) {
       cloud = filterStep(cloud, log.controls[t], log.observations[t], assumed, rng);
-      sum += (log.observations[t] - viewFrom(meanPose(cloud), assumed)).squaredNorm();
-      count += static_cast<double>(log.observations[t].size());
+      squares += (log.observations[t] - viewFrom(meanPose(cloud), assumed)).squaredNorm();
+      numbers += static_cast<double>(log.observations[t].size());
     }
-    assumed.observationNoise = std::sqrt(sum / count);
+    assumed.observationNoise = std::sqrt(squares / numbers);
   }
   return assumed.observationNoise;
   // <todo>
@@ -243,6 +243,7 @@ void showMap(const std::string& name, const std::string& title, const Belief& be
   for (Series& series : map.series)
     if (series.label == "particles") series.values = steps;
   map.colorLabel = "step";
+  map.colorRange = AxisRange{0, 360};
   map.legend = Legend::kBottomLeft;
   map.xRange = AxisRange{-14, 20};
   map.yRange = AxisRange{-3, 25};
