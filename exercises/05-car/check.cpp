@@ -410,7 +410,8 @@ Errors follow(Check& check, Student& student, const CarWorld& world, const Drive
   return {std::sqrt(errors.place), std::sqrt(errors.heading)};
 }
 
-// In 1000 runs TRACKS. Dead reckoning is off by more than a metre and 0.3 rad.
+// In 3000 drives the place was off by 0.2 m, in the worst by 0.37 m, and the heading by 0.034 rad at most.
+// Dead reckoning is off by some 0.3 rad.
 void tracks(Check& check, Student& student) {
   CarWorld world;
   world.landmarks = (Eigen::MatrixXd(2, 2) << 10, -6, 8, 12).finished();
@@ -472,16 +473,16 @@ void isConsistent(Check& check, Student& student) {
 
 // Part 5.
 
-// Of 480 answers of a filter with 300 particles all were within 10 %, with a spread of 2 %; estimates from
-// the residuals are some 4 % low, for a part of the noise goes into the states. What is found with the noise
-// assumed ten times too large is 20 to 80 % too much.
+// The car circles among the landmarks. Of 1600 answers of a filter with 200 particles all were within 9 %,
+// with a spread of 2 %; estimates from the residuals are some 4 % low, for a part of the noise goes into the
+// states. What one round finds with the noise assumed ten times too large is 25 to 75 % too much.
 void findsNoise(Check& check, Student& student, const CarWorld& world, double factor) {
   Rng& rng = check.rng();
-  const Eigen::Vector2d u(rng.uniform(0.1, 0.5), rng.uniform(-0.3, 0.3));
-  const Driven driven = drive(world, randomPose(rng), u, 150, rng);
+  const Eigen::Vector2d u(rng.uniform(0.1, 0.3), rng.uniform(0.15, 0.4));
+  const Driven driven = drive(world, randomPose(rng), u, 120, rng);
   CarWorld told = world;
   told.observationNoise *= factor;
-  check.input(std::to_string(world.landmarks.cols()) + " landmarks, 150 steps, assumed noise " +
+  check.input(std::to_string(world.landmarks.cols()) + " landmarks, 120 steps, assumed noise " +
               text(told.observationNoise) + " m");
   const double got = student.likelyNoise(driven.log, told, Rng(rng.next()));
   check.near("noise found, of that of the drive", got / world.observationNoise, 1, 0.15);
@@ -489,7 +490,7 @@ void findsNoise(Check& check, Student& student, const CarWorld& world, double fa
 
 void noiseOfOneCar(Check& check, Student& student) {
   CarWorld world = worldWith(8, check.rng());
-  world.dynamicsNoise = 0.05;
+  world.dynamicsNoise = 0.04;
   world.observationNoise = 0.3;
   for (const double factor : {1., 10., 0.1}) findsNoise(check, student, world, factor);
 }
@@ -499,7 +500,7 @@ void noiseOfOthers(Check& check, Student& student) {
   Rng& rng = check.rng();
   for (int i = 0; i < 4; ++i) {
     CarWorld world = worldWith(8 + rng.index(5), rng);
-    world.dynamicsNoise = rng.uniform(0.03, 0.05);
+    world.dynamicsNoise = i == 0 ? 0.04 : rng.uniform(0.02, 0.04);
     world.observationNoise = i == 0 ? 0.3 : rng.uniform(0.3, 1);
     findsNoise(check, student, world, std::pow(10, i == 0 ? 1 : i == 1 ? -1 : rng.uniform(-1, 1)));
   }
