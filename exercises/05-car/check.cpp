@@ -8,6 +8,7 @@
 
 #include "drives.h"
 #include "interface.h"
+#include "resampling_checks.h"
 
 using namespace rex;
 using grading::Check;
@@ -15,11 +16,7 @@ using grading::Group;
 
 namespace {
 
-// Statistics lie within so many standard deviations: outside in one of 25 million right answers.
-constexpr double kSigmas = 5.5;
 const double kNever = -std::numeric_limits<double>::infinity();
-
-std::string text(double x) { return std::to_string(x).substr(0, 6); }
 
 void isCloud(Check& check, const Cloud& cloud, Eigen::Index count) {
   check.shape("states of the particles", cloud.states, 3, count);
@@ -228,34 +225,6 @@ void weighsAnywhere(Check& check, Student& student) {
 
 // Part 3.
 
-Eigen::VectorXd randomWeights(int count, Rng& rng) {
-  Eigen::VectorXd weights = rng.uniformVector(count, 0, 1).array().cube().matrix();
-  return weights / weights.sum();
-}
-
-// How often each is a parent; `least` of count * weight for certain.
-Eigen::VectorXd childrenOf(Check& check, Student& student, const Eigen::VectorXd& weights, int count,
-                           std::uint64_t seed) {
-  const std::vector<int> drawn = student.resampledParents(weights, count, Rng(seed));
-  check.near("how many parents there are", static_cast<double>(drawn.size()), count, 0);
-  Eigen::VectorXd children = Eigen::VectorXd::Zero(weights.size());
-  for (const int parent : drawn) {
-    check.that("every parent is one of the particles", parent >= 0 && parent < weights.size());
-    children[parent] += 1;
-  }
-  return children;
-}
-
-void keepsWholeParts(Check& check, const Eigen::VectorXd& weights, int count,
-                     const Eigen::VectorXd& children) {
-  double missing = 0;
-  for (Eigen::Index k = 0; k < weights.size(); ++k) {
-    missing = std::max(missing, std::floor(count * weights[k] - 1e-6) - children[k]);
-    check.that("no particle of weight zero is a parent", weights[k] > 0 || children[k] == 0);
-  }
-  check.atMost("children that a particle lacks to the whole part of count * weight", missing, 0);
-}
-
 void wholePartsForCertain(Check& check, Student& student) {
   Rng& rng = check.rng();
   check.input("10 particles of equal weight, count = 10");
@@ -266,19 +235,6 @@ void wholePartsForCertain(Check& check, Student& student) {
     const Eigen::VectorXd weights = randomWeights(count, rng);
     check.input(std::to_string(count) + " particles with random weights");
     keepsWholeParts(check, weights, count, childrenOf(check, student, weights, count, rng.next()));
-  }
-}
-
-// The mean number of children in `calls` calls. Above the whole part f more are due on average; their
-// variance is f (1 - f) if all are drawn with one random number, and f at most if each is drawn by itself.
-// What is due almost never may happen five times all the same.
-void isUnbiased(Check& check, Student& student, const Eigen::VectorXd& weights, int count, int calls) {
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(weights.size());
-  for (int i = 0; i < calls; ++i) sum += childrenOf(check, student, weights, count, check.rng().next());
-  for (Eigen::Index k = 0; k < weights.size(); ++k) {
-    const double due = count * weights[k], rest = due - std::floor(due + 1e-9);
-    check.near("children of a particle with count * weight = " + text(due) + ", on average", sum[k] / calls,
-               due, kSigmas * std::sqrt(std::max(rest, 0.) / calls) + 5. / calls);
   }
 }
 
