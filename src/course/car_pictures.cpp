@@ -20,7 +20,9 @@ namespace {
 using internal::kCarLength, internal::kCarMiddle, internal::kCarWidth, internal::placeAt;
 
 // Heights over the ground of what is flat, metres.
-constexpr double kEllipseHeight = 0.04, kWayHeight = 0.07, kParticleHeight = 0.1, kDotHeight = 0.12;
+constexpr double kEllipseHeight = 0.04, kWayHeight = 0.07, kDotHeight = 0.12;
+// What belongs to the pose of a car lies above its body, which would hide it.
+constexpr double kPoseHeight = 0.57;
 constexpr double kPostHeight = 1;
 
 Color faded(Color color, double opacity) {
@@ -41,7 +43,7 @@ void addCar(Picture& picture, const Eigen::Vector3d& pose, const char* name, con
   const Pose X_WR = translation(pose.x(), pose.y(), 0) * rotation(pose.z(), Eigen::Vector3d::UnitZ());
   const Shape box{.extent = {kCarLength, kCarWidth, 0.5}}, roof{.extent = {1.3, 1.25, 0.4}};
   picture.solids.push_back({box, X_WR * translation(kCarMiddle, 0, 0.3), body, name});
-  picture.solids.push_back({roof, X_WR * translation(kCarMiddle - 0.4, 0, 0.75), cabin, name});
+  picture.solids.push_back({roof, X_WR * translation(kCarMiddle, 0, 0.75), cabin, name});
 }
 
 void addOutline(Picture& picture, const Eigen::Vector3d& pose) {
@@ -68,10 +70,10 @@ void addParticles(Picture& picture, const CarView& view) {
   constexpr double kStroke = 0.9;  // metres
   for (const internal::ParticleGroup& group : internal::particleGroups(view)) {
     PointSet dots{.color = faded(kEstimateColor, group.strength), .size = 3};
-    LineSet strokes{.color = faded(kEstimateColor, 0.6 * group.strength), .width = 1};
+    LineSet strokes{.color = faded(kEstimateColor, 0.4 * group.strength), .width = 1};
     for (const Eigen::Vector3d& pose : group.poses) {
-      dots.points.push_back(lifted(pose.head<2>(), kParticleHeight));
-      strokes.segments.emplace_back(dots.points.back(), lifted(placeAt(pose, kStroke, 0), kParticleHeight));
+      dots.points.push_back(lifted(pose.head<2>(), kPoseHeight));
+      strokes.segments.emplace_back(dots.points.back(), lifted(placeAt(pose, kStroke, 0), kPoseHeight));
     }
     picture.lineSets.push_back(std::move(strokes));
     picture.pointSets.push_back(std::move(dots));
@@ -79,7 +81,7 @@ void addParticles(Picture& picture, const CarView& view) {
 }
 
 void addBeliefs(Picture& picture, const std::vector<PlanarGaussian>& beliefs, double sigmas,
-                const Color& color) {
+                const Color& color, double height) {
   if (beliefs.empty()) return;
   LineSet outlines{.color = color, .width = 1.5};
   PointSet means{.color = color, .size = 5};
@@ -87,9 +89,9 @@ void addBeliefs(Picture& picture, const std::vector<PlanarGaussian>& beliefs, do
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
     covariance.topLeftCorner<2, 2>() = belief.covariance;
     picture.ellipsoids.push_back(
-        covarianceEllipsoid(lifted(belief.mean, kEllipseHeight), covariance, sigmas, faded(color, 0.25)));
-    means.points.push_back(lifted(belief.mean, kDotHeight));
-    const auto corners = allLifted(internal::outlineOf(belief, sigmas), kEllipseHeight);
+        covarianceEllipsoid(lifted(belief.mean, height), covariance, sigmas, faded(color, 0.25)));
+    means.points.push_back(lifted(belief.mean, height));
+    const auto corners = allLifted(internal::outlineOf(belief, sigmas), height);
     for (std::size_t i = 1; i < corners.size(); ++i)
       outlines.segments.emplace_back(corners[i - 1], corners[i]);
   }
@@ -109,7 +111,7 @@ void addSightings(Picture& picture, const CarView& view) {
 void addWays(Picture& picture, const std::vector<Way>& ways) {
   for (const Way& way : ways) {
     if (way.points.cols() > 1)
-      picture.polylines.push_back({allLifted(way.points, kWayHeight), way.color, 2.5});
+      picture.polylines.push_back({allLifted(way.points, kWayHeight), way.color, way.width});
     if (!way.name.empty()) picture.captions.push_back({.text = way.name, .color = way.color});
   }
 }
@@ -156,11 +158,11 @@ Picture pictureOf(const CarView& view) {
   Picture picture;
   picture.ground.cell = 5;
   if (!view.caption.empty()) picture.captions.push_back({.text = view.caption});
-  if (view.car) addCar(picture, *view.car, "car", {0.86f, 0.87f, 0.89f}, {0.25f, 0.28f, 0.33f});
+  if (view.car) addCar(picture, *view.car, "car", {0.32f, 0.35f, 0.41f}, {0.80f, 0.82f, 0.86f});
   addLandmarks(picture, view.landmarks);
   if (view.scan.cols() > 0) picture.pointSets.push_back({allLifted(view.scan, kDotHeight), kScanColor, 3});
-  addBeliefs(picture, view.landmarkBeliefs, view.sigmas, kLandmarkColor);
-  addBeliefs(picture, view.poseBeliefs, view.sigmas, kEstimateColor);
+  addBeliefs(picture, view.landmarkBeliefs, view.sigmas, kLandmarkColor, kEllipseHeight);
+  addBeliefs(picture, view.poseBeliefs, view.sigmas, kEstimateColor, kPoseHeight);
   addWays(picture, view.ways);
   addParticles(picture, view);
   addSightings(picture, view);

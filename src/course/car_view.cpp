@@ -13,6 +13,7 @@ namespace rex {
 namespace {
 
 constexpr double kFarthest = 1e9;  // metres, as in a Picture
+constexpr double kWidest = 50;
 
 void requireNumbers(const std::string& what, const VectorArg& numbers) {
   requireFinite(what, numbers);
@@ -47,7 +48,13 @@ void requireDrawable(const CarView& view) {
   requireColumns("particle", view.particles);
   requireColumns("sighting", view.sightings);
   requireColumns("dot of the scan", view.scan);
-  for (const Way& way : view.ways) requireColumns("way '" + way.name + "', point", way.points);
+  for (const Way& way : view.ways) {
+    requireColumns("way '" + way.name + "', point", way.points);
+    if (!(way.width > 0 && way.width <= kWidest))
+      throw Error({.what = "way '" + way.name + "', width",
+                   .found = fmt::format("{:g}", way.width),
+                   .wanted = fmt::format("more than 0, at most {:g} pixels", kWidest)});
+  }
   if (view.weights.size() > 0) {
     requireSize("weights of particles", view.weights.size(), view.particles.cols());
     requireNumbers("weights of particles", view.weights);

@@ -29,6 +29,7 @@ struct Way {
   Eigen::Matrix2Xd points{};  ///< the first two rows of poses: poses.topRows<2>()
   Color color = kTruthColor;
   bool dashed = false;  ///< in figures
+  double width = 2.5;   ///< pixels
 };
 
 /// What one picture of the world of CarSimulator shows, as plain data: fill in what there is. All is in the
@@ -43,15 +44,14 @@ struct CarView {
   std::vector<PlanarGaussian> landmarkBeliefs{};
   double sigmas = 2;  ///< size of all ellipses, in standard deviations
   std::vector<Way> ways{};
-  Eigen::Matrix2Xd
-      sightings{};          ///< places of landmarks that are seen now: lines from the car or its estimate
-  Eigen::Matrix2Xd scan{};  ///< dots, such as what a range scanner hit
-  std::string caption{};    ///< in the top left corner, or the title of a figure
+  Eigen::Matrix2Xd sightings{};  ///< places seen now: lines to them from the car, or from its estimate
+  Eigen::Matrix2Xd scan{};       ///< dots, such as what a range scanner hit
+  std::string caption{};         ///< in the top left corner, or the title of a figure
 };
 
 /// Throws Error naming what cannot be drawn: numbers that are not finite or beyond 1e9, weights of another
-/// size than the particles or negative, covariances that are none, sigmas that are not positive, sightings
-/// without a car or estimate.
+/// size than the particles or negative, covariances that are none, sigmas and widths that are not
+/// positive, sightings without a car or estimate.
 void requireDrawable(const CarView& view);
 
 }  // namespace rex
