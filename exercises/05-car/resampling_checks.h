@@ -20,7 +20,7 @@ inline Eigen::VectorXd randomWeights(int count, rex::Rng& rng) {
   return weights / weights.sum();
 }
 
-// How often each is a parent; `least` of count * weight for certain.
+// How often each is a parent.
 inline Eigen::VectorXd childrenOf(rex::grading::Check& check, Student& student,
                                   const Eigen::VectorXd& weights, int count, std::uint64_t seed) {
   const std::vector<int> drawn = student.resampledParents(weights, count, rex::Rng(seed));
