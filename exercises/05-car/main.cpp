@@ -257,10 +257,10 @@ int main() {
   const CarSimulator map(world.landmarks, CarOptions{});
   const NonlinearModel transition{
       .g = [&](const Eigen::VectorXd& x) { return map.getMeanStateAfterStep(x, log.controls[0]); },
-      .W = 0.0009 * Eigen::Matrix3d::Identity()};
+      .W = std::pow(world.dynamicsNoise, 2) * Eigen::Matrix3d::Identity()};
   const NonlinearModel observation{
       .g = [&](const Eigen::VectorXd& x) { return map.getMeanObservationAtState(x); },
-      .W = 0.25 * Eigen::Matrix4d::Identity()};
+      .W = std::pow(world.observationNoise, 2) * Eigen::Matrix4d::Identity()};
   Rng rng(7);
   ParticleFilter library({Eigen::MatrixXd::Zero(3, 100), Eigen::VectorXd::Constant(100, 0.01)});
   Eigen::MatrixXd byLibrary(3, kSteps);
