@@ -1,0 +1,58 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "grading/check.h"
+#include "interface.h"
+
+// What the children of weighted particles must have in common, however they are drawn.
+
+// Statistics lie within so many standard deviations: outside in one of 25 million right answers.
+inline constexpr double kSigmas = 5.5;
+
+inline std::string text(double x) { return std::to_string(x).substr(0, 6); }
+
+inline Eigen::VectorXd randomWeights(int count, rex::Rng& rng) {
+  Eigen::VectorXd weights = rng.uniformVector(count, 0, 1).array().cube().matrix();
+  return weights / weights.sum();
+}
+
+// How often each is a parent.
+inline Eigen::VectorXd childrenOf(rex::grading::Check& check, Student& student,
+                                  const Eigen::VectorXd& weights, int count, std::uint64_t seed) {
+  const std::vector<int> drawn = student.resampledParents(weights, count, rex::Rng(seed));
+  check.near("how many parents there are", static_cast<double>(drawn.size()), count, 0);
+  Eigen::VectorXd children = Eigen::VectorXd::Zero(weights.size());
+  for (const int parent : drawn) {
+    check.that("every parent is one of the particles", parent >= 0 && parent < weights.size());
+    children[parent] += 1;
+  }
+  return children;
+}
+
+inline void keepsWholeParts(rex::grading::Check& check, const Eigen::VectorXd& weights, int count,
+                            const Eigen::VectorXd& children) {
+  double missing = 0;
+  for (Eigen::Index k = 0; k < weights.size(); ++k) {
+    missing = std::max(missing, std::floor(count * weights[k] - 1e-6) - children[k]);
+    check.that("no particle of weight zero is a parent", weights[k] > 0 || children[k] == 0);
+  }
+  check.atMost("children that a particle lacks to the whole part of count * weight", missing, 0);
+}
+
+// The mean number of children in `calls` calls. Above the whole part f more are due on average; their
+// variance is f (1 - f) if all are drawn with one random number, and f at most if each is drawn by itself.
+// What is due almost never may happen five times all the same.
+inline void isUnbiased(rex::grading::Check& check, Student& student, const Eigen::VectorXd& weights,
+                       int count, int calls) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(weights.size());
+  for (int i = 0; i < calls; ++i) sum += childrenOf(check, student, weights, count, check.rng().next());
+  for (Eigen::Index k = 0; k < weights.size(); ++k) {
+    const double due = count * weights[k], rest = due - std::floor(due + 1e-9);
+    check.near("children of a particle with count * weight = " + text(due) + ", on average", sum[k] / calls,
+               due, kSigmas * std::sqrt(std::max(rest, 0.) / calls) + 5. / calls);
+  }
+}
