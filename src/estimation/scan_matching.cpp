@@ -227,6 +227,9 @@ class Alignment {
     if (V.cols() == 3) return;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(equations.H);
     match.unseen = (S * axes.eigenvectors().col(0)).normalized();
+    Eigen::Index largest = 0;
+    match.unseen.cwiseAbs().maxCoeff(&largest);
+    if (match.unseen[largest] < 0) match.unseen = -match.unseen;
   }
 
   ScanMatch report(ScanMatch& match) {

@@ -35,7 +35,8 @@ struct ScanMatch {
       Eigen::Vector3d::Zero();  ///< the moving scanner seen from the other: x, y, heading
   /// Of the motion, as PlanarEdge counts it; zero along what is not seen.
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-  /// kUnobservable: the unit vector (x, y, heading) along which the motion is seen least. Else zero.
+  /// kUnobservable: the unit vector (x, y, heading) along which the motion is seen least, its largest number
+  ///< positive. Else zero.
   Eigen::Vector3d unseen = Eigen::Vector3d::Zero();
   double residual = 0;  ///< root mean square distance of the points that fit from their walls, metres
   double overlap = 0;   ///< share of the moving points that fit, of those which could

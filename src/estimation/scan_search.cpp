@@ -18,41 +18,37 @@ constexpr double kCell = 0.1;   // metres; the step of the grid in x and y
 constexpr double kTurn = 0.05;  // radians
 constexpr std::size_t kStarts = 4;
 
+Eigen::Vector2i cellOf(const Eigen::Vector2d& p) { return (p / kCell).array().floor().cast<int>(); }
+
 // How near the reference is to each cell around it: 2 in a cell of it, 1 in those beside, else 0.
 class Neighbourhood {
  public:
   explicit Neighbourhood(const Eigen::Matrix2Xd& points)
       : lower_(cellOf(points.rowwise().minCoeff()).array() - 1),
-        width_(cellOf(points.rowwise().maxCoeff())[0] + 2 - lower_[0]),
-        height_(cellOf(points.rowwise().maxCoeff())[1] + 2 - lower_[1]),
-        cells_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0) {
+        cells_(Eigen::ArrayXXi::Zero(cellOf(points.rowwise().maxCoeff())[0] + 2 - lower_[0],
+                                     cellOf(points.rowwise().maxCoeff())[1] + 2 - lower_[1])) {
     for (Eigen::Index k = 0; k < points.cols(); ++k) {
-      const Eigen::Vector2i cell = cellOf(points.col(k));
-      for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx) {
-          int& value = cells_[place(cell + Eigen::Vector2i(dx, dy) - lower_)];
-          value = std::max(value, dx == 0 && dy == 0 ? 2 : 1);
-        }
+      const Eigen::Vector2i cell = cellOf(points.col(k)) - lower_;
+      auto around = cells_.block<3, 3>(cell[0] - 1, cell[1] - 1);
+      around = around.max(1);
+      cells_(cell[0], cell[1]) = 2;
     }
   }
 
-  static Eigen::Vector2i cellOf(const Eigen::Vector2d& p) { return (p / kCell).array().floor().cast<int>(); }
-
-  int at(const Eigen::Vector2i& cell) const {
-    const Eigen::Vector2i inside = cell - lower_;
-    const bool isKnown = inside[0] >= 0 && inside[1] >= 0 && inside[0] < width_ && inside[1] < height_;
-    return isKnown ? cells_[place(inside)] : 0;
+  // Adds to scores(x, y) what stands in the cell + (x - steps, y - steps).
+  void addTo(Eigen::ArrayXXi& scores, const Eigen::Vector2i& cell, int steps) const {
+    const Eigen::Vector2i corner = cell - lower_ - Eigen::Vector2i::Constant(steps);
+    const Eigen::Vector2i size(static_cast<int>(cells_.rows()), static_cast<int>(cells_.cols()));
+    const Eigen::Vector2i first = corner.cwiseMax(0),
+                          last = (corner + Eigen::Vector2i::Constant(2 * steps + 1)).cwiseMin(size);
+    const Eigen::Vector2i count = last - first, at = first - corner;
+    if (count[0] > 0 && count[1] > 0)
+      scores.block(at[0], at[1], count[0], count[1]) += cells_.block(first[0], first[1], count[0], count[1]);
   }
 
  private:
-  std::size_t place(const Eigen::Vector2i& inside) const {
-    return static_cast<std::size_t>(inside[1]) * static_cast<std::size_t>(width_) +
-           static_cast<std::size_t>(inside[0]);
-  }
-
   Eigen::Vector2i lower_;
-  int width_, height_;
-  std::vector<int> cells_;
+  Eigen::ArrayXXi cells_;
 };
 
 struct Trial {
@@ -81,18 +77,16 @@ std::vector<Trial> bestTrials(const Eigen::Matrix2Xd& reference, const Eigen::Ma
   const int turns = static_cast<int>(std::ceil(window.heading / kTurn)),
             steps = static_cast<int>(std::ceil(window.position / kCell));
   std::vector<Trial> best;
-  std::vector<Eigen::Vector2i> cells(static_cast<std::size_t>(moving.cols()));
+  Eigen::ArrayXXi scores(2 * steps + 1, 2 * steps + 1);
   for (int turn = -turns; turn <= turns; ++turn) {
-    const double heading = guess[2] + turn * kTurn;
-    const Eigen::Matrix2d R = internal::planarRotation(heading);
-    for (std::size_t k = 0; k < cells.size(); ++k)
-      cells[k] = Neighbourhood::cellOf(R * moving.col(static_cast<Eigen::Index>(k)) + guess.head<2>());
+    const Eigen::Matrix2d R = internal::planarRotation(guess[2] + turn * kTurn);
+    scores.setZero();
+    for (Eigen::Index k = 0; k < moving.cols(); ++k)
+      neighbourhood.addTo(scores, cellOf(R * moving.col(k) + guess.head<2>()), steps);
     for (int y = -steps; y <= steps; ++y)
-      for (int x = -steps; x <= steps; ++x) {
-        int score = 0;
-        for (const Eigen::Vector2i& cell : cells) score += neighbourhood.at(cell + Eigen::Vector2i(x, y));
-        add(best, {guess + Eigen::Vector3d(x * kCell, y * kCell, turn * kTurn), score});
-      }
+      for (int x = -steps; x <= steps; ++x)
+        add(best,
+            {guess + Eigen::Vector3d(x * kCell, y * kCell, turn * kTurn), scores(x + steps, y + steps)});
   }
   return best;
 }

@@ -79,8 +79,12 @@ inline Building hall() {
     const auto place = [side](double x, double y) {
       return side > 0 ? Eigen::Vector2d(24 - x, 16 - y) : Eigen::Vector2d(x, y);
     };
-    for (const auto& [x1, y1, x2, y2] : {std::array{9., 0., 9., 1.4}, {9., 3.2, 9., 5.}, {15., 0., 15., 1.4},
-                                         {15., 3.2, 15., 5.}, {11., 0., 11.8, 0.9}, {13., 5., 13., 4.2}}) {
+    for (const auto& [x1, y1, x2, y2] : {std::array{9., 0., 9., 1.4},
+                                         {9., 3.2, 9., 5.},
+                                         {15., 0., 15., 1.4},
+                                         {15., 3.2, 15., 5.},
+                                         {11., 0., 11.8, 0.9},
+                                         {13., 5., 13., 4.2}}) {
       Eigen::Vector4d wall;
       wall << place(x1, y1), place(x2, y2);
       building.push_back(wall);
