@@ -82,8 +82,8 @@ inline Poses odometryOf(const PoseMap& map) {
   return poses;
 }
 
-inline StreetWalk streetWalk(rex::Rng& rng, int poses, double noise,
-                             const Eigen::Vector3d& start = {0, 0, 0}) {
+inline StreetWalk anyStreetWalk(rex::Rng& rng, int poses, double noise,
+                                const Eigen::Vector3d& start = {0, 0, 0}) {
   StreetWalk walk{{}, {start}};
   for (int k = 1; k < poses; ++k) {
     // Four crossings a block: it turns left more often than not, and so comes by again.
@@ -109,6 +109,15 @@ inline StreetWalk streetWalk(rex::Rng& rng, int poses, double noise,
     }
   walk.map.poses = odometryOf(walk.map);
   return walk;
+}
+
+/// One with ten loops at least.
+inline StreetWalk streetWalk(rex::Rng& rng, int poses, double noise,
+                             const Eigen::Vector3d& start = {0, 0, 0}) {
+  for (;;) {
+    const StreetWalk walk = anyStreetWalk(rng, poses, noise, start);
+    if (static_cast<int>(walk.map.edges.size()) >= poses + 9) return walk;
+  }
 }
 
 inline rex::PlanarPoseGraph graphOf(const PoseMap& map) {
