@@ -342,7 +342,7 @@ void alignsScans(Check& check, Student& student) {
 }
 
 // <hidden>
-void alignsMoreScans(Check& check, Student& student) { alignsPairs(check, student, 40); }
+void alignsMoreScans(Check& check, Student& student) { alignsPairs(check, student, 30); }
 // </hidden>
 
 // Part 5.
@@ -370,7 +370,7 @@ void tellsRoomsApart(Check& check, Student& student) {
 }
 
 // <hidden>
-void tellsMoreRoomsApart(Check& check, Student& student) { tellsPlacesApart(check, student, 80); }
+void tellsMoreRoomsApart(Check& check, Student& student) { tellsPlacesApart(check, student, 50); }
 // </hidden>
 
 // Part 6.
@@ -391,27 +391,32 @@ void addWrongLoops(Rng& rng, StreetWalk& walk, double share) {
   }
 }
 
-void standsWrongLoops(Check& check, Student& student, int poses, double share) {
+bool standsWrongLoops(Check& check, Student& student, int poses, double share) {
   Rng& rng = check.rng();
   StreetWalk walk = streetWalk(rng, poses, 0.04);
   const Poses best = bestPoses(walk.map);
   addWrongLoops(rng, walk, share);
   const Poses got = student.robustlyAdjusted(walk.map);
   checkPoses(check, got, walk.map.poses);
-  check.atMost("distance from the map without wrong loops", apart(got, best), 0.1, "m");
+  return apart(got, best) < 0.1;
+}
+
+// By chance a wrong loop cannot be told from a right one: the reference fails on one map of 200 with a few of
+// them, and on one of 40 with many. Four of eight are then less likely than 1e-4.
+void standsOnMostMaps(Check& check, Student& student, int poses, double share) {
+  int right = 0;
+  for (int k = 0; k < 8; ++k)
+    if (standsWrongLoops(check, student, poses, share)) ++right;
+  check.atLeast("maps of eight that are as without the wrong loops, within 10 cm", right, 5);
 }
 
 void standsAFew(Check& check, Student& student) {
-  check.forEachCase(4, [&](int) {
-    check.input("a walk of 60 poses along streets; one of ten loops is wrong");
-    standsWrongLoops(check, student, 60, 0.1);
-  });
+  check.input("eight walks of 60 poses along streets; one of ten loops is wrong");
+  standsOnMostMaps(check, student, 60, 0.1);
 }
 
 // <hidden>
-void standsMany(Check& check, Student& student) {
-  check.forEachCase(4, [&](int) { standsWrongLoops(check, student, 100, 0.28); });
-}
+void standsMany(Check& check, Student& student) { standsOnMostMaps(check, student, 80, 0.28); }
 // </hidden>
 
 }  // namespace

@@ -175,11 +175,11 @@ std::vector<int> partners(const Points& reference, const Points& moving, const E
   for (std::size_t k = 0; k < moving.size(); ++k) {
     const double x = motion[0] + c * moving[k].x() - s * moving[k].y();
     const double y = motion[1] + s * moving[k].x() + c * moving[k].y();
-    double nearest = maxDistance;
+    double nearest = maxDistance * maxDistance;
     for (std::size_t i = 0; i < reference.size(); ++i) {
-      const double distance = std::hypot(reference[i].x() - x, reference[i].y() - y);
-      if (distance > nearest) continue;
-      nearest = distance;
+      const double dx = reference[i].x() - x, dy = reference[i].y() - y, squared = dx * dx + dy * dy;
+      if (squared > nearest) continue;
+      nearest = squared;
       numbers[k] = static_cast<int>(i);
     }
   }
@@ -228,15 +228,16 @@ Aligned aligned(const Points& reference, const Points& moving, const Eigen::Vect
         to.push_back(reference[static_cast<std::size_t>(numbers[k])]);
       }
     if (from.size() < 3) break;
+    const Eigen::Vector3d before = result.motion;
     result.motion = bestMotion(from, to);
     double squares = 0;
-    for (std::size_t k = 0; k < from.size(); ++k) {
-      const Eigen::Vector3d at = seenFrom(seenFrom(result.motion, Eigen::Vector3d::Zero()),
-                                          Eigen::Vector3d(from[k].x(), from[k].y(), 0));
-      squares += (Eigen::Vector2d(at[0], at[1]) - to[k]).squaredNorm();
-    }
+    const double c = std::cos(result.motion[2]), s = std::sin(result.motion[2]);
+    for (std::size_t k = 0; k < from.size(); ++k)
+      squares += std::pow(result.motion[0] + c * from[k].x() - s * from[k].y() - to[k].x(), 2) +
+                 std::pow(result.motion[1] + s * from[k].x() + c * from[k].y() - to[k].y(), 2);
     result.residual = std::sqrt(squares / static_cast<double>(from.size()));
     result.overlap = static_cast<double>(from.size()) / static_cast<double>(moving.size());
+    if (reach == 0.3 && (result.motion - before).norm() < 1e-6) break;
   }
   // <todo>
   //| // TODO: partners, then the best motion for them. Once is not enough.

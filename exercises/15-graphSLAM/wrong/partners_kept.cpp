@@ -13,14 +13,15 @@ for (int iteration = 0; iteration < 1; ++iteration) {
       to.push_back(reference[static_cast<std::size_t>(numbers[k])]);
     }
   if (from.size() < 3) break;
+  const Eigen::Vector3d before = result.motion;
   result.motion = bestMotion(from, to);
   double squares = 0;
-  for (std::size_t k = 0; k < from.size(); ++k) {
-    const Eigen::Vector3d at = seenFrom(seenFrom(result.motion, Eigen::Vector3d::Zero()),
-                                        Eigen::Vector3d(from[k].x(), from[k].y(), 0));
-    squares += (Eigen::Vector2d(at[0], at[1]) - to[k]).squaredNorm();
-  }
+  const double c = std::cos(result.motion[2]), s = std::sin(result.motion[2]);
+  for (std::size_t k = 0; k < from.size(); ++k)
+    squares += std::pow(result.motion[0] + c * from[k].x() - s * from[k].y() - to[k].x(), 2) +
+               std::pow(result.motion[1] + s * from[k].x() + c * from[k].y() - to[k].y(), 2);
   result.residual = std::sqrt(squares / static_cast<double>(from.size()));
   result.overlap = static_cast<double>(from.size()) / static_cast<double>(moving.size());
+  if (reach == 0.3 && (result.motion - before).norm() < 1e-6) break;
 }
 // </solution>
