@@ -129,13 +129,13 @@ void takesSteps(Check& check, Student& student, double damping) {
   Rng& rng = check.rng();
   const int poses = 3 + rng.index(8), unknowns = 3 * poses - 3;
   const PoseMap map = randomMap(rng, poses);
-  const std::vector<double> weights(map.edges.size(), 1);
-  const Eigen::VectorXd step = student.gaussNewtonStep(map, weights, damping);
+  const std::vector<double> ones(map.edges.size(), 1);
+  const Eigen::VectorXd step = student.gaussNewtonStep(map, ones, damping);
   check.shape("step", step, 3 * poses, 1);
   check.near("step of pose 0", step.head(3), Eigen::Vector3d::Zero(), 1e-9);
-  const Eigen::VectorXd x = numbersOf(map.poses), r = weightedErrors(map, weights, x);
+  const Eigen::VectorXd x = numbersOf(map.poses), r = weightedErrors(map, ones, x);
   const Eigen::MatrixXd J =
-      numericJacobian([&](const Eigen::VectorXd& at) { return weightedErrors(map, weights, at); }, x);
+      numericJacobian([&](const Eigen::VectorXd& at) { return weightedErrors(map, ones, at); }, x);
   const Eigen::MatrixXd H = J.rightCols(unknowns).transpose() * J.rightCols(unknowns) +
                             damping * Eigen::MatrixXd::Identity(unknowns, unknowns);
   const Eigen::VectorXd wanted = -solve(H, Eigen::VectorXd(J.rightCols(unknowns).transpose() * r));

@@ -12,7 +12,7 @@
 
 using Poses = std::vector<Eigen::Vector3d>;
 
-inline double byTurns(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
+inline double byTurns(double angle) { return std::atan2(std::sin(angle), std::cos(angle)); }
 
 inline Eigen::Matrix3d frameOf(const Eigen::Vector3d& pose) {
   Eigen::Matrix3d X;
