@@ -274,9 +274,9 @@ void findsPartners(Check& check, Student& student) {
 double squaresOf(const Points& from, const Points& to, const Eigen::Vector3d& motion) {
   const Eigen::Matrix3d X = frameOf(motion);
   double sum = 0;
-  for (std::size_t k = 0; k < from.size(); ++k)
-    sum += std::pow(X(0, 0) * from[k].x() + X(0, 1) * from[k].y() + X(0, 2) - to[k].x(), 2) +
-           std::pow(X(1, 0) * from[k].x() + X(1, 1) * from[k].y() + X(1, 2) - to[k].y(), 2);
+  for (std::size_t i = 0; i < from.size(); ++i)
+    sum += std::pow(X(0, 0) * from[i].x() + X(0, 1) * from[i].y() + X(0, 2) - to[i].x(), 2) +
+           std::pow(X(1, 0) * from[i].x() + X(1, 1) * from[i].y() + X(1, 2) - to[i].y(), 2);
   return sum;
 }
 
@@ -288,7 +288,8 @@ void findsBestMotions(Check& check, Student& student) {
     const Eigen::Matrix3d X = frameOf(motion);
     check.input(std::array{"points that were moved exactly", "moved points with noise",
                            "points that were also mirrored"}[static_cast<std::size_t>(number % 3)]);
-    Points from, to;
+    Points from;
+    Points to;
     for (int k = 0; k < 2 + 4 * number; ++k) {
       from.push_back(rng.uniformVector(2, -3, 3) + Eigen::Vector2d(4, 1));
       const Eigen::Vector2d p =

@@ -141,10 +141,10 @@ inline Poses bestPoses(const PoseMap& map) {
 
 /// Root mean square distance of positions.
 inline double apart(const Poses& a, const Poses& b) {
-  double squares = 0;
+  double sum = 0;
   for (std::size_t k = 0; k < a.size(); ++k)
-    squares += std::pow(std::hypot(a[k][0] - b[k][0], a[k][1] - b[k][1]), 2);
-  return std::sqrt(squares / static_cast<double>(a.size()));
+    sum += std::pow(std::hypot(a[k][0] - b[k][0], a[k][1] - b[k][1]), 2);
+  return std::sqrt(sum / static_cast<double>(a.size()));
 }
 
 inline void checkPoses(rex::grading::Check& check, const Poses& got, const Poses& start) {
@@ -172,17 +172,17 @@ inline Eigen::MatrixXd fullMatrix(rex::grading::Check& check, const std::vector<
 inline Eigen::VectorXd weightedErrors(const PoseMap& map, const std::vector<double>& weights,
                                       const Eigen::VectorXd& x) {
   Eigen::VectorXd errors(3 * static_cast<Eigen::Index>(map.edges.size()));
-  for (std::size_t k = 0; k < map.edges.size(); ++k) {
-    const MeasuredEdge& edge = map.edges[k];
+  for (std::size_t number = 0; number < weights.size(); ++number) {
+    const MeasuredEdge& edge = map.edges[number];
     // U with U^T U = Omega, by Cholesky's rows.
     Eigen::Matrix3d U = Eigen::Matrix3d::Zero();
-    for (int r = 0; r < 3; ++r)
-      for (int c = r; c < 3; ++c) {
-        const double rest = edge.information(r, c) - U.col(r).dot(U.col(c));
-        U(r, c) = r == c ? std::sqrt(rest) : rest / U(r, r);
+    for (int row = 0; row < 3; ++row)
+      for (int column = row; column < 3; ++column) {
+        const double rest = edge.information(row, column) - U.col(row).dot(U.col(column));
+        U(row, column) = row == column ? std::sqrt(rest) : rest / U(row, row);
       }
     const Eigen::Vector3d e = trueError(x.segment<3>(3 * edge.from), x.segment<3>(3 * edge.to), edge.motion);
-    errors.segment<3>(3 * static_cast<Eigen::Index>(k)) = std::sqrt(weights[k]) * (U * e);
+    errors.segment<3>(3 * static_cast<Eigen::Index>(number)) = std::sqrt(weights[number]) * (U * e);
   }
   return errors;
 }
