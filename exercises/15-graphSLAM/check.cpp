@@ -306,8 +306,8 @@ void findsBestMotions(Check& check, Student& student) {
     }
     const double least = squaresOf(from, to, got);
     for (int trial = 0; trial < 60; ++trial) {
-      const double reach = trial < 20 ? 1e-3 : trial < 40 ? 0.1 : 3;
-      const Eigen::Vector3d other = got + rng.uniformVector(3, -reach, reach);
+      const double radius = trial < 20 ? 1e-3 : trial < 40 ? 0.1 : 3;
+      const Eigen::Vector3d other = got + rng.uniformVector(3, -radius, radius);
       check.atLeast("sum of squares of another motion", squaresOf(from, to, other), least - 1e-9, "m^2");
     }
   });
