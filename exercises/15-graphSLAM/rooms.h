@@ -87,11 +87,11 @@ inline Walk walkThroughHouse(rex::Rng& rng) {
   Walk walk;
   for (std::size_t side = 0; side < 5; ++side) {
     const auto &a = corners[side % 4], &b = corners[(side + 1) % 4];
-    const double dx = b[0] - a[0], dy = b[1] - a[1];
-    const int steps = static_cast<int>(std::hypot(dx, dy) / 0.9);
+    const double east = b[0] - a[0], north = b[1] - a[1];
+    const int steps = static_cast<int>(std::hypot(east, north) / 0.9);
     for (int k = 0; k < steps; ++k)
-      walk.truth.emplace_back(a[0] + dx * k / steps, a[1] + dy * k / steps,
-                              std::atan2(dy, dx) + rng.uniform(-0.1, 0.1));
+      walk.truth.emplace_back(a[0] + east * k / steps, a[1] + north * k / steps,
+                              std::atan2(north, east) + rng.uniform(-0.1, 0.1));
   }
   for (const Eigen::Vector3d& pose : walk.truth) walk.scans.push_back(scanFrom(building, pose, rng));
   return walk;

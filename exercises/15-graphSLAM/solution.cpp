@@ -271,14 +271,14 @@ std::vector<Eigen::Vector3d> robustlyAdjusted(const PoseMap& map) {
   std::vector<double> weights(map.edges.size(), 1), squares(map.edges.size(), 0);
   double reach = 0;
   for (int round = 0; round < 60; ++round) {
-    double largest = 0;
+    double widest = 0;
     for (std::size_t k = 0; k < map.edges.size(); ++k) {
       const MeasuredEdge& edge = map.edges[k];
       if (!edge.isLoop) continue;
       squares[k] = mapCost({now.poses, {edge}});
-      largest = std::max(largest, squares[k]);
+      widest = std::max(widest, squares[k]);
     }
-    reach = round == 0 ? std::max(kBound, largest) : std::max(kBound, reach / 1.4);
+    reach = round == 0 ? std::max(kBound, widest) : std::max(kBound, reach / 1.4);
     for (std::size_t k = 0; k < map.edges.size(); ++k)
       weights[k] = map.edges[k].isLoop ? std::pow(reach / (reach + squares[k]), 2) : 1;
     now.poses = moved(now.poses, gaussNewtonStep(now, weights, 0));
