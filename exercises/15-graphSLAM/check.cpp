@@ -318,6 +318,8 @@ std::pair<double, double> missOf(const Eigen::Vector3d& got, const Eigen::Vector
   return {std::hypot(got[0] - wanted[0], got[1] - wanted[1]), std::abs(byTurns(got[2] - wanted[2]))};
 }
 
+// The reference, over 1500 pairs: 1.6 cm and 0.008 rad on average, with deviations of 1.2 cm and 0.007 rad;
+// 10.4 cm and 0.044 rad at most, and an overlap of 0.82 at least.
 void alignsPairs(Check& check, Student& student, int pairs) {
   double way = 0, turn = 0;
   for (int k = 0; k < pairs; ++k) {
@@ -325,11 +327,11 @@ void alignsPairs(Check& check, Student& student, int pairs) {
     const Aligned got = student.aligned(pair.reference, pair.moving, pair.guess);
     check.shape("motion", got.motion, 3, 1);
     const auto [metres, radians] = missOf(got.motion, pair.motion);
-    check.atMost("error of one motion", metres, 0.15, "m");
-    check.atMost("error of its heading", radians, 0.08, "rad");
+    check.atMost("error of one motion", metres, 0.2, "m");
+    check.atMost("error of its heading", radians, 0.1, "rad");
     way += metres / pairs;
     turn += radians / pairs;
-    check.atLeast("overlap of scans that share four fifths", got.overlap, 0.75);
+    check.atLeast("overlap of scans that share four fifths", got.overlap, 0.7);
     check.atMost("overlap", got.overlap, 1);
     check.that("a residual above 0 and below 0.3 m", got.residual > 0 && got.residual < 0.3);
   }
@@ -348,6 +350,7 @@ void alignsMoreScans(Check& check, Student& student) { alignsPairs(check, studen
 
 // Part 5.
 
+// The reference finds all of 700 pairs of one place, and takes one pair of 700 strangers for the same.
 void tellsPlacesApart(Check& check, Student& student, int pairs) {
   int found = 0, right = 0, wrong = 0;
   for (int k = 0; k < pairs; ++k) {
@@ -356,13 +359,13 @@ void tellsPlacesApart(Check& check, Student& student, int pairs) {
       ++found;
       check.shape("motion", *motion, 3, 1);
       const auto [metres, radians] = missOf(*motion, pair.motion);
-      if (metres < 0.15 && radians < 0.08) ++right;
+      if (metres < 0.2 && radians < 0.1) ++right;
     }
     if (student.loopMotion(strangers.reference, strangers.moving, strangers.guess)) ++wrong;
   }
   check.atLeast("pairs of one place that are found, and right", right, 0.9 * pairs);
   check.that("what is found of one place is right", found == right);
-  check.atMost("pairs of different rooms taken for one place", wrong, 0.05 * pairs);
+  check.atMost("pairs of different rooms taken for one place", wrong, 0.1 * pairs);
 }
 
 void tellsRoomsApart(Check& check, Student& student) {

@@ -96,7 +96,7 @@ struct Aligned {
 
 /// The pose of the moving scan seen from the reference: partners, best motion, and again. The guess is up to
 /// 0.3 m and 0.2 rad off. On average over many pairs the motion is right within 4 cm and 0.02 rad, and no
-/// single one is off by more than 15 cm or 0.08 rad. Ranges have noise of 2 cm, points of a wall lie about 15
+/// single one is off by more than 20 cm or 0.1 rad. Ranges have noise of 2 cm, points of a wall lie about 15
 /// cm apart, and a fifth of what one scan sees may be hidden from the other.
 Aligned aligned(const Points& reference, const Points& moving, const Eigen::Vector3d& guess);
 
@@ -104,7 +104,7 @@ Aligned aligned(const Points& reference, const Points& moving, const Eigen::Vect
 
 /// Do two scans show the same place? Then the motion from the reference to the moving one, else none. The
 /// guess is up to 0.3 m and 0.2 rad off if they do. At least nine of ten pairs of the same place are found,
-/// right within 15 cm and 0.08 rad; of different rooms at most one pair of twenty is taken for the same.
+/// right within 20 cm and 0.1 rad; of different rooms at most one pair of ten is taken for the same.
 std::optional<Eigen::Vector3d> loopMotion(const Points& reference, const Points& moving,
                                           const Eigen::Vector3d& guess);
 
