@@ -47,7 +47,9 @@ struct LoopClosing {
 /// each pose to the next (slide 7:45). Neighbours are aligned first. Then a pose is compared with earlier
 /// ones that the covariance of the motions in between lets come near it; what their scans say must overlap,
 /// be likely by that covariance, and agree with other loops around cycles: of all loops the largest set is
-/// kept of which every pair agrees, found greedily (Mangelson et al. 2018). Throws Error for edges that are
+/// kept of which every pair agrees, found greedily (Mangelson et al. 2018). Rooms that look alike are told
+/// apart only as far as the motions in between do: odometry worse than the way from one to the other lets
+/// them pass. Throws Error for edges that are
 /// not such a chain, counts that differ, more than 2000 poses, information that is not positive definite,
 /// scans as alignScans, and options out of range.
 [[nodiscard]] LoopClosing closeLoops(const PlanarPoseGraph& odometry,
