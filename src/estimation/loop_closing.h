@@ -49,9 +49,8 @@ struct LoopClosing {
 /// be likely by that covariance, and agree with other loops around cycles: of all loops the largest set is
 /// kept of which every pair agrees, found greedily (Mangelson et al. 2018). Rooms that look alike are told
 /// apart only as far as the motions in between do: odometry worse than the way from one to the other lets
-/// them pass. Throws Error for edges that are
-/// not such a chain, counts that differ, more than 2000 poses, information that is not positive definite,
-/// scans as alignScans, and options out of range.
+/// them pass. Throws Error for edges that are not such a chain, counts that differ, more than 2000 poses,
+/// information that is not positive definite, scans as alignScans, and options out of range.
 [[nodiscard]] LoopClosing closeLoops(const PlanarPoseGraph& odometry,
                                      const std::vector<Eigen::Matrix2Xd>& scans,
                                      const LoopOptions& options = {});
