@@ -1,11 +1,14 @@
 #include "course/linear_algebra.h"
 
+#include <cmath>
 #include <limits>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
 #include <fmt/format.h>
 
 #include "base/error.h"
@@ -44,6 +47,30 @@ void requireRows(const char* what, Eigen::Index found, Eigen::Index wanted) {
                .wanted = fmt::format("{}", wanted)});
 }
 
+// Between the least and the largest pivot of what counts as invertible: rounding leaves about 1e-15.
+constexpr double kLeastPivot = 1e-13;
+
+Eigen::SparseMatrix<double> sparse(const std::vector<MatrixEntry>& entries, Eigen::Index size) {
+  std::vector<Eigen::Triplet<double>> triplets;
+  triplets.reserve(entries.size());
+  for (const MatrixEntry& entry : entries) {
+    const bool isInside = entry.row >= 0 && entry.row < size && entry.column >= 0 && entry.column < size;
+    if (!isInside || !std::isfinite(entry.value))
+      throw Error({.what = fmt::format("solveSparse: entry ({}, {})", entry.row, entry.column),
+                   .found = fmt::format("{:g}", entry.value),
+                   .wanted = fmt::format("a finite number in a {} x {} matrix", size, size)});
+    triplets.emplace_back(entry.row, entry.column, entry.value);
+  }
+  Eigen::SparseMatrix<double> matrix(size, size);
+  matrix.setFromTriplets(triplets.begin(), triplets.end());
+  const Eigen::SparseMatrix<double> mirrored = matrix.transpose();
+  if (!((matrix - mirrored).norm() <= 1e-9 * matrix.norm()))
+    throw Error({.what = "solveSparse",
+                 .found = "a matrix that is not symmetric",
+                 .wanted = "both halves, above and below the diagonal"});
+  return matrix;
+}
+
 }  // namespace
 
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& A) { return factorise("inverse", A).inverse(); }
@@ -57,6 +84,19 @@ Eigen::VectorXd leastSquares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b)
   requireRows("leastSquares", b.size(), A.rows());
   requireFinite("leastSquares", A);
   return Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(A).solve(b);
+}
+
+Eigen::VectorXd solveSparse(const std::vector<MatrixEntry>& H, const Eigen::VectorXd& b) {
+  const Eigen::SparseMatrix<double> matrix = sparse(H, b.size());
+  requireFinite("solveSparse", b);
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
+  const bool isFactored = factor.info() == Eigen::Success;
+  const Eigen::VectorXd pivots = isFactored ? factor.vectorD() : Eigen::VectorXd::Zero(b.size());
+  if (b.size() > 0 && !(pivots.minCoeff() > kLeastPivot * pivots.maxCoeff()))
+    throw Error({.what = "solveSparse",
+                 .found = "a matrix that is singular, or not positive definite",
+                 .wanted = "a positive definite one: are all unknowns determined?"});
+  return factor.solve(b);
 }
 
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& A) {

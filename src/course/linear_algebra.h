@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 
 // The solvers an exercise needs, compiled once: a main.cpp that instantiates Eigen's own costs seconds of
@@ -18,6 +20,15 @@ template <class Right>
 /// The x of smallest norm among those that minimise |A x - b|, for any A (m x n) and b (m). Throws Error for
 /// a b of another size.
 [[nodiscard]] Eigen::VectorXd leastSquares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
+/// One number of a sparse matrix.
+struct MatrixEntry {
+  int row = 0, column = 0;
+  double value = 0;
+};
+/// The x with H x = b for a sparse, symmetric, positive definite H (n x n, both halves), by a sparse Cholesky
+/// factorisation. Numbers at the same place add up. Throws Error for an entry outside of H, an H that is not
+/// symmetric or not positive definite to working precision, and numbers that are not finite.
+[[nodiscard]] Eigen::VectorXd solveSparse(const std::vector<MatrixEntry>& H, const Eigen::VectorXd& b);
 /// Eigenvalues of a square matrix, n complex numbers in no particular order. Throws Error if A is not square.
 [[nodiscard]] Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& A);
 

@@ -62,6 +62,41 @@ TEST(Svd, RebuildsItsMatrix) {
   EXPECT_TRUE(std::is_sorted(parts.s.begin(), parts.s.end(), std::greater<>()));
 }
 
+TEST(SolveSparse, AgreesWithTheDenseSolver) {
+  Rng rng(6);
+  for (const int n : {0, 1, 30}) {
+    Eigen::MatrixXd H = 1e-3 * Eigen::MatrixXd::Identity(n, n);
+    std::vector<MatrixEntry> entries;
+    for (int i = 0; i < n; ++i) entries.push_back({i, i, 1e-3});
+    for (int k = 0; k + 1 < n; ++k) {  // entries of neighbours, added up in parts
+      const Eigen::Vector2d a = rng.normalVector(2);
+      for (int r = 0; r < 2; ++r)
+        for (int c = 0; c < 2; ++c) {
+          entries.push_back({k + r, k + c, a[r] * a[c]});
+          H(k + r, k + c) += a[r] * a[c];
+        }
+    }
+    const Eigen::VectorXd b = rng.normalVector(n);
+    const Eigen::VectorXd x = solveSparse(entries, b);
+    EXPECT_LT((H * x - b).norm(), 1e-9 * (1 + x.norm()));
+    if (n > 0) {
+      EXPECT_LT((x - solve(H, b)).norm(), 1e-9 * (1 + x.norm()));
+    }
+  }
+}
+
+TEST(SolveSparse, RefusesWhatHasNoAnswer) {
+  const Eigen::Vector2d b(1, 2);
+  EXPECT_REX_ERROR(solveSparse({{0, 0, 1}}, b), "singular, or not positive definite");
+  EXPECT_REX_ERROR(solveSparse({{0, 0, 1}, {1, 1, 1}, {0, 1, 1}, {1, 0, 1}}, b), "singular");
+  EXPECT_REX_ERROR(solveSparse({{0, 0, 1}, {1, 1, -1}}, b), "not positive definite");
+  EXPECT_REX_ERROR(solveSparse({{0, 0, 1}, {1, 1, 1}, {0, 1, .5}}, b), "not symmetric");
+  EXPECT_REX_ERROR(solveSparse({{0, 2, 1}}, b), "solveSparse: entry (0, 2): found 1, wanted a finite number");
+  EXPECT_REX_ERROR(solveSparse({{1, 1, std::nan("")}}, b), "solveSparse: entry (1, 1): found nan");
+  EXPECT_REX_ERROR(solveSparse({{0, 0, 1}, {1, 1, 1}}, Eigen::Vector2d(0, std::nan(""))),
+                   "solveSparse: found nan");
+}
+
 TEST(LinearAlgebra, RefusesWhatHasNoAnswer) {
   const Eigen::MatrixXd tall = Eigen::MatrixXd::Zero(3, 2), zero = Eigen::MatrixXd::Zero(3, 3);
   const Eigen::MatrixXd nan = Eigen::MatrixXd::Constant(2, 2, std::nan(""));

@@ -1,0 +1,6 @@
+// caught by: robust-few, robust-many
+// mistake: adjusts the map as if all loops were right.
+
+// <solution robustlyAdjusted>
+now.poses = adjusted(map).poses;
+// </solution>
