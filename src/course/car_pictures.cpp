@@ -1,0 +1,196 @@
+#include "course/car_pictures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "course/car_marks_internal.h"
+#include "course/film_files.h"
+#include "course/gl_choice.h"
+#include "render/contact_sheet.h"
+#include "render/covariance_ellipsoid.h"
+#include "render/png.h"
+#include "render/renderer.h"
+
+namespace rex {
+namespace {
+
+using internal::kCarLength, internal::kCarMiddle, internal::kCarWidth, internal::placeAt;
+
+// Heights over the ground of what is flat, metres.
+constexpr double kEllipseHeight = 0.04, kWayHeight = 0.07, kParticleHeight = 0.1, kDotHeight = 0.12;
+constexpr double kPostHeight = 1;
+
+Color faded(Color color, double opacity) {
+  color.a = static_cast<float>(opacity);
+  return color;
+}
+
+Eigen::Vector3d lifted(const Eigen::Vector2d& place, double height) { return {place.x(), place.y(), height}; }
+
+std::vector<Eigen::Vector3d> allLifted(const Eigen::Matrix2Xd& places, double height) {
+  std::vector<Eigen::Vector3d> points;
+  for (const auto& place : places.colwise()) points.push_back(lifted(place, height));
+  return points;
+}
+
+void addCar(Picture& picture, const Eigen::Vector3d& pose, const char* name, const Color& body,
+            const Color& cabin) {
+  const Pose X_WR = translation(pose.x(), pose.y(), 0) * rotation(pose.z(), Eigen::Vector3d::UnitZ());
+  const Shape box{.extent = {kCarLength, kCarWidth, 0.5}}, roof{.extent = {1.3, 1.25, 0.4}};
+  picture.solids.push_back({box, X_WR * translation(kCarMiddle, 0, 0.3), body, name});
+  picture.solids.push_back({roof, X_WR * translation(kCarMiddle - 0.4, 0, 0.75), cabin, name});
+}
+
+void addOutline(Picture& picture, const Eigen::Vector3d& pose) {
+  constexpr double kHeight = 0.55, kLeft = kCarWidth / 2;
+  constexpr double kBack = kCarMiddle - kCarLength / 2, kFront = kCarMiddle + kCarLength / 2;
+  Polyline line{.color = kEstimateColor, .width = 2};
+  for (const auto& [ahead, left] :
+       {std::pair{kBack, -kLeft}, {kFront, -kLeft}, {kFront, kLeft}, {kBack, kLeft}, {kBack, -kLeft}})
+    line.points.push_back(lifted(placeAt(pose, ahead, left), kHeight));
+  picture.polylines.push_back(std::move(line));
+}
+
+void addLandmarks(Picture& picture, const Eigen::Matrix2Xd& landmarks) {
+  const Shape post{.type = ShapeType::kCylinder, .extent = {0, 0, kPostHeight}, .radius = 0.1};
+  for (const auto& place : landmarks.colwise())
+    picture.solids.push_back(
+        {post, translation(place.x(), place.y(), kPostHeight / 2), kLandmarkColor, "landmark"});
+  // From afar a post is too thin to see.
+  if (landmarks.cols() > 0)
+    picture.pointSets.push_back({allLifted(landmarks, kPostHeight), kLandmarkColor, 8});
+}
+
+void addParticles(Picture& picture, const CarView& view) {
+  constexpr double kStroke = 0.9;  // metres
+  for (const internal::ParticleGroup& group : internal::particleGroups(view)) {
+    PointSet dots{.color = faded(kEstimateColor, group.strength), .size = 3};
+    LineSet strokes{.color = faded(kEstimateColor, 0.6 * group.strength), .width = 1};
+    for (const Eigen::Vector3d& pose : group.poses) {
+      dots.points.push_back(lifted(pose.head<2>(), kParticleHeight));
+      strokes.segments.emplace_back(dots.points.back(), lifted(placeAt(pose, kStroke, 0), kParticleHeight));
+    }
+    picture.lineSets.push_back(std::move(strokes));
+    picture.pointSets.push_back(std::move(dots));
+  }
+}
+
+void addBeliefs(Picture& picture, const std::vector<PlanarGaussian>& beliefs, double sigmas,
+                const Color& color) {
+  if (beliefs.empty()) return;
+  LineSet outlines{.color = color, .width = 1.5};
+  PointSet means{.color = color, .size = 5};
+  for (const PlanarGaussian& belief : beliefs) {
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    covariance.topLeftCorner<2, 2>() = belief.covariance;
+    picture.ellipsoids.push_back(
+        covarianceEllipsoid(lifted(belief.mean, kEllipseHeight), covariance, sigmas, faded(color, 0.25)));
+    means.points.push_back(lifted(belief.mean, kDotHeight));
+    const auto corners = allLifted(internal::outlineOf(belief, sigmas), kEllipseHeight);
+    for (std::size_t i = 1; i < corners.size(); ++i)
+      outlines.segments.emplace_back(corners[i - 1], corners[i]);
+  }
+  picture.lineSets.push_back(std::move(outlines));
+  picture.pointSets.push_back(std::move(means));
+}
+
+void addSightings(Picture& picture, const CarView& view) {
+  if (view.sightings.cols() == 0) return;
+  const Eigen::Vector3d& from = view.car ? *view.car : *view.estimate;
+  LineSet lines{.color = faded(kLandmarkColor, 0.7), .width = 1};
+  for (const auto& place : view.sightings.colwise())
+    lines.segments.emplace_back(lifted(from.head<2>(), 0.5), lifted(place, kPostHeight / 2));
+  picture.lineSets.push_back(std::move(lines));
+}
+
+void addWays(Picture& picture, const std::vector<Way>& ways) {
+  for (const Way& way : ways) {
+    if (way.points.cols() > 1)
+      picture.polylines.push_back({allLifted(way.points, kWayHeight), way.color, 2.5});
+    if (!way.name.empty()) picture.captions.push_back({.text = way.name, .color = way.color});
+  }
+}
+
+// What the camera must see. Of a large ellipse only the middle: a guess without knowledge would hide the
+// rest.
+void include(Bounds& bounds, const CarView& view) {
+  const auto square = [&](const Eigen::Vector2d& middle, double reach) {
+    bounds.include({middle.x() - reach, middle.y() - reach, 0});
+    bounds.include({middle.x() + reach, middle.y() + reach, kPostHeight});
+  };
+  const auto all = [&](const auto& places) {
+    for (const auto& place : places.colwise()) square(place.template head<2>(), 0.5);
+  };
+  for (const auto& car : {view.car, view.estimate})
+    if (car) square(car->head<2>(), kCarMiddle + kCarLength / 2);
+  all(view.landmarks), all(view.particles), all(view.sightings), all(view.scan);
+  for (const Way& way : view.ways) all(way.points);
+  constexpr double kReach = 5;
+  for (const auto* beliefs : {&view.poseBeliefs, &view.landmarkBeliefs})
+    for (const PlanarGaussian& belief : *beliefs)
+      square(belief.mean, std::min(kReach, view.sigmas * std::sqrt(belief.covariance.trace())));
+}
+
+Shot shotOf(const Bounds& bounds, const CarPictureOptions& options) {
+  requireValid(RendererOptions{.width = options.width, .height = options.height});
+  const double aspect = static_cast<double>(options.width) / options.height;
+  return {framing(bounds, options.view, aspect), options.width, options.height};
+}
+
+void requireFilm(const std::vector<CarView>& views, const CarPictureOptions& options) {
+  if (views.empty()) throw Error({.what = "film of the car", .found = "no views", .wanted = "at least one"});
+  requireValid(ContactSheetOptions{.pictures = options.moments});
+  if (!(options.step > 0) || !std::isfinite(options.step))
+    throw Error({.what = "film of the car",
+                 .found = fmt::format("a step of {:g} s", options.step),
+                 .wanted = "more than 0"});
+}
+
+}  // namespace
+
+Picture pictureOf(const CarView& view) {
+  requireDrawable(view);
+  Picture picture;
+  picture.ground.cell = 5;
+  if (!view.caption.empty()) picture.captions.push_back({.text = view.caption});
+  if (view.car) addCar(picture, *view.car, "car", {0.86f, 0.87f, 0.89f}, {0.25f, 0.28f, 0.33f});
+  addLandmarks(picture, view.landmarks);
+  if (view.scan.cols() > 0) picture.pointSets.push_back({allLifted(view.scan, kDotHeight), kScanColor, 3});
+  addBeliefs(picture, view.landmarkBeliefs, view.sigmas, kLandmarkColor);
+  addBeliefs(picture, view.poseBeliefs, view.sigmas, kEstimateColor);
+  addWays(picture, view.ways);
+  addParticles(picture, view);
+  addSightings(picture, view);
+  if (view.estimate) {
+    addCar(picture, *view.estimate, "estimate", faded(kEstimateColor, 0.45), faded(kEstimateColor, 0.45));
+    addOutline(picture, *view.estimate);
+  }
+  return picture;
+}
+
+void writePicture(const CarView& view, const std::string& file, const CarPictureOptions& options) {
+  Picture picture = pictureOf(view);
+  include(picture.ground.scene, view);
+  const Shot shot = shotOf(picture.ground.scene, options);
+  Renderer renderer({.width = options.width, .height = options.height, .gl = glChoice()});
+  writePng(renderer.draw(picture, shot.camera), file);
+}
+
+void writeFilm(const std::vector<CarView>& views, const std::string& name, const CarPictureOptions& options) {
+  requireFilm(views, options);
+  Bounds bounds;
+  Film film;
+  for (const CarView& view : views) {
+    film.push_back({static_cast<double>(film.size()) * options.step, pictureOf(view)});
+    include(bounds, view);
+  }
+  for (Frame& frame : film) frame.picture.ground.scene = bounds;
+  const Shot shot = shotOf(bounds, options);
+  writeFilmVideo(film, shot, name, options.rate);
+  writeFilmSheet(film, shot, name + "_sheet.png", options.moments);
+}
+
+}  // namespace rex

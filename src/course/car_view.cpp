@@ -1,0 +1,68 @@
+#include "course/car_view.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/require_finite.h"
+#include "base/vector_arg.h"
+#include "estimation/covariance.h"
+
+namespace rex {
+namespace {
+
+constexpr double kFarthest = 1e9;  // metres, as in a Picture
+
+void requireNumbers(const std::string& what, const VectorArg& numbers) {
+  requireFinite(what, numbers);
+  for (Eigen::Index i = 0; i < numbers.size(); ++i)
+    if (std::abs(numbers[i]) > kFarthest)
+      throw Error({.what = fmt::format("{}: number {}", what, i),
+                   .found = fmt::format("{:g}", numbers[i]),
+                   .wanted = fmt::format("at most {:g}", kFarthest)});
+}
+
+void requireColumns(const std::string& what, const MatrixArg& columns) {
+  if (columns.size() == 0 || columns.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= kFarthest) return;
+  for (Eigen::Index i = 0; i < columns.cols(); ++i)
+    requireNumbers(fmt::format("{} {}", what, i), columns.col(i));
+}
+
+void requireBeliefs(const char* what, const std::vector<PlanarGaussian>& beliefs) {
+  for (std::size_t i = 0; i < beliefs.size(); ++i) {
+    const std::string name = fmt::format("{} {}", what, i);
+    requireNumbers(name, beliefs[i].mean);
+    requireCovariance(name, beliefs[i].covariance, 2);
+    requireNumbers(name, beliefs[i].covariance.reshaped());
+  }
+}
+
+}  // namespace
+
+void requireDrawable(const CarView& view) {
+  if (view.car) requireNumbers("car", *view.car);
+  if (view.estimate) requireNumbers("estimate of the car", *view.estimate);
+  requireColumns("landmark", view.landmarks);
+  requireColumns("particle", view.particles);
+  requireColumns("sighting", view.sightings);
+  requireColumns("dot of the scan", view.scan);
+  for (const Way& way : view.ways) requireColumns("way '" + way.name + "', point", way.points);
+  if (view.weights.size() > 0) {
+    requireSize("weights of particles", view.weights.size(), view.particles.cols());
+    requireNumbers("weights of particles", view.weights);
+    if (view.weights.minCoeff() < 0)
+      throw Error({.what = "weights of particles",
+                   .found = fmt::format("{:g}", view.weights.minCoeff()),
+                   .wanted = "none below 0"});
+  }
+  requireBeliefs("belief of a pose", view.poseBeliefs);
+  requireBeliefs("belief of a landmark", view.landmarkBeliefs);
+  requireFinite("sigmas", view.sigmas);
+  if (!(view.sigmas > 0))
+    throw Error({.what = "sigmas", .found = fmt::format("{:g}", view.sigmas), .wanted = "more than 0"});
+  if (view.sightings.cols() > 0 && !view.car && !view.estimate)
+    throw Error({.what = "sightings", .found = "no car and no estimate", .wanted = "one that sees them"});
+}
+
+}  // namespace rex
