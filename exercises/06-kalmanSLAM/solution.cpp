@@ -369,4 +369,4 @@ std::vector<MapParticle> weighed(const CarSetup& car, const std::vector<MapParti
   return after;
 }
 
-int main() {}
+int main() { return 0; }
