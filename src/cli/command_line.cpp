@@ -39,7 +39,7 @@ First steps
 
 All commands
   list   run   test   debug   scene   render   simulate   plan   curves   slam
-  doctor   bench   dev
+  filter   doctor   bench   dev
 `scripts/rex COMMAND --help` explains one. An exercise may be called by its number, its
 topic or its whole name: 01, kinematics, 01-kinematics.)";
 
@@ -173,6 +173,42 @@ void addSlam(CLI::App& program, Action& action) {
       [&action, options] { action = [options](const Project& p) { return slam(p, *options); }; });
 }
 
+void addFilter(CLI::App& program, Action& action) {
+  const auto options = std::make_shared<FilterOptions>();
+  CLI::App* command = add(
+      program, "filter", "Let a filter follow the car: errors, consistency and a film",
+      "Examples:\n  scripts/rex filter --filter ukf --seeds 50\n"
+      "  scripts/rex filter --filter ekf-slam --landmarks 12 -o slam\n"
+      "  scripts/rex filter --filter particles --range-bearing --max-range 15 -o lost --no-film\n"
+      "  scripts/rex filter --filter ekf --assume-observation 0.3 --seeds 50 --json\n\n"
+      "The car drives with u = (0.1, 0.2) from a start that is known. Filters: ekf, ukf, information, root,\n"
+      "rts (ekf, then smoothed), particles; without a map ekf-slam, fast-slam, fast-slam-2; dead-reckoning.\n"
+      "DIR gets filter.csv, figures of errors, NEES and map, and the film filter.mp4, all of the first "
+      "seed.\n"
+      "Exit code 1: the filter lost the car.");
+  const auto number = [&](const char* name, auto& value, const char* help, const char* unit) {
+    command->add_option(name, value, help)->type_name(unit);
+  };
+  number("--filter", options->filter, "which one (default: ekf)", "NAME");
+  number("--landmarks", options->landmarks, "how many (default: 5)", "N");
+  number("--steps", options->steps, "of one second (default: 300)", "N");
+  number("--dynamics-noise", options->dynamicsNoise, "of a step, metres and radians (default: 0.03)", "X");
+  number("--observation-noise", options->observationNoise, "of what is seen (default: 0.5)", "METRES");
+  command->add_flag("--range-bearing", options->rangeBearing, "see distance and bearing, not (ahead, left)");
+  number("--bearing-noise", options->bearingNoise, "of bearings (default: 0.02)", "RADIANS");
+  number("--max-range", options->maxRange, "how far the car sees (default: all)", "METRES");
+  number("--field-of-view", options->fieldOfView, "around its heading (default: all)", "RADIANS");
+  number("--assume-dynamics", options->assumeDynamics, "the filter believes in X times that noise", "X");
+  number("--assume-observation", options->assumeObservation, "the same for what is seen", "X");
+  number("--particles", options->particles, "how many (default: 1000; fast-slam 100)", "N");
+  number("--seed", options->seed, "of landmarks and noise (default: 0)", "N");
+  number("--seeds", options->seeds, "runs with so many seeds", "N");
+  number("-o,--out", options->out, "folder for what is written", "DIR");
+  command->add_flag("--no-film", options->noFilm, "no filter.mp4");
+  command->add_flag("--json", options->json, "print JSON");
+  command->callback([&action, options] { action = [options](const Project&) { return filter(*options); }; });
+}
+
 void addDoctor(CLI::App& program, Action& action) {
   const auto options = std::make_shared<DoctorOptions>();
   CLI::App* command = add(program, "doctor", "Try all that pictures need on this machine",
@@ -265,7 +301,7 @@ Action parseCommandLine(int argc, const char* const* argv) {
   addList(program, action), addRun(program, action), addTest(program, action);
   addDebug(program, action), addScene(program, action), addRender(program, action);
   addSimulate(program, action), addPlan(program, action), addCurves(program, action),
-      addSlam(program, action);
+      addSlam(program, action), addFilter(program, action);
   addDoctor(program, action), addBench(program, action);
   CLI::App* dev =
       add(program, "dev", "For those who write exercises: new, check, strip",

@@ -155,6 +155,24 @@ struct SlamOptions {
 /// Makes the map of a pose graph fit its measurements. kBelow if it does not converge.
 ExitCode slam(const Project& project, const SlamOptions& options);
 
+struct FilterOptions {
+  std::string filter = "ekf";
+  int landmarks = 5;
+  int steps = 300;
+  double dynamicsNoise = 0.03, observationNoise = 0.5;
+  bool rangeBearing = false;
+  std::optional<double> bearingNoise{}, maxRange{}, fieldOfView{};
+  double assumeDynamics = 1, assumeObservation = 1;  ///< factors of the deviations a filter believes in
+  std::optional<int> particles{};
+  std::uint64_t seed = 0;
+  int seeds = 1;  ///< runs, each with the next seed
+  bool noFilm = false;
+  bool json = false;
+  std::filesystem::path out{};  ///< a folder; empty: nothing is written
+};
+/// Lets a filter follow the car of the course. kBelow if it lost it.
+ExitCode filter(const FilterOptions& options);
+
 struct CurvesOptions {
   std::string from{}, to{};  ///< x,y,heading; metres and radians
   double radius = 1;         ///< metres

@@ -106,8 +106,8 @@ Figure figureOf(const CarView& view) {
   addBeliefs(figure, view.landmarkBeliefs, "landmarks", view.sigmas, kLandmarkColor);
   addBeliefs(figure, view.poseBeliefs, "poses", view.sigmas, kEstimateColor);
   addSightings(figure, view);
-  if (view.car) figure.regions.push_back(carAt(*view.car, "car", kTruthColor));
-  if (view.estimate) figure.regions.push_back(carAt(*view.estimate, "estimate", kEstimateColor));
+  if (view.car) figure.regions.push_back(carAt(*view.car, "car now", kTruthColor));
+  if (view.estimate) figure.regions.push_back(carAt(*view.estimate, "estimate now", kEstimateColor));
   addDots(figure, "scan", view.scan, kScanColor, Marker::kDot, 0.5);
   addParticles(figure, view);
   for (const Way& way : view.ways) {

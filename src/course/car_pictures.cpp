@@ -156,7 +156,7 @@ Picture pictureOf(const CarView& view) {
   Picture picture;
   picture.ground.cell = 5;
   if (!view.caption.empty()) picture.captions.push_back({.text = view.caption});
-  if (view.car) addCar(picture, *view.car, "car", {0.86f, 0.87f, 0.89f}, {0.25f, 0.28f, 0.33f});
+  if (view.car) addCar(picture, *view.car, "car", {0.32f, 0.35f, 0.41f}, {0.80f, 0.82f, 0.86f});
   addLandmarks(picture, view.landmarks);
   if (view.scan.cols() > 0) picture.pointSets.push_back({allLifted(view.scan, kDotHeight), kScanColor, 3});
   addBeliefs(picture, view.landmarkBeliefs, view.sigmas, kLandmarkColor);

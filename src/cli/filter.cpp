@@ -1,0 +1,140 @@
+#include <cstdint>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "cli/commands.h"
+#include "cli/filter_files.h"
+#include "cli/filter_run.h"
+#include "cli/filter_statistics.h"
+#include "cli/json_internal.h"
+#include "cli/option_value_internal.h"
+#include "cli/terminal.h"
+
+namespace rex::cli {
+namespace {
+
+void requireUse(bool isGiven, const char* option, bool isUsed, const char* wanted) {
+  if (isGiven && !isUsed) throw UsageError({.what = option, .found = "no use for it", .wanted = wanted});
+}
+
+CarOptions carOf(const FilterOptions& options) {
+  requireBetween("--dynamics-noise", options.dynamicsNoise, 0, 10);
+  requireBetween("--observation-noise", options.observationNoise, 1e-6, 1e3);
+  requireUse(options.bearingNoise.has_value(), "--bearing-noise", options.rangeBearing,
+             "--range-bearing with it");
+  CarOptions car{.dynamicsNoise = options.dynamicsNoise,
+                 .observationNoise = options.observationNoise,
+                 .rangeBearing = options.rangeBearing};
+  car.bearingNoise = options.bearingNoise.value_or(car.bearingNoise);
+  requireBetween("--bearing-noise", car.bearingNoise, 1e-6, std::numbers::pi);
+  if (options.maxRange) requireBetween("--max-range", car.maxRange = *options.maxRange, 1e-3, 1e6);
+  if (options.fieldOfView)
+    requireBetween("--field-of-view", car.fieldOfView = *options.fieldOfView, 1e-3, 2 * std::numbers::pi);
+  return car;
+}
+
+CarScenario scenarioOf(const FilterOptions& options) {
+  CarScenario scenario{.filter = carFilterOf(options.filter), .car = carOf(options)};
+  requireBetween("--landmarks", options.landmarks, 0, 1000);
+  requireBetween("--steps", options.steps, 2, 100'000);
+  requireBetween("--assume-dynamics", options.assumeDynamics, 1e-3, 1e3);
+  requireBetween("--assume-observation", options.assumeObservation, 1e-3, 1e3);
+  requireBetween("--seeds", options.seeds, 1, 10'000);
+  if (const auto others = static_cast<std::uint64_t>(options.seeds) - 1;
+      options.seed > std::numeric_limits<std::uint64_t>::max() - others)
+    throw UsageError({.what = "--seed",
+                      .found = fmt::format("{}", options.seed),
+                      .wanted = fmt::format("a seed that {} others can follow", others)});
+  requireUse(options.particles.has_value(), "--particles", hasParticles(scenario.filter),
+             "--filter particles, fast-slam or fast-slam-2 with it");
+  requireUse(options.noFilm, "--no-film", !options.out.empty(), "-o with it");
+  scenario.landmarks = options.landmarks;
+  scenario.steps = options.steps;
+  scenario.assumeDynamics = options.assumeDynamics;
+  scenario.assumeObservation = options.assumeObservation;
+  scenario.particles = options.particles.value_or(makesMap(scenario.filter) ? 100 : 1000);
+  requireBetween("--particles", scenario.particles, 2, 100'000);
+  return scenario;
+}
+
+std::string textOf(const FilterOptions& options, const FilterStatistics& all) {
+  std::string text = fmt::format("{}, {} landmarks, {} steps, {} {}\n", options.filter, options.landmarks,
+                                 options.steps, all.runs.size(), all.runs.size() == 1 ? "run" : "runs");
+  text += fmt::format("error      {:.4g} m, {:.4g} rad (root mean square); dead reckoning {:.4g} m\n",
+                      all.position, all.heading, all.deadReckoning);
+  if (all.foundLandmarks > 0)
+    text +=
+        fmt::format("map        {} landmarks, {:.4g} m (root mean square)\n", all.foundLandmarks, all.map);
+  text += fmt::format(
+      "NEES       {:.4g}, consistent: 3; means over the runs lie within {:.4g} to {:.4g}\n"
+      "           in {:.1f} % of the steps, consistent: about 95 %",
+      all.nees, all.stepBand.lower, all.stepBand.upper, 100 * all.insideBand);
+  if (all.innovations > 0)
+    text += fmt::format("\nNIS        {:.4g} for each number, consistent: {:.4g} to {:.4g}", all.nis,
+                        all.nisBand.lower, all.nisBand.upper);
+  if (all.lost > 0)
+    text += fmt::format("\nlost       no particle explains what is seen in {} steps", all.lost);
+  if (all.singular > 0) text += fmt::format("\nsingular   the covariance of {} steps", all.singular);
+  return text;
+}
+
+Json jsonOf(const ConsistencyBand& band) { return {band.lower, band.upper}; }
+
+std::string jsonTextOf(const FilterOptions& options, const FilterStatistics& all,
+                       const std::vector<std::string>& files) {
+  Json runs = Json::array();
+  for (const RunErrors& run : all.runs)
+    runs.push_back(
+        {{"seed", run.seed}, {"position", run.position}, {"heading", run.heading}, {"nees", run.nees}});
+  Json json{{"filter", options.filter},
+            {"landmarks", options.landmarks},
+            {"steps", options.steps},
+            {"position", all.position},
+            {"heading", all.heading},
+            {"dead_reckoning", all.deadReckoning},
+            {"map", all.foundLandmarks > 0 ? Json(all.map) : Json()},
+            {"nees", {{"mean", all.nees}, {"band", jsonOf(all.stepBand)}, {"inside", all.insideBand}}},
+            {"nis", Json()},
+            {"lost", all.lost},
+            {"singular", all.singular},
+            {"runs", std::move(runs)},
+            {"files", files}};
+  if (all.innovations > 0) json["nis"] = {{"mean", all.nis}, {"band", jsonOf(all.nisBand)}};
+  return dump(json);
+}
+
+}  // namespace
+
+ExitCode filter(const FilterOptions& options) {
+  const CarScenario scenario = scenarioOf(options);
+  const bool writes = !options.out.empty();
+  if (writes) makeFilterFolder(options.out);
+  const std::vector<int> filmed = writes ? filmedSteps(scenario.steps) : std::vector<int>{};
+  std::vector<CarView> views;
+  const OnStep watch = [&](int step, const auto& view) {
+    if (views.size() < filmed.size() && filmed[views.size()] == step) views.push_back(view());
+  };
+  FilterStatisticsBuilder builder;
+  FilterRun first;
+  for (int i = 0; i < options.seeds; ++i) {
+    FilterRun run =
+        runFilter(scenario, options.seed + static_cast<std::uint64_t>(i), i == 0 ? watch : OnStep{});
+    builder.add(run);
+    if (i == 0) first = std::move(run);
+  }
+  const FilterStatistics all = builder.statistics();
+  std::vector<std::string> files;
+  if (writes) files = writeFilterFiles(options, first, all, std::move(views));
+  if (options.json) {
+    say(jsonTextOf(options, all, files));
+  } else {
+    say(textOf(options, all));
+    for (const std::string& file : files) say(file);
+  }
+  return all.lost + all.singular > 0 ? ExitCode::kBelow : ExitCode::kFull;
+}
+
+}  // namespace rex::cli
