@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -128,12 +129,12 @@ struct CarRun {
 };
 
 // Landmarks in a ring around the circle on which a car drives that starts at 0 with this curvature: at least
-// 8 m from each other, and 2 m to 8 m beside the circle.
+// 8 m from each other, and 3 m to 8 m beside the circle.
 inline Eigen::Matrix2Xd ring(rex::Rng& rng, int landmarks, double curvature) {
   Eigen::Matrix2Xd places(2, landmarks);
   for (int i = 0; i < landmarks;) {
     const double side = rng.index(2) == 0 ? -1 : 1, angle = rng.uniform(-kPi, kPi);
-    const double distance = 1 / std::abs(curvature) + side * rng.uniform(2, 8);
+    const double distance = 1 / std::abs(curvature) + side * rng.uniform(3, 8);
     places.col(i) << distance * std::cos(angle), 1 / curvature + distance * std::sin(angle);
     bool isApart = true;
     for (int k = 0; k < i; ++k) isApart = isApart && (places.col(i) - places.col(k)).norm() > 8;
@@ -146,20 +147,26 @@ inline double curvatureOf(const CarSetup& car, const Eigen::Vector2d& u) {
   return std::tan(u[1]) / car.wheelbase;
 }
 
+// A run from 0 that comes no nearer than 2 m to a landmark: there, a bearing is anything but linear, and no
+// extended filter keeps its promises.
 inline CarRun randomRun(rex::Rng& rng, const CarSetup& car, int landmarks, int steps,
                         const Eigen::Vector2d& u) {
-  rex::CarSimulator simulator(rng.next(), landmarks, optionsOf(car));
-  CarRun run;
-  run.car = car;
-  run.landmarks = ring(rng, landmarks, curvatureOf(car, u));
-  run.states = {Eigen::Vector3d::Zero()};
-  simulator.setLandmarks(run.landmarks);
-  simulator.setState(run.states[0]);
-  for (int t = 0; t < steps; ++t) {
-    simulator.step(u);
-    run.controls.push_back(u);
-    run.states.push_back(simulator.getState());
-    run.sightings.push_back(simulator.getRealNoisyObservation());
+  while (true) {
+    rex::CarSimulator simulator(rng.next(), landmarks, optionsOf(car));
+    CarRun run;
+    run.car = car;
+    run.landmarks = ring(rng, landmarks, curvatureOf(car, u));
+    run.states = {Eigen::Vector3d::Zero()};
+    simulator.setLandmarks(run.landmarks);
+    double nearest = 2;
+    for (int t = 0; t < steps; ++t) {
+      simulator.step(u);
+      run.controls.push_back(u);
+      run.states.push_back(simulator.getState());
+      run.sightings.push_back(simulator.getRealNoisyObservation());
+      const Eigen::Vector2d place = run.states.back().head<2>();
+      nearest = std::min(nearest, (run.landmarks.colwise() - place).colwise().norm().minCoeff());
+    }
+    if (nearest >= 2) return run;
   }
-  return run;
 }

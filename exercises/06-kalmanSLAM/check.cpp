@@ -215,7 +215,7 @@ void tracksFast(Check& check, Student& student) {
     car.rangeBearing = i % 2 == 0;
     trackRun(check, student, randomRun(check.rng(), car, 4, 40, {1.3, i % 3 == 0 ? -0.2 : 0.2}), total);
   }
-  requireTracking(check, total, 0.3, 2, 4.2);
+  requireTracking(check, total, 0.25, 2, 4.5);
 }
 // </hidden>
 
