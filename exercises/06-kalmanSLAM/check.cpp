@@ -388,9 +388,9 @@ void mapsAnyRing(Check& check, Student& student) {
   for (int i = 0; i < 10; ++i) {
     CarSetup car;
     car.rangeBearing = i % 2 == 0;
-    car.observationNoise = 0.3;
-    const CarRun run = randomRun(check.rng(), car, 3 + i % 4, 65, {1, i % 3 == 0 ? -0.2 : 0.2});
-    judgeMap(check, run, mapped(check, student, run, 14), total);
+    car.dynamicsNoise = 0.02;
+    const CarRun run = randomRun(check.rng(), car, 5 + i % 3, 65, {1, i % 3 == 0 ? -0.2 : 0.2});
+    judgeMap(check, run, mapped(check, student, run, 18), total);
   }
   requireMap(check, total, 0.5, 0.4, 1.9);
 }
@@ -399,10 +399,12 @@ void mapsAnyRing(Check& check, Student& student) {
 // Part 5.
 
 void findsLandmarks(Check& check, Student& student) {
-  check.input("three runs of 70 steps among four to six landmarks without names, seen from up to 16 m away");
+  check.input("three runs of 70 steps among five to seven landmarks without names, seen from up to 18 m away");
   for (int i = 0; i < 3; ++i) {
-    const CarRun run = randomRun(check.rng(), {}, 4 + i, 70, {1, 0.2});
-    judgeNameless(check, run, namelessMap(check, student, run, 16));
+    CarSetup car;
+    car.dynamicsNoise = 0.02;
+    const CarRun run = randomRun(check.rng(), car, 5 + i, 70, {1, 0.2});
+    judgeNameless(check, run, namelessMap(check, student, run, 18));
   }
 }
 
@@ -411,8 +413,9 @@ void findsAnyLandmarks(Check& check, Student& student) {
   for (int i = 0; i < 4; ++i) {
     CarSetup car;
     car.rangeBearing = i % 2 == 0;
-    const CarRun run = randomRun(check.rng(), car, 3 + i, 70, {1, -0.2});
-    judgeNameless(check, run, namelessMap(check, student, run, 15));
+    car.dynamicsNoise = 0.02;
+    const CarRun run = randomRun(check.rng(), car, 5 + i % 3, 70, {1, -0.2});
+    judgeNameless(check, run, namelessMap(check, student, run, 18));
   }
 }
 // </hidden>

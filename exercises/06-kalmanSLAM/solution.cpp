@@ -365,8 +365,8 @@ std::vector<MapParticle> weighed(const CarSetup& car, const std::vector<MapParti
   for (double& log : logs) sum += log = std::exp(log - most);
   for (std::size_t k = 0; k < after.size(); ++k) after[k].weight = logs[k] / sum;
   // <todo>
-  //| // TODO: a Kalman filter of two numbers for each landmark of each particle, and weights from what it
-  // expects. | notUsedYet(car, sightings);
+  //| // TODO: for each landmark of each particle a filter of two numbers, and weights from what it expects.
+  //| notUsedYet(car, sightings);
   // </solution>
   return after;
 }
