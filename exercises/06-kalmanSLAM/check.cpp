@@ -399,7 +399,8 @@ void mapsAnyRing(Check& check, Student& student) {
 // Part 5.
 
 void findsLandmarks(Check& check, Student& student) {
-  check.input("three runs of 70 steps among five to seven landmarks without names, seen from up to 18 m away");
+  check.input(
+      "three runs of 70 steps among five to seven landmarks without names, seen from up to 18 m away");
   for (int i = 0; i < 3; ++i) {
     CarSetup car;
     car.dynamicsNoise = 0.02;

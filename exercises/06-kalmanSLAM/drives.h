@@ -201,7 +201,7 @@ inline rex::CarView viewAt(const Recorded& drive, const Mapping& mapping, std::s
 /// How uncertain each landmark is, from its first sighting on [m].
 inline rex::Figure deviationsOf(const Mapping& mapping) {
   rex::Figure figure =
-      overTime("Standard deviation of each landmark: the loop closes after 60 s", "deviation [m]");
+      overTime("Standard deviation of each landmark, from its first sighting on", "deviation [m]");
   figure.legend = rex::Legend::kNone;
   const Eigen::Index n = mapping.joints.back().mean.size();
   for (Eigen::Index i = 3; i < n; i += 2) {

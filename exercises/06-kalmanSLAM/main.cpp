@@ -143,8 +143,8 @@ std::vector<MapParticle> weighed(const CarSetup& car, const std::vector<MapParti
 
 namespace {
 
-const Color kFilter = kEstimateColor, kSmoother = kScanColor, kSoft{0.75f, 0.84f, 0.92f},
-            kSoftest{0.93f, 0.85f, 0.9f};
+const Color kFilter = kEstimateColor, kSmoother = kScanColor, kSoft{0.35f, 0.6f, 0.85f},
+            kSoftest{0.75f, 0.35f, 0.6f};
 const Belief kStart{Eigen::Vector3d::Zero(), 0.1 * Eigen::Matrix3d::Identity()};
 
 std::vector<Belief> filtered(const CarSetup& car, const Recorded& drive) {
@@ -173,7 +173,7 @@ void showTracking() {
   addEllipses(above, "without seeing", blind, 20, kDeadReckoningColor);
   plot("tracking", above);
 
-  Figure errors = overTime("Where the car is ahead of its estimate, along x", "error in x [m]");
+  Figure errors = overTime("Error of the estimate along x, and what it is said to be", "error in x [m]");
   errors.bands = {deviationBand("filter, 2 sigma", run, 0, kSoft),
                   deviationBand("smoother, 2 sigma", smooth, 0, kSoftest)};
   errors.series = {curve("filter", errorsOf(run, drive.states, 0), kFilter),
@@ -250,9 +250,9 @@ void showMap() {
     views.back().caption = "Kalman SLAM: " + std::to_string(t) + " s";
   }
   writeFilm(views, "slam", {.rate = 10});
-  for (const std::size_t t : {std::size_t{52}, mapping.joints.size() - 1}) {
+  for (const std::size_t t : {std::size_t{45}, mapping.joints.size() - 1}) {
     views[t].caption = "Car, map and beliefs after " + std::to_string(t) + " s";
-    plot(t == 52 ? "map_before" : "map_after", figureOf(views[t]));
+    plot(t == 45 ? "map_before" : "map_after", figureOf(views[t]));
   }
   plot("deviations", deviationsOf(mapping));
   plot("correlations", correlationsOf(mapping.joints.back()));
