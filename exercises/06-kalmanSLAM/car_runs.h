@@ -107,6 +107,13 @@ inline Eigen::VectorXd seenFrom(const CarSetup& car, const Eigen::VectorXd& x,
   return model.getMeanObservationAtStateAndLandmarks(x, landmarks);
 }
 
+// W of sightings of so many landmarks.
+inline Eigen::MatrixXd noiseOf(const CarSetup& car, Eigen::Index landmarks) {
+  const Eigen::Vector2d deviations(car.observationNoise,
+                                   car.rangeBearing ? car.bearingNoise : car.observationNoise);
+  return deviations.cwiseAbs2().replicate(landmarks, 1).asDiagonal();
+}
+
 // The correction in canonical form, where precisions add (7:27, the line before the Woodbury identity).
 inline Belief informed(const Belief& belief, const Eigen::VectorXd& gap, const Eigen::MatrixXd& C,
                        const Eigen::MatrixXd& W) {

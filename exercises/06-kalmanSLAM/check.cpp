@@ -34,10 +34,7 @@ void seesRightly(Check& check, Student& student, const CarSetup& car, const Eige
   check.near("derivative by the state", student.viewByState(car, x, l), derivative(byState, x), 1e-6);
   check.near("derivative by the landmark", student.viewByLandmark(car, x, l), derivative(byLandmark, l),
              1e-6);
-  const double second = car.rangeBearing ? car.bearingNoise : car.observationNoise;
-  const Eigen::Vector2d variances(car.observationNoise * car.observationNoise, second * second);
-  check.near("covariance of a sighting", student.viewNoise(car), Eigen::Matrix2d(variances.asDiagonal()),
-             1e-12);
+  check.near("covariance of a sighting", student.viewNoise(car), noiseOf(car, 1), 1e-12);
 }
 
 void carSteps(Check& check, Student& student) {
@@ -95,13 +92,6 @@ Belief movedOn(const CarSetup& car, const Belief& belief, const Eigen::Vector2d&
   return {model.getMeanStateAfterStep(belief.mean, u),
           A * belief.covariance * A.transpose() +
               car.dynamicsNoise * car.dynamicsNoise * Eigen::Matrix3d::Identity()};
-}
-
-Eigen::MatrixXd noiseOf(const CarSetup& car, Eigen::Index landmarks) {
-  const double second = car.rangeBearing ? car.bearingNoise : car.observationNoise;
-  Eigen::VectorXd deviations(2 * landmarks);
-  for (Eigen::Index i = 0; i < landmarks; ++i) deviations.segment(2 * i, 2) << car.observationNoise, second;
-  return deviations.cwiseAbs2().asDiagonal();
 }
 
 void predicts(Check& check, Student& student, const CarSetup& car) {
@@ -184,6 +174,9 @@ void trackRun(Check& check, Student& student, const CarRun& run, Tracking& total
   ++total.count;
 }
 
+// Over 1000 seeds, the mean of squared errors is 3.03 with a standard deviation of 0.29 for the script's car,
+// and 3.01 with 0.22 for fast ones; as means of many, they are gamma distributed, and the bounds lie below
+// 1e-5. Positions err by 0.18 (0.014) m and 0.12 (0.006) m.
 void requireTracking(Check& check, const Tracking& total, double mostError, double least, double most) {
   check.atMost("position error (root mean square)", std::sqrt(total.position / total.count), mostError, "m");
   const double squared = total.squared / total.count;
@@ -286,6 +279,7 @@ void smoothsAsAWhole(Check& check, Student& student) {
 }
 
 // <hidden>
+// Over 400 seeds: a share of 0.70 with a standard deviation of 0.03, squared errors of 3.03 with 0.37.
 void smoothsBetter(Check& check, Student& student) {
   double before = 0, after = 0, squared = 0;
   constexpr int kRuns = 40;
@@ -372,6 +366,8 @@ void startsLandmarks(Check& check, Student& student) {
   });
 }
 
+// Over 400 seeds: landmarks err by 0.071 m with a standard deviation of 0.006 m, squared errors are 1.02 with
+// 0.13.
 void mapsRing(Check& check, Student& student) {
   check.input("10 runs of 70 steps, a circle and more, among five landmarks; all are seen in each step");
   MapQuality total;
@@ -484,6 +480,7 @@ Eigen::Matrix2Xd particleMap(Check& check, Student& student, const CarRun& run) 
   return places;
 }
 
+// Over 400 seeds: 0.081 m with a standard deviation of 0.012 m.
 void mapsWithParticles(Check& check, Student& student) {
   double squared = 0;
   for (int i = 0; i < 4; ++i) {

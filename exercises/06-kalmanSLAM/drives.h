@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "course/car_figure.h"
 #include "course/car_pictures.h"
 #include "course/car_simulator.h"
-#include "estimation/ekf_slam.h"
-#include "estimation/smoother.h"
+#include "estimation/gaussian.h"
+#include "estimation/gaussian_model.h"
 #include "exercise.h"
 
 // What main() lets the car do, and lines and ellipses for its pictures.
@@ -37,22 +38,20 @@ inline rex::CarOptions optionsOf(const CarSetup& car) {
   return options;
 }
 
-inline Recorded record(std::uint64_t seed, const CarSetup& car, const Eigen::Matrix2Xd& landmarks, int steps,
-                       const Eigen::Vector2d& u, double range = 1e3) {
-  Recorded drive{optionsOf(car), landmarks, {}, {Eigen::Vector3d::Zero()}, {}};
-  drive.options.maxRange = range;
-  rex::CarSimulator simulator(seed, static_cast<int>(landmarks.cols()), drive.options);
-  simulator.setLandmarks(landmarks);
-  for (int t = 0; t < steps; ++t) {
-    simulator.step(u);
-    drive.controls.push_back(u);
-    drive.states.push_back(simulator.getState());
-    const Eigen::VectorXd y = simulator.getRealNoisyObservation();
-    drive.seen.emplace_back();
-    for (const int i : simulator.getVisibleLandmarks()) drive.seen.back().push_back({i, y.segment(2 * i, 2)});
-  }
-  return drive;
-}
+/// What the library does for main(), which alone may ask it.
+struct Library {
+  /// A drive of so many steps; landmarks farther away than `range` are not seen.
+  std::function<Recorded(std::uint64_t seed, const CarSetup& car, const Eigen::Matrix2Xd& landmarks,
+                         int steps, const Eigen::Vector2d& u, double range)>
+      drive;
+  std::function<std::vector<rex::Gaussian>(const std::vector<rex::Gaussian>& filtered,
+                                           const std::vector<rex::LinearModel>& transitions)>
+      smooth;
+  /// The states that Kalman SLAM estimates.
+  std::function<Poses(const Recorded& drive)> slam;
+};
+
+inline constexpr double kAnywhere = 1e3;  ///< a range
 
 /// All that is seen in step t, for a drive that sees all landmarks in each.
 inline Eigen::VectorXd stacked(const Recorded& drive, std::size_t t) {
@@ -139,48 +138,6 @@ struct Mapping {
   std::vector<Belief> joints{{Eigen::Vector3d::Zero(), 1e-6 * Eigen::Matrix3d::Identity()}};
   std::vector<int> names;
 };
-
-/// The library's smoother, on the same beliefs.
-inline std::vector<Belief> libraryHindsight(const Recorded& drive, const std::vector<Belief>& run) {
-  const auto model = rex::CarSimulator::withoutPlaces(0, drive.options);
-  const double q = drive.options.dynamicsNoise;
-  std::vector<rex::Gaussian> beliefs;
-  std::vector<rex::LinearModel> steps;
-  for (const Belief& belief : run) beliefs.push_back({belief.mean, belief.covariance});
-  for (std::size_t t = 0; t < drive.controls.size(); ++t) {
-    const Eigen::MatrixXd A = model.getStateJacobian(run[t].mean, drive.controls[t]);
-    const Eigen::VectorXd next = model.getMeanStateAfterStep(run[t].mean, drive.controls[t]);
-    steps.push_back({A, next - A * run[t].mean, q * q * Eigen::MatrixXd::Identity(3, 3)});
-  }
-  std::vector<Belief> smooth;
-  for (const rex::Gaussian& belief : rex::smoothed(beliefs, steps))
-    smooth.push_back({belief.mean, belief.covariance});
-  return smooth;
-}
-
-/// The library's Kalman SLAM of the same drive: the estimated states.
-inline Poses libraryStates(const Recorded& drive) {
-  const auto model = rex::CarSimulator::withoutPlaces(0, drive.options);
-  const double q = drive.options.dynamicsNoise, w = drive.options.observationNoise;
-  rex::EkfSlam slam({Eigen::Vector3d::Zero(), 1e-6 * Eigen::Matrix3d::Identity()},
-                    {.W = w * w * Eigen::Matrix2d::Identity()});
-  Poses states{Eigen::Vector3d::Zero()};
-  std::vector<int> names;
-  for (std::size_t t = 0; t < drive.controls.size(); ++t) {
-    const Eigen::Vector2d u = drive.controls[t];
-    slam.predict(
-        {[&](const Eigen::Vector3d& x) -> Eigen::Vector3d { return model.getMeanStateAfterStep(x, u); },
-         [&](const Eigen::Vector3d& x) -> Eigen::Matrix3d { return model.getStateJacobian(x, u); },
-         q* q* Eigen::Matrix3d::Identity()});
-    for (const Sighting& seen : drive.seen[t]) {
-      const auto known = std::find(names.begin(), names.end(), seen.landmark);
-      slam.observe(static_cast<int>(known - names.begin()), seen.y);
-      if (known == names.end()) names.push_back(seen.landmark);
-    }
-    states.emplace_back(slam.pose().mean);
-  }
-  return states;
-}
 
 inline rex::CarView viewAt(const Recorded& drive, const Mapping& mapping, std::size_t t) {
   const Belief& joint = mapping.joints[t];

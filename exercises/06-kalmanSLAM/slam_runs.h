@@ -164,8 +164,7 @@ inline void weighsAsItShould(rex::grading::Check& check, Student& student, const
   const std::vector<MapParticle> after = student.weighed(car, particles, seen);
   check.near("number of particles", static_cast<double>(after.size()), 12, 0);
   Eigen::VectorXd logs(12), weights(12);
-  Eigen::Matrix2d W = Eigen::Matrix2d::Identity() * car.observationNoise * car.observationNoise;
-  if (car.rangeBearing) W(1, 1) = car.bearingNoise * car.bearingNoise;
+  const Eigen::Matrix2d W = noiseOf(car, 1);
   for (std::size_t k = 0; k < 12; ++k) {
     const auto& [stateGiven, weightGiven, mapGiven] = particles[k];
     check.near("state of a particle", after[k].x, stateGiven, 0);

@@ -4,6 +4,7 @@
 
 #include "drives.h"
 #include "estimation/consistency.h"
+#include "estimation/ekf_slam.h"
 #include "estimation/smoother.h"
 #include "exercise.h"
 
@@ -386,11 +387,28 @@ std::vector<Belief> filtered(const CarSetup& car, const Recorded& drive) {
   return run;
 }
 
-void showTracking() {
+// The library's smoother, on the same beliefs.
+std::vector<Belief> libraryHindsight(const Library& library, const CarSetup& car, const Recorded& drive,
+                                     const std::vector<Belief>& run) {
+  std::vector<Gaussian> beliefs;
+  std::vector<LinearModel> steps;
+  for (const Belief& belief : run) beliefs.push_back({belief.mean, belief.covariance});
+  for (std::size_t t = 0; t < drive.controls.size(); ++t) {
+    const Eigen::MatrixXd A = stepByState(car, run[t].mean, drive.controls[t]);
+    const Eigen::VectorXd next = stepped(car, run[t].mean, drive.controls[t]);
+    steps.push_back({A, next - A * run[t].mean, stepNoise(car)});
+  }
+  std::vector<Belief> smooth;
+  for (const Gaussian& belief : library.smooth(beliefs, steps))
+    smooth.push_back({belief.mean, belief.covariance});
+  return smooth;
+}
+
+void showTracking(const Library& library) {
   const CarSetup car;
   Eigen::Matrix2Xd landmarks(2, 2);
   landmarks << 9, -6, 4, 16;
-  const Recorded drive = record(5, car, landmarks, 120, {0.5, 0.2});
+  const Recorded drive = library.drive(5, car, landmarks, 120, {0.5, 0.2}, kAnywhere);
   const std::vector<Belief> run = filtered(car, drive), smooth = hindsight(car, run, drive.controls);
   std::vector<Belief> blind{kStart};
   for (const Eigen::Vector2d& u : drive.controls) blind.push_back(predicted(car, blind.back(), u));
@@ -408,19 +426,21 @@ void showTracking() {
   Figure errors = overTime("Error of the estimate along x, and what it is said to be", "error in x [m]");
   errors.bands = {deviationBand("filter, 2 sigma", run, 0, kSoft),
                   deviationBand("smoother, 2 sigma", smooth, 0, kSoftest)};
-  errors.series = {curve("filter", errorsOf(run, drive.states, 0), kFilter),
-                   curve("smoother", errorsOf(smooth, drive.states, 0), kSmoother, 2.5),
-                   curve("smoother of the library", errorsOf(libraryHindsight(drive, run), drive.states, 0),
-                         kTruthColor, 1, true)};
+  errors.series = {
+      curve("filter", errorsOf(run, drive.states, 0), kFilter),
+      curve("smoother", errorsOf(smooth, drive.states, 0), kSmoother, 2.5),
+      curve("smoother of the library", errorsOf(libraryHindsight(library, car, drive, run), drive.states, 0),
+            kTruthColor, 1, true)};
   plot("smoothing", errors);
 }
 
 // The squared error in terms of the covariance, averaged over runs of a filter that believes in `believed`.
-std::vector<double> meanSquaredErrors(const CarSetup& believed, int runs) {
+std::vector<double> meanSquaredErrors(const Library& library, const CarSetup& believed, int runs) {
   constexpr int kSteps = 100;
   std::vector<double> means(kSteps, 0);
   for (int i = 0; i < runs; ++i) {
-    const Recorded drive = record(static_cast<std::uint64_t>(i), {}, places(3), kSteps, {0.1, 0.2});
+    const Recorded drive =
+        library.drive(static_cast<std::uint64_t>(i), {}, places(3), kSteps, {0.1, 0.2}, kAnywhere);
     Belief belief = kStart;
     belief.mean += std::sqrt(0.1) * Rng(static_cast<std::uint64_t>(i)).normalVector(3);
     for (std::size_t t = 0; t < kSteps; ++t) {
@@ -432,7 +452,7 @@ std::vector<double> meanSquaredErrors(const CarSetup& believed, int runs) {
   return means;
 }
 
-void showConsistency() {
+void showConsistency(const Library& library) {
   constexpr int kRuns = 50;
   CarSetup proud, timid;
   proud.dynamicsNoise /= 5;
@@ -448,9 +468,9 @@ void showConsistency() {
                    .high = {band.upper, band.upper},
                    .color = kSoft}};
   figure.series = {
-      curve("a fifth of the noise believed", meanSquaredErrors(proud, kRuns), kDeadReckoningColor),
-      curve("yours", meanSquaredErrors({}, kRuns), kFilter, 2.5),
-      curve("sigma where its square belongs", meanSquaredErrors(timid, kRuns), kLandmarkColor)};
+      curve("a fifth of the noise believed", meanSquaredErrors(library, proud, kRuns), kDeadReckoningColor),
+      curve("yours", meanSquaredErrors(library, {}, kRuns), kFilter, 2.5),
+      curve("sigma where its square belongs", meanSquaredErrors(library, timid, kRuns), kLandmarkColor)};
   plot("consistency", figure);
 }
 
@@ -472,9 +492,9 @@ Mapping mapped(const CarSetup& car, const Recorded& drive) {
   return mapping;
 }
 
-void showMap() {
+void showMap(const Library& library) {
   const CarSetup car;
-  const Recorded drive = record(11, car, places(8), 90, {1, 0.2}, 9);
+  const Recorded drive = library.drive(11, car, places(8), 90, {1, 0.2}, 9);
   const Mapping mapping = mapped(car, drive);
   std::vector<CarView> views;
   for (std::size_t t = 0; t < mapping.joints.size(); ++t) {
@@ -489,20 +509,20 @@ void showMap() {
   plot("deviations", deviationsOf(mapping));
   plot("correlations", correlationsOf(mapping.joints.back()));
 
-  const Poses library = libraryStates(drive);
+  const Poses states = library.slam(drive);
   std::vector<double> yours, theirs;
-  for (std::size_t t = 0; t < library.size(); ++t) {
+  for (std::size_t t = 0; t < states.size(); ++t) {
     yours.push_back((mapping.joints[t].mean.head(2) - drive.states[t].head(2)).norm());
-    theirs.push_back((library[t] - drive.states[t]).head(2).norm());
+    theirs.push_back((states[t] - drive.states[t]).head(2).norm());
   }
   Figure figure = overTime("How far the estimate is from the car", "position error [m]");
   figure.series = {curve("yours", yours, kFilter, 3), curve("the library's", theirs, kTruthColor, 1, true)};
   plot("slam_error", figure);
 }
 
-void showNames() {
+void showNames(const Library& library) {
   const CarSetup car;
-  const Recorded drive = record(3, car, places(7), 80, {1, 0.2}, 14);
+  const Recorded drive = library.drive(3, car, places(7), 80, {1, 0.2}, 14);
   Belief joint = Mapping().joints[0];
   std::vector<double> inMap, seenSoFar;
   std::vector<bool> wasSeen(7);
@@ -527,9 +547,9 @@ void showNames() {
   plot("names", figure);
 }
 
-void showParticles() {
+void showParticles(const Library& library) {
   const CarSetup car;
-  const Recorded drive = record(4, car, places(6), 45, {1, 0.2}, 12);
+  const Recorded drive = library.drive(4, car, places(6), 45, {1, 0.2}, 12);
   constexpr std::size_t kParticles = 100;
   Rng rng(6);
   std::vector<int> names;
@@ -579,9 +599,52 @@ void showParticles() {
 }  // namespace
 
 int main() {
-  showTracking();
-  showConsistency();
-  showMap();
-  showNames();
-  showParticles();
+  Library library;
+  library.drive = [](std::uint64_t seed, const CarSetup& car, const Eigen::Matrix2Xd& landmarks, int steps,
+                     const Eigen::Vector2d& u, double range) {
+    Recorded drive{optionsOf(car), landmarks, {}, {Eigen::Vector3d::Zero()}, {}};
+    drive.options.maxRange = range;
+    CarSimulator simulator(seed, static_cast<int>(landmarks.cols()), drive.options);
+    simulator.setLandmarks(landmarks);
+    for (int t = 0; t < steps; ++t) {
+      simulator.step(u);
+      drive.controls.push_back(u);
+      drive.states.push_back(simulator.getState());
+      const Eigen::VectorXd y = simulator.getRealNoisyObservation();
+      drive.seen.emplace_back();
+      for (const int i : simulator.getVisibleLandmarks())
+        drive.seen.back().push_back({i, y.segment(2 * i, 2)});
+    }
+    return drive;
+  };
+  library.smooth = [](const std::vector<Gaussian>& filtered, const std::vector<LinearModel>& transitions) {
+    return smoothed(filtered, transitions);
+  };
+  library.slam = [](const Recorded& drive) {
+    const auto model = CarSimulator::withoutPlaces(0, drive.options);
+    const double q = drive.options.dynamicsNoise, w = drive.options.observationNoise;
+    EkfSlam slam({Eigen::Vector3d::Zero(), 1e-6 * Eigen::Matrix3d::Identity()},
+                 {.W = w * w * Eigen::Matrix2d::Identity()});
+    Poses states{Eigen::Vector3d::Zero()};
+    std::vector<int> names;
+    for (std::size_t t = 0; t < drive.controls.size(); ++t) {
+      const Eigen::Vector2d u = drive.controls[t];
+      slam.predict(
+          {[&](const Eigen::Vector3d& x) -> Eigen::Vector3d { return model.getMeanStateAfterStep(x, u); },
+           [&](const Eigen::Vector3d& x) -> Eigen::Matrix3d { return model.getStateJacobian(x, u); },
+           q* q* Eigen::Matrix3d::Identity()});
+      for (const Sighting& seen : drive.seen[t]) {
+        const auto known = std::find(names.begin(), names.end(), seen.landmark);
+        slam.observe(static_cast<int>(known - names.begin()), seen.y);
+        if (known == names.end()) names.push_back(seen.landmark);
+      }
+      states.emplace_back(slam.pose().mean);
+    }
+    return states;
+  };
+  showTracking(library);
+  showConsistency(library);
+  showMap(library);
+  showNames(library);
+  showParticles(library);
 }
