@@ -192,3 +192,76 @@ inline rex::Figure correlationsOf(const Belief& joint) {
   figure.width = figure.height = 640;
   return figure;
 }
+
+/// The library's smoother, on the same beliefs.
+inline std::vector<Belief> libraryHindsight(const Library& library, const CarSetup& car,
+                                            const Recorded& drive, const std::vector<Belief>& run) {
+  std::vector<rex::Gaussian> beliefs;
+  std::vector<rex::LinearModel> steps;
+  for (const Belief& belief : run) beliefs.push_back({belief.mean, belief.covariance});
+  for (std::size_t t = 0; t < drive.controls.size(); ++t) {
+    const Eigen::MatrixXd A = stepByState(car, run[t].mean, drive.controls[t]);
+    const Eigen::VectorXd next = stepped(car, run[t].mean, drive.controls[t]);
+    steps.push_back({A, next - A * run[t].mean, stepNoise(car)});
+  }
+  std::vector<Belief> smooth;
+  for (const rex::Gaussian& belief : library.smooth(beliefs, steps))
+    smooth.push_back({belief.mean, belief.covariance});
+  return smooth;
+}
+
+/// Kalman SLAM of a drive whose landmarks have names.
+inline Mapping mapped(const CarSetup& car, const Recorded& drive) {
+  Mapping mapping;
+  for (std::size_t t = 0; t < drive.controls.size(); ++t) {
+    Belief joint = jointPredicted(car, mapping.joints.back(), drive.controls[t]);
+    for (const Sighting& seen : drive.seen[t]) {
+      const auto known = std::find(mapping.names.begin(), mapping.names.end(), seen.landmark);
+      if (known == mapping.names.end()) {
+        joint = withLandmark(car, joint, seen.y);
+        mapping.names.push_back(seen.landmark);
+      } else {
+        joint = jointCorrected(car, joint, static_cast<int>(known - mapping.names.begin()), seen.y);
+      }
+    }
+    mapping.joints.push_back(joint);
+  }
+  return mapping;
+}
+
+/// As many particles again, in proportion to their weights.
+inline std::vector<MapParticle> drawn(const std::vector<MapParticle>& particles, rex::Rng& rng) {
+  const double share = 1. / static_cast<double>(particles.size());
+  std::vector<MapParticle> survivors;
+  double sum = 0, next = rng.uniform() * share;
+  for (const MapParticle& particle : particles)
+    for (sum += particle.weight; next < sum && survivors.size() < particles.size(); next += share)
+      survivors.push_back(particle);
+  while (survivors.size() < particles.size()) survivors.push_back(particles.back());
+  for (MapParticle& particle : survivors) particle.weight = share;
+  return survivors;
+}
+
+/// The last states and the maps of all particles.
+inline rex::Figure particleFigure(const Recorded& drive, const std::vector<MapParticle>& particles) {
+  rex::CarView view;
+  view.caption = "FastSLAM: 100 particles, each with its map";
+  view.car = drive.states.back();
+  view.landmarks = drive.landmarks;
+  view.ways = {wayOf("true way", drive.states, rex::kTruthColor)};
+  view.particles.resize(3, static_cast<Eigen::Index>(particles.size()));
+  rex::Series maps{.label = "landmarks in their maps", .style = rex::SeriesStyle::kPoints};
+  maps.marker = rex::Marker::kDot;
+  maps.size = 0.6;
+  maps.color = rex::kDeadReckoningColor;
+  for (std::size_t k = 0; k < particles.size(); ++k) {
+    view.particles.col(static_cast<Eigen::Index>(k)) = particles[k].x;
+    for (const Belief& landmark : particles[k].map) {
+      maps.x.push_back(landmark.mean[0]);
+      maps.y.push_back(landmark.mean[1]);
+    }
+  }
+  rex::Figure figure = rex::figureOf(view);
+  if (!maps.x.empty()) figure.series.push_back(maps);
+  return figure;
+}

@@ -387,23 +387,6 @@ std::vector<Belief> filtered(const CarSetup& car, const Recorded& drive) {
   return run;
 }
 
-// The library's smoother, on the same beliefs.
-std::vector<Belief> libraryHindsight(const Library& library, const CarSetup& car, const Recorded& drive,
-                                     const std::vector<Belief>& run) {
-  std::vector<Gaussian> beliefs;
-  std::vector<LinearModel> steps;
-  for (const Belief& belief : run) beliefs.push_back({belief.mean, belief.covariance});
-  for (std::size_t t = 0; t < drive.controls.size(); ++t) {
-    const Eigen::MatrixXd A = stepByState(car, run[t].mean, drive.controls[t]);
-    const Eigen::VectorXd next = stepped(car, run[t].mean, drive.controls[t]);
-    steps.push_back({A, next - A * run[t].mean, stepNoise(car)});
-  }
-  std::vector<Belief> smooth;
-  for (const Gaussian& belief : library.smooth(beliefs, steps))
-    smooth.push_back({belief.mean, belief.covariance});
-  return smooth;
-}
-
 void showTracking(const Library& library) {
   const CarSetup car;
   Eigen::Matrix2Xd landmarks(2, 2);
@@ -472,24 +455,6 @@ void showConsistency(const Library& library) {
       curve("yours", meanSquaredErrors(library, {}, kRuns), kFilter, 2.5),
       curve("sigma where its square belongs", meanSquaredErrors(library, timid, kRuns), kLandmarkColor)};
   plot("consistency", figure);
-}
-
-Mapping mapped(const CarSetup& car, const Recorded& drive) {
-  Mapping mapping;
-  for (std::size_t t = 0; t < drive.controls.size(); ++t) {
-    Belief joint = jointPredicted(car, mapping.joints.back(), drive.controls[t]);
-    for (const Sighting& seen : drive.seen[t]) {
-      const auto known = std::find(mapping.names.begin(), mapping.names.end(), seen.landmark);
-      if (known == mapping.names.end()) {
-        joint = withLandmark(car, joint, seen.y);
-        mapping.names.push_back(seen.landmark);
-      } else {
-        joint = jointCorrected(car, joint, static_cast<int>(known - mapping.names.begin()), seen.y);
-      }
-    }
-    mapping.joints.push_back(joint);
-  }
-  return mapping;
 }
 
 void showMap(const Library& library) {
@@ -564,36 +529,9 @@ void showParticles(const Library& library) {
       if (known == names.end()) names.push_back(one.landmark);
     }
     particles = weighed(car, particles, seen);
-    // As many again, in proportion to their weights.
-    std::vector<MapParticle> survivors;
-    double sum = 0, next = rng.uniform() / kParticles;
-    for (const MapParticle& particle : particles)
-      for (sum += particle.weight; next < sum && survivors.size() < kParticles; next += 1. / kParticles)
-        survivors.push_back(particle);
-    while (survivors.size() < kParticles) survivors.push_back(particles.back());
-    for (MapParticle& particle : survivors) particle.weight = 1. / kParticles;
-    particles = survivors;
+    particles = drawn(particles, rng);
   }
-  CarView view;
-  view.caption = "FastSLAM: 100 particles, each with its map";
-  view.car = drive.states.back();
-  view.landmarks = drive.landmarks;
-  view.ways = {wayOf("true way", drive.states, kTruthColor)};
-  view.particles.resize(3, kParticles);
-  Series maps{.label = "landmarks in their maps", .style = SeriesStyle::kPoints};
-  maps.marker = Marker::kDot;
-  maps.size = 0.6;
-  maps.color = kDeadReckoningColor;
-  for (std::size_t k = 0; k < kParticles; ++k) {
-    view.particles.col(static_cast<Eigen::Index>(k)) = particles[k].x;
-    for (const Belief& landmark : particles[k].map) {
-      maps.x.push_back(landmark.mean[0]);
-      maps.y.push_back(landmark.mean[1]);
-    }
-  }
-  Figure figure = figureOf(view);
-  if (!maps.x.empty()) figure.series.push_back(maps);
-  plot("particles", figure);
+  plot("particles", particleFigure(drive, particles));
 }
 
 }  // namespace
