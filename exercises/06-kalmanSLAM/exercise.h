@@ -93,9 +93,10 @@ Belief withLandmark(const CarSetup& car, const Belief& joint, const Eigen::Vecto
 inline constexpr int kNewLandmark = -1, kUnclear = -2;
 
 /// Which landmarks of a joint belief were seen, one number for each y: that of a landmark, from 0 on;
-/// kNewLandmark; or kUnclear, and that sighting is not used. No landmark is named twice. Landmarks stand 8 m
-/// apart at least. Judged over whole runs of some hundred sightings, from an empty map on: at the end, the
-/// map holds each landmark that was seen five times or more, and none twice.
+/// kNewLandmark; or kUnclear, and that sighting is not used. No landmark is named twice. Judged over whole
+/// runs of some hundred sightings, from an empty map on: at the end, the map holds each landmark that was
+/// seen five times or more, and none twice. Landmarks stand 8 m apart at least, three are always in view, and
+/// none is nearer than 3 m.
 std::vector<int> assigned(const CarSetup& car, const Belief& joint, const std::vector<Eigen::Vector2d>& ys);
 
 /// A landmark with its name, and what was seen of it.

@@ -88,6 +88,19 @@ inline void requireMap(rex::grading::Check& check, const MapQuality& total, doub
   check.atLeast("squared error in terms of the covariance, per number (1 expected)", squared, least);
 }
 
+// A run in which it is clear what is what: three landmarks at least are always in view, and none is nearer
+// than 3 m.
+inline CarRun clearRun(rex::Rng& rng, const CarSetup& car, int landmarks, const Eigen::Vector2d& u,
+                       double range) {
+  while (true) {
+    const CarRun run = randomRun(rng, car, landmarks, 70, u);
+    bool isClear = true;
+    for (std::size_t t = 0; t < run.controls.size() && isClear; ++t)
+      isClear = seenAt(run, t, 3).empty() && seenAt(run, t, range).size() >= 3;
+    if (isClear) return run;
+  }
+}
+
 // A run whose landmarks have no names. Sightings come in a random order.
 struct NamelessMap {
   MapBelief map;
@@ -129,7 +142,8 @@ inline NamelessMap namelessMap(rex::grading::Check& check, Student& student, con
   return found;
 }
 
-inline void judgeNameless(rex::grading::Check& check, const CarRun& run, const NamelessMap& found) {
+inline void judgeNameless(rex::grading::Check& check, Student& student, const CarRun& run, double range) {
+  const NamelessMap found = namelessMap(check, student, run, range);
   const std::vector<int>& names = found.map.names;
   for (std::size_t i = 0; i < found.seen.size(); ++i) {
     const auto times = std::count(names.begin(), names.end(), static_cast<int>(i));

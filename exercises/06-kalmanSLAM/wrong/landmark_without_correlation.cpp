@@ -1,4 +1,4 @@
-// caught by: slam-start, slam-map
+// caught by: slam-start
 // mistake: a new landmark that has nothing in common with the car.
 
 // <solution withLandmark>
