@@ -1,0 +1,211 @@
+#pragma once
+
+#include <algorithm>
+
+#include "car_runs.h"
+
+// Whole runs of SLAM with the functions of parts 4 and 5, and how good their maps are.
+
+// What the car sees of the landmarks up to `range` away (which ones: by the truth). With the names of
+// `run.landmarks`.
+inline std::vector<Sighting> seenAt(const CarRun& run, std::size_t t, double range) {
+  std::vector<Sighting> seen;
+  for (Eigen::Index i = 0; i < run.landmarks.cols(); ++i)
+    if ((run.landmarks.col(i) - run.states[t + 1].head<2>()).norm() < range)
+      seen.push_back({static_cast<int>(i), run.sightings[t].segment<2>(2 * i)});
+  return seen;
+}
+
+// A joint belief, and which true landmark each of its landmarks is.
+struct MapBelief {
+  Belief joint;
+  std::vector<int> names;
+};
+
+inline Belief startBelief() { return {Eigen::Vector3d::Zero(), 1e-6 * Eigen::Matrix3d::Identity()}; }
+
+inline Eigen::Index sizeOf(const MapBelief& map) {
+  return 3 + 2 * static_cast<Eigen::Index>(map.names.size());
+}
+
+inline void enter(rex::grading::Check& check, Student& student, const CarSetup& car, const Sighting& seen,
+                  MapBelief& map) {
+  map.joint = student.withLandmark(car, map.joint, seen.y);
+  map.names.push_back(seen.landmark);
+  requireBelief(check, map.joint, sizeOf(map));
+}
+
+inline MapBelief mapped(rex::grading::Check& check, Student& student, const CarRun& run, double range) {
+  MapBelief map{startBelief(), {}};
+  for (std::size_t t = 0; t < run.controls.size(); ++t) {
+    map.joint = student.jointPredicted(run.car, map.joint, run.controls[t]);
+    requireBelief(check, map.joint, sizeOf(map));
+    for (const Sighting& seen : seenAt(run, t, range)) {
+      const auto known = std::find(map.names.begin(), map.names.end(), seen.landmark);
+      if (known == map.names.end()) {
+        enter(check, student, run.car, seen, map);
+        continue;
+      }
+      map.joint =
+          student.jointCorrected(run.car, map.joint, static_cast<int>(known - map.names.begin()), seen.y);
+      requireBelief(check, map.joint, sizeOf(map));
+    }
+  }
+  return map;
+}
+
+// Root mean square error of the landmarks after the rigid motion that brings them nearest to the truth [m],
+// and the squared error of the joint belief in terms of its covariance, per number: sums over runs.
+struct MapQuality {
+  double error = 0, squared = 0;
+  int runs = 0;
+};
+
+inline Eigen::Matrix2Xd truePlaces(const CarRun& run, const std::vector<int>& names) {
+  Eigen::Matrix2Xd places(2, static_cast<Eigen::Index>(names.size()));
+  for (Eigen::Index k = 0; k < places.cols(); ++k)
+    places.col(k) = run.landmarks.col(names[static_cast<std::size_t>(k)]);
+  return places;
+}
+
+inline void judgeMap(rex::grading::Check& check, const CarRun& run, const MapBelief& map, MapQuality& total) {
+  check.atLeast("number of landmarks in the map", static_cast<double>(map.names.size()), 2);
+  const Eigen::Matrix2Xd truth = truePlaces(run, map.names);
+  const Eigen::Matrix2Xd places = map.joint.mean.tail(truth.size()).reshaped(2, truth.cols());
+  total.error += std::pow(rex::absoluteTrajectoryError(places, truth), 2);
+  Eigen::VectorXd all(map.joint.mean.size());
+  all << run.states.back(), truth.reshaped();
+  total.squared += squaredError(map.joint.mean - all, map.joint.covariance) / static_cast<double>(all.size());
+  ++total.runs;
+}
+
+inline void requireMap(rex::grading::Check& check, const MapQuality& total, double mostError, double least,
+                       double most) {
+  check.atMost("error of the landmarks (root mean square) after alignment",
+               std::sqrt(total.error / total.runs), mostError, "m");
+  const double squared = total.squared / total.runs;
+  check.atMost("squared error in terms of the covariance, per number (1 expected)", squared, most);
+  check.atLeast("squared error in terms of the covariance, per number (1 expected)", squared, least);
+}
+
+// A run in which it is clear what is what: three landmarks at least are always in view, and none is nearer
+// than 3 m.
+inline CarRun clearRun(rex::Rng& rng, const CarSetup& car, int landmarks, const Eigen::Vector2d& u,
+                       double range) {
+  while (true) {
+    const CarRun run = randomRun(rng, car, landmarks, 70, u);
+    bool isClear = true;
+    for (std::size_t t = 0; t < run.controls.size() && isClear; ++t)
+      isClear = seenAt(run, t, 3).empty() && seenAt(run, t, range).size() >= 3;
+    if (isClear) return run;
+  }
+}
+
+// A run whose landmarks have no names. Sightings come in a random order.
+struct NamelessMap {
+  MapBelief map;
+  std::vector<int> seen;  // how often each true landmark was
+  int wrong = 0;          // how often a sighting was taken for another landmark
+};
+
+inline NamelessMap namelessMap(rex::grading::Check& check, Student& student, const CarRun& run,
+                               double range) {
+  NamelessMap found{{startBelief(), {}}, std::vector<int>(static_cast<std::size_t>(run.landmarks.cols())), 0};
+  MapBelief& map = found.map;
+  for (std::size_t t = 0; t < run.controls.size(); ++t) {
+    map.joint = student.jointPredicted(run.car, map.joint, run.controls[t]);
+    requireBelief(check, map.joint, sizeOf(map));
+    std::vector<Sighting> seen = seenAt(run, t, range);
+    for (std::size_t k = seen.size(); k > 1; --k)
+      std::swap(seen[k - 1], seen[static_cast<std::size_t>(check.rng().index(static_cast<int>(k)))]);
+    std::vector<Eigen::Vector2d> ys;
+    for (const Sighting& one : seen) ys.push_back(one.y);
+    const std::vector<int> names = student.assigned(run.car, map.joint, ys);
+    check.near("number of names", static_cast<double>(names.size()), static_cast<double>(ys.size()), 0);
+    const int known = static_cast<int>(map.names.size());
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      ++found.seen[static_cast<std::size_t>(seen[k].landmark)];
+      check.that("a name is that of a landmark in the map, or kNewLandmark, or kUnclear",
+                 names[k] < known && names[k] >= kUnclear);
+      check.that("no landmark is named twice",
+                 names[k] < 0 || std::count(names.begin(), names.end(), names[k]) == 1);
+      if (names[k] == kNewLandmark) {
+        check.that("there are at most 20 landmarks in the map", map.names.size() < 20);
+        enter(check, student, run.car, seen[k], map);
+      }
+      if (names[k] < 0) continue;
+      map.joint = student.jointCorrected(run.car, map.joint, names[k], ys[k]);
+      requireBelief(check, map.joint, sizeOf(map));
+      if (map.names[static_cast<std::size_t>(names[k])] != seen[k].landmark) ++found.wrong;
+    }
+  }
+  return found;
+}
+
+inline void judgeNameless(rex::grading::Check& check, Student& student, const CarRun& run, double range) {
+  const NamelessMap found = namelessMap(check, student, run, range);
+  const std::vector<int>& names = found.map.names;
+  for (std::size_t i = 0; i < found.seen.size(); ++i) {
+    const auto times = std::count(names.begin(), names.end(), static_cast<int>(i));
+    check.that("no landmark is in the map twice", times <= 1);
+    check.that("every landmark that was seen five times is in the map", times == 1 || found.seen[i] < 5);
+  }
+  check.near("sightings taken for another landmark", found.wrong, 0, 0);
+  MapQuality total;
+  judgeMap(check, run, found.map, total);
+  check.atMost("error of the landmarks (root mean square) after alignment", std::sqrt(total.error), 1, "m");
+}
+
+// Maps and weights of random particles, by corrections in canonical form. What is seen is `offset` [m] away
+// from where the maps have it.
+inline void weighsAsItShould(rex::grading::Check& check, Student& student, const CarSetup& car,
+                             double offset) {
+  rex::Rng& rng = check.rng();
+  const Eigen::Vector3d x = randomState(rng);
+  std::vector<Eigen::Vector2d> places;
+  for (int i = 0; i < 4; ++i) places.emplace_back(randomLandmark(rng, x));
+  std::vector<MapParticle> particles;
+  for (int k = 0; k < 12; ++k) {
+    MapParticle particle{x + 0.1 * rng.normalVector(3), rng.uniform(0.5, 1.5) / 12, {}};
+    for (std::size_t i = 0; i < 3; ++i)
+      particle.map.push_back({places[i] + 0.2 * rng.normalVector(2), randomCovariance(rng, 2)});
+    particles.push_back(particle);
+  }
+  const Eigen::Vector2d far(offset, 0);
+  std::vector<Sighting> seen;
+  for (const int i : {2, 0, 3})
+    seen.push_back({i, seenFrom(car, x, places[static_cast<std::size_t>(i)] + far)});
+  const std::vector<MapParticle> after = student.weighed(car, particles, seen);
+  check.near("number of particles", static_cast<double>(after.size()), 12, 0);
+  Eigen::VectorXd logs(12), weights(12);
+  const Eigen::Matrix2d W = noiseOf(car, 1);
+  for (std::size_t k = 0; k < 12; ++k) {
+    const auto& [stateGiven, weightGiven, mapGiven] = particles[k];
+    check.near("state of a particle", after[k].x, stateGiven, 0);
+    check.near("number of landmarks in a map", static_cast<double>(after[k].map.size()), 4, 0);
+    double log = std::log(weightGiven);
+    for (const Sighting& one : seen) {
+      const auto i = static_cast<std::size_t>(one.landmark);
+      const auto g = [&](const Eigen::VectorXd& l) { return seenFrom(car, stateGiven, l); };
+      if (i == 3) {
+        check.shape("place of the new landmark", after[k].map[3].mean, 2, 1);
+        check.near("what would be seen of the new landmark", g(after[k].map[3].mean), one.y, 1e-9);
+        const Eigen::Matrix2d D = derivative(g, after[k].map[3].mean);
+        sameBelief(check, after[k].map[3],
+                   {after[k].map[3].mean, (D.transpose() * W.inverse() * D).inverse()}, 1e-6);
+        continue;
+      }
+      const Eigen::Matrix2d D = derivative(g, mapGiven[i].mean);
+      Eigen::Vector2d gap = one.y - g(mapGiven[i].mean);
+      if (car.rangeBearing) gap[1] = std::remainder(gap[1], 2 * kPi);
+      const Eigen::Matrix2d S = D * mapGiven[i].covariance * D.transpose() + W;
+      log -= 0.5 * (squaredError(gap, S) + std::log(S.determinant()));
+      sameBelief(check, after[k].map[i], informed(mapGiven[i], gap, D, W), 1e-6);
+    }
+    sameBelief(check, after[k].map[1], mapGiven[1], 0);
+    logs[static_cast<Eigen::Index>(k)] = log;
+    weights[static_cast<Eigen::Index>(k)] = after[k].weight;
+  }
+  const Eigen::VectorXd wanted = (logs.array() - logs.maxCoeff()).exp();
+  check.near("weights", weights, wanted / wanted.sum(), 1e-5);
+}

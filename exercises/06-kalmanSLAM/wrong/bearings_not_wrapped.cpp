@@ -1,0 +1,6 @@
+// caught by: car-bearing
+// mistake: the difference of two bearings as they are: straight behind the car it is a whole turn.
+
+// <solution viewGap>
+notUsedYet(car);
+// </solution>

@@ -1,0 +1,13 @@
+// caught by: slam-start
+// mistake: a new landmark that has nothing in common with the car.
+
+// <solution withLandmark>
+const Eigen::Vector3d x = joint.mean.head(3);
+const Eigen::Vector2d l = placed(car, x, y);
+const Eigen::MatrixXd byView = inverse(viewByLandmark(car, x, l));
+const Eigen::MatrixXd byState = -byView * viewByState(car, x, l);
+const Eigen::MatrixXd cross = byState * joint.covariance.topRows(3), noise = byView * viewNoise(car);
+const Eigen::MatrixXd S = cross.leftCols(3) * byState.transpose() + noise * byView.transpose();
+larger.mean.tail(2) = l;
+larger.covariance.bottomRightCorner(2, 2) = symmetric(S);
+// </solution>
