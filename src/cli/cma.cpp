@@ -1,3 +1,5 @@
+#include "cli/cma.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -6,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "base/rng.h"
-#include "cli/commands.h"
 #include "cli/json_internal.h"
 #include "cli/learning_curves.h"
 #include "cli/option_value_internal.h"

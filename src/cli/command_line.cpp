@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "cli/cma.h"
 #include "cli/command_line_internal.h"
 #include "cli/commands.h"
 #include "cli/terminal.h"

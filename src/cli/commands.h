@@ -155,23 +155,6 @@ struct SlamOptions {
 /// Makes the map of a pose graph fit its measurements. kBelow if it does not converge.
 ExitCode slam(const Project& project, const SlamOptions& options);
 
-struct CmaRunOptions {
-  std::string function{};  ///< see testFunction()
-  int dimension = 10;
-  std::optional<double> deviation{};  ///< of the first samples; this, box and target: those of the function
-  std::optional<double> low{}, high{};
-  std::optional<double> target{};
-  int lambda = 0;  ///< 0: the usual
-  int restarts = 0;
-  double maxEvaluations = 1e7;  ///< for each seed
-  std::uint64_t seed = 0;
-  int seeds = 1;
-  bool json = false;
-  std::filesystem::path out{};  ///< a folder for a figure; empty: none
-};
-/// How many evaluations CMA-ES needs for a test function. kBelow if no seed reaches the target.
-ExitCode cma(const CmaRunOptions& options);
-
 struct CurvesOptions {
   std::string from{}, to{};  ///< x,y,heading; metres and radians
   double radius = 1;         ///< metres

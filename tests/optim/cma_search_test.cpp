@@ -60,12 +60,12 @@ TEST_P(Table932, NeedsAsFewEvaluations) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Script, Table932,
-                         ::testing::Values(TableLine{"ackley", 20, 12, 2667, 40, 0.95},
-                                           TableLine{"ackley", 30, 13, 3701, 40, 0.95},
-                                           TableLine{"griewank", 20, 15, 3111, 100, 0.75},
-                                           TableLine{"griewank", 30, 13, 4455, 40, 0.8},
-                                           TableLine{"rastrigin", 20, 600, 68586, 40, 0.8},
-                                           TableLine{"schwefel", 5, 600, 43810, 40, 0.8}),
+                         ::testing::Values(TableLine{"ackley", 20, 12, 2667, 20, 0.95},
+                                           TableLine{"ackley", 30, 13, 3701, 20, 0.95},
+                                           TableLine{"griewank", 20, 15, 3111, 40, 0.75},
+                                           TableLine{"griewank", 30, 13, 4455, 20, 0.8},
+                                           TableLine{"rastrigin", 20, 600, 68586, 20, 0.8},
+                                           TableLine{"schwefel", 5, 600, 43810, 20, 0.8}),
                          [](const auto& line) { return line.param.name + std::to_string(line.param.n); });
 
 // Rastrigin(A x) of the table: a rotation, after which no coordinate can be searched by itself.
@@ -142,7 +142,7 @@ TEST(Restarts, FindWhatOneRunDoesNot) {
   const VectorXd low = VectorXd::Constant(10, 1), high = VectorXd::Constant(10, 5),
                  deviation = VectorXd::Constant(10, 2);
   int alone = 0;
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
     Rng once(seed), more(seed);
     const VectorXd start = once.uniformVector(10, 1, 5);
     const SearchResult one =
@@ -163,7 +163,7 @@ TEST(Restarts, FindWhatOneRunDoesNot) {
     for (std::size_t i = 0; i < all.runs.size(); ++i)  // lambda: 10, 20, 40, ...
       EXPECT_EQ(all.runs[i].evaluations, (10L << i) * all.runs[i].iterations);
   }
-  EXPECT_LE(alone, 2);
+  EXPECT_LE(alone, 1);
 }
 
 TEST(Restarts, KeepTheirBudget) {
