@@ -117,10 +117,9 @@ std::string tableOf(const std::vector<Run>& runs) {
 void makeFolder(const std::filesystem::path& folder) {
   std::error_code problem;
   std::filesystem::create_directories(folder, problem);
-  if (problem || !std::filesystem::is_directory(folder))
-    throw UsageError({.what = "-o " + harmless(folder.string()),
-                      .found = problem ? problem.message() : "a file",
-                      .wanted = "a folder"});
+  if (problem)
+    throw UsageError(
+        {.what = "-o " + harmless(folder.string()), .found = problem.message(), .wanted = "a folder"});
 }
 
 }  // namespace

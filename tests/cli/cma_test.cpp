@@ -110,8 +110,8 @@ TEST_F(CmaCommand, SaysWhatIsWrong) {
   expect({"--seed", "18446744073709551615"},
          "--seed: found 18446744073709551615, wanted a seed that 0 others");
   std::ofstream(in("file")) << "here";
-  expect({"-o", in("file").string()}, "found a file, wanted a folder");
-  expect({"-o", in("file/below").string()}, "Not a directory");
+  expect({"-o", in("file").string()}, "file: found Not a directory, wanted a folder");
+  expect({"-o", in("file/below").string()}, "below: found Not a directory");
 }
 
 }  // namespace
