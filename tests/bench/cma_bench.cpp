@@ -78,7 +78,7 @@ std::vector<Row> cmaRows() {
   return {
       row("ackley", 20, 12, 2667),    row("ackley", 30, 13, 3701),       row("griewank", 20, 15, 3111),
       row("griewank", 30, 13, 4455),  row("rastrigin", 20, 600, 68586),  row("rastrigin", 30, 1000, 147416),
-      row("schwefel", 5, 600, 43810), row("schwefel", 10, 1400, 240899), generationRow()};
+      row("schwefel", 5, 600, 43810), row("schwefel", 10, 1500, 240899), generationRow()};
 }
 
 }  // namespace rex::bench
