@@ -38,7 +38,7 @@ Row row(const char* name, int n, int lambda, double published) {
           .peerName = "limit",
           .peer = [=] { return 1.15 * published; },
           .target = 1.,
-          .unit = "evals",
+          .unit = "k",
           .repetitions = 1};
 }
 
