@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "cli/cma.h"
 #include "cli/command_line_internal.h"
 #include "cli/commands.h"
 #include "cli/terminal.h"
@@ -39,7 +40,7 @@ First steps
 
 All commands
   list   run   test   debug   scene   render   simulate   plan   curves   slam
-  filter   doctor   bench   dev
+  filter   cma   doctor   bench   dev
 `scripts/rex COMMAND --help` explains one. An exercise may be called by its number, its
 topic or its whole name: 01, kinematics, 01-kinematics.)";
 
@@ -207,6 +208,37 @@ void addFilter(CLI::App& program, Action& action) {
   command->callback([&action, options] { action = [options](const Project&) { return filter(*options); }; });
 }
 
+void addCma(CLI::App& program, Action& action) {
+  const auto options = std::make_shared<CmaRunOptions>();
+  CLI::App* command =
+      add(program, "cma", "Count the evaluations that CMA-ES needs for a test function",
+          "Examples:\n  scripts/rex cma --function ackley --dim 20 --seeds 20 -o curve\n"
+          "  scripts/rex cma --function rastrigin --dim 10 --lambda 200 --seeds 10 --json\n"
+          "  scripts/rex cma --function rastrigin --dim 10 --restarts 9\n\n"
+          "Functions: sphere, ellipsoid, cigar, rosenbrock, ackley, griewank, rastrigin and schwefel, whose\n"
+          "least value is 0. Starts, steps and targets are those of slide 9:32 unless given.\n"
+          "Exit code 1: no run reached the target.");
+  command->add_option("--function", options->function, "what to minimise")->type_name("NAME")->required();
+  command->add_option("--dim", options->dimension, "numbers it depends on (default: 10)")->type_name("N");
+  command->add_option("--sigma", options->deviation, "deviation of the first samples")->type_name("NUMBER");
+  command->add_option("--x0-low", options->low, "runs start between this ...")->type_name("NUMBER");
+  command->add_option("--x0-high", options->high, "... and this, in all coordinates")->type_name("NUMBER");
+  command->add_option("--lambda", options->lambda, "samples per generation (default: 4 + 3 ln n)")
+      ->type_name("COUNT");
+  command->add_option("--target", options->target, "value at which a run is done")->type_name("NUMBER");
+  command
+      ->add_option("--restarts", options->restarts,
+                   "begin again up to so often, with twice the samples (default: 0)")
+      ->type_name("COUNT");
+  command->add_option("--max-evaluations", options->maxEvaluations, "of one run (default: 1e7)")
+      ->type_name("COUNT");
+  command->add_option("--seed", options->seed, "of the first run (default: 0)")->type_name("N");
+  command->add_option("--seeds", options->seeds, "runs with so many seeds (default: 1)")->type_name("COUNT");
+  command->add_option("-o,--out", options->out, "draw how values fall, into this folder")->type_name("DIR");
+  command->add_flag("--json", options->json, "print JSON");
+  command->callback([&action, options] { action = [options](const Project&) { return cma(*options); }; });
+}
+
 void addDoctor(CLI::App& program, Action& action) {
   const auto options = std::make_shared<DoctorOptions>();
   CLI::App* command = add(program, "doctor", "Try all that pictures need on this machine",
@@ -299,7 +331,7 @@ Action parseCommandLine(int argc, const char* const* argv) {
   addList(program, action), addRun(program, action), addTest(program, action);
   addDebug(program, action), addScene(program, action), addRender(program, action);
   addSimulate(program, action), addPlan(program, action), addCurves(program, action),
-      addSlam(program, action), addFilter(program, action);
+      addSlam(program, action), addFilter(program, action), addCma(program, action);
   addDoctor(program, action), addBench(program, action);
   CLI::App* dev =
       add(program, "dev", "For those who write exercises: new, check, strip",

@@ -25,7 +25,8 @@ struct CmaOptions {
 /// Hansen, The CMA Evolution Strategy: A Tutorial, 2016: samples are N(mean, sigma^2 C). The caller
 /// evaluates:
 ///   while (...) { es.sample(X, rng); evaluate X; es.update(X, values); }
-/// Only the order of values counts. Values that are not finite rank last and are counted in result().
+/// The loop allocates nothing but, to decompose C, a vector. Only the order of values counts. Values that are
+/// not finite rank last and are counted in result().
 class CmaEs {
  public:
   /// Starts with N(mean, diag(deviations)^2). Throws Error for no coordinates, sizes that differ, numbers

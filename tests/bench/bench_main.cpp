@@ -53,6 +53,7 @@ void run(const std::vector<std::string>& names, bool asJson) {
                                             {"grading", gradingRows()},
                                             {"ik", ikRows()},
                                             {"kinematics", kinematicsRows()},
+                                            {"learning", cmaRows()},
                                             {"learning", policySearchRows()},
                                             {"physics", physicsRows()},
                                             {"planning", planningRows()},

@@ -20,7 +20,7 @@ struct Row {
   std::string peerName{};          ///< empty: nothing to compare with; "limit": `peer` returns a fixed number
   Measurement peer{};              ///< empty: the peer is not installed
   std::optional<double> target{};  ///< what ours / peer should not exceed
-  std::string unit = "ns";         ///< ns, us, ms, s or, of shares, %
+  std::string unit = "ns";         ///< ns, us, ms, s; % of shares; k, thousands, of counts
   int repetitions = 15;            ///< measurements of each side
   bool isMedian = false;           ///< each measurement is of another case: take medians, not the smallest
 };
@@ -34,6 +34,7 @@ struct Result {
 
 /// The groups, a file each. Setting one up takes little time; it throws std::logic_error where ours and a
 /// peer do not compute the same.
+[[nodiscard]] std::vector<Row> cmaRows();
 [[nodiscard]] std::vector<Row> collisionRows();
 [[nodiscard]] std::vector<Row> dynamicsRows();
 [[nodiscard]] std::vector<Row> estimationRows();

@@ -1,0 +1,151 @@
+#include "cli/cma.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/rng.h"
+#include "cli/json_internal.h"
+#include "cli/learning_curves.h"
+#include "cli/option_value_internal.h"
+#include "cli/terminal.h"
+#include "cli/wrong_use_internal.h"
+#include "optim/cma_search.h"
+#include "optim/test_functions.h"
+
+namespace rex::cli {
+namespace {
+
+struct Run {
+  std::uint64_t seed = 0;
+  SearchResult result{};
+  LearningCurve curve{};
+  bool isSuccess() const { return result.status == SearchStatus::kTargetReached; }
+};
+
+// What the command line asks for, with what the function brings along.
+struct Experiment {
+  TestFunction function;
+  Eigen::VectorXd low, high, deviations;
+  RestartOptions search;
+};
+
+Experiment experimentOf(const CmaRunOptions& options) {
+  const TestFunction& function = asWrongUse([&] { return testFunction(options.function); }, "--function: ");
+  requireBetween("--dim", options.dimension, function.leastDimension, 1000);
+  requireBetween("--seeds", options.seeds, 1, 10'000);
+  requireBetween("--restarts", options.restarts, 0, 20);
+  requireBetween("--max-evaluations", options.maxEvaluations, 1, 1e9);
+  if (options.lambda != 0) requireBetween("--lambda", options.lambda, 2, 1e6);
+  if (options.seed > std::numeric_limits<std::uint64_t>::max() - static_cast<std::uint64_t>(options.seeds))
+    throw UsageError({.what = "--seed",
+                      .found = fmt::format("{}", options.seed),
+                      .wanted = fmt::format("a seed that {} others can follow", options.seeds - 1)});
+  const double low = options.low.value_or(function.low), high = options.high.value_or(function.high);
+  const double deviation = options.deviation.value_or(function.deviation);
+  requireBetween("--sigma", deviation, 1e-12, 1e12);
+  requireBetween("--x0-low", low, -1e12, 1e12);
+  requireBetween("--x0-high", high, low, 1e12);
+  const double target = options.target.value_or(function.target);
+  requireBetween("--target", target, -1e300, 1e300);
+  const auto everywhere = [&](double number) { return Eigen::VectorXd::Constant(options.dimension, number); };
+  return {function,
+          everywhere(low),
+          everywhere(high),
+          everywhere(deviation),
+          {.first = {.lambda = options.lambda},
+           .limits = {.target = target, .maxEvaluations = static_cast<long>(options.maxEvaluations)},
+           .maxRestarts = options.restarts}};
+}
+
+Run runOf(const Experiment& experiment, std::uint64_t seed) {
+  Run run{.seed = seed};
+  const BatchObjective f = batched(experiment.function.value);
+  double best = std::numeric_limits<double>::infinity(), evaluations = 0;
+  const BatchObjective watched = [&](const MatrixArg& X, Eigen::Ref<Eigen::VectorXd> values) {
+    f(X, values);
+    best = std::min(best, values.minCoeff());
+    evaluations += static_cast<double>(X.cols());
+    run.curve.evaluations.push_back(evaluations);
+    run.curve.values.push_back(best);
+  };
+  Rng rng(seed);
+  run.result = minimizeByRestarts(watched, experiment.low, experiment.high, experiment.deviations, rng,
+                                  experiment.search);
+  return run;
+}
+
+// Evaluations of the successful runs divided by their share, as slide 9:32 counts; infinite without any.
+double evaluationsPerSuccess(const std::vector<Run>& runs) {
+  double spent = 0, successes = 0;
+  for (const Run& run : runs) {
+    if (!run.isSuccess()) continue;
+    spent += static_cast<double>(run.result.evaluations);
+    ++successes;
+  }
+  return successes > 0 ? spent * static_cast<double>(runs.size()) / (successes * successes)
+                       : std::numeric_limits<double>::infinity();
+}
+
+std::string jsonOf(const std::vector<Run>& runs) {
+  Json list = Json::array();
+  for (const Run& run : runs)
+    list.push_back({{"seed", run.seed},
+                    {"evaluations", run.result.evaluations},
+                    {"best", std::isfinite(run.result.value) ? Json(run.result.value) : Json()},
+                    {"success", run.isSuccess()},
+                    {"status", nameOf(run.result.status)}});
+  const double perSuccess = evaluationsPerSuccess(runs);
+  return dump(Json{{"runs", std::move(list)},
+                   {"evaluations_per_success", std::isfinite(perSuccess) ? Json(perSuccess) : Json()}});
+}
+
+std::string tableOf(const std::vector<Run>& runs) {
+  std::string text = fmt::format("{:>8} {:>12} {:>12}  {}", "seed", "evaluations", "best", "ended by");
+  for (const Run& run : runs)
+    text += fmt::format("\n{:>8} {:>12} {:>12.5g}  {}", run.seed, run.result.evaluations, run.result.value,
+                        nameOf(run.result.status));
+  const auto successes = std::ranges::count_if(runs, &Run::isSuccess);
+  text += fmt::format("\n{} of {} reached the target", successes, runs.size());
+  if (successes > 0) text += fmt::format(", {:.0f} evaluations per success", evaluationsPerSuccess(runs));
+  return text;
+}
+
+void makeFolder(const std::filesystem::path& folder) {
+  std::error_code problem;
+  std::filesystem::create_directories(folder, problem);
+  if (problem)
+    throw UsageError(
+        {.what = "-o " + harmless(folder.string()), .found = problem.message(), .wanted = "a folder"});
+}
+
+}  // namespace
+
+ExitCode cma(const CmaRunOptions& options) {
+  const Experiment experiment = experimentOf(options);
+  if (!options.out.empty()) makeFolder(options.out);
+  std::vector<Run> runs;
+  for (int i = 0; i < options.seeds; ++i)
+    runs.push_back(runOf(experiment, options.seed + static_cast<std::uint64_t>(i)));
+  say(options.json ? jsonOf(runs) : tableOf(runs));
+  if (!options.out.empty()) {
+    std::vector<LearningCurve> curves;
+    for (Run& run : runs)
+      if (!run.curve.values.empty()) curves.push_back(std::move(run.curve));
+    if (curves.empty()) throw UsageError({.what = "-o", .found = "no evaluations that could be drawn"});
+    const std::filesystem::path file = options.out / "learning-curve.png";
+    const std::string title = fmt::format("CMA-ES: {} in {} dimensions, {} runs", experiment.function.name,
+                                          options.dimension, runs.size());
+    asWrongUse([&] {
+      writeFigure(figureOf(curves, experiment.search.limits.target, title), file);
+      return 0;
+    });
+    if (!options.json) say(file.string());
+  }
+  return std::ranges::any_of(runs, &Run::isSuccess) ? ExitCode::kFull : ExitCode::kBelow;
+}
+
+}  // namespace rex::cli

@@ -1,0 +1,51 @@
+#include "course/search_cma.h"
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace rex {
+namespace {
+
+int orUsual(int number) { return number == -1 ? 0 : number; }
+
+}  // namespace
+
+void SearchCma::init(int D, int mu, int lambda, double lo, double hi) {
+  if (D < 1) throw Error({.what = "init: D", .found = fmt::format("{}", D), .wanted = "1 or more"});
+  if (!(hi > lo))
+    throw Error({.what = "init: lo and hi",
+                 .found = fmt::format("{:g} and {:g}", lo, hi),
+                 .wanted = "the lower one first"});
+  init(rng_.uniformVector(D, lo, hi), mu, lambda, hi - lo);
+}
+
+void SearchCma::init(const Eigen::VectorXd& start, int mu, int lambda, double deviation) {
+  init(start, mu, lambda, Eigen::VectorXd::Constant(start.size(), deviation));
+}
+
+void SearchCma::init(const Eigen::VectorXd& start, int mu, int lambda, const Eigen::VectorXd& deviations) {
+  strategy_.emplace(start, deviations, CmaOptions{.lambda = orUsual(lambda), .mu = orUsual(mu)});
+}
+
+const CmaEs& SearchCma::strategy() const {
+  if (!strategy_) throw Error({.what = "SearchCma", .found = "no init() before", .wanted = "init(D)"});
+  return *strategy_;
+}
+
+void SearchCma::step(Eigen::MatrixXd& samples, Eigen::VectorXd& values) {
+  if (values.size() > 0) {
+    requireSize("step: rows of samples", samples.rows(), strategy().lambda());
+    requireSize("step: columns of samples", samples.cols(), strategy().dimension());
+    columns_ = samples.transpose();
+  }
+  (void)strategy();  // throws without one
+  strategy_->step(columns_, values, rng_);
+  samples = columns_.transpose();
+}
+
+Eigen::VectorXd SearchCma::getBestSample() const { return strategy().result().x; }
+
+Eigen::VectorXd SearchCma::getMean() const { return strategy().mean(); }
+
+}  // namespace rex
