@@ -63,6 +63,10 @@ void requireMdp(const Mdp& mdp) {
     }
 }
 
+std::vector<Eigen::MatrixXd> denseTransitions(const Mdp& mdp) {
+  return {mdp.transitions.begin(), mdp.transitions.end()};
+}
+
 Eigen::MatrixXd rewardsOnEntering(const std::vector<TransitionMatrix>& transitions,
                                   const VectorArg& entered) {
   Eigen::MatrixXd rewards(entered.size(), static_cast<Eigen::Index>(transitions.size()));

@@ -31,6 +31,9 @@ struct Mdp {
 /// finite, negative probabilities, and rows that do not sum to one within 1e-9, naming action and state.
 void requireMdp(const Mdp& mdp);
 
+/// The transitions as dense matrices.
+[[nodiscard]] std::vector<Eigen::MatrixXd> denseTransitions(const Mdp& mdp);
+
 /// R(s, a) where `entered`[t] is paid for coming into state t: states x actions. Throws Error for sizes that
 /// do not fit.
 [[nodiscard]] Eigen::MatrixXd rewardsOnEntering(const std::vector<TransitionMatrix>& transitions,
