@@ -80,7 +80,7 @@ void unseenImprove(Check& check, Student& student) {
   check.forEachCase(8, [&](int i) {
     rex::Rng& rng = check.rng();
     policiesImprove(check, student,
-                    i == 0 ? processOf(world)
+                    i == 0 ? processOf(world.mdp)
                            : randomProcess(rng, 2 + rng.index(20), 1 + rng.index(4), rng.uniform(0, .97)));
   });
 }

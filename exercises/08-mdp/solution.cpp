@@ -190,14 +190,18 @@ void showMaze() {
   print("T-maze, optimal policy", values.optimal.transpose());
 }
 
-void showGrid() {
-  const GridWorld world = gridWorld(
+GridWorld slipperyFloor() {
+  return gridWorld(
       "........\n"
       ".##..#..\n"
       ".#...#.G\n"
       ".#.P.##.\n"
       "........\n",
       {.discount = .95, .stepReward = -.02, .slip = .2, .marks = {{'G', 1}, {'P', -1}}});
+}
+
+// `exact` are the optimal values, of the library.
+void showGrid(const GridWorld& world, const Eigen::VectorXd& exact) {
   const Process process = processOf(world);
   const Eigen::Index n = process.R.rows();
   Figure random = valueFigure(world, valuesOf(process, Eigen::MatrixXd::Constant(n, 4, .25)));
@@ -213,8 +217,7 @@ void showGrid() {
   policy.title = "Optimal policy";
   plot("policy", policy);
 
-  // How far both are from the library's values, step by step.
-  const Eigen::VectorXd exact = policyIteration(world.mdp).V;
+  // How far both are from them, step by step.
   Figure figure{.title = "Distance from the optimal values",
                 .xLabel = "iteration",
                 .yLabel = "greatest error",
@@ -270,6 +273,7 @@ void showPole() {
 
 int main() {
   showMaze();
-  showGrid();
+  const GridWorld floor = slipperyFloor();
+  showGrid(floor, policyIteration(floor.mdp).V);
   showPole();
 }
