@@ -23,13 +23,13 @@ Figure emptyGrid(const GridWorld& world, const Eigen::VectorXd& values) {
   const AxisRange x{-.5, world.width - .5}, y{-.5, world.height - .5};
   figure.xRange = x;
   figure.yRange = y;
-  // A wall has no value: below the colours of all others, and drawn over.
-  HeatMap map{x, y, Eigen::MatrixXd::Constant(world.height, world.width, values.minCoeff())};
+  // A wall has the colour of the low end, which lies well below all values: on those, numbers can be read.
+  const double low = values.minCoeff(), high = values.maxCoeff();
+  figure.colorRange = AxisRange{low - (low < high ? .5 * (high - low) : .5), low < high ? high : high + .5};
+  HeatMap map{x, y, Eigen::MatrixXd::Constant(world.height, world.width, figure.colorRange->first)};
   for (std::size_t s = 0; s < world.cells.size(); ++s)
     map.values(world.cells[s][1], world.cells[s][0]) = values[static_cast<Eigen::Index>(s)];
   figure.heatMap = map;
-  const double low = values.minCoeff(), high = values.maxCoeff();
-  figure.colorRange = low < high ? AxisRange{low, high} : AxisRange{low - .5, high + .5};
   for (int row = 0; row < world.height; ++row)
     for (int column = 0; column < world.width; ++column)
       if (!world.state(column, row))
@@ -51,10 +51,14 @@ double percentile(std::vector<double> numbers, double share) {
 
 Figure valueFigure(const GridWorld& world, const Eigen::VectorXd& values) {
   Figure figure = emptyGrid(world, values);
-  for (std::size_t s = 0; s < world.cells.size(); ++s)
+  for (std::size_t s = 0; s < world.cells.size(); ++s) {
+    const auto& [column, row] = world.cells[s];
+    // Next to the right border a note ends where it otherwise begins.
+    const bool endsThere = (column + .5) / world.width > .8;
     figure.notes.push_back({.text = fmt::format("{:.2f}", values[static_cast<Eigen::Index>(s)]),
-                            .x = world.cells[s][0] - .25,
-                            .y = static_cast<double>(world.cells[s][1])});
+                            .x = column + (endsThere ? .3 : -.3),
+                            .y = row - .1});
+  }
   return figure;
 }
 
