@@ -126,7 +126,7 @@ LearningCurves learnPole(const std::string& label, const Update& update) {
   LearningCurves curves{label, {}};
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     Rng rng(seed);
-    Policy policy{Eigen::Vector2d::Zero(), 2 * Eigen::Matrix2d::Identity()};
+    Policy policy{Eigen::Vector2d::Zero(), 10 * Eigen::Matrix2d::Identity()};
     std::vector<double> returns;
     for (int i = 0; i < 40; ++i) {
       std::vector<Trial> trials;
@@ -148,7 +148,7 @@ void showPole() {
   const LearningCurves byGradient =
       learnPole("REINFORCE", [](const Policy& policy, const std::vector<Trial>& trials) {
         const Eigen::VectorXd g = reinforce(policy, trials, 1);
-        return Eigen::VectorXd(policy.beta + .5 * g / (g.norm() + 1e-9));
+        return Eigen::VectorXd(policy.beta + g / (g.norm() + 1e-9));
       });
   const LearningCurves byPower = learnPole(
       "PoWER",
