@@ -149,21 +149,41 @@ inline void gradientFits(rex::grading::Check& check, Student& student, int count
              1e-9 * (1 + exact.norm()));
 }
 
-/// From many trials it must point along the true gradient. The cosine of a right one falls below .99 once in
-/// more than 10^5 times.
-inline void gradientIsTheTrueOne(rex::grading::Check& check, Student& student) {
-  LinearTask task = randomTask(check.rng());
-  task.horizon = 4;
-  const Policy policy = randomPolicy(check.rng());
+/// A task, a policy and trials of equal length that tell the gradient well: the standard error of REINFORCE
+/// is below a 40th of its length, so that it is off by more than the cosine below allows (a seventh) once in
+/// more than 10^7 times. Rewards are counted from their mean in each step, which costs nothing but noise.
+struct Lesson {
+  LinearTask task;
+  Policy policy;
   std::vector<Trial> trials;
-  for (const Trial& trial : trialsOf(task, policy, 30000, check.rng()))
-    if (trial.rewards.size() == task.horizon) trials.push_back(trial);
-  check.input(fmt::format("{} trials of a linear task with quadratic costs", trials.size()));
-  const Eigen::VectorXd found = student.reinforce(policy, trials, task.discount);
-  const Eigen::Vector2d exact = exactGradient(task, policy, task.horizon);
+  Eigen::Vector2d exact;
+};
+
+inline Lesson tellingLesson(rex::Rng& rng) {
+  for (;;) {
+    Lesson lesson{randomTask(rng), randomPolicy(rng), {}, {}};
+    lesson.task.horizon = 8;
+    Eigen::VectorXd mean = Eigen::VectorXd::Zero(8);
+    for (const Trial& trial : trialsOf(lesson.task, lesson.policy, 20000, rng)) {
+      if (trial.rewards.size() != 8) continue;
+      lesson.trials.push_back(trial);
+      mean += trial.rewards / 10000;
+    }
+    for (Trial& trial : lesson.trials) trial.rewards -= mean;
+    lesson.exact = exactGradient(lesson.task, lesson.policy, 8);
+    const rex::PolicyGradient found = rex::reinforceGradient(
+        asLibrary(lesson.policy), episodesOf(lesson.trials), lesson.task.discount, rex::Baseline::kNone);
+    if (found.standardError.norm() < lesson.exact.norm() / 40) return lesson;
+  }
+}
+
+inline void gradientIsTheTrueOne(rex::grading::Check& check, Student& student) {
+  const Lesson lesson = tellingLesson(check.rng());
+  check.input(fmt::format("{} trials of a linear task with quadratic costs", lesson.trials.size()));
+  const Eigen::VectorXd found = student.reinforce(lesson.policy, lesson.trials, lesson.task.discount);
   check.shape("gradient", found, 2, 1);
-  check.atLeast("cosine of the angle to the exact gradient", found.dot(exact) / found.norm() / exact.norm(),
-                .99);
+  check.atLeast("cosine of the angle to the exact gradient",
+                found.dot(lesson.exact) / found.norm() / lesson.exact.norm(), .99);
 }
 
 inline void powerFits(rex::grading::Check& check, Student& student, int count) {

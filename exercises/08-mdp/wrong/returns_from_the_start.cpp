@@ -2,10 +2,10 @@
 // mistake: sums what came before, too.
 
 // <solution returnsToGo>
-  double sum = 0, weight = 1;
-  for (const double reward : rewards) {
-    sum += weight * reward;
-    weight *= discount;
-  }
-  return Eigen::VectorXd::Constant(rewards.size(), sum);
+double sum = 0, weight = 1;
+for (const double reward : rewards) {
+  sum += weight * reward;
+  weight *= discount;
+}
+return Eigen::VectorXd::Constant(rewards.size(), sum);
 // </solution>
