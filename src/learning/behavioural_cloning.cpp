@@ -75,6 +75,23 @@ class SoftmaxLoss {
   Eigen::MatrixXd taken_{};  // n x actions: one where it was taken
 };
 
+// Moves the weights and their loss down by Newton's step, halved until it leads there; false if none does.
+bool newtonStep(const SoftmaxLoss& loss, const Eigen::MatrixXd& gradient, Eigen::MatrixXd& weights,
+                double& value) {
+  const Eigen::VectorXd step = loss.hessian(weights).ldlt().solve(gradient.reshaped());
+  const double slope = step.dot(gradient.reshaped());
+  for (double length = 1; length > 1e-10; length /= 2) {
+    const Eigen::MatrixXd next = weights - length * step.reshaped(weights.rows(), weights.cols());
+    const double lower = loss.value(next);
+    // Next to the optimum the loss no longer tells: there full steps are taken.
+    if (!(lower <= value - 1e-4 * length * slope + 1e-14 * (1 + std::abs(value)))) continue;
+    weights = next;
+    value = lower;
+    return true;
+  }
+  return false;
+}
+
 void requireActions(const std::vector<int>& actions, Eigen::Index demonstrations, int count) {
   requireSize("actions of the demonstrations", static_cast<long>(actions.size()), demonstrations);
   if (count < 2) throw Error({.what = "actions", .found = fmt::format("{}", count), .wanted = "2 or more"});
@@ -128,22 +145,10 @@ SoftmaxClone cloneSoftmax(const MatrixArg& features, const std::vector<int>& act
   Eigen::MatrixXd gradient = loss.gradient(weights);
   const double tolerance = 1e-10 * std::max(1., features.cwiseAbs().maxCoeff());
   clone.loss = loss.value(weights);
-  for (bool isMoving = true; isMoving && clone.iterations < maxIterations;) {
-    if (gradient.cwiseAbs().maxCoeff() <= tolerance) break;
-    const Eigen::VectorXd step = loss.hessian(weights).ldlt().solve(gradient.reshaped());
-    const double slope = step.dot(gradient.reshaped());
-    isMoving = false;
-    for (double length = 1; length > 1e-10 && !isMoving; length /= 2) {
-      const Eigen::MatrixXd next = weights - length * step.reshaped(weights.rows(), weights.cols());
-      const double value = loss.value(next);
-      // Next to the optimum the loss no longer tells: there full steps are taken.
-      if (!(value <= clone.loss - 1e-4 * length * slope + 1e-14 * (1 + std::abs(clone.loss)))) continue;
-      isMoving = true;
-      weights = next;
-      clone.loss = value;
-    }
-    gradient = loss.gradient(weights);
+  while (clone.iterations < maxIterations && gradient.cwiseAbs().maxCoeff() > tolerance) {
     ++clone.iterations;
+    if (!newtonStep(loss, gradient, weights, clone.loss)) break;
+    gradient = loss.gradient(weights);
   }
   clone.residual = gradient.cwiseAbs().maxCoeff();
   const bool isConverged = clone.residual <= tolerance;

@@ -21,6 +21,24 @@ void requireFeatures(const MatrixArg& features) {
       throw Error({.what = fmt::format("features of state {}", s), .found = "not all finite"});
 }
 
+void require(const Mdp& mdp, const MatrixArg& features, const VectorArg& teacher,
+             const InverseRlOptions& options) {
+  requireMdp(mdp);
+  if (mdp.discount == 1)
+    throw Error({.what = "discount of inverse learning", .found = "1", .wanted = "less than 1"});
+  requireFeatures(features);
+  requireSize("expectations of the teacher", teacher.size(), features.rows());
+  requireFinite("expectations of the teacher", teacher);
+  if (!(options.tolerance > 0))
+    throw Error({.what = "tolerance of inverse learning",
+                 .found = fmt::format("{:g}", options.tolerance),
+                 .wanted = "a positive number"});
+  if (options.maxIterations < 1)
+    throw Error({.what = "maxIterations of inverse learning",
+                 .found = fmt::format("{}", options.maxIterations),
+                 .wanted = "1 or more"});
+}
+
 // The best policy where being in s pays w^T phi(s).
 Eigen::MatrixXd bestUnder(Mdp mdp, const MatrixArg& features, const Eigen::VectorXd& w) {
   mdp.rewards.colwise() = features.transpose() * w;
@@ -63,20 +81,7 @@ Eigen::VectorXd featureExpectations(const std::vector<std::vector<int>>& demonst
 
 InverseRlResult inverseRl(const Mdp& mdp, const MatrixArg& features, const VectorArg& start,
                           const VectorArg& teacher, const InverseRlOptions& options) {
-  requireMdp(mdp);
-  if (mdp.discount == 1)
-    throw Error({.what = "discount of inverse learning", .found = "1", .wanted = "less than 1"});
-  requireFeatures(features);
-  requireSize("expectations of the teacher", teacher.size(), features.rows());
-  requireFinite("expectations of the teacher", teacher);
-  if (!(options.tolerance > 0))
-    throw Error({.what = "tolerance of inverse learning",
-                 .found = fmt::format("{:g}", options.tolerance),
-                 .wanted = "a positive number"});
-  if (options.maxIterations < 1)
-    throw Error({.what = "maxIterations of inverse learning",
-                 .found = fmt::format("{}", options.maxIterations),
-                 .wanted = "1 or more"});
+  require(mdp, features, teacher, options);
   InverseRlResult result;
   result.policies = {uniformPolicy(mdp)};
   result.w = Eigen::VectorXd::Zero(teacher.size());
