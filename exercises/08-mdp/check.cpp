@@ -1,0 +1,118 @@
+#include "grading/check.h"
+
+#include "interface.h"
+#include "process_checks.h"
+#include "trial_checks.h"
+
+using rex::grading::Check;
+using rex::grading::Group;
+
+namespace {
+
+void mazeOfTheSheet(Check& check, Student& student) { mazeFits(check, student, {4, 0, 2, 3}, .5); }
+
+void valuesOfPolicies(Check& check, Student& student) {
+  for (const int n : {1, 3, 8})
+    policyIsWorth(check, student, randomProcess(check.rng(), n, 2, check.rng().uniform(.3, .9)));
+  policyIsWorth(check, student, processOf(rex::tMaze()));
+}
+
+void worths(Check& check, Student& student) {
+  for (const int n : {1, 3, 8})
+    actionsAreWorth(check, student, randomProcess(check.rng(), n, 3, check.rng().uniform(.3, .9)));
+}
+
+void settles(Check& check, Student& student) {
+  valuesSettle(check, student, processOf(rex::tMaze()), 1e-6);
+  valuesSettle(check, student, randomProcess(check.rng(), 6, 2, .95), 1e-3);
+}
+
+void improves(Check& check, Student& student) {
+  policiesImprove(check, student, processOf(rex::tMaze()));
+  for (int i = 0; i < 3; ++i) policiesImprove(check, student, randomProcess(check.rng(), 8, 3, .9));
+}
+
+void trials(Check& check, Student& student) {
+  trialFits(check, student, 2, 15, 100);
+  trialFits(check, student, 3, 15, 6);
+  trialFits(check, student, 2, 15, 15);
+}
+
+void returns(Check& check, Student& student) {
+  for (const int T : {1, 2, 7}) returnsFit(check, student, T);
+}
+
+void gradients(Check& check, Student& student) {
+  for (const int count : {1, 4}) gradientFits(check, student, count);
+}
+
+void powers(Check& check, Student& student) {
+  for (const int count : {3, 10}) powerFits(check, student, count);
+}
+
+// <hidden>
+void mazesOfOtherLeaves(Check& check, Student& student) {
+  check.forEachCase(10, [&](int) {
+    mazeFits(check, student, 5 * check.rng().normalVector(4), check.rng().uniform(.1, 1));
+  });
+}
+
+void largerProcesses(Check& check, Student& student) {
+  check.forEachCase(12, [&](int i) {
+    rex::Rng& rng = check.rng();
+    const Process process = randomProcess(rng, 2 + rng.index(30), 1 + rng.index(4), rng.uniform(0, .98));
+    if (i % 2 == 0) policyIsWorth(check, student, process);
+    if (i % 2 == 1) actionsAreWorth(check, student, process);
+  });
+}
+
+void unseenSettle(Check& check, Student& student) {
+  check.forEachCase(8, [&](int) {
+    rex::Rng& rng = check.rng();
+    const Process process = randomProcess(rng, 2 + rng.index(10), 1 + rng.index(4), rng.uniform(.5, .97));
+    valuesSettle(check, student, process, std::pow(10, rng.uniform(-6, -1)));
+  });
+}
+
+void unseenImprove(Check& check, Student& student) {
+  const rex::GridWorld world =
+      rex::gridWorld("....G\n.##..\n.P...", {.stepReward = -.02, .slip = .1, .marks = {{'G', 1}, {'P', -1}}});
+  check.forEachCase(8, [&](int i) {
+    rex::Rng& rng = check.rng();
+    policiesImprove(check, student,
+                    i == 0 ? processOf(world.mdp)
+                           : randomProcess(rng, 2 + rng.index(20), 1 + rng.index(4), rng.uniform(0, .97)));
+  });
+}
+
+void trueGradient(Check& check, Student& student) { gradientIsTheTrueOne(check, student); }
+
+void morePower(Check& check, Student& student) {
+  check.forEachCase(8, [&](int i) { powerFits(check, student, 3 + 5 * i); });
+}
+// </hidden>
+
+}  // namespace
+
+rex::grading::Checks<Student> checks() {
+  return {
+      {"maze", "maze", "The T-maze of the sheet", 1, Group::visible, mazeOfTheSheet},
+      {"policy-values", "values", "Values of a policy", 1, Group::visible, valuesOfPolicies},
+      {"worth", "values", "What actions are worth", 1, Group::visible, worths},
+      {"settles", "values-best", "Value iteration", 1, Group::visible, settles},
+      {"improves", "policies", "Policy iteration", 1, Group::visible, improves},
+      {"trials", "trials", "Trials with noise, cut at a failure", 2, Group::visible, trials},
+      {"returns", "gradient", "Returns to go", 1, Group::visible, returns},
+      {"gradient", "gradient", "The gradient of given trials", 1, Group::visible, gradients},
+      {"power", "power", "One step of PoWER", 1, Group::visible, powers},
+      // <hidden>
+      {"other-mazes", "maze", "T-mazes with other leaves", 1, Group::hidden, mazesOfOtherLeaves},
+      {"larger", "values", "Processes of any size", 1, Group::hidden, largerProcesses},
+      {"unseen-settle", "values-best", "Value iteration on other processes", 2, Group::hidden, unseenSettle},
+      {"unseen-improve", "policies", "Policy iteration on other processes", 1, Group::hidden, unseenImprove},
+      {"true-gradient", "gradient", "The gradient of a task where it is known", 1, Group::hidden,
+       trueGradient},
+      {"more-power", "power", "PoWER on more trials", 1, Group::hidden, morePower},
+      // </hidden>
+  };
+}

@@ -1,0 +1,279 @@
+#include <cmath>
+
+#include "course/mdp_figures.h"
+#include "exercise.h"
+#include "learning/dynamic_programming.h"
+#include "pole.h"
+
+using namespace rex;
+
+// Keeps the compiler quiet about what a function below does not use yet.
+template <class... Unused>
+void notUsedYet(const Unused&...) {}
+
+MazeValues mazeValues(const Eigen::VectorXd& leaves, double discount) {
+  // <solution mazeValues>
+  MazeValues values{Eigen::VectorXd(7), Eigen::VectorXd(7)};
+  values.random.tail(4) = values.optimal.tail(4) = leaves;
+  for (int s = 2; s >= 0; --s) {
+    const int left = 2 * s + 1, right = 2 * s + 2;
+    values.random[s] = discount * (values.random[left] + values.random[right]) / 2;
+    values.optimal[s] = discount * std::max(values.optimal[left], values.optimal[right]);
+  }
+  return values;
+  // <todo>
+  //| // TODO: from the leaves to the root.
+  //| notUsedYet(leaves, discount);
+  //| return {Eigen::VectorXd::Zero(7), Eigen::VectorXd::Zero(7)};
+  // </solution>
+}
+
+Eigen::VectorXd valuesOf(const Process& process, const Eigen::MatrixXd& policy) {
+  // <solution valuesOf>
+  const Eigen::Index n = process.R.rows();
+  Eigen::MatrixXd M = Eigen::MatrixXd::Identity(n, n);
+  for (Eigen::Index a = 0; a < process.R.cols(); ++a)
+    M -= process.discount * policy.col(a).asDiagonal() * process.P[static_cast<std::size_t>(a)];
+  const Eigen::VectorXd expected = process.R.cwiseProduct(policy).rowwise().sum();
+  return solve(M, expected);
+  // <todo>
+  //| // TODO: eq. (9) for all states is one linear system. solve(A, b) gives the x with A x = b.
+  //| notUsedYet(policy);
+  //| return Eigen::VectorXd::Zero(process.R.rows());
+  // </solution>
+}
+
+Eigen::MatrixXd worthOfActions(const Process& process, const Eigen::VectorXd& V) {
+  // <solution worthOfActions>
+  Eigen::MatrixXd Q = process.R;
+  for (Eigen::Index a = 0; a < Q.cols(); ++a)
+    Q.col(a) += process.discount * process.P[static_cast<std::size_t>(a)] * V;
+  return Q;
+  // <todo>
+  //| // TODO: the reward now, and what the next state is worth on average.
+  //| notUsedYet(V);
+  //| return Eigen::MatrixXd::Zero(process.R.rows(), process.R.cols());
+  // </solution>
+}
+
+std::vector<Eigen::VectorXd> iterateValues(const Process& process, double tolerance) {
+  // <solution iterateValues>
+  std::vector<Eigen::VectorXd> all{Eigen::VectorXd::Zero(process.R.rows())};
+  double bound = INFINITY;
+  while (bound > tolerance) {
+    const Eigen::VectorXd next = worthOfActions(process, all.back()).rowwise().maxCoeff();
+    const double change = (next - all.back()).cwiseAbs().maxCoeff();
+    bound = process.discount / (1 - process.discount) * change;
+    all.push_back(next);
+  }
+  return all;
+  // <todo>
+  //| // TODO: the best of worthOfActions() in each state, until the bound in exercise.h is small enough.
+  //| notUsedYet(tolerance);
+  //| return {Eigen::VectorXd::Zero(process.R.rows())};
+  // </solution>
+}
+
+std::vector<std::vector<int>> iteratePolicies(const Process& process) {
+  // <solution iteratePolicies>
+  const auto n = static_cast<std::size_t>(process.R.rows());
+  std::vector<std::vector<int>> policies{std::vector<int>(n, 0)};
+  for (bool isBetter = true; isBetter;) {
+    isBetter = false;
+    std::vector<int> actions = policies.back();
+    Eigen::MatrixXd policy = Eigen::MatrixXd::Zero(process.R.rows(), process.R.cols());
+    for (std::size_t s = 0; s < n; ++s) policy(static_cast<Eigen::Index>(s), actions[s]) = 1;
+    const Eigen::VectorXd V = valuesOf(process, policy);
+    const Eigen::MatrixXd Q = worthOfActions(process, V);
+    for (std::size_t s = 0; s < n; ++s) {
+      int best = 0;
+      const auto row = static_cast<Eigen::Index>(s);
+      if (Q.row(row).maxCoeff(&best) <= Q(row, actions[s]) + 1e-11 * V.cwiseAbs().maxCoeff()) continue;
+      actions[s] = best;
+      isBetter = true;
+    }
+    if (isBetter) policies.push_back(actions);
+  }
+  return policies;
+  // <todo>
+  //| // TODO: the values of the last policy, the actions that are best by them, and again.
+  //| return {std::vector<int>(static_cast<std::size_t>(process.R.rows()), 0)};
+  // </solution>
+}
+
+Trial runTrial(const StepFunction& step, const Eigen::VectorXd& start, const Policy& policy, int horizon,
+               Rng& rng) {
+  // <solution runTrial>
+  const auto k = static_cast<int>(start.size());
+  Trial trial{Eigen::MatrixXd(k, horizon), Eigen::MatrixXd(k, horizon), Eigen::VectorXd(horizon)};
+  Eigen::VectorXd state = start;
+  int t = 0;
+  for (bool goesOn = true; goesOn && t < horizon; ++t) {
+    trial.features.col(t) = state;
+    trial.noise.col(t) = policy.L * rng.normalVector(k);
+    const Outcome outcome = step(state, state.dot(policy.beta + trial.noise.col(t)));
+    trial.rewards[t] = outcome.reward;
+    state = outcome.next;
+    goesOn = !outcome.failed;
+  }
+  return {trial.features.leftCols(t), trial.noise.leftCols(t), trial.rewards.head(t)};
+  // <todo>
+  //| // TODO: draw epsilon, act, note down; until the horizon or a failure.
+  //| notUsedYet(step, policy, horizon, rng);
+  //| return {Eigen::MatrixXd(start.size(), 0), Eigen::MatrixXd(start.size(), 0), Eigen::VectorXd(0)};
+  // </solution>
+}
+
+Eigen::VectorXd returnsToGo(const Eigen::VectorXd& rewards, double discount) {
+  // <solution returnsToGo>
+  Eigen::VectorXd returns = rewards;
+  for (Eigen::Index t = rewards.size() - 2; t >= 0; --t) returns[t] += discount * returns[t + 1];
+  return returns;
+  // <todo>
+  //| // TODO: the last is the last reward. And the one before?
+  //| notUsedYet(discount);
+  //| return Eigen::VectorXd::Zero(rewards.size());
+  // </solution>
+}
+
+Eigen::VectorXd reinforce(const Policy& policy, const std::vector<Trial>& trials, double discount) {
+  // <solution reinforce>
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(policy.beta.size());
+  for (const Trial& trial : trials) {
+    const Eigen::VectorXd Q = returnsToGo(trial.rewards, discount);
+    for (Eigen::Index t = 0; t < Q.size(); ++t) {
+      const Eigen::VectorXd phi = trial.features.col(t);
+      const double variance = (policy.L.transpose() * phi).squaredNorm();
+      sum += std::pow(discount, t) * Q[t] * phi.dot(trial.noise.col(t)) / variance * phi;
+    }
+  }
+  return sum / static_cast<double>(trials.size());
+  // <todo>
+  //| // TODO: differentiate the logarithm of the normal density of 9:16 by beta; how far was a from its mean?
+  //| notUsedYet(trials, discount);
+  //| return Eigen::VectorXd::Zero(policy.beta.size());
+  // </solution>
+}
+
+Eigen::VectorXd power(const Policy& policy, const std::vector<Trial>& trials, double discount) {
+  // <solution power>
+  const Eigen::Index k = policy.beta.size();
+  Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(k, k);
+  Eigen::VectorXd moves = Eigen::VectorXd::Zero(k);
+  for (const Trial& trial : trials) {
+    const Eigen::VectorXd Q = returnsToGo(trial.rewards, discount);
+    for (Eigen::Index t = 0; t < Q.size(); ++t) {
+      const Eigen::VectorXd phi = trial.features.col(t);
+      const Eigen::MatrixXd W = phi * phi.transpose() / (policy.L.transpose() * phi).squaredNorm();
+      weights += W * Q[t];
+      moves += W * trial.noise.col(t) * Q[t];
+    }
+  }
+  return policy.beta + solve(weights, moves);
+  // <todo>
+  //| // TODO: a matrix and a vector, summed over all steps of all trials.
+  //| notUsedYet(trials, discount);
+  //| return policy.beta;
+  // </solution>
+}
+
+// What follows is given.
+
+// A slippery floor with a goal, a pit and walls, as a process of yours.
+Process processOf(const GridWorld& world) {
+  return {denseTransitions(world.mdp), world.mdp.rewards, world.mdp.discount};
+}
+
+void showMaze() {
+  const MazeValues values = mazeValues(Eigen::Vector4d(4, 0, 2, 3), .5);
+  print("T-maze, random policy", values.random.transpose());
+  print("T-maze, optimal policy", values.optimal.transpose());
+}
+
+GridWorld slipperyFloor() {
+  return gridWorld(
+      "........\n"
+      ".##..#..\n"
+      ".#...#.G\n"
+      ".#.P.##.\n"
+      "........\n",
+      {.discount = .95, .stepReward = -.02, .slip = .2, .marks = {{'G', 1}, {'P', -1}}});
+}
+
+// `exact` are the optimal values, of the library.
+void showGrid(const GridWorld& world, const Eigen::VectorXd& exact) {
+  const Process process = processOf(world);
+  const Eigen::Index n = process.R.rows();
+  Figure random = valueFigure(world, valuesOf(process, Eigen::MatrixXd::Constant(n, 4, .25)));
+  random.title = "Values of walking at random";
+  plot("random", random);
+
+  const std::vector<Eigen::VectorXd> V = iterateValues(process, 1e-6);
+  Figure optimal = valueFigure(world, V.back());
+  optimal.title = "Optimal values";
+  plot("optimal", optimal);
+  const std::vector<std::vector<int>> policies = iteratePolicies(process);
+  Figure policy = policyFigure(world, V.back(), policyOf(world.mdp, policies.back()));
+  policy.title = "Optimal policy";
+  plot("policy", policy);
+
+  // How far both are from them, step by step.
+  Figure figure{.title = "Distance from the optimal values",
+                .xLabel = "iteration",
+                .yLabel = "greatest error",
+                .logY = true};
+  Series values{.label = "value iteration"},
+      steps{.label = "policy iteration", .style = SeriesStyle::kLinesPoints};
+  for (const Eigen::VectorXd& v : V) values.y.push_back((v - exact).cwiseAbs().maxCoeff() + 1e-12);
+  for (const std::vector<int>& actions : policies)
+    steps.y.push_back((valuesOf(process, policyOf(world.mdp, actions)) - exact).cwiseAbs().maxCoeff() +
+                      1e-12);
+  figure.series = {values, steps};
+  plot("convergence", figure);
+}
+
+// Learning to balance a pole, several times, with fresh noise.
+using Update = std::function<Eigen::VectorXd(const Policy&, const std::vector<Trial>&)>;
+LearningCurves learnPole(const std::string& label, const Update& update) {
+  LearningCurves curves{label, {}};
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    Rng rng(seed);
+    Policy policy{Eigen::Vector2d::Zero(), 10 * Eigen::Matrix2d::Identity()};
+    std::vector<double> returns;
+    for (int i = 0; i < 40; ++i) {
+      std::vector<Trial> trials;
+      double sum = 0;
+      for (int j = 0; j < 20; ++j) {
+        trials.push_back(runTrial(poleStep(rng), poleStart(rng), policy, kPoleHorizon, rng));
+        sum += trials.back().rewards.sum() / 20;
+      }
+      returns.push_back(sum);
+      const Eigen::VectorXd next = update(policy, trials);
+      if (next.allFinite()) policy.beta = next;
+    }
+    curves.runs.push_back(returns);
+  }
+  return curves;
+}
+
+void showPole() {
+  const LearningCurves byGradient =
+      learnPole("REINFORCE", [](const Policy& policy, const std::vector<Trial>& trials) {
+        const Eigen::VectorXd g = reinforce(policy, trials, 1);
+        return Eigen::VectorXd(policy.beta + g / (g.norm() + 1e-9));
+      });
+  const LearningCurves byPower = learnPole(
+      "PoWER",
+      [](const Policy& policy, const std::vector<Trial>& trials) { return power(policy, trials, 1); });
+  Figure figure = learningFigure({byGradient, byPower});
+  figure.title = "Balancing a pole: ten runs each";
+  figure.xLabel = "iterations of 20 trials";
+  plot("learning", figure);
+}
+
+int main() {
+  showMaze();
+  const GridWorld floor = slipperyFloor();
+  showGrid(floor, policyIteration(floor.mdp).V);
+  showPole();
+}

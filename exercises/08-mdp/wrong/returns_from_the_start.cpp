@@ -1,0 +1,11 @@
+// caught by: returns, gradient
+// mistake: sums what came before, too.
+
+// <solution returnsToGo>
+double sum = 0, weight = 1;
+for (const double reward : rewards) {
+  sum += weight * reward;
+  weight *= discount;
+}
+return Eigen::VectorXd::Constant(rewards.size(), sum);
+// </solution>

@@ -1,0 +1,9 @@
+// caught by: returns
+// mistake: discount forgotten.
+
+// <solution returnsToGo>
+Eigen::VectorXd returns = rewards;
+for (Eigen::Index t = rewards.size() - 2; t >= 0; --t) returns[t] += returns[t + 1];
+notUsedYet(discount);
+return returns;
+// </solution>

@@ -1,0 +1,13 @@
+// caught by: gradient
+// mistake: leaves the variance of the action out.
+
+// <solution reinforce>
+Eigen::VectorXd sum = Eigen::VectorXd::Zero(policy.beta.size());
+for (const Trial& trial : trials) {
+  const Eigen::VectorXd Q = returnsToGo(trial.rewards, discount);
+  for (Eigen::Index t = 0; t < Q.size(); ++t)
+    sum +=
+        std::pow(discount, t) * Q[t] * trial.features.col(t).dot(trial.noise.col(t)) * trial.features.col(t);
+}
+return sum / static_cast<double>(trials.size());
+// </solution>

@@ -1,0 +1,143 @@
+#include "learning/mdp.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace rex {
+namespace {
+
+constexpr double kTolerance = 1e-9;
+
+void requireRow(const Mdp& mdp, int action, int state) {
+  const auto what = [&] { return fmt::format("transition of action {} from state {}", action, state); };
+  double sum = 0;
+  for (TransitionMatrix::InnerIterator entry(mdp.transitions[static_cast<std::size_t>(action)], state); entry;
+       ++entry) {
+    if (!(entry.value() >= 0) || !std::isfinite(entry.value()))
+      throw Error({.what = fmt::format("{} to state {}", what(), entry.col()),
+                   .found = fmt::format("{:g}", entry.value()),
+                   .wanted = "a probability"});
+    sum += entry.value();
+  }
+  if (mdp.isTerminal(state) ? sum == 0 : std::abs(sum - 1) <= kTolerance) return;
+  throw Error({.what = what(),
+               .found = fmt::format("probabilities that sum to {:.12g}", sum),
+               .wanted = mdp.isTerminal(state) ? "none, because the state is terminal" : "a sum of 1"});
+}
+
+void requireSizes(const Mdp& mdp) {
+  if (mdp.rewards.size() == 0)
+    throw Error({.what = "rewards of the decision process",
+                 .found = fmt::format("{} x {}", mdp.rewards.rows(), mdp.rewards.cols()),
+                 .wanted = "states x actions, one of each at least"});
+  requireSize("transition matrices, one for each action", static_cast<long>(mdp.transitions.size()),
+              mdp.actions());
+  if (!mdp.terminal.empty())
+    requireSize("terminal, one for each state", static_cast<long>(mdp.terminal.size()), mdp.states());
+  for (std::size_t a = 0; a < mdp.transitions.size(); ++a) {
+    const TransitionMatrix& P = mdp.transitions[a];
+    if (P.rows() == mdp.states() && P.cols() == mdp.states()) continue;
+    throw Error({.what = fmt::format("transitions of action {}", a),
+                 .found = fmt::format("{} x {}", P.rows(), P.cols()),
+                 .wanted = fmt::format("{0} x {0}, as there are states", mdp.states())});
+  }
+}
+
+}  // namespace
+
+void requireMdp(const Mdp& mdp) {
+  requireSizes(mdp);
+  if (!(mdp.discount >= 0 && mdp.discount <= 1))
+    throw Error(
+        {.what = "discount", .found = fmt::format("{:g}", mdp.discount), .wanted = "a number in [0, 1]"});
+  for (int s = 0; s < mdp.states(); ++s)
+    for (int a = 0; a < mdp.actions(); ++a) {
+      if (!std::isfinite(mdp.rewards(s, a)))
+        throw Error({.what = fmt::format("reward of action {} in state {}", a, s),
+                     .found = fmt::format("{:g}", mdp.rewards(s, a)),
+                     .wanted = "a finite number"});
+      requireRow(mdp, a, s);
+    }
+}
+
+std::vector<Eigen::MatrixXd> denseTransitions(const Mdp& mdp) {
+  return {mdp.transitions.begin(), mdp.transitions.end()};
+}
+
+Eigen::MatrixXd rewardsOnEntering(const std::vector<TransitionMatrix>& transitions,
+                                  const VectorArg& entered) {
+  Eigen::MatrixXd rewards(entered.size(), static_cast<Eigen::Index>(transitions.size()));
+  for (std::size_t a = 0; a < transitions.size(); ++a) {
+    requireSize(fmt::format("rows of the transitions of action {}", a), transitions[a].rows(),
+                entered.size());
+    requireSize(fmt::format("columns of the transitions of action {}", a), transitions[a].cols(),
+                entered.size());
+    rewards.col(static_cast<Eigen::Index>(a)) = transitions[a] * entered;
+  }
+  return rewards;
+}
+
+void requirePolicy(const Mdp& mdp, const MatrixArg& policy) {
+  if (policy.rows() != mdp.states() || policy.cols() != mdp.actions())
+    throw Error({.what = "policy",
+                 .found = fmt::format("{} x {}", policy.rows(), policy.cols()),
+                 .wanted = fmt::format("states x actions, {} x {}", mdp.states(), mdp.actions())});
+  for (Eigen::Index s = 0; s < policy.rows(); ++s) {
+    for (Eigen::Index a = 0; a < policy.cols(); ++a)
+      if (!(policy(s, a) >= 0) || !std::isfinite(policy(s, a)))
+        throw Error({.what = fmt::format("policy in state {}, action {}", s, a),
+                     .found = fmt::format("{:g}", policy(s, a)),
+                     .wanted = "a probability"});
+    if (std::abs(policy.row(s).sum() - 1) > kTolerance)
+      throw Error({.what = fmt::format("policy in state {}", s),
+                   .found = fmt::format("probabilities that sum to {:.12g}", policy.row(s).sum()),
+                   .wanted = "a sum of 1"});
+  }
+}
+
+Eigen::MatrixXd uniformPolicy(const Mdp& mdp) {
+  return Eigen::MatrixXd::Constant(mdp.states(), mdp.actions(), 1. / mdp.actions());
+}
+
+Eigen::MatrixXd policyOf(const Mdp& mdp, const std::vector<int>& actions) {
+  requireSize("actions, one for each state", static_cast<long>(actions.size()), mdp.states());
+  Eigen::MatrixXd policy = Eigen::MatrixXd::Zero(mdp.states(), mdp.actions());
+  for (int s = 0; s < mdp.states(); ++s) {
+    const int a = actions[static_cast<std::size_t>(s)];
+    if (a < 0 || a >= mdp.actions())
+      throw Error({.what = fmt::format("action in state {}", s),
+                   .found = fmt::format("{}", a),
+                   .wanted = fmt::format("one of 0 to {}", mdp.actions() - 1)});
+    policy(s, a) = 1;
+  }
+  return policy;
+}
+
+Eigen::MatrixXd epsilonGreedy(const MatrixArg& Q, double epsilon) {
+  if (!(epsilon >= 0 && epsilon <= 1))
+    throw Error({.what = "epsilon", .found = fmt::format("{:g}", epsilon), .wanted = "a number in [0, 1]"});
+  Eigen::MatrixXd policy =
+      Eigen::MatrixXd::Constant(Q.rows(), Q.cols(), epsilon / static_cast<double>(Q.cols()));
+  const std::vector<int> best = greedyActions(Q);
+  for (Eigen::Index s = 0; s < Q.rows(); ++s) policy(s, best[static_cast<std::size_t>(s)]) += 1 - epsilon;
+  return policy;
+}
+
+Eigen::MatrixXd actionValues(const Mdp& mdp, const VectorArg& V) {
+  requireSize("values, one for each state", V.size(), mdp.states());
+  Eigen::MatrixXd Q = mdp.rewards;
+  for (int a = 0; a < mdp.actions(); ++a)
+    Q.col(a).noalias() += mdp.discount * (mdp.transitions[static_cast<std::size_t>(a)] * V);
+  return Q;
+}
+
+std::vector<int> greedyActions(const MatrixArg& Q) {
+  std::vector<int> best(static_cast<std::size_t>(Q.rows()));
+  for (Eigen::Index s = 0; s < Q.rows(); ++s) Q.row(s).maxCoeff(&best[static_cast<std::size_t>(s)]);
+  return best;
+}
+
+}  // namespace rex

@@ -1,0 +1,162 @@
+#include "learning/policy_gradient.h"
+
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace rex {
+namespace {
+
+Eigen::MatrixXd scores(const LinearGaussianPolicy& policy, const Episode& episode) {
+  Eigen::MatrixXd scores(episode.features.rows(), episode.features.cols());
+  for (Eigen::Index t = 0; t < scores.cols(); ++t) {
+    const auto phi = episode.features.col(t);
+    const double variance = phi.dot(policy.Sigma * phi);
+    scores.col(t) = phi * (variance > 0 ? phi.dot(episode.noise.col(t)) / variance : 0.);
+  }
+  return scores;
+}
+
+void require(const LinearGaussianPolicy& policy, const std::vector<Episode>& episodes, double discount) {
+  requirePolicy(policy);
+  requireEpisodes(episodes, policy.beta.size());
+  if (!(discount >= 0 && discount <= 1))
+    throw Error({.what = "discount", .found = fmt::format("{:g}", discount), .wanted = "a number in [0, 1]"});
+}
+
+// Sums over episodes for each parameter and step: of score^2 Q and of score^2.
+struct BaselineSums {
+  Eigen::ArrayXXd weighted{}, weights{};
+};
+
+BaselineSums baselineSums(const std::vector<Eigen::MatrixXd>& all, const std::vector<Eigen::VectorXd>& Q) {
+  Eigen::Index longest = 0;
+  for (const auto& one : all) longest = std::max(longest, one.cols());
+  BaselineSums sums{Eigen::ArrayXXd::Zero(all.front().rows(), longest),
+                    Eigen::ArrayXXd::Zero(all.front().rows(), longest)};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Eigen::ArrayXXd squares = all[i].array().square();
+    sums.weights.leftCols(all[i].cols()) += squares;
+    sums.weighted.leftCols(all[i].cols()) += squares.rowwise() * Q[i].transpose().array();
+  }
+  return sums;
+}
+
+// The baseline that the other episodes give, k x T; zero where there is no other.
+Eigen::MatrixXd baselineWithout(const BaselineSums& sums, const Eigen::MatrixXd& scores,
+                                const Eigen::VectorXd& Q) {
+  const Eigen::ArrayXXd squares = scores.array().square();
+  const Eigen::ArrayXXd weights = sums.weights.leftCols(scores.cols()) - squares;
+  const Eigen::ArrayXXd weighted =
+      sums.weighted.leftCols(scores.cols()) - squares.rowwise() * Q.transpose().array();
+  // What remains of a sum after its only term was taken away is rounding.
+  return (weights > 1e-9 * sums.weights.leftCols(scores.cols())).select(weighted / weights, 0.).matrix();
+}
+
+Eigen::VectorXd powers(double discount, Eigen::Index count) {
+  Eigen::VectorXd weights(count);
+  double weight = 1;
+  for (double& entry : weights) {
+    entry = weight;
+    weight *= discount;
+  }
+  return weights;
+}
+
+Eigen::MatrixXd fisherMatrix(const LinearGaussianPolicy& policy, const std::vector<Episode>& episodes,
+                             double discount) {
+  Eigen::MatrixXd F = Eigen::MatrixXd::Zero(policy.beta.size(), policy.beta.size());
+  for (const Episode& episode : episodes) {
+    const Eigen::MatrixXd g = scores(policy, episode);
+    F += g * powers(discount, g.cols()).asDiagonal() * g.transpose();
+  }
+  return F / static_cast<double>(episodes.size());
+}
+
+}  // namespace
+
+Eigen::MatrixXd logGradients(const LinearGaussianPolicy& policy, const Episode& episode) {
+  requirePolicy(policy);
+  requireEpisodes({episode}, policy.beta.size());
+  return scores(policy, episode);
+}
+
+PolicyGradient reinforceGradient(const LinearGaussianPolicy& policy, const std::vector<Episode>& episodes,
+                                 double discount, Baseline baseline) {
+  require(policy, episodes, discount);
+  std::vector<Eigen::MatrixXd> all;
+  std::vector<Eigen::VectorXd> Q;
+  for (const Episode& episode : episodes) {
+    all.push_back(scores(policy, episode));
+    Q.push_back(returnsToGo(episode.rewards, discount));
+  }
+  const BaselineSums sums = baselineSums(all, Q);
+  const auto count = static_cast<double>(episodes.size());
+  Eigen::MatrixXd each(policy.beta.size(), static_cast<Eigen::Index>(episodes.size()));
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    Eigen::MatrixXd advantage = Q[i].transpose().replicate(policy.beta.size(), 1);
+    if (baseline == Baseline::kOptimal) advantage -= baselineWithout(sums, all[i], Q[i]);
+    each.col(static_cast<Eigen::Index>(i)) = all[i].cwiseProduct(advantage) * powers(discount, all[i].cols());
+  }
+  PolicyGradient result;
+  result.gradient = each.rowwise().mean();
+  result.standardError.setZero(policy.beta.size());
+  if (count > 1)
+    result.standardError =
+        ((each.colwise() - result.gradient).rowwise().squaredNorm() / (count - 1) / count).cwiseSqrt();
+  return result;
+}
+
+NaturalGradient naturalGradient(const LinearGaussianPolicy& policy, const std::vector<Episode>& episodes,
+                                double discount) {
+  NaturalGradient result;
+  result.gradient = reinforceGradient(policy, episodes, discount).gradient;
+  result.fisher = fisherMatrix(policy, episodes, discount);
+  // Features of any unit: what shows nothing is judged with a diagonal of ones.
+  const Eigen::VectorXd diagonal = result.fisher.diagonal();
+  const Eigen::VectorXd scale = (diagonal.array() > 0).select(diagonal.array().rsqrt(), 0.);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * result.fisher *
+                                                             scale.asDiagonal());
+  const Eigen::VectorXd& values = eigen.eigenvalues();
+  Eigen::VectorXd inverse = Eigen::VectorXd::Zero(values.size());
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    if (!(values[i] > 1e-12)) continue;
+    inverse[i] = 1 / values[i];
+    ++result.rank;
+  }
+  const Eigen::MatrixXd axes = scale.asDiagonal() * eigen.eigenvectors();
+  result.w = axes * inverse.asDiagonal() * axes.transpose() * result.gradient;
+  return result;
+}
+
+NaturalGradient episodicNaturalGradient(const LinearGaussianPolicy& policy,
+                                        const std::vector<Episode>& episodes, double discount) {
+  require(policy, episodes, discount);
+  const Eigen::Index k = policy.beta.size(), count = static_cast<Eigen::Index>(episodes.size());
+  Eigen::MatrixXd X(count, k);
+  Eigen::VectorXd returns(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Episode& episode = episodes[static_cast<std::size_t>(i)];
+    const Eigen::MatrixXd g = scores(policy, episode);
+    X.row(i) = (g * powers(discount, g.cols())).transpose();
+    returns[i] = returnsToGo(episode.rewards, discount)[0];
+  }
+  // Without their means there is no constant to find.
+  X.rowwise() -= X.colwise().mean().eval();
+  returns.array() -= returns.mean();
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factors;
+  factors.setThreshold(1e-10);
+  factors.compute(X);
+  NaturalGradient result;
+  result.w = factors.solve(returns);
+  result.rank = static_cast<int>(factors.rank());
+  result.fisher = fisherMatrix(policy, episodes, discount);
+  result.gradient = result.fisher * result.w;
+  return result;
+}
+
+}  // namespace rex

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <limits>
+#include <string>
+
+#include "learning/mdp.h"
+
+namespace rex {
+
+/// V is empty unless status is kSolved.
+struct PolicyValues {
+  MdpStatus status = MdpStatus::kNotConverged;
+  Eigen::VectorXd V{};
+  /// Greatest violation of Bellman's equation, relative to the greatest value.
+  double residual = std::numeric_limits<double>::infinity();
+  std::string message{};
+};
+
+/// The values of a policy by one linear system, V = R_pi + discount P_pi V: eq. (9) of exercise 12.10.
+/// kEndless with a discount of one if some state, which the message names, may never come to a terminal one.
+/// Throws Error as requireMdp and requirePolicy.
+[[nodiscard]] PolicyValues policyValues(const Mdp& mdp, const MatrixArg& policy);
+
+/// How often each state is expected to be visited, sum_t discount^t P(s_t), starting from a distribution over
+/// states. Throws as policyValues, Error for a start that is no distribution, and where there are no values.
+[[nodiscard]] Eigen::VectorXd discountedVisits(const Mdp& mdp, const MatrixArg& policy,
+                                               const VectorArg& start);
+
+/// Throws Error unless `start` is a distribution over the states.
+void requireStart(const Mdp& mdp, const VectorArg& start);
+
+}  // namespace rex
