@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "control/care_doubling_internal.h"
 
 extern "C" {
 void dgges_(const char* wantLeft, const char* wantRight, const char* sort,
@@ -273,8 +274,11 @@ std::optional<std::complex<double>> badMode(const Problem& problem, const Eigen:
   return {};
 }
 
+std::string solvedMessage(const RiccatiResult& result, double margin) {
+  return fmt::format("solved: relative residual {:.2g}, closed-loop margin {:.4g}", result.residual, margin);
+}
+
 RiccatiResult solve(const Problem& problem) {
-  requireSound(problem);
   RiccatiResult result;
   const char* edge = problem.kind == Kind::kContinuous ? "imaginary axis" : "unit circle";
   const auto fail = [&](RiccatiStatus status, std::string message) {
@@ -329,19 +333,26 @@ RiccatiResult solve(const Problem& problem) {
     return result;
   }
   result.status = RiccatiStatus::kSolved;
-  result.message =
-      fmt::format("solved: relative residual {:.2g}, closed-loop margin {:.4g}", at.size, -margin);
+  result.message = solvedMessage(result, -margin);
   return result;
 }
 
 }  // namespace
 
 RiccatiResult solveCare(const MatrixArg& A, const MatrixArg& B, const MatrixArg& Q, const MatrixArg& R) {
-  return solve({Kind::kContinuous, A, B, Q, R});
+  const Problem problem{Kind::kContinuous, A, B, Q, R};
+  requireSound(problem);
+  if (auto quick = internal::careByDoubling(A, B, Q, R)) {
+    quick->message = solvedMessage(*quick, -quick->closedLoop.real().maxCoeff());
+    return std::move(*quick);
+  }
+  return solve(problem);
 }
 
 RiccatiResult solveDare(const MatrixArg& A, const MatrixArg& B, const MatrixArg& Q, const MatrixArg& R) {
-  return solve({Kind::kDiscrete, A, B, Q, R});
+  const Problem problem{Kind::kDiscrete, A, B, Q, R};
+  requireSound(problem);
+  return solve(problem);
 }
 
 }  // namespace rex

@@ -35,6 +35,7 @@ struct Result {
 /// The groups, a file each. Setting one up takes little time; it throws std::logic_error where ours and a
 /// peer do not compute the same.
 [[nodiscard]] std::vector<Row> collisionRows();
+[[nodiscard]] std::vector<Row> controlRows();
 [[nodiscard]] std::vector<Row> dynamicsRows();
 [[nodiscard]] std::vector<Row> estimationRows();
 [[nodiscard]] std::vector<Row> gradingRows();
