@@ -155,6 +155,14 @@ struct SlamOptions {
 /// Makes the map of a pose graph fit its measurements. kBelow if it does not converge.
 ExitCode slam(const Project& project, const SlamOptions& options);
 
+struct RiccatiOptions {
+  std::filesystem::path file{};  ///< an object with the fields A, B, Q and R, each a list of rows
+  bool isDiscrete = false;
+  bool json = false;
+};
+/// Solves an algebraic Riccati equation. kBelow if it has no stabilizing solution.
+ExitCode riccati(const Project& project, const RiccatiOptions& options);
+
 struct CurvesOptions {
   std::string from{}, to{};  ///< x,y,heading; metres and radians
   double radius = 1;         ///< metres

@@ -17,6 +17,7 @@
 
 #include "base/error.h"
 #include "control/care_doubling_internal.h"
+#include "control/eigenvalue_text_internal.h"
 
 extern "C" {
 void dgges_(const char* wantLeft, const char* wantRight, const char* sort,
@@ -42,12 +43,6 @@ struct Problem {
   Kind kind;
   Eigen::MatrixXd A, B, Q, R;
 };
-
-std::string described(std::complex<double> eigenvalue) {
-  return std::abs(eigenvalue.imag()) < 1e-300
-             ? fmt::format("{:.6g}", eigenvalue.real())
-             : fmt::format("{:.6g}{:+.6g}i", eigenvalue.real(), eigenvalue.imag());
-}
 
 void requireSymmetric(const char* what, const Eigen::MatrixXd& M) {
   if ((M - M.transpose()).cwiseAbs().maxCoeff() <= 1e-9 * M.cwiseAbs().maxCoeff()) return;
@@ -157,8 +152,9 @@ double instability(Kind kind, double real, double imaginary, double beta) {
 }
 
 // The n most stable right deflating vectors of (H, J), 2 n x n; empty where LAPACK gives up, or a pair of
-// conjugate eigenvalues would have to be torn apart.
-Eigen::MatrixXd stableSubspace(Kind kind, Eigen::MatrixXd H, Eigen::MatrixXd J) {
+// conjugate eigenvalues would have to be torn apart. `border` is the least stable eigenvalue among theirs.
+Eigen::MatrixXd stableSubspace(Kind kind, Eigen::MatrixXd H, Eigen::MatrixXd J,
+                               std::optional<std::complex<double>>& border) {
   const int size = static_cast<int>(H.rows()), one = 1, workSize = 100 * size + 200;
   Eigen::MatrixXd Z(size, size);
   Eigen::VectorXd real(size), imaginary(size), beta(size), work(workSize);
@@ -173,6 +169,8 @@ Eigen::MatrixXd stableSubspace(Kind kind, Eigen::MatrixXd H, Eigen::MatrixXd J) 
   std::iota(order.begin(), order.end(), 0);
   const auto key = [&](int i) { return instability(kind, real[i], imaginary[i], beta[i]); };
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return key(a) < key(b); });
+  const int last = order[static_cast<std::size_t>(size / 2 - 1)];
+  if (beta[last] != 0) border = std::complex<double>(real[last], imaginary[last]) / beta[last];
   for (int i = 0; i < size / 2; ++i) select[static_cast<std::size_t>(order[static_cast<std::size_t>(i)])] = 1;
   for (int i = 0; i + 1 < size; ++i)
     if (imaginary[i] > 0 && select[static_cast<std::size_t>(i)] != select[static_cast<std::size_t>(i) + 1])
@@ -187,7 +185,8 @@ Eigen::MatrixXd stableSubspace(Kind kind, Eigen::MatrixXd H, Eigen::MatrixXd J) 
   return Z.leftCols(size / 2);
 }
 
-std::optional<Eigen::MatrixXd> bySchurForm(const Problem& problem) {
+std::optional<Eigen::MatrixXd> bySchurForm(const Problem& problem,
+                                           std::optional<std::complex<double>>& border) {
   const Eigen::Index n = problem.A.rows(), m = problem.B.cols();
   Pencil pencil = pencilOf(problem);
   balance(pencil, n);
@@ -195,7 +194,7 @@ std::optional<Eigen::MatrixXd> bySchurForm(const Problem& problem) {
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(pencil.H.rightCols(m));
   const Eigen::MatrixXd rest = Eigen::MatrixXd(qr.householderQ()).rightCols(2 * n).transpose();
   const Eigen::MatrixXd U =
-      stableSubspace(problem.kind, rest * pencil.H.leftCols(2 * n), rest * pencil.J.leftCols(2 * n));
+      stableSubspace(problem.kind, rest * pencil.H.leftCols(2 * n), rest * pencil.J.leftCols(2 * n), border);
   if (U.size() == 0) return {};
   const Eigen::PartialPivLU<Eigen::MatrixXd> upper(U.topRows(n).transpose());
   if (!(upper.rcond() > 1e-300)) return {};
@@ -281,27 +280,35 @@ std::string solvedMessage(const RiccatiResult& result, double margin) {
 RiccatiResult solve(const Problem& problem) {
   RiccatiResult result;
   const char* edge = problem.kind == Kind::kContinuous ? "imaginary axis" : "unit circle";
-  const auto fail = [&](RiccatiStatus status, std::string message) {
+  std::optional<std::complex<double>> border;  // the least stable eigenvalue of the pencil that X would keep
+  const auto fail = [&](RiccatiStatus status, std::optional<std::complex<double>> mode, std::string message) {
     result = {};
     result.status = status;
+    result.mode = mode;
     result.message = std::move(message);
     return result;
   };
   // Only explains what went wrong: with entries of very different size the tests themselves may err.
   const auto explain = [&](const std::string& otherwise) {
     if (const auto mode = badMode(problem, problem.A, problem.B))
-      return fail(RiccatiStatus::kNotStabilizable,
+      return fail(RiccatiStatus::kNotStabilizable, mode,
                   fmt::format("not stabilizable: the control cannot reach the mode of eigenvalue {}",
-                              described(*mode)));
+                              internal::eigenvalueText(*mode)));
     if (const auto mode = badMode(problem, problem.A.transpose(), problem.Q))
+      return fail(RiccatiStatus::kNotDetectable, mode,
+                  fmt::format("not detectable: the cost does not see the mode of eigenvalue {}",
+                              internal::eigenvalueText(*mode)));
+    if (border && std::abs(instability(problem.kind, border->real(), border->imag(), 1)) <
+                      1e-6 * std::max(1., std::abs(*border)))
       return fail(
-          RiccatiStatus::kNotDetectable,
-          fmt::format("not detectable: the cost does not see the mode of eigenvalue {}", described(*mode)));
-    return fail(RiccatiStatus::kFailed, otherwise);
+          RiccatiStatus::kFailed, border,
+          fmt::format("no stabilizing solution: the equation's pencil has the eigenvalue {} on the {}",
+                      internal::eigenvalueText(*border), edge));
+    return fail(RiccatiStatus::kFailed, {}, otherwise);
   };
-  const auto start = bySchurForm(problem);
+  const auto start = bySchurForm(problem, border);
   if (!start)
-    return explain(fmt::format("no stabilizing solution: eigenvalues of the pencil lie on the {}", edge));
+    return explain("no stabilizing solution: the equation's pencil has no stable part that gives one");
   const Extended X = refined(problem, *start);
   const Residual at = residualAt(problem, X);
   result.X = X.cast<double>();
