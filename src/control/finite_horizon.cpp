@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <Eigen/Cholesky>
@@ -58,6 +59,48 @@ RiccatiHorizon solved(std::vector<Eigen::MatrixXd> P, std::vector<Eigen::MatrixX
   return {.isSolved = true, .P = std::move(P), .K = std::move(K), .message = "solved"};
 }
 
+// Moves P back in time: (Y; Z) from (1; P) moves by the Hamiltonian matrix, and then P = Z Y^-1.
+class HamiltonianFlow {
+ public:
+  HamiltonianFlow(Eigen::MatrixXd hamiltonian, double time)
+      : hamiltonian_(std::move(hamiltonian)),
+        parts_(std::max(1, static_cast<int>(std::ceil(2 * time * hamiltonian_.norm())))),
+        part_(time / parts_) {}
+
+  /// Empty where P passes through infinity.
+  std::optional<Eigen::MatrixXd> moved(Eigen::MatrixXd P) {
+    for (int i = 0; i < parts_; ++i) {
+      std::optional<Eigen::MatrixXd> next = moved(P, 0);
+      if (!next) return {};
+      P = std::move(*next);
+    }
+    return P;
+  }
+
+ private:
+  // Over part_ / 2^halvings. As long as Y stays so close to the identity it has an inverse all the way.
+  std::optional<Eigen::MatrixXd> moved(const Eigen::MatrixXd& P, std::size_t halvings) {
+    constexpr std::size_t kMostHalvings = 50;
+    if (halvings > kMostHalvings) return {};
+    while (flows_.size() <= halvings)
+      flows_.push_back((-std::ldexp(part_, -static_cast<int>(flows_.size())) * hamiltonian_).exp());
+    const Eigen::MatrixXd& flow = flows_[halvings];
+    const Eigen::Index n = P.rows();
+    const Eigen::MatrixXd Y = flow.topLeftCorner(n, n) + flow.topRightCorner(n, n) * P;
+    if ((Y - Eigen::MatrixXd::Identity(n, n)).norm() < 0.5) {
+      const Eigen::MatrixXd Z = flow.bottomLeftCorner(n, n) + flow.bottomRightCorner(n, n) * P;
+      return symmetric(Eigen::PartialPivLU<Eigen::MatrixXd>(Y.transpose()).solve(Z.transpose()));
+    }
+    const std::optional<Eigen::MatrixXd> middle = moved(P, halvings + 1);
+    return middle ? moved(*middle, halvings + 1) : std::nullopt;
+  }
+
+  Eigen::MatrixXd hamiltonian_;
+  int parts_;
+  double part_;
+  std::vector<Eigen::MatrixXd> flows_{};
+};
+
 }  // namespace
 
 RiccatiHorizon discreteHorizon(const LinearSystem& given, const MatrixArg& Q, const MatrixArg& R,
@@ -92,29 +135,17 @@ RiccatiHorizon continuousHorizon(const LinearSystem& given, const MatrixArg& Q, 
   const Eigen::LLT<Eigen::MatrixXd> weight(R);
   Eigen::MatrixXd hamiltonian(2 * n, 2 * n);
   hamiltonian << system.A, -system.B * weight.solve(system.B.transpose()), -Q, -system.A.transpose();
-  // (Y; Z) moves by the Hamiltonian and P = Z Y^-1. Over short stretches, each from Y = 1 again, no part of
-  // it swamps another.
   const double h = T / steps;
-  const int parts = std::max(1, static_cast<int>(std::ceil(h * hamiltonian.norm())));
-  const Eigen::MatrixXd flow = (-h / parts * hamiltonian).exp();
+  HamiltonianFlow flow(hamiltonian, h);
   const auto gainAt = [&](const Eigen::MatrixXd& P) -> Eigen::MatrixXd {
     return weight.solve(system.B.transpose() * P);
   };
   std::vector<Eigen::MatrixXd> P{F}, K{gainAt(F)};
   for (int i = steps - 1; i >= 0; --i) {
-    Eigen::MatrixXd now = P.back();
-    for (int part = 0; part < parts; ++part) {
-      const Eigen::MatrixXd Y = flow.topLeftCorner(n, n) + flow.topRightCorner(n, n) * now;
-      const Eigen::MatrixXd Z = flow.bottomLeftCorner(n, n) + flow.bottomRightCorner(n, n) * now;
-      const Eigen::PartialPivLU<Eigen::MatrixXd> lu(Y.transpose());
-      // Y starts as the identity: with its determinant's sign, P has passed through infinity.
-      if (!(lu.determinant() > 0))
-        return failed(fmt::format("P grows without bound before time {:.4g}", (i + 1) * h));
-      now = symmetric(lu.solve(Z.transpose()));
-    }
-    if (!now.allFinite()) return failed(fmt::format("P is not finite at time {:.4g}", i * h));
-    K.push_back(gainAt(now));
-    P.push_back(std::move(now));
+    std::optional<Eigen::MatrixXd> now = flow.moved(P.back());
+    if (!now) return failed(fmt::format("P grows without bound before time {:.4g}", (i + 1) * h));
+    K.push_back(gainAt(*now));
+    P.push_back(std::move(*now));
   }
   return solved(std::move(P), std::move(K));
 }

@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/require_finite.h"
 #include "control/require_internal.h"
+#include "control/stability.h"
 
 namespace rex {
 namespace {
@@ -118,7 +119,9 @@ GainSearchResult fastestGains(const LinearSystem& given, const Eigen::MatrixXd& 
   result.isConverged = idle == 4;
   result.K = gainsOf(best.at);
   result.rate = best.value;
-  result.isStable = system.step ? result.rate < 1 : result.rate < 0;
+  const Eigen::MatrixXd closed = system.A - system.B * result.K * system.C;
+  const StabilityResult stability = system.step ? discreteStabilityOf(closed) : stabilityOf(closed);
+  result.isStable = stability.stability == Stability::kAsymptotic;
   result.message =
       fmt::format("{} after {} evaluations: the slowest closed-loop eigenvalue has the {} {:.6g}{}",
                   result.isConverged ? "converged" : "the evaluations are spent", result.evaluations,

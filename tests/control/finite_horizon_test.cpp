@@ -114,6 +114,11 @@ TEST(Horizon, SaysWherePGrowsWithoutBound) {
   EXPECT_FALSE(after.isSolved);
   EXPECT_TRUE(after.P.empty());
   EXPECT_THAT(after.message, HasSubstr("P grows without bound before time 2"));
+  // Two at once: a determinant would have changed its sign twice.
+  const MatrixXd two = MatrixXd::Identity(2, 2);
+  EXPECT_FALSE(continuousHorizon({.A = 0 * two, .B = two}, -two, two, 0 * two, 2, 1).isSolved);
+  // A steep end is no end.
+  EXPECT_NEAR(continuousHorizon(system, 0 * one, one, 1e12 * one, 2, 1).P[0](0, 0), 0.5, 1e-11);
   system.step = 1;
   const RiccatiHorizon earning = discreteHorizon(system, one, one, -3 * one, 4);
   EXPECT_FALSE(earning.isSolved);

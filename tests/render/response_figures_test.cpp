@@ -6,7 +6,7 @@
 
 #include "control/responses.h"
 #include "support/expect_error.h"
-#include "support/temporary_folder.h"
+#include "support/needs_gnuplot.h"
 
 namespace rex {
 namespace {
@@ -42,7 +42,23 @@ TEST(ResponseFigures, ShowTheNumbers) {
   EXPECT_EQ(step.series[1].label, "velocity");
   EXPECT_EQ(step.series[1].y[20], steps.y(1, 20));
   EXPECT_EQ(stepFigure(steps.times, steps.y).series[1].label, "y2");
-  for (const Figure& figure : {magnitude, phase, nyquist, step}) EXPECT_FALSE(encodeSvg(figure).empty());
+}
+
+// They stay in the build folder to be looked at.
+TEST(ResponseFigures, AreDrawn) {
+  REX_NEEDS_GNUPLOT();
+  const FrequencyResponse response = frequencyResponse(oscillator(), 0, 0, frequenciesBetween(0.05, 20, 300));
+  const TimeResponse steps = stepResponse(oscillator(), 0, 25);
+  const std::filesystem::path folder = std::filesystem::path(REX_BINARY_DIR) / "tests-out" / "figures";
+  std::filesystem::create_directories(folder);
+  const auto draw = [&](const char* name, const Figure& figure) {
+    writeFigure(figure, folder / name);
+    EXPECT_GT(std::filesystem::file_size(folder / name), 5000u);
+  };
+  draw("bode-magnitude.png", bodeMagnitudeFigure(response.frequencies, response.magnitudes));
+  draw("bode-phase.png", bodePhaseFigure(response.frequencies, response.phases));
+  draw("nyquist.png", nyquistFigure(response.values));
+  draw("step.png", stepFigure(steps.times, steps.y, {"position", "velocity"}));
 }
 
 TEST(ResponseFigures, SayWhatIsWrong) {
