@@ -9,8 +9,9 @@
 namespace rex::internal {
 
 inline std::string eigenvalueText(std::complex<double> value) {
-  return std::abs(value.imag()) < 1e-300 ? fmt::format("{:.6g}", value.real())
-                                         : fmt::format("{:.6g}{:+.6g}i", value.real(), value.imag());
+  const double real = value.real() + 0.;  // no -0
+  return std::abs(value.imag()) < 1e-300 ? fmt::format("{:.6g}", real)
+                                         : fmt::format("{:.6g}{:+.6g}i", real, value.imag());
 }
 
 }  // namespace rex::internal

@@ -76,9 +76,8 @@ FrequencyResponse frequencyResponse(const LinearSystem& given, int input, int ou
       throw Error({.what = "frequency response",
                    .found = fmt::format("a pole at the frequency {:g} rad/s", w),
                    .wanted = "frequencies beside it"});
-    const Complex value =
-        (system.C.row(output).cast<Complex>() * lu.solve(system.B.col(input).cast<Complex>()))(0) +
-        system.D(output, input);
+    const Eigen::VectorXcd x = lu.solve(system.B.col(input).cast<Complex>());
+    const Complex value = system.C.row(output).cast<Complex>().dot(x) + system.D(output, input);
     response.values.push_back(value);
     response.magnitudes.push_back(20 * std::log10(std::max(std::abs(value), 1e-300)));
     const double phase = std::arg(value) * 180 / std::numbers::pi;

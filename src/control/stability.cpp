@@ -33,11 +33,11 @@ std::vector<Mode> modesOf(const Eigen::MatrixXd& A) {
   std::vector<Mode> modes;
   for (Eigen::Index i = 0; i < A.rows(); ++i) {
     const double condition = V.col(i).norm() * left.row(i).norm();
-    // Eigenvectors that are parallel to the last digit: a root of order n at worst.
-    const double most = A.norm() * std::pow(std::numeric_limits<double>::epsilon(), 1. / A.rows());
+    // Where eigenvectors are parallel to the last digit: a root of order n at worst.
+    const double most =
+        A.norm() * std::pow(rounding / std::max(A.norm(), 1e-300), 1 / static_cast<double>(A.rows()));
     modes.push_back({solver.eigenvalues()[i],
-                     std::isfinite(condition) ? std::min(rounding * std::max(condition, 1.), most + rounding)
-                                              : most + rounding});
+                     std::isfinite(condition) ? std::min(rounding * std::max(condition, 1.), most) : most});
   }
   return modes;
 }

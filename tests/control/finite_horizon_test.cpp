@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
@@ -51,7 +52,7 @@ TEST(DiscreteHorizon, IsTheBestOfAllControls) {
       const MatrixXd& weight = t + 1 < kSteps ? p.Q : p.F;
       H += reach.transpose() * weight * reach;
       h += reach.transpose() * weight * free;
-      constant += (free.transpose() * weight * free)(0);
+      constant += (free.transpose() * weight * free).trace();
     }
     const VectorXd best = -H.ldlt().solve(h);
     EXPECT_NEAR(start.dot(horizon.P[0] * start), constant + h.dot(best), 1e-8 * constant);

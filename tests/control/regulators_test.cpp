@@ -216,7 +216,7 @@ TEST(RestAt, HoldsTheTarget) {
   const RestPoint rest = restAt(system, VectorXd::Constant(1, 2));
   EXPECT_TRUE(rest.isExact);
   EXPECT_LT((system.A * rest.x + system.B * rest.u).norm(), 1e-12);
-  EXPECT_NEAR((system.C * rest.x)(0), 2, 1e-12);
+  EXPECT_NEAR(system.C.row(0).dot(rest.x), 2, 1e-12);
   const LinearSystem steps = discretized(system, 0.05);
   const RestPoint held = restAt(steps, VectorXd::Constant(1, 2));
   EXPECT_TRUE(held.isExact);
