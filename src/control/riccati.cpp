@@ -17,6 +17,7 @@
 
 #include "base/error.h"
 #include "control/care_doubling_internal.h"
+#include "control/controllability.h"
 #include "control/eigenvalue_text_internal.h"
 
 extern "C" {
@@ -277,6 +278,16 @@ std::string solvedMessage(const RiccatiResult& result, double margin) {
   return fmt::format("solved: relative residual {:.2g}, closed-loop margin {:.4g}", result.residual, margin);
 }
 
+// One that no control reaches at all, told by structure: that holds for stiff systems, too.
+std::optional<std::complex<double>> hiddenMode(const Problem& problem, const Eigen::MatrixXd& A,
+                                               const Eigen::MatrixXd& B) {
+  const double bound = 1e-7 * (problem.kind == Kind::kContinuous ? A.norm() : 1);
+  for (const HiddenMode& mode : controllability({.A = A, .B = B}).modes)
+    if (instability(problem.kind, mode.eigenvalue.real(), mode.eigenvalue.imag(), 1) >= -bound)
+      return mode.eigenvalue;
+  return {};
+}
+
 RiccatiResult solve(const Problem& problem) {
   RiccatiResult result;
   const char* edge = problem.kind == Kind::kContinuous ? "imaginary axis" : "unit circle";
@@ -290,11 +301,13 @@ RiccatiResult solve(const Problem& problem) {
   };
   // Only explains what went wrong: with entries of very different size the tests themselves may err.
   const auto explain = [&](const std::string& otherwise) {
-    if (const auto mode = badMode(problem, problem.A, problem.B))
+    auto mode = hiddenMode(problem, problem.A, problem.B);
+    if (mode || (mode = badMode(problem, problem.A, problem.B)))
       return fail(RiccatiStatus::kNotStabilizable, mode,
                   fmt::format("not stabilizable: the control cannot reach the mode of eigenvalue {}",
                               internal::eigenvalueText(*mode)));
-    if (const auto mode = badMode(problem, problem.A.transpose(), problem.Q))
+    mode = hiddenMode(problem, problem.A.transpose(), problem.Q);
+    if (mode || (mode = badMode(problem, problem.A.transpose(), problem.Q)))
       return fail(RiccatiStatus::kNotDetectable, mode,
                   fmt::format("not detectable: the cost does not see the mode of eigenvalue {}",
                               internal::eigenvalueText(*mode)));
@@ -329,6 +342,10 @@ RiccatiResult solve(const Problem& problem) {
     return explain(
         fmt::format("no stabilizing solution was found: relative residual {:.2g}, closed-loop margin {:.2g}",
                     at.size, -margin));
+  // An X for a mode that nothing moves is no solution, however small its residual.
+  if (margin > -1e-6 * (problem.kind == Kind::kContinuous ? closed.norm() : 1) &&
+      (hiddenMode(problem, problem.A, problem.B) || hiddenMode(problem, problem.A.transpose(), problem.Q)))
+    return explain("");
   if (margin > -doubt) {
     if (badMode(problem, problem.A, problem.B) || badMode(problem, problem.A.transpose(), problem.Q))
       return explain("");

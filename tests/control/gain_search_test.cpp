@@ -70,7 +70,7 @@ TEST(FastestGains, SaysWhatIsWrong) {
                    "rows of the first gains: found a vector of size 2");
   EXPECT_REX_ERROR(fastestGains(system, MatrixXd::Ones(1, 3)),
                    "columns of the first gains: found a vector of size 3");
-  EXPECT_REX_ERROR(fastestGains(system, MatrixXd::Constant(1, 2, NAN)), "first gains: number 1: found nan");
+  EXPECT_REX_ERROR(fastestGains(system, MatrixXd::Constant(1, 2, NAN)), "first gains: number 0: found nan");
   const MatrixXd K = MatrixXd::Ones(1, 2);
   EXPECT_REX_ERROR(fastestGains(system, K, {.bound = 0}), "bound of gains: found 0");
   EXPECT_REX_ERROR(fastestGains(system, K, {.bound = 0.5}),

@@ -143,11 +143,11 @@ TEST(Ilqr, SaysWhatIsWrong) {
     EXPECT_REX_ERROR(ilqr(problem, U), text);
   };
   expect([](ControlProblem& p) { p.next = nullptr; }, "control problem: found a function that is missing");
-  expect([](ControlProblem& p) { p.start[0] = kNan; }, "start of a control problem: number 1: found nan");
+  expect([](ControlProblem& p) { p.start[0] = kNan; }, "start of a control problem: number 0: found nan");
   expect([](ControlProblem& p) { p.next = [](const VectorXd&, const VectorXd& u) { return u; }; },
          "next state: found a vector of size 1, wanted size 2");
   EXPECT_REX_ERROR(ilqr(pendulum(), MatrixXd(1, 0)), "first guess U: found no controls");
-  EXPECT_REX_ERROR(ilqr(pendulum(), MatrixXd::Constant(1, 3, kNan)), "first guess U: number 1: found nan");
+  EXPECT_REX_ERROR(ilqr(pendulum(), MatrixXd::Constant(1, 3, kNan)), "first guess U: number 0: found nan");
   EXPECT_REX_ERROR(ilqr(pendulum(), U, {.tolerance = 0}), "tolerance of iLQR: found 0");
   EXPECT_REX_ERROR(ilqr(pendulum(), U, {.damping = -1}), "damping of iLQR: found -1");
   EXPECT_REX_ERROR(ilqr(pendulum(), U, {.maxIterations = -1}), "iterations of iLQR: found -1");

@@ -112,12 +112,12 @@ TEST(Linearized, GivesTheCartPoleOfTheErrata) {
 TEST(Linearized, SaysWhatIsWrong) {
   const auto f = [](const VectorXd& x, const VectorXd&) { return x; };
   const VectorXd x = VectorXd::Ones(2), u = VectorXd::Ones(1);
-  EXPECT_REX_ERROR(linearized(f, VectorXd::Constant(2, kNan), u), "state x: number 1: found nan");
-  EXPECT_REX_ERROR(linearized(f, x, VectorXd::Constant(1, kNan)), "control u: number 1: found nan");
+  EXPECT_REX_ERROR(linearized(f, VectorXd::Constant(2, kNan), u), "state x: number 0: found nan");
+  EXPECT_REX_ERROR(linearized(f, x, VectorXd::Constant(1, kNan)), "control u: number 0: found nan");
   const auto longer = [](const VectorXd&, const VectorXd&) { return VectorXd(VectorXd::Zero(3)); };
   EXPECT_REX_ERROR(linearized(longer, x, u), "value of the motion: found a vector of size 3, wanted size 2");
   const auto broken = [](const VectorXd&, const VectorXd&) { return VectorXd(VectorXd::Constant(2, kNan)); };
-  EXPECT_REX_ERROR(linearized(broken, x, u), "value of the motion: number 1: found nan");
+  EXPECT_REX_ERROR(linearized(broken, x, u), "value of the motion: number 0: found nan");
   const auto derivative = [](int rowsA, int columnsA, int rowsB, int columnsB, double entry) {
     return [=](const VectorXd&, const VectorXd&) {
       return MotionJacobians{MatrixXd::Constant(rowsA, columnsA, entry),

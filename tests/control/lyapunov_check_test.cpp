@@ -145,10 +145,10 @@ TEST(CheckLyapunov, SaysWhatIsWrong) {
   expect([](auto&, auto&, auto& D, int&) { D.high.resize(1); },
          "high corner of the region: found a vector of size 1");
   expect([](auto&, auto&, auto& D, int&) { D.low[0] = NAN; },
-         "low corner of the region: number 1: found nan");
+         "low corner of the region: number 0: found nan");
   expect([](auto&, auto&, auto& D, int&) { D.high[0] = NAN; },
-         "high corner of the region: number 1: found nan");
-  expect([](auto&, auto&, auto& D, int&) { D.equilibrium[0] = NAN; }, "equilibrium: number 1: found nan");
+         "high corner of the region: number 0: found nan");
+  expect([](auto&, auto&, auto& D, int&) { D.equilibrium[0] = NAN; }, "equilibrium: number 0: found nan");
   expect([](auto&, auto&, auto& D, int&) { D.low[0] = 0.5; },
          "equilibrium: found (0, 0), wanted a point inside (0.5, -1) to (1, 1)");
   expect([](auto&, auto&, auto&, int& samples) { samples = 0; }, "samples: found 0, wanted 1 or more");

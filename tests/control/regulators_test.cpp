@@ -223,7 +223,7 @@ TEST(RestAt, HoldsTheTarget) {
   EXPECT_LT((steps.A * held.x + steps.B * held.u - held.x).norm(), 1e-12);
   EXPECT_FALSE(restAt(pointMass(1), Eigen::Vector2d(1, 1)).isExact) << "nothing rests while it moves";
   EXPECT_REX_ERROR(restAt(system, VectorXd::Zero(2)), "target y: found a vector of size 2, wanted size 1");
-  EXPECT_REX_ERROR(restAt(system, VectorXd::Constant(1, NAN)), "target y: number 1: found nan");
+  EXPECT_REX_ERROR(restAt(system, VectorXd::Constant(1, NAN)), "target y: number 0: found nan");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -179,6 +180,25 @@ TEST(Riccati, NamesTheModeThatIsInTheWay) {
   EXPECT_EQ(*unreachable.mode, 1.);
   EXPECT_NEAR(std::abs(unseen.mode->imag()), 2, 1e-12);
   EXPECT_EQ(*outside.mode, 2.);
+}
+
+// An integrator that nothing pushes, or that costs nothing, in any coordinates: X must not be given.
+TEST(Riccati, GivesNoXForHiddenIntegrators) {
+  Rng rng(46);
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(1, 1);
+  for (int round = 0; round < 30; ++round) {
+    const Eigen::Matrix2d U = Eigen::Rotation2Dd(round == 0 ? 0. : rng.uniform(0, 6)).toRotationMatrix();
+    Eigen::Matrix2d drift, I = Eigen::Matrix2d::Identity();
+    drift << 0, 0, 1, 0;
+    const RiccatiResult stuck = solveCare(U * drift * U.transpose(), U * Eigen::Vector2d(0, 1), I, one);
+    EXPECT_EQ(stuck.status, RiccatiStatus::kNotStabilizable) << stuck.message;
+    EXPECT_EQ(stuck.X.size(), 0);
+    const RiccatiResult free =
+        solveCare(U * drift * U.transpose(), U * Eigen::Vector2d(1, 0), Eigen::Matrix2d::Zero(), one);
+    EXPECT_EQ(free.status, RiccatiStatus::kNotDetectable) << free.message;
+    const RiccatiResult steps = solveDare(U * (drift + I) * U.transpose(), U * Eigen::Vector2d(0, 1), I, one);
+    EXPECT_EQ(steps.status, RiccatiStatus::kNotStabilizable) << steps.message;
+  }
 }
 
 // Systems with very fast and slow modes, or very large numbers, are neither refused nor called marginal.
