@@ -30,6 +30,11 @@ Json parsed(const std::string& text, const std::string& file) {
                            static_cast<int>(1 + (end - line))},
                  .found = "what is no JSON here",
                  .wanted = "an object with the fields A, B, Q and R"});
+  } catch (const Json::out_of_range&) {
+    throw Error({.what = "JSON",
+                 .where = {.file = file},
+                 .found = "a number that is too large",
+                 .wanted = "numbers below 1.8e308"});
   }
 }
 

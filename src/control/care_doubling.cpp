@@ -124,7 +124,7 @@ std::optional<RiccatiResult> solve(const MatrixArg& givenA, const MatrixArg& B, 
   const Eigen::RealSchur<M> schur(closed);
   if (schur.info() != Eigen::Success) return {};
   result.closedLoop = eigenvaluesOf(schur.matrixT());
-  if (!(result.closedLoop.real().maxCoeff() < -1e-6 * result.closedLoop.cwiseAbs().maxCoeff())) return {};
+  if (!(result.closedLoop.real().maxCoeff() < -1e-4 * A.norm())) return {};
   // What a step changes is what was wrong: nothing else tells how many digits X has.
   for (double change = 1, round = 0; change > 1e-12; ++round) {
     const M step = lyapunovStep<M>(schur, valueAt<long double>(*X, A, B, Q, R).first);

@@ -343,7 +343,7 @@ RiccatiResult solve(const Problem& problem) {
         fmt::format("no stabilizing solution was found: relative residual {:.2g}, closed-loop margin {:.2g}",
                     at.size, -margin));
   // An X for a mode that nothing moves is no solution, however small its residual.
-  if (margin > -1e-6 * (problem.kind == Kind::kContinuous ? closed.norm() : 1) &&
+  if (margin > -1e-3 * (problem.kind == Kind::kContinuous ? closed.norm() : 1) &&
       (hiddenMode(problem, problem.A, problem.B) || hiddenMode(problem, problem.A.transpose(), problem.Q)))
     return explain("");
   if (margin > -doubt) {

@@ -106,7 +106,7 @@ TEST_F(RiccatiCommand, SaysWhatIsWrong) {
   EXPECT_EQ(rex({"care"}).exitCode, 64);
   EXPECT_THAT(flat(rex({"care", "none.json"}).error), HasSubstr("none.json: cannot read this file"));
   expect("care", "{\"A\": [[1]],\n \"B\": [[1],\n}", "problem.json:3:1: JSON: found what is no JSON here");
-  expect("dare", "{\"A\": [[nan]]}", "problem.json:1:9: JSON: found what is no JSON here");
+  expect("dare", "{\"A\": [[nan]]}", "problem.json:1:10: JSON: found what is no JSON here");
   expect("dare", "", "problem.json:1:1: JSON");
   expect("care", "[1]", "Riccati equation: found a JSON value of type array");
   expect("care", "{\"A\": [[1]]}", "matrix B: found no field of this name, wanted a list of rows");
@@ -125,7 +125,8 @@ TEST_F(RiccatiCommand, SaysWhatIsWrong) {
          "matrix R: found the eigenvalue 0, wanted a positive definite matrix");
   expect("dare", problem("[[1]]", "[[1]]", "[[1]]", "[[-1]]"),
          "matrix R: found the eigenvalue -1, wanted no negative");
-  expect("care", problem("[[1e999]]", "[[1]]", "[[1]]", "[[1]]"), "problem.json:1:13: JSON");
+  expect("care", problem("[[1e999]]", "[[1]]", "[[1]]", "[[1]]"),
+         "problem.json: JSON: found a number that is too large");
 }
 
 }  // namespace

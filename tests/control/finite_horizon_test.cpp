@@ -124,7 +124,7 @@ TEST(Horizon, SaysWherePGrowsWithoutBound) {
   const RiccatiHorizon earning = discreteHorizon(system, one, one, -3 * one, 4);
   EXPECT_FALSE(earning.isSolved);
   EXPECT_THAT(earning.message, HasSubstr("step 3: R + B^T P B is not positive definite"));
-  system.A *= 1e200;
+  system.A = 1e200 * one;
   EXPECT_THAT(discreteHorizon(system, 0 * one, 1e150 * one, 1e-10 * one, 4).message,
               HasSubstr("P is not finite"));
 }
