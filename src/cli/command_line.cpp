@@ -40,7 +40,7 @@ First steps
 
 All commands
   list   run   test   debug   scene   render   simulate   plan   curves   slam
-  filter   cma   doctor   bench   dev
+  filter   cma   care   dare   doctor   bench   dev
 `scripts/rex COMMAND --help` explains one. An exercise may be called by its number, its
 topic or its whole name: 01, kinematics, 01-kinematics.)";
 
@@ -239,6 +239,32 @@ void addCma(CLI::App& program, Action& action) {
   command->callback([&action, options] { action = [options](const Project&) { return cma(*options); }; });
 }
 
+void addRiccati(CLI::App& program, Action& action, bool isDiscrete) {
+  const auto options = std::make_shared<RiccatiOptions>();
+  options->isDiscrete = isDiscrete;
+  const std::string name = isDiscrete ? "dare" : "care";
+  CLI::App* command = add(
+      program, name,
+      std::string("Solve an algebraic Riccati equation in ") + (isDiscrete ? "discrete" : "continuous") +
+          " time",
+      "Example: scripts/rex " + name + " data/control/" + (isDiscrete ? "cart-steps" : "cart-pole") +
+          ".json --json\n\n" +
+          (isDiscrete
+               ? "Solves X = A^T X A - A^T X B (R + B^T X B)^-1 B^T X A + Q; the control is u = -K x with\n"
+                 "K = (R + B^T X B)^-1 B^T X A."
+               : "Solves 0 = A^T X + X A - X B R^-1 B^T X + Q; the control is u = -K x with\n"
+                 "K = R^-1 B^T X.") +
+          " Exit code 1: there is no stabilizing solution, and why.");
+  command
+      ->add_option("file", options->file,
+                   "{\"A\": [[...], ...], \"B\": ..., \"Q\": ..., \"R\": ...}, row by row")
+      ->type_name("FILE.json")
+      ->required();
+  command->add_flag("--json", options->json, "print JSON");
+  command->callback(
+      [&action, options] { action = [options](const Project& p) { return riccati(p, *options); }; });
+}
+
 void addDoctor(CLI::App& program, Action& action) {
   const auto options = std::make_shared<DoctorOptions>();
   CLI::App* command = add(program, "doctor", "Try all that pictures need on this machine",
@@ -332,6 +358,7 @@ Action parseCommandLine(int argc, const char* const* argv) {
   addDebug(program, action), addScene(program, action), addRender(program, action);
   addSimulate(program, action), addPlan(program, action), addCurves(program, action),
       addSlam(program, action), addFilter(program, action), addCma(program, action);
+  addRiccati(program, action, false), addRiccati(program, action, true);
   addDoctor(program, action), addBench(program, action);
   CLI::App* dev =
       add(program, "dev", "For those who write exercises: new, check, strip",

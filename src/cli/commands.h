@@ -173,6 +173,14 @@ struct FilterOptions {
 /// Lets a filter follow the car of the course; tells its errors and consistency.
 ExitCode filter(const FilterOptions& options);
 
+struct RiccatiOptions {
+  std::filesystem::path file{};  ///< an object with the fields A, B, Q and R, each a list of rows
+  bool isDiscrete = false;
+  bool json = false;
+};
+/// Solves an algebraic Riccati equation. kBelow if it has no stabilizing solution.
+ExitCode riccati(const Project& project, const RiccatiOptions& options);
+
 struct CurvesOptions {
   std::string from{}, to{};  ///< x,y,heading; metres and radians
   double radius = 1;         ///< metres

@@ -16,6 +16,9 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "control/care_doubling_internal.h"
+#include "control/controllability.h"
+#include "control/eigenvalue_text_internal.h"
 
 extern "C" {
 void dgges_(const char* wantLeft, const char* wantRight, const char* sort,
@@ -41,12 +44,6 @@ struct Problem {
   Kind kind;
   Eigen::MatrixXd A, B, Q, R;
 };
-
-std::string described(std::complex<double> eigenvalue) {
-  return std::abs(eigenvalue.imag()) < 1e-300
-             ? fmt::format("{:.6g}", eigenvalue.real())
-             : fmt::format("{:.6g}{:+.6g}i", eigenvalue.real(), eigenvalue.imag());
-}
 
 void requireSymmetric(const char* what, const Eigen::MatrixXd& M) {
   if ((M - M.transpose()).cwiseAbs().maxCoeff() <= 1e-9 * M.cwiseAbs().maxCoeff()) return;
@@ -156,8 +153,9 @@ double instability(Kind kind, double real, double imaginary, double beta) {
 }
 
 // The n most stable right deflating vectors of (H, J), 2 n x n; empty where LAPACK gives up, or a pair of
-// conjugate eigenvalues would have to be torn apart.
-Eigen::MatrixXd stableSubspace(Kind kind, Eigen::MatrixXd H, Eigen::MatrixXd J) {
+// conjugate eigenvalues would have to be torn apart. `border` is the least stable eigenvalue among theirs.
+Eigen::MatrixXd stableSubspace(Kind kind, Eigen::MatrixXd H, Eigen::MatrixXd J,
+                               std::optional<std::complex<double>>& border) {
   const int size = static_cast<int>(H.rows()), one = 1, workSize = 100 * size + 200;
   Eigen::MatrixXd Z(size, size);
   Eigen::VectorXd real(size), imaginary(size), beta(size), work(workSize);
@@ -172,6 +170,8 @@ Eigen::MatrixXd stableSubspace(Kind kind, Eigen::MatrixXd H, Eigen::MatrixXd J) 
   std::iota(order.begin(), order.end(), 0);
   const auto key = [&](int i) { return instability(kind, real[i], imaginary[i], beta[i]); };
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return key(a) < key(b); });
+  const int last = order[static_cast<std::size_t>(size / 2 - 1)];
+  if (beta[last] != 0) border = std::complex<double>(real[last], imaginary[last]) / beta[last];
   for (int i = 0; i < size / 2; ++i) select[static_cast<std::size_t>(order[static_cast<std::size_t>(i)])] = 1;
   for (int i = 0; i + 1 < size; ++i)
     if (imaginary[i] > 0 && select[static_cast<std::size_t>(i)] != select[static_cast<std::size_t>(i) + 1])
@@ -186,7 +186,8 @@ Eigen::MatrixXd stableSubspace(Kind kind, Eigen::MatrixXd H, Eigen::MatrixXd J) 
   return Z.leftCols(size / 2);
 }
 
-std::optional<Eigen::MatrixXd> bySchurForm(const Problem& problem) {
+std::optional<Eigen::MatrixXd> bySchurForm(const Problem& problem,
+                                           std::optional<std::complex<double>>& border) {
   const Eigen::Index n = problem.A.rows(), m = problem.B.cols();
   Pencil pencil = pencilOf(problem);
   balance(pencil, n);
@@ -194,7 +195,7 @@ std::optional<Eigen::MatrixXd> bySchurForm(const Problem& problem) {
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(pencil.H.rightCols(m));
   const Eigen::MatrixXd rest = Eigen::MatrixXd(qr.householderQ()).rightCols(2 * n).transpose();
   const Eigen::MatrixXd U =
-      stableSubspace(problem.kind, rest * pencil.H.leftCols(2 * n), rest * pencil.J.leftCols(2 * n));
+      stableSubspace(problem.kind, rest * pencil.H.leftCols(2 * n), rest * pencil.J.leftCols(2 * n), border);
   if (U.size() == 0) return {};
   const Eigen::PartialPivLU<Eigen::MatrixXd> upper(U.topRows(n).transpose());
   if (!(upper.rcond() > 1e-300)) return {};
@@ -273,31 +274,54 @@ std::optional<std::complex<double>> badMode(const Problem& problem, const Eigen:
   return {};
 }
 
+std::string solvedMessage(const RiccatiResult& result, double margin) {
+  return fmt::format("solved: relative residual {:.2g}, closed-loop margin {:.4g}", result.residual, margin);
+}
+
+// One that no control reaches at all, told by structure: that holds for stiff systems, too.
+std::optional<std::complex<double>> hiddenMode(const Problem& problem, const Eigen::MatrixXd& A,
+                                               const Eigen::MatrixXd& B) {
+  const double bound = 1e-7 * (problem.kind == Kind::kContinuous ? A.norm() : 1);
+  for (const HiddenMode& mode : controllability({.A = A, .B = B}).modes)
+    if (instability(problem.kind, mode.eigenvalue.real(), mode.eigenvalue.imag(), 1) >= -bound)
+      return mode.eigenvalue;
+  return {};
+}
+
 RiccatiResult solve(const Problem& problem) {
-  requireSound(problem);
   RiccatiResult result;
   const char* edge = problem.kind == Kind::kContinuous ? "imaginary axis" : "unit circle";
-  const auto fail = [&](RiccatiStatus status, std::string message) {
+  std::optional<std::complex<double>> border;  // the least stable eigenvalue of the pencil that X would keep
+  const auto fail = [&](RiccatiStatus status, std::optional<std::complex<double>> mode, std::string message) {
     result = {};
     result.status = status;
+    result.mode = mode;
     result.message = std::move(message);
     return result;
   };
   // Only explains what went wrong: with entries of very different size the tests themselves may err.
   const auto explain = [&](const std::string& otherwise) {
-    if (const auto mode = badMode(problem, problem.A, problem.B))
-      return fail(RiccatiStatus::kNotStabilizable,
+    auto mode = hiddenMode(problem, problem.A, problem.B);
+    if (mode || (mode = badMode(problem, problem.A, problem.B)))
+      return fail(RiccatiStatus::kNotStabilizable, mode,
                   fmt::format("not stabilizable: the control cannot reach the mode of eigenvalue {}",
-                              described(*mode)));
-    if (const auto mode = badMode(problem, problem.A.transpose(), problem.Q))
+                              internal::eigenvalueText(*mode)));
+    mode = hiddenMode(problem, problem.A.transpose(), problem.Q);
+    if (mode || (mode = badMode(problem, problem.A.transpose(), problem.Q)))
+      return fail(RiccatiStatus::kNotDetectable, mode,
+                  fmt::format("not detectable: the cost does not see the mode of eigenvalue {}",
+                              internal::eigenvalueText(*mode)));
+    if (border && std::abs(instability(problem.kind, border->real(), border->imag(), 1)) <
+                      1e-6 * std::max(1., std::abs(*border)))
       return fail(
-          RiccatiStatus::kNotDetectable,
-          fmt::format("not detectable: the cost does not see the mode of eigenvalue {}", described(*mode)));
-    return fail(RiccatiStatus::kFailed, otherwise);
+          RiccatiStatus::kFailed, border,
+          fmt::format("no stabilizing solution: the equation's pencil has the eigenvalue {} on the {}",
+                      internal::eigenvalueText(*border), edge));
+    return fail(RiccatiStatus::kFailed, {}, otherwise);
   };
-  const auto start = bySchurForm(problem);
+  const auto start = bySchurForm(problem, border);
   if (!start)
-    return explain(fmt::format("no stabilizing solution: eigenvalues of the pencil lie on the {}", edge));
+    return explain("no stabilizing solution: the equation's pencil has no stable part that gives one");
   const Extended X = refined(problem, *start);
   const Residual at = residualAt(problem, X);
   result.X = X.cast<double>();
@@ -318,6 +342,10 @@ RiccatiResult solve(const Problem& problem) {
     return explain(
         fmt::format("no stabilizing solution was found: relative residual {:.2g}, closed-loop margin {:.2g}",
                     at.size, -margin));
+  // An X for a mode that nothing moves is no solution, however small its residual.
+  if (margin > -1e-3 * (problem.kind == Kind::kContinuous ? closed.norm() : 1) &&
+      (hiddenMode(problem, problem.A, problem.B) || hiddenMode(problem, problem.A.transpose(), problem.Q)))
+    return explain("");
   if (margin > -doubt) {
     if (badMode(problem, problem.A, problem.B) || badMode(problem, problem.A.transpose(), problem.Q))
       return explain("");
@@ -329,19 +357,26 @@ RiccatiResult solve(const Problem& problem) {
     return result;
   }
   result.status = RiccatiStatus::kSolved;
-  result.message =
-      fmt::format("solved: relative residual {:.2g}, closed-loop margin {:.4g}", at.size, -margin);
+  result.message = solvedMessage(result, -margin);
   return result;
 }
 
 }  // namespace
 
 RiccatiResult solveCare(const MatrixArg& A, const MatrixArg& B, const MatrixArg& Q, const MatrixArg& R) {
-  return solve({Kind::kContinuous, A, B, Q, R});
+  const Problem problem{Kind::kContinuous, A, B, Q, R};
+  requireSound(problem);
+  if (auto quick = internal::careByDoubling(A, B, Q, R)) {
+    quick->message = solvedMessage(*quick, -quick->closedLoop.real().maxCoeff());
+    return std::move(*quick);
+  }
+  return solve(problem);
 }
 
 RiccatiResult solveDare(const MatrixArg& A, const MatrixArg& B, const MatrixArg& Q, const MatrixArg& R) {
-  return solve({Kind::kDiscrete, A, B, Q, R});
+  const Problem problem{Kind::kDiscrete, A, B, Q, R};
+  requireSound(problem);
+  return solve(problem);
 }
 
 }  // namespace rex

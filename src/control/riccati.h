@@ -1,6 +1,8 @@
 #pragma once
 
+#include <complex>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include <Eigen/Core>
@@ -26,6 +28,9 @@ struct RiccatiResult {
   Eigen::VectorXcd closedLoop{};  ///< eigenvalues of A - B K
   /// Of the equation, relative to its largest term.
   double residual = std::numeric_limits<double>::infinity();
+  /// The eigenvalue that is in the way: of A where it is not stabilizable or detectable, of the equation's
+  /// pencil where that has eigenvalues on the axis or circle.
+  std::optional<std::complex<double>> mode{};
   std::string message{};
 };
 

@@ -47,6 +47,7 @@ std::vector<Group> select(std::vector<Group> groups, const std::vector<std::stri
 
 void run(const std::vector<std::string>& names, bool asJson) {
   const std::vector<Group> groups = select({{"collision", collisionRows()},
+                                            {"control", controlRows()},
                                             {"dynamics", dynamicsRows()},
                                             {"dynamics", steppingRows()},
                                             {"estimation", estimationRows()},

@@ -36,6 +36,7 @@ struct Result {
 /// peer do not compute the same.
 [[nodiscard]] std::vector<Row> cmaRows();
 [[nodiscard]] std::vector<Row> collisionRows();
+[[nodiscard]] std::vector<Row> controlRows();
 [[nodiscard]] std::vector<Row> dynamicsRows();
 [[nodiscard]] std::vector<Row> estimationRows();
 [[nodiscard]] std::vector<Row> gradingRows();

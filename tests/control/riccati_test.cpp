@@ -4,12 +4,14 @@
 #include <fstream>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <unsupported/Eigen/KroneckerProduct>
 
 #include "base/rng.h"
+#include "control/care_doubling_internal.h"
 #include "support/expect_error.h"
 
 namespace rex {
@@ -87,6 +89,38 @@ TEST(Riccati, RandomProblemsAreSolvedAndStable) {
   }
 }
 
+// The quick way against the stable eigenvectors of the Hamiltonian matrix: X = V2 V1^-1. Both sizes of
+// storage; what is stiff or marginal is left to the Schur form.
+TEST(Riccati, DoublingFindsTheStableEigenvectors) {
+  Rng rng(45);
+  for (const int n : {1, 2, 5, 8, 9, 16, 30}) {
+    const int m = 1 + n / 3;
+    const Eigen::MatrixXd A = randomMatrix(n, n, rng), B = randomMatrix(n, m, rng),
+                          Q = Eigen::MatrixXd::Identity(n, n), R = 0.5 * Eigen::MatrixXd::Identity(m, m);
+    const auto quick = internal::careByDoubling(A, B, Q, R);
+    ASSERT_TRUE(quick.has_value()) << n;
+    Eigen::MatrixXd hamiltonian(2 * n, 2 * n);
+    hamiltonian << A, -2 * B * B.transpose(), -Q, -A.transpose();
+    const Eigen::EigenSolver<Eigen::MatrixXd> solver(hamiltonian);
+    Eigen::MatrixXcd stable(2 * n, n);
+    Eigen::Index count = 0;
+    for (Eigen::Index i = 0; i < 2 * n; ++i)
+      if (solver.eigenvalues()[i].real() < 0) stable.col(count++) = solver.eigenvectors().col(i);
+    ASSERT_EQ(count, n);
+    const Eigen::MatrixXcd X = stable.bottomRows(n) * stable.topRows(n).inverse();
+    EXPECT_LT((quick->X - X.real()).norm(), 1e-9 * X.norm()) << n;
+    EXPECT_LT((quick->K - 2 * B.transpose() * quick->X).norm(), 1e-12 * quick->K.norm());
+    EXPECT_LT(quick->residual, 1e-12);
+    const Eigen::VectorXcd closed = Eigen::EigenSolver<Eigen::MatrixXd>(A - B * quick->K).eigenvalues();
+    for (const std::complex<double> value : quick->closedLoop)
+      EXPECT_LT((closed.array() - value).abs().minCoeff(), 1e-6 * A.norm());
+  }
+  const Eigen::Matrix2d I = Eigen::Matrix2d::Identity();
+  EXPECT_FALSE(internal::careByDoubling(Eigen::Vector2d(-1, -1e8).asDiagonal().toDenseMatrix(), I, I, I));
+  EXPECT_FALSE(internal::careByDoubling(0 * I, I, 0 * I, I)) << "nothing decays";
+  EXPECT_FALSE(internal::careByDoubling(0 * I, 0 * I, 0 * I, I));
+}
+
 // The discrete equation iterated from the end of a long horizon, slide 8:19.
 TEST(Riccati, IsTheLimitOfAFiniteHorizon) {
   Rng rng(42);
@@ -138,7 +172,33 @@ TEST(Riccati, NamesTheModeThatIsInTheWay) {
   EXPECT_NE(circling.status, RiccatiStatus::kSolved);
   const RiccatiResult impossible = solveCare(I, I, -100 * I, I);
   EXPECT_EQ(impossible.status, RiccatiStatus::kFailed) << impossible.message;
-  EXPECT_THAT(impossible.message, HasSubstr("no stabilizing solution"));
+  EXPECT_THAT(impossible.message,
+              HasSubstr("no stabilizing solution: the equation's pencil has the eigenvalue"));
+  EXPECT_THAT(impossible.message, HasSubstr("on the imaginary axis"));
+  ASSERT_TRUE(impossible.mode.has_value());
+  EXPECT_NEAR(std::abs(impossible.mode->imag()), std::sqrt(99), 1e-6);
+  EXPECT_EQ(*unreachable.mode, 1.);
+  EXPECT_NEAR(std::abs(unseen.mode->imag()), 2, 1e-12);
+  EXPECT_EQ(*outside.mode, 2.);
+}
+
+// An integrator that nothing pushes, or that costs nothing, in any coordinates: X must not be given.
+TEST(Riccati, GivesNoXForHiddenIntegrators) {
+  Rng rng(46);
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(1, 1);
+  for (int round = 0; round < 30; ++round) {
+    const Eigen::Matrix2d U = Eigen::Rotation2Dd(round == 0 ? 0. : rng.uniform(0, 6)).toRotationMatrix();
+    Eigen::Matrix2d drift, I = Eigen::Matrix2d::Identity();
+    drift << 0, 0, 1, 0;
+    const RiccatiResult stuck = solveCare(U * drift * U.transpose(), U * Eigen::Vector2d(0, 1), I, one);
+    EXPECT_EQ(stuck.status, RiccatiStatus::kNotStabilizable) << stuck.message;
+    EXPECT_EQ(stuck.X.size(), 0);
+    const RiccatiResult free =
+        solveCare(U * drift * U.transpose(), U * Eigen::Vector2d(1, 0), Eigen::Matrix2d::Zero(), one);
+    EXPECT_EQ(free.status, RiccatiStatus::kNotDetectable) << free.message;
+    const RiccatiResult steps = solveDare(U * (drift + I) * U.transpose(), U * Eigen::Vector2d(0, 1), I, one);
+    EXPECT_EQ(steps.status, RiccatiStatus::kNotStabilizable) << steps.message;
+  }
 }
 
 // Systems with very fast and slow modes, or very large numbers, are neither refused nor called marginal.

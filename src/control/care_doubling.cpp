@@ -1,0 +1,150 @@
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include "control/care_doubling_internal.h"
+
+extern "C" void dtrsyl_(const char* transposeA, const char* transposeB, const int* sign, const int* m,
+                        const int* n, const double* A, const int* lda, const double* B, const int* ldb,
+                        double* C, const int* ldc, double* scale, int* info);
+
+namespace rex::internal {
+namespace {
+
+// Matrices of up to kMost rows live on the stack: for small systems, half the time would be allocation.
+template <class Scalar, int kMost>
+using Square = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, 0, kMost, kMost>;
+
+constexpr int kMostDoublings = 14;  // a closed loop that needs more is stiff
+
+// The limit of H_k: each round squares the closed loop's Cayley transform, whose first is about A.
+template <class M>
+std::optional<M> doubled(const M& A0, const M& G0, const M& Q) {
+  const Eigen::Index n = A0.rows();
+  // Any shift converges; one as large as the modes are fast, soon.
+  const double shift =
+      std::sqrt((2 * A0.squaredNorm() + G0.squaredNorm() + Q.squaredNorm()) / static_cast<double>(2 * n));
+  if (!(shift > 1e-150 && shift < 1e150)) return {};
+  M W = A0;
+  W.diagonal().array() -= shift;
+  Eigen::PartialPivLU<M> lu(W);
+  const M inverse = lu.inverse(), inverseG = inverse * G0;
+  W.transposeInPlace();
+  W.noalias() += Q * inverseG;
+  lu.compute(W);
+  const M inverseW = lu.inverse();
+  M A = 2 * shift * inverseW.transpose(), G = 2 * shift * inverseG * inverseW,
+    H = 2 * shift * inverseW * (Q * inverse), solvedA(n, n), solvedG(n, n), product(n, n);
+  A.diagonal().array() += 1;
+  for (int k = 0; k < kMostDoublings; ++k) {
+    W.noalias() = G * H;
+    W.diagonal().array() += 1;
+    lu.compute(W);
+    solvedA = lu.solve(A);
+    solvedG = lu.solve(G);
+    product.noalias() = A * solvedG;
+    G.template triangularView<Eigen::Lower>() += product * A.transpose();
+    G.template triangularView<Eigen::StrictlyUpper>() = G.transpose();
+    product.noalias() = H * solvedA;
+    solvedG.noalias() = A.transpose() * product;
+    H += solvedG;
+    product.noalias() = A * solvedA;
+    A.swap(product);
+    const double change = solvedG.norm(), size = H.norm();
+    if (!std::isfinite(change)) return {};
+    if (change <= 1e-15 * size) return M(0.5 * (H + H.transpose()));
+  }
+  return {};
+}
+
+// Of a quasi-triangular matrix, as RealSchur leaves it.
+template <class M>
+Eigen::VectorXcd eigenvaluesOf(const M& T) {
+  Eigen::VectorXcd values(T.rows());
+  for (Eigen::Index i = 0; i < T.rows(); ++i) {
+    if (i + 1 == T.rows() || T(i + 1, i) == 0) {
+      values[i] = T(i, i);
+      continue;
+    }
+    const double half = (T(i, i) - T(i + 1, i + 1)) / 2, mean = (T(i, i) + T(i + 1, i + 1)) / 2;
+    const std::complex<double> root =
+        std::sqrt(std::complex<double>(half * half + T(i, i + 1) * T(i + 1, i)));
+    values[i] = mean + root;
+    values[++i] = mean - root;
+  }
+  return values;
+}
+
+// The equation's value at X, and the size of its largest term.
+template <class Number, class M>
+std::pair<M, double> valueAt(const M& X, const M& A, const MatrixArg& B, const M& Q, const MatrixArg& R) {
+  constexpr int kMost = M::MaxRowsAtCompileTime;
+  using Wide = Square<Number, kMost>;
+  using Column = Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic, 0, kMost, Eigen::Dynamic>;
+  const Wide linear = A.transpose().template cast<Number>() * X.template cast<Number>();
+  const Column XB = X.template cast<Number>() * B.template cast<Number>();
+  const Eigen::Matrix<Number, -1, -1> K =
+      Eigen::LLT<Eigen::Matrix<Number, -1, -1>>(R.template cast<Number>()).solve(XB.transpose());
+  const Wide quadratic = XB * K;
+  Wide value = Q.template cast<Number>() - quadratic;
+  value += linear + linear.transpose();
+  const Number largest = std::max({X.template cast<Number>().norm() * A.template cast<Number>().norm(),
+                                   quadratic.norm(), Q.template cast<Number>().norm()});
+  return {value.template cast<double>(), static_cast<double>(largest)};
+}
+
+// The Y of C^T Y + Y C + value = 0 for C = U T U^T.
+template <class M>
+M lyapunovStep(const Eigen::RealSchur<M>& schur, const M& value) {
+  const M &T = schur.matrixT(), &U = schur.matrixU();
+  M Y = -(U.transpose() * value * U);
+  const int n = static_cast<int>(T.rows()), sign = 1;
+  double scale = 1;
+  int info = 0;
+  dtrsyl_("T", "N", &sign, &n, &n, T.data(), &n, T.data(), &n, Y.data(), &n, &scale, &info);
+  const M step = U * Y * U.transpose();
+  return (0.5 / scale) * (step + step.transpose());
+}
+
+template <int kMost>
+std::optional<RiccatiResult> solve(const MatrixArg& givenA, const MatrixArg& B, const MatrixArg& givenQ,
+                                   const MatrixArg& R) {
+  using M = Square<double, kMost>;
+  const M A = givenA, Q = givenQ;
+  const Eigen::LLT<Eigen::MatrixXd> weight(R);
+  const auto gainOf = [&](const M& X) -> Eigen::MatrixXd { return weight.solve(B.transpose() * X); };
+  const M G = B * weight.solve(B.transpose());
+  std::optional<M> X = doubled<M>(A, G, Q);
+  if (!X) return {};
+  RiccatiResult result;
+  const M closed = A - B * gainOf(*X);
+  const Eigen::RealSchur<M> schur(closed);
+  if (schur.info() != Eigen::Success) return {};
+  result.closedLoop = eigenvaluesOf(schur.matrixT());
+  if (!(result.closedLoop.real().maxCoeff() < -1e-4 * A.norm())) return {};
+  // What a step changes is what was wrong: nothing else tells how many digits X has.
+  for (double change = 1, round = 0; change > 1e-12; ++round) {
+    const M step = lyapunovStep<M>(schur, valueAt<long double>(*X, A, B, Q, R).first);
+    change = step.norm() / X->norm();
+    if (!(change < 1e-7) || round == 3) return {};
+    *X += step;
+  }
+  const auto [value, largest] = valueAt<double>(*X, A, B, Q, R);
+  result.residual = value.norm() / largest;
+  result.status = RiccatiStatus::kSolved;
+  result.K = gainOf(*X);
+  result.X = *X;
+  return result;
+}
+
+}  // namespace
+
+std::optional<RiccatiResult> careByDoubling(const MatrixArg& A, const MatrixArg& B, const MatrixArg& Q,
+                                            const MatrixArg& R) {
+  return A.rows() <= 8 ? solve<8>(A, B, Q, R) : solve<Eigen::Dynamic>(A, B, Q, R);
+}
+
+}  // namespace rex::internal

@@ -1,0 +1,162 @@
+#include "control/controllability.h"
+
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <fmt/format.h>
+#include <unsupported/Eigen/MatrixFunctions>
+
+#include "base/error.h"
+#include "control/eigenvalue_text_internal.h"
+#include "control/require_internal.h"
+#include "control/riccati.h"
+#include "control/stability.h"
+
+namespace rex {
+namespace {
+
+// What one learns of B with A, one learns of C with these: the dual system.
+LinearSystem dual(const LinearSystem& given) {
+  const LinearSystem system = completed(given);
+  return {.A = system.A.transpose(),
+          .B = system.C.transpose(),
+          .C = system.B.transpose(),
+          .D = system.D.transpose(),
+          .step = system.step};
+}
+
+// The modes of the block that u does not enter.
+std::vector<HiddenMode> hiddenModes(const Eigen::MatrixXd& A, const Eigen::MatrixXd& unreachable) {
+  std::vector<HiddenMode> modes;
+  if (unreachable.cols() == 0) return modes;
+  const Eigen::MatrixXd block = unreachable.transpose() * A.transpose() * unreachable;
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(block);
+  for (Eigen::Index i = 0; i < block.rows(); ++i)
+    modes.push_back({solver.eigenvalues()[i], (unreachable * solver.eigenvectors().col(i)).normalized()});
+  return modes;
+}
+
+ReachableStates staircase(const LinearSystem& system, double tolerance, const char* verb) {
+  if (!(tolerance > 0 && tolerance < 1))
+    throw Error({.what = "tolerance of a rank",
+                 .found = fmt::format("{:g}", tolerance),
+                 .wanted = "a number between 0 and 1"});
+  const Eigen::Index n = system.A.rows();
+  const double scaleA = system.A.cwiseAbs().maxCoeff();
+  ReachableStates result;
+  // Each round adds the directions into which A turns the newest ones; the length of a control's column says
+  // nothing about where it leads.
+  Eigen::MatrixXd basis(n, 0), next = system.B;
+  for (Eigen::Index i = 0; i < next.cols(); ++i)
+    if (next.col(i).norm() > 0) next.col(i).stableNormalize();
+  for (double scale = 1; next.cols() > 0 && basis.cols() < n; scale = scaleA) {
+    for (int twice = 0; twice < 2; ++twice) next -= basis * (basis.transpose() * next);
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(next, Eigen::ComputeThinU);
+    const Eigen::Index fresh =
+        std::min<Eigen::Index>((svd.singularValues().array() > tolerance * scale).count(), n - basis.cols());
+    Eigen::MatrixXd larger(n, basis.cols() + fresh);
+    larger << basis, svd.matrixU().leftCols(fresh);
+    basis = larger;
+    next = system.A * basis.rightCols(fresh);
+  }
+  result.rank = static_cast<int>(basis.cols());
+  result.reachable = basis;
+  result.unreachable = Eigen::MatrixXd::Identity(n, n);
+  if (result.rank > 0)
+    result.unreachable = Eigen::MatrixXd(Eigen::HouseholderQR<Eigen::MatrixXd>(basis).householderQ())
+                             .rightCols(n - basis.cols());
+  result.modes = hiddenModes(system.A, result.unreachable);
+  result.isComplete = result.rank == n;
+  result.message = fmt::format("rank {} of {}", result.rank, n);
+  for (std::size_t i = 0; i < result.modes.size(); ++i)
+    result.message +=
+        fmt::format("{} {}", i == 0 ? std::string(": ") + verb + " the mode of eigenvalue" : ",",
+                    internal::eigenvalueText(result.modes[i].eigenvalue));
+  return result;
+}
+
+// The sum over the first `count` steps, by doubling: W_{2k} = W_k + A^k W_k A^kT.
+Eigen::MatrixXd summed(const LinearSystem& system, long count) {
+  Eigen::MatrixXd W = Eigen::MatrixXd::Zero(system.A.rows(), system.A.rows()), power = system.A,
+                  part = system.B * system.B.transpose(),
+                  shift = Eigen::MatrixXd::Identity(W.rows(), W.rows());
+  for (; count > 0; count /= 2) {
+    if (count % 2 == 1) {
+      W += shift * part * shift.transpose();
+      shift = (shift * power).eval();
+    }
+    part += (power * part * power.transpose()).eval();
+    power = (power * power).eval();
+  }
+  return W;
+}
+
+// The integral, by the exponential of (-A BB^T; 0 A^T) over a short time (Van Loan 1978), then doubled.
+Eigen::MatrixXd integrated(const LinearSystem& system, double T) {
+  const Eigen::Index n = system.A.rows();
+  const int doublings =
+      std::max(0, static_cast<int>(std::ceil(std::log2(std::max(1e-300, T * system.A.norm())))));
+  const double h = std::ldexp(T, -doublings);
+  Eigen::MatrixXd generator = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  generator << -h * system.A, h * system.B * system.B.transpose(), Eigen::MatrixXd::Zero(n, n),
+      h * system.A.transpose();
+  const Eigen::MatrixXd flow = generator.exp();
+  Eigen::MatrixXd power = flow.bottomRightCorner(n, n).transpose(), W = power * flow.topRightCorner(n, n);
+  for (int i = 0; i < doublings; ++i) {
+    W += (power * W * power.transpose()).eval();
+    power = (power * power).eval();
+  }
+  return 0.5 * (W + W.transpose());
+}
+
+Eigen::MatrixXd gramian(const LinearSystem& system, double T) {
+  internal::requirePositive("time T of a Gramian", T);
+  return system.step ? summed(system, std::lround(T / *system.step)) : integrated(system, T);
+}
+
+Eigen::MatrixXd gramian(const LinearSystem& system) {
+  const StabilityResult stability = system.step ? discreteStabilityOf(system.A) : stabilityOf(system.A);
+  if (stability.stability != Stability::kAsymptotic)
+    throw Error({.what = "Gramian of all time",
+                 .found = "a system that is " + stability.message,
+                 .wanted = "one that is asymptotically stable"});
+  const Eigen::MatrixXd source = system.B * system.B.transpose();
+  return system.step ? solveDiscreteLyapunov(system.A.transpose(), source)
+                     : solveLyapunov(system.A.transpose(), source);
+}
+
+}  // namespace
+
+Eigen::MatrixXd controllabilityMatrix(const LinearSystem& given) {
+  const LinearSystem system = completed(given);
+  const Eigen::Index n = system.A.rows(), m = system.B.cols();
+  Eigen::MatrixXd matrix(n, n * m);
+  Eigen::MatrixXd block = system.B;
+  for (Eigen::Index i = 0; i < n; ++i, block = (system.A * block).eval()) matrix.middleCols(i * m, m) = block;
+  return matrix;
+}
+
+Eigen::MatrixXd observabilityMatrix(const LinearSystem& system) {
+  return controllabilityMatrix(dual(system)).transpose();
+}
+
+ReachableStates controllability(const LinearSystem& system, double tolerance) {
+  return staircase(completed(system), tolerance, "the control cannot reach");
+}
+
+ReachableStates observability(const LinearSystem& system, double tolerance) {
+  return staircase(dual(system), tolerance, "the measurement does not show");
+}
+
+Eigen::MatrixXd controllabilityGramian(const LinearSystem& system, double T) {
+  return gramian(completed(system), T);
+}
+Eigen::MatrixXd controllabilityGramian(const LinearSystem& system) { return gramian(completed(system)); }
+Eigen::MatrixXd observabilityGramian(const LinearSystem& system, double T) {
+  return gramian(dual(system), T);
+}
+Eigen::MatrixXd observabilityGramian(const LinearSystem& system) { return gramian(dual(system)); }
+
+}  // namespace rex

@@ -1,0 +1,191 @@
+#include "control/finite_horizon.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <fmt/format.h>
+#include <unsupported/Eigen/MatrixFunctions>
+
+#include "base/error.h"
+#include "control/require_internal.h"
+
+namespace rex {
+namespace {
+
+void requireSymmetric(const char* name, const MatrixArg& M, Eigen::Index n) {
+  requireSize(fmt::format("rows of {}", name), M.rows(), n);
+  requireSize(fmt::format("columns of {}", name), M.cols(), n);
+  if (!M.allFinite())
+    throw Error({.what = fmt::format("matrix {}", name), .found = "entries that are not finite"});
+  if ((M - M.transpose()).cwiseAbs().maxCoeff() > 1e-9 * M.cwiseAbs().maxCoeff())
+    throw Error({.what = fmt::format("matrix {}", name),
+                 .found = "a matrix that is not symmetric",
+                 .wanted = "a symmetric one"});
+}
+
+void requireSound(const LinearSystem& system, const MatrixArg& Q, const MatrixArg& R, bool isDiscrete) {
+  if (system.step.has_value() != isDiscrete)
+    throw Error({.what = "linear system",
+                 .found = isDiscrete ? "continuous time" : "discrete time",
+                 .wanted = isDiscrete ? "discrete time" : "continuous time"});
+  if (system.B.cols() == 0) throw Error({.what = "linear system", .found = "no control"});
+  requireSymmetric("Q", Q, system.A.rows());
+  requireSymmetric("R", R, system.B.cols());
+  if (isDiscrete || Eigen::LLT<Eigen::MatrixXd>(R).info() == Eigen::Success) return;
+  const double least =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(R, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  throw Error({.what = "matrix R",
+               .found = fmt::format("the eigenvalue {:.6g}", least),
+               .wanted = "a positive definite matrix"});
+}
+
+void requireSteps(int steps) {
+  if (steps < 1 || steps > 10000000)
+    throw Error({.what = "steps of a horizon", .found = fmt::format("{}", steps), .wanted = "1 to 10000000"});
+}
+
+Eigen::MatrixXd symmetric(const Eigen::MatrixXd& M) { return 0.5 * (M + M.transpose()); }
+
+RiccatiHorizon failed(std::string message) { return {.message = std::move(message)}; }
+
+RiccatiHorizon solved(std::vector<Eigen::MatrixXd> P, std::vector<Eigen::MatrixXd> K) {
+  std::reverse(P.begin(), P.end());
+  std::reverse(K.begin(), K.end());
+  return {.isSolved = true, .P = std::move(P), .K = std::move(K), .message = "solved"};
+}
+
+// Moves P back in time: (Y; Z) from (1; P) moves by the Hamiltonian matrix, and then P = Z Y^-1.
+class HamiltonianFlow {
+ public:
+  HamiltonianFlow(Eigen::MatrixXd hamiltonian, double time)
+      : hamiltonian_(std::move(hamiltonian)),
+        parts_(std::max(1, static_cast<int>(std::ceil(2 * time * hamiltonian_.norm())))),
+        part_(time / parts_) {}
+
+  /// Empty where P passes through infinity.
+  std::optional<Eigen::MatrixXd> moved(Eigen::MatrixXd P) {
+    for (int i = 0; i < parts_; ++i) {
+      std::optional<Eigen::MatrixXd> next = moved(P, 0);
+      if (!next) return {};
+      P = std::move(*next);
+    }
+    return P;
+  }
+
+ private:
+  // Over part_ / 2^halvings. As long as Y stays so close to the identity it has an inverse all the way.
+  std::optional<Eigen::MatrixXd> moved(const Eigen::MatrixXd& P, std::size_t halvings) {
+    constexpr std::size_t kMostHalvings = 50;
+    if (halvings > kMostHalvings) return {};
+    while (flows_.size() <= halvings)
+      flows_.push_back((-std::ldexp(part_, -static_cast<int>(flows_.size())) * hamiltonian_).exp());
+    const Eigen::MatrixXd& flow = flows_[halvings];
+    const Eigen::Index n = P.rows();
+    const Eigen::MatrixXd Y = flow.topLeftCorner(n, n) + flow.topRightCorner(n, n) * P;
+    if ((Y - Eigen::MatrixXd::Identity(n, n)).norm() < 0.5) {
+      const Eigen::MatrixXd Z = flow.bottomLeftCorner(n, n) + flow.bottomRightCorner(n, n) * P;
+      return symmetric(Eigen::PartialPivLU<Eigen::MatrixXd>(Y.transpose()).solve(Z.transpose()));
+    }
+    const std::optional<Eigen::MatrixXd> middle = moved(P, halvings + 1);
+    return middle ? moved(*middle, halvings + 1) : std::nullopt;
+  }
+
+  Eigen::MatrixXd hamiltonian_;
+  int parts_;
+  double part_;
+  std::vector<Eigen::MatrixXd> flows_{};
+};
+
+}  // namespace
+
+RiccatiHorizon discreteHorizon(const LinearSystem& given, const MatrixArg& Q, const MatrixArg& R,
+                               const MatrixArg& F, int steps) {
+  const LinearSystem system = completed(given);
+  requireSound(system, Q, R, true);
+  requireSymmetric("F", F, system.A.rows());
+  requireSteps(steps);
+  std::vector<Eigen::MatrixXd> P{F}, K;
+  for (int t = steps - 1; t >= 0; --t) {
+    const Eigen::MatrixXd PB = P.back() * system.B;
+    const Eigen::LLT<Eigen::MatrixXd> weight(symmetric(R + system.B.transpose() * PB));
+    if (weight.info() != Eigen::Success)
+      return failed(fmt::format("step {}: R + B^T P B is not positive definite: no control is the best", t));
+    K.push_back(weight.solve(PB.transpose() * system.A));
+    // In this form (Joseph's) rounding leaves P positive semidefinite.
+    const Eigen::MatrixXd closed = system.A - system.B * K.back();
+    P.push_back(symmetric(Q + K.back().transpose() * R * K.back() + closed.transpose() * P.back() * closed));
+    if (!P.back().allFinite()) return failed(fmt::format("step {}: P is not finite", t));
+  }
+  return solved(std::move(P), std::move(K));
+}
+
+RiccatiHorizon continuousHorizon(const LinearSystem& given, const MatrixArg& Q, const MatrixArg& R,
+                                 const MatrixArg& F, double T, int steps) {
+  const LinearSystem system = completed(given);
+  requireSound(system, Q, R, false);
+  requireSymmetric("F", F, system.A.rows());
+  internal::requirePositive("time T of a horizon", T);
+  requireSteps(steps);
+  const Eigen::Index n = system.A.rows();
+  const Eigen::LLT<Eigen::MatrixXd> weight(R);
+  Eigen::MatrixXd hamiltonian(2 * n, 2 * n);
+  hamiltonian << system.A, -system.B * weight.solve(system.B.transpose()), -Q, -system.A.transpose();
+  const double h = T / steps;
+  HamiltonianFlow flow(hamiltonian, h);
+  const auto gainAt = [&](const Eigen::MatrixXd& P) -> Eigen::MatrixXd {
+    return weight.solve(system.B.transpose() * P);
+  };
+  std::vector<Eigen::MatrixXd> P{F}, K{gainAt(F)};
+  for (int i = steps - 1; i >= 0; --i) {
+    std::optional<Eigen::MatrixXd> now = flow.moved(P.back());
+    if (!now) return failed(fmt::format("P grows without bound before time {:.4g}", (i + 1) * h));
+    K.push_back(gainAt(*now));
+    P.push_back(std::move(*now));
+  }
+  return solved(std::move(P), std::move(K));
+}
+
+RiccatiIteration iterateCare(const LinearSystem& given, const MatrixArg& Q, const MatrixArg& R,
+                             const RiccatiIterationOptions& options) {
+  const LinearSystem system = completed(given);
+  requireSound(system, Q, R, false);
+  internal::requirePositive("epsilon of the iteration", options.epsilon);
+  internal::requirePositive("tolerance of the iteration", options.tolerance);
+  if (options.maxIterations < 1)
+    throw Error(
+        {.what = "iterations", .found = fmt::format("{}", options.maxIterations), .wanted = "1 or more"});
+  const Eigen::Index n = system.A.rows();
+  const Eigen::LLT<Eigen::MatrixXd> weight(R);
+  const Eigen::MatrixXd G = system.B * weight.solve(system.B.transpose());
+  RiccatiIteration result{.P = Q};
+  Eigen::MatrixXd change(n, n), PG(n, n);
+  for (; result.iterations < options.maxIterations; ++result.iterations) {
+    change.noalias() = system.A.transpose() * result.P;
+    change += change.transpose().eval();
+    PG.noalias() = result.P * G;
+    change.noalias() -= PG * result.P;
+    change += Q;
+    result.residual = change.cwiseAbs().maxCoeff();
+    if (!(result.residual < 1e150)) break;
+    if (result.residual <= options.tolerance) {
+      result.isConverged = true;
+      break;
+    }
+    result.P += options.epsilon * change;
+  }
+  result.K = weight.solve(system.B.transpose() * result.P);
+  result.message =
+      fmt::format("{} after {} iterations: residual {:.2g}",
+                  result.isConverged        ? "converged"
+                  : result.residual < 1e150 ? "the iterations are spent"
+                                            : "P grows without bound: epsilon is too large, or no solution",
+                  result.iterations, result.residual);
+  return result;
+}
+
+}  // namespace rex

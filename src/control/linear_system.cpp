@@ -1,0 +1,78 @@
+#include "control/linear_system.h"
+
+#include <unsupported/Eigen/MatrixFunctions>
+
+#include "base/error.h"
+#include "control/require_internal.h"
+#include "optim/derivative_check.h"
+
+namespace rex {
+namespace {
+
+void requireFiniteMatrix(const char* name, const Eigen::MatrixXd& M) {
+  if (!M.allFinite()) throw Error({.what = name, .found = "entries that are not finite"});
+}
+
+}  // namespace
+
+LinearSystem completed(const LinearSystem& system) {
+  LinearSystem result = system;
+  const Eigen::Index n = system.A.rows(), m = system.B.cols();
+  if (n == 0) throw Error({.what = "linear system", .found = "no state"});
+  requireSize("columns of A", system.A.cols(), n);
+  requireSize("rows of B", system.B.rows(), n);
+  if (system.C.size() == 0) result.C = Eigen::MatrixXd::Identity(n, n);
+  requireSize("columns of C", result.C.cols(), n);
+  if (system.D.size() == 0) result.D = Eigen::MatrixXd::Zero(result.C.rows(), m);
+  requireSize("rows of D", result.D.rows(), result.C.rows());
+  requireSize("columns of D", result.D.cols(), m);
+  requireFiniteMatrix("matrix A", result.A);
+  requireFiniteMatrix("matrix B", result.B);
+  requireFiniteMatrix("matrix C", result.C);
+  requireFiniteMatrix("matrix D", result.D);
+  if (system.step) internal::requirePositive("step of a linear system", *system.step);
+  return result;
+}
+
+LinearSystem discretized(const LinearSystem& system, double step) {
+  LinearSystem result = completed(system);
+  if (system.step)
+    throw Error({.what = "linear system", .found = "discrete time", .wanted = "continuous time"});
+  internal::requirePositive("step of a linear system", step);
+  const Eigen::Index n = system.A.rows(), m = system.B.cols();
+  Eigen::MatrixXd generator = Eigen::MatrixXd::Zero(n + m, n + m);
+  generator.topLeftCorner(n, n) = step * system.A;
+  generator.topRightCorner(n, m) = step * system.B;
+  const Eigen::MatrixXd motion = generator.exp();
+  result.A = motion.topLeftCorner(n, n);
+  result.B = motion.topRightCorner(n, m);
+  result.step = step;
+  return result;
+}
+
+Linearization linearized(const ControlledMotion& f, const Eigen::VectorXd& x, const Eigen::VectorXd& u,
+                         const MotionDerivative& exact) {
+  rex::requireFinite("state x", x);
+  rex::requireFinite("control u", u);
+  Linearization result{.A = {}, .B = {}, .value = f(x, u)};
+  const Eigen::Index n = x.size(), m = u.size();
+  requireSize("value of the motion", result.value.size(), n);
+  rex::requireFinite("value of the motion", result.value);
+  if (!exact) {
+    result.A = numericJacobian([&](const Eigen::VectorXd& moved) { return f(moved, u); }, x);
+    result.B = numericJacobian([&](const Eigen::VectorXd& moved) { return f(x, moved); }, u);
+    return result;
+  }
+  MotionJacobians jacobians = exact(x, u);
+  requireSize("rows of df/dx", jacobians.A.rows(), n);
+  requireSize("columns of df/dx", jacobians.A.cols(), n);
+  requireSize("rows of df/du", jacobians.B.rows(), n);
+  requireSize("columns of df/du", jacobians.B.cols(), m);
+  requireFiniteMatrix("df/dx", jacobians.A);
+  requireFiniteMatrix("df/du", jacobians.B);
+  result.A = std::move(jacobians.A);
+  result.B = std::move(jacobians.B);
+  return result;
+}
+
+}  // namespace rex

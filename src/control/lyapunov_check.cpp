@@ -1,0 +1,186 @@
+#include "control/lyapunov_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/error.h"
+#include "base/require_finite.h"
+#include "control/require_internal.h"
+#include "optim/derivative_check.h"
+
+namespace rex {
+namespace {
+
+constexpr double kZero = 1e-9;
+
+std::string shown(const Eigen::VectorXd& x) {
+  return fmt::format("({:.4g})", fmt::join(x.data(), x.data() + x.size(), ", "));
+}
+
+void requireSound(const LyapunovCandidate& candidate, const LyapunovRegion& region, int samples) {
+  const Eigen::Index n = region.equilibrium.size();
+  if (!candidate.V) throw Error({.what = "Lyapunov candidate", .found = "no function V"});
+  if (n == 0) throw Error({.what = "region", .found = "no equilibrium"});
+  requireSize("low corner of the region", region.low.size(), n);
+  requireSize("high corner of the region", region.high.size(), n);
+  requireFinite("low corner of the region", region.low);
+  requireFinite("high corner of the region", region.high);
+  requireFinite("equilibrium", region.equilibrium);
+  if (!((region.low.array() < region.equilibrium.array()) &&
+        (region.equilibrium.array() < region.high.array()))
+           .all())
+    throw Error({.what = "equilibrium",
+                 .found = shown(region.equilibrium),
+                 .wanted = fmt::format("a point inside {} to {}", shown(region.low), shown(region.high))});
+  if (samples < 1)
+    throw Error({.what = "samples", .found = fmt::format("{}", samples), .wanted = "1 or more"});
+}
+
+// Random points, at all distances from the equilibrium; besides, faces along the axes, and corners.
+std::vector<Eigen::VectorXd> pointsOf(const LyapunovRegion& region, Rng& rng, int samples) {
+  const Eigen::Index n = region.equilibrium.size();
+  std::vector<Eigen::VectorXd> points;
+  const auto addScaled = [&](const Eigen::VectorXd& x) {
+    for (const double part : {1., 1e-1, 1e-3})
+      points.emplace_back(region.equilibrium + part * (x - region.equilibrium));
+  };
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (const Eigen::VectorXd* side : {&region.low, &region.high}) {
+      Eigen::VectorXd x = region.equilibrium;
+      x[i] = (*side)[i];
+      addScaled(x);
+    }
+  for (unsigned corner = 0; n <= 10 && corner < (1u << n); ++corner) {
+    Eigen::VectorXd x = region.low;
+    for (Eigen::Index i = 0; i < n; ++i)
+      if ((corner >> i) & 1u) x[i] = region.high[i];
+    addScaled(x);
+  }
+  for (int k = 0; k < samples; ++k) {
+    Eigen::VectorXd x(n);
+    for (Eigen::Index i = 0; i < n; ++i) x[i] = rng.uniform(region.low[i], region.high[i]);
+    points.emplace_back(region.equilibrium + std::pow(10., -3. * (k % 4) / 4) * (x - region.equilibrium));
+  }
+  return points;
+}
+
+double rateAt(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& f,
+              const LyapunovCandidate& candidate, const Eigen::VectorXd& x, double reach) {
+  const Eigen::VectorXd velocity = f(x);
+  requireSize("velocity f(x)", velocity.size(), x.size());
+  requireFinite(fmt::format("velocity f at {}", shown(x)), velocity);
+  if (candidate.gradient) {
+    const Eigen::VectorXd gradient = candidate.gradient(x);
+    requireSize("gradient of V", gradient.size(), x.size());
+    return gradient.dot(velocity);
+  }
+  // Along the motion only; the step shrinks towards the equilibrium, where V does.
+  const double speed = velocity.norm();
+  if (speed == 0) return 0;
+  const Eigen::VectorXd direction = velocity / speed;
+  const auto along = [&](const Eigen::VectorXd& s) {
+    return Eigen::VectorXd::Constant(1, candidate.V(x + s[0] * direction));
+  };
+  return speed * numericJacobian(along, Eigen::VectorXd::Zero(1), 1e-2 * reach)(0, 0);
+}
+
+LyapunovResult concluded(LyapunovResult result, bool isPositive, bool falls, bool rises) {
+  result.status = !isPositive ? LyapunovStatus::kNotPositive
+                  : rises     ? LyapunovStatus::kRises
+                  : falls     ? LyapunovStatus::kHolds
+                              : LyapunovStatus::kOnlySemidefinite;
+  const std::string where = fmt::format("at {}, where V = {:.4g} and changes by {:.4g} per second",
+                                        shown(result.worst), result.V, result.rate);
+  result.message =
+      !isPositive ? "V is not positive " + where
+      : rises     ? "V rises " + where
+      : falls     ? fmt::format("no counterexample in {} points; V falls least {}", result.samples, where)
+                  : fmt::format("V never rises in {} points, but does not fall {}", result.samples, where);
+  return result;
+}
+
+}  // namespace
+
+LyapunovResult checkLyapunov(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& f,
+                             const LyapunovCandidate& candidate, const LyapunovRegion& region, Rng& rng,
+                             int samples) {
+  requireSound(candidate, region, samples);
+  const double size = (region.high - region.low).norm();
+  if (!(f(region.equilibrium).norm() <= kZero * size) ||
+      !(std::abs(candidate.V(region.equilibrium)) <= kZero * size * size))
+    throw Error({.what = "equilibrium",
+                 .found = "a velocity or a V that is not zero",
+                 .wanted = "f(x) = 0 and V(x) = 0 there"});
+  LyapunovResult result;
+  double leastV = std::numeric_limits<double>::infinity(), greatestRate = -leastV;
+  for (const Eigen::VectorXd& x : pointsOf(region, rng, samples)) {
+    const double reach = (x - region.equilibrium).norm(), squared = reach * reach;
+    if (squared == 0) continue;
+    ++result.samples;
+    const double V = candidate.V(x), rate = rateAt(f, candidate, x, reach);
+    requireFinite(fmt::format("V or its rate at {}", shown(x)), V + rate);
+    const bool isNewWorst =
+        leastV > kZero ? V / squared <= kZero || rate / squared > greatestRate : V / squared < leastV;
+    leastV = std::min(leastV, V / squared);
+    greatestRate = std::max(greatestRate, rate / squared);
+    if (isNewWorst) result.worst = x, result.V = V, result.rate = rate;
+  }
+  return concluded(std::move(result), leastV > kZero, greatestRate<-kZero, greatestRate> kZero);
+}
+
+LyapunovCertificate certifyQuadratic(const MatrixArg& A, const MatrixArg& P) {
+  const Eigen::Index n = A.rows();
+  requireSize("columns of A", A.cols(), n);
+  requireSize("rows of P", P.rows(), n);
+  requireSize("columns of P", P.cols(), n);
+  if (!A.allFinite()) throw Error({.what = "matrix A", .found = "entries that are not finite"});
+  if (!P.allFinite()) throw Error({.what = "matrix P", .found = "entries that are not finite"});
+  if ((P - P.transpose()).cwiseAbs().maxCoeff() > 1e-9 * P.cwiseAbs().maxCoeff())
+    throw Error({.what = "matrix P", .found = "a matrix that is not symmetric", .wanted = "a symmetric one"});
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ofP(P);
+  LyapunovCertificate result{.leastOfP = ofP.eigenvalues()[0], .worst = ofP.eigenvectors().col(0)};
+  if (!(result.leastOfP > 1e-13 * ofP.eigenvalues()[n - 1])) {
+    result.status = LyapunovStatus::kNotPositive;
+    result.message =
+        fmt::format("P has the eigenvalue {:.4g} in the direction {}", result.leastOfP, shown(result.worst));
+    return result;
+  }
+  const Eigen::MatrixXd PA = P * A;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ofRate(PA + PA.transpose(), P);
+  result.rate = ofRate.eigenvalues()[n - 1];
+  result.worst = ofRate.eigenvectors().col(n - 1).normalized();
+  const double rounding = 1e-12 * ofRate.eigenvalues().cwiseAbs().maxCoeff();
+  result.status = result.rate > rounding    ? LyapunovStatus::kRises
+                  : result.rate < -rounding ? LyapunovStatus::kHolds
+                                            : LyapunovStatus::kOnlySemidefinite;
+  result.message = fmt::format("V {} in the direction {}: V' = {:.4g} V",
+                               result.status == LyapunovStatus::kRises   ? "rises"
+                               : result.status == LyapunovStatus::kHolds ? "falls everywhere, least"
+                                                                         : "never rises, but does not fall",
+                               shown(result.worst), result.rate);
+  return result;
+}
+
+double certifiedLevel(const MatrixArg& A, const MatrixArg& P, double curvature) {
+  internal::requirePositive("curvature", curvature);
+  if (certifyQuadratic(A, P).status != LyapunovStatus::kHolds) return 0;
+  // V' <= -fall |x|^2 + 2 |P| curvature |x|^3, so V falls for |x| below a radius; the level is the largest
+  // ellipsoid in that ball.
+  const Eigen::MatrixXd PA = P * A;
+  const auto eigenvaluesOf = [](const Eigen::MatrixXd& M) -> Eigen::VectorXd {
+    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(M, Eigen::EigenvaluesOnly).eigenvalues();
+  };
+  const Eigen::VectorXd ofP = eigenvaluesOf(P);
+  const double fall = -eigenvaluesOf(PA + PA.transpose()).maxCoeff();
+  const double radius = fall / (2 * ofP.maxCoeff() * curvature);
+  return ofP.minCoeff() * radius * radius;
+}
+
+}  // namespace rex

@@ -1,0 +1,157 @@
+#include "control/ilqr.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "base/rng.h"
+#include "control/finite_horizon.h"
+#include "optim/derivative_check.h"
+#include "support/expect_error.h"
+
+namespace rex {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using testing::HasSubstr;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+// A pendulum, to be swung up by a weak motor in 3 s: x = (angle from upright, its rate).
+ControlProblem pendulum() {
+  ControlProblem problem;
+  problem.next = [](const VectorXd& x, const VectorXd& u) {
+    const double h = 0.05, rate = x[1] + h * (9.81 * std::sin(x[0]) + u[0]);
+    return VectorXd(Eigen::Vector2d(x[0] + h * rate, rate));
+  };
+  problem.stage = [](const VectorXd&, const VectorXd& u, int) { return VectorXd(0.05 * u); };
+  problem.final = [](const VectorXd& x) { return VectorXd(10 * x); };
+  problem.start = Eigen::Vector2d(M_PI, 0);
+  return problem;
+}
+
+double costOf(const ControlProblem& problem, const MatrixXd& U) {
+  VectorXd x = problem.start;
+  double cost = 0;
+  for (int t = 0; t < U.cols(); ++t) {
+    cost += problem.stage(x, U.col(t), t).squaredNorm();
+    x = problem.next(x, U.col(t));
+  }
+  return cost + problem.final(x).squaredNorm();
+}
+
+// On a linear quadratic problem, one step leads to the regulator of the horizon.
+TEST(Ilqr, IsTheRegulatorInOneStep) {
+  Rng rng(33);
+  const MatrixXd A = rng.normalVector(9).reshaped(3, 3), B = rng.normalVector(6).reshaped(3, 2);
+  ControlProblem problem;
+  problem.next = [&](const VectorXd& x, const VectorXd& u) { return VectorXd(A * x + B * u); };
+  problem.stage = [](const VectorXd& x, const VectorXd& u, int) {
+    VectorXd e(5);
+    e << x, u;
+    return e;
+  };
+  problem.final = [](const VectorXd& x) { return VectorXd(2 * x); };
+  problem.start = rng.normalVector(3);
+  const IlqrResult result = ilqr(problem, MatrixXd::Zero(2, 12));
+  EXPECT_EQ(result.status, IlqrStatus::kConverged) << result.message;
+  EXPECT_EQ(result.iterations, 1);
+  const RiccatiHorizon horizon = discreteHorizon({.A = A, .B = B, .step = 1}, MatrixXd::Identity(3, 3),
+                                                 MatrixXd::Identity(2, 2), 4 * MatrixXd::Identity(3, 3), 12);
+  EXPECT_NEAR(result.cost, problem.start.dot(horizon.P[0] * problem.start), 1e-8 * result.cost);
+  for (std::size_t t = 0; t < 12; ++t)
+    EXPECT_LT((result.K[t] - horizon.K[t]).norm(), 1e-7 * (1 + horizon.K[t].norm()));
+  EXPECT_NEAR(result.cost, costOf(problem, result.U), 1e-12 * result.cost);
+}
+
+// Where it stops, no control changes the cost: the gradient by differences is zero.
+TEST(Ilqr, SwingsAPendulumUp) {
+  const ControlProblem problem = pendulum();
+  const IlqrResult result =
+      ilqr(problem, MatrixXd::Constant(1, 60, 0.1), {.maxIterations = 500, .tolerance = 1e-12});
+  ASSERT_EQ(result.status, IlqrStatus::kConverged) << result.message;
+  EXPECT_THAT(result.message, HasSubstr("converged after"));
+  EXPECT_LE(result.residual, 1e-12);
+  EXPECT_LT(result.X.col(60).norm(), 0.05) << "it stands";
+  EXPECT_LT(result.cost, 0.5 * costOf(problem, MatrixXd::Zero(1, 60)));
+  const auto slope = [&](const MatrixXd& U) {
+    const auto cost = [&](const VectorXd& u) {
+      return VectorXd(VectorXd::Constant(1, costOf(problem, u.transpose())));
+    };
+    return numericJacobian(cost, U.transpose()).norm();
+  };
+  EXPECT_LT(slope(result.U), 1e-3 * slope(MatrixXd::Constant(1, 60, 0.1)));
+  // Its own gains hold the motion against a push.
+  VectorXd x = problem.start + Eigen::Vector2d(0.02, 0);
+  for (int t = 0; t < 60; ++t)
+    x = problem.next(x, result.U.col(t) - result.K[static_cast<std::size_t>(t)] * (x - result.X.col(t)));
+  EXPECT_LT(x.norm(), 0.1);
+}
+
+TEST(Ilqr, TakesExactDerivatives) {
+  ControlProblem problem = pendulum();
+  const IlqrResult numeric = ilqr(problem, MatrixXd::Constant(1, 60, 0.1), {.maxIterations = 500});
+  int calls = 0;
+  problem.derivative = [&calls](const VectorXd& x, const VectorXd&) {
+    ++calls;
+    MotionJacobians J{MatrixXd(2, 2), MatrixXd(2, 1)};
+    const double h = 0.05;
+    J.A << 1 + h * h * 9.81 * std::cos(x[0]), h, h * 9.81 * std::cos(x[0]), 1;
+    J.B << h * h, h;
+    return J;
+  };
+  const IlqrResult exact = ilqr(problem, MatrixXd::Constant(1, 60, 0.1), {.maxIterations = 500});
+  EXPECT_GT(calls, 60);
+  EXPECT_NEAR(exact.cost, numeric.cost, 1e-5 * numeric.cost);
+}
+
+TEST(Ilqr, TellsHowFarItCame) {
+  const ControlProblem problem = pendulum();
+  const MatrixXd U = MatrixXd::Constant(1, 60, 0.1);
+  const IlqrResult spent = ilqr(problem, U, {.maxIterations = 2});
+  EXPECT_EQ(spent.status, IlqrStatus::kBudgetSpent);
+  EXPECT_EQ(spent.iterations, 2);
+  EXPECT_LT(spent.cost, costOf(problem, U));
+  EXPECT_THAT(spent.message, HasSubstr("the iterations are spent after 2 steps"));
+  EXPECT_EQ(ilqr(problem, U, {.maxIterations = 0}).U, U);
+  ControlProblem leaping = problem;
+  leaping.next = [](const VectorXd& x, const VectorXd&) { return VectorXd(1e200 * x); };
+  const IlqrResult diverged = ilqr(leaping, U);
+  EXPECT_EQ(diverged.status, IlqrStatus::kDiverged);
+  EXPECT_THAT(diverged.message, HasSubstr("the first motion is not finite"));
+  // A derivative of the wrong sign promises what no step keeps.
+  ControlProblem wrong;
+  wrong.next = [](const VectorXd& x, const VectorXd& u) { return VectorXd(x + u); };
+  wrong.stage = [](const VectorXd&, const VectorXd& u, int) { return VectorXd(1e-3 * u); };
+  wrong.final = [](const VectorXd& x) { return x; };
+  wrong.start = VectorXd::Ones(1);
+  wrong.derivative = [](const VectorXd&, const VectorXd&) {
+    return MotionJacobians{MatrixXd::Identity(1, 1), -MatrixXd::Identity(1, 1)};
+  };
+  const IlqrResult stuck = ilqr(wrong, MatrixXd::Zero(1, 3));
+  EXPECT_EQ(stuck.status, IlqrStatus::kNoProgress) << stuck.message;
+  EXPECT_THAT(stuck.message, HasSubstr("no step lowers the cost"));
+}
+
+TEST(Ilqr, SaysWhatIsWrong) {
+  const MatrixXd U = MatrixXd::Zero(1, 3);
+  const auto expect = [&](const auto& change, const char* text) {
+    ControlProblem problem = pendulum();
+    change(problem);
+    EXPECT_REX_ERROR(ilqr(problem, U), text);
+  };
+  expect([](ControlProblem& p) { p.next = nullptr; }, "control problem: found a function that is missing");
+  expect([](ControlProblem& p) { p.start[0] = kNan; }, "start of a control problem: number 0: found nan");
+  expect([](ControlProblem& p) { p.next = [](const VectorXd&, const VectorXd& u) { return u; }; },
+         "next state: found a vector of size 1, wanted size 2");
+  EXPECT_REX_ERROR(ilqr(pendulum(), MatrixXd(1, 0)), "first guess U: found no controls");
+  EXPECT_REX_ERROR(ilqr(pendulum(), MatrixXd::Constant(1, 3, kNan)), "first guess U: number 0: found nan");
+  EXPECT_REX_ERROR(ilqr(pendulum(), U, {.tolerance = 0}), "tolerance of iLQR: found 0");
+  EXPECT_REX_ERROR(ilqr(pendulum(), U, {.damping = -1}), "damping of iLQR: found -1");
+  EXPECT_REX_ERROR(ilqr(pendulum(), U, {.maxIterations = -1}), "iterations of iLQR: found -1");
+}
+
+}  // namespace
+}  // namespace rex
