@@ -1,3 +1,7 @@
+# What the sanitizers look at in a short run: modules that read files of users, draw, talk to processes, or reach into
+# memory by themselves. The others compute with what these give them; scripts/test --long looks at all.
+set(REX_SANITIZED_MODULES base geometry remote scene estimation kinematics dynamics collision render physics grading)
+
 # rex_test(MODULE NAME [USES module ...] [PRIVATE library ...])
 #
 # Builds tests/MODULE/NAME_test.cpp and registers each of its GoogleTest cases as MODULE/NAME.Suite.Case.
@@ -15,7 +19,7 @@ function(rex_test module name)
   endforeach()
   gtest_discover_tests(${target} TEST_PREFIX ${module}/${name}. DISCOVERY_TIMEOUT 60
     PROPERTIES LABELS ${module} TIMEOUT 300)
-  if(NOT module STREQUAL cli)
-    set_property(GLOBAL APPEND PROPERTY REX_LIBRARY_TESTS ${target})
+  if(module IN_LIST REX_SANITIZED_MODULES)
+    set_property(GLOBAL APPEND PROPERTY REX_SANITIZED_TESTS ${target})
   endif()
 endfunction()
