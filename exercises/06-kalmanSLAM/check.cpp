@@ -394,7 +394,7 @@ void mapsAnyRing(Check& check, Student& student) {
 
 // Part 5.
 
-// Of 16000 seeds, none fails here or in the hidden check; in all, landmarks err by 0.10 m with a deviation of
+// Of 32000 seeds, none fails here or in the hidden check; in all, landmarks err by 0.10 m with a deviation of
 // 0.03 m.
 void findsLandmarks(Check& check, Student& student) {
   check.input(

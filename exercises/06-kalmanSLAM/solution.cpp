@@ -206,8 +206,9 @@ std::vector<Belief> hindsight(const CarSetup& car, const std::vector<Belief>& fi
     // How a correction at t + 1 carries over to t: the regression of x(t) on x(t + 1).
     const Eigen::MatrixXd AS = stepByState(car, now.mean, controls[t]) * now.covariance;
     const Eigen::MatrixXd G = solveMatrix(moved.covariance, AS).transpose();
-    const Eigen::MatrixXd GS = G * (later.covariance - moved.covariance);
-    smooth[t].mean = now.mean + G * (later.mean - moved.mean);
+    const Eigen::MatrixXd change = later.covariance - moved.covariance, GS = G * change;
+    const Eigen::VectorXd shift = later.mean - moved.mean;
+    smooth[t].mean = now.mean + G * shift;
     smooth[t].covariance = symmetric(now.covariance + GS * G.transpose());
   }
   // <todo>
@@ -222,8 +223,8 @@ Belief jointPredicted(const CarSetup& car, const Belief& joint, const Eigen::Vec
   // <solution jointPredicted>
   // Only the first three rows and columns change: what the car has in common with the landmarks turns, too.
   const Eigen::Vector3d x = joint.mean.head(3);
-  const Eigen::MatrixXd A = stepByState(car, x, u), rows = A * joint.covariance.topRows(3);
-  const Eigen::MatrixXd S = rows.leftCols(3) * A.transpose() + stepNoise(car);
+  const Eigen::MatrixXd A = stepByState(car, x, u), before = joint.covariance.topRows(3), rows = A * before;
+  const Eigen::MatrixXd own = rows.leftCols(3), S = own * A.transpose() + stepNoise(car);
   moved.mean.head(3) = stepped(car, x, u);
   moved.covariance.topRows(3) = rows;
   moved.covariance.leftCols(3) = rows.transpose();
@@ -283,9 +284,9 @@ Belief withLandmark(const CarSetup& car, const Belief& joint, const Eigen::Vecto
   const Eigen::Vector3d x = joint.mean.head(3);
   const Eigen::Vector2d l = placed(car, x, y);
   const Eigen::MatrixXd byView = inverse(viewByLandmark(car, x, l));
-  const Eigen::MatrixXd byState = -byView * viewByState(car, x, l);
-  const Eigen::MatrixXd cross = byState * joint.covariance.topRows(3), noise = byView * viewNoise(car);
-  const Eigen::MatrixXd S = cross.leftCols(3) * byState.transpose() + noise * byView.transpose();
+  const Eigen::MatrixXd C = -viewByState(car, x, l), byState = byView * C, rows = joint.covariance.topRows(3);
+  const Eigen::MatrixXd cross = byState * rows, own = cross.leftCols(3), noise = byView * viewNoise(car);
+  const Eigen::MatrixXd S = own * byState.transpose() + noise * byView.transpose();
   larger.mean.tail(2) = l;
   larger.covariance.bottomLeftCorner(2, n) = cross;
   larger.covariance.topRightCorner(n, 2) = cross.transpose();
