@@ -15,8 +15,8 @@
 namespace rex::internal {
 namespace {
 
-// Rows w (x_j - M x_i - b) = 0 for vectors x_1.. of one size, several right-hand sides at once. M is square of
-// Size; where no M turns anything, Size is 1 and the coordinates are right-hand sides.
+// Rows w (x_j - M x_i - b) = 0 for vectors x_1.. of one size, several right-hand sides at once. M is square
+// of Size; where no M turns anything, Size is 1 and the coordinates are right-hand sides.
 template <int Size, int Columns>
 class LinearGraph {
  public:
