@@ -12,6 +12,7 @@
 
 #include "course/car_simulator.h"
 #include "estimation/consistency.h"
+#include "geometry/rotation.h"
 #include "grading/check.h"
 #include "interface.h"
 
@@ -81,10 +82,17 @@ inline void requireBelief(rex::grading::Check& check, const Belief& belief, Eige
              Eigen::LLT<Eigen::MatrixXd>(belief.covariance).info() == Eigen::Success);
 }
 
+// got - wanted of states that begin with x, y and a heading, which may differ by whole turns.
+inline Eigen::VectorXd gapOf(const Eigen::VectorXd& got, const Eigen::VectorXd& wanted) {
+  Eigen::VectorXd gap = got - wanted;
+  gap[2] = rex::wrapAngle(gap[2]);
+  return gap;
+}
+
 inline void sameBelief(rex::grading::Check& check, const Belief& got, const Belief& wanted,
                        double tolerance) {
   requireBelief(check, got, wanted.mean.size());
-  check.near("mean", got.mean, wanted.mean, tolerance);
+  check.near("mean", wanted.mean + gapOf(got.mean, wanted.mean), wanted.mean, tolerance);
   check.near("covariance", got.covariance, wanted.covariance, tolerance);
 }
 

@@ -167,7 +167,7 @@ void trackRun(Check& check, Student& student, const CarRun& run, Tracking& total
   for (std::size_t t = 0; t < T; ++t) {
     belief = student.tracked(run.car, belief, run.controls[t], run.landmarks, run.sightings[t]);
     requireBelief(check, belief, 3);
-    const Eigen::Vector3d error = belief.mean - run.states[t + 1];
+    const Eigen::Vector3d error = gapOf(belief.mean, run.states[t + 1]);
     if (2 * t >= T) total.position += error.head(2).squaredNorm() / static_cast<double>(T / 2);
     if (t + 1 == T || 2 * t == T) total.squared += squaredError(error, belief.covariance) / 2;
   }
@@ -294,7 +294,7 @@ void smoothsBetter(Check& check, Student& student) {
       before += (filtered[t].mean - run.states[t]).head(2).squaredNorm();
       after += (smooth[t].mean - run.states[t]).head(2).squaredNorm();
     }
-    squared += squaredError(smooth[30].mean - run.states[30], smooth[30].covariance) / kRuns;
+    squared += squaredError(gapOf(smooth[30].mean, run.states[30]), smooth[30].covariance) / kRuns;
   }
   check.atMost("position error of the smoother, as a share of the filter's", std::sqrt(after / before), 0.9);
   check.atMost("squared error in terms of the covariance, on average over runs (3 expected)", squared, 5);
@@ -458,8 +458,11 @@ Eigen::Matrix2Xd particleMap(Check& check, Student& student, const CarRun& run) 
     for (MapParticle& particle : particles)
       particle.x = model.getMeanStateAfterStep(particle.x, run.controls[t]) +
                    run.car.dynamicsNoise * rng.normalVector(3);
-    particles = student.weighed(run.car, particles, seenAt(run, t, 100));
+    const std::vector<MapParticle> before = particles;
+    particles = student.weighed(run.car, before, seenAt(run, t, 100));
     check.near("number of particles", static_cast<double>(particles.size()), kParticles, 0);
+    for (std::size_t k = 0; k < kParticles; ++k)
+      check.near("state of a particle", particles[k].x, before[k].x, 0);
     double sum = 0, squares = 0;
     for (const MapParticle& particle : particles) {
       check.that("weights are not negative", particle.weight >= 0);

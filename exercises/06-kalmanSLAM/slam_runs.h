@@ -75,7 +75,8 @@ inline void judgeMap(rex::grading::Check& check, const CarRun& run, const MapBel
   total.error += std::pow(rex::absoluteTrajectoryError(places, truth), 2);
   Eigen::VectorXd all(map.joint.mean.size());
   all << run.states.back(), truth.reshaped();
-  total.squared += squaredError(map.joint.mean - all, map.joint.covariance) / static_cast<double>(all.size());
+  total.squared +=
+      squaredError(gapOf(map.joint.mean, all), map.joint.covariance) / static_cast<double>(all.size());
   ++total.runs;
 }
 

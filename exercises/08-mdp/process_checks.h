@@ -113,7 +113,7 @@ inline void valuesSettle(rex::grading::Check& check, Student& student, const Pro
 inline void policiesImprove(rex::grading::Check& check, Student& student, const Process& process) {
   check.input(described(process));
   const std::vector<std::vector<int>> policies = student.iteratePolicies(process);
-  const auto n = static_cast<std::size_t>(process.R.rows());
+  const auto n = static_cast<std::size_t>(process.R.col(0).size());
   const int m = static_cast<int>(process.R.cols());
   const rex::Mdp mdp = mdpOf(process);
   check.atLeast("number of policies", static_cast<double>(policies.size()), 1);

@@ -352,11 +352,10 @@ void alignsMoreScans(Check& check, Student& student) { alignsPairs(check, studen
 
 // The reference finds all of 700 pairs of one place, and takes one pair of 700 strangers for the same.
 void tellsPlacesApart(Check& check, Student& student, int pairs) {
-  int found = 0, right = 0, wrong = 0;
+  int right = 0, wrong = 0;
   for (int k = 0; k < pairs; ++k) {
     const ScanPair pair = pairOfScans(check.rng()), strangers = pairOfStrangers(check.rng());
     if (const auto motion = student.loopMotion(pair.reference, pair.moving, pair.guess)) {
-      ++found;
       check.shape("motion", *motion, 3, 1);
       const auto [metres, radians] = missOf(*motion, pair.motion);
       if (metres < 0.2 && radians < 0.1) ++right;
@@ -364,7 +363,6 @@ void tellsPlacesApart(Check& check, Student& student, int pairs) {
     if (student.loopMotion(strangers.reference, strangers.moving, strangers.guess)) ++wrong;
   }
   check.atLeast("pairs of one place that are found, and right", right, 0.9 * pairs);
-  check.that("what is found of one place is right", found == right);
   check.atMost("pairs of different rooms taken for one place", wrong, 0.1 * pairs);
 }
 
@@ -393,6 +391,13 @@ void addWrongLoops(Rng& rng, StreetWalk& walk, double share) {
     walk.map.edges.push_back({i, j, rng.uniformVector(3, -0.2, 0.2), information, true});
     ++k;
   }
+  // Where an edge stands does not tell whether it is right.
+  std::vector<MeasuredEdge> edges, mixed;
+  for (const MeasuredEdge& edge : walk.map.edges) (edge.isLoop ? mixed : edges).push_back(edge);
+  for (std::size_t k = mixed.size(); k > 1; --k)
+    std::swap(mixed[k - 1], mixed[static_cast<std::size_t>(rng.index(static_cast<int>(k)))]);
+  edges.insert(edges.end(), mixed.begin(), mixed.end());
+  walk.map.edges = std::move(edges);
 }
 
 bool standsWrongLoops(Check& check, Student& student, int poses, double share) {

@@ -69,9 +69,10 @@ std::string textOf(const FilterOptions& options, const FilterStatistics& all) {
     text +=
         fmt::format("map        {} landmarks, {:.4g} m (root mean square)\n", all.foundLandmarks, all.map);
   text += fmt::format(
-      "NEES       {:.4g}, consistent: 3; means over the runs lie within {:.4g} to {:.4g}\n"
+      "NEES       {}, consistent: 3; means over the runs lie within {:.4g} to {:.4g}\n"
       "           in {:.1f} % of the steps, consistent: about 95 %",
-      all.nees, all.stepBand.lower, all.stepBand.upper, 100 * all.insideBand);
+      all.nees ? fmt::format("{:.4g}", *all.nees) : "none", all.stepBand.lower, all.stepBand.upper,
+      100 * all.insideBand);
   if (all.innovations > 0)
     text += fmt::format("\nNIS        {:.4g} for each number, consistent: {:.4g} to {:.4g}", all.nis,
                         all.nisBand.lower, all.nisBand.upper);
@@ -79,26 +80,30 @@ std::string textOf(const FilterOptions& options, const FilterStatistics& all) {
   return text;
 }
 
+Json jsonOf(std::optional<double> number) { return number ? Json(*number) : Json(); }
 Json jsonOf(const ConsistencyBand& band) { return {band.lower, band.upper}; }
 
 std::string jsonTextOf(const FilterOptions& options, const FilterStatistics& all,
                        const std::vector<std::string>& files) {
   Json runs = Json::array();
   for (const RunErrors& run : all.runs)
-    runs.push_back(
-        {{"seed", run.seed}, {"position", run.position}, {"heading", run.heading}, {"nees", run.nees}});
-  Json json{{"filter", options.filter},
-            {"landmarks", options.landmarks},
-            {"steps", options.steps},
-            {"position", all.position},
-            {"heading", all.heading},
-            {"dead_reckoning", all.deadReckoning},
-            {"map", all.foundLandmarks > 0 ? Json(all.map) : Json()},
-            {"nees", {{"mean", all.nees}, {"band", jsonOf(all.stepBand)}, {"inside", all.insideBand}}},
-            {"nis", Json()},
-            {"singular", all.singular},
-            {"runs", std::move(runs)},
-            {"files", files}};
+    runs.push_back({{"seed", run.seed},
+                    {"position", run.position},
+                    {"heading", run.heading},
+                    {"nees", jsonOf(run.nees)}});
+  Json json{
+      {"filter", options.filter},
+      {"landmarks", options.landmarks},
+      {"steps", options.steps},
+      {"position", all.position},
+      {"heading", all.heading},
+      {"dead_reckoning", all.deadReckoning},
+      {"map", all.foundLandmarks > 0 ? Json(all.map) : Json()},
+      {"nees", {{"mean", jsonOf(all.nees)}, {"band", jsonOf(all.stepBand)}, {"inside", all.insideBand}}},
+      {"nis", Json()},
+      {"singular", all.singular},
+      {"runs", std::move(runs)},
+      {"files", files}};
   if (all.innovations > 0) json["nis"] = {{"mean", all.nis}, {"band", jsonOf(all.nisBand)}};
   return dump(json);
 }

@@ -28,14 +28,14 @@ void FilterStatisticsBuilder::add(const FilterRun& run) {
     sums_.stepNees[t] += run.nees[t];
     ++regular_[t];
   }
-  sums_.nees += nees;
+  nees_ += nees;
   sums_.singular += run.steps() - regular;
   for (const FoundLandmark& one : run.map)
     sums_.map += (one.belief.mean - run.landmarks.col(one.landmark)).squaredNorm();
   sums_.foundLandmarks += static_cast<int>(run.map.size());
   const double n = run.steps();
-  sums_.runs.push_back(
-      {run.seed, std::sqrt(position / n), std::sqrt(heading / n), nees / std::max(regular, 1)});
+  sums_.runs.push_back({run.seed, std::sqrt(position / n), std::sqrt(heading / n), {}});
+  if (regular > 0) sums_.runs.back().nees = nees / regular;
 }
 
 FilterStatistics FilterStatisticsBuilder::statistics() const {
@@ -45,7 +45,8 @@ FilterStatistics FilterStatisticsBuilder::statistics() const {
   const double n = static_cast<double>(sums_.stepNees.size()) * runs;
   for (double* sum : {&result.position, &result.heading, &result.deadReckoning}) *sum = std::sqrt(*sum / n);
   result.map = std::sqrt(sums_.map / std::max(sums_.foundLandmarks, 1));
-  result.nees = sums_.nees / std::max(std::accumulate(regular_.begin(), regular_.end(), 0.), 1.);
+  const double regular = std::accumulate(regular_.begin(), regular_.end(), 0.);
+  if (regular > 0) result.nees = nees_ / regular;
   result.stepBand = consistencyBand(runs, 3);
   int inside = 0;
   for (std::size_t t = 0; t < regular_.size(); ++t) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "cli/filter_run.h"
@@ -11,7 +12,8 @@ namespace rex::cli {
 /// Root mean square errors of one run, metres and radians, and its mean NEES.
 struct RunErrors {
   std::uint64_t seed = 0;
-  double position = 0, heading = 0, nees = 0;
+  double position = 0, heading = 0;
+  std::optional<double> nees{};  ///< empty: all covariances are singular, or nearly so
 };
 
 /// How well a filter did in runs that differ in the seed only. Of a consistent filter, squared errors in the
@@ -21,12 +23,12 @@ struct FilterStatistics {
   std::vector<RunErrors> runs{};
   double position = 0, heading = 0, deadReckoning = 0;  ///< root mean squares over runs and steps
   double map = 0;                  ///< the same of the landmarks that were found in the end, metres
-  double nees = 0;                 ///< mean over runs and steps, where the covariance is not singular
+  std::optional<double> nees{};    ///< mean over runs and steps, where the covariance is not singular
   std::vector<double> stepNees{};  ///< of each step, the mean over runs
   ConsistencyBand stepBand{};      ///< for such a mean
   double insideBand = 0;           ///< share of the steps
   double nis = 0;                  ///< for one number of an innovation
-  int innovations = 0;             ///< how many numbers; without any, there is no NIS
+  double innovations = 0;          ///< how many numbers; without any, there is no NIS
   ConsistencyBand nisBand{};
   int foundLandmarks = 0;
   int singular = 0;  ///< steps with covariances that are, or nearly so
@@ -42,6 +44,7 @@ class FilterStatisticsBuilder {
 
  private:
   FilterStatistics sums_;
+  double nees_ = 0;
   std::vector<int> regular_;  // runs whose covariance is not singular, for each step
 };
 

@@ -35,7 +35,7 @@ void requireBeliefs(const char* what, const std::vector<PlanarGaussian>& beliefs
     const std::string name = fmt::format("{} {}", what, i);
     requireNumbers(name, beliefs[i].mean);
     requireCovariance(name, beliefs[i].covariance, 2);
-    requireNumbers(name, beliefs[i].covariance.reshaped());
+    requireNumbers(name + ", deviations", beliefs[i].covariance.diagonal().cwiseMax(0).cwiseSqrt());
   }
 }
 

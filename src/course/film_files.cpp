@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/error.h"
 #include "base/interruption.h"
 #include "course/gl_choice.h"
 #include "render/contact_sheet.h"
@@ -52,11 +54,19 @@ void writeFilmFrames(const Film& film, const Shot& shot, const std::string& fold
 }
 
 void writeFilmVideo(const Film& film, const Shot& shot, const std::string& name, int rate) {
+  // As the video says itself, where there is ffmpeg.
+  if (rate < 1 || rate > 1000)
+    throw Error(
+        {.what = name + ".mp4: frames per second", .found = fmt::format("{}", rate), .wanted = "1 to 1000"});
   beforeSignals([&] {
     std::vector<std::unique_ptr<FrameSink>> sinks;
     sinks.push_back(std::make_unique<PngSequence>(name));
     MadeSink video = makeFrameSink(name + ".mp4", {.rate = rate});
-    if (video.sink) sinks.push_back(std::move(video.sink));
+    // Where none can be made, that of an earlier run is not left beside other frames.
+    if (video.sink)
+      sinks.push_back(std::move(video.sink));
+    else
+      std::filesystem::remove(name + ".mp4");
     TeeSink both(std::move(sinks));
     drawInto(both, film, shot);
     if (!video.missing.empty()) fmt::print(stderr, "{}; the frames are in {}\n", video.missing, name);

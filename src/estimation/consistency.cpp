@@ -91,8 +91,9 @@ double chiSquareQuantile(double probability, double degrees) {
   return (low + high) / 2;
 }
 
-ConsistencyBand consistencyBand(int runs, double degrees, double probability) {
-  if (runs < 1) throw Error({.what = "runs", .found = fmt::format("{}", runs), .wanted = "one or more"});
+ConsistencyBand consistencyBand(double runs, double degrees, double probability) {
+  if (!(runs >= 1))
+    throw Error({.what = "runs", .found = fmt::format("{:g}", runs), .wanted = "one or more"});
   requireProbability(probability);
   // The sum of the runs is chi-square, too.
   const double tail = (1 - probability) / 2;

@@ -22,7 +22,7 @@ namespace rex {
 struct ConsistencyBand {
   double lower = 0, upper = 0;
 };
-[[nodiscard]] ConsistencyBand consistencyBand(int runs, double degrees, double probability = 0.95);
+[[nodiscard]] ConsistencyBand consistencyBand(double runs, double degrees, double probability = 0.95);
 
 /// Absolute trajectory error: root mean square distance of the positions (d x T, d = 2 or 3) after the rigid
 /// motion that brings the estimate nearest to the truth (Umeyama 1991), metres. Throws Error for sizes that

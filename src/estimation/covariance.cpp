@@ -79,7 +79,11 @@ bool isDefinite(const Eigen::LLT<Eigen::MatrixXd>& factor, const MatrixArg& A) {
 
 Eigen::LLT<Eigen::MatrixXd> definiteFactor(std::string_view what, const MatrixArg& A) {
   Eigen::LLT<Eigen::MatrixXd> factor(A);
-  if (A.allFinite() && isDefinite(factor, A)) return factor;
+  // It reads the lower triangle alone.
+  if (A.rows() == A.cols() && A.allFinite() && isDefinite(factor, A)) {
+    requireSymmetric(std::string(what), A);
+    return factor;
+  }
   requireCovariance(what, A, A.rows(), Definiteness::kPositive);
   return factor;  // for a compiler that does not see that the line before throws
 }

@@ -35,11 +35,12 @@ void requireOptions(const ParticleFilterOptions& options, Eigen::Index stateSize
     require(size >= 0 && std::isfinite(size), "size of a cell", size, "a finite number, zero or more");
 }
 
-void requireNumbers(const Eigen::MatrixXd& states) {
+void requireNumbers(const Eigen::MatrixXd& states, Eigen::Index first = 0) {
   if (states.allFinite()) return;
   for (Eigen::Index i = 0; i < states.cols(); ++i)
     if (!states.col(i).allFinite())
-      throw Error({.what = fmt::format("state of particle {}", i), .found = "numbers that are not finite"});
+      throw Error(
+          {.what = fmt::format("state of particle {}", first + i), .found = "numbers that are not finite"});
 }
 
 void requireLogWeights(const Eigen::VectorXd& logWeights) {
@@ -53,10 +54,10 @@ void requireLogWeights(const Eigen::VectorXd& logWeights) {
 }
 
 // The cell that a state lies in.
-std::vector<long> cellOf(const VectorArg& state, const Eigen::VectorXd& size) {
-  std::vector<long> cell;
+std::vector<double> cellOf(const VectorArg& state, const Eigen::VectorXd& size) {
+  std::vector<double> cell;
   for (Eigen::Index i = 0; i < size.size(); ++i)
-    if (size[i] > 0) cell.push_back(std::lround(std::floor(state[i] / size[i])));
+    if (size[i] > 0) cell.push_back(std::floor(state[i] / size[i]));
   return cell;
 }
 
@@ -111,7 +112,7 @@ void ParticleFilter::gather(const std::vector<int>& parents) {
 
 // Draws on until the cells that the particles occupy ask for no more.
 void ParticleFilter::proposeAdaptively(const Propose& propose, Rng& rng) {
-  std::set<std::vector<long>> cells;
+  std::set<std::vector<double>> cells;
   chunk_.resize(particles_.states.rows(), options_.most);
   logWeights_.setZero(options_.most);
   int count = 0;
@@ -120,7 +121,7 @@ void ParticleFilter::proposeAdaptively(const Propose& propose, Rng& rng) {
     resample(particles_.weights, size, Resampling::kMultinomial, rng, parents_);
     gather(parents_);
     propose(next_, logWeights_.segment(count, size), rng);
-    requireNumbers(next_);
+    requireNumbers(next_, count);
     for (int k = 0; k < size; ++k) cells.insert(cellOf(next_.col(k), options_.cellSize));
     chunk_.middleCols(count, size) = next_;
     count += size;

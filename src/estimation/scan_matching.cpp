@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <fmt/format.h>
@@ -107,7 +108,7 @@ class Alignment {
       if (u.norm() < 1e-9) break;
       isSettled = isSettled || u.norm() < 0.1 * options_.deviation;
     }
-    return report(match);
+    return report(match, guess);
   }
 
  private:
@@ -217,13 +218,14 @@ class Alignment {
     // Walls seen edge on add no noise: keep M invertible.
     const double least = 1e-9 * M.trace() + 1e-300;
     const Eigen::MatrixXd noise = M + least * Eigen::MatrixXd::Identity(M.rows(), M.cols());
-    const Eigen::Matrix3d ofSteps = V * H * noise.inverse() * H * V.transpose();
     const Eigen::Matrix3d S = equations.toMotion(match.motion);
     Eigen::Matrix3d E = Eigen::Matrix3d::Identity();  // from the error of an edge to the change of the motion
     E.topLeftCorner<2, 2>() = internal::planarRotation(match.motion[2]);
     const Eigen::Matrix3d T = S.inverse() * E;
-    match.information = T.transpose() * ofSteps * T;
-    match.information = (match.information + match.information.transpose().eval()) / 2;
+    // As a square, so that rounding leaves no negative eigenvalue where a direction is not seen.
+    const Eigen::LLT<Eigen::MatrixXd> root(noise);
+    const Eigen::MatrixXd F = root.matrixL().solve(H * V.transpose() * T);
+    match.information = F.transpose() * F;
     if (V.cols() == 3) return;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(equations.H);
     match.unseen = (S * axes.eigenvectors().col(0)).normalized();
@@ -232,9 +234,9 @@ class Alignment {
     if (match.unseen[largest] < 0) match.unseen = -match.unseen;
   }
 
-  ScanMatch report(ScanMatch& match) {
+  ScanMatch report(ScanMatch& match, const Eigen::Vector3d& guess) {
     findPartners(match.motion);
-    if (partners_.size() < 3) return tooFew(match, match.motion);
+    if (partners_.size() < 3) return tooFew(match, guess);
     const Equations equations = weigh();
     addInformation(match, equations);
     double squares = 0;
@@ -246,16 +248,16 @@ class Alignment {
       }
     match.residual = std::sqrt(squares / std::max(1, fits));
     match.overlap = static_cast<double>(fits) / (static_cast<double>(partners_.size()) + lost_);
-    if (match.unseen.norm() > 0) {
+    if (match.iterations >= options_.maxIterations) {
+      match.message = fmt::format("not converged in {} iterations", match.iterations);
+    } else if (match.unseen.norm() > 0) {
       match.status = ScanMatchStatus::kUnobservable;
       match.message =
           fmt::format("the scans do not tell the motion along x, y, heading = ({:.3f}, {:.3f}, {:.3f})",
                       match.unseen[0], match.unseen[1], match.unseen[2]);
-    } else if (match.iterations < options_.maxIterations) {
+    } else {
       match.status = ScanMatchStatus::kConverged;
       match.message = fmt::format("converged: {:.1f} mm from the walls", 1e3 * match.residual);
-    } else {
-      match.message = fmt::format("not converged in {} iterations", match.iterations);
     }
     return match;
   }

@@ -96,13 +96,13 @@ TEST(CarFilter, AnExtendedFilterIsConsistentAndOneThatBelievesTooMuchIsNot) {
     return builder.statistics();
   };
   const FilterStatistics good = statisticsOf(1);
-  EXPECT_NEAR(good.nees, 3, 0.4);
+  EXPECT_NEAR(good.nees.value(), 3, 0.4);
   EXPECT_GT(good.insideBand, 0.85);
   EXPECT_EQ(good.innovations, 50 * 60 * 12);
   EXPECT_GT(good.nis, good.nisBand.lower);
   EXPECT_LT(good.nis, good.nisBand.upper);
   const FilterStatistics bad = statisticsOf(0.25);
-  EXPECT_GT(bad.nees, 6);
+  EXPECT_GT(bad.nees.value(), 6);
   EXPECT_LT(bad.insideBand, 0.2);
   EXPECT_GT(bad.nis, bad.nisBand.upper);
 }

@@ -103,6 +103,11 @@ TEST_F(FilterCommand, TellsWhereTooFewParticlesAreLeft) {
   EXPECT_EQ(result.exitCode, 0) << result.error;
   EXPECT_THAT(result.output, HasSubstr("\nsingular   covariances, left out of NEES: 30"));
   EXPECT_THAT(result.output, HasSubstr("in 0.0 % of the steps"));
+  EXPECT_THAT(result.output, HasSubstr("\nNEES       none,"));
+  const auto json = answerOf(
+      {"--filter", "particles", "--particles", "5", "--steps", "30", "--assume-observation", "0.002"});
+  EXPECT_TRUE(json.at("nees").at("mean").is_null());
+  EXPECT_TRUE(json.at("runs").at(0).at("nees").is_null());
 }
 
 TEST_F(FilterCommand, SaysWhatIsWrong) {

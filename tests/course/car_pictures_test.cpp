@@ -148,8 +148,8 @@ TEST(CarPicture, SaysWhatCannotBeDrawn) {
   expect([](CarView& v) { v.poseBeliefs[0].covariance(0, 1) = 1; }, "belief of a pose 0: found 1 at (0, 1)");
   expect([](CarView& v) { v.landmarkBeliefs[1].covariance(0, 0) = -1; }, "belief of a landmark 1: found");
   expect([&](CarView& v) { v.landmarkBeliefs[0].mean.x() = kNan; }, "belief of a landmark 0: number 0");
-  expect([](CarView& v) { v.landmarkBeliefs[0].covariance *= 1e10; },
-         "belief of a landmark 0: number 0: found 1e+10");
+  expect([](CarView& v) { v.landmarkBeliefs[0].covariance *= 1e20; },
+         "belief of a landmark 0, deviations: number 0: found 1e+10");
   expect([](CarView& v) { v.ways[0].width = 0; },
          "way 'true way', width: found 0, wanted more than 0, at most 50 pixels");
   expect([](CarView& v) { v.sigmas = 0; }, "sigmas: found 0, wanted more than 0");

@@ -169,6 +169,8 @@ TEST(CarParticles, RefuseWhatIsWrong) {
   LandmarkSensor blurred;
   blurred.W.setZero();
   EXPECT_REX_ERROR(landmarkWeights(blurred, landmark, y), "noise of the sightings");
+  blurred.W << 1, 5, 0, 1;
+  EXPECT_REX_ERROR(landmarkWeights(blurred, landmark, y), "wanted a symmetric matrix");
 
   Rng rng(1);
   Eigen::MatrixXd planar = Eigen::MatrixXd::Zero(2, 4);

@@ -214,5 +214,33 @@ TEST(ParticleFilter, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(observationWeights({}, walk.y[0]), "observation model: found no function g");
 }
 
+// The third chunk of the adaptive filter begins with particle 128.
+TEST(ParticleFilter, NamesTheParticleThatIsNoNumber) {
+  Rng rng(31);
+  const Particles start =
+      sampledParticles({Eigen::VectorXd::Zero(1), Eigen::MatrixXd::Identity(1, 1)}, 400, rng);
+  int chunk = 0;
+  const Propose propose = [&](Eigen::Ref<Eigen::MatrixXd> X, Eigen::Ref<Eigen::VectorXd>, Rng&) {
+    if (chunk++ == 2) X(0, 5) = std::numeric_limits<double>::quiet_NaN();
+  };
+  const Weigh weigh = [](const MatrixArg&, Eigen::Ref<Eigen::VectorXd>) {};
+  ParticleFilter filter(start, {.cellSize = Eigen::VectorXd::Constant(1, 1e-3), .fewest = 200, .most = 300});
+  EXPECT_REX_ERROR(filter.step(propose, weigh, rng),
+                   "state of particle 133: found numbers that are not finite");
+  EXPECT_EQ(filter.particles().states, start.states);
+}
+
+// Finer cells never need fewer particles, even where their numbers are beyond all integers.
+TEST(ParticleFilter, CountsCellsFarAway) {
+  Rng rng(32);
+  Particles start{Eigen::MatrixXd(1, 400), Eigen::VectorXd::Constant(400, 1. / 400)};
+  for (double& x : start.states.reshaped()) x = rng.uniform(-1e20, 1e20);
+  const Propose propose = [](Eigen::Ref<Eigen::MatrixXd>, Eigen::Ref<Eigen::VectorXd>, Rng&) {};
+  const Weigh weigh = [](const MatrixArg&, Eigen::Ref<Eigen::VectorXd>) {};
+  ParticleFilter filter(start, {.cellSize = Eigen::VectorXd::Constant(1, 1e-3), .most = 4000});
+  (void)filter.step(propose, weigh, rng);
+  EXPECT_GT(filter.particles().states.cols(), 2000);
+}
+
 }  // namespace
 }  // namespace rex
