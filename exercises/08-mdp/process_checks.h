@@ -113,26 +113,26 @@ inline void valuesSettle(rex::grading::Check& check, Student& student, const Pro
 inline void policiesImprove(rex::grading::Check& check, Student& student, const Process& process) {
   check.input(described(process));
   const std::vector<std::vector<int>> policies = student.iteratePolicies(process);
-  const auto n = static_cast<std::size_t>(process.R.col(0).size());
+  const auto states = static_cast<std::size_t>(process.R.rows());
   const int m = static_cast<int>(process.R.cols());
   const rex::Mdp mdp = mdpOf(process);
   check.atLeast("number of policies", static_cast<double>(policies.size()), 1);
   for (const std::vector<int>& actions : policies) {
-    check.near("number of states of a policy", static_cast<double>(actions.size()), static_cast<double>(n),
-               0);
+    check.near("number of states of a policy", static_cast<double>(actions.size()),
+               static_cast<double>(states), 0);
     check.that("actions are 0 to m - 1",
                std::all_of(actions.begin(), actions.end(), [&](int a) { return a >= 0 && a < m; }));
   }
-  check.that("the first policy takes action 0", policies.front() == std::vector<int>(n, 0));
+  check.that("the first policy takes action 0", policies.front() == std::vector<int>(states, 0));
   Eigen::VectorXd V;
   for (std::size_t i = 0; i < policies.size(); ++i) {
     if (i > 0) {
       check.that("each policy differs from the one before", policies[i] != policies[i - 1]);
       const Eigen::MatrixXd Q = rex::actionValues(mdp, V);
-      for (std::size_t s = 0; s < n; ++s) {
-        const auto row = static_cast<Eigen::Index>(s);
+      for (std::size_t s = 0; s < states; ++s) {
         check.atMost("what the new action is worth less than the best one, by the values before",
-                     Q.row(row).maxCoeff() - Q(row, policies[i][s]), 1e-8 * scaleOf(process));
+                     Q.row(static_cast<int>(s)).maxCoeff() - Q(static_cast<int>(s), policies[i][s]),
+                     1e-8 * scaleOf(process));
       }
     }
     V = rex::policyValues(mdp, rex::policyOf(mdp, policies[i])).V;
