@@ -136,7 +136,7 @@ TEST(PointMass, RefusesBadNumbers) {
   EXPECT_REX_ERROR(pdResponse({1}, {nan, 0}, {}, 0, 1), "gain Kp: found nan");
   EXPECT_REX_ERROR(pdResponse({1}, {0, nan}, {}, 0, 1), "gain Kd: found nan");
   EXPECT_REX_ERROR(pdResponse({1}, {}, {}, nan, 1), "target: found nan");
-  EXPECT_REX_ERROR(pdResponse({1}, {.Kp = -1}, {1, 0}, 0, 1e4), "position q at time t: found inf");
+  EXPECT_REX_ERROR(pdResponse({1}, {.Kp = -1}, {1, 0}, 0, 1e4), "position q at time t: found nan");
   EXPECT_REX_ERROR(pdResponse({1}, {}, {0, 1e300}, 0, 1e300), "position q at time t: found inf");
   EXPECT_REX_ERROR(pdResponse({1}, {.Kp = -1e4}, {1, 0}, 0, 7.08), "velocity v at time t: found inf");
   EXPECT_REX_ERROR(pdResponse({1}, {}, {}, 0, -1), "time t: found -1, wanted a number that is not negative");
