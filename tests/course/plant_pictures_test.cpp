@@ -136,6 +136,10 @@ TEST_F(PlantFilm, HasFramesAContactSheetAndAVideo) {
   const PlantFilmOptions cart{.width = 96, .height = 72, .step = 1. / 60, .moments = 3};
   writeFilm(falling(20), in("cart"), cart);
   check("cart", 10);  // every second
+  std::vector<CartPoleView> away = falling(20);
+  for (std::size_t k = 11; k < away.size(); ++k) away[k].x[0] = -8.1 - 1000. * static_cast<double>(k);
+  writeFilm(away, in("away"), cart);
+  check("away", 6);
   writeFilm(falling(20), in("again"), cart);
   EXPECT_EQ(fileText(in("cart_sheet.png")), fileText(in("again_sheet.png")));
   PlantFilmOptions racer{.width = 96, .height = 72, .moments = 3};
