@@ -20,6 +20,10 @@ namespace {
 
 std::string text(double x) { return std::to_string(x).substr(0, 5); }
 
+// Generators of students come from a stream of their own, one of each check: who winds them back does not
+// find what the grader draws.
+Rng generatorsOf(Check& check) { return check.rng().split(7); }
+
 // Part 1.
 
 // The share of postures with the hand nearer than r: those with the second angle beyond that of r.
@@ -88,7 +92,7 @@ void nearestAndStep(Check& check, Student& student) {
 
 // n draws. Shares and moments are within 5.5 standard deviations, which one right answer in 25 million is
 // not.
-void drawsWell(Check& check, Student& student, double goalBias, int n) {
+void drawsWell(Check& check, Student& student, double goalBias, int n, Rng& given) {
   const Eigen::Vector3d lower(-1, 2, -0.5), upper(1, 2.5, 6), aim(7, 8, 9), size = upper - lower;
   const SearchSettings settings{lower, upper, 0.1, goalBias, 1000};
   check.input("a box from (-1, 2, -0.5) to (1, 2.5, 6), goalBias = " + text(goalBias));
@@ -96,7 +100,7 @@ void drawsWell(Check& check, Student& student, double goalBias, int n) {
   Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
   int others = 0;
   for (int i = 0; i < n; ++i) {
-    const Eigen::VectorXd target = student.drawTarget(settings, aim, Rng(check.rng().next()));
+    const Eigen::VectorXd target = student.drawTarget(settings, aim, Rng(given.next()));
     check.shape("target", target, 3, 1);
     if (target == aim) continue;
     const Eigen::Vector3d place = ((target - lower).array() / size.array() - 0.5).matrix();
@@ -120,8 +124,9 @@ void drawsWell(Check& check, Student& student, double goalBias, int n) {
 }
 
 void targets(Check& check, Student& student) {
-  for (const double goalBias : {0., 0.1, 0.5, 1.}) drawsWell(check, student, goalBias, 1500);
-  drawsWell(check, student, check.rng().uniform(0.2, 0.9), 1500);
+  Rng given = generatorsOf(check);
+  for (const double goalBias : {0., 0.1, 0.5, 1.}) drawsWell(check, student, goalBias, 1500, given);
+  drawsWell(check, student, check.rng().uniform(0.2, 0.9), 1500, given);
 }
 
 // What lies on the way from the nearest node to the new one.
@@ -200,21 +205,21 @@ void backwardIsSound(Check& check, const TreeSearch& search, const PlaneProblem&
 }
 
 // <hidden>
-void growsBackward(Check& check, Student& student) {
+void growsBackward(Check& check, Student& student, Rng& given) {
   for (int i = 0; i < 4; ++i) {
     const PlaneProblem problem = twoWalls(check.rng());
     const SearchSettings settings = inThePlane(0.06, 0.1, 20000);
     const EdgeTest isFree = freeIn(problem.world);
     EdgeRecord record(isFree, 2);
     const TreeSearch search =
-        student.growBackward(problem.start, problem.goal, settings, record.test(), Rng(check.rng().next()));
+        student.growBackward(problem.start, problem.goal, settings, record.test(), Rng(given.next()));
     backwardIsSound(check, search, problem, settings, record, isFree);
   }
 }
 
 // The mean number of nodes of that many searches, eighty steps from root to start. Nothing is in the way, so
 // that each target gives a node.
-double nodesWithBias(Check& check, Student& student, double goalBias, int searches) {
+double nodesWithBias(Check& check, Student& student, double goalBias, int searches, Rng& given) {
   double sum = 0;
   for (int i = 0; i < searches; ++i) {
     const Eigen::VectorXd start = check.rng().uniformVector(2, -1, 1);
@@ -223,8 +228,7 @@ double nodesWithBias(Check& check, Student& student, double goalBias, int search
     const SearchSettings settings{Eigen::Vector2d(-20, -20), Eigen::Vector2d(20, 20), 0.1, goalBias, 4000};
     const EdgeTest isFree = [](const Eigen::VectorXd&, const Eigen::VectorXd&) { return true; };
     EdgeRecord record(isFree, 2);
-    const TreeSearch search =
-        student.growBackward(start, goal, settings, record.test(), Rng(check.rng().next()));
+    const TreeSearch search = student.growBackward(start, goal, settings, record.test(), Rng(given.next()));
     backwardIsSound(check, search, {{}, start, goal}, settings, record, isFree);
     sum += static_cast<double>(search.tree.nodes.size());
   }
@@ -233,8 +237,9 @@ double nodesWithBias(Check& check, Student& student, double goalBias, int search
 
 // Over 30 seeds, four searches have 230 nodes with a standard deviation of 23, or 130 with one of 4. With a
 // bias of 0.2 they have 172, with 0.5 they have 115, whatever was asked for.
-void aimsAtTheStart(Check& check, Student& student) {
-  const double rare = nodesWithBias(check, student, 0.1, 8), often = nodesWithBias(check, student, 0.4, 4);
+void aimsAtTheStart(Check& check, Student& student, Rng& given) {
+  const double rare = nodesWithBias(check, student, 0.1, 8, given),
+               often = nodesWithBias(check, student, 0.4, 4, given);
   check.atLeast("mean number of nodes of trees with goalBias = 0.1", rare, 150);
   check.atMost("mean number of nodes of trees with goalBias = 0.1", rare, 340);
   check.atLeast("mean number of nodes of trees with goalBias = 0.4", often, 105);
@@ -242,8 +247,9 @@ void aimsAtTheStart(Check& check, Student& student) {
 }
 
 void backwardAnywhere(Check& check, Student& student) {
-  growsBackward(check, student);
-  aimsAtTheStart(check, student);
+  Rng given = generatorsOf(check);
+  growsBackward(check, student, given);
+  aimsAtTheStart(check, student, given);
 }
 // </hidden>
 
@@ -255,13 +261,14 @@ void armPathIsSound(Check& check, const Simulator& S, const Path& path) {
 }
 
 void backwardOutOfTheHole(Check& check, Student& student) {
+  Rng given = generatorsOf(check);
   const Simulator S("pegInAHole.ors");
   const EdgeTest isFree = freeForArm(S);
   check.input("pegInAHole.ors, from q = 0 into the hole, stepSize = 0.1, goalBias = 0.1");
   for (int i = 1; i <= kArmTries; ++i) {
     EdgeRecord record(isFree, 7);
     const TreeSearch search =
-        student.growBackward(kZero, kInTheHole, kArmSettings, record.test(), Rng(check.rng().next()));
+        student.growBackward(kZero, kInTheHole, kArmSettings, record.test(), Rng(given.next()));
     if (search.path.empty() && i < kArmTries) continue;
     backwardIsSound(check, search, {{}, kZero, kInTheHole}, kArmSettings, record, isFree);
     return armPathIsSound(check, S, search.path);
@@ -300,13 +307,14 @@ void twoTreesAreSound(Check& check, const TwoTreeSearch& search, const PlaneProb
 // In these worlds both trees have to grow, as one alone does not get through two gaps that soon: at least
 // one node in twenty belongs to the smaller of the two.
 void growsFromBothSides(Check& check, Student& student) {
+  Rng given = generatorsOf(check);
   for (int i = 0; i < 5; ++i) {
     const PlaneProblem problem = twoWalls(check.rng());
     const SearchSettings settings = inThePlane(0.06, 0.1, 20000);
     const EdgeTest isFree = freeIn(problem.world);
     EdgeRecord record(isFree, 2);
     const TwoTreeSearch search =
-        student.growBoth(problem.start, problem.goal, settings, record.test(), Rng(check.rng().next()));
+        student.growBoth(problem.start, problem.goal, settings, record.test(), Rng(given.next()));
     twoTreesAreSound(check, search, problem, settings.stepSize, record, isFree);
     const double one = static_cast<double>(search.fromStart.nodes.size());
     const double other = static_cast<double>(search.fromGoal.nodes.size());
@@ -316,13 +324,14 @@ void growsFromBothSides(Check& check, Student& student) {
 // </hidden>
 
 void bothSidesIntoTheHole(Check& check, Student& student) {
+  Rng given = generatorsOf(check);
   const Simulator S("pegInAHole.ors");
   const EdgeTest isFree = freeForArm(S);
   check.input("pegInAHole.ors, from q = 0 into the hole, stepSize = 0.1");
   for (int i = 1; i <= kArmTries; ++i) {
     EdgeRecord record(isFree, 7);
     const TwoTreeSearch search =
-        student.growBoth(kZero, kInTheHole, kArmSettings, record.test(), Rng(check.rng().next()));
+        student.growBoth(kZero, kInTheHole, kArmSettings, record.test(), Rng(given.next()));
     if (search.path.empty() && i < kArmTries) continue;
     twoTreesAreSound(check, search, {{}, kZero, kInTheHole}, kArmSettings.stepSize, record, isFree);
     return armPathIsSound(check, S, search.path);
@@ -332,9 +341,10 @@ void bothSidesIntoTheHole(Check& check, Student& student) {
 // Part 5.
 
 // What is left of the path after it was shortened: free, with the same ends, not longer.
-double shortenedLength(Check& check, Student& student, const PlaneProblem& problem, const Path& path) {
+double shortenedLength(Check& check, Student& student, const PlaneProblem& problem, const Path& path,
+                       Rng& given) {
   EdgeRecord record(freeIn(problem.world), 2);
-  const Path better = student.shortened(path, record.test(), Rng(check.rng().next()));
+  const Path better = student.shortened(path, record.test(), Rng(given.next()));
   askedWell(check, record);
   // Pieces of free edges are free, but for the last digits.
   pathIsSound(check, better, problem.start, problem.goal, 2, freeIn(problem.world, 1e-9));
@@ -343,15 +353,16 @@ double shortenedLength(Check& check, Student& student, const PlaneProblem& probl
 }
 
 void staysFree(Check& check, Student& student) {
+  Rng given = generatorsOf(check);
   for (int i = 0; i < 6; ++i) {
     const PlaneProblem problem = twoWalls(check.rng());
     check.input("the path of two trees between two thin walls in the unit square");
     const Path path = jaggedPath(problem, check.rng());
     check.that("the shortened path is really shorter",
-               shortenedLength(check, student, problem, path) < lengthOf(path) - 1e-3);
+               shortenedLength(check, student, problem, path, given) < lengthOf(path) - 1e-3);
   }
   const PlaneProblem empty{{}, Eigen::Vector2d(0.1, 0.2), Eigen::Vector2d(0.9, 0.6)};
-  double given = 0, left = 0;
+  double detour = 0, left = 0;
   for (int i = 0; i < 6; ++i) {
     check.input("a jagged path where nothing is in the way");
     Path path{empty.start};
@@ -360,25 +371,26 @@ void staysFree(Check& check, Student& student) {
                         check.rng().uniformVector(2, -0.06, 0.06));
     path.push_back(empty.goal);
     const double shortest = (empty.goal - empty.start).norm();
-    given += lengthOf(path) - shortest;
-    left += shortenedLength(check, student, empty, path) - shortest;
+    detour += lengthOf(path) - shortest;
+    left += shortenedLength(check, student, empty, path, given) - shortest;
   }
-  check.atMost("what is left of six detours, as a share", left / given, 0.1);
+  check.atMost("what is left of six detours, as a share", left / detour, 0.1);
 }
 
 // <hidden>
 void staysNearTheDisc(Check& check, Student& student) {
-  double given = 0, left = 0;
+  Rng given = generatorsOf(check);
+  double detour = 0, left = 0;
   for (int i = 0; i < 24; ++i) {
     const DiscProblem disc = oneDisc(check.rng());
     Path path = jaggedPath(disc.problem, check.rng());
     // Only one way round the disc is the shortest, and shortening does not lead to the other side.
     while (lengthOf(path) > 1.6 * disc.shortest) path = jaggedPath(disc.problem, check.rng());
-    given += lengthOf(path) - disc.shortest;
-    left += shortenedLength(check, student, disc.problem, path) - disc.shortest;
+    detour += lengthOf(path) - disc.shortest;
+    left += shortenedLength(check, student, disc.problem, path, given) - disc.shortest;
   }
   // Leaving out nodes leaves 0.27, with a standard deviation of 0.04; random places on edges leave 0.11.
-  check.atMost("what is left of many detours around a disc, as a share", left / given, 0.5);
+  check.atMost("what is left of many detours around a disc, as a share", left / detour, 0.5);
 }
 // </hidden>
 
@@ -502,11 +514,11 @@ void rewires(Check& check, Student& student) {
 
 // All that holds for every tree of RRT*, and the cost of its path, which is infinite if there is none.
 double starIsSound(Check& check, Student& student, const PlaneProblem& problem,
-                   const SearchSettings& settings) {
+                   const SearchSettings& settings, Rng& given) {
   const EdgeTest isFree = freeIn(problem.world);
   EdgeRecord record(isFree, 2);
   const StarSearch search =
-      student.growStar(problem.start, problem.goal, settings, 1.5, record.test(), Rng(check.rng().next()));
+      student.growStar(problem.start, problem.goal, settings, 1.5, record.test(), Rng(given.next()));
   const Tree& grown = search.tree;
   askedWell(check, record);
   isTree(check, grown, problem.start, false);
@@ -527,21 +539,26 @@ double starIsSound(Check& check, Student& student, const PlaneProblem& problem,
 }
 
 void growsAroundThinWalls(Check& check, Student& student) {
+  Rng given = generatorsOf(check);
   check.input("two thin walls in the unit square, from (0.1, 0.1) to (0.9, 0.9)");
-  starIsSound(check, student, {kThinWalls, kLowerLeft, kUpperRight}, inThePlane(0.1, 0.1, 1500));
+  starIsSound(check, student, {kThinWalls, kLowerLeft, kUpperRight}, inThePlane(0.1, 0.1, 1500), given);
 }
 
 // <hidden>
 void growsAroundWalls(Check& check, Student& student) {
-  for (int i = 0; i < 3; ++i) starIsSound(check, student, twoWalls(check.rng()), inThePlane(0.1, 0.1, 1500));
+  Rng given = generatorsOf(check);
+  for (int i = 0; i < 3; ++i)
+    starIsSound(check, student, twoWalls(check.rng()), inThePlane(0.1, 0.1, 1500), given);
 }
 
 void comesNearTheShortest(Check& check, Student& student) {
+  Rng given = generatorsOf(check);
   double excess = 0;
   const int count = 4;
   for (int i = 0; i < count; ++i) {
     const DiscProblem disc = oneDisc(check.rng());
-    excess += starIsSound(check, student, disc.problem, inThePlane(0.1, 0.05, 1500)) / disc.shortest - 1;
+    excess +=
+        starIsSound(check, student, disc.problem, inThePlane(0.1, 0.05, 1500), given) / disc.shortest - 1;
   }
   // Usually 0.019, with a standard deviation of 0.004; the path of an RRT is longer by 0.36, and at least by
   // 0.2.

@@ -96,7 +96,9 @@ inline constexpr int kNewLandmark = -1, kUnclear = -2;
 /// kNewLandmark; or kUnclear, and that sighting is not used. No landmark is named twice. Judged over whole
 /// runs of some hundred sightings, from an empty map on: at the end, the map holds each landmark that was
 /// seen five times or more, and none twice. Landmarks stand 8 m apart at least, three are always in view, and
-/// none is nearer than 3 m.
+/// none is nearer than 3 m. Also judged on single beliefs, with landmarks closer together. There, a sighting
+/// is of a landmark if it is at most 1.4 deviations from what is expected of that one, and 7.7 at least from
+/// all others; and new if it is 22 at least from all. What deviates is the gap, in its own covariance.
 std::vector<int> assigned(const CarSetup& car, const Belief& joint, const std::vector<Eigen::Vector2d>& ys);
 
 /// A landmark with its name, and what was seen of it.

@@ -157,6 +157,69 @@ inline void judgeNameless(rex::grading::Check& check, Student& student, const Ca
   check.atMost("error of the landmarks (root mean square) after alignment", std::sqrt(total.error), 1, "m");
 }
 
+// How far y is from what is expected of landmark i: squared, in the covariance of the gap.
+inline double squaredGap(const CarSetup& car, const Belief& joint, int i, const Eigen::Vector2d& y) {
+  const auto g = [&](const Eigen::VectorXd& z) { return seenFrom(car, z.head(3), z.segment(3 + 2 * i, 2)); };
+  Eigen::Vector2d gap = y - g(joint.mean);
+  if (car.rangeBearing) gap[1] = std::remainder(gap[1], 2 * kPi);
+  const Eigen::MatrixXd C = derivative(g, joint.mean);
+  return squaredError(gap, C * joint.covariance * C.transpose() + noiseOf(car, 1));
+}
+
+// What is seen under a joint belief, and what it should be taken for.
+struct NamingCase {
+  Belief joint;
+  std::vector<Eigen::Vector2d> ys;
+  std::vector<int> names;
+};
+
+inline bool isClear(const CarSetup& car, const NamingCase& one) {
+  for (std::size_t k = 0; k < one.ys.size(); ++k)
+    for (int i = 0; i < 3; ++i) {
+      const double squared = squaredGap(car, one.joint, i, one.ys[k]);
+      const bool isNew = one.names[k] == kNewLandmark;
+      if (isNew ? squared < 500 : i == one.names[k] ? squared > 1.9 : squared < 60) return false;
+    }
+  return true;
+}
+
+// Three landmarks, all known within centimetres, but for the first if it is `vague`. Of the first is seen
+// what lies nearer, in metres, to the second; or, within 3.5 m of it, a new one. The last is seen, too.
+inline NamingCase namingCase(rex::Rng& rng, const CarSetup& car, bool isVague) {
+  while (true) {
+    NamingCase one{randomJoint(rng, 3), {}, {isVague ? 0 : kNewLandmark, 2}};
+    Belief& joint = one.joint;
+    Eigen::VectorXd scale = Eigen::VectorXd::Constant(9, 0.25);  // powers of two keep it exactly symmetric
+    scale.head(3).setConstant(0.125);
+    if (isVague) scale.segment(3, 2).setConstant(4);
+    joint.covariance = (scale.asDiagonal() * joint.covariance * scale.asDiagonal()).eval();
+    const Eigen::Vector2d first = joint.mean.segment(3, 2), second = first + rng.uniformVector(2, -2, 2),
+                          last = joint.mean.tail(2), place = first + rng.uniformVector(2, -2.4, 2.4);
+    joint.mean.segment(5, 2) = second;
+    if (isVague && (place - second).norm() > 0.7 * (place - first).norm()) continue;
+    for (const Eigen::Vector2d& l : {place, last}) one.ys.emplace_back(seenFrom(car, joint.mean.head(3), l));
+    if (rng.index(2) == 0) {
+      std::swap(one.ys[0], one.ys[1]);
+      std::swap(one.names[0], one.names[1]);
+    }
+    if (isClear(car, one)) return one;
+  }
+}
+
+inline void namesByCovariance(rex::grading::Check& check, Student& student, const CarSetup& car,
+                              bool isVague) {
+  check.input(isVague ? "a belief of three landmarks; seen are a vague one, nearer to where another is, and "
+                        "one that is well known"
+                      : "a belief of three landmarks, all well known; seen are one of them, and a new one "
+                        "within 3.5 m of another");
+  const NamingCase one = namingCase(check.rng(), car, isVague);
+  const std::vector<int> names = student.assigned(car, one.joint, one.ys);
+  check.near("number of names", static_cast<double>(names.size()), static_cast<double>(one.ys.size()), 0);
+  for (std::size_t k = 0; k < names.size(); ++k)
+    check.near("what a sighting is named, by its deviation in terms of the covariance", names[k],
+               one.names[k], 0);
+}
+
 // Maps and weights of random particles, by corrections in canonical form. What is seen is `offset` [m] away
 // from where the maps have it.
 inline void weighsAsItShould(rex::grading::Check& check, Student& student, const CarSetup& car,

@@ -346,12 +346,16 @@ void queries(Check& check, Student& student) {
 
 using Samples = std::vector<Eigen::Vector2d>;
 
+// Generators of students come from a stream of their own, one of each check: who winds them back does not
+// find what the grader draws.
+Rng generatorsOf(Check& check) { return check.rng().split(7); }
+
 // `count` nodes, or as many as come of that many attempts; each attempt has random numbers of its own.
 template <class Sample>
-Samples gathered(Check& check, const Yard& yard, int count, int attempts, const Sample& sample) {
+Samples gathered(Check& check, Rng& given, const Yard& yard, int count, int attempts, const Sample& sample) {
   Samples samples;
   for (int i = 0; i < attempts && std::ssize(samples) < count; ++i) {
-    const std::optional<Eigen::Vector2d> q = sample(Rng(check.rng().next()));
+    const std::optional<Eigen::Vector2d> q = sample(Rng(given.next()));
     if (!q) continue;
     check.that("every node is free", q->allFinite() && isFree(yard, *q));
     samples.push_back(*q);
@@ -370,18 +374,19 @@ double fromBorder(const Yard& yard, const Eigen::Vector2d& q) {
 }
 
 void samplers(Check& check, Student& student) {
+  Rng given = generatorsOf(check);
   const Yard wall{{4, 4}, {{{0, 0}, {2, 4}}}};
   check.input("a yard of 4 x 4 m whose left half is a block; sigma = 0.3 m");
   // 300 uniform nodes: half of them in a half, up to 6 standard deviations of 0.029.
   const Samples uniform =
-      gathered(check, wall, 300, 900, [&](Rng rng) { return student.uniformSample(wall, rng); });
+      gathered(check, given, wall, 300, 900, [&](Rng rng) { return student.uniformSample(wall, rng); });
   check.atLeast("number of uniform nodes of 900 attempts", static_cast<double>(uniform.size()), 300);
   check.near("share of uniform nodes in the upper half", share(uniform, {{2, 2}, {4, 4}}), 0.5, 0.17);
   check.near("share of uniform nodes in the right half", share(uniform, {{3, 0}, {4, 4}}), 0.5, 0.17);
   // Far from the border of the yard, the density at a distance x from the wall goes with P(N(0, sigma) > x).
   // Its mean is sqrt(2 pi) / 4 = 0.627 sigma, its deviation 0.523 sigma.
-  const Samples gaussian =
-      gathered(check, wall, 10000, 6000, [&](Rng rng) { return student.gaussianSample(wall, 0.3, rng); });
+  const Samples gaussian = gathered(check, given, wall, 10000, 6000,
+                                    [&](Rng rng) { return student.gaussianSample(wall, 0.3, rng); });
   double sum = 0, count = 0;
   for (const Eigen::Vector2d& q : gaussian) {
     if (q.y() < 1.2 || q.y() > 2.8 || q.x() > 3.2) continue;
@@ -395,7 +400,7 @@ void samplers(Check& check, Student& student) {
   const Yard slot = slotYard(1.9, 0.2);
   check.input("slotYard() of maps.h, 0.2 m wide; sigma = 0.3 m");
   const Samples bridge =
-      gathered(check, slot, 60, 6000, [&](Rng rng) { return student.bridgeSample(slot, 0.3, rng); });
+      gathered(check, given, slot, 60, 6000, [&](Rng rng) { return student.bridgeSample(slot, 0.3, rng); });
   check.atLeast("number of bridge nodes of 6000 attempts", static_cast<double>(bridge.size()), 10);
   for (const Eigen::Vector2d& q : bridge) {
     double distance = fromBorder(slot, q);
@@ -430,14 +435,15 @@ double rateOf(const Yard& yard, const Samples& uniform, const Samples& others, R
 // standard deviation of 0.028, bridges by 0.57 with one of 0.063. In the slot are 10.7 % of the Gaussian
 // nodes, with a standard deviation of 0.7 %, and 2.6 % of the uniform ones.
 void narrowPassages(Check& check, Student& student) {
+  Rng given = generatorsOf(check);
   const double low = check.rng().uniform(1.3, 2.1);
   const Yard yard = slotYard(low, 0.2);
   const Samples uniform =
-      gathered(check, yard, 3000, 8000, [&](Rng rng) { return student.uniformSample(yard, rng); });
-  const Samples gaussian =
-      gathered(check, yard, 2000, 16000, [&](Rng rng) { return student.gaussianSample(yard, 0.2, rng); });
+      gathered(check, given, yard, 3000, 8000, [&](Rng rng) { return student.uniformSample(yard, rng); });
+  const Samples gaussian = gathered(check, given, yard, 2000, 16000,
+                                    [&](Rng rng) { return student.gaussianSample(yard, 0.2, rng); });
   const Samples bridge =
-      gathered(check, yard, 100, 30000, [&](Rng rng) { return student.bridgeSample(yard, 0.3, rng); });
+      gathered(check, given, yard, 100, 30000, [&](Rng rng) { return student.bridgeSample(yard, 0.3, rng); });
   check.atLeast("number of uniform nodes of 8000 attempts", static_cast<double>(uniform.size()), 3000);
   check.atLeast("number of Gaussian nodes of 16000 attempts", static_cast<double>(gaussian.size()), 2000);
   check.atLeast("number of bridge nodes of 30000 attempts", static_cast<double>(bridge.size()), 60);

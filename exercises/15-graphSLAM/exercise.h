@@ -90,8 +90,8 @@ Eigen::Vector3d bestMotion(const Points& from, const Points& to);
 /// A motion between two scans, and how well they fit then.
 struct Aligned {
   Eigen::Vector3d motion = Eigen::Vector3d::Zero();
-  double residual = 0;  ///< root mean square distance of the points from their partners
-  double overlap = 0;   ///< share of the moving points that have one within 0.3 m
+  double residual = 0;  ///< root mean square distance of points from their partners within 0.3 m
+  double overlap = 0;   ///< share of the moving points that have one
 };
 
 /// The pose of the moving scan seen from the reference: partners, best motion, and again. The guess is up to

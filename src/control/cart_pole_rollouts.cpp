@@ -33,7 +33,7 @@ Rollout rollOut(const Eigen::Vector4d& w, const Trial& trial, const CartPoleRoll
     const double u = w.dot(x);
     const Eigen::Vector4d next = internal::withCartPoleNoise(
         x + options.tau * internal::cartPoleDerivative(numbers, x, u), options.noise, rng);
-    if (!(std::abs(next[2]) <= options.largestAngle)) break;
+    if (!next.allFinite() || std::abs(next[2]) > options.largestAngle) break;
     result.cost += options.tau * (x.dot(options.Q * x) + options.R * u * u);
     x = next;
   }

@@ -8,7 +8,9 @@ PdGains pdGains(double mass, double lambda, double xi) {
   internal::requirePositive("mass", mass);
   internal::requirePositive("wave length lambda", lambda);
   internal::requireNotNegative("damping ratio xi", xi);
-  return {.Kp = mass / (lambda * lambda), .Kd = 2 * mass * xi / lambda};
+  const PdGains gains{.Kp = mass / (lambda * lambda), .Kd = 2 * mass * xi / lambda};
+  internal::requireFinite(gains);
+  return gains;
 }
 
 }  // namespace rex

@@ -19,7 +19,9 @@ bool pidIsStable(double mass, const PidGains& gains) {
   internal::requirePositive("mass", mass);
   requireGains(gains);
   const bool isDamped = gains.Kp > 0 && gains.Kd > 0;
-  return isDamped && gains.Ki >= 0 && gains.Kp * gains.Kd > mass * gains.Ki;
+  // Long doubles, because products of tiny numbers would vanish, and those of large ones overflow.
+  const long double damping = static_cast<long double>(gains.Kp) * gains.Kd;
+  return isDamped && gains.Ki >= 0 && damping > static_cast<long double>(mass) * gains.Ki;
 }
 
 Pid::Pid(const PidOptions& options) : options_(options) {

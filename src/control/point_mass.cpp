@@ -26,10 +26,13 @@ Modes decaying(double damping, double stiffness, double omega, double t) {
   return {slow * (2 + ratio) / 2, -slow * ratio / (2 * omega)};
 }
 
+// damping^2 - stiffness by its factors, because squares of large numbers overflow.
 Modes modesAt(double damping, double stiffness, double t) {
-  const double excess = damping * damping - stiffness;
-  if (excess < 0) return oscillating(damping, std::sqrt(-excess), t);
-  if (excess > 0) return decaying(damping, stiffness, std::sqrt(excess), t);
+  const double size = std::abs(damping), frequency = std::sqrt(std::abs(stiffness));
+  if (stiffness < 0) return decaying(damping, stiffness, std::hypot(damping, frequency), t);
+  const double root = std::sqrt(std::abs(size - frequency)) * std::sqrt(size + frequency);
+  if (size < frequency) return oscillating(damping, root, t);
+  if (size > frequency) return decaying(damping, stiffness, root, t);
   const double envelope = std::exp(-damping * t);
   return {envelope, envelope * t};
 }
@@ -58,8 +61,11 @@ PointMassState pdResponse(const PointMass& point, const PdGains& gains, const Po
   const double damping = gains.Kd / point.mass / 2, stiffness = gains.Kp / point.mass;
   const double e = start.q - target;
   const auto [c, s] = modesAt(damping, stiffness, t);
-  return {.q = target + e * c + (start.v + damping * e) * s,
-          .v = start.v * c - (damping * start.v + stiffness * e) * s};
+  const PointMassState end{.q = target + e * c + (start.v + damping * e) * s,
+                           .v = start.v * c - (damping * start.v + stiffness * e) * s};
+  requireFinite("position q at time t", end.q);
+  requireFinite("velocity v at time t", end.v);
+  return end;
 }
 
 }  // namespace rex

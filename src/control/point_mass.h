@@ -18,7 +18,8 @@ struct PointMass {
 };
 
 /// The exact motion of a point mass under u = Kp (target - q) - Kd v, t seconds after `start`: slides
-/// 3:8 to 3:14, in all three regimes, also just beside xi = 1. Throws Error as eulerStep, and for t < 0.
+/// 3:8 to 3:14, in all three regimes, also just beside xi = 1. Throws Error as eulerStep, for t < 0, and
+/// where numbers overflow on the way.
 [[nodiscard]] PointMassState pdResponse(const PointMass& point, const PdGains& gains,
                                         const PointMassState& start, double target, double t);
 

@@ -28,11 +28,14 @@ RacerNumbers internal::racerNumbers(const RacerDynamics& plant) {
   requirePositive("racer: inertia IA", plant.IA);
   requirePositive("racer: inertia IB", plant.IB);
   requirePositive("racer: gravity g", plant.g);
-  return {.inertiaX = plant.mA + plant.mB + plant.IA / (plant.r * plant.r),
-          .inertiaTheta = plant.mB * plant.l * plant.l + plant.IB,
+  const double wheel = plant.mA + plant.IA / (plant.r * plant.r);  // what mB feels of it
+  const double inertiaTheta = plant.mB * plant.l * plant.l + plant.IB;
+  return {.inertiaX = wheel + plant.mB,
+          .inertiaTheta = inertiaTheta,
           .coupling = plant.mB * plant.l,
           .gravity = plant.g,
-          .perRadius = 1 / plant.r};
+          .perRadius = 1 / plant.r,
+          .leastDeterminant = wheel * inertiaTheta + plant.mB * plant.IB};
 }
 
 Eigen::Matrix2d RacerDynamics::massMatrix(const Eigen::Vector2d& q) const {
@@ -64,8 +67,7 @@ LinearizedPlant RacerDynamics::linearized(const Eigen::Vector4d& x, double u) co
   const auto [s, c] = sinCos(x[1]);
   const double w = x[3], mixed = k.coupling * c, swing = k.coupling * s;
   const double alongX = u * k.perRadius + swing * w * w, aboutAxis = swing * k.gravity - u;
-  const double determinant = k.inertiaX * k.inertiaTheta - mixed * mixed,
-               determinantByAngle = 2 * mixed * swing;
+  const double determinant = k.leastDeterminant + swing * swing, determinantByAngle = 2 * mixed * swing;
   const auto a = internal::racerAccelerations(k, x[1], w, u);
 
   LinearizedPlant linear;
@@ -84,9 +86,9 @@ LinearizedPlant RacerDynamics::linearized(const Eigen::Vector4d& x, double u) co
 }
 
 double RacerDynamics::energy(const Eigen::Vector4d& x) const {
+  requireFinite("racer: state", x);
   const Eigen::Vector2d q = x.head<2>(), v = x.tail<2>();
   const Eigen::Matrix<double, 3, 2> at = poses(q);
-  requireFinite("racer: state", x);
   return v.dot(massMatrix(q) * v) / 2 + g * (mA * at(1, 0) + mB * at(1, 1));
 }
 

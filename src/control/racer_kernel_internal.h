@@ -23,7 +23,7 @@ inline RacerAccelerations<T> racerAccelerations(const RacerNumbers& k, const T& 
   const SinCos<T> angle = sinCos(theta);
   const T mixed = T(k.coupling) * angle.cosine, swing = T(k.coupling) * angle.sine;
   const T alongX = u * T(k.perRadius) + swing * w * w, aboutAxis = swing * T(k.gravity) - u;
-  const T perDeterminant = T(1.0) / (T(k.inertiaX * k.inertiaTheta) - mixed * mixed);
+  const T perDeterminant = T(1.0) / (T(k.leastDeterminant) + swing * swing);
   return {(T(k.inertiaTheta) * alongX - mixed * aboutAxis) * perDeterminant,
           (T(k.inertiaX) * aboutAxis - mixed * alongX) * perDeterminant};
 }

@@ -26,6 +26,8 @@ Reference referenceAlong(const Model& model, const VectorArg& q0, const VectorAr
 
 Reference referenceAt(const Model& model, const MatrixArg& Q, double tau, int i) {
   internal::requirePositive("time between samples tau", tau);
+  if (Q.cols() == 0)
+    throw Error({.what = "samples of a reference", .found = "none", .wanted = "at least one"});
   const int last = static_cast<int>(Q.cols()) - 1;
   if (i < 0 || i > last)
     throw Error({.what = "sample of a reference",

@@ -24,7 +24,7 @@ struct Reference {
 
 /// At sample i of the postures in the columns of Q (nq x N), tau seconds apart, as if they stood still
 /// before and after. Acceleration by the differences of slide 3:30, velocity by the mean of the two, both
-/// exact to O(tau^2). Throws Error for an i that is no column, and unless tau > 0.
+/// exact to O(tau^2). Throws Error for no columns, an i that is none of them, and unless tau > 0.
 [[nodiscard]] Reference referenceAt(const Model& model, const MatrixArg& Q, double tau, int i);
 
 /// The acceleration (nv) that makes each joint behave like a point of mass one on a spring to the reference:

@@ -9,7 +9,8 @@
 namespace rex {
 namespace {
 
-constexpr double kHeight = 1;  // of the cart over the ground, metres
+constexpr double kHeight = 1;    // of the cart over the ground, metres
+constexpr double kFarthest = 8;  // from the middle of the rail, in a film: beyond, a cart is but a dot
 constexpr double kMetresPerNewton = 0.05, kShortestArrow = 0.02, kLongestArrow = 2;
 constexpr Color kCartColor{0.0f, 0.45f, 0.7f}, kPoleColor{0.90f, 0.62f, 0.0f},
     kRailColor{0.45f, 0.48f, 0.52f};
@@ -67,10 +68,12 @@ void writePicture(const CartPoleView& view, const std::string& file, const Plant
 
 void writeFilm(const std::vector<CartPoleView>& views, const std::string& name,
                const PlantFilmOptions& options) {
+  const auto isAway = [](const CartPoleView& view) { return std::abs(view.x[0]) > kFarthest; };
+  const auto end = std::find_if(views.begin() + (views.empty() ? 0 : 1), views.end(), isAway);
   Rail rail;
-  for (const CartPoleView& view : views) rail.reach(view.x[0]);
+  for (auto view = views.begin(); view != end; ++view) rail.reach(view->x[0]);
   const auto at = [&](int i) { return pictureOn(rail, views[static_cast<std::size_t>(i)]); };
-  internal::writePlantFilm(static_cast<int>(views.size()), at, name, options);
+  internal::writePlantFilm(static_cast<int>(end - views.begin()), at, name, options);
 }
 
 }  // namespace rex

@@ -24,9 +24,9 @@ struct CartPoleView {
 void writePicture(const CartPoleView& view, const std::string& file, const PlantFilmOptions& options = {});
 
 /// Draws the views, one for each step, into the folder NAME as 0000.png, ..., the video NAME.mp4 and, of
-/// moments evenly spaced, the contact sheet NAME_sheet.png. Without ffmpeg there is no video, and a line on
-/// standard error says so. Throws as writePicture(), and Error for no views, steps that are not positive,
-/// fewer than 2 moments and a rate below 1.
+/// moments evenly spaced, the contact sheet NAME_sheet.png. The film ends where a cart runs away by more than
+/// 8 m. Without ffmpeg there is no video, and a line on standard error says so. Throws as writePicture(), and
+/// Error for no views, steps that are not positive, fewer than 2 moments and a rate below 1.
 void writeFilm(const std::vector<CartPoleView>& views, const std::string& name,
                const PlantFilmOptions& options = {.step = 1. / 60});
 

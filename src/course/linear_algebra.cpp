@@ -47,7 +47,8 @@ void requireRows(const char* what, Eigen::Index found, Eigen::Index wanted) {
                .wanted = fmt::format("{}", wanted)});
 }
 
-// Between the least and the largest pivot of what counts as invertible: rounding leaves about 1e-15.
+// What a pivot keeps of its number on the diagonal where H counts as positive definite: rounding leaves about
+// 1e-15.
 constexpr double kLeastPivot = 1e-13;
 
 Eigen::SparseMatrix<double> sparse(const std::vector<MatrixEntry>& entries, Eigen::Index size) {
@@ -63,8 +64,8 @@ Eigen::SparseMatrix<double> sparse(const std::vector<MatrixEntry>& entries, Eige
   }
   Eigen::SparseMatrix<double> matrix(size, size);
   matrix.setFromTriplets(triplets.begin(), triplets.end());
-  const Eigen::SparseMatrix<double> mirrored = matrix.transpose();
-  if (!((matrix - mirrored).norm() <= 1e-9 * matrix.norm()))
+  const Eigen::SparseMatrix<double> mirrored = matrix.transpose(), difference = matrix - mirrored;
+  if (!(difference.blueNorm() <= 1e-9 * matrix.blueNorm()))
     throw Error({.what = "solveSparse",
                  .found = "a matrix that is not symmetric",
                  .wanted = "both halves, above and below the diagonal"});
@@ -77,13 +78,21 @@ Eigen::MatrixXd inverse(const Eigen::MatrixXd& A) { return factorise("inverse", 
 
 Eigen::MatrixXd solveMatrix(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
   requireRows("solve", B.rows(), A.rows());
+  requireFinite("solve: right side", B);
   return factorise("solve", A).solve(B);
 }
 
 Eigen::VectorXd leastSquares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
   requireRows("leastSquares", b.size(), A.rows());
   requireFinite("leastSquares", A);
-  return Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(A).solve(b);
+  requireFinite("leastSquares: right side", b);
+  const double largest = A.size() > 0 ? A.cwiseAbs().maxCoeff() : 0;
+  if (largest == 0) return Eigen::VectorXd::Zero(A.cols());
+  // Squares of its numbers would overflow, or vanish; a power of two changes nothing else.
+  const int exponent = std::ilogb(largest);
+  const Eigen::MatrixXd scaled = A.unaryExpr([=](double a) { return std::scalbn(a, -exponent); });
+  const Eigen::VectorXd x = Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(scaled).solve(b);
+  return x.unaryExpr([=](double a) { return std::scalbn(a, -exponent); });
 }
 
 Eigen::VectorXd solveSparse(const std::vector<MatrixEntry>& H, const Eigen::VectorXd& b) {
@@ -91,8 +100,9 @@ Eigen::VectorXd solveSparse(const std::vector<MatrixEntry>& H, const Eigen::Vect
   requireFinite("solveSparse", b);
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
   const bool isFactored = factor.info() == Eigen::Success;
-  const Eigen::VectorXd pivots = isFactored ? factor.vectorD() : Eigen::VectorXd::Zero(b.size());
-  if (b.size() > 0 && !(pivots.minCoeff() > kLeastPivot * pivots.maxCoeff()))
+  const Eigen::VectorXd diagonal = matrix.diagonal();
+  if (!isFactored ||
+      !(factor.vectorD().array() > kLeastPivot * (factor.permutationP() * diagonal).array()).all())
     throw Error({.what = "solveSparse",
                  .found = "a matrix that is singular, or not positive definite",
                  .wanted = "a positive definite one: are all unknowns determined?"});
@@ -102,11 +112,13 @@ Eigen::VectorXd solveSparse(const std::vector<MatrixEntry>& H, const Eigen::Vect
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& A) {
   requireSquare("eigenvalues", A);
   requireFinite("eigenvalues", A);
+  if (A.size() == 0) return {};
   return Eigen::EigenSolver<Eigen::MatrixXd>(A, false).eigenvalues();
 }
 
 SingularValues svd(const Eigen::MatrixXd& A) {
   requireFinite("svd", A);
+  if (A.size() == 0) return {Eigen::MatrixXd(A.rows(), 0), {}, Eigen::MatrixXd(A.cols(), 0)};
   const Eigen::BDCSVD<Eigen::MatrixXd> decomposition(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
   return {decomposition.matrixU(), decomposition.singularValues(), decomposition.matrixV()};
 }

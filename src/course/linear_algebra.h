@@ -8,17 +8,18 @@
 // compiling.
 namespace rex {
 
-/// Inverse of a square matrix, n x n. Throws Error if A is not square or has no inverse to working precision.
+/// Inverse of a square matrix, n x n. Throws Error if A is not square, has no inverse to working precision,
+/// or numbers that are not finite.
 [[nodiscard]] Eigen::MatrixXd inverse(const Eigen::MatrixXd& A);
 /// X with A X = B, for square A (n x n) and B with n rows: a vector for a vector, a matrix for a matrix.
-/// Throws as inverse, and for a B of other height.
+/// Throws as inverse, and for a B of other height or with numbers that are not finite.
 [[nodiscard]] Eigen::MatrixXd solveMatrix(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 template <class Right>
 [[nodiscard]] auto solve(const Eigen::MatrixXd& A, const Eigen::MatrixBase<Right>& B) {
   return Eigen::Matrix<double, Eigen::Dynamic, Right::ColsAtCompileTime>(solveMatrix(A, B));
 }
 /// The x of smallest norm among those that minimise |A x - b|, for any A (m x n) and b (m). Throws Error for
-/// a b of another size.
+/// a b of another size, and numbers that are not finite.
 [[nodiscard]] Eigen::VectorXd leastSquares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 /// One number of a sparse matrix.
 struct MatrixEntry {
@@ -29,7 +30,8 @@ struct MatrixEntry {
 /// factorisation. Numbers at the same place add up. Throws Error for an entry outside of H, an H that is not
 /// symmetric or not positive definite to working precision, and numbers that are not finite.
 [[nodiscard]] Eigen::VectorXd solveSparse(const std::vector<MatrixEntry>& H, const Eigen::VectorXd& b);
-/// Eigenvalues of a square matrix, n complex numbers in no particular order. Throws Error if A is not square.
+/// Eigenvalues of a square matrix, n complex numbers in no particular order. Throws Error if A is not square,
+/// and for numbers that are not finite.
 [[nodiscard]] Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& A);
 
 /// A = U diag(s) V^T with orthonormal columns in U (m x k) and V (n x k), k = min(m, n), s falling.
@@ -38,6 +40,7 @@ struct SingularValues {
   Eigen::VectorXd s;
   Eigen::MatrixXd V;
 };
+/// Throws Error for numbers that are not finite.
 [[nodiscard]] SingularValues svd(const Eigen::MatrixXd& A);
 
 }  // namespace rex

@@ -43,20 +43,27 @@ void internal::writePlantPicture(const Picture& picture, const std::string& file
   writePng(renderer.draw(picture, camera), file);
 }
 
-// Of a frame, the view that is nearest in time; where views are rarer than frames, one frame for each.
+internal::PlantFilmTiming internal::plantFilmTiming(int count, const PlantFilmOptions& options) {
+  requireFilm(count, options);
+  // Views that are nearer in time than any film shows: all but the first are too many.
+  const double perFrame = std::clamp(1 / (options.rate * options.step), 1., static_cast<double>(count));
+  PlantFilmTiming timing;
+  for (int i = 0; std::lround(i * perFrame) < count; ++i)
+    timing.views.push_back(static_cast<int>(std::lround(i * perFrame)));
+  const double rate = std::round(1 / (perFrame * options.step));
+  timing.rate = static_cast<int>(std::clamp(rate, 1., static_cast<double>(options.rate)));
+  return timing;
+}
+
 void internal::writePlantFilm(int count, const std::function<Picture(int)>& at, const std::string& name,
                               const PlantFilmOptions& options) {
-  requireFilm(count, options);
-  const double aspect = aspectOf(options), perFrame = std::max(1., 1 / (options.rate * options.step));
+  const PlantFilmTiming timing = plantFilmTiming(count, options);
+  const double aspect = aspectOf(options);
   Film film;
-  for (int i = 0; std::lround(i * perFrame) < count; ++i) {
-    const int view = static_cast<int>(std::lround(i * perFrame));
-    film.push_back({view * options.step, at(view)});
-  }
+  for (const int view : timing.views) film.push_back({view * options.step, at(view)});
   settleGround(film);
   const Shot shot{framing(film, options.view, aspect), options.width, options.height};
-  const int rate = std::max(1, static_cast<int>(std::lround(1 / (perFrame * options.step))));
-  writeFilmVideo(film, shot, name, rate);
+  writeFilmVideo(film, shot, name, timing.rate);
   writeFilmSheet(film, shot, name + "_sheet.png", options.moments);
 }
 

@@ -83,6 +83,17 @@ TEST(CartPoleRollouts, AreALoopOverSteps) {
   EXPECT_LT(batch.steps.col(1).maxCoeff(), 100);
 }
 
+// Forces beyond all measure end a rollout before it costs what is no number.
+TEST(CartPoleRollouts, EndForAnyFiniteGains) {
+  const CartPoleRolloutOptions options{.R = 0, .steps = 10};
+  for (const double size : {1e160, 1e200, 1e308}) {
+    const std::vector<Trial> far{{Vector4d(0, 0, 0.2, 0), 1}, {Vector4d(1e3, 0, 0.2, 0), 2}};
+    const Rollouts wild = cartPoleRollouts(size * kOptimal.normalized(), far, options);
+    EXPECT_TRUE(wild.cost.allFinite()) << size << wild.cost.transpose();
+    EXPECT_LE(wild.steps.maxCoeff(), 1) << size;
+  }
+}
+
 TEST(CartPoleRollouts, RefuseWhatHasNoMeaning) {
   const auto refuses = [](const CartPoleRolloutOptions& options, const char* text) {
     EXPECT_REX_ERROR(cartPoleRollouts(kOptimal, trials(1, 0), options), text);

@@ -49,6 +49,15 @@ TEST(PidIsStable, KnowsTheExercise) {
   EXPECT_FALSE(pidIsStable(2, {.Kp = 3, .Ki = 1.51, .Kd = 1}));
 }
 
+// In other units the same loop: lengths of time as of another clock, and forces.
+TEST(PidIsStable, DoesNotMindUnits) {
+  for (const double unit : {1e-180, 1., 1e180}) {
+    EXPECT_TRUE(pidIsStable(1, {.Kp = unit, .Kd = unit}));
+    EXPECT_TRUE(pidIsStable(2 * unit, {.Kp = 3 * unit, .Ki = 1.49 * unit, .Kd = unit}));
+    EXPECT_FALSE(pidIsStable(2 * unit, {.Kp = 3 * unit, .Ki = 1.51 * unit, .Kd = unit}));
+  }
+}
+
 // A point mass under PID and a constant push, by small Euler steps: its greatest distance in the last tenth
 // of the time.
 double distanceLeft(double mass, const PidOptions& options, double push, double seconds) {

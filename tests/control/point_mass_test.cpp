@@ -71,6 +71,18 @@ TEST(PdResponse, KeepsTheSlowRateOfStrongDamping) {
   EXPECT_NEAR(pdResponse({1}, pdGains(1, 1, 100), {1, 0}, 0, 1e5).q, 0, 1e-15);
 }
 
+// So stiff a damper holds the mass where it is; squares of its constant overflow.
+TEST(PdResponse, StandsEnormousDamping) {
+  for (const double t : {0., 1., 100.}) {
+    const PointMassState state = pdResponse({1}, {.Kp = 1, .Kd = 1e200}, {1, 0}, 0, t);
+    EXPECT_DOUBLE_EQ(state.q, 1) << t;
+    EXPECT_NEAR(state.v, 0, 1e-15) << t;
+  }
+  // exp(-t / lambda) with lambda = Kd / Kp of 1 s.
+  EXPECT_NEAR(pdResponse({1}, {.Kp = 1e200, .Kd = 1e200}, {1, 0}, 0, 1).q, std::exp(-1.), 1e-13);
+  EXPECT_NEAR(pdResponse({1e-170}, {.Kp = 1, .Kd = 1}, {1, 0}, 0, 1).q, std::exp(-1.), 1e-13);
+}
+
 // Recorded from an independent implementation (exercise 5): Euler steps of 10 ms from 0 to 1 in time
 // T, with lambda = T / 8.
 TEST(PointMass, TakesTheRecordedEulerSteps) {
@@ -124,6 +136,9 @@ TEST(PointMass, RefusesBadNumbers) {
   EXPECT_REX_ERROR(pdResponse({1}, {nan, 0}, {}, 0, 1), "gain Kp: found nan");
   EXPECT_REX_ERROR(pdResponse({1}, {0, nan}, {}, 0, 1), "gain Kd: found nan");
   EXPECT_REX_ERROR(pdResponse({1}, {}, {}, nan, 1), "target: found nan");
+  EXPECT_REX_ERROR(pdResponse({1}, {.Kp = -1}, {1, 0}, 0, 1e4), "position q at time t: found nan");
+  EXPECT_REX_ERROR(pdResponse({1}, {}, {0, 1e300}, 0, 1e300), "position q at time t: found inf");
+  EXPECT_REX_ERROR(pdResponse({1}, {.Kp = -1e4}, {1, 0}, 0, 7.08), "velocity v at time t: found inf");
   EXPECT_REX_ERROR(pdResponse({1}, {}, {}, 0, -1), "time t: found -1, wanted a number that is not negative");
 }
 

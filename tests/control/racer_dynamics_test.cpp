@@ -83,6 +83,18 @@ TEST(RacerDynamics, DerivativeSolvesTheEquationOfMotion) {
   }
 }
 
+// Upright, a light wheel and a slender body leave little of the determinant of M: here 1e-12 of its products.
+// By hand: with wheel = mA + IA / r^2, det M = wheel (mB l^2 + IB) + mB IB.
+TEST(RacerDynamics, KeepsTheDeterminantOfLightWheels) {
+  const RacerDynamics light{.r = 1, .l = 1, .mA = 1e-12, .mB = 1, .IA = 1e-12, .IB = 1e-20, .g = 9.8};
+  const Vector4d rate = light.derivative(Vector4d::Zero(), 1e-12);
+  EXPECT_NEAR(rate[2] / ((1 + 1e-20 + 1) * 1e-12 / 2e-12), 1, 1e-6);
+  EXPECT_NEAR(rate[3] / (-(1 + 2e-12 + 1) * 1e-12 / 2e-12), 1, 1e-6);
+  const LinearizedPlant linear = light.linearized(Vector4d::Zero(), 0);
+  EXPECT_NEAR(linear.B[2] / (2 / 2e-12), 1, 1e-6);
+  EXPECT_NEAR(linear.A(3, 1) / (9.8 * (1 + 2e-12) / 2e-12), 1, 1e-6);
+}
+
 TEST(RacerDynamics, StepIsTheClassicOne) {
   Rng rng(3);
   for (const double tau : {0.01, 0.1}) {
@@ -161,6 +173,7 @@ TEST(RacerDynamics, RefusesWhatHasNoMeaning) {
   EXPECT_REX_ERROR(plant.forces(q, bad), "racer: velocities: number 1: found nan");
   EXPECT_REX_ERROR(plant.poses(bad), "racer: q: number 1");
   EXPECT_REX_ERROR(plant.energy(badState), "racer: state: number 3: found nan");
+  EXPECT_REX_ERROR(plant.energy(Vector4d(kNan, 0, 0, 0)), "racer: state: number 0: found nan");
   EXPECT_REX_ERROR(plant.derivative(badState, 0), "racer: state: number 3: found nan");
   EXPECT_REX_ERROR(plant.linearized(x, kNan), "racer: control u: found nan");
   EXPECT_REX_ERROR(plant.rungeKuttaStep(x, 0, -1),

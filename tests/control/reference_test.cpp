@@ -102,6 +102,8 @@ TEST(Reference, RefusesWhatIsNone) {
   EXPECT_REX_ERROR(referenceAt(kModel, Q, 0, 1), "time between samples tau: found 0");
   EXPECT_REX_ERROR(referenceAt(kModel, Q, 1, 3), "sample of a reference: found 3, wanted 0 to 2");
   EXPECT_REX_ERROR(referenceAt(kModel, Q, 1, -1), "sample of a reference: found -1");
+  EXPECT_REX_ERROR(referenceAt(kModel, q.replicate(1, 0), 1, 0),
+                   "samples of a reference: found none, wanted at least one");
   Reference reference = standAt(kModel, q);
   const State state = initialState(kModel);
   EXPECT_REX_ERROR(followReference(kModel, {q, wrong}, reference, {}), "joint velocities v: found a vector");

@@ -46,6 +46,17 @@ TEST(LeastSquares, ChoosesTheShortestOfManySolutions) {
   EXPECT_LT((leastSquares(wide, b) - wanted).norm(), 1e-10);
 }
 
+TEST(LeastSquares, HoldsForEverySizeOfNumbersAndOfMatrices) {
+  for (const double size : {1e-200, 1., 1e200}) {
+    const Eigen::MatrixXd ones = Eigen::MatrixXd::Constant(3, 2, size);
+    EXPECT_LT((leastSquares(ones, Eigen::Vector3d(1, 2, 3)) * size - Eigen::Vector2d(1, 1)).norm(), 1e-14);
+  }
+  EXPECT_EQ(leastSquares(Eigen::MatrixXd(3, 0), Eigen::Vector3d::Ones()).size(), 0);
+  EXPECT_EQ(leastSquares(Eigen::MatrixXd(0, 0), Eigen::VectorXd()).size(), 0);
+  EXPECT_EQ(leastSquares(Eigen::MatrixXd(0, 3), Eigen::VectorXd()), Eigen::Vector3d::Zero());
+  EXPECT_EQ(leastSquares(Eigen::MatrixXd::Zero(2, 3), Eigen::Vector2d::Ones()), Eigen::Vector3d::Zero());
+}
+
 TEST(Eigenvalues, SolveTheCharacteristicEquation) {
   Eigen::VectorXcd values = eigenvalues((Eigen::MatrixXd(2, 2) << 0, 1, -4, 0).finished());
   std::sort(values.begin(), values.end(), [](auto a, auto b) { return a.imag() < b.imag(); });
@@ -60,6 +71,16 @@ TEST(Svd, RebuildsItsMatrix) {
   EXPECT_LT((parts.U * parts.s.asDiagonal() * parts.V.transpose() - A).norm(), 1e-12);
   EXPECT_TRUE((parts.V.transpose() * parts.V).isIdentity(1e-12));
   EXPECT_TRUE(std::is_sorted(parts.s.begin(), parts.s.end(), std::greater<>()));
+}
+
+TEST(Svd, TakesEmptyMatrices) {
+  for (const auto& [rows, cols] : {std::pair{0, 0}, {3, 0}, {0, 3}}) {
+    const SingularValues parts = svd(Eigen::MatrixXd(rows, cols));
+    EXPECT_EQ(parts.U.rows(), rows);
+    EXPECT_EQ(parts.V.rows(), cols);
+    EXPECT_EQ(parts.U.cols() + parts.s.size() + parts.V.cols(), 0);
+  }
+  EXPECT_EQ(eigenvalues(Eigen::MatrixXd(0, 0)).size(), 0);
 }
 
 TEST(SolveSparse, AgreesWithTheDenseSolver) {
@@ -82,6 +103,20 @@ TEST(SolveSparse, AgreesWithTheDenseSolver) {
     if (n > 0) {
       EXPECT_LT((x - solve(H, b)).norm(), 1e-9 * (1 + x.norm()));
     }
+  }
+}
+
+// Numbers of any size, and unknowns in different units.
+TEST(SolveSparse, DoesNotMindUnits) {
+  for (const double size : {1e-200, 1., 1e200}) {
+    const Eigen::Vector2d x = solveSparse({{0, 0, size}, {1, 1, 1e-18 * size}}, Eigen::Vector2d(size, size));
+    EXPECT_DOUBLE_EQ(x[0], 1);
+    EXPECT_DOUBLE_EQ(x[1], 1e18);
+    EXPECT_REX_ERROR(solveSparse({{0, 0, size}, {1, 1, size}, {0, 1, .5 * size}}, Eigen::Vector2d(1, 1)),
+                     "not symmetric");
+    EXPECT_REX_ERROR(
+        solveSparse({{0, 0, size}, {1, 1, size}, {0, 1, size}, {1, 0, size}}, Eigen::Vector2d(1, 1)),
+        "singular");
   }
 }
 
@@ -110,6 +145,10 @@ TEST(LinearAlgebra, RefusesWhatHasNoAnswer) {
   EXPECT_REX_ERROR(leastSquares(zero, Eigen::VectorXd::Zero(2)),
                    "leastSquares: found a right side with 2 rows, wanted 3");
   EXPECT_REX_ERROR(leastSquares(nan, Eigen::VectorXd::Zero(2)), "leastSquares: found nan or infinity");
+  EXPECT_REX_ERROR(solve(Eigen::MatrixXd::Identity(2, 2), nan), "solve: right side: found nan or infinity");
+  EXPECT_REX_ERROR(leastSquares(Eigen::MatrixXd::Identity(2, 2), nan.col(0)),
+                   "leastSquares: right side: found nan or infinity");
+  EXPECT_REX_ERROR(eigenvalues(nan), "eigenvalues: found nan or infinity");
   EXPECT_REX_ERROR(eigenvalues(tall), "eigenvalues: found a 3 x 2 matrix");
   EXPECT_REX_ERROR(svd(nan), "svd: found nan or infinity");
 }

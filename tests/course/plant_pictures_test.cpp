@@ -7,6 +7,7 @@
 #include "base/process.h"
 #include "course/cart_pole.h"
 #include "course/cart_pole_pictures.h"
+#include "course/plant_film_internal.h"
 #include "course/racer.h"
 #include "course/racer_pictures.h"
 #include "render/png.h"
@@ -135,6 +136,10 @@ TEST_F(PlantFilm, HasFramesAContactSheetAndAVideo) {
   const PlantFilmOptions cart{.width = 96, .height = 72, .step = 1. / 60, .moments = 3};
   writeFilm(falling(20), in("cart"), cart);
   check("cart", 10);  // every second
+  std::vector<CartPoleView> away = falling(20);
+  for (std::size_t k = 11; k < away.size(); ++k) away[k].x[0] = -8.1 - 1000. * static_cast<double>(k);
+  writeFilm(away, in("away"), cart);
+  check("away", 6);
   writeFilm(falling(20), in("again"), cart);
   EXPECT_EQ(fileText(in("cart_sheet.png")), fileText(in("again_sheet.png")));
   PlantFilmOptions racer{.width = 96, .height = 72, .moments = 3};
@@ -143,6 +148,26 @@ TEST_F(PlantFilm, HasFramesAContactSheetAndAVideo) {
   racer.step = 0.1;
   writeFilm(rolling(4), in("slow"), racer);
   check("slow", 4);
+}
+
+TEST(PlantFilmTiming, PlaysInRealTime) {
+  const auto timing = [](int count, double step, int rate) {
+    return internal::plantFilmTiming(count, {.step = step, .rate = rate});
+  };
+  EXPECT_EQ(timing(31, 0.01, 30).views, (std::vector{0, 3, 7, 10, 13, 17, 20, 23, 27, 30}));
+  EXPECT_EQ(timing(31, 0.01, 30).rate, 30);
+  EXPECT_EQ(timing(5, 1. / 60, 30).views, (std::vector{0, 2, 4}));
+  EXPECT_EQ(timing(5, 1. / 60, 30).rate, 30);
+  EXPECT_EQ(timing(3, 0.1, 30).views, (std::vector{0, 1, 2}));
+  EXPECT_EQ(timing(3, 0.1, 30).rate, 10);
+  EXPECT_EQ(timing(1, 0.1, 30).views, std::vector{0});
+  // In steps beyond all measure, a film is still one.
+  for (const double step : {1e-320, 1e-300, 1e-20}) {
+    EXPECT_EQ(timing(4, step, 30).views, std::vector{0}) << step;
+    EXPECT_EQ(timing(4, step, 30).rate, 30) << step;
+  }
+  EXPECT_EQ(timing(2, 1e300, 30).views, (std::vector{0, 1}));
+  EXPECT_EQ(timing(2, 1e300, 30).rate, 1);
 }
 
 TEST_F(PlantFilm, SaysWhatCannotBe) {
