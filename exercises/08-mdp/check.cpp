@@ -30,6 +30,7 @@ void settles(Check& check, Student& student) {
 void improves(Check& check, Student& student) {
   policiesImprove(check, student, processOf(rex::tMaze()));
   for (int i = 0; i < 3; ++i) policiesImprove(check, student, randomProcess(check.rng(), 8, 3, .9));
+  tieStays(check, student);
 }
 
 void trials(Check& check, Student& student) {

@@ -139,3 +139,18 @@ inline void policiesImprove(rex::grading::Check& check, Student& student, const 
   }
   check.near("values of the last policy", V, rex::policyIteration(mdp).V, 1e-7 * scaleOf(process));
 }
+
+/// From state 0, actions 1 and 2 lead to states 1 and 2, and from these all end in state 3. Of both ways the
+/// second is better at first, and none in the end: then the action that was taken stays.
+inline void tieStays(rex::grading::Check& check, Student& student) {
+  Process process{std::vector<Eigen::MatrixXd>(3, Eigen::MatrixXd::Zero(4, 4)), Eigen::MatrixXd(4, 3), .5};
+  for (Eigen::Index a = 0; a < 3; ++a) {
+    Eigen::MatrixXd& P = process.P[static_cast<std::size_t>(a)];
+    P(0, a == 0 ? 3 : a) = P(1, 3) = P(2, 3) = 1;
+  }
+  process.R << -1, 0, 0, 0, 1, -1, .5, 1, -1, 0, 0, 0;
+  policiesImprove(check, student, process);
+  const std::vector<std::vector<int>> expected{{0, 0, 0, 0}, {2, 1, 1, 0}};
+  check.that("an action stays where another one is only as good",
+             student.iteratePolicies(process) == expected);
+}

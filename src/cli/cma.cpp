@@ -19,6 +19,8 @@
 namespace rex::cli {
 namespace {
 
+constexpr double kMostNumbers = 1e7;  // of a generation: 80 MB
+
 struct Run {
   std::uint64_t seed = 0;
   SearchResult result{};
@@ -39,7 +41,7 @@ Experiment experimentOf(const CmaRunOptions& options) {
   requireBetween("--seeds", options.seeds, 1, 10'000);
   requireBetween("--restarts", options.restarts, 0, 20);
   requireBetween("--max-evaluations", options.maxEvaluations, 1, 1e9);
-  if (options.lambda != 0) requireBetween("--lambda", options.lambda, 2, 1e6);
+  if (options.lambda != 0) requireBetween("--lambda", options.lambda, 2, kMostNumbers / options.dimension);
   if (options.seed > std::numeric_limits<std::uint64_t>::max() - static_cast<std::uint64_t>(options.seeds))
     throw UsageError({.what = "--seed",
                       .found = fmt::format("{}", options.seed),
@@ -61,12 +63,14 @@ Experiment experimentOf(const CmaRunOptions& options) {
            .maxRestarts = options.restarts}};
 }
 
-Run runOf(const Experiment& experiment, std::uint64_t seed) {
+// The curve is long, and kept only to be drawn.
+Run runOf(const Experiment& experiment, std::uint64_t seed, bool keepsCurve) {
   Run run{.seed = seed};
   const BatchObjective f = batched(experiment.function.value);
   double best = std::numeric_limits<double>::infinity(), evaluations = 0;
   const BatchObjective watched = [&](const MatrixArg& X, Eigen::Ref<Eigen::VectorXd> values) {
     f(X, values);
+    if (!keepsCurve) return;
     best = std::min(best, values.minCoeff());
     evaluations += static_cast<double>(X.cols());
     run.curve.evaluations.push_back(evaluations);
@@ -129,7 +133,7 @@ ExitCode cma(const CmaRunOptions& options) {
   if (!options.out.empty()) makeFolder(options.out);
   std::vector<Run> runs;
   for (int i = 0; i < options.seeds; ++i)
-    runs.push_back(runOf(experiment, options.seed + static_cast<std::uint64_t>(i)));
+    runs.push_back(runOf(experiment, options.seed + static_cast<std::uint64_t>(i), !options.out.empty()));
   say(options.json ? jsonOf(runs) : tableOf(runs));
   if (!options.out.empty()) {
     std::vector<LearningCurve> curves;

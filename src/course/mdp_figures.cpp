@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require_finite.h"
 
 namespace rex {
 namespace {
@@ -14,6 +15,11 @@ constexpr double kArrow = .38;  // of a cell
 
 Figure emptyGrid(const GridWorld& world, const Eigen::VectorXd& values) {
   requireSize("values of the grid", values.size(), static_cast<long>(world.cells.size()));
+  requireFinite("values of the grid", values);
+  if (world.width < 2 || world.height < 2)
+    throw Error({.what = "grid to draw",
+                 .found = fmt::format("{} x {} cells", world.width, world.height),
+                 .wanted = "2 x 2 or more"});
   Figure figure;
   figure.xLabel = "column";
   figure.yLabel = "row";
@@ -37,6 +43,17 @@ Figure emptyGrid(const GridWorld& world, const Eigen::VectorXd& values) {
                                   .y = {row - .5, row - .5, row + .5, row + .5},
                                   .color = Color{.2F, .2F, .22F}});
   return figure;
+}
+
+void requireEqualRuns(const LearningCurves& curve) {
+  if (curve.runs.empty())
+    throw Error({.what = fmt::format("learning curves '{}'", curve.label), .found = "no run"});
+  for (std::size_t i = 0; i < curve.runs.size(); ++i) {
+    const std::string name = fmt::format("run {} of '{}'", i, curve.label);
+    const auto size = static_cast<Eigen::Index>(curve.runs[i].size());
+    requireSize(name, size, static_cast<Eigen::Index>(curve.runs.front().size()));
+    requireFinite(name, Eigen::Map<const Eigen::VectorXd>(curve.runs[i].data(), size));
+  }
 }
 
 double percentile(std::vector<double> numbers, double share) {
@@ -89,17 +106,12 @@ Figure learningFigure(const std::vector<LearningCurves>& curves) {
   figure.xLabel = "iteration";
   figure.yLabel = "return";
   for (const LearningCurves& curve : curves) {
-    if (curve.runs.empty())
-      throw Error({.what = fmt::format("learning curves '{}'", curve.label), .found = "no run"});
+    requireEqualRuns(curve);
     Series mean{.label = curve.label};
     Band band;
     for (std::size_t i = 0; i < curve.runs.front().size(); ++i) {
       std::vector<double> now;
-      for (const std::vector<double>& run : curve.runs) {
-        requireSize(fmt::format("run of '{}'", curve.label), static_cast<long>(run.size()),
-                    static_cast<long>(curve.runs.front().size()));
-        now.push_back(run[i]);
-      }
+      for (const std::vector<double>& run : curve.runs) now.push_back(run[i]);
       double sum = 0;
       for (const double value : now) sum += value;
       mean.x.push_back(static_cast<double>(i));

@@ -9,7 +9,8 @@
 namespace rex {
 
 /// Values of the states of a grid world as colours with numbers; walls are dark. Title and all else may be
-/// changed afterwards. Throws Error for another number of values, and for a world of less than 2 x 2 cells.
+/// changed afterwards. Throws Error for another number of values, for some that are not finite, and for a
+/// world of less than 2 x 2 cells.
 [[nodiscard]] Figure valueFigure(const GridWorld& world, const Eigen::VectorXd& values);
 
 /// The same with an arrow for each action, as long as it is likely; none in terminal states. Throws Error as
@@ -22,7 +23,7 @@ struct LearningCurves {
   std::string label{};
   std::vector<std::vector<double>> runs{};  ///< of equal length
 };
-/// Throws Error for a curve without runs, and runs of different length.
+/// Throws Error for a curve without runs, runs of different length, and numbers that are not finite.
 [[nodiscard]] Figure learningFigure(const std::vector<LearningCurves>& curves);
 
 }  // namespace rex

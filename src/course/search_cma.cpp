@@ -26,6 +26,7 @@ void SearchCma::init(const Eigen::VectorXd& start, int mu, int lambda, double de
 
 void SearchCma::init(const Eigen::VectorXd& start, int mu, int lambda, const Eigen::VectorXd& deviations) {
   strategy_.emplace(start, deviations, CmaOptions{.lambda = orUsual(lambda), .mu = orUsual(mu)});
+  hasSampled_ = false;
 }
 
 const CmaEs& SearchCma::strategy() const {
@@ -34,13 +35,17 @@ const CmaEs& SearchCma::strategy() const {
 }
 
 void SearchCma::step(Eigen::MatrixXd& samples, Eigen::VectorXd& values) {
-  if (values.size() > 0) {
+  if (hasSampled_) {
     requireSize("step: rows of samples", samples.rows(), strategy().lambda());
     requireSize("step: columns of samples", samples.cols(), strategy().dimension());
+    requireSize("step: values", values.size(), strategy().lambda());
     columns_ = samples.transpose();
+  } else {
+    (void)strategy();  // throws without one
+    values.resize(0);  // what an earlier search left
   }
-  (void)strategy();  // throws without one
   strategy_->step(columns_, values, rng_);
+  hasSampled_ = true;
   samples = columns_.transpose();
 }
 

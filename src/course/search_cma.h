@@ -24,9 +24,9 @@ class SearchCma {
   void init(const Eigen::VectorXd& start, int mu, int lambda, double deviation);
   void init(const Eigen::VectorXd& start, int mu, int lambda, const Eigen::VectorXd& deviations);
 
-  /// The first call, with empty `values`, sizes both: samples has a point in each of its lambda rows. Every
-  /// other call learns from the values, of which small ones are good, and draws new samples. Throws Error
-  /// before init, and for sizes that changed.
+  /// The first call after init sizes both, whatever they hold: samples has a point in each of its lambda
+  /// rows. Every other call learns from the values, of which small ones are good, and draws new samples.
+  /// Throws Error before init, and for sizes that changed.
   void step(Eigen::MatrixXd& samples, Eigen::VectorXd& values);
 
   /// The best sample so far; the start before there is one. Throw Error before init.
@@ -38,6 +38,7 @@ class SearchCma {
 
   Rng rng_;
   std::optional<CmaEs> strategy_;
+  bool hasSampled_ = false;  // since init
   Eigen::MatrixXd columns_;  // the samples, one per column
 };
 

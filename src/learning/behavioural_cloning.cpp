@@ -143,7 +143,7 @@ SoftmaxClone cloneSoftmax(const MatrixArg& features, const std::vector<int>& act
   Eigen::MatrixXd& weights = clone.policy.weights;
   weights.setZero(features.cols(), count);
   Eigen::MatrixXd gradient = loss.gradient(weights);
-  const double tolerance = 1e-10 * std::max(1., features.cwiseAbs().maxCoeff());
+  const double tolerance = 1e-10 * features.cwiseAbs().maxCoeff();  // gradients have the unit of features
   clone.loss = loss.value(weights);
   while (clone.iterations < maxIterations && gradient.cwiseAbs().maxCoeff() > tolerance) {
     ++clone.iterations;

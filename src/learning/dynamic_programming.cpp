@@ -70,10 +70,10 @@ MdpSolution valueIteration(const Mdp& mdp, const ValueIterationOptions& options)
     throw Error({.what = "discount of value iteration",
                  .found = "1",
                  .wanted = "less than 1: otherwise its error has no bound, and policyIteration is exact"});
-  if (!(options.tolerance > 0))
+  if (!(options.tolerance > 0) || !std::isfinite(options.tolerance))
     throw Error({.what = "tolerance of value iteration",
                  .found = fmt::format("{:g}", options.tolerance),
-                 .wanted = "a positive number"});
+                 .wanted = "a positive, finite number"});
   if (options.maxIterations < 1)
     throw Error({.what = "maxIterations of value iteration",
                  .found = fmt::format("{}", options.maxIterations),
@@ -113,6 +113,8 @@ MdpSolution policyIteration(const Mdp& mdp, int maxIterations) {
     const PolicyValues values = policyValues(mdp, policyOf(mdp, solution.actions));
     if (values.status != MdpStatus::kSolved) {
       solution.status = values.status;
+      if (values.status == MdpStatus::kEndless)  // then the optimum is not finite, and no V near it
+        solution.errorBound = std::numeric_limits<double>::infinity();
       solution.message = fmt::format("policy {}: {}", solution.iterations + 1, values.message);
       return solution;
     }

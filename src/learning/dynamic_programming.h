@@ -15,8 +15,10 @@ struct MdpSolution {
   Eigen::MatrixXd Q{};         ///< states x actions, of V
   std::vector<int> actions{};  ///< the best in each state
   int iterations = 0;
-  double errorBound = std::numeric_limits<double>::infinity();  ///< |V - V*| is at most this, in each state
-  std::vector<double> history{};                                ///< greatest change of V in each iteration
+  /// |V - V*| is at most this, in each state. With a discount of one there is no such bound: how far V is
+  /// from solving Bellman's equation.
+  double errorBound = std::numeric_limits<double>::infinity();
+  std::vector<double> history{};  ///< greatest change of V in each iteration
   std::string message{};
 };
 

@@ -1,5 +1,7 @@
 #include "learning/inverse_rl.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "base/error.h"
@@ -29,10 +31,10 @@ void require(const Mdp& mdp, const MatrixArg& features, const VectorArg& teacher
   requireFeatures(features);
   requireSize("expectations of the teacher", teacher.size(), features.rows());
   requireFinite("expectations of the teacher", teacher);
-  if (!(options.tolerance > 0))
+  if (!(options.tolerance > 0) || !std::isfinite(options.tolerance))
     throw Error({.what = "tolerance of inverse learning",
                  .found = fmt::format("{:g}", options.tolerance),
-                 .wanted = "a positive number"});
+                 .wanted = "a positive, finite number"});
   if (options.maxIterations < 1)
     throw Error({.what = "maxIterations of inverse learning",
                  .found = fmt::format("{}", options.maxIterations),
@@ -63,6 +65,8 @@ Eigen::VectorXd featureExpectations(const Mdp& mdp, const MatrixArg& policy, con
 Eigen::VectorXd featureExpectations(const std::vector<std::vector<int>>& demonstrations,
                                     const MatrixArg& features, double discount) {
   requireFeatures(features);
+  if (!(discount >= 0 && discount <= 1))
+    throw Error({.what = "discount", .found = fmt::format("{:g}", discount), .wanted = "a number in [0, 1]"});
   if (demonstrations.empty()) throw Error({.what = "demonstrations", .found = "none"});
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(features.rows());
   for (std::size_t i = 0; i < demonstrations.size(); ++i) {
@@ -92,7 +96,8 @@ InverseRlResult inverseRl(const Mdp& mdp, const MatrixArg& features, const Vecto
     result.margins.push_back(margin.margin);
     result.shares = margin.shares;
     result.expectations = asColumns(candidates) * margin.shares;
-    if (margin.margin <= tolerance) {
+    // Not the margin: of a hull point that is not yet the nearest one, it is too small.
+    if ((teacher - result.expectations).norm() <= tolerance) {
       result.status = InverseRlStatus::kMatched;
       break;
     }

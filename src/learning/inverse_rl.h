@@ -12,8 +12,8 @@ namespace rex {
 [[nodiscard]] Eigen::VectorXd featureExpectations(const Mdp& mdp, const MatrixArg& policy,
                                                   const MatrixArg& features, const VectorArg& start);
 
-/// The same as the mean over demonstrations, each the states of one episode. Throws Error without any, and
-/// for unknown states.
+/// The same as the mean over demonstrations, each the states of one episode. Throws Error without any, for
+/// unknown states, and a discount outside [0, 1].
 [[nodiscard]] Eigen::VectorXd featureExpectations(const std::vector<std::vector<int>>& demonstrations,
                                                   const MatrixArg& features, double discount);
 

@@ -57,6 +57,17 @@ Eigen::MatrixXd noiseRoot(const LinearGaussianPolicy& policy) {
 
 void requirePolicy(const LinearGaussianPolicy& policy) { static_cast<void>(noiseRoot(policy)); }
 
+double actionVariance(const LinearGaussianPolicy& policy, const VectorArg& phi) {
+  double sum = 0, size = 0;  // both are needed: features may have very different units
+  for (Eigen::Index i = 0; i < phi.size(); ++i)
+    for (Eigen::Index k = 0; k < phi.size(); ++k) {
+      const double term = phi[i] * policy.Sigma(i, k) * phi[k];
+      sum += term;
+      size += std::abs(term);
+    }
+  return sum > 1e-14 * size ? sum : 0;
+}
+
 void requireEpisodes(const std::vector<Episode>& episodes, Eigen::Index features) {
   if (episodes.empty()) throw Error({.what = "episodes", .found = "none"});
   for (std::size_t i = 0; i < episodes.size(); ++i) {

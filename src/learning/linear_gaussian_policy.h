@@ -23,6 +23,9 @@ void requirePolicy(const LinearGaussianPolicy& policy);
 /// A root L of Sigma, so that L times standard normals is epsilon. Throws as requirePolicy.
 [[nodiscard]] Eigen::MatrixXd noiseRoot(const LinearGaussianPolicy& policy);
 
+/// phi^T Sigma phi, the variance of the action; zero if it is no more than rounding. phi has k numbers.
+[[nodiscard]] double actionVariance(const LinearGaussianPolicy& policy, const VectorArg& phi);
+
 /// What one episode of T steps teaches. Shorter than others if it was cut at a failure: nothing follows.
 struct Episode {
   Eigen::MatrixXd features{};  ///< k x T: phi(s_t)

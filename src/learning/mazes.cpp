@@ -28,6 +28,16 @@ const GridMark* markOf(char letter, const GridWorldOptions& options) {
   return mark == options.marks.end() ? nullptr : &*mark;
 }
 
+void requireMarks(const GridWorldOptions& options) {
+  for (const GridMark& mark : options.marks) {
+    const bool isCell = mark.letter != '#' && mark.letter != '.';
+    if (isCell && markOf(mark.letter, options) == &mark) continue;
+    throw Error({.what = "letter of a mark",
+                 .found = fmt::format("{:?}", mark.letter),
+                 .wanted = isCell ? "one mark of each letter" : "a letter other than '#' and '.'"});
+  }
+}
+
 bool isJumpedTo(char letter, const GridWorldOptions& options) {
   return std::any_of(options.marks.begin(), options.marks.end(),
                      [&](const GridMark& m) { return m.jumpTo == letter; });
@@ -60,7 +70,7 @@ LetterMap readLetters(std::string_view map, const GridWorldOptions& options) {
       if (letter == '#' || letter == '.' || markOf(letter, options) || isJumpedTo(letter, options)) continue;
       throw Error({.what = "cell of the map",
                    .where = {"map", where.line, static_cast<int>(c) + 1},
-                   .found = fmt::format("'{}'", letter),
+                   .found = fmt::format("{:?}", letter),  // some cannot be seen
                    .wanted = "'#', '.' or the letter of a mark"});
     }
     result.letters += lines[l];
@@ -170,6 +180,7 @@ std::optional<int> GridWorld::state(int column, int row) const {
 GridWorld gridWorld(std::string_view map, const GridWorldOptions& options) {
   if (!(options.slip >= 0 && options.slip <= 1))
     throw Error({.what = "slip", .found = fmt::format("{:g}", options.slip), .wanted = "a number in [0, 1]"});
+  requireMarks(options);
   const LetterMap letters = readLetters(map, options);
   return Builder(letters, options).build();
 }

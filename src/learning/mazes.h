@@ -42,8 +42,8 @@ struct GridWorld {
 
 /// Reads a map of '#' (wall), '.' (free) and the letters of `marks`, one row per line, the highest first.
 /// States are numbered along the rows, from the lowest. Throws Error with line and column for other
-/// characters and rows of different length, for a map without cells, marks that are there twice where they
-/// are jumped to, or not at all, and slips outside [0, 1].
+/// characters and rows of different length; for a map without cells, cells that are jumped to and there twice
+/// or not at all, two marks of one letter, '#' or '.' as a mark, and slips outside [0, 1].
 [[nodiscard]] GridWorld gridWorld(std::string_view map, const GridWorldOptions& options = {});
 
 }  // namespace rex

@@ -119,9 +119,9 @@ Eigen::MatrixXd policyOf(const Mdp& mdp, const std::vector<int>& actions) {
 Eigen::MatrixXd epsilonGreedy(const MatrixArg& Q, double epsilon) {
   if (!(epsilon >= 0 && epsilon <= 1))
     throw Error({.what = "epsilon", .found = fmt::format("{:g}", epsilon), .wanted = "a number in [0, 1]"});
+  const std::vector<int> best = greedyActions(Q);
   Eigen::MatrixXd policy =
       Eigen::MatrixXd::Constant(Q.rows(), Q.cols(), epsilon / static_cast<double>(Q.cols()));
-  const std::vector<int> best = greedyActions(Q);
   for (Eigen::Index s = 0; s < Q.rows(); ++s) policy(s, best[static_cast<std::size_t>(s)]) += 1 - epsilon;
   return policy;
 }
@@ -135,6 +135,7 @@ Eigen::MatrixXd actionValues(const Mdp& mdp, const VectorArg& V) {
 }
 
 std::vector<int> greedyActions(const MatrixArg& Q) {
+  if (Q.cols() == 0) throw Error({.what = "values of actions", .found = "no action"});
   std::vector<int> best(static_cast<std::size_t>(Q.rows()));
   for (Eigen::Index s = 0; s < Q.rows(); ++s) Q.row(s).maxCoeff(&best[static_cast<std::size_t>(s)]);
   return best;

@@ -46,14 +46,14 @@ void requirePolicy(const Mdp& mdp, const MatrixArg& policy);
 [[nodiscard]] Eigen::MatrixXd uniformPolicy(const Mdp& mdp);
 /// actions[s] in state s. Throws Error for another number of states or an unknown action.
 [[nodiscard]] Eigen::MatrixXd policyOf(const Mdp& mdp, const std::vector<int>& actions);
-/// The best action of each state with 1 - epsilon, any one otherwise. Throws Error unless epsilon is in
-/// [0, 1].
+/// The best action of each state with 1 - epsilon, any one otherwise. Throws as greedyActions, and Error
+/// unless epsilon is in [0, 1].
 [[nodiscard]] Eigen::MatrixXd epsilonGreedy(const MatrixArg& Q, double epsilon);
 
 /// Q(s, a) = R(s, a) + discount sum_t P(t | s, a) V(t): states x actions, the bracket of eq. (10) of exercise
 /// 12.10. Throws Error for a V of another size.
 [[nodiscard]] Eigen::MatrixXd actionValues(const Mdp& mdp, const VectorArg& V);
-/// The best action in each state, the first if several are.
+/// The best action in each state, the first if several are. Throws Error if there is no action.
 [[nodiscard]] std::vector<int> greedyActions(const MatrixArg& Q);
 
 enum class MdpStatus {

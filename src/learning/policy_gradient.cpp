@@ -15,7 +15,7 @@ Eigen::MatrixXd scores(const LinearGaussianPolicy& policy, const Episode& episod
   Eigen::MatrixXd scores(episode.features.rows(), episode.features.cols());
   for (Eigen::Index t = 0; t < scores.cols(); ++t) {
     const auto phi = episode.features.col(t);
-    const double variance = phi.dot(policy.Sigma * phi);
+    const double variance = actionVariance(policy, phi);
     scores.col(t) = phi * (variance > 0 ? phi.dot(episode.noise.col(t)) / variance : 0.);
   }
   return scores;
@@ -145,14 +145,17 @@ NaturalGradient episodicNaturalGradient(const LinearGaussianPolicy& policy,
     X.row(i) = (g * powers(discount, g.cols())).transpose();
     returns[i] = returnsToGo(episode.rewards, discount)[0];
   }
+  // Features of any unit: what shows nothing is judged with columns of length one.
+  const Eigen::ArrayXd lengths = X.colwise().norm().transpose();
+  const Eigen::VectorXd scale = (lengths > 0).select(lengths.inverse(), 0.);
   // Without their means there is no constant to find.
   X.rowwise() -= X.colwise().mean().eval();
   returns.array() -= returns.mean();
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factors;
   factors.setThreshold(1e-10);
-  factors.compute(X);
+  factors.compute(X * scale.asDiagonal());
   NaturalGradient result;
-  result.w = factors.solve(returns);
+  result.w = scale.asDiagonal() * factors.solve(returns);
   result.rank = static_cast<int>(factors.rank());
   result.fisher = fisherMatrix(policy, episodes, discount);
   result.gradient = result.fisher * result.w;

@@ -54,28 +54,28 @@ PolicySearchResult improvedPolicy(const Rollouts& rollouts, const LinearGaussian
   PolicySearchResult result;
   result.policy = result.best = start;
   double most = -std::numeric_limits<double>::infinity();
-  const auto stopped = [&](SearchStatus status, const char* why) {
+  const auto stopped = [&](PolicySearchStatus status, const char* why) {
     result.status = status;
     result.message = fmt::format("{} after {} iterations", why, result.iterations);
     return result;
   };
   while (result.iterations < options.iterations) {
     const std::vector<Episode> episodes = rollouts(result.policy, options.episodes, rng);
-    if (!areFinite(episodes)) return stopped(SearchStatus::kDiverged, "returns are no longer finite");
+    if (!areFinite(episodes)) return stopped(PolicySearchStatus::kDiverged, "returns are no longer finite");
     result.returns.push_back(meanReturn(episodes, options.discount));
     if (result.returns.back() > most) {
       most = result.returns.back();
       result.best = result.policy;
     }
     Eigen::VectorXd step = stepOf(result.policy, episodes, options);
-    if (!step.allFinite()) return stopped(SearchStatus::kDiverged, "the step is not finite");
-    if (step.isZero(0)) return stopped(SearchStatus::kStuck, "no direction promises more");
+    if (!step.allFinite()) return stopped(PolicySearchStatus::kDiverged, "the step is not finite");
+    if (step.isZero(0)) return stopped(PolicySearchStatus::kStuck, "no direction promises more");
     if (step.norm() > options.longestStep) step *= options.longestStep / step.norm();
     result.policy.beta += step;
     result.policy.Sigma *= options.noiseDecay;
     ++result.iterations;
   }
-  return stopped(SearchStatus::kFinished, "finished");
+  return stopped(PolicySearchStatus::kFinished, "finished");
 }
 
 }  // namespace rex

@@ -20,14 +20,14 @@ struct PolicySearchOptions {
   double noiseDecay = 1;  ///< Sigma is multiplied by this after each iteration; in (0, 1]
 };
 
-enum class SearchStatus {
+enum class PolicySearchStatus {
   kFinished,  ///< all iterations done; whether it is the optimum, nobody knows
   kStuck,     ///< a gradient of zero, or PoWER without returns
   kDiverged   ///< returns or parameters are no longer finite
 };
 
 struct PolicySearchResult {
-  SearchStatus status = SearchStatus::kFinished;
+  PolicySearchStatus status = PolicySearchStatus::kFinished;
   LinearGaussianPolicy policy{};  ///< the last
   LinearGaussianPolicy best{};    ///< the one whose own episodes returned most
   std::vector<double> returns{};  ///< mean return of each iteration, before its step

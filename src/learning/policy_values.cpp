@@ -3,6 +3,7 @@
 #include <cmath>
 #include <deque>
 #include <optional>
+#include <utility>
 
 #include <Eigen/SparseLU>
 #include <fmt/format.h>
@@ -50,16 +51,29 @@ SparseMatrix identityMinus(double discount, const SparseMatrix& P) {
   return M;
 }
 
-Eigen::VectorXd solved(const SparseMatrix& M, const Eigen::VectorXd& b) {
-  Eigen::SparseLU<SparseMatrix> factors(M);
-  Eigen::VectorXd x = factors.solve(b);
-  x += factors.solve(b - M * x);
-  return x;
+// What M x = b gave, with the greatest violation of it relative to the greatest number.
+struct LinearSolution {
+  Eigen::VectorXd x{};
+  double residual = std::numeric_limits<double>::infinity();
+  bool isSound() const { return residual < 1e-8; }
+};
+
+LinearSolution solved(const SparseMatrix& M, const Eigen::VectorXd& b) {
+  const Eigen::SparseLU<SparseMatrix> factors(M);
+  if (factors.info() != Eigen::Success) return {};  // a pivot of zero: there is nothing to solve with
+  LinearSolution result{factors.solve(b)};
+  result.x += factors.solve(b - M * result.x);
+  const double scale = std::max(result.x.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff());
+  result.residual = scale > 0 ? (b - M * result.x).cwiseAbs().maxCoeff() / scale : 0;
+  return result;
 }
 
 std::string endlessMessage(int state) {
   return fmt::format("without discount there is no value: from state {} no terminal state is reached", state);
 }
+
+constexpr const char* kSingular =
+    "the linear system of the values is singular to the digits of a double: the process hardly ever ends";
 
 }  // namespace
 
@@ -88,15 +102,13 @@ PolicyValues policyValues(const Mdp& mdp, const MatrixArg& policy) {
       return result;
     }
   const Eigen::VectorXd rewards = mdp.rewards.cwiseProduct(policy).rowwise().sum();
-  const SparseMatrix M = identityMinus(mdp.discount, P);
-  const Eigen::VectorXd V = solved(M, rewards);
-  const double scale = std::max(V.cwiseAbs().maxCoeff(), rewards.cwiseAbs().maxCoeff());
-  result.residual = scale > 0 ? (rewards - M * V).cwiseAbs().maxCoeff() / scale : 0;
-  if (!(result.residual < 1e-8)) {
-    result.message = "the linear system of the values is singular to the digits of a double";
+  LinearSolution solution = solved(identityMinus(mdp.discount, P), rewards);
+  result.residual = solution.residual;
+  if (!solution.isSound()) {
+    result.message = kSingular;
     return result;
   }
-  result.V = V;
+  result.V = std::move(solution.x);
   result.status = MdpStatus::kSolved;
   result.message = "solved";
   return result;
@@ -109,7 +121,9 @@ Eigen::VectorXd discountedVisits(const Mdp& mdp, const MatrixArg& policy, const 
   const SparseMatrix P = transitionsUnder(mdp, policy);
   if (mdp.discount == 1)
     if (const auto state = endlessState(mdp, P)) throw Error({.what = endlessMessage(*state)});
-  return solved(identityMinus(mdp.discount, P).transpose(), start);
+  LinearSolution visits = solved(identityMinus(mdp.discount, P).transpose(), start);
+  if (!visits.isSound()) throw Error({.what = kSingular});
+  return std::move(visits.x);
 }
 
 }  // namespace rex

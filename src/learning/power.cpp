@@ -39,7 +39,7 @@ PowerStep powerStep(const LinearGaussianPolicy& policy, const std::vector<Episod
                      .found = fmt::format("{:g}", Q[t]),
                      .wanted = "zero or more, for PoWER"});
       const auto phi = episode.features.col(t);
-      const double variance = phi.dot(policy.Sigma * phi);
+      const double variance = actionVariance(policy, phi);
       if (!(variance > 0)) continue;
       weights += phi * phi.transpose() * (Q[t] / variance);
       moves += phi * (phi.dot(episode.noise.col(t)) * Q[t] / variance);

@@ -19,6 +19,17 @@ void requireOption(const char* what, int found, int least, int most) {
                .wanted = fmt::format("{} to {}, or 0 for the usual", least, most)});
 }
 
+void requireDeviations(double least, double most) {
+  if (!(least >= 1e-100 && most <= 1e100))
+    throw Error({.what = "CMA-ES: deviations",
+                 .found = fmt::format("{:g}", least >= 1e-100 ? most : least),
+                 .wanted = "positive numbers, from 1e-100 to 1e+100"});
+  if (most > 1e7 * least)
+    throw Error({.what = "CMA-ES: deviations",
+                 .found = fmt::format("{:g} and {:g}", least, most),
+                 .wanted = "numbers within a factor of 1e+07: scale the coordinates"});
+}
+
 // Sums of few columns at a time fit the stack, and come out the same whatever caches the machine has.
 constexpr Eigen::Index kColumns = 32;
 
@@ -37,10 +48,7 @@ CmaEs::CmaEs(const VectorArg& mean, const VectorArg& deviations, const CmaOption
   requireSize("CMA-ES: deviations", deviations.size(), n);
   requireFinite("CMA-ES: start", mean);
   requireFinite("CMA-ES: deviations", deviations);
-  if (!(deviations.minCoeff() > 0))
-    throw Error({.what = "CMA-ES: deviations",
-                 .found = fmt::format("{:g}", deviations.minCoeff()),
-                 .wanted = "positive numbers"});
+  requireDeviations(deviations.minCoeff(), deviations.maxCoeff());
   sigma_ = deviations.maxCoeff();
   D_ = deviations / sigma_;
   C_ = D_.cwiseAbs2().asDiagonal();
@@ -158,7 +166,7 @@ void CmaEs::adaptStepSize() {
 void CmaEs::adaptCovariance() {
   const double n = dimension();
   // While sigma still grows fast, the path would stretch C far too much.
-  const double age = 1 - std::pow(1 - cSigma_, 2 * (generation() + 1));
+  const double age = 1 - std::pow(1 - cSigma_, 2 * generation());
   const bool isStalled = sigmaPath_.norm() >= (1.4 + 2 / (n + 1)) * chiN_ * std::sqrt(age);
   covariancePath_ *= 1 - cc_;
   if (!isStalled) covariancePath_ += std::sqrt(cc_ * (2 - cc_) * mueff_) * step_;
@@ -183,8 +191,12 @@ void CmaEs::decompose() {
   decomposedAt_ = generation();
   solver_.compute(C_);
   B_ = solver_.eigenvectors();
-  const double largest = std::max(solver_.eigenvalues().maxCoeff(), 1e-200);
-  D_ = solver_.eigenvalues().cwiseMax(1e-18 * largest).cwiseSqrt();
+  D_ = solver_.eigenvalues();
+  const double largest = std::clamp(D_.maxCoeff(), 1e-200, 1e100), least = 1e-15 * largest;
+  const bool isSound = D_.minCoeff() >= least && D_.maxCoeff() <= largest;
+  D_ = D_.cwiseMax(least).cwiseMin(largest).cwiseSqrt();
+  // Where doubles do not hold how thin it is, bad samples would soon make C negative.
+  if (!isSound) C_ = B_ * D_.cwiseAbs2().asDiagonal() * B_.transpose();
 }
 
 }  // namespace rex

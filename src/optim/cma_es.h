@@ -30,13 +30,14 @@ struct CmaOptions {
 class CmaEs {
  public:
   /// Starts with N(mean, diag(deviations)^2). Throws Error for no coordinates, sizes that differ, numbers
-  /// that are not finite, deviations that are not positive, and options out of range.
+  /// that are not finite, deviations that are not positive, or beyond 1e+-100 or a factor of 1e7 of each
+  /// other, and options out of range.
   CmaEs(const VectorArg& mean, const VectorArg& deviations, const CmaOptions& options = {});
 
   int dimension() const { return static_cast<int>(mean_.size()); }
   int lambda() const { return static_cast<int>(weights_.size()); }
   int mu() const { return mu_; }
-  int generation() const { return result_.iterations; }
+  int generation() const { return static_cast<int>(result_.iterations); }
   const Eigen::VectorXd& mean() const { return mean_; }
   double sigma() const { return sigma_; }
   const Eigen::MatrixXd& covariance() const { return C_; }  ///< C: that of samples is sigma^2 C

@@ -12,7 +12,7 @@
 namespace rex {
 namespace {
 
-constexpr int kLargestPopulation = 1'000'000;
+constexpr double kMostNumbers = 1e7;  // of a generation: 80 MB
 
 void requireSound(const VectorArg& low, const VectorArg& high, const RestartOptions& options) {
   requireSize("restarts: upper ends of the box", high.size(), low.size());
@@ -72,6 +72,7 @@ SearchResult minimizeByCma(const BatchObjective& f, const VectorArg& start, cons
 RestartResult minimizeByRestarts(const BatchObjective& f, const VectorArg& low, const VectorArg& high,
                                  const VectorArg& deviations, Rng& rng, const RestartOptions& options) {
   requireSound(low, high, options);
+  const auto n = static_cast<double>(low.size());
   RestartResult all;
   CmaOptions now = options.first;
   CmaLimits limits = options.limits;
@@ -82,8 +83,8 @@ RestartResult minimizeByRestarts(const BatchObjective& f, const VectorArg& low, 
     all.end(all.runs.back().status);
     if (all.status == SearchStatus::kTargetReached || all.status == SearchStatus::kBudgetSpent) break;
     limits.maxEvaluations = options.limits.maxEvaluations - all.evaluations;
-    now.lambda =
-        static_cast<int>(std::min<double>(kLargestPopulation, std::ceil(now.lambda * options.growth)));
+    const double larger = std::min(kMostNumbers / n, std::ceil(now.lambda * options.growth));
+    now.lambda = std::max(now.lambda, static_cast<int>(larger));
     if (now.mu > 0)
       now.mu = static_cast<int>(std::min<double>(now.lambda, std::ceil(now.mu * options.growth)));
     if (now.lambda > limits.maxEvaluations) {

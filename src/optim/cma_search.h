@@ -16,7 +16,7 @@ namespace rex {
 struct RestartOptions {
   CmaOptions first{};  ///< of the first run
   CmaLimits limits{};  ///< the target and the budget are those of all runs together
-  double growth = 2;   ///< of lambda from one run to the next
+  double growth = 2;   ///< of lambda from one run to the next, until a generation has 10^7 numbers
   int maxRestarts = 9;
 };
 
@@ -26,7 +26,8 @@ struct RestartResult : SearchResult {
 
 /// Minimises f by runs of CMA-ES with ever larger populations, which see more and more of how f looks from
 /// afar (IPOP-CMA-ES: Auger and Hansen, CEC 2005). Each starts somewhere in [low, high]. Throws as
-/// minimizeByCma, and Error for a box without an inside, growth below 1, and a negative count.
+/// minimizeByCma, and Error for a box whose upper end is the lower one, growth outside [1, 100], and a
+/// negative count.
 [[nodiscard]] RestartResult minimizeByRestarts(const BatchObjective& f, const VectorArg& low,
                                                const VectorArg& high, const VectorArg& deviations, Rng& rng,
                                                const RestartOptions& options = {});

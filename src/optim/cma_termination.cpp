@@ -21,8 +21,10 @@ void requirePositive(const char* what, double number) {
 
 CmaTermination::CmaTermination(const CmaEs& es, const CmaLimits& limits)
     : limits_(limits), firstSigma_(es.sigma()), firstAxis_(es.sigma() * es.axisLengths().maxCoeff()) {
-  if (std::isnan(limits.target))
-    throw Error({.what = "CMA-ES: target", .found = "nan", .wanted = "a number"});
+  if (!(limits.target < std::numeric_limits<double>::infinity()))
+    throw Error({.what = "CMA-ES: target",
+                 .found = fmt::format("{:g}", limits.target),
+                 .wanted = "a number below infinity"});
   requirePositive("CMA-ES: budget of evaluations", static_cast<double>(limits.maxEvaluations));
   requirePositive("CMA-ES: smallest step", limits.smallestStep);
   requirePositive("CMA-ES: smallest difference", limits.smallestDifference);
@@ -30,7 +32,7 @@ CmaTermination::CmaTermination(const CmaEs& es, const CmaLimits& limits)
   requirePositive("CMA-ES: largest growth", limits.largestGrowth);
   const double generations = std::ceil(30. * es.dimension() / es.lambda());
   flatSpan_ = 10 + static_cast<std::size_t>(generations);
-  stagnationSpan_ = 120 + static_cast<std::size_t>(generations);
+  stagnationSpan_ = std::min(kLongestMemory, 120 + static_cast<std::size_t>(generations));
   bests_.reserve(2 * kLongestMemory), medians_.reserve(2 * kLongestMemory);
   sorted_.reserve(std::max(kLongestMemory, static_cast<std::size_t>(es.lambda())));
   moved_.resize(es.dimension());
@@ -52,7 +54,7 @@ std::optional<SearchStatus> CmaTermination::check(const CmaEs& es, const VectorA
   if (longest * longest > limits_.largestCondition * shortest * shortest)
     return SearchStatus::kIllConditioned;
   if (es.sigma() * longest > limits_.largestGrowth * firstAxis_) return SearchStatus::kDiverged;
-  if (isStagnating()) return SearchStatus::kStagnated;
+  if (isStagnating(es.generation())) return SearchStatus::kStagnated;
   return {};
 }
 
@@ -96,10 +98,11 @@ double CmaTermination::medianOf(const std::vector<double>& history, std::size_t 
 
 // Whether, over the last fifth of all generations, the first 30 % were as good as the last 30 %. Looking only
 // now and then keeps the cost low.
-bool CmaTermination::isStagnating() {
+bool CmaTermination::isStagnating(int generation) {
   const std::size_t all = bests_.size();
-  const std::size_t span = std::clamp(all / 5, stagnationSpan_, kLongestMemory);
-  if (all < span || all % 20 != 0) return false;
+  const std::size_t fifth = static_cast<std::size_t>(generation) / 5;
+  const std::size_t span = std::clamp(fifth, stagnationSpan_, kLongestMemory);
+  if (all < span || generation % 20 != 0) return false;
   const std::size_t part = 3 * span / 10;
   for (const auto* history : {&bests_, &medians_})
     if (medianOf(*history, all - part, part) < medianOf(*history, all - span, part)) return false;

@@ -21,7 +21,8 @@ struct CmaLimits {
 /// Watches one run.
 class CmaTermination {
  public:
-  /// `es` has not begun. Throws Error for limits that are not numbers or not positive.
+  /// `es` has not begun. Throws Error for an infinite target, and limits that are not numbers or not
+  /// positive.
   CmaTermination(const CmaEs& es, const CmaLimits& limits);
 
   /// To be asked after each update, with its values: why it should end, or nothing.
@@ -31,7 +32,7 @@ class CmaTermination {
   void remember(const VectorArg& values);
   [[nodiscard]] bool hasNoEffect(const CmaEs& es);
   [[nodiscard]] bool isFlat(const VectorArg& values) const;
-  [[nodiscard]] bool isStagnating();
+  [[nodiscard]] bool isStagnating(int generation);
   [[nodiscard]] double medianOf(const std::vector<double>& history, std::size_t from, std::size_t count);
 
   CmaLimits limits_;

@@ -96,7 +96,7 @@ SearchResult minimizeByEvolution(const BatchObjective& f, const VectorArg& start
     if (species.values.array().isFinite().any()) species.select();
     if (result.value <= options.target)
       status = SearchStatus::kTargetReached;
-    else if (species.sigma < options.smallestStep * deviation)
+    else if (!(species.sigma > options.smallestStep * deviation))  // also 0 and, after that, nan
       status = SearchStatus::kSmallSteps;
     else if (species.sigma > 1e100 * deviation)
       status = SearchStatus::kDiverged;

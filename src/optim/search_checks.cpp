@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -22,7 +23,8 @@ void requireSearch(const char* search, const VectorArg& start, double deviation,
   requireFinite(fmt::format("{}: start", search), start);
   requireSearchOption(std::isfinite(deviation) && deviation > 0, search, "deviation of steps", deviation,
                       "a positive, finite number");
-  requireSearchOption(!std::isnan(target), search, "target", target, "a number");
+  requireSearchOption(target < std::numeric_limits<double>::infinity(), search, "target", target,
+                      "a number below infinity");
   requireSearchOption(maxEvaluations > 0, search, "budget of evaluations",
                       static_cast<double>(maxEvaluations), "1 or more");
 }

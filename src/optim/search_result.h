@@ -28,7 +28,7 @@ struct SearchResult {
   Eigen::VectorXd x{};                                     ///< of finite value; the start if there was none
   double value = std::numeric_limits<double>::infinity();  ///< at x
   long evaluations = 0;
-  int iterations = 0;
+  long iterations = 0;
   long invalid = 0;  ///< evaluations without a finite value
   std::string message = "no search has run";
 

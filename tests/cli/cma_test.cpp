@@ -53,6 +53,24 @@ TEST_F(CmaCommand, CountsAsTheLibraryDoes) {
   EXPECT_EQ(usual.output, result.output);
 }
 
+// Where some runs fail: evaluations of the others, divided by their share.
+TEST_F(CmaCommand, CountsFailuresAsTheSlideDoes) {
+  const ProcessResult result =
+      rex({"cma", "--function", "rastrigin", "--dim", "3", "--lambda", "20", "--seeds", "12", "--json"});
+  ASSERT_EQ(result.exitCode, 0) << result.error;
+  const nlohmann::json json = nlohmann::json::parse(result.output);
+  double spent = 0, successes = 0;
+  for (const nlohmann::json& run : json["runs"]) {
+    EXPECT_EQ(run["success"], run["best"].get<double>() <= 0.9);
+    if (!run["success"].get<bool>()) continue;
+    spent += run["evaluations"].get<double>();
+    ++successes;
+  }
+  ASSERT_GT(successes, 0);
+  ASSERT_LT(successes, 12);
+  EXPECT_NEAR(json["evaluations_per_success"].get<double>(), spent / successes / (successes / 12), 1e-6);
+}
+
 TEST_F(CmaCommand, PrintsATableAndDrawsACurve) {
   const std::string folder = in("curve").string();
   const ProcessResult result = rex(kAckley + std::vector<std::string>{"-o", folder, "--seed", "4"});
@@ -103,6 +121,7 @@ TEST_F(CmaCommand, SaysWhatIsWrong) {
   expect({"--x0-low", "inf"}, "--x0-low: found inf");
   expect({"--x0-low", "3", "--x0-high", "2"}, "--x0-high: found 2, wanted 3 to 1e+12");
   expect({"--lambda", "1"}, "--lambda: found 1, wanted 2 to 1e+06");
+  expect({"--lambda", "100000", "--dim", "1000"}, "--lambda: found 100000, wanted 2 to 10000");
   expect({"--target", "nan"}, "--target: found nan");
   expect({"--restarts", "-1"}, "--restarts: found -1");
   expect({"--max-evaluations", "0"}, "--max-evaluations: found 0");

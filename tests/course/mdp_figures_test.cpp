@@ -1,5 +1,7 @@
 #include "course/mdp_figures.h"
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "learning/dynamic_programming.h"
@@ -57,8 +59,15 @@ TEST(MdpFigures, RefuseWrongInput) {
   EXPECT_REX_ERROR(valueFigure(world, Eigen::VectorXd::Zero(3)), "values of the grid");
   EXPECT_REX_ERROR(policyFigure(world, Eigen::VectorXd::Zero(4), Eigen::MatrixXd::Zero(4, 3)),
                    "policy of the grid: found 4 x 3, wanted 4 x 4");
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_REX_ERROR(valueFigure(world, Eigen::Vector4d(0, nan, 0, 0)),
+                   "values of the grid: number 1: found nan");
+  EXPECT_REX_ERROR(valueFigure(gridWorld("G.."), Eigen::Vector3d::Zero()),
+                   "grid to draw: found 3 x 1 cells, wanted 2 x 2 or more");
+  EXPECT_REX_ERROR(learningFigure({{"odd", {{1, 2}, {1, nan}}}}), "run 1 of 'odd': number 1: found nan");
   EXPECT_REX_ERROR(learningFigure({{"empty", {}}}), "learning curves 'empty': found no run");
-  EXPECT_REX_ERROR(learningFigure({{"uneven", {{1, 2}, {1}}}}), "run of 'uneven'");
+  EXPECT_REX_ERROR(learningFigure({{"uneven", {{1, 2}, {1}}}}),
+                   "run 1 of 'uneven': found a vector of size 1, wanted");
 }
 
 }  // namespace

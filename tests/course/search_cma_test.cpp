@@ -50,6 +50,28 @@ TEST(SearchCma, DoesWhatTheLibraryDoes) {
   EXPECT_EQ(samples.rows(), 7);  // 4 + floor(3 ln 3)
 }
 
+// A second search with the arrays of the first learns nothing from it.
+TEST(SearchCma, BeginsAnew) {
+  SearchCma cma(1);
+  Eigen::MatrixXd samples;
+  Eigen::VectorXd values;
+  cma.init(Eigen::Vector2d(5, 5), -1, 6, .1);
+  for (int t = 0; t < 3; ++t) {
+    cma.step(samples, values);
+    values = samples.rowwise().squaredNorm();
+  }
+  const Eigen::Vector2d start(-7, 3);
+  cma.init(start, -1, 6, .1);
+  cma.step(samples, values);
+  EXPECT_EQ(cma.getMean(), start);
+  EXPECT_EQ(cma.getBestSample(), start);
+  EXPECT_LT((samples.rowwise() - start.transpose()).norm(), 2);
+  cma.init(3, -1, 9);
+  cma.step(samples, values);
+  EXPECT_EQ(samples.cols(), 3);
+  EXPECT_EQ(values.size(), 9);
+}
+
 TEST(SearchCma, SaysWhatIsWrong) {
   SearchCma cma;
   Eigen::MatrixXd samples;
@@ -66,7 +88,7 @@ TEST(SearchCma, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(cma.step(narrow, values),
                    "step: columns of samples: found a vector of size 2, wanted size 3");
   Eigen::VectorXd three = Eigen::VectorXd::Zero(3);
-  EXPECT_REX_ERROR(cma.step(samples, three), "CMA-ES: values: found a vector of size 3, wanted size 6");
+  EXPECT_REX_ERROR(cma.step(samples, three), "step: values: found a vector of size 3, wanted size 6");
 }
 
 }  // namespace

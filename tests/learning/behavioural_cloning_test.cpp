@@ -145,5 +145,19 @@ TEST(BehaviouralCloning, RefusesWrongInput) {
   EXPECT_REX_ERROR(SoftmaxPolicy{I}.probabilities(Eigen::Vector3d::Zero()), "features");
 }
 
+// Features of another unit, with the ridge to go with it, are the same problem.
+TEST(BehaviouralCloning, SoftmaxDoesNotMindUnits) {
+  Rng rng(5);
+  const Eigen::MatrixXd X = randomMatrix(60, 3, rng);
+  std::vector<int> actions;
+  for (int i = 0; i < 60; ++i) actions.push_back(X(i, 0) + rng.normal() > 0 ? 1 : 0);
+  const Eigen::MatrixXd weights = cloneSoftmax(X, actions, 2, 1e-2).policy.weights;
+  for (const double unit : {1e-12, 1e-5, 1e6}) {
+    const SoftmaxClone clone = cloneSoftmax(unit * X, actions, 2, 1e-2 * unit * unit);
+    EXPECT_EQ(clone.status, CloneStatus::kConverged) << clone.message;
+    EXPECT_LT((unit * clone.policy.weights - weights).norm(), 1e-7 * weights.norm()) << unit;
+  }
+}
+
 }  // namespace
 }  // namespace rex

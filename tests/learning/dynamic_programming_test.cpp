@@ -1,6 +1,7 @@
 #include "learning/dynamic_programming.h"
 
 #include <cmath>
+#include <limits>
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>
@@ -113,6 +114,7 @@ TEST(DynamicProgramming, SaysWhenNothingEnds) {
   mdp.rewards(0, 0) = 1;
   const MdpSolution endless = policyIteration(mdp);
   EXPECT_EQ(endless.status, MdpStatus::kEndless);
+  EXPECT_EQ(endless.errorBound, std::numeric_limits<double>::infinity());
   EXPECT_EQ(endless.message,
             "policy 2: without discount there is no value: from state 0 no terminal state is reached");
   mdp.transitions[1] = mdp.transitions[0];
@@ -126,6 +128,7 @@ TEST(DynamicProgramming, SaysWhenNothingEnds) {
 TEST(DynamicProgramming, RefusesWrongOptions) {
   Mdp mdp = tMaze();
   EXPECT_REX_ERROR(valueIteration(mdp, {.tolerance = 0}), "tolerance of value iteration: found 0");
+  EXPECT_REX_ERROR(valueIteration(mdp, {.tolerance = INFINITY}), "tolerance of value iteration: found inf");
   EXPECT_REX_ERROR(valueIteration(mdp, {.maxIterations = 0}), "maxIterations of value iteration: found 0");
   EXPECT_REX_ERROR(policyIteration(mdp, 0), "maxIterations of policy iteration: found 0");
   mdp.discount = 1;

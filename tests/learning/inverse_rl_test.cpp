@@ -1,5 +1,8 @@
 #include "learning/inverse_rl.h"
 
+#include <cmath>
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "learning/dynamic_programming.h"
@@ -108,9 +111,12 @@ TEST(InverseRl, RefusesWrongInput) {
   refuses([&](Lesson& l) { l.teacher[3] = nan; }, "expectations of the teacher: number 3: found nan");
   refuses([](Lesson& l) { l.start *= 2; }, "start distribution: found probabilities that sum to 2");
   refuses([](Lesson&) {}, "tolerance of inverse learning: found 0", {.tolerance = 0});
+  refuses([](Lesson&) {}, "tolerance of inverse learning: found inf", {.tolerance = INFINITY});
   refuses([](Lesson&) {}, "maxIterations of inverse learning: found 0", {.maxIterations = 0});
   EXPECT_REX_ERROR(featureExpectations(std::vector<std::vector<int>>{}, lesson.features, .9),
                    "demonstrations: found none");
+  EXPECT_REX_ERROR(featureExpectations({{1, 2}}, lesson.features, nan),
+                   "discount: found nan, wanted a number");
   EXPECT_REX_ERROR(featureExpectations({{1, 2}, {36}}, lesson.features, .9),
                    "state of demonstration 1: found 36, wanted one of 0 to 35");
 }

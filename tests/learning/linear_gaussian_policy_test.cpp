@@ -1,7 +1,9 @@
 #include "learning/linear_gaussian_policy.h"
 
+#include <cmath>
 #include <limits>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "learning/lq_task.h"
@@ -74,6 +76,20 @@ TEST(LinearGaussianPolicy, RefusesWrongInput) {
   EXPECT_REX_ERROR(rolloutsOf(task)({beta, I}, 1, rng), "features of the state");
   task.horizon = 0;
   EXPECT_REX_ERROR(rolloutsOf(task), "horizon of the task: found 0, wanted 1 or more");
+}
+
+TEST(LinearGaussianPolicy, TellsTheVarianceOfActionsFromRounding) {
+  Rng rng(3);
+  for (int round = 0; round < 100; ++round) {
+    const Eigen::Vector3d v = rng.normalVector(3), other = rng.normalVector(3);
+    const LinearGaussianPolicy policy{Eigen::Vector3d::Zero(), v * v.transpose()};
+    EXPECT_EQ(actionVariance(policy, v.cross(other)), 0);  // the only noise is along v
+    EXPECT_NEAR(actionVariance(policy, other), std::pow(v.dot(other), 2), 1e-13);
+    // Units that differ much are no reason to lose what there is.
+    const Eigen::DiagonalMatrix<double, 3> units(1e-9, 1, 1e9);
+    EXPECT_NEAR(actionVariance({policy.beta, units * policy.Sigma * units}, units.inverse() * other),
+                std::pow(v.dot(other), 2), 1e-12);
+  }
 }
 
 }  // namespace

@@ -100,6 +100,12 @@ TEST(Mazes, SayWhatIsWrongAndWhere) {
   EXPECT_REX_ERROR(gridWorld("..\n..\n."), "map:3: row of the map: found 1 cells, wanted 2, as in the first");
   EXPECT_REX_ERROR(gridWorld("G", {.slip = 1.5}), "slip: found 1.5");
   EXPECT_REX_ERROR(gridWorld("G.", {.discount = 3}), "discount: found 3");
+  EXPECT_REX_ERROR(gridWorld("G\t"), "map:1:2: cell of the map: found '\\t', wanted");
+  EXPECT_REX_ERROR(gridWorld("..", {.marks = {{'.', 1}}}),
+                   "letter of a mark: found '.', wanted a letter other than '#' and '.'");
+  EXPECT_REX_ERROR(gridWorld("..", {.marks = {{'#', 1}}}), "letter of a mark: found '#'");
+  EXPECT_REX_ERROR(gridWorld("G.", {.marks = {{'G', 1}, {'G', 2}}}),
+                   "letter of a mark: found 'G', wanted one mark of each letter");
   const GridWorldOptions jump{.marks = {{'A', 1, false, 'a'}}};
   EXPECT_REX_ERROR(gridWorld("A.", jump), "cell 'a', which is jumped to: found 0 of them, wanted one");
   EXPECT_REX_ERROR(gridWorld("Aaa", jump), "cell 'a', which is jumped to: found 2 of them, wanted one");

@@ -40,6 +40,10 @@ TEST(Mdp, SaysWhichRowIsNoDistribution) {
   mdp.transitions[0].coeffRef(2, 5) = .5;
   EXPECT_REX_ERROR(requireMdp(mdp),
                    "transition of action 0 from state 2: found probabilities that sum to 0.5");
+  mdp.transitions[0].coeffRef(2, 5) = 1 + 1e-8;
+  EXPECT_REX_ERROR(requireMdp(mdp), "found probabilities that sum to 1.00000001");
+  mdp.transitions[0].coeffRef(2, 5) = 1 + 1e-10;
+  EXPECT_NO_THROW(requireMdp(mdp));
   mdp.transitions[0].coeffRef(2, 5) = -.5;
   EXPECT_REX_ERROR(requireMdp(mdp),
                    "transition of action 0 from state 2 to state 5: found -0.5, wanted a probability");
@@ -58,11 +62,16 @@ TEST(Mdp, SaysWhatIsWrongWithAPolicy) {
   Eigen::MatrixXd policy = uniformPolicy(mdp);
   policy(3, 1) = .6;
   EXPECT_REX_ERROR(requirePolicy(mdp, policy), "policy in state 3: found probabilities that sum to 1.1");
+  policy(3, 1) = .5 + 1e-8;
+  EXPECT_REX_ERROR(requirePolicy(mdp, policy),
+                   "policy in state 3: found probabilities that sum to 1.00000001");
   policy(3, 1) = -1;
   EXPECT_REX_ERROR(requirePolicy(mdp, policy), "policy in state 3, action 1: found -1, wanted a probability");
   EXPECT_REX_ERROR(policyOf(mdp, {0, 1}), "actions, one for each state");
   EXPECT_REX_ERROR(policyOf(mdp, {0, 1, 0, 0, 2, 0, 0}), "action in state 4: found 2, wanted one of 0 to 1");
   EXPECT_REX_ERROR(epsilonGreedy(policy, 1.5), "epsilon: found 1.5");
+  EXPECT_REX_ERROR(epsilonGreedy(policy.leftCols(0), .5), "values of actions: found no action");
+  EXPECT_REX_ERROR(greedyActions(policy.leftCols(0)), "values of actions: found no action");
   EXPECT_REX_ERROR(actionValues(mdp, Eigen::VectorXd::Zero(6)), "values, one for each state");
 }
 

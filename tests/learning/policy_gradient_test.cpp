@@ -104,6 +104,7 @@ TEST(PolicyGradient, TakesEpisodesOfDifferentLength) {
   const PolicyGradient found = reinforceGradient(policy, {episode({1, 2}, {3, 4}), episode({-1}, {5})}, 1);
   // Baselines: 5 and 7 of the other episode at the first step, none at the second.
   EXPECT_NEAR(found.gradient[0], ((7 - 5) * 1 + 2 * 4 + (5 - 7) * -1) / 2., 1e-15);
+  EXPECT_NEAR(found.standardError[0], 4, 1e-14);  // of 10 and 2
 }
 
 TEST(PolicyGradient, NaturalGradientsAreThoseOfTheLqTask) {
@@ -130,6 +131,21 @@ TEST(PolicyGradient, NaturalGradientsAreThoseOfTheLqTask) {
   EXPECT_GT(cosine(episodic.gradient, task.gradient(kBeta, kSigma)), .9);
 }
 
+// Without discount the sums of whole episodes tell the natural gradient itself.
+TEST(PolicyGradient, EpisodicNaturalGradientsAreThoseOfTheLqTask) {
+  LqTask task;
+  task.discount = 1;
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    Rng rng(seed);
+    const LinearGaussianPolicy policy{kBeta, kSigma};
+    const NaturalGradient found = episodicNaturalGradient(policy, task.rollouts()(policy, 20000, rng), 1);
+    const Eigen::Vector2d exact = task.gradient(kBeta, kSigma);
+    EXPECT_GT(cosine(found.gradient, exact), .99);
+    EXPECT_GT(cosine(found.w, found.fisher.inverse() * exact), .99);
+    EXPECT_NEAR(found.gradient.norm() / exact.norm(), 1, .1);
+  }
+}
+
 // Other features that say the same are other parameters of the same policy, and natural gradients do not
 // mind. A baseline for each parameter minds mixtures, but not units.
 TEST(PolicyGradient, NaturalGradientsDoNotMindUnits) {
@@ -150,6 +166,7 @@ TEST(PolicyGradient, NaturalGradientsDoNotMindUnits) {
   };
   EXPECT_LT(misfit(Eigen::Matrix2d{{1e-7, 0}, {0, 2e5}}, naturalGradient), 1e-9);
   EXPECT_LT(misfit(Eigen::Matrix2d{{.1, 0}, {3, 20}}, episodicNaturalGradient), 1e-9);
+  EXPECT_LT(misfit(Eigen::Matrix2d{{1e-7, 0}, {0, 2e5}}, episodicNaturalGradient), 1e-9);
 }
 
 TEST(PolicyGradient, LeavesWhatTheNoiseDoesNotShow) {

@@ -4,6 +4,7 @@
 
 #include "control/riccati.h"
 #include "learning/lq_task.h"
+#include "optim/search_result.h"  // one program may search both ways
 #include "support/expect_error.h"
 
 namespace rex {
@@ -23,7 +24,7 @@ TEST(PolicySearch, NearsTheRegulator) {
     Rng rng(1);
     const LinearGaussianPolicy policy{Eigen::Vector2d::Zero(), noise * Eigen::Matrix2d::Identity()};
     const PolicySearchResult result = improvedPolicy(task.rollouts(), policy, options, rng);
-    EXPECT_EQ(result.status, SearchStatus::kFinished) << result.message;
+    EXPECT_EQ(result.status, PolicySearchStatus::kFinished) << result.message;
     EXPECT_EQ(static_cast<int>(result.returns.size()), options.iterations);
     const double found = task.expectedReturn(result.policy.beta, Eigen::Matrix2d::Zero());
     return (optimum - found) / (optimum - start);
@@ -56,7 +57,7 @@ TEST(PolicySearch, PowerHitsTheTarget) {
   const PolicySearchOptions options{
       .method = SearchMethod::kPower, .iterations = 60, .episodes = 300, .longestStep = 1, .noiseDecay = .95};
   const PolicySearchResult result = improvedPolicy(rolloutsOf(task), start, options, rng);
-  EXPECT_EQ(result.status, SearchStatus::kFinished) << result.message;
+  EXPECT_EQ(result.status, PolicySearchStatus::kFinished) << result.message;
   EXPECT_LT((result.policy.beta - target).norm(), .2);
   EXPECT_GT(result.returns.back(), .9);
   EXPECT_LT(result.returns.front(), .6);
@@ -73,12 +74,12 @@ TEST(PolicySearch, SaysWhyItStops) {
     };
   };
   const PolicySearchResult stuck = improvedPolicy(rewarding(1), start, {}, rng);
-  EXPECT_EQ(stuck.status, SearchStatus::kStuck);
+  EXPECT_EQ(stuck.status, PolicySearchStatus::kStuck);
   EXPECT_EQ(stuck.message, "no direction promises more after 0 iterations");
   EXPECT_EQ(improvedPolicy(rewarding(0), start, {.method = SearchMethod::kPower}, rng).status,
-            SearchStatus::kStuck);
+            PolicySearchStatus::kStuck);
   const PolicySearchResult diverged = improvedPolicy(rewarding(INFINITY), start, {}, rng);
-  EXPECT_EQ(diverged.status, SearchStatus::kDiverged);
+  EXPECT_EQ(diverged.status, PolicySearchStatus::kDiverged);
   EXPECT_EQ(diverged.message, "returns are no longer finite after 0 iterations");
 }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "learning/dynamic_programming.h"
 #include "learning/mazes.h"
 #include "learning/random_mdp.h"
 #include "support/expect_error.h"
@@ -46,10 +47,31 @@ TEST(PolicyValues, RefuseWrongInput) {
   EXPECT_REX_ERROR(discountedVisits(mdp, policy, Eigen::VectorXd::Zero(3)), "start distribution");
   Eigen::VectorXd start = Eigen::VectorXd::Zero(7);
   EXPECT_REX_ERROR(discountedVisits(mdp, policy, start), "start distribution: found probabilities that sum");
+  start[2] = 1 + 1e-8;
+  EXPECT_REX_ERROR(discountedVisits(mdp, policy, start), "found probabilities that sum to 1.00000001");
   start[4] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_REX_ERROR(discountedVisits(mdp, policy, start), "start in state 4: found nan, wanted a probability");
   mdp.discount = -1;
   EXPECT_REX_ERROR(policyValues(mdp, policy), "discount: found -1");
+}
+
+// It ends, but so rarely that a double cannot tell.
+TEST(PolicyValues, SayWhenTheSystemIsSingular) {
+  Mdp mdp;
+  mdp.discount = 1;
+  mdp.terminal = {false, true};
+  mdp.rewards = Eigen::Vector2d::Ones();
+  mdp.transitions.assign(1, TransitionMatrix(2, 2));
+  mdp.transitions[0].insert(0, 0) = 1;
+  mdp.transitions[0].insert(0, 1) = 1e-20;
+  const Eigen::MatrixXd policy = uniformPolicy(mdp);
+  const PolicyValues values = policyValues(mdp, policy);
+  EXPECT_EQ(values.status, MdpStatus::kNotConverged);
+  EXPECT_EQ(values.V.size(), 0);
+  EXPECT_THAT(values.message, testing::HasSubstr("singular to the digits of a double"));
+  EXPECT_REX_ERROR(discountedVisits(mdp, policy, Eigen::Vector2d(1, 0)),
+                   "singular to the digits of a double");
+  EXPECT_EQ(policyIteration(mdp).status, MdpStatus::kNotConverged);
 }
 
 }  // namespace

@@ -53,6 +53,22 @@ TEST(Annealing, LeavesHollowsThatCoolingTooFastDoesNot) {
   EXPECT_LE(successes(2e-3), 3);
 }
 
+// Values 0 and 1 in turn: a 0 is always taken, so that each 1 is a step up by one.
+TEST(Annealing, CoolsByTheSameFactorAtEachStep) {
+  constexpr int kSteps = 20'000;
+  constexpr double kFirst = 10, kLast = 0.01;
+  long calls = 0;
+  const Objective f = [&](const VectorArg&) { return static_cast<double>(calls++ % 2); };
+  Rng rng(3);
+  const AnnealingResult result =
+      minimizeByAnnealing(f, VectorXd::Zero(1), rng,
+                          {.firstTemperature = kFirst, .lastTemperature = kLast, .maxEvaluations = kSteps});
+  double expected = kSteps / 2. - 1;  // the zeros after the start
+  for (int i = 1; i < kSteps; i += 2)
+    expected += std::exp(-1 / (kFirst * std::pow(kLast / kFirst, i / static_cast<double>(kSteps))));
+  EXPECT_NEAR(static_cast<double>(result.accepted), expected, 250);  // more than five deviations
+}
+
 TEST(Annealing, TellsHowItWent) {
   Rng rng(1);
   const AnnealingResult result = minimizeByAnnealing(testFunction("sphere").value, VectorXd::Ones(3), rng,

@@ -1,7 +1,10 @@
 #include "optim/cma_es.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <vector>
 
 #include <Eigen/QR>
 #include <gtest/gtest.h>
@@ -56,6 +59,103 @@ TEST(CmaEs, HasTheUsualSizes) {
   EXPECT_EQ(ten.mu(), 5);
   EXPECT_EQ(own.lambda(), 8);
   EXPECT_EQ(own.mu(), 2);
+}
+
+// One strategy more, with the equations of the tutorial as they stand there, and no thought of speed. It is
+// for few samples, where the limits of c_mu and of the negative weights do not matter.
+struct Tutorial {
+  Tutorial(const VectorXd& mean, double deviation, int lambda)
+      : n(static_cast<double>(mean.size())),
+        m(mean),
+        pSigma(VectorXd::Zero(mean.size())),
+        pc(pSigma),
+        sigma(deviation),
+        C(MatrixXd::Identity(mean.size(), mean.size())),
+        mu(lambda / 2),
+        w(lambda) {
+    for (int i = 1; i <= lambda; ++i) w[i - 1] = std::log((lambda + 1) / 2.) - std::log(i);
+    const auto effective = [](const VectorXd& some) { return some.sum() * some.sum() / some.squaredNorm(); };
+    muEff = effective(w.head(mu));
+    const double muEffBad = effective(w.tail(lambda - mu));
+    cSigma = (muEff + 2) / (n + muEff + 5);
+    cc = (4 + muEff / n) / (n + 4 + 2 * muEff / n);
+    c1 = 2 / (std::pow(n + 1.3, 2) + muEff);
+    cMu = 2 * (muEff - 2 + 1 / muEff) / (std::pow(n + 2, 2) + 2 * muEff / 2);
+    w.head(mu) /= w.head(mu).sum();
+    w.tail(lambda - mu) *=
+        std::min({1 + c1 / cMu, 1 + 2 * muEffBad / (muEff + 2), (1 - c1 - cMu) / (n * cMu)}) /
+        -w.tail(lambda - mu).sum();
+  }
+
+  double usualLength() const { return std::sqrt(n) * (1 - 1 / (4 * n) + 1 / (21 * n * n)); }
+
+  // g counts from 0; Y holds (x - m) / sigma, the best first.
+  void update(const MatrixXd& Y, int g) {
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(C);
+    const MatrixXd root = eigen.operatorInverseSqrt();
+    const VectorXd step = Y.leftCols(mu) * w.head(mu);
+    m += sigma * step;
+    pSigma = (1 - cSigma) * pSigma + std::sqrt(cSigma * (2 - cSigma) * muEff) * root * step;
+    const double length = pSigma.norm(),
+                 dSigma = 1 + 2 * std::max(0., std::sqrt((muEff - 1) / (n + 1)) - 1) + cSigma;
+    const double h =
+        length / std::sqrt(1 - std::pow(1 - cSigma, 2 * (g + 1))) < (1.4 + 2 / (n + 1)) * usualLength();
+    pc = (1 - cc) * pc + h * std::sqrt(cc * (2 - cc) * muEff) * step;
+    MatrixXd next = (1 + c1 * (1 - h) * cc * (2 - cc) - c1 - cMu * w.sum()) * C + c1 * pc * pc.transpose();
+    for (Eigen::Index i = 0; i < w.size(); ++i) {
+      const double weight = w[i] >= 0 ? w[i] : w[i] * n / (root * Y.col(i)).squaredNorm();
+      next += cMu * weight * Y.col(i) * Y.col(i).transpose();
+    }
+    C = next;
+    sigma *= std::exp(cSigma / dSigma * (length / usualLength() - 1));
+  }
+
+  double n;
+  VectorXd m, pSigma, pc;
+  double sigma;
+  MatrixXd C;
+  int mu;
+  VectorXd w;
+  double muEff = 0, cSigma = 0, cc = 0, c1 = 0, cMu = 0;
+};
+
+TEST(CmaEs, LearnsAsTheTutorialSays) {
+  for (const auto& [n, lambda] : {std::pair{1, 4}, {3, 7}, {6, 9}, {6, 30}}) {
+    Rng rng(10);
+    CmaEs es(rng.normalVector(n), VectorXd::Constant(n, 0.3), {.lambda = lambda, .decompositionGap = 1});
+    Tutorial own(es.mean(), 0.3, lambda);
+    MatrixXd X(n, lambda);
+    for (int g = 0; g < 40; ++g) {
+      es.sample(X, rng);
+      if (g % 10 == 5) X.colwise() += 2 * es.sigma() * rng.normalVector(n);  // a long step, for a long path
+      VectorXd values(lambda);
+      for (int i = 0; i < lambda; ++i) values[i] = testFunction("ellipsoid").value(X.col(i));
+      std::vector<int> order(static_cast<std::size_t>(lambda));
+      std::iota(order.begin(), order.end(), 0);
+      std::ranges::sort(order, {}, [&](int i) { return values[i]; });
+      es.update(X, values);
+      own.update((X(Eigen::all, order).colwise() - own.m) / own.sigma, g);
+      ASSERT_LT((es.mean() - own.m).norm(), 1e-7 * (1 + own.m.norm())) << n << ", " << lambda << ", " << g;
+      ASSERT_NEAR(es.sigma(), own.sigma, 1e-6 * own.sigma) << n << ", " << lambda << ", " << g;
+      ASSERT_LT((es.path() - own.pc).norm(), 1e-6 * (1 + own.pc.norm())) << n << ", " << lambda << ", " << g;
+      ASSERT_LT((es.covariance() - own.C).norm(), 1e-6 * own.C.norm()) << n << ", " << lambda << ", " << g;
+    }
+  }
+}
+
+// Where all points lie at one place, the mean goes there: the first path is as long as the step says, and too
+// long from (1.4 + 2 / (n + 1)) times the usual length on.
+TEST(CmaEs, HoldsThePathBackFromTheFirstGenerationOn) {
+  constexpr int n = 10;
+  const Tutorial tutorial(VectorXd::Zero(n), 1, 10);
+  const double limit = (1.4 + 2. / (n + 1)) * tutorial.usualLength() / std::sqrt(tutorial.muEff);
+  const auto pathAfter = [&](double length) {
+    CmaEs es(VectorXd::Zero(n), ones(n));
+    es.update((length * VectorXd::Unit(n, 3)).replicate(1, 10), VectorXd::LinSpaced(10, 0, 1));
+    return es.path().norm();
+  };
+  EXPECT_GT(pathAfter(0.999 * limit), 0);
+  EXPECT_EQ(pathAfter(1.001 * limit), 0);
 }
 
 TEST(CmaEs, SeesOnlyTheOrderOfValues) {
@@ -175,6 +275,22 @@ TEST(CmaEs, StepsAsTheCourseDoes) {
   EXPECT_TRUE(samples.allFinite());
 }
 
+// In loops that nobody ends.
+TEST(CmaEs, KeepsItsCovarianceSound) {
+  const Objective slope = [](const VectorArg&x) { return x[0]; }, flat = [](const VectorArg&) { return 0.; };
+  for (const Objective& f : {slope, flat}) {
+    CmaEs es(ones(4), ones(4));
+    Rng rng(1);
+    for (int i = 0; i < 12'000; ++i) advance(es, f, rng);
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(es.covariance());
+    EXPECT_GT(es.covariance().diagonal().minCoeff(), 0);
+    EXPECT_NEAR(std::pow(es.axisLengths().maxCoeff(), 2) / eigen.eigenvalues().maxCoeff(), 1, 0.9);
+    EXPECT_GE(eigen.eigenvalues().minCoeff(), -1e-14 * eigen.eigenvalues().maxCoeff());
+    EXPECT_TRUE(es.covariance().allFinite());
+    EXPECT_TRUE(es.mean().allFinite());
+  }
+}
+
 TEST(CmaEs, RanksWhatHasNoValueLast) {
   const auto run = [](double odd) {
     CmaEs es(ones(4), ones(4));
@@ -230,6 +346,12 @@ TEST(CmaEs, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(CmaEs(bad, two), "CMA-ES: start: number 1: found nan");
   EXPECT_REX_ERROR(CmaEs(two, bad), "CMA-ES: deviations: number 1: found nan");
   EXPECT_REX_ERROR(CmaEs(two, Eigen::Vector2d(1, 0)), "CMA-ES: deviations: found 0, wanted positive numbers");
+  EXPECT_REX_ERROR(CmaEs(two, 1e-160 * two),
+                   "CMA-ES: deviations: found 1e-160, wanted positive numbers, from");
+  EXPECT_REX_ERROR(CmaEs(two, 1e160 * two),
+                   "CMA-ES: deviations: found 1e+160, wanted positive numbers, from");
+  EXPECT_REX_ERROR(CmaEs(two, Eigen::Vector2d(1, 1e-8)),
+                   "CMA-ES: deviations: found 1e-08 and 1, wanted numbers within a factor of 1e+07");
   EXPECT_REX_ERROR(CmaEs(two, two, {.lambda = 1}), "CMA-ES: lambda: found 1, wanted 2 to 10000000, or 0");
   EXPECT_REX_ERROR(CmaEs(two, two, {.lambda = 8, .mu = 9}), "CMA-ES: mu: found 9, wanted 1 to 8, or 0");
   EXPECT_REX_ERROR(CmaEs(two, two, {.decompositionGap = -1}), "one decomposition to the next: found -1");

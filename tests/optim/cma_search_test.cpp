@@ -185,6 +185,8 @@ TEST(CmaSearch, SaysWhatIsWrong) {
   const Objective f = testFunction("sphere").value;
   const double nan = std::nan("");
   EXPECT_REX_ERROR(search(f, 2, {.target = nan}), "CMA-ES: target: found nan, wanted a number");
+  EXPECT_REX_ERROR(search(f, 2, {.target = std::numeric_limits<double>::infinity()}),
+                   "CMA-ES: target: found inf, wanted a number below infinity");
   EXPECT_REX_ERROR(search(f, 2, {.maxEvaluations = 0}), "CMA-ES: budget of evaluations: found 0");
   EXPECT_REX_ERROR(search(f, 2, {.smallestStep = 0}),
                    "CMA-ES: smallest step: found 0, wanted a positive number");

@@ -1,7 +1,9 @@
 #include "optim/evolution_strategy.h"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -50,6 +52,26 @@ TEST(EvolutionStrategy, MovesAsOrderStatisticsSay) {
   }
 }
 
+// In one dimension a child lies at exp(z / sqrt(2)) times a normal: the variances of the logarithms add up,
+// and that of |N(0, 1)| is pi^2 / 8.
+TEST(EvolutionStrategy, VariesItsDeviations) {
+  constexpr int kChildren = 40'000;
+  std::vector<double> means, squares;
+  const BatchObjective watched = [&](const MatrixArg& X, Eigen::Ref<VectorXd> values) {
+    const Eigen::ArrayXXd logarithms = X.array().abs().log();
+    means.push_back(logarithms.mean());
+    squares.push_back((logarithms - means.back()).square().mean());
+    values.setZero();  // any are as good as all
+  };
+  Rng rng(6);
+  const SearchResult result =
+      minimizeByEvolution(watched, VectorXd::Zero(1), 3, rng,
+                          {.mu = kChildren / 4, .lambda = kChildren, .maxEvaluations = 2 * kChildren});
+  EXPECT_EQ(result.iterations, 2);
+  EXPECT_NEAR(squares[0], std::pow(std::numbers::pi, 2) / 8 + 0.5, 0.1);  // five deviations
+  EXPECT_NEAR(means[1], means[0], 0.1);  // the parents' geometric mean is about the first deviation
+}
+
 TEST(EvolutionStrategy, AdaptsItsStepsToAnyScale) {
   const auto run = [](double scale, bool adapts) {
     Rng rng(2);
@@ -77,14 +99,18 @@ TEST(EvolutionStrategy, TellsWhyItEnds) {
   Rng rng(4);
   const SearchResult small = minimizeByEvolution(sphere(), VectorXd::Ones(3), 1, rng, {.smallestStep = 1e-3});
   EXPECT_EQ(small.status, SearchStatus::kSmallSteps);
+  // A limit that a double does not hold is none that is missed.
+  const SearchResult none = minimizeByEvolution(sphere(), VectorXd::Zero(3), 1e-200, rng,
+                                                {.smallestStep = 1e-200, .maxEvaluations = 10'000'000});
+  EXPECT_EQ(none.status, SearchStatus::kSmallSteps);
   const SearchResult diverged = minimizeByEvolution(batched([](const VectorArg& x) { return x[0]; }),
                                                     VectorXd::Ones(3), 1, rng, {.maxEvaluations = 1'000'000});
   EXPECT_EQ(diverged.status, SearchStatus::kDiverged);
-  const SearchResult none = minimizeByEvolution(batched([](const VectorArg&) { return std::nan(""); }),
-                                                VectorXd::Ones(3), 1, rng, {.maxEvaluations = 70});
-  EXPECT_EQ(none.status, SearchStatus::kBudgetSpent);
-  EXPECT_EQ(none.invalid, 70);  // ten generations of seven
-  EXPECT_EQ(none.x, VectorXd::Ones(3));
+  const SearchResult empty = minimizeByEvolution(batched([](const VectorArg&) { return std::nan(""); }),
+                                                 VectorXd::Ones(3), 1, rng, {.maxEvaluations = 70});
+  EXPECT_EQ(empty.status, SearchStatus::kBudgetSpent);
+  EXPECT_EQ(empty.invalid, 70);  // ten generations of seven
+  EXPECT_EQ(empty.x, VectorXd::Ones(3));
   Rng again(5), same(5);
   EXPECT_EQ(minimizeByEvolution(sphere(), VectorXd::Ones(3), 1, again).x,
             minimizeByEvolution(sphere(), VectorXd::Ones(3), 1, same).x);
@@ -103,6 +129,8 @@ TEST(EvolutionStrategy, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(run(nan * one, 1), "evolution strategy: start: number 0: found nan");
   EXPECT_REX_ERROR(run(one, 0), "evolution strategy: deviation of steps: found 0, wanted a positive, finite");
   EXPECT_REX_ERROR(run(one, 1, {.target = nan}), "evolution strategy: target: found nan");
+  EXPECT_REX_ERROR(run(one, 1, {.target = std::numeric_limits<double>::infinity()}),
+                   "evolution strategy: target: found inf, wanted a number below infinity");
   EXPECT_REX_ERROR(run(one, 1, {.maxEvaluations = 0}), "evolution strategy: budget of evaluations: found 0");
   EXPECT_REX_ERROR(run(one, 1, {.smallestStep = 0}), "evolution strategy: smallest step: found 0");
   EXPECT_REX_ERROR(run(one, 1, {.mu = -1}), "evolution strategy: mu: found -1, wanted 1 to 100000, or 0");
