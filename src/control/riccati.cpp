@@ -20,6 +20,7 @@
 #include "control/controllability.h"
 #include "control/eigenvalue_text_internal.h"
 #include "control/require_matrix_internal.h"
+#include "control/stability.h"
 #include "control/stability_internal.h"
 
 extern "C" {
@@ -226,6 +227,24 @@ std::optional<Eigen::MatrixXd> bySchurForm(const Problem& problem,
   return Eigen::MatrixXd(0.5 * (scaled + scaled.transpose()));
 }
 
+// Without a cost and with nothing to stop, X is zero to the last digit: a relative residual would not see it.
+std::optional<Eigen::MatrixXd> startOf(const Problem& problem, std::optional<std::complex<double>>& border) {
+  const auto stability = problem.kind == Kind::kDiscrete ? discreteStabilityOf : stabilityOf;
+  if (problem.Q.isZero(0) && stability(problem.A).stability == Stability::kAsymptotic)
+    return Eigen::MatrixXd::Zero(problem.A.rows(), problem.A.rows()).eval();
+  return bySchurForm(problem, border);
+}
+
+// R + B^T X B, whatever the units of the controls.
+bool hasSingularWeight(const Problem& problem, const Eigen::MatrixXd& X) {
+  const Eigen::MatrixXd weight = problem.R + problem.B.transpose() * X * problem.B;
+  const Eigen::VectorXd sizes = weight.cwiseAbs().rowwise().maxCoeff();
+  if (!(sizes.minCoeff() > 0)) return true;
+  const Eigen::VectorXd scale = sizes.cwiseSqrt().cwiseInverse();
+  return !(Eigen::PartialPivLU<Eigen::MatrixXd>(scale.asDiagonal() * weight * scale.asDiagonal()).rcond() >
+           1e-13);
+}
+
 // What the equation lacks at X, and the gain there, in extended precision; X may be a sum of two doubles.
 struct Residual {
   Eigen::MatrixXd value, K;
@@ -407,13 +426,14 @@ Margin marginOf(const Problem& problem, const RiccatiResult& result, double scal
 
 RiccatiResult solveInUnits(const Problem& problem) {
   std::optional<std::complex<double>> border;
-  const auto start = bySchurForm(problem, border);
+  const auto start = startOf(problem, border);
   if (!start)
     return explained(problem, border,
                      "no stabilizing solution: the equation's pencil has no stable part that gives one");
   const Refined best = refined(problem, *start);
   const Residual at = residualAt(problem, best.X);
-  if (!at.K.allFinite()) return explained(problem, border, "no solution: R + B^T X B is singular");
+  if (problem.kind == Kind::kDiscrete && hasSingularWeight(problem, best.X.cast<double>()))
+    return explained(problem, border, "no solution: R + B^T X B is singular");
   RiccatiResult result{.X = best.X.cast<double>(), .K = at.K, .residual = at.size};
   result.X = (0.5 * (result.X + result.X.transpose())).eval();
   const Eigen::MatrixXd feedback = problem.B * result.K, closed = problem.A - feedback;

@@ -301,6 +301,22 @@ TEST(Riccati, DoesNotDependOnUnits) {
   EXPECT_NE(solveCare(A, 1e-150 * b, I, one).status, RiccatiStatus::kSolved);
 }
 
+TEST(Riccati, HasNoXBeyondTheLargestDouble) {
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(1, 1);
+  const RiccatiResult huge = solveCare(one, 1e-200 * one, one, one);  // X = 2e400
+  EXPECT_EQ(huge.status, RiccatiStatus::kFailed);
+  EXPECT_EQ(huge.X.size(), 0);
+}
+
+// Nothing costs and all ends by itself: X is zero.
+TEST(Riccati, HasNoCostWithoutQ) {
+  const Eigen::Matrix2d A = (Eigen::Matrix2d() << 1, -1, 1, -1).finished(), I = Eigen::Matrix2d::Identity();
+  const RiccatiResult steps = solveDare(A, I, 0 * I, I), decay = solveCare(A - I, I, 0 * I, I);
+  EXPECT_EQ(steps.status, RiccatiStatus::kSolved) << steps.message;
+  EXPECT_EQ(decay.status, RiccatiStatus::kSolved) << decay.message;
+  EXPECT_EQ(steps.X.norm() + decay.X.norm(), 0);
+}
+
 // DARE needs R + B^T X B, not R.
 TEST(Riccati, TakesASingularWeightInSteps) {
   const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(1, 1), half = 0.5 * one,
@@ -313,6 +329,12 @@ TEST(Riccati, TakesASingularWeightInSteps) {
   EXPECT_THAT(solveDare(half, 0 * one, one, 0 * one).message, HasSubstr(idle));
   EXPECT_THAT(solveDare(half, pair, one, Eigen::Matrix2d::Zero()).message, HasSubstr(idle));
   EXPECT_THAT(solveDare(half, pair, one, Eigen::Matrix2d::Ones()).message, HasSubstr(idle));
+  // Q has rank one, so that X has, and of two controls one is not needed.
+  const Eigen::Matrix3d A = (Eigen::Matrix3d() << -1, 0, 0, -1, 0, -1, -1, 1, 1).finished();
+  const Eigen::MatrixXd B = (Eigen::MatrixXd(3, 2) << 1, 1, 1, -1, -1, 1).finished();
+  const RiccatiResult twofold = solveDare(A, B, Eigen::Matrix3d::Ones(), Eigen::Matrix2d::Zero());
+  EXPECT_EQ(twofold.status, RiccatiStatus::kFailed);
+  EXPECT_THAT(twofold.message, HasSubstr("no solution: R + B^T X B is singular"));
   const RiccatiResult nothing = solveDare(half, one, 0 * one, 0 * one);
   EXPECT_EQ(nothing.status, RiccatiStatus::kFailed);
   EXPECT_THAT(nothing.message, HasSubstr("no solution: R + B^T X B is singular"));
