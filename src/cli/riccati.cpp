@@ -1,9 +1,11 @@
 #include "control/riccati.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstddef>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -50,7 +52,15 @@ Eigen::MatrixXd matrixOf(const Json& problem, const std::string& name, const std
   const auto complain = [&](const std::string& what, const std::string& found, const std::string& wanted) {
     throw Error({.what = what, .where = {.file = file}, .found = found, .wanted = wanted});
   };
-  if (!problem.contains(name)) complain("matrix " + name, "no field of this name", "a list of rows");
+  if (!problem.contains(name)) {
+    // The names have one letter, so that only another case is a likely slip.
+    const std::string small(1, static_cast<char>(std::tolower(name[0])));
+    throw Error({.what = "matrix " + name,
+                 .where = {.file = file},
+                 .found = "no field of this name",
+                 .wanted = "a list of rows",
+                 .nearest = problem.contains(small) ? std::vector{small} : std::vector<std::string>{}});
+  }
   const Json& rows = problem[name];
   if (rows.is_object() && rows.contains("re") && rows.contains("im"))
     complain("matrix " + name, "complex entries", "real ones");

@@ -50,7 +50,7 @@ ReachableStates staircase(const LinearSystem& system, double tolerance, const ch
   // nothing about where it leads.
   Eigen::MatrixXd basis(n, 0), next = system.B;
   for (Eigen::Index i = 0; i < next.cols(); ++i)
-    if (next.col(i).norm() > 0) next.col(i).stableNormalize();
+    if (!next.col(i).isZero(0)) next.col(i) /= next.col(i).cwiseAbs().maxCoeff(), next.col(i).normalize();
   for (double scale = 1; next.cols() > 0 && basis.cols() < n; scale = scaleA) {
     for (int twice = 0; twice < 2; ++twice) next -= basis * (basis.transpose() * next);
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(next, Eigen::ComputeThinU);
@@ -85,6 +85,7 @@ Eigen::MatrixXd summed(const LinearSystem& system, long count) {
   for (; count > 0; count /= 2) {
     if (count % 2 == 1) {
       W += shift * part * shift.transpose();
+      if (count == 1) break;
       shift = (shift * power).eval();
     }
     part += (power * part * power.transpose()).eval();
@@ -100,10 +101,10 @@ Eigen::MatrixXd integrated(const LinearSystem& system, double T) {
       std::max(0, static_cast<int>(std::ceil(std::log2(std::max(1e-300, T * system.A.norm())))));
   const double h = std::ldexp(T, -doublings);
   Eigen::MatrixXd generator = Eigen::MatrixXd::Zero(2 * n, 2 * n);
-  generator << -h * system.A, h * system.B * system.B.transpose(), Eigen::MatrixXd::Zero(n, n),
+  generator << -h * system.A, system.B * system.B.transpose(), Eigen::MatrixXd::Zero(n, n),
       h * system.A.transpose();
   const Eigen::MatrixXd flow = generator.exp();
-  Eigen::MatrixXd power = flow.bottomRightCorner(n, n).transpose(), W = power * flow.topRightCorner(n, n);
+  Eigen::MatrixXd power = flow.bottomRightCorner(n, n).transpose(), W = h * power * flow.topRightCorner(n, n);
   for (int i = 0; i < doublings; ++i) {
     W += (power * W * power.transpose()).eval();
     power = (power * power).eval();
@@ -111,9 +112,27 @@ Eigen::MatrixXd integrated(const LinearSystem& system, double T) {
   return 0.5 * (W + W.transpose());
 }
 
-Eigen::MatrixXd gramian(const LinearSystem& system, double T) {
+// W for controls in units that make B's largest entry one: beside a large block, the exponential would lose
+// the small ones.
+template <class Gramian>
+Eigen::MatrixXd inUnitsOfB(LinearSystem system, const Gramian& gramian) {
+  const double unit = system.B.size() == 0 || system.B.isZero(0) ? 1 : system.B.cwiseAbs().maxCoeff();
+  system.B /= unit;
+  const Eigen::MatrixXd W = unit * (unit * gramian(system));
+  if (!W.allFinite())
+    throw Error({.what = "Gramian", .found = "entries that are not finite", .wanted = "a shorter time T"});
+  return W;
+}
+
+Eigen::MatrixXd gramian(const LinearSystem& given, double T) {
   internal::requirePositive("time T of a Gramian", T);
-  return system.step ? summed(system, std::lround(T / *system.step)) : integrated(system, T);
+  if (given.step && !(T / *given.step < 1e15))
+    throw Error({.what = "time T of a Gramian",
+                 .found = fmt::format("{:g}", T),
+                 .wanted = fmt::format("less than 1e15 steps of {:g} s", *given.step)});
+  return inUnitsOfB(given, [T](const LinearSystem& system) {
+    return system.step ? summed(system, std::lround(T / *system.step)) : integrated(system, T);
+  });
 }
 
 Eigen::MatrixXd gramian(const LinearSystem& system) {

@@ -42,7 +42,8 @@ struct ReachableStates {
 [[nodiscard]] ReachableStates observability(const LinearSystem& system, double tolerance = 1e-12);
 
 /// W = int_0^T e^{A s} B B^T e^{A^T s} ds, or the sum of T / step terms: x^T W^-1 x is the least u^T u that
-/// leads from 0 to x. Throws Error as completed(), and for a T that is not positive.
+/// leads from 0 to x. Throws Error as completed(), for a T that is not positive or more than 1e15 steps, and
+/// where W is not finite.
 [[nodiscard]] Eigen::MatrixXd controllabilityGramian(const LinearSystem& system, double T);
 /// The limit of long times, by a Lyapunov equation. Throws Error where the system is not asymptotically
 /// stable, naming the mode.

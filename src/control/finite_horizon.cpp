@@ -6,27 +6,16 @@
 #include <utility>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <fmt/format.h>
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "base/error.h"
 #include "control/require_internal.h"
+#include "control/require_matrix_internal.h"
 
 namespace rex {
 namespace {
-
-void requireSymmetric(const char* name, const MatrixArg& M, Eigen::Index n) {
-  requireSize(fmt::format("rows of {}", name), M.rows(), n);
-  requireSize(fmt::format("columns of {}", name), M.cols(), n);
-  if (!M.allFinite())
-    throw Error({.what = fmt::format("matrix {}", name), .found = "entries that are not finite"});
-  if ((M - M.transpose()).cwiseAbs().maxCoeff() > 1e-9 * M.cwiseAbs().maxCoeff())
-    throw Error({.what = fmt::format("matrix {}", name),
-                 .found = "a matrix that is not symmetric",
-                 .wanted = "a symmetric one"});
-}
 
 void requireSound(const LinearSystem& system, const MatrixArg& Q, const MatrixArg& R, bool isDiscrete) {
   if (system.step.has_value() != isDiscrete)
@@ -34,14 +23,9 @@ void requireSound(const LinearSystem& system, const MatrixArg& Q, const MatrixAr
                  .found = isDiscrete ? "continuous time" : "discrete time",
                  .wanted = isDiscrete ? "discrete time" : "continuous time"});
   if (system.B.cols() == 0) throw Error({.what = "linear system", .found = "no control"});
-  requireSymmetric("Q", Q, system.A.rows());
-  requireSymmetric("R", R, system.B.cols());
-  if (isDiscrete || Eigen::LLT<Eigen::MatrixXd>(R).info() == Eigen::Success) return;
-  const double least =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(R, Eigen::EigenvaluesOnly).eigenvalues()[0];
-  throw Error({.what = "matrix R",
-               .found = fmt::format("the eigenvalue {:.6g}", least),
-               .wanted = "a positive definite matrix"});
+  internal::requireSymmetric("Q", Q, system.A.rows());
+  internal::requireSymmetric("R", R, system.B.cols());
+  if (!isDiscrete) internal::requirePositiveDefinite("R", R);
 }
 
 void requireSteps(int steps) {
@@ -59,12 +43,17 @@ RiccatiHorizon solved(std::vector<Eigen::MatrixXd> P, std::vector<Eigen::MatrixX
   return {.isSolved = true, .P = std::move(P), .K = std::move(K), .message = "solved"};
 }
 
+// The parts in which a Hamiltonian matrix moves little.
+double partsOf(const Eigen::MatrixXd& hamiltonian, double time) {
+  return std::max(1., std::ceil(2 * time * hamiltonian.norm()));
+}
+
 // Moves P back in time: (Y; Z) from (1; P) moves by the Hamiltonian matrix, and then P = Z Y^-1.
 class HamiltonianFlow {
  public:
   HamiltonianFlow(Eigen::MatrixXd hamiltonian, double time)
       : hamiltonian_(std::move(hamiltonian)),
-        parts_(std::max(1, static_cast<int>(std::ceil(2 * time * hamiltonian_.norm())))),
+        parts_(static_cast<int>(partsOf(hamiltonian_, time))),
         part_(time / parts_) {}
 
   /// Empty where P passes through infinity.
@@ -101,13 +90,21 @@ class HamiltonianFlow {
   std::vector<Eigen::MatrixXd> flows_{};
 };
 
+constexpr double kMostParts = 1e8;
+
+// Of P, so that both blocks off the Hamiltonian's diagonal are of one size.
+double unitOfCost(const Eigen::MatrixXd& G, const Eigen::MatrixXd& Q) {
+  const double sizeG = G.norm(), sizeQ = Q.norm();
+  return sizeG > 0 && sizeQ > 0 ? std::sqrt(sizeQ) / std::sqrt(sizeG) : 1;
+}
+
 }  // namespace
 
 RiccatiHorizon discreteHorizon(const LinearSystem& given, const MatrixArg& Q, const MatrixArg& R,
                                const MatrixArg& F, int steps) {
   const LinearSystem system = completed(given);
   requireSound(system, Q, R, true);
-  requireSymmetric("F", F, system.A.rows());
+  internal::requireSymmetric("F", F, system.A.rows());
   requireSteps(steps);
   std::vector<Eigen::MatrixXd> P{F}, K;
   for (int t = steps - 1; t >= 0; --t) {
@@ -128,24 +125,29 @@ RiccatiHorizon continuousHorizon(const LinearSystem& given, const MatrixArg& Q, 
                                  const MatrixArg& F, double T, int steps) {
   const LinearSystem system = completed(given);
   requireSound(system, Q, R, false);
-  requireSymmetric("F", F, system.A.rows());
+  internal::requireSymmetric("F", F, system.A.rows());
   internal::requirePositive("time T of a horizon", T);
   requireSteps(steps);
   const Eigen::Index n = system.A.rows();
   const Eigen::LLT<Eigen::MatrixXd> weight(R);
+  const Eigen::MatrixXd G = system.B * weight.solve(system.B.transpose());
+  const double unit = unitOfCost(G, Q);
   Eigen::MatrixXd hamiltonian(2 * n, 2 * n);
-  hamiltonian << system.A, -system.B * weight.solve(system.B.transpose()), -Q, -system.A.transpose();
+  hamiltonian << system.A, -unit * G, -Q / unit, -system.A.transpose();
   const double h = T / steps;
+  if (const double parts = steps * partsOf(hamiltonian, h); !(parts <= kMostParts))
+    return failed(fmt::format("time T is too long for the fastest motion: {:.2g} parts, at most {:.2g}",
+                              parts, kMostParts));
   HamiltonianFlow flow(hamiltonian, h);
   const auto gainAt = [&](const Eigen::MatrixXd& P) -> Eigen::MatrixXd {
     return weight.solve(system.B.transpose() * P);
   };
   std::vector<Eigen::MatrixXd> P{F}, K{gainAt(F)};
   for (int i = steps - 1; i >= 0; --i) {
-    std::optional<Eigen::MatrixXd> now = flow.moved(P.back());
+    const std::optional<Eigen::MatrixXd> now = flow.moved(P.back() / unit);
     if (!now) return failed(fmt::format("P grows without bound before time {:.4g}", (i + 1) * h));
-    K.push_back(gainAt(*now));
-    P.push_back(std::move(*now));
+    P.push_back(unit * *now);
+    K.push_back(gainAt(P.back()));
   }
   return solved(std::move(P), std::move(K));
 }

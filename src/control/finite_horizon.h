@@ -12,7 +12,8 @@ namespace rex {
 /// The Riccati equation of a finite horizon, slide 8:19: x^T P[i] x is the least cost from time i on, and
 /// u = -K[i] x costs no more.
 struct RiccatiHorizon {
-  bool isSolved = false;  ///< false: P grew without bound, or R + B^T P B was not positive definite
+  /// False: P grew without bound, R + B^T P B was not positive definite, or it would take too long.
+  bool isSolved = false;
   std::vector<Eigen::MatrixXd> P{};  ///< at times 0 to N; empty unless isSolved
   std::vector<Eigen::MatrixXd> K{};  ///< discrete: of steps 0 to N - 1; continuous: at times 0 to N
   std::string message{};

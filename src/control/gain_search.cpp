@@ -73,6 +73,7 @@ std::vector<Vertex> simplexAround(const Eigen::VectorXd& start, double size, con
 
 void requireSound(const LinearSystem& system, const Eigen::MatrixXd& start,
                   const GainSearchOptions& options) {
+  if (system.B.cols() == 0) throw Error({.what = "linear system", .found = "no control"});
   if (!system.D.isZero(0))
     throw Error(
         {.what = "matrix D", .found = "entries that are not zero", .wanted = "measurements without u"});

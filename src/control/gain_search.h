@@ -26,8 +26,8 @@ struct GainSearchResult {
 
 /// The controller of fastest asymptotic convergence, slide 8:39, that knows only y = C x: gains whose slowest
 /// closed-loop eigenvalue is least, by the simplex of Nelder and Mead (1965), restarted where it stops,
-/// because the best rate has edges on which it stalls. A local optimum. Throws Error as completed(), for a D
-/// that is not zero, a start of another size or out of bounds, and options out of range.
+/// because the best rate has edges on which it stalls. A local optimum. Throws Error as completed(), without
+/// a control, for a D that is not zero, a start of another size or out of bounds, and options out of range.
 [[nodiscard]] GainSearchResult fastestGains(const LinearSystem& system, const Eigen::MatrixXd& start,
                                             const GainSearchOptions& options = {});
 

@@ -1,19 +1,14 @@
 #include "control/linear_system.h"
 
+#include <fmt/format.h>
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "base/error.h"
 #include "control/require_internal.h"
+#include "control/require_matrix_internal.h"
 #include "optim/derivative_check.h"
 
 namespace rex {
-namespace {
-
-void requireFiniteMatrix(const char* name, const Eigen::MatrixXd& M) {
-  if (!M.allFinite()) throw Error({.what = name, .found = "entries that are not finite"});
-}
-
-}  // namespace
 
 LinearSystem completed(const LinearSystem& system) {
   LinearSystem result = system;
@@ -26,10 +21,10 @@ LinearSystem completed(const LinearSystem& system) {
   if (system.D.size() == 0) result.D = Eigen::MatrixXd::Zero(result.C.rows(), m);
   requireSize("rows of D", result.D.rows(), result.C.rows());
   requireSize("columns of D", result.D.cols(), m);
-  requireFiniteMatrix("matrix A", result.A);
-  requireFiniteMatrix("matrix B", result.B);
-  requireFiniteMatrix("matrix C", result.C);
-  requireFiniteMatrix("matrix D", result.D);
+  internal::requireFiniteMatrix("A", result.A);
+  internal::requireFiniteMatrix("B", result.B);
+  internal::requireFiniteMatrix("C", result.C);
+  internal::requireFiniteMatrix("D", result.D);
   if (system.step) internal::requirePositive("step of a linear system", *system.step);
   return result;
 }
@@ -40,18 +35,25 @@ LinearSystem discretized(const LinearSystem& system, double step) {
     throw Error({.what = "linear system", .found = "discrete time", .wanted = "continuous time"});
   internal::requirePositive("step of a linear system", step);
   const Eigen::Index n = system.A.rows(), m = system.B.cols();
+  // Beside a large B the exponential would lose digits of A: controls in units that make it small.
+  const double largest = m == 0 ? 0 : system.B.cwiseAbs().maxCoeff(), unit = largest > 0 ? largest : 1;
   Eigen::MatrixXd generator = Eigen::MatrixXd::Zero(n + m, n + m);
   generator.topLeftCorner(n, n) = step * system.A;
-  generator.topRightCorner(n, m) = step * system.B;
+  generator.topRightCorner(n, m) = system.B / unit;
   const Eigen::MatrixXd motion = generator.exp();
   result.A = motion.topLeftCorner(n, n);
-  result.B = motion.topRightCorner(n, m);
+  result.B = unit * (step * motion.topRightCorner(n, m));
+  if (!result.A.allFinite() || !result.B.allFinite())
+    throw Error({.what = fmt::format("motion of the system in {:g} s", step),
+                 .found = "numbers that are not finite",
+                 .wanted = "a shorter step"});
   result.step = step;
   return result;
 }
 
 Linearization linearized(const ControlledMotion& f, const Eigen::VectorXd& x, const Eigen::VectorXd& u,
                          const MotionDerivative& exact) {
+  if (!f) throw Error({.what = "motion", .found = "no function"});
   rex::requireFinite("state x", x);
   rex::requireFinite("control u", u);
   Linearization result{.A = {}, .B = {}, .value = f(x, u)};
@@ -68,8 +70,8 @@ Linearization linearized(const ControlledMotion& f, const Eigen::VectorXd& x, co
   requireSize("columns of df/dx", jacobians.A.cols(), n);
   requireSize("rows of df/du", jacobians.B.rows(), n);
   requireSize("columns of df/du", jacobians.B.cols(), m);
-  requireFiniteMatrix("df/dx", jacobians.A);
-  requireFiniteMatrix("df/du", jacobians.B);
+  internal::requireFiniteMatrix("df/dx", jacobians.A);
+  internal::requireFiniteMatrix("df/du", jacobians.B);
   result.A = std::move(jacobians.A);
   result.B = std::move(jacobians.B);
   return result;

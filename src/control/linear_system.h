@@ -24,7 +24,8 @@ struct LinearSystem {
 [[nodiscard]] LinearSystem completed(const LinearSystem& system);
 
 /// What the continuous system does in steps of `step` seconds while u is held: exact, by the exponential of
-/// (A B; 0 0). Throws Error as completed(), for a step that is not positive, and for a discrete system.
+/// (A B; 0 0). Throws Error as completed(), for a step that is not positive, for a discrete system, and where
+/// a motion grows beyond all numbers in one step.
 [[nodiscard]] LinearSystem discretized(const LinearSystem& system, double step);
 
 /// f(x, u): a rate of change, or the next state.
@@ -37,8 +38,8 @@ struct MotionJacobians {
 using MotionDerivative = std::function<MotionJacobians(const Eigen::VectorXd& x, const Eigen::VectorXd& u)>;
 
 /// f near (x, u), slide 8:16: f(x + dx, u + du) = value + A dx + B du. At an equilibrium of continuous time
-/// the value is zero. Without `exact`, A and B are numericJacobian()s. Throws Error where f or its
-/// derivatives have another size or are not finite.
+/// the value is zero. Without `exact`, A and B are numericJacobian()s. Throws Error without f, and
+/// where f or its derivatives have another size or are not finite.
 struct Linearization {
   Eigen::MatrixXd A, B;
   Eigen::VectorXd value;

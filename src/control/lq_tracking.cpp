@@ -6,15 +6,20 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "control/require_internal.h"
+#include "control/require_matrix_internal.h"
 
 namespace rex {
 namespace {
+
+Eigen::MatrixXd symmetric(const Eigen::MatrixXd& M) { return 0.5 * (M + M.transpose()); }
 
 Eigen::MatrixXd orZero(const Eigen::MatrixXd& M, Eigen::Index rows, Eigen::Index columns,
                        const std::string& what) {
   if (M.size() == 0) return Eigen::MatrixXd::Zero(rows, columns);
   requireSize("rows of " + what, M.rows(), rows);
   requireSize("columns of " + what, M.cols(), columns);
+  internal::requireFiniteMatrix(what, M);
   return M;
 }
 
@@ -24,6 +29,8 @@ LqStage completed(const LqStage& stage, Eigen::Index n, std::size_t t) {
   requireSize("rows of " + named("A"), stage.A.rows(), n);
   requireSize("columns of " + named("A"), stage.A.cols(), n);
   requireSize("rows of " + named("B"), stage.B.rows(), n);
+  internal::requireFiniteMatrix(named("A"), stage.A);
+  internal::requireFiniteMatrix(named("B"), stage.B);
   return {.A = stage.A,
           .B = stage.B,
           .c = orZero(stage.c, n, 1, named("c")),
@@ -41,21 +48,22 @@ LqPolicy solveLq(const std::vector<LqStage>& stages, const Eigen::MatrixXd& F, c
   if (stages.empty()) throw Error({.what = "linear quadratic problem", .found = "no stages"});
   const Eigen::Index n = F.rows();
   requireSize("columns of F", F.cols(), n);
+  internal::requireFiniteMatrix("F", F);
+  internal::requireNotNegative("damping of a linear quadratic problem", damping);
   LqPolicy policy;
   const std::size_t N = stages.size();
   policy.K.resize(N), policy.k.resize(N), policy.P.resize(N + 1), policy.p.resize(N + 1);
-  policy.P[N] = F;
+  policy.P[N] = symmetric(F);
   policy.p[N] = orZero(f, n, 1, "f");
   for (std::size_t t = N; t-- > 0;) {
     const LqStage stage = completed(stages[t], n, t);
     const Eigen::MatrixXd PA = policy.P[t + 1] * stage.A, PB = policy.P[t + 1] * stage.B;
     const Eigen::VectorXd ahead = policy.p[t + 1] + policy.P[t + 1] * stage.c;
-    const Eigen::MatrixXd weight = stage.R + stage.B.transpose() * PB,
+    const Eigen::MatrixXd weight = symmetric(stage.R + stage.B.transpose() * PB),
                           mixed = stage.S + stage.B.transpose() * PA;
     const Eigen::VectorXd slope = stage.r + stage.B.transpose() * ahead;
-    const Eigen::LLT<Eigen::MatrixXd> damped(0.5 * (weight + weight.transpose()) +
-                                             damping *
-                                                 Eigen::MatrixXd::Identity(weight.rows(), weight.rows()));
+    const Eigen::LLT<Eigen::MatrixXd> damped(
+        weight + damping * Eigen::MatrixXd::Identity(weight.rows(), weight.rows()));
     if (damped.info() != Eigen::Success)
       return {.stage = static_cast<int>(t),
               .message = fmt::format("stage {}: the cost of the control has no minimum", t)};
@@ -64,7 +72,7 @@ LqPolicy solveLq(const std::vector<LqStage>& stages, const Eigen::MatrixXd& F, c
     // With damping, K and k are not the best ones: this holds for any.
     const Eigen::MatrixXd P = stage.Q + stage.A.transpose() * PA + K.transpose() * weight * K -
                               K.transpose() * mixed - mixed.transpose() * K;
-    policy.P[t] = 0.5 * (P + P.transpose());
+    policy.P[t] = symmetric(P);
     policy.p[t] =
         stage.q + stage.A.transpose() * ahead - K.transpose() * slope + (mixed - weight * K).transpose() * k;
   }
@@ -77,6 +85,7 @@ std::vector<LqStage> trackingStages(const Eigen::MatrixXd& A, const Eigen::Matri
                                     const Eigen::MatrixXd& Q, const Eigen::MatrixXd& R,
                                     const Eigen::MatrixXd& path) {
   requireSize("rows of the path", path.rows(), A.rows());
+  requireSize("columns of Q", Q.cols(), A.rows());
   std::vector<LqStage> stages;
   for (Eigen::Index t = 0; t + 1 < path.cols(); ++t)
     stages.push_back({.A = A, .B = B, .Q = Q, .R = R, .q = -Q * path.col(t)});

@@ -32,12 +32,14 @@ struct LqPolicy {
 };
 
 /// Bellman's equation backward from x^T F x + 2 f^T x (slide 8:14). `damping` is added to the diagonal of
-/// each control's weight. Throws Error for sizes that do not fit, naming the stage, and without stages.
+/// each control's weight. Throws Error for sizes that do not fit and entries that are not finite, naming the
+/// stage, without stages, and for a negative damping. Of Q, R and F only the symmetric parts count.
 [[nodiscard]] LqPolicy solveLq(const std::vector<LqStage>& stages, const Eigen::MatrixXd& F,
                                const Eigen::VectorXd& f, double damping = 0);
 
 /// The stages of following `path` (one state per column, N + 1 of them) at sum (x_t - r_t)^T Q (x_t - r_t) +
-/// u_t^T R u_t for a constant system (slide 8:13); the last column belongs to F and f = -F r_N.
+/// u_t^T R u_t for a constant system (slide 8:13); the last column belongs to F and f = -F r_N. Throws
+/// Error where the path or Q have other sizes than A.
 [[nodiscard]] std::vector<LqStage> trackingStages(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B,
                                                   const Eigen::MatrixXd& Q, const Eigen::MatrixXd& R,
                                                   const Eigen::MatrixXd& path);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "control/require_matrix_internal.h"
 #include "control/riccati.h"
 
 // Both equations are solved column by column in the Schur basis A = U T U^*, where they are triangular
@@ -14,14 +15,13 @@ namespace {
 
 using Complex = std::complex<double>;
 
+constexpr double kRounding = 1e-15;  // of an eigenvalue, per row
+
 void requireInput(const MatrixArg& A, const MatrixArg& Q) {
+  if (A.rows() == 0) throw Error({.what = "matrix A", .found = "no rows"});
   requireSize("columns of A", A.cols(), A.rows());
-  requireSize("rows of Q", Q.rows(), A.rows());
-  requireSize("columns of Q", Q.cols(), A.rows());
-  if (!A.allFinite()) throw Error({.what = "matrix A", .found = "entries that are not finite"});
-  if (!Q.allFinite()) throw Error({.what = "matrix Q", .found = "entries that are not finite"});
-  if ((Q - Q.transpose()).cwiseAbs().maxCoeff() > 1e-9 * Q.cwiseAbs().maxCoeff())
-    throw Error({.what = "matrix Q", .found = "a matrix that is not symmetric", .wanted = "a symmetric one"});
+  internal::requireFiniteMatrix("A", A);
+  internal::requireSymmetric("Q", Q, A.rows());
 }
 
 // Solves (s T^* + t) y = b with a lower triangular T^*; throws where an entry of the diagonal vanishes.
@@ -29,7 +29,7 @@ Eigen::VectorXcd solveShifted(const Eigen::MatrixXcd& T, Complex s, Complex t, E
                               const char* condition) {
   for (Eigen::Index i = 0; i < b.size(); ++i) {
     const Complex pivot = s * std::conj(T(i, i)) + t;
-    if (std::abs(pivot) <= 1e-15 * (std::abs(s * T(i, i)) + std::abs(t)))
+    if (std::abs(pivot) <= kRounding * static_cast<double>(b.size()) * (std::abs(s * T(i, i)) + std::abs(t)))
       throw Error({.what = "Lyapunov equation",
                    .found = fmt::format("the eigenvalue {:.6g}{:+.6g}i of A and another with {}",
                                         T(i, i).real(), T(i, i).imag(), condition),

@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/require_finite.h"
 #include "control/require_internal.h"
+#include "control/require_matrix_internal.h"
 #include "optim/derivative_check.h"
 
 namespace rex {
@@ -111,10 +112,12 @@ LyapunovResult concluded(LyapunovResult result, bool isPositive, bool falls, boo
 LyapunovResult checkLyapunov(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& f,
                              const LyapunovCandidate& candidate, const LyapunovRegion& region, Rng& rng,
                              int samples) {
+  if (!f) throw Error({.what = "motion", .found = "no function f"});
   requireSound(candidate, region, samples);
   const double size = (region.high - region.low).norm();
-  if (!(f(region.equilibrium).norm() <= kZero * size) ||
-      !(std::abs(candidate.V(region.equilibrium)) <= kZero * size * size))
+  const Eigen::VectorXd atRest = f(region.equilibrium);
+  requireSize("velocity f(x)", atRest.size(), region.equilibrium.size());
+  if (!(atRest.norm() <= kZero * size) || !(std::abs(candidate.V(region.equilibrium)) <= kZero * size * size))
     throw Error({.what = "equilibrium",
                  .found = "a velocity or a V that is not zero",
                  .wanted = "f(x) = 0 and V(x) = 0 there"});
@@ -137,13 +140,10 @@ LyapunovResult checkLyapunov(const std::function<Eigen::VectorXd(const Eigen::Ve
 
 LyapunovCertificate certifyQuadratic(const MatrixArg& A, const MatrixArg& P) {
   const Eigen::Index n = A.rows();
+  if (n == 0) throw Error({.what = "matrix A", .found = "no rows"});
   requireSize("columns of A", A.cols(), n);
-  requireSize("rows of P", P.rows(), n);
-  requireSize("columns of P", P.cols(), n);
-  if (!A.allFinite()) throw Error({.what = "matrix A", .found = "entries that are not finite"});
-  if (!P.allFinite()) throw Error({.what = "matrix P", .found = "entries that are not finite"});
-  if ((P - P.transpose()).cwiseAbs().maxCoeff() > 1e-9 * P.cwiseAbs().maxCoeff())
-    throw Error({.what = "matrix P", .found = "a matrix that is not symmetric", .wanted = "a symmetric one"});
+  internal::requireFiniteMatrix("A", A);
+  internal::requireSymmetric("P", P, n);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ofP(P);
   LyapunovCertificate result{.leastOfP = ofP.eigenvalues()[0], .worst = ofP.eigenvectors().col(0)};
   if (!(result.leastOfP > 1e-13 * ofP.eigenvalues()[n - 1])) {
@@ -178,7 +178,7 @@ double certifiedLevel(const MatrixArg& A, const MatrixArg& P, double curvature) 
     return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(M, Eigen::EigenvaluesOnly).eigenvalues();
   };
   const Eigen::VectorXd ofP = eigenvaluesOf(P);
-  const double fall = -eigenvaluesOf(PA + PA.transpose()).maxCoeff();
+  const double fall = std::max(0., -eigenvaluesOf(PA + PA.transpose()).maxCoeff());
   const double radius = fall / (2 * ofP.maxCoeff() * curvature);
   return ofP.minCoeff() * radius * radius;
 }

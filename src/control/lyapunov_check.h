@@ -41,8 +41,8 @@ struct LyapunovRegion {
 /// Looks at V and its rate along x' = f(x) at random points of the region, at its corners and axes, and close
 /// to the equilibrium, slide 8:40. Numbers relative to the squared distance count as zero below 1e-9. A
 /// counterexample proves that V fails; without one V only may hold. Throws Error for a region that is empty
-/// or does not hold its equilibrium, less than 1 sample, functions that give numbers that are not finite, and
-/// an equilibrium where f or V is not zero.
+/// or does not hold its equilibrium, less than 1 sample, without functions or where they give other sizes or
+/// numbers that are not finite, and for an equilibrium where f or V is not zero.
 [[nodiscard]] LyapunovResult checkLyapunov(const std::function<Eigen::VectorXd(const Eigen::VectorXd& x)>& f,
                                            const LyapunovCandidate& candidate, const LyapunovRegion& region,
                                            Rng& rng, int samples = 1000);

@@ -9,15 +9,13 @@
 #include "base/error.h"
 #include "base/require_finite.h"
 #include "control/eigenvalue_text_internal.h"
+#include "control/require_matrix_internal.h"
 
 namespace rex {
 namespace {
 
 void requireSemidefinite(const char* name, const MatrixArg& M, Eigen::Index n) {
-  requireSize(fmt::format("rows of {}", name), M.rows(), n);
-  requireSize(fmt::format("columns of {}", name), M.cols(), n);
-  if (!M.allFinite())
-    throw Error({.what = fmt::format("matrix {}", name), .found = "entries that are not finite"});
+  internal::requireSymmetric(name, M, n);
   const double least =
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(M, Eigen::EigenvaluesOnly).eigenvalues()[0];
   if (least < -1e-12 * M.cwiseAbs().maxCoeff())
@@ -61,15 +59,9 @@ SteadyKalman steadyKalman(const LinearSystem& given, const MatrixArg& W, const M
   const LinearSystem system = completed(given);
   requireSemidefinite("W", W, system.A.rows());
   requireSemidefinite("V", V, system.C.rows());
-  try {
-    return inWordsOfFilters(
-        solve({.A = system.A.transpose(), .B = system.C.transpose(), .step = system.step}, W, V));
-  } catch (const Error& error) {
-    ErrorParts parts = error.parts();
-    if (parts.what == "matrix Q") parts.what = "matrix W";
-    if (parts.what == "matrix R") parts.what = "matrix V";
-    throw Error(std::move(parts));
-  }
+  if (!system.step) internal::requirePositiveDefinite("V", V);
+  return inWordsOfFilters(
+      solve({.A = system.A.transpose(), .B = system.C.transpose(), .step = system.step}, W, V));
 }
 
 Lqg lqg(const LinearSystem& given, const MatrixArg& Q, const MatrixArg& R, const MatrixArg& W,
@@ -128,7 +120,7 @@ RestPoint restAt(const LinearSystem& given, const VectorArg& target) {
   return {.x = rest.head(n),
           .u = rest.tail(m),
           .isExact = (conditions * rest - wanted).norm() <=
-                     1e-9 * (wanted.norm() + conditions.norm() * rest.norm())};
+                     1e-12 * (wanted.norm() + conditions.norm() * rest.norm())};
 }
 
 }  // namespace rex

@@ -6,8 +6,8 @@
 namespace rex {
 
 /// The linear quadratic regulator u = -K x (slide 8:18; 8:43 has the other sign) of least
-/// int x^T Q x + u^T R u, or the sum of that over all steps: solveCare() or solveDare(). Throws Error as they
-/// do, and for a Q with a negative eigenvalue.
+/// int x^T Q x + u^T R u, or the sum of that over all steps, among those that end at rest: solveCare() or
+/// solveDare(). Throws Error as they do, and for a Q with a negative eigenvalue.
 [[nodiscard]] RiccatiResult lqr(const LinearSystem& system, const MatrixArg& Q, const MatrixArg& R);
 
 /// The Kalman gain of x' = A x + B u + w, y = C x + D u + v, for noise of intensities W (n x n) and V (p x

@@ -1,5 +1,6 @@
 #include "control/responses.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -23,6 +24,12 @@ void requireIndex(const char* what, int index, Eigen::Index count) {
 void requireCount(const char* what, int count) {
   if (count < 2 || count > 1000000)
     throw Error({.what = what, .found = fmt::format("{}", count), .wanted = "2 to 1000000"});
+}
+
+// Of the columns: with them divided by their sizes, fast modes do not pass for poles.
+Eigen::VectorXd inverseSizes(const Eigen::MatrixXcd& M) {
+  const Eigen::VectorXd sizes = M.cwiseAbs().colwise().maxCoeff();
+  return sizes.unaryExpr([](double size) { return size > 0 ? 1 / size : 1; });
 }
 
 }  // namespace
@@ -71,12 +78,15 @@ FrequencyResponse frequencyResponse(const LinearSystem& given, int input, int ou
     before = w;
     const Complex s = system.step ? std::polar(1., w * *system.step) : Complex(0, w);
     const Eigen::MatrixXcd pencil = s * Eigen::MatrixXcd::Identity(n, n) - system.A.cast<Complex>();
-    const Eigen::PartialPivLU<Eigen::MatrixXcd> lu(pencil);
+    const Eigen::VectorXd rows = inverseSizes(pencil.transpose()),
+                          columns = inverseSizes(rows.asDiagonal() * pencil);
+    const Eigen::PartialPivLU<Eigen::MatrixXcd> lu(rows.asDiagonal() * pencil * columns.asDiagonal());
     if (!(lu.rcond() > 1e-15))
       throw Error({.what = "frequency response",
                    .found = fmt::format("a pole at the frequency {:g} rad/s", w),
                    .wanted = "frequencies beside it"});
-    const Eigen::VectorXcd x = lu.solve(system.B.col(input).cast<Complex>());
+    const Eigen::VectorXcd source = rows.cwiseProduct(system.B.col(input)).cast<Complex>(),
+                           x = columns.asDiagonal() * lu.solve(source);
     const Complex value = system.C.row(output).cast<Complex>().dot(x) + system.D(output, input);
     response.values.push_back(value);
     response.magnitudes.push_back(20 * std::log10(std::max(std::abs(value), 1e-300)));

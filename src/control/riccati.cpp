@@ -19,6 +19,9 @@
 #include "control/care_doubling_internal.h"
 #include "control/controllability.h"
 #include "control/eigenvalue_text_internal.h"
+#include "control/require_matrix_internal.h"
+#include "control/stability.h"
+#include "control/stability_internal.h"
 
 extern "C" {
 void dgges_(const char* wantLeft, const char* wantRight, const char* sort,
@@ -43,44 +46,61 @@ enum class Kind { kContinuous, kDiscrete };
 struct Problem {
   Kind kind;
   Eigen::MatrixXd A, B, Q, R;
+  double rate = 1;  // the unit of its eigenvalues
 };
-
-void requireSymmetric(const char* what, const Eigen::MatrixXd& M) {
-  if ((M - M.transpose()).cwiseAbs().maxCoeff() <= 1e-9 * M.cwiseAbs().maxCoeff()) return;
-  throw Error({.what = what, .found = "a matrix that is not symmetric", .wanted = "a symmetric one"});
-}
-
-double leastEigenvalue(const Eigen::MatrixXd& M) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(M, Eigen::EigenvaluesOnly).eigenvalues().minCoeff();
-}
 
 void requireSound(const Problem& problem) {
   const Eigen::Index n = problem.A.rows(), m = problem.B.cols();
   if (n == 0 || m == 0) throw Error({.what = "Riccati equation", .found = "no state or no control"});
   requireSize("columns of A", problem.A.cols(), n);
   requireSize("rows of B", problem.B.rows(), n);
-  requireSize("rows of Q", problem.Q.rows(), n);
-  requireSize("columns of Q", problem.Q.cols(), n);
-  requireSize("rows of R", problem.R.rows(), m);
-  requireSize("columns of R", problem.R.cols(), m);
-  for (const auto& [name, M] : {std::pair{"matrix A", &problem.A},
-                                {"matrix B", &problem.B},
-                                {"matrix Q", &problem.Q},
-                                {"matrix R", &problem.R}})
-    if (!M->allFinite()) throw Error({.what = name, .found = "entries that are not finite"});
-  requireSymmetric("matrix Q", problem.Q);
-  requireSymmetric("matrix R", problem.R);
-  const auto require = [](const char* what, double least, double bound, const char* wanted) {
-    if (least < bound)
-      throw Error({.what = what, .found = fmt::format("the eigenvalue {:.6g}", least), .wanted = wanted});
-  };
-  const double scaleR = problem.R.cwiseAbs().maxCoeff();
-  if (problem.kind == Kind::kContinuous) {
-    if (Eigen::LLT<Eigen::MatrixXd>(problem.R).info() != Eigen::Success)
-      require("matrix R", leastEigenvalue(problem.R), std::numeric_limits<double>::infinity(),
-              "a positive definite matrix");
-  } else
-    require("matrix R", leastEigenvalue(problem.R), -1e-9 * scaleR, "no negative eigenvalue");
+  internal::requireFiniteMatrix("A", problem.A);
+  internal::requireFiniteMatrix("B", problem.B);
+  internal::requireSymmetric("Q", problem.Q, n);
+  internal::requireSymmetric("R", problem.R, m);
+  if (problem.kind == Kind::kContinuous) return internal::requirePositiveDefinite("R", problem.R);
+  const double least =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(problem.R, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  if (least < -1e-9 * problem.R.cwiseAbs().maxCoeff())
+    throw Error({.what = "matrix R",
+                 .found = fmt::format("the eigenvalue {:.6g}", least),
+                 .wanted = "no negative eigenvalue"});
+}
+
+// Exponents of two: in these units of time, controls and cost, the largest entries are about one. So the size
+// of the numbers does not matter, as squares of them would.
+struct Units {
+  int time = 0;     // A 2^-time; even
+  int control = 0;  // R 4^-control
+  int cost = 0;     // X 4^-cost
+};
+
+Eigen::MatrixXd scaled(const Eigen::MatrixXd& M, int exponent) {
+  return M.unaryExpr([exponent](double x) { return std::ldexp(x, exponent); });
+}
+
+Units unitsOf(const Problem& problem) {
+  const auto exponentOf = [](const Eigen::MatrixXd& M) { return std::ilogb(M.cwiseAbs().maxCoeff()); };
+  const bool hasB = !problem.B.isZero(0), hasQ = !problem.Q.isZero(0);
+  Units units;
+  if (!problem.R.isZero(0)) units.control = exponentOf(problem.R) / 2;
+  const int q = hasQ ? exponentOf(problem.Q) : 0, b = hasB ? exponentOf(problem.B) - units.control : 0;
+  units.cost = hasQ && hasB ? (q - 2 * b) / 4 : hasQ ? q / 2 : -b;
+  if (problem.kind == Kind::kDiscrete) return units;
+  constexpr int kNone = -10000;
+  const int a = problem.A.isZero(0) ? kNone : exponentOf(problem.A),
+            ofB = hasB ? 2 * (b + units.cost) : kNone, ofQ = hasQ ? q - 2 * units.cost : kNone;
+  if (const int most = std::max({a, ofB, ofQ}); most != kNone) units.time = most / 2 * 2;
+  return units;
+}
+
+Problem inUnits(const Problem& problem, const Units& units) {
+  return {problem.kind,
+          scaled(problem.A, -units.time),
+          scaled(problem.B, units.cost - units.control - units.time / 2),
+          scaled(problem.Q, -2 * units.cost - units.time),
+          scaled(problem.R, -2 * units.control),
+          std::ldexp(1., units.time)};
 }
 
 // The matrix pencil whose stable deflating subspace gives X, of size 2 n + m, with its columns and rows
@@ -146,10 +166,8 @@ void balance(Pencil& pencil, Eigen::Index n) {
   pencil.scale = scale.head(n).cwiseInverse();
 }
 
-// How far an eigenvalue is from being stable; negative when it is.
-double instability(Kind kind, double real, double imaginary, double beta) {
-  if (beta == 0) return std::numeric_limits<double>::infinity();
-  return kind == Kind::kContinuous ? real / beta : std::hypot(real, imaginary) / std::abs(beta) - 1;
+double instability(Kind kind, std::complex<double> value) {
+  return internal::instability(value, kind == Kind::kDiscrete);
 }
 
 // The n most stable right deflating vectors of (H, J), 2 n x n; empty where LAPACK gives up, or a pair of
@@ -168,7 +186,10 @@ Eigen::MatrixXd stableSubspace(Kind kind, Eigen::MatrixXd H, Eigen::MatrixXd J,
   if (info != 0) return {};
   std::vector<int> order(static_cast<std::size_t>(size)), select(static_cast<std::size_t>(size), 0);
   std::iota(order.begin(), order.end(), 0);
-  const auto key = [&](int i) { return instability(kind, real[i], imaginary[i], beta[i]); };
+  const auto key = [&](int i) {
+    return beta[i] == 0 ? std::numeric_limits<double>::infinity()
+                        : instability(kind, std::complex<double>(real[i], imaginary[i]) / beta[i]);
+  };
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return key(a) < key(b); });
   const int last = order[static_cast<std::size_t>(size / 2 - 1)];
   if (beta[last] != 0) border = std::complex<double>(real[last], imaginary[last]) / beta[last];
@@ -191,6 +212,7 @@ std::optional<Eigen::MatrixXd> bySchurForm(const Problem& problem,
   const Eigen::Index n = problem.A.rows(), m = problem.B.cols();
   Pencil pencil = pencilOf(problem);
   balance(pencil, n);
+  if (!pencil.H.allFinite() || !pencil.J.allFinite()) return {};
   // The controls are eliminated by what is orthogonal to their columns.
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(pencil.H.rightCols(m));
   const Eigen::MatrixXd rest = Eigen::MatrixXd(qr.householderQ()).rightCols(2 * n).transpose();
@@ -203,6 +225,24 @@ std::optional<Eigen::MatrixXd> bySchurForm(const Problem& problem,
   const Eigen::MatrixXd scaled = pencil.scale.asDiagonal() * X * pencil.scale.asDiagonal();
   if (!scaled.allFinite()) return {};
   return Eigen::MatrixXd(0.5 * (scaled + scaled.transpose()));
+}
+
+// Without a cost and with nothing to stop, X is zero to the last digit: a relative residual would not see it.
+std::optional<Eigen::MatrixXd> startOf(const Problem& problem, std::optional<std::complex<double>>& border) {
+  const auto stability = problem.kind == Kind::kDiscrete ? discreteStabilityOf : stabilityOf;
+  if (problem.Q.isZero(0) && stability(problem.A).stability == Stability::kAsymptotic)
+    return Eigen::MatrixXd::Zero(problem.A.rows(), problem.A.rows()).eval();
+  return bySchurForm(problem, border);
+}
+
+// R + B^T X B, whatever the units of the controls.
+bool hasSingularWeight(const Problem& problem, const Eigen::MatrixXd& X) {
+  const Eigen::MatrixXd weight = problem.R + problem.B.transpose() * X * problem.B;
+  const Eigen::VectorXd sizes = weight.cwiseAbs().rowwise().maxCoeff();
+  if (!(sizes.minCoeff() > 0)) return true;
+  const Eigen::VectorXd scale = sizes.cwiseSqrt().cwiseInverse();
+  return !(Eigen::PartialPivLU<Eigen::MatrixXd>(scale.asDiagonal() * weight * scale.asDiagonal()).rcond() >
+           1e-13);
 }
 
 // What the equation lacks at X, and the gain there, in extended precision; X may be a sum of two doubles.
@@ -230,11 +270,16 @@ Residual residualAt(const Problem& problem, const Extended& X) {
           static_cast<double>(value.norm()) / std::max(largest, 1e-300)};
 }
 
+struct Refined {
+  Extended X;
+  double lastStep;  // relative; infinite where there was none
+};
+
 // Newton's steps (Kleinman 1968): each solves a Lyapunov equation of the closed loop.
-Extended refined(const Problem& problem, const Eigen::MatrixXd& start) {
-  Extended X = start.cast<long double>();
-  Residual here = residualAt(problem, X);
+Refined refined(const Problem& problem, const Eigen::MatrixXd& start) {
   double before = std::numeric_limits<double>::infinity();
+  Refined result{start.cast<long double>(), before};
+  Residual here = residualAt(problem, result.X);
   for (int i = 0; i < 10; ++i) {
     const Eigen::MatrixXd closed = problem.A - problem.B * here.K;
     Eigen::MatrixXd step;
@@ -242,29 +287,33 @@ Extended refined(const Problem& problem, const Eigen::MatrixXd& start) {
       step = problem.kind == Kind::kContinuous ? solveLyapunov(closed, here.value)
                                                : solveDiscreteLyapunov(closed, here.value);
     } catch (const Error&) {
-      return X;  // the closed loop is on the boundary
+      return result;  // the closed loop is on the boundary
     }
-    if (!(step.norm() < 0.5 * before)) return X;
-    const Extended next = X + step.cast<long double>();
+    const double size = step.norm();
+    result.lastStep = size / std::max(static_cast<double>(result.X.norm()), 1e-300);
+    if (!(size < 0.5 * before)) return result;
+    const Extended next = result.X + step.cast<long double>();
     const Residual there = residualAt(problem, next);
-    if (!(there.size <= 2 * here.size)) return X;
-    X = next;
+    if (!(there.size <= 2 * here.size)) return result;
+    result.X = next;
     here = there;
-    before = step.norm();
-    if (before <= 1e-18 * static_cast<double>(X.norm())) break;
+    before = size;
+    if (result.lastStep <= 1e-18) break;
   }
-  return X;
+  return result;
 }
 
-// An unstable eigenvalue of A for which [A - lambda, B] (or its dual) has no full rank: Hautus' test.
+// A nearly unstable eigenvalue of A for which [A - lambda, B] (or its dual) nearly has no full rank: Hautus'
+// test. Of modes that the cost does not see, those that grow do no harm.
 std::optional<std::complex<double>> badMode(const Problem& problem, const Eigen::MatrixXd& A,
-                                            const Eigen::MatrixXd& B) {
+                                            const Eigen::MatrixXd& B, bool mayGrow) {
   const Eigen::Index n = A.rows();
   const Eigen::VectorXcd eigenvalues = Eigen::EigenSolver<Eigen::MatrixXd>(A, false).eigenvalues();
   const double scale = std::max(A.norm(), 1e-300);
+  const double near = 1e-8 * (problem.kind == Kind::kContinuous ? scale : 1);
   for (const std::complex<double> lambda : eigenvalues) {
-    const double margin = instability(problem.kind, lambda.real(), lambda.imag(), 1);
-    if (margin < -1e-8 * (problem.kind == Kind::kContinuous ? scale : 1)) continue;
+    const double margin = instability(problem.kind, lambda);
+    if (margin < -near || (mayGrow && margin > near)) continue;
     Eigen::MatrixXcd hautus(n, n + B.cols());
     hautus << A - lambda * Eigen::MatrixXcd::Identity(n, n),
         B.cast<std::complex<double>>() * (scale / std::max(B.norm(), 1e-300));
@@ -274,91 +323,170 @@ std::optional<std::complex<double>> badMode(const Problem& problem, const Eigen:
   return {};
 }
 
+// Modes that B does not move at all, told by structure: that holds for stiff systems, too. They stay what
+// they are in the closed loop.
+struct HiddenModes {
+  std::optional<std::complex<double>> growing, onEdge;
+};
+HiddenModes hiddenModes(const Problem& problem, const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
+  const ReachableStates states = controllability({.A = A, .B = B});
+  const Eigen::MatrixXd block = states.unreachable.transpose() * A * states.unreachable;
+  const bool isDiscrete = problem.kind == Kind::kDiscrete;
+  HiddenModes found;
+  for (const HiddenMode& mode : states.modes) {
+    const bool isOnEdge = internal::distanceToEdge(block, mode.eigenvalue, isDiscrete) <=
+                          internal::roundingOf(A.rows(), A.norm());
+    if (isOnEdge)
+      found.onEdge = mode.eigenvalue;
+    else if (internal::instability(mode.eigenvalue, isDiscrete) > 0)
+      found.growing = mode.eigenvalue;
+  }
+  return found;
+}
+
+// A mode that keeps the equation from having a stabilizing solution.
+std::optional<std::complex<double>> unreachableMode(const Problem& problem) {
+  const HiddenModes modes = hiddenModes(problem, problem.A, problem.B);
+  return modes.growing ? modes.growing : modes.onEdge;
+}
+std::optional<std::complex<double>> unseenMode(const Problem& problem) {
+  return hiddenModes(problem, problem.A.transpose(), problem.Q).onEdge;
+}
+
+std::string textOf(const Problem& problem, std::complex<double> eigenvalue) {
+  return internal::eigenvalueText(eigenvalue * problem.rate);
+}
+
+const char* edgeOf(const Problem& problem) {
+  return problem.kind == Kind::kContinuous ? "imaginary axis" : "unit circle";
+}
+
+// In every direction of u something must be paid or moved.
+bool hasIdleControl(const Problem& problem) {
+  Eigen::MatrixXd effects(problem.B.rows() + problem.R.rows(), problem.B.cols());
+  effects << problem.B, problem.R;
+  for (auto effect : effects.colwise()) {
+    if (effect.isZero(0)) return true;
+    effect.stableNormalize();
+  }
+  return effects.colPivHouseholderQr().rank() < effects.cols();
+}
+
+// Only explains what went wrong: with entries of very different size the tests themselves may err. `border`
+// is the least stable eigenvalue that X would keep.
+RiccatiResult explained(const Problem& problem, const std::optional<std::complex<double>>& border,
+                        const std::string& otherwise) {
+  const auto failed = [&](RiccatiStatus status, std::optional<std::complex<double>> mode,
+                          std::string message) {
+    RiccatiResult result{.status = status, .mode = mode};
+    result.message = std::move(message);
+    return result;
+  };
+  auto mode = unreachableMode(problem);
+  if (mode || (mode = badMode(problem, problem.A, problem.B, false)))
+    return failed(
+        RiccatiStatus::kNotStabilizable, mode,
+        "not stabilizable: the control cannot reach the mode of eigenvalue " + textOf(problem, *mode));
+  mode = unseenMode(problem);
+  if (mode || (mode = badMode(problem, problem.A.transpose(), problem.Q, true)))
+    return failed(RiccatiStatus::kNotDetectable, mode,
+                  "not detectable: the cost does not see the mode of eigenvalue " + textOf(problem, *mode));
+  if (problem.kind == Kind::kDiscrete && hasIdleControl(problem))
+    return failed(
+        RiccatiStatus::kFailed, {},
+        "no solution: R + B^T X B is singular for every X, a control neither moves nor costs anything");
+  if (border && std::abs(instability(problem.kind, *border)) < 1e-6 * std::max(1., std::abs(*border)))
+    return failed(
+        RiccatiStatus::kFailed, border,
+        fmt::format("no stabilizing solution: the equation's pencil has the eigenvalue {} on the {}",
+                    textOf(problem, *border), edgeOf(problem)));
+  return failed(RiccatiStatus::kFailed, {}, otherwise);
+}
+
 std::string solvedMessage(const RiccatiResult& result, double margin) {
   return fmt::format("solved: relative residual {:.2g}, closed-loop margin {:.4g}", result.residual, margin);
 }
 
-// One that no control reaches at all, told by structure: that holds for stiff systems, too.
-std::optional<std::complex<double>> hiddenMode(const Problem& problem, const Eigen::MatrixXd& A,
-                                               const Eigen::MatrixXd& B) {
-  const double bound = 1e-7 * (problem.kind == Kind::kContinuous ? A.norm() : 1);
-  for (const HiddenMode& mode : controllability({.A = A, .B = B}).modes)
-    if (instability(problem.kind, mode.eigenvalue.real(), mode.eigenvalue.imag(), 1) >= -bound)
-      return mode.eigenvalue;
-  return {};
+// The least stable closed-loop eigenvalue, and how far rounding may have moved it: a double one moves by the
+// root.
+struct Margin {
+  double instability = -std::numeric_limits<double>::infinity(), doubt = 0;
+};
+Margin marginOf(const Problem& problem, const RiccatiResult& result, double scale) {
+  Margin margin;
+  for (const std::complex<double> lambda : result.closedLoop) {
+    const double here = instability(problem.kind, lambda);
+    if (here <= margin.instability) continue;
+    margin.instability = here;
+    margin.doubt = std::max(problem.kind == Kind::kContinuous ? 1e-7 * std::abs(lambda) : 1e-9,
+                            internal::roundingOf(problem.A.rows(), scale));
+  }
+  return margin;
 }
 
-RiccatiResult solve(const Problem& problem) {
-  RiccatiResult result;
-  const char* edge = problem.kind == Kind::kContinuous ? "imaginary axis" : "unit circle";
-  std::optional<std::complex<double>> border;  // the least stable eigenvalue of the pencil that X would keep
-  const auto fail = [&](RiccatiStatus status, std::optional<std::complex<double>> mode, std::string message) {
-    result = {};
-    result.status = status;
-    result.mode = mode;
-    result.message = std::move(message);
-    return result;
-  };
-  // Only explains what went wrong: with entries of very different size the tests themselves may err.
-  const auto explain = [&](const std::string& otherwise) {
-    auto mode = hiddenMode(problem, problem.A, problem.B);
-    if (mode || (mode = badMode(problem, problem.A, problem.B)))
-      return fail(RiccatiStatus::kNotStabilizable, mode,
-                  fmt::format("not stabilizable: the control cannot reach the mode of eigenvalue {}",
-                              internal::eigenvalueText(*mode)));
-    mode = hiddenMode(problem, problem.A.transpose(), problem.Q);
-    if (mode || (mode = badMode(problem, problem.A.transpose(), problem.Q)))
-      return fail(RiccatiStatus::kNotDetectable, mode,
-                  fmt::format("not detectable: the cost does not see the mode of eigenvalue {}",
-                              internal::eigenvalueText(*mode)));
-    if (border && std::abs(instability(problem.kind, border->real(), border->imag(), 1)) <
-                      1e-6 * std::max(1., std::abs(*border)))
-      return fail(
-          RiccatiStatus::kFailed, border,
-          fmt::format("no stabilizing solution: the equation's pencil has the eigenvalue {} on the {}",
-                      internal::eigenvalueText(*border), edge));
-    return fail(RiccatiStatus::kFailed, {}, otherwise);
-  };
-  const auto start = bySchurForm(problem, border);
+RiccatiResult solveInUnits(const Problem& problem) {
+  std::optional<std::complex<double>> border;
+  const auto start = startOf(problem, border);
   if (!start)
-    return explain("no stabilizing solution: the equation's pencil has no stable part that gives one");
-  const Extended X = refined(problem, *start);
-  const Residual at = residualAt(problem, X);
-  result.X = X.cast<double>();
+    return explained(problem, border,
+                     "no stabilizing solution: the equation's pencil has no stable part that gives one");
+  const Refined best = refined(problem, *start);
+  const Residual at = residualAt(problem, best.X);
+  if (problem.kind == Kind::kDiscrete && hasSingularWeight(problem, best.X.cast<double>()))
+    return explained(problem, border, "no solution: R + B^T X B is singular");
+  RiccatiResult result{.X = best.X.cast<double>(), .K = at.K, .residual = at.size};
   result.X = (0.5 * (result.X + result.X.transpose())).eval();
-  result.K = at.K;
-  result.residual = at.size;
-  const Eigen::MatrixXd closed = problem.A - problem.B * result.K;
+  const Eigen::MatrixXd feedback = problem.B * result.K, closed = problem.A - feedback;
   result.closedLoop = Eigen::EigenSolver<Eigen::MatrixXd>(closed, false).eigenvalues();
-  // The least stable eigenvalue, and how far rounding may have moved it: a double one moves by the root.
-  double margin = -std::numeric_limits<double>::infinity(), doubt = 0;
-  for (const std::complex<double> lambda : result.closedLoop) {
-    const double instable = instability(problem.kind, lambda.real(), lambda.imag(), 1);
-    if (instable <= margin) continue;
-    margin = instable;
-    doubt = problem.kind == Kind::kContinuous ? 1e-7 * std::abs(lambda) : 1e-9;
-  }
-  if (!(result.residual < 1e-6) || margin > doubt)
-    return explain(
+  const double scale = problem.A.norm() + feedback.norm();
+  const Margin margin = marginOf(problem, result, scale);
+  // Newton's steps stop being small where a closed-loop eigenvalue is double in the pencil, on its boundary.
+  const bool isLimit = margin.instability >= -margin.doubt || !(best.lastStep <= 1e-9),
+             isNearEdge = margin.instability > -1e-3 * (problem.kind == Kind::kContinuous ? scale : 1);
+  if (!(result.residual < 1e-10) || margin.instability > margin.doubt || (isLimit && !isNearEdge))
+    return explained(
+        problem, border,
         fmt::format("no stabilizing solution was found: relative residual {:.2g}, closed-loop margin {:.2g}",
-                    at.size, -margin));
+                    at.size, -margin.instability * problem.rate));
   // An X for a mode that nothing moves is no solution, however small its residual.
-  if (margin > -1e-3 * (problem.kind == Kind::kContinuous ? closed.norm() : 1) &&
-      (hiddenMode(problem, problem.A, problem.B) || hiddenMode(problem, problem.A.transpose(), problem.Q)))
-    return explain("");
-  if (margin > -doubt) {
-    if (badMode(problem, problem.A, problem.B) || badMode(problem, problem.A.transpose(), problem.Q))
-      return explain("");
-    result.status = RiccatiStatus::kOnBoundary;
-    result.message = fmt::format(
-        "closed-loop eigenvalues lie on the {}: X is the limit of stabilizing solutions, to about half the "
-        "digits",
-        edge);
-    return result;
-  }
-  result.status = RiccatiStatus::kSolved;
-  result.message = solvedMessage(result, -margin);
+  if (isNearEdge && (unreachableMode(problem) || unseenMode(problem))) return explained(problem, border, "");
+  if (isLimit && (badMode(problem, problem.A, problem.B, false) ||
+                  badMode(problem, problem.A.transpose(), problem.Q, true)))
+    return explained(problem, border, "");
+  result.status = isLimit ? RiccatiStatus::kOnBoundary : RiccatiStatus::kSolved;
+  result.message =
+      isLimit ? fmt::format(
+                    "closed-loop eigenvalues lie on the {}: X is the limit of stabilizing solutions, to "
+                    "about half the digits",
+                    edgeOf(problem))
+              : solvedMessage(result, -margin.instability * problem.rate);
   return result;
+}
+
+RiccatiResult solve(const Problem& given) {
+  const Units units = unitsOf(given);
+  const Problem problem = inUnits(given, units);
+  RiccatiResult result = solveInUnits(problem);
+  if (result.mode) *result.mode *= problem.rate;
+  if (result.X.size() == 0) return result;
+  result.X = scaled(result.X, 2 * units.cost);
+  result.K = scaled(result.K, units.cost - units.control + units.time / 2);
+  result.closedLoop *= problem.rate;
+  if (result.X.allFinite() && result.K.allFinite()) return result;
+  return {.message = "no solution: X has entries too large for a double"};
+}
+
+// What the cost does not see and grows is stopped all the same; that is not what costs least.
+void noteUnseenGrowth(const Problem& problem, RiccatiResult& result) {
+  if (result.status != RiccatiStatus::kSolved ||
+      Eigen::LLT<Eigen::MatrixXd>(problem.Q).info() == Eigen::Success)
+    return;
+  result.mode = hiddenModes(problem, problem.A.transpose(), problem.Q).growing;
+  if (result.mode)
+    result.message += fmt::format(
+        "; not detectable: the cost does not see the growing mode of eigenvalue {}, "
+        "so that X is not the least cost but that of stopping it",
+        internal::eigenvalueText(*result.mode));
 }
 
 }  // namespace
@@ -366,17 +494,23 @@ RiccatiResult solve(const Problem& problem) {
 RiccatiResult solveCare(const MatrixArg& A, const MatrixArg& B, const MatrixArg& Q, const MatrixArg& R) {
   const Problem problem{Kind::kContinuous, A, B, Q, R};
   requireSound(problem);
+  RiccatiResult result;
   if (auto quick = internal::careByDoubling(A, B, Q, R)) {
     quick->message = solvedMessage(*quick, -quick->closedLoop.real().maxCoeff());
-    return std::move(*quick);
+    result = std::move(*quick);
+  } else {
+    result = solve(problem);
   }
-  return solve(problem);
+  noteUnseenGrowth(problem, result);
+  return result;
 }
 
 RiccatiResult solveDare(const MatrixArg& A, const MatrixArg& B, const MatrixArg& Q, const MatrixArg& R) {
   const Problem problem{Kind::kDiscrete, A, B, Q, R};
   requireSound(problem);
-  return solve(problem);
+  RiccatiResult result = solve(problem);
+  noteUnseenGrowth(problem, result);
+  return result;
 }
 
 }  // namespace rex

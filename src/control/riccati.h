@@ -14,7 +14,7 @@ namespace rex {
 enum class RiccatiStatus {
   kSolved,
   kNotStabilizable,  ///< a mode that does not decay cannot be reached by u
-  kNotDetectable,    ///< a mode that does not decay costs nothing
+  kNotDetectable,    ///< a mode that neither grows nor decays costs nothing
   kOnBoundary,  ///< closed-loop eigenvalues on the imaginary axis or unit circle: X is the limit, to half the
                 ///< digits
   kFailed       ///< no solution, or none that doubles can tell
@@ -28,8 +28,8 @@ struct RiccatiResult {
   Eigen::VectorXcd closedLoop{};  ///< eigenvalues of A - B K
   /// Of the equation, relative to its largest term.
   double residual = std::numeric_limits<double>::infinity();
-  /// The eigenvalue that is in the way: of A where it is not stabilizable or detectable, of the equation's
-  /// pencil where that has eigenvalues on the axis or circle.
+  /// The eigenvalue in the way: of A where it is not stabilizable or detectable (kSolved if X stops what
+  /// grows unseen), of the equation's pencil where that lies on the axis or circle.
   std::optional<std::complex<double>> mode{};
   std::string message{};
 };
@@ -38,7 +38,7 @@ struct RiccatiResult {
 /// 8:19, algebraic and continuous. By the ordered Schur form of an extended pencil (Van Dooren 1981),
 /// balanced, and Newton steps with residuals in extended precision. Throws Error for sizes that do not fit,
 /// entries that are not finite, Q or R that are not symmetric, and an R that is not positive definite, naming
-/// each. Q may be indefinite; then there need not be a solution.
+/// each. Q may be indefinite; then there need not be a solution. It costs least if all that grows is seen.
 [[nodiscard]] RiccatiResult solveCare(const MatrixArg& A, const MatrixArg& B, const MatrixArg& Q,
                                       const MatrixArg& R);
 

@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "control/eigenvalue_text_internal.h"
+#include "control/stability_internal.h"
 
 namespace rex {
 namespace {
@@ -21,23 +22,26 @@ using Complex = std::complex<double>;
 struct Mode {
   Complex value;
   double doubt;  // how far rounding may have moved it
+  bool isOnEdge;
 };
 
 // An eigenvalue moves by what A is off, times the condition of its eigenvectors: 1 / |y^* x| of unit vectors.
-std::vector<Mode> modesOf(const Eigen::MatrixXd& A) {
+// That alone says too much of defective ones beside fast modes, so that A's distance decides.
+std::vector<Mode> modesOf(const Eigen::MatrixXd& A, bool isDiscrete) {
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(A);
   const Eigen::MatrixXcd V = solver.eigenvectors();
   const Eigen::MatrixXcd left = Eigen::FullPivLU<Eigen::MatrixXcd>(V).inverse();
-  const double rounding =
-      10 * static_cast<double>(A.rows()) * std::numeric_limits<double>::epsilon() * A.norm();
+  const double norm = A.stableNorm(), rounding = internal::roundingOf(A.rows(), norm);
+  // Where eigenvectors are parallel to the last digit: a root of order n at worst.
+  const double most = norm * std::pow(internal::roundingOf(A.rows(), 1), 1 / static_cast<double>(A.rows()));
   std::vector<Mode> modes;
   for (Eigen::Index i = 0; i < A.rows(); ++i) {
+    const Complex value = solver.eigenvalues()[i];
     const double condition = V.col(i).norm() * left.row(i).norm();
-    // Where eigenvectors are parallel to the last digit: a root of order n at worst.
-    const double most =
-        A.norm() * std::pow(rounding / std::max(A.norm(), 1e-300), 1 / static_cast<double>(A.rows()));
-    modes.push_back({solver.eigenvalues()[i],
-                     std::isfinite(condition) ? std::min(rounding * std::max(condition, 1.), most) : most});
+    const double doubt = std::isfinite(condition) ? std::min(rounding * std::max(condition, 1.), most) : most;
+    modes.push_back({value, doubt,
+                     std::abs(internal::instability(value, isDiscrete)) <= doubt &&
+                         internal::distanceToEdge(A, value, isDiscrete) <= rounding});
   }
   return modes;
 }
@@ -47,8 +51,7 @@ int geometricMultiplicity(const Eigen::MatrixXd& A, Complex value) {
   const Eigen::Index n = A.rows();
   const Eigen::MatrixXcd shifted = A.cast<Complex>() - value * Eigen::MatrixXcd::Identity(n, n);
   const Eigen::VectorXd sizes = Eigen::JacobiSVD<Eigen::MatrixXcd>(shifted).singularValues();
-  const double bound =
-      100 * static_cast<double>(n) * std::numeric_limits<double>::epsilon() * std::max(A.norm(), 1e-300);
+  const double bound = 10 * internal::roundingOf(n, A.stableNorm());
   return std::max(1, static_cast<int>((sizes.array() <= bound).count()));
 }
 
@@ -58,25 +61,29 @@ StabilityResult decided(const MatrixArg& given, bool isDiscrete) {
   if (!given.allFinite()) throw Error({.what = "matrix A", .found = "entries that are not finite"});
   const Eigen::MatrixXd A = given;
   const char* edge = isDiscrete ? "unit circle" : "imaginary axis";
-  const auto excess = [&](Complex value) { return isDiscrete ? std::abs(value) - 1 : value.real(); };
-  std::vector<Mode> modes = modesOf(A);
+  const auto excess = [&](const Mode& mode) { return internal::instability(mode.value, isDiscrete); };
+  std::vector<Mode> modes = modesOf(A, isDiscrete);
   StabilityResult result;
   result.eigenvalues.resize(A.rows());
   for (std::size_t i = 0; i < modes.size(); ++i)
     result.eigenvalues[static_cast<Eigen::Index>(i)] = modes[i].value;
   std::stable_sort(modes.begin(), modes.end(),
-                   [&](const Mode& a, const Mode& b) { return excess(a.value) > excess(b.value); });
+                   [&](const Mode& a, const Mode& b) { return excess(a) > excess(b); });
   result.eigenvalue = modes[0].value;
-  result.rate = excess(modes[0].value) + (isDiscrete ? 1 : 0);
-  const std::string found = internal::eigenvalueText(modes[0].value);
-  if (excess(modes[0].value) > modes[0].doubt) {
-    result.message = fmt::format("unstable: the mode of eigenvalue {} grows", found);
+  result.rate = excess(modes[0]) + (isDiscrete ? 1 : 0);
+  const auto growing = std::find_if(modes.begin(), modes.end(),
+                                    [&](const Mode& mode) { return excess(mode) > 0 && !mode.isOnEdge; });
+  if (growing != modes.end()) {
+    result.eigenvalue = growing->value;
+    result.message =
+        fmt::format("unstable: the mode of eigenvalue {} grows", internal::eigenvalueText(growing->value));
     return result;
   }
-  std::erase_if(modes, [&](const Mode& mode) { return excess(mode.value) < -mode.doubt; });
+  std::erase_if(modes, [&](const Mode& mode) { return !mode.isOnEdge; });
   if (modes.empty()) {
     result.stability = Stability::kAsymptotic;
-    result.message = fmt::format("asymptotically stable: the slowest mode has the eigenvalue {}", found);
+    result.message = fmt::format("asymptotically stable: the slowest mode has the eigenvalue {}",
+                                 internal::eigenvalueText(result.eigenvalue));
     return result;
   }
   result.stability = Stability::kMarginal;
@@ -104,6 +111,25 @@ StabilityResult decided(const MatrixArg& given, bool isDiscrete) {
 }
 
 }  // namespace
+
+namespace internal {
+
+double instability(Complex eigenvalue, bool isDiscrete) {
+  return isDiscrete ? std::abs(eigenvalue) - 1 : eigenvalue.real();
+}
+
+double distanceToEdge(const Eigen::MatrixXd& A, Complex near, bool isDiscrete) {
+  const Complex edge = !isDiscrete ? Complex(0, near.imag()) : near == 0. ? 1. : near / std::abs(near);
+  const Eigen::Index n = A.rows();
+  const Eigen::MatrixXcd shifted = A.cast<Complex>() - edge * Eigen::MatrixXcd::Identity(n, n);
+  return Eigen::JacobiSVD<Eigen::MatrixXcd>(shifted).singularValues()[n - 1];
+}
+
+double roundingOf(Eigen::Index n, double norm) {
+  return 10 * static_cast<double>(n) * std::numeric_limits<double>::epsilon() * norm;
+}
+
+}  // namespace internal
 
 StabilityResult stabilityOf(const MatrixArg& A) { return decided(A, false); }
 StabilityResult discreteStabilityOf(const MatrixArg& A) { return decided(A, true); }

@@ -89,6 +89,10 @@ TEST_F(RiccatiCommand, SaysWhichModeIsInTheWay) {
       rex({"care", write(R"({"A": [[0, 2], [-2, 0]], "B": [[0], [1]], "Q": [[0, 0], [0, 0]], "R": [[1]]})")});
   EXPECT_EQ(unseen.exitCode, 1);
   EXPECT_THAT(unseen.output, HasSubstr("not detectable: the cost does not see the mode of eigenvalue 0"));
+  const ProcessResult stopped =
+      rex({"care", write(R"({"A": [[1]], "B": [[1]], "Q": [[0]], "R": [[1]]})"), "--json"});
+  EXPECT_EQ(stopped.exitCode, 0);
+  EXPECT_EQ(json::parse(stopped.output)["mode"], json::parse("[1.0, 0.0]"));
   const ProcessResult axis = rex({"care", write(R"({"A": [[1]], "B": [[1]], "Q": [[-100]], "R": [[1]]})")});
   EXPECT_EQ(axis.exitCode, 1);
   EXPECT_THAT(axis.output, HasSubstr("on the imaginary axis"));
@@ -110,6 +114,7 @@ TEST_F(RiccatiCommand, SaysWhatIsWrong) {
   expect("dare", "", "problem.json:1:1: JSON");
   expect("care", "[1]", "Riccati equation: found a JSON value of type array");
   expect("care", "{\"A\": [[1]]}", "matrix B: found no field of this name, wanted a list of rows");
+  expect("care", "{\"a\": [[1]]}", "no field of this name, wanted a list of rows (did you mean 'a'?)");
   expect("care", problem("5", "[[1]]", "[[1]]", "[[1]]"), "matrix A: found no list of rows");
   expect("care", problem("[[1, 2], [3]]", "[[1]]", "[[1]]", "[[1]]"),
          "matrix A, row 2: found 1 numbers, wanted 2 numbers, as in row 1");

@@ -47,6 +47,8 @@ TEST(Controllability, OfTheSlides) {
   EXPECT_EQ(controllability(plane(0, 1, 0, 0, 0, 0)).rank, 0);
   // Units do not matter: a mass of 1e12 kg is moved by a force, too.
   EXPECT_TRUE(controllability(plane(0, 1, 0, 0, 0, 1e-12)).isComplete);
+  EXPECT_TRUE(controllability(plane(0, 1, 0, 0, 0, 1e-200)).isComplete);
+  EXPECT_TRUE(controllability(plane(0, 1, 0, 0, 0, 1e200)).isComplete);
   EXPECT_TRUE(controllability(plane(0, 1e-9, 0, 0, 0, 1e9)).isComplete);
 }
 
@@ -122,6 +124,13 @@ TEST(Gramian, IsTheIntegral) {
   EXPECT_NEAR(controllabilityGramian(decaying)(0, 0), 9. / 4, 1e-14);
   EXPECT_NEAR(observabilityGramian(decaying)(0, 0), 1. / 4, 1e-14);
   EXPECT_NEAR(observabilityGramian(decaying, 0.5)(0, 0), (1 - std::exp(-2.)) / 4, 1e-14);
+  // A strong control does not hide the motion.
+  for (const double strong : {1e-100, 1e8, 1e12, 1e100}) {
+    decaying.B(0, 0) = strong;
+    EXPECT_NEAR(controllabilityGramian(decaying, 0.5)(0, 0) / strong / strong, (1 - std::exp(-2.)) / 4,
+                1e-14);
+  }
+  decaying.B(0, 0) = 3;
   decaying.A(0, 0) = 0;
   EXPECT_NEAR(controllabilityGramian(decaying, 7)(0, 0), 63, 1e-11);
 }
@@ -145,6 +154,11 @@ TEST(Gramian, SaysWhatIsWrong) {
                    "Gramian of all time: found a system that is unstable: the eigenvalue 0");
   EXPECT_REX_ERROR(controllabilityGramian(system, 0),
                    "time T of a Gramian: found 0, wanted a positive number");
+  LinearSystem steps = plane(0.5, 0, 0, 0.5, 0, 1), growing = plane(2, 0, 0, 2, 0, 1);
+  steps.step = 0.1;
+  EXPECT_REX_ERROR(controllabilityGramian(steps, 1e300),
+                   "time T of a Gramian: found 1e+300, wanted less than 1e15 steps of 0.1 s");
+  EXPECT_REX_ERROR(controllabilityGramian(growing, 1e4), "Gramian: found entries that are not finite");
   EXPECT_REX_ERROR(controllability(system, 0),
                    "tolerance of a rank: found 0, wanted a number between 0 and 1");
 }

@@ -118,6 +118,13 @@ TEST(Horizon, SaysWherePGrowsWithoutBound) {
   // Two at once: a determinant would have changed its sign twice.
   const MatrixXd two = MatrixXd::Identity(2, 2);
   EXPECT_FALSE(continuousHorizon({.A = 0 * two, .B = two}, -two, two, 0 * two, 2, 1).isSolved);
+  // A cheap control is fast, yet P = tanh(t / sqrt(R)) sqrt(R) is soon found.
+  for (const double cheap : {1e-6, 1e-10, 1e-14})
+    EXPECT_NEAR(continuousHorizon(system, one, cheap * one, 0 * one, 1e-6, 1).P[0](0, 0) / std::sqrt(cheap),
+                std::tanh(1e-6 / std::sqrt(cheap)), 1e-9);
+  const RiccatiHorizon endless = continuousHorizon({.A = 1e12 * one, .B = one}, one, one, one, 1, 1);
+  EXPECT_FALSE(endless.isSolved);
+  EXPECT_THAT(endless.message, HasSubstr("time T is too long for the fastest motion: 2.8e+12 parts"));
   // A steep end is no end.
   EXPECT_NEAR(continuousHorizon(system, 0 * one, one, 1e12 * one, 2, 1).P[0](0, 0), 0.5, 1e-11);
   system.step = 1;

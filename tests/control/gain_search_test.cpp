@@ -77,6 +77,8 @@ TEST(FastestGains, SaysWhatIsWrong) {
                    "first gains: found 1, wanted at most the bound, 0.5");
   EXPECT_REX_ERROR(fastestGains(system, K, {.maxEvaluations = 0}), "evaluations: found 0");
   EXPECT_REX_ERROR(fastestGains(system, K, {.tolerance = 0}), "tolerance of gains: found 0");
+  EXPECT_REX_ERROR(fastestGains({.A = MatrixXd::Zero(2, 2), .B = MatrixXd(2, 0)}, MatrixXd(0, 2)),
+                   "linear system: found no control");
   system.D = MatrixXd::Ones(2, 1);
   EXPECT_REX_ERROR(fastestGains(system, K), "matrix D: found entries that are not zero");
 }

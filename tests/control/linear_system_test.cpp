@@ -67,6 +67,15 @@ TEST(Discretized, HoldsTheControlExactly) {
   }
   const LinearSystem held = discretized(random, 0.7);
   EXPECT_LT((held.A * start + held.B * u - x).norm(), 1e-11 * (1 + x.norm()));
+  // A strong control, as of a tiny mass, does not cost digits.
+  for (const double strong : {1e-200, 1e8, 1e12, 1e200}) {
+    const MatrixXd one = MatrixXd::Identity(1, 1);
+    const LinearSystem decaying = discretized({.A = -one, .B = strong * one}, 1);
+    EXPECT_NEAR(decaying.A(0, 0), std::exp(-1.), 1e-15) << strong;
+    EXPECT_NEAR(decaying.B(0, 0) / strong, 1 - std::exp(-1.), 1e-15) << strong;
+  }
+  EXPECT_REX_ERROR(discretized({.A = 800 * MatrixXd::Identity(1, 1), .B = MatrixXd::Ones(1, 1)}, 1),
+                   "motion of the system in 1 s: found numbers that are not finite, wanted a shorter step");
   EXPECT_REX_ERROR(discretized(held, 0.1), "linear system: found discrete time, wanted continuous time");
   EXPECT_REX_ERROR(discretized(random, -1), "step of a linear system: found -1");
 }
@@ -112,6 +121,7 @@ TEST(Linearized, GivesTheCartPoleOfTheErrata) {
 TEST(Linearized, SaysWhatIsWrong) {
   const auto f = [](const VectorXd& x, const VectorXd&) { return x; };
   const VectorXd x = VectorXd::Ones(2), u = VectorXd::Ones(1);
+  EXPECT_REX_ERROR(linearized(nullptr, x, u), "motion: found no function");
   EXPECT_REX_ERROR(linearized(f, VectorXd::Constant(2, kNan), u), "state x: number 0: found nan");
   EXPECT_REX_ERROR(linearized(f, x, VectorXd::Constant(1, kNan)), "control u: number 0: found nan");
   const auto longer = [](const VectorXd&, const VectorXd&) { return VectorXd(VectorXd::Zero(3)); };

@@ -1,5 +1,7 @@
 #include "control/lq_tracking.h"
 
+#include <cmath>
+
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
@@ -125,6 +127,24 @@ TEST(TrackingStages, FollowThePath) {
   }
 }
 
+// x^T Q x does not tell Q from its symmetric part.
+TEST(SolveLq, TakesSymmetricParts) {
+  Rng rng(33);
+  const LqStage given = randomStage(rng);
+  const auto skewed = [&](const MatrixXd& M) -> MatrixXd {
+    const MatrixXd S = randomMatrix(static_cast<int>(M.rows()), static_cast<int>(M.rows()), rng);
+    return M + S - S.transpose();
+  };
+  LqStage other = given;
+  other.Q = skewed(given.Q), other.R = skewed(given.R);
+  const MatrixXd F = MatrixXd::Identity(3, 3);
+  const VectorXd f = rng.normalVector(3);
+  const LqPolicy wanted = solveLq({given, given}, F, f, 2), found = solveLq({other, other}, skewed(F), f, 2);
+  EXPECT_LT((found.K[0] - wanted.K[0]).norm() + (found.k[0] - wanted.k[0]).norm(), 1e-12);
+  EXPECT_LT((found.P[0] - wanted.P[0]).norm() + (found.p[0] - wanted.p[0]).norm(),
+            1e-12 * wanted.P[0].norm());
+}
+
 TEST(SolveLq, SaysWhatIsWrong) {
   const MatrixXd one = MatrixXd::Identity(1, 1), two = MatrixXd::Identity(2, 2);
   const VectorXd none;
@@ -146,6 +166,13 @@ TEST(SolveLq, SaysWhatIsWrong) {
   expect([&](LqStage& s) { s.S = two; }, "rows of S of stage 1");
   expect([&](LqStage& s) { s.q = VectorXd::Zero(2); }, "rows of q of stage 1");
   expect([&](LqStage& s) { s.r = VectorXd::Zero(2); }, "rows of r of stage 1");
+  expect([&](LqStage& s) { s.A *= NAN; }, "matrix A of stage 1: found entries that are not finite");
+  expect([&](LqStage& s) { s.B *= NAN; }, "matrix B of stage 1: found entries that are not finite");
+  expect([&](LqStage& s) { s.R *= NAN; }, "matrix R of stage 1: found entries that are not finite");
+  EXPECT_REX_ERROR(solveLq({good}, NAN * one, none), "matrix F: found entries that are not finite");
+  EXPECT_REX_ERROR(solveLq({good}, one, none, -1), "damping of a linear quadratic problem: found -1");
+  EXPECT_REX_ERROR(trackingStages(two, two, MatrixXd::Identity(3, 3), two, MatrixXd::Zero(2, 3)),
+                   "columns of Q: found a vector of size 3, wanted size 2");
   EXPECT_REX_ERROR(trackingStages(one, one, one, one, MatrixXd::Zero(2, 3)),
                    "rows of the path: found a vector of size 2");
   const LqPolicy failed = solveLq({good, {.A = one, .B = one, .R = -one}}, 0 * one, none);

@@ -152,6 +152,9 @@ TEST(CheckLyapunov, SaysWhatIsWrong) {
   expect([](auto&, auto&, auto& D, int&) { D.low[0] = 0.5; },
          "equilibrium: found (0, 0), wanted a point inside (0.5, -1) to (1, 1)");
   expect([](auto&, auto&, auto&, int& samples) { samples = 0; }, "samples: found 0, wanted 1 or more");
+  expect([](auto& f, auto&, auto&, int&) { f = nullptr; }, "motion: found no function f");
+  expect([](auto& f, auto&, auto&, int&) { f = [](const VectorXd&) { return VectorXd(); }; },
+         "velocity f(x): found a vector of size 0, wanted size 2");
   expect([](auto& f, auto&, auto&, int&) { f = [](const VectorXd& x) { return VectorXd(x.array() + 1); }; },
          "equilibrium: found a velocity or a V that is not zero");
   expect(
@@ -171,6 +174,7 @@ TEST(CheckLyapunov, SaysWhatIsWrong) {
   const MatrixXd I = MatrixXd::Identity(2, 2), one = MatrixXd::Identity(1, 1);
   MatrixXd skewed = I;
   skewed(0, 1) = 1;
+  EXPECT_REX_ERROR(certifyQuadratic(MatrixXd(0, 0), MatrixXd(0, 0)), "matrix A: found no rows");
   EXPECT_REX_ERROR(certifyQuadratic(MatrixXd::Zero(2, 3), I), "columns of A: found a vector of size 3");
   EXPECT_REX_ERROR(certifyQuadratic(I, one), "rows of P: found a vector of size 1");
   EXPECT_REX_ERROR(certifyQuadratic(I, MatrixXd::Zero(2, 3)), "columns of P: found a vector of size 3");

@@ -222,6 +222,10 @@ TEST(RestAt, HoldsTheTarget) {
   EXPECT_TRUE(held.isExact);
   EXPECT_LT((steps.A * held.x + steps.B * held.u - held.x).norm(), 1e-12);
   EXPECT_FALSE(restAt(pointMass(1), Eigen::Vector2d(1, 1)).isExact) << "nothing rests while it moves";
+  LinearSystem stiff{.A = MatrixXd::Zero(3, 3), .B = MatrixXd::Zero(3, 1)};
+  stiff.A.topLeftCorner(2, 2) = pointMass(1).A;
+  stiff.A(2, 2) = -1e10, stiff.B(1, 0) = 1;
+  EXPECT_FALSE(restAt(stiff, Eigen::Vector3d(1, 1, 0)).isExact) << "nor beside a fast mode";
   EXPECT_REX_ERROR(restAt(system, VectorXd::Zero(2)), "target y: found a vector of size 2, wanted size 1");
   EXPECT_REX_ERROR(restAt(system, VectorXd::Constant(1, NAN)), "target y: number 0: found nan");
 }

@@ -69,6 +69,18 @@ TEST(FrequencyResponse, HasTheTransferFunction) {
   EXPECT_NEAR(falling.phases.back(), -4 * std::atan(100.) * 180 / kPi, 1e-9);
 }
 
+// 1 / (s^2 / w^2 + 1) has a pole at w alone, however fast that is.
+TEST(FrequencyResponse, TakesFastModes) {
+  for (const double w : {1e6, 1e9, 1e20}) {
+    LinearSystem fast = oscillator(0);
+    fast.A(1, 0) = -w * w;
+    fast.B(1, 0) = w * w;
+    EXPECT_LT(std::abs(frequencyResponse(fast, 0, 0, {1}).values[0] - 1.), 1e-11) << w;
+    EXPECT_LT(std::abs(frequencyResponse(fast, 0, 0, {2 * w}).values[0] + 1. / 3), 1e-11) << w;
+    EXPECT_REX_ERROR(frequencyResponse(fast, 0, 0, {w}), "frequency response: found a pole at the frequency");
+  }
+}
+
 // The response to a sine, simulated until it has settled.
 TEST(FrequencyResponse, OfStepsIsWhatASineBecomes) {
   const double h = 0.2, w = 1.3;

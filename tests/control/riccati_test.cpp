@@ -217,9 +217,140 @@ TEST(Riccati, TakesStiffAndLargeProblems) {
   EXPECT_EQ(solveDare(one, h * one, .01 * h * one, h * one).status, RiccatiStatus::kSolved);
   for (const double q : {1e80, 1e155, 1e200}) {
     const RiccatiResult result = solveCare(one, one, q * one, one);
-    if (result.status != RiccatiStatus::kSolved) continue;
+    ASSERT_EQ(result.status, RiccatiStatus::kSolved) << result.message;
     EXPECT_NEAR(result.K(0, 0) / (1 + std::sqrt(1 + q)), 1, 1e-12);
   }
+}
+
+// Slow modes that decay by themselves need no control and no cost, however fast the others are.
+TEST(Riccati, LeavesSlowModesAlone) {
+  const Eigen::Matrix2d I = Eigen::Matrix2d::Identity();
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(1, 1);
+  for (const auto& [slow, fast] : {std::pair{1., 1e8}, {1e-8, 1.}}) {
+    const Eigen::Matrix2d A = -Eigen::Vector2d(slow, fast).asDiagonal().toDenseMatrix();
+    const RiccatiResult unmoved = solveCare(A, Eigen::Vector2d(0, 1), I, one);
+    ASSERT_EQ(unmoved.status, RiccatiStatus::kSolved) << unmoved.message;
+    EXPECT_NEAR(unmoved.X(0, 0) * 2 * slow, 1, 1e-12) << "what the mode costs while it decays";
+    EXPECT_EQ(solveCare(A, I, Eigen::Vector2d(0, 1).asDiagonal().toDenseMatrix(), I).status,
+              RiccatiStatus::kSolved);
+  }
+  const Eigen::Matrix2d steps = Eigen::Vector2d(1 - 1e-8, 0.5).asDiagonal();
+  EXPECT_EQ(solveDare(steps, Eigen::Vector2d(0, 1), I, one).status, RiccatiStatus::kSolved);
+}
+
+// One state: X^2 - 2 a X - q = 0 has the root a + sqrt(a^2 + q).
+TEST(Riccati, TellsTheLimitFromASolution) {
+  const auto solve = [](double a, double q) {
+    return solveCare(Eigen::MatrixXd::Constant(1, 1, a), Eigen::MatrixXd::Ones(1, 1),
+                     Eigen::MatrixXd::Constant(1, 1, q), Eigen::MatrixXd::Ones(1, 1));
+  };
+  const RiccatiResult idle = solve(0, 0);
+  EXPECT_EQ(idle.status, RiccatiStatus::kNotDetectable) << idle.message;
+  EXPECT_EQ(idle.mode, std::complex<double>(0));
+  const RiccatiResult limit = solve(1, -1);
+  EXPECT_EQ(limit.status, RiccatiStatus::kOnBoundary) << limit.message;
+  EXPECT_NEAR(limit.X(0, 0), 1, 1e-6);
+  EXPECT_EQ(solve(1, -1.01).status, RiccatiStatus::kFailed);
+  const RiccatiResult inside = solve(1, -0.99);
+  EXPECT_EQ(inside.status, RiccatiStatus::kSolved) << inside.message;
+  EXPECT_NEAR(inside.X(0, 0), 1.1, 1e-13);
+}
+
+// A mode that grows unseen is stopped, and named: doing nothing would cost less.
+TEST(Riccati, NamesWhatGrowsUnseen) {
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(1, 1);
+  const RiccatiResult care = solveCare(one, one, 0 * one, one), dare = solveDare(2 * one, one, 0 * one, one);
+  EXPECT_EQ(care.status, RiccatiStatus::kSolved);
+  EXPECT_NEAR(care.X(0, 0), 2, 1e-14);
+  EXPECT_THAT(care.message,
+              HasSubstr("not detectable: the cost does not see the growing mode of eigenvalue 1"));
+  EXPECT_EQ(care.mode, std::complex<double>(1));
+  EXPECT_EQ(dare.status, RiccatiStatus::kSolved);
+  EXPECT_NEAR(dare.X(0, 0), 3, 1e-14);
+  EXPECT_EQ(dare.mode, std::complex<double>(2));
+  EXPECT_FALSE(solveCare(-one, one, 0 * one, one).mode.has_value()) << "it decays";
+}
+
+// Other units of time, controls and cost give the same solution in those units.
+TEST(Riccati, DoesNotDependOnUnits) {
+  Eigen::Matrix2d A = Eigen::Matrix2d::Zero(), I = Eigen::Matrix2d::Identity();
+  A(0, 1) = 1;
+  const Eigen::Vector2d b(0, 1);
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(1, 1);
+  const double root = std::sqrt(3.);
+  Eigen::Matrix2d X;
+  X << root, 1, 1, root;
+  for (const double unit : {1e-300, 1e-150, 1e-20, 1., 1e20, 1e150, 1e300}) {
+    const RiccatiResult time = solveCare(unit * A, unit * b, unit * I, unit * one);
+    ASSERT_EQ(time.status, RiccatiStatus::kSolved) << unit << time.message;
+    EXPECT_LT((time.X - X).norm(), 1e-13) << unit;
+    EXPECT_NEAR(time.closedLoop[0].real() / unit, -root / 2, 1e-13);
+    const RiccatiResult cost = solveCare(A, b, unit * I, unit * one);
+    ASSERT_EQ(cost.status, RiccatiStatus::kSolved) << unit << cost.message;
+    EXPECT_LT((cost.X / unit - X).norm(), 1e-13) << unit;
+    EXPECT_LT((cost.K - Eigen::RowVector2d(1, root)).norm(), 1e-13) << unit;
+    const RiccatiResult steps = solveDare(I + A, b, unit * I, unit * one), same = solveDare(I + A, b, I, one);
+    ASSERT_EQ(steps.status, RiccatiStatus::kSolved) << unit << steps.message;
+    EXPECT_LT((steps.X / unit - same.X).norm(), 1e-12) << unit;
+    EXPECT_LT((steps.K - same.K).norm(), 1e-12) << unit;
+  }
+  const RiccatiResult control = solveCare(A, 1e-100 * b, I, 1e-200 * one);
+  ASSERT_EQ(control.status, RiccatiStatus::kSolved) << control.message;
+  EXPECT_LT((control.K / 1e100 - Eigen::RowVector2d(1, root)).norm(), 1e-13);
+  // What cannot be told apart from no control is not called solved.
+  EXPECT_NE(solveCare(A, 1e-150 * b, I, one).status, RiccatiStatus::kSolved);
+}
+
+TEST(Riccati, HasNoXBeyondTheLargestDouble) {
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(1, 1);
+  const RiccatiResult huge = solveCare(one, 1e-200 * one, one, one);  // X = 2e400
+  EXPECT_EQ(huge.status, RiccatiStatus::kFailed);
+  EXPECT_EQ(huge.X.size(), 0);
+}
+
+// Nothing costs and all ends by itself: X is zero.
+TEST(Riccati, HasNoCostWithoutQ) {
+  const Eigen::Matrix2d A = (Eigen::Matrix2d() << 1, -1, 1, -1).finished(), I = Eigen::Matrix2d::Identity();
+  const RiccatiResult steps = solveDare(A, I, 0 * I, I), decay = solveCare(A - I, I, 0 * I, I);
+  EXPECT_EQ(steps.status, RiccatiStatus::kSolved) << steps.message;
+  EXPECT_EQ(decay.status, RiccatiStatus::kSolved) << decay.message;
+  EXPECT_EQ(steps.X.norm() + decay.X.norm(), 0);
+}
+
+// DARE needs R + B^T X B, not R.
+TEST(Riccati, TakesASingularWeightInSteps) {
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(1, 1), half = 0.5 * one,
+                        pair = Eigen::MatrixXd::Ones(1, 2);
+  const RiccatiResult free = solveDare(half, one, one, 0 * one);
+  ASSERT_EQ(free.status, RiccatiStatus::kSolved) << free.message;
+  EXPECT_NEAR(free.X(0, 0), 1, 1e-15);
+  EXPECT_NEAR(free.K(0, 0), 0.5, 1e-15) << "to zero at once";
+  const char* idle = "R + B^T X B is singular for every X, a control neither moves nor costs anything";
+  EXPECT_THAT(solveDare(half, 0 * one, one, 0 * one).message, HasSubstr(idle));
+  EXPECT_THAT(solveDare(half, pair, one, Eigen::Matrix2d::Zero()).message, HasSubstr(idle));
+  EXPECT_THAT(solveDare(half, pair, one, Eigen::Matrix2d::Ones()).message, HasSubstr(idle));
+  // Q has rank one, so that X has, and of two controls one is not needed.
+  const Eigen::Matrix3d A = (Eigen::Matrix3d() << -1, 0, 0, -1, 0, -1, -1, 1, 1).finished();
+  const Eigen::MatrixXd B = (Eigen::MatrixXd(3, 2) << 1, 1, 1, -1, -1, 1).finished();
+  const RiccatiResult twofold = solveDare(A, B, Eigen::Matrix3d::Ones(), Eigen::Matrix2d::Zero());
+  EXPECT_EQ(twofold.status, RiccatiStatus::kFailed);
+  EXPECT_THAT(twofold.message, HasSubstr("no solution: R + B^T X B is singular"));
+  const RiccatiResult nothing = solveDare(half, one, 0 * one, 0 * one);
+  EXPECT_EQ(nothing.status, RiccatiStatus::kFailed);
+  EXPECT_THAT(nothing.message, HasSubstr("no solution: R + B^T X B is singular"));
+}
+
+// Also where rounding has left a positive pivot; units do not make it singular.
+TEST(Riccati, RefusesAWeightThatIsSingularToRounding) {
+  Rng rng(47);
+  for (int round = 0; round < 50; ++round) {
+    const int m = 2 + rng.index(3);
+    const Eigen::VectorXd v = rng.normalVector(m);
+    const Eigen::MatrixXd A = randomMatrix(3, 3, rng), B = randomMatrix(3, m, rng), R = v * v.transpose();
+    EXPECT_REX_ERROR(solveCare(A, B, Eigen::Matrix3d::Identity(), R), "wanted a positive definite matrix");
+  }
+  const Eigen::Matrix2d I = Eigen::Matrix2d::Identity(), units = Eigen::Vector2d(1, 1e-20).asDiagonal();
+  EXPECT_EQ(solveCare(-I, units, I, units * units).status, RiccatiStatus::kSolved);
 }
 
 TEST(Riccati, SaysWhatIsWrong) {
@@ -249,6 +380,7 @@ TEST(Riccati, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(solveLyapunov(I, one), "rows of Q: found a vector of size 1, wanted size 2");
   EXPECT_REX_ERROR(solveLyapunov(-I, skewed), "matrix Q: found a matrix that is not symmetric");
   EXPECT_NO_THROW((void)solveLyapunov(Eigen::Vector2d(-1, -1e16).asDiagonal().toDenseMatrix(), I));
+  EXPECT_REX_ERROR(solveLyapunov(Eigen::MatrixXd(0, 0), Eigen::MatrixXd(0, 0)), "matrix A: found no rows");
   EXPECT_REX_ERROR(solveLyapunov(I * INFINITY, I), "matrix A: found entries that are not finite");
   EXPECT_REX_ERROR(solveLyapunov(I, I * INFINITY), "matrix Q: found entries that are not finite");
 }

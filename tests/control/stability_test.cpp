@@ -72,6 +72,28 @@ TEST(Stability, NeedsAsManyEigenvectorsAsEigenvalues) {
   }
 }
 
+// Equal eigenvalues beside a fast one: not near the axis, however far rounding may scatter them.
+TEST(Stability, OfCriticalDampingBesideAFastMode) {
+  for (const double fast : {1e3, 1e6, 1e9}) {
+    MatrixXd A = MatrixXd::Zero(3, 3);
+    A.topLeftCorner(2, 2) = two(-1, 1, 0, -1);
+    A(2, 2) = -fast;
+    EXPECT_EQ(stabilityOf(A).stability, Stability::kAsymptotic) << stabilityOf(A).message;
+    A(0, 0) = A(1, 1) = 1;
+    EXPECT_EQ(stabilityOf(A).stability, Stability::kUnstable);
+    EXPECT_THAT(stabilityOf(A).message, HasSubstr("unstable: the mode of eigenvalue 1 grows"));
+  }
+}
+
+TEST(Stability, DoesNotDependOnTheUnitOfTime) {
+  for (const double unit : {1e-300, 1e-155, 1., 1e155, 1e300}) {
+    EXPECT_EQ(stabilityOf(unit * two(-1, 1, 0, -1)).stability, Stability::kAsymptotic) << unit;
+    EXPECT_EQ(stabilityOf(unit * two(1, 1, 0, -1)).stability, Stability::kUnstable) << unit;
+    EXPECT_EQ(stabilityOf(unit * two(0, 1, -1, 0)).stability, Stability::kMarginal) << unit;
+    EXPECT_EQ(stabilityOf(unit * two(0, 1, 0, 0)).stability, Stability::kUnstable) << unit;
+  }
+}
+
 // Weak damping is damping.
 TEST(Stability, TellsSlowDecayFromNone) {
   for (const double damping : {1e-6, 1e-9, 1e-12}) {
