@@ -3,7 +3,6 @@
 #include <numbers>
 #include <string>
 
-#include "control/cart_pole_rollouts.h"
 #include "control/gain_search.h"
 #include "control/regulators.h"
 #include "course/cart_pole.h"
@@ -122,10 +121,20 @@ constexpr double kTau = 1. / 60;
 // c = rho = 1.
 Costs sheetCosts() { return {Eigen::Vector4d(1, 0, 1, 0).asDiagonal(), Eigen::MatrixXd::Identity(1, 1)}; }
 
-std::vector<double> numbers(const Eigen::VectorXd& values) { return {values.begin(), values.end()}; }
+// A number of the state over time.
+Series overTime(const std::string& label, const Eigen::MatrixXd& states, int row) {
+  Series series{.label = label};
+  for (Eigen::Index t = 0; t < states.cols(); ++t) {
+    series.x.push_back(kTau * static_cast<double>(t));
+    series.y.push_back(states(row, t));
+  }
+  return series;
+}
 
-std::vector<double> timesOf(const Eigen::MatrixXd& states) {
-  return numbers(kTau * Eigen::VectorXd::LinSpaced(states.cols(), 0, static_cast<double>(states.cols() - 1)));
+double forceOf(const Eigen::MatrixXd& K, const Eigen::Vector4d& x) {
+  double u = 0;
+  for (int i = 0; i < 4; ++i) u += K(0, i) * x[i];
+  return u;
 }
 
 Eigen::MatrixXd withoutNoise(const Eigen::MatrixXd& K, const Eigen::Vector4d& start, double seconds) {
@@ -145,10 +154,12 @@ void showOutings(const Eigen::MatrixXd& K) {
   for (const double angle : {.2, .5, .8, 1., 1.1}) {
     const Eigen::MatrixXd states = withoutNoise(K, {0, 0, angle, 0}, 12);
     const std::string label = "from " + std::to_string(angle).substr(0, 3);
-    const std::vector<double> times = timesOf(states);
-    theta.series.push_back({.label = label, .x = times, .y = numbers(states.row(2))});
-    position.series.push_back({.label = label, .x = times, .y = numbers(states.row(0))});
-    force.series.push_back({.label = label, .x = times, .y = numbers((K * states).row(0))});
+    theta.series.push_back(overTime(label, states, 2));
+    position.series.push_back(overTime(label, states, 0));
+    Series forces = overTime(label, states, 0);
+    for (Eigen::Index t = 0; t < states.cols(); ++t)
+      forces.y[static_cast<std::size_t>(t)] = forceOf(K, states.col(t));
+    force.series.push_back(forces);
   }
   plot("theta", theta);
   plot("position", position);
@@ -187,9 +198,13 @@ void showSurvival(const Eigen::MatrixXd& K, const Eigen::MatrixXd& printed) {
   plot("survival", figure);
 }
 
-Series polesOf(const std::string& label, const Eigen::MatrixXd& A, Marker marker) {
+// Of x' = (A + B K) x.
+Series polesOf(const std::string& label, const Plant& plant, const Eigen::MatrixXd& K, Marker marker) {
+  Eigen::MatrixXd closed = plant.A;
+  for (int i = 0; i < 4; ++i)
+    for (int k = 0; k < 4; ++k) closed(i, k) += plant.B(i, 0) * K(0, k);
   Series series{.label = label, .style = SeriesStyle::kPoints, .marker = marker, .size = 2};
-  for (const std::complex<double>& pole : eigenvalues(A)) {
+  for (const std::complex<double>& pole : eigenvalues(closed)) {
     series.x.push_back(pole.real());
     series.y.push_back(pole.imag());
   }
@@ -205,10 +220,10 @@ void showPoles(const Plant& real, const Eigen::MatrixXd& K, const Eigen::MatrixX
                 .yRange = AxisRange{-4, 4},
                 .legend = Legend::kOutside};
   figure.regions = {{.label = "stable", .x = {-6, 0, 0, -6}, .y = {-4, -4, 4, 4}}};
-  figure.series = {polesOf("without control", real.A, Marker::kCross),
-                   polesOf("your K", real.A + real.B * K, Marker::kCircle),
-                   polesOf("K of the sheet", real.A + real.B * printed, Marker::kPlus),
-                   polesOf("your quick K", real.A + real.B * quick, Marker::kSquare)};
+  figure.series = {polesOf("without control", real, Eigen::MatrixXd::Zero(1, 4), Marker::kCross),
+                   polesOf("your K", real, K, Marker::kCircle),
+                   polesOf("K of the sheet", real, printed, Marker::kPlus),
+                   polesOf("your quick K", real, quick, Marker::kSquare)};
   plot("poles", figure);
 }
 
@@ -218,24 +233,26 @@ void showQuick(const Eigen::MatrixXd& K, const Eigen::MatrixXd& quick) {
                 .yLabel = "theta [rad], p [m]"};
   for (const Eigen::MatrixXd* gains : {&K, &quick}) {
     const Eigen::MatrixXd states = withoutNoise(*gains, {0, 0, .2, 0}, 10);
-    const std::string name = gains == &K ? ", optimal" : ", quick";
-    const Color color = gains == &K ? Color{.1, .4, .7} : Color{.85, .4, .1};
-    for (const int row : {0, 2})
-      figure.series.push_back({.label = (row == 0 ? "p" : "theta") + name,
-                               .x = timesOf(states),
-                               .y = numbers(states.row(row)),
-                               .dashed = row == 0,
-                               .color = color});
+    for (const int row : {0, 2}) {
+      Series series = overTime(row == 0 ? "p" : "theta", states, row);
+      series.label += gains == &K ? ", optimal" : ", quick";
+      series.dashed = row == 0;
+      series.color = gains == &K ? Color{.1, .4, .7} : Color{.85, .4, .1};
+      figure.series.push_back(series);
+    }
   }
   plot("quick", figure);
 }
 
+// In discrete time, by steps of Euler.
 void showHorizon(const Plant& real, const Eigen::MatrixXd& optimal) {
   constexpr int kSteps = 480;
-  const Plant steps{Eigen::MatrixXd::Identity(4, 4) + kTau * real.A, kTau * real.B};
-  const Costs costs{kTau * sheetCosts().Q, kTau * sheetCosts().R};
+  Plant steps = real;
+  Costs costs = sheetCosts();
+  for (Eigen::MatrixXd* matrix : {&steps.A, &steps.B, &costs.Q, &costs.R}) *matrix *= kTau;
+  for (int i = 0; i < 4; ++i) steps.A(i, i) += 1;
   const std::vector<Eigen::MatrixXd> K = gainsOverTime(steps, costs, Eigen::MatrixXd::Zero(4, 4), kSteps);
-  Figure figure{.title = "Gains of a horizon of 8 s (dashed: without an end)",
+  Figure figure{.title = "Gains of a horizon of 8 s (dashed: continuous time without an end)",
                 .xLabel = "time [s]",
                 .yLabel = "gain",
                 .legend = Legend::kOutside};
@@ -267,35 +284,42 @@ Series edgeOf(const std::string& label, const std::function<bool(double theta, d
   return series;
 }
 
-// What V proves, what it could prove at best, and how it is, for a cart that rests at p = 0.
+// The starts with p = p' = 0 for which x^T P x is at most the level.
+CovarianceEllipse sectionOf(const Eigen::MatrixXd& P, double level) {
+  const double a = P(2, 2), b = P(2, 3), c = P(3, 3), D = a * c - b * b;
+  CovarianceEllipse section{.label = "proved", .mean = {0, 0}, .sigmas = std::sqrt(level)};
+  section.covariance << c / D, -b / D, -b / D, a / D;
+  return section;
+}
+
+// What V proves, what it could prove at best, and how it is.
 void showRegion(const Plant& real) {
   const Costs costs{Eigen::Vector4d(1, .1, 1, .1).asDiagonal(), Eigen::MatrixXd::Identity(1, 1)};
   const Eigen::MatrixXd P = viaHamiltonian(real, costs), K = gainOf(real, costs, P);
-  const Flow f = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
-    return rateOf(kCart, x, K.row(0).dot(x));
+  const Flow f = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return rateOf(kCart, x, forceOf(K, x)); };
+  const auto falls = [&](double theta, double rate) {
+    return withoutNoise(K, {0, 0, theta, rate}, 10).cols() < 600;
   };
-  Eigen::VectorXd high = Eigen::Vector4d(8, 6, 1.5, 3);
-  Rng rng(1);
-  for (int i = 0; i < 40 && counterexample(f, P, high, rng); ++i) high *= .9;
-  print("box in which V falls", high.transpose());
-  Figure figure{.title = "Starts from which the pole comes back (p = p' = 0)",
+  const auto rises = [&](double theta, double rate) {
+    const Eigen::VectorXd moves = f(Eigen::Vector4d(0, 0, theta, rate));
+    double slope = 0;
+    for (int i = 0; i < 4; ++i) slope += (theta * P(2, i) + rate * P(3, i)) * moves[i];
+    return slope >= 0;
+  };
+  Figure figure{.title = "Starts with p = p' = 0",
                 .xLabel = "theta [rad]",
                 .yLabel = "theta' [rad/s]",
                 .legend = Legend::kOutside};
-  figure.series = {edgeOf("it falls from here on",
-                          [&](double theta, double rate) {
-                            return withoutNoise(K, {0, 0, theta, rate}, 10).cols() < 601;
-                          }),
-                   edgeOf("V' = 0", [&](double theta, double rate) {
-                     const Eigen::Vector4d x(0, 0, theta, rate);
-                     return x.dot(P * f(x)) >= 0;
-                   })};
-  const Eigen::Matrix2d block = P.bottomRightCorner(2, 2);
-  const double level = block.determinant() > 0 ? levelInside(P, high) : 0;
+  figure.series = {edgeOf("falls from here on", falls), edgeOf("V rises from here on", rises)};
+  if (P.isZero()) return plot("region", figure);
+
+  Eigen::VectorXd high = Eigen::Vector4d(8, 6, 1.5, 3);
+  Rng rng(1);
+  for (int i = 0; i < 40 && counterexample(f, P, high, rng); ++i) high *= .9;
+  const double level = levelInside(P, high);
+  print("box in which V falls", high.transpose());
   print("level in that box", level);
-  if (level > 0)
-    figure.ellipses = {
-        {.label = "proved", .mean = {0, 0}, .covariance = inverse(block), .sigmas = std::sqrt(level)}};
+  if (level > 0) figure.ellipses = {sectionOf(P, level)};
   plot("region", figure);
 }
 
@@ -303,11 +327,12 @@ void showRegion(const Plant& real) {
 
 int main() {
   const Plant mine = linearised(kCart);
+  CartPole pole(0, {.noise = 0});
+  const LinearizedPlant exact = pole.getLinearization();
   print("A", mine.A);
-  print("B", mine.B);
-  const CartPole library(0, {.noise = 0});
-  const LinearizedPlant exact = library.getLinearization();
-  print("largest error of A", (mine.A - exact.A).cwiseAbs().maxCoeff());
+  print("A of the library", exact.A);
+  print("B", mine.B.transpose());
+  print("B of the library", exact.B.transpose());
 
   const Plant real{exact.A, exact.B};
   const Costs costs = sheetCosts();
@@ -323,13 +348,15 @@ int main() {
   print("slowest pole with your K [1/s]", slowestPole(real, K));
 
   Rng rng(2);
-  const double bound = optimal.cwiseAbs().maxCoeff();
-  const Eigen::MatrixXd quick = quickGains(
-      [&](const Eigen::MatrixXd& gains) { return eigenvalues(real.A + real.B * gains).real().maxCoeff(); },
-      optimal, bound, rng);
-  const GainSearchResult best = fastestGains({.A = real.A, .B = real.B}, -optimal, {.bound = bound});
+  const double bound = optimal.maxCoeff();  // all of them are positive
+  const auto slowest = [&](const Eigen::MatrixXd& gains) {
+    const Series poles = polesOf("", real, gains, Marker::kAuto);
+    return *std::max_element(poles.x.begin(), poles.x.end());
+  };
+  const Eigen::MatrixXd quick = quickGains(slowest, optimal, bound, rng);
   print("slowest pole with your quick K [1/s]", slowestPole(real, quick));
-  print("slowest pole with the library's [1/s]", best.rate);
+  print("slowest pole with the library's [1/s]",
+        fastestGains({.A = exact.A, .B = exact.B}, -optimal, {.bound = bound}).rate);
 
   showOutings(K);
   showSurvival(K, printed);
@@ -340,17 +367,19 @@ int main() {
 
   // Your simulation beside the library's, and a film of one with noise.
   Eigen::MatrixXd states = withoutNoise(K, {0, 0, .8, 0}, 8);
-  CartPole pole(0, {.noise = 0});
   pole.x = Eigen::Vector4d(0, 0, .8, 0);
   double apart = 0;
-  for (const auto& x : states.colwise()) {
-    apart = std::max(apart, (pole.x - x).norm());
-    pole.step(K.row(0).dot(pole.x));
+  for (Eigen::Index t = 0; t < states.cols(); ++t) {
+    const Eigen::Vector4d x = states.col(t);
+    for (int i = 0; i < 4; ++i) apart = std::max(apart, std::abs(pole.x[i] - x[i]));
+    pole.step(forceOf(K, x));
   }
   print("largest distance from the library's simulation", apart);
   states = balanced(kCart, K, {0, 0, .8, 0}, {.steps = 600}, rng);
   std::vector<CartPoleView> views;
-  for (const auto& x : states.colwise())
-    views.push_back({.x = x, .u = K.row(0).dot(x), .caption = "u = K x, noise 0.1"});
+  for (Eigen::Index t = 0; t < states.cols(); ++t) {
+    const Eigen::Vector4d x = states.col(t);
+    views.push_back({.x = x, .u = forceOf(K, x), .caption = "u = K x, noise 0.1"});
+  }
   writeFilm(views, "balanced");
 }

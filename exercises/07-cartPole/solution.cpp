@@ -3,7 +3,6 @@
 #include <numbers>
 #include <string>
 
-#include "control/cart_pole_rollouts.h"
 #include "control/gain_search.h"
 #include "control/regulators.h"
 #include "course/cart_pole.h"
@@ -50,9 +49,10 @@ std::optional<Eigen::MatrixXd> iterated(const Plant& plant, const Costs& costs, 
                                         double tolerance, int most) {
   // <solution iterated>
   const Eigen::MatrixXd S = plant.B * solve(costs.R, plant.B.transpose());
-  Eigen::MatrixXd P = costs.Q, bracket;
+  Eigen::MatrixXd P = costs.Q;
   for (int k = 0; k <= most; ++k) {
-    bracket = plant.A.transpose() * P + P * plant.A - P * S * P + costs.Q;
+    const Eigen::MatrixXd PA = P * plant.A, PS = P * S, PSP = PS * P;
+    const Eigen::MatrixXd bracket = PA + PA.transpose() - PSP + costs.Q;
     if (bracket.cwiseAbs().maxCoeff() <= tolerance) return P;
     P += epsilon * bracket;
   }
@@ -67,16 +67,16 @@ std::optional<Eigen::MatrixXd> iterated(const Plant& plant, const Costs& costs, 
 Eigen::MatrixXd viaHamiltonian(const Plant& plant, const Costs& costs) {
   // <solution viaHamiltonian>
   const Eigen::Index n = plant.A.rows();
-  const Eigen::MatrixXd& A = plant.A;
   const Eigen::MatrixXd S = plant.B * solve(costs.R, plant.B.transpose());
   Eigen::MatrixXd Z(2 * n, 2 * n);
-  Z << A, -S, -costs.Q, -A.transpose();
+  Z << plant.A, -S, -costs.Q, -plant.A.transpose();
   // The sign of Z, by Newton: its stable eigenvalues become -1, the others 1.
-  for (int k = 0; k < 60; ++k) Z = (.5 * (Z + inverse(Z))).eval();
+  for (int k = 0; k < 60; ++k) Z = .5 * (Z + inverse(Z));
   // (Z + I) (I; P) = 0, a tall system for P, column by column.
-  Z += Eigen::MatrixXd::Identity(2 * n, 2 * n);
+  Z.diagonal().array() += 1;
+  const Eigen::MatrixXd right = Z.rightCols(n);
   Eigen::MatrixXd P(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) P.col(i) = leastSquares(Z.rightCols(n), -Z.col(i));
+  for (Eigen::Index i = 0; i < n; ++i) P.col(i) = leastSquares(right, -Z.col(i));
   return .5 * (P + P.transpose());
   // <todo>
   //| // TODO: the Hamiltonian matrix (2 n x 2 n), its stable half, P.
@@ -87,7 +87,8 @@ Eigen::MatrixXd viaHamiltonian(const Plant& plant, const Costs& costs) {
 
 Eigen::MatrixXd gainOf(const Plant& plant, const Costs& costs, const Eigen::MatrixXd& P) {
   // <solution gainOf>
-  return -solve(costs.R, plant.B.transpose() * P);
+  const Eigen::MatrixXd transposed = plant.B.transpose();
+  return -solveMatrix(costs.R, transposed * P);
   // <todo>
   //| // TODO: 12.11.1 b. Mind the sign.
   //| notUsedYet(costs, P);
@@ -130,9 +131,11 @@ Eigen::MatrixXd balanced(const PoleCart& cart, const Eigen::MatrixXd& K, const E
 Eigen::MatrixXd reachMatrix(const Plant& plant) {
   // <solution reachMatrix>
   const Eigen::Index n = plant.A.rows(), m = plant.B.cols();
-  Eigen::MatrixXd C(n, n * m);
-  C.leftCols(m) = plant.B;
-  for (Eigen::Index k = 1; k < n; ++k) C.middleCols(k * m, m) = plant.A * C.middleCols((k - 1) * m, m);
+  Eigen::MatrixXd C(n, n * m), block = plant.B;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    C.middleCols(k * m, m) = block;
+    block = plant.A * block;
+  }
   return C;
   // <todo>
   //| // TODO: n blocks side by side. Each follows from the one before.
@@ -143,7 +146,9 @@ Eigen::MatrixXd reachMatrix(const Plant& plant) {
 int reachable(const Plant& plant) {
   // <solution reachable>
   const Eigen::VectorXd sizes = svd(reachMatrix(plant)).s;
-  return static_cast<int>((sizes.array() > 1e-9 * sizes[0]).count());
+  int rank = 0;
+  for (const double size : sizes) rank += size > 1e-9 * sizes[0];
+  return rank;
   // <todo>
   //| // TODO: the rank of reachMatrix(). svd() gives singular values.
   //| notUsedYet(plant);
@@ -153,7 +158,10 @@ int reachable(const Plant& plant) {
 
 double slowestPole(const Plant& plant, const Eigen::MatrixXd& K) {
   // <solution slowestPole>
-  return eigenvalues(plant.A + plant.B * K).real().maxCoeff();
+  const Eigen::MatrixXd BK = plant.B * K;
+  double slowest = -INFINITY;
+  for (const std::complex<double>& pole : eigenvalues(plant.A + BK)) slowest = std::max(slowest, pole.real());
+  return slowest;
   // <todo>
   //| // TODO: which matrix moves x if u = K x? eigenvalues() gives its poles.
   //| notUsedYet(plant, K);
@@ -164,20 +172,21 @@ double slowestPole(const Plant& plant, const Eigen::MatrixXd& K) {
 Fate fateOf(const Eigen::MatrixXd& A) {
   // <solution fateOf>
   const Eigen::VectorXcd poles = eigenvalues(A);
-  if (poles.real().maxCoeff() > 1e-5) return Fate::grows;
+  const Eigen::MatrixXd AA = A * A;
   Fate fate = Fate::dies;
   for (const std::complex<double>& pole : poles) {
+    if (pole.real() > 1e-5) return Fate::grows;
     if (pole.real() < -1e-5) continue;
-    fate = Fate::stays;
+    if (fate == Fate::dies) fate = Fate::stays;
     // Eigenvectors of i w and of -i w span the kernel of A^2 + w^2.
     const double w = std::abs(pole.imag());
-    Eigen::MatrixXd M = A;
-    if (w > 1e-4) M = A * A + w * w * Eigen::MatrixXd::Identity(A.rows(), A.rows());
-    int times = 0;
+    Eigen::MatrixXd M = w > 1e-4 ? AA : A;
+    if (w > 1e-4) M.diagonal().array() += w * w;
+    int times = 0, vectors = 0;
     for (const std::complex<double>& other : poles)
-      times += other.real() > -1e-5 && std::abs(std::abs(other.imag()) - w) < 1e-4;
-    const Eigen::VectorXd sizes = svd(M).s;
-    if ((sizes.array() < 1e-5).count() < times) return Fate::grows;
+      times += std::abs(other.real()) < 1e-5 && std::abs(std::abs(other.imag()) - w) < 1e-4;
+    for (const double size : svd(M).s) vectors += size < 1e-5;
+    if (vectors < times) fate = Fate::grows;
   }
   return fate;
   // <todo>
@@ -194,8 +203,8 @@ Eigen::MatrixXd quickGains(const std::function<double(const Eigen::MatrixXd&)>& 
   double rate = slowest(start), size = bound / 10;
   int failures = 0;
   for (int asked = 1; asked < 3000; ++asked) {
-    const Eigen::MatrixXd move = size * rng.normalVector(static_cast<int>(start.size())).transpose();
-    const Eigen::MatrixXd K = (best + move).cwiseMin(bound).cwiseMax(-bound);
+    Eigen::MatrixXd K = best;
+    for (double& k : K.reshaped()) k = std::clamp(k + size * rng.normal(), -bound, bound);
     const double found = slowest(K);
     if (found < rate) {
       best = K, rate = found, failures = 0, size *= 1.3;
@@ -240,7 +249,10 @@ std::optional<Eigen::VectorXd> counterexample(const Flow& f, const Eigen::Matrix
 
 double levelInside(const Eigen::MatrixXd& P, const Eigen::VectorXd& high) {
   // <solution levelInside>
-  return (high.array().square() / inverse(P).diagonal().array()).minCoeff();
+  const Eigen::MatrixXd inverseP = inverse(P);
+  double level = INFINITY;
+  for (Eigen::Index i = 0; i < high.size(); ++i) level = std::min(level, high[i] * high[i] / inverseP(i, i));
+  return level;
   // <todo>
   //| // TODO: where on the ellipsoid of level c is x_i largest?
   //| notUsedYet(P, high);
@@ -251,12 +263,14 @@ double levelInside(const Eigen::MatrixXd& P, const Eigen::VectorXd& high) {
 std::vector<Eigen::MatrixXd> gainsOverTime(const Plant& plant, const Costs& costs, const Eigen::MatrixXd& F,
                                            int steps) {
   // <solution gainsOverTime>
-  const Eigen::MatrixXd &A = plant.A, &B = plant.B;
+  const Eigen::MatrixXd At = plant.A.transpose(), Bt = plant.B.transpose();
   std::vector<Eigen::MatrixXd> K(static_cast<std::size_t>(steps));
   Eigen::MatrixXd P = F;
   for (auto k = K.rbegin(); k != K.rend(); ++k) {
-    *k = -solve(costs.R + B.transpose() * P * B, B.transpose() * P * A);
-    P = costs.Q + A.transpose() * P * (A + B * *k);
+    const Eigen::MatrixXd PA = P * plant.A, PB = P * plant.B, M = Bt * PB;
+    *k = -solveMatrix(costs.R + M, Bt * PA);
+    const Eigen::MatrixXd PBK = PB * *k, both = PA + PBK;
+    P = costs.Q + At * both;
   }
   return K;
   // <todo>
@@ -277,10 +291,20 @@ constexpr double kTau = 1. / 60;
 // c = rho = 1.
 Costs sheetCosts() { return {Eigen::Vector4d(1, 0, 1, 0).asDiagonal(), Eigen::MatrixXd::Identity(1, 1)}; }
 
-std::vector<double> numbers(const Eigen::VectorXd& values) { return {values.begin(), values.end()}; }
+// A number of the state over time.
+Series overTime(const std::string& label, const Eigen::MatrixXd& states, int row) {
+  Series series{.label = label};
+  for (Eigen::Index t = 0; t < states.cols(); ++t) {
+    series.x.push_back(kTau * static_cast<double>(t));
+    series.y.push_back(states(row, t));
+  }
+  return series;
+}
 
-std::vector<double> timesOf(const Eigen::MatrixXd& states) {
-  return numbers(kTau * Eigen::VectorXd::LinSpaced(states.cols(), 0, static_cast<double>(states.cols() - 1)));
+double forceOf(const Eigen::MatrixXd& K, const Eigen::Vector4d& x) {
+  double u = 0;
+  for (int i = 0; i < 4; ++i) u += K(0, i) * x[i];
+  return u;
 }
 
 Eigen::MatrixXd withoutNoise(const Eigen::MatrixXd& K, const Eigen::Vector4d& start, double seconds) {
@@ -300,10 +324,12 @@ void showOutings(const Eigen::MatrixXd& K) {
   for (const double angle : {.2, .5, .8, 1., 1.1}) {
     const Eigen::MatrixXd states = withoutNoise(K, {0, 0, angle, 0}, 12);
     const std::string label = "from " + std::to_string(angle).substr(0, 3);
-    const std::vector<double> times = timesOf(states);
-    theta.series.push_back({.label = label, .x = times, .y = numbers(states.row(2))});
-    position.series.push_back({.label = label, .x = times, .y = numbers(states.row(0))});
-    force.series.push_back({.label = label, .x = times, .y = numbers((K * states).row(0))});
+    theta.series.push_back(overTime(label, states, 2));
+    position.series.push_back(overTime(label, states, 0));
+    Series forces = overTime(label, states, 0);
+    for (Eigen::Index t = 0; t < states.cols(); ++t)
+      forces.y[static_cast<std::size_t>(t)] = forceOf(K, states.col(t));
+    force.series.push_back(forces);
   }
   plot("theta", theta);
   plot("position", position);
@@ -342,9 +368,13 @@ void showSurvival(const Eigen::MatrixXd& K, const Eigen::MatrixXd& printed) {
   plot("survival", figure);
 }
 
-Series polesOf(const std::string& label, const Eigen::MatrixXd& A, Marker marker) {
+// Of x' = (A + B K) x.
+Series polesOf(const std::string& label, const Plant& plant, const Eigen::MatrixXd& K, Marker marker) {
+  Eigen::MatrixXd closed = plant.A;
+  for (int i = 0; i < 4; ++i)
+    for (int k = 0; k < 4; ++k) closed(i, k) += plant.B(i, 0) * K(0, k);
   Series series{.label = label, .style = SeriesStyle::kPoints, .marker = marker, .size = 2};
-  for (const std::complex<double>& pole : eigenvalues(A)) {
+  for (const std::complex<double>& pole : eigenvalues(closed)) {
     series.x.push_back(pole.real());
     series.y.push_back(pole.imag());
   }
@@ -360,10 +390,10 @@ void showPoles(const Plant& real, const Eigen::MatrixXd& K, const Eigen::MatrixX
                 .yRange = AxisRange{-4, 4},
                 .legend = Legend::kOutside};
   figure.regions = {{.label = "stable", .x = {-6, 0, 0, -6}, .y = {-4, -4, 4, 4}}};
-  figure.series = {polesOf("without control", real.A, Marker::kCross),
-                   polesOf("your K", real.A + real.B * K, Marker::kCircle),
-                   polesOf("K of the sheet", real.A + real.B * printed, Marker::kPlus),
-                   polesOf("your quick K", real.A + real.B * quick, Marker::kSquare)};
+  figure.series = {polesOf("without control", real, Eigen::MatrixXd::Zero(1, 4), Marker::kCross),
+                   polesOf("your K", real, K, Marker::kCircle),
+                   polesOf("K of the sheet", real, printed, Marker::kPlus),
+                   polesOf("your quick K", real, quick, Marker::kSquare)};
   plot("poles", figure);
 }
 
@@ -373,24 +403,26 @@ void showQuick(const Eigen::MatrixXd& K, const Eigen::MatrixXd& quick) {
                 .yLabel = "theta [rad], p [m]"};
   for (const Eigen::MatrixXd* gains : {&K, &quick}) {
     const Eigen::MatrixXd states = withoutNoise(*gains, {0, 0, .2, 0}, 10);
-    const std::string name = gains == &K ? ", optimal" : ", quick";
-    const Color color = gains == &K ? Color{.1, .4, .7} : Color{.85, .4, .1};
-    for (const int row : {0, 2})
-      figure.series.push_back({.label = (row == 0 ? "p" : "theta") + name,
-                               .x = timesOf(states),
-                               .y = numbers(states.row(row)),
-                               .dashed = row == 0,
-                               .color = color});
+    for (const int row : {0, 2}) {
+      Series series = overTime(row == 0 ? "p" : "theta", states, row);
+      series.label += gains == &K ? ", optimal" : ", quick";
+      series.dashed = row == 0;
+      series.color = gains == &K ? Color{.1, .4, .7} : Color{.85, .4, .1};
+      figure.series.push_back(series);
+    }
   }
   plot("quick", figure);
 }
 
+// In discrete time, by steps of Euler.
 void showHorizon(const Plant& real, const Eigen::MatrixXd& optimal) {
   constexpr int kSteps = 480;
-  const Plant steps{Eigen::MatrixXd::Identity(4, 4) + kTau * real.A, kTau * real.B};
-  const Costs costs{kTau * sheetCosts().Q, kTau * sheetCosts().R};
+  Plant steps = real;
+  Costs costs = sheetCosts();
+  for (Eigen::MatrixXd* matrix : {&steps.A, &steps.B, &costs.Q, &costs.R}) *matrix *= kTau;
+  for (int i = 0; i < 4; ++i) steps.A(i, i) += 1;
   const std::vector<Eigen::MatrixXd> K = gainsOverTime(steps, costs, Eigen::MatrixXd::Zero(4, 4), kSteps);
-  Figure figure{.title = "Gains of a horizon of 8 s (dashed: without an end)",
+  Figure figure{.title = "Gains of a horizon of 8 s (dashed: continuous time without an end)",
                 .xLabel = "time [s]",
                 .yLabel = "gain",
                 .legend = Legend::kOutside};
@@ -422,35 +454,42 @@ Series edgeOf(const std::string& label, const std::function<bool(double theta, d
   return series;
 }
 
-// What V proves, what it could prove at best, and how it is, for a cart that rests at p = 0.
+// The starts with p = p' = 0 for which x^T P x is at most the level.
+CovarianceEllipse sectionOf(const Eigen::MatrixXd& P, double level) {
+  const double a = P(2, 2), b = P(2, 3), c = P(3, 3), D = a * c - b * b;
+  CovarianceEllipse section{.label = "proved", .mean = {0, 0}, .sigmas = std::sqrt(level)};
+  section.covariance << c / D, -b / D, -b / D, a / D;
+  return section;
+}
+
+// What V proves, what it could prove at best, and how it is.
 void showRegion(const Plant& real) {
   const Costs costs{Eigen::Vector4d(1, .1, 1, .1).asDiagonal(), Eigen::MatrixXd::Identity(1, 1)};
   const Eigen::MatrixXd P = viaHamiltonian(real, costs), K = gainOf(real, costs, P);
-  const Flow f = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
-    return rateOf(kCart, x, K.row(0).dot(x));
+  const Flow f = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return rateOf(kCart, x, forceOf(K, x)); };
+  const auto falls = [&](double theta, double rate) {
+    return withoutNoise(K, {0, 0, theta, rate}, 10).cols() < 600;
   };
-  Eigen::VectorXd high = Eigen::Vector4d(8, 6, 1.5, 3);
-  Rng rng(1);
-  for (int i = 0; i < 40 && counterexample(f, P, high, rng); ++i) high *= .9;
-  print("box in which V falls", high.transpose());
-  Figure figure{.title = "Starts from which the pole comes back (p = p' = 0)",
+  const auto rises = [&](double theta, double rate) {
+    const Eigen::VectorXd moves = f(Eigen::Vector4d(0, 0, theta, rate));
+    double slope = 0;
+    for (int i = 0; i < 4; ++i) slope += (theta * P(2, i) + rate * P(3, i)) * moves[i];
+    return slope >= 0;
+  };
+  Figure figure{.title = "Starts with p = p' = 0",
                 .xLabel = "theta [rad]",
                 .yLabel = "theta' [rad/s]",
                 .legend = Legend::kOutside};
-  figure.series = {edgeOf("it falls from here on",
-                          [&](double theta, double rate) {
-                            return withoutNoise(K, {0, 0, theta, rate}, 10).cols() < 601;
-                          }),
-                   edgeOf("V' = 0", [&](double theta, double rate) {
-                     const Eigen::Vector4d x(0, 0, theta, rate);
-                     return x.dot(P * f(x)) >= 0;
-                   })};
-  const Eigen::Matrix2d block = P.bottomRightCorner(2, 2);
-  const double level = block.determinant() > 0 ? levelInside(P, high) : 0;
+  figure.series = {edgeOf("falls from here on", falls), edgeOf("V rises from here on", rises)};
+  if (P.isZero()) return plot("region", figure);
+
+  Eigen::VectorXd high = Eigen::Vector4d(8, 6, 1.5, 3);
+  Rng rng(1);
+  for (int i = 0; i < 40 && counterexample(f, P, high, rng); ++i) high *= .9;
+  const double level = levelInside(P, high);
+  print("box in which V falls", high.transpose());
   print("level in that box", level);
-  if (level > 0)
-    figure.ellipses = {
-        {.label = "proved", .mean = {0, 0}, .covariance = inverse(block), .sigmas = std::sqrt(level)}};
+  if (level > 0) figure.ellipses = {sectionOf(P, level)};
   plot("region", figure);
 }
 
@@ -458,11 +497,12 @@ void showRegion(const Plant& real) {
 
 int main() {
   const Plant mine = linearised(kCart);
+  CartPole pole(0, {.noise = 0});
+  const LinearizedPlant exact = pole.getLinearization();
   print("A", mine.A);
-  print("B", mine.B);
-  const CartPole library(0, {.noise = 0});
-  const LinearizedPlant exact = library.getLinearization();
-  print("largest error of A", (mine.A - exact.A).cwiseAbs().maxCoeff());
+  print("A of the library", exact.A);
+  print("B", mine.B.transpose());
+  print("B of the library", exact.B.transpose());
 
   const Plant real{exact.A, exact.B};
   const Costs costs = sheetCosts();
@@ -478,13 +518,15 @@ int main() {
   print("slowest pole with your K [1/s]", slowestPole(real, K));
 
   Rng rng(2);
-  const double bound = optimal.cwiseAbs().maxCoeff();
-  const Eigen::MatrixXd quick = quickGains(
-      [&](const Eigen::MatrixXd& gains) { return eigenvalues(real.A + real.B * gains).real().maxCoeff(); },
-      optimal, bound, rng);
-  const GainSearchResult best = fastestGains({.A = real.A, .B = real.B}, -optimal, {.bound = bound});
+  const double bound = optimal.maxCoeff();  // all of them are positive
+  const auto slowest = [&](const Eigen::MatrixXd& gains) {
+    const Series poles = polesOf("", real, gains, Marker::kAuto);
+    return *std::max_element(poles.x.begin(), poles.x.end());
+  };
+  const Eigen::MatrixXd quick = quickGains(slowest, optimal, bound, rng);
   print("slowest pole with your quick K [1/s]", slowestPole(real, quick));
-  print("slowest pole with the library's [1/s]", best.rate);
+  print("slowest pole with the library's [1/s]",
+        fastestGains({.A = exact.A, .B = exact.B}, -optimal, {.bound = bound}).rate);
 
   showOutings(K);
   showSurvival(K, printed);
@@ -495,17 +537,19 @@ int main() {
 
   // Your simulation beside the library's, and a film of one with noise.
   Eigen::MatrixXd states = withoutNoise(K, {0, 0, .8, 0}, 8);
-  CartPole pole(0, {.noise = 0});
   pole.x = Eigen::Vector4d(0, 0, .8, 0);
   double apart = 0;
-  for (const auto& x : states.colwise()) {
-    apart = std::max(apart, (pole.x - x).norm());
-    pole.step(K.row(0).dot(pole.x));
+  for (Eigen::Index t = 0; t < states.cols(); ++t) {
+    const Eigen::Vector4d x = states.col(t);
+    for (int i = 0; i < 4; ++i) apart = std::max(apart, std::abs(pole.x[i] - x[i]));
+    pole.step(forceOf(K, x));
   }
   print("largest distance from the library's simulation", apart);
   states = balanced(kCart, K, {0, 0, .8, 0}, {.steps = 600}, rng);
   std::vector<CartPoleView> views;
-  for (const auto& x : states.colwise())
-    views.push_back({.x = x, .u = K.row(0).dot(x), .caption = "u = K x, noise 0.1"});
+  for (Eigen::Index t = 0; t < states.cols(); ++t) {
+    const Eigen::Vector4d x = states.col(t);
+    views.push_back({.x = x, .u = forceOf(K, x), .caption = "u = K x, noise 0.1"});
+  }
   writeFilm(views, "balanced");
 }
