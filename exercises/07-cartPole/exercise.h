@@ -99,7 +99,7 @@ Fate fateOf(const Eigen::MatrixXd& A);
 // Part 6, the fastest controller (8:39).
 
 /// A K (1 x n) with no number larger than `bound` in size, for which slowest(K), the slowestPole() of some
-/// plant, is 0.6 times the least possible one or lower. `start` (1 x n) is within the bound, and stable. You
+/// plant, is 0.5 times the least possible one or lower. `start` (1 x n) is within the bound, and stable. You
 /// may ask slowest() 3000 times.
 Eigen::MatrixXd quickGains(const std::function<double(const Eigen::MatrixXd&)>& slowest,
                            const Eigen::MatrixXd& start, double bound, rex::Rng& rng);

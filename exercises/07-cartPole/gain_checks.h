@@ -75,7 +75,7 @@ inline void gainsFit(rex::grading::Check& check, Student& student, const Regulat
 }
 
 /// Starts from the gains of the sheet's costs, none of which may become larger than the largest of them.
-/// In 2000 searches of the reference on random carts the share was never below 0.68.
+/// In 1300 searches of the reference on random carts the share was below 0.82 in 1 %, and never below 0.71.
 inline void gainsAreQuick(rex::grading::Check& check, Student& student, const PoleCart& cart) {
   const Regulation task = regulationOf(plantOf(cart), costsOfTheSheet());
   const Eigen::MatrixXd start = -task.optimal.K;
@@ -95,7 +95,7 @@ inline void gainsAreQuick(rex::grading::Check& check, Student& student, const Po
   check.atMost("number of calls of slowest()", asked, 3000);
   check.atMost("largest number in K, of the bound", K.cwiseAbs().maxCoeff() / bound, 1 + 1e-9);
   check.atLeast("slowest pole, as a share of the least possible one",
-                abscissa(task.plant.A + task.plant.B * K) / least, .6);
+                abscissa(task.plant.A + task.plant.B * K) / least, .5);
 }
 
 /// The first gain of a horizon of N steps: all controls at once, from the normal equations of the costs as a

@@ -203,7 +203,7 @@ Series polesOf(const std::string& label, const Plant& plant, const Eigen::Matrix
   Eigen::MatrixXd closed = plant.A;
   for (int i = 0; i < 4; ++i)
     for (int k = 0; k < 4; ++k) closed(i, k) += plant.B(i, 0) * K(0, k);
-  Series series{.label = label, .style = SeriesStyle::kPoints, .marker = marker, .size = 2};
+  Series series{.label = label, .style = SeriesStyle::kPoints, .marker = marker, .size = 1.6};
   for (const std::complex<double>& pole : eigenvalues(closed)) {
     series.x.push_back(pole.real());
     series.y.push_back(pole.imag());
@@ -272,12 +272,13 @@ void showHorizon(const Plant& real, const Eigen::MatrixXd& optimal) {
 }
 
 // Along rays from rest: the first distance at which `ends` holds.
-Series edgeOf(const std::string& label, const std::function<bool(double theta, double rate)>& ends) {
-  Series series{.label = label};
+Series edgeOf(const std::string& label, const Color& color,
+              const std::function<bool(double theta, double rate)>& ends) {
+  Series series{.label = label, .color = color};
   for (int i = 0; i <= 120; ++i) {
     const double angle = 2 * std::numbers::pi * i / 120, c = std::cos(angle), s = 3 * std::sin(angle);
-    double r = .02;
-    while (r < 2.2 && std::abs(r * c) < 1.56 && !ends(r * c, r * s)) r += .02;
+    double r = .03;
+    while (r < 5 && std::abs(r * c) < 1.56 && !ends(r * c, r * s)) r += .03;
     series.x.push_back(r * c);
     series.y.push_back(r * s);
   }
@@ -287,14 +288,14 @@ Series edgeOf(const std::string& label, const std::function<bool(double theta, d
 // The starts with p = p' = 0 for which x^T P x is at most the level.
 CovarianceEllipse sectionOf(const Eigen::MatrixXd& P, double level) {
   const double a = P(2, 2), b = P(2, 3), c = P(3, 3), D = a * c - b * b;
-  CovarianceEllipse section{.label = "proved", .mean = {0, 0}, .sigmas = std::sqrt(level)};
+  CovarianceEllipse section{.label = "proved", .sigmas = std::sqrt(level), .color = Color{.1, .4, .7}};
   section.covariance << c / D, -b / D, -b / D, a / D;
   return section;
 }
 
 // What V proves, what it could prove at best, and how it is.
 void showRegion(const Plant& real) {
-  const Costs costs{Eigen::Vector4d(1, .1, 1, .1).asDiagonal(), Eigen::MatrixXd::Identity(1, 1)};
+  const Costs costs{Eigen::Vector4d(1, 1, 100, 100).asDiagonal(), Eigen::MatrixXd::Identity(1, 1)};
   const Eigen::MatrixXd P = viaHamiltonian(real, costs), K = gainOf(real, costs, P);
   const Flow f = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return rateOf(kCart, x, forceOf(K, x)); };
   const auto falls = [&](double theta, double rate) {
@@ -309,8 +310,10 @@ void showRegion(const Plant& real) {
   Figure figure{.title = "Starts with p = p' = 0",
                 .xLabel = "theta [rad]",
                 .yLabel = "theta' [rad/s]",
+                .yRange = AxisRange{-9, 9},
                 .legend = Legend::kOutside};
-  figure.series = {edgeOf("falls from here on", falls), edgeOf("V rises from here on", rises)};
+  figure.series = {edgeOf("falls from here on", {.7, .15, .2}, falls),
+                   edgeOf("V rises from here on", {.85, .5, .1}, rises)};
   if (P.isZero()) return plot("region", figure);
 
   Eigen::VectorXd high = Eigen::Vector4d(8, 6, 1.5, 3);
@@ -372,10 +375,10 @@ int main() {
   for (Eigen::Index t = 0; t < states.cols(); ++t) {
     const Eigen::Vector4d x = states.col(t);
     for (int i = 0; i < 4; ++i) apart = std::max(apart, std::abs(pole.x[i] - x[i]));
-    pole.step(forceOf(K, x));
+    pole.step(forceOf(K, pole.x));
   }
   print("largest distance from the library's simulation", apart);
-  states = balanced(kCart, K, {0, 0, .8, 0}, {.steps = 600}, rng);
+  states = balanced(kCart, K, {0, 0, .4, 0}, {.steps = 600}, rng);
   std::vector<CartPoleView> views;
   for (Eigen::Index t = 0; t < states.cols(); ++t) {
     const Eigen::Vector4d x = states.col(t);
