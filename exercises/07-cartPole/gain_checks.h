@@ -21,11 +21,11 @@ inline Eigen::MatrixXd imbalance(const Plant& plant, const Costs& costs, const E
 /// Goes on in steps of epsilon until no number of the bracket is above the tolerance: how many steps that
 /// took, -1 for more than `most`.
 inline int stepsUntil(const Plant& plant, const Costs& costs, double epsilon, double tolerance, int most) {
-  Eigen::MatrixXd P = costs.Q;
-  for (int k = 0; k <= most; ++k) {
-    const Eigen::MatrixXd rate = imbalance(plant, costs, P);
-    if (rate.lpNorm<Eigen::Infinity>() <= tolerance) return k;
-    P += epsilon * rate;
+  Eigen::MatrixXd now = costs.Q;
+  for (int count = 0; count <= most; ++count) {
+    const Eigen::MatrixXd rate = imbalance(plant, costs, now);
+    if (rate.lpNorm<Eigen::Infinity>() <= tolerance) return count;
+    now += epsilon * rate;
   }
   return -1;
 }
@@ -101,7 +101,7 @@ inline void gainsAreQuick(rex::grading::Check& check, Student& student, const Po
 /// The first gain of a horizon of N steps: all controls at once, from the normal equations of the costs as a
 /// function of them.
 inline Eigen::MatrixXd firstGain(const Plant& plant, const Costs& costs, const Eigen::MatrixXd& F, int N) {
-  const Eigen::Index n = plant.A.rows(), m = plant.B.cols();
+  const Eigen::Index n = plant.B.rows(), m = plant.B.cols();
   Eigen::MatrixXd fromStart = Eigen::MatrixXd::Identity(n, n);
   Eigen::MatrixXd fromControls = Eigen::MatrixXd::Zero(n, N * m);
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(N * m, N * m), G = Eigen::MatrixXd::Zero(N * m, n);

@@ -229,10 +229,10 @@ std::optional<Eigen::VectorXd> counterexample(const Flow& f, const Eigen::Matrix
     return x.dot(Px) <= 0 || Px.dot(f(x)) >= 0;
   };
   const auto n = static_cast<int>(high.size());
-  for (int i = 0; i < n; ++i)
+  for (int axis = 0; axis < n; ++axis)
     for (const double part : {-1., -.1, .1, 1.}) {
       Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
-      x[i] = part * high[i];
+      x[axis] = part * high[axis];
       if (isOne(x)) return x;
     }
   for (int k = 0; k < 10000; ++k) {

@@ -181,13 +181,13 @@ inline std::vector<Candidate> cubicCandidates(rex::Rng& rng, Eigen::Index n) {
     const Eigen::MatrixXd P = rex::solveLyapunov(A, randomPositive(rng, n, .3));
     const Flow f = [A](const Eigen::VectorXd& x) -> Eigen::VectorXd { return A * x + x.squaredNorm() * x; };
     // V' = -x^T Q x + 2 |x|^2 x^T P x is negative where 2 |x|^2 is below the least eigenvalue of P^-1 Q.
-    const double reach = std::sqrt(.3 / 2 / P.norm()) / std::sqrt(static_cast<double>(n));
-    Candidate far{"a cubic flow, a large box", f, P, Eigen::VectorXd::Constant(n, 8 * reach), true};
+    const double nearby = std::sqrt(.3 / 2 / P.norm()) / std::sqrt(static_cast<double>(n));
+    Candidate far{"a cubic flow, a large box", f, P, Eigen::VectorXd::Constant(n, 8 * nearby), true};
     Candidate other{"a linear flow, another V", linearFlow(A),
                     Eigen::MatrixXd::Identity(n, n) + .3 * randomPositive(rng, n, 0),
                     rng.uniformVector(static_cast<int>(n), .2, 2), true};
     if (wrongShare(far, rng) < .02 || wrongShare(other, rng) < .02) continue;
-    return {{"a cubic flow, a small box", f, P, Eigen::VectorXd::Constant(n, .9 * reach), false},
+    return {{"a cubic flow, a small box", f, P, Eigen::VectorXd::Constant(n, .9 * nearby), false},
             far,
             {"a linear flow", linearFlow(A), P, other.high, false},
             other};
@@ -199,15 +199,16 @@ inline void levelFits(rex::grading::Check& check, Student& student, Eigen::Index
   const Eigen::MatrixXd P = randomPositive(check.rng(), n, .1);
   const Eigen::VectorXd high = check.rng().uniformVector(static_cast<int>(n), .2, 2);
   check.input(fmt::format("{} numbers", n));
-  double least = 1e9;
-  for (Eigen::Index i = 0; i < n; ++i) {
+  double lowest = INFINITY;
+  for (Eigen::Index face = 0; face < n; ++face) {
     std::vector<Eigen::Index> others;
     for (Eigen::Index k = 0; k < n; ++k)
-      if (k != i) others.push_back(k);
-    const Eigen::VectorXd coupling = P(others, i);
+      if (k != face) others.push_back(k);
+    const Eigen::VectorXd coupling = P(others, face);
     const double left =
-        n == 1 ? P(0, 0) : P(i, i) - coupling.dot(rex::solve(Eigen::MatrixXd(P(others, others)), coupling));
-    least = std::min(least, left * high[i] * high[i]);
+        n == 1 ? P(0, 0)
+               : P(face, face) - coupling.dot(rex::solve(Eigen::MatrixXd(P(others, others)), coupling));
+    lowest = std::min(lowest, left * high[face] * high[face]);
   }
-  check.near("largest level in the box", student.levelInside(P, high), least, 1e-8 * least);
+  check.near("largest level in the box", student.levelInside(P, high), lowest, 1e-8 * lowest);
 }
