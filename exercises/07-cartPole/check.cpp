@@ -1,0 +1,185 @@
+#include "grading/check.h"
+
+#include "cart_checks.h"
+#include "gain_checks.h"
+#include "interface.h"
+#include "stability_checks.h"
+
+using rex::grading::Check;
+using rex::grading::Group;
+
+namespace {
+
+void rates(Check& check, Student& student) {
+  for (int i = 0; i < 20; ++i) ratesFit(check, student, i < 5 ? PoleCart{} : randomCart(check.rng()));
+}
+
+void linear(Check& check, Student& student) { linearisationFits(check, student, {}); }
+
+void iterates(Check& check, Student& student) {
+  iterationFits(check, student, regulationOf(plantOf({}), costsOfTheSheet()), 1e-3, 1e-5);
+  iterationFits(check, student, randomRegulation(check.rng(), false), 5e-3, 1e-4);
+  iterationEnds(check, student);
+}
+
+void halves(Check& check, Student& student) {
+  hamiltonianFits(check, student, regulationOf(plantOf({}), costsOfTheSheet()));
+  for (int i = 0; i < 5; ++i) hamiltonianFits(check, student, randomRegulation(check.rng(), false));
+}
+
+void gains(Check& check, Student& student) {
+  gainsFit(check, student, regulationOf(plantOf({}), costsOfTheSheet()));
+  for (int i = 0; i < 5; ++i) gainsFit(check, student, randomRegulation(check.rng(), false));
+}
+
+void steps(Check& check, Student& student) {
+  for (int i = 0; i < 20; ++i) stepFits(check, student, randomCart(check.rng()), i < 10 ? 0 : .1 * i);
+}
+
+void outings(Check& check, Student& student) {
+  const PoleCart cart;
+  const Eigen::MatrixXd K = -regulationOf(plantOf(cart), costsOfTheSheet()).optimal.K;
+  check.input("optimal gains, theta = 0.2");
+  outingFits(check, student, cart, K, {0, 0, .2, 0}, {.steps = 500});
+  check.input("optimal gains, theta = 0.2, no noise and long steps");
+  outingFits(check, student, cart, K, {0, 0, .2, 0}, {.tau = .05, .noise = 0, .steps = 100});
+  check.input("no gains, so that the pole falls");
+  outingFits(check, student, cart, Eigen::MatrixXd::Zero(1, 4), {0, 0, -.2, 0}, {});
+}
+
+void reach(Check& check, Student& student) {
+  const Eigen::Matrix2d still = Eigen::Matrix2d::Zero();
+  reachFits(check, student, {still, Eigen::Vector2d(1, 0)}, 1);
+  reachFits(check, student, {still, Eigen::Vector2d(1, 1)}, 1);
+  reachFits(check, student, {drift(), Eigen::Vector2d(0, 1)}, 2);
+  reachFits(check, student, {drift(), Eigen::Vector2d(1, 0)}, 1);
+  reachFits(check, student, plantOf({}), 4);
+  reachFits(check, student, partlyReached(check.rng(), 4, 3, 2), 3);
+}
+
+void poles(Check& check, Student& student) {
+  for (int i = 0; i < 10; ++i) {
+    const Regulation task =
+        i == 0 ? regulationOf(plantOf({}), costsOfTheSheet()) : randomRegulation(check.rng(), false);
+    check.input(described(task.plant));
+    check.near("slowest pole under optimal gains", student.slowestPole(task.plant, -task.optimal.K),
+               task.optimal.closedLoop.real().maxCoeff(), 1e-6, "1/s");
+    check.near("slowest pole without control", student.slowestPole(task.plant, 0 * task.optimal.K),
+               abscissa(task.plant.A), 1e-6, "1/s");
+  }
+  const std::vector<KnownFate> known = knownFates(check.rng());
+  for (std::size_t i = 0; i < 9; ++i) fateFits(check, student, known[i]);
+}
+
+void quick(Check& check, Student& student) { gainsAreQuick(check, student, {}); }
+
+void lyapunov(Check& check, Student& student) {
+  for (const Candidate& candidate : energyCandidates(check.rng()))
+    candidateIsJudged(check, student, candidate);
+  for (const Candidate& candidate : cartCandidates({})) candidateIsJudged(check, student, candidate);
+  for (const Eigen::Index n : {1, 2, 4}) levelFits(check, student, n);
+}
+
+void horizon(Check& check, Student& student) {
+  const Plant mass{(Eigen::Matrix2d() << 1, .1, 0, 1).finished(), Eigen::Vector2d(0, .1)};
+  const Costs costs{Eigen::Vector2d(1, 0).asDiagonal(), Eigen::MatrixXd::Constant(1, 1, .1)};
+  for (const int count : {1, 2, 20})
+    horizonFits(check, student, mass, costs, 5 * Eigen::Matrix2d::Identity(), count);
+}
+
+// <hidden>
+void otherCarts(Check& check, Student& student) {
+  check.forEachCase(10, [&](int) { linearisationFits(check, student, randomCart(check.rng())); });
+}
+
+void otherRegulators(Check& check, Student& student) {
+  check.forEachCase(10, [&](int i) {
+    const Regulation task = randomRegulation(check.rng(), i % 2 == 1);
+    hamiltonianFits(check, student, task);
+    gainsFit(check, student, task);
+    iterationFits(check, student, task, 5e-3, 1e-4);
+  });
+}
+
+void survives(Check& check, Student& student) {
+  check.forEachCase(6, [&](int i) {
+    if (i < 2)
+      survivesFrom(check, student, i == 0 ? .5 : -1, 0);
+    else
+      survivesFrom(check, student, check.rng().uniform(-.4, .4), i == 2 ? .01 : .1);
+  });
+}
+
+void reachesOthers(Check& check, Student& student) {
+  check.forEachCase(12, [&](int i) {
+    rex::Rng& rng = check.rng();
+    const int n = 2 + rng.index(4), m = 1 + rng.index(2), rank = i % 3 == 0 ? n : 1 + rng.index(n - 1);
+    reachFits(check, student, partlyReached(rng, n, rank, std::min(m, rank)), rank);
+  });
+}
+
+void otherFates(Check& check, Student& student) {
+  const std::size_t count = knownFates(check.rng()).size();
+  check.forEachCase(static_cast<int>(count), [&](int i) {
+    KnownFate known = knownFates(check.rng())[static_cast<std::size_t>(i)];
+    const Eigen::MatrixXd T = randomCoordinates(check.rng(), known.A.rows());
+    known.A = T * known.A * rex::inverse(T);
+    fateFits(check, student, known);
+  });
+}
+
+void quickOnOthers(Check& check, Student& student) {
+  check.forEachCase(3, [&](int) {
+    PoleCart cart = randomCart(check.rng());
+    cart.g = 9.8;
+    gainsAreQuick(check, student, cart);
+  });
+}
+
+void judgesOthers(Check& check, Student& student) {
+  check.forEachCase(6, [&](int i) {
+    for (const Candidate& candidate : cubicCandidates(check.rng(), 2 + i % 3))
+      candidateIsJudged(check, student, candidate);
+    levelFits(check, student, 1 + i);
+  });
+}
+
+void otherHorizons(Check& check, Student& student) {
+  check.forEachCase(10, [&](int) {
+    rex::Rng& rng = check.rng();
+    const int n = 1 + rng.index(4), m = 1 + rng.index(3);
+    horizonFits(check, student, randomPlant(rng, n, m),
+                {randomPositive(rng, n, .1), randomPositive(rng, m, .2)}, 3 * randomPositive(rng, n, 0),
+                1 + rng.index(12));
+  });
+}
+// </hidden>
+
+}  // namespace
+
+rex::grading::Checks<Student> checks() {
+  return {
+      {"rates", "linear", "The rates of the cart pole", 1, Group::visible, rates},
+      {"linear", "linear", "A and B of the cart of the sheet", 1, Group::visible, linear},
+      {"iterates", "riccati", "The iteration of the sheet", 1, Group::visible, iterates},
+      {"hamiltonian", "riccati", "The Hamiltonian's stable half", 1, Group::visible, halves},
+      {"gains", "riccati", "Gains and their sign", 1, Group::visible, gains},
+      {"steps", "simulate", "One step with noise", 1, Group::visible, steps},
+      {"outings", "simulate", "From the start to the end, or to the fall", 1, Group::visible, outings},
+      {"reach", "reach", "The controllability matrix and its rank", 1, Group::visible, reach},
+      {"poles", "poles", "Poles and what they mean", 1, Group::visible, poles},
+      {"quick", "quick", "A search for quick gains", 1, Group::visible, quick},
+      {"lyapunov", "lyapunov", "Candidates, right and wrong", 1, Group::visible, lyapunov},
+      {"horizon", "horizon", "Gains for a point mass", 1, Group::visible, horizon},
+      // <hidden>
+      {"other-carts", "linear", "Other carts and poles", 1, Group::hidden, otherCarts},
+      {"other-regulators", "riccati", "Other plants and costs", 1, Group::hidden, otherRegulators},
+      {"survives", "simulate", "Your own controller stays up", 1, Group::hidden, survives},
+      {"reaches-others", "reach", "Other plants, reached in part", 1, Group::hidden, reachesOthers},
+      {"other-fates", "poles", "The same in other coordinates", 1, Group::hidden, otherFates},
+      {"quick-others", "quick", "Quick gains for other carts", 1, Group::hidden, quickOnOthers},
+      {"judges-others", "lyapunov", "Other candidates", 1, Group::hidden, judgesOthers},
+      {"other-horizons", "horizon", "Other plants over other horizons", 1, Group::hidden, otherHorizons},
+      // </hidden>
+  };
+}

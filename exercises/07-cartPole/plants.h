@@ -1,0 +1,114 @@
+#pragma once
+
+#include <algorithm>
+#include <string>
+
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+
+#include "control/cart_pole_dynamics.h"
+#include "control/riccati.h"
+#include "exercise.h"
+
+// The plants and costs of the checks.
+
+inline rex::CartPoleDynamics dynamicsOf(const PoleCart& cart) {
+  return {.poleMass = cart.poleMass, .cartMass = cart.cartMass, .l = cart.l, .g = cart.g};
+}
+
+inline Plant plantOf(const PoleCart& cart) {
+  const rex::LinearizedPlant plant = dynamicsOf(cart).linearized(Eigen::Vector4d::Zero(), 0);
+  return {plant.A, plant.B};
+}
+
+inline PoleCart randomCart(rex::Rng& rng) {
+  return {.poleMass = rng.uniform(.3, 2),
+          .cartMass = rng.uniform(.5, 2),
+          .l = rng.uniform(.4, 1.4),
+          .g = rng.uniform(1.6, 12)};
+}
+
+inline std::string described(const PoleCart& cart) {
+  return fmt::format("M_p = {:g}, M_c = {:g}, l = {:g}, g = {:g}", cart.poleMass, cart.cartMass, cart.l,
+                     cart.g);
+}
+
+inline std::string described(const Plant& plant) {
+  return fmt::format("{} states, {} controls", plant.A.rows(), plant.B.cols());
+}
+
+/// The costs of the sheet, with c = rho = 1.
+inline Costs costsOfTheSheet() {
+  return {Eigen::Vector4d(1, 0, 1, 0).asDiagonal(), Eigen::MatrixXd::Identity(1, 1)};
+}
+
+inline Eigen::MatrixXd randomMatrix(rex::Rng& rng, Eigen::Index rows, Eigen::Index cols) {
+  return rng.normalVector(static_cast<int>(rows * cols)).reshaped(rows, cols);
+}
+
+/// Symmetric, with eigenvalues from `least` up.
+inline Eigen::MatrixXd randomPositive(rex::Rng& rng, Eigen::Index n, double least) {
+  const Eigen::MatrixXd root = randomMatrix(rng, n, n) / std::sqrt(static_cast<double>(n));
+  return root * root.transpose() + least * Eigen::MatrixXd::Identity(n, n);
+}
+
+/// Other coordinates for a state of n numbers, in which no zero stays a zero.
+inline Eigen::MatrixXd randomCoordinates(rex::Rng& rng, Eigen::Index n) {
+  for (;;) {
+    const Eigen::MatrixXd T = Eigen::MatrixXd::Identity(n, n) + .5 * randomMatrix(rng, n, n);
+    if (n == 0 || Eigen::JacobiSVD<Eigen::MatrixXd>(T).singularValues()[n - 1] > .25) return T;
+  }
+}
+
+/// x' = A x + B u for T x in place of x.
+inline Plant inCoordinates(const Plant& plant, const Eigen::MatrixXd& T) {
+  const Eigen::MatrixXd back = rex::inverse(T);
+  return {T * plant.A * back, T * plant.B};
+}
+
+inline Plant randomPlant(rex::Rng& rng, Eigen::Index n, Eigen::Index m) {
+  return {randomMatrix(rng, n, n) / std::sqrt(static_cast<double>(n)), randomMatrix(rng, n, m)};
+}
+
+/// Two plants side by side, of which u moves the first only.
+inline Plant besideUnmoved(const Plant& moved, const Eigen::MatrixXd& unmoved) {
+  const Eigen::Index n = moved.A.rows(), k = unmoved.rows(), m = moved.B.cols();
+  Plant both{Eigen::MatrixXd::Zero(n + k, n + k), Eigen::MatrixXd::Zero(n + k, m)};
+  both.A.topLeftCorner(n, n) = moved.A;
+  both.A.bottomRightCorner(k, k) = unmoved;
+  both.B.topRows(n) = moved.B;
+  return both;
+}
+
+inline double abscissa(const Eigen::MatrixXd& A) {
+  return Eigen::EigenSolver<Eigen::MatrixXd>(A, false).eigenvalues().real().maxCoeff();
+}
+
+struct Regulation {
+  Plant plant;
+  Costs costs;
+  rex::RiccatiResult optimal;  ///< u = -K x, as of the library
+};
+
+inline Regulation regulationOf(const Plant& plant, const Costs& costs) {
+  return {plant, costs, rex::solveCare(plant.A, plant.B, costs.Q, costs.R)};
+}
+
+/// A random one whose closed loop is neither slow nor fast, so that the iteration of the sheet gets there
+/// with epsilon = 0.005, and whose P is not large. Every second has a mode that dies by itself and that u
+/// does not reach.
+inline Regulation randomRegulation(rex::Rng& rng, bool hasUnmoved) {
+  for (;;) {
+    const Eigen::Index n = 1 + rng.index(4), m = 1 + rng.index(2);
+    Plant plant = randomPlant(rng, n, m);
+    if (hasUnmoved) {
+      plant = besideUnmoved(plant, Eigen::MatrixXd::Constant(1, 1, -rng.uniform(.5, 2)));
+      plant = inCoordinates(plant, randomCoordinates(rng, n + 1));
+    }
+    const Costs costs{randomPositive(rng, plant.A.rows(), .2), randomPositive(rng, m, .5)};
+    Regulation found = regulationOf(plant, costs);
+    if (found.optimal.status != rex::RiccatiStatus::kSolved || found.optimal.X.norm() > 50) continue;
+    const Eigen::VectorXcd poles = found.optimal.closedLoop;
+    if (poles.real().maxCoeff() < -.25 && poles.cwiseAbs().maxCoeff() < 10) return found;
+  }
+}

@@ -1,0 +1,214 @@
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "control/controllability.h"
+#include "grading/check.h"
+#include "interface.h"
+#include "plants.h"
+
+// Parts 4, 5 and 7: what u reaches, what becomes of motions, and what proves it.
+
+inline void reachFits(rex::grading::Check& check, Student& student, const Plant& plant, Eigen::Index rank) {
+  check.input(described(plant));
+  const Eigen::MatrixXd wanted = rex::controllabilityMatrix({.A = plant.A, .B = plant.B});
+  check.near("controllability matrix", student.reachMatrix(plant), wanted, 1e-9 * (1 + wanted.norm()));
+  check.near("its rank", student.reachable(plant), static_cast<double>(rank), 0);
+}
+
+/// `rank` of n numbers are reached, in coordinates that do not show which. Singular values between those that
+/// are zero but for rounding and those that are not: none from 1e-13 to 1e-6 of the largest.
+inline Plant partlyReached(rex::Rng& rng, Eigen::Index n, Eigen::Index rank, Eigen::Index m) {
+  for (;;) {
+    Plant plant = randomPlant(rng, rank, m);
+    plant.A.topRows(1) *= 2;
+    const Eigen::Index rest = n - rank;
+    const Eigen::MatrixXd unmoved = randomMatrix(rng, rest, rest) / std::sqrt(static_cast<double>(n));
+    plant = inCoordinates(besideUnmoved(plant, unmoved), randomCoordinates(rng, n));
+    const Eigen::VectorXd sizes = rex::svd(rex::controllabilityMatrix({.A = plant.A, .B = plant.B})).s;
+    const bool isClear = sizes[rank - 1] > 1e-6 * sizes[0] && (rest == 0 || sizes[rank] < 1e-13 * sizes[0]);
+    if (isClear) return plant;
+  }
+}
+
+/// Blocks along the diagonal.
+inline Eigen::MatrixXd beside(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  Eigen::MatrixXd both = Eigen::MatrixXd::Zero(a.rows() + b.rows(), a.rows() + b.rows());
+  both.topLeftCorner(a.rows(), a.rows()) = a;
+  both.bottomRightCorner(b.rows(), b.rows()) = b;
+  return both;
+}
+
+inline Eigen::MatrixXd rest() { return Eigen::MatrixXd::Zero(1, 1); }
+inline Eigen::MatrixXd decay(double rate) { return Eigen::MatrixXd::Constant(1, 1, -rate); }
+inline Eigen::MatrixXd drift() { return (Eigen::MatrixXd(2, 2) << 0, 1, 0, 0).finished(); }
+inline Eigen::MatrixXd swing(double w, double rate = 0) {
+  return (Eigen::MatrixXd(2, 2) << rate, w, -w, rate).finished();
+}
+/// Two swings, the first of which drives the second.
+inline Eigen::MatrixXd drivenSwing(double w) {
+  Eigen::MatrixXd A = beside(swing(w), swing(w));
+  A.bottomLeftCorner(2, 2).setIdentity();
+  return A;
+}
+
+struct KnownFate {
+  std::string name;
+  Eigen::MatrixXd A;
+  Fate fate;
+};
+
+inline std::vector<KnownFate> knownFates(rex::Rng& rng) {
+  const double w = rng.uniform(.5, 2), rate = rng.uniform(.1, 1);
+  return {
+      {"two decays", beside(decay(rate), decay(1)), Fate::dies},
+      {"a damped swing", swing(w, -rate), Fate::dies},
+      {"a swing", swing(w), Fate::stays},
+      {"a decay and rest", beside(decay(rate), rest()), Fate::stays},
+      {"a point mass on which no force acts", drift(), Fate::grows},
+      {"two numbers at rest", beside(rest(), rest()), Fate::stays},
+      {"two swings of the same frequency, one driven by the other", drivenSwing(w), Fate::grows},
+      {"two swings of the same frequency", beside(swing(w), swing(w)), Fate::stays},
+      {"a decay and a growing swing", beside(decay(1), swing(w, rate)), Fate::grows},
+      {"a slowly growing number", beside(decay(1), decay(-.02)), Fate::grows},
+      {"a point mass and a decay", beside(drift(), decay(rate)), Fate::grows},
+      {"a swing, rest and a decay", beside(swing(w), beside(rest(), decay(1))), Fate::stays},
+      {"a point mass, a third number and a swing", beside(beside(drift(), rest()), swing(w)), Fate::grows},
+      {"two swings and two decays", beside(beside(swing(w), swing(w)), beside(decay(1), decay(1))),
+       Fate::stays}};
+}
+
+inline void fateFits(rex::grading::Check& check, Student& student, const KnownFate& known) {
+  check.input(known.name);
+  check.that("what becomes of the motions", student.fateOf(known.A) == known.fate);
+}
+
+/// A flow, a candidate and a box.
+struct Candidate {
+  std::string name;
+  Flow f;
+  Eigen::MatrixXd P;
+  Eigen::VectorXd high;
+  bool isWrong = false;  ///< points that disprove it fill 2 % of the box, or lie on an axis
+};
+
+inline bool disproves(const Candidate& candidate, const Eigen::VectorXd& x, double slack = 0) {
+  const Eigen::VectorXd gradient = candidate.P * x, rate = candidate.f(x);
+  return x.dot(gradient) <= slack * x.squaredNorm() * candidate.P.norm() ||
+         gradient.dot(rate) >= -slack * gradient.norm() * rate.norm();
+}
+
+/// The share of the box that disproves, of 4000 points.
+inline double wrongShare(const Candidate& candidate, rex::Rng& rng) {
+  int count = 0;
+  for (int i = 0; i < 4000; ++i)
+    count += disproves(candidate, candidate.high.cwiseProduct(
+                                      rng.uniformVector(static_cast<int>(candidate.high.size()), -1, 1)));
+  return count / 4000.;
+}
+
+/// Whatever is returned must disprove it; so nothing right is refused.
+inline void candidateIsJudged(rex::grading::Check& check, Student& student, const Candidate& candidate) {
+  check.input(candidate.name);
+  int asked = 0;
+  const Flow f = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+    ++asked;
+    if (x.size() != candidate.high.size() || !x.allFinite())
+      return Eigen::VectorXd::Zero(candidate.high.size());
+    return candidate.f(x);
+  };
+  const std::optional<Eigen::VectorXd> x =
+      student.counterexample(f, candidate.P, candidate.high, check.rng().split(7));
+  check.rng().next();
+  check.atMost("number of calls of f", asked, 20000);
+  if (candidate.isWrong) check.that("a point that disproves V is found", x.has_value());
+  if (!x) {
+    check.that("nothing is found where V is a Lyapunov function", !candidate.isWrong);
+    return;
+  }
+  check.shape("the point", *x, candidate.high.size(), 1);
+  check.atLeast("size of the point", x->norm(), 1e-12);
+  check.atMost("the point, as a part of the box", (x->cwiseAbs().cwiseQuotient(candidate.high)).maxCoeff(),
+               1 + 1e-9);
+  check.that("the point disproves V", disproves(candidate, *x, 1e-9));
+}
+
+inline Flow linearFlow(const Eigen::MatrixXd& A) {
+  return [A](const Eigen::VectorXd& x) -> Eigen::VectorXd { return A * x; };
+}
+
+/// The point mass of 8:42 with Kp and Kd, its energy with that of the spring, and what becomes of it with a
+/// cross term: Kd / m is at least as large as what that adds.
+inline std::vector<Candidate> energyCandidates(rex::Rng& rng) {
+  const double m = rng.uniform(.5, 2), Kp = rng.uniform(.5, 2), Kd = rng.uniform(.5, 2);
+  const Eigen::Matrix2d A = (Eigen::Matrix2d() << 0, 1, -Kp / m, -Kd / m).finished();
+  const Eigen::Matrix2d kinetic = Eigen::Vector2d(0, m / 2).asDiagonal();
+  const Eigen::Matrix2d energy = Eigen::Vector2d(Kp / 2, m / 2).asDiagonal();
+  const Eigen::Matrix2d crossed = rex::solveLyapunov(A, Eigen::Matrix2d::Identity());
+  const Eigen::Vector2d high(rng.uniform(.5, 2), rng.uniform(.5, 2));
+  return {{"a point mass under PD control, V its kinetic energy as on slide 8:42", linearFlow(A), kinetic,
+           high, true},
+          {"the same with the energy of the spring", linearFlow(A), energy, high, true},
+          {"the same with a cross term", linearFlow(A), crossed, high, false},
+          {"the same with -V", linearFlow(A), -crossed, high, true},
+          {"the same with the controller's sign wrong", linearFlow(-A), crossed, high, true}};
+}
+
+/// The cart pole under optimal gains, where all states cost: near upright the value function proves
+/// stability; in the large box V rises at four points of ten.
+inline std::vector<Candidate> cartCandidates(const PoleCart& cart) {
+  const Costs costs{Eigen::Vector4d(1, 1, 100, 100).asDiagonal(), Eigen::MatrixXd::Identity(1, 1)};
+  const Regulation task = regulationOf(plantOf(cart), costs);
+  const rex::CartPoleDynamics dynamics = dynamicsOf(cart);
+  const Eigen::MatrixXd K = -task.optimal.K;
+  const Flow f = [dynamics, K](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+    return dynamics.derivative(x, (K * x)[0]);
+  };
+  return {{"the cart pole, optimal gains and V = x^T P x, a small box", f, task.optimal.X,
+           Eigen::Vector4d(.2, .2, .05, .1), false},
+          {"the same in a large box", f, task.optimal.X, Eigen::Vector4d(2, 2, 1.5, 2), true}};
+}
+
+/// A linear flow with a cubic term, which makes V rise at a distance.
+inline std::vector<Candidate> cubicCandidates(rex::Rng& rng, Eigen::Index n) {
+  for (;;) {
+    Eigen::MatrixXd A = randomMatrix(rng, n, n);
+    A.diagonal().array() -= abscissa(A) + rng.uniform(.3, 1);
+    const Eigen::MatrixXd P = rex::solveLyapunov(A, randomPositive(rng, n, .3));
+    const Flow f = [A](const Eigen::VectorXd& x) -> Eigen::VectorXd { return A * x + x.squaredNorm() * x; };
+    // V' = -x^T Q x + 2 |x|^2 x^T P x is negative where 2 |x|^2 is below the least eigenvalue of P^-1 Q.
+    const double nearby = std::sqrt(.3 / 2 / P.norm()) / std::sqrt(static_cast<double>(n));
+    Candidate far{"a cubic flow, a large box", f, P, Eigen::VectorXd::Constant(n, 8 * nearby), true};
+    Candidate other{"a linear flow, another V", linearFlow(A),
+                    Eigen::MatrixXd::Identity(n, n) + .3 * randomPositive(rng, n, 0),
+                    rng.uniformVector(static_cast<int>(n), .2, 2), true};
+    if (wrongShare(far, rng) < .02 || wrongShare(other, rng) < .02) continue;
+    return {{"a cubic flow, a small box", f, P, Eigen::VectorXd::Constant(n, .9 * nearby), false},
+            far,
+            {"a linear flow", linearFlow(A), P, other.high, false},
+            other};
+  }
+}
+
+/// The least of x^T P x on the faces x_i = high_i, by eliminating all other numbers.
+inline void levelFits(rex::grading::Check& check, Student& student, Eigen::Index n) {
+  const Eigen::MatrixXd P = randomPositive(check.rng(), n, .1);
+  const Eigen::VectorXd high = check.rng().uniformVector(static_cast<int>(n), .2, 2);
+  check.input(fmt::format("{} numbers", n));
+  double lowest = INFINITY;
+  for (Eigen::Index face = 0; face < n; ++face) {
+    std::vector<Eigen::Index> others;
+    for (Eigen::Index k = 0; k < n; ++k)
+      if (k != face) others.push_back(k);
+    const Eigen::VectorXd coupling = P(others, face);
+    const double left =
+        n == 1 ? P(0, 0)
+               : P(face, face) - coupling.dot(rex::solve(Eigen::MatrixXd(P(others, others)), coupling));
+    lowest = std::min(lowest, left * high[face] * high[face]);
+  }
+  check.near("largest level in the box", student.levelInside(P, high), lowest, 1e-8 * lowest);
+}

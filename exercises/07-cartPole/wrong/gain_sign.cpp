@@ -1,0 +1,6 @@
+// caught by: gains, other-regulators, survives
+// mistake: the K of slide 8:18, for u = -K x.
+
+// <solution gainOf>
+return solve(costs.R, plant.B.transpose() * P);
+// </solution>

@@ -1,0 +1,9 @@
+// caught by: steps, outings
+// mistake: takes the noise for one per second.
+
+// <solution stepped>
+Eigen::Vector4d next = x + tau * rateOf(cart, x, u);
+next[1] += std::sqrt(tau) * noise * rng.normal();
+next[3] += std::sqrt(tau) * noise * rng.normal();
+return next;
+// </solution>
