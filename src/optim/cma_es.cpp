@@ -60,7 +60,7 @@ CmaEs::CmaEs(const VectorArg& mean, const VectorArg& deviations, const CmaOption
   Z_.resize(n, lambda()), Y_.resize(n, lambda());
   step_.resize(n), rotated_.resize(n), whitened_.resize(n);
   order_.resize(static_cast<std::size_t>(lambda()));
-  solver_ = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(n);
+  solver_.compute(C_);  // has its room from here on, and nothing undefined to copy
 }
 
 // Table 1 of the tutorial.
