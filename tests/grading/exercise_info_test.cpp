@@ -71,6 +71,11 @@ TEST_F(ExerciseInfoTest, ReadsEverything) {
   ASSERT_EQ(info.forbidden.size(), 1u);
   EXPECT_EQ(info.forbidden[0].function, "rex::inverseKinematicsStep");
   EXPECT_EQ(info.forbidden[0].reason, "the step is what you write here");
+  EXPECT_EQ(info.solution, SolutionRule::never);
+  for (const auto& [word, rule] : {std::pair{"never", SolutionRule::never},
+                                   {"after-pass", SolutionRule::afterPass},
+                                   {"always", SolutionRule::always}})
+    EXPECT_EQ(readWith("[limits]", std::string("solution = \"") + word + "\"\n[limits]").solution, rule);
 }
 
 TEST_F(ExerciseInfoTest, RefusesBadFilesWithPlaceAndAdvice) {
@@ -91,6 +96,8 @@ TEST_F(ExerciseInfoTest, RefusesBadFilesWithPlaceAndAdvice) {
       "exercise.toml:12:10: [[part]]: 'points': found 5.5, wanted a whole number from 1 to 1000");
   EXPECT_REX_ERROR(readWith("floor = 1", "floor = 5"),
                    "[[part]]: 'floor': found 5, wanted a whole number from 0 to 4");
+  EXPECT_REX_ERROR(readWith("[limits]", "solution = \"later\"\n[limits]"),
+                   "the exercise: 'solution': found 'later', wanted one of never, after-pass, always");
   EXPECT_REX_ERROR(readWith("2.5", "-1"), "[limits]: 'cpu_seconds': found -1, wanted a number above 0");
   EXPECT_REX_ERROR(readWith("2.5", "nan"), "[limits]: 'cpu_seconds': found nan, wanted a number above 0");
   EXPECT_REX_ERROR(readWith("[\"What moves?\", \"Which axis?\"]", "[1]"),
