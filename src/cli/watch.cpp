@@ -16,7 +16,9 @@ ExitCode gradeOnce(const Project& project, const std::string& name) {
   const auto start = std::chrono::steady_clock::now();
   ExitCode code = ExitCode::kGraderFault;
   try {
-    code = test(project, {.exercise = name});
+    TestOptions options;
+    options.exercise = name;
+    code = test(project, options);
   } catch (const std::exception& error) {
     note(wrap(fmt::format("rex: {}", error.what()), 2, 0));
   }
@@ -48,7 +50,7 @@ Wish obeyKeys(const Project& project, const std::string& name, const Keyboard& k
       case 't':
         return Wish::kGrade;
       case 'h':
-        static_cast<void>(hint(project, {.exercise = name}));
+        static_cast<void>(hint(project, HintOptions{.exercise = name, .part = {}}));
         break;
       case 'p':
         static_cast<void>(show(project, {.exercise = name}));

@@ -69,13 +69,13 @@ TEST_F(AcceptanceBars, Bar04ReadingStandardInputIsToldOfAndFindsItsEnd) {
   write(main(),
         "#include <iostream>\n#include \"exercise.h\"\n"
         "Eigen::Vector2d rotated(const Eigen::Vector2d& p, double) {\n  double x = 1;\n  std::cin >> x;\n"
-        "  return x * p;\n}\nint main() { return rotated({1, 1}, 0).isZero() ? 0 : 7; }\n");
+        "  return x * p;\n}\nint main() { return rotated({1, 1}, 0).isOnes() && std::cin.eof() ? 0 : 7; }\n");
   const std::string warning = "main.cpp:5:8: warning: reads standard input, which is empty here";
   const Ended graded = rex({"test", "98"});
   EXPECT_EQ(graded.code, 1);
   EXPECT_THAT(flat(graded.output), HasSubstr(warning));
   const Ended run = rex({"run", "98"});
-  EXPECT_EQ(run.code, 0) << "a read that finds the end gives zero";
+  EXPECT_EQ(run.code, 0) << "a read finds the end";
   EXPECT_THAT(flat(run.error), HasSubstr(warning));
 }
 

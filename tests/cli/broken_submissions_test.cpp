@@ -58,7 +58,7 @@ TEST_P(BrokenSubmission, IsExplained) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BrokenSubmission, ::testing::ValuesIn(submissions()),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& tested) { return tested.param; });
 
 }  // namespace
 }  // namespace rex::cli

@@ -59,7 +59,7 @@ TEST(SanitizedToolchain, MakesProgramsThatReportWhereTheyCrash) {
     const char* finding;
   };
   const Crash crashes[] = {
-      {"volatile int* p = nullptr; return *p;", "runtime error"},
+      {"volatile int* p = nullptr; return *p;", "null pointer"},
       {"int* p = new int[3]; p[0] = n; return p[n + 2];", "outside of an array on the heap"},
       {"int p[3] = {n, n, n}; return p[n + 2];", "out of bounds"},
       {"int* p = new int(n); delete p; return *p;", "memory that was given back"},
@@ -69,7 +69,10 @@ TEST(SanitizedToolchain, MakesProgramsThatReportWhereTheyCrash) {
       {"__builtin_abort();", "aborts"},
   };
   const TemporaryFolder temporary;
-  const Toolchain toolchain = sanitizedToolchain({.compiler = "c++", .flags = {"-w"}}, temporary.path());
+  Toolchain plain;
+  plain.compiler = "c++";
+  plain.flags = {"-w"};
+  const Toolchain toolchain = sanitizedToolchain(plain, temporary.path());
   const auto file = temporary.path() / "main.cpp";
   for (const Crash& crash : crashes) {
     std::ofstream(file) << "int crash(int n) {\n  " << crash.code
@@ -85,8 +88,7 @@ TEST(SanitizedToolchain, MakesProgramsThatReportWhereTheyCrash) {
     EXPECT_EQ(site->function, "crash") << run.error;
     EXPECT_GE(site->line, 1);
     EXPECT_LE(site->line, 3);
-    if (std::string(crash.finding) != "runtime error")
-      EXPECT_NE(site->finding.find(crash.finding), std::string::npos) << site->finding;
+    EXPECT_NE(site->finding.find(crash.finding), std::string::npos) << site->finding;
   }
 }
 
