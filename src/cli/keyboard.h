@@ -1,6 +1,8 @@
 #pragma once
 
-#include <termios.h>
+#include <memory>
+
+struct termios;  // of the system
 
 namespace rex::cli {
 
@@ -13,15 +15,14 @@ class Keyboard {
   Keyboard(const Keyboard&) = delete;
   Keyboard& operator=(const Keyboard&) = delete;
 
-  [[nodiscard]] bool isThere() const { return isThere_; }
+  [[nodiscard]] bool isThere() const { return before_ != nullptr; }
   /// For poll(); -1 where there is no keyboard.
   [[nodiscard]] int descriptor() const;
   /// The key that was pressed; 'q' when the terminal is gone.
   [[nodiscard]] char read() const;
 
  private:
-  bool isThere_ = false;
-  termios before_{};
+  std::unique_ptr<termios> before_;  // what the terminal was like; nothing: there is no keyboard
 };
 
 }  // namespace rex::cli

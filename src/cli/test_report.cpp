@@ -37,16 +37,26 @@ std::string marginOf(const CheckResult& check) {
   return fmt::format(": worst {}, limit {}", worst.value, worst.limit);
 }
 
+// Code is not wrapped, as that would change its look.
+std::string cut(const std::string& code, std::size_t columns) {
+  if (code.size() <= columns) return code;
+  std::size_t end = columns - 4;
+  while (end > 0 && (code[end] & 0xc0) == 0x80) --end;  // not within a letter
+  return code.substr(0, end) + " ...";
+}
+
 // The line of the student's file where it happened.
 void sayPlace(const CheckResult& check, const grading::Submission& graded) {
   if (check.line == 0 || graded.result.files.empty()) return;
+  constexpr std::size_t kColumns = 80, kLeast = 30;
   std::istringstream lines(graded.source);
   std::string line;
   for (int k = 0; k < check.line; ++k) std::getline(lines, line);
   const std::size_t first = std::min(line.find_first_not_of(" \t"), line.size());
-  const std::string where = fmt::format("{}:{}", graded.result.files.front().name, check.line);
-  // As it stands there: code is not wrapped.
-  say(fmt::format("{:{}}{}   {}", "", kIndent, where, harmless(line.substr(first, 60))));
+  const std::string start =
+      fmt::format("{:{}}{}:{}   ", "", kIndent, graded.result.files.front().name, check.line);
+  say(start +
+      cut(harmless(line.substr(first)), std::max(kLeast, kColumns - std::min(kColumns, start.size()))));
 }
 
 void printCheck(const CheckResult& check, const grading::Submission& graded) {

@@ -37,10 +37,11 @@ std::string valueText(const Check::MatrixArg& value, Eigen::Index row, Eigen::In
   return value.rows() == 1 ? text : "(" + text + ")";
 }
 
-// Relative to the limit; where that is 0, any excess is beyond measure.
+// Relative to the limit. Where that is 0, nothing is near it: a value is beyond measure, or as it must be.
 double excessOver(double limit, double beyond) {
   if (limit != 0) return beyond / std::abs(limit);
-  return beyond > 0 ? std::numeric_limits<double>::infinity() : beyond;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  return beyond > 0 ? kInfinity : -kInfinity;
 }
 
 void requireSound(bool sound, const CheckInfo& info, const std::string& fault) {

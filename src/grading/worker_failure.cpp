@@ -94,8 +94,11 @@ Failure explainEnd(const WorkerEnd& end, const WorkerLimits& limits) {
 
 Failure explainThrow(const remote::RemoteThrow& error, const WorkerLimits& limits) {
   const remote::Thrown& thrown = error.thrown();
-  if (thrown.kind == remote::Thrown::Kind::badAlloc)
-    return tooMuchMemory(limits, placeOf(true, error.function()));
+  if (thrown.kind == remote::Thrown::Kind::badAlloc) {
+    Failure failure = tooMuchMemory(limits, placeOf(true, error.function()));
+    failure.function = error.function();
+    return failure;
+  }
   return {.message = fmt::format("threw {} in {}", thrown.type, error.function()),
           .detail = thrown.text,
           .function = error.function()};

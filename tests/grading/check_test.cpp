@@ -155,6 +155,7 @@ TEST(Check, TellsHowNearToItsLimitTheWorstValueCame) {
                  check.near("position", Eigen::Vector2d(1, 2.09), Eigen::Vector2d(1, 2), 0.1, "m");
                  check.atMost("time", 0.5, 1, "s");
                  check.atLeast("gain", 1.5, 1);
+                 check.near("exact", 3, 3, 0);
                  check.that("it ends", true);
                },
                group)

@@ -80,6 +80,7 @@ TEST(ExplainThrow, KeepsTheStudentsTextApart) {
   EXPECT_EQ(memory.outcome, Outcome::memoryLimit);
   EXPECT_EQ(memory.message, "used more than 64 MB of memory in f");
   EXPECT_EQ(failure.function, "f");
+  EXPECT_EQ(memory.function, "f");
 }
 
 TEST(TellsOfCrash, OfSignalsButNotOfOtherEnds) {
