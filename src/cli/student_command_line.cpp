@@ -15,8 +15,8 @@ void addWatch(CLI::App& program, Action& action) {
   CLI::App* command =
       add(program, "watch", "Grade your main.cpp now and whenever you save it",
           "Example: scripts/rex watch 01\n\n"
-          "Notices saves by inotify, or by looking five times a second where that fails, and says which.\n"
-          "In a terminal single keys give hints and more; elsewhere it ends at the full score.");
+          "Notices saves by inotify, or by looking five times a second where that fails, and says\n"
+          "which. In a terminal single keys give hints and more; elsewhere it ends at the full score.");
   addExercise(command, options->exercise);
   command->add_flag("--poll", options->poll, "look at the file, do not ask inotify");
   command->callback(
