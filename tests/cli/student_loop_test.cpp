@@ -180,7 +180,9 @@ TEST_F(StudentLoop, RefusesWhatCannotBeHandedIn) {
   const Ended name = rex({"submit", "98", "-o", "handin.tar"});
   EXPECT_EQ(name.code, 64);
   EXPECT_THAT(name.error, HasSubstr("-o: found handin.tar, wanted a name ending in .zip"));
-  EXPECT_EQ(rex({"submit", "98", "-o", root() / "no/folder.zip"}).code, 3);
+  const Ended nowhere = rex({"submit", "98", "-o", root() / "no/folder.zip"});
+  EXPECT_EQ(nowhere.code, 3);
+  EXPECT_THAT(flat(nowhere.error), HasSubstr("no/folder.zip: cannot write the zip file: found No such file"));
   EXPECT_THAT(rex({"submit"}).error, HasSubstr("EXERCISE is required"));
   fs::remove(main());
   const Ended missing = rex({"submit", "98", "-o", root() / "handin.zip"});
