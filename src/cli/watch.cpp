@@ -1,4 +1,5 @@
 #include <chrono>
+#include <cstdio>
 
 #include <fmt/format.h>
 
@@ -75,6 +76,7 @@ std::string watchOne(const Project& project, const ExerciseInfo& exercise, FileW
   const std::filesystem::path main = exercise.folder / "main.cpp";
   FileWatcher watcher(main, method);
   say(fmt::format("watching {} by {}; Ctrl-C ends this", shown(main), watcher.describe()));
+  std::fflush(stdout);
   for (;;) {
     code = gradeOnce(project, exercise.name);
     const bool isSolved = code == ExitCode::kFull;
