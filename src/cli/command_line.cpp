@@ -31,19 +31,6 @@ void addGl(CLI::App* command, std::string& gl) {
 
 namespace {
 
-constexpr const char* kWelcome = R"(rex - robotics exercises
-
-First steps
-  scripts/rex list              the exercises, their points and where they belong
-  scripts/rex run 01            run your exercises/01-kinematics/main.cpp
-  scripts/rex test 01           grade it
-
-All commands
-  list   run   test   debug   scene   render   simulate   plan   curves   slam
-  filter   cma   care   dare   doctor   bench   dev
-`scripts/rex COMMAND --help` explains one. An exercise may be called by its number, its
-topic or its whole name: 01, kinematics, 01-kinematics.)";
-
 constexpr const char* kExitCodes =
     R"(Exit codes: 0 full score, 1 below full score, 2 cannot be graded (missing, does
 not compile), 3 fault of the grader, the project or the machine, 64 wrong use.)";
@@ -62,12 +49,6 @@ Action print(const std::string& text) {
     say(text.substr(0, text.find_last_not_of('\n') + 1));
     return ExitCode::kFull;
   };
-}
-
-void addExercise(CLI::App* command, std::string& exercise) {
-  command->add_option("EXERCISE", exercise, "number, topic or whole name: 01, kinematics, 01-kinematics")
-      ->type_name("")
-      ->required();
 }
 
 void addList(CLI::App& program, Action& action) {
@@ -94,7 +75,8 @@ void addTest(CLI::App& program, Action& action) {
       add(program, "test", "Grade your main.cpp: which checks pass, for how many points",
           "Examples:\n  scripts/rex test 01\n  scripts/rex test 01 --check step-hand --seed 17\n"
           "  scripts/rex test 01 --main /tmp/other.cpp --json\n\n"
-          "The result file is results.json, or results-partial.json with --check.\n" +
+          "The result file is results.json, results-partial.json with --check, or\n"
+          "results-debug.json with --debug.\n" +
               std::string(kExitCodes));
   addExercise(command, options->exercise);
   command->add_flag("--solution", options->solution, "grade the reference solution");
@@ -104,6 +86,7 @@ void addTest(CLI::App& program, Action& action) {
       ->type_name("NAME");
   command->add_option("--seed", options->seed, "repeat the random cases of this seed")->type_name("N");
   command->add_flag("--json", options->json, "print the result file and nothing else");
+  command->add_flag("--debug", options->debug, "with the sanitizers: slow, names the lines of crashes");
   command->add_option("-o,--out", options->out, kOutHelp)->type_name("DIR");
   command->callback([&action, options] {
     if (options->solution && !options->main.empty()) throw CLI::ExcludesError("--main", "--solution");
@@ -348,13 +331,14 @@ Action explainExtras(const CLI::App* command, const std::string& word) {
 }
 
 Action parseCommandLine(int argc, const char* const* argv) {
-  Action action = print(kWelcome);
-  CLI::App program("Robotics exercises: see, solve and test them", "rex");
+  Action action = progress;
+  CLI::App program("Robotics exercises: see, solve and test them. Without a command: your progress", "rex");
   program.footer(kExitCodes);
   program.require_subcommand(0, 1);
   program.get_formatter()->column_width(22);
   program.get_formatter()->label("REQUIRED", "");
   addList(program, action), addRun(program, action), addTest(program, action);
+  addStudentCommands(program, action);
   addDebug(program, action), addScene(program, action), addRender(program, action);
   addSimulate(program, action), addPlan(program, action), addCurves(program, action),
       addSlam(program, action), addFilter(program, action), addCma(program, action);

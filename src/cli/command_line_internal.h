@@ -16,7 +16,11 @@ using Action = std::function<ExitCode(const Project&)>;
 CLI::App* add(CLI::App& parent, const std::string& name, const std::string& purpose,
               const std::string& examples);
 
+void addExercise(CLI::App* command, std::string& exercise);
 void addGl(CLI::App* command, std::string& gl);
+
+/// `rex watch`, `hint`, `show`, `reset`, `solution` and `submit`.
+void addStudentCommands(CLI::App& program, Action& action);
 
 /// `rex scene FILE VERB`, `rex render FILE`, `rex simulate FILE` and `rex plan FILE`.
 void addScene(CLI::App& program, Action& action);

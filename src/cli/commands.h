@@ -16,6 +16,9 @@ namespace rex::cli {
 
 ExitCode list(const Project& project);
 
+/// The points of the last test of each exercise, and what to do next.
+ExitCode progress(const Project& project);
+
 struct RunOptions {
   std::string exercise;
   bool solution = false;
@@ -30,9 +33,44 @@ struct TestOptions {
   std::vector<std::string> checks;  ///< empty: all
   std::optional<std::uint64_t> seed;
   bool json = false;
+  bool debug = false;         ///< with the sanitizers
   std::filesystem::path out;  ///< empty: as for run
 };
 ExitCode test(const Project& project, const TestOptions& options);
+
+struct WatchOptions {
+  std::string exercise;
+  bool poll = false;  ///< do not ask inotify
+};
+/// Grades now and after each save. Ends by itself only without a keyboard, at the full score.
+ExitCode watch(const Project& project, const WatchOptions& options);
+
+struct HintOptions {
+  std::string exercise;
+  std::string part;    ///< empty: the first that needs one
+  bool again = false;  ///< those that were shown
+};
+ExitCode hint(const Project& project, const HintOptions& options);
+
+struct ShowOptions {
+  std::string exercise;
+  bool solution = false;
+};
+/// Where replays, films, pictures and the result lie. kBelow if there are none.
+ExitCode show(const Project& project, const ShowOptions& options);
+
+/// Makes main.cpp as it was handed out, and keeps the one that is there.
+ExitCode reset(const Project& project, const std::string& name);
+
+/// Prints the reference solution where the course allows it. kBelow if the exercise must be solved first.
+ExitCode solution(const Project& project, const std::string& name);
+
+struct SubmitOptions {
+  std::vector<std::string> exercises;
+  std::filesystem::path out = "handin.zip";
+};
+/// Writes the zip file to hand in: EXERCISE/main.cpp of each, and receipt.json.
+ExitCode submit(const Project& project, const SubmitOptions& options);
 
 struct BenchOptions {
   std::vector<std::string> names;

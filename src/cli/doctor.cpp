@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <functional>
@@ -10,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -17,6 +19,7 @@
 #include "base/error.h"
 #include "base/process.h"
 #include "cli/commands.h"
+#include "cli/file_watcher.h"
 #include "cli/render_plan.h"
 #include "cli/terminal.h"
 #include "grading/private_folder.h"
@@ -122,11 +125,14 @@ std::vector<Finding> tryBackends(GlBackend wanted, const fs::path& folder) {
     if (wanted != GlBackend::kAuto && wanted != backend) continue;
     findings.push_back(tryOut(std::string("OpenGL by ") + name, packages, [&, one = backend] {
       std::string description;
+      const auto start = std::chrono::steady_clock::now();
       const Image image = testImage(one, folder, description);
+      const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
       if (first && *first != image) fail(description + ": its pixels differ from those of the other backend");
       const char* same = first ? ", the same pixels" : "";
       first = image;
-      return description + "; test picture as expected" + same;
+      return fmt::format("{}; test picture 320 x 240 as expected{}, in {:.0f} ms", description, same,
+                         taken.count());
     }));
   }
   for (Finding& finding : findings) finding.isNeeded = finding.status == Status::kWorks || !first;
@@ -183,6 +189,41 @@ std::string processor() {
     if (line.starts_with(key) && colon != std::string::npos) return line.substr(colon + 2);
   }
   return "processor of unknown name";
+}
+
+// Compiles and runs a small program, as `rex test` needs it.
+Finding tryCompiler(const fs::path& folder) {
+  return tryOut("compiler", "g++ libeigen3-dev", [&] {
+    const std::string version = versionOf({REX_COMPILER, "--version"});
+    if (version.empty()) throw Missing{fmt::format("{} is not installed", REX_COMPILER)};
+    std::ofstream(folder / "test.cpp") << "int main() { return 7; }\n";
+    const ProcessResult compiled =
+        runProcess({REX_COMPILER, "-std=c++20", "test.cpp", "-o", "test-program"}, {.directory = folder});
+    if (!compiled.ok()) fail(std::string(REX_COMPILER) + " cannot compile: " + compiled.error);
+    if (runProcess({(folder / "test-program").string()}).exitCode != 7)
+      fail("a compiled program does not run");
+    return version;
+  });
+}
+
+// What rex was built with.
+Finding aboutLibraries() {
+  return {.name = "libraries",
+          .text = fmt::format("eigen {}.{}.{}, fmt {}.{}.{}, CLI11 {}, nlohmann-json {}.{}.{}",
+                              EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION,
+                              FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100, CLI11_VERSION,
+                              NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
+                              NLOHMANN_JSON_VERSION_PATCH)};
+}
+
+// How `rex watch` will notice saves; polling does it, too.
+Finding tryWatching(const fs::path& folder) {
+  return {.name = "watch", .text = FileWatcher(folder / "main.cpp").describe()};
+}
+
+Finding aboutSandbox() {
+  return {.name = "sandbox",
+          .text = "level 0 of 3: limits on time, memory and output; grade only your own code"};
 }
 
 Finding aboutRex() {
@@ -253,10 +294,12 @@ ExitCode doctor(const Project&, const DoctorOptions& options) {
   const grading::PrivateFolder folder(temporaryFolder());
   std::vector<Finding> findings = tryBackends(backend, folder.path());
   const Finding replays = tryReplays(backend, findings);
-  findings.insert(findings.begin(), aboutRex());
+  findings.insert(findings.begin(), {aboutRex(), tryCompiler(folder.path()), aboutLibraries()});
   findings.push_back(tryFigures(folder.path()));
   findings.push_back(tryVideos(folder.path()));
   findings.push_back(replays);
+  findings.push_back(tryWatching(folder.path()));
+  findings.push_back(aboutSandbox());
   const bool ok = std::all_of(findings.begin(), findings.end(), isWell);
   options.json ? sayJson(findings, ok) : sayAll(findings);
   return ok ? ExitCode::kFull : ExitCode::kGraderFault;

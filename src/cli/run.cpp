@@ -1,13 +1,11 @@
-#include <algorithm>
 #include <csignal>
-#include <map>
-#include <utility>
 
 #include <fmt/format.h>
 #include <string.h>
 
 #include "base/process.h"
 #include "cli/commands.h"
+#include "cli/result_list.h"
 #include "cli/student_file.h"
 #include "cli/terminal.h"
 #include "grading/private_folder.h"
@@ -17,26 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Names every file below the folder; long runs of one kind only by their ends.
 void listResults(const fs::path& folder) {
-  std::map<std::pair<std::string, std::string>, std::vector<std::string>> groups;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (!entry.is_regular_file()) continue;
-    const fs::path name = entry.path().lexically_relative(folder);
-    if (name.string().starts_with('.')) continue;
-    groups[{name.parent_path().string(), name.extension().string()}].push_back(shown(entry.path()));
-  }
-  if (groups.empty()) return;
-  say("\nWhat lies in " + shown(folder) + ":");
-  constexpr std::size_t kListed = 6;
-  for (auto& [kind, files] : groups) {
-    std::sort(files.begin(), files.end());
-    if (files.size() > kListed)
-      say(fmt::format("  {} ... {} ({} files)", files.front(), fs::path(files.back()).filename().string(),
-                      files.size()));
-    else
-      for (const std::string& file : files) say("  " + file);
-  }
+  const std::vector<std::string> files = shortList(filesIn(folder));
+  if (!files.empty()) say("\nWhat lies in " + shown(folder) + ":");
+  for (const std::string& line : files) say("  " + line);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -18,16 +19,31 @@ std::size_t columns(std::string_view text) {
       std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
 }
 
+// As no-color.org asks, and for terminals that would show the codes.
+bool wantsColour() {
+  const char* refused = std::getenv("NO_COLOR");
+  const char* kind = std::getenv("TERM");
+  return (refused == nullptr || *refused == '\0') && (kind == nullptr || std::string_view(kind) != "dumb");
+}
+
 }  // namespace
 
 std::string paint(Colour colour, std::string_view text) {
-  static const bool terminal = ::isatty(STDOUT_FILENO) == 1;
-  if (!terminal) return std::string(text);
+  static const bool isColourful = ::isatty(STDOUT_FILENO) == 1 && wantsColour();
+  if (!isColourful) return std::string(text);
   const int code = colour == Colour::kRed      ? 31
                    : colour == Colour::kGreen  ? 32
                    : colour == Colour::kYellow ? 33
                                                : 1;
   return fmt::format("\033[{}m{}\033[0m", code, text);
+}
+
+std::string bar(int part, int whole) {
+  constexpr int kCells = 20;
+  int cells = part <= 0 || whole <= 0 ? 0 : std::clamp(kCells * part / whole, 1, kCells);
+  if (cells == kCells && part < whole) --cells;
+  return std::string(static_cast<std::size_t>(cells), '#') +
+         std::string(static_cast<std::size_t>(kCells - cells), '.');
 }
 
 std::string wrap(std::string_view text, std::size_t indent, std::size_t used) {

@@ -8,8 +8,13 @@ namespace rex::cli {
 
 enum class Colour { kRed, kGreen, kYellow, kBold };
 
-/// The text in that colour when standard output is a terminal, the plain text otherwise.
+/// The text in that colour when standard output is a terminal that shows colours and NO_COLOR is unset or
+/// empty, the plain text otherwise.
 [[nodiscard]] std::string paint(Colour colour, std::string_view text);
+
+/// Twenty characters that show a part of a whole: "####................". Neither empty nor full unless it
+/// is.
+[[nodiscard]] std::string bar(int part, int whole);
 
 /// Breaks text at blanks so that lines have at most 80 columns, each but the first starting with `indent`
 /// blanks. `used` columns of the first line are taken already.

@@ -1,20 +1,23 @@
 #include <algorithm>
+#include <cstdio>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "cli/commands.h"
+#include "cli/progress_file.h"
+#include "cli/progress_line.h"
 #include "cli/student_file.h"
 #include "cli/terminal.h"
-#include "grading/compiler_messages.h"
+#include "cli/test_report.h"
 #include "grading/private_folder.h"
+#include "grading/result_file.h"
 #include "grading/submission.h"
 #include "grading/text_file.h"
 
 namespace rex::cli {
 namespace {
 
-using grading::CheckResult;
 using grading::GradeResult;
 using grading::Outcome;
 
@@ -24,49 +27,39 @@ ExitCode exitCodeOf(const GradeResult& result) {
   return result.outcome == Outcome::pass ? ExitCode::kFull : ExitCode::kBelow;
 }
 
-std::string verdict(const CheckResult& check) {
-  if (!check.status) return paint(Colour::kYellow, " -  ");
-  if (*check.status == Outcome::pass) return paint(Colour::kGreen, " ok ");
-  return check.points > 0 ? paint(Colour::kYellow, "part") : paint(Colour::kRed, "FAIL");
+// What a whole grading found stays until the next one.
+const char* resultName(const TestOptions& options) {
+  if (options.debug) return "results-debug.json";
+  return options.checks.empty() ? "results.json" : "results-partial.json";
 }
 
-void printChecks(const ExerciseInfo& exercise, const std::vector<CheckResult>& checks) {
-  constexpr std::size_t kIndent = 13;  // where titles begin, below each other
-  for (const grading::ExercisePart& part : exercise.parts) {
-    const auto isOfPart = [&](const CheckResult& check) { return check.part == part.id; };
-    if (std::none_of(checks.begin(), checks.end(), isOfPart)) continue;
-    say(paint(Colour::kBold, part.title));
-    for (const CheckResult& check : checks) {
-      if (!isOfPart(check)) continue;
-      const std::string hidden = check.group == grading::Group::hidden ? ", hidden" : "";
-      const std::string title = fmt::format("{} [{}{}]", harmless(check.title), check.id, hidden);
-      say(fmt::format(" {} {:2}/{:<2}  {}", verdict(check), check.points, check.maxPoints,
-                      wrap(title, kIndent, kIndent)));
-      if (check.status != Outcome::pass && !check.message.empty())
-        say(std::string(kIndent, ' ') + wrap(harmless(check.message), kIndent, kIndent));
-    }
+// From the result file, which grows while the checks run; the one of the last grading counts for nothing.
+std::string stageOf(const ExerciseInfo& exercise, const std::filesystem::path& results,
+                    std::filesystem::file_time_type start) {
+  const std::string name = exercise.name + ": ";
+  try {
+    if (std::filesystem::last_write_time(results) < start) return name + "compiling";
+    const GradeResult soFar = grading::loadResult(results);
+    const auto isOpen = [](const grading::CheckResult& check) { return !check.status; };
+    const auto open = std::find_if(soFar.checks.begin(), soFar.checks.end(), isOpen);
+    if (open == soFar.checks.end()) return name + "looking again";
+    return fmt::format("{}check {} of {}, {}", name, open - soFar.checks.begin() + 1, soFar.checks.size(),
+                       harmless(open->title));
+  } catch (const std::exception&) {
+    return name + "compiling";
   }
 }
 
-void printResult(const ExerciseInfo& exercise, const grading::Submission& graded,
-                 const std::filesystem::path& results) {
+void remember(const Project& project, const ExerciseInfo& exercise, const grading::Submission& graded) {
   const GradeResult& result = graded.result;
-  say(paint(Colour::kBold, fmt::format("{}: {}", exercise.name, exercise.title)));
-  if (result.outcome == Outcome::compileError) {
-    std::fflush(stdout);
-    explain(result.compile.diagnostics, graded.source, results.parent_path() / "build.log");
-    say("Not graded: no check could run.");
-  } else {
-    printChecks(exercise, result.checks);
-    for (const auto& message : result.compile.diagnostics) say(wrap(harmless(toString(message)), 2, 0));
-    if (result.outcome == Outcome::graderError)
-      say(wrap("The grader itself failed: not your fault, and not your grade. " + harmless(result.message), 0,
-               0));
-    const bool full = result.outcome == Outcome::pass;
-    say(paint(full ? Colour::kGreen : Colour::kBold,
-              fmt::format("{} of {} points", result.score, result.maxScore)));
-  }
-  say("Result: " + shown(results));
+  if (result.outcome == Outcome::graderError) return;
+  ProgressFile(project.root).change(exercise.name, [&](Progress& progress) {
+    progress.tested = true;
+    progress.points = result.score;
+    progress.maxPoints = result.maxScore;
+    progress.solved = progress.solved || result.outcome == Outcome::pass;
+    progress.fileSha256 = result.snapshotSha256;
+  });
 }
 
 }  // namespace
@@ -77,22 +70,28 @@ ExitCode test(const Project& project, const TestOptions& options) {
   const std::filesystem::path out = std::filesystem::absolute(
       options.out.empty() ? project.outFolder(exercise, options.solution) : options.out);
   std::filesystem::create_directories(out);
-  // What a whole grading found stays until the next one.
-  const std::filesystem::path results =
-      out / (options.checks.empty() ? "results.json" : "results-partial.json");
+  const std::filesystem::path results = out / resultName(options);
   const grading::Toolchain toolchain = prepare(project, exercise);
   const grading::PrivateFolder work(project.buildFolder(exercise));
-  const grading::Submission graded = grading::gradeSubmission(toolchain, exercise,
-                                                              {.main = file,
-                                                               .workFolder = work.path(),
-                                                               .results = results,
-                                                               .checks = options.checks,
-                                                               .seed = options.seed});
-  if (options.json) {
+  const grading::Submission graded = [&] {
+    const ProgressLine line([&, start = std::filesystem::file_time_type::clock::now()] {
+      return stageOf(exercise, results, start);
+    });
+    return grading::gradeSubmission(toolchain, exercise,
+                                    {.main = file,
+                                     .workFolder = work.path(),
+                                     .results = results,
+                                     .checks = options.checks,
+                                     .seed = options.seed,
+                                     .lookAgain = true,
+                                     .sanitize = options.debug});
+  }();
+  if (options.main.empty() && !options.solution && !options.debug && options.checks.empty())
+    remember(project, exercise, graded);
+  if (options.json)
     std::fputs(grading::readTextFile(results).c_str(), stdout);
-  } else {
-    printResult(exercise, graded, results);
-  }
+  else
+    printResult(exercise, graded, results, options.checks.empty());
   return exitCodeOf(graded.result);
 }
 

@@ -37,6 +37,13 @@ std::string valueText(const Check::MatrixArg& value, Eigen::Index row, Eigen::In
   return value.rows() == 1 ? text : "(" + text + ")";
 }
 
+// Relative to the limit. Where that is 0, nothing is near it: a value is beyond measure, or as it must be.
+double excessOver(double limit, double beyond) {
+  if (limit != 0) return beyond / std::abs(limit);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  return beyond > 0 ? kInfinity : -kInfinity;
+}
+
 void requireSound(bool sound, const CheckInfo& info, const std::string& fault) {
   if (!sound) throw std::logic_error("check '" + info.id + "' " + fault);
 }
@@ -51,10 +58,25 @@ bool Check::state(bool requirement) {
   return requirement;
 }
 
-void Check::fail(Shortfall shortfall) {
+// The value that came nearest to its limit, or went furthest beyond it.
+void Check::measure(std::string_view property, double excess, double value, double limit,
+                    std::string_view unit) {
+  if (!(excess > nearestExcess_)) return;
+  nearestExcess_ = excess;
+  nearest_ = {.property = std::string(property),
+              .value = withUnit(number(value), unit),
+              .limit = withUnit(number(limit), unit),
+              .caseNumber = caseNumber_ + 1};
+}
+
+void Check::keep(Shortfall shortfall) {
   shortfall.input = input_;
   shortfall.caseNumber = caseNumber_;
-  if (!first_) first_ = std::move(shortfall);
+  if (!worst_ || shortfall.excess > worst_->excess) worst_ = std::move(shortfall);
+}
+
+void Check::fail(Shortfall shortfall) {
+  keep(std::move(shortfall));
   throw RequirementFailed{};
 }
 
@@ -73,29 +95,38 @@ void Check::near(std::string_view property, const MatrixArg& got, const MatrixAr
   Eigen::Index row = 0;
   Eigen::Index col = 0;
   const double error = (got - wanted).cwiseAbs().maxCoeff(&row, &col);
+  const double excess = excessOver(tolerance, error - tolerance);
+  measure(property, excess, error, tolerance, unit);
   if (state(error <= tolerance)) return;
   fail({.property = std::string(property),
         .got = withUnit(valueText(got, row, col), unit),
         .wanted = withUnit(valueText(wanted, row, col), unit),
-        .tolerance = tolerance > 0 ? withUnit(number(tolerance), unit) : ""});
+        .tolerance = tolerance > 0 ? withUnit(number(tolerance), unit) : "",
+        .excess = excess});
 }
 
 void Check::atMost(std::string_view property, double got, double limit, std::string_view unit) {
   requireSound(std::isfinite(limit), info_, "wants a value that is not finite");
   shape(property, Eigen::Matrix<double, 1, 1>(got), 1, 1);
+  const double excess = excessOver(limit, got - limit);
+  measure(property, excess, got, limit, unit);
   if (state(got <= limit)) return;
   fail({.property = std::string(property),
         .got = withUnit(number(got), unit),
-        .wanted = "at most " + withUnit(number(limit), unit)});
+        .wanted = "at most " + withUnit(number(limit), unit),
+        .excess = excess});
 }
 
 void Check::atLeast(std::string_view property, double got, double limit, std::string_view unit) {
   requireSound(std::isfinite(limit), info_, "wants a value that is not finite");
   shape(property, Eigen::Matrix<double, 1, 1>(got), 1, 1);
+  const double excess = excessOver(limit, limit - got);
+  measure(property, excess, got, limit, unit);
   if (state(got >= limit)) return;
   fail({.property = std::string(property),
         .got = withUnit(number(got), unit),
-        .wanted = "at least " + withUnit(number(limit), unit)});
+        .wanted = "at least " + withUnit(number(limit), unit),
+        .excess = excess});
 }
 
 void Check::shape(std::string_view property, const MatrixArg& got, Eigen::Index rows, Eigen::Index cols) {
@@ -142,13 +173,11 @@ bool Check::runCase(int number, const std::function<void(int)>& run) {
   } catch (const remote::RemoteThrow& error) {
     // A worker without memory says nothing useful any more.
     if (error.thrown().kind == remote::Thrown::Kind::badAlloc) throw;
-    if (!first_)
-      first_ = {.outcome = Outcome::runtimeError,
-                .property = error.function() + " returns",
-                .what = "threw " + error.thrown().type + " in " + error.function(),
-                .got = error.thrown().text,
-                .input = input_,
-                .caseNumber = number};
+    keep({.outcome = Outcome::runtimeError,
+          .property = error.function() + " returns",
+          .what = "threw " + error.thrown().type + " in " + error.function(),
+          .got = error.thrown().text,
+          .function = error.function()});
     return false;
   }
 }
@@ -160,10 +189,10 @@ CheckResult Check::judge(const std::function<void(Check&)>& run) {
   } catch (const RequirementFailed&) {
     ended = true;
   }
-  requireSound(requirements_ > 0 || first_, info_, "states no requirement");
+  requireSound(requirements_ > 0 || worst_, info_, "states no requirement");
   CheckResult verdict = result();
   if (!ended && cases_ > 0) verdict.points = info_.points * casesPassed_ / cases_;
-  if (!ended && !first_) verdict.points = info_.points;
+  if (!ended && !worst_) verdict.points = info_.points;
   return verdict;
 }
 
@@ -173,16 +202,20 @@ CheckResult Check::result() const {
                       .title = info_.title,
                       .group = info_.group,
                       .status = Outcome::pass,
-                      .maxPoints = info_.points};
-  if (!first_) return verdict;
-  verdict.status = first_->outcome;
-  verdict.message = printable(messageOf(*first_), kLongestText);
-  verdict.property = first_->property;
+                      .maxPoints = info_.points,
+                      .cases = cases_,
+                      .casesHeld = casesPassed_};
+  if (info_.group == Group::visible) verdict.worst = nearest_;
+  if (!worst_) return verdict;
+  verdict.status = worst_->outcome;
+  verdict.message = printable(messageOf(*worst_), kLongestText);
+  verdict.property = worst_->property;
+  verdict.function = worst_->function;
   if (info_.group == Group::hidden) return verdict;
-  verdict.expected = first_->wanted;
-  verdict.got = printable(first_->got, kLongestText);
-  verdict.tolerance = first_->tolerance;
-  verdict.input = printable(first_->input, kLongestText);
+  verdict.expected = worst_->wanted;
+  verdict.got = printable(worst_->got, kLongestText);
+  verdict.tolerance = worst_->tolerance;
+  verdict.input = printable(worst_->input, kLongestText);
   return verdict;
 }
 

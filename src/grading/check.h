@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -56,8 +57,9 @@ class Check {
   void that(std::string_view property, bool holds);
 
   /// Runs a requirement-stating function for cases 0 to count - 1. The points are given in proportion to the
-  /// cases that hold, rounded down; the report names the first that does not. A case also fails if the
-  /// student's function throws; a crash ends the check.
+  /// cases that hold, rounded down; the report names the one that is furthest beyond its limit, relative to
+  /// the limit, and the first of equals. A case also fails if the student's function throws; a crash ends the
+  /// check.
   void forEachCase(int count, const std::function<void(int)>& run);
 
   /// Runs a whole check function and gives its result, without times. Passes on all exceptions, except that
@@ -75,10 +77,16 @@ class Check {
     std::string wanted{};
     std::string tolerance{};
     std::string input{};
+    std::string function{};  ///< of the student, that threw
+    double excess = kBeyondMeasure;
     int caseNumber = -1;
   };
+  /// How far a value is beyond its limit, relative to the limit; negative within it.
+  static constexpr double kBeyondMeasure = std::numeric_limits<double>::infinity();
 
   bool state(bool requirement);
+  void measure(std::string_view property, double excess, double value, double limit, std::string_view unit);
+  void keep(Shortfall shortfall);
   [[noreturn]] void fail(Shortfall shortfall);
   bool runCase(int number, const std::function<void(int)>& run);
   CheckResult result() const;
@@ -88,7 +96,9 @@ class Check {
   std::uint64_t seed_;
   Rng rng_;
   std::string input_;
-  std::optional<Shortfall> first_;
+  std::optional<Shortfall> worst_;  ///< of the requirements that do not hold
+  WorstValue nearest_;              ///< of all that were measured
+  double nearestExcess_ = -kBeyondMeasure;
   int requirements_ = 0;
   int cases_ = 0;
   int casesPassed_ = 0;

@@ -62,6 +62,17 @@ class TableReader {
     return list;
   }
 
+  template <class Value>
+  Value choice(std::string_view key, const std::vector<std::pair<std::string, Value>>& choices) const {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : choices) names.push_back(name);
+    const std::string wanted = fmt::format("one of {}", fmt::join(names, ", "));
+    const auto text = require(key, wanted).template value_exact<std::string>();
+    for (const auto& [name, value] : choices)
+      if (text && *text == name) return value;
+    complain(key, wanted);
+  }
+
   bool has(std::string_view key) const { return table_.contains(key); }
 
   SourceLocation where(std::string_view key) const {
@@ -142,6 +153,13 @@ ExercisePart readPart(const TableReader& table) {
   return part;
 }
 
+SolutionRule readSolutionRule(const TableReader& table) {
+  if (!table.has("solution")) return SolutionRule::never;
+  return table.choice<SolutionRule>("solution", {{"never", SolutionRule::never},
+                                                 {"after-pass", SolutionRule::afterPass},
+                                                 {"always", SolutionRule::always}});
+}
+
 ForbiddenFunction readForbidden(const TableReader& table) {
   table.refuseKeysBut({"function", "reason"});
   return {table.text("function"), table.text("reason")};
@@ -176,13 +194,14 @@ ExerciseInfo readExerciseInfo(const path& folder) {
   const path file = folder / "exercise.toml";
   const toml::table root = parse(file);
   const TableReader top(root, "the exercise", file.string());
-  top.refuseKeysBut({"title", "script", "limits", "part", "forbidden"});
+  top.refuseKeysBut({"title", "script", "solution", "limits", "part", "forbidden"});
 
   ExerciseInfo info;
   info.folder = folder;
   info.name = folder.filename().string();
   info.title = top.text("title");
   info.script = top.text("script");
+  info.solution = readSolutionRule(top);
   if (const toml::node* limits = root.get("limits")) {
     if (!limits->is_table())
       throw Error({.what = "'limits'", .where = top.where("limits"), .wanted = "a table headed [limits]"});

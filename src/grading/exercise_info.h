@@ -29,12 +29,16 @@ struct ExerciseLimits {
   int outputMb = 16;
 };
 
+/// When `rex solution` shows the reference solution, where solution.cpp was handed out.
+enum class SolutionRule { never, afterPass, always };
+
 /// What exercise.toml says.
 struct ExerciseInfo {
   std::string name;              ///< of the folder: "01-kinematics"
   std::filesystem::path folder;  ///< as it was given
   std::string title;
   std::string script;  ///< section of the course script
+  SolutionRule solution = SolutionRule::never;
   ExerciseLimits limits;
   std::vector<ExercisePart> parts;
   std::vector<ForbiddenFunction> forbidden;

@@ -37,6 +37,7 @@ CheckResult failed(const CheckInfo& info, const Failure& failure, const std::str
   const bool quote = info.group == Group::visible && !failure.detail.empty();
   check.message = printable(failure.message + (quote ? ": " + failure.detail : ""), kLongestMessage);
   if (info.group == Group::visible) check.input = printable(input, kLongestMessage);
+  check.function = failure.function;
   return check;
 }
 

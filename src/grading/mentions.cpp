@@ -65,7 +65,49 @@ void removeMain(std::string& code) {
   }
 }
 
+// The position behind the parenthesis that closes the one at `open`.
+std::size_t behindParentheses(const std::string& code, std::size_t open) {
+  std::size_t end = open + 1;
+  for (int depth = 1; end < code.size() && depth > 0; ++end) depth += (code[end] == '(') - (code[end] == ')');
+  return end;
+}
+
+// Whether "(...) ... {" follows, as behind the name of a function that is defined there.
+bool opensBody(const std::string& code, std::size_t at) {
+  const std::size_t open = code.find_first_not_of(" \n\t\r", at);
+  if (open == std::string::npos || code[open] != '(') return false;
+  const std::size_t end = code.find_first_of("{;()=,}", behindParentheses(code, open));
+  return end != std::string::npos && code[end] == '{';
+}
+
+int lineAt(std::size_t position, std::string_view source) {
+  const std::string_view before = source.substr(0, position);
+  return static_cast<int>(std::count(before.begin(), before.end(), '\n')) + 1;
+}
+
+std::pair<int, int> placeAt(std::size_t position, std::string_view source) {
+  const std::size_t lineStart = source.substr(0, position).rfind('\n') + 1;  // npos + 1 is 0
+  return {lineAt(position, source), static_cast<int>(position - lineStart) + 1};
+}
+
 }  // namespace
+
+std::pair<int, int> standardInputUse(std::string_view source) {
+  const std::string code = codeOf(source);
+  std::size_t first = code.size();
+  for (const char* word : {"cin", "stdin", "scanf", "getchar"})
+    for (const std::size_t at : positionsOf(word, code)) first = std::min(first, at);
+  if (first == code.size()) return {0, 0};
+  return placeAt(first, source);
+}
+
+int definitionLineOf(std::string_view function, std::string_view source) {
+  if (function.empty()) return 0;
+  const std::string code = codeOf(source);
+  for (const std::size_t at : positionsOf(function, code))
+    if (opensBody(code, at + function.size())) return lineAt(at, source);
+  return 0;
+}
 
 std::pair<int, int> onlyMentionOf(std::string_view function, std::string_view source) {
   const std::size_t colons = function.rfind("::");
@@ -74,10 +116,7 @@ std::pair<int, int> onlyMentionOf(std::string_view function, std::string_view so
   removeMain(code);
   const std::vector<std::size_t> positions = positionsOf(word, code);
   if (positions.size() != 1) return {0, 0};
-  const std::string_view before = source.substr(0, positions.front());
-  const std::size_t lineStart = before.rfind('\n') + 1;  // npos + 1 is 0
-  return {static_cast<int>(std::count(before.begin(), before.end(), '\n')) + 1,
-          static_cast<int>(positions.front() - lineStart) + 1};
+  return placeAt(positions.front(), source);
 }
 
 }  // namespace rex::grading

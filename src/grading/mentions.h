@@ -9,4 +9,12 @@ namespace rex::grading {
 /// source names the function, by the last part of its qualified name; 0, 0 when there is none or several.
 [[nodiscard]] std::pair<int, int> onlyMentionOf(std::string_view function, std::string_view source);
 
+/// The line, from 1, on which a C++ source begins to define a function of that plain name; 0 when it does
+/// not.
+[[nodiscard]] int definitionLineOf(std::string_view function, std::string_view source);
+
+/// Line and column, from 1, of the first place outside comments and literals where a C++ source reads from
+/// standard input by std::cin, stdin, scanf or getchar; 0, 0 when it does not.
+[[nodiscard]] std::pair<int, int> standardInputUse(std::string_view source);
+
 }  // namespace rex::grading

@@ -37,7 +37,9 @@ void copyTree(const path& from, const path& to) {
 std::map<std::string, std::string> madeFiles(const path& exercise) {
   std::map<std::string, std::string> made;
   const path solution = exercise / "solution.cpp", check = exercise / "check.cpp";
-  if (fs::exists(solution)) made["main.cpp"] = stripSolution(readTextFile(solution), solution.string());
+  // Twice: the second one is for `rex reset`.
+  for (const char* name : {"main.cpp", "starter.cpp"})
+    if (fs::exists(solution)) made[name] = stripSolution(readTextFile(solution), solution.string());
   if (fs::exists(check)) made["check.cpp"] = stripHidden(readTextFile(check), check.string());
   return made;
 }

@@ -29,7 +29,16 @@ Json checkToJson(const CheckResult& check) {
           {"expected", check.expected},
           {"got", check.got},
           {"tolerance", check.tolerance},
-          {"input", check.input}};
+          {"input", check.input},
+          {"worst",
+           {{"property", check.worst.property},
+            {"value", check.worst.value},
+            {"limit", check.worst.limit},
+            {"case", check.worst.caseNumber}}},
+          {"cases", check.cases},
+          {"cases_held", check.casesHeld},
+          {"function", check.function},
+          {"line", check.line}};
 }
 
 Json compileToJson(const CompileResult& compile) {
@@ -157,6 +166,15 @@ CheckResult readCheck(const Fields& fields) {
   fields.read("got", check.got);
   fields.read("tolerance", check.tolerance);
   fields.read("input", check.input);
+  const Fields worst = fields.object("worst");
+  worst.read("property", check.worst.property);
+  worst.read("value", check.worst.value);
+  worst.read("limit", check.worst.limit);
+  worst.read("case", check.worst.caseNumber);
+  fields.read("cases", check.cases);
+  fields.read("cases_held", check.casesHeld);
+  fields.read("function", check.function);
+  fields.read("line", check.line);
   return check;
 }
 

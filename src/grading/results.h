@@ -21,6 +21,15 @@ struct SourceFile {
   std::string sha256{};
 };
 
+/// The requirement that was nearest to its limit, or furthest beyond it, over all cases of a check. Texts
+/// carry their units; empty for hidden checks, and where nothing was measured.
+struct WorstValue {
+  std::string property{};
+  std::string value{};  ///< the distance from what was wanted, or the value that has a limit
+  std::string limit{};
+  int caseNumber = 0;  ///< from 1; 0: outside of cases
+};
+
 struct CheckResult {
   std::string id{};
   std::string part{};
@@ -35,6 +44,11 @@ struct CheckResult {
   std::string got{};
   std::string tolerance{};
   std::string input{};
+  WorstValue worst{};
+  int cases = 0;  ///< 0: the check has none
+  int casesHeld = 0;
+  std::string function{};  ///< the student's that ran when the check ended badly; empty: none
+  int line = 0;  ///< of the student's file, where that was, or where the function begins; 0: unknown
   double wallSeconds = 0;  ///< volatile
   double cpuSeconds = 0;   ///< volatile
 };

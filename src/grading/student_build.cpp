@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/process.h"
+#include "grading/mentions.h"
 #include "grading/precompiled_prefix.h"
 #include "grading/symbol_scan.h"
 
@@ -215,6 +216,9 @@ StudentObject compileStudent(const Toolchain& toolchain, const std::vector<Forbi
       scanSymbols(toolchain.objdump, result.object, result.source, name, forbidden);
   result.ok = calls.empty();
   result.messages.insert(result.messages.end(), calls.begin(), calls.end());
+  if (const auto [line, column] = standardInputUse(result.source); line > 0)
+    result.messages.push_back({name, line, column, "warning", "stdin",
+                               "reads standard input, which is empty here: every read finds its end"});
   result.log = writeLog(result.messages);
   return result;
 }

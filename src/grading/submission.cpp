@@ -9,11 +9,15 @@
 #include "base/process.h"
 #include "grading/compiler_messages.h"
 #include "grading/descendants.h"
+#include "grading/mentions.h"
+#include "grading/printable.h"
 #include "grading/result_file.h"
+#include "grading/second_look.h"
 #include "grading/sha256.h"
 #include "grading/student_build.h"
 #include "grading/text_file.h"
 #include "grading/unknown_check_internal.h"
+#include "grading/worker_failure.h"
 
 namespace rex::grading {
 namespace {
@@ -22,14 +26,10 @@ using std::filesystem::path;
 
 constexpr int kGraderFault = 3;  // it explains itself in the result
 constexpr double kLongestGrading = 3600;
-
-// Changes whenever the task or its checks do.
-std::string exerciseVersion(const path& folder) {
-  std::string text;
-  for (const char* name : {"exercise.toml", "exercise.h", "check.cpp"})
-    if (std::filesystem::exists(folder / name)) text += readTextFile(folder / name) + '\0';
-  return sha256(text).substr(0, 12);
-}
+// What a program with the sanitizers may take: time, as it is slow, and addresses, of which it reserves
+// terabytes.
+constexpr double kSanitizedSlowness = 20;
+constexpr int kSanitizedMegabytes = 1 << 30;
 
 // "c++ (Debian 12.2.0-14) 12.2.0", or the name alone of a compiler that does not run.
 std::string compilerVersion(const std::string& compiler) {
@@ -68,6 +68,12 @@ std::vector<std::string> graderCommand(const Toolchain& toolchain, const Exercis
   return command;
 }
 
+ExerciseInfo withLimitsOfSanitizers(ExerciseInfo exercise) {
+  exercise.limits.cpuSeconds *= kSanitizedSlowness;
+  exercise.limits.memoryMb = kSanitizedMegabytes;
+  return exercise;
+}
+
 // Runs the grader and reads what it wrote; a grader that breaks is our fault and says so in the result. One
 // that was stopped leaves its worker behind, and what that started.
 GradeResult callGrader(const std::vector<std::string>& command, const path& results) {
@@ -100,10 +106,22 @@ void requireKnownChecks(const Toolchain& toolchain, const std::vector<std::strin
     if (std::find(known.begin(), known.end(), id) == known.end()) throw internal::unknownCheck(id, known);
 }
 
+Toolchain sanitized(const Toolchain& toolchain, const SubmissionOptions& options) {
+  std::filesystem::create_directories(options.workFolder);
+  return sanitizedToolchain(toolchain, std::filesystem::absolute(options.workFolder));
+}
+
+StudentObject compileAsAsked(const Toolchain& toolchain, const ExerciseInfo& exercise,
+                             const SubmissionOptions& options) {
+  constexpr double kSanitizedSeconds = 90;
+  StudentBuildOptions build{.main = options.main, .workFolder = options.workFolder};
+  if (options.sanitize) build.seconds = kSanitizedSeconds;
+  return compileStudent(toolchain, exercise.forbidden, build);
+}
+
 void compileAndLink(const Toolchain& toolchain, const ExerciseInfo& exercise,
                     const SubmissionOptions& options, BuiltSubmission& built) {
-  const StudentObject object =
-      compileStudent(toolchain, exercise.forbidden, {.main = options.main, .workFolder = options.workFolder});
+  const StudentObject object = compileAsAsked(toolchain, exercise, options);
   built.start = startResult(toolchain, exercise, object);
   built.source = object.source;
   std::string log = object.log;
@@ -121,13 +139,59 @@ void compileAndLink(const Toolchain& toolchain, const ExerciseInfo& exercise,
   writeTextFile(options.results.parent_path() / "build.log", log);
 }
 
+// What the sanitizers see in one check of a build with them.
+std::optional<CrashSite> crashSiteOf(const Toolchain& toolchain, const ExerciseInfo& exercise,
+                                     const SubmissionOptions& options, const path& worker,
+                                     const std::string& check, const std::string& mainFile) {
+  SubmissionOptions one = options;
+  one.checks = {check};
+  one.results = options.workFolder / "second-look.json";
+  std::filesystem::remove(one.results);
+  const ExerciseInfo limited = withLimitsOfSanitizers(exercise);
+  const NewDescendants workers;
+  static_cast<void>(runProcess(graderCommand(toolchain, limited, one, worker), {.timeout = kLongestGrading}));
+  return crashSiteIn(loadResult(one.results).error.text, mainFile);
+}
+
+// Builds the same file with the sanitizers and repeats the visible checks that crashed, to say where. The
+// verdict stays: whatever goes wrong here, the result is as good as without.
+void findCrashes(const Toolchain& toolchain, const ExerciseInfo& exercise, const SubmissionOptions& options,
+                 const BuiltSubmission& graded, GradeResult& result) {
+  constexpr int kMostRepeated = 4;
+  std::vector<CheckResult*> crashed;
+  for (CheckResult& check : result.checks)
+    if (check.group == Group::visible && tellsOfCrash(check.message)) crashed.push_back(&check);
+  if (crashed.size() > kMostRepeated) crashed.resize(kMostRepeated);
+  if (crashed.empty()) return;
+  SubmissionOptions again = options;
+  again.sanitize = true;
+  again.workFolder = options.workFolder / "second-look";
+  again.results = again.workFolder / "results.json";
+  try {
+    const BuiltSubmission built = options.sanitize ? graded : buildSubmission(toolchain, exercise, again);
+    std::filesystem::create_directories(again.workFolder);
+    if (built.worker.empty()) return;
+    for (CheckResult* check : crashed) {
+      const auto site =
+          crashSiteOf(toolchain, exercise, again, built.worker, check->id, built.start.files.front().name);
+      if (!site) continue;
+      // Of an abort, the message tells the reason already.
+      if (!check->message.starts_with("aborted "))
+        check->message += "; a second look: " + printable(site->finding, 500);
+      if (site->line > 0) check->line = site->line;
+    }
+  } catch (const Error&) {
+    return;
+  }
+}
+
 }  // namespace
 
 BuiltSubmission buildSubmission(const Toolchain& toolchain, const ExerciseInfo& exercise,
                                 const SubmissionOptions& options) {
   BuiltSubmission built;
   try {
-    compileAndLink(toolchain, exercise, options, built);
+    compileAndLink(options.sanitize ? sanitized(toolchain, options) : toolchain, exercise, options, built);
   } catch (const Error& error) {
     built.start = startResult(toolchain, exercise, {});
     built.start.message = error.what();  // the outcome is graderError until somebody finds a better one
@@ -138,7 +202,13 @@ BuiltSubmission buildSubmission(const Toolchain& toolchain, const ExerciseInfo& 
 GradeResult gradeBuilt(const BuiltSubmission& built, const Toolchain& toolchain, const ExerciseInfo& exercise,
                        const SubmissionOptions& options) {
   saveResult(built.start, options.results);
-  return callGrader(graderCommand(toolchain, exercise, options, built.worker), options.results);
+  const ExerciseInfo limited = options.sanitize ? withLimitsOfSanitizers(exercise) : exercise;
+  GradeResult result = callGrader(graderCommand(toolchain, limited, options, built.worker), options.results);
+  if (built.worker.empty()) return result;
+  for (CheckResult& check : result.checks) check.line = definitionLineOf(check.function, built.source);
+  if (options.lookAgain || options.sanitize) findCrashes(toolchain, exercise, options, built, result);
+  saveResult(result, options.results);
+  return result;
 }
 
 Submission gradeSubmission(const Toolchain& toolchain, const ExerciseInfo& exercise,
@@ -146,6 +216,13 @@ Submission gradeSubmission(const Toolchain& toolchain, const ExerciseInfo& exerc
   requireKnownChecks(toolchain, options.checks);
   const BuiltSubmission built = buildSubmission(toolchain, exercise, options);
   return {gradeBuilt(built, toolchain, exercise, options), built.source};
+}
+
+std::string exerciseVersion(const path& folder) {
+  std::string text;
+  for (const char* name : {"exercise.toml", "exercise.h", "check.cpp"})
+    if (std::filesystem::exists(folder / name)) text += readTextFile(folder / name) + '\0';
+  return sha256(text).substr(0, 12);
 }
 
 std::vector<CheckResult> listChecks(const Toolchain& toolchain) {

@@ -19,6 +19,8 @@ struct SubmissionOptions {
   std::filesystem::path results;     ///< results.json; build.log is written beside it
   std::vector<std::string> checks;   ///< ids; empty: all
   std::optional<std::uint64_t> seed;
+  bool lookAgain = false;  ///< after a crash in a visible check, find its line with the sanitizers
+  bool sanitize = false;   ///< grade a build with the sanitizers, with twenty times the processor time
 };
 
 /// A graded file.
@@ -45,6 +47,9 @@ struct BuiltSubmission {
 /// The second step; may be repeated with other seeds.
 [[nodiscard]] GradeResult gradeBuilt(const BuiltSubmission& built, const Toolchain& toolchain,
                                      const ExerciseInfo& exercise, const SubmissionOptions& options);
+
+/// Twelve digits that change whenever the task in that folder or its checks do.
+[[nodiscard]] std::string exerciseVersion(const std::filesystem::path& folder);
 
 /// All checks of an exercise, none run. Throws Error when the grader cannot list them.
 [[nodiscard]] std::vector<CheckResult> listChecks(const Toolchain& toolchain);

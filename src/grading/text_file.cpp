@@ -1,11 +1,37 @@
 #include "grading/text_file.h"
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <iterator>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
 
 #include "base/error.h"
 
 namespace rex::grading {
+namespace {
+
+bool writeAll(int fd, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(fd, text.data(), text.size());
+    if (written < 0 && errno != EINTR) return false;
+    if (written > 0) text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+// The new name survives a power cut once its folder lies on the disk. Some file systems cannot do that.
+void syncFolder(const std::filesystem::path& folder) {
+  const int fd = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd < 0) return;
+  ::fsync(fd);
+  ::close(fd);
+}
+
+}  // namespace
 
 std::string readTextFile(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -20,6 +46,23 @@ void writeTextFile(const std::filesystem::path& file, std::string_view text) {
   out << text;
   out.close();
   if (!out) throw Error({.what = "cannot write this file", .where = {file.string()}});
+}
+
+void replaceTextFile(const std::filesystem::path& file, std::string_view text, const std::string& what) {
+  std::filesystem::path temporary = file;
+  temporary += fmt::format(".{}.new", ::getpid());  // of our own: another process may write beside us
+  const auto refuse = [&] {
+    const int cause = errno;
+    ::unlink(temporary.c_str());
+    throw Error(
+        {.what = "cannot write " + what, .where = {.file = file.string()}, .found = std::strerror(cause)});
+  };
+  const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0644);
+  if (fd < 0) refuse();
+  const bool written = writeAll(fd, text) && ::fsync(fd) == 0;
+  ::close(fd);
+  if (!written || ::rename(temporary.c_str(), file.c_str()) != 0) refuse();
+  syncFolder(file.parent_path());
 }
 
 }  // namespace rex::grading

@@ -12,4 +12,8 @@ namespace rex::grading {
 /// Makes or replaces the file, in folders made where missing. Throws Error when that fails.
 void writeTextFile(const std::filesystem::path& file, std::string_view text);
 
+/// Replaces the file at once: a reader sees the old text or the new one, also after a kill or a power cut.
+/// Throws Error "cannot write WHAT".
+void replaceTextFile(const std::filesystem::path& file, std::string_view text, const std::string& what);
+
 }  // namespace rex::grading

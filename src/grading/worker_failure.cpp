@@ -75,6 +75,11 @@ std::string placeOf(bool ready, const std::string& function) {
   return ready ? "between two calls" : "before the first call";
 }
 
+bool tellsOfCrash(std::string_view message) {
+  return message.starts_with("crashed with ") || message.starts_with("aborted ") ||
+         message.starts_with("was ended by signal ");
+}
+
 Failure explainEnd(const WorkerEnd& end, const WorkerLimits& limits) {
   if (WIFSIGNALED(end.status)) return explainSignal(end, limits);
   const int code = WEXITSTATUS(end.status);
@@ -89,9 +94,14 @@ Failure explainEnd(const WorkerEnd& end, const WorkerLimits& limits) {
 
 Failure explainThrow(const remote::RemoteThrow& error, const WorkerLimits& limits) {
   const remote::Thrown& thrown = error.thrown();
-  if (thrown.kind == remote::Thrown::Kind::badAlloc)
-    return tooMuchMemory(limits, placeOf(true, error.function()));
-  return {.message = fmt::format("threw {} in {}", thrown.type, error.function()), .detail = thrown.text};
+  if (thrown.kind == remote::Thrown::Kind::badAlloc) {
+    Failure failure = tooMuchMemory(limits, placeOf(true, error.function()));
+    failure.function = error.function();
+    return failure;
+  }
+  return {.message = fmt::format("threw {} in {}", thrown.type, error.function()),
+          .detail = thrown.text,
+          .function = error.function()};
 }
 
 }  // namespace rex::grading

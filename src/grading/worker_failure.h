@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "grading/outcome.h"
 #include "grading/worker_limits.h"
@@ -12,8 +13,9 @@ namespace rex::grading {
 /// printed what it was given, so reports of hidden checks leave it out.
 struct Failure {
   Outcome outcome = Outcome::runtimeError;
-  std::string message{};  ///< "aborted in ikStep"
-  std::string detail{};   ///< "Assertion `index < size()' failed."
+  std::string message{};   ///< "aborted in ikStep"
+  std::string detail{};    ///< "Assertion `index < size()' failed."
+  std::string function{};  ///< of the student, that ran; empty if none
 };
 
 /// A worker process that has ended although nobody asked it to.
@@ -27,6 +29,9 @@ struct WorkerEnd {
 
 /// "in ikStep", "before the first call" or "between two calls".
 [[nodiscard]] std::string placeOf(bool ready, const std::string& function);
+
+/// Whether a message of ours tells of a crash, for which a second look with the sanitizers may find the line.
+[[nodiscard]] bool tellsOfCrash(std::string_view message);
 
 [[nodiscard]] Failure explainEnd(const WorkerEnd& end, const WorkerLimits& limits);
 [[nodiscard]] Failure explainThrow(const remote::RemoteThrow& error, const WorkerLimits& limits);

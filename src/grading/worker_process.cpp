@@ -81,6 +81,8 @@ class Worker {
   Failure explain(const remote::ProtocolError& reason) const;
   /// Ends the worker and all it left behind, and says what it used.
   WorkerRun end();
+  /// The student's function that runs now, or ran when it ended badly.
+  const std::string& running() const { return caller_.running(); }
 
  private:
   void waitFor(int fd, remote::Channel::Direction direction);
@@ -258,6 +260,7 @@ WorkerRun runWithWorker(const WorkerOptions& options,
   } catch (const remote::RemoteThrow& error) {
     failure = explainThrow(error, options.limits);
   }
+  if (failure && failure->function.empty()) failure->function = worker.running();
   WorkerRun run = worker.end();
   run.failure = std::move(failure);
   return run;

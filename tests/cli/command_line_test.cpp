@@ -24,7 +24,7 @@ void expectUsageError(const std::vector<std::string>& arguments, const std::stri
 TEST(Program, WelcomesAndHelps) {
   const ProcessResult welcome = rex({});
   EXPECT_EQ(welcome.exitCode, 0);
-  EXPECT_THAT(welcome.output, HasSubstr("rex test 01"));
+  EXPECT_THAT(welcome.output, HasSubstr("All commands: scripts/rex --help"));
   for (const std::vector<std::string>& arguments :
        std::vector<std::vector<std::string>>{{"--help"},
                                              {"list", "--help"},
@@ -35,6 +35,12 @@ TEST(Program, WelcomesAndHelps) {
                                              {"render", "--help"},
                                              {"simulate", "--help"},
                                              {"doctor", "--help"},
+                                             {"watch", "--help"},
+                                             {"hint", "--help"},
+                                             {"show", "--help"},
+                                             {"reset", "--help"},
+                                             {"solution", "--help"},
+                                             {"submit", "--help"},
                                              {"dev"},
                                              {"dev", "new", "--help"},
                                              {"dev", "check", "--help"},
@@ -59,8 +65,8 @@ TEST(Program, NamesTheValuesOfOptionsAndTheEnvironmentOnce) {
 }
 
 TEST(Program, KeepsHelpWithin100ColumnsAndFreeOfColour) {
-  for (const char* command :
-       {"list", "run", "test", "bench", "debug", "render", "simulate", "doctor", "dev"}) {
+  for (const char* command : {"list", "run", "test", "watch", "hint", "show", "reset", "solution", "submit",
+                              "bench", "debug", "render", "simulate", "doctor", "dev"}) {
     const std::string help = rex({command, "--help"}).output;
     EXPECT_EQ(help.find('\033'), std::string::npos);
     for (std::size_t start = 0; start < help.size();) {
@@ -69,6 +75,23 @@ TEST(Program, KeepsHelpWithin100ColumnsAndFreeOfColour) {
       start = end + 1;
     }
   }
+}
+
+// In a pseudo terminal, as `script` makes one.
+TEST(Program, ColoursTextOnlyOnATerminalThatWantsIt) {
+  const std::string rexList = REX_BINARY_DIR "/rex list";
+  const auto onATerminal = [&](const std::string& settings) {
+    const ProcessResult result =
+        runProcess({"script", "-qec", "env " + settings + " " + rexList, "/dev/null"});
+    EXPECT_EQ(result.exitCode, 0) << result.error;
+    return result.output;
+  };
+  const std::string plain = "-u NO_COLOR TERM=xterm";
+  EXPECT_THAT(onATerminal(plain), HasSubstr("\033[1m"));
+  EXPECT_THAT(onATerminal(plain + " NO_COLOR="), HasSubstr("\033[1m"));
+  EXPECT_EQ(onATerminal(plain + " NO_COLOR=1").find('\033'), std::string::npos);
+  EXPECT_EQ(onATerminal("-u NO_COLOR TERM=dumb").find('\033'), std::string::npos);
+  EXPECT_EQ(rex({"list"}).output.find('\033'), std::string::npos);
 }
 
 TEST(Program, AnswersUnknownWordsWithTheNearest) {

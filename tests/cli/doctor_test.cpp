@@ -75,9 +75,11 @@ TEST_F(Doctor, FindsThatAllWorks) {
   const Diagnosis diagnosis = diagnose();
   EXPECT_EQ(diagnosis.exitCode, 0);
   EXPECT_TRUE(diagnosis.ok);
-  const std::map<std::string, std::string> works = {{"rex", "works"},           {"OpenGL by osmesa", "works"},
+  const std::map<std::string, std::string> works = {{"rex", "works"},           {"compiler", "works"},
+                                                    {"libraries", "works"},     {"OpenGL by osmesa", "works"},
                                                     {"OpenGL by egl", "works"}, {"figures", "works"},
-                                                    {"videos", "works"},        {"replays", "works"}};
+                                                    {"videos", "works"},        {"replays", "works"},
+                                                    {"watch", "works"},         {"sandbox", "works"}};
   EXPECT_EQ(diagnosis.status, works);
   EXPECT_THAT(diagnosis.text.at("rex"), ::testing::ContainsRegex("^[0-9.]+, by (g|clang)\\+\\+ .*, on .+"));
   EXPECT_THAT(diagnosis.text.at("OpenGL by egl"), HasSubstr("the same pixels"));

@@ -20,6 +20,17 @@ TEST(Wrap, CountsLettersNotBytes) {
   EXPECT_EQ(wrap(letters + " " + letters, 2, 0), letters + " " + letters);
 }
 
+TEST(Bar, IsNeitherEmptyNorFullUnlessTheWholeIs) {
+  const std::string empty(20, '.'), full(20, '#');
+  EXPECT_EQ(bar(0, 7), empty);
+  EXPECT_EQ(bar(7, 7), full);
+  EXPECT_EQ(bar(5, 10), std::string(10, '#') + std::string(10, '.'));
+  EXPECT_EQ(bar(1, 1000), "#" + std::string(19, '.'));
+  EXPECT_EQ(bar(999, 1000), std::string(19, '#') + ".");
+  for (const auto& [part, whole] : {std::pair{-3, 7}, {0, 0}, {3, 0}}) EXPECT_EQ(bar(part, whole), empty);
+  EXPECT_EQ(bar(9, 7), full);
+}
+
 TEST(Paint, LeavesTextPlainOffATerminal) { EXPECT_EQ(paint(Colour::kRed, "text"), "text"); }
 
 TEST(Harmless, LetsNoEscapeSequenceThrough) {

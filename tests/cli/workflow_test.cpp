@@ -1,88 +1,16 @@
-#include <fstream>
-#include <sstream>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
-#include "cli/command_line.h"
-#include "support/file_text.h"
-#include "support/temporary_folder.h"
+#include "cli/template_project.h"
 
 namespace rex::cli {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr const char* kGood = R"(#include "exercise.h"
-#include <cmath>
-Eigen::Vector2d rotated(const Eigen::Vector2d& p, double a) {
-  return {std::cos(a) * p.x() - std::sin(a) * p.y(), std::sin(a) * p.x() + std::cos(a) * p.y()};
-}
-int main() {}
-)";
-
-struct Ended {
-  int code = 0;
-  std::string output, error;
-};
-
-// The words of a message, however its lines are broken.
-std::string flat(const std::string& text) {
-  std::istringstream words(text);
-  std::string joined;
-  for (std::string word; words >> word;) joined += (joined.empty() ? "" : " ") + word;
-  return joined;
-}
-
-// A project of one exercise, made from the template in a folder of its own; its grader was built beforehand.
-class WorkflowTest : public ::testing::Test {
- protected:
-  void SetUp() override {
-    for (const char* folder : {"exercises", "share", "src"}) fs::create_directories(root() / folder);
-    fs::copy(REX_BINARY_DIR "/tests/template/source", exercise(), fs::copy_options::recursive);
-    fs::copy(REX_SOURCE_DIR "/src/geometry", root() / "src" / "geometry");
-    fs::copy(REX_SOURCE_DIR "/share/template", root() / "share" / "template", fs::copy_options::recursive);
-    // Older than the grader, which would be built anew otherwise.
-    for (const auto& entry : fs::recursive_directory_iterator(exercise()))
-      fs::last_write_time(entry.path(), fs::file_time_type::clock::now() - std::chrono::hours(24 * 365 * 20));
-    EXPECT_EQ(rex({"dev", "strip", "98"}).code, 0);
-  }
-
-  fs::path root() const { return temporary_.path(); }
-  fs::path exercise() const { return root() / "exercises" / "98-template"; }
-  fs::path out() const { return root() / "out" / "98-template"; }
-
-  Ended rexIn(const fs::path& build, std::vector<std::string> arguments) const {
-    std::vector<const char*> argv = {"rex"};
-    for (const std::string& argument : arguments) argv.push_back(argument.c_str());
-    ::testing::internal::CaptureStdout();
-    ::testing::internal::CaptureStderr();
-    const int code = runCommandLine(static_cast<int>(argv.size()), argv.data(), {root(), build});
-    std::string output = ::testing::internal::GetCapturedStdout();
-    return {code, std::move(output), ::testing::internal::GetCapturedStderr()};
-  }
-  Ended rex(std::vector<std::string> arguments) const {
-    return rexIn(REX_BINARY_DIR "/tests/template", std::move(arguments));
-  }
-
-  static void write(const fs::path& file, const std::string& text) { std::ofstream(file) << text; }
-  static void replace(const fs::path& file, const std::string& from, const std::string& to) {
-    std::string text = fileText(file);
-    ASSERT_NE(text.find(from), std::string::npos) << from;
-    write(file, text.replace(text.find(from), from.size(), to));
-  }
-  void expectOpenGate(const std::string& gate, const std::string& message) const {
-    const Ended ended = rex({"dev", "check", "98", "--gate", gate});
-    EXPECT_EQ(ended.code, 1) << gate;
-    EXPECT_THAT(ended.output, HasSubstr("FAIL  98-template  " + gate));
-    EXPECT_THAT(flat(ended.output), HasSubstr(message));
-  }
-
-  TemporaryFolder temporary_;
-};
+class WorkflowTest : public TemplateProject {};
 
 TEST_F(WorkflowTest, ListsExercises) {
   const Ended ended = rex({"list"});

@@ -133,6 +133,65 @@ TEST(Cases, GiveCreditInProportionAndNameTheFirstThatFails) {
   EXPECT_EQ(result.message, "5 of 8 cases hold; case 3: not 2 or 5: does not hold (seed 7)");
 }
 
+TEST(Cases, NameTheOneThatIsFurthestBeyondItsLimit) {
+  const std::vector<double> values = {0.5, 3, 8, 2};
+  const CheckResult result = judge([&](Check& check) {
+    check.forEachCase(4, [&](int k) { check.atMost("error", values[static_cast<std::size_t>(k)], 1, "m"); });
+  });
+  EXPECT_EQ(result.message, "1 of 4 cases hold; case 3: error: got 8 m, wanted at most 1 m (seed 7)");
+  EXPECT_EQ(result.worst.property, "error");
+  EXPECT_EQ(result.worst.value, "8 m");
+  EXPECT_EQ(result.worst.limit, "1 m");
+  EXPECT_EQ(result.worst.caseNumber, 3);
+  EXPECT_EQ(result.cases, 4);
+  EXPECT_EQ(result.casesHeld, 1);
+}
+
+// 0.09 of 0.1 is nearer to its limit than 0.5 of 1, and than 1.5 that should be at least 1.
+TEST(Check, TellsHowNearToItsLimitTheWorstValueCame) {
+  const auto judged = [](Group group) {
+    return judge(
+               [](Check& check) {
+                 check.near("position", Eigen::Vector2d(1, 2.09), Eigen::Vector2d(1, 2), 0.1, "m");
+                 check.atMost("time", 0.5, 1, "s");
+                 check.atLeast("gain", 1.5, 1);
+                 check.near("exact", 3, 3, 0);
+                 check.that("it ends", true);
+               },
+               group)
+        .worst;
+  };
+  EXPECT_EQ(judged(Group::visible).property, "position");
+  EXPECT_EQ(judged(Group::visible).value, "0.09 m");
+  EXPECT_EQ(judged(Group::visible).limit, "0.1 m");
+  EXPECT_EQ(judged(Group::visible).caseNumber, 0);
+  EXPECT_EQ(judged(Group::hidden).property, "") << "hidden checks show no numbers";
+  EXPECT_EQ(judge([](Check& check) { check.that("it ends", true); }).worst.property, "");
+}
+
+TEST(Check, CountsAnyExcessOverALimitOfZeroAsTheWorst) {
+  const CheckResult result = judge([](Check& check) {
+    check.forEachCase(3, [&](int k) {
+      if (k == 0) check.atMost("large", 100, 1);
+      if (k == 1) check.near("exact", 1e-9, 0, 0);
+      if (k == 2) check.atMost("negative", 0.5, 0);
+    });
+  });
+  EXPECT_THAT(result.message, HasSubstr("case 2: exact: got 1e-09, wanted 0"));
+}
+
+TEST(Cases, PutAThrowBeforeEveryMeasuredFailure) {
+  const CheckResult result = judge([](Check& check) {
+    check.forEachCase(2, [&](int k) {
+      if (k == 1) throw thrown(remote::Thrown::Kind::exception);
+      check.atMost("error", 1e9, 1);
+    });
+  });
+  EXPECT_EQ(result.status, Outcome::runtimeError);
+  EXPECT_EQ(result.function, "f");
+  EXPECT_THAT(result.message, HasSubstr("case 2: threw E in f"));
+}
+
 TEST(Cases, DoNotShowTheInputOfTheCaseBefore) {
   const auto inputOf = [](int failing) {
     return judge([&](Check& check) {

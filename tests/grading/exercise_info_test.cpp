@@ -71,15 +71,20 @@ TEST_F(ExerciseInfoTest, ReadsEverything) {
   ASSERT_EQ(info.forbidden.size(), 1u);
   EXPECT_EQ(info.forbidden[0].function, "rex::inverseKinematicsStep");
   EXPECT_EQ(info.forbidden[0].reason, "the step is what you write here");
+  EXPECT_EQ(info.solution, SolutionRule::never);
+  for (const auto& [word, rule] : {std::pair{"never", SolutionRule::never},
+                                   {"after-pass", SolutionRule::afterPass},
+                                   {"always", SolutionRule::always}})
+    EXPECT_EQ(readWith("[limits]", std::string("solution = \"") + word + "\"\n[limits]").solution, rule);
 }
 
 TEST_F(ExerciseInfoTest, RefusesBadFilesWithPlaceAndAdvice) {
   EXPECT_REX_ERROR(readExerciseInfo("no/where"), "no/where/exercise.toml: no such file");
   EXPECT_REX_ERROR(read("title = \"x\"\nscript = \n"), "exercise.toml:2:");
-  EXPECT_REX_ERROR(
-      readWith("title = \"Kin", "titel = \"Kin"),
-      "exercise.toml:1:1: unknown key 'titel' in the exercise: wanted one of title, script, limits, part, "
-      "forbidden (did you mean 'title'?)");
+  EXPECT_REX_ERROR(readWith("title = \"Kin", "titel = \"Kin"),
+                   "exercise.toml:1:1: unknown key 'titel' in the exercise: wanted one of title, script, "
+                   "solution, limits, "
+                   "part, forbidden (did you mean 'title'?)");
   EXPECT_REX_ERROR(readWith("memory_mb", "memory"), "exercise.toml:6:1: unknown key 'memory' in [limits]");
   EXPECT_REX_ERROR(readWith("floor = 1", "flor = 1"), "exercise.toml:19:1: unknown key 'flor' in [[part]]");
   EXPECT_REX_ERROR(readWith("reason", "why"), "exercise.toml:23:1: unknown key 'why' in [[forbidden]]");
@@ -91,6 +96,8 @@ TEST_F(ExerciseInfoTest, RefusesBadFilesWithPlaceAndAdvice) {
       "exercise.toml:12:10: [[part]]: 'points': found 5.5, wanted a whole number from 1 to 1000");
   EXPECT_REX_ERROR(readWith("floor = 1", "floor = 5"),
                    "[[part]]: 'floor': found 5, wanted a whole number from 0 to 4");
+  EXPECT_REX_ERROR(readWith("[limits]", "solution = \"later\"\n[limits]"),
+                   "the exercise: 'solution': found 'later', wanted one of never, after-pass, always");
   EXPECT_REX_ERROR(readWith("2.5", "-1"), "[limits]: 'cpu_seconds': found -1, wanted a number above 0");
   EXPECT_REX_ERROR(readWith("2.5", "nan"), "[limits]: 'cpu_seconds': found nan, wanted a number above 0");
   EXPECT_REX_ERROR(readWith("[\"What moves?\", \"Which axis?\"]", "[1]"),

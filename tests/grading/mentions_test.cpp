@@ -32,5 +32,33 @@ TEST(OnlyMentionOf, IsNothingWhereSeveralOrNoneAre) {
   EXPECT_EQ(place("/* open"), kNowhere);
 }
 
+TEST(DefinitionLineOf, FindsTheBodyAmongDeclarationsAndCalls) {
+  const std::string source = R"(#include "exercise.h"
+// solveIk(q) {
+Vec solveIk(const Vec& q);
+void helper() {
+  if (solveIk(q)) { return; }
+  for (auto x : solveIk(q)) {}
+  auto y = solveIk(q); {}
+}
+Vec solveIk(const Vec& q,
+            double step = f(1)) noexcept {
+  return q;
+}
+Vec mySolveIk(int) { return {}; }
+)";
+  EXPECT_EQ(definitionLineOf("solveIk", source), 9);
+  EXPECT_EQ(definitionLineOf("helper", source), 4);
+  EXPECT_EQ(definitionLineOf("step", source), 0);
+  EXPECT_EQ(definitionLineOf("", source), 0);
+  EXPECT_EQ(definitionLineOf("f", "int f("), 0);
+}
+
+TEST(StandardInputUse, IsTheFirstInCode) {
+  EXPECT_EQ(standardInputUse("int a;\n  std::cin >> a;\ngetchar();\n"), std::pair(2, 8));
+  EXPECT_EQ(standardInputUse("fgets(line, 9, stdin);"), std::pair(1, 16));
+  EXPECT_EQ(standardInputUse("// std::cin\n\"scanf\"; int cinema; mystdin();"), std::pair(0, 0));
+}
+
 }  // namespace
 }  // namespace rex::grading

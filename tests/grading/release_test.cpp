@@ -51,12 +51,14 @@ TEST_F(ReleaseTest, HoldsWhatStudentsNeedAndNothingElse) {
   std::set<std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(target()))
     if (entry.is_regular_file()) files.insert(fs::relative(entry.path(), target()).string());
-  EXPECT_THAT(files, ::testing::UnorderedElementsAre(
-                         "CMakeLists.txt", "README.md", "LICENSE", ".clang-format", "share/cmake/a.cmake",
-                         "src/base/error.h", "data/robots/arm.ors", "scripts/rex", "exercises/CMakeLists.txt",
-                         "exercises/01-demo/exercise.h", "exercises/01-demo/README.md",
-                         "exercises/01-demo/main.cpp", "exercises/01-demo/check.cpp"));
+  EXPECT_THAT(files,
+              ::testing::UnorderedElementsAre(
+                  "CMakeLists.txt", "README.md", "LICENSE", ".clang-format", "share/cmake/a.cmake",
+                  "src/base/error.h", "data/robots/arm.ors", "scripts/rex", "exercises/CMakeLists.txt",
+                  "exercises/01-demo/exercise.h", "exercises/01-demo/README.md", "exercises/01-demo/main.cpp",
+                  "exercises/01-demo/starter.cpp", "exercises/01-demo/check.cpp"));
   EXPECT_EQ(released("exercises/01-demo/main.cpp"), "int twice(int a) {\n  return 0;\n}\n");
+  EXPECT_EQ(released("exercises/01-demo/starter.cpp"), released("exercises/01-demo/main.cpp"));
   EXPECT_EQ(released("exercises/01-demo/check.cpp"), "visible();\n");
   EXPECT_EQ(released("README.md"), "Run scripts/rex.\n");
 }

@@ -41,6 +41,11 @@ GradeResult someResult() {
                     .got = "g",
                     .tolerance = "t",
                     .input = "i",
+                    .worst = {.property = "w", .value = "2 m", .limit = "1 m", .caseNumber = 3},
+                    .cases = 8,
+                    .casesHeld = 6,
+                    .function = "f",
+                    .line = 12,
                     .wallSeconds = 1.5,
                     .cpuSeconds = 0.25},
                    {.id = "y", .maxPoints = 5}};
@@ -59,6 +64,10 @@ TEST(Results, ComeBackFromJson) {
   EXPECT_EQ(back.submissionId, someResult().submissionId);
   EXPECT_EQ(back.checks.at(0).status, Outcome::timeLimit);
   EXPECT_EQ(back.checks.at(0).group, Group::hidden);
+  EXPECT_EQ(back.checks.at(0).worst.limit, "1 m");
+  EXPECT_EQ(back.checks.at(0).worst.caseNumber, 3);
+  EXPECT_EQ(back.checks.at(0).casesHeld, 6);
+  EXPECT_EQ(back.checks.at(0).line, 12);
   EXPECT_EQ(back.checks.at(0).wallSeconds, 1.5);
   EXPECT_EQ(back.checks.at(1).status, std::nullopt);
   EXPECT_EQ(back.limits.memoryMegabytes, 100);

@@ -23,5 +23,20 @@ TEST(TextFile, NamesTheFileInComplaints) {
                    temporary.path().string() + ": cannot write this file");
 }
 
+TEST(TextFile, IsReplacedWithoutATrace) {
+  const TemporaryFolder temporary;
+  const std::filesystem::path file = temporary.path() / "file";
+  for (const char* text : {"one", "another, longer one", ""}) {
+    replaceTextFile(file, text, "the notes");
+    EXPECT_EQ(readTextFile(file), text);
+  }
+  std::filesystem::create_directory(temporary.path() / "taken");
+  EXPECT_REX_ERROR(replaceTextFile(temporary.path() / "taken", "x", "the notes"),
+                   "taken: cannot write the notes: found Is a directory");
+  EXPECT_REX_ERROR(replaceTextFile(temporary.path() / "no" / "file", "x", "the notes"),
+                   "file: cannot write the notes: found No such file or directory");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(temporary.path()), {}), 2);
+}
+
 }  // namespace
 }  // namespace rex::grading

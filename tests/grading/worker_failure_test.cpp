@@ -79,6 +79,19 @@ TEST(ExplainThrow, KeepsTheStudentsTextApart) {
   const Failure memory = explainThrow({"f", {.kind = remote::Thrown::Kind::badAlloc}}, kLimits);
   EXPECT_EQ(memory.outcome, Outcome::memoryLimit);
   EXPECT_EQ(memory.message, "used more than 64 MB of memory in f");
+  EXPECT_EQ(failure.function, "f");
+  EXPECT_EQ(memory.function, "f");
+}
+
+TEST(TellsOfCrash, OfSignalsButNotOfOtherEnds) {
+  const auto ended = [](int status) {
+    return explainEnd({.status = status, .function = "f"}, kLimits).message;
+  };
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP})
+    EXPECT_TRUE(tellsOfCrash(ended(signal))) << ended(signal);
+  for (const int status : {SIGXCPU, SIGXFSZ, 0, 3 << 8}) EXPECT_FALSE(tellsOfCrash(ended(status)));
+  EXPECT_FALSE(tellsOfCrash("threw E in f"));
+  EXPECT_FALSE(tellsOfCrash("position: got 1 m, wanted 2 m"));
 }
 
 }  // namespace

@@ -1,0 +1,42 @@
+#include "cli/progress_line.h"
+
+#include <chrono>
+#include <cstdio>
+#include <utility>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace rex::cli {
+
+using namespace std::chrono_literals;
+
+ProgressLine::ProgressLine(std::function<std::string()> text) : text_(std::move(text)) {
+  if (::isatty(STDERR_FILENO) == 1) thread_ = std::thread([this] { show(); });
+}
+
+ProgressLine::~ProgressLine() {
+  if (!thread_.joinable()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    isOver_ = true;
+  }
+  wake_.notify_one();
+  thread_.join();
+  std::fputs("\r\033[K", stderr);
+}
+
+void ProgressLine::show() {
+  constexpr std::size_t kLongest = 78;
+  const auto start = std::chrono::steady_clock::now();
+  std::unique_lock lock(mutex_);
+  while (!wake_.wait_for(lock, 300ms, [&] { return isOver_; })) {
+    const auto seconds =
+        std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - start).count();
+    const std::string line = fmt::format("{} ({} s)", text_(), seconds);
+    fmt::print(stderr, "\r\033[K{}", line.substr(0, kLongest));
+    std::fflush(stderr);
+  }
+}
+
+}  // namespace rex::cli

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+
+namespace rex::cli {
+
+/// While it lives, the last line of the terminal says what long work is doing, some times a second; nothing
+/// where standard error is no terminal. The line is gone afterwards.
+class ProgressLine {
+ public:
+  /// `text` is called from a thread of its own.
+  explicit ProgressLine(std::function<std::string()> text);
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+ private:
+  void show();
+
+  std::function<std::string()> text_;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  bool isOver_ = false;
+  std::thread thread_;
+};
+
+}  // namespace rex::cli

@@ -1,0 +1,51 @@
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "cli/commands.h"
+#include "cli/terminal.h"
+#include "grading/regions.h"
+#include "grading/text_file.h"
+
+namespace rex::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// main.cpp as students got it: a release keeps a copy, the course makes it from the solution.
+std::string starterOf(const ExerciseInfo& exercise) {
+  const fs::path copy = exercise.folder / "starter.cpp", solution = exercise.folder / "solution.cpp";
+  if (fs::exists(copy)) return grading::readTextFile(copy);
+  if (fs::exists(solution)) return grading::stripSolution(grading::readTextFile(solution), solution.string());
+  throw UsageError({.what = fmt::format("{} has no copy of main.cpp as it was handed out", exercise.name),
+                    .where = {copy.string()}});
+}
+
+// Under a name that nobody has taken.
+fs::path keepBackup(const fs::path& main) {
+  for (int k = 1;; ++k) {
+    const fs::path backup = main.parent_path() / fmt::format("main.backup-{}.cpp", k);
+    if (fs::exists(fs::symlink_status(backup))) continue;
+    fs::copy_file(main, backup);
+    return backup;
+  }
+}
+
+}  // namespace
+
+ExitCode reset(const Project& project, const std::string& name) {
+  const ExerciseInfo exercise = project.exercise(name);
+  const fs::path main = exercise.folder / "main.cpp";
+  const std::string starter = starterOf(exercise);
+  if (fs::exists(main)) {
+    if (grading::readTextFile(main) == starter) {
+      say(fmt::format("{} is as it was handed out.", shown(main)));
+      return ExitCode::kFull;
+    }
+    say(fmt::format("Your file is kept as {}.", shown(keepBackup(main))));
+  }
+  grading::replaceTextFile(main, starter, "the student's file");
+  say(fmt::format("{} is as it was handed out again.", shown(main)));
+  return ExitCode::kFull;
+}
+
+}  // namespace rex::cli

@@ -1,0 +1,5 @@
+#include <cmath>
+
+#include "exercise.h"
+Eigen::Vector2d rotated(const Eigen::Vector2d& p, double a) { return std::sqrt(-1 - a * a) * p; }
+int main() {}

@@ -1,0 +1,278 @@
+// The commands of the student's loop besides run and test.
+#include <functional>
+#include <thread>
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/interruption.h"
+#include "base/process.h"
+#include "cli/template_project.h"
+
+namespace rex::cli {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+class StudentLoop : public TemplateProject {
+ protected:
+  fs::path main() const { return exercise() / "main.cpp"; }
+  static std::string sha256Of(const fs::path& file) {
+    return runProcess({"sha256sum", file.string()}).output.substr(0, 64);
+  }
+};
+
+TEST_F(StudentLoop, ShowsProgressAndTheNextStep) {
+  const Ended start = rex({});
+  EXPECT_EQ(start.code, 0);
+  EXPECT_THAT(start.output, StartsWith("98-template  [....................]   - of  3\n"));
+  EXPECT_THAT(start.output, HasSubstr("0 of 1 exercises solved, 0 of 3 points in the last tests"));
+  EXPECT_THAT(start.output, HasSubstr("Next: 98-template, Rotating points (template)\n  read "));
+  EXPECT_THAT(start.output, HasSubstr("scripts/rex run 98 "));
+
+  rex({"test", "98"});
+  EXPECT_THAT(rex({}).output, StartsWith("98-template  [....................]   0 of  3\n"));
+  EXPECT_THAT(rex({}).output, HasSubstr("scripts/rex hint 98 "));
+  write(main(), std::string(kGood) + "// edited\n");
+  EXPECT_THAT(rex({}).output, HasSubstr("  0 of  3   edited since this test\n"));
+
+  rex({"test", "98"});
+  const Ended end = rex({});
+  EXPECT_THAT(end.output, StartsWith("98-template  [####################]   3 of  3\n"));
+  EXPECT_THAT(end.output, HasSubstr("All exercises are solved."));
+}
+
+TEST_F(StudentLoop, CountsOnlyWholeTestsOfTheStudentsFile) {
+  write(root() / "mine.cpp", kGood);
+  rex({"test", "98", "--main", root() / "mine.cpp"});
+  rex({"test", "98", "--solution"});
+  rex({"test", "98", "--check", "keeps-length"});
+  EXPECT_THAT(rex({}).output, HasSubstr("  - of  3"));
+}
+
+TEST_F(StudentLoop, GivesHintsOneByOne) {
+  const std::string title = "Rotation in the plane [rotate]\n";
+  EXPECT_EQ(rex({"hint", "98", "--again"}).output,
+            title + "  no hint was shown yet\n  2 more: scripts/rex hint 98-template rotate\n");
+  EXPECT_EQ(rex({"hint", "98"}).output,
+            title +
+                "  1 of 2: Where does the point (1, 0) go when you turn it by a quarter?\n"
+                "  1 more: scripts/rex hint 98-template rotate\n");
+  EXPECT_THAT(flat(rex({"hint", "98", "rotate"}).output),
+              HasSubstr("2 of 2: And (0, 1)? A rotation is linear: these two tell everything. That was"));
+  const std::string all = rex({"hint", "98"}).output;
+  EXPECT_THAT(all, HasSubstr("1 of 2: "));
+  EXPECT_THAT(all, HasSubstr("2 of 2: "));
+  const Ended unknown = rex({"hint", "98", "rotat"});
+  EXPECT_EQ(unknown.code, 64);
+  EXPECT_THAT(flat(unknown.error), HasSubstr("98-template has no part 'rotat': wanted one of rotate (did you "
+                                             "mean 'rotate'?)"));
+}
+
+TEST_F(StudentLoop, HintsAtThePartThatLostPoints) {
+  replace(exercise() / "exercise.toml", "[[part]]",
+          "[[part]]\nid = \"other\"\ntitle = \"Another part\"\npoints = 1\nhints = [\"Other.\"]\n\n[[part]]");
+  EXPECT_THAT(rex({"hint", "98"}).output, StartsWith("Another part [other]"));
+  rex({"test", "98"});
+  EXPECT_THAT(rex({"hint", "98"}).output, StartsWith("Rotation in the plane [rotate]"));
+}
+
+TEST_F(StudentLoop, SaysWhereReplayAndPicturesAre) {
+  const Ended nothing = rex({"show", "98"});
+  EXPECT_EQ(nothing.code, 1);
+  EXPECT_THAT(nothing.output, HasSubstr("scripts/rex run 98-template"));
+  fs::create_directories(out() / "dance");
+  for (const char* file : {"dance.html", "dance.mp4", "dance/0000.png", "end.png"}) write(out() / file, "x");
+  const Ended shown = rex({"show", "98"});
+  EXPECT_EQ(shown.code, 0);
+  const std::string folder = out().string() + "/";
+  EXPECT_EQ(shown.output, "replay   " + folder + "dance.html\n         file://" + folder +
+                              "dance.html\nfilm     " + folder + "dance.mp4\npicture  " + folder +
+                              "end.png\npicture  " + folder + "dance/0000.png\n");
+}
+
+TEST_F(StudentLoop, ResetsAndKeepsEveryBackup) {
+  const std::string starter = fileText(main());
+  EXPECT_THAT(rex({"reset", "98"}).output, HasSubstr("is as it was handed out."));
+  for (int k = 1; k <= 2; ++k) {
+    const std::string mine = "my work " + std::to_string(k);
+    write(main(), mine);
+    const Ended ended = rex({"reset", "98"});
+    EXPECT_EQ(ended.code, 0) << ended.error;
+    const std::string backup = "main.backup-" + std::to_string(k) + ".cpp";
+    EXPECT_THAT(ended.output, HasSubstr(backup));
+    EXPECT_EQ(fileText(exercise() / backup), mine);
+    EXPECT_EQ(fileText(main()), starter);
+  }
+  fs::remove(main());
+  EXPECT_EQ(rex({"reset", "98"}).code, 0);
+  EXPECT_EQ(fileText(main()), starter);
+}
+
+TEST_F(StudentLoop, ResetsByTheCopyThatStudentsGet) {
+  fs::remove(exercise() / "solution.cpp");
+  write(main(), "mine");
+  const Ended none = rex({"reset", "98"});
+  EXPECT_EQ(none.code, 64);
+  EXPECT_THAT(flat(none.error), HasSubstr("has no copy of main.cpp as it was handed out"));
+  EXPECT_EQ(fileText(main()), "mine");
+  write(exercise() / "starter.cpp", "as handed out");
+  EXPECT_EQ(rex({"reset", "98"}).code, 0);
+  EXPECT_EQ(fileText(main()), "as handed out");
+}
+
+TEST_F(StudentLoop, ShowsTheSolutionWhereTheCourseAllowsIt) {
+  const Ended never = rex({"solution", "98"});
+  EXPECT_EQ(never.code, 64);
+  EXPECT_THAT(never.error, HasSubstr("the course does not show the solution of 98-template"));
+  replace(exercise() / "exercise.toml", "[limits]", "solution = \"after-pass\"\n\n[limits]");
+  const std::string solution = fileText(exercise() / "solution.cpp");
+  const Ended early = rex({"solution", "98"});
+  EXPECT_EQ(early.code, 1);
+  EXPECT_EQ(early.output, "");
+  EXPECT_THAT(flat(early.error), HasSubstr("is shown once `scripts/rex test 98-template` gave you the full"));
+  write(main(), kGood);
+  rex({"test", "98"});
+  EXPECT_EQ(rex({"solution", "98"}).output, solution);
+  // Once solved, solved.
+  write(main(), "broken");
+  rex({"test", "98"});
+  EXPECT_EQ(rex({"solution", "98"}).output, solution);
+  fs::remove(exercise() / "solution.cpp");
+  EXPECT_THAT(flat(rex({"solution", "98"}).error), HasSubstr("98-template comes without a solution here"));
+}
+
+// The archive is read by a program of others.
+TEST_F(StudentLoop, HandsInTheListedFileWithItsHash) {
+  write(main(), kGood);
+  write(exercise() / "notes.txt", "private");
+  const fs::path zip = root() / "handin.zip";
+  const Ended ended = rex({"submit", "98", "template", "-o", zip});
+  ASSERT_EQ(ended.code, 0) << ended.error;
+  const std::string hash = sha256Of(main());
+  EXPECT_THAT(ended.output, StartsWith(hash + "  98-template/main.cpp\n"));
+  EXPECT_THAT(flat(ended.error), HasSubstr("was not tested: scripts/rex test 98-template"));
+  const ProcessResult listed = runProcess({"python3", "-m", "zipfile", "-l", zip.string()});
+  ASSERT_TRUE(listed.ok()) << listed.error;
+  EXPECT_THAT(listed.output, HasSubstr("98-template/main.cpp"));
+  EXPECT_THAT(listed.output, HasSubstr("receipt.json"));
+  EXPECT_EQ(std::count(listed.output.begin(), listed.output.end(), '\n'), 3) << listed.output;
+  ASSERT_TRUE(runProcess({"python3", "-m", "zipfile", "-t", zip.string()}).ok());
+  ASSERT_TRUE(
+      runProcess({"python3", "-m", "zipfile", "-e", zip.string(), (root() / "unpacked").string()}).ok());
+  EXPECT_EQ(fileText(root() / "unpacked/98-template/main.cpp"), kGood);
+  EXPECT_THAT(fileText(root() / "unpacked/receipt.json"), HasSubstr("\"sha256\": \"" + hash + "\""));
+
+  const std::string bytes = fileText(zip);
+  rex({"test", "98"});
+  const Ended again = rex({"submit", "98", "-o", zip});
+  EXPECT_EQ(again.error, "");
+  EXPECT_EQ(fileText(zip), bytes) << "the same files, the same bytes";
+}
+
+TEST_F(StudentLoop, RefusesWhatCannotBeHandedIn) {
+  const Ended name = rex({"submit", "98", "-o", "handin.tar"});
+  EXPECT_EQ(name.code, 64);
+  EXPECT_THAT(name.error, HasSubstr("-o: found handin.tar, wanted a name ending in .zip"));
+  const Ended nowhere = rex({"submit", "98", "-o", root() / "no/folder.zip"});
+  EXPECT_EQ(nowhere.code, 3);
+  EXPECT_THAT(flat(nowhere.error), HasSubstr("no/folder.zip: cannot write the zip file: found No such file"));
+  EXPECT_THAT(rex({"submit"}).error, HasSubstr("EXERCISE is required"));
+  fs::remove(main());
+  const Ended missing = rex({"submit", "98", "-o", root() / "handin.zip"});
+  EXPECT_EQ(missing.code, 2);
+  EXPECT_THAT(flat(missing.error), HasSubstr("main.cpp: cannot be graded: found no file"));
+  EXPECT_FALSE(fs::exists(root() / "handin.zip"));
+}
+
+TEST_F(StudentLoop, AnswersTyposInAllCommands) {
+  for (const char* command : {"watch", "hint", "show", "reset", "solution", "submit"}) {
+    const Ended typo = rex({command, "98-templat"});
+    EXPECT_EQ(typo.code, 64) << command;
+    EXPECT_THAT(flat(typo.error), HasSubstr("did you mean '98-template'")) << command;
+    EXPECT_EQ(rex({command}).code, 64) << command;
+  }
+  EXPECT_THAT(rex({"wach", "98"}).error, HasSubstr("did you mean 'watch'?"));
+}
+
+bool waitUntil(const std::function<bool()>& holds) {
+  for (int k = 0; k < 3000; ++k) {
+    if (holds()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return false;
+}
+
+// `rex watch` in a process of its own, without a terminal, writing to a file.
+class Watching : public StudentLoop {
+ protected:
+  pid_t start(const std::vector<const char*>& more = {}) const {
+    const pid_t child = ::fork();
+    if (child != 0) return child;
+    const int log = ::open((root() / "log").c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
+    const int nothing = ::open("/dev/null", O_RDONLY);
+    ::dup2(nothing, STDIN_FILENO), ::dup2(log, STDOUT_FILENO), ::dup2(log, STDERR_FILENO);
+    std::vector<const char*> arguments = {"rex", "watch", "98"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    try {
+      const HeldSignals held;
+      const int code = runCommandLine(static_cast<int>(arguments.size()), arguments.data(),
+                                      {root(), REX_BINARY_DIR "/tests/template"});
+      std::fflush(nullptr);
+      ::_exit(code);
+    } catch (const Interrupted&) {
+      ::_exit(99);
+    }
+  }
+  std::string log() const { return fs::exists(root() / "log") ? fileText(root() / "log") : ""; }
+  bool hasGraded(int times) const {
+    int count = 0;
+    const std::string text = log();
+    for (std::size_t at = text.find("graded in "); at != std::string::npos;
+         at = text.find("graded in ", at + 1))
+      ++count;
+    return count >= times;
+  }
+  static int exitCodeOf(pid_t child) {
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+};
+
+TEST_F(Watching, GradesAgainAtEverySaveUntilAllIsRight) {
+  for (const bool polls : {false, true}) {
+    rex({"reset", "98"});
+    fs::remove(root() / "log");
+    const pid_t child = start(polls ? std::vector<const char*>{"--poll"} : std::vector<const char*>{});
+    ASSERT_TRUE(waitUntil([&] { return hasGraded(1); })) << log();
+    EXPECT_THAT(log(), HasSubstr(polls ? "by polling; Ctrl-C" : "by inotify; Ctrl-C"));
+    write(main(), "int main() { broken }\n");
+    ASSERT_TRUE(waitUntil([&] { return hasGraded(2); })) << log();
+    EXPECT_THAT(log(), HasSubstr("Not graded"));
+    write(root() / "saved", kGood);
+    fs::rename(root() / "saved", main());
+    EXPECT_EQ(exitCodeOf(child), 0);
+    EXPECT_THAT(log(), HasSubstr("3 of 3 points"));
+    EXPECT_EQ(log().find('\033'), std::string::npos) << "no colours and no keys in a file";
+  }
+}
+
+TEST_F(Watching, EndsWhenItIsAskedTo) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    fs::remove(root() / "log");
+    const pid_t child = start();
+    ASSERT_TRUE(waitUntil([&] { return hasGraded(1); })) << log();
+    ::kill(child, signal);
+    EXPECT_EQ(exitCodeOf(child), 99);
+  }
+}
+
+}  // namespace
+}  // namespace rex::cli

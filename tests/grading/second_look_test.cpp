@@ -1,0 +1,96 @@
+#include "grading/second_look.h"
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "base/process.h"
+#include "support/file_text.h"
+#include "support/temporary_folder.h"
+
+namespace rex::grading {
+namespace {
+
+// A report as the sanitizer of addresses writes it, shortened.
+constexpr const char* kOverflow = R"(I print, too.
+=================================================================
+==42==ERROR: AddressSanitizer: heap-buffer-overflow on address 0x602000 at pc 0x55 bp 0x7f sp 0x7f
+READ of size 8 at 0x602000 thread T0
+    #0 0x55d0 in std::vector<double>::operator[](unsigned long) /usr/include/c++/12/bits/stl_vector.h:1123
+    #1 0x55d1 in nearest(std::vector<double> const&) /tmp/work/main.cpp:14
+    #2 0x55d2 in ikStep(int) /tmp/work/main.cpp:47
+    #3 0x55d3 in rex::remote::answer() (/tmp/work/worker+0x1)
+0x602000 is located 0 bytes to the right of 16-byte region
+allocated by thread T0 here:
+    #0 0x55d4 in operator new(unsigned long) (libasan.so+0xb)
+    #1 0x55d5 in other(int) /tmp/work/main.cpp:3
+)";
+
+TEST(CrashSiteIn, IsTheInnermostLineOfTheStudentsFile) {
+  const auto site = crashSiteIn(kOverflow, "main.cpp");
+  ASSERT_TRUE(site);
+  EXPECT_EQ(site->finding, "reads or writes outside of an array on the heap");
+  EXPECT_EQ(site->function, "nearest");
+  EXPECT_EQ(site->line, 14);
+  EXPECT_EQ(crashSiteIn(kOverflow, "ain.cpp")->line, 0) << "another file";
+}
+
+TEST(CrashSiteIn, ReadsWhatTheSanitizerOfUndefinedBehaviourSays) {
+  const auto site = crashSiteIn(
+      "main.cpp:12:17: runtime error: execution reached the end of a value-returning function without "
+      "returning a value\n    #0 0x5 in rotated(double) /tmp/main.cpp:12\n",
+      "main.cpp");
+  ASSERT_TRUE(site);
+  EXPECT_EQ(site->line, 12);
+  EXPECT_EQ(site->function, "rotated");
+  EXPECT_EQ(site->finding,
+            "execution reached the end of a value-returning function without returning a value");
+}
+
+TEST(CrashSiteIn, IsNothingWithoutAFinding) {
+  EXPECT_FALSE(crashSiteIn("", "main.cpp"));
+  EXPECT_FALSE(crashSiteIn("    #0 0x5 in rotated(double) /tmp/main.cpp:12\n", "main.cpp"));
+}
+
+// The real sanitizers, which may word their reports anew.
+TEST(SanitizedToolchain, MakesProgramsThatReportWhereTheyCrash) {
+  struct Crash {
+    const char* code;
+    const char* finding;
+  };
+  const Crash crashes[] = {
+      {"volatile int* p = nullptr; return *p;", "null pointer"},
+      {"int* p = new int[3]; p[0] = n; return p[n + 2];", "outside of an array on the heap"},
+      {"int p[3] = {n, n, n}; return p[n + 2];", "out of bounds"},
+      {"int* p = new int(n); delete p; return *p;", "memory that was given back"},
+      {"return 7 / (n - 1);", "division by zero"},
+      {"if (n == 7) return 1;", "without returning a value"},
+      {"return n + crash(n + 1);", "uses up the stack"},
+      {"__builtin_abort();", "aborts"},
+  };
+  const TemporaryFolder temporary;
+  Toolchain plain;
+  plain.compiler = "c++";
+  plain.flags = {"-w"};
+  const Toolchain toolchain = sanitizedToolchain(plain, temporary.path());
+  const auto file = temporary.path() / "main.cpp";
+  for (const Crash& crash : crashes) {
+    std::ofstream(file) << "int crash(int n) {\n  " << crash.code
+                        << "\n}\nint main(int n, char**) { return crash(n); }\n";
+    std::vector<std::string> command = {toolchain.compiler};
+    for (const auto& flags : {toolchain.flags, {file.string(), "-o", "crash"}, toolchain.linkFlags})
+      command.insert(command.end(), flags.begin(), flags.end());
+    const ProcessResult built = runProcess(command, {.directory = temporary.path(), .timeout = 300});
+    ASSERT_TRUE(built.ok()) << built.error;
+    const ProcessResult run = runProcess({(temporary.path() / "crash").string()});
+    const auto site = crashSiteIn(run.error, "main.cpp");
+    ASSERT_TRUE(site) << run.error;
+    EXPECT_EQ(site->function, "crash") << run.error;
+    EXPECT_GE(site->line, 1);
+    EXPECT_LE(site->line, 3);
+    EXPECT_NE(site->finding.find(crash.finding), std::string::npos) << site->finding;
+  }
+}
+
+}  // namespace
+}  // namespace rex::grading
