@@ -117,24 +117,25 @@ void numericLagrangian(Check& check, Student& student) {
   });
 }
 
-// Along 20 s without control: see the README of the limits below.
+// Along 10 s without control, in steps in which the method of Runge and Kutta loses little also of the fastest
+// of these racers.
 void keepsEnergy(Check& check, Student& student) {
   check.forEachCase(4, [&](int i) {
     const RacerModel racer = i == 0 ? RacerModel{} : randomRacer(check.rng());
-    Eigen::Vector4d x(0, check.rng().uniform(.5, 2.5), .3 * check.rng().normal(), 0);
+    Eigen::Vector4d x(0, check.rng().uniform(.3, 1.5), .3 * check.rng().normal(), 0);
     const auto energy = [&] {
       const Eigen::Vector2d q = x.head<2>(), v = x.tail<2>();
       return v.dot(inertiaAt(q, racer) * v) / 2 + heightEnergy(q, racer);
     };
     const double start = energy(), swing = racer.mB * racer.g * racer.l;
     double worst = 0, lowest = start;
-    for (int t = 0; t < 2000; ++t) {
-      x = student.stepped(x, 0, kTau, racer);
+    for (int t = 0; t < 4000; ++t) {
+      x = student.stepped(x, 0, kTau / 4, racer);
       check.shape("state", x, 4, 1);
       worst = std::max(worst, std::abs(energy() - start));
       lowest = std::min(lowest, heightEnergy(x.head<2>(), racer));
     }
-    check.atMost("error of the energy in 20 s without control, of what a fall gives", worst / swing, .02);
+    check.atMost("error of the energy in 10 s without control, of what a fall gives", worst / swing, .01);
     check.atLeast("how deep the pendulum falls, of its length", (start - lowest) / swing, .3);
   });
 }
