@@ -117,8 +117,8 @@ void numericLagrangian(Check& check, Student& student) {
   });
 }
 
-// Along 10 s without control, in steps in which the method of Runge and Kutta loses little also of the fastest
-// of these racers.
+// Along 10 s without control, in steps in which the method of Runge and Kutta loses little also of the
+// fastest of these racers.
 void keepsEnergy(Check& check, Student& student) {
   check.forEachCase(4, [&](int i) {
     const RacerModel racer = i == 0 ? RacerModel{} : randomRacer(check.rng());

@@ -138,6 +138,7 @@ void showLqr(const Eigen::Vector4d& K, const Eigen::Vector4d& exact) {
   const auto add = [&](const std::string& whose, const Eigen::MatrixXd& X, bool dashed) {
     for (const int i : {0, 1}) {
       Series series{.label = (i == 0 ? "x, " : "theta, ") + whose, .dashed = dashed};
+      if (dashed) series.color = Color{.2f, .22f, .26f};
       for (Eigen::Index t = 0; t < X.cols(); ++t) {
         series.x.push_back(kTau * static_cast<double>(t));
         series.y.push_back(X(i, t));
@@ -171,14 +172,15 @@ void showLearning(const Lesson& yours, const Library& library) {
   plot("learning", figure);
 }
 
-// How far the wheel gets from where it began: root mean square of some long rides.
+// How far the wheel gets from where it began: root mean square of some long rides, until one fails.
 Series driftOf(const std::string& label, const Eigen::VectorXd& w) {
-  constexpr int kRides = 10, kSteps = 20000;
+  constexpr int kRides = 10, kSteps = 10000;
   Rng rng(2);
   Eigen::ArrayXd squares = Eigen::ArrayXd::Zero(kSteps / 50);
   for (int i = 0; i < kRides; ++i) {
     const Ride ride = rideOf(w, tilted(.1), kicks(kSteps, kTau, kNoise, rng), {}, {});
-    for (Eigen::Index k = 0; k < squares.size() && 50 * k < ride.states.cols(); ++k)
+    squares.conservativeResize(std::min(squares.size(), (ride.states.cols() + 49) / 50));
+    for (Eigen::Index k = 0; k < squares.size(); ++k)
       squares[k] += std::pow(ride.states(0, 50 * k), 2) / kRides;
   }
   Series series{.label = label};
@@ -191,11 +193,14 @@ Series driftOf(const std::string& label, const Eigen::VectorXd& w) {
 
 void showPolicies(const Lesson& lesson, const Library& library) {
   plot("drift",
-       {.title = "Without a sense for the speed of the wheel, a racer rolls away",
+       {.title = "Without a sense for the wheel's speed, a racer sways more and more",
         .xLabel = "time [s]",
         .yLabel = "root mean square of x [m]",
         .series = {driftOf("a policy on (1, y)", directPolicy()), driftOf("your policy", lesson.policy)}});
-  Figure figure{.title = "Rides that last 5 s", .xLabel = "strength of the noise", .yLabel = "share"};
+  Figure figure{.title = "Rides that last 5 s",
+                .xLabel = "strength of the noise",
+                .yLabel = "share",
+                .legend = Legend::kOutside};
   const auto add = [&](const std::string& label, const Eigen::VectorXd& w) {
     Series series{.label = label, .style = SeriesStyle::kLinesPoints};
     for (double noise = 0; noise < 2.05; noise += .1) {
@@ -228,7 +233,7 @@ void showFilm(const Lesson& lesson) {
     view.caption = "policy search";
     views.push_back(view);
   }
-  writeFilm(views, "learnt", {.step = 2 * kTau});
+  writeFilm(views, "learnt", {.view = {1.2, -1.6, .7}, .step = 2 * kTau});
 }
 
 }  // namespace
