@@ -158,7 +158,9 @@ void unseenFeatures(Check& check, Student& student) {
 void otherRides(Check& check, Student& student) {
   check.forEachCase(8, [&](int i) {
     const Situation other{randomRacer(check.rng()), randomSensors(check.rng()), check.rng().uniform(.05, .2)};
-    rideFits(check, student, other, i % 2 == 0 ? shaking(check.rng()) : tippingOver(check.rng()), 80);
+    // Short enough that rounding stays small also where a policy shakes.
+    if (i % 2 == 0) rideFits(check, student, other, shaking(check.rng()), 25);
+    if (i % 2 == 1) rideFits(check, student, other, tippingOver(check.rng()), 80);
   });
 }
 

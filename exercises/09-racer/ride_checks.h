@@ -91,7 +91,7 @@ inline Eigen::VectorXd tippingOver(rex::Rng& rng) {
 }
 
 /// Often asks for more than the motor gives.
-inline Eigen::VectorXd shaking(rex::Rng& rng) { return 30 * balancing(rng); }
+inline Eigen::VectorXd shaking(rex::Rng& rng) { return 8 * balancing(rng); }
 
 /// The noise of the library's rollout with that seed: what it adds to a racer that rests upright.
 inline Eigen::MatrixXd noiseOf(const Situation& in, std::uint64_t seed, int steps) {
