@@ -1,0 +1,107 @@
+#pragma once
+
+#include <functional>
+
+#include "control/racer_sensors.h"
+#include "course/course.h"
+
+// The functions you complete in main.cpp. SI units, angles in radians. q = (x, theta): the position of the
+// wheel along the ground, and the angle of the pendulum from upright, towards x. A state is (x, theta, x',
+// theta'); the control u is the torque of the motor, which turns the wheel forwards and the pendulum back.
+// Slides are named as chapter:number.
+
+/// An inverted pendulum B on the axis of a wheel A that rolls without slipping: 12.6.1.
+struct RacerModel {
+  double r = 0.05, l = 0.5;          ///< radius of the wheel; from its axis to the centre of mass of B, m
+  double mA = 0.05, mB = 0.5;        ///< kg
+  double IA = 3.125e-5, IB = 0.005;  ///< about the centres of mass, kg m^2
+  double g = 9.8;                    ///< m/s^2
+};
+
+// Part 1, Euler and Lagrange (12.6.1, 3:21 to 3:24): M(q) q'' + F(q, q') = B u.
+
+/// M(q).
+Eigen::Matrix2d massMatrix(const Eigen::Vector2d& q, const RacerModel& racer);
+/// F(q, q'), with gravity.
+Eigen::Vector2d forceTerm(const Eigen::Vector2d& q, const Eigen::Vector2d& v, const RacerModel& racer);
+/// B.
+Eigen::Vector2d controlDirection(const RacerModel& racer);
+/// Kinetic and potential energy [J]; the latter is zero on the ground, where z = 0.
+double energyOf(const Eigen::Vector4d& x, const RacerModel& racer);
+
+// Part 2, the simulation.
+
+/// dx/dt under the control u.
+Eigen::Vector4d rateOf(const Eigen::Vector4d& x, double u, const RacerModel& racer);
+/// The state tau seconds later by one step of the classic method of Runge and Kutta, with u held; no noise.
+Eigen::Vector4d stepped(const Eigen::Vector4d& x, double u, double tau, const RacerModel& racer);
+/// Noise: what a run of so many steps adds to (x', theta') after each, one column per step (2 x steps).
+/// Independent normal numbers of deviation sqrt(tau) `noise`.
+Eigen::MatrixXd kicks(int steps, double tau, double noise, rex::Rng& rng);
+
+// Part 3, LQR (8:16 to 8:19), for a racer whose state is known.
+
+/// A and B of x' = A x + B u.
+struct Linear {
+  Eigen::Matrix4d A;
+  Eigen::Vector4d B;
+};
+/// Near rest upright. Exact, or by differences: within 1e-6 of the largest entry.
+Linear linearNearRest(const RacerModel& racer);
+/// K (4) of the u = -K x with the least integral of x^T Q x + R u^2, in continuous time: within 1e-6 of the
+/// largest entry. Q is diagonal with positive entries for x and theta, R is positive.
+Eigen::Vector4d lqrGain(const Linear& system, const Eigen::Matrix4d& Q, double R);
+
+// Part 4, features of what the sensors said (12.12.1).
+
+inline constexpr int kFeatures = 27;  ///< of a policy u = w . features
+
+/// The features at a reading y of the four sensors: in this order
+///   0       1
+///   1 - 4   y
+///   5 - 8   its rate: (y - the reading tau seconds before) / tau; zero at the first reading
+///   9 - 12  average of y with factor a = .5: a (the average before) + (1 - a) y; at the first reading y
+///   13 - 16 average of the rate with a = .5; zero at the first reading
+///   17 - 24 the same two averages with a = .9
+///   25, 26  the last control, and the one before; zero as long as there was none.
+/// `before` holds the features at the reading before, after which came the control u; they are all that is
+/// known of the past. At the first reading `before` is empty, and u means nothing.
+Eigen::VectorXd featuresAt(const Eigen::Vector4d& y, const Eigen::VectorXd& before, double u, double tau);
+
+// Part 5, one ride and what it costs (12.12.1).
+
+inline constexpr double kTau = 0.01;          ///< seconds per step
+inline constexpr double kNoise = 0.1;         ///< of the racer of the sheet, see kicks()
+inline constexpr double kLargestControl = 5;  ///< N m: the motor gives no more, either way
+inline constexpr double kLargestAngle = 0.8;  ///< rad: beyond it, the racer has failed
+inline constexpr double kCostOfMissing = 10;  ///< of each step that is missing after a failure
+
+/// One ride of n steps.
+struct Ride {
+  Eigen::MatrixXd states;    ///< 4 x (n + 1), with the start in front
+  Eigen::VectorXd controls;  ///< n
+  double cost = 0;
+};
+
+/// A policy with weights w (27) rides from `start`. A step: read the sensors, u = w . features within
+/// +-kLargestControl (that is also the control that features remember), stepped() with kTau, and then
+/// the column of `noise` (2 x T) whose turn it is is added to (x', theta'). It ends after T steps, or with
+/// the first step after which |theta| > kLargestAngle. Cost: x^2 + 10 theta^2 in the state after each step
+/// that did not fail, and kCostOfMissing for each of the T steps that failed or did not come.
+Ride rideOf(const Eigen::VectorXd& w, const Eigen::Vector4d& start, const Eigen::MatrixXd& noise,
+            const RacerModel& racer, const rex::RacerSensors& sensors);
+
+// Part 6, policy search (9:29 to 9:32, 12.12.1).
+
+/// Costs (m) of the policies in the columns of W (27 x m): of one ride each over `steps` steps, at most
+/// kLongestRide. In one call all have the same start, at rest with a theta from -.2 to .2, and the same
+/// noise; the next call has others.
+using Rides = std::function<Eigen::VectorXd(const Eigen::MatrixXd& W, int steps)>;
+
+inline constexpr int kLongestRide = 500;  ///< steps
+inline constexpr int kBudget = 30000;     ///< rides
+
+/// Weights (27) of a policy that keeps a racer upright and where it is, on unseen noise. It may try `budget`
+/// rides: m for a call with m columns. Of 100 other rides from such starts, 95 last 500 steps and 80 last
+/// 2000. Nor does it go away later: over 50000 steps x^2 + 10 theta^2 is below .02 on average.
+Eigen::VectorXd searchedPolicy(const Rides& rides, int budget, rex::Rng& rng);

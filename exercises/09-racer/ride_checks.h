@@ -1,0 +1,196 @@
+#pragma once
+
+#include <vector>
+
+#include "control/racer_rollouts.h"
+#include "learning/sensor_history.h"
+#include "racer_checks.h"
+
+// Parts 4 to 6: features, rides and policies, against the library's.
+
+/// What a policy has to do with.
+struct Situation {
+  RacerModel racer{};
+  rex::RacerSensors sensors{};
+  double noise = kNoise;
+};
+
+inline rex::RacerRolloutOptions optionsOf(const Situation& in, int steps) {
+  return {.features = {.rates = true, .averages = true, .averagedRates = true, .controls = true},
+          .cost = {.failure = kCostOfMissing},
+          .steps = steps,
+          .tau = kTau,
+          .noise = in.noise,
+          .largestControl = kLargestControl,
+          .largestAngle = kLargestAngle,
+          .dynamics = dynamicsOf(in.racer),
+          .sensors = in.sensors};
+}
+
+inline rex::RacerSensors randomSensors(rex::Rng& rng) {
+  return {.s = rng.uniform(.9, 1.1),
+          .phi = rng.uniform(-.3, .3),
+          .kappa = rng.uniform(.03, .07),
+          .gyroBias = rng.uniform(-.1, .1)};
+}
+
+/// Somewhat other racers than that of the sheet.
+inline Situation similarSituation(rex::Rng& rng) {
+  Situation in;
+  const auto change = [&](double& number) { number *= rng.uniform(.85, 1.2); };
+  for (double* number : {&in.racer.r, &in.racer.l, &in.racer.mA, &in.racer.mB, &in.racer.IA, &in.racer.IB,
+                         &in.sensors.phi, &in.sensors.kappa, &in.sensors.gyroBias})
+    change(*number);
+  in.noise = rng.uniform(.08, .12);
+  return in;
+}
+
+// Features.
+
+inline void featuresFit(rex::grading::Check& check, Student& student, double tau, int readings) {
+  rex::SensorHistory history({.sensors = 4,
+                              .timeStep = tau,
+                              .constant = true,
+                              .derivatives = true,
+                              .averages = {.5, .9},
+                              .pastActions = 2});
+  Eigen::VectorXd before;
+  double u = check.rng().normal();
+  for (int t = 0; t < readings; ++t) {
+    check.input(fmt::format("reading {} of {}, one in {:.3g} s", t + 1, readings, tau));
+    const Eigen::Vector4d y = check.rng().normalVector(4);
+    const Eigen::VectorXd wanted = history.observe(y), got = student.featuresAt(y, before, u, tau);
+    check.shape("features", got, kFeatures, 1);
+    for (const auto& [name, begin, count] : {std::tuple{"feature 0", 0, 1},
+                                             {"features 1 - 4", 1, 4},
+                                             {"features 5 - 8", 5, 4},
+                                             {"features 9 - 16", 9, 8},
+                                             {"features 17 - 24", 17, 8},
+                                             {"features 25 and 26", 25, 2}})
+      check.near(name, got.segment(begin, count), wanted.segment(begin, count),
+                 1e-10 * (1 + wanted.cwiseAbs().maxCoeff()));
+    before = wanted;
+    u = check.rng().normal();
+    history.act(u);
+  }
+}
+
+// Rides.
+
+/// Weights that keep the racer of the sheet upright, with something of all features.
+inline Eigen::VectorXd balancing(rex::Rng& rng) {
+  Eigen::VectorXd w = .001 * rng.normalVector(kFeatures);
+  w.head<9>() += Eigen::Matrix<double, 9, 1>(.037, -.986, 5.999, .726, .07, -.001, -.001, -.004, .053);
+  return w;
+}
+
+inline Eigen::VectorXd tippingOver(rex::Rng& rng) {
+  Eigen::VectorXd w = .02 * rng.normalVector(kFeatures);
+  for (const int rates : {5, 13, 21}) w.segment<4>(rates) *= .01;
+  return w;
+}
+
+/// Often asks for more than the motor gives.
+inline Eigen::VectorXd shaking(rex::Rng& rng) { return 8 * balancing(rng); }
+
+/// The noise of the library's rollout with that seed: what it adds to a racer that rests upright.
+inline Eigen::MatrixXd noiseOf(const Situation& in, std::uint64_t seed, int steps) {
+  rex::Rng rng(seed);
+  Eigen::MatrixXd noise(2, steps);
+  for (int t = 0; t < steps; ++t)
+    noise.col(t) = dynamicsOf(in.racer).noisyStep(Eigen::Vector4d::Zero(), 0, kTau, in.noise, rng).tail<2>();
+  return noise;
+}
+
+inline void statesFit(rex::grading::Check& check, const Situation& in, const Eigen::VectorXd& w,
+                      const Eigen::MatrixXd& noise, const Ride& ride) {
+  const rex::RacerDynamics plant = dynamicsOf(in.racer);
+  rex::RacerPolicy policy(optionsOf(in, 1).features, w, kTau, kLargestControl);
+  for (Eigen::Index t = 0; t < ride.controls.size(); ++t) {
+    const Eigen::Vector4d x = ride.states.col(t);
+    check.near("control by what was measured so far", ride.controls[t],
+               policy.control(in.sensors.measured(x, in.racer.r)), 1e-7, "N m");
+    Eigen::Vector4d next = plant.rungeKuttaStep(x, ride.controls[t], kTau);
+    next.tail<2>() += noise.col(t);
+    check.near("state after a step", ride.states.col(t + 1), next, 1e-8 * (1 + next.norm()));
+  }
+}
+
+inline void rideFits(rex::grading::Check& check, Student& student, const Situation& in,
+                     const Eigen::VectorXd& w, int steps) {
+  const Eigen::Vector4d start(0, check.rng().uniform(-.2, .2), .1 * check.rng().normal(), 0);
+  const std::uint64_t seed = check.rng().next();
+  check.input(fmt::format("{} steps from theta {:.4g}", steps, start[1]));
+  const Eigen::MatrixXd noise = noiseOf(in, seed, steps);
+  const Ride ride = student.rideOf(w, start, noise, in.racer, in.sensors);
+  const rex::Rollouts wanted = rex::racerRollouts(w, {{start, seed}}, optionsOf(in, steps));
+  const int ridden = std::min(steps, wanted.steps(0, 0) + 1);
+  check.near("number of steps, with the one that failed", static_cast<double>(ride.controls.size()), ridden,
+             0);
+  check.shape("states", ride.states, 4, ridden + 1);
+  check.shape("controls", ride.controls, ridden, 1);
+  check.near("start", ride.states.col(0), start, 0);
+  statesFit(check, in, w, noise, ride);
+  check.near("cost", ride.cost, wanted.cost(0, 0), 1e-6 * (1 + wanted.cost(0, 0)));
+}
+
+// Policies.
+
+/// Where a search may try policies: counts the rides, and takes no more than the budget and what makes sense.
+class Track {
+ public:
+  Track(const Situation& in, rex::Rng& rng) : in_(in), rng_(&rng) {}
+
+  Eigen::VectorXd costs(const Eigen::MatrixXd& W, int steps) {
+    rides_ += static_cast<double>(W.cols());
+    makesSense_ = makesSense_ && W.rows() == kFeatures && W.cols() > 0 && W.allFinite() && steps >= 1 &&
+                  steps <= kLongestRide;
+    if (!makesSense_ || rides_ > kBudget)
+      return Eigen::VectorXd::Constant(W.cols(), kCostOfMissing * kLongestRide);
+    const std::vector<rex::Trial> trial{{Eigen::Vector4d(0, rng_->uniform(-.2, .2), 0, 0), rng_->next()}};
+    return rex::racerRollouts(W, trial, optionsOf(in_, steps)).cost.row(0).transpose();
+  }
+  double rides() const { return rides_; }
+  bool makesSense() const { return makesSense_; }
+
+ private:
+  Situation in_;
+  rex::Rng* rng_;
+  double rides_ = 0;
+  bool makesSense_ = true;
+};
+
+inline Eigen::VectorXd searched(rex::grading::Check& check, Student& student, const Situation& in) {
+  Track track(in, check.rng());
+  rex::Rng given = check.rng().split(7);
+  check.input(fmt::format("{} rides, noise {:.3g}, {}", kBudget, in.noise, described(in.racer)));
+  const Eigen::VectorXd w = student.searchedPolicy(
+      [&](const Eigen::MatrixXd& W, int steps) { return track.costs(W, steps); }, kBudget, given);
+  check.that("policies have 27 finite weights, and rides 1 to 500 steps", track.makesSense());
+  check.atMost("rides of the search", track.rides(), kBudget);
+  check.shape("weights", w, kFeatures, 1);
+  return w;
+}
+
+inline rex::Rollouts unseenRides(const Situation& in, const Eigen::VectorXd& w, int count, int steps,
+                                 rex::Rng& rng) {
+  std::vector<rex::Trial> trials;
+  for (int i = 0; i < count; ++i) trials.push_back({{0, rng.uniform(-.2, .2), 0, 0}, rng.next()});
+  return rex::racerRollouts(w, trials, optionsOf(in, steps));
+}
+
+inline void searchSucceeds(rex::grading::Check& check, Student& student, const Situation& in) {
+  const Eigen::VectorXd w = searched(check, student, in);
+  for (const auto& [steps, wanted] : {std::pair{500, 95}, {2000, 80}}) {
+    const rex::Rollouts rides = unseenRides(in, w, 100, steps, check.rng());
+    check.atLeast(fmt::format("of 100 other rides, those that last {} steps", steps),
+                  static_cast<double>((rides.steps.array() == steps).count()), wanted);
+  }
+}
+
+inline void searchedPolicyStays(rex::grading::Check& check, Student& student, const Situation& in) {
+  const Eigen::VectorXd w = searched(check, student, in);
+  const int steps = 50000, count = 16;
+  const rex::Rollouts rides = unseenRides(in, w, count, steps, check.rng());
+  check.atMost("cost per step of rides over 50000 steps", rides.cost.sum() / (1. * steps * count), .02);
+}

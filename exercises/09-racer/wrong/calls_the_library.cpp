@@ -1,0 +1,6 @@
+// caught by: forbidden-call
+// mistake: the equation of motion of the library.
+
+// <solution massMatrix>
+return RacerDynamics{racer.r, racer.l, racer.mA, racer.mB, racer.IA, racer.IB, racer.g}.massMatrix(q);
+// </solution>

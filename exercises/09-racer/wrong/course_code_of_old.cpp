@@ -1,0 +1,7 @@
+// caught by: forces, lagrangian
+// mistake: the terms of the course's old code: a Coriolis term twice, and another that is none.
+
+// <solution forceTerm>
+const double swing = racer.mB * racer.l * std::sin(q[1]);
+return {-2 * swing * v[1] * v[1], swing* v[0] * v[1] - swing* racer.g};
+// </solution>
