@@ -193,15 +193,18 @@ std::string processor() {
 
 // Compiles and runs a small program, as `rex test` needs it.
 Finding tryCompiler(const fs::path& folder) {
-  return tryOut("compiler", "g++ libeigen3-dev", [&] {
+  return tryOut("compiler", "g++", [&] {
     const std::string version = versionOf({REX_COMPILER, "--version"});
     if (version.empty()) throw Missing{fmt::format("{} is not installed", REX_COMPILER)};
     std::ofstream(folder / "test.cpp") << "int main() { return 7; }\n";
     const ProcessResult compiled =
         runProcess({REX_COMPILER, "-std=c++20", "test.cpp", "-o", "test-program"}, {.directory = folder});
-    if (!compiled.ok()) fail(std::string(REX_COMPILER) + " cannot compile: " + compiled.error);
+    const std::string complaint = compiled.error.substr(0, compiled.error.find('\n'));
+    if (complaint.find("cannot execute") != std::string::npos)
+      throw Missing{"a part is missing: " + complaint};
+    if (!compiled.ok()) fail("it cannot compile a small program: " + complaint);
     if (runProcess({(folder / "test-program").string()}).exitCode != 7)
-      fail("a compiled program does not run");
+      fail("a program that it compiled does not work");
     return version;
   });
 }

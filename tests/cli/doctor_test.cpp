@@ -107,6 +107,8 @@ TEST_F(Doctor, NamesThePackagesOfMissingPrograms) {
   EXPECT_FALSE(diagnosis.ok);
   EXPECT_EQ(diagnosis.status.at("OpenGL by osmesa"), "works");
   EXPECT_EQ(diagnosis.status.count("OpenGL by egl"), 0u);
+  EXPECT_EQ(diagnosis.status.at("compiler"), "missing");
+  EXPECT_THAT(diagnosis.text.at("compiler"), HasSubstr("a part is missing: "));
   EXPECT_EQ(diagnosis.status.at("figures"), "missing");
   EXPECT_EQ(diagnosis.text.at("figures"),
             "cannot draw figure 'test': found No such file or directory, wanted gnuplot, Debian package "
@@ -114,7 +116,7 @@ TEST_F(Doctor, NamesThePackagesOfMissingPrograms) {
   EXPECT_EQ(diagnosis.status.at("videos"), "missing");
   EXPECT_EQ(diagnosis.text.at("videos"), "film.mp4 is missing because ffmpeg is (apt-get install ffmpeg)");
   const std::string table = rex({"doctor", "--gl", "osmesa"}).output;
-  EXPECT_TRUE(table.ends_with("\nTo do: apt-get install ffmpeg gnuplot-nox\n")) << table;
+  EXPECT_TRUE(table.ends_with("\nTo do: apt-get install ffmpeg g++ gnuplot-nox\n")) << table;
 }
 
 TEST_F(Doctor, IsContentWithOneWayToOpenGl) {
@@ -164,6 +166,16 @@ TEST_F(Doctor, TellsHowProgramsFail) {
   EXPECT_THAT(poor.text.at("videos"), HasSubstr("this ffmpeg has no encoder libx264"));
   EXPECT_EQ(videos("[ $# -gt 9 ] && { cat > /dev/null; exit 9; }; echo fine").text.at("videos"),
             "cannot make the video: found ffmpeg ended with exit code 9");
+}
+
+TEST_F(Doctor, TellsWhenTheCompilerDoesNotWork) {
+  const Diagnosis assembler = diagnoseWith("as", "exit 1");
+  EXPECT_EQ(assembler.exitCode, 3);
+  EXPECT_EQ(assembler.status.at("compiler"), "fails");
+  EXPECT_THAT(assembler.text.at("compiler"), HasSubstr("it cannot compile a small program"));
+  const Diagnosis linker = diagnoseWith(
+      "ld", "while [ \"$1\" != -o ]; do shift; done; printf '#!/bin/sh\\n' > \"$2\"; chmod +x \"$2\"");
+  EXPECT_EQ(linker.text.at("compiler"), "a program that it compiled does not work");
 }
 
 TEST_F(Doctor, SaysWhatToRepair) {
