@@ -98,7 +98,7 @@ Eigen::MatrixXd kicks(int steps, double tau, double noise, Rng& rng) {
 
 Linear linearNearRest(const RacerModel& racer) {
   // <solution linearNearRest>
-  constexpr double h = 1e-5;
+  constexpr double h = 2e-5;
   Linear linear;
   for (int i = 0; i < 4; ++i) {
     const Eigen::Vector4d dx = h * Eigen::Vector4d::Unit(i);
