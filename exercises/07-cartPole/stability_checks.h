@@ -154,7 +154,7 @@ inline std::vector<Candidate> energyCandidates(rex::Rng& rng) {
            high, true},
           {"the same with the energy of the spring", linearFlow(A), energy, high, true},
           {"the same with a cross term", linearFlow(A), crossed, high, false},
-          {"the same with -V", linearFlow(A), -crossed, high, true},
+          {"the same with -V, running backward", linearFlow(-A), -crossed, high, true},
           {"the same with the controller's sign wrong", linearFlow(-A), crossed, high, true}};
 }
 

@@ -53,9 +53,9 @@ inline Lesson learnt(const Rides& rides, std::uint64_t seed) {
   Lesson lesson{Eigen::VectorXd::Zero(kFeatures), Eigen::VectorXd::Zero(kFeatures)};
   const Rides recorded = [&](const Eigen::MatrixXd& W, int steps) {
     const Eigen::VectorXd costs = rides(W, steps);
-    int best = 0;
-    costs.minCoeff(&best);
-    if (lesson.costs.size() < 1000) lesson.halfTaught = W.col(best);
+    int cheapest = 0;
+    costs.minCoeff(&cheapest);
+    if (lesson.costs.size() < 1000) lesson.halfTaught = W.col(cheapest);
     for (const double cost : costs) lesson.costs.push_back(cost / steps);
     return costs;
   };

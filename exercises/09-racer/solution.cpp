@@ -98,11 +98,11 @@ Eigen::MatrixXd kicks(int steps, double tau, double noise, Rng& rng) {
 
 Linear linearNearRest(const RacerModel& racer) {
   // <solution linearNearRest>
-  constexpr double h = 1e-5;
+  constexpr double h = 2e-5;
   Linear linear;
-  for (int i = 0; i < 4; ++i) {
-    const Eigen::Vector4d dx = h * Eigen::Vector4d::Unit(i);
-    linear.A.col(i) = (rateOf(dx, 0, racer) - rateOf(-dx, 0, racer)) / (2 * h);
+  for (int row = 0; row < 4; ++row) {
+    const Eigen::Vector4d dx = h * Eigen::Vector4d::Unit(row);
+    linear.A.col(row) = (rateOf(dx, 0, racer) - rateOf(-dx, 0, racer)) / (2 * h);
   }
   linear.B =
       (rateOf(Eigen::Vector4d::Zero(), h, racer) - rateOf(Eigen::Vector4d::Zero(), -h, racer)) / (2 * h);
@@ -122,9 +122,9 @@ Eigen::Vector4d lqrGain(const Linear& system, const Eigen::Matrix4d& Q, double R
   for (int i = 0; i < 60; ++i) Z = (Z + inverse(Z)).eval() / 2;
   Z.diagonal().array() += 1;
   Eigen::Vector4d K;
-  for (int i = 0; i < 4; ++i) {
-    const Eigen::VectorXd columnOfP = leastSquares(Z.rightCols(4), -Z.col(i));
-    K[i] = system.B.dot(columnOfP) / R;
+  for (int row = 0; row < 4; ++row) {
+    const Eigen::VectorXd columnOfP = leastSquares(Z.rightCols(4), -Z.col(row));
+    K[row] = system.B.dot(columnOfP) / R;
   }
   return K;
   // <todo>
