@@ -1,0 +1,36 @@
+#include "cli/sandbox_choice.h"
+
+#include <fmt/format.h>
+
+#include "cli/terminal.h"
+#include "grading/private_folder.h"
+#include "sandbox/probes.h"
+
+namespace rex::cli {
+namespace {
+
+// The sanitizers read and map what a sandbox forbids.
+#ifdef __SANITIZE_ADDRESS__
+constexpr int kQuickLevel = 0;
+#else
+constexpr int kQuickLevel = 1;
+#endif
+
+}  // namespace
+
+std::filesystem::path launcherOf(const Project& project) { return project.build / "rex-sandbox"; }
+
+std::filesystem::path probeOf(const Project& project) { return project.build / "rex-sandbox-probe"; }
+
+std::optional<sandbox::Sandbox> chooseSandbox(const Project& project, std::optional<int> level) {
+  sandbox::Sandbox chosen{.level = level.value_or(kQuickLevel), .launcher = launcherOf(project)};
+  if (chosen.level == 0) return chosen;
+  const grading::PrivateFolder folder(std::filesystem::temp_directory_path());
+  const std::string reason = sandbox::whyNot(chosen, probeOf(project), folder.path());
+  if (reason.empty()) return chosen;
+  if (!level) return sandbox::Sandbox{.level = 0, .launcher = chosen.launcher};
+  note(wrap(fmt::format("sandbox level {} cannot be had here: {}", *level, harmless(reason)), 0, 0));
+  return {};
+}
+
+}  // namespace rex::cli
