@@ -275,13 +275,14 @@ void addRiccati(CLI::App& program, Action& action, bool isDiscrete) {
 
 void addDoctor(CLI::App& program, Action& action) {
   const auto options = std::make_shared<DoctorOptions>();
-  CLI::App* command = add(program, "doctor", "Try all that pictures need on this machine, or attack its sandbox",
-                          "Examples:\n  scripts/rex doctor\n  scripts/rex doctor --gl egl --json\n"
-                          "  scripts/rex doctor --sandbox --level 2");
+  CLI::App* command =
+      add(program, "doctor", "Try all that pictures need on this machine, or attack its sandbox",
+          "Examples:\n  scripts/rex doctor\n  scripts/rex doctor --gl egl --json\n"
+          "  scripts/rex doctor --sandbox --level 2");
   addGl(command, options->gl);
   command->add_flag("--json", options->json, "print JSON instead of a table");
-  const auto* sandbox = command->add_flag("--sandbox", options->sandbox,
-                                          "attack the sandbox that graded programs run in");
+  const auto* sandbox =
+      command->add_flag("--sandbox", options->sandbox, "attack the sandbox that graded programs run in");
   addLevel(command, options->level)->needs(const_cast<CLI::Option*>(sandbox));
   command->callback([&action, options] {
     action = [options](const Project& p) {

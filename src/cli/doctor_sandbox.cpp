@@ -24,11 +24,13 @@ Trial tryLevels(const Project& project, int highest) {
   const grading::PrivateFolder folder(std::filesystem::temp_directory_path());
   Trial trial;
   for (trial.level = highest; trial.level > 0; --trial.level) {
-    trial.probes = attack({trial.level, launcherOf(project)}, probeOf(project), folder.path());
+    trial.probes = sandbox::attack({trial.level, launcherOf(project)}, probeOf(project), folder.path());
     if (std::all_of(trial.probes.begin(), trial.probes.end(), [](const Probe& p) { return p.held; })) break;
-    const auto broken = std::find_if(trial.probes.begin(), trial.probes.end(), [](const Probe& p) { return !p.held; });
-    note(wrap(fmt::format("level {} does not hold here: {}: {}", trial.level, broken->name, harmless(broken->text)), 2,
-              0));
+    const auto broken =
+        std::find_if(trial.probes.begin(), trial.probes.end(), [](const Probe& p) { return !p.held; });
+    note(wrap(
+        fmt::format("level {} does not hold here: {}: {}", trial.level, broken->name, harmless(broken->text)),
+        2, 0));
   }
   return trial;
 }
@@ -36,7 +38,8 @@ Trial tryLevels(const Project& project, int highest) {
 void sayTrial(const Trial& trial) {
   for (const Probe& probe : trial.probes)
     say(fmt::format("{:<10}  {}  {}", probe.name,
-                    probe.held ? paint(Colour::kGreen, "held ") : paint(Colour::kRed, "fails"), harmless(probe.text)));
+                    probe.held ? paint(Colour::kGreen, "held ") : paint(Colour::kRed, "fails"),
+                    harmless(probe.text)));
   say(paint(Colour::kBold, fmt::format("sandbox level {} of 3", trial.level)));
   if (const std::string warning = sandbox::warningOf(trial.level); !warning.empty()) say(wrap(warning, 0, 0));
 }

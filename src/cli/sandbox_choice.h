@@ -12,8 +12,8 @@ namespace rex::cli {
 [[nodiscard]] std::filesystem::path launcherOf(const Project& project);
 [[nodiscard]] std::filesystem::path probeOf(const Project& project);
 
-/// The asked level if it holds here, nothing if not; what is in the way is told on standard error. Nothing asked:
-/// the best of those that start in a millisecond or two, 1 or 0.
+/// The asked level if it holds here, nothing if not; what is in the way is told on standard error. Nothing
+/// asked: the best of those that start in a millisecond or two, 1 or 0.
 [[nodiscard]] std::optional<sandbox::Sandbox> chooseSandbox(const Project& project, std::optional<int> level);
 
 }  // namespace rex::cli

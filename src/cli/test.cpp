@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "cli/commands.h"
+#include "cli/sandbox_choice.h"
 #include "cli/student_file.h"
 #include "cli/terminal.h"
 #include "grading/compiler_messages.h"
@@ -80,6 +81,8 @@ ExitCode test(const Project& project, const TestOptions& options) {
   // What a whole grading found stays until the next one.
   const std::filesystem::path results =
       out / (options.checks.empty() ? "results.json" : "results-partial.json");
+  const std::optional<sandbox::Sandbox> sandbox = chooseSandbox(project, options.level);
+  if (!sandbox) return ExitCode::kWeakSandbox;
   const grading::Toolchain toolchain = prepare(project, exercise);
   const grading::PrivateFolder work(project.buildFolder(exercise));
   const grading::Submission graded = grading::gradeSubmission(toolchain, exercise,
@@ -87,7 +90,8 @@ ExitCode test(const Project& project, const TestOptions& options) {
                                                                .workFolder = work.path(),
                                                                .results = results,
                                                                .checks = options.checks,
-                                                               .seed = options.seed});
+                                                               .seed = options.seed,
+                                                               .sandbox = *sandbox});
   if (options.json) {
     std::fputs(grading::readTextFile(results).c_str(), stdout);
   } else {

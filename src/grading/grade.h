@@ -4,11 +4,14 @@
 #include <filesystem>
 #include <functional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "grading/check.h"
 #include "grading/results.h"
 #include "grading/worker_limits.h"
 #include "remote/caller.h"
+#include "sandbox/cell.h"
 
 namespace rex::grading {
 
@@ -24,6 +27,9 @@ struct GradeOptions {
   std::uint64_t seed = 1;
   WorkerLimits limits{};
   std::filesystem::path temporaryFolder = "/tmp";
+  sandbox::Sandbox sandbox{};
+  std::vector<std::filesystem::path> libraries{};  ///< that the worker loads, beside those of the system
+  std::string secret{};  ///< of the course; empty: hidden checks take the same seed as visible ones
 };
 
 /// Runs each check in a fresh worker and adds the results, in the given order, to `result`, whose other

@@ -62,6 +62,11 @@ std::vector<std::string> graderCommand(const Toolchain& toolchain, const Exercis
   if (!worker.empty()) command.insert(command.end(), {"--worker", worker.string()});
   for (const std::string& check : options.checks) command.insert(command.end(), {"--check", check});
   if (options.seed) command.insert(command.end(), {"--seed", fmt::format("{}", *options.seed)});
+  if (options.sandbox.level > 0)
+    command.insert(command.end(),
+                   {"--level", fmt::format("{}", options.sandbox.level), "--sandbox",
+                    options.sandbox.launcher.string(), "--library", toolchain.studentLibrary.string()});
+  if (!options.secret.empty()) command.insert(command.end(), {"--secret", options.secret.string()});
   command.insert(command.end(), {"--cpu-seconds", fmt::format("{:g}", exercise.limits.cpuSeconds),
                                  "--memory-mb", fmt::format("{}", exercise.limits.memoryMb), "--output-mb",
                                  fmt::format("{}", exercise.limits.outputMb)});
@@ -102,14 +107,17 @@ void requireKnownChecks(const Toolchain& toolchain, const std::vector<std::strin
 
 void compileAndLink(const Toolchain& toolchain, const ExerciseInfo& exercise,
                     const SubmissionOptions& options, BuiltSubmission& built) {
-  const StudentObject object =
-      compileStudent(toolchain, exercise.forbidden, {.main = options.main, .workFolder = options.workFolder});
+  const StudentObject object = compileStudent(toolchain, exercise.forbidden,
+                                              {.main = options.main,
+                                               .workFolder = options.workFolder,
+                                               .seconds = options.compileSeconds,
+                                               .sandbox = options.sandbox});
   built.start = startResult(toolchain, exercise, object);
   built.source = object.source;
   std::string log = object.log;
   auto& diagnostics = built.start.compile.diagnostics;
   if (object.ok) {
-    const StudentProgram linked = linkWorker(toolchain, object);
+    const StudentProgram linked = linkWorker(toolchain, object, options.sandbox);
     if (linked.ok) built.worker = linked.program;
     diagnostics.insert(diagnostics.end(), linked.messages.begin(), linked.messages.end());
     log += linked.log;

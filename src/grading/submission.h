@@ -9,6 +9,7 @@
 #include "grading/exercise_info.h"
 #include "grading/results.h"
 #include "grading/toolchain.h"
+#include "sandbox/cell.h"
 
 namespace rex::grading {
 
@@ -19,6 +20,10 @@ struct SubmissionOptions {
   std::filesystem::path results;     ///< results.json; build.log is written beside it
   std::vector<std::string> checks;   ///< ids; empty: all
   std::optional<std::uint64_t> seed;
+  sandbox::Sandbox sandbox{};  ///< for compiling and for the worker
+  std::filesystem::path
+      secret{};                ///< file with the secret of the course; empty: hidden checks take the seed too
+  double compileSeconds = 30;  ///< of processor time
 };
 
 /// A graded file.

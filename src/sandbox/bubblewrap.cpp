@@ -35,14 +35,15 @@ void addParents(Options& options, const std::filesystem::path& place) {
   }
 }
 
-void show(Options& options, const char* how, const std::filesystem::path& path, const std::filesystem::path& inside) {
+void show(Options& options, const char* how, const std::filesystem::path& path,
+          const std::filesystem::path& inside) {
   addParents(options, inside);
   add(options, {how, path.string(), inside.string()});
 }
 
 // The system's programs and libraries, devices that do no harm, and its own processes; nothing can be
 // written.
-void addSystem(Options& options) {
+void addSystem(Options& options, bool compiles) {
   add(options, {"--ro-bind", "/usr", "/usr"});
   for (const char* name : kRootFolders) {
     const std::filesystem::path folder(name);
@@ -54,6 +55,8 @@ void addSystem(Options& options) {
   for (const char* name : kSystemFiles) show(options, "--ro-bind-try", name, name);
   add(options, {"--proc", "/proc", "--size", "4096", "--tmpfs", "/dev"});
   for (const char* device : kDevices) add(options, {"--dev-bind-try", device, device});
+  if (!compiles)
+    for (const char* device : kEndlessDevices) add(options, {"--dev-bind-try", device, device});
   add(options, {"--symlink", "/proc/self/fd", "/dev/fd", "--remount-ro", "/dev"});
 }
 
@@ -63,8 +66,8 @@ std::vector<std::string> bubblewrapOptions(const Confinement& confinement,
                                            const std::filesystem::path& launcher) {
   Options options;
   addNamespaces(options, confinement.user.has_value());
-  addSystem(options);
   const bool compiles = confinement.mayStartProgramsOfItsOwn;
+  addSystem(options, compiles);
   add(options, {"--perms", "1777", "--size", compiles ? kCompilersFolderBytes : kMemoryFolderBytes, "--tmpfs",
                 kInsideFolder});
   for (const Readable& readable : confinement.readable)

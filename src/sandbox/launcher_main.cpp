@@ -13,7 +13,6 @@
 #include <fmt/format.h>
 #include <grp.h>
 #include <linux/close_range.h>
-#include <poll.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -167,6 +166,8 @@ void becomeUserOrPlainRoot(const Order& order) {
   for (const char* name : kRootFolders) rules.allowReading(name);
   for (const char* name : kSystemFiles) rules.allowReading(name);
   for (const char* name : kDevices) rules.allowWriting(name);
+  if (!c.mayStartProgramsOfItsOwn)
+    for (const char* name : kEndlessDevices) rules.allowWriting(name);
   for (const Readable& readable : c.readable) rules.allowReading(readable.path);
   if (!c.writable.empty()) rules.allowWriting(c.writable);
   const int program = openProgram(order.command.front());
@@ -194,19 +195,12 @@ void becomeUserOrPlainRoot(const Order& order) {
   failWithCause("cannot run bwrap, of the package bubblewrap");
 }
 
-double secondsOf(const timeval& time) {
-  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-}
-
-// Waits for the child, and for all others that end meanwhile; those left die with this process.
-End waitFor(pid_t child, double wallSeconds, bool& timedOut) {
-  End end;
-  sigset_t childEnded;
-  ::sigemptyset(&childEnded);
-  ::sigaddset(&childEnded, SIGCHLD);
+// Waits for the child, and for all others, so that what they used is counted. Returns how the child ended.
+int waitFor(pid_t child, double wallSeconds, bool& timedOut) {
+  int status = 0;
   if (wallSeconds > 0) ::alarm(static_cast<unsigned>(std::ceil(wallSeconds)));
   for (pid_t ended = 0; ended != child;) {
-    ended = ::waitpid(-1, &end.status, 0);
+    ended = ::waitpid(-1, &status, 0);
     if (ended >= 0 || errno != EINTR) continue;
     timedOut = true;
     ::kill(-1, SIGKILL);
@@ -215,11 +209,7 @@ End waitFor(pid_t child, double wallSeconds, bool& timedOut) {
   int ignored = 0;
   while (::waitpid(-1, &ignored, 0) > 0) {
   }
-  rusage usage{};
-  ::getrusage(RUSAGE_CHILDREN, &usage);
-  end.cpuSeconds = secondsOf(usage.ru_utime) + secondsOf(usage.ru_stime);
-  end.peakKilobytes = usage.ru_maxrss;
-  return end;
+  return status;
 }
 
 [[noreturn]] void becomeInside(const Order& order) {
@@ -256,10 +246,10 @@ int runInside(const Order& order) {
   // The ends of pipes are the program's alone: its closing them must be seen.
   for (int fd = 0; fd < kReport; ++fd) ::close(fd);
   bool timedOut = false;
-  const End end = waitFor(child, order.confinement.wallSeconds, timedOut);
-  report(order.confinement, endLine(end));
+  const int status = waitFor(child, order.confinement.wallSeconds, timedOut);
+  report(order.confinement, endLine(status));
   if (timedOut) return kTimedOut;
-  return WIFEXITED(end.status) ? WEXITSTATUS(end.status) : 128 + WTERMSIG(end.status);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
 int run(const Order& order, const std::vector<std::string>& arguments) {

@@ -11,7 +11,9 @@ inline constexpr std::array<const char*, 5> kRootFolders = {"/bin", "/lib", "/li
 /// Where libraries and compilers of the system lie; no settings, names of users or keys.
 inline constexpr std::array<const char*, 2> kSystemFiles = {"/etc/alternatives", "/etc/ld.so.cache"};
 
-inline constexpr std::array<const char*, 5> kDevices = {"/dev/null", "/dev/zero", "/dev/full", "/dev/random",
-                                                        "/dev/urandom"};
+/// Devices that do no harm. Compilers do not get those without an end: a source file could include them.
+inline constexpr std::array<const char*, 1> kDevices = {"/dev/null"};
+inline constexpr std::array<const char*, 4> kEndlessDevices = {"/dev/zero", "/dev/full", "/dev/random",
+                                                               "/dev/urandom"};
 
 }  // namespace rex::sandbox
