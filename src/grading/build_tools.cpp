@@ -12,7 +12,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-double clockSeconds(const ToolLimits& limits) { return 2 * limits.seconds + 2; }
+// Confined tools find no pipe or terminal to wait for: only a busy machine keeps them, and they get patience.
+double clockSeconds(const ToolLimits& limits, int level) {
+  return (level == 0 ? 2 : 10) * limits.seconds + 2;
+}
 
 // The names in lines `#include "name"`.
 std::vector<std::string> includedNames(const std::string& text) {
@@ -58,7 +61,7 @@ sandbox::Confinement confinement(const Toolchain& toolchain, const fs::path& wor
                           "TMPDIR=" + (sandbox.level >= 2 ? sandbox::kInsideFolder : workFolder.string())},
           .mayStartProgramsOfItsOwn = true,
           .cpuSeconds = limits.seconds,
-          .wallSeconds = clockSeconds(limits),
+          .wallSeconds = clockSeconds(limits, sandbox.level),
           .addressSpace = limits.memory,
           .fileSize = limits.fileSize,
           .openFiles = 256};
@@ -90,7 +93,7 @@ ProcessResult BuildTools::runConfined(const std::vector<std::string>& command,
 
 ProcessResult BuildTools::run(const std::vector<std::string>& command, std::size_t outputLimit) const {
   ProcessOptions options{.directory = workFolder_,
-                         .timeout = clockSeconds(limits_),
+                         .timeout = clockSeconds(limits_, level_),
                          .outputLimit = outputLimit,
                          .cpuSeconds = limits_.seconds,
                          .addressSpace = limits_.memory,
@@ -102,7 +105,7 @@ ProcessResult BuildTools::run(const std::vector<std::string>& command, std::size
   constexpr double kWorked = 0.2;  // of the processor time it may use
   if (result.timedOut && result.cpuSeconds > kWorked * limits_.seconds)
     throw Error({.what = fmt::format("{} did not end within {:g} s: the machine was too busy",
-                                     command.front(), clockSeconds(limits_))});
+                                     command.front(), clockSeconds(limits_, level_))});
   return result;
 }
 

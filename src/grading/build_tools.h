@@ -13,7 +13,7 @@ namespace rex::grading {
 
 /// What one tool may use.
 struct ToolLimits {
-  double seconds = 30;                        ///< of processor time; twice that and two by the clock
+  double seconds = 30;                        ///< of processor time; by the clock at least twice that and two
   std::size_t memory = std::size_t{2} << 30;  ///< bytes
   std::size_t fileSize = std::size_t{64} << 20;
 };

@@ -114,6 +114,12 @@ Outcome overallOutcome(const std::vector<CheckResult>& checks) {
 
 }  // namespace
 
+void setSandbox(GradeResult& result, int level) {
+  result.sandboxLevel = level;
+  const std::string warning = sandbox::warningOf(level);
+  result.sandboxWarnings = warning.empty() ? std::vector<std::string>{} : std::vector{warning};
+}
+
 GradeResult grade(GradeResult result, std::span<const RunnableCheck> checks, const GradeOptions& options,
                   const std::function<void(const GradeResult&)>& save) {
   result.checks.clear();
@@ -132,10 +138,7 @@ GradeResult grade(GradeResult result, std::span<const RunnableCheck> checks, con
     save(result);
     return result;
   }
-  result.sandboxLevel = options.sandbox.level;
-  result.sandboxWarnings.clear();
-  if (const std::string warning = sandbox::warningOf(options.sandbox.level); !warning.empty())
-    result.sandboxWarnings = {warning};
+  setSandbox(result, options.sandbox.level);
   result.outcome = Outcome::graderError;
   result.message = kUnfinished;
   save(result);

@@ -32,6 +32,9 @@ struct GradeOptions {
   std::string secret{};  ///< of the course; empty: hidden checks take the same seed as visible ones
 };
 
+/// Writes into the result at which sandbox level student code ran, and what that level does not stop.
+void setSandbox(GradeResult& result, int level);
+
 /// Runs each check in a fresh worker and adds the results, in the given order, to `result`, whose other
 /// fields about the submission are kept. Calls `save` before the first check, when everything still counts as
 /// a fault of the grader, and after each. What a check function throws itself is such a fault too.

@@ -9,6 +9,7 @@
 #include "base/process.h"
 #include "grading/compiler_messages.h"
 #include "grading/descendants.h"
+#include "grading/grade.h"
 #include "grading/result_file.h"
 #include "grading/sha256.h"
 #include "grading/student_build.h"
@@ -113,6 +114,7 @@ void compileAndLink(const Toolchain& toolchain, const ExerciseInfo& exercise,
                                                .seconds = options.compileSeconds,
                                                .sandbox = options.sandbox});
   built.start = startResult(toolchain, exercise, object);
+  setSandbox(built.start, options.sandbox.level);
   built.source = object.source;
   std::string log = object.log;
   auto& diagnostics = built.start.compile.diagnostics;

@@ -27,6 +27,13 @@ Cell::Cell(const Sandbox& sandbox, Confinement confinement)
         {.what = "cannot give the work folder to the user of the sandbox", .found = std::strerror(errno)});
 }
 
+// The user's number will be lent to others.
+Cell::~Cell() {
+  const auto& folder = confinement_.writable;
+  if (confinement_.user && !folder.empty())
+    static_cast<void>(!::lchown(folder.c_str(), ::geteuid(), ::getegid()));
+}
+
 std::vector<std::string> Cell::command(const std::vector<std::string>& program) const {
   std::vector<std::string> command = {sandbox_.launcher.string()};
   const std::vector<std::string> arguments = toArguments(confinement_);

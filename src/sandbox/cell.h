@@ -23,6 +23,9 @@ class Cell {
  public:
   /// Completes the confinement with the level, user and groups. Throws Error where they cannot be had.
   Cell(const Sandbox& sandbox, Confinement confinement);
+  ~Cell();
+  Cell(const Cell&) = delete;
+  Cell& operator=(const Cell&) = delete;
 
   /// The command that starts `program` with its arguments confined.
   [[nodiscard]] std::vector<std::string> command(const std::vector<std::string>& program) const;

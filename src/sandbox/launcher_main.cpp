@@ -154,6 +154,8 @@ void becomeUserOrPlainRoot(const Order& order) {
   if (std::all_of(c.readable.begin(), c.readable.end(), isReached) &&
       (c.writable.empty() || isOpenToAll(c.writable.parent_path())))
     return becomeUser(c);
+  if (!c.writable.empty() && ::lchown(c.writable.c_str(), 0, 0) != 0)
+    failWithCause("cannot take the work folder back");
   for (int capability = 0; ::prctl(PR_CAPBSET_DROP, capability, 0, 0, 0) == 0; ++capability) {
   }
 }

@@ -59,7 +59,8 @@ void eraseVolatile(nlohmann::json& json) {
     json.erase("volatile");
     json.erase("sandbox");
   }
-  for (auto& entry : json) eraseVolatile(entry);
+  if (json.is_structured())
+    for (auto& entry : json) eraseVolatile(entry);
 }
 
 int processesOf(const fs::path& program) {
@@ -184,7 +185,8 @@ INSTANTIATE_TEST_SUITE_P(
         Attack{"A13_includes_passwords", {compileError}, 0, {}, true},
         Attack{"A13_embeds_passwords", {compileError}, 0, {}, true},
         Attack{"A13_includes_reference", {compileError}, 0, {}, true},
-        Attack{"A13_looks_for_files", {fail}, 0, {}, true},
+        // At level 1 the compiler sees that a file exists, and stops because it may not open it.
+        Attack{"A13_looks_for_files", {fail, compileError}, 0, {}, true},
         Attack{"A14_includes_zero", {compileError}, 0, {}, true},
         Attack{"A14_includes_stdin", {compileError}, 0, {}, true},
         Attack{"A14_includes_tty", {compileError}, 0, {}, true},
