@@ -116,14 +116,13 @@ Launched launchWorker(const LaunchOrder& order) {
   const pid_t child = ::fork();
   if (child == 0) becomeWorker(prepared);
   ::close(nothingHigh);
-  const std::string& program = order.command.front();
   if (child < 0) throw Error({.what = "cannot start the worker", .found = std::strerror(errno)});
   ::setpgid(child, child);
   status.closeWrite();
   int cause = 0;
   if (::read(status.readEnd(), &cause, sizeof cause) == sizeof cause) {
     ::waitpid(child, nullptr, 0);
-    throw Error({.what = "cannot start the worker " + program, .found = std::strerror(cause)});
+    throw Error({.what = "cannot start the worker " + order.name, .found = std::strerror(cause)});
   }
   return {.process = child,
           .processFd = static_cast<int>(::syscall(SYS_pidfd_open, child, 0)),

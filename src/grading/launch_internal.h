@@ -24,6 +24,7 @@ struct Launched {
 /// A confinement's command, started by its launcher; without one, level 0, the program itself.
 struct LaunchOrder {
   std::vector<std::string> command{};  ///< path and arguments; one path alone runs under the name "worker"
+  std::string name{};                  ///< of the program, in messages
   std::filesystem::path folder{};      ///< to work in
   WorkerLimits limits{};               ///< set here at level 0, by the launcher above
   int level = 0;

@@ -98,6 +98,7 @@ LaunchOrder orderOf(const WorkerOptions& options, const sandbox::Cell& cell, con
   const std::string program = fs::absolute(options.program).string();
   const int level = options.sandbox.level;
   return {.command = level == 0 ? std::vector{program} : cell.command({program}),
+          .name = options.program.string(),
           .folder = folder,
           .limits = options.limits,
           .level = level};
@@ -262,14 +263,14 @@ bool Worker::saidItsEnd() {
 // How the program ended, which its launcher knows where it is between us. A launcher that fell before the
 // program started is a fault of ours; one that fell later was pulled down by the program.
 int Worker::trueStatus() {
+  const int level = options_.sandbox.level;
+  if (level == 0) return status_;
   readReport();
   const sandbox::Report report = sandbox::readReport(report_);
-  const bool between = options_.sandbox.level >= 2;
-  if (!report.error.empty() || (between && !report.ready))
-    throw Error({.what = fmt::format("the sandbox of level {} does not stand", options_.sandbox.level),
+  if (!report.error.empty() || !report.ready)
+    throw Error({.what = fmt::format("the sandbox of level {} does not stand", level),
                  .found = report.error.empty() ? tellingLine(error_.tail()) : report.error});
-  if (!between) return status_;
-  return report.status.value_or(SIGKILL);
+  return level == 1 ? status_ : report.status.value_or(SIGKILL);
 }
 
 Failure Worker::explain(const remote::Closed& reason) {

@@ -90,7 +90,7 @@ Order orderFromArguments(const std::vector<std::string>& arguments) {
       {"--file-size", [&] { c.fileSize = reader.whole<std::size_t>(); }},
       {"--files", [&] { c.openFiles = reader.whole<int>(); }},
       {"--processes", [&] { c.processes = reader.whole<int>(); }},
-      {"--user", [&] { c.user = reader.whole<uid_t>(); }},
+      {"--user", [&] { c.user = reader.whole<unsigned>(); }},
       {"--report", [&] { c.reports = true; }},
       {"--group", [&] { c.controlGroups.emplace_back(reader.text()); }}};
   for (;;) {

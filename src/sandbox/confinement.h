@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include <sys/types.h>
-
 namespace rex::sandbox {
 
 /// A file or folder of the machine that a confined program may read and execute.
@@ -28,8 +26,8 @@ struct Confinement {
   std::size_t addressSpace = 0;            ///< bytes of each process; 0: no limit
   std::size_t fileSize = 0;                ///< bytes of the largest file; 0: no limit
   int openFiles = 64;
-  int processes = 64;           ///< and threads, where the machine can count those of this program alone
-  std::optional<uid_t> user{};  ///< to become; only root can
+  int processes = 64;              ///< and threads, where the machine can count those of this program alone
+  std::optional<unsigned> user{};  ///< to become; only root can
   std::vector<std::filesystem::path> controlGroups{};  ///< to join: their lists of processes
   bool reports = false;                                ///< kReport is open, and 3 and 4 are the program's
 };

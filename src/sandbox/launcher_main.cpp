@@ -178,6 +178,7 @@ void becomeUserOrPlainRoot(const Order& order) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // a change of user forgets it
   rules.enforce();
   filterSystemCalls(c);
+  report(c, kReady);
   become(order, program);
 }
 

@@ -16,7 +16,7 @@ namespace rex::sandbox {
 namespace {
 
 // Numbers that neither Debian nor systemd gives to anybody: 60706 to 61183.
-constexpr uid_t kFirst = 60706;
+constexpr unsigned kFirst = 60706;
 constexpr int kSlots = 256;
 constexpr const char* kFolder = "/run/rex-slots";
 
@@ -30,7 +30,7 @@ UserSlot::UserSlot() {
     lock_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600);
     if (lock_ < 0) break;
     if (::flock(lock_, LOCK_EX | LOCK_NB) == 0) {
-      user_ = kFirst + static_cast<uid_t>(slot);
+      user_ = kFirst + static_cast<unsigned>(slot);
       return;
     }
     ::close(lock_);

@@ -2,8 +2,6 @@
 
 #include <optional>
 
-#include <sys/types.h>
-
 namespace rex::sandbox {
 
 /// A number of a user who owns nothing on this machine, for one program at a time: two slots never share it,
@@ -16,10 +14,10 @@ class UserSlot {
   UserSlot(const UserSlot&) = delete;
   UserSlot& operator=(const UserSlot&) = delete;
 
-  [[nodiscard]] std::optional<uid_t> user() const { return user_; }
+  [[nodiscard]] std::optional<unsigned> user() const { return user_; }
 
  private:
-  std::optional<uid_t> user_{};
+  std::optional<unsigned> user_{};
   int lock_ = -1;
 };
 
