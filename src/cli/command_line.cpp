@@ -33,7 +33,8 @@ namespace {
 
 constexpr const char* kExitCodes =
     R"(Exit codes: 0 full score, 1 below full score, 2 cannot be graded (missing, does
-not compile), 3 fault of the grader, the project or the machine, 64 wrong use.)";
+not compile), 3 fault of the grader, the project or the machine, 4 the sandbox is
+weaker than asked for, 64 wrong use.)";
 
 constexpr const char* kOutHelp = "output folder (default: out/EXERCISE, or out/EXERCISE-solution)";
 
@@ -69,6 +70,12 @@ void addRun(CLI::App& program, Action& action) {
       [&action, options] { action = [options](const Project& p) { return run(p, *options); }; });
 }
 
+CLI::Option* addLevel(CLI::App* command, std::optional<int>& level) {
+  return command->add_option("--level", level, "sandbox level that must hold, 0 to 3")
+      ->check(CLI::Range(0, 3))
+      ->type_name("N");
+}
+
 void addTest(CLI::App& program, Action& action) {
   const auto options = std::make_shared<TestOptions>();
   CLI::App* command =
@@ -88,8 +95,11 @@ void addTest(CLI::App& program, Action& action) {
   command->add_flag("--json", options->json, "print the result file and nothing else");
   command->add_flag("--debug", options->debug, "with the sanitizers: slow, names the lines of crashes");
   command->add_option("-o,--out", options->out, kOutHelp)->type_name("DIR");
+  addLevel(command, options->level);
   command->callback([&action, options] {
     if (options->solution && !options->main.empty()) throw CLI::ExcludesError("--main", "--solution");
+    // The sanitizers read and map what a sandbox forbids.
+    if (options->debug && options->level.value_or(0) > 0) throw CLI::ExcludesError("--debug", "--level");
     action = [options](const Project& p) { return test(p, *options); };
   });
 }
@@ -250,12 +260,20 @@ void addRiccati(CLI::App& program, Action& action, bool isDiscrete) {
 
 void addDoctor(CLI::App& program, Action& action) {
   const auto options = std::make_shared<DoctorOptions>();
-  CLI::App* command = add(program, "doctor", "Try all that pictures need on this machine",
-                          "Examples:\n  scripts/rex doctor\n  scripts/rex doctor --gl egl --json");
+  CLI::App* command =
+      add(program, "doctor", "Try all that pictures need on this machine, or attack its sandbox",
+          "Examples:\n  scripts/rex doctor\n  scripts/rex doctor --gl egl --json\n"
+          "  scripts/rex doctor --sandbox --level 2");
   addGl(command, options->gl);
   command->add_flag("--json", options->json, "print JSON instead of a table");
-  command->callback(
-      [&action, options] { action = [options](const Project& p) { return doctor(p, *options); }; });
+  const auto* sandbox =
+      command->add_flag("--sandbox", options->sandbox, "attack the sandbox that graded programs run in");
+  addLevel(command, options->level)->needs(const_cast<CLI::Option*>(sandbox));
+  command->callback([&action, options] {
+    action = [options](const Project& p) {
+      return options->sandbox ? doctorOfSandbox(p, *options) : doctor(p, *options);
+    };
+  });
 }
 
 void addDevNew(CLI::App& dev, Action& action) {

@@ -35,6 +35,7 @@ struct TestOptions {
   bool json = false;
   bool debug = false;         ///< with the sanitizers
   std::filesystem::path out;  ///< empty: as for run
+  std::optional<int> level{};  ///< of the sandbox; nothing: 0
 };
 ExitCode test(const Project& project, const TestOptions& options);
 
@@ -230,10 +231,14 @@ ExitCode curves(const CurvesOptions& options);
 struct DoctorOptions {
   std::string gl;  ///< auto, osmesa or egl; empty: auto
   bool json = false;
+  bool sandbox = false;        ///< attack the sandbox instead
+  std::optional<int> level{};  ///< of the sandbox, that must hold; nothing: the best
 };
 /// Tries everything that pictures need on this machine. kGraderFault if something needed does not work; of
 /// the two ways to OpenGL, one is needed unless `gl` names it.
 ExitCode doctor(const Project& project, const DoctorOptions& options);
+/// Attacks the sandbox from inside with a program of ours. kWeakSandbox unless the asked level holds.
+ExitCode doctorOfSandbox(const Project& project, const DoctorOptions& options);
 
 struct DebugOptions {
   std::string exercise;

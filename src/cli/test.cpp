@@ -7,6 +7,7 @@
 #include "cli/commands.h"
 #include "cli/progress_file.h"
 #include "cli/progress_line.h"
+#include "cli/sandbox_choice.h"
 #include "cli/student_file.h"
 #include "cli/terminal.h"
 #include "cli/test_report.h"
@@ -71,6 +72,8 @@ ExitCode test(const Project& project, const TestOptions& options) {
       options.out.empty() ? project.outFolder(exercise, options.solution) : options.out);
   std::filesystem::create_directories(out);
   const std::filesystem::path results = out / resultName(options);
+  const std::optional<sandbox::Sandbox> sandbox = chooseSandbox(project, options.level);
+  if (!sandbox) return ExitCode::kWeakSandbox;
   const grading::Toolchain toolchain = prepare(project, exercise);
   const grading::PrivateFolder work(project.buildFolder(exercise));
   const grading::Submission graded = [&] {
@@ -84,7 +87,8 @@ ExitCode test(const Project& project, const TestOptions& options) {
                                      .checks = options.checks,
                                      .seed = options.seed,
                                      .lookAgain = true,
-                                     .sanitize = options.debug});
+                                     .sanitize = options.debug,
+                                     .sandbox = *sandbox});
   }();
   if (options.main.empty() && !options.solution && !options.debug && options.checks.empty())
     remember(project, exercise, graded);

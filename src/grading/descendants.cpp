@@ -10,6 +10,7 @@
 #include <thread>
 
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -54,6 +55,15 @@ NewDescendants::~NewDescendants() {
   ::prctl(PR_SET_CHILD_SUBREAPER, adopting_);
 }
 
+void NewDescendants::reap(int child) {
+  rusage usage{};
+  int status = 0;
+  if (::wait4(child, &status, WNOHANG, &usage) != child) return;
+  for (const timeval& time : {usage.ru_utime, usage.ru_stime})
+    cpuSeconds_ += static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  peakKilobytes_ = std::max(peakKilobytes_, usage.ru_maxrss);
+}
+
 void NewDescendants::kill() {
   using Clock = std::chrono::steady_clock;
   const auto deadline = Clock::now() + std::chrono::seconds(2);
@@ -63,7 +73,7 @@ void NewDescendants::kill() {
       if (std::find(known_.begin(), known_.end(), child) != known_.end()) continue;
       found = true;
       ::kill(child, SIGKILL);
-      ::waitpid(child, nullptr, WNOHANG);
+      reap(child);
     }
     if (!found) break;
     std::this_thread::sleep_for(std::chrono::microseconds(200));

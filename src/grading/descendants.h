@@ -16,8 +16,16 @@ class NewDescendants {
   /// Kills and reaps them now, and what they leave behind, until none is left. Gives up after two seconds.
   void kill();
 
+  /// What those reaped used, with the children that they had waited for.
+  double cpuSeconds() const { return cpuSeconds_; }
+  long peakKilobytes() const { return peakKilobytes_; }
+
  private:
+  void reap(int child);
+
   std::vector<int> known_;
+  double cpuSeconds_ = 0;
+  long peakKilobytes_ = 0;
   int adopting_ = 0;
 };
 

@@ -5,18 +5,17 @@
 
 #include <fmt/format.h>
 
+#include "grading/hidden_seed.h"
 #include "grading/printable.h"
+#include "grading/sha256.h"
 #include "grading/worker_process.h"
+#include "sandbox/probes.h"
 
 namespace rex::grading {
 namespace {
 
 constexpr std::size_t kLongestMessage = 2000;
 constexpr std::size_t kKeptOutput = 16u << 10;
-constexpr const char* kSandboxWarning =
-    "sandbox level 0 of 3: the student's program runs with the rights of the grader and sees its files; "
-    "grade "
-    "only your own code this way";
 constexpr const char* kUnfinished = "the grader did not finish";
 
 CheckResult blank(const CheckInfo& info) {
@@ -54,16 +53,31 @@ void keep(KeptOutput& kept, const CapturedText& captured) {
   kept.truncatedBytes += captured.bytes - taken;
 }
 
+// Visible checks can be repeated by everybody. What hidden ones try depends on what was handed in: the same
+// again gives the same grade, and a table of answers helps nobody else.
+std::uint64_t seedFor(Group group, const GradeResult& whole, const GradeOptions& options) {
+  if (group == Group::visible || options.secret.empty()) return options.seed;
+  return hiddenSeed(options.secret, whole.snapshotSha256, whole.exerciseId, "hidden");
+}
+
+std::string seedIdOf(const GradeOptions& options) {
+  const std::string visible = fmt::format("public:{}", options.seed);
+  return options.secret.empty() ? visible
+                                : fmt::format("{} hidden:{}", visible, sha256(options.secret).substr(0, 8));
+}
+
 /// Runs one check and adds what the worker used and printed to the whole.
 CheckResult runCheck(const RunnableCheck& check, const GradeOptions& options, GradeResult& whole) {
   CheckResult verdict = faulty(check.info, "the check did not end");
   try {
-    Check judge(check.info, options.seed);
+    Check judge(check.info, seedFor(check.info.group, whole, options));
     const WorkerRun run =
         runWithWorker({.program = options.worker,
                        .signature = options.signature,
                        .limits = options.limits,
-                       .temporaryFolder = options.temporaryFolder},
+                       .temporaryFolder = options.temporaryFolder,
+                       .sandbox = options.sandbox,
+                       .libraries = options.libraries},
                       [&](remote::Caller& caller) {
                         verdict = judge.judge([&](Check& requirements) { check.run(requirements, caller); });
                       });
@@ -101,6 +115,12 @@ Outcome overallOutcome(const std::vector<CheckResult>& checks) {
 
 }  // namespace
 
+void setSandbox(GradeResult& result, int level) {
+  result.sandboxLevel = level;
+  const std::string warning = sandbox::warningOf(level);
+  result.sandboxWarnings = warning.empty() ? std::vector<std::string>{} : std::vector{warning};
+}
+
 GradeResult grade(GradeResult result, std::span<const RunnableCheck> checks, const GradeOptions& options,
                   const std::function<void(const GradeResult&)>& save) {
   result.checks.clear();
@@ -114,13 +134,12 @@ GradeResult grade(GradeResult result, std::span<const RunnableCheck> checks, con
     result.maxScore += check.info.points;
   }
   result.limits = options.limits;
-  result.seedId = fmt::format("public:{}", options.seed);
+  result.seedId = seedIdOf(options);
   if (options.worker.empty()) {
     save(result);
     return result;
   }
-  result.sandboxLevel = 0;
-  result.sandboxWarnings = {kSandboxWarning};
+  setSandbox(result, options.sandbox.level);
   result.outcome = Outcome::graderError;
   result.message = kUnfinished;
   save(result);

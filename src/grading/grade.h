@@ -4,11 +4,14 @@
 #include <filesystem>
 #include <functional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "grading/check.h"
 #include "grading/results.h"
 #include "grading/worker_limits.h"
 #include "remote/caller.h"
+#include "sandbox/cell.h"
 
 namespace rex::grading {
 
@@ -24,7 +27,13 @@ struct GradeOptions {
   std::uint64_t seed = 1;
   WorkerLimits limits{};
   std::filesystem::path temporaryFolder = "/tmp";
+  sandbox::Sandbox sandbox{};
+  std::vector<std::filesystem::path> libraries{};  ///< that the worker loads, beside those of the system
+  std::string secret{};  ///< of the course; empty: hidden checks take the same seed as visible ones
 };
+
+/// Writes into the result at which sandbox level student code ran, and what that level does not stop.
+void setSandbox(GradeResult& result, int level);
 
 /// Runs each check in a fresh worker and adds the results, in the given order, to `result`, whose other
 /// fields about the submission are kept. Calls `save` before the first check, when everything still counts as

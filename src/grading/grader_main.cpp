@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "grading/result_file.h"
+#include "grading/text_file.h"
 #include "grading/unknown_check_internal.h"
 
 namespace rex::grading {
@@ -22,6 +23,7 @@ struct Arguments {
   GradeOptions grade{};
   std::filesystem::path results{};
   std::vector<std::string> only{};
+  std::filesystem::path secret{};
   bool list = false;
 };
 
@@ -36,6 +38,14 @@ void declareOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("--memory-mb", limits.memoryMegabytes, "memory of one check")->check(CLI::PositiveNumber);
   app.add_option("--output-mb", limits.outputMegabytes, "printed by one check")->check(CLI::PositiveNumber);
   app.add_option("--temporary", arguments.grade.temporaryFolder, "where workers get their working folders");
+  app.add_option("--level", arguments.grade.sandbox.level, "sandbox level of workers")
+      ->check(CLI::Range(0, 3));
+  app.add_option("--sandbox", arguments.grade.sandbox.launcher,
+                 "the program rex-sandbox, for levels above 0");
+  app.add_option("--library", arguments.grade.libraries, "a library that the worker loads (repeatable)")
+      ->allow_extra_args(false);
+  app.add_option("--secret", arguments.secret,
+                 "file with the secret of the course, for the seeds of hidden checks");
   app.add_flag("--list", arguments.list, "print the checks as JSON");
 }
 
@@ -73,10 +83,25 @@ void printList(const std::vector<RunnableCheck>& checks) {
   fmt::print("{}\n", list.dump(2));
 }
 
+// A secret that is empty by mistake would be no secret.
+std::string readSecret(const std::filesystem::path& file) {
+  std::string secret = readTextFile(file);
+  secret.erase(secret.find_last_not_of(" \t\r\n") + 1);
+  constexpr std::size_t kShortest = 16;
+  if (secret.size() < kShortest)
+    throw Error({.what = "the secret of the course is too short",
+                 .where = {file.string()},
+                 .found = fmt::format("{} characters", secret.size()),
+                 .wanted = fmt::format("at least {}", kShortest)});
+  return secret;
+}
+
 int gradeAndSave(const Arguments& arguments, const std::vector<RunnableCheck>& checks) {
+  GradeOptions options = arguments.grade;
+  if (!arguments.secret.empty()) options.secret = readSecret(arguments.secret);
   const bool prepared = !arguments.results.empty() && std::filesystem::exists(arguments.results);
   const GradeResult start = prepared ? loadResult(arguments.results) : GradeResult{};
-  const GradeResult result = grade(start, checks, arguments.grade, [&](const GradeResult& soFar) {
+  const GradeResult result = grade(start, checks, options, [&](const GradeResult& soFar) {
     if (!arguments.results.empty()) saveResult(soFar, arguments.results);
   });
   if (result.outcome == Outcome::graderError) return kGraderFault;

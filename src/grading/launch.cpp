@@ -2,6 +2,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <optional>
 #include <string>
 
 #include <fcntl.h>
@@ -16,6 +17,7 @@
 #include "base/pipe.h"
 #include "grading/launch_internal.h"
 #include "remote/worker.h"
+#include "sandbox/confinement.h"
 
 namespace rex::grading {
 namespace {
@@ -57,45 +59,62 @@ void setLimits(const WorkerLimits& limits) {
   if (kLimitMemory) setLimit(RLIMIT_AS, memory, memory);
 }
 
-// Between fork and exec only async-signal-safe calls are allowed: everything is prepared before.
-[[noreturn]] void becomeWorker(const char* program, const char* folder, const WorkerLimits& limits,
-                               pid_t parent, const std::array<int, 5>& fds, int status) {
+// What the new process needs, prepared before the fork: behind it only async-signal-safe calls are allowed.
+struct Prepared {
+  const LaunchOrder& order;
+  std::vector<char*> arguments{};
+  std::vector<int> fds{};  ///< what become 0, 1, 2, ...
+  int status = -1;
+  pid_t parent = ::getpid();
+};
+
+[[noreturn]] void becomeWorker(const Prepared& prepared) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(1);
-  for (int k = 0; k < static_cast<int>(fds.size()); ++k) ::dup2(fds[k], k);
-  ::close_range(static_cast<unsigned>(fds.size()), ~0u, CLOSE_RANGE_CLOEXEC);
+  if (::getppid() != prepared.parent) ::_exit(1);
+  const int count = static_cast<int>(prepared.fds.size());
+  for (int k = 0; k < count; ++k) ::dup2(prepared.fds[static_cast<std::size_t>(k)], k);
+  ::close_range(static_cast<unsigned>(count), ~0u, CLOSE_RANGE_CLOEXEC);
   sigset_t none;
   ::sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
   ::signal(SIGPIPE, SIG_DFL);
-  if (::chdir(folder) == 0) {
-    setLimits(limits);
-    const std::array<char*, 2> arguments = {const_cast<char*>("worker"), nullptr};
-    ::execve(program, arguments.data(), const_cast<char* const*>(kEnvironment.data()));
+  const LaunchOrder& order = prepared.order;
+  if (::chdir(order.folder.c_str()) == 0) {
+    if (order.level == 0) setLimits(order.limits);
+    ::execve(order.command.front().c_str(), prepared.arguments.data(),
+             const_cast<char* const*>(kEnvironment.data()));
   }
   const int cause = errno;
-  static_cast<void>(!::write(status, &cause, sizeof cause));
+  static_cast<void>(!::write(prepared.status, &cause, sizeof cause));
   ::_exit(1);
+}
+
+std::vector<char*> argumentsOf(const LaunchOrder& order) {
+  static const std::string kName = "worker";
+  std::vector<char*> arguments;
+  for (const std::string& word : order.command) arguments.push_back(const_cast<char*>(word.c_str()));
+  if (arguments.size() == 1) arguments[0] = const_cast<char*>(kName.c_str());
+  arguments.push_back(nullptr);
+  return arguments;
 }
 
 }  // namespace
 
-Launched launchWorker(const std::filesystem::path& program, const std::filesystem::path& folder,
-                      const WorkerLimits& limits) {
-  static_assert(remote::kWorkerIn == 3 && remote::kWorkerOut == 4);
-  const std::string programPath = std::filesystem::absolute(program).string();
-  const std::string folderPath = folder.string();
+Launched launchWorker(const LaunchOrder& order) {
+  static_assert(remote::kWorkerIn == 3 && remote::kWorkerOut == 4 && sandbox::kReport == 5);
   Pipe in, out, output, error, status;
+  std::optional<Pipe> report;
   const int nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
   const int nothingHigh = ::fcntl(nothing, F_DUPFD_CLOEXEC, kAboveFixed);
   ::close(nothing);
-  const pid_t parent = ::getpid();
+  Prepared prepared{.order = order,
+                    .arguments = argumentsOf(order),
+                    .fds = {nothingHigh, output.writeEnd(), error.writeEnd(), in.readEnd(), out.writeEnd()},
+                    .status = status.writeEnd()};
+  if (order.level > 0) prepared.fds.push_back(report.emplace().writeEnd());
   const pid_t child = ::fork();
-  if (child == 0)
-    becomeWorker(programPath.c_str(), folderPath.c_str(), limits, parent,
-                 {nothingHigh, output.writeEnd(), error.writeEnd(), in.readEnd(), out.writeEnd()},
-                 status.writeEnd());
+  if (child == 0) becomeWorker(prepared);
   ::close(nothingHigh);
   if (child < 0) throw Error({.what = "cannot start the worker", .found = std::strerror(errno)});
   ::setpgid(child, child);
@@ -103,14 +122,15 @@ Launched launchWorker(const std::filesystem::path& program, const std::filesyste
   int cause = 0;
   if (::read(status.readEnd(), &cause, sizeof cause) == sizeof cause) {
     ::waitpid(child, nullptr, 0);
-    throw Error({.what = "cannot start the worker " + program.string(), .found = std::strerror(cause)});
+    throw Error({.what = "cannot start the worker " + order.name, .found = std::strerror(cause)});
   }
   return {.process = child,
           .processFd = static_cast<int>(::syscall(SYS_pidfd_open, child, 0)),
           .toWorker = notBlocking(in.releaseWrite()),
           .fromWorker = notBlocking(out.releaseRead()),
           .output = notBlocking(output.releaseRead()),
-          .error = notBlocking(error.releaseRead())};
+          .error = notBlocking(error.releaseRead()),
+          .report = report ? notBlocking(report->releaseRead()) : -1};
 }
 
 }  // namespace rex::grading

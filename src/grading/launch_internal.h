@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include <sys/types.h>
 
@@ -16,12 +18,21 @@ struct Launched {
   int fromWorker = -1;
   int output = -1;
   int error = -1;
+  int report = -1;  ///< what the launcher says; -1 at level 0
 };
 
-/// Starts `program` in its own process group with an empty environment, working in `folder`, with the limits
-/// set before its first instruction, and with no descriptor but the standard ones and its two pipes. It dies
-/// with this process. Throws Error if it cannot be started.
-[[nodiscard]] Launched launchWorker(const std::filesystem::path& program, const std::filesystem::path& folder,
-                                    const WorkerLimits& limits);
+/// A confinement's command, started by its launcher; without one, level 0, the program itself.
+struct LaunchOrder {
+  std::vector<std::string> command{};  ///< path and arguments; one path alone runs under the name "worker"
+  std::string name{};                  ///< of the program, in messages
+  std::filesystem::path folder{};      ///< to work in
+  WorkerLimits limits{};               ///< set here at level 0, by the launcher above
+  int level = 0;
+};
+
+/// Starts it in its own process group with an empty environment, before its first instruction with its
+/// limits, and with no descriptor but the standard ones, its two pipes and a launcher's report. It dies with
+/// this process. Throws Error if it cannot be started.
+[[nodiscard]] Launched launchWorker(const LaunchOrder& order);
 
 }  // namespace rex::grading

@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/process.h"
+#include "grading/build_tools.h"
 #include "grading/mentions.h"
 #include "grading/precompiled_prefix.h"
 #include "grading/symbol_scan.h"
@@ -22,7 +23,6 @@ namespace {
 
 using std::filesystem::path;
 
-constexpr std::size_t kObjectSize = 64u << 20;
 constexpr std::size_t kLogSize = 64u << 10;
 constexpr std::size_t kMostMessages = 50;
 
@@ -37,24 +37,6 @@ std::string plainName(const path& file) {
   return usable ? name : "main.cpp";
 }
 
-ProcessResult runTool(const std::vector<std::string>& command, const path& folder,
-                      const StudentBuildOptions& limits = {}) {
-  ProcessResult result = runProcess(command, {.directory = folder,
-                                              .timeout = 2 * limits.seconds + 2,
-                                              .outputLimit = 8u << 20,
-                                              .cpuSeconds = limits.seconds,
-                                              .addressSpace = limits.memory,
-                                              .fileSize = kObjectSize});
-  if (!result.started) throw Error({.what = "cannot run " + command.front(), .found = result.error});
-  // A compiler that did nothing for so long waits for something the source made it read. One that worked had
-  // a busy machine: the limit on processor time would have stopped it well before the clock.
-  constexpr double kWorked = 0.2;  // of the processor time it may use
-  if (result.timedOut && result.cpuSeconds > kWorked * limits.seconds)
-    throw Error({.what = fmt::format("{} did not end within {:g} s: the machine was too busy",
-                                     command.front(), 2 * limits.seconds + 2)});
-  return result;
-}
-
 // Why a compiler that reported no error still failed.
 std::string whyItGaveUp(const ProcessResult& run, const StudentBuildOptions& limits) {
   const auto says = [&](const char* text) { return run.error.find(text) != std::string::npos; };
@@ -66,7 +48,7 @@ std::string whyItGaveUp(const ProcessResult& run, const StudentBuildOptions& lim
   if (says("out of memory") || says("memory exhausted") || says("bad_alloc"))
     return fmt::format("compiling needed more than {} MiB of memory and was stopped", limits.memory >> 20);
   if (says("File size limit") || says("File too large"))
-    return fmt::format("the compiled file would be larger than {} MiB", kObjectSize >> 20);
+    return fmt::format("the compiled file would be larger than {} MiB", ToolLimits{}.fileSize >> 20);
   const std::string firstLine = run.error.substr(0, run.error.find('\n'));
   return "the compiler gave up: " + firstLine;
 }
@@ -90,10 +72,9 @@ std::vector<std::string> compileCommand(const Toolchain& toolchain, const Studen
 
 // The compiler's report in plain words; it alone tells which line of the student's caused an error in a
 // header. No source lines are quoted: they could come from any file.
-std::string plainReport(std::vector<std::string> command, const std::string& name,
-                        const StudentBuildOptions& options) {
+std::string plainReport(std::vector<std::string> command, const std::string& name, const BuildTools& tools) {
   command.insert(command.end(), {"-fmax-errors=20", "-fno-diagnostics-show-caret", "-fsyntax-only", name});
-  return runTool(command, options.workFolder, options).error;
+  return tools.run(command).error;
 }
 
 std::string writeLog(const std::vector<CompileDiagnostic>& messages) {
@@ -102,12 +83,12 @@ std::string writeLog(const std::vector<CompileDiagnostic>& messages) {
   return log;
 }
 
-void compile(const std::vector<std::string>& command, const std::string& name,
+void compile(const std::vector<std::string>& command, const std::string& name, const BuildTools& tools,
              const StudentBuildOptions& options, StudentObject& result) {
   std::vector<std::string> withJson = command;
   withJson.insert(withJson.end(),
                   {"-fdiagnostics-format=json", "-c", name, "-o", result.object.filename().string()});
-  const ProcessResult run = runTool(withJson, options.workFolder, options);
+  const ProcessResult run = tools.run(withJson);
   result.exitCode = run.exitCode;
   result.ok = run.ok();
   result.messages = parseCompilerJson(run.error);
@@ -115,7 +96,7 @@ void compile(const std::vector<std::string>& command, const std::string& name,
   const auto explained = [&] { return std::any_of(result.messages.begin(), result.messages.end(), isError); };
   // g++ 12 writes no JSON when -fmax-errors stops it; so that is for plain text only, which stands in when
   // too many errors keep the JSON from being finished.
-  if (!run.ok()) result.log = plainReport(command, name, options).substr(0, kLogSize);
+  if (!run.ok()) result.log = plainReport(command, name, tools).substr(0, kLogSize);
   if (!run.ok() && !explained()) result.messages = parseCompilerText(result.log);
   if (!run.ok() && !explained())
     result.messages.push_back({name, 0, 0, "error", "", whyItGaveUp(run, options)});
@@ -125,13 +106,13 @@ void compile(const std::vector<std::string>& command, const std::string& name,
   if (result.log.empty()) result.log = writeLog(result.messages);
 }
 
-StudentProgram link(const Toolchain& toolchain, const path& program, std::vector<std::string> objects,
-                    const std::string& mainFile) {
+StudentProgram link(const Toolchain& toolchain, const BuildTools& tools, const path& program,
+                    std::vector<std::string> objects, const std::string& mainFile) {
   std::vector<std::string> command = {toolchain.compiler, "-o", program.string()};
   command.insert(command.end(), objects.begin(), objects.end());
   command.push_back(toolchain.studentLibrary.string());
   command.insert(command.end(), toolchain.linkFlags.begin(), toolchain.linkFlags.end());
-  const ProcessResult run = runTool(command, program.parent_path());
+  const ProcessResult run = tools.run(command);
   StudentProgram result{
       .program = program, .messages = {}, .log = run.error.substr(0, kLogSize), .ok = run.ok()};
   if (run.ok()) return result;
@@ -209,11 +190,13 @@ StudentObject compileStudent(const Toolchain& toolchain, const std::vector<Forbi
   result.object = folder / "student.o";
   StudentBuildOptions absolute = options;
   absolute.workFolder = folder;
-  compile(compileCommand(toolchain, absolute, result.source), name, absolute, result);
+  const BuildTools tools(toolchain, folder, options.sandbox,
+                         {.seconds = options.seconds, .memory = options.memory});
+  compile(compileCommand(toolchain, absolute, result.source), name, tools, absolute, result);
   if (!result.ok) return result;
 
   const std::vector<CompileDiagnostic> calls =
-      scanSymbols(toolchain.objdump, result.object, result.source, name, forbidden);
+      scanSymbols(toolchain.objdump, result.object, result.source, name, forbidden, tools);
   result.ok = calls.empty();
   result.messages.insert(result.messages.end(), calls.begin(), calls.end());
   if (const auto [line, column] = standardInputUse(result.source); line > 0)
@@ -223,18 +206,21 @@ StudentObject compileStudent(const Toolchain& toolchain, const std::vector<Forbi
   return result;
 }
 
-StudentProgram linkWorker(const Toolchain& toolchain, const StudentObject& object) {
-  const path renamed = object.object.parent_path() / "worker_student.o";
-  const ProcessResult run = runTool(
-      {toolchain.objcopy, "--redefine-sym", "main=studentMain", object.object.string(), renamed.string()},
-      renamed.parent_path());
+StudentProgram linkWorker(const Toolchain& toolchain, const StudentObject& object,
+                          const sandbox::Sandbox& sandbox) {
+  const path folder = object.object.parent_path(), renamed = folder / "worker_student.o";
+  const BuildTools tools(toolchain, folder, sandbox);
+  const ProcessResult run = tools.run(
+      {toolchain.objcopy, "--redefine-sym", "main=studentMain", object.object.string(), renamed.string()});
   if (!run.ok()) throw Error({.what = "cannot rename main in the compiled file", .found = run.error});
-  return link(toolchain, object.object.parent_path() / "worker",
-              {toolchain.workerObject.string(), renamed.string()}, object.name);
+  return link(toolchain, tools, folder / "worker", {toolchain.workerObject.string(), renamed.string()},
+              object.name);
 }
 
 StudentProgram linkProgram(const Toolchain& toolchain, const StudentObject& object) {
-  return link(toolchain, object.object.parent_path() / "program", {object.object.string()}, object.name);
+  const path folder = object.object.parent_path();
+  return link(toolchain, BuildTools(toolchain, folder, {}), folder / "program", {object.object.string()},
+              object.name);
 }
 
 }  // namespace rex::grading

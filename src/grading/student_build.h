@@ -8,6 +8,7 @@
 #include "grading/compiler_messages.h"
 #include "grading/exercise_info.h"
 #include "grading/toolchain.h"
+#include "sandbox/cell.h"
 
 namespace rex::grading {
 
@@ -18,6 +19,7 @@ struct StudentBuildOptions {
   bool debug = false;                         ///< -g -O0, for a debugger
   double seconds = 30;                        ///< of processor time that compiling may take
   std::size_t memory = std::size_t{2} << 30;  ///< bytes that compiling may take
+  sandbox::Sandbox sandbox{};                 ///< that the tools run in
 };
 
 /// A compiled student file, or why there is none.
@@ -48,7 +50,8 @@ struct StudentProgram {
 };
 
 /// Links the worker: the exercise's loop around the student's functions, whose main() is put aside.
-[[nodiscard]] StudentProgram linkWorker(const Toolchain& toolchain, const StudentObject& object);
+[[nodiscard]] StudentProgram linkWorker(const Toolchain& toolchain, const StudentObject& object,
+                                        const sandbox::Sandbox& sandbox = {});
 
 /// Links the student's own program.
 [[nodiscard]] StudentProgram linkProgram(const Toolchain& toolchain, const StudentObject& object);

@@ -9,6 +9,7 @@
 #include "base/process.h"
 #include "grading/compiler_messages.h"
 #include "grading/descendants.h"
+#include "grading/grade.h"
 #include "grading/mentions.h"
 #include "grading/printable.h"
 #include "grading/result_file.h"
@@ -62,6 +63,11 @@ std::vector<std::string> graderCommand(const Toolchain& toolchain, const Exercis
   if (!worker.empty()) command.insert(command.end(), {"--worker", worker.string()});
   for (const std::string& check : options.checks) command.insert(command.end(), {"--check", check});
   if (options.seed) command.insert(command.end(), {"--seed", fmt::format("{}", *options.seed)});
+  if (options.sandbox.level > 0)
+    command.insert(command.end(),
+                   {"--level", fmt::format("{}", options.sandbox.level), "--sandbox",
+                    options.sandbox.launcher.string(), "--library", toolchain.studentLibrary.string()});
+  if (!options.secret.empty()) command.insert(command.end(), {"--secret", options.secret.string()});
   command.insert(command.end(), {"--cpu-seconds", fmt::format("{:g}", exercise.limits.cpuSeconds),
                                  "--memory-mb", fmt::format("{}", exercise.limits.memoryMb), "--output-mb",
                                  fmt::format("{}", exercise.limits.outputMb)});
@@ -114,7 +120,10 @@ Toolchain sanitized(const Toolchain& toolchain, const SubmissionOptions& options
 StudentObject compileAsAsked(const Toolchain& toolchain, const ExerciseInfo& exercise,
                              const SubmissionOptions& options) {
   constexpr double kSanitizedSeconds = 90;
-  StudentBuildOptions build{.main = options.main, .workFolder = options.workFolder};
+  StudentBuildOptions build{.main = options.main,
+                            .workFolder = options.workFolder,
+                            .seconds = options.compileSeconds,
+                            .sandbox = options.sandbox};
   if (options.sanitize) build.seconds = kSanitizedSeconds;
   return compileStudent(toolchain, exercise.forbidden, build);
 }
@@ -123,11 +132,12 @@ void compileAndLink(const Toolchain& toolchain, const ExerciseInfo& exercise,
                     const SubmissionOptions& options, BuiltSubmission& built) {
   const StudentObject object = compileAsAsked(toolchain, exercise, options);
   built.start = startResult(toolchain, exercise, object);
+  setSandbox(built.start, options.sandbox.level);
   built.source = object.source;
   std::string log = object.log;
   auto& diagnostics = built.start.compile.diagnostics;
   if (object.ok) {
-    const StudentProgram linked = linkWorker(toolchain, object);
+    const StudentProgram linked = linkWorker(toolchain, object, options.sandbox);
     if (linked.ok) built.worker = linked.program;
     diagnostics.insert(diagnostics.end(), linked.messages.begin(), linked.messages.end());
     log += linked.log;
@@ -162,7 +172,8 @@ void findCrashes(const Toolchain& toolchain, const ExerciseInfo& exercise, const
   for (CheckResult& check : result.checks)
     if (check.group == Group::visible && tellsOfCrash(check.message)) crashed.push_back(&check);
   if (crashed.size() > kMostRepeated) crashed.resize(kMostRepeated);
-  if (crashed.empty()) return;
+  // The sanitizers read and map what a sandbox forbids.
+  if (crashed.empty() || options.sandbox.level > 0) return;
   SubmissionOptions again = options;
   again.sanitize = true;
   again.workFolder = options.workFolder / "second-look";

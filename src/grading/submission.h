@@ -9,6 +9,7 @@
 #include "grading/exercise_info.h"
 #include "grading/results.h"
 #include "grading/toolchain.h"
+#include "sandbox/cell.h"
 
 namespace rex::grading {
 
@@ -21,6 +22,10 @@ struct SubmissionOptions {
   std::optional<std::uint64_t> seed;
   bool lookAgain = false;  ///< after a crash in a visible check, find its line with the sanitizers
   bool sanitize = false;   ///< grade a build with the sanitizers, with twenty times the processor time
+  sandbox::Sandbox sandbox{};  ///< for compiling and for the worker
+  std::filesystem::path
+      secret{};                ///< file with the secret of the course; empty: hidden checks take the seed too
+  double compileSeconds = 30;  ///< of processor time
 };
 
 /// A graded file.

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/process.h"
 #include "grading/mentions.h"
 
 namespace rex::grading {
@@ -84,10 +83,10 @@ std::vector<ForbiddenFunction> forbiddenCalls(std::string_view relocations,
 
 std::vector<CompileDiagnostic> scanSymbols(const std::string& objdump, const std::filesystem::path& object,
                                            std::string_view source, const std::string& mainFile,
-                                           const std::vector<ForbiddenFunction>& forbidden) {
+                                           const std::vector<ForbiddenFunction>& forbidden,
+                                           const BuildTools& tools) {
   if (forbidden.empty()) return {};
-  const ProcessResult listed =
-      runProcess({objdump, "-r", "-C", "--", object.string()}, {.outputLimit = 256u << 20});
+  const ProcessResult listed = tools.run({objdump, "-r", "-C", "--", object.string()}, 256u << 20);
   if (!listed.ok())
     throw Error({.what = "cannot list what the compiled file refers to", .found = listed.error});
   std::vector<CompileDiagnostic> messages;

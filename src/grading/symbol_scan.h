@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "grading/build_tools.h"
 #include "grading/compiler_messages.h"
 #include "grading/exercise_info.h"
 
@@ -22,6 +23,7 @@ namespace rex::grading {
 [[nodiscard]] std::vector<CompileDiagnostic> scanSymbols(const std::string& objdump,
                                                          const std::filesystem::path& object,
                                                          std::string_view source, const std::string& mainFile,
-                                                         const std::vector<ForbiddenFunction>& forbidden);
+                                                         const std::vector<ForbiddenFunction>& forbidden,
+                                                         const BuildTools& tools);
 
 }  // namespace rex::grading

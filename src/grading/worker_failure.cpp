@@ -43,7 +43,12 @@ Failure badAccess(const WorkerEnd& end, const WorkerLimits& limits) {
 
 Failure explainSignal(const WorkerEnd& end, const WorkerLimits& limits) {
   const std::string place = placeOf(end.ready, end.function);
+  if (end.outOfMemory) return tooMuchMemory(limits, place);
   switch (WTERMSIG(end.status)) {
+    case SIGSYS:
+      return {.outcome = Outcome::securityEvent,
+              .message = "tried what the sandbox forbids " + place +
+                         " (start another program, look into others, or change the machine)"};
     case SIGXCPU:
       return tooSlow(end, limits);
     case SIGKILL:

@@ -20,11 +20,12 @@ struct Failure {
 
 /// A worker process that has ended although nobody asked it to.
 struct WorkerEnd {
-  int status = 0;           ///< as wait4() gives it
-  double cpuSeconds = 0;    ///< that it used
-  bool ready = false;       ///< it had shaken hands
-  std::string function{};   ///< the function that was running; empty if none
-  std::string errorTail{};  ///< the last it printed on standard error
+  int status = 0;            ///< as wait4() gives it
+  double cpuSeconds = 0;     ///< that it used
+  bool ready = false;        ///< it had shaken hands
+  std::string function{};    ///< the function that was running; empty if none
+  std::string errorTail{};   ///< the last it printed on standard error
+  bool outOfMemory = false;  ///< the kernel ended it because all its memory was used up
 };
 
 /// "in ikStep", "before the first call" or "between two calls".

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -17,16 +18,19 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/error.h"
 #include "base/pipe.h"
 #include "grading/descendants.h"
 #include "grading/launch_internal.h"
 #include "grading/output_capture.h"
 #include "grading/private_folder.h"
 #include "remote/thrown.h"
+#include "sandbox/report.h"
 
 namespace rex::grading {
 namespace {
 
+namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) {
@@ -69,6 +73,37 @@ double secondsWithoutCore(pid_t process) {
   return file >> running >> ready ? 1e-9 * ready : 0;
 }
 
+// The only child of a process, or the process itself if it has none: in a sandbox of namespaces the program
+// is the child of the child of the process that we started.
+pid_t childOf(pid_t process) {
+  std::ifstream file(fmt::format("/proc/{0}/task/{0}/children", process));
+  pid_t child = 0;
+  return file >> child ? child : process;
+}
+
+sandbox::Confinement confinementOf(const WorkerOptions& options) {
+  if (options.sandbox.level == 0) return {};
+  constexpr std::size_t kFileBytes = 64u << 20;
+  sandbox::Confinement confinement{.readable = {{fs::absolute(options.program), sandbox::kInsideProgram}},
+                                   .cpuSeconds = options.limits.cpuBudget(),
+                                   .addressSpace = static_cast<std::size_t>(options.limits.memoryMegabytes)
+                                                   << 20,
+                                   .fileSize = kFileBytes,
+                                   .reports = true};
+  for (const fs::path& library : options.libraries) confinement.readable.push_back({library, library});
+  return confinement;
+}
+
+LaunchOrder orderOf(const WorkerOptions& options, const sandbox::Cell& cell, const fs::path& folder) {
+  const std::string program = fs::absolute(options.program).string();
+  const int level = options.sandbox.level;
+  return {.command = level == 0 ? std::vector{program} : cell.command({program}),
+          .name = options.program.string(),
+          .folder = folder,
+          .limits = options.limits,
+          .level = level};
+}
+
 class Worker {
  public:
   explicit Worker(const WorkerOptions& options);
@@ -90,6 +125,9 @@ class Worker {
   void drain();
   bool waitForEnd(double seconds);
   void reap(int flags);
+  void readReport();
+  bool saidItsEnd();
+  int trueStatus();
   void killAll();
   std::string place() const { return placeOf(ready_, caller_.running()); }
 
@@ -97,6 +135,7 @@ class Worker {
   SigpipeIgnored sigpipe_;
   OneCore core_;
   NewDescendants descendants_;
+  sandbox::Cell cell_;
   PrivateFolder folder_;
   Launched launched_;
   OutputCapture output_;
@@ -110,13 +149,15 @@ class Worker {
   bool over_ = false;
   int status_ = 0;
   rusage usage_{};
+  std::string report_{};
 };
 
 // The ids of the messages have no influence on any result; the worker must not foresee them.
 Worker::Worker(const WorkerOptions& options)
     : options_(options),
+      cell_(options.sandbox, confinementOf(options)),
       folder_(options.temporaryFolder),
-      launched_(launchWorker(options.program, folder_.path(), options.limits)),
+      launched_(launchWorker(orderOf(options, cell_, folder_.path()))),
       output_(launched_.output),
       error_(launched_.error),
       caller_(
@@ -126,7 +167,8 @@ Worker::Worker(const WorkerOptions& options)
 
 Worker::~Worker() {
   killAll();
-  for (const int fd : {launched_.processFd, launched_.toWorker, launched_.fromWorker}) ::close(fd);
+  for (const int fd : {launched_.processFd, launched_.toWorker, launched_.fromWorker, launched_.report})
+    if (fd >= 0) ::close(fd);
 }
 
 void Worker::converse(const std::function<void(remote::Caller&)>& conversation) {
@@ -141,7 +183,8 @@ double Worker::secondsLeft() {
   if (waited_ < allowed_) return allowed_ - waited_;
   constexpr double kMostPatience = 4;
   const double budget = options_.limits.wallBudget();
-  const double coreless = secondsWithoutCore(launched_.process) + secondsWithoutCore(::getpid()) - coreless_;
+  const pid_t worker = options_.sandbox.level >= 2 ? childOf(childOf(launched_.process)) : launched_.process;
+  const double coreless = secondsWithoutCore(worker) + secondsWithoutCore(::getpid()) - coreless_;
   allowed_ = std::min(budget + coreless, kMostPatience * budget);
   return allowed_ - waited_;
 }
@@ -205,16 +248,44 @@ double cpuSecondsOf(const rusage& usage) {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
+void Worker::readReport() {
+  std::array<char, 1024> buffer;
+  for (ssize_t n = 1; launched_.report >= 0 && n > 0;) {
+    n = ::read(launched_.report, buffer.data(), buffer.size());
+    if (n > 0) report_.append(buffer.data(), static_cast<std::size_t>(n));
+  }
+}
+
+// A sandbox that is being taken down.
+bool Worker::saidItsEnd() {
+  readReport();
+  return sandbox::readReport(report_).status.has_value();
+}
+
+// How the program ended, which its launcher knows where it is between us. A launcher that fell before the
+// program started is a fault of ours; one that fell later was pulled down by the program.
+int Worker::trueStatus() {
+  const int level = options_.sandbox.level;
+  if (level == 0) return status_;
+  readReport();
+  const sandbox::Report report = sandbox::readReport(report_);
+  if (!report.error.empty() || !report.ready)
+    throw Error({.what = fmt::format("the sandbox of level {} does not stand", level),
+                 .found = report.error.empty() ? tellingLine(error_.tail()) : report.error});
+  return level == 1 ? status_ : report.status.value_or(SIGKILL);
+}
+
 Failure Worker::explain(const remote::Closed& reason) {
   if (const auto* known = dynamic_cast<const GaveUp*>(&reason)) return known->failure;
   constexpr double kPatience = 1;
-  if (!waitForEnd(kPatience))
+  if (!waitForEnd(kPatience) && !(saidItsEnd() && waitForEnd(10 * kPatience)))
     return {.outcome = Outcome::protocolError, .message = "closed its connection to the grader " + place()};
-  return explainEnd({.status = status_,
+  return explainEnd({.status = trueStatus(),
                      .cpuSeconds = cpuSecondsOf(usage_),
                      .ready = ready_,
                      .function = caller_.running(),
-                     .errorTail = error_.tail()},
+                     .errorTail = error_.tail(),
+                     .outOfMemory = cell_.ranOutOfMemory()},
                     options_.limits);
 }
 
@@ -231,6 +302,7 @@ void Worker::killAll() {
     ::kill(launched_.process, SIGKILL);
     reap(0);
   }
+  cell_.kill();
   descendants_.kill();
 }
 
@@ -238,9 +310,10 @@ WorkerRun Worker::end() {
   killAll();
   output_.drain();
   error_.drain();
-  return {.cpuSeconds = cpuSecondsOf(usage_),
+  const long peak = std::max(usage_.ru_maxrss, descendants_.peakKilobytes());
+  return {.cpuSeconds = cpuSecondsOf(usage_) + descendants_.cpuSeconds(),
           .wallSeconds = waited_,
-          .peakMemoryBytes = static_cast<std::int64_t>(usage_.ru_maxrss) * 1024,
+          .peakMemoryBytes = static_cast<std::int64_t>(peak) * 1024,
           .output = {output_.head(), output_.total()},
           .error = {error_.head(), error_.total()}};
 }

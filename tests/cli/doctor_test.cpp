@@ -204,5 +204,20 @@ TEST_F(Doctor, RefusesAnUnknownBackend) {
   EXPECT_THAT(result.error, HasSubstr("OpenGL backend: found 'opengl'"));
 }
 
+TEST_F(Doctor, AttacksTheSandboxAndEndsWellOnlyAtTheAskedLevel) {
+  const ProcessResult best = rex({"doctor", "--sandbox", "--json"});
+  const auto json = nlohmann::json::parse(best.output);
+  const int level = json.at("level");
+  EXPECT_EQ(best.exitCode, level > 0 ? 0 : 4);
+  EXPECT_EQ(json.at("probes").size(), level > 0 ? 8u : json.at("probes").size());
+  for (int asked = 0; asked <= 3; ++asked) {
+    const ProcessResult result = rex({"doctor", "--sandbox", "--level", std::to_string(asked)});
+    EXPECT_EQ(result.exitCode, asked <= level ? 0 : 4) << result.output;
+    EXPECT_THAT(result.output,
+                HasSubstr("sandbox level " + std::to_string(std::min(asked, level)) + " of 3"));
+  }
+  EXPECT_EQ(rex({"doctor", "--level", "1"}).exitCode, 64);
+}
+
 }  // namespace
 }  // namespace rex::cli

@@ -96,6 +96,8 @@ TEST(RunWithWorker, RefusesWhatCannotBeStarted) {
                    "cannot start the worker no-such-worker: found No such file");
   EXPECT_REX_ERROR(run({.program = kGood, .temporaryFolder = "/no/such/folder"}),
                    "cannot make a temporary folder in /no/such/folder");
+  EXPECT_REX_ERROR(run({.program = kGood, .sandbox = {.level = 1, .launcher = "/bin/true"}}),
+                   "the sandbox of level 1 does not stand");
 }
 
 // The time that the grader needs for itself is not the student's.

@@ -226,6 +226,11 @@ TEST_F(Grader, HasExitCodes) {
   EXPECT_EQ(unknown.error, "grader: no check is called 'stepp' (did you mean 'step'?)\n");
   EXPECT_EQ(run({"--cpu-seconds", "-1"}).exitCode, kUsage);
   EXPECT_EQ(run({"--nonsense"}).exitCode, kUsage);
+  std::ofstream(results().string() + ".secret") << "short\n";
+  const ProcessResult weak = run({"--secret", results().string() + ".secret"});
+  EXPECT_EQ(weak.exitCode, kGraderFault);
+  EXPECT_THAT(weak.error,
+              HasSubstr("the secret of the course is too short: found 5 characters, wanted at least 16"));
   std::ofstream(results()) << "spoilt";
   EXPECT_EQ(run({}).exitCode, kGraderFault);
 }

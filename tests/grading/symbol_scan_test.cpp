@@ -59,7 +59,8 @@ class ScanSymbolsTest : public ::testing::Test {
         {"g++", "-std=c++20", "-O1", "-ffunction-sections", "-x", "c++", "-c", "-", "-o", object.string()},
         {.input = source});
     EXPECT_TRUE(compiled.ok()) << compiled.error;
-    return scanSymbols("objdump", object, source, "main.cpp", kForbidden);
+    return scanSymbols("objdump", object, source, "main.cpp", kForbidden,
+                       BuildTools({}, temporary_.path(), {}));
   }
   TemporaryFolder temporary_;
 };
@@ -103,7 +104,8 @@ TEST_F(ScanSymbolsTest, AllowsWritingAFunctionOfThatNameOrOnlyDeclaringIt) {
 }
 
 TEST_F(ScanSymbolsTest, SaysWhenItCannotRead) {
-  EXPECT_REX_ERROR(scanSymbols("objdump", temporary_.path() / "none.o", "", "main.cpp", kForbidden),
+  EXPECT_REX_ERROR(scanSymbols("objdump", temporary_.path() / "none.o", "", "main.cpp", kForbidden,
+                               BuildTools({}, temporary_.path(), {})),
                    "cannot list what the compiled file refers to");
 }
 

@@ -38,6 +38,17 @@ TEST(ExplainEnd, NamesTheSignal) {
   EXPECT_EQ(bySignal(SIGXFSZ).message, "wrote a file that is too large in f");
 }
 
+TEST(ExplainEnd, KnowsWhatTheSandboxForbids) {
+  EXPECT_EQ(bySignal(SIGSYS).outcome, Outcome::securityEvent);
+  EXPECT_EQ(bySignal(SIGSYS).message.find("tried what the sandbox forbids in f"), 0u);
+}
+
+TEST(ExplainEnd, BelievesTheKernelAboutMemory) {
+  const Failure failure = explainEnd({.status = SIGKILL, .function = "f", .outOfMemory = true}, kLimits);
+  EXPECT_EQ(failure.outcome, Outcome::memoryLimit);
+  EXPECT_EQ(failure.message, "used more than 64 MB of memory in f");
+}
+
 TEST(ExplainEnd, TellsTheTimeLimitFromOtherKills) {
   EXPECT_EQ(bySignal(SIGXCPU).outcome, Outcome::timeLimit);
   EXPECT_EQ(bySignal(SIGXCPU).message, "stopped after 2.0 s of CPU time in f");

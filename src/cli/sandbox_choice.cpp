@@ -1,0 +1,25 @@
+#include "cli/sandbox_choice.h"
+
+#include <fmt/format.h>
+
+#include "cli/terminal.h"
+#include "grading/private_folder.h"
+#include "sandbox/probes.h"
+
+namespace rex::cli {
+
+std::filesystem::path launcherOf(const Project& project) { return project.build / "rex-sandbox"; }
+
+std::filesystem::path probeOf(const Project& project) { return project.build / "rex-sandbox-probe"; }
+
+std::optional<sandbox::Sandbox> chooseSandbox(const Project& project, std::optional<int> level) {
+  sandbox::Sandbox chosen{.level = level.value_or(0), .launcher = launcherOf(project)};
+  if (chosen.level == 0) return chosen;
+  const grading::PrivateFolder folder(std::filesystem::temp_directory_path());
+  const std::string reason = sandbox::whyNot(chosen, probeOf(project), folder.path());
+  if (reason.empty()) return chosen;
+  note(wrap(fmt::format("sandbox level {} cannot be had here: {}", *level, harmless(reason)), 0, 0));
+  return {};
+}
+
+}  // namespace rex::cli

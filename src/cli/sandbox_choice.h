@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "cli/project.h"
+#include "sandbox/cell.h"
+
+namespace rex::cli {
+
+/// The programs that make the sandbox and attack it; they lie beside `rex`.
+[[nodiscard]] std::filesystem::path launcherOf(const Project& project);
+[[nodiscard]] std::filesystem::path probeOf(const Project& project);
+
+/// The asked level if it holds here, nothing if not; what is in the way is told on standard error. Nothing
+/// asked: level 0.
+[[nodiscard]] std::optional<sandbox::Sandbox> chooseSandbox(const Project& project, std::optional<int> level);
+
+}  // namespace rex::cli

@@ -1,0 +1,126 @@
+#include "grading/build_tools.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "grading/text_file.h"
+
+namespace rex::grading {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Confined tools find no pipe or terminal to wait for: only a busy machine keeps them, and they get patience.
+double clockSeconds(const ToolLimits& limits, int level) {
+  return (level == 0 ? 2 : 10) * limits.seconds + 2;
+}
+
+// The names in lines `#include "name"`.
+std::vector<std::string> includedNames(const std::string& text) {
+  std::vector<std::string> names;
+  constexpr std::string_view kInclude = "#include \"";
+  for (std::size_t at = text.find(kInclude); at != text.npos; at = text.find(kInclude, at + 1)) {
+    const std::size_t first = at + kInclude.size(), end = text.find_first_of("\"\n", first);
+    names.push_back(text.substr(first, end - first));
+  }
+  return names;
+}
+
+void showAll(std::vector<sandbox::Readable>& readable, const std::vector<fs::path>& paths) {
+  for (const fs::path& path : paths) {
+    const fs::path absolute = fs::absolute(path).lexically_normal();
+    const bool ofSystem = absolute == "/" || absolute == "/usr" || absolute.string().starts_with("/usr/");
+    if (!path.empty() && !ofSystem && fs::exists(absolute)) readable.push_back({absolute, absolute});
+  }
+}
+
+// A compiler of one's own lies beside its libraries: /opt/gcc/bin/g++.
+fs::path homeOf(const std::string& tool) {
+  return tool.starts_with('/') ? fs::path(tool).parent_path().parent_path() : fs::path{};
+}
+
+std::vector<sandbox::Readable> visibleFiles(const Toolchain& toolchain) {
+  std::vector<sandbox::Readable> readable;
+  for (std::size_t k = 1; k < toolchain.flags.size(); ++k) {
+    if (toolchain.flags[k - 1] == "-isystem") showAll(readable, {toolchain.flags[k]});
+    if (toolchain.flags[k - 1] == "-iquote") showAll(readable, studentHeaders(toolchain.flags[k]));
+  }
+  if (!toolchain.prefix.empty()) showAll(readable, {toolchain.prefix, toolchain.prefix.string() + ".gch"});
+  showAll(readable, {toolchain.workerObject, toolchain.studentLibrary, homeOf(toolchain.compiler)});
+  return readable;
+}
+
+sandbox::Confinement confinement(const Toolchain& toolchain, const fs::path& workFolder,
+                                 const sandbox::Sandbox& sandbox, const ToolLimits& limits) {
+  if (sandbox.level == 0) return {};
+  return {.readable = visibleFiles(toolchain),
+          .writable = workFolder,
+          .environment = {"PATH=/usr/bin", "LC_ALL=C.UTF-8",
+                          "TMPDIR=" + (sandbox.level >= 2 ? sandbox::kInsideFolder : workFolder.string())},
+          .mayStartProgramsOfItsOwn = true,
+          .cpuSeconds = limits.seconds,
+          .wallSeconds = clockSeconds(limits, sandbox.level),
+          .addressSpace = limits.memory,
+          .fileSize = limits.fileSize,
+          .openFiles = 256};
+}
+
+}  // namespace
+
+BuildTools::BuildTools(const Toolchain& toolchain, const fs::path& workFolder,
+                       const sandbox::Sandbox& sandbox, const ToolLimits& limits)
+    : workFolder_(workFolder),
+      limits_(limits),
+      level_(sandbox.level),
+      cell_(sandbox, confinement(toolchain, workFolder, sandbox, limits)) {}
+
+// The sandbox itself ends after the clock's time and says what was used; should it not, we end it.
+ProcessResult BuildTools::runConfined(const std::vector<std::string>& command,
+                                      const ProcessOptions& options) const {
+  ProcessOptions patient{
+      .directory = options.directory, .timeout = options.timeout, .outputLimit = options.outputLimit};
+  if (level_ >= 2) patient.timeout += 5;
+  ProcessResult result = runProcess(cell_.command(command), patient);
+  result.timedOut = result.timedOut || (level_ >= 2 && result.exitCode == sandbox::kTimedOut);
+  const bool fellDown = result.exitCode == sandbox::kNotStarted || result.error.starts_with("bwrap: ");
+  if (!result.started || fellDown)
+    throw Error({.what = fmt::format("cannot run {} in a sandbox of level {}", command.front(), level_),
+                 .found = result.error.substr(0, result.error.find('\n'))});
+  return result;
+}
+
+ProcessResult BuildTools::run(const std::vector<std::string>& command, std::size_t outputLimit) const {
+  ProcessOptions options{.directory = workFolder_,
+                         .timeout = clockSeconds(limits_, level_),
+                         .outputLimit = outputLimit,
+                         .cpuSeconds = limits_.seconds,
+                         .addressSpace = limits_.memory,
+                         .fileSize = limits_.fileSize};
+  ProcessResult result = level_ == 0 ? runProcess(command, options) : runConfined(command, options);
+  if (!result.started) throw Error({.what = "cannot run " + command.front(), .found = result.error});
+  // A compiler that did nothing for so long waits for something the source made it read. One that worked had
+  // a busy machine: the limit on processor time would have stopped it well before the clock.
+  constexpr double kWorked = 0.2;  // of the processor time it may use
+  if (result.timedOut && result.cpuSeconds > kWorked * limits_.seconds)
+    throw Error({.what = fmt::format("{} did not end within {:g} s: the machine was too busy",
+                                     command.front(), clockSeconds(limits_, level_))});
+  return result;
+}
+
+std::vector<fs::path> studentHeaders(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::vector<std::string> open = {"exercise.h", "main.cpp", "solution.cpp"};
+  for (std::size_t k = 0; k < open.size(); ++k) {
+    const fs::path file = folder / open[k];
+    if (!fs::is_regular_file(fs::symlink_status(file))) continue;
+    if (open[k].ends_with(".h")) found.push_back(file);
+    for (const std::string& name : includedNames(readTextFile(file)))
+      if (std::find(open.begin(), open.end(), name) == open.end() && name.find("..") == name.npos)
+        open.push_back(name);
+  }
+  return found;
+}
+
+}  // namespace rex::grading

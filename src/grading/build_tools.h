@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/process.h"
+#include "grading/toolchain.h"
+#include "sandbox/cell.h"
+
+namespace rex::grading {
+
+/// What one tool may use.
+struct ToolLimits {
+  double seconds = 30;                        ///< of processor time; by the clock at least twice that and two
+  std::size_t memory = std::size_t{2} << 30;  ///< bytes
+  std::size_t fileSize = std::size_t{64} << 20;
+};
+
+/// Runs compilers and the tools for object files on what a student wrote. Confined, they see the system, the
+/// headers that students may include, what workers are linked with, and their work folder.
+class BuildTools {
+ public:
+  /// Throws Error where the sandbox cannot be had.
+  BuildTools(const Toolchain& toolchain, const std::filesystem::path& workFolder,
+             const sandbox::Sandbox& sandbox, const ToolLimits& limits = {});
+
+  /// Throws Error when the tool or the sandbox does not start, or the machine was too busy.
+  [[nodiscard]] ProcessResult run(const std::vector<std::string>& command,
+                                  std::size_t outputLimit = 8u << 20) const;
+
+ private:
+  ProcessResult runConfined(const std::vector<std::string>& command, const ProcessOptions& options) const;
+
+  std::filesystem::path workFolder_;
+  ToolLimits limits_;
+  int level_;
+  sandbox::Cell cell_;
+};
+
+/// The headers in an exercise's folder that a student's file may include: exercise.h, and what it, main.cpp
+/// and solution.cpp include, directly or not. Hidden are the headers of the checks.
+[[nodiscard]] std::vector<std::filesystem::path> studentHeaders(const std::filesystem::path& folder);
+
+}  // namespace rex::grading

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace rex::grading {
+
+/// HMAC-SHA256 (RFC 2104) of the message as 64 hexadecimal digits.
+[[nodiscard]] std::string hmacSha256(std::string_view key, std::string_view message);
+
+/// The seed of the hidden checks for one submission: the first 64 bits of the HMAC of submission, exercise
+/// and group under the secret of the course.
+[[nodiscard]] std::uint64_t hiddenSeed(std::string_view secret, std::string_view submissionSha256,
+                                       std::string_view exercise, std::string_view group);
+
+}  // namespace rex::grading

@@ -1,0 +1,158 @@
+#include "sandbox/control_group.h"
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <thread>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "base/error.h"
+
+namespace rex::sandbox {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool write(const fs::path& file, const std::string& text) {
+  std::ofstream stream(file);
+  stream << text;
+  stream.close();
+  return !stream.fail();
+}
+
+std::string read(const fs::path& file) {
+  std::ifstream stream(file);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+// Where each kind of control group is mounted: "" is version 2, the others controllers of version 1.
+std::map<std::string, fs::path> mounts() {
+  std::map<std::string, fs::path> found;
+  std::ifstream file("/proc/self/mounts");
+  std::string device, folder, type, options;
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream words(line);
+    if (!(words >> device >> folder >> type >> options)) continue;
+    if (type == "cgroup2") found[""] = folder;
+    if (type != "cgroup") continue;
+    for (const char* controller : {"memory", "pids"})
+      if (("," + options + ",").find(fmt::format(",{},", controller)) != std::string::npos)
+        found[controller] = folder;
+  }
+  return found;
+}
+
+// The group this process is in, below the mount of version 2.
+fs::path ownGroup() {
+  std::ifstream file("/proc/self/cgroup");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("0::/")) return line.substr(4);
+  return {};
+}
+
+std::string freshName() {
+  static std::atomic<int> number = 0;
+  return fmt::format("rex-{}-{}", ::getpid(), ++number);
+}
+
+}  // namespace
+
+ControlGroup::ControlGroup(std::size_t memoryBytes, int processes) {
+  if (tryVersion2(memoryBytes, processes) || tryVersion1(memoryBytes, processes)) return;
+  throw Error({.what = "no control group for memory and processes can be made here"});
+}
+
+ControlGroup::~ControlGroup() {
+  kill();
+  remove();
+}
+
+// Below the group of our own if that is ours to divide, else below the top.
+bool ControlGroup::tryVersion2(std::size_t memoryBytes, int processes) {
+  const auto all = mounts();
+  const auto mount = all.find("");
+  if (mount == all.end()) return false;
+  for (const fs::path& parent : {mount->second / ownGroup(), mount->second}) {
+    const fs::path folder = parent / freshName();
+    std::error_code refused;
+    if (!fs::create_directory(folder, refused)) continue;
+    folders_ = {folder};
+    if (fs::exists(folder / "memory.max") && fs::exists(folder / "pids.max") &&
+        write(folder / "memory.max", fmt::format("{}", memoryBytes)) &&
+        write(folder / "pids.max", fmt::format("{}", processes))) {
+      write(folder / "memory.swap.max", "0");
+      return true;
+    }
+    remove();
+  }
+  return false;
+}
+
+bool ControlGroup::tryVersion1(std::size_t memoryBytes, int processes) {
+  const std::string name = freshName();
+  for (const auto& [controller, mount] : mounts()) {
+    if (controller.empty()) continue;
+    std::error_code refused;
+    if (fs::create_directory(mount / name, refused)) folders_.push_back(mount / name);
+  }
+  const auto limit = [&](const char* file, std::size_t value) {
+    bool done = false;
+    for (const fs::path& folder : folders_)
+      done = done || (fs::exists(folder / file) && write(folder / file, fmt::format("{}", value)));
+    return done;
+  };
+  if (limit("memory.limit_in_bytes", memoryBytes) && limit("pids.max", static_cast<std::size_t>(processes))) {
+    limit("memory.memsw.limit_in_bytes", memoryBytes);  // memory and swap, where swap is counted
+    return true;
+  }
+  remove();
+  return false;
+}
+
+std::vector<fs::path> ControlGroup::processes() const {
+  std::vector<fs::path> lists;
+  for (const fs::path& folder : folders_) lists.push_back(folder / "cgroup.procs");
+  return lists;
+}
+
+bool ControlGroup::ranOutOfMemory() const {
+  for (const fs::path& folder : folders_) {
+    for (const char* file : {"memory.events", "memory.oom_control"}) {
+      std::istringstream words(read(folder / file));
+      std::string name;
+      for (long count = 0; words >> name >> count;)
+        if (name == "oom_kill" && count > 0) return true;
+    }
+  }
+  return false;
+}
+
+void ControlGroup::kill() const {
+  for (const fs::path& folder : folders_) {
+    if (fs::exists(folder / "cgroup.kill") && write(folder / "cgroup.kill", "1")) continue;
+    std::ifstream list(folder / "cgroup.procs");
+    for (pid_t process = 0; list >> process;)
+      if (process > 1 && process != ::getpid()) ::kill(process, SIGKILL);
+  }
+}
+
+// Killed processes need a moment to leave.
+void ControlGroup::remove() {
+  for (const fs::path& folder : folders_) {
+    for (int attempt = 0; attempt < 400 && ::rmdir(folder.c_str()) != 0 && errno == EBUSY; ++attempt) {
+      std::this_thread::sleep_for(std::chrono::microseconds(attempt < 20 ? 200 : 5000));
+      if (attempt % 20 == 19) kill();
+    }
+  }
+  folders_.clear();
+}
+
+}  // namespace rex::sandbox

@@ -1,0 +1,177 @@
+#include "sandbox/probes.h"
+
+#include <csignal>
+#include <cstring>
+#include <fstream>
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "base/process.h"
+
+namespace rex::sandbox {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMegabytes = 256;
+constexpr std::size_t kFileMegabytes = 64;
+constexpr int kProcesses = 64;
+
+/// What the attacks aim at: a file, a listening socket, an open descriptor, this process.
+class Targets {
+ public:
+  explicit Targets(const fs::path& folder) : secret_(folder / "secret") {
+    std::ofstream(secret_) << "secret\n";
+    descriptor_ = ::open(secret_.c_str(), O_RDONLY);  // inherited, unless the sandbox closes it
+    socket_ = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = ::htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    auto* const any = reinterpret_cast<sockaddr*>(&address);
+    if (::bind(socket_, any, size) == 0 && ::listen(socket_, 4) == 0 &&
+        ::getsockname(socket_, any, &size) == 0)
+      port_ = ::ntohs(address.sin_port);
+  }
+  ~Targets() {
+    ::close(descriptor_);
+    ::close(socket_);
+  }
+  Targets(const Targets&) = delete;
+  Targets& operator=(const Targets&) = delete;
+
+  std::vector<std::string> file() const { return {"file", secret_.string(), secret_.parent_path().string()}; }
+  std::vector<std::string> proc() const { return {"proc", fmt::format("{}", ::getpid())}; }
+  std::vector<std::string> net() const { return {"net", fmt::format("{}", port_)}; }
+
+ private:
+  fs::path secret_;
+  int descriptor_ = -1;
+  int socket_ = -1;
+  int port_ = 1;
+};
+
+ProcessResult run(const Sandbox& sandbox, const fs::path& probe, const std::vector<std::string>& words,
+                  const fs::path& folder) {
+  const Cell cell(sandbox, {.readable = {{probe, kInsideProgram}},
+                            .cpuSeconds = 5,
+                            .wallSeconds = 10,
+                            .addressSpace = kMegabytes << 20,
+                            .fileSize = kFileMegabytes << 20,
+                            .processes = kProcesses});
+  std::vector<std::string> program = {probe.string()};
+  program.insert(program.end(), words.begin(), words.end());
+  return runProcess(cell.command(program), {.directory = folder, .timeout = 15});
+}
+
+std::string firstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+// Levels 2 and 3 pass signals on as codes above 128, as shells do.
+int signalOf(const ProcessResult& result) {
+  if (result.signal != 0) return result.signal;
+  return result.exitCode > 128 ? result.exitCode - 128 : 0;
+}
+
+Probe judge(const std::string& name, const ProcessResult& result) {
+  if (!result.started) return {name, false, "the launcher does not start: " + result.error};
+  if (result.exitCode == 1) return {name, false, firstLine(result.output + result.error)};
+  if (signalOf(result) == SIGSYS) return {name, true, "stopped at a forbidden system call"};
+  if (signalOf(result) == SIGKILL || signalOf(result) == SIGXCPU) return {name, true, "killed"};
+  if (result.exitCode == 0) return {name, true, "refused"};
+  return {name, false,
+          fmt::format("the sandbox does not stand: {}", firstLine(result.error + result.output))};
+}
+
+bool isRunning(const fs::path& program) {
+  std::error_code gone;
+  const fs::path wanted = fs::canonical(program, gone);
+  for (const auto& entry : fs::directory_iterator("/proc", gone)) {
+    std::error_code ignored;
+    if (fs::read_symlink(entry.path() / "exe", ignored).filename() == wanted.filename()) return true;
+  }
+  return false;
+}
+
+Probe leftover(const Sandbox& sandbox, const fs::path& probe, const fs::path& folder) {
+  Probe result = judge("leftover", run(sandbox, probe, {"leftover"}, folder));
+  if (result.held && isRunning(probe)) return {"leftover", false, "a process lives on"};
+  return result;
+}
+
+}  // namespace
+
+std::vector<Probe> attack(const Sandbox& sandbox, const fs::path& probe, const fs::path& folder) {
+  const Targets targets(folder);
+  std::vector<Probe> probes;
+  const auto attempt = [&](const std::string& name, const std::vector<std::string>& words) {
+    try {
+      probes.push_back(judge(name, run(sandbox, probe, words, folder)));
+    } catch (const Error& error) {
+      probes.push_back({name, false, error.what()});
+    }
+  };
+  attempt("file", targets.file());
+  attempt("proc", targets.proc());
+  attempt("net", targets.net());
+  attempt("fork", {"fork", fmt::format("{}", kProcesses + 4)});
+  attempt("mem", {"mem", fmt::format("{}", kMegabytes)});
+  attempt("fd", {"fd"});
+  attempt("tmpfs size", {"tmpfs", fmt::format("{}", kFileMegabytes)});
+  try {
+    probes.push_back(leftover(sandbox, probe, folder));
+  } catch (const Error& error) {
+    probes.push_back({"leftover", false, error.what()});
+  }
+  return probes;
+}
+
+std::string whyNot(const Sandbox& sandbox, const fs::path& probe, const fs::path& folder) {
+  try {
+    const Targets targets(folder);
+    std::vector<std::string> words;
+    for (const auto& attack : {targets.file(), targets.proc(), targets.net(), {"fd"}})
+      words.insert(words.end(), attack.begin(), attack.end());
+    const Probe all = judge("all", run(sandbox, probe, words, folder));
+    return all.held ? "" : all.text;
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+Available bestLevel(int highest, const fs::path& launcher, const fs::path& probe, const fs::path& folder) {
+  Available available;
+  for (int level = highest; level > 0; --level) {
+    const std::string reason = whyNot({.level = level, .launcher = launcher}, probe, folder);
+    if (reason.empty()) {
+      available.level = level;
+      break;
+    }
+    available.reasons.push_back(fmt::format("level {}: {}", level, reason));
+  }
+  return available;
+}
+
+std::string warningOf(int level) {
+  switch (level) {
+    case 3:
+      return "";
+    case 2:
+      return "sandbox level 2 of 3: memory is limited for each process, not for all together";
+    case 1:
+      return "sandbox level 1 of 3: the student's program can read the system's files under /usr and see "
+             "which "
+             "files exist; grade other people's code at level 2 or 3";
+    default:
+      return "sandbox level 0 of 3: the student's program runs with the rights of the grader and sees its "
+             "files; "
+             "grade only your own code this way";
+  }
+}
+
+}  // namespace rex::sandbox

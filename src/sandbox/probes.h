@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sandbox/cell.h"
+
+namespace rex::sandbox {
+
+/// One attack from inside, by a program of ours.
+struct Probe {
+  std::string name;  ///< file, proc, net, fork, mem, fd, tmpfs size, leftover
+  bool held = false;
+  std::string text;  ///< how the attack ended, or what got through
+};
+
+/// Attacks the sandbox from inside in every way we know. Files that it needs are made in `folder`. `probe` is
+/// the program rex-sandbox-probe.
+[[nodiscard]] std::vector<Probe> attack(const Sandbox& sandbox, const std::filesystem::path& probe,
+                                        const std::filesystem::path& folder);
+
+/// Whether the sandbox starts here and holds the attacks that take no time: files, processes, network,
+/// descriptors. Says why not, or nothing.
+[[nodiscard]] std::string whyNot(const Sandbox& sandbox, const std::filesystem::path& probe,
+                                 const std::filesystem::path& folder);
+
+/// The highest level up to `highest` that holds here, and why each higher one does not.
+struct Available {
+  int level = 0;
+  std::vector<std::string> reasons{};
+};
+[[nodiscard]] Available bestLevel(int highest, const std::filesystem::path& launcher,
+                                  const std::filesystem::path& probe, const std::filesystem::path& folder);
+
+/// What programs at this level may still do, in one line.
+[[nodiscard]] std::string warningOf(int level);
+
+}  // namespace rex::sandbox

@@ -1,0 +1,2 @@
+// Includes a device.
+#include "/proc/self/fd/0"

@@ -1,0 +1,2 @@
+// Includes a device.
+#include "/dev/zero"

@@ -1,0 +1,312 @@
+// Programs that mean harm, handed in and graded at every sandbox level that this machine offers: no points,
+// the right class, nothing left behind, and the next submission is graded as if nobody had come before.
+#include <csignal>
+#include <fstream>
+#include <set>
+
+#include <arpa/inet.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <nlohmann/json.hpp>
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "grading/result_file.h"
+#include "grading/submission.h"
+#include "grading/text_file.h"
+#include "sandbox/probes.h"
+#include "support/temporary_folder.h"
+
+namespace rex::grading {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const fs::path kBinary = REX_BINARY_DIR, kOutput = kBinary / "tests" / "battery";
+const fs::path kFolder = fs::path(REX_SOURCE_DIR) / "tests" / "grading";
+constexpr const char* kSecret = "the-secret-of-the-course-0123456789";
+
+const sandbox::Sandbox sandboxOf(int level) { return {.level = level, .launcher = kBinary / "rex-sandbox"}; }
+
+std::string whyNot(int level) {
+  const TemporaryFolder folder;
+  return sandbox::whyNot(sandboxOf(level), kBinary / "rex-sandbox-probe", folder.path());
+}
+
+std::vector<int> offeredLevels() {
+  std::vector<int> levels;
+  for (const int level : {3, 2, 1})
+    if (whyNot(level).empty()) levels.push_back(level);
+  return levels;
+}
+
+class Level : public ::testing::TestWithParam<int> {};
+
+// The battery leaves out what the machine does not offer; this says so by name.
+TEST_P(Level, IsOffered) {
+  if (const std::string reason = whyNot(GetParam()); !reason.empty())
+    GTEST_SKIP() << "sandbox level " << GetParam() << ": " << reason;
+}
+INSTANTIATE_TEST_SUITE_P(Sandbox, Level, ::testing::Values(3, 2, 1));
+
+void eraseVolatile(nlohmann::json& json) {
+  if (json.is_object()) {
+    json.erase("volatile");
+    json.erase("sandbox");
+  }
+  if (json.is_structured())
+    for (auto& entry : json) eraseVolatile(entry);
+}
+
+int processesOf(const fs::path& program) {
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator("/proc")) {
+    std::error_code gone;
+    if (fs::read_symlink(entry.path() / "exe", gone).string().starts_with(program.string())) ++count;
+  }
+  return count;
+}
+
+class Battery : public ::testing::Test {
+ protected:
+  Battery() { writeTextFile(secret(), kSecret); }
+
+  SubmissionOptions optionsFor(const fs::path& file, int level, const std::string& name) const {
+    return {.main = file,
+            .workFolder = temporary_.path() / name / "work",
+            .results = temporary_.path() / name / "results.json",
+            .checks = {},
+            .seed = {},
+            .sandbox = sandboxOf(level),
+            .secret = secret(),
+            .compileSeconds = 2};
+  }
+
+  // The result of an honest program, without what may differ.
+  std::string honest(int level) const {
+    const SubmissionOptions options = optionsFor("", level, "honest");
+    fs::create_directories(options.workFolder);
+    BuiltSubmission built;
+    built.worker = kOutput / "honest";
+    EXPECT_EQ(gradeBuilt(built, toolchain_, exercise(), options).score, 10);
+    nlohmann::json json = nlohmann::json::parse(readTextFile(options.results));
+    eraseVolatile(json);
+    return json.dump(1);
+  }
+
+  static ExerciseInfo exercise() {
+    ExerciseInfo info;
+    info.name = "battery";
+    info.folder = kFolder / "battery";
+    info.limits = {.cpuSeconds = 0.2, .memoryMb = 300, .outputMb = 2};
+    info.forbidden = {{"rex::answer", "it is what you find out"}};
+    return info;
+  }
+
+  fs::path secret() const { return temporary_.path() / "secret-of-the-course"; }
+
+  // What must hold whatever was handed in.
+  void expectNoHarm(const GradeResult& result, const SubmissionOptions& options) const {
+    for (const CheckResult& check : result.checks) EXPECT_LE(check.wallSeconds, 4 * 2.4 + 2) << check.id;
+    EXPECT_EQ(loadResult(options.results).outcome, result.outcome);
+    EXPECT_EQ(result.sandboxLevel, options.sandbox.level);
+    EXPECT_EQ(processesOf(options.workFolder), 0);
+    EXPECT_EQ(processesOf("/rex/"), 0);
+    for (const auto& entry : fs::directory_iterator(options.workFolder))
+      EXPECT_FALSE(entry.is_directory()) << entry.path();
+    for (const char* file : {"/tmp/results.json", "/tmp/x.so", "/tmp/rex-battery-stayed", "/results.json"})
+      EXPECT_FALSE(fs::exists(file)) << file;
+    const std::string text = readTextFile(options.results);
+    EXPECT_LT(text.size(), 64u << 10);
+    EXPECT_THAT(text, Not(HasSubstr(kSecret)));
+    EXPECT_THAT(text, Not(HasSubstr("root:x:0:0")));
+  }
+
+  TemporaryFolder temporary_;
+  Toolchain toolchain_ = readToolchain(kOutput / "build.json");
+};
+
+struct Attack {
+  std::string file;
+  std::set<Outcome> outcomes;
+  int mostPoints = 0;
+  std::vector<std::string> checks{};  ///< those that matter, where each takes its time
+  bool whileCompiling = false;
+};
+
+void PrintTo(const Attack& attack, std::ostream* out) { *out << attack.file; }
+
+class Attacks : public Battery, public ::testing::WithParamInterface<Attack> {
+ protected:
+  fs::path source() const { return kFolder / "attacks" / (GetParam().file + ".cpp"); }
+};
+
+TEST_P(Attacks, GainNothingAndHarmNobody) {
+  const Attack& attack = GetParam();
+  const std::vector<int> levels = offeredLevels();
+  if (levels.empty()) GTEST_SKIP() << "no sandbox is offered here";
+  const std::string before = honest(levels.front());
+  std::optional<BuiltSubmission> built;
+  for (const int level : levels) {
+    SCOPED_TRACE("level " + std::to_string(level));
+    SubmissionOptions options = optionsFor(source(), level, "attack");
+    options.checks = attack.checks;
+    if (!built || attack.whileCompiling) built = buildSubmission(toolchain_, exercise(), options);
+    const GradeResult result = gradeBuilt(*built, toolchain_, exercise(), options);
+    EXPECT_THAT(attack.outcomes, ::testing::Contains(result.outcome))
+        << toString(result.outcome) << ": " << result.message
+        << (result.checks.empty() ? "" : "; " + result.checks.front().message);
+    EXPECT_LE(result.score, attack.mostPoints);
+    if (!built->worker.empty()) expectNoHarm(result, options);
+    EXPECT_THAT(readTextFile(options.results.parent_path() / "build.log"), Not(HasSubstr("root:x:0:0")));
+    EXPECT_LE(readTextFile(options.results.parent_path() / "build.log").size(), 64u << 10);
+    EXPECT_EQ(honest(level), before);
+  }
+}
+
+using enum Outcome;
+INSTANTIATE_TEST_SUITE_P(
+    All, Attacks,
+    ::testing::Values(
+        Attack{"A01_ends_before_main", {runtimeError}}, Attack{"A02_prints_result", {fail}},
+        Attack{"A03_writes_result", {fail}}, Attack{"A04_ends_after_success", {runtimeError}},
+        Attack{"A04_aborts_after_success", {runtimeError}},
+        Attack{"A05_ignores_signals", {timeLimit}, 0, {"examples"}},
+        Attack{"A06_sleeps", {timeLimit}, 0, {"examples"}}, Attack{"A07_takes_memory", {memoryLimit}},
+        Attack{"A08_large_globals", {compileError, runtimeError, memoryLimit}},
+        Attack{"A08_large_thread_locals", {compileError, runtimeError, memoryLimit}},
+        Attack{"A09_forks", {runtimeError, securityEvent}}, Attack{"A10_stays_behind", {fail, securityEvent}},
+        Attack{"A11_floods", {outputLimit}}, Attack{"A12_walks_the_files", {fail, timeLimit, outputLimit}},
+        Attack{"A13_includes_passwords", {compileError}, 0, {}, true},
+        Attack{"A13_embeds_passwords", {compileError}, 0, {}, true},
+        Attack{"A13_includes_reference", {compileError}, 0, {}, true},
+        // At level 1 the compiler sees that a file exists, and stops because it may not open it.
+        Attack{"A13_looks_for_files", {fail, compileError}, 0, {}, true},
+        Attack{"A14_includes_zero", {compileError}, 0, {}, true},
+        Attack{"A14_includes_stdin", {compileError}, 0, {}, true},
+        Attack{"A14_includes_tty", {compileError}, 0, {}, true},
+        Attack{"A14_includes_descriptor", {compileError}, 0, {}, true},
+        Attack{"A15_template_bomb", {compileError}, 0, {}, true},
+        Attack{"A16_constexpr_bomb", {compileError}, 0, {}, true},
+        Attack{"A16_macro_bomb", {compileError}, 0, {}, true},
+        Attack{"A16_large_object", {compileError}, 0, {}, true},
+        Attack{"A16_includes_itself", {compileError}, 0, {}, true},
+        Attack{"A17_reads_the_grader", {securityEvent}},
+        // Where landlock cannot keep signals in, a filter refuses them all, also those to oneself.
+        Attack{"A18_kills_everybody", {runtimeError, fail}},
+        Attack{"A19_preloads", {runtimeError, protocolError, fail}},
+        Attack{"A20_replaces_the_library",
+               {compileError, runtimeError, protocolError, timeLimit, fail},
+               0,
+               {"examples"}},
+        Attack{"A20_replaces_the_start", {compileError, runtimeError, protocolError, fail}},
+        Attack{"A21_bends_comparisons", {compileError, fail}}, Attack{"A22_not_finite", {fail}},
+        Attack{"A23_wrong_sizes", {fail, runtimeError, protocolError}},
+        Attack{"A23_huge_resize", {memoryLimit}}, Attack{"A25_knows_the_examples", {fail}, 4},
+        Attack{"A31_escapes", {fail, outputLimit}},
+        Attack{"A32_recurses", {runtimeError}, 0, {"examples", "squares"}},
+        Attack{"A33_throws", {runtimeError}}, Attack{"A34_threads", {timeLimit}, 0, {"examples"}},
+        Attack{"A34_changes_later", {fail}}, Attack{"A35_counts", {fail}, 4},
+        Attack{"A36_bends_arithmetic", {protocolError, runtimeError}, 8}),
+    [](const auto& attack) { return attack.param.file; });
+
+TEST_F(Battery, A24TalksToNobody) {
+  const int listener = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = ::htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof address;
+  ASSERT_EQ(::bind(listener, reinterpret_cast<sockaddr*>(&address), size), 0);
+  ASSERT_EQ(::listen(listener, 4), 0);
+  ::getsockname(listener, reinterpret_cast<sockaddr*>(&address), &size);
+  const fs::path main = temporary_.path() / "main.cpp";
+  writeTextFile(main, "#define REX_PORT " + std::to_string(::ntohs(address.sin_port)) + "\n" +
+                          readTextFile(kFolder / "attacks" / "A24_talks.cpp"));
+  std::optional<BuiltSubmission> built;
+  for (const int level : offeredLevels()) {
+    const SubmissionOptions options = optionsFor(main, level, "attack");
+    if (!built) built = buildSubmission(toolchain_, exercise(), options);
+    const GradeResult result = gradeBuilt(*built, toolchain_, exercise(), options);
+    EXPECT_EQ(result.outcome, fail) << level;
+    EXPECT_EQ(result.score, 0) << level;
+    expectNoHarm(result, options);
+  }
+  pollfd polled{listener, POLLIN, 0};
+  EXPECT_EQ(::poll(&polled, 1, 0), 0) << "somebody came";
+  ::close(listener);
+}
+
+// The source file itself is the attack: no file, or no text.
+TEST_F(Battery, A28RefusesWhatIsNoSourceFile) {
+  const fs::path folder = temporary_.path();
+  fs::create_symlink("/etc/passwd", folder / "link.cpp");
+  ASSERT_EQ(::mkfifo((folder / "pipe.cpp").c_str(), 0600), 0);
+  fs::create_directory(folder / "folder.cpp");
+  std::ofstream(folder / "sparse.cpp") << "int main() {}\n";
+  fs::resize_file(folder / "sparse.cpp", 2u << 30);
+  std::ofstream(folder / "nul.cpp", std::ios::binary) << std::string("int a;\0int b;", 13);
+  std::ofstream(folder / "utf16.cpp", std::ios::binary) << std::string("\xff\xfei\0n\0t\0", 8);
+  for (const int level : offeredLevels()) {
+    for (const char* name : {"link.cpp", "pipe.cpp", "folder.cpp", "sparse.cpp", "nul.cpp", "utf16.cpp"}) {
+      const GradeResult result =
+          gradeSubmission(toolchain_, exercise(), optionsFor(folder / name, level, "attack")).result;
+      EXPECT_EQ(result.outcome, compileError) << name;
+      EXPECT_THAT(result.message, Not(HasSubstr("root:x")));
+    }
+  }
+}
+
+TEST_F(Battery, A28TakesLineEndsAndMarksOfOtherSystems) {
+  std::string text = readTextFile(kFolder / "battery" / "honest.cpp"), windows = "\xef\xbb\xbf";
+  for (const char c : text) windows += c == '\n' ? "\r\n" : std::string(1, c);
+  std::ofstream(temporary_.path() / "main.cpp", std::ios::binary) << windows;
+  for (const int level : offeredLevels())
+    EXPECT_EQ(
+        gradeSubmission(toolchain_, exercise(), optionsFor(temporary_.path() / "main.cpp", level, "honest"))
+            .result.outcome,
+        pass);
+}
+
+TEST_F(Battery, A29IgnoresWhatLiesBesideTheFile) {
+  const fs::path folder = temporary_.path() / "handed in";
+  fs::create_directories(folder / "Eigen");
+  fs::copy_file(kFolder / "battery" / "honest.cpp", folder / "main.cpp");
+  for (const char* name : {"vector", "Eigen/Dense", "exercise.h"})
+    writeTextFile(folder / name, "#error taken\n");
+  writeTextFile(folder / "CMakeLists.txt", "execute_process(COMMAND touch /tmp/rex-battery-stayed)\n");
+  writeTextFile(folder / "Makefile", "all:\n\ttouch /tmp/rex-battery-stayed\n");
+  for (const char* name : {".clang-tidy", "compile_commands.json", ".gitattributes", "conftest.py", "main.o"})
+    writeTextFile(folder / name, "touch /tmp/rex-battery-stayed\n");
+  for (const int level : offeredLevels()) {
+    const SubmissionOptions options = optionsFor(folder / "main.cpp", level, "honest");
+    const GradeResult result = gradeSubmission(toolchain_, exercise(), options).result;
+    EXPECT_EQ(result.outcome, pass) << result.message;
+    EXPECT_EQ(result.files.size(), 1u);
+    expectNoHarm(result, options);
+  }
+}
+
+TEST_F(Battery, A30TakesNamesAsTheyAre) {
+  const int level = offeredLevels().empty() ? 0 : offeredLevels().front();
+  for (const std::string& name :
+       {std::string("-o.cpp"), std::string("$(touch x).cpp"), std::string("a\nb.cpp"),
+        std::string("\xff\xfe.cpp"), std::string(251, 'a') + ".cpp",
+        std::string("two words 'and' \"quotes\"/main.cpp")}) {
+    const fs::path file = temporary_.path() / name;
+    fs::create_directories(file.parent_path());
+    fs::copy_file(kFolder / "battery" / "honest.cpp", file, fs::copy_options::overwrite_existing);
+    const SubmissionOptions options = optionsFor(file, level, "honest");
+    const GradeResult result = gradeSubmission(toolchain_, exercise(), options).result;
+    EXPECT_EQ(result.outcome, pass) << name << ": " << result.message;
+    EXPECT_TRUE(nlohmann::json::accept(readTextFile(options.results)));
+    EXPECT_FALSE(fs::exists(options.workFolder / "x"));
+  }
+}
+
+}  // namespace
+}  // namespace rex::grading

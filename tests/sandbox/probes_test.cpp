@@ -1,0 +1,58 @@
+// The probes hold at every level that stands, and each of them can fail.
+#include "sandbox/probes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sandbox/landlock.h"
+#include "support/temporary_folder.h"
+
+namespace rex::sandbox {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kLauncher = fs::path(REX_BINARY_DIR) / "rex-sandbox",
+               kProbe = fs::path(REX_BINARY_DIR) / "rex-sandbox-probe";
+
+class Probes : public ::testing::TestWithParam<int> {
+ protected:
+  TemporaryFolder folder_;
+};
+
+TEST_P(Probes, AllHoldWhereTheLevelStands) {
+  const Sandbox sandbox{.level = GetParam(), .launcher = kLauncher};
+  if (const std::string reason = whyNot(sandbox, kProbe, folder_.path()); !reason.empty())
+    GTEST_SKIP() << "sandbox level " << GetParam() << ": " << reason;
+  std::vector<std::string> names;
+  for (const Probe& probe : attack(sandbox, kProbe, folder_.path())) {
+    EXPECT_TRUE(probe.held) << probe.name << ": " << probe.text;
+    names.push_back(probe.name);
+  }
+  EXPECT_THAT(names,
+              ::testing::ElementsAre("file", "proc", "net", "fork", "mem", "fd", "tmpfs size", "leftover"));
+}
+INSTANTIATE_TEST_SUITE_P(Levels, Probes, ::testing::Values(3, 2, 1));
+
+// The slower attacks would do harm where nothing stops them.
+TEST_F(Probes, NoticeThatLimitsAloneAreNoSandbox) {
+  const Sandbox sandbox{.level = 0, .launcher = kLauncher};
+  EXPECT_THAT(whyNot(sandbox, kProbe, folder_.path()), ::testing::HasSubstr("read "));
+}
+
+TEST_F(Probes, SayWhyALevelDoesNotStand) {
+  const Available available = bestLevel(3, folder_.path() / "no-launcher", kProbe, folder_.path());
+  EXPECT_EQ(available.level, 0);
+  ASSERT_EQ(available.reasons.size(), 3u);
+  EXPECT_THAT(available.reasons.back(), ::testing::HasSubstr("level 1: the launcher does not start"));
+}
+
+TEST_F(Probes, WarnBelowTheHighestLevel) {
+  EXPECT_EQ(warningOf(3), "");
+  for (const int level : {0, 1, 2})
+    EXPECT_THAT(warningOf(level),
+                ::testing::StartsWith("sandbox level " + std::to_string(level) + " of 3: "));
+}
+
+}  // namespace
+}  // namespace rex::sandbox
