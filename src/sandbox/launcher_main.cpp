@@ -221,10 +221,11 @@ int waitFor(pid_t child, double wallSeconds, bool& timedOut) {
   const Confinement& c = order.confinement;
   const std::string program = insidePath(c, order.command.front());
   const std::string folder = c.writable.empty() ? kInsideFolder : c.writable.string();
-  if (::chdir(folder.c_str()) != 0) failWithCause("cannot enter the work folder");
   const int programFile = openProgram(program);
   setOut(order);
   becomeUser(c);
+  // It is that user's; root is without its rights here.
+  if (::chdir(folder.c_str()) != 0) failWithCause("cannot enter the work folder");
   filterSystemCalls(c);
   report(c, kReady);
   become(order, programFile);
