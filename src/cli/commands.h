@@ -33,8 +33,8 @@ struct TestOptions {
   std::vector<std::string> checks;  ///< empty: all
   std::optional<std::uint64_t> seed;
   bool json = false;
-  bool debug = false;         ///< with the sanitizers
-  std::filesystem::path out;  ///< empty: as for run
+  bool debug = false;          ///< with the sanitizers
+  std::filesystem::path out;   ///< empty: as for run
   std::optional<int> level{};  ///< of the sandbox; nothing: 0
 };
 ExitCode test(const Project& project, const TestOptions& options);

@@ -20,8 +20,8 @@ struct SubmissionOptions {
   std::filesystem::path results;     ///< results.json; build.log is written beside it
   std::vector<std::string> checks;   ///< ids; empty: all
   std::optional<std::uint64_t> seed;
-  bool lookAgain = false;  ///< after a crash in a visible check, find its line with the sanitizers
-  bool sanitize = false;   ///< grade a build with the sanitizers, with twenty times the processor time
+  bool lookAgain = false;      ///< after a crash in a visible check, find its line with the sanitizers
+  bool sanitize = false;       ///< grade a build with the sanitizers, with twenty times the processor time
   sandbox::Sandbox sandbox{};  ///< for compiling and for the worker
   std::filesystem::path
       secret{};                ///< file with the secret of the course; empty: hidden checks take the seed too

@@ -106,6 +106,7 @@ TEST(Program, ExplainsWrongUse) {
   expectUsageError({"test"}, "rex test: EXERCISE is required");
   expectUsageError({"test", "01", "--seed", "x"}, "rex test: Could not convert: --seed = x");
   expectUsageError({"test", "01", "--main", "a.cpp", "--solution"}, "--main excludes --solution");
+  expectUsageError({"test", "01", "--debug", "--level", "1"}, "--debug excludes --level");
   expectUsageError({"dev", "check", "--seeds", "0"}, "rex dev check: --seeds");
   expectUsageError({"dev", "strip"}, "either EXERCISE, or --release with -o DIR, is required");
   expectUsageError({"dev", "strip", "--release"}, "either EXERCISE, or --release with -o DIR, is required");
