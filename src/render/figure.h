@@ -40,7 +40,7 @@ struct Figure {
   std::vector<Band> bands{};
   std::vector<Region> regions{};
   std::optional<HeatMap> heatMap{};
-  std::optional<GridMap> map{};
+  std::optional<OccupancyCells> map{};
   std::vector<Note> notes{};
   int width = 800;  ///< pixels, 100 to 8192
   int height = 500;

@@ -192,7 +192,7 @@ void requireHeatMap(const Figure& figure) {
 
 void requireMap(const Figure& figure) {
   const std::string name = nameOf(figure) + ", map";
-  const GridMap& map = *figure.map;
+  const OccupancyCells& map = *figure.map;
   requireCells(figure, map.occupancy, map.xRange, map.yRange, name);
   for (Eigen::Index j = 0; j < map.occupancy.cols(); ++j)
     for (Eigen::Index i = 0; i < map.occupancy.rows(); ++i)

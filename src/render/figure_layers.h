@@ -93,7 +93,7 @@ struct HeatMap {
 
 /// A grid map seen from above, as grey: 0 free and white, 1 occupied and black, 0.5 unknown. Cells as in a
 /// heat map, sizes usually in metres.
-struct GridMap {
+struct OccupancyCells {
   AxisRange xRange{0, 1};
   AxisRange yRange{0, 1};
   Eigen::MatrixXd occupancy{};  ///< rows x columns, at least 2 x 2, each in [0, 1]

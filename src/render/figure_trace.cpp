@@ -167,7 +167,7 @@ void setCells(Trace& trace, const AxisRange& xRange, const AxisRange& yRange, co
                    {xRange.first, yRange.second, 0}};
 }
 
-Trace traceOf(const GridMap& map) {
+Trace traceOf(const OccupancyCells& map) {
   Trace trace;
   // Free cells are white; unknown ones stay light, so that what is drawn over them is seen.
   const Eigen::ArrayXXd p = map.occupancy.array();

@@ -342,7 +342,7 @@ Figure gridMap() {
                 .equalAxes = true,
                 .legend = Legend::kOutside,
                 .series = {{.label = "path"}},
-                .map = GridMap{.xRange = {0, 10}, .yRange = {0, 6}},
+                .map = OccupancyCells{.xRange = {0, 10}, .yRange = {0, 6}},
                 .width = 800,
                 .height = 460};
   MatrixXd odds = MatrixXd::Zero(60, 100);  // logarithms

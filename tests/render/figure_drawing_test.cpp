@@ -216,7 +216,8 @@ TEST(FigureDrawing, ContoursFollowEqualValues) {
 TEST(FigureDrawing, CellsFillTheirRectangleWithRowZeroBelow) {
   REX_NEEDS_GNUPLOT();
   Figure figure = plain();
-  figure.map = GridMap{.xRange = {-1, 3}, .yRange = {10, 12}, .occupancy = Eigen::MatrixXd::Zero(2, 4)};
+  figure.map =
+      OccupancyCells{.xRange = {-1, 3}, .yRange = {10, 12}, .occupancy = Eigen::MatrixXd::Zero(2, 4)};
   figure.map->occupancy(0, 3) = 1;
   figure.map->occupancy(1, 0) = 0.5;
   const Drawing drawing(figure);

@@ -178,7 +178,7 @@ TEST(FigureErrors, HeatMaps) {
 
 TEST(FigureErrors, Maps) {
   Figure figure = plain();
-  figure.map = GridMap{.occupancy = Eigen::MatrixXd::Constant(3, 3, 0.5)};
+  figure.map = OccupancyCells{.occupancy = Eigen::MatrixXd::Constant(3, 3, 0.5)};
   figure.map->occupancy(1, 2) = 1.5;
   EXPECT_REX_ERROR(draw(figure),
                    "figure 'F', map: found occupancy(1, 2) = 1.5, wanted 0 (free) to 1 (occupied)");
@@ -232,7 +232,7 @@ TEST(FigureErrors, RangesThatMissALayer) {
   figure.yRange.reset();
   EXPECT_NO_THROW(draw(figure));
   figure = plain();
-  figure.map = GridMap{.occupancy = Eigen::MatrixXd::Zero(3, 3)};
+  figure.map = OccupancyCells{.occupancy = Eigen::MatrixXd::Zero(3, 3)};
   figure.xRange = {2, 3};
   EXPECT_REX_ERROR(draw(figure), "found no data within x 2 to 3");
   figure.xRange = {0.4, 0.6};
