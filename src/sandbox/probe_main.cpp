@@ -137,7 +137,7 @@ const std::map<std::string, std::pair<int, Attack>>& attacks() {
   static const std::map<std::string, std::pair<int, Attack>> all = {
       {"file", {2, readAndWriteFiles}}, {"proc", {1, reachProcesses}}, {"net", {1, reachNetwork}},
       {"fork", {1, startProcesses}},    {"mem", {1, takeMemory}},      {"fd", {0, findDescriptors}},
-      {"tmpfs", {1, fillFolders}},      {"leftover", {0, stayBehind}}};
+      {"tmpfs", {1, fillFolders}},      {"leftover", {1, stayBehind}}};
   return all;
 }
 

@@ -88,19 +88,21 @@ Probe judge(const std::string& name, const ProcessResult& result) {
           fmt::format("the sandbox does not stand: {}", firstLine(result.error + result.output))};
 }
 
-bool isRunning(const fs::path& program) {
+// Whether some process has this among its arguments; others may attack a sandbox at the same time.
+bool isRunning(const std::string& argument) {
   std::error_code gone;
-  const fs::path wanted = fs::canonical(program, gone);
   for (const auto& entry : fs::directory_iterator("/proc", gone)) {
-    std::error_code ignored;
-    if (fs::read_symlink(entry.path() / "exe", ignored).filename() == wanted.filename()) return true;
+    std::ifstream file(entry.path() / "cmdline");
+    for (std::string word; std::getline(file, word, '\0');)
+      if (word == argument) return true;
   }
   return false;
 }
 
 Probe leftover(const Sandbox& sandbox, const fs::path& probe, const fs::path& folder) {
-  Probe result = judge("leftover", run(sandbox, probe, {"leftover"}, folder));
-  if (result.held && isRunning(probe)) return {"leftover", false, "a process lives on"};
+  const std::string mark = fmt::format("{}-{}", ::getpid(), folder.string());
+  Probe result = judge("leftover", run(sandbox, probe, {"leftover", mark}, folder));
+  if (result.held && isRunning(mark)) return {"leftover", false, "a process lives on"};
   return result;
 }
 
