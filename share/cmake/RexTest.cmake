@@ -1,12 +1,10 @@
 # What the sanitizers look at in a short run: modules that read files of users or talk to processes, and the programs
-# that look at kernels in lanes and at bytes of pictures; but none whose workers need all of the library.
-# scripts/test --long looks at all.
+# that look at kernels in lanes; but none whose workers need all of the library. scripts/test --long looks at all.
 set(REX_SANITIZED_MODULES base geometry remote scene grading)
 set(REX_SANITIZED_PROGRAMS
   kinematics_batch dynamics_dynamics_batch collision_contact_batch collision_contact_kernel collision_convex_distance
-  estimation_car_particles estimation_g2o_file render_frame_sink render_glb render_image render_sensor_images
-  render_video_sink)
-set(REX_SANITIZED_LATER grading_grade grading_grader)
+  estimation_car_particles estimation_g2o_file)
+set(REX_SANITIZED_LATER grading_battery grading_grade grading_grader)
 
 # rex_test(MODULE NAME [USES module ...] [PRIVATE library ...])
 #
