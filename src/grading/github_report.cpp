@@ -78,7 +78,7 @@ std::string githubReport(const GradeResult& result) {
   addDiagnostics(result, errors, warnings);
   addChecks(result, errors);
   if (result.outcome == Outcome::compileError && errors.empty())
-    errors.push_back(command("error", exercise, {pathOf(result)}, result.message));
+    errors.push_back(command("error", exercise, {pathOf(result)}, compileText(result)));
   std::string text;
   for (auto* kind : {&errors, &warnings}) {
     kind->resize(std::min(kind->size(), kMostOfAKind));

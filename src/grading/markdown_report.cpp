@@ -35,14 +35,17 @@ std::string plain(std::string_view text) {
 
 std::string cell(const std::string& text) { return plain(shownText(text, kLongestCell)); }
 
-// Text as it is, in an HTML block that goes on until its end tag, whatever is in it.
+// Text as it is, in an HTML block that goes on until its end tag, whatever is in it. Also where somebody
+// prints the summary into a log, no line of it is a command to the program that keeps the log.
 std::string block(const char* title, const std::string& text) {
+  const std::string shown = shownText(text.substr(0, text.find_last_not_of('\n') + 1), kMostPrinted);
   std::string safe;
-  for (const char c : shownText(text, kMostPrinted)) {
-    if (c == '&' || c == '<' || c == '>')
-      safe += fmt::format("&#{};", static_cast<int>(c));
+  for (std::size_t k = 0; k < shown.size(); ++k) {
+    const bool isCommand = shown.compare(k, 2, "::") == 0 || shown.compare(k, 3, "##[") == 0;
+    if (isCommand || shown[k] == '&' || shown[k] == '<' || shown[k] == '>')
+      safe += fmt::format("&#{};", static_cast<int>(shown[k]));
     else
-      safe += c;
+      safe += shown[k];
   }
   return fmt::format("\n{}\n\n<pre>\n{}\n</pre>\n", title, safe);
 }

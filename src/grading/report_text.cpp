@@ -34,7 +34,8 @@ std::string messageOf(const CheckResult& check, const std::string& file) {
 std::string compileText(const GradeResult& result) {
   std::string text;
   for (const CompileDiagnostic& message : result.compile.diagnostics) text += toString(message) + "\n";
-  return shownText(text.empty() ? result.message : text, kLongestText);
+  if (text.empty()) text = result.message.empty() ? "does not compile" : result.message;
+  return shownText(text, kLongestText);
 }
 
 std::string fileOf(const GradeResult& result) {
