@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <string>
 #include <string_view>
 
@@ -12,38 +11,21 @@ namespace {
 
 using namespace internal;
 
-// XML 1.0, section 2.2, forbids U+FFFE and U+FFFF besides the control characters that shownText() replaces.
+// XML 1.0, section 2.2, forbids U+FFFE and U+FFFF besides the control characters that shownText() replaces. A
+// character written by its number is no markup, also not the end of "]]>", and a line break stays one in an
+// attribute.
 std::string xml(std::string_view text) {
+  constexpr std::string_view kMarkup = "&<>\"\n\t";
   std::string safe;
-  for (std::size_t k = 0; k < text.size(); ++k) {
-    const std::string_view three = text.substr(k, 3);
-    if (three == "\xEF\xBF\xBE" || three == "\xEF\xBF\xBF") {
+  while (!text.empty()) {
+    const bool isForbidden = text.starts_with("\xEF\xBF\xBE") || text.starts_with("\xEF\xBF\xBF");
+    if (isForbidden)
       safe += "\xEF\xBF\xBD";
-      k += 2;
-      continue;
-    }
-    switch (text[k]) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;  // also the end of "]]>"
-      case '"':
-        safe += "&quot;";
-        break;
-      case '\n':
-        safe += "&#10;";
-        break;  // within an attribute a reader makes a blank of it
-      case '\t':
-        safe += "&#9;";
-        break;
-      default:
-        safe += text[k];
-    }
+    else if (kMarkup.find(text.front()) != std::string_view::npos)
+      safe += fmt::format("&#{};", static_cast<int>(text.front()));
+    else
+      safe += text.front();
+    text.remove_prefix(isForbidden ? 3 : 1);
   }
   return safe;
 }

@@ -125,7 +125,7 @@ constexpr Break kBreaks[] = {
     {"junit", "graded", " tests=\"5\"", " tests=\"five\""},
     {"junit", "graded", "line=\"47\"", "line=\"0\""},
     {"junit", "graded", "</failure>", "</failure><failure message=\"\" type=\"fail\"/>"},
-    {"junit", "graded", "&lt;b&gt;", "<b>"},
+    {"junit", "graded", "&#60;b&#62;", "<b>"},
     {"junit", "graded", "ALL TESTS", "\x1b[1m"},
     {"junit", "graded", "</testsuites>", ""},
     {"junit", "graded", "<system-out>", "<system-out>\xff"},
