@@ -14,6 +14,7 @@ import urllib.parse
 import xml.etree.ElementTree as ElementTree
 
 import jsonschema
+import markdown_it
 
 SCHEMAS = pathlib.Path(__file__).resolve().parents[2] / "share" / "grading"
 FAULT = "The grader itself failed"
@@ -203,24 +204,36 @@ class Comparison:
         def line(value):
             return shown(value, 600).replace("\n", " ").replace("\t", " ")
 
+        tokens = markdown_it.MarkdownIt("commonmark").enable("table").parse(text)
+        kinds = {token.type.removesuffix("_open") for token in tokens if not token.type.endswith("_close")}
+        self.expect("elements", kinds - {"heading", "inline", "paragraph", "html_block", "table", "thead", "tbody",
+                                         "tr", "th", "td"}, set())
+        texts = [token for token in tokens if token.type == "inline"]
+        self.expect("markup in texts", {part.type for token in texts for part in token.children} - {"text"}, set())
+        texts = [squeezed("".join(part.content for part in token.children)) for token in texts]
         total = ": not graded" if self.is_fault else f": {self.points}"
-        self.expect("title", squeezed(html.unescape(text.split("\n", 1)[0])),
-                    squeezed(f"## {line(self.result['exercise']['id'])}{total}"))
+        self.expect("title", texts[0], squeezed(f"## {line(self.result['exercise']['id'])}{total}")[3:])
         if self.is_fault:
             return
-        self.expect("blocks", text.count("<pre>"), text.count("</pre>"))
-        rows = [[squeezed(html.unescape(cell)) for cell in row.split("|")[1:-1]]
-                for row in text.split("<pre>")[0].split("\n") if row.startswith("| ")][2:]
         wanted, hidden = [], 0
         for check in [] if self.is_broken else self.checks:
             is_hidden = check["group"] == "hidden"
             hidden += is_hidden
             name = f"Hidden check {hidden}" if is_hidden else f"{line(check['title'])} [{line(check['id'])}]"
             silent = is_hidden or check["status"] in ("pass", "not_run")
-            wanted.append([squeezed(cell) for cell in (
+            wanted += [squeezed(cell) for cell in (
                 check["status"].replace("_", " "), name, f"{check['points']}/{check['max_points']}",
-                "" if silent else line(message_of(check, self.result)))])
-        self.expect("rows", rows, wanted)
+                "" if silent else line(message_of(check, self.result)))]
+        rows = [token.type for token in tokens].count("tr_open")
+        self.expect("number of rows", rows, 0 if self.is_broken else 1 + len(self.checks))
+        self.expect("rows", texts[5:5 + len(wanted)], wanted)
+        self.expect("blocks", text.count("<pre>"), text.count("</pre>"))
+        printed = self.result["stdout"]
+        printed += "\n" * bool(printed and self.result["stderr"] and printed[-1] != "\n") + self.result["stderr"]
+        if printed:
+            block = [token.content for token in tokens if token.type == "html_block"][-1]
+            printed = shown(shown(printed, 50000).rstrip("\n"), 16000)
+            self.expect("printed", html.unescape(block), f"<pre>\n{printed}\n</pre>\n")
 
 
 FORMATS = ("exercism", "github", "gradescope", "junit", "markdown", "prairielearn")

@@ -35,7 +35,7 @@ inline std::string reportDifferences(const std::filesystem::path& folder) {
 
 }  // namespace rex
 
-#define REX_NEEDS_REPORT_CHECKER()                                            \
-  if (!::rex::runProcess({::rex::kPython, "-c", "import jsonschema"}).ok() || \
-      !::rex::runProcess({"xmllint", "--version"}).ok())                      \
-  GTEST_SKIP() << "python3-jsonschema or libxml2-utils is not installed"
+#define REX_NEEDS_REPORT_CHECKER()                                                         \
+  if (!::rex::runProcess({::rex::kPython, "-c", "import jsonschema, markdown_it"}).ok() || \
+      !::rex::runProcess({"xmllint", "--version"}).ok())                                   \
+  GTEST_SKIP() << "python3-jsonschema, python3-markdown-it or libxml2-utils is not installed"
