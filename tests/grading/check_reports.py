@@ -255,7 +255,8 @@ def main():
         found = list(faults(sys.argv[2], [pathlib.Path(name) for name in sys.argv[3:]]))
     else:
         folder = pathlib.Path(sys.argv[2])
-        found = [fault for name in FORMATS for fault in faults(name, sorted(folder.glob(f"*.{name}")))]
+        found = list(json_faults("result", sorted(folder.glob("*.results"))))
+        found += [fault for name in FORMATS for fault in faults(name, sorted(folder.glob(f"*.{name}")))]
         found = found or list(differences(folder))
     for file, why in found:
         print(f"{file}: {why}")
