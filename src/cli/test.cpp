@@ -75,6 +75,8 @@ ExitCode test(const Project& project, const TestOptions& options) {
   const std::optional<sandbox::Sandbox> sandbox = chooseSandbox(project, options.level);
   if (!sandbox) return ExitCode::kWeakSandbox;
   const grading::Toolchain toolchain = prepare(project, exercise);
+  const std::filesystem::path evidence = out / "checks";
+  std::filesystem::remove_all(evidence);
   const grading::PrivateFolder work(project.buildFolder(exercise));
   const grading::Submission graded = [&] {
     const ProgressLine line([&, start = std::filesystem::file_time_type::clock::now()] {
@@ -86,6 +88,7 @@ ExitCode test(const Project& project, const TestOptions& options) {
                                      .results = results,
                                      .checks = options.checks,
                                      .seed = options.seed,
+                                     .evidence = evidence,
                                      .lookAgain = true,
                                      .sanitize = options.debug,
                                      .sandbox = *sandbox});

@@ -44,6 +44,8 @@ void declareOptions(CLI::App& app, Arguments& arguments) {
                  "the program rex-sandbox, for levels above 0");
   app.add_option("--library", arguments.grade.libraries, "a library that the worker loads (repeatable)")
       ->allow_extra_args(false);
+  app.add_option("--evidence", arguments.grade.evidence,
+                 "folder for pictures and replays of visible checks that do not hold");
   app.add_option("--secret", arguments.secret,
                  "file with the secret of the course, for the seeds of hidden checks");
   app.add_flag("--list", arguments.list, "print the checks as JSON");

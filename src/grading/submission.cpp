@@ -67,6 +67,7 @@ std::vector<std::string> graderCommand(const Toolchain& toolchain, const Exercis
     command.insert(command.end(),
                    {"--level", fmt::format("{}", options.sandbox.level), "--sandbox",
                     options.sandbox.launcher.string(), "--library", toolchain.studentLibrary.string()});
+  if (!options.evidence.empty()) command.insert(command.end(), {"--evidence", options.evidence.string()});
   if (!options.secret.empty()) command.insert(command.end(), {"--secret", options.secret.string()});
   command.insert(command.end(), {"--cpu-seconds", fmt::format("{:g}", exercise.limits.cpuSeconds),
                                  "--memory-mb", fmt::format("{}", exercise.limits.memoryMb), "--output-mb",
@@ -155,6 +156,7 @@ std::optional<CrashSite> crashSiteOf(const Toolchain& toolchain, const ExerciseI
                                      const std::string& check, const std::string& mainFile) {
   SubmissionOptions one = options;
   one.checks = {check};
+  one.evidence.clear();
   one.results = options.workFolder / "second-look.json";
   std::filesystem::remove(one.results);
   const ExerciseInfo limited = withLimitsOfSanitizers(exercise);

@@ -54,6 +54,23 @@ TEST(Grade, NeverBlamesTheStudentForTheGrader) {
   EXPECT_EQ(result.checks[4].message, fault + "check 'empty' states no requirement");
 }
 
+TEST(Grade, DrawsVisibleChecksThatDoNotHold) {
+  const auto off = [](Check& judge, Student&) {
+    judge.near("states", Eigen::VectorXd::Zero(9), Eigen::VectorXd::Ones(9), .1);
+  };
+  const std::vector<RunnableCheck> checks = {check("seen", Group::visible, off),
+                                             check("unseen", Group::hidden, off)};
+  const std::filesystem::path folder = std::filesystem::path(REX_BINARY_DIR) / "tests-out" / "checks";
+  std::filesystem::remove_all(folder);
+  const GradeResult result =
+      grade({}, checks, {.worker = kGood, .signature = Student::signature(), .evidence = folder},
+            [](const GradeResult&) {});
+  EXPECT_EQ(result.checks[0].picture, "checks/seen.png");
+  EXPECT_EQ(result.checks[1].picture, "");
+  EXPECT_TRUE(std::filesystem::exists(folder / "seen.png"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "unseen.png"));
+}
+
 TEST(Grade, SavesBeforeTheFirstAndAfterEveryCheck) {
   const auto pass = [](Check& judge, Student& student) { judge.near("square", student.square(3), 9, 1e-9); };
   const std::vector<RunnableCheck> checks = {check("a", Group::visible, pass),
