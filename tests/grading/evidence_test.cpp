@@ -6,6 +6,7 @@
 #include "geometry/pose.h"
 #include "render/png.h"
 #include "support/file_text.h"
+#include "support/needs_osmesa.h"
 
 namespace rex::grading {
 namespace {
@@ -59,6 +60,7 @@ TEST_F(WriteEvidence, DrawsTheFirstFigure) {
 }
 
 TEST_F(WriteEvidence, OpensAFilmAtItsMoment) {
+  REX_NEEDS_OSMESA();
   const EvidenceFiles files = writeEvidence({.film = ball(), .moment = 1.5}, "ball", "A <ball>", folder_);
   EXPECT_EQ(files.picture, "ball.png");
   EXPECT_EQ(files.replay, "ball.html");

@@ -244,6 +244,7 @@ TEST(Report, TellsTheBackgroundOfItsPicture) {
 }
 
 TEST(Report, StandsWhereItIsToldToStart) {
+  REX_NEEDS_OSMESA();
   Report report = rollingBall();
   EXPECT_THAT(reportPage(report), ::testing::HasSubstr("data-start=\"0\""));
   report.start = 0.75;
