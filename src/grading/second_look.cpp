@@ -101,6 +101,11 @@ Toolchain sanitizedToolchain(const Toolchain& toolchain, const std::filesystem::
                                 "-fno-omit-frame-pointer", "-include", header})
     sanitized.flags.push_back(flag);
   sanitized.linkFlags.push_back(kSanitizers);
+  // Eigen allocates otherwise under the sanitizer of addresses, but what the program and the library hand to
+  // each other must be given back as it was got.
+  const auto isSanitizer = [](const std::string& flag) { return flag.starts_with("-fsanitize="); };
+  if (std::none_of(toolchain.flags.begin(), toolchain.flags.end(), isSanitizer))
+    sanitized.flags.push_back("-DEIGEN_MALLOC_ALREADY_ALIGNED=1");
   return sanitized;
 }
 

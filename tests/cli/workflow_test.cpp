@@ -182,7 +182,8 @@ TEST_F(WorkflowTest, PassesTheTemplateThroughAllGates) {
   EXPECT_EQ(ended.code, 0) << ended.output << ended.error;
   const std::string gates = rex({"dev", "check", "98", "--list-gates"}).output;
   EXPECT_EQ(gates,
-            "main-current\npoints\nnames\nrelease\nmain-floor\nsolution\nwrong/clockwise\nwrong/library\n");
+            "main-current\npoints\nnames\nrelease\nmain-floor\nsolution\nsanitizers\nwrong/clockwise\nwrong/"
+            "library\n");
 }
 
 TEST_F(WorkflowTest, FindsWhatIsWrongWithTheTexts) {
@@ -211,6 +212,9 @@ TEST_F(WorkflowTest, FindsWhatIsWrongWithTheStarter) {
 TEST_F(WorkflowTest, FindsWhatIsWrongWithTheSolution) {
   replace(exercise() / "solution.cpp", "s * p.x() + c * p.y()", "s * p.x() + c * p.x()");
   expectOpenGate("solution", "under seed 1");
+  replace(exercise() / "solution.cpp", "const double s = std::sin(angle);",
+          "double sines[2] = {std::sin(angle), 0};\n  const double s = sines[angle > 99 ? 0 : 2];");
+  expectOpenGate("sanitizers", "solution.cpp does not pass with the sanitizers:");
 }
 
 TEST_F(WorkflowTest, FindsMistakesThatAreNotCaught) {
