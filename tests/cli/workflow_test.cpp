@@ -142,6 +142,18 @@ TEST_F(WorkflowTest, SaysHowAProgramEnded) {
   EXPECT_THAT(rex({"run", "98"}).error, HasSubstr("exit code 5"));
 }
 
+TEST_F(WorkflowTest, LimitsMemoryAlsoWithTheSanitizers) {
+  replace(exercise() / "exercise.toml", "memory_mb = 512", "memory_mb = 64");
+  write(exercise() / "main.cpp",
+        "#include \"exercise.h\"\n#include <cstring>\n#include <unistd.h>\n"
+        "Eigen::Vector2d rotated(const Eigen::Vector2d&, double) {\n"
+        "  for (int k = 0; k < 100; ++k, usleep(20000)) memset(new char[10 << 20], 1, 10 << 20);\n"
+        "  return {0, 0};\n}\nint main() {}\n");
+  const Ended ended = rex({"test", "98", "--debug", "--check", "quarter-turn"});
+  EXPECT_EQ(ended.code, 1) << ended.error;
+  EXPECT_THAT(flat(ended.output), HasSubstr("used more than 384 MB of memory in rotated"));
+}
+
 TEST_F(WorkflowTest, PrintsADebuggerCommand) {
   const Ended ended = rex({"debug", "98", "--solution", "--print"});
   EXPECT_EQ(ended.code, 0) << ended.error;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/process.h"
+#include "grading/worker_failure.h"
 #include "support/file_text.h"
 #include "support/temporary_folder.h"
 
@@ -73,7 +74,7 @@ class SanitizedToolchain : public ::testing::Test {
   ProcessResult run() const { return runProcess({(temporary_.path() / "program").string()}); }
 
   TemporaryFolder temporary_;
-  Toolchain toolchain_ = sanitizedToolchain(plain(), temporary_.path());
+  Toolchain toolchain_ = sanitizedToolchain(plain(), temporary_.path(), 200);
 };
 
 TEST_F(SanitizedToolchain, MakesProgramsThatReportWhereTheyCrash) {
@@ -102,6 +103,24 @@ TEST_F(SanitizedToolchain, MakesProgramsThatReportWhereTheyCrash) {
     EXPECT_GE(site->line, 1);
     EXPECT_LE(site->line, 3);
     EXPECT_NE(site->finding.find(crash.finding), std::string::npos) << site->finding;
+  }
+}
+
+// The second program asks for more than there can be, at once.
+TEST_F(SanitizedToolchain, MakesProgramsThatEndWhenTheyHoldTooMuchMemory) {
+  const char* bodies[] = {
+      "for (int k = 0; k < 40; ++k, usleep(20000)) memset(malloc(20 << 20), 1, 20 << 20);",
+      "return *new char[1ull << 60];"};
+  for (const char* body : bodies) {
+    ASSERT_NO_FATAL_FAILURE(compile(toolchain_, {"-o", "program"},
+                                    "#include <stdlib.h>\n#include <string.h>\n#include <unistd.h>\n"
+                                    "int main() { " +
+                                        std::string(body) + " }\n"));
+    const ProcessResult run = this->run();
+    const Failure failure =
+        explainEnd({.status = run.signal, .function = "f", .errorTail = run.error}, {.memoryMegabytes = 200});
+    EXPECT_EQ(failure.outcome, Outcome::memoryLimit) << run.error;
+    EXPECT_EQ(failure.message, "used more than 200 MB of memory in f");
   }
 }
 
