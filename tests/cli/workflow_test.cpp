@@ -101,6 +101,24 @@ TEST_F(WorkflowTest, ExplainsAMissingFileAMissingFunctionAndAForbiddenCall) {
               HasSubstr("main.cpp:4:16: error: calls rex::rotationAboutAxis, which only main() may"));
 }
 
+// The program of the second grading keeps what it finds of the first, as another grading would meet it.
+TEST_F(WorkflowTest, LeavesTheLastResultWholeWhileItGrades) {
+  rex({"test", "98"});
+  const fs::path results = out() / "results.json", log = out() / "build.log";
+  const std::string last = fileText(results);
+  write(log, "the last log");
+  std::string curious = kGood;
+  curious.replace(curious.find("  return"), 2,
+                  "  std::ofstream(\"" + (root() / "seen").string() + "\") << std::ifstream(\"" +
+                      results.string() + "\").rdbuf() << std::ifstream(\"" + log.string() +
+                      "\").rdbuf();\n  ");
+  write(exercise() / "main.cpp", "#include <fstream>\n" + curious);
+  EXPECT_EQ(rex({"test", "98"}).code, 0);
+  EXPECT_EQ(fileText(root() / "seen"), last + "the last log");
+  EXPECT_THAT(fileText(results), HasSubstr("\"outcome\": \"pass\""));
+  EXPECT_EQ(fileText(log), "");
+}
+
 TEST_F(WorkflowTest, SaysWhenTheGraderIsAtFault) {
   const Ended ended = rexIn(root() / "no-build", {"test", "98"});
   EXPECT_EQ(ended.code, 3);
