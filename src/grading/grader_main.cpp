@@ -36,6 +36,7 @@ void declareOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("--seed", arguments.grade.seed, "seed of all random numbers");
   app.add_option("--cpu-seconds", limits.cpuSeconds, "CPU time of one check")->check(CLI::PositiveNumber);
   app.add_option("--memory-mb", limits.memoryMegabytes, "memory of one check")->check(CLI::PositiveNumber);
+  app.add_flag("--sanitized", limits.sanitized, "the worker limits its memory itself");
   app.add_option("--output-mb", limits.outputMegabytes, "printed by one check")->check(CLI::PositiveNumber);
   app.add_option("--temporary", arguments.grade.temporaryFolder, "where workers get their working folders");
   app.add_option("--level", arguments.grade.sandbox.level, "sandbox level of workers")
