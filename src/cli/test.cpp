@@ -81,10 +81,8 @@ ExitCode test(const Project& project, const TestOptions& options) {
   const std::optional<sandbox::Sandbox> sandbox = chooseSandbox(project, options.level);
   if (!sandbox) return ExitCode::kWeakSandbox;
   const grading::Toolchain toolchain = prepare(project, exercise);
-  const std::filesystem::path evidence = out / "checks";
-  std::filesystem::remove_all(evidence);
   const grading::PrivateFolder work(project.buildFolder(exercise));
-  const std::filesystem::path ownResults = work.path() / "results.json";
+  const std::filesystem::path ownResults = work.path() / "results.json", evidence = work.path() / "checks";
   const grading::Submission graded = [&] {
     const ProgressLine line([&] { return stageOf(exercise, ownResults); });
     return grading::gradeSubmission(toolchain, exercise,
@@ -99,6 +97,9 @@ ExitCode test(const Project& project, const TestOptions& options) {
                                      .sandbox = *sandbox});
   }();
   publish(ownResults, results);
+  std::filesystem::remove_all(out / "checks");
+  if (std::filesystem::exists(evidence))
+    std::filesystem::copy(evidence, out / "checks", std::filesystem::copy_options::recursive);
   if (options.main.empty() && !options.solution && !options.debug && options.checks.empty())
     remember(project, exercise, graded);
   if (options.json)
