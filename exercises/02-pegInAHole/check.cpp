@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "collision/contacts.h"
 #include "collision/motion_clearance.h"
+#include "course/film.h"
 #include "interface.h"
 #include "scene/model.h"
 
@@ -182,29 +184,54 @@ double largest(const Simulator& S, const Motion& motion, int first, const F& f) 
   return most;
 }
 
+// The motion from step `first` on as a film that opens where f(S, t) is largest. Long ones in longer steps.
+template <class F>
+grading::Evidence seen(const Simulator& S, const std::string& body, const Motion& motion, int first,
+                       const F& f) {
+  const int stride = 1 + static_cast<int>(motion.size()) / 300;
+  Motion shown;
+  double most = -std::numeric_limits<double>::infinity();
+  std::size_t worst = 0;
+  Simulator moved = S;
+  for (int t = first; t <= static_cast<int>(motion.size()); t += stride) {
+    shown.push_back(motion[static_cast<std::size_t>(t) - 1]);
+    moved.setJointAngles(shown.back());
+    const double here = f(moved, t);
+    if (here > most) worst = shown.size() - 1;
+    most = std::max(most, here);
+  }
+  Film film = filmOf(S, shown, {.traces = {body}});
+  const double moment = film[worst].time;
+  return {.film = std::move(film), .moment = moment};
+}
+
 // 2e-4 m is usual; the home task pulls the hand off its circle by its share of the precisions.
 void tracks(Check& check, const Simulator& S, const Circle& circle, const Motion& motion) {
-  const double error = largest(S, motion, 20, [&](const Simulator& moved, int t) {
+  const auto error = [&](const Simulator& moved, int t) {
     const Eigen::Vector3d wanted =
         circle.center + circle.radius * Eigen::Vector3d(std::cos(t / 20.), 0, std::sin(t / 20.));
     return (moved.kinematicsPos(circle.hand) - wanted).norm();
-  });
-  check.atMost("largest distance from the point on the circle", error, 2e-3, "m");
+  };
+  const auto shown = check.show([&] { return seen(S, circle.hand, motion, 20, error); });
+  check.atMost("largest distance from the point on the circle", largest(S, motion, 20, error), 2e-3, "m");
 }
 
 void staysAtHome(Check& check, const Simulator& S, const Motion& motion) {
   const Eigen::VectorXd atFirst = S.getJointAngles();
-  const double away = largest(S, motion, 1, [&](const Simulator& moved, int) {
+  const auto away = [&](const Simulator& moved, int) {
     return (moved.getJointAngles() - atFirst).cwiseAbs().maxCoeff();
-  });
-  check.atMost("largest angle between a joint and its place at home", away, 2.2, "rad");
+  };
+  const auto shown = check.show([&] { return seen(S, "handR", motion, 1, away); });
+  check.atMost("largest angle between a joint and its place at home", largest(S, motion, 1, away), 2.2,
+               "rad");
 }
 
 void pointsUpwards(Check& check, const Simulator& S, const Circle& circle, const Motion& motion) {
-  const double tilt = largest(S, motion, 100, [&](const Simulator& moved, int) {
+  const auto tilt = [&](const Simulator& moved, int) {
     return (moved.kinematicsVec(circle.pointing) - kUp).norm();
-  });
-  check.atMost("largest |z axis - up| of the hand that points", tilt, 0.05);
+  };
+  const auto shown = check.show([&] { return seen(S, circle.pointing, motion, 100, tilt); });
+  check.atMost("largest |z axis - up| of the hand that points", largest(S, motion, 100, tilt), 0.05);
 }
 
 void circleTracks(Check& check, Student& student) {
@@ -330,6 +357,11 @@ void clearanceIsKept(Check& check, const Simulator& S, const Motion& motion) {
   check.atLeast("least clearance along the motion", least, 0.5 * kMargin - slack, "m");
 }
 
+// The way of the peg, from where it is nearest to the wall.
+grading::Evidence wayOf(const Scene& scene, const Motion& motion) {
+  return seen(scene.S, scene.peg, motion, 1, [](const Simulator& moved, int) { return -clearance(moved); });
+}
+
 void pegIsAt(Check& check, const Scene& scene, const Eigen::VectorXd& q, const Eigen::Vector3d& place,
              const Eigen::Vector3d& direction, double slack = 1) {
   const Simulator there = at(scene.S, q);
@@ -361,6 +393,7 @@ void movesStraight(Check& check, Student& student) {
   const Eigen::Vector3d start = scene.S.kinematicsPos("peg"), direction = scene.S.kinematicsVec("peg");
   const Motion motion = student.taskSpaceMotion(scene.S.description(), "peg", kHole, kMargin, T);
   checkPostures(check, motion, T, scene.S.getJointDimension());
+  const auto shown = check.show([&] { return wayOf(scene, motion); });
   for (int t = 1; t <= T; ++t) {
     const double share = (1 - std::cos(std::numbers::pi * t / T)) / 2;
     pegIsAt(check, scene, motion[static_cast<std::size_t>(t) - 1], start + share * (kHole - start), direction,
@@ -374,6 +407,8 @@ void goesIn(Check& check, Student& student, const Scene& scene) {
   const Motion motion = student.insertPeg(scene.S.description(), scene.peg, scene.hole, kDown, kMargin);
   check.atLeast("number of postures", static_cast<double>(motion.size()), 10);
   check.atMost("number of postures", static_cast<double>(motion.size()), 1000);
+  for (const Eigen::VectorXd& q : motion) check.shape("posture", q, scene.S.getJointDimension(), 1);
+  const auto shown = check.show([&] { return wayOf(scene, motion); });
   turnsLittle(check, scene.S, motion, 0.1);
   pegIsAt(check, scene, motion.back(), scene.hole, kDown);
   clearanceIsKept(check, scene.S, motion);

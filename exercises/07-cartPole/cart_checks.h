@@ -4,6 +4,7 @@
 #include <numbers>
 #include <string>
 
+#include "course/cart_pole_pictures.h"
 #include "grading/check.h"
 #include "interface.h"
 #include "plants.h"
@@ -55,6 +56,26 @@ inline void stepFits(rex::grading::Check& check, Student& student, const PoleCar
   rng.next();
 }
 
+/// The outing as a film that opens at the state of step t.
+inline rex::grading::Evidence seen(const Eigen::MatrixXd& states, double tau, Eigen::Index t) {
+  rex::Figure figure{
+      .title = "The outing until its end", .xLabel = "time [s]", .yLabel = "p [m], theta [rad]"};
+  rex::Series p{.label = "p"}, theta{.label = "theta"};
+  rex::Film film;
+  const Eigen::Index stride = 1 + states.cols() / 400;
+  for (Eigen::Index k = 0; k < states.cols(); k += stride) {
+    const double time = tau * static_cast<double>(k);
+    film.push_back({time, pictureOf(rex::CartPoleView{.x = states.col(k)})});
+    p.x.push_back(time);
+    p.y.push_back(states(0, k));
+    theta.x.push_back(time);
+    theta.y.push_back(states(2, k));
+  }
+  figure.series = {p, theta};
+  figure.verticalLines = {{.at = tau * static_cast<double>(t)}};
+  return {.figures = {figure}, .film = film, .view = {.35, -2, .45}, .moment = tau * static_cast<double>(t)};
+}
+
 /// Each state follows from the one before it, and the last is where it had to end. Returns the states.
 inline Eigen::MatrixXd outingFits(rex::grading::Check& check, Student& student, const PoleCart& cart,
                                   const Eigen::MatrixXd& K, const Eigen::Vector4d& start,
@@ -67,7 +88,9 @@ inline Eigen::MatrixXd outingFits(rex::grading::Check& check, Student& student, 
   check.shape("states", states, 4, states.cols());
   check.near("first state", states.col(0), start, 0);
   rex::Rng same = given;
-  for (Eigen::Index t = 0; t + 1 < states.cols(); ++t) {
+  Eigen::Index t = 0;
+  const auto shown = check.show([&] { return seen(states, outing.tau, t); });
+  for (; t + 1 < states.cols(); ++t) {
     const Eigen::Vector4d x = states.col(t);
     check.atMost("size of theta, before the end", std::abs(x[2]), std::numbers::pi / 2, "rad");
     const Eigen::Vector4d wanted = euler(cart, x, (K * x)[0], outing.tau, outing.noise, same);

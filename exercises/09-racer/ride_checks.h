@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "control/racer_rollouts.h"
+#include "course/racer_pictures.h"
 #include "learning/sensor_history.h"
 #include "racer_checks.h"
 
@@ -116,11 +117,32 @@ inline Eigen::MatrixXd noiseOf(const Situation& in, std::uint64_t seed, int step
   return noise;
 }
 
+/// The ride as a film that opens at step t.
+inline rex::grading::Evidence seen(const Situation& in, const Eigen::MatrixXd& states, Eigen::Index t) {
+  rex::Figure figure{.title = "The ride until its end", .xLabel = "time [s]", .yLabel = "x [m], theta [rad]"};
+  rex::Series x{.label = "x"}, theta{.label = "theta"};
+  rex::Film film;
+  for (Eigen::Index k = 0; k < states.cols(); ++k) {
+    const double time = kTau * static_cast<double>(k);
+    film.push_back({time, pictureOf(rex::RacerView{.x = states.col(k), .dynamics = dynamicsOf(in.racer)})});
+    x.x.push_back(time);
+    x.y.push_back(states(0, k));
+    theta.x.push_back(time);
+    theta.y.push_back(states(1, k));
+  }
+  figure.series = {x, theta};
+  figure.verticalLines = {{.at = kTau * static_cast<double>(t)}};
+  return {
+      .figures = {figure}, .film = film, .view = {1.2, -1.6, .7}, .moment = kTau * static_cast<double>(t)};
+}
+
 inline void statesFit(rex::grading::Check& check, const Situation& in, const Eigen::VectorXd& w,
                       const Eigen::MatrixXd& noise, const Ride& ride) {
   const rex::RacerDynamics plant = dynamicsOf(in.racer);
   rex::RacerPolicy policy(optionsOf(in, 1).features, w, kTau, kLargestControl);
-  for (Eigen::Index t = 0; t < ride.controls.size(); ++t) {
+  Eigen::Index t = 0;
+  const auto shown = check.show([&] { return seen(in, ride.states, t); });
+  for (; t < ride.controls.size(); ++t) {
     const Eigen::Vector4d x = ride.states.col(t);
     check.input(fmt::format("step {} of {}, from {}", t + 1, noise.cols(), described(in.racer, x)));
     check.near("control by what was measured so far", ride.controls[t],
