@@ -7,7 +7,8 @@ namespace rex::grading {
 /// A new empty folder that only this user may enter, removed with all it contains at the end.
 class PrivateFolder {
  public:
-  /// Makes it inside `parent`. Throws Error if that is impossible.
+  /// Makes it inside `parent`, and removes those there whose owners were killed an hour ago or more. Throws
+  /// Error if that is impossible.
   explicit PrivateFolder(const std::filesystem::path& parent);
   ~PrivateFolder();
   PrivateFolder(const PrivateFolder&) = delete;
@@ -17,6 +18,7 @@ class PrivateFolder {
 
  private:
   std::filesystem::path path_;
+  int lock_ = -1;  ///< held as long as this lives
 };
 
 }  // namespace rex::grading

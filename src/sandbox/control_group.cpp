@@ -1,10 +1,12 @@
 #include "sandbox/control_group.h"
 
-#include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <fstream>
 #include <map>
+#include <random>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -58,9 +60,22 @@ fs::path ownGroup() {
   return {};
 }
 
-std::string freshName() {
-  static std::atomic<int> number = 0;
-  return fmt::format("rex-{}-{}", ::getpid(), ++number);
+// The owner's number in a name that freshName() made; 0: none of ours.
+pid_t ownerOf(const std::string& name) {
+  int owner = 0;
+  return std::sscanf(name.c_str(), "rex-%d-", &owner) == 1 ? owner : 0;
+}
+
+// Processes get old numbers again: the rest of the name is random.
+std::string freshName() { return fmt::format("rex-{}-{:08x}", ::getpid(), std::random_device()()); }
+
+// Groups whose owners were killed. The kernel keeps those that hold a process.
+void removeAbandoned(const fs::path& parent) {
+  std::error_code ignored;
+  for (fs::directory_iterator entry(parent, ignored), end; entry != end; entry.increment(ignored)) {
+    const pid_t owner = ownerOf(entry->path().filename().string());
+    if (owner > 0 && ::kill(owner, 0) != 0 && errno == ESRCH) ::rmdir(entry->path().c_str());
+  }
 }
 
 }  // namespace
@@ -81,6 +96,7 @@ bool ControlGroup::tryVersion2(std::size_t memoryBytes, int processes) {
   const auto mount = all.find("");
   if (mount == all.end()) return false;
   for (const fs::path& parent : {mount->second / ownGroup(), mount->second}) {
+    removeAbandoned(parent);
     const fs::path folder = parent / freshName();
     std::error_code refused;
     if (!fs::create_directory(folder, refused)) continue;
@@ -100,6 +116,7 @@ bool ControlGroup::tryVersion1(std::size_t memoryBytes, int processes) {
   const std::string name = freshName();
   for (const auto& [controller, mount] : mounts()) {
     if (controller.empty()) continue;
+    removeAbandoned(mount);
     std::error_code refused;
     if (fs::create_directory(mount / name, refused)) folders_.push_back(mount / name);
   }
