@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 
 #include "base/error.h"
+#include "grading/archive.h"
 #include "grading/printable.h"
 #include "grading/student_build.h"
 #include "grading/text_file.h"
@@ -18,6 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kFile = "main.cpp";
+constexpr const char* kReceipt = "receipt.json";  // which `rex submit` adds
+constexpr const char* kPerStudent = "a folder, .zip, .tar or .tar.gz file for each student";
 
 // What is in a folder: sorted, so that messages come in the same order everywhere.
 std::vector<fs::path> entriesOf(const fs::path& folder) {
@@ -63,11 +66,14 @@ class Reader {
   HandIns read(const fs::path& folder) {
     std::map<std::string, std::vector<fs::path>> students;  // by folded name
     for (const fs::path& entry : entriesOf(folder)) {
-      const std::string name = entry.filename().string();
-      if (name.starts_with('.') && typeOf(entry) == fs::file_type::regular)
+      const fs::file_type type = typeOf(entry);
+      const std::string file = entry.filename().string();
+      const bool isArchive = type == fs::file_type::regular && isArchiveName(file);
+      const std::string name = isArchive ? withoutArchiveEnding(file) : file;
+      if (type == fs::file_type::regular && file.starts_with('.'))
         found_.notes.push_back(fmt::format("{}: not taken", entry.string()));
-      else if (typeOf(entry) != fs::file_type::directory)
-        complain("not taken", entry, nameOf(typeOf(entry)), "a folder for each student");
+      else if (type != fs::file_type::directory && !isArchive)
+        complain("not taken", entry, nameOf(type), kPerStudent);
       else if (const std::string why = whyNoStudentName(name); !why.empty())
         complain("not the name of a student", entry, why,
                  "letters, digits, blanks and signs such as - _ . @");
@@ -75,7 +81,11 @@ class Reader {
         students[folded(name)].push_back(entry);
     }
     for (const auto& [name, folders] : students) {
-      if (isOneSpelling(folders, "a student")) readStudent(folders.front());
+      if (!isOneSpelling(folders, "a student")) continue;
+      if (typeOf(folders.front()) == fs::file_type::directory)
+        readStudent(folders.front());
+      else
+        readPacked(folders.front());
     }
     std::sort(found_.files.begin(), found_.files.end(), [](const HandIn& a, const HandIn& b) {
       return std::pair(a.student, a.exercise) < std::pair(b.student, b.exercise);
@@ -113,12 +123,45 @@ class Reader {
       else if (const std::string exercise = exerciseOf(entry); !exercise.empty())
         exercises[exercise].push_back(entry);
     }
-    if (exercises.empty() && only_.empty())
-      complain("nothing to grade", folder, "no folder of an exercise",
-               exercises_.empty() ? "" : exercises_.front().name + "/" + kFile);
+    complainOfNone(exercises.empty(), folder);
     for (const auto& [exercise, folders] : exercises) {
       if (!isOneSpelling(folders, "an exercise")) continue;
       if (only_.empty() || only_ == exercise) readFile(folder.filename().string(), exercise, folders.front());
+    }
+  }
+
+  void complainOfNone(bool isEmpty, const fs::path& student) {
+    if (isEmpty && only_.empty())
+      complain("nothing to grade", student, "no folder of an exercise",
+               exercises_.empty() ? "" : exercises_.front().name + "/" + kFile);
+  }
+
+  // The same of a student who handed in one archive. Its own time counts, for those inside are the student's.
+  void readPacked(const fs::path& archive) {
+    std::vector<ArchiveFile> members;
+    try {
+      members = readArchive(archive);
+    } catch (const Error& error) {
+      complain(error.parts());
+      return;
+    }
+    std::map<std::string, std::vector<fs::path>> exercises;
+    std::map<fs::path, std::string> texts;
+    for (ArchiveFile& member : members) {
+      const fs::path name = fs::path(member.name).lexically_normal(), file = archive / name;
+      if (name.filename() != kFile || std::distance(name.begin(), name.end()) != 2)
+        noteUnlisted(file);
+      else if (const std::string exercise = exerciseOf(file.parent_path()); !exercise.empty())
+        exercises[exercise].push_back(file.parent_path()), texts[file.parent_path()] = std::move(member.text);
+    }
+    complainOfNone(exercises.empty(), archive);
+    for (const auto& [exercise, folders] : exercises) {
+      if (!isOneSpelling(folders, "an exercise") || (!only_.empty() && only_ != exercise)) continue;
+      found_.files.push_back({.student = withoutArchiveEnding(archive.filename().string()),
+                              .exercise = exercise,
+                              .from = folders.front() / kFile,
+                              .text = texts[folders.front()],
+                              .submitted = modifiedAt(archive)});
     }
   }
 
@@ -135,7 +178,6 @@ class Reader {
   }
 
   void noteUnlisted(const fs::path& file) {
-    constexpr const char* kReceipt = "receipt.json";  // which `rex submit` adds
     if (file.filename() != kReceipt) found_.notes.push_back(fmt::format("{}: not taken", file.string()));
   }
 

@@ -16,7 +16,7 @@ struct HandIn {
   std::string exercise{};             ///< whole name
   std::filesystem::path from{};       ///< where it lay
   std::optional<std::string> text{};  ///< nothing: cannot be read, which grading will say, too
-  std::int64_t submitted = 0;         ///< when `from` was modified, seconds since 1970 in UTC
+  std::int64_t submitted = 0;         ///< when `from` or its archive was modified, seconds since 1970 in UTC
 };
 
 /// What a folder of submissions holds.
@@ -26,9 +26,10 @@ struct HandIns {
   std::vector<std::string> notes{};       ///< what lay beside and was not asked for
 };
 
-/// Reads DIR/STUDENT/EXERCISE/main.cpp. Names of exercises may be short ones; `only` empty: all. Links are
-/// never followed. One that cannot be taken never hides another; of two spellings of one name neither is
-/// taken. Throws Error where `folder` itself cannot be read.
+/// Reads DIR/STUDENT/EXERCISE/main.cpp, or EXERCISE/main.cpp of the archive DIR/STUDENT.zip. Names of
+/// exercises may be short ones; `only` empty: all. Links are never followed. One that cannot be taken never
+/// hides another; of two spellings of one name neither is taken. Throws Error where `folder` itself cannot be
+/// read.
 [[nodiscard]] HandIns readHandIns(const std::filesystem::path& folder,
                                   const std::vector<ExerciseInfo>& exercises, const std::string& only = {});
 

@@ -96,7 +96,9 @@ TEST_F(HandInTest, ComplainsOfAMissingFileAndLetsGradingSaySo) {
 TEST_F(HandInTest, FollowsNoLinks) {
   writeTextFile(temporary_.path() / "secret" / "01" / "main.cpp", "secret");
   fs::create_directory_symlink(temporary_.path() / "secret", folder() / "zoe");
-  expectComplaint("in/zoe: not taken: found a symbolic link, wanted a folder for each student");
+  expectComplaint(
+      "in/zoe: not taken: found a symbolic link, wanted a folder, .zip, .tar or .tar.gz file for each "
+      "student");
   fs::remove(folder() / "zoe");
   fs::create_directories(folder() / "yan" / "02");
   write("yan/02/main.cpp");
@@ -116,7 +118,8 @@ TEST_F(HandInTest, ComplainsOfLargeFilesPipesAndStrayFiles) {
   expectComplaint("in/zoe/01/main.cpp: cannot be graded: found a pipe or device");
   fs::remove_all(folder() / "zoe");
   write("main.cpp");
-  expectComplaint("in/main.cpp: not taken: found a file, wanted a folder for each student");
+  expectComplaint(
+      "in/main.cpp: not taken: found a file, wanted a folder, .zip, .tar or .tar.gz file for each student");
 }
 
 TEST_F(HandInTest, TakesNeitherOfTwoSpellings) {
