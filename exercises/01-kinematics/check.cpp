@@ -1,8 +1,10 @@
 #include "grading/check.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "course/film.h"
 #include "geometry/rotation.h"
 #include "interface.h"
 
@@ -268,6 +270,31 @@ void checkPostures(Check& check, const Motion& motion, int count, int n) {
   for (const Eigen::VectorXd& q : motion) check.shape("posture", q, n, 1);
 }
 
+using Place = std::function<Eigen::Vector3d(int step)>;
+
+// The motion with the place where the body should be at each step, from where the body is farthest from
+// there.
+grading::Evidence seen(const Simulator& S, const std::string& body, const Motion& motion, int first,
+                       const Place& wanted) {
+  Series error{.label = "distance from the red point"};
+  std::vector<Eigen::Vector3d> way;
+  for (int t = 1; t <= static_cast<int>(motion.size()); ++t) {
+    error.x.push_back(t);
+    error.y.push_back((placeAt(S, body, motion[static_cast<std::size_t>(t) - 1]) - wanted(t)).norm());
+    way.push_back(wanted(t));
+  }
+  Film film = filmOf(S, motion, {.traces = {body}, .paths = {way}});
+  for (std::size_t i = 0; i < film.size(); ++i)
+    film[i].picture.pointSets.push_back({.points = {way[i]}, .color = {.8f, .1f, .12f}, .size = 9});
+  const auto worst = std::max_element(error.y.begin() + (first - 1), error.y.end()) - error.y.begin();
+  return {.figures = {{.title = "Distance of " + body + " from where it should be",
+                       .xLabel = "step",
+                       .yLabel = "distance [m]",
+                       .series = {error}}},
+          .film = film,
+          .moment = film[static_cast<std::size_t>(worst)].time};
+}
+
 struct ErrorAfter {
   int step;
   double error;
@@ -280,6 +307,8 @@ void errorSequence(Check& check, Student& student, double alpha, int steps,
               std::string(alpha == 1 ? "1" : "0.1"));
   const Motion motion = student.smallSteps(S.description(), "handR", kTarget, alpha, kSigma, steps);
   checkPostures(check, motion, steps, S.getJointDimension());
+  const auto shown =
+      check.show([&] { return seen(S, "handR", motion, known.front().step, [](int) { return kTarget; }); });
   for (const auto& [step, error] : known) {
     const double got = (placeAt(S, "handR", motion[static_cast<std::size_t>(step) - 1]) - kTarget).norm();
     check.near("task error after step " + std::to_string(step), got, error, 1e-4 + 1e-3 * error, "m");
@@ -296,7 +325,7 @@ void stepsOfATenth(Check& check, Student& student) {
 
 // The largest distance from where the body should be at each step from `first` on.
 double largestError(const Simulator& S, const std::string& body, const Motion& motion, int first,
-                    const std::function<Eigen::Vector3d(int)>& wanted) {
+                    const Place& wanted) {
   double largest = 0;
   for (int t = first; t <= static_cast<int>(motion.size()); ++t) {
     largest =
@@ -313,6 +342,7 @@ void followsTheLine(Check& check, Student& student, const Simulator& S, const st
   const auto onLine = [&](int t) -> Eigen::Vector3d {
     return first + static_cast<double>(t) / T * (target - first);
   };
+  const auto shown = check.show([&] { return seen(S, body, motion, 1, onLine); });
   check.atMost("largest distance from the moving target", largestError(S, body, motion, 1, onLine), tolerance,
                "m");
 }
@@ -324,6 +354,7 @@ void followsTheCircle(Check& check, Student& student, const Simulator& S, const 
   const auto onCircle = [&](int t) -> Eigen::Vector3d {
     return center + radius * Eigen::Vector3d(std::cos(t / 20.), 0, std::sin(t / 20.));
   };
+  const auto shown = check.show([&] { return seen(S, body, motion, approach, onCircle); });
   check.atMost("largest distance from the point on the circle",
                largestError(S, body, motion, approach, onCircle), tolerance, "m");
 }

@@ -24,7 +24,8 @@ void iterates(Check& check, Student& student) {
 
 void halves(Check& check, Student& student) {
   hamiltonianFits(check, student, regulationOf(plantOf({}), costsOfTheSheet()));
-  for (int i = 0; i < 5; ++i) hamiltonianFits(check, student, randomRegulation(check.rng(), false));
+  for (int i = 0; i < 5; ++i) hamiltonianFits(check, student, randomRegulation(check.rng(), i == 4));
+  hamiltonianFits(check, student, stiffRegulation(check.rng()));
 }
 
 void gains(Check& check, Student& student) {
@@ -68,7 +69,7 @@ void poles(Check& check, Student& student) {
                abscissa(task.plant.A), 1e-6, "1/s");
   }
   const std::vector<KnownFate> known = knownFates(check.rng());
-  for (std::size_t i = 0; i < 9; ++i) fateFits(check, student, known[i]);
+  for (const std::size_t i : shuffled(check.rng(), 9)) fateFits(check, student, known[i]);
 }
 
 void quick(Check& check, Student& student) { gainsAreQuick(check, student, {}); }
@@ -93,7 +94,8 @@ void otherCarts(Check& check, Student& student) {
 }
 
 void otherRegulators(Check& check, Student& student) {
-  check.forEachCase(10, [&](int i) {
+  check.forEachCase(11, [&](int i) {
+    if (i == 10) return hamiltonianFits(check, student, stiffRegulation(check.rng()));
     const Regulation task = randomRegulation(check.rng(), i % 2 == 1);
     hamiltonianFits(check, student, task);
     gainsFit(check, student, task);
@@ -119,9 +121,9 @@ void reachesOthers(Check& check, Student& student) {
 }
 
 void otherFates(Check& check, Student& student) {
-  const std::size_t count = knownFates(check.rng()).size();
-  check.forEachCase(static_cast<int>(count), [&](int i) {
-    KnownFate known = knownFates(check.rng())[static_cast<std::size_t>(i)];
+  const std::vector<std::size_t> order = shuffled(check.rng(), knownFates(check.rng()).size());
+  check.forEachCase(static_cast<int>(order.size()), [&](int i) {
+    KnownFate known = knownFates(check.rng())[order[static_cast<std::size_t>(i)]];
     const Eigen::MatrixXd T = randomCoordinates(check.rng(), known.A.rows());
     known.A = T * known.A * rex::inverse(T);
     fateFits(check, student, known);

@@ -47,8 +47,9 @@ std::optional<Eigen::MatrixXd> iterated(const Plant& plant, const Costs& costs, 
                                         double tolerance, int most);
 
 /// The symmetric P that solves the equation and makes the closed loop stable, from the stable half of the
-/// Hamiltonian matrix; the bracket is zero up to 1e-9 of its largest term. There is such a P, and the closed
-/// loop then has no pole near the imaginary axis.
+/// Hamiltonian matrix; the bracket is zero up to 1e-9 of its largest term. There is such a P, also where u
+/// does not reach all of x (what it does not reach dies by itself), and the closed loop then has no pole near
+/// the imaginary axis. Poles may differ in size by a factor of 1e4.
 Eigen::MatrixXd viaHamiltonian(const Plant& plant, const Costs& costs);
 
 /// The K (m x n) that belongs to P, for u = K x.

@@ -34,7 +34,8 @@ inline void iterationFits(rex::grading::Check& check, Student& student, const Re
                           double epsilon, double tolerance) {
   const auto& [plant, costs, optimal] = task;
   const int steps = stepsUntil(plant, costs, epsilon, tolerance, 100000);
-  check.input(fmt::format("{}, epsilon = {:g}, tolerance {:g}", described(plant), epsilon, tolerance));
+  check.input(fmt::format("{}, epsilon = {:g}, tolerance {:g}, most = {}", described(plant), epsilon,
+                          tolerance, steps + 1));
   const std::optional<Eigen::MatrixXd> P = student.iterated(plant, costs, epsilon, tolerance, steps + 1);
   check.that("it arrives within the steps it needs", P.has_value());
   check.shape("P", *P, plant.A.rows(), plant.A.rows());
@@ -94,7 +95,7 @@ inline void gainsAreQuick(rex::grading::Check& check, Student& student, const Po
   check.shape("K", K, 1, 4);
   check.atMost("number of calls of slowest()", asked, 3000);
   check.atMost("largest number in K, of the bound", K.cwiseAbs().maxCoeff() / bound, 1 + 1e-9);
-  check.atLeast("slowest pole, as a share of the least possible one",
+  check.atLeast("slowest pole, as a share of what the library finds",
                 abscissa(task.plant.A + task.plant.B * K) / least, .5);
 }
 

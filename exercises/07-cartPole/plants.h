@@ -112,3 +112,12 @@ inline Regulation randomRegulation(rex::Rng& rng, bool hasUnmoved) {
     if (poles.real().maxCoeff() < -.25 && poles.cwiseAbs().maxCoeff() < 10) return found;
   }
 }
+
+/// One with a pole some thousand times as fast as the others, which no iteration in small steps follows.
+inline Regulation stiffRegulation(rex::Rng& rng) {
+  Plant plant = besideUnmoved(randomRegulation(rng, false).plant, Eigen::MatrixXd::Constant(1, 1, -3e3));
+  plant.B.bottomRows(1).setOnes();
+  plant = inCoordinates(plant, randomCoordinates(rng, plant.A.rows()));
+  return regulationOf(plant,
+                      {randomPositive(rng, plant.A.rows(), .2), randomPositive(rng, plant.B.cols(), .5)});
+}

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "control/controllability.h"
 #include "grading/check.h"
 #include "interface.h"
@@ -82,9 +84,26 @@ inline std::vector<KnownFate> knownFates(rex::Rng& rng) {
        Fate::stays}};
 }
 
+/// 0, ..., count - 1 in another order each time: who counts calls knows nothing.
+inline std::vector<std::size_t> shuffled(rex::Rng& rng, std::size_t count) {
+  std::vector<std::size_t> order(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto other = static_cast<std::size_t>(rng.index(static_cast<int>(i) + 1));
+    order[i] = order[other];
+    order[other] = i;
+  }
+  return order;
+}
+
+inline std::string nameOf(Fate fate) {
+  return fate == Fate::dies ? "dies" : fate == Fate::stays ? "stays" : "grows";
+}
+
 inline void fateFits(rex::grading::Check& check, Student& student, const KnownFate& known) {
   check.input(known.name);
-  check.that("what becomes of the motions", student.fateOf(known.A) == known.fate);
+  const Fate got = student.fateOf(known.A);
+  check.input(fmt::format("{}: got {}, wanted {}", known.name, nameOf(got), nameOf(known.fate)));
+  check.that("what becomes of the motions", got == known.fate);
 }
 
 /// A flow, a candidate and a box.

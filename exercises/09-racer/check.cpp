@@ -50,9 +50,9 @@ void ridesThatFail(Check& check, Student& student) {
   rideFits(check, student, {}, tippingOver(check.rng()), 100);
 }
 
-void searches(Check& check, Student& student) { searchSucceeds(check, student, {}); }
+void searches(Check& check, Student& student) { searchSucceeds(check, student, rewired({}, check.rng())); }
 
-void stays(Check& check, Student& student) { searchedPolicyStays(check, student, {}); }
+void stays(Check& check, Student& student) { searchedPolicyStays(check, student, rewired({}, check.rng())); }
 
 // <hidden>
 // The energies of any racer from the velocities of its bodies, by complex steps, which are exact to rounding;
@@ -165,7 +165,8 @@ void otherRides(Check& check, Student& student) {
 }
 
 void unseenSearch(Check& check, Student& student) {
-  check.forEachCase(3, [&](int) { searchSucceeds(check, student, similarSituation(check.rng())); });
+  check.forEachCase(
+      3, [&](int) { searchSucceeds(check, student, rewired(similarSituation(check.rng()), check.rng())); });
 }
 // </hidden>
 
@@ -182,8 +183,8 @@ rex::grading::Checks<Student> checks() {
       {"features", "features", "Features of readings one after another", 2, Group::visible, features},
       {"ride", "ride", "Rides that last", 1, Group::visible, rides},
       {"failed-ride", "ride", "Rides that end in a failure", 1, Group::visible, ridesThatFail},
-      {"search", "search", "A policy that balances on unseen noise", 2, Group::visible, searches},
-      {"stays", "search", "A policy that does not roll away", 1, Group::visible, stays},
+      {"search", "search", "A policy that balances on unseen noise", 1, Group::visible, searches},
+      {"stays", "search", "A policy that does not roll away", 2, Group::visible, stays},
       // <hidden>
       {"lagrangian", "lagrange", "Other racers, by a numeric Lagrangian", 2, Group::hidden,
        numericLagrangian},

@@ -404,8 +404,9 @@
     get('hint').hidden = false;
     document.body.classList.add('running');
     resize();
-    goTo(Number(asks.get('t')) || 0);
-    setPlaying(!calm && !asks.has('paused'));
+    const start = Number(stage.dataset.start);
+    goTo(Number(asks.get('t') ?? start) || 0);
+    setPlaying(!calm && !asks.has('paused') && start === 0);
   }
 
   function fail(cause) {

@@ -104,6 +104,22 @@ void addTest(CLI::App& program, Action& action) {
   });
 }
 
+void addReport(CLI::App& program, Action& action) {
+  const auto options = std::make_shared<ReportOptions>();
+  CLI::App* command =
+      add(program, "report", "Write a result for Gradescope, GitHub, JUnit readers and others",
+          "Examples:\n  scripts/rex report out/01-kinematics/results.json --format markdown\n"
+          "  scripts/rex report results.json --format gradescope -o results/results.json\n\n"
+          "Formats: exercism, github (annotations), gradescope, junit, markdown, prairielearn.\n"
+          "Exit code 0: written, whatever the grade; 3: written, but the grader had failed.");
+  command->add_option("RESULTS", options->results, "a result file that rex test left")
+      ->type_name("")
+      ->required();
+  command->add_option("--format", options->format, "whose words")->type_name("NAME")->required();
+  command->add_option("-o,--out", options->out, "file to write (default: print)")->type_name("FILE");
+  command->callback([&action, options] { action = [options](const Project&) { return report(*options); }; });
+}
+
 void addBench(CLI::App& program, Action& action) {
   const auto options = std::make_shared<BenchOptions>();
   CLI::App* command = add(program, "bench", "Measure speed against other libraries",
@@ -356,6 +372,7 @@ Action parseCommandLine(int argc, const char* const* argv) {
   program.get_formatter()->column_width(22);
   program.get_formatter()->label("REQUIRED", "");
   addList(program, action), addRun(program, action), addTest(program, action);
+  addReport(program, action);
   addStudentCommands(program, action);
   addDebug(program, action), addScene(program, action), addRender(program, action);
   addSimulate(program, action), addPlan(program, action), addCurves(program, action),

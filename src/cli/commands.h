@@ -39,6 +39,14 @@ struct TestOptions {
 };
 ExitCode test(const Project& project, const TestOptions& options);
 
+struct ReportOptions {
+  std::filesystem::path results;
+  std::string format;         ///< a name of grading::reportFormats()
+  std::filesystem::path out;  ///< empty: the standard output
+};
+/// Writes a result file in the words of another program. kGraderFault if that is what it tells of.
+ExitCode report(const ReportOptions& options);
+
 struct WatchOptions {
   std::string exercise;
   bool poll = false;  ///< do not ask inotify

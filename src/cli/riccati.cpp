@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "cli/commands.h"
 #include "cli/json_internal.h"
@@ -79,6 +80,15 @@ Eigen::MatrixXd matrixOf(const Json& problem, const std::string& name, const std
   return M;
 }
 
+// Such as S, the weight of a product of state and control, which some write and these equations lack.
+void noteUnused(const Json& problem, const std::string& file) {
+  std::vector<std::string> unused;
+  for (const auto& field : problem.items())
+    if (const std::string& name = field.key(); name != "A" && name != "B" && name != "Q" && name != "R")
+      unused.push_back(harmless(name));
+  if (!unused.empty()) note(wrap(fmt::format("rex: {}: not used: {}", file, fmt::join(unused, ", ")), 2, 0));
+}
+
 RiccatiResult solved(const RiccatiOptions& options, const std::filesystem::path& path) {
   const std::string file = harmless(options.file.string());
   const Json problem = parsed(grading::readTextFile(path), file);
@@ -89,6 +99,7 @@ RiccatiResult solved(const RiccatiOptions& options, const std::filesystem::path&
                  .wanted = "an object with the fields A, B, Q and R"});
   const Eigen::MatrixXd A = matrixOf(problem, "A", file), B = matrixOf(problem, "B", file),
                         Q = matrixOf(problem, "Q", file), R = matrixOf(problem, "R", file);
+  noteUnused(problem, file);
   try {
     return options.isDiscrete ? solveDare(A, B, Q, R) : solveCare(A, B, Q, R);
   } catch (const Error& error) {

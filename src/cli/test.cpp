@@ -34,12 +34,10 @@ const char* resultName(const TestOptions& options) {
   return options.checks.empty() ? "results.json" : "results-partial.json";
 }
 
-// From the result file, which grows while the checks run; the one of the last grading counts for nothing.
-std::string stageOf(const ExerciseInfo& exercise, const std::filesystem::path& results,
-                    std::filesystem::file_time_type start) {
+// From the result file, which grows while the checks run.
+std::string stageOf(const ExerciseInfo& exercise, const std::filesystem::path& results) {
   const std::string name = exercise.name + ": ";
   try {
-    if (std::filesystem::last_write_time(results) < start) return name + "compiling";
     const GradeResult soFar = grading::loadResult(results);
     const auto isOpen = [](const grading::CheckResult& check) { return !check.status; };
     const auto open = std::find_if(soFar.checks.begin(), soFar.checks.end(), isOpen);
@@ -49,6 +47,14 @@ std::string stageOf(const ExerciseInfo& exercise, const std::filesystem::path& r
   } catch (const std::exception&) {
     return name + "compiling";
   }
+}
+
+// Others may grade the same exercise at the same time: nobody meets half a result, or parts of two.
+void publish(const std::filesystem::path& from, const std::filesystem::path& results) {
+  grading::replaceTextFile(results, grading::readTextFile(from), "the result file");
+  const std::filesystem::path log = from.parent_path() / "build.log";
+  if (std::filesystem::exists(log))
+    grading::replaceTextFile(results.parent_path() / "build.log", grading::readTextFile(log), "the log");
 }
 
 void remember(const Project& project, const ExerciseInfo& exercise, const grading::Submission& graded) {
@@ -75,25 +81,28 @@ ExitCode test(const Project& project, const TestOptions& options) {
   const std::optional<sandbox::Sandbox> sandbox = chooseSandbox(project, options.level);
   if (!sandbox) return ExitCode::kWeakSandbox;
   const grading::Toolchain toolchain = prepare(project, exercise);
+  const std::filesystem::path evidence = out / "checks";
+  std::filesystem::remove_all(evidence);
   const grading::PrivateFolder work(project.buildFolder(exercise));
+  const std::filesystem::path ownResults = work.path() / "results.json";
   const grading::Submission graded = [&] {
-    const ProgressLine line([&, start = std::filesystem::file_time_type::clock::now()] {
-      return stageOf(exercise, results, start);
-    });
+    const ProgressLine line([&] { return stageOf(exercise, ownResults); });
     return grading::gradeSubmission(toolchain, exercise,
                                     {.main = file,
                                      .workFolder = work.path(),
-                                     .results = results,
+                                     .results = ownResults,
                                      .checks = options.checks,
                                      .seed = options.seed,
+                                     .evidence = evidence,
                                      .lookAgain = true,
                                      .sanitize = options.debug,
                                      .sandbox = *sandbox});
   }();
+  publish(ownResults, results);
   if (options.main.empty() && !options.solution && !options.debug && options.checks.empty())
     remember(project, exercise, graded);
   if (options.json)
-    std::fputs(grading::readTextFile(results).c_str(), stdout);
+    std::fputs(grading::readTextFile(ownResults).c_str(), stdout);
   else
     printResult(exercise, graded, results, options.checks.empty());
   return exitCodeOf(graded.result);

@@ -59,7 +59,13 @@ void sayPlace(const CheckResult& check, const grading::Submission& graded) {
       cut(harmless(line.substr(first)), std::max(kLeast, kColumns - std::min(kColumns, start.size()))));
 }
 
-void printCheck(const CheckResult& check, const grading::Submission& graded) {
+void sayEvidence(const CheckResult& check, const std::filesystem::path& folder) {
+  for (const auto& [kind, file] : {std::pair{"picture", check.picture}, {"replay", check.replay}})
+    if (!file.empty()) say(fmt::format("{:{}}{}: {}", "", kIndent, kind, shown(folder / file)));
+}
+
+void printCheck(const CheckResult& check, const grading::Submission& graded,
+                const std::filesystem::path& folder) {
   const std::string hidden = check.group == Group::hidden ? ", hidden" : "";
   const std::string title =
       fmt::format("{} [{}{}]{}", harmless(check.title), check.id, hidden, marginOf(check));
@@ -68,16 +74,18 @@ void printCheck(const CheckResult& check, const grading::Submission& graded) {
   if (check.status == Outcome::pass || check.message.empty()) return;
   sayIndented(check.message);
   sayPlace(check, graded);
+  sayEvidence(check, folder);
 }
 
-void printChecks(const ExerciseInfo& exercise, const grading::Submission& graded) {
+void printChecks(const ExerciseInfo& exercise, const grading::Submission& graded,
+                 const std::filesystem::path& folder) {
   const std::vector<CheckResult>& checks = graded.result.checks;
   for (const grading::ExercisePart& part : exercise.parts) {
     const auto isOfPart = [&](const CheckResult& check) { return check.part == part.id; };
     if (std::none_of(checks.begin(), checks.end(), isOfPart)) continue;
     say(paint(Colour::kBold, part.title));
     for (const CheckResult& check : checks)
-      if (isOfPart(check)) printCheck(check, graded);
+      if (isOfPart(check)) printCheck(check, graded, folder);
   }
 }
 
@@ -127,7 +135,7 @@ void printResult(const ExerciseInfo& exercise, const grading::Submission& graded
     explain(result.compile.diagnostics, graded.source, results.parent_path() / "build.log");
     say("Not graded: no check could run.");
   } else {
-    printChecks(exercise, graded);
+    printChecks(exercise, graded, results.parent_path());
     for (const auto& message : result.compile.diagnostics) say(wrap(harmless(toString(message)), 2, 0));
     if (result.outcome == Outcome::graderError)
       say(wrap("The grader itself failed: not your fault, and not your grade. " + harmless(result.message), 0,

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "grading/text_file.h"
+#include "sandbox/report.h"
 
 namespace rex::grading {
 namespace {
@@ -36,9 +37,12 @@ void showAll(std::vector<sandbox::Readable>& readable, const std::vector<fs::pat
   }
 }
 
-// A compiler of one's own lies beside its libraries: /opt/gcc/bin/g++.
-fs::path homeOf(const std::string& tool) {
-  return tool.starts_with('/') ? fs::path(tool).parent_path().parent_path() : fs::path{};
+// A compiler of one's own lies beside its libraries, /opt/gcc/bin/g++, but so does one in ~/bin beside much
+// else.
+std::vector<fs::path> placesOf(const fs::path& tool) {
+  if (tool.parent_path().filename() != "bin") return {tool};
+  const fs::path home = tool.parent_path().parent_path();
+  return {home / "bin", home / "lib", home / "lib64", home / "libexec", home / "include"};
 }
 
 std::vector<sandbox::Readable> visibleFiles(const Toolchain& toolchain) {
@@ -48,7 +52,8 @@ std::vector<sandbox::Readable> visibleFiles(const Toolchain& toolchain) {
     if (toolchain.flags[k - 1] == "-iquote") showAll(readable, studentHeaders(toolchain.flags[k]));
   }
   if (!toolchain.prefix.empty()) showAll(readable, {toolchain.prefix, toolchain.prefix.string() + ".gch"});
-  showAll(readable, {toolchain.workerObject, toolchain.studentLibrary, homeOf(toolchain.compiler)});
+  showAll(readable, {toolchain.workerObject, toolchain.studentLibrary});
+  if (toolchain.compiler.starts_with('/')) showAll(readable, placesOf(toolchain.compiler));
   return readable;
 }
 
@@ -84,10 +89,11 @@ ProcessResult BuildTools::runConfined(const std::vector<std::string>& command,
   if (level_ >= 2) patient.timeout += 5;
   ProcessResult result = runProcess(cell_.command(command), patient);
   result.timedOut = result.timedOut || (level_ >= 2 && result.exitCode == sandbox::kTimedOut);
-  const bool fellDown = result.exitCode == sandbox::kNotStarted || result.error.starts_with("bwrap: ");
-  if (!result.started || fellDown)
+  const std::string_view ready = sandbox::kReady;
+  if (!result.started || !result.error.starts_with(ready))
     throw Error({.what = fmt::format("cannot run {} in a sandbox of level {}", command.front(), level_),
                  .found = result.error.substr(0, result.error.find('\n'))});
+  result.error.erase(0, ready.size());
   return result;
 }
 

@@ -1,5 +1,6 @@
 #include "grading/check.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -69,14 +70,25 @@ void Check::measure(std::string_view property, double excess, double value, doub
               .caseNumber = caseNumber_ + 1};
 }
 
-void Check::keep(Shortfall shortfall) {
+// Whether it is the worst so far.
+bool Check::keep(Shortfall shortfall) {
   shortfall.input = input_;
   shortfall.caseNumber = caseNumber_;
-  if (!worst_ || shortfall.excess > worst_->excess) worst_ = std::move(shortfall);
+  if (worst_ && !(shortfall.excess > worst_->excess)) return false;
+  worst_ = std::move(shortfall);
+  evidence_.reset();
+  return true;
 }
 
-void Check::fail(Shortfall shortfall) {
-  keep(std::move(shortfall));
+void Check::fail(Shortfall shortfall, std::optional<Evidence> evidence) {
+  if (keep(std::move(shortfall)) && info_.group == Group::visible) {
+    evidence_ = std::move(evidence);
+    try {
+      if (show_) evidence_ = show_();
+    } catch (const std::exception&) {
+      // It helps, and decides nothing: what cannot be shown is told in words.
+    }
+  }
   throw RequirementFailed{};
 }
 
@@ -98,11 +110,16 @@ void Check::near(std::string_view property, const MatrixArg& got, const MatrixAr
   const double excess = excessOver(tolerance, error - tolerance);
   measure(property, excess, error, tolerance, unit);
   if (state(error <= tolerance)) return;
+  constexpr Eigen::Index kManyNumbers = 8;
+  std::optional<Evidence> evidence;
+  if (std::max(got.rows(), got.cols()) >= kManyNumbers)
+    evidence = {.figures = {comparison(std::string(property), got, wanted)}};
   fail({.property = std::string(property),
         .got = withUnit(valueText(got, row, col), unit),
         .wanted = withUnit(valueText(wanted, row, col), unit),
         .tolerance = tolerance > 0 ? withUnit(number(tolerance), unit) : "",
-        .excess = excess});
+        .excess = excess},
+       std::move(evidence));
 }
 
 void Check::atMost(std::string_view property, double got, double limit, std::string_view unit) {

@@ -6,11 +6,13 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "base/rng.h"
+#include "grading/evidence.h"
 #include "grading/results.h"
 
 namespace rex::grading {
@@ -41,6 +43,21 @@ class Check {
   /// Describes what the student's functions are given now; shown if a requirement of a visible check fails.
   void input(std::string text) { input_ = std::move(text); }
   const std::string& input() const { return input_; }
+
+  /// While the return value lives, a requirement that does not hold keeps what `make` makes, for the picture
+  /// and the replay beside a visible check. `make` runs then, before the function ends, and may refer to what
+  /// is around it.
+  using MakeEvidence = std::function<Evidence()>;
+  [[nodiscard]] auto show(MakeEvidence make) {
+    struct Showing {
+      Check& check;
+      MakeEvidence before;
+      ~Showing() { check.show_ = std::move(before); }
+    };
+    return Showing{*this, std::exchange(show_, std::move(make))};
+  }
+  /// Of the requirement that the verdict of judge() is about; nothing if all hold, or for a hidden check.
+  const std::optional<Evidence>& evidence() const { return evidence_; }
 
   /// |got - wanted| <= tolerance; false for what is not finite. Same unit for all three.
   void near(std::string_view property, double got, double wanted, double tolerance,
@@ -86,8 +103,8 @@ class Check {
 
   bool state(bool requirement);
   void measure(std::string_view property, double excess, double value, double limit, std::string_view unit);
-  void keep(Shortfall shortfall);
-  [[noreturn]] void fail(Shortfall shortfall);
+  bool keep(Shortfall shortfall);
+  [[noreturn]] void fail(Shortfall shortfall, std::optional<Evidence> evidence = {});
   bool runCase(int number, const std::function<void(int)>& run);
   CheckResult result() const;
   std::string messageOf(const Shortfall& shortfall) const;
@@ -96,6 +113,8 @@ class Check {
   std::uint64_t seed_;
   Rng rng_;
   std::string input_;
+  MakeEvidence show_;
+  std::optional<Evidence> evidence_;
   std::optional<Shortfall> worst_;  ///< of the requirements that do not hold
   WorstValue nearest_;              ///< of all that were measured
   double nearestExcess_ = -kBeyondMeasure;

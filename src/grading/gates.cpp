@@ -121,6 +121,17 @@ GateResult solutionIsFull(const GateContext& context) {
   return kPassed;
 }
 
+// What students ask for after a crash must not complain about a program that is right. One check tells.
+GateResult solutionPassesSanitizers(const GateContext& context) {
+  SubmissionOptions options = optionsFor(context, context.exercise.folder / "solution.cpp");
+  options.sanitize = true;
+  for (const CheckResult& check : listChecks(context.toolchain))
+    if (check.group == Group::visible && options.checks.empty()) options.checks = {check.id};
+  const GradeResult result = gradeSubmission(context.toolchain, context.exercise, options).result;
+  if (result.outcome == Outcome::pass) return kPassed;
+  return failed("solution.cpp does not pass with the sanitizers: " + shortfalls(result));
+}
+
 // A call that the scan refuses never meets a check.
 GateResult isRefused(const GradeResult& result) {
   const auto& diagnostics = result.compile.diagnostics;
@@ -155,7 +166,8 @@ GateResult wrongIsCaught(const GateContext& context, const std::string& gate) {
 }  // namespace
 
 std::vector<std::string> gateNames(const ExerciseInfo& exercise) {
-  std::vector<std::string> names = {"main-current", "points", "names", "release", "main-floor", "solution"};
+  std::vector<std::string> names = {"main-current", "points",   "names",     "release",
+                                    "main-floor",   "solution", "sanitizers"};
   std::vector<std::string> wrong;
   if (std::filesystem::is_directory(exercise.folder / "wrong"))
     for (const auto& entry : std::filesystem::directory_iterator(exercise.folder / "wrong"))
@@ -171,8 +183,13 @@ GateResult runGate(const GateContext& context, const std::string& gate) {
     throw UsageError({.what = fmt::format("{} has no gate '{}'", context.exercise.name, gate),
                       .nearest = nearestNames(gate, names)});
   const std::map<std::string, GateResult (*)(const GateContext&)> gates = {
-      {"main-current", mainIsCurrent}, {"points", pointsAddUp},         {"names", namesExist},
-      {"release", releaseIsClean},     {"main-floor", mainScoresFloor}, {"solution", solutionIsFull}};
+      {"main-current", mainIsCurrent},
+      {"points", pointsAddUp},
+      {"names", namesExist},
+      {"release", releaseIsClean},
+      {"main-floor", mainScoresFloor},
+      {"solution", solutionIsFull},
+      {"sanitizers", solutionPassesSanitizers}};
   try {
     const auto found = gates.find(gate);
     return found == gates.end() ? wrongIsCaught(context, gate) : found->second(context);

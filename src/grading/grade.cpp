@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/error.h"
 #include "grading/hidden_seed.h"
 #include "grading/printable.h"
 #include "grading/sha256.h"
@@ -66,6 +67,20 @@ std::string seedIdOf(const GradeOptions& options) {
                                 : fmt::format("{} hidden:{}", visible, sha256(options.secret).substr(0, 8));
 }
 
+// A picture helps, and decides nothing: numbers that cannot be drawn have none.
+void keepEvidence(const Check& judge, const std::filesystem::path& folder, CheckResult& verdict) {
+  if (folder.empty() || !judge.evidence() || verdict.status == Outcome::pass) return;
+  const auto named = [&](const std::string& file) {
+    return file.empty() ? file : (folder.filename() / file).generic_string();
+  };
+  try {
+    const EvidenceFiles files = writeEvidence(*judge.evidence(), verdict.id, verdict.title, folder);
+    verdict.picture = named(files.picture);
+    verdict.replay = named(files.replay);
+  } catch (const Error&) {
+  }
+}
+
 /// Runs one check and adds what the worker used and printed to the whole.
 CheckResult runCheck(const RunnableCheck& check, const GradeOptions& options, GradeResult& whole) {
   CheckResult verdict = faulty(check.info, "the check did not end");
@@ -81,7 +96,10 @@ CheckResult runCheck(const RunnableCheck& check, const GradeOptions& options, Gr
                       [&](remote::Caller& caller) {
                         verdict = judge.judge([&](Check& requirements) { check.run(requirements, caller); });
                       });
-    if (run.failure) verdict = failed(check.info, *run.failure, judge.input());
+    if (run.failure)
+      verdict = failed(check.info, *run.failure, judge.input());
+    else
+      keepEvidence(judge, options.evidence, verdict);
     verdict.cpuSeconds = run.cpuSeconds;
     verdict.wallSeconds = run.wallSeconds;
     whole.usage.cpuSeconds += run.cpuSeconds;

@@ -29,6 +29,7 @@ struct GradeOptions {
   std::filesystem::path temporaryFolder = "/tmp";
   sandbox::Sandbox sandbox{};
   std::vector<std::filesystem::path> libraries{};  ///< that the worker loads, beside those of the system
+  std::filesystem::path evidence{};  ///< folder for pictures of visible checks that do not hold; empty: none
   std::string secret{};  ///< of the course; empty: hidden checks take the same seed as visible ones
 };
 

@@ -36,6 +36,7 @@ void declareOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("--seed", arguments.grade.seed, "seed of all random numbers");
   app.add_option("--cpu-seconds", limits.cpuSeconds, "CPU time of one check")->check(CLI::PositiveNumber);
   app.add_option("--memory-mb", limits.memoryMegabytes, "memory of one check")->check(CLI::PositiveNumber);
+  app.add_flag("--sanitized", limits.sanitized, "the worker limits its memory itself");
   app.add_option("--output-mb", limits.outputMegabytes, "printed by one check")->check(CLI::PositiveNumber);
   app.add_option("--temporary", arguments.grade.temporaryFolder, "where workers get their working folders");
   app.add_option("--level", arguments.grade.sandbox.level, "sandbox level of workers")
@@ -44,6 +45,8 @@ void declareOptions(CLI::App& app, Arguments& arguments) {
                  "the program rex-sandbox, for levels above 0");
   app.add_option("--library", arguments.grade.libraries, "a library that the worker loads (repeatable)")
       ->allow_extra_args(false);
+  app.add_option("--evidence", arguments.grade.evidence,
+                 "folder for pictures and replays of visible checks that do not hold");
   app.add_option("--secret", arguments.secret,
                  "file with the secret of the course, for the seeds of hidden checks");
   app.add_flag("--list", arguments.list, "print the checks as JSON");

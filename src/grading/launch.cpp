@@ -56,7 +56,7 @@ void setLimits(const WorkerLimits& limits) {
   setLimit(RLIMIT_NOFILE, kOpenFiles, kOpenFiles);
   setLimit(RLIMIT_CORE, 0, 0);
   const rlim_t memory = static_cast<rlim_t>(limits.memoryMegabytes) << 20;
-  if (kLimitMemory) setLimit(RLIMIT_AS, memory, memory);
+  if (kLimitMemory && !limits.sanitized) setLimit(RLIMIT_AS, memory, memory);
 }
 
 // What the new process needs, prepared before the fork: behind it only async-signal-safe calls are allowed.

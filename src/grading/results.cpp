@@ -58,7 +58,9 @@ Json volatileToJson(const GradeResult& result) {
   for (const CheckResult& check : result.checks)
     checks.push_back({{"id", check.id},
                       {"wall_ms", milliseconds(check.wallSeconds)},
-                      {"cpu_ms", milliseconds(check.cpuSeconds)}});
+                      {"cpu_ms", milliseconds(check.cpuSeconds)},
+                      {"picture", check.picture},
+                      {"replay", check.replay}});
   return {{"usage",
            {{"cpu_ms", milliseconds(result.usage.cpuSeconds)},
             {"wall_ms", milliseconds(result.usage.wallSeconds)},
@@ -222,6 +224,8 @@ void readVolatile(const Fields& fields, GradeResult& result) {
       if (check.id != id) continue;
       times.readMilliseconds("wall_ms", check.wallSeconds);
       times.readMilliseconds("cpu_ms", check.cpuSeconds);
+      times.read("picture", check.picture);
+      times.read("replay", check.replay);
     }
   }
 }

@@ -14,8 +14,8 @@ namespace rex::grading {
 enum class Group { visible, hidden };
 
 /// The fields of a result file, in its order: schema "grade-result/1". All text is valid UTF-8. What differs
-/// between two runs of the same grading (times, memory) is under "volatile", so the rest compares byte for
-/// byte.
+/// between two runs of the same grading (times, memory, pictures) is under "volatile", so the rest compares
+/// byte for byte.
 struct SourceFile {
   std::string name{};
   std::string sha256{};
@@ -51,6 +51,9 @@ struct CheckResult {
   int line = 0;  ///< of the student's file, where that was, or where the function begins; 0: unknown
   double wallSeconds = 0;  ///< volatile
   double cpuSeconds = 0;   ///< volatile
+  // Volatile, too: who grades hundreds may do without. Files beside the results; empty: none.
+  std::string picture{};  ///< of what happened and what was wanted
+  std::string replay{};   ///< the same as a page that moves
 };
 
 struct CompileDiagnostic {

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "grading/lines_internal.h"
 #include "grading/text_file.h"
 
@@ -15,10 +17,10 @@ using internal::splitLines;
 
 // Part of the program, for its environment is empty. The library it calls knows nothing of the sanitizers, so
 // what they would say about containers that both use is no finding; what a killed program leaves is no leak.
-constexpr const char* kOptionsHeader = R"(#pragma once
+constexpr const char* kOptionsHeader = R"(
 extern "C" __attribute__((no_sanitize("address", "undefined"))) const char* __asan_default_options() {
   return "abort_on_error=1:handle_abort=1:detect_leaks=0:detect_container_overflow=0:detect_odr_violation=0:"
-         "print_legend=0";
+         "print_legend=0:hard_rss_limit_mb=" REX_MEMORY_MEGABYTES;
 }
 extern "C" __attribute__((no_sanitize("address", "undefined"))) const char* __ubsan_default_options() {
   return "print_stacktrace=1";
@@ -90,9 +92,11 @@ std::optional<CrashSite> crashSiteIn(std::string_view standardError, const std::
   return site;
 }
 
-Toolchain sanitizedToolchain(const Toolchain& toolchain, const std::filesystem::path& folder) {
+Toolchain sanitizedToolchain(const Toolchain& toolchain, const std::filesystem::path& folder,
+                             int memoryMegabytes) {
   const std::filesystem::path header = folder / "sanitizer_options.h";
-  writeTextFile(header, kOptionsHeader);
+  writeTextFile(header, fmt::format("#pragma once\n#define REX_MEMORY_MEGABYTES \"{}\"", memoryMegabytes) +
+                            kOptionsHeader);
   constexpr const char* kSanitizers = "-fsanitize=address,undefined";
   Toolchain sanitized = toolchain;
   sanitized.prefix.clear();
@@ -101,6 +105,11 @@ Toolchain sanitizedToolchain(const Toolchain& toolchain, const std::filesystem::
                                 "-fno-omit-frame-pointer", "-include", header})
     sanitized.flags.push_back(flag);
   sanitized.linkFlags.push_back(kSanitizers);
+  // Eigen allocates otherwise under the sanitizer of addresses, but what the program and the library hand to
+  // each other must be given back as it was got.
+  const auto isSanitizer = [](const std::string& flag) { return flag.starts_with("-fsanitize="); };
+  if (std::none_of(toolchain.flags.begin(), toolchain.flags.end(), isSanitizer))
+    sanitized.flags.push_back("-DEIGEN_MALLOC_ALREADY_ALIGNED=1");
   return sanitized;
 }
 

@@ -22,8 +22,9 @@ struct CrashSite {
                                                    const std::string& mainFile);
 
 /// How to build the same program for the sanitizers of addresses and of undefined behaviour: it ends with a
-/// report at the first finding, some twenty times slower. Writes a header into `folder`, which must exist as
-/// long as the result is used.
-[[nodiscard]] Toolchain sanitizedToolchain(const Toolchain& toolchain, const std::filesystem::path& folder);
+/// report at the first finding, some twenty times slower, and ends itself when it holds more memory. Writes a
+/// header into `folder`, which must exist as long as the result is used.
+[[nodiscard]] Toolchain sanitizedToolchain(const Toolchain& toolchain, const std::filesystem::path& folder,
+                                           int memoryMegabytes);
 
 }  // namespace rex::grading

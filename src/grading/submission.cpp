@@ -27,10 +27,9 @@ using std::filesystem::path;
 
 constexpr int kGraderFault = 3;  // it explains itself in the result
 constexpr double kLongestGrading = 3600;
-// What a program with the sanitizers may take: time, as it is slow, and addresses, of which it reserves
-// terabytes.
+// A program with the sanitizers is slow, and keeps a record of its memory and some of what it gave back.
 constexpr double kSanitizedSlowness = 20;
-constexpr int kSanitizedMegabytes = 1 << 30;
+constexpr int kSanitizedFactor = 2, kKeptBackMegabytes = 256;
 
 // "c++ (Debian 12.2.0-14) 12.2.0", or the name alone of a compiler that does not run.
 std::string compilerVersion(const std::string& compiler) {
@@ -67,6 +66,8 @@ std::vector<std::string> graderCommand(const Toolchain& toolchain, const Exercis
     command.insert(command.end(),
                    {"--level", fmt::format("{}", options.sandbox.level), "--sandbox",
                     options.sandbox.launcher.string(), "--library", toolchain.studentLibrary.string()});
+  if (!options.evidence.empty()) command.insert(command.end(), {"--evidence", options.evidence.string()});
+  if (options.sanitize) command.emplace_back("--sanitized");
   if (!options.secret.empty()) command.insert(command.end(), {"--secret", options.secret.string()});
   command.insert(command.end(), {"--cpu-seconds", fmt::format("{:g}", exercise.limits.cpuSeconds),
                                  "--memory-mb", fmt::format("{}", exercise.limits.memoryMb), "--output-mb",
@@ -76,7 +77,7 @@ std::vector<std::string> graderCommand(const Toolchain& toolchain, const Exercis
 
 ExerciseInfo withLimitsOfSanitizers(ExerciseInfo exercise) {
   exercise.limits.cpuSeconds *= kSanitizedSlowness;
-  exercise.limits.memoryMb = kSanitizedMegabytes;
+  exercise.limits.memoryMb = kSanitizedFactor * exercise.limits.memoryMb + kKeptBackMegabytes;
   return exercise;
 }
 
@@ -112,9 +113,11 @@ void requireKnownChecks(const Toolchain& toolchain, const std::vector<std::strin
     if (std::find(known.begin(), known.end(), id) == known.end()) throw internal::unknownCheck(id, known);
 }
 
-Toolchain sanitized(const Toolchain& toolchain, const SubmissionOptions& options) {
+Toolchain sanitized(const Toolchain& toolchain, const ExerciseInfo& exercise,
+                    const SubmissionOptions& options) {
   std::filesystem::create_directories(options.workFolder);
-  return sanitizedToolchain(toolchain, std::filesystem::absolute(options.workFolder));
+  return sanitizedToolchain(toolchain, std::filesystem::absolute(options.workFolder),
+                            withLimitsOfSanitizers(exercise).limits.memoryMb);
 }
 
 StudentObject compileAsAsked(const Toolchain& toolchain, const ExerciseInfo& exercise,
@@ -124,8 +127,10 @@ StudentObject compileAsAsked(const Toolchain& toolchain, const ExerciseInfo& exe
                             .workFolder = options.workFolder,
                             .seconds = options.compileSeconds,
                             .sandbox = options.sandbox};
-  if (options.sanitize) build.seconds = kSanitizedSeconds;
-  return compileStudent(toolchain, exercise.forbidden, build);
+  if (!options.sanitize) return compileStudent(toolchain, exercise.forbidden, build);
+  // Unoptimised, inline functions of the library that main() uses refer to what is forbidden outside of it.
+  build.seconds = kSanitizedSeconds;
+  return compileStudent(toolchain, {}, build);
 }
 
 void compileAndLink(const Toolchain& toolchain, const ExerciseInfo& exercise,
@@ -155,6 +160,7 @@ std::optional<CrashSite> crashSiteOf(const Toolchain& toolchain, const ExerciseI
                                      const std::string& check, const std::string& mainFile) {
   SubmissionOptions one = options;
   one.checks = {check};
+  one.evidence.clear();
   one.results = options.workFolder / "second-look.json";
   std::filesystem::remove(one.results);
   const ExerciseInfo limited = withLimitsOfSanitizers(exercise);
@@ -202,7 +208,8 @@ BuiltSubmission buildSubmission(const Toolchain& toolchain, const ExerciseInfo& 
                                 const SubmissionOptions& options) {
   BuiltSubmission built;
   try {
-    compileAndLink(options.sanitize ? sanitized(toolchain, options) : toolchain, exercise, options, built);
+    compileAndLink(options.sanitize ? sanitized(toolchain, exercise, options) : toolchain, exercise, options,
+                   built);
   } catch (const Error& error) {
     built.start = startResult(toolchain, exercise, {});
     built.start.message = error.what();  // the outcome is graderError until somebody finds a better one

@@ -1,7 +1,11 @@
 #include "grading/symbol_scan.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <charconv>
+#include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -30,19 +34,80 @@ bool isFunction(std::string_view symbol, std::string_view function) {
   return false;
 }
 
-// "RELOCATION RECORDS FOR [.text._Z4stepv]:" opens the references of one section.
-constexpr std::string_view kSectionLine = "RELOCATION RECORDS FOR [";
+// They find functions by name or by place while a program runs.
+constexpr auto kLookups =
+    std::to_array<const char*>({"dlsym", "dlvsym", "dlopen", "dlmopen", "dladdr", "dladdr1", "dlinfo",
+                                "dl_iterate_phdr", "_dl_sym", "__libc_dlsym", "__libc_dlopen_mode"});
 
-// Whether such a line is about the code of main() or of a function inside it, a lambda above all.
-bool isMainSection(std::string_view line) {
-  line.remove_prefix(kSectionLine.size());
-  // "Z4mainE" in a mangled name says "inside main()", unless it is part of a longer name, behind its length.
-  for (std::size_t at = line.find("Z4mainE"); at != line.npos; at = line.find("Z4mainE", at + 1)) {
-    if (std::isdigit(static_cast<unsigned char>(line[at - 1])) == 0) return true;
+bool isLookup(std::string_view function) {
+  return std::find(kLookups.begin(), kLookups.end(), function) != kLookups.end();
+}
+
+// Whether a demangled symbol is main() or something inside it, a lambda above all, or is made for such a
+// thing: "std::function<...>::call<main::{lambda()#1}>".
+bool isOfMain(std::string_view symbol) {
+  if (symbol == "main" || symbol.starts_with("main.")) return true;
+  for (std::size_t at = symbol.find("main::"); at != symbol.npos; at = symbol.find("main::", at + 1))
+    if (at == 0 || (!isWord(symbol[at - 1]) && symbol[at - 1] != ':')) return true;
+  return false;
+}
+
+bool isCode(std::string_view section) { return section.starts_with(".text"); }
+
+// Which places of an object file are main's. Students choose the sections of their functions and the names of
+// their symbols, but not which symbols a section has.
+class Places {
+ public:
+  // Takes a line "000000000000000e g     F .text.main\t00000000000001d7 main" of the table of symbols.
+  void add(std::string_view line) {
+    const std::size_t tab = line.find('\t');
+    constexpr std::size_t kDigits = 16, kFlags = kDigits + 1, kSection = kFlags + 8;
+    if (tab == line.npos || tab < kSection || line.size() < tab + kDigits + 2) return;
+    std::string_view name = line.substr(tab + kDigits + 2);
+    const bool isSectionOrFile = line[kFlags + 5] == 'd' || line[kFlags + 6] == 'f';
+    if (isSectionOrFile || name == "$x" || name == "$d") return;
+    if (name.starts_with(".hidden ")) name.remove_prefix(8);
+    const std::size_t start = hex(line), size = std::max<std::size_t>(hex(line.substr(tab + 1)), 1);
+    symbols_[line.substr(kSection, tab - kSection)].push_back({start, start + size, isOfMain(name)});
   }
-  for (const std::string_view section : {".text.main]", ".text.startup.main]", ".text.unlikely.main]"}) {
-    if (line.starts_with(section)) return true;
+
+  // Whether main() or something inside it lies there: code in a section of its own, data under its own name.
+  bool areMains(std::string_view section, std::size_t offset) const {
+    const auto found = symbols_.find(section);
+    if (found == symbols_.end()) return false;
+    bool is = false;
+    for (const Symbol& symbol : found->second) {
+      if (!isCode(section) && (offset < symbol.start || offset >= symbol.end)) continue;
+      if (!symbol.isOfMain) return false;
+      is = true;
+    }
+    return is;
   }
+  bool holdsCodeOfMain(std::string_view section) const {
+    const auto found = symbols_.find(section);
+    return isCode(section) && found != symbols_.end() &&
+           std::any_of(found->second.begin(), found->second.end(),
+                       [](const Symbol& s) { return s.isOfMain; });
+  }
+
+  static std::size_t hex(std::string_view digits) {
+    std::size_t value = 0;
+    std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
+    return value;
+  }
+
+ private:
+  struct Symbol {
+    std::size_t start, end;
+    bool isOfMain;
+  };
+  std::map<std::string_view, std::vector<Symbol>> symbols_;
+};
+
+// Tables for switches, for exceptions and for debuggers point into all code, but nobody calls through them.
+bool isTableOfCompiler(std::string_view section) {
+  for (const char* start : {".rodata", ".eh_frame", ".gcc_except_table", ".debug"})
+    if (section.starts_with(start)) return true;
   return false;
 }
 
@@ -59,25 +124,39 @@ std::string_view referredTo(std::string_view line) {
 
 }  // namespace
 
-std::vector<ForbiddenFunction> forbiddenCalls(std::string_view relocations,
+std::vector<ForbiddenFunction> forbiddenCalls(std::string_view listing,
                                               const std::vector<ForbiddenFunction>& forbidden) {
-  std::vector<bool> called(forbidden.size());
-  bool inMain = false;
-  while (!relocations.empty()) {
-    const std::size_t end = std::min(relocations.find('\n'), relocations.size());
-    const std::string_view line = relocations.substr(0, end);
-    relocations.remove_prefix(std::min(end + 1, relocations.size()));
-    if (line.starts_with(kSectionLine)) inMain = isMainSection(line);
-    if (inMain) continue;
+  // "RELOCATION RECORDS FOR [.text._Z4stepv]:" opens the references of one section, behind all symbols.
+  constexpr std::string_view kSectionLine = "RELOCATION RECORDS FOR [";
+  enum Caller { kMain, kOther };
+  std::vector<std::array<bool, 2>> called(forbidden.size());
+  std::set<std::string_view> lookups;
+  bool mainIsCalled = false;
+  Places places;
+  std::string_view section;
+  while (!listing.empty()) {
+    const std::size_t end = std::min(listing.find('\n'), listing.size());
+    const std::string_view line = listing.substr(0, end);
+    listing.remove_prefix(std::min(end + 1, listing.size()));
+    if (line.starts_with(kSectionLine))
+      section = line.substr(kSectionLine.size(), line.rfind(']') - kSectionLine.size());
+    else if (section.empty())
+      places.add(line);
     const std::string_view name = referredTo(line);
-    for (std::size_t i = 0; i < forbidden.size(); ++i) {
-      if (isFunction(name, forbidden[i].function)) called[i] = true;
-    }
+    if (section.empty() || name.empty()) continue;
+    const bool isMains = places.areMains(section, Places::hex(line));
+    const Caller caller = isMains && isCode(section) ? kMain : kOther;
+    for (std::size_t i = 0; i < forbidden.size(); ++i)
+      if (isFunction(name, forbidden[i].function)) called[i][caller] = true;
+    if (isLookup(name)) lookups.insert(name);
+    if (!isMains && !isTableOfCompiler(section))
+      mainIsCalled = mainIsCalled || isOfMain(name) || places.holdsCodeOfMain(name);
   }
   std::vector<ForbiddenFunction> found;
-  for (std::size_t i = 0; i < forbidden.size(); ++i) {
-    if (called[i]) found.push_back(forbidden[i]);
-  }
+  for (std::size_t i = 0; i < forbidden.size(); ++i)
+    if (called[i][kOther] || (mainIsCalled && called[i][kMain])) found.push_back(forbidden[i]);
+  for (const std::string_view name : lookups)
+    found.push_back({std::string(name), "it finds functions while the program runs"});
   return found;
 }
 
@@ -86,16 +165,17 @@ std::vector<CompileDiagnostic> scanSymbols(const std::string& objdump, const std
                                            const std::vector<ForbiddenFunction>& forbidden,
                                            const BuildTools& tools) {
   if (forbidden.empty()) return {};
-  const ProcessResult listed = tools.run({objdump, "-r", "-C", "--", object.string()}, 256u << 20);
+  const ProcessResult listed = tools.run({objdump, "-t", "-r", "-C", "--", object.string()}, 256u << 20);
   if (!listed.ok())
     throw Error({.what = "cannot list what the compiled file refers to", .found = listed.error});
   std::vector<CompileDiagnostic> messages;
   for (const ForbiddenFunction& call : forbiddenCalls(listed.output, forbidden)) {
     const auto [line, column] = onlyMentionOf(call.function, source);
+    const char* text = isLookup(call.function) ? "calls {}, which nobody may call in this exercise: {}"
+                                               : "calls {}, which only main() may call in this exercise: {}. "
+                                                 "Write it yourself instead";
     messages.push_back({mainFile, line, column, "error", "forbidden-call",
-                        fmt::format("calls {}, which only main() may call in this exercise: {}. Write it "
-                                    "yourself instead",
-                                    call.function, call.reason)});
+                        fmt::format(fmt::runtime(text), call.function, call.reason)});
   }
   return messages;
 }

@@ -11,10 +11,12 @@
 
 namespace rex::grading {
 
-/// The forbidden functions that an object file refers to outside main() and its lambdas, whatever their
-/// arguments, from what `objdump -r -C` prints about it. main() may call them, to compare a student's work
-/// with the library's: the grader never runs it. Needs a file compiled with -ffunction-sections.
-[[nodiscard]] std::vector<ForbiddenFunction> forbiddenCalls(std::string_view relocations,
+/// The forbidden functions that an object file refers to outside main() and what is declared in it, whatever
+/// their arguments, from what `objdump -t -r -C` prints about it. main() may call them, to compare a
+/// student's work with the library's: the grader never runs it. If anything else refers to main(), all its
+/// calls count. Functions that find others by name, as dlsym(), count always. Needs a file compiled with
+/// -ffunction-sections.
+[[nodiscard]] std::vector<ForbiddenFunction> forbiddenCalls(std::string_view listing,
                                                             const std::vector<ForbiddenFunction>& forbidden);
 
 /// Runs objdump on an object file and explains each forbidden call as an error of rule "forbidden-call", at

@@ -1,5 +1,7 @@
 #include "grading/worker_failure.h"
 
+#include <algorithm>
+#include <array>
 #include <csignal>
 #include <cstring>
 
@@ -25,10 +27,14 @@ Failure tooMuchMemory(const WorkerLimits& limits, const std::string& place) {
           .message = fmt::format("used more than {} MB of memory {}", limits.memoryMegabytes, place)};
 }
 
-// The runtime names the exception that nobody caught; without memory it cannot even spell the name out.
+// The runtime names the exception that nobody caught; without memory it cannot even spell the name out. The
+// others are the sanitizer's last words.
 bool ranOutOfMemory(const std::string& errorTail) {
-  return errorTail.find("std::bad_alloc") != std::string::npos ||
-         errorTail.find("St9bad_alloc") != std::string::npos;
+  constexpr auto kSigns = std::to_array<const char*>(
+      {"std::bad_alloc", "St9bad_alloc", "End of process memory map.",
+       "AddressSanitizer: allocation-size-too-big", "AddressSanitizer: out-of-memory"});
+  return std::any_of(kSigns.begin(), kSigns.end(),
+                     [&](const char* sign) { return errorTail.find(sign) != std::string::npos; });
 }
 
 Failure badAccess(const WorkerEnd& end, const WorkerLimits& limits) {

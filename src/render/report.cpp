@@ -111,6 +111,7 @@ std::string reportPage(const Report& report) {
                              {"backgroundTop", partsOf(report.still.backgroundTop)},
                              {"backgroundBottom", partsOf(report.still.backgroundBottom)},
                              {"still", internal::base64(stillOf(film, report.view, report.still))},
+                             {"start", fmt::format("{}", report.start)},
                              {"facts", factsOf(report)},
                              {"figures", figuresOf(report)},
                              {"film", internal::base64(glb)}});

@@ -20,7 +20,7 @@ struct Confinement {
   std::vector<Readable> readable{};
   std::filesystem::path writable{};  ///< a folder to work in; empty: 32 MB of memory, at level 1 nothing
   std::vector<std::string> environment{};  ///< NAME=VALUE, all there are
-  bool mayStartProgramsOfItsOwn = false;   ///< compilers do
+  bool mayStartProgramsOfItsOwn = false;   ///< compilers do; without reports, kReady opens standard error
   double cpuSeconds = 0;                   ///< of each process, rounded up; 0: no limit
   double wallSeconds = 0;                  ///< levels 2 and 3 end it then with kTimedOut; 0: no limit
   std::size_t addressSpace = 0;            ///< bytes of each process; 0: no limit

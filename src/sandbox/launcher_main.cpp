@@ -40,6 +40,12 @@ void report(const Confinement& c, const std::string& text) {
   if (c.reports) tell(kReport, text);
 }
 
+// To tools, on standard error: nothing the tool says comes before, so it cannot pass for a sandbox that fell.
+void reportReady(const Confinement& c) {
+  report(c, kReady);
+  if (!c.reports && c.mayStartProgramsOfItsOwn) tell(STDERR_FILENO, kReady);
+}
+
 void complain(const Confinement& c, const std::string& why) {
   c.reports ? tell(kReport, errorLine(why)) : tell(STDERR_FILENO, "sandbox: " + why + "\n");
 }
@@ -178,7 +184,7 @@ void becomeUserOrPlainRoot(const Order& order) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // a change of user forgets it
   rules.enforce();
   filterSystemCalls(c);
-  report(c, kReady);
+  reportReady(c);
   become(order, program);
 }
 
@@ -227,7 +233,7 @@ int waitFor(pid_t child, double wallSeconds, bool& timedOut) {
   // It is that user's; root is without its rights here.
   if (::chdir(folder.c_str()) != 0) failWithCause("cannot enter the work folder");
   filterSystemCalls(c);
-  report(c, kReady);
+  reportReady(c);
   become(order, programFile);
 }
 

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <netinet/in.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -50,6 +51,9 @@ std::string reachProcesses(const Words& words) {
   for (const char* file : {"/environ", "/mem", "/cmdline", "/fd/0"})
     if (opens(folder + file, O_RDONLY)) return "opened " + folder + file;
   if (::kill(victim, 0) == 0) return "can send signals to process " + words.at(0);
+  if (::fcntl(STDIN_FILENO, F_SETOWN, victim) == 0) return "can have signals sent to process " + words.at(0);
+  if (::setpriority(PRIO_PROCESS, static_cast<id_t>(victim), 0) == 0)
+    return "can slow process " + words.at(0);
   return "";
 }
 

@@ -5,12 +5,12 @@
 #include <cstring>
 #include <memory>
 
+#include <fcntl.h>
 #include <sched.h>
 #include <seccomp.h>
 #include <unistd.h>
 
 #include "base/error.h"
-#include "sandbox/landlock.h"
 
 namespace rex::sandbox {
 namespace {
@@ -62,7 +62,8 @@ constexpr auto kHostile = std::to_array<const char*>({"ptrace",
                                                       "vhangup",
                                                       "lookup_dcookie"});
 
-// Ways to talk to others, and memory and queues that outlive a process or escape its limits.
+// Ways to talk to others or to slow them down, and memory and queues that outlive a process or escape its
+// limits.
 constexpr auto kForbidden = std::to_array<const char*>({"socket",
                                                         "socketpair",
                                                         "io_uring_setup",
@@ -91,7 +92,15 @@ constexpr auto kForbidden = std::to_array<const char*>({"socket",
                                                         "pidfd_send_signal",
                                                         "name_to_handle_at",
                                                         "fanotify_init",
-                                                        "personality"});
+                                                        "personality",
+                                                        "setpriority",
+                                                        "ioprio_set",
+                                                        "sched_setaffinity",
+                                                        "sched_setscheduler",
+                                                        "sched_setparam",
+                                                        "sched_setattr",
+                                                        "migrate_pages",
+                                                        "move_pages"});
 
 // What landlock does not rule: files of the same user could be changed by their names.
 constexpr auto kChangesByName =
@@ -153,19 +162,36 @@ void allowOnlyItself(Filter& filter) {
     filter.when(name, SCMP_A0(SCMP_CMP_NE, self), SCMP_ACT_ERRNO(EPERM));
 }
 
+// Whoever owns a descriptor gets its signals.
+void forbidOwnersOfDescriptors(Filter& filter) {
+  for (const scmp_datum_t command : {F_SETOWN, F_SETOWN_EX, F_SETSIG})
+    filter.when("fcntl", SCMP_A1(SCMP_CMP_EQ, command), SCMP_ACT_ERRNO(EPERM));
+}
+
+// Files that may only be read could be emptied as they are opened. The last of the calls hides its flags from
+// filters.
+void forbidEmptying(Filter& filter) {
+  filter.when("open", SCMP_A1(SCMP_CMP_MASKED_EQ, O_TRUNC, O_TRUNC), SCMP_ACT_ERRNO(EPERM));
+  filter.when("openat", SCMP_A2(SCMP_CMP_MASKED_EQ, O_TRUNC, O_TRUNC), SCMP_ACT_ERRNO(EPERM));
+  filter.all(std::to_array<const char*>({"creat"}), SCMP_ACT_ERRNO(EPERM));
+  filter.all(std::to_array<const char*>({"openat2"}), SCMP_ACT_ERRNO(ENOSYS));
+}
+
 }  // namespace
 
-void filterSystemCalls(const Confinement& confinement) {
+void filterSystemCalls(const Confinement& confinement, int landlock) {
   Filter filter;
   filter.all(kHostile, SCMP_ACT_KILL_PROCESS);
   filter.all(kForbidden, SCMP_ACT_ERRNO(EPERM));
   filter.when("prlimit64", SCMP_A0(SCMP_CMP_NE, 0), SCMP_ACT_ERRNO(EPERM));
   filterClone(filter, confinement.mayStartProgramsOfItsOwn);
-  constexpr int kScopedSignals = 6;
+  forbidOwnersOfDescriptors(filter);
+  constexpr int kRulesTruncation = 3, kScopedSignals = 6;
   const bool isStudents = !confinement.mayStartProgramsOfItsOwn;
   if (confinement.level == 1 && isStudents) {
     filter.all(kChangesByName, SCMP_ACT_ERRNO(EPERM));
-    if (landlockVersion() < kScopedSignals) allowOnlyItself(filter);
+    if (landlock < kRulesTruncation) forbidEmptying(filter);
+    if (landlock < kScopedSignals) allowOnlyItself(filter);
   }
   filter.enforce();
 }

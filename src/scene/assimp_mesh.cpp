@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <span>
 
 #include <Eigen/LU>
+#include <assimp/BaseImporter.h>
 #include <assimp/Importer.hpp>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
@@ -142,12 +144,27 @@ class Collector {
   std::vector<TriangleMesh::Part> parts_;
 };
 
+// assimp tries its other readers on a file that the one for its ending declines, and what a file must not
+// hold is known for one kind only.
+void keepReadersOf(const std::string& ending, Assimp::Importer& importer) {
+  for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+    const aiImporterDesc* const about = importer.GetImporterInfo(i);
+    if (about != nullptr &&
+        (" " + std::string(about->mFileExtensions) + " ").find(" " + ending.substr(1) + " ") !=
+            std::string::npos)
+      continue;
+    const std::unique_ptr<Assimp::BaseImporter> reader(importer.GetImporter(i));
+    importer.UnregisterLoader(reader.get());
+  }
+}
+
 }  // namespace
 
 TriangleMesh readByAssimp(std::string_view bytes, const std::string& name, const Eigen::Vector3d& scale,
                           const std::filesystem::path& folder) {
   const std::string alias = "mesh" + endingOf(name);
   Assimp::Importer importer;
+  keepReadersOf(endingOf(name), importer);
   importer.SetIOHandler(new MeshFolder(alias, bytes, folder));  // which deletes it
   const aiScene* scene = importer.ReadFile(alias, 0);
   if (scene != nullptr) {

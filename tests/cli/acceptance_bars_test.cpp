@@ -8,6 +8,8 @@
 
 #include "base/process.h"
 #include "cli/template_project.h"
+#include "grading/report.h"
+#include "support/report_checker.h"
 
 namespace rex::cli {
 namespace {
@@ -52,6 +54,30 @@ TEST_F(AcceptanceBars, Bar09TheSameSeedGivesTheSameBytes) {
   const auto seven = gradedInto("one", {"--seed", "7"});
   EXPECT_EQ(seven.dump(), gradedInto("two", {"--seed", "7"}).dump());
   EXPECT_NE(seven.dump(), gradedInto("three", {"--seed", "8"}).dump());
+}
+
+// Of a full score, of less and of a file that does not compile. That replays are sound
+// GLB files is tested by render/glb and, with another program, by scripts/check-replay.
+TEST_F(AcceptanceBars, Bar10ReportsFitTheirSchemas) {
+  REX_NEEDS_REPORT_CHECKER();
+  const fs::path reports = root() / "reports";
+  fs::create_directory(reports);
+  const auto report = [&](const std::string& name, const std::string& source) {
+    write(main(), source);
+    rex({"test", "98", "-o", (root() / name).string()});
+    fs::copy_file(root() / name / "results.json", reports / (name + ".results"));
+    for (const grading::ReportFormat& format : grading::reportFormats())
+      EXPECT_EQ(
+          rex({"report", (root() / name / "results.json").string(), "--format", std::string(format.name),
+               "-o", (reports / (name + "." + std::string(format.name))).string()})
+              .code,
+          0);
+  };
+  std::string half = kGood;
+  report("full", half);
+  report("below", half.replace(half.find("std::sin(a) * p.x()"), 19, "std::sin(a) * p.y()"));
+  report("broken", "int main() { return \"|\" }");
+  EXPECT_EQ(reportDifferences(reports), "");
 }
 
 TEST_F(AcceptanceBars, Bar11ExitCodesTellFullBelowNotGradableAndFault) {

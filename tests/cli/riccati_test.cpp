@@ -61,6 +61,13 @@ TEST_F(RiccatiCommand, AgreesWithTheGoldenNumbers) {
   EXPECT_EQ(complex, 2);
 }
 
+TEST_F(RiccatiCommand, TellsWhatItDoesNotUse) {
+  const char* const text = R"({"A": [[1]], "B": [[1]], "Q": [[1]], "R": [[1]], "S": [[2]], "name": "one"})";
+  const ProcessResult result = rex({"care", write(text)});
+  EXPECT_EQ(result.exitCode, 0);
+  EXPECT_THAT(flat(result.error), HasSubstr("not used: S, name"));
+}
+
 TEST_F(RiccatiCommand, HasExamplesThatRun) {
   const json care = json::parse(rex({"care", "data/control/cart-pole.json", "--json"}).output);
   EXPECT_EQ(care["status"], "solved");

@@ -101,6 +101,24 @@ TEST_F(WorkflowTest, ExplainsAMissingFileAMissingFunctionAndAForbiddenCall) {
               HasSubstr("main.cpp:4:16: error: calls rex::rotationAboutAxis, which only main() may"));
 }
 
+// The program of the second grading keeps what it finds of the first, as another grading would meet it.
+TEST_F(WorkflowTest, LeavesTheLastResultWholeWhileItGrades) {
+  rex({"test", "98"});
+  const fs::path results = out() / "results.json", log = out() / "build.log";
+  const std::string last = fileText(results);
+  write(log, "the last log");
+  std::string curious = kGood;
+  curious.replace(curious.find("  return"), 2,
+                  "  std::ofstream(\"" + (root() / "seen").string() + "\") << std::ifstream(\"" +
+                      results.string() + "\").rdbuf() << std::ifstream(\"" + log.string() +
+                      "\").rdbuf();\n  ");
+  write(exercise() / "main.cpp", "#include <fstream>\n" + curious);
+  EXPECT_EQ(rex({"test", "98"}).code, 0);
+  EXPECT_EQ(fileText(root() / "seen"), last + "the last log");
+  EXPECT_THAT(fileText(results), HasSubstr("\"outcome\": \"pass\""));
+  EXPECT_EQ(fileText(log), "");
+}
+
 TEST_F(WorkflowTest, SaysWhenTheGraderIsAtFault) {
   const Ended ended = rexIn(root() / "no-build", {"test", "98"});
   EXPECT_EQ(ended.code, 3);
@@ -140,6 +158,18 @@ TEST_F(WorkflowTest, SaysHowAProgramEnded) {
   EXPECT_THAT(crashed.error, HasSubstr("rex debug 98-template"));
   write(exercise() / "main.cpp", "int main() { return 5; }\n");
   EXPECT_THAT(rex({"run", "98"}).error, HasSubstr("exit code 5"));
+}
+
+TEST_F(WorkflowTest, LimitsMemoryAlsoWithTheSanitizers) {
+  replace(exercise() / "exercise.toml", "memory_mb = 512", "memory_mb = 64");
+  write(exercise() / "main.cpp",
+        "#include \"exercise.h\"\n#include <cstring>\n#include <unistd.h>\n"
+        "Eigen::Vector2d rotated(const Eigen::Vector2d&, double) {\n"
+        "  for (int k = 0; k < 100; ++k, usleep(20000)) memset(new char[10 << 20], 1, 10 << 20);\n"
+        "  return {0, 0};\n}\nint main() {}\n");
+  const Ended ended = rex({"test", "98", "--debug", "--check", "quarter-turn"});
+  EXPECT_EQ(ended.code, 1) << ended.error;
+  EXPECT_THAT(flat(ended.output), HasSubstr("used more than 384 MB of memory in rotated"));
 }
 
 TEST_F(WorkflowTest, PrintsADebuggerCommand) {
@@ -182,7 +212,8 @@ TEST_F(WorkflowTest, PassesTheTemplateThroughAllGates) {
   EXPECT_EQ(ended.code, 0) << ended.output << ended.error;
   const std::string gates = rex({"dev", "check", "98", "--list-gates"}).output;
   EXPECT_EQ(gates,
-            "main-current\npoints\nnames\nrelease\nmain-floor\nsolution\nwrong/clockwise\nwrong/library\n");
+            "main-current\npoints\nnames\nrelease\nmain-floor\nsolution\nsanitizers\nwrong/clockwise\nwrong/"
+            "library\n");
 }
 
 TEST_F(WorkflowTest, FindsWhatIsWrongWithTheTexts) {
@@ -211,6 +242,9 @@ TEST_F(WorkflowTest, FindsWhatIsWrongWithTheStarter) {
 TEST_F(WorkflowTest, FindsWhatIsWrongWithTheSolution) {
   replace(exercise() / "solution.cpp", "s * p.x() + c * p.y()", "s * p.x() + c * p.x()");
   expectOpenGate("solution", "under seed 1");
+  replace(exercise() / "solution.cpp", "const double s = std::sin(angle);",
+          "double sines[2] = {std::sin(angle), 0};\n  const double s = sines[angle > 99 ? 0 : 2];");
+  expectOpenGate("sanitizers", "solution.cpp does not pass with the sanitizers:");
 }
 
 TEST_F(WorkflowTest, FindsMistakesThatAreNotCaught) {

@@ -167,6 +167,9 @@ TEST_P(Attacks, GainNothingAndHarmNobody) {
         << toString(result.outcome) << ": " << result.message
         << (result.checks.empty() ? "" : "; " + result.checks.front().message);
     EXPECT_LE(result.score, attack.mostPoints);
+    if (attack.file.starts_with("A37")) {
+      EXPECT_THAT(result.message, HasSubstr("forbidden-call"));
+    }
     if (!built->worker.empty()) expectNoHarm(result, options);
     EXPECT_THAT(readTextFile(options.results.parent_path() / "build.log"), Not(HasSubstr("root:x:0:0")));
     EXPECT_LE(readTextFile(options.results.parent_path() / "build.log").size(), 64u << 10);
@@ -217,8 +220,29 @@ INSTANTIATE_TEST_SUITE_P(
         Attack{"A32_recurses", {runtimeError}, 0, {"examples", "squares"}},
         Attack{"A33_throws", {runtimeError}}, Attack{"A34_threads", {timeLimit}, 0, {"examples"}},
         Attack{"A34_changes_later", {fail}}, Attack{"A35_counts", {fail}, 4},
-        Attack{"A36_bends_arithmetic", {protocolError, runtimeError}, 8}),
+        Attack{"A36_bends_arithmetic", {protocolError, runtimeError}, 8},
+        Attack{"A37_hides_among_main", {compileError}}, Attack{"A37_asks_main", {compileError}},
+        Attack{"A37_smuggles_a_lambda", {compileError}}, Attack{"A37_looks_it_up", {compileError}},
+        Attack{"A38_speaks_as_the_sandbox", {compileError}, 0, {}, true}),
     [](const auto& attack) { return attack.param.file; });
+
+TEST_F(Battery, A13SeesNothingBesideACompilerInTheHome) {
+  const fs::path home = temporary_.path() / "home", main = temporary_.path() / "main.cpp";
+  fs::create_directories(home / "bin");
+  fs::create_symlink("/usr/bin/c++", home / "bin" / "c++");
+  writeTextFile(home / "secret.h", readTextFile(kFolder / "battery" / "honest.cpp"));
+  Toolchain toolchain = toolchain_;
+  toolchain.compiler = home / "bin" / "c++";
+  for (const int level : offeredLevels()) {
+    for (const std::string& text :
+         {readTextFile(home / "secret.h"), "#include \"" + (home / "secret.h").string() + "\"\n"}) {
+      writeTextFile(main, text);
+      const BuiltSubmission built = buildSubmission(toolchain, exercise(), optionsFor(main, level, "attack"));
+      EXPECT_EQ(built.worker.empty(), text.starts_with("#include \"/")) << built.start.message;
+      EXPECT_EQ(built.start.outcome == compileError, built.worker.empty()) << built.start.message;
+    }
+  }
+}
 
 TEST_F(Battery, A24TalksToNobody) {
   const int listener = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);

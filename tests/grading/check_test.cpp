@@ -266,5 +266,86 @@ TEST(FaultyCheck, Throws) {
     EXPECT_EQ(faultOf(run), "check 'id' wants a value that is not finite");
 }
 
+// Evidence by a title, so that one can tell whose it is.
+Evidence titled(const std::string& title) { return {.figures = {{.title = title}}}; }
+
+std::string shownBy(const std::function<void(Check&)>& run, Group group = Group::visible) {
+  Check check({.id = "id", .part = "a", .title = "Title", .points = 10, .group = group}, 7);
+  static_cast<void>(check.judge(run));
+  return check.evidence() ? check.evidence()->figures.front().title : "nothing";
+}
+
+TEST(Check, KeepsWhatItShowsOfARequirementThatDoesNotHold) {
+  int made = 0;
+  const auto counted = [&] { return ++made, titled("hand"); };
+  EXPECT_EQ(shownBy([&](Check& check) {
+              const auto showing = check.show(counted);
+              check.that("a", true);
+            }),
+            "nothing");
+  EXPECT_EQ(made, 0);
+  EXPECT_EQ(shownBy([&](Check& check) {
+              const auto showing = check.show(counted);
+              check.that("a", false);
+            }),
+            "hand");
+  EXPECT_EQ(made, 1);
+}
+
+TEST(Check, ShowsNothingOfHiddenChecks) {
+  const auto run = [](Check& check) {
+    const auto showing = check.show([] { return titled("hand"); });
+    check.near("a", Eigen::VectorXd::Zero(9), Eigen::VectorXd::Ones(9), .1);
+  };
+  EXPECT_EQ(shownBy(run), "hand");
+  EXPECT_EQ(shownBy(run, Group::hidden), "nothing");
+}
+
+TEST(Check, ShowsWhatIsInScope) {
+  EXPECT_EQ(shownBy([](Check& check) {
+              {
+                const auto showing = check.show([] { return titled("before"); });
+              }
+              check.that("a", false);
+            }),
+            "nothing");
+  EXPECT_EQ(shownBy([](Check& check) {
+              const auto outer = check.show([] { return titled("outer"); });
+              {
+                const auto inner = check.show([] { return titled("inner"); });
+              }
+              check.that("a", false);
+            }),
+            "outer");
+}
+
+TEST(Check, ShowsTheWorstCase) {
+  EXPECT_EQ(shownBy([](Check& check) {
+              check.forEachCase(3, [&](int k) {
+                const auto showing = check.show([&] { return titled(std::to_string(k)); });
+                check.atMost("a", k == 1 ? 9 : 2, 1);
+              });
+            }),
+            "1");
+}
+
+TEST(Check, ComparesManyNumbersByItself) {
+  EXPECT_EQ(shownBy([](Check& check) {
+              check.near("states", Eigen::MatrixXd::Zero(2, 9), Eigen::MatrixXd::Ones(2, 9), .1);
+            }),
+            "states");
+  EXPECT_EQ(
+      shownBy([](Check& check) { check.near("few", Eigen::Vector2d::Zero(), Eigen::Vector2d::Ones(), .1); }),
+      "nothing");
+}
+
+TEST(Check, IsNotAtFaultForWhatCannotBeShown) {
+  const CheckResult result = judge([](Check& check) {
+    const auto showing = check.show([]() -> Evidence { throw std::runtime_error("no film"); });
+    check.that("a", false);
+  });
+  EXPECT_EQ(result.status, Outcome::fail);
+}
+
 }  // namespace
 }  // namespace rex::grading

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/process.h"
+#include "grading/worker_failure.h"
 #include "support/file_text.h"
 #include "support/temporary_folder.h"
 
@@ -53,7 +54,30 @@ TEST(CrashSiteIn, IsNothingWithoutAFinding) {
 }
 
 // The real sanitizers, which may word their reports anew.
-TEST(SanitizedToolchain, MakesProgramsThatReportWhereTheyCrash) {
+class SanitizedToolchain : public ::testing::Test {
+ protected:
+  static Toolchain plain() {
+    Toolchain toolchain;
+    toolchain.compiler = "c++";
+    toolchain.flags = {"-w", "-isystem", "/usr/include/eigen3"};
+    return toolchain;
+  }
+
+  void compile(const Toolchain& toolchain, const std::vector<std::string>& what, const std::string& code) {
+    std::ofstream(temporary_.path() / "main.cpp") << code;
+    std::vector<std::string> command = {toolchain.compiler};
+    for (const auto& words : {toolchain.flags, {"main.cpp"}, what, toolchain.linkFlags})
+      command.insert(command.end(), words.begin(), words.end());
+    const ProcessResult built = runProcess(command, {.directory = temporary_.path(), .timeout = 300});
+    ASSERT_TRUE(built.ok()) << built.error;
+  }
+  ProcessResult run() const { return runProcess({(temporary_.path() / "program").string()}); }
+
+  TemporaryFolder temporary_;
+  Toolchain toolchain_ = sanitizedToolchain(plain(), temporary_.path(), 200);
+};
+
+TEST_F(SanitizedToolchain, MakesProgramsThatReportWhereTheyCrash) {
   struct Crash {
     const char* code;
     const char* finding;
@@ -68,21 +92,11 @@ TEST(SanitizedToolchain, MakesProgramsThatReportWhereTheyCrash) {
       {"return n + crash(n + 1);", "uses up the stack"},
       {"__builtin_abort();", "aborts"},
   };
-  const TemporaryFolder temporary;
-  Toolchain plain;
-  plain.compiler = "c++";
-  plain.flags = {"-w"};
-  const Toolchain toolchain = sanitizedToolchain(plain, temporary.path());
-  const auto file = temporary.path() / "main.cpp";
   for (const Crash& crash : crashes) {
-    std::ofstream(file) << "int crash(int n) {\n  " << crash.code
-                        << "\n}\nint main(int n, char**) { return crash(n); }\n";
-    std::vector<std::string> command = {toolchain.compiler};
-    for (const auto& flags : {toolchain.flags, {file.string(), "-o", "crash"}, toolchain.linkFlags})
-      command.insert(command.end(), flags.begin(), flags.end());
-    const ProcessResult built = runProcess(command, {.directory = temporary.path(), .timeout = 300});
-    ASSERT_TRUE(built.ok()) << built.error;
-    const ProcessResult run = runProcess({(temporary.path() / "crash").string()});
+    ASSERT_NO_FATAL_FAILURE(compile(toolchain_, {"-o", "program"},
+                                    std::string("int crash(int n) {\n  ") + crash.code +
+                                        "\n}\nint main(int n, char**) { return crash(n); }\n"));
+    const ProcessResult run = this->run();
     const auto site = crashSiteIn(run.error, "main.cpp");
     ASSERT_TRUE(site) << run.error;
     EXPECT_EQ(site->function, "crash") << run.error;
@@ -90,6 +104,38 @@ TEST(SanitizedToolchain, MakesProgramsThatReportWhereTheyCrash) {
     EXPECT_LE(site->line, 3);
     EXPECT_NE(site->finding.find(crash.finding), std::string::npos) << site->finding;
   }
+}
+
+// The second program asks for more than there can be, at once.
+TEST_F(SanitizedToolchain, MakesProgramsThatEndWhenTheyHoldTooMuchMemory) {
+  const char* bodies[] = {
+      "for (int k = 0; k < 40; ++k, usleep(20000)) memset(malloc(20 << 20), 1, 20 << 20);",
+      "return *new char[1ull << 60];"};
+  for (const char* body : bodies) {
+    ASSERT_NO_FATAL_FAILURE(compile(toolchain_, {"-o", "program"},
+                                    "#include <stdlib.h>\n#include <string.h>\n#include <unistd.h>\n"
+                                    "int main() { " +
+                                        std::string(body) + " }\n"));
+    const ProcessResult run = this->run();
+    const Failure failure =
+        explainEnd({.status = run.signal, .function = "f", .errorTail = run.error}, {.memoryMegabytes = 200});
+    EXPECT_EQ(failure.outcome, Outcome::memoryLimit) << run.error;
+    EXPECT_EQ(failure.message, "used more than 200 MB of memory in f");
+  }
+}
+
+TEST_F(SanitizedToolchain, SharesVectorsWithALibraryThatKnowsNothingOfIt) {
+  const std::string vectors = "#include <Eigen/Core>\nEigen::VectorXd made(int n)";
+  ASSERT_NO_FATAL_FAILURE(compile(plain(), {"-c", "-o", "library.o"},
+                                  vectors + " { return Eigen::VectorXd::Ones(n); }\n"
+                                            "void resize(Eigen::VectorXd& v) { v.resize(9); }\n"));
+  ASSERT_NO_FATAL_FAILURE(compile(toolchain_, {"library.o", "-o", "program"},
+                                  vectors + ";\nvoid resize(Eigen::VectorXd& v);\n"
+                                            "int main() {\n  Eigen::VectorXd v = made(3);\n"
+                                            "  v.conservativeResize(5);\n  resize(v);\n"
+                                            "  return v.size() == 9 ? 0 : 1;\n}\n"));
+  const ProcessResult run = this->run();
+  EXPECT_TRUE(run.ok()) << run.error;
 }
 
 }  // namespace

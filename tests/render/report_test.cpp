@@ -243,6 +243,14 @@ TEST(Report, TellsTheBackgroundOfItsPicture) {
             "data-top=\"0.25 0.5 1\" data-bottom=\"0 0.125 0.75\"");
 }
 
+TEST(Report, StandsWhereItIsToldToStart) {
+  REX_NEEDS_OSMESA();
+  Report report = rollingBall();
+  EXPECT_THAT(reportPage(report), ::testing::HasSubstr("data-start=\"0\""));
+  report.start = 0.75;
+  EXPECT_THAT(reportPage(report), ::testing::HasSubstr("data-start=\"0.75\""));
+}
+
 TEST(Report, NeedsNothingElse) {
   REX_NEEDS_OSMESA();
   const std::string page = reportPage(rollingBall());

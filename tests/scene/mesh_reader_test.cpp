@@ -282,6 +282,19 @@ TEST_F(MeshReader, RefusesBrokenHeaders) {
                    "a.off: OFF file: found a word that is no number, wanted numbers");
 }
 
+// Of another kind than its ending says: nobody has looked for what the reader of that kind does not bear.
+TEST_F(MeshReader, ReadsAFileAsItsEndingSays) {
+  const std::string endless = "ply\nformat binary_big_endian\4elem\1";
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+      "property float z\nend_header\n0 0 0\n";
+  EXPECT_EQ(parseMesh(ply, "a.ply").positions().size(), 1u);
+  for (const char* name : {"a.stl", "a.obj", "a.dae", "a.gltf", "a.glb", "a.off"}) {
+    EXPECT_REX_ERROR(parseMesh(ply, name), name);
+    EXPECT_REX_ERROR(parseMesh(endless + std::string(100, '\0'), name), name);
+  }
+}
+
 TEST_F(MeshReader, RefusesIndicesOfNoVertex) {
   const std::string head =
       "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"

@@ -1,4 +1,4 @@
-// caught by: quick
+// caught by: quick-others
 // mistake: draws gains anywhere in the box and keeps the best.
 
 // <solution quickGains>

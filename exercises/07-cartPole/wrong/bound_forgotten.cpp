@@ -1,4 +1,4 @@
-// caught by: quick, quick-others
+// caught by: quick-others
 // mistake: lets the gains grow.
 
 // <solution quickGains>

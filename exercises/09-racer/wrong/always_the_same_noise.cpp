@@ -1,0 +1,11 @@
+// caught by: noise
+// mistake: a generator of its own, so that all rides meet the same noise.
+
+// <solution kicks>
+static_cast<void>(rng);
+Rng own(3);
+Eigen::MatrixXd noises(2, steps);
+for (int t = 0; t < steps; ++t)
+  for (int i = 0; i < 2; ++i) noises(i, t) = std::sqrt(tau) * noise * own.normal();
+return noises;
+// </solution>

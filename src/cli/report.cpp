@@ -1,0 +1,39 @@
+#include "grading/report.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "cli/commands.h"
+#include "cli/terminal.h"
+#include "grading/result_file.h"
+#include "grading/text_file.h"
+
+namespace rex::cli {
+namespace {
+
+const grading::ReportFormat& formatOf(const std::string& name) {
+  std::vector<std::string> known;
+  for (const grading::ReportFormat& format : grading::reportFormats()) {
+    if (format.name == name) return format;
+    known.emplace_back(format.name);
+  }
+  throw UsageError({.what = "--format", .found = harmless(name), .nearest = nearestNames(name, known)});
+}
+
+}  // namespace
+
+ExitCode report(const ReportOptions& options) {
+  const grading::ReportFormat& format = formatOf(options.format);
+  const grading::GradeResult result = grading::loadResult(options.results);
+  const std::string text = format.write(result);
+  if (options.out.empty())
+    std::fputs(text.c_str(), stdout);
+  else
+    grading::replaceTextFile(options.out, text, "the report");
+  return result.outcome == grading::Outcome::graderError ? ExitCode::kGraderFault : ExitCode::kFull;
+}
+
+}  // namespace rex::cli

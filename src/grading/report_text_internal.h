@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "grading/results.h"
+
+namespace rex::grading::internal {
+
+/// Texts of a report are cut here, in bytes: readers of results have limits of about a megabyte.
+inline constexpr std::size_t kLongestText = 50'000, kLongestMessage = 4'000;
+
+/// For students, who get the reason from nobody else.
+inline constexpr const char* kGraderFailed =
+    "The grader itself failed: not your fault, and not your grade. Please tell those who run the course.";
+
+/// printable() text of at most `limit` bytes; what is longer ends in " ...".
+[[nodiscard]] std::string shownText(std::string_view text, std::size_t limit = kLongestMessage);
+
+[[nodiscard]] bool isPassed(const CheckResult& check);
+[[nodiscard]] bool isHidden(const CheckResult& check);
+
+/// "pass", "time limit", "not run".
+[[nodiscard]] std::string statusOf(const CheckResult& check);
+
+/// What a student reads about a visible check that did not pass: message, and place in `file`.
+[[nodiscard]] std::string messageOf(const CheckResult& check, const std::string& file);
+
+/// What the compiler said, a line for each message; or why the file was refused.
+[[nodiscard]] std::string compileText(const GradeResult& result);
+
+/// The student's file, as it is called: "main.cpp".
+[[nodiscard]] std::string fileOf(const GradeResult& result);
+
+/// The same in the student's tree: "exercises/01-kinematics/main.cpp".
+[[nodiscard]] std::string pathOf(const GradeResult& result);
+
+/// "3 of 9 points".
+[[nodiscard]] std::string pointsOf(const GradeResult& result);
+
+/// What the program printed in visible checks, both streams; empty if nothing.
+[[nodiscard]] std::string printedText(const GradeResult& result);
+
+}  // namespace rex::grading::internal

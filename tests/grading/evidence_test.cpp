@@ -1,0 +1,80 @@
+#include "grading/evidence.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "geometry/pose.h"
+#include "render/png.h"
+#include "support/file_text.h"
+#include "support/needs_osmesa.h"
+
+namespace rex::grading {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(Comparison, DrawsTheRowsThatDifferMost) {
+  Eigen::MatrixXd wanted = Eigen::MatrixXd::Zero(6, 9), got = wanted;
+  for (int row = 0; row < 6; ++row) got(row, 3) = row;  // so that the first two differ least
+  const Figure figure = comparison("states", got, wanted);
+  ASSERT_EQ(figure.series.size(), 8u);
+  EXPECT_EQ(figure.title, "states");
+  EXPECT_EQ(figure.series[0].label, "row 2, got");
+  EXPECT_EQ(figure.series[1].label, "row 2, wanted");
+  EXPECT_EQ(figure.series[6].label, "row 5, got");
+  EXPECT_EQ(figure.series[6].y[3], 5);
+  EXPECT_EQ(figure.series[7].y[3], 0);
+  EXPECT_EQ(figure.series[0].x.size(), 9u);
+}
+
+TEST(Comparison, LaysTallOnesDown) {
+  const Figure figure = comparison("x", Eigen::VectorXd::Constant(9, 2), Eigen::VectorXd::Ones(9));
+  ASSERT_EQ(figure.series.size(), 2u);
+  EXPECT_EQ(figure.series[0].label, "got");
+  EXPECT_EQ(figure.series[0].y, std::vector<double>(9, 2.));
+}
+
+Film ball() {
+  Film film;
+  for (int i = 0; i < 3; ++i) {
+    Picture picture;
+    picture.solids = {
+        {{.type = ShapeType::kSphere, .radius = .2}, translation(.3 * i, 0, .5), {1, 0, 0}, "ball"}};
+    film.push_back({1. * i, picture});
+  }
+  return film;
+}
+
+class WriteEvidence : public ::testing::Test {
+ protected:
+  void SetUp() override { std::filesystem::remove_all(folder_); }
+  std::filesystem::path folder_ = std::filesystem::path(REX_BINARY_DIR) / "tests-out" / "evidence";
+};
+
+TEST_F(WriteEvidence, DrawsTheFirstFigure) {
+  const Evidence evidence{.figures = {comparison("x", Eigen::VectorXd::Zero(9), Eigen::VectorXd::Ones(9))}};
+  const EvidenceFiles files = writeEvidence(evidence, "line", "A line", folder_);
+  EXPECT_EQ(files.picture, "line.png");
+  EXPECT_EQ(files.replay, "");
+  EXPECT_EQ(readPng(folder_ / "line.png").width, 800);
+}
+
+TEST_F(WriteEvidence, OpensAFilmAtItsMoment) {
+  REX_NEEDS_OSMESA();
+  const EvidenceFiles files = writeEvidence({.film = ball(), .moment = 1.5}, "ball", "A <ball>", folder_);
+  EXPECT_EQ(files.picture, "ball.png");
+  EXPECT_EQ(files.replay, "ball.html");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "ball.png"));
+  const std::string page = fileText(folder_ / "ball.html");
+  EXPECT_THAT(page, HasSubstr("data-start=\"1.5\""));
+  EXPECT_THAT(page, HasSubstr("A &#60;ball&#62;"));
+}
+
+TEST_F(WriteEvidence, LeavesNothingOfNothing) {
+  const EvidenceFiles files = writeEvidence({}, "none", "None", folder_);
+  EXPECT_EQ(files.picture + files.replay, "");
+  EXPECT_FALSE(std::filesystem::exists(folder_));
+}
+
+}  // namespace
+}  // namespace rex::grading
