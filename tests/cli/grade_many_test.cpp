@@ -96,6 +96,15 @@ TEST_F(GradeManyTest, WritesTheSameBytesWhateverRunsAtOnce) {
   EXPECT_EQ(grade({"--csv"}, "one").output, table("four"));
 }
 
+TEST_F(GradeManyTest, TakesWhatSubmitWrites) {
+  write(exercise() / "main.cpp", kBroken);
+  fs::create_directories(in());
+  EXPECT_EQ(rex({"submit", "98", "-o", (in() / "zoe.zip").string()}).code, 0);
+  EXPECT_EQ(grade().code, 0);
+  EXPECT_THAT(table(), HasSubstr("\nzoe,98-template,0,"));
+  EXPECT_EQ(fileText(results() / "zoe" / "98-template" / "main.cpp"), kBroken);
+}
+
 TEST_F(GradeManyTest, RefusesWeakSandboxesUnlessTheyAreAccepted) {
   handIn("good", kGood);
   for (const std::vector<std::string>& level :

@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 
 #include "grading/text_file.h"
+#include "support/archive_samples.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
@@ -122,6 +123,35 @@ TEST_F(HandInTest, ComplainsOfLargeFilesPipesAndStrayFiles) {
       "in/main.cpp: not taken: found a file, wanted a folder, .zip, .tar or .tar.gz file for each student");
 }
 
+TEST_F(HandInTest, TakesArchivesAsFolders) {
+  const auto pack = [&](const std::string& name, const std::vector<SampleMember>& members) {
+    write(name, name.ends_with(".zip") ? zipOf(members) : tarOf(members));
+  };
+  pack("zoe.zip",
+       {{.name = "01/main.cpp", .text = "// zoe"}, {.name = "receipt.json"}, {.name = "notes.txt"}});
+  pack("adam.tar", {{.name = "./02-control/main.cpp", .text = "// adam"}});
+  const timespec times[2] = {{1, 0}, {1'700'000'000, 0}};
+  ASSERT_EQ(::utimensat(AT_FDCWD, (folder() / "zoe.zip").c_str(), times, 0), 0);
+  HandIns found = read();
+  EXPECT_THAT(namesOf(found), ElementsAre("adam 02-control", "zoe 01-kinematics"));
+  EXPECT_THAT(found.complaints, IsEmpty());
+  EXPECT_THAT(found.notes, ElementsAre(HasSubstr("in/zoe.zip/notes.txt: not taken")));
+  EXPECT_EQ(found.files[0].text, "// adam");
+  EXPECT_EQ(found.files[1].submitted, 1'700'000'000);
+  EXPECT_THAT(namesOf(read("02")), ElementsAre("adam 02-control"));
+  pack("zoe.zip", {{.name = "01/main.cpp"}, {.name = "kinematics/main.cpp"}});
+  fs::remove(folder() / "adam.tar");
+  expectComplaint("in/zoe.zip: the same name of an exercise, spelt differently: found '01' and 'kinematics'");
+  pack("zoe.zip", {{.name = "main.cpp"}});
+  expectComplaint(
+      "in/zoe.zip: nothing to grade: found no folder of an exercise, wanted 01-kinematics/main.cpp");
+  pack("zoe.zip", {{.name = "../01/main.cpp"}});
+  expectComplaint("in/zoe.zip: this archive is not taken: member '../01/main.cpp': found a way out");
+  pack("zoe.zip", {{.name = "01/main.cpp"}});
+  write("zoe/01/main.cpp");
+  expectComplaint("in: the same name of a student, spelt differently: found 'zoe' and 'zoe.zip', wanted one");
+}
+
 TEST_F(HandInTest, TakesNeitherOfTwoSpellings) {
   write("zoe/01/main.cpp"), write("zoe/kinematics/main.cpp");
   expectComplaint(
@@ -169,6 +199,7 @@ TEST_F(HandInTest, KeepsACopyOfWhatCanBeRead) {
   EXPECT_EQ(readTextFile(out / "zoe/01-kinematics/main.cpp"), "int b;");
   file.text.reset();
   EXPECT_EQ(snapshotOf(file, out), fs::absolute("x/main.cpp"));
+  EXPECT_FALSE(fs::exists(out / "zoe/01-kinematics/main.cpp"));
 }
 
 }  // namespace
