@@ -378,6 +378,7 @@ Action parseCommandLine(int argc, const char* const* argv) {
   addSimulate(program, action), addPlan(program, action), addCurves(program, action),
       addSlam(program, action), addFilter(program, action), addCma(program, action);
   addRiccati(program, action, false), addRiccati(program, action, true);
+  addGradeMany(program, action);
   addDoctor(program, action), addBench(program, action);
   CLI::App* dev =
       add(program, "dev", "For those who write exercises: new, check, strip",

@@ -12,8 +12,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "grading/hidden_seed.h"
 #include "grading/result_file.h"
-#include "grading/text_file.h"
 #include "grading/unknown_check_internal.h"
 
 namespace rex::grading {
@@ -86,22 +86,9 @@ void printList(const std::vector<RunnableCheck>& checks) {
   fmt::print("{}\n", list.dump(2));
 }
 
-// A secret that is empty by mistake would be no secret.
-std::string readSecret(const std::filesystem::path& file) {
-  std::string secret = readTextFile(file);
-  secret.erase(secret.find_last_not_of(" \t\r\n") + 1);
-  constexpr std::size_t kShortest = 16;
-  if (secret.size() < kShortest)
-    throw Error({.what = "the secret of the course is too short",
-                 .where = {file.string()},
-                 .found = fmt::format("{} characters", secret.size()),
-                 .wanted = fmt::format("at least {}", kShortest)});
-  return secret;
-}
-
 int gradeAndSave(const Arguments& arguments, const std::vector<RunnableCheck>& checks) {
   GradeOptions options = arguments.grade;
-  if (!arguments.secret.empty()) options.secret = readSecret(arguments.secret);
+  if (!arguments.secret.empty()) options.secret = readCourseSecret(arguments.secret);
   const bool prepared = !arguments.results.empty() && std::filesystem::exists(arguments.results);
   const GradeResult start = prepared ? loadResult(arguments.results) : GradeResult{};
   const GradeResult result = grade(start, checks, options, [&](const GradeResult& soFar) {

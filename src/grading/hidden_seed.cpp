@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "base/error.h"
 #include "grading/sha256.h"
+#include "grading/text_file.h"
 
 namespace rex::grading {
 namespace {
@@ -36,6 +38,22 @@ std::uint64_t hiddenSeed(std::string_view secret, std::string_view submissionSha
                          std::string_view exercise, std::string_view group) {
   const std::string message = fmt::format("{}\n{}\n{}\n", submissionSha256, exercise, group);
   return std::stoull(hmacSha256(secret, message).substr(0, 16), nullptr, 16);
+}
+
+std::string readCourseSecret(const std::filesystem::path& file) {
+  std::string secret = readTextFile(file);
+  secret.erase(secret.find_last_not_of(" \t\r\n") + 1);
+  constexpr std::size_t kShortest = 16;
+  if (secret.size() < kShortest)
+    throw Error({.what = "the secret of the course is too short",
+                 .where = {file.string()},
+                 .found = fmt::format("{} characters", secret.size()),
+                 .wanted = fmt::format("at least {}", kShortest)});
+  return secret;
+}
+
+std::string courseSecretId(std::string_view secret) {
+  return secret.empty() ? "" : sha256(secret).substr(0, 8);
 }
 
 }  // namespace rex::grading

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -13,5 +14,12 @@ namespace rex::grading {
 /// and group under the secret of the course.
 [[nodiscard]] std::uint64_t hiddenSeed(std::string_view secret, std::string_view submissionSha256,
                                        std::string_view exercise, std::string_view group);
+
+/// The text of that file without the line break at its end. Throws Error for less than 16 characters: a
+/// secret that is empty by mistake would be none.
+[[nodiscard]] std::string readCourseSecret(const std::filesystem::path& file);
+
+/// Eight digits of the secret's hash, by which results name it; empty for none.
+[[nodiscard]] std::string courseSecretId(std::string_view secret);
 
 }  // namespace rex::grading

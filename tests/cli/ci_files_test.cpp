@@ -191,5 +191,43 @@ TEST_F(Gradescope, LeavesAResultWithoutAScoreWhereTheGraderBreaks) {
   EXPECT_THAT(fileText(result()), Not(HasSubstr("score")));
 }
 
+// Two students, listed as tasks that an engine takes one by one.
+class ManyByEngines : public CiFiles {
+ protected:
+  void SetUp() override {
+    CiFiles::SetUp();
+    for (const char* student : {"adam", "zoe \"x\" $(touch y)"}) {
+      fs::create_directories(root() / "in" / student / "98");
+      write(root() / "in" / student / "98" / "main.cpp", "int main() { return }\n");
+    }
+    const std::string common = "scripts/rex grade in --level 0 --i-accept-level 0 --out ";
+    const ProcessResult listed = shell(
+        "mkdir results; " + common + "whole; " + common + "results --manifest results/tasks.tsv", root());
+    ASSERT_TRUE(listed.ok()) << listed.error;
+  }
+};
+
+TEST_F(ManyByEngines, GradesByGnuParallel) {
+  if (!runProcess({"parallel", "--version"}).started) GTEST_SKIP() << "GNU parallel is not installed";
+  const ProcessResult run = shell("share/ci/grade-parallel results 2", root());
+  EXPECT_TRUE(run.ok()) << run.output << run.error;
+  EXPECT_EQ(fileText(root() / "results" / "grades.csv"), fileText(root() / "whole" / "grades.csv"));
+}
+
+// A stand-in for Slurm runs each job of the array as Slurm would, the second one twice.
+TEST_F(ManyByEngines, HandsAnArrayToSlurm) {
+  fs::create_directory(root() / "bin");
+  write(root() / "bin" / "sbatch",
+        "#!/bin/bash\necho \"$@\" >arguments\ncat >job\nchmod +x job\n"
+        "for k in 1 2 2; do SLURM_ARRAY_TASK_ID=$k ./job || exit 1; done\n");
+  fs::permissions(root() / "bin" / "sbatch", fs::perms::owner_all);
+  const ProcessResult run = shell("PATH=$PWD/bin:$PATH share/ci/grade-slurm results 5", root());
+  EXPECT_TRUE(run.ok()) << run.error;
+  EXPECT_THAT(run.output, HasSubstr("98-template: kept"));
+  EXPECT_THAT(fileText(root() / "arguments"), HasSubstr("--requeue --array=1-2%5 "));
+  EXPECT_TRUE(shell("scripts/rex collect results", root()).ok());
+  EXPECT_EQ(fileText(root() / "results" / "grades.csv"), fileText(root() / "whole" / "grades.csv"));
+}
+
 }  // namespace
 }  // namespace rex::cli

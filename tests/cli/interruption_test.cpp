@@ -1,11 +1,12 @@
 #include "base/interruption.h"
 
-#include <array>
 #include <chrono>
 #include <csignal>
 #include <fstream>
 #include <functional>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -41,6 +42,7 @@ class InterruptionTest : public ::testing::Test {
                root() / "exercises" / "98-template");
     }
     fs::create_directories(build());
+    fs::create_directories(temporary());
     for (const char* file : {"build.json", "grader"})
       fs::create_symlink(fs::path(REX_BINARY_DIR "/tests/template/exercises/98-template") / file,
                          build() / file);
@@ -50,11 +52,15 @@ class InterruptionTest : public ::testing::Test {
   }
 
   fs::path root() const { return temporary_.path(); }
+  fs::path temporary() const { return root() / "tmp"; }
   fs::path build() const { return root() / "build" / "exercises" / "98-template"; }
 
   // Starts `rex test 98` on a file with this text.
   pid_t start(const std::string& source) const {
     std::ofstream(root() / "exercises" / "98-template" / "main.cpp") << source;
+    return start(std::vector<std::string>{"test", "98"});
+  }
+  pid_t start(const std::vector<std::string>& words) const {
     const pid_t rex = ::fork();
     if (rex < 0) throw std::runtime_error("cannot fork");
     if (rex > 0) return rex;
@@ -63,8 +69,11 @@ class InterruptionTest : public ::testing::Test {
     ::dup2(quiet, STDERR_FILENO);
     try {
       const HeldSignals held;
-      const std::array<const char*, 3> arguments = {"rex", "test", "98"};
-      ::_exit(runCommandLine(3, arguments.data(), {root(), root() / "build"}));
+      std::vector<const char*> arguments = {"rex"};
+      for (const std::string& word : words) arguments.push_back(word.c_str());
+      ::setenv("TMPDIR", temporary().c_str(), 1);
+      ::_exit(
+          runCommandLine(static_cast<int>(arguments.size()), arguments.data(), {root(), root() / "build"}));
     } catch (const Interrupted&) {
       ::_exit(kDefinitelyInterrupted);
     }
@@ -91,6 +100,7 @@ class InterruptionTest : public ::testing::Test {
   void expectNothingLeft() const {
     EXPECT_TRUE(waitUntil([&] { return processes() == 0; })) << processes();
     for (const auto& entry : fs::directory_iterator(build())) EXPECT_TRUE(entry.is_symlink()) << entry.path();
+    EXPECT_TRUE(fs::is_empty(temporary()));
   }
 
   TemporaryFolder temporary_;
@@ -130,6 +140,48 @@ TEST_F(InterruptionTest, EndsACompilerThatWorks) {
   ASSERT_TRUE(waitUntil([&] { return processes() >= 2; }));
   EXPECT_EQ(exitCodeAfter(SIGINT, rex), kDefinitelyInterrupted);
   expectNothingLeft();
+}
+
+// A class of two: what is graded stays graded, what is not begins again.
+class GradingManyInterrupted : public InterruptionTest {
+ protected:
+  void handIn(const std::string& student, const std::string& body) const {
+    fs::create_directories(root() / "in" / student / "98");
+    std::ofstream(root() / "in" / student / "98" / "main.cpp")
+        << "#include \"exercise.h\"\n#include <fstream>\n#include <unistd.h>\n"
+           "Eigen::Vector2d rotated(const Eigen::Vector2d& p, double) {\n"
+        << body << "return p;\n}\nint main() {}\n";
+  }
+  pid_t startGrading() const {
+    return start({"grade", (root() / "in").string(), "--out", (root() / "out").string(), "-j2", "--level",
+                  "0", "--i-accept-level", "0"});
+  }
+  fs::path result(const std::string& student) const {
+    return root() / "out" / student / "98-template" / "results.json";
+  }
+};
+
+TEST_F(GradingManyInterrupted, KeepsWhatIsDoneAndGoesOn) {
+  const fs::path mark = root() / "started";
+  handIn("done", "");
+  handIn("hangs", fmt::format("std::ofstream(\"{}\") << 1; for (;;) sleep(1000);\n", mark.string()));
+  for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
+    SCOPED_TRACE(signal);
+    const pid_t rex = startGrading();
+    ASSERT_TRUE(waitUntil([&] { return fs::exists(mark) && fs::exists(result("done")); }));
+    const auto first = fs::last_write_time(result("done"));
+    EXPECT_EQ(exitCodeAfter(signal, rex), signal == SIGKILL ? -1 : kDefinitelyInterrupted);
+    // Nobody can tidy up after a kill.
+    EXPECT_TRUE(waitUntil([&] { return processes() == 0; }));
+    if (signal == SIGKILL) fs::remove_all(temporary()), fs::create_directories(temporary());
+    expectNothingLeft();
+    EXPECT_FALSE(fs::exists(result("hangs")));
+    EXPECT_EQ(fs::last_write_time(result("done")), first) << "graded once";
+    fs::remove(mark);
+  }
+  handIn("hangs", "");
+  EXPECT_EQ(exitCodeAfter(0, startGrading()), 0);
+  EXPECT_TRUE(fs::exists(result("hangs")));
 }
 
 }  // namespace

@@ -10,14 +10,19 @@
 #include <netinet/in.h>
 #include <nlohmann/json.hpp>
 #include <poll.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/process.h"
+#include "grading/hand_in.h"
 #include "grading/result_file.h"
 #include "grading/submission.h"
 #include "grading/text_file.h"
+#include "grading/zip_file.h"
 #include "sandbox/probes.h"
+#include "support/archive_samples.h"
 #include "support/temporary_folder.h"
 
 namespace rex::grading {
@@ -263,6 +268,103 @@ TEST_F(Battery, A24TalksToNobody) {
   pollfd polled{listener, POLLIN, 0};
   EXPECT_EQ(::poll(&polled, 1, 0), 0) << "somebody came";
   ::close(listener);
+}
+
+// Archives that mean harm, each handed in beside an honest one.
+class ArchiveBattery : public Battery {
+ protected:
+  ArchiveBattery() {
+    writeTextFile(in() / "honest.zip", zipOf({{.name = "battery/main.cpp", .text = "int main() {}\n"}}));
+  }
+  fs::path in() const { return temporary_.path() / "in"; }
+  std::vector<std::string> everythingHere() const {
+    std::vector<std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(temporary_.path()))
+      files.push_back(entry.path().string());
+    return files;
+  }
+  // The archive is refused for this reason, its neighbour is not, and nothing is written anywhere.
+  void expectRefusal(const std::string& name, const std::string& bytes, const std::string& reason) const {
+    SCOPED_TRACE(reason);
+    writeTextFile(in() / name, bytes);
+    expectRefusal(name, reason);
+  }
+  void expectRefusal(const std::string& name, const std::string& reason) const {
+    const std::vector<std::string> before = everythingHere();
+    const HandIns found = readHandIns(in(), {exercise()});
+    EXPECT_THAT(found.complaints,
+                ::testing::ElementsAre(::testing::AllOf(HasSubstr(name), HasSubstr(reason))));
+    ASSERT_EQ(found.files.size(), 1u);
+    EXPECT_EQ(found.files.front().student, "honest");
+    EXPECT_EQ(everythingHere(), before);
+    fs::remove(in() / name);
+  }
+};
+
+TEST_F(ArchiveBattery, A26RefusesMembersThatAreNoFilesOfTheirFolder) {
+  const SampleMember good{.name = "battery/main.cpp", .text = "int main() {}\n"};
+  const auto both = [&](const SampleMember& bad, const std::string& reason) {
+    expectRefusal("mallory.tar", tarOf({good, bad}), reason);
+    expectRefusal("mallory.zip", zipOf({good, bad}), reason);
+  };
+  both({.name = "../main.cpp"}, "member '../main.cpp': found a way out of its folder");
+  both({.name = "battery/../../main.cpp"}, "member 'battery/../../main.cpp': found a way out");
+  both({.name = "/tmp/rex-battery-stayed"}, "member '/tmp/rex-battery-stayed': found an absolute name");
+  both({.name = "battery/main.cpp"}, "member 'battery/main.cpp': found a second file of that name");
+  both({.name = "battery/Main.CPP"}, "member 'battery/Main.CPP': found a second file of that name");
+  for (const auto& [type, kind] :
+       {std::pair('1', "a hard link"), std::pair('2', "a symbolic link"), std::pair('3', "a device"),
+        std::pair('4', "a device"), std::pair('6', "a pipe")})
+    expectRefusal("mallory.tar", tarOf({good, {.name = "battery/x", .type = type, .target = "/etc/passwd"}}),
+                  std::string("member 'battery/x': found ") + kind);
+  expectRefusal("mallory.zip", zipOf({good, {.name = "battery/x", .text = "/etc/passwd", .mode = 0120777}}),
+                "member 'battery/x': found a symbolic link");
+  EXPECT_FALSE(fs::exists("/tmp/rex-battery-stayed"));
+}
+
+std::string gzipped(const std::string& bytes) {
+  return runProcess({"gzip", "-c"}, {.input = bytes, .outputLimit = 64u << 20}).output;
+}
+
+TEST_F(ArchiveBattery, A27StopsAtItsLimits) {
+  constexpr std::size_t kBomb = 200'000'000;
+  writeZip(in() / "mallory.zip", {{"battery/main.cpp", std::string(kBomb, '\0')}});
+  EXPECT_LT(fs::file_size(in() / "mallory.zip"), 300'000u);
+  expectRefusal("mallory.zip", "member 'battery/main.cpp': found more ");
+  constexpr int kMany = 100'000;
+  std::vector<SampleMember> many(kMany);
+  for (int k = 0; k < kMany; ++k) many[static_cast<std::size_t>(k)].name = std::to_string(k);
+  expectRefusal("mallory.tgz", gzipped(tarOf(many)), "found more members, wanted at most 200");
+  expectRefusal("mallory.zip", zipOf(many), "not taken: found ");
+  expectRefusal("mallory.zip", zipOf({{.name = std::string(65535, 'n')}}), "found a name of 65535 bytes");
+  for (const std::int64_t claimed : {3, 1 << 30})
+    expectRefusal("mallory.zip", zipOf({{.name = "battery/main.cpp", .text = "int a;\n"}}, claimed),
+                  "not taken");
+}
+
+// This process stays small, so that the largest of its children is the one that reads.
+TEST_F(ArchiveBattery, A27TakesLittleMemory) {
+  writeTextFile(temporary_.path() / "zeros", "");
+  fs::resize_file(temporary_.path() / "zeros", 200'000'000);
+  ASSERT_TRUE(
+      runProcess({"tar", "-czf", (in() / "mallory.tgz").string(), "-C", temporary_.path().string(), "zeros"})
+          .ok());
+  expectRefusal("mallory.tgz", "member 'zeros': found more ");
+#ifndef __SANITIZE_ADDRESS__
+  rusage children{};
+  ::getrusage(RUSAGE_CHILDREN, &children);
+  EXPECT_LT(children.ru_maxrss, 100 << 10) << "kilobytes";
+#endif
+}
+
+TEST_F(ArchiveBattery, A27OpensNoArchiveInsideOfOne) {
+  const std::string inner = zipOf({{.name = "../main.cpp"}});
+  writeTextFile(in() / "mallory.zip", zipOf({{.name = "inner.zip", .text = inner},
+                                             {.name = "battery/main.cpp", .text = "int a;\n"}}));
+  const HandIns found = readHandIns(in(), {exercise()});
+  EXPECT_THAT(found.complaints, ::testing::IsEmpty());
+  EXPECT_THAT(found.notes, ::testing::ElementsAre(HasSubstr("mallory.zip/inner.zip: not taken")));
+  EXPECT_EQ(found.files.size(), 2u);
 }
 
 // The source file itself is the attack: no file, or no text.

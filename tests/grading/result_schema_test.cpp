@@ -73,6 +73,14 @@ TEST(ResultSchema, FitsWhatIsWritten) {
   EXPECT_EQ(violation(Json::parse(toJson(result)), schema(), ""), "");
 }
 
+TEST(ResultSchema, AllowsTheHashesOfItsInputs) {
+  Json result = Json::parse(toJson(fullResult()));
+  result["inputs"] = {{"sha256", "a"}, {"source_sha256", "b"}, {"grader_sha256", "c"}};
+  EXPECT_EQ(violation(result, schema(), ""), "");
+  result["inputs"].erase("sha256");
+  EXPECT_EQ(violation(result, schema(), ""), "/inputs: lacks sha256");
+}
+
 // Removing any field, or giving it another type, breaks the schema: it says nothing too little.
 TEST(ResultSchema, WantsEveryField) {
   const Json whole = Json::parse(toJson(fullResult()));

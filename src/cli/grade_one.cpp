@@ -1,0 +1,39 @@
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "cli/commands.h"
+#include "cli/sandbox_choice.h"
+#include "cli/terminal.h"
+#include "grading/grade_task.h"
+#include "grading/private_folder.h"
+
+namespace rex::cli {
+
+ExitCode gradeOne(const Project& project, const GradeOneOptions& options) {
+  const std::vector<grading::Task> tasks = grading::readManifest(options.manifest);
+  if (options.task < 1 || options.task > static_cast<int>(tasks.size()))
+    throw UsageError({.what = "--task",
+                      .found = fmt::format("{}", options.task),
+                      .wanted = fmt::format("1 to {}", tasks.size())});
+  const grading::Task& task = tasks[static_cast<std::size_t>(options.task) - 1];
+  const std::string name = fmt::format("{} {}", task.student, task.exercise);
+  if (grading::stateOf(task, options.out) == grading::TaskState::done) {
+    say(fmt::format("{}: kept", name));
+    return ExitCode::kFull;
+  }
+  const auto sandbox = chooseSandbox(project, task.level);
+  if (!sandbox) return ExitCode::kWeakSandbox;
+  const ExerciseInfo exercise = project.exercise(task.exercise);
+  const grading::PrivateFolder work(std::filesystem::temp_directory_path());
+  const grading::GradeResult result = grading::gradeTask(task, prepare(project, exercise), exercise,
+                                                         {.out = options.out,
+                                                          .workFolder = work.path(),
+                                                          .launcher = sandbox->launcher,
+                                                          .secret = options.secret});
+  say(wrap(harmless(fmt::format("{}: {}, {} of {} points {}", name, toString(result.outcome), result.score,
+                                result.maxScore, result.message)),
+           2, 0));
+  return result.outcome == grading::Outcome::graderError ? ExitCode::kGraderFault : ExitCode::kFull;
+}
+
+}  // namespace rex::cli

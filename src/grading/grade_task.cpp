@@ -1,0 +1,107 @@
+#include "grading/grade_task.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "grading/hidden_seed.h"
+#include "grading/sha256.h"
+#include "grading/student_build.h"
+#include "grading/submission.h"
+#include "grading/text_file.h"
+
+namespace rex::grading {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kResults = "results.json";
+constexpr const char* kLog = "build.log";
+
+void require(const std::string& what, const std::string& found, const std::string& wanted) {
+  if (found == wanted) return;
+  throw Error({.what = what + " is not the one that the list of tasks was written for",
+               .found = "hash " + found.substr(0, 12),
+               .wanted = wanted.substr(0, 12) + ", or a new list"});
+}
+
+void requireInputs(const Task& task, const fs::path& file, const Toolchain& toolchain,
+                   const ExerciseInfo& exercise, const TaskOptions& options) {
+  require(file.string(), sha256(gradedText(file)), task.sourceSha256);
+  require("the grader of " + exercise.name, graderFingerprint(toolchain, exercise), task.graderSha256);
+  if (secretIdOf(options.secret) != task.secretId)
+    throw Error({.what = "the secret of the course",
+                 .found = options.secret.empty() ? "none" : secretIdOf(options.secret),
+                 .wanted = task.secretId.empty() ? "none" : task.secretId});
+}
+
+std::string withInputs(const fs::path& results, const Task& task) {
+  Json json = Json::parse(readTextFile(results));
+  json["inputs"] = {{"sha256", task.inputsSha256()},
+                    {"source_sha256", task.sourceSha256},
+                    {"grader_sha256", task.graderSha256}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace
+
+std::string graderFingerprint(const Toolchain& toolchain, const ExerciseInfo& exercise) {
+  std::string text =
+      fmt::format("{}\n{}\n{}\n{}\n{}\n", REX_VERSION, exerciseVersion(exercise.folder), toolchain.compiler,
+                  fmt::join(toolchain.flags, "\n"), fmt::join(toolchain.linkFlags, "\n"));
+  for (const fs::path& file : {toolchain.grader, toolchain.workerObject, toolchain.studentLibrary})
+    text += sha256(readTextFile(file)) + "\n";
+  return sha256(text);
+}
+
+std::string secretIdOf(const fs::path& secret) {
+  return secret.empty() ? "" : courseSecretId(readCourseSecret(secret));
+}
+
+fs::path resultFolder(const fs::path& out, const Task& task) { return out / task.student / task.exercise; }
+
+TaskState stateOf(const Task& task, const fs::path& out) {
+  const fs::path file = resultFolder(out, task) / kResults;
+  if (!fs::exists(file)) return TaskState::missing;
+  try {
+    const Json json = Json::parse(readTextFile(file));
+    if (json.at("inputs").at("sha256") != task.inputsSha256()) return TaskState::stale;
+    return json.at("outcome") == toString(Outcome::graderError) ? TaskState::failed : TaskState::done;
+  } catch (const Json::exception&) {
+    return TaskState::stale;  // something else of that name
+  }
+}
+
+GradeResult gradeTask(const Task& task, const Toolchain& toolchain, const ExerciseInfo& exercise,
+                      const TaskOptions& options) {
+  const fs::path file = options.out / task.file;
+  requireInputs(task, file, toolchain, exercise, options);
+  const fs::path results = options.workFolder / "out" / kResults;
+  fs::create_directories(results.parent_path());
+  GradeResult result = gradeSubmission(toolchain, exercise,
+                                       {.main = file,
+                                        .workFolder = options.workFolder / "work",
+                                        .results = results,
+                                        .checks = {},
+                                        .seed = task.seed,
+                                        .sandbox = {.level = task.level, .launcher = options.launcher},
+                                        .secret = options.secret})
+                           .result;
+  const fs::path folder = resultFolder(options.out, task);
+  fs::create_directories(folder);
+  const fs::path log = results.parent_path() / kLog;
+  if (fs::exists(log)) replaceTextFile(folder / kLog, readTextFile(log), "the log of the compiler");
+  replaceTextFile(folder / kResults, withInputs(results, task), "the result file");
+  return result;
+}
+
+std::string gradedText(const fs::path& file) {
+  try {
+    return readStudentFile(file);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+}  // namespace rex::grading

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "grading/exercise_info.h"
+#include "grading/results.h"
+#include "grading/task_list.h"
+#include "grading/toolchain.h"
+
+namespace rex::grading {
+
+/// Hash of what grades an exercise here: its description, its grader, the library and flags that students'
+/// files are built with, the version of rex.
+[[nodiscard]] std::string graderFingerprint(const Toolchain& toolchain, const ExerciseInfo& exercise);
+
+/// The first digits of the hash of the secret in that file, by which results name it.
+[[nodiscard]] std::string secretIdOf(const std::filesystem::path& secret);
+
+/// OUT/STUDENT/EXERCISE.
+[[nodiscard]] std::filesystem::path resultFolder(const std::filesystem::path& out, const Task& task);
+
+/// What lies there of a task. A stale result is one of other inputs; a failed one tells of a grader's fault,
+/// which is never a grade.
+enum class TaskState { missing, stale, failed, done };
+[[nodiscard]] TaskState stateOf(const Task& task, const std::filesystem::path& out);
+
+struct TaskOptions {
+  std::filesystem::path out{};         ///< of all results
+  std::filesystem::path workFolder{};  ///< of this task alone, made if missing
+  std::filesystem::path launcher{};    ///< of the sandbox
+  std::filesystem::path secret{};      ///< file with the secret of the course; empty: none
+};
+
+/// Grades and writes OUT/STUDENT/EXERCISE/results.json, with the hash of the inputs, and build.log: each
+/// whole or not at all. Throws Error, writing no result, if the file or the grader are not those of the task.
+[[nodiscard]] GradeResult gradeTask(const Task& task, const Toolchain& toolchain,
+                                    const ExerciseInfo& exercise, const TaskOptions& options);
+
+/// The text of a file to grade, or "" where it cannot be read: see Task::sourceSha256.
+[[nodiscard]] std::string gradedText(const std::filesystem::path& file);
+
+}  // namespace rex::grading

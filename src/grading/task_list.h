@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rex::grading {
+
+/// One grading: a student's file of one exercise, and all that its result depends on.
+struct Task {
+  std::string student{};
+  std::string exercise{};
+  std::string sourceSha256{};  ///< of the file's text; of nothing where it cannot be read
+  std::string graderSha256{};  ///< see graderFingerprint()
+  int level = 0;               ///< of the sandbox
+  std::optional<std::uint64_t> seed{};
+  std::string secretId{};        ///< of the secret of the course; empty: none
+  std::int64_t submitted = 0;    ///< seconds since 1970 in UTC
+  std::string timeFrom{};        ///< what told that time
+  std::filesystem::path file{};  ///< to grade; relative to the output folder, or absolute
+
+  /// Hash of everything the result depends on; when it was submitted does not count.
+  [[nodiscard]] std::string inputsSha256() const;
+};
+
+/// One line per task, behind a line of headings: tasks.tsv, which any engine can count and cut.
+[[nodiscard]] std::string toManifest(const std::vector<Task>& tasks);
+
+/// Throws Error, with the line, for what is not such a text.
+[[nodiscard]] std::vector<Task> readManifest(const std::filesystem::path& file);
+
+}  // namespace rex::grading
