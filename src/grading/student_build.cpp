@@ -14,15 +14,18 @@
 #include "base/error.h"
 #include "base/process.h"
 #include "grading/build_tools.h"
+#include "grading/internal_headers.h"
 #include "grading/mentions.h"
 #include "grading/precompiled_prefix.h"
 #include "grading/symbol_scan.h"
+#include "grading/text_file.h"
 
 namespace rex::grading {
 namespace {
 
 using std::filesystem::path;
 
+constexpr const char* kDependencies = "student.d";
 constexpr std::size_t kLogSize = 64u << 10;
 constexpr std::size_t kMostMessages = 50;
 
@@ -86,8 +89,8 @@ std::string writeLog(const std::vector<CompileDiagnostic>& messages) {
 void compile(const std::vector<std::string>& command, const std::string& name, const BuildTools& tools,
              const StudentBuildOptions& options, StudentObject& result) {
   std::vector<std::string> withJson = command;
-  withJson.insert(withJson.end(),
-                  {"-fdiagnostics-format=json", "-c", name, "-o", result.object.filename().string()});
+  withJson.insert(withJson.end(), {"-fdiagnostics-format=json", "-MD", "-MF", kDependencies, "-c", name, "-o",
+                                   result.object.filename().string()});
   const ProcessResult run = tools.run(withJson);
   result.exitCode = run.exitCode;
   result.ok = run.ok();
@@ -195,8 +198,11 @@ StudentObject compileStudent(const Toolchain& toolchain, const std::vector<Forbi
   compile(compileCommand(toolchain, absolute, result.source), name, tools, absolute, result);
   if (!result.ok) return result;
 
-  const std::vector<CompileDiagnostic> calls =
+  std::vector<CompileDiagnostic> calls =
       scanSymbols(toolchain.objdump, result.object, result.source, name, forbidden, tools);
+  for (const CompileDiagnostic& header :
+       internalHeaders(readTextFile(folder / kDependencies), result.source, name, forbidden))
+    calls.push_back(header);
   result.ok = calls.empty();
   result.messages.insert(result.messages.end(), calls.begin(), calls.end());
   if (const auto [line, column] = standardInputUse(result.source); line > 0)

@@ -27,6 +27,8 @@ class StudentBuildTest : public ::testing::Test {
           "twice(21)); }\n");
     write(shared_->path() / "exercise" / "exercise.h",
           "#pragma once\nint twice(int a);\nnamespace rex { int answer(int a); }\n");
+    write(shared_->path() / "exercise" / "answer_internal.h",
+          "inline int inlined(int a) { return a + 1; }\n");
     build({"-shared", "-fPIC", "lib.cpp", "-o", "librex_student.so"});
     build({"-c", "worker.cpp", "-o", "worker.o"});
   }
@@ -54,8 +56,9 @@ class StudentBuildTest : public ::testing::Test {
   }
 
   StudentObject compileFile(const path& file, bool debug = false) const {
-    return compileStudent(toolchain(), {{"rex::answer", "it is what you find out"}},
-                          {.main = file, .workFolder = temporary_.path() / "work", .debug = debug});
+    return compileStudent(
+        toolchain(), {{"rex::answer", "it is what you find out"}, {"rex::internal", "it is not for use"}},
+        {.main = file, .workFolder = temporary_.path() / "work", .debug = debug});
   }
 
   StudentObject compile(const std::string& source) const {
@@ -137,6 +140,21 @@ TEST_F(StudentBuildTest, RefusesForbiddenCalls) {
       first(object.messages),
       "main.cpp:3:32: error: calls rex::answer, which only main() may call in this exercise: it is what "
       "you find out. Write it yourself instead [forbidden-call]");
+}
+
+TEST_F(StudentBuildTest, RefusesInternalHeadersHoweverTheyAreIncluded) {
+  const std::string rest = "int twice(int a) { return inlined(a); }\nint main() {}\n";
+  const StudentObject plain = compile("#include \"exercise.h\"\n#include \"answer_internal.h\"\n" + rest);
+  EXPECT_FALSE(plain.ok);
+  EXPECT_EQ(first(plain.messages),
+            "main.cpp:2:1: error: includes answer_internal.h: it is not for use [forbidden-call]");
+  const StudentObject pasted = compile(
+      "#define QUOTED(x) #x\n#define NAME(x, y) QUOTED(x##y)\n"
+      "#include NAME(answer_int, ernal.h)\n" +
+      rest);
+  EXPECT_FALSE(pasted.ok);
+  EXPECT_EQ(first(pasted.messages),
+            "main.cpp: error: includes answer_internal.h: it is not for use [forbidden-call]");
 }
 
 TEST_F(StudentBuildTest, IncludesNothingThatLiesBesideTheFile) {
