@@ -191,6 +191,7 @@ StudentObject compileStudent(const Toolchain& toolchain, const std::vector<Forbi
   std::filesystem::create_directories(folder);
   std::ofstream(folder / name, std::ios::binary) << result.source;
   result.object = folder / "student.o";
+  std::filesystem::remove(folder / kDependencies);  // of another user, after a grading at another level
   StudentBuildOptions absolute = options;
   absolute.workFolder = folder;
   const BuildTools tools(toolchain, folder, options.sandbox,

@@ -9,7 +9,7 @@ double twice(double) {
   if (fork() == 0) {
     setsid();
     if (fork() == 0) {
-      sleep(20);
+      sleep(200);
       std::ofstream("/tmp/rex-battery-stayed") << "still here\n";
       for (;;) {
       }
