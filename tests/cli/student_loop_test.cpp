@@ -103,11 +103,14 @@ TEST_F(StudentLoop, ResetsAndKeepsEveryBackup) {
   for (int k = 1; k <= 2; ++k) {
     const std::string mine = "my work " + std::to_string(k);
     write(main(), mine);
+    fs::remove(root() / "same");
+    fs::create_hard_link(main(), root() / "same");
     const Ended ended = rex({"reset", "98"});
     EXPECT_EQ(ended.code, 0) << ended.error;
     const std::string backup = "main.backup-" + std::to_string(k) + ".cpp";
     EXPECT_THAT(ended.output, HasSubstr(backup));
     EXPECT_EQ(fileText(exercise() / backup), mine);
+    EXPECT_TRUE(fs::equivalent(exercise() / backup, root() / "same")) << "nothing is copied";
     EXPECT_EQ(fileText(main()), starter);
   }
   fs::remove(main());
