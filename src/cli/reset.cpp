@@ -20,8 +20,8 @@ std::string starterOf(const ExerciseInfo& exercise) {
                     .where = {copy.string()}});
 }
 
-// Under a name that nobody has taken: a second name of the same file, which cannot be lost half way. Where the
-// file system knows none, a copy that lies on the disk before we go on.
+// Under a name that nobody has taken: a second name of the same file, which cannot be lost half way. Where
+// the file system knows none, a copy that lies on the disk before we go on.
 fs::path keepBackup(const fs::path& main) {
   for (int k = 1;; ++k) {
     const fs::path backup = main.parent_path() / fmt::format("main.backup-{}.cpp", k);

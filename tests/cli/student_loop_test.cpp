@@ -75,6 +75,16 @@ TEST_F(StudentLoop, GivesHintsOneByOne) {
                                              "mean 'rotate'?)"));
 }
 
+TEST_F(StudentLoop, SaysWhereTheOtherHintsAreIfItCannotCount) {
+  write(root() / ".rex", "a file where a folder should be");
+  for (int k = 0; k < 2; ++k) {
+    const Ended ended = rex({"hint", "98"});
+    EXPECT_THAT(ended.output, HasSubstr("1 of 2: "));
+    EXPECT_THAT(ended.output, HasSubstr("  1 more in " + (exercise() / "exercise.toml").string() + ", as"));
+    EXPECT_THAT(ended.output, Not(HasSubstr("scripts/rex hint")));
+  }
+}
+
 TEST_F(StudentLoop, HintsAtThePartThatLostPoints) {
   replace(exercise() / "exercise.toml", "[[part]]",
           "[[part]]\nid = \"other\"\ntitle = \"Another part\"\npoints = 1\nhints = [\"Other.\"]\n\n[[part]]");
@@ -95,6 +105,13 @@ TEST_F(StudentLoop, SaysWhereReplayAndPicturesAre) {
   EXPECT_EQ(shown.output, "replay   " + folder + "dance.html\n         file://" + folder +
                               "dance.html\nfilm     " + folder + "dance.mp4\npicture  " + folder +
                               "end.png\npicture  " + folder + "dance/0000.png\n");
+}
+
+TEST_F(StudentLoop, WritesAddressesThatBrowsersTake) {
+  fs::create_directories(out());
+  write(out() / "my 1st # \xc3\xa4.html", "x");
+  EXPECT_THAT(rex({"show", "98"}).output,
+              HasSubstr("file://" + out().string() + "/my%201st%20%23%20%C3%A4.html\n"));
 }
 
 TEST_F(StudentLoop, ResetsAndKeepsEveryBackup) {
