@@ -21,6 +21,7 @@
 #include "cli/commands.h"
 #include "cli/file_watcher.h"
 #include "cli/render_plan.h"
+#include "cli/temporary_folder.h"
 #include "cli/terminal.h"
 #include "grading/private_folder.h"
 #include "render/figure.h"
@@ -278,16 +279,6 @@ void sayJson(const std::vector<Finding>& findings, bool ok) {
   for (const Finding& finding : findings)
     rows.push_back({{"name", finding.name}, {"status", nameOf(finding.status)}, {"text", finding.text}});
   say(nlohmann::json{{"findings", rows}, {"ok", ok}}.dump(2));
-}
-
-fs::path temporaryFolder() {
-  std::error_code problem;
-  const fs::path folder = fs::temp_directory_path(problem);
-  if (!problem) return folder;
-  const char* chosen = std::getenv("TMPDIR");
-  throw Error({.what = "TMPDIR, where temporary files go",
-               .found = fmt::format("'{}'", harmless(chosen == nullptr ? "/tmp" : chosen)),
-               .wanted = "a folder"});
 }
 
 }  // namespace

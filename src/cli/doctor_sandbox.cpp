@@ -5,6 +5,7 @@
 
 #include "cli/commands.h"
 #include "cli/sandbox_choice.h"
+#include "cli/temporary_folder.h"
 #include "cli/terminal.h"
 #include "grading/private_folder.h"
 #include "sandbox/probes.h"
@@ -21,16 +22,16 @@ struct Trial {
 
 // The highest level at which all attacks fail, or the last one tried.
 Trial tryLevels(const Project& project, int highest) {
-  const grading::PrivateFolder folder(std::filesystem::temp_directory_path());
+  const grading::PrivateFolder folder(temporaryFolder());
   Trial trial;
   for (trial.level = highest; trial.level > 0; --trial.level) {
     trial.probes = sandbox::attack({trial.level, launcherOf(project)}, probeOf(project), folder.path());
     if (std::all_of(trial.probes.begin(), trial.probes.end(), [](const Probe& p) { return p.held; })) break;
     const auto broken =
         std::find_if(trial.probes.begin(), trial.probes.end(), [](const Probe& p) { return !p.held; });
-    note(wrap(
-        fmt::format("level {} does not hold here: {}: {}", trial.level, broken->name, harmless(broken->text)),
-        2, 0));
+    note(wrap(fmt::format("level {} does not hold here: {}{}", trial.level,
+                          broken->ran ? broken->name + ": " : "", harmless(broken->text)),
+              2, 0));
   }
   return trial;
 }

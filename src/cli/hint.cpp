@@ -54,7 +54,7 @@ ExitCode hint(const Project& project, const HintOptions& options) {
     return ExitCode::kFull;
   }
   int before = 0, now = 0;
-  ProgressFile(project.root).change(exercise.name, [&](Progress& progress) {
+  const bool kept = ProgressFile(project.root).change(exercise.name, [&](Progress& progress) {
     int& shownSoFar = progress.hints[part.id];
     before = std::clamp(shownSoFar, 0, all);
     now = options.again ? before : std::min(before + 1, all);
@@ -67,6 +67,9 @@ ExitCode hint(const Project& project, const HintOptions& options) {
   for (int number = now > before ? now : 1; number <= now; ++number) sayHint(part, number);
   if (now == all)
     say("  That was the last hint for this part.");
+  else if (!kept)
+    say(fmt::format("  {} more in {}, as they cannot be counted here", all - now,
+                    shown(exercise.folder / "exercise.toml")));
   else
     say(fmt::format("  {} more: scripts/rex hint {} {}", all - now, exercise.name, part.id));
   return ExitCode::kFull;

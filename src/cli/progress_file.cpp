@@ -107,7 +107,7 @@ AllProgress ProgressFile::read() const {
   }
 }
 
-void ProgressFile::change(const std::string& exercise, const std::function<void(Progress&)>& edit) const {
+bool ProgressFile::change(const std::string& exercise, const std::function<void(Progress&)>& edit) const {
   try {
     fs::create_directories(folder_);
     const Lock lock(folder_ / "lock");
@@ -120,8 +120,10 @@ void ProgressFile::change(const std::string& exercise, const std::function<void(
     putInto(entry, progress);
     if (progress.tested) json["last"] = exercise;
     grading::replaceTextFile(file, json.dump(2) + "\n", "the progress");
+    return true;
   } catch (const std::exception& error) {
     complain(folder_, error);
+    return false;
   }
 }
 

@@ -32,8 +32,8 @@ class ProgressFile {
 
   [[nodiscard]] AllProgress read() const;
   /// Changes what is remembered about one exercise, and makes it the last one if it was ever tested. Tells on
-  /// standard error when it cannot be kept: no command fails for that.
-  void change(const std::string& exercise, const std::function<void(Progress&)>& edit) const;
+  /// standard error when it cannot be kept, and returns false: no command fails for that.
+  bool change(const std::string& exercise, const std::function<void(Progress&)>& edit) const;
 
  private:
   std::filesystem::path folder_;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -11,12 +12,28 @@ namespace rex::cli {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+// RFC 3986: all but letters, digits and a few signs is written as % and two digits.
+std::string urlOf(const fs::path& file) {
+  constexpr std::string_view kPlain = "-._~/";
+  std::string url = "file://";
+  for (const char c : fs::absolute(file).string()) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool isPlain = (byte < 0x80 && std::isalnum(byte) != 0) || kPlain.find(c) != kPlain.npos;
+    url += isPlain ? std::string(1, c) : fmt::format("%{:02X}", byte);
+  }
+  return url;
+}
+
+}  // namespace
+
 ExitCode show(const Project& project, const ShowOptions& options) {
   const ExerciseInfo exercise = project.exercise(options.exercise);
   const fs::path folder = project.outFolder(exercise, options.solution);
   const std::vector<fs::path> replays = filesIn(folder, ".html");
   for (const fs::path& replay : replays)
-    say(fmt::format("replay   {}\n         file://{}", shown(replay), fs::absolute(replay).string()));
+    say(fmt::format("replay   {}\n         {}", shown(replay), urlOf(replay)));
   for (const char* kind : {".mp4", ".webm", ".gif"})
     for (const fs::path& film : filesIn(folder, kind)) say("film     " + shown(film));
   const auto pictures = filesIn(folder, ".png");

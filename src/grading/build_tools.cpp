@@ -13,11 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Confined tools find no pipe or terminal to wait for: only a busy machine keeps them, and they get patience.
-double clockSeconds(const ToolLimits& limits, int level) {
-  return (level == 0 ? 2 : 10) * limits.seconds + 2;
-}
-
 // The names in lines `#include "name"`.
 std::vector<std::string> includedNames(const std::string& text) {
   std::vector<std::string> names;
@@ -66,13 +61,15 @@ sandbox::Confinement confinement(const Toolchain& toolchain, const fs::path& wor
                           "TMPDIR=" + (sandbox.level >= 2 ? sandbox::kInsideFolder : workFolder.string())},
           .mayStartProgramsOfItsOwn = true,
           .cpuSeconds = limits.seconds,
-          .wallSeconds = clockSeconds(limits, sandbox.level),
+          .wallSeconds = clockSeconds(limits.seconds, sandbox.level),
           .addressSpace = limits.memory,
           .fileSize = limits.fileSize,
           .openFiles = 256};
 }
 
 }  // namespace
+
+double clockSeconds(double seconds, int level) { return (level == 0 ? 2 : 10) * seconds + 2; }
 
 BuildTools::BuildTools(const Toolchain& toolchain, const fs::path& workFolder,
                        const sandbox::Sandbox& sandbox, const ToolLimits& limits)
@@ -99,7 +96,7 @@ ProcessResult BuildTools::runConfined(const std::vector<std::string>& command,
 
 ProcessResult BuildTools::run(const std::vector<std::string>& command, std::size_t outputLimit) const {
   ProcessOptions options{.directory = workFolder_,
-                         .timeout = clockSeconds(limits_, level_),
+                         .timeout = clockSeconds(limits_.seconds, level_),
                          .outputLimit = outputLimit,
                          .cpuSeconds = limits_.seconds,
                          .addressSpace = limits_.memory,
@@ -111,7 +108,7 @@ ProcessResult BuildTools::run(const std::vector<std::string>& command, std::size
   constexpr double kWorked = 0.2;  // of the processor time it may use
   if (result.timedOut && result.cpuSeconds > kWorked * limits_.seconds)
     throw Error({.what = fmt::format("{} did not end within {:g} s: the machine was too busy",
-                                     command.front(), clockSeconds(limits_, level_))});
+                                     command.front(), clockSeconds(limits_.seconds, level_))});
   return result;
 }
 

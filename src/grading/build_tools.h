@@ -13,10 +13,14 @@ namespace rex::grading {
 
 /// What one tool may use.
 struct ToolLimits {
-  double seconds = 30;                        ///< of processor time; by the clock at least twice that and two
+  double seconds = 30;                        ///< of processor time; by the clock clockSeconds()
   std::size_t memory = std::size_t{2} << 30;  ///< bytes
   std::size_t fileSize = std::size_t{64} << 20;
 };
+
+/// How long a tool may take by the clock that may use so many seconds of processor time. Confined ones find
+/// no pipe or terminal to wait for: only a busy machine keeps them, and they get patience.
+[[nodiscard]] double clockSeconds(double seconds, int level);
 
 /// Runs compilers and the tools for object files on what a student wrote. Confined, they see the system, the
 /// headers that students may include, what workers are linked with, and their work folder.

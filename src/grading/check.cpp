@@ -190,9 +190,11 @@ bool Check::runCase(int number, const std::function<void(int)>& run) {
   } catch (const remote::RemoteThrow& error) {
     // A worker without memory says nothing useful any more.
     if (error.thrown().kind == remote::Thrown::Kind::badAlloc) throw;
+    // A type's name could tell the input.
+    const std::string type = info_.group == Group::visible ? error.thrown().type : "an exception";
     keep({.outcome = Outcome::runtimeError,
           .property = error.function() + " returns",
-          .what = "threw " + error.thrown().type + " in " + error.function(),
+          .what = "threw " + type + " in " + error.function(),
           .got = error.thrown().text,
           .function = error.function()});
     return false;

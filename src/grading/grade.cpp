@@ -31,13 +31,37 @@ CheckResult faulty(const CheckInfo& info, const std::string& why) {
   return check;
 }
 
+// A program that cannot print what it was given could still say it by an exit code or the name of a type.
+std::string messageWithoutDetails(const Failure& failure) {
+  const auto what = [&] {
+    switch (failure.outcome) {
+      case Outcome::timeLimit:
+        return "took too much time";
+      case Outcome::memoryLimit:
+        return "used too much memory";
+      case Outcome::outputLimit:
+        return "printed too much";
+      case Outcome::protocolError:
+        return "disturbed the connection to the grader";
+      case Outcome::securityEvent:
+        return "tried what the sandbox forbids";
+      default:
+        return "crashed, threw an exception or ended the program";
+    }
+  }();
+  return fmt::format("{} {}", what,
+                     failure.function.empty() ? "outside of your functions" : "in " + failure.function);
+}
+
 CheckResult failed(const CheckInfo& info, const Failure& failure, const std::string& input) {
   CheckResult check = blank(info);
   check.status = failure.outcome;
-  const bool quote = info.group == Group::visible && !failure.detail.empty();
-  check.message = printable(failure.message + (quote ? ": " + failure.detail : ""), kLongestMessage);
-  if (info.group == Group::visible) check.input = printable(input, kLongestMessage);
   check.function = failure.function;
+  check.message = messageWithoutDetails(failure);
+  if (info.group == Group::hidden) return check;
+  const std::string detail = failure.detail.empty() ? "" : ": " + failure.detail;
+  check.message = printable(failure.message + detail, kLongestMessage);
+  check.input = printable(input, kLongestMessage);
   return check;
 }
 

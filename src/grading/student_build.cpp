@@ -45,7 +45,7 @@ std::string whyItGaveUp(const ProcessResult& run, const StudentBuildOptions& lim
   const auto says = [&](const char* text) { return run.error.find(text) != std::string::npos; };
   if (run.timedOut)
     return fmt::format("compiling did not end within {:g} s: does it include a pipe or a device?",
-                       2 * limits.seconds + 2);
+                       clockSeconds(limits.seconds, limits.sandbox.level));
   if (says("Killed") || says("CPU time limit") || run.signal != 0)
     return fmt::format("compiling took more than {:g} s of processor time and was stopped", limits.seconds);
   if (says("out of memory") || says("memory exhausted") || says("bad_alloc"))

@@ -9,8 +9,8 @@
 
 namespace rex::grading {
 
-/// Why a worker could not finish. `message` is ours; `detail` quotes the student's program, which may have
-/// printed what it was given, so reports of hidden checks leave it out.
+/// Why a worker could not finish. `message` is ours; `detail` quotes the student's program. Both may tell
+/// what it was given, so reports of hidden checks say the outcome and the function only.
 struct Failure {
   Outcome outcome = Outcome::runtimeError;
   std::string message{};   ///< "aborted in ikStep"

@@ -79,13 +79,15 @@ int signalOf(const ProcessResult& result) {
 }
 
 Probe judge(const std::string& name, const ProcessResult& result) {
-  if (!result.started) return {name, false, "the launcher does not start: " + result.error};
-  if (result.exitCode == 1) return {name, false, firstLine(result.output + result.error)};
+  if (!result.started) return {name, false, "the launcher does not start: " + result.error, false};
+  // The probe tells what got through on standard output; bubblewrap complains on the other with the same
+  // code.
+  if (result.exitCode == 1 && !result.output.empty()) return {name, false, firstLine(result.output)};
   if (signalOf(result) == SIGSYS) return {name, true, "stopped at a forbidden system call"};
   if (signalOf(result) == SIGKILL || signalOf(result) == SIGXCPU) return {name, true, "killed"};
   if (result.exitCode == 0) return {name, true, "refused"};
-  return {name, false,
-          fmt::format("the sandbox does not stand: {}", firstLine(result.error + result.output))};
+  return {name, false, fmt::format("the sandbox does not stand: {}", firstLine(result.error + result.output)),
+          false};
 }
 
 // Whether some process has this among its arguments; others may attack a sandbox at the same time.
@@ -115,7 +117,7 @@ std::vector<Probe> attack(const Sandbox& sandbox, const fs::path& probe, const f
     try {
       probes.push_back(judge(name, run(sandbox, probe, words, folder)));
     } catch (const Error& error) {
-      probes.push_back({name, false, error.what()});
+      probes.push_back({name, false, error.what(), false});
     }
   };
   attempt("file", targets.file());
@@ -128,7 +130,7 @@ std::vector<Probe> attack(const Sandbox& sandbox, const fs::path& probe, const f
   try {
     probes.push_back(leftover(sandbox, probe, folder));
   } catch (const Error& error) {
-    probes.push_back({"leftover", false, error.what()});
+    probes.push_back({"leftover", false, error.what(), false});
   }
   return probes;
 }

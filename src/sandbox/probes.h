@@ -13,6 +13,7 @@ struct Probe {
   std::string name;  ///< file, proc, net, fork, mem, fd, tmpfs size, leftover
   bool held = false;
   std::string text;  ///< how the attack ended, or what got through
+  bool ran = true;   ///< false: there was no sandbox to attack from, and `text` says why
 };
 
 /// Attacks the sandbox from inside in every way we know. Files that it needs are made in `folder`. `probe` is

@@ -75,6 +75,16 @@ TEST_F(StudentLoop, GivesHintsOneByOne) {
                                              "mean 'rotate'?)"));
 }
 
+TEST_F(StudentLoop, SaysWhereTheOtherHintsAreIfItCannotCount) {
+  write(root() / ".rex", "a file where a folder should be");
+  for (int k = 0; k < 2; ++k) {
+    const Ended ended = rex({"hint", "98"});
+    EXPECT_THAT(ended.output, HasSubstr("1 of 2: "));
+    EXPECT_THAT(ended.output, HasSubstr("  1 more in " + (exercise() / "exercise.toml").string() + ", as"));
+    EXPECT_THAT(ended.output, Not(HasSubstr("scripts/rex hint")));
+  }
+}
+
 TEST_F(StudentLoop, HintsAtThePartThatLostPoints) {
   replace(exercise() / "exercise.toml", "[[part]]",
           "[[part]]\nid = \"other\"\ntitle = \"Another part\"\npoints = 1\nhints = [\"Other.\"]\n\n[[part]]");
@@ -97,17 +107,27 @@ TEST_F(StudentLoop, SaysWhereReplayAndPicturesAre) {
                               "end.png\npicture  " + folder + "dance/0000.png\n");
 }
 
+TEST_F(StudentLoop, WritesAddressesThatBrowsersTake) {
+  fs::create_directories(out());
+  write(out() / "my 1st # \xc3\xa4.html", "x");
+  EXPECT_THAT(rex({"show", "98"}).output,
+              HasSubstr("file://" + out().string() + "/my%201st%20%23%20%C3%A4.html\n"));
+}
+
 TEST_F(StudentLoop, ResetsAndKeepsEveryBackup) {
   const std::string starter = fileText(main());
   EXPECT_THAT(rex({"reset", "98"}).output, HasSubstr("is as it was handed out."));
   for (int k = 1; k <= 2; ++k) {
     const std::string mine = "my work " + std::to_string(k);
     write(main(), mine);
+    fs::remove(root() / "same");
+    fs::create_hard_link(main(), root() / "same");
     const Ended ended = rex({"reset", "98"});
     EXPECT_EQ(ended.code, 0) << ended.error;
     const std::string backup = "main.backup-" + std::to_string(k) + ".cpp";
     EXPECT_THAT(ended.output, HasSubstr(backup));
     EXPECT_EQ(fileText(exercise() / backup), mine);
+    EXPECT_TRUE(fs::equivalent(exercise() / backup, root() / "same")) << "nothing is copied";
     EXPECT_EQ(fileText(main()), starter);
   }
   fs::remove(main());

@@ -1,6 +1,8 @@
 // The probes hold at every level that stands, and each of them can fail.
 #include "sandbox/probes.h"
 
+#include <fstream>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -45,6 +47,17 @@ TEST_F(Probes, SayWhyALevelDoesNotStand) {
   EXPECT_EQ(available.level, 0);
   ASSERT_EQ(available.reasons.size(), 3u);
   EXPECT_THAT(available.reasons.back(), ::testing::HasSubstr("level 1: the launcher does not start"));
+}
+
+// A program that fails as bubblewrap does where it may not make namespaces.
+TEST_F(Probes, BlameNoAttackThatNeverRan) {
+  const fs::path launcher = folder_.path() / "launcher";
+  std::ofstream(launcher) << "#!/bin/sh\necho bwrap: No permissions >&2\nexit 1\n";
+  fs::permissions(launcher, fs::perms::owner_all);
+  for (const Probe& probe : attack({.level = 1, .launcher = launcher}, kProbe, folder_.path())) {
+    EXPECT_FALSE(probe.held || probe.ran) << probe.name;
+    EXPECT_EQ(probe.text, "the sandbox does not stand: bwrap: No permissions");
+  }
 }
 
 TEST_F(Probes, WarnBelowTheHighestLevel) {
