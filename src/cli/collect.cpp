@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/commands.h"
+#include "cli/grade_many.h"
 #include "cli/terminal.h"
 #include "grading/grade_table.h"
 #include "grading/grade_task.h"

@@ -12,6 +12,7 @@
 #include "cli/cma.h"
 #include "cli/command_line_internal.h"
 #include "cli/commands.h"
+#include "cli/grade_many_command_line_internal.h"
 #include "cli/terminal.h"
 
 namespace rex::cli {

@@ -22,9 +22,6 @@ void addGl(CLI::App* command, std::string& gl);
 /// `rex watch`, `hint`, `show`, `reset`, `solution` and `submit`.
 void addStudentCommands(CLI::App& program, Action& action);
 
-/// `rex grade DIR`, `rex grade-one` and `rex collect DIR`.
-void addGradeMany(CLI::App& program, Action& action);
-
 /// `rex scene FILE VERB`, `rex render FILE`, `rex simulate FILE` and `rex plan FILE`.
 void addScene(CLI::App& program, Action& action);
 void addRender(CLI::App& program, Action& action);

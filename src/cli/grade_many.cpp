@@ -1,3 +1,5 @@
+#include "cli/grade_many.h"
+
 #include <algorithm>
 #include <atomic>
 #include <map>
@@ -7,7 +9,6 @@
 
 #include "base/error.h"
 #include "cli/collect.h"
-#include "cli/commands.h"
 #include "cli/progress_line.h"
 #include "cli/sandbox_choice.h"
 #include "cli/terminal.h"
@@ -18,6 +19,7 @@
 #include "grading/sha256.h"
 #include "grading/submission_times.h"
 #include "grading/text_file.h"
+#include "sandbox/probes.h"
 
 namespace rex::cli {
 namespace {
@@ -47,6 +49,31 @@ class Graders {
   const Project& project_;
   std::map<std::string, Grader> graders_;
 };
+
+// For work of strangers: the asked level, else the best that holds here. One below 2 must be accepted by its
+// number. Nothing if there is none; why is told, and what a weak one does not stop.
+std::optional<sandbox::Sandbox> chooseForStrangers(const Project& project, std::optional<int> level,
+                                                   std::optional<int> accepted) {
+  constexpr int kBest = 3, kSafe = 2;
+  if (!level) {
+    const grading::PrivateFolder folder(std::filesystem::temp_directory_path());
+    const auto best = sandbox::bestLevel(kBest, launcherOf(project), probeOf(project), folder.path());
+    level = best.level;
+    for (const std::string& reason : best.reasons)
+      if (best.level < kSafe) note(wrap(harmless(reason), 2, 0));
+  }
+  if (*level < accepted.value_or(kSafe)) {
+    note(wrap(fmt::format("sandbox level {} is not for work of strangers: {}; to grade all the same, say "
+                          "--i-accept-level {}",
+                          *level, sandbox::warningOf(*level), *level),
+              2, 0));
+    return {};
+  }
+  const std::optional<sandbox::Sandbox> chosen = chooseSandbox(project, level);
+  if (chosen && *level < kSafe)
+    note(wrap(fmt::format("sandbox level {}: {}", *level, sandbox::warningOf(*level)), 2, 0));
+  return chosen;
+}
 
 // Results inside of what was handed in would be handed in next time.
 void requireApart(const fs::path& folder, const fs::path& out) {

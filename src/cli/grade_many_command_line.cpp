@@ -4,8 +4,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cli/command_line_internal.h"
-#include "cli/commands.h"
+#include "cli/grade_many.h"
+#include "cli/grade_many_command_line_internal.h"
 
 namespace rex::cli {
 namespace {

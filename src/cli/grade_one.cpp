@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "cli/commands.h"
+#include "cli/grade_many.h"
 #include "cli/sandbox_choice.h"
 #include "cli/terminal.h"
 #include "grading/grade_task.h"

@@ -16,10 +16,4 @@ namespace rex::cli {
 /// asked: level 0.
 [[nodiscard]] std::optional<sandbox::Sandbox> chooseSandbox(const Project& project, std::optional<int> level);
 
-/// For work of strangers: the asked level, else the best that holds here. One below 2 must be accepted by its
-/// number. Nothing if there is none; why is told on standard error, and what a weak one does not stop.
-[[nodiscard]] std::optional<sandbox::Sandbox> chooseForStrangers(const Project& project,
-                                                                 std::optional<int> level,
-                                                                 std::optional<int> accepted);
-
 }  // namespace rex::cli
