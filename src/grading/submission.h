@@ -20,8 +20,9 @@ struct SubmissionOptions {
   std::filesystem::path results;     ///< results.json; build.log is written beside it
   std::vector<std::string> checks;   ///< ids; empty: all
   std::optional<std::uint64_t> seed{};
-  std::filesystem::path evidence{};  ///< folder for pictures of checks that do not hold, made anew; empty: none
-  bool lookAgain = false;          ///< after a crash in a visible check, find its line with the sanitizers
+  std::filesystem::path
+      evidence{};              ///< folder for pictures of checks that do not hold, made anew; empty: none
+  bool lookAgain = false;      ///< after a crash in a visible check, find its line with the sanitizers
   bool sanitize = false;       ///< grade a build with the sanitizers, with twenty times the processor time
   sandbox::Sandbox sandbox{};  ///< for compiling and for the worker
   std::filesystem::path
