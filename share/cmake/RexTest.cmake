@@ -1,11 +1,10 @@
-# What the sanitizers look at in a short run: modules that read files of users or talk to processes, and the programs
-# that look at kernels in lanes; but none whose workers need all of the library. scripts/test --long looks at all.
+# What the sanitizers look at in a short run: modules that read files of users or talk to processes, but none whose
+# workers need all of the library. scripts/test --long looks at all.
 set(REX_SANITIZED_MODULES base geometry remote scene grading)
-set(REX_SANITIZED_PROGRAMS
-  kinematics_batch dynamics_dynamics_batch collision_contact_batch collision_contact_kernel collision_convex_distance
-  estimation_car_particles estimation_g2o_file)
 set(REX_SANITIZED_LATER grading_battery grading_grade grading_grader)
 
+# What most tests include, compiled once. Off, as a compiler cache knows nothing of it; on in scripts/test.
+option(REX_TEST_PREFIX "Precompile the headers that all tests include" OFF)
 # rex_test(MODULE NAME [USES module ...] [PRIVATE library ...])
 #
 # Builds tests/MODULE/NAME_test.cpp and registers each of its GoogleTest cases as MODULE/NAME.Suite.Case.
@@ -23,8 +22,10 @@ function(rex_test module name)
   endforeach()
   gtest_discover_tests(${target} TEST_PREFIX ${module}/${name}. DISCOVERY_TIMEOUT 60
     PROPERTIES LABELS ${module} TIMEOUT 300)
-  if((module IN_LIST REX_SANITIZED_MODULES OR ${module}_${name} IN_LIST REX_SANITIZED_PROGRAMS)
-     AND NOT ${module}_${name} IN_LIST REX_SANITIZED_LATER)
+  if(REX_TEST_PREFIX)
+    target_precompile_headers(${target} REUSE_FROM rex_test_prefix)
+  endif()
+  if(module IN_LIST REX_SANITIZED_MODULES AND NOT ${module}_${name} IN_LIST REX_SANITIZED_LATER)
     set_property(GLOBAL APPEND PROPERTY REX_SANITIZED_TESTS ${target})
   endif()
 endfunction()

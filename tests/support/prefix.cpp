@@ -1,0 +1,1 @@
+// Nothing but what is precompiled; see share/cmake/RexTest.cmake.
