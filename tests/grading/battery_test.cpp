@@ -359,6 +359,9 @@ TEST_F(ArchiveBattery, A27StopsAtItsLimits) {
 
 // This process stays small, so that the largest of its children is the one that reads.
 TEST_F(ArchiveBattery, A27TakesLittleMemory) {
+  rusage children{};
+  ::getrusage(RUSAGE_CHILDREN, &children);
+  if (children.ru_maxrss > 100 << 10) GTEST_SKIP() << "needs a process of its own, which ctest gives it";
   writeTextFile(temporary_.path() / "zeros", "");
   fs::resize_file(temporary_.path() / "zeros", 200'000'000);
   ASSERT_TRUE(
@@ -366,7 +369,6 @@ TEST_F(ArchiveBattery, A27TakesLittleMemory) {
           .ok());
   expectRefusal("mallory.tgz", "member 'zeros': found more ");
 #ifndef __SANITIZE_ADDRESS__
-  rusage children{};
   ::getrusage(RUSAGE_CHILDREN, &children);
   EXPECT_LT(children.ru_maxrss, 100 << 10) << "kilobytes";
 #endif
