@@ -35,11 +35,10 @@ struct WalkerStepJacobian {
 /// Thuilot, Espiau 1998, A study of the passive gait of a compass-like biped robot. Each leg is a point mass
 /// `a` above its foot and `b` below the hip. A state is x = (theta_s, theta_ns, their rates) of the stance
 /// and the swing leg, rad and rad/s, from the vertical, counter-clockwise; downhill is to the right, so that
-/// the stance angle falls. As in the paper, the swing foot may pass
-/// below the ground until it is in front, and the stance foot stands as if pinned: see groundForce(). All
-/// functions throw Error for lengths, masses or g that are not positive (a and legMass may be zero), a slope
-/// outside
-/// (-1, 1), and states that are not finite.
+/// the stance angle falls. As in the paper, the swing foot may pass below the ground until it is in front,
+/// and the stance foot stands as if pinned: see groundForce(). All functions throw Error for lengths, masses
+/// or g that are not positive (a and legMass may be zero), a slope outside (-1, 1), and states that are not
+/// finite.
 struct CompassGait {
   double a = 0.5, b = 0.5;             ///< metres
   double legMass = 5;                  ///< m of each leg, kg; 0: of a vanishing mass

@@ -49,8 +49,8 @@ struct WalkPhase {
 /// How long the walk takes, seconds. Throws Error for fewer than two footsteps, sides that do not take turns,
 /// sizes and times that are not positive, and numbers that are not finite, naming the footstep.
 [[nodiscard]] double duration(const WalkPlan& plan);
-/// The phase at time t, seconds: before 0 and after duration() those of both ends. Throws
-/// as duration().
+/// The phase at time t, seconds: before 0 and after duration() those of both ends. Throws as
+/// duration().
 [[nodiscard]] WalkPhase phaseAt(const WalkPlan& plan, double t);
 /// The hull of the soles that stand on the ground in this phase.
 [[nodiscard]] SupportPolygon supportOf(const WalkPhase& phase, const Sole& sole);

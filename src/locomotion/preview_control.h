@@ -30,7 +30,7 @@ struct PreviewGains {
 
 /// The gains that minimise the sum of Qe (p - r)^2 + R (u_k - u_{k-1})^2 over all time, by solveDare(). The
 /// reference counts as constant from the end of the preview on. Throws Error for options that are not
-/// positive, and for a preview shorter than a step or longer than 100 000.
+/// positive, and for a preview of less than one step or more than 100 000.
 [[nodiscard]] PreviewGains previewGains(const PreviewOptions& options);
 
 /// A motion of the centre of mass whose zero moment point follows a reference: a column for each time, x and

@@ -41,7 +41,7 @@ struct SpringLeg {
   double angle = 1.1868238913561442;  ///< of the leg to the ground at touchdown, radians; 68 degrees
   double g = 9.81;                    ///< m/s^2
 
-  /// Rates of a state in stance; beyond its rest length the leg does not pull.
+  /// Rates of a state in stance. Beyond its rest length, where stance has ended, the spring would pull.
   [[nodiscard]] Eigen::Vector4d stanceDerivative(const Eigen::Vector4d& x) const;
   /// Joules: kinetic, of height, and of the spring in stance.
   [[nodiscard]] double stanceEnergy(const Eigen::Vector4d& x) const;
