@@ -74,6 +74,11 @@ TEST(LimitCycle, SaysWhyThereIsNone) {
   EXPECT_EQ(early.status, Status::kIterationLimit);
   EXPECT_EQ(early.message, "not found in 1 iterations");
   EXPECT_GT(early.residual, 1e-13);
+  // Rounding alone keeps it from coming nearer.
+  const LimitCycle stuck = findLimitCycle({}, {.2, -.3, -1, -.3}, {.tolerance = 1e-300});
+  EXPECT_EQ(stuck.status, Status::kStuck);
+  EXPECT_THAT(stuck.message, testing::HasSubstr("stuck: a step changes the state by "));
+  EXPECT_LT(stuck.residual, 1e-13);
   const CompassGait uphill{.slope = -.05};
   const LimitCycle none = findLimitCycle(uphill, {.3, -.2, -2, -.5});
   EXPECT_NE(none.status, Status::kFound) << none.message;
