@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "locomotion/limit_cycle.h"
+
+namespace rex {
+
+struct BasinOptions {
+  int maxSteps = 50;        ///< of each walker
+  double tolerance = 1e-3;  ///< reached where no number of the state differs by more from the cycle's
+  double timeLimit = 10;    ///< seconds of each step
+};
+
+/// What became of one walker.
+struct BasinOutcome {
+  enum class Status {
+    kReached,
+    kFell,      ///< see `last`
+    kUndecided  ///< walks on, but not into the cycle: too slowly, or with another gait
+  };
+  Status status = Status::kUndecided;
+  StepStatus last = StepStatus::kStepped;  ///< how its last step ended
+  int steps = 0;                           ///< whole steps until then
+};
+
+/// Which starts lead into a limit cycle: walks from each column of `starts` (4 x N, states as CompassGait has
+/// them after an impact). One outcome per column. Throws Error as CompassGait, for a cycle that was not
+/// found, and for options that are not positive.
+[[nodiscard]] std::vector<BasinOutcome> basinOfAttraction(const CompassGait& walker, const LimitCycle& cycle,
+                                                          const Eigen::Ref<const Eigen::Matrix4Xd>& starts,
+                                                          const BasinOptions& options = {});
+
+/// Starts on a grid of stance angles and rates (radians, rad/s), stance angle fastest, with both feet on the
+/// ground and the swing rate of the cycle, scaled with the stance rate: 4 x (angles * rates) states.
+[[nodiscard]] Eigen::Matrix4Xd basinGrid(const CompassGait& walker, const LimitCycle& cycle,
+                                         const Eigen::Ref<const Eigen::VectorXd>& stanceAngles,
+                                         const Eigen::Ref<const Eigen::VectorXd>& stanceRates);
+
+}  // namespace rex

@@ -1,0 +1,88 @@
+#include "locomotion/limit_cycle.h"
+
+#include <algorithm>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include "locomotion/require_internal.h"
+
+namespace rex {
+namespace {
+
+using Eigen::Matrix4d;
+using Eigen::Vector4cd;
+using Eigen::Vector4d;
+using Status = LimitCycle::Status;
+
+Vector4cd multipliersOf(const Matrix4d& J) {
+  Vector4cd values = Eigen::EigenSolver<Matrix4d>(J, false).eigenvalues();
+  std::sort(values.begin(), values.end(), [](const auto& s, const auto& t) {
+    return std::abs(s) != std::abs(t) ? std::abs(s) > std::abs(t) : s.imag() > t.imag();
+  });
+  return values;
+}
+
+// A state, its step, and by how much that misses it.
+struct Trial {
+  Vector4d x;
+  WalkerStepJacobian map;
+  double residual;
+
+  Trial(const CompassGait& walker, const Vector4d& at, double timeLimit)
+      : x(at),
+        map(walker.stepJacobian(at, timeLimit)),
+        residual((map.step.after - at).cwiseAbs().maxCoeff()) {}
+  [[nodiscard]] bool stepped() const { return map.step.status == StepStatus::kStepped; }
+};
+
+// Halves Newton's way until the walker steps, and comes nearer.
+bool advance(const CompassGait& walker, double timeLimit, Trial& at) {
+  const Vector4d way =
+      (Matrix4d::Identity() - at.map.J).fullPivLu().solve(Vector4d(at.map.step.after - at.x));
+  for (double share = 1; share > 1e-4; share /= 2) {
+    const Trial next(walker, at.x + share * way, timeLimit);
+    if (!next.stepped() || !(next.residual < at.residual)) continue;
+    at = next;
+    return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+LimitCycle findLimitCycle(const CompassGait& walker, const Vector4d& guess,
+                          const LimitCycleOptions& options) {
+  internal::requirePositive("limit cycle: iterations", options.maxIterations);
+  internal::requirePositive("limit cycle: tolerance", options.tolerance);
+  Trial at(walker, guess, options.timeLimit);
+  LimitCycle cycle{.x = guess, .residual = at.residual};
+  if (!at.stepped()) {
+    cycle.status = Status::kFell;
+    cycle.message = "from the guess: " + at.map.step.message;
+    return cycle;
+  }
+  cycle.message = fmt::format("not found in {} iterations", options.maxIterations);
+  for (; cycle.iterations < options.maxIterations; ++cycle.iterations) {
+    if (at.residual <= options.tolerance) {
+      cycle.status = Status::kFound;
+      break;
+    }
+    if (advance(walker, options.timeLimit, at)) continue;
+    cycle.status = Status::kStuck;
+    cycle.message = fmt::format("stuck: a step changes the state by {:.3g}", at.residual);
+    break;
+  }
+  cycle.x = at.x;
+  cycle.residual = at.residual;
+  cycle.period = at.map.step.time;
+  cycle.multipliers = multipliersOf(at.map.J);
+  if (cycle.status != Status::kFound) return cycle;
+  const double growth = std::abs(cycle.multipliers[0]);
+  cycle.isStable = growth < 1;
+  cycle.message =
+      fmt::format("found: {}, largest multiplier {:.6g}", cycle.isStable ? "stable" : "unstable", growth);
+  return cycle;
+}
+
+}  // namespace rex

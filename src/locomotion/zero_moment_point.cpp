@@ -1,0 +1,63 @@
+#include "locomotion/zero_moment_point.h"
+
+#include <Eigen/Geometry>
+
+#include "dynamics/momentum_rate.h"
+#include "kinematics/center_of_mass.h"
+#include "locomotion/require_internal.h"
+
+namespace rex {
+namespace {
+
+using Eigen::Vector3d;
+
+// From force and torque about the origin of W. `scale` is the force below which rounding is left alone.
+ZeroMomentPoint zmpOf(const Vector3d& force, const Vector3d& torque, double groundHeight, double scale) {
+  ZeroMomentPoint zmp{.force_W = force};
+  if (!(force.z() > 1e-12 * scale)) {
+    zmp.message =
+        fmt::format("no zero moment point: the ground would have to push upwards with {:.6g} N", force.z());
+    return zmp;
+  }
+  zmp.exists = true;
+  zmp.p_W = {(groundHeight * force.x() - torque.y()) / force.z(),
+             (groundHeight * force.y() + torque.x()) / force.z(), groundHeight};
+  zmp.moment = torque.z() - zmp.p_W.cross(force).z();
+  return zmp;
+}
+
+}  // namespace
+
+ZeroMomentPoint zmpOfMotion(const Model& model, const VectorArg& q, const VectorArg& v, const VectorArg& a,
+                            double groundHeight, const Vector3d& gravity_W) {
+  requireFinite("zero moment point: ground height", groundHeight);
+  requireFinite("zero moment point: joint velocities v", v);
+  requireFinite("zero moment point: joint accelerations a", a);
+  requireFinite("zero moment point: gravity", gravity_W);
+  const BodyPoses poses = forwardKinematics(model, q);
+  const Vector3d center = centerOfMass(model, poses), weight = model.mass() * gravity_W;
+  const MomentumRate rate = momentumRate(model, poses, v, a);
+  return zmpOf(rate.force - weight, rate.torque - center.cross(weight), groundHeight, weight.norm());
+}
+
+ZeroMomentPoint zmpOfContacts(std::span<const ContactForce> contacts, double groundHeight) {
+  requireFinite("zero moment point: ground height", groundHeight);
+  Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero();
+  double scale = 0;
+  for (const ContactForce& contact : contacts) {
+    requireFinite("zero moment point: place of a contact", contact.p_WC);
+    requireFinite("zero moment point: force of a contact", contact.force_W);
+    force += contact.force_W;
+    torque += contact.p_WC.cross(contact.force_W);
+    scale += contact.force_W.norm();
+  }
+  return zmpOf(force, torque, groundHeight, scale);
+}
+
+SupportMargin staticStability(const Model& model, const VectorArg& q, const SupportPolygon& support,
+                              double wantedMargin) {
+  const Vector3d center = centerOfMass(model, forwardKinematics(model, q));
+  return supportMargin(support, center.head<2>(), wantedMargin);
+}
+
+}  // namespace rex
