@@ -1,0 +1,89 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "optim/constrained_problem.h"
+#include "optim/constrained_system.h"
+
+namespace rex {
+
+/// How constraints enter the function that is minimised (slide 5:5).
+enum class ConstraintMethod {
+  kSquaredPenalty,      ///< mu |[g]+|^2 + mu |h|^2 with ever larger mu
+  kLogBarrier,          ///< -b sum log(-g) with ever smaller b; h as in the last
+  kAugmentedLagrangian  ///< squared penalties shifted by multipliers, so that mu stays moderate
+};
+
+/// As words: "squared penalty", "log barrier", "augmented Lagrangian".
+[[nodiscard]] const char* nameOf(ConstraintMethod method);
+
+struct ConstrainedOptions {
+  ConstraintMethod method = ConstraintMethod::kAugmentedLagrangian;
+  double tolerance = 1e-8;       ///< of constraints, and of lambda_i g_i = 0
+  double stationarity = 1e-8;    ///< of the Lagrangian's gradient, relative to the largest multiplier
+  double stepTolerance = 1e-10;  ///< a Newton step this small has converged as well, relative to max |x|
+  double penalty = 1;            ///< mu, at the start
+  double largestPenalty = 1e12;
+  double barrier = 1;        ///< b, at the start
+  double factor = 10;        ///< by which penalties grow and barriers shrink
+  double damping = 0;        ///< at the start, relative to second derivatives; grows and falls by tens
+  int maxIterations = 1000;  ///< Newton steps in all
+  /// Multipliers to start from, of an earlier result; empty: zero.
+  Eigen::VectorXd inequalityMultipliers{}, equalityMultipliers{};
+};
+
+enum class ConstrainedStatus {
+  kSolved,      ///< all is within its tolerance, or the gradient as small as rounding allows
+  kInfeasible,  ///< no step makes the violation smaller, or no point inside all inequalities was found
+  kNoProgress,  ///< no step along the direction lowers the function, with any damping
+  kBudgetSpent,
+  kUnbounded,  ///< the cost falls below all bounds
+  kNotFinite   ///< a function is not finite at the start
+};
+
+/// As words: "solved", "infeasible" ...
+[[nodiscard]] const char* nameOf(ConstrainedStatus status);
+
+/// One Newton step, and what held after it.
+struct ConstrainedIteration {
+  double cost = 0;
+  double violation = 0;     ///< max of g and |h|, at least 0
+  double stationarity = 0;  ///< max |gradient| of the function of the method before the step
+  double step = 0;          ///< the share of the full step that was taken
+  double damping = 0;
+  double parameter = 0;  ///< penalty, or barrier
+};
+
+struct ConstrainedResult {
+  ConstrainedStatus status = ConstrainedStatus::kNotFinite;
+  Eigen::VectorXd x{};
+  double cost = std::numeric_limits<double>::infinity();
+  Eigen::VectorXd inequalityMultipliers{}, equalityMultipliers{};    ///< of cost + lambda^T g + kappa^T h
+  double violation = std::numeric_limits<double>::infinity();        ///< of the most violated constraint
+  std::string mostViolated{};                                        ///< its name; empty without constraints
+  double stationarity = std::numeric_limits<double>::infinity();     ///< max |gradient of the Lagrangian|
+  double complementarity = std::numeric_limits<double>::infinity();  ///< max |min(lambda_i, -g_i)|, with a
+                                                                     ///< barrier max |lambda_i g_i|
+  double penalty = 0;                                                ///< at the end
+  int iterations = 0;
+  int evaluations = 0;
+  std::vector<ConstrainedIteration> log{};
+  std::string message = "no solver has run";
+};
+
+/// Minimises the cost under the constraints of a problem from `start` (n), by damped Newton steps with line
+/// search inside the method's loop over penalties, barriers or multipliers. A barrier needs a point inside
+/// all inequalities: if the start is none, one is looked for first. Throws Error for an empty start, numbers
+/// that are not finite, options out of range, and multipliers of another size.
+[[nodiscard]] ConstrainedResult solveConstrained(ConstrainedSystem& system, const VectorArg& start,
+                                                 const ConstrainedOptions& options = {});
+
+/// The same for a dense problem. Second derivatives of f are those of Gauss and Newton. `cost` and
+/// constraints get theirs by differences of their gradients, unless there is no `cost`. Throws also for a
+/// problem without f and c, and for functions whose values or Jacobians have the wrong size.
+[[nodiscard]] ConstrainedResult solveConstrained(const ConstrainedProblem& problem, const VectorArg& start,
+                                                 const ConstrainedOptions& options = {});
+
+}  // namespace rex

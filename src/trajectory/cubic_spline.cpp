@@ -1,0 +1,110 @@
+#include "trajectory/cubic_spline.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/require_finite.h"
+
+namespace rex {
+namespace {
+
+void requireSound(const VectorArg& times, const MatrixArg& points, const SplineEnds& ends) {
+  requireSize("times of a spline", times.size(), points.cols());
+  if (times.size() < 2)
+    throw Error(
+        {.what = "points of a spline", .found = fmt::format("{}", times.size()), .wanted = "2 or more"});
+  requireFinite("times of a spline", times);
+  requireFinite("points of a spline", Eigen::VectorXd(points.reshaped()));
+  for (Eigen::Index i = 1; i < times.size(); ++i)
+    if (!(times[i] > times[i - 1]))
+      throw Error({.what = fmt::format("times of a spline: number {}", i),
+                   .found = fmt::format("{:g} after {:g}", times[i], times[i - 1]),
+                   .wanted = "a later one"});
+  for (const auto& velocity : {ends.startVelocity, ends.endVelocity}) {
+    if (!velocity) continue;
+    requireSize("velocity at an end of a spline", velocity->size(), points.rows());
+    requireFinite("velocity at an end of a spline", *velocity);
+  }
+}
+
+// Row i: lower v_{i-1} + diagonal v_i + upper v_{i+1} = right (n numbers).
+struct Tridiagonal {
+  Eigen::VectorXd lower, diagonal, upper;
+  Eigen::MatrixXd right;  // n x N
+
+  // Thomas; stable, because the diagonal is larger than the others together.
+  Eigen::MatrixXd solve() {
+    const Eigen::Index N = diagonal.size();
+    for (Eigen::Index i = 1; i < N; ++i) {
+      const double factor = lower[i] / diagonal[i - 1];
+      diagonal[i] -= factor * upper[i - 1];
+      right.col(i) -= factor * right.col(i - 1);
+    }
+    right.col(N - 1) /= diagonal[N - 1];
+    for (Eigen::Index i = N - 2; i >= 0; --i)
+      right.col(i) = (right.col(i) - upper[i] * right.col(i + 1)) / diagonal[i];
+    return right;
+  }
+};
+
+}  // namespace
+
+// Accelerations on both sides of each point agree; those of a natural end are zero.
+CubicSpline::CubicSpline(const VectorArg& times, const MatrixArg& points, const SplineEnds& ends)
+    : times_(times), points_(points) {
+  requireSound(times, points, ends);
+  const Eigen::Index N = times.size();
+  const Eigen::VectorXd h = times.tail(N - 1) - times.head(N - 1);
+  Tridiagonal rows{Eigen::VectorXd::Zero(N), Eigen::VectorXd::Ones(N), Eigen::VectorXd::Zero(N),
+                   Eigen::MatrixXd::Zero(points.rows(), N)};
+  const auto slope = [&](Eigen::Index i) -> Eigen::VectorXd {
+    return (points.col(i + 1) - points.col(i)) / h[i];
+  };
+  for (Eigen::Index i = 1; i + 1 < N; ++i) {
+    rows.lower[i] = 1 / h[i - 1];
+    rows.upper[i] = 1 / h[i];
+    rows.diagonal[i] = 2 * (rows.lower[i] + rows.upper[i]);
+    rows.right.col(i) = 3 * (slope(i - 1) / h[i - 1] + slope(i) / h[i]);
+  }
+  if (ends.startVelocity) {
+    rows.right.col(0) = *ends.startVelocity;
+  } else {
+    rows.diagonal[0] = 2, rows.upper[0] = 1;
+    rows.right.col(0) = 3 * slope(0);
+  }
+  if (ends.endVelocity) {
+    rows.right.col(N - 1) = *ends.endVelocity;
+  } else {
+    rows.diagonal[N - 1] = 2, rows.lower[N - 1] = 1;
+    rows.right.col(N - 1) = 3 * slope(N - 2);
+  }
+  velocities_ = rows.solve();
+}
+
+// Each piece by Newton's form: its two ends, each with place and velocity.
+Eigen::VectorXd CubicSpline::value(double t, int derivative) const {
+  requireFinite("time on a spline", t);
+  if (derivative < 0 || derivative > 3)
+    throw Error(
+        {.what = "derivative of a cubic spline", .found = fmt::format("{}", derivative), .wanted = "0 to 3"});
+  const auto after = std::upper_bound(times_.begin() + 1, times_.end() - 1, t);
+  const Eigen::Index i = after - times_.begin() - 1;
+  const double h = times_[i + 1] - times_[i], s = t - times_[i];
+  const Eigen::VectorXd v = velocities_.col(i), mean = (points_.col(i + 1) - points_.col(i)) / h;
+  const Eigen::VectorXd a = (3 * mean - 2 * v - velocities_.col(i + 1)) / h;
+  const Eigen::VectorXd b = (v + velocities_.col(i + 1) - 2 * mean) / (h * h);
+  switch (derivative) {
+    case 0:
+      return points_.col(i) + s * (v + s * (a + s * b));
+    case 1:
+      return v + s * (2 * a + 3 * s * b);
+    case 2:
+      return 2 * a + 6 * s * b;
+    default:
+      return 6 * b;
+  }
+}
+
+}  // namespace rex

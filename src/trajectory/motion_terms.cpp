@@ -1,0 +1,115 @@
+#include "trajectory/motion_terms.h"
+
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace rex {
+namespace {
+
+// The k-th difference of configurations, newest last: binomials with alternating signs.
+TrajectoryTerm differenceTerm(const char* name, int k, Eigen::VectorXd weights) {
+  for (const double w : weights)
+    if (!(w >= 0 && std::isfinite(w)))
+      throw Error({.what = fmt::format("weights of {}", name),
+                   .found = fmt::format("{:g}", w),
+                   .wanted = "finite numbers, zero or more"});
+  const auto function = [k, weights = std::move(weights), what = fmt::format("weights of {}", name)](
+                            const TrajectoryWindow& window, FunctionValue& value) {
+    const Eigen::Index n = window.X.rows();
+    if (weights.size() > 0) requireSize(what, weights.size(), n);
+    value.y.setZero(n);
+    value.J.setZero(n, (k + 1) * n);
+    double factor = std::sqrt(window.tau) / std::pow(window.tau, k);
+    for (int j = 0; j <= k; ++j) {
+      for (Eigen::Index i = 0; i < n; ++i) {
+        const double a = weights.size() > 0 ? factor * std::sqrt(weights[i]) : factor;
+        value.J(i, (k - j) * n + i) = a;
+        value.y[i] += a * window.X(i, k - j);
+      }
+      factor *= -static_cast<double>(k - j) / (j + 1);
+    }
+  };
+  return {.name = name, .order = k, .function = function};
+}
+
+}  // namespace
+
+TrajectoryTerm velocityTerm(Eigen::VectorXd weights) {
+  return differenceTerm("velocity", 1, std::move(weights));
+}
+
+TrajectoryTerm accelerationTerm(Eigen::VectorXd weights) {
+  return differenceTerm("acceleration", 2, std::move(weights));
+}
+
+TrajectoryTerm jerkTerm(Eigen::VectorXd weights) { return differenceTerm("jerk", 3, std::move(weights)); }
+
+TrajectoryTerm postureTerm(const VectorArg& target) {
+  const auto function = [target = Eigen::VectorXd(target)](const TrajectoryWindow& window,
+                                                           FunctionValue& value) {
+    requireSize("target of a posture", target.size(), window.X.rows());
+    value.y = window.X.col(0) - target;
+    value.J.setIdentity(target.size(), target.size());
+  };
+  return {.name = "posture", .function = function};
+}
+
+TrajectoryTerm limitsTerm(const VectorArg& lower, const VectorArg& upper) {
+  requireSize("upper limits", upper.size(), lower.size());
+  std::vector<std::pair<Eigen::Index, double>> limits[2];  // places and numbers of lower and upper ones
+  for (Eigen::Index i = 0; i < lower.size(); ++i) {
+    if (!(lower[i] <= upper[i]))
+      throw Error({.what = fmt::format("limits of coordinate {}", i),
+                   .found = fmt::format("{:g} to {:g}", lower[i], upper[i]),
+                   .wanted = "a lower one that is not above the upper one"});
+    if (std::isfinite(lower[i])) limits[0].emplace_back(i, lower[i]);
+    if (std::isfinite(upper[i])) limits[1].emplace_back(i, upper[i]);
+  }
+  const auto rows = static_cast<Eigen::Index>(limits[0].size() + limits[1].size());
+  const auto function = [=, below = limits[0], above = limits[1], n = lower.size()](
+                            const TrajectoryWindow& window, FunctionValue& value) {
+    requireSize("limits of configurations", n, window.X.rows());
+    value.y.resize(rows);
+    value.J.setZero(rows, n);
+    Eigen::Index row = 0;
+    for (const auto& [i, limit] : below) value.y[row] = limit - window.X(i, 0), value.J(row++, i) = -1;
+    for (const auto& [i, limit] : above) value.y[row] = window.X(i, 0) - limit, value.J(row++, i) = 1;
+  };
+  return {.name = "limits", .kind = TermKind::kInequality, .function = function};
+}
+
+TrajectoryTerm velocityLimitsTerm(const VectorArg& limit) {
+  for (const double number : limit)
+    if (!(number > 0))
+      throw Error(
+          {.what = "limits of velocity", .found = fmt::format("{:g}", number), .wanted = "positive numbers"});
+  const auto function = [limit = Eigen::VectorXd(limit)](const TrajectoryWindow& window,
+                                                         FunctionValue& value) {
+    const Eigen::Index n = window.X.rows();
+    requireSize("limits of velocity", limit.size(), n);
+    value.y.resize(2 * n);
+    value.J.setZero(2 * n, 2 * n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double velocity = (window.X(i, 1) - window.X(i, 0)) / window.tau;
+      value.y[i] = velocity - limit[i];
+      value.y[n + i] = -velocity - limit[i];
+      value.J(i, n + i) = value.J(n + i, i) = 1 / window.tau;
+      value.J(i, i) = value.J(n + i, n + i) = -1 / window.tau;
+    }
+  };
+  return {.name = "velocity limits", .kind = TermKind::kInequality, .order = 1, .function = function};
+}
+
+std::vector<TrajectoryTerm> restAt(const VectorArg& target, int steps) {
+  TrajectoryTerm goal = as(TermKind::kEquality, at(postureTerm(target), steps - 1));
+  TrajectoryTerm rest = as(TermKind::kEquality, at(velocityTerm(), steps - 1));
+  goal.name = "goal";
+  rest.name = "rest";
+  return {goal, rest};
+}
+
+}  // namespace rex

@@ -1,0 +1,59 @@
+#include "trajectory/trajectory_optimizer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "trajectory/banded_system_internal.h"
+
+namespace rex {
+namespace {
+
+// The largest share of a limit in a matrix of differences.
+double largestShare(const Eigen::MatrixXd& differences, const Eigen::VectorXd& limit, const char* what) {
+  if (limit.size() == 0 || differences.cols() == 0) return 0;
+  requireSize(what, limit.size(), differences.rows());
+  for (const double number : limit)
+    if (!(number > 0))
+      throw Error({.what = what, .found = fmt::format("{:g}", number), .wanted = "positive numbers"});
+  return (differences.array().abs().colwise() / limit.array()).maxCoeff();
+}
+
+}  // namespace
+
+TrajectoryResult optimizeTrajectory(const TrajectoryProblem& problem, const MatrixArg& start,
+                                    const ConstrainedOptions& options) {
+  if (start.rows() != problem.n() || start.cols() != problem.steps())
+    throw Error({.what = "start of a trajectory",
+                 .found = fmt::format("{} x {}", start.rows(), start.cols()),
+                 .wanted = fmt::format("{} x {}", problem.n(), problem.steps())});
+  internal::BandedSystem system(problem);
+  TrajectoryResult result;
+  result.solution = solveConstrained(system, Eigen::VectorXd(start.reshaped()), options);
+  result.X = result.solution.x.reshaped(problem.n(), problem.steps());
+  return result;
+}
+
+Eigen::MatrixXd straightTrajectory(const VectorArg& from, const VectorArg& to, int steps) {
+  requireSize("end of a straight trajectory", to.size(), from.size());
+  if (steps < 1)
+    throw Error({.what = "steps of a trajectory", .found = fmt::format("{}", steps), .wanted = "1 or more"});
+  Eigen::MatrixXd X(from.size(), steps);
+  for (int t = 0; t < steps; ++t) X.col(t) = from + (to - from) * ((t + 1.) / steps);
+  return X;
+}
+
+double shortestTau(const MatrixArg& path, const Eigen::VectorXd& velocityLimit,
+                   const Eigen::VectorXd& accelerationLimit) {
+  const Eigen::Index N = path.cols();
+  Eigen::MatrixXd once(path.rows(), std::max<Eigen::Index>(0, N - 1)),
+      twice(path.rows(), std::max<Eigen::Index>(0, N - 2));
+  if (N > 1) once = path.rightCols(N - 1) - path.leftCols(N - 1);
+  if (N > 2) twice = once.rightCols(N - 2) - once.leftCols(N - 2);
+  return std::max(largestShare(once, velocityLimit, "limits of velocity"),
+                  std::sqrt(largestShare(twice, accelerationLimit, "limits of acceleration")));
+}
+
+}  // namespace rex
