@@ -1,5 +1,7 @@
 #include "grasping/equilibrium.h"
 
+#include <limits>
+
 #include <Eigen/QR>
 #include <fmt/format.h>
 

@@ -1,5 +1,7 @@
 #include "optim/linear_program.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
