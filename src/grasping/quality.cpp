@@ -58,6 +58,7 @@ void refine(std::span<const WrenchCone> cones, const FacetHull& hull, double tol
 }  // namespace
 
 GraspQuality graspQuality(const MatrixArg& wrenches) {
+  if (wrenches.cols() == 0) return {};
   const FacetHull hull = facetHull(wrenches);
   GraspQuality quality;
   quality.dimension = hull.dimension;

@@ -146,6 +146,7 @@ TEST(Quality, OfExactConesLiesBetweenThoseOfPyramids) {
 TEST(Quality, SaysWhatIsWrongWithAHull) {
   EXPECT_EQ(graspQuality(MatrixXd(3, 0)).status, HullStatus::kEmpty);
   EXPECT_EQ(graspQuality(MatrixXd(3, 0)).dimension, -1);
+  EXPECT_EQ(graspQuality(primitiveWrenches({}).wrenches).status, HullStatus::kEmpty);
   EXPECT_EQ(exactEpsilon({}).status, HullStatus::kEmpty);
   EXPECT_EQ(exactEpsilon({}).atMost, 0);
   // Two contacts in space cannot turn the object about their line.
