@@ -3,18 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cstdio>
-#include <cstdlib>
 #include <numeric>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "base/error.h"
-
-extern "C" {
-#include <libqhull_r/qhull_ra.h>
-}
+#include "geometry/qhull_internal.h"
 
 namespace rex {
 namespace {
@@ -132,54 +127,28 @@ std::vector<Triangle> bothSides(std::vector<Index> polygon) {
   return triangles;
 }
 
-// qhull's state, in which errors and all memory stay.
-class Qhull {
- public:
-  Qhull() { qh_zero(&qh_, errors_); }
-  ~Qhull() {
-    int leftBlocks = 0, leftBytes = 0;
-    qh_freeqhull(&qh_, !qh_ALL);
-    qh_memfreeshort(&qh_, &leftBlocks, &leftBytes);
-    std::fclose(errors_);
-    std::free(text_);
+std::vector<Triangle> trianglesOf(internal::Qhull& qhull) {
+  std::vector<Triangle> triangles;
+  qhT* qh = &qhull.state();  // the name that qhull's macros expect
+  facetT* facet;
+  FORALLfacets {
+    std::vector<Index> corners;
+    setT* ordered = qh_facet3vertex(qh, facet);
+    vertexT *vertex, **vertexp;
+    FOREACHvertex_(ordered) corners.push_back(static_cast<Index>(qh_pointid(qh, vertex->point)));
+    qh_settempfree(qh, &ordered);
+    std::reverse(corners.begin(), corners.end());  // qhull goes round clockwise
+    addFan(corners, triangles);
   }
-  Qhull(const Qhull&) = delete;
-  Qhull& operator=(const Qhull&) = delete;
-
-  bool run(std::vector<Vector3d>& points, const char* options) {
-    std::string command = options;
-    return qh_new_qhull(&qh_, 3, static_cast<int>(points.size()), points.front().data(), False,
-                        command.data(), nullptr, errors_) == 0;
-  }
-
-  std::vector<Triangle> triangles() {
-    std::vector<Triangle> triangles;
-    qhT* qh = &qh_;  // the name that qhull's macros expect
-    facetT* facet;
-    FORALLfacets {
-      std::vector<Index> corners;
-      setT* ordered = qh_facet3vertex(qh, facet);
-      vertexT *vertex, **vertexp;
-      FOREACHvertex_(ordered) corners.push_back(static_cast<Index>(qh_pointid(qh, vertex->point)));
-      qh_settempfree(qh, &ordered);
-      std::reverse(corners.begin(), corners.end());  // qhull goes round clockwise
-      addFan(corners, triangles);
-    }
-    return triangles;
-  }
-
- private:
-  char* text_ = nullptr;
-  std::size_t size_ = 0;
-  std::FILE* errors_ = open_memstream(&text_, &size_);
-  qhT qh_{};
-};
+  return triangles;
+}
 
 // Where rounding defeats qhull, it may shift the points by some ulps.
 std::vector<Triangle> solidHull(std::vector<Vector3d>& points) {
   for (const char* options : {"qhull C-0 Q12 Pp", "qhull QJ Pp"}) {
-    Qhull qhull;
-    if (qhull.run(points, options)) return qhull.triangles();
+    internal::Qhull qhull;
+    if (qhull.run(3, static_cast<int>(points.size()), points.front().data(), options))
+      return trianglesOf(qhull);
   }
   assert(false && "points that fill space have a hull");
   return {};

@@ -1,0 +1,198 @@
+#include "grasping/object_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/require_finite.h"
+
+namespace rex {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using std::numbers::pi;
+
+constexpr double kEdge = 1e-12;  // how far beyond its edges a triangle is still hit, as part of it
+
+void requirePositive(const char* what, ShapeType type, double size) {
+  const std::string text = fmt::format("surface: {} of the {}", what, toString(type));
+  requireFinite(text, size);
+  if (!(size > 0)) throw Error({.what = text, .found = fmt::format("{}", size), .wanted = "more than zero"});
+}
+
+Vector3d onUnitSphere(Rng& rng) {
+  const double z = rng.uniform(-1, 1), angle = rng.uniform(0, 2 * pi), r = std::sqrt(1 - z * z);
+  return {r * std::cos(angle), r * std::sin(angle), z};
+}
+
+// Where |x + t d| = radius, if anywhere: both roots.
+template <class Vector>
+std::vector<double> rootsOf(const Vector& x, const Vector& d, double radius) {
+  const double a = d.squaredNorm();
+  if (a < 1e-24) return {};
+  const double middle = -x.dot(d) / a;
+  const double left = radius * radius - (x + middle * d).squaredNorm();
+  if (left < 0) return {};
+  const double way = std::sqrt(left / a);
+  return {middle - way, middle + way};
+}
+
+}  // namespace
+
+ObjectSurface::ObjectSurface(const Shape& shape) : type_(shape.type) {
+  switch (shape.type) {
+    case ShapeType::kBox: {
+      for (int i = 0; i < 3; ++i) requirePositive("edge", type_, shape.extent[i]);
+      half_ = shape.extent / 2;
+      addBox();
+      break;
+    }
+    case ShapeType::kSphere:
+      requirePositive("radius", type_, radius_ = shape.radius);
+      break;
+    case ShapeType::kCapsule:
+    case ShapeType::kCylinder:
+      requirePositive("radius", type_, radius_ = shape.radius);
+      if (shape.extent.z() != 0 || type_ == ShapeType::kCylinder)
+        requirePositive("length", type_, shape.extent.z());
+      half_.z() = shape.extent.z() / 2;
+      break;
+    case ShapeType::kMesh:
+      addMesh(shape.mesh);
+      break;
+    default:
+      throw Error({.what = "surface of a shape",
+                   .found = std::string(toString(type_)),
+                   .wanted = "a box, sphere, capsule, cylinder or mesh"});
+  }
+  if (isRound()) areas_ = roundAreas();
+}
+
+bool ObjectSurface::isRound() const { return triangles_.empty(); }
+
+void ObjectSurface::addTriangle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  const Vector3d across = (b - a).cross(c - a);
+  const double area = across.norm() / 2;
+  if (!(area > 0)) return;
+  triangles_.push_back({a, b - a, c - a, across / (2 * area)});
+  areas_.push_back(this->area() + area);
+}
+
+void ObjectSurface::addBox() {
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {1., -1.}) {
+      // u, v and the normal are a right-handed frame.
+      const Vector3d n = sign * half_[axis] * Vector3d::Unit(axis);
+      const int second = (axis + 1) % 3, third = (axis + 2) % 3;
+      const Vector3d u = half_[second] * Vector3d::Unit(second),
+                     v = sign * half_[third] * Vector3d::Unit(third);
+      addTriangle(n - u - v, n + u - v, n + u + v);
+      addTriangle(n - u - v, n + u + v, n - u + v);
+    }
+}
+
+void ObjectSurface::addMesh(const TriangleMesh& mesh) {
+  const auto at = [&](std::uint32_t i) { return Vector3d(mesh.positions()[i].cast<double>()); };
+  for (const auto& [a, b, c] : mesh.triangles()) addTriangle(at(a), at(b), at(c));
+  if (triangles_.empty())
+    throw Error({.what = "surface of a mesh",
+                 .found = fmt::format("{} triangles without area", mesh.triangles().size()),
+                 .wanted = "triangles"});
+}
+
+// Both round ends together, then the straight side.
+std::vector<double> ObjectSurface::roundAreas() const {
+  const double ends = (type_ == ShapeType::kCylinder ? 2 : 4) * pi * radius_ * radius_;
+  return {ends, ends + 4 * pi * radius_ * half_.z()};
+}
+
+double ObjectSurface::area() const { return areas_.empty() ? 0 : areas_.back(); }
+
+std::vector<SurfacePoint> ObjectSurface::sample(Rng& rng, int count) const {
+  if (count < 0)
+    throw Error(
+        {.what = "surface: number of points", .found = fmt::format("{}", count), .wanted = "zero or more"});
+  std::vector<SurfacePoint> points;
+  for (int k = 0; k < count; ++k) points.push_back(isRound() ? sampleRound(rng) : sampleTriangle(rng));
+  return points;
+}
+
+SurfacePoint ObjectSurface::sampleTriangle(Rng& rng) const {
+  const auto found = std::upper_bound(areas_.begin(), areas_.end() - 1, rng.uniform() * area());
+  const Triangle& triangle = triangles_[static_cast<std::size_t>(found - areas_.begin())];
+  double u = rng.uniform(), v = rng.uniform();
+  if (u + v > 1) u = 1 - u, v = 1 - v;
+  return {triangle.corner + u * triangle.edge1 + v * triangle.edge2, triangle.normal};
+}
+
+SurfacePoint ObjectSurface::sampleRound(Rng& rng) const {
+  if (rng.uniform() * area() >= areas_[0]) {
+    const double angle = rng.uniform(0, 2 * pi), z = rng.uniform(-half_.z(), half_.z());
+    const Vector3d n(std::cos(angle), std::sin(angle), 0);
+    return {radius_ * n + z * Vector3d::UnitZ(), n};
+  }
+  const Vector3d n = onUnitSphere(rng);
+  if (type_ != ShapeType::kCylinder)
+    return {radius_ * n + std::copysign(half_.z(), n.z()) * Vector3d::UnitZ(), n};
+  const double r = radius_ * std::sqrt(rng.uniform());
+  const Vector3d end = std::copysign(1, n.z()) * Vector3d::UnitZ();
+  return {r * Vector3d(n.x(), n.y(), 0).normalized() + half_.z() * end, end};
+}
+
+std::vector<LineHit> ObjectSurface::hits(const Vector3d& p_OQ, const Vector3d& direction_O) const {
+  requireFinite("surface: start of the line", p_OQ);
+  requireFinite("surface: direction of the line", direction_O);
+  if (std::abs(direction_O.norm() - 1) > 1e-6)
+    throw Error({.what = "surface: length of the direction",
+                 .found = fmt::format("{}", direction_O.norm()),
+                 .wanted = "1"});
+  std::vector<LineHit> hits = isRound() ? roundHits(p_OQ, direction_O) : triangleHits(p_OQ, direction_O);
+  std::stable_sort(hits.begin(), hits.end(), [](const LineHit& a, const LineHit& b) { return a.t < b.t; });
+  return hits;
+}
+
+// Moeller and Trumbore, 1997, from both sides.
+std::vector<LineHit> ObjectSurface::triangleHits(const Vector3d& p, const Vector3d& d) const {
+  std::vector<LineHit> hits;
+  for (const Triangle& triangle : triangles_) {
+    const Vector3d across = d.cross(triangle.edge2);
+    const double volume = across.dot(triangle.edge1);
+    if (std::abs(d.dot(triangle.normal)) < kEdge) continue;
+    const Vector3d from = p - triangle.corner;
+    const double u = across.dot(from) / volume;
+    if (u < -kEdge || u > 1 + kEdge) continue;
+    const Vector3d beside = from.cross(triangle.edge1);
+    const double v = beside.dot(d) / volume;
+    if (v < -kEdge || u + v > 1 + kEdge) continue;
+    hits.push_back({beside.dot(triangle.edge2) / volume, triangle.normal});
+  }
+  return hits;
+}
+
+std::vector<LineHit> ObjectSurface::roundHits(const Vector3d& p, const Vector3d& d) const {
+  std::vector<LineHit> hits;
+  const double h = half_.z();
+  if (h > 0)
+    for (const double t : rootsOf<Vector2d>(p.head<2>(), d.head<2>(), radius_))
+      if (const Vector3d at = p + t * d; std::abs(at.z()) <= h)
+        hits.push_back({t, Vector3d(at.x(), at.y(), 0) / radius_});
+  for (const double sign : {1., -1.}) {
+    const Vector3d end = sign * h * Vector3d::UnitZ();
+    if (type_ == ShapeType::kCylinder) {
+      const double t = (end.z() - p.z()) / d.z();
+      if (d.z() != 0 && (p + t * d).head<2>().norm() < radius_) hits.push_back({t, sign * Vector3d::UnitZ()});
+      continue;
+    }
+    for (const double t : rootsOf<Vector3d>(p - end, d, radius_))
+      if (const Vector3d n = (p + t * d - end) / radius_; sign > 0 ? n.z() >= 0 : n.z() < 0)
+        if (h == 0 || std::abs((p + t * d).z()) > h) hits.push_back({t, n});
+  }
+  return hits;
+}
+
+}  // namespace rex
