@@ -1,10 +1,7 @@
-# What the sanitizers look at in a short run: modules that read files of users or talk to processes, but none whose
-# workers need all of the library. scripts/test --long looks at all.
-set(REX_SANITIZED_MODULES base geometry remote scene grading)
-set(REX_SANITIZED_LATER grading_battery grading_grade grading_grader)
+# What the sanitizers look at in a short run: modules that read files of users or talk to processes, but not the
+# grader, which links with nearly all of the library. scripts/test --long looks at all.
+set(REX_SANITIZED_MODULES base geometry remote scene)
 
-# What most tests include, compiled once. Off, as a compiler cache knows nothing of it; on in scripts/test.
-option(REX_TEST_PREFIX "Precompile the headers that all tests include" OFF)
 # rex_test(MODULE NAME [USES module ...] [PRIVATE library ...])
 #
 # Builds tests/MODULE/NAME_test.cpp and registers each of its GoogleTest cases as MODULE/NAME.Suite.Case.
@@ -22,10 +19,7 @@ function(rex_test module name)
   endforeach()
   gtest_discover_tests(${target} TEST_PREFIX ${module}/${name}. DISCOVERY_TIMEOUT 60
     PROPERTIES LABELS ${module} TIMEOUT 300)
-  if(REX_TEST_PREFIX)
-    target_precompile_headers(${target} REUSE_FROM rex_test_prefix)
-  endif()
-  if(module IN_LIST REX_SANITIZED_MODULES AND NOT ${module}_${name} IN_LIST REX_SANITIZED_LATER)
+  if(module IN_LIST REX_SANITIZED_MODULES)
     set_property(GLOBAL APPEND PROPERTY REX_SANITIZED_TESTS ${target})
   endif()
 endfunction()
