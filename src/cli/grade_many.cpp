@@ -194,9 +194,11 @@ ExitCode gradeMany(const Project& project, const GradeManyOptions& options) {
   const int graded = gradeOpen(tasks, options, *sandbox, graders);
   tellTimes(tasks, options);
   const bool complete = writeGrades(tasks, options.out, policy, options.csv);
-  note(fmt::format("{} submissions at sandbox level {}: {} graded, {} kept, {} could not be taken. Table: {}",
-                   tasks.size(), sandbox->level, graded, static_cast<int>(tasks.size()) - graded,
-                   handedIn.complaints.size(), shown(options.out / "grades.csv")));
+  note(
+      fmt::format("{} submission{} at sandbox level {}: {} graded, {} kept, {} could not be taken. Table: {}",
+                  tasks.size(), tasks.size() == 1 ? "" : "s", sandbox->level, graded,
+                  static_cast<int>(tasks.size()) - graded, handedIn.complaints.size(),
+                  shown(options.out / "grades.csv")));
   return complete ? taken : ExitCode::kGraderFault;
 }
 

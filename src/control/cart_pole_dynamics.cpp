@@ -7,10 +7,10 @@ namespace rex {
 namespace {
 
 void requireConstants(const CartPoleDynamics& plant) {
-  internal::requirePositive("cart pole: mass of the pole", plant.poleMass);
-  internal::requirePositive("cart pole: mass of the cart", plant.cartMass);
-  internal::requirePositive("cart pole: length l", plant.l);
-  internal::requirePositive("cart pole: gravity g", plant.g);
+  requirePositive("cart pole: mass of the pole", plant.poleMass);
+  requirePositive("cart pole: mass of the cart", plant.cartMass);
+  requirePositive("cart pole: length l", plant.l);
+  requirePositive("cart pole: gravity g", plant.g);
 }
 
 void requireArguments(const CartPoleDynamics& plant, const Eigen::Vector4d& x, double u) {
@@ -55,13 +55,13 @@ double CartPoleDynamics::energy(const Eigen::Vector4d& x) const {
 
 Eigen::Vector4d CartPoleDynamics::eulerStep(const Eigen::Vector4d& x, double u, double tau) const {
   requireArguments(*this, x, u);
-  internal::requirePositive("cart pole: time step tau", tau);
+  requirePositive("cart pole: time step tau", tau);
   return x + tau * internal::cartPoleDerivative(internal::cartPoleNumbers(*this), x, u);
 }
 
 Eigen::Vector4d CartPoleDynamics::noisyStep(const Eigen::Vector4d& x, double u, double tau, double noise,
                                             Rng& rng) const {
-  internal::requireNotNegative("cart pole: noise", noise);
+  requireNotNegative("cart pole: noise", noise);
   return internal::withCartPoleNoise(eulerStep(x, u, tau), noise, rng);
 }
 

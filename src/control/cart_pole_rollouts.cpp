@@ -11,9 +11,9 @@ namespace {
 
 void requireOptions(const CartPoleRolloutOptions& options) {
   internal::requireSteps("cart pole", options.steps);
-  internal::requirePositive("cart pole: time step tau", options.tau);
-  internal::requireNotNegative("cart pole: noise", options.noise);
-  internal::requirePositive("cart pole: largest angle", options.largestAngle);
+  requirePositive("cart pole: time step tau", options.tau);
+  requireNotNegative("cart pole: noise", options.noise);
+  requirePositive("cart pole: largest angle", options.largestAngle);
   requireFinite("cart pole: costs Q", options.Q.reshaped());
   requireFinite("cart pole: costs R", options.R);
   requireFinite("cart pole: cost of a failure", options.failure);

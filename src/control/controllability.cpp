@@ -125,7 +125,7 @@ Eigen::MatrixXd inUnitsOfB(LinearSystem system, const Gramian& gramian) {
 }
 
 Eigen::MatrixXd gramian(const LinearSystem& given, double T) {
-  internal::requirePositive("time T of a Gramian", T);
+  requirePositive("time T of a Gramian", T);
   if (given.step && !(T / *given.step < 1e15))
     throw Error({.what = "time T of a Gramian",
                  .found = fmt::format("{:g}", T),

@@ -126,7 +126,7 @@ RiccatiHorizon continuousHorizon(const LinearSystem& given, const MatrixArg& Q, 
   const LinearSystem system = completed(given);
   requireSound(system, Q, R, false);
   internal::requireSymmetric("F", F, system.A.rows());
-  internal::requirePositive("time T of a horizon", T);
+  requirePositive("time T of a horizon", T);
   requireSteps(steps);
   const Eigen::Index n = system.A.rows();
   const Eigen::LLT<Eigen::MatrixXd> weight(R);
@@ -156,8 +156,8 @@ RiccatiIteration iterateCare(const LinearSystem& given, const MatrixArg& Q, cons
                              const RiccatiIterationOptions& options) {
   const LinearSystem system = completed(given);
   requireSound(system, Q, R, false);
-  internal::requirePositive("epsilon of the iteration", options.epsilon);
-  internal::requirePositive("tolerance of the iteration", options.tolerance);
+  requirePositive("epsilon of the iteration", options.epsilon);
+  requirePositive("tolerance of the iteration", options.tolerance);
   if (options.maxIterations < 1)
     throw Error(
         {.what = "iterations", .found = fmt::format("{}", options.maxIterations), .wanted = "1 or more"});

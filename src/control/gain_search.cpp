@@ -80,9 +80,9 @@ void requireSound(const LinearSystem& system, const Eigen::MatrixXd& start,
   requireSize("rows of the first gains", start.rows(), system.B.cols());
   requireSize("columns of the first gains", start.cols(), system.C.rows());
   requireFinite("first gains", start.reshaped());
-  internal::requirePositive("bound of gains", options.bound);
-  internal::requirePositive("tolerance of gains", options.tolerance);
-  internal::requirePositive("evaluations", options.maxEvaluations);
+  requirePositive("bound of gains", options.bound);
+  requirePositive("tolerance of gains", options.tolerance);
+  requirePositive("evaluations", options.maxEvaluations);
   if (start.cwiseAbs().maxCoeff() > options.bound)
     throw Error({.what = "first gains",
                  .found = fmt::format("{:g}", start.cwiseAbs().maxCoeff()),

@@ -103,9 +103,9 @@ void requireSound(const ControlProblem& problem, const Eigen::MatrixXd& U, const
   if (U.size() == 0) throw Error({.what = "first guess U", .found = "no controls"});
   rex::requireFinite("start of a control problem", problem.start);
   rex::requireFinite("first guess U", U.reshaped());
-  internal::requirePositive("tolerance of iLQR", options.tolerance);
-  internal::requireNotNegative("damping of iLQR", options.damping);
-  internal::requireNotNegative("iterations of iLQR", options.maxIterations);
+  requirePositive("tolerance of iLQR", options.tolerance);
+  requireNotNegative("damping of iLQR", options.damping);
+  requireNotNegative("iterations of iLQR", options.maxIterations);
 }
 
 // The part of the step, 1, 1/2, ..., that lowers the cost by a fair share of what it promises.

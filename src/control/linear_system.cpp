@@ -25,7 +25,7 @@ LinearSystem completed(const LinearSystem& system) {
   internal::requireFiniteMatrix("B", result.B);
   internal::requireFiniteMatrix("C", result.C);
   internal::requireFiniteMatrix("D", result.D);
-  if (system.step) internal::requirePositive("step of a linear system", *system.step);
+  if (system.step) requirePositive("step of a linear system", *system.step);
   return result;
 }
 
@@ -33,7 +33,7 @@ LinearSystem discretized(const LinearSystem& system, double step) {
   LinearSystem result = completed(system);
   if (system.step)
     throw Error({.what = "linear system", .found = "discrete time", .wanted = "continuous time"});
-  internal::requirePositive("step of a linear system", step);
+  requirePositive("step of a linear system", step);
   const Eigen::Index n = system.A.rows(), m = system.B.cols();
   // Beside a large B the exponential would lose digits of A: controls in units that make it small.
   const double largest = m == 0 ? 0 : system.B.cwiseAbs().maxCoeff(), unit = largest > 0 ? largest : 1;

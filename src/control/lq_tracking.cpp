@@ -49,7 +49,7 @@ LqPolicy solveLq(const std::vector<LqStage>& stages, const Eigen::MatrixXd& F, c
   const Eigen::Index n = F.rows();
   requireSize("columns of F", F.cols(), n);
   internal::requireFiniteMatrix("F", F);
-  internal::requireNotNegative("damping of a linear quadratic problem", damping);
+  requireNotNegative("damping of a linear quadratic problem", damping);
   LqPolicy policy;
   const std::size_t N = stages.size();
   policy.K.resize(N), policy.k.resize(N), policy.P.resize(N + 1), policy.p.resize(N + 1);

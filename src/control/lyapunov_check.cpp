@@ -169,7 +169,7 @@ LyapunovCertificate certifyQuadratic(const MatrixArg& A, const MatrixArg& P) {
 }
 
 double certifiedLevel(const MatrixArg& A, const MatrixArg& P, double curvature) {
-  internal::requirePositive("curvature", curvature);
+  requirePositive("curvature", curvature);
   if (certifyQuadratic(A, P).status != LyapunovStatus::kHolds) return 0;
   // V' <= -fall |x|^2 + 2 |P| curvature |x|^3, so V falls for |x| below a radius; the level is the largest
   // ellipsoid in that ball.

@@ -5,9 +5,9 @@
 namespace rex {
 
 PdGains pdGains(double mass, double lambda, double xi) {
-  internal::requirePositive("mass", mass);
-  internal::requirePositive("wave length lambda", lambda);
-  internal::requireNotNegative("damping ratio xi", xi);
+  requirePositive("mass", mass);
+  requirePositive("wave length lambda", lambda);
+  requireNotNegative("damping ratio xi", xi);
   const PdGains gains{.Kp = mass / (lambda * lambda), .Kd = 2 * mass * xi / lambda};
   internal::requireFinite(gains);
   return gains;

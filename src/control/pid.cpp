@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
+#include "base/error.h"
 #include "control/require_internal.h"
 
 namespace rex {
@@ -16,7 +19,7 @@ void requireGains(const PidGains& gains) {
 }  // namespace
 
 bool pidIsStable(double mass, const PidGains& gains) {
-  internal::requirePositive("mass", mass);
+  requirePositive("mass", mass);
   requireGains(gains);
   const bool isDamped = gains.Kp > 0 && gains.Kd > 0;
   // Long doubles, because products of tiny numbers would vanish, and those of large ones overflow.
@@ -26,7 +29,7 @@ bool pidIsStable(double mass, const PidGains& gains) {
 
 Pid::Pid(const PidOptions& options) : options_(options) {
   requireGains(options.gains);
-  internal::requireNotNegative("filter time", options.filterTime);
+  requireNotNegative("filter time", options.filterTime);
   if (!(options.lowest < options.highest))
     throw Error({.what = "limits of u",
                  .found = fmt::format("{:g} to {:g}", options.lowest, options.highest),
@@ -36,7 +39,7 @@ Pid::Pid(const PidOptions& options) : options_(options) {
 double Pid::step(double error, double velocityError, double h) {
   requireFinite("error", error);
   requireFinite("velocity error", velocityError);
-  internal::requirePositive("time step h", h);
+  requirePositive("time step h", h);
   const PidGains& gains = options_.gains;
   const double wished = gains.Kp * error + gains.Ki * integral_ + gains.Kd * velocityError;
   const double u = std::clamp(wished, options_.lowest, options_.highest);
@@ -51,7 +54,7 @@ double Pid::step(double error, double velocityError, double h) {
 
 double Pid::step(double error, double h) {
   requireFinite("error", error);
-  internal::requirePositive("time step h", h);
+  requirePositive("time step h", h);
   // Backward Euler of filterTime slope' + slope = e': stable for every h.
   const double change = lastError_ ? error - *lastError_ - h * slope_ : 0;
   const double slope = slope_ + change / (options_.filterTime + h);

@@ -38,7 +38,7 @@ Modes modesAt(double damping, double stiffness, double t) {
 }
 
 void requireState(const PointMass& point, const PointMassState& at) {
-  internal::requirePositive("mass", point.mass);
+  requirePositive("mass", point.mass);
   requireFinite("position q", at.q);
   requireFinite("velocity v", at.v);
 }
@@ -48,7 +48,7 @@ void requireState(const PointMass& point, const PointMassState& at) {
 PointMassState PointMass::eulerStep(const PointMassState& at, double u, double h) const {
   requireState(*this, at);
   requireFinite("force u", u);
-  internal::requirePositive("time step h", h);
+  requirePositive("time step h", h);
   return {.q = at.q + h * at.v, .v = at.v + h * u / mass};
 }
 
@@ -57,7 +57,7 @@ PointMassState pdResponse(const PointMass& point, const PdGains& gains, const Po
   requireState(point, start);
   internal::requireFinite(gains);
   requireFinite("target", target);
-  internal::requireNotNegative("time t", t);
+  requireNotNegative("time t", t);
   const double damping = gains.Kd / point.mass / 2, stiffness = gains.Kp / point.mass;
   const double e = start.q - target;
   const auto [c, s] = modesAt(damping, stiffness, t);

@@ -103,14 +103,14 @@ Eigen::Matrix<double, 3, 2> RacerDynamics::poses(const Eigen::Vector2d& q) const
 }
 
 Eigen::Vector4d RacerDynamics::rungeKuttaStep(const Eigen::Vector4d& x, double u, double tau) const {
-  internal::requirePositive("racer: time step tau", tau);
+  requirePositive("racer: time step tau", tau);
   const auto next = internal::racerStep(checked(*this, x, u), stateOf(x), u, tau);
   return {next.x, next.theta, next.v, next.w};
 }
 
 Eigen::Vector4d RacerDynamics::noisyStep(const Eigen::Vector4d& x, double u, double tau, double noise,
                                          Rng& rng) const {
-  internal::requireNotNegative("racer: noise", noise);
+  requireNotNegative("racer: noise", noise);
   Eigen::Vector4d next = rungeKuttaStep(x, u, tau);
   const auto normals = internal::normalPair(rng);
   const double deviation = squareRoot(tau) * noise;

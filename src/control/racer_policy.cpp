@@ -30,8 +30,8 @@ RacerPolicy::RacerPolicy(const RacerFeatures& features, const VectorArg& w, doub
     : tau_(tau), limit_(limit) {
   requireSize("racer: weights of features", w.size(), features.count());
   requireFinite("racer: weights of features", w);
-  internal::requirePositive("racer: time step tau", tau);
-  internal::requirePositive("racer: limit of u", limit);
+  requirePositive("racer: time step tau", tau);
+  requirePositive("racer: limit of u", limit);
   internal::placeWeights(features, w, w_, 1);
 }
 

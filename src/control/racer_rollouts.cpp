@@ -19,10 +19,10 @@ using internal::RacerRolloutsTask;
 
 internal::RacerRolloutsRules rulesOf(const RacerRolloutOptions& options) {
   internal::requireSteps("racer", options.steps);
-  internal::requirePositive("racer: time step tau", options.tau);
-  internal::requireNotNegative("racer: noise", options.noise);
-  internal::requirePositive("racer: limit of u", options.largestControl);
-  internal::requirePositive("racer: largest angle", options.largestAngle);
+  requirePositive("racer: time step tau", options.tau);
+  requireNotNegative("racer: noise", options.noise);
+  requirePositive("racer: limit of u", options.largestControl);
+  requirePositive("racer: largest angle", options.largestAngle);
   const RacerCost& cost = options.cost;
   requireFinite("racer: weights of the cost",
                 Eigen::Matrix<double, 5, 1>(cost.x, cost.theta, cost.gyro, cost.wheel, cost.failure));

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
+#include "base/error.h"
 #include "control/require_internal.h"
 
 namespace rex {
@@ -15,7 +18,7 @@ Reference standAt(const Model& model, const VectorArg& q) {
 
 Reference referenceAlong(const Model& model, const VectorArg& q0, const VectorArg& qT, double seconds,
                          double t, const MotionProfile& profile) {
-  internal::requirePositive("seconds", seconds);
+  requirePositive("seconds", seconds);
   requireFinite("posture q0", q0);
   requireFinite("posture qT", qT);
   const ProfilePoint at = profileAt(profile, t / seconds);
@@ -25,7 +28,7 @@ Reference referenceAlong(const Model& model, const VectorArg& q0, const VectorAr
 }
 
 Reference referenceAt(const Model& model, const MatrixArg& Q, double tau, int i) {
-  internal::requirePositive("time between samples tau", tau);
+  requirePositive("time between samples tau", tau);
   if (Q.cols() == 0)
     throw Error({.what = "samples of a reference", .found = "none", .wanted = "at least one"});
   const int last = static_cast<int>(Q.cols()) - 1;

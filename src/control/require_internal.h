@@ -1,27 +1,11 @@
 #pragma once
 
-#include <cmath>
-#include <string>
-
-#include <fmt/format.h>
-
-#include "base/error.h"
 #include "base/require_finite.h"
+#include "base/require_positive.h"
 #include "control/pd_gains.h"
 #include "scene/state.h"
 
 namespace rex::internal {
-
-inline void requirePositive(const std::string& what, double number) {
-  if (!(number > 0) || !std::isfinite(number))
-    throw Error({.what = what, .found = fmt::format("{:g}", number), .wanted = "a positive number"});
-}
-
-inline void requireNotNegative(const std::string& what, double number) {
-  if (!(number >= 0) || !std::isfinite(number))
-    throw Error(
-        {.what = what, .found = fmt::format("{:g}", number), .wanted = "a number that is not negative"});
-}
 
 inline void requireFinite(const PdGains& gains) {
   rex::requireFinite("gain Kp", gains.Kp);

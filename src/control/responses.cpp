@@ -37,7 +37,7 @@ Eigen::VectorXd inverseSizes(const Eigen::MatrixXcd& M) {
 TimeResponse stepResponse(const LinearSystem& given, int input, double T, int count) {
   LinearSystem system = completed(given);
   requireIndex("input of a step response", input, system.B.cols());
-  internal::requirePositive("time T of a step response", T);
+  requirePositive("time T of a step response", T);
   if (system.step) {
     if (T < *system.step || T > 1e6 * *system.step)
       throw Error({.what = "time T of a step response",
@@ -98,7 +98,7 @@ FrequencyResponse frequencyResponse(const LinearSystem& given, int input, int ou
 }
 
 std::vector<double> frequenciesBetween(double low, double high, int count) {
-  internal::requirePositive("lowest frequency", low);
+  requirePositive("lowest frequency", low);
   if (!(high > low) || !std::isfinite(high))
     throw Error({.what = "highest frequency",
                  .found = fmt::format("{:g}", high),

@@ -1,6 +1,7 @@
 #include "locomotion/basin.h"
 
-#include "locomotion/require_internal.h"
+#include "base/error.h"
+#include "base/require_positive.h"
 
 namespace rex {
 namespace {
@@ -36,8 +37,8 @@ std::vector<BasinOutcome> basinOfAttraction(const CompassGait& walker, const Lim
                                             const Eigen::Ref<const Eigen::Matrix4Xd>& starts,
                                             const BasinOptions& options) {
   requireFound(cycle);
-  internal::requirePositive("basin of attraction: steps", options.maxSteps);
-  internal::requirePositive("basin of attraction: tolerance", options.tolerance);
+  requirePositive("basin of attraction: steps", options.maxSteps);
+  requirePositive("basin of attraction: tolerance", options.tolerance);
   std::vector<BasinOutcome> outcomes;
   outcomes.reserve(static_cast<std::size_t>(starts.cols()));
   for (const auto& start : starts.colwise()) outcomes.push_back(walk(walker, cycle.x, start, options));

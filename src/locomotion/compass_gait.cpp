@@ -4,9 +4,12 @@
 #include <numbers>
 
 #include <Eigen/LU>
+#include <fmt/format.h>
 
+#include "base/error.h"
+#include "base/require_finite.h"
+#include "base/require_positive.h"
 #include "locomotion/event_integration_internal.h"
-#include "locomotion/require_internal.h"
 
 namespace rex {
 namespace {
@@ -18,11 +21,11 @@ using Eigen::Vector4d;
 using StateAndJacobian = Eigen::Matrix<double, 20, 1>;  // a state, and columns of its derivative by the start
 
 void requireWalker(const CompassGait& walker) {
-  internal::requireNotNegative("compass gait: length a", walker.a);
-  internal::requirePositive("compass gait: length b", walker.b);
-  internal::requireNotNegative("compass gait: mass of a leg", walker.legMass);
-  internal::requirePositive("compass gait: mass of the hip", walker.hipMass);
-  internal::requirePositive("compass gait: g", walker.g);
+  requireNotNegative("compass gait: length a", walker.a);
+  requirePositive("compass gait: length b", walker.b);
+  requireNotNegative("compass gait: mass of a leg", walker.legMass);
+  requirePositive("compass gait: mass of the hip", walker.hipMass);
+  requirePositive("compass gait: g", walker.g);
   if (!(std::abs(walker.slope) < 1))
     throw Error({.what = "compass gait: slope",
                  .found = fmt::format("{:g}", walker.slope),
@@ -181,7 +184,7 @@ std::optional<StepStatus> hindered(const CompassGait& w, const Vector4d& x) {
 template <class Vector, class F>
 WalkerStep stepOf(const CompassGait& w, const F& f, Vector& x, double timeLimit) {
   requireState(w, x.template head<4>());
-  internal::requirePositive("compass gait: time limit", timeLimit);
+  requirePositive("compass gait: time limit", timeLimit);
   WalkerStep step{.before = x.template head<4>()};
   if (const std::optional<StepStatus> status = hindered(w, step.before)) {
     step.status = *status;

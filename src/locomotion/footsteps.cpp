@@ -2,7 +2,11 @@
 
 #include <algorithm>
 
-#include "locomotion/require_internal.h"
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/require_finite.h"
+#include "base/require_positive.h"
 
 namespace rex {
 namespace {
@@ -25,11 +29,11 @@ void requirePlan(const WalkPlan& plan) {
                    .found = "the same side as before",
                    .wanted = "left and right in turn"});
   }
-  internal::requirePositive("walk: length of the sole", plan.sole.length);
-  internal::requirePositive("walk: width of the sole", plan.sole.width);
-  internal::requirePositive("walk: time of double support", plan.doubleSupport);
-  internal::requirePositive("walk: time of single support", plan.singleSupport);
-  internal::requirePositive("walk: time of rest", plan.rest);
+  requirePositive("walk: length of the sole", plan.sole.length);
+  requirePositive("walk: width of the sole", plan.sole.width);
+  requirePositive("walk: time of double support", plan.doubleSupport);
+  requirePositive("walk: time of single support", plan.singleSupport);
+  requirePositive("walk: time of rest", plan.rest);
 }
 
 double durationOf(const WalkPlan& plan) {
@@ -86,7 +90,7 @@ std::vector<Footstep> straightFootsteps(int count, double length, double width) 
   if (count < 1)
     throw Error({.what = "footsteps: count", .found = fmt::format("{}", count), .wanted = "at least 1"});
   requireFinite("footsteps: length", length);
-  internal::requirePositive("footsteps: width", width);
+  requirePositive("footsteps: width", width);
   std::vector<Footstep> steps;
   for (int i = -2; i < count; ++i) {
     const Side side = i % 2 == 0 ? Side::kLeft : Side::kRight;
@@ -116,7 +120,7 @@ SupportPolygon supportOf(const WalkPhase& phase, const Sole& sole) {
 
 Eigen::Matrix2Xd zmpReference(const WalkPlan& plan, double step) {
   requirePlan(plan);
-  internal::requirePositive("walk: time step", step);
+  requirePositive("walk: time step", step);
   const double count = std::floor(durationOf(plan) / step + 1e-9) + 1;
   if (count > kMostColumns)
     throw Error({.what = "walk: time step",

@@ -1,6 +1,7 @@
 #include "locomotion/inverted_pendulum.h"
 
-#include "locomotion/require_internal.h"
+#include "base/require_finite.h"
+#include "base/require_positive.h"
 
 namespace rex {
 namespace {
@@ -15,8 +16,8 @@ void requireFiniteMotion(const CenterMotion& at) {
 }  // namespace
 
 double InvertedPendulum::omega() const {
-  internal::requirePositive("inverted pendulum: height", height);
-  internal::requirePositive("inverted pendulum: g", g);
+  requirePositive("inverted pendulum: height", height);
+  requirePositive("inverted pendulum: g", g);
   return std::sqrt(g / height);
 }
 

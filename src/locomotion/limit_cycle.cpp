@@ -4,8 +4,9 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <fmt/format.h>
 
-#include "locomotion/require_internal.h"
+#include "base/require_positive.h"
 
 namespace rex {
 namespace {
@@ -53,8 +54,8 @@ bool advance(const CompassGait& walker, double timeLimit, Trial& at) {
 
 LimitCycle findLimitCycle(const CompassGait& walker, const Vector4d& guess,
                           const LimitCycleOptions& options) {
-  internal::requirePositive("limit cycle: iterations", options.maxIterations);
-  internal::requirePositive("limit cycle: tolerance", options.tolerance);
+  requirePositive("limit cycle: iterations", options.maxIterations);
+  requirePositive("limit cycle: tolerance", options.tolerance);
   Trial at(walker, guess, options.timeLimit);
   LimitCycle cycle{.x = guess, .residual = at.residual};
   if (!at.stepped()) {

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 
-#include "locomotion/require_internal.h"
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/require_finite.h"
+#include "base/require_positive.h"
 
 namespace rex {
 namespace {
@@ -16,12 +20,12 @@ using Eigen::Vector4d;
 constexpr double kMostSteps = 1e5;
 
 void requireOptions(const PreviewOptions& options) {
-  internal::requirePositive("preview control: height", options.height);
-  internal::requirePositive("preview control: g", options.g);
-  internal::requirePositive("preview control: step", options.step);
-  internal::requirePositive("preview control: preview", options.preview);
-  internal::requirePositive("preview control: weight Qe", options.Qe);
-  internal::requirePositive("preview control: weight R", options.R);
+  requirePositive("preview control: height", options.height);
+  requirePositive("preview control: g", options.g);
+  requirePositive("preview control: step", options.step);
+  requirePositive("preview control: preview", options.preview);
+  requirePositive("preview control: weight Qe", options.Qe);
+  requirePositive("preview control: weight R", options.R);
   const double steps = std::round(options.preview / options.step);
   if (!(steps >= 1 && steps <= kMostSteps))
     throw Error({.what = "preview control: preview",

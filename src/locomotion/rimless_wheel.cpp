@@ -2,7 +2,11 @@
 
 #include <numbers>
 
-#include "locomotion/require_internal.h"
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/require_finite.h"
+#include "base/require_positive.h"
 
 namespace rex {
 namespace {
@@ -12,8 +16,8 @@ void requireWheel(const RimlessWheel& wheel) {
     throw Error({.what = "rimless wheel: spokes",
                  .found = fmt::format("{}", wheel.spokes),
                  .wanted = "at least 5: with fewer an impact stops it"});
-  internal::requirePositive("rimless wheel: length l", wheel.l);
-  internal::requirePositive("rimless wheel: g", wheel.g);
+  requirePositive("rimless wheel: length l", wheel.l);
+  requirePositive("rimless wheel: g", wheel.g);
   if (!(wheel.slope >= 0 && wheel.slope < std::numbers::pi / 2))
     throw Error({.what = "rimless wheel: slope",
                  .found = fmt::format("{:g}", wheel.slope),

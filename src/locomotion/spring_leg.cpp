@@ -5,8 +5,12 @@
 #include <numbers>
 #include <optional>
 
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/require_finite.h"
+#include "base/require_positive.h"
 #include "locomotion/event_integration_internal.h"
-#include "locomotion/require_internal.h"
 
 namespace rex {
 namespace {
@@ -14,10 +18,10 @@ namespace {
 using Eigen::Vector4d;
 
 void requireLeg(const SpringLeg& leg) {
-  internal::requirePositive("spring leg: mass", leg.mass);
-  internal::requirePositive("spring leg: stiffness", leg.stiffness);
-  internal::requirePositive("spring leg: rest length", leg.restLength);
-  internal::requirePositive("spring leg: g", leg.g);
+  requirePositive("spring leg: mass", leg.mass);
+  requirePositive("spring leg: stiffness", leg.stiffness);
+  requirePositive("spring leg: rest length", leg.restLength);
+  requirePositive("spring leg: g", leg.g);
   if (!(leg.angle > 0 && leg.angle < std::numbers::pi / 2))
     throw Error({.what = "spring leg: angle",
                  .found = fmt::format("{:g}", leg.angle),
@@ -108,7 +112,7 @@ double SpringLeg::apexEnergy(const RunnerApex& apex) const {
 
 Hop SpringLeg::hop(const RunnerApex& apex, double timeLimit) const {
   requireApex(*this, apex);
-  internal::requirePositive("spring leg: time limit", timeLimit);
+  requirePositive("spring leg: time limit", timeLimit);
   const double drop = apex.height - restLength * std::sin(angle);
   Hop hop;
   if (!(drop > 0)) return ended(hop, HopStatus::kNoTouchdown, "the apex is too low to set the leg");

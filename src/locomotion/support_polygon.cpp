@@ -4,7 +4,10 @@
 #include <limits>
 #include <vector>
 
-#include "locomotion/require_internal.h"
+#include <fmt/format.h>
+
+#include "base/require_finite.h"
+#include "base/require_positive.h"
 
 namespace rex {
 namespace {
@@ -91,7 +94,7 @@ SupportPolygon supportPolygon(const Eigen::Ref<const Eigen::Matrix2Xd>& contacts
 
 SupportMargin supportMargin(const SupportPolygon& support, const Vector2d& point, double wantedMargin) {
   requireFinite("support margin: point", point);
-  internal::requireNotNegative("support margin: wanted margin", wantedMargin);
+  requireNotNegative("support margin: wanted margin", wantedMargin);
   SupportMargin result{.margin = -std::numeric_limits<double>::infinity(), .message = support.message};
   const Eigen::Index count = support.corners.cols();
   bool isLeft = support.shape == SupportShape::kPolygon;

@@ -4,12 +4,13 @@
 #include <array>
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
 
+#include "base/require_positive.h"
 #include "kinematics/hierarchical_step.h"
 #include "kinematics/motion_profile.h"
 #include "kinematics/task.h"
 #include "kinematics/task_maps.h"
-#include "locomotion/require_internal.h"
 #include "scene/state.h"
 
 namespace rex {
@@ -78,9 +79,9 @@ double solve(const Model& model, const Targets& targets, const VectorXd& home, c
 
 void requireOptions(const Model& model, const VectorArg& start, const WalkOptions& options) {
   requireSize("walking pattern: start", start.size(), model.nq());
-  internal::requirePositive("walking pattern: lift", options.lift);
-  internal::requirePositive("walking pattern: tolerance", options.tolerance);
-  internal::requirePositive("walking pattern: iterations", options.maxIterations);
+  requirePositive("walking pattern: lift", options.lift);
+  requirePositive("walking pattern: tolerance", options.tolerance);
+  requirePositive("walking pattern: iterations", options.maxIterations);
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
 #include "locomotion/zero_moment_point.h"
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
 
+#include "base/require_finite.h"
 #include "dynamics/momentum_rate.h"
 #include "kinematics/center_of_mass.h"
-#include "locomotion/require_internal.h"
 
 namespace rex {
 namespace {
