@@ -376,8 +376,9 @@ Action parseCommandLine(int argc, const char* const* argv) {
   addReport(program, action);
   addStudentCommands(program, action);
   addDebug(program, action), addScene(program, action), addRender(program, action);
-  addSimulate(program, action), addPlan(program, action), addCurves(program, action),
-      addSlam(program, action), addFilter(program, action), addCma(program, action);
+  addSimulate(program, action), addPlan(program, action), addTrajectory(program, action),
+      addCurves(program, action), addSlam(program, action), addFilter(program, action),
+      addCma(program, action);
   addRiccati(program, action, false), addRiccati(program, action, true);
   addGradeMany(program, action);
   addDoctor(program, action), addBench(program, action);

@@ -27,5 +27,6 @@ void addScene(CLI::App& program, Action& action);
 void addRender(CLI::App& program, Action& action);
 void addSimulate(CLI::App& program, Action& action);
 void addPlan(CLI::App& program, Action& action);
+void addTrajectory(CLI::App& program, Action& action);
 
 }  // namespace rex::cli

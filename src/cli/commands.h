@@ -148,6 +148,24 @@ struct PlanOptions {
 /// kBelow if there is no path, or one that is not clear.
 ExitCode planPath(const Project& project, const PlanOptions& options);
 
+struct TrajectoryOptions {
+  SceneOption scene{};
+  std::string start{};   ///< see parsePosture(); empty: that of the file
+  std::string goal{};    ///< BODY:x,y,z
+  bool avoid = false;    ///< keep shapes apart
+  double margin = 0.02;  ///< metres between all pairs of shapes
+  int steps = 100;
+  double seconds = 2;  ///< of the motion
+  std::string method = "augmented-lagrangian";
+  RenderOptions film{};  ///< cameras, size and gl of the pictures
+  bool noFilm = false;
+  bool json = false;
+  std::filesystem::path out{};  ///< a folder
+};
+/// Moves a body to a point with little acceleration; writes the motion, its costs, a film and a replay.
+/// kBelow if a constraint does not hold, or the motion is not proven clear.
+ExitCode planTrajectory(const Project& project, const TrajectoryOptions& options);
+
 struct SceneOptions {
   SceneOption scene{};
   std::string posture{};  ///< see parsePosture(); empty: that of the file

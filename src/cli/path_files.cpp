@@ -1,19 +1,13 @@
 #include "cli/path_files.h"
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <numeric>
-#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "base/error.h"
 #include "cli/film_file.h"
+#include "cli/motion_files.h"
 #include "cli/path_motion.h"
 #include "cli/path_pictures.h"
 #include "cli/studio.h"
@@ -28,16 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kLongestFilm = 120;  // seconds, as of other films
-
-constexpr std::array kFiles = {"tree.png", "path.csv", "path.mp4", "path.html"};
-
-// The frames of a film that was made without ffmpeg; a folder with anything else stays.
-void removeFrames(const fs::path& folder) {
-  std::error_code unused;
-  for (int i = 0; fs::remove(folder / fmt::format("{:04}.png", i), unused); ++i) {
-  }
-  if (fs::is_directory(folder, unused)) fs::remove(folder, unused);
-}
 
 void writeExplored(Picture picture, RenderPlan plan, std::string caption, const fs::path& out) {
   picture.captions.push_back({.text = std::move(caption)});
@@ -61,7 +45,6 @@ Report replayOf(const PathTask& task, const PlanOptions& options, const FoundPat
     report.figures.push_back({clearanceFigure(task.model, task.contacts, motion, options.margin)});
     report.facts.emplace_back("clearance", fmt::format("{:.4g} m", found.clearance.atLeast));
   }
-  for (ReportFigure& item : report.figures) item.figure.width = 560, item.figure.height = 360;
   return report;
 }
 
@@ -72,40 +55,14 @@ std::vector<fs::path> writeMotion(const PathTask& task, const PlanOptions& optio
   if (speed > options.speed) note(fmt::format("the film is {:.3g} times as fast", speed / options.speed));
   const Space& space = task.problem.space;
   const Motion motion = resampled(space, timedPath(space, found.path, speed, 1 / kFilmRate), kFilmRate);
-  std::vector<std::size_t> frames(motion.postures.size());
-  std::iota(frames.begin(), frames.end(), std::size_t{0});
-  const MotionPictures shots(task.model, motion, frames, {task.model[body].name},
-                             titleOf(task, options, found));
-  const fs::path film = writeFilm(shots, pictures, options.out / "path.mp4");
-  Report report = replayOf(task, options, found, motion);
-  report.film = shots.film();
-  report.view = pictures.views.front().view.direction();
-  report.still.gl = pictures.renderer.gl;
-  writeReport(report, options.out / "path.html");
-  return {film, options.out / "path.html"};
+  return writeFilmAndReplay(task.model, motion, body, replayOf(task, options, found, motion), pictures,
+                            options.out / "path");
 }
 
 }  // namespace
 
 std::string titleOf(const PathTask& task, const PlanOptions& options, const FoundPath& found) {
   return fmt::format("{}, {}, seed {}", harmless(task.model.name()), options.planner, found.seed);
-}
-
-void makeFolder(const fs::path& folder) {
-  const auto refuse = [](const fs::path& path, const std::string& found, const std::string& wanted) {
-    throw UsageError({.what = "-o " + harmless(path.string()), .found = found, .wanted = wanted});
-  };
-  std::error_code problem;
-  fs::create_directories(folder, problem);
-  if (problem || !fs::is_directory(folder))
-    refuse(folder, problem ? problem.message() : "a file", "a folder");
-  if (!std::ofstream(folder / kFiles.front(), std::ios::app))
-    refuse(folder, std::strerror(errno), "a folder to write to");
-  removeFrames(folder / "path");
-  for (const char* name : kFiles) {
-    fs::remove(folder / name, problem);
-    if (problem) refuse(folder / name, problem.message(), "a file, or nothing");
-  }
 }
 
 std::vector<std::string> writePathFiles(const PathTask& task, const PlanOptions& options,

@@ -13,10 +13,6 @@ namespace rex::cli {
 /// "scene, planner, seed 3", without control characters.
 [[nodiscard]] std::string titleOf(const PathTask& task, const PlanOptions& options, const FoundPath& found);
 
-/// Makes the folder of a search, and takes away what an earlier one left there. Throws UsageError naming -o
-/// for one that cannot be, that cannot be written to, or where folders stand in the place of files.
-void makeFolder(const std::filesystem::path& folder);
-
 /// Writes into options.out what a search explored, and the path that it found as a table, a film and a page
 /// with a replay. Pictures show the ways of `body`, and are drawn as
 /// the plan says. Gives back the files, as a user would type them. Throws Error as those who write them.

@@ -8,14 +8,15 @@
 #include "base/error.h"
 #include "cli/commands.h"
 #include "cli/film_file.h"
+#include "cli/motion_files.h"
 #include "cli/option_value_internal.h"
 #include "cli/path_files.h"
 #include "cli/path_pictures.h"
 #include "cli/path_summary.h"
+#include "cli/posture_within_limits.h"
 #include "cli/wrong_use_internal.h"
 #include "collision/contacts.h"
 #include "planning/robot_problem.h"
-#include "scene/coordinates.h"
 
 namespace rex::cli {
 namespace {
@@ -43,35 +44,13 @@ PathSearch searchOf(const PlanOptions& options) {
   return search;
 }
 
-void requireWithinLimits(const Model& model, const std::string& option, const VectorArg& q) {
-  for (Eigen::Index i = 0; i < q.size(); ++i) {
-    const double lower = model.lowerLimits()[i], upper = model.upperLimits()[i];
-    const double outside = std::max(lower - q[i], q[i] - upper);
-    if (outside <= 0) continue;
-    throw UsageError(
-        {.what = fmt::format("{}: joint '{}' (q{})", option, harmless(jointOfPosition(model, i).name), i),
-         .found = fmt::format("{:g}, out of bounds by {:.4g}", q[i], outside),
-         .wanted = fmt::format("{:g} to {:g}", lower, upper)});
-  }
-}
-
-Eigen::VectorXd postureOf(const Model& model, const std::string& option, const std::string& text) {
-  Eigen::VectorXd q = parsePostureOf(model, option, text);
-  forEachQuaternion(model, [&](int iq, int) {
-    if (q.segment<4>(iq).isZero(0))
-      throw UsageError({.what = option, .found = "a quaternion of zeros", .wanted = "a rotation"});
-    q.segment<4>(iq).normalize();
-  });
-  requireWithinLimits(model, option, q);
-  return q;
-}
-
 PathTask taskOf(Model model, const PlanOptions& options) {
   const ContactModel contacts = asWrongUse([&] { return ContactModel(model); });
   if (contacts.pairs().empty())
     note(harmless(model.name()) + ": no two shapes may collide: all ways are free");
-  const Eigen::VectorXd start = postureOf(model, "--start", options.start.empty() ? "file" : options.start);
-  const Eigen::VectorXd goal = postureOf(model, "--goal", options.goal);
+  const Eigen::VectorXd start =
+      postureWithinLimits(model, "--start", options.start.empty() ? "file" : options.start);
+  const Eigen::VectorXd goal = postureWithinLimits(model, "--goal", options.goal);
   PathProblem problem = asWrongUse(
       [&] { return robotProblem(model, contacts, start, goal, options.margin, options.resolution); });
   const auto requireFree = [&](const char* option, const Eigen::VectorXd& q) {
@@ -134,7 +113,7 @@ ExitCode planPath(const Project& project, const PlanOptions& options) {
   const BodyId body = drawnBody(model, options.body);
   const PathTask task = taskOf(std::move(model), options);
   requireFewPostures(task.problem.space.distance(task.problem.start, task.problem.goal), options.speed);
-  makeFolder(options.out);
+  makeResultFolder(options.out, {"tree.png", "path.csv", "path.mp4", "path.html"}, "path");
 
   const FoundPaths found = asWrongUse([&] { return searchPaths(task, search, options.seed, options.seeds); });
   requireFewPostures(found.shortest().length, options.speed);

@@ -307,4 +307,39 @@ void addPlan(CLI::App& program, Action& action) {
   });
 }
 
+void addTrajectory(CLI::App& program, Action& action) {
+  const auto options = std::make_shared<TrajectoryOptions>();
+  CLI::App* command = add(
+      program, "trajectory",
+      "Move a body to a point smoothly, past obstacles: motion, costs, film and replay",
+      "Examples:\n  scripts/rex trajectory arm7 --goal arm7:0.5,0.2,0.6 -o reach\n"
+      "  scripts/rex trajectory board --goal eff:0,-0.3,0.5 --avoid -o around\n\n"
+      "Minimises the accelerations of all joints from rest to rest (slides 5:3 to 5:5). DIR gets costs.png,\n"
+      "trajectory.csv (time and joints; `rex render --motion` reads it), trajectory.mp4 and\n"
+      "trajectory.html (a replay).\n"
+      "Exit codes: 0 found, 1 not: it says which constraint does not hold; 64 wrong use.");
+  command->add_option("SCENE", options->scene.file, kSceneHelp)->type_name("")->required();
+  command->add_option("-o,--out", options->out, "folder for what is written")->type_name("DIR")->required();
+  command->add_option("--goal", options->goal, "where the origin of the body shall come to rest, metres")
+      ->type_name("BODY:x,y,z")
+      ->required();
+  command->add_option("--start", options->start, "all numbers, joint=number,..., 0, or file (default: file)")
+      ->type_name("POSTURE");
+  command->add_flag("--avoid", options->avoid, "all shapes keep apart, also between steps");
+  command->add_option("--margin", options->margin, "by so much (default: 0.02)")->type_name("METRES");
+  command->add_option("--steps", options->steps, "of the motion (default: 100)")->type_name("N");
+  command->add_option("--seconds", options->seconds, "it takes (default: 2)")->type_name("S");
+  command
+      ->add_option("--method", options->method,
+                   "augmented-lagrangian, penalty, barrier (default: augmented-lagrangian)")
+      ->type_name("NAME");
+  command->add_flag("--no-film", options->noFilm, "no trajectory.mp4 and trajectory.html");
+  addFilmOptions(command, options->film);
+  addJson(command, options->json);
+  addReading(command, options->scene.reading);
+  addGl(command, options->film.gl);
+  command->callback(
+      [&action, options] { action = [options](const Project& p) { return planTrajectory(p, *options); }; });
+}
+
 }  // namespace rex::cli
