@@ -1,0 +1,4 @@
+int main() {
+  plot("frame", {});
+  plot("secret", {});
+}

@@ -1,0 +1,1 @@
+void addShow(App& program) { add(program, "show", "Show a frame"); }
