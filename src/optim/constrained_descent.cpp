@@ -9,8 +9,11 @@ namespace {
 constexpr double kSlopeShare = 0.1;      // of what the slope promises, a step must gain (Armijo)
 constexpr double kShortestShare = 1e-3;  // of a step; then more damping turns it instead
 constexpr double kLeastDamping = 1e-10, kMostDamping = 1e8;
+constexpr int kMostAttempts = 10;        // to find out which inequalities count for a step
 constexpr double kUnboundedFall = 1e12;  // of the cost, relative to that at the start
 constexpr double kRounding = 1e-15;      // of sums that make up a merit
+
+double largestOf(const Eigen::VectorXd& v) { return v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0; }
 
 }  // namespace
 
@@ -30,8 +33,9 @@ ConstrainedDescent::ConstrainedDescent(ConstrainedSystem& system, const VectorAr
       trial_(start),
       step_(start),
       gradient_(start),
-      damping_(options.damping) {
-  result_.log.reserve(static_cast<std::size_t>(options.maxIterations));
+      damping_(options.damping),
+      budget_(options.maxIterations) {
+  result_.log.reserve(static_cast<std::size_t>(std::min(options.maxIterations, 10'000)));
   evaluate(x_, values_);
   trialValues_ = values_;
   unbounded_ = -kUnboundedFall * (1 + std::abs(values_.cost));
@@ -42,10 +46,16 @@ void ConstrainedDescent::evaluate(const Eigen::VectorXd& x, ConstrainedValues& v
   ++result_.evaluations;
 }
 
+void ConstrainedDescent::moveTo(const Eigen::VectorXd& x) {
+  x_ = x;
+  evaluate(x_, values_);
+  isAtX_ = true;
+}
+
 const Eigen::VectorXd& ConstrainedDescent::gradientOf(const ConstraintWeights& weights) {
   if (!isAtX_) evaluate(x_, values_);
   isAtX_ = true;
-  system_.assemble(weights, gradient_);
+  system_.gradientOf(weights, gradient_);
   return gradient_;
 }
 
@@ -55,14 +65,16 @@ DescentEnd ConstrainedDescent::descend(const ConstraintMerit& merit, double tole
   for (;;) {
     if (isForInside && (values_.g.array() < 0).all()) return DescentEnd::kInside;
     merit.weigh(values_, weights_);
-    const double stationarity = gradientOf(weights_).cwiseAbs().maxCoeff();
-    if (stationarity <= tolerance) return DescentEnd::kConverged;
-    if (result_.iterations >= options_.maxIterations) return DescentEnd::kBudgetSpent;
+    const double stationarity = gradientOf(weights_).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+    if (stationarity <= tolerance * std::max({1., largestOf(weights_.g), largestOf(weights_.h)}))
+      return DescentEnd::kConverged;
+    if (result_.iterations >= budget_) return DescentEnd::kBudgetSpent;
     const double value = merit.value(values_);
     if (isNoBetter(value, lastValue, stationarity, lastStationarity)) return DescentEnd::kConverged;
     lastValue = value, lastStationarity = stationarity;
     if (!takeStep(merit, value))
-      return gain_ <= 100 * kRounding * std::abs(value) ? DescentEnd::kConverged : DescentEnd::kNoProgress;
+      return gain_ > 0 && gain_ <= 100 * kRounding * std::abs(value) ? DescentEnd::kConverged
+                                                                     : DescentEnd::kNoProgress;
     note(merit, stationarity);
     if (merit.costWeight * values_.cost < unbounded_) return DescentEnd::kUnbounded;
     if (share_ == 1 && damping_ <= kLeastDamping && isSmall(options_.stepTolerance))
@@ -84,8 +96,9 @@ bool ConstrainedDescent::isSmall(double tolerance) const {
 // Levenberg's damping goes on where a direction is none of descent, or leads nowhere.
 bool ConstrainedDescent::takeStep(const ConstraintMerit& merit, double value) {
   gain_ = 0;
+  stepGradient_ = gradient_;
   while (damping_ <= kMostDamping) {
-    if (system_.solve(damping_, gradient_, step_)) {
+    if (findStep(merit)) {
       const double slope = gradient_.dot(step_);
       gain_ = std::max(gain_, -slope);
       if (slope < 0 && searchAlong(merit, value, slope)) {
@@ -99,6 +112,24 @@ bool ConstrainedDescent::takeStep(const ConstraintMerit& merit, double value) {
   }
   damping_ = options_.damping;
   return false;
+}
+
+// The minimum of the merit if cost and constraints were quadratic and linear. Which inequalities count is not
+// known before the step: it is taken with those that the last one would reach, until they are the same.
+bool ConstrainedDescent::findStep(const ConstraintMerit& merit) {
+  for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+    system_.assemble(weights_);
+    if (!system_.solve(damping_, stepGradient_, step_)) {
+      merit.weigh(values_, weights_);  // no guess of what counts before the cost is convex without it
+      stepGradient_ = gradient_;
+      return false;
+    }
+    if (merit.hasBarrier) return true;
+    system_.changeOfG(step_, change_);
+    if (!merit.weighAhead(values_, change_, weights_)) return true;
+    system_.gradientOf(weights_, stepGradient_);
+  }
+  return true;
 }
 
 bool ConstrainedDescent::searchAlong(const ConstraintMerit& merit, double value, double slope) {

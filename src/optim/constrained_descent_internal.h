@@ -25,12 +25,17 @@ class ConstrainedDescent {
   [[nodiscard]] const ConstrainedValues& values() const { return values_; }
   /// Until max |gradient| is at most `tolerance`, or, if so wanted, until all g < 0.
   DescentEnd descend(const ConstraintMerit& merit, double tolerance, bool isForInside = false);
+  /// Goes on from another point.
+  void moveTo(const Eigen::VectorXd& x);
+  /// So many Newton steps more than options allow.
+  void extendBudget(int steps) { budget_ += steps; }
   /// Gradient of w cost + a^T g + b^T h at x.
   const Eigen::VectorXd& gradientOf(const ConstraintWeights& weights);
 
  private:
   void evaluate(const Eigen::VectorXd& x, ConstrainedValues& values);
   bool takeStep(const ConstraintMerit& merit, double value);
+  bool findStep(const ConstraintMerit& merit);
   bool searchAlong(const ConstraintMerit& merit, double value, double slope);
   [[nodiscard]] bool isNoBetter(double value, double lastValue, double stationarity,
                                 double lastStationarity) const;
@@ -41,10 +46,11 @@ class ConstrainedDescent {
   ConstrainedSystem& system_;
   const ConstrainedOptions& options_;
   ConstrainedResult& result_;
-  Eigen::VectorXd x_, trial_, step_, gradient_;
+  Eigen::VectorXd x_, trial_, step_, gradient_, stepGradient_, change_;
   ConstrainedValues values_, trialValues_;
   ConstraintWeights weights_;
   double damping_, share_ = 0, gain_ = 0, unbounded_ = 0;
+  int budget_;
   bool isAtX_ = true;  // the system was evaluated at x last
 };
 

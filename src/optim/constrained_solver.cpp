@@ -20,7 +20,9 @@ using internal::DescentEnd;
 
 constexpr double kFirstTolerance = 1e-2;  // of the first rounds' gradients, which need not be exact
 constexpr double kFallWanted = 0.5;       // of the violation from one round to the next
-constexpr double kStationaryPart = 1e-4;  // of the violation: its gradient where it does not get smaller
+constexpr double kStationaryPart = 1e-3;  // of the violation: its gradient where it does not get smaller
+constexpr int kFeasibilitySteps = 600;    // spent at most to see whether the violation can get smaller
+constexpr double kRunaway = 100;          // by so much no violation grows where the penalty holds it
 constexpr int kRoundsWithoutFall = 6;
 constexpr int kMostRounds = 200;
 
@@ -83,12 +85,23 @@ class ConstrainedSolver {
     const ConstrainedValues& values = descent_.values();
     if (!std::isfinite(values.cost) || !values.g.allFinite() || !values.h.allFinite())
       return end(ConstrainedStatus::kNotFinite);
+    if (!descent_
+             .gradientOf(
+                 plainWeights(Eigen::VectorXd::Ones(values.g.size()), Eigen::VectorXd::Ones(values.h.size())))
+             .allFinite())
+      return end(ConstrainedStatus::kNotFinite);
     if (options_.method == ConstraintMethod::kLogBarrier && values.g.size() > 0) {
       const ConstrainedStatus inside = moveInside();
       if (inside != ConstrainedStatus::kSolved) return end(inside);
       merit_.hasBarrier = true;
     }
-    return end(loop());
+    first_ = descent_.x();
+    ConstrainedStatus status = loop();
+    const bool mayBeInfeasible =
+        status == ConstrainedStatus::kBudgetSpent || status == ConstrainedStatus::kNoProgress;
+    if (mayBeInfeasible && internal::violationOf(values) > options_.tolerance && isInfeasible())
+      status = ConstrainedStatus::kInfeasible;
+    return end(status);
   }
 
  private:
@@ -111,8 +124,12 @@ class ConstrainedSolver {
            before = internal::violationOf(descent_.values());
     int without = 0;
     for (int round = 0; round < kMostRounds; ++round) {
-      const double scale = std::max({1., maxOf(lambda_), maxOf(kappa_)});
-      const DescentEnd how = descent_.descend(merit_, tolerance * scale);
+      const DescentEnd how = descent_.descend(merit_, tolerance);
+      if (isPenaltyTooWeak(how, before)) {
+        merit_.penalty = std::min(merit_.penalty * options_.factor, options_.largestPenalty);
+        descent_.moveTo(first_);
+        continue;
+      }
       merit_.updateMultipliers(descent_.values(), lambda_, kappa_);
       if (how == DescentEnd::kBudgetSpent) return ConstrainedStatus::kBudgetSpent;
       if (how == DescentEnd::kUnbounded) return ConstrainedStatus::kUnbounded;
@@ -121,10 +138,12 @@ class ConstrainedSolver {
       if (isFeasible && tolerance <= options_.stationarity)
         return how == DescentEnd::kConverged ? ConstrainedStatus::kSolved : ConstrainedStatus::kNoProgress;
       without = violation > options_.tolerance && violation > kFallWanted * before ? without + 1 : 0;
-      if (without >= kRoundsWithoutFall && isStationaryViolation(violation))
-        return ConstrainedStatus::kInfeasible;
+      if (without >= kRoundsWithoutFall) {
+        if (isInfeasible()) return ConstrainedStatus::kInfeasible;
+        without = 0;
+      }
       if (violation > options_.tolerance && merit_.penalty >= options_.largestPenalty)
-        return ConstrainedStatus::kInfeasible;
+        return ConstrainedStatus::kNoProgress;
       prepareRound(violation, before);
       before = violation;
       tolerance = std::max(tolerance / 10, options_.stationarity);
@@ -144,14 +163,42 @@ class ConstrainedSolver {
       merit_.penalty = std::min(merit_.penalty * options_.factor, options_.largestPenalty);
   }
 
-  // Whether |g+|^2 + |h|^2 has no direction of descent, where it is not zero.
-  bool isStationaryViolation(double violation) {
-    ConstraintWeights weights{.cost = 0,
-                              .g = descent_.values().g.cwiseMax(0),
-                              .h = descent_.values().h,
-                              .gg = Eigen::VectorXd::Zero(lambda_.size()),
-                              .hh = Eigen::VectorXd::Zero(kappa_.size())};
-    return descent_.gradientOf(weights).cwiseAbs().maxCoeff() <= kStationaryPart * violation;
+  // A penalty that a concave cost outweighs lets it fall without end, outside of the constraints. `before`:
+  // the violation at the start of the round.
+  [[nodiscard]] bool isPenaltyTooWeak(DescentEnd how, double before) const {
+    const double violation = internal::violationOf(descent_.values());
+    if (merit_.penalty >= options_.largestPenalty) return false;
+    return violation > kRunaway * std::max(1., before) ||
+           (how == DescentEnd::kUnbounded && violation > options_.tolerance);
+  }
+
+  // Slides down the violation |g+|^2 + |h|^2 alone: infeasible if that ends, but not at zero.
+  bool isInfeasible() {
+    ConstraintMerit feasibility = merit_;
+    feasibility.hasBarrier = false;
+    feasibility.costWeight = 0;
+    feasibility.penalty = 1;
+    feasibility.lambda.setZero();
+    feasibility.kappa.setZero();
+    const int steps = std::min(kFeasibilitySteps, options_.maxIterations);
+    descent_.extendBudget(steps);
+    const int before = result_.iterations;
+    (void)descent_.descend(feasibility,
+                           kStationaryPart / 10 * std::min(1., internal::violationOf(descent_.values())));
+    descent_.extendBudget(result_.iterations - before - steps);
+    const ConstrainedValues& values = descent_.values();
+    const double violation = internal::violationOf(values);
+    const double slope = maxOf(descent_.gradientOf(plainWeights(values.g.cwiseMax(0), values.h, 0)));
+    return violation > options_.tolerance && slope <= kStationaryPart * violation;
+  }
+
+  [[nodiscard]] static ConstraintWeights plainWeights(const Eigen::VectorXd& g, const Eigen::VectorXd& h,
+                                                      double cost = 1) {
+    return {.cost = cost,
+            .g = g,
+            .h = h,
+            .gg = Eigen::VectorXd::Zero(g.size()),
+            .hh = Eigen::VectorXd::Zero(h.size())};
   }
 
   [[nodiscard]] static double maxOf(const Eigen::VectorXd& v) {
@@ -180,15 +227,11 @@ class ConstrainedSolver {
     result_.equalityMultipliers = kappa_;
     result_.penalty = merit_.penalty;
     if (status != ConstrainedStatus::kNotFinite) {
-      const ConstraintWeights weights{.g = lambda_,
-                                      .h = kappa_,
-                                      .gg = Eigen::VectorXd::Zero(lambda_.size()),
-                                      .hh = Eigen::VectorXd::Zero(kappa_.size())};
-      result_.stationarity = maxOf(descent_.gradientOf(weights));
+      result_.stationarity = maxOf(descent_.gradientOf(plainWeights(lambda_, kappa_)));
     }
     result_.message = fmt::format("{} ({}) after {} steps: cost {:.6g}", nameOf(status),
                                   nameOf(options_.method), result_.iterations, result_.cost);
-    if (!result_.mostViolated.empty() && result_.violation > 0)
+    if (!result_.mostViolated.empty() && (result_.violation > 0 || status == ConstrainedStatus::kInfeasible))
       result_.message +=
           fmt::format(", most violated is {} by {:.3g}", result_.mostViolated, result_.violation);
     return std::move(result_);
@@ -199,7 +242,7 @@ class ConstrainedSolver {
   ConstrainedResult result_;
   ConstrainedDescent descent_;
   ConstraintMerit merit_;
-  Eigen::VectorXd lambda_, kappa_;
+  Eigen::VectorXd lambda_, kappa_, first_;
 };
 
 }  // namespace

@@ -26,10 +26,11 @@ struct ConstrainedOptions {
   double stepTolerance = 1e-10;  ///< a Newton step this small has converged as well, relative to max |x|
   double penalty = 1;            ///< mu, at the start
   double largestPenalty = 1e12;
-  double barrier = 1;        ///< b, at the start
-  double factor = 10;        ///< by which penalties grow and barriers shrink
-  double damping = 0;        ///< at the start, relative to second derivatives; grows and falls by tens
-  int maxIterations = 1000;  ///< Newton steps in all
+  double barrier = 1;  ///< b, at the start
+  double factor = 10;  ///< by which penalties grow and barriers shrink
+  double damping = 0;  ///< at the start, relative to second derivatives; grows and falls by tens
+  /// Newton steps, and as many, but at most 600, to see whether constraints that do not hold ever can.
+  int maxIterations = 1000;
   /// Multipliers to start from, of an earlier result; empty: zero.
   Eigen::VectorXd inequalityMultipliers{}, equalityMultipliers{};
 };

@@ -28,9 +28,12 @@ class ConstrainedSystem {
 
   /// Evaluates functions and their derivatives at x.
   virtual void evaluate(const Eigen::VectorXd& x, ConstrainedValues& values) = 0;
-  /// The gradient of the weighted function where evaluate() was called last. Keeps its second derivatives A,
-  /// exact or by Gauss and Newton, for solve().
-  virtual void assemble(const ConstraintWeights& weights, Eigen::VectorXd& gradient) = 0;
+  /// The gradient of the weighted function where evaluate() was called last.
+  virtual void gradientOf(const ConstraintWeights& weights, Eigen::VectorXd& gradient) const = 0;
+  /// Keeps its second derivatives A there, exact or by Gauss and Newton, for solve().
+  virtual void assemble(const ConstraintWeights& weights) = 0;
+  /// By how much g would change with a step if it were linear, as at that place: dg/dx step.
+  virtual void changeOfG(const Eigen::VectorXd& step, Eigen::VectorXd& change) const = 0;
   /// step = -(A + damping s I)^-1 gradient, with s the largest number on A's diagonal, at least one. False
   /// if that matrix is not positive definite.
   virtual bool solve(double damping, const Eigen::VectorXd& gradient, Eigen::VectorXd& step) = 0;

@@ -16,7 +16,8 @@ double ConstraintMerit::value(const ConstrainedValues& at) const {
       sum -= barrier * std::log(-at.g[i]);
     } else {
       const double g = at.g[i] + margin, shifted = g + lambda[i] / (2 * penalty);
-      sum += shifted > 0 ? g * (penalty * g + lambda[i]) : -lambda[i] * lambda[i] / (4 * penalty);
+      sum += shifted <= 0 ? -lambda[i] * lambda[i] / (4 * penalty)
+                          : g * (penalty * g + lambda[i]);  // NaN stays NaN
     }
   }
   for (Eigen::Index i = 0; i < at.h.size(); ++i) sum += at.h[i] * (penalty * at.h[i] + kappa[i]);
@@ -43,6 +44,19 @@ void ConstraintMerit::weigh(const ConstrainedValues& at, ConstraintWeights& weig
     else
       weights.gg[i] = weights.g[i] > 0 ? 2 * penalty : 0;
   }
+}
+
+bool ConstraintMerit::weighAhead(const ConstrainedValues& at, const Eigen::VectorXd& change,
+                                 ConstraintWeights& weights) const {
+  bool isOther = false;
+  for (Eigen::Index i = 0; i < at.g.size(); ++i) {
+    const double here = 2 * penalty * (at.g[i] + margin) + lambda[i];
+    const bool counts = here + 2 * penalty * change[i] > 0;
+    isOther = isOther || counts != (weights.gg[i] > 0);
+    weights.g[i] = counts ? here : 0;
+    weights.gg[i] = counts ? 2 * penalty : 0;
+  }
+  return isOther;
 }
 
 }  // namespace rex::internal

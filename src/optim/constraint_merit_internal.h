@@ -16,6 +16,10 @@ struct ConstraintMerit {
   /// Infinite where a barrier does not hold.
   [[nodiscard]] double value(const ConstrainedValues& at) const;
   void weigh(const ConstrainedValues& at, ConstraintWeights& weights) const;
+  /// The same, but without a barrier, and with the inequalities that count for a step being those that would
+  /// where g has `change`d. Whether they are others than before.
+  [[nodiscard]] bool weighAhead(const ConstrainedValues& at, const Eigen::VectorXd& change,
+                                ConstraintWeights& weights) const;
   /// Multipliers that make the gradient of the Lagrangian that of this function.
   void updateMultipliers(const ConstrainedValues& at, Eigen::VectorXd& ofG, Eigen::VectorXd& ofH) const;
 };

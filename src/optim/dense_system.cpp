@@ -4,7 +4,6 @@
 
 #include "base/error.h"
 #include "optim/dense_system_internal.h"
-#include "optim/derivative_check.h"
 
 namespace rex::internal {
 
@@ -30,25 +29,40 @@ void DenseSystem::evaluate(const Eigen::VectorXd& x, ConstrainedValues& values) 
   values.h = h_.y;
 }
 
-void DenseSystem::assemble(const ConstraintWeights& weights, Eigen::VectorXd& gradient) {
+void DenseSystem::gradientOf(const ConstraintWeights& weights, Eigen::VectorXd& gradient) const {
   gradient = 2 * weights.cost * (residuals_.J.transpose() * residuals_.y);
   if (problem_.cost) gradient += weights.cost * cost_.J.row(0).transpose();
   gradient += g_.J.transpose() * weights.g + h_.J.transpose() * weights.h;
+}
+
+void DenseSystem::changeOfG(const Eigen::VectorXd& step, Eigen::VectorXd& change) const {
+  change = g_.J * step;
+}
+
+void DenseSystem::assemble(const ConstraintWeights& weights) {
   A_ = 2 * weights.cost * (residuals_.J.transpose() * residuals_.J);
   A_ += g_.J.transpose() * weights.gg.asDiagonal() * g_.J;
   A_ += h_.J.transpose() * weights.hh.asDiagonal() * h_.J;
   if (problem_.cost && weights.cost > 0) addCurvature(weights);
 }
 
-// Second derivatives of w cost + a^T g + b^T h, with a and b held.
+// Second derivatives of w cost + a^T g + b^T h, with a and b held; constraints that only a step will reach
+// have none yet.
 void DenseSystem::addCurvature(const ConstraintWeights& weights) {
   const auto gradientAt = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
     return weights.cost * valueOf(problem_.cost, "cost", x).J.transpose() +
-           valueOf(problem_.inequalities, "inequalities", x).J.transpose() * weights.g +
+           valueOf(problem_.inequalities, "inequalities", x).J.transpose() * weights.g.cwiseMax(0) +
            valueOf(problem_.equalities, "equalities", x).J.transpose() * weights.h;
   };
-  const Eigen::MatrixXd H = numericJacobian(gradientAt, x_, 1e-4);
-  A_ += (H + H.transpose()) / 2;
+  constexpr double kStep = 1e-4;
+  Eigen::MatrixXd H(n_, n_);
+  for (Eigen::Index i = 0; i < n_; ++i) {
+    const double size = kStep * std::max(1., std::abs(x_[i]));
+    const Eigen::VectorXd move = size * Eigen::VectorXd::Unit(n_, i);
+    H.col(i) = (gradientAt(x_ + move) - gradientAt(x_ - move)) / (2 * size);
+  }
+  // Where the functions end nearby, damping has to do.
+  if (H.allFinite()) A_ += (H + H.transpose()) / 2;
 }
 
 bool DenseSystem::solve(double damping, const Eigen::VectorXd& gradient, Eigen::VectorXd& step) {

@@ -14,7 +14,9 @@ class DenseSystem final : public ConstrainedSystem {
   DenseSystem(const ConstrainedProblem& problem, Eigen::Index n) : problem_(problem), n_(n) {}
 
   void evaluate(const Eigen::VectorXd& x, ConstrainedValues& values) override;
-  void assemble(const ConstraintWeights& weights, Eigen::VectorXd& gradient) override;
+  void gradientOf(const ConstraintWeights& weights, Eigen::VectorXd& gradient) const override;
+  void assemble(const ConstraintWeights& weights) override;
+  void changeOfG(const Eigen::VectorXd& step, Eigen::VectorXd& change) const override;
   bool solve(double damping, const Eigen::VectorXd& gradient, Eigen::VectorXd& step) override;
   [[nodiscard]] std::string inequalityName(Eigen::Index row) const override;
   [[nodiscard]] std::string equalityName(Eigen::Index row) const override;

@@ -96,7 +96,7 @@ double BandedSystem::slopeOf(const ConstraintWeights& weights, const Part& part,
   return 2 * weights.cost * part.value.y[row];
 }
 
-void BandedSystem::assemble(const ConstraintWeights& weights, Eigen::VectorXd& gradient) {
+void BandedSystem::gradientOf(const ConstraintWeights& weights, Eigen::VectorXd& gradient) const {
   gradient.setZero(A_.size());
   forEachRow([&](const Part& part, Eigen::Index row) {
     const double slope = slopeOf(weights, part, row);
@@ -105,6 +105,20 @@ void BandedSystem::assemble(const ConstraintWeights& weights, Eigen::VectorXd& g
     for (Eigen::Index c = std::max(0, -first); c < part.value.J.cols(); ++c)
       gradient[first + c] += slope * part.value.J(row, c);
   });
+}
+
+void BandedSystem::changeOfG(const Eigen::VectorXd& step, Eigen::VectorXd& change) const {
+  change.setZero(rows_[static_cast<int>(TermKind::kInequality)]);
+  for (const Part& part : parts_) {
+    if (part.term->kind != TermKind::kInequality) continue;
+    const int first = part.firstPlace(problem_);
+    const Eigen::Index given = std::max(0, -first), moved = part.value.J.cols() - given;  // the prefix stays
+    change.segment(part.row, part.value.y.size()).noalias() =
+        part.value.J.rightCols(moved) * step.segment(first + given, moved);
+  }
+}
+
+void BandedSystem::assemble(const ConstraintWeights& weights) {
   A_.setZero();
   addSquares(weights, A_, room_);
 }

@@ -59,7 +59,8 @@ void run(const std::vector<std::string>& names, bool asJson) {
                                             {"physics", physicsRows()},
                                             {"planning", planningRows()},
                                             {"render", renderRows()},
-                                            {"scene", sceneRows()}},
+                                            {"scene", sceneRows()},
+                                            {"trajectory", trajectoryRows()}},
                                            names);
   if (!asJson) fmt::print("{}", tableHead());
   std::vector<Line> lines;

@@ -48,5 +48,6 @@ struct Result {
 [[nodiscard]] std::vector<Row> renderRows();
 [[nodiscard]] std::vector<Row> sceneRows();
 [[nodiscard]] std::vector<Row> steppingRows();
+[[nodiscard]] std::vector<Row> trajectoryRows();
 
 }  // namespace rex::bench

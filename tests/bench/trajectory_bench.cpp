@@ -1,0 +1,33 @@
+#include <memory>
+
+#include "bench/arm_trajectory.h"
+#include "bench/row.h"
+
+namespace rex::bench {
+namespace {
+
+Measurement solving(int steps, bool hasObstacle) {
+  const auto arm = std::make_shared<const ArmTrajectory>(steps, hasObstacle);
+  (void)solve(*arm);  // throws where it is not solved
+  return timed([arm] { (void)solve(*arm); });
+}
+
+}  // namespace
+
+std::vector<Row> trajectoryRows() {
+  constexpr double kLimit = 30e-3;  // seconds
+  return {{.name = "trajectory-400-steps",
+           .ours = solving(400, false),
+           .peerName = "100 steps",
+           .peer = solving(100, false),
+           .target = 5,
+           .unit = "ms"},
+          {.name = "trajectory-obstacle",
+           .ours = solving(100, true),
+           .peerName = "limit",
+           .peer = [] { return kLimit; },
+           .target = 1,
+           .unit = "ms"}};
+}
+
+}  // namespace rex::bench
