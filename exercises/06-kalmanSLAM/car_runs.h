@@ -14,6 +14,7 @@
 #include "estimation/consistency.h"
 #include "geometry/rotation.h"
 #include "grading/check.h"
+#include "grading/evidence_parts.h"
 #include "interface.h"
 
 // Random cars, runs of them, beliefs, and second opinions on what becomes of beliefs.
@@ -89,9 +90,34 @@ inline Eigen::VectorXd gapOf(const Eigen::VectorXd& got, const Eigen::VectorXd& 
   return gap;
 }
 
+/// Where the first two numbers are, by two beliefs.
+inline rex::grading::Evidence beliefSeen(const Belief& got, const Belief& wanted) {
+  rex::Figure figure{.title = "The first two numbers of the belief",
+                     .xLabel = "first number",
+                     .yLabel = "second number",
+                     .equalAxes = true};
+  const auto add = [&](const std::string& label, const Belief& belief, const rex::Color& color) {
+    figure.ellipses.push_back({.label = label + ", 2 sigma",
+                               .mean = belief.mean.head<2>(),
+                               .covariance = belief.covariance.topLeftCorner<2, 2>(),
+                               .color = color});
+    figure.series.push_back({.label = label + ", mean",
+                             .x = {belief.mean[0]},
+                             .y = {belief.mean[1]},
+                             .style = rex::SeriesStyle::kPoints,
+                             .marker = rex::Marker::kDot,
+                             .size = 2,
+                             .color = color});
+  };
+  add("got", got, rex::grading::kGotColor);
+  add("wanted", wanted, rex::grading::kWantedColor);
+  return {.figures = {figure}};
+}
+
 inline void sameBelief(rex::grading::Check& check, const Belief& got, const Belief& wanted,
                        double tolerance) {
   requireBelief(check, got, wanted.mean.size());
+  const auto shown = check.show([&] { return beliefSeen(got, wanted); });
   check.near("mean", wanted.mean + gapOf(got.mean, wanted.mean), wanted.mean, tolerance);
   check.near("covariance", got.covariance, wanted.covariance, tolerance);
 }
