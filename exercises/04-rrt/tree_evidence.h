@@ -61,7 +61,6 @@ inline rex::grading::Evidence pathSeen(const Path& got, const Path& wanted) {
   };
   if (!got.empty()) {
     figure.series = {rex::grading::through(got, rex::grading::gotCurve("got")), begin(got, rex::grading::kGotColor)};
-    figure.series.front().color = rex::grading::kGotColor;
   }
   figure.series.push_back(rex::grading::through(wanted, rex::grading::wantedCurve("wanted")));
   figure.series.push_back(begin(wanted, rex::grading::kWantedColor));

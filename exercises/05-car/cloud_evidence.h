@@ -27,7 +27,8 @@ inline rex::Way wayOf(const std::string& name, const std::vector<Eigen::Vector3d
   return way;
 }
 
-/// The car, and the estimate with its ellipse, as a film that opens where they are farthest from each other.
+/// The car, and the estimate with its ellipse, as a film that opens where they are twice as far apart as they
+/// should be on average, or else where they are farthest.
 inline rex::grading::Evidence trackSeen(const CarWorld& world, const Driven& driven,
                                         const TrackRecord& record, double limit) {
   const std::size_t count = record.means.size();
@@ -46,8 +47,9 @@ inline rex::grading::Evidence trackSeen(const CarWorld& world, const Driven& dri
     error.x.push_back(time);
     error.y.push_back((record.means[t] - driven.truth[t]).head<2>().norm());
   }
-  const auto worst = std::max_element(error.y.begin(), error.y.end()) - error.y.begin();
-  const double moment = film[static_cast<std::size_t>(worst)].time;
+  auto lost = std::find_if(error.y.begin(), error.y.end(), [&](double far) { return far > 2 * limit; });
+  if (lost == error.y.end()) lost = std::max_element(error.y.begin(), error.y.end());
+  const double moment = film[static_cast<std::size_t>(lost - error.y.begin())].time;
   rex::Figure map =
       rex::figureOf({.landmarks = world.landmarks,
                 .ways = {wayOf("wanted: the car", driven.truth, rex::kTruthColor),
@@ -70,7 +72,7 @@ inline rex::grading::Evidence noiseSeen(const Eigen::MatrixXd& d) {
   rex::Series dots = rex::grading::through(d.colwise(), rex::Series{.label = "got",
                                                       .style = rex::SeriesStyle::kPoints,
                                                       .marker = rex::Marker::kDot,
-                                                      .size = .4,
+                                                      .size = .8,
                                                       .color = rex::grading::kGotColor});
   rex::Figure figure{.title = "Noise of the particles",
                      .xLabel = "in x, deviations",

@@ -103,6 +103,7 @@ inline rex::grading::Evidence seen(const Eigen::MatrixXd& states, const Eigen::M
                    gotCurve("theta, got", times, rowOf(states, 2)),
                    wantedCurve("p and theta, wanted", wantedTimes, rowOf(wanted, 0)),
                    wantedCurve("", wantedTimes, rowOf(wanted, 2))};
+  figure.series[1].color = rex::Color{.84f, .37f, 0};
   figure.verticalLines = {rex::grading::wrongFrom(moment)};
   const Eigen::Index stride = 1 + std::max(states.cols(), wanted.cols()) / 400;
   return {.figures = {figure},

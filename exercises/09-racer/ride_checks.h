@@ -181,6 +181,7 @@ inline rex::grading::Evidence sideBySide(const Situation& in, const Eigen::Matri
   rex::Figure figure{.title = title, .xLabel = "time [s]", .yLabel = "x [m], theta [rad]"};
   figure.series = {curve(got, 0, gotCurve, "x, got"), curve(got, 1, gotCurve, "theta, got"),
                    curve(wanted, 0, wantedCurve, "x and theta, wanted"), curve(wanted, 1, wantedCurve, "")};
+  figure.series[1].color = rex::Color{.84f, .37f, 0};
   figure.verticalLines = {rex::grading::wrongFrom(time)};
   return {.figures = {figure}, .film = film, .view = {1.2, -1.6, .7}, .moment = time};
 }

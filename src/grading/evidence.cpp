@@ -74,6 +74,7 @@ Figure comparison(const std::string& title, const Eigen::Ref<const Eigen::Matrix
   for (const Eigen::Index row : rows) {
     const std::string name = got.rows() > 1 ? fmt::format("row {}, ", row) : "";
     figure.series.push_back(gotCurve(name + "got", {}, valuesOf(got.row(row))));
+    figure.series.back().color.reset();  // each row has its own
     figure.series.push_back(wantedCurve(name + "wanted", {}, valuesOf(wanted.row(row))));
   }
   return figure;

@@ -33,7 +33,7 @@ void append(std::vector<Part>& to, const std::vector<Part>& parts) {
 }  // namespace
 
 Series gotCurve(std::string label, std::vector<double> x, std::vector<double> y) {
-  return {.label = std::move(label), .x = std::move(x), .y = std::move(y), .size = 3};
+  return {.label = std::move(label), .x = std::move(x), .y = std::move(y), .size = 2.5, .color = kGotColor};
 }
 
 Series wantedCurve(std::string label, std::vector<double> x, std::vector<double> y) {

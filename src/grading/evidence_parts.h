@@ -13,7 +13,7 @@ namespace rex::grading {
 inline constexpr Color kGotColor{0.0f, 0.45f, 0.7f}, kWantedColor{0.20f, 0.22f, 0.26f},
     kWrongColor{0.80f, 0.10f, 0.12f};
 
-/// A curve of what came out: thick, in the next colour of the set.
+/// A curve of what came out: thick and blue.
 [[nodiscard]] Series gotCurve(std::string label, std::vector<double> x = {}, std::vector<double> y = {});
 /// A curve of what was wanted: dashed and dark, over the other.
 [[nodiscard]] Series wantedCurve(std::string label, std::vector<double> x = {}, std::vector<double> y = {});
