@@ -95,12 +95,12 @@ inline void fitsSamples(rex::grading::Check& check, const GaussianBelief& belief
       figure.histograms = {normalized(rex::histogramOf({row.begin(), row.end()}, 60))};
       figure.histograms[0].label = "samples: wanted";
     } else {
-      figure.series.push_back(rex::grading::through(
-          samples.leftCols(1000).colwise(), rex::Series{.label = "samples: wanted, 86 % within",
-                                                        .style = rex::SeriesStyle::kPoints,
-                                                        .marker = rex::Marker::kDot,
-                                                        .size = .4,
-                                                        .color = rex::grading::kWantedColor}));
+      figure.series.push_back(rex::grading::through(samples.leftCols(1000).colwise(),
+                                                    rex::Series{.label = "samples: wanted, 86 % within",
+                                                                .style = rex::SeriesStyle::kPoints,
+                                                                .marker = rex::Marker::kDot,
+                                                                .size = .4,
+                                                                .color = rex::grading::kWantedColor}));
     }
     addGaussian(figure, "got", belief, rex::grading::gotCurve(""));
     return rex::grading::Evidence{.figures = {figure}};
@@ -150,13 +150,13 @@ inline rex::grading::Evidence betaSeen(const BetaBelief& prior, const BetaBelief
     for (const int x : data) log += std::log(x == 1 ? mu : 1 - mu);
     return log;
   };
-  return {.figures = {{.title = "What is believed of mu",
-                       .xLabel = "mu",
-                       .yLabel = "density",
-                       .series = {curve({.label = "prior", .color = rex::Color{.6f, .62f, .65f}}, beta(prior)),
-                                  curve(rex::grading::gotCurve("got"), beta(got)),
-                                  curve(rex::grading::wantedCurve("wanted: likelihood * prior"),
-                                        posterior)}}}};
+  return {
+      .figures = {{.title = "What is believed of mu",
+                   .xLabel = "mu",
+                   .yLabel = "density",
+                   .series = {curve({.label = "prior", .color = rex::Color{.6f, .62f, .65f}}, beta(prior)),
+                              curve(rex::grading::gotCurve("got"), beta(got)),
+                              curve(rex::grading::wantedCurve("wanted: likelihood * prior"), posterior)}}}};
 }
 
 // Posterior / (likelihood * prior) must be the same for all mu of a grid.

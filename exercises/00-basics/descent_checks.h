@@ -66,8 +66,7 @@ inline rex::grading::Evidence descentSeen(const std::vector<double>& values,
     wanted.x.push_back(static_cast<double>(t + 1));
     wanted.y.push_back(allowed[t]);
   }
-  rex::Figure figure{
-      .title = "The way down", .xLabel = "step", .yLabel = "f", .series = {got}};
+  rex::Figure figure{.title = "The way down", .xLabel = "step", .yLabel = "f", .series = {got}};
   if (!allowed.empty()) figure.series.push_back(wanted);
   return {.figures = {figure}};
 }
@@ -83,8 +82,7 @@ inline void descends(rex::grading::Check& check, Student& student, const Landsca
     std::vector<double> values, allowed;
     for (const Eigen::VectorXd& x : path) values.push_back(land.f(x));
     for (std::size_t t = 0; t + 1 < path.size(); ++t)
-      allowed.push_back(values[t] +
-                        options.decrease * land.gradient(path[t]).dot(path[t + 1] - path[t]));
+      allowed.push_back(values[t] + options.decrease * land.gradient(path[t]).dot(path[t + 1] - path[t]));
     return descentSeen(values, allowed);
   });
   checkPath(check, path, land.start, options.maxSteps);

@@ -421,8 +421,8 @@ grading::Evidence handSeen(const Simulator& S, const std::string& hand, const Pa
   if (postures.empty()) return {};
   std::vector<Eigen::Vector3d> way;
   for (int step = 0; step <= 300; ++step) way.emplace_back(path.at(kTau * step).y);
-  Film film = filmOf(S, postures,
-                     {.caption = "wanted: the hand on the red point", .traces = {hand}, .paths = {way}});
+  Film film =
+      filmOf(S, postures, {.caption = "wanted: the hand on the red point", .traces = {hand}, .paths = {way}});
   for (std::size_t i = 0; i < film.size(); ++i) {
     film[i].time = kTau * static_cast<double>(i);
     film[i].picture.pointSets.push_back({.points = {way[i]}, .color = grading::kWrongColor, .size = 9});

@@ -38,8 +38,8 @@ grading::Evidence densitySeen(double l1, double l2, double r, double got) {
   Series wanted = grading::wantedCurve("wanted");
   for (double share = .01; share < .995; share += .01) {
     wanted.x.push_back(least + share * (most - least));
-    wanted.y.push_back(
-        (shareWithin(wanted.x.back() + h, l1, l2) - shareWithin(wanted.x.back() - h, l1, l2)) / (2 * h));
+    wanted.y.push_back((shareWithin(wanted.x.back() + h, l1, l2) - shareWithin(wanted.x.back() - h, l1, l2)) /
+                       (2 * h));
   }
   return {.figures = {{.title = "Density of the distance of the hand",
                        .xLabel = "r [m]",
@@ -475,7 +475,8 @@ void stepsInPhaseSpace(Check& check, Student& student) {
 // Part 7.
 
 // The number of the node of `near` over which q costs least; -1 if there is none.
-int bestOf(const PlaneWorld& world, const Tree& tree, const std::vector<int>& near, const Eigen::VectorXd& q) {
+int bestOf(const PlaneWorld& world, const Tree& tree, const std::vector<int>& near,
+           const Eigen::VectorXd& q) {
   int best = -1;
   double least = 0;
   for (const int k : near) {

@@ -54,13 +54,14 @@ inline rex::grading::Evidence shortenedSeen(const PlaneProblem& problem, const P
 inline rex::grading::Evidence pathSeen(const Path& got, const Path& wanted) {
   rex::Figure figure = figureOf("The way, which begins at the dot", {});
   const auto begin = [](const Path& path, const rex::Color& color) {
-    return rex::grading::through(Path{path.front()}, rex::Series{.style = rex::SeriesStyle::kPoints,
-                                                   .marker = rex::Marker::kDot,
-                                                   .size = 3,
-                                                   .color = color});
+    return rex::grading::through(
+        Path{path.front()},
+        rex::Series{
+            .style = rex::SeriesStyle::kPoints, .marker = rex::Marker::kDot, .size = 3, .color = color});
   };
   if (!got.empty()) {
-    figure.series = {rex::grading::through(got, rex::grading::gotCurve("got")), begin(got, rex::grading::kGotColor)};
+    figure.series = {rex::grading::through(got, rex::grading::gotCurve("got")),
+                     begin(got, rex::grading::kGotColor)};
   }
   figure.series.push_back(rex::grading::through(wanted, rex::grading::wantedCurve("wanted")));
   figure.series.push_back(begin(wanted, rex::grading::kWantedColor));
@@ -122,8 +123,7 @@ inline rex::grading::Evidence treeSeen(const PlaneProblem& problem, const Tree& 
                          .marker = rex::Marker::kDot,
                          .size = 3,
                          .color = kBlack};
-  figure.series = {edgesOf("tree", tree),
-                   rex::grading::through(Path{problem.start, problem.goal}, dots)};
+  figure.series = {edgesOf("tree", tree), rex::grading::through(Path{problem.start, problem.goal}, dots)};
   const EdgeTest isFree = freeIn(problem.world);
   const std::vector<double> costs = costsOf(tree);
   std::string edgeLabel = "too long, or not free";
@@ -136,15 +136,16 @@ inline rex::grading::Evidence treeSeen(const PlaneProblem& problem, const Tree& 
   for (std::size_t i = 1; i < tree.nodes.size(); ++i) {
     const Path ends{tree.nodes[static_cast<std::size_t>(tree.parents[i])], tree.nodes[i]};
     if ((ends[1] - ends[0]).norm() > stepSize + 1e-9 || !isFree(ends[0], ends[1]))
-      figure.series.push_back(rex::grading::through(ends, rex::grading::wrongCurve(std::exchange(edgeLabel, ""))));
+      figure.series.push_back(
+          rex::grading::through(ends, rex::grading::wrongCurve(std::exchange(edgeLabel, ""))));
     if (i < tree.costs.size() && std::abs(tree.costs[i] - costs[i]) > 1e-9) wrong.push_back(ends[1]);
   }
   if (!wrong.empty()) figure.series.push_back(rex::grading::through(wrong, wrongCosts));
   return {.figures = {figure}};
 }
 
-/// A path of the arm, if it is one, as a film, with the place it should lead to; opens at the first step that is too long,
-/// no step or not free.
+/// A path of the arm, if it is one, as a film, with the place it should lead to; opens at the first step that
+/// is too long, no step or not free.
 inline rex::grading::Evidence armPathSeen(const rex::Simulator& S, const Path& path,
                                           const Eigen::VectorXd& goal, double stepSize,
                                           const EdgeTest& isFree) {

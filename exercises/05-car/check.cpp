@@ -301,8 +301,7 @@ void averages(Check& check, Student& student) {
     const Eigen::Vector3d got = student.meanPose(cloud);
     check.shape("mean pose", got, 3, 1);
     const Eigen::Vector2d place = (cloud.states * cloud.weights).head<2>();
-    const auto shown =
-        check.show([&] { return meanSeen(cloud, got, {place[0], place[1], std::arg(sum)}); });
+    const auto shown = check.show([&] { return meanSeen(cloud, got, {place[0], place[1], std::arg(sum)}); });
     check.near("mean place", got.head<2>(), place, 1e-9, "m");
     check.near("error of the mean heading", wrapAngle(got[2] - std::arg(sum)), 0, 1e-9, "rad");
   }

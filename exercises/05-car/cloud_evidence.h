@@ -20,8 +20,8 @@ struct TrackRecord {
 
 inline rex::Way wayOf(const std::string& name, const std::vector<Eigen::Vector3d>& poses,
                       const rex::Color& color) {
-  rex::Way way{.name = name, .points = Eigen::Matrix2Xd(2, static_cast<Eigen::Index>(poses.size())),
-               .color = color};
+  rex::Way way{
+      .name = name, .points = Eigen::Matrix2Xd(2, static_cast<Eigen::Index>(poses.size())), .color = color};
   for (Eigen::Index i = 0; i < way.points.cols(); ++i)
     way.points.col(i) = poses[static_cast<std::size_t>(i)].head<2>();
   return way;
@@ -50,15 +50,12 @@ inline rex::grading::Evidence trackSeen(const CarWorld& world, const Driven& dri
   auto lost = std::find_if(error.y.begin(), error.y.end(), [&](double far) { return far > 2 * limit; });
   if (lost == error.y.end()) lost = std::max_element(error.y.begin(), error.y.end());
   const double moment = film[static_cast<std::size_t>(lost - error.y.begin())].time;
-  rex::Figure map =
-      rex::figureOf({.landmarks = world.landmarks,
-                .ways = {wayOf("wanted: the car", driven.truth, rex::kTruthColor),
-                         wayOf("got: the estimate", record.means, rex::kEstimateColor)}});
+  rex::Figure map = rex::figureOf({.landmarks = world.landmarks,
+                                   .ways = {wayOf("wanted: the car", driven.truth, rex::kTruthColor),
+                                            wayOf("got: the estimate", record.means, rex::kEstimateColor)}});
   map.title = "The car and its estimate";
-  rex::Figure errors{.title = "Error of the place",
-                     .xLabel = "time [s]",
-                     .yLabel = "distance [m]",
-                     .series = {error}};
+  rex::Figure errors{
+      .title = "Error of the place", .xLabel = "time [s]", .yLabel = "distance [m]", .series = {error}};
   errors.horizontalLines = {{.at = limit, .label = "wanted: root mean square at most"}};
   errors.verticalLines = {rex::grading::wrongFrom(moment)};
   return {.figures = {map, errors},
@@ -70,17 +67,16 @@ inline rex::grading::Evidence trackSeen(const CarWorld& world, const Driven& dri
 /// Noise in deviations, one column each, of which the first two numbers are drawn.
 inline rex::grading::Evidence noiseSeen(const Eigen::MatrixXd& d) {
   rex::Series dots = rex::grading::through(d.colwise(), rex::Series{.label = "got",
-                                                      .style = rex::SeriesStyle::kPoints,
-                                                      .marker = rex::Marker::kDot,
-                                                      .size = .8,
-                                                      .color = rex::grading::kGotColor});
+                                                                    .style = rex::SeriesStyle::kPoints,
+                                                                    .marker = rex::Marker::kDot,
+                                                                    .size = .8,
+                                                                    .color = rex::grading::kGotColor});
   rex::Figure figure{.title = "Noise of the particles",
                      .xLabel = "in x, deviations",
                      .yLabel = "in y, deviations",
                      .equalAxes = true,
                      .series = {dots}};
-  figure.ellipses = {
-      {.label = "wanted: 95 % in here", .sigmas = 2.45, .color = rex::grading::kWantedColor}};
+  figure.ellipses = {{.label = "wanted: 95 % in here", .sigmas = 2.45, .color = rex::grading::kWantedColor}};
   return {.figures = {figure}};
 }
 
@@ -88,11 +84,8 @@ inline rex::grading::Evidence noiseSeen(const Eigen::MatrixXd& d) {
 inline rex::grading::Evidence viewSeen(const Eigen::VectorXd& got, const Eigen::VectorXd& wanted) {
   if (got.size() != wanted.size()) return {};
   const auto dots = [](const char* label, const Eigen::VectorXd& y, rex::Marker marker, rex::Color color) {
-    const rex::Series look{.label = label,
-                           .style = rex::SeriesStyle::kPoints,
-                           .marker = marker,
-                           .size = 2,
-                           .color = color};
+    const rex::Series look{
+        .label = label, .style = rex::SeriesStyle::kPoints, .marker = marker, .size = 2, .color = color};
     return rex::grading::through(y.reshaped(2, y.size() / 2).colwise(), look);
   };
   return {.figures = {{.title = "Landmarks as the car sees them; it stands at (0, 0)",

@@ -30,10 +30,10 @@ inline std::vector<rex::PlanarGaussian> landmarksOf(const Belief& joint) {
 /// A map that was made on a run, over the true one.
 inline rex::grading::Evidence mapSeen(const CarRun& run, const Belief& joint) {
   rex::Figure figure = rex::figureOf({.car = run.states.back(),
-                                 .estimate = joint.mean.head<3>(),
-                                 .landmarks = run.landmarks,
-                                 .landmarkBeliefs = landmarksOf(joint),
-                                 .ways = {wayOf("wanted: the car", run.states)}});
+                                      .estimate = joint.mean.head<3>(),
+                                      .landmarks = run.landmarks,
+                                      .landmarkBeliefs = landmarksOf(joint),
+                                      .ways = {wayOf("wanted: the car", run.states)}});
   figure.title = "The map: ellipses (got) and true places (wanted)";
   return {.figures = {figure}};
 }
@@ -49,7 +49,8 @@ struct TrackedRun {
 inline rex::grading::Evidence trackSeen(const TrackedRun& tracked) {
   const CarRun& run = tracked.run;
   rex::Film film;
-  rex::Series error = rex::grading::gotCurve("got"), sigmas = rex::grading::wantedCurve("2 sigma of the filter");
+  rex::Series error = rex::grading::gotCurve("got"),
+              sigmas = rex::grading::wantedCurve("2 sigma of the filter");
   for (std::size_t t = 0; t < tracked.beliefs.size(); ++t) {
     const double time = run.car.tau * static_cast<double>(t + 1);
     const Belief& belief = tracked.beliefs[t];
@@ -71,8 +72,6 @@ inline rex::grading::Evidence trackSeen(const TrackedRun& tracked) {
                      .yLabel = "distance [m]",
                      .series = {error, sigmas}};
   figure.verticalLines = {rex::grading::wrongFrom(moment)};
-  return {.figures = {figure},
-          .film = std::move(film),
-          .view = rex::CarPictureOptions{}.view,
-          .moment = moment};
+  return {
+      .figures = {figure}, .film = std::move(film), .view = rex::CarPictureOptions{}.view, .moment = moment};
 }

@@ -60,14 +60,13 @@ inline void stepFits(rex::grading::Check& check, Student& student, const PoleCar
 }
 
 /// The states of an outing by the equations, until its end.
-inline Eigen::MatrixXd statesOf(const PoleCart& cart, const Eigen::MatrixXd& K,
-                                const Eigen::Vector4d& start, const Outing& outing, rex::Rng rng) {
+inline Eigen::MatrixXd statesOf(const PoleCart& cart, const Eigen::MatrixXd& K, const Eigen::Vector4d& start,
+                                const Outing& outing, rex::Rng rng) {
   Eigen::MatrixXd states(4, outing.steps + 1);
   states.col(0) = start;
   Eigen::Index t = 0;
   for (; t < outing.steps && std::abs(states(2, t)) <= std::numbers::pi / 2; ++t)
-    states.col(t + 1) =
-        euler(cart, states.col(t), (K * states.col(t))[0], outing.tau, outing.noise, rng);
+    states.col(t + 1) = euler(cart, states.col(t), (K * states.col(t))[0], outing.tau, outing.noise, rng);
   return states.leftCols(t + 1);
 }
 
@@ -112,8 +111,8 @@ inline rex::grading::Evidence seen(const Eigen::MatrixXd& states, const Eigen::M
           .moment = moment};
 }
 
-/// The cart under gains u = K x that came out and under those that were wanted, without noise; opens where the
-/// poles have parted by 0.05 rad.
+/// The cart under gains u = K x that came out and under those that were wanted, without noise; opens where
+/// the poles have parted by 0.05 rad.
 inline rex::grading::Evidence seenUnder(const Eigen::MatrixXd& K, const Eigen::MatrixXd& wantedK) {
   const Outing calm{.noise = 0, .steps = 300};
   const auto statesUnder = [&](const Eigen::MatrixXd& gains) {
@@ -141,8 +140,8 @@ inline Eigen::MatrixXd outingFits(rex::grading::Check& check, Student& student, 
   check.near("first state", states.col(0), start, 0);
   rex::Rng same = given;
   Eigen::Index t = 0;
-  const auto shown = check.show(
-      [&] { return seen(states, statesOf(cart, K, start, outing, given), outing.tau, t); });
+  const auto shown =
+      check.show([&] { return seen(states, statesOf(cart, K, start, outing, given), outing.tau, t); });
   for (; t + 1 < states.cols(); ++t) {
     const Eigen::Vector4d x = states.col(t);
     check.atMost("size of theta, before the end", std::abs(x[2]), std::numbers::pi / 2, "rad");

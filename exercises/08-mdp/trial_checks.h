@@ -154,8 +154,7 @@ inline void gradientFits(rex::grading::Check& check, Student& student, int count
       rex::reinforceGradient(asLibrary(policy), episodesOf(trials), task.discount, rex::Baseline::kNone)
           .gradient;
   const Eigen::VectorXd got = student.reinforce(policy, trials, task.discount);
-  const auto shown =
-      check.show([&] { return arrowsSeen("Gradient from these trials", {0, 0}, got, exact); });
+  const auto shown = check.show([&] { return arrowsSeen("Gradient from these trials", {0, 0}, got, exact); });
   check.near("gradient from these trials", got, exact, 1e-9 * (1 + exact.norm()));
 }
 

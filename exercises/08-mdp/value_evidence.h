@@ -16,8 +16,7 @@
 /// The T-maze with a value in each of its states, as a number and a colour from `range`.
 inline rex::Figure mazeFigure(const std::string& title, const Eigen::VectorXd& values,
                               const rex::AxisRange& range) {
-  const std::vector<Eigen::Vector2d> places{{0, 0},    {-1, 1},  {1, 1},  {-1.5, 2},
-                                            {-.5, 2},  {.5, 2},  {1.5, 2}};
+  const std::vector<Eigen::Vector2d> places{{0, 0}, {-1, 1}, {1, 1}, {-1.5, 2}, {-.5, 2}, {.5, 2}, {1.5, 2}};
   rex::Figure figure{.title = title,
                      .xLabel = "left and right",
                      .yLabel = "junctions",
@@ -31,7 +30,7 @@ inline rex::Figure mazeFigure(const std::string& title, const Eigen::VectorXd& v
   for (std::size_t child = 1; child < places.size(); ++child)
     figure.series.push_back(
         rex::grading::through(std::vector<Eigen::Vector2d>{places[(child - 1) / 2], places[child]},
-                rex::Series{.size = 2, .color = rex::Color{.6f, .62f, .65f}}));
+                              rex::Series{.size = 2, .color = rex::Color{.6f, .62f, .65f}}));
   figure.series.push_back(rex::grading::through(
       places, rex::Series{.style = rex::SeriesStyle::kPoints, .marker = rex::Marker::kSquare, .size = 4}));
   figure.series.back().values.assign(values.begin(), values.end());
@@ -105,11 +104,11 @@ inline rex::grading::Evidence policiesSeen(const rex::Mdp& mdp,
   }
   const double best = rex::policyIteration(mdp).V.mean();
   const double end = std::max(1., static_cast<double>(policies.size()) - 1);
-  return {.figures = {{.title = "Policy iteration: each policy is better than the one before",
-                       .xLabel = "number of the policy",
-                       .yLabel = "value, mean over the states",
-                       .series = {worth, rex::grading::wantedCurve("wanted in the end", {0, end},
-                                                                   {best, best})}}}};
+  return {.figures = {
+              {.title = "Policy iteration: each policy is better than the one before",
+               .xLabel = "number of the policy",
+               .yLabel = "value, mean over the states",
+               .series = {worth, rex::grading::wantedCurve("wanted in the end", {0, end}, {best, best})}}}};
 }
 
 /// Two directions in the plane, from `from`.

@@ -125,7 +125,8 @@ inline Eigen::MatrixXd noiseOf(const Situation& in, std::uint64_t seed, int step
 
 /// The states of a ride under u(x), which leads to after(x, u, t), until it fails.
 template <class Control, class Step>
-Eigen::MatrixXd ridden(const Eigen::Vector4d& start, Eigen::Index steps, const Control& u, const Step& after) {
+Eigen::MatrixXd ridden(const Eigen::Vector4d& start, Eigen::Index steps, const Control& u,
+                       const Step& after) {
   Eigen::MatrixXd states(4, steps + 1);
   states.col(0) = start;
   Eigen::Index t = 0;
@@ -165,9 +166,9 @@ inline rex::grading::Evidence sideBySide(const Situation& in, const Eigen::Matri
   for (Eigen::Index k = 0; k < count; k += stride) {
     Eigen::Matrix4Xd both(4, 2);
     both << at(got, k), at(wanted, k);
-    film.push_back({kTau * static_cast<double>(k),
-                    pictureOf(rex::RacerView{
-                        .x = both, .names = {"got", "wanted"}, .dynamics = dynamicsOf(in.racer)})});
+    film.push_back(
+        {kTau * static_cast<double>(k),
+         pictureOf(rex::RacerView{.x = both, .names = {"got", "wanted"}, .dynamics = dynamicsOf(in.racer)})});
   }
   const auto curve = [](const Eigen::MatrixXd& states, Eigen::Index row, auto make, const char* label) {
     std::vector<double> times, values;
@@ -213,8 +214,7 @@ inline void rideFollows(rex::grading::Check& check, const Situation& in, const E
   });
   statesFit(check, in, w, noise, ride, t);
   check.input(fmt::format("{} steps from theta {:.4g}", steps, start[1]));
-  check.near("number of steps, with the one that failed", static_cast<double>(ridden),
-             wantedSteps, 0);
+  check.near("number of steps, with the one that failed", static_cast<double>(ridden), wantedSteps, 0);
 }
 
 inline void rideFits(rex::grading::Check& check, Student& student, const Situation& in,

@@ -97,8 +97,7 @@ void networkFits(Check& check, Student& student, const CellMap& map) {
   const Network network = student.cellNetwork(map), wanted = networkOf(map);
   const auto shown = check.show([&] {
     Points places;
-    for (std::size_t place = 0; place < wanted.size(); ++place)
-      places.push_back(centerOf(map.cellAt(place)));
+    for (std::size_t place = 0; place < wanted.size(); ++place) places.push_back(centerOf(map.cellAt(place)));
     return networkSeen(planOf("The map as a network", map), places, network, wanted, wanted);
   });
   check.that("there is a list of arcs for each cell", network.size() == map.blocked.size());

@@ -155,11 +155,7 @@ inline bool touches(Cell a, Cell b) { return std::abs(a.x - b.x) <= 1 && std::ab
 // A look for points of figures.
 inline rex::Series dots(const std::string& label, const rex::Color& color, double size,
                         rex::Marker marker = rex::Marker::kDot) {
-  return {.label = label,
-          .style = rex::SeriesStyle::kPoints,
-          .marker = marker,
-          .size = size,
-          .color = color};
+  return {.label = label, .style = rex::SeriesStyle::kPoints, .marker = marker, .size = size, .color = color};
 }
 
 // Where a bug went, beside where the library's goes; until it went wrong if that is known.

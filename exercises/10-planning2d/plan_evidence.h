@@ -93,9 +93,9 @@ inline rex::grading::Evidence waySeen(const RandomNetwork& made, const std::vect
 /// A straight way in a yard, and what it should pass for.
 inline rex::grading::Evidence straightSeen(const Yard& yard, const Eigen::Vector2d& a,
                                            const Eigen::Vector2d& b, Straight wanted) {
-  rex::Figure figure = planOf(wanted == Straight::kFree ? "The straight way; wanted: free"
-                                                        : "The straight way; wanted: blocked",
-                              yard.size, yard.blocks);
+  rex::Figure figure = planOf(
+      wanted == Straight::kFree ? "The straight way; wanted: free" : "The straight way; wanted: blocked",
+      yard.size, yard.blocks);
   addLine(figure, {a, b}, {.label = "way", .size = 2, .color = rex::grading::kGotColor});
   return {.figures = {figure}};
 }

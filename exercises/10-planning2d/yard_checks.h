@@ -209,12 +209,14 @@ inline rex::grading::Evidence slideSeen(const Slide& slide, const FieldTrail& tr
     return isFree(yard, p) && down.allFinite() ? down : Eigen::Vector2d::Zero();
   };
   figure.arrows = {rex::arrowsOf(pull, {0, yard.size.x()}, {0, yard.size.y()})};
-  addLine(figure, trail.points,
+  const auto end = std::find_if(trail.points.begin(), trail.points.end(),
+                                [](const Eigen::Vector2d& p) { return !p.allFinite(); });
+  addLine(figure, {trail.points.begin(), end},
           rex::grading::gotCurve(trail.ending == Ending::kAtGoal ? "got: ends at the goal" : "got: stuck"));
   addEnds(figure, start, goal);
   const auto U = [&](std::size_t i) { return trueU(yard, goal, gains, trail.points[i]); };
   for (std::size_t i = 1; i < trail.points.size(); ++i)
-    if (!(U(i) < U(i - 1))) {
+    if (trail.points[i].allFinite() && !(U(i) < U(i - 1))) {
       figure.series.push_back(
           rex::grading::wrongPoint("not lower than before", trail.points[i].x(), trail.points[i].y()));
       break;

@@ -16,8 +16,8 @@
 // What the checks show of cars that are not where they should be.
 
 /// Outlines of the same look, of which the first has a label.
-inline void addOutline(rex::Figure& figure, std::string& label, const CarModel& car,
-                       const Eigen::Vector3d& q, const rex::Series& look) {
+inline void addOutline(rex::Figure& figure, std::string& label, const CarModel& car, const Eigen::Vector3d& q,
+                       const rex::Series& look) {
   rex::Series body = outline(car, q, look.color.value_or(rex::Color{}));
   body.label = std::exchange(label, "");
   body.size = look.size;
@@ -53,9 +53,9 @@ inline rex::grading::Evidence pathSeen(const std::string& title, const CarModel&
                                        std::size_t broken) {
   rex::Figure figure = carFigure(title, {});
   figure.series.push_back(rex::grading::through(path, rex::Series{.label = "poses",
-                                                    .style = rex::SeriesStyle::kLinesPoints,
-                                                    .marker = rex::Marker::kDot,
-                                                    .color = rex::grading::kGotColor}));
+                                                                  .style = rex::SeriesStyle::kLinesPoints,
+                                                                  .marker = rex::Marker::kDot,
+                                                                  .color = rex::grading::kGotColor}));
   for (const Eigen::Vector3d& q : path) figure.series.push_back(outline(car, q, kSoft));
   if (broken > 0 && broken < path.size())
     addOutline(figure, car, path[broken], rex::grading::wrongCurve("cannot follow from the one before"));
@@ -139,8 +139,8 @@ inline rex::grading::Evidence parkingSeen(const CarModel& car, const World& lot,
     if (way.wrong == 0 || i <= way.wrong) opening = postures.size();
     postures.push_back(joints(way.poses[i], way.steering[i]));
   }
-  rex::Film film = rex::grading::withWanted(rex::filmOf(S, postures, {}),
-                                            rex::filmOf(S, {joints(lot.goal, 0)}, {}));
+  rex::Film film =
+      rex::grading::withWanted(rex::filmOf(S, postures, {}), rex::filmOf(S, {joints(lot.goal, 0)}, {}));
   for (std::size_t i = 0; i < film.size(); ++i)  // at 1 m/s
     film[i].time = kPoseSpacing * static_cast<double>(stride * i);
   const double moment = film[opening].time;
@@ -155,8 +155,7 @@ inline rex::grading::Evidence driveSeen(const CarModel& car, const Eigen::Vector
                                         const Eigen::Vector3d& target, const Drive& drive,
                                         const std::vector<Block>& blocks) {
   World world{.start = from, .goal = target, .blocks = blocks, .lower = {}, .upper = {}};
-  rex::Figure figure =
-      wayFigure("One drive towards a target", car, world, wayOf(car, from, {drive}, blocks));
+  rex::Figure figure = wayFigure("One drive towards a target", car, world, wayOf(car, from, {drive}, blocks));
   for (rex::Series& series : figure.series)
     if (series.label == "wanted in the end") series.label = "target";
   return {.figures = {figure}};
@@ -179,8 +178,7 @@ inline rex::grading::Evidence treeSeen(const CarModel& car, const World& world,
     const Eigen::Vector3d& from = tree[static_cast<std::size_t>(tree[node].parent)].q;
     const DrivenWay way = wayOf(car, from, {tree[node].by}, world.blocks);
     figure.series.push_back(rex::grading::through(way.poses, rex::grading::gotCurve("the edge looked at")));
-    if (way.wrong > 0)
-      addOutline(figure, car, way.poses[way.wrong], rex::grading::wrongCurve(way.why));
+    if (way.wrong > 0) addOutline(figure, car, way.poses[way.wrong], rex::grading::wrongCurve(way.why));
   }
   return {.figures = {figure}};
 }

@@ -173,8 +173,7 @@ void findsOverlaps(Check& check, Student& student) {
   const CarModel usual;
   {
     const std::vector<Block> wall{{{1, 0, kPi / 2}, 8, 0.2}};
-    const auto shown =
-        check.show([&] { return placeSeen("wanted: not free", usual, {0, 0, 0}, wall); });
+    const auto shown = check.show([&] { return placeSeen("wanted: not free", usual, {0, 0, 0}, wall); });
     check.that("a wall across the car is in its way", !student.isFree(usual, {0, 0, 0}, wall));
   }
   check.input("a small block in the middle of the roof");
@@ -196,9 +195,8 @@ void findsOverlaps(Check& check, Student& student) {
       continue;
     check.input(std::string("a random car among one or two random blocks, ") +
                 (isTouched ? "one in its way" : "none in its way"));
-    const auto shown = check.show([&] {
-      return placeSeen(isTouched ? "wanted: not free" : "wanted: free", car, q, blocks);
-    });
+    const auto shown = check.show(
+        [&] { return placeSeen(isTouched ? "wanted: not free" : "wanted: free", car, q, blocks); });
     check.that("whether the car is free", student.isFree(car, q, blocks) == !isTouched);
     ++i;
   }

@@ -59,7 +59,8 @@ inline rex::grading::Evidence robustSeen(const JudgedWalk& judged) {
                              .color = rex::grading::kWrongColor});
   }
   figure.series.push_back(rex::grading::through(judged.got, rex::grading::gotCurve("got")));
-  figure.series.push_back(rex::grading::through(judged.best, rex::grading::wantedCurve("wanted: as without them")));
+  figure.series.push_back(
+      rex::grading::through(judged.best, rex::grading::wantedCurve("wanted: as without them")));
   return {.figures = {figure}};
 }
 
@@ -113,14 +114,12 @@ inline rex::grading::Evidence motionSeen(const Points& from, const Points& to, c
   for (const Eigen::Vector2d& p : from) moved.push_back(pointFrom(got, p));
   rex::Figure figure = planOf("Points, moved by the motion");
   const auto dots = [](const char* label, rex::Marker marker, const rex::Color& color) {
-    return rex::Series{.label = label,
-                       .style = rex::SeriesStyle::kPoints,
-                       .marker = marker,
-                       .size = 1.5,
-                       .color = color};
+    return rex::Series{
+        .label = label, .style = rex::SeriesStyle::kPoints, .marker = marker, .size = 1.5, .color = color};
   };
-  figure.series = {rex::grading::through(from, dots("points", rex::Marker::kDot, kGrey)),
-                   rex::grading::through(moved, dots("moved, got", rex::Marker::kDot, rex::grading::kGotColor)),
-                   rex::grading::through(to, dots("wanted", rex::Marker::kCircle, rex::grading::kWantedColor))};
+  figure.series = {
+      rex::grading::through(from, dots("points", rex::Marker::kDot, kGrey)),
+      rex::grading::through(moved, dots("moved, got", rex::Marker::kDot, rex::grading::kGotColor)),
+      rex::grading::through(to, dots("wanted", rex::Marker::kCircle, rex::grading::kWantedColor))};
   return {.figures = {figure}};
 }

@@ -37,11 +37,8 @@ Series gotCurve(std::string label, std::vector<double> x, std::vector<double> y)
 }
 
 Series wantedCurve(std::string label, std::vector<double> x, std::vector<double> y) {
-  return {.label = std::move(label),
-          .x = std::move(x),
-          .y = std::move(y),
-          .dashed = true,
-          .color = kWantedColor};
+  return {
+      .label = std::move(label), .x = std::move(x), .y = std::move(y), .dashed = true, .color = kWantedColor};
 }
 
 Series wrongCurve(std::string label, std::vector<double> x, std::vector<double> y) {
@@ -74,8 +71,8 @@ Film withWanted(const Film& got, const Film& wanted) {
   if (got.empty() || wanted.empty()) return got;
   Film film = got.size() < wanted.size() ? wanted : got;
   for (std::size_t i = 0; i < film.size(); ++i)
-    film[i].picture = withWanted(got[std::min(i, got.size() - 1)].picture,
-                                 wanted[std::min(i, wanted.size() - 1)].picture);
+    film[i].picture =
+        withWanted(got[std::min(i, got.size() - 1)].picture, wanted[std::min(i, wanted.size() - 1)].picture);
   return film;
 }
 

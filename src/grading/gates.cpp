@@ -205,8 +205,8 @@ GateResult wrongIsCaught(const GateContext& context, const std::string& gate) {
 }  // namespace
 
 std::vector<std::string> gateNames(const ExerciseInfo& exercise) {
-  std::vector<std::string> names = {"main-current", "points",   "names",      "release", "evidence",
-                                    "main-floor",   "solution", "sanitizers"};
+  std::vector<std::string> names = {"main-current", "points",     "names",    "release",
+                                    "evidence",     "main-floor", "solution", "sanitizers"};
   const std::vector<std::string> wrong = variantNames(exercise);
   names.insert(names.end(), wrong.begin(), wrong.end());
   return names;
@@ -218,14 +218,10 @@ GateResult runGate(const GateContext& context, const std::string& gate) {
     throw UsageError({.what = fmt::format("{} has no gate '{}'", context.exercise.name, gate),
                       .nearest = nearestNames(gate, names)});
   const std::map<std::string, GateResult (*)(const GateContext&)> gates = {
-      {"main-current", mainIsCurrent},
-      {"points", pointsAddUp},
-      {"names", namesExist},
-      {"release", releaseIsClean},
-      {"evidence", mistakesAreShown},
-      {"main-floor", mainScoresFloor},
-      {"solution", solutionIsFull},
-      {"sanitizers", solutionPassesSanitizers}};
+      {"main-current", mainIsCurrent}, {"points", pointsAddUp},
+      {"names", namesExist},           {"release", releaseIsClean},
+      {"evidence", mistakesAreShown},  {"main-floor", mainScoresFloor},
+      {"solution", solutionIsFull},    {"sanitizers", solutionPassesSanitizers}};
   try {
     const auto found = gates.find(gate);
     return found == gates.end() ? wrongIsCaught(context, gate) : found->second(context);

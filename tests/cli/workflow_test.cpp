@@ -212,7 +212,8 @@ TEST_F(WorkflowTest, PassesTheTemplateThroughAllGates) {
   EXPECT_EQ(ended.code, 0) << ended.output << ended.error;
   const std::string gates = rex({"dev", "check", "98", "--list-gates"}).output;
   EXPECT_EQ(gates,
-            "main-current\npoints\nnames\nrelease\nevidence\nmain-floor\nsolution\nsanitizers\nwrong/clockwise\nwrong/"
+            "main-current\npoints\nnames\nrelease\nevidence\nmain-floor\nsolution\nsanitizers\nwrong/"
+            "clockwise\nwrong/"
             "library\n");
 }
 
