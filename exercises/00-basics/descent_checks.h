@@ -60,7 +60,13 @@ inline void decreases(rex::grading::Check& check, double before, double after, d
 inline rex::grading::Evidence descentSeen(const std::vector<double>& values,
                                           const std::vector<double>& allowed) {
   rex::Series got = rex::grading::gotCurve("got");
-  rex::Series wanted = rex::grading::wantedCurve("wanted: at most");
+  rex::Series wanted{.label = "wanted: at most",
+                     .style = rex::SeriesStyle::kPoints,
+                     .marker = rex::Marker::kTriangle,
+                     .size = 1.5,
+                     .color = rex::grading::kWantedColor};
+  got.style = rex::SeriesStyle::kLinesPoints;
+  got.marker = rex::Marker::kDot;
   got.y = values;
   for (std::size_t t = 0; t < allowed.size(); ++t) {
     wanted.x.push_back(static_cast<double>(t + 1));
