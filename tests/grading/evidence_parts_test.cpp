@@ -49,10 +49,10 @@ void expectLast(const Film& film, double got, double wanted) {
 }
 
 TEST(WithWanted, LetsTheShorterFilmStay) {
-  const Film longer = withWanted(rolling(5, 1), rolling(3, 2));
+  const Film longer = withWanted(rolling(5, 3), rolling(3, 2));
   ASSERT_EQ(longer.size(), 5u);
   EXPECT_EQ(longer.back().time, .4);
-  expectLast(longer, 5, 1 + 2 * 2);
+  expectLast(longer, 13, 5);
   const Film shorter = withWanted(rolling(2, -1), rolling(3, 2));
   ASSERT_EQ(shorter.size(), 3u);
   EXPECT_EQ(shorter.back().time, .2);

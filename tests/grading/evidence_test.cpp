@@ -24,7 +24,7 @@ TEST(Comparison, DrawsTheRowsThatDifferMost) {
   EXPECT_EQ(figure.series[6].label, "row 5, got");
   EXPECT_EQ(figure.series[6].y[3], 5);
   EXPECT_EQ(figure.series[7].y[3], 0);
-  EXPECT_EQ(figure.series[0].x.size(), 9u);
+  EXPECT_EQ(figure.series[0].y.size(), 9u);
 }
 
 TEST(Comparison, LaysTallOnesDown) {
