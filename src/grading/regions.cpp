@@ -173,6 +173,7 @@ class Writer {
 
 struct Header {
   std::vector<std::string> caughtBy;
+  std::vector<std::string> shownBy;
   std::string mistake;
 };
 
@@ -186,8 +187,8 @@ std::vector<std::string> splitList(std::string_view list) {
   return items;
 }
 
-// Reads `// caught by: ...` and `// mistake: ...` among the lines outside the regions, where nothing else
-// but comments may stand.
+// Reads `// caught by: ...`, `// shown by: ...` and `// mistake: ...` among the lines outside the regions,
+// where nothing else but comments may stand.
 Header readHeader(const std::vector<Line>& lines, const std::string& file) {
   Header header;
   for (const Line& line : lines) {
@@ -198,8 +199,9 @@ Header readHeader(const std::vector<Line>& lines, const std::string& file) {
                    .where = {file, line.number},
                    .wanted = "'// <solution NAME>' before it"});
     const std::string_view comment = trim(text.substr(2));
-    constexpr std::string_view kCaught = "caught by:", kMistake = "mistake:";
+    constexpr std::string_view kCaught = "caught by:", kShown = "shown by:", kMistake = "mistake:";
     if (comment.starts_with(kCaught)) header.caughtBy = splitList(comment.substr(kCaught.size()));
+    if (comment.starts_with(kShown)) header.shownBy = splitList(comment.substr(kShown.size()));
     if (comment.starts_with(kMistake)) header.mistake = trim(comment.substr(kMistake.size()));
   }
   if (header.caughtBy.empty())
@@ -267,7 +269,7 @@ WrongVariant composeVariant(std::string_view solution, const std::string& soluti
     throw Error(
         {.what = "no region", .where = {wrongFile, 1}, .wanted = "'// <solution NAME>' with the mistake"});
 
-  WrongVariant variant{header.caughtBy, header.mistake, {}};
+  WrongVariant variant{header.caughtBy, header.shownBy, header.mistake, {}};
   std::vector<std::string> known;
   std::string current;
   for (const Line& line : readSolution(solution, solutionFile)) {

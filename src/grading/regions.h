@@ -21,6 +21,7 @@ namespace rex::grading {
 /// A plausible mistake, as wrong/NAME.cpp describes it.
 struct WrongVariant {
   std::vector<std::string> caughtBy;  ///< ids of checks, or kForbiddenCall
+  std::vector<std::string> shownBy;   ///< ids of checks that leave a picture of it; may be empty
   std::string mistake;
   std::string source;  ///< complete main.cpp with the mistake in it
 };
@@ -29,8 +30,9 @@ struct WrongVariant {
 inline constexpr std::string_view kForbiddenCall = "forbidden-call";
 
 /// Puts the regions of a wrong file in place of those of the solution. The file opens with
-/// `// caught by: id, id` and `// mistake: text`, then holds `// <solution NAME>` ... `// </solution>`.
-/// Throws Error (file:line) for a missing header line, a region the solution lacks, text outside regions.
+/// `// caught by: id, id`, perhaps `// shown by: id, id`, and `// mistake: text`, then holds `// <solution
+/// NAME>` ... `// </solution>`. Throws Error (file:line) for a missing header line, a region the solution
+/// lacks, text outside regions.
 [[nodiscard]] WrongVariant composeVariant(std::string_view solution, const std::string& solutionFile,
                                           std::string_view wrong, const std::string& wrongFile);
 

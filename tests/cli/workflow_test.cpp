@@ -212,7 +212,8 @@ TEST_F(WorkflowTest, PassesTheTemplateThroughAllGates) {
   EXPECT_EQ(ended.code, 0) << ended.output << ended.error;
   const std::string gates = rex({"dev", "check", "98", "--list-gates"}).output;
   EXPECT_EQ(gates,
-            "main-current\npoints\nnames\nrelease\nmain-floor\nsolution\nsanitizers\nwrong/clockwise\nwrong/"
+            "main-current\npoints\nnames\nrelease\nevidence\nmain-floor\nsolution\nsanitizers\nwrong/"
+            "clockwise\nwrong/"
             "library\n");
 }
 
@@ -252,6 +253,11 @@ TEST_F(WorkflowTest, FindsMistakesThatAreNotCaught) {
   expectOpenGate("wrong/clockwise", "check 'keeps-length' passes although: turns clockwise.");
   replace(exercise() / "wrong" / "clockwise.cpp", "keeps-length", "keeps-lenght");
   expectOpenGate("wrong/clockwise", "no check is called 'keeps-lenght'");
+  replace(exercise() / "wrong" / "clockwise.cpp", "shown by: quarter-turn", "shown by: keeps-length");
+  replace(exercise() / "wrong" / "clockwise.cpp", "keeps-lenght", "quarter-turn");
+  expectOpenGate("wrong/clockwise", "check 'keeps-length' leaves no picture");
+  replace(exercise() / "wrong" / "clockwise.cpp", "// shown by: keeps-length\n", "");
+  expectOpenGate("evidence", "no wrong variant names a check that shows its mistake");
   replace(exercise() / "wrong" / "library.cpp", "rex::rotationAboutAxis(angle, Eigen::Vector3d::UnitZ())",
           "Eigen::Matrix3d::Identity()");
   expectOpenGate("wrong/library", "nothing noticed");

@@ -92,6 +92,7 @@ TEST(SecretLines, AreThoseThatOnlyTheSolutionHas) {
 
 TEST(ComposeVariant, ReplacesTheNamedRegionOnly) {
   const WrongVariant variant = composeVariant(kSolution, "solution.cpp", R"(// caught by: area, size-grows
+// shown by: area
 // mistake: forgets pi.
 
 // <solution area>
@@ -100,6 +101,7 @@ TEST(ComposeVariant, ReplacesTheNamedRegionOnly) {
 )",
                                               "wrong/pi.cpp");
   EXPECT_THAT(variant.caughtBy, ElementsAre("area", "size-grows"));
+  EXPECT_THAT(variant.shownBy, ElementsAre("area"));
   EXPECT_EQ(variant.mistake, "forgets pi.");
   EXPECT_EQ(variant.source, R"(#include "exercise.h"
 
