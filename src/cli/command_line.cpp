@@ -77,16 +77,31 @@ CLI::Option* addLevel(CLI::App* command, std::optional<int>& level) {
       ->type_name("N");
 }
 
+void addSeveral(CLI::App* command, TestManyOptions& options) {
+  command
+      ->add_option("EXERCISE", options.exercises,
+                   "numbers, topics or whole names: 01, kinematics, 01-kinematics")
+      ->type_name("");
+  command->add_flag("--all", options.all, "all exercises");
+  command->add_option("-j,--jobs", options.jobs, "of several, so many at once (default: one per processor)")
+      ->check(CLI::Range(1, 1024).description(""))
+      ->type_name("N");
+}
+
 void addTest(CLI::App& program, Action& action) {
-  const auto options = std::make_shared<TestOptions>();
+  const auto many = std::make_shared<TestManyOptions>();
+  TestOptions* options = &many->each;
   CLI::App* command =
       add(program, "test", "Grade your main.cpp: which checks pass, for how many points",
           "Examples:\n  scripts/rex test 01\n  scripts/rex test 01 --check step-hand --seed 17\n"
-          "  scripts/rex test 01 --main /tmp/other.cpp --json\n\n"
+          "  scripts/rex test 01 --main /tmp/other.cpp --json\n  scripts/rex test 01 02 -j2\n"
+          "  scripts/rex test --all\n\n"
           "The result file is results.json, results-partial.json with --check, or\n"
-          "results-debug.json with --debug.\n" +
+          "results-debug.json with --debug. Of several exercises -o DIR gets DIR/EXERCISE,\n"
+          "--json is {\"schema\": \"rex-results/1\", \"results\": [...]}, and the exit code is\n"
+          "the largest of theirs.\n" +
               std::string(kExitCodes));
-  addExercise(command, options->exercise);
+  addSeveral(command, *many);
   command->add_flag("--solution", options->solution, "grade the reference solution");
   command->add_option("--main", options->main, "grade this file instead of main.cpp")->type_name("FILE");
   command->add_option("--check", options->checks, "only this check; may be given several times")
@@ -97,11 +112,13 @@ void addTest(CLI::App& program, Action& action) {
   command->add_flag("--debug", options->debug, "with the sanitizers: slow, names the lines of crashes");
   command->add_option("-o,--out", options->out, kOutHelp)->type_name("DIR");
   addLevel(command, options->level);
-  command->callback([&action, options] {
-    if (options->solution && !options->main.empty()) throw CLI::ExcludesError("--main", "--solution");
+  command->callback([&action, many] {
+    const TestOptions& each = many->each;
+    if (many->exercises.empty() != many->all) throw CLI::RequiredError("either EXERCISE or --all");
+    if (each.solution && !each.main.empty()) throw CLI::ExcludesError("--main", "--solution");
     // The sanitizers read and map what a sandbox forbids.
-    if (options->debug && options->level.value_or(0) > 0) throw CLI::ExcludesError("--debug", "--level");
-    action = [options](const Project& p) { return test(p, *options); };
+    if (each.debug && each.level.value_or(0) > 0) throw CLI::ExcludesError("--debug", "--level");
+    action = [many](const Project& p) { return testMany(p, *many); };
   });
 }
 
