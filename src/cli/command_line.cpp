@@ -88,6 +88,14 @@ void addSeveral(CLI::App* command, TestManyOptions& options) {
       ->type_name("N");
 }
 
+// CLI11 takes -1 for the largest number there is.
+std::string wholeNumber(const std::string& text) {
+  constexpr std::size_t kMostDigits = 18;
+  const bool isOne =
+      !text.empty() && text.size() <= kMostDigits && text.find_first_not_of("0123456789") == text.npos;
+  return isOne ? "" : "found " + harmless(text) + ", wanted a whole number, not negative";
+}
+
 void addTest(CLI::App& program, Action& action) {
   const auto many = std::make_shared<TestManyOptions>();
   TestOptions* options = &many->each;
@@ -107,7 +115,9 @@ void addTest(CLI::App& program, Action& action) {
   command->add_option("--check", options->checks, "only this check; may be given several times")
       ->allow_extra_args(false)
       ->type_name("NAME");
-  command->add_option("--seed", options->seed, "repeat the random cases of this seed")->type_name("N");
+  command->add_option("--seed", options->seed, "repeat the random cases of this seed")
+      ->check(wholeNumber)
+      ->type_name("N");
   command->add_flag("--json", options->json, "print the result file and nothing else");
   command->add_flag("--debug", options->debug, "with the sanitizers: slow, names the lines of crashes");
   command->add_option("-o,--out", options->out, kOutHelp)->type_name("DIR");

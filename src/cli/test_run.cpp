@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/out_folder.h"
 #include "cli/progress_file.h"
 #include "cli/student_file.h"
 #include "cli/terminal.h"
@@ -29,7 +30,7 @@ const char* resultName(const TestOptions& options) {
 fs::path resultsOf(const Project& project, const ExerciseInfo& exercise, const TestOptions& options) {
   const fs::path out =
       fs::absolute(options.out.empty() ? project.outFolder(exercise, options.solution) : options.out);
-  fs::create_directories(out);
+  makeOutFolder(out);
   return out / resultName(options);
 }
 

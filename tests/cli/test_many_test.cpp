@@ -122,6 +122,12 @@ TEST_F(TestMany, RefusesWhatBelongsToOneExercise) {
     EXPECT_THAT(ended.error, HasSubstr("either EXERCISE or --all is required"));
   }
   EXPECT_EQ(rex({"test", "98", "97-othr"}).code, 64);
+  for (const char* seed : {"-1", "x", "1.5", "99999999999999999999"}) {
+    const Ended ended = rex({"test", "98", "--seed", seed});
+    EXPECT_EQ(ended.code, 64) << seed;
+    EXPECT_THAT(ended.error,
+                HasSubstr(std::string("found ") + seed + ", wanted a whole number, not negative"));
+  }
   EXPECT_FALSE(fs::exists(root() / "out")) << "nothing is graded before all is understood";
 }
 
