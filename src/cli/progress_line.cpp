@@ -1,10 +1,12 @@
 #include "cli/progress_line.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <utility>
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 namespace rex::cli {
@@ -13,10 +15,16 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr std::size_t kLongest = 78;
+// A line that is too long for the terminal could not be taken back.
+std::size_t width() {
+  constexpr std::size_t kLongest = 78;
+  winsize size{};
+  const bool isKnown = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
+  return isKnown ? std::min(kLongest, static_cast<std::size_t>(size.ws_col - 1)) : kLongest;
+}
 
 // Blanks, for terminals that know no escape sequences.
-void erase() { fmt::print(stderr, "\r{:{}}\r", "", kLongest); }
+void erase() { fmt::print(stderr, "\r{:{}}\r", "", width()); }
 
 }  // namespace
 
@@ -48,7 +56,7 @@ void ProgressLine::show() {
     const auto seconds =
         std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - start).count();
     const std::string line = fmt::format("{} ({} s)", text_(), seconds);
-    fmt::print(stderr, "\r{:{}}", line.substr(0, kLongest), kLongest);
+    fmt::print(stderr, "\r{:{}}", line.substr(0, width()), width());
     std::fflush(stderr);
   }
 }
