@@ -77,31 +77,58 @@ CLI::Option* addLevel(CLI::App* command, std::optional<int>& level) {
       ->type_name("N");
 }
 
+void addSeveral(CLI::App* command, TestManyOptions& options) {
+  command
+      ->add_option("EXERCISE", options.exercises,
+                   "numbers, topics or whole names: 01, kinematics, 01-kinematics")
+      ->type_name("");
+  command->add_flag("--all", options.all, "all exercises");
+  command->add_option("-j,--jobs", options.jobs, "of several, so many at once (default: one per processor)")
+      ->check(CLI::Range(1, 1024).description(""))
+      ->type_name("N");
+}
+
+// CLI11 takes -1 for the largest number there is.
+std::string wholeNumber(const std::string& text) {
+  constexpr std::size_t kMostDigits = 18;
+  const bool isOne =
+      !text.empty() && text.size() <= kMostDigits && text.find_first_not_of("0123456789") == text.npos;
+  return isOne ? "" : "found " + harmless(text) + ", wanted a whole number, not negative";
+}
+
 void addTest(CLI::App& program, Action& action) {
-  const auto options = std::make_shared<TestOptions>();
+  const auto many = std::make_shared<TestManyOptions>();
+  TestOptions* options = &many->each;
   CLI::App* command =
       add(program, "test", "Grade your main.cpp: which checks pass, for how many points",
           "Examples:\n  scripts/rex test 01\n  scripts/rex test 01 --check step-hand --seed 17\n"
-          "  scripts/rex test 01 --main /tmp/other.cpp --json\n\n"
+          "  scripts/rex test 01 --main /tmp/other.cpp --json\n  scripts/rex test 01 02 -j2\n"
+          "  scripts/rex test --all\n\n"
           "The result file is results.json, results-partial.json with --check, or\n"
-          "results-debug.json with --debug.\n" +
+          "results-debug.json with --debug. Of several exercises -o DIR gets DIR/EXERCISE,\n"
+          "--json is {\"schema\": \"rex-results/1\", \"results\": [...]}, and the exit code is\n"
+          "the largest of theirs.\n" +
               std::string(kExitCodes));
-  addExercise(command, options->exercise);
+  addSeveral(command, *many);
   command->add_flag("--solution", options->solution, "grade the reference solution");
   command->add_option("--main", options->main, "grade this file instead of main.cpp")->type_name("FILE");
   command->add_option("--check", options->checks, "only this check; may be given several times")
       ->allow_extra_args(false)
       ->type_name("NAME");
-  command->add_option("--seed", options->seed, "repeat the random cases of this seed")->type_name("N");
+  command->add_option("--seed", options->seed, "repeat the random cases of this seed")
+      ->check(wholeNumber)
+      ->type_name("N");
   command->add_flag("--json", options->json, "print the result file and nothing else");
   command->add_flag("--debug", options->debug, "with the sanitizers: slow, names the lines of crashes");
   command->add_option("-o,--out", options->out, kOutHelp)->type_name("DIR");
   addLevel(command, options->level);
-  command->callback([&action, options] {
-    if (options->solution && !options->main.empty()) throw CLI::ExcludesError("--main", "--solution");
+  command->callback([&action, many] {
+    const TestOptions& each = many->each;
+    if (many->exercises.empty() != many->all) throw CLI::RequiredError("either EXERCISE or --all");
+    if (each.solution && !each.main.empty()) throw CLI::ExcludesError("--main", "--solution");
     // The sanitizers read and map what a sandbox forbids.
-    if (options->debug && options->level.value_or(0) > 0) throw CLI::ExcludesError("--debug", "--level");
-    action = [options](const Project& p) { return test(p, *options); };
+    if (each.debug && each.level.value_or(0) > 0) throw CLI::ExcludesError("--debug", "--level");
+    action = [many](const Project& p) { return testMany(p, *many); };
   });
 }
 

@@ -39,6 +39,16 @@ struct TestOptions {
 };
 ExitCode test(const Project& project, const TestOptions& options);
 
+struct TestManyOptions {
+  std::vector<std::string> exercises;
+  bool all = false;  ///< instead of those
+  int jobs = 0;      ///< gradings at once; 0: one per processor
+  TestOptions each;  ///< for several, `out` gets a folder for each; main and checks belong to one
+};
+/// Grades several at the same time and tells of each in the order asked for; one as test() does. Of their
+/// exit codes the largest: a fault of the grader, then what cannot be graded, then what is below full score.
+ExitCode testMany(const Project& project, const TestManyOptions& options);
+
 struct ReportOptions {
   std::filesystem::path results;
   std::string format;         ///< a name of grading::reportFormats()

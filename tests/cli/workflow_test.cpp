@@ -19,7 +19,8 @@ TEST_F(WorkflowTest, ListsExercises) {
 }
 
 TEST_F(WorkflowTest, FindsExercisesByNumberTopicFolderAndNearMiss) {
-  for (const char* name : {"98", "template", "98-template", "exercises/98-template/"})
+  for (const char* name :
+       {"98", "template", "98-template", "exercises/98-template/", "./exercises/98-template/main.cpp"})
     EXPECT_EQ(rex({"dev", "check", name, "--list-gates"}).code, 0) << name;
   const Ended ended = rex({"test", "98-templat"});
   EXPECT_EQ(ended.code, 64);
@@ -127,7 +128,12 @@ TEST_F(WorkflowTest, SaysWhenTheGraderIsAtFault) {
 
 TEST_F(WorkflowTest, SaysWhenTheProjectOrTheMachineIsAtFault) {
   write(root() / "out", "a file where a folder should be");
-  for (const char* command : {"test", "run", "debug"}) EXPECT_EQ(rex({command, "98"}).code, 3) << command;
+  for (const char* command : {"test", "run", "debug"}) {
+    const Ended blocked = rex({command, "98"});
+    EXPECT_EQ(blocked.code, 3) << command;
+    EXPECT_THAT(flat(blocked.error),
+                HasSubstr("out/98-template: cannot make the folder for results: found Not a directory"));
+  }
   fs::remove(root() / "out");
   const Ended readOnly = rex({"test", "98", "-o", "/proc"});
   EXPECT_EQ(readOnly.code, 3);
