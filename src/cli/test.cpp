@@ -11,6 +11,7 @@
 #include "cli/student_file.h"
 #include "cli/terminal.h"
 #include "cli/test_report.h"
+#include "grading/hidden_seed.h"
 #include "grading/private_folder.h"
 #include "grading/result_file.h"
 #include "grading/submission.h"
@@ -73,6 +74,7 @@ void remember(const Project& project, const ExerciseInfo& exercise, const gradin
 
 ExitCode test(const Project& project, const TestOptions& options) {
   const ExerciseInfo exercise = project.exercise(options.exercise);
+  if (!options.secret.empty()) static_cast<void>(grading::readCourseSecret(options.secret));
   const std::filesystem::path file = chooseStudentFile(exercise, options.solution, options.main);
   const std::filesystem::path out = std::filesystem::absolute(
       options.out.empty() ? project.outFolder(exercise, options.solution) : options.out);
@@ -94,7 +96,8 @@ ExitCode test(const Project& project, const TestOptions& options) {
                                      .evidence = evidence,
                                      .lookAgain = true,
                                      .sanitize = options.debug,
-                                     .sandbox = *sandbox});
+                                     .sandbox = *sandbox,
+                                     .secret = options.secret});
   }();
   publish(ownResults, results);
   std::filesystem::remove_all(out / "checks");
