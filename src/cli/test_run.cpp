@@ -10,6 +10,7 @@
 #include "cli/student_file.h"
 #include "cli/terminal.h"
 #include "cli/test_report.h"
+#include "grading/hidden_seed.h"
 #include "grading/result_file.h"
 #include "grading/text_file.h"
 
@@ -53,7 +54,9 @@ TestRun::TestRun(const Project& project, ExerciseInfo exercise, const TestOption
       file_(chooseStudentFile(exercise_, options.solution, options.main)),
       results_(resultsOf(project, exercise_, options)),
       toolchain_(prepare(project, exercise_)),
-      work_(project.buildFolder(exercise_)) {}
+      work_(project.buildFolder(exercise_)) {
+  if (!options.secret.empty()) static_cast<void>(grading::readCourseSecret(options.secret));
+}
 
 grading::Submission TestRun::grade(const sandbox::Sandbox& sandbox) const {
   return grading::gradeSubmission(toolchain_, exercise_,
@@ -65,7 +68,8 @@ grading::Submission TestRun::grade(const sandbox::Sandbox& sandbox) const {
                                    .evidence = work_.path() / "checks",
                                    .lookAgain = true,
                                    .sanitize = options_.debug,
-                                   .sandbox = sandbox});
+                                   .sandbox = sandbox,
+                                   .secret = options_.secret});
 }
 
 std::string TestRun::stage() const {

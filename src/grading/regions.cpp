@@ -1,7 +1,6 @@
 #include "grading/regions.h"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <optional>
 #include <set>
@@ -34,13 +33,6 @@ std::string_view trim(std::string_view text) {
   const std::size_t first = text.find_first_not_of(kBlank);
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(kBlank) + 1 - first);
-}
-
-std::string squeeze(std::string_view text) {
-  std::string dense;
-  for (const char c : text)
-    if (!std::isspace(static_cast<unsigned char>(c))) dense += c;
-  return dense;
 }
 
 // The tag in a comment line that holds nothing but `<word name>` or `</word>`.
@@ -148,6 +140,18 @@ std::vector<Line> readSolution(std::string_view text, const std::string& file) {
   return MarkerReader(file, {"solution", "todo"}).read(text);
 }
 
+std::vector<std::vector<BlockLine>> blocksOf(const std::vector<Line>& lines, Place place) {
+  std::vector<std::vector<BlockLine>> blocks;
+  bool inside = false;
+  for (const Line& line : lines) {
+    const bool belongs = line.place == place;
+    if (belongs && !inside) blocks.emplace_back();
+    if (belongs) blocks.back().push_back({line.number, std::string(trim(line.text))});
+    inside = belongs;
+  }
+  return blocks;
+}
+
 // "  //| code" becomes "  code".
 std::string uncomment(const std::string& line) {
   const std::size_t mark = line.find("//|");
@@ -245,19 +249,19 @@ std::string stripHidden(std::string_view check, const std::string& file) {
   return std::move(writer).text();
 }
 
-std::vector<std::string> secretLines(std::string_view solution, const std::string& file) {
-  constexpr std::size_t kTrivial = 16;
-  const std::vector<Line> lines = readSolution(solution, file);
-  std::string open;
-  for (const Line& line : lines)
-    if (line.place == Place::kPublic) open += squeeze(line.text) + "\n";
-  std::vector<std::string> secrets;
-  for (const Line& line : lines) {
-    const std::string dense = squeeze(line.text);
-    if (line.place == Place::kSolution && dense.size() >= kTrivial && open.find(dense) == std::string::npos)
-      secrets.emplace_back(trim(line.text));
-  }
-  return secrets;
+std::string textOutsideRegions(std::string_view solution, const std::string& file) {
+  Writer writer;
+  for (const Line& line : readSolution(solution, file))
+    if (line.place == Place::kPublic) writer.add(line.text);
+  return std::move(writer).text();
+}
+
+std::vector<std::vector<BlockLine>> solutionBlocks(std::string_view solution, const std::string& file) {
+  return blocksOf(readSolution(solution, file), Place::kSolution);
+}
+
+std::vector<std::vector<BlockLine>> hiddenBlocks(std::string_view check, const std::string& file) {
+  return blocksOf(MarkerReader(file, {"hidden"}).read(check), Place::kHidden);
 }
 
 WrongVariant composeVariant(std::string_view solution, const std::string& solutionFile,

@@ -240,6 +240,62 @@ TEST_F(GradeManyTest, AsksForTheSecretOfTheList) {
   EXPECT_THAT(flat(ended.error), HasSubstr("the secret of the course: found none, wanted "));
 }
 
+TEST_F(GradeManyTest, WritesReportsBesideResultsWithoutGradingAgain) {
+  handIn("adam", kGood), handIn("bob", kBroken);
+  const fs::path summary = results() / "adam/98-template/summary.md",
+                 junit = results() / "bob/98-template/junit.xml";
+  EXPECT_EQ(grade().code, 0);
+  EXPECT_FALSE(fs::exists(summary));
+  const Ended first = grade({"--reports=markdown,junit"});
+  EXPECT_EQ(first.code, 0) << first.error;
+  EXPECT_THAT(flat(first.error),
+              HasSubstr("Reports: 4 written, 0 kept 2 submissions at sandbox level 0: 0 graded"));
+  const std::string expected =
+      rex({"report", (results() / "adam/98-template/results.json").string(), "--format", "markdown"}).output;
+  EXPECT_EQ(fileText(summary), expected);
+  EXPECT_THAT(fileText(junit), HasSubstr("<testsuite"));
+  fs::remove(summary);
+  write(junit, "half a rep");
+  EXPECT_THAT(flat(grade({"--reports=markdown,junit"}).error),
+              HasSubstr("Reports: 2 written, 2 kept 2 submissions at sandbox level 0: 0 graded, 2 kept"));
+  EXPECT_EQ(fileText(summary), expected);
+  handIn("adam", kWrong);
+  EXPECT_THAT(flat(grade({"--reports"}).error), HasSubstr("Reports: 1 written, 1 kept")) << "alone: markdown";
+  EXPECT_NE(fileText(summary), expected);
+  // What was made of a result goes with it.
+  fs::remove(results() / "bob/98-template/results.json");
+  EXPECT_EQ(rex({"collect", results().string(), "--reports=junit"}).code, 3);
+  EXPECT_FALSE(fs::exists(junit));
+  const Ended unknown = grade({"--reports=markdwn"});
+  EXPECT_EQ(unknown.code, 64);
+  EXPECT_THAT(flat(unknown.error), HasSubstr("--reports: found markdwn, wanted one of exercism, github"));
+  EXPECT_THAT(flat(unknown.error), HasSubstr("did you mean 'markdown'?"));
+}
+
+TEST_F(GradeManyTest, GradesAgainForEvidenceThatIsMissing) {
+  handIn("adam", kWrong);
+  EXPECT_EQ(grade().code, 0);
+  EXPECT_EQ(result("adam").at("volatile").at("evidence"), false);
+  EXPECT_THAT(flat(grade({"--evidence"}).error), HasSubstr("1 graded, 0 kept")) << "there is none yet";
+  EXPECT_THAT(flat(grade({"--evidence"}).error), HasSubstr("0 graded, 1 kept"));
+  EXPECT_THAT(flat(grade().error), HasSubstr("0 graded, 1 kept")) << "more than asked for";
+  Json json = result("adam");
+  json.at("volatile").at("checks").at(0)["picture"] = "checks/a.png";
+  const fs::path folder = results() / "adam/98-template";
+  write(folder / "results.json", json.dump());
+  EXPECT_THAT(flat(grade().error), HasSubstr("0 graded, 1 kept")) << "nobody asked";
+  fs::create_directories(folder / "checks");
+  write(folder / "checks/a.png", "");
+  EXPECT_THAT(flat(grade({"--evidence"}).error), HasSubstr("0 graded, 1 kept"));
+  fs::remove(folder / "checks/a.png");
+  EXPECT_THAT(flat(grade({"--evidence"}).error), HasSubstr("1 graded, 0 kept"));
+  // Pictures of another text would mislead.
+  write(folder / "checks/old.png", "");
+  handIn("adam", kGood);
+  EXPECT_THAT(flat(grade().error), HasSubstr("1 graded, 0 kept"));
+  EXPECT_FALSE(fs::exists(folder / "checks"));
+}
+
 TEST_F(GradeManyTest, RefusesFoldersInsideEachOther) {
   handIn("adam", kGood);
   for (const fs::path& out : {in() / "results", in(), root()}) {

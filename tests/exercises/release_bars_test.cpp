@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRelease = REX_BINARY_DIR "/student release";
+const fs::path kRelease = REX_BINARY_DIR "/student release", kProof = REX_BINARY_DIR "/proof of the release";
 
 bool isUniform(const Image& image) {
   for (int y = 0; y < image.height; ++y)
@@ -37,14 +37,14 @@ std::vector<fs::path> picturesIn(const fs::path& folder) {
 class AcceptanceBars : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (!fs::exists(kRelease / "out/passed")) GTEST_SKIP() << "needs the test exercise/student-release";
+    if (!fs::exists(kProof / "out/passed")) GTEST_SKIP() << "needs the test exercise/student-release";
   }
   std::vector<grading::ExerciseInfo> exercises_ = grading::listExercises(REX_SOURCE_DIR "/exercises");
 };
 
 TEST_F(AcceptanceBars, Bar02EveryExerciseDrawsPicturesWithoutADisplay) {
   for (const grading::ExerciseInfo& exercise : exercises_) {
-    const std::vector<fs::path> pictures = picturesIn(kRelease / "out" / exercise.name);
+    const std::vector<fs::path> pictures = picturesIn(kProof / "out" / exercise.name);
     EXPECT_FALSE(pictures.empty()) << exercise.name;
     for (const fs::path& picture : pictures) EXPECT_FALSE(isUniform(readPng(picture))) << picture;
   }
