@@ -152,7 +152,8 @@ int gradeOpen(const std::vector<Task>& tasks, const GradeManyOptions& options,
                           {.out = options.out,
                            .workFolder = work.path() / fmt::format("{}", k),
                            .launcher = sandbox.launcher,
-                           .secret = options.secret});
+                           .secret = options.secret,
+                           .workers = options.workers});
       },
       [&](int k, int) {
         std::error_code ignored;

@@ -25,6 +25,13 @@ void addSecret(CLI::App* command, std::filesystem::path& file) {
       ->type_name("FILE");
 }
 
+void addWorkers(CLI::App* command, std::filesystem::path& folder) {
+  command
+      ->add_option("--workers", folder,
+                   "keep compiled programs here: the same file with another seed is not compiled again")
+      ->type_name("DIR");
+}
+
 void addOut(CLI::App* command, std::filesystem::path& out) {
   command->add_option("-o,--out", out, "folder for STUDENT/EXERCISE/results.json and grades.csv")
       ->type_name("DIR")
@@ -52,6 +59,7 @@ void addGrade(CLI::App& program, Action& action) {
       ->type_name("N");
   command->add_option("--seed", options->seed, "of the random cases")->type_name("N");
   addSecret(command, options->secret);
+  addWorkers(command, options->workers);
   command->add_option("--only", options->only, "only this exercise")->type_name("EXERCISE");
   addDeadlines(command, options->deadlines);
   command
@@ -77,6 +85,7 @@ void addGradeOne(CLI::App& program, Action& action) {
   command->add_option("--task", options->task, "its number, from 1")->type_name("K")->required();
   addOut(command, options->out);
   addSecret(command, options->secret);
+  addWorkers(command, options->workers);
   command->callback(
       [&action, options] { action = [options](const Project& p) { return gradeOne(p, *options); }; });
 }

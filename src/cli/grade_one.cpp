@@ -29,7 +29,8 @@ ExitCode gradeOne(const Project& project, const GradeOneOptions& options) {
                                                          {.out = options.out,
                                                           .workFolder = work.path(),
                                                           .launcher = sandbox->launcher,
-                                                          .secret = options.secret});
+                                                          .secret = options.secret,
+                                                          .workers = options.workers});
   say(wrap(harmless(fmt::format("{}: {}, {} of {} points {}", name, toString(result.outcome), result.score,
                                 result.maxScore, result.message)),
            2, 0));

@@ -31,6 +31,7 @@ struct TaskOptions {
   std::filesystem::path workFolder{};  ///< of this task alone, made if missing
   std::filesystem::path launcher{};    ///< of the sandbox
   std::filesystem::path secret{};      ///< file with the secret of the course; empty: none
+  std::filesystem::path workers{};     ///< where compiled programs are kept; empty: nowhere
 };
 
 /// Grades and writes OUT/STUDENT/EXERCISE/results.json, with the hash of the inputs, and build.log: each
