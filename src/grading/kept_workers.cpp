@@ -25,20 +25,27 @@ BuiltSubmission take(const fs::path& kept, const SubmissionOptions& options) {
           .worker = fs::absolute(kept / kWorker)};
 }
 
+// For its owner alone: what lies in it is run.
+void makeFolder(const fs::path& folder) {
+  std::error_code refused;
+  if (fs::create_directories(folder, refused)) fs::permissions(folder, fs::perms::owner_all, refused);
+  if (!refused && !fs::is_directory(folder)) refused = std::make_error_code(std::errc::not_a_directory);
+  if (refused)
+    throw Error({.what = "cannot keep programs in " + folder.string(), .found = refused.message()});
+}
+
 // Complete before it has its name. Where two build the same at once, one of them wins.
 void keep(const BuiltSubmission& built, const fs::path& kept, const fs::path& log) {
+  makeFolder(kept.parent_path());
   const PrivateFolder folder(kept.parent_path());
   const fs::path entry = folder.path() / "entry";
-  std::error_code refused;
-  fs::create_directory(entry, refused);
-  if (!refused) fs::copy_file(built.worker, entry / kWorker, refused);
-  if (refused)
-    throw Error(
-        {.what = "cannot keep a program in " + kept.parent_path().string(), .found = refused.message()});
+  fs::create_directory(entry);
+  fs::copy_file(built.worker, entry / kWorker);
   saveResult(built.start, entry / kStart);
   writeTextFile(entry / kSource, built.source);
   writeTextFile(entry / kLog, readTextFile(log));
-  fs::rename(entry, kept, refused);
+  std::error_code other;
+  fs::rename(entry, kept, other);
 }
 
 }  // namespace
@@ -49,7 +56,6 @@ BuiltSubmission buildOnce(const fs::path& folder, const std::string& key, const 
   if (fs::exists(kept / kStart)) return take(kept, options);
   BuiltSubmission built = buildSubmission(toolchain, exercise, options);
   if (built.worker.empty()) return built;
-  if (fs::create_directories(folder)) fs::permissions(folder, fs::perms::owner_all);
   keep(built, kept, options.results.parent_path() / kLog);
   return built;
 }
