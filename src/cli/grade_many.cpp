@@ -157,7 +157,8 @@ int gradeOpen(const std::vector<Task>& tasks, const GradeManyOptions& options,
                            .workFolder = work.path() / fmt::format("{}", k),
                            .launcher = sandbox.launcher,
                            .secret = options.secret,
-                           .evidence = options.evidence});
+                           .evidence = options.evidence,
+                           .workers = options.workers});
       },
       [&](int k, int) {
         std::error_code ignored;

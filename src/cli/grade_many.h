@@ -19,6 +19,7 @@ struct GradeManyOptions {
   std::optional<int> accept{};  ///< the lowest level, where that is below 2
   std::optional<std::uint64_t> seed{};
   std::filesystem::path secret{};     ///< file; empty: hidden checks take the seed, too
+  std::filesystem::path workers{};    ///< folder that keeps compiled programs; empty: none
   std::string only{};                 ///< exercise; empty: all
   std::filesystem::path deadlines{};  ///< TOML file; empty: none
   std::filesystem::path submitted{};  ///< CSV file; empty: times of files count
@@ -38,6 +39,7 @@ struct GradeOneOptions {
   std::filesystem::path out{};
   std::filesystem::path secret{};
   bool evidence = false;
+  std::filesystem::path workers{};  ///< folder that keeps compiled programs; empty: none
 };
 /// Grades one line of a list of tasks, unless it has a valid result. kFull if it has one then.
 ExitCode gradeOne(const Project& project, const GradeOneOptions& options);

@@ -37,6 +37,13 @@ void addEvidence(CLI::App* command, bool& evidence) {
   command->add_flag("--evidence", evidence, "keep pictures and replays of visible checks that do not hold");
 }
 
+void addWorkers(CLI::App* command, std::filesystem::path& folder) {
+  command
+      ->add_option("--workers", folder,
+                   "keep compiled programs here: the same file with another seed is not compiled again")
+      ->type_name("DIR");
+}
+
 void addOut(CLI::App* command, std::filesystem::path& out) {
   command->add_option("-o,--out", out, "folder for STUDENT/EXERCISE/results.json and grades.csv")
       ->type_name("DIR")
@@ -65,6 +72,7 @@ void addGrade(CLI::App& program, Action& action) {
       ->type_name("N");
   command->add_option("--seed", options->seed, "of the random cases")->type_name("N");
   addSecret(command, options->secret);
+  addWorkers(command, options->workers);
   command->add_option("--only", options->only, "only this exercise")->type_name("EXERCISE");
   addDeadlines(command, options->deadlines);
   command
@@ -91,6 +99,7 @@ void addGradeOne(CLI::App& program, Action& action) {
   command->add_option("--task", options->task, "its number, from 1")->type_name("K")->required();
   addOut(command, options->out);
   addSecret(command, options->secret), addEvidence(command, options->evidence);
+  addWorkers(command, options->workers);
   command->callback(
       [&action, options] { action = [options](const Project& p) { return gradeOne(p, *options); }; });
 }

@@ -31,7 +31,8 @@ ExitCode gradeOne(const Project& project, const GradeOneOptions& options) {
                                                           .workFolder = work.path(),
                                                           .launcher = sandbox->launcher,
                                                           .secret = options.secret,
-                                                          .evidence = options.evidence});
+                                                          .evidence = options.evidence,
+                                                          .workers = options.workers});
   say(wrap(harmless(fmt::format("{}: {}, {} of {} points {}", name, toString(result.outcome), result.score,
                                 result.maxScore, result.message)),
            2, 0));

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "grading/hidden_seed.h"
+#include "grading/kept_workers.h"
 #include "grading/sha256.h"
 #include "grading/student_build.h"
 #include "grading/submission.h"
@@ -35,6 +36,12 @@ void requireInputs(const Task& task, const fs::path& file, const Toolchain& tool
     throw Error({.what = "the secret of the course",
                  .found = options.secret.empty() ? "none" : secretIdOf(options.secret),
                  .wanted = task.secretId.empty() ? "none" : task.secretId});
+}
+
+// Seeds and secrets change the questions, not the program.
+std::string workerKey(const Task& task) {
+  return sha256(
+      fmt::format("{}\n{}\n{}\n{}\n", task.exercise, task.sourceSha256, task.graderSha256, task.level));
 }
 
 std::string withInputs(const fs::path& results, const Task& task, bool evidence) {
@@ -98,16 +105,18 @@ GradeResult gradeTask(const Task& task, const Toolchain& toolchain, const Exerci
   const fs::path results = options.workFolder / "out" / kResults,
                  evidence = options.workFolder / "out" / kEvidence;
   fs::create_directories(results.parent_path());
-  GradeResult result = gradeSubmission(toolchain, exercise,
-                                       {.main = file,
-                                        .workFolder = options.workFolder / "work",
-                                        .results = results,
-                                        .checks = {},
-                                        .seed = task.seed,
-                                        .evidence = options.evidence ? evidence : fs::path(),
-                                        .sandbox = {.level = task.level, .launcher = options.launcher},
-                                        .secret = options.secret})
-                           .result;
+  const SubmissionOptions submission{.main = file,
+                                     .workFolder = options.workFolder / "work",
+                                     .results = results,
+                                     .checks = {},
+                                     .seed = task.seed,
+                                     .evidence = options.evidence ? evidence : fs::path(),
+                                     .sandbox = {.level = task.level, .launcher = options.launcher},
+                                     .secret = options.secret};
+  const BuiltSubmission built =
+      options.workers.empty() ? buildSubmission(toolchain, exercise, submission)
+                              : buildOnce(options.workers, workerKey(task), toolchain, exercise, submission);
+  GradeResult result = gradeBuilt(built, toolchain, exercise, submission);
   const fs::path folder = resultFolder(options.out, task);
   fs::create_directories(folder);
   const fs::path log = results.parent_path() / kLog;

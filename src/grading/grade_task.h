@@ -35,6 +35,7 @@ struct TaskOptions {
   std::filesystem::path launcher{};    ///< of the sandbox
   std::filesystem::path secret{};      ///< file with the secret of the course; empty: none
   bool evidence = false;               ///< keep pictures and replays of visible checks that do not hold
+  std::filesystem::path workers{};     ///< where compiled programs are kept; empty: nowhere
 };
 
 /// Grades and writes OUT/STUDENT/EXERCISE/results.json, with the hash of the inputs, build.log and, if asked,

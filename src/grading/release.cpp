@@ -57,9 +57,10 @@ void releaseExercise(const path& from, const path& to) {
 
 // The tests of rex itself stay behind, so the commands for them do too, and the lines that name either.
 void leaveOutTheTests(const path& target) {
-  constexpr std::array<std::string_view, 6> kLeftOut = {
-      "scripts/test", "scripts/gallery", "scripts/fuzz", "scripts/check-replay", "`tests/`", "tests/gallery"};
-  for (const std::string_view name : kLeftOut) fs::remove(target / name);
+  constexpr auto kLeftOut = std::to_array<std::string_view>(
+      {"scripts/test", "scripts/gallery", "scripts/fuzz", "scripts/check-replay", "scripts/slurm-selftest",
+       "scripts/grading", "scripts/grading-campaign", "`tests/`", "tests/gallery"});
+  for (const std::string_view name : kLeftOut) fs::remove_all(target / name);
   for (const char* document : {"README.md", "share/doc/architecture.md", "share/doc/gallery.md"}) {
     if (!fs::exists(target / document)) continue;
     std::istringstream lines(readTextFile(target / document));

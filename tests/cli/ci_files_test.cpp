@@ -300,5 +300,25 @@ TEST_F(ManyByEngines, HandsAnArrayToSlurm) {
   EXPECT_EQ(fileText(root() / "results" / "grades.csv"), fileText(root() / "whole" / "grades.csv"));
 }
 
+// Numbers beyond the largest of the cluster come in arrays of their own; only those that were asked for.
+TEST_F(ManyByEngines, CutsArraysThatAreTooLongForSlurm) {
+  fs::create_directories(root() / "bin");
+  write(root() / "bin" / "sbatch", "#!/bin/bash\necho \"$2\"; grep -o 'ID + [0-9]*'\n");
+  write(root() / "bin" / "scontrol", "#!/bin/bash\necho 'MaxArraySize            = 101'\n");
+  for (const char* name : {"sbatch", "scontrol"})
+    fs::permissions(root() / "bin" / name, fs::perms::owner_all);
+  write(root() / "results" / "tasks.tsv", std::string(251, '\n'));
+  const auto handIn = [&](const std::string& more) {
+    return shell("PATH=$PWD/bin:$PATH share/ci/grade-slurm results 5" + more, root());
+  };
+  EXPECT_EQ(handIn("").output,
+            "--array=1-100%5\nID + 0\n--array=1-100%5\nID + 100\n--array=1-50%5\nID + 200\n");
+  EXPECT_EQ(handIn(" --tasks 3,7-9,99-102,250").output,
+            "--array=3,7-9,99-100%5\nID + 0\n--array=1-2%5\nID + 100\n--array=50%5\nID + 200\n");
+  const ProcessResult refused = handIn(" --tasks 'x;y'");
+  EXPECT_EQ(refused.exitCode, 64);
+  EXPECT_THAT(refused.error, HasSubstr("--tasks: found 'x;y', wanted numbers such as 3,7-9"));
+}
+
 }  // namespace
 }  // namespace rex::cli

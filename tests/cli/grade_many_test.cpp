@@ -148,6 +148,46 @@ TEST_F(GradeManyTest, GradesAgainOnlyWhatHasChanged) {
   EXPECT_THAT(flat(grade({"--secret-file", secret}).error), kept("2 graded, 1 kept"));
 }
 
+// Programs are kept by what they were made of: another seed takes the same one, other files never do.
+TEST_F(GradeManyTest, KeepsCompiledProgramsForOtherSeeds) {
+  handIn("good", kGood), handIn("wrong", kWrong), handIn("broken", kBroken);
+  const std::vector<std::string> seven = {"--seed", "7"},
+                                 kept = {"--seed", "7", "--workers", (root() / "workers").string()};
+  EXPECT_EQ(grade(seven, "plain").code, 0);
+  for (const char* out : {"first", "second"}) {
+    EXPECT_EQ(grade(kept, out).code, 0);
+    EXPECT_EQ(table(out), table("plain"));
+    for (const char* student : {"good", "wrong", "broken"}) {
+      Json with = result(student, out), without = result(student, "plain");
+      with.erase("volatile"), without.erase("volatile");
+      EXPECT_EQ(with, without) << student;
+      const fs::path log = fs::path(student) / "98-template" / "build.log";
+      EXPECT_EQ(fileText(root() / out / log), fileText(root() / "plain" / log));
+    }
+  }
+  std::vector<fs::path> folders;
+  for (const auto& entry : fs::directory_iterator(root() / "workers")) folders.push_back(entry.path());
+  ASSERT_EQ(folders.size(), 2u) << "what does not compile is not kept, nothing else is left";
+  EXPECT_EQ(fs::status(root() / "workers").permissions(), fs::perms::owner_all);
+  // Proof that they are taken: exchanged, they give each other's grades.
+  fs::rename(folders[0] / "worker", root() / "exchanged");
+  fs::rename(folders[1] / "worker", folders[0] / "worker");
+  fs::rename(root() / "exchanged", folders[1] / "worker");
+  EXPECT_EQ(grade({"--seed", "8", "--workers", (root() / "workers").string()}, "third").code, 0);
+  EXPECT_EQ(result("wrong", "third").at("score"), result("good", "plain").at("score"));
+  EXPECT_EQ(result("good", "third").at("score"), result("wrong", "plain").at("score"));
+  EXPECT_EQ(grade({"--seed", "8"}, "fourth").code, 0);
+  EXPECT_EQ(result("good", "fourth").at("outcome"), "pass");
+}
+
+TEST_F(GradeManyTest, SaysWhereProgramsCannotBeKept) {
+  handIn("good", kGood);
+  write(root() / "workers", "no folder");
+  const Ended ended = grade({"--workers", (root() / "workers").string()});
+  EXPECT_EQ(ended.code, 3);
+  EXPECT_THAT(flat(ended.error), HasSubstr("cannot keep programs in"));
+}
+
 TEST_F(GradeManyTest, RepeatsWhatTheGraderFailedAt) {
   handIn("adam", kGood);
   EXPECT_EQ(grade().code, 0);
