@@ -21,6 +21,12 @@ def end_on_signals():
         signal.signal(number, lambda n, _: sys.exit(128 + n))
 
 
+def hold_signals():
+    """From now on they are ignored: this program is tidying up already."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_IGN)
+
+
 def read_bytes(path):
     """The content of a file of /proc; nothing if its process has ended."""
     try:
