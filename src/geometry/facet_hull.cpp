@@ -20,7 +20,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kFlat = 1e-9, kSame = 1e-9;
+constexpr double kFlat = 1e-9, kSame = 1e-9, kClosed = 1e-7;
 constexpr int kMostDimensions = 9;
 
 void requirePoints(const MatrixArg& points) {
@@ -61,10 +61,20 @@ MatrixXd apart(const MatrixXd& points) {
   return points(Eigen::all, kept);
 }
 
-// From the facets of map^T centred.
-void addFacets(internal::Qhull& qhull, const MatrixXd& centred, const MatrixXd& map, FacetHull& hull) {
+// Whether qhull has all facets: areas times normals of a closed surface add up to zero (Minkowski). Where
+// points lie almost in one place, merging can lose facets that matter.
+bool isClosed(internal::Qhull& qhull) {
   qhT* qh = &qhull.state();  // the name that qhull's macros expect
   qh_getarea(qh, qh->facet_list);
+  VectorXd sum = VectorXd::Zero(qh->hull_dim);
+  facetT* facet;
+  FORALLfacets sum += facet->f.area * Eigen::Map<const VectorXd>(facet->normal, qh->hull_dim);
+  return sum.norm() <= kClosed * qh->totarea;
+}
+
+// From the facets of map^T centred.
+void addFacets(internal::Qhull& qhull, const MatrixXd& centred, const MatrixXd& map, FacetHull& hull) {
+  const qhT* qh = &qhull.state();  // the name that qhull's macros expect
   hull.volume = qh->totvol / map.colwise().norm().prod();
   std::vector<VectorXd> normals;
   facetT* facet;
@@ -98,7 +108,8 @@ FacetHull facetHull(const MatrixArg& points) {
   // Triangulated facets give the volume exactly; where rounding defeats qhull, it may shift points by ulps.
   for (const char* options : {"qhull Qt Q12 Pp", "qhull Qt Qx Q12 Pp", "qhull QJ Pp"}) {
     internal::Qhull qhull;
-    if (!qhull.run(static_cast<int>(round.rows()), static_cast<int>(round.cols()), round.data(), options))
+    if (!qhull.run(static_cast<int>(round.rows()), static_cast<int>(round.cols()), round.data(), options) ||
+        !isClosed(qhull))
       continue;
     addFacets(qhull, centred, map, hull);
     hull.offsets += hull.normals.transpose() * middle;

@@ -72,7 +72,8 @@ TEST(LimitCycle, OfWalkersOfAllSizesIsTheSame) {
   for (const auto& [size, g] : {std::pair{1e-4, 9.8}, {1e4, 9.8}, {1., 1e5}, {1., 1.6}}) {
     const CompassGait walker{.a = size / 2, .b = size / 2, .g = g};
     const double unit = std::sqrt(9.8 * size / g);
-    const LimitCycle cycle = findLimitCycle(walker, {.2, -.3, -1 / unit, -.3 / unit});
+    const LimitCycle cycle =
+        findLimitCycle(walker, {.2, -.3, -1 / unit, -.3 / unit}, {.timeLimit = 10 * unit});
     ASSERT_EQ(cycle.status, Status::kFound) << size << " m, " << g << ": " << cycle.message;
     EXPECT_LT((cycle.x.head<2>() - known.x.head<2>()).cwiseAbs().maxCoeff(), 1e-9);
     EXPECT_LT((unit * cycle.x.tail<2>() - known.x.tail<2>()).cwiseAbs().maxCoeff(), 1e-9);
