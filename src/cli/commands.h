@@ -284,36 +284,4 @@ struct DebugOptions {
 };
 ExitCode debug(const Project& project, const DebugOptions& options);
 
-ExitCode devNew(const Project& project, const std::string& name);
-
-struct CheckOptions {
-  std::string exercise;  ///< empty: all
-  std::string gate;      ///< empty: all
-  bool listGates = false;
-  int seeds = 3;
-};
-ExitCode devCheck(const Project& project, const CheckOptions& options);
-
-/// Makes main.cpp of that exercise from its solution.cpp.
-ExitCode devStrip(const Project& project, const std::string& name);
-
-struct ReleaseOptions {
-  std::filesystem::path out{};      ///< new folder
-  std::filesystem::path scan{};     ///< only look through this tree, and write nothing
-  std::filesystem::path secret{};   ///< file with the secret of the course; empty: none
-  bool prove = false;               ///< see proveRelease()
-  std::filesystem::path proveIn{};  ///< the same, in this folder, which stays
-};
-/// Writes the tree that students get, and says what it holds. kBelow, and nothing written, if anything leaks.
-ExitCode devRelease(const Project& project, const ReleaseOptions& options);
-
-struct StatsOptions {
-  std::filesystem::path results{};  ///< folder that `rex grade` wrote
-  std::filesystem::path figure{};   ///< .png or .svg; empty: none
-  bool json = false;
-  bool csv = false;
-};
-/// How a class did, per exercise and check. kNotGradable if some result could not be read.
-ExitCode devStats(const Project& project, const StatsOptions& options);
-
 }  // namespace rex::cli

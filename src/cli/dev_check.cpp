@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "cli/commands.h"
+#include "cli/dev_commands.h"
 #include "cli/terminal.h"
 #include "grading/gates.h"
 #include "grading/private_folder.h"

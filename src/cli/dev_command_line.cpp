@@ -3,6 +3,7 @@
 #include <string>
 
 #include "cli/dev_command_line_internal.h"
+#include "cli/dev_commands.h"
 
 namespace rex::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "cli/commands.h"
+#include "cli/dev_commands.h"
 #include "cli/terminal.h"
 #include "grading/regions.h"
 #include "grading/text_file.h"

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "cli/commands.h"
+#include "cli/dev_commands.h"
 #include "cli/progress_line.h"
 #include "cli/release_proof.h"
 #include "cli/terminal.h"

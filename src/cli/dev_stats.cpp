@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "cli/class_figure.h"
-#include "cli/commands.h"
+#include "cli/dev_commands.h"
 #include "cli/json_internal.h"
 #include "cli/terminal.h"
 #include "grading/class_statistics.h"

@@ -13,6 +13,7 @@
 #include "cli/sandbox_choice.h"
 #include "cli/terminal.h"
 #include "grading/grade_task.h"
+#include "grading/grader_fingerprint.h"
 #include "grading/hand_in.h"
 #include "grading/private_folder.h"
 #include "grading/process_pool.h"

@@ -11,6 +11,9 @@
 
 namespace rex::cli {
 
+/// What films last at most, seconds.
+inline constexpr double kLongestFilm = 120;
+
 /// Makes the folder of results, and takes away what an earlier run left there: these files, and the frames of
 /// a film that was made without ffmpeg, in the folder `frames`. Throws UsageError naming -o for one that
 /// cannot be, that cannot be written to, or where folders stand in the place of files.

@@ -21,8 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kLongestFilm = 120;  // seconds, as of other films
-
 void writeExplored(Picture picture, RenderPlan plan, std::string caption, const fs::path& out) {
   picture.captions.push_back({.text = std::move(caption)});
   plan.renderer.antiAliasing = AntiAliasing::kMsaa4;

@@ -26,8 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kLongestFilm = 120;  // seconds, as of other films
-
 ConstraintMethod methodOf(const std::string& name) {
   return choose<ConstraintMethod>("--method", name,
                                   {{"augmented-lagrangian", ConstraintMethod::kAugmentedLagrangian},

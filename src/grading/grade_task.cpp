@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "grading/grader_fingerprint.h"
 #include "grading/hidden_seed.h"
 #include "grading/kept_workers.h"
 #include "grading/sha256.h"
@@ -54,15 +55,6 @@ std::string withInputs(const fs::path& results, const Task& task, bool evidence)
 }
 
 }  // namespace
-
-std::string graderFingerprint(const Toolchain& toolchain, const ExerciseInfo& exercise) {
-  std::string text =
-      fmt::format("{}\n{}\n{}\n{}\n{}\n", REX_VERSION, exerciseVersion(exercise.folder), toolchain.compiler,
-                  fmt::join(toolchain.flags, "\n"), fmt::join(toolchain.linkFlags, "\n"));
-  for (const fs::path& file : {toolchain.grader, toolchain.workerObject, toolchain.studentLibrary})
-    text += sha256(readTextFile(file)) + "\n";
-  return sha256(text);
-}
 
 std::string secretIdOf(const fs::path& secret) {
   return secret.empty() ? "" : courseSecretId(readCourseSecret(secret));

@@ -11,10 +11,6 @@
 
 namespace rex::grading {
 
-/// Hash of what grades an exercise here: its description, its grader, the library and flags that students'
-/// files are built with, the version of rex.
-[[nodiscard]] std::string graderFingerprint(const Toolchain& toolchain, const ExerciseInfo& exercise);
-
 /// The first digits of the hash of the secret in that file, by which results name it.
 [[nodiscard]] std::string secretIdOf(const std::filesystem::path& secret);
 

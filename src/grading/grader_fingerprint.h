@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "grading/exercise_info.h"
+#include "grading/toolchain.h"
+
+namespace rex::grading {
+
+/// Hash of what grades an exercise here: its description, its grader, the compiler and flags for students'
+/// files, the headers that they may include, the library that they are linked to, the version of rex. Throws
+/// Error when a file of these cannot be read.
+[[nodiscard]] std::string graderFingerprint(const Toolchain& toolchain, const ExerciseInfo& exercise);
+
+}  // namespace rex::grading
