@@ -42,10 +42,6 @@ Experiment experimentOf(const CmaRunOptions& options) {
   requireBetween("--restarts", options.restarts, 0, 20);
   requireBetween("--max-evaluations", options.maxEvaluations, 1, 1e9);
   if (options.lambda != 0) requireBetween("--lambda", options.lambda, 2, kMostNumbers / options.dimension);
-  if (options.seed > std::numeric_limits<std::uint64_t>::max() - static_cast<std::uint64_t>(options.seeds))
-    throw UsageError({.what = "--seed",
-                      .found = fmt::format("{}", options.seed),
-                      .wanted = fmt::format("a seed that {} others can follow", options.seeds - 1)});
   const double low = options.low.value_or(function.low), high = options.high.value_or(function.high);
   const double deviation = options.deviation.value_or(function.deviation);
   requireBetween("--sigma", deviation, 1e-12, 1e12);

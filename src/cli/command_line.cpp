@@ -25,6 +25,15 @@ CLI::App* add(CLI::App& parent, const std::string& name, const std::string& purp
   return command;
 }
 
+std::string wrongSeed(const std::string& text) {
+  constexpr std::size_t kMostDigits = 18;
+  const bool isOne =
+      !text.empty() && text.size() <= kMostDigits && text.find_first_not_of("0123456789") == text.npos;
+  return isOne ? ""
+               : fmt::format("found {}, wanted a whole number of at most {} digits", harmless(text),
+                             kMostDigits);
+}
+
 void addGl(CLI::App* command, std::string& gl) {
   command->add_option("--gl", gl, "OpenGL by auto, osmesa or egl (default: auto)")
       ->type_name("NAME")
@@ -89,14 +98,6 @@ void addSeveral(CLI::App* command, TestManyOptions& options) {
       ->type_name("N");
 }
 
-// CLI11 takes -1 for the largest number there is.
-std::string wholeNumber(const std::string& text) {
-  constexpr std::size_t kMostDigits = 18;
-  const bool isOne =
-      !text.empty() && text.size() <= kMostDigits && text.find_first_not_of("0123456789") == text.npos;
-  return isOne ? "" : "found " + harmless(text) + ", wanted a whole number, not negative";
-}
-
 void addTest(CLI::App& program, Action& action) {
   const auto many = std::make_shared<TestManyOptions>();
   TestOptions* options = &many->each;
@@ -116,9 +117,7 @@ void addTest(CLI::App& program, Action& action) {
   command->add_option("--check", options->checks, "only this check; may be given several times")
       ->allow_extra_args(false)
       ->type_name("NAME");
-  command->add_option("--seed", options->seed, "repeat the random cases of this seed")
-      ->check(wholeNumber)
-      ->type_name("N");
+  addSeed(command, options->seed, "repeat the random cases of this seed");
   command->add_flag("--json", options->json, "print the result file and nothing else");
   command->add_flag("--debug", options->debug, "with the sanitizers: slow, names the lines of crashes");
   command->add_option("-o,--out", options->out, kOutHelp)->type_name("DIR");
@@ -241,7 +240,7 @@ void addFilter(CLI::App& program, Action& action) {
   number("--assume-dynamics", options->assumeDynamics, "the filter believes in X times that noise", "X");
   number("--assume-observation", options->assumeObservation, "the same for what is seen", "X");
   number("--particles", options->particles, "how many (default: 1000)", "N");
-  number("--seed", options->seed, "of landmarks and noise (default: 0)", "N");
+  addSeed(command, options->seed, "of landmarks and noise (default: 0)");
   number("--seeds", options->seeds, "runs with so many seeds", "N");
   number("-o,--out", options->out, "folder for what is written", "DIR");
   command->add_flag("--no-film", options->noFilm, "no filter.mp4");
@@ -273,7 +272,7 @@ void addCma(CLI::App& program, Action& action) {
       ->type_name("COUNT");
   command->add_option("--max-evaluations", options->maxEvaluations, "of one run (default: 1e7)")
       ->type_name("COUNT");
-  command->add_option("--seed", options->seed, "of the first run (default: 0)")->type_name("N");
+  addSeed(command, options->seed, "of the first run (default: 0)");
   command->add_option("--seeds", options->seeds, "runs with so many seeds (default: 1)")->type_name("COUNT");
   command->add_option("-o,--out", options->out, "draw how values fall, into this folder")->type_name("DIR");
   command->add_flag("--json", options->json, "print JSON");

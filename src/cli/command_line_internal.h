@@ -19,8 +19,16 @@ CLI::App* add(CLI::App& parent, const std::string& name, const std::string& purp
 /// Prints a help text.
 Action print(const std::string& text);
 
+/// What is wrong with a seed; nothing for one that thousands of others can follow.
+std::string wrongSeed(const std::string& text);
+
 void addExercise(CLI::App* command, std::string& exercise);
 void addGl(CLI::App* command, std::string& gl);
+/// `--seed N`. Refuses what is no seed; CLI11 alone takes -1 for the largest number there is.
+template <typename Seed>
+void addSeed(CLI::App* command, Seed& seed, const std::string& help) {
+  command->add_option("--seed", seed, help)->check(wrongSeed)->type_name("N");
+}
 
 /// `rex watch`, `hint`, `show`, `reset`, `solution` and `submit`.
 void addStudentCommands(CLI::App& program, Action& action);

@@ -1,5 +1,4 @@
 #include <cstdint>
-#include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -43,11 +42,6 @@ CarScenario scenarioOf(const FilterOptions& options) {
   requireBetween("--assume-dynamics", options.assumeDynamics, 1e-3, 1e3);
   requireBetween("--assume-observation", options.assumeObservation, 1e-3, 1e3);
   requireBetween("--seeds", options.seeds, 1, 10'000);
-  if (const auto others = static_cast<std::uint64_t>(options.seeds) - 1;
-      options.seed > std::numeric_limits<std::uint64_t>::max() - others)
-    throw UsageError({.what = "--seed",
-                      .found = fmt::format("{}", options.seed),
-                      .wanted = fmt::format("a seed that {} others can follow", others)});
   requireUse(options.particles.has_value(), "--particles", hasParticles(scenario.filter),
              "--filter particles, fast-slam or fast-slam-2 with it");
   requireUse(options.noFilm, "--no-film", !options.out.empty(), "-o with it");

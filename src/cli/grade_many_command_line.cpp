@@ -70,7 +70,7 @@ void addGrade(CLI::App& program, Action& action) {
   command->add_option("--i-accept-level", options->accept, "also grade at this weak level: 0 or 1")
       ->check(CLI::Range(0, 1).description(""))
       ->type_name("N");
-  command->add_option("--seed", options->seed, "of the random cases")->type_name("N");
+  addSeed(command, options->seed, "of the random cases");
   addSecret(command, options->secret);
   addWorkers(command, options->workers);
   command->add_option("--only", options->only, "only this exercise")->type_name("EXERCISE");

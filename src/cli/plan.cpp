@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -27,11 +26,6 @@ PathSearch searchOf(const PlanOptions& options) {
   requireBetween("--resolution", options.resolution, 1e-4, 10);
   requireBetween("--speed", options.speed, 1e-3, 1e3);
   requireBetween("--seeds", options.seeds, 1, 10'000);
-  if (const auto others = static_cast<std::uint64_t>(options.seeds) - 1;
-      options.seed > std::numeric_limits<std::uint64_t>::max() - others)
-    throw UsageError({.what = "--seed",
-                      .found = fmt::format("{}", options.seed),
-                      .wanted = fmt::format("a seed that {} others can follow", others)});
   if (options.step && !growsTrees(search.planner))
     throw UsageError(
         {.what = "--step", .found = "--planner " + options.planner, .wanted = "a planner that grows trees"});

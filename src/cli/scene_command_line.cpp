@@ -242,7 +242,7 @@ void addSimulate(CLI::App& program, Action& action) {
   command->add_flag("--friction", options->friction, "with friction and damping of the scene's joints");
   command->add_option("--noise", options->noise, "each step adds sqrt(tau) * X * N(0, 1) to velocities")
       ->type_name("X");
-  command->add_option("--seed", options->seed, "of the noise (default: 0)")->type_name("N");
+  addSeed(command, options->seed, "of the noise (default: 0)");
   command->add_option("--floor", options->floor, "a floor at that height, metres (bullet; default: none)")
       ->type_name("Z");
   command->add_flag("--no-film", options->noFilm, "no simulate.mp4");
@@ -286,7 +286,7 @@ void addPlan(CLI::App& program, Action& action) {
       ->add_option("--samples", options->samples,
                    "the budget (default: 100000; rrt-star 10000, roadmaps 2000)")
       ->type_name("N");
-  command->add_option("--seed", options->seed, "of the random numbers (default: 0)")->type_name("N");
+  addSeed(command, options->seed, "of the random numbers (default: 0)");
   command->add_option("--seeds", options->seeds, "searches with so many seeds, and prints a table")
       ->type_name("N");
   CLI::Option* smooth = command->add_flag("--smooth");

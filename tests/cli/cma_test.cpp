@@ -126,8 +126,7 @@ TEST_F(CmaCommand, SaysWhatIsWrong) {
   expect({"--restarts", "-1"}, "--restarts: found -1");
   expect({"--max-evaluations", "0"}, "--max-evaluations: found 0");
   expect({"--seeds", "0"}, "--seeds: found 0, wanted 1 to 10000");
-  expect({"--seed", "18446744073709551615"},
-         "--seed: found 18446744073709551615, wanted a seed that 0 others");
+  expect({"--seed", "18446744073709551615"}, "wanted a whole number of at most 18 digits");
   std::ofstream(in("file")) << "here";
   expect({"-o", in("file").string()}, "file: found Not a directory, wanted a folder");
   expect({"-o", in("file/below").string()}, "below: found Not a directory");

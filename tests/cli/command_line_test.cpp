@@ -105,7 +105,9 @@ TEST(Program, AnswersUnknownWordsWithTheNearest) {
 TEST(Program, ExplainsWrongUse) {
   expectUsageError({"test"}, "rex test: either EXERCISE or --all is required");
   expectUsageError({"test", "01", "--seed", "x"},
-                   "rex test: --seed: found x, wanted a whole number, not negative");
+                   "rex test: --seed: found x, wanted a whole number of at most 18 digits");
+  for (const char* command : {"cma", "filter", "grade", "plan", "simulate"})
+    expectUsageError({command, "--seed", "-1"}, "--seed: found -1, wanted a whole number");
   expectUsageError({"test", "01", "--main", "a.cpp", "--solution"}, "--main excludes --solution");
   expectUsageError({"test", "01", "--debug", "--level", "1"}, "--debug excludes --level");
   expectUsageError({"dev", "check", "--seeds", "0"}, "rex dev check: --seeds");

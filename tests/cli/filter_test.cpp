@@ -133,7 +133,7 @@ TEST_F(FilterCommand, SaysWhatIsWrong) {
   expect({"--assume-dynamics", "0"}, "--assume-dynamics: found 0, wanted 0.001 to 1000");
   expect({"--assume-observation", "1e4"}, "--assume-observation: found 10000");
   expect({"--seeds", "0"}, "--seeds: found 0, wanted 1 to 10000");
-  expect({"--seeds", "2", "--seed", "18446744073709551615"}, "a seed that 1 others can follow");
+  expect({"--seeds", "2", "--seed", "18446744073709551615"}, "wanted a whole number of at most 18 digits");
   expect({"--particles", "10"}, "--particles: found no use for it, wanted --filter particles, fast-slam");
   expect({"--filter", "particles", "--particles", "1"}, "--particles: found 1, wanted 2 to 100000");
   expect({"--no-film"}, "--no-film: found no use for it, wanted -o with it");

@@ -174,7 +174,7 @@ TEST_F(TestMany, RefusesWhatBelongsToOneExercise) {
     const Ended ended = rex({"test", "98", "--seed", seed});
     EXPECT_EQ(ended.code, 64) << seed;
     EXPECT_THAT(ended.error,
-                HasSubstr(std::string("found ") + seed + ", wanted a whole number, not negative"));
+                HasSubstr(std::string("found ") + seed + ", wanted a whole number of at most 18 digits"));
   }
   EXPECT_FALSE(fs::exists(root() / "out")) << "nothing is graded before all is understood";
 }
