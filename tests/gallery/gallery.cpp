@@ -1,6 +1,7 @@
 #include "gallery/gallery.h"
 
 #include "gallery/figures.h"
+#include "gallery/motion_figures.h"
 #include "gallery/paths.h"
 #include "gallery/pictures.h"
 #include "gallery/robots.h"
@@ -16,7 +17,8 @@ What rex draws, without a screen.
 - [tests/gallery/pictures.cpp](../../tests/gallery/pictures.cpp) has the code of each picture,
 - [tests/gallery/robots.cpp](../../tests/gallery/robots.cpp) that of robots and scenes,
 - [tests/gallery/paths.cpp](../../tests/gallery/paths.cpp) that of paths,
-- [tests/gallery/figures.cpp](../../tests/gallery/figures.cpp) that of each figure;
+- [tests/gallery/figures.cpp](../../tests/gallery/figures.cpp) that of figures of each kind,
+- [tests/gallery/motion_figures.cpp](../../tests/gallery/motion_figures.cpp) that of figures of motions;
 - `scripts/gallery` draws them again, and a test in [tests/gallery](../../tests/gallery) compares.
 
 Pictures move, too: `scripts/rex render man.ors -o man.mp4` walks around a robot, and `-o man.html` makes a page on which
@@ -41,9 +43,11 @@ std::vector<std::string> drawAll(const std::filesystem::path& folder) {
       names.push_back(drawing.name);
     }
   }
-  for (const auto& [name, figure] : galleryFigures()) {
-    writeFigure(figure, folder / (name + ".png"));
-    names.push_back(name);
+  for (const auto& figures : {galleryFigures(), motionFigures()}) {
+    for (const auto& [name, figure] : figures) {
+      writeFigure(figure, folder / (name + ".png"));
+      names.push_back(name);
+    }
   }
   return names;
 }
@@ -53,8 +57,9 @@ std::string page() {
   text += section("Pictures", pictures()) + section("Robots and scenes", robotPictures()) +
           section("Paths", pathPictures());
   text += "\n## Figures\n";
-  for (const auto& [name, figure] : galleryFigures())
-    text += "\n### " + figure.title + "\n\n![" + figure.title + "](gallery/" + name + ".png)\n";
+  for (const auto& figures : {galleryFigures(), motionFigures()})
+    for (const auto& [name, figure] : figures)
+      text += "\n### " + figure.title + "\n\n![" + figure.title + "](gallery/" + name + ".png)\n";
   return text;
 }
 

@@ -1,8 +1,10 @@
 #include "gallery/paths.h"
 
 #include "cli/path_pictures.h"
+#include "cli/trajectory_search.h"
 #include "planning/robot_problem.h"
 #include "render/renderer.h"
+#include "render/scene_picture.h"
 #include "scene/scene_file.h"
 #include "support/paths.h"
 
@@ -39,6 +41,37 @@ Image cart() {
                   {0, -0.7, 2});
 }
 
+// Where a motion goes: its last posture, those before it faintly, and the way of the body.
+Image around() {
+  constexpr int kWidth = 560, kHeight = 420, kFaint = 8;
+  const Model model = compile(readScene(sourcePath("data/scenes/board.ors")).spec);
+  const ContactModel contacts(model);
+  const BodyId body = model.body("eff");
+  const cli::FoundTrajectory found = cli::findTrajectory({.model = model,
+                                                          .contacts = contacts,
+                                                          .body = body,
+                                                          .p_WQ = {0, -0.3, 0.5},
+                                                          .start = model.initialPositions(),
+                                                          .avoids = true});
+  const Eigen::Index last = found.path.cols() - 1;
+  Picture picture = pictureOf(model, forwardKinematics(model, found.path.col(last)));
+  const std::size_t count = picture.solids.size();
+  for (Eigen::Index k = 0; k < last; k += last / kFaint) {
+    const Picture then = pictureOf(model, forwardKinematics(model, found.path.col(k)));
+    for (std::size_t i = 0; i < count; ++i) {
+      Solid solid = then.solids[i];
+      if (solid.X_WS.p.isApprox(picture.solids[i].X_WS.p)) continue;
+      solid.color.a = 0.25f;
+      picture.solids.push_back(std::move(solid));
+    }
+  }
+  Polyline way{.width = 5};
+  for (const auto& q : found.path.colwise()) way.points.push_back(forwardKinematics(model, q)[body].p);
+  picture.polylines.push_back(std::move(way));
+  return Renderer({.width = kWidth, .height = kHeight})
+      .draw(picture, framing(bounds(picture), Vector3d(2, -0.9, 0.7), static_cast<double>(kWidth) / kHeight));
+}
+
 }  // namespace
 
 std::vector<Drawing> pathPictures() {
@@ -50,7 +83,12 @@ std::vector<Drawing> pathPictures() {
        peg},
       {"maze-path", "A cart finds its way",
        "`rex plan maze --planner rrt-star`: a tree that rewires itself, so that its branches become short.",
-       cart}};
+       cart},
+      {"around", "An arm moves around the edge of a board",
+       "`rex trajectory board --goal eff:0,-0.3,0.5 --avoid`: of all motions that keep clear of the board "
+       "and end "
+       "at rest at the goal, one with little acceleration.",
+       around}};
 }
 
 }  // namespace rex::gallery

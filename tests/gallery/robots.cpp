@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "grasping/equilibrium.h"
 #include "kinematics/inverse_kinematics.h"
 #include "kinematics/jacobians.h"
 #include "render/contact_sheet.h"
 #include "render/renderer.h"
 #include "render/scene_picture.h"
-#include "scene/scene_file.h"
-#include "support/paths.h"
+#include "support/closing_hand.h"
 
 namespace rex::gallery {
 namespace {
@@ -97,6 +97,34 @@ Posture waving() {
           {"left_ankle_pitch", -0.05}};
 }
 
+// The simulation closes the hand; the arrows are forces within the friction cones that carry the ball.
+Image grasp() {
+  constexpr int kWidth = 560, kHeight = 420;
+  constexpr double kLength = 0.04;  // metres of an arrow for 1 N
+  const Shape ball = ballShape(0.03);
+  const Model model = closing_hand::handAnd(ball);
+  PhysicsWorld world = closing_hand::worldOf(model, initialState(model), Vector3d::Zero());
+  world.step(3);
+  const Pose X_WO = closing_hand::objectPose(model, world.state());
+  const std::vector<Contact> contacts = closing_hand::contactsOf(model, world);
+  const Eigen::VectorXd weight =
+      weightWrench(closing_hand::kMass, {0, 0, 0}, X_WO.R.transpose() * Vector3d(0, 0, -9.81));
+  const Equilibrium held = equilibrium(wrenchCones(contacts), weight);
+  Picture picture = pictureOf(model, forwardKinematics(model, world.state().q));
+  for (Solid& solid : picture.solids)
+    if (solid.name == "object") solid.color = {0.3f, 0.55f, 0.85f, 0.3f};
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const Vector3d force_O = contactFrame(contacts[i]) * held.forces_C.col(static_cast<Eigen::Index>(i));
+    const Vector3d at_W = X_WO * contacts[i].p_OC, force_W = X_WO.R * force_O;
+    if (force_W.norm() > 1e-3)
+      picture.arrows.push_back({.from = at_W, .to = at_W + kLength * force_W, .radius = 0.0015});
+  }
+  picture.ground.cell = 0.05;
+  const Vector3d direction(1.5, -0.3, 0.1);
+  return Renderer({.width = kWidth, .height = kHeight})
+      .draw(picture, framing(bounds(picture), direction, static_cast<double>(kWidth) / kHeight));
+}
+
 }  // namespace
 
 std::vector<Drawing> robotPictures() {
@@ -136,6 +164,11 @@ std::vector<Drawing> robotPictures() {
                 .posture = halfClosed(),
                 .direction = {1.6, 1.2, 0.5},
                 .cell = 0.05}),
+      {"grasp", "The hand holds a ball",
+       "Bullet has closed the hand of `data/robots/hand` on a ball of 100 g. Arrows are forces within the "
+       "friction "
+       "cones of its contacts that carry the ball.",
+       grasp},
       portrait("table", "The man of the course at a table",
                "`data/scenes/table.ors` includes the man, moves his targets and adds the table. Inverse "
                "kinematics has led his hands to the targets.",
