@@ -49,7 +49,7 @@ ExitCode scanOnly(const Project& project, const ReleaseOptions& options) {
   if (!fs::is_directory(options.scan))
     throw UsageError({.what = "no such folder", .where = {options.scan.string()}});
   const std::vector<grading::Secret> secrets = grading::secretsOfCourse(project.root, options.secret);
-  const grading::LeakScan scan = grading::scanForLeaks(options.scan, secrets);
+  const grading::LeakScan scan = grading::scanForLeaks(options.scan, secrets, project.root / "src");
   tellLeaks(scan.leaks);
   say(fmt::format("{} holds {}", shown(options.scan), sizeOf(scan)));
   saySecrets(secrets);

@@ -77,15 +77,26 @@ std::optional<sandbox::Sandbox> chooseForStrangers(const Project& project, std::
 }
 
 // Results inside of what was handed in would be handed in next time.
-void requireApart(const fs::path& folder, const fs::path& out) {
-  const fs::path in = fs::weakly_canonical(folder), to = fs::weakly_canonical(out);
-  const auto contains = [](const fs::path& outer, const fs::path& inner) {
-    return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
-  };
-  if (!fs::is_directory(folder))
-    throw UsageError({.what = "no such folder", .where = {folder.string()}, .wanted = "what was handed in"});
-  if (contains(in, to) || contains(to, in))
-    throw UsageError({.what = "--out", .found = to.string(), .wanted = "a folder apart from " + in.string()});
+bool contains(const fs::path& outer, const fs::path& inner) {
+  return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
+}
+
+// What a command writes would be taken for what was handed in, or for results.
+void requireApart(const char* option, const fs::path& folder, const fs::path& other) {
+  const fs::path here = fs::weakly_canonical(folder), there = fs::weakly_canonical(other);
+  if (contains(here, there) || contains(there, here))
+    throw UsageError(
+        {.what = option, .found = here.string(), .wanted = "a folder apart from " + there.string()});
+}
+
+void requireApart(const GradeManyOptions& options) {
+  if (!fs::is_directory(options.folder))
+    throw UsageError(
+        {.what = "no such folder", .where = {options.folder.string()}, .wanted = "what was handed in"});
+  requireApart("--out", options.out, options.folder);
+  if (options.workers.empty()) return;
+  requireApart("--workers", options.workers, options.folder);
+  requireApart("--workers", options.workers, options.out);
 }
 
 void makeFolder(const fs::path& out) {
@@ -189,7 +200,7 @@ void tellTimes(const std::vector<Task>& tasks, const GradeManyOptions& options) 
 }  // namespace
 
 ExitCode gradeMany(const Project& project, const GradeManyOptions& options) {
-  requireApart(options.folder, options.out);
+  requireApart(options);
   const std::vector<grading::ReportFormat> reports = reportsOf(options.reports);
   const grading::LatePolicy policy = readDeadlines(project, options.deadlines);
   const auto sandbox = chooseForStrangers(project, options.level, options.accept);

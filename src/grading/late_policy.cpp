@@ -108,7 +108,9 @@ class PolicyReader {
 
 Lateness latenessOf(const LateRule& rule, const std::string& student, std::int64_t submitted, int points) {
   std::optional<std::int64_t> deadline = rule.deadline;
-  if (const auto own = rule.extensions.find(student); own != rule.extensions.end()) deadline = own->second;
+  // One for all exercises must not shorten the time for an exercise that is due later.
+  if (const auto own = rule.extensions.find(student); deadline && own != rule.extensions.end())
+    deadline = std::max(*deadline, own->second);
   if (!deadline || submitted <= *deadline + rule.graceSeconds) return {};
   const std::int64_t late = submitted - *deadline, days = (late + kDay - 1) / kDay;
   const std::int64_t cost = std::min(days * rule.perDay, rule.cap.value_or(days * rule.perDay));

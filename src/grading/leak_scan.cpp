@@ -58,7 +58,8 @@ int lineOfMark(std::string_view text) {
 /// Goes through one tree.
 class Scanner {
  public:
-  explicit Scanner(const std::vector<Secret>& secrets) : secrets_(secrets) {
+  Scanner(const std::vector<Secret>& secrets, fs::path library)
+      : secrets_(secrets), library_(std::move(library)) {
     for (std::size_t k = 0; k < secrets.size(); ++k)
       for (const std::string& form : secrets[k].forms) index_.add(form, k);
   }
@@ -91,7 +92,7 @@ class Scanner {
     ++found_.files;
     found_.bytes += bytes.size();
     const std::set<std::size_t> before = std::exchange(told_, {});
-    const bool isLibrary = depth == 0 && isBelow("src", name);
+    const bool isLibrary = depth == 0 && isOfTheLibrary(name, bytes);
     const bool isShown = isBelow("share/template", name);
     if (!isShown && !isLibrary) judgeName(place, name);
     search(place, name.generic_string(), isLibrary, false);
@@ -115,6 +116,13 @@ class Scanner {
     } catch (const Error& error) {
       refuse(place, fmt::format("an archive that cannot be opened ({}),", error.parts().found));
     }
+  }
+
+  // What lies in src is one of the library's own files only if it is that file.
+  bool isOfTheLibrary(const fs::path& name, const std::string& bytes) const {
+    if (library_.empty() || !isBelow("src", name)) return false;
+    const fs::path original = library_ / name.lexically_relative("src");
+    return fs::is_regular_file(original) && readTextFile(original) == bytes;
   }
 
   void judgeName(const std::string& place, const fs::path& name) {
@@ -144,6 +152,7 @@ class Scanner {
   }
 
   const std::vector<Secret>& secrets_;
+  fs::path library_;
   internal::FormIndex index_;
   std::set<std::size_t> told_{};  // in this file
   LeakScan found_{};
@@ -157,9 +166,9 @@ std::string toString(const Leak& leak) {
   return Error({.what = leak.what + " would reach students", .where = leak.where, .found = found}).what();
 }
 
-LeakScan scanForLeaks(const fs::path& tree, const std::vector<Secret>& secrets) {
+LeakScan scanForLeaks(const fs::path& tree, const std::vector<Secret>& secrets, const fs::path& library) {
   try {
-    return Scanner(secrets).scan(tree);
+    return Scanner(secrets, library).scan(tree);
   } catch (const fs::filesystem_error& error) {
     throw Error({.what = "cannot look through this folder",
                  .where = {error.path1().empty() ? tree.string() : error.path1().string()},

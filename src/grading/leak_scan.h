@@ -31,8 +31,9 @@ struct LeakScan {
 /// Looks for the secrets in names and contents of all files of a tree: text in any layout, case and comments,
 /// also in archives inside of archives, object files and other bytes. Besides refuses solution.cpp, wrong/,
 /// marks of regions in C++ files (but in share/template), a history of git, links, compiled files, archives
-/// that cannot be opened. Files below src may hold all but the secret of the course. What this cannot see:
-/// share/doc/writing-an-exercise.md. Throws Error for what cannot be read.
-[[nodiscard]] LeakScan scanForLeaks(const std::filesystem::path& tree, const std::vector<Secret>& secrets);
+/// that cannot be opened. A file src/NAME with the bytes of LIBRARY/NAME may hold all but the secret of the
+/// course. What this cannot see: share/doc/writing-an-exercise.md. Throws Error for what cannot be read.
+[[nodiscard]] LeakScan scanForLeaks(const std::filesystem::path& tree, const std::vector<Secret>& secrets,
+                                    const std::filesystem::path& library = {});
 
 }  // namespace rex::grading

@@ -15,17 +15,47 @@ void blank(std::string& text, std::size_t from, std::size_t to) {
     if (text[i] != '\n') text[i] = ' ';
 }
 
-// The position behind the comment or literal that starts at `at`, or `at` when none does.
-std::size_t skipText(const std::string& source, std::size_t at) {
-  const auto behind = [&](std::string_view mark, std::size_t from) {
-    return std::min(source.find(mark, from), source.size() - mark.size()) + mark.size();
+std::size_t behind(std::string_view mark, const std::string& source, std::size_t from) {
+  return std::min(source.find(mark, from), source.size() - std::min(mark.size(), source.size())) +
+         mark.size();
+}
+
+// R"x(...)x", also with a prefix for another encoding, whose quote stands at `at`.
+bool opensRawString(const std::string& source, std::size_t at) {
+  std::size_t start = at;
+  while (start > 0 && isWord(source[start - 1])) --start;
+  const std::string_view prefix = std::string_view(source).substr(start, at - start);
+  return source[at] == '"' &&
+         (prefix == "R" || prefix == "LR" || prefix == "uR" || prefix == "UR" || prefix == "u8R");
+}
+
+std::size_t behindRawString(const std::string& source, std::size_t at) {
+  const std::size_t open = std::min(source.find('(', at), source.size());
+  const std::string mark = ')' + source.substr(at + 1, open - at - 1) + '"';
+  return std::min(behind(mark, source, open), source.size());
+}
+
+// Digits, with what may stand between them: 1'000, 0x1p-3.
+std::size_t behindNumber(const std::string& source, std::size_t at) {
+  const auto goesOn = [&](std::size_t i) {
+    if (isWord(source[i]) || source[i] == '.') return true;
+    if (source[i] == '\'') return i + 1 < source.size() && isWord(source[i + 1]);
+    return (source[i] == '+' || source[i] == '-') &&
+           std::string_view("eEpP").find(source[i - 1]) != std::string_view::npos;
   };
+  while (at < source.size() && goesOn(at)) ++at;
+  return at;
+}
+
+// The position behind the comment, literal or number that starts at `at`, or `at` when none does.
+std::size_t skipText(const std::string& source, std::size_t at) {
   if (source.compare(at, 2, "//") == 0) return std::min(source.find('\n', at), source.size());
-  if (source.compare(at, 2, "/*") == 0) return behind("*/", at + 2);
+  if (source.compare(at, 2, "/*") == 0) return std::min(behind("*/", source, at + 2), source.size());
   const char quote = source[at];
-  // Behind a digit it separates groups of digits: 1'000.
-  const bool opens = quote == '"' || (quote == '\'' && (at == 0 || !isWord(source[at - 1])));
-  if (!opens) return at;
+  if (std::isdigit(static_cast<unsigned char>(quote)) && (at == 0 || !isWord(source[at - 1])))
+    return behindNumber(source, at);
+  if (quote != '"' && quote != '\'') return at;
+  if (opensRawString(source, at)) return behindRawString(source, at);
   std::size_t end = at + 1;
   while (end < source.size() && source[end] != quote && source[end] != '\n')
     end += source[end] == '\\' ? 2 : 1;

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "grading/known_files.h"
 #include "grading/private_folder.h"
 #include "grading/regions.h"
 #include "grading/text_file.h"
@@ -23,15 +26,35 @@ constexpr const char* kReleased[] = {
     "CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE", ".clang-format", ".editorconfig",
     ".gitignore",     ".gitattributes",    "share",     "src",     "data",          "scripts"};
 
-void copyTree(const path& from, const path& to) {
-  if (fs::is_directory(from)) {
-    fs::create_directories(to);
-    for (const auto& entry : fs::directory_iterator(from))
-      copyTree(entry.path(), to / entry.path().filename());
-  } else if (fs::is_regular_file(from)) {
-    fs::copy_file(from, to);
+/// Copies from the root what students get, as far as it is known.
+class Copier {
+ public:
+  explicit Copier(const path& root)
+      : root_(root), known_(knownFiles(root, [] {
+          std::vector<std::string> places(std::begin(kReleased), std::end(kReleased));
+          places.emplace_back("exercises");
+          return places;
+        }())) {}
+
+  void copy(const path& from, const path& to) const {
+    if (fs::is_directory(from)) {
+      fs::create_directories(to);
+      for (const auto& entry : fs::directory_iterator(from)) copy(entry.path(), to / entry.path().filename());
+    } else if (fs::is_regular_file(from) && isKnown(from)) {
+      fs::copy_file(from, to);
+    }
   }
-}
+
+ private:
+  // Without a history, all but what `rex reset` leaves.
+  bool isKnown(const path& file) const {
+    if (!known_) return !file.filename().string().starts_with("main.backup-");
+    return known_->contains(file.lexically_relative(root_).generic_string());
+  }
+
+  path root_;
+  std::optional<std::set<std::string>> known_;
+};
 
 // The files of an exercise that differ from what lies in its folder, by name.
 std::map<std::string, std::string> madeFiles(const path& exercise) {
@@ -44,14 +67,14 @@ std::map<std::string, std::string> madeFiles(const path& exercise) {
   return made;
 }
 
-void releaseExercise(const path& from, const path& to) {
+void releaseExercise(const Copier& copier, const path& from, const path& to) {
   fs::create_directories(to);
   const std::map<std::string, std::string> made = madeFiles(from);
   for (const auto& [name, text] : made) writeTextFile(to / name, text);
   for (const auto& entry : fs::directory_iterator(from)) {
     const path name = entry.path().filename();
     if (name != "solution.cpp" && name != "wrong" && !made.contains(name.string()))
-      copyTree(entry.path(), to / name);
+      copier.copy(entry.path(), to / name);
   }
 }
 
@@ -78,15 +101,16 @@ bool isEmptyOrMissing(const path& folder) {
 }
 
 void writeTree(const std::vector<path>& exercises, const path& root, const path& target) {
+  const Copier copier(root);
   fs::create_directories(target / "exercises");
   // The target may lie inside the root; so nothing but the list is walked.
   for (const char* name : kReleased)
-    if (fs::exists(root / name)) copyTree(root / name, target / name);
+    if (fs::exists(root / name)) copier.copy(root / name, target / name);
   leaveOutTheTests(target);
   for (const path& exercise : exercises)
-    releaseExercise(exercise, target / "exercises" / exercise.filename());
+    releaseExercise(copier, exercise, target / "exercises" / exercise.filename());
   for (const auto& entry : fs::directory_iterator(root / "exercises"))
-    if (entry.is_regular_file()) fs::copy_file(entry.path(), target / "exercises" / entry.path().filename());
+    if (entry.is_regular_file()) copier.copy(entry.path(), target / "exercises" / entry.path().filename());
 }
 
 std::vector<path> exercisesOf(const path& root) {
@@ -137,7 +161,7 @@ Release writeStudentRelease(const path& root, const path& target, const path& co
                     .scan = {},
                     .secrets = secretsOfCourse(root, courseSecret)};
     writeTree(exercises, root, target);
-    release.scan = scanForLeaks(target, release.secrets);
+    release.scan = scanForLeaks(target, release.secrets, root / "src");
     if (!release.scan.leaks.empty()) fs::remove_all(target);
     return release;
   } catch (const fs::filesystem_error& error) {

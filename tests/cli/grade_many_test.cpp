@@ -343,6 +343,12 @@ TEST_F(GradeManyTest, RefusesFoldersInsideEachOther) {
     EXPECT_EQ(ended.code, 64);
     EXPECT_THAT(flat(ended.error), HasSubstr("wanted a folder apart from"));
   }
+  for (const fs::path& workers : {in() / "workers", results() / "workers", results()}) {
+    const Ended ended = grade({"--workers", workers.string()});
+    EXPECT_EQ(ended.code, 64);
+    EXPECT_THAT(flat(ended.error),
+                HasSubstr("--workers: found " + workers.string() + ", wanted a folder apart from"));
+  }
   EXPECT_EQ(rex({"grade", (root() / "none").string(), "--out", results().string()}).code, 64);
   const Ended denied = grade({}, "../../../../../../../proc/results");
   EXPECT_EQ(denied.code, 3);

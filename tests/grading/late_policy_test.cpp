@@ -137,6 +137,14 @@ TEST(Lateness, RoundsHalvesUp) {
   EXPECT_EQ(latenessOf(rule, "a", kDeadline + 1, 3).penalty, 2) << "one and a half";
 }
 
+// One for all exercises is written for those that are due soon.
+TEST(Lateness, DoesNotGrowByAnExtension) {
+  const LateRule rule{.deadline = kDeadline, .extensions = {{"alice", kDeadline - 2 * kDay}}, .perDay = 1000};
+  EXPECT_EQ(latenessOf(rule, "alice", kDeadline, 20).days, 0);
+  EXPECT_EQ(latenessOf(rule, "alice", kDeadline + 1, 20).days, 1);
+  EXPECT_EQ(latenessOf({.extensions = {{"alice", kDeadline}}}, "alice", kDeadline + 1, 20).days, 0);
+}
+
 TEST_F(LatePolicyTest, TellsOfExtensionsForNobody) {
   const LatePolicy policy =
       read("[exercise.01-kinematics.extensions]\nalise = 2026-12-03T12:00:00Z\nbob = 2026-12-03T12:00:00Z\n");

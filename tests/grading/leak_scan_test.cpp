@@ -207,10 +207,15 @@ TEST_F(LeakScanTest, RefusesCompiledFilesAndNamesTheirOriginWhereItCan) {
 TEST_F(LeakScanTest, LetsTheLibraryHoldAllButTheSecretOfTheCourse) {
   write("tree/src/area.cpp", "return 3.14159265 * square;\n");
   write("tree/src/solution.cpp", "// how the program shows one\n");
-  EXPECT_THAT(leaks(), IsEmpty());
+  EXPECT_EQ(scanForLeaks(tree(), secrets()).leaks.size(), 2u) << "unknown files";
+  EXPECT_THAT(scanForLeaks(tree(), secrets(), folder_.path() / "tree/src").leaks, IsEmpty());
+  write("library/area.cpp", "return 3.14159265 * square; // changed\n");
+  write("library/solution.cpp", "// how the program shows one\n");
+  EXPECT_EQ(scanForLeaks(tree(), secrets(), folder_.path() / "library").leaks.size(), 1u);
   write("secret", "Correct/Horse+Battery//Staple==\n");
   write("tree/src/key.h", "key = \"CORRECT/Horse+Battery//Staple==\"\n");
-  const LeakScan scan = scanForLeaks(tree(), {courseSecretIn(folder_.path() / "secret")});
+  const LeakScan scan =
+      scanForLeaks(tree(), {courseSecretIn(folder_.path() / "secret")}, folder_.path() / "tree/src");
   ASSERT_EQ(scan.leaks.size(), 1u);
   const std::string told = toString(scan.leaks[0]);
   EXPECT_THAT(told, HasSubstr("src/key.h:1: the secret of the course would reach students: found of "));

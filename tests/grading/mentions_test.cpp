@@ -24,6 +24,18 @@ TEST(OnlyMentionOf, IsNoCommentLiteralOrPartOfAWord) {
   EXPECT_EQ(place("int mySolveIk, solveIks, solveIk2;\nint b = solveIk(1);"), Place(2, 9));
 }
 
+// What only looks like the beginning of a comment must not hide the lines behind it.
+TEST(MacroDefinitionLineOf, IsNotMisledByLiterals) {
+  for (const char* before :
+       {R"_(const char* a = R"(" /* )";)_", R"_(const char* a = u8R"x()" /* )x";)_",
+        R"_(wchar_t a[] = {L'"', L"/*"[0]};)_", R"_(int a = 0xF'F'F; char b = '"', c[] = "/*";)_",
+        R"_(double a = 1e-3'0, b = .5'0; const char* c = "'/*";)_"})
+    EXPECT_EQ(macroDefinitionLineOf("rex", std::string(before) + "\n#define rex mine\n//*/\n"), 2) << before;
+  EXPECT_EQ(macroDefinitionLineOf("rex", "auto a = R\"(\n#define rex mine\n)\";\n"), 0);
+  EXPECT_EQ(macroDefinitionLineOf("rex", "auto a = R\"(\n#define rex mine\n"), 0);
+  EXPECT_EQ(macroDefinitionLineOf("rex", "int a = R\""), 0);
+}
+
 TEST(OnlyMentionOf, IsNothingWhereSeveralOrNoneAre) {
   EXPECT_EQ(place("int solveIk(int);\nint f() { return solveIk(1); }\n"), kNowhere);
   EXPECT_EQ(place("int main() { return solveIk(1); }\n"), kNowhere);

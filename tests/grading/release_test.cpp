@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/process.h"
 #include "support/expect_error.h"
 #include "support/file_text.h"
 #include "support/temporary_folder.h"
@@ -21,9 +22,9 @@ class ReleaseTest : public ::testing::Test {
  protected:
   void SetUp() override {
     for (const char* file :
-         {"CMakeLists.txt", "README.md", "LICENSE", ".clang-format", ".ci/run", ".git/HEAD",
-          "tests/a_test.cpp", "build/release/rex", "out/01-demo/results.json", "notes.txt",
-          "share/cmake/a.cmake", "src/base/error.h", "data/robots/arm.ors", "scripts/rex", "scripts/test",
+         {"CMakeLists.txt", "README.md", "LICENSE", ".clang-format", ".ci/run", "tests/a_test.cpp",
+          "build/release/rex", "out/01-demo/results.json", "notes.txt", "share/cmake/a.cmake",
+          "src/base/error.h", "data/robots/arm.ors", "scripts/rex", "scripts/test",
           "exercises/CMakeLists.txt", "exercises/01-demo/exercise.h", "exercises/01-demo/wrong/a.cpp"})
       write(file, file);
     write("exercises/01-demo/README.md", "Write `twice`.\n");
@@ -69,6 +70,49 @@ TEST_F(ReleaseTest, HoldsWhatStudentsNeedAndNothingElse) {
   EXPECT_EQ(released("exercises/01-demo/starter.cpp"), released("exercises/01-demo/main.cpp"));
   EXPECT_EQ(released("exercises/01-demo/check.cpp"), "visible();\n");
   EXPECT_EQ(released("README.md"), "Run scripts/rex.\n");
+}
+
+TEST_F(ReleaseTest, LeavesOutWhatResetKeeps) {
+  write("exercises/01-demo/main.backup-1.cpp", "int twice(int a) { return a + a; }\n");
+  EXPECT_EQ(released(), "no leak");
+  EXPECT_FALSE(fs::exists(target() / "exercises/01-demo/main.backup-1.cpp"));
+}
+
+TEST_F(ReleaseTest, HoldsOnlyWhatGitKnows) {
+  const auto git = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"git", "-C", root().string()});
+    ASSERT_TRUE(runProcess(words).ok());
+  };
+  git({"init", "-q"});
+  write(".gitignore", "*.csv\n");
+  git({"add", "-A"});
+  write("share/grades.csv", "zoe,20\n");
+  write("exercises/01-demo/main.cpp", "changed since\n");
+  EXPECT_EQ(released(), "no leak");
+  EXPECT_FALSE(fs::exists(target() / "share/grades.csv"));
+  EXPECT_FALSE(fs::exists(target() / ".git"));
+  EXPECT_TRUE(fs::exists(target() / "src/base/error.h"));
+  fs::remove_all(target());
+
+  write("exercises/01-demo/exam-notes.txt", "ask for twice(3)\n");
+  EXPECT_REX_ERROR(
+      writeStudentRelease(root(), target()),
+      "exercises/01-demo/exam-notes.txt: a file that git does not know would reach students: wanted "
+      "git add, a line in .gitignore, or another place");
+  write("scripts/mine", "x\n");
+  EXPECT_REX_ERROR(writeStudentRelease(root(), target()),
+                   "exercises/01-demo/exam-notes.txt: 2 files that git does not know would reach students");
+  write("notes/mine", "stays behind anyway\n");
+  fs::remove(root() / "scripts/mine");
+  git({"add", "exercises"});
+  EXPECT_EQ(released(), "no leak");
+  EXPECT_TRUE(fs::exists(target() / "exercises/01-demo/exam-notes.txt"));
+}
+
+TEST_F(ReleaseTest, NeedsAnAnswerOfGit) {
+  write(".git/HEAD", "nothing\n");
+  EXPECT_REX_ERROR(writeStudentRelease(root(), target()), "cannot ask git which files belong to the course");
+  EXPECT_FALSE(fs::exists(target()));
 }
 
 TEST_F(ReleaseTest, MayLieInsideTheRoot) {
