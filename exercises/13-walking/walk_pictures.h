@@ -1,0 +1,181 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "course/film_files.h"
+#include "exercise.h"
+#include "locomotion/footsteps.h"
+#include "render/scene_picture.h"
+#include "scene/scene_file.h"
+#include "scene/state.h"
+#include "swing.h"
+
+// How main() draws and films what walks.
+
+inline const rex::Color kBlue{0.0f, 0.45f, 0.7f}, kOrange{0.84f, 0.37f, 0.0f}, kSoft{0.62f, 0.66f, 0.72f},
+    kBlack{0, 0, 0}, kGreen{0.0f, 0.6f, 0.45f};
+
+/// Row `i` over row `j` of a matrix with a point in each column.
+inline rex::Series wayOf(const std::string& label, const Eigen::MatrixXd& points, Eigen::Index i,
+                         Eigen::Index j, const rex::Color& color, double size = 1) {
+  rex::Series series{.label = label, .size = size, .color = color};
+  for (const auto& p : points.colwise()) {
+    series.x.push_back(p[i]);
+    series.y.push_back(p[j]);
+  }
+  return series;
+}
+
+/// Closed around its corners (2 x k).
+inline rex::Series outlineOf(const std::string& label, const Eigen::MatrixXd& corners, const rex::Color& color,
+                             double size = 1) {
+  Eigen::MatrixXd closed(2, corners.cols() + 1);
+  closed << corners, corners.leftCols(1);
+  return wayOf(label, closed, 0, 1, color, size);
+}
+
+/// The corners of a sole, 2 x 4.
+inline Eigen::MatrixXd soleOf(const rex::Footstep& foot, const rex::Sole& sole) {
+  Eigen::MatrixXd corners(2, 4);
+  const Eigen::Vector2d along(std::cos(foot.yaw), std::sin(foot.yaw)), left(-along.y(), along.x());
+  Eigen::Index i = 0;
+  for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
+    corners.col(i++) = foot.p + x * sole.length / 2 * along + y * sole.width / 2 * left;
+  return corners;
+}
+
+/// The walk of main(): a few steps ahead, then around a bend.
+inline rex::WalkPlan walkAround() {
+  rex::WalkPlan plan;
+  const double yaws[] = {0, 0, 0, 0, 0, .15, .3, .45, .6, .6}, width = .19;
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();
+  for (int i = 0; i < 10; ++i) {
+    const bool isLeft = i % 2 == 0;
+    const Eigen::Vector2d along(std::cos(yaws[i]), std::sin(yaws[i])), left(-along.y(), along.x());
+    if (i > 1 && i < 9) at += .2 * along;
+    plan.footsteps.push_back({.side = isLeft ? rex::Side::kLeft : rex::Side::kRight,
+                              .p = at + (isLeft ? .5 : -.5) * width * left,
+                              .yaw = yaws[i]});
+  }
+  return plan;
+}
+
+inline rex::Figure footprints(const std::string& title, const rex::WalkPlan& plan) {
+  rex::Figure figure{.title = title,
+                     .xLabel = "x [m]",
+                     .yLabel = "y [m]",
+                     .equalAxes = true,
+                     .legend = rex::Legend::kTopLeft,
+                     .width = 1000,
+                     .height = 560};
+  for (const rex::Footstep& foot : plan.footsteps) {
+    const Eigen::MatrixXd corners = soleOf(foot, plan.sole);
+    figure.regions.push_back({.x = {corners(0, 0), corners(0, 1), corners(0, 2), corners(0, 3)},
+                              .y = {corners(1, 0), corners(1, 1), corners(1, 2), corners(1, 3)}});
+  }
+  return figure;
+}
+
+// Films.
+
+inline void writeBoth(rex::Film film, const std::string& name, const Eigen::Vector3d& view, int width,
+                      int height) {
+  rex::settleGround(film);
+  const rex::Shot shot{rex::framing(film, view, static_cast<double>(width) / height), width, height};
+  rex::writeFilmVideo(film, shot, name, 30);
+  rex::writeFilmSheet(film, shot, name + "_sheet.png", 6);
+}
+
+/// A motion of a walker: its states, 30 in a second, and how far down the slope the foot is that stands.
+struct WalkerMotion {
+  std::vector<Eigen::Vector4d> states;
+  std::vector<double> feet;
+  std::vector<bool> leftStands;
+};
+
+inline rex::Picture pictureOf(const Walker& walker, const WalkerMotion& motion, std::size_t i) {
+  rex::Picture picture;
+  const double l = walker.a + walker.b, thick = .02 * l, end = motion.feet.back() + l;
+  const rex::Pose slope = rex::rotation(walker.slope, Eigen::Vector3d::UnitY());
+  picture.solids.push_back({{.extent = {end + l, .5 * l, .05 * l}},
+                            slope * rex::translation((end - l) / 2, 0, -.025 * l), {.75f, .77f, .8f}, "slope"});
+  const auto along = [](double angle) { return Eigen::Vector3d(-std::sin(angle), 0, std::cos(angle)); };
+  const Eigen::Vector4d& x = motion.states[i];
+  const Eigen::Vector3d foot = slope * Eigen::Vector3d(motion.feet[i], 0, 0), hip = foot + l * along(x[0]);
+  for (const bool stands : {true, false}) {
+    const double angle = x[stands ? 0 : 1];
+    const bool isLeft = stands == motion.leftStands[i];
+    const Eigen::Vector3d side(0, (isLeft ? .08 : -.08) * l, 0), down = -l * along(angle);
+    const rex::Color color = isLeft ? kBlue : kOrange;
+    picture.solids.push_back({{.type = rex::ShapeType::kCapsule, .extent = {0, 0, l}, .radius = thick},
+                              rex::translation(hip.x() + side.x() + down.x() / 2, side.y(),
+                                               hip.z() + down.z() / 2) *
+                                  rex::rotation(-angle, Eigen::Vector3d::UnitY()),
+                              color, "leg"});
+    const Eigen::Vector3d mass = hip + side + walker.b / l * down;
+    picture.solids.push_back({{.type = rex::ShapeType::kSphere, .radius = 2.5 * thick},
+                              rex::translation(mass.x(), mass.y(), mass.z()), color, "leg mass"});
+  }
+  picture.solids.push_back({{.type = rex::ShapeType::kSphere, .radius = 4 * thick},
+                            rex::translation(hip.x(), 0, hip.z()), {.35f, .37f, .42f}, "hip"});
+  picture.ground.cell = .25 * l;
+  return picture;
+}
+
+inline void filmWalker(const Walker& walker, const WalkerMotion& motion, const std::string& name) {
+  rex::Film film;
+  for (std::size_t i = 0; i < motion.states.size(); ++i)
+    film.push_back({static_cast<double>(i) / 30, pictureOf(walker, motion, i)});
+  writeBoth(film, name, {.25, -2, .35}, 800, 400);
+}
+
+/// The humanoid of the course as it looks, and as a model whose pelvis moves freely.
+struct WalkingHumanoid {
+  rex::Simulator look{"humanoid"};
+  rex::Model model = rex::compile(
+      rex::parseScene(look.description().sceneText + "\njoint base (world pelvis) { type=free }\n", "humanoid.ors")
+          .spec);
+  Eigen::VectorXd start = model.initialPositions();  ///< with bent knees
+
+  WalkingHumanoid() {
+    for (const rex::Joint& joint : model.joints()) {
+      const auto bends = [&](const char* name) { return joint.name.find(name) != std::string::npos; };
+      if (bends("_hip_pitch") || bends("_ankle_pitch")) start[joint.qIndex] = -.35;
+      if (bends("_knee")) start[joint.qIndex] = .7;
+      if (joint.type == rex::JointType::kFree) start.segment<3>(joint.qIndex) = Eigen::Vector3d(0, 0, .84);
+    }
+  }
+};
+
+/// Postures in the columns of Q, `step` seconds apart, on the plan's footprints, with the ways (2 x n, from
+/// above) of centre of mass and zero moment point on the ground.
+inline void filmHumanoid(const WalkingHumanoid& humanoid, const Eigen::MatrixXd& Q, double step,
+                         const rex::WalkPlan& plan, const Eigen::MatrixXd& center, const Eigen::MatrixXd& zmp,
+                         const std::string& name) {
+  const auto onGround = [](const Eigen::Vector2d& p) { return Eigen::Vector3d(p.x(), p.y(), .004); };
+  rex::Film film;
+  for (int i = 0;; ++i) {
+    const auto k = static_cast<Eigen::Index>(std::lround(i / (30 * step)));
+    if (k >= Q.cols()) break;
+    rex::Picture picture =
+        rex::pictureOf(humanoid.look.model(), rex::forwardKinematics(humanoid.model, Q.col(k)));
+    for (const rex::Footstep& foot : plan.footsteps)
+      picture.solids.push_back({{.extent = {plan.sole.length, plan.sole.width, .002}},
+                                rex::translation(foot.p.x(), foot.p.y(), .001) *
+                                    rex::rotation(foot.yaw, Eigen::Vector3d::UnitZ()),
+                                {.7f, .72f, .76f}, "footprint"});
+    rex::Polyline middle{.color = kBlue}, pressure{.color = kOrange};
+    for (Eigen::Index j = 0; j <= k && j < zmp.cols(); ++j) {
+      middle.points.push_back(onGround(center.col(j)));
+      pressure.points.push_back(onGround(zmp.col(j)));
+    }
+    if (k > 0) picture.polylines = {middle, pressure};
+    picture.pointSets.push_back({.points = {onGround(zmp.col(k))}, .color = kOrange, .size = 9});
+    film.push_back({static_cast<double>(i) / 30, std::move(picture)});
+  }
+  writeBoth(film, name, {.7, -1, .55}, 640, 480);
+}
