@@ -19,47 +19,50 @@
 inline const rex::Color kBlue{0.0f, 0.45f, 0.7f}, kOrange{0.84f, 0.37f, 0.0f}, kSoft{0.62f, 0.66f, 0.72f},
     kBlack{0, 0, 0}, kGreen{0.0f, 0.6f, 0.45f};
 
-/// Row `i` over row `j` of a matrix with a point in each column.
-inline rex::Series wayOf(const std::string& label, const Eigen::MatrixXd& points, Eigen::Index i,
-                         Eigen::Index j, const rex::Color& color, double size = 1) {
+/// Points seen from above, or any two numbers over one another.
+using Points = std::vector<Eigen::Vector2d>;
+
+inline rex::Series wayOf(const std::string& label, const Points& points, const rex::Color& color,
+                         double size = 1) {
   rex::Series series{.label = label, .size = size, .color = color};
-  for (const auto& p : points.colwise()) {
-    series.x.push_back(p[i]);
-    series.y.push_back(p[j]);
+  for (const Eigen::Vector2d& p : points) {
+    series.x.push_back(p[0]);
+    series.y.push_back(p[1]);
   }
   return series;
 }
 
-/// Closed around its corners (2 x k).
-inline rex::Series outlineOf(const std::string& label, const Eigen::MatrixXd& corners, const rex::Color& color,
+/// Closed around its corners.
+inline rex::Series outlineOf(const std::string& label, Points corners, const rex::Color& color,
                              double size = 1) {
-  Eigen::MatrixXd closed(2, corners.cols() + 1);
-  closed << corners, corners.leftCols(1);
-  return wayOf(label, closed, 0, 1, color, size);
+  corners.push_back(corners.front());
+  return wayOf(label, corners, color, size);
 }
 
-/// The corners of a sole, 2 x 4.
-inline Eigen::MatrixXd soleOf(const rex::Footstep& foot, const rex::Sole& sole) {
-  Eigen::MatrixXd corners(2, 4);
-  const Eigen::Vector2d along(std::cos(foot.yaw), std::sin(foot.yaw)), left(-along.y(), along.x());
-  Eigen::Index i = 0;
-  for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
-    corners.col(i++) = foot.p + x * sole.length / 2 * along + y * sole.width / 2 * left;
+/// The four corners of a sole.
+inline Points soleOf(const rex::Footstep& foot, const rex::Sole& sole) {
+  const double c = std::cos(foot.yaw), s = std::sin(foot.yaw);
+  Points corners;
+  for (const auto& [along, left] : {std::pair{-.5, -.5}, {.5, -.5}, {.5, .5}, {-.5, .5}}) {
+    const double x = along * sole.length, y = left * sole.width;
+    corners.emplace_back(foot.p[0] + c * x - s * y, foot.p[1] + s * x + c * y);
+  }
   return corners;
 }
 
 /// The walk of main(): a few steps ahead, then around a bend.
 inline rex::WalkPlan walkAround() {
   rex::WalkPlan plan;
-  const double yaws[] = {0, 0, 0, 0, 0, .15, .3, .45, .6, .6}, width = .19;
-  Eigen::Vector2d at = Eigen::Vector2d::Zero();
-  for (int i = 0; i < 10; ++i) {
+  double x = 0, y = 0;
+  int i = 0;
+  for (const double yaw : {0., 0., 0., 0., 0., .15, .3, .45, .6, .6}) {
     const bool isLeft = i % 2 == 0;
-    const Eigen::Vector2d along(std::cos(yaws[i]), std::sin(yaws[i])), left(-along.y(), along.x());
-    if (i > 1 && i < 9) at += .2 * along;
+    const double c = std::cos(yaw), s = std::sin(yaw), beside = isLeft ? .095 : -.095;
+    if (i > 1 && i < 9) x += .2 * c, y += .2 * s;
     plan.footsteps.push_back({.side = isLeft ? rex::Side::kLeft : rex::Side::kRight,
-                              .p = at + (isLeft ? .5 : -.5) * width * left,
-                              .yaw = yaws[i]});
+                              .p = {x - s * beside, y + c * beside},
+                              .yaw = yaw});
+    ++i;
   }
   return plan;
 }
@@ -73,9 +76,8 @@ inline rex::Figure footprints(const std::string& title, const rex::WalkPlan& pla
                      .width = 1000,
                      .height = 560};
   for (const rex::Footstep& foot : plan.footsteps) {
-    const Eigen::MatrixXd corners = soleOf(foot, plan.sole);
-    figure.regions.push_back({.x = {corners(0, 0), corners(0, 1), corners(0, 2), corners(0, 3)},
-                              .y = {corners(1, 0), corners(1, 1), corners(1, 2), corners(1, 3)}});
+    const rex::Series corners = wayOf("", soleOf(foot, plan.sole), kSoft);
+    figure.regions.push_back({.x = corners.x, .y = corners.y});
   }
   return figure;
 }
@@ -103,25 +105,25 @@ inline rex::Picture pictureOf(const Walker& walker, const WalkerMotion& motion, 
   const rex::Pose slope = rex::rotation(walker.slope, Eigen::Vector3d::UnitY());
   picture.solids.push_back({{.extent = {end + l, .5 * l, .05 * l}},
                             slope * rex::translation((end - l) / 2, 0, -.025 * l), {.75f, .77f, .8f}, "slope"});
-  const auto along = [](double angle) { return Eigen::Vector3d(-std::sin(angle), 0, std::cos(angle)); };
   const Eigen::Vector4d& x = motion.states[i];
-  const Eigen::Vector3d foot = slope * Eigen::Vector3d(motion.feet[i], 0, 0), hip = foot + l * along(x[0]);
+  const double hipX = motion.feet[i] * std::cos(walker.slope) - l * std::sin(x[0]),
+               hipZ = -motion.feet[i] * std::sin(walker.slope) + l * std::cos(x[0]);
   for (const bool stands : {true, false}) {
     const double angle = x[stands ? 0 : 1];
     const bool isLeft = stands == motion.leftStands[i];
-    const Eigen::Vector3d side(0, (isLeft ? .08 : -.08) * l, 0), down = -l * along(angle);
     const rex::Color color = isLeft ? kBlue : kOrange;
+    // So far down the leg from the hip.
+    const auto placed = [&](double down) {
+      return rex::translation(hipX, (isLeft ? .08 : -.08) * l, hipZ) *
+             rex::rotation(-angle, Eigen::Vector3d::UnitY()) * rex::translation(0, 0, -down);
+    };
     picture.solids.push_back({{.type = rex::ShapeType::kCapsule, .extent = {0, 0, l}, .radius = thick},
-                              rex::translation(hip.x() + side.x() + down.x() / 2, side.y(),
-                                               hip.z() + down.z() / 2) *
-                                  rex::rotation(-angle, Eigen::Vector3d::UnitY()),
-                              color, "leg"});
-    const Eigen::Vector3d mass = hip + side + walker.b / l * down;
-    picture.solids.push_back({{.type = rex::ShapeType::kSphere, .radius = 2.5 * thick},
-                              rex::translation(mass.x(), mass.y(), mass.z()), color, "leg mass"});
+                              placed(l / 2), color, "leg"});
+    picture.solids.push_back(
+        {{.type = rex::ShapeType::kSphere, .radius = 2.5 * thick}, placed(walker.b), color, "leg mass"});
   }
   picture.solids.push_back({{.type = rex::ShapeType::kSphere, .radius = 4 * thick},
-                            rex::translation(hip.x(), 0, hip.z()), {.35f, .37f, .42f}, "hip"});
+                            rex::translation(hipX, 0, hipZ), {.35f, .37f, .42f}, "hip"});
   picture.ground.cell = .25 * l;
   return picture;
 }
@@ -151,10 +153,10 @@ struct WalkingHumanoid {
   }
 };
 
-/// Postures in the columns of Q, `step` seconds apart, on the plan's footprints, with the ways (2 x n, from
-/// above) of centre of mass and zero moment point on the ground.
+/// Postures in the columns of Q, `step` seconds apart, on the plan's footprints, with the ways of centre of
+/// mass and zero moment point on the ground.
 inline void filmHumanoid(const WalkingHumanoid& humanoid, const Eigen::MatrixXd& Q, double step,
-                         const rex::WalkPlan& plan, const Eigen::MatrixXd& center, const Eigen::MatrixXd& zmp,
+                         const rex::WalkPlan& plan, const Points& center, const Points& zmp,
                          const std::string& name) {
   const auto onGround = [](const Eigen::Vector2d& p) { return Eigen::Vector3d(p.x(), p.y(), .004); };
   rex::Film film;
@@ -169,12 +171,13 @@ inline void filmHumanoid(const WalkingHumanoid& humanoid, const Eigen::MatrixXd&
                                     rex::rotation(foot.yaw, Eigen::Vector3d::UnitZ()),
                                 {.7f, .72f, .76f}, "footprint"});
     rex::Polyline middle{.color = kBlue}, pressure{.color = kOrange};
-    for (Eigen::Index j = 0; j <= k && j < zmp.cols(); ++j) {
-      middle.points.push_back(onGround(center.col(j)));
-      pressure.points.push_back(onGround(zmp.col(j)));
+    const auto now = static_cast<std::size_t>(k);
+    for (std::size_t j = 0; j <= now; ++j) {
+      middle.points.push_back(onGround(center[j]));
+      pressure.points.push_back(onGround(zmp[j]));
     }
-    if (k > 0) picture.polylines = {middle, pressure};
-    picture.pointSets.push_back({.points = {onGround(zmp.col(k))}, .color = kOrange, .size = 9});
+    if (now > 0) picture.polylines = {middle, pressure};
+    picture.pointSets.push_back({.points = {onGround(zmp[now])}, .color = kOrange, .size = 9});
     film.push_back({static_cast<double>(i) / 30, std::move(picture)});
   }
   writeBoth(film, name, {.7, -1, .55}, 640, 480);
