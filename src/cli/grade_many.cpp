@@ -129,13 +129,17 @@ int gradeApart(const Task& task, const Graders::Grader& grader, const grading::T
   }
 }
 
+bool isOpen(const Task& task, const GradeManyOptions& options) {
+  if (options.regrade || grading::stateOf(task, options.out) != grading::TaskState::done) return true;
+  return options.evidence && !grading::hasEvidence(task, options.out);
+}
+
 // Grades those without a valid result; returns how many that were.
 int gradeOpen(const std::vector<Task>& tasks, const GradeManyOptions& options,
               const sandbox::Sandbox& sandbox, Graders& graders) {
   std::vector<const Task*> open;
   for (const Task& task : tasks)
-    if (options.regrade || grading::stateOf(task, options.out) != grading::TaskState::done)
-      open.push_back(&task);
+    if (isOpen(task, options)) open.push_back(&task);
   const int count = static_cast<int>(open.size()),
             jobs = options.jobs > 0 ? options.jobs
                                     : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -152,7 +156,9 @@ int gradeOpen(const std::vector<Task>& tasks, const GradeManyOptions& options,
                           {.out = options.out,
                            .workFolder = work.path() / fmt::format("{}", k),
                            .launcher = sandbox.launcher,
-                           .secret = options.secret});
+                           .secret = options.secret,
+                           .evidence = options.evidence,
+                           .workers = options.workers});
       },
       [&](int k, int) {
         std::error_code ignored;
@@ -175,6 +181,7 @@ void tellTimes(const std::vector<Task>& tasks, const GradeManyOptions& options) 
 
 ExitCode gradeMany(const Project& project, const GradeManyOptions& options) {
   requireApart(options.folder, options.out);
+  const std::vector<grading::ReportFormat> reports = reportsOf(options.reports);
   const grading::LatePolicy policy = readDeadlines(project, options.deadlines);
   const auto sandbox = chooseForStrangers(project, options.level, options.accept);
   if (!sandbox) return ExitCode::kWeakSandbox;
@@ -193,6 +200,7 @@ ExitCode gradeMany(const Project& project, const GradeManyOptions& options) {
   }
   const int graded = gradeOpen(tasks, options, *sandbox, graders);
   tellTimes(tasks, options);
+  writeReports(tasks, options.out, reports);
   const bool complete = writeGrades(tasks, options.out, policy, options.csv);
   note(
       fmt::format("{} submission{} at sandbox level {}: {} graded, {} kept, {} could not be taken. Table: {}",

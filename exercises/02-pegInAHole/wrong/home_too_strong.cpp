@@ -1,4 +1,5 @@
 // caught by: circle-tracks
+// shown by: circle-tracks
 // mistake: With the precision of the circle, home holds the hand back.
 
 // <solution circleWithTasks>
