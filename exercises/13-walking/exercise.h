@@ -10,10 +10,11 @@
 
 // Part 1, standing (11:7).
 
-/// The corners of the support polygon (2 x k): the hull of the contacts (2 x N, seen from above, in any order,
-/// some of them perhaps in one place). Counter-clockwise, beginning anywhere; only true corners, none between
-/// two others on an edge. Contacts on one line have its two ends for corners, contacts in one place have one,
-/// no contacts none. Coordinates are whole multiples of 1/1024 m: cross products of them have no rounding.
+/// The corners of the support polygon (2 x k): the hull of the contacts (2 x N, seen from above, in any
+/// order, some of them perhaps in one place). Counter-clockwise, beginning anywhere; only true corners, none
+/// between two others on an edge. Contacts on one line have its two ends for corners, contacts in one place
+/// have one, no contacts none. Coordinates are whole multiples of 1/1024 m: cross products of them have no
+/// rounding.
 Eigen::MatrixXd supportCorners(const Eigen::MatrixXd& contacts);
 
 /// How far a point is from the border of a polygon that is given as above, with one corner or more: positive
@@ -56,15 +57,15 @@ Eigen::Vector2d capturePoint(const Pendulum& pendulum, const Sway& now);
 
 // Part 3, preview control (11:12; Kajita et al. 2003).
 
-/// A cart on a massless table, for x and for y each. Its state is x = (c, c', c''); in each step the jerk u is
-/// held, and the zero moment point is p = c - height / g c''.
+/// A cart on a massless table, for x and for y each. Its state is x = (c, c', c''); in each step the jerk u
+/// is held, and the zero moment point is p = c - height / g c''.
 struct CartTable {
   double height = 0.814;
   double g = 9.81;
   double step = 0.005;
-  int ahead = 320;   ///< N, of how many steps ahead the wanted zero moment point is known
-  double Qe = 1;     ///< price of (p_k - r_k)^2, for each k
-  double R = 1e-6;   ///< price of (u_k - u_(k-1))^2, for each k
+  int ahead = 320;  ///< N, of how many steps ahead the wanted zero moment point is known
+  double Qe = 1;    ///< price of (p_k - r_k)^2, for each k
+  double R = 1e-6;  ///< price of (u_k - u_(k-1))^2, for each k
 };
 
 /// The state one step later, exact.
@@ -95,7 +96,7 @@ Eigen::MatrixXd followed(const CartTable& cart, const PreviewLaw& law, const Eig
 /// the stance angle falls. The swing equation is in swing.h.
 struct Walker {
   double a = 0.5, b = 0.5;
-  double legMass = 5;   ///< of each leg
+  double legMass = 5;  ///< of each leg
   double hipMass = 10;
   double slope = 0.05235987755982989;  ///< 3 degrees downhill
   double g = 9.8;
@@ -112,9 +113,9 @@ struct StepEnd {
 };
 
 /// One step, from a state with the swing foot behind. Both feet are on the slope where theta_s + theta_ns =
-/// -2 slope; the swing foot lands where that sum falls to this value, and the foot is in front. Before, it may
-/// pass below the ground. None: the walker falls (|theta_s + slope| reaches pi / 2), or does not land within
-/// 5 s. The end is right to 1e-7, in all five numbers.
+/// -2 slope; the swing foot lands where that sum falls to this value, and the foot is in front. Before, it
+/// may pass below the ground. None: the walker falls (|theta_s + slope| reaches pi / 2), or does not land
+/// within 5 s. The end is right to 1e-7, in all five numbers.
 std::optional<StepEnd> stepFrom(const Walker& walker, const Eigen::Vector4d& x);
 
 /// The derivative of the x of stepFrom() by all four numbers of the state where it begins. Entries right to
@@ -125,6 +126,6 @@ Eigen::Matrix4d stepDerivative(const Walker& walker, const Eigen::Vector4d& x);
 /// The guess is so near that Newton's method gets there. None, if the walker falls from the guess.
 std::optional<Eigen::Vector4d> gaitNear(const Walker& walker, const Eigen::Vector4d& guess);
 
-/// The moduli of the four multipliers of a gait, falling, right to 0.01: by how much a small disturbance grows
-/// from step to step.
+/// The moduli of the four multipliers of a gait, falling, right to 0.01: by how much a small disturbance
+/// grows from step to step.
 Eigen::VectorXd multiplierSizes(const Walker& walker, const Eigen::Vector4d& gait);

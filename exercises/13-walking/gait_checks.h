@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "grading/check.h"
+#include "grading/evidence_parts.h"
 #include "interface.h"
 #include "locomotion/limit_cycle.h"
 
@@ -127,6 +128,31 @@ inline void impactFits(rex::grading::Check& check, Student& student, const Walke
              m * planarCross(old.stance - old.hip, old.stanceRate), 1e-10 * size, "kg m^2/s");
 }
 
+/// A step as a curve of each leg, angle and rate, and where it ended beside where it should.
+inline rex::grading::Evidence stepSeen(const Walker& walker, Eigen::Vector4d x, const rex::WalkerStep& wanted,
+                                       const StepEnd& end) {
+  const Eigen::Vector4d start = x;
+  rex::Series legs[] = {{.label = "stance leg"}, {.label = "swing leg"}};
+  for (int i = 1; i <= 200; ++i) {
+    for (int leg = 0; leg < 2; ++leg) {
+      legs[leg].x.push_back(x[leg]);
+      legs[leg].y.push_back(x[leg + 2]);
+    }
+    const double time = wanted.time * i / 200;
+    x = time < wanted.time ? libraryOf(walker).step(start, time).before : wanted.before;
+  }
+  rex::Series right = rex::grading::wantedCurve("wanted after the impact", {wanted.after[0], wanted.after[1]},
+                                                {wanted.after[2], wanted.after[3]});
+  right.style = rex::SeriesStyle::kPoints;
+  rex::Series got = rex::grading::gotCurve("yours", {end.x[0], end.x[1]}, {end.x[2], end.x[3]});
+  got.style = rex::SeriesStyle::kPoints;
+  return {.figures = {{.title = "A step of the compass walker",
+                       .xLabel = "angle [rad]",
+                       .yLabel = "rate [rad/s]",
+                       .legend = rex::Legend::kOutside,
+                       .series = {legs[0], legs[1], right, got}}}};
+}
+
 inline void stepFits(rex::grading::Check& check, Student& student, const KnownGait& gait) {
   Eigen::Vector4d x;
   rex::WalkerStep wanted;
@@ -137,6 +163,7 @@ inline void stepFits(rex::grading::Check& check, Student& student, const KnownGa
   check.input(described(gait.walker, x));
   const auto end = student.stepFrom(gait.walker, x);
   check.that("the walker steps", end.has_value());
+  const auto shown = check.show([&] { return stepSeen(gait.walker, x, wanted, *end); });
   check.near("time of the step", end->time, wanted.time, 1e-7, "s");
   check.near("state after the step", end->x, wanted.after, 1e-7);
 }

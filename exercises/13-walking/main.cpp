@@ -79,7 +79,6 @@ Eigen::Vector4d impactOf(const Walker& walker, const Eigen::Vector4d& x) {
   return x;
 }
 
-
 std::optional<StepEnd> stepFrom(const Walker& walker, const Eigen::Vector4d& x) {
   // TODO: small steps of Runge and Kutta with swingRate() of swing.h, and the moment of the impact within
   // the last of them.
@@ -337,8 +336,7 @@ int main() {
   if (const auto gait = gaitNear(walker, guess)) {
     showGait(walker, guess, *gait);
     showSlopes(*gait, [](const Walker& w, const Eigen::Vector4d& x) {
-      return std::abs(
-          findLimitCycle({w.a, w.b, w.legMass, w.hipMass, w.slope, w.g}, x).multipliers[0]);
+      return std::abs(findLimitCycle({w.a, w.b, w.legMass, w.hipMass, w.slope, w.g}, x).multipliers[0]);
     });
   } else {
     nothingYet("gait of the compass walker");
@@ -350,8 +348,11 @@ int main() {
     return 0;
   }
   const WalkingHumanoid humanoid;
-  const Legs legs{humanoid.model.body("left_foot"), humanoid.model.body("right_foot"),
-                  humanoid.model.body("pelvis"), {.03, 0, -.075}};
-  const WalkingPattern pattern = walkingPattern(humanoid.model, legs, plan, humanoid.start, {.preview = same});
+  const Legs legs{humanoid.model.body("left_foot"),
+                  humanoid.model.body("right_foot"),
+                  humanoid.model.body("pelvis"),
+                  {.03, 0, -.075}};
+  const WalkingPattern pattern =
+      walkingPattern(humanoid.model, legs, plan, humanoid.start, {.preview = same});
   filmHumanoid(humanoid, pattern.Q, cart.step, plan, walk.topRows(2), walk.bottomRows(2), "humanoid");
 }

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "dynamics/ode_step.h"
 #include "grading/check.h"
+#include "grading/evidence_parts.h"
 #include "interface.h"
 #include "locomotion/footsteps.h"
 #include "locomotion/preview_control.h"
@@ -45,8 +47,8 @@ inline Eigen::Vector3d cartAfter(const CartTable& cart, const Eigen::Vector3d& x
 inline void cartMoves(rex::grading::Check& check, Student& student, const CartTable& cart) {
   const Eigen::Vector3d x = check.rng().normalVector(3);
   const double jerk = 100 * check.rng().normal();
-  check.input(fmt::format("{}, x = ({:.4g}, {:.4g}, {:.4g}), u = {:.4g}", described(cart), x[0], x[1], x[2],
-                          jerk));
+  check.input(
+      fmt::format("{}, x = ({:.4g}, {:.4g}, {:.4g}), u = {:.4g}", described(cart), x[0], x[1], x[2], jerk));
   check.near("state of the cart after a step", student.cartStep(cart, x, jerk), cartAfter(cart, x, jerk),
              1e-9);
 }
@@ -125,30 +127,29 @@ inline rex::WalkPlan randomWalk(rex::Rng& rng) {
   return plan;
 }
 
-/// What a walk of the student's looks like from above, up to the column where it went wrong.
-inline rex::Figure walkFigure(const rex::WalkPlan& plan, const Eigen::MatrixXd& zmp, Eigen::Index until) {
-  rex::Figure figure{
-      .title = "Footprints, and your zero moment point until it left them",
-      .xLabel = "x [m]",
-      .yLabel = "y [m]",
-      .equalAxes = true};
+/// A walk from above, and sideways over time, up to the column where it went wrong.
+inline rex::grading::Evidence walkSeen(const rex::WalkPlan& plan, const Eigen::MatrixXd& zmp,
+                                       const Eigen::MatrixXd& reference, Eigen::Index until) {
+  using namespace rex::grading;
+  rex::Figure above{.title = "Zero moment point on the footprints, until it left them",
+                    .xLabel = "x [m]",
+                    .yLabel = "y [m]",
+                    .equalAxes = true};
   for (const rex::Footstep& foot : plan.footsteps) {
     const Eigen::Vector2d along(std::cos(foot.yaw), std::sin(foot.yaw)), left(-along.y(), along.x());
     rex::Region region;
-    for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
-      const Eigen::Vector2d p = foot.p + x * plan.sole.length / 2 * along + y * plan.sole.width / 2 * left;
+    for (const auto& [x, y] : {std::pair{-.5, -.5}, {.5, -.5}, {.5, .5}, {-.5, .5}}) {
+      const Eigen::Vector2d p = foot.p + x * plan.sole.length * along + y * plan.sole.width * left;
       region.x.push_back(p.x());
       region.y.push_back(p.y());
     }
-    figure.regions.push_back(region);
+    above.regions.push_back(region);
   }
-  rex::Series way{.label = "zero moment point"};
-  for (Eigen::Index k = 0; k <= until; ++k) {
-    way.x.push_back(zmp(0, k));
-    way.y.push_back(zmp(1, k));
-  }
-  figure.series = {way};
-  return figure;
+  const Eigen::MatrixXd before = zmp.leftCols(until + 1);
+  above.series = {through(before.colwise(), gotCurve("yours")),
+                  through(reference.colwise(), wantedCurve("wanted")),
+                  wrongPoint("off the soles", zmp(0, until), zmp(1, until))};
+  return {.figures = {above, comparison("x and y of the zero moment point, step by step", zmp, reference)}};
 }
 
 /// Over a whole walk: a cart that moves as a cart does, with its zero moment point on the soles that stand.
@@ -173,8 +174,7 @@ inline void staysOnTheSoles(rex::grading::Check& check, Student& student, const 
     zmp.row(axis) = x.row(0) - cart.height / cart.g * x.row(2);
   }
   Eigen::Index k = 0;
-  const auto shown = check.show(
-      [&] { return rex::grading::Evidence{.figures = {walkFigure(plan, zmp, k)}, .film = {}}; });
+  const auto shown = check.show([&] { return walkSeen(plan, zmp, reference, k); });
   for (; k < zmp.cols(); ++k) {
     const rex::WalkPhase phase = rex::phaseAt(plan, static_cast<double>(k) * cart.step);
     check.atLeast("distance of the zero moment point from the border of the support polygon",

@@ -167,9 +167,9 @@ PreviewLaw previewLaw(const CartTable& cart) {
   }
   return law;
   // <todo>
-  //| // TODO: the state of the Riccati equation is (p - r, changes of c, c' and c''), its control the change of
-  //| // the jerk. See the README.
-  //| return {0, Eigen::RowVector3d::Zero(), Eigen::VectorXd::Zero(cart.ahead)};
+  //| // TODO: the state of the Riccati equation is (p - r, changes of c, c' and c''), its control the change
+  //of | // the jerk. See the README. | return {0, Eigen::RowVector3d::Zero(),
+  //Eigen::VectorXd::Zero(cart.ahead)};
   // </solution>
 }
 
@@ -234,7 +234,8 @@ std::optional<StepEnd> stepFrom(const Walker& walker, const Eigen::Vector4d& x) 
     const Eigen::Vector4d next = swung(walker, now, h);
     if (!lands(now) && lands(next) && next[1] > next[0]) {
       double low = 0, high = h;
-      for (int j = 0; j < 60; ++j) (lands(swung(walker, now, (low + high) / 2)) ? high : low) = (low + high) / 2;
+      for (int j = 0; j < 60; ++j)
+        (lands(swung(walker, now, (low + high) / 2)) ? high : low) = (low + high) / 2;
       return StepEnd{impactOf(walker, swung(walker, now, high)), i * h + high};
     }
     if (std::abs(next[0] + walker.slope) >= M_PI / 2) return std::nullopt;
@@ -440,10 +441,13 @@ Way wayFrom(const Walker& walker, Eigen::Vector4d x, int steps) {
   for (int i = 0; i < steps; ++i) {
     const auto end = stepFrom(walker, x);
     if (!end) break;
+    const auto drawn = [&] {
+      way.leg.push_back(i % 2 == 0 ? Eigen::Vector2d(x[0], x[2]) : Eigen::Vector2d(x[1], x[3]));
+    };
     const int parts = 200;
     for (int j = 0; j < parts; ++j) {
       const double h = end->time / parts;
-      way.leg.push_back(i % 2 == 0 ? Eigen::Vector2d(x[0], x[2]) : Eigen::Vector2d(x[1], x[3]));
+      drawn();
       if (time + h * j >= static_cast<double>(way.motion.states.size()) / 30) {
         way.motion.states.push_back(x);
         way.motion.feet.push_back(foot);
@@ -453,6 +457,7 @@ Way wayFrom(const Walker& walker, Eigen::Vector4d x, int steps) {
       const Eigen::Vector4d rate = swingRate(walker, x);
       x += h / 2 * (rate + swingRate(walker, x + h * rate));
     }
+    drawn();
     foot += 2 * (walker.a + walker.b) * std::sin((x[1] - x[0]) / 2);
     time += end->time;
     x = end->x;
@@ -466,12 +471,12 @@ void showGait(const Walker& walker, const Eigen::Vector4d& guess, const Eigen::V
   const Eigen::VectorXd sizes = multiplierSizes(walker, gait);
   print("moduli of its multipliers", sizes.transpose());
   const Way settles = wayFrom(walker, guess, 16), repeats = wayFrom(walker, gait, 3);
-  plot("phase", {.title = "One leg of the compass walker, step after step",
-                 .xLabel = "angle [rad]",
-                 .yLabel = "rate [rad/s]",
-                 .legend = Legend::kOutside,
-                 .series = {wayOf("from a guess", settles.leg, kSoft),
-                            wayOf("the gait", repeats.leg, kOrange, 2)}});
+  plot("phase",
+       {.title = "One leg of the compass walker, step after step",
+        .xLabel = "angle [rad]",
+        .yLabel = "rate [rad/s]",
+        .legend = Legend::kOutside,
+        .series = {wayOf("from a guess", settles.leg, kSoft), wayOf("the gait", repeats.leg, kOrange, 2)}});
   Series distance{.label = "distance from the gait", .style = SeriesStyle::kLinesPoints, .color = kBlue},
       law{.label = "largest multiplier to the power of the steps", .dashed = true, .color = kBlack};
   for (std::size_t i = 0; i < settles.ends.size(); ++i) {
@@ -484,7 +489,7 @@ void showGait(const Walker& walker, const Eigen::Vector4d& guess, const Eigen::V
                     .logY = true,
                     .legend = Legend::kTopRight,
                     .series = {distance, law}});
-  filmWalker(walker, wayFrom(walker, guess, 8).motion, "walker");
+  filmWalker(walker, wayFrom(walker, guess, 6).motion, "walker");
 }
 
 // The largest multiplier on one slope after the other, each gait being the guess for the next.
@@ -541,8 +546,7 @@ int main() {
   if (const auto gait = gaitNear(walker, guess)) {
     showGait(walker, guess, *gait);
     showSlopes(*gait, [](const Walker& w, const Eigen::Vector4d& x) {
-      return std::abs(
-          findLimitCycle({w.a, w.b, w.legMass, w.hipMass, w.slope, w.g}, x).multipliers[0]);
+      return std::abs(findLimitCycle({w.a, w.b, w.legMass, w.hipMass, w.slope, w.g}, x).multipliers[0]);
     });
   } else {
     nothingYet("gait of the compass walker");
@@ -554,8 +558,11 @@ int main() {
     return 0;
   }
   const WalkingHumanoid humanoid;
-  const Legs legs{humanoid.model.body("left_foot"), humanoid.model.body("right_foot"),
-                  humanoid.model.body("pelvis"), {.03, 0, -.075}};
-  const WalkingPattern pattern = walkingPattern(humanoid.model, legs, plan, humanoid.start, {.preview = same});
+  const Legs legs{humanoid.model.body("left_foot"),
+                  humanoid.model.body("right_foot"),
+                  humanoid.model.body("pelvis"),
+                  {.03, 0, -.075}};
+  const WalkingPattern pattern =
+      walkingPattern(humanoid.model, legs, plan, humanoid.start, {.preview = same});
   filmHumanoid(humanoid, pattern.Q, cart.step, plan, walk.center, walk.zmp, "humanoid");
 }

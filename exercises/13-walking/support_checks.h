@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "grading/check.h"
+#include "grading/evidence_parts.h"
 #include "interface.h"
 #include "locomotion/support_polygon.h"
 
@@ -86,32 +88,38 @@ inline Eigen::MatrixXd inARow(rex::Rng& rng, int count) {
   return shuffled(rng, matrixOf(points));
 }
 
-inline rex::Figure supportFigure(const Eigen::MatrixXd& contacts, const Eigen::MatrixXd& corners) {
-  rex::Series touch{.label = "contacts", .style = rex::SeriesStyle::kPoints, .marker = rex::Marker::kDot};
-  rex::Series border{.label = "your corners", .style = rex::SeriesStyle::kLinesPoints};
-  for (const auto& p : contacts.colwise()) {
-    touch.x.push_back(p.x());
-    touch.y.push_back(p.y());
-  }
-  for (Eigen::Index i = 0; i <= corners.cols() && corners.cols() > 0; ++i) {
-    border.x.push_back(corners(0, i % corners.cols()));
-    border.y.push_back(corners(1, i % corners.cols()));
-  }
+/// The polygon between these corners (2 x k) as a closed curve; nothing without corners.
+inline rex::Series closedCurve(const Eigen::MatrixXd& corners, rex::Series curve) {
+  if (corners.cols() == 0) return curve;
+  curve = rex::grading::through(corners.colwise(), std::move(curve));
+  return rex::grading::through(corners.leftCols(1).colwise(), std::move(curve));
+}
+
+/// The contacts with the polygon that came out, beside that which was wanted.
+inline rex::grading::Evidence supportSeen(const Eigen::MatrixXd& contacts, const Eigen::MatrixXd& corners,
+                                          const Eigen::MatrixXd& wanted) {
   rex::Figure figure{.title = "Support polygon",
                      .xLabel = "x [m]",
                      .yLabel = "y [m]",
                      .equalAxes = true,
-                     .series = {touch}};
-  if (corners.cols() > 0) figure.series.push_back(border);
-  return figure;
+                     .legend = rex::Legend::kOutside};
+  rex::Series yours = closedCurve(corners, rex::grading::gotCurve("your corners"));
+  yours.style = rex::SeriesStyle::kLinesPoints;
+  for (const rex::Series& curve : {yours, closedCurve(wanted, rex::grading::wantedCurve("wanted"))})
+    if (!curve.x.empty()) figure.series.push_back(curve);
+  figure.series.push_back(
+      rex::grading::through(contacts.colwise(), rex::Series{.label = "contacts",
+                                                            .style = rex::SeriesStyle::kPoints,
+                                                            .marker = rex::Marker::kDot,
+                                                            .color = rex::Color{0, 0, 0}}));
+  return {.figures = {figure}};
 }
 
 inline void cornersFit(rex::grading::Check& check, Student& student, const Eigen::MatrixXd& contacts) {
   const Eigen::MatrixXd wanted = rex::supportPolygon(contacts).corners;
   const Eigen::MatrixXd corners = student.supportCorners(contacts);
   check.shape("corners", corners, 2, corners.cols());
-  const auto shown = check.show(
-      [&] { return rex::grading::Evidence{.figures = {supportFigure(contacts, corners)}, .film = {}}; });
+  const auto shown = check.show([&] { return supportSeen(contacts, corners, wanted); });
   const Eigen::Index k = wanted.cols();
   check.near("number of corners", static_cast<double>(corners.cols()), static_cast<double>(k), 0);
   if (k == 0) return;

@@ -74,7 +74,7 @@ inline rex::Figure footprints(const std::string& title, const rex::WalkPlan& pla
                      .equalAxes = true,
                      .legend = rex::Legend::kTopLeft,
                      .width = 1000,
-                     .height = 560};
+                     .height = 480};
   for (const rex::Footstep& foot : plan.footsteps) {
     const rex::Series corners = wayOf("", soleOf(foot, plan.sole), kSoft);
     figure.regions.push_back({.x = corners.x, .y = corners.y});
@@ -104,7 +104,9 @@ inline rex::Picture pictureOf(const Walker& walker, const WalkerMotion& motion, 
   const double l = walker.a + walker.b, thick = .02 * l, end = motion.feet.back() + l;
   const rex::Pose slope = rex::rotation(walker.slope, Eigen::Vector3d::UnitY());
   picture.solids.push_back({{.extent = {end + l, .5 * l, .05 * l}},
-                            slope * rex::translation((end - l) / 2, 0, -.025 * l), {.75f, .77f, .8f}, "slope"});
+                            slope * rex::translation((end - l) / 2, 0, -.025 * l),
+                            {.75f, .77f, .8f},
+                            "slope"});
   const Eigen::Vector4d& x = motion.states[i];
   const double hipX = motion.feet[i] * std::cos(walker.slope) - l * std::sin(x[0]),
                hipZ = -motion.feet[i] * std::sin(walker.slope) + l * std::cos(x[0]);
@@ -118,13 +120,18 @@ inline rex::Picture pictureOf(const Walker& walker, const WalkerMotion& motion, 
              rex::rotation(-angle, Eigen::Vector3d::UnitY()) * rex::translation(0, 0, -down);
     };
     picture.solids.push_back({{.type = rex::ShapeType::kCapsule, .extent = {0, 0, l}, .radius = thick},
-                              placed(l / 2), color, "leg"});
+                              placed(l / 2),
+                              color,
+                              "leg"});
     picture.solids.push_back(
         {{.type = rex::ShapeType::kSphere, .radius = 2.5 * thick}, placed(walker.b), color, "leg mass"});
   }
   picture.solids.push_back({{.type = rex::ShapeType::kSphere, .radius = 4 * thick},
-                            rex::translation(hipX, 0, hipZ), {.35f, .37f, .42f}, "hip"});
+                            rex::translation(hipX, 0, hipZ),
+                            {.35f, .37f, .42f},
+                            "hip"});
   picture.ground.cell = .25 * l;
+  picture.ground.height = -(end + l) * std::sin(walker.slope);
   return picture;
 }
 
@@ -132,15 +139,14 @@ inline void filmWalker(const Walker& walker, const WalkerMotion& motion, const s
   rex::Film film;
   for (std::size_t i = 0; i < motion.states.size(); ++i)
     film.push_back({static_cast<double>(i) / 30, pictureOf(walker, motion, i)});
-  writeBoth(film, name, {.25, -2, .35}, 800, 400);
+  writeBoth(film, name, {.15, -2, .25}, 900, 300);
 }
 
 /// The humanoid of the course as it looks, and as a model whose pelvis moves freely.
 struct WalkingHumanoid {
   rex::Simulator look{"humanoid"};
-  rex::Model model = rex::compile(
-      rex::parseScene(look.description().sceneText + "\njoint base (world pelvis) { type=free }\n", "humanoid.ors")
-          .spec);
+  rex::Model model =
+      rex::compile(rex::parseScene(look.description().sceneText, "humanoid.urdf", {.freeBase = true}).spec);
   Eigen::VectorXd start = model.initialPositions();  ///< with bent knees
 
   WalkingHumanoid() {
@@ -166,10 +172,11 @@ inline void filmHumanoid(const WalkingHumanoid& humanoid, const Eigen::MatrixXd&
     rex::Picture picture =
         rex::pictureOf(humanoid.look.model(), rex::forwardKinematics(humanoid.model, Q.col(k)));
     for (const rex::Footstep& foot : plan.footsteps)
-      picture.solids.push_back({{.extent = {plan.sole.length, plan.sole.width, .002}},
-                                rex::translation(foot.p.x(), foot.p.y(), .001) *
-                                    rex::rotation(foot.yaw, Eigen::Vector3d::UnitZ()),
-                                {.7f, .72f, .76f}, "footprint"});
+      picture.solids.push_back(
+          {{.extent = {plan.sole.length, plan.sole.width, .002}},
+           rex::translation(foot.p.x(), foot.p.y(), .001) * rex::rotation(foot.yaw, Eigen::Vector3d::UnitZ()),
+           {.7f, .72f, .76f},
+           "footprint"});
     rex::Polyline middle{.color = kBlue}, pressure{.color = kOrange};
     const auto now = static_cast<std::size_t>(k);
     for (std::size_t j = 0; j <= now; ++j) {

@@ -75,12 +75,30 @@ inline void swaysRight(rex::grading::Check& check, Student& student) {
   const Sway start = randomSway(rng);
   const Eigen::Vector2d p = .2 * rng.normalVector(2);
   const double omega = libraryOf(pendulum).omega(), t = rng.uniform(0, 4) / omega;
-  check.input(fmt::format("{}, p = ({:.4g}, {:.4g}), t = {:.4g}", described(pendulum, start), p.x(), p.y(), t));
+  check.input(
+      fmt::format("{}, p = ({:.4g}, {:.4g}), t = {:.4g}", described(pendulum, start), p.x(), p.y(), t));
   const rex::CenterMotion wanted = libraryOf(pendulum).after({start.c, start.v}, p, t);
   const Sway got = student.swayed(pendulum, start, p, t);
   const double size = (start.c.norm() + p.norm() + start.v.norm() / omega) * std::exp(omega * t);
   check.near("position of the centre of mass", got.c, wanted.c, 1e-10 * size, "m");
   check.near("its velocity", got.v, wanted.v, 1e-10 * size * omega, "m/s");
+}
+
+/// The pendulum over a point, x over time, beside how it comes to rest over the capture point.
+inline rex::grading::Evidence captureSeen(const rex::InvertedPendulum& pendulum, const rex::CenterMotion& now,
+                                          const Eigen::Vector2d& p) {
+  rex::Series got = rex::grading::gotCurve("over your point"), wanted = rex::grading::wantedCurve("wanted");
+  for (int i = 0; i <= 60; ++i) {
+    const double t = .05 * i / pendulum.omega();
+    got.x.push_back(t);
+    got.y.push_back(pendulum.after(now, p, t).c.x());
+    wanted.x.push_back(t);
+    wanted.y.push_back(pendulum.after(now, pendulum.capturePoint(now), t).c.x());
+  }
+  return {.figures = {{.title = "The centre of mass, while the zero moment point stays where you put it",
+                       .xLabel = "time [s]",
+                       .yLabel = "x [m]",
+                       .series = {got, wanted}}}};
 }
 
 /// By what the capture point is for: over it, the motion dies out. What grows, grows by e^5 in this time.
@@ -92,6 +110,7 @@ inline void capturesTheMotion(rex::grading::Check& check, Student& student) {
   check.shape("capture point", p, 2, 1);
   const double time = 5 / libraryOf(pendulum).omega();
   const rex::CenterMotion later = libraryOf(pendulum).after({now.c, now.v}, p, time);
-  check.near("where the centre of mass comes to, from the point: what is left of the way",
-             later.c - p, std::exp(-5) * (now.c - p), 1e-7, "m");
+  const auto shown = check.show([&] { return captureSeen(libraryOf(pendulum), {now.c, now.v}, p); });
+  check.near("where the centre of mass comes to, from the point: what is left of the way", later.c - p,
+             std::exp(-5) * (now.c - p), 1e-7, "m");
 }

@@ -12,8 +12,8 @@ return {gains.Gi, gains.Gx, gains.Gp};
 // </solution>
 
 // <solution gaitNear>
-const LimitCycle cycle = findLimitCycle(
-    {walker.a, walker.b, walker.legMass, walker.hipMass, walker.slope, walker.g}, guess);
+const LimitCycle cycle =
+    findLimitCycle({walker.a, walker.b, walker.legMass, walker.hipMass, walker.slope, walker.g}, guess);
 if (cycle.status == LimitCycle::Status::kFell) return std::nullopt;
 return cycle.x;
 // </solution>

@@ -1,4 +1,5 @@
 // caught by: follows, stays-on, stays-any
+// shown by: stays-on
 // mistake: the law gives the jerk itself instead of its change.
 
 // <solution followed>

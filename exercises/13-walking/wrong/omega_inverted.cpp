@@ -1,4 +1,5 @@
 // caught by: capture
+// shown by: capture
 // mistake: the velocity times omega instead of divided by it.
 
 // <solution capturePoint>

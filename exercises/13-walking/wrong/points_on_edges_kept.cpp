@@ -1,4 +1,5 @@
 // caught by: corners
+// shown by: corners
 // mistake: points in a row are all corners, also those between two others.
 
 // <solution supportCorners>

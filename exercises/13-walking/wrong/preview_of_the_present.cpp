@@ -1,4 +1,5 @@
 // caught by: follows, stays-on, stays-any
+// shown by: follows
 // mistake: the first gain of the preview meets the change of the reference that is over already.
 
 // <solution followed>

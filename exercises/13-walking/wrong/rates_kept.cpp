@@ -1,4 +1,5 @@
 // caught by: impact, step, other-steps, gait
+// shown by: step
 // mistake: nothing happens in an impact but that the legs change their parts.
 
 // <solution impactOf>

@@ -1,5 +1,6 @@
 // caught by: corners, stands-any
-// mistake: wraps the points like a gift, and takes any of several in one direction; on a line it loses an end.
+// mistake: wraps the points like a gift, and takes any of several in one direction; on a line it loses an
+// end.
 
 // <solution supportCorners>
 const Eigen::Index n = contacts.cols();
@@ -12,7 +13,8 @@ do {
   chosen.push_back(at);
   Eigen::Index next = at == 0 ? 1 : 0;
   for (Eigen::Index i = 0; i < n && next < n; ++i) {
-    const Eigen::Vector2d way = contacts.col(next) - contacts.col(at), to = contacts.col(i) - contacts.col(at);
+    const Eigen::Vector2d way = contacts.col(next) - contacts.col(at),
+                          to = contacts.col(i) - contacts.col(at);
     if (way.x() * to.y() - way.y() * to.x() < 0) next = i;
   }
   at = next;
