@@ -40,7 +40,7 @@ std::optional<Eigen::Vector2d> zeroMoment(const std::vector<MovingMass>& robot, 
                                           double g) {
   // TODO: write down both horizontal lines of the sum on 11:10, with r = p - (x, y, groundHeight).
   notUsedYet(robot, groundHeight, g);
-  return std::nullopt;
+  return {};
 }
 
 Sway swayed(const Pendulum& pendulum, const Sway& start, const Eigen::Vector2d& p, double t) {
@@ -62,8 +62,7 @@ Eigen::Vector3d cartStep(const CartTable& cart, const Eigen::Vector3d& x, double
 }
 
 PreviewLaw previewLaw(const CartTable& cart) {
-  // TODO: the state of the Riccati equation is (p - r, changes of c, c' and c''), its control the change of
-  // the jerk. See the README.
+  // TODO: the state of the Riccati equation is the error and the change of x. See the README.
   return {0, Eigen::RowVector3d::Zero(), Eigen::VectorXd::Zero(cart.ahead)};
 }
 
@@ -80,10 +79,9 @@ Eigen::Vector4d impactOf(const Walker& walker, const Eigen::Vector4d& x) {
 }
 
 std::optional<StepEnd> stepFrom(const Walker& walker, const Eigen::Vector4d& x) {
-  // TODO: small steps of Runge and Kutta with swingRate() of swing.h, and the moment of the impact within
-  // the last of them.
+  // TODO: small steps of Runge and Kutta, and the moment of the impact within the last of them.
   notUsedYet(walker, x);
-  return std::nullopt;
+  return {};
 }
 
 Eigen::Matrix4d stepDerivative(const Walker& walker, const Eigen::Vector4d& x) {
@@ -95,7 +93,7 @@ Eigen::Matrix4d stepDerivative(const Walker& walker, const Eigen::Vector4d& x) {
 std::optional<Eigen::Vector4d> gaitNear(const Walker& walker, const Eigen::Vector4d& guess) {
   // TODO: Newton's method for step(x) - x = 0.
   notUsedYet(walker, guess);
-  return std::nullopt;
+  return {};
 }
 
 Eigen::VectorXd multiplierSizes(const Walker& walker, const Eigen::Vector4d& gait) {
@@ -113,12 +111,14 @@ void nothingYet(const char* what) { std::printf("Nothing to see yet of the %s.\n
 // Two soles, one ahead of the other, and how far from the border one is above them.
 void showSupport() {
   const Sole sole{.25, .125};
-  const Eigen::MatrixXd left = soleOf({Side::kLeft, {0, .125}, 0}, sole),
-                        right = soleOf({Side::kRight, {.25, -.125}, 0}, sole);
+  const Points left = soleOf({Side::kLeft, {0, .125}, 0}, sole),
+               right = soleOf({Side::kRight, {.25, -.125}, 0}, sole);
   Eigen::MatrixXd contacts(2, 8);
-  contacts << left, right;
+  for (int i = 0; i < 8; ++i) contacts.col(i) = i < 4 ? left[i] : right[i - 4];
   const Eigen::MatrixXd corners = supportCorners(contacts);
   if (corners.cols() < 3) return nothingYet("support polygon");
+  Points border;
+  for (Eigen::Index i = 0; i < corners.cols(); ++i) border.emplace_back(corners.col(i));
   const auto distance = [&](double x, double y) { return borderDistance(corners, {x, y}); };
   Figure figure{.title = "Distance from the border of the support polygon",
                 .xLabel = "x [m]",
@@ -127,7 +127,7 @@ void showSupport() {
                 .equalAxes = true,
                 .legend = Legend::kTopLeft,
                 .series = {outlineOf("soles", left, kBlack), outlineOf("", right, kBlack),
-                           outlineOf("support polygon", corners, kOrange, 2)}};
+                           outlineOf("support polygon", border, kOrange, 2)}};
   figure.heatMap = heatMapOf(distance, {-.3, .55}, {-.35, .35}, 170, 140);
   plot("support", figure);
 }
@@ -154,13 +154,22 @@ void showCapture() {
   plot("capture", figure);
 }
 
-// The cart of the walk in both axes: centre of mass (rows 0 and 1) and zero moment point (2 and 3).
-Eigen::MatrixXd walkOf(const CartTable& cart, const PreviewLaw& law, const Eigen::MatrixXd& reference) {
-  Eigen::MatrixXd walk(4, reference.cols());
-  for (int axis = 0; axis < 2; ++axis) {
-    const Eigen::MatrixXd x = followed(cart, law, reference.row(axis).transpose());
-    walk.row(axis) = x.row(0);
-    walk.row(axis + 2) = x.row(0) - cart.height / cart.g * x.row(2);
+// A walk of the cart in both axes, from above, beside what was wanted.
+struct Walk {
+  Points center, zmp, wanted;
+  double largestError = 0;
+};
+
+Walk walkOf(const CartTable& cart, const PreviewLaw& law, const Eigen::MatrixXd& reference) {
+  Walk walk;
+  const Eigen::VectorXd rx = reference.row(0), ry = reference.row(1);
+  const Eigen::MatrixXd x = followed(cart, law, rx), y = followed(cart, law, ry);
+  for (Eigen::Index k = 0; k < rx.size(); ++k) {
+    const double rise = cart.height / cart.g;
+    walk.center.emplace_back(x(0, k), y(0, k));
+    walk.zmp.emplace_back(x(0, k) - rise * x(2, k), y(0, k) - rise * y(2, k));
+    walk.wanted.emplace_back(rx[k], ry[k]);
+    walk.largestError = std::max(walk.largestError, (walk.zmp.back() - walk.wanted.back()).norm());
   }
   return walk;
 }
@@ -180,29 +189,29 @@ void showGains(const CartTable& cart, const PreviewLaw& law, const Eigen::Vector
   plot("gains", figure);
 }
 
-void showWalk(const CartTable& cart, const WalkPlan& plan, const Eigen::MatrixXd& reference,
-              const Eigen::MatrixXd& walk, const Eigen::MatrixXd& library) {
+// y of some points over time.
+Series sideways(const std::string& label, const Points& points, double step, const Color& color,
+                double size = 1) {
+  Series series = wayOf(label, points, color, size);
+  for (std::size_t k = 0; k < points.size(); ++k) series.x[k] = step * static_cast<double>(k);
+  return series;
+}
+
+void showWalk(const CartTable& cart, const WalkPlan& plan, const Walk& walk, const Points& library) {
   Figure above = footprints("A walk from above", plan);
-  above.series = {wayOf("centre of mass", walk, 0, 1, kBlue),
-                  wayOf("zero moment point", walk, 2, 3, kOrange, 1.5)};
+  above.series = {wayOf("centre of mass", walk.center, kBlue),
+                  wayOf("zero moment point", walk.zmp, kOrange, 1.5)};
   plot("zmp", above);
-  Eigen::MatrixXd sideways(5, walk.cols());
-  sideways.row(0) = Eigen::RowVectorXd::LinSpaced(walk.cols(), 0, cart.step * double(walk.cols() - 1));
-  sideways.row(1) = reference.row(1);
-  sideways.row(2) = walk.row(3);
-  sideways.row(3) = walk.row(1);
-  sideways.row(4) = library.row(1);
-  Series theirs = wayOf("library's zero moment point", sideways, 0, 4, kBlack);
+  Series theirs = sideways("library's zero moment point", library, cart.step, kBlack);
   theirs.dashed = true;
-  const Figure time{.title = "The same walk, y over time: the centre of mass leaves before the step",
+  plot("zmp_time", {.title = "The same walk, y over time",
                     .xLabel = "time [s]",
                     .yLabel = "y [m]",
                     .legend = Legend::kTopLeft,
-                    .series = {wayOf("wanted zero moment point", sideways, 0, 1, kSoft, 4),
-                               wayOf("zero moment point", sideways, 0, 2, kOrange),
-                               wayOf("centre of mass", sideways, 0, 3, kBlue), theirs},
-                    .width = 1000};
-  plot("zmp_time", time);
+                    .series = {sideways("wanted zero moment point", walk.wanted, cart.step, kSoft, 5),
+                               sideways("zero moment point", walk.zmp, cart.step, kOrange, 2),
+                               sideways("centre of mass", walk.center, cart.step, kBlue, 2), theirs},
+                    .width = 1000});
 }
 
 // With less of the preview, the rest of the law as it is.
@@ -211,9 +220,8 @@ void showHorizon(const CartTable& cart, const PreviewLaw& law, const Eigen::Matr
   for (int n = 20; n <= cart.ahead; n += 10) {
     PreviewLaw shorter = law;
     shorter.Gp = law.Gp.head(n);
-    const Eigen::MatrixXd zmp = walkOf(cart, shorter, reference).bottomRows(2);
     series.x.push_back(cart.step * n);
-    series.y.push_back((zmp - reference).colwise().norm().maxCoeff() + 1e-9);
+    series.y.push_back(walkOf(cart, shorter, reference).largestError + 1e-9);
   }
   plot("horizon", {.title = "How far ahead one must look",
                    .xLabel = "preview [s]",
@@ -225,22 +233,24 @@ void showHorizon(const CartTable& cart, const PreviewLaw& law, const Eigen::Matr
 
 // The states of a walk with small steps in time, and the ends of its steps.
 struct Way {
-  Eigen::MatrixXd leg;  // angle and rate of one leg, which stands in every other step
+  Points leg;  // angle and rate of one leg, which stands in every other step
   WalkerMotion motion;
   std::vector<Eigen::Vector4d> ends;
 };
 
 Way wayFrom(const Walker& walker, Eigen::Vector4d x, int steps) {
-  Way way{Eigen::MatrixXd(2, 0), {}, {x}};
-  std::vector<Eigen::Vector2d> leg;
+  Way way{{}, {}, {x}};
   double time = 0, foot = 0;
   for (int i = 0; i < steps; ++i) {
     const auto end = stepFrom(walker, x);
     if (!end) break;
+    const auto drawn = [&] {
+      way.leg.push_back(i % 2 == 0 ? Eigen::Vector2d(x[0], x[2]) : Eigen::Vector2d(x[1], x[3]));
+    };
     const int parts = 200;
     for (int j = 0; j < parts; ++j) {
       const double h = end->time / parts;
-      leg.push_back(i % 2 == 0 ? Eigen::Vector2d(x[0], x[2]) : Eigen::Vector2d(x[1], x[3]));
+      drawn();
       if (time + h * j >= static_cast<double>(way.motion.states.size()) / 30) {
         way.motion.states.push_back(x);
         way.motion.feet.push_back(foot);
@@ -250,13 +260,12 @@ Way wayFrom(const Walker& walker, Eigen::Vector4d x, int steps) {
       const Eigen::Vector4d rate = swingRate(walker, x);
       x += h / 2 * (rate + swingRate(walker, x + h * rate));
     }
+    drawn();
     foot += 2 * (walker.a + walker.b) * std::sin((x[1] - x[0]) / 2);
     time += end->time;
     x = end->x;
     way.ends.push_back(x);
   }
-  way.leg.resize(2, static_cast<Eigen::Index>(leg.size()));
-  for (std::size_t i = 0; i < leg.size(); ++i) way.leg.col(static_cast<Eigen::Index>(i)) = leg[i];
   return way;
 }
 
@@ -265,12 +274,12 @@ void showGait(const Walker& walker, const Eigen::Vector4d& guess, const Eigen::V
   const Eigen::VectorXd sizes = multiplierSizes(walker, gait);
   print("moduli of its multipliers", sizes.transpose());
   const Way settles = wayFrom(walker, guess, 16), repeats = wayFrom(walker, gait, 3);
-  plot("phase", {.title = "One leg of the compass walker, step after step",
-                 .xLabel = "angle [rad]",
-                 .yLabel = "rate [rad/s]",
-                 .legend = Legend::kOutside,
-                 .series = {wayOf("from a guess", settles.leg, 0, 1, kSoft),
-                            wayOf("the gait", repeats.leg, 0, 1, kOrange, 2)}});
+  plot("phase",
+       {.title = "One leg of the compass walker, step after step",
+        .xLabel = "angle [rad]",
+        .yLabel = "rate [rad/s]",
+        .legend = Legend::kOutside,
+        .series = {wayOf("from a guess", settles.leg, kSoft), wayOf("the gait", repeats.leg, kOrange, 2)}});
   Series distance{.label = "distance from the gait", .style = SeriesStyle::kLinesPoints, .color = kBlue},
       law{.label = "largest multiplier to the power of the steps", .dashed = true, .color = kBlack};
   for (std::size_t i = 0; i < settles.ends.size(); ++i) {
@@ -283,7 +292,7 @@ void showGait(const Walker& walker, const Eigen::Vector4d& guess, const Eigen::V
                     .logY = true,
                     .legend = Legend::kTopRight,
                     .series = {distance, law}});
-  filmWalker(walker, wayFrom(walker, guess, 8).motion, "walker");
+  filmWalker(walker, wayFrom(walker, guess, 6).motion, "walker");
 }
 
 // The largest multiplier on one slope after the other, each gait being the guess for the next.
@@ -326,9 +335,13 @@ int main() {
   const PreviewOptions same{.height = cart.height, .step = cart.step};
   const PreviewLaw law = previewLaw(cart);
   const WalkPlan plan = walkAround();
-  const Eigen::MatrixXd reference = zmpReference(plan, cart.step), walk = walkOf(cart, law, reference);
+  const Eigen::MatrixXd reference = zmpReference(plan, cart.step);
+  const Walk walk = walkOf(cart, law, reference);
   showGains(cart, law, previewGains(same).Gp);
-  showWalk(cart, plan, reference, walk, followZmp(reference, same).zmp);
+  const PreviewMotion motion = followZmp(reference, same);
+  Points library;
+  for (Eigen::Index k = 0; k < motion.zmp.cols(); ++k) library.emplace_back(motion.zmp.col(k));
+  showWalk(cart, plan, walk, library);
   showHorizon(cart, law, reference);
 
   const Walker walker;
@@ -343,7 +356,7 @@ int main() {
   }
 
   // The humanoid walks by the library; the ways on the ground are yours.
-  if ((walk.bottomRows(2) - reference).cwiseAbs().maxCoeff() > .05) {
+  if (walk.largestError > .05) {
     nothingYet("walk of the humanoid");
     return 0;
   }
@@ -354,5 +367,5 @@ int main() {
                   {.03, 0, -.075}};
   const WalkingPattern pattern =
       walkingPattern(humanoid.model, legs, plan, humanoid.start, {.preview = same});
-  filmHumanoid(humanoid, pattern.Q, cart.step, plan, walk.topRows(2), walk.bottomRows(2), "humanoid");
+  filmHumanoid(humanoid, pattern.Q, cart.step, plan, walk.center, walk.zmp, "humanoid");
 }

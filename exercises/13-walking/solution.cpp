@@ -103,7 +103,7 @@ std::optional<Eigen::Vector2d> zeroMoment(const std::vector<MovingMass>& robot, 
   // <todo>
   //| // TODO: write down both horizontal lines of the sum on 11:10, with r = p - (x, y, groundHeight).
   //| notUsedYet(robot, groundHeight, g);
-  //| return std::nullopt;
+  //| return {};
   // </solution>
 }
 
@@ -167,9 +167,8 @@ PreviewLaw previewLaw(const CartTable& cart) {
   }
   return law;
   // <todo>
-  //| // TODO: the state of the Riccati equation is (p - r, changes of c, c' and c''), its control the change
-  //of | // the jerk. See the README. | return {0, Eigen::RowVector3d::Zero(),
-  //Eigen::VectorXd::Zero(cart.ahead)};
+  //| // TODO: the state of the Riccati equation is the error and the change of x. See the README.
+  //| return {0, Eigen::RowVector3d::Zero(), Eigen::VectorXd::Zero(cart.ahead)};
   // </solution>
 }
 
@@ -243,10 +242,9 @@ std::optional<StepEnd> stepFrom(const Walker& walker, const Eigen::Vector4d& x) 
   }
   return std::nullopt;
   // <todo>
-  //| // TODO: small steps of Runge and Kutta with swingRate() of swing.h, and the moment of the impact within
-  //| // the last of them.
+  //| // TODO: small steps of Runge and Kutta, and the moment of the impact within the last of them.
   //| notUsedYet(walker, x);
-  //| return std::nullopt;
+  //| return {};
   // </solution>
 }
 
@@ -283,7 +281,7 @@ std::optional<Eigen::Vector4d> gaitNear(const Walker& walker, const Eigen::Vecto
   // <todo>
   //| // TODO: Newton's method for step(x) - x = 0.
   //| notUsedYet(walker, guess);
-  //| return std::nullopt;
+  //| return {};
   // </solution>
 }
 
