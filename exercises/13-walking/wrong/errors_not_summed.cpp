@@ -1,5 +1,4 @@
 // caught by: follows, stays-on, stays-any
-// shown by: stays-on
 // mistake: the law gives the jerk itself instead of its change.
 
 // <solution followed>

@@ -1,4 +1,4 @@
-// caught by: follows, stays-on, stays-any
+// caught by: follows
 // shown by: follows
 // mistake: the first gain of the preview meets the change of the reference that is over already.
 

@@ -1,4 +1,4 @@
-// caught by: corners, stands-any
+// caught by: corners
 // mistake: wraps the points like a gift, and takes any of several in one direction; on a line it loses an
 // end.
 
