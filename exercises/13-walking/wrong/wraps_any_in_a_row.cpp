@@ -1,6 +1,5 @@
 // caught by: corners
-// mistake: wraps the points like a gift, and takes any of several in one direction; on a line it loses an
-// end.
+// mistake: wraps the points like a gift, and takes any of several in one direction.
 
 // <solution supportCorners>
 const Eigen::Index n = contacts.cols();
