@@ -41,15 +41,15 @@ inline rex::Simulator withOtherMasses(const std::string& scene, double share, re
 
 // What became of an arm, step by step: its posture, and the angle farthest from zero.
 struct ArmRecord {
-  std::vector<Eigen::VectorXd> postures{};
+  std::vector<Eigen::VectorXd> moments{};
   std::vector<double> farthest{};
 };
 
 // As a film beside the arm at zero.
 inline rex::grading::Evidence seen(const rex::Simulator& S, const ArmRecord& record, double limit) {
-  if (record.postures.empty()) return {};
-  const std::vector<Eigen::VectorXd> wanted{Eigen::VectorXd::Zero(record.postures.front().size())};
-  return filmed(S, record.postures, wanted, worstOf(record.farthest, limit),
+  if (record.moments.empty()) return {};
+  const std::vector<Eigen::VectorXd> wanted{Eigen::VectorXd::Zero(record.moments.front().size())};
+  return filmed(S, record.moments, wanted, worstOf(record.farthest, limit),
                 curveOf("The joint farthest from zero", "angle [rad]", record.farthest, limit));
 }
 
@@ -61,7 +61,7 @@ inline void shaken(rex::grading::Check& check, rex::Simulator S, ArmRecord& reco
   S.setSeed(check.rng().next());
   for (int step = 0; step < 400; ++step) {
     const Eigen::VectorXd angles = S.getJointAngles();
-    record.postures.push_back(angles);
+    record.moments.push_back(angles);
     record.farthest.push_back(angles.cwiseAbs().maxCoeff());
     if (step == 100) S.setJointAnglesAndVels(angles, S.getJointVels() + Eigen::VectorXd::Ones(angles.size()));
     advance(check, S, u(angles, S.getJointVels(), S));
@@ -69,7 +69,7 @@ inline void shaken(rex::grading::Check& check, rex::Simulator S, ArmRecord& reco
       check.atMost("largest joint speed in the last second", S.getJointVels().cwiseAbs().maxCoeff(), 3,
                    "rad/s");
   }
-  record.postures.push_back(S.getJointAngles());
+  record.moments.push_back(S.getJointAngles());
   record.farthest.push_back(S.getJointAngles().cwiseAbs().maxCoeff());
 }
 

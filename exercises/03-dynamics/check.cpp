@@ -323,8 +323,8 @@ void holdsWithTorques(Check& check, Student& student) {
   S.setJointAnglesAndVels(zero, Eigen::Vector3d::Ones());
   record = {};
   for (int step = 0; step < 200; ++step) {
-    record.postures.push_back(S.getJointAngles());
-    record.farthest.push_back(record.postures.back().cwiseAbs().maxCoeff());
+    record.moments.push_back(S.getJointAngles());
+    record.farthest.push_back(record.moments.back().cwiseAbs().maxCoeff());
     advance(check, S, torques(check, student, S, rest, 0.2, 1));
   }
   check.atMost("angle farthest from zero after 2 s", S.getJointAngles().cwiseAbs().maxCoeff(), 2e-3, "rad");
@@ -416,13 +416,13 @@ struct Path {
 
 // The hand beside the point of the path where it should be, which is red.
 grading::Evidence handSeen(const Simulator& S, const std::string& hand, const Path& path,
-                           const std::vector<Eigen::VectorXd>& postures, const std::vector<double>& errors,
+                           const std::vector<Eigen::VectorXd>& moments, const std::vector<double>& errors,
                            double limit) {
-  if (postures.empty()) return {};
+  if (moments.empty()) return {};
   std::vector<Eigen::Vector3d> way;
   for (int step = 0; step <= 300; ++step) way.emplace_back(path.at(kTau * step).y);
   Film film =
-      filmOf(S, postures, {.caption = "wanted: the hand on the red point", .traces = {hand}, .paths = {way}});
+      filmOf(S, moments, {.caption = "wanted: the hand on the red point", .traces = {hand}, .paths = {way}});
   for (std::size_t i = 0; i < film.size(); ++i) {
     film[i].time = kTau * static_cast<double>(i);
     film[i].picture.pointSets.push_back({.points = {way[i]}, .color = grading::kWrongColor, .size = 9});
@@ -438,11 +438,11 @@ void handFollows(Check& check, Student& student, Simulator S, const std::string&
   constexpr double kFarthest = 5e-3;
   double speed = 0;
   std::vector<double> errors;
-  std::vector<Eigen::VectorXd> postures;
-  const auto shown = check.show([&] { return handSeen(S, hand, path, postures, errors, kFarthest); });
+  std::vector<Eigen::VectorXd> moments;
+  const auto shown = check.show([&] { return handSeen(S, hand, path, moments, errors, kFarthest); });
   for (int step = 0; step <= 300; ++step) {
     const PathPoint reference = path.at(kTau * step);
-    postures.push_back(S.getJointAngles());
+    moments.push_back(S.getJointAngles());
     errors.push_back((S.kinematicsPos(hand) - reference.y).norm());
     speed = std::max(speed, S.getJointVels().cwiseAbs().maxCoeff());
     if (step < 300) advance(check, S, student.followWithHand(S.description(), hand, reference));
@@ -545,15 +545,15 @@ void balances(Check& check, Student& student, double tilt, double direction) {
   const Eigen::Vector2d home = arm("pin_balancing.ors", kPinUp).kinematicsPos("universalJoint").head<2>();
   double most = 0;
   std::vector<double> tilts, ways;
-  std::vector<Eigen::VectorXd> postures;
+  std::vector<Eigen::VectorXd> moments;
   const auto record = [&] {
-    postures.push_back(S.getJointAngles());
+    moments.push_back(S.getJointAngles());
     tilts.push_back(angle());
     ways.push_back((foot() - home).norm());
   };
   // What is required holds to the last step, or did not hold in it.
   const auto shown = check.show([&] {
-    grading::Evidence evidence = filmed(S, postures, {kPinUp}, postures.size() - 1,
+    grading::Evidence evidence = filmed(S, moments, {kPinUp}, moments.size() - 1,
                                         curveOf("Tilt of the pin", "angle [rad]", tilts, 0.01));
     evidence.figures.push_back(curveOf("Distance of the foot from home", "distance [m]", ways, 0.08));
     return evidence;

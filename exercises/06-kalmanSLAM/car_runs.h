@@ -88,7 +88,7 @@ inline void requireBelief(rex::grading::Check& check, const Belief& belief, Eige
 // got - wanted of states that begin with x, y and a heading, which may differ by whole turns.
 inline Eigen::VectorXd gapOf(const Eigen::VectorXd& got, const Eigen::VectorXd& wanted) {
   Eigen::VectorXd gap = got - wanted;
-  gap[2] = rex::wrapAngle(gap[2]);
+  if (gap.size() > 2) gap[2] = rex::wrapAngle(gap[2]);  // landmarks have two
   return gap;
 }
 

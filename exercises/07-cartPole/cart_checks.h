@@ -62,12 +62,12 @@ inline void stepFits(rex::grading::Check& check, Student& student, const PoleCar
 /// The states of an outing by the equations, until its end.
 inline Eigen::MatrixXd statesOf(const PoleCart& cart, const Eigen::MatrixXd& K, const Eigen::Vector4d& start,
                                 const Outing& outing, rex::Rng rng) {
-  Eigen::MatrixXd states(4, outing.steps + 1);
-  states.col(0) = start;
+  Eigen::MatrixXd run(4, outing.steps + 1);
+  run.col(0) = start;
   Eigen::Index t = 0;
-  for (; t < outing.steps && std::abs(states(2, t)) <= std::numbers::pi / 2; ++t)
-    states.col(t + 1) = euler(cart, states.col(t), (K * states.col(t))[0], outing.tau, outing.noise, rng);
-  return states.leftCols(t + 1);
+  for (; t < outing.steps && std::abs(run(2, t)) <= std::numbers::pi / 2; ++t)
+    run.col(t + 1) = euler(cart, run.col(t), (K * run.col(t))[0], outing.tau, outing.noise, rng);
+  return run.leftCols(t + 1);
 }
 
 /// One number of the states over time.

@@ -127,12 +127,12 @@ inline Eigen::MatrixXd noiseOf(const Situation& in, std::uint64_t seed, int step
 template <class Control, class Step>
 Eigen::MatrixXd ridden(const Eigen::Vector4d& start, Eigen::Index steps, const Control& u,
                        const Step& after) {
-  Eigen::MatrixXd states(4, steps + 1);
-  states.col(0) = start;
+  Eigen::MatrixXd ride(4, steps + 1);
+  ride.col(0) = start;
   Eigen::Index t = 0;
-  for (; t < steps && std::abs(states(1, t)) <= kLargestAngle; ++t)
-    states.col(t + 1) = after(states.col(t), u(states.col(t)), t);
-  return states.leftCols(t + 1);
+  for (; t < steps && std::abs(ride(1, t)) <= kLargestAngle; ++t)
+    ride.col(t + 1) = after(ride.col(t), u(ride.col(t)), t);
+  return ride.leftCols(t + 1);
 }
 
 /// The state after a step with that noise.

@@ -64,7 +64,7 @@ inline std::vector<std::size_t> steepestWay(const Network& network, const std::v
                                             std::size_t start) {
   std::vector<std::size_t> way{start};
   while (std::isfinite(distances[start]) && distances[way.back()] > 0 && way.size() <= network.size()) {
-    const std::vector<Arc>& arcs = network[way.back()];
+    const auto& arcs = network.at(way.back());
     const auto costs = [&](const Arc& arc) { return arc.length + distances[arc.to]; };
     way.push_back(std::min_element(arcs.begin(), arcs.end(), [&](const Arc& a, const Arc& b) {
                     return costs(a) < costs(b);

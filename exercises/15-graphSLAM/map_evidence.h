@@ -48,7 +48,7 @@ inline rex::grading::Evidence robustSeen(const JudgedWalk& judged) {
   const PoseMap& map = judged.walk.map;
   rex::Figure figure = planOf("A map with wrong loops");
   std::string label = "wrong loops";
-  for (const MeasuredEdge& edge : map.edges) {
+  for (const auto& edge : map.edges) {
     const Eigen::Vector3d &a = judged.walk.truth[static_cast<std::size_t>(edge.from)],
                           &b = judged.walk.truth[static_cast<std::size_t>(edge.to)];
     if (!edge.isLoop || (a - b).head<2>().norm() < 1) continue;
@@ -88,22 +88,22 @@ inline rex::grading::Evidence partnersSeen(const ScanPair& pair, const std::vect
   std::string gotLabel = "partner, got", wantedLabel = "partner, wanted";
   for (std::size_t k = 0; k < got.size(); ++k) {
     const Eigen::Vector2d at = pointFrom(pair.guess, pair.moving[k]);
-    int nearest = -1;
+    int partner = -1;
     double least = most;
     for (std::size_t i = 0; i < pair.reference.size(); ++i) {
       const double distance = (pair.reference[i] - at).norm();
       if (distance > least) continue;
       least = distance;
-      nearest = static_cast<int>(i);
+      partner = static_cast<int>(i);
     }
     const auto join = [&](int to, rex::Series look) {
       if (to < 0 || to >= static_cast<int>(pair.reference.size())) return;
       const Points ends{at, pair.reference[static_cast<std::size_t>(to)]};
       figure.series.push_back(rex::grading::through(ends, std::move(look)));
     };
-    if (got[k] == nearest) continue;
+    if (got[k] == partner) continue;
     join(got[k], rex::grading::wrongCurve(std::exchange(gotLabel, "")));
-    join(nearest, rex::grading::wantedCurve(std::exchange(wantedLabel, "")));
+    join(partner, rex::grading::wantedCurve(std::exchange(wantedLabel, "")));
   }
   return evidence;
 }

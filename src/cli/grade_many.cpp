@@ -87,6 +87,14 @@ void requireApart(const fs::path& folder, const fs::path& out) {
     throw UsageError({.what = "--out", .found = to.string(), .wanted = "a folder apart from " + in.string()});
 }
 
+void makeFolder(const fs::path& out) {
+  std::error_code failure;
+  fs::create_directories(out, failure);
+  if (failure)
+    throw Error(
+        {.what = "cannot make the folder of results", .where = {out.string()}, .found = failure.message()});
+}
+
 void tell(const grading::HandIns& handedIn) {
   for (const std::string& complaint : handedIn.complaints) note(wrap(harmless(complaint), 2, 0));
   constexpr std::size_t kMostNotes = 5;
@@ -188,9 +196,9 @@ ExitCode gradeMany(const Project& project, const GradeManyOptions& options) {
   const std::vector<ExerciseInfo> exercises = project.exercises();
   const grading::HandIns handedIn = grading::readHandIns(options.folder, exercises, options.only);
   tell(handedIn);
+  makeFolder(options.out);
   Graders graders(project);
   const std::vector<Task> tasks = tasksOf(handedIn, options, sandbox->level, exercises, graders);
-  fs::create_directories(options.out);
   const fs::path manifest = options.manifest.empty() ? options.out / "tasks.tsv" : options.manifest;
   grading::replaceTextFile(manifest, grading::toManifest(tasks), "the list of tasks");
   const ExitCode taken = handedIn.complaints.empty() ? ExitCode::kFull : ExitCode::kNotGradable;

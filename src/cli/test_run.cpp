@@ -99,6 +99,8 @@ void TestRun::publish(const Project& project, const GradeResult& result) const {
 
 void TestRun::print(const grading::Submission& graded) const {
   printResult(exercise_, graded, results_, options_.checks.empty());
+  if (options_.main.empty() && !fs::exists(file_))
+    say(fmt::format("To get it back as it was handed out: scripts/rex reset {}", exercise_.name));
 }
 
 ExitCode exitCodeOf(const GradeResult& result) {

@@ -78,7 +78,8 @@ ExerciseStatistics statisticsOfOne(const std::vector<const StudentResult*>& resu
     all.maxPoints = std::max(all.maxPoints, result.maxScore);
     all.meanPoints += result.score;
     points.push_back(result.score);
-    seconds.push_back(result.usage.wallSeconds);
+    // What does not compile takes no time.
+    if (result.outcome != Outcome::compileError) seconds.push_back(result.usage.wallSeconds);
     if (all.slowest.empty() || result.usage.wallSeconds > all.longestSeconds)
       std::tie(all.slowest, all.longestSeconds) = std::tie(one->student, result.usage.wallSeconds);
     versions.insert(result.exerciseVersion);

@@ -49,7 +49,7 @@ struct ExerciseStatistics {
   double meanPoints = 0;
   double medianPoints = 0;
   std::array<int, kDistribution.size()> distribution{};
-  double medianSeconds = 0;  ///< of wall time that the checks took
+  double medianSeconds = 0;  ///< of wall time that the checks of a file that compiles took
   double longestSeconds = 0;
   std::string slowest{};                  ///< the student of the longest
   std::vector<CheckStatistics> checks{};  ///< the most failed first, then in the order of the results

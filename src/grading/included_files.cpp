@@ -37,6 +37,7 @@ class Allowed {
     add(folder / mainFile);
     if (!toolchain.prefix.empty()) add(toolchain.prefix), add(toolchain.prefix.string() + ".gch");
     for (std::size_t k = 1; k < toolchain.flags.size(); ++k) {
+      if (toolchain.flags[k - 1] == "-include") add(toolchain.flags[k]);  // ours: options of the sanitizers
       if (toolchain.flags[k - 1] == "-isystem") libraries_.push_back(normal(toolchain.flags[k]));
       if (toolchain.flags[k - 1] == "-iquote")
         for (const fs::path& header : studentHeaders(toolchain.flags[k])) add(header);

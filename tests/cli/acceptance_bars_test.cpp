@@ -180,7 +180,7 @@ struct BadRobot {
   std::string fix;
 };
 
-TEST_F(AcceptanceBars, Bar08MalformedRobotsAreExplainedWithFileLineAndFix) {
+std::vector<BadRobot> badRobots() {
   const std::string links = "<link name='arm'/>\n<link name='hand'/>\n",
                     ends = "<parent link='arm'/><child link='hand'/>\n";
   const auto joint = [&](const std::string& type, const std::string& inside) {
@@ -189,7 +189,7 @@ TEST_F(AcceptanceBars, Bar08MalformedRobotsAreExplainedWithFileLineAndFix) {
   const auto visual = [](const std::string& shape) {
     return "<link name='arm'>\n<visual><geometry>\n" + shape + "\n</geometry></visual>\n</link>\n";
   };
-  const std::vector<BadRobot> robots = {
+  return {
       {"<link name='arm'>\n", 3, "wanted </link> first"},
       {links + "<joint name='elbow' type='fixed'>\n<parent link='amr'/><child link='hand'/>\n</joint>\n", 5,
        "did you mean 'arm'?"},
@@ -214,7 +214,10 @@ TEST_F(AcceptanceBars, Bar08MalformedRobotsAreExplainedWithFileLineAndFix) {
        3, "wanted a number >= 0"},
       {"<xacro:property name='x' value='1'/>\n", 2, "run 'xacro FILE > robot.urdf'"},
   };
-  for (const BadRobot& robot : robots) {
+}
+
+TEST_F(AcceptanceBars, Bar08MalformedRobotsAreExplainedWithFileLineAndFix) {
+  for (const BadRobot& robot : badRobots()) {
     write(root() / "bad.urdf", "<robot name='r'>\n" + robot.inside + "</robot>\n");
     const Ended ended = rex({"scene", root() / "bad.urdf", "check"});
     EXPECT_EQ(ended.code, 1) << robot.inside;

@@ -103,8 +103,9 @@ TEST(Program, AnswersUnknownWordsWithTheNearest) {
 }
 
 TEST(Program, ExplainsWrongUse) {
-  expectUsageError({"test"}, "rex test: EXERCISE is required");
-  expectUsageError({"test", "01", "--seed", "x"}, "rex test: Could not convert: --seed = x");
+  expectUsageError({"test"}, "rex test: either EXERCISE or --all is required");
+  expectUsageError({"test", "01", "--seed", "x"},
+                   "rex test: --seed: found x, wanted a whole number, not negative");
   expectUsageError({"test", "01", "--main", "a.cpp", "--solution"}, "--main excludes --solution");
   expectUsageError({"test", "01", "--debug", "--level", "1"}, "--debug excludes --level");
   expectUsageError({"dev", "check", "--seeds", "0"}, "rex dev check: --seeds");

@@ -344,6 +344,9 @@ TEST_F(GradeManyTest, RefusesFoldersInsideEachOther) {
     EXPECT_THAT(flat(ended.error), HasSubstr("wanted a folder apart from"));
   }
   EXPECT_EQ(rex({"grade", (root() / "none").string(), "--out", results().string()}).code, 64);
+  const Ended denied = grade({}, "../../../../../../../proc/results");
+  EXPECT_EQ(denied.code, 3);
+  EXPECT_THAT(flat(denied.error), HasSubstr("cannot make the folder of results: found "));
 }
 
 }  // namespace

@@ -1,8 +1,15 @@
 // `rex test` of several exercises at once.
+#include <csignal>
+#include <functional>
+#include <thread>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include "base/interruption.h"
 #include "cli/linked_build.h"
 
 namespace rex::cli {
@@ -86,6 +93,47 @@ TEST_F(TestMany, KeepsAFaultToItsExercise) {
   EXPECT_THAT(ended.output,
               EndsWith("\n1 of 3 exercises in full, 3 of 9 points; 2 met a fault of the grader\n"));
   EXPECT_EQ(workFolders(), 0);
+}
+
+bool waitUntil(const std::function<bool()>& holds) {
+  for (int k = 0; k < 6000; ++k) {
+    if (holds()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return false;
+}
+
+TEST_F(TestMany, LeavesNothingBehindWhenItIsStopped) {
+  const auto mark = [&](const std::string& name) { return root() / ("process-" + name); };
+  const std::vector<std::string> names = {"98-template", "97-other"};
+  for (const std::string& name : names)
+    solve(name, doing("std::ofstream(\"" + mark(name).string() +
+                      "\") << getpid() << std::endl;\n  for (;;) sleep(1000);"));
+  const pid_t rex = ::fork();
+  if (rex == 0) {
+    try {
+      const HeldSignals held;
+      const char* const words[] = {"rex", "test", "98", "97", "-j2"};
+      ::_exit(runCommandLine(5, words, {root(), build()}));
+    } catch (const Interrupted&) {
+      ::_exit(99);
+    }
+  }
+  for (const std::string& name : names)
+    ASSERT_TRUE(waitUntil([&] { return fileText(mark(name)).ends_with('\n'); }));
+  ::kill(rex, SIGINT);
+  int status = 0;
+  ::waitpid(rex, &status, 0);
+  EXPECT_EQ(WEXITSTATUS(status), 99);
+  EXPECT_EQ(workFolders(), 0);
+  // What works has a working folder, what has ended none.
+  for (const std::string& name : names)
+    EXPECT_TRUE(waitUntil([&] {
+      std::error_code gone;
+      static_cast<void>(
+          fs::read_symlink("/proc/" + std::to_string(std::stoi(fileText(mark(name)))) + "/cwd", gone));
+      return static_cast<bool>(gone);
+    })) << name;
 }
 
 TEST_F(TestMany, PrintsJson) {

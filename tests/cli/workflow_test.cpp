@@ -87,6 +87,11 @@ TEST_F(WorkflowTest, ExplainsAMissingFileAMissingFunctionAndAForbiddenCall) {
   const Ended missing = rex({"test", "98", "--main", root() / "none.cpp"});
   EXPECT_EQ(missing.code, 2);
   EXPECT_THAT(missing.error, HasSubstr("none.cpp: error: cannot be graded: found no file"));
+  EXPECT_THAT(missing.output, Not(HasSubstr("rex reset")));
+  fs::remove(exercise() / "main.cpp");
+  const Ended gone = rex({"test", "98"});
+  EXPECT_EQ(gone.code, 2);
+  EXPECT_THAT(gone.output, HasSubstr("as it was handed out: scripts/rex reset 98-template\n"));
   write(exercise() / "main.cpp", "int main() {}\n");
   const Ended lacking = rex({"test", "98"});
   EXPECT_EQ(lacking.code, 2);

@@ -59,6 +59,9 @@ TEST(ClassStatistics, TakeTheMiddleOfSkewedPoints) {
   EXPECT_DOUBLE_EQ(all.meanPoints, 0.75);
   EXPECT_DOUBLE_EQ(all.medianPoints, 0);
   EXPECT_THAT(all.distribution, ElementsAre(1, 0, 0, 0, 0, 3));
+  EXPECT_DOUBLE_EQ(all.medianSeconds, 1.5);
+  results[0].result.outcome = Outcome::compileError;  // the one of 0 s
+  EXPECT_DOUBLE_EQ(statisticsOf(results).front().medianSeconds, 2);
   EXPECT_EQ(medianOf({}), 0);
   EXPECT_EQ(medianOf({5, 1, 3}), 3);
 }

@@ -6,6 +6,7 @@
 #include "geometry/pose.h"
 #include "render/png.h"
 #include "support/file_text.h"
+#include "support/fresh_folder.h"
 #include "support/needs_osmesa.h"
 
 namespace rex::grading {
@@ -47,8 +48,7 @@ Film ball() {
 
 class WriteEvidence : public ::testing::Test {
  protected:
-  void SetUp() override { std::filesystem::remove_all(folder_); }
-  std::filesystem::path folder_ = std::filesystem::path(REX_BINARY_DIR) / "tests-out" / "evidence";
+  const std::filesystem::path folder_ = freshFolderOfTest("evidence") / "checks";
 };
 
 TEST_F(WriteEvidence, DrawsTheFirstFigure) {

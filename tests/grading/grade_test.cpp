@@ -16,6 +16,7 @@
 #include "grading/worker_process.h"
 #include "interface.h"
 #include "support/expect_error.h"
+#include "support/fresh_folder.h"
 
 namespace rex::grading {
 namespace {
@@ -61,8 +62,7 @@ TEST(Grade, DrawsVisibleChecksThatDoNotHold) {
   };
   const std::vector<RunnableCheck> checks = {check("seen", Group::visible, off),
                                              check("unseen", Group::hidden, off)};
-  const std::filesystem::path folder = std::filesystem::path(REX_BINARY_DIR) / "tests-out" / "checks";
-  std::filesystem::remove_all(folder);
+  const std::filesystem::path folder = freshFolderOfTest("evidence") / "checks";
   const GradeResult result =
       grade({}, checks, {.worker = kGood, .signature = Student::signature(), .evidence = folder},
             [](const GradeResult&) {});

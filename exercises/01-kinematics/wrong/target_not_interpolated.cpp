@@ -1,5 +1,4 @@
 // caught by: line, motion-other-robot
-// shown by: line
 // mistake: The hand is sent to the far target at once, at every step.
 
 // <solution straightLine>

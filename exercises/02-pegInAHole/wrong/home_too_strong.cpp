@@ -1,5 +1,4 @@
 // caught by: circle-tracks
-// shown by: circle-tracks
 // mistake: With the precision of the circle, home holds the hand back.
 
 // <solution circleWithTasks>
