@@ -2,15 +2,12 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
-#include <string>
 
 #include "control/riccati.h"
+#include "course/walk_pictures.h"
 #include "exercise.h"
 #include "locomotion/limit_cycle.h"
-#include "locomotion/preview_control.h"
-#include "locomotion/walking_pattern.h"
 #include "swing.h"
-#include "walk_pictures.h"
 
 using namespace rex;
 
@@ -20,34 +17,31 @@ void notUsedYet(const Unused&...) {}
 
 Eigen::MatrixXd supportCorners(const Eigen::MatrixXd& contacts) {
   // <solution supportCorners>
-  std::vector<Eigen::Vector2d> points;
-  for (Eigen::Index i = 0; i < contacts.cols(); ++i) points.emplace_back(contacts.col(i));
-  const auto before = [](const Eigen::Vector2d& p, const Eigen::Vector2d& q) {
-    return p.x() != q.x() ? p.x() < q.x() : p.y() < q.y();
-  };
-  std::sort(points.begin(), points.end(), before);
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  // From the left to the right along the lower border, and back along the upper one.
-  std::vector<Eigen::Vector2d> corners;
-  for (int pass = 0; pass < 2 && points.size() > 1; ++pass) {
-    const std::size_t first = corners.size();
-    for (const Eigen::Vector2d& p : points) {
-      while (corners.size() >= first + 2) {
-        const Eigen::Vector2d along = corners.back() - corners[corners.size() - 2], on = p - corners.back();
-        if (along.x() * on.y() - along.y() * on.x() > 0) break;
-        corners.pop_back();
-      }
-      corners.push_back(p);
+  // Like a string around the points: from corner to corner, always turning as little as possible.
+  const Eigen::Index n = contacts.cols();
+  Eigen::Index first = 0;
+  for (Eigen::Index i = 1; i < n; ++i)
+    if (contacts(0, i) < contacts(0, first) ||
+        (contacts(0, i) == contacts(0, first) && contacts(1, i) < contacts(1, first)))
+      first = i;
+  std::vector<Eigen::Index> chosen;
+  for (Eigen::Index at = first, next = first; n > 0 && (chosen.empty() || next != first); at = next) {
+    chosen.push_back(at);
+    next = first;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double wayX = contacts(0, next) - contacts(0, at), wayY = contacts(1, next) - contacts(1, at);
+      const double toX = contacts(0, i) - contacts(0, at), toY = contacts(1, i) - contacts(1, at);
+      const double turn = wayX * toY - wayY * toX;
+      // Of several in one direction the farthest, so that none between two others is a corner.
+      if (turn < 0 || (turn == 0 && std::hypot(toX, toY) > std::hypot(wayX, wayY))) next = i;
     }
-    corners.pop_back();
-    std::reverse(points.begin(), points.end());
   }
-  if (points.size() == 1) corners = points;
-  Eigen::MatrixXd result(2, corners.size());
-  for (std::size_t i = 0; i < corners.size(); ++i) result.col(static_cast<Eigen::Index>(i)) = corners[i];
+  Eigen::MatrixXd result(2, chosen.size());
+  for (Eigen::Index i = 0; i < result.cols(); ++i)
+    result.col(i) = contacts.col(chosen[static_cast<std::size_t>(i)]);
   return result;
   // <todo>
-  //| // TODO: sort the points by x, then walk along the lower border, and back along the upper one.
+  //| // TODO: begin at a contact that is a corner for certain. Which one is next, and when is it the last?
   //| notUsedYet(contacts);
   //| return Eigen::MatrixXd::Zero(2, 0);
   // </solution>
@@ -59,10 +53,14 @@ double borderDistance(const Eigen::MatrixXd& corners, const Eigen::Vector2d& poi
   bool isInside = k > 2;
   double least = INFINITY;
   for (Eigen::Index i = 0; i < k; ++i) {
-    const Eigen::Vector2d start = corners.col(i), edge = corners.col((i + 1) % k) - start, to = point - start;
-    const double share = k > 1 ? std::clamp(to.dot(edge) / edge.squaredNorm(), 0., 1.) : 0;
-    least = std::min(least, (to - share * edge).norm());
-    isInside = isInside && edge.x() * to.y() - edge.y() * to.x() > 0;
+    const Eigen::Index next = (i + 1) % k;
+    const double edgeX = corners(0, next) - corners(0, i), edgeY = corners(1, next) - corners(1, i);
+    const double toX = point.x() - corners(0, i), toY = point.y() - corners(1, i);
+    // The nearest point lies so far along the edge, 0 to 1.
+    const double length2 = edgeX * edgeX + edgeY * edgeY;
+    const double share = k > 1 ? std::clamp((toX * edgeX + toY * edgeY) / length2, 0., 1.) : 0;
+    least = std::min(least, std::hypot(toX - share * edgeX, toY - share * edgeY));
+    isInside = isInside && edgeX * toY - edgeY * toX > 0;
   }
   return isInside ? least : -least;
   // <todo>
@@ -110,10 +108,15 @@ std::optional<Eigen::Vector2d> zeroMoment(const std::vector<MovingMass>& robot, 
 Sway swayed(const Pendulum& pendulum, const Sway& start, const Eigen::Vector2d& p, double t) {
   // <solution swayed>
   const double omega = std::sqrt(pendulum.g / pendulum.height);
-  // What grows and what decays, by themselves: a difference of cosh and sinh would lose the latter.
-  const Eigen::Vector2d grows = (start.c - p + start.v / omega) / 2 * std::exp(omega * t);
-  const Eigen::Vector2d decays = (start.c - p - start.v / omega) / 2 * std::exp(-omega * t);
-  return {p + grows + decays, omega * (grows - decays)};
+  Sway later;
+  for (int i = 0; i < 2; ++i) {
+    // What grows and what decays, by themselves: a difference of cosh and sinh would lose the latter.
+    const double grows = (start.c[i] - p[i] + start.v[i] / omega) / 2 * std::exp(omega * t);
+    const double decays = (start.c[i] - p[i] - start.v[i] / omega) / 2 * std::exp(-omega * t);
+    later.c[i] = p[i] + grows + decays;
+    later.v[i] = omega * (grows - decays);
+  }
+  return later;
   // <todo>
   //| // TODO: c'' = omega^2 (c - p) has a solution of two exponentials, or of cosh and sinh.
   //| notUsedYet(pendulum, p, t);
@@ -146,24 +149,29 @@ Eigen::Vector3d cartStep(const CartTable& cart, const Eigen::Vector3d& x, double
 PreviewLaw previewLaw(const CartTable& cart) {
   // <solution previewLaw>
   // The state is the error p - r and the change of x in the last step, driven by the change of the jerk.
-  const Eigen::RowVector3d C(1, 0, -cart.height / cart.g);
-  Eigen::Matrix3d A;
-  for (int i = 0; i < 3; ++i) A.col(i) = cartStep(cart, Eigen::Vector3d::Unit(i), 0);
-  const Eigen::Vector3d B = cartStep(cart, Eigen::Vector3d::Zero(), 1);
-  Eigen::Matrix4d F = Eigen::Matrix4d::Zero(), Q = Eigen::Matrix4d::Zero();
+  const auto column = [&](const Eigen::Vector3d& x, double jerk) {
+    const Eigen::Vector3d next = cartStep(cart, x, jerk);
+    return Eigen::Vector4d(next[0] - cart.height / cart.g * next[2], next[0], next[1], next[2]);
+  };
+  Eigen::Matrix4d F = Eigen::Matrix4d::Zero(), Q = F;
   F(0, 0) = 1;
-  F.topRightCorner<1, 3>() = C * A;
-  F.bottomRightCorner<3, 3>() = A;
-  const Eigen::Vector4d G = (Eigen::Vector4d() << C * B, B).finished();
+  for (int i = 0; i < 3; ++i) F.col(i + 1) = column(Eigen::Vector3d::Unit(i), 0);
+  const Eigen::Vector4d G = column(Eigen::Vector3d::Zero(), 1);
   Q(0, 0) = cart.Qe;
   const RiccatiResult riccati = solveDare(F, G, Q, Eigen::MatrixXd::Constant(1, 1, cart.R));
-  const Eigen::Matrix4d X = riccati.X, loop = F - G * riccati.K;
-  PreviewLaw law{riccati.K(0, 0), riccati.K.rightCols<3>(), Eigen::VectorXd(cart.ahead)};
+  PreviewLaw law{riccati.K(0, 0), {riccati.K(0, 1), riccati.K(0, 2), riccati.K(0, 3)}, {}};
+  law.Gp.resize(cart.ahead);
+  double price = cart.R;  // of a change of the jerk, now and in all steps to come
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) price += G[i] * riccati.X(i, j) * G[j];
   // A change of the reference in j steps is a change of the error then; what it costs, carried back to now.
-  Eigen::Vector4d cost = X.col(0);
+  Eigen::Vector4d cost = riccati.X.col(0);
   for (double& gain : law.Gp) {
-    gain = G.dot(cost) / (cart.R + G.dot(X * G));
-    cost = (loop.transpose() * cost).eval();
+    const double push = G.dot(cost);
+    gain = push / price;
+    Eigen::Vector4d before;
+    for (int i = 0; i < 4; ++i) before[i] = F.col(i).dot(cost) - riccati.K(0, i) * push;
+    cost = before;
   }
   return law;
   // <todo>
@@ -199,14 +207,15 @@ Eigen::Vector4d impactOf(const Walker& walker, const Eigen::Vector4d& x) {
   // <solution impactOf>
   const double l = walker.a + walker.b, m = walker.legMass, c = std::cos(x[0] - x[1]);
   const double a = walker.a, b = walker.b;
-  // Angular momenta of all about the foot that lands, and of the leg behind about the hip: for the rates of
-  // the stance and the swing leg before, and of the new stance and swing leg after.
-  Eigen::Matrix2d before, after;
-  before << (walker.hipMass * l * l + 2 * m * a * l) * c - m * a * b, -m * a * b, -m * a * b, 0;
-  after << (walker.hipMass + m) * l * l + m * a * a - m * l * b * c, m * b * (b - l * c), -m * l * b * c,
-      m * b * b;
-  const Eigen::Vector2d rates = solve(after, Eigen::Vector2d(before * x.tail<2>()));
-  return {x[1], x[0], rates[0], rates[1]};
+  // Angular momenta before the impact: of all about the foot that lands, of the leg behind about the hip.
+  const double all = ((walker.hipMass * l * l + 2 * m * a * l) * c - m * a * b) * x[2] - m * a * b * x[3];
+  const double behind = -m * a * b * x[2];
+  // What multiplies the rates of the new stance and swing leg in both after it.
+  const double all1 = (walker.hipMass + m) * l * l + m * a * a - m * l * b * c, all2 = m * b * (b - l * c);
+  const double behind1 = -m * l * b * c, behind2 = m * b * b;
+  const double determinant = all1 * behind2 - all2 * behind1;
+  return {x[1], x[0], (behind2 * all - all2 * behind) / determinant,
+          (all1 * behind - behind1 * all) / determinant};
   // <todo>
   //| // TODO: which two angular momenta does the impulse at the foot that lands not change?
   //| notUsedYet(walker);
@@ -301,28 +310,67 @@ Eigen::VectorXd multiplierSizes(const Walker& walker, const Eigen::Vector4d& gai
 
 namespace {
 
+const Color kBlue{0.0f, 0.45f, 0.7f}, kOrange{0.84f, 0.37f, 0.0f}, kGrey{0.62f, 0.66f, 0.72f},
+    kBlack{0, 0, 0}, kYellow{1, 0.85f, 0.3f};
+
+using Points = std::vector<Eigen::Vector2d>;
+
 void nothingYet(const char* what) { std::printf("Nothing to see yet of the %s.\n", what); }
+
+Figure axes(const char* title, const char* xLabel, const char* yLabel, Legend legend = Legend::kAuto) {
+  Figure figure;
+  figure.title = title;
+  figure.xLabel = xLabel;
+  figure.yLabel = yLabel;
+  figure.legend = legend;
+  return figure;
+}
+
+// A new curve of a figure, to be filled.
+Series& curve(Figure& figure, const char* label, const Color& color, double size = 1) {
+  Series& series = figure.series.emplace_back();
+  series.label = label;
+  series.color = color;
+  series.size = size;
+  return series;
+}
+
+void add(Series& series, double x, double y) {
+  series.x.push_back(x);
+  series.y.push_back(y);
+}
+
+void addAll(Series& series, const Points& points) {
+  for (const Eigen::Vector2d& p : points) add(series, p.x(), p.y());
+}
+
+// Yours is wide and yellow, and the library's lies dashed upon it.
+void compare(Figure& figure) {
+  curve(figure, "yours", kYellow, 5);
+  curve(figure, "library's", kBlack).dashed = true;
+}
 
 // Two soles, one ahead of the other, and how far from the border one is above them.
 void showSupport() {
-  const Sole sole{.25, .125};
-  const Points left = soleOf({Side::kLeft, {0, .125}, 0}, sole),
-               right = soleOf({Side::kRight, {.25, -.125}, 0}, sole);
+  const double middles[2][2] = {{0, .125}, {.25, -.125}}, signs[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
   Eigen::MatrixXd contacts(2, 8);
-  for (int i = 0; i < 8; ++i) contacts.col(i) = i < 4 ? left[i] : right[i - 4];
+  for (int i = 0; i < 8; ++i) {
+    contacts(0, i) = middles[i / 4][0] + .125 * signs[i % 4][0];
+    contacts(1, i) = middles[i / 4][1] + .0625 * signs[i % 4][1];
+  }
   const Eigen::MatrixXd corners = supportCorners(contacts);
-  if (corners.cols() < 3) return nothingYet("support polygon");
-  Points border;
-  for (Eigen::Index i = 0; i < corners.cols(); ++i) border.emplace_back(corners.col(i));
+  const Eigen::Index k = corners.cols();
+  if (k < 3) return nothingYet("support polygon");
+  Figure figure = axes("Distance from the border of the support polygon", "x [m]", "y [m]", Legend::kTopLeft);
+  figure.colorLabel = "distance [m]";
+  figure.equalAxes = true;
+  for (const int foot : {0, 4}) {
+    Series& sole = curve(figure, foot == 0 ? "soles" : "", kBlack);
+    for (int i = 0; i < 5; ++i) add(sole, contacts(0, foot + i % 4), contacts(1, foot + i % 4));
+  }
+  Series& border = curve(figure, "support polygon", kOrange, 2);
+  for (Eigen::Index i = 0; i <= k; ++i) add(border, corners(0, i % k), corners(1, i % k));
   const auto distance = [&](double x, double y) { return borderDistance(corners, {x, y}); };
-  Figure figure{.title = "Distance from the border of the support polygon",
-                .xLabel = "x [m]",
-                .yLabel = "y [m]",
-                .colorLabel = "distance [m]",
-                .equalAxes = true,
-                .legend = Legend::kTopLeft,
-                .series = {outlineOf("soles", left, kBlack), outlineOf("", right, kBlack),
-                           outlineOf("support polygon", border, kOrange, 2)}};
   figure.heatMap = heatMapOf(distance, {-.3, .55}, {-.35, .35}, 170, 140);
   plot("support", figure);
 }
@@ -331,131 +379,140 @@ void showCapture() {
   const Pendulum pendulum;
   const Sway now{{0, 0}, {.6, 0}};
   const Eigen::Vector2d capture = capturePoint(pendulum, now);
-  Figure figure{.title = "Where the foot must go: the pendulum over three places",
-                .xLabel = "time [s]",
-                .yLabel = "centre of mass [m]",
-                .legend = Legend::kTopLeft,
-                .horizontalLines = {{capture.x(), "capture point"}}};
-  const std::pair<double, const char*> places[] = {
-      {-.02, "foot 2 cm behind it"}, {0, "foot on the capture point"}, {.02, "foot 2 cm ahead of it"}};
-  for (const auto& [offset, label] : places) {
-    Series series{.label = label};
-    for (int i = 0; i <= 110; ++i) {
-      series.x.push_back(.01 * i);
-      series.y.push_back(swayed(pendulum, now, capture + Eigen::Vector2d(offset, 0), .01 * i).c.x());
-    }
-    figure.series.push_back(series);
+  Figure figure = axes("Where the foot must go: the pendulum over three places", "time [s]",
+                       "centre of mass [m]", Legend::kTopLeft);
+  figure.horizontalLines = {{capture.x(), "capture point"}};
+  const char* labels[] = {"foot 2 cm behind it", "foot on the capture point", "foot 2 cm ahead of it"};
+  const Color colors[] = {kBlue, kBlack, kOrange};
+  for (int place = 0; place < 3; ++place) {
+    Series& series = curve(figure, labels[place], colors[place]);
+    const Eigen::Vector2d foot(capture.x() + .02 * (place - 1), capture.y());
+    for (int i = 0; i <= 110; ++i) add(series, .01 * i, swayed(pendulum, now, foot, .01 * i).c.x());
   }
   plot("capture", figure);
 }
 
-// A walk of the cart in both axes, from above, beside what was wanted.
+// A few steps ahead, then around a bend.
+WalkPlan walkAround() {
+  WalkPlan plan;
+  double x = 0, y = 0, yaw = 0;
+  for (int i = 0; i < 10; ++i) {
+    if (i > 4 && i < 9) yaw += .15;
+    if (i > 1 && i < 9) {
+      x += .2 * std::cos(yaw);
+      y += .2 * std::sin(yaw);
+    }
+    Footstep& foot = plan.footsteps.emplace_back();
+    foot.side = i % 2 == 0 ? Side::kLeft : Side::kRight;
+    foot.yaw = yaw;
+    const double left = i % 2 == 0 ? .095 : -.095;
+    foot.p = {x - left * std::sin(yaw), y + left * std::cos(yaw)};
+  }
+  return plan;
+}
+
+// A walk of the cart in both axes, from above.
 struct Walk {
-  Points center, zmp, wanted;
+  Points center, zmp;
   double largestError = 0;
 };
 
 Walk walkOf(const CartTable& cart, const PreviewLaw& law, const Eigen::MatrixXd& reference) {
   Walk walk;
-  const Eigen::VectorXd rx = reference.row(0), ry = reference.row(1);
-  const Eigen::MatrixXd x = followed(cart, law, rx), y = followed(cart, law, ry);
-  for (Eigen::Index k = 0; k < rx.size(); ++k) {
-    const double rise = cart.height / cart.g;
+  const Eigen::MatrixXd x = followed(cart, law, reference.row(0)), y = followed(cart, law, reference.row(1));
+  const double rise = cart.height / cart.g;
+  for (Eigen::Index k = 0; k < reference.cols(); ++k) {
     walk.center.emplace_back(x(0, k), y(0, k));
-    walk.zmp.emplace_back(x(0, k) - rise * x(2, k), y(0, k) - rise * y(2, k));
-    walk.wanted.emplace_back(rx[k], ry[k]);
-    walk.largestError = std::max(walk.largestError, (walk.zmp.back() - walk.wanted.back()).norm());
+    const double px = x(0, k) - rise * x(2, k), py = y(0, k) - rise * y(2, k);
+    walk.zmp.emplace_back(px, py);
+    walk.largestError = std::max(walk.largestError, std::hypot(px - reference(0, k), py - reference(1, k)));
   }
   return walk;
 }
 
 void showGains(const CartTable& cart, const PreviewLaw& law, const Eigen::VectorXd& library) {
-  Figure figure{.title = "What a step of the zero moment point is worth in advance",
-                .xLabel = "time until the step [s]",
-                .yLabel = "gain Gp"};
-  Series yours{.label = "yours", .size = 5, .color = Color{1, .85f, .3f}},
-      theirs{.label = "library's", .y = {library.begin(), library.end()}, .dashed = true, .color = kBlack};
+  Figure figure =
+      axes("What a step of the zero moment point is worth in advance", "time until the step [s]", "gain Gp");
+  compare(figure);
   for (Eigen::Index j = 0; j < law.Gp.size(); ++j) {
-    yours.x.push_back(cart.step * static_cast<double>(j + 1));
-    yours.y.push_back(law.Gp[j]);
+    const double time = cart.step * static_cast<double>(j + 1);
+    add(figure.series[0], time, law.Gp[j]);
+    add(figure.series[1], time, library[j]);
   }
-  theirs.x = yours.x;
-  figure.series = {yours, theirs};
   plot("gains", figure);
 }
 
-// y of some points over time.
-Series sideways(const std::string& label, const Points& points, double step, const Color& color,
-                double size = 1) {
-  Series series = wayOf(label, points, color, size);
-  for (std::size_t k = 0; k < points.size(); ++k) series.x[k] = step * static_cast<double>(k);
-  return series;
-}
-
-void showWalk(const CartTable& cart, const WalkPlan& plan, const Walk& walk, const Points& library) {
-  Figure above = footprints("A walk from above", plan);
-  above.series = {wayOf("centre of mass", walk.center, kBlue),
-                  wayOf("zero moment point", walk.zmp, kOrange, 1.5)};
+void showWalk(const CartTable& cart, const WalkPlan& plan, const Walk& walk, const Eigen::MatrixXd& library) {
+  Figure above = footprintFigure(plan);
+  above.title = "A walk from above";
+  above.legend = Legend::kTopLeft;
+  above.width = 1000;
+  addAll(curve(above, "centre of mass", kBlue), walk.center);
+  addAll(curve(above, "zero moment point", kOrange, 1.5), walk.zmp);
   plot("zmp", above);
-  Series theirs = sideways("library's zero moment point", library, cart.step, kBlack);
-  theirs.dashed = true;
-  plot("zmp_time", {.title = "The same walk, y over time",
-                    .xLabel = "time [s]",
-                    .yLabel = "y [m]",
-                    .legend = Legend::kTopLeft,
-                    .series = {sideways("wanted zero moment point", walk.wanted, cart.step, kSoft, 5),
-                               sideways("zero moment point", walk.zmp, cart.step, kOrange, 2),
-                               sideways("centre of mass", walk.center, cart.step, kBlue, 2), theirs},
-                    .width = 1000});
+
+  Figure sideways = axes("The same walk over time", "time [s]", "y [m]", Legend::kTopLeft);
+  sideways.width = 1000;
+  for (const char* label : {"zero moment point", "centre of mass", "library's zero moment point"})
+    curve(sideways, label, kBlack);
+  sideways.series[0].color = kOrange;
+  sideways.series[1].color = kBlue;
+  sideways.series[0].size = sideways.series[1].size = 2;
+  sideways.series[2].dashed = true;
+  for (std::size_t k = 0; k < walk.zmp.size(); ++k) {
+    const double time = cart.step * static_cast<double>(k);
+    add(sideways.series[0], time, walk.zmp[k].y());
+    add(sideways.series[1], time, walk.center[k].y());
+    add(sideways.series[2], time, library(1, static_cast<Eigen::Index>(k)));
+  }
+  plot("zmp_time", sideways);
 }
 
 // With less of the preview, the rest of the law as it is.
 void showHorizon(const CartTable& cart, const PreviewLaw& law, const Eigen::MatrixXd& reference) {
-  Series series{.label = "", .style = SeriesStyle::kLinesPoints};
+  Figure figure = axes("How far ahead one must look", "preview [s]",
+                       "largest error of the zero moment point [m]", Legend::kNone);
+  figure.logY = true;
+  Series& series = curve(figure, "", kBlue);
+  series.style = SeriesStyle::kLinesPoints;
   for (int n = 20; n <= cart.ahead; n += 10) {
     PreviewLaw shorter = law;
     shorter.Gp = law.Gp.head(n);
-    series.x.push_back(cart.step * n);
-    series.y.push_back(walkOf(cart, shorter, reference).largestError + 1e-9);
+    add(series, cart.step * n, walkOf(cart, shorter, reference).largestError + 1e-9);
   }
-  plot("horizon", {.title = "How far ahead one must look",
-                   .xLabel = "preview [s]",
-                   .yLabel = "largest error of the zero moment point [m]",
-                   .logY = true,
-                   .legend = Legend::kNone,
-                   .series = {series}});
+  plot("horizon", figure);
 }
 
-// The states of a walk with small steps in time, and the ends of its steps.
+// A walk with small steps in time, and the ends of its steps.
 struct Way {
   Points leg;  // angle and rate of one leg, which stands in every other step
-  WalkerMotion motion;
+  CompassWalk film;
   std::vector<Eigen::Vector4d> ends;
 };
 
+// The middle of two slopes by Heun is good enough for a picture.
+Eigen::Vector4d swungALittle(const Walker& walker, const Eigen::Vector4d& x, double h) {
+  const Eigen::Vector4d rate = swingRate(walker, x);
+  return x + h / 2 * (rate + swingRate(walker, x + h * rate));
+}
+
 Way wayFrom(const Walker& walker, Eigen::Vector4d x, int steps) {
-  Way way{{}, {}, {x}};
+  Way way;
+  way.film.walker = {walker.a, walker.b, walker.legMass, walker.hipMass, walker.slope, walker.g};
+  way.ends.push_back(x);
   double time = 0, foot = 0;
   for (int i = 0; i < steps; ++i) {
     const auto end = stepFrom(walker, x);
     if (!end) break;
-    const auto drawn = [&] {
-      way.leg.push_back(i % 2 == 0 ? Eigen::Vector2d(x[0], x[2]) : Eigen::Vector2d(x[1], x[3]));
-    };
-    const int parts = 200;
-    for (int j = 0; j < parts; ++j) {
+    const int first = i % 2, parts = 200;
+    for (int j = 0; j <= parts; ++j) {
+      way.leg.emplace_back(x[first], x[first + 2]);
+      if (j == parts) break;
       const double h = end->time / parts;
-      drawn();
-      if (time + h * j >= static_cast<double>(way.motion.states.size()) / 30) {
-        way.motion.states.push_back(x);
-        way.motion.feet.push_back(foot);
-        way.motion.leftStands.push_back(i % 2 == 0);
-      }
-      // Heun's method is good enough for a picture.
-      const Eigen::Vector4d rate = swingRate(walker, x);
-      x += h / 2 * (rate + swingRate(walker, x + h * rate));
+      if (time + h * j >= static_cast<double>(way.film.views.size()) / 30)
+        way.film.views.push_back({x, foot, first == 0});
+      x = swungALittle(walker, x, h);
     }
-    drawn();
     foot += 2 * (walker.a + walker.b) * std::sin((x[1] - x[0]) / 2);
     time += end->time;
     x = end->x;
@@ -469,54 +526,46 @@ void showGait(const Walker& walker, const Eigen::Vector4d& guess, const Eigen::V
   const Eigen::VectorXd sizes = multiplierSizes(walker, gait);
   print("moduli of its multipliers", sizes.transpose());
   const Way settles = wayFrom(walker, guess, 16), repeats = wayFrom(walker, gait, 3);
-  plot("phase",
-       {.title = "One leg of the compass walker, step after step",
-        .xLabel = "angle [rad]",
-        .yLabel = "rate [rad/s]",
-        .legend = Legend::kOutside,
-        .series = {wayOf("from a guess", settles.leg, kSoft), wayOf("the gait", repeats.leg, kOrange, 2)}});
-  Series distance{.label = "distance from the gait", .style = SeriesStyle::kLinesPoints, .color = kBlue},
-      law{.label = "largest multiplier to the power of the steps", .dashed = true, .color = kBlack};
-  for (std::size_t i = 0; i < settles.ends.size(); ++i) {
-    distance.y.push_back((settles.ends[i] - gait).norm() + 1e-12);
-    law.y.push_back(distance.y[0] * std::pow(sizes[0] + 1e-9, i));
+  Figure phase =
+      axes("One leg of the compass walker, step after step", "angle [rad]", "rate [rad/s]", Legend::kOutside);
+  addAll(curve(phase, "from a guess", kGrey), settles.leg);
+  addAll(curve(phase, "the gait", kOrange, 2), repeats.leg);
+  plot("phase", phase);
+  Figure settling = axes("A walk that settles", "steps", "distance of the states", Legend::kTopRight);
+  settling.logY = true;
+  curve(settling, "distance from the gait", kBlue).style = SeriesStyle::kLinesPoints;
+  curve(settling, "largest multiplier to the power of the steps", kBlack).dashed = true;
+  double law = (guess - gait).norm();
+  for (std::size_t i = 0; i < settles.ends.size(); ++i, law *= sizes[0] + 1e-9) {
+    add(settling.series[0], static_cast<double>(i), (settles.ends[i] - gait).norm() + 1e-12);
+    add(settling.series[1], static_cast<double>(i), law + 1e-12);
   }
-  plot("settling", {.title = "A walk that settles",
-                    .xLabel = "steps",
-                    .yLabel = "distance of the states",
-                    .logY = true,
-                    .legend = Legend::kTopRight,
-                    .series = {distance, law}});
-  filmWalker(walker, wayFrom(walker, guess, 6).motion, "walker");
+  plot("settling", settling);
+  writeFilm(wayFrom(walker, guess, 6).film, "walker",
+            {.view = {.15, -2, .25}, .width = 900, .height = 300, .step = 1. / 30});
 }
 
 // The largest multiplier on one slope after the other, each gait being the guess for the next.
-template <class Library>
-void showSlopes(const Eigen::Vector4d& gait, const Library& byLibrary) {
-  Series yours{.label = "yours", .size = 5, .color = Color{1, .85f, .3f}},
-      theirs{.label = "library's", .dashed = true, .color = kBlack};
-  for (const double way : {-1., 1.}) {
-    std::optional<Eigen::Vector4d> x = gait;
-    for (double degrees = way < 0 ? 3 : 3.1; x && degrees > 1.45 && degrees < 5.05; degrees += .1 * way) {
-      Walker walker;
-      walker.slope = degrees * M_PI / 180;
-      x = gaitNear(walker, *x);
-      if (!x) break;
-      const bool first = way < 0;
-      for (Series* series : {&yours, &theirs}) {
-        const double size = series == &yours ? multiplierSizes(walker, *x)[0] : byLibrary(walker, *x);
-        series->x.insert(first ? series->x.begin() : series->x.end(), degrees);
-        series->y.insert(first ? series->y.begin() : series->y.end(), size);
-      }
+using LargestMultiplier = double (*)(const Walker&, const Eigen::Vector4d&);
+
+void showSlopes(const Eigen::Vector4d& gait, LargestMultiplier byLibrary) {
+  Figure figure = axes("Where the even gait loses its stability", "slope [degrees]",
+                       "largest modulus of the multipliers", Legend::kTopLeft);
+  figure.horizontalLines = {{1, "stable below"}};
+  compare(figure);
+  // Down from 3 degrees to find the gait of the lowest slope, then up.
+  std::optional<Eigen::Vector4d> x = gait;
+  for (int i = 30, way = -1; x && i <= 50; i += way) {
+    Walker walker;
+    walker.slope = .1 * i * M_PI / 180;
+    x = gaitNear(walker, *x);
+    if (x && way > 0) {
+      add(figure.series[0], .1 * i, multiplierSizes(walker, *x)[0]);
+      add(figure.series[1], .1 * i, byLibrary(walker, *x));
     }
+    if (i == 15) way = 1;
   }
-  if (yours.x.empty()) return;
-  plot("slopes", {.title = "Where the even gait loses its stability",
-                  .xLabel = "slope [degrees]",
-                  .yLabel = "largest modulus of the multipliers",
-                  .legend = Legend::kTopLeft,
-                  .series = {yours, theirs},
-                  .horizontalLines = {{1, "stable below"}}});
+  if (!figure.series[0].x.empty()) plot("slopes", figure);
 }
 
 }  // namespace
@@ -527,16 +576,14 @@ int main() {
 
   // The humanoid's centre of mass is 0.8 m high.
   const CartTable cart{.height = .8, .step = .01, .ahead = 160};
-  const PreviewOptions same{.height = cart.height, .step = cart.step};
+  HumanoidWalk humanoid;
+  humanoid.plan = walkAround();
+  humanoid.preview = {.height = cart.height, .step = cart.step};
   const PreviewLaw law = previewLaw(cart);
-  const WalkPlan plan = walkAround();
-  const Eigen::MatrixXd reference = zmpReference(plan, cart.step);
+  const Eigen::MatrixXd reference = zmpReference(humanoid.plan, cart.step);
   const Walk walk = walkOf(cart, law, reference);
-  showGains(cart, law, previewGains(same).Gp);
-  const PreviewMotion motion = followZmp(reference, same);
-  Points library;
-  for (Eigen::Index k = 0; k < motion.zmp.cols(); ++k) library.emplace_back(motion.zmp.col(k));
-  showWalk(cart, plan, walk, library);
+  showGains(cart, law, previewGains(humanoid.preview).Gp);
+  showWalk(cart, humanoid.plan, walk, followZmp(reference, humanoid.preview).zmp);
   showHorizon(cart, law, reference);
 
   const Walker walker;
@@ -550,17 +597,11 @@ int main() {
     nothingYet("gait of the compass walker");
   }
 
-  // The humanoid walks by the library; the ways on the ground are yours.
-  if (walk.largestError > .05) {
+  // The humanoid's joints move by the library; the ways on the ground are yours.
+  humanoid.center = walk.center;
+  humanoid.zmp = walk.zmp;
+  if (walk.largestError < .05)
+    writeFilm(humanoid, "humanoid", {.view = {.7, -1, .55}});
+  else
     nothingYet("walk of the humanoid");
-    return 0;
-  }
-  const WalkingHumanoid humanoid;
-  const Legs legs{humanoid.model.body("left_foot"),
-                  humanoid.model.body("right_foot"),
-                  humanoid.model.body("pelvis"),
-                  {.03, 0, -.075}};
-  const WalkingPattern pattern =
-      walkingPattern(humanoid.model, legs, plan, humanoid.start, {.preview = same});
-  filmHumanoid(humanoid, pattern.Q, cart.step, plan, walk.center, walk.zmp, "humanoid");
 }
