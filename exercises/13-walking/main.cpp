@@ -224,8 +224,8 @@ Walk walkOf(const CartTable& cart, const PreviewLaw& law, const Eigen::MatrixXd&
 }
 
 void showGains(const CartTable& cart, const PreviewLaw& law, const Eigen::VectorXd& library) {
-  Figure figure =
-      axes("What a step of the zero moment point is worth in advance", "time until the step [s]", "gain Gp");
+  Figure figure = axes("What a step of the zero moment point is worth in advance", "time until the step [s]",
+                       "gain Gp [1/s^3]");
   compare(figure);
   for (Eigen::Index j = 0; j < law.Gp.size(); ++j) {
     const double time = cart.step * static_cast<double>(j + 1);
@@ -240,6 +240,7 @@ void showWalk(const CartTable& cart, const WalkPlan& plan, const Walk& walk, con
   above.title = "A walk from above";
   above.legend = Legend::kTopLeft;
   above.width = 1000;
+  above.height = 450;
   addAll(curve(above, "centre of mass", kBlue), walk.center);
   addAll(curve(above, "zero moment point", kOrange, 1.5), walk.zmp);
   plot("zmp", above);
@@ -324,7 +325,8 @@ void showGait(const Walker& walker, const Eigen::Vector4d& guess, const Eigen::V
   addAll(curve(phase, "from a guess", kGrey), settles.leg);
   addAll(curve(phase, "the gait", kOrange, 2), repeats.leg);
   plot("phase", phase);
-  Figure settling = axes("A walk that settles", "steps", "distance of the states", Legend::kTopRight);
+  Figure settling =
+      axes("A walk that settles", "step", "distance of the states [rad, rad/s]", Legend::kTopRight);
   settling.logY = true;
   curve(settling, "distance from the gait", kBlue).style = SeriesStyle::kLinesPoints;
   curve(settling, "largest multiplier to the power of the steps", kBlack).dashed = true;
@@ -349,6 +351,7 @@ void showSlopes(const Eigen::Vector4d& gait, LargestMultiplier byLibrary) {
   // Down from 3 degrees to find the gait of the lowest slope, then up.
   std::optional<Eigen::Vector4d> x = gait;
   for (int i = 30, way = -1; x && i <= 50; i += way) {
+    if (i == 15) way = 1;
     Walker walker;
     walker.slope = .1 * i * M_PI / 180;
     x = gaitNear(walker, *x);
@@ -356,7 +359,6 @@ void showSlopes(const Eigen::Vector4d& gait, LargestMultiplier byLibrary) {
       add(figure.series[0], .1 * i, multiplierSizes(walker, *x)[0]);
       add(figure.series[1], .1 * i, byLibrary(walker, *x));
     }
-    if (i == 15) way = 1;
   }
   if (!figure.series[0].x.empty()) plot("slopes", figure);
 }
@@ -394,7 +396,7 @@ int main() {
   humanoid.center = walk.center;
   humanoid.zmp = walk.zmp;
   if (walk.largestError < .05)
-    writeFilm(humanoid, "humanoid", {.view = {.7, -1, .55}});
+    writeFilm(humanoid, "humanoid", {.view = {.35, -1, .8}, .width = 800, .height = 600});
   else
     nothingYet("walk of the humanoid");
 }

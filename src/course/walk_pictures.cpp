@@ -85,8 +85,6 @@ Humanoid courseHumanoid() {
   return {std::move(model), legs, std::move(start)};
 }
 
-Eigen::Vector3d onGround(const Eigen::Vector2d& p) { return {p.x(), p.y(), 0.004}; }
-
 void addFootprints(Picture& picture, const WalkPlan& plan) {
   for (const Footstep& foot : plan.footsteps)
     picture.solids.push_back(
@@ -96,15 +94,15 @@ void addFootprints(Picture& picture, const WalkPlan& plan) {
          "footprint"});
 }
 
-// Up to and with this step.
+// Up to and with this step, just above the footprints; where the ways cross, the centre of mass is on top.
 void addWays(Picture& picture, const HumanoidWalk& walk, std::size_t step) {
   Polyline center{.color = kBlue}, zmp{.color = kOrange};
   for (std::size_t i = 0; i <= step; ++i) {
-    center.points.push_back(onGround(walk.center[i]));
-    zmp.points.push_back(onGround(walk.zmp[i]));
+    zmp.points.emplace_back(walk.zmp[i].x(), walk.zmp[i].y(), 0.004);
+    center.points.emplace_back(walk.center[i].x(), walk.center[i].y(), 0.008);
   }
   picture.pointSets.push_back({.points = {zmp.points.back()}, .color = kOrange, .size = 9});
-  if (step > 0) picture.polylines = {center, zmp};
+  if (step > 0) picture.polylines = {zmp, center};
 }
 
 void requireWays(const HumanoidWalk& walk, Eigen::Index steps) {

@@ -1,4 +1,4 @@
-// caught by: follows, stays-on, stays-any
+// caught by: follows
 // mistake: the law gives the jerk itself instead of its change.
 
 // <solution followed>
