@@ -269,10 +269,10 @@ void showHorizon(const CartTable& cart, const PreviewLaw& law, const Eigen::Matr
   figure.logY = true;
   Series& series = curve(figure, "", kBlue);
   series.style = SeriesStyle::kLinesPoints;
-  for (int n = 20; n <= cart.ahead; n += 10) {
-    PreviewLaw shorter = law;
-    shorter.Gp = law.Gp.head(n);
-    add(series, cart.step * n, walkOf(cart, shorter, reference).largestError + 1e-9);
+  PreviewLaw shorter = law;
+  for (int n = cart.ahead; n >= 20; --n) {
+    if (n % 10 == 0) add(series, cart.step * n, walkOf(cart, shorter, reference).largestError + 1e-9);
+    shorter.Gp[n - 1] = 0;
   }
   plot("horizon", figure);
 }
