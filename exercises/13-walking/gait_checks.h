@@ -143,14 +143,16 @@ inline rex::grading::Evidence stepSeen(const Walker& walker, Eigen::Vector4d x, 
   }
   rex::Series right = rex::grading::wantedCurve("wanted after the impact", {wanted.after[0], wanted.after[1]},
                                                 {wanted.after[2], wanted.after[3]});
-  right.style = rex::SeriesStyle::kPoints;
   rex::Series got = rex::grading::gotCurve("yours", {end.x[0], end.x[1]}, {end.x[2], end.x[3]});
-  got.style = rex::SeriesStyle::kPoints;
+  got.style = right.style = rex::SeriesStyle::kPoints;
+  got.marker = rex::Marker::kCircle;
+  right.marker = rex::Marker::kCross;
+  right.size = 2;
   return {.figures = {{.title = "A step of the compass walker",
                        .xLabel = "angle [rad]",
                        .yLabel = "rate [rad/s]",
                        .legend = rex::Legend::kOutside,
-                       .series = {legs[0], legs[1], right, got}}}};
+                       .series = {legs[0], legs[1], got, right}}}};
 }
 
 inline void stepFits(rex::grading::Check& check, Student& student, const KnownGait& gait) {

@@ -88,7 +88,7 @@ inline void swaysRight(rex::grading::Check& check, Student& student) {
 inline rex::grading::Evidence captureSeen(const rex::InvertedPendulum& pendulum, const rex::CenterMotion& now,
                                           const Eigen::Vector2d& p) {
   rex::Series got = rex::grading::gotCurve("over your point"), wanted = rex::grading::wantedCurve("wanted");
-  for (int i = 0; i <= 60; ++i) {
+  for (int i = 0; i <= 40; ++i) {
     const double t = .05 * i / pendulum.omega();
     got.x.push_back(t);
     got.y.push_back(pendulum.after(now, p, t).c.x());
