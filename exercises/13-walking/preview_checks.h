@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <utility>
 
 #include <fmt/format.h>
 
+#include "course/walk_pictures.h"
 #include "dynamics/ode_step.h"
 #include "grading/check.h"
 #include "grading/evidence_parts.h"
@@ -131,20 +131,9 @@ inline rex::WalkPlan randomWalk(rex::Rng& rng) {
 inline rex::grading::Evidence walkSeen(const rex::WalkPlan& plan, const Eigen::MatrixXd& zmp,
                                        const Eigen::MatrixXd& reference, Eigen::Index until) {
   using namespace rex::grading;
-  rex::Figure above{.title = "Zero moment point on the footprints, until it left them",
-                    .xLabel = "x [m]",
-                    .yLabel = "y [m]",
-                    .equalAxes = true};
-  for (const rex::Footstep& foot : plan.footsteps) {
-    const Eigen::Vector2d along(std::cos(foot.yaw), std::sin(foot.yaw)), left(-along.y(), along.x());
-    rex::Region region;
-    for (const auto& [x, y] : {std::pair{-.5, -.5}, {.5, -.5}, {.5, .5}, {-.5, .5}}) {
-      const Eigen::Vector2d p = foot.p + x * plan.sole.length * along + y * plan.sole.width * left;
-      region.x.push_back(p.x());
-      region.y.push_back(p.y());
-    }
-    above.regions.push_back(region);
-  }
+  rex::Figure above = rex::footprintFigure(plan);
+  above.title = "Zero moment point on the footprints, until it left them";
+  above.legend = rex::Legend::kOutside;
   const Eigen::MatrixXd before = zmp.leftCols(until + 1);
   above.series = {through(before.colwise(), gotCurve("yours")),
                   through(reference.colwise(), wantedCurve("wanted")),
