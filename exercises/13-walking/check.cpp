@@ -1,0 +1,194 @@
+#include "grading/check.h"
+
+#include "gait_checks.h"
+#include "interface.h"
+#include "preview_checks.h"
+#include "support_checks.h"
+#include "zmp_checks.h"
+
+using rex::grading::Check;
+using rex::grading::Group;
+
+namespace {
+
+// Part 1.
+
+void corners(Check& check, Student& student) {
+  check.input("two soles side by side, with contacts in the middle of each side");
+  cornersFit(check, student, shuffled(check.rng(), twoSoles()));
+  check.input("points with some on the edges and some in one place");
+  for (int i = 0; i < 20; ++i) cornersFit(check, student, scattered(check.rng()));
+  check.input("points on a line");
+  for (const int count : {2, 3, 6}) cornersFit(check, student, inARow(check.rng(), count));
+  check.input("two points in one place");
+  cornersFit(check, student, inARow(check.rng(), 1));
+  check.input("no contacts");
+  cornersFit(check, student, Eigen::MatrixXd::Zero(2, 0));
+}
+
+void borders(Check& check, Student& student) {
+  marginsFit(check, student, twoSoles());
+  for (int i = 0; i < 10; ++i) marginsFit(check, student, scattered(check.rng()));
+  for (const int count : {3, 1}) marginsFit(check, student, inARow(check.rng(), count));
+}
+
+void stands(Check& check, Student& student) {
+  for (int i = 0; i < 10; ++i) standsAsItShould(check, student, twoSoles());
+}
+
+// <hidden>
+void standsOnAnything(Check& check, Student& student) {
+  check.forEachCase(12, [&](int i) {
+    rex::Rng& rng = check.rng();
+    standsAsItShould(check, student, i < 9 ? scattered(rng) : inARow(rng, i == 11 ? 1 : 5));
+  });
+}
+// </hidden>
+
+// Part 2.
+
+void moments(Check& check, Student& student) {
+  rex::Rng& rng = check.rng();
+  std::vector<MovingMass> atRest = pressing(rng, 9.81);
+  for (MovingMass& part : atRest) part.a.setZero();
+  hasNoMoment(check, student, atRest, 0, 9.81);
+  for (int i = 0; i < 10; ++i) hasNoMoment(check, student, pressing(rng, 9.81), 0, 9.81);
+  fallingHasNone(check, student, 9.81);
+}
+
+void sways(Check& check, Student& student) {
+  for (int i = 0; i < 20; ++i) swaysRight(check, student);
+}
+
+void captures(Check& check, Student& student) {
+  for (int i = 0; i < 10; ++i) capturesTheMotion(check, student);
+}
+
+// <hidden>
+void momentsAnywhere(Check& check, Student& student) {
+  check.forEachCase(12, [&](int i) {
+    const double g = check.rng().uniform(1, 12);
+    if (i == 0) fallingHasNone(check, student, g);
+    if (i > 0) hasNoMoment(check, student, pressing(check.rng(), g), check.rng().uniform(-1, 1), g);
+  });
+}
+// </hidden>
+
+// Part 3.
+
+void follows(Check& check, Student& student) {
+  for (int i = 0; i < 5; ++i) cartMoves(check, student, randomCart(check.rng()));
+  lawIsFollowed(check, student, {});
+  for (int i = 0; i < 3; ++i) lawIsFollowed(check, student, randomCart(check.rng()));
+}
+
+// The numbers are known from elsewhere, too, for g = 9.8.
+void gains(Check& check, Student& student) {
+  const CartTable cart{.g = 9.8};
+  check.input(described(cart));
+  const PreviewLaw law = student.previewLaw(cart);
+  check.near("Gi", law.Gi, 618.556392, 1e-3);
+  check.near("Gx", law.Gx, Eigen::RowVector3d(72738.06965, 21565.61408, 177.0885579), .1);
+  gainsFit(check, student, cart);
+  gainsFit(check, student, {.height = .6, .step = .01, .ahead = 150, .R = 1e-5});
+}
+
+void staysOn(Check& check, Student& student) {
+  staysOnTheSoles(check, student, {.height = .8, .step = .01, .ahead = 160},
+                  {.footsteps = rex::straightFootsteps(5, .25, .2)});
+}
+
+// <hidden>
+void gainsOfAnyCart(Check& check, Student& student) {
+  check.forEachCase(6, [&](int) { gainsFit(check, student, randomCart(check.rng())); });
+}
+
+void staysOnAnyFootsteps(Check& check, Student& student) {
+  check.forEachCase(4, [&](int) {
+    const CartTable cart{.height = check.rng().uniform(.6, .9), .step = .01, .ahead = 160};
+    staysOnTheSoles(check, student, cart, randomWalk(check.rng()));
+  });
+}
+// </hidden>
+
+// Part 4.
+
+void impacts(Check& check, Student& student) {
+  for (int i = 0; i < 20; ++i) impactFits(check, student, {});
+}
+
+void steps(Check& check, Student& student) {
+  const KnownGait gait = gaitOf({});
+  for (int i = 0; i < 5; ++i) stepFits(check, student, gait);
+  doesNotStep(check, student, gait.walker, {.22, -.22 - 2 * gait.walker.slope, -.3, -.3});
+}
+
+void derivatives(Check& check, Student& student) {
+  const KnownGait gait = gaitOf({});
+  for (int i = 0; i < 3; ++i) derivativeFits(check, student, gait);
+}
+
+void gait(Check& check, Student& student) {
+  const KnownGait known = gaitOf({});
+  gaitFits(check, student, known, {.2, -.3, -1, -.3});
+  gaitFits(check, student, known, near(check.rng(), known, .01));
+  check.input("a guess from which the walker falls");
+  check.that("there is none where the walker falls",
+             !student.gaitNear(known.walker, {.2, -.3, 0, -.3}).has_value());
+}
+
+// <hidden>
+void otherSteps(Check& check, Student& student) {
+  check.forEachCase(6, [&](int i) {
+    const Walker walker = randomWalker(check.rng());
+    for (int k = 0; k < 3; ++k) impactFits(check, student, walker);
+    const KnownGait known = gaitOf(walker);
+    if (i % 2 == 0) stepFits(check, student, known);
+    if (i % 2 == 1) derivativeFits(check, student, known);
+  });
+}
+
+// Beyond some 4.4 degrees the even gait is unstable, and whoever only walks on ends up limping.
+void otherGaits(Check& check, Student& student) {
+  check.forEachCase(6, [&](int i) {
+    Walker walker = randomWalker(check.rng());
+    if (i < 2) walker = {.slope = (4.55 + .1 * i) * kDegree};
+    const KnownGait known = gaitOf(walker);
+    gaitFits(check, student, known, near(check.rng(), known, .01));
+  });
+}
+// </hidden>
+
+}  // namespace
+
+rex::grading::Checks<Student> checks() {
+  return {
+      {"corners", "support", "Corners of the support polygon", 1, Group::visible, corners},
+      {"border", "support", "Distance from its border", 1, Group::visible, borders},
+      {"stands", "support", "Static stability on two feet", 1, Group::visible, stands},
+      // <hidden>
+      {"stands-any", "support", "Static stability on other contacts", 1, Group::hidden, standsOnAnything},
+      // </hidden>
+      {"moment", "zmp", "The zero moment point", 1, Group::visible, moments},
+      {"sways", "zmp", "How the pendulum sways", 1, Group::visible, sways},
+      {"capture", "zmp", "The capture point", 1, Group::visible, captures},
+      // <hidden>
+      {"moment-any", "zmp", "The zero moment point on other grounds", 1, Group::hidden, momentsAnywhere},
+      // </hidden>
+      {"follows", "preview", "The cart and the law", 1, Group::visible, follows},
+      {"gains", "preview", "Gains of preview control", 1, Group::visible, gains},
+      {"stays-on", "preview", "The zero moment point stays on the soles", 1, Group::visible, staysOn},
+      // <hidden>
+      {"gains-any", "preview", "Gains for other carts", 1, Group::hidden, gainsOfAnyCart},
+      {"stays-any", "preview", "Footsteps that you have not seen", 1, Group::hidden, staysOnAnyFootsteps},
+      // </hidden>
+      {"impact", "compass", "The impact", 1, Group::visible, impacts},
+      {"step", "compass", "One step", 1, Group::visible, steps},
+      {"derivative", "compass", "The derivative of a step", 1, Group::visible, derivatives},
+      {"gait", "compass", "The gait of the paper, and its multipliers", 1, Group::visible, gait},
+      // <hidden>
+      {"other-steps", "compass", "Impacts and steps of other walkers", 1, Group::hidden, otherSteps},
+      {"other-gaits", "compass", "Gaits on other slopes", 2, Group::hidden, otherGaits},
+      // </hidden>
+  };
+}

@@ -1,0 +1,172 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "course/walk_pictures.h"
+#include "dynamics/ode_step.h"
+#include "grading/check.h"
+#include "grading/evidence_parts.h"
+#include "interface.h"
+#include "locomotion/footsteps.h"
+#include "locomotion/preview_control.h"
+
+// Part 3: the cart, its gains, and walks over footsteps.
+
+inline std::string described(const CartTable& cart) {
+  return fmt::format("height {:.4g}, g {:.4g}, steps of {:.4g} s, {} ahead, Qe {:.3g}, R {:.3g}", cart.height,
+                     cart.g, cart.step, cart.ahead, cart.Qe, cart.R);
+}
+
+inline rex::PreviewGains gainsOf(const CartTable& cart) {
+  return rex::previewGains({.height = cart.height,
+                            .g = cart.g,
+                            .step = cart.step,
+                            .preview = cart.step * cart.ahead,
+                            .Qe = cart.Qe,
+                            .R = cart.R});
+}
+
+inline CartTable randomCart(rex::Rng& rng) {
+  CartTable cart{.height = rng.uniform(.4, 1.1), .g = rng.uniform(5, 11), .step = rng.uniform(.004, .02)};
+  cart.ahead = static_cast<int>(rng.uniform(1, 2) / cart.step);
+  cart.Qe = std::exp(rng.uniform(-1, 1));
+  cart.R = std::exp(rng.uniform(-16, -11));
+  return cart;
+}
+
+inline Eigen::Vector3d cartAfter(const CartTable& cart, const Eigen::Vector3d& x, double jerk) {
+  // Exact for a cubic.
+  const auto rate = [jerk](const Eigen::Vector3d& at) { return Eigen::Vector3d(at[1], at[2], jerk); };
+  return rex::rungeKutta4Step(rate, x, cart.step);
+}
+
+inline void cartMoves(rex::grading::Check& check, Student& student, const CartTable& cart) {
+  const Eigen::Vector3d x = check.rng().normalVector(3);
+  const double jerk = 100 * check.rng().normal();
+  check.input(
+      fmt::format("{}, x = ({:.4g}, {:.4g}, {:.4g}), u = {:.4g}", described(cart), x[0], x[1], x[2], jerk));
+  check.near("state of the cart after a step", student.cartStep(cart, x, jerk), cartAfter(cart, x, jerk),
+             1e-9);
+}
+
+/// Gains that stop the cart, but not the best ones.
+inline PreviewLaw someLaw(rex::Rng& rng, const CartTable& cart) {
+  const rex::PreviewGains best = gainsOf(cart);
+  PreviewLaw law{best.Gi, best.Gx, best.Gp};
+  law.Gi *= rng.uniform(.9, 1.1);
+  for (double& gain : law.Gp) gain *= rng.uniform(.8, 1.2);
+  return law;
+}
+
+/// The law in the form that Kajita prints, with all changes summed up.
+inline Eigen::MatrixXd printedLaw(const CartTable& cart, const PreviewLaw& law,
+                                  const Eigen::VectorXd& reference) {
+  const Eigen::Index n = reference.size();
+  const auto r = [&](Eigen::Index k) { return reference[std::min(k, n - 1)]; };
+  Eigen::MatrixXd states(3, n);
+  Eigen::Vector3d x(reference[0], 0, 0);
+  const Eigen::Vector3d start = x;
+  double errors = 0;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    states.col(k) = x;
+    errors += x[0] - cart.height / cart.g * x[2] - r(k);
+    double jerk = -law.Gi * errors - law.Gx.dot(x - start);
+    for (Eigen::Index j = 1; j <= law.Gp.size(); ++j) jerk += law.Gp[j - 1] * (r(k + j) - r(j - 1));
+    x = cartAfter(cart, x, jerk);
+  }
+  return states;
+}
+
+inline void lawIsFollowed(rex::grading::Check& check, Student& student, CartTable cart) {
+  rex::Rng& rng = check.rng();
+  cart.ahead = 5 + rng.index(60);
+  const PreviewLaw law = someLaw(rng, cart);
+  Eigen::VectorXd reference(150);
+  double at = rng.uniform(-1, 1);
+  for (double& r : reference) r = at += rng.index(20) == 0 ? .2 * rng.normal() : 0;
+  check.input(fmt::format("{}, a reference of 150 numbers with jumps", described(cart)));
+  const Eigen::MatrixXd wanted = printedLaw(cart, law, reference);
+  const Eigen::MatrixXd got = student.followed(cart, law, reference);
+  check.shape("states", got, 3, 150);
+  const char* names[] = {"positions c of the cart", "velocities c'", "accelerations c''"};
+  for (int i = 0; i < 3; ++i)
+    check.near(names[i], got.row(i), wanted.row(i), 1e-7 * (1 + wanted.row(i).cwiseAbs().maxCoeff()));
+}
+
+inline void gainsFit(rex::grading::Check& check, Student& student, const CartTable& cart) {
+  check.input(described(cart));
+  const rex::PreviewGains wanted = gainsOf(cart);
+  const PreviewLaw got = student.previewLaw(cart);
+  check.near("Gi", got.Gi, wanted.Gi, 1e-6 * wanted.Gi);
+  for (int i = 0; i < 3; ++i)
+    check.near(fmt::format("Gx, number {}", i + 1), got.Gx[i], wanted.Gx[i], 1e-6 * std::abs(wanted.Gx[i]));
+  check.shape("Gp", got.Gp, cart.ahead, 1);
+  check.near("Gp", got.Gp, wanted.Gp, 1e-6 * wanted.Gp.cwiseAbs().maxCoeff());
+}
+
+/// A walk with turns and steps of any length, also back, and to the side.
+inline rex::WalkPlan randomWalk(rex::Rng& rng) {
+  rex::WalkPlan plan{.doubleSupport = rng.uniform(.1, .3), .singleSupport = rng.uniform(.5, .9)};
+  const double width = rng.uniform(.17, .25);
+  double yaw = rng.uniform(-3, 3);
+  Eigen::Vector2d at = rng.uniformVector(2, -2, 2);
+  for (int i = 0; i < 8; ++i) {
+    const bool isLeft = i % 2 == 0;
+    const Eigen::Vector2d along(std::cos(yaw), std::sin(yaw)), left(-along.y(), along.x());
+    plan.footsteps.push_back({.side = isLeft ? rex::Side::kLeft : rex::Side::kRight,
+                              .p = at + (isLeft ? .5 : -.5) * width * left,
+                              .yaw = yaw});
+    if (i == 0) continue;
+    yaw += rng.uniform(-.15, .15);
+    at += rng.uniform(-.1, .3) * along + rng.uniform(-.03, .03) * left;
+  }
+  return plan;
+}
+
+/// A walk from above, and sideways over time, up to the column where it went wrong.
+inline rex::grading::Evidence walkSeen(const rex::WalkPlan& plan, const Eigen::MatrixXd& zmp,
+                                       const Eigen::MatrixXd& reference, Eigen::Index until) {
+  using namespace rex::grading;
+  rex::Figure above = rex::footprintFigure(plan);
+  above.title = "Zero moment point on the footprints, until it left them";
+  above.legend = rex::Legend::kOutside;
+  const Eigen::MatrixXd before = zmp.leftCols(until + 1);
+  above.series = {through(before.colwise(), gotCurve("yours")),
+                  through(reference.colwise(), wantedCurve("wanted")),
+                  wrongPoint("off the soles", zmp(0, until), zmp(1, until))};
+  return {.figures = {above, comparison("x and y of the zero moment point, step by step", zmp, reference)}};
+}
+
+/// Over a whole walk: a cart that moves as a cart does, with its zero moment point on the soles that stand.
+inline void staysOnTheSoles(rex::grading::Check& check, Student& student, const CartTable& cart,
+                            const rex::WalkPlan& plan) {
+  check.input(fmt::format("{} footsteps, {:.3g} s on one foot, {:.3g} s on both, {}", plan.footsteps.size(),
+                          plan.singleSupport, plan.doubleSupport, described(cart)));
+  const Eigen::MatrixXd reference = rex::zmpReference(plan, cart.step);
+  const PreviewLaw law = student.previewLaw(cart);
+  check.shape("Gp", law.Gp, cart.ahead, 1);
+  Eigen::MatrixXd zmp(2, reference.cols());
+  for (Eigen::Index axis = 0; axis < 2; ++axis) {
+    const Eigen::MatrixXd x = student.followed(cart, law, reference.row(axis).transpose());
+    check.shape("states", x, 3, reference.cols());
+    check.near("the first state", x.col(0), Eigen::Vector3d(reference(axis, 0), 0, 0), 1e-9);
+    double gap = 0;
+    for (Eigen::Index k = 0; k + 1 < x.cols(); ++k) {
+      const double jerk = (x(2, k + 1) - x(2, k)) / cart.step;
+      gap = std::max(gap, (cartAfter(cart, x.col(k), jerk) - x.col(k + 1)).norm());
+    }
+    check.near("what a state differs by from a step of the cart after the one before", gap, 0, 1e-7);
+    zmp.row(axis) = x.row(0) - cart.height / cart.g * x.row(2);
+  }
+  Eigen::Index k = 0;
+  const auto shown = check.show([&] { return walkSeen(plan, zmp, reference, k); });
+  for (; k < zmp.cols(); ++k) {
+    const rex::WalkPhase phase = rex::phaseAt(plan, static_cast<double>(k) * cart.step);
+    check.atLeast("distance of the zero moment point from the border of the support polygon",
+                  rex::supportMargin(rex::supportOf(phase, plan.sole), zmp.col(k)).margin, 0, "m");
+  }
+}

@@ -1,0 +1,173 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "grading/check.h"
+#include "grading/evidence_parts.h"
+#include "interface.h"
+#include "locomotion/support_polygon.h"
+
+// Part 1: contacts of the grader, and what must hold for polygons, margins and robots that stand on them.
+
+/// Any points, on a grid so that cross products are exact.
+inline Eigen::Vector2d onGrid(const Eigen::Vector2d& p, double lines) {
+  return (p * lines).array().round() / lines;
+}
+
+inline Eigen::MatrixXd matrixOf(const std::vector<Eigen::Vector2d>& points) {
+  Eigen::MatrixXd matrix(2, points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) matrix.col(static_cast<Eigen::Index>(i)) = points[i];
+  return matrix;
+}
+
+inline Eigen::MatrixXd shuffled(rex::Rng& rng, Eigen::MatrixXd columns) {
+  for (Eigen::Index i = columns.cols() - 1; i > 0; --i)
+    columns.col(i).swap(columns.col(rng.index(static_cast<int>(i) + 1)));
+  return columns;
+}
+
+/// How far the least corner sticks out: whoever allows for rounding must find the same corners.
+inline double leastCorner(const Eigen::MatrixXd& corners) {
+  const Eigen::Index k = corners.cols();
+  double least = INFINITY;
+  for (Eigen::Index i = 0; i < k && k > 2; ++i) {
+    const Eigen::Vector2d start = corners.col(i), along = corners.col((i + 2) % k) - start;
+    const Eigen::Vector2d to = corners.col((i + 1) % k) - start;
+    least = std::min(least, std::abs(along.x() * to.y() - along.y() * to.x()) / along.norm());
+  }
+  return least;
+}
+
+/// Contacts that span a polygon, with points on its edges, inside and twice in one place.
+inline Eigen::MatrixXd scattered(rex::Rng& rng) {
+  for (;;) {
+    std::vector<Eigen::Vector2d> points;
+    const Eigen::Vector2d middle = rng.uniformVector(2, -1, 1);
+    for (int i = 3 + rng.index(9); i > 0; --i)
+      points.push_back(onGrid(middle + rng.uniformVector(2, -.4, .4), 256));
+    const rex::SupportPolygon polygon = rex::supportPolygon(matrixOf(points));
+    const Eigen::Index k = polygon.corners.cols();
+    if (k < 3 || leastCorner(polygon.corners) < .005) continue;
+    for (int i = 0; i < 4; ++i) {
+      const int at = rng.index(static_cast<int>(k));
+      const Eigen::Vector2d edge = polygon.corners.col((at + 1) % k) - polygon.corners.col(at);
+      points.emplace_back(polygon.corners.col(at) + edge * (1 + rng.index(3)) / 4);
+      points.push_back(points[static_cast<std::size_t>(rng.index(static_cast<int>(points.size())))]);
+    }
+    return shuffled(rng, matrixOf(points));
+  }
+}
+
+/// Two soles side by side, 24 by 11 cm or so, with a contact in the middle of each side.
+inline Eigen::MatrixXd twoSoles() {
+  std::vector<Eigen::Vector2d> points;
+  for (const double foot : {-.125, .125})
+    for (const double x : {-.125, 0., .125})
+      for (const double y : {-.0625, 0., .0625})
+        if (x != 0 || y != 0) points.push_back({x, foot + y});
+  return matrixOf(points);
+}
+
+/// Contacts on a line in any direction; all in one place if `count` is 1.
+inline Eigen::MatrixXd inARow(rex::Rng& rng, int count) {
+  const Eigen::Vector2d start = onGrid(rng.uniformVector(2, -.5, .5), 1024);
+  Eigen::Vector2d step;
+  do step = onGrid(rng.uniformVector(2, -.1, .1), 1024);
+  while (step.norm() < .02);
+  if (rng.index(3) == 0) step[rng.index(2)] = 0;
+  if (step.isZero()) step.x() = .0625;
+  std::vector<Eigen::Vector2d> points;
+  for (int i = 0; i < count; ++i) points.emplace_back(start + i * step);
+  points.push_back(points.front());
+  return shuffled(rng, matrixOf(points));
+}
+
+/// The polygon between these corners (2 x k) as a closed curve; nothing without corners.
+inline rex::Series closedCurve(const Eigen::MatrixXd& corners, rex::Series curve) {
+  if (corners.cols() == 0) return curve;
+  curve = rex::grading::through(corners.colwise(), std::move(curve));
+  return rex::grading::through(corners.leftCols(1).colwise(), std::move(curve));
+}
+
+/// The contacts with the polygon that came out, beside that which was wanted.
+inline rex::grading::Evidence supportSeen(const Eigen::MatrixXd& contacts, const Eigen::MatrixXd& corners,
+                                          const Eigen::MatrixXd& wanted) {
+  rex::Figure figure{.title = "Support polygon",
+                     .xLabel = "x [m]",
+                     .yLabel = "y [m]",
+                     .equalAxes = true,
+                     .legend = rex::Legend::kOutside};
+  rex::Series yours = closedCurve(corners, rex::grading::gotCurve("your corners"));
+  yours.style = rex::SeriesStyle::kLinesPoints;
+  for (const rex::Series& curve : {yours, closedCurve(wanted, rex::grading::wantedCurve("wanted"))})
+    if (!curve.x.empty()) figure.series.push_back(curve);
+  figure.series.push_back(
+      rex::grading::through(contacts.colwise(), rex::Series{.label = "contacts",
+                                                            .style = rex::SeriesStyle::kPoints,
+                                                            .marker = rex::Marker::kDot,
+                                                            .color = rex::Color{0, 0, 0}}));
+  return {.figures = {figure}};
+}
+
+inline void cornersFit(rex::grading::Check& check, Student& student, const Eigen::MatrixXd& contacts) {
+  const Eigen::MatrixXd wanted = rex::supportPolygon(contacts).corners;
+  const Eigen::MatrixXd corners = student.supportCorners(contacts);
+  check.shape("corners", corners, 2, corners.cols());
+  const auto shown = check.show([&] { return supportSeen(contacts, corners, wanted); });
+  const Eigen::Index k = wanted.cols();
+  check.near("number of corners", static_cast<double>(corners.cols()), static_cast<double>(k), 0);
+  if (k == 0) return;
+  Eigen::Index first = 0;
+  (corners.colwise() - wanted.col(0)).colwise().norm().minCoeff(&first);
+  double gap = 0;
+  for (Eigen::Index i = 0; i < k; ++i)
+    gap = std::max(gap, (corners.col((first + i) % k) - wanted.col(i)).norm());
+  check.near("distance of a corner from where it should be, counter-clockwise", gap, 0, 1e-9, "m");
+}
+
+inline void marginFits(rex::grading::Check& check, Student& student, const Eigen::MatrixXd& contacts,
+                       const Eigen::Vector2d& point) {
+  const rex::SupportPolygon polygon = rex::supportPolygon(contacts);
+  check.input(fmt::format("a polygon of {} corners, the point ({:g}, {:g})", polygon.corners.cols(),
+                          point.x(), point.y()));
+  check.near("distance from the border", student.borderDistance(polygon.corners, point),
+             rex::supportMargin(polygon, point).margin, 1e-9, "m");
+}
+
+inline void marginsFit(rex::grading::Check& check, Student& student, const Eigen::MatrixXd& contacts) {
+  rex::Rng& rng = check.rng();
+  const Eigen::Vector2d middle = contacts.rowwise().mean();
+  for (int i = 0; i < 5; ++i) marginFits(check, student, contacts, middle + .1 * rng.normalVector(2));
+  for (int i = 0; i < 5; ++i) marginFits(check, student, contacts, middle + rng.normalVector(2));
+  marginFits(check, student, contacts, contacts.col(0));
+}
+
+inline std::vector<MovingMass> randomRobot(rex::Rng& rng, const Eigen::Vector2d& over, double most) {
+  std::vector<MovingMass> robot;
+  for (int i = 2 + rng.index(6); i > 0; --i) {
+    MovingMass part{.mass = std::exp(rng.uniform(-2, 3))};
+    part.p << over + rng.uniformVector(2, -.4, .4), rng.uniform(.1, 1.5);
+    part.a = rng.uniformVector(3, -most, most);
+    robot.push_back(part);
+  }
+  return robot;
+}
+
+inline void standsAsItShould(rex::grading::Check& check, Student& student, const Eigen::MatrixXd& contacts) {
+  const std::vector<MovingMass> robot = randomRobot(check.rng(), contacts.rowwise().mean(), 3);
+  check.input(fmt::format("{} contacts, {} masses", contacts.cols(), robot.size()));
+  Eigen::Vector2d center = Eigen::Vector2d::Zero();
+  double mass = 0;
+  for (const MovingMass& part : robot) {
+    mass += part.mass;
+    center += part.mass / mass * (part.p.head<2>() - center);
+  }
+  check.near("static margin", student.staticMargin(robot, contacts),
+             rex::supportMargin(rex::supportPolygon(contacts), center).margin, 1e-9, "m");
+}
