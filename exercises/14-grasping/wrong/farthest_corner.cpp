@@ -1,0 +1,6 @@
+// caught by: reach, any-reach
+// mistake: how far the corners lie along the direction, which is not how far the hull reaches.
+
+// <solution reachAlong>
+return (wrenches.transpose() * direction).maxCoeff();
+// </solution>
