@@ -298,7 +298,6 @@ void keepsFewOnSolids(Check& check, Student& student) {
 // Part 5.
 
 void placesFingers(Check& check, Student& student) {
-  // The best of many searches; see quality of the pictures of main().
   const Plate slab = plateOf({{0, 0}, {0.12, 0}, {0.12, 0.06}, {0, 0.06}});
   graspIsGood(check, student, slab, 0.5, 2, kBestOnSlab);
   const Plate wedge = plateOf({{0, 0}, {0.1, 0}, {0.03, 0.09}});

@@ -247,8 +247,8 @@ inline rex::Film filmOfDeletion(const std::vector<Eigen::Vector3d>& corners,
   return film;
 }
 
-inline void writeDeletion(const rex::Film& film) {
+inline void writeDeletion(const std::string& name, const rex::Film& film) {
   const rex::Shot shot{.camera = rex::lookAt({0.1, -0.26, 0.13}, {0, 0, 0}), .width = 640, .height = 480};
-  rex::writeFilmVideo(film, shot, "deletion", 20);
-  rex::writeFilmSheet(film, shot, "deletion_sheet.png", 6);
+  rex::writeFilmVideo(film, shot, name, 20);
+  rex::writeFilmSheet(film, shot, name + "_sheet.png", 6);
 }

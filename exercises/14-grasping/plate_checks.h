@@ -10,7 +10,7 @@
 // What the checks require of a grasp of a polygon.
 
 /// The best known radii for the objects of the visible check, newtons.
-inline constexpr double kBestOnSlab = 0.1, kBestOnWedge = 0.1;
+inline constexpr double kBestOnSlab = 0.316227, kBestOnWedge = 0.18688;
 
 inline void isOnOutline(rex::grading::Check& check, const Plate& plate, const PlanarFinger& finger) {
   check.shape("place of a finger", finger.p, 2, 1);

@@ -63,8 +63,8 @@ Eigen::MatrixXd pyramidEdges(const Finger& finger, int edges) {
     forces.col(k) = n + finger.friction * (std::cos(angle) * a + std::sin(angle) * b);
   }
   // <todo>
-  //| // TODO: two directions along the surface, at right angles to each other and to the normal; then a
-  //circle. | notUsedYet(finger);
+  //| // TODO: two directions along the surface, at right angles to each other; then a circle.
+  //| notUsedYet(finger);
   // </solution>
   return forces;
 }
@@ -118,9 +118,9 @@ Verdict judged(const Eigen::MatrixXd& wrenches) {
   const Eigen::VectorXd weights = rest.x.array() + 1;
   return {true, weights / weights.sum()};
   // <todo>
-  //| // TODO: do the wrenches span the space? And does a linear program find weights for zero? If not, what
-  //does | // it return instead (optim/linear_program.h)? | return {false,
-  //Eigen::VectorXd::Zero(wrenches.rows())};
+  //| // TODO: do the wrenches span the space? And does a linear program find weights for zero? If not,
+  //| // what does it return instead (optim/linear_program.h)?
+  //| return {false, Eigen::VectorXd::Zero(wrenches.rows())};
   // </solution>
 }
 
@@ -167,8 +167,9 @@ double epsilonOf(const Eigen::MatrixXd& wrenches) {
       }
   return least < INFINITY ? std::max(least, 0.) : 0;
   // <todo>
-  //| // TODO: the planes through three wrenches; which of them bound the hull, and how far are they from
-  //zero? | notUsedYet(wrenches); | return 0;
+  //| // TODO: planes through three wrenches; which of them bound the hull, and how far are they from zero?
+  //| notUsedYet(wrenches);
+  //| return 0;
   // </solution>
 }
 
@@ -385,7 +386,7 @@ void showDeletion() {
     const std::vector<int> kept = keptOnStone(fingers);
     std::printf("a stone, friction %.2f: %zu of %zu fingers are kept\n", friction, kept.size(),
                 fingers.size());
-    if (friction == 0.3) writeDeletion(filmOfDeletion(stone(), fingers, kept));
+    if (friction == 0.3) writeDeletion("deletion", filmOfDeletion(stone(), fingers, kept));
   }
 }
 
