@@ -1,8 +1,6 @@
 // caught by: forbidden-call
-// mistake: the library judges.
+// mistake: the library measures the quality.
 
-// <solution judged>
-const Closure closure = forceClosure(wrenches);
-const bool closed = closure.status == ClosureStatus::kClosed;
-return {closed, closed ? closure.weights : closure.direction};
+// <solution epsilonOf>
+return graspQuality(wrenches).epsilon;
 // </solution>
