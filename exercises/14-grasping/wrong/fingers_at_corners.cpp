@@ -1,4 +1,5 @@
 // caught by: places, any-places
+// shown by: places
 // mistake: puts fingers onto corners, where there is no normal.
 
 // <solution search>

@@ -1,4 +1,5 @@
 // caught by: places, any-places
+// shown by: places
 // mistake: normals point out of the object.
 
 // <solution search>
