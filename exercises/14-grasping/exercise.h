@@ -90,8 +90,9 @@ std::vector<int> keptFingers(const Eigen::MatrixXd& wrenches, const std::vector<
 // Part 5, a good grasp.
 
 /// Where to put `count` fingers (2 to 4) on the edges of a polygon, so that epsilonOf() of their
-/// planarWrenches() with this center and length is large: at least 0.9 of the best that the grader knows.
+/// planarWrenches() with this center and length is large: at least 0.8 of the best that the grader knows.
 /// Corners are given counter-clockwise; the polygon may have dents. Fingers touch at least 2 mm from any
-/// corner, with the normal of the edge and that friction. Objects are 5 to 20 cm large.
+/// corner, with the normal of the edge and that friction. Objects are 5 to 20 cm large, their edges 15 mm
+/// long or more.
 std::vector<PlanarFinger> bestGrasp(const std::vector<Eigen::Vector2d>& corners,
                                     const Eigen::Vector2d& center, double length, double friction, int count);

@@ -52,16 +52,6 @@ inline std::vector<Eigen::Vector2d> plate() {
 
 inline constexpr double kPlateLength = 0.0895;  // of its farthest corner from the origin
 
-// How long the edges of a polygon are.
-inline std::vector<double> edgeLengths(const std::vector<Eigen::Vector2d>& corners) {
-  std::vector<double> lengths;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Eigen::Vector2d side = ahead(corners[(i + 1) % corners.size()], -1, corners[i]);
-    lengths.push_back(std::hypot(side[0], side[1]));
-  }
-  return lengths;
-}
-
 // The finger so many metres along the outline, from the first corner.
 inline PlanarFinger fingerAt(const std::vector<Eigen::Vector2d>& corners, double way, double friction) {
   for (std::size_t i = 0;; i = (i + 1) % corners.size()) {
@@ -109,7 +99,7 @@ inline rex::Figure conesFigure(const std::string& title, const std::vector<Eigen
   figure.equalAxes = true;
   figure.legend = rex::Legend::kOutside;
   figure.width = 950;
-  figure.height = 560;
+  figure.height = 600;
   figure.regions.push_back(regionOf(corners, kGrey));
   constexpr double kCone = 0.025;  // m that a newton is long
   for (std::size_t i = 0; i < fingers.size(); ++i) {
@@ -206,7 +196,7 @@ inline rex::Figure hullFigure(const std::string& title, const Eigen::MatrixXd& p
   Eigen::Index nearest = 0;
   for (Eigen::Index f = 0; f < offsets.size(); ++f)
     if (offsets[f] < offsets[nearest]) nearest = f;
-  if (offsets.size() > 0)
+  if (offsets.size() > 0 && offsets[nearest] > 0)
     addPoint(figure, "nearest point of a face", kBlack,
              {offsets[nearest] * normals(0, nearest), offsets[nearest] * normals(1, nearest),
               offsets[nearest] * normals(2, nearest)});

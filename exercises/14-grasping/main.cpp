@@ -18,7 +18,7 @@ void notUsedYet(const Unused&...) {}
 
 Eigen::Vector3d planarWrench(const Eigen::Vector2d& p, const Eigen::Vector2d& force,
                              const Eigen::Vector2d& center, double length) {
-  // TODO: a force to the left, at the right side of the object: which sign has its torque?
+  // TODO: a force upward, at the right side of the object: which sign has its torque?
   notUsedYet(p, force, center, length);
   return Eigen::Vector3d::Zero();
 }
@@ -144,7 +144,8 @@ void showMap() {
                 .width = 800,
                 .height = 700};
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    around += (corners[(i + 1) % corners.size()] - corners[i]).norm();
+    const Eigen::Vector2d side = ahead(corners[(i + 1) % corners.size()], -1, corners[i]);
+    around += std::hypot(side[0], side[1]);
     if (i + 1 == corners.size()) break;
     figure.verticalLines.push_back({.at = around, .color = kGrey});
     figure.horizontalLines.push_back({.at = around, .color = kGrey});
@@ -199,7 +200,10 @@ void showVerdicts() {
     if (verdict.closed)
       std::printf("  smallest weight %.4f, largest %.4f\n", verdict.proof.minCoeff(),
                   verdict.proof.maxCoeff());
-    if (!verdict.closed) print("  nothing opposes the wrench", Eigen::MatrixXd(verdict.proof.transpose()));
+    else if (verdict.proof.isZero())
+      std::printf("  without proof so far\n");
+    else
+      print("  nothing opposes the wrench", Eigen::MatrixXd(verdict.proof.transpose()));
   }
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "grading/check.h"
+#include "grading/evidence_parts.h"
 #include "interface.h"
 #include "wrench_checks.h"
 
@@ -32,36 +33,49 @@ inline void isOnOutline(rex::grading::Check& check, const Plate& plate, const Pl
   check.near("normal of a finger", finger.normal, inward, 1e-6);
 }
 
+/// The friction cone of a finger, 0.3 of the length deep, and the finger behind it.
+inline void addFinger(rex::Figure& figure, const PlanarFinger& finger, double length) {
+  const Eigen::Vector2d across(-finger.normal.y(), finger.normal.x());
+  rex::Region cone{.color = rex::grading::kGotColor};
+  for (const double side : {-1., 0., 1.}) {
+    const Eigen::Vector2d ahead = finger.normal + side * finger.friction * across;
+    const Eigen::Vector2d p = finger.p + (side == 0 ? 0 : 0.3) * length * ahead;
+    cone.x.push_back(p.x());
+    cone.y.push_back(p.y());
+  }
+  const Eigen::Vector2d from = finger.p - 0.25 * length * finger.normal;
+  rex::Series body = rex::grading::gotCurve("", {from.x(), finger.p.x()}, {from.y(), finger.p.y()});
+  figure.regions.push_back(cone);
+  figure.series.push_back(body);
+}
+
 /// The polygon with the cones of its fingers.
 inline rex::Figure drawing(const Plate& plate, const std::vector<PlanarFinger>& fingers) {
-  rex::Figure figure{.title = "The fingers and their cones",
+  rex::Figure figure{.title = "Your fingers, and the forces they can exert",
                      .xLabel = "x [m]",
                      .yLabel = "y [m]",
                      .equalAxes = true,
-                     .legend = rex::Legend::kNone};
+                     .legend = rex::Legend::kOutside};
   rex::Region outline;
   for (const Eigen::Vector2d& corner : plate.corners) {
     outline.x.push_back(corner.x());
     outline.y.push_back(corner.y());
   }
   figure.regions = {outline};
-  for (const PlanarFinger& finger : fingers) {
-    if (!finger.p.allFinite() || !finger.normal.allFinite()) continue;
-    rex::Series cone{.size = 2};
-    const Eigen::Vector2d left(-finger.normal.y(), finger.normal.x());
-    for (const double mu : {finger.friction, 0., -finger.friction}) {
-      const Eigen::Vector2d p =
-          finger.p + (mu == 0 ? Eigen::Vector2d::Zero()
-                              : Eigen::Vector2d(0.3 * plate.length * (finger.normal + mu * left)));
-      cone.x.push_back(p.x());
-      cone.y.push_back(p.y());
-    }
-    figure.series.push_back(cone);
-  }
+  for (const PlanarFinger& finger : fingers)
+    if (finger.p.allFinite() && finger.normal.allFinite() && std::isfinite(finger.friction))
+      addFinger(figure, finger, plate.length);
+  if (!figure.series.empty()) figure.series[0].label = "fingers";
+  rex::Series center{.label = "center", .x = {plate.center.x()}, .y = {plate.center.y()}};
+  center.style = rex::SeriesStyle::kPoints;
+  center.marker = rex::Marker::kPlus;
+  center.size = 2;
+  center.color = rex::grading::kWantedColor;
+  figure.series.push_back(center);
   return figure;
 }
 
-/// A grasp as the contract wants it, at least 0.9 as good as the best that is known.
+/// A grasp as the contract wants it, at least 0.8 as good as the best that is known.
 inline void graspIsGood(rex::grading::Check& check, Student& student, const Plate& plate, double friction,
                         int count, double best) {
   check.input("a polygon of " + std::to_string(plate.corners.size()) + " corners, friction " +
@@ -76,5 +90,5 @@ inline void graspIsGood(rex::grading::Check& check, Student& student, const Plat
     check.near("friction of a finger", finger.friction, friction, 1e-12);
   }
   const double quality = rex::graspQuality(wrenchesOf(fingers, plate.center, plate.length)).epsilon;
-  check.atLeast("radius of the ball, of the best known", quality / best, 0.9);
+  check.atLeast("radius of the ball, of the best known", quality / best, 0.8);
 }

@@ -22,7 +22,7 @@ Eigen::Vector3d planarWrench(const Eigen::Vector2d& p, const Eigen::Vector2d& fo
   const Eigen::Vector2d arm = p - center;
   return {force.x(), force.y(), (arm.x() * force.y() - arm.y() * force.x()) / length};
   // <todo>
-  //| // TODO: a force to the left, at the right side of the object: which sign has its torque?
+  //| // TODO: a force upward, at the right side of the object: which sign has its torque?
   //| notUsedYet(p, force, center, length);
   //| return Eigen::Vector3d::Zero();
   // </solution>
@@ -113,9 +113,10 @@ Verdict judged(const Eigen::MatrixXd& wrenches) {
   const SingularValues values = svd(padded);
   if (values.s[d - 1] < 1e-9 * values.s[0]) return {false, values.U.col(d - 1)};
   // Weights 1 + x with x >= 0: what they sum up to is a positive multiple of weights with the sum 1.
-  const LinearSolution rest = minimizeLinear(wrenches, -wrenches.rowwise().sum(), Eigen::VectorXd::Ones(n));
-  if (rest.status != LinearStatus::kOptimal) return {false, -rest.y.normalized()};
-  const Eigen::VectorXd weights = rest.x.array() + 1;
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(n);
+  const LinearSolution rest = minimizeLinear(wrenches, -wrenches.rowwise().sum(), ones);
+  if (rest.status != LinearStatus::kOptimal) return {false, rest.y / -rest.y.norm()};
+  const Eigen::VectorXd weights = rest.x + ones;
   return {true, weights / weights.sum()};
   // <todo>
   //| // TODO: do the wrenches span the space? And does a linear program find weights for zero? If not,
@@ -146,24 +147,27 @@ double reachAlong(const Eigen::MatrixXd& wrenches, const Eigen::VectorXd& direct
 
 double epsilonOf(const Eigen::MatrixXd& wrenches) {
   // <solution epsilonOf>
-  const Eigen::Index n = wrenches.cols();
-  const double size = wrenches.colwise().norm().maxCoeff();
-  double least = INFINITY;
-  for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index j = i + 1; j < n; ++j)
-      for (Eigen::Index k = j + 1; k < n; ++k) {
-        const Eigen::Vector3d a = wrenches.col(i), b = wrenches.col(j), c = wrenches.col(k);
-        const Eigen::Vector3d across = (b - a).cross(c - a);
-        if (across.norm() < 1e-9 * size * size) continue;
-        const Eigen::Vector3d normal = across.normalized();
-        double below = 0, above = 0;
-        for (Eigen::Index m = 0; m < n; ++m) {
-          const double height = normal.dot(wrenches.col(m) - a);
-          below = std::min(below, height);
-          above = std::max(above, height);
+  std::vector<Eigen::Vector3d> points;
+  double size = 0, least = INFINITY;
+  for (Eigen::Index k = 0; k < wrenches.cols(); ++k) {
+    points.push_back(wrenches.col(k));
+    size = std::max(size, points.back().norm());
+  }
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      for (std::size_t k = 0; k < j; ++k) {
+        const Eigen::Vector3d ab = points[j] - points[i], ac = points[k] - points[i];
+        const Eigen::Vector3d across = ab.cross(ac);
+        const double area = across.norm(), here = across.dot(points[i]);
+        if (area < 1e-9 * size * size) continue;
+        double lowest = here, highest = here;
+        for (const Eigen::Vector3d& point : points) {
+          lowest = std::min(lowest, across.dot(point));
+          highest = std::max(highest, across.dot(point));
         }
-        if (above < 1e-9 * size) least = std::min(least, normal.dot(a));
-        if (below > -1e-9 * size) least = std::min(least, -normal.dot(a));
+        const double much = 1e-9 * size * area;  // three points of one face may lie on either side of it
+        if (highest < here + much) least = std::min(least, here / area);
+        if (lowest > here - much) least = std::min(least, -here / area);
       }
   return least < INFINITY ? std::max(least, 0.) : 0;
   // <todo>
@@ -211,17 +215,15 @@ std::vector<int> keptFingers(const Eigen::MatrixXd& wrenches, const std::vector<
 // <solution search>
 namespace {
 
-// Places on the edges, so many on each, all of them away from the corners.
-std::vector<PlanarFinger> placesOn(const std::vector<Eigen::Vector2d>& corners, double friction, int each) {
-  std::vector<PlanarFinger> places;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Eigen::Vector2d side = corners[(i + 1) % corners.size()] - corners[i];
-    const Eigen::Vector2d ahead = side.normalized();
-    const double room = side.norm() - 0.006;
-    for (int k = 0; room > 0 && k <= each; ++k)
-      places.push_back({corners[i] + (0.003 + room * k / each) * ahead, {-ahead.y(), ahead.x()}, friction});
-  }
-  return places;
+// The finger at a place of the outline, counted in edges: 2.5 is the middle of the third.
+PlanarFinger fingerAlong(const std::vector<Eigen::Vector2d>& corners, double place, double friction) {
+  const auto n = static_cast<double>(corners.size());
+  place -= n * std::floor(place / n);
+  const std::size_t i = std::min(static_cast<std::size_t>(place), corners.size() - 1);
+  const Eigen::Vector2d side = corners[(i + 1) % corners.size()] - corners[i];
+  const double size = side.norm(), part = place - static_cast<double>(i);
+  const double along = std::clamp(part * size, 0.0021, size - 0.0021);
+  return {corners[i] + along / size * side, {-side.y() / size, side.x() / size}, friction};
 }
 
 }  // namespace
@@ -233,38 +235,41 @@ std::vector<PlanarFinger> bestGrasp(const std::vector<Eigen::Vector2d>& corners,
                                     const Eigen::Vector2d& center, double length, double friction,
                                     int count) {
   // <solution bestGrasp>
-  const std::vector<PlanarFinger> places = placesOn(corners, friction, 12);
+  const auto fingersAt = [&](const std::vector<double>& places) {
+    std::vector<PlanarFinger> fingers;
+    for (const double place : places) fingers.push_back(fingerAlong(corners, place, friction));
+    return fingers;
+  };
+  const auto qualityOf = [&](const std::vector<double>& places) {
+    return epsilonOf(planarWrenches(fingersAt(places), center, length));
+  };
   Rng rng(7);
-  std::vector<PlanarFinger> best;
+  std::vector<double> best;
   double quality = -1;
   for (int start = 0; start < 30; ++start) {
-    std::vector<PlanarFinger> grasp;
-    double now = 0;
-    for (int draw = 0; draw < 300 && now == 0; ++draw) {
-      grasp.clear();
-      for (int k = 0; k < count; ++k) grasp.push_back(places[rng.index(static_cast<int>(places.size()))]);
-      now = epsilonOf(planarWrenches(grasp, center, length));
+    std::vector<double> here, other(static_cast<std::size_t>(count));
+    double now = -1;
+    const auto isBetter = [&] {
+      const double then = qualityOf(other);
+      if (then <= now) return false;
+      now = then;
+      here = other;
+      return true;
+    };
+    for (int draw = 0; draw < 150; ++draw) {
+      for (double& place : other) place = rng.uniform(0, static_cast<double>(corners.size()));
+      isBetter();
     }
-    // One finger after the other goes where it serves best, until none wants to move.
-    for (bool moves = now > 0; moves;) {
-      moves = false;
-      for (std::size_t k = 0; k < grasp.size(); ++k)
-        for (const PlanarFinger& place : places) {
-          std::vector<PlanarFinger> other = grasp;
-          other[k] = place;
-          const double then = epsilonOf(planarWrenches(other, center, length));
-          if (then <= now * (1 + 1e-9)) continue;
-          grasp = other;
-          now = then;
-          moves = true;
-        }
+    // From there all fingers move at once: one alone often cannot, though two could.
+    for (double i = 0, step = 0.5; i < 250; ++i) {
+      other = here;
+      for (double& place : other) place += step * rng.normal();
+      step *= isBetter() ? 1.3 : 0.96;
     }
-    if (now > quality) {
-      quality = now;
-      best = grasp;
-    }
+    if (now > quality) best = here;
+    quality = std::max(quality, now);
   }
-  return best;
+  return fingersAt(best);
   // <todo>
   //| // TODO: try many; epsilonOf() tells which is better. Can a good one be made better?
   //| notUsedYet(corners, center, length, friction, count);
@@ -314,7 +319,8 @@ void showMap() {
                 .width = 800,
                 .height = 700};
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    around += (corners[(i + 1) % corners.size()] - corners[i]).norm();
+    const Eigen::Vector2d side = ahead(corners[(i + 1) % corners.size()], -1, corners[i]);
+    around += std::hypot(side[0], side[1]);
     if (i + 1 == corners.size()) break;
     figure.verticalLines.push_back({.at = around, .color = kGrey});
     figure.horizontalLines.push_back({.at = around, .color = kGrey});
@@ -369,7 +375,10 @@ void showVerdicts() {
     if (verdict.closed)
       std::printf("  smallest weight %.4f, largest %.4f\n", verdict.proof.minCoeff(),
                   verdict.proof.maxCoeff());
-    if (!verdict.closed) print("  nothing opposes the wrench", Eigen::MatrixXd(verdict.proof.transpose()));
+    else if (verdict.proof.isZero())
+      std::printf("  without proof so far\n");
+    else
+      print("  nothing opposes the wrench", Eigen::MatrixXd(verdict.proof.transpose()));
   }
 }
 

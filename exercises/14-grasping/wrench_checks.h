@@ -8,6 +8,7 @@
 
 #include "geometry/facet_hull.h"
 #include "grading/check.h"
+#include "grading/evidence_parts.h"
 #include "grasping/closure.h"
 #include "grasping/quality.h"
 #include "interface.h"
@@ -66,11 +67,35 @@ inline void spatialWrenchFits(rex::grading::Check& check, Student& student, rex:
   }
 }
 
+/// The forces along the edges of a pyramid, seen along the normal, with the circle on which they should lie.
+inline rex::grading::Evidence edgesSeen(const Finger& finger, const Eigen::MatrixXd& forces) {
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  const Eigen::Matrix3d R = Eigen::Quaterniond::FromTwoVectors(finger.normal, up).toRotationMatrix();
+  rex::Series circle = rex::grading::wantedCurve("rim of the cone"), edges = rex::grading::gotCurve("yours");
+  for (int i = 0; i <= 96; ++i) {
+    const double angle = 2 * std::numbers::pi * i / 96;
+    circle.x.push_back(finger.friction * std::cos(angle));
+    circle.y.push_back(finger.friction * std::sin(angle));
+  }
+  edges = rex::grading::through(Eigen::MatrixXd(R * forces).colwise(), edges);
+  edges.style = rex::SeriesStyle::kPoints;
+  edges.marker = rex::Marker::kDot;
+  edges.size = 2;
+  return {.figures = {{.title = "Edges of a pyramid, seen along the normal",
+                       .xLabel = "along the surface [N]",
+                       .yLabel = "along the surface [N]",
+                       .equalAxes = true,
+                       .legend = rex::Legend::kOutside,
+                       .series = {edges, circle}}},
+          .film = {}};
+}
+
 /// The columns are forces of one newton along the normal, on the cone, at equal angles: as many points of a
 /// circle, no two of them nearer than those of a regular polygon are, are a regular polygon.
 inline void areEdges(rex::grading::Check& check, const Finger& finger, const Eigen::MatrixXd& forces,
                      int edges) {
   check.shape("edges of a pyramid", forces, 3, edges);
+  const auto shown = check.show([&] { return edgesSeen(finger, forces); });
   for (Eigen::Index k = 0; k < edges; ++k) {
     const double along = finger.normal.dot(forces.col(k));
     check.near("part along the normal of an edge", along, 1, 1e-9, "N");
@@ -148,14 +173,51 @@ inline Eigen::MatrixXd closedWrenches(rex::Rng& rng, int d, int count) {
 }
 
 /// Facet by facet: the first plane of the hull that the ray meets.
-inline void reachFits(rex::grading::Check& check, Student& student, const Eigen::MatrixXd& W,
-                      const Eigen::VectorXd& direction) {
-  const rex::FacetHull hull = rex::facetHull(W);
+inline double reachOf(const rex::FacetHull& hull, const Eigen::VectorXd& direction) {
   double reach = INFINITY;
   for (Eigen::Index f = 0; f < hull.offsets.size(); ++f)
     if (const double rise = hull.normals.col(f).dot(direction); rise > 1e-12)
       reach = std::min(reach, hull.offsets[f] / rise);
-  check.near("how far the hull reaches", student.reachAlong(W, direction), reach, 1e-6, "N");
+  return reach;
+}
+
+/// The hull of wrenches of two numbers, and how far it reaches.
+inline rex::grading::Evidence reachSeen(const Eigen::MatrixXd& W, const Eigen::VectorXd& direction,
+                                        double got, double wanted) {
+  const rex::FacetHull hull = rex::facetHull(W);
+  rex::Region inside{.label = "hull of the wrenches"};
+  for (int i = 0; i < 720; ++i) {
+    const double angle = std::numbers::pi * i / 360;
+    const Eigen::Vector2d ray(std::cos(angle), std::sin(angle));
+    inside.x.push_back(reachOf(hull, ray) * ray.x());
+    inside.y.push_back(reachOf(hull, ray) * ray.y());
+  }
+  const Eigen::Vector2d far = std::clamp(got, -5 * wanted, 5 * wanted) * direction,
+                        right = wanted * direction;
+  rex::Series arrow = rex::grading::gotCurve("s * direction, yours", {0, far.x()}, {0, far.y()});
+  rex::Series line = rex::grading::wantedCurve("wanted", {0, right.x()}, {0, right.y()});
+  for (rex::Series* series : {&arrow, &line}) series->style = rex::SeriesStyle::kLinesPoints;
+  return {.figures = {{.title = "How far the hull reaches",
+                       .xLabel = "first number of a wrench [N]",
+                       .yLabel = "second number [N]",
+                       .equalAxes = true,
+                       .legend = rex::Legend::kOutside,
+                       .series = {arrow, line},
+                       .regions = {inside}}},
+          .film = {}};
+}
+
+inline void reachIs(rex::grading::Check& check, Student& student, const Eigen::MatrixXd& W,
+                    const Eigen::VectorXd& direction, double wanted) {
+  const double got = student.reachAlong(W, direction);
+  if (W.rows() != 2) return check.near("how far the hull reaches", got, wanted, 1e-6, "N");
+  const auto shown = check.show([&] { return reachSeen(W, direction, got, wanted); });
+  check.near("how far the hull reaches", got, wanted, 1e-6, "N");
+}
+
+inline void reachFits(rex::grading::Check& check, Student& student, const Eigen::MatrixXd& W,
+                      const Eigen::VectorXd& direction) {
+  reachIs(check, student, W, direction, reachOf(rex::facetHull(W), direction));
 }
 
 inline void radiusFits(rex::grading::Check& check, Student& student, const Eigen::MatrixXd& W) {
@@ -172,6 +234,12 @@ inline Eigen::MatrixXd partOf(const Eigen::MatrixXd& W, const std::vector<int>& 
   return W(Eigen::all, columns);
 }
 
+/// Closed, and not only with weights smaller than a Verdict may name.
+inline bool isProvablyClosed(const Eigen::MatrixXd& W) {
+  const rex::Closure closure = rex::forceClosure(W);
+  return closure.status == rex::ClosureStatus::kClosed && closure.weights.minCoeff() > 1e-5;
+}
+
 /// The fingers kept have force closure, and none of them is redundant.
 inline void keepsTheNeeded(rex::grading::Check& check, Student& student, const Eigen::MatrixXd& W,
                            const std::vector<int>& finger) {
@@ -181,13 +249,13 @@ inline void keepsTheNeeded(rex::grading::Check& check, Student& student, const E
   check.that("fingers kept are among those given",
              std::ranges::all_of(kept, [&](int one) { return std::ranges::count(finger, one) > 0; }));
   using enum rex::ClosureStatus;
-  const rex::ClosureStatus all = rex::forceClosure(W).status;
-  if (all == kOpen) return check.that("nothing is kept of an open grasp", kept.empty());
+  if (rex::forceClosure(W).status == kOpen || (kept.empty() && !isProvablyClosed(W)))
+    return check.that("nothing is kept of an open grasp", kept.empty());
   check.that("the fingers kept have force closure",
              rex::forceClosure(partOf(W, finger, kept)).status != kOpen);
   for (const int one : kept) {
     std::vector<int> rest = kept;
     std::erase(rest, one);
-    check.that("each finger kept is needed", rex::forceClosure(partOf(W, finger, rest)).status != kClosed);
+    check.that("each finger kept is needed", !isProvablyClosed(partOf(W, finger, rest)));
   }
 }

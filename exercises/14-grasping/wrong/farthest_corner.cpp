@@ -1,4 +1,5 @@
 // caught by: reach, any-reach
+// shown by: reach
 // mistake: how far the corners lie along the direction, which is not how far the hull reaches.
 
 // <solution reachAlong>

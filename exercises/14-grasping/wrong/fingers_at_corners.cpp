@@ -5,13 +5,12 @@
 // <solution search>
 namespace {
 
-std::vector<PlanarFinger> placesOn(const std::vector<Eigen::Vector2d>& corners, double friction, int) {
-  std::vector<PlanarFinger> places;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Eigen::Vector2d ahead = (corners[(i + 1) % corners.size()] - corners[i]).normalized();
-    places.push_back({corners[i], {-ahead.y(), ahead.x()}, friction});
-  }
-  return places;
+PlanarFinger fingerAlong(const std::vector<Eigen::Vector2d>& corners, double place, double friction) {
+  const auto n = static_cast<double>(corners.size());
+  place -= n * std::floor(place / n);
+  const std::size_t i = std::min(static_cast<std::size_t>(place), corners.size() - 1);
+  const Eigen::Vector2d ahead = (corners[(i + 1) % corners.size()] - corners[i]).normalized();
+  return {corners[i], {-ahead.y(), ahead.x()}, friction};
 }
 
 }  // namespace

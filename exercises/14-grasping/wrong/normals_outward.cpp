@@ -5,16 +5,14 @@
 // <solution search>
 namespace {
 
-std::vector<PlanarFinger> placesOn(const std::vector<Eigen::Vector2d>& corners, double friction, int each) {
-  std::vector<PlanarFinger> places;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Eigen::Vector2d side = corners[(i + 1) % corners.size()] - corners[i];
-    const Eigen::Vector2d ahead = side.normalized();
-    const double room = side.norm() - 0.006;
-    for (int k = 0; room > 0 && k <= each; ++k)
-      places.push_back({corners[i] + (0.003 + room * k / each) * ahead, {ahead.y(), -ahead.x()}, friction});
-  }
-  return places;
+PlanarFinger fingerAlong(const std::vector<Eigen::Vector2d>& corners, double place, double friction) {
+  const auto n = static_cast<double>(corners.size());
+  place -= n * std::floor(place / n);
+  const std::size_t i = std::min(static_cast<std::size_t>(place), corners.size() - 1);
+  const Eigen::Vector2d side = corners[(i + 1) % corners.size()] - corners[i];
+  const double size = side.norm(), part = place - static_cast<double>(i);
+  const double along = std::clamp(part * size, 0.0021, size - 0.0021);
+  return {corners[i] + along / size * side, {side.y() / size, -side.x() / size}, friction};
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // caught by: cones, any-cones, all-wrenches
+// shown by: cones
 // mistake: a pyramid whose sides touch the cone, so that its edges lie outside.
 
 // <solution pyramidEdges>

@@ -1,4 +1,5 @@
 // caught by: reach, any-reach
+// shown by: reach
 // mistake: each weight at most one, instead of one for all together.
 
 // <solution reachAlong>
