@@ -236,9 +236,9 @@ std::vector<PlanarFinger> bestGrasp(const std::vector<Eigen::Vector2d>& corners,
                                     int count) {
   // <solution bestGrasp>
   const auto fingersAt = [&](const std::vector<double>& places) {
-    std::vector<PlanarFinger> fingers;
-    for (const double place : places) fingers.push_back(fingerAlong(corners, place, friction));
-    return fingers;
+    std::vector<PlanarFinger> grasp;
+    for (const double place : places) grasp.push_back(fingerAlong(corners, place, friction));
+    return grasp;
   };
   const auto qualityOf = [&](const std::vector<double>& places) {
     return epsilonOf(planarWrenches(fingersAt(places), center, length));
