@@ -1,0 +1,94 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "grading/check.h"
+#include "grading/evidence_parts.h"
+#include "interface.h"
+#include "wrench_checks.h"
+
+// What the checks require of a grasp of a polygon.
+
+/// The best known radii for the objects of the visible check, newtons.
+inline constexpr double kBestOnSlab = 0.316227, kBestOnWedge = 0.18688;
+
+inline void isOnOutline(rex::grading::Check& check, const Plate& plate, const PlanarFinger& finger) {
+  check.shape("place of a finger", finger.p, 2, 1);
+  check.shape("normal of a finger", finger.normal, 2, 1);
+  double least = INFINITY, fromCorner = INFINITY;
+  Eigen::Vector2d inward(0, 0);
+  for (std::size_t i = 0; i < plate.corners.size(); ++i) {
+    const Eigen::Vector2d &a = plate.corners[i], &b = plate.corners[(i + 1) % plate.corners.size()];
+    const Eigen::Vector2d side = (b - a).normalized();
+    const double along = std::clamp(side.dot(finger.p - a), 0., (b - a).norm());
+    const double away = (a + along * side - finger.p).norm();
+    fromCorner = std::min(fromCorner, (finger.p - a).norm());
+    if (away >= least) continue;
+    least = away;
+    inward = {-side.y(), side.x()};
+  }
+  check.atMost("distance of a finger from the edges", least, 1e-6, "m");
+  check.atLeast("distance of a finger from the nearest corner", fromCorner, 0.002 - 1e-6, "m");
+  check.near("normal of a finger", finger.normal, inward, 1e-6);
+}
+
+/// The friction cone of a finger, 0.3 of the length deep, and the finger behind it.
+inline void addFinger(rex::Figure& figure, const PlanarFinger& finger, double length) {
+  const Eigen::Vector2d across(-finger.normal.y(), finger.normal.x());
+  rex::Region cone{.color = rex::grading::kGotColor};
+  for (const double side : {-1., 0., 1.}) {
+    const Eigen::Vector2d ahead = finger.normal + side * finger.friction * across;
+    const Eigen::Vector2d p = finger.p + (side == 0 ? 0 : 0.3) * length * ahead;
+    cone.x.push_back(p.x());
+    cone.y.push_back(p.y());
+  }
+  const Eigen::Vector2d from = finger.p - 0.25 * length * finger.normal;
+  rex::Series body = rex::grading::gotCurve("", {from.x(), finger.p.x()}, {from.y(), finger.p.y()});
+  figure.regions.push_back(cone);
+  figure.series.push_back(body);
+}
+
+/// The polygon with the cones of its fingers.
+inline rex::Figure drawing(const Plate& plate, const std::vector<PlanarFinger>& fingers) {
+  rex::Figure figure{.title = "Your fingers, and the forces they can exert",
+                     .xLabel = "x [m]",
+                     .yLabel = "y [m]",
+                     .equalAxes = true,
+                     .legend = rex::Legend::kOutside};
+  rex::Region outline;
+  for (const Eigen::Vector2d& corner : plate.corners) {
+    outline.x.push_back(corner.x());
+    outline.y.push_back(corner.y());
+  }
+  figure.regions = {outline};
+  for (const PlanarFinger& finger : fingers)
+    if (finger.p.allFinite() && finger.normal.allFinite() && std::isfinite(finger.friction))
+      addFinger(figure, finger, plate.length);
+  if (!figure.series.empty()) figure.series[0].label = "fingers";
+  rex::Series center{.label = "center", .x = {plate.center.x()}, .y = {plate.center.y()}};
+  center.style = rex::SeriesStyle::kPoints;
+  center.marker = rex::Marker::kPlus;
+  center.size = 2;
+  center.color = rex::grading::kWantedColor;
+  figure.series.push_back(center);
+  return figure;
+}
+
+/// A grasp as the contract wants it, at least 0.8 as good as the best that is known.
+inline void graspIsGood(rex::grading::Check& check, Student& student, const Plate& plate, double friction,
+                        int count, double best) {
+  check.input("a polygon of " + std::to_string(plate.corners.size()) + " corners, friction " +
+              text(friction) + ", " + std::to_string(count) + " fingers");
+  const std::vector<PlanarFinger> fingers =
+      student.bestGrasp(plate.corners, plate.center, plate.length, friction, count);
+  const auto shown =
+      check.show([&] { return rex::grading::Evidence{.figures = {drawing(plate, fingers)}, .film = {}}; });
+  check.near("number of fingers", static_cast<double>(fingers.size()), count, 0);
+  for (const PlanarFinger& finger : fingers) {
+    isOnOutline(check, plate, finger);
+    check.near("friction of a finger", finger.friction, friction, 1e-12);
+  }
+  const double quality = rex::graspQuality(wrenchesOf(fingers, plate.center, plate.length)).epsilon;
+  check.atLeast("radius of the ball, of the best known", quality / best, 0.8);
+}

@@ -1,0 +1,6 @@
+// caught by: forbidden-call
+// mistake: the library measures the quality.
+
+// <solution epsilonOf>
+return graspQuality(wrenches).epsilon;
+// </solution>
