@@ -405,8 +405,10 @@ void throughOthers(Check& check, Student& student) {
     const int n = 1 + rng.index(4), count = 1 + rng.index(4);
     std::vector<int> when;
     for (int i = 0; i < count; ++i) when.push_back((i == 0 ? 0 : when.back()) + 2 + rng.index(10));
-    goesThrough(check, student, rng.normalVector(n), randomMatrix(rng, n, count), when,
-                rng.uniform(0.02, 0.5));
+    const Eigen::VectorXd start = rng.normalVector(n);
+    Eigen::MatrixXd points = randomMatrix(rng, n, count);
+    points(0, count - 1) = start[0] + 1;
+    goesThrough(check, student, start, points, when, rng.uniform(0.02, 0.5));
   });
 }
 // </hidden>

@@ -1,0 +1,147 @@
+#include <cmath>
+
+#include "clearance.h"
+#include "exercise.h"
+#include "pictures.h"
+
+using namespace rex;
+
+// Keeps the compiler quiet about what a function below does not use yet.
+template <class... Unused>
+void notUsedYet(const Unused&...) {}
+
+TermValue differenceTerm(const Eigen::MatrixXd& window, double tau) {
+  // TODO: the columns of the window, weighted; which power of tau belongs to order k?
+  notUsedYet(tau);
+  return {Eigen::VectorXd::Zero(window.rows()), Eigen::MatrixXd::Zero(window.rows(), window.size())};
+}
+
+double motionCost(const Eigen::MatrixXd& prefix, const Eigen::MatrixXd& X, int k, double tau) {
+  // TODO: one window for each t; the first ones reach into the prefix.
+  notUsedYet(prefix, X, k, tau);
+  return 0;
+}
+
+TermValue taskDifference(const std::vector<TermValue>& phi, double tau) {
+  // TODO: the same weights as above. On which configuration does each phi depend?
+  notUsedYet(tau);
+  const auto k = static_cast<Eigen::Index>(phi.size()) - 1;
+  const Eigen::Index d = phi[0].J.rows(), n = phi[0].J.cols();
+  return {Eigen::VectorXd::Zero(d), Eigen::MatrixXd::Zero(d, (k + 1) * n)};
+}
+
+BandSystem assembled(const std::vector<Term>& terms, int n, int steps) {
+  // TODO: each term adds to some columns of the band. What becomes of the columns of J that belong to the
+  // prefix?
+  notUsedYet(terms);
+  return {Eigen::MatrixXd::Zero(n, n * steps), Eigen::VectorXd::Zero(n * steps)};
+}
+
+Eigen::MatrixXd bandCholesky(const Eigen::MatrixXd& band) {
+  // TODO: column by column. Which later columns does a column change?
+  notUsedYet(band);
+  return {};
+}
+
+Eigen::VectorXd bandSolve(const Eigen::MatrixXd& L, const Eigen::VectorXd& b) {
+  // TODO: first L y = b from above, then L^T x = y from below.
+  notUsedYet(L);
+  return Eigen::VectorXd::Zero(b.size());
+}
+
+std::vector<Eigen::MatrixXd> descended(const Terms& terms, const Eigen::MatrixXd& start, double tolerance) {
+  // TODO: assemble, factor, solve, and go as far as the cost falls.
+  notUsedYet(terms, tolerance);
+  return {start};
+}
+
+Term asCost(const Term& term, const Eigen::VectorXd& multipliers, double mu) {
+  // TODO: complete the square. When does an inequality still count?
+  notUsedYet(multipliers, mu);
+  return term;
+}
+
+Eigen::VectorXd nextMultipliers(const Term& term, const Eigen::VectorXd& multipliers, double mu) {
+  // TODO: differentiate mu y^T y + m^T y. What multiplies dy/dx?
+  notUsedYet(term, mu);
+  return multipliers;
+}
+
+Minimum minimised(const Terms& terms, const Eigen::MatrixXd& start, double mu, const Accuracy& accuracy) {
+  // TODO: minimise with asCost() in place of the terms, then new multipliers, and again. What if the
+  // violation hardly falls?
+  notUsedYet(mu, accuracy);
+  return {start, std::vector<Eigen::VectorXd>(terms(start).size()), {0}, {0}};
+}
+
+Eigen::MatrixXd throughPoints(const Eigen::VectorXd& start, const Eigen::MatrixXd& points,
+                              const std::vector<int>& when, double tau) {
+  // TODO: which terms are costs, and which are equalities?
+  notUsedYet(points, tau);
+  return start.replicate(1, when.back() + 1);
+}
+
+TermValue keptApart(Simulator& S, const Eigen::MatrixXd& window, double margin, int samples) {
+  // TODO: move S along the way; how does the posture at s depend on both ends?
+  notUsedYet(margin);
+  const Eigen::Index rows = samples * clearances(S).y.size();
+  return {Eigen::VectorXd::Zero(rows), Eigen::MatrixXd::Zero(rows, window.size())};
+}
+
+Eigen::MatrixXd aroundObstacle(Simulator& S, const Errand& errand) {
+  // TODO: start through the detour; then costs, ends, and keptApart() at each step.
+  return S.getJointAngles().replicate(1, errand.steps);
+}
+
+// What follows is given.
+
+// A point in the plane on its way past a disc, and what the rounds do to it.
+void showDisc() {
+  const DiscPath disc;
+  const Terms terms = [&](const Eigen::MatrixXd& X) { return disc.termsAt(X, &differenceTerm); };
+  const Minimum found = minimised(terms, disc.guess(), 100, {1e-6, 1e-4});
+  plot("disc", discFigure(disc, found.X));
+  plot("rounds", roundsFigure(found));
+  print("path past the disc, cost", found.cost.back());
+  print("of the library", disc.libraryCost());
+}
+
+// The least cost from 0 to 1 in a second, beside what it should be.
+void showReach() {
+  Eigen::MatrixXd table(3, 3);
+  const std::vector<int> sizes{5, 20, 100};
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const int T = sizes[static_cast<std::size_t>(i)];
+    const Eigen::MatrixXd X =
+        throughPoints(Eigen::VectorXd::Zero(1), Eigen::MatrixXd::Ones(1, 1), {T - 1}, 1. / T);
+    table.row(i) << T, motionCost(Eigen::MatrixXd::Zero(1, 2), X, 2, 1. / T), 12. * T * T / (T * T - 1.);
+  }
+  print("T, least cost from 0 to 1, 12 T^2 / (T^2 - 1)", table);
+
+  Eigen::MatrixXd points(2, 4);
+  points << 1, 2, 3, 4, 1, -1, 0.5, 0;
+  const std::vector<int> when{19, 39, 59, 79};
+  plot("via", viaFigure(points, throughPoints(Eigen::Vector2d::Zero(), points, when, 0.05)));
+}
+
+void showArm() {
+  Simulator S(armAmong(kBall, kArmStart));
+  Eigen::MatrixXd points(3, 2);
+  points << kErrand.detour, kErrand.goal;
+  const int last = kErrand.steps - 1;
+  const Eigen::MatrixXd direct = throughPoints(kArmStart, kErrand.goal, {last}, kErrand.tau),
+                        guess = throughPoints(kArmStart, points, {last / 2, last}, kErrand.tau),
+                        X = aroundObstacle(S, kErrand);
+  Simulator shown(armAmong(kBall, kArmStart));
+  plot("arm", armFigure(shown, kBall, guess, X, libraryMotion(shown, kErrand, guess)));
+  plot("clearance", clearanceFigure(shown, {{"direct", direct}, {"detour", guess}, {"optimised", X}}));
+  print("cost of the detour", motionCost(kArmStart.replicate(1, 2), guess, 2, kErrand.tau));
+  print("cost of the optimised motion", motionCost(kArmStart.replicate(1, 2), X, 2, kErrand.tau));
+  filmMotion(X);
+}
+
+int main() {
+  showReach();
+  showDisc();
+  showArm();
+}
