@@ -218,16 +218,3 @@ inline rex::Figure clearanceFigure(rex::Simulator& S,
   }
   return figure;
 }
-
-/// In real time.
-inline void filmMotion(const Eigen::MatrixXd& X) {
-  rex::Simulator S(armAmong(kBall, kArmStart));
-  S.clearRecording();
-  const Eigen::MatrixXd fine = finely(kArmStart, X, 4);
-  for (Eigen::Index i = 0; i < fine.cols(); ++i) S.setJointAngles(fine.col(i));
-  const rex::PictureOptions look{
-      .caption = "around the ball", .traces = {"eff"}, .view = Eigen::Vector3d(2, -0.6, 0.5)};
-  rex::writeVideo(S, "around", look, 60);
-  rex::writeContactSheet(S, "around_sheet", look, 6, 60);
-  rex::writeReplay(S, "around", look, {});
-}
