@@ -124,6 +124,19 @@ void showReach() {
   plot("via", viaFigure(points, throughPoints(Eigen::Vector2d::Zero(), points, when, 0.05)));
 }
 
+// In real time.
+void filmMotion(const Eigen::MatrixXd& X) {
+  Simulator S(armAmong(kBall, kArmStart));
+  S.clearRecording();
+  const Eigen::MatrixXd fine = finely(kArmStart, X, 4);
+  for (Eigen::Index i = 0; i < fine.cols(); ++i) S.setJointAngles(fine.col(i));
+  const PictureOptions look{
+      .caption = "around the ball", .traces = {"eff"}, .view = Eigen::Vector3d(2, -0.6, 0.5)};
+  writeVideo(S, "around", look, 60);
+  writeContactSheet(S, "around_sheet", look, 6, 60);
+  writeReplay(S, "around", look, {});
+}
+
 void showArm() {
   Simulator S(armAmong(kBall, kArmStart));
   Eigen::MatrixXd points(3, 2);
