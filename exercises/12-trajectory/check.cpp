@@ -305,9 +305,9 @@ void isStationary(Check& check, const Terms& terms, const Minimum& got, const Ac
              static_cast<double>(all.size()), 0);
   double violation = 0, gap = 0, cost = 0;
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(n * steps);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const Term& term = all[i];
-    const Eigen::VectorXd& m = got.multipliers[i];
+  for (std::size_t j = 0; j < all.size(); ++j) {
+    const Term& term = all[j];
+    const Eigen::VectorXd& m = got.multipliers[j];
     const Eigen::MatrixXd J = overAll(term, n, steps);
     if (term.role == Role::cost) {
       cost += term.y.squaredNorm();

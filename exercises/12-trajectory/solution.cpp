@@ -122,7 +122,7 @@ Eigen::VectorXd bandSolve(const Eigen::MatrixXd& L, const Eigen::VectorXd& b) {
 
 std::vector<Eigen::MatrixXd> descended(const Terms& terms, const Eigen::MatrixXd& start, double tolerance) {
   // <solution descended>
-  const auto n = static_cast<int>(start.rows()), steps = static_cast<int>(start.cols());
+  const int n = static_cast<int>(start.rows()), T = static_cast<int>(start.cols());
   const auto costOf = [](const std::vector<Term>& all) {
     double cost = 0;
     for (const Term& term : all) cost += term.y.squaredNorm();
@@ -131,7 +131,7 @@ std::vector<Eigen::MatrixXd> descended(const Terms& terms, const Eigen::MatrixXd
   std::vector<Eigen::MatrixXd> path{start};
   std::vector<Term> here = terms(start);
   while (path.size() <= 300) {
-    BandSystem system = assembled(here, n, steps);
+    BandSystem system = assembled(here, n, T);
     if (system.g.cwiseAbs().maxCoeff() <= tolerance) break;
     Eigen::MatrixXd L = bandCholesky(system.band);
     for (double damping = 1e-9 * system.band.row(0).maxCoeff(); L.size() == 0; damping *= 10) {
@@ -143,7 +143,7 @@ std::vector<Eigen::MatrixXd> descended(const Terms& terms, const Eigen::MatrixXd
     double share = 1;
     Eigen::MatrixXd next;
     for (;; share /= 2) {
-      next = path.back() + share * step.reshaped(n, steps);
+      next = path.back() + share * step.reshaped(n, T);
       here = terms(next);
       if (share < 1e-10 || costOf(here) <= cost + 0.01 * share * slope) break;
     }
