@@ -383,9 +383,9 @@ void goesThrough(Check& check, Student& student, const Eigen::VectorXd& start, c
   const Eigen::MatrixXd got = student.throughPoints(start, points, when, tau);
   check.shape("X", got, start.size(), when.back() + 1);
   const double reach = (points.colwise() - start).cwiseAbs().maxCoeff();
-  for (std::size_t i = 0; i < when.size(); ++i)
+  for (std::size_t k = 0; k < when.size(); ++k)
     check.near("configuration at the step of a point, relative to the greatest distance",
-               got.col(when[i]) / reach, points.col(static_cast<Eigen::Index>(i)) / reach, 1e-6);
+               got.col(when[k]) / reach, points.col(static_cast<Eigen::Index>(k)) / reach, 1e-6);
   check.near("configuration before the last one, relative to the greatest distance",
              got.col(got.cols() - 2) / reach, got.col(got.cols() - 1) / reach, 2e-6);
   check.near("X, relative to the greatest distance", got / reach, wanted / reach, 2e-6);
@@ -425,16 +425,16 @@ void isKeptApart(Check& check, Student& student, const std::vector<Ball>& balls,
   const Eigen::Index pairs = clearances(S).y.size();
   check.shape("y", got.y, samples * pairs, 1);
   check.shape("J", got.J, samples * pairs, 6);
-  for (int i = 0; i < samples; ++i) {
-    const double s = (i + 1.) / samples;
-    S.setJointAngles(window.col(0) + s * (window.col(1) - window.col(0)));
-    const TermValue d = clearances(S);
+  for (int k = 0; k < samples; ++k) {
+    const double share = (k + 1.) / samples;
+    S.setJointAngles(window.col(0) + share * (window.col(1) - window.col(0)));
+    const TermValue near = clearances(S);
     check.near("distances that y stands for, in margins",
-               (1 - got.y.segment(i * pairs, pairs).array()).matrix(), d.y / margin, 1e-7);
-    check.near("columns of x_{t-1} in J, times the margin", margin * got.J.block(i * pairs, 0, pairs, 3),
-               (s - 1) * d.J, 1e-7);
-    check.near("columns of x_t in J, times the margin", margin * got.J.block(i * pairs, 3, pairs, 3),
-               -s * d.J, 1e-7);
+               (1 - got.y.segment(k * pairs, pairs).array()).matrix(), near.y / margin, 1e-7);
+    check.near("columns of x_{t-1} in J, times the margin", margin * got.J.block(k * pairs, 0, pairs, 3),
+               (share - 1) * near.J, 1e-7);
+    check.near("columns of x_t in J, times the margin", margin * got.J.block(k * pairs, 3, pairs, 3),
+               -share * near.J, 1e-7);
   }
 }
 

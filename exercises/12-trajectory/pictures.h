@@ -189,8 +189,8 @@ inline rex::Figure armFigure(rex::Simulator& S, const std::vector<Ball>& balls, 
                      .width = 900,
                      .height = 640};
   for (const Ball& ball : balls) figure.regions.push_back(roundRegion(ball.y, ball.z, ball.radius));
-  for (Eigen::Index t = 0; t < X.cols(); ++t)
-    figure.series.push_back(lineThrough(t == 0 ? "links" : "", cornersOf(S, X.col(t)), kPale, 1));
+  for (Eigen::Index k = 0; k < X.cols(); ++k)
+    figure.series.push_back(lineThrough(k == 0 ? "links" : "", cornersOf(S, X.col(k)), kPale, 1));
   figure.series.push_back(lineThrough("hand, detour", handPath(S, guess), kGrey));
   figure.series.back().dashed = true;
   figure.series.push_back(lineThrough("hand, optimised", handPath(S, X), kOrange, 3));

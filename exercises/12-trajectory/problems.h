@@ -40,7 +40,7 @@ struct DenseSystem {
 
 inline DenseSystem denseSystem(const std::vector<Term>& terms, int n, int steps) {
   DenseSystem all{Eigen::MatrixXd::Zero(n * steps, n * steps), Eigen::VectorXd::Zero(n * steps)};
-  for (const Term& term : terms) {
+  for (const auto& term : terms) {
     const Eigen::MatrixXd J = overAll(term, n, steps);
     all.H += 2 * J.transpose() * J;
     all.g += 2 * J.transpose() * term.y;
