@@ -3,8 +3,10 @@
 #include <Eigen/Cholesky>
 
 #include "grading/check.h"
+#include "grading/evidence_parts.h"
 #include "interface.h"
 #include "random_matrices.h"
+#include "render/figure_builders.h"
 
 // Part 5: beliefs are compared as densities, with samples, and with sums over a grid.
 
@@ -26,11 +28,50 @@ inline double logDensity(const GaussianBelief& belief, const Eigen::VectorXd& x)
   return -0.5 * belief.cov.llt().matrixL().solve(x - belief.mean).squaredNorm();
 }
 
+// Gaussians of one or more dimensions, of which the first two are drawn.
+inline void addGaussian(rex::Figure& figure, const std::string& label, const GaussianBelief& belief,
+                        const rex::Series& look) {
+  rex::Series curve = look;
+  curve.label = label;
+  if (belief.mean.size() == 1) {
+    const double sigma = std::sqrt(belief.cov(0, 0));
+    for (int i = -60; i <= 60; ++i) {
+      curve.x.push_back(belief.mean[0] + sigma * i / 15);
+      curve.y.push_back(std::exp(-i * i / 450.) / (std::sqrt(2 * M_PI) * sigma));
+    }
+  } else {
+    const Eigen::Matrix2d root = Eigen::Matrix2d(belief.cov.topLeftCorner<2, 2>()).llt().matrixL();
+    for (int i = 0; i <= 100; ++i) {
+      const double angle = 2 * M_PI * i / 100;
+      const Eigen::Vector2d at =
+          belief.mean.head<2>() + 2 * root * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+      curve.x.push_back(at.x());
+      curve.y.push_back(at.y());
+    }
+  }
+  figure.series.push_back(curve);
+}
+
+inline rex::Figure gaussianFigure(const std::string& title, Eigen::Index n) {
+  if (n == 1) return {.title = title, .xLabel = "x", .yLabel = "density"};
+  return {.title = title + ", 2 sigma", .xLabel = "x_1", .yLabel = "x_2", .equalAxes = true};
+}
+
 // The densities themselves are compared, at random places: p q / result must be the same everywhere.
 inline void productFits(rex::grading::Check& check, Student& student, int n) {
   const GaussianBelief p = randomGaussian(check.rng(), n), q = randomGaussian(check.rng(), n);
   check.input(fmt::format("two random Gaussians in {} dimensions", n));
   const GaussianBelief both = student.product(p, q);
+  const auto shown = check.show([&] {
+    const Eigen::MatrixXd P = p.cov.inverse(), Q = q.cov.inverse(), S = (P + Q).inverse();
+    rex::Figure figure = gaussianFigure("The product of two Gaussians", n);
+    const rex::Series thin{.color = rex::Color{.6f, .62f, .65f}};
+    addGaussian(figure, "p", p, thin);
+    addGaussian(figure, "q", q, thin);
+    addGaussian(figure, "got", both, rex::grading::gotCurve(""));
+    addGaussian(figure, "wanted", {S * (P * p.mean + Q * q.mean), S}, rex::grading::wantedCurve(""));
+    return rex::grading::Evidence{.figures = {figure}};
+  });
   checkGaussian(check, both, n);
   const auto logRatio = [&](const Eigen::VectorXd& x) {
     return logDensity(p, x) + logDensity(q, x) - logDensity(both, x);
@@ -47,6 +88,23 @@ inline void productFits(rex::grading::Check& check, Student& student, int n) {
 // six standard deviations: less than one false alarm in 1e7 calls.
 inline void fitsSamples(rex::grading::Check& check, const GaussianBelief& belief,
                         const Eigen::MatrixXd& samples) {
+  const auto shown = check.show([&] {
+    rex::Figure figure = gaussianFigure("The belief and samples", samples.rows());
+    if (samples.rows() == 1) {
+      const Eigen::VectorXd row = samples.row(0);
+      figure.histograms = {normalized(rex::histogramOf({row.begin(), row.end()}, 60))};
+      figure.histograms[0].label = "samples: wanted";
+    } else {
+      figure.series.push_back(rex::grading::through(samples.leftCols(1000).colwise(),
+                                                    rex::Series{.label = "samples: wanted, 86 % within",
+                                                                .style = rex::SeriesStyle::kPoints,
+                                                                .marker = rex::Marker::kDot,
+                                                                .size = .4,
+                                                                .color = rex::grading::kWantedColor}));
+    }
+    addGaussian(figure, "got", belief, rex::grading::gotCurve(""));
+    return rex::grading::Evidence{.figures = {figure}};
+  });
   checkGaussian(check, belief, samples.rows());
   const double count = static_cast<double>(samples.cols());
   const Eigen::MatrixXd Z = belief.cov.llt().matrixL().solve(samples.colwise() - belief.mean);
@@ -71,6 +129,36 @@ inline void propagationFitsSamples(rex::grading::Check& check, Student& student,
   fitsSamples(check, student.propagated(y, a, F, A), samples);
 }
 
+// The densities of Beta beliefs: prior, posterior, and likelihood times prior.
+inline rex::grading::Evidence betaSeen(const BetaBelief& prior, const BetaBelief& got,
+                                       const std::vector<int>& data) {
+  const auto curve = [](rex::Series look, const auto& logDensityAt) {
+    double sum = 0;
+    for (double mu = .005; mu < 1; mu += .01) {
+      look.x.push_back(mu);
+      look.y.push_back(std::exp(logDensityAt(mu)));
+      sum += .01 * look.y.back();
+    }
+    for (double& y : look.y) y /= sum;
+    return look;
+  };
+  const auto beta = [](const BetaBelief& belief) {
+    return [belief](double mu) { return (belief.a - 1) * std::log(mu) + (belief.b - 1) * std::log(1 - mu); };
+  };
+  const auto posterior = [&](double mu) {
+    double log = beta(prior)(mu);
+    for (const int x : data) log += std::log(x == 1 ? mu : 1 - mu);
+    return log;
+  };
+  return {
+      .figures = {{.title = "What is believed of mu",
+                   .xLabel = "mu",
+                   .yLabel = "density",
+                   .series = {curve({.label = "prior", .color = rex::Color{.6f, .62f, .65f}}, beta(prior)),
+                              curve(rex::grading::gotCurve("got"), beta(got)),
+                              curve(rex::grading::wantedCurve("wanted: likelihood * prior"), posterior)}}}};
+}
+
 // Posterior / (likelihood * prior) must be the same for all mu of a grid.
 inline void betaFits(rex::grading::Check& check, Student& student, int throws) {
   rex::Rng& rng = check.rng();
@@ -80,6 +168,7 @@ inline void betaFits(rex::grading::Check& check, Student& student, int throws) {
   for (int i = 0; i < throws; ++i) data.push_back(rng.uniform() < truth ? 1 : 0);
   check.input(fmt::format("prior Beta({:.3f}, {:.3f}), data {}", prior.a, prior.b, fmt::join(data, "")));
   const BetaBelief belief = student.betaPosterior(prior, data);
+  const auto shown = check.show([&] { return betaSeen(prior, belief, data); });
   const auto logRatio = [&](double mu) {
     double sum = (prior.a - belief.a) * std::log(mu) + (prior.b - belief.b) * std::log(1 - mu);
     for (const int x : data) sum += std::log(x == 1 ? mu : 1 - mu);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "grading/check.h"
+#include "grading/evidence_parts.h"
 #include "interface.h"
 #include "random_matrices.h"
 
@@ -55,6 +56,27 @@ inline void decreases(rex::grading::Check& check, double before, double after, d
                1e-6 * alpha * std::abs(slope) + 1e-13 * std::abs(before));
 }
 
+/// Values along a path, with the most that each step may lead to by Armijo's condition.
+inline rex::grading::Evidence descentSeen(const std::vector<double>& values,
+                                          const std::vector<double>& allowed) {
+  rex::Series got = rex::grading::gotCurve("got");
+  rex::Series wanted{.label = "wanted: at most",
+                     .style = rex::SeriesStyle::kPoints,
+                     .marker = rex::Marker::kTriangle,
+                     .size = 1.5,
+                     .color = rex::grading::kWantedColor};
+  got.style = rex::SeriesStyle::kLinesPoints;
+  got.marker = rex::Marker::kDot;
+  got.y = values;
+  for (std::size_t t = 0; t < allowed.size(); ++t) {
+    wanted.x.push_back(static_cast<double>(t + 1));
+    wanted.y.push_back(allowed[t]);
+  }
+  rex::Figure figure{.title = "The way down", .xLabel = "step", .yLabel = "f", .series = {got}};
+  if (!allowed.empty()) figure.series.push_back(wanted);
+  return {.figures = {figure}};
+}
+
 inline void descends(rex::grading::Check& check, Student& student, const Landscape& land,
                      SearchOptions options) {
   options.tolerance = 1e-5 * land.gradient(land.start).norm();
@@ -62,6 +84,13 @@ inline void descends(rex::grading::Check& check, Student& student, const Landsca
                                       options.grow, options.decrease));
   const std::vector<Eigen::VectorXd> path =
       student.gradientDescent(land.f, land.gradient, land.start, options);
+  const auto shown = check.show([&] {
+    std::vector<double> values, allowed;
+    for (const Eigen::VectorXd& x : path) values.push_back(land.f(x));
+    for (std::size_t t = 0; t + 1 < path.size(); ++t)
+      allowed.push_back(values[t] + options.decrease * land.gradient(path[t]).dot(path[t + 1] - path[t]));
+    return descentSeen(values, allowed);
+  });
   checkPath(check, path, land.start, options.maxSteps);
   double firstTrial = 1;
   for (std::size_t t = 1; t < path.size(); ++t) {
@@ -128,6 +157,13 @@ inline void followsGaussNewton(rex::grading::Check& check, Student& student, con
   check.input(problem.name + fmt::format(", decrease {:.2f}", options.decrease));
   const std::vector<Eigen::VectorXd> path =
       student.gaussNewton(problem.phi, problem.J, problem.start, options);
+  const auto shown = check.show([&] {
+    std::vector<double> values, allowed;
+    for (const Eigen::VectorXd& x : path) values.push_back(problem.phi(x).squaredNorm());
+    for (std::size_t t = 0; t + 1 < path.size(); ++t)
+      allowed.push_back(values[t] + options.decrease * gradient(path[t]).dot(path[t + 1] - path[t]));
+    return descentSeen(values, allowed);
+  });
   checkPath(check, path, problem.start, options.maxSteps);
   for (std::size_t t = 1; t < path.size(); ++t) {
     const Eigen::VectorXd x = path[t - 1], step = path[t] - x;

@@ -8,6 +8,7 @@
 #include "collision/contacts.h"
 #include "collision/motion_clearance.h"
 #include "course/film.h"
+#include "grading/evidence_parts.h"
 #include "interface.h"
 #include "scene/model.h"
 
@@ -184,36 +185,58 @@ double largest(const Simulator& S, const Motion& motion, int first, const F& f) 
   return most;
 }
 
+// What is drawn of f: the most that it may be, and lines in the world where the body should be.
+struct Wanted {
+  std::string title{}, quantity{};
+  double most = 0;
+  std::vector<Eigen::Vector3d> path{};
+};
+
 // The motion from step `first` on as a film that opens where f(S, t) is largest. Long ones in longer steps.
 template <class F>
 grading::Evidence seen(const Simulator& S, const std::string& body, const Motion& motion, int first,
-                       const F& f) {
+                       const F& f, const Wanted& wanted) {
   const int stride = 1 + static_cast<int>(motion.size()) / 300;
   Motion shown;
   double most = -std::numeric_limits<double>::infinity();
   std::size_t worst = 0;
   Simulator moved = S;
+  Series curve = grading::gotCurve("got");
   for (int t = first; t <= static_cast<int>(motion.size()); t += stride) {
     shown.push_back(motion[static_cast<std::size_t>(t) - 1]);
     moved.setJointAngles(shown.back());
     const double here = f(moved, t);
+    curve.x.push_back(t);
+    curve.y.push_back(here);
     if (here > most) worst = shown.size() - 1;
     most = std::max(most, here);
   }
-  Film film = filmOf(S, shown, {.traces = {body}});
+  Film film = filmOf(S, shown, {.traces = {body}, .paths = {wanted.path}});
+  for (Frame& frame : film)
+    if (!wanted.path.empty()) frame.picture.captions.push_back({.text = "grey: the way that is wanted"});
   const double moment = film[worst].time;
-  return {.film = std::move(film), .moment = moment};
+  Figure figure{
+      .title = wanted.title, .xLabel = "step", .yLabel = wanted.quantity, .series = {std::move(curve)}};
+  figure.horizontalLines = {{.at = wanted.most, .label = "wanted: at most"}};
+  figure.verticalLines = {grading::wrongFrom(static_cast<double>(first + stride * static_cast<int>(worst)))};
+  return {.figures = {std::move(figure)}, .film = std::move(film), .moment = moment};
 }
 
 // 2e-4 m is usual; the home task pulls the hand off its circle by its share of the precisions.
 void tracks(Check& check, const Simulator& S, const Circle& circle, const Motion& motion) {
-  const auto error = [&](const Simulator& moved, int t) {
-    const Eigen::Vector3d wanted =
-        circle.center + circle.radius * Eigen::Vector3d(std::cos(t / 20.), 0, std::sin(t / 20.));
-    return (moved.kinematicsPos(circle.hand) - wanted).norm();
+  constexpr double kMost = 2e-3;
+  const auto wanted = [&](int t) -> Eigen::Vector3d {
+    return circle.center + circle.radius * Eigen::Vector3d(std::cos(t / 20.), 0, std::sin(t / 20.));
   };
-  const auto shown = check.show([&] { return seen(S, circle.hand, motion, 20, error); });
-  check.atMost("largest distance from the point on the circle", largest(S, motion, 20, error), 2e-3, "m");
+  const auto error = [&](const Simulator& moved, int t) {
+    return (moved.kinematicsPos(circle.hand) - wanted(t)).norm();
+  };
+  const auto shown = check.show([&] {
+    Wanted look{"Distance of " + circle.hand + " from the point on the circle", "distance [m]", kMost};
+    for (int t = 0; t < 126; ++t) look.path.push_back(wanted(t));
+    return seen(S, circle.hand, motion, 20, error, look);
+  });
+  check.atMost("largest distance from the point on the circle", largest(S, motion, 20, error), kMost, "m");
 }
 
 void staysAtHome(Check& check, const Simulator& S, const Motion& motion) {
@@ -221,7 +244,12 @@ void staysAtHome(Check& check, const Simulator& S, const Motion& motion) {
   const auto away = [&](const Simulator& moved, int) {
     return (moved.getJointAngles() - atFirst).cwiseAbs().maxCoeff();
   };
-  const auto shown = check.show([&] { return seen(S, "handR", motion, 1, away); });
+  const auto shown = check.show([&] {
+    grading::Evidence evidence =
+        seen(S, "handR", motion, 1, away, {"The joint farthest from its place at home", "angle [rad]", 2.2});
+    evidence.film = grading::withWanted(evidence.film, filmOf(S, Motion{atFirst}, {}));
+    return evidence;
+  });
   check.atMost("largest angle between a joint and its place at home", largest(S, motion, 1, away), 2.2,
                "rad");
 }
@@ -230,7 +258,9 @@ void pointsUpwards(Check& check, const Simulator& S, const Circle& circle, const
   const auto tilt = [&](const Simulator& moved, int) {
     return (moved.kinematicsVec(circle.pointing) - kUp).norm();
   };
-  const auto shown = check.show([&] { return seen(S, circle.pointing, motion, 100, tilt); });
+  const auto shown = check.show([&] {
+    return seen(S, circle.pointing, motion, 100, tilt, {"|z axis - up| of the hand that points", "1", 0.05});
+  });
   check.atMost("largest |z axis - up| of the hand that points", largest(S, motion, 100, tilt), 0.05);
 }
 
@@ -357,9 +387,13 @@ void clearanceIsKept(Check& check, const Simulator& S, const Motion& motion) {
   check.atLeast("least clearance along the motion", least, 0.5 * kMargin - slack, "m");
 }
 
-// The way of the peg, from where it is nearest to the wall.
+// The way of the peg, from where it is nearest to the wall, and the last part of the way that is wanted.
 grading::Evidence wayOf(const Scene& scene, const Motion& motion) {
-  return seen(scene.S, scene.peg, motion, 1, [](const Simulator& moved, int) { return -clearance(moved); });
+  return seen(scene.S, scene.peg, motion, 1, [](const Simulator& moved, int) { return -clearance(moved); },
+              {"The clearance, with a minus",
+               "minus clearance [m]",
+               -0.5 * kMargin,
+               {scene.hole - 0.6 * kDown, scene.hole}});
 }
 
 void pegIsAt(Check& check, const Scene& scene, const Eigen::VectorXd& q, const Eigen::Vector3d& place,

@@ -7,6 +7,7 @@
 #include "approach_checks.h"
 #include "grading/check.h"
 #include "interface.h"
+#include "motion_evidence.h"
 #include "scene/ors_reader.h"
 #include "scene/ors_writer.h"
 
@@ -38,23 +39,38 @@ inline rex::Simulator withOtherMasses(const std::string& scene, double share, re
   return rex::Simulator(description);
 }
 
-// Four seconds under noise, with a push on all joints after one; u(q, v, S) are the forces. Returns the angle
-// farthest from zero, step by step.
+// What became of an arm, step by step: its posture, and the angle farthest from zero.
+struct ArmRecord {
+  std::vector<Eigen::VectorXd> moments{};
+  std::vector<double> farthest{};
+};
+
+// As a film beside the arm at zero.
+inline rex::grading::Evidence seen(const rex::Simulator& S, const ArmRecord& record, double limit) {
+  if (record.moments.empty()) return {};
+  const std::vector<Eigen::VectorXd> wanted{Eigen::VectorXd::Zero(record.moments.front().size())};
+  return filmed(S, record.moments, wanted, worstOf(record.farthest, limit),
+                curveOf("The joint farthest from zero", "angle [rad]", record.farthest, limit));
+}
+
+// Four seconds under noise, with a push on all joints after one; u(q, v, S) are the forces. Keeps a record,
+// also of what happened before a requirement fails.
 template <class Force>
-inline std::vector<double> shaken(rex::grading::Check& check, rex::Simulator S, const Force& u) {
+inline void shaken(rex::grading::Check& check, rex::Simulator S, ArmRecord& record, const Force& u) {
   S.setDynamicSimulationNoise(1);
   S.setSeed(check.rng().next());
-  std::vector<double> farthest;
   for (int step = 0; step < 400; ++step) {
     const Eigen::VectorXd angles = S.getJointAngles();
+    record.moments.push_back(angles);
+    record.farthest.push_back(angles.cwiseAbs().maxCoeff());
     if (step == 100) S.setJointAnglesAndVels(angles, S.getJointVels() + Eigen::VectorXd::Ones(angles.size()));
     advance(check, S, u(angles, S.getJointVels(), S));
-    farthest.push_back(S.getJointAngles().cwiseAbs().maxCoeff());
     if (step >= 300)
       check.atMost("largest joint speed in the last second", S.getJointVels().cwiseAbs().maxCoeff(), 3,
                    "rad/s");
   }
-  return farthest;
+  record.moments.push_back(S.getJointAngles());
+  record.farthest.push_back(S.getJointAngles().cwiseAbs().maxCoeff());
 }
 
 inline double largest(const std::vector<double>& values) {

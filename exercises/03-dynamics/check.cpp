@@ -62,6 +62,7 @@ void reaches(Check& check, Student& student, Regime regime, double T, double mas
   check.that("the gains are positive and finite",
              gains.Kp > 0 && gains.Kd > 0 && std::isfinite(gains.Kp) && std::isfinite(gains.Kd));
   Approach approach;
+  const auto shown = check.show([&] { return approachSeen(approach, regime, T); });
   PointState at{};
   for (double t = 0; t < 3 * T; t += kTau) {
     approach.push_back(1 - at.q);
@@ -105,7 +106,12 @@ void pidSteps(Check& check, Student& student) {
   const double push = -rng.uniform(5, 15);
   double integral = 0;
   PointState at{};
+  std::vector<double> places;
+  const auto shown = check.show([&] {
+    return grading::Evidence{.figures = {curveOf("The point under PID control", "q [m]", places, 1)}};
+  });
   for (int i = 0; i < 1500; ++i) {
+    places.push_back(at.q);
     const PidStep step = student.pidStep(at, {1, 0}, {60, 40, 25}, integral, kTau, i == 0);
     integral = step.integral;
     at = moved(at, step.u + push, kMass);
@@ -181,6 +187,7 @@ void comesBack(Check& check, Student& student, Regime regime, double mass, doubl
   const auto still = distances(check, student, regime, mass, 0, t0, 300, none);
   Approach approach;
   for (std::size_t i = 0; i < pushed.size(); ++i) approach.push_back((pushed[i] - still[i]) / 0.5);
+  const auto shown = check.show([&] { return approachSeen(approach, regime, 1); });
   isInRegime(check, approach, regime);
   arrivesInTime(check, approach, 1);
 }
@@ -225,13 +232,15 @@ Simulator arm(const std::string& scene, const Eigen::VectorXd& q) {
 // Over 200 seeds and masses the reference got no farther than 0.38 rad (0.6 are allowed), 0.10 on average
 // (0.25) and never faster than 1.8 rad/s (3).
 void isHeld(Check& check, Student& student, const Simulator& S) {
-  const auto farthest =
-      shaken(check, S, [&](const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Simulator&) {
-        return student.holdArm(q, v);
-      });
-  check.atMost("angle farthest from zero", largest(farthest), 0.6, "rad");
+  constexpr double kFarthest = 0.6;
+  ArmRecord record;
+  const auto shown = check.show([&] { return seen(S, record, kFarthest); });
+  shaken(check, S, record, [&](const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Simulator&) {
+    return student.holdArm(q, v);
+  });
+  check.atMost("angle farthest from zero", largest(record.farthest), kFarthest, "rad");
   double sum = 0;
-  for (std::size_t step = 300; step < 400; ++step) sum += farthest[step] / 100;
+  for (std::size_t step = 301; step <= 400; ++step) sum += record.farthest[step] / 100;
   check.atMost("angle farthest from zero, on average over the last second", sum, 0.25, "rad");
 }
 
@@ -301,15 +310,23 @@ void holdsWithTorques(Check& check, Student& student) {
   const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
   const PathPoint rest{zero, zero, zero};
   check.input("pegArm.ors at q = 0, lambda = 0.2 s, xi = 1, noise 1, a push of 1 rad/s after one second");
-  const auto farthest = shaken(check, Simulator("pegArm.ors"),
-                               [&](const Eigen::VectorXd&, const Eigen::VectorXd&, const Simulator& S) {
-                                 return torques(check, student, S, rest, 0.2, 1);
-                               });
-  check.atMost("angle farthest from zero", largest(farthest), 0.5, "rad");
+  constexpr double kFarthest = 0.5;
+  const Simulator arm("pegArm.ors");
+  ArmRecord record;
+  const auto shown = check.show([&] { return seen(arm, record, kFarthest); });
+  shaken(check, arm, record, [&](const Eigen::VectorXd&, const Eigen::VectorXd&, const Simulator& S) {
+    return torques(check, student, S, rest, 0.2, 1);
+  });
+  check.atMost("angle farthest from zero", largest(record.farthest), kFarthest, "rad");
   check.input("pegArm.ors at q = 0, lambda = 0.2 s, xi = 1, pushed by 1 rad/s");
   Simulator S("pegArm.ors");
   S.setJointAnglesAndVels(zero, Eigen::Vector3d::Ones());
-  for (int step = 0; step < 200; ++step) advance(check, S, torques(check, student, S, rest, 0.2, 1));
+  record = {};
+  for (int step = 0; step < 200; ++step) {
+    record.moments.push_back(S.getJointAngles());
+    record.farthest.push_back(record.moments.back().cwiseAbs().maxCoeff());
+    advance(check, S, torques(check, student, S, rest, 0.2, 1));
+  }
   check.atMost("angle farthest from zero after 2 s", S.getJointAngles().cwiseAbs().maxCoeff(), 2e-3, "rad");
 }
 
@@ -397,16 +414,40 @@ struct Path {
   }
 };
 
+// The hand beside the point of the path where it should be, which is red.
+grading::Evidence handSeen(const Simulator& S, const std::string& hand, const Path& path,
+                           const std::vector<Eigen::VectorXd>& moments, const std::vector<double>& errors,
+                           double limit) {
+  if (moments.empty()) return {};
+  std::vector<Eigen::Vector3d> way;
+  for (int step = 0; step <= 300; ++step) way.emplace_back(path.at(kTau * step).y);
+  Film film =
+      filmOf(S, moments, {.caption = "wanted: the hand on the red point", .traces = {hand}, .paths = {way}});
+  for (std::size_t i = 0; i < film.size(); ++i) {
+    film[i].time = kTau * static_cast<double>(i);
+    film[i].picture.pointSets.push_back({.points = {way[i]}, .color = grading::kWrongColor, .size = 9});
+  }
+  const double moment = kTau * static_cast<double>(worstOf(errors, limit));
+  Figure figure = curveOf("Distance of the hand from the red point", "distance [m]", errors, limit);
+  figure.verticalLines = {grading::wrongFrom(moment)};
+  return {.figures = {figure}, .film = std::move(film), .moment = moment};
+}
+
 // The reference keeps to 0.6 mm and 0.6 rad/s on all of 60 paths.
 void handFollows(Check& check, Student& student, Simulator S, const std::string& hand, const Path& path) {
-  double error = 0, speed = 0;
+  constexpr double kFarthest = 5e-3;
+  double speed = 0;
+  std::vector<double> errors;
+  std::vector<Eigen::VectorXd> moments;
+  const auto shown = check.show([&] { return handSeen(S, hand, path, moments, errors, kFarthest); });
   for (int step = 0; step <= 300; ++step) {
     const PathPoint reference = path.at(kTau * step);
-    error = std::max(error, (S.kinematicsPos(hand) - reference.y).norm());
+    moments.push_back(S.getJointAngles());
+    errors.push_back((S.kinematicsPos(hand) - reference.y).norm());
     speed = std::max(speed, S.getJointVels().cwiseAbs().maxCoeff());
     if (step < 300) advance(check, S, student.followWithHand(S.description(), hand, reference));
   }
-  check.atMost("largest distance of the hand from its reference", error, 5e-3, "m");
+  check.atMost("largest distance of the hand from its reference", largest(errors), kFarthest, "m");
   check.atMost("largest joint speed", speed, 5, "rad/s");
 }
 
@@ -503,11 +544,27 @@ void balances(Check& check, Student& student, double tilt, double direction) {
   const auto foot = [&] { return Eigen::Vector2d(S.kinematicsPos("universalJoint").head<2>()); };
   const Eigen::Vector2d home = arm("pin_balancing.ors", kPinUp).kinematicsPos("universalJoint").head<2>();
   double most = 0;
+  std::vector<double> tilts, ways;
+  std::vector<Eigen::VectorXd> moments;
+  const auto record = [&] {
+    moments.push_back(S.getJointAngles());
+    tilts.push_back(angle());
+    ways.push_back((foot() - home).norm());
+  };
+  // What is required holds to the last step, or did not hold in it.
+  const auto shown = check.show([&] {
+    grading::Evidence evidence = filmed(S, moments, {kPinUp}, moments.size() - 1,
+                                        curveOf("Tilt of the pin", "angle [rad]", tilts, 0.01));
+    evidence.figures.push_back(curveOf("Distance of the foot from home", "distance [m]", ways, 0.08));
+    return evidence;
+  });
+  record();
   for (int step = 0; step < 500; ++step) {
     const Eigen::VectorXd u = student.balancePin(S.description(), kPinUp);
     check.shape("joint forces", u, 8, 1);
     check.near("forces of the joints without a motor", u.tail(2), Eigen::Vector2d::Zero(), 0, "N m");
     advance(check, S, u);
+    record();
     most = std::max(most, angle());
     check.atMost("tilt of the pin", most, 0.1, "rad");
   }

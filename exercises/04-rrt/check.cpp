@@ -11,6 +11,7 @@
 #include "plane_problems.h"
 #include "planning/phase_space.h"
 #include "tree_checks.h"
+#include "tree_evidence.h"
 
 using namespace rex;
 using grading::Check;
@@ -32,6 +33,20 @@ double shareWithin(double r, double l1, double l2) {
   return 1 - std::acos(cosine) / std::numbers::pi;
 }
 
+grading::Evidence densitySeen(double l1, double l2, double r, double got) {
+  const double least = std::abs(l1 - l2), most = l1 + l2, h = 1e-4;
+  Series wanted = grading::wantedCurve("wanted");
+  for (double share = .01; share < .995; share += .01) {
+    wanted.x.push_back(least + share * (most - least));
+    wanted.y.push_back((shareWithin(wanted.x.back() + h, l1, l2) - shareWithin(wanted.x.back() - h, l1, l2)) /
+                       (2 * h));
+  }
+  return {.figures = {{.title = "Density of the distance of the hand",
+                       .xLabel = "r [m]",
+                       .yLabel = "density [1/m]",
+                       .series = {wanted, grading::wrongPoint("got", r, got)}}}};
+}
+
 // Away from both ends by a share of the way between them, where differences of 1e-5 m are exact to 1e-6.
 void densitiesAreRight(Check& check, Student& student, double l1, double l2, bool inThePlane) {
   Rng& rng = check.rng();
@@ -40,7 +55,9 @@ void densitiesAreRight(Check& check, Student& student, double l1, double l2, boo
     const double r = least + rng.uniform(0.02, 0.98) * (most - least);
     const double wanted = (shareWithin(r + h, l1, l2) - shareWithin(r - h, l1, l2)) / (2 * h);
     check.input("l1 = " + text(l1) + " m, l2 = " + text(l2) + " m, r = " + text(r) + " m");
-    check.near("density of r", student.radiusDensity(r, l1, l2), wanted, 1e-5 * wanted, "1/m");
+    const double got = student.radiusDensity(r, l1, l2);
+    const auto shown = check.show([&] { return densitySeen(l1, l2, r, got); });
+    check.near("density of r", got, wanted, 1e-5 * wanted, "1/m");
     if (!inThePlane) continue;
     const double angle = rng.uniform(-4, 4);
     check.near("density in the plane",
@@ -154,6 +171,11 @@ void stepsWell(Check& check, Student& student, const PlaneWorld& world, Way want
   check.input("a tree of 60 nodes in the unit square with walls and discs, a random target, stepSize = " +
               text(stepSize));
   const std::optional<NewNode> got = student.rrtStep(tree, target, stepSize, record.test());
+  const auto shown = check.show([&] {
+    return edgeSeen("A step towards a random target", world, tree,
+                    got ? PlaneEdge{got->parent, got->q} : PlaneEdge{},
+                    wanted == Way::kFree ? PlaneEdge{parent, q} : PlaneEdge{});
+  });
   askedWell(check, record);
   if (wanted == Way::kFree) {
     check.that("a free step gives a node", got.has_value());
@@ -191,7 +213,9 @@ void readsTheWay(Check& check, Student& student) {
     const TreeWithWay made = treeAround(way, check.rng());
     check.input("a random tree in the plane, and a node with " + std::to_string(count - 1) +
                 " edges between it and the root");
-    isPath(check, student.wayFromRoot(made.tree, made.last), way);
+    const Path got = student.wayFromRoot(made.tree, made.last);
+    const auto shown = check.show([&] { return pathSeen(got, way); });
+    isPath(check, got, way);
   }
 }
 
@@ -253,11 +277,19 @@ void backwardAnywhere(Check& check, Student& student) {
 }
 // </hidden>
 
+EdgeTest contactFreeEdges(const Simulator& S) {
+  return [&S](const Eigen::VectorXd& qa, const Eigen::VectorXd& qb) {
+    return motionClearance(S.model(), ContactModel(S.model()), qa, qb, 1e-3) > 0;
+  };
+}
+
+auto showArm(Check& check, const Simulator& S, const Path& path) {
+  return check.show(
+      [&] { return armPathSeen(S, path, kInTheHole, kArmSettings.stepSize, contactFreeEdges(S)); });
+}
+
 void armPathIsSound(Check& check, const Simulator& S, const Path& path) {
-  pathIsSound(check, path, kZero, kInTheHole, kArmSettings.stepSize,
-              [&](const Eigen::VectorXd& qa, const Eigen::VectorXd& qb) {
-                return motionClearance(S.model(), ContactModel(S.model()), qa, qb, 1e-3) > 0;
-              });
+  pathIsSound(check, path, kZero, kInTheHole, kArmSettings.stepSize, contactFreeEdges(S));
 }
 
 void backwardOutOfTheHole(Check& check, Student& student) {
@@ -270,6 +302,7 @@ void backwardOutOfTheHole(Check& check, Student& student) {
     const TreeSearch search =
         student.growBackward(kZero, kInTheHole, kArmSettings, record.test(), Rng(given.next()));
     if (search.path.empty() && i < kArmTries) continue;
+    const auto shown = showArm(check, S, search.path);
     backwardIsSound(check, search, {{}, kZero, kInTheHole}, kArmSettings, record, isFree);
     return armPathIsSound(check, S, search.path);
   }
@@ -288,7 +321,9 @@ void joinsWays(Check& check, Student& student) {
     const TreeWithWay one = treeAround(first, rng), other = treeAround(second, rng);
     check.input(meets ? "two random trees, nodes a and b are the same configuration"
                       : "two random trees, nodes a and b are different configurations");
-    isPath(check, student.joinedPath(one.tree, one.last, other.tree, other.last), whole);
+    const Path got = student.joinedPath(one.tree, one.last, other.tree, other.last);
+    const auto shown = check.show([&] { return pathSeen(got, whole); });
+    isPath(check, got, whole);
   }
 }
 
@@ -333,6 +368,7 @@ void bothSidesIntoTheHole(Check& check, Student& student) {
     const TwoTreeSearch search =
         student.growBoth(kZero, kInTheHole, kArmSettings, record.test(), Rng(given.next()));
     if (search.path.empty() && i < kArmTries) continue;
+    const auto shown = showArm(check, S, search.path);
     twoTreesAreSound(check, search, {{}, kZero, kInTheHole}, kArmSettings.stepSize, record, isFree);
     return armPathIsSound(check, S, search.path);
   }
@@ -345,6 +381,7 @@ double shortenedLength(Check& check, Student& student, const PlaneProblem& probl
                        Rng& given) {
   EdgeRecord record(freeIn(problem.world), 2);
   const Path better = student.shortened(path, record.test(), Rng(given.next()));
+  const auto shown = check.show([&] { return shortenedSeen(problem, path, better); });
   askedWell(check, record);
   // Pieces of free edges are free, but for the last digits.
   pathIsSound(check, better, problem.start, problem.goal, 2, freeIn(problem.world, 1e-9));
@@ -437,6 +474,21 @@ void stepsInPhaseSpace(Check& check, Student& student) {
 
 // Part 7.
 
+// The number of the node of `near` over which q costs least; -1 if there is none.
+int bestOf(const PlaneWorld& world, const Tree& tree, const std::vector<int>& near,
+           const Eigen::VectorXd& q) {
+  int best = -1;
+  double least = 0;
+  for (const int k : near) {
+    const auto at = static_cast<std::size_t>(k);
+    const double cost = tree.costs[at] + (q - tree.nodes[at]).norm();
+    if (!wayIsFree(world, tree.nodes[at], q) || (best >= 0 && cost >= least)) continue;
+    best = k;
+    least = cost;
+  }
+  return best;
+}
+
 void choosesTheBest(Check& check, Student& student) {
   for (int i = 0; i < 25; ++i) {
     Rng& rng = check.rng();
@@ -451,6 +503,10 @@ void choosesTheBest(Check& check, Student& student) {
     EdgeRecord record(freeIn(world), 2);
     check.input("a random tree in the plane, and " + std::to_string(near.size()) + " of its nodes as `near`");
     const std::optional<ParentChoice> chosen = student.bestParent(tree, near, q, record.test());
+    const auto shown = check.show([&] {
+      return edgeSeen("The parent of a new node", world, tree, {chosen ? chosen->parent : -1, q},
+                      {bestOf(world, tree, near, q), q});
+    });
     askedWell(check, record);
     check.that("there is a parent if, and only if, an edge is free", chosen.has_value() == anyFree);
     if (!chosen) continue;
@@ -500,11 +556,14 @@ void rewires(Check& check, Student& student) {
     isTree(check, got, tree.nodes[0], false);
     check.near("number of costs", static_cast<double>(got.costs.size()), node + 1, 0);
     const std::vector<double> costs = costsOf(got);
+    Tree wanted = tree;
+    for (const int k : near)
+      if (gains(world, tree, k, node)) wanted.parents[static_cast<std::size_t>(k)] = node;
+    const auto shown = check.show([&] { return rewiredSeen(world, got, wanted); });
     for (int k = 0; k <= node; ++k) {
       const auto at = static_cast<std::size_t>(k);
-      const bool isNear = std::find(near.begin(), near.end(), k) != near.end();
-      const bool moves = isNear && gains(world, tree, k, node);
-      check.near("parent of a node", got.parents[at], moves ? node : tree.parents[at], 0);
+      const bool moves = wanted.parents[at] != tree.parents[at];
+      check.near("parent of a node", got.parents[at], wanted.parents[at], 0);
       check.near("cost of a node, against the length of its way", got.costs[at], costs[at], 1e-9);
       if (moves)
         check.that("edgeFree was asked for the new edges", record.wasFree(got.nodes[at], got.nodes[node]));
@@ -522,6 +581,7 @@ double starIsSound(Check& check, Student& student, const PlaneProblem& problem,
   const Tree& grown = search.tree;
   askedWell(check, record);
   isTree(check, grown, problem.start, false);
+  const auto shown = check.show([&] { return treeSeen(problem, grown, settings.stepSize); });
   edgesAreSound(check, grown, settings.stepSize, record, isFree);
   check.near("number of costs", static_cast<double>(grown.costs.size()),
              static_cast<double>(grown.nodes.size()), 0);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "cloud_evidence.h"
 #include "drives.h"
 #include "interface.h"
 #include "resampling_checks.h"
@@ -53,6 +54,7 @@ void stepsLikeTheCar(Check& check, Student& student) {
 // The noise in deviations, in the columns of d, has mean zero and mean squares one; its numbers have nothing
 // to do with each other, nor with those of the next particle.
 void isNoise(Check& check, const Eigen::MatrixXd& d) {
+  const auto shown = check.show([&] { return noiseSeen(d); });
   const Eigen::Index n = d.cols();
   const double tolerance = kSigmas / std::sqrt(static_cast<double>(n));
   check.near("mean of the noise, in deviations", d.rowwise().mean(), Eigen::Vector3d::Zero(), tolerance);
@@ -150,8 +152,10 @@ void seesLandmarks(Check& check, Student& student) {
     const CarWorld world = worldWith(1 + i % 5, rng);
     const Eigen::Vector3d x = randomPose(rng);
     check.input(std::to_string(world.landmarks.cols()) + " landmarks, heading " + text(x[2]));
-    check.near("what is seen", student.viewFrom(x, world), mapOf(world).getMeanObservationAtState(x), 1e-9,
-               "m");
+    const Eigen::VectorXd got = student.viewFrom(x, world),
+                          wanted = mapOf(world).getMeanObservationAtState(x);
+    const auto shown = check.show([&] { return viewSeen(got, wanted); });
+    check.near("what is seen", got, wanted, 1e-9, "m");
   }
 }
 
@@ -296,7 +300,9 @@ void averages(Check& check, Student& student) {
     check.input("40 particles with headings around " + text(heading) + (i < 10 ? "" : ", plus whole turns"));
     const Eigen::Vector3d got = student.meanPose(cloud);
     check.shape("mean pose", got, 3, 1);
-    check.near("mean place", got.head<2>(), (cloud.states * cloud.weights).head<2>(), 1e-9, "m");
+    const Eigen::Vector2d place = (cloud.states * cloud.weights).head<2>();
+    const auto shown = check.show([&] { return meanSeen(cloud, got, {place[0], place[1], std::arg(sum)}); });
+    check.near("mean place", got.head<2>(), place, 1e-9, "m");
     check.near("error of the mean heading", wrapAngle(got[2] - std::arg(sum)), 0, 1e-9, "rad");
   }
 }
@@ -357,7 +363,7 @@ struct Errors {
 };
 
 Errors follow(Check& check, Student& student, const CarWorld& world, const Driven& driven, int count,
-              Rng& given) {
+              Rng& given, TrackRecord& record) {
   Cloud cloud = cloudAt(driven.log.start, count);
   Errors errors;
   for (std::size_t t = 0; t < driven.truth.size(); ++t) {
@@ -366,6 +372,8 @@ Errors follow(Check& check, Student& student, const CarWorld& world, const Drive
     isCloud(check, cloud, count);
     const Eigen::Vector3d mean = student.meanPose(cloud);
     check.shape("mean pose", mean, 3, 1);
+    record.clouds.push_back(cloud);
+    record.means.push_back(mean);
     const Eigen::Vector3d error = poseError(mean, driven.truth[t]);
     errors.place += error.head<2>().squaredNorm() / static_cast<double>(driven.truth.size());
     errors.heading += error[2] * error[2] / static_cast<double>(driven.truth.size());
@@ -382,8 +390,11 @@ void tracks(Check& check, Student& student) {
   check.input("the car of the sheet for 200 steps, 100 particles, landmarks at (10, 8) and (-6, 12)");
   for (int i = 0; i < 3; ++i) {
     const Driven driven = drive(world, Eigen::Vector3d::Zero(), {0.1, 0.2}, 200, check.rng());
-    const Errors errors = follow(check, student, world, driven, 100, given);
-    check.atMost("error of the place, root mean square", errors.place, 0.5, "m");
+    constexpr double kFarthest = 0.5;
+    TrackRecord record;
+    const auto shown = check.show([&] { return trackSeen(world, driven, record, kFarthest); });
+    const Errors errors = follow(check, student, world, driven, 100, given, record);
+    check.atMost("error of the place, root mean square", errors.place, kFarthest, "m");
     check.atMost("error of the heading, root mean square", errors.heading, 0.08, "rad");
   }
 }

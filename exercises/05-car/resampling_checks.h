@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "grading/check.h"
+#include "grading/evidence_parts.h"
 #include "interface.h"
 
 // What the children of weighted particles must have in common, however they are drawn.
@@ -33,8 +34,24 @@ inline Eigen::VectorXd childrenOf(rex::grading::Check& check, Student& student,
   return children;
 }
 
+// How many children each particle has, and how many are due on average.
+inline rex::grading::Evidence childrenSeen(const Eigen::VectorXd& children, const Eigen::VectorXd& due) {
+  rex::Series wanted{.label = "wanted on average: count * weight",
+                     .style = rex::SeriesStyle::kPoints,
+                     .marker = rex::Marker::kDot,
+                     .size = 1.5,
+                     .color = rex::grading::kWantedColor};
+  wanted.y.assign(due.begin(), due.end());
+  return {.figures = {{.title = "Children of the particles",
+                       .xLabel = "number of the particle",
+                       .yLabel = "children",
+                       .series = {wanted},
+                       .histograms = {{.label = "got", .heights = {children.begin(), children.end()}}}}}};
+}
+
 inline void keepsWholeParts(rex::grading::Check& check, const Eigen::VectorXd& weights, int count,
                             const Eigen::VectorXd& children) {
+  const auto shown = check.show([&] { return childrenSeen(children, count * weights); });
   double missing = 0;
   for (Eigen::Index k = 0; k < weights.size(); ++k) {
     missing = std::max(missing, std::floor(count * weights[k] - 1e-6) - children[k]);
@@ -50,6 +67,7 @@ inline void isUnbiased(rex::grading::Check& check, Student& student, const Eigen
                        int count, int calls) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(weights.size());
   for (int i = 0; i < calls; ++i) sum += childrenOf(check, student, weights, count, check.rng().next());
+  const auto shown = check.show([&] { return childrenSeen(sum / calls, count * weights); });
   for (Eigen::Index k = 0; k < weights.size(); ++k) {
     const double due = count * weights[k], rest = due - std::floor(due + 1e-9);
     check.near("children of a particle with count * weight = " + text(due) + ", on average", sum[k] / calls,

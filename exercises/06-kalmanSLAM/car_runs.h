@@ -1,10 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -14,6 +16,7 @@
 #include "estimation/consistency.h"
 #include "geometry/rotation.h"
 #include "grading/check.h"
+#include "grading/evidence_parts.h"
 #include "interface.h"
 
 // Random cars, runs of them, beliefs, and second opinions on what becomes of beliefs.
@@ -85,13 +88,45 @@ inline void requireBelief(rex::grading::Check& check, const Belief& belief, Eige
 // got - wanted of states that begin with x, y and a heading, which may differ by whole turns.
 inline Eigen::VectorXd gapOf(const Eigen::VectorXd& got, const Eigen::VectorXd& wanted) {
   Eigen::VectorXd gap = got - wanted;
-  gap[2] = rex::wrapAngle(gap[2]);
+  if (gap.size() > 2) gap[2] = rex::wrapAngle(gap[2]);  // landmarks have two
   return gap;
+}
+
+/// Two beliefs of the same size: the two numbers in which they differ most.
+inline rex::grading::Evidence beliefSeen(const Belief& got, const Belief& wanted) {
+  const Eigen::VectorXd apart = gapOf(got.mean, wanted.mean).cwiseAbs() +
+                                (got.covariance - wanted.covariance).cwiseAbs().rowwise().sum();
+  Eigen::Index one = 0, other = 0;
+  apart.maxCoeff(&one);
+  for (Eigen::Index i = 0; i < apart.size(); ++i)
+    if (i != one && (other == one || apart[i] > apart[other])) other = i;
+  const std::array<Eigen::Index, 2> both{std::min(one, other), std::max(one, other)};
+  rex::Figure figure{.title = "The two numbers in which the beliefs differ most",
+                     .xLabel = "number " + std::to_string(both[0]) + " of the belief",
+                     .yLabel = "number " + std::to_string(both[1]) + " of the belief",
+                     .equalAxes = true};
+  const auto add = [&](const std::string& label, const Belief& belief, const rex::Color& color) {
+    figure.ellipses.push_back({.label = label + ", 2 sigma",
+                               .mean = belief.mean(both),
+                               .covariance = belief.covariance(both, both),
+                               .color = color});
+    figure.series.push_back({.label = label + ", mean",
+                             .x = {belief.mean[both[0]]},
+                             .y = {belief.mean[both[1]]},
+                             .style = rex::SeriesStyle::kPoints,
+                             .marker = rex::Marker::kDot,
+                             .size = 2,
+                             .color = color});
+  };
+  add("got", got, rex::grading::kGotColor);
+  add("wanted", wanted, rex::grading::kWantedColor);
+  return {.figures = {figure}};
 }
 
 inline void sameBelief(rex::grading::Check& check, const Belief& got, const Belief& wanted,
                        double tolerance) {
   requireBelief(check, got, wanted.mean.size());
+  const auto shown = check.show([&] { return beliefSeen(got, wanted); });
   check.near("mean", wanted.mean + gapOf(got.mean, wanted.mean), wanted.mean, tolerance);
   check.near("covariance", got.covariance, wanted.covariance, tolerance);
 }

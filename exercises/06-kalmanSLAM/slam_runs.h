@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "belief_evidence.h"
 #include "car_runs.h"
 
 // Whole runs of SLAM with the functions of parts 4 and 5, and how good their maps are.
@@ -59,6 +60,9 @@ inline MapBelief mapped(rex::grading::Check& check, Student& student, const CarR
 struct MapQuality {
   double error = 0, squared = 0;
   int runs = 0;
+  double worst = -1;  // error of the worst map, which is shown
+  CarRun worstRun{};
+  Belief worstMap{};
 };
 
 inline Eigen::Matrix2Xd truePlaces(const CarRun& run, const std::vector<int>& names) {
@@ -72,7 +76,13 @@ inline void judgeMap(rex::grading::Check& check, const CarRun& run, const MapBel
   check.atLeast("number of landmarks in the map", static_cast<double>(map.names.size()), 2);
   const Eigen::Matrix2Xd truth = truePlaces(run, map.names);
   const Eigen::Matrix2Xd places = map.joint.mean.tail(truth.size()).reshaped(2, truth.cols());
-  total.error += std::pow(rex::absoluteTrajectoryError(places, truth), 2);
+  const double error = rex::absoluteTrajectoryError(places, truth);
+  total.error += error * error;
+  if (error > total.worst) {
+    total.worst = error;
+    total.worstRun = run;
+    total.worstMap = map.joint;
+  }
   Eigen::VectorXd all(map.joint.mean.size());
   all << run.states.back(), truth.reshaped();
   total.squared +=
@@ -82,6 +92,7 @@ inline void judgeMap(rex::grading::Check& check, const CarRun& run, const MapBel
 
 inline void requireMap(rex::grading::Check& check, const MapQuality& total, double mostError, double least,
                        double most) {
+  const auto shown = check.show([&] { return mapSeen(total.worstRun, total.worstMap); });
   check.atMost("error of the landmarks (root mean square) after alignment",
                std::sqrt(total.error / total.runs), mostError, "m");
   const double squared = total.squared / total.runs;
@@ -145,6 +156,7 @@ inline NamelessMap namelessMap(rex::grading::Check& check, Student& student, con
 
 inline void judgeNameless(rex::grading::Check& check, Student& student, const CarRun& run, double range) {
   const NamelessMap found = namelessMap(check, student, run, range);
+  const auto shown = check.show([&] { return mapSeen(run, found.map.joint); });
   const std::vector<int>& names = found.map.names;
   for (std::size_t i = 0; i < found.seen.size(); ++i) {
     const auto times = std::count(names.begin(), names.end(), static_cast<int>(i));
@@ -206,6 +218,30 @@ inline NamingCase namingCase(rex::Rng& rng, const CarSetup& car, bool isVague) {
   }
 }
 
+inline std::string nameOf(int landmark) {
+  return landmark >= 0 ? std::to_string(landmark) : landmark == kNewLandmark ? "new" : "unclear";
+}
+
+// The belief, and what each sighting was taken for.
+inline rex::grading::Evidence namesSeen(const CarSetup& car, const NamingCase& one,
+                                        const std::vector<int>& names) {
+  const Eigen::Vector3d pose = one.joint.mean.head<3>();
+  rex::Figure figure = rex::figureOf({.car = pose, .landmarkBeliefs = landmarksOf(one.joint)});
+  figure.title = "Landmarks of the belief, and what is seen";
+  for (int i = 0; i < 3; ++i)
+    figure.notes.push_back({std::to_string(i), one.joint.mean[3 + 2 * i], one.joint.mean[4 + 2 * i]});
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const double ahead = car.rangeBearing ? one.ys[k][0] * std::cos(one.ys[k][1]) : one.ys[k][0],
+                 left = car.rangeBearing ? one.ys[k][0] * std::sin(one.ys[k][1]) : one.ys[k][1];
+    const double c = std::cos(pose[2]), s = std::sin(pose[2]);
+    figure.series.push_back(
+        rex::grading::wrongPoint("seen: got " + nameOf(names[k]) + ", wanted " + nameOf(one.names[k]),
+                                 pose[0] + c * ahead - s * left, pose[1] + s * ahead + c * left));
+    if (names[k] == one.names[k]) figure.series.back().color = rex::grading::kWantedColor;
+  }
+  return {.figures = {figure}};
+}
+
 inline void namesByCovariance(rex::grading::Check& check, Student& student, const CarSetup& car,
                               bool isVague) {
   check.input(isVague ? "a belief of three landmarks; seen are a vague one, nearer to where another is, and "
@@ -215,6 +251,7 @@ inline void namesByCovariance(rex::grading::Check& check, Student& student, cons
   const NamingCase one = namingCase(check.rng(), car, isVague);
   const std::vector<int> names = student.assigned(car, one.joint, one.ys);
   check.near("number of names", static_cast<double>(names.size()), static_cast<double>(one.ys.size()), 0);
+  const auto shown = check.show([&] { return namesSeen(car, one, names); });
   for (std::size_t k = 0; k < names.size(); ++k)
     check.near("what a sighting is named, by its deviation in terms of the covariance", names[k],
                one.names[k], 0);

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "course/cart_pole_pictures.h"
 #include "grading/check.h"
+#include "grading/evidence_parts.h"
 #include "interface.h"
 #include "plants.h"
 
@@ -56,24 +59,72 @@ inline void stepFits(rex::grading::Check& check, Student& student, const PoleCar
   rng.next();
 }
 
-/// The outing as a film that opens at the state of step t.
-inline rex::grading::Evidence seen(const Eigen::MatrixXd& states, double tau, Eigen::Index t) {
+/// The states of an outing by the equations, until its end.
+inline Eigen::MatrixXd statesOf(const PoleCart& cart, const Eigen::MatrixXd& K, const Eigen::Vector4d& start,
+                                const Outing& outing, rex::Rng rng) {
+  Eigen::MatrixXd run(4, outing.steps + 1);
+  run.col(0) = start;
+  Eigen::Index t = 0;
+  for (; t < outing.steps && std::abs(run(2, t)) <= std::numbers::pi / 2; ++t)
+    run.col(t + 1) = euler(cart, run.col(t), (K * run.col(t))[0], outing.tau, outing.noise, rng);
+  return run.leftCols(t + 1);
+}
+
+/// One number of the states over time.
+inline std::vector<double> rowOf(const Eigen::MatrixXd& states, Eigen::Index row) {
+  const Eigen::VectorXd numbers = states.row(row);
+  return {numbers.begin(), numbers.end()};
+}
+
+inline std::vector<double> timesOf(const Eigen::MatrixXd& states, double tau) {
+  std::vector<double> times;
+  for (Eigen::Index k = 0; k < states.cols(); ++k) times.push_back(tau * static_cast<double>(k));
+  return times;
+}
+
+/// A film of some states, of which those after a cart has run 8 m away are left out.
+inline rex::Film filmOf(const Eigen::MatrixXd& states, double tau, Eigen::Index stride) {
+  rex::Film film;
+  for (Eigen::Index k = 0; k < states.cols() && std::abs(states(0, k)) < 8; k += stride)
+    film.push_back({tau * static_cast<double>(k), pictureOf(rex::CartPoleView{.x = states.col(k)})});
+  return film;
+}
+
+/// The outing and the wanted one as a film that opens where step t has led.
+inline rex::grading::Evidence seen(const Eigen::MatrixXd& states, const Eigen::MatrixXd& wanted, double tau,
+                                   Eigen::Index t) {
+  using rex::grading::gotCurve, rex::grading::wantedCurve;
+  const double moment = tau * static_cast<double>(t + 1);
+  const std::vector<double> times = timesOf(states, tau), wantedTimes = timesOf(wanted, tau);
   rex::Figure figure{
       .title = "The outing until its end", .xLabel = "time [s]", .yLabel = "p [m], theta [rad]"};
-  rex::Series p{.label = "p"}, theta{.label = "theta"};
-  rex::Film film;
-  const Eigen::Index stride = 1 + states.cols() / 400;
-  for (Eigen::Index k = 0; k < states.cols(); k += stride) {
-    const double time = tau * static_cast<double>(k);
-    film.push_back({time, pictureOf(rex::CartPoleView{.x = states.col(k)})});
-    p.x.push_back(time);
-    p.y.push_back(states(0, k));
-    theta.x.push_back(time);
-    theta.y.push_back(states(2, k));
-  }
-  figure.series = {p, theta};
-  figure.verticalLines = {{.at = tau * static_cast<double>(t)}};
-  return {.figures = {figure}, .film = film, .view = {.35, -2, .45}, .moment = tau * static_cast<double>(t)};
+  figure.series = {gotCurve("p, got", times, rowOf(states, 0)),
+                   gotCurve("theta, got", times, rowOf(states, 2)),
+                   wantedCurve("p and theta, wanted", wantedTimes, rowOf(wanted, 0)),
+                   wantedCurve("", wantedTimes, rowOf(wanted, 2))};
+  figure.series[1].color = rex::Color{.84f, .37f, 0};
+  figure.verticalLines = {rex::grading::wrongFrom(moment)};
+  const Eigen::Index stride = 1 + std::max(states.cols(), wanted.cols()) / 400;
+  return {.figures = {figure},
+          .film = rex::grading::withWanted(filmOf(states, tau, stride), filmOf(wanted, tau, stride)),
+          .view = {.35, -2, .45},
+          .moment = moment};
+}
+
+/// The cart under gains u = K x that came out and under those that were wanted, without noise; opens where
+/// the poles have parted by 0.05 rad.
+inline rex::grading::Evidence seenUnder(const Eigen::MatrixXd& K, const Eigen::MatrixXd& wantedK) {
+  const Outing calm{.noise = 0, .steps = 300};
+  const auto statesUnder = [&](const Eigen::MatrixXd& gains) {
+    return statesOf({}, gains, {0, 0, .2, 0}, calm, rex::Rng(1));
+  };
+  const Eigen::MatrixXd got = statesUnder(K), wanted = statesUnder(wantedK);
+  Eigen::Index t = 0;
+  const Eigen::Index last = std::min(got.cols(), wanted.cols()) - 1;
+  while (t + 1 < last && std::abs(got(2, t + 1) - wanted(2, t + 1)) < .05) ++t;
+  rex::grading::Evidence evidence = seen(got, wanted, calm.tau, t);
+  evidence.figures[0].title = "The cart under these gains, from theta = 0.2 without noise";
+  return evidence;
 }
 
 /// Each state follows from the one before it, and the last is where it had to end. Returns the states.
@@ -89,7 +140,8 @@ inline Eigen::MatrixXd outingFits(rex::grading::Check& check, Student& student, 
   check.near("first state", states.col(0), start, 0);
   rex::Rng same = given;
   Eigen::Index t = 0;
-  const auto shown = check.show([&] { return seen(states, outing.tau, t); });
+  const auto shown =
+      check.show([&] { return seen(states, statesOf(cart, K, start, outing, given), outing.tau, t); });
   for (; t + 1 < states.cols(); ++t) {
     const Eigen::Vector4d x = states.col(t);
     check.atMost("size of theta, before the end", std::abs(x[2]), std::numbers::pi / 2, "rad");

@@ -29,7 +29,7 @@ void halves(Check& check, Student& student) {
 }
 
 void gains(Check& check, Student& student) {
-  gainsFit(check, student, regulationOf(plantOf({}), costsOfTheSheet()));
+  gainsOfTheSheetFit(check, student);
   for (int i = 0; i < 5; ++i) gainsFit(check, student, randomRegulation(check.rng(), false));
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "cart_checks.h"
 #include "control/gain_search.h"
 #include "grading/check.h"
 #include "interface.h"
@@ -73,6 +74,16 @@ inline void gainsFit(rex::grading::Check& check, Student& student, const Regulat
   const auto& [plant, costs, optimal] = task;
   check.input(described(plant));
   check.near("K", student.gainOf(plant, costs, optimal.X), -optimal.K, 1e-8 * (1 + optimal.K.norm()));
+}
+
+/// The same for the cart of the sheet, with its motion.
+inline void gainsOfTheSheetFit(rex::grading::Check& check, Student& student) {
+  const auto [plant, costs, optimal] = regulationOf(plantOf({}), costsOfTheSheet());
+  check.input(described(plant));
+  const Eigen::MatrixXd K = student.gainOf(plant, costs, optimal.X), wanted = -optimal.K;
+  check.shape("K", K, 1, 4);
+  const auto shown = check.show([&] { return seenUnder(K, wanted); });
+  check.near("K", K, wanted, 1e-8 * (1 + wanted.norm()));
 }
 
 /// Starts from the gains of the sheet's costs, none of which may become larger than the largest of them.

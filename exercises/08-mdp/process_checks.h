@@ -11,6 +11,7 @@
 #include "learning/dynamic_programming.h"
 #include "learning/mazes.h"
 #include "learning/policy_values.h"
+#include "value_evidence.h"
 
 // Parts 1 to 4: decision processes of the grader, and what must hold for values and policies of them.
 
@@ -68,23 +69,35 @@ inline void mazeFits(rex::grading::Check& check, Student& student, const Eigen::
   maze.discount = discount;
   maze.rewards.bottomRows(4).colwise() = leaves;
   const MazeValues values = student.mazeValues(leaves, discount);
-  check.near("values of the random policy", values.random,
-             rex::policyValues(maze, rex::uniformPolicy(maze)).V, 1e-9);
-  check.near("optimal values", values.optimal, rex::policyIteration(maze).V, 1e-9);
+  const Eigen::VectorXd random = rex::policyValues(maze, rex::uniformPolicy(maze)).V,
+                        optimal = rex::policyIteration(maze).V;
+  {
+    const auto shown = check.show([&] { return mazeSeen("The random policy", values.random, random); });
+    check.near("values of the random policy", values.random, random, 1e-9);
+  }
+  const auto shown = check.show([&] { return mazeSeen("The best policy", values.optimal, optimal); });
+  check.near("optimal values", values.optimal, optimal, 1e-9);
 }
 
 inline void policyIsWorth(rex::grading::Check& check, Student& student, const Process& process) {
   check.input(described(process));
   const Eigen::MatrixXd policy = randomPolicy(check.rng(), process);
-  check.near("values of a policy", student.valuesOf(process, policy),
-             rex::policyValues(mdpOf(process), policy).V, 1e-9 * scaleOf(process));
+  const Eigen::VectorXd got = student.valuesOf(process, policy),
+                        wanted = rex::policyValues(mdpOf(process), policy).V;
+  const auto shown =
+      check.show([&] { return barsSeen("Values of a policy", "number of the state", got, wanted); });
+  check.near("values of a policy", got, wanted, 1e-9 * scaleOf(process));
 }
 
 inline void actionsAreWorth(rex::grading::Check& check, Student& student, const Process& process) {
   check.input(described(process));
   const Eigen::VectorXd V = check.rng().normalVector(static_cast<int>(process.R.rows()));
-  check.near("worth of the actions", student.worthOfActions(process, V), rex::actionValues(mdpOf(process), V),
-             1e-9);
+  const Eigen::MatrixXd got = student.worthOfActions(process, V),
+                        wanted = rex::actionValues(mdpOf(process), V);
+  const auto shown = check.show([&] {
+    return barsSeen("What the actions are worth, action by action", "number of the entry", got, wanted);
+  });
+  check.near("worth of the actions", got, wanted, 1e-9);
 }
 
 // How sure one is of the second of two values.
@@ -97,6 +110,7 @@ inline void valuesSettle(rex::grading::Check& check, Student& student, const Pro
   check.input(described(process) + fmt::format(", tolerance {:g}", tolerance));
   const std::vector<Eigen::VectorXd> V = student.iterateValues(process, tolerance);
   const rex::Mdp mdp = mdpOf(process);
+  const auto shown = check.show([&] { return settlingSeen(mdp, V, tolerance); });
   check.atLeast("number of values V_0, V_1, ...", static_cast<double>(V.size()), 2);
   check.near("V_0", V.front(), Eigen::VectorXd::Zero(process.R.rows()), 0);
   for (std::size_t i = 1; i < V.size(); ++i)
@@ -124,6 +138,7 @@ inline void policiesImprove(rex::grading::Check& check, Student& student, const 
                std::all_of(actions.begin(), actions.end(), [&](int a) { return a >= 0 && a < m; }));
   }
   check.that("the first policy takes action 0", policies.front() == std::vector<int>(states, 0));
+  const auto shown = check.show([&] { return policiesSeen(mdp, policies); });
   Eigen::VectorXd V;
   for (std::size_t i = 0; i < policies.size(); ++i) {
     if (i > 0) {

@@ -10,6 +10,7 @@
 #include "interface.h"
 #include "learning/policy_gradient.h"
 #include "learning/power.h"
+#include "value_evidence.h"
 
 // Parts 5 to 7: a linear task with quadratic costs, of which the gradient is known, and what must hold for
 // trials and for what is learned from them.
@@ -124,8 +125,13 @@ inline void trialFits(rex::grading::Check& check, Student& student, int k, int h
     expected[0] += .5 + .1 * std::tanh(actions[at]);
   }
   rex::Rng same = rng.split(7);
-  for (int t = 0; t < T; ++t)
-    check.near("noise of a step", trial.noise.col(t), policy.L * same.normalVector(k), 1e-9);
+  for (int t = 0; t < T; ++t) white.col(t) = same.normalVector(k);
+  const Eigen::MatrixXd wanted = policy.L * white;
+  const auto shown = check.show([&] {
+    return rex::grading::Evidence{
+        .figures = {rex::grading::comparison("Noise of the steps", trial.noise, wanted)}};
+  });
+  for (int t = 0; t < T; ++t) check.near("noise of a step", trial.noise.col(t), wanted.col(t), 1e-9);
 }
 
 inline void returnsFit(rex::grading::Check& check, Student& student, int T) {
@@ -133,8 +139,10 @@ inline void returnsFit(rex::grading::Check& check, Student& student, int T) {
   const Eigen::VectorXd rewards = rng.normalVector(T);
   const double discount = rng.uniform(.3, 1);
   check.input(fmt::format("{} rewards, discount {:.3f}", T, discount));
-  check.near("returns to go", student.returnsToGo(rewards, discount), rex::returnsToGo(rewards, discount),
-             1e-9);
+  const Eigen::VectorXd got = student.returnsToGo(rewards, discount),
+                        wanted = rex::returnsToGo(rewards, discount);
+  const auto shown = check.show([&] { return barsSeen("Returns to go", "step", got, wanted); });
+  check.near("returns to go", got, wanted, 1e-9);
 }
 
 inline void gradientFits(rex::grading::Check& check, Student& student, int count) {
@@ -145,8 +153,9 @@ inline void gradientFits(rex::grading::Check& check, Student& student, int count
   const Eigen::VectorXd exact =
       rex::reinforceGradient(asLibrary(policy), episodesOf(trials), task.discount, rex::Baseline::kNone)
           .gradient;
-  check.near("gradient from these trials", student.reinforce(policy, trials, task.discount), exact,
-             1e-9 * (1 + exact.norm()));
+  const Eigen::VectorXd got = student.reinforce(policy, trials, task.discount);
+  const auto shown = check.show([&] { return arrowsSeen("Gradient from these trials", {0, 0}, got, exact); });
+  check.near("gradient from these trials", got, exact, 1e-9 * (1 + exact.norm()));
 }
 
 /// A task, a policy and trials of equal length that tell the gradient well: the standard error of REINFORCE
@@ -193,6 +202,12 @@ inline void powerFits(rex::grading::Check& check, Student& student, int count) {
   std::vector<Trial> trials = trialsOf(task, policy, count, check.rng());
   // Rewards that are all positive, and tell the trials apart.
   for (Trial& trial : trials) trial.rewards = (.2 * trial.rewards).array().exp();
-  check.near("new parameters", student.power(policy, trials, task.discount),
-             rex::powerStep(asLibrary(policy), episodesOf(trials), task.discount).beta, 1e-8);
+  const Eigen::VectorXd got = student.power(policy, trials, task.discount),
+                        wanted = rex::powerStep(asLibrary(policy), episodesOf(trials), task.discount).beta;
+  const auto shown = check.show([&] {
+    if (got.size() != 2) return rex::grading::Evidence{};
+    return arrowsSeen("From the old parameters to the new ones", policy.beta, got - policy.beta,
+                      wanted - policy.beta);
+  });
+  check.near("new parameters", got, wanted, 1e-8);
 }

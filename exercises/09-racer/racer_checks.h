@@ -11,7 +11,9 @@
 #include "control/racer_dynamics.h"
 #include "control/regulators.h"
 #include "grading/check.h"
+#include "grading/evidence_parts.h"
 #include "interface.h"
+#include "render/figure_builders.h"
 
 // Parts 1 to 3: the motion of a racer and its regulator, against the library's.
 
@@ -83,6 +85,22 @@ inline void stepFits(rex::grading::Check& check, Student& student, const RacerMo
   }
 }
 
+/// How often noise is how large, beside the density of normal numbers.
+inline rex::grading::Evidence densityOf(const Eigen::MatrixXd& z) {
+  rex::Histogram bars = normalized(rex::histogramOf({z.reshaped().begin(), z.reshaped().end()}, 40));
+  bars.label = "got";
+  std::vector<double> x, density;
+  for (double at = -4; at <= 4; at += .05) {
+    x.push_back(at);
+    density.push_back(std::exp(-at * at / 2) / std::sqrt(2 * M_PI));
+  }
+  return {.figures = {{.title = "Noise over sqrt(tau) times its deviation",
+                       .xLabel = "noise, in deviations",
+                       .yLabel = "density",
+                       .series = {rex::grading::wantedCurve("wanted", x, density)},
+                       .histograms = {bars}}}};
+}
+
 /// Five or six standard errors to each side: about one false alarm in 10^6.
 inline void noiseFits(rex::grading::Check& check, Student& student, int steps, double tau, double noise) {
   rex::Rng given = check.rng().split(7);
@@ -92,6 +110,7 @@ inline void noiseFits(rex::grading::Check& check, Student& student, int steps, d
   rex::Rng other = check.rng().split(8);
   check.that("another rng gives other noise", !student.kicks(steps, tau, noise, other).isApprox(got, 1e-9));
   const Eigen::MatrixXd z = got / (std::sqrt(tau) * noise);
+  const auto shown = check.show([&] { return densityOf(z); });
   const double n = 2. * steps;
   check.near("mean, in deviations", z.mean(), 0, 6 / std::sqrt(n));
   check.near("mean square, of what it should be", z.squaredNorm() / n, 1, 6 * std::sqrt(2 / n));

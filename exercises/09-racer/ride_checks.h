@@ -1,9 +1,12 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "control/racer_rollouts.h"
 #include "course/racer_pictures.h"
+#include "grading/evidence_parts.h"
 #include "learning/sensor_history.h"
 #include "racer_checks.h"
 
@@ -73,6 +76,9 @@ inline void featuresFit(rex::grading::Check& check, Student& student, double tau
     check.input(fmt::format("reading {} of {}, one in {:.3g} s", t + 1, readings, tau));
     const Eigen::Vector4d y = check.rng().normalVector(4);
     const Eigen::VectorXd wanted = history.observe(y), got = student.featuresAt(y, before, u, tau);
+    const auto shown = check.show([&] {
+      return rex::grading::Evidence{.figures = {rex::grading::comparison("features 0 - 26", got, wanted)}};
+    });
     check.shape("features", got, kFeatures, 1);
     for (const auto& [name, begin, count] : {std::tuple{"feature 0", 0, 1},
                                              {"features 1 - 4", 1, 4},
@@ -117,40 +123,98 @@ inline Eigen::MatrixXd noiseOf(const Situation& in, std::uint64_t seed, int step
   return noise;
 }
 
-/// The ride as a film that opens at step t.
-inline rex::grading::Evidence seen(const Situation& in, const Eigen::MatrixXd& states, Eigen::Index t) {
-  rex::Figure figure{.title = "The ride until its end", .xLabel = "time [s]", .yLabel = "x [m], theta [rad]"};
-  rex::Series x{.label = "x"}, theta{.label = "theta"};
-  rex::Film film;
-  for (Eigen::Index k = 0; k < states.cols(); ++k) {
-    const double time = kTau * static_cast<double>(k);
-    film.push_back({time, pictureOf(rex::RacerView{.x = states.col(k), .dynamics = dynamicsOf(in.racer)})});
-    x.x.push_back(time);
-    x.y.push_back(states(0, k));
-    theta.x.push_back(time);
-    theta.y.push_back(states(1, k));
-  }
-  figure.series = {x, theta};
-  figure.verticalLines = {{.at = kTau * static_cast<double>(t)}};
-  return {
-      .figures = {figure}, .film = film, .view = {1.2, -1.6, .7}, .moment = kTau * static_cast<double>(t)};
+/// The states of a ride under u(x), which leads to after(x, u, t), until it fails.
+template <class Control, class Step>
+Eigen::MatrixXd ridden(const Eigen::Vector4d& start, Eigen::Index steps, const Control& u,
+                       const Step& after) {
+  Eigen::MatrixXd ride(4, steps + 1);
+  ride.col(0) = start;
+  Eigen::Index t = 0;
+  for (; t < steps && std::abs(ride(1, t)) <= kLargestAngle; ++t)
+    ride.col(t + 1) = after(ride.col(t), u(ride.col(t)), t);
+  return ride.leftCols(t + 1);
 }
 
+/// The state after a step with that noise.
+inline Eigen::Vector4d kicked(const Situation& in, const Eigen::Vector4d& x, double u,
+                              const Eigen::Vector2d& noise) {
+  Eigen::Vector4d next = dynamicsOf(in.racer).rungeKuttaStep(x, u, kTau);
+  next.tail<2>() += noise;
+  return next;
+}
+
+/// The ride of a policy by the equations.
+inline Eigen::MatrixXd statesOf(const Situation& in, const Eigen::VectorXd& w, const Eigen::Vector4d& start,
+                                const Eigen::MatrixXd& noise) {
+  rex::RacerPolicy policy(optionsOf(in, 1).features, in.wiring.cwiseProduct(w), kTau, kLargestControl);
+  return ridden(
+      start, noise.cols(),
+      [&](const Eigen::Vector4d& x) { return policy.control(in.sensors.measured(x, in.racer.r)); },
+      [&](const Eigen::Vector4d& x, double u, Eigen::Index t) { return kicked(in, x, u, noise.col(t)); });
+}
+
+/// Two rides as a film of two racers that opens at step `moment`.
+inline rex::grading::Evidence sideBySide(const Situation& in, const Eigen::MatrixXd& got,
+                                         const Eigen::MatrixXd& wanted, const std::string& title,
+                                         Eigen::Index moment) {
+  using rex::grading::gotCurve, rex::grading::wantedCurve;
+  const Eigen::Index count = std::max(got.cols(), wanted.cols()), stride = 1 + count / 400;
+  const auto at = [](const Eigen::MatrixXd& states, Eigen::Index k) -> Eigen::Vector4d {
+    return states.col(std::min(k, states.cols() - 1));
+  };
+  rex::Film film;
+  for (Eigen::Index k = 0; k < count; k += stride) {
+    Eigen::Matrix4Xd both(4, 2);
+    both << at(got, k), at(wanted, k);
+    film.push_back(
+        {kTau * static_cast<double>(k),
+         pictureOf(rex::RacerView{.x = both, .names = {"got", "wanted"}, .dynamics = dynamicsOf(in.racer)})});
+  }
+  const auto curve = [](const Eigen::MatrixXd& states, Eigen::Index row, auto make, const char* label) {
+    std::vector<double> times, values;
+    for (Eigen::Index k = 0; k < states.cols(); ++k) {
+      times.push_back(kTau * static_cast<double>(k));
+      values.push_back(states(row, k));
+    }
+    return make(label, times, values);
+  };
+  const double time = kTau * static_cast<double>(moment);
+  rex::Figure figure{.title = title, .xLabel = "time [s]", .yLabel = "x [m], theta [rad]"};
+  figure.series = {curve(got, 0, gotCurve, "x, got"), curve(got, 1, gotCurve, "theta, got"),
+                   curve(wanted, 0, wantedCurve, "x and theta, wanted"), curve(wanted, 1, wantedCurve, "")};
+  figure.series[1].color = rex::Color{.84f, .37f, 0};
+  figure.verticalLines = {rex::grading::wrongFrom(time)};
+  return {.figures = {figure}, .film = film, .view = {1.2, -1.6, .7}, .moment = time};
+}
+
+/// `t` tells which step is looked at.
 inline void statesFit(rex::grading::Check& check, const Situation& in, const Eigen::VectorXd& w,
-                      const Eigen::MatrixXd& noise, const Ride& ride) {
-  const rex::RacerDynamics plant = dynamicsOf(in.racer);
+                      const Eigen::MatrixXd& noise, const Ride& ride, Eigen::Index& t) {
   rex::RacerPolicy policy(optionsOf(in, 1).features, w, kTau, kLargestControl);
-  Eigen::Index t = 0;
-  const auto shown = check.show([&] { return seen(in, ride.states, t); });
   for (; t < ride.controls.size(); ++t) {
     const Eigen::Vector4d x = ride.states.col(t);
     check.input(fmt::format("step {} of {}, from {}", t + 1, noise.cols(), described(in.racer, x)));
     check.near("control by what was measured so far", ride.controls[t],
                policy.control(in.sensors.measured(x, in.racer.r)), 1e-7, "N m");
-    Eigen::Vector4d next = plant.rungeKuttaStep(x, ride.controls[t], kTau);
-    next.tail<2>() += noise.col(t);
+    const Eigen::Vector4d next = kicked(in, x, ride.controls[t], noise.col(t));
     check.near("state after a step", ride.states.col(t + 1), next, 1e-8 * (1 + next.norm()));
   }
+}
+
+/// The ride has the states and the length that the equations give it.
+inline void rideFollows(rex::grading::Check& check, const Situation& in, const Eigen::VectorXd& w,
+                        const Eigen::Vector4d& start, const Eigen::MatrixXd& noise, const Ride& ride,
+                        int wantedSteps) {
+  const Eigen::Index steps = noise.cols(), ridden = ride.controls.size();
+  Eigen::Index t = 0;
+  const auto shown = check.show([&] {
+    const Eigen::MatrixXd right = statesOf(in, w, start, noise);
+    const Eigen::Index moment = std::min({t + 1, ridden, right.cols() - 1});
+    return sideBySide(in, ride.states, right, "The ride until its end", moment);
+  });
+  statesFit(check, in, w, noise, ride, t);
+  check.input(fmt::format("{} steps from theta {:.4g}", steps, start[1]));
+  check.near("number of steps, with the one that failed", static_cast<double>(ridden), wantedSteps, 0);
 }
 
 inline void rideFits(rex::grading::Check& check, Student& student, const Situation& in,
@@ -165,10 +229,7 @@ inline void rideFits(rex::grading::Check& check, Student& student, const Situati
   check.that("at least one step, and no more than there is noise for", ridden >= 1 && ridden <= steps);
   check.shape("states", ride.states, 4, ridden + 1);
   check.near("start", ride.states.col(0), start, 0);
-  statesFit(check, in, w, noise, ride);
-  check.input(fmt::format("{} steps from theta {:.4g}", steps, start[1]));
-  check.near("number of steps, with the one that failed", static_cast<double>(ridden),
-             std::min(steps, wanted.steps(0, 0) + 1), 0);
+  rideFollows(check, in, w, start, noise, ride, std::min(steps, wanted.steps(0, 0) + 1));
   check.near("cost", ride.cost, wanted.cost(0, 0), 1e-6 * (1 + wanted.cost(0, 0)));
 }
 
@@ -212,17 +273,36 @@ inline Eigen::VectorXd searched(rex::grading::Check& check, Student& student, co
   return w;
 }
 
-inline rex::Rollouts unseenRides(const Situation& in, const Eigen::VectorXd& w, int count, int steps,
-                                 rex::Rng& rng) {
+inline std::vector<rex::Trial> unseenTrials(int count, rex::Rng& rng) {
   std::vector<rex::Trial> trials;
   for (int i = 0; i < count; ++i) trials.push_back({{0, rng.uniform(-.2, .2), 0, 0}, rng.next()});
-  return rex::racerRollouts(in.wiring.cwiseProduct(w), trials, optionsOf(in, steps));
+  return trials;
+}
+
+/// One of the rides of a policy, beside one under the gain of part 3, which knows the state. Opens at the
+/// first step that costs much, or where it ends.
+inline rex::grading::Evidence seen(const Situation& in, const Eigen::VectorXd& w, const rex::Trial& trial,
+                                   int steps) {
+  const Eigen::MatrixXd noise = noiseOf(in, trial.seed, steps), got = statesOf(in, w, trial.start, noise);
+  const Eigen::Vector4d K = bestGain(in.racer, Eigen::Vector4d(1, 10, 0, 0).asDiagonal(), 1);
+  const Eigen::MatrixXd wanted = ridden(
+      trial.start, steps, [&](const Eigen::Vector4d& x) { return -K.dot(x); },
+      [&](const Eigen::Vector4d& x, double u, Eigen::Index t) { return kicked(in, x, u, noise.col(t)); });
+  Eigen::Index moment = std::min<Eigen::Index>(50, got.cols() - 1);  // after the first correction
+  while (moment + 1 < got.cols() && got.col(moment).head<2>().cwiseAbs().maxCoeff() < .5) ++moment;
+  return sideBySide(in, got, wanted, "The worst ride, and one under u = -K x", moment);
 }
 
 inline void searchSucceeds(rex::grading::Check& check, Student& student, const Situation& in) {
   const Eigen::VectorXd w = searched(check, student, in);
   for (const auto& [steps, wanted] : {std::pair{500, 95}, {2000, 80}}) {
-    const rex::Rollouts rides = unseenRides(in, w, 100, steps, check.rng());
+    const std::vector<rex::Trial> trials = unseenTrials(100, check.rng());
+    const rex::Rollouts rides = rex::racerRollouts(in.wiring.cwiseProduct(w), trials, optionsOf(in, steps));
+    const auto shown = check.show([&, last = steps] {
+      Eigen::Index shortest = 0;
+      rides.steps.col(0).minCoeff(&shortest);
+      return seen(in, w, trials[static_cast<std::size_t>(shortest)], last);
+    });
     check.atLeast(fmt::format("of 100 other rides, those that last {} steps", steps),
                   static_cast<double>((rides.steps.array() == steps).count()), wanted);
   }
@@ -231,6 +311,12 @@ inline void searchSucceeds(rex::grading::Check& check, Student& student, const S
 inline void searchedPolicyStays(rex::grading::Check& check, Student& student, const Situation& in) {
   const Eigen::VectorXd w = searched(check, student, in);
   const int steps = 50000, count = 16;
-  const rex::Rollouts rides = unseenRides(in, w, count, steps, check.rng());
+  const std::vector<rex::Trial> trials = unseenTrials(count, check.rng());
+  const rex::Rollouts rides = rex::racerRollouts(in.wiring.cwiseProduct(w), trials, optionsOf(in, steps));
+  const auto shown = check.show([&] {
+    Eigen::Index dearest = 0;
+    rides.cost.col(0).maxCoeff(&dearest);
+    return seen(in, w, trials[static_cast<std::size_t>(dearest)], 3000);
+  });
   check.atMost("cost per step of rides over 50000 steps", rides.cost.sum() / (1. * steps * count), .02);
 }

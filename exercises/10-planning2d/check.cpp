@@ -6,6 +6,7 @@
 
 #include "grid_checks.h"
 #include "interface.h"
+#include "plan_evidence.h"
 #include "yard_checks.h"
 
 using namespace rex;
@@ -74,6 +75,7 @@ void bugsAnywhere(Check& check, Student& student) {
 void wavesAgree(Check& check, Student& student, const CellMap& map, Cell goal) {
   const std::vector<int> got = student.waveNumbers(map, goal),
                          wanted = wavefront(gridMapOf(map), {goal.x, goal.y}, Connectivity::kEight);
+  const auto shown = check.show([&] { return wavesSeen(map, goal, got, wanted); });
   check.that("there is a number for each cell", got.size() == wanted.size());
   for (std::size_t i = 0; i < wanted.size(); ++i) check.near("number of a cell", got[i], wanted[i], 0);
 }
@@ -93,6 +95,11 @@ void wavesOnKnownMaps(Check& check, Student& student) {
 
 void networkFits(Check& check, Student& student, const CellMap& map) {
   const Network network = student.cellNetwork(map), wanted = networkOf(map);
+  const auto shown = check.show([&] {
+    Points places;
+    for (std::size_t place = 0; place < wanted.size(); ++place) places.push_back(centerOf(map.cellAt(place)));
+    return networkSeen(planOf("The map as a network", map), places, network, wanted, wanted);
+  });
   check.that("there is a list of arcs for each cell", network.size() == map.blocked.size());
   for (std::size_t place = 0; place < network.size(); ++place) {
     const Cell at = map.cellAt(place);
@@ -136,9 +143,12 @@ void waysDown(Check& check, Student& student) {
     const RandomNetwork made = randomNetwork(check.rng(), 80, i % 2 == 0 ? 0.3 : 0.1, 3);
     const auto goal = static_cast<std::size_t>(check.rng().index(80));
     const std::vector<double> distances = slowDistances(made.network, goal);
-    for (std::size_t start = 0; start < 80; start += 5)
-      isWay(check, made.network, student.wayDown(made.network, distances, start), start, goal,
-            distances[start]);
+    for (std::size_t start = 0; start < 80; start += 5) {
+      const std::vector<std::size_t> way = student.wayDown(made.network, distances, start);
+      const auto shown =
+          check.show([&] { return waySeen(made, way, steepestWay(made.network, distances, start)); });
+      isWay(check, made.network, way, start, goal, distances[start]);
+    }
   });
 }
 
@@ -238,6 +248,7 @@ void straightWays(Check& check, Student& student) {
     const Straight way = judged(thin, a, b, 0.05);
     if (way == Straight::kEither) continue;
     blocked += way == Straight::kBlocked ? 1 : 0;
+    const auto shown = check.show([&] { return straightSeen(thin, a, b, way); });
     check.that("the straight way is free, or is not",
                student.straightIsFree(thin, a, b, 0.05) == (way == Straight::kFree));
   }
@@ -248,6 +259,7 @@ void straightWays(Check& check, Student& student) {
     const Eigen::Vector2d a = randomFreePlace(yard, rng), b = randomFreePlace(yard, rng);
     const Straight way = judged(yard, a, b, resolution);
     if (way == Straight::kEither) continue;
+    const auto shown = check.show([&] { return straightSeen(yard, a, b, way); });
     check.that("the straight way is free, or is not",
                student.straightIsFree(yard, a, b, resolution) == (way == Straight::kFree));
   }
@@ -266,7 +278,13 @@ void roadmaps(Check& check, Student& student) {
     const int k = 3 + rng.index(6);
     check.input(i == 0 ? "slotYard() of maps.h, 50 nodes" : "a random yard, 50 nodes");
     const std::vector<Eigen::Vector2d> nodes = randomNodes(yard, 50, rng);
-    isRoadmap(check, yard, nodes, k, 0.05, student.joinNearest(yard, nodes, k, 0.05));
+    const Network got = student.joinNearest(yard, nodes, k, 0.05);
+    const auto shown = check.show([&] {
+      return networkSeen(planOf("The roadmap", yard.size, yard.blocks), nodes, got,
+                         roadmapOf(yard, nodes, k, 0.05, Straight::kEither),
+                         roadmapOf(yard, nodes, k, 0.05, Straight::kFree));
+    });
+    isRoadmap(check, yard, nodes, k, 0.05, got);
   });
 }
 
@@ -286,9 +304,18 @@ void queriesInTheSlotYard(Check& check, Student& student) {
   check.input("slotYard(1.8, 0.4) of maps.h, a node on each side of the slot, two in it, k = 1");
   const auto way = student.queryRoadmap(yard, nodes, joined({{0, 1}, {0, 2}, {1, 3}, {2, 3}}), kSlotStart,
                                         kSlotGoal, 1, 0.05);
-  check.near("number of points of the way", static_cast<double>(way.size()), 5, 0);
-  const std::array<Eigen::Vector2d, 5> wanted{kSlotStart, nodes[0], nodes[2], nodes[3], kSlotGoal};
-  for (std::size_t i = 0; i < wanted.size(); ++i) check.near("point of the way", way[i], wanted[i], 0, "m");
+  const Points wanted{kSlotStart, nodes[0], nodes[2], nodes[3], kSlotGoal};
+  {
+    const auto shown = check.show([&] {
+      Figure figure = planOf("A way over the roadmap", yard.size, yard.blocks);
+      addLine(figure, way, grading::gotCurve("got"));
+      addLine(figure, wanted, grading::wantedCurve("wanted"));
+      addLine(figure, nodes, dots("nodes", kBlack, 1.5));
+      return grading::Evidence{.figures = {figure}};
+    });
+    check.near("number of points of the way", static_cast<double>(way.size()), 5, 0);
+    for (std::size_t i = 0; i < wanted.size(); ++i) check.near("point of the way", way[i], wanted[i], 0, "m");
+  }
   check.input("the same, with no arc that leaves the slot to the right");
   check.that(
       "the way is empty where none leads",
@@ -380,6 +407,10 @@ void samplers(Check& check, Student& student) {
   // 300 uniform nodes: half of them in a half, up to 6 standard deviations of 0.029.
   const Samples uniform =
       gathered(check, given, wall, 300, 900, [&](Rng rng) { return student.uniformSample(wall, rng); });
+  Points seen = uniform;
+  Yard seenIn = wall;
+  std::string name = "Uniform nodes; wanted: evenly over the free half";
+  const auto shown = check.show([&] { return samplesSeen(name, seenIn, seen); });
   check.atLeast("number of uniform nodes of 900 attempts", static_cast<double>(uniform.size()), 300);
   check.near("share of uniform nodes in the upper half", share(uniform, {{2, 2}, {4, 4}}), 0.5, 0.17);
   check.near("share of uniform nodes in the right half", share(uniform, {{3, 0}, {4, 4}}), 0.5, 0.17);
@@ -387,6 +418,8 @@ void samplers(Check& check, Student& student) {
   // Its mean is sqrt(2 pi) / 4 = 0.627 sigma, its deviation 0.523 sigma.
   const Samples gaussian = gathered(check, given, wall, 10000, 6000,
                                     [&](Rng rng) { return student.gaussianSample(wall, 0.3, rng); });
+  seen = gaussian;
+  name = "Gaussian nodes; wanted: near the wall, within some 0.6 m";
   double sum = 0, count = 0;
   for (const Eigen::Vector2d& q : gaussian) {
     if (q.y() < 1.2 || q.y() > 2.8 || q.x() > 3.2) continue;
@@ -401,6 +434,9 @@ void samplers(Check& check, Student& student) {
   check.input("slotYard() of maps.h, 0.2 m wide; sigma = 0.3 m");
   const Samples bridge =
       gathered(check, given, slot, 60, 6000, [&](Rng rng) { return student.bridgeSample(slot, 0.3, rng); });
+  seen = bridge;
+  seenIn = slot;
+  name = "Bridge nodes; wanted: two of five in the slot, none far from blocks";
   check.atLeast("number of bridge nodes of 6000 attempts", static_cast<double>(bridge.size()), 10);
   for (const Eigen::Vector2d& q : bridge) {
     double distance = fromBorder(slot, q);
@@ -474,17 +510,26 @@ void estimates(Check& check, Student& student) {
 
 // Distances are those from the start; 1e-9 is for rounding, and lets in what is as good as the way returned.
 void searches(Check& check, Student& student, const Network& network, std::size_t start, std::size_t goal,
-              const std::vector<double>& estimates, const std::vector<double>& distances) {
+              const std::vector<double>& estimates, const std::vector<double>& distances,
+              const CellMap* map = nullptr) {
   std::vector<bool> isAsked(network.size());
+  std::vector<std::size_t> way, asked, tooFar;
+  const auto shown = check.show([&] {
+    if (map == nullptr) return grading::Evidence{};
+    std::vector<std::size_t> wanted = steepestWay(network, distances, goal);
+    return searchSeen(*map, way, asked, tooFar, wanted);
+  });
   const auto arcsOf = [&](std::size_t node) {
     check.that("arcs are asked for nodes of the network", node < network.size());
+    const bool isNeeded = distances[node] + estimates[node] <= distances[goal] + 1e-9;
+    (isNeeded ? asked : tooFar).push_back(node);
     check.that("arcs are asked for no node twice", !isAsked[node]);
     isAsked[node] = true;
-    check.that("arcs are asked only where the shortest way could lead",
-               distances[node] + estimates[node] <= distances[goal] + 1e-9);
+    check.that("arcs are asked only where the shortest way could lead", isNeeded);
     return network[node];
   };
-  isWay(check, network, student.aStar(arcsOf, start, goal, estimates), start, goal, distances[goal]);
+  way = student.aStar(arcsOf, start, goal, estimates);
+  isWay(check, network, way, start, goal, distances[goal]);
 }
 
 void searchesMap(Check& check, Student& student, const CellMap& map, Cell start, Cell goal) {
@@ -496,7 +541,7 @@ void searchesMap(Check& check, Student& student, const CellMap& map, Cell start,
     estimates[place] = std::numbers::sqrt2 * std::min(dx, dy) + std::abs(dx - dy);
   }
   searches(check, student, network, map.placeOf(start), map.placeOf(goal), estimates,
-           distancesOn(map, start, Connectivity::kEightWithRoom));
+           distancesOn(map, start, Connectivity::kEightWithRoom), &map);
 }
 
 void searchesKnownMaps(Check& check, Student& student) {

@@ -8,7 +8,8 @@
 
 // Maps and yards as figures, and a map as a scene: for main().
 
-inline const rex::Color kWall{0.35, 0.37, 0.42}, kGray{0.6, 0.6, 0.6}, kRed{0.84, 0.37, 0}, kBlack{0, 0, 0};
+inline const rex::Color kWall{0.35f, 0.37f, 0.42f}, kGray{0.6f, 0.6f, 0.6f}, kRed{0.84f, 0.37f, 0},
+    kBlack{0, 0, 0};
 
 inline rex::Region rectangle(const Eigen::Vector2d& lower, const Eigen::Vector2d& upper) {
   return {.x = {lower.x(), upper.x(), upper.x(), lower.x()},

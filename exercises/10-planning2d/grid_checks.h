@@ -4,12 +4,16 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "drawing.h"
 #include "exercise.h"
 #include "grading/check.h"
+#include "grading/evidence_parts.h"
 #include "interface.h"
 #include "maps.h"
+#include "planning/bug.h"
 #include "planning/grid_search.h"
 
 // What parts 1, 2 and 5 are judged by: maps, and what is known about ways on them.
@@ -148,6 +152,37 @@ inline bool touchesObstacle(const CellMap& map, Cell cell) {
 inline bool isBeside(Cell a, Cell b) { return std::abs(a.x - b.x) + std::abs(a.y - b.y) == 1; }
 inline bool touches(Cell a, Cell b) { return std::abs(a.x - b.x) <= 1 && std::abs(a.y - b.y) <= 1; }
 
+// A look for points of figures.
+inline rex::Series dots(const std::string& label, const rex::Color& color, double size,
+                        rex::Marker marker = rex::Marker::kDot) {
+  return {.label = label, .style = rex::SeriesStyle::kPoints, .marker = marker, .size = size, .color = color};
+}
+
+// Where a bug went, beside where the library's goes; until it went wrong if that is known.
+inline rex::grading::Evidence bugSeen(const CellMap& map, const std::vector<Cell>& line,
+                                      const std::vector<Cell>& trail, const std::vector<Cell>& asked) {
+  rex::Figure figure = planOf("The way of the bug", map);
+  std::vector<Cell> wanted;
+  for (const rex::GridCell cell :
+       rex::bug2(gridMapOf(map), {line.front().x, line.front().y}, {line.back().x, line.back().y}).cells)
+    wanted.push_back({cell.x, cell.y});
+  addLine(figure, centersOf(line), {.label = "m-line", .size = 1, .color = kGray});
+  if (trail.empty()) addLine(figure, centersOf(asked), dots("cells asked for", kGray, .8));
+  addLine(figure, centersOf(trail), rex::grading::gotCurve("got"));
+  addLine(figure, centersOf(wanted), rex::grading::wantedCurve("wanted, or as long"));
+  addEnds(figure, centerOf(line.front()), centerOf(line.back()));
+  std::string label = "blocked, a leap, or astray";
+  for (std::size_t i = 0; i < trail.size(); ++i) {
+    const bool isOnLine = std::find(line.begin(), line.end(), trail[i]) != line.end();
+    const bool isWrong = !map.isFree(trail[i]) || (i > 0 && !isBeside(trail[i], trail[i - 1])) ||
+                         (!isOnLine && !touchesObstacle(map, trail[i]));
+    if (!isWrong) continue;
+    const Eigen::Vector2d at = centerOf(trail[i]);
+    figure.series.push_back(rex::grading::wrongPoint(std::exchange(label, ""), at.x(), at.y()));
+  }
+  return {.figures = {figure}};
+}
+
 // A bug that runs in circles is stopped by what it asks: a right one needs four answers a step at most, and
 // gets forty.
 inline void bugObeys(rex::grading::Check& check, Student& student, const CellMap& map, Cell start,
@@ -155,7 +190,9 @@ inline void bugObeys(rex::grading::Check& check, Student& student, const CellMap
   const std::vector<Cell> line = straightCells(start, goal);
   const double bound = bugBound(map, line);
   std::vector<Cell> asked;
-  const BugTrail trail = student.bugTwo(line, [&](Cell cell) {
+  BugTrail trail;
+  const auto shown = check.show([&] { return bugSeen(map, line, trail.cells, asked); });
+  trail = student.bugTwo(line, [&](Cell cell) {
     check.that("isFree is asked only about cells that touch the trail",
                -1 <= cell.x && cell.x <= map.width && -1 <= cell.y && cell.y <= map.height);
     asked.push_back(cell);

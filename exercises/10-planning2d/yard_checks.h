@@ -7,10 +7,13 @@
 #include <utility>
 #include <vector>
 
+#include "drawing.h"
 #include "exercise.h"
 #include "grading/check.h"
+#include "grading/evidence_parts.h"
 #include "interface.h"
 #include "maps.h"
+#include "render/figure_builders.h"
 
 // What parts 3 and 4 are judged by: yards, potentials and roadmaps in them.
 
@@ -194,9 +197,37 @@ inline Slide randomPass(rex::Rng& rng) {
   }
 }
 
+// A slide down a field, over the directions in which the field pulls.
+inline rex::grading::Evidence slideSeen(const Slide& slide, const FieldTrail& trail, Ending wanted) {
+  const auto& [yard, goal, gains, start, stepSize] = slide;
+  rex::Figure figure =
+      planOf(wanted == Ending::kAtGoal ? "Down the field; wanted: it ends at the goal"
+                                       : "Down the field; wanted: it ends in the trap, and says so",
+             yard.size, yard.blocks);
+  const auto pull = [&](const Eigen::Vector2d& p) -> Eigen::Vector2d {
+    const Eigen::Vector2d down = -trueGradient(yard, goal, gains, p);
+    return isFree(yard, p) && down.allFinite() ? down : Eigen::Vector2d::Zero();
+  };
+  figure.arrows = {rex::arrowsOf(pull, {0, yard.size.x()}, {0, yard.size.y()})};
+  const auto end = std::find_if(trail.points.begin(), trail.points.end(),
+                                [](const Eigen::Vector2d& p) { return !p.allFinite(); });
+  addLine(figure, {trail.points.begin(), end},
+          rex::grading::gotCurve(trail.ending == Ending::kAtGoal ? "got: ends at the goal" : "got: stuck"));
+  addEnds(figure, start, goal);
+  const auto U = [&](std::size_t i) { return trueU(yard, goal, gains, trail.points[i]); };
+  for (std::size_t i = 1; i < trail.points.size(); ++i)
+    if (trail.points[i].allFinite() && !(U(i) < U(i - 1))) {
+      figure.series.push_back(
+          rex::grading::wrongPoint("not lower than before", trail.points[i].x(), trail.points[i].y()));
+      break;
+    }
+  return {.figures = {figure}};
+}
+
 inline void slides(rex::grading::Check& check, Student& student, const Slide& slide, Ending wanted) {
   const auto& [yard, goal, gains, start, stepSize] = slide;
   const FieldTrail trail = student.slideDown(yard, goal, gains, start, stepSize);
+  const auto shown = check.show([&] { return slideSeen(slide, trail, wanted); });
   check.that("the trail begins at the start", !trail.points.empty() && trail.points.front() == start);
   for (std::size_t i = 1; i < trail.points.size(); ++i) {
     const Eigen::Vector2d &from = trail.points[i - 1], &to = trail.points[i];

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include "car_evidence.h"
 #include "interface.h"
 #include "lots.h"
 #include "overlaps.h"
@@ -16,9 +17,6 @@ using grading::Check;
 using grading::Group;
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-using Poses = std::vector<Eigen::Vector3d>;
 
 double wrapped(double angle) { return std::remainder(angle, 2 * kPi); }
 
@@ -73,6 +71,9 @@ void moves(Check& check, Student& student, const CarModel& car, double mostSpeed
     const Drive drive{speed, angle, rng.uniform(0.5, 8)};
     const double way = std::abs(speed) * drive.seconds;
     const Eigen::Vector3d end = student.driven(car, q, drive);
+    const auto shown = check.show([&] {
+      return endsSeen(car, q, end, wayOf(car, q, {{speed, angle, drive.seconds}}, {}).poses);
+    });
     check.near("where the car gets to", end.head<2>(), exact(car, q, drive).head<2>(), 1e-3 * way + 1e-9,
                "m");
     check.near("its heading, up to whole turns", wrapped(end[2] - exact(car, q, drive)[2]), 0,
@@ -131,11 +132,16 @@ void followsTrajectories(Check& check, Student& student) {
     Poses path{randomPose(rng, 5)};
     driveOn(rng, car, path);
     check.input("twelve arcs, driven forward and backward");
+    std::size_t broken = 0;
+    std::string wanted = "wanted: it can be followed";
+    const auto shown = check.show([&] { return pathSeen(wanted, car, path, broken); });
     check.that("a path of arcs can be followed", student.canFollow(car, measured(rng, path)));
     check.input(std::array{"at one place to the side", "at one place turning on the spot",
                            "at one place an arc that is too tight",
                            "at one place only to the side"}[static_cast<std::size_t>(i % 4)]);
-    breakPath(rng, car, path, static_cast<std::size_t>(1 + rng.index(12)), i % 4);
+    broken = static_cast<std::size_t>(1 + rng.index(12));
+    wanted = "wanted: it cannot be followed";
+    breakPath(rng, car, path, broken, i % 4);
     check.that("a path that breaks the constraint, or a limit, cannot be followed",
                !student.canFollow(car, measured(rng, path)));
   }
@@ -165,8 +171,11 @@ void distances(Check& check, Student& student) {
 void findsOverlaps(Check& check, Student& student) {
   check.input("a long wall across the car, no corner of one inside of the other");
   const CarModel usual;
-  check.that("a wall across the car is in its way",
-             !student.isFree(usual, {0, 0, 0}, {{{1, 0, kPi / 2}, 8, 0.2}}));
+  {
+    const std::vector<Block> wall{{{1, 0, kPi / 2}, 8, 0.2}};
+    const auto shown = check.show([&] { return placeSeen("wanted: not free", usual, {0, 0, 0}, wall); });
+    check.that("a wall across the car is in its way", !student.isFree(usual, {0, 0, 0}, wall));
+  }
   check.input("a small block in the middle of the roof");
   check.that("a block within the car is in its way",
              !student.isFree(usual, {0, 0, 1}, {{{0.4, 0.5, 0}, 0.2, 0.2}}));
@@ -186,6 +195,8 @@ void findsOverlaps(Check& check, Student& student) {
       continue;
     check.input(std::string("a random car among one or two random blocks, ") +
                 (isTouched ? "one in its way" : "none in its way"));
+    const auto shown = check.show(
+        [&] { return placeSeen(isTouched ? "wanted: not free" : "wanted: free", car, q, blocks); });
     check.that("whether the car is free", student.isFree(car, q, blocks) == !isTouched);
     ++i;
   }
@@ -237,6 +248,7 @@ void drivesTowards(Check& check, Student& student) {
                  !rankOf(own, car, from, target, seconds, blocks, 1e9));
       continue;
     }
+    const auto shown = check.show([&] { return driveSeen(car, from, target, *drive, blocks); });
     checkLimits(check, car, *drive);
     check.near("duration of the drive", drive->seconds, seconds, 1e-9, "s");
     isFreeAlong(check, car, from, *drive, blocks);
@@ -280,10 +292,13 @@ void treeReaches(Check& check, Student& student, const CarModel& car, const Worl
   const std::vector<CarNode> tree = student.growTree(car, world, given);
   check.atLeast("number of nodes", static_cast<double>(tree.size()), 2);
   check.near("pose of the first node", tree[0].q, world.start, 1e-9, "m, rad");
+  std::size_t looked = 0;
+  const auto shown = check.show([&] { return treeSeen(car, world, tree, looked); });
   for (std::size_t i = 1; i < tree.size(); ++i) {
     const CarNode& node = tree[i];
     check.that("parents come before their children",
                node.parent >= 0 && static_cast<std::size_t>(node.parent) < i);
+    looked = i;
     checkLimits(check, car, node.by);
     check.atMost("duration of an edge", node.by.seconds, 10, "s");
     check.shape("pose of a node", node.q, 3, 1);
@@ -337,8 +352,25 @@ double gapOf(const std::string& word, const Eigen::Vector3d& from, const Eigen::
   return (center(to, word[2]) - center(from, word[0])).norm();
 }
 
+// Poses along the pieces, every fiftieth of each.
+Poses piecesOf(const std::string& word, const std::array<double, 3>& lengths, const Eigen::Vector3d& from,
+               double radius) {
+  Poses poses{from};
+  std::array<double, 3> driven{};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (int part = 1; part <= 50; ++part) {
+      driven[i] = lengths[i] * part / 50;
+      poses.push_back(endOf(word, driven, from, radius));
+    }
+  return poses;
+}
+
 void checkPieces(Check& check, const std::string& word, const std::array<double, 3>& lengths,
                  const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius) {
+  const auto shown = check.show([&] {
+    return dubinsSeen(word + " from start to goal", piecesOf(word, lengths, from, radius), from, to, radius,
+                      false);
+  });
   for (std::size_t i = 0; i < 3; ++i) {
     check.atLeast("length of a piece", lengths[i], 0, "m");
     if (word[i] != 'S') check.atMost("length of an arc", lengths[i], 2 * kPi * radius + 1e-6, "m");
@@ -379,6 +411,10 @@ void isShortest(Check& check, Student& student, const Eigen::Vector3d& from, con
   const auto word = static_cast<std::size_t>(way.word);
   check.that("the word is one of the six", word < 6);
   checkPieces(check, kNames[word], way.lengths, from, to, radius);
+  const auto shown = check.show([&] {
+    return dubinsSeen("The shortest of six", piecesOf(kNames[word], way.lengths, from, radius), from, to,
+                      radius, true);
+  });
   check.near("length of the shortest", way.lengths[0] + way.lengths[1] + way.lengths[2],
              dubinsLength(from, to, radius), 1e-6, "m");
 }
@@ -417,6 +453,7 @@ void shortestAnywhere(Check& check, Student& student) {
 // By the grader's motion, whatever the student's is. The reference needs 65 drives at most.
 void parks(Check& check, Student& student, const CarModel& car, const World& lot) {
   const std::vector<Drive> plan = student.park(car, lot);
+  const auto shown = check.show([&] { return parkingSeen(car, lot, plan); });
   check.atLeast("number of drives", static_cast<double>(plan.size()), 1);
   check.atMost("number of drives", static_cast<double>(plan.size()), 500);
   double way = 0;
@@ -500,10 +537,14 @@ void reverses(Check& check, Student& student, const Rig& rig, int mostTurns) {
   const double trailer = rng.uniform(-0.25, 0.25), offset = rng.uniform(-1, 1);
   Eigen::Vector4d q(0, offset + rig.hitchLength * std::sin(trailer), rng.uniform(-0.25, 0.25), trailer);
   for (const int i : {2, 3}) q[i] += 2 * kPi * mostTurns * (rng.index(3) - 1);
+  constexpr double kStep = 0.05;
+  std::vector<Eigen::Vector4d> states{q};
+  const auto shown = check.show([&] { return reversingSeen(rig, states, kStep); });
   for (int step = 0; step < 1000; ++step) {
     const double steering = student.reverseSteering(rig, q);
     checkLimits(check, rig.car, {1, steering, 1});
-    q = rigMotion(rig, q, -1, steering, 0.05);
+    q = rigMotion(rig, q, -1, steering, kStep);
+    states.push_back(q);
     check.atMost("angle between car and trailer", std::abs(wrapped(q[2] - q[3])), 1.2, "rad");
     if (step < 800) continue;
     check.near("distance of the trailer's axle from the axis", q[1] - rig.hitchLength * std::sin(q[3]), 0,

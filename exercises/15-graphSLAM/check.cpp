@@ -7,6 +7,7 @@
 
 #include "graph_checks.h"
 #include "interface.h"
+#include "map_evidence.h"
 #include "optim/derivative_check.h"
 #include "scan_checks.h"
 
@@ -164,6 +165,7 @@ void formsAnyEquations(Check& check, Student& student) {
 // Part 3.
 
 void costsFall(Check& check, const PoseMap& map, const Adjusted& got, double least) {
+  const auto shown = check.show([&] { return mapSeen(map, got, least); });
   checkPoses(check, got.poses, map.poses);
   check.atLeast("costs: that of the start and of one step at least", static_cast<double>(got.costs.size()),
                 2);
@@ -253,6 +255,7 @@ void findsPartners(Check& check, Student& student) {
     check.input("two scans of a room, any motion within some decimetres, points up to 0.2 m apart");
     const ScanPair pair = pairOfScans(check.rng());
     const std::vector<int> got = student.partners(pair.reference, pair.moving, pair.guess, 0.2);
+    const auto shown = check.show([&] { return partnersSeen(pair, got, 0.2); });
     check.that("one number for each moving point", got.size() == pair.moving.size());
     const Eigen::Matrix3d X = frameOf(pair.guess);
     for (std::size_t k = 0; k < got.size(); ++k) {
@@ -301,6 +304,7 @@ void findsBestMotions(Check& check, Student& student) {
       if (number % 3 == 1) to.back() += 0.2 * rng.normalVector(2);
     }
     const Eigen::Vector3d got = student.bestMotion(from, to);
+    const auto shown = check.show([&] { return motionSeen(from, to, got); });
     check.shape("motion", got, 3, 1);
     if (number % 3 == 0) {
       check.near("motion: position", got.head<2>(), motion.head<2>(), 1e-6, "m");
@@ -341,12 +345,22 @@ void fitsAsItSays(Check& check, const ScanPair& pair, const Aligned& got) {
 // The reference, over 1500 pairs: 1.6 cm and 0.008 rad on average, with deviations of 1.2 cm and 0.007 rad;
 // 10.4 cm and 0.044 rad at most, and an overlap of 0.82 at least.
 void alignsPairs(Check& check, Student& student, int pairs) {
-  double way = 0, turn = 0;
+  double way = 0, turn = 0, worst = -1;
+  ScanPair pair, worstPair;
+  Aligned got, worstGot;
+  const auto shown = check.show([&] {
+    return scansSeen("The worst pair of scans so far", worstPair, worstGot.motion, worstPair.motion);
+  });
   for (int k = 0; k < pairs; ++k) {
-    const ScanPair pair = pairOfScans(check.rng());
-    const Aligned got = student.aligned(pair.reference, pair.moving, pair.guess);
+    pair = pairOfScans(check.rng());
+    got = student.aligned(pair.reference, pair.moving, pair.guess);
     check.shape("motion", got.motion, 3, 1);
     const auto [metres, radians] = missOf(got.motion, pair.motion);
+    if (metres > worst) {
+      worst = metres;
+      worstPair = pair;
+      worstGot = got;
+    }
     check.atMost("error of one motion", metres, 0.2, "m");
     check.atMost("error of its heading", radians, 0.1, "rad");
     way += metres / pairs;
@@ -371,14 +385,33 @@ void alignsMoreScans(Check& check, Student& student) { alignsPairs(check, studen
 // The reference finds all of 700 pairs of one place, and takes one pair of 700 strangers for the same.
 void tellsPlacesApart(Check& check, Student& student, int pairs) {
   int right = 0, wrong = 0;
+  std::optional<ScanPair> lost, mixedUp;  // the first of each kind that is judged wrongly
+  std::optional<Eigen::Vector3d> gotOfLost, gotOfMixedUp;
+  const auto shown = check.show([&] {
+    if (right < 0.9 * pairs)
+      return scansSeen("A place that is not found again", lost.value(), gotOfLost, lost->motion);
+    return scansSeen("Two rooms; wanted: not the same place", mixedUp.value(), gotOfMixedUp, {});
+  });
   for (int k = 0; k < pairs; ++k) {
     const ScanPair pair = pairOfScans(check.rng()), strangers = pairOfStrangers(check.rng());
-    if (const auto motion = student.loopMotion(pair.reference, pair.moving, pair.guess)) {
+    const auto motion = student.loopMotion(pair.reference, pair.moving, pair.guess);
+    bool isRight = false;
+    if (motion) {
       check.shape("motion", *motion, 3, 1);
       const auto [metres, radians] = missOf(*motion, pair.motion);
-      if (metres < 0.2 && radians < 0.1) ++right;
+      isRight = metres < 0.2 && radians < 0.1;
     }
-    if (student.loopMotion(strangers.reference, strangers.moving, strangers.guess)) ++wrong;
+    right += isRight ? 1 : 0;
+    if (!isRight && !lost) {
+      lost = pair;
+      gotOfLost = motion;
+    }
+    const auto other = student.loopMotion(strangers.reference, strangers.moving, strangers.guess);
+    wrong += other ? 1 : 0;
+    if (other && !mixedUp) {
+      mixedUp = strangers;
+      gotOfMixedUp = other;
+    }
   }
   check.atLeast("pairs of one place that are found, and right", right, 0.9 * pairs);
   check.atMost("pairs of different rooms taken for one place", wrong, 0.1 * pairs);
@@ -418,22 +451,26 @@ void addWrongLoops(Rng& rng, StreetWalk& walk, double share) {
   walk.map.edges = std::move(edges);
 }
 
-bool standsWrongLoops(Check& check, Student& student, int poses, double share) {
+bool standsWrongLoops(Check& check, Student& student, int poses, double share, JudgedWalk& judged) {
   Rng& rng = check.rng();
   StreetWalk walk = streetWalk(rng, poses, 0.04);
   const Poses best = bestPoses(walk.map);
   addWrongLoops(rng, walk, share);
   const Poses got = student.robustlyAdjusted(walk.map);
   checkPoses(check, got, walk.map.poses);
-  return apart(got, best) < 0.1;
+  if (apart(got, best) < 0.1) return true;
+  judged = {walk, got, best};
+  return false;
 }
 
 // By chance a wrong loop cannot be told from a right one: the reference fails on one map of 200 with a few of
 // them, and on one of 40 with many. Four of eight are then less likely than 1e-4.
 void standsOnMostMaps(Check& check, Student& student, int poses, double share) {
   int right = 0;
+  JudgedWalk wrong;
   for (int k = 0; k < 8; ++k)
-    if (standsWrongLoops(check, student, poses, share)) ++right;
+    if (standsWrongLoops(check, student, poses, share, wrong)) ++right;
+  const auto shown = check.show([&] { return robustSeen(wrong); });
   check.atLeast("maps of eight that are as without the wrong loops, within 10 cm", right, 5);
 }
 

@@ -3,7 +3,7 @@
 # Registers one test per gate of exercises/NAME and one per file in its wrong/, label `exercise`. `rex dev check NAME
 # --gate GATE` runs one by hand.
 function(rex_exercise_gates name)
-  set(gates main-current points names release main-floor solution sanitizers)
+  set(gates main-current points names release evidence main-floor solution sanitizers)
   file(GLOB variants ${PROJECT_SOURCE_DIR}/exercises/${name}/wrong/*.cpp)
   foreach(variant IN LISTS variants)
     cmake_path(GET variant STEM stem)

@@ -1,17 +1,30 @@
 #include <cmath>
 
+#include "grading/evidence_parts.h"
 #include "interface.h"
 
 namespace {
 
 using rex::grading::Check;
+using rex::grading::Evidence;
 using rex::grading::Group;
 
 Eigen::Vector2d randomPoint(rex::Rng& rng) { return {rng.uniform(-2, 2), rng.uniform(-2, 2)}; }
 
+// What (1, 0) was turned into, beside what it should be.
+Evidence quarterTurn(const Eigen::Vector2d& q) {
+  return {.figures = {{.title = "A quarter turn of (1, 0)",
+                       .xLabel = "x [m]",
+                       .yLabel = "y [m]",
+                       .equalAxes = true,
+                       .series = {rex::grading::gotCurve("got", {0, q.x()}, {0, q.y()}),
+                                  rex::grading::wantedCurve("wanted", {0, 0}, {0, 1})}}}};
+}
+
 void turnsAQuarter(Check& check, Student& student) {
   check.input("p = (1, 0), angle = pi/2");
   const Eigen::Vector2d q = student.rotated({1, 0}, std::acos(0.0));
+  const auto shown = check.show([&] { return quarterTurn(q); });
   check.near("point after a quarter turn", q, Eigen::Vector2d(0, 1), 1e-12, "m");
 }
 

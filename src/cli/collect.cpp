@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/grade_many.h"
+#include "cli/report_format.h"
 #include "cli/terminal.h"
 #include "grading/grade_table.h"
 #include "grading/grade_task.h"
@@ -28,7 +29,44 @@ void tell(const std::string& what, const std::vector<int>& numbers, const std::v
   if (numbers.size() > kMostNamed) note(fmt::format("  and {} more", numbers.size() - kMostNamed));
 }
 
+// Also half a file of an earlier time is another text.
+bool holds(const std::filesystem::path& file, const std::string& text) {
+  return std::filesystem::exists(file) && grading::readTextFile(file) == text;
+}
+
 }  // namespace
+
+std::vector<grading::ReportFormat> reportsOf(const std::string& names) {
+  std::vector<grading::ReportFormat> formats;
+  for (std::size_t at = 0; at < names.size();) {
+    const std::size_t end = std::min(names.find(',', at), names.size());
+    formats.push_back(reportFormat(names.substr(at, end - at), "--reports"));
+    at = end + 1;
+  }
+  return formats;
+}
+
+void writeReports(const std::vector<Task>& tasks, const std::filesystem::path& out,
+                  const std::vector<grading::ReportFormat>& reports) {
+  int written = 0, kept = 0;
+  for (const Task& task : tasks) {
+    const std::filesystem::path folder = grading::resultFolder(out, task);
+    const grading::TaskState state = grading::stateOf(task, out);
+    const bool isGraded = state == grading::TaskState::done || state == grading::TaskState::failed;
+    for (const grading::ReportFormat& format : reports) {
+      const std::filesystem::path file = folder / format.file;
+      if (!isGraded) {
+        std::filesystem::remove(file);
+        continue;
+      }
+      const std::string text = format.write(grading::loadResult(folder / "results.json"));
+      const bool isThere = holds(file, text);
+      if (!isThere) grading::replaceTextFile(file, text, "the report");
+      ++(isThere ? kept : written);
+    }
+  }
+  if (!reports.empty()) note(fmt::format("Reports: {} written, {} kept", written, kept));
+}
 
 grading::LatePolicy readDeadlines(const Project& project, const std::filesystem::path& file) {
   if (file.empty()) return {};
@@ -61,6 +99,7 @@ ExitCode collectResults(const Project& project, const CollectOptions& options) {
   const std::filesystem::path manifest =
       options.manifest.empty() ? options.out / "tasks.tsv" : options.manifest;
   const std::vector<Task> tasks = grading::readManifest(manifest);
+  writeReports(tasks, options.out, reportsOf(options.reports));
   const bool complete =
       writeGrades(tasks, options.out, readDeadlines(project, options.deadlines), options.csv);
   note(fmt::format("{} tasks. Table: {}", tasks.size(), shown(options.out / "grades.csv")));

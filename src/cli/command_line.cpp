@@ -12,6 +12,7 @@
 #include "cli/cma.h"
 #include "cli/command_line_internal.h"
 #include "cli/commands.h"
+#include "cli/dev_command_line_internal.h"
 #include "cli/grade_many_command_line_internal.h"
 #include "cli/terminal.h"
 
@@ -30,6 +31,13 @@ void addGl(CLI::App* command, std::string& gl) {
       ->envname("REX_GL");
 }
 
+Action print(const std::string& text) {
+  return [text](const Project&) {
+    say(text.substr(0, text.find_last_not_of('\n') + 1));
+    return ExitCode::kFull;
+  };
+}
+
 namespace {
 
 constexpr const char* kExitCodes =
@@ -43,13 +51,6 @@ Action complain(const std::string& text) {
   return [text](const Project&) {
     note(text);
     return ExitCode::kUsage;
-  };
-}
-
-Action print(const std::string& text) {
-  return [text](const Project&) {
-    say(text.substr(0, text.find_last_not_of('\n') + 1));
-    return ExitCode::kFull;
   };
 }
 
@@ -77,31 +78,61 @@ CLI::Option* addLevel(CLI::App* command, std::optional<int>& level) {
       ->type_name("N");
 }
 
+void addSeveral(CLI::App* command, TestManyOptions& options) {
+  command
+      ->add_option("EXERCISE", options.exercises,
+                   "numbers, topics or whole names: 01, kinematics, 01-kinematics")
+      ->type_name("");
+  command->add_flag("--all", options.all, "all exercises");
+  command->add_option("-j,--jobs", options.jobs, "of several, so many at once (default: one per processor)")
+      ->check(CLI::Range(1, 1024).description(""))
+      ->type_name("N");
+}
+
+// CLI11 takes -1 for the largest number there is.
+std::string wholeNumber(const std::string& text) {
+  constexpr std::size_t kMostDigits = 18;
+  const bool isOne =
+      !text.empty() && text.size() <= kMostDigits && text.find_first_not_of("0123456789") == text.npos;
+  return isOne ? "" : "found " + harmless(text) + ", wanted a whole number, not negative";
+}
+
 void addTest(CLI::App& program, Action& action) {
-  const auto options = std::make_shared<TestOptions>();
+  const auto many = std::make_shared<TestManyOptions>();
+  TestOptions* options = &many->each;
   CLI::App* command =
       add(program, "test", "Grade your main.cpp: which checks pass, for how many points",
           "Examples:\n  scripts/rex test 01\n  scripts/rex test 01 --check step-hand --seed 17\n"
-          "  scripts/rex test 01 --main /tmp/other.cpp --json\n\n"
+          "  scripts/rex test 01 --main /tmp/other.cpp --json\n  scripts/rex test 01 02 -j2\n"
+          "  scripts/rex test --all\n\n"
           "The result file is results.json, results-partial.json with --check, or\n"
-          "results-debug.json with --debug.\n" +
+          "results-debug.json with --debug. Of several exercises -o DIR gets DIR/EXERCISE,\n"
+          "--json is {\"schema\": \"rex-results/1\", \"results\": [...]}, and the exit code is\n"
+          "the largest of theirs.\n" +
               std::string(kExitCodes));
-  addExercise(command, options->exercise);
+  addSeveral(command, *many);
   command->add_flag("--solution", options->solution, "grade the reference solution");
   command->add_option("--main", options->main, "grade this file instead of main.cpp")->type_name("FILE");
   command->add_option("--check", options->checks, "only this check; may be given several times")
       ->allow_extra_args(false)
       ->type_name("NAME");
-  command->add_option("--seed", options->seed, "repeat the random cases of this seed")->type_name("N");
+  command->add_option("--seed", options->seed, "repeat the random cases of this seed")
+      ->check(wholeNumber)
+      ->type_name("N");
   command->add_flag("--json", options->json, "print the result file and nothing else");
   command->add_flag("--debug", options->debug, "with the sanitizers: slow, names the lines of crashes");
   command->add_option("-o,--out", options->out, kOutHelp)->type_name("DIR");
   addLevel(command, options->level);
-  command->callback([&action, options] {
-    if (options->solution && !options->main.empty()) throw CLI::ExcludesError("--main", "--solution");
+  command
+      ->add_option("--secret-file", options->secret, "secret of the course, for the seeds of hidden checks")
+      ->type_name("FILE");
+  command->callback([&action, many] {
+    const TestOptions& each = many->each;
+    if (many->exercises.empty() != many->all) throw CLI::RequiredError("either EXERCISE or --all");
+    if (each.solution && !each.main.empty()) throw CLI::ExcludesError("--main", "--solution");
     // The sanitizers read and map what a sandbox forbids.
-    if (options->debug && options->level.value_or(0) > 0) throw CLI::ExcludesError("--debug", "--level");
-    action = [options](const Project& p) { return test(p, *options); };
+    if (each.debug && each.level.value_or(0) > 0) throw CLI::ExcludesError("--debug", "--level");
+    action = [many](const Project& p) { return testMany(p, *many); };
   });
 }
 
@@ -293,45 +324,6 @@ void addDoctor(CLI::App& program, Action& action) {
   });
 }
 
-void addDevNew(CLI::App& dev, Action& action) {
-  const auto name = std::make_shared<std::string>();
-  CLI::App* command = add(dev, "new", "Make a new exercise that passes its own gates",
-                          "Example: scripts/rex dev new 99-demo");
-  command->add_option("NAME", *name, "two digits, a dash, a topic: 99-demo")->type_name("")->required();
-  command->callback([&action, name] { action = [name](const Project& p) { return devNew(p, *name); }; });
-}
-
-void addDevCheck(CLI::App& dev, Action& action) {
-  const auto options = std::make_shared<CheckOptions>();
-  CLI::App* command =
-      add(dev, "check", "Check that exercises are complete, graded well and give nothing away",
-          "Examples:\n  scripts/rex dev check 01\n  scripts/rex dev check 01 --gate solution --seeds 20");
-  command->add_option("EXERCISE", options->exercise, "only this one (default: all)")->type_name("");
-  command->add_option("--gate", options->gate, "only this gate")->type_name("NAME");
-  command->add_flag("--list-gates", options->listGates, "print the names of the gates");
-  command->add_option("--seeds", options->seeds, "seeds to try the solution with (default: 3)")
-      ->type_name("N")
-      ->check(CLI::Range(1, 10000).description(""));
-  command->callback(
-      [&action, options] { action = [options](const Project& p) { return devCheck(p, *options); }; });
-}
-
-void addDevStrip(CLI::App& dev, Action& action) {
-  const auto options = std::make_shared<StripOptions>();
-  CLI::App* command =
-      add(dev, "strip", "Make main.cpp from solution.cpp, or the tree that students get",
-          "Examples:\n  scripts/rex dev strip 01\n  scripts/rex dev strip --release -o /tmp/students");
-  command->add_option("EXERCISE", options->exercise, "whose main.cpp to write")->type_name("");
-  command->add_option("-o,--out", options->out, "new folder for the release")->type_name("DIR");
-  command->add_flag("--release", options->release, "write the student release");
-  command->callback([&action, options] {
-    const bool one = !options->exercise.empty() && !options->release && options->out.empty();
-    const bool tree = options->exercise.empty() && options->release && !options->out.empty();
-    if (!one && !tree) throw CLI::RequiredError("either EXERCISE, or --release with -o DIR,");
-    action = [options](const Project& p) { return devStrip(p, *options); };
-  });
-}
-
 // The innermost command that the arguments reached.
 const CLI::App* reached(const CLI::App* app) {
   const auto inner = app->get_subcommands();
@@ -382,14 +374,7 @@ Action parseCommandLine(int argc, const char* const* argv) {
   addRiccati(program, action, false), addRiccati(program, action, true);
   addGradeMany(program, action);
   addDoctor(program, action), addBench(program, action);
-  CLI::App* dev =
-      add(program, "dev", "For those who write exercises: new, check, strip",
-          "Examples:\n  scripts/rex dev new 99-demo\n  scripts/rex dev check\n  scripts/rex dev strip 01");
-  dev->require_subcommand(0, 1);
-  dev->callback([&action, dev] {
-    if (dev->get_subcommands().empty()) action = print(dev->help("rex"));
-  });
-  addDevNew(*dev, action), addDevCheck(*dev, action), addDevStrip(*dev, action);
+  addDev(program, action);
   try {
     program.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

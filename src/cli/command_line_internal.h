@@ -16,6 +16,9 @@ using Action = std::function<ExitCode(const Project&)>;
 CLI::App* add(CLI::App& parent, const std::string& name, const std::string& purpose,
               const std::string& examples);
 
+/// Prints a help text.
+Action print(const std::string& text);
+
 void addExercise(CLI::App* command, std::string& exercise);
 void addGl(CLI::App* command, std::string& gl);
 

@@ -33,11 +33,22 @@ struct TestOptions {
   std::vector<std::string> checks;  ///< empty: all
   std::optional<std::uint64_t> seed;
   bool json = false;
-  bool debug = false;          ///< with the sanitizers
-  std::filesystem::path out;   ///< empty: as for run
-  std::optional<int> level{};  ///< of the sandbox; nothing: 0
+  bool debug = false;              ///< with the sanitizers
+  std::filesystem::path out;       ///< empty: as for run
+  std::optional<int> level{};      ///< of the sandbox; nothing: 0
+  std::filesystem::path secret{};  ///< file with the secret of the course; empty: none
 };
 ExitCode test(const Project& project, const TestOptions& options);
+
+struct TestManyOptions {
+  std::vector<std::string> exercises;
+  bool all = false;  ///< instead of those
+  int jobs = 0;      ///< gradings at once; 0: one per processor
+  TestOptions each;  ///< for several, `out` gets a folder for each; main and checks belong to one
+};
+/// Grades several at the same time and tells of each in the order asked for; one as test() does. Of their
+/// exit codes the largest: a fault of the grader, then what cannot be graded, then what is below full score.
+ExitCode testMany(const Project& project, const TestManyOptions& options);
 
 struct ReportOptions {
   std::filesystem::path results;
@@ -283,11 +294,26 @@ struct CheckOptions {
 };
 ExitCode devCheck(const Project& project, const CheckOptions& options);
 
-struct StripOptions {
-  std::string exercise;
-  bool release = false;
-  std::filesystem::path out;  ///< of the release
+/// Makes main.cpp of that exercise from its solution.cpp.
+ExitCode devStrip(const Project& project, const std::string& name);
+
+struct ReleaseOptions {
+  std::filesystem::path out{};      ///< new folder
+  std::filesystem::path scan{};     ///< only look through this tree, and write nothing
+  std::filesystem::path secret{};   ///< file with the secret of the course; empty: none
+  bool prove = false;               ///< see proveRelease()
+  std::filesystem::path proveIn{};  ///< the same, in this folder, which stays
 };
-ExitCode devStrip(const Project& project, const StripOptions& options);
+/// Writes the tree that students get, and says what it holds. kBelow, and nothing written, if anything leaks.
+ExitCode devRelease(const Project& project, const ReleaseOptions& options);
+
+struct StatsOptions {
+  std::filesystem::path results{};  ///< folder that `rex grade` wrote
+  std::filesystem::path figure{};   ///< .png or .svg; empty: none
+  bool json = false;
+  bool csv = false;
+};
+/// How a class did, per exercise and check. kNotGradable if some result could not be read.
+ExitCode devStats(const Project& project, const StatsOptions& options);
 
 }  // namespace rex::cli

@@ -9,6 +9,7 @@
 #include "base/interruption.h"
 #include "base/process.h"
 #include "cli/commands.h"
+#include "cli/out_folder.h"
 #include "cli/student_file.h"
 #include "cli/terminal.h"
 
@@ -30,7 +31,7 @@ ExitCode debug(const Project& project, const DebugOptions& options) {
   const std::filesystem::path out = project.outFolder(exercise, options.solution);
   // Kept after we are gone: the debugger takes our place.
   const std::filesystem::path work = out / ".debug";
-  std::filesystem::create_directories(out);
+  makeOutFolder(out);
   const auto program =
       buildProgram(project, exercise, {.main = file, .workFolder = work, .debug = true}, out);
   if (!program) return ExitCode::kNotGradable;

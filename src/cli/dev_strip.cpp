@@ -4,18 +4,12 @@
 #include "cli/commands.h"
 #include "cli/terminal.h"
 #include "grading/regions.h"
-#include "grading/release.h"
 #include "grading/text_file.h"
 
 namespace rex::cli {
 
-ExitCode devStrip(const Project& project, const StripOptions& options) {
-  if (options.release) {
-    grading::writeStudentRelease(project.root, std::filesystem::absolute(options.out));
-    say(fmt::format("The student release lies in {}.", shown(options.out)));
-    return ExitCode::kFull;
-  }
-  const ExerciseInfo exercise = project.exercise(options.exercise);
+ExitCode devStrip(const Project& project, const std::string& name) {
+  const ExerciseInfo exercise = project.exercise(name);
   const std::filesystem::path solution = exercise.folder / "solution.cpp",
                               main = exercise.folder / "main.cpp";
   if (!std::filesystem::exists(solution))

@@ -87,6 +87,14 @@ void requireApart(const fs::path& folder, const fs::path& out) {
     throw UsageError({.what = "--out", .found = to.string(), .wanted = "a folder apart from " + in.string()});
 }
 
+void makeFolder(const fs::path& out) {
+  std::error_code failure;
+  fs::create_directories(out, failure);
+  if (failure)
+    throw Error(
+        {.what = "cannot make the folder of results", .where = {out.string()}, .found = failure.message()});
+}
+
 void tell(const grading::HandIns& handedIn) {
   for (const std::string& complaint : handedIn.complaints) note(wrap(harmless(complaint), 2, 0));
   constexpr std::size_t kMostNotes = 5;
@@ -129,13 +137,17 @@ int gradeApart(const Task& task, const Graders::Grader& grader, const grading::T
   }
 }
 
+bool isOpen(const Task& task, const GradeManyOptions& options) {
+  if (options.regrade || grading::stateOf(task, options.out) != grading::TaskState::done) return true;
+  return options.evidence && !grading::hasEvidence(task, options.out);
+}
+
 // Grades those without a valid result; returns how many that were.
 int gradeOpen(const std::vector<Task>& tasks, const GradeManyOptions& options,
               const sandbox::Sandbox& sandbox, Graders& graders) {
   std::vector<const Task*> open;
   for (const Task& task : tasks)
-    if (options.regrade || grading::stateOf(task, options.out) != grading::TaskState::done)
-      open.push_back(&task);
+    if (isOpen(task, options)) open.push_back(&task);
   const int count = static_cast<int>(open.size()),
             jobs = options.jobs > 0 ? options.jobs
                                     : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -152,7 +164,9 @@ int gradeOpen(const std::vector<Task>& tasks, const GradeManyOptions& options,
                           {.out = options.out,
                            .workFolder = work.path() / fmt::format("{}", k),
                            .launcher = sandbox.launcher,
-                           .secret = options.secret});
+                           .secret = options.secret,
+                           .evidence = options.evidence,
+                           .workers = options.workers});
       },
       [&](int k, int) {
         std::error_code ignored;
@@ -175,15 +189,16 @@ void tellTimes(const std::vector<Task>& tasks, const GradeManyOptions& options) 
 
 ExitCode gradeMany(const Project& project, const GradeManyOptions& options) {
   requireApart(options.folder, options.out);
+  const std::vector<grading::ReportFormat> reports = reportsOf(options.reports);
   const grading::LatePolicy policy = readDeadlines(project, options.deadlines);
   const auto sandbox = chooseForStrangers(project, options.level, options.accept);
   if (!sandbox) return ExitCode::kWeakSandbox;
   const std::vector<ExerciseInfo> exercises = project.exercises();
   const grading::HandIns handedIn = grading::readHandIns(options.folder, exercises, options.only);
   tell(handedIn);
+  makeFolder(options.out);
   Graders graders(project);
   const std::vector<Task> tasks = tasksOf(handedIn, options, sandbox->level, exercises, graders);
-  fs::create_directories(options.out);
   const fs::path manifest = options.manifest.empty() ? options.out / "tasks.tsv" : options.manifest;
   grading::replaceTextFile(manifest, grading::toManifest(tasks), "the list of tasks");
   const ExitCode taken = handedIn.complaints.empty() ? ExitCode::kFull : ExitCode::kNotGradable;
@@ -193,6 +208,7 @@ ExitCode gradeMany(const Project& project, const GradeManyOptions& options) {
   }
   const int graded = gradeOpen(tasks, options, *sandbox, graders);
   tellTimes(tasks, options);
+  writeReports(tasks, options.out, reports);
   const bool complete = writeGrades(tasks, options.out, policy, options.csv);
   note(
       fmt::format("{} submission{} at sandbox level {}: {} graded, {} kept, {} could not be taken. Table: {}",

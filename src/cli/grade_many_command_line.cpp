@@ -25,6 +25,25 @@ void addSecret(CLI::App* command, std::filesystem::path& file) {
       ->type_name("FILE");
 }
 
+// `--reports` alone, or `--reports=junit,markdown`.
+void addReports(CLI::App* command, std::string& reports) {
+  command
+      ->add_flag("--reports{markdown}", reports,
+                 "write reports beside each result: --reports=markdown,junit (alone: markdown)")
+      ->type_name("");
+}
+
+void addEvidence(CLI::App* command, bool& evidence) {
+  command->add_flag("--evidence", evidence, "keep pictures and replays of visible checks that do not hold");
+}
+
+void addWorkers(CLI::App* command, std::filesystem::path& folder) {
+  command
+      ->add_option("--workers", folder,
+                   "keep compiled programs here: the same file with another seed is not compiled again")
+      ->type_name("DIR");
+}
+
 void addOut(CLI::App* command, std::filesystem::path& out) {
   command->add_option("-o,--out", out, "folder for STUDENT/EXERCISE/results.json and grades.csv")
       ->type_name("DIR")
@@ -36,7 +55,8 @@ void addGrade(CLI::App& program, Action& action) {
   CLI::App* command =
       add(program, "grade", "Grade what many students handed in",
           "Examples:\n  scripts/rex grade handed-in --out results -j8\n"
-          "  scripts/rex grade handed-in --out results --deadlines deadlines.toml --csv\n\n"
+          "  scripts/rex grade handed-in --out results --deadlines deadlines.toml --csv\n"
+          "  scripts/rex grade handed-in --out results --reports=markdown,junit --evidence\n\n"
           "DIR holds STUDENT/EXERCISE/main.cpp. A second run grades only what has changed.\n" +
               std::string(kCodes));
   command->add_option("DIR", options->folder, "what was handed in")->type_name("")->required();
@@ -52,6 +72,7 @@ void addGrade(CLI::App& program, Action& action) {
       ->type_name("N");
   command->add_option("--seed", options->seed, "of the random cases")->type_name("N");
   addSecret(command, options->secret);
+  addWorkers(command, options->workers);
   command->add_option("--only", options->only, "only this exercise")->type_name("EXERCISE");
   addDeadlines(command, options->deadlines);
   command
@@ -62,6 +83,7 @@ void addGrade(CLI::App& program, Action& action) {
       ->type_name("FILE.tsv");
   command->add_flag("--regrade", options->regrade, "also what has a valid result");
   command->add_flag("--csv", options->csv, "print the table of grades");
+  addReports(command, options->reports), addEvidence(command, options->evidence);
   command->callback(
       [&action, options] { action = [options](const Project& p) { return gradeMany(p, *options); }; });
 }
@@ -76,7 +98,8 @@ void addGradeOne(CLI::App& program, Action& action) {
       ->required();
   command->add_option("--task", options->task, "its number, from 1")->type_name("K")->required();
   addOut(command, options->out);
-  addSecret(command, options->secret);
+  addSecret(command, options->secret), addEvidence(command, options->evidence);
+  addWorkers(command, options->workers);
   command->callback(
       [&action, options] { action = [options](const Project& p) { return gradeOne(p, *options); }; });
 }
@@ -91,6 +114,7 @@ void addCollect(CLI::App& program, Action& action) {
       ->type_name("FILE.tsv");
   addDeadlines(command, options->deadlines);
   command->add_flag("--csv", options->csv, "print the table of grades");
+  addReports(command, options->reports);
   command->callback(
       [&action, options] { action = [options](const Project& p) { return collectResults(p, *options); }; });
 }

@@ -17,7 +17,8 @@ ExitCode gradeOne(const Project& project, const GradeOneOptions& options) {
                       .wanted = fmt::format("1 to {}", tasks.size())});
   const grading::Task& task = tasks[static_cast<std::size_t>(options.task) - 1];
   const std::string name = fmt::format("{} {}", task.student, task.exercise);
-  if (grading::stateOf(task, options.out) == grading::TaskState::done) {
+  if (grading::stateOf(task, options.out) == grading::TaskState::done &&
+      (!options.evidence || grading::hasEvidence(task, options.out))) {
     say(fmt::format("{}: kept", name));
     return ExitCode::kFull;
   }
@@ -29,7 +30,9 @@ ExitCode gradeOne(const Project& project, const GradeOneOptions& options) {
                                                          {.out = options.out,
                                                           .workFolder = work.path(),
                                                           .launcher = sandbox->launcher,
-                                                          .secret = options.secret});
+                                                          .secret = options.secret,
+                                                          .evidence = options.evidence,
+                                                          .workers = options.workers});
   say(wrap(harmless(fmt::format("{}: {}, {} of {} points {}", name, toString(result.outcome), result.score,
                                 result.maxScore, result.message)),
            2, 0));

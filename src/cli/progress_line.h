@@ -9,7 +9,7 @@
 namespace rex::cli {
 
 /// While it lives, the last line of the terminal says what long work is doing, some times a second; nothing
-/// where standard error is no terminal. The line is gone afterwards.
+/// where standard error is no terminal. The line is gone afterwards. It needs no escape sequences.
 class ProgressLine {
  public:
   /// `text` is called from a thread of its own.
@@ -17,6 +17,9 @@ class ProgressLine {
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
+
+  /// Takes the line away while `print` writes to the terminal.
+  void stepAside(const std::function<void()>& print);
 
  private:
   void show();

@@ -49,7 +49,10 @@ std::vector<ExerciseInfo> Project::exercises() const {
 
 ExerciseInfo Project::exercise(std::string_view name) const {
   while (name.ends_with('/')) name.remove_suffix(1);
-  if (name.starts_with("exercises/")) name.remove_prefix(std::string_view("exercises/").size());
+  // What completing a path in a shell gives.
+  if (name.ends_with("/main.cpp")) name.remove_suffix(std::string_view("/main.cpp").size());
+  for (const std::string_view folder : {"./", "exercises/"})
+    if (name.starts_with(folder)) name.remove_prefix(folder.size());
   return grading::findExercise(exercises(), name);
 }
 

@@ -5,28 +5,31 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "base/error.h"
 #include "cli/commands.h"
+#include "cli/report_format.h"
 #include "cli/terminal.h"
 #include "grading/result_file.h"
 #include "grading/text_file.h"
 
 namespace rex::cli {
-namespace {
 
-const grading::ReportFormat& formatOf(const std::string& name) {
+const grading::ReportFormat& reportFormat(const std::string& name, const std::string& option) {
   std::vector<std::string> known;
   for (const grading::ReportFormat& format : grading::reportFormats()) {
     if (format.name == name) return format;
     known.emplace_back(format.name);
   }
-  throw UsageError({.what = "--format", .found = harmless(name), .nearest = nearestNames(name, known)});
+  throw UsageError({.what = option,
+                    .found = harmless(name),
+                    .wanted = fmt::format("one of {}", fmt::join(known, ", ")),
+                    .nearest = nearestNames(name, known)});
 }
 
-}  // namespace
-
 ExitCode report(const ReportOptions& options) {
-  const grading::ReportFormat& format = formatOf(options.format);
+  const grading::ReportFormat& format = reportFormat(options.format, "--format");
   const grading::GradeResult result = grading::loadResult(options.results);
   const std::string text = format.write(result);
   if (options.out.empty())

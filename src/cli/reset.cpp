@@ -34,6 +34,19 @@ fs::path keepBackup(const fs::path& main) {
   }
 }
 
+// A backup of a file that stays would change with it.
+void replaceAndKeep(const fs::path& main, const std::string& starter) {
+  const fs::path backup = keepBackup(main);
+  try {
+    grading::replaceTextFile(main, starter, "the student's file");
+  } catch (const Error&) {
+    std::error_code ignored;
+    fs::remove(backup, ignored);
+    throw;
+  }
+  say(fmt::format("Your file is kept as {}.", shown(backup)));
+}
+
 }  // namespace
 
 ExitCode reset(const Project& project, const std::string& name) {
@@ -45,9 +58,10 @@ ExitCode reset(const Project& project, const std::string& name) {
       say(fmt::format("{} is as it was handed out.", shown(main)));
       return ExitCode::kFull;
     }
-    say(fmt::format("Your file is kept as {}.", shown(keepBackup(main))));
+    replaceAndKeep(main, starter);
+  } else {
+    grading::replaceTextFile(main, starter, "the student's file");
   }
-  grading::replaceTextFile(main, starter, "the student's file");
   say(fmt::format("{} is as it was handed out again.", shown(main)));
   return ExitCode::kFull;
 }

@@ -5,6 +5,7 @@
 
 #include "base/process.h"
 #include "cli/commands.h"
+#include "cli/out_folder.h"
 #include "cli/result_list.h"
 #include "cli/student_file.h"
 #include "cli/terminal.h"
@@ -28,7 +29,7 @@ ExitCode run(const Project& project, const RunOptions& options) {
   const fs::path file = chooseStudentFile(exercise, options.solution);
   const fs::path out =
       fs::absolute(options.out.empty() ? project.outFolder(exercise, options.solution) : options.out);
-  fs::create_directories(out);
+  makeOutFolder(out);
   fs::create_directories(project.buildFolder(exercise));
   const grading::PrivateFolder work(project.buildFolder(exercise));
   const auto program = buildProgram(project, exercise, {.main = file, .workFolder = work.path()}, out);

@@ -8,17 +8,20 @@
 #include "cli/file_watcher.h"
 #include "cli/keyboard.h"
 #include "cli/terminal.h"
+#include "cli/watch_keys.h"
 
 namespace rex::cli {
 namespace {
 
-// Grades as `rex test` does. A fault of the project is told and may be mended while we watch.
-ExitCode gradeOnce(const Project& project, const std::string& name) {
+// Grades as `rex test` does, only `check` unless that is empty. A fault of the project is told and may be
+// mended while we watch.
+ExitCode gradeOnce(const Project& project, const std::string& name, const std::string& check) {
   const auto start = std::chrono::steady_clock::now();
   ExitCode code = ExitCode::kGraderFault;
   try {
     TestOptions options;
     options.exercise = name;
+    if (!check.empty()) options.checks = {check};
     code = test(project, options);
   } catch (const std::exception& error) {
     note(wrap(fmt::format("rex: {}", error.what()), 2, 0));
@@ -37,54 +40,22 @@ std::string nextExercise(const Project& project, const std::string& name) {
   return "";
 }
 
-enum class Wish { kGrade, kNext, kQuit };
-
-// Does what a key asks for, until that needs another grading, another exercise or the end.
-Wish obeyKeys(const Project& project, const std::string& name, const Keyboard& keyboard, FileWatcher& watcher,
-              bool isSolved) {
-  for (;;) {
-    say(std::string("[t]est  [h]int  [p]ictures  [l]ist  ") + (isSolved ? "[n]ext exercise  " : "") +
-        "[q]uit, or save the file");
-    std::fflush(stdout);
-    if (watcher.wait(keyboard.descriptor()) == FileWatcher::Event::kSaved) return Wish::kGrade;
-    switch (keyboard.read()) {
-      case 't':
-        return Wish::kGrade;
-      case 'h':
-        static_cast<void>(hint(project, HintOptions{.exercise = name, .part = {}}));
-        break;
-      case 'p':
-        static_cast<void>(show(project, {.exercise = name}));
-        break;
-      case 'l':
-        static_cast<void>(progress(project));
-        break;
-      case 'n':
-        if (isSolved) return Wish::kNext;
-        break;
-      case 'q':
-        return Wish::kQuit;
-      default:
-        break;
-    }
-  }
-}
-
 // Watches one exercise. The name of the next one to watch, or nothing at the end.
 std::string watchOne(const Project& project, const ExerciseInfo& exercise, FileWatcher::Method method,
                      const Keyboard& keyboard, ExitCode& code) {
   const std::filesystem::path main = exercise.folder / "main.cpp";
   FileWatcher watcher(main, method);
+  WatchKeys keys(project, exercise, keyboard, watcher);
   say(fmt::format("watching {} by {}; Ctrl-C ends this", shown(main), watcher.describe()));
   std::fflush(stdout);
   for (;;) {
-    code = gradeOnce(project, exercise.name);
-    const bool isSolved = code == ExitCode::kFull;
+    code = gradeOnce(project, exercise.name, keys.check());
+    const bool isSolved = code == ExitCode::kFull && keys.check().empty();
     std::fflush(stdout);
     if (keyboard.isThere()) {
-      const Wish wish = obeyKeys(project, exercise.name, keyboard, watcher, isSolved);
-      if (wish == Wish::kQuit) return "";
-      if (wish == Wish::kNext) return nextExercise(project, exercise.name);
+      const WatchKeys::Wish wish = keys.obey(isSolved);
+      if (wish == WatchKeys::Wish::kQuit) return "";
+      if (wish == WatchKeys::Wish::kNext) return nextExercise(project, exercise.name);
     } else {
       if (isSolved) return "";  // nobody could say so
       static_cast<void>(watcher.wait());

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <numeric>
 #include <vector>
 
 #include <Eigen/SVD>
@@ -18,7 +20,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kFlat = 1e-9;
+constexpr double kFlat = 1e-9, kSame = 1e-9, kClosed = 1e-7;
 constexpr int kMostDimensions = 9;
 
 void requirePoints(const MatrixArg& points) {
@@ -43,18 +45,46 @@ FacetHull lineHull(const MatrixXd& points) {
   return hull;
 }
 
-void addFacets(internal::Qhull& qhull, const MatrixXd& points, FacetHull& hull) {
+// The points without those that lie in one place with another.
+MatrixXd apart(const MatrixXd& points) {
+  std::vector<Index> order(static_cast<std::size_t>(points.cols())), kept;
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](Index a, Index b) { return points(0, a) < points(0, b); });
+  for (const Index k : order) {
+    bool isNew = true;
+    for (auto near = kept.rbegin(); isNew && near != kept.rend(); ++near) {
+      if (points(0, k) - points(0, *near) > kSame) break;
+      isNew = (points.col(k) - points.col(*near)).squaredNorm() > kSame * kSame;
+    }
+    if (isNew) kept.push_back(k);
+  }
+  return points(Eigen::all, kept);
+}
+
+// Whether qhull has all facets: areas times normals of a closed surface add up to zero (Minkowski). Where
+// points lie almost in one place, merging can lose facets that matter.
+bool isClosed(internal::Qhull& qhull) {
   qhT* qh = &qhull.state();  // the name that qhull's macros expect
   qh_getarea(qh, qh->facet_list);
-  hull.volume = qh->totvol;
+  VectorXd sum = VectorXd::Zero(qh->hull_dim);
+  facetT* facet;
+  FORALLfacets sum += facet->f.area * Eigen::Map<const VectorXd>(facet->normal, qh->hull_dim);
+  return sum.norm() <= kClosed * qh->totarea;
+}
+
+// From the facets of map^T centred.
+void addFacets(internal::Qhull& qhull, const MatrixXd& centred, const MatrixXd& map, FacetHull& hull) {
+  const qhT* qh = &qhull.state();  // the name that qhull's macros expect
+  hull.volume = qh->totvol / map.colwise().norm().prod();
   std::vector<VectorXd> normals;
   facetT* facet;
-  FORALLfacets normals.emplace_back(Eigen::Map<const VectorXd>(facet->normal, points.rows()));
-  hull.normals.resize(points.rows(), static_cast<Index>(normals.size()));
-  for (std::size_t f = 0; f < normals.size(); ++f) hull.normals.col(static_cast<Index>(f)) = normals[f];
+  FORALLfacets normals.emplace_back(map * Eigen::Map<const VectorXd>(facet->normal, map.cols()));
+  hull.normals.resize(map.rows(), static_cast<Index>(normals.size()));
+  for (std::size_t f = 0; f < normals.size(); ++f)
+    hull.normals.col(static_cast<Index>(f)) = normals[f].normalized();
   hull.offsets.resize(hull.normals.cols());
   for (Index f = 0; f < hull.normals.cols(); ++f)
-    hull.offsets[f] = (hull.normals.col(f).transpose() * points).maxCoeff();
+    hull.offsets[f] = (hull.normals.col(f).transpose() * centred).maxCoeff();
 }
 
 }  // namespace
@@ -64,18 +94,24 @@ FacetHull facetHull(const MatrixArg& points) {
   FacetHull hull{.dimension = -1};
   if (points.cols() == 0) return hull;
   const VectorXd middle = points.rowwise().mean();
-  MatrixXd centred = points.colwise() - middle;
-  const VectorXd singular = Eigen::JacobiSVD<MatrixXd>(centred.transpose()).singularValues();
+  const MatrixXd centred = points.colwise() - middle;
+  const Eigen::JacobiSVD<MatrixXd> svd(centred.transpose(), Eigen::ComputeThinV);
+  const VectorXd singular = svd.singularValues();
   const double smallest = std::max(kFlat * singular[0], 1e-14 * points.cwiseAbs().maxCoeff());
   hull.dimension = static_cast<int>((singular.array() > smallest).count());
   if (hull.dimension < points.rows()) return hull;
   if (points.rows() == 1) return lineHull(points);
+  // With equal widths along all axes, qhull can tell the facets of thin hulls from rounding.
+  const VectorXd width = singular / std::sqrt(static_cast<double>(points.cols()));
+  const MatrixXd map = svd.matrixV() * width.cwiseInverse().asDiagonal();
+  MatrixXd round = apart(map.transpose() * centred);
   // Triangulated facets give the volume exactly; where rounding defeats qhull, it may shift points by ulps.
   for (const char* options : {"qhull Qt Q12 Pp", "qhull Qt Qx Q12 Pp", "qhull QJ Pp"}) {
     internal::Qhull qhull;
-    if (!qhull.run(static_cast<int>(points.rows()), static_cast<int>(points.cols()), centred.data(), options))
+    if (!qhull.run(static_cast<int>(round.rows()), static_cast<int>(round.cols()), round.data(), options) ||
+        !isClosed(qhull))
       continue;
-    addFacets(qhull, centred, hull);
+    addFacets(qhull, centred, map, hull);
     hull.offsets += hull.normals.transpose() * middle;
     return hull;
   }

@@ -114,7 +114,8 @@ ProcessResult BuildTools::run(const std::vector<std::string>& command, std::size
 
 std::vector<fs::path> studentHeaders(const fs::path& folder) {
   std::vector<fs::path> found;
-  std::vector<std::string> open = {"exercise.h", "main.cpp", "solution.cpp"};
+  const bool hasStarter = fs::exists(folder / "starter.cpp");
+  std::vector<std::string> open = {"exercise.h", hasStarter ? "starter.cpp" : "main.cpp", "solution.cpp"};
   for (std::size_t k = 0; k < open.size(); ++k) {
     const fs::path file = folder / open[k];
     if (!fs::is_regular_file(fs::symlink_status(file))) continue;

@@ -43,8 +43,9 @@ class BuildTools {
   sandbox::Cell cell_;
 };
 
-/// The headers in an exercise's folder that a student's file may include: exercise.h, and what it, main.cpp
-/// and solution.cpp include, directly or not. Hidden are the headers of the checks.
+/// The headers in an exercise's folder that a student's file may include: exercise.h, and what it, the file
+/// that was handed out (starter.cpp, else main.cpp) and solution.cpp include, directly or not. Hidden are the
+/// headers of the checks, and those that a student wrote: main.cpp alone is handed in.
 [[nodiscard]] std::vector<std::filesystem::path> studentHeaders(const std::filesystem::path& folder);
 
 }  // namespace rex::grading

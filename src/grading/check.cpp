@@ -19,7 +19,8 @@ constexpr std::size_t kLongestText = 2000;
 /// Ends a check function or a case. Not a std::exception: a check function must not catch it by accident.
 struct RequirementFailed {};
 
-std::string number(double value) { return fmt::format("{:.6g}", value); }
+// Which sign a NaN has depends on the machine.
+std::string number(double value) { return std::isnan(value) ? "nan" : fmt::format("{:.6g}", value); }
 
 std::string withUnit(std::string text, std::string_view unit) {
   if (!unit.empty()) text.append(" ").append(unit);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "grading/evidence_parts.h"
 #include "render/draw_film.h"
 #include "render/png.h"
 #include "render/report.h"
@@ -14,15 +15,7 @@ namespace {
 
 constexpr int kWidth = 640, kHeight = 480;
 
-Series seriesOf(const std::string& label, const Eigen::VectorXd& y, bool wanted) {
-  Series series{.label = label, .size = wanted ? 1. : 2., .dashed = wanted};
-  if (wanted) series.color = Color{.2f, .22f, .26f};
-  for (Eigen::Index i = 0; i < y.size(); ++i) {
-    series.x.push_back(static_cast<double>(i));
-    series.y.push_back(y[i]);
-  }
-  return series;
-}
+std::vector<double> valuesOf(const Eigen::VectorXd& y) { return {y.begin(), y.end()}; }
 
 // The frame that is shown at that time.
 const Frame& frameAt(const Film& film, double time) {
@@ -35,6 +28,34 @@ void drawMoment(const Evidence& evidence, const std::filesystem::path& file) {
   Renderer renderer({.width = kWidth, .height = kHeight});
   const Camera camera = framing(evidence.film, evidence.view, static_cast<double>(kWidth) / kHeight);
   writePng(drawStill({frameAt(evidence.film, evidence.moment)}, camera, renderer), file);
+}
+
+// Beside each other on white, as high as the highest.
+Image inARow(const std::vector<Image>& images) {
+  int width = 0, height = 0;
+  for (const Image& image : images) {
+    width += image.width;
+    height = std::max(height, image.height);
+  }
+  Image row(width, height);
+  std::fill(row.rgb.begin(), row.rgb.end(), std::uint8_t{255});
+  int left = 0;
+  for (const Image& image : images) {
+    for (int y = 0; y < image.height; ++y)
+      std::copy_n(image.pixel(0, y), 3 * image.width, row.pixel(left, y));
+    left += image.width;
+  }
+  return row;
+}
+
+void drawFigures(const std::vector<Figure>& figures, const std::filesystem::path& file) {
+  if (figures.size() == 1) return writeFigure(figures.front(), file);
+  std::vector<Image> images;
+  for (const Figure& figure : figures) {
+    writeFigure(figure, file);
+    images.push_back(readPng(file));
+  }
+  writePng(inARow(images), file);
 }
 
 }  // namespace
@@ -52,8 +73,9 @@ Figure comparison(const std::string& title, const Eigen::Ref<const Eigen::Matrix
   Figure figure{.title = title, .xLabel = "number in the row", .yLabel = "value"};
   for (const Eigen::Index row : rows) {
     const std::string name = got.rows() > 1 ? fmt::format("row {}, ", row) : "";
-    figure.series.push_back(seriesOf(name + "got", got.row(row).transpose(), false));
-    figure.series.push_back(seriesOf(name + "wanted", wanted.row(row).transpose(), true));
+    figure.series.push_back(gotCurve(name + "got", {}, valuesOf(got.row(row))));
+    figure.series.back().color.reset();  // each row has its own
+    figure.series.push_back(wantedCurve(name + "wanted", {}, valuesOf(wanted.row(row))));
   }
   return figure;
 }
@@ -67,7 +89,7 @@ EvidenceFiles writeEvidence(const Evidence& evidence, const std::string& id, con
   if (evidence.figures.empty())
     drawMoment(evidence, folder / files.picture);
   else
-    writeFigure(evidence.figures.front(), folder / files.picture);
+    drawFigures(evidence.figures, folder / files.picture);
   if (evidence.film.empty()) return files;
   files.replay = id + ".html";
   Report report{.title = title, .film = evidence.film, .view = evidence.view, .start = evidence.moment};

@@ -28,8 +28,8 @@ struct EvidenceFiles {
 [[nodiscard]] Figure comparison(const std::string& title, const Eigen::Ref<const Eigen::MatrixXd>& got,
                                 const Eigen::Ref<const Eigen::MatrixXd>& wanted);
 
-/// Draws it as ID.png, the first figure or else the film's moment, and a film as ID.html, which opens at that
-/// moment with the figures beside it. Throws Error as writeFigure() and writeReport().
+/// Draws it as ID.png, the figures in a row or else the film's moment, and a film as ID.html, which opens at
+/// that moment with the figures beside it. Throws Error as writeFigure() and writeReport().
 [[nodiscard]] EvidenceFiles writeEvidence(const Evidence& evidence, const std::string& id,
                                           const std::string& title, const std::filesystem::path& folder);
 

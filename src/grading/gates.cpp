@@ -30,6 +30,21 @@ GateResult judge(const std::vector<std::string>& complaints) {
   return {complaints.empty(), fmt::format("{}", fmt::join(complaints, "\n"))};
 }
 
+// The wrong/NAME of an exercise, in order.
+std::vector<std::string> variantNames(const ExerciseInfo& exercise) {
+  std::vector<std::string> names;
+  if (std::filesystem::is_directory(exercise.folder / "wrong"))
+    for (const auto& entry : std::filesystem::directory_iterator(exercise.folder / "wrong"))
+      if (entry.path().extension() == ".cpp") names.push_back("wrong/" + entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+WrongVariant variantOf(const ExerciseInfo& exercise, const std::string& name) {
+  const path solution = exercise.folder / "solution.cpp", wrong = exercise.folder / (name + ".cpp");
+  return composeVariant(readTextFile(solution), solution.string(), readTextFile(wrong), wrong.string());
+}
+
 SubmissionOptions optionsFor(const GateContext& context, const path& file) {
   return {.main = file,
           .workFolder = context.workFolder / "build",
@@ -140,39 +155,59 @@ GateResult isRefused(const GradeResult& result) {
   return refused ? kPassed : failed("it should call a forbidden function, but nothing noticed one");
 }
 
+// The gates of the variants prove that it is there.
+GateResult mistakesAreShown(const GateContext& context) {
+  for (const std::string& name : variantNames(context.exercise))
+    if (!variantOf(context.exercise, name).shownBy.empty()) return kPassed;
+  return failed("no wrong variant names a check that shows its mistake: '// shown by: CHECK, ...'");
+}
+
+const CheckResult& checkNamed(const GradeResult& result, const std::string& id, const path& wrong) {
+  const auto isIt = [&](const CheckResult& check) { return check.id == id; };
+  const auto check = std::find_if(result.checks.begin(), result.checks.end(), isIt);
+  if (check != result.checks.end()) return *check;
+  std::vector<std::string> ids;
+  for (const CheckResult& known : result.checks) ids.push_back(known.id);
+  throw internal::unknownCheck(id, ids, {wrong.string(), 1});
+}
+
+// What is missing of a picture, and of a replay if there is one: it must not begin where all is well.
+std::vector<std::string> missingOf(const CheckResult& check, const path& workFolder) {
+  if (check.picture.empty() || !std::filesystem::exists(workFolder / check.picture))
+    return {fmt::format("check '{}' leaves no picture", check.id)};
+  constexpr std::string_view kAtOnce = "data-start=\"0\"";
+  if (!check.replay.empty() && readTextFile(workFolder / check.replay).find(kAtOnce) != std::string::npos)
+    return {fmt::format("the replay of check '{}' begins at 0 s, not where it went wrong", check.id)};
+  return {};
+}
+
 GateResult wrongIsCaught(const GateContext& context, const std::string& gate) {
-  const path solution = context.exercise.folder / "solution.cpp",
-             wrong = context.exercise.folder / (gate + ".cpp");
-  const WrongVariant variant =
-      composeVariant(readTextFile(solution), solution.string(), readTextFile(wrong), wrong.string());
-  const path file = context.workFolder / "main.cpp";
+  const WrongVariant variant = variantOf(context.exercise, gate);
+  const path file = context.workFolder / "main.cpp", wrong = context.exercise.folder / (gate + ".cpp");
   writeTextFile(file, variant.source);
-  const GradeResult result = grade(context, file);
+  SubmissionOptions options = optionsFor(context, file);
+  if (!variant.shownBy.empty()) options.evidence = context.workFolder / "checks";
+  const GradeResult result = gradeSubmission(context.toolchain, context.exercise, options).result;
   if (variant.caughtBy.front() == kForbiddenCall) return isRefused(result);
   if (result.outcome == Outcome::compileError || result.outcome == Outcome::graderError)
     return failed("it was not graded: " + result.message);
-  std::vector<std::string> ids;
-  for (const CheckResult& check : result.checks) ids.push_back(check.id);
-  for (const std::string& id : variant.caughtBy) {
-    const auto check = std::find(ids.begin(), ids.end(), id);
-    if (check == ids.end()) throw internal::unknownCheck(id, ids, {wrong.string(), 1});
-    if (result.checks[check - ids.begin()].status == Outcome::pass)
+  for (const std::string& id : variant.caughtBy)
+    if (checkNamed(result, id, wrong).status == Outcome::pass)
       return failed(fmt::format("check '{}' passes although: {}", id, variant.mistake));
-  }
   if (result.score >= result.maxScore) return failed("it gets the full score");
-  return kPassed;
+  std::vector<std::string> missing;
+  for (const std::string& id : variant.shownBy)
+    for (std::string& what : missingOf(checkNamed(result, id, wrong), context.workFolder))
+      missing.push_back(std::move(what));
+  return judge(missing);
 }
 
 }  // namespace
 
 std::vector<std::string> gateNames(const ExerciseInfo& exercise) {
-  std::vector<std::string> names = {"main-current", "points",   "names",     "release",
-                                    "main-floor",   "solution", "sanitizers"};
-  std::vector<std::string> wrong;
-  if (std::filesystem::is_directory(exercise.folder / "wrong"))
-    for (const auto& entry : std::filesystem::directory_iterator(exercise.folder / "wrong"))
-      if (entry.path().extension() == ".cpp") wrong.push_back("wrong/" + entry.path().stem().string());
-  std::sort(wrong.begin(), wrong.end());
+  std::vector<std::string> names = {"main-current", "points",     "names",    "release",
+                                    "evidence",     "main-floor", "solution", "sanitizers"};
+  const std::vector<std::string> wrong = variantNames(exercise);
   names.insert(names.end(), wrong.begin(), wrong.end());
   return names;
 }
@@ -183,13 +218,10 @@ GateResult runGate(const GateContext& context, const std::string& gate) {
     throw UsageError({.what = fmt::format("{} has no gate '{}'", context.exercise.name, gate),
                       .nearest = nearestNames(gate, names)});
   const std::map<std::string, GateResult (*)(const GateContext&)> gates = {
-      {"main-current", mainIsCurrent},
-      {"points", pointsAddUp},
-      {"names", namesExist},
-      {"release", releaseIsClean},
-      {"main-floor", mainScoresFloor},
-      {"solution", solutionIsFull},
-      {"sanitizers", solutionPassesSanitizers}};
+      {"main-current", mainIsCurrent}, {"points", pointsAddUp},
+      {"names", namesExist},           {"release", releaseIsClean},
+      {"evidence", mistakesAreShown},  {"main-floor", mainScoresFloor},
+      {"solution", solutionIsFull},    {"sanitizers", solutionPassesSanitizers}};
   try {
     const auto found = gates.find(gate);
     return found == gates.end() ? wrongIsCaught(context, gate) : found->second(context);

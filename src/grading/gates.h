@@ -25,8 +25,8 @@ struct GateResult {
   std::string message;  ///< lines of text; empty if passed
 };
 
-/// The gates of an exercise in order: main-current, points, names, release, main-floor, solution, sanitizers,
-/// and one wrong/NAME for each file in wrong/.
+/// The gates of an exercise in order: main-current, points, names, release, evidence, main-floor, solution,
+/// sanitizers, and one wrong/NAME for each file in wrong/.
 [[nodiscard]] std::vector<std::string> gateNames(const ExerciseInfo& exercise);
 
 /// Passes the exercise through one gate. Throws Error for a gate it does not have; bad input in the

@@ -105,25 +105,47 @@ void keepEvidence(const Check& judge, const std::filesystem::path& folder, Check
   }
 }
 
+/// What came of one check with a fresh worker.
+struct Attempt {
+  WorkerRun run;
+  CheckResult verdict;
+};
+
+Attempt attempt(const RunnableCheck& check, const GradeOptions& options, std::uint64_t seed) {
+  CheckResult verdict = faulty(check.info, "the check did not end");
+  Check judge(check.info, seed);
+  WorkerRun run =
+      runWithWorker({.program = options.worker,
+                     .signature = options.signature,
+                     .limits = options.limits,
+                     .temporaryFolder = options.temporaryFolder,
+                     .sandbox = options.sandbox,
+                     .libraries = options.libraries},
+                    [&](remote::Caller& caller) {
+                      verdict = judge.judge([&](Check& requirements) { check.run(requirements, caller); });
+                    });
+  if (run.failure)
+    verdict = failed(check.info, *run.failure, judge.input());
+  else
+    keepEvidence(judge, options.evidence, verdict);
+  return {std::move(run), std::move(verdict)};
+}
+
+// A machine short of memory kills programs that did nothing wrong. The same questions once more: a program
+// that kills itself does it again, and has learnt nothing.
+Attempt attemptAgainIfKilled(const RunnableCheck& check, const GradeOptions& options, std::uint64_t seed) {
+  Attempt first = attempt(check, options, seed);
+  const bool killed = first.run.failure && first.run.failure->killed;
+  return killed ? attempt(check, options, seed) : first;
+}
+
 /// Runs one check and adds what the worker used and printed to the whole.
 CheckResult runCheck(const RunnableCheck& check, const GradeOptions& options, GradeResult& whole) {
-  CheckResult verdict = faulty(check.info, "the check did not end");
+  CheckResult verdict;
   try {
-    Check judge(check.info, seedFor(check.info.group, whole, options));
-    const WorkerRun run =
-        runWithWorker({.program = options.worker,
-                       .signature = options.signature,
-                       .limits = options.limits,
-                       .temporaryFolder = options.temporaryFolder,
-                       .sandbox = options.sandbox,
-                       .libraries = options.libraries},
-                      [&](remote::Caller& caller) {
-                        verdict = judge.judge([&](Check& requirements) { check.run(requirements, caller); });
-                      });
-    if (run.failure)
-      verdict = failed(check.info, *run.failure, judge.input());
-    else
-      keepEvidence(judge, options.evidence, verdict);
+    const Attempt last = attemptAgainIfKilled(check, options, seedFor(check.info.group, whole, options));
+    const WorkerRun& run = last.run;
+    verdict = last.verdict;
     verdict.cpuSeconds = run.cpuSeconds;
     verdict.wallSeconds = run.wallSeconds;
     whole.usage.cpuSeconds += run.cpuSeconds;

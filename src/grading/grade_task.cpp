@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "grading/hidden_seed.h"
+#include "grading/kept_workers.h"
 #include "grading/sha256.h"
 #include "grading/student_build.h"
 #include "grading/submission.h"
@@ -18,6 +19,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kResults = "results.json";
 constexpr const char* kLog = "build.log";
+constexpr const char* kEvidence = "checks";
 
 void require(const std::string& what, const std::string& found, const std::string& wanted) {
   if (found == wanted) return;
@@ -36,11 +38,18 @@ void requireInputs(const Task& task, const fs::path& file, const Toolchain& tool
                  .wanted = task.secretId.empty() ? "none" : task.secretId});
 }
 
-std::string withInputs(const fs::path& results, const Task& task) {
+// Seeds and secrets change the questions, not the program.
+std::string workerKey(const Task& task) {
+  return sha256(
+      fmt::format("{}\n{}\n{}\n{}\n", task.exercise, task.sourceSha256, task.graderSha256, task.level));
+}
+
+std::string withInputs(const fs::path& results, const Task& task, bool evidence) {
   Json json = Json::parse(readTextFile(results));
   json["inputs"] = {{"sha256", task.inputsSha256()},
                     {"source_sha256", task.sourceSha256},
                     {"grader_sha256", task.graderSha256}};
+  json["volatile"]["evidence"] = evidence;
   return json.dump(2) + "\n";
 }
 
@@ -73,26 +82,50 @@ TaskState stateOf(const Task& task, const fs::path& out) {
   }
 }
 
+bool hasEvidence(const Task& task, const fs::path& out) {
+  const fs::path folder = resultFolder(out, task);
+  try {
+    const Json json = Json::parse(readTextFile(folder / kResults));
+    const Json& kept = json.at("volatile");
+    if (!kept.value("evidence", false)) return false;
+    for (const Json& check : kept.at("checks"))
+      for (const char* kind : {"picture", "replay"})
+        if (const std::string name = check.value(kind, ""); !name.empty() && !fs::exists(folder / name))
+          return false;
+    return true;
+  } catch (const Json::exception&) {
+    return false;
+  }
+}
+
 GradeResult gradeTask(const Task& task, const Toolchain& toolchain, const ExerciseInfo& exercise,
                       const TaskOptions& options) {
   const fs::path file = options.out / task.file;
   requireInputs(task, file, toolchain, exercise, options);
-  const fs::path results = options.workFolder / "out" / kResults;
+  const fs::path results = options.workFolder / "out" / kResults,
+                 evidence = options.workFolder / "out" / kEvidence;
   fs::create_directories(results.parent_path());
-  GradeResult result = gradeSubmission(toolchain, exercise,
-                                       {.main = file,
-                                        .workFolder = options.workFolder / "work",
-                                        .results = results,
-                                        .checks = {},
-                                        .seed = task.seed,
-                                        .sandbox = {.level = task.level, .launcher = options.launcher},
-                                        .secret = options.secret})
-                           .result;
+  const SubmissionOptions submission{.main = file,
+                                     .workFolder = options.workFolder / "work",
+                                     .results = results,
+                                     .checks = {},
+                                     .seed = task.seed,
+                                     .evidence = options.evidence ? evidence : fs::path(),
+                                     .sandbox = {.level = task.level, .launcher = options.launcher},
+                                     .secret = options.secret};
+  const BuiltSubmission built =
+      options.workers.empty() ? buildSubmission(toolchain, exercise, submission)
+                              : buildOnce(options.workers, workerKey(task), toolchain, exercise, submission);
+  GradeResult result = gradeBuilt(built, toolchain, exercise, submission);
   const fs::path folder = resultFolder(options.out, task);
   fs::create_directories(folder);
   const fs::path log = results.parent_path() / kLog;
   if (fs::exists(log)) replaceTextFile(folder / kLog, readTextFile(log), "the log of the compiler");
-  replaceTextFile(folder / kResults, withInputs(results, task), "the result file");
+  // Pictures of another text would mislead. They come before the result that names them.
+  fs::remove_all(folder / kEvidence);
+  if (options.evidence && fs::exists(evidence))
+    fs::copy(evidence, folder / kEvidence, fs::copy_options::recursive);
+  replaceTextFile(folder / kResults, withInputs(results, task, options.evidence), "the result file");
   return result;
 }
 

@@ -26,15 +26,21 @@ namespace rex::grading {
 enum class TaskState { missing, stale, failed, done };
 [[nodiscard]] TaskState stateOf(const Task& task, const std::filesystem::path& out);
 
+/// Whether the pictures and replays of a task that is done were kept, and are still there.
+[[nodiscard]] bool hasEvidence(const Task& task, const std::filesystem::path& out);
+
 struct TaskOptions {
   std::filesystem::path out{};         ///< of all results
   std::filesystem::path workFolder{};  ///< of this task alone, made if missing
   std::filesystem::path launcher{};    ///< of the sandbox
   std::filesystem::path secret{};      ///< file with the secret of the course; empty: none
+  bool evidence = false;               ///< keep pictures and replays of visible checks that do not hold
+  std::filesystem::path workers{};     ///< where compiled programs are kept; empty: nowhere
 };
 
-/// Grades and writes OUT/STUDENT/EXERCISE/results.json, with the hash of the inputs, and build.log: each
-/// whole or not at all. Throws Error, writing no result, if the file or the grader are not those of the task.
+/// Grades and writes OUT/STUDENT/EXERCISE/results.json, with the hash of the inputs, build.log and, if asked,
+/// the folder checks: each file whole or not at all. Throws Error, writing no result, if the file or the
+/// grader are not those of the task.
 [[nodiscard]] GradeResult gradeTask(const Task& task, const Toolchain& toolchain,
                                     const ExerciseInfo& exercise, const TaskOptions& options);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -136,6 +137,47 @@ class Reader {
                exercises_.empty() ? "" : exercises_.front().name + "/" + kFile);
   }
 
+  // ROOT/EXERCISE/main.cpp.
+  static bool isFileIn(const fs::path& root, const fs::path& name) {
+    return name.filename() == kFile && name.has_parent_path() && !name.parent_path().filename().empty() &&
+           name.parent_path().parent_path() == root;
+  }
+
+  // The folder of an archive in which the exercises lie: its top, or one folder around all, as programs pack
+  // that are asked to pack a folder. Nothing, with a complaint, where there are two: nobody knows which
+  // counts.
+  std::optional<fs::path> rootOf(const std::vector<ArchiveFile>& members, const fs::path& archive) {
+    std::set<fs::path> known, all;
+    for (const ArchiveFile& member : members) {
+      const fs::path name = fs::path(member.name).lexically_normal();
+      const fs::path root = name.parent_path().parent_path();
+      if (!isFileIn(root, name) || std::distance(root.begin(), root.end()) > 1) continue;
+      all.insert(root);
+      if (isExercise(name.parent_path().filename().string())) known.insert(root);
+    }
+    if (known.empty()) known = std::move(all);
+    if (known.size() > 1) {
+      std::vector<std::string> names;
+      for (const fs::path& root : known)
+        names.push_back(root.empty() ? "its top" : fmt::format("'{}'", root.string()));
+      complain("exercises in more than one folder", archive, fmt::format("{}", fmt::join(names, " and ")),
+               "one of them");
+      return {};
+    }
+    const fs::path root = known.empty() ? fs::path() : *known.begin();
+    if (!root.empty())
+      found_.notes.push_back(fmt::format("{}: taken from its folder '{}'", archive.string(), root.string()));
+    return root;
+  }
+
+  bool isExercise(const std::string& name) const {
+    try {
+      return !findExercise(exercises_, name).name.empty();
+    } catch (const UsageError&) {
+      return false;
+    }
+  }
+
   // The same of a student who handed in one archive. Its own time counts, for those inside are the student's.
   void readPacked(const fs::path& archive) {
     std::vector<ArchiveFile> members;
@@ -145,11 +187,13 @@ class Reader {
       complain(error.parts());
       return;
     }
+    const std::optional<fs::path> root = rootOf(members, archive);
+    if (!root) return;
     std::map<std::string, std::vector<fs::path>> exercises;
     std::map<fs::path, std::string> texts;
     for (ArchiveFile& member : members) {
       const fs::path name = fs::path(member.name).lexically_normal(), file = archive / name;
-      if (name.filename() != kFile || std::distance(name.begin(), name.end()) != 2)
+      if (!isFileIn(*root, name))
         noteUnlisted(file);
       else if (const std::string exercise = exerciseOf(file.parent_path()); !exercise.empty())
         exercises[exercise].push_back(file.parent_path()), texts[file.parent_path()] = std::move(member.text);

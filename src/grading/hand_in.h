@@ -26,10 +26,10 @@ struct HandIns {
   std::vector<std::string> notes{};       ///< what lay beside and was not asked for
 };
 
-/// Reads DIR/STUDENT/EXERCISE/main.cpp, or EXERCISE/main.cpp of the archive DIR/STUDENT.zip. Names of
-/// exercises may be short ones; `only` empty: all. Links are never followed. One that cannot be taken never
-/// hides another; of two spellings of one name neither is taken. Throws Error where `folder` itself cannot be
-/// read.
+/// Reads DIR/STUDENT/EXERCISE/main.cpp, or EXERCISE/main.cpp of the archive DIR/STUDENT.zip, where one folder
+/// may lie around all. Names of exercises may be short ones; `only` empty: all. Links are never followed. One
+/// that cannot be taken never hides another; of two spellings of one name neither is taken. Throws Error
+/// where `folder` itself cannot be read.
 [[nodiscard]] HandIns readHandIns(const std::filesystem::path& folder,
                                   const std::vector<ExerciseInfo>& exercises, const std::string& only = {});
 

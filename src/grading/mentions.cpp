@@ -80,6 +80,23 @@ bool opensBody(const std::string& code, std::size_t at) {
   return end != std::string::npos && code[end] == '{';
 }
 
+// The source without backslashes at the ends of lines and what follows them, and where each character stood.
+// The compiler lets blanks stand between the two.
+std::pair<std::string, std::vector<std::size_t>> spliced(std::string_view source) {
+  std::string text;
+  std::vector<std::size_t> places;
+  for (std::size_t at = 0; at < source.size(); ++at) {
+    const std::size_t end = source[at] == '\\' ? source.find_first_not_of(" \t\r\v\f", at + 1) : source.npos;
+    if (end != source.npos && source[end] == '\n') {
+      at = end;
+      continue;
+    }
+    text += source[at];
+    places.push_back(at);
+  }
+  return {std::move(text), std::move(places)};
+}
+
 int lineAt(std::size_t position, std::string_view source) {
   const std::string_view before = source.substr(0, position);
   return static_cast<int>(std::count(before.begin(), before.end(), '\n')) + 1;
@@ -99,6 +116,22 @@ std::pair<int, int> standardInputUse(std::string_view source) {
     for (const std::size_t at : positionsOf(word, code)) first = std::min(first, at);
   if (first == code.size()) return {0, 0};
   return placeAt(first, source);
+}
+
+int macroDefinitionLineOf(std::string_view name, std::string_view source) {
+  const auto [text, places] = spliced(source);
+  const std::string code = codeOf(text);
+  constexpr std::string_view kBlanks = " \t\v\f";
+  for (const std::size_t at : positionsOf("define", code)) {
+    const std::size_t before = code.find_last_not_of(kBlanks, at - std::min<std::size_t>(at, 1));
+    const bool isDirective = at > 0 && before != code.npos &&
+                             (code[before] == '#' || (before > 0 && code.compare(before - 1, 2, "%:") == 0));
+    const std::size_t first = code.find_first_not_of(kBlanks, at + std::string_view("define").size());
+    if (!isDirective || first == code.npos || code.compare(first, name.size(), name) != 0) continue;
+    const std::size_t end = first + name.size();
+    if (end == code.size() || !isWord(code[end])) return lineAt(places[at], source);
+  }
+  return 0;
 }
 
 int definitionLineOf(std::string_view function, std::string_view source) {

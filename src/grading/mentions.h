@@ -9,6 +9,10 @@ namespace rex::grading {
 /// source names the function, by the last part of its qualified name; 0, 0 when there is none or several.
 [[nodiscard]] std::pair<int, int> onlyMentionOf(std::string_view function, std::string_view source);
 
+/// The line, from 1, on which a C++ source defines a macro of that name, also in a line that goes on in the
+/// next; 0 when it does not.
+[[nodiscard]] int macroDefinitionLineOf(std::string_view name, std::string_view source);
+
 /// The line, from 1, on which a C++ source begins to define a function of that plain name; 0 when it does
 /// not.
 [[nodiscard]] int definitionLineOf(std::string_view function, std::string_view source);

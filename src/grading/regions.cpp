@@ -1,7 +1,6 @@
 #include "grading/regions.h"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <optional>
 #include <set>
@@ -34,13 +33,6 @@ std::string_view trim(std::string_view text) {
   const std::size_t first = text.find_first_not_of(kBlank);
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(kBlank) + 1 - first);
-}
-
-std::string squeeze(std::string_view text) {
-  std::string dense;
-  for (const char c : text)
-    if (!std::isspace(static_cast<unsigned char>(c))) dense += c;
-  return dense;
 }
 
 // The tag in a comment line that holds nothing but `<word name>` or `</word>`.
@@ -148,6 +140,18 @@ std::vector<Line> readSolution(std::string_view text, const std::string& file) {
   return MarkerReader(file, {"solution", "todo"}).read(text);
 }
 
+std::vector<std::vector<BlockLine>> blocksOf(const std::vector<Line>& lines, Place place) {
+  std::vector<std::vector<BlockLine>> blocks;
+  bool inside = false;
+  for (const Line& line : lines) {
+    const bool belongs = line.place == place;
+    if (belongs && !inside) blocks.emplace_back();
+    if (belongs) blocks.back().push_back({line.number, std::string(trim(line.text))});
+    inside = belongs;
+  }
+  return blocks;
+}
+
 // "  //| code" becomes "  code".
 std::string uncomment(const std::string& line) {
   const std::size_t mark = line.find("//|");
@@ -173,6 +177,7 @@ class Writer {
 
 struct Header {
   std::vector<std::string> caughtBy;
+  std::vector<std::string> shownBy;
   std::string mistake;
 };
 
@@ -186,8 +191,8 @@ std::vector<std::string> splitList(std::string_view list) {
   return items;
 }
 
-// Reads `// caught by: ...` and `// mistake: ...` among the lines outside the regions, where nothing else
-// but comments may stand.
+// Reads `// caught by: ...`, `// shown by: ...` and `// mistake: ...` among the lines outside the regions,
+// where nothing else but comments may stand.
 Header readHeader(const std::vector<Line>& lines, const std::string& file) {
   Header header;
   for (const Line& line : lines) {
@@ -198,8 +203,9 @@ Header readHeader(const std::vector<Line>& lines, const std::string& file) {
                    .where = {file, line.number},
                    .wanted = "'// <solution NAME>' before it"});
     const std::string_view comment = trim(text.substr(2));
-    constexpr std::string_view kCaught = "caught by:", kMistake = "mistake:";
+    constexpr std::string_view kCaught = "caught by:", kShown = "shown by:", kMistake = "mistake:";
     if (comment.starts_with(kCaught)) header.caughtBy = splitList(comment.substr(kCaught.size()));
+    if (comment.starts_with(kShown)) header.shownBy = splitList(comment.substr(kShown.size()));
     if (comment.starts_with(kMistake)) header.mistake = trim(comment.substr(kMistake.size()));
   }
   if (header.caughtBy.empty())
@@ -243,19 +249,19 @@ std::string stripHidden(std::string_view check, const std::string& file) {
   return std::move(writer).text();
 }
 
-std::vector<std::string> secretLines(std::string_view solution, const std::string& file) {
-  constexpr std::size_t kTrivial = 16;
-  const std::vector<Line> lines = readSolution(solution, file);
-  std::string open;
-  for (const Line& line : lines)
-    if (line.place == Place::kPublic) open += squeeze(line.text) + "\n";
-  std::vector<std::string> secrets;
-  for (const Line& line : lines) {
-    const std::string dense = squeeze(line.text);
-    if (line.place == Place::kSolution && dense.size() >= kTrivial && open.find(dense) == std::string::npos)
-      secrets.emplace_back(trim(line.text));
-  }
-  return secrets;
+std::string textOutsideRegions(std::string_view solution, const std::string& file) {
+  Writer writer;
+  for (const Line& line : readSolution(solution, file))
+    if (line.place == Place::kPublic) writer.add(line.text);
+  return std::move(writer).text();
+}
+
+std::vector<std::vector<BlockLine>> solutionBlocks(std::string_view solution, const std::string& file) {
+  return blocksOf(readSolution(solution, file), Place::kSolution);
+}
+
+std::vector<std::vector<BlockLine>> hiddenBlocks(std::string_view check, const std::string& file) {
+  return blocksOf(MarkerReader(file, {"hidden"}).read(check), Place::kHidden);
 }
 
 WrongVariant composeVariant(std::string_view solution, const std::string& solutionFile,
@@ -267,7 +273,7 @@ WrongVariant composeVariant(std::string_view solution, const std::string& soluti
     throw Error(
         {.what = "no region", .where = {wrongFile, 1}, .wanted = "'// <solution NAME>' with the mistake"});
 
-  WrongVariant variant{header.caughtBy, header.mistake, {}};
+  WrongVariant variant{header.caughtBy, header.shownBy, header.mistake, {}};
   std::vector<std::string> known;
   std::string current;
   for (const Line& line : readSolution(solution, solutionFile)) {

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <map>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "grading/private_folder.h"
 #include "grading/regions.h"
 #include "grading/text_file.h"
 
@@ -55,63 +55,12 @@ void releaseExercise(const path& from, const path& to) {
   }
 }
 
-// A text without its white space, and the line each character came from: layout hides no leak.
-struct Squeezed {
-  explicit Squeezed(const std::string& text) {
-    int line = 1;
-    for (const char c : text) {
-      if (c == '\n') ++line;
-      if (std::isspace(static_cast<unsigned char>(c))) continue;
-      letters += c;
-      lines.push_back(line);
-    }
-  }
-  std::string letters;
-  std::vector<int> lines;
-};
-
-std::vector<std::string> secretsOf(const path& exercise) {
-  const path solution = exercise / "solution.cpp";
-  if (!fs::exists(solution)) return {};
-  return secretLines(readTextFile(solution), solution.string());
-}
-
-void requireAbsent(const std::vector<std::string>& secrets, const std::string& text, const path& file) {
-  const Squeezed released(text);
-  for (const std::string& secret : secrets) {
-    const std::size_t at = released.letters.find(Squeezed(secret).letters);
-    if (at == std::string::npos) continue;
-    throw Error({.what = "a line of the solution would reach students",
-                 .where = {file.string(), released.lines[at]},
-                 .found = "'" + secret + "'"});
-  }
-}
-
-// No file of the release may hold a line of any solution. The library stays aside: it holds the same formulas
-// on purpose, where students may read them. What the template of an exercise shows is public too.
-void requireCleanRelease(const std::vector<path>& exercises, const path& root, const path& target) {
-  std::vector<std::string> secrets;
-  for (const path& exercise : exercises)
-    for (const std::string& secret : secretsOf(exercise)) secrets.push_back(secret);
-  const path shown = root / "share/template/solution.cpp";
-  if (fs::exists(shown)) {
-    const Squeezed open(readTextFile(shown));
-    std::erase_if(secrets, [&](const std::string& secret) {
-      return open.letters.find(Squeezed(secret).letters) != std::string::npos;
-    });
-  }
-  for (const auto& entry : fs::recursive_directory_iterator(target)) {
-    const path name = entry.path().lexically_relative(target);
-    if (!entry.is_regular_file() || *name.begin() == "src") continue;
-    requireAbsent(secrets, readTextFile(entry.path()), root / name);
-  }
-}
-
 // The tests of rex itself stay behind, so the commands for them do too, and the lines that name either.
 void leaveOutTheTests(const path& target) {
-  constexpr std::array<std::string_view, 6> kLeftOut = {
-      "scripts/test", "scripts/gallery", "scripts/fuzz", "scripts/check-replay", "`tests/`", "tests/gallery"};
-  for (const std::string_view name : kLeftOut) fs::remove(target / name);
+  constexpr auto kLeftOut = std::to_array<std::string_view>(
+      {"scripts/test", "scripts/gallery", "scripts/fuzz", "scripts/check-replay", "scripts/slurm-selftest",
+       "scripts/grading", "scripts/grading-campaign", "`tests/`", "tests/gallery"});
+  for (const std::string_view name : kLeftOut) fs::remove_all(target / name);
   for (const char* document : {"README.md", "share/doc/architecture.md", "share/doc/gallery.md"}) {
     if (!fs::exists(target / document)) continue;
     std::istringstream lines(readTextFile(target / document));
@@ -140,27 +89,61 @@ void writeTree(const std::vector<path>& exercises, const path& root, const path&
     if (entry.is_regular_file()) fs::copy_file(entry.path(), target / "exercises" / entry.path().filename());
 }
 
-}  // namespace
-
-void requireNoSolutionText(const path& exercise) {
-  const std::vector<std::string> secrets = secretsOf(exercise);
-  std::map<std::string, std::string> released = madeFiles(exercise);
-  for (const char* name : {"README.md", "exercise.h", "exercise.toml"})
-    if (fs::exists(exercise / name)) released[name] = readTextFile(exercise / name);
-  for (const auto& [name, text] : released) requireAbsent(secrets, text, exercise / name);
-}
-
-void writeStudentRelease(const path& root, const path& target) {
-  if (!isEmptyOrMissing(target))
-    throw UsageError(
-        {.what = "will not overwrite", .where = {target.string()}, .wanted = "an empty or new folder"});
+std::vector<path> exercisesOf(const path& root) {
   std::vector<path> exercises;
   for (const auto& entry : fs::directory_iterator(root / "exercises"))
     if (entry.is_directory()) exercises.push_back(entry.path());
   std::sort(exercises.begin(), exercises.end());
+  return exercises;
+}
+
+Error unwritten(const path& target, const fs::filesystem_error& error) {
+  return Error({.what = "cannot write the student release",
+                .where = {(error.path1().empty() ? target : error.path1()).string()},
+                .found = error.code().message()});
+}
+
+}  // namespace
+
+std::vector<Secret> secretsOfCourse(const path& root, const path& courseSecret) {
+  std::vector<Secret> secrets = secretsOf(exercisesOf(root), root);
+  if (!courseSecret.empty()) secrets.push_back(courseSecretIn(courseSecret));
+  return secrets;
+}
+
+void requireNoSolutionText(const path& exercise) {
+  std::map<std::string, std::string> released = madeFiles(exercise);
+  for (const char* name : {"README.md", "exercise.h", "exercise.toml"})
+    if (fs::exists(exercise / name)) released[name] = readTextFile(exercise / name);
+  const PrivateFolder folder(fs::temp_directory_path());
+  for (const auto& [name, text] : released) writeTextFile(folder.path() / name, text);
+  const LeakScan scan = scanForLeaks(folder.path(), secretsOf({exercise}, exercise));
+  if (scan.leaks.empty()) return;
+  const Leak& first = scan.leaks.front();
+  throw Error({.what = toString(first)});
+}
+
+Release writeStudentRelease(const path& root, const path& target, const path& courseSecret) {
   try {
+    if (!isEmptyOrMissing(target))
+      throw UsageError(
+          {.what = "will not overwrite", .where = {target.string()}, .wanted = "an empty or new folder"});
+  } catch (const fs::filesystem_error& error) {
+    throw unwritten(target, error);
+  }
+  try {
+    const std::vector<path> exercises = exercisesOf(root);
+    Release release{.exercises = static_cast<int>(exercises.size()),
+                    .scan = {},
+                    .secrets = secretsOfCourse(root, courseSecret)};
     writeTree(exercises, root, target);
-    requireCleanRelease(exercises, root, target);
+    release.scan = scanForLeaks(target, release.secrets);
+    if (!release.scan.leaks.empty()) fs::remove_all(target);
+    return release;
+  } catch (const fs::filesystem_error& error) {
+    std::error_code ignored;
+    fs::remove_all(target, ignored);
+    throw unwritten(target, error);
   } catch (...) {
     fs::remove_all(target);
     throw;

@@ -3,9 +3,12 @@
 namespace rex::grading {
 
 std::span<const ReportFormat> reportFormats() {
-  static constexpr ReportFormat kFormats[] = {
-      {"exercism", exercismReport}, {"github", githubReport},     {"gradescope", gradescopeReport},
-      {"junit", junitReport},       {"markdown", markdownReport}, {"prairielearn", prairielearnReport}};
+  static constexpr ReportFormat kFormats[] = {{"exercism", "exercism.json", exercismReport},
+                                              {"github", "github.txt", githubReport},
+                                              {"gradescope", "gradescope.json", gradescopeReport},
+                                              {"junit", "junit.xml", junitReport},
+                                              {"markdown", "summary.md", markdownReport},
+                                              {"prairielearn", "prairielearn.json", prairielearnReport}};
   return kFormats;
 }
 

@@ -21,6 +21,7 @@ namespace rex::grading {
 
 struct ReportFormat {
   std::string_view name;
+  std::string_view file;  ///< how it is called beside the result
   std::string (*write)(const GradeResult& result);
 };
 

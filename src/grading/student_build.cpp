@@ -14,7 +14,7 @@
 #include "base/error.h"
 #include "base/process.h"
 #include "grading/build_tools.h"
-#include "grading/internal_headers.h"
+#include "grading/included_files.h"
 #include "grading/mentions.h"
 #include "grading/precompiled_prefix.h"
 #include "grading/symbol_scan.h"
@@ -201,9 +201,13 @@ StudentObject compileStudent(const Toolchain& toolchain, const std::vector<Forbi
 
   std::vector<CompileDiagnostic> calls =
       scanSymbols(toolchain.objdump, result.object, result.source, name, forbidden, tools);
-  for (const CompileDiagnostic& header :
-       internalHeaders(readTextFile(folder / kDependencies), result.source, name, forbidden))
-    calls.push_back(header);
+  if (options.publicHeadersOnly) {
+    const auto dependencies = dependenciesIn(readTextFile(folder / kDependencies), folder);
+    for (const CompileDiagnostic& file :
+         forbiddenIncludes(dependencies, result.source, name, folder, toolchain))
+      calls.push_back(file);
+    for (const CompileDiagnostic& macro : forbiddenMacros(result.source, name)) calls.push_back(macro);
+  }
   result.ok = calls.empty();
   result.messages.insert(result.messages.end(), calls.begin(), calls.end());
   if (const auto [line, column] = standardInputUse(result.source); line > 0)

@@ -17,6 +17,7 @@ struct StudentBuildOptions {
   std::filesystem::path main;                 ///< the student's file
   std::filesystem::path workFolder;           ///< made if missing; objects, worker and program go there
   bool debug = false;                         ///< -g -O0, for a debugger
+  bool publicHeadersOnly = false;             ///< refuse other files: see forbiddenIncludes()
   double seconds = 30;                        ///< of processor time that compiling may take
   std::size_t memory = std::size_t{2} << 30;  ///< bytes that compiling may take
   sandbox::Sandbox sandbox{};                 ///< that the tools run in

@@ -125,6 +125,7 @@ StudentObject compileAsAsked(const Toolchain& toolchain, const ExerciseInfo& exe
   constexpr double kSanitizedSeconds = 90;
   StudentBuildOptions build{.main = options.main,
                             .workFolder = options.workFolder,
+                            .publicHeadersOnly = true,
                             .seconds = options.compileSeconds,
                             .sandbox = options.sandbox};
   if (!options.sanitize) return compileStudent(toolchain, exercise.forbidden, build);

@@ -45,7 +45,8 @@ void writeTextFile(const std::filesystem::path& file, std::string_view text) {
   std::ofstream out(file, std::ios::binary);
   out << text;
   out.close();
-  if (!out) throw Error({.what = "cannot write this file", .where = {file.string()}});
+  if (!out)
+    throw Error({.what = "cannot write this file", .where = {file.string()}, .found = std::strerror(errno)});
 }
 
 void replaceTextFile(const std::filesystem::path& file, std::string_view text, const std::string& what) {

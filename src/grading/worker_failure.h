@@ -16,6 +16,7 @@ struct Failure {
   std::string message{};   ///< "aborted in ikStep"
   std::string detail{};    ///< "Assertion `index < size()' failed."
   std::string function{};  ///< of the student, that ran; empty if none
+  bool killed = false;     ///< by itself or by somebody outside, which cannot be told apart
 };
 
 /// A worker process that has ended although nobody asked it to.

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <system_error>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <minizip/zip.h>
 #include <unistd.h>
@@ -43,13 +44,22 @@ bool writeAll(const std::filesystem::path& file, const std::vector<ZipEntry>& en
   return zipClose(zip, nullptr) == ZIP_OK && written;
 }
 
+// Before the name, so that a power cut leaves no broken file under it.
+bool reachesDisk(const std::filesystem::path& file) {
+  const int fd = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) return false;
+  const bool synced = ::fsync(fd) == 0;
+  ::close(fd);
+  return synced;
+}
+
 }  // namespace
 
 void writeZip(const std::filesystem::path& file, const std::vector<ZipEntry>& entries) {
   std::filesystem::path temporary = file;
   temporary += fmt::format(".{}.new", ::getpid());
   errno = 0;
-  const bool written = writeAll(temporary, entries);
+  const bool written = writeAll(temporary, entries) && reachesDisk(temporary);
   if (written && ::rename(temporary.c_str(), file.c_str()) == 0) return;
   const int cause = errno;
   std::error_code ignored;

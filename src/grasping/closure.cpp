@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/require_finite.h"
+#include "grasping/centred_view_internal.h"
 #include "grasping/cone_checks_internal.h"
 #include "optim/linear_program.h"
 
@@ -15,12 +16,14 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kProof = 1e-9;  // of unit wrenches
+constexpr double kProof = 1e-9;      // of unit wrenches
+constexpr double kRounding = 1e-12;  // to which unit wrenches are known, at best
 constexpr int kMostRounds = 100;
 
 struct Span {
   int rank = 0;
-  VectorXd normal;  // a unit vector to which the wrenches are closest to orthogonal
+  VectorXd normal;   // a unit vector to which the wrenches are closest to orthogonal
+  double least = 0;  // singular value, of that vector
 };
 
 Span spanOf(const MatrixXd& unit) {
@@ -28,6 +31,7 @@ Span spanOf(const MatrixXd& unit) {
   Span span;
   span.rank = static_cast<int>((svd.singularValues().array() > kProof).count());
   span.normal = svd.matrixV().col(unit.rows() - 1);
+  if (unit.cols() >= unit.rows()) span.least = svd.singularValues()[unit.rows() - 1];
   return span;
 }
 
@@ -45,30 +49,24 @@ VectorXd deepestDirection(const MatrixXd& unit) {
   return isApart ? VectorXd(-nearest.y.head(d)) : VectorXd::Zero(d);
 }
 
+Closure undecided(int rank) {
+  return {.rank = rank, .message = "rounding decides whether the wrenches counteract all others"};
+}
+
 Closure openAlong(const MatrixXd& unit, const VectorXd& direction, int rank) {
-  Closure closure;
-  closure.rank = rank;
-  closure.direction = direction.normalized();
+  Closure closure{.status = ClosureStatus::kOpen, .rank = rank, .direction = direction.normalized()};
   closure.residual = std::max(0.0, -(unit.transpose() * closure.direction).minCoeff());
-  const bool isProven = closure.direction.allFinite() && closure.residual < kProof;
-  closure.status = isProven ? ClosureStatus::kOpen : ClosureStatus::kUndecided;
-  if (!isProven) closure.direction.resize(0);
-  closure.message = !isProven ? "rounding decides whether the wrenches counteract all others"
-                    : rank < unit.rows()
+  if (!closure.direction.allFinite() || !(closure.residual < kProof)) return undecided(rank);
+  closure.message = rank < unit.rows()
                         ? fmt::format("the wrenches span {} of {} dimensions", rank, unit.rows())
                         : "all wrenches lie on one side of a plane";
   return closure;
 }
 
 Closure closedBy(const MatrixXd& unit, const VectorXd& weights, const VectorXd& size, int rank) {
-  Closure closure;
-  closure.rank = rank;
+  Closure closure{.status = ClosureStatus::kClosed, .rank = rank};
   closure.residual = (unit * weights).cwiseAbs().maxCoeff();
-  if (!(closure.residual < kProof)) {
-    closure.message = "rounding decides whether the wrenches counteract all others";
-    return closure;
-  }
-  closure.status = ClosureStatus::kClosed;
+  if (!(closure.residual < kProof)) return undecided(rank);
   closure.weights = weights.cwiseQuotient(size);
   closure.weights /= closure.weights.sum();
   closure.message = "the wrenches counteract all others";
@@ -83,9 +81,8 @@ void append(WrenchSet& set, const VectorXd& wrench, int contact) {
   set.contact.push_back(contact);
 }
 
-}  // namespace
-
-Closure forceClosure(const MatrixArg& wrenches) {
+// `rounding` is what the wrenches are known to, as unit vectors.
+Closure closureOf(const MatrixXd& wrenches, double rounding) {
   if (wrenches.rows() == 0)
     throw Error({.what = "force closure", .found = "wrenches without numbers", .wanted = "one or more rows"});
   for (Index k = 0; k < wrenches.cols(); ++k)
@@ -95,6 +92,7 @@ Closure forceClosure(const MatrixArg& wrenches) {
   size = (size.array() > 0).select(size, 1);
   const MatrixXd unit = wrenches * size.cwiseInverse().asDiagonal();
   const Span span = spanOf(unit);
+  if (rounding > kProof || (span.rank < unit.rows() && span.least > rounding)) return undecided(span.rank);
   if (span.rank < unit.rows()) return openAlong(unit, span.normal, span.rank);
   const LinearSolution rest = minimizeLinear(unit, -unit.rowwise().sum(), VectorXd::Zero(unit.cols()));
   if (rest.status == LinearStatus::kInfeasible) {
@@ -102,26 +100,35 @@ Closure forceClosure(const MatrixArg& wrenches) {
     return openAlong(unit, deepest.isZero() ? VectorXd(-rest.y) : deepest, span.rank);
   }
   if (rest.status == LinearStatus::kOptimal) return closedBy(unit, rest.x.array() + 1, size, span.rank);
-  Closure closure;
-  closure.rank = span.rank;
-  closure.message = "the linear program stalled";
-  return closure;
+  return {.rank = span.rank, .message = "the linear program stalled"};
 }
+
+void bringBack(const MatrixXd& map, Closure& closure) {
+  if (closure.direction.size() > 0) closure.direction = (map.transpose() * closure.direction).normalized();
+}
+
+}  // namespace
+
+Closure forceClosure(const MatrixArg& wrenches) { return closureOf(wrenches, kRounding); }
 
 ConeClosure forceClosure(std::span<const WrenchCone> cones) {
   if (cones.empty()) return {.closure = withoutContacts(), .set = {}};
   ConeClosure result{.closure = {}, .set = primitiveWrenches(cones)};
+  const internal::CentredView view = internal::centredView(cones);
   for (int round = 0; round < kMostRounds; ++round) {
-    result.closure = forceClosure(result.set.wrenches);
+    result.closure = closureOf(view.map * result.set.wrenches, view.rounding);
     if (result.closure.status != ClosureStatus::kOpen) return result;
     bool isSeparating = true;
     for (std::size_t i = 0; i < cones.size(); ++i) {
-      const VectorXd lowest = cones[i].lowest(result.closure.direction);
-      if (result.closure.direction.dot(lowest) >= -kProof * lowest.norm()) continue;
+      const VectorXd lowest = cones[i].lowest(view.map.transpose() * result.closure.direction);
+      const VectorXd seen = view.map * lowest;
+      if (result.closure.direction.dot(seen) >= -kProof * seen.norm()) continue;
       append(result.set, lowest, static_cast<int>(i));
       isSeparating = false;
     }
-    if (isSeparating) return result;
+    if (!isSeparating) continue;
+    bringBack(view.map, result.closure);
+    return result;
   }
   result.closure = {.rank = result.closure.rank, .message = "the cones touch the border of closure"};
   return result;
@@ -132,7 +139,17 @@ Closure formClosure(std::span<const WrenchCone> cones) {
   internal::requireCones(cones);
   MatrixXd normals(cones[0].normal.size(), static_cast<Index>(cones.size()));
   for (std::size_t i = 0; i < cones.size(); ++i) normals.col(static_cast<Index>(i)) = cones[i].normal;
-  return forceClosure(normals);
+  return internal::forceClosure(normals, internal::centredView(cones));
 }
+
+namespace internal {
+
+Closure forceClosure(const MatrixXd& wrenches, const CentredView& view) {
+  Closure closure = closureOf(view.map * wrenches, view.rounding);
+  bringBack(view.map, closure);
+  return closure;
+}
+
+}  // namespace internal
 
 }  // namespace rex

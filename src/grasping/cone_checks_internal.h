@@ -6,8 +6,8 @@
 
 namespace rex::internal {
 
-/// Throws Error, naming the cone, unless all have the same size, one or two tangents, and finite numbers, of
-/// which friction is not negative.
+/// Throws Error, naming the cone, unless all have the same size, the same number of tangents, one or two, and
+/// finite numbers, of which friction is not negative.
 void requireCones(std::span<const WrenchCone> cones);
 
 }  // namespace rex::internal

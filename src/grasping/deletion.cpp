@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "grasping/centred_view_internal.h"
 
 namespace rex {
 namespace {
@@ -41,14 +42,15 @@ DeletionSynthesis deleteRedundant(std::span<const WrenchCone> cones, std::span<c
     result.message = "there are no contacts";
     return result;
   }
-  result.closure = forceClosure(set.wrenches);
+  const internal::CentredView view = internal::centredView(cones);
+  result.closure = internal::forceClosure(set.wrenches, view);
   result.status = result.closure.status;
   result.message = result.closure.message;
   if (result.status != ClosureStatus::kClosed) return result;
   std::vector<bool> isKept(cones.size(), true);
   for (const int contact : order) {
     isKept[static_cast<std::size_t>(contact)] = false;
-    Closure rest = forceClosure(wrenchesOf(set, isKept));
+    Closure rest = internal::forceClosure(wrenchesOf(set, isKept), view);
     if (rest.status == ClosureStatus::kClosed)
       result.closure = std::move(rest);
     else

@@ -79,6 +79,9 @@ EpsilonBounds exactEpsilon(std::span<const WrenchCone> cones, double tolerance, 
   if (!(tolerance > 0))
     throw Error(
         {.what = "epsilon: tolerance", .found = fmt::format("{}", tolerance), .wanted = "more than zero"});
+  if (mostRounds < 0)
+    throw Error(
+        {.what = "epsilon: rounds", .found = fmt::format("{}", mostRounds), .wanted = "zero or more"});
   EpsilonBounds bounds;
   if (cones.empty()) return bounds;
   MatrixXd wrenches = primitiveWrenches(cones).wrenches;

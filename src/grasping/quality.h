@@ -41,9 +41,10 @@ struct EpsilonBounds {
 };
 
 /// Bounds at most `tolerance` apart, unless `mostRounds` end the search before: to the hull of edges those
-/// wrenches are added that reach farthest along its lowest facets. In space a round takes some tenths of a
-/// second once there are a hundred. Cones that are not closed give zeros. Throws Error as primitiveWrenches()
-/// and facetHull(), and for a tolerance that is not positive.
+/// wrenches are added that reach farthest along its lowest facets; with 0 rounds only along those of the
+/// first hull. In space a round takes some tenths of a second once there are a hundred. Cones that are not
+/// closed give zeros. Throws Error as primitiveWrenches() and facetHull(), for a tolerance that is not
+/// positive, and for a negative number of rounds.
 [[nodiscard]] EpsilonBounds exactEpsilon(std::span<const WrenchCone> cones, double tolerance = 1e-6,
                                          int mostRounds = 100);
 

@@ -132,10 +132,11 @@ void requireCones(std::span<const WrenchCone> cones) {
     const WrenchCone& cone = cones[i];
     requireSize(fmt::format("wrench cone {}: normal", i), cone.normal.size(), cones[0].normal.size());
     if (cone.normal.size() == 0 || cone.tangents.rows() != cone.normal.size() || cone.tangents.cols() < 1 ||
-        cone.tangents.cols() > 2)
-      throw Error({.what = fmt::format("wrench cone {}: tangents", i),
-                   .found = fmt::format("{} x {}", cone.tangents.rows(), cone.tangents.cols()),
-                   .wanted = "as many rows as the normal has, and one or two columns"});
+        cone.tangents.cols() > 2 || cone.tangents.cols() != cones[0].tangents.cols())
+      throw Error(
+          {.what = fmt::format("wrench cone {}: tangents", i),
+           .found = fmt::format("{} x {}", cone.tangents.rows(), cone.tangents.cols()),
+           .wanted = "as many rows as the normal has, and one or two columns, as many as cone 0 has"});
     requireFinite(fmt::format("wrench cone {}: normal", i), cone.normal);
     for (Eigen::Index k = 0; k < cone.tangents.cols(); ++k)
       requireFinite(fmt::format("wrench cone {}: tangents", i), VectorXd(cone.tangents.col(k)));

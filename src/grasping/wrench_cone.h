@@ -9,9 +9,9 @@
 namespace rex {
 
 /// What makes forces and torques comparable: torques are taken about the point R and divided by `length`
-/// (metres), so that all numbers of a wrench are newtons. In the plane only x and y of R count. Closure does
-/// not depend on either, quality does: `length` is often the largest distance of the surface from the centre
-/// of mass, so that no torque of a unit force exceeds one.
+/// (metres), so that all numbers of a wrench are newtons. In the plane only x and y of R count. Closure of
+/// cones does not depend on either, quality does: `length` is often the largest distance of the surface from
+/// the centre of mass, so that no torque of a unit force exceeds one.
 struct WrenchReference {
   Eigen::Vector3d p_OR = Eigen::Vector3d::Zero();
   double length = 1;
@@ -51,7 +51,7 @@ struct WrenchSet {
 /// The edges of a pyramid inside each cone, each with one newton along the normal: `edges` of them in space,
 /// evenly around and the first along the first tangent; the two that bound the cone in the plane; of a
 /// contact without friction only the normal. Throws Error for fewer than three edges and for cones of
-/// different sizes.
+/// different sizes or numbers of tangents.
 [[nodiscard]] WrenchSet primitiveWrenches(std::span<const WrenchCone> cones, int edges = 8);
 
 }  // namespace rex

@@ -14,6 +14,13 @@ void requireFound(const LimitCycle& cycle) {
         {.what = "basin of attraction: limit cycle", .found = cycle.message, .wanted = "one that was found"});
 }
 
+void requireStable(const LimitCycle& cycle) {
+  requireFound(cycle);
+  if (!cycle.isStable)
+    throw Error(
+        {.what = "basin of attraction: limit cycle", .found = cycle.message, .wanted = "a stable one"});
+}
+
 BasinOutcome walk(const CompassGait& walker, const Vector4d& goal, Vector4d x, const BasinOptions& options) {
   BasinOutcome outcome;
   while ((x - goal).cwiseAbs().maxCoeff() > options.tolerance) {
@@ -36,7 +43,7 @@ BasinOutcome walk(const CompassGait& walker, const Vector4d& goal, Vector4d x, c
 std::vector<BasinOutcome> basinOfAttraction(const CompassGait& walker, const LimitCycle& cycle,
                                             const Eigen::Ref<const Eigen::Matrix4Xd>& starts,
                                             const BasinOptions& options) {
-  requireFound(cycle);
+  requireStable(cycle);
   requirePositive("basin of attraction: steps", options.maxSteps);
   requirePositive("basin of attraction: tolerance", options.tolerance);
   std::vector<BasinOutcome> outcomes;

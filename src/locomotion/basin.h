@@ -15,7 +15,7 @@ struct BasinOptions {
 /// What became of one walker.
 struct BasinOutcome {
   enum class Status {
-    kReached,
+    kReached,   ///< came as near as the tolerance, once
     kFell,      ///< see `last`
     kUndecided  ///< walks on, but not into the cycle: too slowly, or with another gait
   };
@@ -25,14 +25,15 @@ struct BasinOutcome {
 };
 
 /// Which starts lead into a limit cycle: walks from each column of `starts` (4 x N, states as CompassGait has
-/// them after an impact). One outcome per column. Throws Error as CompassGait, for a cycle that was not
-/// found, and for options that are not positive.
+/// them after an impact). One outcome per column. Throws Error as CompassGait, for a cycle that was not found
+/// or is not stable, as it attracts nothing, and for options that are not positive.
 [[nodiscard]] std::vector<BasinOutcome> basinOfAttraction(const CompassGait& walker, const LimitCycle& cycle,
                                                           const Eigen::Ref<const Eigen::Matrix4Xd>& starts,
                                                           const BasinOptions& options = {});
 
 /// Starts on a grid of stance angles and rates (radians, rad/s), stance angle fastest, with both feet on the
-/// ground and the swing rate of the cycle, scaled with the stance rate: 4 x (angles * rates) states.
+/// ground and the swing rate of the cycle, scaled with the stance rate: 4 x (angles * rates) states. Throws
+/// Error for a cycle that was not found.
 [[nodiscard]] Eigen::Matrix4Xd basinGrid(const CompassGait& walker, const LimitCycle& cycle,
                                          const Eigen::Ref<const Eigen::VectorXd>& stanceAngles,
                                          const Eigen::Ref<const Eigen::VectorXd>& stanceRates);

@@ -13,7 +13,7 @@ enum class Side { kLeft, kRight };
 struct Footstep {
   Side side = Side::kLeft;
   Eigen::Vector2d p = Eigen::Vector2d::Zero();  ///< metres
-  double yaw = 0;                               ///< radians about z, 0 along x
+  double yaw = 0;                               ///< radians about z, 0 along x; whole turns do not count
 };
 
 /// A rectangular sole, metres.

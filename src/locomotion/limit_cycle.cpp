@@ -24,6 +24,8 @@ Vector4cd multipliersOf(const Matrix4d& J) {
   return values;
 }
 
+constexpr double kShortestStep = 1e-9;  // radians between the legs; events of a step are told to 1e-12
+
 // A state, its step, and by how much that misses it.
 struct Trial {
   Vector4d x;
@@ -35,6 +37,9 @@ struct Trial {
         map(walker.stepJacobian(at, timeLimit)),
         residual((map.step.after - at).cwiseAbs().maxCoeff()) {}
   [[nodiscard]] bool stepped() const { return map.step.status == StepStatus::kStepped; }
+  [[nodiscard]] bool repeats(double tolerance) const {
+    return residual <= tolerance * x.cwiseAbs().maxCoeff();
+  }
 };
 
 // Halves Newton's way until the walker steps, and comes nearer.
@@ -50,6 +55,24 @@ bool advance(const CompassGait& walker, double timeLimit, Trial& at) {
   return false;
 }
 
+LimitCycle ended(LimitCycle cycle, Status status, std::string message) {
+  cycle.status = status;
+  cycle.message = std::move(message);
+  return cycle;
+}
+
+LimitCycle found(LimitCycle cycle) {
+  const double between = std::abs(cycle.x[0] - cycle.x[1]);
+  if (between < kShortestStep)
+    return ended(cycle, Status::kNoGait,
+                 fmt::format("no gait: a step of {:.3g} rad cannot be told from standing", between));
+  const double growth = std::abs(cycle.multipliers[0]);
+  cycle.isStable = growth < 1;
+  return ended(
+      cycle, Status::kFound,
+      fmt::format("found: {}, largest multiplier {:.6g}", cycle.isStable ? "stable" : "unstable", growth));
+}
+
 }  // namespace
 
 LimitCycle findLimitCycle(const CompassGait& walker, const Vector4d& guess,
@@ -58,32 +81,26 @@ LimitCycle findLimitCycle(const CompassGait& walker, const Vector4d& guess,
   requirePositive("limit cycle: tolerance", options.tolerance);
   Trial at(walker, guess, options.timeLimit);
   LimitCycle cycle{.x = guess, .residual = at.residual};
-  if (!at.stepped()) {
-    cycle.status = Status::kFell;
-    cycle.message = "from the guess: " + at.map.step.message;
-    return cycle;
-  }
-  cycle.message = fmt::format("not found in {} iterations", options.maxIterations);
-  for (; cycle.iterations < options.maxIterations; ++cycle.iterations) {
-    if (at.residual <= options.tolerance) {
-      cycle.status = Status::kFound;
-      break;
-    }
-    if (advance(walker, options.timeLimit, at)) continue;
-    cycle.status = Status::kStuck;
-    cycle.message = fmt::format("stuck: a step changes the state by {:.3g}", at.residual);
-    break;
+  if (walker.slope <= 0)
+    return ended(cycle, Status::kNoGait,
+                 "no gait: on level ground and uphill nothing replaces what impacts lose");
+  if (!at.stepped()) return ended(cycle, Status::kFell, "from the guess: " + at.map.step.message);
+  bool comesNearer = true;
+  while (cycle.iterations < options.maxIterations && !at.repeats(options.tolerance)) {
+    comesNearer = advance(walker, options.timeLimit, at);
+    if (!comesNearer) break;
+    ++cycle.iterations;
   }
   cycle.x = at.x;
   cycle.residual = at.residual;
   cycle.period = at.map.step.time;
   cycle.multipliers = multipliersOf(at.map.J);
-  if (cycle.status != Status::kFound) return cycle;
-  const double growth = std::abs(cycle.multipliers[0]);
-  cycle.isStable = growth < 1;
-  cycle.message =
-      fmt::format("found: {}, largest multiplier {:.6g}", cycle.isStable ? "stable" : "unstable", growth);
-  return cycle;
+  if (at.repeats(options.tolerance)) return found(cycle);
+  if (!comesNearer)
+    return ended(cycle, Status::kStuck,
+                 fmt::format("stuck: a step changes the state by {:.3g}", at.residual));
+  return ended(cycle, Status::kIterationLimit,
+               fmt::format("not found in {} iterations", options.maxIterations));
 }
 
 }  // namespace rex

@@ -6,7 +6,7 @@ namespace rex {
 
 struct LimitCycleOptions {
   int maxIterations = 50;
-  double tolerance = 1e-13;  ///< found where a step changes no number of the state by more
+  double tolerance = 1e-13;  ///< found where a step changes no number of the state by more, times the largest
   double timeLimit = 10;     ///< seconds of each step of the walker
 };
 
@@ -16,7 +16,8 @@ struct LimitCycle {
     kFound,
     kFell,   ///< the walker does not even step from the guess: see `message`
     kStuck,  ///< no shorter way along Newton's direction comes nearer, or no direction
-    kIterationLimit
+    kIterationLimit,
+    kNoGait  ///< nothing replaces what impacts lose: level ground, uphill, or steps shorter than 1e-9 rad
   };
   Status status = Status::kIterationLimit;
   Eigen::Vector4d x = Eigen::Vector4d::Zero();  ///< just after an impact, as CompassGait; else the nearest

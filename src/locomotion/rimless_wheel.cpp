@@ -72,8 +72,9 @@ RimlessWheel::Step RimlessWheel::step(double rate) const {
   // Backwards it starts where a forward step ends.
   if (!presses(*this, end, squared)) return lost(end);
   const double left = squared - climb(*this, end);
-  if (left <= 0) return {Status::kRockedBack, keeps * -rate, "rocks back downhill"};
   const double atStart = left + climb(*this, start);
+  // The hardest part of the way is the vertical, or where it starts if that lies before.
+  if ((start < 0 ? left : atStart) <= 0) return {Status::kRockedBack, keeps * -rate, "rocks back downhill"};
   if (!presses(*this, start, atStart)) return lost(start);
   return {Status::kRolledUphill, -keeps * std::sqrt(atStart), "rolls uphill"};
 }

@@ -22,7 +22,8 @@ struct RimlessWheel {
   /// slope is as steep as alpha().
   [[nodiscard]] double leastRate() const;
   /// The rate after one step, in closed form: omega'^2 = cos^2(2 alpha) (omega^2 + 4 g / l sin(alpha)
-  /// sin(slope)). Rates that do not carry it over, and negative ones, rock it back or roll it uphill.
+  /// sin(slope)). Rates that do not carry it over, and negative ones, rock it back or roll it uphill. On
+  /// slopes above alpha() the spoke uphill comes down before the stance spoke is upright.
   struct Step {
     enum class Status {
       kRolled,

@@ -42,11 +42,16 @@ Vector4d stanceRate(const SpringLeg& leg, const Vector4d& x) {
   return d;
 }
 
+// How fast the leg gets longer, times its length.
+double stretching(const Vector4d& x) { return x.head<2>().dot(x.tail<2>()); }
+
 enum Ending : int { kStretched, kGround };
 
+// The leg is at its rest length at touchdown, too, where it still gets shorter.
 std::array<internal::Event<Vector4d>, 2> endings(const SpringLeg& leg) {
-  return {{{[l = leg.restLength](const Vector4d& x) { return l - x.head<2>().norm(); }},
-           {[](const Vector4d& x) { return x[1]; }}}};
+  return {
+      {{[l = leg.restLength](const Vector4d& x) { return std::max(l - x.head<2>().norm(), -stretching(x)); }},
+       {[](const Vector4d& x) { return x[1]; }}}};
 }
 
 Hop ended(Hop hop, HopStatus status, const char* what) {
@@ -55,34 +60,46 @@ Hop ended(Hop hop, HopStatus status, const char* what) {
   return hop;
 }
 
-// An apex of the given energy, and how a hop changes its height.
+// The apexes of one energy, where the runner moves one way: the height alone tells them apart.
+struct ApexFamily {
+  double energy, direction;  // joules; 1 or -1
+
+  ApexFamily(const SpringLeg& leg, const RunnerApex& apex)
+      : energy(leg.apexEnergy(apex)), direction(std::copysign(1., apex.speed)) {}
+
+  [[nodiscard]] RunnerApex at(const SpringLeg& leg, double height) const {
+    return {height, direction * std::sqrt(std::max(2 * (energy / leg.mass - leg.g * height), 0.))};
+  }
+};
+
+// An apex of a family, and how a hop changes its height.
 struct ApexTrial {
   RunnerApex apex;
   double rise = 0, multiplier = 0;
   std::optional<std::string> failure{};
 
-  ApexTrial(const SpringLeg& leg, double energy, double height) : apex(apexAt(leg, energy, height)) {
+  ApexTrial(const SpringLeg& leg, const ApexFamily& family, double height) : apex(family.at(leg, height)) {
     constexpr double kDifference = 1e-5;
     std::array<double, 3> heights{};
     for (int i = 0; i < 3; ++i) {
-      const Hop hop = leg.hop(apexAt(leg, energy, height + (i - 1) * kDifference));
-      if (hop.status != HopStatus::kHopped) failure = hop.message;
+      const RunnerApex start = family.at(leg, height + (i - 1) * kDifference);
+      const Hop hop = leg.hop(start);
+      if (hop.status != HopStatus::kHopped)
+        failure = hop.message;
+      else if (hop.apex.speed * start.speed < 0)
+        failure = fmt::format("turned back, from {:.6g} to {:.6g} m/s", start.speed, hop.apex.speed);
       heights[static_cast<std::size_t>(i)] = hop.apex.height;
     }
     rise = heights[1] - height;
     multiplier = (heights[2] - heights[0]) / (2 * kDifference);
   }
-
-  static RunnerApex apexAt(const SpringLeg& leg, double energy, double height) {
-    return {height, std::sqrt(std::max(2 * (energy / leg.mass - leg.g * height), 0.))};
-  }
 };
 
 // Halves Newton's way until the runner hops, and comes nearer.
-bool advance(const SpringLeg& leg, double energy, ApexTrial& at) {
+bool advance(const SpringLeg& leg, const ApexFamily& family, ApexTrial& at) {
   const double way = at.rise / (1 - at.multiplier);
   for (double share = 1; share > 1e-4; share /= 2) {
-    const ApexTrial next(leg, energy, at.apex.height + share * way);
+    const ApexTrial next(leg, family, at.apex.height + share * way);
     if (next.failure || !(std::abs(next.rise) < std::abs(at.rise))) continue;
     at = next;
     return true;
@@ -118,6 +135,8 @@ Hop SpringLeg::hop(const RunnerApex& apex, double timeLimit) const {
   if (!(drop > 0)) return ended(hop, HopStatus::kNoTouchdown, "the apex is too low to set the leg");
   hop.time = std::sqrt(2 * drop / g);
   hop.touchdown << -restLength * std::cos(angle), restLength * std::sin(angle), apex.speed, -g * hop.time;
+  hop.takeoff = hop.touchdown;
+  if (stretching(hop.touchdown) >= 0) return ended(hop, HopStatus::kNoRise, "took off downwards");
   const auto events = endings(*this);
   const auto end = internal::integrateToEvent<Vector4d>(
       [this](const Vector4d& x) { return stanceRate(*this, x); }, hop.touchdown, timeLimit,
@@ -136,13 +155,13 @@ Hop SpringLeg::hop(const RunnerApex& apex, double timeLimit) const {
 
 RunningGait findRunningGait(const SpringLeg& leg, const RunnerApex& guess) {
   constexpr int kMostIterations = 50;
-  const double energy = leg.apexEnergy(guess);
-  ApexTrial at(leg, energy, guess.height);
+  const ApexFamily family(leg, guess);
+  ApexTrial at(leg, family, guess.height);
   RunningGait gait;
   gait.message = fmt::format("not found in {} iterations", kMostIterations);
   for (; gait.iterations < kMostIterations; ++gait.iterations) {
     if (at.failure || std::abs(at.rise) <= 1e-13 * leg.restLength) break;
-    if (!advance(leg, energy, at)) break;
+    if (!advance(leg, family, at)) break;
   }
   gait.apex = at.apex;
   gait.multiplier = at.multiplier;

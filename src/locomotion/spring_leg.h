@@ -16,7 +16,7 @@ enum class HopStatus {
   kHopped,
   kNoTouchdown,  ///< the apex is too low to set the leg at its angle
   kFell,         ///< the mass reached the ground
-  kNoRise,       ///< the foot left the ground while the mass went down: there is no next apex
+  kNoRise,       ///< the foot left the ground, perhaps at once, while the mass went down: no next apex
   kTimeLimit     ///< the leg did not stretch again in time
 };
 
@@ -55,12 +55,12 @@ struct SpringLeg {
 struct RunningGait {
   enum class Status {
     kFound,
-    kFell,   ///< the runner does not even hop from the guess: see `message`
+    kFell,   ///< the runner does not even hop from the guess, or turns back: see `message`
     kStuck,  ///< no shorter way along Newton's direction comes nearer
     kIterationLimit
   };
   Status status = Status::kIterationLimit;
-  RunnerApex apex{};
+  RunnerApex apex{};      ///< running the way of the guess
   double multiplier = 0;  ///< of the apex height at equal energy; stable if its modulus is below one
   bool isStable = false;
   double residual = 0;  ///< |height of the next apex - height|, metres
@@ -68,7 +68,8 @@ struct RunningGait {
   std::string message{};
 };
 
-/// The gait near `guess`, with its energy, by damped Newton steps on the apex map. Throws Error as SpringLeg.
+/// The gait near `guess`, with its energy and the direction of its speed, by damped Newton steps on the apex
+/// map. Throws Error as SpringLeg.
 [[nodiscard]] RunningGait findRunningGait(const SpringLeg& leg, const RunnerApex& guess);
 
 }  // namespace rex

@@ -41,6 +41,26 @@ std::vector<Vector2d> hull(std::vector<Vector2d> points) {
   return chain;
 }
 
+// Rounding leaves corners in one place, and on the line between their neighbours. They go, one by one, since
+// two in one place on a line only turn out to lie on it when one of them has gone.
+std::vector<Vector2d> withoutCornersBetween(std::vector<Vector2d> corners, double size) {
+  std::size_t good = 0;  // in a row
+  for (std::size_t i = 0; good < corners.size() && corners.size() > 3;) {
+    const std::size_t n = corners.size();
+    const Vector2d in = corners[i] - corners[(i + n - 1) % n], out = corners[(i + 1) % n] - corners[i];
+    const bool turns = in.dot(out) < 0 || cross(in, out) > kFlat * in.norm() * out.norm();
+    if (turns && in.norm() > kFlat * size) {
+      ++good;
+      i = (i + 1) % n;
+    } else {
+      good = 0;
+      corners.erase(corners.begin() + static_cast<std::ptrdiff_t>(i));
+      i = (i + n - 1) % n % corners.size();
+    }
+  }
+  return corners;
+}
+
 double areaOf(const std::vector<Vector2d>& corners) {
   double sum = 0;
   for (std::size_t i = 2; i < corners.size(); ++i)
@@ -89,7 +109,8 @@ SupportPolygon supportPolygon(const Eigen::Ref<const Eigen::Matrix2Xd>& contacts
   for (const Vector2d& p : corners) width = std::max(width, std::abs(cross(b - a, p - a)));
   if (width <= kFlat * (b - a).squaredNorm())
     return made(SupportShape::kLine, {a, b}, 0, "all contacts lie on one line, which supports no area");
-  return made(SupportShape::kPolygon, corners, areaOf(corners), "");
+  const std::vector<Vector2d> few = withoutCornersBetween(corners, (b - a).norm());
+  return made(SupportShape::kPolygon, few, areaOf(few), "");
 }
 
 SupportMargin supportMargin(const SupportPolygon& support, const Vector2d& point, double wantedMargin) {

@@ -14,7 +14,8 @@ enum class SupportShape { kNone, kPoint, kLine, kPolygon };
 /// The hull of all contacts on flat, level ground, seen from above (slide 11:7).
 struct SupportPolygon {
   SupportShape shape = SupportShape::kNone;
-  /// 2 x k, x and y in W, metres: counter-clockwise without corners in between; of a line its ends.
+  /// 2 x k, x and y in W, metres: counter-clockwise, a billionth of the size or more apart, and each turning
+  /// by more than a billionth of a radian; of a line its ends.
   Eigen::Matrix2Xd corners{};
   double area = 0;        ///< m^2
   std::string message{};  ///< where it is no polygon: what the contacts lack

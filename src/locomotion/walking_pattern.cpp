@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -25,6 +27,9 @@ constexpr double kHomeward = 0.1;
 
 Matrix3d turned(double yaw) { return Eigen::AngleAxisd(yaw, Vector3d::UnitZ()).toRotationMatrix(); }
 
+// The turn from one yaw to another by the shorter way.
+double turnBetween(double from, double to) { return std::remainder(to - from, 2 * std::numbers::pi); }
+
 // Yaw and place of the middle of a sole.
 struct SolePlace {
   Vector3d p;
@@ -38,7 +43,7 @@ SolePlace solePlace(const WalkPhase& phase, Side side, double lift) {
   const double share = profileAt({.shape = ProfileShape::kMinimumJerk}, phase.share).position;
   at.p.head<2>() += share * (phase.swing->p - foot.p);
   at.p.z() = lift * std::pow(4 * phase.share * (1 - phase.share), 3);
-  at.yaw += share * (phase.swing->yaw - foot.yaw);
+  at.yaw += share * turnBetween(foot.yaw, phase.swing->yaw);
   return at;
 }
 
@@ -53,9 +58,10 @@ Targets targetsAt(const Legs& legs, const WalkPhase& phase, const Vector3d& cent
   const auto foot = [&](const char* name, BodyId body, const SolePlace& at) {
     return Task{.name = name, .map = poseTask(body, {turned(at.yaw), at.p}, legs.p_FS)};
   };
+  const double middle = left.yaw + turnBetween(left.yaw, right.yaw) / 2;
   return {.places = {foot("left foot", legs.leftFoot, left), foot("right foot", legs.rightFoot, right),
                      Task{.name = "centre of mass", .map = centerOfMassTask(), .target = center}},
-          .trunk = {.name = "trunk", .map = orientationTask(legs.trunk, turned((left.yaw + right.yaw) / 2))}};
+          .trunk = {.name = "trunk", .map = orientationTask(legs.trunk, turned(middle))}};
 }
 
 // Brings q to the targets, and returns how far feet and centre of mass are off.

@@ -36,8 +36,8 @@ struct WalkingPattern {
 };
 
 /// Where the middle of a sole should be at time t (seconds), turned by yaw, on level ground at z = 0:
-/// standing, or on its way by a minimum jerk profile, with a bump of the height `lift`. Throws Error as
-/// phaseAt().
+/// standing, or on its way by a minimum jerk profile, with a bump of the height `lift`, turning the shorter
+/// way round. Throws Error as phaseAt().
 [[nodiscard]] Pose solePose(const WalkPlan& plan, Side side, double t, double lift);
 
 /// Plans footsteps' zero moment point, its centre of mass by preview control (slide 11:12), and postures by

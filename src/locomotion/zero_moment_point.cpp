@@ -32,6 +32,7 @@ ZeroMomentPoint zmpOf(const Vector3d& force, const Vector3d& torque, double grou
 ZeroMomentPoint zmpOfMotion(const Model& model, const VectorArg& q, const VectorArg& v, const VectorArg& a,
                             double groundHeight, const Vector3d& gravity_W) {
   requireFinite("zero moment point: ground height", groundHeight);
+  requireFinite("zero moment point: joint positions q", q);
   requireFinite("zero moment point: joint velocities v", v);
   requireFinite("zero moment point: joint accelerations a", a);
   requireFinite("zero moment point: gravity", gravity_W);

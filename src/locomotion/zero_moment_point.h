@@ -20,7 +20,7 @@ struct ZeroMomentPoint {
 
 /// What the ground at z = groundHeight (metres, level) must do so that the robot at q (nq) moves with v and a
 /// (nv each), if nothing else touches it. Throws Error as inverseDynamics(), for a scene without mass, and
-/// for a height that is not finite.
+/// for numbers that are not finite.
 [[nodiscard]] ZeroMomentPoint zmpOfMotion(const Model& model, const VectorArg& q, const VectorArg& v,
                                           const VectorArg& a, double groundHeight = 0,
                                           const Eigen::Vector3d& gravity_W = earthGravity());

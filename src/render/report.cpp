@@ -1,5 +1,6 @@
 #include "render/report.h"
 
+#include <algorithm>
 #include <cassert>
 #include <charconv>
 #include <map>
@@ -49,10 +50,18 @@ Film withoutCaption(Film film, const std::string& title) {
   return film;
 }
 
-std::string stillOf(const Film& film, const Eigen::Vector3d& view, const RendererOptions& options) {
+// What is shown from `start` on; of the frames before it the last.
+Film fromTime(const Film& film, double start) {
+  const auto isLater = [&](const Frame& frame) { return frame.time > start; };
+  const auto later = std::find_if(film.begin(), film.end(), isLater);
+  return {later == film.begin() ? later : later - 1, film.end()};
+}
+
+std::string stillOf(const Film& film, const Report& report) {
+  const RendererOptions& options = report.still;
   Renderer renderer(options);  // refuses sizes that have no aspect
-  const Camera camera = framing(film, view, static_cast<double>(options.width) / options.height);
-  return encodePng(drawStill(film, camera, renderer));
+  const Camera camera = framing(film, report.view, static_cast<double>(options.width) / options.height);
+  return encodePng(drawStill(fromTime(film, report.start), camera, renderer));
 }
 
 // As the viewer reads it.
@@ -110,7 +119,7 @@ std::string reportPage(const Report& report) {
                              {"layout", report.figures.empty() ? "alone" : "withFigures"},
                              {"backgroundTop", partsOf(report.still.backgroundTop)},
                              {"backgroundBottom", partsOf(report.still.backgroundBottom)},
-                             {"still", internal::base64(stillOf(film, report.view, report.still))},
+                             {"still", internal::base64(stillOf(film, report))},
                              {"start", fmt::format("{}", report.start)},
                              {"facts", factsOf(report)},
                              {"figures", figuresOf(report)},

@@ -25,7 +25,7 @@ struct Report {
   std::vector<ReportFigure> figures{};
   double start = 0;  ///< seconds into the film, where it stands until it is played; played at once if 0
   std::vector<std::pair<std::string, std::string>> facts{};  ///< rows of a table: name and value
-  /// Of the picture where nothing can be played; what can be has the same background.
+  /// Of the picture at `start` where nothing can be played; what can be has the same background.
   RendererOptions still{.width = 800, .height = 600};
 };
 

@@ -83,22 +83,27 @@ TrajectoryTerm limitsTerm(const VectorArg& lower, const VectorArg& upper) {
 }
 
 TrajectoryTerm velocityLimitsTerm(const VectorArg& limit) {
-  for (const double number : limit)
-    if (!(number > 0))
-      throw Error(
-          {.what = "limits of velocity", .found = fmt::format("{:g}", number), .wanted = "positive numbers"});
-  const auto function = [limit = Eigen::VectorXd(limit)](const TrajectoryWindow& window,
-                                                         FunctionValue& value) {
-    const Eigen::Index n = window.X.rows();
-    requireSize("limits of velocity", limit.size(), n);
-    value.y.resize(2 * n);
-    value.J.setZero(2 * n, 2 * n);
-    for (Eigen::Index i = 0; i < n; ++i) {
+  std::vector<std::pair<Eigen::Index, double>> limits;  // places and numbers of the finite ones
+  for (Eigen::Index i = 0; i < limit.size(); ++i) {
+    if (!(limit[i] > 0))
+      throw Error({.what = "limits of velocity",
+                   .found = fmt::format("{:g}", limit[i]),
+                   .wanted = "positive numbers"});
+    if (std::isfinite(limit[i])) limits.emplace_back(i, limit[i]);
+  }
+  const auto function = [limits, n = limit.size()](const TrajectoryWindow& window, FunctionValue& value) {
+    requireSize("limits of velocity", n, window.X.rows());
+    const auto rows = static_cast<Eigen::Index>(limits.size());
+    value.y.resize(2 * rows);
+    value.J.setZero(2 * rows, 2 * n);
+    Eigen::Index row = 0;
+    for (const auto& [i, most] : limits) {
       const double velocity = (window.X(i, 1) - window.X(i, 0)) / window.tau;
-      value.y[i] = velocity - limit[i];
-      value.y[n + i] = -velocity - limit[i];
-      value.J(i, n + i) = value.J(n + i, i) = 1 / window.tau;
-      value.J(i, i) = value.J(n + i, n + i) = -1 / window.tau;
+      value.y[row] = velocity - most;
+      value.y[rows + row] = -velocity - most;
+      value.J(row, n + i) = value.J(rows + row, i) = 1 / window.tau;
+      value.J(row, i) = value.J(rows + row, n + i) = -1 / window.tau;
+      ++row;
     }
   };
   return {.name = "velocity limits", .kind = TermKind::kInequality, .order = 1, .function = function};

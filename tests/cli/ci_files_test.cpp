@@ -139,7 +139,8 @@ class Gradescope : public CiFiles {
         "export GIT_AUTHOR_DATE=2005-01-01T00:00:00 GIT_COMMITTER_DATE=2005-01-01T00:00:00\n"
         "mkdir -p tests && echo x >tests/secret && echo build >.gitignore && git init -q . && git add -A\n"
         "git -c user.name=x -c user.email=x@y commit -q -m x\n"
-        "share/ci/gradescope/make-zip 98-template autograder.zip\n"
+        "echo 'Correct Horse Battery' >../secret.txt\n"
+        "share/ci/gradescope/make-zip 98-template autograder.zip ../secret.txt\n"
         "mkdir -p a/submission && unzip -q autograder.zip -d a/source && cp a/source/run_autograder a/\n"
         "a/source/setup.sh",
         root());
@@ -157,6 +158,76 @@ TEST_F(Gradescope, ZipHoldsWhatGradesAndNothingToCopyFrom) {
   EXPECT_EQ(::access((source() / "run_autograder").c_str(), X_OK), 0);
   for (const char* name : {"solution.cpp", "wrong", "../../tests", "../../.git"})
     EXPECT_FALSE(fs::exists(source() / "rex/exercises/98-template" / name)) << name;
+}
+
+TEST_F(Gradescope, KeepsTheSecretToItsOwner) {
+  const auto isPrivate = [](const fs::path& file) {
+    return (fs::status(file).permissions() & (fs::perms::group_all | fs::perms::others_all)) ==
+           fs::perms::none;
+  };
+  EXPECT_EQ(fileText(source() / "secret"), "Correct Horse Battery\n");
+  EXPECT_TRUE(isPrivate(root() / "autograder.zip"));
+  EXPECT_TRUE(isPrivate(source() / "secret")) << "setup.sh takes the rights away";
+  fs::permissions(source() / "secret", fs::perms::all);
+  write(root() / "a" / "submission" / "main.cpp", "int main() {");
+  shell("a/run_autograder", root());
+  EXPECT_TRUE(isPrivate(source() / "secret"));
+}
+
+TEST_F(Gradescope, RefusesSecretsThatAreNone) {
+  const auto make = [&](const std::string& secret) {
+    return shell("share/ci/gradescope/make-zip 98-template other.zip " + secret, root());
+  };
+  EXPECT_EQ(make("none.txt").exitCode, 64);
+  EXPECT_THAT(make("none.txt").error, HasSubstr("none.txt: cannot be read"));
+  write(root() / "short.txt", "a b c d e f g h i j\n");
+  EXPECT_THAT(make("short.txt").error, HasSubstr("short.txt: too short: wanted at least 16 characters"));
+  write(root() / "told.txt", fileText(root() / "scripts" / "rex").substr(10));
+  EXPECT_THAT(make("told.txt").error, HasSubstr("told.txt: is committed in this tree"));
+  EXPECT_FALSE(fs::exists(root() / "other.zip"));
+  const ProcessResult without = make("");
+  EXPECT_TRUE(without.ok()) << without.error;
+  EXPECT_THAT(without.output, HasSubstr("with the same hidden cases for all"));
+}
+
+// A program that looks for it everywhere, while it is compiled and while it runs.
+constexpr const char* kSpy = R"(#include "exercise.h"
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+Eigen::Vector2d rotated(const Eigen::Vector2d& p, double a) {
+  for (const char* name : {"SECRET", "/proc/self/environ", "/proc/self/cmdline", "/proc/1/cmdline"}) {
+    std::ifstream file(name);
+    std::cout << name << ": " << (file ? "open " : "closed ") << file.rdbuf() << "\n";
+    std::cout.clear();
+  }
+  return {std::cos(a) * p.x() - std::sin(a) * p.y(), std::sin(a) * p.x() + std::cos(a) * p.y()};
+}
+int main() {}
+)";
+
+TEST_F(Gradescope, TakesHiddenCasesByASecretThatNoProgramSees) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizers read and map what a sandbox forbids";
+#endif
+  if (rexIn(root() / "build", {"doctor", "--sandbox", "--level", "1"}).code != 0)
+    GTEST_SKIP() << "no sandbox can be had here";
+  fs::create_directories(root() / "a" / "submission");
+  const fs::path file = root() / "a" / "submission" / "main.cpp";
+  std::string spy = kSpy;
+  spy.replace(spy.find("SECRET"), 6, (source() / "secret").string());
+  write(file, spy);
+  const ProcessResult run = shell("a/run_autograder", root());
+  EXPECT_TRUE(run.ok()) << run.output << run.error;
+  const std::string told = fileText(result());
+  EXPECT_THAT(told, HasSubstr("hidden:")) << "the result names the secret by its hash";
+  EXPECT_THAT(told, HasSubstr("secret: closed"));
+  for (const std::string& text : {told, run.output, run.error}) EXPECT_THAT(text, Not(HasSubstr("Horse")));
+  write(file, "#include \"" + (source() / "secret").string() + "\"\n" + kGood);
+  EXPECT_TRUE(shell("a/run_autograder", root()).ok());
+  EXPECT_THAT(fileText(result()), HasSubstr("\"score\": 0,\n  \"exec"));
+  EXPECT_THAT(fileText(result()), Not(HasSubstr("Horse")));
 }
 
 TEST_F(Gradescope, GradesWhatIsHandedIn) {
@@ -227,6 +298,26 @@ TEST_F(ManyByEngines, HandsAnArrayToSlurm) {
   EXPECT_THAT(fileText(root() / "arguments"), HasSubstr("--requeue --array=1-2%5 "));
   EXPECT_TRUE(shell("scripts/rex collect results", root()).ok());
   EXPECT_EQ(fileText(root() / "results" / "grades.csv"), fileText(root() / "whole" / "grades.csv"));
+}
+
+// Numbers beyond the largest of the cluster come in arrays of their own; only those that were asked for.
+TEST_F(ManyByEngines, CutsArraysThatAreTooLongForSlurm) {
+  fs::create_directories(root() / "bin");
+  write(root() / "bin" / "sbatch", "#!/bin/bash\necho \"$2\"; grep -o 'ID + [0-9]*'\n");
+  write(root() / "bin" / "scontrol", "#!/bin/bash\necho 'MaxArraySize            = 101'\n");
+  for (const char* name : {"sbatch", "scontrol"})
+    fs::permissions(root() / "bin" / name, fs::perms::owner_all);
+  write(root() / "results" / "tasks.tsv", std::string(251, '\n'));
+  const auto handIn = [&](const std::string& more) {
+    return shell("PATH=$PWD/bin:$PATH share/ci/grade-slurm results 5" + more, root());
+  };
+  EXPECT_EQ(handIn("").output,
+            "--array=1-100%5\nID + 0\n--array=1-100%5\nID + 100\n--array=1-50%5\nID + 200\n");
+  EXPECT_EQ(handIn(" --tasks 3,7-9,99-102,250").output,
+            "--array=3,7-9,99-100%5\nID + 0\n--array=1-2%5\nID + 100\n--array=50%5\nID + 200\n");
+  const ProcessResult refused = handIn(" --tasks 'x;y'");
+  EXPECT_EQ(refused.exitCode, 64);
+  EXPECT_THAT(refused.error, HasSubstr("--tasks: found 'x;y', wanted numbers such as 3,7-9"));
 }
 
 }  // namespace

@@ -103,14 +103,16 @@ TEST(Program, AnswersUnknownWordsWithTheNearest) {
 }
 
 TEST(Program, ExplainsWrongUse) {
-  expectUsageError({"test"}, "rex test: EXERCISE is required");
-  expectUsageError({"test", "01", "--seed", "x"}, "rex test: Could not convert: --seed = x");
+  expectUsageError({"test"}, "rex test: either EXERCISE or --all is required");
+  expectUsageError({"test", "01", "--seed", "x"},
+                   "rex test: --seed: found x, wanted a whole number, not negative");
   expectUsageError({"test", "01", "--main", "a.cpp", "--solution"}, "--main excludes --solution");
   expectUsageError({"test", "01", "--debug", "--level", "1"}, "--debug excludes --level");
   expectUsageError({"dev", "check", "--seeds", "0"}, "rex dev check: --seeds");
-  expectUsageError({"dev", "strip"}, "either EXERCISE, or --release with -o DIR, is required");
-  expectUsageError({"dev", "strip", "--release"}, "either EXERCISE, or --release with -o DIR, is required");
-  expectUsageError({"dev", "strip", "01", "--release", "-o", "x"}, "either EXERCISE, or --release");
+  expectUsageError({"dev", "strip"}, "EXERCISE is required");
+  expectUsageError({"dev", "strip", "--release"}, "is made by: scripts/rex dev release DIR");
+  expectUsageError({"dev", "release"}, "DIR is required");
+  expectUsageError({"dev", "stats"}, "DIR is required");
   expectUsageError({"test", "no-such-exercise"}, "no exercise is called 'no-such-exercise'");
 }
 

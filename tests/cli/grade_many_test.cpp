@@ -148,6 +148,46 @@ TEST_F(GradeManyTest, GradesAgainOnlyWhatHasChanged) {
   EXPECT_THAT(flat(grade({"--secret-file", secret}).error), kept("2 graded, 1 kept"));
 }
 
+// Programs are kept by what they were made of: another seed takes the same one, other files never do.
+TEST_F(GradeManyTest, KeepsCompiledProgramsForOtherSeeds) {
+  handIn("good", kGood), handIn("wrong", kWrong), handIn("broken", kBroken);
+  const std::vector<std::string> seven = {"--seed", "7"},
+                                 kept = {"--seed", "7", "--workers", (root() / "workers").string()};
+  EXPECT_EQ(grade(seven, "plain").code, 0);
+  for (const char* out : {"first", "second"}) {
+    EXPECT_EQ(grade(kept, out).code, 0);
+    EXPECT_EQ(table(out), table("plain"));
+    for (const char* student : {"good", "wrong", "broken"}) {
+      Json with = result(student, out), without = result(student, "plain");
+      with.erase("volatile"), without.erase("volatile");
+      EXPECT_EQ(with, without) << student;
+      const fs::path log = fs::path(student) / "98-template" / "build.log";
+      EXPECT_EQ(fileText(root() / out / log), fileText(root() / "plain" / log));
+    }
+  }
+  std::vector<fs::path> folders;
+  for (const auto& entry : fs::directory_iterator(root() / "workers")) folders.push_back(entry.path());
+  ASSERT_EQ(folders.size(), 2u) << "what does not compile is not kept, nothing else is left";
+  EXPECT_EQ(fs::status(root() / "workers").permissions(), fs::perms::owner_all);
+  // Proof that they are taken: exchanged, they give each other's grades.
+  fs::rename(folders[0] / "worker", root() / "exchanged");
+  fs::rename(folders[1] / "worker", folders[0] / "worker");
+  fs::rename(root() / "exchanged", folders[1] / "worker");
+  EXPECT_EQ(grade({"--seed", "8", "--workers", (root() / "workers").string()}, "third").code, 0);
+  EXPECT_EQ(result("wrong", "third").at("score"), result("good", "plain").at("score"));
+  EXPECT_EQ(result("good", "third").at("score"), result("wrong", "plain").at("score"));
+  EXPECT_EQ(grade({"--seed", "8"}, "fourth").code, 0);
+  EXPECT_EQ(result("good", "fourth").at("outcome"), "pass");
+}
+
+TEST_F(GradeManyTest, SaysWhereProgramsCannotBeKept) {
+  handIn("good", kGood);
+  write(root() / "workers", "no folder");
+  const Ended ended = grade({"--workers", (root() / "workers").string()});
+  EXPECT_EQ(ended.code, 3);
+  EXPECT_THAT(flat(ended.error), HasSubstr("cannot keep programs in"));
+}
+
 TEST_F(GradeManyTest, RepeatsWhatTheGraderFailedAt) {
   handIn("adam", kGood);
   EXPECT_EQ(grade().code, 0);
@@ -240,6 +280,62 @@ TEST_F(GradeManyTest, AsksForTheSecretOfTheList) {
   EXPECT_THAT(flat(ended.error), HasSubstr("the secret of the course: found none, wanted "));
 }
 
+TEST_F(GradeManyTest, WritesReportsBesideResultsWithoutGradingAgain) {
+  handIn("adam", kGood), handIn("bob", kBroken);
+  const fs::path summary = results() / "adam/98-template/summary.md",
+                 junit = results() / "bob/98-template/junit.xml";
+  EXPECT_EQ(grade().code, 0);
+  EXPECT_FALSE(fs::exists(summary));
+  const Ended first = grade({"--reports=markdown,junit"});
+  EXPECT_EQ(first.code, 0) << first.error;
+  EXPECT_THAT(flat(first.error),
+              HasSubstr("Reports: 4 written, 0 kept 2 submissions at sandbox level 0: 0 graded"));
+  const std::string expected =
+      rex({"report", (results() / "adam/98-template/results.json").string(), "--format", "markdown"}).output;
+  EXPECT_EQ(fileText(summary), expected);
+  EXPECT_THAT(fileText(junit), HasSubstr("<testsuite"));
+  fs::remove(summary);
+  write(junit, "half a rep");
+  EXPECT_THAT(flat(grade({"--reports=markdown,junit"}).error),
+              HasSubstr("Reports: 2 written, 2 kept 2 submissions at sandbox level 0: 0 graded, 2 kept"));
+  EXPECT_EQ(fileText(summary), expected);
+  handIn("adam", kWrong);
+  EXPECT_THAT(flat(grade({"--reports"}).error), HasSubstr("Reports: 1 written, 1 kept")) << "alone: markdown";
+  EXPECT_NE(fileText(summary), expected);
+  // What was made of a result goes with it.
+  fs::remove(results() / "bob/98-template/results.json");
+  EXPECT_EQ(rex({"collect", results().string(), "--reports=junit"}).code, 3);
+  EXPECT_FALSE(fs::exists(junit));
+  const Ended unknown = grade({"--reports=markdwn"});
+  EXPECT_EQ(unknown.code, 64);
+  EXPECT_THAT(flat(unknown.error), HasSubstr("--reports: found markdwn, wanted one of exercism, github"));
+  EXPECT_THAT(flat(unknown.error), HasSubstr("did you mean 'markdown'?"));
+}
+
+TEST_F(GradeManyTest, GradesAgainForEvidenceThatIsMissing) {
+  handIn("adam", kWrong);
+  EXPECT_EQ(grade().code, 0);
+  EXPECT_EQ(result("adam").at("volatile").at("evidence"), false);
+  EXPECT_THAT(flat(grade({"--evidence"}).error), HasSubstr("1 graded, 0 kept")) << "there is none yet";
+  EXPECT_THAT(flat(grade({"--evidence"}).error), HasSubstr("0 graded, 1 kept"));
+  EXPECT_THAT(flat(grade().error), HasSubstr("0 graded, 1 kept")) << "more than asked for";
+  Json json = result("adam");
+  json.at("volatile").at("checks").at(0)["picture"] = "checks/a.png";
+  const fs::path folder = results() / "adam/98-template";
+  write(folder / "results.json", json.dump());
+  EXPECT_THAT(flat(grade().error), HasSubstr("0 graded, 1 kept")) << "nobody asked";
+  fs::create_directories(folder / "checks");
+  write(folder / "checks/a.png", "");
+  EXPECT_THAT(flat(grade({"--evidence"}).error), HasSubstr("0 graded, 1 kept"));
+  fs::remove(folder / "checks/a.png");
+  EXPECT_THAT(flat(grade({"--evidence"}).error), HasSubstr("1 graded, 0 kept"));
+  // Pictures of another text would mislead.
+  write(folder / "checks/old.png", "");
+  handIn("adam", kGood);
+  EXPECT_THAT(flat(grade().error), HasSubstr("1 graded, 0 kept"));
+  EXPECT_FALSE(fs::exists(folder / "checks"));
+}
+
 TEST_F(GradeManyTest, RefusesFoldersInsideEachOther) {
   handIn("adam", kGood);
   for (const fs::path& out : {in() / "results", in(), root()}) {
@@ -248,6 +344,9 @@ TEST_F(GradeManyTest, RefusesFoldersInsideEachOther) {
     EXPECT_THAT(flat(ended.error), HasSubstr("wanted a folder apart from"));
   }
   EXPECT_EQ(rex({"grade", (root() / "none").string(), "--out", results().string()}).code, 64);
+  const Ended denied = grade({}, "../../../../../../../proc/results");
+  EXPECT_EQ(denied.code, 3);
+  EXPECT_THAT(flat(denied.error), HasSubstr("cannot make the folder of results: found "));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "base/interruption.h"
 #include "base/process.h"
 #include "cli/template_project.h"
+#include "support/tiny_disk.h"
 
 namespace rex::cli {
 namespace {
@@ -133,6 +134,28 @@ TEST_F(StudentLoop, ResetsAndKeepsEveryBackup) {
   fs::remove(main());
   EXPECT_EQ(rex({"reset", "98"}).code, 0);
   EXPECT_EQ(fileText(main()), starter);
+}
+
+TEST_F(StudentLoop, ResetsNothingOnAFullDisk) {
+  const TinyDisk disk(64);
+  REX_NEEDS_DISK(disk);
+  const fs::path root = disk.path() / "project";
+  fs::create_directories(root / "exercises/98-template");
+  for (const char* file : {"exercise.toml", "exercise.h", "main.cpp", "solution.cpp"})
+    fs::copy_file(exercise() / file, root / "exercises/98-template" / file);
+  write(root / "exercises/98-template/main.cpp", kGood);
+  for (const std::size_t size : {4096u, 1u})
+    for (std::ofstream fill(root / "fill", std::ios::app); fill << std::string(size, 'x') << std::flush;) {
+    }
+  const char* const arguments[] = {"rex", "reset", "98"};
+  ::testing::internal::CaptureStdout();
+  ::testing::internal::CaptureStderr();
+  EXPECT_EQ(runCommandLine(3, arguments, {root, REX_BINARY_DIR "/tests/template"}), 3);
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
+  EXPECT_THAT(flat(::testing::internal::GetCapturedStderr()),
+              HasSubstr("main.cpp: cannot write the student's file: found No space left on device"));
+  EXPECT_EQ(fileText(root / "exercises/98-template/main.cpp"), kGood);
+  EXPECT_FALSE(fs::exists(root / "exercises/98-template/main.backup-1.cpp"));
 }
 
 TEST_F(StudentLoop, ResetsByTheCopyThatStudentsGet) {

@@ -19,7 +19,8 @@ TEST_F(WorkflowTest, ListsExercises) {
 }
 
 TEST_F(WorkflowTest, FindsExercisesByNumberTopicFolderAndNearMiss) {
-  for (const char* name : {"98", "template", "98-template", "exercises/98-template/"})
+  for (const char* name :
+       {"98", "template", "98-template", "exercises/98-template/", "./exercises/98-template/main.cpp"})
     EXPECT_EQ(rex({"dev", "check", name, "--list-gates"}).code, 0) << name;
   const Ended ended = rex({"test", "98-templat"});
   EXPECT_EQ(ended.code, 64);
@@ -86,6 +87,11 @@ TEST_F(WorkflowTest, ExplainsAMissingFileAMissingFunctionAndAForbiddenCall) {
   const Ended missing = rex({"test", "98", "--main", root() / "none.cpp"});
   EXPECT_EQ(missing.code, 2);
   EXPECT_THAT(missing.error, HasSubstr("none.cpp: error: cannot be graded: found no file"));
+  EXPECT_THAT(missing.output, Not(HasSubstr("rex reset")));
+  fs::remove(exercise() / "main.cpp");
+  const Ended gone = rex({"test", "98"});
+  EXPECT_EQ(gone.code, 2);
+  EXPECT_THAT(gone.output, HasSubstr("as it was handed out: scripts/rex reset 98-template\n"));
   write(exercise() / "main.cpp", "int main() {}\n");
   const Ended lacking = rex({"test", "98"});
   EXPECT_EQ(lacking.code, 2);
@@ -127,7 +133,12 @@ TEST_F(WorkflowTest, SaysWhenTheGraderIsAtFault) {
 
 TEST_F(WorkflowTest, SaysWhenTheProjectOrTheMachineIsAtFault) {
   write(root() / "out", "a file where a folder should be");
-  for (const char* command : {"test", "run", "debug"}) EXPECT_EQ(rex({command, "98"}).code, 3) << command;
+  for (const char* command : {"test", "run", "debug"}) {
+    const Ended blocked = rex({command, "98"});
+    EXPECT_EQ(blocked.code, 3) << command;
+    EXPECT_THAT(flat(blocked.error),
+                HasSubstr("out/98-template: cannot make the folder for results: found Not a directory"));
+  }
   fs::remove(root() / "out");
   const Ended readOnly = rex({"test", "98", "-o", "/proc"});
   EXPECT_EQ(readOnly.code, 3);
@@ -212,7 +223,8 @@ TEST_F(WorkflowTest, PassesTheTemplateThroughAllGates) {
   EXPECT_EQ(ended.code, 0) << ended.output << ended.error;
   const std::string gates = rex({"dev", "check", "98", "--list-gates"}).output;
   EXPECT_EQ(gates,
-            "main-current\npoints\nnames\nrelease\nmain-floor\nsolution\nsanitizers\nwrong/clockwise\nwrong/"
+            "main-current\npoints\nnames\nrelease\nevidence\nmain-floor\nsolution\nsanitizers\nwrong/"
+            "clockwise\nwrong/"
             "library\n");
 }
 
@@ -252,6 +264,11 @@ TEST_F(WorkflowTest, FindsMistakesThatAreNotCaught) {
   expectOpenGate("wrong/clockwise", "check 'keeps-length' passes although: turns clockwise.");
   replace(exercise() / "wrong" / "clockwise.cpp", "keeps-length", "keeps-lenght");
   expectOpenGate("wrong/clockwise", "no check is called 'keeps-lenght'");
+  replace(exercise() / "wrong" / "clockwise.cpp", "shown by: quarter-turn", "shown by: keeps-length");
+  replace(exercise() / "wrong" / "clockwise.cpp", "keeps-lenght", "quarter-turn");
+  expectOpenGate("wrong/clockwise", "check 'keeps-length' leaves no picture");
+  replace(exercise() / "wrong" / "clockwise.cpp", "// shown by: keeps-length\n", "");
+  expectOpenGate("evidence", "no wrong variant names a check that shows its mistake");
   replace(exercise() / "wrong" / "library.cpp", "rex::rotationAboutAxis(angle, Eigen::Vector3d::UnitZ())",
           "Eigen::Matrix3d::Identity()");
   expectOpenGate("wrong/library", "nothing noticed");
@@ -275,12 +292,14 @@ TEST_F(WorkflowTest, MakesANewExercise) {
   }
 }
 
-TEST_F(WorkflowTest, WritesTheStudentRelease) {
-  const Ended ended = rex({"dev", "strip", "--release", "-o", root() / "students"});
-  EXPECT_EQ(ended.code, 0) << ended.error;
-  EXPECT_TRUE(fs::exists(root() / "students/exercises/98-template/main.cpp"));
-  EXPECT_FALSE(fs::exists(root() / "students/exercises/98-template/solution.cpp"));
-  EXPECT_EQ(rex({"dev", "strip", "--release", "-o", root() / "students"}).code, 64);
+TEST_F(WorkflowTest, SaysWhereTheReleaseOfEarlierVersionsWent) {
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"dev", "strip", "--release", "-o", "students"}, {"dev", "strip", "-o", "students"}}) {
+    const Ended ended = rex(arguments);
+    EXPECT_EQ(ended.code, 64);
+    EXPECT_THAT(ended.error, HasSubstr("the student release is made by: scripts/rex dev release students"));
+  }
+  EXPECT_THAT(rex({"dev", "strip"}).error, HasSubstr("EXERCISE is required"));
 }
 
 }  // namespace

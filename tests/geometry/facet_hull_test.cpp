@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
+#include "optim/linear_program.h"
 #include "support/expect_error.h"
 
 namespace rex {
@@ -57,6 +58,53 @@ TEST(FacetHull, HasTheFacetsThatAllChoicesOfPointsGive) {
     EXPECT_EQ(hull.normals.cols(), static_cast<Index>(planes.size())) << trial;
     for (const VectorXd& plane : planes) EXPECT_LT(distance(plane, hull), 1e-9) << trial;
   }
+}
+
+// How far from `start` a ray leaves the hull, by its facets and by a linear program over its points.
+double exitByFacets(const FacetHull& hull, const VectorXd& start, const VectorXd& way) {
+  const VectorXd speed = hull.normals.transpose() * way,
+                 distance = hull.offsets - hull.normals.transpose() * start;
+  double exit = HUGE_VAL;
+  for (Index f = 0; f < speed.size(); ++f)
+    if (speed[f] > 0) exit = std::min(exit, distance[f] / speed[f]);
+  return exit;
+}
+
+double exitByProgram(const MatrixXd& points, const VectorXd& start, const VectorXd& way) {
+  const Index d = points.rows(), n = points.cols();
+  MatrixXd A(d + 1, n + 1);
+  A << points.colwise() - start, -way, Eigen::RowVectorXd::Ones(n), 0;
+  const LinearSolution solution = minimizeLinear(A, VectorXd::Unit(d + 1, d), -VectorXd::Unit(n + 1, n));
+  EXPECT_EQ(solution.status, LinearStatus::kOptimal);
+  return -solution.value;
+}
+
+// Thin along one axis, and half of the points all but twice.
+TEST(FacetHull, OfThinPointsAndTwinsIsThatOfTheLinearProgram) {
+  Rng rng(10);
+  int full = 0;
+  for (int trial = 0; trial < 600; ++trial) {
+    const int d = 6, n = 18 + rng.index(16);
+    VectorXd scale = VectorXd::Ones(d);
+    scale[rng.index(d)] = std::pow(10, -rng.uniform(4, 8));
+    const double apart = std::pow(10, -rng.uniform(9, 15));
+    MatrixXd points = scale.asDiagonal() * randomMatrix(rng, d, n);
+    for (int k = 0; k < n / 2; ++k) points.col(k) = points.col(n - 1 - k) + apart * rng.normalVector(d);
+    const FacetHull hull = facetHull(points);
+    if (hull.dimension < d) continue;
+    ++full;
+    const VectorXd middle = points.rowwise().mean();
+    const MatrixXd wide = scale.cwiseInverse().asDiagonal() * points;
+    for (int k = 0; k < 3; ++k) {
+      const VectorXd way = rng.normalVector(d);
+      const double exit = exitByProgram(wide, wide.rowwise().mean(), way);
+      EXPECT_NEAR(exitByFacets(hull, middle, scale.asDiagonal() * way), exit, 1e-6 * exit)
+          << trial << ": thin " << scale.minCoeff() << ", twins " << apart << " apart";
+    }
+    const double behind = ((hull.normals.transpose() * points).colwise() - hull.offsets).maxCoeff();
+    EXPECT_LT(behind, 1e-13) << trial;
+  }
+  EXPECT_GT(full, 500);
 }
 
 TEST(FacetHull, MeasuresTheVolumesOfKnownBodies) {

@@ -3,7 +3,10 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
+#include <map>
+#include <regex>
 #include <set>
+#include <sstream>
 #include <thread>
 
 #include <arpa/inet.h>
@@ -151,19 +154,75 @@ class Battery : public ::testing::Test {
   Toolchain toolchain_ = readToolchain(kOutput / "build.json");
 };
 
+// A line of attacks.tsv: what may become of a program that means harm, level by level.
 struct Attack {
   std::string file;
-  std::set<Outcome> outcomes;
+  std::map<int, std::set<Outcome>> outcomes{};  // by sandbox level
   int mostPoints = 0;
-  std::vector<std::string> checks{};  ///< those that matter, where each takes its time
+  std::vector<std::string> checks{};  // those that matter, where each takes its time
   bool whileCompiling = false;
+  std::string row{};  // of the table in share/doc/sandbox.md
 };
 
 void PrintTo(const Attack& attack, std::ostream* out) { *out << attack.file; }
 
+std::vector<std::string> cut(const std::string& text, char separator) {
+  std::vector<std::string> fields;
+  std::istringstream stream(text);
+  for (std::string field; std::getline(stream, field, separator);) fields.push_back(field);
+  return fields;
+}
+
+std::set<Outcome> outcomesFrom(const std::string& text) {
+  std::set<Outcome> outcomes;
+  for (const std::string& name : cut(text, '|')) outcomes.insert(outcomeFromString(name).value());
+  return outcomes;
+}
+
+Attack attackFrom(const std::string& line) {
+  const std::vector<std::string> fields = cut(line, '\t');
+  Attack attack{.file = fields.at(0)};
+  attack.row = "| " + attack.file + " |";
+  for (const int level : {3, 2, 1}) {
+    const std::string& names = fields.at(static_cast<std::size_t>(4 - level));
+    attack.outcomes[level] = outcomesFrom(names);
+    attack.row += " " + std::regex_replace(names, std::regex("\\|"), ", ") + " |";
+  }
+  attack.mostPoints = std::stoi(fields.at(4));
+  if (fields.at(5) != "all") attack.checks = cut(fields.at(5), ',');
+  attack.whileCompiling = fields.at(6) == "compiler";
+  attack.row += " " + fields.at(4) + " | " + fields.at(7) + " |";
+  return attack;
+}
+
+std::vector<Attack> knownAttacks() {
+  std::istringstream lines(readTextFile(kFolder / "attacks.tsv"));
+  std::vector<Attack> attacks;
+  std::string line;
+  for (std::getline(lines, line); std::getline(lines, line);) attacks.push_back(attackFrom(line));
+  return attacks;
+}
+
 class Attacks : public Battery, public ::testing::WithParamInterface<Attack> {
  protected:
   fs::path source() const { return kFolder / "attacks" / (GetParam().file + ".cpp"); }
+
+  void expectHarmless(const GradeResult& result, const SubmissionOptions& options, bool compiled) const {
+    const Attack& attack = GetParam();
+    const int level = options.sandbox.level;
+    RecordProperty("level_" + std::to_string(level), std::string(toString(result.outcome)));
+    EXPECT_THAT(attack.outcomes.at(level), ::testing::Contains(result.outcome))
+        << toString(result.outcome) << ": " << result.message
+        << (result.checks.empty() ? "" : "; " + result.checks.front().message);
+    EXPECT_LE(result.score, attack.mostPoints);
+    if (attack.file.starts_with("A37")) {
+      EXPECT_THAT(result.message, HasSubstr("forbidden-call"));
+    }
+    if (compiled) expectNoHarm(result, options);
+    const std::string log = readTextFile(options.results.parent_path() / "build.log");
+    EXPECT_THAT(log, Not(HasSubstr("root:x:0:0")));
+    EXPECT_LE(log.size(), 64u << 10);
+  }
 };
 
 TEST_P(Attacks, GainNothingAndHarmNobody) {
@@ -177,69 +236,76 @@ TEST_P(Attacks, GainNothingAndHarmNobody) {
     SubmissionOptions options = optionsFor(source(), level, "attack");
     options.checks = attack.checks;
     if (!built || attack.whileCompiling) built = buildSubmission(toolchain_, exercise(), options);
-    const GradeResult result = gradeBuilt(*built, toolchain_, exercise(), options);
-    EXPECT_THAT(attack.outcomes, ::testing::Contains(result.outcome))
-        << toString(result.outcome) << ": " << result.message
-        << (result.checks.empty() ? "" : "; " + result.checks.front().message);
-    EXPECT_LE(result.score, attack.mostPoints);
-    if (attack.file.starts_with("A37")) {
-      EXPECT_THAT(result.message, HasSubstr("forbidden-call"));
-    }
-    if (!built->worker.empty()) expectNoHarm(result, options);
-    EXPECT_THAT(readTextFile(options.results.parent_path() / "build.log"), Not(HasSubstr("root:x:0:0")));
-    EXPECT_LE(readTextFile(options.results.parent_path() / "build.log").size(), 64u << 10);
+    expectHarmless(gradeBuilt(*built, toolchain_, exercise(), options), options, !built->worker.empty());
     EXPECT_EQ(honest(level), before);
   }
 }
 
+// Root has a user of its own for each program; others share theirs with what they grade. The same once more
+// by a user who owns nothing, at the levels that he is offered.
+TEST_P(Attacks, GainNothingFromAnOrdinaryUser) {
+  if (::geteuid() != 0) GTEST_SKIP() << "this is an ordinary user: the test before has tried";
+  constexpr const char* kNobodysNumber = "60705";
+  const std::vector<std::string> asUser = {"setpriv", "--reuid",      kNobodysNumber,
+                                           "--regid", kNobodysNumber, "--clear-groups"};
+  const auto run = [&](const std::vector<std::string>& words) {
+    std::vector<std::string> command = asUser;
+    command.insert(command.end(), words.begin(), words.end());
+    return runProcess(command, {.timeout = 600});
+  };
+  const std::string self = fs::read_symlink("/proc/self/exe").string();
+  if (!run({"test", "-x", self}).ok() || !run({"test", "-r", (kFolder / "attacks.tsv").string()}).ok())
+    GTEST_SKIP() << "setpriv is missing, or an ordinary user cannot read " << kFolder;
+  const std::string name = "All/Attacks.GainNothingAndHarmNobody/" + GetParam().file;
+  const ProcessResult ended = run({self, "--gtest_filter=" + name});
+  if (ended.output.find("[  SKIPPED ] 1 test") != std::string::npos)
+    GTEST_SKIP() << "no sandbox is offered to an ordinary user here";
+  EXPECT_TRUE(ended.ok()) << ended.output << ended.error;
+  EXPECT_THAT(ended.output, HasSubstr("[  PASSED  ] 1 test"));
+}
+
 using enum Outcome;
-INSTANTIATE_TEST_SUITE_P(
-    All, Attacks,
-    ::testing::Values(
-        Attack{"A01_ends_before_main", {runtimeError}}, Attack{"A02_prints_result", {fail}},
-        Attack{"A03_writes_result", {fail}}, Attack{"A04_ends_after_success", {runtimeError}},
-        Attack{"A04_aborts_after_success", {runtimeError}},
-        Attack{"A05_ignores_signals", {timeLimit}, 0, {"examples"}},
-        Attack{"A06_sleeps", {timeLimit}, 0, {"examples"}}, Attack{"A07_takes_memory", {memoryLimit}},
-        Attack{"A08_large_globals", {compileError, runtimeError, memoryLimit}},
-        Attack{"A08_large_thread_locals", {compileError, runtimeError, memoryLimit}},
-        Attack{"A09_forks", {runtimeError, securityEvent}}, Attack{"A10_stays_behind", {fail, securityEvent}},
-        Attack{"A11_floods", {outputLimit}}, Attack{"A12_walks_the_files", {fail, timeLimit, outputLimit}},
-        Attack{"A13_includes_passwords", {compileError}, 0, {}, true},
-        Attack{"A13_embeds_passwords", {compileError}, 0, {}, true},
-        Attack{"A13_includes_reference", {compileError}, 0, {}, true},
-        // At level 1 the compiler sees that a file exists, and stops because it may not open it.
-        Attack{"A13_looks_for_files", {fail, compileError}, 0, {}, true},
-        Attack{"A14_includes_zero", {compileError}, 0, {}, true},
-        Attack{"A14_includes_stdin", {compileError}, 0, {}, true},
-        Attack{"A14_includes_tty", {compileError}, 0, {}, true},
-        Attack{"A14_includes_descriptor", {compileError}, 0, {}, true},
-        Attack{"A15_template_bomb", {compileError}, 0, {}, true},
-        Attack{"A16_constexpr_bomb", {compileError}, 0, {}, true},
-        Attack{"A16_macro_bomb", {compileError}, 0, {}, true},
-        Attack{"A16_large_object", {compileError}, 0, {}, true},
-        Attack{"A16_includes_itself", {compileError}, 0, {}, true},
-        Attack{"A17_reads_the_grader", {securityEvent}},
-        // Where landlock cannot keep signals in, a filter refuses them all, also those to oneself.
-        Attack{"A18_kills_everybody", {runtimeError, fail}},
-        Attack{"A19_preloads", {runtimeError, protocolError, fail}},
-        Attack{"A20_replaces_the_library",
-               {compileError, runtimeError, protocolError, timeLimit, fail},
-               0,
-               {"examples"}},
-        Attack{"A20_replaces_the_start", {compileError, runtimeError, protocolError, fail}},
-        Attack{"A21_bends_comparisons", {compileError, fail}}, Attack{"A22_not_finite", {fail}},
-        Attack{"A23_wrong_sizes", {fail, runtimeError, protocolError}},
-        Attack{"A23_huge_resize", {memoryLimit}}, Attack{"A25_knows_the_examples", {fail}, 4},
-        Attack{"A31_escapes", {fail, outputLimit}},
-        Attack{"A32_recurses", {runtimeError}, 0, {"examples", "squares"}},
-        Attack{"A33_throws", {runtimeError}}, Attack{"A34_threads", {timeLimit}, 0, {"examples"}},
-        Attack{"A34_changes_later", {fail}}, Attack{"A35_counts", {fail}, 4},
-        Attack{"A36_bends_arithmetic", {protocolError, runtimeError}, 8},
-        Attack{"A37_hides_among_main", {compileError}}, Attack{"A37_asks_main", {compileError}},
-        Attack{"A37_smuggles_a_lambda", {compileError}}, Attack{"A37_looks_it_up", {compileError}},
-        Attack{"A38_speaks_as_the_sandbox", {compileError}, 0, {}, true}),
-    [](const auto& attack) { return attack.param.file; });
+INSTANTIATE_TEST_SUITE_P(All, Attacks, ::testing::ValuesIn(knownAttacks()),
+                         [](const auto& attack) { return attack.param.file; });
+
+std::set<std::string> filesOfAttacks() {
+  std::set<std::string> files;
+  for (const auto& entry : fs::directory_iterator(kFolder / "attacks"))
+    files.insert(entry.path().stem().string());
+  return files;
+}
+
+// What share/doc/sandbox.md says of the battery is what is tried here: rows of attacks.tsv, and names of
+// tests for the attacks that are no single program.
+TEST(Documentation, TellsOfEveryAttackAsItIsTried) {
+  const std::string page = readTextFile(fs::path(REX_SOURCE_DIR) / "share" / "doc" / "sandbox.md");
+  std::set<std::string> files = filesOfAttacks();
+  for (const Attack& attack : knownAttacks()) {
+    EXPECT_THAT(page, HasSubstr(attack.row + "\n"));
+    EXPECT_EQ(files.erase(attack.file), 1u) << attack.file;
+  }
+  EXPECT_THAT(files, ::testing::ElementsAre("A24_talks"));
+  std::set<std::string> numbers;
+  for (const std::string& line : cut(page, '\n'))
+    if (line.starts_with("| A")) numbers.insert(line.substr(2, 3));
+  for (int k = 1; k <= 38; ++k)
+    EXPECT_EQ(numbers.count("A" + std::string(k < 10 ? "0" : "") + std::to_string(k)), 1u) << k;
+}
+
+TEST(Documentation, NamesTestsThatThereAre) {
+  const std::string page = readTextFile(fs::path(REX_SOURCE_DIR) / "share" / "doc" / "sandbox.md");
+  std::set<std::string> known;
+  const ::testing::UnitTest& all = *::testing::UnitTest::GetInstance();
+  for (int suite = 0; suite < all.total_test_suite_count(); ++suite)
+    for (int test = 0; test < all.GetTestSuite(suite)->total_test_count(); ++test)
+      known.insert(std::string(all.GetTestSuite(suite)->name()) + "." +
+                   all.GetTestSuite(suite)->GetTestInfo(test)->name());
+  const std::regex name("`((?:Archive)?Battery\\.A\\w+)`");
+  int named = 0;
+  for (std::sregex_iterator found(page.begin(), page.end(), name), end; found != end; ++found, ++named)
+    EXPECT_EQ(known.count((*found)[1]), 1u) << (*found)[1];
+  EXPECT_GE(named, 6);
+}
 
 TEST_F(Battery, A13SeesNothingBesideACompilerInTheHome) {
   const fs::path home = temporary_.path() / "home", main = temporary_.path() / "main.cpp";

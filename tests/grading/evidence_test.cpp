@@ -6,6 +6,7 @@
 #include "geometry/pose.h"
 #include "render/png.h"
 #include "support/file_text.h"
+#include "support/fresh_folder.h"
 #include "support/needs_osmesa.h"
 
 namespace rex::grading {
@@ -24,7 +25,7 @@ TEST(Comparison, DrawsTheRowsThatDifferMost) {
   EXPECT_EQ(figure.series[6].label, "row 5, got");
   EXPECT_EQ(figure.series[6].y[3], 5);
   EXPECT_EQ(figure.series[7].y[3], 0);
-  EXPECT_EQ(figure.series[0].x.size(), 9u);
+  EXPECT_EQ(figure.series[0].y.size(), 9u);
 }
 
 TEST(Comparison, LaysTallOnesDown) {
@@ -47,8 +48,7 @@ Film ball() {
 
 class WriteEvidence : public ::testing::Test {
  protected:
-  void SetUp() override { std::filesystem::remove_all(folder_); }
-  std::filesystem::path folder_ = std::filesystem::path(REX_BINARY_DIR) / "tests-out" / "evidence";
+  const std::filesystem::path folder_ = freshFolderOfTest("evidence") / "checks";
 };
 
 TEST_F(WriteEvidence, DrawsTheFirstFigure) {
@@ -57,6 +57,24 @@ TEST_F(WriteEvidence, DrawsTheFirstFigure) {
   EXPECT_EQ(files.picture, "line.png");
   EXPECT_EQ(files.replay, "");
   EXPECT_EQ(readPng(folder_ / "line.png").width, 800);
+}
+
+TEST_F(WriteEvidence, DrawsFiguresInARow) {
+  Figure narrow = comparison("y", Eigen::VectorXd::Zero(9), Eigen::VectorXd::Ones(9));
+  narrow.width = 500;
+  narrow.height = 700;
+  const Evidence evidence{
+      .figures = {comparison("x", Eigen::VectorXd::Zero(9), Eigen::VectorXd::Ones(9)), narrow}};
+  EXPECT_EQ(writeEvidence(evidence, "row", "A row", folder_).picture, "row.png");
+  const Image row = readPng(folder_ / "row.png");
+  EXPECT_EQ(row.width, 1300);
+  EXPECT_EQ(row.height, 700);
+  EXPECT_EQ(row.at(400, 650), (std::array{255, 255, 255}));  // below the lower one
+  const auto isDark = [&](int x, int y) { return row.at(x, y)[0] < 128; };
+  int dark = 0;
+  for (int x = 800; x < 1300; ++x)
+    for (int y = 0; y < 700; ++y) dark += isDark(x, y) ? 1 : 0;
+  EXPECT_GT(dark, 500);
 }
 
 TEST_F(WriteEvidence, OpensAFilmAtItsMoment) {

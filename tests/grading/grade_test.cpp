@@ -3,6 +3,7 @@
 #include <array>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
 
 #include <gmock/gmock.h>
@@ -15,6 +16,7 @@
 #include "grading/worker_process.h"
 #include "interface.h"
 #include "support/expect_error.h"
+#include "support/fresh_folder.h"
 
 namespace rex::grading {
 namespace {
@@ -60,8 +62,7 @@ TEST(Grade, DrawsVisibleChecksThatDoNotHold) {
   };
   const std::vector<RunnableCheck> checks = {check("seen", Group::visible, off),
                                              check("unseen", Group::hidden, off)};
-  const std::filesystem::path folder = std::filesystem::path(REX_BINARY_DIR) / "tests-out" / "checks";
-  std::filesystem::remove_all(folder);
+  const std::filesystem::path folder = freshFolderOfTest("evidence") / "checks";
   const GradeResult result =
       grade({}, checks, {.worker = kGood, .signature = Student::signature(), .evidence = folder},
             [](const GradeResult&) {});
@@ -82,6 +83,33 @@ TEST(Grade, SavesBeforeTheFirstAndAfterEveryCheck) {
   EXPECT_THAT(saved, ::testing::ElementsAre(Pair(Outcome::graderError, 0), Pair(Outcome::graderError, 1),
                                             Pair(Outcome::pass, 2)));
   EXPECT_EQ(last.message, "");
+}
+
+// Kills all processes that this one started.
+void killChildren() {
+  std::ifstream children("/proc/self/task/" + std::to_string(::getpid()) + "/children");
+  for (pid_t child = 0; children >> child;) ::kill(child, SIGKILL);
+}
+
+TEST(Grade, AsksOnceMoreWhenSomebodyKilledTheWorker) {
+  int attempts = 0;
+  const auto killedAtFirst = [&](int times) {
+    attempts = 0;
+    return gradeGood({check("a", Group::visible, [&, times](Check& judge, Student& student) {
+      judge.near("square before", student.square(2), 4, 1e-9);
+      if (attempts++ < times) killChildren();
+      judge.near("square", student.square(3), 9, 1e-9);
+    })});
+  };
+  EXPECT_EQ(killedAtFirst(0).outcome, Outcome::pass);
+  EXPECT_EQ(attempts, 1);
+  EXPECT_EQ(killedAtFirst(1).outcome, Outcome::pass);
+  EXPECT_EQ(attempts, 2);
+  const GradeResult twice = killedAtFirst(2);
+  EXPECT_EQ(attempts, 2) << "no third time";
+  EXPECT_EQ(twice.outcome, Outcome::runtimeError);
+  EXPECT_EQ(twice.score, 0);
+  EXPECT_THAT(twice.checks[0].message, HasSubstr("was killed"));
 }
 
 TEST(Grade, RefusesAWorkerOfAnotherExercise) {

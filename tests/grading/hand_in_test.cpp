@@ -152,6 +152,40 @@ TEST_F(HandInTest, TakesArchivesAsFolders) {
   expectComplaint("in: the same name of a student, spelt differently: found 'zoe' and 'zoe.zip', wanted one");
 }
 
+TEST_F(HandInTest, TakesArchivesWithOneFolderAroundAll) {
+  write("zoe.zip", zipOf({{.name = "Zoe's work/01/main.cpp", .text = "// zoe"},
+                          {.name = "Zoe's work/01/build/main.cpp"},
+                          {.name = "__MACOSX/Zoe's work/01/._main.cpp"},
+                          {.name = "Zoe's work/receipt.json"}}));
+  const HandIns found = read();
+  EXPECT_THAT(namesOf(found), ElementsAre("zoe 01-kinematics"));
+  EXPECT_THAT(found.complaints, IsEmpty());
+  EXPECT_EQ(found.files[0].text, "// zoe");
+  EXPECT_EQ(found.files[0].from, folder() / "zoe.zip/Zoe's work/01/main.cpp");
+  EXPECT_THAT(found.notes, ElementsAre(HasSubstr("in/zoe.zip: taken from its folder 'Zoe's work'"),
+                                       HasSubstr("Zoe's work/01/build/main.cpp: not taken"),
+                                       HasSubstr("._main.cpp: not taken")));
+  // A folder that is no exercise decides nothing.
+  write("zoe.zip", zipOf({{.name = "01/main.cpp", .text = "// zoe"}, {.name = "01/build/main.cpp"}}));
+  EXPECT_THAT(read().complaints, IsEmpty());
+  EXPECT_EQ(read().files[0].text, "// zoe");
+  write("zoe.zip", zipOf({{.name = "work/01-kinematcs/main.cpp"}}));
+  EXPECT_THAT(read().complaints,
+              ElementsAre(HasSubstr("in/zoe.zip/work/01-kinematcs: no exercise is called '01-kinematcs'"),
+                          HasSubstr("in/zoe.zip: nothing to grade")));
+}
+
+TEST_F(HandInTest, RefusesArchivesWithTwoRoots) {
+  const auto expectRefusal = [&](const std::string& other, const std::string& found) {
+    write("zoe.zip", zipOf({{.name = "work/01/main.cpp"}, {.name = other}}));
+    expectComplaint("in/zoe.zip: exercises in more than one folder: found " + found + ", wanted one of them");
+    EXPECT_THAT(namesOf(read()), ElementsAre("good 01-kinematics"));
+  };
+  expectRefusal("old/01/main.cpp", "'old' and 'work'");
+  expectRefusal("old/02/main.cpp", "'old' and 'work'");
+  expectRefusal("01/main.cpp", "its top and 'work'");
+}
+
 TEST_F(HandInTest, TakesNeitherOfTwoSpellings) {
   write("zoe/01/main.cpp"), write("zoe/kinematics/main.cpp");
   expectComplaint(

@@ -60,5 +60,16 @@ TEST(StandardInputUse, IsTheFirstInCode) {
   EXPECT_EQ(standardInputUse("// std::cin\n\"scanf\"; int cinema; mystdin();"), std::pair(0, 0));
 }
 
+TEST(MacroDefinition, IsFoundHoweverItIsWritten) {
+  for (const char* source :
+       {"#define rex mine", "int a;\n  #  define\trex", "#define rex(x) x", "%:define rex mine",
+        "#/* a */define/* b */rex mine", "#def\\\nine re\\  \nx mine", "#define \\\n rex mine\n"})
+    EXPECT_GT(macroDefinitionLineOf("rex", source), 0) << source;
+  EXPECT_EQ(macroDefinitionLineOf("rex", "int a;\n\n#def\\\nine rex mine\n"), 3);
+  for (const char* source : {"", "define rex", "#define rexx", "#define a rex", "// #define rex",
+                             "#undef rex", "\"#define rex\"", "define", "#define"})
+    EXPECT_EQ(macroDefinitionLineOf("rex", source), 0) << source;
+}
+
 }  // namespace
 }  // namespace rex::grading

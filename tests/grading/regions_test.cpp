@@ -80,18 +80,29 @@ TEST(StripHidden, RemovesHiddenBlocks) {
   EXPECT_REX_ERROR(stripHidden("// <solution a>\n", "check.cpp"), "check.cpp:1: unknown marker 'solution'");
 }
 
-TEST(SecretLines, AreThoseThatOnlyTheSolutionHas) {
-  EXPECT_THAT(secretLines(kSolution, "solution.cpp"),
-              ElementsAre("double squareOfNumber(double x) { return x * x; }",
-                          "const double square = squareOfNumber(r);", "return 3.14159265358979 * square;"));
-  EXPECT_THAT(
-      secretLines("// <solution a>\nint  publicLineHere = 1;\n// </solution>\nint publicLineHere = 1;\n",
-                  "s.cpp"),
-      ElementsAre());
+TEST(Blocks, AreTheLinesThatStudentsDoNotGet) {
+  const std::string text =
+      "a();\n// <solution a>\n  int x;\n\n  x = 1;\n// <todo>\n//| x();\n// </solution>\n"
+      "// <solution b>\n// why\n// </solution>\n";
+  const auto blocks = solutionBlocks(text, "s.cpp");
+  ASSERT_EQ(blocks.size(), 2u);
+  ASSERT_EQ(blocks[0].size(), 3u);
+  EXPECT_EQ(blocks[0][0].number, 3);
+  EXPECT_EQ(blocks[0][0].text, "int x;");
+  EXPECT_EQ(blocks[0][2].number, 5);
+  EXPECT_EQ(blocks[0][2].text, "x = 1;");
+  EXPECT_EQ(blocks[1][0].text, "// why");
+  EXPECT_EQ(textOutsideRegions(text, "s.cpp"), "a();\n");
+  const auto hidden = hiddenBlocks("a();\n// <hidden>\nb();\n// </hidden>\n", "c.cpp");
+  ASSERT_EQ(hidden.size(), 1u);
+  EXPECT_EQ(hidden[0][0].number, 3);
+  EXPECT_EQ(hidden[0][0].text, "b();");
+  EXPECT_REX_ERROR(hiddenBlocks("// <hidden>\n", "c.cpp"), "c.cpp:1: no '// </hidden>' closes this");
 }
 
 TEST(ComposeVariant, ReplacesTheNamedRegionOnly) {
   const WrongVariant variant = composeVariant(kSolution, "solution.cpp", R"(// caught by: area, size-grows
+// shown by: area
 // mistake: forgets pi.
 
 // <solution area>
@@ -100,6 +111,7 @@ TEST(ComposeVariant, ReplacesTheNamedRegionOnly) {
 )",
                                               "wrong/pi.cpp");
   EXPECT_THAT(variant.caughtBy, ElementsAre("area", "size-grows"));
+  EXPECT_THAT(variant.shownBy, ElementsAre("area"));
   EXPECT_EQ(variant.mistake, "forgets pi.");
   EXPECT_EQ(variant.source, R"(#include "exercise.h"
 

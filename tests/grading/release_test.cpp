@@ -39,6 +39,10 @@ class ReleaseTest : public ::testing::Test {
     fs::create_directories((root() / name).parent_path());
     std::ofstream(root() / name) << text;
   }
+  static std::string told(const Release& release) {
+    return release.scan.leaks.empty() ? "no leak" : toString(release.scan.leaks.front());
+  }
+  std::string released() const { return told(writeStudentRelease(root(), target())); }
   fs::path root() const { return temporary_.path() / "root"; }
   fs::path target() const { return temporary_.path() / "target"; }
   std::string released(const std::string& name) const { return fileText(target() / name); }
@@ -47,7 +51,11 @@ class ReleaseTest : public ::testing::Test {
 };
 
 TEST_F(ReleaseTest, HoldsWhatStudentsNeedAndNothingElse) {
-  writeStudentRelease(root(), target());
+  const Release release = writeStudentRelease(root(), target());
+  EXPECT_EQ(told(release), "no leak");
+  EXPECT_EQ(release.exercises, 1);
+  EXPECT_EQ(release.scan.files, 14);
+  EXPECT_FALSE(release.secrets.empty());
   std::set<std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(target()))
     if (entry.is_regular_file()) files.insert(fs::relative(entry.path(), target()).string());
@@ -64,29 +72,29 @@ TEST_F(ReleaseTest, HoldsWhatStudentsNeedAndNothingElse) {
 }
 
 TEST_F(ReleaseTest, MayLieInsideTheRoot) {
-  writeStudentRelease(root(), root() / "out" / "students");
+  EXPECT_EQ(told(writeStudentRelease(root(), root() / "out" / "students")), "no leak");
   EXPECT_TRUE(fs::exists(root() / "out/students/LICENSE"));
   EXPECT_FALSE(fs::exists(root() / "out/students/out"));
 }
 
 TEST_F(ReleaseTest, NeedsNoExercise) {
   fs::remove_all(root() / "exercises" / "01-demo");
-  writeStudentRelease(root(), target());
+  EXPECT_EQ(released(), "no leak");
   EXPECT_EQ(released("exercises/CMakeLists.txt"), "exercises/CMakeLists.txt");
 }
 
 TEST_F(ReleaseTest, KeepsWhatLiesInTheTarget) {
   fs::create_directories(target());
-  EXPECT_NO_THROW(writeStudentRelease(root(), target()));
+  EXPECT_EQ(released(), "no leak");
   EXPECT_REX_ERROR(writeStudentRelease(root(), target()),
                    "target: will not overwrite: wanted an empty or new folder");
 }
 
 TEST_F(ReleaseTest, RefusesSolutionTextHoweverItIsLaidOut) {
   write("exercises/01-demo/README.md", "Hint:\n\n    return multiply(\n      a, 2);\n");
-  EXPECT_REX_ERROR(
-      writeStudentRelease(root(), target()),
-      "README.md:3: a line of the solution would reach students: found 'return multiply(a, 2);'");
+  EXPECT_EQ(released(),
+            "exercises/01-demo/README.md:3: a line of the solution would reach students: found 'return "
+            "multiply(a, 2);' of exercises/01-demo/solution.cpp:3");
   EXPECT_FALSE(fs::exists(target()));
   write("exercises/01-demo/README.md", "\n");
   write("exercises/01-demo/check.cpp", "int expected(int a) { return multiply(a, 2); }\n");
@@ -106,19 +114,33 @@ TEST_F(ReleaseTest, RefusesSolutionTextInAnyFileButTheLibrary) {
        {"share/doc/writing.md", "exercises/01-demo/exercise.h", "exercises/01-demo/exercise.toml",
         "exercises/02-next/README.md", "scripts/rex", "README.md"}) {
     write(file, "one\n  return multiply(a, 2);\n");
-    EXPECT_REX_ERROR(writeStudentRelease(root(), target()),
-                     (root() / file).string() + ":2: a line of the solution would reach students");
+    EXPECT_THAT(released(), HasSubstr(std::string(file) + ":2: a line of the solution would reach students"));
     EXPECT_FALSE(fs::exists(target())) << file;
     write(file, "one\n");
   }
   write("src/base/error.h", "return multiply(a, 2);\n");
-  EXPECT_NO_THROW(writeStudentRelease(root(), target()));
+  EXPECT_EQ(released(), "no leak");
 }
 
 TEST_F(ReleaseTest, TakesTheTemplateForPublic) {
   write("share/template/solution.cpp", "return multiply(a, 2);\n");
   write("share/doc/writing.md", "return multiply(a, 2);\n");
-  EXPECT_NO_THROW(writeStudentRelease(root(), target()));
+  EXPECT_EQ(released(), "no leak");
+}
+
+TEST_F(ReleaseTest, LooksForTheSecretOfTheCourse) {
+  write("secret", "the secret of the course\n");
+  write("src/base/error.h", "// THE SECRET of the course\n");
+  const Release release = writeStudentRelease(root(), target(), root() / "secret");
+  EXPECT_EQ(told(release), "src/base/error.h:1: the secret of the course would reach students: found of " +
+                               (root() / "secret").string() + ":1");
+  EXPECT_FALSE(fs::exists(target()));
+}
+
+TEST_F(ReleaseTest, SaysWhatItCannotWrite) {
+  EXPECT_REX_ERROR(writeStudentRelease(root(), "/proc/students"), "cannot write the student release: found ");
+  write("file", "");
+  EXPECT_REX_ERROR(writeStudentRelease(root(), root() / "file" / "students"), "file");
 }
 
 TEST_F(ReleaseTest, PassesOnComplaintsAboutMarkers) {

@@ -29,6 +29,8 @@ class StudentBuildTest : public ::testing::Test {
           "#pragma once\nint twice(int a);\nnamespace rex { int answer(int a); }\n");
     write(shared_->path() / "exercise" / "answer_internal.h",
           "inline int inlined(int a) { return a + 1; }\n");
+    write(shared_->path() / "src" / "part" / "part.h", "#pragma once\ninline int part() { return 1; }\n");
+    write(shared_->path() / "src" / "part" / "part.cpp", "namespace rex { int whole() { return 2; } }\n");
     build({"-shared", "-fPIC", "lib.cpp", "-o", "librex_student.so"});
     build({"-c", "worker.cpp", "-o", "worker.o"});
   }
@@ -48,7 +50,7 @@ class StudentBuildTest : public ::testing::Test {
   Toolchain toolchain() const {
     return {.compiler = "g++",
             .flags = {"-std=c++20", "-O1", "-Wall", "-isystem", "/usr/include/eigen3", "-iquote",
-                      shared_->path() / "exercise"},
+                      shared_->path() / "exercise", "-isystem", shared_->path() / "src"},
             .linkFlags = {"-Wl,-rpath," + shared_->path().string()},
             .workerObject = shared_->path() / "worker.o",
             .grader = {},
@@ -58,7 +60,7 @@ class StudentBuildTest : public ::testing::Test {
   StudentObject compileFile(const path& file, bool debug = false) const {
     return compileStudent(
         toolchain(), {{"rex::answer", "it is what you find out"}, {"rex::internal", "it is not for use"}},
-        {.main = file, .workFolder = temporary_.path() / "work", .debug = debug});
+        {.main = file, .workFolder = temporary_.path() / "work", .debug = debug, .publicHeadersOnly = true});
   }
 
   StudentObject compile(const std::string& source) const {
@@ -142,19 +144,51 @@ TEST_F(StudentBuildTest, RefusesForbiddenCalls) {
       "you find out. Write it yourself instead [forbidden-call]");
 }
 
+constexpr const char* kNotPublic =
+    ": only public headers of the library, of the system and of the exercise may be included "
+    "[forbidden-call]";
+
 TEST_F(StudentBuildTest, RefusesInternalHeadersHoweverTheyAreIncluded) {
   const std::string rest = "int twice(int a) { return inlined(a); }\nint main() {}\n";
   const StudentObject plain = compile("#include \"exercise.h\"\n#include \"answer_internal.h\"\n" + rest);
   EXPECT_FALSE(plain.ok);
   EXPECT_EQ(first(plain.messages),
-            "main.cpp:2:1: error: includes answer_internal.h: it is not for use [forbidden-call]");
+            std::string("main.cpp:2:1: error: includes answer_internal.h") + kNotPublic);
   const StudentObject pasted = compile(
       "#define QUOTED(x) #x\n#define NAME(x, y) QUOTED(x##y)\n"
       "#include NAME(answer_int, ernal.h)\n" +
       rest);
   EXPECT_FALSE(pasted.ok);
-  EXPECT_EQ(first(pasted.messages),
-            "main.cpp: error: includes answer_internal.h: it is not for use [forbidden-call]");
+  EXPECT_EQ(first(pasted.messages), std::string("main.cpp: error: includes answer_internal.h") + kNotPublic);
+}
+
+TEST_F(StudentBuildTest, TakesPublicHeadersOnly) {
+  const std::string rest = "int twice(int a) { return 2 * a; }\nint main() {}\n";
+  const StudentObject fine = compile(
+      "#include \"exercise.h\"\n#include <Eigen/Core>\n#include <vector>\n#include <unistd.h>\n"
+      "#include \"part/part.h\"\n#include \"../src/part/part.h\"\n" +
+      rest);
+  EXPECT_TRUE(fine.ok) << first(fine.messages);
+  write(temporary_.path() / "stolen file.txt", "// all of it\n");
+  const std::pair<std::string, std::string> refused[] = {
+      {"part/part.cpp", "part.cpp"},
+      {"../exercise/../src/part/part.cpp", "part.cpp"},
+      {(temporary_.path() / "stolen file.txt").string(), "stolen file.txt"},
+      {"/dev/null", "null"},
+      {"answer_internal.h", "answer_internal.h"}};
+  for (const auto& [name, shown] : refused) {
+    const StudentObject object = compile("#include \"exercise.h\"\n#include \"" + name + "\"\n" + rest);
+    EXPECT_FALSE(object.ok) << name;
+    EXPECT_EQ(first(object.messages), "main.cpp:2:1: error: includes " + shown + kNotPublic);
+  }
+}
+
+TEST_F(StudentBuildTest, RefusesAnotherNameForTheLibrary) {
+  const StudentObject object = compile(
+      "#define rex mine\n#include \"exercise.h\"\nint twice(int a) { return 2 * a; }\nint main() {}\n");
+  EXPECT_FALSE(object.ok);
+  EXPECT_EQ(first(object.messages),
+            "main.cpp:1:1: error: defines a macro 'rex', which is the name of the library [forbidden-call]");
 }
 
 TEST_F(StudentBuildTest, IncludesNothingThatLiesBesideTheFile) {

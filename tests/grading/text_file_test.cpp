@@ -20,7 +20,7 @@ TEST(TextFile, NamesTheFileInComplaints) {
   EXPECT_REX_ERROR(readTextFile(temporary.path()), temporary.path().string() + ": cannot read this file");
   EXPECT_REX_ERROR(readTextFile("no/such/file"), "no/such/file: cannot read this file");
   EXPECT_REX_ERROR(writeTextFile(temporary.path(), ""),
-                   temporary.path().string() + ": cannot write this file");
+                   temporary.path().string() + ": cannot write this file: found Is a directory");
 }
 
 TEST(TextFile, IsReplacedWithoutATrace) {

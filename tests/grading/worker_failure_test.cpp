@@ -55,6 +55,8 @@ TEST(ExplainEnd, TellsTheTimeLimitFromOtherKills) {
   EXPECT_EQ(bySignal(SIGKILL, 3).outcome, Outcome::timeLimit);
   EXPECT_EQ(bySignal(SIGKILL, 1).outcome, Outcome::runtimeError);
   EXPECT_EQ(bySignal(SIGKILL, 1).message, "was killed in f");
+  EXPECT_TRUE(bySignal(SIGKILL, 1).killed);
+  EXPECT_FALSE(bySignal(SIGKILL, 3).killed);
 }
 
 TEST(ExplainEnd, NamesTheExitCode) {

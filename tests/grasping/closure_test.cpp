@@ -178,6 +178,60 @@ TEST(Closure, DoesNotDependOnTheReference) {
   EXPECT_GT(closed, 20);
 }
 
+std::vector<Contact> cubeFaces(double friction) {
+  std::vector<Contact> contacts;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {1., -1.})
+      contacts.push_back({sign * Vector3d::Unit(axis), -sign * Vector3d::Unit(axis), friction});
+  return contacts;
+}
+
+TEST(Closure, DoesNotDependOnAReferenceFarAwayOrInAnotherUnit) {
+  Rng rng(26);
+  const std::vector<Contact> two = {{{-1, 0, 0}, {1, 0, 0}, 0.5}, {{1, 0, 0}, {-1, 0, 0}, 0.5}};
+  const std::vector<PlanarContact> flat = {{{-1, 0}, {1, 0}, 0.5}, {{1, 0}, {-1, 0}, 0.5}};
+  const std::vector<PlanarContact> smooth = {
+      {{-1, -0.5}, {1, 0}}, {{1, 0.5}, {-1, 0}}, {{-0.5, -1}, {0, 1}}, {{0.5, 1}, {0, -1}}};
+  for (const double far : {0., 1e2, 1e4, 1e5})
+    for (const double length : {1e-10, 1., 1e10}) {
+      const WrenchReference reference{far * rng.normalVector(3).normalized(), length};
+      SCOPED_TRACE(testing::Message() << far << " m, in units of " << length);
+      const Closure cube = forceClosure(wrenchCones(cubeFaces(0.5), reference)).closure;
+      EXPECT_EQ(cube.status, ClosureStatus::kClosed) << cube.message;
+      EXPECT_EQ(cube.rank, 6);
+      EXPECT_EQ(forceClosure(wrenchCones(flat, reference)).closure.status, ClosureStatus::kClosed);
+      EXPECT_EQ(formClosure(wrenchCones(smooth, reference)).status, ClosureStatus::kClosed);
+      const Closure open = forceClosure(wrenchCones(two, reference)).closure;
+      EXPECT_EQ(open.status, ClosureStatus::kOpen) << open.message;
+      EXPECT_EQ(open.rank, 5);
+      EXPECT_EQ(open.message, "the wrenches span 5 of 6 dimensions");
+    }
+  const std::vector<WrenchCone> tooFar = wrenchCones(two, {{1e9, 0, 0}});
+  EXPECT_EQ(forceClosure(tooFar).closure.status, ClosureStatus::kUndecided);
+  const std::vector<Contact> onePlace = {{{1, 2, 3}, {1, 0, 0}, 0.5}, {{1, 2, 3}, {-1, 0, 0}, 0.5}};
+  EXPECT_EQ(forceClosure(wrenchCones(onePlace)).closure.message, "the wrenches span 3 of 6 dimensions");
+  EXPECT_EQ(forceClosure(wrenchCones(onePlace, {{1, 2, 3}})).closure.rank, 3);
+}
+
+// The turn about their line that two contacts leave free, in the wrenches of their reference.
+TEST(Closure, GivesTheOpenDirectionOfItsReference) {
+  const std::vector<Contact> two = {{{-1, 0, 0}, {1, 0, 0}, 0.5}, {{1, 0, 0}, {-1, 0, 0}, 0.5}};
+  const ConeClosure grasp = forceClosure(wrenchCones(two, {{5, 3, -2}, 0.7}));
+  expectProven(grasp.set.wrenches, grasp.closure);
+  const Vector3d arm(0, -3, 2), turn(1, 0, 0);  // to the line from the reference
+  VectorXd known(6);
+  known << arm.cross(turn), 0.7 * turn;  // velocity of the reference point, and the turn: power is zero
+  EXPECT_NEAR(std::abs(grasp.closure.direction.dot(known.normalized())), 1, 1e-12);
+}
+
+TEST(Closure, IsUndecidedWhereRoundingDecidesTheRank) {
+  const auto thin = [](double width) { return (MatrixXd(2, 3) << 1, -1, 1, width, 0, -width).finished(); };
+  EXPECT_EQ(forceClosure(thin(1e-8)).status, ClosureStatus::kClosed);
+  EXPECT_EQ(forceClosure(thin(1e-10)).status, ClosureStatus::kUndecided);
+  EXPECT_EQ(forceClosure(thin(1e-10)).message, "rounding decides whether the wrenches counteract all others");
+  EXPECT_EQ(forceClosure(thin(1e-13)).message, "the wrenches span 1 of 2 dimensions");
+}
+
 // Four smooth fingers on a square hold it if they turn it both ways, and not if all point at its centre or
 // turn it the same way.
 TEST(Closure, OfFormIsThatWithoutFriction) {

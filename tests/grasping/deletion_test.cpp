@@ -103,6 +103,8 @@ TEST(DeletionSynthesis, DeletesFirstWhatComesFirst) {
   }
   const std::vector<WrenchCone> cones = wrenchCones(contacts);
   EXPECT_EQ(deleteRedundant(cones).kept, (std::vector{2, 5}));
+  // Also seen from far away.
+  EXPECT_EQ(deleteRedundant(wrenchCones(contacts, {{3e4, -7e4, 0}, 0.1})).kept, (std::vector{2, 5}));
   EXPECT_EQ(deleteRedundant(cones, std::vector{5, 4, 3, 2, 1, 0}).kept, (std::vector{0, 3}));
 }
 

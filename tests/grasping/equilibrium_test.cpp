@@ -206,6 +206,9 @@ TEST(Equilibrium, RefusesBadInput) {
   EXPECT_REX_ERROR(equilibrium(cones, load, 0),
                    "equilibrium: largest normal force: found 0, wanted more than zero");
   EXPECT_REX_ERROR(equilibrium(cones, load, HUGE_VAL), "equilibrium: largest normal force: found inf");
+  std::vector<WrenchCone> mixed = cones;
+  mixed[0].tangents.conservativeResize(6, 1);
+  EXPECT_REX_ERROR(equilibrium(mixed, load), "wrench cone 1: tangents: found 6 x 2, wanted as many rows");
   EXPECT_REX_ERROR(largestLoad(cones, VectorXd::Zero(6)), "largest load: found a load of zero");
   load[2] = std::nan("");
   EXPECT_REX_ERROR(equilibrium(cones, load), "equilibrium: load: number 2: found nan");

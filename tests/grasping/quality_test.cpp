@@ -177,6 +177,8 @@ TEST(Quality, SaysWhatIsWrongWithAHull) {
 TEST(Quality, RefusesBadInput) {
   EXPECT_REX_ERROR(exactEpsilon(wrenchCones(antipodal(0.5)), 0),
                    "epsilon: tolerance: found 0, wanted more than zero");
+  EXPECT_REX_ERROR(exactEpsilon(wrenchCones(antipodal(0.5)), 1e-6, -1),
+                   "epsilon: rounds: found -1, wanted zero or more");
   EXPECT_REX_ERROR(graspQuality(MatrixXd::Constant(3, 4, std::nan(""))),
                    "hull: point 0: number 0: found nan");
 }

@@ -120,6 +120,9 @@ TEST(WrenchCone, RefusesConesThatDoNotFit) {
                    "wrench cone 1: normal: found a vector of size 3, wanted size 6");
   EXPECT_REX_ERROR(broken([](WrenchCone& c) { c.tangents.setZero(6, 3); }),
                    "wrench cone 1: tangents: found 6 x 3, wanted as many rows");
+  EXPECT_REX_ERROR(broken([](WrenchCone& c) { c.tangents.conservativeResize(6, 1); }),
+                   "wrench cone 1: tangents: found 6 x 1, wanted as many rows as the normal has, and one or "
+                   "two columns, as many as cone 0 has");
   EXPECT_REX_ERROR(broken([](WrenchCone& c) { c.normal[0] = HUGE_VAL; }),
                    "wrench cone 1: normal: number 0: found inf");
   EXPECT_REX_ERROR(broken([](WrenchCone& c) { c.tangents(1, 1) = HUGE_VAL; }),

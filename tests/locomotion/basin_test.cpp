@@ -57,6 +57,11 @@ TEST(Basin, NamesWhatIsWrong) {
   const LimitCycle cycle = gait(), none = findLimitCycle({}, {.2, -.3, 0, -.3});
   EXPECT_REX_ERROR(basinOfAttraction({}, none, cycle.x),
                    "basin of attraction: limit cycle: found from the guess");
+  const CompassGait lightLegs{.legMass = 5e-6};
+  const LimitCycle unstable = findLimitCycle(lightLegs, {.2, -.3, -1, -.3});
+  ASSERT_EQ(unstable.status, LimitCycle::Status::kFound) << unstable.message;
+  EXPECT_REX_ERROR(basinOfAttraction(lightLegs, unstable, unstable.x),
+                   "basin of attraction: limit cycle: found found: unstable");
   EXPECT_REX_ERROR(basinGrid({}, none, VectorXd(), VectorXd()), "basin of attraction: limit cycle");
   EXPECT_REX_ERROR(basinOfAttraction({}, cycle, cycle.x, {.maxSteps = 0}),
                    "basin of attraction: steps: found 0");

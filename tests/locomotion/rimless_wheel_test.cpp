@@ -48,6 +48,17 @@ TEST(RimlessWheel, StepsAsItsIntegral) {
   EXPECT_EQ(wheel.step(-2.5).status, Status::kRolledUphill);
 }
 
+// Where the slope is steeper than alpha, the spoke uphill comes down before the wheel is over the vertical.
+TEST(RimlessWheel, RollsUphillOnSteepSlopesAsItsIntegral) {
+  const RimlessWheel wheel{.spokes = 30, .slope = .2};
+  ASSERT_GT(wheel.slope, wheel.alpha());
+  for (const double rate : {-.5, -.9, -.905, -.925, -.945, -.96, -2.}) {
+    const RimlessWheel::Step step = wheel.step(rate);
+    EXPECT_EQ(step.status, rate > -.903 ? Status::kRockedBack : Status::kRolledUphill) << rate;
+    EXPECT_NEAR(step.rate, integratedStep(wheel, rate), 1e-6) << rate;
+  }
+}
+
 TEST(RimlessWheel, ConvergesToItsFixedPoint) {
   const RimlessWheel wheel;
   const auto fixed = wheel.fixedPoint();

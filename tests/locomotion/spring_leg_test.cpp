@@ -97,6 +97,43 @@ TEST(RunningGait, MultiplierTellsWhetherItLasts) {
   EXPECT_NEAR((hop.apex.height - gait.apex.height) / 1e-4, gait.multiplier, 1e-2);
 }
 
+// A leg without a hold on the ground cannot pull: it takes off as soon as it would be longer than at rest.
+TEST(SpringLeg, NeverPulls) {
+  const SpringLeg leg;
+  int atOnce = 0, soon = 0;
+  for (int i = -8000; i <= 8000; i += 5) {
+    const Hop hop = leg.hop({.height = 1, .speed = i / 1000.});
+    EXPECT_LE(hop.takeoff.head<2>().norm(), leg.restLength + 1e-12) << i << ": " << hop.message;
+    if (hop.status != HopStatus::kNoRise) continue;
+    atOnce += hop.stanceTime == 0;
+    soon += hop.stanceTime > 0 && hop.stanceTime < .005;
+  }
+  EXPECT_GT(atOnce, 900);
+  EXPECT_GE(soon, 1);
+  const Hop backwards = leg.hop({.height = 1, .speed = -5});
+  EXPECT_EQ(backwards.status, HopStatus::kNoRise);
+  EXPECT_THAT(backwards.message, testing::StartsWith("took off downwards after "));
+  EXPECT_EQ(backwards.takeoff, backwards.touchdown);
+  EXPECT_GT(backwards.touchdown.head<2>().dot(backwards.touchdown.tail<2>()), 0);
+}
+
+// On a flat leg some hops come to rest for a moment and go back the way they came: to the same height, but
+// not to the same apex.
+TEST(RunningGait, DoesNotTurnBack) {
+  const SpringLeg leg{.angle = M_PI / 4};
+  const RunnerApex apex{.height = .7511, .speed = 1.8786};
+  EXPECT_LT(leg.hop(apex).apex.speed, 0);
+  const RunningGait gait = findRunningGait(leg, apex);
+  EXPECT_EQ(gait.status, RunningGait::Status::kFell) << gait.message;
+  EXPECT_THAT(gait.message, testing::HasSubstr("turned back, from 1.878"));
+}
+
+TEST(RunningGait, RunsTheWayOfTheGuess) {
+  const RunningGait gait = findRunningGait({}, {.height = 1, .speed = -5});
+  EXPECT_EQ(gait.status, RunningGait::Status::kFell) << gait.message;
+  EXPECT_DOUBLE_EQ(gait.apex.speed, -5);
+}
+
 TEST(SpringLeg, SaysHowItFails) {
   const SpringLeg leg;
   const Hop low = leg.hop({.height = .9, .speed = 5});

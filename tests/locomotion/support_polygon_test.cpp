@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Geometry>
+
 #include "base/rng.h"
 #include "geometry/convex_hull.h"
 #include "support/expect_error.h"
@@ -48,6 +50,34 @@ TEST(SupportPolygon, OfTwoFeet) {
   EXPECT_EQ(support.corners, points({{0, 0}, {.2, 0}, {.2, .4}, {0, .4}}));
   EXPECT_NEAR(support.area, .08, 1e-16);
   EXPECT_EQ(support.message, "");
+}
+
+// Contacts that kinematics places: corners twice, more of them along the edges, all with rounding.
+TEST(SupportPolygon, HasNoCornersThatRoundingMakes) {
+  Rng rng(3);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Eigen::Rotation2Dd turn(rng.uniform(-M_PI, M_PI));
+    const double length = std::pow(10, rng.uniform(-3, 3)), width = length * rng.uniform(.01, 1);
+    Matrix2Xd contacts(2, 24);
+    for (int i = 0; i < 24; ++i) {
+      const double share = i % 3 / 2., s = i / 3 % 2;
+      const bool isLong = i < 12;
+      const Vector2d p(length * (isLong ? share : s), width * (isLong ? s : share));
+      contacts.col(i) = turn * p + 1e-13 * length * rng.normalVector(2);
+    }
+    const SupportPolygon support = supportPolygon(contacts);
+    ASSERT_EQ(support.shape, SupportShape::kPolygon);
+    EXPECT_EQ(support.corners.cols(), 4) << trial;
+    EXPECT_NEAR(support.area, length * width, 1e-10 * length * length);
+  }
+}
+
+TEST(SupportPolygon, KeepsTheCornersOfNeedlesAndCircles) {
+  EXPECT_EQ(supportPolygon(points({{0, 0}, {1, 0}, {.01, 2e-9}})).corners.cols(), 3);
+  EXPECT_EQ(supportPolygon(points({{0, 0}, {1, 0}, {1, 1e-6}, {0, 1e-6}})).corners.cols(), 4);
+  Matrix2Xd circle(2, 1000);
+  for (int i = 0; i < 1000; ++i) circle.col(i) << std::cos(M_PI * i / 500), std::sin(M_PI * i / 500);
+  EXPECT_EQ(supportPolygon(circle).corners.cols(), 1000);
 }
 
 TEST(SupportPolygon, SaysWhereThereIsNone) {

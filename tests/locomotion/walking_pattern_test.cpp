@@ -93,6 +93,38 @@ TEST(WalkingPattern, KeepsTheZmpOfTheWholeRobotOnTheSoles) {
   }
 }
 
+// A turn on the spot past pi, with yaws that stay within (-pi, pi], and with those that go on.
+TEST(WalkingPattern, TurnsPastHalfATurn) {
+  Humanoid robot;
+  const double yaw = 3.05;
+  for (const Joint& joint : robot.model.joints())
+    if (joint.type == JointType::kFree)
+      robot.start.segment<4>(joint.qIndex + 3) << std::cos(yaw / 2), 0, 0, std::sin(yaw / 2);
+  WalkPlan wrapped, goesOn;
+  for (int i = 0; i < 5; ++i) {
+    const double turned = yaw + .08 * std::max(0, i - 1), side = i % 2 == 0 ? .095 : -.095;
+    goesOn.footsteps.push_back({.side = i % 2 == 0 ? Side::kLeft : Side::kRight,
+                                .p = {-side * std::sin(turned), side * std::cos(turned)},
+                                .yaw = turned});
+    wrapped.footsteps.push_back(goesOn.footsteps.back());
+    wrapped.footsteps.back().yaw = std::remainder(turned, 2 * M_PI);
+  }
+  ASSERT_LT(wrapped.footsteps.back().yaw, 0);
+  const WalkingPattern pattern = walkingPattern(robot.model, robot.legs, wrapped, robot.start);
+  ASSERT_EQ(pattern.status, WalkingPattern::Status::kWalks) << pattern.message;
+  const WalkingPattern known = walkingPattern(robot.model, robot.legs, goesOn, robot.start);
+  EXPECT_LT((pattern.Q - known.Q).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+TEST(SolePose, TurnsTheShorterWay) {
+  WalkPlan plan{.footsteps = straightFootsteps(1, 0, .2)};
+  for (Footstep& foot : plan.footsteps) foot.yaw = 3;
+  plan.footsteps[2].yaw = -3;
+  const double middle = plan.rest + plan.doubleSupport + plan.singleSupport / 2;
+  const Eigen::Matrix3d turned = solePose(plan, Side::kLeft, middle, .05).R;
+  EXPECT_LT((turned - Eigen::Vector3d(-1, -1, 1).asDiagonal().toDenseMatrix()).norm(), 1e-12);
+}
+
 TEST(SolePose, RisesAndLands) {
   const WalkPlan plan{.footsteps = straightFootsteps(2, .3, .2)};
   const double lift = plan.rest + plan.doubleSupport, middle = lift + plan.singleSupport / 2;

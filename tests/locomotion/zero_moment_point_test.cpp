@@ -92,11 +92,19 @@ TEST(ZeroMomentPoint, NamesWhatIsWrong) {
   const Model model = humanoid();
   const VectorXd q = model.initialPositions(), zero = VectorXd::Zero(model.nv());
   EXPECT_REX_ERROR(zmpOfMotion(model, q, zero, zero, NAN), "zero moment point: ground height: found nan");
+  EXPECT_REX_ERROR(zmpOfMotion(model, NAN * q, zero, zero),
+                   "zero moment point: joint positions q: number 0: found nan");
   EXPECT_REX_ERROR(zmpOfMotion(model, q, zero, NAN * zero),
                    "zero moment point: joint accelerations a: number 0");
   EXPECT_REX_ERROR(zmpOfMotion(model, q, NAN * zero, zero),
                    "zero moment point: joint velocities v: number 0");
   EXPECT_REX_ERROR(zmpOfMotion(model, q, zero, zero, 0, {0, NAN, 0}), "zero moment point: gravity: number 1");
+  SceneSpec spec;
+  spec.bodies = {{.name = "ghost", .X_WB = {}}};
+  const Model massless = compile(spec);
+  const char* wanted = "found no body with a mass";
+  EXPECT_REX_ERROR(zmpOfMotion(massless, VectorXd(), VectorXd(), VectorXd()), wanted);
+  EXPECT_REX_ERROR(staticStability(massless, VectorXd(), {}), wanted);
   const std::vector<ContactForce> place = {{.p_WC = {NAN, 0, 0}}}, force = {{.force_W = {NAN, 0, 0}}};
   EXPECT_REX_ERROR(zmpOfContacts(place), "zero moment point: place of a contact: number 0");
   EXPECT_REX_ERROR(zmpOfContacts(force), "zero moment point: force of a contact: number 0");

@@ -183,6 +183,17 @@ TEST(Report, HoldsTheFilmAndItsPicture) {
   EXPECT_EQ(readPng(still), Renderer(report.still).draw(report.film[0].picture, camera));
 }
 
+// Where nothing can be played, too; between two frames the earlier one is shown.
+TEST(Report, ShowsTheMomentWhereItStands) {
+  REX_NEEDS_OSMESA();
+  Report report = rollingBall();
+  report.start = 0.25;
+  const fs::path still = freshFolder("report-start") / "still.png";
+  std::ofstream(still, std::ios::binary) << embedded(reportPage(report), "data:image/png;base64,", "\"");
+  const Camera camera = framing(report.film, report.view, 4. / 3);
+  EXPECT_EQ(readPng(still), Renderer(report.still).draw(report.film[2].picture, camera));
+}
+
 // The page is left for scripts/check-replay.
 TEST(Report, PlaysEverythingThatAPictureCanShow) {
   REX_NEEDS_OSMESA();

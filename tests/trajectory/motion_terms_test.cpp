@@ -28,7 +28,8 @@ TEST(MotionTerms, HaveTheirDerivatives) {
   const Eigen::Vector2d weights(0.3, 2);
   for (const TrajectoryTerm& term :
        {velocityTerm(), accelerationTerm(weights), jerkTerm(), postureTerm(weights),
-        limitsTerm(Eigen::Vector2d(-1, -kInfinity), Eigen::Vector2d(1, 2)), velocityLimitsTerm(weights)}) {
+        limitsTerm(Eigen::Vector2d(-1, -kInfinity), Eigen::Vector2d(1, 2)), velocityLimitsTerm(weights),
+        velocityLimitsTerm(Eigen::Vector2d(kInfinity, 2))}) {
     for (const double tau : {0.1, 1.}) {
       const JacobianCheck check = checkTerm(term, randomWindow(rng, 2, term.order), tau);
       EXPECT_TRUE(check.ok) << term.name << ": " << check.message;
@@ -67,6 +68,17 @@ TEST(MotionTerms, CompareWithLimits) {
             Eigen::VectorXd(Eigen::Vector2d(-1, -5)));
 }
 
+// Infinity is no limit, and leaves no rows that are not finite.
+TEST(MotionTerms, LeaveOutInfiniteLimitsOfVelocity) {
+  const TrajectoryTerm term = velocityLimitsTerm(Eigen::Vector3d(kInfinity, 3, kInfinity));
+  const MatrixXd X = (MatrixXd(3, 2) << 0, 9, 1, 2, 0, -9).finished();
+  const FunctionValue value = valueOf(term, X, 0.5);
+  EXPECT_EQ(value.y, Eigen::VectorXd(Eigen::Vector2d(-1, -5)));
+  EXPECT_EQ(value.J.row(0), (Eigen::RowVectorXd(6) << 0, -2, 0, 0, 2, 0).finished());
+  EXPECT_EQ(value.J.row(1), -value.J.row(0));
+  EXPECT_EQ(valueOf(velocityLimitsTerm(VectorXd::Constant(3, kInfinity)), X, 0.5).y.size(), 0);
+}
+
 TEST(MotionTerms, EndAtRest) {
   const std::vector<TrajectoryTerm> terms = restAt(Eigen::Vector2d(1, 2), 5);
   ASSERT_EQ(terms.size(), 2u);
@@ -96,6 +108,8 @@ TEST(MotionTerms, SayWhatIsWrong) {
                    "limits of configurations: found a vector of size 2, wanted size 3");
   EXPECT_REX_ERROR(velocityLimitsTerm(Eigen::Vector2d(1, 0)),
                    "limits of velocity: found 0, wanted positive numbers");
+  EXPECT_REX_ERROR(velocityLimitsTerm(Eigen::Vector2d(1, NAN)),
+                   "limits of velocity: found nan, wanted positive numbers");
   EXPECT_REX_ERROR(valueOf(velocityLimitsTerm(two), MatrixXd::Zero(3, 2), 1),
                    "limits of velocity: found a vector of size 2, wanted size 3");
 }

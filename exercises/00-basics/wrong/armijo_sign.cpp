@@ -1,4 +1,5 @@
 // caught by: descent, descent-elsewhere
+// shown by: descent
 // mistake: The slope is taken with the wrong sign, so steps that lead uphill are accepted.
 
 // <solution backtracking>

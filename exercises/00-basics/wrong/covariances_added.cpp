@@ -1,4 +1,5 @@
 // caught by: product, beliefs-elsewhere
+// shown by: product
 // mistake: Adds covariances instead of precisions: two sources of knowledge would tell less than one.
 
 // <solution product>

@@ -1,4 +1,5 @@
 // caught by: gauss-newton, gauss-newton-elsewhere
+// shown by: gauss-newton
 // mistake: Always the full step: where phi bends, it leads away.
 
 // <solution gaussNewton>

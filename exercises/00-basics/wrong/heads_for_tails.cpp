@@ -1,4 +1,5 @@
 // caught by: conjugate, beliefs-elsewhere
+// shown by: conjugate
 // mistake: Counts the ones where the zeros belong.
 
 // <solution betaPosterior>

@@ -1,4 +1,5 @@
 // caught by: propagation, beliefs-elsewhere
+// shown by: propagation
 // mistake: The noise of the dynamics adds nothing to the covariance.
 
 // <solution propagated>

@@ -1,4 +1,5 @@
 // caught by: circle
+// shown by: circle
 // mistake: The circle lies flat in the plane of x and y instead of standing in that of x and z.
 
 // <solution circle>

@@ -1,4 +1,5 @@
 // caught by: circle-home
+// shown by: circle-home
 // mistake: Home is asked for anew in each step, so it is always where the robot is.
 
 // <solution circleWithTasks>

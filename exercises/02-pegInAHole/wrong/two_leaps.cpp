@@ -1,4 +1,5 @@
 // caught by: peg-insert, peg-other-hole
+// shown by: peg-insert
 // mistake: No posture touches anything, but from one to the next the peg jumps.
 
 // <solution insertPeg>

@@ -1,4 +1,5 @@
 // caught by: point-regimes, point-any-mass
+// shown by: point-regimes
 // mistake: waits for the faster of the two rates of an over-damped point.
 
 // <solution gainsFor>

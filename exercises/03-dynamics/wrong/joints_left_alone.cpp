@@ -1,4 +1,5 @@
 // caught by: hand-circle
+// shown by: hand-circle
 // mistake: nothing damps the joints that the hand leaves free.
 
 // <solution followWithHand>

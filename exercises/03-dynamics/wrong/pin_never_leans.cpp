@@ -1,4 +1,5 @@
 // caught by: pin-upright, pin-any-tilt
+// shown by: pin-upright
 // mistake: keeps the pin upright at any price: the arm runs away with it.
 
 // <solution balancePin>

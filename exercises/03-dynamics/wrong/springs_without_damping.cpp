@@ -1,4 +1,5 @@
 // caught by: hold-arm, hold-other-masses
+// shown by: hold-arm
 // mistake: no Kd: the held force feeds the oscillation.
 
 // <solution holdArm>

@@ -1,4 +1,5 @@
 // caught by: smooth-free, smooth-disc
+// shown by: smooth-free
 // mistake: moves each node to the middle of its neighbours, again and again, and never asks.
 
 // <solution shortened>

@@ -1,4 +1,5 @@
 // caught by: star-rewired, star-worlds, star-shortest
+// shown by: star-rewired
 // mistake: a node that is hung on another parent becomes cheaper, but not what hangs on it.
 
 // <solution rewired>

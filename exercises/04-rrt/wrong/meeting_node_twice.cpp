@@ -1,4 +1,5 @@
 // caught by: connect-joined, connect-arm, connect-worlds
+// shown by: connect-joined, connect-arm
 // mistake: the node where the trees meet belongs to both, and so it is in the path twice.
 
 // <solution joinedPath>

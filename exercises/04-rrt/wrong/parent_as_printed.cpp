@@ -1,4 +1,5 @@
 // caught by: star-parent
+// shown by: star-parent
 // mistake: the slide as printed: candidates are compared with the first cost, not with the best so far.
 
 // <solution bestParent>

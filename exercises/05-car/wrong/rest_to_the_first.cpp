@@ -1,4 +1,5 @@
 // caught by: unbiased, any-weights
+// shown by: unbiased
 // mistake: what remains after the whole parts goes to the first particles, instead of being drawn.
 
 // <solution resampledParents>

@@ -1,4 +1,5 @@
 // caught by: car-spread, car-drift, filter-step
+// shown by: car-spread
 // mistake: noise is drawn once per step, so that the cloud moves as a whole and never grows.
 
 // <solution moved>

@@ -1,4 +1,5 @@
 // caught by: kf-step, kf-any
+// shown by: kf-step
 // mistake: x + B(x) u for the next state, as on the sheet: the car turns twice as much.
 
 // <solution predicted>

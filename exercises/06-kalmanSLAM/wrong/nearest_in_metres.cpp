@@ -1,4 +1,5 @@
 // caught by: names-found
+// shown by: names-found
 // mistake: looks for the nearest landmark in metres (or radians), however uncertain each of them is.
 
 // <solution assigned>

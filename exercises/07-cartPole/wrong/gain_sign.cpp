@@ -1,4 +1,5 @@
 // caught by: gains, other-regulators, survives
+// shown by: gains
 // mistake: the K of slide 8:18, for u = -K x.
 
 // <solution gainOf>

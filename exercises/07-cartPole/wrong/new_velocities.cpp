@@ -1,4 +1,5 @@
 // caught by: steps, outings
+// shown by: outings
 // mistake: moves the positions with the new velocities.
 
 // <solution stepped>

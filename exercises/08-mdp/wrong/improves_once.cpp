@@ -1,4 +1,5 @@
 // caught by: improves, unseen-improve
+// shown by: improves
 // mistake: stops after one improvement.
 
 // <solution iteratePolicies>

@@ -1,4 +1,5 @@
 // caught by: gradient
+// shown by: gradient
 // mistake: the discount of the step itself is missing.
 
 // <solution reinforce>

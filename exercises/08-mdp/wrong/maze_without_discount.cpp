@@ -1,4 +1,5 @@
 // caught by: maze
+// shown by: maze
 // mistake: discount forgotten.
 
 // <solution mazeValues>

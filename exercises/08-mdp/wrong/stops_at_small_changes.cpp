@@ -1,4 +1,5 @@
 // caught by: settles, unseen-settle
+// shown by: settles
 // mistake: takes a small change for a small error.
 
 // <solution iterateValues>

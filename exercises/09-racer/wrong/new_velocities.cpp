@@ -1,4 +1,5 @@
 // caught by: step
+// shown by: ride
 // mistake: one step of Euler, in which the positions move with the new velocities.
 
 // <solution stepped>

@@ -1,4 +1,5 @@
 // caught by: noise
+// shown by: noise
 // mistake: scales the noise by tau instead of its root.
 
 // <solution kicks>

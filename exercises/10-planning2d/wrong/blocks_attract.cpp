@@ -1,4 +1,5 @@
 // caught by: field-gradient, field-slide, field-any-yard
+// shown by: field-slide
 // mistake: the sign of the repulsion.
 
 // <solution fieldGradient>

@@ -1,4 +1,5 @@
 // caught by: grid-network, grid-any-map
+// shown by: grid-network
 // mistake: diagonal arcs cut corners, as on the slides of the wavefront.
 
 // <solution cellNetwork>

@@ -1,4 +1,5 @@
 // caught by: bug-known-maps
+// shown by: bug-known-maps
 // mistake: goes back to the m-line wherever it meets it, as on the first slides of Bug 2: it runs in circles.
 
 // <solution bugTwo>

@@ -1,4 +1,5 @@
 // caught by: grid-way
+// shown by: grid-way
 // mistake: goes to the lowest neighbour, as slide 4:25 says; where arcs differ, that is a detour.
 
 // <solution wayDown>

@@ -1,4 +1,5 @@
 // caught by: prm-straight, prm-join
+// shown by: prm-straight, prm-join
 // mistake: tests the ends of an edge, not what lies between.
 
 // <solution straightIsFree>

@@ -1,4 +1,5 @@
 // caught by: dubins-words, dubins-shortest, dubins-any
+// shown by: dubins-words
 // mistake: arcs the shorter way round, some of them backward.
 
 // <solution dubinsLengths>

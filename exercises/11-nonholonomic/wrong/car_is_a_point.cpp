@@ -1,4 +1,5 @@
 // caught by: tree-overlap, tree-drive, park-kerb, park-any
+// shown by: tree-overlap, park-kerb
 // mistake: tests the point between the rear wheels only.
 
 // <solution isFree>

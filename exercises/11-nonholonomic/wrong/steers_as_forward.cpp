@@ -1,4 +1,5 @@
 // caught by: trailer-reverses, trailer-any
+// shown by: trailer-reverses
 // mistake: steers towards the axis, as a car would that drives forward.
 
 // <solution reverseSteering>

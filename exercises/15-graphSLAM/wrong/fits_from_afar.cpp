@@ -1,4 +1,5 @@
 // caught by: scan-align
+// shown by: scan-align
 // mistake: tells how well the scans fit with partners up to twice as far as asked.
 
 // <solution aligned>

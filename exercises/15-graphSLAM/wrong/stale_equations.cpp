@@ -1,4 +1,5 @@
 // caught by: adjust-streets, adjust-far
+// shown by: adjust-streets
 // mistake: sets the equations up once, and goes on with the same step.
 
 // <solution adjusted>

@@ -1,4 +1,5 @@
 // caught by: scan-motion, scan-align
+// shown by: scan-motion
 // mistake: the rotation is that of the other direction.
 
 // <solution bestMotion>

@@ -1,5 +1,7 @@
 #!/usr/bin/env bash
 # Gradescope runs this once, as root, when it makes the image: installs the packages and builds rex.
 set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/rex"
-scripts/rex list
+cd "$(dirname "${BASH_SOURCE[0]}")"
+# A zip keeps no owner.
+[ ! -e secret ] || { chown "$(id -u):$(id -g)" secret && chmod 600 secret; }
+rex/scripts/rex list

@@ -1,4 +1,5 @@
 // caught by: quarter-turn
+// shown by: quarter-turn
 // mistake: turns clockwise.
 
 // <solution rotated>

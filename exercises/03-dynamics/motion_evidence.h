@@ -1,0 +1,78 @@
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "approach_checks.h"
+#include "course/film.h"
+#include "grading/evidence_parts.h"
+
+// What the checks show of motions that are not as they should be.
+
+inline std::vector<double> timesOf(std::size_t steps) {
+  std::vector<double> times;
+  for (std::size_t i = 0; i < steps; ++i) times.push_back(kTau * static_cast<double>(i));
+  return times;
+}
+
+/// What is left of the way to a goal over time, with what it has to keep: near the goal from T on, and of an
+/// oscillation some overshoot.
+inline rex::grading::Evidence approachSeen(const Approach& approach, Regime regime, double T) {
+  const std::vector<double> times = timesOf(approach.size());
+  const double end = times.empty() ? T : std::max(times.back(), 1.5 * T);
+  rex::Figure figure{.title = "What is left of the way",
+                     .xLabel = "time [s]",
+                     .yLabel = "distance from the goal, of that at first"};
+  figure.series = {rex::grading::gotCurve("got", times, approach),
+                   rex::grading::wantedCurve("wanted in the end", {0, end}, {0, 0})};
+  figure.bands = {{.label = "wanted from T on: within 1 %",
+                   .x = {T, end},
+                   .low = {-.01, -.01},
+                   .high = {.01, .01},
+                   .color = rex::grading::kWantedColor}};
+  if (regime == Regime::kOscillatory)
+    figure.bands.push_back({.label = "wanted: turns back in here",
+                            .x = {0, end},
+                            .low = {-.6, -.6},
+                            .high = {-.03, -.03},
+                            .color = rex::Color{0.0f, 0.62f, 0.45f}});
+  figure.verticalLines = {{.at = T, .label = "T"}};
+  return {.figures = {figure}};
+}
+
+/// Numbers over time, one for each step, with what they should be or the most they may be.
+inline rex::Figure curveOf(const std::string& title, const std::string& quantity,
+                           const std::vector<double>& got, double wanted) {
+  return {.title = title,
+          .xLabel = "time [s]",
+          .yLabel = quantity,
+          .series = {rex::grading::gotCurve("got", timesOf(got.size()), got)},
+          .horizontalLines = {{.at = wanted, .label = "wanted"}}};
+}
+
+/// Postures step by step, with the wanted ones, or a single one for all; opens at step `worst`. Every third
+/// step is shown.
+inline rex::grading::Evidence filmed(const rex::Simulator& S, const std::vector<Eigen::VectorXd>& got,
+                                     const std::vector<Eigen::VectorXd>& wanted, std::size_t worst,
+                                     rex::Figure figure) {
+  constexpr std::size_t kStride = 3;
+  std::vector<Eigen::VectorXd> shown, beside;
+  for (std::size_t i = 0; i < got.size(); i += kStride) {
+    shown.push_back(got[i]);
+    beside.push_back(wanted[std::min(i, wanted.size() - 1)]);
+  }
+  rex::Film film = rex::grading::withWanted(rex::filmOf(S, shown, {}), rex::filmOf(S, beside, {}));
+  for (std::size_t i = 0; i < film.size(); ++i) film[i].time = kTau * static_cast<double>(kStride * i);
+  const double moment = kTau * static_cast<double>(std::max<std::size_t>(worst, 1));
+  figure.verticalLines.push_back(rex::grading::wrongFrom(moment));
+  return {.figures = {std::move(figure)}, .film = std::move(film), .moment = moment};
+}
+
+/// The first number beyond the limit, or else the greatest.
+inline std::size_t worstOf(const std::vector<double>& numbers, double limit) {
+  const auto first = std::find_if(numbers.begin(), numbers.end(), [&](double x) { return x > limit; });
+  const auto worst = first != numbers.end() ? first : std::max_element(numbers.begin(), numbers.end());
+  return static_cast<std::size_t>(worst - numbers.begin());
+}

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "drawing.h"
+#include "grading/evidence_parts.h"
+#include "grid_checks.h"
+#include "yard_checks.h"
+
+// What the checks show of ways, maps and yards that are not as they should be.
+
+using Points = std::vector<Eigen::Vector2d>;
+
+/// Numbers of the cells beside those that were wanted, with a ring at the first that differs.
+inline rex::grading::Evidence wavesSeen(const CellMap& map, Cell goal, const std::vector<int>& got,
+                                        const std::vector<int>& wanted) {
+  if (got.size() != wanted.size()) return {};
+  std::vector<rex::Figure> figures;
+  const auto first = std::mismatch(got.begin(), got.end(), wanted.begin()).first;
+  for (const auto& [title, numbers] : {std::pair{"Wave, got", &got}, {"Wave, wanted", &wanted}}) {
+    rex::Figure figure = planOf(title, map);
+    figure.legend = rex::Legend::kNone;
+    addNumbers(figure, map, "number", {numbers->begin(), numbers->end()}, 0);
+    figure.colorRange = rex::AxisRange(0, 1. + *std::max_element(wanted.begin(), wanted.end()));
+    addLine(figure, {centerOf(goal)}, dots("", kBlack, 2));
+    if (first != got.end()) {
+      const Eigen::Vector2d at = centerOf(map.cellAt(static_cast<std::size_t>(first - got.begin())));
+      figure.series.push_back(rex::grading::wrongPoint("", at.x(), at.y()));
+    }
+    figures.push_back(std::move(figure));
+  }
+  return {.figures = std::move(figures)};
+}
+
+/// Arcs of one network that another does not have, as lines between the places of nodes.
+inline void addExtraArcs(rex::Figure& figure, const Points& places, const Network& network,
+                         const Network& other, const rex::Series& look) {
+  std::string label = look.label;
+  for (std::size_t from = 0; from < std::min(network.size(), places.size()); ++from)
+    for (const Arc& arc : network[from]) {
+      if (arc.to >= places.size() || (from < other.size() && hasArc(other, from, arc.to))) continue;
+      rex::Series line = look;
+      line.label = std::exchange(label, "");
+      addLine(figure, {places[from], places[arc.to]}, line);
+    }
+}
+
+/// A network over a plan: what is there too much, and what is missing of `least`.
+inline rex::grading::Evidence networkSeen(rex::Figure figure, const Points& places, const Network& got,
+                                          const Network& all, const Network& least) {
+  addExtraArcs(figure, places, got, {}, {.label = "got", .size = 0.5, .color = kGray});
+  addExtraArcs(figure, places, got, all, rex::grading::wrongCurve("got, not wanted"));
+  addExtraArcs(figure, places, least, got, rex::grading::wantedCurve("wanted, missing"));
+  addLine(figure, places, dots("", kBlack, .6));
+  return {.figures = {figure}};
+}
+
+/// A shortest way by the distances from its end.
+inline std::vector<std::size_t> steepestWay(const Network& network, const std::vector<double>& distances,
+                                            std::size_t start) {
+  std::vector<std::size_t> way{start};
+  while (std::isfinite(distances[start]) && distances[way.back()] > 0 && way.size() <= network.size()) {
+    const auto& arcs = network.at(way.back());
+    const auto costs = [&](const Arc& arc) { return arc.length + distances[arc.to]; };
+    way.push_back(std::min_element(arcs.begin(), arcs.end(), [&](const Arc& a, const Arc& b) {
+                    return costs(a) < costs(b);
+                  })->to);
+  }
+  return way;
+}
+
+/// A way over a network between places, beside a shortest one.
+inline rex::grading::Evidence waySeen(const RandomNetwork& made, const std::vector<std::size_t>& got,
+                                      const std::vector<std::size_t>& wanted) {
+  rex::Figure figure = planOf("A way over a network", {1, 1}, {});
+  const auto placesOf = [&](const std::vector<std::size_t>& way) {
+    Points points;
+    for (const std::size_t node : way)
+      if (node < made.places.size()) points.push_back(made.places[node]);
+    return points;
+  };
+  addExtraArcs(figure, made.places, made.network, {}, {.label = "network", .size = 0.3, .color = kGray});
+  addLine(figure, placesOf(got), rex::grading::gotCurve("got"));
+  addLine(figure, placesOf(wanted), rex::grading::wantedCurve("wanted"));
+  addLine(figure, placesOf({wanted.front()}), dots("start", kBlack, 2));
+  return {.figures = {figure}};
+}
+
+/// A straight way in a yard, and what it should pass for.
+inline rex::grading::Evidence straightSeen(const Yard& yard, const Eigen::Vector2d& a,
+                                           const Eigen::Vector2d& b, Straight wanted) {
+  rex::Figure figure = planOf(
+      wanted == Straight::kFree ? "The straight way; wanted: free" : "The straight way; wanted: blocked",
+      yard.size, yard.blocks);
+  addLine(figure, {a, b}, {.label = "way", .size = 2, .color = rex::grading::kGotColor});
+  return {.figures = {figure}};
+}
+
+/// Nodes of a sampler in its yard.
+inline rex::grading::Evidence samplesSeen(const std::string& title, const Yard& yard, const Points& samples) {
+  rex::Figure figure = planOf(title, yard.size, yard.blocks);
+  addLine(figure, samples, dots("got", rex::grading::kGotColor, .6));
+  return {.figures = {figure}};
+}
+
+/// A way on a map with the cells whose arcs were asked for; `tooFar` are those that no shortest way needs.
+inline rex::grading::Evidence searchSeen(const CellMap& map, const std::vector<std::size_t>& got,
+                                         const std::vector<std::size_t>& asked,
+                                         const std::vector<std::size_t>& tooFar,
+                                         const std::vector<std::size_t>& wanted) {
+  rex::Figure figure = planOf("A search on a map", map);
+  addLine(figure, centersOf(map, asked), dots("asked for", {.5f, .7f, .9f}, 1.5, rex::Marker::kSquare));
+  addLine(figure, centersOf(map, tooFar), dots("asked for in vain", rex::grading::kWrongColor, 1.5));
+  addLine(figure, centersOf(map, got), rex::grading::gotCurve("got"));
+  addLine(figure, centersOf(map, wanted), rex::grading::wantedCurve("wanted, or as long"));
+  return {.figures = {figure}};
+}

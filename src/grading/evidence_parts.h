@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/figure.h"
+#include "render/film.h"
+
+namespace rex::grading {
+
+// What a colour means in evidence, told apart with any colour vision: what came out, what was wanted, and
+// where it went wrong.
+inline constexpr Color kGotColor{0.0f, 0.45f, 0.7f}, kWantedColor{0.20f, 0.22f, 0.26f},
+    kWrongColor{0.80f, 0.10f, 0.12f};
+
+/// A curve of what came out: thick and blue.
+[[nodiscard]] Series gotCurve(std::string label, std::vector<double> x = {}, std::vector<double> y = {});
+/// A curve of what was wanted: dashed and dark, over the other.
+[[nodiscard]] Series wantedCurve(std::string label, std::vector<double> x = {}, std::vector<double> y = {});
+/// What went wrong of a curve: red and thick.
+[[nodiscard]] Series wrongCurve(std::string label, std::vector<double> x = {}, std::vector<double> y = {});
+/// A ring around a point where something went wrong.
+[[nodiscard]] Series wrongPoint(std::string label, double x, double y);
+
+/// A curve through points of the plane, or through the first two numbers of poses.
+template <class Points>
+[[nodiscard]] Series through(const Points& points, Series curve) {
+  for (const auto& point : points) {
+    curve.x.push_back(point[0]);
+    curve.y.push_back(point[1]);
+  }
+  return curve;
+}
+
+/// An upright line where a motion goes wrong.
+[[nodiscard]] Guide wrongFrom(double time);
+
+/// What came out with what was wanted drawn into it: its solids green and translucent, its lines green. A
+/// caption says so. Solids that are the same in both are drawn once.
+[[nodiscard]] Picture withWanted(Picture got, const Picture& wanted);
+/// The same for each moment; where one film has ended, its last picture stays. Times are those of the longer
+/// film.
+[[nodiscard]] Film withWanted(const Film& got, const Film& wanted);
+
+}  // namespace rex::grading
