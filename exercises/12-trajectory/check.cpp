@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "clearance.h"
+#include <fmt/format.h>
+
+#include "course/clearances.h"
 #include "course/film.h"
 #include "interface.h"
 #include "problems.h"
@@ -428,7 +430,7 @@ void isKeptApart(Check& check, Student& student, const std::vector<Ball>& balls,
   for (int k = 0; k < samples; ++k) {
     const double share = (k + 1.) / samples;
     S.setJointAngles(window.col(0) + share * (window.col(1) - window.col(0)));
-    const TermValue near = clearances(S);
+    const Clearances near = clearances(S);
     check.near("distances that y stands for, in margins",
                (1 - got.y.segment(k * pairs, pairs).array()).matrix(), near.y / margin, 1e-7);
     check.near("columns of x_{t-1} in J, times the margin", margin * got.J.block(k * pairs, 0, pairs, 3),

@@ -123,7 +123,7 @@ Eigen::MatrixXd throughPoints(const Eigen::VectorXd& start, const Eigen::MatrixX
 // Part 5, an arm among things that are in its way.
 
 /// How near things are on the straight way from x_{t-1} to x_t (`window`, n x 2): 1 - d / margin for the
-/// distance d of each pair of clearances(S), in their order, at s = 1 / samples of the way, then at
+/// distance d of each pair of rex::clearances(S), in their order, at s = 1 / samples of the way, then at
 /// 2 / samples, ..., last at x_t. J has 2 n columns, those of x_{t-1} first.
 TermValue keptApart(rex::Simulator& S, const Eigen::MatrixXd& window, double margin, int samples);
 

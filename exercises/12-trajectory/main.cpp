@@ -1,8 +1,10 @@
 #include <cmath>
 
-#include "clearance.h"
+#include "course/clearances.h"
 #include "exercise.h"
 #include "pictures.h"
+#include "trajectory/motion_terms.h"
+#include "trajectory/trajectory_optimizer.h"
 
 using namespace rex;
 
@@ -96,14 +98,12 @@ Eigen::MatrixXd aroundObstacle(Simulator& S, const Errand& errand) {
 // What follows is given.
 
 // A point in the plane on its way past a disc, and what the rounds do to it.
-void showDisc() {
-  const DiscPath disc;
+void showDisc(const DiscPath& disc, const Eigen::MatrixXd& byLibrary) {
   const Terms terms = [&](const Eigen::MatrixXd& X) { return disc.termsAt(X, &differenceTerm); };
   const Minimum found = minimised(terms, disc.guess(), 100, {1e-6, 1e-4});
-  plot("disc", discFigure(disc, found.X));
+  plot("disc", discFigure(disc, found.X, byLibrary));
   plot("rounds", roundsFigure(found));
   print("path past the disc, cost", found.cost.back());
-  print("of the library", disc.libraryCost());
 }
 
 // The least cost from 0 to 1 in a second, beside what it should be.
@@ -114,7 +114,9 @@ void showReach() {
     const int T = sizes[static_cast<std::size_t>(i)];
     const Eigen::MatrixXd X =
         throughPoints(Eigen::VectorXd::Zero(1), Eigen::MatrixXd::Ones(1, 1), {T - 1}, 1. / T);
-    table.row(i) << T, motionCost(Eigen::MatrixXd::Zero(1, 2), X, 2, 1. / T), 12. * T * T / (T * T - 1.);
+    table(i, 0) = T;
+    table(i, 1) = motionCost(Eigen::MatrixXd::Zero(1, 2), X, 2, 1. / T);
+    table(i, 2) = 12. * T * T / (T * T - 1.);
   }
   print("T, least cost from 0 to 1, 12 T^2 / (T^2 - 1)", table);
 
@@ -145,9 +147,8 @@ void showArm() {
   const Eigen::MatrixXd direct = throughPoints(kArmStart, kErrand.goal, {last}, kErrand.tau),
                         guess = throughPoints(kArmStart, points, {last / 2, last}, kErrand.tau),
                         X = aroundObstacle(S, kErrand);
-  Simulator shown(armAmong(kBall, kArmStart));
-  plot("arm", armFigure(shown, kBall, guess, X, libraryMotion(shown, kErrand, guess)));
-  plot("clearance", clearanceFigure(shown, {{"direct", direct}, {"detour", guess}, {"optimised", X}}));
+  plot("arm", armFigure(S, kBall, guess, X));
+  plot("clearance", clearanceFigure(S, {{"direct", direct}, {"detour", guess}, {"optimised", X}}));
   print("cost of the detour", motionCost(kArmStart.replicate(1, 2), guess, 2, kErrand.tau));
   print("cost of the optimised motion", motionCost(kArmStart.replicate(1, 2), X, 2, kErrand.tau));
   filmMotion(X);
@@ -155,6 +156,21 @@ void showArm() {
 
 int main() {
   showReach();
-  showDisc();
+  // Once your own optimiser works, its points lie on the library's line.
+  const DiscPath disc;
+  TrajectoryTerm outside;
+  outside.name = "outside of the disc";
+  outside.kind = TermKind::kInequality;
+  outside.function = [&](const TrajectoryWindow& window, FunctionValue& value) {
+    const Term term = disc.outside(window.X.col(0), window.t);
+    value = {term.y, term.J};
+  };
+  std::vector<TrajectoryTerm> terms = restAt(disc.to, disc.steps);
+  terms.push_back(accelerationTerm());
+  terms.push_back(outside);
+  const TrajectoryProblem problem(terms, disc.from.replicate(1, 2), disc.steps, disc.tau);
+  const TrajectoryResult library = optimizeTrajectory(problem, disc.guess(), {.penalty = 100});
+  showDisc(disc, library.X);
+  print("of the library", library.solution.cost);
   showArm();
 }

@@ -7,12 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "clearance.h"
+#include "course/clearances.h"
 #include "exercise.h"
 #include "scenes.h"
-#include "trajectory/contact_terms.h"
-#include "trajectory/motion_terms.h"
-#include "trajectory/trajectory_optimizer.h"
 
 // The problems of main(), and how it draws them.
 
@@ -46,22 +43,25 @@ struct DiscPath {
   int steps = 40;
 
   /// The straight way.
-  [[nodiscard]] Eigen::MatrixXd guess() const { return rex::straightTrajectory(from, to, steps); }
+  [[nodiscard]] Eigen::MatrixXd guess() const {
+    Eigen::MatrixXd X(2, steps);
+    for (int t = 0; t < steps; ++t) X.col(t) = from + (t + 1.) / steps * (to - from);
+    return X;
+  }
 
-  template <class Difference>
-  std::vector<Term> termsAt(const Eigen::MatrixXd& X, Difference difference) const {
+  [[nodiscard]] std::vector<Term> termsAt(const Eigen::MatrixXd& X,
+                                          TermValue (*difference)(const Eigen::MatrixXd&, double)) const {
     std::vector<Term> terms;
     const auto x = [&](int t) { return t < 0 ? from : Eigen::Vector2d(X.col(t)); };
+    Eigen::MatrixXd three(2, 3);
     for (int t = 0; t < steps; ++t) {
-      Eigen::MatrixXd three(2, 3);
-      three << x(t - 2), x(t - 1), x(t);
+      for (int i = 0; i < 3; ++i) three.col(i) = x(t - 2 + i);
       const TermValue acceleration = difference(three, tau);
       terms.push_back({Role::cost, t, acceleration.y, acceleration.J});
       terms.push_back(outside(x(t), t));
     }
-    const Eigen::Matrix2d one = Eigen::Matrix2d::Identity();
-    terms.push_back({Role::equality, steps - 1, x(steps - 1) - to, one});
-    terms.push_back({Role::equality, steps - 2, x(steps - 2) - to, one});
+    for (const int t : {steps - 1, steps - 2})
+      terms.push_back({Role::equality, t, x(t) - to, Eigen::MatrixXd::Identity(2, 2)});
     return terms;
   }
 
@@ -70,23 +70,10 @@ struct DiscPath {
     return {Role::inequality, t, Eigen::VectorXd::Constant(1, 1 - distance / radius),
             -(p - center).transpose() / (distance * radius)};
   }
-
-  [[nodiscard]] rex::TrajectoryResult byLibrary() const {
-    std::vector<rex::TrajectoryTerm> terms = rex::restAt(to, steps);
-    terms.push_back(rex::accelerationTerm());
-    terms.push_back({.name = "disc",
-                     .kind = rex::TermKind::kInequality,
-                     .function = [this](const rex::TrajectoryWindow& window, rex::FunctionValue& value) {
-                       const Term term = outside(window.X.col(0), window.t);
-                       value = {term.y, term.J};
-                     }});
-    const rex::TrajectoryProblem problem(terms, from.replicate(1, 2), steps, tau);
-    return rex::optimizeTrajectory(problem, guess(), {.penalty = 100});
-  }
-  [[nodiscard]] double libraryCost() const { return byLibrary().solution.cost; }
 };
 
-inline rex::Figure discFigure(const DiscPath& disc, const Eigen::MatrixXd& X) {
+inline rex::Figure discFigure(const DiscPath& disc, const Eigen::MatrixXd& X,
+                              const Eigen::MatrixXd& byLibrary) {
   rex::Figure figure{.title = "Least acceleration past a disc",
                      .xLabel = "x [m]",
                      .yLabel = "y [m]",
@@ -97,7 +84,7 @@ inline rex::Figure discFigure(const DiscPath& disc, const Eigen::MatrixXd& X) {
   figure.regions = {roundRegion(disc.center.x(), disc.center.y(), disc.radius)};
   rex::Series start = lineThrough("start", disc.guess(), kGrey),
               mine = lineThrough("optimised", X, kOrange, 1.2),
-              library = lineThrough("library", disc.byLibrary().X, kBlue, 1.2);
+              library = lineThrough("library", byLibrary, kBlue, 1.2);
   start.dashed = true;
   mine.style = rex::SeriesStyle::kPoints;
   mine.marker = rex::Marker::kDot;
@@ -167,20 +154,8 @@ inline Eigen::MatrixXd handPath(rex::Simulator& S, const Eigen::MatrixXd& X) {
   return path;
 }
 
-/// What the library finds from the same start.
-inline Eigen::MatrixXd libraryMotion(const rex::Simulator& S, const Errand& errand,
-                                     const Eigen::MatrixXd& guess) {
-  const rex::ContactModel contacts(S.model());
-  std::vector<rex::TrajectoryTerm> terms = rex::restAt(errand.goal, errand.steps);
-  terms.push_back(rex::accelerationTerm());
-  terms.push_back(rex::clearanceTerm(S.model(), contacts, {.margin = errand.margin, .samples = 8}));
-  const rex::TrajectoryProblem problem(terms, kArmStart.replicate(1, 2), errand.steps, errand.tau);
-  return rex::optimizeTrajectory(problem, guess, {.tolerance = 1e-4, .stationarity = 1e-4, .penalty = 1000})
-      .X;
-}
-
 inline rex::Figure armFigure(rex::Simulator& S, const std::vector<Ball>& balls, const Eigen::MatrixXd& guess,
-                             const Eigen::MatrixXd& X, const Eigen::MatrixXd& library) {
+                             const Eigen::MatrixXd& X) {
   rex::Figure figure{.title = "The arm around the ball, seen from the front",
                      .xLabel = "y [m]",
                      .yLabel = "z [m]",
@@ -194,7 +169,6 @@ inline rex::Figure armFigure(rex::Simulator& S, const std::vector<Ball>& balls, 
   figure.series.push_back(lineThrough("hand, detour", handPath(S, guess), kGrey));
   figure.series.back().dashed = true;
   figure.series.push_back(lineThrough("hand, optimised", handPath(S, X), kOrange, 3));
-  figure.series.push_back(lineThrough("hand, library", handPath(S, library), kBlack, 1));
   return figure;
 }
 
@@ -212,7 +186,7 @@ inline rex::Figure clearanceFigure(rex::Simulator& S,
     for (Eigen::Index i = 0; i < fine.cols(); ++i) {
       S.setJointAngles(fine.col(i));
       series.x.push_back(static_cast<double>(i) / 8 * kErrand.tau);
-      series.y.push_back(clearances(S).y.minCoeff());
+      series.y.push_back(rex::clearances(S).y.minCoeff());
     }
     figure.series.push_back(series);
   }

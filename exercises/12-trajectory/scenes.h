@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "exercise.h"
 
 // The planar arm, and balls that are in its way. Used by main() and by the grader.
@@ -17,12 +15,12 @@ struct Ball {
 
 inline rex::SimulatorDescription armAmong(const std::vector<Ball>& balls, const Eigen::VectorXd& q) {
   rex::SimulatorDescription scene = rex::Simulator("arm3.ors").description();
-  for (const char* link : {"arm1", "arm2", "eff"})
-    scene.sceneText += fmt::format("\nEdit body {} {{ contact }}", link);
+  for (const std::string link : {"arm1", "arm2", "eff"})
+    scene.sceneText += "\nEdit body " + link + " { contact }";
   for (std::size_t i = 0; i < balls.size(); ++i)
-    scene.sceneText += fmt::format(
-        "\nshape ball{} {{ rel=<T t(0 {} {})> type=ST_sphere size=[0 0 0 {}] color=[.25 .35 .60] contact }}",
-        i, balls[i].y, balls[i].z, balls[i].radius);
+    scene.sceneText += "\nshape ball" + std::to_string(i) + " { rel=<T t(0 " + std::to_string(balls[i].y) +
+                       " " + std::to_string(balls[i].z) + ")> type=ST_sphere size=[0 0 0 " +
+                       std::to_string(balls[i].radius) + "] color=[.25 .35 .60] contact }";
   scene.q = q;
   return scene;
 }

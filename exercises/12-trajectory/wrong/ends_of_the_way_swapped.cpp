@@ -7,7 +7,7 @@ TermValue all;
 for (int i = 0; i < samples; ++i) {
   const double s = (i + 1.) / samples;
   S.setJointAngles((1 - s) * window.col(0) + s * window.col(1));
-  const TermValue d = clearances(S);
+  const Clearances d = clearances(S);
   const Eigen::Index pairs = d.y.size();
   if (i == 0) all = {Eigen::VectorXd(samples * pairs), Eigen::MatrixXd(samples * pairs, 2 * n)};
   all.y.segment(i * pairs, pairs) = (1 - d.y.array() / margin).matrix();
