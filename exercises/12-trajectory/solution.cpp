@@ -136,18 +136,19 @@ std::vector<Eigen::MatrixXd> descended(const Terms& terms, const Eigen::MatrixXd
     BandSystem system = assembled(here, n, T);
     if (system.g.cwiseAbs().maxCoeff() <= tolerance) break;
     Eigen::MatrixXd L = bandCholesky(system.band);
-    for (double damping = 1e-9 * system.band.row(0).maxCoeff(); L.size() == 0; damping *= 10) {
-      system.band.row(0).array() += damping;
+    for (double damping = 1e-9 * system.band.maxCoeff(); L.size() == 0; damping *= 10) {
+      for (int j = 0; j < n * T; ++j) system.band(0, j) += damping;
       L = bandCholesky(system.band);
     }
-    const Eigen::VectorXd step = -bandSolve(L, system.g);
-    const double cost = costOf(here), slope = system.g.dot(step);
+    const Eigen::VectorXd down = bandSolve(L, system.g);
+    const Eigen::MatrixXd step = down.reshaped(n, T);
+    const double cost = costOf(here), slope = system.g.dot(down);
     double share = 1;
     Eigen::MatrixXd next;
     for (;; share /= 2) {
-      next = path.back() + share * step.reshaped(n, T);
+      next = path.back() - share * step;
       here = terms(next);
-      if (share < 1e-10 || costOf(here) <= cost + 0.01 * share * slope) break;
+      if (share < 1e-10 || costOf(here) <= cost - 0.01 * share * slope) break;
     }
     if (!(costOf(here) < cost)) break;
     path.push_back(next);
@@ -266,7 +267,7 @@ TermValue keptApart(Simulator& S, const Eigen::MatrixXd& window, double margin, 
     const Clearances d = clearances(S);
     const Eigen::Index pairs = d.y.size();
     if (i == 0) all = {Eigen::VectorXd(samples * pairs), Eigen::MatrixXd(samples * pairs, 2 * n)};
-    all.y.segment(i * pairs, pairs) = (1 - d.y.array() / margin).matrix();
+    for (Eigen::Index k = 0; k < pairs; ++k) all.y[i * pairs + k] = 1 - d.y[k] / margin;
     all.J.block(i * pairs, 0, pairs, n) = -(1 - s) / margin * d.J;
     all.J.block(i * pairs, n, pairs, n) = -s / margin * d.J;
   }
@@ -326,9 +327,8 @@ void showDisc(const DiscPath& disc, const Eigen::MatrixXd& byLibrary) {
 // The least cost from 0 to 1 in a second, beside what it should be.
 void showReach() {
   Eigen::MatrixXd table(3, 3);
-  const std::vector<int> sizes{5, 20, 100};
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    const int T = sizes[static_cast<std::size_t>(i)];
+  for (int i = 0; i < 3; ++i) {
+    const int T = i == 0 ? 5 : i == 1 ? 20 : 100;
     const Eigen::MatrixXd X =
         throughPoints(Eigen::VectorXd::Zero(1), Eigen::MatrixXd::Ones(1, 1), {T - 1}, 1. / T);
     table(i, 0) = T;
@@ -336,21 +336,24 @@ void showReach() {
     table(i, 2) = 12. * T * T / (T * T - 1.);
   }
   print("T, least cost from 0 to 1, 12 T^2 / (T^2 - 1)", table);
+}
 
+void showVia() {
   Eigen::MatrixXd points(2, 4);
   points << 1, 2, 3, 4, 1, -1, 0.5, 0;
-  const std::vector<int> when{19, 39, 59, 79};
-  plot("via", viaFigure(points, throughPoints(Eigen::Vector2d::Zero(), points, when, 0.05)));
+  plot("via", viaFigure(points, throughPoints(Eigen::VectorXd::Zero(2), points, {19, 39, 59, 79}, 0.05)));
 }
 
 // In real time.
-void filmMotion(const Eigen::MatrixXd& X) {
+void filmMotion(const Eigen::MatrixXd& X, const std::vector<Eigen::Vector3d>& hand) {
   Simulator S(armAmong(kBall, kArmStart));
   S.clearRecording();
   const Eigen::MatrixXd fine = finely(kArmStart, X, 4);
   for (Eigen::Index i = 0; i < fine.cols(); ++i) S.setJointAngles(fine.col(i));
-  const PictureOptions look{
-      .caption = "around the ball", .traces = {"eff"}, .view = Eigen::Vector3d(2, -0.6, 0.5)};
+  PictureOptions look;
+  look.caption = "Around the ball";
+  look.paths = {hand};
+  look.view = {2, -0.6, 0.5};
   writeVideo(S, "around", look, 60);
   writeContactSheet(S, "around_sheet", look, 6, 60);
   writeReplay(S, "around", look, {});
@@ -362,30 +365,38 @@ void showArm() {
   points << kErrand.detour, kErrand.goal;
   const int last = kErrand.steps - 1;
   const Eigen::MatrixXd direct = throughPoints(kArmStart, kErrand.goal, {last}, kErrand.tau),
-                        guess = throughPoints(kArmStart, points, {last / 2, last}, kErrand.tau),
+                        detour = throughPoints(kArmStart, points, {last / 2, last}, kErrand.tau),
                         X = aroundObstacle(S, kErrand);
-  plot("arm", armFigure(S, kBall, guess, X));
-  plot("clearance", clearanceFigure(S, {{"direct", direct}, {"detour", guess}, {"optimised", X}}));
-  print("cost of the detour", motionCost(kArmStart.replicate(1, 2), guess, 2, kErrand.tau));
-  print("cost of the optimised motion", motionCost(kArmStart.replicate(1, 2), X, 2, kErrand.tau));
-  filmMotion(X);
+  const Swing a = swingOf(S, direct), b = swingOf(S, detour), c = swingOf(S, X);
+  plot("arm", armFigure(S,
+                        {{"hand, direct", a.hand, kBlue, Pen::dashes},
+                         {"hand, detour", b.hand, kGrey, Pen::dashes},
+                         {"hand, optimised", c.hand, kOrange, Pen::line, 2.5}},
+                        X));
+  plot("clearance", clearanceFigure({{"direct", a.nearest, kBlue, Pen::dashes},
+                                     {"detour", b.nearest, kGrey, Pen::dashes},
+                                     {"optimised", c.nearest, kOrange}}));
+  const Eigen::MatrixXd prefix = Eigen::VectorXd(kArmStart).replicate(1, 2);
+  print("cost of the detour", motionCost(prefix, detour, 2, kErrand.tau));
+  print("cost of the optimised motion", motionCost(prefix, X, 2, kErrand.tau));
+  filmMotion(X, c.way);
 }
 
 int main() {
   showReach();
+  showVia();
   // Once your own optimiser works, its points lie on the library's line.
   const DiscPath disc;
   TrajectoryTerm outside;
   outside.name = "outside of the disc";
   outside.kind = TermKind::kInequality;
   outside.function = [&](const TrajectoryWindow& window, FunctionValue& value) {
-    const Term term = disc.outside(window.X.col(0), window.t);
-    value = {term.y, term.J};
+    disc.outside(window.X(0, 0), window.X(1, 0), value.y, value.J);
   };
   std::vector<TrajectoryTerm> terms = restAt(disc.to, disc.steps);
   terms.push_back(accelerationTerm());
   terms.push_back(outside);
-  const TrajectoryProblem problem(terms, disc.from.replicate(1, 2), disc.steps, disc.tau);
+  const TrajectoryProblem problem(terms, Eigen::VectorXd(disc.from).replicate(1, 2), disc.steps, disc.tau);
   const TrajectoryResult library = optimizeTrajectory(problem, disc.guess(), {.penalty = 100});
   showDisc(disc, library.X);
   print("of the library", library.solution.cost);

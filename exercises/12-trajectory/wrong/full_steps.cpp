@@ -1,4 +1,5 @@
 // caught by: descends, unseen-descents
+// shown by: descends
 // mistake: takes every step in full, whether the cost falls or not.
 
 // <solution descended>

@@ -1,4 +1,5 @@
 // caught by: around-the-ball, around-others
+// shown by: around-the-ball
 // mistake: looks at the configurations only: what is thin fits between two of them.
 
 // <solution aroundObstacle>

@@ -1,4 +1,5 @@
 // caught by: known-minima, unseen-minima
+// shown by: known-minima
 // mistake: squared penalties with one mu, and no multipliers: constraints give way.
 
 // <solution minimised>

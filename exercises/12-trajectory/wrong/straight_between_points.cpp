@@ -1,4 +1,5 @@
 // caught by: through-points, other-points
+// shown by: through-points
 // mistake: straight from point to point.
 
 // <solution throughPoints>

@@ -1,4 +1,5 @@
 // caught by: around-the-ball, around-others
+// shown by: around-the-ball
 // mistake: takes the detour, and optimises nothing.
 
 // <solution aroundObstacle>

@@ -3,7 +3,7 @@
 
 // <solution assembled>
 const int rows = (orderOf(terms, n) + 1) * n;
-BandSystem system{Eigen::MatrixXd::Zero(rows, n * steps), Eigen::VectorXd::Zero(n * steps)};
+BandSystem system{Eigen::MatrixXd::Zero(rows, n* steps), Eigen::VectorXd::Zero(n* steps)};
 for (const Term& term : terms) {
   const int k = static_cast<int>(term.J.cols()) / n - 1;
   for (int p = 0; p <= k; ++p) {
