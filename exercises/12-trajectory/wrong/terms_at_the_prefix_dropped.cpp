@@ -1,4 +1,4 @@
-// caught by: assembled, unseen-descents, through-points, around-the-ball
+// caught by: assembled, unseen-descents, through-points
 // mistake: leaves out the terms that reach into the prefix.
 
 // <solution assembled>
