@@ -1,5 +1,4 @@
 // caught by: through-points, other-points
-// shown by: through-points
 // mistake: straight from point to point.
 
 // <solution throughPoints>
