@@ -1,0 +1,9 @@
+// caught by: forbidden-call
+// mistake: the library's terms.
+
+// <solution differenceTerm>
+const std::vector<TrajectoryTerm> terms{velocityTerm(), accelerationTerm(), jerkTerm()};
+FunctionValue value;
+terms[static_cast<std::size_t>(window.cols()) - 2].function({.t = 0, .tau = tau, .X = window}, value);
+return {value.y, value.J};
+// </solution>
