@@ -42,7 +42,7 @@ class Graders {
     if (const auto found = graders_.find(name); found != graders_.end()) return found->second;
     Grader grader{.exercise = project_.exercise(name), .toolchain = {}, .sha256 = {}};
     grader.toolchain = prepare(project_, grader.exercise);
-    grader.sha256 = grading::graderFingerprint(grader.toolchain, grader.exercise);
+    grader.sha256 = grading::graderFingerprint(grader.toolchain, grader.exercise, launcherOf(project_));
     return graders_.emplace(name, std::move(grader)).first->second;
   }
 
@@ -178,7 +178,8 @@ int gradeOpen(const std::vector<Task>& tasks, const GradeManyOptions& options,
                            .launcher = sandbox.launcher,
                            .secret = options.secret,
                            .evidence = options.evidence,
-                           .workers = options.workers});
+                           .workers = options.workers,
+                           .anew = options.regrade});
       },
       [&](int k, int) {
         std::error_code ignored;

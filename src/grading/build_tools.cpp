@@ -1,11 +1,14 @@
 #include "grading/build_tools.h"
 
 #include <algorithm>
+#include <csignal>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "grading/once_more_internal.h"
 #include "grading/text_file.h"
+#include "grading/tool_failure.h"
 #include "sandbox/report.h"
 
 namespace rex::grading {
@@ -94,7 +97,7 @@ ProcessResult BuildTools::runConfined(const std::vector<std::string>& command,
   return result;
 }
 
-ProcessResult BuildTools::run(const std::vector<std::string>& command, std::size_t outputLimit) const {
+ProcessResult BuildTools::runOnce(const std::vector<std::string>& command, std::size_t outputLimit) const {
   ProcessOptions options{.directory = workFolder_,
                          .timeout = clockSeconds(limits_.seconds, level_),
                          .outputLimit = outputLimit,
@@ -110,6 +113,35 @@ ProcessResult BuildTools::run(const std::vector<std::string>& command, std::size
     throw Error({.what = fmt::format("{} did not end within {:g} s: the machine was too busy",
                                      command.front(), clockSeconds(limits_.seconds, level_))});
   return result;
+}
+
+// The kernel kills what used its time and a second more, and at level 3 what used all its memory.
+bool BuildTools::killedFromOutside(const ProcessResult& run) const {
+  return wasKilled(run) && run.cpuSeconds < limits_.seconds && !cell_.ranOutOfMemory();
+}
+
+ProcessResult BuildTools::run(const std::vector<std::string>& command, std::size_t outputLimit) const {
+  ProcessResult last =
+      internal::onceMoreIfKilled([&] { return runOnce(command, outputLimit); },
+                                 [&](const ProcessResult& first) { return killedFromOutside(first); });
+  if (killedFromOutside(last))
+    throw Error(
+        {.what = command.front() + " was killed twice, by nothing that the file did",
+         .found = fmt::format("{} after {:.1f} s of processor time", lastWordsOf(last), last.cpuSeconds),
+         .wanted = "a machine with more free memory"});
+  return last;
+}
+
+std::string BuildTools::limitReached(const ProcessResult& run) const {
+  const auto says = [&](const char* text) { return run.error.find(text) != std::string::npos; };
+  if (cell_.ranOutOfMemory() || says("out of memory") || says("memory exhausted") || says("bad_alloc"))
+    return fmt::format("needed more than {} MiB of memory and was stopped", limits_.memory >> 20);
+  // Where the last words are lost among too many others, the time that it took tells.
+  if (wasKilled(run) || says("CPU time limit") || run.signal == SIGXCPU || run.cpuSeconds >= limits_.seconds)
+    return fmt::format("took more than {:g} s of processor time and was stopped", limits_.seconds);
+  if (says("File size limit") || says("File too large"))
+    return fmt::format("would write a file of more than {} MiB", limits_.fileSize >> 20);
+  return {};
 }
 
 std::vector<fs::path> studentHeaders(const fs::path& folder) {

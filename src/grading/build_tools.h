@@ -30,11 +30,21 @@ class BuildTools {
   BuildTools(const Toolchain& toolchain, const std::filesystem::path& workFolder,
              const sandbox::Sandbox& sandbox, const ToolLimits& limits = {});
 
-  /// Throws Error when the tool or the sandbox does not start, or the machine was too busy.
+  /// A tool that is killed although it reached no limit runs once more. Throws Error when it is killed again,
+  /// when the tool or the sandbox does not start, or the machine was too busy.
   [[nodiscard]] ProcessResult run(const std::vector<std::string>& command,
                                   std::size_t outputLimit = 8u << 20) const;
 
+  /// The same, but once: for what decides nothing.
+  [[nodiscard]] ProcessResult runOnce(const std::vector<std::string>& command,
+                                      std::size_t outputLimit = 8u << 20) const;
+
+  /// The limit on memory, processor time or the size of files that ended the tool: "took more than ...";
+  /// empty if it was none.
+  [[nodiscard]] std::string limitReached(const ProcessResult& run) const;
+
  private:
+  bool killedFromOutside(const ProcessResult& run) const;
   ProcessResult runConfined(const std::vector<std::string>& command, const ProcessOptions& options) const;
 
   std::filesystem::path workFolder_;

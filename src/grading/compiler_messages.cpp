@@ -111,6 +111,23 @@ std::vector<CompileDiagnostic> parseCompilerText(std::string_view standardError)
   return messages;
 }
 
+// Where the compiler left no line of the source, the assembler tells that of a file which is gone.
+std::vector<CompileDiagnostic> parseAssemblerText(std::string_view standardError) {
+  std::vector<CompileDiagnostic> messages;
+  for (const std::string_view line : splitLines(standardError)) {
+    const std::size_t label = std::min(line.find(": Error: "), line.find(": Fatal error: "));
+    const std::size_t row = label == line.npos || label == 0 ? line.npos : line.rfind(':', label - 1);
+    if (row == line.npos) continue;
+    CompileDiagnostic message{.file = std::string(line.substr(0, row)), .severity = "error"};
+    std::from_chars(line.data() + row + 1, line.data() + label, message.line);
+    message.message = tidy(std::string(line.substr(line.find("rror: ", label) + 6)));
+    if (message.line == 0) continue;
+    if (message.file.ends_with(".s")) message.file.clear(), message.line = 0;
+    messages.push_back(std::move(message));
+  }
+  return messages;
+}
+
 void blameMainFile(std::vector<CompileDiagnostic>& messages, const std::string& mainFile,
                    std::string_view plainText) {
   const std::vector<std::string_view> lines = splitLines(plainText);

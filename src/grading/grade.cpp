@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "grading/hidden_seed.h"
+#include "grading/once_more_internal.h"
 #include "grading/printable.h"
 #include "grading/sha256.h"
 #include "grading/worker_process.h"
@@ -131,12 +132,11 @@ Attempt attempt(const RunnableCheck& check, const GradeOptions& options, std::ui
   return {std::move(run), std::move(verdict)};
 }
 
-// A machine short of memory kills programs that did nothing wrong. The same questions once more: a program
-// that kills itself does it again, and has learnt nothing.
+// The same questions: a program that kills itself has learnt nothing.
 Attempt attemptAgainIfKilled(const RunnableCheck& check, const GradeOptions& options, std::uint64_t seed) {
-  Attempt first = attempt(check, options, seed);
-  const bool killed = first.run.failure && first.run.failure->killed;
-  return killed ? attempt(check, options, seed) : first;
+  return internal::onceMoreIfKilled(
+      [&] { return attempt(check, options, seed); },
+      [](const Attempt& first) { return first.run.failure && first.run.failure->killed; });
 }
 
 /// Runs one check and adds what the worker used and printed to the whole.

@@ -32,7 +32,8 @@ void require(const std::string& what, const std::string& found, const std::strin
 void requireInputs(const Task& task, const fs::path& file, const Toolchain& toolchain,
                    const ExerciseInfo& exercise, const TaskOptions& options) {
   require(file.string(), sha256(gradedText(file)), task.sourceSha256);
-  require("the grader of " + exercise.name, graderFingerprint(toolchain, exercise), task.graderSha256);
+  require("the grader of " + exercise.name, graderFingerprint(toolchain, exercise, options.launcher),
+          task.graderSha256);
   if (secretIdOf(options.secret) != task.secretId)
     throw Error({.what = "the secret of the course",
                  .found = options.secret.empty() ? "none" : secretIdOf(options.secret),
@@ -106,8 +107,9 @@ GradeResult gradeTask(const Task& task, const Toolchain& toolchain, const Exerci
                                      .sandbox = {.level = task.level, .launcher = options.launcher},
                                      .secret = options.secret};
   const BuiltSubmission built =
-      options.workers.empty() ? buildSubmission(toolchain, exercise, submission)
-                              : buildOnce(options.workers, workerKey(task), toolchain, exercise, submission);
+      options.workers.empty()
+          ? buildSubmission(toolchain, exercise, submission)
+          : buildOnce({options.workers, workerKey(task), options.anew}, toolchain, exercise, submission);
   GradeResult result = gradeBuilt(built, toolchain, exercise, submission);
   const fs::path folder = resultFolder(options.out, task);
   fs::create_directories(folder);

@@ -32,6 +32,7 @@ struct TaskOptions {
   std::filesystem::path secret{};      ///< file with the secret of the course; empty: none
   bool evidence = false;               ///< keep pictures and replays of visible checks that do not hold
   std::filesystem::path workers{};     ///< where compiled programs are kept; empty: nowhere
+  bool anew = false;                   ///< compile also what is kept there
 };
 
 /// Grades and writes OUT/STUDENT/EXERCISE/results.json, with the hash of the inputs, build.log and, if asked,

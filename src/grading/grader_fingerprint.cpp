@@ -38,14 +38,23 @@ std::string headersOf(const std::vector<std::string>& flags) {
   return text;
 }
 
+// It cannot change while it runs, even where a new one gets its name.
+const std::string& hashOfRunningProgram() {
+  static const std::string hash = sha256(readTextFile("/proc/self/exe"));
+  return hash;
+}
+
 }  // namespace
 
-std::string graderFingerprint(const Toolchain& toolchain, const ExerciseInfo& exercise) {
+std::string graderFingerprint(const Toolchain& toolchain, const ExerciseInfo& exercise,
+                              const fs::path& launcher) {
   std::string text = fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n", REX_VERSION, exerciseVersion(exercise.folder),
                                  toolchain.compiler, fmt::join(toolchain.flags, "\n"),
                                  fmt::join(toolchain.linkFlags, "\n"), sha256(headersOf(toolchain.flags)));
   for (const fs::path& file : {toolchain.grader, toolchain.workerObject, toolchain.studentLibrary})
     text += sha256(readTextFile(file)) + "\n";
+  text += hashOfRunningProgram() + "\n";
+  if (fs::exists(launcher)) text += sha256(readTextFile(launcher)) + "\n";
   return sha256(text);
 }
 

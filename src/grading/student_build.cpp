@@ -4,7 +4,6 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -19,6 +18,7 @@
 #include "grading/precompiled_prefix.h"
 #include "grading/symbol_scan.h"
 #include "grading/text_file.h"
+#include "grading/tool_failure.h"
 
 namespace rex::grading {
 namespace {
@@ -40,20 +40,31 @@ std::string plainName(const path& file) {
   return usable ? name : "main.cpp";
 }
 
-// Why a compiler that reported no error still failed.
-std::string whyItGaveUp(const ProcessResult& run, const StudentBuildOptions& limits) {
-  const auto says = [&](const char* text) { return run.error.find(text) != std::string::npos; };
+Error unexplained(const std::string& what, std::string found) {
+  return Error({.what = what + " at no fault of the file",
+                .found = std::move(found),
+                .wanted = "a machine with room on its disks, and tools that work"});
+}
+
+// Why a compiler that reported no error still failed. One that a source makes fall does so each time; what
+// nobody can explain is no fault of the student.
+std::string whyItGaveUp(const ProcessResult& run, const BuildTools& tools,
+                        const StudentBuildOptions& limits) {
   if (run.timedOut)
     return fmt::format("compiling did not end within {:g} s: does it include a pipe or a device?",
                        clockSeconds(limits.seconds, limits.sandbox.level));
-  if (says("Killed") || says("CPU time limit") || run.signal != 0)
-    return fmt::format("compiling took more than {:g} s of processor time and was stopped", limits.seconds);
-  if (says("out of memory") || says("memory exhausted") || says("bad_alloc"))
-    return fmt::format("compiling needed more than {} MiB of memory and was stopped", limits.memory >> 20);
-  if (says("File size limit") || says("File too large"))
-    return fmt::format("the compiled file would be larger than {} MiB", ToolLimits{}.fileSize >> 20);
-  const std::string firstLine = run.error.substr(0, run.error.find('\n'));
-  return "the compiler gave up: " + firstLine;
+  if (const std::string limit = tools.limitReached(run); !limit.empty()) return "compiling " + limit;
+  constexpr std::size_t kMostText = 8u << 20;  // that BuildTools keeps
+  const bool namesErrors = run.error.find("\"kind\": \"error\"") != run.error.npos;
+  if (namesErrors || run.error.size() >= kMostText) return "the compiler has more to say than can be read";
+  const std::string words = lastWordsOf(run);
+  if (words.find("internal compiler error") == words.npos) throw unexplained("the compiler failed", words);
+  return "the compiler gave up: " + words;
+}
+
+// From level 2 on, files that the compiler makes for itself lie in memory that it shares with nobody.
+bool isInSandboxsMemory(const std::string& text, int level) {
+  return level >= 2 && text.find(fmt::format(" {}/cc", sandbox::kInsideFolder)) != text.npos;
 }
 
 std::vector<std::string> compileCommand(const Toolchain& toolchain, const StudentBuildOptions& options,
@@ -77,13 +88,31 @@ std::vector<std::string> compileCommand(const Toolchain& toolchain, const Studen
 // header. No source lines are quoted: they could come from any file.
 std::string plainReport(std::vector<std::string> command, const std::string& name, const BuildTools& tools) {
   command.insert(command.end(), {"-fmax-errors=20", "-fno-diagnostics-show-caret", "-fsyntax-only", name});
-  return tools.run(command).error;
+  return tools.runOnce(command).error;
 }
 
 std::string writeLog(const std::vector<CompileDiagnostic>& messages) {
   std::string log;
   for (const CompileDiagnostic& message : messages) log += toString(message) + "\n";
   return log;
+}
+
+// Finds what the file did wrong. Throws Error where nothing tells of that.
+void explain(const ProcessResult& run, const std::vector<std::string>& command, const std::string& name,
+             const BuildTools& tools, const StudentBuildOptions& options, StudentObject& result) {
+  if (const auto full = fullDiskIn(result.messages)) {
+    if (!isInSandboxsMemory(*full, options.sandbox.level)) throw unexplained("the compiler failed", *full);
+    result.messages = {
+        {name, 0, 0, "error", "", "compiling filled the sandbox's folder for temporary files"}};
+  }
+  const auto isError = [](const CompileDiagnostic& m) { return m.severity == "error"; };
+  const auto explained = [&] { return std::any_of(result.messages.begin(), result.messages.end(), isError); };
+  // g++ 12 writes no JSON when -fmax-errors stops it; so that is for plain text only, which stands in when
+  // too many errors keep the JSON from being finished.
+  result.log = plainReport(command, name, tools).substr(0, kLogSize);
+  if (!explained()) result.messages = parseCompilerText(result.log);
+  if (!explained()) result.messages = parseAssemblerText(run.error);
+  if (!explained()) result.messages.push_back({name, 0, 0, "error", "", whyItGaveUp(run, tools, options)});
 }
 
 void compile(const std::vector<std::string>& command, const std::string& name, const BuildTools& tools,
@@ -95,22 +124,28 @@ void compile(const std::vector<std::string>& command, const std::string& name, c
   result.exitCode = run.exitCode;
   result.ok = run.ok();
   result.messages = parseCompilerJson(run.error);
-  const auto isError = [](const CompileDiagnostic& m) { return m.severity == "error"; };
-  const auto explained = [&] { return std::any_of(result.messages.begin(), result.messages.end(), isError); };
-  // g++ 12 writes no JSON when -fmax-errors stops it; so that is for plain text only, which stands in when
-  // too many errors keep the JSON from being finished.
-  if (!run.ok()) result.log = plainReport(command, name, tools).substr(0, kLogSize);
-  if (!run.ok() && !explained()) result.messages = parseCompilerText(result.log);
-  if (!run.ok() && !explained())
-    result.messages.push_back({name, 0, 0, "error", "", whyItGaveUp(run, options)});
+  if (!run.ok()) explain(run, command, name, tools, options, result);
   blameMainFile(result.messages, name, result.log);
   result.truncated = result.messages.size() > kMostMessages;
   if (result.truncated) result.messages.resize(kMostMessages);
   if (result.log.empty()) result.log = writeLog(result.messages);
 }
 
+// What the linker found wrong with the last of the objects, which is the student's. Throws Error where
+// nothing tells of that.
+std::vector<CompileDiagnostic> explainLinking(const ProcessResult& run, const BuildTools& tools,
+                                              const std::string& object, const std::string& mainFile) {
+  std::vector<CompileDiagnostic> messages = parseLinkerText(run.error, mainFile);
+  if (!messages.empty()) return messages;
+  const std::string limit = tools.limitReached(run);
+  if (!limit.empty()) return {{mainFile, 0, 0, "error", "", "linking " + limit}};
+  const std::string complaint = complaintAbout(object, run.error);
+  if (complaint.empty()) throw unexplained("the linker failed", lastWordsOf(run));
+  return {{mainFile, 0, 0, "error", "", "cannot be linked: " + complaint}};
+}
+
 StudentProgram link(const Toolchain& toolchain, const BuildTools& tools, const path& program,
-                    std::vector<std::string> objects, const std::string& mainFile) {
+                    const std::vector<std::string>& objects, const std::string& mainFile) {
   std::vector<std::string> command = {toolchain.compiler, "-o", program.string()};
   command.insert(command.end(), objects.begin(), objects.end());
   command.push_back(toolchain.studentLibrary.string());
@@ -118,11 +153,7 @@ StudentProgram link(const Toolchain& toolchain, const BuildTools& tools, const p
   const ProcessResult run = tools.run(command);
   StudentProgram result{
       .program = program, .messages = {}, .log = run.error.substr(0, kLogSize), .ok = run.ok()};
-  if (run.ok()) return result;
-  result.messages = parseLinkerText(run.error, mainFile);
-  if (result.messages.empty())
-    result.messages.push_back(
-        {mainFile, 0, 0, "error", "", "cannot be linked: " + run.error.substr(0, run.error.find('\n'))});
+  if (!run.ok()) result.messages = explainLinking(run, tools, objects.back(), mainFile);
   return result;
 }
 
@@ -189,9 +220,10 @@ StudentObject compileStudent(const Toolchain& toolchain, const std::vector<Forbi
   }
   // A copy, so that what is graded is what was read and nothing beside the student's file is included.
   std::filesystem::create_directories(folder);
-  std::ofstream(folder / name, std::ios::binary) << result.source;
+  writeTextFile(folder / name, result.source);
   result.object = folder / "student.o";
-  std::filesystem::remove(folder / kDependencies);  // of another user, after a grading at another level
+  // Of another user, after a grading at another level.
+  for (const path& old : {folder / kDependencies, result.object}) std::filesystem::remove(old);
   StudentBuildOptions absolute = options;
   absolute.workFolder = folder;
   const BuildTools tools(toolchain, folder, options.sandbox,

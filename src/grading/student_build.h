@@ -37,7 +37,8 @@ struct StudentObject {
 
 /// Reads and compiles the file as it is now, under limits on time, memory and file size, and scans it for
 /// calls that the exercise forbids. Any trouble with the file becomes a message; throws Error only when the
-/// tools fail. Two builds may run at once in different work folders.
+/// tools fail, as on a full disk, or where nothing tells what is wrong with the file. Two builds may run at
+/// once in different work folders.
 [[nodiscard]] StudentObject compileStudent(const Toolchain& toolchain,
                                            const std::vector<ForbiddenFunction>& forbidden,
                                            const StudentBuildOptions& options);
@@ -50,11 +51,12 @@ struct StudentProgram {
   bool ok = false;
 };
 
-/// Links the worker: the exercise's loop around the student's functions, whose main() is put aside.
+/// Links the worker: the exercise's loop around the student's functions, whose main() is put aside. Throws
+/// Error as compileStudent().
 [[nodiscard]] StudentProgram linkWorker(const Toolchain& toolchain, const StudentObject& object,
                                         const sandbox::Sandbox& sandbox = {});
 
-/// Links the student's own program.
+/// Links the student's own program. Throws Error as compileStudent().
 [[nodiscard]] StudentProgram linkProgram(const Toolchain& toolchain, const StudentObject& object);
 
 /// The text of a student's file. Throws Error unless it is a regular file of at most 1 MiB of text without

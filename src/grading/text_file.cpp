@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "grading/to_disk.h"
 
 namespace rex::grading {
 namespace {
@@ -21,14 +22,6 @@ bool writeAll(int fd, std::string_view text) {
     if (written > 0) text.remove_prefix(static_cast<std::size_t>(written));
   }
   return true;
-}
-
-// The new name survives a power cut once its folder lies on the disk. Some file systems cannot do that.
-void syncFolder(const std::filesystem::path& folder) {
-  const int fd = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (fd < 0) return;
-  ::fsync(fd);
-  ::close(fd);
 }
 
 }  // namespace
@@ -63,7 +56,8 @@ void replaceTextFile(const std::filesystem::path& file, std::string_view text, c
   const bool written = writeAll(fd, text) && ::fsync(fd) == 0;
   ::close(fd);
   if (!written || ::rename(temporary.c_str(), file.c_str()) != 0) refuse();
-  syncFolder(file.parent_path());
+  // The new name survives once its folder lies on the disk.
+  bringToDisk(file.has_parent_path() ? file.parent_path() : ".");
 }
 
 }  // namespace rex::grading

@@ -170,14 +170,58 @@ TEST_F(GradeManyTest, KeepsCompiledProgramsForOtherSeeds) {
   ASSERT_EQ(folders.size(), 2u) << "what does not compile is not kept, nothing else is left";
   EXPECT_EQ(fs::status(root() / "workers").permissions(), fs::perms::owner_all);
   // Proof that they are taken: exchanged, they give each other's grades.
-  fs::rename(folders[0] / "worker", root() / "exchanged");
-  fs::rename(folders[1] / "worker", folders[0] / "worker");
-  fs::rename(root() / "exchanged", folders[1] / "worker");
+  fs::rename(folders[0], root() / "exchanged");
+  fs::rename(folders[1], folders[0]);
+  fs::rename(root() / "exchanged", folders[1]);
   EXPECT_EQ(grade({"--seed", "8", "--workers", (root() / "workers").string()}, "third").code, 0);
   EXPECT_EQ(result("wrong", "third").at("score"), result("good", "plain").at("score"));
   EXPECT_EQ(result("good", "third").at("score"), result("wrong", "plain").at("score"));
   EXPECT_EQ(grade({"--seed", "8"}, "fourth").code, 0);
   EXPECT_EQ(result("good", "fourth").at("outcome"), "pass");
+}
+
+// As a power cut or a bad disk leaves them.
+TEST_F(GradeManyTest, CompilesAnewWhereAKeptProgramIsDamaged) {
+  handIn("good", kGood);
+  const fs::path workers = root() / "workers";
+  int seed = 10;
+  const auto gradedAgain = [&] {
+    EXPECT_EQ(grade({"--workers", workers.string(), "--seed", std::to_string(++seed)}).code, 0);
+    return row("good");
+  };
+  const std::string whole = gradedAgain();
+  EXPECT_THAT(whole, HasSubstr(",pass,"));
+  const fs::path kept = fs::directory_iterator(workers)->path();
+  const std::string worker = fileText(kept / "worker"), start = fileText(kept / "start.json");
+  const auto expectRebuilt = [&](const char* name, const std::string& text) {
+    write(kept / name, text);
+    EXPECT_EQ(gradedAgain(), whole) << name << " of " << text.size() << " bytes";
+    EXPECT_FALSE(fileText(kept / name) == text) << name << " of " << text.size() << " bytes";
+  };
+  std::string bent = worker;
+  bent[bent.size() / 2] ^= 1;
+  for (const std::string& text :
+       {std::string(), worker.substr(0, worker.size() / 2), worker.substr(0, worker.size() - 4096), bent})
+    expectRebuilt("worker", text);
+  for (const std::string& text : {std::string(), std::string("{}"), start.substr(0, start.size() / 2)})
+    expectRebuilt("start.json", text);
+  expectRebuilt("main.cpp", kWrong);
+  expectRebuilt("build.log", "another");
+  fs::remove(kept / "worker");
+  EXPECT_EQ(gradedAgain(), whole);
+  EXPECT_TRUE(fileText(kept / "worker") == worker);
+}
+
+TEST_F(GradeManyTest, CompilesAnewWhenAskedToRegrade) {
+  handIn("good", kGood);
+  const std::string workers = (root() / "workers").string();
+  EXPECT_EQ(grade({"--workers", workers}).code, 0);
+  const fs::path kept = fs::directory_iterator(workers)->path();
+  const auto before = fs::last_write_time(kept / "worker");
+  EXPECT_EQ(grade({"--workers", workers, "--seed", "5"}).code, 0);
+  EXPECT_EQ(fs::last_write_time(kept / "worker"), before);
+  EXPECT_EQ(grade({"--workers", workers, "--regrade"}).code, 0);
+  EXPECT_NE(fs::last_write_time(kept / "worker"), before);
 }
 
 TEST_F(GradeManyTest, SaysWhereProgramsCannotBeKept) {

@@ -325,6 +325,24 @@ TEST_F(Battery, A13SeesNothingBesideACompilerInTheHome) {
   }
 }
 
+// No attack: a machine short of memory does that.
+TEST_F(Battery, ToolsThatAreKilledAreNoFaultOfTheFile) {
+  const fs::path tools = temporary_.path() / "tools" / "bin", main = temporary_.path() / "main.cpp";
+  fs::create_directories(tools);
+  fs::create_symlink("/usr/bin/c++", tools / "c++");
+  writeTextFile(tools / "cc1plus", "#!/bin/sh\nkill -KILL $$\n");
+  fs::permissions(tools / "cc1plus", fs::perms(0755));
+  writeTextFile(main, readTextFile(kFolder / "battery" / "honest.cpp"));
+  Toolchain toolchain = toolchain_;
+  toolchain.compiler = tools / "c++";
+  toolchain.flags.push_back("-B" + tools.string());
+  for (const int level : offeredLevels()) {
+    const BuiltSubmission built = buildSubmission(toolchain, exercise(), optionsFor(main, level, "killed"));
+    EXPECT_EQ(built.start.outcome, Outcome::graderError);
+    EXPECT_THAT(built.start.message, HasSubstr("was killed twice, by nothing that the file did")) << level;
+  }
+}
+
 TEST_F(Battery, A24TalksToNobody) {
   const int listener = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   sockaddr_in address{};

@@ -68,5 +68,17 @@ TEST(ParseLinkerText, NamesEachFunctionOnce) {
   EXPECT_EQ(toString(messages[1]), "main.cpp: error: 'serve' is defined, but the exercise already has it");
 }
 
+// As g++ 12 and as 2.40 write it: of asm() in a function, of what the compiler wrote itself, of a full disk.
+TEST(CompilerMessages, ReadsTheAssemblersText) {
+  const auto messages = parseAssemblerText(
+      "[]\nmain.cpp: Assembler messages:\nmain.cpp:2: Error: no such instruction: `foo bar'\n"
+      "/tmp/ccMa6Nhw.s:17: Error: junk at end of line, first unrecognized character is `\"'\n"
+      "/tmp/ccMa6Nhw.s: Fatal error: can't write 8 bytes to section .group of student.o: 'No space left on "
+      "device'\n");
+  ASSERT_EQ(messages.size(), 2u);
+  EXPECT_EQ(toString(messages[0]), "main.cpp:2: error: no such instruction: `foo bar'");
+  EXPECT_EQ(toString(messages[1]), "error: junk at end of line, first unrecognized character is `\"'");
+}
+
 }  // namespace
 }  // namespace rex::grading

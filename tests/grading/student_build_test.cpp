@@ -1,6 +1,8 @@
 #include "grading/student_build.h"
 
+#include <cstdlib>
 #include <fstream>
+#include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,6 +11,7 @@
 #include "base/process.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
+#include "support/tiny_disk.h"
 
 namespace rex::grading {
 namespace {
@@ -66,6 +69,13 @@ class StudentBuildTest : public ::testing::Test {
   StudentObject compile(const std::string& source) const {
     write(temporary_.path() / "main.cpp", source);
     return compileFile(temporary_.path() / "main.cpp");
+  }
+
+  // A program in place of one of the compiler's.
+  path script(const path& file, const std::string& text) const {
+    write(temporary_.path() / file, "#!/bin/sh\n" + text);
+    std::filesystem::permissions(temporary_.path() / file, std::filesystem::perms::owner_all);
+    return temporary_.path() / file;
   }
 
   static std::string first(const std::vector<CompileDiagnostic>& messages) {
@@ -245,12 +255,126 @@ TEST_F(StudentBuildTest, SaysWhichLimitACompilationHit) {
             "main.cpp: error: compiling needed more than 150 MiB of memory and was stopped");
 }
 
-TEST_F(StudentBuildTest, SaysWhenLinkingFailsForAnotherReason) {
+TEST_F(StudentBuildTest, SaysWhatTheAssemblerRefuses) {
+  const StudentObject object = compile("int main() {\n  asm(\"no such thing\");\n}\n");
+  EXPECT_FALSE(object.ok);
+  EXPECT_EQ(first(object.messages), "main.cpp:2: error: no such instruction: `no such thing'");
+  EXPECT_EQ(first(compile("int a __attribute__((section(\".bss,\\\"awx\\\",@nobits#\"))) = 1;\n"
+                          "int b __attribute__((section(\".text,\\\"q\\\"#\"))) = 1;\n")
+                      .messages)
+                .find("[]"),
+            std::string::npos);
+}
+
+TEST_F(StudentBuildTest, SaysWhatTheLinkerRefuses) {
+  const StudentObject object = compile(
+      "static char big[3000000000], more[3000000000];\nint last;\n"
+      "int twice(int a) { big[a] = 1; more[a] = 2; last = a; return big[0] + more[5]; }\n"
+      "int main() { return twice(1); }\n");
+  ASSERT_TRUE(object.ok) << first(object.messages);
+  const StudentProgram program = linkProgram(toolchain(), object);
+  EXPECT_FALSE(program.ok);
+  EXPECT_THAT(first(program.messages), HasSubstr("main.cpp: error: cannot be linked: main.cpp:"));
+  EXPECT_THAT(first(program.messages), HasSubstr("relocation truncated to fit"));
+}
+
+TEST_F(StudentBuildTest, BlamesTheMachineForALinkerThatExplainsNothing) {
   Toolchain broken = toolchain();
   broken.studentLibrary = "/no/such/library.so";
-  const StudentProgram program = linkProgram(broken, compile(kGood));
-  EXPECT_FALSE(program.ok);
-  EXPECT_THAT(first(program.messages), HasSubstr("main.cpp: error: cannot be linked: "));
+  EXPECT_REX_ERROR(linkProgram(broken, compile(kGood)), "the linker failed at no fault of the file: found");
+}
+
+TEST_F(StudentBuildTest, BlamesTheMachineForACompilerThatExplainsNothing) {
+  write(temporary_.path() / "main.cpp", kGood);
+  Toolchain broken = toolchain();
+  const StudentBuildOptions options{.main = temporary_.path() / "main.cpp",
+                                    .workFolder = temporary_.path() / "work"};
+  broken.compiler = script("mute", "exit 1\n");
+  EXPECT_REX_ERROR(compileStudent(broken, {}, options),
+                   "the compiler failed at no fault of the file: found exit code 1");
+  broken.compiler = script("empty", "echo '[]' >&2\nkill -ABRT $$\n");
+  EXPECT_REX_ERROR(compileStudent(broken, {}, options), "found signal 6");
+}
+
+// Whatever is full first, the copy of the file, the compiler's own file, the object or the program, the file
+// is fine.
+TEST_F(StudentBuildTest, BlamesTheMachineForAFullDisk) {
+  const std::string padding = "// " + std::string(20000, 'x') + "\n";
+  write(temporary_.path() / "main.cpp",
+        padding + "#include <map>\n#include <string>\n" + kGood +
+            "int count() { std::map<int, std::string> m; m[1] = \"x\"; return "
+            "static_cast<int>(m.size()); }\n");
+  const char* set = std::getenv("TMPDIR");
+  const std::string before = set != nullptr ? set : "/tmp";
+  std::set<std::string> reasons;
+  for (const int kilobytes : {16, 28, 60, 88, 120, 160, 200, 240, 280, 4000}) {
+    const TinyDisk disk(kilobytes);
+    REX_NEEDS_DISK(disk);
+    ::setenv("TMPDIR", disk.path().c_str(), 1);
+    try {
+      const StudentObject object = compileStudent(
+          toolchain(), {}, {.main = temporary_.path() / "main.cpp", .workFolder = disk.path()});
+      EXPECT_TRUE(object.ok) << kilobytes << ": " << first(object.messages);
+      const StudentProgram worker = linkWorker(toolchain(), object);
+      EXPECT_TRUE(worker.ok) << kilobytes << ": " << first(worker.messages);
+      reasons.insert("built");
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), HasSubstr("No space left on device")) << kilobytes;
+      reasons.insert(error.parts().what);
+    }
+    ::setenv("TMPDIR", before.c_str(), 1);
+  }
+  if (set == nullptr) ::unsetenv("TMPDIR");
+  EXPECT_THAT(reasons, ::testing::IsSupersetOf({"built", "cannot write this file",
+                                                "the compiler failed at no fault of the file",
+                                                "the linker failed at no fault of the file"}));
+}
+
+// Of a machine short of memory: the driver, or a tool of its own.
+TEST_F(StudentBuildTest, BuildsOnceMoreWhenAToolIsKilled) {
+  write(temporary_.path() / "main.cpp", kGood);
+  const StudentBuildOptions options{.main = temporary_.path() / "main.cpp",
+                                    .workFolder = temporary_.path() / "work"};
+  const std::string mark = (temporary_.path() / "mark").string(),
+                    once = "[ -e " + mark + " ] || { : >" + mark + "; kill -KILL $$; }\n";
+  Toolchain killed = toolchain();
+  killed.compiler = script("driver", once + "exec g++ \"$@\"\n");
+  EXPECT_TRUE(compileStudent(killed, {}, options).ok);
+  EXPECT_TRUE(std::filesystem::remove(mark));
+
+  killed = toolchain();
+  script("tools/as", once + "exec as \"$@\"\n");
+  killed.flags.push_back("-B" + (temporary_.path() / "tools").string());
+  const StudentObject object = compileStudent(killed, {}, options);
+  EXPECT_TRUE(object.ok) << first(object.messages);
+  EXPECT_TRUE(std::filesystem::remove(mark));
+
+  script("tools/ld", once + "exec ld \"$@\"\n");
+  killed.linkFlags.push_back("-B" + (temporary_.path() / "tools").string());
+  const StudentProgram worker = linkWorker(killed, object);
+  EXPECT_TRUE(worker.ok) << first(worker.messages);
+  EXPECT_TRUE(std::filesystem::remove(mark));
+}
+
+TEST_F(StudentBuildTest, BlamesTheMachineForToolsThatAreKilledTwice) {
+  write(temporary_.path() / "main.cpp", kGood);
+  const StudentBuildOptions options{.main = temporary_.path() / "main.cpp",
+                                    .workFolder = temporary_.path() / "work"};
+  for (const char* tool : {"cc1plus", "as", "ld"}) script(path(tool) / tool, "kill -KILL $$\n");
+  for (const char* tool : {"cc1plus", "as"}) {
+    Toolchain killed = toolchain();
+    killed.flags.push_back("-B" + (temporary_.path() / tool).string());
+    EXPECT_REX_ERROR(
+        compileStudent(killed, {}, options),
+        std::string("g++ was killed twice, by nothing that the file did: found g++: fatal error: "
+                    "Killed signal terminated program ") +
+            tool);
+  }
+  const StudentObject object = compileFile(temporary_.path() / "main.cpp");
+  Toolchain killed = toolchain();
+  killed.linkFlags.push_back("-B" + (temporary_.path() / "ld").string());
+  EXPECT_REX_ERROR(linkWorker(killed, object),
+                   "g++ was killed twice, by nothing that the file did: found collect2: fatal error: ld");
 }
 
 TEST_F(StudentBuildTest, RefusesWhatIsNoSourceFile) {
