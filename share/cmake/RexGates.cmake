@@ -1,16 +1,29 @@
 # rex_exercise_gates(NAME)
 #
 # Registers one test per gate of exercises/NAME and one per file in its wrong/, label `exercise`. `rex dev check NAME
-# --gate GATE` runs one by hand.
+# --gate GATE` runs one by hand. Each compiles a program of some hundred lines; so every second wrong variant, but for
+# those that must leave a picture, has the label `long`, which a short run of scripts/test leaves out.
 function(rex_exercise_gates name)
   set(gates main-current points names release evidence main-floor solution sanitizers)
   file(GLOB variants ${PROJECT_SOURCE_DIR}/exercises/${name}/wrong/*.cpp)
+  set(for_long_runs)
+  set(is_for_long_runs FALSE)
   foreach(variant IN LISTS variants)
     cmake_path(GET variant STEM stem)
     list(APPEND gates wrong/${stem})
+    file(STRINGS ${variant} shown_by REGEX "^// shown by:" LIMIT_COUNT 1)
+    if(is_for_long_runs AND NOT shown_by)
+      list(APPEND for_long_runs wrong/${stem})
+      set(is_for_long_runs FALSE)
+    else()
+      set(is_for_long_runs TRUE)
+    endif()
   endforeach()
   foreach(gate IN LISTS gates)
     add_test(NAME exercise/${name}/${gate} COMMAND rex dev check ${name} --gate ${gate})
     set_tests_properties(exercise/${name}/${gate} PROPERTIES LABELS "exercise;${name}" TIMEOUT 600)
+    if(gate IN_LIST for_long_runs)
+      set_property(TEST exercise/${name}/${gate} APPEND PROPERTY LABELS long)
+    endif()
   endforeach()
 endfunction()
