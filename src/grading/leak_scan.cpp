@@ -142,6 +142,7 @@ class Scanner {
       index_.search(normal.letters, [&](std::size_t k, std::size_t at) {
         const Secret& secret = secrets_[k];
         if (isLibrary && secret.kind != SecretKind::courseSecret) return;
+        if (isUsualElsewhere(secret, place)) return;
         if (!told_.insert(k).second) return;
         found_.leaks.push_back({.where = {place, hasLines ? normal.lines[at] : 0},
                                 .what = std::string(nameOf(secret.kind)),
@@ -149,6 +150,14 @@ class Scanner {
                                 .origin = secret.origin});
       });
     }
+  }
+
+  // Heads of loops and declarations look alike in all exercises.
+  static bool isUsualElsewhere(const Secret& secret, const fs::path& place) {
+    constexpr std::size_t kShortestElsewhere = 40;
+    const fs::path home = fs::path(secret.origin.file).parent_path();
+    return secret.kind == SecretKind::solution && isBelow("exercises", place) && !isBelow(home, place) &&
+           secret.forms.front().size() < kShortestElsewhere;
   }
 
   const std::vector<Secret>& secrets_;

@@ -102,6 +102,20 @@ TEST_F(LeakScanTest, NamesBothPlaces) {
             std::string("notes.md:3: ") + kOfSolution);
 }
 
+// Heads of loops and declarations are the same in many exercises.
+TEST_F(LeakScanTest, WantsLongerLinesInFoldersOfOtherExercises) {
+  const std::string whole = "const double circumference = 2 * 3.14159265 * std::sqrt(square);";
+  write("root/exercises/01-circle/solution.cpp", "// <solution area>\nreturn 3.14159265 * square;\n" + whole +
+                                                     "\n// <todo>\n//| // none\n// </solution>\n");
+  write("tree/exercises/02-square/main.cpp", "return 3.14159265 * square;\n");
+  EXPECT_THAT(leaks(), IsEmpty());
+  write("tree/exercises/02-square/main.cpp", whole + "\n");
+  EXPECT_EQ(leaks().size(), 1u);
+  write("tree/exercises/02-square/main.cpp", "\n");
+  write("tree/exercises/01-circle/help.h", "return 3.14159265 * square;\n");
+  EXPECT_EQ(leaks().size(), 1u);
+}
+
 TEST_F(LeakScanTest, SeesThroughLayoutCaseAndComments) {
   for (const char* text :
        {"return 3.14159265\n  * square;", "RETURN 3.14159265*SQUARE;", "// return 3.14159265 * square;",
