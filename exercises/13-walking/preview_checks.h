@@ -65,20 +65,20 @@ inline PreviewLaw someLaw(rex::Rng& rng, const CartTable& cart) {
 /// The law in the form that Kajita prints, with all changes summed up.
 inline Eigen::MatrixXd printedLaw(const CartTable& cart, const PreviewLaw& law,
                                   const Eigen::VectorXd& reference) {
-  const Eigen::Index n = reference.size();
-  const auto r = [&](Eigen::Index k) { return reference[std::min(k, n - 1)]; };
-  Eigen::MatrixXd states(3, n);
+  const Eigen::Index steps = reference.size();
+  const auto r = [&](Eigen::Index k) { return reference[std::min(k, steps - 1)]; };
+  Eigen::MatrixXd carts(3, steps);
   Eigen::Vector3d x(reference[0], 0, 0);
   const Eigen::Vector3d start = x;
   double errors = 0;
-  for (Eigen::Index k = 0; k < n; ++k) {
-    states.col(k) = x;
+  for (Eigen::Index k = 0; k < steps; ++k) {
+    carts.col(k) = x;
     errors += x[0] - cart.height / cart.g * x[2] - r(k);
     double jerk = -law.Gi * errors - law.Gx.dot(x - start);
     for (Eigen::Index j = 1; j <= law.Gp.size(); ++j) jerk += law.Gp[j - 1] * (r(k + j) - r(j - 1));
     x = cartAfter(cart, x, jerk);
   }
-  return states;
+  return carts;
 }
 
 inline void lawIsFollowed(rex::grading::Check& check, Student& student, CartTable cart) {

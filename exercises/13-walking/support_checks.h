@@ -35,13 +35,13 @@ inline Eigen::MatrixXd shuffled(rex::Rng& rng, Eigen::MatrixXd columns) {
 /// How far the least corner sticks out: whoever allows for rounding must find the same corners.
 inline double leastCorner(const Eigen::MatrixXd& corners) {
   const Eigen::Index k = corners.cols();
-  double least = INFINITY;
+  double out = INFINITY;
   for (Eigen::Index i = 0; i < k && k > 2; ++i) {
     const Eigen::Vector2d start = corners.col(i), along = corners.col((i + 2) % k) - start;
     const Eigen::Vector2d to = corners.col((i + 1) % k) - start;
-    least = std::min(least, std::abs(along.x() * to.y() - along.y() * to.x()) / along.norm());
+    out = std::min(out, std::abs(along.x() * to.y() - along.y() * to.x()) / along.norm());
   }
-  return least;
+  return out;
 }
 
 /// Contacts that span a polygon, with points on its edges, inside and twice in one place.
@@ -123,11 +123,11 @@ inline void cornersFit(rex::grading::Check& check, Student& student, const Eigen
   const Eigen::Index k = wanted.cols();
   check.near("number of corners", static_cast<double>(corners.cols()), static_cast<double>(k), 0);
   if (k == 0) return;
-  Eigen::Index first = 0;
-  (corners.colwise() - wanted.col(0)).colwise().norm().minCoeff(&first);
+  Eigen::Index begin = 0;
+  (corners.colwise() - wanted.col(0)).colwise().norm().minCoeff(&begin);
   double gap = 0;
   for (Eigen::Index i = 0; i < k; ++i)
-    gap = std::max(gap, (corners.col((first + i) % k) - wanted.col(i)).norm());
+    gap = std::max(gap, (corners.col((begin + i) % k) - wanted.col(i)).norm());
   check.near("distance of a corner from where it should be, counter-clockwise", gap, 0, 1e-9, "m");
 }
 
@@ -163,10 +163,10 @@ inline void standsAsItShould(rex::grading::Check& check, Student& student, const
   const std::vector<MovingMass> robot = randomRobot(check.rng(), contacts.rowwise().mean(), 3);
   check.input(fmt::format("{} contacts, {} masses", contacts.cols(), robot.size()));
   Eigen::Vector2d center = Eigen::Vector2d::Zero();
-  double mass = 0;
-  for (const MovingMass& part : robot) {
-    mass += part.mass;
-    center += part.mass / mass * (part.p.head<2>() - center);
+  double whole = 0;
+  for (const MovingMass& one : robot) {
+    whole += one.mass;
+    center += one.mass / whole * (one.p.head<2>() - center);
   }
   check.near("static margin", student.staticMargin(robot, contacts),
              rex::supportMargin(rex::supportPolygon(contacts), center).margin, 1e-9, "m");

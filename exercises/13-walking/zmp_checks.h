@@ -22,10 +22,10 @@ struct ForceAndMoment {
 inline ForceAndMoment inertialForce(const std::vector<MovingMass>& robot, const Eigen::Vector3d& about,
                                     double g) {
   ForceAndMoment sum;
-  for (const MovingMass& part : robot) {
-    const Eigen::Vector3d force = part.mass * (part.a - Eigen::Vector3d(0, 0, -g));
+  for (const MovingMass& one : robot) {
+    const Eigen::Vector3d force = one.mass * (one.a - Eigen::Vector3d(0, 0, -g));
     sum.force += force;
-    sum.moment += (part.p - about).cross(force);
+    sum.moment += (one.p - about).cross(force);
   }
   return sum;
 }

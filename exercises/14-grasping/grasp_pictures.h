@@ -184,9 +184,9 @@ inline rex::Figure hullFigure(const std::string& title, const Eigen::MatrixXd& p
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     corners.emplace_back(points(0, i), points(1, i), points(2, i));
   for (std::size_t i = 0; i < corners.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (planesThrough(corners[i], corners[j], normals, offsets) > 1)
-        addLine(figure, {corners[i], corners[j]}, kGrey, 1.5);
+    for (std::size_t other = 0; other < i; ++other)
+      if (planesThrough(corners[i], corners[other], normals, offsets) > 1)
+        addLine(figure, {corners[i], corners[other]}, kGrey, 1.5);
   for (std::size_t k = 0; k + 1 < corners.size(); k += 2) {
     addLine(figure, {corners[k], corners[k + 1]}, fingerColor(k / 2), 1.5,
             "wrenches of finger " + std::to_string(k / 2 + 1));
@@ -245,14 +245,14 @@ inline std::vector<Eigen::Vector3d> stone() {
     return inner(way, way) < 4.1;
   };
   std::vector<Eigen::Vector3d> corners;
-  for (std::size_t i = 0; i < balls.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      for (std::size_t k = 0; k < j; ++k) {
-        if (!near(i, j) || !near(j, k) || !near(k, i)) continue;
-        const Eigen::Vector3d& c = balls[k];
-        const bool isLeft =
-            inner(upright(ahead(balls[j], -1, balls[i]), ahead(c, -1, balls[i])), balls[i]) > 0;
-        const Eigen::Vector3d &a = balls[isLeft ? i : j], &b = balls[isLeft ? j : i];
+  for (std::size_t first = 0; first < balls.size(); ++first)
+    for (std::size_t second = 0; second < first; ++second)
+      for (std::size_t third = 0; third < second; ++third) {
+        if (!near(first, second) || !near(second, third) || !near(third, first)) continue;
+        const Eigen::Vector3d& c = balls[third];
+        const bool isLeft = inner(upright(ahead(balls[second], -1, balls[first]), ahead(c, -1, balls[first])),
+                                  balls[first]) > 0;
+        const Eigen::Vector3d &a = balls[isLeft ? first : second], &b = balls[isLeft ? second : first];
         const Eigen::Vector3d ab = ahead(a, 1, b), bc = ahead(b, 1, c), ca = ahead(c, 1, a);
         for (const Eigen::Vector3d& p : {a, ab, ca, b, bc, ab, c, ca, bc, ab, bc, ca})
           corners.push_back(onStone(p));
@@ -274,10 +274,10 @@ inline std::vector<Finger> fingersEverywhere(const std::vector<Eigen::Vector3d>&
 // The friction cone of a finger, outside of the object, from where it pushes.
 inline rex::Solid coneSolid(const Finger& finger, const rex::Color& color) {
   constexpr double kSize = 0.02;  // m
-  const Eigen::Vector3d& n = finger.normal;
+  const Eigen::Vector3d& inward = finger.normal;
   const Eigen::Vector3d a =
-      upright(n, std::abs(n[2]) < 0.9 ? Eigen::Vector3d(0, 0, 1) : Eigen::Vector3d(1, 0, 0));
-  const Eigen::Vector3d b = upright(a, n), top = ahead(finger.p, -kSize, n);
+      upright(inward, std::abs(inward[2]) < 0.9 ? Eigen::Vector3d(0, 0, 1) : Eigen::Vector3d(1, 0, 0));
+  const Eigen::Vector3d b = upright(a, inward), top = ahead(finger.p, -kSize, inward);
   const auto rim = [&](int k) {
     const double angle = 2 * kPi * k / 24, radius = kSize * finger.friction;
     return ahead(ahead(top, radius * std::cos(angle), a), radius * std::sin(angle), b);

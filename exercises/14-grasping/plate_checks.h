@@ -35,10 +35,10 @@ inline void isOnOutline(rex::grading::Check& check, const Plate& plate, const Pl
 
 /// The friction cone of a finger, 0.3 of the length deep, and the finger behind it.
 inline void addFinger(rex::Figure& figure, const PlanarFinger& finger, double length) {
-  const Eigen::Vector2d across(-finger.normal.y(), finger.normal.x());
+  const Eigen::Vector2d aside(-finger.normal.y(), finger.normal.x());
   rex::Region cone{.color = rex::grading::kGotColor};
   for (const double side : {-1., 0., 1.}) {
-    const Eigen::Vector2d ahead = finger.normal + side * finger.friction * across;
+    const Eigen::Vector2d ahead = finger.normal + side * finger.friction * aside;
     const Eigen::Vector2d p = finger.p + (side == 0 ? 0 : 0.3) * length * ahead;
     cone.x.push_back(p.x());
     cone.y.push_back(p.y());
@@ -62,9 +62,9 @@ inline rex::Figure drawing(const Plate& plate, const std::vector<PlanarFinger>& 
     outline.y.push_back(corner.y());
   }
   figure.regions = {outline};
-  for (const PlanarFinger& finger : fingers)
-    if (finger.p.allFinite() && finger.normal.allFinite() && std::isfinite(finger.friction))
-      addFinger(figure, finger, plate.length);
+  for (const PlanarFinger& one : fingers)
+    if (one.p.allFinite() && one.normal.allFinite() && std::isfinite(one.friction))
+      addFinger(figure, one, plate.length);
   if (!figure.series.empty()) figure.series[0].label = "fingers";
   rex::Series center{.label = "center", .x = {plate.center.x()}, .y = {plate.center.y()}};
   center.style = rex::SeriesStyle::kPoints;
@@ -85,9 +85,9 @@ inline void graspIsGood(rex::grading::Check& check, Student& student, const Plat
   const auto shown =
       check.show([&] { return rex::grading::Evidence{.figures = {drawing(plate, fingers)}, .film = {}}; });
   check.near("number of fingers", static_cast<double>(fingers.size()), count, 0);
-  for (const PlanarFinger& finger : fingers) {
-    isOnOutline(check, plate, finger);
-    check.near("friction of a finger", finger.friction, friction, 1e-12);
+  for (const PlanarFinger& one : fingers) {
+    isOnOutline(check, plate, one);
+    check.near("friction of a finger", one.friction, friction, 1e-12);
   }
   const double quality = rex::graspQuality(wrenchesOf(fingers, plate.center, plate.length)).epsilon;
   check.atLeast("radius of the ball, of the best known", quality / best, 0.8);

@@ -26,7 +26,7 @@ inline std::string text(double value) {
 inline Eigen::MatrixXd wrenchesOf(const std::vector<PlanarFinger>& fingers, const Eigen::Vector2d& center,
                                   double length) {
   std::vector<rex::PlanarContact> contacts;
-  for (const PlanarFinger& finger : fingers) contacts.push_back({finger.p, finger.normal, finger.friction});
+  for (const PlanarFinger& one : fingers) contacts.push_back({one.p, one.normal, one.friction});
   const auto cones = rex::wrenchCones(contacts, {.p_OR = {center.x(), center.y(), 0}, .length = length});
   return rex::primitiveWrenches(cones).wrenches;
 }
@@ -229,8 +229,8 @@ inline void radiusFits(rex::grading::Check& check, Student& student, const Eigen
 inline Eigen::MatrixXd partOf(const Eigen::MatrixXd& W, const std::vector<int>& finger,
                               const std::vector<int>& kept) {
   std::vector<Eigen::Index> columns;
-  for (std::size_t k = 0; k < finger.size(); ++k)
-    if (std::ranges::count(kept, finger[k]) > 0) columns.push_back(static_cast<Eigen::Index>(k));
+  for (std::size_t at = 0; at < finger.size(); ++at)
+    if (std::ranges::count(kept, finger[at]) > 0) columns.push_back(static_cast<Eigen::Index>(at));
   return W(Eigen::all, columns);
 }
 
@@ -254,8 +254,8 @@ inline void keepsTheNeeded(rex::grading::Check& check, Student& student, const E
   check.that("the fingers kept have force closure",
              rex::forceClosure(partOf(W, finger, kept)).status != kOpen);
   for (const int one : kept) {
-    std::vector<int> rest = kept;
-    std::erase(rest, one);
-    check.that("each finger kept is needed", !isProvablyClosed(partOf(W, finger, rest)));
+    std::vector<int> others = kept;
+    std::erase(others, one);
+    check.that("each finger kept is needed", !isProvablyClosed(partOf(W, finger, others)));
   }
 }

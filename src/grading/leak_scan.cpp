@@ -155,9 +155,9 @@ class Scanner {
   // Heads of loops and declarations look alike in all exercises.
   static bool isUsualElsewhere(const Secret& secret, const fs::path& place) {
     constexpr std::size_t kShortestElsewhere = 40;
-    const fs::path home = fs::path(secret.origin.file).parent_path();
-    return secret.kind == SecretKind::solution && isBelow("exercises", place) && !isBelow(home, place) &&
-           secret.forms.front().size() < kShortestElsewhere;
+    const fs::path home = fs::path(secret.origin.file).parent_path(), folder = place.parent_path();
+    return secret.kind == SecretKind::solution && isBelow("exercises", folder) && folder != "exercises" &&
+           !isBelow(home, place) && secret.forms.front().size() < kShortestElsewhere;
   }
 
   const std::vector<Secret>& secrets_;

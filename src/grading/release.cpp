@@ -137,8 +137,11 @@ std::vector<Secret> secretsOfCourse(const path& root, const path& courseSecret) 
 
 void requireNoSolutionText(const path& exercise) {
   std::map<std::string, std::string> released = madeFiles(exercise);
-  for (const char* name : {"README.md", "exercise.h", "exercise.toml"})
-    if (fs::exists(exercise / name)) released[name] = readTextFile(exercise / name);
+  for (const auto& entry : fs::directory_iterator(exercise)) {
+    const path name = entry.path().filename();
+    if (name == "README.md" || name == "exercise.toml" || name.extension() == ".h")
+      released[name.string()] = readTextFile(entry.path());
+  }
   const PrivateFolder folder(fs::temp_directory_path());
   for (const auto& [name, text] : released) writeTextFile(folder.path() / name, text);
   const LeakScan scan = scanForLeaks(folder.path(), secretsOf({exercise}, exercise));
