@@ -207,8 +207,8 @@ inline rex::Figure armFigure(rex::Simulator& S, const std::vector<Curve>& hands,
               .isMap = true,
               .width = 760,
               .height = 640};
-  for (Eigen::Index t = 0; t < X.cols(); ++t)
-    sheet.curves.push_back({t == 0 ? "links" : "", linksOf(S, X.col(t)), kPale, Pen::line, 1});
+  for (Eigen::Index step = 0; step < X.cols(); ++step)
+    sheet.curves.push_back({step == 0 ? "links" : "", linksOf(S, X.col(step)), kPale, Pen::line, 1});
   for (const Curve& hand : hands) sheet.curves.push_back(hand);
   const double apart = 0.05 + kErrand.margin;
   Curve edge{"half a link and the margin away", Eigen::MatrixXd(2, 73), kGrey, Pen::line, 1};

@@ -54,7 +54,7 @@ inline Eigen::MatrixXd scattered(rex::Rng& rng) {
     const rex::SupportPolygon polygon = rex::supportPolygon(matrixOf(points));
     const Eigen::Index k = polygon.corners.cols();
     if (k < 3 || leastCorner(polygon.corners) < .005) continue;
-    for (int i = 0; i < 4; ++i) {
+    for (int doubled = 0; doubled < 4; ++doubled) {
       const int at = rng.index(static_cast<int>(k));
       const Eigen::Vector2d edge = polygon.corners.col((at + 1) % k) - polygon.corners.col(at);
       points.emplace_back(polygon.corners.col(at) + edge * (1 + rng.index(3)) / 4);
