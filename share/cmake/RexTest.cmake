@@ -12,7 +12,7 @@ function(rex_test_headers)
 endfunction()
 
 # Tests run once for each time that they are compiled. At this level g++ 12 warns of what is not there.
-set(REX_TEST_OPTIMISATION "$<$<CONFIG:Release>:SHELL:-O1 -Wno-array-bounds -Wno-maybe-uninitialized>")
+set(REX_TEST_OPTIMISATION "$<$<CONFIG:Release>:SHELL:-O1 -Wno-array-bounds -Wno-maybe-uninitialized -Wno-stringop-overflow>")
 
 # rex_test(MODULE NAME [USES module ...] [PRIVATE library ...])
 #
