@@ -34,7 +34,7 @@ TEST(ToolFailure, BelievesNoSourceThatItWasKilled) {
   EXPECT_FALSE(wasKilled(ended(R"([{"kind": "error", "message": "#error )" + words + R"("}])" + "\n")));
   EXPECT_FALSE(wasKilled(ended("[]\nmain.cpp: Assembler messages:\nmain.cpp:1: Error: x\n" + words +
                                "\ncompilation terminated.\n")));
-  EXPECT_FALSE(wasKilled(ended("/usr/bin/ld: student.o: undefined reference to `" + words +
+  EXPECT_FALSE(wasKilled(ended("ld: student.o: undefined reference to `" + words +
                                "\ncompilation terminated.'\ncollect2: error: ld returned 1 exit status\n")));
 }
 
@@ -52,18 +52,17 @@ TEST(ToolFailure, KnowsAFullDisk) {
 }
 
 TEST(ToolFailure, KnowsWhatTheLinkerHoldsAgainstTheObject) {
-  const std::string start = "/usr/bin/ld: /work/student.o: ";
-  EXPECT_EQ(complaintAbout("/work/student.o", start + "in function `f':\nmain.cpp:(.text+0x5): truncated\n"),
+  const std::string start = "ld: build/student.o: ";
+  EXPECT_EQ(complaintAbout("build/student.o", start + "in function `f':\nmain.cpp:(.text+0x5): truncated\n"),
             "main.cpp:(.text+0x5): truncated");
-  EXPECT_EQ(complaintAbout("/work/student.o", start + "TLS definition mismatches\n"),
+  EXPECT_EQ(complaintAbout("build/student.o", start + "TLS definition mismatches\n"),
             start + "TLS definition mismatches");
-  const std::string alone = "/work/student.o:(.data+0x0): relocation truncated to fit";
-  EXPECT_EQ(complaintAbout("/work/student.o", alone + "\ncollect2: error: ld returned 1 exit status\n"),
+  const std::string alone = "build/student.o:(.data+0x0): relocation truncated to fit";
+  EXPECT_EQ(complaintAbout("build/student.o", alone + "\ncollect2: error: ld returned 1 exit status\n"),
             alone);
-  EXPECT_EQ(complaintAbout("/work/student.o", "/usr/bin/ld: cannot find /work/student.o: No such file\n"),
-            "");
-  EXPECT_EQ(complaintAbout("/work/student.o", "/usr/bin/ld: final link failed: bad value\n"), "");
-  EXPECT_EQ(complaintAbout("/work/student.o",
+  EXPECT_EQ(complaintAbout("build/student.o", "ld: cannot find build/student.o: No such file\n"), "");
+  EXPECT_EQ(complaintAbout("build/student.o", "ld: final link failed: bad value\n"), "");
+  EXPECT_EQ(complaintAbout("build/student.o",
                            start + "in function `f':\nmain.cpp:(.text+0x5): warning: the use of `tmpnam' is "
                                    "dangerous\n/usr/bin/ld: final link failed: No space left on device\n"),
             "");
