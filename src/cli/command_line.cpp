@@ -379,13 +379,13 @@ Action parseCommandLine(int argc, const char* const* argv) {
   } catch (const CLI::CallForHelp&) {
     const CLI::App* command = reached(&program);
     return print(command->help(command == &program ? "" : fullName(command->get_parent())));
-  } catch (const CLI::ExtrasError&) {
-    const CLI::App* command = reached(&program);
-    const std::vector<std::string> extras = program.remaining(true);
-    return explainExtras(command, extras.empty() ? "" : extras.front());
   } catch (const CLI::ParseError& error) {
-    const std::string name = fullName(reached(&program));
-    return complain(fmt::format("{}: {}\n`{} --help` explains the options.", name, error.what(), name));
+    const CLI::App* command = reached(&program);
+    // A misspelt option may be the one that is missed: it comes first.
+    if (const std::vector<std::string> unknown = program.remaining(true); !unknown.empty())
+      return explainExtras(command, unknown.front());
+    return complain(
+        fmt::format("{0}: {1}\n`{0} --help` explains the options.", fullName(command), error.what()));
   }
   return action;
 }

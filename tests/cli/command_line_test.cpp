@@ -99,6 +99,9 @@ TEST(Program, AnswersUnknownWordsWithTheNearest) {
   expectUsageError({"dev", "chek"}, "rex dev: unknown command 'chek' (did you mean 'check'?)");
   expectUsageError({"test", "01", "--sed", "3"}, "rex test: unknown option '--sed' (did you mean '--seed'?)");
   expectUsageError({"list", "extra"}, "rex list: unknown argument 'extra'");
+  // Before what else is missing: it may be that.
+  expectUsageError({"trajectory", "board", "--ot", "a"},
+                   "rex trajectory: unknown option '--ot' (did you mean '--out'?)");
   expectUsageError({"\033[31mred"}, "unknown command '");
 }
 
