@@ -125,14 +125,15 @@ inline Residuals affine(rex::Rng& rng, int d, int n) {
           [=](const Eigen::VectorXd&) { return A; }, rng.normalVector(n)};
 }
 
-// Full steps lead away from the zero.
+// Full steps lead away from the zero. All entries are as far from it: elsewhere, a step may bring one nearer
+// and send another so far away that J loses its rank.
 inline Residuals arcTangent(rex::Rng& rng, int n) {
   return {fmt::format("the arc tangent of each of {} entries of x", n),
           [](const Eigen::VectorXd& x) { return Eigen::VectorXd(x.array().atan()); },
           [](const Eigen::VectorXd& x) {
             return Eigen::MatrixXd((1 / (1 + x.array().square())).matrix().asDiagonal());
           },
-          rng.uniformVector(n, 2, 4)};
+          rng.uniform(2, 4) * rng.normalVector(n).cwiseSign()};
 }
 
 inline Residuals curvedValley(rex::Rng& rng) {
