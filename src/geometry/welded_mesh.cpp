@@ -1,8 +1,12 @@
 #include "geometry/welded_mesh.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <unordered_map>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <span>
 
 #include <Eigen/Geometry>
 
@@ -14,29 +18,34 @@ using Eigen::Vector3f;
 using Index = std::uint32_t;
 using Triangle = TriangleMesh::Triangle;
 
-struct HashPosition {
-  std::size_t operator()(const std::array<float, 3>& p) const {
-    std::size_t hash = 0;
-    for (const float x : p) hash = (hash ^ std::hash<float>()(x)) * 0x9e3779b97f4a7c15u;
-    return hash ^ (hash >> 32);
-  }
-};
-
 // The distinct places, and which of them each position is.
 struct Places {
   std::vector<Vector3f> positions;
   std::vector<Index> placeOf;
 };
 
+std::uint64_t hashOf(const Vector3f& p) {
+  std::uint64_t hash = 0;
+  for (const float x : p)
+    hash = (hash ^ std::bit_cast<std::uint32_t>(x + 0.f)) * 0x9e3779b97f4a7c15u;  // -0 is 0
+  return hash;
+}
+
+// By a table of places, at least half of which stays free; a hash says where to begin to look.
 Places findPlaces(const std::vector<Vector3f>& positions) {
+  constexpr Index kFree = std::numeric_limits<Index>::max();
+  const auto bits = std::bit_width(2 * positions.size() + 1);
+  std::vector<Index> table(std::size_t{1} << bits, kFree);
   Places places;
-  std::unordered_map<std::array<float, 3>, Index, HashPosition> known;
-  known.reserve(positions.size());
+  places.placeOf.reserve(positions.size());
   for (const Vector3f& p : positions) {
-    const auto [place, isNew] =
-        known.try_emplace({p.x(), p.y(), p.z()}, static_cast<Index>(places.positions.size()));
-    if (isNew) places.positions.push_back(p);
-    places.placeOf.push_back(place->second);
+    std::size_t slot = hashOf(p) >> (64 - bits);
+    while (table[slot] != kFree && places.positions[table[slot]] != p) slot = (slot + 1) % table.size();
+    if (table[slot] == kFree) {
+      table[slot] = static_cast<Index>(places.positions.size());
+      places.positions.push_back(p);
+    }
+    places.placeOf.push_back(table[slot]);
   }
   return places;
 }
@@ -102,18 +111,32 @@ struct Corner {
   int k;
 };
 
-// The corners that meet at each place.
-std::vector<std::vector<Corner>> cornersAtPlaces(std::size_t count, const std::vector<Face>& faces) {
-  std::vector<std::vector<Corner>> corners(count);
+// The corners that meet at each place: those of place i begin at first[i], and end where the next ones begin.
+struct Meeting {
+  std::vector<Index> first;
+  std::vector<Corner> corners;
+
+  std::span<const Corner> at(std::size_t place) const {
+    return std::span(corners).subspan(first[place], first[place + 1] - first[place]);
+  }
+};
+
+Meeting meetingAt(std::size_t placeCount, const std::vector<Face>& faces) {
+  Meeting meeting{.first = std::vector<Index>(placeCount + 2, 0),
+                  .corners = std::vector<Corner>(3 * faces.size())};
+  for (const Face& face : faces)
+    for (const Index place : face.corners) ++meeting.first[place + 2];
+  std::partial_sum(meeting.first.begin(), meeting.first.end(), meeting.first.begin());
   for (Index i = 0; i < faces.size(); ++i)
-    for (int k = 0; k < 3; ++k) corners[faces[i].corners[k]].push_back({i, k});
-  return corners;
+    for (int k = 0; k < 3; ++k) meeting.corners[meeting.first[faces[i].corners[k] + 1]++] = {i, k};
+  meeting.first.pop_back();
+  return meeting;
 }
 
 // More corners at one place make a fan, which stays flat: to compare all with all would cost their square.
 constexpr std::size_t kMostMeeting = 256;
 
-Vector3f normalAt(const Corner& corner, const std::vector<Corner>& meeting, const std::vector<Face>& faces,
+Vector3f normalAt(const Corner& corner, std::span<const Corner> meeting, const std::vector<Face>& faces,
                   double leastCosine) {
   const Vector3d& own = faces[corner.face].normal;
   Vector3d sum = Vector3d::Zero();
@@ -151,13 +174,14 @@ TriangleMesh weldedMesh(const std::vector<Vector3f>& positions, const std::vecto
   const double leastCosine = std::cos(creaseAngle);
   std::vector<Vector3f> vertices, normals;
   std::vector<Triangle> kept(faces.size());
-  const auto corners = cornersAtPlaces(places.positions.size(), faces);
-  for (std::size_t place = 0; place < corners.size(); ++place) {
+  const Meeting meeting = meetingAt(places.positions.size(), faces);
+  for (std::size_t place = 0; place < places.positions.size(); ++place) {
+    const std::span<const Corner> corners = meeting.at(place);
     const std::size_t first = normals.size();
-    const bool isFan = corners[place].size() > kMostMeeting;
-    for (const Corner& corner : corners[place]) {
+    const bool isFan = corners.size() > kMostMeeting;
+    for (const Corner& corner : corners) {
       const Vector3f normal = isFan ? Vector3f(faces[corner.face].normal.cast<float>())
-                                    : normalAt(corner, corners[place], faces, leastCosine);
+                                    : normalAt(corner, corners, faces, leastCosine);
       std::size_t vertex = isFan ? normals.size() : first;
       while (vertex < normals.size() && (normals[vertex] - normal).squaredNorm() > kSame) ++vertex;
       if (vertex == normals.size()) {
