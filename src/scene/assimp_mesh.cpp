@@ -76,8 +76,7 @@ Matrix4d fromYUp() {
 // All meshes of a file, as its nodes place them, in one.
 class Collector {
  public:
-  Collector(const std::string& name, const aiScene& scene, const Eigen::Vector3d& scale)
-      : name_(name), scene_(scene), scale_(scale) {
+  Collector(const std::string& name, const aiScene& scene) : name_(name), scene_(scene) {
     const std::string ending = endingOf(name);
     linearLight_ = ending == ".gltf" || ending == ".glb";
     addNodes(linearLight_ || ending == ".dae" ? fromYUp() : Matrix4d(Matrix4d::Identity()));
@@ -114,7 +113,7 @@ class Collector {
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) addVertex(mesh.mVertices[i], placed);
     TriangleMesh::Part part{.color = colorOf(*scene_.mMaterials[mesh.mMaterialIndex], linearLight_),
                             .firstTriangle = static_cast<Index>(triangles_.size())};
-    const bool mirrored = placed.topLeftCorner<3, 3>().determinant() * scale_.prod() < 0;
+    const bool mirrored = placed.topLeftCorner<3, 3>().determinant() < 0;
     for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
       const aiFace& face = mesh.mFaces[i];
       if (face.mNumIndices != 3) continue;
@@ -128,7 +127,7 @@ class Collector {
   }
 
   void addVertex(const aiVector3D& v, const Matrix4d& placed) {
-    const Eigen::Vector3d p = scale_.cwiseProduct((placed * Eigen::Vector4d(v.x, v.y, v.z, 1)).head<3>());
+    const Eigen::Vector3d p = (placed * Eigen::Vector4d(v.x, v.y, v.z, 1)).head<3>();
     if (!p.allFinite() || p.cwiseAbs().maxCoeff() > kLargestCoordinate)
       fail(name_, "mesh", fmt::format("vertex {} at ({}, {}, {})", positions_.size(), p.x(), p.y(), p.z()),
            "finite numbers up to 1e6");
@@ -137,7 +136,6 @@ class Collector {
 
   const std::string& name_;
   const aiScene& scene_;
-  Eigen::Vector3d scale_;
   bool linearLight_;  // glTF counts colours in light, all others as a screen shows them
   std::vector<Eigen::Vector3f> positions_;
   std::vector<TriangleMesh::Triangle> triangles_;
@@ -160,7 +158,7 @@ void keepReadersOf(const std::string& ending, Assimp::Importer& importer) {
 
 }  // namespace
 
-TriangleMesh readByAssimp(std::string_view bytes, const std::string& name, const Eigen::Vector3d& scale,
+TriangleMesh readByAssimp(std::string_view bytes, const std::string& name,
                           const std::filesystem::path& folder) {
   const std::string alias = "mesh" + endingOf(name);
   Assimp::Importer importer;
@@ -172,7 +170,7 @@ TriangleMesh readByAssimp(std::string_view bytes, const std::string& name, const
     scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   }
   if (scene == nullptr) fail(name, "cannot read the mesh file", importer.GetErrorString(), "a mesh");
-  return Collector(name, *scene, scale).mesh();
+  return Collector(name, *scene).mesh();
 }
 
 }  // namespace rex::mesh

@@ -11,6 +11,6 @@ namespace rex::mesh {
 /// The mesh of a file that keeps to the limits (requireSize(), requireHarmless()), as of readMesh(), read in
 /// this process, which assimp may end. Sees files of `folder` and below; of none if it is empty.
 [[nodiscard]] TriangleMesh readByAssimp(std::string_view bytes, const std::string& name,
-                                        const Eigen::Vector3d& scale, const std::filesystem::path& folder);
+                                        const std::filesystem::path& folder);
 
 }  // namespace rex::mesh

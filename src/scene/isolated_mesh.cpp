@@ -63,9 +63,9 @@ const char* complaint(IsolatedEnd end) {
 
 }  // namespace
 
-TriangleMesh readIsolated(std::string_view bytes, const std::string& name, const Eigen::Vector3d& scale,
+TriangleMesh readIsolated(std::string_view bytes, const std::string& name,
                           const std::filesystem::path& folder, const IsolationLimits& limits) {
-  const auto read = [&] { return toBytes(readByAssimp(bytes, name, scale, folder)); };
+  const auto read = [&] { return toBytes(readByAssimp(bytes, name, folder)); };
   const IsolatedResult result = callIsolated(read, limits);
   if (result.end != IsolatedEnd::kReturned)
     fail(name, "cannot read the mesh file", complaint(result.end),

@@ -12,7 +12,7 @@ namespace rex::mesh {
 /// The same as readByAssimp() in a process of its own, so that no file harms this one. Throws Error, too, for
 /// a file on which assimp crashes, takes longer or needs more memory than the limits.
 [[nodiscard]] TriangleMesh readIsolated(std::string_view bytes, const std::string& name,
-                                        const Eigen::Vector3d& scale, const std::filesystem::path& folder,
+                                        const std::filesystem::path& folder,
                                         const IsolationLimits& limits = {});
 
 }  // namespace rex::mesh

@@ -58,30 +58,19 @@ IsolationLimits limitsFor(std::size_t bytes, const std::string& name) {
   return limits;
 }
 
-TriangleMesh meshOf(std::string_view bytes, const std::string& name, const Eigen::Vector3d& scale,
-                    const fs::path& folder) {
+TriangleMesh meshOf(std::string_view bytes, const std::string& name, const fs::path& folder) {
   mesh::requireSize(bytes.size(), name);
   mesh::requireHarmless(bytes, name);
-  return mesh::readIsolated(bytes, name, scale, folder, limitsFor(bytes.size(), name));
-}
-
-void requireScale(const Eigen::Vector3d& scale, const std::string& name) {
-  if (!scale.allFinite() || (scale.array() == 0).any())
-    fail(name, "scale of the mesh", fmt::format("({}, {}, {})", scale.x(), scale.y(), scale.z()),
-         "finite numbers other than 0");
+  return mesh::readIsolated(bytes, name, folder, limitsFor(bytes.size(), name));
 }
 
 }  // namespace
 
-TriangleMesh readMesh(const fs::path& file, const Eigen::Vector3d& scale) {
-  requireScale(scale, file.string());
+TriangleMesh readMesh(const fs::path& file) {
   static_cast<void>(mesh::largestFile(file.string()));  // the ending first, then the file
-  return meshOf(readBytes(file), file.string(), scale, file.has_parent_path() ? file.parent_path() : ".");
+  return meshOf(readBytes(file), file.string(), file.has_parent_path() ? file.parent_path() : ".");
 }
 
-TriangleMesh parseMesh(std::string_view bytes, const std::string& name, const Eigen::Vector3d& scale) {
-  requireScale(scale, name);
-  return meshOf(bytes, name, scale, {});
-}
+TriangleMesh parseMesh(std::string_view bytes, const std::string& name) { return meshOf(bytes, name, {}); }
 
 }  // namespace rex

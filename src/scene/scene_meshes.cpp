@@ -13,9 +13,13 @@
 
 #include "geometry/convex_hull.h"
 #include "scene/mesh_reader.h"
+#include "scene/scaled_mesh.h"
 
 namespace rex {
 namespace {
+
+constexpr std::size_t kMostFiles = 4096;
+constexpr std::size_t kMostVerticesTogether = 6'000'000;  // 300 MB
 
 // Meshes that were not found: one warning for each package or folder.
 class Missing {
@@ -97,16 +101,24 @@ class Loader {
 
   // Whether the file is there; if not, and that may be, a box takes the place of the shape.
   bool find(ShapeSpec& shape, const std::string& what) {
-    try {
-      shape.meshPath = assets_.find(shape.meshFile, shape.where, what);
-      return true;
-    } catch (const Error& error) {
-      if (!allowMissing_) throw;
-      missing_.add(shape, error.parts());
-      shape.shape = {.type = ShapeType::kBox, .extent = Eigen::Vector3d::Constant(0.1)};
-      shape.meshMissing = true;
-      return false;
+    const auto [known, isNew] = paths_.try_emplace(shape.meshFile);
+    if (paths_.size() > kMostFiles)
+      throw Error({.what = what,
+                   .where = shape.where,
+                   .found = fmt::format("the {}th file of meshes", paths_.size()),
+                   .wanted = fmt::format("at most {} different ones in a scene", kMostFiles)});
+    if (isNew) {
+      try {
+        known->second = assets_.find(shape.meshFile, shape.where, what);
+      } catch (const Error& error) {
+        if (!allowMissing_) throw;
+        missing_.add(shape, error.parts());
+      }
     }
+    shape.meshPath = known->second;
+    shape.meshMissing = known->second.empty();
+    if (shape.meshMissing) shape.shape = {.type = ShapeType::kBox, .extent = Eigen::Vector3d::Constant(0.1)};
+    return !shape.meshMissing;
   }
 
   // Shapes with the same mesh share its hull.
@@ -125,18 +137,37 @@ class Loader {
     }
   }
 
-  // Shapes with the same file share its mesh.
+  // Shapes with the same file share its mesh, those with the same scale all of it.
   const TriangleMesh& read(const std::filesystem::path& file, const Eigen::Vector3d& scale) {
-    const Key key(file.string(), {scale.x(), scale.y(), scale.z()});
-    const auto found = read_.find(key);
-    return found != read_.end() ? found->second : read_.emplace(key, readMesh(file, scale)).first->second;
+    const std::string name = file.string();
+    const auto [known, isNew] = scaled_.try_emplace({name, {scale.x(), scale.y(), scale.z()}});
+    if (!isNew) return known->second;
+    const auto [whole, isFirst] = read_.try_emplace(name);
+    if (isFirst) whole->second = readMesh(file);
+    known->second = scaledMesh(whole->second, scale, name);
+    if (isFirst) count(whole->second);
+    if (known->second != whole->second) count(known->second);
+    return known->second;
+  }
+
+  // A short scene may ask for many large meshes, or for one in many sizes.
+  void count(const TriangleMesh& mesh) {
+    vertices_ += mesh.positions().size();
+    if (vertices_ > kMostVerticesTogether)
+      throw Error(
+          {.what = "all meshes up to here",
+           .found = fmt::format("{} vertices", vertices_),
+           .wanted = fmt::format("at most {} in all files and scales of a scene", kMostVerticesTogether)});
   }
 
   using Key = std::pair<std::string, std::array<double, 3>>;
   const Assets& assets_;
   bool allowMissing_;
   Missing missing_;
-  std::map<Key, TriangleMesh> read_;
+  std::size_t vertices_ = 0;
+  std::map<std::string, std::filesystem::path> paths_;  // where files were found; empty for missing ones
+  std::map<std::string, TriangleMesh> read_;
+  std::map<Key, TriangleMesh> scaled_;
   std::deque<std::pair<TriangleMesh, TriangleMesh>> hulls_;
 };
 

@@ -10,8 +10,6 @@
 namespace rex::mesh {
 namespace {
 
-using Eigen::Vector3d;
-
 // What fuzzing found; its first byte says the kind.
 std::string crashing() { return fileText(REX_SOURCE_DIR "/tests/fuzz/corpus/mesh/dae_crash").substr(1); }
 
@@ -24,8 +22,8 @@ std::string slow() {
 
 TEST(ReadIsolated, GivesTheMeshThatAssimpGives) {
   const std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
-  const TriangleMesh here = readByAssimp(text, "a.obj", Vector3d::Ones(), {});
-  const TriangleMesh mesh = readIsolated(text, "a.obj", Vector3d::Ones(), {});
+  const TriangleMesh here = readByAssimp(text, "a.obj", {});
+  const TriangleMesh mesh = readIsolated(text, "a.obj", {});
   EXPECT_TRUE(std::ranges::equal(mesh.positions(), here.positions()));
   EXPECT_TRUE(std::ranges::equal(mesh.normals(), here.normals()));
   EXPECT_TRUE(std::ranges::equal(mesh.triangles(), here.triangles()));
@@ -34,11 +32,11 @@ TEST(ReadIsolated, GivesTheMeshThatAssimpGives) {
 }
 
 TEST(ReadIsolated, RefusesWhatAssimpDoesNotSurvive) {
-  EXPECT_REX_ERROR(readIsolated(crashing(), "a.dae", Vector3d::Ones(), {}),
+  EXPECT_REX_ERROR(readIsolated(crashing(), "a.dae", {}),
                    "a.dae: cannot read the mesh file: found one on which assimp crashes, wanted a mesh, e.g. "
                    "the same saved by another program or as STL");
   EXPECT_REX_ERROR(
-      readIsolated(slow(), "a.obj", Vector3d::Ones(), {}, {.cpuSeconds = 1}),
+      readIsolated(slow(), "a.obj", {}, {.cpuSeconds = 1}),
       "a.obj: cannot read the mesh file: found one that assimp does not finish reading, wanted a mesh");
 }
 
@@ -47,7 +45,7 @@ TEST(ReadIsolated, RefusesWhatNeedsTooMuchMemory) {
   std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   for (int i = 0; i < 100'000; ++i) text += "f 1 2 3\n";
   EXPECT_REX_ERROR(
-      readIsolated(text, "a.obj", Vector3d::Ones(), {}, {.memory = 4u << 20}),
+      readIsolated(text, "a.obj", {}, {.memory = 4u << 20}),
       "a.obj: cannot read the mesh file: found one for which assimp needs too much memory, wanted a mesh");
 }
 #endif

@@ -46,6 +46,40 @@ TEST_F(SceneMeshes, AreReadBesideTheirScene) {
   EXPECT_EQ(compile(spec).shapes().size(), 4u);
 }
 
+// A file is read once for all its sizes; what has the same size is shared.
+TEST_F(SceneMeshes, HaveTheirOwnScale) {
+  const SceneSpec spec = readOrs(scene("shape { type=3 mesh='meshes/pyramid.off' meshscale=[1 -2 1] }\n"
+                                       "shape { type=3 mesh='meshes/pyramid.off' }\n"
+                                       "shape { type=3 mesh='meshes/pyramid.off' meshscale=[1 -2 1] }"))
+                             .spec;
+  EXPECT_EQ(halfBounds(spec.worldShapes[0].shape), Eigen::Vector3d(2, 4, 3));
+  EXPECT_EQ(halfBounds(spec.worldShapes[1].shape), Eigen::Vector3d(2, 2, 3));
+  EXPECT_EQ(spec.worldShapes[0].shape.mesh, spec.worldShapes[2].shape.mesh);
+}
+
+TEST_F(SceneMeshes, AreNotTooManyTogether) {
+  std::string text;
+  for (int i = 1; i <= 4097; ++i) text += "shape { type=3 mesh='m" + std::to_string(i) + ".off' }\n";
+  EXPECT_REX_ERROR(
+      readOrs(scene(text), {.allowMissingMeshes = true}),
+      ":4097:1: shape '': mesh: found the 4097th file of meshes, wanted at most 4096 different ones "
+      "in a scene");
+  std::ofstream cloud(folder_.path() / "meshes/cloud.ply");
+  cloud << "ply\nformat ascii 1.0\nelement vertex 300000\nproperty float x\nproperty float y\n"
+        << "property float z\nend_header\n";
+  for (int i = 0; i < 300'000; ++i) cloud << i % 1000 << " 0 0\n";
+  cloud.close();
+  text.clear();
+  for (int i = 1; i <= 20; ++i)
+    text += "shape { type=3 mesh='meshes/cloud.ply' meshscale=" + std::to_string(i) + " }\n";
+  EXPECT_EQ(readOrs(scene(text)).spec.worldShapes.size(), 20u);
+  EXPECT_REX_ERROR(
+      readOrs(scene(text + "shape { type=3 mesh='meshes/cloud.ply' meshscale=21 }")),
+      ":21:1: shape '': mesh '" + (folder_.path() / "meshes/cloud.ply").string() +
+          "': all meshes up to here: found 6300000 vertices, wanted at most 6000000 in all files "
+          "and scales of a scene");
+}
+
 TEST_F(SceneMeshes, StandWhereTheFilePutsThem) {
   const SceneSpec spec =
       readOrs(scene("shape { type=3 mesh='meshes/pyramid.off' rel=<T t(5 0 0) d(90 0 0 1)> }")).spec;
@@ -142,7 +176,7 @@ TEST_F(SceneMeshes, ThatAreMissingAreNamedWithTheirPlace) {
   EXPECT_REX_ERROR(readOrs(scene("body a { type=3 }")),
                    "shape 'a': attribute 'mesh' is missing: wanted the file of its mesh, in single quotes");
   EXPECT_REX_ERROR(readOrs(scene("body a { type=3 mesh='meshes/pyramid.off' meshscale=0 }")),
-                   "scale of the mesh: found (0, 0, 0), wanted finite numbers other than 0");
+                   "scale of the mesh: found (0, 0, 0), wanted numbers from 1e-9 to 1e9, or their negatives");
 }
 
 }  // namespace

@@ -1,0 +1,44 @@
+#include "scene/scaled_mesh.h"
+
+#include <fmt/format.h>
+
+#include "scene/mesh_limits_internal.h"
+
+namespace rex {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+constexpr double kLeastScale = 1e-9, kMostScale = 1e9;
+
+void requireScale(const Vector3d& scale, const TriangleMesh& mesh, const std::string& name) {
+  const Vector3d size = scale.cwiseAbs();
+  if (!scale.allFinite() || size.minCoeff() < kLeastScale || size.maxCoeff() > kMostScale)
+    mesh::fail(name, "scale of the mesh", fmt::format("({}, {}, {})", scale.x(), scale.y(), scale.z()),
+               "numbers from 1e-9 to 1e9, or their negatives");
+  const double reach = size.cwiseProduct(mesh.halfBounds()).maxCoeff();
+  if (reach > mesh::kLargestCoordinate)
+    mesh::fail(name, "mesh, scaled", fmt::format("a vertex at {} m", reach), "at most 1e6 m");
+}
+
+}  // namespace
+
+TriangleMesh scaledMesh(const TriangleMesh& mesh, const Vector3d& scale, const std::string& name) {
+  requireScale(scale, mesh, name);
+  if (scale == Vector3d::Ones()) return mesh;
+  std::vector<Vector3f> positions(mesh.positions().begin(), mesh.positions().end());
+  std::vector<Vector3f> normals(mesh.normals().begin(), mesh.normals().end());
+  std::vector<TriangleMesh::Triangle> triangles(mesh.triangles().begin(), mesh.triangles().end());
+  for (Vector3f& p : positions) p = p.cast<double>().cwiseProduct(scale).cast<float>();
+  // What is perpendicular to a surface stretches the other way round.
+  for (Vector3f& n : normals) n = n.cast<double>().cwiseQuotient(scale).normalized().cast<float>();
+  if ((scale.array() < 0).count() % 2 == 1)
+    for (TriangleMesh::Triangle& corners : triangles) std::swap(corners[1], corners[2]);
+  return {std::move(positions),
+          std::move(normals),
+          std::move(triangles),
+          {mesh.parts().begin(), mesh.parts().end()}};
+}
+
+}  // namespace rex
