@@ -230,10 +230,11 @@ class Parser {
     requireMoreKeys(node);
     if (const bool* value = std::get_if<bool>(&node.value); !value || !*value)
       Cursor::failAt(node.valueWhere, "Delete", describe(node.value), "only the words of a statement");
-    if (list.erase(std::span(node.keys).subspan(1)) > 0) return;
-    const std::string words = joinedKeys(node).substr(node.keys[0].text.size() + 1);
-    cursor_.warn(node.where,
-                 fmt::format("nothing to delete: no earlier statement has the words '{}'", words));
+    Node named = node;
+    named.keys.erase(named.keys.begin());
+    if (list.erase(named) > 0) return;
+    cursor_.warn(node.where, fmt::format("nothing to delete: no earlier statement has the words '{}'",
+                                         list.textOf(named)));
   }
 
   Cursor cursor_;

@@ -61,6 +61,14 @@ TEST_F(OrsInclude, EditsAndDeletesWhatWasIncluded) {
   EXPECT_TRUE(spec.joints.empty());
 }
 
+TEST_F(OrsInclude, EditsJointsWithoutAName) {
+  write("arm.ors", "body a {}\nbody b {}\nbody c {}\njoint (a b) {}\njoint (b c) {}");
+  const SceneSpec spec = read("Include='arm.ors'\nEdit joint (b c) { limits=[-1 1] }\nEdit joint a>b { q=1 }");
+  EXPECT_EQ(spec.joints.at(0).q0[0], 1);
+  EXPECT_EQ(spec.joints.at(1).name, "b>c");
+  EXPECT_EQ(spec.joints.at(1).upper[0], 1);
+}
+
 TEST_F(OrsInclude, FindsMeshesBesideTheFileThatNamesThem) {
   const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   write("parts/meshes/a.obj", triangle);
