@@ -210,14 +210,13 @@ class Parser {
     const FileName& file = fileOf(node, "Include='FILE'");
     const Files::Opened opened = scene_.files.open(file, node.valueWhere);
     scene_.document.files.push_back(opened.name);
-    const std::string folder = shortest(std::filesystem::path(file.path).parent_path());
-    Parser(opened.text, scene_.document.files.back(), folder, scene_).readFile(list, depth);
+    Parser(opened.text, scene_.document.files.back(), shortest(opened.folder), scene_).readFile(list, depth);
     scene_.files.close();
   }
 
   void changeFolder(const Node& node) {
     const FileName& folder = fileOf(node, "ChDir='FOLDER'");
-    folder_ = shortest(folder.path);
+    folder_ = isAddress(folder.path) ? folder.path : shortest(folder.path);
     if (folder_.size() > kLongestWord) {
       Cursor::failAt(node.valueWhere, "ChDir: path too long", fmt::format("{} bytes", folder_.size()),
                      fmt::format("at most {}", kLongestWord));

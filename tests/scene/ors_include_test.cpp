@@ -83,6 +83,17 @@ TEST_F(OrsInclude, FindsMeshesBesideTheFileThatNamesThem) {
   for (const ShapeSpec& shape : spec.worldShapes) EXPECT_EQ(shape.shape.mesh.triangles().size(), 1u);
 }
 
+TEST_F(OrsInclude, FindsMeshesBesideAFileWithAnAddress) {
+  write("parts/a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  write("parts/plate.ors", "shape { type=3 mesh='a.obj' }");
+  const auto mesh = [&](const std::string& text) { return read(text).worldShapes.at(0).meshFile; };
+  EXPECT_EQ(mesh("Include='package://parts/plate.ors'"), "parts/a.obj");
+  EXPECT_EQ(mesh("Include='file://" + fs::absolute(path("parts/plate.ors")).string() + "'"), "parts/a.obj");
+  EXPECT_EQ(mesh("ChDir='package://parts'\nInclude='plate.ors'"), "parts/a.obj");
+  EXPECT_EQ(mesh("ChDir='package://parts'\nshape { type=3 mesh='a.obj' }"), "package://parts/a.obj");
+  EXPECT_TRUE(readOrs(path("main.ors")).notes.empty());
+}
+
 TEST_F(OrsInclude, SaysWhichFileIsWrong) {
   write("bad.ors", "body a {\n  mass=heavy }");
   EXPECT_REX_ERROR(
