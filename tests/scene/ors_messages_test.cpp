@@ -7,6 +7,8 @@
 namespace rex {
 namespace {
 
+using std::string_view_literals::operator""sv;
+
 // The typo stands between two @, and `right` in its place makes the scene valid. The message is about the
 // place of the typo, or about the ^ if there is one.
 struct Row {
@@ -50,6 +52,17 @@ std::string errorOf(const std::string& text) {
 constexpr Row kErrors[] = {
     // what is no .ors
     {"@\xff\xfe@body a {}", "", "text in UTF-16: wanted UTF-8"},
+    {"bo@\0@dy a {}"sv, "", "a byte 0, as in text in UTF-16: found '\\x00', wanted UTF-8"},
+    {"@\0@b\0o\0d\0y\0"sv, "body b #", "a byte 0, as in text in UTF-16: found '\\x00', wanted UTF-8"},
+    {"body a { mass=@x^\0y@ }"sv, "1", "a byte 0, as in text in UTF-16: found '\\x00', wanted UTF-8"},
+    {"body a@\x07@ {}", "", "a control character: found '\\x07', wanted text"},
+    {"# Gr\xfc\xdf\x65\nbody a@\xe4@b {}", "\xc3\xa4",
+     "a byte that is no UTF-8: found '\\xe4', wanted text in UTF-8; only comments may have other bytes"},
+    {"body a { type=3 mesh='\na@\xe4@b' }", "",
+     "a byte that is no UTF-8: found '\\xe4', wanted text in UTF-8; only comments may have other bytes"},
+    {"body a { mass=@\xe4\xc3\xa4@ }", "1",
+     "syntax error: found '\\xe4\xc3\xa4', wanted a value: a number, word, \"text\", [array], <T pose> or "
+     "{attributes}"},
     {"@<robot name='r'/>@", "body a {}", "this is XML: wanted .ors; if it is a robot in URDF, name it .urdf"},
     {"@//@ an arm\nbody a {}", "#",
      "a comment of another language: found '//', wanted '#', with which comments begin"},
