@@ -159,6 +159,24 @@ std::string readMimic(const Attributes& attributes) {
   return attributes.text("mimic", "the name of a joint").value_or("");
 }
 
+// The same rules as those of compile(), which knows no attributes.
+void requireLeader(const Attributes& attributes, const JointSpec& joint, const JointSpec& leader) {
+  const int count = positionCount(joint.type);
+  if (!leader.mimic.empty()) {
+    attributes.fail("mimic", fmt::format("'{}', which mimics '{}'", leader.name, leader.mimic),
+                    "a joint that mimics none");
+  }
+  if (count == 1 && positionCount(leader.type) == 1) return;
+  if (joint.type != leader.type) {
+    attributes.fail("mimic", fmt::format("'{}', a joint of type {}", leader.name, toString(leader.type)),
+                    count == 1 ? "a joint with one coordinate"
+                               : fmt::format("a joint of type {} as this one", toString(joint.type)));
+  }
+  const std::string wanted = fmt::format("none, for the joint has {} coordinates", count);
+  if (joint.mimicRatio != 1) attributes.fail("mimic_ratio", fmt::format("{}", joint.mimicRatio), wanted);
+  if (joint.mimicOffset != 0) attributes.fail("mimic_offset", fmt::format("{}", joint.mimicOffset), wanted);
+}
+
 void readJoint(const Attributes& attributes, const JointSurroundings& around, JointSpec& joint,
                Diagnostics& notes) {
   static const std::vector<std::string> kKnown = {"A",

@@ -65,8 +65,8 @@ const std::vector<std::string>& shapeAttributes() {
 ShapeSpec readShape(const Attributes& attributes, std::string name, const Place& where, Diagnostics& notes) {
   ShapeSpec spec;
   spec.name = std::move(name);
-  spec.where = where;
   spec.shape.type = readType(attributes, where, notes);
+  spec.where = attributes.where(usesMesh(spec.shape.type) ? "mesh" : "size");
   readSize(attributes, spec.shape, notes);
   spec.X_BS = attributes.pose("rel").value_or(Pose{});
   attributes.noteFlags({"contact", "hidden"}, notes);

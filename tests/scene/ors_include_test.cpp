@@ -63,7 +63,8 @@ TEST_F(OrsInclude, EditsAndDeletesWhatWasIncluded) {
 
 TEST_F(OrsInclude, EditsJointsWithoutAName) {
   write("arm.ors", "body a {}\nbody b {}\nbody c {}\njoint (a b) {}\njoint (b c) {}");
-  const SceneSpec spec = read("Include='arm.ors'\nEdit joint (b c) { limits=[-1 1] }\nEdit joint a>b { q=1 }");
+  const SceneSpec spec =
+      read("Include='arm.ors'\nEdit joint (b c) { limits=[-1 1] }\nEdit joint a>b { q=1 }");
   EXPECT_EQ(spec.joints.at(0).q0[0], 1);
   EXPECT_EQ(spec.joints.at(1).name, "b>c");
   EXPECT_EQ(spec.joints.at(1).upper[0], 1);
@@ -106,6 +107,8 @@ TEST_F(OrsInclude, SaysWhichFileIsWrong) {
   EXPECT_REX_ERROR(read("body a {}\nInclude='bat.ors'"),
                    "main.ors:2:9: Include 'bat.ors': found no file 'bat.ors', wanted " +
                        path("bat.ors").string() + " (did you mean 'bad.ors'?)");
+  EXPECT_REX_ERROR(read("body a {\n type=3\n mesh='no.obj' }"),
+                   "main.ors:3:7: shape 'a': mesh: found no file");
   EXPECT_REX_ERROR(read("Include=bad.ors"), "main.ors:1:9: Include: found 'bad.ors', wanted Include='FILE'");
   EXPECT_REX_ERROR(parseOrs("\nInclude='bad.ors'", "f"),
                    "f:2:9: Include 'bad.ors': found a scene that was given as text, wanted no Include: only "

@@ -173,6 +173,8 @@ constexpr Row kErrors[] = {
      "body 'a': attribute 'size': found an array of 2, wanted an array of 3 or 4 numbers"},
     {"body a { type=0 size=@[1 2 -3]@ }", "[1 2 3]",
      "body 'a': attribute 'size': found -3, wanted lengths that are not negative"},
+    {"body a {\n type=9\n size=^[1 1 1 @.6@] }", ".5",
+     "shape 'a': radius of the rounded edges: found 0.6 m, wanted at most half of the shortest edge, 0.5 m"},
     {"body a { type=3 mesh=@arm.obj@ }", "'arm.obj'",
      "body 'a': attribute 'mesh': found 'arm.obj', wanted a file name in single quotes"},
     {"body a { type=3 mesh='a.obj' meshscale=@[1 2]@ }", "[1 2 3]",
@@ -229,15 +231,20 @@ constexpr Row kErrors[] = {
      "duplicate joint 'j': wanted a name of its own: the first stands at f:4:1"},
     {"body a {}\nbody b {}\nbody c {}\njoint j (a b) {}\n^joint k (b @a@) {}", "c",
      "joint 'k': joints form a loop: found b > a > b, wanted a tree"},
-    {"body a {}\nbody b {}\nbody c {}\njoint lead (a b) {}\n^joint j (a c) { mimic=@laed@ }", "lead",
-     "joint 'j': mimic: found 'laed', wanted a joint that mimics none, of the same type or like this one "
-     "with "
-     "one coordinate (did you mean 'lead'?)"},
+    {"body a {}\nbody b {}\nbody c {}\njoint lead (a b) {}\njoint j (a c) { mimic=@laed@ }", "lead",
+     "joint 'j': attribute 'mimic': unknown joint: found 'laed', wanted the name of a joint (did you mean "
+     "'lead'?)"},
     {"body a {}\nbody b {}\nbody c {}\nbody d {}\njoint one (a b) {}\njoint two (a c) { mimic=one }\n"
-     "^joint three (a d) { mimic=@two@ }",
-     "one",
-     "joint 'three': mimic: found 'two', wanted a joint that mimics none, of the same type or like this one "
-     "with one coordinate"},
+     "joint three (a d) { mimic=@two@ }",
+     "one", "joint 'three': attribute 'mimic': found 'two', which mimics 'one', wanted a joint that mimics none"},
+    {"body a {}\nbody b {}\nbody c {}\njoint j (a b) { @fixed@ }\njoint k (a c) { type=1 mimic=^j }", "",
+     "joint 'k': attribute 'mimic': found 'j', a joint of type rigid, wanted a joint with one coordinate"},
+    {"body a {}\nbody b {}\nbody c {}\njoint j (a b) {}\njoint k (a c) { mimic=^j @type=free@ }", "type=1",
+     "joint 'k': attribute 'mimic': found 'j', a joint of type hinge, wanted a joint of type free as this one"},
+    {"body a {}\nbody b {}\nbody c {}\njoint j (a b) { type=9 }\njoint k (a c) { mimic=j mimic_ratio=@2@ }", "1",
+     "joint 'k': attribute 'mimic_ratio': found 2, wanted none, for the joint has 2 coordinates"},
+    {"body a {}\nbody b {}\nbody c {}\njoint j (a b) { type=9 }\njoint k (a c) { mimic=j mimic_offset=@2@ }", "0",
+     "joint 'k': attribute 'mimic_offset': found 2, wanted none, for the joint has 2 coordinates"},
 };
 
 constexpr Row kNotes[] = {
