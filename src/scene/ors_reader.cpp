@@ -125,6 +125,7 @@ class Reader {
     if (!node.parents.empty()) fail(node.parents[0].where, owner, "parents", "none: joints connect bodies");
     const Attributes attributes(node, owner);
     attributes.noteUnknown(bodyAttributes(), file_.notes);
+    attributes.noteWords({"fixed", "static", "kinematic", "contact", "hidden"}, file_.notes);
     BodySpec body;
     body.name = name;
     body.where = node.where;
@@ -166,6 +167,7 @@ class Reader {
            "one body, or none");
     }
     attributes.noteUnknown(ors::shapeAttributes(), file_.notes);
+    attributes.noteWords({"contact", "hidden"}, file_.notes);
     std::vector<ShapeSpec>* shapes = &file_.spec.worldShapes;
     if (!node.parents.empty()) {
       if (const auto body = parentBody(node.parents[0], attributes.owner()))
