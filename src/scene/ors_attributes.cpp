@@ -72,6 +72,33 @@ bool Attributes::flag(std::string_view name) const {
   return false;
 }
 
+void Attributes::noteWords(const std::vector<std::string>& flags, Diagnostics& notes) const {
+  requireOneStatement();
+  for (std::size_t i = 1; i + 1 < node_.keys.size(); ++i) {
+    const Word& word = node_.keys[i];
+    if (std::find(flags.begin(), flags.end(), word.text) != flags.end()) continue;
+    if (isFull(notes, word.where)) return;
+    const std::vector<std::string> nearest = nearestNames(word.text, flags);
+    notes.push_back(
+        {word.where,
+         fmt::format("{}: unknown word '{}' is ignored{}", owner_, word.text,
+                     nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest.front())),
+         Severity::kWarning});
+    return;
+  }
+}
+
+void Attributes::requireOneStatement() const {
+  for (std::size_t i = 1; i + 1 < node_.keys.size(); ++i) {
+    const Word& word = node_.keys[i];
+    if (word.text != "body" && word.text != "shape" && word.text != "joint") continue;
+    throw Error({.what = fmt::format("{}: a statement within its words", owner_),
+                 .where = word.where,
+                 .found = fmt::format("'{}'", word.text),
+                 .wanted = "{...} or the end of the line before it"});
+  }
+}
+
 void Attributes::noteFlags(std::initializer_list<const char*> names, Diagnostics& notes) const {
   static const std::vector<std::string> kKnown = {"true", "false", "yes", "no", "on", "off"};
   for (const char* name : names) {

@@ -40,6 +40,9 @@ class Attributes {
   /// `contact=false`, `contact=no`, `contact=off`, `contact=0`: false. True is also a word between role and
   /// name: `body fixed post {...}`.
   bool flag(std::string_view name) const;
+  /// Warns of a word between role and name that is none of these flags, the first if there are several.
+  /// Throws Error for one that begins another statement.
+  void noteWords(const std::vector<std::string>& flags, Diagnostics& notes) const;
   /// Warns of each flag whose value says neither yes nor no.
   void noteFlags(std::initializer_list<const char*> names, Diagnostics& notes) const;
   std::optional<double> number(std::string_view name) const;
@@ -67,6 +70,7 @@ class Attributes {
   [[noreturn]] void fail(std::string_view name, std::string found, std::string wanted) const;
 
  private:
+  void requireOneStatement() const;
   [[noreturn]] void failAtNumber(const Node& attribute, const Word& key) const;
   template <class T>
   std::optional<T> get(std::string_view name, const char* wanted) const;

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,10 +10,40 @@
 namespace rex::ors {
 namespace {
 
+constexpr std::string_view kBlank = " \t\r\n";
+
 // Whether a number that no double holds is too near to zero for one, rather than too far from it.
 bool isTiny(const char* first, const char* last) {
   long double parsed = 0;
   return std::from_chars(first, last, parsed).ec == std::errc() && std::abs(parsed) < 1;
+}
+
+// How many bytes the letter of UTF-8 has that `text` begins with; 0: it begins with none.
+std::size_t letterLength(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+  const unsigned lead = byte(0), next = byte(1);
+  const bool isWide = lead >= 0xc2 && lead < 0xf5;
+  const std::size_t length = lead < 0x80 ? 1 : !isWide ? 0 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
+  for (std::size_t i = 1; i < length; ++i)
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+  const bool isOverlong = (lead == 0xe0 && next < 0xa0) || (lead == 0xf0 && next < 0x90);
+  const bool isNone = (lead == 0xed && next >= 0xa0) || (lead == 0xf4 && next >= 0x90);
+  return isOverlong || isNone ? 0 : length;
+}
+
+bool isControl(char c) { return (c >= 0 && c < 0x20) || c == 0x7f; }
+
+// `text` as a message shows it: one line of UTF-8.
+std::string shown(std::string_view text) {
+  std::string line;
+  while (!text.empty()) {
+    const std::size_t length = letterLength(text);
+    const bool isText = length > 0 && !isControl(text[0]);
+    line += isText ? std::string(text.substr(0, length))
+                   : fmt::format("\\x{:02x}", static_cast<unsigned char>(text[0]));
+    text.remove_prefix(isText ? length : 1);
+  }
+  return line;
 }
 
 }  // namespace
@@ -43,13 +72,9 @@ void Cursor::skipSpaceAndComments() {
 std::string Cursor::found() const {
   if (atEnd()) return "the end of the file";
   if (peek() == '\n' || peek() == '\r') return "the end of the line";
-  const std::size_t end = std::min(text_.find_first_of(" \t\r\n,;(){}[]<>=", at_ + 1), at_ + 40);
-  std::string shown;
-  for (const char c : text_.substr(at_, end - at_)) {
-    const auto byte = static_cast<unsigned char>(c);
-    shown += byte < 0x20 || byte == 0x7f ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
-  }
-  return "'" + shown + "'";
+  std::size_t end = std::min({text_.find_first_of(" \t\r\n,;(){}[]<>=", at_ + 1), at_ + 40, text_.size()});
+  while (end < text_.size() && end > at_ + 37 && (text_[end] & 0xc0) == 0x80) --end;  // never half a letter
+  return "'" + shown(text_.substr(at_, end - at_)) + "'";
 }
 
 void Cursor::countWord() {
@@ -62,8 +87,25 @@ std::string Cursor::word(std::string_view terminators) {
   const std::size_t end = std::min(text_.find_first_of(terminators, at_), text_.size());
   if (end - at_ > kLongestWord)
     fail("word too long", fmt::format("{} bytes", end - at_), fmt::format("at most {}", kLongestWord));
-  const std::size_t start = std::exchange(at_, end);
+  return textUpTo(end);
+}
+
+std::string Cursor::textUpTo(std::size_t end) {
+  const std::size_t start = at_;
+  while (at_ < end) {
+    const std::size_t length = letterLength(text_.substr(at_, end - at_));
+    if (length == 0 || (isControl(peek()) && !contains(kBlank, peek()))) failAtByte();
+    for (std::size_t i = 0; i < length; ++i) take();
+  }
   return std::string(text_.substr(start, end - start));
+}
+
+void Cursor::failAtByte() const {
+  const char c = peek();
+  const std::string byte = "'" + shown(text_.substr(at_, 1)) + "'";
+  if (c == 0) fail("a byte 0, as in text in UTF-16", byte, "UTF-8");
+  if (isControl(c)) fail("a control character", byte, "text");
+  fail("a byte that is no UTF-8", byte, "text in UTF-8; only comments may have other bytes");
 }
 
 std::string Cursor::upTo(char closing, const Place& open, const char* what) {
@@ -73,8 +115,8 @@ std::string Cursor::upTo(char closing, const Place& open, const char* what) {
   if (end - at_ > kLongestWord)
     failAt(open, fmt::format("{} is too long", what), fmt::format("{} bytes", end - at_),
            fmt::format("at most {}", kLongestWord));
-  std::string text(text_.substr(at_, end - at_));
-  while (at_ <= end) take();
+  std::string text = textUpTo(end);
+  take();
   return text;
 }
 

@@ -36,9 +36,9 @@ class Cursor {
   /// What stands here, short enough for a message.
   std::string found() const;
 
-  /// Everything up to one of `terminators` or the end, at most 256 bytes.
+  /// Everything up to one of `terminators` or the end, at most 256 bytes of UTF-8 without control characters.
   std::string word(std::string_view terminators);
-  /// Everything up to `closing`, which is taken too. `what` was opened at `open`.
+  /// The same up to `closing`, which is taken too; lines may end in it. `what` was opened at `open`.
   std::string upTo(char closing, const Place& open, const char* what);
   bool atNumber() const { return contains("+-.0123456789", peek()); }
   /// A finite number, or also inf and -inf.
@@ -52,6 +52,8 @@ class Cursor {
 
  private:
   void countWord();
+  std::string textUpTo(std::size_t end);
+  [[noreturn]] void failAtByte() const;
 
   std::string_view text_;
   const std::string& file_;

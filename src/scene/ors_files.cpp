@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/files_internal.h"
 #include "scene/ors_files_internal.h"
 #include "scene/ors_limits_internal.h"
 #include "scene/scene_file.h"
@@ -33,7 +34,11 @@ Files::Opened Files::open(const FileName& file, const Place& where) {
   const fs::path real = fs::weakly_canonical(path);
   if (std::find(open_.begin(), open_.end(), real) != open_.end())
     fail("a file that includes itself", "another file");
-  Opened opened{path.string(), readSceneText(path)};
+  const fs::path folder =
+      isAddress(file.path)
+          ? internal::folderOf(path).lexically_relative(internal::realPath(assets_->folder()))
+          : fs::path(file.path).parent_path();
+  Opened opened{path.string(), readSceneText(path), folder};
   bytes_ += opened.text.size();
   if (bytes_ > kMostBytes)
     fail(fmt::format("{} bytes in all", bytes_), fmt::format("at most {} MiB", kMostBytes >> 20));
@@ -43,13 +48,14 @@ Files::Opened Files::open(const FileName& file, const Place& where) {
 
 bool Files::hasFolder(const std::string& folder) const {
   std::error_code problem;
-  return !assets_ || folder.find("://") != std::string::npos ||
-         fs::is_directory(open_.front().parent_path() / folder, problem);
+  return !assets_ || isAddress(folder) || fs::is_directory(open_.front().parent_path() / folder, problem);
 }
 
+bool isAddress(const std::string& name) { return name.find("://") != std::string::npos; }
+
 std::string inFolder(const std::string& folder, const std::string& name) {
-  const bool isComplete = name.starts_with('/') || name.find("://") != std::string::npos;
-  return folder.empty() || isComplete ? name : folder + "/" + name;
+  const bool isComplete = name.starts_with('/') || isAddress(name);
+  return folder.empty() || isComplete ? name : folder + (folder.ends_with('/') ? "" : "/") + name;
 }
 
 }  // namespace rex::ors

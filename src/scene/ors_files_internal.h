@@ -15,11 +15,13 @@ class Files {
   /// too large.
   Files(const Assets* assets, const std::string& file, std::size_t bytes);
 
-  /// The name and the text of a file to include. It counts as open until close(). Throws Error at `where`: no
-  /// files may be read, none found, a file within itself, files nested too deep or too large in all.
+  /// The name and the text of a file to include, and its folder as seen from that of the scene. It counts as
+  /// open until close(). Throws Error at `where`: no files may be read, none found, a file within itself,
+  /// files nested too deep or too large in all.
   struct Opened {
     std::string name;
     std::string text;
+    std::filesystem::path folder;
   };
   [[nodiscard]] Opened open(const FileName& file, const Place& where);
   void close() { open_.pop_back(); }
@@ -31,6 +33,9 @@ class Files {
   std::size_t bytes_;
   std::vector<std::filesystem::path> open_;
 };
+
+/// Whether it is package://PACKAGE/PATH or alike, no path.
+[[nodiscard]] bool isAddress(const std::string& name);
 
 /// `name` as seen from the folder of the scene when it is meant from `folder`; an address or an absolute path
 /// stays as it is.

@@ -210,14 +210,13 @@ class Parser {
     const FileName& file = fileOf(node, "Include='FILE'");
     const Files::Opened opened = scene_.files.open(file, node.valueWhere);
     scene_.document.files.push_back(opened.name);
-    const std::string folder = shortest(std::filesystem::path(file.path).parent_path());
-    Parser(opened.text, scene_.document.files.back(), folder, scene_).readFile(list, depth);
+    Parser(opened.text, scene_.document.files.back(), shortest(opened.folder), scene_).readFile(list, depth);
     scene_.files.close();
   }
 
   void changeFolder(const Node& node) {
     const FileName& folder = fileOf(node, "ChDir='FOLDER'");
-    folder_ = shortest(folder.path);
+    folder_ = isAddress(folder.path) ? folder.path : shortest(folder.path);
     if (folder_.size() > kLongestWord) {
       Cursor::failAt(node.valueWhere, "ChDir: path too long", fmt::format("{} bytes", folder_.size()),
                      fmt::format("at most {}", kLongestWord));
@@ -230,10 +229,11 @@ class Parser {
     requireMoreKeys(node);
     if (const bool* value = std::get_if<bool>(&node.value); !value || !*value)
       Cursor::failAt(node.valueWhere, "Delete", describe(node.value), "only the words of a statement");
-    if (list.erase(std::span(node.keys).subspan(1)) > 0) return;
-    const std::string words = joinedKeys(node).substr(node.keys[0].text.size() + 1);
-    cursor_.warn(node.where,
-                 fmt::format("nothing to delete: no earlier statement has the words '{}'", words));
+    Node named = node;
+    named.keys.erase(named.keys.begin());
+    if (list.erase(named) > 0) return;
+    cursor_.warn(node.where, fmt::format("nothing to delete: no earlier statement has the words '{}'",
+                                         list.textOf(named)));
   }
 
   Cursor cursor_;

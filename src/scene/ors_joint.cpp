@@ -98,6 +98,8 @@ void readStart(const Attributes& attributes, JointSpec& joint, Diagnostics& note
 
 void readLimits(const Attributes& attributes, JointSpec& joint) {
   const int n = positionCount(joint.type);
+  if (const Node* limits = n == 0 ? attributes.find("limits") : nullptr)
+    attributes.fail("limits", describe(limits->value), "none: a rigid joint does not move");
   if (const auto limits = attributes.row("limits", {2 * n}, true)) {
     const auto pairs = limits->reshaped(2, n);
     joint.lower = pairs.row(0);
@@ -116,6 +118,14 @@ void readLimits(const Attributes& attributes, JointSpec& joint) {
     joint.maxVelocity = (*limits)[0];
     joint.maxEffort = (*limits)[1];
   }
+}
+
+void noteUseless(const Attributes& attributes, const JointSpec& joint, Diagnostics& notes) {
+  for (const char* name : {"mimic_ratio", "mimic_offset"})
+    if (joint.mimic.empty() && attributes.has(name))
+      attributes.note(name, "is ignored: without 'mimic' the joint follows none", Severity::kWarning, notes);
+  if (joint.type != JointType::kScrew && attributes.has("pitch"))
+    attributes.note("pitch", "is ignored: only a screw has one", Severity::kWarning, notes);
 }
 
 void noteStrangeAngles(const Attributes& attributes, const JointSpec& joint, Diagnostics& notes) {
@@ -159,6 +169,24 @@ std::string readMimic(const Attributes& attributes) {
   return attributes.text("mimic", "the name of a joint").value_or("");
 }
 
+// The same rules as those of compile(), which knows no attributes.
+void requireLeader(const Attributes& attributes, const JointSpec& joint, const JointSpec& leader) {
+  const int count = positionCount(joint.type);
+  if (!leader.mimic.empty()) {
+    attributes.fail("mimic", fmt::format("'{}', which mimics '{}'", leader.name, leader.mimic),
+                    "a joint that mimics none");
+  }
+  if (count == 1 && positionCount(leader.type) == 1) return;
+  if (joint.type != leader.type) {
+    attributes.fail("mimic", fmt::format("'{}', a joint of type {}", leader.name, toString(leader.type)),
+                    count == 1 ? "a joint with one coordinate"
+                               : fmt::format("a joint of type {} as this one", toString(joint.type)));
+  }
+  const std::string wanted = fmt::format("none, for the joint has {} coordinates", count);
+  if (joint.mimicRatio != 1) attributes.fail("mimic_ratio", fmt::format("{}", joint.mimicRatio), wanted);
+  if (joint.mimicOffset != 0) attributes.fail("mimic_offset", fmt::format("{}", joint.mimicOffset), wanted);
+}
+
 void readJoint(const Attributes& attributes, const JointSurroundings& around, JointSpec& joint,
                Diagnostics& notes) {
   static const std::vector<std::string> kKnown = {"A",
@@ -185,10 +213,12 @@ void readJoint(const Attributes& attributes, const JointSurroundings& around, Jo
                                                   "gains",
                                                   "m"};
   attributes.noteUnknown(kKnown, notes);
+  attributes.noteWords({"fixed", "BinvA"}, notes);
   joint.mimic = readMimic(attributes);
   joint.mimicRatio = attributes.number("mimic_ratio").value_or(1);
   joint.mimicOffset = attributes.number("mimic_offset").value_or(0);
   readType(attributes, around.followed, joint);
+  noteUseless(attributes, joint, notes);
   readFrames(attributes, around, joint, notes);
   readStart(attributes, joint, notes);
   readLimits(attributes, joint);

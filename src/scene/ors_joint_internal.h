@@ -19,4 +19,7 @@ void readJoint(const Attributes& attributes, const JointSurroundings& around, Jo
 /// The name of the joint that this one follows; empty: none.
 [[nodiscard]] std::string readMimic(const Attributes& attributes);
 
+/// Throws Error at the attribute that is wrong unless `joint` can follow `leader`, which its 'mimic' names.
+void requireLeader(const Attributes& attributes, const JointSpec& joint, const JointSpec& leader);
+
 }  // namespace rex::ors

@@ -93,6 +93,7 @@ class Reader {
       }
     }
     for (const Waiting& joint : waiting_) readAttributes(joint);
+    for (const Waiting& joint : followers_) checkMimic(joint);
   }
 
  private:
@@ -124,6 +125,7 @@ class Reader {
     if (!node.parents.empty()) fail(node.parents[0].where, owner, "parents", "none: joints connect bodies");
     const Attributes attributes(node, owner);
     attributes.noteUnknown(bodyAttributes(), file_.notes);
+    attributes.noteWords({"fixed", "static", "kinematic", "contact", "hidden"}, file_.notes);
     BodySpec body;
     body.name = name;
     body.where = node.where;
@@ -165,6 +167,7 @@ class Reader {
            "one body, or none");
     }
     attributes.noteUnknown(ors::shapeAttributes(), file_.notes);
+    attributes.noteWords({"contact", "hidden"}, file_.notes);
     std::vector<ShapeSpec>* shapes = &file_.spec.worldShapes;
     if (!node.parents.empty()) {
       if (const auto body = parentBody(node.parents[0], attributes.owner()))
@@ -197,6 +200,7 @@ class Reader {
     }
     const std::string mimic = ors::readMimic(attributes);
     const Waiting waiting{&node, file_.spec.joints.size(), around};
+    if (!mimic.empty()) followers_.push_back(waiting);
     const bool mustWait = !mimic.empty() && !jointOfName_.contains(mimic);
     jointOfName_.emplace(std::move(name), file_.spec.joints.size());
     file_.spec.joints.push_back(std::move(joint));
@@ -215,11 +219,28 @@ class Reader {
   };
 
   void readAttributes(Waiting joint) {
-    const Attributes attributes(*joint.node, called("joint", file_.spec.joints[joint.index].name));
+    const Attributes attributes = attributesOf(joint);
     const auto followed = jointOfName_.find(ors::readMimic(attributes));
     if (followed != jointOfName_.end() && followed->second != joint.index)
       joint.around.followed = &file_.spec.joints[followed->second];
     ors::readJoint(attributes, joint.around, file_.spec.joints[joint.index], file_.notes);
+  }
+
+  Attributes attributesOf(const Waiting& joint) const {
+    return {*joint.node, called("joint", file_.spec.joints[joint.index].name)};
+  }
+
+  void checkMimic(const Waiting& follower) const {
+    const Attributes attributes = attributesOf(follower);
+    const JointSpec& joint = file_.spec.joints[follower.index];
+    const auto leader = jointOfName_.find(joint.mimic);
+    if (leader != jointOfName_.end())
+      return ors::requireLeader(attributes, joint, file_.spec.joints[leader->second]);
+    std::vector<std::string> names;
+    for (const JointSpec& other : file_.spec.joints)
+      if (&other != &joint) names.push_back(other.name);
+    fail(attributes.where("mimic"), attributes.owner() + ": attribute 'mimic': unknown joint",
+         fmt::format("'{}'", joint.mimic), "the name of a joint", nearestNames(joint.mimic, names));
   }
 
   // What a joint calls the body, whose pose is X_WB.
@@ -242,7 +263,7 @@ class Reader {
   }
 
   SceneFile& file_;
-  std::vector<Waiting> waiting_;
+  std::vector<Waiting> waiting_, followers_;
   std::unordered_map<std::string, std::size_t> firstOfName_, jointOfName_;
   std::unordered_map<int, std::size_t> bodyOfNode_;
 };

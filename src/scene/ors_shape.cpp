@@ -36,6 +36,8 @@ bool hasRadius(ShapeType type) {
 
 void readSize(const Attributes& attributes, Shape& shape, Diagnostics& notes) {
   const auto size = attributes.row("size", {3, 4});
+  if (!size && hasRadius(shape.type) && shape.type != ShapeType::kRoundedBox)
+    attributes.note("size", "is missing: the radius, its fourth number, is 0", Severity::kWarning, notes);
   if (!size) return;
   shape.extent = size->head<3>();
   shape.radius = size->size() == 4 ? (*size)[3] : 0;
@@ -43,6 +45,12 @@ void readSize(const Attributes& attributes, Shape& shape, Diagnostics& notes) {
     attributes.fail("size", fmt::format("{}", size->minCoeff()), "lengths that are not negative");
   if (size->size() == 3 && hasRadius(shape.type))
     attributes.note("size", "has three numbers: the radius, its fourth, is 0", Severity::kWarning, notes);
+}
+
+void noteNoMesh(const Attributes& attributes, ShapeType type, Diagnostics& notes) {
+  for (const char* name : {"mesh", "meshscale"})
+    if (!usesMesh(type) && attributes.has(name))
+      attributes.note(name, "is ignored: a shape of this type has no mesh", Severity::kWarning, notes);
 }
 
 }  // namespace
@@ -65,8 +73,9 @@ const std::vector<std::string>& shapeAttributes() {
 ShapeSpec readShape(const Attributes& attributes, std::string name, const Place& where, Diagnostics& notes) {
   ShapeSpec spec;
   spec.name = std::move(name);
-  spec.where = where;
   spec.shape.type = readType(attributes, where, notes);
+  noteNoMesh(attributes, spec.shape.type, notes);
+  spec.where = attributes.where(usesMesh(spec.shape.type) ? "mesh" : "size");
   readSize(attributes, spec.shape, notes);
   spec.X_BS = attributes.pose("rel").value_or(Pose{});
   attributes.noteFlags({"contact", "hidden"}, notes);

@@ -102,7 +102,7 @@ class Builder {
   }
 
   [[noreturn]] void failAtSyntax() const {
-    const std::size_t first = text_.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+    const std::size_t first = text_.find_first_not_of(kBlank);
     if (first != std::string_view::npos && text_[first] != '<') {
       fail(document_.where(static_cast<std::uint32_t>(first)), "not XML at all",
            quoted(text_.substr(first, std::min<std::size_t>(20, text_.find_first_of("\r\n", first) - first))),
@@ -114,9 +114,24 @@ class Builder {
       fail(document_.where(bare ? static_cast<std::uint32_t>(*bare) : here()),
            "not well-formed XML: invalid token", "", bare ? "&amp; where the text has a bare &" : "");
     }
+    if (code == XML_ERROR_UNDEFINED_ENTITY) failAtEntity();
     const bool isOpen = code == XML_ERROR_TAG_MISMATCH || code == XML_ERROR_NO_ELEMENTS;
     fail(document_.where(here()), fmt::format("not well-formed XML: {}", XML_ErrorString(code)), "",
          isOpen && !open_.empty() ? fmt::format("</{}> first", open_.back()->name) : "");
+  }
+
+  // expat names the tag in whose attributes the entity stands.
+  [[noreturn]] void failAtEntity() const {
+    constexpr std::array<std::string_view, 6> kDefined = {"&amp;", "&lt;", "&gt;", "&quot;", "&apos;", "&#"};
+    const auto isDefined = [&](std::size_t at) {
+      return std::any_of(kDefined.begin(), kDefined.end(),
+                         [&](std::string_view entity) { return text_.substr(at).starts_with(entity); });
+    };
+    const auto nextFrom = [&](std::size_t from) { return std::min(text_.find('&', from), text_.size()); };
+    std::size_t at = nextFrom(here());
+    while (isDefined(at)) at = nextFrom(at + 1);
+    fail(document_.where(static_cast<std::uint32_t>(at)), "not well-formed XML: undefined entity",
+         quoted(text_.substr(at, text_.find(';', at) + 1 - at)), "&amp; where the text has a bare &");
   }
 
   // The '&' behind which expat stopped, for only with a name and ';' is it a reference.
@@ -213,6 +228,7 @@ Document parse(std::string_view text, const std::string& fileName) {
     fail({fileName}, "scene file too large", fmt::format("{} bytes", text.size()),
          fmt::format("at most {} MiB", kLargestFile >> 20));
   }
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
   return Builder(text, fileName).build();
 }
 

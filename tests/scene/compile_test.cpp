@@ -166,6 +166,9 @@ TEST(Compile, RefusesBadNumbersInAnEditedSpec) {
   EXPECT_REX_ERROR(compile(roundedBox(0.11)),
                    "shape 'a': radius of the rounded edges: found 0.11 m, wanted at most half of the "
                    "shortest edge, 0.1 m");
+  EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].mimic = "j"; })),
+                   "f:3:1: joint 'j': mimic: found 'j', wanted a joint that mimics none, of the same type or "
+                   "like this one with one coordinate");
   EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].axis.setZero(); })),
                    "joint 'j': axis: found a zero or non-finite vector");
   EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.bodies[0].p_BBcm.z() = nan; })),

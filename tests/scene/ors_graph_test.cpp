@@ -162,6 +162,36 @@ TEST(OrsGraph, MergesEditsAtTheEnd) {
   EXPECT_THAT(texts(graph.at(0).parents), ElementsAre("a", "c"));
 }
 
+TEST(OrsGraph, TellsStatementsWithoutANameByTheirParents) {
+  const std::string arm = "body a\nbody b\nbody c\njoint (a b) {}\njoint (-3 -2) {}\n";  // b>c
+  const auto joints = [&](const std::string& text) {
+    return outline(parse(arm + text + "\nDelete body").nodes);
+  };
+  EXPECT_EQ(joints("Edit joint (b c) {x}"), "joint{} | joint{x}");
+  EXPECT_EQ(joints("Edit joint (a b) {x}"), "joint{x} | joint{}");
+  EXPECT_EQ(joints("Edit joint (-4 -3) {x}"), "joint{} | joint{x}");
+  EXPECT_EQ(joints("Edit joint b>c {x}"), "joint{} | joint{x}");
+  EXPECT_EQ(joints("Delete joint (b c)"), "joint{}");
+  EXPECT_EQ(joints("Delete joint b>c"), "joint{}");
+  EXPECT_EQ(joints("Delete joint"), "");
+  const Graph graph = parse(
+                          "shape (a) {}\nshape (b) {}\nshape s (a) {}\nshape s (b) {}\n"
+                          "Edit shape (b) {x}\nEdit shape s (b) {y}\nEdit shape s (c) {z}")
+                          .nodes;
+  EXPECT_EQ(outline(graph), "shape{} | shape{x} | shape s{z} | shape s{y}");
+  EXPECT_THAT(texts(graph[0].parents), ElementsAre("a"));
+  EXPECT_THAT(texts(graph[2].parents), ElementsAre("c"));
+  EXPECT_REX_ERROR(parse("joint (arm hand) {}\nEdit joint (arm hnad) {x}"),
+                   "f:2:1: nothing to edit: found 'joint (arm hnad)', wanted the words and parents of an "
+                   "earlier statement (did you mean 'joint (arm hand)'?)");
+  EXPECT_REX_ERROR(parse("joint (arm hand) {}\nEdit joint arm>hnad {x}"),
+                   "f:2:1: nothing to edit: found 'joint arm>hnad', wanted the words of an earlier statement "
+                   "(did you mean 'joint arm>hand'?)");
+  const Diagnostics notes = parse("joint (a b)\nDelete joint (a c)").notes;
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(notes[0].message, "nothing to delete: no earlier statement has the words 'joint (a c)'");
+}
+
 TEST(OrsGraph, CountsParentsBack) {
   const Graph graph = parse("a\nb\nc\nDelete b\nd (-1 -2 -x)").nodes;
   ASSERT_EQ(graph.size(), 3u);

@@ -61,6 +61,15 @@ TEST_F(OrsInclude, EditsAndDeletesWhatWasIncluded) {
   EXPECT_TRUE(spec.joints.empty());
 }
 
+TEST_F(OrsInclude, EditsJointsWithoutAName) {
+  write("arm.ors", "body a {}\nbody b {}\nbody c {}\njoint (a b) {}\njoint (b c) {}");
+  const SceneSpec spec =
+      read("Include='arm.ors'\nEdit joint (b c) { limits=[-1 1] }\nEdit joint a>b { q=1 }");
+  EXPECT_EQ(spec.joints.at(0).q0[0], 1);
+  EXPECT_EQ(spec.joints.at(1).name, "b>c");
+  EXPECT_EQ(spec.joints.at(1).upper[0], 1);
+}
+
 TEST_F(OrsInclude, FindsMeshesBesideTheFileThatNamesThem) {
   const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   write("parts/meshes/a.obj", triangle);
@@ -75,6 +84,17 @@ TEST_F(OrsInclude, FindsMeshesBesideTheFileThatNamesThem) {
   for (const ShapeSpec& shape : spec.worldShapes) EXPECT_EQ(shape.shape.mesh.triangles().size(), 1u);
 }
 
+TEST_F(OrsInclude, FindsMeshesBesideAFileWithAnAddress) {
+  write("parts/a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  write("parts/plate.ors", "shape { type=3 mesh='a.obj' }");
+  const auto mesh = [&](const std::string& text) { return read(text).worldShapes.at(0).meshFile; };
+  EXPECT_EQ(mesh("Include='package://parts/plate.ors'"), "parts/a.obj");
+  EXPECT_EQ(mesh("Include='file://" + fs::absolute(path("parts/plate.ors")).string() + "'"), "parts/a.obj");
+  EXPECT_EQ(mesh("ChDir='package://parts'\nInclude='plate.ors'"), "parts/a.obj");
+  EXPECT_EQ(mesh("ChDir='package://parts'\nshape { type=3 mesh='a.obj' }"), "package://parts/a.obj");
+  EXPECT_TRUE(readOrs(path("main.ors")).notes.empty());
+}
+
 TEST_F(OrsInclude, SaysWhichFileIsWrong) {
   write("bad.ors", "body a {\n  mass=heavy }");
   EXPECT_REX_ERROR(
@@ -87,6 +107,8 @@ TEST_F(OrsInclude, SaysWhichFileIsWrong) {
   EXPECT_REX_ERROR(read("body a {}\nInclude='bat.ors'"),
                    "main.ors:2:9: Include 'bat.ors': found no file 'bat.ors', wanted " +
                        path("bat.ors").string() + " (did you mean 'bad.ors'?)");
+  EXPECT_REX_ERROR(read("body a {\n type=3\n mesh='no.obj' }"),
+                   "main.ors:3:7: shape 'a': mesh: found no file");
   EXPECT_REX_ERROR(read("Include=bad.ors"), "main.ors:1:9: Include: found 'bad.ors', wanted Include='FILE'");
   EXPECT_REX_ERROR(parseOrs("\nInclude='bad.ors'", "f"),
                    "f:2:9: Include 'bad.ors': found a scene that was given as text, wanted no Include: only "

@@ -7,6 +7,8 @@
 namespace rex {
 namespace {
 
+using std::string_view_literals::operator""sv;
+
 // The typo stands between two @, and `right` in its place makes the scene valid. The message is about the
 // place of the typo, or about the ^ if there is one.
 struct Row {
@@ -50,6 +52,17 @@ std::string errorOf(const std::string& text) {
 constexpr Row kErrors[] = {
     // what is no .ors
     {"@\xff\xfe@body a {}", "", "text in UTF-16: wanted UTF-8"},
+    {"bo@\0@dy a {}"sv, "", "a byte 0, as in text in UTF-16: found '\\x00', wanted UTF-8"},
+    {"@\0@b\0o\0d\0y\0"sv, "body b #", "a byte 0, as in text in UTF-16: found '\\x00', wanted UTF-8"},
+    {"body a { mass=@x^\0y@ }"sv, "1", "a byte 0, as in text in UTF-16: found '\\x00', wanted UTF-8"},
+    {"body a@\x07@ {}", "", "a control character: found '\\x07', wanted text"},
+    {"# Gr\xfc\xdf\x65\nbody a@\xe4@b {}", "\xc3\xa4",
+     "a byte that is no UTF-8: found '\\xe4', wanted text in UTF-8; only comments may have other bytes"},
+    {"body a { type=3 mesh='\na@\xe4@b' }", "",
+     "a byte that is no UTF-8: found '\\xe4', wanted text in UTF-8; only comments may have other bytes"},
+    {"body a { mass=@\xe4\xc3\xa4@ }", "1",
+     "syntax error: found '\\xe4\xc3\xa4', wanted a value: a number, word, \"text\", [array], <T pose> or "
+     "{attributes}"},
     {"@<robot name='r'/>@", "body a {}", "this is XML: wanted .ors; if it is a robot in URDF, name it .urdf"},
     {"@//@ an arm\nbody a {}", "#",
      "a comment of another language: found '//', wanted '#', with which comments begin"},
@@ -110,6 +123,8 @@ constexpr Row kErrors[] = {
     // statements
     {"@bodi@ a {}", "body",
      "unknown statement: found 'bodi', wanted 'body', 'shape' or 'joint' (did you mean 'body'?)"},
+    {"body a@ @^body b {}", "\n",
+     "body 'b': a statement within its words: found 'body', wanted {...} or the end of the line before it"},
     {"^@body@ { mass=1 }", "body a", "body without a name: wanted 'body NAME { ... }'"},
     {"body a@\n@^{ mass=1 }", "",
      "a value without a name: found {...}, wanted '{' on the line of its body, shape or joint"},
@@ -160,6 +175,8 @@ constexpr Row kErrors[] = {
      "body 'a': attribute 'size': found an array of 2, wanted an array of 3 or 4 numbers"},
     {"body a { type=0 size=@[1 2 -3]@ }", "[1 2 3]",
      "body 'a': attribute 'size': found -3, wanted lengths that are not negative"},
+    {"body a {\n type=9\n size=^[1 1 1 @.6@] }", ".5",
+     "shape 'a': radius of the rounded edges: found 0.6 m, wanted at most half of the shortest edge, 0.5 m"},
     {"body a { type=3 mesh=@arm.obj@ }", "'arm.obj'",
      "body 'a': attribute 'mesh': found 'arm.obj', wanted a file name in single quotes"},
     {"body a { type=3 mesh='a.obj' meshscale=@[1 2]@ }", "[1 2 3]",
@@ -194,6 +211,8 @@ constexpr Row kErrors[] = {
      "joint 'j': attribute 'pitch' is missing: wanted metres per turn of the screw"},
     {"body a {}\nbody b {}\njoint j (a b) { axis=^[0 0 @0@] }", "1",
      "joint 'j': attribute 'axis': found a zero vector, wanted a direction"},
+    {"body a {}\nbody b {}\njoint j (a b) { @type=rigid @limits=^[-1 1] }", "",
+     "joint 'j': attribute 'limits': found an array of 2, wanted none: a rigid joint does not move"},
     {"body a {}\nbody b {}\njoint j (a b) { limits=@[1]@ }", "[1 2]",
      "joint 'j': attribute 'limits': found an array of 1, wanted an array of 2 numbers"},
     {"body a {}\nbody b {}\njoint j (a b) { limits=@[1 -1]@ }", "[-1 1]",
@@ -216,15 +235,22 @@ constexpr Row kErrors[] = {
      "duplicate joint 'j': wanted a name of its own: the first stands at f:4:1"},
     {"body a {}\nbody b {}\nbody c {}\njoint j (a b) {}\n^joint k (b @a@) {}", "c",
      "joint 'k': joints form a loop: found b > a > b, wanted a tree"},
-    {"body a {}\nbody b {}\nbody c {}\njoint lead (a b) {}\n^joint j (a c) { mimic=@laed@ }", "lead",
-     "joint 'j': mimic: found 'laed', wanted a joint that mimics none, of the same type or like this one "
-     "with "
-     "one coordinate (did you mean 'lead'?)"},
+    {"body a {}\nbody b {}\nbody c {}\njoint lead (a b) {}\njoint j (a c) { mimic=@laed@ }", "lead",
+     "joint 'j': attribute 'mimic': unknown joint: found 'laed', wanted the name of a joint (did you mean "
+     "'lead'?)"},
     {"body a {}\nbody b {}\nbody c {}\nbody d {}\njoint one (a b) {}\njoint two (a c) { mimic=one }\n"
-     "^joint three (a d) { mimic=@two@ }",
+     "joint three (a d) { mimic=@two@ }",
      "one",
-     "joint 'three': mimic: found 'two', wanted a joint that mimics none, of the same type or like this one "
-     "with one coordinate"},
+     "joint 'three': attribute 'mimic': found 'two', which mimics 'one', wanted a joint that mimics none"},
+    {"body a {}\nbody b {}\nbody c {}\njoint j (a b) { @fixed@ }\njoint k (a c) { type=1 mimic=^j }", "",
+     "joint 'k': attribute 'mimic': found 'j', a joint of type rigid, wanted a joint with one coordinate"},
+    {"body a {}\nbody b {}\nbody c {}\njoint j (a b) {}\njoint k (a c) { mimic=^j @type=free@ }", "type=1",
+     "joint 'k': attribute 'mimic': found 'j', a joint of type hinge, wanted a joint of type free as this "
+     "one"},
+    {"body a {}\nbody b {}\nbody c {}\njoint j (a b) { type=9 }\njoint k (a c) { mimic=j mimic_ratio=@2@ }",
+     "1", "joint 'k': attribute 'mimic_ratio': found 2, wanted none, for the joint has 2 coordinates"},
+    {"body a {}\nbody b {}\nbody c {}\njoint j (a b) { type=9 }\njoint k (a c) { mimic=j mimic_offset=@2@ }",
+     "0", "joint 'k': attribute 'mimic_offset': found 2, wanted none, for the joint has 2 coordinates"},
 };
 
 constexpr Row kNotes[] = {
@@ -237,6 +263,23 @@ constexpr Row kNotes[] = {
      "'false'?)"},
     {"body a { @@color=^[1 0 0] }", "type=0 ",
      "warning: body 'a': attribute 'color' is ignored: without 'type' the body has no shape"},
+    {"body @fixd@ post {}", "fixed",
+     "warning: body 'post': unknown word 'fixd' is ignored (did you mean 'fixed'?)"},
+    {"shape hidden @big many@ s { type=0 }", "contact", "warning: shape 's': unknown word 'big' is ignored"},
+    {"body a {}\nbody b {}\njoint fixed @mass@ j (a b) {}", "",
+     "warning: joint 'j': unknown word 'mass' is ignored"},
+    {"^shape { type=2@@ }", " size=[0 0 1 1]",
+     "warning: shape: attribute 'size' is missing: the radius, its fourth number, is 0"},
+    {"shape { type=0 @mesh=^'nope.stl'@ }", "",
+     "warning: shape: attribute 'mesh' is ignored: a shape of this type has no mesh"},
+    {"shape { type=0 @meshscale=^2@ }", "",
+     "warning: shape: attribute 'meshscale' is ignored: a shape of this type has no mesh"},
+    {"body a {}\nbody b {}\njoint (a b) { @mimic_ratio=^2@ }", "",
+     "warning: joint 'a>b': attribute 'mimic_ratio' is ignored: without 'mimic' the joint follows none"},
+    {"body a {}\nbody b {}\njoint (a b) { @mimic_offset=^2@ }", "",
+     "warning: joint 'a>b': attribute 'mimic_offset' is ignored: without 'mimic' the joint follows none"},
+    {"body a {}\nbody b {}\njoint (a b) { pitch=^2 @type=0@ }", "type=screw",
+     "warning: joint 'a>b': attribute 'pitch' is ignored: only a screw has one"},
     {"body a { type=1 size=^[0 0 0@@] }", " 1",
      "warning: body 'a': attribute 'size' has three numbers: the radius, its fourth, is 0"},
     {"body a { X=<T ^d(90 0 0 @0@)> }", "1",

@@ -189,6 +189,8 @@ TEST(OrsReader, FindsMeshesWhereChDirLeads) {
   EXPECT_EQ(mesh("ChDir='..'\nshape { type=3 mesh='a.stl' }"), "../a.stl");
   EXPECT_EQ(mesh("ChDir='parts'\nshape { type=3 mesh='package://p/a.stl' }"), "package://p/a.stl");
   EXPECT_EQ(mesh("ChDir='parts'\nshape { type=3 mesh='/a.stl' }"), "/a.stl");
+  EXPECT_EQ(mesh("ChDir='package://p'\nshape { type=3 mesh='a.stl' }"), "package://p/a.stl");
+  EXPECT_EQ(mesh("ChDir='package://p/'\nshape { type=3 mesh='a.stl' }"), "package://p/a.stl");
 }
 
 TEST(OrsReader, LoadsAThousandBodiesInAChain) {

@@ -236,7 +236,7 @@ TEST(OrsWriter, RefusesWhatTheFormatCannotSay) {
   EXPECT_REX_ERROR(refused([](SceneSpec& s) { s.bodies[0].name = "world"; })(),
                    "body 'world': found the name of the world itself, wanted another name");
   EXPECT_REX_ERROR(refused([](SceneSpec& s) { s.bodies[1].shapes[0].meshFile = ""; })(),
-                   "f:2:1: shape 'b': mesh: found no file, wanted a file whose name");
+                   "f:2:22: shape 'b': mesh: found no file, wanted a file whose name");
   EXPECT_REX_ERROR(
       refused([](SceneSpec& s) { s.bodies[1].shapes[0].meshFile = "it's.obj"; })(),
       "shape 'b': mesh: found 'it's.obj', wanted a file whose name has at most 256 bytes and no '");

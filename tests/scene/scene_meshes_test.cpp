@@ -122,9 +122,10 @@ TEST_F(SceneMeshes, AreRefusedWhereTheyCollideWithTooManyVertices) {
   for (int i = 3; i <= 100'001; ++i) file << "f " << i - 2 << ' ' << i - 1 << ' ' << i << '\n';
   file.close();
   EXPECT_EQ(readOrs(scene("body a { type=3 mesh='meshes/fine.obj' }")).spec.bodies.size(), 1u);
-  EXPECT_REX_ERROR(readOrs(scene("body a {}\nshape hat (a) { type=3 mesh='meshes/fine.obj' contact }")),
-                   "scene.ors:2:1: shape 'hat': mesh in contact: convex hull: found 100001 different points, "
-                   "wanted at most 100000: a coarser mesh for contact, or none");
+  EXPECT_REX_ERROR(
+      readOrs(scene("body a {}\nshape hat (a) { type=3 mesh='meshes/fine.obj' contact }")),
+      "scene.ors:2:29: shape 'hat': mesh in contact: convex hull: found 100001 different points, "
+      "wanted at most 100000: a coarser mesh for contact, or none");
 }
 
 TEST_F(SceneMeshes, ThatAreMissingMayBecomeBoxes) {
@@ -142,7 +143,7 @@ TEST_F(SceneMeshes, ThatAreMissingMayBecomeBoxes) {
   EXPECT_EQ(file.notes[0].severity, Severity::kWarning);
   EXPECT_EQ(toString(file.notes[0]),
             (folder_.path() / "scene.ors").string() +
-                ":1:1: warning: mesh 'pyramit.off' of 'meshes' was not " +
+                ":1:22: warning: mesh 'pyramit.off' of 'meshes' was not " +
                 "found (did you mean 'pyramid.off'?); boxes of 0.1 m stand for what is missing; wanted " +
                 (folder_.path() / "meshes/pyramit.off").string());
   EXPECT_EQ(compile(file.spec).shapes().size(), 2u);
@@ -157,10 +158,10 @@ TEST_F(SceneMeshes, ThatAreMissingShareAWarningInAPackageOrFolder) {
   ASSERT_EQ(file.notes.size(), 2u);
   EXPECT_THAT(
       toString(file.notes[0]),
-      testing::HasSubstr("scene.ors:1:1: warning: 3 meshes of package://dog were not found, the first "
+      testing::HasSubstr("scene.ors:1:21: warning: 3 meshes of package://dog were not found, the first "
                          "is 'dae/base.dae'; boxes of 0.1 m stand for what is missing; wanted one of "));
   EXPECT_THAT(toString(file.notes[1]),
-              testing::HasSubstr(":2:1: warning: mesh 'x.stl' of the folder of the scene was not found"));
+              testing::HasSubstr(":2:21: warning: mesh 'x.stl' of the folder of the scene was not found"));
 }
 
 TEST_F(SceneMeshes, ThatAreBrokenAreNeverBoxes) {
@@ -171,7 +172,7 @@ TEST_F(SceneMeshes, ThatAreBrokenAreNeverBoxes) {
 
 TEST_F(SceneMeshes, ThatAreMissingAreNamedWithTheirPlace) {
   EXPECT_REX_ERROR(readOrs(scene("body a {}\nshape hat (a) { type=3 mesh='meshes/pyramit.off' }")),
-                   "scene.ors:2:1: shape 'hat': mesh: found no file 'meshes/pyramit.off', wanted " +
+                   "scene.ors:2:29: shape 'hat': mesh: found no file 'meshes/pyramit.off', wanted " +
                        (folder_.path() / "meshes/pyramit.off").string() + " (did you mean 'pyramid.off'?)");
   EXPECT_REX_ERROR(readOrs(scene("body a { type=3 }")),
                    "shape 'a': attribute 'mesh' is missing: wanted the file of its mesh, in single quotes");

@@ -70,7 +70,10 @@ TEST(UrdfMessages, OfXml) {
        "not well-formed XML: invalid token: wanted &amp; where the text has a bare &"},
       {"\n @body a {}\n", "not XML at all: found 'body a {}', wanted <robot ...>"},
       {"<robot>\n<link name='a' @name='b'/></robot>", "not well-formed XML: duplicate attribute"},
-      {"@<robot name='&pi;'/>", "not well-formed XML: undefined entity"},
+      {"<robot\nname='&lt;&#65;@&pi;'/>",
+       "not well-formed XML: undefined entity: found '&pi;', wanted &amp; where the text has a bare &"},
+      {"<robot a='&amp;'>\n@&pi;</robot>",
+       "not well-formed XML: undefined entity: found '&pi;', wanted &amp; where the text has a bare &"},
       {"<robot/>@<robot/>", "not well-formed XML: junk after document element"},
       {"@<!DOCTYPE robot [<!ENTITY a 'b'>]>\n<robot/>",
        "a document type: found <!DOCTYPE, wanted none: entities of one's own are not read"},
@@ -369,6 +372,22 @@ TEST(UrdfMessages, OfWarnings) {
     ASSERT_EQ(notes.size(), 1u) << row.text;
     EXPECT_EQ(toString(notes[0]), wanted);
   }
+}
+
+TEST(UrdfMessages, DoNotCountTheMarkOfUtf8) {
+  const auto messageOf = [](const std::string& text) -> std::string {
+    try {
+      return toString(parseUrdf("\xef\xbb\xbf" + text, "f").notes.at(0));
+    } catch (const Error& error) {
+      return error.what();
+    }
+  };
+  EXPECT_EQ(messageOf("<robot><link name='a'/></robot>"),
+            "f:1:1: warning: <robot>: attribute 'name' is missing");
+  EXPECT_EQ(messageOf("<robot name='r'><lnk/>\n<link name='a'/></robot>"),
+            "f:1:17: warning: <robot>: unknown tag <lnk> is ignored (did you mean 'link'?)");
+  EXPECT_EQ(messageOf("<robot name=a/>"), "f:1:13: not well-formed XML: invalid token");
+  EXPECT_EQ(messageOf(" body"), "f:1:2: not XML at all: found 'body', wanted <robot ...>");
 }
 
 TEST(UrdfMessages, IncludeTheNotesBeforeAFailure) {
