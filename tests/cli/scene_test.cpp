@@ -69,6 +69,19 @@ TEST_F(SceneCommand, InfoListsJointsBodiesAndMass) {
   EXPECT_EQ(info["shapes"][2]["visible"], false);
 }
 
+TEST_F(SceneCommand, InfoTellsWhatAJointMimics) {
+  std::ofstream(in("mimic.ors"))
+      << "body a {}\nbody b {}\nbody c {}\nbody d {}\nbody e {}\njoint j (a b) { type=rigid }\n"
+         "joint k (b c) { mimic=j }\njoint l (c d) { limits=[-1 2] }\n"
+         "joint m (d e) { mimic=l mimic_ratio=2 mimic_offset=0.5 }\n";
+  const json joints = jsonOf({"mimic.ors", "info"})["joints"];
+  EXPECT_EQ(joints[1]["mimics"], nullptr) << "rigid: it has nothing to share";
+  EXPECT_EQ(joints[2]["mimics"], nullptr);
+  EXPECT_EQ(joints[3]["mimics"], json({{"joint", "l"}, {"ratio", 2.0}, {"offset", 0.5}}));
+  EXPECT_EQ(joints[3]["low"], json({-1.0})) << "of the joint that it follows";
+  EXPECT_EQ(joints[3]["high"], json({2.0}));
+}
+
 TEST_F(SceneCommand, InfoShowsTheTreeToPeople) {
   const ProcessResult result = scene({"arm.ors", "info"});
   EXPECT_THAT(result.output, HasSubstr("arm.ors: 3 bodies, 2 joints, 3 degrees of freedom, 3 shapes, 3 kg"));
