@@ -45,13 +45,15 @@ void requireNames(const SceneSpec& spec) {
 // Joints name the first body of a name, so others can be called differently.
 SceneSpec withOwnNames(SceneSpec spec, Losses& losses) {
   std::unordered_set<std::string> given, taken;
+  std::unordered_map<std::string, int> lastNumbers;
   for (const BodySpec& body : spec.bodies) given.insert(body.name);
   for (BodySpec& body : spec.bodies) {
     if (taken.insert(body.name).second) continue;
     losses.add("bodies of a name that was taken got a number", body.name, body.where);
+    int& number = lastNumbers.try_emplace(body.name, 1).first->second;
     std::string name;
-    for (int number = 2; name.empty() || given.contains(name); ++number)
-      name = fmt::format("{}_{}", body.name, number);
+    do name = fmt::format("{}_{}", body.name, ++number);
+    while (given.contains(name));
     body.name = name;
     given.insert(name);
     taken.insert(name);

@@ -306,6 +306,14 @@ TEST(UrdfWriter, FindsFreeNames) {
   EXPECT_EQ(model.bodies().size(), 7u);  // world, four of ours, two of the chain
 }
 
+TEST(UrdfWriter, KeepsCountOfEachName) {
+  const SceneSpec spec =
+      parseOrs("body a {}\nbody a {}\nbody a_2 {}\nbody a_4 {}\nbody a {}\nbody a_2 {}\nbody a {}", "f").spec;
+  std::vector<std::string> names;
+  for (const BodySpec& body : again(spec).bodies) names.push_back(body.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"a", "a_3", "a_2", "a_4", "a_5", "a_2_2", "a_6"}));
+}
+
 TEST(UrdfWriter, BuildsCapsulesOfThreeSolids) {
   const SceneSpec spec =
       parseOrs("body a { type=2 size=[0 0 1 .1] contact }\nbody b { type=2 size=[0 0 0 .1] }", "f").spec;
