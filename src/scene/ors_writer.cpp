@@ -11,6 +11,7 @@
 
 #include "scene/ors_limits_internal.h"
 #include "scene/ors_text_internal.h"
+#include "scene/readable_text_internal.h"
 
 namespace rex {
 namespace {
@@ -311,7 +312,9 @@ class Writer {
 }  // namespace
 
 std::string writeOrs(const SceneSpec& spec, const std::filesystem::path& folder) {
-  return Writer(folder).write(spec);
+  std::string text = Writer(folder).write(spec);
+  requireReadable(text, ".ors");
+  return text;
 }
 
 }  // namespace rex

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "scene/model.h"
+#include "scene/readable_text_internal.h"
 #include "scene/urdf_expansion_internal.h"
 #include "scene/urdf_markup_internal.h"
 
@@ -293,7 +294,9 @@ UrdfText writeUrdf(const SceneSpec& spec, const std::filesystem::path& folder) {
   requireNames(spec);
   Losses losses;
   const SceneSpec named = withOwnNames(spec, losses);
-  return Writer(named, folder, std::move(losses)).write();
+  UrdfText urdf = Writer(named, folder, std::move(losses)).write();
+  requireReadable(urdf.text, ".urdf");
+  return urdf;
 }
 
 }  // namespace rex

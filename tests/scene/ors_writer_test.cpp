@@ -251,6 +251,15 @@ TEST(OrsWriter, RefusesWhatTheFormatCannotSay) {
     EXPECT_REX_ERROR(refused([&](SceneSpec& s) { s.joints[0].name = name; })(),
                      "joint '" + name + "': not a name in .ors");
   }
+  EXPECT_REX_ERROR(refused([](SceneSpec& s) {
+                     for (int i = 0; i < 1000; ++i) {
+                       s.bodies.push_back({.name = "c" + std::to_string(i), .X_WB = {}});
+                       s.joints.emplace_back();
+                       s.joints.back().parent = "a";
+                       s.joints.back().child = s.bodies.back().name;
+                     }
+                   })(),
+                   "as .ors it could not be read again: too many joints: wanted at most 1000");
   EXPECT_REX_ERROR(refused([](SceneSpec& s) { s.bodies[0].name = "world"; })(),
                    "body 'world': found the name of the world itself, wanted another name");
   EXPECT_REX_ERROR(refused([](SceneSpec& s) { s.bodies[1].shapes[0].meshFile = ""; })(),

@@ -405,5 +405,27 @@ TEST(UrdfWriter, SaysWhatItCannotWrite) {
                    "joints form a loop");
 }
 
+TEST(UrdfWriter, RefusesWhatItsReaderRefuses) {
+  const auto chains = [](int count) {
+    std::string text = "body a {}\n";
+    for (int i = 0; i < count; ++i) {
+      const std::string name = "b" + std::to_string(i);
+      text += "body " + name + " {}\njoint (a " + name + ") { type=universal }\n";
+    }
+    return parseOrs(text, "f").spec;
+  };
+  EXPECT_EQ(again(chains(500)).joints.size(), 1000u);
+  EXPECT_REX_ERROR(
+      writeUrdf(chains(501)),
+      "as .urdf it could not be read again: <robot>: too many <joint>: found 1002, wanted at most "
+      "1000");
+  const std::string longest(254, 'b');
+  EXPECT_REX_ERROR(
+      writeUrdf(
+          parseOrs("body a {}\nbody " + longest + " {}\njoint j (a " + longest + ") { B=<T t(1 2 3)> }", "f")
+              .spec),
+      "as .urdf it could not be read again: <link>: attribute 'name': found 260 bytes, wanted at most 256");
+}
+
 }  // namespace
 }  // namespace rex
