@@ -154,6 +154,28 @@ TEST_F(SceneCommand, ContactsAlignForPeople) {
       "2 pairs of shapes may collide, 0 are nearer than 0.5 m; contact cost 0 with a margin of 0.1 m\n");
 }
 
+TEST_F(SceneCommand, ContactsRefusesTooManyPairs) {
+  const auto refused = [&](int bodies, int shapesEach) {
+    std::ofstream file(in("many.ors"));
+    for (int i = 0; i < bodies; ++i) {
+      file << "body b" << i << " { }\n";
+      for (int k = 0; k < shapesEach; ++k)
+        file << "shape (b" << i << ") { rel=<T t(" << 10 * i << " 0 0)> type=1 size=[0 0 0 1] contact }\n";
+    }
+    file.close();
+    return scene({"many.ors", "contacts"});
+  };
+  EXPECT_EQ(refused(632, 1).exitCode, 0);
+  const ProcessResult result = refused(634, 1);
+  EXPECT_EQ(result.exitCode, 64);
+  EXPECT_THAT(flat(result.error),
+              HasSubstr("many.ors: too many shapes take part in contacts: found 200661 pairs of "
+                        "them, wanted at most 200000"));
+  EXPECT_EQ(refused(2, 400).exitCode, 0) << "shapes of one body do not collide";
+  EXPECT_EQ(refused(2, 448).exitCode, 64);
+  EXPECT_THAT(scene({"man", "contacts", "--help"}).output, HasSubstr("more than 200000 pairs"));
+}
+
 constexpr const char* kPendulum =
     "body post {}\nbody rod { mass=2 }\njoint pin (post rod) { type=hingeY B=<T t(0 0 -.5)> }\n";
 
