@@ -354,6 +354,10 @@ TEST_F(SceneCommand, SaysWhatIsUsedWrongly) {
   expectRefusal({"man", "render", "--shapes", "contact", "-o", "a.png"},
                 "--shapes contact: found no shape that takes part in contacts");
   expectRefusal({"arm.ors", "fk", "--free-base"}, "--free-base: found an .ors file, wanted a .urdf file");
+  std::ofstream(in("round.ors")) << "body a {} body b {}\njoint j (a b) { type=quatBall }";
+  for (const char* verb : {"fk", "contacts", "dynamics"})
+    expectRefusal({"round.ors", verb, "--q", "0,0,0,0"},
+                  "--q: found (0, 0, 0, 0) for joint 'j', wanted a quaternion");
   expectRefusal({"arm.ors", "convert", "arm.ors"}, "'arm.ors' is the scene itself: wanted another file");
   expectRefusal(
       {"arm.ors", "convert", "arm.udrf"},
