@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "cli/out_folder.h"
 #include "cli/wrong_use_internal.h"
 #include "grading/text_file.h"
 #include "scene/ors_writer.h"
@@ -58,13 +60,18 @@ ExitCode sceneConvert(const Project& project, const ConvertOptions& options) {
   requireAnother(fileOf(project, options.scene), options.out);
   const SceneSpec spec = loadSpec(project, options.scene);
   const fs::path folder = folderOf(options.out);
+  std::string text;
   if (options.out.extension() == ".ors") {
-    grading::writeTextFile(options.out, asWrongUse([&] { return writeOrs(spec, folder); }));
+    text = asWrongUse([&] { return writeOrs(spec, folder); });
   } else {
-    const UrdfText urdf = asWrongUse([&] { return writeUrdf(spec, folder); });
+    UrdfText urdf = asWrongUse([&] { return writeUrdf(spec, folder); });
     for (const Diagnostic& one : urdf.notes) note(wrap(harmless(toString(one)), 2, 0));
-    grading::writeTextFile(options.out, urdf.text);
+    text = std::move(urdf.text);
   }
+  asWrongUse([&] {
+    makeOutFolder(folder);
+    grading::writeTextFile(options.out, text);
+  });
   warnOfMeshesOutside(spec, options.out);
   say(shown(options.out));
   return ExitCode::kFull;

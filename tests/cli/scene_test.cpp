@@ -309,6 +309,16 @@ TEST_F(SceneCommand, ConvertWritesBothFormats) {
   EXPECT_NEAR(jsonOf({"man.ors"})["mass"].get<double>(), jsonOf({"man"})["mass"].get<double>(), 1e-12);
 }
 
+TEST_F(SceneCommand, ConvertSaysWhereItCannotWrite) {
+  std::ofstream(in("file")) << "x";
+  std::filesystem::create_directory(in("folder.urdf"));
+  for (const std::string out : {"file/a.urdf", "folder.urdf", "/proc/a.ors"}) {
+    const ProcessResult result = scene({"arm.ors", "convert", out});
+    EXPECT_EQ(result.exitCode, 64) << out;
+    EXPECT_THAT(flat(result.error), HasSubstr(out == "file/a.urdf" ? "cannot make the folder" : out));
+  }
+}
+
 TEST_F(SceneCommand, ConvertTakesMeshesAlong) {
   ASSERT_EQ(scene({"hand", "convert", "here/hand.ors"}).exitCode, 0);
   EXPECT_THAT(fileText(in("here/hand.ors")), HasSubstr("='../"));
