@@ -20,7 +20,7 @@ fs::path folderOf(const fs::path& file) { return fs::absolute(file).lexically_no
 
 void requireEnding(const fs::path& out) {
   const std::string ending = out.extension().string();
-  if (ending == ".ors" || ending == ".urdf") return;
+  if (endingOf(out) == ".ors" || endingOf(out) == ".urdf") return;
   throw UsageError({.what = fmt::format("cannot write '{}'", harmless(out.string())),
                     .found = ending.empty() ? "no ending" : fmt::format("the ending '{}'", harmless(ending)),
                     .wanted = ".ors or .urdf",
@@ -61,7 +61,7 @@ ExitCode sceneConvert(const Project& project, const ConvertOptions& options) {
   const SceneSpec spec = loadSpec(project, options.scene);
   const fs::path folder = folderOf(options.out);
   std::string text;
-  if (options.out.extension() == ".ors") {
+  if (endingOf(options.out) == ".ors") {
     text = asWrongUse([&] { return writeOrs(spec, folder); });
   } else {
     UrdfText urdf = asWrongUse([&] { return writeUrdf(spec, folder); });

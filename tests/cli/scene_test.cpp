@@ -309,6 +309,13 @@ TEST_F(SceneCommand, ConvertWritesBothFormats) {
   EXPECT_NEAR(jsonOf({"man.ors"})["mass"].get<double>(), jsonOf({"man"})["mass"].get<double>(), 1e-12);
 }
 
+TEST_F(SceneCommand, ConvertTakesEndingsInAnyCase) {
+  ASSERT_EQ(scene({"arm.ors", "convert", "ARM.URDF"}).output, "ARM.URDF\n");
+  EXPECT_THAT(fileText(in("ARM.URDF")), HasSubstr("<robot"));
+  ASSERT_EQ(scene({"ARM.URDF", "convert", "ARM.Ors"}).exitCode, 0);
+  EXPECT_THAT(fileText(in("ARM.Ors")), HasSubstr("body post"));
+}
+
 TEST_F(SceneCommand, ConvertSaysWhereItCannotWrite) {
   std::ofstream(in("file")) << "x";
   std::filesystem::create_directory(in("folder.urdf"));
@@ -363,7 +370,10 @@ TEST_F(SceneCommand, SaysWhatIsUsedWrongly) {
                 "--shapes: found 'contacts', wanted visible, contact or all (did you mean 'contact'?)");
   expectRefusal({"man", "render", "--shapes", "contact", "-o", "a.png"},
                 "--shapes contact: found no shape that takes part in contacts");
-  expectRefusal({"arm.ors", "fk", "--free-base"}, "--free-base: found an .ors file, wanted a .urdf file");
+  std::ofstream(in("ARM.ORS")) << kArm;
+  for (const std::string file : {"arm.ors", "ARM.ORS"})
+    for (const char* verb : {"fk", "check"})
+      expectRefusal({file, verb, "--free-base"}, "--free-base: found an .ors file, wanted a .urdf file");
   std::ofstream(in("round.ors")) << "body a {} body b {}\njoint j (a b) { type=quatBall }";
   for (const char* verb : {"fk", "contacts", "dynamics"})
     expectRefusal({"round.ors", verb, "--q", "0,0,0,0"},
