@@ -227,6 +227,20 @@ TEST_F(SceneCommand, DynamicsNeedMasses) {
   }
 }
 
+TEST_F(SceneCommand, WarnsOfNumbersThatAreTooLarge) {
+  std::ofstream(in("huge.ors")) << "body a { X=<T t(1e308 0 0)> }\nbody b { mass=1 }\n"
+                                   "joint j (a b) { type=transX A=<T t(1e308 0 0)> }";
+  for (const char* verb : {"fk", "dynamics"}) {
+    const ProcessResult result = scene({"huge.ors", verb, "--q", "1e308", "--json"});
+    EXPECT_EQ(result.exitCode, 0) << result.error;
+    EXPECT_THAT(result.error, HasSubstr("warning: some numbers are too large to compute with")) << verb;
+    EXPECT_THAT(result.output, HasSubstr("null"));
+    EXPECT_EQ(scene({"arm.ors", verb}).error, "");
+  }
+  const ProcessResult jacobian = scene({"huge.ors", "jacobian", "--body", "b", "--point", "1e308,0,0"});
+  EXPECT_EQ(jacobian.exitCode, 0);
+}
+
 TEST_F(SceneCommand, PosturesMayBeZeroOrThatOfTheFile) {
   EXPECT_EQ(jsonOf({"arm.ors", "fk", "--q", "0"})["q"], json({0.0, 0.0, 0.0}));
   EXPECT_EQ(jsonOf({"arm.ors", "fk", "--q", "file"})["q"], json({0.25, 0.0, 0.0}));
