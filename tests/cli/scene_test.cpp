@@ -388,6 +388,9 @@ TEST_F(SceneCommand, SaysWhatIsUsedWrongly) {
   for (const std::string file : {"arm.ors", "ARM.ORS"})
     for (const char* verb : {"fk", "check"})
       expectRefusal({file, verb, "--free-base"}, "--free-base: found an .ors file, wanted a .urdf file");
+  expectRefusal({"arm.ors", "contacts", "--margin", "abc"},
+                "contacts: --margin: found 'abc', wanted a number");
+  expectRefusal({"arm.ors", "--json=abc"}, "rex scene FILE: --json: found 'abc', wanted no value");
   std::ofstream(in("round.ors")) << "body a {} body b {}\njoint j (a b) { type=quatBall }";
   for (const char* verb : {"fk", "contacts", "dynamics"})
     expectRefusal({"round.ors", verb, "--q", "0,0,0,0"},
