@@ -1,5 +1,6 @@
 #include "cli/command_line.h"
 
+#include <algorithm>
 #include <exception>
 #include <memory>
 #include <string>
@@ -346,6 +347,9 @@ Action explainExtras(const CLI::App* command, const std::string& word) {
   if (isOption) {
     for (const CLI::Option* option : command->get_options())
       for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    if (std::ranges::find(known, word.substr(0, word.find('='))) != known.end())
+      return complain(fmt::format("rex: option '{}' stands too early: wanted it behind `{}`", harmless(word),
+                                  fullName(command)));
   } else {
     for (const CLI::App* inner : command->get_subcommands([](const CLI::App*) { return true; }))
       known.push_back(inner->get_name());
@@ -354,6 +358,25 @@ Action explainExtras(const CLI::App* command, const std::string& word) {
   const Error error({.what = fmt::format("{}: unknown {} '{}'", fullName(command), kind, harmless(word)),
                      .nearest = nearestNames(word, known)});
   return complain(fmt::format("{}\n`{} --help` shows what there is.", error.what(), fullName(command)));
+}
+
+bool isFlag(const CLI::App* command, const std::string& name) {
+  for (; command != nullptr; command = command->get_parent())
+    if (const CLI::Option* option = command->get_option_no_throw(name))
+      return option->get_expected_max() == 0;
+  return false;
+}
+
+// In our words what CLI11 says as "Could not convert: --margin = abc".
+std::string reasonOf(const CLI::ParseError& error, const CLI::App* command) {
+  const std::string text = error.what(), start = "Could not convert: ", sign = " = ";
+  const std::size_t at = text.find(sign);
+  if (!text.starts_with(start) || at == std::string::npos) return text;
+  const std::string option = text.substr(start.size(), at - start.size());
+  return Error({.what = option,
+                .found = "'" + harmless(text.substr(at + sign.size())) + "'",
+                .wanted = isFlag(command, option) ? "no value" : "a number"})
+      .what();
 }
 
 Action parseCommandLine(int argc, const char* const* argv) {
@@ -384,8 +407,8 @@ Action parseCommandLine(int argc, const char* const* argv) {
     // A misspelt option may be the one that is missed: it comes first.
     if (const std::vector<std::string> unknown = program.remaining(true); !unknown.empty())
       return explainExtras(command, unknown.front());
-    return complain(
-        fmt::format("{0}: {1}\n`{0} --help` explains the options.", fullName(command), error.what()));
+    return complain(fmt::format("{0}: {1}\n`{0} --help` explains the options.", fullName(command),
+                                reasonOf(error, command)));
   }
   return action;
 }

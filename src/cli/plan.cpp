@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "cli/commands.h"
+#include "cli/contact_limit.h"
 #include "cli/film_file.h"
 #include "cli/motion_files.h"
 #include "cli/option_value_internal.h"
@@ -39,7 +40,7 @@ PathSearch searchOf(const PlanOptions& options) {
 }
 
 PathTask taskOf(Model model, const PlanOptions& options) {
-  const ContactModel contacts = asWrongUse([&] { return ContactModel(model); });
+  const ContactModel contacts = contactModelOf(model);
   if (contacts.pairs().empty())
     note(harmless(model.name()) + ": no two shapes may collide: all ways are free");
   const Eigen::VectorXd start =

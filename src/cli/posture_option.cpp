@@ -17,6 +17,7 @@
 #include <fmt/ranges.h>
 
 #include "base/error.h"
+#include "scene/coordinates.h"
 #include "scene/state.h"
 
 namespace rex::cli {
@@ -72,6 +73,12 @@ const Coordinates kPositions{"--q", "q", &Joint::qIndex, &Joint::nq};
 const Coordinates kVelocities{"--v", "v", &Joint::vIndex, &Joint::nv};
 const Coordinates kForces{"--u", "u", &Joint::vIndex, &Joint::nv};
 
+Refusal refusalOf(const std::string& option) {
+  return [option](const std::string& found, const std::string& wanted) {
+    throw UsageError({.what = option, .found = found, .wanted = wanted});
+  };
+}
+
 double requireNumber(const Coordinates& kind, const std::string& word) {
   if (const auto number = numberIn(word)) return *number;
   throw UsageError({.what = kind.option, .found = "'" + word + "'", .wanted = "a number, or joint=number"});
@@ -82,6 +89,14 @@ Eigen::VectorXd zeroPositions(const Model& model) {
   for (const Joint& joint : model.joints())
     if (!joint.mimics) q.segment(joint.qIndex, joint.nq) = jointCoordinates(joint.type, joint.axis, Pose{});
   return q;
+}
+
+void requireQuaternions(const Model& model, const Eigen::VectorXd& q, const Refusal& refuse) {
+  forEachQuaternion(model, [&](int at, int) {
+    if (q.segment<4>(at).isZero(0))
+      refuse(fmt::format("(0, 0, 0, 0) for joint '{}'", jointOfPosition(model, at).name),
+             "a quaternion w, x, y, z that is not zero");
+  });
 }
 
 std::string listed(const std::vector<std::string>& names) {
@@ -111,17 +126,27 @@ int placeOf(const Model& model, const Coordinates& kind, const std::string& name
                     .nearest = nearest});
 }
 
+// Words end at blanks and commas, so no word gives a joint with these in its name.
+std::string pairWanted(const Model& model, Eigen::Index all) {
+  const bool areWords = std::ranges::all_of(model.joints(), [](const Joint& joint) {
+    return joint.name.find_first_of(" \t\r\n,") == std::string::npos;
+  });
+  return areWords
+             ? "joint=number"
+             : fmt::format("joint=number, or for joints with blanks or commas in their names all {} numbers",
+                           all);
+}
+
 // All numbers, or those of some joints, the others as they are.
 Eigen::VectorXd parseCoordinates(const Model& model, const Coordinates& kind, const std::string& text,
                                  Eigen::VectorXd x) {
-  const std::vector<std::string> all = words(text, [&](const auto& found, const auto& wanted) {
-    throw UsageError({.what = kind.option, .found = found, .wanted = wanted});
-  });
+  const std::vector<std::string> all = words(text, refusalOf(kind.option));
   if (text.find('=') != std::string::npos) {
     for (const std::string& word : all) {
       const std::size_t sign = word.find('=');
       if (sign == std::string::npos)
-        throw UsageError({.what = kind.option, .found = "'" + word + "'", .wanted = "joint=number"});
+        throw UsageError(
+            {.what = kind.option, .found = "'" + word + "'", .wanted = pairWanted(model, x.size())});
       x[placeOf(model, kind, word.substr(0, sign), x.size())] = requireNumber(kind, word.substr(sign + 1));
     }
     return x;
@@ -153,7 +178,7 @@ class MotionReader {
  public:
   MotionReader(const Model& model, std::string file, double rate)
       : nq_(static_cast<std::size_t>(model.nq())),
-        model_(model.name()),
+        model_(model),
         where_({.file = std::move(file)}),
         rate_(rate) {}
 
@@ -197,7 +222,7 @@ class MotionReader {
     const std::string found = fmt::format("{} number{}", row.size(), row.size() == 1 ? "" : "s");
     if (firstLine_ == 0) {
       if (row.size() != nq_ && row.size() != nq_ + 1)
-        refuse(found, fmt::format("{} of a posture of {}, or a time before them", nq_, model_));
+        refuse(found, fmt::format("{} of a posture of {}, or a time before them", nq_, model_.name()));
       columns_ = row.size();
       firstLine_ = where_.line;
     }
@@ -213,10 +238,12 @@ class MotionReader {
     motion_.times.push_back(time);
     motion_.postures.emplace_back(
         Eigen::Map<const Eigen::VectorXd>(row.data() + (hasTime ? 1 : 0), static_cast<Eigen::Index>(nq_)));
+    requireQuaternions(model_, motion_.postures.back(),
+                       [&](const auto& found, const auto& wanted) { refuse(found, wanted); });
   }
 
   std::size_t nq_;
-  std::string model_;
+  const Model& model_;
   SourceLocation where_;
   double rate_;
   std::size_t columns_ = 0;
@@ -250,7 +277,9 @@ Eigen::VectorXd parsePostureOf(const Model& model, const std::string& option, co
   if (text == "file") return model.initialPositions();
   Coordinates kind = kPositions;
   kind.option = option;
-  return parseCoordinates(model, kind, text, model.initialPositions());
+  Eigen::VectorXd q = parseCoordinates(model, kind, text, model.initialPositions());
+  requireQuaternions(model, q, refusalOf(option));
+  return q;
 }
 
 Eigen::VectorXd parseVelocities(const Model& model, const std::string& text) {
@@ -262,9 +291,7 @@ Eigen::VectorXd parseForces(const Model& model, const std::string& text) {
 }
 
 Eigen::Vector3d parsePoint(const std::string& text, const std::string& option, const std::string& form) {
-  const auto refuse = [&](const std::string& found, const std::string& wanted) {
-    throw UsageError({.what = option, .found = found, .wanted = wanted});
-  };
+  const Refusal refuse = refusalOf(option);
   const std::vector<std::string> all = words(text, refuse);
   if (all.size() != 3) refuse(fmt::format("{} numbers", all.size()), "three: " + form);
   Eigen::Vector3d point;

@@ -8,10 +8,11 @@
 #include "cli/commands.h"
 #include "cli/film_file.h"
 #include "cli/motion_pictures.h"
+#include "cli/out_folder.h"
 #include "cli/posture_option.h"
 #include "cli/render_plan.h"
 #include "cli/studio.h"
-#include "cli/terminal.h"
+#include "cli/wrong_use_internal.h"
 #include "render/contact_sheet.h"
 #include "render/glb.h"
 #include "render/png.h"
@@ -51,7 +52,7 @@ void writeStill(const MotionPictures& pictures, const RenderPlan& plan, const fs
   const Image whole = drawn.size() == 1 ? drawn.front().image : sheetOf(drawn);
   studio.requireSomethingSeen();
   throwIfInterrupted();
-  writePng(whole, out);
+  asWrongUse([&] { writePng(whole, out); });
 }
 
 void writePage(const MotionPictures& pictures, const RenderPlan& plan, const RenderOptions& options) {
@@ -70,6 +71,7 @@ ExitCode render(const Project& project, const RenderOptions& options) {
   const Model model = loadScene(project, options.scene);
   const MotionPictures pictures =
       picturesOf(model, motionOf(model, options, plan.seconds), options, plan.product);
+  asWrongUse([&] { makeOutFolder(fs::absolute(options.out).parent_path()); });
   fs::path written = options.out;
   switch (plan.product) {
     case Product::kPicture:
@@ -80,7 +82,7 @@ ExitCode render(const Project& project, const RenderOptions& options) {
       break;
     case Product::kModel:
       throwIfInterrupted();
-      writeGlb(pictures.film(), options.out, plan.views.front().view.direction());
+      asWrongUse([&] { writeGlb(pictures.film(), options.out, plan.views.front().view.direction()); });
       break;
     case Product::kPage:
       writePage(pictures, plan, options);

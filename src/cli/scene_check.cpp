@@ -71,6 +71,7 @@ void sayText(const Verdict& verdict) {
 
 ExitCode sceneCheck(const Project& project, const SceneOptions& options) {
   const Verdict verdict = judge(project, options.scene);
+  requireMeaning(verdict.file, options.scene.reading);
   options.json ? sayJson(verdict) : sayText(verdict);
   return verdict.error ? ExitCode::kBelow : ExitCode::kFull;
 }

@@ -1,7 +1,10 @@
 #include <memory>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "cli/command_line_internal.h"
+#include "cli/contact_limit.h"
 
 namespace rex::cli {
 namespace {
@@ -114,7 +117,9 @@ void addContacts(CLI::App& scene, Action& action, const std::shared_ptr<SceneOpt
   const auto own = std::make_shared<ContactsOptions>();
   CLI::App* verb =
       addVerb(scene, "contacts", "List the shapes that may collide and are near, nearest first",
-              "Example: scripts/rex scene pegInAHole contacts --q 0.6,0.5,0,0,0,0,0 --margin 0.02");
+              "Example: scripts/rex scene pegInAHole contacts --q 0.6,0.5,0,0,0,0,0 --margin 0.02\n\n" +
+                  fmt::format("Refuses a scene with more than {} pairs of shapes that take part in contacts.",
+                              kMostContactPairs));
   verb->add_option("--margin", own->margin, "the contact cost counts what is nearer (default: 0.1)")
       ->type_name("METRES");
   addPosture(verb, options->posture);

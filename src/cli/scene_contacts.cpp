@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include "base/error.h"
 #include "cli/commands.h"
+#include "cli/contact_limit.h"
 #include "cli/json_internal.h"
 #include "cli/posture_option.h"
-#include "cli/wrong_use_internal.h"
+#include "cli/terminal.h"
+#include "collision/contacts.h"
 #include "collision/proxy_report.h"
 
 namespace rex::cli {
@@ -42,7 +45,7 @@ ExitCode sceneContacts(const Project& project, const ContactsOptions& options) {
   const Model model = loadScene(project, options.scene.scene);
   const Eigen::VectorXd q =
       options.scene.posture.empty() ? model.initialPositions() : parsePosture(model, options.scene.posture);
-  const ContactModel contacts = asWrongUse([&] { return ContactModel(model); });
+  const ContactModel contacts = contactModelOf(model);
   const BodyPoses poses = forwardKinematics(model, q);
   const double reach = std::max(margin, kQueryCutoff);
   const std::vector<Proxy> near = proxies(contacts, poses, reach);

@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "cli/out_folder.h"
 #include "cli/wrong_use_internal.h"
 #include "grading/text_file.h"
 #include "scene/ors_writer.h"
@@ -18,7 +20,7 @@ fs::path folderOf(const fs::path& file) { return fs::absolute(file).lexically_no
 
 void requireEnding(const fs::path& out) {
   const std::string ending = out.extension().string();
-  if (ending == ".ors" || ending == ".urdf") return;
+  if (endingOf(out) == ".ors" || endingOf(out) == ".urdf") return;
   throw UsageError({.what = fmt::format("cannot write '{}'", harmless(out.string())),
                     .found = ending.empty() ? "no ending" : fmt::format("the ending '{}'", harmless(ending)),
                     .wanted = ".ors or .urdf",
@@ -58,13 +60,18 @@ ExitCode sceneConvert(const Project& project, const ConvertOptions& options) {
   requireAnother(fileOf(project, options.scene), options.out);
   const SceneSpec spec = loadSpec(project, options.scene);
   const fs::path folder = folderOf(options.out);
-  if (options.out.extension() == ".ors") {
-    grading::writeTextFile(options.out, asWrongUse([&] { return writeOrs(spec, folder); }));
+  std::string text;
+  if (endingOf(options.out) == ".ors") {
+    text = asWrongUse([&] { return writeOrs(spec, folder); });
   } else {
-    const UrdfText urdf = asWrongUse([&] { return writeUrdf(spec, folder); });
+    UrdfText urdf = asWrongUse([&] { return writeUrdf(spec, folder); });
     for (const Diagnostic& one : urdf.notes) note(wrap(harmless(toString(one)), 2, 0));
-    grading::writeTextFile(options.out, urdf.text);
+    text = std::move(urdf.text);
   }
+  asWrongUse([&] {
+    makeOutFolder(folder);
+    grading::writeTextFile(options.out, text);
+  });
   warnOfMeshesOutside(spec, options.out);
   say(shown(options.out));
   return ExitCode::kFull;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,7 @@
 #include "cli/commands.h"
 #include "cli/coordinate_names.h"
 #include "cli/json_internal.h"
+#include "cli/overflow_internal.h"
 #include "cli/posture_option.h"
 #include "cli/wrong_use_internal.h"
 #include "dynamics/energy.h"
@@ -81,6 +83,8 @@ ExitCode sceneDynamics(const Project& project, const DynamicsOptions& options) {
     return Dynamics{v, u, equationOfMotion(model, q, v), energy(model, q, v),
                     forwardDynamics(model, q, v, u)};
   });
+  noteOverflow(at.motion.M.allFinite() && at.motion.F.allFinite() && at.a.allFinite() &&
+               std::isfinite(at.energy.kinetic) && std::isfinite(at.energy.potential));
   if (!options.scene.json) {
     sayToPeople(model, at);
     return ExitCode::kFull;

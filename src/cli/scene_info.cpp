@@ -24,12 +24,11 @@ std::string coordinatesOf(const Joint& joint) {
 }
 
 // "2 mesh, box" of the shapes that are `chosen`.
-template <class Chosen>
-std::string shapesOf(const Model& model, BodyId body, const Chosen& chosen) {
+std::string typesOf(const std::vector<const ModelShape*>& shapes, bool ModelShape::*chosen) {
   std::vector<std::pair<std::string, int>> counts;
-  for (const ModelShape& shape : model.shapes()) {
-    if (shape.body != body || !chosen(shape)) continue;
-    const std::string type(toString(shape.shape.type));
+  for (const ModelShape* shape : shapes) {
+    if (!(shape->*chosen)) continue;
+    const std::string type(toString(shape->shape.type));
     const auto known =
         std::find_if(counts.begin(), counts.end(), [&](auto& one) { return one.first == type; });
     known == counts.end() ? counts.emplace_back(type, 1).second : ++known->second;
@@ -114,14 +113,17 @@ void sayCoordinates(const Model& model) {
 }
 
 void sayShapes(const Model& model) {
+  std::vector<std::vector<const ModelShape*>> shapes(model.bodies().size());
+  for (const ModelShape& shape : model.shapes())
+    shapes[static_cast<std::size_t>(shape.body)].push_back(&shape);
   Table table;
   table.add({"body", "drawn", "in contact"});
-  for (std::size_t b = 0; b < model.bodies().size(); ++b) {
-    const BodyId id{static_cast<int>(b)};
-    const std::string drawn = shapesOf(model, id, [](const ModelShape& shape) { return shape.visible; });
-    const std::string contact = shapesOf(model, id, [](const ModelShape& shape) { return shape.contact; });
+  for (std::size_t b = 0; b < shapes.size(); ++b) {
+    const std::string drawn = typesOf(shapes[b], &ModelShape::visible);
+    const std::string contact = typesOf(shapes[b], &ModelShape::contact);
     if (drawn.empty() && contact.empty()) continue;
-    table.add({harmless(model[id].name), drawn.empty() ? "-" : drawn, contact.empty() ? "-" : contact});
+    table.add(
+        {harmless(model.bodies()[b].name), drawn.empty() ? "-" : drawn, contact.empty() ? "-" : contact});
   }
   table.print();
 }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "cli/commands.h"
 #include "cli/coordinate_names.h"
 #include "cli/json_internal.h"
+#include "cli/overflow_internal.h"
 #include "cli/posture_option.h"
 #include "cli/wrong_use_internal.h"
 #include "geometry/rotation.h"
@@ -43,6 +45,9 @@ ExitCode sceneKinematics(const Project& project, const SceneOptions& options) {
   const Model model = loadScene(project, options.scene);
   const Eigen::VectorXd q = postureOf(model, options.posture);
   const BodyPoses poses = forwardKinematics(model, q);
+  noteOverflow(std::ranges::all_of(model.bodiesInFileOrder(), [&](BodyId id) {
+    return poses[id].R.allFinite() && poses[id].p.allFinite();
+  }));
   Json bodies = Json::array();
   std::vector<std::string> names;
   for (const Body& body : model.bodies()) names.push_back(harmless(body.name));
@@ -69,6 +74,7 @@ ExitCode sceneJacobian(const Project& project, const JacobianOptions& options) {
   const BodyPoses poses = forwardKinematics(model, postureOf(model, options.scene.posture));
   const Eigen::Matrix3Xd position = positionJacobian(model, poses, body, point);
   const Eigen::Matrix3Xd angular = angularJacobian(model, poses, body);
+  noteOverflow(position.allFinite() && angular.allFinite());
   if (options.scene.json) {
     say(dump(Json{{"pos", jsonOfRows(position)}, {"rot", jsonOfRows(angular)}}));
     return ExitCode::kFull;

@@ -1,5 +1,7 @@
 #include "cli/scene_option.h"
 
+#include <algorithm>
+#include <cctype>
 #include <vector>
 
 #include "cli/wrong_use_internal.h"
@@ -39,13 +41,6 @@ void chooseShapes(SceneSpec& spec, const std::string& shapes) {
     throw UsageError({.what = "--shapes contact", .found = "no shape that takes part in contacts"});
 }
 
-void requireMeaning(const fs::path& file, const ReadOptions& reading) {
-  if (reading.freeBase && file.extension() == ".ors")
-    throw UsageError({.what = "--free-base",
-                      .found = "an .ors file",
-                      .wanted = "a .urdf file; in .ors, a joint of type free says it"});
-}
-
 // Those who bring a robot without its meshes need not search for the way out.
 SceneFile read(const fs::path& file, const ReadOptions& reading) {
   return asWrongUse([&] {
@@ -60,6 +55,19 @@ SceneFile read(const fs::path& file, const ReadOptions& reading) {
 }
 
 }  // namespace
+
+std::string endingOf(const fs::path& file) {
+  std::string ending = file.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending;
+}
+
+void requireMeaning(const fs::path& file, const ReadOptions& reading) {
+  if (reading.freeBase && endingOf(file) == ".ors")
+    throw UsageError({.what = "--free-base",
+                      .found = "an .ors file",
+                      .wanted = "a .urdf file; in .ors, a joint of type free says it"});
+}
 
 fs::path fileOf(const Project& project, const SceneOption& scene) {
   return asWrongUse([&] { return shown(findScene(scene.file, project.root / "data")); });

@@ -16,6 +16,12 @@ struct SceneOption {
   std::string shapes{};  ///< visible, contact or all: which of them are drawn; empty: visible
 };
 
+/// The ending of a file in small letters: ".urdf".
+[[nodiscard]] std::string endingOf(const std::filesystem::path& file);
+
+/// Throws UsageError for a free base of an .ors file, which would have no effect.
+void requireMeaning(const std::filesystem::path& file, const ReadOptions& reading);
+
 /// The file that a user means. Throws UsageError as findScene() throws Error.
 [[nodiscard]] std::filesystem::path fileOf(const Project& project, const SceneOption& scene);
 

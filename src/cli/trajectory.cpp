@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "cli/commands.h"
+#include "cli/contact_limit.h"
 #include "cli/film_file.h"
 #include "cli/json_internal.h"
 #include "cli/motion_files.h"
@@ -50,7 +51,7 @@ void requireStartIsClear(const TrajectoryTask& task) {
 
 TrajectoryTask taskOf(Model model, const TrajectoryOptions& options) {
   const auto [body, p_WQ] = goalOf(model, options.goal);
-  ContactModel contacts = asWrongUse([&] { return ContactModel(model); });
+  ContactModel contacts = contactModelOf(model);
   const Eigen::VectorXd start =
       postureWithinLimits(model, "--start", options.start.empty() ? "file" : options.start);
   TrajectoryTask task{.model = std::move(model),

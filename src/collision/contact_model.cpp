@@ -34,15 +34,17 @@ bool mayCollide(const Model& model, BodyId a, BodyId b) {
 
 std::vector<ShapePair> pairsInContact(const Model& model) {
   std::vector<ShapePair> pairs;
-  const auto collides = [&](int i) {
-    const ModelShape& shape = model.shapes()[static_cast<std::size_t>(i)];
-    return shape.contact && shape.shape.type != ShapeType::kMarker;
-  };
+  std::vector<int> touching;
+  for (std::size_t i = 0; i < model.shapes().size(); ++i) {
+    const ModelShape& shape = model.shapes()[i];
+    if (shape.contact && shape.shape.type != ShapeType::kMarker) touching.push_back(static_cast<int>(i));
+  }
   const auto bodyOf = [&](int i) { return model.shapes()[static_cast<std::size_t>(i)].body; };
-  const int count = static_cast<int>(model.shapes().size());
-  for (int a = 0; a < count; ++a) {
-    for (int b = a + 1; b < count; ++b)
-      if (collides(a) && collides(b) && mayCollide(model, bodyOf(a), bodyOf(b))) pairs.push_back({a, b});
+  auto next = touching.begin();  // behind the shapes of a's body, which stand together
+  for (const int a : touching) {
+    while (next != touching.end() && bodyOf(*next) == bodyOf(a)) ++next;
+    for (auto b = next; b != touching.end(); ++b)
+      if (mayCollide(model, bodyOf(a), bodyOf(*b))) pairs.push_back({a, *b});
   }
   return pairs;
 }

@@ -358,7 +358,7 @@ void shareCoordinates(std::vector<Joint>& joints, const std::vector<const JointS
     }
     const Joint& followed = joints[static_cast<std::size_t>(target - specs.begin())];
     Joint& joint = joints[j];
-    joint.mimics = true;
+    joint.mimics = joint.nq > 0;  // a rigid joint has no coordinate to share
     joint.qIndex = followed.qIndex;
     joint.vIndex = followed.vIndex;
     joint.ratio = spec.mimicRatio;

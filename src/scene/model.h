@@ -59,7 +59,7 @@ struct Joint {
   double pitch = 0;                                 ///< of a screw: metres per turn
   int qIndex = 0, vIndex = 0;
   int nq = 0, nv = 0;
-  bool mimics = false;
+  bool mimics = false;  ///< never a rigid joint
   double ratio = 1, offset = 0;
   double maxVelocity = std::numeric_limits<double>::infinity();  ///< see JointSpec
   double maxEffort = std::numeric_limits<double>::infinity();

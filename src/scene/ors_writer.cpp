@@ -11,6 +11,7 @@
 
 #include "scene/ors_limits_internal.h"
 #include "scene/ors_text_internal.h"
+#include "scene/readable_text_internal.h"
 
 namespace rex {
 namespace {
@@ -25,15 +26,21 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kWidestColumn = 32;
 constexpr double kInertiaPerMass = 0.2;  // what compile() takes when only a mass is given
 
+bool isName(const std::string& name) {
+  return !name.empty() && name.size() <= ors::kLongestWord &&
+         name.find_first_of(" \t\r\n,;()[]{}=!<\"'#") == std::string::npos && name[0] != '>' &&
+         name[0] != '-' && !name.starts_with("//") && !name.starts_with("/*");
+}
+
 void requireName(const char* role, const std::string& name, const SourceLocation& where) {
-  const bool isWord = !name.empty() && name.size() <= ors::kLongestWord &&
-                      name.find_first_of(" \t\r\n,;()[]{}=!<\"'#") == std::string::npos && name[0] != '>' &&
-                      name[0] != '-';
-  if (isWord) return;
-  throw Error({.what = fmt::format("{} '{}': not a name in .ors", role, name),
-               .where = where,
-               .found = fmt::format("'{}'", name),
-               .wanted = "a word of at most 256 bytes without blanks and any of ,;()[]{}=!<>\"'#-"});
+  if (isName(name)) return;
+  throw Error(
+      {.what = fmt::format("{} '{}': not a name in .ors", role, name),
+       .where = where,
+       .found = fmt::format("'{}'", name),
+       .wanted = fmt::format("a word of at most {} bytes without blanks and any of ,;()[]{{}}=!<>\"'#-, "
+                             "and without // or /* in front",
+                             ors::kLongestWord)});
 }
 
 std::string quotedFile(const std::string& what, const std::string& file, const SourceLocation& where) {
@@ -234,9 +241,9 @@ class Writer {
   }
 
  private:
+  // Nothing in a file refers to a shape by its name, so it can do without one that the format lacks.
   static std::string shapeHead(const ShapeSpec& shape) {
-    if (!shape.name.empty()) requireName("shape", shape.name, shape.where);
-    return shape.name.empty() ? "shape" : "shape " + shape.name;
+    return isName(shape.name) ? "shape " + shape.name : "shape";
   }
 
   // A shape called like its body is written with it, if it comes first.
@@ -305,7 +312,9 @@ class Writer {
 }  // namespace
 
 std::string writeOrs(const SceneSpec& spec, const std::filesystem::path& folder) {
-  return Writer(folder).write(spec);
+  std::string text = Writer(folder).write(spec);
+  requireReadable(text, ".ors");
+  return text;
 }
 
 }  // namespace rex

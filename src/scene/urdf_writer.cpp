@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "scene/model.h"
+#include "scene/readable_text_internal.h"
 #include "scene/urdf_expansion_internal.h"
 #include "scene/urdf_markup_internal.h"
 
@@ -45,13 +46,15 @@ void requireNames(const SceneSpec& spec) {
 // Joints name the first body of a name, so others can be called differently.
 SceneSpec withOwnNames(SceneSpec spec, Losses& losses) {
   std::unordered_set<std::string> given, taken;
+  std::unordered_map<std::string, int> lastNumbers;
   for (const BodySpec& body : spec.bodies) given.insert(body.name);
   for (BodySpec& body : spec.bodies) {
     if (taken.insert(body.name).second) continue;
     losses.add("bodies of a name that was taken got a number", body.name, body.where);
+    int& number = lastNumbers.try_emplace(body.name, 1).first->second;
     std::string name;
-    for (int number = 2; name.empty() || given.contains(name); ++number)
-      name = fmt::format("{}_{}", body.name, number);
+    do name = fmt::format("{}_{}", body.name, ++number);
+    while (given.contains(name));
     body.name = name;
     given.insert(name);
     taken.insert(name);
@@ -291,7 +294,9 @@ UrdfText writeUrdf(const SceneSpec& spec, const std::filesystem::path& folder) {
   requireNames(spec);
   Losses losses;
   const SceneSpec named = withOwnNames(spec, losses);
-  return Writer(named, folder, std::move(losses)).write();
+  UrdfText urdf = Writer(named, folder, std::move(losses)).write();
+  requireReadable(urdf.text, ".urdf");
+  return urdf;
 }
 
 }  // namespace rex

@@ -99,6 +99,10 @@ TEST(Program, AnswersUnknownWordsWithTheNearest) {
   expectUsageError({"dev", "chek"}, "rex dev: unknown command 'chek' (did you mean 'check'?)");
   expectUsageError({"test", "01", "--sed", "3"}, "rex test: unknown option '--sed' (did you mean '--seed'?)");
   expectUsageError({"list", "extra"}, "rex list: unknown argument 'extra'");
+  expectUsageError({"--json", "scene", "man"},
+                   "rex: option '--json' stands too early: wanted it behind `rex scene FILE`");
+  expectUsageError({"--seed=3", "test", "01"},
+                   "rex: option '--seed=3' stands too early: wanted it behind `rex test`");
   // Before what else is missing: it may be that.
   expectUsageError({"trajectory", "board", "--ot", "a"},
                    "rex trajectory: unknown option '--ot' (did you mean '--out'?)");

@@ -72,6 +72,28 @@ TEST(PostureOption, ExplainsWhatItCannotRead) {
                    "found 7 coordinates, wanted one; give all 7 numbers of q instead");
 }
 
+TEST(PostureOption, RefusesAQuaternionThatIsZero) {
+  const Model model = compile(parseOrs("body a {}\nbody b {}\nbody c {}\njoint (a b) { type=free }\n"
+                                       "joint ball (b c) { type=quatBall }",
+                                       "f.ors")
+                                  .spec);
+  const std::string wanted = ", wanted a quaternion w, x, y, z that is not zero";
+  EXPECT_REX_ERROR(parsePosture(model, "0,0,0,0,0,0,0,1,0,0,0"),
+                   "--q: found (0, 0, 0, 0) for joint 'a>b'" + wanted);
+  EXPECT_REX_ERROR(parsePostureOf(model, "--goal", "1,2,3,1,0,0,0,0,-0,0,0"),
+                   "--goal: found (0, 0, 0, 0) for joint 'ball'" + wanted);
+  EXPECT_EQ(parsePosture(model, "0,0,0,1e-300,0,0,0,0,0,0,-2").size(), 11);
+}
+
+TEST(PostureOption, SaysWhichNamesItCannotTake) {
+  SceneSpec spec = parseOrs("body a {}\nbody b {}\njoint j (a b) {}", "f.ors").spec;
+  spec.joints[0].name = "j 1";
+  EXPECT_REX_ERROR(
+      parsePosture(compile(spec), "j 1=0.5"),
+      "--q: found 'j', wanted joint=number, or for joints with blanks or commas in their names all "
+      "1 numbers");
+}
+
 TEST(VelocityOption, TakesAllNumbersOrSomeJoints) {
   const Model arm = robot("pegArm.ors");
   EXPECT_EQ(parseVelocities(arm, "0.5,-1,2"), Vector3d(0.5, -1, 2));
@@ -117,6 +139,14 @@ TEST_F(MotionFile, IsRefusedWithItsLine) {
   EXPECT_REX_ERROR(readMotion(arm, file("0,0,0,0\n500,0,0,0\n"), 30),
                    "motion.csv: motion: found 500 s, wanted at most 120 s");
   EXPECT_REX_ERROR(readMotion(arm, file("# nothing\n"), 30), "motion: found no posture, wanted at least one");
+}
+
+TEST_F(MotionFile, IsRefusedWithAQuaternionThatIsZero) {
+  const Model ball =
+      compile(parseOrs("body a {}\nbody b {}\njoint ball (a b) { type=quatBall }", "f.ors").spec);
+  EXPECT_REX_ERROR(
+      readMotion(ball, file("1,0,0,0\n0,0,0,0\n"), 30),
+      "motion.csv:2: motion: found (0, 0, 0, 0) for joint 'ball', wanted a quaternion w, x, y, z");
 }
 
 TEST_F(MotionFile, MayComeFromASpreadsheet) {

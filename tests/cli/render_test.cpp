@@ -42,6 +42,12 @@ TEST_F(RenderCommand, DrawsAPictureAndNamesTheRenderer) {
   EXPECT_EQ(image.height, 120);
 }
 
+TEST_F(RenderCommand, MakesTheFoldersOfItsFile) {
+  REX_NEEDS_OSMESA();
+  ASSERT_EQ(rex({"render", "pegArm.ors", "--size", "32x24", "-o", "no/such/a.png"}).exitCode, 0);
+  EXPECT_EQ(readPng(in("no/such/a.png")).width, 32);
+}
+
 TEST_F(RenderCommand, PutsSeveralCamerasAndMomentsOnOneSheet) {
   REX_NEEDS_OSMESA();
   ASSERT_EQ(
@@ -124,7 +130,8 @@ TEST_F(RenderCommand, RefusesWhatItCannotDraw) {
   expectRefusal({"-o", "a.mp4", "--seconds", "600", "--q", "0 0 0", "--q", "1 1 1"}, 64,
                 "motion through --q: found 600 s, wanted at most 120 s");
   expectRefusal({"-o", "a.glb", "--size", "64x48"}, 64, "--size: wanted a picture, film or page");
-  expectRefusal({"-o", "no/such/folder/a.png", "--size", "32x24"}, 3, "cannot write 'no/such/folder/a.png'");
+  expectRefusal({"-o", "/proc/a.png", "--size", "32x24"}, 64, "cannot write '/proc/a.png'");
+  expectRefusal({"-o", "/proc/no/a.png"}, 64, "/proc/no: cannot make the folder for results");
 }
 
 TEST_F(RenderCommand, RefusesWaysOfAMotionWithOnePosture) {

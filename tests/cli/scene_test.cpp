@@ -69,6 +69,19 @@ TEST_F(SceneCommand, InfoListsJointsBodiesAndMass) {
   EXPECT_EQ(info["shapes"][2]["visible"], false);
 }
 
+TEST_F(SceneCommand, InfoTellsWhatAJointMimics) {
+  std::ofstream(in("mimic.ors"))
+      << "body a {}\nbody b {}\nbody c {}\nbody d {}\nbody e {}\njoint j (a b) { type=rigid }\n"
+         "joint k (b c) { mimic=j }\njoint l (c d) { limits=[-1 2] }\n"
+         "joint m (d e) { mimic=l mimic_ratio=2 mimic_offset=0.5 }\n";
+  const json joints = jsonOf({"mimic.ors", "info"})["joints"];
+  EXPECT_EQ(joints[1]["mimics"], nullptr) << "rigid: it has nothing to share";
+  EXPECT_EQ(joints[2]["mimics"], nullptr);
+  EXPECT_EQ(joints[3]["mimics"], json({{"joint", "l"}, {"ratio", 2.0}, {"offset", 0.5}}));
+  EXPECT_EQ(joints[3]["low"], json({-1.0})) << "of the joint that it follows";
+  EXPECT_EQ(joints[3]["high"], json({2.0}));
+}
+
 TEST_F(SceneCommand, InfoShowsTheTreeToPeople) {
   const ProcessResult result = scene({"arm.ors", "info"});
   EXPECT_THAT(result.output, HasSubstr("arm.ors: 3 bodies, 2 joints, 3 degrees of freedom, 3 shapes, 3 kg"));
@@ -141,6 +154,28 @@ TEST_F(SceneCommand, ContactsAlignForPeople) {
       "2 pairs of shapes may collide, 0 are nearer than 0.5 m; contact cost 0 with a margin of 0.1 m\n");
 }
 
+TEST_F(SceneCommand, ContactsRefusesTooManyPairs) {
+  const auto refused = [&](int bodies, int shapesEach) {
+    std::ofstream file(in("many.ors"));
+    for (int i = 0; i < bodies; ++i) {
+      file << "body b" << i << " { }\n";
+      for (int k = 0; k < shapesEach; ++k)
+        file << "shape (b" << i << ") { rel=<T t(" << 10 * i << " 0 0)> type=1 size=[0 0 0 1] contact }\n";
+    }
+    file.close();
+    return scene({"many.ors", "contacts"});
+  };
+  EXPECT_EQ(refused(632, 1).exitCode, 0);
+  const ProcessResult result = refused(634, 1);
+  EXPECT_EQ(result.exitCode, 64);
+  EXPECT_THAT(flat(result.error),
+              HasSubstr("many.ors: too many shapes take part in contacts: found 200661 pairs of "
+                        "them, wanted at most 200000"));
+  EXPECT_EQ(refused(2, 400).exitCode, 0) << "shapes of one body do not collide";
+  EXPECT_EQ(refused(2, 448).exitCode, 64);
+  EXPECT_THAT(scene({"man", "contacts", "--help"}).output, HasSubstr("more than 200000 pairs"));
+}
+
 constexpr const char* kPendulum =
     "body post {}\nbody rod { mass=2 }\njoint pin (post rod) { type=hingeY B=<T t(0 0 -.5)> }\n";
 
@@ -190,6 +225,20 @@ TEST_F(SceneCommand, DynamicsNeedMasses) {
                 HasSubstr("joint 'hinge' moves no mass: wanted some: give body 'flag' a mass"));
     EXPECT_EQ(result.output, "");
   }
+}
+
+TEST_F(SceneCommand, WarnsOfNumbersThatAreTooLarge) {
+  std::ofstream(in("huge.ors")) << "body a { X=<T t(1e308 0 0)> }\nbody b { mass=1 }\n"
+                                   "joint j (a b) { type=transX A=<T t(1e308 0 0)> }";
+  for (const char* verb : {"fk", "dynamics"}) {
+    const ProcessResult result = scene({"huge.ors", verb, "--q", "1e308", "--json"});
+    EXPECT_EQ(result.exitCode, 0) << result.error;
+    EXPECT_THAT(result.error, HasSubstr("warning: some numbers are too large to compute with")) << verb;
+    EXPECT_THAT(result.output, HasSubstr("null"));
+    EXPECT_EQ(scene({"arm.ors", verb}).error, "");
+  }
+  const ProcessResult jacobian = scene({"huge.ors", "jacobian", "--body", "b", "--point", "1e308,0,0"});
+  EXPECT_EQ(jacobian.exitCode, 0);
 }
 
 TEST_F(SceneCommand, PosturesMayBeZeroOrThatOfTheFile) {
@@ -274,6 +323,23 @@ TEST_F(SceneCommand, ConvertWritesBothFormats) {
   EXPECT_NEAR(jsonOf({"man.ors"})["mass"].get<double>(), jsonOf({"man"})["mass"].get<double>(), 1e-12);
 }
 
+TEST_F(SceneCommand, ConvertTakesEndingsInAnyCase) {
+  ASSERT_EQ(scene({"arm.ors", "convert", "ARM.URDF"}).output, "ARM.URDF\n");
+  EXPECT_THAT(fileText(in("ARM.URDF")), HasSubstr("<robot"));
+  ASSERT_EQ(scene({"ARM.URDF", "convert", "ARM.Ors"}).exitCode, 0);
+  EXPECT_THAT(fileText(in("ARM.Ors")), HasSubstr("body post"));
+}
+
+TEST_F(SceneCommand, ConvertSaysWhereItCannotWrite) {
+  std::ofstream(in("file")) << "x";
+  std::filesystem::create_directory(in("folder.urdf"));
+  for (const std::string out : {"file/a.urdf", "folder.urdf", "/proc/a.ors"}) {
+    const ProcessResult result = scene({"arm.ors", "convert", out});
+    EXPECT_EQ(result.exitCode, 64) << out;
+    EXPECT_THAT(flat(result.error), HasSubstr(out == "file/a.urdf" ? "cannot make the folder" : out));
+  }
+}
+
 TEST_F(SceneCommand, ConvertTakesMeshesAlong) {
   ASSERT_EQ(scene({"hand", "convert", "here/hand.ors"}).exitCode, 0);
   EXPECT_THAT(fileText(in("here/hand.ors")), HasSubstr("='../"));
@@ -318,7 +384,17 @@ TEST_F(SceneCommand, SaysWhatIsUsedWrongly) {
                 "--shapes: found 'contacts', wanted visible, contact or all (did you mean 'contact'?)");
   expectRefusal({"man", "render", "--shapes", "contact", "-o", "a.png"},
                 "--shapes contact: found no shape that takes part in contacts");
-  expectRefusal({"arm.ors", "fk", "--free-base"}, "--free-base: found an .ors file, wanted a .urdf file");
+  std::ofstream(in("ARM.ORS")) << kArm;
+  for (const std::string file : {"arm.ors", "ARM.ORS"})
+    for (const char* verb : {"fk", "check"})
+      expectRefusal({file, verb, "--free-base"}, "--free-base: found an .ors file, wanted a .urdf file");
+  expectRefusal({"arm.ors", "contacts", "--margin", "abc"},
+                "contacts: --margin: found 'abc', wanted a number");
+  expectRefusal({"arm.ors", "--json=abc"}, "rex scene FILE: --json: found 'abc', wanted no value");
+  std::ofstream(in("round.ors")) << "body a {} body b {}\njoint j (a b) { type=quatBall }";
+  for (const char* verb : {"fk", "contacts", "dynamics"})
+    expectRefusal({"round.ors", verb, "--q", "0,0,0,0"},
+                  "--q: found (0, 0, 0, 0) for joint 'j', wanted a quaternion");
   expectRefusal({"arm.ors", "convert", "arm.ors"}, "'arm.ors' is the scene itself: wanted another file");
   expectRefusal(
       {"arm.ors", "convert", "arm.udrf"},

@@ -7,7 +7,8 @@ namespace rex::fuzz {
 
 /// Requires of a scene that was read: it compiles or is refused by an Error. Of a small model all bodies
 /// stand with proper rotations, and still do so in the same places after it was written and read again; only
-/// what `write` refuses by an Error need not come back.
+/// what `write` refuses by an Error need not come back. That it wrote what cannot be read may only be for a
+/// limit of the reader.
 void requireSound(const SceneFile& scene, std::string (*write)(const SceneSpec&),
                   SceneSpec (*read)(const std::string&));
 

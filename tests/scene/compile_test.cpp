@@ -65,6 +65,15 @@ TEST(Compile, LetsAJointMimicAnother) {
   EXPECT_EQ(m.joints()[0].qIndex, m.joints()[1].qIndex);
 }
 
+TEST(Compile, TakesMimicsOfRigidJointsForRigid) {
+  const Model m = model(
+      "body a {}\nbody b {}\nbody c {}\nbody d {}\njoint j (a b) { type=rigid }\njoint k (b c) { mimic=j }\n"
+      "joint l (c d) { q=.3 }");
+  EXPECT_EQ(m.joints()[1].type, JointType::kRigid);
+  EXPECT_FALSE(m.joints()[1].mimics);
+  EXPECT_EQ(m.nq(), 1);
+}
+
 constexpr const char* kPair =
     "body a {}\nbody b {}\nbody c {}\njoint right (a c) { type=transX limits=[-1 1] }\n"
     "joint left (a b) { type=transX mimic=right ";

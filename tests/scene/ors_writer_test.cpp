@@ -188,6 +188,20 @@ TEST(OrsWriter, KeepsNamesThatLookLikeOtherThings) {
   EXPECT_EQ(again(spec).joints[0].lower[0], -std::numeric_limits<double>::infinity());
 }
 
+TEST(OrsWriter, LeavesOutNamesOfShapesThatTheFormatLacks) {
+  SceneSpec spec = parseOrs("body a { type=1 }\nshape b (a) { type=2 }\nshape c { type=0 }", "f").spec;
+  EXPECT_EQ(again(spec).bodies[0].shapes[1].name, "b");
+  spec.bodies[0].shapes[0].name = "//";
+  spec.bodies[0].shapes[1].name = "left arm";
+  spec.worldShapes[0].name = "the \"floor\"";
+  const SceneSpec read = again(spec);
+  ASSERT_EQ(read.bodies[0].shapes.size(), 2u);
+  EXPECT_EQ(read.bodies[0].shapes[0].shape.type, ShapeType::kSphere);
+  EXPECT_EQ(read.bodies[0].shapes[1].name, "");
+  ASSERT_EQ(read.worldShapes.size(), 1u);
+  EXPECT_EQ(read.worldShapes[0].name, "");
+}
+
 TEST(OrsWriter, NamesMeshesAsSeenFromTheFolder) {
   const TemporaryFolder folder;
   fs::create_directories(folder.path() / "meshes");
@@ -225,14 +239,27 @@ TEST(OrsWriter, RefusesWhatTheFormatCannotSay) {
   EXPECT_REX_ERROR(
       refused([](SceneSpec& s) { s.bodies[1].name = "left arm"; })(),
       "f:2:1: body 'left arm': not a name in .ors: found 'left arm', wanted a word of at most 256 "
-      "bytes without blanks and any of ,;()[]{}=!<>\"'#-");
+      "bytes without blanks and any of ,;()[]{}=!<>\"'#-, and without // or /* in front");
   EXPECT_REX_ERROR(refused([](SceneSpec& s) { s.bodies[0].name = ""; })(),
                    "f:1:1: body '': not a name in .ors");
   EXPECT_REX_ERROR(refused([](SceneSpec& s) { s.bodies[0].name = "-1"; })(), "body '-1': not a name");
   EXPECT_REX_ERROR(refused([](SceneSpec& s) { s.joints[0].name = "a=b"; })(),
                    "f:3:1: joint 'a=b': not a name");
-  EXPECT_REX_ERROR(refused([](SceneSpec& s) { s.bodies[1].shapes[0].name = "x{"; })(),
-                   "shape 'x{': not a name");
+  for (const std::string name : {"//a", "/*", "//"}) {
+    EXPECT_REX_ERROR(refused([&](SceneSpec& s) { s.bodies[0].name = name; })(),
+                     "body '" + name + "': not a name in .ors");
+    EXPECT_REX_ERROR(refused([&](SceneSpec& s) { s.joints[0].name = name; })(),
+                     "joint '" + name + "': not a name in .ors");
+  }
+  EXPECT_REX_ERROR(refused([](SceneSpec& s) {
+                     for (int i = 0; i < 1000; ++i) {
+                       s.bodies.push_back({.name = "c" + std::to_string(i), .X_WB = {}});
+                       s.joints.emplace_back();
+                       s.joints.back().parent = "a";
+                       s.joints.back().child = s.bodies.back().name;
+                     }
+                   })(),
+                   "as .ors it could not be read again: too many joints: wanted at most 1000");
   EXPECT_REX_ERROR(refused([](SceneSpec& s) { s.bodies[0].name = "world"; })(),
                    "body 'world': found the name of the world itself, wanted another name");
   EXPECT_REX_ERROR(refused([](SceneSpec& s) { s.bodies[1].shapes[0].meshFile = ""; })(),

@@ -306,6 +306,14 @@ TEST(UrdfWriter, FindsFreeNames) {
   EXPECT_EQ(model.bodies().size(), 7u);  // world, four of ours, two of the chain
 }
 
+TEST(UrdfWriter, KeepsCountOfEachName) {
+  const SceneSpec spec =
+      parseOrs("body a {}\nbody a {}\nbody a_2 {}\nbody a_4 {}\nbody a {}\nbody a_2 {}\nbody a {}", "f").spec;
+  std::vector<std::string> names;
+  for (const BodySpec& body : again(spec).bodies) names.push_back(body.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"a", "a_3", "a_2", "a_4", "a_5", "a_2_2", "a_6"}));
+}
+
 TEST(UrdfWriter, BuildsCapsulesOfThreeSolids) {
   const SceneSpec spec =
       parseOrs("body a { type=2 size=[0 0 1 .1] contact }\nbody b { type=2 size=[0 0 0 .1] }", "f").spec;
@@ -395,6 +403,28 @@ TEST(UrdfWriter, SaysWhatItCannotWrite) {
                    "f:5:1: joint 'k': URDF has no mimic of joints with several coordinates: wanted none");
   EXPECT_REX_ERROR(writeUrdf(ors("body a {}\nbody b {}\njoint j (a b) {}\njoint k (b a) {}")),
                    "joints form a loop");
+}
+
+TEST(UrdfWriter, RefusesWhatItsReaderRefuses) {
+  const auto chains = [](int count) {
+    std::string text = "body a {}\n";
+    for (int i = 0; i < count; ++i) {
+      const std::string name = "b" + std::to_string(i);
+      text += "body " + name + " {}\njoint (a " + name + ") { type=universal }\n";
+    }
+    return parseOrs(text, "f").spec;
+  };
+  EXPECT_EQ(again(chains(500)).joints.size(), 1000u);
+  EXPECT_REX_ERROR(
+      writeUrdf(chains(501)),
+      "as .urdf it could not be read again: <robot>: too many <joint>: found 1002, wanted at most "
+      "1000");
+  const std::string longest(254, 'b');
+  EXPECT_REX_ERROR(
+      writeUrdf(
+          parseOrs("body a {}\nbody " + longest + " {}\njoint j (a " + longest + ") { B=<T t(1 2 3)> }", "f")
+              .spec),
+      "as .urdf it could not be read again: <link>: attribute 'name': found 260 bytes, wanted at most 256");
 }
 
 }  // namespace
