@@ -27,11 +27,7 @@ void requireWithinLimits(const Model& model, const std::string& option, const Ve
 
 Eigen::VectorXd postureWithinLimits(const Model& model, const std::string& option, const std::string& text) {
   Eigen::VectorXd q = parsePostureOf(model, option, text);
-  forEachQuaternion(model, [&](int iq, int) {
-    if (q.segment<4>(iq).isZero(0))
-      throw UsageError({.what = option, .found = "a quaternion of zeros", .wanted = "a rotation"});
-    q.segment<4>(iq).normalize();
-  });
+  forEachQuaternion(model, [&](int iq, int) { q.segment<4>(iq).normalize(); });
   requireWithinLimits(model, option, q);
   return q;
 }

@@ -193,8 +193,9 @@ TEST_F(PlanCommand, TakesRotationsOfAnyLength) {
   const nlohmann::json path = nlohmann::json::parse(result.output).at("path");
   EXPECT_NEAR(path.back()[1].get<double>(), std::sqrt(0.5), 1e-9);
   fs::remove_all(in("out"));
-  expectRefusal({file.string(), "--goal", "0,0,0,0"},
-                "--goal: found a quaternion of zeros, wanted a rotation");
+  expectRefusal(
+      {file.string(), "--goal", "0,0,0,0"},
+      "--goal: found (0, 0, 0, 0) for joint 'a>b', wanted a quaternion w, x, y, z that is not zero");
 }
 
 TEST_F(PlanCommand, RefusesPosturesThatCannotBe) {

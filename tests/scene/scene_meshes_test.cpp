@@ -62,7 +62,7 @@ TEST_F(SceneMeshes, AreNotTooManyTogether) {
   for (int i = 1; i <= 4097; ++i) text += "shape { type=3 mesh='m" + std::to_string(i) + ".off' }\n";
   EXPECT_REX_ERROR(
       readOrs(scene(text), {.allowMissingMeshes = true}),
-      ":4097:1: shape '': mesh: found the 4097th file of meshes, wanted at most 4096 different ones "
+      ":4097:21: shape '': mesh: found the 4097th file of meshes, wanted at most 4096 different ones "
       "in a scene");
   std::ofstream cloud(folder_.path() / "meshes/cloud.ply");
   cloud << "ply\nformat ascii 1.0\nelement vertex 300000\nproperty float x\nproperty float y\n"
@@ -75,7 +75,7 @@ TEST_F(SceneMeshes, AreNotTooManyTogether) {
   EXPECT_EQ(readOrs(scene(text)).spec.worldShapes.size(), 20u);
   EXPECT_REX_ERROR(
       readOrs(scene(text + "shape { type=3 mesh='meshes/cloud.ply' meshscale=21 }")),
-      ":21:1: shape '': mesh '" + (folder_.path() / "meshes/cloud.ply").string() +
+      ":21:21: shape '': mesh '" + (folder_.path() / "meshes/cloud.ply").string() +
           "': all meshes up to here: found 6300000 vertices, wanted at most 6000000 in all files "
           "and scales of a scene");
 }
