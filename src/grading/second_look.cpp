@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -27,6 +28,8 @@ extern "C" __attribute__((no_sanitize("address", "undefined"))) const char* __ub
 }
 )";
 
+constexpr std::string_view kStackOverflow = "stack-overflow";
+
 std::string plainWords(std::string_view kind) {
   constexpr std::pair<std::string_view, const char*> kWords[] = {
       {"heap-buffer-overflow", "reads or writes outside of an array on the heap"},
@@ -37,7 +40,7 @@ std::string plainWords(std::string_view kind) {
       {"heap-use-after-free", "uses memory that was given back"},
       {"stack-use-after-return", "uses a local variable after its function has ended"},
       {"stack-use-after-scope", "uses a local variable after its block has ended"},
-      {"stack-overflow", "uses up the stack: a recursion without end?"},
+      {kStackOverflow, "uses up the stack: a recursion without end?"},
       {"attempting double-free", "gives memory back twice"},
       {"attempting free", "gives memory back that it did not get"},
       {"SEGV", "uses an address where nothing is: a null pointer, or an index far out of range?"},
@@ -64,31 +67,50 @@ CrashSite findingIn(std::string_view line, const std::string& mainFile) {
   return site;
 }
 
+struct Frame {
+  std::string function;
+  int line = 0;
+};
+
 // Reads "    #2 0x55d0 in ikStep(int) /folder/main.cpp:47:3" if it is about the student's file.
-void readFrame(std::string_view line, const std::string& mainFile, CrashSite& site) {
+std::optional<Frame> frameIn(std::string_view line, const std::string& mainFile) {
   const std::size_t name = line.find(" in "), file = line.rfind("/" + mainFile + ":");
-  if (line.find(" #") == line.npos || name == line.npos || file == line.npos) return;
+  if (line.find(" #") == line.npos || name == line.npos || file == line.npos) return {};
   const char* number = line.data() + file + mainFile.size() + 2;
   int row = 0;
   std::from_chars(number, line.data() + line.size(), row);
-  if (row == 0) return;
+  if (row == 0) return {};
   const std::string_view function = line.substr(name + 4);
-  site.function = std::string(function.substr(0, function.find_first_of("( ")));
-  if (site.line == 0) site.line = row;
+  return Frame{std::string(function.substr(0, function.find_first_of("( "))), row};
+}
+
+// Chance decides in which line of a recursion the stack ends. A line that occurs twice in it calls the next
+// round; of several, the first in the file. The innermost line where none does.
+const Frame& recursionIn(const std::vector<Frame>& stack) {
+  std::set<int> seen;
+  const Frame* found = nullptr;
+  for (const Frame& frame : stack)
+    if (!seen.insert(frame.line).second && (found == nullptr || frame.line < found->line)) found = &frame;
+  return found != nullptr ? *found : stack.front();
 }
 
 }  // namespace
 
 std::optional<CrashSite> crashSiteIn(std::string_view standardError, const std::string& mainFile) {
   CrashSite site;
+  std::vector<Frame> stack;  // innermost first
   for (const std::string_view line : splitLines(standardError)) {
     if (site.finding.empty()) {
       site = findingIn(line, mainFile);
-    } else if (site.function.empty()) {
-      readFrame(line, mainFile, site);
+    } else if (auto frame = frameIn(line, mainFile)) {
+      stack.push_back(std::move(*frame));
     }
   }
   if (site.finding.empty()) return {};
+  if (stack.empty()) return site;
+  const Frame& frame = site.finding == plainWords(kStackOverflow) ? recursionIn(stack) : stack.front();
+  site.function = frame.function;
+  if (site.line == 0) site.line = frame.line;
   return site;
 }
 

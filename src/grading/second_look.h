@@ -17,7 +17,8 @@ struct CrashSite {
 };
 
 /// The first finding in what a program built by sanitizedToolchain() wrote to standard error, at the
-/// innermost line of `mainFile` that was running; nothing where there is no finding.
+/// innermost line of `mainFile` that was running, or where a recursion that used up the stack calls itself;
+/// nothing where there is no finding.
 [[nodiscard]] std::optional<CrashSite> crashSiteIn(std::string_view standardError,
                                                    const std::string& mainFile);
 

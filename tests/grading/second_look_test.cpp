@@ -53,6 +53,28 @@ TEST(CrashSiteIn, IsNothingWithoutAFinding) {
   EXPECT_FALSE(crashSiteIn("    #0 0x5 in rotated(double) /tmp/main.cpp:12\n", "main.cpp"));
 }
 
+// Two functions that call each other from lines 4 and 9. Where the stack ends is chance: in any line of them,
+// or in what they call.
+TEST(CrashSiteIn, IsWhereARecursionCallsItselfWhereverTheStackEnds) {
+  const std::vector<std::string> rounds = {"even(int) /tmp/main.cpp:4", "odd(int) /tmp/main.cpp:9"};
+  for (const char* top : {"even(int) /tmp/main.cpp:3", "odd(int) /tmp/main.cpp:8",
+                          "half(int) /tmp/main.cpp:1", "memcpy (libasan.so+0xb)"})
+    for (const int first : {0, 1}) {
+      std::string report = "==4==ERROR: AddressSanitizer: stack-overflow on address 0x7f\n    #0 0x5 in ";
+      report += top;
+      for (int k = 1; k < 8; ++k)
+        report += "\n    #" + std::to_string(k) + " 0x5 in " + rounds[(first + k) % 2];
+      const auto site = crashSiteIn(report, "main.cpp");
+      ASSERT_TRUE(site);
+      EXPECT_EQ(site->function, "even") << report;
+      EXPECT_EQ(site->line, 4) << report;
+    }
+  EXPECT_EQ(crashSiteIn("ERROR: AddressSanitizer: stack-overflow\n    #0 0x5 in f(int) /tmp/main.cpp:2\n",
+                        "main.cpp")
+                ->line,
+            2);
+}
+
 // The real sanitizers, which may word their reports anew.
 class SanitizedToolchain : public ::testing::Test {
  protected:
