@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <charconv>
 #include <cstring>
 #include <vector>
 
@@ -9,6 +8,7 @@
 
 #include "base/error.h"
 #include "scene/mesh_limits_internal.h"
+#include "scene/mesh_text_internal.h"
 
 namespace rex::mesh {
 namespace {
@@ -29,105 +29,6 @@ void requireNodes(std::size_t deep, const std::string& name) {
   if (deep > kMostNodesDeep)
     fail(name, "mesh file", fmt::format("{} nodes below each other", deep),
          fmt::format("at most {}", kMostNodesDeep));
-}
-
-// The whole number at the begin of a text; 0 without, and as many as there can be for one that is too large.
-std::size_t numberAt(std::string_view text) {
-  std::size_t number = 0;
-  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return problem == std::errc::result_out_of_range ? ~std::size_t{0} : number;
-}
-
-std::string_view nextWord(std::string_view& text) {
-  constexpr const char* kSpace = " \t\r\n\f\v";
-  text.remove_prefix(std::min(text.find_first_not_of(kSpace), text.size()));
-  const std::string_view word = text.substr(0, text.find_first_of(kSpace));
-  text.remove_prefix(word.size());
-  return word;
-}
-
-std::string_view nextLine(std::string_view& text) {
-  const std::string_view line = text.substr(0, text.find('\n'));
-  text.remove_prefix(std::min(line.size() + 1, text.size()));
-  return line;
-}
-
-// How many triangles a face of an OBJ file becomes, after its first word.
-std::size_t trianglesOf(std::string_view corners) {
-  std::size_t count = 0;
-  while (!nextWord(corners).empty()) ++count;
-  return count - std::min<std::size_t>(count, 2);
-}
-
-// assimp looks through all materials and groups for each that it meets.
-void checkObj(std::string_view bytes, const std::string& name) {
-  constexpr std::size_t kMostGroups = 10'000;
-  std::size_t groups = 0, triangles = 0;
-  while (!bytes.empty()) {
-    std::string_view line = nextLine(bytes);
-    const std::string_view word = nextWord(line);
-    if (word.starts_with('g') || word.starts_with('o') || word.starts_with('u')) ++groups;
-    if (word == "f") triangles += trianglesOf(line);
-  }
-  if (groups > kMostGroups)
-    fail(name, "mesh file", fmt::format("{} materials, groups and objects", groups),
-         fmt::format("at most {}", kMostGroups));
-  requireTriangles(triangles, name);
-}
-
-bool isPlyType(std::string_view word, bool whole) {
-  constexpr std::string_view kWhole[] = {"char", "uchar", "short", "ushort", "int",   "uint",
-                                         "int8", "uint8", "int16", "uint16", "int32", "uint32"};
-  constexpr std::string_view kReal[] = {"float", "double", "float32", "float64"};
-  const auto holds = [&](const auto& types) {
-    return std::find(std::begin(types), std::end(types), word) != std::end(types);
-  };
-  return holds(kWhole) || (!whole && holds(kReal));
-}
-
-// "property float x" and "property list uchar int vertex_indices", after the first word.
-bool isPlyProperty(std::string_view line) {
-  const std::string_view type = nextWord(line);
-  const bool isList = type == "list";
-  if (isList && (!isPlyType(nextWord(line), true) || !isPlyType(nextWord(line), false))) return false;
-  return (isList || isPlyType(type, false)) && !nextWord(line).empty();
-}
-
-// assimp crashes on headers that are not quite right.
-void checkPly(std::string_view bytes, const std::string& name) {
-  constexpr std::string_view kFree[] = {"ply", "format", "comment", "obj_info", ""};
-  for (;;) {
-    if (bytes.empty()) fail(name, "header of the PLY file", "no 'end_header'", "one");
-    const std::string_view whole = nextLine(bytes);
-    std::string_view line = whole;
-    const std::string_view word = nextWord(line);
-    if (word == "end_header") return;
-    if (word == "element") {
-      nextWord(line);
-      requireCount(numberAt(nextWord(line)), name);
-    } else if (word == "property" ? !isPlyProperty(line)
-                                  : std::find(std::begin(kFree), std::end(kFree), word) == std::end(kFree)) {
-      fail(name, "header of the PLY file", fmt::format("{} bytes of an unknown line", whole.size()),
-           "'element NAME COUNT', 'property TYPE NAME' or 'property list TYPE TYPE NAME'");
-    }
-  }
-}
-
-// The counts are the first numbers. assimp runs over words that are none.
-void checkOff(std::string_view bytes, const std::string& name) {
-  int numbers = 0;
-  while (!bytes.empty()) {
-    const std::string_view word = nextWord(bytes);
-    double value = 0;
-    const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (word.starts_with('#')) {
-      nextLine(bytes);
-    } else if (problem == std::errc() && end == word.data() + word.size()) {
-      if (numbers++ < 3) requireCount(numberAt(word), name);
-    } else if (numbers > 0 && !word.empty()) {
-      fail(name, "OFF file", "a word that is no number", "numbers");
-    }
-  }
 }
 
 // assimp waits for ever for the end of a list that holds anything else.
@@ -263,6 +164,7 @@ void requireTriangles(std::size_t count, const std::string& name) {
 
 void requireHarmless(std::string_view bytes, const std::string& name) {
   const std::string ending = endingOf(name);
+  if (ending == ".stl") checkStl(bytes, name);
   if (ending == ".obj") checkObj(bytes, name);
   if (ending == ".ply") checkPly(bytes, name);
   if (ending == ".off") checkOff(bytes, name);

@@ -279,6 +279,34 @@ TEST_F(MeshReader, RefusesBrokenHeaders) {
                    "a.off: OFF file: found a word that is no number, wanted numbers");
 }
 
+// Wherever it is cut, but for the last line: of a text, nobody can tell that its last number was longer.
+TEST_F(MeshReader, RefusesWhatIsCutOff) {
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 2\nproperty list uchar int vertex_indices\nend_header\n";
+  const std::string corners = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+  std::string stl = "solid x\n";
+  for (int i = 0; i < 2; ++i)
+    stl += "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
+  const std::pair<const char*, std::string> files[] = {
+      {"a.ply", ply + corners + "3 0 1 2\n3 0 1 3"},
+      {"a.off", "OFF\n4 2 5\n" + corners + "3 0 1 2\n3 0 1 3"},
+      {"a.stl", stl + "endsolid"}};
+  for (const auto& [name, whole] : files) {
+    EXPECT_EQ(parseMesh(whole, name).triangles().size(), 2u);
+    for (std::size_t length = 0; length < whole.size(); ++length)
+      EXPECT_REX_ERROR(parseMesh(whole.substr(0, length), name), name);
+  }
+  EXPECT_REX_ERROR(parseMesh(ply + corners + "3 0 1 2\n3 0", "a.ply"),
+                   "a.ply: PLY file: found the end after 5 elements, wanted as many as its header says");
+  EXPECT_REX_ERROR(parseMesh(stl, "a.stl"),
+                   "a.stl: STL file: found an end without 'endsolid', wanted a whole file");
+  EXPECT_REX_ERROR(parseMesh("OFF\n4 2 5\n" + corners + "3 0 1 2\n", "a.off"),
+                   "a.off: OFF file: found 5 lines of vertices and faces, wanted 6, as it says");
+  EXPECT_REX_ERROR(parseMesh("OFF\n4 1 5\n" + corners + "3 0 1\n", "a.off"),
+                   "a.off: OFF file: found a face without all its corners");
+}
+
 // Of another kind than its ending says: nobody has looked for what the reader of that kind does not bear.
 TEST_F(MeshReader, ReadsAFileAsItsEndingSays) {
   const std::string endless = "ply\nformat binary_big_endian\4elem\1";
@@ -301,6 +329,9 @@ TEST_F(MeshReader, RefusesIndicesOfNoVertex) {
       "quad.ply: mesh: found a face with corner 99, wanted indices below 4, the number of vertices");
   EXPECT_REX_ERROR(readMesh(write("triangle.ply", head + "3 0 2 99\n")),
                    "triangle.ply: mesh: found a face with corner 99");
+  EXPECT_REX_ERROR(
+      parseMesh("OFF\n3 1 3\n0 0 0\n1 0 0 # a comment\n\n0 1 0\n3 0 2 99 .5 .5 .5\n", "a.off"),
+      "a.off: OFF file: found a face with corner 99, wanted indices below 3, the number of vertices");
 }
 
 // A scene whose nodes, as text, follow each other; each may show the one mesh.
