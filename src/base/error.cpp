@@ -1,10 +1,11 @@
 #include "base/error.h"
 
 #include <algorithm>
-#include <cctype>
 #include <numeric>
 
 #include <fmt/format.h>
+
+#include "base/lower_case.h"
 
 namespace rex {
 namespace {
@@ -24,12 +25,6 @@ std::string format(const ErrorParts& parts) {
     text += "?)";
   }
   return text;
-}
-
-std::string lowerCase(std::string_view text) {
-  std::string lower(text);
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
-  return lower;
 }
 
 // Edits that turn a into b: insert, delete, replace, or swap two neighbours (optimal string alignment).

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/lower_case.h"
 #include "cli/commands.h"
 #include "cli/out_folder.h"
 #include "cli/wrong_use_internal.h"

@@ -1,9 +1,9 @@
 #include "cli/scene_option.h"
 
 #include <algorithm>
-#include <cctype>
 #include <vector>
 
+#include "base/lower_case.h"
 #include "cli/wrong_use_internal.h"
 #include "scene/find_scene.h"
 
@@ -55,12 +55,6 @@ SceneFile read(const fs::path& file, const ReadOptions& reading) {
 }
 
 }  // namespace
-
-std::string endingOf(const fs::path& file) {
-  std::string ending = file.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return ending;
-}
 
 void requireMeaning(const fs::path& file, const ReadOptions& reading) {
   if (reading.freeBase && endingOf(file) == ".ors")

@@ -16,9 +16,6 @@ struct SceneOption {
   std::string shapes{};  ///< visible, contact or all: which of them are drawn; empty: visible
 };
 
-/// The ending of a file in small letters: ".urdf".
-[[nodiscard]] std::string endingOf(const std::filesystem::path& file);
-
 /// Throws UsageError for a free base of an .ors file, which would have no effect.
 void requireMeaning(const std::filesystem::path& file, const ReadOptions& reading);
 

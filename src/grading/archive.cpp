@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <memory>
 #include <set>
 #include <string_view>
@@ -14,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/isolated_call.h"
+#include "base/lower_case.h"
 
 namespace rex::grading {
 namespace {
@@ -21,11 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 4> kEndings = {".tar.gz", ".tgz", ".tar", ".zip"};
-
-std::string lowerCase(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 std::size_t endingSize(const std::string& name) {
   const std::string lower = lowerCase(name);

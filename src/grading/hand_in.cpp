@@ -1,7 +1,6 @@
 #include "grading/hand_in.h"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <set>
 
@@ -9,6 +8,7 @@
 #include <sys/stat.h>
 
 #include "base/error.h"
+#include "base/lower_case.h"
 #include "grading/archive.h"
 #include "grading/printable.h"
 #include "grading/student_build.h"
@@ -52,12 +52,6 @@ std::int64_t modifiedAt(const fs::path& file) {
   return ::lstat(file.c_str(), &status) == 0 ? status.st_mtim.tv_sec : 0;
 }
 
-// Two folders whose names differ only so are one name spelt twice.
-std::string folded(std::string name) {
-  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return name;
-}
-
 /// Collects what one folder of submissions holds.
 class Reader {
  public:
@@ -65,7 +59,7 @@ class Reader {
       : exercises_(exercises), only_(only.empty() ? only : findExercise(exercises, only).name) {}
 
   HandIns read(const fs::path& folder) {
-    std::map<std::string, std::vector<fs::path>> students;  // by folded name
+    std::map<std::string, std::vector<fs::path>> students;  // two that differ in capitals are one name
     for (const fs::path& entry : entriesOf(folder)) {
       const fs::file_type type = typeOf(entry);
       const std::string file = entry.filename().string();
@@ -79,7 +73,7 @@ class Reader {
         complain("not the name of a student", entry, why,
                  "letters, digits, blanks and signs such as - _ . @");
       else
-        students[folded(name)].push_back(entry);
+        students[lowerCase(name)].push_back(entry);
     }
     for (const auto& [name, folders] : students) {
       if (!isOneSpelling(folders, "a student")) continue;
@@ -266,7 +260,8 @@ std::string whyNoStudentName(const std::string& name) {
     return "a slash, a control character or bytes that are no UTF-8";
   if (name.front() == ' ' || name.back() == ' ') return "a blank at an end";
   // Files of the output folder.
-  if (folded(name) == "grades.csv" || folded(name) == "tasks.tsv") return "the name of a file of results";
+  if (lowerCase(name) == "grades.csv" || lowerCase(name) == "tasks.tsv")
+    return "the name of a file of results";
   return {};
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include "base/error.h"
+#include "base/lower_case.h"
 #include "render/video_format_internal.h"
 
 namespace rex::internal {
@@ -38,8 +39,7 @@ const std::vector<VideoFormat>& videoFormats() {
 }
 
 const VideoFormat& videoFormat(const std::filesystem::path& file, const char* others) {
-  std::string ending = file.extension().string();
-  for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  const std::string ending = endingOf(file);
   std::vector<std::string> known;
   for (const VideoFormat& format : videoFormats()) {
     if (format.ending == ending) return format;

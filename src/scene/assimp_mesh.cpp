@@ -11,6 +11,7 @@
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
+#include "base/lower_case.h"
 #include "geometry/welded_mesh.h"
 #include "scene/assimp_mesh_internal.h"
 #include "scene/mesh_folder_internal.h"

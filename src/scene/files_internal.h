@@ -28,7 +28,4 @@ inline constexpr const char* kNoSuchFile = "no such file";
 /// The names of what lies in the folder of a file, sorted; a user may have meant one of them.
 [[nodiscard]] std::vector<std::string> namesBeside(const std::filesystem::path& file);
 
-/// The ending of a file in small letters: ".urdf".
-[[nodiscard]] std::string endingOf(const std::filesystem::path& file);
-
 }  // namespace rex::internal

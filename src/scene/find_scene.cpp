@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "base/error.h"
+#include "base/lower_case.h"
 #include "scene/files_internal.h"
 
 namespace rex {

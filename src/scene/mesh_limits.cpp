@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/lower_case.h"
 #include "scene/mesh_limits_internal.h"
 #include "scene/mesh_text_internal.h"
 
@@ -122,14 +123,6 @@ void checkGltf(std::string_view text, const std::string& name) {
 void fail(const std::string& name, std::string what, std::string found, std::string wanted,
           std::vector<std::string> nearest) {
   throw Error({std::move(what), {.file = name}, std::move(found), std::move(wanted), std::move(nearest)});
-}
-
-std::string endingOf(const std::string& name) {
-  const std::size_t dot = name.find_last_of("./");
-  std::string ending = dot == std::string::npos || name[dot] == '/' ? "" : name.substr(dot);
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return ending;
 }
 
 std::size_t largestFile(const std::string& name) {

@@ -18,9 +18,6 @@ inline constexpr double kLargestCoordinate = 1e6;        ///< metres
 [[noreturn]] void fail(const std::string& name, std::string what, std::string found, std::string wanted = "",
                        std::vector<std::string> nearest = {});
 
-/// The ending of a name in small letters, with its point.
-[[nodiscard]] std::string endingOf(const std::string& name);
-
 /// How large a file of this name may be, bytes: 32 MiB of STL, PLY and GLB, else 16 MiB, so that what
 /// other programs write takes less than a second and 512 MB. Throws Error for an ending of no kind that rex
 /// reads.

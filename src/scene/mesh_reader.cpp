@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/lower_case.h"
+#include "scene/files_internal.h"
 #include "scene/isolated_mesh_internal.h"
 #include "scene/mesh_limits_internal.h"
 
@@ -13,14 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using mesh::fail;
-
-std::vector<std::string> namesBeside(const fs::path& file) {
-  std::vector<std::string> names;
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(file.has_parent_path() ? file.parent_path() : ".", ignored))
-    names.push_back(entry.path().filename().string());
-  return names;
-}
 
 std::string whyUnreadable(const fs::path& file) {
   std::error_code problem;
@@ -39,7 +33,7 @@ std::string whyUnreadable(const fs::path& file) {
 std::string readBytes(const fs::path& file) {
   if (const std::string obstacle = whyUnreadable(file); !obstacle.empty())
     fail(file.string(), "cannot read the mesh file", obstacle, "a file",
-         nearestNames(file.filename().string(), namesBeside(file)));
+         nearestNames(file.filename().string(), internal::namesBeside(file)));
   std::error_code problem;
   const std::uintmax_t size = fs::file_size(file, problem);
   mesh::requireSize(size, file.string());
@@ -54,7 +48,7 @@ std::string readBytes(const fs::path& file) {
 // Most of a glTF file lies in others.
 IsolationLimits limitsFor(std::size_t bytes, const std::string& name) {
   IsolationLimits limits;
-  if (mesh::endingOf(name) != ".gltf") limits.cpuSeconds = 1 + static_cast<double>(bytes >> 22);
+  if (endingOf(name) != ".gltf") limits.cpuSeconds = 1 + static_cast<double>(bytes >> 22);
   return limits;
 }
 
@@ -68,7 +62,7 @@ TriangleMesh meshOf(std::string_view bytes, const std::string& name, const fs::p
 
 TriangleMesh readMesh(const fs::path& file) {
   static_cast<void>(mesh::largestFile(file.string()));  // the ending first, then the file
-  return meshOf(readBytes(file), file.string(), file.has_parent_path() ? file.parent_path() : ".");
+  return meshOf(readBytes(file), file.string(), internal::folderOf(file));
 }
 
 TriangleMesh parseMesh(std::string_view bytes, const std::string& name) { return meshOf(bytes, name, {}); }

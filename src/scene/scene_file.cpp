@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/lower_case.h"
 #include "scene/files_internal.h"
 #include "scene/ors_reader.h"
 #include "scene/urdf_reader.h"

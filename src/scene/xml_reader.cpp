@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstring>
 #include <memory>
 #include <optional>
@@ -8,6 +7,7 @@
 #include <expat.h>
 #include <fmt/format.h>
 
+#include "base/lower_case.h"
 #include "scene/xml_element_internal.h"
 
 namespace rex::xml {
@@ -26,9 +26,7 @@ constexpr std::string_view kBlank = " \t\r\n";
 
 bool isKnownEncoding(std::string_view name) {
   constexpr std::array<std::string_view, 3> kKnown = {"utf-8", "us-ascii", "iso-8859-1"};
-  std::string lower(name);
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
-  return std::find(kKnown.begin(), kKnown.end(), lower) != kKnown.end();
+  return std::find(kKnown.begin(), kKnown.end(), lowerCase(name)) != kKnown.end();
 }
 
 // Gives the attributes of the tag that begins at `at` their places; expat knows that it is well-formed.
