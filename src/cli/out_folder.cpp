@@ -1,6 +1,12 @@
 #include "cli/out_folder.h"
 
+#include <cerrno>
+#include <cstring>
+#include <fstream>
 #include <system_error>
+
+#include <fmt/format.h>
+#include <unistd.h>
 
 #include "base/error.h"
 
@@ -13,6 +19,19 @@ void makeOutFolder(const std::filesystem::path& folder) {
     throw Error({.what = "cannot make the folder for results",
                  .where = {folder.string()},
                  .found = problem.message()});
+}
+
+void makeOutPlace(const std::filesystem::path& out) {
+  const std::filesystem::path target = std::filesystem::absolute(out);
+  makeOutFolder(target.parent_path());
+  const std::string what = fmt::format("cannot write '{}'", out.string());
+  std::error_code ignored;
+  const bool isFolder = std::filesystem::is_directory(target, ignored);
+  if (isFolder && target.has_extension()) throw Error({.what = what, .found = "a folder of that name"});
+  std::filesystem::path trial = isFolder ? target / "" : target;
+  trial += fmt::format(".trial-{}", ::getpid());
+  if (!std::ofstream(trial)) throw Error({.what = what, .found = std::strerror(errno)});
+  std::filesystem::remove(trial, ignored);
 }
 
 }  // namespace rex::cli

@@ -52,7 +52,7 @@ void writeStill(const MotionPictures& pictures, const RenderPlan& plan, const fs
   const Image whole = drawn.size() == 1 ? drawn.front().image : sheetOf(drawn);
   studio.requireSomethingSeen();
   throwIfInterrupted();
-  asWrongUse([&] { writePng(whole, out); });
+  writePng(whole, out);
 }
 
 void writePage(const MotionPictures& pictures, const RenderPlan& plan, const RenderOptions& options) {
@@ -71,7 +71,7 @@ ExitCode render(const Project& project, const RenderOptions& options) {
   const Model model = loadScene(project, options.scene);
   const MotionPictures pictures =
       picturesOf(model, motionOf(model, options, plan.seconds), options, plan.product);
-  asWrongUse([&] { makeOutFolder(fs::absolute(options.out).parent_path()); });
+  asWrongUse([&] { makeOutPlace(options.out); });
   fs::path written = options.out;
   switch (plan.product) {
     case Product::kPicture:
@@ -82,7 +82,7 @@ ExitCode render(const Project& project, const RenderOptions& options) {
       break;
     case Product::kModel:
       throwIfInterrupted();
-      asWrongUse([&] { writeGlb(pictures.film(), options.out, plan.views.front().view.direction()); });
+      writeGlb(pictures.film(), options.out, plan.views.front().view.direction());
       break;
     case Product::kPage:
       writePage(pictures, plan, options);

@@ -130,8 +130,16 @@ TEST_F(RenderCommand, RefusesWhatItCannotDraw) {
   expectRefusal({"-o", "a.mp4", "--seconds", "600", "--q", "0 0 0", "--q", "1 1 1"}, 64,
                 "motion through --q: found 600 s, wanted at most 120 s");
   expectRefusal({"-o", "a.glb", "--size", "64x48"}, 64, "--size: wanted a picture, film or page");
-  expectRefusal({"-o", "/proc/a.png", "--size", "32x24"}, 64, "cannot write '/proc/a.png'");
+  for (const char* out : {"/proc/a.png", "/proc/a.glb", "/proc/a.html", "/proc/a.mp4", "/proc/frames"})
+    expectRefusal({"-o", out}, 64, "cannot write '" + std::string(out) + "': found No such file");
   expectRefusal({"-o", "/proc/no/a.png"}, 64, "/proc/no: cannot make the folder for results");
+}
+
+TEST_F(RenderCommand, RefusesToReplaceAFolder) {
+  fs::create_directory(in("a.png"));
+  const ProcessResult result = rex({"render", "pegArm", "-o", "a.png"});
+  EXPECT_EQ(result.exitCode, 64);
+  EXPECT_THAT(flat(result.error), HasSubstr("cannot write 'a.png': found a folder of that name"));
 }
 
 TEST_F(RenderCommand, RefusesWaysOfAMotionWithOnePosture) {
