@@ -85,13 +85,16 @@ bool isNumber(std::string_view word) {
   return problem == std::errc() && end == word.data() + word.size();
 }
 
-// A face of an OFF file: how many corners, and which. assimp takes the last vertex for one that there is not.
+// A face of an OFF file: how many corners, and which. assimp takes another vertex for one that there is not.
 void requireCorners(std::string_view face, std::size_t vertices, const std::string& name) {
-  for (std::size_t left = numberAt(nextWord(face)); left > 0; --left)
-    if (const std::string_view word = nextWord(face); word.empty() || numberAt(word) >= vertices)
-      fail(name, "OFF file",
-           word.empty() ? "a face without all its corners" : fmt::format("a face with corner {}", word),
+  constexpr const char* kDigits = "0123456789";
+  for (std::size_t left = numberAt(nextWord(face)); left > 0; --left) {
+    const std::string_view corner = nextWord(face);
+    if (corner.empty()) fail(name, "OFF file", "a face without all its corners", "as many as it says");
+    if (corner.find_first_not_of(kDigits) != corner.npos || numberAt(corner) >= vertices)
+      fail(name, "OFF file", fmt::format("a face with corner {}", corner),
            fmt::format("indices below {}, the number of vertices", vertices));
+  }
 }
 
 }  // namespace
@@ -166,9 +169,11 @@ void checkOff(std::string_view bytes, const std::string& name) {
   while (!bytes.empty()) {
     std::string_view line = nextLine(bytes);
     line = line.substr(0, line.find('#'));
-    const bool isRow = known == 3 && line.find_first_not_of(" \t\r") != line.npos;
+    const bool isCounted = known == 3;
+    bool isRow = false;
     std::string_view rest = line;
     for (std::string_view word = nextWord(rest); !word.empty(); word = nextWord(rest)) {
+      isRow = isCounted;
       if (!isNumber(word)) {
         if (known > 0) fail(name, "OFF file", "a word that is no number", "numbers");
       } else if (known < 3) {

@@ -279,7 +279,7 @@ TEST_F(MeshReader, RefusesBrokenHeaders) {
                    "a.off: OFF file: found a word that is no number, wanted numbers");
 }
 
-// Wherever it is cut, but for the last line: of a text, nobody can tell that its last number was longer.
+// Wherever it is cut: only that its last number was longer, nobody can tell of a text.
 TEST_F(MeshReader, RefusesWhatIsCutOff) {
   const std::string ply =
       "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
@@ -304,7 +304,7 @@ TEST_F(MeshReader, RefusesWhatIsCutOff) {
   EXPECT_REX_ERROR(parseMesh("OFF\n4 2 5\n" + corners + "3 0 1 2\n", "a.off"),
                    "a.off: OFF file: found 5 lines of vertices and faces, wanted 6, as it says");
   EXPECT_REX_ERROR(parseMesh("OFF\n4 1 5\n" + corners + "3 0 1\n", "a.off"),
-                   "a.off: OFF file: found a face without all its corners");
+                   "a.off: OFF file: found a face without all its corners, wanted as many as it says");
 }
 
 // Of another kind than its ending says: nobody has looked for what the reader of that kind does not bear.
@@ -329,9 +329,11 @@ TEST_F(MeshReader, RefusesIndicesOfNoVertex) {
       "quad.ply: mesh: found a face with corner 99, wanted indices below 4, the number of vertices");
   EXPECT_REX_ERROR(readMesh(write("triangle.ply", head + "3 0 2 99\n")),
                    "triangle.ply: mesh: found a face with corner 99");
-  EXPECT_REX_ERROR(
-      parseMesh("OFF\n3 1 3\n0 0 0\n1 0 0 # a comment\n\n0 1 0\n3 0 2 99 .5 .5 .5\n", "a.off"),
-      "a.off: OFF file: found a face with corner 99, wanted indices below 3, the number of vertices");
+  for (const std::string corner : {"99", "-1", "1.5"})
+    EXPECT_REX_ERROR(
+        parseMesh("OFF\n3 1 3\n0 0 0\n1 0 0 # a comment\n\n0 1 0\n3 0 2 " + corner + " .5 .5 .5\n", "a.off"),
+        "a.off: OFF file: found a face with corner " + corner +
+            ", wanted indices below 3, the number of vertices");
 }
 
 // A scene whose nodes, as text, follow each other; each may show the one mesh.
