@@ -1,8 +1,8 @@
 #pragma once
 
+#include "base/derivative_check.h"
 #include "grading/check.h"
 #include "interface.h"
-#include "optim/derivative_check.h"
 #include "random_matrices.h"
 
 // Part 1: each puts a result into the equation it should solve.

@@ -5,10 +5,10 @@
 #include <numbers>
 #include <string>
 
+#include "base/derivative_check.h"
 #include "graph_checks.h"
 #include "interface.h"
 #include "map_evidence.h"
-#include "optim/derivative_check.h"
 #include "scan_checks.h"
 
 using namespace rex;

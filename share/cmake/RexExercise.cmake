@@ -15,25 +15,8 @@ endif()
 # Headers of the library that teach further types to cross to the worker.
 set(REX_REMOTE_HEADERS course/remote_simulator.h)
 
-# The modules that a student's program may use: all up to course. The grader is not among them.
-set(REX_STUDENT_MODULES base geometry optim remote scene estimation learning kinematics dynamics collision render
-                        physics planning trajectory control grasping locomotion course)
-
-# One shared library with all of them, so that linking a student's program is short and quick.
-function(rex_student_library)
-  if(TARGET rex_student)
-    return()
-  endif()
-  add_library(rex_student SHARED)
-  set_target_properties(rex_student PROPERTIES LINKER_LANGUAGE CXX LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib)
-  foreach(module IN LISTS REX_STUDENT_MODULES)
-    if(TARGET rex_${module})
-      # The objects bring all of a module; the library brings the third-party libraries behind it.
-      target_sources(rex_student PRIVATE $<TARGET_OBJECTS:rex_${module}>)
-      target_link_libraries(rex_student PRIVATE rex_${module})
-    endif()
-  endforeach()
-endfunction()
+# The modules that every student's program may use; an exercise names further ones. The grader is not among them.
+set(REX_STUDENT_MODULES base geometry remote scene kinematics collision dynamics physics render course)
 
 # course/course.h, precompiled with the flags of a student's program: prefix.h.gch, and in prefix.h.d the files it was
 # made of. Leaves the place in REX_PREFIX where the exercise's header includes it, and elsewhere nothing. The sanitizers
@@ -60,7 +43,6 @@ function(rex_student_prefix folder)
     COMMAND ${CMAKE_COMMAND} -E rename ${prefix}.new ${prefix}.gch  # nobody meets half of it
     DEPENDS ${prefix} DEPFILE ${prefix}.d COMMENT "Precompiling course/course.h" VERBATIM)
   add_custom_target(rex_student_prefix DEPENDS ${prefix}.gch)
-  add_dependencies(rex_student rex_student_prefix)
 endfunction()
 
 function(rex_json_strings variable)
@@ -90,41 +72,98 @@ function(rex_exercise_sources output)
   endforeach()
 endfunction()
 
-# rex_exercise(NAME FUNCTIONS function ... [FOLDER folder] [OUTPUT folder])
+# The worker's loop. It waits for the student's object file and is compiled as that is: from the same prefix.
+function(rex_worker_object name folder output)
+  set(source ${output}/worker.cpp)
+  if(NOT REX_PREFIX)
+    add_library(${name}_worker OBJECT ${source})
+    target_include_directories(${name}_worker PRIVATE ${PROJECT_SOURCE_DIR}/src)
+    target_link_libraries(${name}_worker PRIVATE Eigen3::Eigen)
+    target_compile_options(${name}_worker PRIVATE ${REX_WARNINGS} "SHELL:-iquote \"${folder}\"")
+    set(REX_WORKER_OBJECT $<TARGET_OBJECTS:${name}_worker> PARENT_SCOPE)
+  else()
+    set(object ${output}/worker.o)
+    get_target_property(eigen Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
+    add_custom_command(OUTPUT ${object}
+      COMMAND ${CMAKE_CXX_COMPILER} ${REX_STUDENT_FLAGS} -Werror -include ${REX_PREFIX} -iquote ${folder}
+              -isystem ${PROJECT_SOURCE_DIR}/src -isystem ${eigen} -MD -MF ${object}.d -c ${source} -o ${object}
+      DEPENDS ${source} ${REX_PREFIX}.gch DEPFILE ${object}.d COMMENT "Building the worker of ${name}" VERBATIM)
+    add_custom_target(${name}_worker DEPENDS ${object})
+    add_dependencies(${name}_worker rex_student_prefix)
+    set(REX_WORKER_OBJECT ${object} PARENT_SCOPE)
+  endif()
+  set_target_properties(${name}_worker PROPERTIES REX_FOLDER ${folder})
+endfunction()
+
+# Adds to a list of modules those that they are linked with: a program has to find, and a sandbox to show, all of them.
+function(rex_all_modules variable)
+  set(found ${${variable}})
+  set(new ${found})
+  while(new)
+    list(POP_FRONT new module)
+    get_target_property(libraries ${module} LINK_LIBRARIES)
+    list(FILTER libraries INCLUDE REGEX "^rex_")
+    list(REMOVE_ITEM libraries ${found})
+    list(APPEND found ${libraries})
+    list(APPEND new ${libraries})
+  endwhile()
+  list(REMOVE_DUPLICATES found)
+  set(${variable} ${found} PARENT_SCOPE)
+endfunction()
+
+# What every check.cpp includes, compiled once for all graders.
+function(rex_grader_headers)
+  if(TARGET rex_grader_headers)
+    return()
+  endif()
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/student/no_checks.cpp CONTENT "int main() {}\n")
+  add_executable(rex_grader_headers ${PROJECT_BINARY_DIR}/student/no_checks.cpp)
+  target_compile_options(rex_grader_headers PRIVATE ${REX_GRADER_OPTIONS})
+  target_link_libraries(rex_grader_headers PRIVATE rex_grading rex_course)
+  target_precompile_headers(rex_grader_headers PRIVATE <course/course.h> <course/remote_simulator.h> <grading/check.h>
+                            <remote/call.h> <remote/signature.h>)
+endfunction()
+
+set(REX_GRADER_OPTIONS ${REX_WARNINGS} "${REX_COLD}")
+
+# rex_exercise(NAME FUNCTIONS function ... [USES module ...] [FOLDER folder] [OUTPUT folder])
 #
 # NAME is a folder of exercises/ with exercise.h, which declares the FUNCTIONS that a student completes, and
-# check.cpp. Builds into build/PRESET/exercises/NAME the program `grader`, the object file of the worker's loop,
-# and build.json, which says how to compile and link a student's program. FOLDER and OUTPUT give other places.
+# check.cpp. USES names the modules, beyond those of REX_STUDENT_MODULES, that the student's program and the checks need.
+# Builds into build/PRESET/exercises/NAME the program `grader`, the object file of the worker's loop, and build.json,
+# which says how to compile and link a student's program; the target NAME_ready is all of it. FOLDER and OUTPUT give
+# other places.
 function(rex_exercise name)
-  cmake_parse_arguments(ARG "" "FOLDER;OUTPUT" "FUNCTIONS" ${ARGN})
+  cmake_parse_arguments(ARG "" "FOLDER;OUTPUT" "FUNCTIONS;USES" ${ARGN})
   if(NOT ARG_FOLDER)
     set(ARG_FOLDER ${PROJECT_SOURCE_DIR}/exercises/${name})
   endif()
   if(NOT ARG_OUTPUT)
     set(ARG_OUTPUT ${PROJECT_BINARY_DIR}/exercises/${name})
   endif()
-  rex_student_library()
   rex_exercise_sources(${ARG_OUTPUT} ${ARG_FUNCTIONS})
+  rex_student_prefix(${ARG_FOLDER})
+  rex_worker_object(${name} ${ARG_FOLDER} ${ARG_OUTPUT})
+  set(modules ${REX_STUDENT_MODULES} ${ARG_USES})
+  list(TRANSFORM modules PREPEND rex_)
+  rex_all_modules(modules)
 
-  add_library(${name}_worker OBJECT ${ARG_OUTPUT}/worker.cpp)
-  set_target_properties(${name}_worker PROPERTIES REX_FOLDER ${ARG_FOLDER})
-  target_include_directories(${name}_worker PRIVATE ${PROJECT_SOURCE_DIR}/src)
-  target_link_libraries(${name}_worker PRIVATE Eigen3::Eigen)
-
+  rex_grader_headers()
   add_executable(${name}_grader ${ARG_OUTPUT}/grader.cpp ${ARG_FOLDER}/check.cpp)
   set_target_properties(${name}_grader PROPERTIES OUTPUT_NAME grader RUNTIME_OUTPUT_DIRECTORY ${ARG_OUTPUT})
-  target_link_libraries(${name}_grader PRIVATE rex_grading)
-  foreach(module course grasping locomotion planning trajectory)
-    if(TARGET rex_${module})
-      target_link_libraries(${name}_grader PRIVATE rex_${module})
-    endif()
-  endforeach()
-  foreach(target ${name}_worker ${name}_grader)
-    target_compile_options(${target} PRIVATE ${REX_WARNINGS} "SHELL:-iquote \"${ARG_FOLDER}\""
-                                             "SHELL:-iquote \"${ARG_OUTPUT}\"")
-  endforeach()
-  set_property(GLOBAL APPEND PROPERTY REX_GRADERS ${name}_grader ${name}_worker)
-  rex_student_prefix(${ARG_FOLDER})
+  target_link_libraries(${name}_grader PRIVATE rex_grading ${modules} fmt::fmt)
+  target_compile_options(${name}_grader PRIVATE ${REX_GRADER_OPTIONS} "SHELL:-iquote \"${ARG_FOLDER}\""
+                                                "SHELL:-iquote \"${ARG_OUTPUT}\"")
+  target_precompile_headers(${name}_grader REUSE_FROM rex_grader_headers)
+  if(REX_MERGE_SOURCES)
+    set_target_properties(${name}_grader PROPERTIES UNITY_BUILD ON)
+  endif()
+  add_custom_target(${name}_ready DEPENDS ${name}_grader ${name}_worker ${modules})
+  set_target_properties(${name}_ready PROPERTIES REX_MODULES "${modules}" REX_WORKER_OBJECT "${REX_WORKER_OBJECT}")
+  if(REX_PREFIX)
+    add_dependencies(${name}_ready rex_student_prefix)
+  endif()
+  set_property(GLOBAL APPEND PROPERTY REX_READY ${name}_ready)
   rex_exercise_description()
   rex_exercise_editor_support()
 endfunction()
@@ -146,6 +185,11 @@ function(rex_exercise_description)
   rex_json_strings(REX_COMPILE_JSON ${REX_STUDENT_FLAGS} -iquote ${ARG_FOLDER} -isystem
                    ${PROJECT_SOURCE_DIR}/src -isystem ${eigen})
   rex_json_strings(REX_LINK_JSON ${REX_STUDENT_LINK_FLAGS} -Wl,-rpath,${PROJECT_BINARY_DIR}/lib)
+  set(libraries)
+  foreach(module IN LISTS modules)
+    list(APPEND libraries $<TARGET_FILE:${module}>)
+  endforeach()
+  rex_json_strings(REX_LIBRARIES_JSON ${libraries})
   configure_file(${PROJECT_SOURCE_DIR}/share/cmake/exercise/build.json.in
                  ${CMAKE_CURRENT_BINARY_DIR}/${name}.build.json.in @ONLY)
   file(GENERATE OUTPUT ${ARG_OUTPUT}/build.json INPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}.build.json.in)
@@ -155,9 +199,13 @@ endfunction()
 #
 # Builds a worker program from student sources that have no main(), for tests.
 function(rex_worker target exercise)
-  add_executable(${target} ${ARGN} $<TARGET_OBJECTS:${exercise}_worker>)
   get_target_property(folder ${exercise}_worker REX_FOLDER)
+  get_target_property(modules ${exercise}_ready REX_MODULES)
+  get_target_property(object ${exercise}_ready REX_WORKER_OBJECT)
+  add_executable(${target} ${ARGN})
+  add_dependencies(${target} ${exercise}_worker)
   target_compile_options(${target} PRIVATE ${REX_STUDENT_FLAGS} -UNDEBUG "SHELL:-iquote \"${folder}\""
                                            "SHELL:-isystem \"${PROJECT_SOURCE_DIR}/src\"")
-  target_link_libraries(${target} PRIVATE rex_student Eigen3::Eigen)
+  target_link_libraries(${target} PRIVATE ${object} ${modules} Eigen3::Eigen)
+  set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${object})
 endfunction()

@@ -1,29 +1,29 @@
 # rex_exercise_gates(NAME)
 #
-# Registers one test per gate of exercises/NAME and one per file in its wrong/, label `exercise`. `rex dev check NAME
-# --gate GATE` runs one by hand. Each compiles a program of some hundred lines; so every second wrong variant, but for
-# those that must leave a picture, has the label `long`, which a short run of scripts/test leaves out.
+# Registers one test per gate of exercises/NAME, label `exercise`. `rex dev check NAME --gate GATE` runs one by hand. All
+# wrong variants are one gate, which compiles them together; it takes longest, so it starts first.
 function(rex_exercise_gates name)
   set(gates main-current points names release evidence main-floor solution sanitizers)
   file(GLOB variants ${PROJECT_SOURCE_DIR}/exercises/${name}/wrong/*.cpp)
-  set(for_long_runs)
-  set(is_for_long_runs FALSE)
-  foreach(variant IN LISTS variants)
-    cmake_path(GET variant STEM stem)
-    list(APPEND gates wrong/${stem})
-    file(STRINGS ${variant} shown_by REGEX "^// shown by:" LIMIT_COUNT 1)
-    if(is_for_long_runs AND NOT shown_by)
-      list(APPEND for_long_runs wrong/${stem})
-      set(is_for_long_runs FALSE)
-    else()
-      set(is_for_long_runs TRUE)
-    endif()
-  endforeach()
+  if(variants)
+    list(APPEND gates wrong)
+  endif()
   foreach(gate IN LISTS gates)
-    add_test(NAME exercise/${name}/${gate} COMMAND rex dev check ${name} --gate ${gate})
+    add_test(NAME exercise/${name}/${gate} COMMAND rex-instructor dev check ${name} --gate ${gate})
     set_tests_properties(exercise/${name}/${gate} PROPERTIES LABELS "exercise;${name}" TIMEOUT 600)
-    if(gate IN_LIST for_long_runs)
-      set_property(TEST exercise/${name}/${gate} APPEND PROPERTY LABELS long)
-    endif()
   endforeach()
+  # Built with the sanitizers, a solution takes a quarter of a minute to compile.
+  set_tests_properties(exercise/${name}/sanitizers PROPERTIES LABELS "exercise;${name};long")
+  if(variants)
+    set_tests_properties(exercise/${name}/wrong PROPERTIES COST 30 TIMEOUT 1200)
+  endif()
+  # The same, each in a file of its own as a student's: see writing-an-exercise.md. No gates of the list, hence without
+  # the exercise's label.
+  if(NOT REX_SANITIZE)
+    foreach(variant IN LISTS variants)
+      cmake_path(GET variant STEM stem)
+      add_test(NAME exercise/${name}/wrong/${stem} COMMAND rex-instructor dev check ${name} --gate wrong/${stem})
+      set_tests_properties(exercise/${name}/wrong/${stem} PROPERTIES LABELS "exercise;long" TIMEOUT 600)
+    endforeach()
+  endif()
 endfunction()

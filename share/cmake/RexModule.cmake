@@ -1,15 +1,32 @@
-# rex_module(NAME SOURCES a.cpp ... [USES module ...] [PRIVATE library ...])
+# rex_module(NAME [COLD] SOURCES a.cpp ... [USES module ...] [PRIVATE library ...])
 #
-# One static library rex_NAME from src/NAME. USES names the rex modules whose headers its headers include;
-# PRIVATE names third-party libraries, which stay inside the .cpp files. Eigen is the only public one.
+# One shared library rex_NAME from this folder, src/NAME; a room inside a module, or a part that is built apart, has its
+# module's name in front: cli_robot, course_cars. USES names the rex modules whose headers its headers include; PRIVATE
+# names third-party libraries, which stay inside the .cpp files. Eigen is the only public one. COLD: compiled fast, not for speed.
+#
+# Shared, so that each of the many programs (graders, tests, students' workers) links in no time with what it needs and
+# nothing else. Calls inside a library do not go through its table of symbols.
 function(rex_module name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;USES;PRIVATE" ${ARGN})
-  add_library(rex_${name} STATIC ${ARG_SOURCES})
-  target_include_directories(rex_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)
-  target_compile_options(rex_${name} PRIVATE ${REX_WARNINGS})
-  target_link_libraries(rex_${name} PUBLIC Eigen3::Eigen)
-  foreach(module IN LISTS ARG_USES)
-    target_link_libraries(rex_${name} PUBLIC rex_${module})
-  endforeach()
-  target_link_libraries(rex_${name} PRIVATE ${ARG_PRIVATE})
+  cmake_parse_arguments(ARG "COLD" "" "SOURCES;USES;PRIVATE" ${ARGN})
+  set(target rex_${name})
+  add_library(${target} SHARED ${ARG_SOURCES})
+  set_target_properties(${target} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib)
+  target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/src)
+  target_compile_options(${target} PRIVATE ${REX_WARNINGS} -fno-semantic-interposition)
+  target_link_options(${target} PRIVATE -Wl,-Bsymbolic-functions)
+  target_link_libraries(${target} PUBLIC Eigen3::Eigen)
+  list(TRANSFORM ARG_USES PREPEND rex_)
+  target_link_libraries(${target} PUBLIC ${ARG_USES} PRIVATE ${ARG_PRIVATE})
+  if(ARG_COLD)
+    target_compile_options(${target} PRIVATE "${REX_COLD}")
+  endif()
+  rex_merge_sources(${target})
+endfunction()
+
+# Several sources are compiled as one where REX_MERGE_SOURCES is on: most of the time goes into headers and templates
+# that they share.
+function(rex_merge_sources target)
+  if(REX_MERGE_SOURCES)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${REX_MERGED_SOURCES})
+  endif()
 endfunction()

@@ -2,6 +2,21 @@
 option(REX_SANITIZE "Build with the address, undefined-behaviour and leak sanitizers" OFF)
 option(REX_FUZZ "Build the programs of tests/fuzz with libFuzzer; needs clang" OFF)
 
+# A source that changes then brings its neighbours along: for machines that build everything once.
+if(CMAKE_BUILD_TYPE STREQUAL Release)
+  set(merge_by_default ON)
+else()
+  set(merge_by_default OFF)
+endif()
+option(REX_MERGE_SOURCES "Compile several sources of a module as one" ${merge_by_default})
+set(REX_MERGED_SOURCES 12)  # at most so many
+
+# Merged sources take up to 1.5 GB each: no more of them at once than there is memory for.
+cmake_host_system_information(RESULT memory QUERY TOTAL_PHYSICAL_MEMORY)
+math(EXPR jobs "(${memory} + 1499) / 1500")
+set_property(GLOBAL PROPERTY JOB_POOLS compile=${jobs})
+set(CMAKE_JOB_POOL_COMPILE compile)
+
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
@@ -23,6 +38,9 @@ if(REX_FUZZ)
   # Comparisons are not traced: the dictionaries know the words, and it would cost a fifth of the speed.
   add_compile_options(-fsanitize=fuzzer-no-link -fno-sanitize-coverage=trace-cmp)
 endif()
+
+# How code is compiled that runs once, or waits for people and files. At this level g++ 12 warns of what is not there.
+set(REX_COLD "$<$<CONFIG:Release>:-O1;-Wno-array-bounds;-Wno-maybe-uninitialized;-Wno-stringop-overflow>")
 
 set(REX_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
                  -Woverloaded-virtual -Werror)

@@ -1,3 +1,5 @@
+# Tests: one program per folder of tests/, one entry of ctest per file.
+
 # What the sanitizers look at in a short run: modules that read files of users or talk to processes, but not the
 # grader, which links with nearly all of the library. scripts/test --long looks at all.
 set(REX_SANITIZED_MODULES base geometry remote scene)
@@ -6,33 +8,69 @@ set(REX_SANITIZED_MODULES base geometry remote scene)
 function(rex_test_headers)
   file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/no_tests.cpp "")
   add_executable(rex_test_headers ${CMAKE_CURRENT_BINARY_DIR}/no_tests.cpp)
-  target_compile_options(rex_test_headers PRIVATE ${REX_WARNINGS} "${REX_TEST_OPTIMISATION}")
+  target_compile_options(rex_test_headers PRIVATE ${REX_WARNINGS} "${REX_COLD}")
   target_link_libraries(rex_test_headers PRIVATE Eigen3::Eigen GTest::gmock_main)
   target_precompile_headers(rex_test_headers PRIVATE <Eigen/Dense> <gmock/gmock.h> <gtest/gtest.h>)
 endfunction()
 
-# Tests run once for each time that they are compiled. At this level g++ 12 warns of what is not there.
-set(REX_TEST_OPTIMISATION "$<$<CONFIG:Release>:SHELL:-O1 -Wno-array-bounds -Wno-maybe-uninitialized -Wno-stringop-overflow>")
-
-# rex_test(MODULE NAME [USES module ...] [PRIVATE library ...])
+# rex_tests(FOLDER SOURCES a_test.cpp ... [USES module ...] [PRIVATE library ...] [APART a_test.cpp ...])
 #
-# Builds tests/MODULE/NAME_test.cpp and registers each of its GoogleTest cases as MODULE/NAME.Suite.Case.
-function(rex_test module name)
-  cmake_parse_arguments(ARG "" "" "USES;PRIVATE" ${ARGN})
-  set(target ${module}_${name}_test)
-  add_executable(${target} ${PROJECT_SOURCE_DIR}/tests/${module}/${name}_test.cpp)
-  target_compile_options(${target} PRIVATE ${REX_WARNINGS} "${REX_TEST_OPTIMISATION}")
+# Builds the program FOLDER_tests from sources in tests/FOLDER and registers each file as FOLDER/a. The cases of a file
+# share a process; those of the files APART, which take long or change their process, have one each: FOLDER/b.Suite.Case.
+function(rex_tests folder)
+  cmake_parse_arguments(ARG "" "" "SOURCES;USES;PRIVATE;APART" ${ARGN})
+  set(target ${folder}_tests)
+  add_executable(${target} ${ARG_SOURCES})
+  target_compile_options(${target} PRIVATE ${REX_WARNINGS} "${REX_COLD}")
   target_precompile_headers(${target} REUSE_FROM rex_test_headers)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_compile_definitions(${target} PRIVATE
     REX_SOURCE_DIR="${PROJECT_SOURCE_DIR}" REX_BINARY_DIR="${PROJECT_BINARY_DIR}")
-  target_link_libraries(${target} PRIVATE rex_${module} GTest::gmock_main ${ARG_PRIVATE})
-  foreach(used IN LISTS ARG_USES)
-    target_link_libraries(${target} PRIVATE rex_${used})
-  endforeach()
-  gtest_discover_tests(${target} TEST_PREFIX ${module}/${name}. DISCOVERY_TIMEOUT 60
-    PROPERTIES LABELS ${module} TIMEOUT 300)
-  if(module IN_LIST REX_SANITIZED_MODULES)
+  list(TRANSFORM ARG_USES PREPEND rex_)
+  target_link_libraries(${target} PRIVATE GTest::gmock_main ${ARG_USES} ${ARG_PRIVATE})
+  if(TARGET rex_${folder})
+    target_link_libraries(${target} PRIVATE rex_${folder})
+  endif()
+  rex_merge_sources(${target})
+  if(folder IN_LIST REX_SANITIZED_MODULES)
     set_property(GLOBAL APPEND PROPERTY REX_SANITIZED_TESTS ${target})
+  endif()
+  foreach(source IN LISTS ARG_SOURCES)
+    rex_test_file(${folder} ${source})
+  endforeach()
+endfunction()
+
+# The entries of one file; its cases are those of the suites that it names.
+function(rex_test_file folder source)
+  cmake_path(GET source STEM name)
+  string(REGEX REPLACE "_test$" "" name ${name})
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${source})
+  file(STRINGS ${source} lines REGEX "^(TYPED_)?TEST(_F|_P)?\\(")
+  set(suites)
+  foreach(line IN LISTS lines)
+    string(REGEX REPLACE "^[A-Z_]+\\(([A-Za-z0-9_]+),.*" "\\1" suite "${line}")
+    list(APPEND suites ${suite})
+  endforeach()
+  list(REMOVE_DUPLICATES suites)
+  # A suite in two files of a program would run twice, or not at all.
+  get_property(known GLOBAL PROPERTY REX_SUITES_OF_${folder})
+  foreach(suite IN LISTS suites)
+    if(suite IN_LIST known)
+      message(FATAL_ERROR "tests/${folder}/${source}: another file of this folder has a suite ${suite}, too")
+    endif()
+  endforeach()
+  set_property(GLOBAL APPEND PROPERTY REX_SUITES_OF_${folder} ${suites})
+  set(filters)
+  foreach(suite IN LISTS suites)
+    list(APPEND filters ${suite}.* */${suite}.* ${suite}/*)
+  endforeach()
+  list(JOIN filters ":" filter)
+  set(properties LABELS ${folder} TIMEOUT 600)
+  if(source IN_LIST ARG_APART)
+    gtest_discover_tests(${target} TEST_PREFIX ${folder}/${name}. TEST_FILTER "${filter}" DISCOVERY_TIMEOUT 60
+                         TEST_LIST ${target}_${name}_cases PROPERTIES ${properties})
+  else()
+    add_test(NAME ${folder}/${name} COMMAND ${target} --gtest_filter=${filter} --gtest_brief=0)
+    set_tests_properties(${folder}/${name} PROPERTIES ${properties} FAIL_REGULAR_EXPRESSION "Running 0 tests")
   endif()
 endfunction()

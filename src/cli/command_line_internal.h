@@ -1,43 +1,18 @@
 #pragma once
 
-#include <functional>
 #include <string>
 
 #include <CLI/CLI.hpp>
 
-#include "cli/commands.h"
+#include "cli/room.h"
 
 namespace rex::cli {
 
-/// What the command line asks for, ready to be done.
-using Action = std::function<ExitCode(const Project&)>;
-
-/// One command of CLI11 in our layout, with examples at the end of its help.
-CLI::App* add(CLI::App& parent, const std::string& name, const std::string& purpose,
-              const std::string& examples);
+/// A command of a command, such as `rex dev new`, with examples at the end of its help.
+CLI::App* addVerb(CLI::App* command, const std::string& name, const std::string& purpose,
+                  const std::string& examples);
 
 /// Prints a help text.
 Action print(const std::string& text);
-
-/// What is wrong with a seed; nothing for one that thousands of others can follow.
-std::string wrongSeed(const std::string& text);
-
-void addExercise(CLI::App* command, std::string& exercise);
-void addGl(CLI::App* command, std::string& gl);
-/// `--seed N`. Refuses what is no seed; CLI11 alone takes -1 for the largest number there is.
-template <typename Seed>
-void addSeed(CLI::App* command, Seed& seed, const std::string& help) {
-  command->add_option("--seed", seed, help)->check(wrongSeed)->type_name("N");
-}
-
-/// `rex watch`, `hint`, `show`, `reset`, `solution` and `submit`.
-void addStudentCommands(CLI::App& program, Action& action);
-
-/// `rex scene FILE VERB`, `rex render FILE`, `rex simulate FILE` and `rex plan FILE`.
-void addScene(CLI::App& program, Action& action);
-void addRender(CLI::App& program, Action& action);
-void addSimulate(CLI::App& program, Action& action);
-void addPlan(CLI::App& program, Action& action);
-void addTrajectory(CLI::App& program, Action& action);
 
 }  // namespace rex::cli

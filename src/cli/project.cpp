@@ -1,47 +1,10 @@
 #include "cli/project.h"
 
-#include <stdexcept>
-#include <system_error>
-
-#include <fmt/format.h>
-
-#include "base/process.h"
-#include "cli/terminal.h"
+#include "cli/build_on_demand.h"
 
 namespace rex::cli {
-namespace {
 
 namespace fs = std::filesystem;
-
-// Whether the grader is missing or older than what it is made of.
-bool isStale(const fs::path& product, const fs::path& folder) {
-  std::error_code missing;
-  const auto built = fs::last_write_time(product, missing);
-  if (missing) return true;
-  for (const char* source : {"check.cpp", "exercise.h"}) {
-    const auto edited = fs::last_write_time(folder / source, missing);
-    if (!missing && edited > built) return true;
-  }
-  return false;
-}
-
-std::string lastLines(const std::string& text, std::size_t size) {
-  if (text.size() <= size) return text;
-  return text.substr(text.find('\n', text.size() - size) + 1);
-}
-
-void buildGrader(const Project& project, const ExerciseInfo& exercise) {
-  note(fmt::format("building the grader of {} ...", exercise.name));
-  const ProcessResult built =
-      runProcess({"cmake", "--build", project.build.string(), "--target", exercise.name + "_grader",
-                  exercise.name + "_worker", "rex_student"},
-                 {.timeout = 3600});
-  if (built.ok()) return;
-  throw std::runtime_error(fmt::format("the grader of {} does not build:\n{}{}", exercise.name,
-                                       lastLines(built.output, 4000), lastLines(built.error, 2000)));
-}
-
-}  // namespace
 
 std::vector<ExerciseInfo> Project::exercises() const {
   return grading::listExercises(shown(root / "exercises"));
@@ -70,10 +33,8 @@ std::string shown(const fs::path& path) {
 }
 
 grading::Toolchain prepare(const Project& project, const ExerciseInfo& exercise) {
-  const fs::path description = project.buildFolder(exercise) / "build.json";
-  if (!fs::exists(description) || isStale(project.buildFolder(exercise) / "grader", exercise.folder))
-    buildGrader(project, exercise);
-  return grading::readToolchain(description);
+  bringUpToDate(project, {exercise.name + "_ready"}, "the grader of " + exercise.name);
+  return grading::readToolchain(project.buildFolder(exercise) / "build.json");
 }
 
 }  // namespace rex::cli

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "grading/exercise_info.h"
-#include "grading/toolchain.h"
+#include "submission/exercise_info.h"
+#include "submission/toolchain.h"
 
 namespace rex::cli {
 
@@ -30,9 +30,8 @@ struct Project {
 /// The path as a user in the current folder would type it.
 [[nodiscard]] std::string shown(const std::filesystem::path& path);
 
-/// How to build and grade student code of an exercise; builds the grader first if it is missing or older than
-/// the exercise's files. Throws std::runtime_error with the end of the build's output when that fails, and as
-/// readToolchain() does.
+/// How to build and grade student code of an exercise; brings what that needs up to date first. Throws
+/// BuildFailure as bringUpToDate(), and as readToolchain() does.
 [[nodiscard]] grading::Toolchain prepare(const Project& project, const ExerciseInfo& exercise);
 
 }  // namespace rex::cli

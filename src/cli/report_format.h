@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "grading/report.h"
+#include "reports/report.h"
 
 namespace rex::cli {
 

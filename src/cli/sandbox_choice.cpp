@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "base/private_folder.h"
 #include "cli/temporary_folder.h"
 #include "cli/terminal.h"
-#include "grading/private_folder.h"
 #include "sandbox/probes.h"
 
 namespace rex::cli {
@@ -16,7 +16,7 @@ std::filesystem::path probeOf(const Project& project) { return project.build / "
 std::optional<sandbox::Sandbox> chooseSandbox(const Project& project, std::optional<int> level) {
   sandbox::Sandbox chosen{.level = level.value_or(0), .launcher = launcherOf(project)};
   if (chosen.level == 0) return chosen;
-  const grading::PrivateFolder folder(temporaryFolder());
+  const PrivateFolder folder(temporaryFolder());
   const std::string reason = sandbox::whyNot(chosen, probeOf(project), folder.path());
   if (reason.empty()) return chosen;
   note(wrap(fmt::format("sandbox level {} cannot be had here: {}", *level, harmless(reason)), 0, 0));

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "grading/printable.h"
+#include "base/printable.h"
 
 namespace rex::cli {
 namespace {
@@ -77,7 +77,7 @@ std::string wrap(std::string_view text, std::size_t indent, std::size_t used) {
 
 std::string harmless(std::string_view text) {
   constexpr std::size_t kLongest = 4096;
-  return grading::printable(text, kLongest);
+  return printable(text, kLongest);
 }
 
 void say(std::string_view line) {

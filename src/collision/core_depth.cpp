@@ -11,9 +11,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kSlack = 1e-10, kCurvedSlack = 5e-7;  // metres
-constexpr double kFlat = 1e-9;                         // metres: what is thinner has no inside
-constexpr double kPrecision = 1e-13;                   // of the size
+constexpr double kDepthSlack = 1e-10, kCurvedSlack = 5e-7;  // metres
+constexpr double kFlat = 1e-9;                              // metres: what is thinner has no inside
+constexpr double kPrecision = 1e-13;                        // of the size
 
 // Four corners that span the difference, or a direction in which it has no thickness.
 struct Span {
@@ -74,7 +74,7 @@ CoreProximity coreDepth(const MinkowskiDifference& difference, const DifferenceP
   const Span span = spanOf(difference);
   if (span.isFlat) return flatDepth(difference, span.normal, touching);
   const double size = (span.corners[1].x - span.corners[0].x).norm();
-  const double enough = difference.isCurved() ? kCurvedSlack : kSlack;
+  const double enough = difference.isCurved() ? kCurvedSlack : kDepthSlack;
   ExpandingPolytope polytope(span.corners, kPrecision * size);
   CoreProximity best;
   best.distance = -std::numeric_limits<double>::infinity();

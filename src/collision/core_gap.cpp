@@ -10,9 +10,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kSlack = 1e-10;   // metres, between the bounds that end the search
-constexpr double kTouch = 1e-12;   // metres: nearer than this there is no direction to go by
-constexpr double kSliver = 1e-10;  // the sine of the least angle that counts
+constexpr double kGapSlack = 1e-10;  // metres, between the bounds that end the search
+constexpr double kTouch = 1e-12;     // metres: nearer than this there is no direction to go by
+constexpr double kSliver = 1e-10;    // the sine of the least angle that counts
 constexpr double kNoFarther = 1 + 1e-15;
 constexpr int kMostSteps = 100;
 
@@ -116,7 +116,7 @@ CoreProximity coreGap(const MinkowskiDifference& difference) {
     const DifferencePoint w = difference.lowest(simplex.n);
     const double slack = simplex.distance - simplex.n.dot(w.x);
     if (slack < best.slack) best = {simplex.distance, slack, simplex.n, simplex.sum()};
-    if (slack <= kSlack || holdsOrigin(simplex, w)) break;
+    if (slack <= kGapSlack || holdsOrigin(simplex, w)) break;
     const Simplex next = nearestWith(simplex, w);
     if (!(next.distance <= simplex.distance * kNoFarther)) break;
     simplex = next;

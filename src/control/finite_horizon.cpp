@@ -33,8 +33,6 @@ void requireSteps(int steps) {
     throw Error({.what = "steps of a horizon", .found = fmt::format("{}", steps), .wanted = "1 to 10000000"});
 }
 
-Eigen::MatrixXd symmetric(const Eigen::MatrixXd& M) { return 0.5 * (M + M.transpose()); }
-
 RiccatiHorizon failed(std::string message) { return {.message = std::move(message)}; }
 
 RiccatiHorizon solved(std::vector<Eigen::MatrixXd> P, std::vector<Eigen::MatrixXd> K) {
@@ -78,7 +76,8 @@ class HamiltonianFlow {
     const Eigen::MatrixXd Y = flow.topLeftCorner(n, n) + flow.topRightCorner(n, n) * P;
     if ((Y - Eigen::MatrixXd::Identity(n, n)).norm() < 0.5) {
       const Eigen::MatrixXd Z = flow.bottomLeftCorner(n, n) + flow.bottomRightCorner(n, n) * P;
-      return symmetric(Eigen::PartialPivLU<Eigen::MatrixXd>(Y.transpose()).solve(Z.transpose()));
+      return internal::symmetricPart(
+          Eigen::PartialPivLU<Eigen::MatrixXd>(Y.transpose()).solve(Z.transpose()));
     }
     const std::optional<Eigen::MatrixXd> middle = moved(P, halvings + 1);
     return middle ? moved(*middle, halvings + 1) : std::nullopt;
@@ -109,13 +108,14 @@ RiccatiHorizon discreteHorizon(const LinearSystem& given, const MatrixArg& Q, co
   std::vector<Eigen::MatrixXd> P{F}, K;
   for (int t = steps - 1; t >= 0; --t) {
     const Eigen::MatrixXd PB = P.back() * system.B;
-    const Eigen::LLT<Eigen::MatrixXd> weight(symmetric(R + system.B.transpose() * PB));
+    const Eigen::LLT<Eigen::MatrixXd> weight(internal::symmetricPart(R + system.B.transpose() * PB));
     if (weight.info() != Eigen::Success)
       return failed(fmt::format("step {}: R + B^T P B is not positive definite: no control is the best", t));
     K.push_back(weight.solve(PB.transpose() * system.A));
     // In this form (Joseph's) rounding leaves P positive semidefinite.
     const Eigen::MatrixXd closed = system.A - system.B * K.back();
-    P.push_back(symmetric(Q + K.back().transpose() * R * K.back() + closed.transpose() * P.back() * closed));
+    P.push_back(internal::symmetricPart(Q + K.back().transpose() * R * K.back() +
+                                        closed.transpose() * P.back() * closed));
     if (!P.back().allFinite()) return failed(fmt::format("step {}: P is not finite", t));
   }
   return solved(std::move(P), std::move(K));

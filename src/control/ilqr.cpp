@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "base/derivative_check.h"
 #include "base/error.h"
 #include "base/require_finite.h"
 #include "control/lq_tracking.h"
 #include "control/require_internal.h"
-#include "optim/derivative_check.h"
 
 namespace rex {
 namespace {

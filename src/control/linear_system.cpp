@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "base/derivative_check.h"
 #include "base/error.h"
 #include "control/require_internal.h"
 #include "control/require_matrix_internal.h"
-#include "optim/derivative_check.h"
 
 namespace rex {
 

@@ -12,8 +12,6 @@
 namespace rex {
 namespace {
 
-Eigen::MatrixXd symmetric(const Eigen::MatrixXd& M) { return 0.5 * (M + M.transpose()); }
-
 Eigen::MatrixXd orZero(const Eigen::MatrixXd& M, Eigen::Index rows, Eigen::Index columns,
                        const std::string& what) {
   if (M.size() == 0) return Eigen::MatrixXd::Zero(rows, columns);
@@ -53,13 +51,13 @@ LqPolicy solveLq(const std::vector<LqStage>& stages, const Eigen::MatrixXd& F, c
   LqPolicy policy;
   const std::size_t N = stages.size();
   policy.K.resize(N), policy.k.resize(N), policy.P.resize(N + 1), policy.p.resize(N + 1);
-  policy.P[N] = symmetric(F);
+  policy.P[N] = internal::symmetricPart(F);
   policy.p[N] = orZero(f, n, 1, "f");
   for (std::size_t t = N; t-- > 0;) {
     const LqStage stage = completed(stages[t], n, t);
     const Eigen::MatrixXd PA = policy.P[t + 1] * stage.A, PB = policy.P[t + 1] * stage.B;
     const Eigen::VectorXd ahead = policy.p[t + 1] + policy.P[t + 1] * stage.c;
-    const Eigen::MatrixXd weight = symmetric(stage.R + stage.B.transpose() * PB),
+    const Eigen::MatrixXd weight = internal::symmetricPart(stage.R + stage.B.transpose() * PB),
                           mixed = stage.S + stage.B.transpose() * PA;
     const Eigen::VectorXd slope = stage.r + stage.B.transpose() * ahead;
     const Eigen::LLT<Eigen::MatrixXd> damped(
@@ -72,7 +70,7 @@ LqPolicy solveLq(const std::vector<LqStage>& stages, const Eigen::MatrixXd& F, c
     // With damping, K and k are not the best ones: this holds for any.
     const Eigen::MatrixXd P = stage.Q + stage.A.transpose() * PA + K.transpose() * weight * K -
                               K.transpose() * mixed - mixed.transpose() * K;
-    policy.P[t] = symmetric(P);
+    policy.P[t] = internal::symmetricPart(P);
     policy.p[t] =
         stage.q + stage.A.transpose() * ahead - K.transpose() * slope + (mixed - weight * K).transpose() * k;
   }

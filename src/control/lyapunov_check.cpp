@@ -10,11 +10,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/derivative_check.h"
 #include "base/error.h"
 #include "base/require_finite.h"
 #include "control/require_internal.h"
 #include "control/require_matrix_internal.h"
-#include "optim/derivative_check.h"
 
 namespace rex {
 namespace {

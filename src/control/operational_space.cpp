@@ -6,12 +6,12 @@
 
 #include <Eigen/Cholesky>
 
+#include "base/derivative_check.h"
 #include "control/require_internal.h"
 #include "dynamics/forward_dynamics.h"
 #include "dynamics/mass_matrix.h"
 #include "kinematics/hierarchical_step.h"
 #include "kinematics/inverse_kinematics.h"
-#include "optim/derivative_check.h"
 
 namespace rex {
 namespace {

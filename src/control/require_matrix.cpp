@@ -21,6 +21,8 @@ bool isPositiveDefinite(const MatrixArg& M) {
 
 }  // namespace
 
+Eigen::MatrixXd symmetricPart(const MatrixArg& M) { return 0.5 * (M + M.transpose()); }
+
 void requireFiniteMatrix(const std::string& name, const MatrixArg& M) {
   if (!M.allFinite())
     throw Error({.what = fmt::format("matrix {}", name), .found = "entries that are not finite"});

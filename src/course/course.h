@@ -4,6 +4,7 @@
 // Eigen/Geometry is here for a.cross(b): without it that compiles and then fails to link.
 #include <Eigen/Geometry>
 
+#include "base/derivative_check.h"
 #include "base/error.h"
 #include "base/rng.h"
 #include "course/linear_algebra.h"
@@ -13,4 +14,3 @@
 #include "course/recording.h"
 #include "course/replay.h"
 #include "course/simulator.h"
-#include "optim/derivative_check.h"

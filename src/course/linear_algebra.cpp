@@ -119,7 +119,7 @@ Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& A) {
 SingularValues svd(const Eigen::MatrixXd& A) {
   requireFinite("svd", A);
   if (A.size() == 0) return {Eigen::MatrixXd(A.rows(), 0), {}, Eigen::MatrixXd(A.cols(), 0)};
-  const Eigen::BDCSVD<Eigen::MatrixXd> decomposition(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> decomposition(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
   return {decomposition.matrixU(), decomposition.singularValues(), decomposition.matrixV()};
 }
 

@@ -11,7 +11,7 @@
 namespace rex {
 namespace {
 
-constexpr double kTolerance = 1e-9;
+constexpr double kAsymmetry = 1e-9;
 
 // What an entry may be at most in a semidefinite matrix, and so the measure of its rounding.
 double sizeOf(const MatrixArg& A, Eigen::Index i, Eigen::Index j) {
@@ -21,7 +21,7 @@ double sizeOf(const MatrixArg& A, Eigen::Index i, Eigen::Index j) {
 void requireSymmetric(const std::string& what, const MatrixArg& A) {
   for (Eigen::Index j = 0; j < A.cols(); ++j) {
     for (Eigen::Index i = 0; i < j; ++i) {
-      if (std::abs(A(i, j) - A(j, i)) <= kTolerance * sizeOf(A, i, j)) continue;
+      if (std::abs(A(i, j) - A(j, i)) <= kAsymmetry * sizeOf(A, i, j)) continue;
       throw Error(
           {.what = what,
            .found = fmt::format("{:g} at ({}, {}) and {:g} at ({}, {})", A(i, j), i, j, A(j, i), j, i),
@@ -63,7 +63,7 @@ void requireCovariance(std::string_view what, const MatrixArg& A, Eigen::Index s
   // A factorisation tells at a fraction of the price whether eigenvalues must be looked at.
   if (factor.info() == Eigen::Success && isDefinite(factor, A)) return;
   const double least = leastCorrelation(A);
-  if (wanted == Definiteness::kPositive || A.diagonal().minCoeff() < 0 || least < -kTolerance)
+  if (wanted == Definiteness::kPositive || A.diagonal().minCoeff() < 0 || least < -kAsymmetry)
     refuse(name,
            Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A, Eigen::EigenvaluesOnly).eigenvalues().minCoeff(),
            wanted);

@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "base/derivative_check.h"
 #include "base/error.h"
 #include "base/require_finite.h"
 #include "estimation/covariance.h"
-#include "optim/derivative_check.h"
 
 namespace rex {
 

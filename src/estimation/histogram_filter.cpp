@@ -9,7 +9,7 @@
 namespace rex {
 namespace {
 
-constexpr double kTolerance = 1e-9;
+constexpr double kSumTolerance = 1e-9;
 
 void requireNotNegative(const char* what, const VectorArg& numbers) {
   for (Eigen::Index i = 0; i < numbers.size(); ++i) {
@@ -22,7 +22,7 @@ void requireNotNegative(const char* what, const VectorArg& numbers) {
 
 void requireBelief(const VectorArg& belief) {
   requireNotNegative("probability", belief);
-  if (std::abs(belief.sum() - 1) <= kTolerance) return;
+  if (std::abs(belief.sum() - 1) <= kSumTolerance) return;
   throw Error({.what = "belief",
                .found = fmt::format("probabilities that sum to {:.12g}", belief.sum()),
                .wanted = "a sum of 1"});
@@ -42,7 +42,7 @@ void requireTransition(const CellTransition& transition, Eigen::Index cells) {
       isSound = isSound && entry.value() >= 0;
       sum += entry.value();
     }
-    if (isSound && std::abs(sum - 1) <= kTolerance) continue;
+    if (isSound && std::abs(sum - 1) <= kSumTolerance) continue;
     throw Error(
         {.what = fmt::format("transition from cell {}", j),
          .found = isSound ? fmt::format("probabilities that sum to {:.12g}", sum) : "a negative probability",

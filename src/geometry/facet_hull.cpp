@@ -16,11 +16,10 @@
 namespace rex {
 namespace {
 
-using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kFlat = 1e-9, kSame = 1e-9, kClosed = 1e-7;
+constexpr double kFlatFacet = 1e-9, kSame = 1e-9, kClosed = 1e-7;
 constexpr int kMostDimensions = 9;
 
 void requirePoints(const MatrixArg& points) {
@@ -32,7 +31,7 @@ void requirePoints(const MatrixArg& points) {
     throw Error({.what = "hull",
                  .found = fmt::format("{} points", points.cols()),
                  .wanted = fmt::format("at most {}", kMostFacetHullPoints)});
-  for (Index k = 0; k < points.cols(); ++k)
+  for (Eigen::Index k = 0; k < points.cols(); ++k)
     requireFinite(fmt::format("hull: point {}", k), VectorXd(points.col(k)));
 }
 
@@ -47,10 +46,11 @@ FacetHull lineHull(const MatrixXd& points) {
 
 // The points without those that lie in one place with another.
 MatrixXd apart(const MatrixXd& points) {
-  std::vector<Index> order(static_cast<std::size_t>(points.cols())), kept;
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(points.cols())), kept;
   std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](Index a, Index b) { return points(0, a) < points(0, b); });
-  for (const Index k : order) {
+  std::sort(order.begin(), order.end(),
+            [&](Eigen::Index a, Eigen::Index b) { return points(0, a) < points(0, b); });
+  for (const Eigen::Index k : order) {
     bool isNew = true;
     for (auto near = kept.rbegin(); isNew && near != kept.rend(); ++near) {
       if (points(0, k) - points(0, *near) > kSame) break;
@@ -79,11 +79,11 @@ void addFacets(internal::Qhull& qhull, const MatrixXd& centred, const MatrixXd& 
   std::vector<VectorXd> normals;
   facetT* facet;
   FORALLfacets normals.emplace_back(map * Eigen::Map<const VectorXd>(facet->normal, map.cols()));
-  hull.normals.resize(map.rows(), static_cast<Index>(normals.size()));
+  hull.normals.resize(map.rows(), static_cast<Eigen::Index>(normals.size()));
   for (std::size_t f = 0; f < normals.size(); ++f)
-    hull.normals.col(static_cast<Index>(f)) = normals[f].normalized();
+    hull.normals.col(static_cast<Eigen::Index>(f)) = normals[f].normalized();
   hull.offsets.resize(hull.normals.cols());
-  for (Index f = 0; f < hull.normals.cols(); ++f)
+  for (Eigen::Index f = 0; f < hull.normals.cols(); ++f)
     hull.offsets[f] = (hull.normals.col(f).transpose() * centred).maxCoeff();
 }
 
@@ -97,7 +97,7 @@ FacetHull facetHull(const MatrixArg& points) {
   const MatrixXd centred = points.colwise() - middle;
   const Eigen::JacobiSVD<MatrixXd> svd(centred.transpose(), Eigen::ComputeThinV);
   const VectorXd singular = svd.singularValues();
-  const double smallest = std::max(kFlat * singular[0], 1e-14 * points.cwiseAbs().maxCoeff());
+  const double smallest = std::max(kFlatFacet * singular[0], 1e-14 * points.cwiseAbs().maxCoeff());
   hull.dimension = static_cast<int>((singular.array() > smallest).count());
   if (hull.dimension < points.rows()) return hull;
   if (points.rows() == 1) return lineHull(points);

@@ -58,13 +58,13 @@ struct Face {
 
 // None for a triangle without area, or so flat that it has no direction.
 std::optional<Face> makeFace(const std::vector<Vector3f>& places, const Triangle& corners) {
-  constexpr double kFlat = 1e-9;
+  constexpr double kFlatTriangle = 1e-9;
   const auto at = [&](int k) -> Vector3d { return places[corners[k % 3]].cast<double>(); };
   Face face{.corners = corners, .normal = (at(1) - at(0)).cross(at(2) - at(0)), .angles = {}};
   double longest = 0;
   for (int k = 0; k < 3; ++k) longest = std::max(longest, (at(k + 1) - at(k)).squaredNorm());
   const double twiceArea = face.normal.norm();
-  if (!(twiceArea > kFlat * longest)) return std::nullopt;
+  if (!(twiceArea > kFlatTriangle * longest)) return std::nullopt;
   face.normal /= twiceArea;
   for (int k = 0; k < 3; ++k)
     face.angles[k] = std::atan2(twiceArea, (at(k + 1) - at(k)).dot(at(k + 2) - at(k)));

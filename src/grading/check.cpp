@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "grading/printable.h"
+#include "base/printable.h"
 #include "remote/signature.h"
 #include "remote/thrown.h"
 

@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/once_more.h"
+#include "base/printable.h"
+#include "base/sha256.h"
 #include "grading/hidden_seed.h"
-#include "grading/once_more_internal.h"
-#include "grading/printable.h"
-#include "grading/sha256.h"
 #include "grading/worker_process.h"
 #include "sandbox/probes.h"
 
@@ -134,7 +134,7 @@ Attempt attempt(const RunnableCheck& check, const GradeOptions& options, std::ui
 
 // The same questions: a program that kills itself has learnt nothing.
 Attempt attemptAgainIfKilled(const RunnableCheck& check, const GradeOptions& options, std::uint64_t seed) {
-  return internal::onceMoreIfKilled(
+  return onceMoreIfKilled(
       [&] { return attempt(check, options, seed); },
       [](const Attempt& first) { return first.run.failure && first.run.failure->killed; });
 }

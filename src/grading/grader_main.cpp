@@ -14,7 +14,7 @@
 #include "base/error.h"
 #include "grading/hidden_seed.h"
 #include "grading/result_file.h"
-#include "grading/unknown_check_internal.h"
+#include "grading/unknown_check.h"
 
 namespace rex::grading {
 namespace {
@@ -57,7 +57,7 @@ std::vector<RunnableCheck> select(const std::vector<RunnableCheck>& checks,
   std::vector<std::string> ids;
   for (const RunnableCheck& check : checks) ids.push_back(check.info.id);
   for (const std::string& id : only) {
-    if (std::find(ids.begin(), ids.end(), id) == ids.end()) throw internal::unknownCheck(id, ids);
+    if (std::find(ids.begin(), ids.end(), id) == ids.end()) throw unknownCheck(id, ids);
   }
   std::vector<RunnableCheck> selected;
   for (const RunnableCheck& check : checks) {

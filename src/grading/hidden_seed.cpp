@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "grading/sha256.h"
-#include "grading/text_file.h"
+#include "base/sha256.h"
+#include "base/text_file.h"
 
 namespace rex::grading {
 namespace {

@@ -1,6 +1,6 @@
 #include "grading/result_file.h"
 
-#include "grading/text_file.h"
+#include "base/text_file.h"
 
 namespace rex::grading {
 

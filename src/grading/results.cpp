@@ -266,6 +266,13 @@ GradeResult readResult(const Fields& fields) {
 
 }  // namespace
 
+std::string toString(const CompileDiagnostic& message) {
+  const std::string where = toString(SourceLocation{message.file, message.line, message.column});
+  const std::string rule = message.rule.empty() ? "" : fmt::format(" [{}]", message.rule);
+  return fmt::format("{}{}{}: {}{}", where, where.empty() ? "" : ": ", message.severity, message.message,
+                     rule);
+}
+
 std::string toJson(const GradeResult& result) {
   return resultToJson(result).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -65,6 +65,9 @@ struct CompileDiagnostic {
   std::string message{};
 };
 
+/// "main.cpp:47:3: error: message [rule]".
+[[nodiscard]] std::string toString(const CompileDiagnostic& message);
+
 struct CompileResult {
   int exitCode = 0;
   std::vector<CompileDiagnostic> diagnostics{};

@@ -20,10 +20,10 @@
 
 #include "base/error.h"
 #include "base/pipe.h"
+#include "base/private_folder.h"
 #include "grading/descendants.h"
 #include "grading/launch_internal.h"
 #include "grading/output_capture.h"
-#include "grading/private_folder.h"
 #include "remote/thrown.h"
 #include "sandbox/report.h"
 

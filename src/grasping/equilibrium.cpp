@@ -17,8 +17,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kProof = 1e-9;
-constexpr int kMostRounds = 100;
+constexpr double kEquilibriumProof = 1e-9;
+constexpr int kMostForceRounds = 100;
 
 // A linear program over forces on edges of cones, which get further edges while those would lower its cost.
 // Its rows are the d numbers of wrenches and, with a limit, one row per contact: sum / limit + slack = 1.
@@ -31,7 +31,7 @@ class EdgeProgram {
   // with multiple = 0 if `load` is zero.
   LinearSolution solve(double edgeCost, const VectorXd& load, const VectorXd& constant) {
     LinearSolution solution;
-    for (int round = 0; round < kMostRounds; ++round) {
+    for (int round = 0; round < kMostForceRounds; ++round) {
       solution = solveOnce(edgeCost, load, constant);
       const bool isOver =
           solution.status == LinearStatus::kUnbounded || solution.status == LinearStatus::kStalled;
@@ -68,7 +68,7 @@ class EdgeProgram {
       const double against = -direction.dot(lowest);
       if (limit_)
         sum += *limit_ * std::max(0.0, against);
-      else if (against > kProof * lowest.norm())
+      else if (against > kEquilibriumProof * lowest.norm())
         return std::numeric_limits<double>::infinity();
     }
     return sum;
@@ -94,7 +94,7 @@ class EdgeProgram {
 
   bool addEdges(double edgeCost, const VectorXd& y) {
     const Index d = set_.wrenches.rows(), before = set_.wrenches.cols();
-    const double smallest = kProof * (edgeCost + y.norm());
+    const double smallest = kEquilibriumProof * (edgeCost + y.norm());
     for (Index i = 0; i < size(); ++i) {
       const VectorXd edge = cones_[static_cast<std::size_t>(i)].lowest(-y.head(d));
       const double gain = y.head(d).dot(edge) + (limit_ ? y[d + i] / *limit_ : 0) - edgeCost;
@@ -136,7 +136,7 @@ Equilibrium undecided(std::string message) { return {.message = std::move(messag
 
 Equilibrium notHeld(const EdgeProgram& program, const VectorXd& direction, const VectorXd& load) {
   const double margin = direction.dot(load) - program.most(direction);
-  if (!(margin > kProof)) return undecided("rounding decides whether the load is held");
+  if (!(margin > kEquilibriumProof)) return undecided("rounding decides whether the load is held");
   return {.status = EquilibriumStatus::kNotHeld,
           .direction = direction,
           .residual = margin,

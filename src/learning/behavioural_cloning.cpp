@@ -11,7 +11,7 @@
 namespace rex {
 namespace {
 
-void requireFeatures(const MatrixArg& features) {
+void requireDemonstrations(const MatrixArg& features) {
   if (features.size() == 0)
     throw Error({.what = "features of the demonstrations",
                  .found = fmt::format("{} x {}", features.rows(), features.cols()),
@@ -105,7 +105,7 @@ void requireActions(const std::vector<int>& actions, Eigen::Index demonstrations
 }  // namespace
 
 LinearClone cloneLinear(const MatrixArg& features, const MatrixArg& actions, double ridge) {
-  requireFeatures(features);
+  requireDemonstrations(features);
   requireSize("actions of the demonstrations", actions.rows(), features.rows());
   if (actions.cols() == 0) throw Error({.what = "actions of the demonstrations", .found = "none"});
   for (Eigen::Index i = 0; i < actions.rows(); ++i)
@@ -134,7 +134,7 @@ Eigen::VectorXd SoftmaxPolicy::probabilities(const VectorArg& phi) const {
 
 SoftmaxClone cloneSoftmax(const MatrixArg& features, const std::vector<int>& actions, int count, double ridge,
                           int maxIterations) {
-  requireFeatures(features);
+  requireDemonstrations(features);
   requireActions(actions, features.rows(), count);
   if (!(ridge > 0) || !std::isfinite(ridge))
     throw Error({.what = "ridge", .found = fmt::format("{:g}", ridge), .wanted = "a positive number"});

@@ -13,7 +13,7 @@
 namespace rex {
 namespace {
 
-void requireFeatures(const MatrixArg& features) {
+void requireStateFeatures(const MatrixArg& features) {
   if (features.size() == 0)
     throw Error({.what = "features",
                  .found = fmt::format("{} x {}", features.rows(), features.cols()),
@@ -28,7 +28,7 @@ void require(const Mdp& mdp, const MatrixArg& features, const VectorArg& teacher
   requireMdp(mdp);
   if (mdp.discount == 1)
     throw Error({.what = "discount of inverse learning", .found = "1", .wanted = "less than 1"});
-  requireFeatures(features);
+  requireStateFeatures(features);
   requireSize("expectations of the teacher", teacher.size(), features.rows());
   requireFinite("expectations of the teacher", teacher);
   if (!(options.tolerance > 0) || !std::isfinite(options.tolerance))
@@ -57,14 +57,14 @@ Eigen::MatrixXd asColumns(const std::vector<Eigen::VectorXd>& columns) {
 
 Eigen::VectorXd featureExpectations(const Mdp& mdp, const MatrixArg& policy, const MatrixArg& features,
                                     const VectorArg& start) {
-  requireFeatures(features);
+  requireStateFeatures(features);
   requireSize("columns of the features, one for each state", features.cols(), mdp.states());
   return features * discountedVisits(mdp, policy, start);
 }
 
 Eigen::VectorXd featureExpectations(const std::vector<std::vector<int>>& demonstrations,
                                     const MatrixArg& features, double discount) {
-  requireFeatures(features);
+  requireStateFeatures(features);
   if (!(discount >= 0 && discount <= 1))
     throw Error({.what = "discount", .found = fmt::format("{:g}", discount), .wanted = "a number in [0, 1]"});
   if (demonstrations.empty()) throw Error({.what = "demonstrations", .found = "none"});

@@ -84,6 +84,14 @@ void requireEpisodes(const std::vector<Episode>& episodes, Eigen::Index features
   }
 }
 
+void requireTrials(const LinearGaussianPolicy& policy, const std::vector<Episode>& episodes,
+                   double discount) {
+  requirePolicy(policy);
+  requireEpisodes(episodes, policy.beta.size());
+  if (!(discount >= 0 && discount <= 1))
+    throw Error({.what = "discount", .found = fmt::format("{:g}", discount), .wanted = "a number in [0, 1]"});
+}
+
 Eigen::VectorXd returnsToGo(const VectorArg& rewards, double discount) {
   Eigen::VectorXd returns = rewards;
   for (Eigen::Index t = rewards.size() - 1; t-- > 0;) returns[t] += discount * returns[t + 1];

@@ -35,6 +35,8 @@ struct Episode {
 
 /// Throws Error naming the episode for sizes that do not fit, and what is not finite; Error if there is none.
 void requireEpisodes(const std::vector<Episode>& episodes, Eigen::Index features);
+/// The same of all that a search for a better policy goes by; the discount lies in [0, 1].
+void requireTrials(const LinearGaussianPolicy& policy, const std::vector<Episode>& episodes, double discount);
 
 /// Runs `count` episodes of a policy; the way to all simulators, which may run them side by side.
 using Rollouts = std::function<std::vector<Episode>(const LinearGaussianPolicy& policy, int count, Rng& rng)>;

@@ -21,13 +21,6 @@ Eigen::MatrixXd scores(const LinearGaussianPolicy& policy, const Episode& episod
   return scores;
 }
 
-void require(const LinearGaussianPolicy& policy, const std::vector<Episode>& episodes, double discount) {
-  requirePolicy(policy);
-  requireEpisodes(episodes, policy.beta.size());
-  if (!(discount >= 0 && discount <= 1))
-    throw Error({.what = "discount", .found = fmt::format("{:g}", discount), .wanted = "a number in [0, 1]"});
-}
-
 // Sums over episodes for each parameter and step: of score^2 Q and of score^2.
 struct BaselineSums {
   Eigen::ArrayXXd weighted{}, weights{};
@@ -87,7 +80,7 @@ Eigen::MatrixXd logGradients(const LinearGaussianPolicy& policy, const Episode& 
 
 PolicyGradient reinforceGradient(const LinearGaussianPolicy& policy, const std::vector<Episode>& episodes,
                                  double discount, Baseline baseline) {
-  require(policy, episodes, discount);
+  requireTrials(policy, episodes, discount);
   std::vector<Eigen::MatrixXd> all;
   std::vector<Eigen::VectorXd> Q;
   for (const Episode& episode : episodes) {
@@ -135,7 +128,7 @@ NaturalGradient naturalGradient(const LinearGaussianPolicy& policy, const std::v
 
 NaturalGradient episodicNaturalGradient(const LinearGaussianPolicy& policy,
                                         const std::vector<Episode>& episodes, double discount) {
-  require(policy, episodes, discount);
+  requireTrials(policy, episodes, discount);
   const Eigen::Index k = policy.beta.size(), count = static_cast<Eigen::Index>(episodes.size());
   Eigen::MatrixXd X(count, k);
   Eigen::VectorXd returns(count);

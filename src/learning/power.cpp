@@ -9,11 +9,7 @@
 namespace rex {
 namespace {
 
-void require(const LinearGaussianPolicy& policy, const std::vector<Episode>& episodes, double discount) {
-  requirePolicy(policy);
-  requireEpisodes(episodes, policy.beta.size());
-  if (!(discount >= 0 && discount <= 1))
-    throw Error({.what = "discount", .found = fmt::format("{:g}", discount), .wanted = "a number in [0, 1]"});
+void requireNoise(const LinearGaussianPolicy& policy) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(policy.Sigma, Eigen::EigenvaluesOnly);
   const Eigen::VectorXd& values = eigen.eigenvalues();
   if (!(values[0] > 1e-12 * values[values.size() - 1]))
@@ -26,7 +22,8 @@ void require(const LinearGaussianPolicy& policy, const std::vector<Episode>& epi
 
 PowerStep powerStep(const LinearGaussianPolicy& policy, const std::vector<Episode>& episodes,
                     double discount) {
-  require(policy, episodes, discount);
+  requireTrials(policy, episodes, discount);
+  requireNoise(policy);
   const Eigen::Index k = policy.beta.size();
   Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(k, k);
   Eigen::VectorXd moves = Eigen::VectorXd::Zero(k);

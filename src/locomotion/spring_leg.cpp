@@ -45,7 +45,7 @@ Vector4d stanceRate(const SpringLeg& leg, const Vector4d& x) {
 // How fast the leg gets longer, times its length.
 double stretching(const Vector4d& x) { return x.head<2>().dot(x.tail<2>()); }
 
-enum Ending : int { kStretched, kGround };
+enum FlightEnding : int { kStretched, kGround };
 
 // The leg is at its rest length at touchdown, too, where it still gets shorter.
 std::array<internal::Event<Vector4d>, 2> endings(const SpringLeg& leg) {

@@ -11,7 +11,7 @@
 namespace rex {
 namespace {
 
-constexpr const char* kName = "evolution strategy";
+constexpr const char* kEvolution = "evolution strategy";
 
 struct Sizes {
   int mu, lambda;
@@ -19,7 +19,7 @@ struct Sizes {
 
 Sizes sizesOf(Eigen::Index n, const EvolutionStrategyOptions& options) {
   const auto require = [](bool isRight, const char* what, int number, const char* wanted) {
-    internal::requireSearchOption(isRight, kName, what, number, wanted);
+    internal::requireSearchOption(isRight, kEvolution, what, number, wanted);
   };
   require(options.mu >= 0 && options.mu <= 100'000, "mu", options.mu, "1 to 100000, or 0 for the usual");
   const int usual = options.mu > 0 ? 4 * options.mu : 4 + static_cast<int>(n);
@@ -76,8 +76,8 @@ struct Species {
 
 SearchResult minimizeByEvolution(const BatchObjective& f, const VectorArg& start, double deviation, Rng& rng,
                                  const EvolutionStrategyOptions& options) {
-  internal::requireSearch(kName, start, deviation, options.target, options.maxEvaluations);
-  internal::requireSearchOption(options.smallestStep > 0, kName, "smallest step", options.smallestStep,
+  internal::requireSearch(kEvolution, start, deviation, options.target, options.maxEvaluations);
+  internal::requireSearchOption(options.smallestStep > 0, kEvolution, "smallest step", options.smallestStep,
                                 "a positive number");
   const Sizes sizes = sizesOf(start.size(), options);
   Species species(start, deviation, sizes);

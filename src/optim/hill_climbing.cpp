@@ -7,13 +7,14 @@
 namespace rex {
 namespace {
 
-constexpr const char* kName = "hill climbing";
+constexpr const char* kHillClimbing = "hill climbing";
 
 void requireSound(const VectorArg& start, const HillClimbingOptions& options) {
-  internal::requireSearch(kName, start, options.step, options.target, options.maxEvaluations);
-  internal::requireSearchOption(options.smallestStep > 0, kName, "smallest step", options.smallestStep,
-                                "a positive number");
-  internal::requireSearchOption(options.patience > 0, kName, "patience", options.patience, "1 or more");
+  internal::requireSearch(kHillClimbing, start, options.step, options.target, options.maxEvaluations);
+  internal::requireSearchOption(options.smallestStep > 0, kHillClimbing, "smallest step",
+                                options.smallestStep, "a positive number");
+  internal::requireSearchOption(options.patience > 0, kHillClimbing, "patience", options.patience,
+                                "1 or more");
 }
 
 SearchStatus statusOf(const SearchResult& result, double step, const HillClimbingOptions& options) {

@@ -39,17 +39,17 @@ GridCell cellOf(const GridMap& map, std::size_t index) {
 
 // Best first: costs of the cells that were reached, and where each was reached from. Stops at the goal, if
 // there is one.
-struct Search {
+struct GridSearch {
   std::vector<double> cost;
   std::vector<std::size_t> from;
   int expanded = 0;
 };
 
 template <class Estimate>
-Search searchFrom(const GridMap& map, GridCell start, const GridCell* goal, Connectivity connectivity,
-                  const Estimate& estimate) {
-  Search search{std::vector<double>(map.count(), kInfinite),
-                std::vector<std::size_t>(map.count(), map.count())};
+GridSearch searchFrom(const GridMap& map, GridCell start, const GridCell* goal, Connectivity connectivity,
+                      const Estimate& estimate) {
+  GridSearch search{std::vector<double>(map.count(), kInfinite),
+                    std::vector<std::size_t>(map.count(), map.count())};
   using Open = std::pair<double, std::size_t>;
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
   std::vector<bool> isDone(map.count());
@@ -100,7 +100,7 @@ std::vector<int> wavefront(const GridMap& map, GridCell goal, Connectivity conne
 
 std::vector<double> gridDistances(const GridMap& map, GridCell from, Connectivity connectivity) {
   map.requireFree("start", from);
-  Search search = searchFrom(map, from, nullptr, connectivity, [](GridCell) { return 0.; });
+  GridSearch search = searchFrom(map, from, nullptr, connectivity, [](GridCell) { return 0.; });
   for (double& cost : search.cost) cost *= map.cellSize();
   return std::move(search.cost);
 }
@@ -113,7 +113,7 @@ GridPath findGridPath(const GridMap& map, GridCell start, GridCell goal, Connect
     if (connectivity == Connectivity::kFour) return static_cast<double>(dx + dy);
     return std::max(dx, dy) + (kDiagonal - 1) * std::min(dx, dy);
   };
-  const Search search = searchFrom(map, start, &goal, connectivity, estimate);
+  const GridSearch search = searchFrom(map, start, &goal, connectivity, estimate);
   GridPath path{.expanded = search.expanded};
   if (search.cost[map.index(goal)] == kInfinite) return path;
   path.length = search.cost[map.index(goal)] * map.cellSize();

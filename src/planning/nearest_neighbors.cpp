@@ -16,7 +16,6 @@ namespace rex {
 namespace {
 
 using Kind = SpacePart::Kind;
-constexpr double kPi = std::numbers::pi;
 constexpr std::size_t kUsualDepth = 64;  // of a search; deeper ones take more memory
 
 constexpr double kEndless = std::numeric_limits<double>::infinity();
@@ -56,7 +55,7 @@ std::vector<int> pointsOf(std::vector<Neighbor> neighbors) {
 NearestNeighbors::NearestNeighbors(Space space) : space_(std::move(space)), isFlat_(true) {
   for (const SpacePart& part : space_.parts()) {
     isFlat_ = isFlat_ && (part.kind == Kind::kLine || part.kind == Kind::kCircle);
-    periods_.push_back(part.kind == Kind::kCircle ? 2 * kPi * part.weight : kEndless);
+    periods_.push_back(part.kind == Kind::kCircle ? 2 * std::numbers::pi * part.weight : kEndless);
   }
 }
 
@@ -69,7 +68,7 @@ Eigen::VectorXd NearestNeighbors::scaled(const VectorArg& q) const {
   for (const SpacePart& part : space_.parts()) {
     const int count = sizeOf(part.kind);
     const bool isAngle = part.kind == Kind::kCircle || part.kind == Kind::kChord;
-    if (isAngle && std::abs(x[i]) > kPi) x[i] = std::remainder(x[i], 2 * kPi);
+    if (isAngle && std::abs(x[i]) > std::numbers::pi) x[i] = std::remainder(x[i], 2 * std::numbers::pi);
     if (part.kind != Kind::kChord) x.segment(i, count) *= part.weight;
     i += count;
   }

@@ -15,7 +15,6 @@ namespace rex {
 namespace {
 
 using Kind = SpacePart::Kind;
-constexpr double kPi = std::numbers::pi;
 
 void requireSound(const SpacePart& part, std::size_t i) {
   const auto refuse = [&](const std::string& found, const std::string& wanted) {
@@ -30,7 +29,7 @@ void requireSound(const SpacePart& part, std::size_t i) {
 
 double turn(double from, double to) {
   const double way = to - from;
-  return std::abs(way) <= kPi ? way : std::remainder(way, 2 * kPi);
+  return std::abs(way) <= std::numbers::pi ? way : std::remainder(way, 2 * std::numbers::pi);
 }
 
 // Half the angle between two rotations, which is the arc between the quaternions.
@@ -149,7 +148,7 @@ void Space::sample(Rng& rng, Eigen::Ref<Eigen::VectorXd> out) const {
     else if (part.kind == Kind::kLine)
       out[i] = rng.uniform(part.lower, part.upper);
     else
-      out[i] = rng.uniform(-kPi, kPi);
+      out[i] = rng.uniform(-std::numbers::pi, std::numbers::pi);
     i += sizeOf(part.kind);
   }
 }

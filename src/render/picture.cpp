@@ -11,11 +11,11 @@ namespace rex {
 namespace {
 
 // Beyond this many metres single precision, in which OpenGL computes, has nothing left to show.
-constexpr double kLargest = 1e9;
+constexpr double kLargestNumber = 1e9;
 
-bool isUsable(double number) { return std::abs(number) <= kLargest; }
+bool isUsable(double number) { return std::abs(number) <= kLargestNumber; }
 
-bool isUsable(const Eigen::Vector3d& p) { return p.allFinite() && p.cwiseAbs().maxCoeff() <= kLargest; }
+bool isUsable(const Eigen::Vector3d& p) { return p.allFinite() && p.cwiseAbs().maxCoeff() <= kLargestNumber; }
 
 bool isUsable(const Pose& X) { return X.R.allFinite() && isUsable(X.p); }
 

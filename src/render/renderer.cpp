@@ -31,8 +31,8 @@ using internal::GlFunctions;
 using internal::GlProgram;
 using internal::ShaderSource;
 
-constexpr int kLargest = 8192;  // pixels
-constexpr int kSamples = 4;     // per pixel, of AntiAliasing::kMsaa4
+constexpr int kLargestImage = 8192;  // pixels
+constexpr int kSamples = 4;          // per pixel, of AntiAliasing::kMsaa4
 
 const RendererOptions& checked(const RendererOptions& options) {
   requireValid(options);
@@ -112,11 +112,11 @@ class CurrentContext {
 }  // namespace
 
 void requireValid(const RendererOptions& options) {
-  const auto inRange = [](int size) { return size >= 1 && size <= kLargest; };
+  const auto inRange = [](int size) { return size >= 1 && size <= kLargestImage; };
   if (!inRange(options.width) || !inRange(options.height))
     throw Error({.what = "picture size",
                  .found = fmt::format("{} x {}", options.width, options.height),
-                 .wanted = fmt::format("1 to {} pixels each way", kLargest)});
+                 .wanted = fmt::format("1 to {} pixels each way", kLargestImage)});
 }
 
 // All OpenGL objects belong to the context and end with it.

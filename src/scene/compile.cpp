@@ -15,10 +15,8 @@
 namespace rex {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // With only a mass given, the inertia of a solid sphere of 0.7 m radius: see share/doc/ors-format.md.
 constexpr double kInertiaPerMass = 0.2;
-constexpr const char* kWorldName = "world";
 
 [[noreturn]] void fail(const SourceLocation& where, std::string what, std::string found, std::string wanted,
                        std::vector<std::string> nearest = {}) {
@@ -306,8 +304,8 @@ Coordinates indexCoordinates(std::vector<Joint>& joints, const std::vector<const
     joint.vIndex = all.nv;
     all.nv += joint.nv;
     append(all.q0, spec.start());
-    append(all.lower, limitsOf(spec.lower, joint.nq, -kInfinity));
-    append(all.upper, limitsOf(spec.upper, joint.nq, kInfinity));
+    append(all.lower, limitsOf(spec.lower, joint.nq, -kUnlimited));
+    append(all.upper, limitsOf(spec.upper, joint.nq, kUnlimited));
   }
   return all;
 }
@@ -325,8 +323,8 @@ void narrowLimits(const JointSpec& spec, const Joint& joint, Coordinates& all) {
   const auto followed = [&](const Eigen::VectorXd& own) {
     return Eigen::VectorXd((own.array() - joint.offset) / joint.ratio);
   };
-  Eigen::VectorXd lower = followed(limitsOf(spec.lower, joint.nq, -kInfinity));
-  Eigen::VectorXd upper = followed(limitsOf(spec.upper, joint.nq, kInfinity));
+  Eigen::VectorXd lower = followed(limitsOf(spec.lower, joint.nq, -kUnlimited));
+  Eigen::VectorXd upper = followed(limitsOf(spec.upper, joint.nq, kUnlimited));
   if (joint.ratio < 0) lower.swap(upper);
   for (int i = 0; i < joint.nq; ++i) {
     double& least = all.lower[joint.qIndex + i];

@@ -12,17 +12,17 @@ namespace rex::ors {
 namespace {
 
 // Screw and cylindrical joints are an extension of ours and have no numbers.
-constexpr Choice kTypes[] = {{0, "hingeX"},      {1, "hingeY"},    {2, "hingeZ"},  {3, "transX"},
-                             {4, "transY"},      {5, "transZ"},    {6, "transXY"}, {7, "trans3"},
-                             {8, "transXYPhi"},  {9, "universal"}, {10, "rigid"},  {11, "quatBall"},
-                             {12, "phiTransXY"}, {13, "glue"},     {14, "free"},   {-1, "screw"},
-                             {-1, "cylindrical"}};
-constexpr JointType kMeaning[] = {JointType::kHinge,       JointType::kHinge,        JointType::kHinge,
-                                  JointType::kSlider,      JointType::kSlider,       JointType::kSlider,
-                                  JointType::kPlanarXY,    JointType::kTranslation3, JointType::kPlanarXYPhi,
-                                  JointType::kUniversal,   JointType::kRigid,        JointType::kBall,
-                                  JointType::kPlanarPhiXY, JointType::kRigid,        JointType::kFree,
-                                  JointType::kScrew,       JointType::kCylindrical};
+constexpr Choice kJointWords[] = {{0, "hingeX"},      {1, "hingeY"},    {2, "hingeZ"},  {3, "transX"},
+                                  {4, "transY"},      {5, "transZ"},    {6, "transXY"}, {7, "trans3"},
+                                  {8, "transXYPhi"},  {9, "universal"}, {10, "rigid"},  {11, "quatBall"},
+                                  {12, "phiTransXY"}, {13, "glue"},     {14, "free"},   {-1, "screw"},
+                                  {-1, "cylindrical"}};
+constexpr JointType kJointTypes[] = {
+    JointType::kHinge,       JointType::kHinge,     JointType::kHinge,    JointType::kSlider,
+    JointType::kSlider,      JointType::kSlider,    JointType::kPlanarXY, JointType::kTranslation3,
+    JointType::kPlanarXYPhi, JointType::kUniversal, JointType::kRigid,    JointType::kBall,
+    JointType::kPlanarPhiXY, JointType::kRigid,     JointType::kFree,     JointType::kScrew,
+    JointType::kCylindrical};
 constexpr Alias kOfUrdf[] = {{"prismatic", "transX"},  {"revolute", "hingeX"}, {"continuous", "hingeX"},
                              {"fixed", "rigid"},       {"floating", "free"},   {"planar", "transXYPhi"},
                              {"spherical", "quatBall"}};
@@ -30,8 +30,8 @@ constexpr double kNear = 1e-4;         // files may give six digits
 constexpr std::size_t kAlongAxes = 6;  // the first types turn about or move along x, y, z
 
 void readType(const Attributes& attributes, const JointSpec* followed, JointSpec& joint) {
-  const std::size_t type = attributes.choice("type", kTypes, kOfUrdf).value_or(0);
-  joint.type = kMeaning[type];
+  const std::size_t type = attributes.choice("type", kJointWords, kOfUrdf).value_or(0);
+  joint.type = kJointTypes[type];
   if (type < kAlongAxes) joint.axis = Eigen::Vector3d::Unit(static_cast<int>(type) % 3);
   if (followed && !attributes.has("type")) {
     joint.type = followed->type;

@@ -18,8 +18,6 @@ using ors::Attributes;
 using ors::Node;
 using ors::Place;
 
-constexpr const char* kWorldName = "world";
-
 [[noreturn]] void fail(const Place& where, std::string what, std::string found, std::string wanted,
                        std::vector<std::string> nearest = {}) {
   throw Error({std::move(what), where, std::move(found), std::move(wanted), std::move(nearest)});

@@ -7,25 +7,25 @@ namespace {
 
 constexpr int kRetiredBox = 6;
 
-constexpr Choice kTypes[] = {{0, "ST_box"},      {1, "ST_sphere"}, {2, "ST_capsule"}, {3, "ST_mesh"},
-                             {4, "ST_cylinder"}, {5, "ST_marker"}, {kRetiredBox, ""}, {7, "ST_pointCloud"},
-                             {8, "ST_ssCvx"},    {9, "ST_ssBox"}};
-constexpr ShapeType kMeaning[] = {
+constexpr Choice kShapeWords[] = {
+    {0, "ST_box"},    {1, "ST_sphere"},  {2, "ST_capsule"},    {3, "ST_mesh"},  {4, "ST_cylinder"},
+    {5, "ST_marker"}, {kRetiredBox, ""}, {7, "ST_pointCloud"}, {8, "ST_ssCvx"}, {9, "ST_ssBox"}};
+constexpr ShapeType kShapeTypes[] = {
     ShapeType::kBox,        ShapeType::kSphere,     ShapeType::kCapsule,
     ShapeType::kMesh,       ShapeType::kCylinder,   ShapeType::kMarker,
     ShapeType::kRoundedBox, ShapeType::kPointCloud, ShapeType::kSphereSweptConvex,
     ShapeType::kRoundedBox};
 
 ShapeType readType(const Attributes& attributes, const Place& where, Diagnostics& notes) {
-  const auto type = attributes.choice("type", kTypes);
+  const auto type = attributes.choice("type", kShapeWords);
   if (!type) {
     throw Error({.what = attributes.owner() + ": attribute 'type' is missing",
                  .where = where,
                  .wanted = "type=0 .. type=9"});
   }
-  if (kTypes[*type].number == kRetiredBox)
+  if (kShapeWords[*type].number == kRetiredBox)
     attributes.note("type", "6 is retired: read as ST_ssBox, a rounded box", Severity::kNote, notes);
-  return kMeaning[*type];
+  return kShapeTypes[*type];
 }
 
 // Whether the fourth number of its size matters, and a shape without it is likely a mistake.

@@ -22,7 +22,6 @@ using ors::poseText;
 
 using Parts = std::vector<std::string>;  // the attributes of a statement
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kWidestColumn = 32;
 constexpr double kInertiaPerMass = 0.2;  // what compile() takes when only a mass is given
 
@@ -152,8 +151,8 @@ void addLimits(const JointSpec& joint, Parts& parts) {
   const int n = positionCount(joint.type);
   if (joint.lower.size() > 0 || joint.upper.size() > 0) {
     Eigen::Matrix2Xd limits(2, n);
-    limits.row(0).setConstant(-kInfinity);
-    limits.row(1).setConstant(kInfinity);
+    limits.row(0).setConstant(-kUnlimited);
+    limits.row(1).setConstant(kUnlimited);
     if (joint.lower.size() > 0) limits.row(0) = joint.lower;
     if (joint.upper.size() > 0) limits.row(1) = joint.upper;
     parts.push_back("limits=" + arrayText(limits.reshaped()));

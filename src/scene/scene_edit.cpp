@@ -12,8 +12,6 @@
 namespace rex {
 namespace {
 
-constexpr const char* kWorldName = "world";
-
 [[noreturn]] void fail(const JointSpec& joint, const char* what, std::string found, std::string wanted) {
   throw Error({.what = fmt::format("joint '{}': {}", joint.name, what),
                .where = joint.where,
@@ -145,10 +143,9 @@ void reverse(JointSpec& joint) {
   joint.type = reversal.type;
   if (reversal.coordinates.empty()) return;
   joint.q0 = reordered(joint.q0, reversal);
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const int n = positionCount(joint.type);
-  if (joint.lower.size() == 0 && joint.upper.size() > 0) joint.lower.setConstant(n, -kInfinity);
-  if (joint.upper.size() == 0 && joint.lower.size() > 0) joint.upper.setConstant(n, kInfinity);
+  if (joint.lower.size() == 0 && joint.upper.size() > 0) joint.lower.setConstant(n, -kUnlimited);
+  if (joint.upper.size() == 0 && joint.lower.size() > 0) joint.upper.setConstant(n, kUnlimited);
   const Eigen::VectorXd one = reordered(joint.lower, reversal), other = reordered(joint.upper, reversal);
   joint.lower = one.cwiseMin(other);
   joint.upper = one.cwiseMax(other);

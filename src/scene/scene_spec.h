@@ -15,6 +15,12 @@
 
 namespace rex {
 
+/// The frame that everything stands in, as joints name it; no body is called so.
+inline constexpr const char* kWorldName = "world";
+
+/// A limit that is none.
+inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+
 /// The motions a joint allows, from joint frame F to moved frame M. Coordinates in the order q lists them:
 /// hinge, slider: angle about or way along `axis`; screw: angle about `axis`, along which it moves by `pitch`
 /// per turn; cylindrical: angle about `axis`, then way along it; planarXY, translation3: moves along x, y (,
@@ -86,10 +92,10 @@ struct JointSpec {
   Eigen::VectorXd lower{}, upper{};                 ///< limits of each coordinate, its own; empty: none
   std::string mimic{};  ///< a joint that moves this one: q = ratio * q of that joint + offset; empty: none
   double mimicRatio = 1, mimicOffset = 0;  ///< other than 1 and 0 only for joints of one coordinate
-  double maxVelocity = std::numeric_limits<double>::infinity();  ///< rad/s or m/s
-  double maxEffort = std::numeric_limits<double>::infinity();    ///< N m or N
-  double damping = 0;                                            ///< N m s/rad or N s/m
-  double friction = 0;                                           ///< N m or N
+  double maxVelocity = kUnlimited;         ///< rad/s or m/s
+  double maxEffort = kUnlimited;           ///< N m or N
+  double damping = 0;                      ///< N m s/rad or N s/m
+  double friction = 0;                     ///< N m or N
   SourceLocation where{};
 
   /// q0, or the zero position if that is empty.

@@ -13,8 +13,6 @@
 namespace rex::urdf {
 namespace {
 
-const std::string kWorldName = "world";
-
 [[noreturn]] void fail(const JointSpec& joint, const std::string& what, const std::string& wanted) {
   throw Error(
       {.what = fmt::format("joint '{}': {}", joint.name, what), .where = joint.where, .wanted = wanted});
@@ -176,7 +174,8 @@ class Expansion {
     const auto isAtHome = [](const BodySpec* root) { return isApprox(root->X_WB, Pose{}, 0); };
     if (!needsWorld && roots.size() == 1 && isAtHome(roots[0])) return;
     for (const BodySpec* root : roots) {
-      JointSpec joint = rigid(unique(jointNames_, kWorldName + ">" + root->name), kWorldName, root->X_WB);
+      JointSpec joint =
+          rigid(unique(jointNames_, std::string(kWorldName) + ">" + root->name), kWorldName, root->X_WB);
       joint.child = root->name;
       addLast(std::move(joint), levels_.missing(root->name, 0, 1));
     }

@@ -11,10 +11,11 @@
 namespace rex::urdf {
 namespace {
 
-const std::vector<std::string> kTypes = {"revolute", "continuous", "prismatic",
-                                         "fixed",    "floating",   "planar"};
-constexpr std::array<JointType, 6> kMeaning = {JointType::kHinge, JointType::kHinge, JointType::kSlider,
-                                               JointType::kRigid, JointType::kFree,  JointType::kPlanarXYPhi};
+const std::vector<std::string> kUrdfTypes = {"revolute", "continuous", "prismatic",
+                                             "fixed",    "floating",   "planar"};
+constexpr std::array<JointType, 6> kTypesOfUrdf = {JointType::kHinge,  JointType::kHinge,
+                                                   JointType::kSlider, JointType::kRigid,
+                                                   JointType::kFree,   JointType::kPlanarXYPhi};
 
 Eigen::Vector3d readAxis(const Tag& joint) {
   const std::optional<Tag> tag = joint.child("axis");
@@ -121,12 +122,12 @@ ReadJoint readJoint(const Tag& tag) {
   joint.expect(kKnown);
   spec.where = joint.where();
   const std::string& type = joint.text("type");
-  const auto known = std::find(kTypes.begin(), kTypes.end(), type);
-  if (known == kTypes.end()) {
+  const auto known = std::find(kUrdfTypes.begin(), kUrdfTypes.end(), type);
+  if (known == kUrdfTypes.end()) {
     joint.fail(joint.where("type"), "unknown type", xml::quoted(type),
-               "revolute, continuous, prismatic, fixed, floating or planar", nearestNames(type, kTypes));
+               "revolute, continuous, prismatic, fixed, floating or planar", nearestNames(type, kUrdfTypes));
   }
-  spec.type = kMeaning[static_cast<std::size_t>(known - kTypes.begin())];
+  spec.type = kTypesOfUrdf[static_cast<std::size_t>(known - kUrdfTypes.begin())];
   spec.parent = readEnd(joint, "parent", read.parentAt);
   spec.child = readEnd(joint, "child", read.childAt);
   spec.X_PF = joint.origin();

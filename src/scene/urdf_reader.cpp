@@ -12,7 +12,6 @@ namespace {
 
 using namespace urdf;
 
-constexpr std::string_view kWorldName = "world";
 constexpr std::size_t kMostJoints = 1000;
 
 const std::vector<std::string> kIgnored = {"transmission", "gazebo", "ros2_control", "sensor"};

@@ -21,7 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 using namespace urdf;
 
-const std::string kWorldName = "world";
 constexpr double kWide = 1e9;  // stands for "no limit", which URDF cannot say
 
 // URDF tells things by their names.

@@ -12,8 +12,7 @@
 #include "base/interruption.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::child_process_test {
 
 ChildProcess::Deadline soon() { return ChildProcess::after(30); }
 
@@ -90,5 +89,4 @@ TEST_F(ChildProcessTest, SaysWhatCannotBeStarted) {
   EXPECT_REX_ERROR(ChildProcess({}), "no program to run");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::child_process_test

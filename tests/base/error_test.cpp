@@ -5,8 +5,7 @@
 
 #include "base/diagnostic.h"
 
-namespace rex {
-namespace {
+namespace rex::error_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -60,5 +59,4 @@ TEST(Diagnostic, PrintsItsPlace) {
             "arm.urdf:7:3: warning: unknown tag");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::error_test

@@ -9,8 +9,7 @@
 #include "base/exp_log_kernel.h"
 #include "base/rng.h"
 
-namespace rex {
-namespace {
+namespace rex::exp_log_test {
 
 using Limits = std::numeric_limits<double>;
 using Function = void (*)(const double* numbers, int count, double* out);
@@ -84,5 +83,4 @@ TEST_P(ExpLogInLanes, HasTheBitsOfOne) {
 
 INSTANTIATE_TEST_SUITE_P(TwoAndFour, ExpLogInLanes, testing::Values(2, 4));
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::exp_log_test

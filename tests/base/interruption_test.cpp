@@ -8,8 +8,7 @@
 
 #include "base/process.h"
 
-namespace rex {
-namespace {
+namespace rex::interruption_test {
 
 // A shell that sends this process a signal, then tells by its own end how it was treated.
 std::vector<std::string> signalling(const std::string& name, const std::string& then) {
@@ -106,5 +105,4 @@ TEST(ThrowIfInterrupted, LeavesIgnoredSignalsIgnored) {
   std::signal(SIGHUP, before);
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::interruption_test

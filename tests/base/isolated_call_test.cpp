@@ -18,8 +18,7 @@
 #include "base/interruption.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::isolated_call_test {
 
 std::string nothing() { return {}; }
 
@@ -181,5 +180,4 @@ TEST(CallIsolated, TellsThatThereIsNoProcessLeft) {
   EXPECT_REX_ERROR(callIsolated(starve), "cannot start a process: found Resource temporarily unavailable");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::isolated_call_test

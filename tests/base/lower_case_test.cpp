@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rex {
-namespace {
+namespace rex::lower_case_test {
 
 TEST(LowerCase, ChangesTheCapitalsOfTheAlphabetOnly) {
   EXPECT_EQ(lowerCase("AbcXYZ[@`{ 09 \xc3\x84"), "abcxyz[@`{ 09 \xc3\x84");
@@ -16,5 +15,4 @@ TEST(EndingOf, HasItsPointAndSmallLetters) {
   for (const char* none : {"", "arm", "a.b/arm", ".ors", "a/..", "."}) EXPECT_EQ(endingOf(none), "") << none;
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::lower_case_test

@@ -13,8 +13,7 @@
 #include "base/normal_kernel_internal.h"
 #include "base/rng.h"
 
-namespace rex {
-namespace {
+namespace rex::normal_stream_test {
 
 std::vector<double> drawn(std::uint64_t seed, std::size_t count) {
   Rng rng(seed);
@@ -129,5 +128,4 @@ TEST_P(NormalsInLanes, HaveTheBitsOfOne) {
 
 INSTANTIATE_TEST_SUITE_P(TwoAndFour, NormalsInLanes, testing::Values(2, 4));
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::normal_stream_test

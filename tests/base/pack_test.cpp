@@ -10,8 +10,7 @@
 #include "base/pack_kernel.h"
 #include "base/rng.h"
 
-namespace rex {
-namespace {
+namespace rex::pack_test {
 
 // Pairs of numbers of all sizes, and of all that is special with one another.
 struct Numbers {
@@ -82,5 +81,4 @@ TEST(Pack, AddsAndSelectsAsWritten) {
   EXPECT_EQ(results[2 * PackKernel::kOperations + 14], 2);
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::pack_test

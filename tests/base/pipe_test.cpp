@@ -13,8 +13,7 @@
 
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::pipe_test {
 
 TEST(Pipe, CarriesBytesAndEndsWhenItsWriterCloses) {
   Pipe pipe;
@@ -87,5 +86,4 @@ TEST(SigpipeIgnored, HoldsForItsThreadWhateverOthersDo) {
   writer.join();
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::pipe_test

@@ -10,8 +10,7 @@
 
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::process_test {
 
 TEST(RunProcess, FeedsInputAndKeepsBothOutputs) {
   const ProcessResult result = runProcess({"sh", "-c", "cat; echo trouble >&2; exit 3"}, {.input = "hello"});
@@ -98,5 +97,4 @@ TEST(RunProcess, LeavesNoProgramBehindWhenTheCallerDies) {
 
 TEST(RunProcess, WorksInTheGivenFolder) { EXPECT_EQ(runProcess({"pwd"}, {.directory = "/"}).output, "/\n"); }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::process_test

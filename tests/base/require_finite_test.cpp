@@ -7,8 +7,7 @@
 
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::require_finite_test {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -26,5 +25,4 @@ TEST(RequireFinite, NamesWhatIsNone) {
                    "posture: number 2: found inf, wanted a finite number");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::require_finite_test

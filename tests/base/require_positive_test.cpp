@@ -6,8 +6,7 @@
 
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::require_positive_test {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -29,5 +28,4 @@ TEST(RequireNotNegative, TakesZero) {
     EXPECT_REX_ERROR(requireNotNegative("length", number), "wanted a number that is not negative");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::require_positive_test

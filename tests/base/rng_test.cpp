@@ -7,8 +7,7 @@
 
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::rng_test {
 
 // The reference sequence of xoshiro256** for the state (1, 2, 3, 4), by hand from its definition:
 // rotl(2*5, 7)*9 = 11520, then the state moves on.
@@ -91,5 +90,4 @@ TEST(Rng, RefusesImpossibleRanges) {
   EXPECT_REX_ERROR(Rng::fromState({0, 0, 0, 0}), "random generator state: found all zeros");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::rng_test

@@ -10,8 +10,7 @@
 #include "base/rng.h"
 #include "base/sin_cos_kernel.h"
 
-namespace rex {
-namespace {
+namespace rex::sin_cos_test {
 
 struct SinesAndCosines {
   std::vector<double> sines, cosines;
@@ -74,5 +73,4 @@ TEST_P(SinCosInLanes, HasTheBitsOfOne) {
 
 INSTANTIATE_TEST_SUITE_P(TwoAndFour, SinCosInLanes, testing::Values(2, 4));
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::sin_cos_test

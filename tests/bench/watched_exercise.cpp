@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <thread>
 
-#include "grading/regions.h"
-#include "grading/text_file.h"
+#include "base/text_file.h"
+#include "submission/regions.h"
 
 namespace rex::bench {
 namespace {
@@ -28,8 +28,8 @@ void copyExercise(const fs::path& from, const fs::path& to) {
 std::string nearlyRight(const fs::path& exercise) {
   const fs::path solution = exercise / "solution.cpp",
                  wrong = exercise / "wrong" / (std::string(kMistake) + ".cpp");
-  return grading::composeVariant(grading::readTextFile(solution), solution.string(),
-                                 grading::readTextFile(wrong), wrong.string())
+  return grading::composeVariant(rex::readTextFile(solution), solution.string(), rex::readTextFile(wrong),
+                                 wrong.string())
       .source;
 }
 
@@ -64,7 +64,7 @@ double WatchedExercise::testCpuSeconds() const {
 }
 
 void WatchedExercise::save() {
-  grading::replaceTextFile(main_, source_ + "// " + std::to_string(++saves_) + "\n", "the student's file");
+  rex::replaceTextFile(main_, source_ + "// " + std::to_string(++saves_) + "\n", "the student's file");
 }
 
 void WatchedExercise::waitForNewResult() {

@@ -11,12 +11,11 @@
 
 #include "base/process.h"
 #include "cli/linked_build.h"
-#include "grading/report.h"
+#include "reports/report.h"
 #include "support/needs_osmesa.h"
 #include "support/report_checker.h"
 
-namespace rex::cli {
-namespace {
+namespace rex::cli::acceptance_bars_test {
 
 using ::testing::HasSubstr;
 
@@ -143,7 +142,7 @@ TEST_F(AcceptanceBars, Bar06EachSaveLeadsToOneVerdict) {
 TEST_F(AcceptanceBars, Bar07ThePageNeedsNoNetworkAndHoldsAMotion) {
   REX_NEEDS_OSMESA();
   const auto pageOf = [&](const std::vector<std::string>& postures) {
-    std::vector<std::string> command = {REX_BINARY_DIR "/rex", "render", "man.ors", "-o",
+    std::vector<std::string> command = {REX_BINARY_DIR "/rex-robot", "render", "man.ors", "-o",
                                         root() / "page.html"};
     for (const std::string& q : postures) command.insert(command.end(), {"--q", q});
     const ProcessResult ended = runProcess(command, {.timeout = 250});
@@ -227,5 +226,4 @@ TEST_F(AcceptanceBars, Bar08MalformedRobotsAreExplainedWithFileLineAndFix) {
   }
 }
 
-}  // namespace
-}  // namespace rex::cli
+}  // namespace rex::cli::acceptance_bars_test

@@ -9,8 +9,7 @@
 
 #include "cli/template_project.h"
 
-namespace rex::cli {
-namespace {
+namespace rex::cli::broken_submissions_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -60,5 +59,4 @@ TEST_P(BrokenSubmission, IsExplained) {
 INSTANTIATE_TEST_SUITE_P(All, BrokenSubmission, ::testing::ValuesIn(submissions()),
                          [](const auto& tested) { return tested.param; });
 
-}  // namespace
-}  // namespace rex::cli
+}  // namespace rex::cli::broken_submissions_test

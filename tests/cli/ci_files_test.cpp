@@ -6,8 +6,7 @@
 #include "cli/template_project.h"
 #include "support/report_checker.h"
 
-namespace rex::cli {
-namespace {
+namespace rex::cli::ci_files_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -135,17 +134,16 @@ class Gradescope : public CiFiles {
     if (!runProcess({"git", "--version"}).ok()) GTEST_SKIP() << "git is not installed";
     if (!runProcess({"unzip", "-v"}).ok()) GTEST_SKIP() << "unzip is not installed";
     const ProcessResult made = shell(
-        // Older than the grader, which would be built anew otherwise.
-        "export GIT_AUTHOR_DATE=2005-01-01T00:00:00 GIT_COMMITTER_DATE=2005-01-01T00:00:00\n"
         "mkdir -p tests && echo x >tests/secret && echo build >.gitignore && git init -q . && git add -A\n"
         "git -c user.name=x -c user.email=x@y commit -q -m x\n"
         "echo 'Correct Horse Battery' >../secret.txt\n"
         "share/ci/gradescope/make-zip 98-template autograder.zip ../secret.txt\n"
-        "mkdir -p a/submission && unzip -q autograder.zip -d a/source && cp a/source/run_autograder a/\n"
-        "a/source/setup.sh",
+        "mkdir -p a/submission && unzip -q autograder.zip -d a/source && cp a/source/run_autograder a/\n",
         root());
     ASSERT_TRUE(made.ok()) << made.output << made.error;
     makeBuild(source() / "rex" / "build");
+    const ProcessResult prepared = shell("a/source/setup.sh", root());
+    ASSERT_TRUE(prepared.ok()) << prepared.output << prepared.error;
   }
   fs::path source() const { return root() / "a" / "source"; }
   fs::path result() const { return root() / "a" / "results" / "results.json"; }
@@ -320,5 +318,4 @@ TEST_F(ManyByEngines, CutsArraysThatAreTooLongForSlurm) {
   EXPECT_THAT(refused.error, HasSubstr("--tasks: found 'x;y', wanted numbers such as 3,7-9"));
 }
 
-}  // namespace
-}  // namespace rex::cli
+}  // namespace rex::cli::ci_files_test

@@ -3,8 +3,7 @@
 
 #include "base/process.h"
 
-namespace rex::cli {
-namespace {
+namespace rex::cli::command_line_test {
 
 using ::testing::HasSubstr;
 
@@ -99,14 +98,21 @@ TEST(Program, AnswersUnknownWordsWithTheNearest) {
   expectUsageError({"dev", "chek"}, "rex dev: unknown command 'chek' (did you mean 'check'?)");
   expectUsageError({"test", "01", "--sed", "3"}, "rex test: unknown option '--sed' (did you mean '--seed'?)");
   expectUsageError({"list", "extra"}, "rex list: unknown argument 'extra'");
-  expectUsageError({"--json", "scene", "man"},
-                   "rex: option '--json' stands too early: wanted it behind `rex scene FILE`");
-  expectUsageError({"--seed=3", "test", "01"},
-                   "rex: option '--seed=3' stands too early: wanted it behind `rex test`");
+  expectUsageError({"--json", "scene", "man"}, "rex: option '--json' must come after `rex scene FILE`");
+  expectUsageError({"--seed=3", "test", "01"}, "rex: option '--seed=3' must come after `rex test`");
   // Before what else is missing: it may be that.
   expectUsageError({"trajectory", "board", "--ot", "a"},
                    "rex trajectory: unknown option '--ot' (did you mean '--out'?)");
   expectUsageError({"\033[31mred"}, "unknown command '");
+}
+
+TEST(Program, AnswersAlikeWhicheverOfItsProgramsIsAsked) {
+  for (const char* program : {"/rex-robot", "/rex-methods", "/rex-instructor"}) {
+    const std::string file = std::string(REX_BINARY_DIR) + program;
+    EXPECT_EQ(runProcess({file}).output, rex({}).output) << program;
+    EXPECT_EQ(runProcess({file, "list"}).output, rex({"list"}).output) << program;
+    EXPECT_EQ(runProcess({file, "rendr"}).error, rex({"rendr"}).error) << program;
+  }
 }
 
 TEST(Program, ExplainsWrongUse) {
@@ -125,5 +131,4 @@ TEST(Program, ExplainsWrongUse) {
   expectUsageError({"test", "no-such-exercise"}, "no exercise is called 'no-such-exercise'");
 }
 
-}  // namespace
-}  // namespace rex::cli
+}  // namespace rex::cli::command_line_test

@@ -8,8 +8,7 @@
 
 #include "support/temporary_folder.h"
 
-namespace rex::cli {
-namespace {
+namespace rex::cli::file_watcher_test {
 
 namespace fs = std::filesystem;
 using Method = FileWatcher::Method;
@@ -67,5 +66,4 @@ TEST(FileWatcher, PollsAndSaysWhyWhereInotifyFails) {
   EXPECT_EQ(watcher.describe(), "polling (inotify: No such file or directory)");
 }
 
-}  // namespace
-}  // namespace rex::cli
+}  // namespace rex::cli::file_watcher_test

@@ -4,10 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "base/process.h"
-#include "grading/exercise_info.h"
+#include "submission/exercise_info.h"
 
-namespace rex::cli {
-namespace {
+namespace rex::cli::gates_test {
 
 std::set<std::string> linesOf(const std::vector<std::string>& command) {
   const ProcessResult result = runProcess(command);
@@ -34,8 +33,7 @@ TEST(Gates, AreAllTestsOfTheSuite) {
   ASSERT_FALSE(exercises.empty());
   for (const grading::ExerciseInfo& exercise : exercises)
     EXPECT_EQ(registered(exercise.name),
-              linesOf({REX_BINARY_DIR "/rex", "dev", "check", exercise.name, "--list-gates"}));
+              linesOf({REX_BINARY_DIR "/rex-instructor", "dev", "check", exercise.name, "--list-gates"}));
 }
 
-}  // namespace
-}  // namespace rex::cli
+}  // namespace rex::cli::gates_test

@@ -14,11 +14,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "cli/command_line.h"
+#include "cli/all_rooms.h"
 #include "support/temporary_folder.h"
 
-namespace rex::cli {
-namespace {
+namespace rex::cli::interruption_test {
 
 namespace fs = std::filesystem;
 
@@ -46,9 +45,6 @@ class InterruptionTest : public ::testing::Test {
     for (const char* file : {"build.json", "grader"})
       fs::create_symlink(fs::path(REX_BINARY_DIR "/tests/template/exercises/98-template") / file,
                          build() / file);
-    // Older than the grader, which would be built anew otherwise.
-    fs::last_write_time(root() / "exercises/98-template/exercise.h",
-                        fs::file_time_type::clock::now() - std::chrono::hours(24 * 365 * 20));
   }
 
   fs::path root() const { return temporary_.path(); }
@@ -72,8 +68,7 @@ class InterruptionTest : public ::testing::Test {
       std::vector<const char*> arguments = {"rex"};
       for (const std::string& word : words) arguments.push_back(word.c_str());
       ::setenv("TMPDIR", temporary().c_str(), 1);
-      ::_exit(
-          runCommandLine(static_cast<int>(arguments.size()), arguments.data(), {root(), root() / "build"}));
+      ::_exit(runRex(static_cast<int>(arguments.size()), arguments.data(), {root(), root() / "build"}));
     } catch (const Interrupted&) {
       ::_exit(kDefinitelyInterrupted);
     }
@@ -184,5 +179,4 @@ TEST_F(GradingManyInterrupted, KeepsWhatIsDoneAndGoesOn) {
   EXPECT_TRUE(fs::exists(result("hangs")));
 }
 
-}  // namespace
-}  // namespace rex::cli
+}  // namespace rex::cli::interruption_test

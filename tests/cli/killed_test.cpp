@@ -12,8 +12,7 @@
 
 #include "cli/template_project.h"
 
-namespace rex::cli {
-namespace {
+namespace rex::cli::killed_test {
 
 class Killed : public TemplateProject {
  protected:
@@ -58,8 +57,7 @@ class Killed : public TemplateProject {
     ::raise(SIGSTOP);
     std::vector<const char*> argv = {"rex"};
     argv.insert(argv.end(), words.begin(), words.end());
-    ::_exit(runCommandLine(static_cast<int>(argv.size()), argv.data(),
-                           {root(), REX_BINARY_DIR "/tests/template"}));
+    ::_exit(runRex(static_cast<int>(argv.size()), argv.data(), {root(), REX_BINARY_DIR "/tests/template"}));
   }
 };
 
@@ -112,5 +110,4 @@ TEST_F(Killed, SubmitLeavesTheOldArchiveOrTheNewOne) {
   }
 }
 
-}  // namespace
-}  // namespace rex::cli
+}  // namespace rex::cli::killed_test

@@ -12,8 +12,7 @@
 #include "base/process.h"
 #include "support/file_text.h"
 
-namespace rex::cli {
-namespace {
+namespace rex::cli::packages_test {
 
 namespace fs = std::filesystem;
 using Names = std::set<std::string>;
@@ -150,7 +149,7 @@ Names documentedPackages() {
   return packages;
 }
 
-TEST(AcceptanceBars, Bar01TheDocumentedPackagesHoldAllThatRexNeeds) {
+TEST(Packages, Bar01TheDocumentedPackagesHoldAllThatRexNeeds) {
   if (!runProcess({"dpkg-query", "--version"}).ok()) GTEST_SKIP() << "needs a Debian";
   Names files = filesOfTheBuild();
   ASSERT_GT(files.size(), 500u);
@@ -175,5 +174,4 @@ TEST(AcceptanceBars, Bar01TheDocumentedPackagesHoldAllThatRexNeeds) {
   }
 }
 
-}  // namespace
-}  // namespace rex::cli
+}  // namespace rex::cli::packages_test

@@ -15,8 +15,7 @@
 #include "support/needs_osmesa.h"
 #include "support/temporary_folder.h"
 
-namespace rex::cli {
-namespace {
+namespace rex::cli::render_interruption_test {
 
 namespace fs = std::filesystem;
 
@@ -24,7 +23,7 @@ class RenderInterruption : public ::testing::Test {
  protected:
   // Starts `rex render pegArm` with these arguments in our folder; what it notes goes into the file "notes".
   pid_t start(std::vector<const char*> arguments) const {
-    arguments.insert(arguments.begin(), {REX_BINARY_DIR "/rex", "render", "pegArm"});
+    arguments.insert(arguments.begin(), {REX_BINARY_DIR "/rex-robot", "render", "pegArm"});
     arguments.push_back(nullptr);
     const pid_t child = ::fork();
     if (child < 0) throw std::runtime_error("cannot fork");
@@ -98,5 +97,4 @@ TEST_F(RenderInterruption, EndsASheet) {
   EXPECT_EQ(files(), 1);
 }
 
-}  // namespace
-}  // namespace rex::cli
+}  // namespace rex::cli::render_interruption_test

@@ -8,15 +8,16 @@
 #include <gtest/gtest.h>
 
 #include "base/process.h"
+#include "cli/all_rooms.h"
 #include "support/temporary_folder.h"
 
 namespace rex::cli {
 
-/// The program as a user meets it, in a folder of its own.
+/// Commands as a user meets them, in a folder of their own; without the way through `rex`, which builds.
 class RexCommand : public ::testing::Test {
  protected:
   ProcessResult rex(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), REX_BINARY_DIR "/rex");
+    arguments.insert(arguments.begin(), REX_BINARY_DIR "/" + programName(programOf(arguments.at(0))));
     return runProcess(arguments, {.directory = folder_.path(), .timeout = 300});
   }
   std::filesystem::path in(const std::string& name) const { return folder_.path() / name; }

@@ -18,8 +18,7 @@
 #include "support/file_text.h"
 #include "support/needs_osmesa.h"
 
-namespace rex::cli {
-namespace {
+namespace rex::cli::scene_test {
 
 using nlohmann::json;
 using ::testing::ElementsAre;
@@ -420,5 +419,4 @@ TEST_F(SceneCommand, DoesWhatItsExamplesSay) {
   EXPECT_EQ(jsonOf({"man", "fk", "--q", "0"})["bodies"].size(), 30u);
 }
 
-}  // namespace
-}  // namespace rex::cli
+}  // namespace rex::cli::scene_test

@@ -14,8 +14,7 @@
 #include "cli/template_project.h"
 #include "support/tiny_disk.h"
 
-namespace rex::cli {
-namespace {
+namespace rex::cli::student_loop_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -150,7 +149,7 @@ TEST_F(StudentLoop, ResetsNothingOnAFullDisk) {
   const char* const arguments[] = {"rex", "reset", "98"};
   ::testing::internal::CaptureStdout();
   ::testing::internal::CaptureStderr();
-  EXPECT_EQ(runCommandLine(3, arguments, {root, REX_BINARY_DIR "/tests/template"}), 3);
+  EXPECT_EQ(runRex(3, arguments, {root, REX_BINARY_DIR "/tests/template"}), 3);
   EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
   EXPECT_THAT(flat(::testing::internal::GetCapturedStderr()),
               HasSubstr("main.cpp: cannot write the student's file: found No space left on device"));
@@ -265,8 +264,8 @@ class Watching : public StudentLoop {
     arguments.insert(arguments.end(), more.begin(), more.end());
     try {
       const HeldSignals held;
-      const int code = runCommandLine(static_cast<int>(arguments.size()), arguments.data(),
-                                      {root(), REX_BINARY_DIR "/tests/template"});
+      const int code = runRex(static_cast<int>(arguments.size()), arguments.data(),
+                              {root(), REX_BINARY_DIR "/tests/template"});
       std::fflush(nullptr);
       ::_exit(code);
     } catch (const Interrupted&) {
@@ -317,5 +316,4 @@ TEST_F(Watching, EndsWhenItIsAskedTo) {
   }
 }
 
-}  // namespace
-}  // namespace rex::cli
+}  // namespace rex::cli::student_loop_test

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rex::cli {
-namespace {
+namespace rex::cli::terminal_test {
 
 TEST(Wrap, BreaksAtBlanksWithinEightyColumns) {
   const std::string word(30, 'x');
@@ -38,5 +37,4 @@ TEST(Harmless, LetsNoEscapeSequenceThrough) {
   EXPECT_EQ(harmless("\033[2J").find('\033'), std::string::npos);
 }
 
-}  // namespace
-}  // namespace rex::cli
+}  // namespace rex::cli::terminal_test

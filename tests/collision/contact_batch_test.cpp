@@ -9,8 +9,7 @@
 #include "scene/ors_reader.h"
 #include "support/paths.h"
 
-namespace rex {
-namespace {
+namespace rex::contact_batch_test {
 
 // The arm and the frame of pegInAHole, and a box, a ball, a rounded box and a cylinder at its links.
 Model crowdedArm() {
@@ -199,5 +198,4 @@ TEST(ContactBatchOfNone, TakesModelsWithoutPairs) {
   EXPECT_TRUE(allContactFree(contacts, poses, 1));
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::contact_batch_test

@@ -13,8 +13,7 @@
 #include "collision/proximity.h"
 #include "geometry/rotation.h"
 
-namespace rex::internal {
-namespace {
+namespace rex::internal::contact_kernel_test {
 
 // Segments and boxes in eight lanes, with their balls; every other lane has degenerate ones.
 struct RandomSolids {
@@ -213,5 +212,4 @@ TEST(ContactKernel, GivesNoNumberWhereAPoseHasNone) {
   }
 }
 
-}  // namespace
-}  // namespace rex::internal
+}  // namespace rex::internal::contact_kernel_test

@@ -6,8 +6,7 @@
 #include "support/expect_error.h"
 #include "support/paths.h"
 
-namespace rex {
-namespace {
+namespace rex::contact_model_test {
 
 ShapeSpec ball(bool contact = true) {
   return {.name = "", .X_BS = {}, .shape = {.type = ShapeType::kSphere, .radius = 0.1}, .contact = contact};
@@ -116,5 +115,4 @@ TEST(ContactModel, NamesWhatCannotCollide) {
                    "scene 'two.ors': shape 'bunny' of body 'b': found a marker");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::contact_model_test

@@ -8,17 +8,16 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "base/derivative_check.h"
 #include "base/rng.h"
 #include "geometry/rotation.h"
-#include "optim/derivative_check.h"
 #include "scene/ors_reader.h"
 #include "scene/state.h"
 #include "support/convex_solid.h"
 #include "support/expect_error.h"
 #include "support/paths.h"
 
-namespace rex {
-namespace {
+namespace rex::contacts_test {
 
 Model pegInAHole() { return compile(readOrs(sourcePath("data/robots/pegInAHole.ors")).spec); }
 
@@ -219,5 +218,4 @@ TEST(ContactCost, NeedsAPositiveMargin) {
   }
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::contacts_test

@@ -14,8 +14,7 @@
 #include "support/convex_solid.h"
 #include "support/hull_depth.h"
 
-namespace rex {
-namespace {
+namespace rex::convex_distance_test {
 
 using Eigen::Vector3d;
 using internal::certifiedProximity;
@@ -344,5 +343,4 @@ TEST(ConvexDistance, FindsTheWayOutOfMeshesAroundOneMiddle) {
   }
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::convex_distance_test

@@ -4,8 +4,7 @@
 #include "geometry/rotation.h"
 #include "support/random_scene.h"
 
-namespace rex {
-namespace {
+namespace rex::joint_travel_test {
 
 using Eigen::VectorXd;
 
@@ -68,5 +67,4 @@ TEST(JointTravel, FollowsTheRatioOfAJointThatMimics) {
                    1);
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::joint_travel_test

@@ -10,8 +10,7 @@
 #include "support/expect_error.h"
 #include "support/random_scene.h"
 
-namespace rex {
-namespace {
+namespace rex::motion_clearance_test {
 
 using Eigen::VectorXd;
 
@@ -252,5 +251,4 @@ TEST(MotionClearance, RefusesQuaternionsThatMeetInZero) {
                    "motion of joint 'axle': found a quaternion that is zero on the way");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::motion_clearance_test

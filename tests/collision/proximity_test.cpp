@@ -12,8 +12,7 @@
 #include "support/expect_error.h"
 #include "support/hull_depth.h"
 
-namespace rex {
-namespace {
+namespace rex::proximity_test {
 
 using Eigen::Vector3d;
 
@@ -238,5 +237,4 @@ TEST(Proximity, RefusesWhatHasNoVolume) {
                    "proximity: found a mesh whose mesh is not loaded, wanted a scene read from a file");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::proximity_test

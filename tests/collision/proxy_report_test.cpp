@@ -7,8 +7,7 @@
 
 #include "scene/scene_file.h"
 
-namespace rex {
-namespace {
+namespace rex::proxy_report_test {
 
 using ::testing::HasSubstr;
 
@@ -54,5 +53,4 @@ TEST(ProxyReport, ListsWhatIsNoNumberBeforeAllOthers) {
   EXPECT_LT(report.find("wall#1"), report.find("wall#2"));
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::proxy_report_test

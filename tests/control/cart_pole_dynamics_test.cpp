@@ -8,13 +8,12 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "base/derivative_check.h"
 #include "control/riccati.h"
 #include "dynamics/lagrange.h"
-#include "optim/derivative_check.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::cart_pole_dynamics_test {
 
 using Eigen::Vector2d;
 using Eigen::Vector4d;
@@ -152,5 +151,4 @@ TEST(CartPoleDynamics, RefusesWhatHasNoMeaning) {
   EXPECT_REX_ERROR((CartPoleDynamics{.g = 0}.derivative(x, 0)), "cart pole: gravity g: found 0");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::cart_pole_dynamics_test

@@ -8,8 +8,7 @@
 #include "control/riccati.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::cart_pole_rollouts_test {
 
 using Eigen::MatrixXd;
 using Eigen::Vector4d;
@@ -114,5 +113,4 @@ TEST(CartPoleRollouts, RefuseWhatHasNoMeaning) {
   refuses({.dynamics = {.l = 0}}, "cart pole: length l: found 0");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::cart_pole_rollouts_test

@@ -13,8 +13,7 @@
 #include "support/paths.h"
 #include "support/random_scene.h"
 
-namespace rex {
-namespace {
+namespace rex::computed_torque_test {
 
 Model robot(const std::string& name) {
   return compile(readOrs(sourcePath("data/robots") / (name + ".ors")).spec);
@@ -112,5 +111,4 @@ TEST(ComputedTorque, RefusesWhatGivesNoForces) {
                    "gravity: number 2: found nan");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::computed_torque_test

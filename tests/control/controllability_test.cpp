@@ -10,8 +10,7 @@
 #include "base/rng.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::controllability_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -163,5 +162,4 @@ TEST(Gramian, SaysWhatIsWrong) {
                    "tolerance of a rank: found 0, wanted a number between 0 and 1");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::controllability_test

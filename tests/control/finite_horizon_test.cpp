@@ -9,8 +9,7 @@
 #include "base/rng.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::finite_horizon_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -191,5 +190,4 @@ TEST(Horizon, SaysWhatIsWrong) {
                    "iterations: found 0, wanted 1 or more");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::finite_horizon_test

@@ -8,8 +8,7 @@
 #include "control/regulators.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::gain_search_test {
 
 using Eigen::MatrixXd;
 using testing::HasSubstr;
@@ -83,5 +82,4 @@ TEST(FastestGains, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(fastestGains(system, K), "matrix D: found entries that are not zero");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::gain_search_test

@@ -5,13 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include "base/derivative_check.h"
 #include "base/rng.h"
 #include "control/finite_horizon.h"
-#include "optim/derivative_check.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::ilqr_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -153,5 +152,4 @@ TEST(Ilqr, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(ilqr(pendulum(), U, {.maxIterations = -1}), "iterations of iLQR: found -1");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::ilqr_test

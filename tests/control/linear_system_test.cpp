@@ -8,8 +8,7 @@
 #include "base/rng.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::linear_system_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -146,5 +145,4 @@ TEST(Linearized, SaysWhatIsWrong) {
                    "df/du: found entries that are not finite");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::linear_system_test

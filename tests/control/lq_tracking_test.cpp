@@ -9,8 +9,7 @@
 #include "control/finite_horizon.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::lq_tracking_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -181,5 +180,4 @@ TEST(SolveLq, SaysWhatIsWrong) {
   EXPECT_EQ(failed.message, "stage 1: the cost of the control has no minimum");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::lq_tracking_test

@@ -8,8 +8,7 @@
 #include "control/regulators.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::lyapunov_check_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -183,5 +182,4 @@ TEST(CheckLyapunov, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(certifyQuadratic(I, skewed), "matrix P: found a matrix that is not symmetric");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::lyapunov_check_test

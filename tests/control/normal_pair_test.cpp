@@ -6,8 +6,7 @@
 #include "base/rng.h"
 #include "control/normal_pair_internal.h"
 
-namespace rex {
-namespace {
+namespace rex::normal_pair_test {
 
 TEST(NormalPair, IsWhatBoxAndMullerSay) {
   Rng rng(2);
@@ -49,5 +48,4 @@ TEST(NormalPair, GeneratorOfALaneIsRng) {
   for (int i = 0; i < 1000; ++i) ASSERT_EQ(lane.next(), rng.next());
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::normal_pair_test

@@ -17,8 +17,7 @@
 #include "support/expect_error.h"
 #include "support/paths.h"
 
-namespace rex {
-namespace {
+namespace rex::operational_space_test {
 
 Model robot(const std::string& file) { return compile(readScene(sourcePath("data/robots") / file).spec); }
 
@@ -383,5 +382,4 @@ TEST(OperationalSpaceForces, NameTheBodyThatNeedsMass) {
   EXPECT_GT(withFactor, 0);
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::operational_space_test

@@ -8,8 +8,7 @@
 #include "control/point_mass.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::pd_gains_test {
 
 // Slide 3:14, the other way round.
 TEST(PdGains, HaveTheirWaveLengthAndDampingRatio) {
@@ -39,5 +38,4 @@ TEST(PdGains, RefuseWhatIsOutOfRange) {
   EXPECT_REX_ERROR(pdGains(1, 1e-10, 1e300), "gain Kd: found inf");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::pd_gains_test

@@ -9,8 +9,7 @@
 #include "control/point_mass.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::pid_test {
 
 // The closed loop of slide 3:15 in (q, v, integral), for target zero.
 Eigen::Matrix3d closedLoop(double mass, const PidGains& gains) {
@@ -207,5 +206,4 @@ TEST(Pid, KeepsAForceWithinItsLimitsThatWouldOverflow) {
   EXPECT_EQ(pid.step(1e308, 0, 1e-3), 5);
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::pid_test

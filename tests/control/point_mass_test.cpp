@@ -8,8 +8,7 @@
 
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::point_mass_test {
 
 // The same motion by Runge and Kutta at fine steps.
 PointMassState simulated(const PointMass& point, const PdGains& gains, const PointMassState& start,
@@ -142,5 +141,4 @@ TEST(PointMass, RefusesBadNumbers) {
   EXPECT_REX_ERROR(pdResponse({1}, {}, {}, 0, -1), "time t: found -1, wanted a number that is not negative");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::point_mass_test

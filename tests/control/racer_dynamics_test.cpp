@@ -7,14 +7,13 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "base/derivative_check.h"
 #include "control/riccati.h"
 #include "dynamics/lagrange.h"
 #include "dynamics/ode_step.h"
-#include "optim/derivative_check.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::racer_dynamics_test {
 
 using Eigen::Vector2d;
 using Eigen::Vector4d;
@@ -188,5 +187,4 @@ TEST(RacerDynamics, RefusesWhatHasNoMeaning) {
   EXPECT_REX_ERROR((RacerDynamics{.g = 0}.energy(x)), "racer: gravity g: found 0");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::racer_dynamics_test

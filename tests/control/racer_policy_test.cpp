@@ -8,8 +8,7 @@
 #include "base/rng.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::racer_policy_test {
 
 using Eigen::Matrix4Xd;
 using Eigen::Vector4d;
@@ -100,5 +99,4 @@ TEST(RacerPolicy, RefusesWhatHasNoMeaning) {
                    "racer: measured y: number 2: found nan");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::racer_policy_test

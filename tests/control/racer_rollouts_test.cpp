@@ -11,8 +11,7 @@
 #include "support/allocations.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::racer_rollouts_test {
 
 using Eigen::MatrixXd;
 using Eigen::Vector4d;
@@ -156,5 +155,4 @@ TEST(RacerRollouts, RefuseWhatHasNoMeaning) {
   refuses({.sensors = {.phi = kNan}}, "racer: sensor constant phi: found nan");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::racer_rollouts_test

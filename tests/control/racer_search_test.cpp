@@ -3,12 +3,11 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
+#include "base/derivative_check.h"
 #include "control/racer_rollouts.h"
 #include "optim/cma_es.h"
-#include "optim/derivative_check.h"
 
-namespace rex {
-namespace {
+namespace rex::racer_search_test {
 
 using Eigen::MatrixXd;
 using Eigen::Vector4d;
@@ -95,5 +94,4 @@ TEST(RacerSearch, WithoutWheelSpeedIsNotStable) {
   }
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::racer_search_test

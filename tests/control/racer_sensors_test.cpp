@@ -6,13 +6,12 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include "base/derivative_check.h"
 #include "base/rng.h"
 #include "control/racer_dynamics.h"
-#include "optim/derivative_check.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::racer_sensors_test {
 
 using Eigen::Vector4d;
 using Eigen::VectorXd;
@@ -106,5 +105,4 @@ TEST(RacerSensors, RefuseWhatHasNoMeaning) {
   EXPECT_REX_ERROR(RacerSensors{.gyroBias = kNan}.jacobian(x, 1), "racer: bias of the gyroscope: found nan");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::racer_sensors_test

@@ -8,8 +8,7 @@
 #include "support/expect_error.h"
 #include "support/random_scene.h"
 
-namespace rex {
-namespace {
+namespace rex::reference_test {
 
 // A robot with joints of all types, also quaternions.
 const Model kModel = [] {
@@ -151,5 +150,4 @@ TEST(FollowReference, RefusesNumbersThatAreNotFinite) {
   EXPECT_REX_ERROR(follow(state, good), "joint positions q: number 3: found nan");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::reference_test

@@ -10,8 +10,7 @@
 #include "base/rng.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::regulators_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -230,5 +229,4 @@ TEST(RestAt, HoldsTheTarget) {
   EXPECT_REX_ERROR(restAt(system, VectorXd::Constant(1, NAN)), "target y: number 0: found nan");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::regulators_test

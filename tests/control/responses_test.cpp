@@ -10,8 +10,7 @@
 #include "base/rng.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::responses_test {
 
 using Eigen::MatrixXd;
 using Complex = std::complex<double>;
@@ -140,5 +139,4 @@ TEST(Responses, SayWhatIsWrong) {
   EXPECT_REX_ERROR(frequenciesBetween(1, 2, 1), "frequencies: found 1, wanted 2 to 1000000");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::responses_test

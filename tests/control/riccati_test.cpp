@@ -14,8 +14,7 @@
 #include "control/care_doubling_internal.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::riccati_test {
 
 using nlohmann::json;
 using testing::HasSubstr;
@@ -385,5 +384,4 @@ TEST(Riccati, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(solveLyapunov(I, I * INFINITY), "matrix Q: found entries that are not finite");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::riccati_test

@@ -11,8 +11,7 @@
 #include "control/riccati.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::stability_test {
 
 using Eigen::MatrixXd;
 using testing::HasSubstr;
@@ -141,5 +140,4 @@ TEST(Stability, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(discreteStabilityOf(two(NAN, 0, 0, 0)), "matrix A: found entries that are not finite");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::stability_test

@@ -18,8 +18,7 @@
 #include "support/needs_osmesa.h"
 #include "support/temporary_folder.h"
 
-namespace rex {
-namespace {
+namespace rex::car_pictures_test {
 
 namespace fs = std::filesystem;
 
@@ -249,5 +248,4 @@ TEST(CarFigure, CanBeDrawn) {
   EXPECT_REX_ERROR(encodeSvg(figureOf(CarView{})), "nothing to draw");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::car_pictures_test

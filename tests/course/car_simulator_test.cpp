@@ -6,11 +6,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "optim/derivative_check.h"
+#include "base/derivative_check.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::car_simulator_test {
 
 Eigen::VectorXd vectorOf(const nlohmann::json& json) {
   const auto numbers = json.get<std::vector<double>>();
@@ -175,5 +174,4 @@ TEST(CarSimulator, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(car.setLandmarks(Eigen::Matrix2d::Constant(INFINITY)), "landmarks: number 0: found inf");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::car_simulator_test

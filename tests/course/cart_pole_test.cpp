@@ -8,8 +8,7 @@
 #include "control/riccati.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::cart_pole_test {
 
 using Eigen::Vector4d;
 
@@ -57,5 +56,4 @@ TEST(CartPole, RefusesWhatHasNoMeaning) {
   EXPECT_REX_ERROR(cart.getEnergy(), "cart pole: state: number 1: found nan");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::cart_pole_test

@@ -6,14 +6,13 @@
 
 #include <gtest/gtest.h>
 
+#include "base/derivative_check.h"
 #include "base/rng.h"
 #include "course/simulator.h"
-#include "optim/derivative_check.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace rex {
-namespace {
+namespace rex::clearances_test {
 
 const Eigen::Vector3d kTip(0, 0, 0.15);
 
@@ -79,5 +78,4 @@ TEST(Clearances, NeedTheMeshesOfShapesThatCollide) {
   EXPECT_REX_ERROR(clearances(without), "mesh");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::clearances_test

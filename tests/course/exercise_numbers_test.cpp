@@ -6,8 +6,7 @@
 #include "course/simulator.h"
 #include "kinematics/inverse_kinematics.h"
 
-namespace rex {
-namespace {
+namespace rex::exercise_numbers_test {
 
 const Eigen::Vector3d kTarget(-.2, -.4, 1.1);
 
@@ -39,5 +38,4 @@ TEST(ExerciseNumbers, TheHandTracksTheCircleUntilThePostureGetsLost) {
   EXPECT_GT(largestError(1000, 20, onCircle), .1);
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::exercise_numbers_test

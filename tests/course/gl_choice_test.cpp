@@ -6,8 +6,7 @@
 
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::gl_choice_test {
 
 GlBackend chosenBy(const char* value) {
   ::setenv("REX_GL", value, 1);
@@ -24,5 +23,4 @@ TEST(GlChoice, ComesFromTheEnvironment) {
   EXPECT_EQ(glChoice().backend, GlBackend::kAuto);
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::gl_choice_test

@@ -7,8 +7,7 @@
 #include "base/rng.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::linear_algebra_test {
 
 Eigen::MatrixXd randomMatrix(Rng& rng, int rows, int cols) {
   return rng.normalVector(rows * cols).reshaped(rows, cols);
@@ -153,5 +152,4 @@ TEST(LinearAlgebra, RefusesWhatHasNoAnswer) {
   EXPECT_REX_ERROR(svd(nan), "svd: found nan or infinity");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::linear_algebra_test

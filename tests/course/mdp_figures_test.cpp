@@ -9,8 +9,7 @@
 #include "support/needs_gnuplot.h"
 #include "support/temporary_folder.h"
 
-namespace rex {
-namespace {
+namespace rex::mdp_figures_test {
 
 TEST(MdpFigures, PlacesValuesAndWalls) {
   const GridWorld world = gridWorld("G.\n.#", {.discount = .5});
@@ -70,5 +69,4 @@ TEST(MdpFigures, RefuseWrongInput) {
                    "run 1 of 'uneven': found a vector of size 1, wanted");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::mdp_figures_test

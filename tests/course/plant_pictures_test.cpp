@@ -16,8 +16,7 @@
 #include "support/needs_osmesa.h"
 #include "support/temporary_folder.h"
 
-namespace rex {
-namespace {
+namespace rex::plant_pictures_test {
 
 namespace fs = std::filesystem;
 using Eigen::Matrix4Xd;
@@ -194,5 +193,4 @@ TEST_F(PlantFilm, PicturesAreOfTheSizeAskedFor) {
   EXPECT_REX_ERROR(writePicture(CartPoleView{}, in("no/folder/x.png")), "x.png");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::plant_pictures_test

@@ -8,8 +8,7 @@
 #include "control/riccati.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::racer_test {
 
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
@@ -83,5 +82,4 @@ TEST(Racer, RefusesWhatHasNoMeaning) {
   EXPECT_REX_ERROR(racer.getObservation(), "racer: state: number 0: found nan");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::racer_test

@@ -4,8 +4,7 @@
 
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::recording_test {
 
 Recording recordingOf(int count) {
   Recording recording;
@@ -42,5 +41,4 @@ TEST(Recording, StartsAgainWhenCleared) {
   EXPECT_REX_ERROR(recording.evenly(1), "number of postures: found 1, wanted at least 2");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::recording_test

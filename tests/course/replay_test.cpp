@@ -13,8 +13,7 @@
 #include "support/fresh_folder.h"
 #include "support/needs_osmesa.h"
 
-namespace rex {
-namespace {
+namespace rex::replay_test {
 
 namespace fs = std::filesystem;
 
@@ -69,5 +68,4 @@ TEST(Replay, NamesWhatIsWrong) {
   EXPECT_REX_ERROR(writeReplay(S, "missing/replay"), "missing/replay.html': found No such file");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::replay_test

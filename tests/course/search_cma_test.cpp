@@ -7,8 +7,7 @@
 #include "optim/test_functions.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::search_cma_test {
 
 // The exercise's loop.
 TEST(SearchCma, FindsTheMinimumInTheLoopOfTheCourse) {
@@ -91,5 +90,4 @@ TEST(SearchCma, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(cma.step(samples, three), "step: values: found a vector of size 3, wanted size 6");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::search_cma_test

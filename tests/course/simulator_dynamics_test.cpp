@@ -10,8 +10,7 @@
 #include "dynamics/stepper.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::simulator_dynamics_test {
 
 class SimulatorOfScene : public testing::TestWithParam<const char*> {};
 
@@ -329,5 +328,4 @@ TEST(SimulatorDynamics, NamesTheBodyThatNeedsAMass) {
   EXPECT_EQ(S.getJointAngles()[0], 0);
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::simulator_dynamics_test

@@ -4,8 +4,7 @@
 #include "course/simulator.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::simulator_physics_test {
 
 // A ball of 1 kg and 0.1 m above the ground, free to move.
 SimulatorDescription ballOverGround() {
@@ -122,5 +121,4 @@ TEST(SimulatorPhysics, RefusesWrongNumbersAndStays) {
   EXPECT_EQ(S.getJointAngles(), q);
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::simulator_physics_test

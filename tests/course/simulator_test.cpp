@@ -18,8 +18,7 @@
 #include "support/paths.h"
 #include "support/temporary_folder.h"
 
-namespace rex {
-namespace {
+namespace rex::simulator_test {
 
 namespace fs = std::filesystem;
 
@@ -443,5 +442,4 @@ TEST(FormatMatrix, ShowsNameShapeAndNumbers) {
             "  6 to 6:\n           6\n");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::simulator_test

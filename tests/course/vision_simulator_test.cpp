@@ -10,8 +10,7 @@
 
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::vision_simulator_test {
 
 nlohmann::json golden() {
   std::ifstream stream(REX_SOURCE_DIR "/tests/golden/exercises.json");
@@ -73,5 +72,4 @@ TEST(VisionSimulator, SaysWhatIsWrong) {
                    "points: number 1: found inf");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::vision_simulator_test

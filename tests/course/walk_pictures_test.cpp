@@ -13,8 +13,7 @@
 #include "support/needs_osmesa.h"
 #include "support/temporary_folder.h"
 
-namespace rex {
-namespace {
+namespace rex::walk_pictures_test {
 
 namespace fs = std::filesystem;
 using Eigen::Vector2d;
@@ -143,5 +142,4 @@ TEST_F(WalkFilm, SaysWhatCannotBe) {
   EXPECT_REX_ERROR(writeFilm(walk, in("x"), small), "wanted a walk that it can go");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::walk_pictures_test

@@ -10,8 +10,7 @@
 #include "support/expect_error.h"
 #include "support/random_motion.h"
 
-namespace rex {
-namespace {
+namespace rex::centroidal_test {
 
 Eigen::VectorXd momenta(const Centroidal& all) {
   Eigen::VectorXd both(6);
@@ -115,5 +114,4 @@ TEST(Centroidal, NeedsAMassAndRightSizes) {
                    "joint velocities v: found a vector of size 2, wanted size 0");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::centroidal_test

@@ -2,14 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include "optim/derivative_check.h"
+#include "base/derivative_check.h"
 #include "scene/state.h"
 #include "support/expect_error.h"
 #include "support/mass_matrix_by_jacobians.h"
 #include "support/random_motion.h"
 
-namespace rex {
-namespace {
+namespace rex::coriolis_matrix_test {
 
 double largest(const Eigen::MatrixXd& M) { return M.cwiseAbs().maxCoeff(); }
 
@@ -73,5 +72,4 @@ TEST(CoriolisMatrix, NamesWrongSizes) {
                    "joint velocities v: found a vector of size 5, wanted size 2");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::coriolis_matrix_test

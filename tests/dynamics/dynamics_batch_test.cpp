@@ -9,8 +9,7 @@
 #include "support/expect_error.h"
 #include "support/random_motion.h"
 
-namespace rex {
-namespace {
+namespace rex::dynamics_batch_test {
 
 // States in columns, with something given for each; some angles are too large for the polynomials of kernels.
 struct Columns {
@@ -145,5 +144,4 @@ TEST(DynamicsBatch, AllocatesOnlyAtFirst) {
 }
 #endif
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::dynamics_batch_test

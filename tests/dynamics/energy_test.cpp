@@ -4,16 +4,15 @@
 
 #include <gtest/gtest.h>
 
+#include "base/derivative_check.h"
 #include "kinematics/center_of_mass.h"
-#include "optim/derivative_check.h"
 #include "scene/state.h"
 #include "support/allocations.h"
 #include "support/expect_error.h"
 #include "support/mass_matrix_by_jacobians.h"
 #include "support/random_motion.h"
 
-namespace rex {
-namespace {
+namespace rex::energy_test {
 
 const Eigen::Vector3d kGravity(0.5, -1, -9.81);
 
@@ -109,5 +108,4 @@ TEST(Energy, NamesWrongSizes) {
                    "joint velocities v: found a vector of size 5, wanted size 2");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::energy_test

@@ -9,8 +9,7 @@
 #include "support/expect_error.h"
 #include "support/random_motion.h"
 
-namespace rex {
-namespace {
+namespace rex::forward_dynamics_test {
 
 double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& wanted) {
   return (a - wanted).lpNorm<Eigen::Infinity>() / std::max(1., wanted.lpNorm<Eigen::Infinity>());
@@ -233,5 +232,4 @@ TEST_P(ForwardDynamicsOfTrees, AllocatesOnlyAtFirst) {
 INSTANTIATE_TEST_SUITE_P(PlainAndMimicking, ForwardDynamicsOfTrees,
                          testing::Values(Followers::kNone, Followers::kSome));
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::forward_dynamics_test

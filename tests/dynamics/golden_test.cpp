@@ -11,8 +11,7 @@
 #include "scene/ors_reader.h"
 #include "support/paths.h"
 
-namespace rex {
-namespace {
+namespace rex::golden_test {
 
 constexpr double kTolerance = 1e-9;
 
@@ -62,5 +61,4 @@ TEST_P(GoldenDynamics, Agree) {
 INSTANTIATE_TEST_SUITE_P(Scenes, GoldenDynamics, testing::Values("man", "pegArm", "arm3", "pegInAHole"),
                          [](const auto& scene) { return std::string(scene.param); });
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::golden_test

@@ -5,17 +5,16 @@
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
+#include "base/derivative_check.h"
 #include "dynamics/coriolis_matrix.h"
 #include "dynamics/energy.h"
 #include "dynamics/forward_dynamics.h"
 #include "dynamics/mass_matrix.h"
 #include "dynamics/stepper.h"
-#include "optim/derivative_check.h"
 #include "scene/state.h"
 #include "support/random_motion.h"
 
-namespace rex {
-namespace {
+namespace rex::identities_test {
 
 constexpr int kTrees = 1000;
 
@@ -102,5 +101,4 @@ TEST(Identities, SteppingGainsTheWorkDone) {
   });
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::identities_test

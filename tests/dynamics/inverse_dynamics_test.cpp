@@ -10,8 +10,7 @@
 #include "support/random_motion.h"
 #include "support/world_frame_dynamics.h"
 
-namespace rex {
-namespace {
+namespace rex::inverse_dynamics_test {
 
 TEST(InverseDynamics, AgreesWithPlainRecursionInTheWorldFrame) {
   Rng rng(21);
@@ -146,5 +145,4 @@ TEST(InverseDynamics, AllocatesOnlyAtFirst) {
 }
 #endif
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::inverse_dynamics_test

@@ -10,8 +10,7 @@
 #include "support/expect_error.h"
 #include "support/random_scene.h"
 
-namespace rex {
-namespace {
+namespace rex::joint_forces_test {
 
 constexpr double kMass = 2, kDamping = 0.7, kFriction = 0.9;
 const Eigen::VectorXd kNoForce = Eigen::VectorXd::Zero(1);
@@ -153,5 +152,4 @@ TEST(JointForces, RefusesNonsense) {
   }
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::joint_forces_test

@@ -11,8 +11,7 @@
 #include "support/expect_error.h"
 #include "support/paths.h"
 
-namespace rex {
-namespace {
+namespace rex::lagrange_test {
 
 using Eigen::Vector2d;
 using Eigen::VectorXd;
@@ -105,5 +104,4 @@ TEST(EulerLagrange, NamesWrongSizesAndNumbers) {
                    "Lagrangian: found nan, wanted a finite number");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::lagrange_test

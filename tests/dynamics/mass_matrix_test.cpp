@@ -12,8 +12,7 @@
 #include "support/paths.h"
 #include "support/random_motion.h"
 
-namespace rex {
-namespace {
+namespace rex::mass_matrix_test {
 
 TEST(MassMatrix, IsTheSumOverJacobians) {
   Rng rng(351);
@@ -134,5 +133,4 @@ TEST(MassMatrix, NamesWrongSizes) {
                    "joint velocities v: found a vector of size 5, wanted size 2");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::mass_matrix_test

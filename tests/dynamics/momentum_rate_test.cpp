@@ -3,14 +3,13 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "base/derivative_check.h"
 #include "dynamics/centroidal.h"
-#include "optim/derivative_check.h"
 #include "scene/state.h"
 #include "support/expect_error.h"
 #include "support/random_motion.h"
 
-namespace rex {
-namespace {
+namespace rex::momentum_rate_test {
 
 // The momenta about W's origin, differentiated by time along q + v t + a t^2 / 2.
 TEST(MomentumRate, IsTheDerivativeOfTheMomenta) {
@@ -45,5 +44,4 @@ TEST(MomentumRate, NamesWrongSizes) {
                    "joint accelerations a: found a vector of size");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::momentum_rate_test

@@ -21,8 +21,7 @@
 #include "support/file_text.h"
 #include "support/paths.h"
 
-namespace rex {
-namespace {
+namespace rex::mujoco_test {
 
 using Eigen::VectorXd;
 
@@ -233,8 +232,7 @@ INSTANTIATE_TEST_SUITE_P(Robots, MujocoDynamics,
                                          Sample{"../shared/data/urdf/go2_description.urdf", "base_link"}),
                          [](const auto& sample) { return std::filesystem::path(sample.param.file).stem(); });
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::mujoco_test
 
 #else
 

@@ -5,8 +5,7 @@
 #include <Eigen/Core>
 #include <gtest/gtest.h>
 
-namespace rex {
-namespace {
+namespace rex::ode_step_test {
 
 // A damped oscillator, position and velocity: x'' = -4 x - 0.4 x'.
 constexpr double kRate = 0.2;
@@ -59,5 +58,4 @@ TEST(OdeStep, YieldsTheSeriesOfTheExponential) {
   }
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::ode_step_test

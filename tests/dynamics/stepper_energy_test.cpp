@@ -12,8 +12,7 @@
 #include "support/paths.h"
 #include "support/planar_chain.h"
 
-namespace rex {
-namespace {
+namespace rex::stepper_energy_test {
 
 // The largest change of energy in each of `spans` equal spans of time, relative to `scale` joules.
 std::vector<double> drifts(const Model& model, State state, const StepperOptions& options, double h,
@@ -110,5 +109,4 @@ TEST_P(CourseScenes, KeepTheirEnergy) {
 INSTANTIATE_TEST_SUITE_P(All, CourseScenes, testing::Values("man", "pegArm", "pegArm2", "arm3", "pegInAHole"),
                          [](const auto& scene) { return std::string(scene.param); });
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::stepper_energy_test

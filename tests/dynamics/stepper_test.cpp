@@ -16,8 +16,7 @@
 #include "support/planar_chain.h"
 #include "support/random_motion.h"
 
-namespace rex {
-namespace {
+namespace rex::stepper_test {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Integrator kAll[] = {Integrator::kEuler, Integrator::kSemiImplicitEuler, Integrator::kRungeKutta4,
@@ -509,5 +508,4 @@ TEST(Stepper, StepsWorldsInWhichNothingMoves) {
   }
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::stepper_test

@@ -11,8 +11,7 @@
 #include "support/planar_chain.h"
 #include "support/random_motion.h"
 
-namespace rex {
-namespace {
+namespace rex::stepper_wrench_test {
 
 constexpr Integrator kAll[] = {Integrator::kEuler, Integrator::kSemiImplicitEuler, Integrator::kRungeKutta4,
                                Integrator::kBeeman, Integrator::kLeapfrog};
@@ -142,5 +141,4 @@ TEST(StepperWrench, RefusesWrenchesThatAreNone) {
   EXPECT_EQ(state.v[0], 0) << "none was set";
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::stepper_wrench_test

@@ -2,16 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include "base/derivative_check.h"
 #include "dynamics/inverse_dynamics.h"
 #include "geometry/rotation.h"
 #include "kinematics/jacobians.h"
-#include "optim/derivative_check.h"
 #include "scene/state.h"
 #include "support/expect_error.h"
 #include "support/random_motion.h"
 
-namespace rex {
-namespace {
+namespace rex::wrench_test {
 
 std::vector<Wrench> randomWrenches(Rng& rng, const Model& model, int count) {
   std::vector<Wrench> wrenches;
@@ -89,5 +88,4 @@ TEST(WrenchForces, NamesWrongSizes) {
       "joint forces u: found a vector of size 5, wanted size 2");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::wrench_test

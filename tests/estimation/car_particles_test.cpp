@@ -13,8 +13,7 @@
 #include "estimation/weights_kernel_internal.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::car_particles_test {
 
 using Kind = LandmarkSensor::Kind;
 
@@ -207,5 +206,4 @@ TEST_P(ParticlesInLanes, HaveTheBitsOfOne) {
 
 INSTANTIATE_TEST_SUITE_P(TwoAndFour, ParticlesInLanes, testing::Values(2, 4));
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::car_particles_test

@@ -10,8 +10,7 @@
 #include "random_gaussian.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::consistency_test {
 
 using std::numbers::pi;
 
@@ -111,5 +110,4 @@ TEST(Consistency, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(estimationErrorSquared(flat, Eigen::Vector2d(0, 0)), "covariance: found the eigenvalue 0");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::consistency_test

@@ -5,15 +5,14 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include "base/derivative_check.h"
 #include "estimation/consistency.h"
 #include "estimation/kalman_filter.h"
-#include "optim/derivative_check.h"
 #include "random_gaussian.h"
 #include "slam_world.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::ekf_slam_test {
 
 using Kind = LandmarkSensor::Kind;
 constexpr Kind kKinds[] = {Kind::kCartesian, Kind::kRangeBearing};
@@ -231,5 +230,4 @@ TEST(EkfSlam, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(slam.predict(move), "derivative of the transition: found entries that are not finite");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::ekf_slam_test

@@ -7,8 +7,7 @@
 #include "slam_world.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::fast_slam_test {
 
 using Kind = LandmarkSensor::Kind;
 
@@ -136,5 +135,4 @@ TEST(FastSlam, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(slam.landmark(3, 0), "particle: found 3, wanted 0 to 2");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::fast_slam_test

@@ -7,8 +7,7 @@
 
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::g2o_file_test {
 
 using testing::HasSubstr;
 
@@ -139,5 +138,4 @@ TEST(G2oFile, SaysWhereAndWhatIsWrong) {
   EXPECT_REX_ERROR(writeG2o(file), "edge 0 from pose 0 to pose 5: found pose 5, wanted 0 to 1");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::g2o_file_test

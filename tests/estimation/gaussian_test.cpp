@@ -11,8 +11,7 @@
 #include "random_gaussian.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::gaussian_test {
 
 using test::randomCovariance;
 using test::randomGaussian;
@@ -153,7 +152,7 @@ TEST(Gaussian, SaysWhatIsWrong) {
   bad = good;
   bad.mean[1] = INFINITY;
   EXPECT_REX_ERROR((void)toCanonical(bad), "mean: number 1: found inf, wanted a finite number");
-  EXPECT_REX_ERROR((void)toNormal({Eigen::Vector2d(0, 0), Eigen::Matrix2d::Zero()}),
+  EXPECT_REX_ERROR((void)toNormal(CanonicalGaussian{Eigen::Vector2d(0, 0), Eigen::Matrix2d::Zero()}),
                    "precision: found the eigenvalue 0, wanted a positive definite matrix");
   EXPECT_REX_ERROR((void)pulledBack(good, Eigen::Matrix2d::Ones(), Eigen::Vector2d(0, 0)),
                    "transformation F: found rank 1, wanted an invertible matrix, of rank 2");
@@ -178,5 +177,4 @@ TEST(Gaussian, SaysWhatIsWrong) {
                    "mean of the second Gaussian: found a vector of size 1, wanted size 2");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::gaussian_test

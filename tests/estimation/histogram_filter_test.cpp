@@ -9,8 +9,7 @@
 #include "estimation/smoother.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::histogram_filter_test {
 
 CellTransition randomTransition(int cells, Rng& rng) {
   Eigen::MatrixXd P(cells, cells);
@@ -152,5 +151,4 @@ TEST(HistogramFilter, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(smoothedCells(half, {}, never), "transitions between the observations");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::histogram_filter_test

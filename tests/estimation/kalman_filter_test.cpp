@@ -10,8 +10,7 @@
 #include "random_gaussian.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::kalman_filter_test {
 
 using test::randomGaussian;
 using test::randomModel;
@@ -307,5 +306,4 @@ TEST(KalmanFilter, SaysWhatIsWrong) {
                    "transitions between the beliefs: found a vector of size 0, wanted size 1");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::kalman_filter_test

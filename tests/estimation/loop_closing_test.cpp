@@ -8,8 +8,7 @@
 #include "building.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::loop_closing_test {
 
 using test::planarMotion;
 
@@ -237,5 +236,4 @@ TEST(LoopClosing, GraphOfACorridorCanBeOptimized) {
   }
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::loop_closing_test

@@ -10,8 +10,7 @@
 #include "geometry/rotation.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::occupancy_map_test {
 
 using std::numbers::pi;
 
@@ -193,5 +192,4 @@ TEST(OccupancyMap, SaysWhatIsWrong) {
                    "ranges: found a vector of size 3, wanted size 2");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::occupancy_map_test

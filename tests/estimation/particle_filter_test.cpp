@@ -10,8 +10,7 @@
 #include "random_gaussian.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::particle_filter_test {
 
 NonlinearModel asFunction(const LinearModel& model) {
   return {.g = [=](const Eigen::VectorXd& x) -> Eigen::VectorXd { return model.C * x + model.c; },
@@ -242,5 +241,4 @@ TEST(ParticleFilter, CountsCellsFarAway) {
   EXPECT_GT(filter.particles().states.cols(), 2000);
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::particle_filter_test

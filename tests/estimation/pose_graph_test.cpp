@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "base/derivative_check.h"
 #include "base/rng.h"
 #include "estimation/g2o_file.h"
 #include "estimation/kalman_filter.h"
@@ -17,13 +18,11 @@
 #include "estimation/smoother.h"
 #include "geometry/lie.h"
 #include "geometry/rotation.h"
-#include "optim/derivative_check.h"
 #include "random_gaussian.h"
 #include "street_graph.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::pose_graph_test {
 
 using internal::PlanarGraphTraits;
 using internal::SpatialGraphTraits;
@@ -454,5 +453,4 @@ TEST(PoseGraph, SaysWhatIsWrong) {
   EXPECT_THAT(spent.message, testing::HasSubstr("the iterations are spent after 0 iterations"));
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::pose_graph_test

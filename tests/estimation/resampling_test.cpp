@@ -10,8 +10,7 @@
 #include "estimation/consistency.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::resampling_test {
 
 constexpr Resampling kAll[] = {Resampling::kMultinomial, Resampling::kResidual, Resampling::kStratified,
                                Resampling::kSystematic};
@@ -130,5 +129,4 @@ TEST(Resampling, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(adaptiveSampleSize(2, .1, -1), "quantile: found -1, wanted a positive number");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::resampling_test

@@ -12,8 +12,7 @@
 #include "building.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::scan_matching_test {
 
 using std::numbers::pi;
 using test::planarMotion;
@@ -216,5 +215,4 @@ TEST(ScanMatching, RefusesWhatIsNotSound) {
   EXPECT_REX_ERROR(searchAlignment(points, points, {0, 0, 0}, {1, -1}), "window of a search");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::scan_matching_test

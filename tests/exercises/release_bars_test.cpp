@@ -8,13 +8,12 @@
 #include <gtest/gtest.h>
 
 #include "base/process.h"
-#include "grading/exercise_info.h"
 #include "render/png.h"
+#include "submission/exercise_info.h"
 #include "support/file_text.h"
 #include "support/temporary_folder.h"
 
-namespace rex {
-namespace {
+namespace rex::release_bars_test {
 
 namespace fs = std::filesystem;
 
@@ -55,7 +54,7 @@ TEST_F(AcceptanceBars, Bar02APictureOfNothingFailsTheRun) {
   const TemporaryFolder folder;
   const std::string picture = (folder.path() / "nothing.png").string();
   const auto draw = [&](const std::string& camera) {
-    return runProcess({"env", "-u", "DISPLAY", "-u", "WAYLAND_DISPLAY", REX_BINARY_DIR "/rex", "render",
+    return runProcess({"env", "-u", "DISPLAY", "-u", "WAYLAND_DISPLAY", REX_BINARY_DIR "/rex-robot", "render",
                        "man", "--camera", camera, "-o", picture});
   };
   const ProcessResult away = draw("0,0,50@0,0,100");
@@ -100,5 +99,4 @@ TEST_F(AcceptanceBars, Bar03SolutionsStartersAndReleaseAreGated) {
   }
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::release_bars_test

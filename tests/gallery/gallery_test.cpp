@@ -13,8 +13,7 @@
 #include "support/needs_gnuplot.h"
 #include "support/needs_osmesa.h"
 
-namespace rex::gallery {
-namespace {
+namespace rex::gallery::gallery_test {
 
 namespace fs = std::filesystem;
 
@@ -47,5 +46,4 @@ TEST(Gallery, ShowsWhatTheCodeDraws) {
   EXPECT_EQ(kept, files) << "run scripts/gallery";
 }
 
-}  // namespace
-}  // namespace rex::gallery
+}  // namespace rex::gallery::gallery_test

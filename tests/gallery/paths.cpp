@@ -1,7 +1,7 @@
 #include "gallery/paths.h"
 
-#include "cli/path_pictures.h"
-#include "cli/trajectory_search.h"
+#include "cli/robot/path_pictures.h"
+#include "cli/robot/trajectory_search.h"
 #include "planning/robot_problem.h"
 #include "render/renderer.h"
 #include "render/scene_picture.h"

@@ -8,8 +8,7 @@
 #include "support/expect_error.h"
 #include "support/mesh_samples.h"
 
-namespace rex {
-namespace {
+namespace rex::convex_hull_test {
 
 using Eigen::Vector3d;
 using Eigen::Vector3f;
@@ -189,5 +188,4 @@ TEST(ConvexHull, RefusesWhatIsNotFinite) {
   EXPECT_EQ(convexHull(many).positions().size(), 2u);
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::convex_hull_test

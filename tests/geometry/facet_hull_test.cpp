@@ -10,8 +10,7 @@
 #include "optim/linear_program.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::facet_hull_test {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -153,5 +152,4 @@ TEST(FacetHull, RefusesBadPoints) {
   EXPECT_REX_ERROR(facetHull(MatrixXd::Zero(2, 10'001)), "hull: found 10001 points, wanted at most 10000");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::facet_hull_test

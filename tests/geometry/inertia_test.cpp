@@ -5,8 +5,7 @@
 #include "base/rng.h"
 #include "geometry/rotation.h"
 
-namespace rex {
-namespace {
+namespace rex::inertia_test {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -41,5 +40,4 @@ TEST(InertiaFault, ForgivesRounding) {
   EXPECT_EQ(inertiaFault(diagonal(-1e-12, 1, 1)), InertiaFault::kNone);
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::inertia_test

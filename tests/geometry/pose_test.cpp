@@ -8,8 +8,7 @@
 #include "geometry/rotation.h"
 #include "geometry/shape.h"
 
-namespace rex {
-namespace {
+namespace rex::pose_test {
 
 Pose randomPose(Rng& rng) { return {expSO3(rng.normalVector(3)), rng.normalVector(3)}; }
 
@@ -38,5 +37,4 @@ TEST(HalfBounds, HoldTheSolid) {
   EXPECT_EQ(halfBounds({ShapeType::kCylinder, {9, 9, 2}, 0.5}), Eigen::Vector3d(0.5, 0.5, 1));
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::pose_test

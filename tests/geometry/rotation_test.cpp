@@ -9,8 +9,7 @@
 #include "geometry/lie.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::rotation_test {
 
 using std::numbers::pi;
 
@@ -184,5 +183,4 @@ TEST(IsRotation, AllowsForRoundingOnly) {
   EXPECT_FALSE(isRotation(-R));
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::rotation_test

@@ -6,8 +6,7 @@
 
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::triangle_mesh_test {
 
 using Part = TriangleMesh::Part;
 
@@ -53,5 +52,4 @@ TEST(TriangleMesh, NamesWhatIsWrong) {
                    "mesh: found parts of 1 triangles together, wanted all 2");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::triangle_mesh_test

@@ -9,8 +9,7 @@
 #include "support/expect_error.h"
 #include "support/mesh_samples.h"
 
-namespace rex {
-namespace {
+namespace rex::welded_mesh_test {
 
 using Eigen::Vector3f;
 
@@ -130,5 +129,4 @@ TEST(WeldedMesh, RefusesABadIndex) {
   EXPECT_REX_ERROR(weldedMesh({Vector3f::Zero()}, {{0, 0, 1}}), "mesh: found triangle 0 with corner 1");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::welded_mesh_test

@@ -21,17 +21,16 @@
 #include <unistd.h>
 
 #include "base/process.h"
-#include "grading/hand_in.h"
+#include "base/text_file.h"
+#include "classroom/hand_in.h"
 #include "grading/result_file.h"
-#include "grading/submission.h"
-#include "grading/text_file.h"
-#include "grading/zip_file.h"
 #include "sandbox/probes.h"
+#include "submission/submission.h"
+#include "submission/zip_file.h"
 #include "support/archive_samples.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading {
-namespace {
+namespace rex::grading::battery_test {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
@@ -535,5 +534,4 @@ TEST_F(Battery, A30TakesNamesAsTheyAre) {
   }
 }
 
-}  // namespace
-}  // namespace rex::grading
+}  // namespace rex::grading::battery_test

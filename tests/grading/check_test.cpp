@@ -8,8 +8,7 @@
 
 #include "remote/thrown.h"
 
-namespace rex::grading {
-namespace {
+namespace rex::grading::check_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -347,5 +346,4 @@ TEST(Check, IsNotAtFaultForWhatCannotBeShown) {
   EXPECT_EQ(result.status, Outcome::fail);
 }
 
-}  // namespace
-}  // namespace rex::grading
+}  // namespace rex::grading::check_test

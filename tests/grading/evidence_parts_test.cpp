@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rex::grading {
-namespace {
+namespace rex::grading::evidence_parts_test {
 
 Solid ballAt(double x) {
   return {{.type = ShapeType::kSphere, .radius = .2}, translation(x, 0, .5), {1, 0, 0}, "ball"};
@@ -83,5 +82,4 @@ TEST(Through, TakesTheFirstTwoNumbers) {
   EXPECT_EQ(curve.y, (std::vector<double>{2, 4}));
 }
 
-}  // namespace
-}  // namespace rex::grading
+}  // namespace rex::grading::evidence_parts_test

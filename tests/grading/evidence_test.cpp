@@ -9,8 +9,7 @@
 #include "support/fresh_folder.h"
 #include "support/needs_osmesa.h"
 
-namespace rex::grading {
-namespace {
+namespace rex::grading::evidence_test {
 
 using ::testing::HasSubstr;
 
@@ -94,5 +93,4 @@ TEST_F(WriteEvidence, LeavesNothingOfNothing) {
   EXPECT_FALSE(std::filesystem::exists(folder_));
 }
 
-}  // namespace
-}  // namespace rex::grading
+}  // namespace rex::grading::evidence_test

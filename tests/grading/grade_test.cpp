@@ -18,8 +18,7 @@
 #include "support/expect_error.h"
 #include "support/fresh_folder.h"
 
-namespace rex::grading {
-namespace {
+namespace rex::grading::grade_test {
 
 using ::testing::HasSubstr;
 
@@ -204,5 +203,4 @@ TEST(RunWithWorker, WaitsLongerWhereTheMachineIsBusy) {
   EXPECT_GT(run.wallSeconds, 0.4);
 }
 
-}  // namespace
-}  // namespace rex::grading
+}  // namespace rex::grading::grade_test

@@ -13,8 +13,7 @@
 #include "grading/grader_main.h"
 #include "grading/result_file.h"
 
-namespace rex::grading {
-namespace {
+namespace rex::grading::grader_test {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
@@ -248,8 +247,8 @@ TEST_F(Grader, IsDescribedWellEnoughToBuildAWorker) {
   std::vector<std::string> command = {build.at("compiler").get<std::string>()};
   for (const std::string flag : build.at("compile_flags")) command.push_back(flag);
   for (const char* name : {"good.cpp", "rest.cpp"}) command.push_back((source / name).string());
-  for (const char* part : {"worker_object", "student_library"})
-    command.push_back(build.at(part).get<std::string>());
+  command.push_back(build.at("worker_object").get<std::string>());
+  for (const std::string library : build.at("libraries")) command.push_back(library);
   for (const std::string flag : build.at("link_flags")) command.push_back(flag);
   command.insert(command.end(), {"-o", worker.string()});
   const ProcessResult compiled = runProcess(command);
@@ -283,5 +282,4 @@ TEST_F(Grader, ListsItsChecks) {
                                                "title": "One step reaches unseen targets"})"));
 }
 
-}  // namespace
-}  // namespace rex::grading
+}  // namespace rex::grading::grader_test

@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rex::grading {
-namespace {
+namespace rex::grading::hidden_seed_test {
 
 // The test cases 1, 2, 3 and 6 of RFC 4231.
 TEST(HiddenSeed, AgreesWithThePublishedExamples) {
@@ -28,5 +27,4 @@ TEST(HiddenSeed, DependsOnAllItIsMadeOf) {
   EXPECT_EQ(hiddenSeed("s", "f", "01", "hidden"), hiddenSeed("s", "f", "01", "hidden"));
 }
 
-}  // namespace
-}  // namespace rex::grading
+}  // namespace rex::grading::hidden_seed_test

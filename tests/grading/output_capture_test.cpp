@@ -8,8 +8,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-namespace rex::grading {
-namespace {
+namespace rex::grading::output_capture_test {
 
 TEST(OutputCapture, KeepsTheStartAndTheEndAndCountsTheRest) {
   std::array<int, 2> fds{};
@@ -43,5 +42,4 @@ TEST(TellingLine, PrefersTheReasonToTheLastLine) {
   EXPECT_EQ(tellingLine(std::string(1000, 'x')), std::string(300, 'x') + " ...");
 }
 
-}  // namespace
-}  // namespace rex::grading
+}  // namespace rex::grading::output_capture_test

@@ -6,8 +6,7 @@
 
 #include "grading/results.h"
 
-namespace rex::grading {
-namespace {
+namespace rex::grading::result_schema_test {
 
 using Json = nlohmann::json;
 
@@ -103,5 +102,4 @@ TEST(ResultSchema, WantsEveryField) {
   EXPECT_EQ(violation(extra, schema(), ""), "/checks/0: extra verdict");
 }
 
-}  // namespace
-}  // namespace rex::grading
+}  // namespace rex::grading::result_schema_test

@@ -9,8 +9,7 @@
 #include "grading/result_file.h"
 #include "support/expect_error.h"
 
-namespace rex::grading {
-namespace {
+namespace rex::grading::results_test {
 
 GradeResult someResult() {
   GradeResult result;
@@ -151,5 +150,4 @@ TEST(ResultFile, IsReplacedAndReadBack) {
   std::filesystem::remove_all(folder);
 }
 
-}  // namespace
-}  // namespace rex::grading
+}  // namespace rex::grading::results_test

@@ -11,8 +11,7 @@
 #include "support/mesh_samples.h"
 #include "support/paths.h"
 
-namespace rex {
-namespace {
+namespace rex::antipodal_test {
 
 using Eigen::Vector3d;
 using Eigen::VectorXd;
@@ -143,5 +142,4 @@ TEST(Antipodal, RefusesBadInput) {
   EXPECT_REX_ERROR(contactsAt(surface.sample(rng, 1), -1), "contact: friction: found -1");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::antipodal_test

@@ -10,8 +10,7 @@
 #include "base/rng.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::closure_test {
 
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
@@ -263,5 +262,4 @@ TEST(Closure, RefusesWhatAreNoWrenches) {
   EXPECT_REX_ERROR(forceClosure(MatrixXd(0, 3)), "force closure: found wrenches without numbers");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::closure_test

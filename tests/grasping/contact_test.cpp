@@ -8,8 +8,7 @@
 #include "base/rng.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::contact_test {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -53,5 +52,4 @@ TEST(Contact, RefusesWhatIsNone) {
                    "contact: friction: found -0.5, wanted zero or more");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::contact_test

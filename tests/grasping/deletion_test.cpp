@@ -11,8 +11,7 @@
 #include "grasping/antipodal.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::deletion_test {
 
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
@@ -127,5 +126,4 @@ TEST(DeletionSynthesis, RefusesOtherOrders) {
   EXPECT_REX_ERROR(deleteRedundant(cones, std::vector{0, 1}), "deletion synthesis: order: found 0 1");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::deletion_test

@@ -10,8 +10,7 @@
 #include "grasping/closure.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::equilibrium_test {
 
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
@@ -214,5 +213,4 @@ TEST(Equilibrium, RefusesBadInput) {
   EXPECT_REX_ERROR(equilibrium(cones, load), "equilibrium: load: number 2: found nan");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::equilibrium_test

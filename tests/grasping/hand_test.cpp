@@ -7,8 +7,7 @@
 #include "grasping/quality.h"
 #include "support/closing_hand.h"
 
-namespace rex {
-namespace {
+namespace rex::hand_test {
 
 using Eigen::Vector3d;
 using namespace closing_hand;
@@ -68,5 +67,4 @@ TEST(HandOnABall, HasNoFormClosure) {
             1e-4);  // it turns; the normals meet micrometres beside its centre
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::hand_test

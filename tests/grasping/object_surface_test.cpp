@@ -11,8 +11,7 @@
 #include "support/expect_error.h"
 #include "support/mesh_samples.h"
 
-namespace rex {
-namespace {
+namespace rex::object_surface_test {
 
 using Eigen::Vector3d;
 using std::numbers::pi;
@@ -128,5 +127,4 @@ TEST(ObjectSurface, RefusesWhatHasNone) {
   EXPECT_REX_ERROR(ball.hits({0, 0, 0}, {0, 1, std::nan("")}), "surface: direction of the line: number 2");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::object_surface_test

@@ -9,8 +9,7 @@
 #include "grasping/closure.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::quality_test {
 
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
@@ -183,5 +182,4 @@ TEST(Quality, RefusesBadInput) {
                    "hull: point 0: number 0: found nan");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::quality_test

@@ -8,8 +8,7 @@
 #include "base/rng.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::wrench_cone_test {
 
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
@@ -133,5 +132,4 @@ TEST(WrenchCone, RefusesConesThatDoNotFit) {
                    "wrench cone 1: friction: found -1, wanted zero or more");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::wrench_cone_test

@@ -10,8 +10,7 @@
 #include "support/expect_error.h"
 #include "support/random_scene.h"
 
-namespace rex {
-namespace {
+namespace rex::batch_test {
 
 // A tree with every joint type several times, some of them followers of others.
 Model randomModel(Rng& rng, int bodies = 40) {
@@ -92,7 +91,7 @@ TEST_P(BatchOfLanes, JacobiansHaveTheBitsOfOne) {
 INSTANTIATE_TEST_SUITE_P(OneTwoAndFour, BatchOfLanes, testing::Values(1, 2, 4));
 
 // The kernels know no joint types, jointMotion() does.
-TEST(ForwardKinematics, FollowsTheMotionOfEachJointType) {
+TEST(ForwardKinematicsBatch, FollowsTheMotionOfEachJointType) {
   Rng rng(63);
   for (int i = 0; i < 10; ++i) {
     const Model model = randomModel(rng);
@@ -192,5 +191,4 @@ TEST(PoseBatch, AllocatesOnlyAtFirst) {
 }
 #endif
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::batch_test

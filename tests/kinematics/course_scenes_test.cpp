@@ -10,8 +10,7 @@
 #include "scene/ors_reader.h"
 #include "support/paths.h"
 
-namespace rex {
-namespace {
+namespace rex::course_scenes_test {
 
 using Eigen::Matrix4d;
 
@@ -101,5 +100,4 @@ INSTANTIATE_TEST_SUITE_P(Course, CourseScene,
                                          sevenLinks("arm7", "arm7", 0.2, 1), pinBalancing()),
                          [](const auto& i) { return i.param.scene; });
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::course_scenes_test

@@ -11,8 +11,7 @@
 #include "scene/ors_reader.h"
 #include "support/paths.h"
 
-namespace rex {
-namespace {
+namespace rex::golden_test {
 
 constexpr double kTolerance = 1e-9;
 
@@ -102,5 +101,4 @@ TEST_P(GoldenScene, HistoricalFileMatches) {
 INSTANTIATE_TEST_SUITE_P(Course, GoldenScene, testing::Values("man", "pegInAHole", "pegArm", "arm3"),
                          [](const auto& i) { return i.param; });
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::golden_test

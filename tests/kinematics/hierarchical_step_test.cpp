@@ -9,8 +9,7 @@
 #include "kinematics/inverse_kinematics.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::hierarchical_step_test {
 
 TaskLevel randomLevel(Rng& rng, int d, int n) {
   return {.J = rng.normalVector(d * n).reshaped(d, n), .dy = rng.normalVector(d)};
@@ -163,5 +162,4 @@ TEST(HierarchicalStep, RefusesBadArguments) {
   }
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::hierarchical_step_test

@@ -6,8 +6,8 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "base/derivative_check.h"
 #include "kinematics/task_maps.h"
-#include "optim/derivative_check.h"
 #include "scene/ors_reader.h"
 #include "scene/scene_file.h"
 #include "scene/state.h"
@@ -18,8 +18,7 @@
 #include "support/paths.h"
 #include "support/random_scene.h"
 
-namespace rex {
-namespace {
+namespace rex::inverse_kinematics_solver_test {
 
 using Status = InverseKinematicsResult::Status;
 
@@ -297,5 +296,4 @@ TEST(SolveInverseKinematics, RefusesBadArguments) {
                    "task 'square root': value: found a number that is not finite");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::inverse_kinematics_solver_test

@@ -8,8 +8,7 @@
 #include "base/rng.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::inverse_kinematics_test {
 
 TEST(InverseKinematicsStep, EqualsTheOtherWoodburyForm) {
   Rng rng(1);
@@ -144,5 +143,4 @@ TEST(StepWithMetrics, RefusesBadArguments) {
                      "metric C: wanted a symmetric, positive definite matrix");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::inverse_kinematics_test

@@ -4,15 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include "base/derivative_check.h"
 #include "geometry/rotation.h"
 #include "kinematics/center_of_mass.h"
-#include "optim/derivative_check.h"
 #include "scene/state.h"
 #include "support/expect_error.h"
 #include "support/random_scene.h"
 
-namespace rex {
-namespace {
+namespace rex::jacobians_test {
 
 BodyId lastBody(const Model& model) { return BodyId{static_cast<int>(model.bodies().size()) - 1}; }
 
@@ -145,5 +144,4 @@ TEST(CenterOfMass, NeedsAMass) {
                    "centre of mass of scene 'ghost.ors': found no body with a mass");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::jacobians_test

@@ -7,11 +7,10 @@
 
 #include <gtest/gtest.h>
 
-#include "optim/derivative_check.h"
+#include "base/derivative_check.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::motion_profile_test {
 
 struct Case {
   MotionProfile profile;
@@ -92,5 +91,4 @@ TEST(MotionProfile, RefusesWhatIsNoProfile) {
                    "time of a motion profile: found inf, wanted a finite number");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::motion_profile_test

@@ -11,8 +11,7 @@
 #include "support/kdl_tree.h"
 #include "support/random_scene.h"
 
-namespace rex {
-namespace {
+namespace rex::peer_test {
 
 constexpr double kTolerance = 1e-11;
 
@@ -80,8 +79,7 @@ TEST(Peer, KdlAgreesOnBatches) {
   }
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::peer_test
 
 #else
 

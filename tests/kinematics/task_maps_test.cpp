@@ -6,15 +6,14 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "base/derivative_check.h"
 #include "kinematics/center_of_mass.h"
 #include "kinematics/jacobians.h"
-#include "optim/derivative_check.h"
 #include "scene/state.h"
 #include "support/expect_error.h"
 #include "support/random_scene.h"
 
-namespace rex {
-namespace {
+namespace rex::task_maps_test {
 
 TaskValue valueAt(const TaskMap& map, const Model& model, const Eigen::VectorXd& q) {
   TaskValue value;
@@ -225,5 +224,4 @@ TEST(TaskMaps, RefuseBadArguments) {
   EXPECT_REX_ERROR(valueAt(centerOfMassTask(), compile(ghost), {}), "centre of mass of scene 'ghost.ors'");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::task_maps_test

@@ -9,8 +9,7 @@
 #include "support/paths.h"
 #include "support/random_scene.h"
 
-namespace rex {
-namespace {
+namespace rex::task_motion_test {
 
 TEST(InterpolatePostures, GoesStraightWithTheProfile) {
   Rng rng(51);
@@ -138,5 +137,4 @@ TEST(TaskMotion, RefusesBadArguments) {
       "metric W: ");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::task_motion_test

@@ -8,8 +8,7 @@
 #include "support/expect_error.h"
 #include "support/random_scene.h"
 
-namespace rex {
-namespace {
+namespace rex::task_test {
 
 struct Robot {
   Rng rng{41};
@@ -86,5 +85,4 @@ TEST(StackTasks, NamesTheTaskThatIsNone) {
               "task 'gaze': Jacobian: found 3 x 2, wanted 3 x ");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::task_test

@@ -17,8 +17,7 @@
 #include "support/urdf_samples.h"
 #include "support/urdfdom_robot.h"
 
-namespace rex {
-namespace {
+namespace rex::urdf_peer_test {
 
 constexpr double kTolerance = 1e-12;
 
@@ -108,8 +107,7 @@ TEST(UrdfPeer, AgreesOnAllFiles) {
   }
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::urdf_peer_test
 
 #else
 

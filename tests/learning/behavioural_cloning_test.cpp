@@ -6,13 +6,12 @@
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
+#include "base/derivative_check.h"
 #include "base/rng.h"
 #include "learning/lq_task.h"
-#include "optim/derivative_check.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::behavioural_cloning_test {
 
 Eigen::MatrixXd randomMatrix(int rows, int columns, Rng& rng) {
   return rng.normalVector(rows * columns).reshaped(rows, columns);
@@ -159,5 +158,4 @@ TEST(BehaviouralCloning, SoftmaxDoesNotMindUnits) {
   }
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::behavioural_cloning_test

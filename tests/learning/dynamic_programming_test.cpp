@@ -11,8 +11,7 @@
 #include "learning/random_mdp.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::dynamic_programming_test {
 
 double largest(const Eigen::MatrixXd& m) { return m.cwiseAbs().maxCoeff(); }
 
@@ -137,5 +136,4 @@ TEST(DynamicProgramming, RefusesWrongOptions) {
   EXPECT_REX_ERROR(policyIteration(mdp), "discount: found 2");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::dynamic_programming_test

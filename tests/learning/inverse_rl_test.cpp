@@ -12,8 +12,7 @@
 #include "learning/random_mdp.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::inverse_rl_test {
 
 struct Lesson {
   Mdp mdp{};
@@ -121,5 +120,4 @@ TEST(InverseRl, RefusesWrongInput) {
                    "state of demonstration 1: found 36, wanted one of 0 to 35");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::inverse_rl_test

@@ -9,8 +9,7 @@
 #include "learning/lq_task.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::linear_gaussian_policy_test {
 
 TEST(LinearGaussianPolicy, NoiseHasItsCovariance) {
   const Eigen::Matrix3d Sigma{{2, .3, 0}, {.3, 1, 0}, {0, 0, 0}};
@@ -92,5 +91,4 @@ TEST(LinearGaussianPolicy, TellsTheVarianceOfActionsFromRounding) {
   }
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::linear_gaussian_policy_test

@@ -8,8 +8,7 @@
 #include "base/rng.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::max_margin_test {
 
 // The distance to the hull as the least over the hulls of all subsets, each by its own plane.
 double distanceBySubsets(const Eigen::VectorXd& teacher, const Eigen::MatrixXd& candidates) {
@@ -85,5 +84,4 @@ TEST(MaxMargin, RefusesWrongInput) {
   EXPECT_REX_ERROR(maxMargin(teacher, Eigen::Vector2d(0, nan)), "candidates: number 1: found nan");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::max_margin_test

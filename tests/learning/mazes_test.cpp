@@ -6,8 +6,7 @@
 #include "learning/policy_values.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::mazes_test {
 
 // A value for each cell in the order in which it is read: the highest row first; walls have none.
 void expectTable(const GridWorld& world, const Eigen::VectorXd& V, const Eigen::MatrixXd& table,
@@ -111,5 +110,4 @@ TEST(Mazes, SayWhatIsWrongAndWhere) {
   EXPECT_REX_ERROR(gridWorld("Aaa", jump), "cell 'a', which is jumped to: found 2 of them, wanted one");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::mazes_test

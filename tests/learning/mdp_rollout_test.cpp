@@ -7,8 +7,7 @@
 #include "learning/random_mdp.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::mdp_rollout_test {
 
 // 4.5 standard errors, each of 12: one failure in 10^4 seeds.
 TEST(MdpRollout, MeanReturnIsTheValue) {
@@ -61,5 +60,4 @@ TEST(MdpRollout, RefusesWrongInput) {
   EXPECT_REX_ERROR(estimatedReturn(maze, policy, 0, 1, 10, rng), "episodes: found 1, wanted 2 or more");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::mdp_rollout_test

@@ -8,8 +8,7 @@
 #include "learning/random_mdp.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::mdp_test {
 
 TEST(Mdp, SaysWhatIsWrongAndWhere) {
   const Mdp good = tMaze();
@@ -103,5 +102,4 @@ TEST(Mdp, ActsGreedily) {
   EXPECT_LT((policy.rowwise().sum().array() - 1).abs().maxCoeff(), 1e-15);
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::mdp_test

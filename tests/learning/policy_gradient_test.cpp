@@ -6,13 +6,12 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include "base/derivative_check.h"
 #include "control/riccati.h"
 #include "learning/lq_task.h"
-#include "optim/derivative_check.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::policy_gradient_test {
 
 const Eigen::Vector2d kBeta(-.3, -.2);
 const Eigen::Matrix2d kSigma{{.04, .01}, {.01, .09}};
@@ -208,5 +207,4 @@ TEST(PolicyGradient, RefusesWrongInput) {
   EXPECT_REX_ERROR(logGradients(policy, good), "Sigma of the policy: found the eigenvalue -1");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::policy_gradient_test

@@ -7,8 +7,7 @@
 #include "optim/search_result.h"  // one program may search both ways
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::policy_search_test {
 
 // Of a long horizon, the optimum is the regulator of the discounted problem.
 TEST(PolicySearch, NearsTheRegulator) {
@@ -112,5 +111,4 @@ TEST(PolicySearch, RefusesWrongOptions) {
   EXPECT_REX_ERROR(improvedPolicy(LqTask().rollouts(), {}, {}, rng), "policy: found no parameter");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::policy_search_test

@@ -9,8 +9,7 @@
 #include "learning/random_mdp.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::policy_values_test {
 
 // The sums over time themselves, until nothing is left of the discount.
 TEST(PolicyValues, AreDiscountedSums) {
@@ -74,5 +73,4 @@ TEST(PolicyValues, SayWhenTheSystemIsSingular) {
   EXPECT_EQ(policyIteration(mdp).status, MdpStatus::kNotConverged);
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::policy_values_test

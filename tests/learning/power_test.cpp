@@ -7,8 +7,7 @@
 #include "learning/lq_task.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::power_test {
 
 // With one feature the slide's ratio is right: sum epsilon Q / sum Q.
 TEST(Power, IsTheRatioForOneFeature) {
@@ -90,5 +89,4 @@ TEST(Power, RefusesWrongInput) {
   EXPECT_REX_ERROR(powerStep(policy, {episode}, 1), "Sigma of the policy: found a direction without noise");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::power_test

@@ -8,8 +8,7 @@
 #include "learning/random_mdp.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::q_learning_test {
 
 TEST(QLearning, NearsTheExactValues) {
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
@@ -73,5 +72,4 @@ TEST(QLearning, RefusesWrongOptions) {
   EXPECT_REX_ERROR(sarsa(Mdp(), {}, rng), "rewards of the decision process");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::q_learning_test

@@ -7,8 +7,7 @@
 
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::sensor_history_test {
 
 TEST(SensorHistory, LaysItsFeaturesOut) {
   SensorHistory history({.sensors = 2,
@@ -62,5 +61,4 @@ TEST(SensorHistory, RefusesWrongInput) {
   EXPECT_REX_ERROR(history.observe(Eigen::Vector3d::Zero()), "reading of the sensors");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::sensor_history_test

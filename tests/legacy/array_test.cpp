@@ -10,8 +10,7 @@
 #include "legacy/random.h"
 #include "support/expect_error.h"
 
-namespace rex::legacy {
-namespace {
+namespace rex::legacy::array_test {
 
 arr randomMatrix(Rng& rng, uint rows, uint columns) {
   arr A(rows, columns);
@@ -178,5 +177,4 @@ TEST(RandomNumbers, AreThoseOfTheSeed) {
   EXPECT_TRUE(std::isfinite(rnd.gauss()));
 }
 
-}  // namespace
-}  // namespace rex::legacy
+}  // namespace rex::legacy::array_test

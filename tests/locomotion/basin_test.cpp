@@ -4,8 +4,7 @@
 
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::basin_test {
 
 using Eigen::VectorXd;
 using Status = BasinOutcome::Status;
@@ -69,5 +68,4 @@ TEST(Basin, NamesWhatIsWrong) {
                    "basin of attraction: tolerance: found -1");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::basin_test

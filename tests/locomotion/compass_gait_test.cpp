@@ -5,13 +5,12 @@
 
 #include <Eigen/Dense>
 
+#include "base/derivative_check.h"
 #include "base/rng.h"
 #include "dynamics/ode_step.h"
-#include "optim/derivative_check.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::compass_gait_test {
 
 using Eigen::Matrix4d;
 using Eigen::MatrixXd;
@@ -233,5 +232,4 @@ TEST(CompassGait, NamesWhatIsWrong) {
   EXPECT_REX_ERROR(CompassGait{}.step(kGait, 0), "compass gait: time limit: found 0");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::compass_gait_test

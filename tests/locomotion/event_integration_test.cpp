@@ -5,8 +5,7 @@
 
 #include "locomotion/event_integration_internal.h"
 
-namespace rex::internal {
-namespace {
+namespace rex::internal::event_integration_test {
 
 using Eigen::Vector2d;
 
@@ -66,5 +65,4 @@ TEST(IntegrateToEvent, LeavesOutWhatDoesNotApply) {
   EXPECT_FALSE(integrateToEvent<Vector2d>(oscillator, Vector2d(1, 0), 6, .3, std::span(rising)).event);
 }
 
-}  // namespace
-}  // namespace rex::internal
+}  // namespace rex::internal::event_integration_test

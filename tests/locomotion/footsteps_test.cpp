@@ -5,8 +5,7 @@
 #include "locomotion/preview_control.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::footsteps_test {
 
 using Eigen::Vector2d;
 
@@ -111,5 +110,4 @@ TEST(WalkPlan, NamesWhatIsWrong) {
   }
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::footsteps_test

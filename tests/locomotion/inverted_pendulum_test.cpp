@@ -6,8 +6,7 @@
 #include "dynamics/ode_step.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::inverted_pendulum_test {
 
 using Eigen::Vector2d;
 using Eigen::Vector4d;
@@ -70,5 +69,4 @@ TEST(InvertedPendulum, NamesWhatIsWrong) {
   EXPECT_REX_ERROR(pendulum.zmp(zero, bad), "inverted pendulum: acceleration: number 1");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::inverted_pendulum_test

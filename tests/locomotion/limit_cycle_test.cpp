@@ -4,8 +4,7 @@
 
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::limit_cycle_test {
 
 using Eigen::Vector4d;
 using Status = LimitCycle::Status;
@@ -119,5 +118,4 @@ TEST(LimitCycle, SaysWhyThereIsNone) {
   EXPECT_REX_ERROR(findLimitCycle({}, Vector4d::Zero(), {.tolerance = 0}), "limit cycle: tolerance: found 0");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::limit_cycle_test

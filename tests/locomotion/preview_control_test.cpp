@@ -7,8 +7,7 @@
 #include "base/rng.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::preview_control_test {
 
 using Eigen::Index;
 using Eigen::Matrix2Xd;
@@ -109,5 +108,4 @@ TEST(PreviewControl, NamesWhatIsWrong) {
   EXPECT_REX_ERROR(followZmp(Matrix2Xd::Constant(2, 3, NAN), {}), "preview control: reference: number 0");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::preview_control_test

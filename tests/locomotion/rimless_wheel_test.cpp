@@ -8,8 +8,7 @@
 #include "dynamics/ode_step.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::rimless_wheel_test {
 
 using Eigen::Vector2d;
 using Status = RimlessWheel::Step::Status;
@@ -100,5 +99,4 @@ TEST(RimlessWheel, NamesWhatIsWrong) {
   EXPECT_REX_ERROR(RimlessWheel{}.step(NAN), "rimless wheel: rate: found nan");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::rimless_wheel_test

@@ -2,13 +2,12 @@
 
 #include <cmath>
 
+#include "base/derivative_check.h"
 #include "base/rng.h"
 #include "dynamics/ode_step.h"
-#include "optim/derivative_check.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::spring_leg_test {
 
 using Eigen::Vector2d;
 using Eigen::Vector4d;
@@ -163,5 +162,4 @@ TEST(SpringLeg, NamesWhatIsWrong) {
   EXPECT_REX_ERROR(SpringLeg{}.stanceEnergy({0, NAN, 0, 0}), "spring leg: state: number 1");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::spring_leg_test

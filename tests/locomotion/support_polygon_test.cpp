@@ -9,8 +9,7 @@
 #include "geometry/convex_hull.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::support_polygon_test {
 
 using Eigen::Matrix2Xd;
 using Eigen::Vector2d;
@@ -150,5 +149,4 @@ TEST(SupportMargin, WithoutAPolygonNothingIsInside) {
                    "support margin: wanted margin: found -1, wanted a number that is not negative");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::support_polygon_test

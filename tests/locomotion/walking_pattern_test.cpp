@@ -9,8 +9,7 @@
 #include "support/expect_error.h"
 #include "support/paths.h"
 
-namespace rex {
-namespace {
+namespace rex::walking_pattern_test {
 
 using Eigen::Vector3d;
 using Eigen::VectorXd;
@@ -157,5 +156,4 @@ TEST(WalkingPattern, SaysWhereItCannotWalk) {
   EXPECT_REX_ERROR(with({.maxIterations = 0}), "walking pattern: iterations: found 0");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::walking_pattern_test

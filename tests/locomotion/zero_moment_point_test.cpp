@@ -11,8 +11,7 @@
 #include "support/paths.h"
 #include "support/random_motion.h"
 
-namespace rex {
-namespace {
+namespace rex::zero_moment_point_test {
 
 using Eigen::Vector3d;
 using Eigen::VectorXd;
@@ -128,5 +127,4 @@ TEST(StaticStability, OfAStandingHumanoid) {
   EXPECT_NEAR(left.margin, -.04, 1e-3);  // the feet stand 0.095 m from the middle and are 0.11 m wide
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::zero_moment_point_test

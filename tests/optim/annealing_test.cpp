@@ -7,8 +7,7 @@
 #include "optim/test_functions.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::annealing_test {
 
 using Eigen::VectorXd;
 
@@ -112,5 +111,4 @@ TEST(Annealing, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(run({.maxEvaluations = 0}), "annealing: budget of evaluations: found 0");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::annealing_test

@@ -14,8 +14,7 @@
 #include "support/allocations.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::cma_es_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -367,5 +366,4 @@ TEST(CmaEs, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(es.update(right, ones(6)), "CMA-ES: samples: found numbers that are not finite");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::cma_es_test

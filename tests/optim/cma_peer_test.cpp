@@ -12,8 +12,7 @@
 #include "optim/cma_search.h"
 #include "optim/test_functions.h"
 
-namespace rex {
-namespace {
+namespace rex::cma_peer_test {
 
 constexpr const char* kPython = "/usr/bin/python3";  // where Debian's packages are known
 
@@ -88,5 +87,4 @@ TEST_F(CmaPeer, NeedsAsManyEvaluations) {
   }
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::cma_peer_test

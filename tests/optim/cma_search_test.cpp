@@ -10,8 +10,7 @@
 #include "optim/test_functions.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::cma_search_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -209,5 +208,4 @@ TEST(CmaSearch, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(restarts(one, one, {.maxRestarts = -1}), "restarts: found -1, wanted 0 or more");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::cma_search_test

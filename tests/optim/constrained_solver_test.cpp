@@ -5,11 +5,10 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include "optim/derivative_check.h"
+#include "base/derivative_check.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::constrained_solver_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -400,5 +399,4 @@ TEST(ConstrainedSolver, SaysWhatIsWrong) {
                    "inequalities: Jacobian: found 1 x 3, wanted 2 x 2");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::constrained_solver_test

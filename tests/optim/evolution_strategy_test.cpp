@@ -10,8 +10,7 @@
 #include "optim/test_functions.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::evolution_strategy_test {
 
 using Eigen::VectorXd;
 
@@ -138,5 +137,4 @@ TEST(EvolutionStrategy, SaysWhatIsWrong) {
                    "evolution strategy: lambda: found 4, wanted more than mu");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::evolution_strategy_test

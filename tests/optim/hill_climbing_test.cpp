@@ -4,12 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include "optim/derivative_check.h"
+#include "base/derivative_check.h"
 #include "optim/test_functions.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::hill_climbing_test {
 
 using Eigen::VectorXd;
 
@@ -78,5 +77,4 @@ TEST(HillClimbing, SaysWhatIsWrong) {
   expect({.target = std::nan("")}, "hill climbing: target: found nan");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::hill_climbing_test

@@ -10,8 +10,7 @@
 #include "base/rng.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::linear_program_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -148,5 +147,4 @@ TEST(LinearProgram, RefusesWhatIsNoProgram) {
   EXPECT_REX_ERROR(minimizeLinear(A, b, c * HUGE_VAL), "linear program: c: number 0: found inf");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::linear_program_test

@@ -6,12 +6,11 @@
 
 #include <gtest/gtest.h>
 
+#include "base/derivative_check.h"
 #include "base/rng.h"
-#include "optim/derivative_check.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::test_functions_test {
 
 double valueAt(const char* name, const Eigen::VectorXd& x) { return testFunction(name).value(x); }
 
@@ -65,5 +64,4 @@ TEST(TestFunctions, NameTheNearest) {
                    "griewank, rastrigin, schwefel (did you mean 'rastrigin'?)");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::test_functions_test

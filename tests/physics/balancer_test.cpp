@@ -11,8 +11,7 @@
 #include "scene/scene_file.h"
 #include "support/paths.h"
 
-namespace rex {
-namespace {
+namespace rex::balancer_test {
 
 // On its wheels, which are 0.1 m high, and leaning forward.
 Model balancer(double lean) {
@@ -77,5 +76,4 @@ TEST_F(Balancer, FallsForwardOtherwise) {
   EXPECT_LT(world.state().v.norm(), 0.5);
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::balancer_test

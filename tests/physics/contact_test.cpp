@@ -9,8 +9,7 @@
 #include "physics/physics_world.h"
 #include "physics/small_scenes.h"
 
-namespace rex {
-namespace {
+namespace rex::contact_test {
 
 constexpr double kStep = 1e-3, kGravity = 9.81;
 
@@ -166,5 +165,4 @@ TEST(PhysicsContacts, AStackStands) {
   EXPECT_LT(turned, 1e-3);
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::contact_test

@@ -14,8 +14,7 @@
 #include "support/paths.h"
 #include "support/random_scene.h"
 
-namespace rex {
-namespace {
+namespace rex::dynamics_test {
 
 const PhysicsOptions kBare{.jointLimits = false, .jointFriction = false};
 
@@ -254,5 +253,4 @@ TEST(PhysicsDynamics, DampsFreeJointsHoweverStiff) {
   }
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::dynamics_test

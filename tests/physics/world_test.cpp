@@ -12,8 +12,7 @@
 #include "support/expect_error.h"
 #include "support/paths.h"
 
-namespace rex {
-namespace {
+namespace rex::world_test {
 
 void run(PhysicsWorld& world, double seconds, double h = 1e-3) {
   for (int i = 0; i < static_cast<int>(std::lround(seconds / h)); ++i) world.step(h);
@@ -434,5 +433,4 @@ TEST(PhysicsWorld, ReportsABlowUpAndGoesBack) {
   }
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::world_test

@@ -8,8 +8,7 @@
 #include "base/rng.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::bug_test {
 
 using Bug = BugWay (*)(const GridMap&, GridCell, GridCell);
 
@@ -109,5 +108,4 @@ TEST(Bug, SaysThatAClosedRoomIsClosed) {
   EXPECT_REX_ERROR(static_cast<void>(bug2(cell, {0, 0}, {5, 0})), "goal: found cell (5, 0), outside");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::bug_test

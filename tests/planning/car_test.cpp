@@ -4,13 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include "base/derivative_check.h"
 #include "base/rng.h"
-#include "optim/derivative_check.h"
 #include "planning/reeds_shepp.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::car_test {
 
 // The second opinion: many small steps of the velocity by the midpoint rule.
 template <class Velocity, class State>
@@ -71,5 +70,4 @@ TEST(Car, RefusesWhatCannotBeDriven) {
                    "hitch of a trailer: found -1, wanted a positive, finite number of metres");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::car_test

@@ -10,8 +10,7 @@
 #include "planning/reeds_shepp.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::control_tree_test {
 
 constexpr double kSteering = .6;
 
@@ -124,5 +123,4 @@ TEST(ControlTree, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(grow(broken, {}), "upper bounds of controls: found a vector of size 3, wanted size 2");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::control_tree_test

@@ -13,8 +13,7 @@
 #include "support/expect_error.h"
 #include "support/paths.h"
 
-namespace rex {
-namespace {
+namespace rex::curves_test {
 
 using Eigen::Vector3d;
 using std::numbers::pi;
@@ -141,5 +140,4 @@ TEST(Curves, RefuseWhatIsNoPoseOrRadius) {
   EXPECT_REX_ERROR(reedsSheppLength(a, a, INFINITY), "turning radius: found inf");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::curves_test

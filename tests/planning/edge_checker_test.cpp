@@ -8,8 +8,7 @@
 
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::edge_checker_test {
 
 const Space kLine = Space::box(Eigen::VectorXd::Constant(1, -1e300), Eigen::VectorXd::Constant(1, 1e300));
 
@@ -72,5 +71,4 @@ TEST(EdgeChecker, LooksAtPointsThatAreNearAlsoOnTheCircle) {
     EXPECT_LE(2 * std::sin((asked[i] - asked[i - 1]) / 2), .1 + 1e-12);
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::edge_checker_test

@@ -9,8 +9,7 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace rex {
-namespace {
+namespace rex::grid_map_test {
 
 constexpr const char* kRows = "#..\n.#.\n";
 
@@ -81,5 +80,4 @@ TEST(GridMap, KnowsWhereItsCellsAre) {
   EXPECT_FALSE(map.contains(map.cellAt({NAN, 0})));
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::grid_map_test

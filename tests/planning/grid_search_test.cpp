@@ -8,8 +8,7 @@
 #include "base/rng.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::grid_search_test {
 
 GridMap randomMap(Rng& rng, int width, int height, double share) {
   GridMap map(width, height, .5);
@@ -139,5 +138,4 @@ TEST(GridSearch, RefusesCellsThatAreNotFree) {
                    "start: found cell (0, -1)");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::grid_search_test

@@ -9,8 +9,7 @@
 #include "base/rng.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::nearest_neighbors_test {
 
 using Kind = SpacePart::Kind;
 
@@ -115,5 +114,4 @@ TEST(NearestNeighbors, RefuseWhatIsNoPoint) {
                    "configuration: number 1: found nan, wanted a finite number");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::nearest_neighbors_test

@@ -14,8 +14,7 @@
 #include "support/expect_error.h"
 #include "support/paths.h"
 
-namespace rex {
-namespace {
+namespace rex::path_clearance_test {
 
 Model scene(const std::string& text) { return compile(parseOrs(text, "scene.ors").spec); }
 
@@ -148,5 +147,4 @@ TEST(PathClearance, ProvesPathsOfTheArmThatFitsAPegIntoAHole) {
   }
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::path_clearance_test

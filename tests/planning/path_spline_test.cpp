@@ -10,8 +10,7 @@
 #include "planning/wall.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::path_spline_test {
 
 MotionLimits limitsOf(int size) {
   return {.velocity = Eigen::VectorXd::Constant(size, .5),
@@ -225,5 +224,4 @@ TEST(PathSpline, RefusesTimesAndSplinesThatAreNone) {
                    "interval of a spline: found nan s, wanted a finite time, zero or more");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::path_spline_test

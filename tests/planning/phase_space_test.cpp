@@ -8,8 +8,7 @@
 #include "base/rng.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::phase_space_test {
 
 using Eigen::Vector2d;
 
@@ -58,5 +57,4 @@ TEST(PhaseSpace, RefusesWhatIsNoMotion) {
                    "time of a motion: found nan");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::phase_space_test

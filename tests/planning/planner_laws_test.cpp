@@ -17,8 +17,7 @@
 #include "planning/rrt.h"
 #include "planning/smooth_path.h"
 
-namespace rex {
-namespace {
+namespace rex::planner_laws_test {
 
 // A twentieth of them will do where sanitizers make everything slow.
 #ifdef __SANITIZE_ADDRESS__
@@ -386,5 +385,4 @@ TEST(PlannerLaws, HoldForControlTrees) {
   EXPECT_GT(found, .3 * kSeeds);
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::planner_laws_test

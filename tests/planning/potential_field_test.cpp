@@ -4,12 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include "base/derivative_check.h"
 #include "base/rng.h"
-#include "optim/derivative_check.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::potential_field_test {
 
 using Eigen::Vector2d;
 
@@ -84,5 +83,4 @@ TEST(PotentialField, RefusesWhatIsNoField) {
                    "step size: found 0, wanted a positive, finite number");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::potential_field_test

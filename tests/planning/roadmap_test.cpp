@@ -9,8 +9,7 @@
 #include "planning/wall.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::roadmap_test {
 
 Roadmap roadmapOf(const PathProblem& problem, const RoadmapOptions& options, std::uint64_t seed = 1) {
   Rng rng(seed);
@@ -128,5 +127,4 @@ TEST(Roadmap, RefusesWhatItCannotMake) {
   EXPECT_REX_ERROR(roadmapOf(problem, {.maxSamples = 0}), "number of samples: found 0");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::roadmap_test

@@ -11,8 +11,7 @@
 #include "support/expect_error.h"
 #include "support/paths.h"
 
-namespace rex {
-namespace {
+namespace rex::robot_problem_test {
 
 using Kind = SpacePart::Kind;
 
@@ -85,5 +84,4 @@ TEST(RobotProblem, SaysWhichShapesAreInTheWay) {
       "all shapes apart");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::robot_problem_test

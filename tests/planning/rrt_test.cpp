@@ -7,8 +7,7 @@
 #include "planning/wall.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::rrt_test {
 
 using Planner = std::function<PathResult(const PathProblem&, Rng&)>;
 
@@ -198,5 +197,4 @@ TEST(Rrt, NamesTheConfigurationOfAClearanceThatIsNoNumber) {
                    "clearance at (0.5");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::rrt_test

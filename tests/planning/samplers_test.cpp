@@ -8,8 +8,7 @@
 #include "planning/wall.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::samplers_test {
 
 // The share of proposals for which `is` holds.
 double share(const Sampler& sampler, const Space& space,
@@ -90,5 +89,4 @@ TEST(InformedSampler, ProposesAllThroughWhichAShorterWayMayLead) {
                    "length of a way: found 0.5, wanted at least 0.6, the distance of start and goal");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::samplers_test

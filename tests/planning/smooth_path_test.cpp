@@ -8,8 +8,7 @@
 #include "planning/wall.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::smooth_path_test {
 
 void expectValid(const PathProblem& problem, const Eigen::MatrixXd& path) {
   EdgeChecker edges(problem.space, problem.allValid, problem.resolution);
@@ -70,5 +69,4 @@ TEST(SmoothPath, RefusesWhatIsNoPath) {
                    "configurations of a path: found a vector of size 3, wanted size 2");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::smooth_path_test

@@ -9,8 +9,7 @@
 #include "geometry/rotation.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::space_test {
 
 using Kind = SpacePart::Kind;
 using std::numbers::pi;
@@ -141,5 +140,4 @@ TEST(Space, SaysWhatIsOutside) {
                    "upper bounds of a space: found a vector of size 3, wanted size 2");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::space_test

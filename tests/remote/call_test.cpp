@@ -16,7 +16,7 @@
 #include "support/expect_error.h"
 
 namespace rex::remote {
-namespace {
+namespace call_test {
 
 using ::testing::HasSubstr;
 
@@ -70,15 +70,15 @@ double useKept() { return kept(1); }
 
 std::string largeText(int size) { return std::string(static_cast<std::size_t>(size), 'x'); }
 
-}  // namespace
+}  // namespace call_test
 
 template <>
-struct Remote<Counter> {
+struct Remote<call_test::Counter> {
   using Sent = int;
-  static Counter fromSent(int start) { return Counter(start); }
+  static call_test::Counter fromSent(int start) { return call_test::Counter(start); }
 };
 
-namespace {
+namespace call_test {
 
 constexpr std::array kNames = {"scaled", "traceOf", "countTwice", "draw", "nothing", "moved",
                                "sumUp",  "knows",   "fail",       "keep", "useKept", "largeText"};
@@ -261,5 +261,5 @@ TEST_F(Calls, CarryLargeValuesUpToTheLimit) {
                std::length_error);
 }
 
-}  // namespace
+}  // namespace call_test
 }  // namespace rex::remote

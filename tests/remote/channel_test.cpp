@@ -12,8 +12,7 @@
 #include "remote/caller.h"
 #include "remote/wire.h"
 
-namespace rex::remote {
-namespace {
+namespace rex::remote::channel_test {
 
 /// Both ends of one pipe, for messages to oneself.
 class Loop {
@@ -163,5 +162,4 @@ TEST(Caller, RefusesWrongMessages) {
   EXPECT_EQ(complaint(Kind::threw, firstId, 0, makeCall), "the message ends too early");
 }
 
-}  // namespace
-}  // namespace rex::remote
+}  // namespace rex::remote::channel_test

@@ -8,8 +8,7 @@
 #include <Eigen/Core>
 #include <gtest/gtest.h>
 
-namespace rex::remote {
-namespace {
+namespace rex::remote::signature_test {
 
 namespace before {
 struct Value {
@@ -54,5 +53,4 @@ TEST(Signature, LooksIntoStructs) {
   EXPECT_NE(functionHash<before::Value()>("f"), functionHash<after::Value()>("f"));
 }
 
-}  // namespace
-}  // namespace rex::remote
+}  // namespace rex::remote::signature_test

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rex::remote {
-namespace {
+namespace rex::remote::wire_test {
 
 enum class Colour : std::uint8_t { red, green };
 
@@ -172,5 +171,4 @@ TEST(Wire, SaysWhatIsWrong) {
   EXPECT_EQ(rejection<bool>(two), "a truth value is neither 0 nor 1");
 }
 
-}  // namespace
-}  // namespace rex::remote
+}  // namespace rex::remote::wire_test

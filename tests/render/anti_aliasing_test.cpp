@@ -7,8 +7,7 @@
 #include "render/renderer.h"
 #include "support/needs_osmesa.h"
 
-namespace rex {
-namespace {
+namespace rex::anti_aliasing_test {
 
 constexpr int kWidth = 160, kHeight = 120;
 constexpr Color kRed{0.9f, 0.1f, 0.1f}, kWhite{1, 1, 1};
@@ -127,5 +126,4 @@ TEST(Fxaa, IsNamedInTheDescription) {
   EXPECT_TRUE(renderer.describe().ends_with(", FXAA")) << renderer.describe();
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::anti_aliasing_test

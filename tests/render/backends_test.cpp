@@ -11,8 +11,7 @@
 #include "support/needs_osmesa.h"
 #include "support/varied_picture.h"
 
-namespace rex {
-namespace {
+namespace rex::backends_test {
 
 constexpr std::array kEverySmoothing = {AntiAliasing::kNone, AntiAliasing::kFxaa, AntiAliasing::kMsaa4};
 
@@ -179,5 +178,4 @@ TEST(Backends, SayWhatTheyAre) {
   EXPECT_THAT(text, testing::EndsWith(", FXAA"));
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::backends_test

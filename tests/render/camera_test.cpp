@@ -9,8 +9,7 @@
 #include "base/rng.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::camera_test {
 
 using Eigen::Vector3d;
 
@@ -102,5 +101,4 @@ TEST(Camera, RejectsNonsense) {
   EXPECT_REX_ERROR(framing(box, kDefaultView, 1), "found infinite bounds");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::camera_test

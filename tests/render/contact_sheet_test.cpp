@@ -11,8 +11,7 @@
 #include "support/test_frames.h"
 #include "support/tiny_disk.h"
 
-namespace rex {
-namespace {
+namespace rex::contact_sheet_test {
 
 TEST(Shrunk, TakesTheMeanOfWhatAPixelCovers) {
   Rng rng(3);
@@ -148,5 +147,4 @@ TEST(ContactSheetSink, SaysWhyItCannot) {
   EXPECT_TRUE(folderContent(disk.path()).empty());
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::contact_sheet_test

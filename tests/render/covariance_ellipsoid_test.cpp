@@ -9,8 +9,7 @@
 #include "geometry/rotation.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::covariance_ellipsoid_test {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -67,5 +66,4 @@ TEST(CovarianceEllipsoid, NamesWhatIsWrong) {
   EXPECT_REX_ERROR(covarianceEllipsoid(zero, good, 0), "found 0 sigmas, wanted a positive number");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::covariance_ellipsoid_test

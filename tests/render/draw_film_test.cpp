@@ -11,8 +11,7 @@
 #include "support/expect_error.h"
 #include "support/needs_osmesa.h"
 
-namespace rex {
-namespace {
+namespace rex::draw_film_test {
 
 constexpr int kWidth = 160, kHeight = 120;
 
@@ -79,7 +78,7 @@ TEST(DrawFilm, StopsForAHeldSignal) {
 }
 
 // An unlit wall that fills the picture has one colour in each row, as the background does.
-TEST(Renderer, TakesAWallBeforeTheCameraForAPicture) {
+TEST(RendererOfFilms, TakesAWallBeforeTheCameraForAPicture) {
   REX_NEEDS_OSMESA();
   Picture wall{.solids = {{.shape = {.extent = {9, 1, 9}}, .color = {0, 0, 0}}}};
   wall.ground.visible = false;
@@ -90,7 +89,7 @@ TEST(Renderer, TakesAWallBeforeTheCameraForAPicture) {
     for (int x = 0; x < kWidth; ++x) ASSERT_EQ(image.at(x, y), image.at(0, y));
 }
 
-TEST(Renderer, TakesColoursOutOfRangeForTheNearest) {
+TEST(RendererOfFilms, TakesColoursOutOfRangeForTheNearest) {
   REX_NEEDS_OSMESA();
   Renderer renderer = smallRenderer();
   const auto image = [&](const Color& color) {
@@ -131,5 +130,4 @@ TEST(SettleGround, KeepsTheFloorStillWhileTheSceneMoves) {
   EXPECT_EQ(first.at(0, kHeight - 1), second.at(0, kHeight - 1));
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::draw_film_test

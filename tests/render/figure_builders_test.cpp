@@ -10,8 +10,7 @@
 #include "base/rng.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::figure_builders_test {
 
 using Eigen::Vector2d;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -109,5 +108,4 @@ TEST(PoleFigure, RejectsWhatHasNoPlace) {
                    "zeros: imaginary part 1: found nan");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::figure_builders_test

@@ -19,8 +19,7 @@
 #include "support/fresh_folder.h"
 #include "support/needs_gnuplot.h"
 
-namespace rex {
-namespace {
+namespace rex::figure_drawing_test {
 
 namespace fs = std::filesystem;
 using Eigen::Vector2d;
@@ -334,5 +333,4 @@ TEST(FigureDrawing, SaysNothingOfTheGnuplotThatDrewIt) {
   EXPECT_NE(svg.find("</svg>"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::figure_drawing_test

@@ -10,8 +10,7 @@
 #include "support/fresh_folder.h"
 #include "support/needs_gnuplot.h"
 
-namespace rex {
-namespace {
+namespace rex::figure_errors_test {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -243,5 +242,4 @@ TEST(FigureErrors, RangesThatMissALayer) {
   EXPECT_REX_ERROR(draw(figure), "found no data within x 2 to 3");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::figure_errors_test

@@ -12,8 +12,7 @@
 #include "support/image_difference.h"
 #include "support/needs_gnuplot.h"
 
-namespace rex {
-namespace {
+namespace rex::figure_gallery_test {
 
 namespace fs = std::filesystem;
 
@@ -62,5 +61,4 @@ TEST(FigureGallery, LooksAsStored) {
   expectGolden("figure-poles", poles);
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::figure_gallery_test

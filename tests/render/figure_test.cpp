@@ -16,8 +16,7 @@
 #include "support/fresh_folder.h"
 #include "support/needs_gnuplot.h"
 
-namespace rex {
-namespace {
+namespace rex::figure_test {
 
 namespace fs = std::filesystem;
 
@@ -252,5 +251,4 @@ TEST_F(FigureWithOtherGnuplot, ReportsItsFailureAndLeavesNoFile) {
   EXPECT_FALSE(fs::exists(folder_ / "a.png"));
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::figure_test

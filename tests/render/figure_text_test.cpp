@@ -13,8 +13,7 @@
 #include "support/fresh_folder.h"
 #include "support/needs_gnuplot.h"
 
-namespace rex {
-namespace {
+namespace rex::figure_text_test {
 
 namespace fs = std::filesystem;
 
@@ -152,5 +151,4 @@ TEST(FigureText, StaysInTheBlockOfTexts) {
   while (std::getline(lines, line)) EXPECT_EQ(line.find("EVIL"), std::string::npos) << line;
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::figure_text_test

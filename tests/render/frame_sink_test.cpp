@@ -16,8 +16,7 @@
 #include "support/test_frames.h"
 #include "support/tiny_disk.h"
 
-namespace rex {
-namespace {
+namespace rex::frame_sink_test {
 
 namespace fs = std::filesystem;
 using Names = std::set<std::string>;
@@ -138,5 +137,4 @@ TEST(MakeFrameSink, TellsWhatIsMissing) {
   EXPECT_EQ(folderContent(temporary.path()), Names{"ffmpeg"});
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::frame_sink_test

@@ -15,8 +15,7 @@
 #include "support/needs_egl.h"
 #include "support/needs_osmesa.h"
 
-namespace rex {
-namespace {
+namespace rex::gl_context_test {
 
 class EmptyContext final : public GlContext {
  public:
@@ -169,5 +168,4 @@ TEST(GlContextDeathTest, UsesTheChosenDriverWithEglToo) {
   EXPECT_EXIT(makeContextsUnder("llvmpipe", GlBackend::kEgl, "softpipe"), testing::ExitedWithCode(0), "");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::gl_context_test

@@ -21,8 +21,7 @@
 #include "support/file_text.h"
 #include "support/fresh_folder.h"
 
-namespace rex {
-namespace {
+namespace rex::glb_test {
 
 namespace fs = std::filesystem;
 using Eigen::Affine3d;
@@ -579,5 +578,4 @@ TEST(Glb, WritesWholeFilesOrNone) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator{}), 1);
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::glb_test

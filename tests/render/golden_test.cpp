@@ -13,8 +13,7 @@
 #include "support/mesh_samples.h"
 #include "support/needs_osmesa.h"
 
-namespace rex {
-namespace {
+namespace rex::golden_test {
 
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
@@ -105,5 +104,4 @@ TEST(Golden, MeshesAndMarks) {
   expectGolden("marks", picture);
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::golden_test

@@ -13,8 +13,7 @@
 #include "support/file_text.h"
 #include "support/fresh_folder.h"
 
-namespace rex {
-namespace {
+namespace rex::image_test {
 
 namespace fs = std::filesystem;
 
@@ -116,5 +115,4 @@ TEST(Png, RefusesPicturesTooLargeToHold) {
                    "huge.png': found 900000 x 800000 pixels, wanted at most 100 million");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::image_test

@@ -11,8 +11,7 @@
 #include "support/mesh_samples.h"
 #include "support/needs_osmesa.h"
 
-namespace rex {
-namespace {
+namespace rex::imported_mesh_test {
 
 using Eigen::Vector3d;
 using Eigen::Vector4f;
@@ -163,5 +162,4 @@ TEST(MeshStore, ForgetsMeshesThatPicturesNoLongerUse) {
   internal::requireNoGlError(gl, "forgetting meshes");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::imported_mesh_test

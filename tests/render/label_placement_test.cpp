@@ -3,8 +3,7 @@
 #include "base/rng.h"
 #include "render/label_placement_internal.h"
 
-namespace rex::internal {
-namespace {
+namespace rex::internal::label_placement_test {
 
 constexpr int kWidth = 320, kHeight = 240;
 
@@ -71,5 +70,4 @@ TEST(PlaceLabels, OverlapsRatherThanLeavesOut) {
   EXPECT_EQ(placeLabels({huge}, {}, kWidth, kHeight)[0].x, 18);
 }
 
-}  // namespace
-}  // namespace rex::internal
+}  // namespace rex::internal::label_placement_test

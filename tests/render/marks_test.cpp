@@ -8,8 +8,7 @@
 #include "support/image_difference.h"
 #include "support/needs_osmesa.h"
 
-namespace rex {
-namespace {
+namespace rex::marks_test {
 
 using Eigen::Vector3d;
 
@@ -218,5 +217,4 @@ TEST(Labels, AtOnePointStandBesideEachOther) {
   EXPECT_GT(changed(picture, 0, kWidth / 2), near);
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::marks_test

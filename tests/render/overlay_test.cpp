@@ -10,8 +10,7 @@
 #include "support/expect_error.h"
 #include "support/needs_osmesa.h"
 
-namespace rex {
-namespace {
+namespace rex::overlay_test {
 
 using Eigen::Vector3d;
 
@@ -210,5 +209,4 @@ TEST(FrameBuffer, RefusesSizesBeyondOpenGl) {
       "a smaller one");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::overlay_test

@@ -9,8 +9,7 @@
 #include "geometry/rotation.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::picture_test {
 
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 
@@ -120,5 +119,4 @@ TEST(RequireDrawable, NamesWhatIsWrong) {
   }
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::picture_test

@@ -17,8 +17,7 @@
 #include "support/needs_gnuplot.h"
 #include "support/needs_osmesa.h"
 
-namespace rex {
-namespace {
+namespace rex::report_test {
 
 namespace fs = std::filesystem;
 
@@ -370,5 +369,4 @@ TEST(Report, RefusesWhatItCannotShow) {
   EXPECT_REX_ERROR(reportPage(report), "picture size");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::report_test

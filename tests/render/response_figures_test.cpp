@@ -8,8 +8,7 @@
 #include "support/expect_error.h"
 #include "support/needs_gnuplot.h"
 
-namespace rex {
-namespace {
+namespace rex::response_figures_test {
 
 LinearSystem oscillator() {
   LinearSystem system{
@@ -74,5 +73,4 @@ TEST(ResponseFigures, SayWhatIsWrong) {
                    "labels of a response: found a vector of size 2");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::response_figures_test

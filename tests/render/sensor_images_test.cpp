@@ -12,8 +12,7 @@
 #include "support/expect_error.h"
 #include "support/needs_osmesa.h"
 
-namespace rex {
-namespace {
+namespace rex::sensor_images_test {
 
 using Eigen::Vector3d;
 constexpr int kWidth = 160, kHeight = 120;
@@ -368,5 +367,4 @@ TEST(SegmentationColors, TellIdsApartAndKeepThem) {
   EXPECT_REX_ERROR(segmentationColors({}), "image size: found 0 x 0");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::sensor_images_test

@@ -14,8 +14,7 @@
 #include "support/image_difference.h"
 #include "support/needs_osmesa.h"
 
-namespace rex {
-namespace {
+namespace rex::solid_test {
 
 using Eigen::Vector3d;
 
@@ -380,5 +379,4 @@ TEST(Renderer, RejectsSizesAndCameras) {
   EXPECT_REX_ERROR(renderer.draw(picture, camera), "camera: found a pose that is not finite");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::solid_test

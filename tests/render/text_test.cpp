@@ -8,8 +8,7 @@
 #include "render/glyphs_internal.h"
 #include "render/utf8_internal.h"
 
-namespace rex {
-namespace {
+namespace rex::text_test {
 
 constexpr Color kBlack{0, 0, 0};
 
@@ -91,5 +90,4 @@ TEST(Utf8, KeepsValidTextAndMarksTheRest) {
   EXPECT_EQ(internal::singleLine(std::string("x\0y", 3)), "x y");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::text_test

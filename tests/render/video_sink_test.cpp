@@ -19,8 +19,7 @@
 #include "support/test_frames.h"
 #include "support/tiny_disk.h"
 
-namespace rex {
-namespace {
+namespace rex::video_sink_test {
 
 namespace fs = std::filesystem;
 using Names = std::set<std::string>;
@@ -224,5 +223,4 @@ TEST_F(VideoSinkTest, StopsForAHeldSignal) {
   EXPECT_EQ(folderContent(folder()), Names{"ffmpeg"});
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::video_sink_test

@@ -7,8 +7,7 @@
 #include "sandbox/report.h"
 #include "support/expect_error.h"
 
-namespace rex::sandbox {
-namespace {
+namespace rex::sandbox::confinement_test {
 
 using ::testing::AllOf;
 using ::testing::Contains;
@@ -85,5 +84,4 @@ TEST(Report, TellsHowFarTheSandboxCame) {
   EXPECT_FALSE(readReport("ready\nend soon\n").status.has_value());
 }
 
-}  // namespace
-}  // namespace rex::sandbox
+}  // namespace rex::sandbox::confinement_test

@@ -8,8 +8,7 @@
 
 #include "base/error.h"
 
-namespace rex::sandbox {
-namespace {
+namespace rex::sandbox::control_group_test {
 
 namespace fs = std::filesystem;
 
@@ -62,5 +61,4 @@ TEST(ControlGroup, IsNotDisturbedByOneOfTheSameNumber) {
   for (const fs::path& folder : left) ::rmdir(folder.c_str());
 }
 
-}  // namespace
-}  // namespace rex::sandbox
+}  // namespace rex::sandbox::control_group_test

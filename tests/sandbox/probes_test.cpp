@@ -9,8 +9,7 @@
 #include "sandbox/landlock.h"
 #include "support/temporary_folder.h"
 
-namespace rex::sandbox {
-namespace {
+namespace rex::sandbox::probes_test {
 
 namespace fs = std::filesystem;
 
@@ -67,5 +66,4 @@ TEST_F(Probes, WarnBelowTheHighestLevel) {
                 ::testing::StartsWith("sandbox level " + std::to_string(level) + " of 3: "));
 }
 
-}  // namespace
-}  // namespace rex::sandbox
+}  // namespace rex::sandbox::probes_test

@@ -17,8 +17,7 @@
 #include "base/isolated_call.h"
 #include "support/temporary_folder.h"
 
-namespace rex::sandbox {
-namespace {
+namespace rex::sandbox::system_calls_test {
 
 // What a program may try on a file and on its parent; 0 or more: it can.
 using Attempts = std::map<std::string, std::function<long(const char* file, pid_t parent)>>;
@@ -99,5 +98,4 @@ TEST_F(SystemCalls, AreFewerWhereLandlockIsOlder) {
   EXPECT_EQ(possible(kOldKernels, 1, 2), "reads");
 }
 
-}  // namespace
-}  // namespace rex::sandbox
+}  // namespace rex::sandbox::system_calls_test

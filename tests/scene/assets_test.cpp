@@ -8,8 +8,7 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace rex {
-namespace {
+namespace rex::assets_test {
 
 namespace fs = std::filesystem;
 
@@ -108,5 +107,4 @@ TEST_F(AssetsOfAnArm, ThatAreMissingAreListedWithAllPathsTried) {
                        (top() / "arm_description/meshes/lnik.stl").string() + " (did you mean 'link.stl'?)");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::assets_test

@@ -7,8 +7,7 @@
 #include "scene/ors_reader.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::compile_test {
 
 Model model(std::string_view text) { return compile(parseOrs(text, "f").spec); }
 
@@ -248,5 +247,4 @@ TEST(Compile, LetsJointsHangOnTheWorld) {
   EXPECT_EQ(model.nq(), 1);
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::compile_test

@@ -6,8 +6,7 @@
 #include "scene/state.h"
 #include "support/random_motion.h"
 
-namespace rex {
-namespace {
+namespace rex::coordinates_test {
 
 // Where the child of a joint is, seen from its parent.
 Pose across(const Joint& joint, const BodyPoses& poses) {
@@ -40,5 +39,4 @@ TEST(JointOf, ACoordinateIsTheOneThatItMoves) {
   }
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::coordinates_test

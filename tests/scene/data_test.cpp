@@ -9,8 +9,7 @@
 #include "scene/scene_file.h"
 #include "support/paths.h"
 
-namespace rex {
-namespace {
+namespace rex::data_test {
 
 namespace fs = std::filesystem;
 
@@ -68,5 +67,4 @@ TEST(DataFolder, HasNoSceneThatNobodyTests) {
   EXPECT_EQ(tested, found);
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::data_test

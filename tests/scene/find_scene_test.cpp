@@ -8,8 +8,7 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace rex {
-namespace {
+namespace rex::find_scene_test {
 
 namespace fs = std::filesystem;
 
@@ -56,5 +55,4 @@ TEST_F(FindScene, SaysWhatIsNoFile) {
   EXPECT_REX_ERROR(find(here("pipe.ors")), "': found a pipe or device, wanted an .ors or .urdf file");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::find_scene_test

@@ -7,8 +7,7 @@
 #include "support/expect_error.h"
 #include "support/file_text.h"
 
-namespace rex::mesh {
-namespace {
+namespace rex::mesh::isolated_mesh_test {
 
 // What fuzzing found; its first byte says the kind.
 std::string crashing() { return fileText(REX_SOURCE_DIR "/tests/fuzz/corpus/mesh/dae_crash").substr(1); }
@@ -50,5 +49,4 @@ TEST(ReadIsolated, RefusesWhatNeedsTooMuchMemory) {
 }
 #endif
 
-}  // namespace
-}  // namespace rex::mesh
+}  // namespace rex::mesh::isolated_mesh_test

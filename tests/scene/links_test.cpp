@@ -6,8 +6,7 @@
 #include "kinematics/forward_kinematics.h"
 #include "support/random_scene.h"
 
-namespace rex {
-namespace {
+namespace rex::links_test {
 
 Pose poseInParent(const Link& link, const Eigen::VectorXd& q) {
   const Pose constant{Eigen::Map<const Eigen::Matrix3d>(link.X_PL),
@@ -137,5 +136,4 @@ TEST(Links, TakeInWhatHangsOnThemRigidly) {
   EXPECT_DOUBLE_EQ(link.inertia[5], 0);
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::links_test

@@ -12,8 +12,7 @@
 #include "support/mesh_samples.h"
 #include "support/temporary_folder.h"
 
-namespace rex {
-namespace {
+namespace rex::mesh_reader_test {
 
 namespace fs = std::filesystem;
 using Eigen::Vector3f;
@@ -420,5 +419,4 @@ TEST_F(MeshReader, RefusesMoreThanItCanHold) {
                    "groups.obj: mesh file: found 10001 materials, groups and objects, wanted at most 10000");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::mesh_reader_test

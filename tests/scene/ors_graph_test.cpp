@@ -5,8 +5,7 @@
 #include "scene/ors_graph_internal.h"
 #include "support/expect_error.h"
 
-namespace rex::ors {
-namespace {
+namespace rex::ors::ors_graph_test {
 
 using ::testing::ElementsAre;
 
@@ -220,5 +219,4 @@ TEST(OrsGraph, SurvivesDamagedText) {
   EXPECT_GT(refused, 1000);
 }
 
-}  // namespace
-}  // namespace rex::ors
+}  // namespace rex::ors::ors_graph_test

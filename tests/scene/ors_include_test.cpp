@@ -6,8 +6,7 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace rex {
-namespace {
+namespace rex::ors_include_test {
 
 namespace fs = std::filesystem;
 
@@ -147,5 +146,4 @@ TEST_F(OrsInclude, EndsAtLoopsAndTooManyFiles) {
                    "main.ors:2:9: Include 'large.ors': found 35651623 bytes in all, wanted at most 32 MiB");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::ors_include_test

@@ -4,8 +4,7 @@
 #include "scene/model.h"
 #include "scene/ors_reader.h"
 
-namespace rex {
-namespace {
+namespace rex::ors_messages_test {
 
 using std::string_view_literals::operator""sv;
 
@@ -331,5 +330,4 @@ TEST(OrsMessages, TellWhatIsIgnoredOrStrange) {
   }
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::ors_messages_test

@@ -13,8 +13,7 @@
 #include "support/paths.h"
 #include "support/temporary_folder.h"
 
-namespace rex {
-namespace {
+namespace rex::ors_reader_test {
 
 SceneSpec read(std::string_view text) { return parseOrs(text, "f").spec; }
 
@@ -257,5 +256,4 @@ TEST(OrsReader, RefusesFilesThatAreNoScene) {
                    "huge.ors: scene file too large: found 33554433 bytes, wanted at most 32 MiB");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::ors_reader_test

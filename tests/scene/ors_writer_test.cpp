@@ -13,8 +13,7 @@
 #include "support/random_scene.h"
 #include "support/temporary_folder.h"
 
-namespace rex {
-namespace {
+namespace rex::ors_writer_test {
 
 namespace fs = std::filesystem;
 
@@ -269,5 +268,4 @@ TEST(OrsWriter, RefusesWhatTheFormatCannotSay) {
       "shape 'b': mesh: found 'it's.obj', wanted a file whose name has at most 256 bytes and no '");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::ors_writer_test

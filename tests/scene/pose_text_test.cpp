@@ -6,8 +6,7 @@
 
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::pose_text_test {
 
 TEST(PoseText, IsReadFromLeftToRight) {
   const Pose read = parsePose("<T t(1 2 3) d(90 0 0 1) t(1 0 0)>", "pose");
@@ -30,5 +29,4 @@ TEST(PoseText, ThatIsNoneIsRefused) {
                    "hand:1:1: pose: found a place farther than numbers reach, wanted metres");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::pose_text_test

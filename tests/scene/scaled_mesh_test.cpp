@@ -7,8 +7,7 @@
 #include "support/expect_error.h"
 #include "support/mesh_samples.h"
 
-namespace rex {
-namespace {
+namespace rex::scaled_mesh_test {
 
 using Eigen::Vector3d;
 using Eigen::Vector3f;
@@ -65,5 +64,4 @@ TEST(ScaledMesh, RefusesWhatIsNoSize) {
                    "a.stl: mesh, scaled: found a vertex at 2000000 m, wanted at most 1e6 m");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::scaled_mesh_test

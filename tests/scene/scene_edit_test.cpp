@@ -8,8 +8,7 @@
 #include "support/expect_error.h"
 #include "support/random_scene.h"
 
-namespace rex {
-namespace {
+namespace rex::scene_edit_test {
 
 BodyPoses initialPoses(const SceneSpec& spec) {
   const Model model = compile(spec);
@@ -231,5 +230,4 @@ TEST(GlueBodies, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(initialPose(loop, "b2"), "loop: found joints that lead back to it, wanted a tree");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::scene_edit_test

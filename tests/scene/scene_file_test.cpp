@@ -9,8 +9,7 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace rex {
-namespace {
+namespace rex::scene_file_test {
 
 namespace fs = std::filesystem;
 
@@ -83,5 +82,4 @@ TEST_F(SceneFileTest, HasALargestSize) {
                    "a.ors: scene file too large: found 1048577 bytes, wanted at most 1 MiB");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::scene_file_test

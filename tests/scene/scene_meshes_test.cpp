@@ -9,8 +9,7 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace rex {
-namespace {
+namespace rex::scene_meshes_test {
 
 // A square pyramid of height 3 on the plane z = 0, and as many vertices elsewhere as nowhere.
 constexpr const char* kPyramid =
@@ -180,5 +179,4 @@ TEST_F(SceneMeshes, ThatAreMissingAreNamedWithTheirPlace) {
                    "scale of the mesh: found (0, 0, 0), wanted numbers from 1e-9 to 1e9, or their negatives");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::scene_meshes_test

@@ -6,8 +6,7 @@
 #include "support/expect_error.h"
 #include "support/random_scene.h"
 
-namespace rex {
-namespace {
+namespace rex::state_test {
 
 TEST(JointMotion, IsInvertedByJointCoordinates) {
   Rng rng(1);
@@ -73,5 +72,4 @@ TEST(InitialState, IsAtRestInTheFilePosture) {
   EXPECT_EQ(state.time, 0);
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::state_test

@@ -4,8 +4,7 @@
 
 #include "scene/urdf_reader.h"
 
-namespace rex {
-namespace {
+namespace rex::urdf_messages_test {
 
 struct Row {
   std::string text;     // '@' marks the place of the fault
@@ -411,5 +410,4 @@ TEST(UrdfMessages, AreNotMadeOfNamespaces) {
           .notes.empty());
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::urdf_messages_test

@@ -9,11 +9,12 @@
 #include "geometry/rotation.h"
 #include "kinematics/forward_kinematics.h"
 #include "support/expect_error.h"
+#include "support/file_text.h"
 #include "support/paths.h"
 #include "support/temporary_folder.h"
+#include "support/urdf_samples.h"
 
-namespace rex {
-namespace {
+namespace rex::urdf_reader_test {
 
 using std::numbers::pi;
 
@@ -228,5 +229,13 @@ TEST(UrdfReader, ReadsFilesByTheirEnding) {
   EXPECT_REX_ERROR(readUrdf(file), "scene file too large: found 8388609 bytes, wanted at most 8 MiB");
 }
 
-}  // namespace
-}  // namespace rex
+// What begins to load leaves the list, and is compared with the peers from then on.
+TEST(UrdfReader, RefusesTheFilesThatAreListedAsRefused) {
+  for (const std::string& name : kRefusedUrdfFiles) {
+    const std::filesystem::path file = sharedPath("data/urdf/" + name);
+    if (!std::filesystem::exists(file)) continue;
+    EXPECT_THROW((void)compile(parseUrdf(fileText(file), name).spec), Error) << name;
+  }
+}
+
+}  // namespace rex::urdf_reader_test

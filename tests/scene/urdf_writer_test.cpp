@@ -14,8 +14,7 @@
 #include "support/temporary_folder.h"
 #include "support/urdf_samples.h"
 
-namespace rex {
-namespace {
+namespace rex::urdf_writer_test {
 
 constexpr double kTolerance = 1e-12;
 
@@ -427,5 +426,4 @@ TEST(UrdfWriter, RefusesWhatItsReaderRefuses) {
       "as .urdf it could not be read again: <link>: attribute 'name': found 260 bytes, wanted at most 256");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::urdf_writer_test

@@ -5,12 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include "base/derivative_check.h"
 #include "base/rng.h"
-#include "optim/derivative_check.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::b_spline_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -86,5 +85,4 @@ TEST(BSpline, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(BSpline(control, 2, 1).value(std::nan("")), "time on a spline: found nan");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::b_spline_test

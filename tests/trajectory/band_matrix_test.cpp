@@ -5,8 +5,7 @@
 #include "base/rng.h"
 #include "trajectory/band_matrix_internal.h"
 
-namespace rex::internal {
-namespace {
+namespace rex::internal::band_matrix_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -69,5 +68,4 @@ TEST(BandMatrix, SaysWhatIsNotPositiveDefinite) {
   EXPECT_FALSE(factor.factor(A, 0));
 }
 
-}  // namespace
-}  // namespace rex::internal
+}  // namespace rex::internal::band_matrix_test

@@ -10,8 +10,7 @@
 #include "trajectory/term_check.h"
 #include "trajectory/trajectory_optimizer.h"
 
-namespace rex {
-namespace {
+namespace rex::contact_terms_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -160,5 +159,4 @@ TEST(ContactTerms, SayWhatIsWrong) {
                    "configurations of a path: found 1, wanted 2 or more");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::contact_terms_test

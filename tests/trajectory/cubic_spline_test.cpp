@@ -4,12 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include "base/derivative_check.h"
 #include "base/rng.h"
-#include "optim/derivative_check.h"
 #include "support/expect_error.h"
 
-namespace rex {
-namespace {
+namespace rex::cubic_spline_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -96,5 +95,4 @@ TEST(CubicSpline, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(CubicSpline(times, points).value(0, -1), "derivative of a cubic spline: found -1");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::cubic_spline_test

@@ -9,8 +9,7 @@
 #include "support/expect_error.h"
 #include "trajectory/term_check.h"
 
-namespace rex {
-namespace {
+namespace rex::motion_terms_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -114,5 +113,4 @@ TEST(MotionTerms, SayWhatIsWrong) {
                    "limits of velocity: found a vector of size 2, wanted size 3");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::motion_terms_test

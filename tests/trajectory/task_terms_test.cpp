@@ -12,8 +12,7 @@
 #include "trajectory/term_check.h"
 #include "trajectory/trajectory_optimizer.h"
 
-namespace rex {
-namespace {
+namespace rex::task_terms_test {
 
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
@@ -97,5 +96,4 @@ TEST(TaskTerms, SayWhatIsWrong) {
   EXPECT_REX_ERROR(jointLimitsTerm(compile(spec)), "model of a trajectory: found joints with quaternions");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::task_terms_test

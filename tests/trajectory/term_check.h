@@ -1,6 +1,6 @@
 #pragma once
 
-#include "optim/derivative_check.h"
+#include "base/derivative_check.h"
 #include "trajectory/trajectory_problem.h"
 
 namespace rex {

@@ -4,15 +4,14 @@
 
 #include <gtest/gtest.h>
 
-#include "optim/derivative_check.h"
+#include "base/derivative_check.h"
 #include "support/allocations.h"
 #include "support/expect_error.h"
 #include "trajectory/banded_system_internal.h"
 #include "trajectory/counted_number.h"
 #include "trajectory/motion_terms.h"
 
-namespace rex {
-namespace {
+namespace rex::trajectory_optimizer_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -245,5 +244,4 @@ TEST(TrajectoryOptimizer, SaysWhatIsWrong) {
                    "value of term 'odd' at step 1: found a vector of size 2, wanted size 1");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::trajectory_optimizer_test

@@ -7,8 +7,7 @@
 #include "support/expect_error.h"
 #include "trajectory/motion_terms.h"
 
-namespace rex {
-namespace {
+namespace rex::trajectory_problem_test {
 
 using Eigen::MatrixXd;
 
@@ -48,5 +47,4 @@ TEST(TrajectoryProblem, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(TrajectoryProblem({during(velocityTerm(), -1, 1)}, prefix, 3), "found -1 to 1");
 }
 
-}  // namespace
-}  // namespace rex
+}  // namespace rex::trajectory_problem_test

@@ -2,7 +2,7 @@
 // mistake: tests where a drive ends, not the way there.
 
 // <solution isFreeOnTheWay>
-bool isFreeOnTheWay(const CarModel& car, const Eigen::Vector3d& from, const Drive& drive,
+bool isFreeOnTheWay(CarModel car, const Eigen::Vector3d& from, const Drive& drive,
                     const std::vector<Block>& blocks) {
   return isFree(car, driven(car, from, drive), blocks);
 }

@@ -1,0 +1,97 @@
+#include "authoring/file_pieces.h"
+
+#include <algorithm>
+#include <array>
+
+#include "submission/mentions.h"
+
+namespace rex::grading {
+namespace {
+
+constexpr std::string_view kNoCode = " \t\r\n";
+
+// Before the body of what is no function, of a function that callers see into, and of what has other
+// parentheses before its parameters.
+constexpr auto kOtherWords = std::to_array<std::string_view>(
+    {"__attribute__", "alignas",  "auto",   "class",   "concept",   "consteval", "constexpr", "decltype",
+     "enum",          "explicit", "extern", "inline",  "namespace", "operator",  "requires",  "static",
+     "struct",        "template", "try",    "typedef", "union",     "using"});
+
+// Behind a line of the preprocessor, which goes on behind a backslash.
+std::size_t behindDirective(const std::string& code, std::size_t at) {
+  std::size_t end = code.find('\n', at);
+  while (end != code.npos && code[end - 1] == '\\') end = code.find('\n', end + 1);
+  return std::min(end, code.size());
+}
+
+// Behind the ';' or '}' that ends what starts at `at`.
+std::size_t behindPiece(const std::string& code, std::size_t at) {
+  int depth = 0;
+  for (; at < code.size(); ++at) {
+    const char c = code[at];
+    depth += (c == '(' || c == '[' || c == '{') - (c == ')' || c == ']' || c == '}');
+    if (depth > 0) continue;
+    if (c == ';') return at + 1;
+    const std::size_t next = c == '}' ? code.find_first_not_of(kNoCode, at + 1) : 0;
+    // A class and an initialiser go on behind their braces.
+    if (c == '}' && (next == code.npos || std::string_view(";,.{").find(code[next]) == code.npos))
+      return at + 1;
+  }
+  return code.size();
+}
+
+// The first such bracket that is in no others; npos if none is.
+std::size_t outerBracket(std::string_view code, char bracket) {
+  int depth = 0;
+  for (std::size_t at = 0; at < code.size(); ++at) {
+    const char c = code[at];
+    if (c == bracket && depth == 0) return at;
+    depth += (c == '(' || c == '[' || c == '{') - (c == ')' || c == ']' || c == '}');
+  }
+  return code.npos;
+}
+
+bool hasOtherWord(std::string_view head) {
+  for (std::size_t at = 0; at < head.size(); ++at) {
+    const std::size_t start = at;
+    while (at < head.size() && isWord(head[at])) ++at;
+    if (std::ranges::binary_search(kOtherWords, head.substr(start, at - start))) return true;
+  }
+  return false;
+}
+
+// The name in "type name(parameters) {", a part of `head`; empty if that is something else.
+std::string_view functionName(std::string_view head) {
+  const std::size_t open = outerBracket(head, '(');
+  if (open == head.npos || hasOtherWord(head)) return {};
+  head = head.substr(0, open);
+  const std::size_t last = head.find_last_not_of(kNoCode);
+  if (last == head.npos) return {};
+  std::size_t first = last + 1;
+  while (first > 0 && isWord(head[first - 1])) --first;
+  const std::size_t before = head.substr(0, first).find_last_not_of(kNoCode);
+  if (before == head.npos || head[before] == ':' || head[before] == '~') return {};
+  return head.substr(first, last + 1 - first);
+}
+
+}  // namespace
+
+std::vector<FilePiece> filePieces(std::string_view source) {
+  const std::string code = codeOf(source);
+  std::vector<FilePiece> pieces;
+  for (std::size_t at = code.find_first_not_of(kNoCode); at != code.npos;
+       at = code.find_first_not_of(kNoCode, pieces.back().end)) {
+    FilePiece piece{.start = at, .end = code[at] == '#' ? behindDirective(code, at) : behindPiece(code, at)};
+    const std::string_view text = std::string_view(code).substr(at, piece.end - at);
+    const std::size_t body = outerBracket(text, '{');
+    if (text.front() != '#' && text.back() == '}' && body != text.npos) {
+      const std::string_view name = functionName(text.substr(0, body));
+      piece.function = name;
+      if (!name.empty()) piece.nameStart = at + static_cast<std::size_t>(name.data() - text.data());
+    }
+    pieces.push_back(std::move(piece));
+  }
+  return pieces;
+}
+
+}  // namespace rex::grading

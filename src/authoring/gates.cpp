@@ -1,0 +1,180 @@
+#include "authoring/gates.h"
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "authoring/named_symbols.h"
+#include "authoring/release.h"
+#include "authoring/wrong_variants.h"
+#include "base/error.h"
+#include "base/text_file.h"
+#include "submission/compiler_messages.h"
+#include "submission/regions.h"
+#include "submission/submission.h"
+
+namespace rex::grading {
+namespace {
+
+using std::filesystem::path;
+
+using Points = std::map<std::string, int>;  // by part
+
+const GateResult kPassed{.passed = true};
+
+GateResult failed(std::string message) { return {.passed = false, .message = std::move(message)}; }
+
+// Passed if there is nothing to complain about.
+GateResult judge(const std::vector<std::string>& complaints) {
+  return {.passed = complaints.empty(), .message = fmt::format("{}", fmt::join(complaints, "\n"))};
+}
+
+SubmissionOptions optionsFor(const GateContext& context, const path& file) {
+  return {.main = file,
+          .workFolder = context.workFolder / "build",
+          .results = context.workFolder / "results.json",
+          .checks = {},
+          .seed = {}};
+}
+
+GradeResult grade(const GateContext& context, const path& file) {
+  return gradeSubmission(context.toolchain, context.exercise, optionsFor(context, file)).result;
+}
+
+// What is not as it should be in a result, line by line.
+std::string shortfalls(const GradeResult& result) {
+  std::string lines = result.message.empty() ? "" : "\n  " + result.message;
+  for (const CheckResult& check : result.checks)
+    if (check.status != Outcome::pass) lines += fmt::format("\n  {}: {}", check.id, check.message);
+  return lines;
+}
+
+GateResult mainIsCurrent(const GateContext& context) {
+  const path folder = context.exercise.folder, solution = folder / "solution.cpp";
+  if (readTextFile(folder / "main.cpp") == stripSolution(readTextFile(solution), solution.string()))
+    return kPassed;
+  return failed(fmt::format("main.cpp is not what solution.cpp gives; run: scripts/rex dev strip {}",
+                            context.exercise.name));
+}
+
+// The checks of each part must be worth what exercise.toml promises.
+GateResult pointsAddUp(const GateContext& context) {
+  Points checked;
+  for (const CheckResult& check : listChecks(context.toolchain)) checked[check.part] += check.maxPoints;
+  std::vector<std::string> complaints;
+  for (const ExercisePart& part : context.exercise.parts) {
+    if (checked[part.id] != part.points)
+      complaints.push_back(fmt::format("part '{}': checks are worth {} points, exercise.toml says {}",
+                                       part.id, checked[part.id], part.points));
+    checked.erase(part.id);
+  }
+  for (const auto& [part, points] : checked)
+    complaints.push_back(fmt::format("checks name a part '{}' that exercise.toml does not have", part));
+  return judge(complaints);
+}
+
+GateResult namesExist(const GateContext& context) {
+  std::vector<std::string> complaints;
+  for (const DeadName& dead : deadNames(context.root, context.exercise.folder))
+    complaints.emplace_back(Error({.what = fmt::format("'{}' does not exist", dead.name),
+                                   .where = dead.where,
+                                   .nearest = dead.nearest})
+                                .what());
+  return judge(complaints);
+}
+
+GateResult releaseIsClean(const GateContext& context) {
+  requireNoSolutionText(context.exercise.folder);
+  return kPassed;
+}
+
+GateResult mainScoresFloor(const GateContext& context) {
+  const GradeResult result = grade(context, context.exercise.folder / "main.cpp");
+  if (!result.compile.diagnostics.empty())
+    return failed("main.cpp does not compile cleanly: " + toString(result.compile.diagnostics.front()));
+  if (result.outcome == Outcome::graderError) return failed("the grader failed: " + result.message);
+  Points scored;
+  for (const CheckResult& check : result.checks) scored[check.part] += check.points;
+  std::vector<std::string> complaints;
+  for (const ExercisePart& part : context.exercise.parts)
+    if (scored[part.id] != part.floor)
+      complaints.push_back(
+          fmt::format("part '{}': the untouched main.cpp gets {} points, exercise.toml says floor = {}",
+                      part.id, scored[part.id], part.floor));
+  return judge(complaints);
+}
+
+GateResult solutionIsFull(const GateContext& context) {
+  SubmissionOptions options = optionsFor(context, context.exercise.folder / "solution.cpp");
+  const BuiltSubmission built = buildSubmission(context.toolchain, context.exercise, options);
+  if (!built.start.compile.diagnostics.empty())
+    return failed("solution.cpp does not compile cleanly: " +
+                  toString(built.start.compile.diagnostics.front()));
+  for (int seed = 1; seed <= context.seeds; ++seed) {
+    options.seed = seed;
+    const GradeResult result = gradeBuilt(built, context.toolchain, context.exercise, options);
+    if (result.outcome != Outcome::pass || result.score != context.exercise.points())
+      return failed(fmt::format("solution.cpp scores {} of {} under seed {}{}", result.score,
+                                context.exercise.points(), seed, shortfalls(result)));
+  }
+  return kPassed;
+}
+
+// What students ask for after a crash must not complain about a program that is right. One check tells.
+GateResult solutionPassesSanitizers(const GateContext& context) {
+  SubmissionOptions options = optionsFor(context, context.exercise.folder / "solution.cpp");
+  options.sanitize = true;
+  for (const CheckResult& check : listChecks(context.toolchain))
+    if (check.group == Group::visible && options.checks.empty()) options.checks = {check.id};
+  const GradeResult result = gradeSubmission(context.toolchain, context.exercise, options).result;
+  if (result.outcome == Outcome::pass) return kPassed;
+  return failed("solution.cpp does not pass with the sanitizers: " + shortfalls(result));
+}
+
+// The gates of the variants prove that it is there.
+GateResult mistakesAreShown(const GateContext& context) {
+  for (const std::string& name : variantNames(context.exercise))
+    if (!variantOf(context.exercise, name).shownBy.empty()) return kPassed;
+  return failed("no wrong variant names a check that shows its mistake: '// shown by: CHECK, ...'");
+}
+
+GateResult variantsAreCaught(const GateContext& context) {
+  const CaughtTogether all = whyNotCaughtTogether(context);
+  GateResult result = judge(all.complaints);
+  if (!all.alone.empty()) result.note = fmt::format("compiled alone: {}", fmt::join(all.alone, ", "));
+  return result;
+}
+
+}  // namespace
+
+std::vector<std::string> gateNames(const ExerciseInfo& exercise) {
+  std::vector<std::string> names = {"main-current", "points",     "names",    "release",
+                                    "evidence",     "main-floor", "solution", "sanitizers"};
+  if (!variantNames(exercise).empty()) names.emplace_back("wrong");
+  return names;
+}
+
+GateResult runGate(const GateContext& context, const std::string& gate) {
+  const std::vector<std::string> variants = variantNames(context.exercise);
+  const bool isVariant = std::find(variants.begin(), variants.end(), gate) != variants.end();
+  std::vector<std::string> names = gateNames(context.exercise);
+  if (!isVariant && std::find(names.begin(), names.end(), gate) == names.end()) {
+    names.insert(names.end(), variants.begin(), variants.end());
+    throw UsageError({.what = fmt::format("{} has no gate '{}'", context.exercise.name, gate),
+                      .nearest = nearestNames(gate, names)});
+  }
+  const std::map<std::string, GateResult (*)(const GateContext&)> gates = {
+      {"main-current", mainIsCurrent}, {"points", pointsAddUp},
+      {"names", namesExist},           {"release", releaseIsClean},
+      {"evidence", mistakesAreShown},  {"main-floor", mainScoresFloor},
+      {"solution", solutionIsFull},    {"sanitizers", solutionPassesSanitizers},
+      {"wrong", variantsAreCaught}};
+  try {
+    return isVariant ? judge(whyNotCaught(context, gate)) : gates.at(gate)(context);
+  } catch (const Error& error) {
+    return failed(error.what());
+  }
+}
+
+}  // namespace rex::grading

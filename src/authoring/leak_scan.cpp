@@ -1,0 +1,188 @@
+#include "authoring/leak_scan.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "authoring/form_index_internal.h"
+#include "authoring/normal_text.h"
+#include "authoring/unpack.h"
+#include "base/lines.h"
+#include "base/text_file.h"
+
+namespace rex::grading {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Archives in archives; more are made to hide something.
+constexpr int kDeepest = 4;
+
+bool isBelow(const fs::path& folder, const fs::path& file) {
+  return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
+}
+
+// What the bytes of a program or library begin with, and where.
+bool isCompiled(std::string_view bytes) {
+  constexpr std::array<std::string_view, 6> kBeginnings = {
+      "\x7f"
+      "ELF",
+      "!<arch>\n",
+      "!<thin>\n",
+      "gpch",
+      "\xcf\xfa\xed\xfe",
+      "CPCH"};
+  return std::any_of(kBeginnings.begin(), kBeginnings.end(),
+                     [&](std::string_view beginning) { return bytes.starts_with(beginning); });
+}
+
+// Line, from 1, of a mark such as `// <hidden>` that stripping should have taken away; 0: there is none.
+int lineOfMark(std::string_view text) {
+  constexpr std::array<std::string_view, 5> kMarks = {"<solution ", "</solution>", "<todo>", "<hidden>",
+                                                      "</hidden>"};
+  int number = 0;
+  for (std::string_view line : splitLines(text)) {
+    ++number;
+    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+    if (!line.starts_with("//")) continue;
+    for (const std::string_view mark : kMarks)
+      if (line.find(mark) != line.npos) return number;
+  }
+  return 0;
+}
+
+/// Goes through one tree.
+class Scanner {
+ public:
+  Scanner(const std::vector<Secret>& secrets, fs::path library)
+      : secrets_(secrets), library_(std::move(library)) {
+    for (std::size_t k = 0; k < secrets.size(); ++k)
+      for (const std::string& form : secrets[k].forms) index_.add(form, k);
+  }
+
+  LeakScan scan(const fs::path& tree) {
+    std::vector<fs::path> files;
+    for (auto entry = fs::recursive_directory_iterator(tree); entry != fs::end(entry); ++entry) {
+      const fs::path name = entry->path().lexically_relative(tree);
+      if (entry->is_symlink()) {
+        refuse(name.generic_string(), "a link, whose target nobody looks through,");
+      } else if (name.filename() == ".git") {
+        refuse(name.generic_string(), "a history, which nobody looks through,");
+        if (entry->is_directory()) entry.disable_recursion_pending();
+      } else if (entry->is_regular_file()) {
+        files.push_back(name);
+      }
+    }
+    std::sort(files.begin(), files.end());
+    for (const fs::path& name : files) scanFile(name.generic_string(), name, readTextFile(tree / name), 0);
+    return std::move(found_);
+  }
+
+ private:
+  void refuse(const std::string& file, std::string what, int line = 0) {
+    found_.leaks.push_back({.where = {file, line}, .what = std::move(what)});
+  }
+
+  // `place` is what to show, `name` the name of the file where it lies.
+  void scanFile(const std::string& place, const fs::path& name, const std::string& bytes, int depth) {
+    ++found_.files;
+    found_.bytes += bytes.size();
+    const std::set<std::size_t> before = std::exchange(told_, {});
+    const bool isLibrary = depth == 0 && isOfTheLibrary(name, bytes);
+    const bool isShown = isBelow("share/template", name);
+    if (!isShown && !isLibrary) judgeName(place, name);
+    search(place, name.generic_string(), isLibrary, false);
+    search(place, bytes, isLibrary, true);
+    if (const int line = isCode(name) && !isShown && !isLibrary ? lineOfMark(bytes) : 0; line > 0)
+      refuse(place, "a mark of a region", line);
+    if (isCompiled(bytes) && told_.empty()) refuse(place, "a compiled file, whose origin nobody can see,");
+    if (isPacked(bytes)) scanPacked(place, bytes, depth);
+    told_ = before;
+  }
+
+  void scanPacked(const std::string& place, const std::string& bytes, int depth) {
+    ++found_.packed;
+    try {
+      if (depth == kDeepest)
+        throw Error({.what = "archives", .found = fmt::format("more than {} in each other", kDeepest)});
+      for (const PackedFile& file : unpack(bytes, place)) {
+        const std::string name = file.name.empty() ? "(unpacked)" : file.name;
+        if (!name.ends_with('/')) scanFile(place + ": " + name, name, file.bytes, depth + 1);
+      }
+    } catch (const Error& error) {
+      refuse(place, fmt::format("an archive that cannot be opened ({}),", error.parts().found));
+    }
+  }
+
+  // What lies in src is one of the library's own files only if it is that file.
+  bool isOfTheLibrary(const fs::path& name, const std::string& bytes) const {
+    if (library_.empty() || !isBelow("src", name)) return false;
+    const fs::path original = library_ / name.lexically_relative("src");
+    return fs::is_regular_file(original) && readTextFile(original) == bytes;
+  }
+
+  void judgeName(const std::string& place, const fs::path& name) {
+    if (name.filename() == "solution.cpp") refuse(place, "a file of that name");
+    const fs::path folders = name.parent_path();
+    if (std::find(folders.begin(), folders.end(), "wrong") != folders.end())
+      refuse(place, "a file in a folder of that name");
+  }
+
+  static bool isCode(const fs::path& name) {
+    return name.extension() == ".cpp" || name.extension() == ".h" || name.extension() == ".hpp";
+  }
+
+  void search(const std::string& place, std::string_view text, bool isLibrary, bool hasLines) {
+    for (const Comments comments : {Comments::keep, Comments::drop}) {
+      const NormalText normal = normalText(text, comments);
+      index_.search(normal.letters, [&](std::size_t k, std::size_t at) {
+        const Secret& secret = secrets_[k];
+        if (isLibrary && secret.kind != SecretKind::courseSecret) return;
+        if (isUsualElsewhere(secret, place)) return;
+        if (!told_.insert(k).second) return;
+        found_.leaks.push_back({.where = {place, hasLines ? normal.lines[at] : 0},
+                                .what = std::string(nameOf(secret.kind)),
+                                .text = secret.text,
+                                .origin = secret.origin});
+      });
+    }
+  }
+
+  // Heads of loops and declarations look alike in all exercises.
+  static bool isUsualElsewhere(const Secret& secret, const fs::path& place) {
+    constexpr std::size_t kShortestElsewhere = 40;
+    const fs::path home = fs::path(secret.origin.file).parent_path(), folder = place.parent_path();
+    return secret.kind == SecretKind::solution && isBelow("exercises", folder) && folder != "exercises" &&
+           !isBelow(home, place) && secret.forms.front().size() < kShortestElsewhere;
+  }
+
+  const std::vector<Secret>& secrets_;
+  fs::path library_;
+  internal::FormIndex index_;
+  std::set<std::size_t> told_{};  // in this file
+  LeakScan found_{};
+};
+
+}  // namespace
+
+std::string toString(const Leak& leak) {
+  const std::string origin = leak.origin.file.empty() ? "" : "of " + toString(leak.origin);
+  const std::string found = leak.text.empty() ? origin : fmt::format("'{}' {}", leak.text, origin);
+  return Error({.what = leak.what + " would reach students", .where = leak.where, .found = found}).what();
+}
+
+LeakScan scanForLeaks(const fs::path& tree, const std::vector<Secret>& secrets, const fs::path& library) {
+  try {
+    return Scanner(secrets, library).scan(tree);
+  } catch (const fs::filesystem_error& error) {
+    throw Error({.what = "cannot look through this folder",
+                 .where = {error.path1().empty() ? tree.string() : error.path1().string()},
+                 .found = error.code().message()});
+  }
+}
+
+}  // namespace rex::grading

@@ -1,0 +1,180 @@
+#include "authoring/release.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "authoring/known_files.h"
+#include "base/error.h"
+#include "base/private_folder.h"
+#include "base/text_file.h"
+#include "submission/regions.h"
+
+namespace rex::grading {
+namespace {
+
+namespace fs = std::filesystem;
+using fs::path;
+
+// What students get from the root; exercises are treated apart. Everything else stays behind.
+constexpr const char* kReleased[] = {
+    "CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE", ".clang-format", ".editorconfig",
+    ".gitignore",     ".gitattributes",    "share",     "src",     "data",          "scripts"};
+
+/// Copies from the root what students get, as far as it is known.
+class Copier {
+ public:
+  explicit Copier(const path& root)
+      : root_(root), known_(knownFiles(root, [] {
+          std::vector<std::string> places(std::begin(kReleased), std::end(kReleased));
+          places.emplace_back("exercises");
+          return places;
+        }())) {}
+
+  void copy(const path& from, const path& to) const {
+    if (fs::is_directory(from)) {
+      fs::create_directories(to);
+      for (const auto& entry : fs::directory_iterator(from)) copy(entry.path(), to / entry.path().filename());
+    } else if (fs::is_regular_file(from) && isKnown(from)) {
+      fs::copy_file(from, to);
+    }
+  }
+
+ private:
+  // Without a history, all but what `rex reset` leaves.
+  bool isKnown(const path& file) const {
+    if (!known_) return !file.filename().string().starts_with("main.backup-");
+    return known_->contains(file.lexically_relative(root_).generic_string());
+  }
+
+  path root_;
+  std::optional<std::set<std::string>> known_;
+};
+
+// The files of an exercise that differ from what lies in its folder, by name.
+std::map<std::string, std::string> madeFiles(const path& exercise) {
+  std::map<std::string, std::string> made;
+  const path solution = exercise / "solution.cpp", check = exercise / "check.cpp";
+  // Twice: the second one is for `rex reset`.
+  for (const char* name : {"main.cpp", "starter.cpp"})
+    if (fs::exists(solution)) made[name] = stripSolution(readTextFile(solution), solution.string());
+  if (fs::exists(check)) made["check.cpp"] = stripHidden(readTextFile(check), check.string());
+  return made;
+}
+
+void releaseExercise(const Copier& copier, const path& from, const path& to) {
+  fs::create_directories(to);
+  const std::map<std::string, std::string> made = madeFiles(from);
+  for (const auto& [name, text] : made) writeTextFile(to / name, text);
+  for (const auto& entry : fs::directory_iterator(from)) {
+    const path name = entry.path().filename();
+    if (name != "solution.cpp" && name != "wrong" && !made.contains(name.string()))
+      copier.copy(entry.path(), to / name);
+  }
+}
+
+// The tests of rex itself stay behind, so the commands for them do too, and the lines that name either.
+void leaveOutTheTests(const path& target) {
+  constexpr auto kLeftOut = std::to_array<std::string_view>(
+      {"scripts/test", "scripts/gallery", "scripts/fuzz", "scripts/check-replay", "scripts/slurm-selftest",
+       "scripts/grading", "scripts/grading-campaign", "`tests/`", "tests/gallery"});
+  for (const std::string_view name : kLeftOut) fs::remove_all(target / name);
+  for (const char* document : {"README.md", "share/doc/architecture.md", "share/doc/gallery.md"}) {
+    if (!fs::exists(target / document)) continue;
+    std::istringstream lines(readTextFile(target / document));
+    std::string kept;
+    for (std::string line; std::getline(lines, line);)
+      if (std::none_of(kLeftOut.begin(), kLeftOut.end(),
+                       [&](std::string_view name) { return line.find(name) != std::string::npos; }))
+        kept += line + '\n';
+    writeTextFile(target / document, kept);
+  }
+}
+
+bool isEmptyOrMissing(const path& folder) {
+  return !fs::exists(folder) || (fs::is_directory(folder) && fs::is_empty(folder));
+}
+
+void writeTree(const std::vector<path>& exercises, const path& root, const path& target) {
+  const Copier copier(root);
+  fs::create_directories(target / "exercises");
+  // The target may lie inside the root; so nothing but the list is walked.
+  for (const char* name : kReleased)
+    if (fs::exists(root / name)) copier.copy(root / name, target / name);
+  leaveOutTheTests(target);
+  for (const path& exercise : exercises)
+    releaseExercise(copier, exercise, target / "exercises" / exercise.filename());
+  for (const auto& entry : fs::directory_iterator(root / "exercises"))
+    if (entry.is_regular_file()) copier.copy(entry.path(), target / "exercises" / entry.path().filename());
+}
+
+std::vector<path> exercisesOf(const path& root) {
+  std::vector<path> exercises;
+  for (const auto& entry : fs::directory_iterator(root / "exercises"))
+    if (entry.is_directory()) exercises.push_back(entry.path());
+  std::sort(exercises.begin(), exercises.end());
+  return exercises;
+}
+
+Error unwritten(const path& target, const fs::filesystem_error& error) {
+  return Error({.what = "cannot write the student release",
+                .where = {(error.path1().empty() ? target : error.path1()).string()},
+                .found = error.code().message()});
+}
+
+}  // namespace
+
+std::vector<Secret> secretsOfCourse(const path& root, const path& courseSecret) {
+  std::vector<Secret> secrets = secretsOf(exercisesOf(root), root);
+  if (!courseSecret.empty()) secrets.push_back(courseSecretIn(courseSecret));
+  return secrets;
+}
+
+void requireNoSolutionText(const path& exercise) {
+  std::map<std::string, std::string> released = madeFiles(exercise);
+  for (const auto& entry : fs::directory_iterator(exercise)) {
+    const path name = entry.path().filename();
+    if (name == "README.md" || name == "exercise.toml" || name.extension() == ".h")
+      released[name.string()] = readTextFile(entry.path());
+  }
+  const PrivateFolder folder(fs::temp_directory_path());
+  for (const auto& [name, text] : released) writeTextFile(folder.path() / name, text);
+  const LeakScan scan = scanForLeaks(folder.path(), secretsOf({exercise}, exercise));
+  if (scan.leaks.empty()) return;
+  const Leak& first = scan.leaks.front();
+  throw Error({.what = toString(first)});
+}
+
+Release writeStudentRelease(const path& root, const path& target, const path& courseSecret) {
+  try {
+    if (!isEmptyOrMissing(target))
+      throw UsageError(
+          {.what = "will not overwrite", .where = {target.string()}, .wanted = "an empty or new folder"});
+  } catch (const fs::filesystem_error& error) {
+    throw unwritten(target, error);
+  }
+  try {
+    const std::vector<path> exercises = exercisesOf(root);
+    Release release{.exercises = static_cast<int>(exercises.size()),
+                    .scan = {},
+                    .secrets = secretsOfCourse(root, courseSecret)};
+    writeTree(exercises, root, target);
+    release.scan = scanForLeaks(target, release.secrets, root / "src");
+    if (!release.scan.leaks.empty()) fs::remove_all(target);
+    return release;
+  } catch (const fs::filesystem_error& error) {
+    std::error_code ignored;
+    fs::remove_all(target, ignored);
+    throw unwritten(target, error);
+  } catch (...) {
+    fs::remove_all(target);
+    throw;
+  }
+}
+
+}  // namespace rex::grading

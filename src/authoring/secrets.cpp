@@ -1,0 +1,200 @@
+#include "authoring/secrets.h"
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "authoring/form_index_internal.h"
+#include "authoring/normal_text.h"
+#include "base/lines.h"
+#include "base/text_file.h"
+#include "grading/hidden_seed.h"
+#include "submission/regions.h"
+
+namespace rex::grading {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Block = std::vector<BlockLine>;
+
+// A line of a check or a mistake alone may stand anywhere; several in a row do not by chance.
+constexpr std::size_t kShortestRun = 48;
+// Of a line whose comment is left out.
+constexpr std::size_t kShortestCode = 20;
+
+std::string letters(std::string_view text, Comments comments) { return normalText(text, comments).letters; }
+
+/// All that everybody may read, as one text.
+class PublicText {
+ public:
+  void add(std::string_view text) {
+    letters_ += letters(text, Comments::keep) + '\n' + letters(text, Comments::drop) + '\n';
+  }
+  void addFile(const fs::path& file) { add(readTextFile(file)); }
+  std::set<std::string> formsIn(const std::vector<std::string>& all) const {
+    internal::FormIndex index;
+    for (std::size_t k = 0; k < all.size(); ++k) index.add(all[k], k);
+    std::set<std::string> held;
+    index.search(letters_, [&](std::size_t k, std::size_t) { held.insert(all[k]); });
+    return held;
+  }
+
+ private:
+  std::string letters_;
+};
+
+/// Goes through the exercises and keeps what is secret.
+class Collector {
+ public:
+  Collector(const std::vector<fs::path>& exercises, const fs::path& root) : root_(root) {
+    if (fs::is_directory(root / "share/template"))
+      for (const auto& entry : fs::recursive_directory_iterator(root / "share/template"))
+        if (entry.is_regular_file()) handedOut_.addFile(entry.path());
+    for (const fs::path& exercise : exercises) readPublic(exercise);
+  }
+
+  void read(const fs::path& exercise) {
+    if (const fs::path file = exercise / "solution.cpp"; fs::exists(file))
+      for (const Block& block : solutionBlocks(readTextFile(file), file.string())) addSolution(block, file);
+    if (const fs::path file = exercise / "check.cpp"; fs::exists(file))
+      for (const Block& block : hiddenBlocks(readTextFile(file), file.string())) addHidden(block, file);
+    if (!fs::is_directory(exercise / "wrong")) return;
+    for (const auto& entry : fs::directory_iterator(exercise / "wrong"))
+      if (entry.is_regular_file()) addWrong(entry.path());
+  }
+
+  std::vector<Secret> take() && {
+    leaveOutThePublic();
+    std::stable_sort(secrets_.begin(), secrets_.end(), [](const Secret& a, const Secret& b) {
+      return std::tie(a.origin.file, a.origin.line) < std::tie(b.origin.file, b.origin.line);
+    });
+    return std::move(secrets_);
+  }
+
+ private:
+  void readPublic(const fs::path& exercise) {
+    const fs::path solution = exercise / "solution.cpp", check = exercise / "check.cpp";
+    if (fs::exists(solution)) {
+      const std::string text = readTextFile(solution);
+      handedOut_.add(textOutsideRegions(text, solution.string()));
+      readable_.add(stripSolution(text, solution.string()));
+    }
+    if (fs::exists(check)) readable_.add(stripHidden(readTextFile(check), check.string()));
+    for (const auto& entry : fs::directory_iterator(exercise))
+      if (entry.path().extension() == ".h") readable_.addFile(entry.path());
+  }
+
+  void leaveOutThePublic() {
+    std::vector<std::string> all;
+    for (const Secret& secret : secrets_) all.insert(all.end(), secret.forms.begin(), secret.forms.end());
+    const std::set<std::string> handedOut = handedOut_.formsIn(all), readable = readable_.formsIn(all);
+    std::erase_if(secrets_, [&](const Secret& secret) {
+      return std::any_of(secret.forms.begin(), secret.forms.end(), [&](const std::string& form) {
+        return handedOut.contains(form) || (secret.kind != SecretKind::solution && readable.contains(form));
+      });
+    });
+    // Code alone, without the comment behind it, says less.
+    for (Secret& secret : secrets_)
+      if (secret.forms.size() > 1 && secret.forms[1].size() < kShortestCode) secret.forms.pop_back();
+  }
+
+  void add(SecretKind kind, const BlockLine& line, const fs::path& file, std::vector<std::string> forms) {
+    std::erase_if(forms, [](const std::string& form) { return form.size() < kShortestForm; });
+    if (forms.empty()) return;
+    const std::string name = file.lexically_relative(root_).generic_string();
+    secrets_.push_back(
+        {.kind = kind, .text = line.text, .origin = {name, line.number}, .forms = std::move(forms)});
+  }
+
+  void addSolution(const Block& block, const fs::path& file) {
+    for (const BlockLine& line : block) {
+      const std::string whole = letters(line.text, Comments::keep), code = letters(line.text, Comments::drop);
+      add(SecretKind::solution, line, file, whole == code ? std::vector{whole} : std::vector{whole, code});
+    }
+  }
+
+  // From each line on, as many as it takes.
+  void addRuns(SecretKind kind, const Block& block, const fs::path& file) {
+    for (std::size_t first = 0; first < block.size(); ++first) {
+      std::string code;
+      for (std::size_t k = first; k < block.size() && code.size() < kShortestRun; ++k)
+        code += letters(block[k].text, Comments::drop);
+      const bool begins = !letters(block[first].text, Comments::drop).empty();
+      if (begins && code.size() >= kShortestRun) add(kind, block[first], file, {code});
+    }
+  }
+
+  void addHidden(const Block& block, const fs::path& file) {
+    addRuns(SecretKind::hiddenCheck, block, file);
+    for (const BlockLine& line : block)
+      for (const std::string& literal : literalsIn(line.text))
+        add(SecretKind::hiddenName, {line.number, literal}, file, {letters(literal, Comments::keep)});
+  }
+
+  void addWrong(const fs::path& file) {
+    Block code;
+    int number = 0;
+    const std::string text = readTextFile(file);
+    for (const std::string_view line : splitLines(text)) {
+      ++number;
+      if (line.starts_with("// mistake:"))
+        add(SecretKind::wrongVariant, {number, std::string(line)}, file, {letters(line, Comments::keep)});
+      code.push_back({number, std::string(line)});
+    }
+    addRuns(SecretKind::wrongVariant, code, file);
+  }
+
+  static std::vector<std::string> literalsIn(std::string_view code) {
+    std::vector<std::string> found;
+    for (std::size_t open = code.find('"'); open != code.npos;) {
+      const std::size_t close = code.find('"', open + 1);
+      if (close == code.npos) break;
+      found.emplace_back(code.substr(open + 1, close - open - 1));
+      open = code.find('"', close + 1);
+    }
+    return found;
+  }
+
+  fs::path root_;
+  PublicText handedOut_;  // also lines of solutions may stand there
+  PublicText readable_;   // only the others
+  std::vector<Secret> secrets_{};
+};
+
+}  // namespace
+
+std::string_view nameOf(SecretKind kind) {
+  switch (kind) {
+    case SecretKind::solution:
+      return "a line of the solution";
+    case SecretKind::hiddenCheck:
+      return "a hidden check";
+    case SecretKind::hiddenName:
+      return "a text of a hidden check";
+    case SecretKind::wrongVariant:
+      return "a wrong variant";
+    default:
+      return "the secret of the course";
+  }
+}
+
+std::vector<Secret> secretsOf(const std::vector<fs::path>& exercises, const fs::path& root) {
+  Collector collector(exercises, root);
+  for (const fs::path& exercise : exercises) collector.read(exercise);
+  return std::move(collector).take();
+}
+
+Secret courseSecretIn(const fs::path& file) {
+  const std::string form = letters(readCourseSecret(file), Comments::keep);
+  if (form.size() < kShortestForm)
+    throw Error({.what = "the secret of the course cannot be looked for",
+                 .where = {file.string()},
+                 .found = fmt::format("{} characters that are no blanks", form.size()),
+                 .wanted = fmt::format("at least {}", kShortestForm)});
+  return {.kind = SecretKind::courseSecret, .text = {}, .origin = {file.string(), 1}, .forms = {form}};
+}
+
+}  // namespace rex::grading

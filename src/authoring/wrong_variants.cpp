@@ -1,0 +1,156 @@
+#include "authoring/wrong_variants.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "authoring/joint_build.h"
+#include "base/error.h"
+#include "base/text_file.h"
+#include "grading/unknown_check.h"
+#include "submission/submission.h"
+
+namespace rex::grading {
+namespace {
+
+using std::filesystem::path;
+using Complaints = std::vector<std::string>;
+
+path fileOf(const ExerciseInfo& exercise, const std::string& name) {
+  return exercise.folder / (name + ".cpp");
+}
+
+SubmissionOptions gradingOf(const GateContext& context, const WrongVariant& variant) {
+  SubmissionOptions options{.main = context.workFolder / "main.cpp",
+                            .workFolder = context.workFolder / "build",
+                            .results = context.workFolder / "results.json",
+                            .checks = {}};
+  if (!variant.shownBy.empty()) options.evidence = context.workFolder / "checks";
+  return options;
+}
+
+// A call that the scan refuses never meets a check.
+Complaints whyNotRefused(const GradeResult& result) {
+  const auto& diagnostics = result.compile.diagnostics;
+  const bool refused = std::any_of(diagnostics.begin(), diagnostics.end(),
+                                   [](const auto& d) { return d.rule == kForbiddenCall; });
+  if (refused) return {};
+  return {"it should call a forbidden function, but nothing noticed one"};
+}
+
+const CheckResult& checkNamed(const GradeResult& result, const std::string& id, const path& wrong) {
+  const auto isIt = [&](const CheckResult& check) { return check.id == id; };
+  const auto check = std::find_if(result.checks.begin(), result.checks.end(), isIt);
+  if (check != result.checks.end()) return *check;
+  std::vector<std::string> ids;
+  for (const CheckResult& known : result.checks) ids.push_back(known.id);
+  throw unknownCheck(id, ids, {wrong.string(), 1});
+}
+
+// What is missing of a picture, and of a replay if there is one: it must not begin where all is well.
+Complaints missingOf(const CheckResult& check, const path& workFolder) {
+  if (check.picture.empty() || !std::filesystem::exists(workFolder / check.picture))
+    return {fmt::format("check '{}' leaves no picture", check.id)};
+  constexpr std::string_view kAtOnce = "data-start=\"0\"";
+  if (!check.replay.empty() && readTextFile(workFolder / check.replay).find(kAtOnce) != std::string::npos)
+    return {fmt::format("the replay of check '{}' begins at 0 s, not where it went wrong", check.id)};
+  return {};
+}
+
+// Whether a result is what the variant promises.
+Complaints whyNotCaughtIn(const GradeResult& result, const WrongVariant& variant, const path& wrong,
+                          const path& workFolder) {
+  if (variant.caughtBy.front() == kForbiddenCall) return whyNotRefused(result);
+  if (result.outcome == Outcome::compileError || result.outcome == Outcome::graderError)
+    return {"it was not graded: " + result.message};
+  for (const std::string& id : variant.caughtBy)
+    if (checkNamed(result, id, wrong).status == Outcome::pass)
+      return {fmt::format("check '{}' passes although: {}", id, variant.mistake)};
+  if (result.score >= result.maxScore) return {"it gets the full score"};
+  Complaints missing;
+  for (const std::string& id : variant.shownBy)
+    for (std::string& what : missingOf(checkNamed(result, id, wrong), workFolder))
+      missing.push_back(std::move(what));
+  return missing;
+}
+
+void requireChecks(const WrongVariant& variant, const std::vector<std::string>& known, const path& wrong) {
+  for (const auto* ids : {&variant.caughtBy, &variant.shownBy})
+    for (const std::string& id : *ids)
+      if (id != kForbiddenCall && std::find(known.begin(), known.end(), id) == known.end())
+        throw unknownCheck(id, known, {wrong.string(), 1});
+}
+
+// Runs the checks that the variant names. Its full score is out of reach as soon as one of them fails.
+GradeResult gradeLinked(const GateContext& context, const BuiltSubmission& built,
+                        const WrongVariant& variant) {
+  if (built.worker.empty()) return built.start;
+  SubmissionOptions options = gradingOf(context, variant);
+  options.workFolder = built.worker.parent_path();
+  options.checks = variant.caughtBy;
+  options.checks.insert(options.checks.end(), variant.shownBy.begin(), variant.shownBy.end());
+  return gradeBuilt(built, context.toolchain, context.exercise, options);
+}
+
+// Each line of what `find` complains about, with the name of the variant.
+template <class Find>
+void addComplaints(std::vector<std::string>& complaints, const std::string& name, const Find& find) {
+  try {
+    for (const std::string& what : find()) complaints.push_back(fmt::format("{}: {}", name, what));
+  } catch (const Error& error) {
+    complaints.push_back(fmt::format("{}: {}", name, error.what()));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> variantNames(const ExerciseInfo& exercise) {
+  std::vector<std::string> names;
+  if (std::filesystem::is_directory(exercise.folder / "wrong"))
+    for (const auto& entry : std::filesystem::directory_iterator(exercise.folder / "wrong"))
+      if (entry.path().extension() == ".cpp") names.push_back("wrong/" + entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+WrongVariant variantOf(const ExerciseInfo& exercise, const std::string& name) {
+  const path solution = exercise.folder / "solution.cpp", wrong = fileOf(exercise, name);
+  return composeVariant(readTextFile(solution), solution.string(), readTextFile(wrong), wrong.string());
+}
+
+std::vector<std::string> whyNotCaught(const GateContext& context, const std::string& name) {
+  const WrongVariant variant = variantOf(context.exercise, name);
+  const SubmissionOptions options = gradingOf(context, variant);
+  writeTextFile(options.main, variant.source);
+  const GradeResult result = gradeSubmission(context.toolchain, context.exercise, options).result;
+  return whyNotCaughtIn(result, variant, fileOf(context.exercise, name), context.workFolder);
+}
+
+CaughtTogether whyNotCaughtTogether(const GateContext& context) {
+  std::vector<std::string> known, names, sources;
+  for (const CheckResult& check : listChecks(context.toolchain)) known.push_back(check.id);
+  CaughtTogether all;
+  std::vector<WrongVariant> variants;
+  for (const std::string& name : variantNames(context.exercise))
+    addComplaints(all.complaints, name, [&]() -> Complaints {
+      const WrongVariant variant = variantOf(context.exercise, name);
+      requireChecks(variant, known, fileOf(context.exercise, name));
+      names.push_back(name);
+      sources.push_back(variant.source);
+      variants.push_back(variant);
+      return {};
+    });
+  const path solution = context.exercise.folder / "solution.cpp";
+  const JointBuild build(context, referenceText(readTextFile(solution), solution.string()), sources);
+  for (std::size_t k = 0; k < variants.size(); ++k) {
+    if (!build.holds(k)) all.alone.push_back(names[k]);
+    addComplaints(all.complaints, names[k], [&] {
+      if (!build.holds(k)) return whyNotCaught(context, names[k]);
+      const GradeResult result = gradeLinked(context, build.link(k), variants[k]);
+      return whyNotCaughtIn(result, variants[k], fileOf(context.exercise, names[k]), context.workFolder);
+    });
+  }
+  return all;
+}
+
+}  // namespace rex::grading

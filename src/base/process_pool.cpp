@@ -1,0 +1,111 @@
+#include "base/process_pool.h"
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <map>
+#include <thread>
+
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "base/interruption.h"
+
+namespace rex {
+namespace {
+
+constexpr auto kPause = std::chrono::milliseconds(10);
+
+[[noreturn]] void work(const std::function<int(int)>& job, int k, pid_t parent) {
+  constexpr int kBroken = 3;
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(kBroken);
+  ::setpgid(0, 0);  // Ctrl-C reaches us, and we pass it on
+  int code = kBroken;
+  try {
+    code = job(k);
+  } catch (const Interrupted& stop) {
+    code = 128 + stop.signal;
+  } catch (...) {
+  }
+  ::_exit(code);
+}
+
+/// The copies that work at the moment.
+class Copies {
+ public:
+  Copies() = default;
+  ~Copies() { end(SIGKILL); }
+  Copies(const Copies&) = delete;
+  Copies& operator=(const Copies&) = delete;
+
+  int count() const { return static_cast<int>(running_.size()); }
+
+  void start(const std::function<int(int)>& job, int k) {
+    std::fflush(nullptr);  // or the copy would have our unwritten text, too
+    const pid_t parent = ::getpid(), copy = ::fork();
+    if (copy < 0) throw Error({.what = "cannot make a process", .found = std::strerror(errno)});
+    if (copy == 0) work(job, k, parent);
+    ::setpgid(copy, copy);
+    running_[copy] = k;
+  }
+
+  // Takes those that have ended.
+  void reap(const std::function<void(int, int)>& ended) {
+    for (auto entry = running_.begin(); entry != running_.end();) {
+      int status = 0;
+      if (::waitpid(entry->first, &status, WNOHANG) != entry->first) {
+        ++entry;
+        continue;
+      }
+      const int k = entry->second;
+      entry = running_.erase(entry);
+      ended(k, WIFEXITED(status) ? WEXITSTATUS(status) : -1);
+    }
+  }
+
+  // Passes the signal on; who has not ended after some seconds is killed.
+  void end(int signal) {
+    constexpr int kPatience = 500;
+    for (const auto& [copy, k] : running_) ::kill(-copy, signal);
+    for (int waited = 0; waited < kPatience && !running_.empty(); ++waited) {
+      reap([](int, int) {});
+      if (!running_.empty()) std::this_thread::sleep_for(kPause);
+    }
+    for (const auto& [copy, k] : running_) {
+      ::kill(-copy, SIGKILL);
+      ::waitpid(copy, nullptr, 0);
+    }
+    running_.clear();
+  }
+
+ private:
+  std::map<pid_t, int> running_;
+};
+
+}  // namespace
+
+void runInCopies(int count, int parallel, const std::function<int(int)>& job,
+                 const std::function<void(int, int)>& ended) {
+  Copies copies;
+  try {
+    for (int next = 0; next < count || copies.count() > 0;) {
+      throwIfInterrupted();
+      if (next < count && copies.count() < parallel) {
+        copies.start(job, next++);
+        continue;
+      }
+      std::this_thread::sleep_for(kPause);
+      copies.reap(ended);
+    }
+  } catch (const Interrupted& stop) {
+    copies.end(stop.signal);
+    throw;
+  }
+}
+
+}  // namespace rex

@@ -1,0 +1,64 @@
+#include "classroom/csv.h"
+
+#include <charconv>
+
+#include "base/error.h"
+
+namespace rex::grading {
+namespace {
+
+bool isNumber(const std::string& text) {
+  double value = 0;
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return failure == std::errc() && end == text.data() + text.size();
+}
+
+std::string field(std::string text) {
+  constexpr std::string_view kStartsOfFormulas = "=+-@\t\r";
+  if (!text.empty() && kStartsOfFormulas.find(text.front()) != std::string_view::npos && !isNumber(text))
+    text.insert(0, 1, '\'');
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
+}  // namespace
+
+std::string csvLine(const std::vector<std::string>& fields) {
+  std::string line;
+  for (std::size_t k = 0; k < fields.size(); ++k) line += (k == 0 ? "" : ",") + field(fields[k]);
+  return line + '\n';
+}
+
+std::vector<CsvRow> parseCsv(std::string_view text, const std::string& file) {
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+  std::vector<CsvRow> rows;
+  CsvRow row{.line = 1, .fields = {""}};
+  bool isQuoted = false;
+  int line = 1;
+  const auto endRow = [&] {
+    if (row.fields.size() > 1 || !row.fields.front().empty()) rows.push_back(row);
+    row = {.line = line, .fields = {""}};
+  };
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const char c = text[k];
+    if (c == '\n') ++line;
+    if (c == '"' && isQuoted && text.substr(k + 1).starts_with('"'))
+      row.fields.back() += text[k++];
+    else if (c == '"')
+      isQuoted = !isQuoted;
+    else if (isQuoted || (c != ',' && c != '\n' && c != '\r'))
+      row.fields.back() += c;
+    else if (c == ',')
+      row.fields.emplace_back();
+    else if (c == '\n')
+      endRow();
+  }
+  if (isQuoted)
+    throw Error({.what = "a quote does not end", .where = {file, row.line, 0}, .wanted = "a CSV file"});
+  endRow();
+  return rows;
+}
+
+}  // namespace rex::grading

@@ -1,0 +1,133 @@
+#include "classroom/grade_task.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/sha256.h"
+#include "base/text_file.h"
+#include "classroom/grader_fingerprint.h"
+#include "classroom/kept_workers.h"
+#include "grading/hidden_seed.h"
+#include "submission/student_build.h"
+#include "submission/submission.h"
+
+namespace rex::grading {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kResults = "results.json";
+constexpr const char* kEvidence = "checks";
+
+void require(const std::string& what, const std::string& found, const std::string& wanted) {
+  if (found == wanted) return;
+  throw Error({.what = what + " is not the one that the list of tasks was written for",
+               .found = "hash " + found.substr(0, 12),
+               .wanted = wanted.substr(0, 12) + ", or a new list"});
+}
+
+void requireInputs(const Task& task, const fs::path& file, const Toolchain& toolchain,
+                   const ExerciseInfo& exercise, const TaskOptions& options) {
+  require(file.string(), sha256(gradedText(file)), task.sourceSha256);
+  require("the grader of " + exercise.name, graderFingerprint(toolchain, exercise, options.launcher),
+          task.graderSha256);
+  if (secretIdOf(options.secret) != task.secretId)
+    throw Error({.what = "the secret of the course",
+                 .found = options.secret.empty() ? "none" : secretIdOf(options.secret),
+                 .wanted = task.secretId.empty() ? "none" : task.secretId});
+}
+
+// Seeds and secrets change the questions, not the program.
+std::string workerKey(const Task& task) {
+  return sha256(
+      fmt::format("{}\n{}\n{}\n{}\n", task.exercise, task.sourceSha256, task.graderSha256, task.level));
+}
+
+std::string withInputs(const fs::path& results, const Task& task, bool evidence) {
+  Json json = Json::parse(readTextFile(results));
+  json["inputs"] = {{"sha256", task.inputsSha256()},
+                    {"source_sha256", task.sourceSha256},
+                    {"grader_sha256", task.graderSha256}};
+  json["volatile"]["evidence"] = evidence;
+  return json.dump(2) + "\n";
+}
+
+}  // namespace
+
+std::string secretIdOf(const fs::path& secret) {
+  return secret.empty() ? "" : courseSecretId(readCourseSecret(secret));
+}
+
+fs::path resultFolder(const fs::path& out, const Task& task) { return out / task.student / task.exercise; }
+
+TaskState stateOf(const Task& task, const fs::path& out) {
+  const fs::path file = resultFolder(out, task) / kResults;
+  if (!fs::exists(file)) return TaskState::missing;
+  try {
+    const Json json = Json::parse(readTextFile(file));
+    if (json.at("inputs").at("sha256") != task.inputsSha256()) return TaskState::stale;
+    return json.at("outcome") == toString(Outcome::graderError) ? TaskState::failed : TaskState::done;
+  } catch (const Json::exception&) {
+    return TaskState::stale;  // something else of that name
+  }
+}
+
+bool hasEvidence(const Task& task, const fs::path& out) {
+  const fs::path folder = resultFolder(out, task);
+  try {
+    const Json json = Json::parse(readTextFile(folder / kResults));
+    const Json& kept = json.at("volatile");
+    if (!kept.value("evidence", false)) return false;
+    for (const Json& check : kept.at("checks"))
+      for (const char* kind : {"picture", "replay"})
+        if (const std::string name = check.value(kind, ""); !name.empty() && !fs::exists(folder / name))
+          return false;
+    return true;
+  } catch (const Json::exception&) {
+    return false;
+  }
+}
+
+GradeResult gradeTask(const Task& task, const Toolchain& toolchain, const ExerciseInfo& exercise,
+                      const TaskOptions& options) {
+  const fs::path file = options.out / task.file;
+  requireInputs(task, file, toolchain, exercise, options);
+  const fs::path results = options.workFolder / "out" / kResults,
+                 evidence = options.workFolder / "out" / kEvidence;
+  fs::create_directories(results.parent_path());
+  const SubmissionOptions submission{.main = file,
+                                     .workFolder = options.workFolder / "work",
+                                     .results = results,
+                                     .checks = {},
+                                     .seed = task.seed,
+                                     .evidence = options.evidence ? evidence : fs::path(),
+                                     .sandbox = {.level = task.level, .launcher = options.launcher},
+                                     .secret = options.secret};
+  const BuiltSubmission built =
+      options.workers.empty()
+          ? buildSubmission(toolchain, exercise, submission)
+          : buildOnce({options.workers, workerKey(task), options.anew}, toolchain, exercise, submission);
+  GradeResult result = gradeBuilt(built, toolchain, exercise, submission);
+  const fs::path folder = resultFolder(options.out, task);
+  fs::create_directories(folder);
+  const fs::path log = results.parent_path() / kBuildLog;
+  if (fs::exists(log)) replaceTextFile(folder / kBuildLog, readTextFile(log), "the log of the compiler");
+  // Pictures of another text would mislead. They come before the result that names them.
+  fs::remove_all(folder / kEvidence);
+  if (options.evidence && fs::exists(evidence))
+    fs::copy(evidence, folder / kEvidence, fs::copy_options::recursive);
+  replaceTextFile(folder / kResults, withInputs(results, task, options.evidence), "the result file");
+  return result;
+}
+
+std::string gradedText(const fs::path& file) {
+  try {
+    return readStudentFile(file);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+}  // namespace rex::grading

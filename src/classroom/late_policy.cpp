@@ -1,0 +1,120 @@
+#include "classroom/late_policy.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/toml_table.h"
+
+namespace rex::grading {
+namespace {
+
+constexpr std::int64_t kDay = 86400;
+
+std::int64_t hundredths(double number) { return std::llround(100 * number); }
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Reads one file of deadlines.
+class PolicyReader {
+ public:
+  PolicyReader(const std::filesystem::path& file, const std::vector<std::string>& exercises)
+      : exercises_(exercises), top_(TomlTable::read(file, "the file of deadlines", "a file of deadlines")) {}
+
+  LatePolicy read() const {
+    top_.refuseKeysBut({"all", "exercise"});
+    LateRule all;
+    if (const auto table = top_.table("all", "[all]", "a table")) readRule(*table, all);
+    LatePolicy policy;
+    for (const std::string& exercise : exercises_) policy[exercise] = all;
+    const auto exercises = top_.table("exercise", "[exercise]", "a table");
+    if (!exercises) return policy;
+    for (const std::string& name : exercises->keys()) {
+      if (!contains(exercises_, name))
+        throw Error({.what = fmt::format("no exercise is called '{}'", name),
+                     .where = exercises->where(name),
+                     .nearest = nearestNames(name, exercises_)});
+      readRule(*exercises->table(name, fmt::format("[exercise.{}]", name), "a table"), policy[name]);
+    }
+    return policy;
+  }
+
+ private:
+  static void readRule(const TomlTable& keys, LateRule& rule) {
+    constexpr int kMostMinutes = 60 * 24 * 365;
+    keys.refuseKeysBut({"deadline", "grace_minutes", "percent_per_day", "points_per_day", "cap_percent",
+                        "cap_points", "extensions"});
+    if (keys.has("deadline")) rule.deadline = keys.instant("deadline");
+    if (keys.has("grace_minutes")) rule.graceSeconds = 60 * keys.integer("grace_minutes", 0, kMostMinutes);
+    readCost(keys, "percent", "points", true, rule);
+    readCost(keys, "points", "percent", false, rule);
+    if (const auto extensions = keys.table("extensions", "extensions", "a table"))
+      for (const std::string& student : extensions->keys())
+        rule.extensions[student] = extensions->instant(student);
+  }
+
+  // Percent or points, for both the day and the cap.
+  static void readCost(const TomlTable& keys, const std::string& unit, const std::string& other,
+                       bool isPercent, LateRule& rule) {
+    const std::string perDay = unit + "_per_day", cap = "cap_" + unit;
+    const double most = isPercent ? 100 : 1000;
+    if (keys.has(perDay)) {
+      if (keys.has(other + "_per_day"))
+        throw Error({.what = fmt::format("both {} and {}_per_day", perDay, other),
+                     .where = keys.where(perDay),
+                     .wanted = "one of them"});
+      rule.isPercent = isPercent;
+      rule.perDay = hundredths(keys.number(perDay, 0, most));
+      rule.cap.reset();  // one of [all] could have the other unit
+    }
+    if (!keys.has(cap)) return;
+    if (rule.isPercent != isPercent)
+      throw Error({.what = fmt::format("'{}'", cap),
+                   .where = keys.where(cap),
+                   .wanted = fmt::format("cap_{}, as lateness costs {}", other, other)});
+    rule.cap = hundredths(keys.number(cap, 0, most));
+  }
+
+  const std::vector<std::string>& exercises_;
+  TomlTable top_;
+};
+
+}  // namespace
+
+Lateness latenessOf(const LateRule& rule, const std::string& student, std::int64_t submitted, int points) {
+  std::optional<std::int64_t> deadline = rule.deadline;
+  // One for all exercises must not shorten the time for an exercise that is due later.
+  if (const auto own = rule.extensions.find(student); deadline && own != rule.extensions.end())
+    deadline = std::max(*deadline, own->second);
+  if (!deadline || submitted <= *deadline + rule.graceSeconds) return {};
+  const std::int64_t late = submitted - *deadline, days = (late + kDay - 1) / kDay;
+  const std::int64_t cost = std::min(days * rule.perDay, rule.cap.value_or(days * rule.perDay));
+  // A percent is a hundredth of the points, and both count in hundredths here.
+  const std::int64_t penalty = rule.isPercent ? (points * cost + 50) / 100 : cost;
+  return {static_cast<int>(days), std::min(penalty, std::int64_t{100} * points)};
+}
+
+LatePolicy readLatePolicy(const std::filesystem::path& file, const std::vector<std::string>& exercises) {
+  return PolicyReader(file, exercises).read();
+}
+
+std::vector<std::string> unknownExtensions(const LatePolicy& policy,
+                                           const std::vector<std::string>& students) {
+  std::vector<std::string> sentences;
+  for (const auto& [exercise, rule] : policy) {
+    for (const auto& [student, deadline] : rule.extensions)
+      if (!contains(students, student))
+        sentences.emplace_back(
+            Error(
+                {.what = fmt::format("'{}' has an extension for {} and handed in nothing", student, exercise),
+                 .nearest = nearestNames(student, students)})
+                .what());
+  }
+  return sentences;
+}
+
+}  // namespace rex::grading

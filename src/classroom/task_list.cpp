@@ -1,0 +1,122 @@
+#include "classroom/task_list.h"
+
+#include <charconv>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/sha256.h"
+#include "base/text_file.h"
+#include "classroom/hand_in.h"
+
+namespace rex::grading {
+namespace {
+
+constexpr const char* kHeadings =
+    "task\tstudent\texercise\tsource_sha256\tgrader_sha256\tlevel\tseed\tsecret_id\tsubmitted\ttime_from\t"
+    "inputs_sha256\tfile";
+constexpr std::size_t kColumns = 12;
+
+std::string seedText(const Task& task) { return task.seed ? fmt::format("{}", *task.seed) : ""; }
+
+std::string line(const Task& task, std::size_t number) {
+  if (task.file.string().find_first_of("\t\n\r") != std::string::npos)
+    throw Error({.what = "the name of this file cannot stand in a list of tasks",
+                 .where = {task.file.string()},
+                 .wanted = "no tab and no line break"});
+  return fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\n", number, task.student, task.exercise,
+                     task.sourceSha256, task.graderSha256, task.level, seedText(task), task.secretId,
+                     task.submitted, task.timeFrom, task.inputsSha256(), task.file.string());
+}
+
+std::vector<std::string> cut(const std::string& line) {
+  std::vector<std::string> fields;
+  for (std::size_t from = 0;;) {
+    const std::size_t tab = line.find('\t', from);
+    fields.push_back(line.substr(from, tab - from));
+    if (tab == std::string::npos) return fields;
+    from = tab + 1;
+  }
+}
+
+/// Fields of one line, which know where they stand.
+class Line {
+ public:
+  Line(const std::string& text, std::string file, int number)
+      : fields_(cut(text)), where_{std::move(file), number, 0} {
+    if (fields_.size() != kColumns)
+      refuse(fmt::format("{} columns", fields_.size()), fmt::format("{}", kColumns));
+  }
+
+  template <class Number>
+  Number number(std::size_t column, const std::string& wanted) const {
+    Number value{};
+    const std::string& text = fields_[column];
+    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (failure != std::errc() || end != text.data() + text.size()) refuse("'" + text + "'", wanted);
+    return value;
+  }
+  const std::string& text(std::size_t column) const { return fields_[column]; }
+
+  [[noreturn]] void refuse(std::string found, std::string wanted) const {
+    throw Error({.what = "not a list of tasks",
+                 .where = where_,
+                 .found = std::move(found),
+                 .wanted = std::move(wanted)});
+  }
+
+ private:
+  std::vector<std::string> fields_;
+  SourceLocation where_;
+};
+
+// Names become folders: what a file says is not trusted more than what a student hands in.
+Task readTask(const Line& line, std::size_t number) {
+  if (line.number<std::size_t>(0, "the number of the task") != number)
+    line.refuse("task " + line.text(0), fmt::format("task {}", number));
+  Task task{.student = line.text(1),
+            .exercise = line.text(2),
+            .sourceSha256 = line.text(3),
+            .graderSha256 = line.text(4),
+            .level = line.number<int>(5, "a sandbox level"),
+            .seed = {},
+            .secretId = line.text(7),
+            .submitted = line.number<std::int64_t>(8, "a time in seconds"),
+            .timeFrom = line.text(9),
+            .file = line.text(11)};
+  if (!line.text(6).empty()) task.seed = line.number<std::uint64_t>(6, "a seed, or nothing");
+  for (const std::string& name : {task.student, task.exercise})
+    if (const std::string why = whyNoStudentName(name); !why.empty()) line.refuse(why, "a plain name");
+  if (task.inputsSha256() != line.text(10)) line.refuse("another hash of the inputs", task.inputsSha256());
+  return task;
+}
+
+}  // namespace
+
+std::string Task::inputsSha256() const {
+  return sha256(fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n", exercise, sourceSha256, graderSha256, level,
+                            seedText(*this), secretId));
+}
+
+std::string toManifest(const std::vector<Task>& tasks) {
+  std::string text = fmt::format("{}\n", kHeadings);
+  for (std::size_t k = 0; k < tasks.size(); ++k) text += line(tasks[k], k + 1);
+  return text;
+}
+
+std::vector<Task> readManifest(const std::filesystem::path& file) {
+  std::istringstream lines(readTextFile(file));
+  std::string text;
+  if (!std::getline(lines, text) || text != kHeadings)
+    throw Error({.what = "not a list of tasks",
+                 .where = {file.string(), 1, 0},
+                 .wanted = "the headings that `rex grade --manifest` writes"});
+  std::vector<Task> tasks;
+  while (std::getline(lines, text))
+    tasks.push_back(
+        readTask(Line(text, file.string(), static_cast<int>(tasks.size()) + 2), tasks.size() + 1));
+  return tasks;
+}
+
+}  // namespace rex::grading

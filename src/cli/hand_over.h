@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/command_table.h"
+#include "cli/project.h"
+
+namespace rex::cli {
+
+/// Builds that program of rex where it is stale, and becomes it, with the same words behind its name. Throws
+/// as bringUpToDate(), and Error if there is no such program.
+[[noreturn]] void becomeProgram(const Project& project, Program program, std::vector<std::string> words);
+
+}  // namespace rex::cli

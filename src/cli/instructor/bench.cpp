@@ -1,0 +1,46 @@
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "base/error.h"
+#include "base/process.h"
+#include "cli/instructor/instructor_room_internal.h"
+
+namespace rex::cli {
+namespace {
+
+struct BenchOptions {
+  std::vector<std::string> names;
+  bool json = false;
+};
+
+ExitCode bench(const Project& project, const BenchOptions& options) {
+  const std::filesystem::path program = project.build / "tests" / "bench" / "rex_bench";
+  if (!std::filesystem::exists(program))
+    throw Error({.what = "the benchmarks are not built",
+                 .wanted = "scripts/rex bench, which builds them first, in a tree with tests"});
+  std::vector<std::string> command = {program.string()};
+  command.insert(command.end(), options.names.begin(), options.names.end());
+  if (options.json) command.push_back("--json");
+  const ProcessResult result = runProcess(command, {.timeout = 3600, .inheritOutput = true});
+  if (result.exitCode == static_cast<int>(ExitCode::kUsage)) return ExitCode::kUsage;
+  if (!result.started || result.signal != 0)
+    throw Error({.what = "the benchmarks did not end by themselves"});
+  return result.ok() ? ExitCode::kFull : ExitCode::kGraderFault;
+}
+
+}  // namespace
+
+void addBench(CLI::App* command, Action& action) {
+  const auto options = std::make_shared<BenchOptions>();
+  command->footer("Examples:\n  scripts/rex bench\n  scripts/rex bench kinematics --json");
+  command->add_option("NAME", options->names, "groups to measure (default: all)")->type_name("");
+  command->add_flag("--json", options->json, "print JSON instead of a table");
+  command->callback(
+      [&action, options] { action = [options](const Project& p) { return bench(p, *options); }; });
+}
+
+}  // namespace rex::cli

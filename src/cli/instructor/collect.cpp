@@ -1,0 +1,136 @@
+#include "cli/instructor/collect.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "base/text_file.h"
+#include "classroom/grade_table.h"
+#include "classroom/grade_task.h"
+#include "cli/instructor/grading_options_internal.h"
+#include "cli/instructor/instructor_room_internal.h"
+#include "cli/report_format.h"
+#include "cli/terminal.h"
+#include "grading/result_file.h"
+
+namespace rex::cli {
+namespace {
+
+struct CollectOptions {
+  std::filesystem::path out{};
+  std::filesystem::path manifest{};
+  std::filesystem::path deadlines{};
+  bool csv = false;
+  std::string reports{};  ///< formats of `rex report`, with commas between; empty: none
+};
+
+using grading::Task;
+
+void tell(const std::string& what, const std::vector<int>& numbers, const std::vector<Task>& tasks) {
+  if (numbers.empty()) return;
+  constexpr std::size_t kMostNamed = 10;
+  note(fmt::format("{}: tasks {}", what, grading::rangesOf(numbers)));
+  for (std::size_t k = 0; k < std::min(numbers.size(), kMostNamed); ++k) {
+    const Task& task = tasks[static_cast<std::size_t>(numbers[k]) - 1];
+    note(fmt::format("  {} {}", task.student, task.exercise));
+  }
+  if (numbers.size() > kMostNamed) note(fmt::format("  and {} more", numbers.size() - kMostNamed));
+}
+
+// Also half a file of an earlier time is another text.
+bool holds(const std::filesystem::path& file, const std::string& text) {
+  return std::filesystem::exists(file) && readTextFile(file) == text;
+}
+
+// Makes grades.csv of all results, and names the tasks to repeat. kGraderFault if there are any.
+ExitCode collectResults(const Project& project, const CollectOptions& options) {
+  const std::filesystem::path manifest =
+      options.manifest.empty() ? options.out / "tasks.tsv" : options.manifest;
+  const std::vector<Task> tasks = grading::readManifest(manifest);
+  writeReports(tasks, options.out, reportsOf(options.reports));
+  const bool complete =
+      writeGrades(tasks, options.out, readDeadlines(project, options.deadlines), options.csv);
+  note(fmt::format("{} tasks. Table: {}", tasks.size(), shown(options.out / "grades.csv")));
+  return complete ? ExitCode::kFull : ExitCode::kGraderFault;
+}
+
+}  // namespace
+
+std::vector<grading::ReportFormat> reportsOf(const std::string& names) {
+  std::vector<grading::ReportFormat> formats;
+  for (std::size_t at = 0; at < names.size();) {
+    const std::size_t end = std::min(names.find(',', at), names.size());
+    formats.push_back(reportFormat(names.substr(at, end - at), "--reports"));
+    at = end + 1;
+  }
+  return formats;
+}
+
+void writeReports(const std::vector<Task>& tasks, const std::filesystem::path& out,
+                  const std::vector<grading::ReportFormat>& reports) {
+  int written = 0, kept = 0;
+  for (const Task& task : tasks) {
+    const std::filesystem::path folder = grading::resultFolder(out, task);
+    const grading::TaskState state = grading::stateOf(task, out);
+    const bool isGraded = state == grading::TaskState::done || state == grading::TaskState::failed;
+    for (const grading::ReportFormat& format : reports) {
+      const std::filesystem::path file = folder / format.file;
+      if (!isGraded) {
+        std::filesystem::remove(file);
+        continue;
+      }
+      const std::string text = format.write(grading::loadResult(folder / "results.json"));
+      const bool isThere = holds(file, text);
+      if (!isThere) replaceTextFile(file, text, "the report");
+      ++(isThere ? kept : written);
+    }
+  }
+  if (!reports.empty()) note(fmt::format("Reports: {} written, {} kept", written, kept));
+}
+
+grading::LatePolicy readDeadlines(const Project& project, const std::filesystem::path& file) {
+  if (file.empty()) return {};
+  std::vector<std::string> names;
+  for (const ExerciseInfo& exercise : project.exercises()) names.push_back(exercise.name);
+  return grading::readLatePolicy(file, names);
+}
+
+bool writeGrades(const std::vector<Task>& tasks, const std::filesystem::path& out,
+                 const grading::LatePolicy& policy, bool print) {
+  std::vector<std::string> students;
+  for (const Task& task : tasks) students.push_back(task.student);
+  for (const std::string& sentence : grading::unknownExtensions(policy, students))
+    note(wrap(harmless(sentence), 2, 0));
+  const grading::Collected found = grading::collect(tasks, out, policy);
+  replaceTextFile(out / "grades.csv", found.csv, "the table of grades");
+  if (print) std::fputs(found.csv.c_str(), stdout);
+  tell("no result", found.missing, tasks);
+  tell("a result of something else", found.stale, tasks);
+  tell("the grader failed", found.failed, tasks);
+  std::vector<int> again = found.missing;
+  again.insert(again.end(), found.stale.begin(), found.stale.end());
+  again.insert(again.end(), found.failed.begin(), found.failed.end());
+  if (again.empty()) return true;
+  note(fmt::format("To repeat: {}", grading::rangesOf(again)));
+  return false;
+}
+
+void addCollect(CLI::App* command, Action& action) {
+  const auto options = std::make_shared<CollectOptions>();
+  command->footer("Example: scripts/rex collect results --manifest tasks.tsv\n\n" +
+                  std::string(kGradingCodes));
+  command->add_option("DIR", options->out, "the folder of results")->type_name("")->required();
+  command->add_option("--manifest", options->manifest, "the list of tasks (default: DIR/tasks.tsv)")
+      ->type_name("FILE.tsv");
+  addDeadlines(command, options->deadlines);
+  command->add_flag("--csv", options->csv, "print the table of grades");
+  addReports(command, options->reports);
+  command->callback(
+      [&action, options] { action = [options](const Project& p) { return collectResults(p, *options); }; });
+}
+
+}  // namespace rex::cli

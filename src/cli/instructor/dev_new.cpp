@@ -1,0 +1,64 @@
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/text_file.h"
+#include "cli/instructor/dev_verbs.h"
+#include "cli/terminal.h"
+#include "submission/regions.h"
+
+namespace rex::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What share/template/exercise.h declares.
+constexpr const char* kFunctions = "rotated";
+
+void requireGoodName(const std::string& name) {
+  const auto digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
+  const auto letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+  const bool good = name.size() >= 4 && name.size() <= 40 && digit(name[0]) && digit(name[1]) &&
+                    name[2] == '-' && letter(name[3]) &&
+                    std::all_of(name.begin() + 3, name.end(), [&](char c) { return digit(c) || letter(c); });
+  if (!good)
+    throw UsageError({.what = "not a name for an exercise",
+                      .found = "'" + name + "'",
+                      .wanted = "two digits, a dash, then letters and digits, like 01-kinematics"});
+}
+
+// Copies the template with its own name in place of the placeholder.
+void instantiate(const fs::path& from, const fs::path& to, const std::string& name) {
+  constexpr std::string_view kPlaceholder = "@EXERCISE@";
+  for (const auto& entry : fs::recursive_directory_iterator(from)) {
+    if (!entry.is_regular_file()) continue;
+    std::string text = readTextFile(entry.path());
+    for (std::size_t at = text.find(kPlaceholder); at != std::string::npos; at = text.find(kPlaceholder, at))
+      text.replace(at, kPlaceholder.size(), name);
+    writeTextFile(to / entry.path().lexically_relative(from), text);
+  }
+}
+
+}  // namespace
+
+ExitCode devNew(const Project& project, const std::string& name) {
+  requireGoodName(name);
+  const fs::path source = project.root / "share" / "template", folder = project.root / "exercises" / name;
+  if (fs::exists(folder))
+    throw UsageError({.what = "this exercise exists already", .where = {shown(folder)}});
+  instantiate(source, folder, name);
+  const fs::path solution = folder / "solution.cpp";
+  writeTextFile(folder / "main.cpp", grading::stripSolution(readTextFile(solution), shown(solution)));
+  std::ofstream(project.root / "exercises" / "CMakeLists.txt", std::ios::app)
+      << fmt::format("rex_exercise({} FUNCTIONS {})\n", name, kFunctions);
+  say(fmt::format("Made {}, and its line in exercises/CMakeLists.txt, which names the", shown(folder)));
+  say("functions that students complete. Now edit solution.cpp there, then:");
+  say(fmt::format("  scripts/rex dev strip {}   makes main.cpp from it", name));
+  say(fmt::format("  scripts/rex dev check {}   tells what is still missing", name));
+  return ExitCode::kFull;
+}
+
+}  // namespace rex::cli

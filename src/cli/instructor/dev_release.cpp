@@ -1,0 +1,84 @@
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "authoring/release.h"
+#include "base/error.h"
+#include "cli/instructor/dev_verbs.h"
+#include "cli/instructor/release_proof.h"
+#include "cli/progress_line.h"
+#include "cli/terminal.h"
+
+namespace rex::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+void tellLeaks(const std::vector<grading::Leak>& leaks) {
+  constexpr std::size_t kMostTold = 20;
+  for (std::size_t k = 0; k < std::min(leaks.size(), kMostTold); ++k)
+    note(wrap(harmless(toString(leaks[k])), 2, 0));
+  if (leaks.size() > kMostTold) note(fmt::format("and {} more", leaks.size() - kMostTold));
+}
+
+std::string sizeOf(const grading::LeakScan& scan) {
+  const std::string packed =
+      scan.packed == 0 ? "" : fmt::format(" ({} of them packed files, opened)", scan.packed);
+  return fmt::format("{} files{}, {:.1f} MB", scan.files, packed, static_cast<double>(scan.bytes) / 1e6);
+}
+
+void saySecrets(const std::vector<grading::Secret>& secrets) {
+  std::map<grading::SecretKind, int> counts;
+  for (const grading::Secret& secret : secrets) ++counts[secret.kind];
+  std::vector<std::string> parts;
+  for (const auto& [kind, name] : std::map<grading::SecretKind, const char*>{
+           {grading::SecretKind::solution, "lines of solutions"},
+           {grading::SecretKind::hiddenCheck, "passages of hidden checks"},
+           {grading::SecretKind::hiddenName, "texts of hidden checks"},
+           {grading::SecretKind::wrongVariant, "passages of wrong variants"}})
+    parts.push_back(fmt::format("{} {}", counts[kind], name));
+  parts.emplace_back(counts.contains(grading::SecretKind::courseSecret)
+                         ? "the secret of the course"
+                         : "no secret of the course (--secret-file)");
+  constexpr std::size_t kColumn = 14;
+  say("  looked for  " + wrap(fmt::format("{}", fmt::join(parts, ", ")), kColumn, kColumn));
+}
+
+ExitCode scanOnly(const Project& project, const ReleaseOptions& options) {
+  if (!fs::is_directory(options.scan))
+    throw UsageError({.what = "no such folder", .where = {options.scan.string()}});
+  const std::vector<grading::Secret> secrets = grading::secretsOfCourse(project.root, options.secret);
+  const grading::LeakScan scan = grading::scanForLeaks(options.scan, secrets, project.root / "src");
+  tellLeaks(scan.leaks);
+  say(fmt::format("{} holds {}", shown(options.scan), sizeOf(scan)));
+  saySecrets(secrets);
+  say(fmt::format("  found       {} leak{}", scan.leaks.size(), scan.leaks.size() == 1 ? "" : "s"));
+  return scan.leaks.empty() ? ExitCode::kFull : ExitCode::kBelow;
+}
+
+}  // namespace
+
+ExitCode devRelease(const Project& project, const ReleaseOptions& options) {
+  if (!options.scan.empty()) return scanOnly(project, options);
+  const grading::Release release =
+      grading::writeStudentRelease(project.root, fs::absolute(options.out), options.secret);
+  if (!release.scan.leaks.empty()) {
+    tellLeaks(release.scan.leaks);
+    note(fmt::format("Nothing was written: {} leak{}.", release.scan.leaks.size(),
+                     release.scan.leaks.size() == 1 ? "" : "s"));
+    return ExitCode::kBelow;
+  }
+  say(fmt::format("The student release lies in {}", shown(options.out)));
+  say(fmt::format("  holds       {} exercise{}, {}", release.exercises, release.exercises == 1 ? "" : "s",
+                  sizeOf(release.scan)));
+  saySecrets(release.secrets);
+  if (options.prove || !options.proveIn.empty()) {
+    proveRelease(fs::absolute(options.out),
+                 options.proveIn.empty() ? fs::path() : fs::absolute(options.proveIn));
+    say("  proven      a copy of it builds, every exercise is graded and draws its pictures");
+  }
+  return ExitCode::kFull;
+}
+
+}  // namespace rex::cli

@@ -1,0 +1,137 @@
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "classroom/class_statistics.h"
+#include "classroom/csv.h"
+#include "cli/instructor/class_figure.h"
+#include "cli/instructor/dev_verbs.h"
+#include "cli/json_internal.h"
+#include "cli/terminal.h"
+
+namespace rex::cli {
+namespace {
+
+using grading::CheckStatistics;
+using grading::ExerciseStatistics;
+
+std::string groupOf(const CheckStatistics& check) {
+  return check.group == grading::Group::hidden ? "hidden" : "visible";
+}
+
+std::string classesOf(const CheckStatistics& check) {
+  std::vector<std::string> parts;
+  for (const auto& [name, count] : check.classes) parts.push_back(fmt::format("{} {}", count, name));
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+void sayChecks(const ExerciseStatistics& all) {
+  const auto passed = std::count_if(all.checks.begin(), all.checks.end(),
+                                    [](const CheckStatistics& check) { return check.failed == 0; });
+  for (const CheckStatistics& check : all.checks) {
+    if (check.failed == 0) continue;
+    const std::string mark = check.group == grading::Group::hidden ? ", hidden" : "";
+    const std::string text = fmt::format("{} failed of {}: {} [{}{}]: {}", check.failed, all.graded,
+                                         harmless(check.title), harmless(check.id), mark, classesOf(check));
+    say("  " + wrap(text, 6, 6));
+  }
+  if (passed > 0) say(fmt::format("  {} check{} passed by all", passed, passed == 1 ? "" : "s"));
+}
+
+void sayExercise(const ExerciseStatistics& all) {
+  say(fmt::format("{}: {} graded, {} with full score", harmless(all.exercise), all.graded, all.full));
+  if (all.graderFailed > 0)
+    say(fmt::format("  the grader failed at {} more: not counted, to be graded again", all.graderFailed));
+  if (all.versions > 1)
+    say(fmt::format("  these are results of {} versions of the exercise: grade again to compare them",
+                    all.versions));
+  if (all.graded == 0) return;
+  say(fmt::format("  points   mean {:.4g}, median {:.4g} of {}", all.meanPoints, all.medianPoints,
+                  all.maxPoints));
+  std::string bins;
+  for (std::size_t k = 0; k < all.distribution.size(); ++k)
+    bins += fmt::format("{}{}: {}", k == 0 ? "" : "   ", grading::kDistribution[k], all.distribution[k]);
+  say("  at least " + bins);
+  say(fmt::format("  grading  median {:.1f} s, longest {:.1f} s ({})", all.medianSeconds, all.longestSeconds,
+                  harmless(all.slowest)));
+  sayChecks(all);
+}
+
+Json toJson(const ExerciseStatistics& all) {
+  Json distribution = Json::object(), checks = Json::array();
+  for (std::size_t k = 0; k < all.distribution.size(); ++k)
+    distribution[grading::kDistribution[k]] = all.distribution[k];
+  for (const CheckStatistics& check : all.checks)
+    checks.push_back({{"id", check.id},
+                      {"title", check.title},
+                      {"group", groupOf(check)},
+                      {"failed", check.failed},
+                      {"classes", check.classes}});
+  return {{"exercise", all.exercise},
+          {"graded", all.graded},
+          {"full", all.full},
+          {"grader_failed", all.graderFailed},
+          {"versions", all.versions},
+          {"max_points", all.maxPoints},
+          {"mean_points", all.meanPoints},
+          {"median_points", all.medianPoints},
+          {"distribution", distribution},
+          {"median_seconds", all.medianSeconds},
+          {"longest_seconds", all.longestSeconds},
+          {"slowest", all.slowest},
+          {"checks", checks}};
+}
+
+void printCsv(const std::vector<ExerciseStatistics>& all) {
+  std::string text = grading::csvLine({"exercise", "check", "group", "graded", "failed", "classes"});
+  for (const ExerciseStatistics& exercise : all)
+    for (const CheckStatistics& check : exercise.checks)
+      text +=
+          grading::csvLine({exercise.exercise, check.id, groupOf(check), fmt::format("{}", exercise.graded),
+                            fmt::format("{}", check.failed), classesOf(check)});
+  std::fputs(text.c_str(), stdout);
+}
+
+void print(const std::vector<ExerciseStatistics>& all, const grading::ClassResults& read,
+           const StatsOptions& options) {
+  if (options.json) {
+    Json list = Json::array();
+    for (const ExerciseStatistics& exercise : all) list.push_back(toJson(exercise));
+    say(dump(Json{{"exercises", list}, {"not_counted", read.complaints}}));
+  } else if (options.csv) {
+    printCsv(all);
+  } else {
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      if (k > 0) say();
+      sayExercise(all[k]);
+    }
+  }
+}
+
+}  // namespace
+
+ExitCode devStats(const Project&, const StatsOptions& options) {
+  if (!std::filesystem::is_directory(options.results))
+    throw UsageError({.what = "no such folder",
+                      .where = {options.results.string()},
+                      .wanted = "the folder of results that rex grade wrote"});
+  const grading::ClassResults read = grading::readClassResults(options.results);
+  for (const std::string& complaint : read.complaints) note(wrap(harmless(complaint), 2, 0));
+  if (read.results.empty())
+    throw UsageError({.what = "nothing to count",
+                      .where = {options.results.string()},
+                      .found = "no results",
+                      .wanted = "STUDENT/EXERCISE/results.json in it"});
+  const std::vector<ExerciseStatistics> all = grading::statisticsOf(read.results);
+  print(all, read, options);
+  if (!options.figure.empty()) {
+    writeFigure(pointsFigure(read.results), options.figure);
+    note(fmt::format("Drawn: {}", shown(options.figure)));
+  }
+  return read.complaints.empty() ? ExitCode::kFull : ExitCode::kNotGradable;
+}
+
+}  // namespace rex::cli

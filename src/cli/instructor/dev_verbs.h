@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "cli/exit_code.h"
+#include "cli/project.h"
+
+/// The verbs of `rex dev`, one file each. They print for people, and throw UsageError for names that do not
+/// exist, Error when the project or the machine is broken.
+namespace rex::cli {
+
+/// Makes a new exercise from the template.
+ExitCode devNew(const Project& project, const std::string& name);
+
+struct CheckOptions {
+  std::string exercise;  ///< empty: all
+  std::string gate;      ///< empty: all
+  bool listGates = false;
+  int seeds = 3;
+};
+/// Judges exercises by the gates that all must pass. kBelow if one does not, kGraderFault if a grader does
+/// not build; the others are judged all the same.
+ExitCode devCheck(const Project& project, const CheckOptions& options);
+
+/// Makes main.cpp of that exercise from its solution.cpp.
+ExitCode devStrip(const Project& project, const std::string& name);
+
+struct ReleaseOptions {
+  std::filesystem::path out{};      ///< new folder
+  std::filesystem::path scan{};     ///< only look through this tree, and write nothing
+  std::filesystem::path secret{};   ///< file with the secret of the course; empty: none
+  bool prove = false;               ///< see proveRelease()
+  std::filesystem::path proveIn{};  ///< the same, in this folder, which stays
+};
+/// Writes the tree that students get, and says what it holds. kBelow, and nothing written, if anything leaks.
+ExitCode devRelease(const Project& project, const ReleaseOptions& options);
+
+struct StatsOptions {
+  std::filesystem::path results{};  ///< folder that `rex grade` wrote
+  std::filesystem::path figure{};   ///< .png or .svg; empty: none
+  bool json = false;
+  bool csv = false;
+};
+/// How a class did, per exercise and check. kNotGradable if some result could not be read.
+ExitCode devStats(const Project& project, const StatsOptions& options);
+
+}  // namespace rex::cli

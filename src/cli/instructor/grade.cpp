@@ -1,0 +1,327 @@
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/private_folder.h"
+#include "base/process_pool.h"
+#include "base/sha256.h"
+#include "base/text_file.h"
+#include "classroom/grade_task.h"
+#include "classroom/grader_fingerprint.h"
+#include "classroom/hand_in.h"
+#include "classroom/submission_times.h"
+#include "cli/build_on_demand.h"
+#include "cli/instructor/collect.h"
+#include "cli/instructor/grading_options_internal.h"
+#include "cli/instructor/instructor_room_internal.h"
+#include "cli/progress_line.h"
+#include "cli/sandbox_choice.h"
+#include "cli/shared_options_internal.h"
+#include "cli/terminal.h"
+#include "sandbox/probes.h"
+
+namespace rex::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct GradeManyOptions {
+  std::filesystem::path folder{};  ///< DIR/STUDENT/EXERCISE/main.cpp
+  std::filesystem::path out{};
+  int jobs = 0;                 ///< at once; 0: one per processor
+  std::optional<int> level{};   ///< of the sandbox; nothing: the best that holds here
+  std::optional<int> accept{};  ///< the lowest level, where that is below 2
+  std::optional<std::uint64_t> seed{};
+  std::filesystem::path secret{};     ///< file; empty: hidden checks take the seed, too
+  std::filesystem::path workers{};    ///< folder that keeps compiled programs; empty: none
+  std::string only{};                 ///< exercise; empty: all
+  std::filesystem::path deadlines{};  ///< TOML file; empty: none
+  std::filesystem::path submitted{};  ///< CSV file; empty: times of files count
+  std::filesystem::path manifest{};   ///< write the list of tasks here, and grade nothing
+  bool csv = false;                   ///< print grades.csv
+  bool regrade = false;               ///< also what has a valid result
+  bool evidence = false;              ///< keep pictures and replays of visible checks that do not hold
+  std::string reports{};              ///< formats of `rex report` to write for each, by commas; empty: none
+};
+
+using grading::Task;
+
+/// How exercises are graded here, made when the first task asks.
+class Graders {
+ public:
+  explicit Graders(const Project& project) : project_(project) {}
+
+  struct Grader {
+    ExerciseInfo exercise;
+    grading::Toolchain toolchain;
+    std::string sha256;
+  };
+  /// Throws BuildFailure as prepare().
+  const Grader& of(const std::string& name) {
+    if (const auto found = graders_.find(name); found != graders_.end()) return found->second;
+    Grader grader{.exercise = project_.exercise(name), .toolchain = {}, .sha256 = {}};
+    grader.toolchain = prepare(project_, grader.exercise);
+    grader.sha256 = grading::graderFingerprint(grader.toolchain, grader.exercise, launcherOf(project_));
+    return graders_.emplace(name, std::move(grader)).first->second;
+  }
+
+ private:
+  const Project& project_;
+  std::map<std::string, Grader> graders_;
+};
+
+// For work of strangers: the asked level, else the best that holds here. One below 2 must be accepted by its
+// number. Nothing if there is none; why is told, and what a weak one does not stop.
+std::optional<sandbox::Sandbox> chooseForStrangers(const Project& project, std::optional<int> level,
+                                                   std::optional<int> accepted) {
+  constexpr int kBest = 3, kSafe = 2;
+  if (!level) {
+    const PrivateFolder folder(std::filesystem::temp_directory_path());
+    const auto best = sandbox::bestLevel(kBest, launcherOf(project), probeOf(project), folder.path());
+    level = best.level;
+    for (const std::string& reason : best.reasons)
+      if (best.level < kSafe) note(wrap(harmless(reason), 2, 0));
+  }
+  if (*level < accepted.value_or(kSafe)) {
+    note(wrap(fmt::format("sandbox level {} is not for work of strangers: {}; to grade all the same, say "
+                          "--i-accept-level {}",
+                          *level, sandbox::warningOf(*level), *level),
+              2, 0));
+    return {};
+  }
+  const std::optional<sandbox::Sandbox> chosen = chooseSandbox(project, level);
+  if (chosen && *level < kSafe)
+    note(wrap(fmt::format("sandbox level {}: {}", *level, sandbox::warningOf(*level)), 2, 0));
+  return chosen;
+}
+
+// Results inside of what was handed in would be handed in next time.
+bool contains(const fs::path& outer, const fs::path& inner) {
+  return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
+}
+
+// What a command writes would be taken for what was handed in, or for results.
+void requireApart(const char* option, const fs::path& folder, const fs::path& other) {
+  const fs::path here = fs::weakly_canonical(folder), there = fs::weakly_canonical(other);
+  if (contains(here, there) || contains(there, here))
+    throw UsageError(
+        {.what = option, .found = here.string(), .wanted = "a folder apart from " + there.string()});
+}
+
+void requireApart(const GradeManyOptions& options) {
+  if (!fs::is_directory(options.folder))
+    throw UsageError(
+        {.what = "no such folder", .where = {options.folder.string()}, .wanted = "what was handed in"});
+  requireApart("--out", options.out, options.folder);
+  if (options.workers.empty()) return;
+  requireApart("--workers", options.workers, options.folder);
+  requireApart("--workers", options.workers, options.out);
+}
+
+void makeFolder(const fs::path& out) {
+  std::error_code failure;
+  fs::create_directories(out, failure);
+  if (failure)
+    throw Error(
+        {.what = "cannot make the folder of results", .where = {out.string()}, .found = failure.message()});
+}
+
+void tell(const grading::HandIns& handedIn) {
+  for (const std::string& complaint : handedIn.complaints) note(wrap(harmless(complaint), 2, 0));
+  constexpr std::size_t kMostNotes = 5;
+  for (std::size_t k = 0; k < std::min(handedIn.notes.size(), kMostNotes); ++k)
+    note(wrap(harmless(handedIn.notes[k]), 2, 0));
+  if (handedIn.notes.size() > kMostNotes)
+    note(fmt::format("and {} more files that are not graded", handedIn.notes.size() - kMostNotes));
+}
+
+// The exercises whose grader does not build: they wait, the others are graded.
+std::set<std::string> blockedOf(const grading::HandIns& handedIn, Graders& graders) {
+  std::map<std::string, int> counts;
+  for (const grading::HandIn& file : handedIn.files) ++counts[file.exercise];
+  std::set<std::string> blocked;
+  for (const auto& [exercise, count] : counts) {
+    try {
+      static_cast<void>(graders.of(exercise));
+    } catch (const BuildFailure& failure) {
+      note(fmt::format("rex: {}", failure.what()));
+      note(fmt::format("{}: {} submission{} not graded", exercise, count, count == 1 ? "" : "s"));
+      blocked.insert(exercise);
+    }
+  }
+  return blocked;
+}
+
+std::vector<Task> tasksOf(const grading::HandIns& handedIn, const GradeManyOptions& options, int level,
+                          const std::vector<ExerciseInfo>& exercises, const std::set<std::string>& blocked,
+                          Graders& graders) {
+  std::optional<grading::SubmissionTimes> times;
+  if (!options.submitted.empty()) times.emplace(options.submitted, exercises);
+  const std::string secretId = grading::secretIdOf(options.secret);
+  std::vector<Task> tasks;
+  for (const grading::HandIn& file : handedIn.files) {
+    if (blocked.contains(file.exercise)) continue;
+    Task task{.student = file.student, .exercise = file.exercise};
+    task.file = grading::snapshotOf(file, options.out);
+    task.sourceSha256 = sha256(grading::gradedText(options.out / task.file));
+    task.graderSha256 = graders.of(file.exercise).sha256;
+    task.level = level;
+    task.seed = options.seed;
+    task.secretId = secretId;
+    const auto told = times ? times->of(file.student, file.exercise) : std::nullopt;
+    task.submitted = told.value_or(file.submitted);
+    task.timeFrom = told ? "table" : "file";
+    tasks.push_back(std::move(task));
+  }
+  return tasks;
+}
+
+// One task in a process of its own; what goes wrong costs this task alone.
+int gradeApart(const Task& task, const Graders::Grader& grader, const grading::TaskOptions& options) {
+  try {
+    const grading::GradeResult result = grading::gradeTask(task, grader.toolchain, grader.exercise, options);
+    return result.outcome == grading::Outcome::graderError ? 1 : 0;
+  } catch (const std::exception& error) {
+    note(wrap(harmless(fmt::format("{} {}: {}", task.student, task.exercise, error.what())), 2, 0));
+    return 1;
+  }
+}
+
+bool isOpen(const Task& task, const GradeManyOptions& options) {
+  if (options.regrade || grading::stateOf(task, options.out) != grading::TaskState::done) return true;
+  return options.evidence && !grading::hasEvidence(task, options.out);
+}
+
+// Grades those without a valid result; returns how many that were.
+int gradeOpen(const std::vector<Task>& tasks, const GradeManyOptions& options,
+              const sandbox::Sandbox& sandbox, Graders& graders) {
+  std::vector<const Task*> open;
+  for (const Task& task : tasks)
+    if (isOpen(task, options)) open.push_back(&task);
+  const int count = static_cast<int>(open.size()),
+            jobs = options.jobs > 0 ? options.jobs
+                                    : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const PrivateFolder work(fs::temp_directory_path());
+  std::atomic<int> ended = 0;
+  const ProgressLine line([&] {
+    return fmt::format("graded {} of {}, {} kept", ended.load(), count, tasks.size() - open.size());
+  });
+  runInCopies(
+      count, jobs,
+      [&](int k) {
+        const Task& task = *open[static_cast<std::size_t>(k)];
+        return gradeApart(task, graders.of(task.exercise),
+                          {.out = options.out,
+                           .workFolder = work.path() / fmt::format("{}", k),
+                           .launcher = sandbox.launcher,
+                           .secret = options.secret,
+                           .evidence = options.evidence,
+                           .workers = options.workers,
+                           .anew = options.regrade});
+      },
+      [&](int k, int) {
+        std::error_code ignored;
+        fs::remove_all(work.path() / fmt::format("{}", k), ignored);
+        ++ended;
+      });
+  return count;
+}
+
+void tellTimes(const std::vector<Task>& tasks, const GradeManyOptions& options) {
+  if (options.deadlines.empty()) return;
+  const auto told =
+      std::count_if(tasks.begin(), tasks.end(), [](const Task& task) { return task.timeFrom == "table"; });
+  note(fmt::format("Times of submission: {} from {}, {} from when files were modified", told,
+                   options.submitted.empty() ? "a table" : shown(options.submitted),
+                   static_cast<std::ptrdiff_t>(tasks.size()) - told));
+}
+
+// Grades what many students handed in. kFull whatever the grades; kNotGradable if something could not be
+// taken, kGraderFault if a grading must be repeated.
+ExitCode gradeMany(const Project& project, const GradeManyOptions& options) {
+  requireApart(options);
+  const std::vector<grading::ReportFormat> reports = reportsOf(options.reports);
+  const grading::LatePolicy policy = readDeadlines(project, options.deadlines);
+  const auto sandbox = chooseForStrangers(project, options.level, options.accept);
+  if (!sandbox) return ExitCode::kWeakSandbox;
+  const std::vector<ExerciseInfo> exercises = project.exercises();
+  const grading::HandIns handedIn = grading::readHandIns(options.folder, exercises, options.only);
+  tell(handedIn);
+  makeFolder(options.out);
+  Graders graders(project);
+  const std::set<std::string> blocked = blockedOf(handedIn, graders);
+  const std::vector<Task> tasks = tasksOf(handedIn, options, sandbox->level, exercises, blocked, graders);
+  const fs::path manifest = options.manifest.empty() ? options.out / "tasks.tsv" : options.manifest;
+  replaceTextFile(manifest, grading::toManifest(tasks), "the list of tasks");
+  const ExitCode taken = !blocked.empty()              ? ExitCode::kGraderFault
+                         : handedIn.complaints.empty() ? ExitCode::kFull
+                                                       : ExitCode::kNotGradable;
+  if (!options.manifest.empty()) {
+    say(fmt::format("{} tasks: {}", tasks.size(), shown(manifest)));
+    return taken;
+  }
+  const int graded = gradeOpen(tasks, options, *sandbox, graders);
+  tellTimes(tasks, options);
+  writeReports(tasks, options.out, reports);
+  const bool complete = writeGrades(tasks, options.out, policy, options.csv);
+  note(
+      fmt::format("{} submission{} at sandbox level {}: {} graded, {} kept, {} could not be taken. Table: {}",
+                  tasks.size(), tasks.size() == 1 ? "" : "s", sandbox->level, graded,
+                  static_cast<int>(tasks.size()) - graded, handedIn.complaints.size(),
+                  shown(options.out / "grades.csv")));
+  return complete ? taken : ExitCode::kGraderFault;
+}
+
+}  // namespace
+
+void addGrade(CLI::App* command, Action& action) {
+  const auto options = std::make_shared<GradeManyOptions>();
+  command->footer(
+      "Examples:\n  scripts/rex grade handed-in --out results -j8\n"
+      "  scripts/rex grade handed-in --out results --deadlines deadlines.toml --csv\n"
+      "  scripts/rex grade handed-in --out results --reports=markdown,junit --evidence\n\n"
+      "DIR holds STUDENT/EXERCISE/main.cpp. A second run grades only what has changed.\n" +
+      std::string(kGradingCodes));
+  command->add_option("DIR", options->folder, "what was handed in")->type_name("")->required();
+  addResults(command, options->out);
+  command->add_option("-j,--jobs", options->jobs, "gradings at once (default: one per processor)")
+      ->check(CLI::Range(1, 1024).description(""))
+      ->type_name("N");
+  command->add_option("--level", options->level, "sandbox level (default: the best that holds here)")
+      ->check(CLI::Range(0, 3).description(""))
+      ->type_name("N");
+  command->add_option("--i-accept-level", options->accept, "also grade at this weak level: 0 or 1")
+      ->check(CLI::Range(0, 1).description(""))
+      ->type_name("N");
+  addSeed(command, options->seed, "of the random cases");
+  addSecret(command, options->secret);
+  addWorkers(command, options->workers);
+  command->add_option("--only", options->only, "only this exercise")->type_name("EXERCISE");
+  addDeadlines(command, options->deadlines);
+  command
+      ->add_option("--submitted", options->submitted,
+                   "times of submission: columns student, submitted, exercise (default: times of the files)")
+      ->type_name("FILE.csv");
+  command->add_option("--manifest", options->manifest, "write the list of tasks, grade nothing")
+      ->type_name("FILE.tsv");
+  command->add_flag("--regrade", options->regrade, "also what has a valid result");
+  command->add_flag("--csv", options->csv, "print the table of grades");
+  addReports(command, options->reports);
+  addEvidence(command, options->evidence);
+  command->callback(
+      [&action, options] { action = [options](const Project& p) { return gradeMany(p, *options); }; });
+}
+
+}  // namespace rex::cli

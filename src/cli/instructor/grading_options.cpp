@@ -1,0 +1,41 @@
+#include "cli/instructor/grading_options_internal.h"
+
+namespace rex::cli {
+
+void addDeadlines(CLI::App* command, std::filesystem::path& file) {
+  command
+      ->add_option("--deadlines", file, "deadlines, grace, what lateness costs (share/doc/grading-many.md)")
+      ->type_name("FILE.toml");
+}
+
+void addSecret(CLI::App* command, std::filesystem::path& file) {
+  command->add_option("--secret-file", file, "secret of the course, for the seeds of hidden checks")
+      ->type_name("FILE");
+}
+
+// `--reports` alone, or `--reports=junit,markdown`.
+void addReports(CLI::App* command, std::string& reports) {
+  command
+      ->add_flag("--reports{markdown}", reports,
+                 "write reports beside each result: --reports=markdown,junit (alone: markdown)")
+      ->type_name("");
+}
+
+void addEvidence(CLI::App* command, bool& evidence) {
+  command->add_flag("--evidence", evidence, "keep pictures and replays of visible checks that do not hold");
+}
+
+void addWorkers(CLI::App* command, std::filesystem::path& folder) {
+  command
+      ->add_option("--workers", folder,
+                   "keep compiled programs here: the same file with another seed is not compiled again")
+      ->type_name("DIR");
+}
+
+void addResults(CLI::App* command, std::filesystem::path& out) {
+  command->add_option("-o,--out", out, "folder for STUDENT/EXERCISE/results.json and grades.csv")
+      ->type_name("DIR")
+      ->required();
+}
+
+}  // namespace rex::cli

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+namespace rex::cli {
+
+inline constexpr const char* kGradingCodes =
+    "Exit codes: 0 graded, whatever the grades; 2 something could not be taken; 3 a grading must be\n"
+    "repeated; 4 the sandbox is weaker than required; 64 wrong use.";
+
+/// Options that several commands of the instructor's desk have in common: share/doc/grading-many.md.
+void addDeadlines(CLI::App* command, std::filesystem::path& file);
+void addSecret(CLI::App* command, std::filesystem::path& file);
+/// Formats of `rex report`, with commas between.
+void addReports(CLI::App* command, std::string& reports);
+void addEvidence(CLI::App* command, bool& evidence);
+/// `--workers`: the folder that keeps compiled programs.
+void addWorkers(CLI::App* command, std::filesystem::path& folder);
+/// `--out`: the folder of results.
+void addResults(CLI::App* command, std::filesystem::path& out);
+
+}  // namespace rex::cli

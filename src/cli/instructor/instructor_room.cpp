@@ -1,0 +1,16 @@
+#include "cli/instructor/instructor_room.h"
+
+#include "cli/instructor/instructor_room_internal.h"
+
+namespace rex::cli {
+
+Room instructorRoom() {
+  return {.program = Program::kInstructor,
+          .commands = {{"bench", addBench},
+                       {"collect", addCollect},
+                       {"dev", addDev},
+                       {"grade", addGrade},
+                       {"grade-one", addGradeOne}}};
+}
+
+}  // namespace rex::cli

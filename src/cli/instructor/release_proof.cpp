@@ -1,0 +1,92 @@
+#include "cli/instructor/release_proof.h"
+
+#include <algorithm>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/private_folder.h"
+#include "base/process.h"
+#include "cli/progress_line.h"
+#include "cli/result_list.h"
+#include "cli/temporary_folder.h"
+#include "cli/terminal.h"
+
+namespace rex::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One copy of a release, and what is done with it.
+class Proof {
+ public:
+  explicit Proof(const fs::path& tree) : tree_(tree) {}
+
+  void build() {
+    if (fs::exists(tree_ / "scripts/check-links")) run({"scripts/check-links"}, 0);
+    // A compiler cache, where there is one, knows the files by their places in the release.
+    const std::string cache = "CCACHE_BASEDIR=" + tree_.string();
+    run({"env", cache, "cmake", "--preset", "release"}, 0);
+    run({"env", cache, "cmake", "--build", "build/release", "--target", "rex"}, 0);
+    run({kRex, "list"}, 0);
+  }
+
+  void tryExercise(const std::string& name) {
+    run({kRex, "test", name}, 1);
+    run({"env", "-u", "DISPLAY", "-u", "WAYLAND_DISPLAY", kRex, "run", name}, 0);
+    if (filesIn(tree_ / "out" / name, ".png").empty())
+      throw Error({.what = fmt::format("the release: {} left no picture", name)});
+  }
+
+  std::string step() const {
+    const std::lock_guard lock(mutex_);
+    return step_;
+  }
+
+ private:
+  static constexpr const char* kRex = "build/release/rex";
+
+  void run(const std::vector<std::string>& command, int wanted) {
+    constexpr double kLongest = 3 * 3600;
+    constexpr std::size_t kShown = 1500;
+    const std::string text = fmt::format("{}", fmt::join(command, " "));
+    {
+      const std::lock_guard lock(mutex_);
+      step_ = text;
+    }
+    const ProcessResult run = runProcess(command, {.directory = tree_, .timeout = kLongest});
+    if (run.exitCode == wanted) return;
+    const std::string said = run.output + run.error;
+    note(harmless(said.substr(said.size() - std::min(said.size(), kShown))));
+    throw Error({.what = "the release does not work alone: " + text,
+                 .found = run.started ? fmt::format("exit code {}", run.exitCode) : run.error,
+                 .wanted = fmt::format("{}", wanted)});
+  }
+
+  fs::path tree_;
+  mutable std::mutex mutex_;
+  std::string step_;
+};
+
+}  // namespace
+
+void proveRelease(const fs::path& release, const fs::path& in) {
+  std::optional<PrivateFolder> folder;
+  if (in.empty()) folder.emplace(temporaryFolder());
+  const fs::path tree = folder ? folder->path() / "student release" : in;
+  fs::copy(release, tree, fs::copy_options::recursive);
+  Proof proof(tree);
+  const ProgressLine line([&] { return proof.step(); });
+  proof.build();
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(tree / "exercises"))
+    if (entry.is_directory()) names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  for (const std::string& name : names) proof.tryExercise(name);
+}
+
+}  // namespace rex::cli

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace rex::cli {
+
+/// What `rex filter` is asked for.
+struct FilterOptions {
+  std::string filter = "ekf";
+  int landmarks = 5;
+  int steps = 300;
+  double dynamicsNoise = 0.03, observationNoise = 0.5;
+  bool rangeBearing = false;
+  std::optional<double> bearingNoise{}, maxRange{}, fieldOfView{};
+  double assumeDynamics = 1, assumeObservation = 1;  ///< factors of the deviations a filter believes in
+  std::optional<int> particles{};
+  std::uint64_t seed = 0;
+  int seeds = 1;  ///< runs, each with the next seed
+  bool noFilm = false;
+  bool json = false;
+  std::filesystem::path out{};  ///< a folder; empty: nothing is written
+};
+
+}  // namespace rex::cli

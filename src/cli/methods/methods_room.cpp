@@ -1,0 +1,17 @@
+#include "cli/methods/methods_room.h"
+
+#include "cli/methods/methods_room_internal.h"
+
+namespace rex::cli {
+
+Room methodsRoom() {
+  return {.program = Program::kMethods,
+          .commands = {{"care", addCare},
+                       {"cma", addCma},
+                       {"curves", addCurves},
+                       {"dare", addDare},
+                       {"filter", addFilter},
+                       {"slam", addSlam}}};
+}
+
+}  // namespace rex::cli

@@ -1,0 +1,172 @@
+#include <ctime>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <variant>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "base/text_file.h"
+#include "cli/json_internal.h"
+#include "cli/methods/methods_room_internal.h"
+#include "cli/option_value_internal.h"
+#include "cli/project.h"
+#include "cli/terminal.h"
+#include "cli/wrong_use_internal.h"
+#include "estimation/g2o_file.h"
+#include "estimation/pose_graph.h"
+#include "render/figure.h"
+
+namespace rex::cli {
+namespace {
+
+struct SlamOptions {
+  std::filesystem::path file{};  ///< where it is not, below the project's root
+  std::string objective = "chi2";
+  std::string start = "chordal";
+  std::string kernel = "none";
+  double kernelSize = 1;
+  int iterations = 100;
+  bool json = false;
+  std::filesystem::path out{};   ///< a .g2o file; empty: none
+  std::filesystem::path plot{};  ///< a .png or .svg file; empty: none
+};
+
+PoseGraphOptions optionsOf(const SlamOptions& options) {
+  PoseGraphOptions result;
+  result.objective = choose<PoseGraphObjective>(
+      "--objective", options.objective,
+      {{"chi2", PoseGraphObjective::kChi2}, {"sesync", PoseGraphObjective::kSESync}});
+  result.kernel = choose<RobustKernel>("--kernel", options.kernel,
+                                       {{"none", RobustKernel::kNone},
+                                        {"huber", RobustKernel::kHuber},
+                                        {"cauchy", RobustKernel::kCauchy},
+                                        {"geman-mcclure", RobustKernel::kGemanMcClure}});
+  requireBetween("--kernel-size", options.kernelSize, 1e-6, 1e6);
+  requireBetween("--iterations", options.iterations, 0, 100000);
+  result.kernelSize = options.kernelSize;
+  result.maxIterations = options.iterations;
+  result.chordalStart =
+      choose<bool>("--start", options.start, {{"chordal", true}, {"file", false}, {"odometry", false}});
+  return result;
+}
+
+// Positions as a figure shows them, from above.
+Eigen::Matrix2Xd positionsOf(const PlanarPoseGraph& graph) { return graph.poses.topRows<2>(); }
+Eigen::Matrix2Xd positionsOf(const SpatialPoseGraph& graph) {
+  Eigen::Matrix2Xd positions(2, static_cast<Eigen::Index>(graph.poses.size()));
+  for (std::size_t i = 0; i < graph.poses.size(); ++i)
+    positions.col(static_cast<Eigen::Index>(i)) = graph.poses[i].p.head<2>();
+  return positions;
+}
+
+Series lineThrough(const Eigen::Matrix2Xd& positions) {
+  Series line;
+  for (const auto& position : positions.colwise()) {
+    line.x.push_back(position[0]);
+    line.y.push_back(position[1]);
+  }
+  return line;
+}
+
+void writePlot(const SlamOptions& options, const Eigen::Matrix2Xd& before, const Eigen::Matrix2Xd& after) {
+  Figure figure{.title = fmt::format("{}: before and after", options.file.filename().string()),
+                .xLabel = "x [m]",
+                .yLabel = "y [m]",
+                .equalAxes = true,
+                .legend = Legend::kOutside};
+  figure.series = {lineThrough(before), lineThrough(after)};
+  figure.series[0].label = "before";
+  figure.series[0].dashed = true;
+  figure.series[1].label = "after";
+  figure.width = 900;
+  figure.height = 700;
+  writeFigure(figure, options.plot);
+  if (!options.json) say(fmt::format("wrote {}", options.plot.string()));
+}
+
+const char* nameOf(PoseGraphStatus status) {
+  switch (status) {
+    case PoseGraphStatus::kConverged:
+      return "converged";
+    case PoseGraphStatus::kBudgetSpent:
+      return "budget spent";
+    case PoseGraphStatus::kNoProgress:
+      return "no progress";
+  }
+  return "";
+}
+
+template <class Graph>
+
+// Makes the map of a pose graph fit its measurements. kBelow if it does not converge.
+ExitCode slam(const SlamOptions& options, G2oFile& file, Graph& graph) {
+  const PoseGraphOptions how = optionsOf(options);
+  if (options.start == "odometry") asWrongUse([&] { return setOdometryPoses(graph), 0; });
+  const Eigen::Matrix2Xd before = positionsOf(graph);
+  const std::clock_t begin = std::clock();
+  const PoseGraphResult result = asWrongUse([&] { return optimize(graph, how); });
+  const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  if (options.json) {
+    say(dump(Json{{"poses", file.ids.size()},
+                  {"edges", graph.edges.size()},
+                  {"initial_cost", result.initialCost},
+                  {"cost", result.cost},
+                  {"iterations", result.iterations},
+                  {"seconds", seconds},
+                  {"status", nameOf(result.status)}}));
+  } else {
+    say(fmt::format("{} poses, {} edges; {}", file.ids.size(), graph.edges.size(), result.message));
+    say(fmt::format("{:.3f} s of processor time", seconds));
+  }
+  if (!options.plot.empty()) writePlot(options, before, positionsOf(graph));
+  if (!options.out.empty()) {
+    writeTextFile(options.out, writeG2o(file));
+    if (!options.json) say(fmt::format("wrote {}", options.out.string()));
+  }
+  return result.status == PoseGraphStatus::kConverged ? ExitCode::kFull : ExitCode::kBelow;
+}
+
+}  // namespace
+
+ExitCode slam(const Project& project, const SlamOptions& options) {
+  (void)optionsOf(options);  // wrong options are told before a large file is read
+  if (!options.plot.empty() && options.plot.extension() != ".png" && options.plot.extension() != ".svg")
+    throw UsageError({.what = "--plot",
+                      .found = "'" + harmless(options.plot.string()) + "'",
+                      .wanted = "a .png or .svg file"});
+  const bool isExample =
+      !std::filesystem::exists(options.file) && std::filesystem::exists(project.root / options.file);
+  G2oFile file = asWrongUse([&] { return readG2o(isExample ? project.root / options.file : options.file); });
+  for (const Diagnostic& one : file.notes) note(harmless(toString(one)));
+  return std::visit([&](auto& graph) { return slam(options, file, graph); }, file.graph);
+}
+
+void addSlam(CLI::App* command, Action& action) {
+  const auto options = std::make_shared<SlamOptions>();
+  command->footer(
+      "Examples:\n  scripts/rex slam data/graphs/streets.g2o --plot streets.png\n"
+      "  scripts/rex slam data/graphs/streets.g2o -o better.g2o --json\n\n"
+      "The file is one of g2o. Costs are sums of e^T information e over its edges, without a\n"
+      "factor 1/2; --objective sesync takes the distances of rotation matrices instead.\n"
+      "Exit code 1: it did not converge.");
+  command->add_option("file", options->file, "pose graph (.g2o)")->type_name("FILE")->required();
+  command->add_option("--objective", options->objective, "chi2 or sesync (default: chi2)")->type_name("NAME");
+  command->add_option("--start", options->start, "chordal, file or odometry (default: chordal)")
+      ->type_name("NAME");
+  command
+      ->add_option("--kernel", options->kernel,
+                   "how large errors count: none, huber, cauchy or geman-mcclure (default: none)")
+      ->type_name("NAME");
+  command->add_option("--kernel-size", options->kernelSize, "from how many deviations on (default: 1)")
+      ->type_name("NUMBER");
+  command->add_option("--iterations", options->iterations, "at most (default: 100)")->type_name("COUNT");
+  command->add_option("--plot", options->plot, "draw the poses before and after")->type_name("FILE.png");
+  command->add_option("-o,--out", options->out, "write the graph with its new poses")->type_name("FILE.g2o");
+  command->add_flag("--json", options->json, "print JSON");
+  command->callback(
+      [&action, options] { action = [options](const Project& p) { return slam(p, *options); }; });
+}
+
+}  // namespace rex::cli

@@ -1,0 +1,30 @@
+#include "cli/robot/contact_limit.h"
+
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cli/wrong_use_internal.h"
+
+namespace rex::cli {
+namespace {
+
+std::size_t pairsOfBodies(const Model& model) {
+  std::vector<std::size_t> onBody(model.bodies().size());
+  std::size_t all = 0, pairs = 0;
+  for (const ModelShape& shape : model.shapes())
+    if (shape.contact) pairs += all++ - onBody[static_cast<std::size_t>(shape.body)]++;
+  return pairs;
+}
+
+}  // namespace
+
+ContactModel contactModelOf(const Model& model) {
+  if (const std::size_t pairs = pairsOfBodies(model); pairs > kMostContactPairs)
+    throw UsageError({.what = harmless(model.name()) + ": too many shapes take part in contacts",
+                      .found = fmt::format("{} pairs of them", pairs),
+                      .wanted = fmt::format("at most {}", kMostContactPairs)});
+  return asWrongUse([&] { return ContactModel(model); });
+}
+
+}  // namespace rex::cli

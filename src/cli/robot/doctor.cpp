@@ -1,0 +1,326 @@
+#include "cli/robot/doctor.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <system_error>
+#include <thread>
+#include <tuple>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/private_folder.h"
+#include "base/process.h"
+#include "cli/file_watcher.h"
+#include "cli/robot/render_plan.h"
+#include "cli/robot/robot_options_internal.h"
+#include "cli/robot/robot_room_internal.h"
+#include "cli/shared_options_internal.h"
+#include "cli/temporary_folder.h"
+#include "cli/terminal.h"
+#include "render/figure.h"
+#include "render/png.h"
+#include "render/renderer.h"
+#include "render/report.h"
+#include "render/video_sink.h"
+
+namespace rex::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+enum class Status { kWorks, kMissing, kFails };
+
+// One thing that was tried.
+struct Finding {
+  std::string name;
+  std::string packages{};  // of Debian, that it needs
+  Status status = Status::kWorks;
+  std::string text{};    // what works, or why it does not
+  bool isNeeded = true;  // else something that works stands in for it
+};
+
+// The machine lacks something, and the message names the package.
+struct Missing {
+  std::string text;
+};
+
+// Tries something that says what it found, or throws. Files of ours do not matter to the user.
+Finding tryOut(const std::string& name, const std::string& packages,
+               const std::function<std::string()>& attempt) {
+  try {
+    return {name, packages, Status::kWorks, attempt()};
+  } catch (const Missing& missing) {
+    return {name, packages, Status::kMissing, harmless(missing.text)};
+  } catch (const Error& error) {
+    ErrorParts parts = error.parts();
+    parts.where = {};
+    const bool isMissing = parts.wanted.find("Debian package") != std::string::npos;
+    return {name, packages, isMissing ? Status::kMissing : Status::kFails,
+            harmless(Error(std::move(parts)).what())};
+  } catch (const std::exception& error) {
+    return {name, packages, Status::kFails, harmless(error.what())};
+  }
+}
+
+[[noreturn]] void fail(const std::string& what) { throw Error({.what = what}); }
+
+// What an installed program says about itself; empty where there is none.
+std::string versionOf(const std::vector<std::string>& command) {
+  constexpr double kPatience = 20;  // seconds
+  const ProcessResult result = runProcess(command, {.timeout = kPatience});
+  if (!result.started) return {};
+  const std::string complaint = result.error.substr(0, result.error.find('\n'));
+  const auto broken = [&](const std::string& how) {
+    return Error(
+        {.what = command[0] + " does not work", .found = complaint.empty() ? how : how + ": " + complaint});
+  };
+  if (result.timedOut) throw broken(fmt::format("no answer within {:g} s", kPatience));
+  if (result.signal != 0) throw broken(fmt::format("signal {} that ended it", result.signal));
+  if (result.exitCode != 0) throw broken(fmt::format("exit code {}", result.exitCode));
+  return result.output.substr(0, result.output.find('\n'));
+}
+
+// A red ball on the left and a blue box on the right, above the ground.
+constexpr Color kRed{0.9f, 0.1f, 0.1f}, kBlue{0.1f, 0.2f, 0.9f};
+const Eigen::Vector3d kBall(-0.6, 0, 0.5), kBox(0.6, 0, 0.5);
+
+Picture testPicture() {
+  return {
+      .solids = {{.shape = {.type = ShapeType::kSphere, .radius = 0.4}, .X_WS = {.p = kBall}, .color = kRed},
+                 {.shape = {.extent = {0.6, 0.6, 0.6}}, .X_WS = {.p = kBox}, .color = kBlue}}};
+}
+
+// Draws the test picture and looks at what should be where; the picture ends up in `folder`.
+Image testImage(GlBackend backend, const fs::path& folder, std::string& description) {
+  const Camera camera = lookAt({0, -4, 1.5}, {0, 0, 0.4});
+  Renderer renderer({.width = 320, .height = 240, .gl = {.backend = backend}});
+  description = renderer.describe();
+  Image image = renderer.draw(testPicture(), camera);
+  writePng(image, folder / "test.png");
+  if (readPng(folder / "test.png") != image) fail("the test picture is not the same after it was written");
+  const auto colorAt = [&](const Eigen::Vector3d& p) {
+    const auto at = project(camera, p, image.width, image.height);
+    return image.at(static_cast<int>(at->x), static_cast<int>(at->y));
+  };
+  const auto ball = colorAt(kBall), box = colorAt(kBox);
+  const bool isRed = ball[0] > 2 * ball[1] && ball[0] > 2 * ball[2];
+  const bool isBlue = box[2] > 2 * box[0] && box[2] > 2 * box[1];
+  if (!isRed || !isBlue) fail("the test picture is wrong: no red ball or blue box where they should be");
+  return image;
+}
+
+// Without a choice one of them is enough.
+std::vector<Finding> tryBackends(GlBackend wanted, const fs::path& folder) {
+  constexpr std::array<std::tuple<GlBackend, const char*, const char*>, 2> kBackends = {
+      {{GlBackend::kOsMesa, "osmesa", "libosmesa6"}, {GlBackend::kEgl, "egl", "libegl1 libgl1-mesa-dri"}}};
+  std::vector<Finding> findings;
+  std::optional<Image> first;
+  for (const auto& [backend, name, packages] : kBackends) {
+    if (wanted != GlBackend::kAuto && wanted != backend) continue;
+    findings.push_back(tryOut(std::string("OpenGL by ") + name, packages, [&, one = backend] {
+      std::string description;
+      const auto start = std::chrono::steady_clock::now();
+      const Image image = testImage(one, folder, description);
+      const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
+      if (first && *first != image) fail(description + ": its pixels differ from those of the other backend");
+      const char* same = first ? ", the same pixels" : "";
+      first = image;
+      return fmt::format("{}; test picture 320 x 240 as expected{}, in {:.0f} ms", description, same,
+                         taken.count());
+    }));
+  }
+  for (Finding& finding : findings) finding.isNeeded = finding.status == Status::kWorks || !first;
+  return findings;
+}
+
+Finding tryFigures(const fs::path& folder) {
+  return tryOut("figures", "gnuplot-nox", [&] {
+    const std::string version = versionOf({"gnuplot", "--version"});
+    const Figure figure{
+        .title = "test", .xLabel = "x [m]", .yLabel = "y [m]", .series = {{.y = {0, 1, 0.5, 2}}}};
+    static_cast<void>(encodeSvg(figure));
+    writeFigure(figure, folder / "test-figure.png");
+    static_cast<void>(readPng(folder / "test-figure.png"));
+    return version + "; PNG and SVG";
+  });
+}
+
+void writeTestVideo(const fs::path& file) {
+  VideoSink sink(file);
+  for (int i = 0; i < 5; ++i) {
+    Image frame(64, 48);
+    frame.rgb.assign(frame.rgb.size(), static_cast<std::uint8_t>(40 * i));
+    sink.add(frame);
+  }
+  sink.finish();
+}
+
+Finding tryVideos(const fs::path& folder) {
+  return tryOut("videos", "ffmpeg", [&] {
+    const std::string version = versionOf({"ffmpeg", "-version"});
+    for (const char* name : {"film.mp4", "film.webm", "film.gif"}) {
+      if (const std::string missing = missingForVideo(name); !missing.empty()) throw Missing{missing};
+      writeTestVideo(folder / name);
+    }
+    return version.substr(0, version.find(" Copyright")) + "; .mp4, .webm and .gif";
+  });
+}
+
+Finding tryReplays(GlBackend backend, const std::vector<Finding>& backends) {
+  std::string packages = backends.front().packages;
+  return tryOut("replays", packages, [&] {
+    const std::string page =
+        reportPage({.title = "test", .film = {{0, testPicture()}}, .still = {.gl = {.backend = backend}}});
+    return fmt::format("a page of {} KiB", page.size() / 1024);
+  });
+}
+
+std::string processor() {
+  const std::string key = "model name";
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t colon = line.find(": ");
+    if (line.starts_with(key) && colon != std::string::npos) return line.substr(colon + 2);
+  }
+  return "processor of unknown name";
+}
+
+// Compiles and runs a small program, as `rex test` needs it.
+Finding tryCompiler(const fs::path& folder) {
+  return tryOut("compiler", "g++", [&] {
+    const std::string version = versionOf({REX_COMPILER, "--version"});
+    if (version.empty()) throw Missing{fmt::format("{} is not installed", REX_COMPILER)};
+    std::ofstream(folder / "test.cpp") << "int main() { return 7; }\n";
+    const ProcessResult compiled =
+        runProcess({REX_COMPILER, "-std=c++20", "test.cpp", "-o", "test-program"}, {.directory = folder});
+    const std::string complaint = compiled.error.substr(0, compiled.error.find('\n'));
+    if (complaint.find("cannot execute") != std::string::npos)
+      throw Missing{"a part is missing: " + complaint};
+    if (!compiled.ok()) fail("it cannot compile a small program: " + complaint);
+    if (runProcess({(folder / "test-program").string()}).exitCode != 7)
+      fail("a program that it compiled does not work");
+    return version;
+  });
+}
+
+// What rex was built with.
+Finding aboutLibraries() {
+  return {.name = "libraries",
+          .text = fmt::format("eigen {}.{}.{}, fmt {}.{}.{}, CLI11 {}, nlohmann-json {}.{}.{}",
+                              EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION,
+                              FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100, CLI11_VERSION,
+                              NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
+                              NLOHMANN_JSON_VERSION_PATCH)};
+}
+
+// How `rex watch` will notice saves; polling does it, too.
+Finding tryWatching(const fs::path& folder) {
+  return {.name = "watch", .text = FileWatcher(folder / "main.cpp").describe()};
+}
+
+Finding aboutSandbox() {
+  return {.name = "sandbox",
+          .text = "level 0 of 3: limits on time, memory and output; grade only your own code"};
+}
+
+Finding aboutRex() {
+#ifdef __clang__
+  constexpr const char* kCompiler = "clang++";
+#else
+  constexpr const char* kCompiler = "g++";
+#endif
+  return {.name = "rex",
+          .text = fmt::format("{}, by {} {}, on {} ({} threads)", REX_VERSION, kCompiler, __VERSION__,
+                              processor(), std::thread::hardware_concurrency())};
+}
+
+bool isWell(const Finding& finding) { return finding.status == Status::kWorks || !finding.isNeeded; }
+
+std::string toDo(const std::vector<Finding>& findings) {
+  std::set<std::string> packages;
+  std::vector<std::string> broken;
+  for (const Finding& finding : findings) {
+    if (isWell(finding)) continue;
+    if (finding.status == Status::kMissing) packages.insert(finding.packages);
+    if (finding.status == Status::kFails) broken.push_back(finding.name);
+  }
+  std::vector<std::string> steps;
+  if (!packages.empty()) steps.push_back(fmt::format("apt-get install {}", fmt::join(packages, " ")));
+  if (!broken.empty()) steps.push_back(fmt::format("repair what fails: {}", fmt::join(broken, ", ")));
+  return steps.empty() ? "Nothing else is needed." : fmt::format("To do: {}", fmt::join(steps, "; then "));
+}
+
+const char* nameOf(Status status) {
+  return status == Status::kWorks ? "works" : status == Status::kMissing ? "missing" : "fails";
+}
+
+void sayAll(const std::vector<Finding>& findings) {
+  constexpr std::size_t kColumn = 28;
+  for (const Finding& finding : findings) {
+    const Colour colour = finding.status == Status::kWorks ? Colour::kGreen
+                          : isWell(finding)                ? Colour::kYellow
+                                                           : Colour::kRed;
+    say(fmt::format("{:<18}  {} {}", finding.name,
+                    paint(colour, fmt::format("{:<7}", nameOf(finding.status))),
+                    wrap(finding.text, kColumn, kColumn)));
+  }
+  say(toDo(findings));
+}
+
+void sayJson(const std::vector<Finding>& findings, bool ok) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (const Finding& finding : findings)
+    rows.push_back({{"name", finding.name}, {"status", nameOf(finding.status)}, {"text", finding.text}});
+  say(nlohmann::json{{"findings", rows}, {"ok", ok}}.dump(2));
+}
+
+// Tries everything that pictures need on this machine. kGraderFault if something needed does not work; of
+// the two ways to OpenGL, one is needed unless `gl` names it.
+ExitCode doctor(const Project&, const DoctorOptions& options) {
+  const GlBackend backend = backendOf(options.gl);
+  const PrivateFolder folder(temporaryFolder());
+  std::vector<Finding> findings = tryBackends(backend, folder.path());
+  const Finding replays = tryReplays(backend, findings);
+  findings.insert(findings.begin(), {aboutRex(), tryCompiler(folder.path()), aboutLibraries()});
+  findings.push_back(tryFigures(folder.path()));
+  findings.push_back(tryVideos(folder.path()));
+  findings.push_back(replays);
+  findings.push_back(tryWatching(folder.path()));
+  findings.push_back(aboutSandbox());
+  const bool ok = std::all_of(findings.begin(), findings.end(), isWell);
+  options.json ? sayJson(findings, ok) : sayAll(findings);
+  return ok ? ExitCode::kFull : ExitCode::kGraderFault;
+}
+
+}  // namespace
+
+void addDoctor(CLI::App* command, Action& action) {
+  const auto options = std::make_shared<DoctorOptions>();
+  command->footer(
+      "Examples:\n  scripts/rex doctor\n  scripts/rex doctor --gl egl --json\n"
+      "  scripts/rex doctor --sandbox --level 2");
+  addGl(command, options->gl);
+  command->add_flag("--json", options->json, "print JSON instead of a table");
+  CLI::Option* sandbox =
+      command->add_flag("--sandbox", options->sandbox, "attack the sandbox that graded programs run in");
+  addLevel(command, options->level)->needs(sandbox);
+  command->callback([&action, options] {
+    action = [options](const Project& p) {
+      return options->sandbox ? doctorOfSandbox(p, *options) : doctor(p, *options);
+    };
+  });
+}
+
+}  // namespace rex::cli

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+
+#include "cli/robot/motion_pictures.h"
+#include "cli/robot/render_plan.h"
+#include "render/video_sink.h"
+
+namespace rex::cli {
+
+inline constexpr double kFilmRate = VideoOptions().rate;  ///< frames per second
+
+/// Throws UsageError naming --no-film for a scene without a visible shape.
+void requireFilmable(const Model& model);
+
+/// Draws the pictures as the plan asks for into the film `out`, or without ffmpeg into a folder of frames
+/// beside it, and gives back which; of one picture it becomes a walk around. Nothing is made before something
+/// was seen. Throws as Studio and makeFrameSink().
+std::filesystem::path writeFilm(const MotionPictures& pictures, const RenderPlan& plan,
+                                std::filesystem::path out);
+
+}  // namespace rex::cli

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "cli/robot/posture_option.h"
+#include "cli/robot/render_plan.h"
+#include "render/report.h"
+
+namespace rex::cli {
+
+/// What films last at most, seconds.
+inline constexpr double kLongestFilm = 120;
+
+/// Makes the folder of results, and takes away what an earlier run left there: these files, and the frames of
+/// a film that was made without ffmpeg, in the folder `frames`. Throws UsageError naming -o for one that
+/// cannot be, that cannot be written to, or where folders stand in the place of files.
+void makeResultFolder(const std::filesystem::path& folder, std::initializer_list<const char*> files,
+                      const std::string& frames);
+
+/// Writes STEM.mp4 (or a folder STEM of frames), the film of a motion that has the replay's title and draws
+/// the way of `body`, and STEM.html, the replay, which is `report` with that film. Gives back both. Throws as
+/// writeFilm() and writeReport().
+[[nodiscard]] std::vector<std::filesystem::path> writeFilmAndReplay(const Model& model, const Motion& motion,
+                                                                    BodyId body, Report report,
+                                                                    const RenderPlan& pictures,
+                                                                    const std::filesystem::path& stem);
+
+}  // namespace rex::cli

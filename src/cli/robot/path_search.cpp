@@ -1,0 +1,121 @@
+#include "cli/robot/path_search.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <ctime>
+
+#include "base/interruption.h"
+#include "base/rng.h"
+#include "cli/option_value_internal.h"
+#include "planning/path_clearance.h"
+#include "planning/roadmap.h"
+#include "planning/rrt.h"
+#include "planning/smooth_path.h"
+
+namespace rex::cli {
+namespace {
+
+constexpr int kShortcuts = 200, kRoundings = 3;
+constexpr int kNeighbors = 10;  // of a node of PRM
+
+double cpuTime() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+// Counts what a planner asks for, and lets the user stop it.
+AllValid watched(AllValid allValid, long& checks) {
+  constexpr int kSeldom = 256;  // calls: a look at the signals takes as long as a tenth of one
+  return [allValid = std::move(allValid), &checks, calls = 0](const MatrixArg& Q) mutable {
+    if (++calls % kSeldom == 0) throwIfInterrupted();
+    checks += Q.cols();
+    return allValid(Q);
+  };
+}
+
+PathGraph graphOf(PathTree tree) {
+  PathGraph graph{.nodes = std::move(tree.nodes)};
+  for (std::size_t i = 0; i < tree.parents.size(); ++i)
+    if (tree.parents[i] >= 0) graph.edges.emplace_back(tree.parents[i], static_cast<int>(i));
+  return graph;
+}
+
+PathResult growTrees(const PathProblem& problem, const PathSearch& search, Rng& rng, FoundPath& found) {
+  const RrtOptions options{.stepSize = search.step, .maxSamples = search.samples};
+  PathResult result = search.planner == Planner::kRrt          ? growRrt(problem, options, rng)
+                      : search.planner == Planner::kRrtConnect ? connectRrts(problem, options, rng)
+                                                               : growRrtStar(problem, {options}, rng);
+  found.samples = result.samples;
+  for (PathTree& tree : result.trees) found.explored.push_back(graphOf(std::move(tree)));
+  return result;
+}
+
+PathResult askRoadmap(const PathProblem& problem, const PathSearch& search, Rng& rng, FoundPath& found) {
+  Roadmap roadmap(problem.space, problem.allValid, problem.resolution,
+                  {.nodes = search.samples,
+                   .neighbors = search.planner == Planner::kPrmStar ? 0 : kNeighbors,
+                   .lazy = search.planner == Planner::kLazyPrm,
+                   .maxSamples = search.samples},
+                  rng);
+  PathResult result = roadmap.query(problem);
+  found.samples = search.samples;
+  PathGraph graph{.nodes = Eigen::MatrixXd(problem.space.size(), roadmap.nodes()), .edges = roadmap.edges()};
+  for (int i = 0; i < roadmap.nodes(); ++i) graph.nodes.col(i) = roadmap.node(i);
+  found.explored.push_back(std::move(graph));
+  return result;
+}
+
+}  // namespace
+
+Planner plannerOf(const std::string& name) {
+  return choose<Planner>("--planner", name,
+                         {{"rrt", Planner::kRrt},
+                          {"rrt-connect", Planner::kRrtConnect},
+                          {"rrt-star", Planner::kRrtStar},
+                          {"prm", Planner::kPrm},
+                          {"prm-star", Planner::kPrmStar},
+                          {"lazy-prm", Planner::kLazyPrm}});
+}
+
+bool growsTrees(Planner planner) {
+  return planner == Planner::kRrt || planner == Planner::kRrtConnect || planner == Planner::kRrtStar;
+}
+
+FoundPath searchPath(const PathTask& task, const PathSearch& search, std::uint64_t seed) {
+  const Space& space = task.problem.space;
+  FoundPath found{.seed = seed};
+  PathProblem problem = task.problem;
+  problem.allValid = watched(task.problem.allValid, found.checks);
+  Rng rng(seed);
+  const double begin = cpuTime();
+  PathResult result = growsTrees(search.planner) ? growTrees(problem, search, rng, found)
+                                                 : askRoadmap(problem, search, rng, found);
+  const double planned = cpuTime();
+  found.planningTime = planned - begin;
+  for (const PathGraph& graph : found.explored) found.nodes += static_cast<int>(graph.nodes.cols());
+  if (result.status != PathStatus::kFound) return found;
+  found.plannedLength = result.length;
+  if (search.smooth)
+    result.path = roundCorners(problem, shortcut(problem, result.path, kShortcuts, rng), kRoundings);
+  found.smoothingTime = cpuTime() - planned;
+  found.path = unrolled(space, std::move(result.path));
+  found.length = pathLength(space, found.path);
+  found.clearance = pathClearance(task.model, task.contacts, space, found.path, kClearanceTolerance);
+  return found;
+}
+
+int FoundPaths::successes() const {
+  return static_cast<int>(std::ranges::count_if(all, &FoundPath::isFound));
+}
+
+FoundPaths searchPaths(const PathTask& task, const PathSearch& search, std::uint64_t firstSeed, int count) {
+  FoundPaths found{.all = {searchPath(task, search, firstSeed)}};
+  for (int i = 1; i < count; ++i) {
+    FoundPath next = searchPath(task, search, firstSeed + static_cast<std::uint64_t>(i));
+    const FoundPath& best = found.shortest();
+    const bool isBetter = next.isFound() && (!best.isFound() || next.length < best.length);
+    (isBetter ? found.all[found.best] : next).explored.clear();
+    found.all.push_back(std::move(next));
+    if (isBetter) found.best = found.all.size() - 1;
+  }
+  return found;
+}
+
+}  // namespace rex::cli

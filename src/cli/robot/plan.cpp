@@ -1,0 +1,183 @@
+#include "cli/robot/plan.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "cli/option_value_internal.h"
+#include "cli/robot/contact_limit.h"
+#include "cli/robot/film_file.h"
+#include "cli/robot/motion_files.h"
+#include "cli/robot/path_files.h"
+#include "cli/robot/path_pictures.h"
+#include "cli/robot/path_summary.h"
+#include "cli/robot/posture_within_limits.h"
+#include "cli/robot/robot_options_internal.h"
+#include "cli/robot/robot_room_internal.h"
+#include "cli/shared_options_internal.h"
+#include "cli/wrong_use_internal.h"
+#include "collision/contacts.h"
+#include "planning/robot_problem.h"
+
+namespace rex::cli {
+namespace {
+
+PathSearch searchOf(const PlanOptions& options) {
+  PathSearch search{.planner = plannerOf(options.planner), .smooth = !options.noSmooth};
+  requireBetween("--margin", options.margin, 0, kQueryCutoff);
+  requireBetween("--resolution", options.resolution, 1e-4, 10);
+  requireBetween("--speed", options.speed, 1e-3, 1e3);
+  requireBetween("--seeds", options.seeds, 1, 10'000);
+  if (options.step && !growsTrees(search.planner))
+    throw UsageError(
+        {.what = "--step", .found = "--planner " + options.planner, .wanted = "a planner that grows trees"});
+  search.step = options.step.value_or(search.step);
+  requireBetween("--step", search.step, 1e-3, 1e3);
+  if (search.planner == Planner::kRrtStar) search.samples = 10'000;  // it spends them all
+  if (!growsTrees(search.planner)) search.samples = 2000;
+  search.samples = options.samples.value_or(search.samples);
+  requireBetween("--samples", search.samples, 1, growsTrees(search.planner) ? 1e7 : 1e5);
+  return search;
+}
+
+PathTask taskOf(Model model, const PlanOptions& options) {
+  const ContactModel contacts = contactModelOf(model);
+  if (contacts.pairs().empty())
+    note(harmless(model.name()) + ": no two shapes may collide: all ways are free");
+  const Eigen::VectorXd start =
+      postureWithinLimits(model, "--start", options.start.empty() ? "file" : options.start);
+  const Eigen::VectorXd goal = postureWithinLimits(model, "--goal", options.goal);
+  PathProblem problem = asWrongUse(
+      [&] { return robotProblem(model, contacts, start, goal, options.margin, options.resolution); });
+  const auto requireFree = [&](const char* option, const Eigen::VectorXd& q) {
+    if (problem.allValid(q)) return;
+    throw UsageError({.what = option,
+                      .found = harmless(problem.reason(q)),
+                      .wanted = fmt::format("all shapes {:g} m apart, the --margin", options.margin)});
+  };
+  requireFree("--start", start);
+  requireFree("--goal", goal);
+  return {std::move(model), contacts, std::move(problem)};
+}
+
+BodyId drawnBody(const Model& model, const std::string& name) {
+  if (name.empty()) return farthestBody(model);
+  const BodyId body = asWrongUse([&] { return model.body(name); }, "--body: ");
+  for (BodyId at = body; at != kWorld; at = model[at].parent)
+    if (model[at].joint != kNoJoint && model[model[at].joint].nv > 0) return body;
+  throw UsageError({.what = "--body", .found = "'" + harmless(name) + "', which no joint moves"});
+}
+
+// Whether all paths are, and says how they are not.
+bool isClear(const FoundPaths& found, double margin) {
+  // Who wants no margin may touch: that cannot be told from a little overlap.
+  const double least = margin > 0 ? 0 : -kClearanceTolerance;
+  const auto all = [&](double ClearanceBounds::*bound) {
+    return std::ranges::all_of(
+        found.all, [&](const FoundPath& one) { return !one.isFound() || one.clearance.*bound > least; });
+  };
+  if (all(&ClearanceBounds::atLeast)) return true;
+  note(all(&ClearanceBounds::atMost)
+           ? "it is not proven that shapes stay apart between the postures that were checked: give a larger "
+             "--margin"
+           : "shapes overlap between the postures that were checked: give a finer --resolution or a larger "
+             "--margin");
+  return false;
+}
+
+// The table has a row for each frame of a film.
+void requireFewPostures(double length, double speed) {
+  constexpr double kMostPostures = 1e6;
+  const double postures = length / speed * kFilmRate;
+  if (postures <= kMostPostures) return;
+  throw UsageError(
+      {.what = "--speed",
+       .found = fmt::format("{:g}: {:.3g} postures on a way of length {:g}", speed, postures, length),
+       .wanted = fmt::format("at least {:.3g}", length * kFilmRate / kMostPostures)});
+}
+
+// Looks for a way of a robot past all obstacles; writes the path, what was explored, a film and a replay.
+// kBelow if there is no path, or one that is not clear.
+ExitCode planPath(const Project& project, const PlanOptions& options) {
+  RenderOptions filmOptions = options.film;
+  filmOptions.out = options.out / "path.mp4";
+  const RenderPlan pictures = planOf(filmOptions);
+  const PathSearch search = searchOf(options);
+  Model model = loadScene(project, options.scene);
+  if (model.nv() == 0) throw UsageError({.what = model.name(), .found = "no joint that moves"});
+  if (!options.noFilm) requireFilmable(model);
+  const BodyId body = drawnBody(model, options.body);
+  const PathTask task = taskOf(std::move(model), options);
+  requireFewPostures(task.problem.space.distance(task.problem.start, task.problem.goal), options.speed);
+  makeResultFolder(options.out, {"tree.png", "path.csv", "path.mp4", "path.html"}, "path");
+
+  const FoundPaths found = asWrongUse([&] { return searchPaths(task, search, options.seed, options.seeds); });
+  requireFewPostures(found.shortest().length, options.speed);
+  const std::vector<std::string> files = writePathFiles(task, options, pictures, body, found.shortest());
+  if (options.json) {
+    say(jsonSummaryOf(task, options, found, files));
+  } else {
+    say(summaryOf(task, options, found));
+    for (const std::string& file : files) say(file);
+  }
+  return isClear(found, options.margin) && found.successes() > 0 ? ExitCode::kFull : ExitCode::kBelow;
+}
+
+}  // namespace
+
+void addPlan(CLI::App* command, Action& action) {
+  const auto options = std::make_shared<PlanOptions>();
+  command->footer(
+      "Examples:\n  scripts/rex plan board --goal 1.5,-1.1,-1 -o around\n"
+      "  scripts/rex plan maze --goal 3,0,0 --planner rrt-star --speed 0.5 -o rooms\n"
+      "  scripts/rex plan board --goal 'stem>arm1=1.5' --planner lazy-prm --seeds 20 -o compare\n\n"
+      "Lengths are those of postures as vectors: root of the sum of squares of rad and m. Turning joints\n"
+      "without limits turn the shorter way round. DIR gets path.csv (time and joints; `rex render --motion`\n"
+      "reads it), tree.png (what was explored), path.mp4 and path.html (a replay).\n"
+      "Exit codes: 0 found a path, 1 found none, or one that is not clear, 64 wrong use.");
+  addSceneFile(command, "SCENE", options->scene.file);
+  command->add_option("-o,--out", options->out, "folder for what is written")->type_name("DIR")->required();
+  command->add_option("--start", options->start, "all numbers, joint=number,..., 0, or file (default: file)")
+      ->type_name("POSTURE");
+  command->add_option("--goal", options->goal, "the same")->type_name("POSTURE")->required();
+  command
+      ->add_option("--planner", options->planner,
+                   "rrt, rrt-connect, rrt-star; prm, prm-star, lazy-prm (default: rrt-connect)")
+      ->type_name("NAME");
+  command->add_option("--margin", options->margin, "between all shapes on the way (default: 0.01)")
+      ->type_name("METRES");
+  command->add_option("--resolution", options->resolution, "of the checks along ways (default: 0.02)")
+      ->type_name("LENGTH");
+  command->add_option("--step", options->step, "by which trees grow (default: 0.3)")->type_name("LENGTH");
+  command
+      ->add_option("--samples", options->samples,
+                   "the budget (default: 100000; rrt-star 10000, roadmaps 2000)")
+      ->type_name("N");
+  addSeed(command, options->seed, "of the random numbers (default: 0)");
+  command->add_option("--seeds", options->seeds, "searches with so many seeds, and prints a table")
+      ->type_name("N");
+  CLI::Option* smooth = command->add_flag("--smooth");
+  smooth->description("shortcuts, then rounded corners (default)");
+  command->add_flag("--no-smooth", options->noSmooth, "the path as the planner finds it");
+  command->add_option("--speed", options->speed, "along the path, length per second (default: 1)")
+      ->type_name("X");
+  command->add_option("--body", options->body, "whose ways are drawn (default: that which most joints move)")
+      ->type_name("NAME");
+  command->add_flag("--no-film", options->noFilm, "no path.mp4 and path.html");
+  addFilmOptions(command, options->film);
+  addJson(command, options->json);
+  addReading(command, options->scene.reading);
+  addGl(command, options->film.gl);
+  command->callback([&action, options, smooth] {
+    if (options->noSmooth && smooth->count() > 0) throw CLI::ExcludesError("--smooth", "--no-smooth");
+    action = [options](const Project& p) { return planPath(p, *options); };
+  });
+}
+
+}  // namespace rex::cli

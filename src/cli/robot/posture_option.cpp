@@ -1,0 +1,274 @@
+#include "cli/robot/posture_option.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/error.h"
+#include "cli/number_words.h"
+#include "scene/coordinates.h"
+#include "scene/state.h"
+
+namespace rex::cli {
+namespace {
+
+constexpr double kLongestMotion = 120;  // seconds of a film
+
+// Coordinates that an option gives: positions q, velocities v or forces u.
+struct Coordinates {
+  std::string option;  // "--q"
+  std::string letter;  // "q"
+  int Joint::*index;
+  int Joint::*count;
+};
+
+const Coordinates kPositions{"--q", "q", &Joint::qIndex, &Joint::nq};
+const Coordinates kVelocities{"--v", "v", &Joint::vIndex, &Joint::nv};
+const Coordinates kForces{"--u", "u", &Joint::vIndex, &Joint::nv};
+
+double requireNumber(const Coordinates& kind, const std::string& word) {
+  if (const auto number = numberIn(word)) return *number;
+  throw UsageError({.what = kind.option, .found = "'" + word + "'", .wanted = "a number, or joint=number"});
+}
+
+Eigen::VectorXd zeroPositions(const Model& model) {
+  Eigen::VectorXd q(model.nq());
+  for (const Joint& joint : model.joints())
+    if (!joint.mimics) q.segment(joint.qIndex, joint.nq) = jointCoordinates(joint.type, joint.axis, Pose{});
+  return q;
+}
+
+void requireQuaternions(const Model& model, const Eigen::VectorXd& q, const Refusal& refuse) {
+  forEachQuaternion(model, [&](int at, int) {
+    if (q.segment<4>(at).isZero(0))
+      refuse(fmt::format("(0, 0, 0, 0) for joint '{}'", jointOfPosition(model, at).name),
+             "a quaternion w, x, y, z that is not zero");
+  });
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 12;
+  const std::size_t count = std::min(names.size(), kMost);
+  std::string list = fmt::format("{}", fmt::join(names.begin(), names.begin() + count, ", "));
+  if (names.size() > count) list += fmt::format(" and {} more", names.size() - count);
+  return list;
+}
+
+// The place of a joint's only coordinate.
+int placeOf(const Model& model, const Coordinates& kind, const std::string& name, Eigen::Index all) {
+  std::vector<std::string> movable;  // joints stand in the order of q
+  for (const Joint& joint : model.joints()) {
+    const bool isMovable = joint.nq > 0 && !joint.mimics;
+    if (joint.name == name && isMovable) {
+      if (joint.*kind.count == 1) return joint.*kind.index;
+      throw UsageError({.what = kind.option + ": joint '" + name + "'",
+                        .found = fmt::format("{} coordinates", joint.*kind.count),
+                        .wanted = fmt::format("one; give all {} numbers of {} instead", all, kind.letter)});
+    }
+    if (isMovable) movable.push_back(joint.name);
+  }
+  const std::vector<std::string> nearest = nearestNames(name, movable);
+  throw UsageError({.what = kind.option + ": " + model.name() + " has no joint '" + name + "' that moves",
+                    .wanted = nearest.empty() ? listed(movable) : "",
+                    .nearest = nearest});
+}
+
+// Words end at blanks and commas, so no word gives a joint with these in its name.
+std::string pairWanted(const Model& model, Eigen::Index all) {
+  const bool areWords = std::ranges::all_of(model.joints(), [](const Joint& joint) {
+    return joint.name.find_first_of(" \t\r\n,") == std::string::npos;
+  });
+  return areWords
+             ? "joint=number"
+             : fmt::format("joint=number, or for joints with blanks or commas in their names all {} numbers",
+                           all);
+}
+
+// All numbers, or those of some joints, the others as they are.
+Eigen::VectorXd parseCoordinates(const Model& model, const Coordinates& kind, const std::string& text,
+                                 Eigen::VectorXd x) {
+  const std::vector<std::string> all = numberWords(text, refusalOf(kind.option));
+  if (text.find('=') != std::string::npos) {
+    for (const std::string& word : all) {
+      const std::size_t sign = word.find('=');
+      if (sign == std::string::npos)
+        throw UsageError(
+            {.what = kind.option, .found = "'" + word + "'", .wanted = pairWanted(model, x.size())});
+      x[placeOf(model, kind, word.substr(0, sign), x.size())] = requireNumber(kind, word.substr(sign + 1));
+    }
+    return x;
+  }
+  if (static_cast<Eigen::Index>(all.size()) != x.size())
+    throw UsageError({.what = kind.option,
+                      .found = fmt::format("{} number{}", all.size(), all.size() == 1 ? "" : "s"),
+                      .wanted = fmt::format("{}, one for each coordinate of {}", x.size(), model.name())});
+  for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = requireNumber(kind, all[static_cast<std::size_t>(i)]);
+  return x;
+}
+
+// Zero but for what is given.
+Eigen::VectorXd parseRates(const Model& model, const Coordinates& kind, const std::string& text) {
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(model.nv());
+  return text == "0" ? zero : parseCoordinates(model, kind, text, zero);
+}
+
+void requireLength(double seconds, const std::string& what, const SourceLocation& where) {
+  if (seconds > kLongestMotion)
+    throw UsageError({.what = what,
+                      .where = where,
+                      .found = fmt::format("{:g} s", seconds),
+                      .wanted = fmt::format("at most {:g} s", kLongestMotion)});
+}
+
+// Reads the lines of a motion one after the other.
+class MotionReader {
+ public:
+  MotionReader(const Model& model, std::string file, double rate)
+      : nq_(static_cast<std::size_t>(model.nq())),
+        model_(model),
+        where_({.file = std::move(file)}),
+        rate_(rate) {}
+
+  void readLine(std::string_view line) {
+    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+    if (++where_.line == 1 && line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
+    const std::size_t start = line.find_first_not_of(" \t\r");
+    if (start == std::string_view::npos || line[start] == '#') return;
+    if (motion_.postures.empty() && isHead(line.substr(start))) return;
+    add(numbersIn(line));
+  }
+
+  Motion finish() {
+    where_.line = 0;
+    if (motion_.postures.empty()) refuse("no posture", "at least one");
+    requireLength(motion_.times.back() - motion_.times.front(), "motion", where_);
+    return std::move(motion_);
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& found, const std::string& wanted) const {
+    throw UsageError({.what = "motion", .where = where_, .found = found, .wanted = wanted});
+  }
+
+  // Names of columns; but a number that is none must not pass for one.
+  static bool isHead(std::string_view line) {
+    double ignored = 0;
+    const bool isName =
+        line[0] == '"' || line[0] == '\'' || std::isalpha(static_cast<unsigned char>(line[0]));
+    return isName && !isNumeral(line.substr(0, line.find_first_of(", \t\r;")), ignored);
+  }
+
+  std::vector<double> numbersIn(std::string_view line) {
+    std::vector<double> row;
+    for (const std::string& word :
+         numberWords(line, [&](const auto&found, const auto&wanted) { refuse(found, wanted); })) {
+      const auto value = numberIn(word);
+      if (!value) refuse("'" + word + "'", "a number");
+      row.push_back(*value);
+    }
+    const std::string found = fmt::format("{} number{}", row.size(), row.size() == 1 ? "" : "s");
+    if (firstLine_ == 0) {
+      if (row.size() != nq_ && row.size() != nq_ + 1)
+        refuse(found, fmt::format("{} of a posture of {}, or a time before them", nq_, model_.name()));
+      columns_ = row.size();
+      firstLine_ = where_.line;
+    }
+    if (row.size() != columns_) refuse(found, fmt::format("{} as in line {}", columns_, firstLine_));
+    return row;
+  }
+
+  void add(const std::vector<double>& row) {
+    const bool hasTime = row.size() == nq_ + 1;
+    const double time = hasTime ? row[0] : static_cast<double>(motion_.times.size()) / rate_;
+    if (!motion_.times.empty() && time <= motion_.times.back())
+      refuse(fmt::format("time {:g} after {:g}", time, motion_.times.back()), "times that increase");
+    motion_.times.push_back(time);
+    motion_.postures.emplace_back(
+        Eigen::Map<const Eigen::VectorXd>(row.data() + (hasTime ? 1 : 0), static_cast<Eigen::Index>(nq_)));
+    requireQuaternions(model_, motion_.postures.back(),
+                       [&](const auto& found, const auto& wanted) { refuse(found, wanted); });
+  }
+
+  std::size_t nq_;
+  const Model& model_;
+  SourceLocation where_;
+  double rate_;
+  std::size_t columns_ = 0;
+  int firstLine_ = 0;
+  Motion motion_;
+};
+
+// At each moment of a steady beat the posture last reached.
+Motion evenly(const Motion& motion, double rate) {
+  Motion even;
+  const double start = motion.times.front(), length = motion.times.back() - start;
+  const auto count = static_cast<std::size_t>(std::ceil(length * rate - 1e-9)) + 1;
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double time = static_cast<double>(i) / rate;
+    while (at + 1 < motion.times.size() && motion.times[at + 1] - start <= time + 1e-9) ++at;
+    even.times.push_back(time);
+    even.postures.push_back(motion.postures[at]);
+  }
+  return even;
+}
+
+}  // namespace
+
+Eigen::VectorXd parsePosture(const Model& model, const std::string& text) {
+  return parsePostureOf(model, kPositions.option, text);
+}
+
+Eigen::VectorXd parsePostureOf(const Model& model, const std::string& option, const std::string& text) {
+  if (text == "0") return zeroPositions(model);
+  if (text == "file") return model.initialPositions();
+  Coordinates kind = kPositions;
+  kind.option = option;
+  Eigen::VectorXd q = parseCoordinates(model, kind, text, model.initialPositions());
+  requireQuaternions(model, q, refusalOf(option));
+  return q;
+}
+
+Eigen::VectorXd parseVelocities(const Model& model, const std::string& text) {
+  return parseRates(model, kVelocities, text);
+}
+
+Eigen::VectorXd parseForces(const Model& model, const std::string& text) {
+  return parseRates(model, kForces, text);
+}
+
+Motion readMotion(const Model& model, const std::filesystem::path& file, double rate) {
+  std::ifstream input(file);
+  std::error_code ignored;
+  if (!input || std::filesystem::is_directory(file, ignored))
+    throw UsageError({.what = "cannot read the motion", .where = {file.string()}});
+  MotionReader reader(model, file.string(), rate);
+  for (std::string line; std::getline(input, line);) reader.readLine(line);
+  return evenly(reader.finish(), rate);
+}
+
+Motion moveThrough(const Model& model, const std::vector<Eigen::VectorXd>& keys, double seconds,
+                   double rate) {
+  requireLength(static_cast<double>(keys.size() - 1) * seconds, "motion through --q", {});
+  Motion motion{.times = {0}, .postures = {keys.front()}};
+  const int steps = std::max(1, static_cast<int>(std::lround(seconds * rate)));
+  for (std::size_t k = 0; k + 1 < keys.size(); ++k) {
+    const Eigen::VectorXd way = difference(model, keys[k], keys[k + 1]);
+    for (int i = 1; i <= steps; ++i) {
+      const double s = static_cast<double>(i) / steps;
+      motion.postures.push_back(integrate(model, keys[k], s * s * (3 - 2 * s) * way));
+      motion.times.push_back((static_cast<double>(k) + s) * seconds);
+    }
+  }
+  return motion;
+}
+
+}  // namespace rex::cli

@@ -1,0 +1,117 @@
+#include "cli/robot/render.h"
+
+#include <filesystem>
+#include <memory>
+#include <numeric>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/interruption.h"
+#include "cli/out_folder.h"
+#include "cli/robot/film_file.h"
+#include "cli/robot/motion_pictures.h"
+#include "cli/robot/posture_option.h"
+#include "cli/robot/robot_options_internal.h"
+#include "cli/robot/robot_room_internal.h"
+#include "cli/robot/studio.h"
+#include "cli/wrong_use_internal.h"
+#include "render/contact_sheet.h"
+#include "render/glb.h"
+#include "render/png.h"
+#include "render/report.h"
+
+namespace rex::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+Motion motionOf(const Model& model, const RenderOptions& options, double seconds) {
+  if (!options.motion.empty()) return readMotion(model, options.motion, kFilmRate);
+  std::vector<Eigen::VectorXd> keys;
+  for (const std::string& text : options.postures) keys.push_back(parsePosture(model, text));
+  if (keys.empty()) keys.push_back(model.initialPositions());
+  return moveThrough(model, keys, seconds, kFilmRate);
+}
+
+// Of a motion a still shows the key frames only.
+MotionPictures picturesOf(const Model& model, const Motion& motion, const RenderOptions& options,
+                          Product product) {
+  if (!options.traces.empty() && motion.postures.size() == 1)
+    throw UsageError({.what = "--trace", .found = "one posture", .wanted = "a motion"});
+  std::vector<std::size_t> shown(motion.postures.size());
+  std::iota(shown.begin(), shown.end(), std::size_t{0});
+  if (product == Product::kPicture) shown = keyFrames(shown.size(), ContactSheetOptions().pictures);
+  // The title of a page is its caption.
+  return {model, motion, shown, options.traces, product == Product::kPage ? "" : options.caption};
+}
+
+void writeStill(const MotionPictures& pictures, const RenderPlan& plan, const fs::path& out) {
+  Studio studio(plan, pictures.bounds());
+  note(studio.describe());
+  std::vector<KeyFrame> drawn;
+  for (std::size_t i = 0; i < pictures.size(); ++i)
+    drawn.push_back({studio.draw(pictures.picture(i)), fmt::format("{:.2f} s", pictures.time(i))});
+  const Image whole = drawn.size() == 1 ? drawn.front().image : sheetOf(drawn);
+  studio.requireSomethingSeen();
+  throwIfInterrupted();
+  writePng(whole, out);
+}
+
+void writePage(const MotionPictures& pictures, const RenderPlan& plan, const RenderOptions& options) {
+  throwIfInterrupted();
+  writeReport({.title = options.caption.empty() ? options.scene.file.stem().string() : options.caption,
+               .film = pictures.film(),
+               .view = plan.views.front().view.direction(),
+               .still = plan.renderer},
+              options.out);
+}
+
+}  // namespace
+
+ExitCode render(const Project& project, const RenderOptions& options) {
+  const RenderPlan plan = planOf(options);
+  const Model model = loadScene(project, options.scene);
+  const MotionPictures pictures =
+      picturesOf(model, motionOf(model, options, plan.seconds), options, plan.product);
+  asWrongUse([&] { makeOutPlace(options.out); });
+  fs::path written = options.out;
+  switch (plan.product) {
+    case Product::kPicture:
+      writeStill(pictures, plan, options.out);
+      break;
+    case Product::kFilm:
+      written = writeFilm(pictures, plan, options.out);
+      break;
+    case Product::kModel:
+      throwIfInterrupted();
+      writeGlb(pictures.film(), options.out, plan.views.front().view.direction());
+      break;
+    case Product::kPage:
+      writePage(pictures, plan, options);
+      break;
+  }
+  say(shown(written));
+  return ExitCode::kFull;
+}
+
+void addRender(CLI::App* command, Action& action) {
+  const auto options = std::make_shared<RenderOptions>();
+  command->footer(
+      "Examples:\n  scripts/rex render man -o man.png\n"
+      "  scripts/rex render man.ors --camera front --camera right --camera top -o views.png\n"
+      "  scripts/rex render pegArm.ors --q 0,0,0 --q 0.5,-0.5,0.3 --trace peg -o swing.mp4\n"
+      "  scripts/rex render man.ors --q 'upArmR>dnArmR=1.5' -o man.html\n\n"
+      "The ending of FILE says what is made: .png (of a motion its key frames); .mp4, .webm, .gif\n"
+      "(of one posture a walk around it); .glb; .html; or none for a folder of frames.");
+  addSceneFile(command, "SCENE", options->scene.file);
+  command->add_option("-o,--out", options->out, "what to make")->type_name("FILE")->required();
+  addReading(command, options->scene.reading);
+  addRenderOptions(command, *options);
+  addGl(command, options->gl);
+  command->callback(
+      [&action, options] { action = [options](const Project& p) { return render(p, *options); }; });
+}
+
+}  // namespace rex::cli

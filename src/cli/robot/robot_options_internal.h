@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/robot/render_plan.h"
+
+namespace rex::cli {
+
+/// Options that several commands about a scene have in common.
+void addSceneFile(CLI::App* command, const std::string& name, std::filesystem::path& file);
+/// How a scene is read.
+void addReading(CLI::App* command, ReadOptions& reading);
+/// `--q`.
+void addPosture(CLI::App* command, std::string& posture);
+void addJson(CLI::App* command, bool& json);
+/// All that a picture can be asked for.
+void addRenderOptions(CLI::App* command, RenderOptions& options);
+/// The same of the film that a command writes besides.
+void addFilmOptions(CLI::App* command, RenderOptions& film);
+void addGl(CLI::App* command, std::string& gl);
+
+}  // namespace rex::cli

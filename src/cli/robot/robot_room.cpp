@@ -1,0 +1,17 @@
+#include "cli/robot/robot_room.h"
+
+#include "cli/robot/robot_room_internal.h"
+
+namespace rex::cli {
+
+Room robotRoom() {
+  return {.program = Program::kRobot,
+          .commands = {{"doctor", addDoctor},
+                       {"plan", addPlan},
+                       {"render", addRender},
+                       {"scene", addScene},
+                       {"simulate", addSimulate},
+                       {"trajectory", addTrajectory}}};
+}
+
+}  // namespace rex::cli

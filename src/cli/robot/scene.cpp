@@ -1,0 +1,160 @@
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/command_line_internal.h"
+#include "cli/robot/contact_limit.h"
+#include "cli/robot/render.h"
+#include "cli/robot/robot_options_internal.h"
+#include "cli/robot/robot_room_internal.h"
+#include "cli/robot/scene_verbs.h"
+
+namespace rex::cli {
+namespace {
+
+CLI::App* addVerbOf(CLI::App* scene, const std::string& name, const std::string& purpose,
+                    const std::string& examples) {
+  CLI::App* verb = addVerb(scene, name, purpose, examples);
+  verb->fallthrough();  // how the scene is read may also be said behind the verb
+  return verb;
+}
+
+void addInfo(CLI::App* scene, Action& action, const std::shared_ptr<SceneOptions>& options) {
+  CLI::App* verb = addVerbOf(scene, "info", "Show the tree, the joints in the order of q, masses and shapes",
+                             "Examples:\n  scripts/rex scene man info\n  scripts/rex scene man info --json");
+  addJson(verb, options->json);
+  verb->callback(
+      [&action, options] { action = [options](const Project& p) { return sceneInfo(p, *options); }; });
+}
+
+void addCheck(CLI::App* scene, Action& action, const std::shared_ptr<SceneOptions>& options) {
+  CLI::App* verb = addVerbOf(scene, "check", "Say whether a file loads, and what is doubtful in it",
+                             "Example: scripts/rex scene man.ors check\n"
+                             "Exit codes: 0 the scene loads, perhaps with warnings; 1 it does not.");
+  addJson(verb, options->json);
+  verb->callback(
+      [&action, options] { action = [options](const Project& p) { return sceneCheck(p, *options); }; });
+}
+
+void addKinematics(CLI::App* scene, Action& action, const std::shared_ptr<SceneOptions>& options) {
+  CLI::App* verb = addVerbOf(
+      scene, "fk", "Compute where all bodies are",
+      "Examples:\n  scripts/rex scene pegArm fk --q 0.1,0.2,0.3\n  scripts/rex scene man fk --q 0 --json");
+  addPosture(verb, options->posture);
+  addJson(verb, options->json);
+  verb->callback(
+      [&action, options] { action = [options](const Project& p) { return sceneKinematics(p, *options); }; });
+}
+
+void addJacobian(CLI::App* scene, Action& action, const std::shared_ptr<SceneOptions>& options) {
+  const auto own = std::make_shared<JacobianOptions>();
+  CLI::App* verb =
+      addVerbOf(scene, "jacobian", "Compute the Jacobian of a point on a body, and of its rotation",
+                "Example: scripts/rex scene pegArm jacobian --body peg --point 0,0,0.3 --q 0");
+  verb->add_option("--body", own->body, "which body, or a shape of it")->type_name("NAME")->required();
+  verb->add_option("--point", own->point, "in the body's frame, metres (default: 0,0,0)")->type_name("x,y,z");
+  addPosture(verb, options->posture);
+  addJson(verb, options->json);
+  verb->callback([&action, options, own] {
+    own->scene = *options;
+    action = [own](const Project& p) { return sceneJacobian(p, *own); };
+  });
+}
+
+void addContacts(CLI::App* scene, Action& action, const std::shared_ptr<SceneOptions>& options) {
+  const auto own = std::make_shared<ContactsOptions>();
+  CLI::App* verb = addVerbOf(
+      scene, "contacts", "List the shapes that may collide and are near, nearest first",
+      "Example: scripts/rex scene pegInAHole contacts --q 0.6,0.5,0,0,0,0,0 --margin 0.02\n\n" +
+          fmt::format("Refuses a scene with more than {} pairs of shapes that take part in contacts.",
+                      kMostContactPairs));
+  verb->add_option("--margin", own->margin, "the contact cost counts what is nearer (default: 0.1)")
+      ->type_name("METRES");
+  addPosture(verb, options->posture);
+  addJson(verb, options->json);
+  verb->callback([&action, options, own] {
+    own->scene = *options;
+    action = [own](const Project& p) { return sceneContacts(p, *own); };
+  });
+}
+
+void addDynamics(CLI::App* scene, Action& action, const std::shared_ptr<SceneOptions>& options) {
+  const auto own = std::make_shared<DynamicsOptions>();
+  CLI::App* verb =
+      addVerbOf(scene, "dynamics", "Compute M and F of M qdd + F = u, energies, and qdd",
+                "Examples:\n  scripts/rex scene pegArm dynamics --q 0.1,0.2,0.3 --v 0,1,0\n"
+                "  scripts/rex scene arm3 dynamics --u 5,0,0 --json\n\n"
+                "Gravity is 9.81 m/s^2 along -z. Joints are free: without friction, limits and contacts.");
+  addPosture(verb, options->posture);
+  verb->add_option("--v", own->velocity, "all velocities, or joint=number,... (default: 0)")
+      ->type_name("VELOCITY");
+  verb->add_option("--u", own->force, "forces of all joints, or joint=number,... (default: 0)")
+      ->type_name("FORCE");
+  addJson(verb, options->json);
+  verb->callback([&action, options, own] {
+    own->scene = *options;
+    action = [own](const Project& p) { return sceneDynamics(p, *own); };
+  });
+}
+
+void addConvert(CLI::App* scene, Action& action, const std::shared_ptr<SceneOptions>& options) {
+  const auto own = std::make_shared<ConvertOptions>();
+  CLI::App* verb = addVerbOf(scene, "convert", "Write the scene as .ors or .urdf",
+                             "Examples:\n  scripts/rex scene man convert man.urdf\n"
+                             "  scripts/rex scene robot.urdf convert robot.ors");
+  verb->add_option("OUT", own->out, "the file to write; its ending says which format")
+      ->type_name("")
+      ->required();
+  verb->callback([&action, options, own] {
+    if (options->json) throw CLI::ExcludesError("--json", "convert");
+    own->scene = options->scene;
+    action = [own](const Project& p) { return sceneConvert(p, *own); };
+  });
+}
+
+void addSceneRender(CLI::App* scene, Action& action, const std::shared_ptr<SceneOptions>& options) {
+  const auto own = std::make_shared<RenderOptions>();
+  CLI::App* verb = addVerbOf(scene, "render", "Draw the scene, as `rex render` does",
+                             "Example: scripts/rex scene man render -o man.png");
+  verb->add_option("-o,--out", own->out, "what to make")->type_name("FILE")->required();
+  addRenderOptions(verb, *own);
+  addGl(verb, own->gl);
+  verb->callback([&action, options, own] {
+    if (options->json) throw CLI::ExcludesError("--json", "render");
+    const std::string shapes = own->scene.shapes;
+    own->scene = options->scene;
+    own->scene.shapes = shapes;
+    action = [own](const Project& p) { return render(p, *own); };
+  });
+}
+
+}  // namespace
+
+void addScene(CLI::App* scene, Action& action) {
+  const auto options = std::make_shared<SceneOptions>();
+  scene->footer(
+      "Examples:\n  scripts/rex scene man\n  scripts/rex scene my_robot.urdf check\n"
+      "`scripts/rex scene FILE COMMAND --help` explains a command.\n"
+      "Exit codes: 0 done, 1 `check` found a file that does not load, 64 wrong use, or a\n"
+      "scene that does not load.");
+  addSceneFile(scene, "FILE", options->scene.file);
+  addReading(scene, options->scene.reading);
+  addJson(scene, options->json);
+  scene->require_subcommand(0, 1);
+  addInfo(scene, action, options);
+  addCheck(scene, action, options);
+  addKinematics(scene, action, options);
+  addJacobian(scene, action, options);
+  addContacts(scene, action, options);
+  addDynamics(scene, action, options);
+  addSceneRender(scene, action, options);
+  addConvert(scene, action, options);
+  scene->callback([&action, scene, options] {
+    if (scene->get_subcommands().empty())
+      action = [options](const Project& p) { return sceneInfo(p, *options); };
+  });
+}
+
+}  // namespace rex::cli

@@ -1,0 +1,65 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "cli/json_internal.h"
+#include "cli/robot/contact_limit.h"
+#include "cli/robot/posture_option.h"
+#include "cli/robot/scene_verbs.h"
+#include "cli/terminal.h"
+#include "collision/contacts.h"
+#include "collision/proxy_report.h"
+
+namespace rex::cli {
+namespace {
+
+void sayLines(const std::string& text) {
+  for (std::size_t start = 0; start < text.size();) {
+    const std::size_t end = text.find('\n', start);
+    say(harmless(text.substr(start, end - start)));
+    start = end + 1;
+  }
+}
+
+Json jsonOfPairs(const Model& model, const std::vector<Proxy>& near) {
+  Json pairs = Json::array();
+  for (const auto& [pair, proximity] : near)
+    pairs.push_back({{"a", shapeLabel(model, pair.a)},
+                     {"b", shapeLabel(model, pair.b)},
+                     {"distance", proximity.distance},
+                     {"pa", jsonOf(proximity.p_WA)},
+                     {"pb", jsonOf(proximity.p_WB)}});
+  return pairs;
+}
+
+}  // namespace
+
+ExitCode sceneContacts(const Project& project, const ContactsOptions& options) {
+  const double margin = options.margin.value_or(kContactMargin);
+  if (!(margin > 0) || !std::isfinite(margin)) {
+    throw UsageError(
+        {.what = "--margin", .found = fmt::format("{:g}", margin), .wanted = "a positive number of metres"});
+  }
+  const Model model = loadScene(project, options.scene.scene);
+  const Eigen::VectorXd q =
+      options.scene.posture.empty() ? model.initialPositions() : parsePosture(model, options.scene.posture);
+  const ContactModel contacts = contactModelOf(model);
+  const BodyPoses poses = forwardKinematics(model, q);
+  const double reach = std::max(margin, kQueryCutoff);
+  const std::vector<Proxy> near = proxies(contacts, poses, reach);
+  const double cost = contactCost(contacts, poses, margin);
+  if (options.scene.json) {
+    say(dump(Json{{"cost", cost}, {"pairs", jsonOfPairs(model, near)}}));
+    return ExitCode::kFull;
+  }
+  say(fmt::format(
+      "{} pairs of shapes may collide, {} are nearer than {:g} m; contact cost {:.6g} with a margin "
+      "of {:g} m",
+      contacts.pairs().size(), near.size(), reach, cost, margin));
+  if (!near.empty()) sayLines(proxyReport(model, near));
+  return ExitCode::kFull;
+}
+
+}  // namespace rex::cli

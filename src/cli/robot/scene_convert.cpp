@@ -1,0 +1,81 @@
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/lower_case.h"
+#include "base/text_file.h"
+#include "cli/out_folder.h"
+#include "cli/robot/scene_verbs.h"
+#include "cli/wrong_use_internal.h"
+#include "scene/ors_writer.h"
+#include "scene/urdf_writer.h"
+
+namespace rex::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path folderOf(const fs::path& file) { return fs::absolute(file).lexically_normal().parent_path(); }
+
+void requireEnding(const fs::path& out) {
+  const std::string ending = out.extension().string();
+  if (endingOf(out) == ".ors" || endingOf(out) == ".urdf") return;
+  throw UsageError({.what = fmt::format("cannot write '{}'", harmless(out.string())),
+                    .found = ending.empty() ? "no ending" : fmt::format("the ending '{}'", harmless(ending)),
+                    .wanted = ".ors or .urdf",
+                    .nearest = nearestNames(ending, {".ors", ".urdf"})});
+}
+
+void requireAnother(const fs::path& in, const fs::path& out) {
+  std::error_code ignored;
+  if (fs::equivalent(in, out, ignored))
+    throw UsageError({.what = fmt::format("'{}' is the scene itself", harmless(out.string())),
+                      .wanted = "another file to write"});
+}
+
+// What the new file names may lie outside the folder in which its readers look.
+void warnOfMeshesOutside(const SceneSpec& spec, const fs::path& out) {
+  const fs::path above = fs::weakly_canonical(folderOf(out) / "..");
+  fs::path root = above;
+  const auto widen = [&](const std::vector<ShapeSpec>& shapes) {
+    for (const ShapeSpec& shape : shapes) {
+      if (shape.meshPath.empty()) continue;
+      const fs::path mesh = fs::weakly_canonical(shape.meshPath);
+      while (std::mismatch(root.begin(), root.end(), mesh.begin(), mesh.end()).first != root.end())
+        root = root.parent_path();
+    }
+  };
+  widen(spec.worldShapes);
+  for (const BodySpec& body : spec.bodies) widen(body.shapes);
+  if (root == above) return;
+  note(wrap(fmt::format("its meshes stay where they are; read it with --assets {}", harmless(root.string())),
+            2, 0));
+}
+
+}  // namespace
+
+ExitCode sceneConvert(const Project& project, const ConvertOptions& options) {
+  requireEnding(options.out);
+  requireAnother(fileOf(project, options.scene), options.out);
+  const SceneSpec spec = loadSpec(project, options.scene);
+  const fs::path folder = folderOf(options.out);
+  std::string text;
+  if (endingOf(options.out) == ".ors") {
+    text = asWrongUse([&] { return writeOrs(spec, folder); });
+  } else {
+    UrdfText urdf = asWrongUse([&] { return writeUrdf(spec, folder); });
+    for (const Diagnostic& one : urdf.notes) note(wrap(harmless(toString(one)), 2, 0));
+    text = std::move(urdf.text);
+  }
+  asWrongUse([&] {
+    makeOutFolder(folder);
+    writeTextFile(options.out, text);
+  });
+  warnOfMeshesOutside(spec, options.out);
+  say(shown(options.out));
+  return ExitCode::kFull;
+}
+
+}  // namespace rex::cli

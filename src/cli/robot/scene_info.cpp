@@ -1,0 +1,198 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/json_internal.h"
+#include "cli/robot/scene_verbs.h"
+#include "cli/terminal.h"
+
+namespace rex::cli {
+namespace {
+
+// "q3", "q3..q5", or what the joint has instead.
+std::string coordinatesOf(const Joint& joint) {
+  if (joint.nq == 0) return "rigid";
+  const std::string last = joint.nq > 1 ? fmt::format("..q{}", joint.qIndex + joint.nq - 1) : "";
+  const std::string own = fmt::format("q{}{}", joint.qIndex, last);
+  if (!joint.mimics || (joint.ratio == 1 && joint.offset == 0)) return joint.mimics ? "as " + own : own;
+  const std::string offset = joint.offset == 0 ? "" : fmt::format(" {:+g}", joint.offset);
+  return fmt::format("{:g} {}{}", joint.ratio, own, offset);
+}
+
+// "2 mesh, box" of the shapes that are `chosen`.
+std::string typesOf(const std::vector<const ModelShape*>& shapes, bool ModelShape::*chosen) {
+  std::vector<std::pair<std::string, int>> counts;
+  for (const ModelShape* shape : shapes) {
+    if (!(shape->*chosen)) continue;
+    const std::string type(toString(shape->shape.type));
+    const auto known =
+        std::find_if(counts.begin(), counts.end(), [&](auto& one) { return one.first == type; });
+    known == counts.end() ? counts.emplace_back(type, 1).second : ++known->second;
+  }
+  std::vector<std::string> texts;
+  for (const auto& [type, count] : counts)
+    texts.push_back(count == 1 ? type : fmt::format("{} {}", count, type));
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+std::vector<std::vector<BodyId>> childrenOf(const Model& model) {
+  std::vector<std::vector<BodyId>> children(model.bodies().size());
+  for (std::size_t b = 1; b < model.bodies().size(); ++b)
+    children[static_cast<std::size_t>(model.bodies()[b].parent)].push_back(BodyId{static_cast<int>(b)});
+  return children;
+}
+
+// Lines of columns, each as wide as its longest entry but the last.
+class Table {
+ public:
+  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+  void print() const {
+    std::vector<std::size_t> widths;
+    for (const auto& row : rows_) {
+      widths.resize(std::max(widths.size(), row.size()));
+      for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+    }
+    for (const auto& row : rows_) {
+      std::string line;
+      for (std::size_t i = 0; i < row.size(); ++i) line += fmt::format("{:{}}  ", row[i], widths[i]);
+      say(line.substr(0, line.find_last_not_of(' ') + 1));
+    }
+  }
+
+ private:
+  std::vector<std::vector<std::string>> rows_;
+};
+
+// Of a long chain the depth is told by a number.
+std::string indented(const std::string& name, std::size_t depth) {
+  constexpr std::size_t kDeepest = 12;
+  if (depth <= kDeepest) return std::string(2 * depth, ' ') + name;
+  return std::string(2 * kDeepest, ' ') + fmt::format("({}) {}", depth, name);
+}
+
+void sayTree(const Model& model) {
+  const std::vector<std::vector<BodyId>> children = childrenOf(model);
+  std::vector<std::pair<BodyId, std::size_t>> waiting = {{kWorld, 0}};
+  Table table;
+  table.add({"body", "kg", "joint", "place in q"});
+  while (!waiting.empty()) {
+    const auto [id, depth] = waiting.back();
+    waiting.pop_back();
+    const Body& body = model[id];
+    const bool hangs = body.joint != kNoJoint;
+    table.add({indented(harmless(body.name), depth), body.mass == 0 ? "-" : fmt::format("{:.4g}", body.mass),
+               hangs ? harmless(model[body.joint].name) : "-",
+               hangs ? coordinatesOf(model[body.joint]) : "-"});
+    const auto& below = children[static_cast<std::size_t>(id)];
+    for (auto child = below.rbegin(); child != below.rend(); ++child) waiting.emplace_back(*child, depth + 1);
+  }
+  table.print();
+}
+
+void sayCoordinates(const Model& model) {
+  Table table;
+  table.add({"q", "joint", "type", "start", "low", "high"});
+  for (const Joint& joint : model.joints()) {
+    if (joint.mimics) continue;
+    for (int i = 0; i < joint.nq; ++i) {
+      const int at = joint.qIndex + i;
+      const auto limit = [](double value) {
+        return std::isfinite(value) ? fmt::format("{:.4g}", value) : std::string("-");
+      };
+      table.add({std::to_string(at), i == 0 ? harmless(joint.name) : "",
+                 i == 0 ? std::string(toString(joint.type)) : "",
+                 fmt::format("{:.4g}", model.initialPositions()[at]), limit(model.lowerLimits()[at]),
+                 limit(model.upperLimits()[at])});
+    }
+  }
+  table.print();
+}
+
+void sayShapes(const Model& model) {
+  std::vector<std::vector<const ModelShape*>> shapes(model.bodies().size());
+  for (const ModelShape& shape : model.shapes())
+    shapes[static_cast<std::size_t>(shape.body)].push_back(&shape);
+  Table table;
+  table.add({"body", "drawn", "in contact"});
+  for (std::size_t b = 0; b < shapes.size(); ++b) {
+    const std::string drawn = typesOf(shapes[b], &ModelShape::visible);
+    const std::string contact = typesOf(shapes[b], &ModelShape::contact);
+    if (drawn.empty() && contact.empty()) continue;
+    table.add(
+        {harmless(model.bodies()[b].name), drawn.empty() ? "-" : drawn, contact.empty() ? "-" : contact});
+  }
+  table.print();
+}
+
+// Of a joint that mimics: which, and how.
+Json mimicOf(const Model& model, const Joint& joint) {
+  if (!joint.mimics) return {};
+  const auto target = std::find_if(model.joints().begin(), model.joints().end(), [&](const Joint& other) {
+    return !other.mimics && other.nq > 0 && other.qIndex == joint.qIndex;
+  });
+  return {{"joint", target->name}, {"ratio", joint.ratio}, {"offset", joint.offset}};
+}
+
+Json infoOf(const Model& model) {
+  Json joints = Json::array(), bodies = Json::array(), masses = Json::array(), shapes = Json::array();
+  for (const Joint& joint : model.joints()) {
+    Json& one = joints.emplace_back(Json{{"name", joint.name},
+                                         {"from", model[joint.parent].name},
+                                         {"to", model[joint.child].name},
+                                         {"type", toString(joint.type)},
+                                         {"q_index", joint.qIndex},
+                                         {"dim", joint.nq},
+                                         {"mimics", mimicOf(model, joint)}});
+    if (joint.nq == 0) continue;
+    one["low"] = jsonOf(model.lowerLimits().segment(joint.qIndex, joint.nq));
+    one["high"] = jsonOf(model.upperLimits().segment(joint.qIndex, joint.nq));
+  }
+  for (const BodyId id : model.bodiesInFileOrder()) {
+    bodies.push_back(model[id].name);
+    masses.push_back(model[id].mass);
+  }
+  for (const ModelShape& shape : model.shapes())
+    shapes.push_back({{"name", shape.name},
+                      {"body", model[shape.body].name},
+                      {"type", toString(shape.shape.type)},
+                      {"contact", shape.contact},
+                      {"visible", shape.visible}});
+  return {{"ndof", model.nv()}, {"nq", model.nq()},    {"q", jsonOf(model.initialPositions())},
+          {"joints", joints},   {"bodies", bodies},    {"body_masses", masses},
+          {"shapes", shapes},   {"mass", model.mass()}};
+}
+
+}  // namespace
+
+ExitCode sceneInfo(const Project& project, const SceneOptions& options) {
+  const Model model = loadScene(project, options.scene);
+  if (options.json) {
+    say(dump(infoOf(model)));
+    return ExitCode::kFull;
+  }
+  const auto count = [](std::size_t n, const char* one, const char* many) {
+    return fmt::format("{} {}", n, n == 1 ? one : many);
+  };
+  say(paint(Colour::kBold, harmless(model.name())) +
+      fmt::format(": {}, {}, {}, {}, {:.6g} kg", count(model.bodies().size() - 1, "body", "bodies"),
+                  count(model.joints().size(), "joint", "joints"),
+                  count(static_cast<std::size_t>(model.nv()), "degree of freedom", "degrees of freedom"),
+                  count(model.shapes().size(), "shape", "shapes"), model.mass()));
+  say();
+  sayTree(model);
+  if (model.nq() > 0) {
+    say();
+    sayCoordinates(model);
+  }
+  if (!model.shapes().empty()) {
+    say();
+    sayShapes(model);
+  }
+  return ExitCode::kFull;
+}
+
+}  // namespace rex::cli

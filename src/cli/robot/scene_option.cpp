@@ -1,0 +1,85 @@
+#include "cli/robot/scene_option.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "base/lower_case.h"
+#include "cli/wrong_use_internal.h"
+#include "scene/find_scene.h"
+
+namespace rex::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What is drawn only on request lies around what is seen anyway.
+void chooseVisibility(ShapeSpec& shape, const std::string& shapes) {
+  constexpr double kTranslucent = 0.35;
+  if (shapes == "contact") shape.visible = shape.contact;
+  if (shapes != "all" || shape.visible) return;
+  shape.visible = true;
+  shape.color[3] *= kTranslucent;
+}
+
+void chooseShapes(SceneSpec& spec, const std::string& shapes) {
+  const std::vector<std::string> known = {"visible", "contact", "all"};
+  if (!shapes.empty() && shapes != known[0] && shapes != known[1] && shapes != known[2])
+    throw UsageError({.what = "--shapes",
+                      .found = "'" + harmless(shapes) + "'",
+                      .wanted = "visible, contact or all",
+                      .nearest = nearestNames(shapes, known)});
+  bool anyContact = false;
+  const auto chooseAll = [&](std::vector<ShapeSpec>& some) {
+    for (ShapeSpec& shape : some) {
+      chooseVisibility(shape, shapes);
+      anyContact |= shape.contact;
+    }
+  };
+  chooseAll(spec.worldShapes);
+  for (BodySpec& body : spec.bodies) chooseAll(body.shapes);
+  if (shapes == "contact" && !anyContact)
+    throw UsageError({.what = "--shapes contact", .found = "no shape that takes part in contacts"});
+}
+
+// Those who bring a robot without its meshes need not search for the way out.
+SceneFile read(const fs::path& file, const ReadOptions& reading) {
+  return asWrongUse([&] {
+    try {
+      return readScene(file, reading);
+    } catch (const Error& error) {
+      if (error.parts().what.ends_with(": mesh"))
+        note("--assets DIR names the folder of all meshes, --allow-missing-meshes draws boxes instead");
+      throw;
+    }
+  });
+}
+
+}  // namespace
+
+void requireMeaning(const fs::path& file, const ReadOptions& reading) {
+  if (reading.freeBase && endingOf(file) == ".ors")
+    throw UsageError({.what = "--free-base",
+                      .found = "an .ors file",
+                      .wanted = "a .urdf file; in .ors, a joint of type free says it"});
+}
+
+fs::path fileOf(const Project& project, const SceneOption& scene) {
+  return asWrongUse([&] { return shown(findScene(scene.file, project.root / "data")); });
+}
+
+SceneSpec loadSpec(const Project& project, const SceneOption& scene) {
+  const fs::path file = fileOf(project, scene);
+  requireMeaning(file, scene.reading);
+  SceneFile loaded = read(file, scene.reading);
+  for (const Diagnostic& one : loaded.notes) note(wrap(harmless(toString(one)), 2, 0));
+  loaded.spec.name = scene.file.filename().string();
+  chooseShapes(loaded.spec, scene.shapes);
+  return std::move(loaded.spec);
+}
+
+Model loadScene(const Project& project, const SceneOption& scene) {
+  const SceneSpec spec = loadSpec(project, scene);
+  return asWrongUse([&] { return compile(spec); });
+}
+
+}  // namespace rex::cli

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "cli/exit_code.h"
+#include "cli/robot/scene_option.h"
+
+namespace rex::cli {
+
+struct SceneOptions {
+  SceneOption scene{};
+  std::string posture{};  ///< see parsePosture(); empty: that of the file
+  bool json = false;
+};
+/// The bodies as a tree, and the coordinates of the joints.
+ExitCode sceneInfo(const Project& project, const SceneOptions& options);
+/// Everything that is wrong with a file. kBelow if it does not load.
+ExitCode sceneCheck(const Project& project, const SceneOptions& options);
+/// Where the bodies are.
+ExitCode sceneKinematics(const Project& project, const SceneOptions& options);
+
+struct JacobianOptions {
+  SceneOptions scene{};
+  std::string body{};
+  std::string point{};  ///< x,y,z in the body's frame, metres; empty: its origin
+};
+ExitCode sceneJacobian(const Project& project, const JacobianOptions& options);
+
+struct ContactsOptions {
+  SceneOptions scene{};
+  std::optional<double> margin{};  ///< metres; 0.1
+};
+/// What may collide and is near, and what that costs.
+ExitCode sceneContacts(const Project& project, const ContactsOptions& options);
+
+struct DynamicsOptions {
+  SceneOptions scene{};
+  std::string velocity{};  ///< see parseVelocities(); empty: at rest
+  std::string force{};     ///< see parseForces(); empty: none
+};
+/// Mass matrix, bias forces, energies, and how the joints accelerate.
+ExitCode sceneDynamics(const Project& project, const DynamicsOptions& options);
+
+struct ConvertOptions {
+  SceneOption scene{};
+  std::filesystem::path out{};  ///< its ending says which format
+};
+/// Writes the scene in another format.
+ExitCode sceneConvert(const Project& project, const ConvertOptions& options);
+
+}  // namespace rex::cli

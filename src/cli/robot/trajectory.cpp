@@ -1,0 +1,277 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/text_file.h"
+#include "cli/json_internal.h"
+#include "cli/option_value_internal.h"
+#include "cli/point_option.h"
+#include "cli/robot/contact_limit.h"
+#include "cli/robot/film_file.h"
+#include "cli/robot/motion_files.h"
+#include "cli/robot/path_motion.h"
+#include "cli/robot/path_pictures.h"
+#include "cli/robot/posture_within_limits.h"
+#include "cli/robot/robot_options_internal.h"
+#include "cli/robot/robot_room_internal.h"
+#include "cli/robot/trajectory_search.h"
+#include "cli/wrong_use_internal.h"
+#include "planning/robot_problem.h"
+
+namespace rex::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct TrajectoryOptions {
+  SceneOption scene{};
+  std::string start{};   ///< see parsePosture(); empty: that of the file
+  std::string goal{};    ///< BODY:x,y,z
+  bool avoid = false;    ///< keep shapes apart
+  double margin = 0.02;  ///< metres between all pairs of shapes
+  int steps = 100;
+  double seconds = 2;  ///< of the motion
+  std::string method = "augmented-lagrangian";
+  RenderOptions film{};  ///< cameras, size and gl of the pictures
+  bool noFilm = false;
+  bool json = false;
+  std::filesystem::path out{};  ///< a folder
+};
+
+ConstraintMethod methodOf(const std::string& name) {
+  return choose<ConstraintMethod>("--method", name,
+                                  {{"augmented-lagrangian", ConstraintMethod::kAugmentedLagrangian},
+                                   {"penalty", ConstraintMethod::kSquaredPenalty},
+                                   {"barrier", ConstraintMethod::kLogBarrier}});
+}
+
+std::pair<BodyId, Eigen::Vector3d> goalOf(const Model& model, const std::string& text) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string::npos)
+    throw UsageError({.what = "--goal", .found = "'" + harmless(text) + "'", .wanted = "BODY:x,y,z"});
+  const BodyId body = asWrongUse([&] { return model.body(text.substr(0, colon)); }, "--goal: ");
+  return {body, parsePoint(text.substr(colon + 1), "--goal", "BODY:x,y,z")};
+}
+
+void requireStartIsClear(const TrajectoryTask& task) {
+  if (contactFree(task.model, task.contacts, task.margin)(task.start)) return;
+  throw UsageError({.what = "--start",
+                    .found = harmless(nearestContact(task.model, task.contacts, task.start)),
+                    .wanted = fmt::format("all shapes {:g} m apart, the --margin", task.margin)});
+}
+
+TrajectoryTask taskOf(Model model, const TrajectoryOptions& options) {
+  const auto [body, p_WQ] = goalOf(model, options.goal);
+  ContactModel contacts = contactModelOf(model);
+  const Eigen::VectorXd start =
+      postureWithinLimits(model, "--start", options.start.empty() ? "file" : options.start);
+  TrajectoryTask task{.model = std::move(model),
+                      .contacts = std::move(contacts),
+                      .body = body,
+                      .p_WQ = p_WQ,
+                      .start = start,
+                      .avoids = options.avoid,
+                      .margin = options.margin,
+                      .steps = options.steps,
+                      .seconds = options.seconds,
+                      .method = methodOf(options.method)};
+  if (task.avoids && task.contacts.pairs().empty())
+    note(harmless(task.model.name()) + ": no two shapes may collide: there is nothing to avoid");
+  task.avoids = task.avoids && !task.contacts.pairs().empty();
+  if (task.avoids) requireStartIsClear(task);
+  return task;
+}
+
+Motion motionOf(const FoundTrajectory& found) {
+  Motion motion;
+  for (Eigen::Index k = 0; k < found.path.cols(); ++k) {
+    motion.times.push_back(static_cast<double>(k) * found.tau);
+    motion.postures.emplace_back(found.path.col(k));
+  }
+  return motion;
+}
+
+// What lies on the straight ways between steps, at the rate of films.
+Motion filmOf(const FoundTrajectory& found) {
+  Motion motion;
+  const double end = static_cast<double>(found.path.cols() - 1) * found.tau;
+  const int frames = std::max(1, static_cast<int>(std::lround(end * kFilmRate)));
+  for (int i = 0; i <= frames; ++i) {
+    const double time = end * i / frames, step = time / found.tau;
+    const auto k = std::min(static_cast<Eigen::Index>(step), found.path.cols() - 2);
+    const double share = step - static_cast<double>(k);
+    motion.times.push_back(time);
+    motion.postures.emplace_back((1 - share) * found.path.col(k) + share * found.path.col(k + 1));
+  }
+  return motion;
+}
+
+// Both fall over many powers of ten; what is zero stands at the foot.
+Figure costFigure(const FoundTrajectory& found) {
+  constexpr double kFoot = 1e-12;
+  Series cost{.label = "cost"}, violation{.label = "largest violation of a constraint"};
+  for (std::size_t i = 0; i < found.solution.log.size(); ++i) {
+    const ConstrainedIteration& one = found.solution.log[i];
+    for (Series* series : {&cost, &violation}) series->x.push_back(static_cast<double>(i + 1));
+    cost.y.push_back(std::max(one.cost, kFoot));
+    violation.y.push_back(std::max(one.violation, kFoot));
+  }
+  return {.title = "costs",
+          .xLabel = "Newton step",
+          .yLabel = "cost, violation [1]",
+          .logY = true,
+          .series = {cost, violation}};
+}
+
+std::string titleOf(const TrajectoryTask& task) {
+  return fmt::format("{}: {} to {:g}, {:g}, {:g}", harmless(task.model.name()),
+                     harmless(task.model[task.body].name), task.p_WQ.x(), task.p_WQ.y(), task.p_WQ.z());
+}
+
+// No times of computing in it: the same input gives the same bytes.
+Report replayOf(const TrajectoryTask& task, const FoundTrajectory& found, const Motion& motion) {
+  Report report{.title = titleOf(task),
+                .figures = {{jointsFigure(task.model, motion)}, {costFigure(found)}},
+                .facts = {{"method", nameOf(task.method)},
+                          {"status", nameOf(found.solution.status)},
+                          {"cost", fmt::format("{:.6g}", found.solution.cost)},
+                          {"distance from the goal", fmt::format("{:.3g} m", found.error)},
+                          {"Newton steps", fmt::format("{}", found.solution.log.size())}}};
+  if (task.contacts.pairs().empty()) return report;
+  report.figures.push_back({clearanceFigure(task.model, task.contacts, motion, task.margin)});
+  report.facts.emplace_back("clearance", fmt::format("{:.4g} m", found.clearance.distance));
+  return report;
+}
+
+std::vector<std::string> writeFiles(const TrajectoryTask& task, const TrajectoryOptions& options,
+                                    const RenderPlan& pictures, const FoundTrajectory& found) {
+  std::vector<fs::path> files{options.out / "costs.png", options.out / "trajectory.csv"};
+  writeFigure(costFigure(found), files.front());
+  writeTextFile(files.back(), csvOf(task.model, motionOf(found)));
+  if (!options.noFilm) {
+    const Motion film = filmOf(found);
+    for (const fs::path& file : writeFilmAndReplay(task.model, film, task.body, replayOf(task, found, film),
+                                                   pictures, options.out / "trajectory"))
+      files.push_back(file);
+  }
+  std::vector<std::string> names;
+  for (const fs::path& file : files) names.push_back(shown(file));
+  return names;
+}
+
+std::string summaryOf(const TrajectoryTask& task, const FoundTrajectory& found) {
+  std::string text = fmt::format("{}\n{}\n", titleOf(task), found.solution.message);
+  text += fmt::format("goal       {:.3g} m away at the end, after {:g} s in {} steps\n", found.error,
+                      task.seconds, task.steps);
+  text +=
+      fmt::format("CPU time   {:.1f} ms, {} Newton steps", 1e3 * found.cpuTime, found.solution.log.size());
+  const auto& [distance, step] = found.clearance;
+  if (!std::isfinite(distance)) return text + "\nclearance  nothing can collide";
+  text += distance > 0 ? fmt::format("\nclearance  {:.4f} m proven all along the way", distance)
+                       : fmt::format("\nclearance  none: shapes may overlap by {:.4f} m", -distance);
+  return text +
+         fmt::format(", nearest in step {}{}", step,
+                     task.avoids ? fmt::format(", margin {:g} m", task.margin) : "; nothing was avoided");
+}
+
+std::string jsonTextOf(const TrajectoryTask& task, const FoundTrajectory& found,
+                       const std::vector<std::string>& files) {
+  const bool canCollide = std::isfinite(found.clearance.distance);
+  return dump(Json{{"scene", task.model.name()},
+                   {"body", task.model[task.body].name},
+                   {"method", nameOf(task.method)},
+                   {"status", nameOf(found.solution.status)},
+                   {"message", found.solution.message},
+                   {"cost", found.solution.cost},
+                   {"violation", found.solution.violation},
+                   {"most_violated", found.solution.mostViolated},
+                   {"newton_steps", found.solution.log.size()},
+                   {"cpu_seconds", found.cpuTime},
+                   {"error", found.error},
+                   {"clearance", canCollide ? Json(found.clearance.distance) : Json()},
+                   {"tau", found.tau},
+                   {"path", jsonOfRows(found.path.transpose())},
+                   {"files", files}});
+}
+
+void requireSensible(const TrajectoryOptions& options) {
+  requireBetween("--margin", options.margin, 1e-4, 1);
+  requireBetween("--steps", options.steps, 3, 10'000);
+  requireBetween("--seconds", options.seconds, 1e-3, kLongestFilm);
+}
+
+// Moves a body to a point with little acceleration; writes the motion, its costs, a film and a replay.
+// kBelow if a constraint does not hold, or the motion is not proven clear.
+ExitCode planTrajectory(const Project& project, const TrajectoryOptions& options) {
+  RenderOptions filmOptions = options.film;
+  filmOptions.out = options.out / "trajectory.mp4";
+  const RenderPlan pictures = planOf(filmOptions);
+  requireSensible(options);
+  Model model = loadScene(project, options.scene);
+  if (model.nv() == 0) throw UsageError({.what = model.name(), .found = "no joint that moves"});
+  if (model.nq() != model.nv())
+    throw UsageError(
+        {.what = model.name(), .found = "joints with quaternions", .wanted = "hinges and sliders"});
+  if (!options.noFilm) requireFilmable(model);
+  const TrajectoryTask task = taskOf(std::move(model), options);
+  makeResultFolder(options.out, {"costs.png", "trajectory.csv", "trajectory.mp4", "trajectory.html"},
+                   "trajectory");
+
+  const FoundTrajectory found = findTrajectory(task);
+  const std::vector<std::string> files = writeFiles(task, options, pictures, found);
+  if (options.json) {
+    say(jsonTextOf(task, found, files));
+  } else {
+    say(summaryOf(task, found));
+    for (const std::string& file : files) say(file);
+  }
+  if (found.isSolved() && task.avoids && found.clearance.distance <= 0)
+    note("it is not proven that shapes stay apart between steps: give more --steps or a larger --margin");
+  return found.isSolved() && !(task.avoids && found.clearance.distance <= 0) ? ExitCode::kFull
+                                                                             : ExitCode::kBelow;
+}
+
+}  // namespace
+
+void addTrajectory(CLI::App* command, Action& action) {
+  const auto options = std::make_shared<TrajectoryOptions>();
+  command->footer(
+      "Examples:\n  scripts/rex trajectory arm7 --goal arm7:0.5,0.2,0.6 -o reach\n"
+      "  scripts/rex trajectory board --goal eff:0,-0.3,0.5 --avoid -o around\n\n"
+      "Minimises the accelerations of all joints from rest to rest (slides 5:3 to 5:5). DIR gets costs.png,\n"
+      "trajectory.csv (time and joints; `rex render --motion` reads it), trajectory.mp4 and\n"
+      "trajectory.html (a replay).\n"
+      "Exit codes: 0 found, 1 not: it says which constraint does not hold; 64 wrong use.");
+  addSceneFile(command, "SCENE", options->scene.file);
+  command->add_option("-o,--out", options->out, "folder for what is written")->type_name("DIR")->required();
+  command->add_option("--goal", options->goal, "where the origin of the body shall come to rest, metres")
+      ->type_name("BODY:x,y,z")
+      ->required();
+  command->add_option("--start", options->start, "all numbers, joint=number,..., 0, or file (default: file)")
+      ->type_name("POSTURE");
+  command->add_flag("--avoid", options->avoid, "all shapes keep apart, also between steps");
+  command->add_option("--margin", options->margin, "by so much (default: 0.02)")->type_name("METRES");
+  command->add_option("--steps", options->steps, "of the motion (default: 100)")->type_name("N");
+  command->add_option("--seconds", options->seconds, "it takes (default: 2)")->type_name("S");
+  command
+      ->add_option("--method", options->method,
+                   "augmented-lagrangian, penalty, barrier (default: augmented-lagrangian)")
+      ->type_name("NAME");
+  command->add_flag("--no-film", options->noFilm, "no trajectory.mp4 and trajectory.html");
+  addFilmOptions(command, options->film);
+  addJson(command, options->json);
+  addReading(command, options->scene.reading);
+  addGl(command, options->film.gl);
+  command->callback(
+      [&action, options] { action = [options](const Project& p) { return planTrajectory(p, *options); }; });
+}
+
+}  // namespace rex::cli

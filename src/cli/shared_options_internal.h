@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+namespace rex::cli {
+
+/// What is wrong with a seed; nothing for one that thousands of others can follow.
+std::string wrongSeed(const std::string& text);
+
+/// `--seed N`. Refuses what is no seed; CLI11 alone takes -1 for the largest number there is.
+template <typename Seed>
+void addSeed(CLI::App* command, Seed& seed, const std::string& help) {
+  command->add_option("--seed", seed, help)->check(wrongSeed)->type_name("N");
+}
+
+/// `--level N` of the sandbox.
+CLI::Option* addLevel(CLI::App* command, std::optional<int>& level);
+
+}  // namespace rex::cli

@@ -1,0 +1,95 @@
+#include "cli/student/hint.h"
+
+#include <algorithm>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "cli/student/exercise_option_internal.h"
+#include "cli/student/progress_file.h"
+#include "cli/student/student_room_internal.h"
+#include "cli/terminal.h"
+#include "grading/result_file.h"
+
+namespace rex::cli {
+namespace {
+
+using grading::ExercisePart;
+
+const ExercisePart& partCalled(const ExerciseInfo& exercise, const std::string& id) {
+  std::vector<std::string> ids;
+  for (const ExercisePart& part : exercise.parts) {
+    if (part.id == id) return part;
+    ids.push_back(part.id);
+  }
+  throw UsageError({.what = fmt::format("{} has no part '{}'", exercise.name, harmless(id)),
+                    .wanted = fmt::format("one of {}", fmt::join(ids, ", ")),
+                    .nearest = nearestNames(id, ids)});
+}
+
+// The first part that lost points in the last test; without a test, the first.
+const ExercisePart& partInNeed(const Project& project, const ExerciseInfo& exercise) {
+  try {
+    const grading::GradeResult result =
+        grading::loadResult(project.outFolder(exercise, false) / "results.json");
+    for (const ExercisePart& part : exercise.parts)
+      for (const grading::CheckResult& check : result.checks)
+        if (check.part == part.id && check.points < check.maxPoints) return part;
+  } catch (const Error&) {
+  }
+  return exercise.parts.front();
+}
+
+void sayHint(const ExercisePart& part, int number) {
+  const std::string start = fmt::format("  {} of {}: ", number, part.hints.size());
+  say(start + wrap(part.hints[static_cast<std::size_t>(number - 1)], start.size(), start.size()));
+}
+
+}  // namespace
+
+ExitCode hint(const Project& project, const HintOptions& options) {
+  const ExerciseInfo exercise = project.exercise(options.exercise);
+  const ExercisePart& part =
+      options.part.empty() ? partInNeed(project, exercise) : partCalled(exercise, options.part);
+  const int all = static_cast<int>(part.hints.size());
+  if (all == 0) {
+    say(fmt::format("There are no hints for part '{}' of {}.", part.id, exercise.name));
+    return ExitCode::kFull;
+  }
+  int before = 0, now = 0;
+  const bool kept = ProgressFile(project.root).change(exercise.name, [&](Progress& progress) {
+    int& shownSoFar = progress.hints[part.id];
+    before = std::clamp(shownSoFar, 0, all);
+    now = options.again ? before : std::min(before + 1, all);
+    shownSoFar = now;
+  });
+  if (!options.again) now = std::max(now, 1);  // also where nothing can be remembered
+  say(paint(Colour::kBold, fmt::format("{} [{}]", part.title, part.id)));
+  if (options.again && now == 0) say("  no hint was shown yet");
+  // Those that were shown already only if there is no new one, or on request.
+  for (int number = now > before ? now : 1; number <= now; ++number) sayHint(part, number);
+  if (now == all)
+    say("  That was the last hint for this part.");
+  else if (!kept)
+    say(fmt::format("  {} more in {}, as they cannot be counted here", all - now,
+                    shown(exercise.folder / "exercise.toml")));
+  else
+    say(fmt::format("  {} more: scripts/rex hint {} {}", all - now, exercise.name, part.id));
+  return ExitCode::kFull;
+}
+
+void addHint(CLI::App* command, Action& action) {
+  const auto options = std::make_shared<HintOptions>();
+  command->footer(
+      "Examples:\n  scripts/rex hint 01\n  scripts/rex hint 01 step --again\n\n"
+      "Without PART, for the first part that lost points in your last test.");
+  addExercise(command, options->exercise);
+  command->add_option("PART", options->part, "id of a part in exercise.toml")->type_name("");
+  command->add_flag("--again", options->again, "show those that you have seen");
+  command->callback(
+      [&action, options] { action = [options](const Project& p) { return hint(p, *options); }; });
+}
+
+}  // namespace rex::cli

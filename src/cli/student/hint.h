@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "cli/exit_code.h"
+#include "cli/project.h"
+
+namespace rex::cli {
+
+struct HintOptions {
+  std::string exercise;
+  std::string part;    ///< empty: the first that needs one
+  bool again = false;  ///< those that were shown
+};
+ExitCode hint(const Project& project, const HintOptions& options);
+
+}  // namespace rex::cli

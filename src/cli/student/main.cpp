@@ -1,0 +1,6 @@
+#include "cli/run_program.h"
+#include "cli/student/student_room.h"
+
+int main(int argc, char** argv) {
+  return rex::cli::runProgram(argc, argv, {REX_PROJECT_ROOT, REX_BUILD_FOLDER}, rex::cli::studentRoom());
+}

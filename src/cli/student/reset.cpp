@@ -1,0 +1,83 @@
+#include "cli/student/reset.h"
+
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/text_file.h"
+#include "cli/student/exercise_option_internal.h"
+#include "cli/student/student_room_internal.h"
+#include "cli/terminal.h"
+#include "submission/regions.h"
+
+namespace rex::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// main.cpp as students got it: a release keeps a copy, the course makes it from the solution.
+std::string starterOf(const ExerciseInfo& exercise) {
+  const fs::path copy = exercise.folder / "starter.cpp", solution = exercise.folder / "solution.cpp";
+  if (fs::exists(copy)) return readTextFile(copy);
+  if (fs::exists(solution)) return grading::stripSolution(readTextFile(solution), solution.string());
+  throw UsageError({.what = fmt::format("{} has no copy of main.cpp as it was handed out", exercise.name),
+                    .where = {copy.string()}});
+}
+
+// Under a name that nobody has taken: a second name of the same file, which cannot be lost half way. Where
+// the file system knows none, a copy that lies on the disk before we go on.
+fs::path keepBackup(const fs::path& main) {
+  for (int k = 1;; ++k) {
+    const fs::path backup = main.parent_path() / fmt::format("main.backup-{}.cpp", k);
+    if (fs::exists(fs::symlink_status(backup))) continue;
+    std::error_code refused;
+    fs::create_hard_link(main, backup, refused);
+    if (refused == std::errc::file_exists) continue;
+    if (refused) replaceTextFile(backup, readTextFile(main), "the backup of your file");
+    return backup;
+  }
+}
+
+// A backup of a file that stays would change with it.
+void replaceAndKeep(const fs::path& main, const std::string& starter) {
+  const fs::path backup = keepBackup(main);
+  try {
+    replaceTextFile(main, starter, "the student's file");
+  } catch (const Error&) {
+    std::error_code ignored;
+    fs::remove(backup, ignored);
+    throw;
+  }
+  say(fmt::format("Your file is kept as {}.", shown(backup)));
+}
+
+}  // namespace
+
+ExitCode reset(const Project& project, const std::string& name) {
+  const ExerciseInfo exercise = project.exercise(name);
+  const fs::path main = exercise.folder / "main.cpp";
+  const std::string starter = starterOf(exercise);
+  if (fs::exists(main)) {
+    if (readTextFile(main) == starter) {
+      say(fmt::format("{} is as it was handed out.", shown(main)));
+      return ExitCode::kFull;
+    }
+    replaceAndKeep(main, starter);
+  } else {
+    replaceTextFile(main, starter, "the student's file");
+  }
+  say(fmt::format("{} is as it was handed out again.", shown(main)));
+  return ExitCode::kFull;
+}
+
+void addReset(CLI::App* command, Action& action) {
+  const auto name = std::make_shared<std::string>();
+  command->footer("Example: scripts/rex reset 01\n\nYour file is kept beside it as main.backup-1.cpp.");
+  addExercise(command, *name);
+  command->callback([&action, name] { action = [name](const Project& p) { return reset(p, *name); }; });
+}
+
+}  // namespace rex::cli

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "cli/exit_code.h"
+#include "cli/project.h"
+
+namespace rex::cli {
+
+/// Makes main.cpp as it was handed out, and keeps the one that is there.
+ExitCode reset(const Project& project, const std::string& name);
+
+}  // namespace rex::cli

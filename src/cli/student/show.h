@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "cli/exit_code.h"
+#include "cli/project.h"
+
+namespace rex::cli {
+
+struct ShowOptions {
+  std::string exercise;
+  bool solution = false;
+};
+/// Where replays, films, pictures and the result lie. kBelow if there are none.
+ExitCode show(const Project& project, const ShowOptions& options);
+
+}  // namespace rex::cli

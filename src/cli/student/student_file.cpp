@@ -1,0 +1,86 @@
+#include "cli/student/student_file.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/text_file.h"
+#include "cli/terminal.h"
+
+namespace rex::cli {
+
+using grading::CompileDiagnostic;
+
+namespace {
+
+// The compiler counts columns with tabs of eight.
+std::string expandTabs(const std::string& line) {
+  std::string expanded;
+  for (const char c : line) {
+    if (c == '\t')
+      expanded.append(8 - expanded.size() % 8, ' ');
+    else
+      expanded += c;
+  }
+  return expanded;
+}
+
+std::string lineOf(const std::string& source, int number) {
+  std::istringstream lines(source);
+  std::string line;
+  while (number-- > 0)
+    if (!std::getline(lines, line)) return "";
+  return line;
+}
+
+}  // namespace
+
+std::filesystem::path chooseStudentFile(const ExerciseInfo& exercise, bool solution,
+                                        const std::filesystem::path& main) {
+  if (!main.empty()) return main;
+  const std::filesystem::path file = exercise.folder / (solution ? "solution.cpp" : "main.cpp");
+  if (solution && !std::filesystem::exists(file))
+    throw UsageError(
+        {.what = fmt::format("{} comes without a solution here", exercise.name), .where = {file.string()}});
+  return file;
+}
+
+void explain(const std::vector<CompileDiagnostic>& messages, const std::string& source,
+             const std::filesystem::path& log) {
+  const auto isError = [](const CompileDiagnostic& message) { return message.severity == "error"; };
+  const auto first = std::find_if(messages.begin(), messages.end(), isError);
+  if (first == messages.end()) return;
+  note(wrap(harmless(toString(*first)), 2, 0));
+  const std::string line = first->line > 0 ? lineOf(source, first->line) : "";
+  if (!line.empty()) {
+    note("  " + harmless(expandTabs(line)));
+    if (first->column > 0) note(fmt::format("{:>{}}", '^', 2 + first->column));
+  }
+  const auto others = std::count_if(messages.begin(), messages.end(), isError) - 1;
+  if (others > 0) note(fmt::format("and {} more; the first one often causes the rest.", others));
+  note(fmt::format("Full log: {}", shown(log)));
+}
+
+std::optional<std::filesystem::path> buildProgram(const Project& project, const ExerciseInfo& exercise,
+                                                  const grading::StudentBuildOptions& options,
+                                                  const std::filesystem::path& out) {
+  const grading::Toolchain toolchain = prepare(project, exercise);
+  const std::filesystem::path log = out / "build.log";
+  // Trying things out is free: only grading looks for forbidden calls.
+  const grading::StudentObject object = compileStudent(toolchain, {}, options);
+  writeTextFile(log, object.log);
+  if (!object.ok) {
+    explain(object.messages, object.source, log);
+    return {};
+  }
+  for (const CompileDiagnostic& message : object.messages) note(wrap(harmless(toString(message)), 2, 0));
+  const grading::StudentProgram program = linkProgram(toolchain, object);
+  if (program.ok) return program.program;
+  writeTextFile(log, program.log);
+  explain(program.messages, object.source, log);
+  return {};
+}
+
+}  // namespace rex::cli

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/project.h"
+#include "submission/student_build.h"
+
+namespace rex::cli {
+
+/// The file to work on: `main` if given, the exercise's solution.cpp if asked for, else its main.cpp. Throws
+/// UsageError when the solution is wanted in a tree that has none.
+[[nodiscard]] std::filesystem::path chooseStudentFile(const ExerciseInfo& exercise, bool solution,
+                                                      const std::filesystem::path& main = {});
+
+/// Compiles the file and links the student's program, keeping the log in out/build.log. Prints what is wrong
+/// with the file and returns no program then. Throws Error when the tools fail, and as prepare() does.
+[[nodiscard]] std::optional<std::filesystem::path> buildProgram(const Project& project,
+                                                                const ExerciseInfo& exercise,
+                                                                const grading::StudentBuildOptions& options,
+                                                                const std::filesystem::path& out);
+
+/// Prints the first error at length and the number of others, and where the log lies.
+void explain(const std::vector<grading::CompileDiagnostic>& messages, const std::string& source,
+             const std::filesystem::path& log);
+
+}  // namespace rex::cli

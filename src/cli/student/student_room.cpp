@@ -1,0 +1,24 @@
+#include "cli/student/student_room.h"
+
+#include "cli/student/progress.h"
+#include "cli/student/student_room_internal.h"
+
+namespace rex::cli {
+
+Room studentRoom() {
+  return {.program = Program::kStudent,
+          .commands = {{"debug", addDebug},
+                       {"hint", addHint},
+                       {"list", addList},
+                       {"report", addReport},
+                       {"reset", addReset},
+                       {"run", addRun},
+                       {"show", addShow},
+                       {"solution", addSolution},
+                       {"submit", addSubmit},
+                       {"test", addTest},
+                       {"watch", addWatch}},
+          .withoutCommand = progress};
+}
+
+}  // namespace rex::cli

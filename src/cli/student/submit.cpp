@@ -1,0 +1,110 @@
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/sha256.h"
+#include "cli/json_internal.h"
+#include "cli/student/exercise_option_internal.h"
+#include "cli/student/progress_file.h"
+#include "cli/student/student_room_internal.h"
+#include "cli/terminal.h"
+#include "submission/student_build.h"
+#include "submission/submission.h"
+#include "submission/zip_file.h"
+
+namespace rex::cli {
+namespace {
+
+struct SubmitOptions {
+  std::vector<std::string> exercises;
+  std::filesystem::path out = "handin.zip";
+};
+
+// One file that is handed in. What else lies in the exercise's folder stays at home.
+struct HandedIn {
+  ExerciseInfo exercise;
+  std::string name;  // in the zip
+  std::string text;
+  std::string sha256;
+};
+
+HandedIn handInOf(const ExerciseInfo& exercise) {
+  HandedIn file{.exercise = exercise,
+                .name = exercise.name + "/main.cpp",
+                .text = grading::readStudentFile(exercise.folder / "main.cpp"),
+                .sha256 = {}};
+  file.sha256 = sha256(file.text);
+  return file;
+}
+
+std::string receiptOf(const std::vector<HandedIn>& files) {
+  Json list = Json::array();
+  for (const HandedIn& file : files)
+    list.push_back({{"name", file.name},
+                    {"bytes", file.text.size()},
+                    {"sha256", file.sha256},
+                    {"exercise_version", grading::exerciseVersion(file.exercise.folder)}});
+  return Json{{"schema", "rex-receipt/1"}, {"tool", REX_VERSION}, {"files", list}}.dump(2) + "\n";
+}
+
+void warnUnlessTested(const HandedIn& file, const AllProgress& all) {
+  const auto found = all.exercises.find(file.exercise.name);
+  if (found != all.exercises.end() && found->second.fileSha256 == file.sha256) return;
+  note(wrap(fmt::format("This version of {} was not tested: scripts/rex test {}",
+                        shown(file.exercise.folder / "main.cpp"), file.exercise.name),
+            2, 0));
+}
+
+// Writes the zip file to hand in: EXERCISE/main.cpp of each, and receipt.json.
+ExitCode submit(const Project& project, const SubmitOptions& options) {
+  if (options.out.extension() != ".zip")
+    throw UsageError(
+        {.what = "-o", .found = harmless(options.out.string()), .wanted = "a name ending in .zip"});
+  std::vector<HandedIn> files;
+  for (const std::string& name : options.exercises) {
+    const ExerciseInfo exercise = project.exercise(name);
+    const auto isThis = [&](const HandedIn& file) { return file.exercise.name == exercise.name; };
+    if (std::any_of(files.begin(), files.end(), isThis)) continue;
+    try {
+      files.push_back(handInOf(exercise));
+    } catch (const Error& error) {
+      note(wrap(error.what(), 2, 0));
+      return ExitCode::kNotGradable;
+    }
+  }
+  const std::string receipt = receiptOf(files);
+  std::vector<grading::ZipEntry> entries;
+  for (const HandedIn& file : files) entries.push_back({file.name, file.text});
+  entries.push_back({"receipt.json", receipt});
+  grading::writeZip(options.out, entries);
+  const AllProgress all = ProgressFile(project.root).read();
+  for (const HandedIn& file : files) {
+    warnUnlessTested(file, all);
+    say(fmt::format("{}  {}", file.sha256, file.name));
+  }
+  say(fmt::format("{} holds {} and a receipt with the hash above (SHA-256). Hand this file in.",
+                  shown(options.out), files.size() == 1 ? "this file" : "these files"));
+  return ExitCode::kFull;
+}
+
+}  // namespace
+
+void addSubmit(CLI::App* command, Action& action) {
+  const auto options = std::make_shared<SubmitOptions>();
+  command->footer(
+      "Examples:\n  scripts/rex submit 01\n  scripts/rex submit 01 02 -o handin.zip\n\n"
+      "It holds EXERCISE/main.cpp of each, nothing else of yours, and receipt.json with\n"
+      "the SHA-256 hash of every file.");
+  command->add_option("EXERCISE", options->exercises, kExercisesHelp)->type_name("")->required();
+  command->add_option("-o,--out", options->out, "file to write (default: handin.zip)")->type_name("FILE.zip");
+  command->callback(
+      [&action, options] { action = [options](const Project& p) { return submit(p, *options); }; });
+}
+
+}  // namespace rex::cli

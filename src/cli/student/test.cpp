@@ -1,0 +1,91 @@
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/exit_codes_help_internal.h"
+#include "cli/shared_options_internal.h"
+#include "cli/student/exercise_option_internal.h"
+#include "cli/student/student_room_internal.h"
+#include "cli/student/test_many.h"
+#include "cli/student/test_one.h"
+
+namespace rex::cli {
+namespace {
+
+struct TestCommand {
+  std::vector<std::string> exercises;
+  bool all = false;  ///< instead of those
+  int jobs = 0;      ///< gradings at once; 0: one per processor
+  TestOptions each;
+};
+
+// Each once, in the order asked for.
+std::vector<ExerciseInfo> exercisesOf(const Project& project, const TestCommand& words) {
+  if (words.all) return project.exercises();
+  std::vector<ExerciseInfo> chosen;
+  for (const std::string& name : words.exercises) {
+    ExerciseInfo exercise = project.exercise(name);
+    const auto isThis = [&](const ExerciseInfo& other) { return other.name == exercise.name; };
+    if (std::none_of(chosen.begin(), chosen.end(), isThis)) chosen.push_back(std::move(exercise));
+  }
+  return chosen;
+}
+
+ExitCode test(const Project& project, const TestCommand& words) {
+  if (words.all || words.exercises.size() != 1)
+    return testMany(project, exercisesOf(project, words), words.each, words.jobs);
+  TestOptions one = words.each;
+  one.exercise = words.exercises.front();
+  return testOne(project, one);
+}
+
+void addSeveral(CLI::App* command, TestCommand& words) {
+  command->add_option("EXERCISE", words.exercises, kExercisesHelp)->type_name("");
+  command->add_flag("--all", words.all, "all exercises");
+  command->add_option("-j,--jobs", words.jobs, "of several, so many at once (default: one per processor)")
+      ->check(CLI::Range(1, 1024).description(""))
+      ->type_name("N");
+}
+
+}  // namespace
+
+void addTest(CLI::App* command, Action& action) {
+  const auto words = std::make_shared<TestCommand>();
+  TestOptions* options = &words->each;
+  command->footer(
+      "Examples:\n  scripts/rex test 01\n  scripts/rex test 01 --check step-hand --seed 17\n"
+      "  scripts/rex test 01 --main /tmp/other.cpp --json\n  scripts/rex test 01 02 -j2\n"
+      "  scripts/rex test --all\n\n"
+      "The result file is results.json, results-partial.json with --check, or\n"
+      "results-debug.json with --debug. Of several exercises -o DIR gets DIR/EXERCISE,\n"
+      "--json is {\"schema\": \"rex-results/1\", \"results\": [...]}, and the exit code is\n"
+      "the largest of theirs.\n" +
+      std::string(kExitCodesHelp));
+  addSeveral(command, *words);
+  command->add_flag("--solution", options->solution, "grade the reference solution");
+  command->add_option("--main", options->main, "grade this file instead of main.cpp")->type_name("FILE");
+  command->add_option("--check", options->checks, "only this check; may be given several times")
+      ->allow_extra_args(false)
+      ->type_name("NAME");
+  addSeed(command, options->seed, "repeat the random cases of this seed");
+  command->add_flag("--json", options->json, "print the result file and nothing else");
+  command->add_flag("--debug", options->debug, "with the sanitizers: slow, names the lines of crashes");
+  command->add_option("-o,--out", options->out, kOutHelp)->type_name("DIR");
+  addLevel(command, options->level);
+  command
+      ->add_option("--secret-file", options->secret, "secret of the course, for the seeds of hidden checks")
+      ->type_name("FILE");
+  command->callback([&action, words] {
+    const TestOptions& each = words->each;
+    if (words->exercises.empty() != words->all) throw CLI::RequiredError("either EXERCISE or --all");
+    if (each.solution && !each.main.empty()) throw CLI::ExcludesError("--main", "--solution");
+    // The sanitizers read and map what a sandbox forbids.
+    if (each.debug && each.level.value_or(0) > 0) throw CLI::ExcludesError("--debug", "--level");
+    action = [words](const Project& p) { return test(p, *words); };
+  });
+}
+
+}  // namespace rex::cli

@@ -1,0 +1,29 @@
+#include "cli/student/test_one.h"
+
+#include <cstdio>
+
+#include "base/text_file.h"
+#include "cli/progress_line.h"
+#include "cli/sandbox_choice.h"
+#include "cli/student/test_run.h"
+
+namespace rex::cli {
+
+ExitCode testOne(const Project& project, const TestOptions& options) {
+  ExerciseInfo exercise = project.exercise(options.exercise);
+  const std::optional<sandbox::Sandbox> sandbox = chooseSandbox(project, options.level);
+  if (!sandbox) return ExitCode::kWeakSandbox;
+  const TestRun run(project, std::move(exercise), options);
+  const grading::Submission graded = [&] {
+    const ProgressLine line([&] { return run.stage(); });
+    return run.grade(*sandbox);
+  }();
+  run.publish(project, graded.result);
+  if (options.json)
+    std::fputs(readTextFile(run.ownResults()).c_str(), stdout);
+  else
+    run.print(graded);
+  return exitCodeOf(graded.result);
+}
+
+}  // namespace rex::cli

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "cli/exit_code.h"
+#include "cli/project.h"
+#include "cli/student/test_run.h"
+
+namespace rex::cli {
+
+/// Grades one exercise and prints what came out.
+ExitCode testOne(const Project& project, const TestOptions& options);
+
+}  // namespace rex::cli

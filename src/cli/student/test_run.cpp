@@ -1,0 +1,112 @@
+#include "cli/student/test_run.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/text_file.h"
+#include "cli/out_folder.h"
+#include "cli/student/progress_file.h"
+#include "cli/student/student_file.h"
+#include "cli/student/test_report.h"
+#include "cli/terminal.h"
+#include "grading/hidden_seed.h"
+#include "grading/result_file.h"
+
+namespace rex::cli {
+
+namespace fs = std::filesystem;
+using grading::GradeResult;
+using grading::Outcome;
+
+namespace {
+
+// What a whole grading found stays until the next one.
+const char* resultName(const TestOptions& options) {
+  if (options.debug) return "results-debug.json";
+  return options.checks.empty() ? "results.json" : "results-partial.json";
+}
+
+fs::path resultsOf(const Project& project, const ExerciseInfo& exercise, const TestOptions& options) {
+  const fs::path out =
+      fs::absolute(options.out.empty() ? project.outFolder(exercise, options.solution) : options.out);
+  makeOutFolder(out);
+  return out / resultName(options);
+}
+
+void remember(const Project& project, const ExerciseInfo& exercise, const GradeResult& result) {
+  if (result.outcome == Outcome::graderError) return;
+  ProgressFile(project.root).change(exercise.name, [&](Progress& progress) {
+    progress.tested = true;
+    progress.points = result.score;
+    progress.maxPoints = result.maxScore;
+    progress.solved = progress.solved || result.outcome == Outcome::pass;
+    progress.fileSha256 = result.snapshotSha256;
+  });
+}
+
+}  // namespace
+
+TestRun::TestRun(const Project& project, ExerciseInfo exercise, const TestOptions& options)
+    : exercise_(std::move(exercise)),
+      options_(options),
+      file_(chooseStudentFile(exercise_, options.solution, options.main)),
+      results_(resultsOf(project, exercise_, options)),
+      toolchain_(prepare(project, exercise_)),
+      work_(project.buildFolder(exercise_)) {
+  if (!options.secret.empty()) static_cast<void>(grading::readCourseSecret(options.secret));
+}
+
+grading::Submission TestRun::grade(const sandbox::Sandbox& sandbox) const {
+  return grading::gradeSubmission(toolchain_, exercise_,
+                                  {.main = file_,
+                                   .workFolder = work_.path(),
+                                   .results = ownResults(),
+                                   .checks = options_.checks,
+                                   .seed = options_.seed,
+                                   .evidence = work_.path() / "checks",
+                                   .lookAgain = true,
+                                   .sanitize = options_.debug,
+                                   .sandbox = sandbox,
+                                   .secret = options_.secret});
+}
+
+std::string TestRun::stage() const {
+  const std::string name = exercise_.name + ": ";
+  try {
+    const GradeResult soFar = grading::loadResult(ownResults());
+    const auto isOpen = [](const grading::CheckResult& check) { return !check.status; };
+    const auto open = std::find_if(soFar.checks.begin(), soFar.checks.end(), isOpen);
+    if (open == soFar.checks.end()) return name + "looking again";
+    return fmt::format("{}check {} of {}, {}", name, open - soFar.checks.begin() + 1, soFar.checks.size(),
+                       harmless(open->title));
+  } catch (const std::exception&) {
+    return name + "compiling";
+  }
+}
+
+void TestRun::publish(const Project& project, const GradeResult& result) const {
+  const fs::path out = results_.parent_path(), log = work_.path() / "build.log",
+                 evidence = work_.path() / "checks";
+  replaceTextFile(results_, readTextFile(ownResults()), "the result file");
+  if (fs::exists(log)) replaceTextFile(out / "build.log", readTextFile(log), "the log");
+  fs::remove_all(out / "checks");
+  if (fs::exists(evidence)) fs::copy(evidence, out / "checks", fs::copy_options::recursive);
+  if (options_.main.empty() && !options_.solution && !options_.debug && options_.checks.empty())
+    remember(project, exercise_, result);
+}
+
+void TestRun::print(const grading::Submission& graded) const {
+  printResult(exercise_, graded, results_, options_.checks.empty());
+  if (options_.main.empty() && !fs::exists(file_))
+    say(fmt::format("To get it back as it was handed out: scripts/rex reset {}", exercise_.name));
+}
+
+ExitCode exitCodeOf(const GradeResult& result) {
+  if (result.outcome == Outcome::graderError) return ExitCode::kGraderFault;
+  if (result.outcome == Outcome::compileError) return ExitCode::kNotGradable;
+  return result.outcome == Outcome::pass ? ExitCode::kFull : ExitCode::kBelow;
+}
+
+}  // namespace rex::cli

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/private_folder.h"
+#include "cli/exit_code.h"
+#include "cli/project.h"
+#include "submission/submission.h"
+
+namespace rex::cli {
+
+/// How one exercise is graded.
+struct TestOptions {
+  std::string exercise;
+  bool solution = false;
+  std::filesystem::path main;       ///< empty: the exercise's own
+  std::vector<std::string> checks;  ///< empty: all
+  std::optional<std::uint64_t> seed;
+  bool json = false;
+  bool debug = false;              ///< with the sanitizers
+  std::filesystem::path out;       ///< empty: as for run
+  std::optional<int> level{};      ///< of the sandbox; nothing: 0
+  std::filesystem::path secret{};  ///< file with the secret of the course; empty: none
+};
+
+/// One exercise on its way through `rex test`, in a folder of its own until publish(): others may grade the
+/// same exercise at the same time.
+class TestRun {
+ public:
+  /// Builds what the exercise needs and makes its folders. Throws UsageError and Error.
+  TestRun(const Project& project, ExerciseInfo exercise, const TestOptions& options);
+
+  [[nodiscard]] const ExerciseInfo& exercise() const { return exercise_; }
+  /// Result file of the private folder.
+  [[nodiscard]] std::filesystem::path ownResults() const { return work_.path() / "results.json"; }
+  [[nodiscard]] const std::filesystem::path& folder() const { return work_.path(); }
+
+  /// Throws as gradeSubmission().
+  [[nodiscard]] grading::Submission grade(const sandbox::Sandbox& sandbox) const;
+  /// What grade() is doing, read from the result file, which grows.
+  [[nodiscard]] std::string stage() const;
+  /// Puts result, log and evidence where the student finds them, and remembers the points. Throws Error.
+  void publish(const Project& project, const grading::GradeResult& result) const;
+  /// Prints the table for people; after publish().
+  void print(const grading::Submission& graded) const;
+
+ private:
+  ExerciseInfo exercise_;
+  TestOptions options_;
+  std::filesystem::path file_, results_;
+  grading::Toolchain toolchain_;
+  PrivateFolder work_;
+};
+
+[[nodiscard]] ExitCode exitCodeOf(const grading::GradeResult& result);
+
+}  // namespace rex::cli

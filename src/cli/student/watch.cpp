@@ -1,0 +1,101 @@
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "cli/file_watcher.h"
+#include "cli/student/exercise_option_internal.h"
+#include "cli/student/keyboard.h"
+#include "cli/student/student_room_internal.h"
+#include "cli/student/test_one.h"
+#include "cli/student/watch_keys.h"
+#include "cli/terminal.h"
+
+namespace rex::cli {
+namespace {
+
+struct WatchOptions {
+  std::string exercise;
+  bool poll = false;  ///< do not ask inotify
+};
+
+// Grades as `rex test` does, only `check` unless that is empty. A fault of the project is told and may be
+// mended while we watch.
+ExitCode gradeOnce(const Project& project, const std::string& name, const std::string& check) {
+  const auto start = std::chrono::steady_clock::now();
+  ExitCode code = ExitCode::kGraderFault;
+  try {
+    TestOptions options;
+    options.exercise = name;
+    if (!check.empty()) options.checks = {check};
+    code = testOne(project, options);
+  } catch (const std::exception& error) {
+    note(wrap(fmt::format("rex: {}", error.what()), 2, 0));
+  }
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  say(fmt::format("graded in {:.1f} s", taken.count()));
+  return code;
+}
+
+void separate() { say("\n" + std::string(80, '-')); }
+
+std::string nextExercise(const Project& project, const std::string& name) {
+  const std::vector<ExerciseInfo> all = project.exercises();
+  for (std::size_t k = 0; k + 1 < all.size(); ++k)
+    if (all[k].name == name) return all[k + 1].name;
+  return "";
+}
+
+// Watches one exercise. The name of the next one to watch, or nothing at the end.
+std::string watchOne(const Project& project, const ExerciseInfo& exercise, FileWatcher::Method method,
+                     const Keyboard& keyboard, ExitCode& code) {
+  const std::filesystem::path main = exercise.folder / "main.cpp";
+  FileWatcher watcher(main, method);
+  WatchKeys keys(project, exercise, keyboard, watcher);
+  say(fmt::format("watching {} by {}; Ctrl-C ends this", shown(main), watcher.describe()));
+  std::fflush(stdout);
+  for (;;) {
+    code = gradeOnce(project, exercise.name, keys.check());
+    const bool isSolved = code == ExitCode::kFull && keys.check().empty();
+    std::fflush(stdout);
+    if (keyboard.isThere()) {
+      const WatchKeys::Wish wish = keys.obey(isSolved);
+      if (wish == WatchKeys::Wish::kQuit) return "";
+      if (wish == WatchKeys::Wish::kNext) return nextExercise(project, exercise.name);
+    } else {
+      if (isSolved) return "";  // nobody could say so
+      static_cast<void>(watcher.wait());
+    }
+    separate();
+  }
+}
+
+// Grades now and after each save. Ends by itself only without a keyboard, at the full score.
+ExitCode watch(const Project& project, const WatchOptions& options) {
+  const auto method = options.poll ? FileWatcher::Method::kPolling : FileWatcher::Method::kInotify;
+  const Keyboard keyboard;
+  ExitCode code = ExitCode::kBelow;
+  std::string name = project.exercise(options.exercise).name;
+  while (!name.empty()) name = watchOne(project, project.exercise(name), method, keyboard, code);
+  return code;
+}
+
+}  // namespace
+
+void addWatch(CLI::App* command, Action& action) {
+  const auto options = std::make_shared<WatchOptions>();
+  command->footer(
+      "Example: scripts/rex watch 01\n\n"
+      "Notices saves by inotify, or by looking five times a second where that fails, and says\n"
+      "which. In a terminal single keys give hints and more; elsewhere it ends at the full score.");
+  addExercise(command, options->exercise);
+  command->add_flag("--poll", options->poll, "look at the file, do not ask inotify");
+  command->callback(
+      [&action, options] { action = [options](const Project& p) { return watch(p, *options); }; });
+}
+
+}  // namespace rex::cli

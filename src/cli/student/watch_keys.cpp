@@ -1,0 +1,116 @@
+#include "cli/student/watch_keys.h"
+
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "cli/student/hint.h"
+#include "cli/student/progress.h"
+#include "cli/student/reset.h"
+#include "cli/student/show.h"
+#include "cli/terminal.h"
+#include "submission/submission.h"
+
+namespace rex::cli {
+
+WatchKeys::Wish WatchKeys::obey(bool isSolved) {
+  for (;;) {
+    sayKeys(isSolved);
+    const std::optional<char> key = nextKey();
+    if (!key || *key == 't') return Wish::kGrade;
+    if (*key == 'q') return Wish::kQuit;
+    if (*key == 'n' && isSolved) return Wish::kNext;
+    try {
+      if (answer(*key)) return Wish::kGrade;
+    } catch (const std::exception& error) {
+      note(wrap(fmt::format("rex: {}", error.what()), 2, 0));
+    }
+  }
+}
+
+void WatchKeys::sayKeys(bool isSolved) const {
+  say(std::string("[t]est  [h]int  [p]ictures  [l]ist  ") +
+      (check_.empty() ? "[s]ingle check" : "[a]ll checks") + "  [x] reset  " + (isSolved ? "[n]ext  " : "") +
+      "[q]uit");
+}
+
+// Nothing: the file was saved first.
+std::optional<char> WatchKeys::nextKey() {
+  std::fflush(stdout);
+  if (watcher_.wait(keyboard_.descriptor()) == FileWatcher::Event::kSaved) return {};
+  return keyboard_.read();
+}
+
+// True: grade now.
+bool WatchKeys::answer(char key) {
+  switch (key) {
+    case 'h':
+      static_cast<void>(hint(project_, HintOptions{.exercise = exercise_.name, .part = {}}));
+      return false;
+    case 'p':
+      static_cast<void>(show(project_, {.exercise = exercise_.name}));
+      return false;
+    case 'l':
+      static_cast<void>(progress(project_));
+      return false;
+    case 's':
+      return chooseCheck();
+    case 'a':
+      if (check_.empty()) return false;
+      check_.clear();
+      return true;
+    case 'x':
+      return askAndReset();
+    default:
+      return false;
+  }
+}
+
+bool WatchKeys::chooseCheck() {
+  const std::vector<grading::CheckResult> checks = grading::listChecks(prepare(project_, exercise_));
+  for (std::size_t k = 0; k < checks.size(); ++k)
+    say(fmt::format(" {:2}  {}", k + 1,
+                    wrap(fmt::format("{} [{}]", harmless(checks[k].title), checks[k].id), 5, 5)));
+  fmt::print("number and Enter, or Enter alone to go back: ");
+  const std::optional<std::string> typed = readDigits();
+  if (!typed) return true;
+  if (typed->empty()) return false;
+  const std::size_t number = std::stoul(*typed);
+  if (number < 1 || number > checks.size()) {
+    say(fmt::format("There is no check {}.", number));
+    return false;
+  }
+  check_ = checks[number - 1].id;
+  return true;
+}
+
+// Until Enter, shown while it is typed; empty after any other key. Nothing: the file was saved.
+std::optional<std::string> WatchKeys::readDigits() {
+  constexpr std::size_t kMost = 3;
+  std::string digits;
+  for (;;) {
+    const std::optional<char> key = nextKey();
+    if (key && *key >= '0' && *key <= '9' && digits.size() < kMost) {
+      digits += *key;
+      fmt::print("{}", *key);
+      continue;
+    }
+    say();
+    if (!key) return {};
+    return *key == '\n' || *key == '\r' ? digits : "";
+  }
+}
+
+bool WatchKeys::askAndReset() {
+  say(fmt::format("Start again with {} as it was handed out? Yours is kept beside it.",
+                  shown(exercise_.folder / "main.cpp")));
+  fmt::print("[y]es, or any other key: ");
+  const std::optional<char> key = nextKey();
+  say();
+  if (!key) return true;
+  // The file that was handed out counts as saved.
+  if (*key == 'y') static_cast<void>(reset(project_, exercise_.name));
+  return false;
+}
+
+}  // namespace rex::cli

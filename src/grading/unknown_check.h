@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+
+namespace rex::grading {
+
+/// The complaint about a check that does not exist, naming the nearest of the `known`.
+[[nodiscard]] inline UsageError unknownCheck(const std::string& id, const std::vector<std::string>& known,
+                                             SourceLocation where = {}) {
+  return UsageError({.what = "no check is called '" + id + "'",
+                     .where = std::move(where),
+                     .nearest = nearestNames(id, known)});
+}
+
+}  // namespace rex::grading

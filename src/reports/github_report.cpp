@@ -1,0 +1,90 @@
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "reports/report.h"
+#include "reports/report_text_internal.h"
+
+namespace rex::grading {
+namespace {
+
+using namespace internal;
+
+constexpr std::size_t kLongestAnnotation = 1'000;
+constexpr std::size_t kMostOfAKind = 10;  // GitHub drops what a step says beyond that
+
+// A command ends with its line; values of its properties also at a comma or colon.
+std::string escaped(std::string_view text, std::string_view special) {
+  std::string safe;
+  for (const char c : text)
+    safe += special.find(c) == std::string_view::npos ? std::string(1, c)
+                                                      : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  return safe;
+}
+
+struct Place {
+  std::string file{};  // empty: none
+  int line = 0, column = 0;
+};
+
+std::string command(const char* kind, const std::string& title, const Place& place,
+                    const std::string& message) {
+  std::string properties = "title=" + escaped(title, "%\r\n:,");
+  if (!place.file.empty()) properties += ",file=" + escaped(place.file, "%\r\n:,");
+  if (!place.file.empty() && place.line > 0) properties += fmt::format(",line={}", place.line);
+  if (!place.file.empty() && place.line > 0 && place.column > 0)
+    properties += fmt::format(",col={}", place.column);
+  return fmt::format("::{} {}::{}\n", kind, properties,
+                     escaped(shownText(message, kLongestAnnotation), "%\r\n"));
+}
+
+// The student's file, or nothing: a `#line` of the student may name any.
+Place placeOf(const CompileDiagnostic& message, const GradeResult& result) {
+  const bool isTheirs = std::any_of(result.files.begin(), result.files.end(),
+                                    [&](const SourceFile& file) { return file.name == message.file; });
+  return isTheirs ? Place{pathOf(result), message.line, message.column} : Place{};
+}
+
+void addDiagnostics(const GradeResult& result, std::vector<std::string>& errors,
+                    std::vector<std::string>& warnings) {
+  const std::string title = shownText(result.exerciseId);
+  for (const CompileDiagnostic& d : result.compile.diagnostics) {
+    const std::string rule = d.rule.empty() ? "" : " [" + d.rule + "]";
+    const bool isError = d.severity == "error";
+    (isError ? errors : warnings)
+        .push_back(command(isError ? "error" : "warning", title, placeOf(d, result), d.message + rule));
+  }
+}
+
+void addChecks(const GradeResult& result, std::vector<std::string>& errors) {
+  for (const CheckResult& check : result.checks) {
+    if (isHidden(check) || isPassed(check) || !check.status) continue;
+    const std::string title =
+        fmt::format("{} ({}/{})", shownText(check.title), check.points, check.maxPoints);
+    errors.push_back(command("error", title, {pathOf(result), check.line},
+                             check.message.empty() ? statusOf(check) : check.message));
+  }
+}
+
+}  // namespace
+
+std::string githubReport(const GradeResult& result) {
+  const std::string exercise = shownText(result.exerciseId);
+  if (result.outcome == Outcome::graderError) return command("error", exercise, {}, kGraderFailed);
+  std::vector<std::string> errors, warnings;
+  addDiagnostics(result, errors, warnings);
+  addChecks(result, errors);
+  if (result.outcome == Outcome::compileError && errors.empty())
+    errors.push_back(command("error", exercise, {pathOf(result)}, compileText(result)));
+  std::string text;
+  for (auto* kind : {&errors, &warnings}) {
+    kind->resize(std::min(kind->size(), kMostOfAKind));
+    for (const std::string& line : *kind) text += line;
+  }
+  return text + command("notice", exercise, {}, pointsOf(result));
+}
+
+}  // namespace rex::grading

@@ -1,0 +1,76 @@
+#include <map>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "reports/report.h"
+#include "reports/report_text_internal.h"
+
+namespace rex::grading {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using namespace internal;
+
+// Of a hidden check no message: it may quote text that a program chose while it knew the input.
+std::string outputOf(const CheckResult& check, const std::string& file) {
+  if (isPassed(check)) return "";
+  if (!isHidden(check)) return messageOf(check, file);
+  const std::string cases =
+      check.cases > 0 ? fmt::format(", {} of {} cases hold", check.casesHeld, check.cases) : "";
+  const std::string property = check.property.empty() ? "" : ": " + shownText(check.property);
+  return statusOf(check) + cases + property;
+}
+
+Json gradescopeTest(const CheckResult& check, const std::string& number, const std::string& file) {
+  return {{"number", number},
+          {"name", shownText(check.title)},
+          {"score", check.points},
+          {"max_score", check.maxPoints},
+          {"status", isPassed(check) ? "passed" : "failed"},
+          {"output", outputOf(check, file)},
+          {"tags", {shownText(check.part)}},
+          {"visibility", isHidden(check) ? "after_published" : "visible"},
+          {"extra_data", {{"id", shownText(check.id)}, {"status", statusOf(check)}}}};
+}
+
+// Numbered by part and check: 1.1, 1.2, 2.1.
+Json testsOf(const GradeResult& result) {
+  std::map<std::string, std::pair<std::size_t, int>> parts;  // number of the part, checks of it so far
+  Json tests = Json::array();
+  for (const CheckResult& check : result.checks) {
+    auto& [part, count] = parts.try_emplace(check.part, parts.size() + 1, 0).first->second;
+    tests.push_back(gradescopeTest(check, fmt::format("{}.{}", part, ++count), fileOf(result)));
+  }
+  return tests;
+}
+
+std::string outputOf(const GradeResult& result) {
+  if (result.outcome == Outcome::graderError) return kGraderFailed;
+  if (result.outcome == Outcome::compileError) return "Cannot be graded:\n" + compileText(result);
+  const std::string printed = printedText(result);
+  return pointsOf(result) + (printed.empty() ? "" : "\n\nThe program printed:\n" + printed);
+}
+
+}  // namespace
+
+std::string gradescopeReport(const GradeResult& result) {
+  Json json;
+  if (result.outcome != Outcome::graderError) json["score"] = result.score;
+  json["execution_time"] = result.usage.wallSeconds;
+  json["output"] = outputOf(result);
+  for (const char* format : {"output_format", "test_output_format", "test_name_format"})
+    json[format] = "text";
+  json["stdout_visibility"] = "hidden";
+  json["extra_data"] = {{"exercise", shownText(result.exerciseId)},
+                        {"exercise_version", shownText(result.exerciseVersion)},
+                        {"outcome", toString(result.outcome)},
+                        {"seed_id", shownText(result.seedId)},
+                        {"snapshot_sha256", shownText(result.snapshotSha256)},
+                        {"tool_version", shownText(result.toolVersion)},
+                        {"sandbox_level", result.sandboxLevel}};
+  if (result.outcome != Outcome::graderError) json["tests"] = testsOf(result);
+  return json.dump(2) + "\n";
+}
+
+}  // namespace rex::grading

@@ -1,0 +1,137 @@
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "reports/report.h"
+#include "reports/report_text_internal.h"
+
+namespace rex::grading {
+namespace {
+
+using namespace internal;
+
+// XML 1.0, section 2.2, forbids U+FFFE and U+FFFF besides the control characters that shownText() replaces. A
+// character written by its number is no markup, also not the end of "]]>", and a line break stays one in an
+// attribute.
+std::string xml(std::string_view text) {
+  constexpr std::string_view kMarkup = "&<>\"\n\t";
+  std::string safe;
+  while (!text.empty()) {
+    const bool isForbidden = text.starts_with("\xEF\xBF\xBE") || text.starts_with("\xEF\xBF\xBF");
+    if (isForbidden)
+      safe += "\xEF\xBF\xBD";
+    else if (kMarkup.find(text.front()) != std::string_view::npos)
+      safe += fmt::format("&#{};", static_cast<int>(text.front()));
+    else
+      safe += text.front();
+    text.remove_prefix(isForbidden ? 3 : 1);
+  }
+  return safe;
+}
+
+std::string attribute(const char* name, std::string_view value) {
+  return fmt::format(" {}=\"{}\"", name, xml(value));
+}
+
+struct TestCase {
+  std::string name;
+  std::string body{};  // empty: passed
+  std::string place{};
+  double seconds = 0;
+};
+
+struct Counts {
+  int tests = 0, failures = 0, errors = 0, skipped = 0;
+};
+
+std::string shortfall(const char* element, std::string_view type, const std::string& message) {
+  const std::string firstLine = message.substr(0, message.find('\n'));
+  return fmt::format("      <{}{}{}>{}</{}>\n", element, attribute("message", firstLine),
+                     attribute("type", type), xml(message), element);
+}
+
+std::string skipped(const char* why) {
+  return fmt::format("      <skipped{}/>\n", attribute("message", why));
+}
+
+// Students read what CI shows: of a hidden check only that there is one, and how it ended.
+TestCase junitTest(const CheckResult& check, const GradeResult& result, int hiddenNumber, Counts& counts) {
+  TestCase test{.name = hiddenNumber > 0
+                            ? fmt::format("Hidden check {}", hiddenNumber)
+                            : fmt::format("{} [{}]", shownText(check.title), shownText(check.id)),
+                .seconds = check.wallSeconds};
+  ++counts.tests;
+  if (isPassed(check)) return test;
+  if (!check.status) {
+    ++counts.skipped;
+    test.body = skipped("not run");
+    return test;
+  }
+  const std::string message =
+      fmt::format("{} of {} points: {}", check.points, check.maxPoints,
+                  isHidden(check) ? statusOf(check) : messageOf(check, fileOf(result)));
+  const bool isFailure = check.status == Outcome::fail;
+  ++(isFailure ? counts.failures : counts.errors);
+  test.body = shortfall(isFailure ? "failure" : "error", toString(*check.status), message);
+  if (!isHidden(check) && check.line > 0)
+    test.place = attribute("file", pathOf(result)) + fmt::format(" line=\"{}\"", check.line);
+  return test;
+}
+
+std::string textOf(const TestCase& test, const GradeResult& result) {
+  const std::string start =
+      fmt::format("    <testcase{}{} time=\"{:.3f}\"{}", attribute("name", test.name),
+                  attribute("classname", shownText(result.exerciseId)), test.seconds, test.place);
+  return test.body.empty() ? start + "/>\n" : fmt::format("{}>\n{}    </testcase>\n", start, test.body);
+}
+
+std::string propertiesOf(const GradeResult& result) {
+  std::string text = "    <properties>\n";
+  const auto add = [&](const char* name, const std::string& value) {
+    text += fmt::format("      <property{}{}/>\n", attribute("name", name), attribute("value", value));
+  };
+  add("score", fmt::format("{}", result.score));
+  add("max_score", fmt::format("{}", result.maxScore));
+  add("outcome", std::string(toString(result.outcome)));
+  add("seed_id", shownText(result.seedId));
+  add("exercise_version", shownText(result.exerciseVersion));
+  add("snapshot_sha256", shownText(result.snapshotSha256));
+  add("tool_version", shownText(result.toolVersion));
+  add("compiler", shownText(result.compiler));
+  add("sandbox_level", fmt::format("{}", result.sandboxLevel));
+  return text + "    </properties>\n";
+}
+
+// What concerns all checks is a test case of its own, before them.
+std::string wholeOf(const GradeResult& result, Counts& counts) {
+  if (result.outcome != Outcome::compileError && result.outcome != Outcome::graderError) return "";
+  ++counts.tests, ++counts.errors;
+  const bool isFault = result.outcome == Outcome::graderError;
+  return textOf(
+      {.name = isFault ? "grader" : "compile",
+       .body = shortfall("error", toString(result.outcome), isFault ? kGraderFailed : compileText(result))},
+      result);
+}
+
+}  // namespace
+
+std::string junitReport(const GradeResult& result) {
+  Counts counts;
+  std::string cases = wholeOf(result, counts);
+  int hidden = 0;
+  for (const CheckResult& check : result.checks)
+    cases += textOf(junitTest(check, result, isHidden(check) ? ++hidden : 0, counts), result);
+  const std::string totals =
+      fmt::format("{} tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" time=\"{:.3f}\"",
+                  attribute("name", shownText(result.exerciseId)), counts.tests, counts.failures,
+                  counts.errors, counts.skipped, result.usage.wallSeconds);
+  const auto stream = [](const char* name, const KeptOutput& kept) {
+    return fmt::format("    <{}>{}</{}>\n", name, xml(shownText(kept.text, kLongestText)), name);
+  };
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites" + totals + ">\n  <testsuite" + totals +
+         ">\n" + propertiesOf(result) + cases + stream("system-out", result.output) +
+         stream("system-err", result.error) + "  </testsuite>\n</testsuites>\n";
+}
+
+}  // namespace rex::grading

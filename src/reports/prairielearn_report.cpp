@@ -1,0 +1,46 @@
+#include <nlohmann/json.hpp>
+
+#include "reports/report.h"
+#include "reports/report_text_internal.h"
+
+namespace rex::grading {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using namespace internal;
+
+// Of a hidden check the name and the points.
+Json prairieLearnTest(const CheckResult& check, const std::string& file) {
+  const bool isSilent = isPassed(check) || isHidden(check);
+  return {{"name", shownText(check.title)},
+          {"description", shownText(check.part)},
+          {"points", check.points},
+          {"max_points", check.maxPoints},
+          {"message", isSilent ? "" : messageOf(check, file)}};
+}
+
+// Attempts that cannot be graded do not count: neither a typing mistake nor a fault of ours.
+std::string formatErrorOf(const GradeResult& result) {
+  if (result.outcome == Outcome::graderError) return kGraderFailed;
+  return result.outcome == Outcome::compileError ? compileText(result) : "";
+}
+
+}  // namespace
+
+std::string prairielearnReport(const GradeResult& result) {
+  const std::string formatError = formatErrorOf(result);
+  Json json = {{"gradable", formatError.empty()}};
+  if (!formatError.empty()) {
+    json["format_errors"] = {formatError};
+    return json.dump(2) + "\n";
+  }
+  json["score"] = result.maxScore > 0 ? static_cast<double>(result.score) / result.maxScore : 0.0;
+  json["message"] = pointsOf(result);
+  json["output"] = printedText(result);
+  json["tests"] = Json::array();
+  for (const CheckResult& check : result.checks)
+    json["tests"].push_back(prairieLearnTest(check, fileOf(result)));
+  return json.dump(2) + "\n";
+}
+
+}  // namespace rex::grading

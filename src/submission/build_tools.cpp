@@ -1,0 +1,162 @@
+#include "submission/build_tools.h"
+
+#include <algorithm>
+#include <csignal>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/once_more.h"
+#include "base/text_file.h"
+#include "sandbox/report.h"
+#include "submission/tool_failure.h"
+
+namespace rex::grading {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The names in lines `#include "name"`.
+std::vector<std::string> includedNames(const std::string& text) {
+  std::vector<std::string> names;
+  constexpr std::string_view kInclude = "#include \"";
+  for (std::size_t at = text.find(kInclude); at != text.npos; at = text.find(kInclude, at + 1)) {
+    const std::size_t first = at + kInclude.size(), end = text.find_first_of("\"\n", first);
+    names.push_back(text.substr(first, end - first));
+  }
+  return names;
+}
+
+void showAll(std::vector<sandbox::Readable>& readable, const std::vector<fs::path>& paths) {
+  for (const fs::path& path : paths) {
+    const fs::path absolute = fs::absolute(path).lexically_normal();
+    const bool ofSystem = absolute == "/" || absolute == "/usr" || absolute.string().starts_with("/usr/");
+    if (!path.empty() && !ofSystem && fs::exists(absolute)) readable.push_back({absolute, absolute});
+  }
+}
+
+// A compiler of one's own lies beside its libraries, /opt/gcc/bin/g++, but so does one in ~/bin beside much
+// else.
+std::vector<fs::path> placesOf(const fs::path& tool) {
+  if (tool.parent_path().filename() != "bin") return {tool};
+  const fs::path home = tool.parent_path().parent_path();
+  return {home / "bin", home / "lib", home / "lib64", home / "libexec", home / "include"};
+}
+
+std::vector<sandbox::Readable> visibleFiles(const Toolchain& toolchain) {
+  std::vector<sandbox::Readable> readable;
+  for (std::size_t k = 1; k < toolchain.flags.size(); ++k) {
+    if (toolchain.flags[k - 1] == "-isystem") showAll(readable, {toolchain.flags[k]});
+    if (toolchain.flags[k - 1] == "-iquote") showAll(readable, studentHeaders(toolchain.flags[k]));
+  }
+  if (!toolchain.prefix.empty()) showAll(readable, {toolchain.prefix, toolchain.prefix.string() + ".gch"});
+  showAll(readable, {toolchain.workerObject});
+  showAll(readable, toolchain.libraries);
+  if (toolchain.compiler.starts_with('/')) showAll(readable, placesOf(toolchain.compiler));
+  return readable;
+}
+
+sandbox::Confinement confinement(const Toolchain& toolchain, const fs::path& workFolder,
+                                 const sandbox::Sandbox& sandbox, const ToolLimits& limits) {
+  if (sandbox.level == 0) return {};
+  return {.readable = visibleFiles(toolchain),
+          .writable = workFolder,
+          .environment = {"PATH=/usr/bin", "LC_ALL=C.UTF-8",
+                          "TMPDIR=" + (sandbox.level >= 2 ? sandbox::kInsideFolder : workFolder.string())},
+          .mayStartProgramsOfItsOwn = true,
+          .cpuSeconds = limits.seconds,
+          .wallSeconds = clockSeconds(limits.seconds, sandbox.level),
+          .addressSpace = limits.memory,
+          .fileSize = limits.fileSize,
+          .openFiles = 256};
+}
+
+}  // namespace
+
+double clockSeconds(double seconds, int level) { return (level == 0 ? 2 : 10) * seconds + 2; }
+
+BuildTools::BuildTools(const Toolchain& toolchain, const fs::path& workFolder,
+                       const sandbox::Sandbox& sandbox, const ToolLimits& limits)
+    : workFolder_(workFolder),
+      limits_(limits),
+      level_(sandbox.level),
+      cell_(sandbox, confinement(toolchain, workFolder, sandbox, limits)) {}
+
+// The sandbox itself ends after the clock's time and says what was used; should it not, we end it.
+ProcessResult BuildTools::runConfined(const std::vector<std::string>& command,
+                                      const ProcessOptions& options) const {
+  ProcessOptions patient{
+      .directory = options.directory, .timeout = options.timeout, .outputLimit = options.outputLimit};
+  if (level_ >= 2) patient.timeout += 5;
+  ProcessResult result = runProcess(cell_.command(command), patient);
+  result.timedOut = result.timedOut || (level_ >= 2 && result.exitCode == sandbox::kTimedOut);
+  const std::string_view ready = sandbox::kReady;
+  if (!result.started || !result.error.starts_with(ready))
+    throw Error({.what = fmt::format("cannot run {} in a sandbox of level {}", command.front(), level_),
+                 .found = result.error.substr(0, result.error.find('\n'))});
+  result.error.erase(0, ready.size());
+  return result;
+}
+
+ProcessResult BuildTools::runOnce(const std::vector<std::string>& command, std::size_t outputLimit) const {
+  ProcessOptions options{.directory = workFolder_,
+                         .timeout = clockSeconds(limits_.seconds, level_),
+                         .outputLimit = outputLimit,
+                         .cpuSeconds = limits_.seconds,
+                         .addressSpace = limits_.memory,
+                         .fileSize = limits_.fileSize};
+  ProcessResult result = level_ == 0 ? runProcess(command, options) : runConfined(command, options);
+  if (!result.started) throw Error({.what = "cannot run " + command.front(), .found = result.error});
+  // A compiler that did nothing for so long waits for something the source made it read. One that worked had
+  // a busy machine: the limit on processor time would have stopped it well before the clock.
+  constexpr double kWorked = 0.2;  // of the processor time it may use
+  if (result.timedOut && result.cpuSeconds > kWorked * limits_.seconds)
+    throw Error({.what = fmt::format("{} did not end within {:g} s: the machine was too busy",
+                                     command.front(), clockSeconds(limits_.seconds, level_))});
+  return result;
+}
+
+// The kernel kills what used its time and a second more, and at level 3 what used all its memory.
+bool BuildTools::killedFromOutside(const ProcessResult& run) const {
+  return wasKilled(run) && run.cpuSeconds < limits_.seconds && !cell_.ranOutOfMemory();
+}
+
+ProcessResult BuildTools::run(const std::vector<std::string>& command, std::size_t outputLimit) const {
+  ProcessResult last = onceMoreIfKilled([&] { return runOnce(command, outputLimit); },
+                                        [&](const ProcessResult& first) { return killedFromOutside(first); });
+  if (killedFromOutside(last))
+    throw Error(
+        {.what = command.front() + " was killed twice, by nothing that the file did",
+         .found = fmt::format("{} after {:.1f} s of processor time", lastWordsOf(last), last.cpuSeconds),
+         .wanted = "a machine with more free memory"});
+  return last;
+}
+
+std::string BuildTools::limitReached(const ProcessResult& run) const {
+  const auto says = [&](const char* text) { return run.error.find(text) != std::string::npos; };
+  if (cell_.ranOutOfMemory() || says("out of memory") || says("memory exhausted") || says("bad_alloc"))
+    return fmt::format("needed more than {} MiB of memory and was stopped", limits_.memory >> 20);
+  // Where the last words are lost among too many others, the time that it took tells.
+  if (wasKilled(run) || says("CPU time limit") || run.signal == SIGXCPU || run.cpuSeconds >= limits_.seconds)
+    return fmt::format("took more than {:g} s of processor time and was stopped", limits_.seconds);
+  if (says("File size limit") || says("File too large"))
+    return fmt::format("would write a file of more than {} MiB", limits_.fileSize >> 20);
+  return {};
+}
+
+std::vector<fs::path> studentHeaders(const fs::path& folder) {
+  std::vector<fs::path> found;
+  const bool hasStarter = fs::exists(folder / "starter.cpp");
+  std::vector<std::string> open = {"exercise.h", hasStarter ? "starter.cpp" : "main.cpp", "solution.cpp"};
+  for (std::size_t k = 0; k < open.size(); ++k) {
+    const fs::path file = folder / open[k];
+    if (!fs::is_regular_file(fs::symlink_status(file))) continue;
+    if (open[k].ends_with(".h")) found.push_back(file);
+    for (const std::string& name : includedNames(readTextFile(file)))
+      if (std::find(open.begin(), open.end(), name) == open.end() && name.find("..") == name.npos)
+        open.push_back(name);
+  }
+  return found;
+}
+
+}  // namespace rex::grading

@@ -1,0 +1,162 @@
+#include "submission/compiler_messages.h"
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/lines.h"
+
+namespace rex::grading {
+namespace {
+
+using Json = nlohmann::json;
+
+void replaceAll(std::string& text, std::string_view from, std::string_view to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+}
+
+// One line, plain quotes.
+std::string tidy(std::string text) {
+  replaceAll(text, "\u2018", "'");
+  replaceAll(text, "\u2019", "'");
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+CompileDiagnostic readMessage(const Json& json) {
+  CompileDiagnostic message;
+  const std::string kind = json.at("kind").get<std::string>();
+  message.severity = kind == "warning" ? "warning" : "error";
+  message.rule = json.value("option", "");
+  message.message = tidy(json.at("message").get<std::string>());
+  const Json& locations = json.at("locations");
+  if (!locations.empty()) {
+    const Json& caret = locations.at(0).at("caret");
+    message.file = caret.at("file").get<std::string>();
+    message.line = caret.at("line").get<int>();
+    message.column = caret.at("column").get<int>();
+  }
+  return message;
+}
+
+// The line and column after "main.cpp:" in a line that says where from; {0, 0} when it does not.
+std::pair<int, int> originIn(std::string_view line, const std::string& mainFile) {
+  const bool instantiated = line.starts_with(mainFile + ":") && line.find("required from") != line.npos;
+  const std::size_t included = line.find("from " + mainFile + ":");
+  if (!instantiated && included == line.npos) return {0, 0};
+  const char* at = line.data() + (instantiated ? 0 : included + 5) + mainFile.size() + 1;
+  const char* end = line.data() + line.size();
+  int row = 0, column = 0;
+  const auto parsed = std::from_chars(at, end, row);
+  if (parsed.ptr != end && *parsed.ptr == ':') std::from_chars(parsed.ptr + 1, end, column);
+  return {row, column};
+}
+
+// The part of a header's path that a student knows: after the last include folder.
+std::string headerName(const std::string& file) {
+  for (const std::string_view folder : {"/eigen3/", "/include/c++/12/", "/src/", "/include/"}) {
+    const std::size_t at = file.rfind(folder);
+    if (at != std::string::npos) return file.substr(at + folder.size());
+  }
+  return file.substr(file.rfind('/') + 1);
+}
+
+}  // namespace
+
+std::vector<CompileDiagnostic> parseCompilerJson(std::string_view standardError) {
+  std::vector<CompileDiagnostic> messages;
+  // The array stands on one line; the driver adds lines of plain text.
+  for (const std::string_view line : splitLines(standardError)) {
+    if (!line.starts_with('[')) continue;
+    const Json array = Json::parse(line, nullptr, false);
+    if (!array.is_array()) continue;
+    try {
+      for (const Json& entry : array)
+        if (entry.at("kind") != "note") messages.push_back(readMessage(entry));
+    } catch (const Json::exception&) {
+      continue;
+    }
+  }
+  return messages;
+}
+
+std::vector<CompileDiagnostic> parseCompilerText(std::string_view standardError) {
+  std::vector<CompileDiagnostic> messages;
+  for (const std::string_view line : splitLines(standardError)) {
+    const std::size_t label = std::min(line.find(": error: "), line.find(": fatal error: "));
+    if (label == line.npos || label == 0) continue;
+    const std::size_t column = line.rfind(':', label - 1);
+    const std::size_t row = column == line.npos || column == 0 ? line.npos : line.rfind(':', column - 1);
+    if (row == line.npos) continue;
+    CompileDiagnostic message{.file = std::string(line.substr(0, row)), .severity = "error"};
+    std::from_chars(line.data() + row + 1, line.data() + column, message.line);
+    std::from_chars(line.data() + column + 1, line.data() + label, message.column);
+    message.message = tidy(std::string(line.substr(line.find("error: ", label) + 7)));
+    messages.push_back(std::move(message));
+  }
+  return messages;
+}
+
+// Where the compiler left no line of the source, the assembler tells that of a file which is gone.
+std::vector<CompileDiagnostic> parseAssemblerText(std::string_view standardError) {
+  std::vector<CompileDiagnostic> messages;
+  for (const std::string_view line : splitLines(standardError)) {
+    const std::size_t label = std::min(line.find(": Error: "), line.find(": Fatal error: "));
+    const std::size_t row = label == line.npos || label == 0 ? line.npos : line.rfind(':', label - 1);
+    if (row == line.npos) continue;
+    CompileDiagnostic message{.file = std::string(line.substr(0, row)), .severity = "error"};
+    std::from_chars(line.data() + row + 1, line.data() + label, message.line);
+    message.message = tidy(std::string(line.substr(line.find("rror: ", label) + 6)));
+    if (message.line == 0) continue;
+    if (message.file.ends_with(".s")) message.file.clear(), message.line = 0;
+    messages.push_back(std::move(message));
+  }
+  return messages;
+}
+
+void blameMainFile(std::vector<CompileDiagnostic>& messages, const std::string& mainFile,
+                   std::string_view plainText) {
+  const std::vector<std::string_view> lines = splitLines(plainText);
+  for (CompileDiagnostic& message : messages) {
+    if (message.file == mainFile) continue;
+    const std::string start = toString(SourceLocation{message.file, message.line, message.column}) + ": ";
+    auto at = std::find_if(lines.begin(), lines.end(), [&](auto line) { return line.starts_with(start); });
+    std::pair<int, int> origin{0, 0};
+    while (origin.first == 0 && at != lines.end() && at != lines.begin()) origin = originIn(*--at, mainFile);
+    if (!message.file.empty())
+      message.message += fmt::format(" (in {}:{})", headerName(message.file), message.line);
+    message.file = mainFile;
+    message.line = origin.first;
+    message.column = origin.second;
+  }
+}
+
+std::vector<CompileDiagnostic> parseLinkerText(std::string_view standardError, const std::string& mainFile) {
+  struct Phrase {
+    std::string_view text, explanation;
+  };
+  constexpr Phrase kPhrases[] = {{"undefined reference to `", "is declared but has no body here"},
+                                 {"multiple definition of `", "is defined, but the exercise already has it"}};
+  std::vector<CompileDiagnostic> messages;
+  std::set<std::string> seen;
+  for (const std::string_view line : splitLines(standardError)) {
+    for (const Phrase& phrase : kPhrases) {
+      const std::size_t at = line.find(phrase.text);
+      if (at == line.npos) continue;
+      const std::string_view rest = line.substr(at + phrase.text.size());
+      // The name alone: argument types of Eigen fill the screen.
+      const std::string symbol(rest.substr(0, rest.find_first_of("(\'")));
+      if (seen.insert(symbol).second)
+        messages.push_back({mainFile, 0, 0, "error", "", fmt::format("'{}' {}", symbol, phrase.explanation)});
+    }
+  }
+  return messages;
+}
+
+}  // namespace rex::grading

@@ -1,0 +1,125 @@
+#include "submission/exercise_info.h"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/toml_table.h"
+
+namespace rex::grading {
+namespace {
+
+using std::filesystem::path;
+
+ExerciseLimits readLimits(const TomlTable& table) {
+  table.refuseKeysBut({"cpu_seconds", "memory_mb", "output_mb"});
+  ExerciseLimits limits;
+  if (table.has("cpu_seconds")) limits.cpuSeconds = table.number("cpu_seconds", 0, 3600);
+  if (table.has("memory_mb")) limits.memoryMb = table.integer("memory_mb", 64, 65536);
+  if (table.has("output_mb")) limits.outputMb = table.integer("output_mb", 1, 1024);
+  return limits;
+}
+
+ExercisePart readPart(const TomlTable& table) {
+  table.refuseKeysBut({"id", "title", "points", "floor", "hints"});
+  ExercisePart part{.id = table.text("id"), .title = table.text("title"), .hints = {}};
+  part.points = table.integer("points", 1, 1000);
+  if (table.has("floor")) part.floor = table.integer("floor", 0, part.points);
+  if (table.has("hints")) part.hints = table.texts("hints");
+  return part;
+}
+
+SolutionRule readSolutionRule(const TomlTable& table) {
+  if (!table.has("solution")) return SolutionRule::never;
+  return table.choice<SolutionRule>("solution", {{"never", SolutionRule::never},
+                                                 {"after-pass", SolutionRule::afterPass},
+                                                 {"always", SolutionRule::always}});
+}
+
+ForbiddenFunction readForbidden(const TomlTable& table) {
+  table.refuseKeysBut({"function", "reason"});
+  return {table.text("function"), table.text("reason")};
+}
+
+void readParts(const TomlTable& top, const std::string& file, ExerciseInfo& info) {
+  std::set<std::string> ids;
+  for (const TomlTable& table : top.tables("part")) {
+    info.parts.push_back(readPart(table));
+    if (!ids.insert(info.parts.back().id).second)
+      throw Error({.what = fmt::format("two parts are called '{}'", info.parts.back().id),
+                   .where = table.where("id")});
+  }
+  if (info.parts.empty())
+    throw Error({.what = "no part", .where = {file}, .wanted = "at least one table headed [[part]]"});
+}
+
+// "01" and "1" are one number.
+std::string_view withoutZeros(std::string_view number) {
+  return number.substr(std::min(number.find_first_not_of('0'), number.size()));
+}
+
+}  // namespace
+
+int ExerciseInfo::points() const {
+  int sum = 0;
+  for (const ExercisePart& part : parts) sum += part.points;
+  return sum;
+}
+
+ExerciseInfo readExerciseInfo(const path& folder) {
+  const path file = folder / "exercise.toml";
+  const TomlTable top = TomlTable::read(file, "the exercise", "the description of an exercise");
+  top.refuseKeysBut({"title", "script", "solution", "limits", "part", "forbidden"});
+
+  ExerciseInfo info;
+  info.folder = folder;
+  info.name = folder.filename().string();
+  info.title = top.text("title");
+  info.script = top.text("script");
+  info.solution = readSolutionRule(top);
+  if (const auto limits = top.table("limits", "[limits]", "a table headed [limits]"))
+    info.limits = readLimits(*limits);
+  readParts(top, file.string(), info);
+  for (const TomlTable& table : top.tables("forbidden")) info.forbidden.push_back(readForbidden(table));
+  return info;
+}
+
+std::vector<ExerciseInfo> listExercises(const path& folder) {
+  std::vector<path> folders;
+  if (std::filesystem::is_directory(folder)) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      if (std::filesystem::exists(entry.path() / "exercise.toml")) folders.push_back(entry.path());
+    }
+  }
+  std::sort(folders.begin(), folders.end());
+  std::vector<ExerciseInfo> exercises;
+  for (const path& one : folders) exercises.push_back(readExerciseInfo(one));
+  return exercises;
+}
+
+const ExerciseInfo& findExercise(const std::vector<ExerciseInfo>& exercises, std::string_view name) {
+  std::vector<const ExerciseInfo*> matches;
+  std::vector<std::string> names, spellings;
+  for (const ExerciseInfo& exercise : exercises) {
+    const std::size_t dash = exercise.name.find('-');
+    const std::string number = exercise.name.substr(0, dash);
+    const std::string topic = dash == std::string::npos ? "" : exercise.name.substr(dash + 1);
+    if (exercise.name == name) return exercise;
+    if ((!name.empty() && withoutZeros(name) == withoutZeros(number)) || (!topic.empty() && name == topic))
+      matches.push_back(&exercise);
+    names.push_back(exercise.name);
+    spellings.insert(spellings.end(), {exercise.name, topic});
+  }
+  if (matches.size() == 1) return *matches.front();
+  if (matches.empty())
+    throw UsageError({.what = fmt::format("no exercise is called '{}'", name),
+                      .wanted = names.empty() ? "" : fmt::format("one of {}", fmt::join(names, ", ")),
+                      .nearest = nearestNames(name, spellings)});
+  std::vector<std::string> candidates;
+  for (const ExerciseInfo* match : matches) candidates.push_back(match->name);
+  throw UsageError({.what = fmt::format("several exercises are called '{}'", name), .nearest = candidates});
+}
+
+}  // namespace rex::grading

@@ -1,0 +1,136 @@
+#include "submission/second_look.h"
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/lines.h"
+#include "base/text_file.h"
+
+namespace rex::grading {
+namespace {
+
+// Part of the program, for its environment is empty. The library it calls knows nothing of the sanitizers, so
+// what they would say about containers that both use is no finding; what a killed program leaves is no leak.
+constexpr const char* kOptionsHeader = R"(
+extern "C" __attribute__((no_sanitize("address", "undefined"))) const char* __asan_default_options() {
+  return "abort_on_error=1:handle_abort=1:detect_leaks=0:detect_container_overflow=0:detect_odr_violation=0:"
+         "print_legend=0:hard_rss_limit_mb=" REX_MEMORY_MEGABYTES;
+}
+extern "C" __attribute__((no_sanitize("address", "undefined"))) const char* __ubsan_default_options() {
+  return "print_stacktrace=1";
+}
+)";
+
+constexpr std::string_view kStackOverflow = "stack-overflow";
+
+std::string plainWords(std::string_view kind) {
+  constexpr std::pair<std::string_view, const char*> kWords[] = {
+      {"heap-buffer-overflow", "reads or writes outside of an array on the heap"},
+      {"stack-buffer-overflow", "reads or writes outside of a local array"},
+      {"dynamic-stack-buffer-overflow", "reads or writes outside of a local array"},
+      {"stack-buffer-underflow", "reads or writes before a local array"},
+      {"global-buffer-overflow", "reads or writes outside of a global array"},
+      {"heap-use-after-free", "uses memory that was given back"},
+      {"stack-use-after-return", "uses a local variable after its function has ended"},
+      {"stack-use-after-scope", "uses a local variable after its block has ended"},
+      {kStackOverflow, "uses up the stack: a recursion without end?"},
+      {"attempting double-free", "gives memory back twice"},
+      {"attempting free", "gives memory back that it did not get"},
+      {"SEGV", "uses an address where nothing is: a null pointer, or an index far out of range?"},
+      {"FPE", "divides an integer by zero"},
+      {"ABRT", "aborts"},
+  };
+  for (const auto& [name, words] : kWords)
+    if (kind.starts_with(name)) return words;
+  return std::string(kind.substr(0, kind.find(' ')));
+}
+
+// What a line reports, and the line it names itself; an empty finding where it reports nothing.
+CrashSite findingIn(std::string_view line, const std::string& mainFile) {
+  constexpr std::string_view kAddress = "ERROR: AddressSanitizer: ", kUndefined = ": runtime error: ";
+  if (const std::size_t at = line.find(kAddress); at != line.npos)
+    return {.finding = plainWords(line.substr(at + kAddress.size()))};
+  const std::size_t at = line.find(kUndefined);
+  if (at == line.npos) return {};
+  CrashSite site{.finding = std::string(line.substr(at + kUndefined.size()))};
+  const std::string name = mainFile + ":";
+  const std::size_t own = line.substr(0, at).rfind(name);
+  if (own != line.npos && (own == 0 || line[own - 1] == '/'))
+    std::from_chars(line.data() + own + name.size(), line.data() + at, site.line);
+  return site;
+}
+
+struct Frame {
+  std::string function;
+  int line = 0;
+};
+
+// Reads "    #2 0x55d0 in ikStep(int) /folder/main.cpp:47:3" if it is about the student's file.
+std::optional<Frame> frameIn(std::string_view line, const std::string& mainFile) {
+  const std::size_t name = line.find(" in "), file = line.rfind("/" + mainFile + ":");
+  if (line.find(" #") == line.npos || name == line.npos || file == line.npos) return {};
+  const char* number = line.data() + file + mainFile.size() + 2;
+  int row = 0;
+  std::from_chars(number, line.data() + line.size(), row);
+  if (row == 0) return {};
+  const std::string_view function = line.substr(name + 4);
+  return Frame{std::string(function.substr(0, function.find_first_of("( "))), row};
+}
+
+// Chance decides in which line of a recursion the stack ends. A line that occurs twice in it calls the next
+// round; of several, the first in the file. The innermost line where none does.
+const Frame& recursionIn(const std::vector<Frame>& stack) {
+  std::set<int> seen;
+  const Frame* found = nullptr;
+  for (const Frame& frame : stack)
+    if (!seen.insert(frame.line).second && (found == nullptr || frame.line < found->line)) found = &frame;
+  return found != nullptr ? *found : stack.front();
+}
+
+}  // namespace
+
+std::optional<CrashSite> crashSiteIn(std::string_view standardError, const std::string& mainFile) {
+  CrashSite site;
+  std::vector<Frame> stack;  // innermost first
+  for (const std::string_view line : splitLines(standardError)) {
+    if (site.finding.empty()) {
+      site = findingIn(line, mainFile);
+    } else if (auto frame = frameIn(line, mainFile)) {
+      stack.push_back(std::move(*frame));
+    }
+  }
+  if (site.finding.empty()) return {};
+  if (stack.empty()) return site;
+  const Frame& frame = site.finding == plainWords(kStackOverflow) ? recursionIn(stack) : stack.front();
+  site.function = frame.function;
+  if (site.line == 0) site.line = frame.line;
+  return site;
+}
+
+Toolchain sanitizedToolchain(const Toolchain& toolchain, const std::filesystem::path& folder,
+                             int memoryMegabytes) {
+  const std::filesystem::path header = folder / "sanitizer_options.h";
+  writeTextFile(header, fmt::format("#pragma once\n#define REX_MEMORY_MEGABYTES \"{}\"", memoryMegabytes) +
+                            kOptionsHeader);
+  constexpr const char* kSanitizers = "-fsanitize=address,undefined";
+  Toolchain sanitized = toolchain;
+  sanitized.prefix.clear();
+  for (const std::string& flag :
+       std::vector<std::string>{"-O0", "-g1", kSanitizers, "-fno-sanitize=vptr", "-fno-sanitize-recover=all",
+                                "-fno-omit-frame-pointer", "-include", header})
+    sanitized.flags.push_back(flag);
+  sanitized.linkFlags.push_back(kSanitizers);
+  // Eigen allocates otherwise under the sanitizer of addresses, but what the program and the library hand to
+  // each other must be given back as it was got.
+  const auto isSanitizer = [](const std::string& flag) { return flag.starts_with("-fsanitize="); };
+  if (std::none_of(toolchain.flags.begin(), toolchain.flags.end(), isSanitizer))
+    sanitized.flags.push_back("-DEIGEN_MALLOC_ALREADY_ALIGNED=1");
+  return sanitized;
+}
+
+}  // namespace rex::grading

@@ -1,0 +1,270 @@
+#include "submission/student_build.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "base/process.h"
+#include "base/text_file.h"
+#include "submission/build_tools.h"
+#include "submission/included_files.h"
+#include "submission/mentions.h"
+#include "submission/precompiled_prefix.h"
+#include "submission/symbol_scan.h"
+#include "submission/tool_failure.h"
+
+namespace rex::grading {
+namespace {
+
+using std::filesystem::path;
+
+constexpr const char* kDependencies = "student.d";
+constexpr std::size_t kLogSize = 64u << 10;
+constexpr std::size_t kMostMessages = 50;
+
+// The name to compile under: the student's own if it is plain, for names come from strangers.
+std::string plainName(const path& file) {
+  const std::string name = file.filename().string();
+  const auto plain = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || c == '.';
+  };
+  const bool usable = name.ends_with(".cpp") && std::isalnum(static_cast<unsigned char>(name.front())) &&
+                      std::all_of(name.begin(), name.end(), plain);
+  return usable ? name : "main.cpp";
+}
+
+Error unexplained(const std::string& what, std::string found) {
+  return Error({.what = what + " at no fault of the file",
+                .found = std::move(found),
+                .wanted = "a machine with room on its disks, and tools that work"});
+}
+
+// Why a compiler that reported no error still failed. One that a source makes fall does so each time; what
+// nobody can explain is no fault of the student.
+std::string whyItGaveUp(const ProcessResult& run, const BuildTools& tools,
+                        const StudentBuildOptions& limits) {
+  if (run.timedOut)
+    return fmt::format("compiling did not end within {:g} s: does it include a pipe or a device?",
+                       clockSeconds(limits.seconds, limits.sandbox.level));
+  if (const std::string limit = tools.limitReached(run); !limit.empty()) return "compiling " + limit;
+  constexpr std::size_t kMostText = 8u << 20;  // that BuildTools keeps
+  const bool namesErrors = run.error.find("\"kind\": \"error\"") != run.error.npos;
+  if (namesErrors || run.error.size() >= kMostText) return "the compiler has more to say than can be read";
+  const std::string words = lastWordsOf(run);
+  if (words.find("internal compiler error") == words.npos) throw unexplained("the compiler failed", words);
+  return "the compiler gave up: " + words;
+}
+
+// From level 2 on, files that the compiler makes for itself lie in memory that it shares with nobody.
+bool isInSandboxsMemory(const std::string& text, int level) {
+  return level >= 2 && text.find(fmt::format(" {}/cc", sandbox::kInsideFolder)) != text.npos;
+}
+
+std::vector<std::string> compileCommand(const Toolchain& toolchain, const StudentBuildOptions& options,
+                                        const std::string& source) {
+  std::vector<std::string> command = {toolchain.compiler};
+  command.insert(command.end(), toolchain.flags.begin(), toolchain.flags.end());
+  command.insert(command.end(), {"-ftemplate-depth=200"});
+  if (options.debug) {
+    const path folder = std::filesystem::absolute(options.main).parent_path();
+    command.insert(
+        command.end(),
+        {"-g", "-O0", fmt::format("-fdebug-prefix-map={}={}", options.workFolder.string(), folder.string())});
+    return command;
+  }
+  const std::vector<std::string> prefix = prefixFlags(toolchain.prefix, source, toolchain.flags);
+  command.insert(command.end(), prefix.begin(), prefix.end());
+  return command;
+}
+
+// The compiler's report in plain words; it alone tells which line of the student's caused an error in a
+// header. No source lines are quoted: they could come from any file.
+std::string plainReport(std::vector<std::string> command, const std::string& name, const BuildTools& tools) {
+  command.insert(command.end(), {"-fmax-errors=20", "-fno-diagnostics-show-caret", "-fsyntax-only", name});
+  return tools.runOnce(command).error;
+}
+
+std::string writeLog(const std::vector<CompileDiagnostic>& messages) {
+  std::string log;
+  for (const CompileDiagnostic& message : messages) log += toString(message) + "\n";
+  return log;
+}
+
+// Finds what the file did wrong. Throws Error where nothing tells of that.
+void explain(const ProcessResult& run, const std::vector<std::string>& command, const std::string& name,
+             const BuildTools& tools, const StudentBuildOptions& options, StudentObject& result) {
+  if (const auto full = fullDiskIn(result.messages)) {
+    if (!isInSandboxsMemory(*full, options.sandbox.level)) throw unexplained("the compiler failed", *full);
+    result.messages = {
+        {name, 0, 0, "error", "", "compiling filled the sandbox's folder for temporary files"}};
+  }
+  const auto isError = [](const CompileDiagnostic& m) { return m.severity == "error"; };
+  const auto explained = [&] { return std::any_of(result.messages.begin(), result.messages.end(), isError); };
+  // g++ 12 writes no JSON when -fmax-errors stops it; so that is for plain text only, which stands in when
+  // too many errors keep the JSON from being finished.
+  result.log = plainReport(command, name, tools).substr(0, kLogSize);
+  if (!explained()) result.messages = parseCompilerText(result.log);
+  if (!explained()) result.messages = parseAssemblerText(run.error);
+  if (!explained()) result.messages.push_back({name, 0, 0, "error", "", whyItGaveUp(run, tools, options)});
+}
+
+void compile(const std::vector<std::string>& command, const std::string& name, const BuildTools& tools,
+             const StudentBuildOptions& options, StudentObject& result) {
+  std::vector<std::string> withJson = command;
+  withJson.insert(withJson.end(), {"-fdiagnostics-format=json", "-MD", "-MF", kDependencies, "-c", name, "-o",
+                                   result.object.filename().string()});
+  const ProcessResult run = tools.run(withJson);
+  result.exitCode = run.exitCode;
+  result.ok = run.ok();
+  result.messages = parseCompilerJson(run.error);
+  if (!run.ok()) explain(run, command, name, tools, options, result);
+  blameMainFile(result.messages, name, result.log);
+  result.truncated = result.messages.size() > kMostMessages;
+  if (result.truncated) result.messages.resize(kMostMessages);
+  if (result.log.empty()) result.log = writeLog(result.messages);
+}
+
+// What the linker found wrong with the last of the objects, which is the student's. Throws Error where
+// nothing tells of that.
+std::vector<CompileDiagnostic> explainLinking(const ProcessResult& run, const BuildTools& tools,
+                                              const std::string& object, const std::string& mainFile) {
+  std::vector<CompileDiagnostic> messages = parseLinkerText(run.error, mainFile);
+  if (!messages.empty()) return messages;
+  const std::string limit = tools.limitReached(run);
+  if (!limit.empty()) return {{mainFile, 0, 0, "error", "", "linking " + limit}};
+  const std::string complaint = complaintAbout(object, run.error);
+  if (complaint.empty()) throw unexplained("the linker failed", lastWordsOf(run));
+  return {{mainFile, 0, 0, "error", "", "cannot be linked: " + complaint}};
+}
+
+StudentProgram link(const Toolchain& toolchain, const BuildTools& tools, const path& program,
+                    const std::vector<std::string>& objects, const std::string& mainFile) {
+  std::vector<std::string> command = {toolchain.compiler, "-o", program.string()};
+  command.insert(command.end(), objects.begin(), objects.end());
+  command.emplace_back("-Wl,--as-needed");
+  for (const path& library : toolchain.libraries) command.push_back(library.string());
+  command.insert(command.end(), toolchain.linkFlags.begin(), toolchain.linkFlags.end());
+  const ProcessResult run = tools.run(command);
+  StudentProgram result{
+      .program = program, .messages = {}, .log = run.error.substr(0, kLogSize), .ok = run.ok()};
+  if (!run.ok()) result.messages = explainLinking(run, tools, objects.back(), mainFile);
+  return result;
+}
+
+class FileHandle {
+ public:
+  explicit FileHandle(const path& file)
+      : fd_(::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)) {}
+  ~FileHandle() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  FileHandle(const FileHandle&) = delete;
+  FileHandle& operator=(const FileHandle&) = delete;
+  int get() const { return fd_; }
+
+ private:
+  int fd_;
+};
+
+}  // namespace
+
+std::string readStudentFile(const path& file) {
+  constexpr std::size_t kLargest = 1u << 20;
+  const auto refuse = [&](std::string found) {
+    return Error({.what = "cannot be graded",
+                  .where = {file.string()},
+                  .found = std::move(found),
+                  .wanted = "a C++ source file"});
+  };
+  const FileHandle handle(file);
+  if (handle.get() < 0)
+    throw refuse(errno == ELOOP ? "a symbolic link" : errno == ENOENT ? "no file" : std::strerror(errno));
+  struct stat status {};
+  if (::fstat(handle.get(), &status) != 0) throw refuse(std::strerror(errno));
+  if (S_ISDIR(status.st_mode)) throw refuse("a folder");
+  if (!S_ISREG(status.st_mode)) throw refuse("a pipe or device");
+
+  std::string text;
+  std::array<char, 65536> buffer;
+  for (ssize_t n = 1; n > 0 && text.size() <= kLargest;) {
+    n = ::read(handle.get(), buffer.data(), buffer.size());
+    if (n < 0) throw refuse(std::strerror(errno));
+    text.append(buffer.data(), static_cast<std::size_t>(n));
+  }
+  if (text.size() > kLargest) throw refuse("more than 1 MiB");
+  if (text.find('\0') != std::string::npos) throw refuse("NUL bytes, as in a binary or UTF-16 file");
+  return text;
+}
+
+StudentObject compileStudent(const Toolchain& toolchain, const std::vector<ForbiddenFunction>& forbidden,
+                             const StudentBuildOptions& options) {
+  const std::string name = plainName(options.main);
+  const path folder = std::filesystem::absolute(options.workFolder);
+  StudentObject result;
+  result.name = name;
+  try {
+    result.source = readStudentFile(options.main);
+  } catch (const Error& error) {
+    result.messages.push_back(
+        {name, 0, 0, "error", "",
+         "cannot be graded: found " + error.parts().found + ", wanted " + error.parts().wanted});
+    result.log = writeLog(result.messages);
+    result.exitCode = 1;
+    return result;
+  }
+  // A copy, so that what is graded is what was read and nothing beside the student's file is included.
+  std::filesystem::create_directories(folder);
+  writeTextFile(folder / name, result.source);
+  result.object = folder / "student.o";
+  // Of another user, after a grading at another level.
+  for (const path& old : {folder / kDependencies, result.object}) std::filesystem::remove(old);
+  StudentBuildOptions absolute = options;
+  absolute.workFolder = folder;
+  const BuildTools tools(toolchain, folder, options.sandbox,
+                         {.seconds = options.seconds, .memory = options.memory});
+  compile(compileCommand(toolchain, absolute, result.source), name, tools, absolute, result);
+  if (!result.ok) return result;
+
+  std::vector<CompileDiagnostic> calls =
+      scanSymbols(toolchain.objdump, result.object, result.source, name, forbidden, tools);
+  if (options.publicHeadersOnly) {
+    const auto dependencies = dependenciesIn(readTextFile(folder / kDependencies), folder);
+    for (const CompileDiagnostic& file :
+         forbiddenIncludes(dependencies, result.source, name, folder, toolchain))
+      calls.push_back(file);
+    for (const CompileDiagnostic& macro : forbiddenMacros(result.source, name)) calls.push_back(macro);
+  }
+  result.ok = calls.empty();
+  result.messages.insert(result.messages.end(), calls.begin(), calls.end());
+  if (const auto [line, column] = standardInputUse(result.source); line > 0)
+    result.messages.push_back({name, line, column, "warning", "stdin",
+                               "reads standard input, which is empty here: every read finds its end"});
+  result.log = writeLog(result.messages);
+  return result;
+}
+
+StudentProgram linkWorker(const Toolchain& toolchain, const StudentObject& object,
+                          const sandbox::Sandbox& sandbox) {
+  const path folder = object.object.parent_path(), renamed = folder / "worker_student.o";
+  const BuildTools tools(toolchain, folder, sandbox);
+  const ProcessResult run = tools.run(
+      {toolchain.objcopy, "--redefine-sym", "main=studentMain", object.object.string(), renamed.string()});
+  if (!run.ok()) throw Error({.what = "cannot rename main in the compiled file", .found = run.error});
+  return link(toolchain, tools, folder / "worker", {toolchain.workerObject.string(), renamed.string()},
+              object.name);
+}
+
+StudentProgram linkProgram(const Toolchain& toolchain, const StudentObject& object) {
+  const path folder = object.object.parent_path();
+  return link(toolchain, BuildTools(toolchain, folder, {}), folder / "program", {object.object.string()},
+              object.name);
+}
+
+}  // namespace rex::grading

@@ -1,0 +1,39 @@
+#include "submission/toolchain.h"
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/text_file.h"
+
+namespace rex::grading {
+namespace {
+
+std::vector<std::filesystem::path> paths(const nlohmann::json& list) {
+  const auto texts = list.get<std::vector<std::string>>();
+  return {texts.begin(), texts.end()};
+}
+
+}  // namespace
+
+Toolchain readToolchain(const std::filesystem::path& buildJson) {
+  if (!std::filesystem::exists(buildJson))
+    throw Error({.what = "the exercise is not built",
+                 .where = {buildJson.string()},
+                 .wanted = "this file, which building the project writes"});
+  try {
+    const nlohmann::json json = nlohmann::json::parse(readTextFile(buildJson));
+    return {.compiler = json.at("compiler").get<std::string>(),
+            .flags = json.at("compile_flags").get<std::vector<std::string>>(),
+            .linkFlags = json.at("link_flags").get<std::vector<std::string>>(),
+            .workerObject = json.at("worker_object").get<std::string>(),
+            .grader = json.at("grader").get<std::string>(),
+            .libraries = paths(json.at("libraries")),
+            .prefix = json.value("prefix", ""),
+            .objcopy = json.value("objcopy", "objcopy"),
+            .objdump = json.value("objdump", "objdump")};
+  } catch (const nlohmann::json::exception& error) {
+    throw Error({.what = "not a build description", .where = {buildJson.string()}, .found = error.what()});
+  }
+}
+
+}  // namespace rex::grading

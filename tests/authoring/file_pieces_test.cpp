@@ -1,0 +1,96 @@
+#include "authoring/file_pieces.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace rex::grading::file_pieces_test {
+
+using ::testing::ElementsAre;
+
+std::vector<std::string> texts(const std::string& source) {
+  std::vector<std::string> all;
+  for (const FilePiece& piece : filePieces(source))
+    all.push_back(source.substr(piece.start, piece.end - piece.start));
+  return all;
+}
+
+// The only function of a source; "none" if there is none, or the name does not start where it should.
+std::string functionIn(const std::string& source) {
+  std::string found = "none";
+  for (const FilePiece& piece : filePieces(source)) {
+    if (piece.function.empty()) continue;
+    EXPECT_EQ(found, "none") << source;
+    EXPECT_EQ(source.substr(piece.nameStart, piece.function.size()), piece.function);
+    found = piece.function;
+  }
+  return found;
+}
+
+TEST(FilePieces, EndWithBracesOrSemicolons) {
+  EXPECT_THAT(texts("#include <cmath>\n\nusing namespace rex;  // all\n// A comment.\nint f() { return 1; }\n"
+                    "struct S {\n  int a;\n};\nconst int kA[]{1, 2}, kB[] = {3};\nint g(int);\n"),
+              ElementsAre("#include <cmath>", "using namespace rex;", "int f() { return 1; }",
+                          "struct S {\n  int a;\n};", "const int kA[]{1, 2}, kB[] = {3};", "int g(int);"));
+  EXPECT_THAT(
+      texts("#define A \\\n  {\nint f() {\n  if (true) {\n  }\n}\n[[nodiscard]] int g() { return 1; }"),
+      ElementsAre("#define A \\\n  {", "int f() {\n  if (true) {\n  }\n}",
+                  "[[nodiscard]] int g() { return 1; }"));
+  EXPECT_THAT(texts("namespace {\nint f() { return 1; }\n}\nint g() { return 2; }"),
+              ElementsAre("namespace {\nint f() { return 1; }\n}", "int g() { return 2; }"));
+}
+
+TEST(FilePieces, KnowWhichBracesAreText) {
+  EXPECT_THAT(
+      texts("void f() {\n  puts(\"}\");  // }\n  /* } */ char c = '}';\n  puts(R\"(})\");\n}\nint g;"),
+      ElementsAre("void f() {\n  puts(\"}\");  // }\n  /* } */ char c = '}';\n  puts(R\"(})\");\n}",
+                  "int g;"));
+}
+
+TEST(FilePieces, AcceptTextThatIsNoCode) {
+  EXPECT_THAT(texts(""), ElementsAre());
+  EXPECT_THAT(texts("} ) what {"), ElementsAre("}", ") what {"));
+  EXPECT_THAT(texts("#"), ElementsAre("#"));
+}
+
+TEST(FilePieces, NameFunctionsThatCanBeSwapped) {
+  for (const char* source :
+       {"int f() {}", "Eigen::VectorXd f(const Eigen::VectorXd& x, double a) {}", "int* f() {}",
+        "int& f() {}", "std::vector<std::pair<int, int>> f(std::function<int(int)> g) {}",
+        "int f(int (*g)(int)) {}", "[[nodiscard]] int f() {}", "[[deprecated(\"no (\")]] int f() {}",
+        "int f() noexcept(true) {}", "int f(std::vector<int> a = {1, 2}, char c = '{') {}",
+        "int\nf // (\n(int a) {}", "int f(int a) {\n  const auto g = [&] { return a; };\n  return g();\n}"})
+    EXPECT_EQ(functionIn(source), "f") << source;
+  EXPECT_EQ(functionIn("int main() {}"), "main");
+  ASSERT_EQ(filePieces("int f(int) {}\nint f(double) {}\n").size(), 2u);
+}
+
+TEST(FilePieces, NameNothingElse) {
+  for (const char* source : {"static int f() {}",
+                             "inline int f() {}",
+                             "int constexpr f() {}",
+                             "template <class T> int f(T) {}",
+                             "int f(auto a) {}",
+                             "auto f() -> int {}",
+                             "namespace a { int f() {} }",
+                             "namespace {\nint f() {}\n}",
+                             "extern \"C\" int f() {}",
+                             "int A::f() {}",
+                             "A::~A() {}",
+                             "A::A() : a{1} {}",
+                             "bool operator<(A, A) {}",
+                             "int f();",
+                             "const int f = [](int) { return 1; }(2);",
+                             "int f{1};",
+                             "struct F { int f() {} };",
+                             "decltype(1) f() {}",
+                             "TEST(F, f) {}",
+                             "__attribute__((cold)) int f() {}",
+                             "enum F { f };",
+                             "int f() try {} catch (...) {}",
+                             "#define F int f() {}",
+                             "{}",
+                             "int a {}"})
+    EXPECT_EQ(functionIn(source), "none") << source;
+}
+
+}  // namespace rex::grading::file_pieces_test

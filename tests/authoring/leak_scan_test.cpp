@@ -1,0 +1,260 @@
+#include "authoring/leak_scan.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/process.h"
+#include "base/text_file.h"
+#include "submission/zip_file.h"
+#include "support/expect_error.h"
+#include "support/temporary_folder.h"
+
+namespace rex::grading::leak_scan_test {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr const char* kSolution =
+    "#include \"exercise.h\"\n"
+    "double area(double r) {\n"
+    "  // <solution area>\n"
+    "  const double square = r * r;  // squared\n"
+    "  // Slide 3:1 has the formula.\n"
+    "  return 3.14159265 * square;\n"
+    "  // <todo>\n"
+    "  //| // TODO: the area of the circle.\n"
+    "  //| return 0;\n"
+    "  // </solution>\n"
+    "}\n";
+constexpr const char* kCheck =
+    "void growsWithRadius() { require(area(2) > area(1), \"area grows with the radius\"); }\n"
+    "// <hidden>\n"
+    "void quadruplesWhenDoubled() {\n"
+    "  const double small = area(1);\n"
+    "  require(area(2) == 4 * small, \"twice the radius, four times the area\");\n"
+    "}\n"
+    "// </hidden>\n";
+constexpr const char* kWrong =
+    "// caught by: grows\n"
+    "// mistake: takes the circumference for the area.\n"
+    "// <solution area>\n"
+    "const double circumference = 2 * 3.14159265 * r;\n"
+    "return circumference;\n"
+    "// </solution>\n";
+
+class LeakScanTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    write("root/exercises/01-circle/solution.cpp", kSolution);
+    write("root/exercises/01-circle/check.cpp", kCheck);
+    write("root/exercises/01-circle/wrong/circumference.cpp", kWrong);
+    write("tree/README.md", "Compute the area of a circle.\n");
+  }
+  void write(const std::string& name, const std::string& text) const {
+    writeTextFile(folder_.path() / name, text);
+  }
+  fs::path tree() const { return folder_.path() / "tree"; }
+  std::vector<Secret> secrets() const {
+    return secretsOf({folder_.path() / "root/exercises/01-circle"}, folder_.path() / "root");
+  }
+  std::vector<std::string> leaks() const {
+    std::vector<std::string> told;
+    for (const Leak& leak : scanForLeaks(tree(), secrets()).leaks) told.push_back(toString(leak));
+    return told;
+  }
+  // The only leak of a tree that holds this file.
+  std::string leakOf(const std::string& name, const std::string& bytes) const {
+    write("tree/" + name, bytes);
+    const std::vector<std::string> told = leaks();
+    fs::remove(tree() / name);
+    EXPECT_EQ(told.size(), 1u) << name << ": " << ::testing::PrintToString(told);
+    return told.empty() ? "" : told.front();
+  }
+
+  TemporaryFolder folder_;
+};
+
+constexpr const char* kOfSolution =
+    "a line of the solution would reach students: found 'return 3.14159265 * square;' of "
+    "exercises/01-circle/solution.cpp:6";
+
+TEST_F(LeakScanTest, FindsNothingInACleanTree) {
+  write("tree/exercises/01-circle/main.cpp",
+        "#include \"exercise.h\"\ndouble area(double r) {\n  // TODO: the area of the circle.\n  return "
+        "0;\n}\n");
+  write("tree/exercises/01-circle/check.cpp",
+        "void growsWithRadius() { require(area(2) > area(1), \"area grows with the radius\"); }\n");
+  const LeakScan scan = scanForLeaks(tree(), secrets());
+  EXPECT_THAT(scan.leaks, IsEmpty());
+  EXPECT_EQ(scan.files, 3);
+  EXPECT_EQ(scan.packed, 0);
+  EXPECT_GT(secrets().size(), 5u);
+}
+
+TEST_F(LeakScanTest, NamesBothPlaces) {
+  EXPECT_EQ(leakOf("notes.md", "one\n\n    return 3.14159265 * square;\n"),
+            std::string("notes.md:3: ") + kOfSolution);
+}
+
+// Heads of loops and declarations are the same in many exercises.
+TEST_F(LeakScanTest, WantsLongerLinesInFoldersOfOtherExercises) {
+  const std::string whole = "const double circumference = 2 * 3.14159265 * std::sqrt(square);";
+  write("root/exercises/01-circle/solution.cpp", "// <solution area>\nreturn 3.14159265 * square;\n" + whole +
+                                                     "\n// <todo>\n//| // none\n// </solution>\n");
+  write("tree/exercises/02-square/main.cpp", "return 3.14159265 * square;\n");
+  EXPECT_THAT(leaks(), IsEmpty());
+  write("tree/exercises/02-square/main.cpp", whole + "\n");
+  EXPECT_EQ(leaks().size(), 1u);
+  write("tree/exercises/02-square/main.cpp", "\n");
+  write("tree/exercises/01-circle/help.h", "return 3.14159265 * square;\n");
+  EXPECT_EQ(leaks().size(), 1u);
+}
+
+TEST_F(LeakScanTest, SeesThroughLayoutCaseAndComments) {
+  for (const char* text :
+       {"return 3.14159265\n  * square;", "RETURN 3.14159265*SQUARE;", "// return 3.14159265 * square;",
+        "return 3.14159265 /* pi */ * square;", "return 3.14159265 *  // pi\n  square;",
+        "// return 3.14159265\n//   * square;", "{\"cell\": [\"return 3.14159265 *\\n square;\"]}",
+        "<b>return 3.14159265 * square; &amp; so on</b>"})
+    EXPECT_THAT(leakOf("a.txt", text), HasSubstr("return 3.14159265 * square;")) << text;
+  std::string wide;
+  for (const char c : std::string("return 3.14159265 * square;")) wide += {c, '\0'};
+  EXPECT_THAT(leakOf("wide.txt", wide), HasSubstr(kOfSolution));
+}
+
+TEST_F(LeakScanTest, FindsALineWithoutItsComment) {
+  EXPECT_EQ(leakOf("a.txt", "const double square = r * r;"),
+            "a.txt:1: a line of the solution would reach students: found 'const double square = r * r;  // "
+            "squared' of exercises/01-circle/solution.cpp:4");
+  EXPECT_THAT(leakOf("a.txt", "Slide 3:1 has the formula."), HasSubstr("solution.cpp:5"));
+}
+
+TEST_F(LeakScanTest, FindsHiddenChecksAndTheirTexts) {
+  EXPECT_EQ(leakOf("a.cpp", "\nvoid quadruplesWhenDoubled() {\n\n  const double small = area(1); }"),
+            "a.cpp:2: a hidden check would reach students: found 'void quadruplesWhenDoubled() {' of "
+            "exercises/01-circle/check.cpp:3");
+  EXPECT_EQ(leakOf("a.md", "It fails \"Twice the radius, four times the area\"."),
+            "a.md:1: a text of a hidden check would reach students: found 'twice the radius, four times the "
+            "area' of exercises/01-circle/check.cpp:5");
+}
+
+TEST_F(LeakScanTest, FindsWrongVariants) {
+  EXPECT_EQ(leakOf("a.txt", "const double circumference = 2 * 3.14159265 * r;\nreturn circumference;"),
+            "a.txt:1: a wrong variant would reach students: found 'const double circumference = 2 * "
+            "3.14159265 * r;' of exercises/01-circle/wrong/circumference.cpp:4");
+  EXPECT_THAT(leakOf("a.txt", "Mistake: takes the circumference for the area."),
+              HasSubstr("circumference.cpp:2"));
+}
+
+TEST_F(LeakScanTest, LooksAtNames) {
+  EXPECT_EQ(leakOf("return 3.14159265 * square;.txt", ""),
+            std::string("return 3.14159265 * square;.txt: ") + kOfSolution);
+  EXPECT_EQ(leakOf("exercises/01-circle/solution.cpp", "int a;"),
+            "exercises/01-circle/solution.cpp: a file of that name would reach students");
+  EXPECT_EQ(leakOf("exercises/01-circle/wrong/a.cpp", ""),
+            "exercises/01-circle/wrong/a.cpp: a file in a folder of that name would reach students");
+}
+
+TEST_F(LeakScanTest, FindsMarksThatWereNotTakenAway) {
+  EXPECT_EQ(leakOf("exercises/01-circle/a.h", "int a;\n  // <hidden>\n"),
+            "exercises/01-circle/a.h:2: a mark of a region would reach students");
+  write("tree/share/template/check.cpp", "// <hidden>\n");
+  write("tree/share/doc/a.md", "`// <hidden>`\n");
+  EXPECT_THAT(leaks(), IsEmpty());
+}
+
+TEST_F(LeakScanTest, OpensArchivesInsideOfArchives) {
+  writeZip(folder_.path() / "inner.zip", {{"deep/a.txt", "one\nreturn 3.14159265 * square;\n"}});
+  writeZip(folder_.path() / "outer.zip", {{"inner.zip", readTextFile(folder_.path() / "inner.zip")}});
+  const std::string outer = readTextFile(folder_.path() / "outer.zip");
+  EXPECT_EQ(leakOf("old.bak", outer), std::string("old.bak: inner.zip: deep/a.txt:2: ") + kOfSolution);
+  writeZip(folder_.path() / "named.zip", {{"x/solution.cpp", "int a;"}});
+  EXPECT_THAT(leakOf("a.zip", readTextFile(folder_.path() / "named.zip")),
+              HasSubstr("a.zip: x/solution.cpp: a file of that name"));
+  write("tree/outer.zip", outer);
+  const LeakScan scan = scanForLeaks(tree(), {});
+  EXPECT_EQ(scan.packed, 2);
+  EXPECT_EQ(scan.files, 4) << "README.md, outer.zip, inner.zip, deep/a.txt";
+}
+
+TEST_F(LeakScanTest, OpensCompressedFiles) {
+  write("a.txt", "\nreturn 3.14159265 * square;\n");
+  ASSERT_TRUE(runProcess({"gzip", "a.txt"}, {.directory = folder_.path()}).ok());
+  EXPECT_EQ(leakOf("a.gz", readTextFile(folder_.path() / "a.txt.gz")),
+            std::string("a.gz: (unpacked):2: ") + kOfSolution);
+}
+
+TEST_F(LeakScanTest, RefusesWhatNobodyCanLookThrough) {
+  EXPECT_THAT(leakOf("a.zip", "PK\x03\x04 and nothing more"),
+              HasSubstr("a.zip: an archive that cannot be opened ("));
+  std::string nested = "text";
+  for (int k = 0; k < 6; ++k) {
+    writeZip(folder_.path() / "n.zip", {{"n.zip", nested}});
+    nested = readTextFile(folder_.path() / "n.zip");
+  }
+  EXPECT_THAT(leakOf("n.zip", nested),
+              HasSubstr("cannot be opened (more than 4 in each other), would reach"));
+  fs::create_directories(tree() / ".git");
+  EXPECT_THAT(leaks(), ElementsAre(".git: a history, which nobody looks through, would reach students"));
+  fs::remove(tree() / ".git");
+  fs::create_symlink("/etc/hostname", tree() / "link");
+  EXPECT_THAT(leaks(), ElementsAre("link: a link, whose target nobody looks through, would reach students"));
+}
+
+TEST_F(LeakScanTest, RefusesCompiledFilesAndNamesTheirOriginWhereItCan) {
+  write("check.cpp", "const char* told() { return \"twice the radius, four times the area\"; }\n");
+  write("clean.cpp", "int four() { return 4; }\n");
+  ASSERT_TRUE(runProcess({"c++", "-c", "check.cpp", "clean.cpp"}, {.directory = folder_.path()}).ok());
+  EXPECT_THAT(leakOf("check.o", readTextFile(folder_.path() / "check.o")),
+              HasSubstr("a text of a hidden check would reach students: found 'twice the radius, four times "
+                        "the area' of exercises/01-circle/check.cpp:5"));
+  EXPECT_EQ(leakOf("clean.o", readTextFile(folder_.path() / "clean.o")),
+            "clean.o: a compiled file, whose origin nobody can see, would reach students");
+}
+
+TEST_F(LeakScanTest, LetsTheLibraryHoldAllButTheSecretOfTheCourse) {
+  write("tree/src/area.cpp", "return 3.14159265 * square;\n");
+  write("tree/src/solution.cpp", "// how the program shows one\n");
+  EXPECT_EQ(scanForLeaks(tree(), secrets()).leaks.size(), 2u) << "unknown files";
+  EXPECT_THAT(scanForLeaks(tree(), secrets(), folder_.path() / "tree/src").leaks, IsEmpty());
+  write("library/area.cpp", "return 3.14159265 * square; // changed\n");
+  write("library/solution.cpp", "// how the program shows one\n");
+  EXPECT_EQ(scanForLeaks(tree(), secrets(), folder_.path() / "library").leaks.size(), 1u);
+  write("secret", "Correct/Horse+Battery//Staple==\n");
+  write("tree/src/key.h", "key = \"CORRECT/Horse+Battery//Staple==\"\n");
+  const LeakScan scan =
+      scanForLeaks(tree(), {courseSecretIn(folder_.path() / "secret")}, folder_.path() / "tree/src");
+  ASSERT_EQ(scan.leaks.size(), 1u);
+  const std::string told = toString(scan.leaks[0]);
+  EXPECT_THAT(told, HasSubstr("src/key.h:1: the secret of the course would reach students: found of "));
+  EXPECT_THAT(told, ::testing::Not(HasSubstr("Horse"))) << "a log must not tell it";
+}
+
+TEST_F(LeakScanTest, NeedsASecretThatCanBeLookedFor) {
+  write("secret", "a a a a a a a a a a a a\n");
+  EXPECT_REX_ERROR(courseSecretIn(folder_.path() / "secret"),
+                   "the secret of the course cannot be looked for: found 12 characters that are no blanks, "
+                   "wanted at least 16");
+}
+
+TEST_F(LeakScanTest, SaysWhatItCannotRead) {
+  EXPECT_REX_ERROR(scanForLeaks(folder_.path() / "none", {}),
+                   "none: cannot look through this folder: found ");
+}
+
+// What stands in headers and visible checks is public; a line of the solution there is a mistake.
+TEST_F(LeakScanTest, TakesHeadersForPublicButNotWithLinesOfTheSolution) {
+  write("root/exercises/01-circle/exercise.h",
+        "const double small = area(1); require(area(2) == 4 * small, \"twice the radius, four times the "
+        "area\");\n"
+        "// return 3.14159265 * square;\n");
+  fs::copy_file(folder_.path() / "root/exercises/01-circle/exercise.h", tree() / "exercise.h");
+  EXPECT_THAT(leaks(), ElementsAre(std::string("exercise.h:2: ") + kOfSolution));
+}
+
+}  // namespace rex::grading::leak_scan_test

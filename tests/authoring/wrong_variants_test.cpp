@@ -1,0 +1,129 @@
+#include "authoring/wrong_variants.h"
+
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "base/lines.h"
+#include "support/file_text.h"
+#include "support/temporary_folder.h"
+
+namespace rex::grading::wrong_variants_test {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+// A copy of the template, whose grader was built beforehand; its solution includes what a variant calls.
+class WrongVariantsTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    fs::create_directories(exercise().parent_path());
+    fs::copy(REX_BINARY_DIR "/tests/template/source", exercise(), fs::copy_options::recursive);
+    fs::remove(exercise() / "wrong" / "library.cpp");
+    write("solution.cpp", "#include \"geometry/rotation.h\"\n" + fileText(exercise() / "solution.cpp"));
+    writeVariant("library", "caught by: forbidden-call", kByLibrary);
+  }
+
+  fs::path exercise() const { return temporary_.path() / "exercises" / "98-template"; }
+  void write(const fs::path& file, const std::string& text) const {
+    std::ofstream(exercise() / file) << text;
+  }
+  void writeVariant(const std::string& name, const std::string& header, const std::string& body) const {
+    write("wrong/" + name + ".cpp", "// " + header + "\n// mistake: " + name +
+                                        ".\n\n// <solution rotated>\n" + body + "// </solution>\n");
+  }
+  GateResult pass(const std::string& gate) const {
+    const fs::path work = temporary_.path() / "work";
+    fs::remove_all(work);
+    fs::create_directory(work);
+    return runGate(
+        {.root = temporary_.path(),
+         .exercise = readExerciseInfo(exercise()),
+         .toolchain = readToolchain(REX_BINARY_DIR "/tests/template/exercises/98-template/build.json"),
+         .workFolder = work},
+        gate);
+  }
+
+  static constexpr const char* kByLibrary =
+      "return rex::rotationAboutAxis(angle, Eigen::Vector3d::UnitZ()).topLeftCorner<2, 2>() * p;\n";
+  TemporaryFolder temporary_;
+};
+
+TEST_F(WrongVariantsTest, AreCaughtTogether) {
+  writeVariant("doubled", "caught by: quarter-turn, keeps-length\n// shown by: quarter-turn",
+               "return 2 * std::cos(angle) * p;\n");
+  const GateResult result = pass("wrong");
+  EXPECT_TRUE(result.passed) << result.message;
+  EXPECT_EQ(result.note, "");
+}
+
+TEST_F(WrongVariantsTest, AreToldApartByWhatIsWrong) {
+  writeVariant("a_typo", "caught by: quarter-turn", "return angel * p;\n");
+  writeVariant("b_right", "caught by: quarter-turn",
+               "const double c = std::cos(angle), s = std::sin(angle);\n"
+               "return {c * p.x() - s * p.y(), s * p.x() + c * p.y()};\n");
+  writeVariant("c_unknown", "caught by: quarter-trun", "return p;\n");
+  writeVariant("d_unseen", "caught by: quarter-turn\n// shown by: angles-add", "return p;\n");
+  writeVariant("e_allowed", "caught by: forbidden-call", "return p;\n");
+  writeVariant("f_forbidden", "caught by: quarter-turn", kByLibrary);
+  writeVariant("g_half", "caught by: quarter-turn, keeps-length", "return angle / 2 * p;\n");
+  write("wrong/h_empty.cpp", "// mistake: none.\n");
+  const GateResult result = pass("wrong");
+  EXPECT_FALSE(result.passed);
+  EXPECT_EQ(result.note, "compiled alone: wrong/a_typo");
+  std::vector<std::string> lines;
+  for (const std::string_view line : splitLines(result.message)) lines.emplace_back(line);
+  EXPECT_THAT(
+      lines,
+      ElementsAre(
+          HasSubstr("c_unknown.cpp:1: no check is called 'quarter-trun' (did you mean 'quarter-turn'?)"),
+          HasSubstr("h_empty.cpp:1: no check is named"),
+          StartsWith("wrong/a_typo: it was not graded: main.cpp:9:8: error: 'angel' was not declared"),
+          "wrong/b_right: check 'quarter-turn' passes although: b_right.",
+          "wrong/d_unseen: check 'angles-add' leaves no picture",
+          "wrong/e_allowed: it should call a forbidden function, but nothing noticed one",
+          HasSubstr(
+              "wrong/f_forbidden: it was not graded: main.cpp:9:13: error: calls rex::rotationAboutAxis")));
+}
+
+TEST_F(WrongVariantsTest, GoAloneWhereMoreThanAFunctionDiffers) {
+  write("wrong/clockwise.cpp",
+        "// caught by: quarter-turn\n// mistake: clockwise.\n\n// <solution introduction>\n"
+        "#include <complex>\n// </solution>\n\n// <solution rotated>\n"
+        "const auto z = std::complex(p.x(), p.y()) * std::polar(1.0, -angle);\n"
+        "return {z.real(), z.imag()};\n// </solution>\n");
+  const GateResult together = pass("wrong");
+  EXPECT_TRUE(together.passed) << together.message;
+  EXPECT_EQ(together.note, "compiled alone: wrong/clockwise");
+}
+
+// The compiler sees that the reference has no effect, and would leave out the call.
+TEST_F(WrongVariantsTest, AreCalledWhateverTheReferenceDoes) {
+  std::string solution = fileText(exercise() / "solution.cpp");
+  const std::string region = "  // <solution rotated>\n", function = "Eigen::Vector2d rotated(";
+  solution.insert(solution.find(region) + region.size(), "  static_cast<void>(checked(angle));\n");
+  solution.insert(solution.find(function),
+                  "double checked(double angle) {\n  // <solution checked>\n  return angle;\n  // <todo>\n"
+                  "  // </solution>\n}\n\n");
+  write("solution.cpp", solution);
+  write("wrong/throws.cpp",
+        "// caught by: quarter-turn\n// mistake: throws.\n\n// <solution checked>\nthrow angle;\n// "
+        "</solution>\n");
+  const GateResult result = pass("wrong");
+  EXPECT_TRUE(result.passed) << result.message;
+  EXPECT_EQ(result.note, "");
+}
+
+TEST_F(WrongVariantsTest, AreGatesThemselvesIfOneAsks) {
+  EXPECT_EQ(gateNames(readExerciseInfo(exercise())).back(), "wrong");
+  EXPECT_TRUE(pass("wrong/library").passed);
+  fs::remove_all(exercise() / "wrong");
+  EXPECT_EQ(gateNames(readExerciseInfo(exercise())).back(), "sanitizers");
+  EXPECT_THROW(pass("wrong"), UsageError);
+}
+
+}  // namespace rex::grading::wrong_variants_test

@@ -1,0 +1,165 @@
+#include "classroom/archive.h"
+
+#include <map>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/process.h"
+#include "base/rng.h"
+#include "base/text_file.h"
+#include "submission/zip_file.h"
+#include "support/archive_samples.h"
+#include "support/expect_error.h"
+#include "support/temporary_folder.h"
+
+namespace rex::grading::archive_test {
+
+using ::testing::HasSubstr;
+
+class ArchiveTest : public ::testing::Test {
+ protected:
+  std::vector<ArchiveFile> read(const std::string& name, const std::string& bytes,
+                                const ArchiveLimits& limits = {}) const {
+    writeTextFile(folder_.path() / name, bytes);
+    return readArchive(folder_.path() / name, limits);
+  }
+  // Both kinds must refuse the members, with that reason.
+  void expectRefusal(const std::vector<SampleMember>& members, const std::string& text,
+                     const ArchiveLimits& limits = {}) const {
+    EXPECT_REX_ERROR(read("a.zip", zipOf(members), limits), text);
+    EXPECT_REX_ERROR(read("a.tar", tarOf(members), limits), text);
+  }
+  TemporaryFolder folder_;
+};
+
+std::map<std::string, std::string> asMap(const std::vector<ArchiveFile>& files) {
+  std::map<std::string, std::string> map;
+  for (const ArchiveFile& file : files) map[file.name] = file.text;
+  return map;
+}
+
+TEST(ArchiveName, TellsByItsEnding) {
+  for (const char* name : {"a.zip", "a.ZIP", "a.tar", "a.tar.gz", "a.tgz"}) {
+    EXPECT_TRUE(isArchiveName(name)) << name;
+    EXPECT_EQ(withoutArchiveEnding(name), "a");
+  }
+  for (const char* name : {"a", "a.gz", "zip", "a.zip.txt", "a.rar"})
+    EXPECT_FALSE(isArchiveName(name)) << name;
+}
+
+TEST_F(ArchiveTest, ReadsWhatSubmitWrites) {
+  writeZip(folder_.path() / "a.zip", {{"01/main.cpp", "int a;\n"}, {"receipt.json", ""}});
+  EXPECT_EQ(asMap(readArchive(folder_.path() / "a.zip")),
+            (std::map<std::string, std::string>{{"01/main.cpp", "int a;\n"}, {"receipt.json", ""}}));
+}
+
+// tar itself packs them; bytes of all kinds must come back.
+TEST_F(ArchiveTest, ReadsWhatOthersPack) {
+  Rng rng(5);
+  std::map<std::string, std::string> files;
+  for (const char* name : {"01/main.cpp", "02/main.cpp", "empty"}) {
+    std::string text;
+    for (int k = *name == 'e' ? 0 : 5000; k > 0; --k) text += static_cast<char>(rng.index(256));
+    writeTextFile(folder_.path() / "in" / name, text);
+    files[name] = text;
+  }
+  const std::string in = (folder_.path() / "in").string();
+  for (const auto& [archive, option] : {std::pair("a.tar", "-cf"), std::pair("a.tgz", "-czf")}) {
+    const std::string file = (folder_.path() / archive).string();
+    ASSERT_TRUE(runProcess({"tar", option, file, "-C", in, "01", "02", "empty"}).ok());
+    EXPECT_EQ(asMap(readArchive(file)), files) << archive;
+  }
+  std::vector<SampleMember> members;
+  for (const auto& [name, text] : files) members.push_back({.name = name, .text = text});
+  EXPECT_EQ(asMap(read("b.zip", zipOf(members))), files);
+  EXPECT_EQ(asMap(read("b.tar", tarOf(members))), files);
+}
+
+TEST_F(ArchiveTest, RefusesNamesThatLeaveTheFolder) {
+  const std::string wanted = ", wanted a name inside of a folder";
+  for (const char* name : {"../main.cpp", "a/../../main.cpp", ".."})
+    expectRefusal({{.name = "ok"}, {.name = name}},
+                  fmt::format("member '{}': found a way out of its folder", name) + wanted);
+  for (const char* name : {"/etc/passwd", "C:main.cpp"})
+    expectRefusal({{.name = name}},
+                  fmt::format("member '{}': found an absolute name, a drive or a backslash", name) + wanted);
+  EXPECT_REX_ERROR(read("a.tar", tarOf({{.name = "..\\main.cpp"}})), "a drive or a backslash");
+}
+
+TEST_F(ArchiveTest, RefusesLinksPipesAndDevices) {
+  const auto tarWith = [](char type) {
+    return tarOf({{.name = "01/x", .type = type, .target = "/etc/passwd"}});
+  };
+  EXPECT_REX_ERROR(read("a.tar", tarWith('1')), "member '01/x': found a hard link, wanted files and folders");
+  EXPECT_REX_ERROR(read("a.tar", tarWith('2')), "member '01/x': found a symbolic link");
+  EXPECT_REX_ERROR(read("a.tar", tarWith('3')), "member '01/x': found a device or socket");
+  EXPECT_REX_ERROR(read("a.tar", tarWith('4')), "member '01/x': found a device or socket");
+  EXPECT_REX_ERROR(read("a.tar", tarWith('6')), "member '01/x': found a pipe");
+  EXPECT_REX_ERROR(read("a.zip", zipOf({{.name = "01/x", .text = "/etc/passwd", .mode = 0120777}})),
+                   "member '01/x': found a symbolic link");
+  // Zip files know no pipes: it is read as a file, and nothing is made on the disk anyway.
+  EXPECT_EQ(asMap(read("a.zip", zipOf({{.name = "01/x", .text = "y", .mode = 0010644}}))).at("01/x"), "y");
+}
+
+TEST_F(ArchiveTest, RefusesTwoFilesOfOneName) {
+  const std::string text = "found a second file of that name, where case does not count, wanted one";
+  expectRefusal({{.name = "01/main.cpp"}, {.name = "01/main.cpp"}}, "member '01/main.cpp': " + text);
+  expectRefusal({{.name = "01/main.cpp"}, {.name = "01/Main.cpp"}}, "member '01/Main.cpp': " + text);
+  expectRefusal({{.name = "01/main.cpp"}, {.name = "./01//main.cpp"}}, text);
+}
+
+TEST_F(ArchiveTest, RefusesWhatGoesBeyondTheLimits) {
+  std::vector<SampleMember> many;
+  for (int k = 0; k <= 200; ++k) many.push_back({.name = fmt::format("{}", k)});
+  expectRefusal(many, "not taken: found more members, wanted at most 200");
+  many.pop_back();
+  EXPECT_EQ(read("a.zip", zipOf(many)).size(), 200u);
+  const SampleMember large{.name = "x", .text = std::string(1000, 'x')};
+  const ArchiveLimits few{.bytes = 3000};
+  expectRefusal({large, {.name = "y", .text = std::string(2500, 'x')}}, "bytes, wanted at most 3000", few);
+  EXPECT_REX_ERROR(read("a.zip", zipOf({{.name = std::string(300, 'n')}})), "found a name of 300 bytes");
+  writeZip(folder_.path() / "b.zip", {{"zeros", std::string(1u << 20, '\0')}});
+  EXPECT_REX_ERROR(
+      readArchive(folder_.path() / "b.zip"),
+      "member 'zeros': found more than 100 times the bytes of the archive, wanted files that were "
+      "written by hand");
+}
+
+TEST_F(ArchiveTest, RefusesSizesThatAreNotTrue) {
+  const std::vector<SampleMember> members = {{.name = "01/main.cpp", .text = "int a;\n"}};
+  EXPECT_EQ(asMap(read("a.zip", zipOf(members, 0))).at("01/main.cpp"), "") << "no byte beyond the claim";
+  for (const std::int64_t claimed : {3, 1 << 30}) {
+    SCOPED_TRACE(claimed);
+    EXPECT_REX_ERROR(read("a.zip", zipOf(members, claimed)), "not taken");
+  }
+}
+
+TEST_F(ArchiveTest, RefusesWhatIsBrokenOrNone) {
+  EXPECT_REX_ERROR(read("a.zip", "no archive"), "wanted a whole .zip, .tar or .tar.gz file");
+  EXPECT_REX_ERROR(read("a.zip", ""), "a.zip: this archive is not taken");
+  const std::string tar = tarOf({{.name = "01/main.cpp", .text = std::string(5000, 'x')}});
+  EXPECT_REX_ERROR(read("a.tar", tar.substr(0, 3000)), "wanted a whole");
+}
+
+// Whatever bytes a file has, reading ends, and with a list or an Error.
+TEST_F(ArchiveTest, SurvivesChangedBytes) {
+  const std::uint64_t seed = 9;
+  Rng rng(seed);
+  const std::vector<SampleMember> members = {{.name = "01/main.cpp", .text = "int a;\n"}, {.name = "b"}};
+  int taken = 0;
+  for (int k = 0; k < 200; ++k) {
+    std::string bytes = k % 2 == 0 ? zipOf(members) : tarOf(members);
+    for (int changes = 1 + rng.index(4); changes > 0; --changes)
+      bytes[static_cast<std::size_t>(rng.index(static_cast<int>(bytes.size())))] =
+          static_cast<char>(rng.index(256));
+    try {
+      taken += static_cast<int>(read("a.zip", bytes).size());
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), HasSubstr("a.zip: this archive is not taken")) << "seed " << seed;
+    }
+  }
+  EXPECT_LT(taken, 400);
+}
+
+}  // namespace rex::grading::archive_test

@@ -1,0 +1,153 @@
+#include "classroom/class_statistics.h"
+
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/text_file.h"
+#include "grading/result_file.h"
+#include "support/expect_error.h"
+#include "support/temporary_folder.h"
+
+namespace rex::grading::class_statistics_test {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Pair;
+
+// Student k of n has k of n - 1 points.
+std::vector<StudentResult> staircase(int n) {
+  std::vector<StudentResult> results;
+  for (int k = 0; k < n; ++k) {
+    StudentResult one{.student = "s" + std::to_string(k), .exercise = "01-a", .result = {}};
+    one.result.outcome = k == n - 1 ? Outcome::pass : Outcome::fail;
+    one.result.score = k;
+    one.result.maxScore = n - 1;
+    one.result.usage.wallSeconds = (k * 7) % n;  // a permutation unless 7 divides n
+    results.push_back(one);
+  }
+  return results;
+}
+
+CheckResult check(const std::string& id, std::optional<Outcome> status, const std::string& message = "") {
+  return {.id = id, .title = "Title of " + id, .status = status, .message = message, .property = "length"};
+}
+
+TEST(ClassStatistics, AreThoseOfAStaircase) {
+  for (const int n : {2, 5, 9, 20}) {
+    const ExerciseStatistics all = statisticsOf(staircase(n)).front();
+    EXPECT_EQ(all.graded, n);
+    EXPECT_EQ(all.full, 1);
+    EXPECT_EQ(all.maxPoints, n - 1);
+    EXPECT_DOUBLE_EQ(all.meanPoints, (n - 1) / 2.0) << "sum of 0 to n - 1, over n";
+    EXPECT_DOUBLE_EQ(all.medianPoints, (n - 1) / 2.0);
+    EXPECT_DOUBLE_EQ(all.medianSeconds, (n - 1) / 2.0);
+    EXPECT_DOUBLE_EQ(all.longestSeconds, n - 1);
+    EXPECT_EQ((std::stoi(all.slowest.substr(1)) * 7) % n, n - 1);
+  }
+  // Points 0 to 8 of 8.
+  EXPECT_THAT(statisticsOf(staircase(9)).front().distribution, ElementsAre(1, 2, 2, 2, 1, 1));
+}
+
+TEST(ClassStatistics, TakeTheMiddleOfSkewedPoints) {
+  std::vector<StudentResult> results = staircase(4);
+  const int points[] = {3, 0, 0, 0};
+  for (std::size_t k = 0; k < 4; ++k) results[k].result.score = points[k];
+  const ExerciseStatistics all = statisticsOf(results).front();
+  EXPECT_DOUBLE_EQ(all.meanPoints, 0.75);
+  EXPECT_DOUBLE_EQ(all.medianPoints, 0);
+  EXPECT_THAT(all.distribution, ElementsAre(1, 0, 0, 0, 0, 3));
+  EXPECT_DOUBLE_EQ(all.medianSeconds, 1.5);
+  results[0].result.outcome = Outcome::compileError;  // the one of 0 s
+  EXPECT_DOUBLE_EQ(statisticsOf(results).front().medianSeconds, 2);
+  EXPECT_EQ(medianOf({}), 0);
+  EXPECT_EQ(medianOf({5, 1, 3}), 3);
+}
+
+TEST(ClassStatistics, CountFaultsOfTheGraderApart) {
+  std::vector<StudentResult> results = staircase(3);
+  results[0].result.outcome = Outcome::graderError;
+  results[1].result.exerciseVersion = "another";
+  const ExerciseStatistics all = statisticsOf(results).front();
+  EXPECT_EQ(all.graded, 2);
+  EXPECT_EQ(all.graderFailed, 1);
+  EXPECT_EQ(all.versions, 2);
+  EXPECT_DOUBLE_EQ(all.meanPoints, 1.5);
+  results.resize(1);
+  const ExerciseStatistics none = statisticsOf(results).front();
+  EXPECT_EQ(none.graded, 0);
+  EXPECT_EQ(none.meanPoints, 0);
+  EXPECT_TRUE(none.checks.empty());
+}
+
+TEST(ClassStatistics, PutTheMostFailedChecksFirst) {
+  std::vector<StudentResult> results = staircase(4);
+  results[0].result.checks = {check("a", Outcome::pass), check("b", Outcome::timeLimit),
+                              check("c", Outcome::fail)};
+  results[1].result.checks = {check("a", Outcome::pass), check("b", Outcome::fail),
+                              check("c", Outcome::pass)};
+  results[2].result.checks = {check("a", Outcome::pass), check("b", Outcome::fail),
+                              check("c", Outcome::pass)};
+  results[3].result.outcome = Outcome::compileError;
+  results[3].result.checks = {check("a", {}), check("b", {}), check("c", {})};
+  const std::vector<CheckStatistics> checks = statisticsOf(results).front().checks;
+  ASSERT_EQ(checks.size(), 3u);
+  EXPECT_EQ(checks[0].id, "b");
+  EXPECT_EQ(checks[0].failed, 4);
+  EXPECT_THAT(checks[0].classes, ElementsAre(Pair("compile", 1), Pair("timeout", 1), Pair("wrong", 2)));
+  EXPECT_EQ(checks[1].id, "c");
+  EXPECT_EQ(checks[1].failed, 2);
+  EXPECT_EQ(checks[2].id, "a");
+  EXPECT_EQ(checks[2].failed, 1);
+}
+
+TEST(ClassStatistics, NameTheClassOfEachFailure) {
+  const GradeResult whole;
+  const std::pair<Outcome, const char*> classes[] = {{Outcome::compileError, "compile"},
+                                                     {Outcome::runtimeError, "crash"},
+                                                     {Outcome::timeLimit, "timeout"},
+                                                     {Outcome::memoryLimit, "memory"},
+                                                     {Outcome::outputLimit, "output"},
+                                                     {Outcome::protocolError, "protocol"},
+                                                     {Outcome::securityEvent, "security"},
+                                                     {Outcome::graderError, "not run"},
+                                                     {Outcome::fail, "wrong"}};
+  for (const auto& [outcome, name] : classes) EXPECT_EQ(classOf(check("a", outcome), whole), name);
+  EXPECT_EQ(classOf(check("a", {}), whole), "not run");
+  EXPECT_EQ(
+      classOf(check("a", Outcome::fail, "0 of 2 cases hold; case 1: length: not finite: got nan"), whole),
+      "non-finite");
+  EXPECT_EQ(classOf(check("a", Outcome::fail, "length: wrong shape: got 3 x 1, wanted 2 x 1"), whole),
+            "shape");
+}
+
+TEST(ClassResults, AreReadAndForeignFilesTold) {
+  const TemporaryFolder folder;
+  const auto save = [&](const std::string& student, const std::string& exercise, const std::string& id) {
+    GradeResult result;
+    result.exerciseId = id;
+    result.outcome = Outcome::fail;
+    writeTextFile(folder.path() / student / exercise / "results.json", toJson(result));
+  };
+  save("zoe", "01-a", "01-a"), save("adam", "01-a", "01-a"), save("adam", "02-b", "02-b");
+  save("eve", "01-a", "02-b");
+  writeTextFile(folder.path() / "bob/01-a/results.json", "{}");
+  writeTextFile(folder.path() / "carl/01-a/results.json", "{\"schema\": \"grade-result/1\", \"sco");
+  writeTextFile(folder.path() / "dora/01-a/main.cpp", "int main() {}");
+  writeTextFile(folder.path() / "grades.csv", "student\n");
+  const ClassResults read = readClassResults(folder.path());
+  std::vector<std::string> names;
+  for (const StudentResult& one : read.results) names.push_back(one.student + " " + one.exercise);
+  EXPECT_THAT(names, ElementsAre("adam 01-a", "zoe 01-a", "adam 02-b"));
+  EXPECT_THAT(
+      read.complaints,
+      ElementsAre(HasSubstr("bob/01-a/results.json: result file: field 'schema'"),
+                  HasSubstr("carl/01-a/results.json: result file: not JSON: wanted grade-result/1"),
+                  HasSubstr("dora/01-a/results.json: not counted: found no result, wanted this file"),
+                  HasSubstr("eve/01-a/results.json: not counted: found a result of '02-b', wanted one "
+                            "of '01-a'")));
+  EXPECT_REX_ERROR(readClassResults(folder.path() / "none"), "none: cannot read this folder: found ");
+}
+
+}  // namespace rex::grading::class_statistics_test

@@ -1,0 +1,51 @@
+#include "cli/instructor/class_figure.h"
+
+#include <set>
+#include <utility>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/expect_error.h"
+
+namespace rex::cli::class_figure_test {
+
+using ::testing::ElementsAre;
+
+grading::StudentResult resultOf(const std::string& exercise, int score) {
+  grading::StudentResult one{.student = "s", .exercise = exercise, .result = {}};
+  one.result.outcome = grading::Outcome::fail;
+  one.result.score = score;
+  one.result.maxScore = 4;
+  return one;
+}
+
+TEST(ClassFigure, ShowsEveryStudentAndTheMedians) {
+  const Figure figure = pointsFigure({resultOf("01-a", 4), resultOf("01-a", 4), resultOf("01-a", 1),
+                                      resultOf("05-b", 2), resultOf("05-b", 3), resultOf("extra", 0)});
+  ASSERT_EQ(figure.series.size(), 2u);
+  EXPECT_THAT(figure.series[0].y, ElementsAre(100, 100, 25, 50, 75, 0));
+  EXPECT_THAT(figure.series[1].x, ElementsAre(1, 5, 6)) << "without a number: after all others";
+  EXPECT_THAT(figure.series[1].y, ElementsAre(100, 62.5, 0));
+  EXPECT_NO_THROW(static_cast<void>(figure.xRange.value()));
+}
+
+TEST(ClassFigure, LaysNoTwoPointsOnEachOther) {
+  std::vector<grading::StudentResult> results;
+  for (int k = 0; k < 200; ++k) results.push_back(resultOf("03-a", k % 3));
+  const Series students = pointsFigure(results).series[0];
+  std::set<std::pair<double, double>> places;
+  for (std::size_t k = 0; k < 200; ++k) {
+    places.insert({students.x[k], students.y[k]});
+    EXPECT_LT(std::abs(students.x[k] - 3), 0.5);
+  }
+  EXPECT_EQ(places.size(), 200u);
+}
+
+TEST(ClassFigure, NeedsPoints) {
+  std::vector<grading::StudentResult> results = {resultOf("01-a", 0)};
+  results[0].result.outcome = grading::Outcome::graderError;
+  EXPECT_REX_ERROR(pointsFigure(results), "no points to draw: found faults of the grader only");
+}
+
+}  // namespace rex::cli::class_figure_test

@@ -1,0 +1,101 @@
+// `rex dev stats` on results that are made by hand.
+#include <nlohmann/json.hpp>
+
+#include "cli/template_project.h"
+#include "grading/results.h"
+#include "support/needs_gnuplot.h"
+
+namespace rex::cli::dev_stats_test {
+
+using grading::Outcome;
+using ::testing::HasSubstr;
+using Json = nlohmann::json;
+
+class DevStatsTest : public TemplateProject {
+ protected:
+  fs::path results() const { return root() / "results"; }
+  void save(const std::string& student, int score, std::optional<Outcome> first, double seconds) const {
+    grading::GradeResult result;
+    result.exerciseId = "98-template";
+    result.outcome = score == 3 ? Outcome::pass : Outcome::fail;
+    result.score = score;
+    result.maxScore = 3;
+    result.usage.wallSeconds = seconds;
+    result.checks = {
+        {.id = "keeps", .title = "Keeps, \"all\"", .status = Outcome::pass},
+        {.id = "turns", .title = "Turns", .group = grading::Group::hidden, .status = first, .message = ""}};
+    fs::create_directories(results() / student / "98-template");
+    write(results() / student / "98-template" / "results.json", toJson(result));
+  }
+  Ended stats(std::vector<std::string> more = {}) const {
+    std::vector<std::string> arguments = {"dev", "stats", results().string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return rex(arguments);
+  }
+  void SetUp() override {
+    TemplateProject::SetUp();
+    save("adam", 3, Outcome::pass, 1), save("bob", 1, Outcome::timeLimit, 9),
+        save("carl", 0, Outcome::fail, 2), save("dora", 2, Outcome::fail, 3);
+  }
+};
+
+TEST_F(DevStatsTest, PrintsATable) {
+  const Ended ended = stats();
+  EXPECT_EQ(ended.code, 0) << ended.error;
+  EXPECT_EQ(ended.output,
+            "98-template: 4 graded, 1 with full score\n"
+            "  points   mean 1.5, median 1.5 of 3\n"
+            "  at least full: 1   75 %: 0   50 %: 1   25 %: 1   less: 0   none: 1\n"
+            "  grading  median 2.5 s, longest 9.0 s (bob)\n"
+            "  3 failed of 4: Turns [turns, hidden]: 1 timeout, 2 wrong\n"
+            "  1 check passed by all\n");
+}
+
+TEST_F(DevStatsTest, PrintsJsonAndCsv) {
+  const Json json = Json::parse(stats({"--json"}).output);
+  const Json& one = json.at("exercises").at(0);
+  EXPECT_EQ(one.at("mean_points"), 1.5);
+  EXPECT_EQ(one.at("distribution").at("none"), 1);
+  EXPECT_EQ(one.at("checks").at(0), (Json{{"id", "turns"},
+                                          {"title", "Turns"},
+                                          {"group", "hidden"},
+                                          {"failed", 3},
+                                          {"classes", {{"timeout", 1}, {"wrong", 2}}}}));
+  EXPECT_TRUE(json.at("not_counted").empty());
+  EXPECT_EQ(stats({"--csv"}).output,
+            "exercise,check,group,graded,failed,classes\n"
+            "98-template,turns,hidden,4,3,\"1 timeout, 2 wrong\"\n"
+            "98-template,keeps,visible,4,0,\n");
+}
+
+TEST_F(DevStatsTest, TellsWhatItDoesNotCount) {
+  write(results() / "adam" / "98-template" / "results.json", "[1, 2");
+  const Ended ended = stats({"--json"});
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(flat(ended.error), HasSubstr("adam/98-template/results.json: result file: not JSON"));
+  EXPECT_EQ(Json::parse(ended.output).at("not_counted").size(), 1u);
+  EXPECT_EQ(Json::parse(ended.output).at("exercises").at(0).at("graded"), 3);
+}
+
+TEST_F(DevStatsTest, TellsWrongUse) {
+  EXPECT_EQ(rex({"dev", "stats"}).code, 64);
+  const Ended missing = rex({"dev", "stats", (root() / "none").string()});
+  EXPECT_EQ(missing.code, 64);
+  EXPECT_THAT(flat(missing.error), HasSubstr("none: no such folder: wanted the folder of results"));
+  fs::create_directory(root() / "empty");
+  const Ended empty = rex({"dev", "stats", (root() / "empty").string()});
+  EXPECT_EQ(empty.code, 64);
+  EXPECT_THAT(flat(empty.error), HasSubstr("nothing to count: found no results, wanted STUDENT/EXERCISE/"));
+  EXPECT_EQ(stats({"--json", "--csv"}).code, 64);
+}
+
+TEST_F(DevStatsTest, DrawsThePoints) {
+  REX_NEEDS_GNUPLOT();
+  const fs::path figure = root() / "points.png";
+  const Ended ended = stats({"-o", figure.string()});
+  EXPECT_EQ(ended.code, 0) << ended.error;
+  EXPECT_TRUE(fileText(figure).starts_with("\x89PNG"));
+  EXPECT_THAT(ended.error, HasSubstr("Drawn: "));
+}
+
+}  // namespace rex::cli::dev_stats_test

@@ -1,0 +1,238 @@
+// `rex render` as a user meets it.
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include "cli/rex_command.h"
+#include "render/png.h"
+#include "support/changed_path.h"
+#include "support/file_text.h"
+#include "support/needs_osmesa.h"
+
+namespace rex::cli::render_test {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class RenderCommand : public RexCommand {
+ protected:
+  void expectRefusal(std::vector<std::string> arguments, int code, const std::string& message) const {
+    arguments.insert(arguments.begin(), {"render", "pegArm.ors"});
+    const ProcessResult result = rex(arguments);
+    EXPECT_EQ(result.exitCode, code) << message;
+    EXPECT_THAT(flat(result.error), HasSubstr(message));
+    EXPECT_TRUE(fs::is_empty(in(""))) << message;
+  }
+  std::string textOf(const std::string& name) const { return fileText(in(name)); }
+};
+
+TEST_F(RenderCommand, DrawsAPictureAndNamesTheRenderer) {
+  REX_NEEDS_OSMESA();
+  const ProcessResult result = rex({"render", "man.ors", "--size", "160x120", "-o", "man.png"});
+  ASSERT_EQ(result.exitCode, 0) << result.error;
+  EXPECT_EQ(result.output, "man.png\n");
+  EXPECT_THAT(result.error, HasSubstr("llvmpipe"));
+  const Image image = readPng(in("man.png"));
+  EXPECT_EQ(image.width, 160);
+  EXPECT_EQ(image.height, 120);
+}
+
+TEST_F(RenderCommand, MakesTheFoldersOfItsFile) {
+  REX_NEEDS_OSMESA();
+  ASSERT_EQ(rex({"render", "pegArm.ors", "--size", "32x24", "-o", "no/such/a.png"}).exitCode, 0);
+  EXPECT_EQ(readPng(in("no/such/a.png")).width, 32);
+}
+
+TEST_F(RenderCommand, PutsSeveralCamerasAndMomentsOnOneSheet) {
+  REX_NEEDS_OSMESA();
+  ASSERT_EQ(
+      rex({"render", "man.ors", "--size", "100x90", "--camera", "front", "--camera", "top", "-o", "a.png"})
+          .exitCode,
+      0);
+  EXPECT_GE(readPng(in("a.png")).width, 200);
+  ASSERT_EQ(rex({"render", "pegArm.ors", "--size", "100x90", "--q", "0,0,0", "--q", "1,1,1", "-o", "b.png"})
+                .exitCode,
+            0);
+  EXPECT_GE(readPng(in("b.png")).width, 300);
+  ASSERT_EQ(
+      rex({"render", "pegArm", "--size", "600x90", "--q", "0,0,0", "--q", "1,1,1", "-o", "c.png"}).exitCode,
+      0);
+  EXPECT_GE(readPng(in("c.png")).width, 1800);
+}
+
+TEST_F(RenderCommand, ShowsDepthAndSegmentation) {
+  REX_NEEDS_OSMESA();
+  for (const std::string show : {"depth", "segmentation"})
+    ASSERT_EQ(rex({"render", "man.ors", "--size", "80x60", "--show", show, "-o", show + ".png"}).exitCode, 0);
+  EXPECT_NE(readPng(in("depth.png")), readPng(in("segmentation.png")));
+}
+
+TEST_F(RenderCommand, TakesTheBackendFromTheEnvironment) {
+  REX_NEEDS_OSMESA();
+  ::setenv("REX_GL", "osmesa", 1);
+  EXPECT_THAT(rex({"render", "man.ors", "--size", "80x60", "-o", "a.png"}).error, HasSubstr("OSMesa"));
+  ::setenv("REX_GL", "osmosis", 1);
+  EXPECT_THAT(rex({"render", "man.ors", "-o", "a.png"}).error, HasSubstr("'osmosis'"));
+  ::unsetenv("REX_GL");
+}
+
+TEST_F(RenderCommand, MakesFilmsModelsAndPages) {
+  REX_NEEDS_OSMESA();
+  if (!runProcess({"ffmpeg", "-version"}).ok()) GTEST_SKIP() << "needs the package ffmpeg";
+  for (const std::string name : {"a.mp4", "a.gif", "a.glb", "a.html", "frames"}) {
+    std::vector<std::string> arguments = {"render",    "pegArm.ors", "--q",     "0,0,0", "--q", "1,1,1",
+                                          "--seconds", "0.2",        "--trace", "peg",   "-o",  name};
+    if (name != "a.glb") arguments.insert(arguments.end(), {"--size", "64x48"});
+    const ProcessResult result = rex(arguments);
+    EXPECT_EQ(result.exitCode, 0) << name << result.error;
+  }
+  for (const char* file : {"a.mp4", "a.gif", "a.glb", "a.html", "frames/0006.png"})
+    EXPECT_GT(fs::file_size(in(file)), 500u) << file;
+  EXPECT_FALSE(fs::exists(in("frames/0007.png")));
+}
+
+TEST_F(RenderCommand, WalksAroundAPosture) {
+  REX_NEEDS_OSMESA();
+  ASSERT_EQ(rex({"render", "pegArm.ors", "--size", "48x36", "-o", "around"}).exitCode, 0);
+  EXPECT_NE(readPng(in("around/0000.png")), readPng(in("around/0040.png")));
+  EXPECT_TRUE(fs::exists(in("around/0119.png")));
+}
+
+TEST_F(RenderCommand, LeavesTheFramesWhereThereIsNoFfmpeg) {
+  REX_NEEDS_OSMESA();
+  const ChangedPath nowhere;
+  const ProcessResult result = rex({"render", "pegArm.ors", "--size", "48x36", "--q", "0,0,0", "--q", "1,1,1",
+                                    "--seconds", "0.1", "-o", "a.mp4"});
+  EXPECT_EQ(result.exitCode, 0);
+  EXPECT_THAT(result.error, HasSubstr("ffmpeg"));
+  EXPECT_EQ(result.output, "a\n");
+  EXPECT_TRUE(fs::exists(in("a/0003.png")));
+  EXPECT_FALSE(fs::exists(in("a.mp4")));
+}
+
+TEST_F(RenderCommand, RefusesWhatItCannotDraw) {
+  expectRefusal({"-o", "a.pgn"}, 64, "found the ending '.pgn', wanted .png");
+  expectRefusal({"-o", "frames", "--size", "0x480"}, 64, "--size: found '0x480'");
+  expectRefusal({"-o", "a.png", "--gl", "opengl"}, 64, "OpenGL backend: found 'opengl'");
+  expectRefusal({"-o", "a.png", "--show", "colour"}, 64, "did you mean 'color'?");
+  expectRefusal({"-o", "a.png", "--camera", "frnt"}, 64, "did you mean 'front'?");
+  expectRefusal({"-o", "a.png", "--q", "1,2"}, 64, "--q: found 2 numbers, wanted 3");
+  expectRefusal({"-o", "a.png", "--motion", "nowhere.csv"}, 64, "nowhere.csv: cannot read the motion");
+  expectRefusal({"-o", "a.png", "--q", "0 0 0", "--q", "1 1 1", "--trace", "pge"}, 64,
+                "--trace: scene 'pegArm.ors' has no body 'pge' (did you mean 'peg'?)");
+  expectRefusal({"-o", "a.png", "--seconds", "nan", "--q", "0 0 0", "--q", "1 1 1"}, 64,
+                "--seconds: found nan, wanted 0.04 to 600 seconds");
+  expectRefusal({"-o", "a.mp4", "--seconds", "600", "--q", "0 0 0", "--q", "1 1 1"}, 64,
+                "motion through --q: found 600 s, wanted at most 120 s");
+  expectRefusal({"-o", "a.glb", "--size", "64x48"}, 64, "--size: wanted a picture, film or page");
+  for (const char* out : {"/proc/a.png", "/proc/a.glb", "/proc/a.html", "/proc/a.mp4", "/proc/frames"})
+    expectRefusal({"-o", out}, 64, "cannot write '" + std::string(out) + "': found No such file");
+  expectRefusal({"-o", "/proc/no/a.png"}, 64, "/proc/no: cannot make the folder for results");
+}
+
+TEST_F(RenderCommand, RefusesToReplaceAFolder) {
+  fs::create_directory(in("a.png"));
+  const ProcessResult result = rex({"render", "pegArm", "-o", "a.png"});
+  EXPECT_EQ(result.exitCode, 64);
+  EXPECT_THAT(flat(result.error), HasSubstr("cannot write 'a.png': found a folder of that name"));
+}
+
+TEST_F(RenderCommand, RefusesWaysOfAMotionWithOnePosture) {
+  std::ofstream(in("one.csv")) << "0,0,0\n";
+  const ProcessResult result =
+      rex({"render", "pegArm", "--motion", "one.csv", "--trace", "peg", "-o", "a.png"});
+  EXPECT_EQ(result.exitCode, 64);
+  EXPECT_THAT(result.error, HasSubstr("--trace: found one posture, wanted a motion"));
+}
+
+TEST_F(RenderCommand, DrawsTheSameTwice) {
+  REX_NEEDS_OSMESA();
+  for (const char* name : {"a.png", "b.png"})
+    ASSERT_EQ(rex({"render", "man.ors", "--size", "80x60", "-o", name}).exitCode, 0);
+  EXPECT_EQ(readPng(in("a.png")), readPng(in("b.png")));
+}
+
+TEST_F(RenderCommand, TouchesNothingWhenRefused) {
+  fs::create_directories(in("frames"));
+  for (const char* file : {"frames/0000.png", "frames/note.txt", "a.png"}) std::ofstream(in(file)) << "old";
+  for (const std::vector<std::string>& wrong :
+       std::vector<std::vector<std::string>>{{"--size", "640"},
+                                             {"--q", "1"},
+                                             {"--camera", "frnt"},
+                                             {"--gl", "x"},
+                                             {"--camera", "0,9,9@0,99,9"}}) {
+    for (const std::string out : {"frames", "a.png", "new"}) {
+      std::vector<std::string> arguments = {"render", "pegArm", "-o", out};
+      arguments.insert(arguments.end(), wrong.begin(), wrong.end());
+      EXPECT_NE(rex(arguments).exitCode, 0) << wrong[0];
+    }
+  }
+  for (const char* file : {"frames/0000.png", "frames/note.txt", "a.png"}) EXPECT_EQ(textOf(file), "old");
+  EXPECT_FALSE(fs::exists(in("new")));
+}
+
+TEST_F(RenderCommand, DoesWhatItsExamplesSay) {
+  REX_NEEDS_OSMESA();
+  const auto examples = examplesOf("render");
+  EXPECT_GE(examples.size(), 4u);
+  for (std::vector<std::string> example : examples) {
+    example.insert(example.end(), {"--size", "48x36"});
+    const ProcessResult result = rex(example);
+    EXPECT_EQ(result.exitCode, 0) << result.error;
+    EXPECT_TRUE(fs::exists(in(result.output.substr(0, result.output.size() - 1)))) << result.output;
+  }
+}
+
+TEST_F(RenderCommand, FindsScenesByName) {
+  EXPECT_EQ(rex({"render", "pegArm", "-o", "a.glb"}).exitCode, 0);
+  const ProcessResult near = rex({"render", "mann.ors", "-o", "a.png"});
+  EXPECT_EQ(near.exitCode, 64);
+  EXPECT_THAT(flat(near.error), HasSubstr("rex: there is no scene 'mann.ors': wanted an .ors or .urdf file"));
+  EXPECT_THAT(flat(near.error), HasSubstr("(did you mean 'man.ors'"));
+  EXPECT_THAT(flat(rex({"render", "mann", "-o", "a.png"}).error), HasSubstr("(did you mean 'man'"));
+  EXPECT_EQ(rex({"render", "no/man.ors", "-o", "a.png"}).exitCode, 64);
+  EXPECT_EQ(rex({"render", ".", "-o", "a.png"}).exitCode, 64);
+  std::ofstream(in("broken.ors")) << "body a { X=";
+  const ProcessResult broken = rex({"render", "broken.ors", "-o", "a.png"});
+  EXPECT_EQ(broken.exitCode, 64);
+  EXPECT_THAT(broken.error, HasSubstr("broken.ors:1:"));
+}
+
+TEST_F(RenderCommand, CallsScenesAsTheUserDoes) {
+  REX_NEEDS_OSMESA();
+  ASSERT_EQ(rex({"render", "man.ors", "--size", "48x36", "-o", "a.html"}).exitCode, 0);
+  EXPECT_THAT(textOf("a.html"), HasSubstr("<title>man</title>"));
+  ASSERT_EQ(rex({"render", "man", "--caption", "A man", "--size", "48x36", "-o", "a.html"}).exitCode, 0);
+  EXPECT_THAT(textOf("a.html"), HasSubstr("<title>A man</title>"));
+  for (const std::string scene : {"man", "man.ors", REX_SOURCE_DIR "/data/robots/man.ors"}) {
+    const ProcessResult result = rex({"render", scene, "--q", "x=1", "-o", "a.png"});
+    EXPECT_THAT(flat(result.error),
+                HasSubstr("--q: " + fs::path(scene).filename().string() + " has no joint"));
+    EXPECT_THAT(result.error, Not(HasSubstr(REX_SOURCE_DIR)));
+  }
+}
+
+TEST_F(RenderCommand, TakesAnEmptyEnvironmentForNoChoice) {
+  REX_NEEDS_OSMESA();
+  ::setenv("REX_GL", "", 1);
+  EXPECT_EQ(rex({"render", "man", "--size", "48x36", "-o", "a.png"}).exitCode, 0);
+  EXPECT_EQ(rex({"render", "man", "--gl", "", "--size", "48x36", "-o", "a.png"}).exitCode, 0);
+  ::unsetenv("REX_GL");
+}
+
+TEST_F(RenderCommand, WalksWithSeveralCameras) {
+  REX_NEEDS_OSMESA();
+  ASSERT_EQ(rex({"render", "pegArm", "--camera", "front", "--camera", "2,0,1@0,0,1", "--size", "32x24", "-o",
+                 "around"})
+                .exitCode,
+            0);
+  const Image first = readPng(in("around/0000.png"));
+  EXPECT_GE(first.width, 64);
+  EXPECT_NE(first, readPng(in("around/0030.png")));
+}
+
+}  // namespace rex::cli::render_test

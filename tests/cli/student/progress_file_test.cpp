@@ -1,0 +1,134 @@
+#include "cli/student/progress_file.h"
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/rng.h"
+#include "support/file_text.h"
+#include "support/temporary_folder.h"
+
+namespace rex::cli::progress_file_test {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class ProgressFileTest : public ::testing::Test {
+ protected:
+  fs::path folder() const { return temporary_.path() / ".rex"; }
+  fs::path file() const { return folder() / "progress.json"; }
+  ProgressFile progress() const { return ProgressFile(temporary_.path()); }
+
+  void write(const std::string& text) const {
+    fs::create_directories(folder());
+    std::ofstream(file()) << text;
+  }
+  // What is read, and what is told meanwhile.
+  std::pair<AllProgress, std::string> readAloud() const {
+    ::testing::internal::CaptureStderr();
+    AllProgress all = progress().read();
+    return {std::move(all), ::testing::internal::GetCapturedStderr()};
+  }
+  // Counts one more hint, as another program would.
+  void countOne(const std::string& part) const {
+    progress().change("01-demo", [&](Progress& one) { ++one.hints[part]; });
+  }
+  template <class Work>
+  static pid_t inAnotherProcess(const Work& work) {
+    const pid_t child = ::fork();
+    if (child != 0) return child;
+    work();
+    ::_exit(0);
+  }
+
+  TemporaryFolder temporary_;
+};
+
+TEST_F(ProgressFileTest, RemembersWhatWasTested) {
+  EXPECT_TRUE(progress().read().exercises.empty());
+  EXPECT_FALSE(fs::exists(folder())) << "looking leaves nothing behind";
+  progress().change("01-demo", [](Progress& one) {
+    one = {.tested = true, .points = 3, .maxPoints = 9, .solved = false, .fileSha256 = "ab"};
+  });
+  progress().change("02-next", [](Progress& one) { one.hints["a"] = 2; });
+  const auto [all, told] = readAloud();
+  EXPECT_EQ(told, "");
+  EXPECT_EQ(all.last, "01-demo");
+  EXPECT_EQ(all.exercises.at("01-demo").points, 3);
+  EXPECT_EQ(all.exercises.at("01-demo").maxPoints, 9);
+  EXPECT_EQ(all.exercises.at("01-demo").fileSha256, "ab");
+  EXPECT_FALSE(all.exercises.at("02-next").tested);
+  EXPECT_EQ(all.exercises.at("02-next").hints.at("a"), 2);
+}
+
+TEST_F(ProgressFileTest, KeepsKeysThatItDoesNotKnow) {
+  write(R"({"schema": "rex-progress/1", "exercises": {"01-demo": {"badge": "gold"}}, "later": 7})");
+  countOne("a");
+  EXPECT_THAT(fileText(file()), HasSubstr("\"badge\": \"gold\""));
+  EXPECT_THAT(fileText(file()), HasSubstr("\"later\": 7"));
+}
+
+TEST_F(ProgressFileTest, MovesABrokenFileAsideAndSaysSo) {
+  int count = 0;
+  for (const char* broken :
+       {"{\"schema\": \"rex-pro", "", "[]", "{\"exercises\": {}}",
+        R"({"schema": "rex-progress/1", "exercises": {"01-demo": {"points": "many"}}})"}) {
+    write(broken);
+    const auto [all, told] = readAloud();
+    EXPECT_TRUE(all.exercises.empty()) << broken;
+    EXPECT_THAT(told, HasSubstr("cannot be understood")) << broken;
+    const std::string aside = "progress.json.broken-" + std::to_string(++count);
+    EXPECT_THAT(told, HasSubstr(aside));
+    EXPECT_EQ(fileText(folder() / aside), broken);
+    countOne("a");
+    EXPECT_EQ(progress().read().exercises.at("01-demo").hints.at("a"), 1);
+  }
+}
+
+TEST_F(ProgressFileTest, FailsNoCommandWhereNothingCanBeKept) {
+  std::ofstream(folder()) << "a file where a folder should be";
+  ::testing::internal::CaptureStderr();
+  countOne("a");
+  EXPECT_THAT(::testing::internal::GetCapturedStderr(), HasSubstr("cannot keep progress in"));
+}
+
+// Whenever it is killed, what was counted before is there, and the text is whole.
+TEST_F(ProgressFileTest, SurvivesAKillAtAnyMoment) {
+  Rng rng(1);
+  int counted = 0;
+  for (int round = 0; round < 60; ++round) {
+    const pid_t child = inAnotherProcess([&] {
+      for (;;) countOne("a");
+    });
+    std::this_thread::sleep_for(std::chrono::microseconds(1000 + static_cast<int>(rng.uniform(0, 15000))));
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    const auto [all, told] = readAloud();
+    EXPECT_EQ(told, "");
+    const int now = all.exercises.empty() ? 0 : all.exercises.at("01-demo").hints.at("a");
+    EXPECT_GE(now, counted);
+    counted = now;
+  }
+  EXPECT_GT(counted, 0);
+}
+
+TEST_F(ProgressFileTest, LosesNothingOfTwoProgramsAtOnce) {
+  constexpr int kPrograms = 4, kTimes = 30;
+  std::vector<pid_t> programs;
+  for (int k = 0; k < kPrograms; ++k)
+    programs.push_back(inAnotherProcess([&, part = "part" + std::to_string(k)] {
+      for (int n = 0; n < kTimes; ++n) countOne("all"), countOne(part);
+    }));
+  for (const pid_t program : programs) ::waitpid(program, nullptr, 0);
+  const auto hints = progress().read().exercises.at("01-demo").hints;
+  EXPECT_EQ(hints.at("all"), kPrograms * kTimes);
+  for (int k = 0; k < kPrograms; ++k) EXPECT_EQ(hints.at("part" + std::to_string(k)), kTimes);
+}
+
+}  // namespace rex::cli::progress_file_test

@@ -1,1 +1,0 @@
-void addShow(App& program) { add(program, "show", "Show a frame"); }

@@ -1,0 +1,3 @@
+constexpr Entry kTable[] = {
+    {"show", "Show a frame", kRobot},
+};

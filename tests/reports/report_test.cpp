@@ -1,0 +1,346 @@
+// Golden files: reports of three results made by hand, each read through once. tests/grading/check_reports.py
+// compares them, and many random ones, with what the results say.
+#include "reports/report.h"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "base/rng.h"
+#include "grading/result_file.h"
+#include "support/file_text.h"
+#include "support/report_checker.h"
+#include "support/temporary_folder.h"
+
+namespace rex::grading::report_test {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const fs::path kGolden = REX_SOURCE_DIR "/tests/golden/reports";
+
+GradeResult golden(const std::string& name) { return loadResult(kGolden / (name + ".results")); }
+
+void write(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
+
+TEST(Report, WritesTheGoldenFiles) {
+  ASSERT_EQ(reportFormats().size(), 6u);
+  for (const char* name : {"graded", "not_compiled", "fault"})
+    for (const ReportFormat& format : reportFormats())
+      EXPECT_EQ(format.write(golden(name)),
+                fileText(kGolden / (std::string(name) + "." + std::string(format.name))))
+          << name << " as " << format.name;
+}
+
+TEST(Report, TellsNothingOfHiddenInputsNorOfWhyTheGraderFailed) {
+  for (const char* name : {"graded", "fault"}) {
+    ASSERT_THAT(fileText(kGolden / (std::string(name) + ".results")), HasSubstr("SECRET"));
+    for (const ReportFormat& format : reportFormats())
+      EXPECT_THAT(format.write(golden(name)), Not(HasSubstr("SECRET"))) << name << " as " << format.name;
+  }
+}
+
+TEST(Report, NeverGradesAFaultOfTheGrader) {
+  const GradeResult fault = golden("fault");
+  EXPECT_FALSE(nlohmann::json::parse(gradescopeReport(fault)).contains("score"));
+  EXPECT_EQ(nlohmann::json::parse(prairielearnReport(fault)).at("gradable"), false);
+  EXPECT_EQ(nlohmann::json::parse(exercismReport(fault)).at("status"), "error");
+  EXPECT_THAT(junitReport(fault), HasSubstr("type=\"grader_error\""));
+  EXPECT_THAT(markdownReport(fault), HasSubstr("not graded"));
+  EXPECT_THAT(githubReport(fault), Not(HasSubstr("points")));
+}
+
+// Hidden checks that fail are no pass, though Exercism shows visible ones only.
+TEST(Report, IsNoPassWhereOnlyHiddenChecksFail) {
+  GradeResult result = golden("graded");
+  for (CheckResult& check : result.checks)
+    if (check.group == Group::visible) check.status = Outcome::pass;
+  result.outcome = Outcome::fail;
+  const auto json = nlohmann::json::parse(exercismReport(result));
+  EXPECT_EQ(json.at("status"), "fail");
+  EXPECT_EQ(json.at("tests").back().at("message"), "1 of 2 pass");
+}
+
+TEST(Report, CutsLongTextsWithAMark) {
+  GradeResult result = golden("graded");
+  result.checks[1].message = std::string(1 << 20, 'x');
+  result.output.text = std::string(1 << 20, 'y');
+  for (const ReportFormat& format : reportFormats()) {
+    const std::string text = format.write(result);
+    EXPECT_LT(text.size(), 150'000u) << format.name;
+    EXPECT_THAT(text, HasSubstr("xxx ...")) << format.name;
+  }
+}
+
+TEST(Report, PutsTenAnnotationsOfAKindFirst) {
+  GradeResult result = golden("not_compiled");
+  for (int k = 0; k < 30; ++k) result.compile.diagnostics.push_back(result.compile.diagnostics[k % 3]);
+  const std::string text = githubReport(result);
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 10 + 10 + 1);
+}
+
+TEST(ReportSchema, FitsTheGoldenFiles) {
+  REX_NEEDS_REPORT_CHECKER();
+  EXPECT_EQ(reportDifferences(kGolden), "");
+}
+
+// What each schema must refuse: a valid report, one text in it, and what takes its place.
+struct Break {
+  const char *format, *report, *from, *to;
+};
+constexpr Break kBreaks[] = {
+    {"gradescope", "graded", "\"score\": 6,", ""},
+    {"gradescope", "graded", "\"score\": 6,", "\"score\": \"6\","},
+    {"gradescope", "graded", "\"score\": 6,", "\"score\": -1,"},
+    {"gradescope", "graded", "\"score\": 6,", "\"score\": 6, \"grade\": 6,"},
+    {"gradescope", "graded", "\"max_score\": 3,", ""},
+    {"gradescope", "graded", "\"passed\"", "\"pass\""},
+    {"gradescope", "graded", "\"after_published\"", "\"later\""},
+    {"gradescope", "graded", "\"text\"", "\"html\""},
+    {"gradescope", "graded", "\"hidden\"", "\"visible\""},
+    {"gradescope", "graded", "ALL TESTS", "\\u001b[1m"},
+    {"gradescope", "graded", "\"output\"", "output"},
+    {"gradescope", "fault", "\"execution_time\"", "\"score\": 0, \"execution_time\""},
+    {"prairielearn", "graded", "\"gradable\": true", "\"gradable\": false"},
+    {"prairielearn", "graded", "\"gradable\": true,", ""},
+    {"prairielearn", "graded", "\"score\": 0.", "\"score\": 1."},
+    {"prairielearn", "graded", "\"max_points\": 3,", ""},
+    {"prairielearn", "not_compiled", "\"gradable\": false", "\"gradable\": true"},
+    {"prairielearn", "fault", "\"format_errors\"", "\"score\": 0, \"format_errors\""},
+    {"exercism", "graded", "\"version\": 3", "\"version\": 2"},
+    {"exercism", "graded", "\"status\": \"fail\"", "\"status\": \"pass\""},
+    {"exercism", "graded", "\"status\": \"fail\"", "\"status\": \"failed\""},
+    {"exercism", "graded", "\"message\": null", "\"message\": \"hidden\""},
+    {"exercism", "not_compiled", "\"tests\": []", "\"tests\": [{\"name\": \"x\", \"status\": \"fail\"}]"},
+    {"exercism", "fault", "\"message\": ", "\"note\": "},
+    {"junit", "graded", " classname=\"01-kinematics\"", ""},
+    {"junit", "graded", "type=\"fail\"", "type=\"failed\""},
+    {"junit", "graded", " failures=\"2\"", ""},
+    {"junit", "graded", " tests=\"5\"", " tests=\"five\""},
+    {"junit", "graded", "line=\"47\"", "line=\"0\""},
+    {"junit", "graded", "</failure>", "</failure><failure message=\"\" type=\"fail\"/>"},
+    {"junit", "graded", "&#60;b&#62;", "<b>"},
+    {"junit", "graded", "ALL TESTS", "\x1b[1m"},
+    {"junit", "graded", "</testsuites>", ""},
+    {"junit", "graded", "<system-out>", "<system-out>\xff"},
+    {"github", "graded", "::error ", "::set-output "},
+    {"github", "graded", "%0A", "\n"},
+    {"github", "graded", "::notice title=01-kinematics", "::notice title=01:kinematics"},
+    {"github", "graded", "line=47", "line=0"},
+    {"github", "graded", "points\n", "points\nmore\n"},
+    {"github", "graded", "points\n", "points"},
+    {"markdown", "graded", "&#124; of", "| of"},
+    {"markdown", "graded", "&#60;b", "<b"},
+    {"markdown", "graded", "&#60;/pre", "</pre"},
+    {"markdown", "graded", "| pass |", "| pass"},
+    {"markdown", "graded", "3/3", "3"},
+    {"markdown", "graded", "\nSeed", "\n| pass | all | 13/13 |  |\nSeed"},
+};
+
+TEST(ReportSchema, RefusesEveryBrokenFile) {
+  REX_NEEDS_REPORT_CHECKER();
+  const TemporaryFolder folder;
+  for (const ReportFormat& format : reportFormats()) {
+    std::vector<fs::path> files;
+    std::vector<std::string> what;
+    for (const Break& fault : kBreaks) {
+      if (fault.format != format.name) continue;
+      std::string text = fileText(kGolden / (std::string(fault.report) + "." + fault.format));
+      const std::size_t at = text.find(fault.from);
+      ASSERT_NE(at, std::string::npos) << fault.format << " " << fault.from;
+      files.push_back(folder.path() / (std::to_string(files.size()) + "." + fault.format));
+      what.push_back(std::string(fault.from) + " -> " + fault.to);
+      write(files.back(), text.replace(at, std::string(fault.from).size(), fault.to));
+    }
+    ASSERT_GE(files.size(), 5u) << format.name;
+    const std::string said = schemaFaults(format.name, files);
+    for (std::size_t k = 0; k < files.size(); ++k)
+      EXPECT_THAT(said, HasSubstr(files[k].string() + ": ")) << format.name << ": " << what[k];
+  }
+}
+
+// Texts that try to be something else than text, and random ones of the same pieces.
+class Hostile {
+ public:
+  explicit Hostile(std::uint64_t seed) : rng_(seed) {}
+
+  std::string text() {
+    static const std::vector<std::string> kPieces = {"]]>",
+                                                     "<![CDATA[",
+                                                     "</testcase>",
+                                                     "<!--",
+                                                     "&amp;",
+                                                     "&#0;",
+                                                     "\"",
+                                                     "'",
+                                                     "\n::error file=x::forged",
+                                                     "%0A",
+                                                     "%",
+                                                     "::set-output name=grade::10",
+                                                     "##[error]x",
+                                                     "\n::notice title=x::13 of 13 points\n",
+                                                     "|",
+                                                     "\\|",
+                                                     "\n| pass | all | 9/9 | |\n",
+                                                     "`",
+                                                     "```\n",
+                                                     "</pre>",
+                                                     "\n# Heading\n",
+                                                     "[a](http://b)",
+                                                     "www.c.de",
+                                                     "@all",
+                                                     "$x$",
+                                                     "~~~",
+                                                     "*",
+                                                     "_",
+                                                     "\r\n",
+                                                     "\t",
+                                                     std::string(1, '\0'),
+                                                     "\x1b[31m",
+                                                     "\x07",
+                                                     "\x7f",
+                                                     "\xc2\x85",
+                                                     "\xff",
+                                                     "\xc3",
+                                                     "\xed\xa0\x80",
+                                                     "\xef\xbf\xbe",
+                                                     "\xef\xbf\xbf",
+                                                     "\xf0\x9f\xa4\x96",
+                                                     "\xe2\x80\xa8",
+                                                     "\xe2\x80\xae",
+                                                     ",",
+                                                     ":",
+                                                     "{\"score\": 10}",
+                                                     "\\u0000",
+                                                     "plain words",
+                                                     " ",
+                                                     "ä"};
+    std::string text;
+    for (int k = rng_.index(8); k > 0; --k) text += kPieces.at(below(kPieces.size()));
+    return text;
+  }
+  std::size_t below(std::size_t count) {
+    return static_cast<std::size_t>(rng_.index(static_cast<int>(count)));
+  }
+
+ private:
+  Rng rng_;
+};
+
+CheckResult hostileCheck(Hostile& any, int number, bool runs) {
+  CheckResult check{.id = std::to_string(number) + any.text(),
+                    .part = any.text(),
+                    .title = any.text(),
+                    .maxPoints = static_cast<int>(any.below(9))};
+  if (any.below(3) == 0) check.group = Group::hidden;
+  if (runs) check.status = static_cast<Outcome>(any.below(3) == 0 ? 1 + any.below(8) : 0);
+  if (check.status == Outcome::compileError) check.status = Outcome::fail;
+  if (check.status == Outcome::pass) check.points = check.maxPoints;
+  if (check.status == Outcome::fail) check.points = check.maxPoints / 2;
+  const std::string secret = check.group == Group::hidden ? "SECRET" : "";
+  check.message = any.text() + secret;
+  check.property = any.text();
+  check.expected = check.got = check.tolerance = check.input = check.function = check.worst.value =
+      secret + any.text();
+  check.line = static_cast<int>(any.below(3));
+  return check;
+}
+
+GradeResult hostileResult(std::uint64_t seed) {
+  Hostile any(seed);
+  GradeResult result;
+  result.files = {{any.text(), any.text()}};
+  result.exerciseId = any.text();
+  result.exerciseVersion = result.seedId = result.toolVersion = result.compiler = any.text();
+  result.message = any.text();
+  result.output.text = any.text();
+  result.error.text = any.text();
+  for (std::size_t k = any.below(15); k > 0; --k)
+    result.compile.diagnostics.push_back({.file = any.below(2) == 0 ? result.files[0].name : any.text(),
+                                          .line = static_cast<int>(any.below(4)),
+                                          .column = static_cast<int>(any.below(3)),
+                                          .severity = any.below(2) == 0 ? "error" : "warning",
+                                          .rule = any.text(),
+                                          .message = any.text()});
+  const std::size_t kind = any.below(6);
+  for (int k = static_cast<int>(any.below(16)); k >= 0; --k) {
+    result.checks.push_back(hostileCheck(any, k, kind != 0));
+    result.score += result.checks.back().points;
+    result.maxScore += result.checks.back().maxPoints;
+  }
+  result.outcome = Outcome::pass;
+  for (const CheckResult& check : result.checks)
+    if (check.status != Outcome::pass) result.outcome = check.status.value_or(Outcome::compileError);
+  if (kind == 1) result.outcome = Outcome::graderError;
+  return result;
+}
+
+// Reports of the result as the program reads it from its file, and of one whose texts never were in a file.
+void writeReports(const fs::path& folder, const std::string& name, const GradeResult& result) {
+  const std::string json = toJson(result);
+  const GradeResult read = gradeResultFromJson(json, name);
+  write(folder / (name + ".results"), json);
+  for (const ReportFormat& format : reportFormats()) {
+    const std::string text = format.write(read);
+    EXPECT_THAT(text, Not(HasSubstr("SECRET"))) << name << " as " << format.name;
+    write(folder / (name + "." + std::string(format.name)), text);
+    write(folder / (name + "-raw." + std::string(format.name)), format.write(result));
+  }
+}
+
+TEST(ReportSchema, FitsWhateverTheTextsAreAndTheySurvive) {
+  REX_NEEDS_REPORT_CHECKER();
+  const TemporaryFolder folder;
+  for (std::uint64_t seed = 0; seed < 400; ++seed)
+    writeReports(folder.path(), std::to_string(seed), hostileResult(seed));
+  EXPECT_EQ(reportDifferences(folder.path()), "");
+}
+
+TEST(ReportSchema, FitsAMegabyteOfAnything) {
+  REX_NEEDS_REPORT_CHECKER();
+  const TemporaryFolder folder;
+  for (const char* piece : {"x", "\n", "\xf0\x9f\xa4\x96", "\xff", "|", "]]>", "::error::x\n"}) {
+    GradeResult result = golden("graded");
+    std::string text;
+    while (text.size() < (1u << 20)) text += piece;
+    result.output.text = result.error.text = text;
+    result.checks[1].message = result.checks[1].title = text;
+    writeReports(folder.path(), std::to_string(static_cast<unsigned char>(*piece)), result);
+  }
+  EXPECT_EQ(reportDifferences(folder.path()), "");
+}
+
+// What GitHub takes for commands: lines that begin so, after blanks, and the older form anywhere in a line.
+std::vector<std::string> commandsIn(const std::string& text) {
+  std::vector<std::string> commands;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const std::string trimmed = line.substr(std::min(line.find_first_not_of(" \t\r"), line.size()));
+    if (trimmed.starts_with("::"))
+      commands.push_back(trimmed.substr(0, trimmed.find(' ')));
+    else if (trimmed.find("##[") != std::string::npos)
+      commands.push_back("##[");
+  }
+  return commands;
+}
+
+TEST(Report, LetsNoTextForgeACommand) {
+  ASSERT_EQ(commandsIn("a\n ::error x\nb ##[c]\n"), (std::vector<std::string>{"::error", "##["}));
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    const GradeResult result = hostileResult(seed);
+    EXPECT_THAT(commandsIn(markdownReport(result)), ::testing::IsEmpty()) << seed;
+    std::vector<std::string> commands = commandsIn(githubReport(result));
+    const bool isFault = result.outcome == Outcome::graderError;
+    EXPECT_EQ(std::count(commands.begin(), commands.end(), "::notice"), isFault ? 0 : 1) << seed;
+    std::erase_if(commands,
+                  [](const std::string& c) { return c == "::error" || c == "::warning" || c == "::notice"; });
+    EXPECT_THAT(commands, ::testing::IsEmpty()) << seed;
+  }
+}
+
+}  // namespace rex::grading::report_test

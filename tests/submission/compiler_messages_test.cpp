@@ -1,0 +1,82 @@
+#include "submission/compiler_messages.h"
+
+#include <gtest/gtest.h>
+
+namespace rex::grading::compiler_messages_test {
+
+constexpr const char* kJson =
+    R"([{"kind": "error", "children": [], "locations": [{"caret": {"line": 47, "file": "main.cpp", "column": 3}}], "message": "‘foo’ was not declared"},)"
+    R"( {"kind": "note", "locations": [], "message": "a note"},)"
+    R"( {"kind": "warning", "option": "-Wunused", "locations": [{"caret": {"line": 2, "file": "main.cpp", "column": 1}}], "message": "unused"},)"
+    R"( {"kind": "fatal error", "locations": [], "message": "too\nbad"}])";
+
+TEST(ParseCompilerJson, KeepsErrorsAndWarnings) {
+  const auto messages = parseCompilerJson(std::string(kJson) + "\ncompilation terminated.\n");
+  ASSERT_EQ(messages.size(), 3u);
+  EXPECT_EQ(toString(messages[0]), "main.cpp:47:3: error: 'foo' was not declared");
+  EXPECT_EQ(toString(messages[1]), "main.cpp:2:1: warning: unused [-Wunused]");
+  EXPECT_EQ(toString(messages[2]), "error: too bad");
+}
+
+TEST(ParseCompilerJson, SurvivesAnythingElse) {
+  for (const char* text : {"", "[", "[3]", "[{\"kind\": 3}]", "g++: fatal error: Killed", "[\"\xff\"]"})
+    EXPECT_TRUE(parseCompilerJson(text).empty()) << text;
+}
+
+TEST(ParseCompilerText, KeepsErrors) {
+  const auto messages = parseCompilerText(
+      "main.cpp: In function 'f':\nmain.cpp:4:27:   required from here\nmain.cpp:5:9: error: bad: very\n"
+      "main.cpp:5:9: note: here\nmain.cpp:1:10: fatal error: a.h: No such file\n: error: x\nerror: y\ng++: "
+      "fatal error: z\n");
+  ASSERT_EQ(messages.size(), 2u);
+  EXPECT_EQ(toString(messages[0]), "main.cpp:5:9: error: bad: very");
+  EXPECT_EQ(toString(messages[1]), "main.cpp:1:10: error: a.h: No such file");
+}
+
+TEST(BlameMainFile, FindsTheLineThatInstantiated) {
+  std::vector<CompileDiagnostic> messages = {
+      {"/usr/include/eigen3/Eigen/src/Core/Product.h", 115, 7, "error", "", "SIZES"}};
+  blameMainFile(messages, "main.cpp",
+                "main.cpp:9:1: error: other\n"
+                "/usr/include/eigen3/Eigen/src/Core/Product.h: In instantiation of 'f':\n"
+                "main.cpp:4:27:   required from here\n"
+                "/usr/include/eigen3/Eigen/src/Core/Product.h:115:7: error: SIZES\n");
+  EXPECT_EQ(toString(messages[0]), "main.cpp:4:27: error: SIZES (in Eigen/src/Core/Product.h:115)");
+}
+
+TEST(BlameMainFile, FindsTheLineThatIncluded) {
+  std::vector<CompileDiagnostic> messages = {{"own/exercise.h", 3, 1, "error", "", "bad"},
+                                             {"elsewhere.h", 3, 1, "error", "", "bad"}};
+  blameMainFile(messages, "main.cpp",
+                "In file included from own/a.h:3,\n"
+                "                 from main.cpp:2:\n"
+                "own/exercise.h:3:1: error: bad\n");
+  EXPECT_EQ(toString(messages[0]), "main.cpp:2: error: bad (in exercise.h:3)");
+  EXPECT_EQ(toString(messages[1]), "main.cpp: error: bad (in elsewhere.h:3)");
+}
+
+TEST(ParseLinkerText, NamesEachFunctionOnce) {
+  const auto messages = parseLinkerText(
+      "/usr/bin/ld: main.o: in function `main':\n"
+      "main.cpp:(.text+0xa): undefined reference to `reach(Eigen::Matrix<double, 3, 1, 0, 3, 1> const&)'\n"
+      "main.cpp:(.text+0xf): undefined reference to `reach(Eigen::Matrix<double, 3, 1, 0, 3, 1> const&)'\n"
+      "b.o: multiple definition of `serve()'; a.o: first defined here\n",
+      "main.cpp");
+  ASSERT_EQ(messages.size(), 2u);
+  EXPECT_EQ(toString(messages[0]), "main.cpp: error: 'reach' is declared but has no body here");
+  EXPECT_EQ(toString(messages[1]), "main.cpp: error: 'serve' is defined, but the exercise already has it");
+}
+
+// As g++ 12 and as 2.40 write it: of asm() in a function, of what the compiler wrote itself, of a full disk.
+TEST(CompilerMessages, ReadsTheAssemblersText) {
+  const auto messages = parseAssemblerText(
+      "[]\nmain.cpp: Assembler messages:\nmain.cpp:2: Error: no such instruction: `foo bar'\n"
+      "/tmp/ccMa6Nhw.s:17: Error: junk at end of line, first unrecognized character is `\"'\n"
+      "/tmp/ccMa6Nhw.s: Fatal error: can't write 8 bytes to section .group of student.o: 'No space left on "
+      "device'\n");
+  ASSERT_EQ(messages.size(), 2u);
+  EXPECT_EQ(toString(messages[0]), "main.cpp:2: error: no such instruction: `foo bar'");
+  EXPECT_EQ(toString(messages[1]), "error: junk at end of line, first unrecognized character is `\"'");
+}
+
+}  // namespace rex::grading::compiler_messages_test

@@ -1,0 +1,188 @@
+#include "submission/precompiled_prefix.h"
+
+#include <chrono>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "base/process.h"
+#include "base/text_file.h"
+#include "submission/student_build.h"
+#include "support/paths.h"
+#include "support/temporary_folder.h"
+
+namespace rex::grading::precompiled_prefix_test {
+
+using std::filesystem::path;
+using namespace std::chrono_literals;
+
+const std::vector<std::string>& flags() {
+  static const std::vector<std::string> kFlags = {"-O1", "-iquote", sourcePath("tests/grading/sample"),
+                                                  "-isystem", sourcePath("src")};
+  return kFlags;
+}
+
+TEST(OpensWithExerciseHeader, BehindOtherHeadersAndComments) {
+  EXPECT_TRUE(opensWithExerciseHeader("#include \"exercise.h\"", {}));
+  EXPECT_TRUE(
+      opensWithExerciseHeader("// Mine.\r\n\n#include <cmath>\n  #include\t\"control/pid.h\"  // why\n"
+                              "#include <exercise.h>\nint x;\n",
+                              flags()));
+}
+
+TEST(OpensWithExerciseHeader, NotBehindWhatCouldChangeIt) {
+  for (const char* first :
+       {"#define EIGEN_NO_IO", "#include \"/tmp/a.h\"", "#include \"../src/control/pid.h\"", "int x;",
+        "#include \"main.cpp\"", "#include NAME", "/*", "// on and on \\", "#if 0", "#include <cmath",
+        "#pragma GCC system_header", "#include <cstdlib> /*", "#include <X11/Xlib.h>", "#include \"mine.h\"",
+        "#include <math.h>", "#include \"good.cpp\""})
+    EXPECT_FALSE(opensWithExerciseHeader(std::string(first) + "\n#include \"exercise.h\"\n", flags()))
+        << first;
+  EXPECT_FALSE(opensWithExerciseHeader("", flags()));
+  EXPECT_FALSE(opensWithExerciseHeader("#include <cmath>\n", flags()));
+}
+
+constexpr const char* kSource = "#include \"exercise.h\"\n";
+
+// A small exercise in a folder with a blank in its name, and the precompiled header of its course.
+class PrefixTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    shared_ = std::make_unique<TemporaryFolder>();
+    writeTextFile(
+        folder() / "src/course/course.h",
+        "#pragma once\n#include <Eigen/Core>\n#include <vector>\nnamespace rex { double same(double); "
+        "inline int half(int a) { return a / 2; } }\n");
+    writeTextFile(folder() / "exercise/exercise.h",
+                  "#pragma once\n#include \"course/course.h\"\nint twice(int a);\n");
+    writeTextFile(prefix(), "#include \"course/course.h\"\n");
+    std::vector<std::string> command = {"g++"};
+    for (const std::string& flag : toolchain().flags) command.push_back(flag);
+    const path precompiled = prefix().string() + ".gch";
+    command.insert(command.end(), {"-MD", "-MF", prefix().string() + ".d", "-MQ", precompiled, "-x",
+                                   "c++-header", prefix(), "-o", precompiled});
+    const ProcessResult made = runProcess(command, {.directory = folder()});
+    ASSERT_TRUE(made.ok()) << made.error;
+  }
+  static void TearDownTestSuite() { shared_.reset(); }
+  void TearDown() override { setAge(folder() / "src/course/course.h", 1h); }
+  void SetUp() override { TearDown(); }
+
+  static path folder() { return shared_->path() / "a folder"; }
+  static path prefix() { return folder() / "prefix.h"; }
+  static void setAge(const path& file, std::chrono::hours age) {
+    std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now() - age);
+  }
+
+  static Toolchain toolchain() {
+    return {.compiler = "g++",
+            .flags = {"-std=c++20", "-O1", "-Wall", "-Wextra", "-iquote", folder() / "exercise", "-isystem",
+                      folder() / "src", "-isystem", "/usr/include/eigen3"},
+            .linkFlags = {},
+            .workerObject = {},
+            .grader = {},
+            .libraries = {},
+            .prefix = prefix()};
+  }
+
+  static StudentObject compile(const Toolchain& toolchain, const std::string& source) {
+    writeTextFile(shared_->path() / "main.cpp", source);
+    return compileStudent(toolchain, {},
+                          {.main = shared_->path() / "main.cpp", .workFolder = shared_->path() / "work"});
+  }
+
+  static std::unique_ptr<TemporaryFolder> shared_;
+};
+std::unique_ptr<TemporaryFolder> PrefixTest::shared_;
+
+TEST_F(PrefixTest, GivesFlagsWhileItIsCurrent) {
+  EXPECT_EQ(prefixFlags(prefix(), kSource, {}), (std::vector<std::string>{"-include", prefix()}));
+  EXPECT_TRUE(prefixFlags(prefix(), "int x;\n", {}).empty());
+  EXPECT_TRUE(prefixFlags({}, kSource, {}).empty());
+  setAge(folder() / "src/course/course.h", -1h);
+  EXPECT_TRUE(prefixFlags(prefix(), kSource, {}).empty());
+}
+
+TEST_F(PrefixTest, GivesNoFlagsWhereAFileIsMissing) {
+  const path other = folder() / "other.h";
+  EXPECT_TRUE(prefixFlags(other, kSource, {}).empty());
+  writeTextFile(other.string() + ".gch", "");
+  EXPECT_TRUE(prefixFlags(other, kSource, {}).empty());
+  writeTextFile(other.string() + ".d", "other.h.gch: no\\ such\\ file.h\n");
+  EXPECT_TRUE(prefixFlags(other, kSource, {}).empty());
+  writeTextFile(other.string() + ".d", "");
+  EXPECT_TRUE(prefixFlags(other, kSource, {}).empty());
+}
+
+TEST_F(PrefixTest, IsTakenByTheCompiler) {
+  // The compiler reads this only if it does not take what was made before.
+  writeTextFile(prefix(), "#error not precompiled\n");
+  setAge(prefix(), 1h);
+  const StudentObject object =
+      compile(toolchain(), "#include \"exercise.h\"\nint twice(int a) { return a; }\n");
+  writeTextFile(prefix(), "#include \"course/course.h\"\n");
+  setAge(prefix(), 1h);
+  EXPECT_TRUE(object.ok) << object.log;
+}
+
+TEST_F(PrefixTest, ChangesNoMessageAndNoSymbol) {
+  Toolchain without = toolchain();
+  without.prefix.clear();
+  const std::string good =
+      "int twice(int a) {\n  int unused;\n  return rex::half(4 * a) + (int)std::vector<int>(3).size();\n}\n";
+  const std::string bad =
+      "long twice(int a) { return a; }\nnamespace rex {\nint same(double);\nint half(int a) { return a; "
+      "}\n}\n"
+      "std::vector<int&> all;\nstd::map<int, int> unknown;\nint x = ;\nint y = z;\n"
+      "Eigen::Vector3d f(Eigen::Vector3d a, Eigen::Vector2d b) {\n  return a + b;\n}\n";
+  for (const std::string& rest : {good, bad, std::string("#include \"none.h\"\n")}) {
+    const std::string source = std::string("#include <cassert>\n\n// Mine.\n") + kSource + rest;
+    ASSERT_FALSE(prefixFlags(prefix(), source, toolchain().flags).empty()) << source;
+    const StudentObject a = compile(toolchain(), source);
+    const std::string symbols = a.ok ? runProcess({"nm", a.object}).output : "";
+    const StudentObject b = compile(without, source);
+    EXPECT_EQ(a.ok, rest == good) << source;
+    EXPECT_EQ(a.ok, b.ok) << source;
+    if (b.ok) {
+      EXPECT_EQ(symbols, runProcess({"nm", b.object}).output) << source;
+    }
+    EXPECT_FALSE(a.messages.empty()) << source;
+    ASSERT_EQ(a.messages.size(), b.messages.size()) << source;
+    for (std::size_t k = 0; k < a.messages.size(); ++k)
+      EXPECT_EQ(toString(a.messages[k]), toString(b.messages[k])) << source;
+  }
+}
+
+// Builds with sanitizers have no precompiled header.
+#ifndef __SANITIZE_ADDRESS__
+// The header of the course itself, by the flags of an exercise: g++ names what it takes behind a "!".
+TEST(Prefix, OfTheCourseIsTakenForAnExercise) {
+  const Toolchain toolchain = readToolchain(path(REX_BINARY_DIR) / "exercises/04-rrt/build.json");
+  if (toolchain.prefix.empty()) GTEST_SKIP() << "this build, not by g++, has no precompiled header";
+  const std::vector<std::string> prefix = prefixFlags(toolchain.prefix, kSource, toolchain.flags);
+  ASSERT_FALSE(prefix.empty());
+  const TemporaryFolder folder;
+  writeTextFile(folder.path() / "main.cpp", kSource);
+  std::vector<std::string> command = {toolchain.compiler};
+  command.insert(command.end(), toolchain.flags.begin(), toolchain.flags.end());
+  command.insert(command.end(), prefix.begin(), prefix.end());
+  command.insert(command.end(), {"-H", "-Winvalid-pch", "-fsyntax-only", folder.path() / "main.cpp"});
+  const ProcessResult made = runProcess(command, {.directory = folder.path()});
+  EXPECT_TRUE(made.ok()) << made.error;
+  EXPECT_EQ(made.error.find("! " + toolchain.prefix.string() + ".gch"), 0u) << made.error.substr(0, 400);
+}
+#endif
+
+TEST(Prefix, IsForWhatStudentsStartFrom) {
+  int exercises = 0;
+  for (const auto& folder : std::filesystem::directory_iterator(path(REX_BINARY_DIR) / "exercises")) {
+    if (!std::filesystem::exists(folder.path() / "build.json")) continue;
+    const Toolchain toolchain = readToolchain(folder.path() / "build.json");
+    const path main = sourcePath("exercises") / folder.path().filename() / "main.cpp";
+    EXPECT_TRUE(opensWithExerciseHeader(readTextFile(main), toolchain.flags)) << main;
+    ++exercises;
+  }
+  EXPECT_GT(exercises, 5);
+}
+
+}  // namespace rex::grading::precompiled_prefix_test

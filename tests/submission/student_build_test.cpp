@@ -1,0 +1,453 @@
+#include "submission/student_build.h"
+
+#include <cstdlib>
+#include <fstream>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "base/process.h"
+#include "support/expect_error.h"
+#include "support/temporary_folder.h"
+#include "support/tiny_disk.h"
+
+namespace rex::grading::student_build_test {
+
+using std::filesystem::path;
+using ::testing::HasSubstr;
+
+// A tiny exercise: its library knows answer(), its worker prints what the student's twice(21) gives.
+class StudentBuildTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    shared_ = std::make_unique<TemporaryFolder>();
+    write(shared_->path() / "lib.cpp", "namespace rex { int answer(int a) { return a + 1; } }\n");
+    write(shared_->path() / "worker.cpp",
+          "#include <cstdio>\nint twice(int);\nint studentMain();\nint main() { std::printf(\"%d\", "
+          "twice(21)); }\n");
+    write(shared_->path() / "exercise" / "exercise.h",
+          "#pragma once\nint twice(int a);\nnamespace rex { int answer(int a); }\n");
+    write(shared_->path() / "exercise" / "answer_internal.h",
+          "inline int inlined(int a) { return a + 1; }\n");
+    write(shared_->path() / "src" / "part" / "part.h", "#pragma once\ninline int part() { return 1; }\n");
+    write(shared_->path() / "src" / "part" / "part.cpp", "namespace rex { int whole() { return 2; } }\n");
+    build({"-shared", "-fPIC", "lib.cpp", "-o", "librex_student.so"});
+    build({"-c", "worker.cpp", "-o", "worker.o"});
+  }
+  static void TearDownTestSuite() { shared_.reset(); }
+
+  static void write(const path& file, const std::string& text) {
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file) << text;
+  }
+
+  static void build(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "g++");
+    const ProcessResult result = runProcess(arguments, {.directory = shared_->path()});
+    ASSERT_TRUE(result.ok()) << result.error;
+  }
+
+  Toolchain toolchain() const {
+    return {.compiler = "g++",
+            .flags = {"-std=c++20", "-O1", "-Wall", "-isystem", "/usr/include/eigen3", "-iquote",
+                      shared_->path() / "exercise", "-isystem", shared_->path() / "src"},
+            .linkFlags = {"-Wl,-rpath," + shared_->path().string()},
+            .workerObject = shared_->path() / "worker.o",
+            .grader = {},
+            .libraries = {shared_->path() / "librex_student.so"}};
+  }
+
+  StudentObject compileFile(const path& file, bool debug = false) const {
+    return compileStudent(
+        toolchain(), {{"rex::answer", "it is what you find out"}, {"rex::internal", "it is not for use"}},
+        {.main = file, .workFolder = temporary_.path() / "work", .debug = debug, .publicHeadersOnly = true});
+  }
+
+  StudentObject compile(const std::string& source) const {
+    write(temporary_.path() / "main.cpp", source);
+    return compileFile(temporary_.path() / "main.cpp");
+  }
+
+  // A program in place of one of the compiler's.
+  path script(const path& file, const std::string& text) const {
+    write(temporary_.path() / file, "#!/bin/sh\n" + text);
+    std::filesystem::permissions(temporary_.path() / file, std::filesystem::perms::owner_all);
+    return temporary_.path() / file;
+  }
+
+  static std::string first(const std::vector<CompileDiagnostic>& messages) {
+    return messages.empty() ? "" : toString(messages.front());
+  }
+
+  TemporaryFolder temporary_;
+  static std::unique_ptr<TemporaryFolder> shared_;
+};
+std::unique_ptr<TemporaryFolder> StudentBuildTest::shared_;
+
+constexpr const char* kGood =
+    "#include \"exercise.h\"\n#include <cstdio>\nint twice(int a) { return 2 * a; }\nint main() { "
+    "std::puts(\"mine\"); }\n";
+
+TEST_F(StudentBuildTest, BuildsWorkerAndProgramFromOneObject) {
+  const StudentObject object = compile(kGood);
+  ASSERT_TRUE(object.ok) << object.log;
+  EXPECT_TRUE(object.messages.empty());
+  EXPECT_EQ(object.source, kGood);
+  const StudentProgram worker = linkWorker(toolchain(), object);
+  ASSERT_TRUE(worker.ok) << worker.log;
+  EXPECT_EQ(runProcess({worker.program}).output, "42");
+  const StudentProgram program = linkProgram(toolchain(), object);
+  ASSERT_TRUE(program.ok) << program.log;
+  EXPECT_EQ(runProcess({program.program}).output, "mine\n");
+}
+
+TEST_F(StudentBuildTest, DebugInformationNamesTheStudentsOwnFile) {
+  write(temporary_.path() / "main.cpp", kGood);
+  const StudentObject object = compileFile(temporary_.path() / "main.cpp", true);
+  ASSERT_TRUE(object.ok);
+  const std::string lines = runProcess({"readelf", "--debug-dump=info", object.object.string()}).output;
+  EXPECT_THAT(lines, HasSubstr(temporary_.path().string() + "\n"));
+  EXPECT_THAT(lines, ::testing::Not(HasSubstr("/work\n")));
+}
+
+TEST_F(StudentBuildTest, ReportsTheFirstErrorInOneLine) {
+  const StudentObject object = compile("int twice(int a) {\n  return twce;\n}\n");
+  EXPECT_FALSE(object.ok);
+  EXPECT_EQ(object.exitCode, 1);
+  EXPECT_EQ(first(object.messages),
+            "main.cpp:2:10: error: 'twce' was not declared in this scope; did you mean 'twice'?");
+  EXPECT_THAT(object.log, HasSubstr("main.cpp:2:10: error:"));
+}
+
+TEST_F(StudentBuildTest, KeepsWarnings) {
+  const StudentObject object = compile("int twice(int a) {\n  int b;\n  return a;\n}\n");
+  EXPECT_TRUE(object.ok);
+  EXPECT_EQ(first(object.messages), "main.cpp:2:7: warning: unused variable 'b' [-Wunused-variable]");
+}
+
+TEST_F(StudentBuildTest, BlamesTheStudentsLineForAnErrorInsideALibraryHeader) {
+  const StudentObject object = compile(
+      "#include <Eigen/Core>\nEigen::Vector3d f(Eigen::Vector3d a, Eigen::Vector2d b) {\n  return a + "
+      "b;\n}\n");
+  EXPECT_THAT(first(object.messages), HasSubstr("main.cpp:3:"));
+  EXPECT_THAT(first(object.messages), HasSubstr("YOU_MIXED_MATRICES_OF_DIFFERENT_SIZES (in Eigen/src/Core/"));
+}
+
+TEST_F(StudentBuildTest, SaysWhichFunctionIsMissing) {
+  const StudentObject object = compile("int main() {}\n");
+  ASSERT_TRUE(object.ok);
+  const StudentProgram worker = linkWorker(toolchain(), object);
+  EXPECT_FALSE(worker.ok);
+  EXPECT_EQ(first(worker.messages), "main.cpp: error: 'twice' is declared but has no body here");
+}
+
+TEST_F(StudentBuildTest, RefusesForbiddenCalls) {
+  const StudentObject object =
+      compile("#include \"exercise.h\"\n\nint twice(int a) { return rex::answer(a); }\nint main() {}\n");
+  EXPECT_FALSE(object.ok);
+  EXPECT_EQ(
+      first(object.messages),
+      "main.cpp:3:32: error: calls rex::answer, which only main() may call in this exercise: it is what "
+      "you find out. Write it yourself instead [forbidden-call]");
+}
+
+constexpr const char* kNotPublic =
+    ": only public headers of the library, of the system and of the exercise may be included "
+    "[forbidden-call]";
+
+TEST_F(StudentBuildTest, RefusesInternalHeadersHoweverTheyAreIncluded) {
+  const std::string rest = "int twice(int a) { return inlined(a); }\nint main() {}\n";
+  const StudentObject plain = compile("#include \"exercise.h\"\n#include \"answer_internal.h\"\n" + rest);
+  EXPECT_FALSE(plain.ok);
+  EXPECT_EQ(first(plain.messages),
+            std::string("main.cpp:2:1: error: includes answer_internal.h") + kNotPublic);
+  const StudentObject pasted = compile(
+      "#define QUOTED(x) #x\n#define NAME(x, y) QUOTED(x##y)\n"
+      "#include NAME(answer_int, ernal.h)\n" +
+      rest);
+  EXPECT_FALSE(pasted.ok);
+  EXPECT_EQ(first(pasted.messages), std::string("main.cpp: error: includes answer_internal.h") + kNotPublic);
+}
+
+TEST_F(StudentBuildTest, TakesPublicHeadersOnly) {
+  const std::string rest = "int twice(int a) { return 2 * a; }\nint main() {}\n";
+  const StudentObject fine = compile(
+      "#include \"exercise.h\"\n#include <Eigen/Core>\n#include <vector>\n#include <unistd.h>\n"
+      "#include \"part/part.h\"\n#include \"../src/part/part.h\"\n" +
+      rest);
+  EXPECT_TRUE(fine.ok) << first(fine.messages);
+  write(temporary_.path() / "stolen file.txt", "// all of it\n");
+  const std::pair<std::string, std::string> refused[] = {
+      {"part/part.cpp", "part.cpp"},
+      {"../exercise/../src/part/part.cpp", "part.cpp"},
+      {(temporary_.path() / "stolen file.txt").string(), "stolen file.txt"},
+      {"/dev/null", "null"},
+      {"answer_internal.h", "answer_internal.h"}};
+  for (const auto& [name, shown] : refused) {
+    const StudentObject object = compile("#include \"exercise.h\"\n#include \"" + name + "\"\n" + rest);
+    EXPECT_FALSE(object.ok) << name;
+    EXPECT_EQ(first(object.messages), "main.cpp:2:1: error: includes " + shown + kNotPublic);
+  }
+}
+
+TEST_F(StudentBuildTest, RefusesAnotherNameForTheLibrary) {
+  const StudentObject object = compile(
+      "#define rex mine\n#include \"exercise.h\"\nint twice(int a) { return 2 * a; }\nint main() {}\n");
+  EXPECT_FALSE(object.ok);
+  EXPECT_EQ(first(object.messages),
+            "main.cpp:1:1: error: defines a macro 'rex', which is the name of the library [forbidden-call]");
+}
+
+TEST_F(StudentBuildTest, IncludesNothingThatLiesBesideTheFile) {
+  write(temporary_.path() / "exercise.h", "#error taken from the submission\n");
+  EXPECT_TRUE(compile(kGood).ok);
+}
+
+TEST_F(StudentBuildTest, CompilesUnderAPlainNameWhateverTheFileIsCalled) {
+  const path odd = temporary_.path() / "-o $(touch x)\n.cpp";
+  write(odd, kGood);
+  const StudentObject object = compileFile(odd);
+  EXPECT_TRUE(object.ok) << object.log;
+  EXPECT_EQ(object.name, "main.cpp");
+}
+
+TEST_F(StudentBuildTest, CopesWithCountlessErrors) {
+  std::string hundred, storm;
+  for (int k = 0; k < 100; ++k) hundred += "int f" + std::to_string(k) + "() { return unknown; }\n";
+  EXPECT_THAT(first(compile(hundred).messages),
+              HasSubstr("main.cpp:1:19: error: 'unknown' was not declared"));
+  EXPECT_TRUE(compile(hundred).truncated);
+  for (int k = 0; k < 20000; ++k) storm += "int a" + std::to_string(k) + " = b;";
+  write(temporary_.path() / "main.cpp", storm);
+  const StudentObject stopped = compileStudent(
+      toolchain(), {},
+      {.main = temporary_.path() / "main.cpp", .workFolder = temporary_.path() / "work", .seconds = 1});
+  EXPECT_THAT(first(stopped.messages), HasSubstr("main.cpp:1:10: error: 'b' was not declared"));
+}
+
+TEST_F(StudentBuildTest, StopsACompilationThatExplodes) {
+  const StudentObject deep = compile("#include __FILE__\n");
+  EXPECT_THAT(first(deep.messages), HasSubstr("nested depth"));
+  const StudentObject large = compile("char a[3000000000] = {1};\nint main() { return a[5]; }\n");
+  EXPECT_FALSE(large.ok);
+  EXPECT_FALSE(large.messages.empty());
+  EXPECT_FALSE(std::filesystem::exists(large.object) &&
+               std::filesystem::file_size(large.object) > (65u << 20));
+  EXPECT_FALSE(compile("#include \"/dev/stdin\"\nint x = y;\n").ok);
+}
+
+TEST_F(StudentBuildTest, SaysWhichLimitACompilationHit) {
+  const auto refusal = [&](const std::string& source, StudentBuildOptions options) {
+    write(temporary_.path() / "main.cpp", source);
+    options.main = temporary_.path() / "main.cpp";
+    options.workFolder = temporary_.path() / "work";
+    return first(compileStudent(toolchain(), {}, options).messages);
+  };
+  EXPECT_EQ(refusal("template <int N, long M> struct F { static const int v = F<N - 1, 2 * M>::v + F<N - 1, "
+                    "2 * M + 1>::v; };\n"
+                    "template <long M> struct F<0, M> { static const int v = 1; };\nint x = F<40, 0>::v;\n",
+                    {.main = {}, .workFolder = {}, .seconds = 1}),
+            "main.cpp: error: compiling took more than 1 s of processor time and was stopped");
+  EXPECT_EQ(refusal("#include <Eigen/Core>\n", {.main = {}, .workFolder = {}, .memory = 150u << 20}),
+            "main.cpp: error: compiling needed more than 150 MiB of memory and was stopped");
+}
+
+TEST_F(StudentBuildTest, SaysWhatTheAssemblerRefuses) {
+  const StudentObject object = compile("int main() {\n  asm(\"no such thing\");\n}\n");
+  EXPECT_FALSE(object.ok);
+  EXPECT_EQ(first(object.messages), "main.cpp:2: error: no such instruction: `no such thing'");
+  EXPECT_EQ(first(compile("int a __attribute__((section(\".bss,\\\"awx\\\",@nobits#\"))) = 1;\n"
+                          "int b __attribute__((section(\".text,\\\"q\\\"#\"))) = 1;\n")
+                      .messages)
+                .find("[]"),
+            std::string::npos);
+}
+
+TEST_F(StudentBuildTest, SaysWhatTheLinkerRefuses) {
+  const StudentObject object = compile(
+      "static char big[3000000000], more[3000000000];\nint last;\n"
+      "int twice(int a) { big[a] = 1; more[a] = 2; last = a; return big[0] + more[5]; }\n"
+      "int main() { return twice(1); }\n");
+  ASSERT_TRUE(object.ok) << first(object.messages);
+  const StudentProgram program = linkProgram(toolchain(), object);
+  EXPECT_FALSE(program.ok);
+  EXPECT_THAT(first(program.messages), HasSubstr("main.cpp: error: cannot be linked: main.cpp:"));
+  EXPECT_THAT(first(program.messages), HasSubstr("relocation truncated to fit"));
+}
+
+TEST_F(StudentBuildTest, BlamesTheMachineForALinkerThatExplainsNothing) {
+  Toolchain broken = toolchain();
+  broken.libraries = {"/no/such/library.so"};
+  EXPECT_REX_ERROR(linkProgram(broken, compile(kGood)), "the linker failed at no fault of the file: found");
+}
+
+TEST_F(StudentBuildTest, BlamesTheMachineForACompilerThatExplainsNothing) {
+  write(temporary_.path() / "main.cpp", kGood);
+  Toolchain broken = toolchain();
+  const StudentBuildOptions options{.main = temporary_.path() / "main.cpp",
+                                    .workFolder = temporary_.path() / "work"};
+  broken.compiler = script("mute", "exit 1\n");
+  EXPECT_REX_ERROR(compileStudent(broken, {}, options),
+                   "the compiler failed at no fault of the file: found exit code 1");
+  broken.compiler = script("empty", "echo '[]' >&2\nkill -ABRT $$\n");
+  EXPECT_REX_ERROR(compileStudent(broken, {}, options), "found signal 6");
+}
+
+// Whatever is full first, the copy of the file, the compiler's own file, the object or the program, the file
+// is fine.
+TEST_F(StudentBuildTest, BlamesTheMachineForAFullDisk) {
+  const std::string padding = "// " + std::string(20000, 'x') + "\n";
+  write(temporary_.path() / "main.cpp",
+        padding + "#include <map>\n#include <string>\n" + kGood +
+            "int count() { std::map<int, std::string> m; m[1] = \"x\"; return "
+            "static_cast<int>(m.size()); }\n");
+  const char* set = std::getenv("TMPDIR");
+  const std::string before = set != nullptr ? set : "/tmp";
+  std::set<std::string> reasons;
+  for (const int kilobytes : {16, 28, 60, 88, 120, 160, 200, 240, 280, 4000}) {
+    const TinyDisk disk(kilobytes);
+    REX_NEEDS_DISK(disk);
+    ::setenv("TMPDIR", disk.path().c_str(), 1);
+    try {
+      const StudentObject object = compileStudent(
+          toolchain(), {}, {.main = temporary_.path() / "main.cpp", .workFolder = disk.path()});
+      EXPECT_TRUE(object.ok) << kilobytes << ": " << first(object.messages);
+      const StudentProgram worker = linkWorker(toolchain(), object);
+      EXPECT_TRUE(worker.ok) << kilobytes << ": " << first(worker.messages);
+      reasons.insert("built");
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), HasSubstr("No space left on device")) << kilobytes;
+      reasons.insert(error.parts().what);
+    }
+    ::setenv("TMPDIR", before.c_str(), 1);
+  }
+  if (set == nullptr) ::unsetenv("TMPDIR");
+  EXPECT_THAT(reasons, ::testing::IsSupersetOf({"built", "cannot write this file",
+                                                "the compiler failed at no fault of the file",
+                                                "the linker failed at no fault of the file"}));
+}
+
+// Of a machine short of memory: the driver, or a tool of its own.
+TEST_F(StudentBuildTest, BuildsOnceMoreWhenAToolIsKilled) {
+  write(temporary_.path() / "main.cpp", kGood);
+  const StudentBuildOptions options{.main = temporary_.path() / "main.cpp",
+                                    .workFolder = temporary_.path() / "work"};
+  const std::string mark = (temporary_.path() / "mark").string(),
+                    once = "[ -e " + mark + " ] || { : >" + mark + "; kill -KILL $$; }\n";
+  Toolchain killed = toolchain();
+  killed.compiler = script("driver", once + "exec g++ \"$@\"\n");
+  EXPECT_TRUE(compileStudent(killed, {}, options).ok);
+  EXPECT_TRUE(std::filesystem::remove(mark));
+
+  killed = toolchain();
+  script("tools/as", once + "exec as \"$@\"\n");
+  killed.flags.push_back("-B" + (temporary_.path() / "tools").string());
+  const StudentObject object = compileStudent(killed, {}, options);
+  EXPECT_TRUE(object.ok) << first(object.messages);
+  EXPECT_TRUE(std::filesystem::remove(mark));
+
+  script("tools/ld", once + "exec ld \"$@\"\n");
+  killed.linkFlags.push_back("-B" + (temporary_.path() / "tools").string());
+  const StudentProgram worker = linkWorker(killed, object);
+  EXPECT_TRUE(worker.ok) << first(worker.messages);
+  EXPECT_TRUE(std::filesystem::remove(mark));
+}
+
+TEST_F(StudentBuildTest, BlamesTheMachineForToolsThatAreKilledTwice) {
+  write(temporary_.path() / "main.cpp", kGood);
+  const StudentBuildOptions options{.main = temporary_.path() / "main.cpp",
+                                    .workFolder = temporary_.path() / "work"};
+  for (const char* tool : {"cc1plus", "as", "ld"}) script(path(tool) / tool, "kill -KILL $$\n");
+  for (const char* tool : {"cc1plus", "as"}) {
+    Toolchain killed = toolchain();
+    killed.flags.push_back("-B" + (temporary_.path() / tool).string());
+    EXPECT_REX_ERROR(
+        compileStudent(killed, {}, options),
+        std::string("g++ was killed twice, by nothing that the file did: found g++: fatal error: "
+                    "Killed signal terminated program ") +
+            tool);
+  }
+  const StudentObject object = compileFile(temporary_.path() / "main.cpp");
+  Toolchain killed = toolchain();
+  killed.linkFlags.push_back("-B" + (temporary_.path() / "ld").string());
+  EXPECT_REX_ERROR(linkWorker(killed, object),
+                   "g++ was killed twice, by nothing that the file did: found collect2: fatal error: ld");
+}
+
+TEST_F(StudentBuildTest, RefusesWhatIsNoSourceFile) {
+  const path folder = temporary_.path();
+  const auto refusal = [&](const char* name) { return first(compileFile(folder / name).messages); };
+  EXPECT_EQ(refusal("none.cpp"),
+            "none.cpp: error: cannot be graded: found no file, wanted a C++ source file");
+  std::filesystem::create_directory(folder / "folder.cpp");
+  EXPECT_THAT(refusal("folder.cpp"), HasSubstr("found a folder"));
+  std::filesystem::create_symlink("/etc/passwd", folder / "link.cpp");
+  EXPECT_THAT(refusal("link.cpp"), HasSubstr("found a symbolic link"));
+  ASSERT_EQ(::mkfifo((folder / "pipe.cpp").c_str(), 0600), 0);
+  EXPECT_THAT(refusal("pipe.cpp"), HasSubstr("found a pipe or device"));
+  write(folder / "big.cpp", std::string((1u << 20) + 1, ' '));
+  EXPECT_THAT(refusal("big.cpp"), HasSubstr("found more than 1 MiB"));
+  write(folder / "nul.cpp", std::string("int a;\0", 7));
+  EXPECT_THAT(refusal("nul.cpp"), HasSubstr("found NUL bytes"));
+}
+
+TEST_F(StudentBuildTest, ThrowsWhenTheToolsAreMissing) {
+  write(temporary_.path() / "main.cpp", kGood);
+  Toolchain broken = toolchain();
+  broken.compiler = "no-such-compiler";
+  EXPECT_REX_ERROR(compileStudent(broken, {}, {temporary_.path() / "main.cpp", temporary_.path() / "w"}),
+                   "cannot run no-such-compiler");
+  broken = toolchain();
+  broken.objcopy = "false";
+  const StudentObject object = compileFile(temporary_.path() / "main.cpp");
+  EXPECT_REX_ERROR(linkWorker(broken, object), "cannot rename main in the compiled file");
+}
+
+TEST_F(StudentBuildTest, BlamesTheMachineForACompilerThatDoesNotGetOn) {
+  const path slow = temporary_.path() / "compiler";
+  write(slow, "#!/bin/sh\ni=0\nwhile [ $i -lt 200000 ]; do i=$((i+1)); done\nexec sleep 60\n");
+  std::filesystem::permissions(slow, std::filesystem::perms::owner_all);
+  write(temporary_.path() / "main.cpp", kGood);
+  Toolchain busy = toolchain();
+  busy.compiler = slow;
+  EXPECT_REX_ERROR(
+      compileStudent(
+          busy, {},
+          {.main = temporary_.path() / "main.cpp", .workFolder = temporary_.path() / "work", .seconds = 0.1}),
+      "compiler did not end within 2.2 s: the machine was too busy");
+}
+
+TEST_F(StudentBuildTest, BlamesTheFileForACompilerThatWaits) {
+  write(temporary_.path() / "main.cpp", "#include \"/dev/stdout\"\n");
+  const StudentObject object = compileStudent(
+      toolchain(), {},
+      {.main = temporary_.path() / "main.cpp", .workFolder = temporary_.path() / "work", .seconds = 1});
+  ASSERT_FALSE(object.ok);
+  EXPECT_THAT(toString(object.messages.at(0)),
+              HasSubstr("compiling did not end within 4 s: does it include a pipe or a device?"));
+}
+
+TEST_F(StudentBuildTest, ReadsBuildJson) {
+  const path file = temporary_.path() / "build.json";
+  EXPECT_REX_ERROR(readToolchain(file), "build.json: the exercise is not built");
+  write(file, "{\"compiler\": \"g++\"}");
+  EXPECT_REX_ERROR(readToolchain(file), "not a build description");
+  write(
+      file,
+      R"({"compiler": "g++", "compile_flags": ["-O1"], "link_flags": ["-g"], "worker_object": "w.o", "grader": "g",
+                  "libraries": ["s.so", "t.so"], "prefix": "p.h", "objcopy": "oc", "objdump": "od"})");
+  const Toolchain read = readToolchain(file);
+  EXPECT_EQ(read.compiler, "g++");
+  EXPECT_EQ(read.flags, std::vector<std::string>{"-O1"});
+  EXPECT_EQ(read.linkFlags, std::vector<std::string>{"-g"});
+  EXPECT_EQ(read.workerObject, "w.o");
+  EXPECT_EQ(read.grader, "g");
+  EXPECT_THAT(read.libraries, testing::ElementsAre("s.so", "t.so"));
+  EXPECT_EQ(read.prefix, "p.h");
+  EXPECT_EQ(read.objcopy, "oc");
+  EXPECT_EQ(read.objdump, "od");
+}
+
+}  // namespace rex::grading::student_build_test

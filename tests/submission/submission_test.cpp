@@ -1,0 +1,55 @@
+#include "submission/submission.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "grading/result_file.h"
+#include "support/expect_error.h"
+#include "support/temporary_folder.h"
+
+namespace rex::grading::submission_test {
+
+using ::testing::HasSubstr;
+
+// What no grader does wrong is tested with the whole program, in tests/cli; here the tools break.
+class SubmissionTest : public ::testing::Test {
+ protected:
+  Submission submit(const Toolchain& toolchain, const std::string& main) const {
+    return gradeSubmission(toolchain, ExerciseInfo{},
+                           {.main = main,
+                            .workFolder = temporary_.path() / "work",
+                            .results = results(),
+                            .checks = {},
+                            .seed = {}});
+  }
+  std::filesystem::path results() const { return temporary_.path() / "results.json"; }
+  TemporaryFolder temporary_;
+};
+
+TEST_F(SubmissionTest, BlamesABrokenGraderNotTheStudent) {
+  Toolchain toolchain;
+  toolchain.grader = "/bin/sh";  // ends with an error for options that it does not know
+  const Submission submission = submit(toolchain, "no/such/main.cpp");
+  EXPECT_EQ(submission.result.outcome, Outcome::graderError);
+  EXPECT_THAT(submission.result.message, HasSubstr("the grader failed (exit code 2, signal 0): "));
+  EXPECT_EQ(loadResult(results()).outcome, Outcome::graderError);
+  toolchain.grader = "/no/such/grader";
+  EXPECT_EQ(submit(toolchain, "no/such/main.cpp").result.outcome, Outcome::graderError);
+}
+
+TEST_F(SubmissionTest, BlamesMissingTools) {
+  Toolchain toolchain;
+  toolchain.compiler = "no-such-compiler";
+  toolchain.grader = "/bin/true";
+  const Submission submission = submit(toolchain, REX_SOURCE_DIR "/share/template/solution.cpp");
+  EXPECT_EQ(submission.result.outcome, Outcome::graderError);
+  EXPECT_THAT(submission.result.message, HasSubstr("cannot run no-such-compiler"));
+}
+
+TEST_F(SubmissionTest, SaysWhenAGraderCannotList) {
+  Toolchain toolchain;
+  toolchain.grader = "/bin/false";
+  EXPECT_REX_ERROR(listChecks(toolchain), "/bin/false: the grader cannot list its checks");
+}
+
+}  // namespace rex::grading::submission_test
