@@ -190,6 +190,7 @@ function(rex_exercise_description)
     list(APPEND libraries $<TARGET_FILE:${module}>)
   endforeach()
   rex_json_strings(REX_LIBRARIES_JSON ${libraries})
+  rex_json_strings(REX_FUNCTIONS_JSON ${ARG_FUNCTIONS})
   configure_file(${PROJECT_SOURCE_DIR}/share/cmake/exercise/build.json.in
                  ${CMAKE_CURRENT_BINARY_DIR}/${name}.build.json.in @ONLY)
   file(GENERATE OUTPUT ${ARG_OUTPUT}/build.json INPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}.build.json.in)

@@ -1,8 +1,28 @@
+# What nearly all sources include, compiled once for each level of optimisation, and with it the declarations of what
+# base/eigen_instances.h has compiled.
+function(rex_module_headers)
+  foreach(level module cold_module)
+    set(source ${PROJECT_BINARY_DIR}/src/${level}.cpp)
+    file(CONFIGURE OUTPUT ${source} CONTENT "")
+    add_library(rex_${level}_headers OBJECT ${source})
+    target_compile_options(rex_${level}_headers PRIVATE ${REX_MODULE_OPTIONS})
+    target_include_directories(rex_${level}_headers PRIVATE ${PROJECT_SOURCE_DIR}/src)
+    target_link_libraries(rex_${level}_headers PRIVATE Eigen3::Eigen fmt::fmt)
+    target_precompile_headers(rex_${level}_headers PRIVATE
+      <base/eigen_instances.h> <fmt/format.h> <algorithm> <cmath> <filesystem> <functional> <map> <memory> <optional>
+      <string> <string_view> <vector>)
+  endforeach()
+  target_compile_options(rex_cold_module_headers PRIVATE "${REX_COLD}")
+endfunction()
+
+set(REX_MODULE_OPTIONS ${REX_WARNINGS} -fno-semantic-interposition)
+
 # rex_module(NAME [COLD] SOURCES a.cpp ... [USES module ...] [PRIVATE library ...])
 #
 # One shared library rex_NAME from this folder, src/NAME; a room inside a module, or a part that is built apart, has its
 # module's name in front: cli_robot, course_cars. USES names the rex modules whose headers its headers include; PRIVATE
-# names third-party libraries, which stay inside the .cpp files. Eigen is the only public one. COLD: compiled fast, not for speed.
+# names third-party libraries, which stay inside the .cpp files; all have Eigen, which alone is public, and fmt. COLD:
+# compiled fast, not for speed.
 #
 # Shared, so that each of the many programs (graders, tests, students' workers) links in no time with what it needs and
 # nothing else. Calls inside a library do not go through its table of symbols.
@@ -12,13 +32,16 @@ function(rex_module name)
   add_library(${target} SHARED ${ARG_SOURCES})
   set_target_properties(${target} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib)
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/src)
-  target_compile_options(${target} PRIVATE ${REX_WARNINGS} -fno-semantic-interposition)
+  target_compile_options(${target} PRIVATE ${REX_MODULE_OPTIONS})
   target_link_options(${target} PRIVATE -Wl,-Bsymbolic-functions)
   target_link_libraries(${target} PUBLIC Eigen3::Eigen)
   list(TRANSFORM ARG_USES PREPEND rex_)
-  target_link_libraries(${target} PUBLIC ${ARG_USES} PRIVATE ${ARG_PRIVATE})
+  target_link_libraries(${target} PUBLIC ${ARG_USES} PRIVATE fmt::fmt ${ARG_PRIVATE})
   if(ARG_COLD)
     target_compile_options(${target} PRIVATE "${REX_COLD}")
+    target_precompile_headers(${target} REUSE_FROM rex_cold_module_headers)
+  else()
+    target_precompile_headers(${target} REUSE_FROM rex_module_headers)
   endif()
   rex_merge_sources(${target})
 endfunction()

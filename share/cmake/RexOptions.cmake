@@ -26,6 +26,11 @@ set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g")
 set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
 
+# The compiler's garbage collector keeps quiet: a twelfth less time for a sixth more memory.
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  add_compile_options(--param=ggc-min-expand=400 --param=ggc-min-heapsize=1000000)
+endif()
+
 # No contraction: the same bits on every x86-64. No errno: sqrt becomes one instruction.
 add_compile_options(-ffp-contract=off -fno-math-errno)
 

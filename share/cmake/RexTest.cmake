@@ -10,7 +10,9 @@ function(rex_test_headers)
   add_executable(rex_test_headers ${CMAKE_CURRENT_BINARY_DIR}/no_tests.cpp)
   target_compile_options(rex_test_headers PRIVATE ${REX_WARNINGS} "${REX_COLD}")
   target_link_libraries(rex_test_headers PRIVATE Eigen3::Eigen GTest::gmock_main)
-  target_precompile_headers(rex_test_headers PRIVATE <Eigen/Dense> <gmock/gmock.h> <gtest/gtest.h>)
+  target_include_directories(rex_test_headers PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  target_precompile_headers(rex_test_headers PRIVATE
+    <base/eigen_instances.h> <Eigen/Dense> <gmock/gmock.h> <gtest/gtest.h>)
 endfunction()
 
 # rex_tests(FOLDER SOURCES a_test.cpp ... [USES module ...] [PRIVATE library ...] [APART a_test.cpp ...])

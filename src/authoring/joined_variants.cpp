@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "authoring/file_pieces.h"
+#include "submission/file_pieces.h"
 
 namespace rex::grading {
 namespace {
@@ -19,7 +19,8 @@ std::string ownName(std::size_t variant, std::string_view function) {
 bool differsInBody(std::string_view reference, const FilePiece& piece, std::string_view text) {
   const std::string_view function = reference.substr(piece.start, piece.end - piece.start);
   const std::size_t head = function.find('{', piece.nameStart - piece.start);
-  return !piece.function.empty() && text.substr(0, head + 1) == function.substr(0, head + 1);
+  return !piece.function.empty() && !piece.isInternal &&
+         text.substr(0, head + 1) == function.substr(0, head + 1);
 }
 
 // The texts of those pieces, by number, that are not as in the reference; none if some cannot be swapped.

@@ -18,7 +18,7 @@
 namespace rex {
 namespace {
 
-constexpr auto kPause = std::chrono::milliseconds(10);
+constexpr auto kPause = std::chrono::milliseconds(2);
 
 [[noreturn]] void work(const std::function<int(int)>& job, int k, pid_t parent) {
   constexpr int kBroken = 3;
@@ -70,7 +70,7 @@ class Copies {
 
   // Passes the signal on; who has not ended after some seconds is killed.
   void end(int signal) {
-    constexpr int kPatience = 500;
+    constexpr int kPatience = 2500;
     for (const auto& [copy, k] : running_) ::kill(-copy, signal);
     for (int waited = 0; waited < kPatience && !running_.empty(); ++waited) {
       reap([](int, int) {});

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 
 #include "control/care_doubling_internal.h"
+#include "control/extended_matrix_internal.h"
 
 extern "C" void dtrsyl_(const char* transposeA, const char* transposeB, const int* sign, const int* m,
                         const int* n, const double* A, const int* lda, const double* B, const int* ldb,
@@ -20,6 +21,27 @@ using Square = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, 0, kMost, k
 
 constexpr int kMostDoublings = 14;  // a closed loop that needs more is stiff
 
+// Products of products and of other expressions are compiled for each kind of expression: here there are
+// three kinds.
+template <class M>
+M product(const M& A, const M& B) {
+  M AB(A.rows(), B.cols());
+  AB.noalias() = A * B;
+  return AB;
+}
+template <class M>
+M transposedProduct(const M& A, const M& B) {  // A^T B
+  M AB(A.cols(), B.cols());
+  AB.noalias() = A.transpose() * B;
+  return AB;
+}
+template <class M>
+M productTransposed(const M& A, const M& B) {  // A B^T
+  M AB(A.rows(), B.rows());
+  AB.noalias() = A * B.transpose();
+  return AB;
+}
+
 // The limit of H_k: each round squares the closed loop's Cayley transform, whose first is about A.
 template <class M>
 std::optional<M> doubled(const M& A0, const M& G0, const M& Q) {
@@ -31,28 +53,25 @@ std::optional<M> doubled(const M& A0, const M& G0, const M& Q) {
   M W = A0;
   W.diagonal().array() -= shift;
   Eigen::PartialPivLU<M> lu(W);
-  const M inverse = lu.inverse(), inverseG = inverse * G0;
+  const M inverse = lu.inverse(), inverseG = product(inverse, G0);
   W.transposeInPlace();
-  W.noalias() += Q * inverseG;
+  W += product(Q, inverseG);
   lu.compute(W);
   const M inverseW = lu.inverse();
-  M A = 2 * shift * inverseW.transpose(), G = 2 * shift * inverseG * inverseW,
-    H = 2 * shift * inverseW * (Q * inverse), solvedA(n, n), solvedG(n, n), product(n, n);
+  M A = 2 * shift * inverseW.transpose(), G = 2 * shift * product(inverseG, inverseW),
+    H = 2 * shift * product(inverseW, product(Q, inverse)), solvedA(n, n), solvedG(n, n);
   A.diagonal().array() += 1;
   for (int k = 0; k < kMostDoublings; ++k) {
-    W.noalias() = G * H;
+    W = product(G, H);
     W.diagonal().array() += 1;
     lu.compute(W);
     solvedA = lu.solve(A);
     solvedG = lu.solve(G);
-    product.noalias() = A * solvedG;
-    G.template triangularView<Eigen::Lower>() += product * A.transpose();
+    G += productTransposed(product(A, solvedG), A);
     G.template triangularView<Eigen::StrictlyUpper>() = G.transpose();
-    product.noalias() = H * solvedA;
-    solvedG.noalias() = A.transpose() * product;
+    solvedG = transposedProduct(A, product(H, solvedA));
     H += solvedG;
-    product.noalias() = A * solvedA;
-    A.swap(product);
+    A = product(A, solvedA);
     const double change = solvedG.norm(), size = H.norm();
     if (!std::isfinite(change)) return {};
     if (change <= 1e-15 * size) return M(0.5 * (H + H.transpose()));
@@ -78,34 +97,30 @@ Eigen::VectorXcd eigenvaluesOf(const M& T) {
   return values;
 }
 
-// The equation's value at X, and the size of its largest term.
-template <class Number, class M>
-std::pair<M, double> valueAt(const M& X, const M& A, const MatrixArg& B, const M& Q, const MatrixArg& R) {
-  constexpr int kMost = M::MaxRowsAtCompileTime;
-  using Wide = Square<Number, kMost>;
-  using Column = Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic, 0, kMost, Eigen::Dynamic>;
-  const Wide linear = A.transpose().template cast<Number>() * X.template cast<Number>();
-  const Column XB = X.template cast<Number>() * B.template cast<Number>();
-  const Eigen::Matrix<Number, -1, -1> K =
-      Eigen::LLT<Eigen::Matrix<Number, -1, -1>>(R.template cast<Number>()).solve(XB.transpose());
-  const Wide quadratic = XB * K;
-  Wide value = Q.template cast<Number>() - quadratic;
-  value += linear + linear.transpose();
-  const Number largest = std::max({X.template cast<Number>().norm() * A.template cast<Number>().norm(),
-                                   quadratic.norm(), Q.template cast<Number>().norm()});
-  return {value.template cast<double>(), static_cast<double>(largest)};
+// The equation's value at X, computed in extended precision, and the size of its largest term.
+std::pair<Eigen::MatrixXd, double> valueAt(const Eigen::MatrixXd& X, const MatrixArg& A, const MatrixArg& B,
+                                           const MatrixArg& Q, const MatrixArg& R) {
+  const ExtendedMatrix wideA(A), wideX(X), wideQ(Q);
+  const ExtendedMatrix linear = transposedProduct(wideA, wideX), XB = product(wideX, ExtendedMatrix(B));
+  const ExtendedMatrix quadratic = product(XB, solved(ExtendedMatrix(R), XB.transpose()));
+  ExtendedMatrix value = wideQ;
+  value += linear;
+  value += linear.transpose();
+  value -= quadratic;
+  const long double largest = std::max({wideX.norm() * wideA.norm(), quadratic.norm(), wideQ.norm()});
+  return {value.rounded(), static_cast<double>(largest)};
 }
 
 // The Y of C^T Y + Y C + value = 0 for C = U T U^T.
 template <class M>
 M lyapunovStep(const Eigen::RealSchur<M>& schur, const M& value) {
   const M &T = schur.matrixT(), &U = schur.matrixU();
-  M Y = -(U.transpose() * value * U);
+  M Y = -transposedProduct(U, product(value, U));
   const int n = static_cast<int>(T.rows()), sign = 1;
   double scale = 1;
   int info = 0;
   dtrsyl_("T", "N", &sign, &n, &n, T.data(), &n, T.data(), &n, Y.data(), &n, &scale, &info);
-  const M step = U * Y * U.transpose();
+  const M step = productTransposed(product(U, Y), U);
   return (0.5 / scale) * (step + step.transpose());
 }
 
@@ -115,24 +130,27 @@ std::optional<RiccatiResult> solve(const MatrixArg& givenA, const MatrixArg& B, 
   using M = Square<double, kMost>;
   const M A = givenA, Q = givenQ;
   const Eigen::LLT<Eigen::MatrixXd> weight(R);
-  const auto gainOf = [&](const M& X) -> Eigen::MatrixXd { return weight.solve(B.transpose() * X); };
-  const M G = B * weight.solve(B.transpose());
+  const Eigen::MatrixXd Bt = B.transpose();
+  const auto gainOf = [&](const Eigen::MatrixXd& X) -> Eigen::MatrixXd {
+    return weight.solve(product(Bt, X));
+  };
+  const M G = transposedProduct(Bt, Eigen::MatrixXd(weight.solve(Bt)));
   std::optional<M> X = doubled<M>(A, G, Q);
   if (!X) return {};
   RiccatiResult result;
-  const M closed = A - B * gainOf(*X);
+  const M closed = A - transposedProduct(Bt, gainOf(*X));
   const Eigen::RealSchur<M> schur(closed);
   if (schur.info() != Eigen::Success) return {};
   result.closedLoop = eigenvaluesOf(schur.matrixT());
   if (!(result.closedLoop.real().maxCoeff() < -1e-4 * A.norm())) return {};
   // What a step changes is what was wrong: nothing else tells how many digits X has.
   for (double change = 1, round = 0; change > 1e-12; ++round) {
-    const M step = lyapunovStep<M>(schur, valueAt<long double>(*X, A, B, Q, R).first);
+    const M step = lyapunovStep<M>(schur, valueAt(*X, givenA, B, givenQ, R).first);
     change = step.norm() / X->norm();
     if (!(change < 1e-7) || round == 3) return {};
     *X += step;
   }
-  const auto [value, largest] = valueAt<double>(*X, A, B, Q, R);
+  const auto [value, largest] = valueAt(*X, givenA, B, givenQ, R);
   result.residual = value.norm() / largest;
   result.status = RiccatiStatus::kSolved;
   result.K = gainOf(*X);

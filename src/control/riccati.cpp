@@ -19,6 +19,7 @@
 #include "control/care_doubling_internal.h"
 #include "control/controllability.h"
 #include "control/eigenvalue_text_internal.h"
+#include "control/extended_matrix_internal.h"
 #include "control/require_matrix_internal.h"
 #include "control/stability.h"
 #include "control/stability_internal.h"
@@ -39,7 +40,7 @@ void dtgsen_(const int* job, const int* wantLeft, const int* wantRight, const in
 namespace rex {
 namespace {
 
-using Extended = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+using internal::ExtendedMatrix;
 
 enum class Kind { kContinuous, kDiscrete };
 
@@ -250,35 +251,36 @@ struct Residual {
   Eigen::MatrixXd value, K;
   double size;  // of the value, relative to the largest term
 };
-Residual residualAt(const Problem& problem, const Extended& X) {
-  const Extended A = problem.A.cast<long double>(), B = problem.B.cast<long double>(),
-                 Q = problem.Q.cast<long double>();
-  const Extended XB = X * B;
+Residual residualAt(const Problem& problem, const ExtendedMatrix& X) {
+  const ExtendedMatrix A(problem.A), B(problem.B), Q(problem.Q), XB = product(X, B);
   const bool isContinuous = problem.kind == Kind::kContinuous;
-  const Extended weight =
-      problem.R.cast<long double>() +
-      (isContinuous ? Extended::Zero(B.cols(), B.cols()).eval() : Extended(B.transpose() * XB));
-  const Extended K = Eigen::PartialPivLU<Extended>(weight).solve(isContinuous ? Extended(XB.transpose())
-                                                                              : Extended(XB.transpose() * A));
-  const Extended linear =
-      isContinuous ? Extended(A.transpose() * X + X * A) : Extended(A.transpose() * X * A - X);
-  const Extended quadratic = K.transpose() * weight * K;
-  const Extended value = linear - quadratic + Q;
+  ExtendedMatrix weight(problem.R);
+  if (!isContinuous) weight += transposedProduct(B, XB);
+  const ExtendedMatrix K = solved(weight, isContinuous ? XB.transpose() : transposedProduct(XB, A));
+  const ExtendedMatrix quadratic = transposedProduct(K, product(weight, K));
+  ExtendedMatrix value = isContinuous ? product(X, A) : transposedProduct(A, product(X, A));
+  if (isContinuous)
+    value += transposedProduct(A, X);
+  else
+    value -= X;
+  value -= quadratic;
+  value += Q;
   const double largest =
       static_cast<double>(std::max({X.norm() * (isContinuous ? A.norm() : 1), quadratic.norm(), Q.norm()}));
-  return {(0.5L * (value + value.transpose())).cast<double>(), K.cast<double>(),
-          static_cast<double>(value.norm()) / std::max(largest, 1e-300)};
+  const double size = static_cast<double>(value.norm()) / std::max(largest, 1e-300);
+  value += value.transpose();
+  return {0.5 * value.rounded(), K.rounded(), size};
 }
 
 struct Refined {
-  Extended X;
+  ExtendedMatrix X;
   double lastStep;  // relative; infinite where there was none
 };
 
 // Newton's steps (Kleinman 1968): each solves a Lyapunov equation of the closed loop.
 Refined refined(const Problem& problem, const Eigen::MatrixXd& start) {
   double before = std::numeric_limits<double>::infinity();
-  Refined result{start.cast<long double>(), before};
+  Refined result{ExtendedMatrix(start), before};
   Residual here = residualAt(problem, result.X);
   for (int i = 0; i < 10; ++i) {
     const Eigen::MatrixXd closed = problem.A - problem.B * here.K;
@@ -292,7 +294,8 @@ Refined refined(const Problem& problem, const Eigen::MatrixXd& start) {
     const double size = step.norm();
     result.lastStep = size / std::max(static_cast<double>(result.X.norm()), 1e-300);
     if (!(size < 0.5 * before)) return result;
-    const Extended next = result.X + step.cast<long double>();
+    ExtendedMatrix next = result.X;
+    next += ExtendedMatrix(step);
     const Residual there = residualAt(problem, next);
     if (!(there.size <= 2 * here.size)) return result;
     result.X = next;
@@ -317,8 +320,7 @@ std::optional<std::complex<double>> badMode(const Problem& problem, const Eigen:
     Eigen::MatrixXcd hautus(n, n + B.cols());
     hautus << A - lambda * Eigen::MatrixXcd::Identity(n, n),
         B.cast<std::complex<double>>() * (scale / std::max(B.norm(), 1e-300));
-    const Eigen::VectorXd values = Eigen::JacobiSVD<Eigen::MatrixXcd>(hautus).singularValues();
-    if (values[n - 1] <= 1e-9 * scale) return lambda;
+    if (internal::singularValues(hautus)[n - 1] <= 1e-9 * scale) return lambda;
   }
   return {};
 }
@@ -432,9 +434,9 @@ RiccatiResult solveInUnits(const Problem& problem) {
                      "no stabilizing solution: the equation's pencil has no stable part that gives one");
   const Refined best = refined(problem, *start);
   const Residual at = residualAt(problem, best.X);
-  if (problem.kind == Kind::kDiscrete && hasSingularWeight(problem, best.X.cast<double>()))
+  if (problem.kind == Kind::kDiscrete && hasSingularWeight(problem, best.X.rounded()))
     return explained(problem, border, "no solution: R + B^T X B is singular");
-  RiccatiResult result{.X = best.X.cast<double>(), .K = at.K, .residual = at.size};
+  RiccatiResult result{.X = best.X.rounded(), .K = at.K, .residual = at.size};
   result.X = (0.5 * (result.X + result.X.transpose())).eval();
   const Eigen::MatrixXd feedback = problem.B * result.K, closed = problem.A - feedback;
   result.closedLoop = Eigen::EigenSolver<Eigen::MatrixXd>(closed, false).eigenvalues();

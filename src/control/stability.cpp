@@ -50,7 +50,7 @@ std::vector<Mode> modesOf(const Eigen::MatrixXd& A, bool isDiscrete) {
 int geometricMultiplicity(const Eigen::MatrixXd& A, Complex value) {
   const Eigen::Index n = A.rows();
   const Eigen::MatrixXcd shifted = A.cast<Complex>() - value * Eigen::MatrixXcd::Identity(n, n);
-  const Eigen::VectorXd sizes = Eigen::JacobiSVD<Eigen::MatrixXcd>(shifted).singularValues();
+  const Eigen::VectorXd sizes = internal::singularValues(shifted);
   const double bound = 10 * internal::roundingOf(n, A.stableNorm());
   return std::max(1, static_cast<int>((sizes.array() <= bound).count()));
 }
@@ -122,7 +122,16 @@ double distanceToEdge(const Eigen::MatrixXd& A, Complex near, bool isDiscrete) {
   const Complex edge = !isDiscrete ? Complex(0, near.imag()) : near == 0. ? 1. : near / std::abs(near);
   const Eigen::Index n = A.rows();
   const Eigen::MatrixXcd shifted = A.cast<Complex>() - edge * Eigen::MatrixXcd::Identity(n, n);
-  return Eigen::JacobiSVD<Eigen::MatrixXcd>(shifted).singularValues()[n - 1];
+  return singularValues(shifted)[n - 1];
+}
+
+Eigen::VectorXd singularValues(const Eigen::MatrixXcd& M) {
+  Eigen::MatrixXd real(2 * M.rows(), 2 * M.cols());
+  real << M.real(), -M.imag(), M.imag(), M.real();
+  const Eigen::VectorXd twice = Eigen::JacobiSVD<Eigen::MatrixXd>(real).singularValues();
+  Eigen::VectorXd values(std::min(M.rows(), M.cols()));
+  for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = twice[2 * i];
+  return values;
 }
 
 double roundingOf(Eigen::Index n, double norm) {

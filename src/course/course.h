@@ -1,10 +1,12 @@
 #pragma once
 
 // All a student needs: `#include "course/course.h"`. Declarations only, so that a main.cpp compiles fast.
-// Eigen/Geometry is here for a.cross(b): without it that compiles and then fails to link.
+// Eigen/Geometry is here for a.cross(b): without it that compiles and then fails to link. Of Eigen's products
+// and decompositions there are declarations of what the library has compiled.
 #include <Eigen/Geometry>
 
 #include "base/derivative_check.h"
+#include "base/eigen_instances.h"
 #include "base/error.h"
 #include "base/rng.h"
 #include "course/linear_algebra.h"

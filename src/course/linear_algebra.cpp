@@ -23,13 +23,13 @@ void requireSquare(const char* what, const Eigen::MatrixXd& A) {
                .wanted = "a square matrix"});
 }
 
-void requireFinite(const char* what, const Eigen::MatrixXd& A) {
+void requireFiniteEntries(const char* what, const Eigen::MatrixXd& A) {
   if (!A.allFinite()) throw Error({.what = what, .found = "nan or infinity", .wanted = "finite numbers"});
 }
 
 Eigen::PartialPivLU<Eigen::MatrixXd> factorise(const char* what, const Eigen::MatrixXd& A) {
   requireSquare(what, A);
-  requireFinite(what, A);
+  requireFiniteEntries(what, A);
   Eigen::PartialPivLU<Eigen::MatrixXd> lu(A);
   const double rcond = A.size() > 0 ? lu.rcond() : 1;
   if (!(rcond > std::numeric_limits<double>::epsilon())) {
@@ -78,14 +78,14 @@ Eigen::MatrixXd inverse(const Eigen::MatrixXd& A) { return factorise("inverse", 
 
 Eigen::MatrixXd solveMatrix(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
   requireRows("solve", B.rows(), A.rows());
-  requireFinite("solve: right side", B);
+  requireFiniteEntries("solve: right side", B);
   return factorise("solve", A).solve(B);
 }
 
 Eigen::VectorXd leastSquares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
   requireRows("leastSquares", b.size(), A.rows());
-  requireFinite("leastSquares", A);
-  requireFinite("leastSquares: right side", b);
+  requireFiniteEntries("leastSquares", A);
+  requireFiniteEntries("leastSquares: right side", b);
   const double largest = A.size() > 0 ? A.cwiseAbs().maxCoeff() : 0;
   if (largest == 0) return Eigen::VectorXd::Zero(A.cols());
   // Squares of its numbers would overflow, or vanish; a power of two changes nothing else.
@@ -97,7 +97,7 @@ Eigen::VectorXd leastSquares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b)
 
 Eigen::VectorXd solveSparse(const std::vector<MatrixEntry>& H, const Eigen::VectorXd& b) {
   const Eigen::SparseMatrix<double> matrix = sparse(H, b.size());
-  requireFinite("solveSparse", b);
+  requireFiniteEntries("solveSparse", b);
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
   const bool isFactored = factor.info() == Eigen::Success;
   const Eigen::VectorXd diagonal = matrix.diagonal();
@@ -111,13 +111,13 @@ Eigen::VectorXd solveSparse(const std::vector<MatrixEntry>& H, const Eigen::Vect
 
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& A) {
   requireSquare("eigenvalues", A);
-  requireFinite("eigenvalues", A);
+  requireFiniteEntries("eigenvalues", A);
   if (A.size() == 0) return {};
   return Eigen::EigenSolver<Eigen::MatrixXd>(A, false).eigenvalues();
 }
 
 SingularValues svd(const Eigen::MatrixXd& A) {
-  requireFinite("svd", A);
+  requireFiniteEntries("svd", A);
   if (A.size() == 0) return {Eigen::MatrixXd(A.rows(), 0), {}, Eigen::MatrixXd(A.cols(), 0)};
   const Eigen::JacobiSVD<Eigen::MatrixXd> decomposition(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
   return {decomposition.matrixU(), decomposition.singularValues(), decomposition.matrixV()};

@@ -2,14 +2,19 @@
 
 #include <algorithm>
 #include <exception>
+#include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/once_more.h"
 #include "base/printable.h"
+#include "base/private_folder.h"
+#include "base/process_pool.h"
 #include "base/sha256.h"
 #include "grading/hidden_seed.h"
+#include "grading/result_file.h"
 #include "grading/worker_process.h"
 #include "sandbox/probes.h"
 
@@ -177,6 +182,44 @@ Outcome overallOutcome(const std::vector<CheckResult>& checks) {
   return overall;
 }
 
+void append(KeptOutput& kept, const KeptOutput& more) {
+  const std::size_t taken = std::min(kKeptOutput - std::min(kKeptOutput, kept.text.size()), more.text.size());
+  kept.text += more.text.substr(0, taken);
+  kept.truncatedBytes += more.truncatedBytes + (more.text.size() - taken);
+}
+
+// What one check added to a result that was empty.
+void add(GradeResult& whole, std::size_t k, const GradeResult& part) {
+  whole.checks[k] = part.checks.front();
+  whole.score += part.checks.front().points;
+  whole.usage.cpuSeconds += part.usage.cpuSeconds;
+  whole.usage.wallSeconds += part.usage.wallSeconds;
+  whole.usage.peakMemoryBytes = std::max(whole.usage.peakMemoryBytes, part.usage.peakMemoryBytes);
+  whole.usage.outputBytes += part.usage.outputBytes;
+  append(whole.output, part.output);
+  append(whole.error, part.error);
+}
+
+// Calls `ended(k, part)` as each check ends, in any order.
+void runAtOnce(const GradeResult& start, std::span<const RunnableCheck> checks, const GradeOptions& options,
+               const std::function<void(std::size_t, GradeResult)>& ended) {
+  const PrivateFolder folder(options.temporaryFolder);
+  const auto file = [&](int k) { return folder.path() / fmt::format("{}.json", k); };
+  const auto run = [&](int k) {
+    GradeResult part = start;
+    const CheckResult verdict = runCheck(checks[static_cast<std::size_t>(k)], options, part);
+    part.checks = {verdict};
+    saveResult(part, file(k));
+    return 0;
+  };
+  runInCopies(static_cast<int>(checks.size()), options.jobs, run, [&](int k, int code) {
+    const auto place = static_cast<std::size_t>(k);
+    GradeResult broken;
+    broken.checks = {faulty(checks[place].info, "the check ended its process")};
+    ended(place, code == 0 ? loadResult(file(k)) : std::move(broken));
+  });
+}
+
 }  // namespace
 
 void setSandbox(GradeResult& result, int level) {
@@ -207,14 +250,30 @@ GradeResult grade(GradeResult result, std::span<const RunnableCheck> checks, con
   result.outcome = Outcome::graderError;
   result.message = kUnfinished;
   save(result);
+  std::size_t done = 0;
+  const auto saveNext = [&](GradeResult soFar) {
+    if (++done == checks.size()) {
+      soFar.outcome = overallOutcome(soFar.checks);
+      soFar.message.clear();
+      result = soFar;
+    }
+    save(soFar);
+  };
+  if (options.jobs > 1) {
+    const GradeResult start = result;
+    std::map<std::size_t, GradeResult> parts;  // put together in the order of the checks
+    runAtOnce(start, checks, options, [&](std::size_t k, GradeResult part) {
+      parts.emplace(k, std::move(part));
+      GradeResult soFar = start;
+      for (const auto& [place, one] : parts) add(soFar, place, one);
+      saveNext(std::move(soFar));
+    });
+    return result;
+  }
   for (std::size_t k = 0; k < checks.size(); ++k) {
     result.checks[k] = runCheck(checks[k], options, result);
     result.score += result.checks[k].points;
-    if (k + 1 == checks.size()) {
-      result.outcome = overallOutcome(result.checks);
-      result.message.clear();
-    }
-    save(result);
+    saveNext(result);
   }
   return result;
 }

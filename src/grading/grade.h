@@ -30,6 +30,7 @@ struct GradeOptions {
   sandbox::Sandbox sandbox{};
   std::vector<std::filesystem::path> libraries{};  ///< that the worker loads, beside those of the system
   std::filesystem::path evidence{};  ///< folder for pictures of visible checks that do not hold; empty: none
+  int jobs = 1;                      ///< checks that run at once, then each in a copy of this process
   std::string secret{};  ///< of the course; empty: hidden checks take the same seed as visible ones
 };
 
@@ -38,7 +39,8 @@ void setSandbox(GradeResult& result, int level);
 
 /// Runs each check in a fresh worker and adds the results, in the given order, to `result`, whose other
 /// fields about the submission are kept. Calls `save` before the first check, when everything still counts as
-/// a fault of the grader, and after each. What a check function throws itself is such a fault too.
+/// a fault of the grader, and after each. What a check function throws itself is such a fault too, and so is
+/// the death of its copy.
 [[nodiscard]] GradeResult grade(GradeResult result, std::span<const RunnableCheck> checks,
                                 const GradeOptions& options,
                                 const std::function<void(const GradeResult&)>& save);

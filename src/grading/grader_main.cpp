@@ -49,6 +49,7 @@ void declareOptions(CLI::App& app, Arguments& arguments) {
                  "folder for pictures and replays of visible checks that do not hold");
   app.add_option("--secret", arguments.secret,
                  "file with the secret of the course, for the seeds of hidden checks");
+  app.add_option("--jobs", arguments.grade.jobs, "checks at once")->check(CLI::Range(1, 1024));
   app.add_flag("--list", arguments.list, "print the checks as JSON");
 }
 

@@ -17,6 +17,8 @@
 #include "submission/included_files.h"
 #include "submission/mentions.h"
 #include "submission/precompiled_prefix.h"
+#include "submission/shared_compile.h"
+#include "submission/source_shares.h"
 #include "submission/symbol_scan.h"
 #include "submission/tool_failure.h"
 
@@ -28,6 +30,7 @@ using std::filesystem::path;
 constexpr const char* kDependencies = "student.d";
 constexpr std::size_t kLogSize = 64u << 10;
 constexpr std::size_t kMostMessages = 50;
+constexpr int kMostShares = 4;  // what they have in common is compiled in each
 
 // The name to compile under: the student's own if it is plain, for names come from strangers.
 std::string plainName(const path& file) {
@@ -115,12 +118,28 @@ void explain(const ProcessResult& run, const std::vector<std::string>& command, 
   if (!explained()) result.messages.push_back({name, 0, 0, "error", "", whyItGaveUp(run, tools, options)});
 }
 
-void compile(const std::vector<std::string>& command, const std::string& name, const BuildTools& tools,
-             const StudentBuildOptions& options, StudentObject& result) {
+// Several compilers at once where they may and the file allows it, else one.
+ProcessResult compileAll(const Toolchain& toolchain, const std::vector<std::string>& command,
+                         const std::string& name, const BuildTools& tools, const StudentBuildOptions& options,
+                         const StudentObject& result) {
   std::vector<std::string> withJson = command;
-  withJson.insert(withJson.end(), {"-fdiagnostics-format=json", "-MD", "-MF", kDependencies, "-c", name, "-o",
-                                   result.object.filename().string()});
-  const ProcessResult run = tools.run(withJson);
+  withJson.insert(withJson.end(), {"-fdiagnostics-format=json", "-MD", "-MF", kDependencies});
+  if (options.compilers > 1) {
+    const auto toolsFor = [&](const path& folder) {
+      return BuildTools(toolchain, folder, options.sandbox,
+                        {.seconds = options.seconds, .memory = options.memory});
+    };
+    const std::vector<std::string> shares =
+        sourceShares(result.source, toolchain.functions, std::min(options.compilers, kMostShares));
+    if (const auto run = compileShares(shares, withJson, name, result.object, toolsFor)) return *run;
+  }
+  withJson.insert(withJson.end(), {"-c", name, "-o", result.object.filename().string()});
+  return tools.run(withJson);
+}
+
+void compile(const Toolchain& toolchain, const std::vector<std::string>& command, const std::string& name,
+             const BuildTools& tools, const StudentBuildOptions& options, StudentObject& result) {
+  const ProcessResult run = compileAll(toolchain, command, name, tools, options, result);
   result.exitCode = run.exitCode;
   result.ok = run.ok();
   result.messages = parseCompilerJson(run.error);
@@ -229,7 +248,7 @@ StudentObject compileStudent(const Toolchain& toolchain, const std::vector<Forbi
   absolute.workFolder = folder;
   const BuildTools tools(toolchain, folder, options.sandbox,
                          {.seconds = options.seconds, .memory = options.memory});
-  compile(compileCommand(toolchain, absolute, result.source), name, tools, absolute, result);
+  compile(toolchain, compileCommand(toolchain, absolute, result.source), name, tools, absolute, result);
   if (!result.ok) return result;
 
   std::vector<CompileDiagnostic> calls =

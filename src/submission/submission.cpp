@@ -70,6 +70,8 @@ std::vector<std::string> graderCommand(const Toolchain& toolchain, const Exercis
   }
   if (!options.evidence.empty()) command.insert(command.end(), {"--evidence", options.evidence.string()});
   if (options.sanitize) command.emplace_back("--sanitized");
+  if (options.processors > 1)
+    command.insert(command.end(), {"--jobs", fmt::format("{}", options.processors)});
   if (!options.secret.empty()) command.insert(command.end(), {"--secret", options.secret.string()});
   command.insert(command.end(), {"--cpu-seconds", fmt::format("{:g}", exercise.limits.cpuSeconds),
                                  "--memory-mb", fmt::format("{}", exercise.limits.memoryMb), "--output-mb",
@@ -129,7 +131,8 @@ StudentObject compileAsAsked(const Toolchain& toolchain, const ExerciseInfo& exe
                             .workFolder = options.workFolder,
                             .publicHeadersOnly = true,
                             .seconds = options.compileSeconds,
-                            .sandbox = options.sandbox};
+                            .sandbox = options.sandbox,
+                            .compilers = options.sanitize ? 1 : options.processors};
   if (!options.sanitize) return compileStudent(toolchain, exercise.forbidden, build);
   // Unoptimised, inline functions of the library that main() uses refer to what is forbidden outside of it.
   build.seconds = kSanitizedSeconds;
@@ -163,6 +166,7 @@ std::optional<CrashSite> crashSiteOf(const Toolchain& toolchain, const ExerciseI
                                      const std::string& check, const std::string& mainFile) {
   SubmissionOptions one = options;
   one.checks = {check};
+  one.processors = 1;
   one.evidence.clear();
   one.results = options.workFolder / "second-look.json";
   std::filesystem::remove(one.results);

@@ -28,6 +28,7 @@ struct SubmissionOptions {
   std::filesystem::path
       secret{};                ///< file with the secret of the course; empty: hidden checks take the seed too
   double compileSeconds = 30;  ///< of processor time
+  int processors = 1;          ///< that compilers and checks may keep busy
 };
 
 /// A graded file.

@@ -14,6 +14,7 @@ struct Toolchain {
   std::filesystem::path workerObject;  ///< the loop that answers the grader
   std::filesystem::path grader;
   std::vector<std::filesystem::path> libraries;  ///< shared; all of rex that the exercise may call
+  std::vector<std::string> functions{};          ///< of the student's that the grader calls
   std::filesystem::path prefix{};                ///< see prefixFlags(); empty: none
   std::string objcopy = "objcopy";
   std::string objdump = "objdump";

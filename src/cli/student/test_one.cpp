@@ -1,6 +1,8 @@
 #include "cli/student/test_one.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <thread>
 
 #include "base/text_file.h"
 #include "cli/progress_line.h"
@@ -14,9 +16,10 @@ ExitCode testOne(const Project& project, const TestOptions& options) {
   const std::optional<sandbox::Sandbox> sandbox = chooseSandbox(project, options.level);
   if (!sandbox) return ExitCode::kWeakSandbox;
   const TestRun run(project, std::move(exercise), options);
+  const int processors = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   const grading::Submission graded = [&] {
     const ProgressLine line([&] { return run.stage(); });
-    return run.grade(*sandbox);
+    return run.grade(*sandbox, processors);
   }();
   run.publish(project, graded.result);
   if (options.json)

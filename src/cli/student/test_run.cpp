@@ -58,7 +58,7 @@ TestRun::TestRun(const Project& project, ExerciseInfo exercise, const TestOption
   if (!options.secret.empty()) static_cast<void>(grading::readCourseSecret(options.secret));
 }
 
-grading::Submission TestRun::grade(const sandbox::Sandbox& sandbox) const {
+grading::Submission TestRun::grade(const sandbox::Sandbox& sandbox, int processors) const {
   return grading::gradeSubmission(toolchain_, exercise_,
                                   {.main = file_,
                                    .workFolder = work_.path(),
@@ -69,7 +69,8 @@ grading::Submission TestRun::grade(const sandbox::Sandbox& sandbox) const {
                                    .lookAgain = true,
                                    .sanitize = options_.debug,
                                    .sandbox = sandbox,
-                                   .secret = options_.secret});
+                                   .secret = options_.secret,
+                                   .processors = processors});
 }
 
 std::string TestRun::stage() const {

@@ -39,8 +39,8 @@ class TestRun {
   [[nodiscard]] std::filesystem::path ownResults() const { return work_.path() / "results.json"; }
   [[nodiscard]] const std::filesystem::path& folder() const { return work_.path(); }
 
-  /// Throws as gradeSubmission().
-  [[nodiscard]] grading::Submission grade(const sandbox::Sandbox& sandbox) const;
+  /// Keeps so many processors busy, where it can. Throws as gradeSubmission().
+  [[nodiscard]] grading::Submission grade(const sandbox::Sandbox& sandbox, int processors = 1) const;
   /// What grade() is doing, read from the result file, which grows.
   [[nodiscard]] std::string stage() const;
   /// Puts result, log and evidence where the student finds them, and remembers the points. Throws Error.

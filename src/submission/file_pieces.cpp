@@ -1,4 +1,4 @@
-#include "authoring/file_pieces.h"
+#include "submission/file_pieces.h"
 
 #include <algorithm>
 #include <array>
@@ -74,21 +74,41 @@ std::string_view functionName(std::string_view head) {
   return head.substr(first, last + 1 - first);
 }
 
+// Behind the brace that opens a namespace without a name at `at`; npos where none does.
+std::size_t behindNamelessNamespace(std::string_view code, std::size_t at) {
+  constexpr std::string_view kWord = "namespace";
+  if (code.substr(at, kWord.size()) != kWord) return code.npos;
+  const std::size_t brace = code.find_first_not_of(kNoCode, at + kWord.size());
+  return brace != code.npos && code[brace] == '{' ? brace + 1 : code.npos;
+}
+
+std::size_t behindAnyPiece(const std::string& code, std::size_t at) {
+  if (code[at] == '#') return behindDirective(code, at);
+  const std::size_t opened = behindNamelessNamespace(code, at);
+  return opened != code.npos ? opened : behindPiece(code, at);
+}
+
 }  // namespace
 
 std::vector<FilePiece> filePieces(std::string_view source) {
   const std::string code = codeOf(source);
   std::vector<FilePiece> pieces;
+  int open = 0;  // namespaces without a name
   for (std::size_t at = code.find_first_not_of(kNoCode); at != code.npos;
        at = code.find_first_not_of(kNoCode, pieces.back().end)) {
-    FilePiece piece{.start = at, .end = code[at] == '#' ? behindDirective(code, at) : behindPiece(code, at)};
+    FilePiece piece{.start = at, .end = behindAnyPiece(code, at), .isInternal = open > 0};
     const std::string_view text = std::string_view(code).substr(at, piece.end - at);
     const std::size_t body = outerBracket(text, '{');
     if (text.front() != '#' && text.back() == '}' && body != text.npos) {
       const std::string_view name = functionName(text.substr(0, body));
       piece.function = name;
-      if (!name.empty()) piece.nameStart = at + static_cast<std::size_t>(name.data() - text.data());
+      if (!name.empty()) {
+        piece.nameStart = at + static_cast<std::size_t>(name.data() - text.data());
+        piece.bodyStart = at + body;
+      }
     }
+    if (behindNamelessNamespace(code, at) != code.npos) ++open;
+    if (text == "}" && open > 0) piece.isInternal = --open > 0;
     pieces.push_back(std::move(piece));
   }
   return pieces;

@@ -1,4 +1,4 @@
-#include "authoring/file_pieces.h"
+#include "submission/file_pieces.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -21,6 +21,7 @@ std::string functionIn(const std::string& source) {
     if (piece.function.empty()) continue;
     EXPECT_EQ(found, "none") << source;
     EXPECT_EQ(source.substr(piece.nameStart, piece.function.size()), piece.function);
+    EXPECT_EQ(source[piece.bodyStart], '{');
     found = piece.function;
   }
   return found;
@@ -36,7 +37,9 @@ TEST(FilePieces, EndWithBracesOrSemicolons) {
       ElementsAre("#define A \\\n  {", "int f() {\n  if (true) {\n  }\n}",
                   "[[nodiscard]] int g() { return 1; }"));
   EXPECT_THAT(texts("namespace {\nint f() { return 1; }\n}\nint g() { return 2; }"),
-              ElementsAre("namespace {\nint f() { return 1; }\n}", "int g() { return 2; }"));
+              ElementsAre("namespace {", "int f() { return 1; }", "}", "int g() { return 2; }"));
+  EXPECT_THAT(texts("namespace a { namespace { int f() { return 1; } } }"),
+              ElementsAre("namespace a { namespace { int f() { return 1; } } }"));
 }
 
 TEST(FilePieces, KnowWhichBracesAreText) {
@@ -64,6 +67,15 @@ TEST(FilePieces, NameFunctionsThatCanBeSwapped) {
   ASSERT_EQ(filePieces("int f(int) {}\nint f(double) {}\n").size(), 2u);
 }
 
+TEST(FilePieces, KnowWhatTheLinkerDoesNotSee) {
+  const std::string source =
+      "int a() {}\nnamespace {\nint b() {}\nnamespace { int c() {} }\nint d() {}\n}\nint e() {}\n";
+  std::string internal, others;
+  for (const FilePiece& piece : filePieces(source)) (piece.isInternal ? internal : others) += piece.function;
+  EXPECT_EQ(internal, "bcd");
+  EXPECT_EQ(others, "ae");
+}
+
 TEST(FilePieces, NameNothingElse) {
   for (const char* source : {"static int f() {}",
                              "inline int f() {}",
@@ -72,7 +84,6 @@ TEST(FilePieces, NameNothingElse) {
                              "int f(auto a) {}",
                              "auto f() -> int {}",
                              "namespace a { int f() {} }",
-                             "namespace {\nint f() {}\n}",
                              "extern \"C\" int f() {}",
                              "int A::f() {}",
                              "A::~A() {}",

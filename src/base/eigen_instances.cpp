@@ -1,0 +1,2 @@
+#define REX_INSTANCE template
+#include "base/eigen_instances.h"

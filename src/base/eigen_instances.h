@@ -1,0 +1,83 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+// What Eigen's products and decompositions of matrices of dynamic size come down to is compiled once, in
+// eigen_instances.cpp. A source that sees these declarations calls it; any other makes its own, in seconds.
+// Of classes, members that are templates themselves have to be named one by one.
+#ifndef REX_INSTANCE
+#define REX_INSTANCE extern template
+#endif
+
+namespace Eigen {
+
+REX_INSTANCE class LLT<MatrixXd>;
+REX_INSTANCE LLT<MatrixXd>& LLT<MatrixXd>::compute(const EigenBase<MatrixXd>&);
+REX_INSTANCE class LDLT<MatrixXd>;
+REX_INSTANCE LDLT<MatrixXd>& LDLT<MatrixXd>::compute(const EigenBase<MatrixXd>&);
+REX_INSTANCE class PartialPivLU<MatrixXd>;
+REX_INSTANCE class FullPivLU<MatrixXd>;
+REX_INSTANCE class HouseholderQR<MatrixXd>;
+REX_INSTANCE class ColPivHouseholderQR<MatrixXd>;
+REX_INSTANCE class CompleteOrthogonalDecomposition<MatrixXd>;
+REX_INSTANCE class JacobiSVD<MatrixXd>;
+REX_INSTANCE class SelfAdjointEigenSolver<MatrixXd>;
+REX_INSTANCE SelfAdjointEigenSolver<MatrixXd>& SelfAdjointEigenSolver<MatrixXd>::compute(
+    const EigenBase<MatrixXd>&, int);
+REX_INSTANCE SelfAdjointEigenSolver<MatrixXd>& SelfAdjointEigenSolver<MatrixXd>::compute(
+    const EigenBase<Ref<const MatrixXd>>&, int);
+REX_INSTANCE class EigenSolver<MatrixXd>;
+REX_INSTANCE EigenSolver<MatrixXd>& EigenSolver<MatrixXd>::compute(const EigenBase<MatrixXd>&, bool);
+REX_INSTANCE class RealSchur<MatrixXd>;
+REX_INSTANCE RealSchur<MatrixXd>& RealSchur<MatrixXd>::compute(const EigenBase<MatrixXd>&, bool);
+REX_INSTANCE void LLT<MatrixXd>::_solve_impl(const MatrixXd&, MatrixXd&) const;
+REX_INSTANCE void LLT<MatrixXd>::_solve_impl(const VectorXd&, VectorXd&) const;
+REX_INSTANCE void LDLT<MatrixXd>::_solve_impl(const MatrixXd&, MatrixXd&) const;
+REX_INSTANCE void LDLT<MatrixXd>::_solve_impl(const VectorXd&, VectorXd&) const;
+REX_INSTANCE void ColPivHouseholderQR<MatrixXd>::_solve_impl(const VectorXd&, VectorXd&) const;
+REX_INSTANCE void HouseholderSequence<MatrixXd, VectorXd, OnTheLeft>::evalTo(MatrixXd&, VectorXd&) const;
+
+namespace internal {
+
+using Mapper = blas_data_mapper<double, Index, ColMajor>;
+using Columns = const_blas_data_mapper<double, Index, ColMajor>;
+using Rows = const_blas_data_mapper<double, Index, RowMajor>;
+using Kernel = gebp_traits<double, double>;
+
+REX_INSTANCE struct gebp_kernel<double, double, Index, Mapper, Kernel::mr, Kernel::nr, false, false>;
+REX_INSTANCE struct gemm_pack_lhs<double, Index, Columns, Kernel::mr, Kernel::LhsProgress,
+                                  Kernel::LhsPacket4Packing, ColMajor>;
+REX_INSTANCE struct gemm_pack_lhs<double, Index, Rows, Kernel::mr, Kernel::LhsProgress,
+                                  Kernel::LhsPacket4Packing, RowMajor>;
+REX_INSTANCE struct gemm_pack_rhs<double, Index, Columns, Kernel::nr, ColMajor>;
+REX_INSTANCE struct gemm_pack_rhs<double, Index, Rows, Kernel::nr, RowMajor>;
+// Of vectors in columns or rows that lie close together or not.
+REX_INSTANCE struct general_matrix_vector_product<Index, double, Columns, ColMajor, false, double, Columns,
+                                                  false>;
+REX_INSTANCE struct general_matrix_vector_product<Index, double, Columns, ColMajor, false, double, Rows,
+                                                  false>;
+REX_INSTANCE struct general_matrix_vector_product<Index, double, Rows, RowMajor, false, double, Columns,
+                                                  false>;
+REX_INSTANCE struct general_matrix_vector_product<Index, double, Rows, RowMajor, false, double, Rows, false>;
+REX_INSTANCE struct general_matrix_vector_product<Index, double, Rows, RowMajor, false, double, Columns,
+                                                  false, 1>;
+REX_INSTANCE struct general_matrix_vector_product<Index, double, Rows, RowMajor, false, double, Rows, false,
+                                                  1>;
+
+REX_INSTANCE struct triangular_solve_matrix<double, Index, OnTheLeft, Lower, false, ColMajor, ColMajor, 1>;
+REX_INSTANCE struct triangular_solve_matrix<double, Index, OnTheLeft, Upper, false, ColMajor, ColMajor, 1>;
+REX_INSTANCE struct triangular_solve_matrix<double, Index, OnTheLeft, Lower, false, RowMajor, ColMajor, 1>;
+REX_INSTANCE struct triangular_solve_matrix<double, Index, OnTheLeft, Upper, false, RowMajor, ColMajor, 1>;
+REX_INSTANCE struct triangular_solve_matrix<double, Index, OnTheRight, Lower, false, ColMajor, ColMajor, 1>;
+REX_INSTANCE struct triangular_solve_matrix<double, Index, OnTheRight, Upper, false, RowMajor, ColMajor, 1>;
+REX_INSTANCE struct triangular_solve_matrix<double, Index, OnTheLeft, UnitLower, false, ColMajor, ColMajor,
+                                            1>;
+REX_INSTANCE struct triangular_solve_matrix<double, Index, OnTheLeft, UnitUpper, false, RowMajor, ColMajor,
+                                            1>;
+
+}  // namespace internal
+}  // namespace Eigen
