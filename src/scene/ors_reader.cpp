@@ -276,7 +276,7 @@ SceneFile read(std::string_view text, const std::string& name, const Assets* ass
     if (document.nodes.empty())
       file.notes.push_back({{name, 1, 1}, "no statement: the scene is empty", Severity::kWarning});
     Reader(file).read(document.nodes);
-    if (assets) loadMeshes(file, *assets, options.allowMissingMeshes);
+    if (assets) loadMeshes(file, *assets, options);
     return file;
   } catch (const Error&) {
     if (options.notesOfFailure) *options.notesOfFailure = std::move(file.notes);

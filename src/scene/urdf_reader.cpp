@@ -122,7 +122,7 @@ SceneFile readUrdf(const std::filesystem::path& file, const ReadOptions& options
   constexpr std::size_t kLargest = 8u << 20;
   SceneFile scene = parseUrdf(readSceneText(file, kLargest), file.string(), options);
   try {
-    loadMeshes(scene, Assets(file, options.assetRoot), options.allowMissingMeshes);
+    loadMeshes(scene, Assets(file, options.assetRoot), options);
   } catch (const Error&) {
     if (options.notesOfFailure) append(*options.notesOfFailure, scene.notes);
     throw;
