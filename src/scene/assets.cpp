@@ -27,7 +27,7 @@ std::vector<fs::path> placesOf(const std::string& package, const fs::path& rest,
     places.push_back(above / package / rest);
     if (above == top) break;
   }
-  places.push_back(root / rest);
+  if (!package.empty()) places.push_back(root / rest);  // it has been among them otherwise
   return places;
 }
 
@@ -50,8 +50,14 @@ std::vector<std::string> namesBesideAll(const std::vector<fs::path>& files) {
 
 }  // namespace
 
-Assets::Assets(const fs::path& sceneFile, const fs::path& root)
-    : folder_(folderOf(sceneFile)), root_(root.empty() ? folder_ / ".." : root) {
+bool namesNoPackage(std::string_view file) {
+  return file.starts_with(kPackage) && file.substr(kPackage.size()).starts_with('/');
+}
+
+Assets::Assets(const fs::path& sceneFile, const fs::path& root, bool needsNoPackage)
+    : folder_(folderOf(sceneFile)),
+      root_(root.empty() ? folder_ / ".." : root),
+      needsNoPackage_(needsNoPackage) {
   if (!root.empty() && !fs::is_directory(root))
     throw Error({.what = "the folder of all assets",
                  .found = fmt::format("no such folder: {}", realPath(root).string()),
@@ -66,7 +72,7 @@ fs::path Assets::find(const std::string& name, const SourceLocation& where, cons
   if (name.starts_with(kPackage)) {
     const std::string path = name.substr(kPackage.size());
     const std::size_t slash = path.find('/');
-    if (slash == 0 || slash == std::string::npos || slash + 1 == path.size())
+    if ((slash == 0 && !needsNoPackage_) || slash == std::string::npos || slash + 1 == path.size())
       fail(fmt::format("'{}'", name), "package://PACKAGE/PATH");
     places = placesOf(path.substr(0, slash), path.substr(slash + 1), folder_, root_);
   } else if (name.find("://") != std::string::npos && !name.starts_with(kFile)) {

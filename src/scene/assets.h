@@ -2,17 +2,23 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "base/error.h"
 
 namespace rex {
 
+/// Whether a file is named as package:///PATH, without a package.
+[[nodiscard]] bool namesNoPackage(std::string_view file);
+
 /// The files that a scene may name: only those inside its asset root, links followed.
 class Assets {
  public:
   /// For the scene in `sceneFile`. Without a `root` it is the folder above that of the scene, so that a scene
-  /// reaches the meshes beside its own folder. Throws Error if a `root` is given that is no folder.
-  explicit Assets(const std::filesystem::path& sceneFile, const std::filesystem::path& root = {});
+  /// reaches the meshes beside its own folder. With `needsNoPackage`, package:///PATH is looked up in the
+  /// folders above the scene. Throws Error if a `root` is given that is no folder.
+  explicit Assets(const std::filesystem::path& sceneFile, const std::filesystem::path& root = {},
+                  bool needsNoPackage = false);
 
   /// The folder of the scene, to which relative names refer.
   const std::filesystem::path& folder() const { return folder_; }
@@ -26,6 +32,7 @@ class Assets {
 
  private:
   std::filesystem::path folder_, root_;
+  bool needsNoPackage_;
 };
 
 }  // namespace rex

@@ -1,6 +1,7 @@
 #include "scene/ors_reader.h"
 
 #include <unordered_map>
+#include <unordered_set>
 
 #include <fmt/format.h>
 
@@ -103,6 +104,7 @@ class Reader {
   // The index of the body that is meant; none: the world.
   std::optional<std::size_t> parentBody(const ors::Word& parent, const std::string& owner) const {
     if (parent.node) {
+      if (worldNodes_.contains(*parent.node)) return std::nullopt;
       if (const auto body = bodyOfNode_.find(*parent.node); body != bodyOfNode_.end()) return body->second;
       fail(parent.where, owner + ": parent", fmt::format("{}, which is no body", parent.text),
            "the count of statements back to a body");
@@ -141,11 +143,25 @@ class Reader {
     } else {
       noteNoShape(attributes);
     }
+    if (name == kWorldName) return becomeWorld(std::move(body), node.id, attributes);
     bodyOfNode_.emplace(node.id, file_.spec.bodies.size());
     const bool isFirst = firstOfName_.emplace(name, file_.spec.bodies.size()).second;
     if (!isFirst && file_.notes.size() < ors::kMostNotes)
       file_.notes.push_back({node.where, owner + ": a second body of this name: references mean the first"});
     file_.spec.bodies.push_back(std::move(body));
+  }
+
+  // A body called "world", as old scenes have one, is the world itself.
+  void becomeWorld(BodySpec body, int node, const Attributes& attributes) {
+    worldNodes_.insert(node);
+    const auto ignore = [&](const char* name, const char* why) {
+      if (attributes.has(name)) attributes.note(name, why, Severity::kWarning, file_.notes);
+    };
+    if (!isApprox(body.X_WB, Pose{}, 0))
+      ignore(attributes.has("pose") ? "pose" : "X", "is ignored: the world itself stands at the origin");
+    for (const char* name : {"mass", "com", "inertia", "kinematic"})
+      ignore(name, "is ignored: the world itself does not move");
+    for (ShapeSpec& shape : body.shapes) file_.spec.worldShapes.push_back(std::move(shape));
   }
 
   void noteNoShape(const Attributes& attributes) {
@@ -190,7 +206,7 @@ class Reader {
     ors::JointSurroundings around;
     joint.parent = connect(node.parents[0], attributes.owner(), around.X_WP);
     joint.child = connect(node.parents[1], attributes.owner(), around.X_WC);
-    if (joint.child == kWorldName && !firstOfName_.contains(kWorldName))
+    if (joint.child == kWorldName)
       fail(node.parents[1].where, attributes.owner(), "the world as the body that moves", "a body");
     if (joint.parent == joint.child) {
       fail(node.parents[1].where, attributes.owner(), fmt::format("'{}' hung on itself", joint.child),
@@ -256,6 +272,7 @@ class Reader {
 
   // In the name of a joint that has none.
   std::string nameOf(const ors::Word& parent) const {
+    if (parent.node && worldNodes_.contains(*parent.node)) return kWorldName;
     const auto body = parent.node ? bodyOfNode_.find(*parent.node) : bodyOfNode_.end();
     return body == bodyOfNode_.end() ? parent.text : file_.spec.bodies[body->second].name;
   }
@@ -264,6 +281,7 @@ class Reader {
   std::vector<Waiting> waiting_, followers_;
   std::unordered_map<std::string, std::size_t> firstOfName_, jointOfName_;
   std::unordered_map<int, std::size_t> bodyOfNode_;
+  std::unordered_set<int> worldNodes_;  // bodies that are the world itself
 };
 
 SceneFile read(std::string_view text, const std::string& name, const Assets* assets,
@@ -276,7 +294,7 @@ SceneFile read(std::string_view text, const std::string& name, const Assets* ass
     if (document.nodes.empty())
       file.notes.push_back({{name, 1, 1}, "no statement: the scene is empty", Severity::kWarning});
     Reader(file).read(document.nodes);
-    if (assets) loadMeshes(file, *assets, options.allowMissingMeshes);
+    if (assets) loadMeshes(file, *assets, options);
     return file;
   } catch (const Error&) {
     if (options.notesOfFailure) *options.notesOfFailure = std::move(file.notes);

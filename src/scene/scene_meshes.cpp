@@ -13,6 +13,7 @@
 
 #include "geometry/convex_hull.h"
 #include "scene/mesh_reader.h"
+#include "scene/opaque_mesh_internal.h"
 #include "scene/scaled_mesh.h"
 
 namespace rex {
@@ -71,7 +72,8 @@ class Missing {
 
 class Loader {
  public:
-  Loader(const Assets& assets, bool allowMissing) : assets_(assets), allowMissing_(allowMissing) {}
+  Loader(const Assets& assets, const ReadOptions& options, Diagnostics& notes)
+      : assets_(assets), allowMissing_(options.allowMissingMeshes), strict_(options.strict), notes_(notes) {}
 
   void load(ShapeSpec& shape) {
     if (!usesMesh(shape.shape.type)) return;
@@ -79,7 +81,7 @@ class Loader {
     if (shape.contact && !shape.meshMissing) shape.shape.hull = hullOf(shape);
   }
 
-  void addNotes(Diagnostics& notes) const { missing_.addNotes(notes); }
+  void noteMissing() const { missing_.addNotes(notes_); }
 
  private:
   void readMeshOf(ShapeSpec& shape) {
@@ -90,7 +92,7 @@ class Loader {
                    .wanted = "the file of its mesh, in single quotes"});
     if (!find(shape, thing + ": mesh")) return;
     try {
-      shape.shape.mesh = read(shape.meshPath, shape.meshScale);
+      shape.shape.mesh = read(shape);
     } catch (const Error& error) {
       ErrorParts parts = error.parts();
       parts.what = fmt::format("{}: mesh '{}': {}", thing, shape.meshPath.string(), parts.what);
@@ -138,16 +140,31 @@ class Loader {
   }
 
   // Shapes with the same file share its mesh, those with the same scale all of it.
-  const TriangleMesh& read(const std::filesystem::path& file, const Eigen::Vector3d& scale) {
-    const std::string name = file.string();
+  const TriangleMesh& read(const ShapeSpec& shape) {
+    const Eigen::Vector3d& scale = shape.meshScale;
+    const std::string name = shape.meshPath.string();
     const auto [known, isNew] = scaled_.try_emplace({name, {scale.x(), scale.y(), scale.z()}});
     if (!isNew) return known->second;
     const auto [whole, isFirst] = read_.try_emplace(name);
-    if (isFirst) whole->second = readMesh(file);
+    if (isFirst) whole->second = seen(readMesh(shape.meshPath), shape);
     known->second = scaledMesh(whole->second, scale, name);
     if (isFirst) count(whole->second);
     if (known->second != whole->second) count(known->second);
     return known->second;
+  }
+
+  // MeshLab's "Tr 1" and Collada's transparency of 0 are found in the files of robots that nobody wants
+  // invisible: some programs count transparency from the other end.
+  TriangleMesh seen(const TriangleMesh& mesh, const ShapeSpec& shape) {
+    if (!hasInvisiblePart(mesh)) return mesh;
+    const ErrorParts fault = {
+        .what = "a material", .found = "full transparency", .wanted = "one that can be seen"};
+    if (strict_) throw Error(fault);
+    notes_.push_back({shape.where,
+                      fmt::format("shape '{}': mesh '{}': {}; it is drawn opaque", shape.name,
+                                  shape.meshPath.string(), Error(fault).what()),
+                      Severity::kWarning});
+    return withoutInvisibleParts(mesh);
   }
 
   // A short scene may ask for many large meshes, or for one in many sizes.
@@ -162,7 +179,8 @@ class Loader {
 
   using Key = std::pair<std::string, std::array<double, 3>>;
   const Assets& assets_;
-  bool allowMissing_;
+  bool allowMissing_, strict_;
+  Diagnostics& notes_;
   Missing missing_;
   std::size_t vertices_ = 0;
   std::map<std::string, std::filesystem::path> paths_;  // where files were found; empty for missing ones
@@ -173,12 +191,12 @@ class Loader {
 
 }  // namespace
 
-void loadMeshes(SceneFile& scene, const Assets& assets, bool allowMissing) {
-  Loader loader(assets, allowMissing);
+void loadMeshes(SceneFile& scene, const Assets& assets, const ReadOptions& options) {
+  Loader loader(assets, options, scene.notes);
   for (ShapeSpec& shape : scene.spec.worldShapes) loader.load(shape);
   for (BodySpec& body : scene.spec.bodies)
     for (ShapeSpec& shape : body.shapes) loader.load(shape);
-  loader.addNotes(scene.notes);
+  loader.noteMissing();
 }
 
 }  // namespace rex

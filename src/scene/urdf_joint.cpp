@@ -39,8 +39,11 @@ void turnPlane(JointSpec& joint) {
 
 void readRange(const Tag& limit, JointSpec& joint) {
   const double lower = limit.number("lower", 0), upper = limit.number("upper", 0);
-  if (lower > upper)
-    limit.failAt("lower", fmt::format("{} > {}", lower, upper), "a lower limit that is not above the upper");
+  if (lower > upper) {
+    limit.forgiveAt("lower", fmt::format("{} > {}", lower, upper),
+                    "a lower limit that is not above the upper", "the joint has no range");
+    return;
+  }
   if (!limit.has("lower") && !limit.has("upper")) {
     if (!joint.mimic.empty()) return;  // the other's range is meant
     limit.warn(limit.where(), "without 'lower' and 'upper' the joint stays at 0");
@@ -91,9 +94,13 @@ void readMimic(const Tag& joint, ReadJoint& read) {
   if (!tag) return;
   static const Known kKnown = {{"joint", "multiplier", "offset"}, {}};
   tag->expect(kKnown);
+  const std::string wanted = "revolute, continuous or prismatic";
+  if (read.spec.type == JointType::kRigid) {
+    joint.forgive(tag->where(), "<mimic>", "a joint of type 'fixed'", wanted, "it is ignored");
+    return;
+  }
   if (positionCount(read.spec.type) != 1) {
-    joint.fail(tag->where(), "<mimic>", fmt::format("a joint of type '{}'", joint.text("type")),
-               "revolute, continuous or prismatic");
+    joint.fail(tag->where(), "<mimic>", fmt::format("a joint of type '{}'", joint.text("type")), wanted);
   }
   read.spec.mimic = tag->nameIn("joint");
   read.mimicAt = tag->where("joint");

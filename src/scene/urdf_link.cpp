@@ -1,6 +1,10 @@
+#include <algorithm>
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "geometry/inertia.h"
+#include "scene/assets.h"
 #include "scene/urdf_parts_internal.h"
 
 namespace rex::urdf {
@@ -69,6 +73,9 @@ void readMesh(const Tag& tag, ShapeSpec& spec) {
   spec.meshFile = tag.text("filename");
   spec.where = tag.where("filename");
   if (spec.meshFile.empty()) tag.failAt("filename", "nothing", "a file");
+  if (!tag.isStrict() && namesNoPackage(spec.meshFile))
+    tag.forgiveAt("filename", xml::quoted(spec.meshFile), "package://PACKAGE/PATH",
+                  "the path is looked up in the folders above the file");
   if (!tag.has("scale")) return;
   spec.meshScale = tag.numbers("scale", 3);
   if ((spec.meshScale.array() == 0).any())
@@ -120,15 +127,51 @@ ShapeSpec readShape(const Tag& tag, const std::string& link, const Materials& ma
 Eigen::Matrix3d readMoments(const Tag& tag) {
   static const Known kKnown = {{"ixx", "iyy", "izz", "ixy", "ixz", "iyz"}, {}};
   tag.expect(kKnown);
-  const double xx = tag.number("ixx"), yy = tag.number("iyy"), zz = tag.number("izz");
-  const double xy = tag.number("ixy"), xz = tag.number("ixz"), yz = tag.number("iyz");
-  const Eigen::Matrix3d I = (Eigen::Matrix3d() << xx, xy, xz, xy, yy, yz, xz, yz, zz).finished();
-  const InertiaFault fault = inertiaFault(I);
-  if (fault == InertiaFault::kNegative)
-    tag.fail(tag.where(), "a negative principal moment", "", "principal moments >= 0");
-  if (fault == InertiaFault::kTriangle)
+  std::vector<std::string> missing;
+  const auto entry = [&](const char* name) {
+    if (tag.isStrict() || tag.has(name)) return tag.number(name);
+    missing.push_back(fmt::format("'{}'", name));
+    return 0.0;
+  };
+  const double xx = entry("ixx"), yy = entry("iyy"), zz = entry("izz");
+  const double xy = entry("ixy"), xz = entry("ixz"), yz = entry("iyz");
+  if (missing.size() == 1)
+    tag.warn(tag.where(), fmt::format("attribute {} is missing and counts as 0", missing[0]));
+  if (missing.size() > 1)
+    tag.warn(tag.where(), fmt::format("attributes {} are missing and count as 0", fmt::join(missing, ", ")));
+  return (Eigen::Matrix3d() << xx, xy, xz, xy, yy, yz, xz, yz, zz).finished();
+}
+
+// Negative moments of a link of that mass become 0. The size of rounding is a millionth of what the file
+// gives with some six digits, and lengths below a micrometre, which no file means: mass times their square.
+Eigen::Matrix3d withoutNegativeMoments(const Tag& tag, const Eigen::Matrix3d& I, double mass) {
+  constexpr double kRelative = 1e-6, kLength = 1e-6, kOwnRounding = 1e-14;
+  const Eigen::Vector3d moments = principalMoments(I);
+  const double sum = moments.cwiseAbs().sum();
+  if (moments[0] >= -kOwnRounding * sum) return I;
+  const bool isRounding = moments[0] >= -std::max(kRelative * sum, kLength * kLength * mass);
+  std::vector<std::string> negative;
+  for (const double moment : moments)
+    if (moment < -kOwnRounding * sum) negative.push_back(fmt::format("{:.6g}", moment));
+  const bool isOne = negative.size() == 1;
+  const std::string instead =
+      fmt::format("{} kg m^2 {} and {} as 0", fmt::join(negative, " and "),
+                  isRounding ? (isOne ? "is of the size of rounding" : "are of the size of rounding")
+                             : (isOne ? "is physically impossible" : "are physically impossible"),
+                  isOne ? "counts" : "count");
+  if (inertiaFault(I) == InertiaFault::kNegative) {
+    tag.forgive(tag.where(), "a negative principal moment", "", "principal moments >= 0", instead);
+  } else {
+    tag.warn(tag.where(), "a negative principal moment; " + instead);
+  }
+  return nearestWithoutNegativeMoments(I);
+}
+
+// What dynamics can work with.
+Eigen::Matrix3d judgedMoments(const Tag& tag, const Eigen::Matrix3d& I, double mass) {
+  if (inertiaFault(I) == InertiaFault::kTriangle)
     tag.warn(tag.where(), "no body has this inertia: one principal moment exceeds the sum of the others");
-  return I;
+  return withoutNegativeMoments(tag, I, mass);
 }
 
 void readInertial(const Tag& tag, BodySpec& body) {
@@ -141,12 +184,17 @@ void readInertial(const Tag& tag, BodySpec& body) {
   body.mass = mass.notNegative("value");
   body.p_BBcm = X_BI.p;
   const Tag inertia = tag.neededChild("inertia");
-  const Eigen::Matrix3d I = readMoments(inertia);
+  const Eigen::Matrix3d given = readMoments(inertia);
   if (body.mass == 0) {
-    if (!I.isZero(0)) mass.fail(mass.where("value"), "an inertia without mass", "0", "a mass > 0 kg");
-    mass.warn(mass.where("value"), "0 kg: the link has no mass, as without <inertial>");
+    if (given.isZero(0)) {
+      mass.warn(mass.where("value"), "0 kg: the link has no mass, as without <inertial>");
+    } else {
+      mass.forgive(mass.where("value"), "an inertia without mass", "0", "a mass > 0 kg",
+                   "the link has neither");
+    }
     return;
   }
+  const Eigen::Matrix3d I = judgedMoments(inertia, given, body.mass);
   const Eigen::Matrix3d I_B = X_BI.R * I * X_BI.R.transpose();
   body.inertia = (I_B + I_B.transpose()) / 2;
 }

@@ -38,4 +38,8 @@ struct ReadJoint {
 [[nodiscard]] std::size_t requireTree(const std::vector<BodySpec>& links,
                                       const std::vector<ReadJoint>& joints, const SourceLocation& robot);
 
+/// Leaves out the limits of each joint that mimics if they let the joint that it follows be nowhere or only
+/// at one point; all mimics are known to be sound. Throws Error instead if the reading is strict.
+void keepTargetsMovable(std::vector<ReadJoint>& joints, Reading& reading);
+
 }  // namespace rex::urdf

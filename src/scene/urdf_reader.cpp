@@ -46,6 +46,12 @@ Tag robotTag(Reading& reading) {
   return robot;
 }
 
+void noteSkippedBlanks(Reading& reading) {
+  if (const std::uint32_t at = reading.document.declarationAt; at > 0)
+    reading.notes.warn(reading.document.where(at),
+                       "not well-formed XML: blanks before the declaration; they are skipped");
+}
+
 // A root called "world" is the world itself.
 void becomeWorld(SceneSpec& spec, std::size_t root, Notes& notes) {
   BodySpec& world = spec.bodies[root];
@@ -98,6 +104,7 @@ SceneSpec readRobot(Reading& reading, const std::string& name, bool freeBase) {
     spec.bodies.push_back(readLink(link.of("<link>"), materials));
   for (const Tag& joint : robot.children("joint")) joints.push_back(readJoint(joint.of("<joint>")));
   const std::size_t root = requireTree(spec.bodies, joints, robot.where());
+  keepTargetsMovable(joints, reading);
   for (ReadJoint& joint : joints) spec.joints.push_back(std::move(joint.spec));
   placeRoot(spec, root, freeBase, reading.notes);
   return spec;
@@ -106,9 +113,10 @@ SceneSpec readRobot(Reading& reading, const std::string& name, bool freeBase) {
 }  // namespace
 
 SceneFile parseUrdf(std::string_view text, const std::string& name, const ReadOptions& options) {
-  const xml::Document document = xml::parse(text, name);
+  const xml::Document document = xml::parse(text, name, !options.strict);
   refuseXacro(document);
-  Reading reading{document};
+  Reading reading{document, options.strict};
+  noteSkippedBlanks(reading);
   try {
     SceneSpec spec = readRobot(reading, name, options.freeBase);
     return {std::move(spec), reading.notes.take()};
@@ -122,7 +130,7 @@ SceneFile readUrdf(const std::filesystem::path& file, const ReadOptions& options
   constexpr std::size_t kLargest = 8u << 20;
   SceneFile scene = parseUrdf(readSceneText(file, kLargest), file.string(), options);
   try {
-    loadMeshes(scene, Assets(file, options.assetRoot), options.allowMissingMeshes);
+    loadMeshes(scene, Assets(file, options.assetRoot, !options.strict), options);
   } catch (const Error&) {
     if (options.notesOfFailure) append(*options.notesOfFailure, scene.notes);
     throw;

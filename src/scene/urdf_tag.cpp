@@ -2,6 +2,7 @@
 #include <charconv>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -82,6 +83,12 @@ Diagnostics Notes::take() {
     found_.push_back({ignored.first, fmt::format("{} is ignored{}", kind, times)});
   }
   return std::move(found_);
+}
+
+void Reading::forgive(ErrorParts fault, const std::string& instead) {
+  if (strict) throw Error(std::move(fault));
+  const SourceLocation where = std::exchange(fault.where, {});
+  notes.warn(where, notes.isFull() ? "" : fmt::format("{}; {}", Error(std::move(fault)).what(), instead));
 }
 
 Tag::Tag(Reading& reading, const xml::Element& element, std::string thing)
@@ -231,6 +238,18 @@ Pose Tag::origin() const {
 
 void Tag::warn(const SourceLocation& where, const std::string& message) const {
   reading_->notes.warn(where, fmt::format("{}: {}", thing_, message));
+}
+
+void Tag::forgive(const SourceLocation& where, const std::string& what, std::string found, std::string wanted,
+                  const std::string& instead) const {
+  reading_->forgive({fmt::format("{}: {}", thing_, what), where, std::move(found), std::move(wanted)},
+                    instead);
+}
+
+void Tag::forgiveAt(const char* attribute, std::string found, std::string wanted,
+                    const std::string& instead) const {
+  forgive(where(attribute), fmt::format("attribute '{}'", attribute), std::move(found), std::move(wanted),
+          instead);
 }
 
 void Tag::fail(const SourceLocation& where, const std::string& what, std::string found, std::string wanted,

@@ -36,7 +36,12 @@ class Notes {
 /// A file that is being read, and what was noticed in it.
 struct Reading {
   const xml::Document& document;
+  bool strict = false;
   Notes notes{};
+
+  /// For a fault that other readers of URDF live with: throws Error if this one is strict, else warns of it
+  /// and of what is done instead.
+  void forgive(ErrorParts fault, const std::string& instead);
 };
 
 /// What a tag may hold; everything else is worth a warning.
@@ -93,6 +98,13 @@ class Tag {
   void warn(const SourceLocation& where, const Message& message) const {
     warn(where, reading_->notes.isFull() ? std::string() : message());
   }
+  bool isStrict() const { return reading_->strict; }
+  /// Reading::forgive() of a fault of this tag.
+  void forgive(const SourceLocation& where, const std::string& what, std::string found, std::string wanted,
+               const std::string& instead) const;
+  /// The same for the value of an attribute.
+  void forgiveAt(const char* attribute, std::string found, std::string wanted,
+                 const std::string& instead) const;
   void ignore(const std::string& kind) const { reading_->notes.ignore(where(), kind); }
   [[noreturn]] void fail(const SourceLocation& where, const std::string& what, std::string found,
                          std::string wanted, std::vector<std::string> nearest = {}) const;

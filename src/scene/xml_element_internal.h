@@ -32,6 +32,7 @@ class Document {
   Document(std::string_view text, std::string file);
 
   Element root;
+  std::uint32_t declarationAt = 0;  ///< of '<?xml', if blanks before it were skipped
 
   SourceLocation where(std::uint32_t offset) const;
   /// Where the `index`-th character of the value stands, seen through references such as &amp;.
@@ -45,8 +46,9 @@ class Document {
 
 /// Parses a whole file. Throws Error with file, line and column: not well-formed; a document type (and so
 /// entities of one's own); an encoding other than UTF-8, US-ASCII and ISO-8859-1; more than 8 MiB, elements
-/// nested deeper than 100, 200 000 elements, 64 attributes of one element, or 256 bytes in a name.
-[[nodiscard]] Document parse(std::string_view text, const std::string& fileName);
+/// nested deeper than 100, 200 000 elements, 64 attributes of one element, or 256 bytes in a name. With
+/// `skipBlanks`, blanks and marks of UTF-8 may stand before the declaration, where XML allows none.
+[[nodiscard]] Document parse(std::string_view text, const std::string& fileName, bool skipBlanks = false);
 
 /// `text` in quotes as a message shows it: at most 60 bytes, control characters as \xNN.
 [[nodiscard]] std::string quoted(std::string_view text);

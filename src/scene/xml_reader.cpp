@@ -29,6 +29,17 @@ bool isKnownEncoding(std::string_view name) {
   return std::find(kKnown.begin(), kKnown.end(), lowerCase(name)) != kKnown.end();
 }
 
+// How many bytes stand before the declaration, if they are blanks and marks of UTF-8.
+std::size_t bytesBeforeDeclaration(std::string_view text) {
+  constexpr std::string_view kMark = "\xef\xbb\xbf", kDeclaration = "<?xml";
+  std::string_view rest = text;
+  for (std::size_t skipped = 1; skipped > 0; rest.remove_prefix(skipped))
+    skipped = rest.starts_with(kMark) ? kMark.size() : std::min(rest.find_first_not_of(kBlank), rest.size());
+  const std::string_view after = rest.substr(std::min(kDeclaration.size(), rest.size()));
+  const bool isDeclared = rest.starts_with(kDeclaration) && after.find_first_of(kBlank) == 0;
+  return isDeclared ? text.size() - rest.size() : 0;
+}
+
 // Gives the attributes of the tag that begins at `at` their places; expat knows that it is well-formed.
 void findPlaces(std::string_view text, std::size_t at, std::vector<Attribute>& attributes) {
   at = text.find_first_of(" \t\r\n/>", at);
@@ -44,8 +55,9 @@ void findPlaces(std::string_view text, std::size_t at, std::vector<Attribute>& a
 // Builds the tree out of what expat reports, and stops it at the first breach of a limit.
 class Builder {
  public:
-  Builder(std::string_view text, const std::string& file)
-      : text_(text), document_(text, file), parser_(XML_ParserCreate(nullptr)) {
+  Builder(std::string_view text, const std::string& file, std::size_t skipped)
+      : text_(text), skipped_(skipped), document_(text, file), parser_(XML_ParserCreate(nullptr)) {
+    document_.declarationAt = static_cast<std::uint32_t>(skipped);
     XML_SetUserData(parser_.get(), this);
     XML_SetElementHandler(
         parser_.get(),
@@ -63,9 +75,10 @@ class Builder {
   }
 
   Document build() {
+    const std::string_view seen = text_.substr(skipped_);
     if (text_.starts_with("\xff\xfe") || text_.starts_with("\xfe\xff")) {
       refuseEncoding("UTF-16");
-    } else if (XML_Parse(parser_.get(), text_.data(), static_cast<int>(text_.size()), 1) != XML_STATUS_OK &&
+    } else if (XML_Parse(parser_.get(), seen.data(), static_cast<int>(seen.size()), 1) != XML_STATUS_OK &&
                breach_.what.empty()) {
       failAtSyntax();
     }
@@ -77,7 +90,8 @@ class Builder {
   static Builder& of(void* self) { return *static_cast<Builder*>(self); }
 
   std::uint32_t here() const {
-    return static_cast<std::uint32_t>(std::max<XML_Index>(0, XML_GetCurrentByteIndex(parser_.get())));
+    const XML_Index at = std::max<XML_Index>(0, XML_GetCurrentByteIndex(parser_.get()));
+    return static_cast<std::uint32_t>(skipped_ + static_cast<std::size_t>(at));
   }
 
   // Exceptions must not cross expat: what is wrong waits until it has returned.
@@ -100,7 +114,7 @@ class Builder {
   }
 
   [[noreturn]] void failAtSyntax() const {
-    const std::size_t first = text_.find_first_not_of(kBlank);
+    const std::size_t first = text_.find_first_not_of(kBlank, skipped_);
     if (first != std::string_view::npos && text_[first] != '<') {
       fail(document_.where(static_cast<std::uint32_t>(first)), "not XML at all",
            quoted(text_.substr(first, std::min<std::size_t>(20, text_.find_first_of("\r\n", first) - first))),
@@ -192,6 +206,7 @@ class Builder {
   };
 
   std::string_view text_;
+  std::size_t skipped_;  // bytes before what expat sees
   Document document_;
   std::unique_ptr<std::remove_pointer_t<XML_Parser>, Free> parser_;
   std::vector<Element*> open_;
@@ -221,13 +236,13 @@ SourceLocation Document::where(const Attribute& attribute, std::size_t index) co
   return where(static_cast<std::uint32_t>(at));
 }
 
-Document parse(std::string_view text, const std::string& fileName) {
+Document parse(std::string_view text, const std::string& fileName, bool skipBlanks) {
   if (text.size() > kLargestFile) {
     fail({fileName}, "scene file too large", fmt::format("{} bytes", text.size()),
          fmt::format("at most {} MiB", kLargestFile >> 20));
   }
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-  return Builder(text, fileName).build();
+  return Builder(text, fileName, skipBlanks ? bytesBeforeDeclaration(text) : 0).build();
 }
 
 std::string quoted(std::string_view text) {

@@ -357,6 +357,25 @@ TEST_F(SceneCommand, MissingMeshesAreRefusedWithAWayOut) {
   EXPECT_EQ(scene({"robot.urdf", "fk", "--allow-missing-meshes"}).exitCode, 0) << "also behind the command";
 }
 
+TEST_F(SceneCommand, RefusesWhatIsRepairedOnlyIfStrict) {
+  std::ofstream(in("robot.urdf"))
+      << "<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='revolute'><parent link='a'/>"
+         "<child link='b'/><limit lower='1' upper='0' velocity='1' effort='1'/></joint></robot>";
+  const std::string fault =
+      "joint 'j': <limit>: attribute 'lower': found 1 > 0, wanted a lower limit that is "
+      "not above the upper";
+  const ProcessResult lenient = scene({"robot.urdf", "check"});
+  EXPECT_EQ(lenient.exitCode, 0);
+  EXPECT_THAT(flat(lenient.output + lenient.error),
+              HasSubstr("warning: " + fault + "; the joint has no range"));
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"robot.urdf", "--strict"}, {"robot.urdf", "fk", "--strict"}}) {
+    const ProcessResult strict = scene(arguments);
+    EXPECT_EQ(strict.exitCode, 64);
+    EXPECT_THAT(flat(strict.error), HasSubstr(fault));
+  }
+}
+
 TEST_F(SceneCommand, SaysWhatIsUsedWrongly) {
   const auto expectRefusal = [&](const std::vector<std::string>& arguments, const std::string& text) {
     const ProcessResult result = scene(arguments);

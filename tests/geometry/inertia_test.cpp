@@ -4,6 +4,7 @@
 
 #include "base/rng.h"
 #include "geometry/rotation.h"
+#include "support/nearest_inertia.h"
 
 namespace rex::inertia_test {
 
@@ -38,6 +39,28 @@ TEST(InertiaFault, DoesNotDependOnTheFrame) {
 TEST(InertiaFault, ForgivesRounding) {
   EXPECT_EQ(inertiaFault(diagonal(1e-3, 1e-3, 2.000001e-3)), InertiaFault::kNone);
   EXPECT_EQ(inertiaFault(diagonal(-1e-12, 1, 1)), InertiaFault::kNone);
+}
+
+TEST(PrincipalMoments, AreThoseAboutThePrincipalAxes) {
+  Rng rng(3);
+  for (int round = 0; round < 20; ++round) {
+    const Matrix3d R = rotationFromRollPitchYaw(rng.normalVector(3));
+    EXPECT_LT((principalMoments(R * diagonal(3, -1, 2) * R.transpose()) - Vector3d(-1, 2, 3)).norm(), 1e-14);
+  }
+}
+
+TEST(NearestWithoutNegativeMoments, IsNearest) {
+  Rng rng(4);
+  for (int round = 0; round < 100; ++round) {
+    Matrix3d I = Matrix3d::Zero();
+    for (int row = 0; row < 3; ++row) I.row(row) = rng.normalVector(3).transpose();
+    I = (I + I.transpose()).eval() * std::pow(10, rng.uniform(-30, 3));
+    const Matrix3d nearest = nearestWithoutNegativeMoments(I);
+    EXPECT_TRUE(isNearestInertia(nearest, I)) << I << "\n\n" << nearest;
+    EXPECT_NE(inertiaFault(nearest), InertiaFault::kNegative);
+  }
+  EXPECT_TRUE(nearestWithoutNegativeMoments(diagonal(-1, -2, -3)).isZero(0));
+  EXPECT_FALSE(isNearestInertia(diagonal(0, 1, 2.1), diagonal(-1, 1, 2)));
 }
 
 }  // namespace rex::inertia_test

@@ -40,6 +40,20 @@ TEST_F(AssetsOfAnArm, AreFoundBesideTheirScene) {
   EXPECT_EQ(assets.find("file://" + link().string(), kHere, "mesh"), link());
 }
 
+TEST_F(AssetsOfAnArm, MayBeNamedWithoutTheirPackage) {
+  EXPECT_TRUE(namesNoPackage("package:///meshes/link.stl"));
+  EXPECT_FALSE(namesNoPackage("package://arm/meshes/link.stl") || namesNoPackage("/meshes/link.stl"));
+  EXPECT_EQ(Assets(arm(), {}, true).find("package:///meshes/link.stl", kHere, "mesh"), link());
+  EXPECT_EQ(Assets(arm(), top(), true).find("package:///hand/meshes/palm.stl", kHere, "mesh"),
+            top() / "hand/meshes/palm.stl");
+  EXPECT_REX_ERROR(Assets(arm()).find("package:///meshes/link.stl", kHere, "mesh"),
+                   "arm.urdf:3:7: mesh: found 'package:///meshes/link.stl', wanted package://PACKAGE/PATH");
+  EXPECT_REX_ERROR(Assets(arm(), {}, true).find("package:////etc/passwd", kHere, "mesh"),
+                   "wanted a file inside the asset root ");
+  EXPECT_REX_ERROR(Assets(arm(), {}, true).find("package:///", kHere, "mesh"),
+                   "wanted package://PACKAGE/PATH");
+}
+
 TEST_F(AssetsOfAnArm, MayComeFromOtherPackagesInAWiderRoot) {
   const Assets assets(arm(), top());
   EXPECT_TRUE(fs::equivalent(assets.find("package://hand/meshes/palm.stl", kHere, "mesh"),

@@ -163,7 +163,6 @@ constexpr Row kErrors[] = {
     {"body a { dyntype=@5@ }", "2",
      "body 'a': unknown dyntype: found the number 5, wanted a number from 0 to 2 or a name such as "
      "'dynamic'"},
-    {"^body @world@ {}", "earth", "body 'world': found the name of the world itself, wanted another name"},
     // shapes
     {"body a { type=@77@ }", "7",
      "body 'a': unknown type: found the number 77, wanted a number from 0 to 9 or a name such as 'ST_box'"},
@@ -255,6 +254,14 @@ constexpr Row kErrors[] = {
 constexpr Row kNotes[] = {
     {"@@# nothing", "body a {}", "warning: no statement: the scene is empty"},
     {"body a {}\n^body @a@ {}", "b", "note: body 'a': a second body of this name: references mean the first"},
+    {"body world { X=@<T t(0 0 1)>@ }", "<T>",
+     "warning: body 'world': attribute 'X' is ignored: the world itself stands at the origin"},
+    {"body world { pose=@<T t(0 0 1)>@ }", "<T>",
+     "warning: body 'world': attribute 'pose' is ignored: the world itself stands at the origin"},
+    {"body world { fixed @mass=^1@ }", "",
+     "warning: body 'world': attribute 'mass' is ignored: the world itself does not move"},
+    {"body world { @kinematic@ }", "fixed",
+     "warning: body 'world': attribute 'kinematic' is ignored: the world itself does not move"},
     {"body a { mass=1 @mass=2@ }", "",
      "warning: body 'a': attribute 'mass' is given twice: the first counts"},
     {"body a { type=0 contact=@flase@ }", "false",

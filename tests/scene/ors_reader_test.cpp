@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
+#include "geometry/rotation.h"
+#include "kinematics/forward_kinematics.h"
 #include "scene/model.h"
 #include "support/expect_error.h"
 #include "support/paths.h"
@@ -125,6 +127,37 @@ TEST(OrsReader, ReadsJointsOfOurOwn) {
   const JointSpec half = read(bodies + "joint (a b) { limits=[-inf 1] axis=[1e200 0 0] }").joints[0];
   EXPECT_EQ(half.lower[0], -std::numeric_limits<double>::infinity());
   EXPECT_TRUE(half.X_PF.R.isIdentity(0));
+}
+
+// As the vehicle of an old exercise stands on it, whose joints are hinges about x where sliders were meant.
+TEST(OrsReader, TakesABodyCalledWorldForTheWorld) {
+  const SceneFile file = parseOrs(
+      "body world { X=<T t(0 0 .1)> type=0 size=[.01 .01 .01 0] fixed }\n"
+      "body transx { type=0 size=[.01 .01 .01 0] }\nbody transxy { type=0 size=[.01 .01 .01 0] }\n"
+      "body car { type=0 size=[.2 .5 .1 0] }\n"
+      "joint (world transx) { type=0 }\njoint (-4 transxy) { type=0 A=<T t(0 1 0)> }\n"
+      "joint (transxy car) { A=<T d(-90 0 1 0)> B=<T d(90 0 1 0)> type=0 }\n"
+      "shape post (-7) { type=1 size=[0 0 0 1] }",
+      "car.ors");
+  EXPECT_EQ(file.notes.size(), 1u);
+  ASSERT_EQ(file.spec.worldShapes.size(), 2u);
+  EXPECT_EQ(file.spec.worldShapes[0].name, "world");
+  EXPECT_EQ(file.spec.worldShapes[1].name, "post");
+  const Model model = compile(file.spec);
+  std::vector<std::string> names;
+  for (const Body& body : model.bodies()) names.push_back(body.name);
+  EXPECT_THAT(names, testing::ElementsAre("world", "transx", "transxy", "car"));
+  ASSERT_EQ(model.nq(), 3);
+  EXPECT_EQ(model[model.body("transx")].parent, kWorld);
+  EXPECT_EQ(model.joints()[0].name, "world>transx");
+
+  const BodyPoses poses = forwardKinematics(model, Eigen::Vector3d(.3, -.5, .7));
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), z = Eigen::Vector3d::UnitZ();
+  EXPECT_TRUE(isApprox(poses[kWorld], Pose{}, 0));
+  EXPECT_TRUE(isApprox(poses[model.body("transx")], rotation(.3, x), 1e-15));
+  const Pose transxy = rotation(.3, x) * translation(0, 1, 0) * rotation(-.5, x);
+  EXPECT_TRUE(isApprox(poses[model.body("transxy")], transxy, 1e-15));
+  EXPECT_TRUE(isApprox(poses[model.body("car")], transxy * rotation(.7, z), 1e-15));
 }
 
 TEST(OrsReader, ReadsNumbersAndFlagsAsPeopleWriteThem) {

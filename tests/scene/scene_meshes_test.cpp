@@ -163,6 +163,53 @@ TEST_F(SceneMeshes, ThatAreMissingShareAWarningInAPackageOrFolder) {
               testing::HasSubstr(":2:21: warning: mesh 'x.stl' of the folder of the scene was not found"));
 }
 
+// As MeshLab and programs for Collada write what they show as opaque.
+TEST_F(SceneMeshes, AreNeverInvisible) {
+  const std::filesystem::path meshes = folder_.path() / "meshes";
+  std::ofstream(meshes / "two.mtl") << "newmtl clear\nKd 1 0 0\nTr 1\nnewmtl half\nKd 0 1 0\nd .5\n";
+  std::ofstream(meshes / "two.obj") << "mtllib two.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                                       "usemtl clear\nf 1 2 3\nusemtl half\nf 1 2 4\n";
+  std::ofstream(meshes / "clear.dae") << R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><up_axis>Z_UP</up_axis></asset>
+<library_effects><effect id="e"><profile_COMMON><technique sid="t"><lambert>
+<diffuse><color>0 0 1 1</color></diffuse>
+<transparent opaque="A_ONE"><color>1 1 1 1</color></transparent>
+<transparency><float>0</float></transparency>
+</lambert></technique></profile_COMMON></effect></library_effects>
+<library_materials><material id="m" name="m"><instance_effect url="#e"/></material></library_materials>
+<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="a" count="9">0 0 0 1 0 0 0 1 0</float_array><technique_common>
+<accessor source="#a" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles material="s" count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="sc"><node><instance_geometry url="#g"><bind_material>
+<technique_common><instance_material symbol="s" target="#m"/></technique_common></bind_material>
+</instance_geometry></node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#sc"/></scene></COLLADA>)";
+  const std::filesystem::path file = scene(
+      "shape a { type=3 mesh='meshes/two.obj' }\nshape b { type=3 mesh='meshes/two.obj' meshscale=2 }\n"
+      "shape c { type=3 mesh='meshes/clear.dae' }");
+  const SceneFile read = readOrs(file);
+  for (int i = 0; i < 2; ++i) {
+    const auto parts = read.spec.worldShapes[static_cast<std::size_t>(i)].shape.mesh.parts();
+    ASSERT_EQ(parts.size(), 2u);
+    EXPECT_TRUE(parts[0].color->isApprox(Eigen::Vector4f(1, 0, 0, 1)));
+    EXPECT_TRUE(parts[1].color->isApprox(Eigen::Vector4f(0, 1, 0, .5f)));
+  }
+  EXPECT_TRUE(read.spec.worldShapes[2].shape.mesh.parts()[0].color->isApprox(Eigen::Vector4f(0, 0, 1, 1)));
+  const std::string fault = "a material: found full transparency, wanted one that can be seen";
+  const std::string first = "shape 'a': mesh '" + (meshes / "two.obj").string() + "': " + fault;
+  ASSERT_EQ(read.notes.size(), 2u) << "one for each file";
+  EXPECT_EQ(toString(read.notes[0]), file.string() + ":1:23: warning: " + first + "; it is drawn opaque");
+  EXPECT_EQ(toString(read.notes[1]), file.string() + ":3:23: warning: shape 'c': mesh '" +
+                                         (meshes / "clear.dae").string() + "': " + fault +
+                                         "; it is drawn opaque");
+  EXPECT_REX_ERROR(readOrs(file, {.strict = true}), file.string() + ":1:23: " + first);
+}
+
 TEST_F(SceneMeshes, ThatAreBrokenAreNeverBoxes) {
   std::ofstream(folder_.path() / "meshes/broken.off") << "OFF\n0 0 0\n";
   EXPECT_REX_ERROR(readOrs(scene("body a { type=3 mesh='meshes/broken.off' }"), {.allowMissingMeshes = true}),

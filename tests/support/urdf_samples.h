@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -50,29 +49,13 @@ inline constexpr const char* kTrickyRobot = R"(<robot name="tricky">
 </robot>
 )";
 
-/// Files of the sample data that other readers take and ours refuses so far: links whose inertia has no mass
-/// or a negative moment, lower limits above upper ones, entries that are missing, blank lines before the
-/// declaration.
-inline const std::set<std::string> kRefusedUrdfFiles = {"Base_1.urdf",
-                                                        "Pendulum_Tendon_1_Cart_Rail.urdf",
-                                                        "bolt.urdf",
-                                                        "cartpole.urdf",
-                                                        "diff_ring.urdf",
-                                                        "icub_reduced.urdf",
-                                                        "plate.urdf",
-                                                        "kuka_iiwa.urdf",
-                                                        "panda_spherized.urdf",
-                                                        "talos_left_arm.urdf",
-                                                        "tiago.urdf"};
-
-/// All .urdf files of the project and of the sample data beside it but those, sorted.
+/// All .urdf files of the project and of the sample data beside it, sorted.
 inline std::vector<std::filesystem::path> urdfFiles() {
   std::vector<std::filesystem::path> files;
   for (const std::filesystem::path& folder : {sourcePath("data"), sharedPath("data/urdf")}) {
     if (!std::filesystem::exists(folder)) continue;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-      if (entry.path().extension() == ".urdf" && !kRefusedUrdfFiles.contains(entry.path().filename()))
-        files.push_back(entry.path());
+      if (entry.path().extension() == ".urdf") files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
   return files;
