@@ -14,13 +14,13 @@
 #include "base/process.h"
 #include "base/text_file.h"
 #include "submission/build_tools.h"
+#include "submission/graded_part.h"
 #include "submission/included_files.h"
 #include "submission/mentions.h"
 #include "submission/precompiled_prefix.h"
-#include "submission/shared_compile.h"
-#include "submission/source_shares.h"
 #include "submission/symbol_scan.h"
 #include "submission/tool_failure.h"
+#include "submission/two_compilers.h"
 
 namespace rex::grading {
 namespace {
@@ -30,7 +30,6 @@ using std::filesystem::path;
 constexpr const char* kDependencies = "student.d";
 constexpr std::size_t kLogSize = 64u << 10;
 constexpr std::size_t kMostMessages = 50;
-constexpr int kMostShares = 4;  // what they have in common is compiled in each
 
 // The name to compile under: the student's own if it is plain, for names come from strangers.
 std::string plainName(const path& file) {
@@ -118,28 +117,39 @@ void explain(const ProcessResult& run, const std::vector<std::string>& command, 
   if (!explained()) result.messages.push_back({name, 0, 0, "error", "", whyItGaveUp(run, tools, options)});
 }
 
-// Several compilers at once where they may and the file allows it, else one.
-ProcessResult compileAll(const Toolchain& toolchain, const std::vector<std::string>& command,
-                         const std::string& name, const BuildTools& tools, const StudentBuildOptions& options,
+// The last parts of their qualified names.
+std::vector<std::string> lastNames(const std::vector<ForbiddenFunction>& forbidden) {
+  std::vector<std::string> names;
+  for (const ForbiddenFunction& one : forbidden)
+    names.push_back(one.function.substr(one.function.rfind(':') + 1));
+  return names;
+}
+
+// The graded part alone where that is wanted and the file allows it: not where the scan for forbidden
+// functions, which sees what is compiled, would see less.
+ProcessResult compileAll(const Toolchain& toolchain, const std::vector<ForbiddenFunction>& forbidden,
+                         const std::vector<std::string>& command, const std::string& name,
+                         const BuildTools& tools, const StudentBuildOptions& options,
                          const StudentObject& result) {
   std::vector<std::string> withJson = command;
   withJson.insert(withJson.end(), {"-fdiagnostics-format=json", "-MD", "-MF", kDependencies});
-  if (options.compilers > 1) {
+  const std::string part =
+      options.part ? gradedPart(result.source, toolchain.functions, lastNames(forbidden)) : "";
+  if (!part.empty()) {
     const auto toolsFor = [&](const path& folder) {
       return BuildTools(toolchain, folder, options.sandbox,
                         {.seconds = options.seconds, .memory = options.memory});
     };
-    const std::vector<std::string> shares =
-        sourceShares(result.source, toolchain.functions, std::min(options.compilers, kMostShares));
-    if (const auto run = compileShares(shares, withJson, name, result.object, toolsFor)) return *run;
+    if (const auto run = compilePart(part, withJson, name, result.object, toolsFor)) return *run;
   }
   withJson.insert(withJson.end(), {"-c", name, "-o", result.object.filename().string()});
   return tools.run(withJson);
 }
 
-void compile(const Toolchain& toolchain, const std::vector<std::string>& command, const std::string& name,
-             const BuildTools& tools, const StudentBuildOptions& options, StudentObject& result) {
-  const ProcessResult run = compileAll(toolchain, command, name, tools, options, result);
+void compile(const Toolchain& toolchain, const std::vector<ForbiddenFunction>& forbidden,
+             const std::vector<std::string>& command, const std::string& name, const BuildTools& tools,
+             const StudentBuildOptions& options, StudentObject& result) {
+  const ProcessResult run = compileAll(toolchain, forbidden, command, name, tools, options, result);
   result.exitCode = run.exitCode;
   result.ok = run.ok();
   result.messages = parseCompilerJson(run.error);
@@ -248,7 +258,8 @@ StudentObject compileStudent(const Toolchain& toolchain, const std::vector<Forbi
   absolute.workFolder = folder;
   const BuildTools tools(toolchain, folder, options.sandbox,
                          {.seconds = options.seconds, .memory = options.memory});
-  compile(toolchain, compileCommand(toolchain, absolute, result.source), name, tools, absolute, result);
+  compile(toolchain, forbidden, compileCommand(toolchain, absolute, result.source), name, tools, absolute,
+          result);
   if (!result.ok) return result;
 
   std::vector<CompileDiagnostic> calls =

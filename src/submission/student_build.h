@@ -21,7 +21,7 @@ struct StudentBuildOptions {
   double seconds = 30;                        ///< of processor time that compiling may take
   std::size_t memory = std::size_t{2} << 30;  ///< bytes that compiling may take
   sandbox::Sandbox sandbox{};                 ///< that the tools run in
-  int compilers = 1;  ///< at once; with several, the object need not hold more than what the grader calls
+  bool part = false;  ///< the object holds what is graded, made while a second compiler reads the whole
 };
 
 /// A compiled student file, or why there is none.

@@ -132,10 +132,11 @@ StudentObject compileAsAsked(const Toolchain& toolchain, const ExerciseInfo& exe
                             .publicHeadersOnly = true,
                             .seconds = options.compileSeconds,
                             .sandbox = options.sandbox,
-                            .compilers = options.sanitize ? 1 : options.processors};
+                            .part = options.processors > 1};
   if (!options.sanitize) return compileStudent(toolchain, exercise.forbidden, build);
   // Unoptimised, inline functions of the library that main() uses refer to what is forbidden outside of it.
   build.seconds = kSanitizedSeconds;
+  build.part = false;
   return compileStudent(toolchain, {}, build);
 }
 

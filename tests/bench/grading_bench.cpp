@@ -3,8 +3,12 @@
 #include <limits>
 #include <memory>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "bench/row.h"
+#include "bench/tested_exercises.h"
 #include "bench/watched_exercise.h"
 #include "grading/worker_process.h"
 #include "interface.h"
@@ -36,6 +40,32 @@ double roundTrip() {
   return best;
 }
 
+// `rex test` of each reference solution, against the most that one may take; then the medians of all
+// exercises.
+std::vector<Row> testRows() {
+  using File = TestedExercises::File;
+  constexpr double kWorst = 4, kMedian = 3, kUntouched = 2;
+  const auto tested = std::make_shared<TestedExercises>();
+  std::vector<Row> rows;
+  const auto add = [&](const std::string& name, Measurement ours, double limit, int repetitions) {
+    rows.push_back({.name = name,
+                    .ours = std::move(ours),
+                    .peerName = "limit",
+                    .peer = [limit] { return limit; },
+                    .target = 1,
+                    .unit = "s",
+                    .repetitions = repetitions});
+  };
+  for (const std::string& name : TestedExercises::names())
+    add(
+        "test-" + name, [tested, name] { return tested->seconds(name, File::kSolution); }, kWorst, 3);
+  add(
+      "test-median", [tested] { return tested->median(File::kSolution); }, kMedian, 1);
+  add(
+      "untouched-median", [tested] { return tested->median(File::kUntouched); }, kUntouched, 1);
+  return rows;
+}
+
 }  // namespace
 
 std::vector<Row> gradingRows() {
@@ -45,27 +75,29 @@ std::vector<Row> gradingRows() {
     if (!*watched) *watched = std::make_unique<WatchedExercise>();
     return **watched;
   };
-  return {{.name = "call-round-trip",
-           .ours = roundTrip,
-           .peerName = "limit",
-           .peer = [] { return kLimit; },
-           .target = 1,
-           .unit = "us"},
-          {.name = "save-to-verdict",  // wall seconds: only a quiet machine tells
-           .ours = [loop] { return loop().saveToVerdict(); },
-           .peerName = "limit",
-           .peer = [] { return kLoopLimit; },
-           .target = 1,
-           .unit = "s",
-           .repetitions = 7,
-           .isMedian = true},
-          {.name = "test-one-exercise",
-           .ours = [loop] { return loop().testCpuSeconds(); },
-           .peerName = "limit",
-           .peer = [] { return kLoopLimit; },
-           .target = 1,
-           .unit = "s",
-           .repetitions = 5}};
+  std::vector<Row> rows = {{.name = "call-round-trip",
+                            .ours = roundTrip,
+                            .peerName = "limit",
+                            .peer = [] { return kLimit; },
+                            .target = 1,
+                            .unit = "us"},
+                           {.name = "save-to-verdict",  // wall seconds: only a quiet machine tells
+                            .ours = [loop] { return loop().saveToVerdict(); },
+                            .peerName = "limit",
+                            .peer = [] { return kLoopLimit; },
+                            .target = 1,
+                            .unit = "s",
+                            .repetitions = 7,
+                            .isMedian = true},
+                           {.name = "test-one-exercise",
+                            .ours = [loop] { return loop().testCpuSeconds(); },
+                            .peerName = "limit",
+                            .peer = [] { return kLoopLimit; },
+                            .target = 1,
+                            .unit = "s",
+                            .repetitions = 5}};
+  for (Row& row : testRows()) rows.push_back(std::move(row));
+  return rows;
 }
 
 }  // namespace rex::bench

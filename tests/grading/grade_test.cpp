@@ -55,6 +55,45 @@ TEST(Grade, NeverBlamesTheStudentForTheGrader) {
   EXPECT_EQ(result.checks[4].message, fault + "check 'empty' states no requirement");
 }
 
+// What copies of the grader find, put together, is what one finds; a check that ends its copy harms no other.
+TEST(Grade, RunsChecksAtOnce) {
+  const auto holds = [](Check& judge, Student& student) {
+    judge.near("answer", student.ikStep(Eigen::VectorXd::Zero(7), Eigen::Vector3d(.1, .2, .3)),
+               Eigen::Vector3d(.1, .2, .3), 1e-12);
+  };
+  const std::vector<RunnableCheck> checks = {
+      check("a", Group::visible, holds),
+      check("b", Group::hidden,
+            [](Check& judge, Student&) { judge.near("one", judge.rng().uniform(0, 1), 2, .1); }),
+      check("c", Group::visible, [](Check&, Student&) { throw std::runtime_error("oops"); }),
+      check("d", Group::visible, holds)};
+  const auto run = [&](const std::vector<RunnableCheck>& some, int jobs) {
+    int saved = 0;
+    GradeResult result = grade({}, some, {.worker = kGood, .signature = Student::signature(), .jobs = jobs},
+                               [&](const GradeResult&) { ++saved; });
+    EXPECT_EQ(saved, static_cast<int>(some.size()) + 1);
+    return result;
+  };
+  const GradeResult one = run(checks, 1), several = run(checks, 3);
+  EXPECT_EQ(several.outcome, Outcome::graderError);
+  EXPECT_EQ(several.score, one.score);
+  EXPECT_EQ(several.output.text, one.output.text);
+  for (std::size_t k = 0; k < checks.size(); ++k) {
+    EXPECT_EQ(several.checks[k].id, one.checks[k].id);
+    EXPECT_EQ(several.checks[k].status, one.checks[k].status);
+    EXPECT_EQ(several.checks[k].message, one.checks[k].message);
+  }
+  EXPECT_GT(several.usage.cpuSeconds, 0);
+
+  const GradeResult dead =
+      run({checks[0], check("dies", Group::visible, [](Check&, Student&) { ::_exit(5); }), checks[3]}, 2);
+  EXPECT_EQ(dead.checks[0].status, Outcome::pass);
+  EXPECT_EQ(dead.checks[1].status, Outcome::graderError);
+  EXPECT_THAT(dead.checks[1].message, HasSubstr("the check ended its process"));
+  EXPECT_EQ(dead.checks[2].status, Outcome::pass);
+  EXPECT_EQ(dead.outcome, Outcome::graderError);
+}
+
 TEST(Grade, DrawsVisibleChecksThatDoNotHold) {
   const auto off = [](Check& judge, Student&) {
     judge.near("states", Eigen::VectorXd::Zero(9), Eigen::VectorXd::Ones(9), .1);

@@ -103,6 +103,48 @@ TEST_F(StudentBuildTest, BuildsWorkerAndProgramFromOneObject) {
   EXPECT_EQ(runProcess({program.program}).output, "mine\n");
 }
 
+// Two compilers make the same of a file as one does.
+TEST_F(StudentBuildTest, CompilesTheGradedPartAlone) {
+  const auto build = [&](const std::string& source, bool part) {
+    write(temporary_.path() / "main.cpp", source);
+    Toolchain shared = toolchain();
+    shared.functions = {"twice"};
+    shared.flags.emplace_back("-ffunction-sections");  // by which main() is told from the rest
+    return compileStudent(shared, {{"rex::answer", "it is what you find out"}},
+                          {.main = temporary_.path() / "main.cpp",
+                           .workFolder = temporary_.path() / "work",
+                           .publicHeadersOnly = true,
+                           .part = part});
+  };
+  const std::string head = "#include \"exercise.h\"\n#include <cstdio>\n";
+  for (const std::string& body :
+       {std::string(
+            "int half(int a) { return a; }\nint twice(int a) { return half(a) + half(a); }\nint main() {}\n"),
+        std::string("static int count = 0;\nint twice(int a) { return 2 * a + count; }\nint main() {}\n"),
+        std::string("namespace {\nvoid unused() {}\nint once(int a) { int b; return a; }\n}\n"
+                    "int twice(int a) { return once(a) + once(a); }\nint main() { int c; }\n"),
+        std::string(
+            "int twice(int a) { int b; if (a > 100) b = 1; return b > 3 ? a : 2 * a; }\nint main() {}\n"),
+        std::string("int twice(int a) { return a + b; }\nint main() {}\n"),
+        std::string("int twice(int a) { return 2 * a; }\nint main() { return c; }\n"),
+        std::string("int twice(int a) { return 2 * a; }\n#if 0\n}\n#endif\nint main() {}\n"),
+        std::string("int twice(int a) { return rex::answer(a); }\nint main() {}\n"),
+        std::string("int twice(int a) { return 2 * a; }\nint main() { return rex::answer(1); }\n"),
+        std::string(
+            "void asks() { rex::answer(1); }\nint twice(int a) { return 2 * a; }\nint main() { asks(); }\n"),
+        std::string("#include \"answer_internal.h\"\nint twice(int a) { return 2 * a; }\nint main() {}\n")}) {
+    const StudentObject one = build(head + body, false);
+    const std::string worker = one.ok ? runProcess({linkWorker(toolchain(), one).program}).output : "";
+    const StudentObject two = build(head + body, true);
+    EXPECT_EQ(two.ok, one.ok) << body << two.log;
+    EXPECT_EQ(two.exitCode, one.exitCode) << body;
+    EXPECT_EQ(two.log, one.log) << body;
+    ASSERT_EQ(two.messages.size(), one.messages.size()) << body << two.log;
+    if (!one.ok) continue;
+    EXPECT_EQ(runProcess({linkWorker(toolchain(), two).program}).output, worker) << body;
+  }
+}
+
 TEST_F(StudentBuildTest, DebugInformationNamesTheStudentsOwnFile) {
   write(temporary_.path() / "main.cpp", kGood);
   const StudentObject object = compileFile(temporary_.path() / "main.cpp", true);
@@ -437,7 +479,7 @@ TEST_F(StudentBuildTest, ReadsBuildJson) {
   write(
       file,
       R"({"compiler": "g++", "compile_flags": ["-O1"], "link_flags": ["-g"], "worker_object": "w.o", "grader": "g",
-                  "libraries": ["s.so", "t.so"], "prefix": "p.h", "objcopy": "oc", "objdump": "od"})");
+                  "libraries": ["s.so", "t.so"], "functions": ["f"], "prefix": "p.h", "objcopy": "oc", "objdump": "od"})");
   const Toolchain read = readToolchain(file);
   EXPECT_EQ(read.compiler, "g++");
   EXPECT_EQ(read.flags, std::vector<std::string>{"-O1"});
@@ -445,6 +487,7 @@ TEST_F(StudentBuildTest, ReadsBuildJson) {
   EXPECT_EQ(read.workerObject, "w.o");
   EXPECT_EQ(read.grader, "g");
   EXPECT_THAT(read.libraries, testing::ElementsAre("s.so", "t.so"));
+  EXPECT_THAT(read.functions, testing::ElementsAre("f"));
   EXPECT_EQ(read.prefix, "p.h");
   EXPECT_EQ(read.objcopy, "oc");
   EXPECT_EQ(read.objdump, "od");

@@ -1,0 +1,107 @@
+#include "submission/graded_part.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "submission/file_pieces.h"
+#include "submission/mentions.h"
+
+namespace rex::grading {
+namespace {
+
+using Names = std::set<std::string, std::less<>>;
+
+Names namesIn(std::string_view code) {
+  Names names;
+  for (std::size_t at = 0; at < code.size(); ++at) {
+    const std::size_t start = at;
+    while (at < code.size() && isWord(code[at])) ++at;
+    if (at > start) names.emplace(code.substr(start, at - start));
+  }
+  return names;
+}
+
+struct NamedPiece {
+  FilePiece piece;
+  Names names;  // that it mentions
+  bool isFunction() const { return !piece.function.empty(); }
+  bool isMain() const { return piece.function == "main"; }
+  bool isDirective = false;  // of the preprocessor
+};
+
+std::vector<NamedPiece> namedPieces(std::string_view source) {
+  const std::string code = codeOf(source);
+  std::vector<NamedPiece> named;
+  for (FilePiece& piece : filePieces(source)) {
+    const std::string_view text = std::string_view(code).substr(piece.start, piece.end - piece.start);
+    const bool isDirective = text.front() == '#';
+    named.push_back({std::move(piece), namesIn(text), isDirective});
+  }
+  return named;
+}
+
+// The functions of these names, and all that they mention in turn.
+std::set<std::size_t> reached(const std::vector<NamedPiece>& pieces, Names names) {
+  std::set<std::size_t> found;
+  for (bool isNew = true; isNew;) {
+    isNew = false;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      const bool isNamed =
+          pieces[i].isFunction() && !pieces[i].isMain() && names.contains(pieces[i].piece.function);
+      if (!isNamed || !found.insert(i).second) continue;
+      names.insert(pieces[i].names.begin(), pieces[i].names.end());
+      isNew = true;
+    }
+  }
+  return found;
+}
+
+// Functions of the file alone that nothing else mentions: the compiler warns of them.
+std::set<std::size_t> unused(const std::vector<NamedPiece>& pieces) {
+  std::map<std::string, int, std::less<>> mentions;
+  for (const NamedPiece& one : pieces)
+    for (const std::string& name : one.names) ++mentions[name];
+  std::set<std::size_t> found;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    if (pieces[i].piece.isInternal && pieces[i].isFunction() && mentions.at(pieces[i].piece.function) == 1)
+      found.insert(i);
+  return found;
+}
+
+void leaveOut(std::string& text, const NamedPiece& function) {
+  const bool isGone = function.piece.isInternal || function.isMain();
+  const std::size_t from = isGone ? function.piece.start : function.piece.bodyStart;
+  for (std::size_t at = from; at < function.piece.end; ++at)
+    if (text[at] != '\n') text[at] = ' ';
+  if (!isGone) text[from] = ';';
+}
+
+}  // namespace
+
+std::string gradedPart(std::string_view source, const std::vector<std::string>& functions,
+                       const std::vector<std::string>& watched) {
+  const std::vector<NamedPiece> pieces = namedPieces(source);
+  // Types, constants, macros and templates may call functions, too.
+  Names roots(functions.begin(), functions.end());
+  bool isThere = false;
+  for (const NamedPiece& one : pieces) {
+    if (!one.isFunction()) roots.insert(one.names.begin(), one.names.end());
+    isThere = isThere || std::find(functions.begin(), functions.end(), one.piece.function) != functions.end();
+  }
+  if (!isThere) return {};
+  std::set<std::size_t> kept = reached(pieces, std::move(roots));
+  kept.merge(unused(pieces));
+  std::string text(source);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const bool isLeftOut = pieces[i].isFunction() && !kept.contains(i);
+    // A macro may hide the name from what is left out.
+    const bool couldAsk = pieces[i].isDirective || (isLeftOut && !pieces[i].isMain());
+    const auto isNamed = [&](const std::string& name) { return pieces[i].names.contains(name); };
+    if (couldAsk && std::any_of(watched.begin(), watched.end(), isNamed)) return {};
+    if (isLeftOut) leaveOut(text, pieces[i]);
+  }
+  return text;
+}
+
+}  // namespace rex::grading
