@@ -1,6 +1,7 @@
 #include "course/film.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "course/recording.h"
 #include "course/simulator.h"
@@ -35,22 +36,19 @@ std::vector<std::vector<Eigen::Vector3d>> tracesOf(const Simulator& simulator,
   return traces;
 }
 
-}  // namespace
-
-Film filmOf(const Simulator& simulator, const PictureOptions& options, int most) {
-  return filmOf(simulator, simulator.recording().evenly(static_cast<std::size_t>(std::max(most, 0))),
-                options);
+// A frame at both ends.
+int framesFor(double seconds) {
+  return static_cast<int>(std::clamp(std::ceil(seconds * kFilmRate - 1e-9) + 1, 2., 1. * kMostFrames));
 }
 
-Film filmOf(const Simulator& simulator, const std::vector<Eigen::VectorXd>& postures,
+Film filmOf(const Simulator& simulator, const std::vector<RecordedPosture>& moments,
             const PictureOptions& options) {
   std::vector<BodyPoses> poses;
-  for (const Eigen::VectorXd& q : postures) poses.push_back(forwardKinematics(simulator.model(), q));
+  for (const RecordedPosture& one : moments) poses.push_back(forwardKinematics(simulator.model(), one.q));
   const auto traces = tracesOf(simulator, poses, options);
   Film film;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    film.push_back(
-        {static_cast<double>(i) / kFilmRate, decorate(pictureOf(simulator.model(), poses[i]), options)});
+    film.push_back({moments[i].time, decorate(pictureOf(simulator.model(), poses[i]), options)});
     if (i == 0) continue;
     for (const auto& trace : traces) {
       const auto end = trace.begin() + static_cast<std::ptrdiff_t>(i) + 1;
@@ -60,6 +58,29 @@ Film filmOf(const Simulator& simulator, const std::vector<Eigen::VectorXd>& post
   }
   settleGround(film);
   return film;
+}
+
+}  // namespace
+
+Film filmOf(const Simulator& simulator, const PictureOptions& options, std::optional<int> most) {
+  const Recording& recording = simulator.recording();
+  const int asked = most.value_or(framesFor(recording.duration()));
+  return filmOf(simulator, recording.evenly(static_cast<std::size_t>(std::max(asked, 0))), options);
+}
+
+Film filmOf(const Simulator& simulator, const std::vector<Eigen::VectorXd>& postures,
+            const PictureOptions& options) {
+  std::vector<RecordedPosture> moments;
+  for (const Eigen::VectorXd& q : postures)
+    moments.push_back({static_cast<double>(moments.size()) / kFilmRate, q});
+  return filmOf(simulator, moments, options);
+}
+
+int videoRateOf(const Film& film) {
+  if (film.size() < 2) return kFilmRate;
+  const double seconds = film.back().time - film.front().time;
+  const double rate = std::round(static_cast<double>(film.size() - 1) / seconds);
+  return static_cast<int>(std::clamp(rate, 1., static_cast<double>(kFilmRate)));
 }
 
 Camera cameraFor(const Film& film, const PictureOptions& options) {

@@ -22,7 +22,9 @@ Shot shotOf(const Film& film, const PictureOptions& options) {
 
 void writePicture(const Simulator& simulator, const std::string& file, const PictureOptions& options) {
   std::vector<Eigen::VectorXd> postures;
-  if (!options.traces.empty()) postures = simulator.recording().evenly(Recording::kCapacity);
+  if (!options.traces.empty())
+    for (const RecordedPosture& one : simulator.recording().evenly(Recording::kCapacity))
+      postures.push_back(one.q);
   postures.push_back(simulator.getJointAngles());
   Film film = filmOf(simulator, postures, options);
   film.erase(film.begin(), film.end() - 1);
@@ -31,19 +33,19 @@ void writePicture(const Simulator& simulator, const std::string& file, const Pic
 }
 
 void writeFrames(const Simulator& simulator, const std::string& folder, const PictureOptions& options,
-                 int most) {
+                 std::optional<int> most) {
   const Film film = filmOf(simulator, options, most);
   if (!film.empty()) writeFilmFrames(film, shotOf(film, options), folder);
 }
 
 void writeVideo(const Simulator& simulator, const std::string& name, const PictureOptions& options,
-                int most) {
+                std::optional<int> most) {
   const Film film = filmOf(simulator, options, most);
-  if (!film.empty()) writeFilmVideo(film, shotOf(film, options), name, kFilmRate);
+  if (!film.empty()) writeFilmVideo(film, shotOf(film, options), name, videoRateOf(film));
 }
 
 void writeContactSheet(const Simulator& simulator, const std::string& name, const PictureOptions& options,
-                       int pictures, int most) {
+                       int pictures, std::optional<int> most) {
   requireValid(ContactSheetOptions{.pictures = pictures});
   const Film film = filmOf(simulator, options, most);
   if (film.empty()) throw Error({.what = "no postures for a contact sheet", .where = {name + ".png"}});

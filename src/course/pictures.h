@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,21 +27,23 @@ struct PictureOptions {
 void writePicture(const Simulator& simulator, const std::string& file, const PictureOptions& options = {});
 
 /// Draws the recording as folder/0000.png, 0001.png, ..., at most `most` frames, evenly spaced and seen from
-/// one place; frames of an earlier run in that folder go first. Ctrl-C leaves whole files. Throws as
-/// writePicture, and Error when `most` is below 2.
+/// one place; by default 30 for each second of motion, 900 at most (see filmOf() in course/film.h). Frames of
+/// an earlier run in that folder go first. Ctrl-C leaves whole files. Throws as writePicture, and Error when
+/// `most` is below 2.
 void writeFrames(const Simulator& simulator, const std::string& folder, const PictureOptions& options = {},
-                 int most = 120);
+                 std::optional<int> most = {});
 
 /// writeFrames() into the folder NAME, and the video NAME.mp4 of them. Without ffmpeg there are only the
-/// frames, and a line on standard error says so. It plays 30 frames a second: in real time if `most` is 30
-/// times the recorded seconds. Throws as writeFrames, and Error when ffmpeg fails.
+/// frames, and a line on standard error says so. It plays in real time, at 30 frames a second or the whole
+/// number that fits fewer; postures that were set without a time are 1/30 s apart, also where `most` leaves
+/// some out. Throws as writeFrames, and Error when ffmpeg fails.
 void writeVideo(const Simulator& simulator, const std::string& name, const PictureOptions& options = {},
-                int most = 120);
+                std::optional<int> most = {});
 
 /// Draws moments of the recording, evenly spaced, side by side into NAME.png: at most `pictures`, first and
 /// last included, with the times they have in the film that writeVideo() makes of at most `most` frames.
 /// Throws as writeFrames, and Error when nothing is recorded or `pictures` is below 2.
 void writeContactSheet(const Simulator& simulator, const std::string& name,
-                       const PictureOptions& options = {}, int pictures = 6, int most = 120);
+                       const PictureOptions& options = {}, int pictures = 6, std::optional<int> most = {});
 
 }  // namespace rex

@@ -10,7 +10,7 @@
 namespace rex {
 
 void writeReplay(const Simulator& simulator, const std::string& name, const PictureOptions& options,
-                 const std::vector<Figure>& figures, int most) {
+                 const std::vector<Figure>& figures, std::optional<int> most) {
   Report report{.title = options.caption.empty() ? name : options.caption,
                 .film = filmOf(simulator, options, most),
                 .view = options.view,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,9 +12,9 @@ namespace rex {
 class Simulator;
 
 /// Makes NAME.html of the recording: a page for any browser, with nothing else beside it, in which the motion
-/// plays and can be turned, next to the `figures`. At most `most` frames, evenly spaced; without a recording
-/// the present posture. Throws as writeFrames and plot.
+/// plays in real time and can be turned, next to the `figures`. At most `most` frames, evenly spaced, by
+/// default as writeFrames(); without a recording the present posture. Throws as writeFrames and plot.
 void writeReplay(const Simulator& simulator, const std::string& name, const PictureOptions& options = {},
-                 const std::vector<Figure>& figures = {}, int most = 120);
+                 const std::vector<Figure>& figures = {}, std::optional<int> most = {});
 
 }  // namespace rex

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/require_finite.h"
+#include "base/require_positive.h"
 #include "base/rng.h"
 #include "collision/contacts.h"
 #include "collision/proxy_report.h"
@@ -82,7 +83,6 @@ struct Simulator::Parts {
     forwardKinematics(model, newQ, poses);
     q = newQ;
     v = newV;
-    recording.add(q);
   }
   Eigen::Vector3d gravity_W() const { return gravity ? earthGravity() : Eigen::Vector3d::Zero(); }
   const ContactModel& requireContacts() const {
@@ -126,6 +126,7 @@ void Simulator::start(const SimulatorDescription& description, SceneSpec spec) {
   setSeed(description.seed);
   setJointAnglesAndVels(q,
                         description.v.size() > 0 ? description.v : Eigen::VectorXd::Zero(parts_->model.nv()));
+  parts_->recording.startAt(parts_->q);
 }
 
 Simulator::Simulator(const Simulator& other) : parts_(std::make_unique<Parts>(*other.parts_)) {}
@@ -144,6 +145,14 @@ Eigen::VectorXd Simulator::getJointAngles() const { return parts_->q; }
 void Simulator::setJointAngles(const Eigen::VectorXd& q) {
   requireNumbers("setJointAngles", "angle", q, parts_->model.nq());
   parts_->moveTo(q, parts_->v);
+  parts_->recording.add(q);
+}
+
+void Simulator::setJointAngles(const Eigen::VectorXd& q, double tau) {
+  requireNumbers("setJointAngles", "angle", q, parts_->model.nq());
+  requirePositive("setJointAngles: seconds", tau);
+  parts_->moveTo(q, parts_->v);
+  parts_->recording.add(q, tau);
 }
 
 Eigen::VectorXd Simulator::getJointVels() const { return parts_->v; }
@@ -157,6 +166,7 @@ void Simulator::setJointAnglesAndVels(const Eigen::VectorXd& q, const Eigen::Vec
   requireNumbers("setJointAnglesAndVels", "angle", q, parts_->model.nq());
   requireNumbers("setJointAnglesAndVels", "velocity", qdot, parts_->model.nv());
   parts_->moveTo(q, qdot);
+  parts_->recording.add(q);
 }
 
 void Simulator::getDynamics(Eigen::MatrixXd& M, Eigen::VectorXd& F) const {
@@ -178,6 +188,7 @@ void Simulator::stepDynamics(const Eigen::VectorXd& u, double tau) {
   parts_->next.v = parts_->v;
   parts_->stepper->step(parts_->next, u, tau, parts_->rng);
   parts_->moveTo(parts_->next.q, parts_->next.v);
+  parts_->recording.step(parts_->q, tau);
 }
 
 void Simulator::stepPhysics(const Eigen::VectorXd& u, double tau) {
@@ -185,6 +196,7 @@ void Simulator::stepPhysics(const Eigen::VectorXd& u, double tau) {
   parts_->next.v = parts_->v;
   parts_->contactWorld.step(parts_->model, parts_->gravity_W(), u, tau, parts_->next);
   parts_->moveTo(parts_->next.q, parts_->next.v);
+  parts_->recording.step(parts_->q, tau);
 }
 
 void Simulator::setDynamicSimulationNoise(double noise) {

@@ -47,8 +47,12 @@ class Simulator {
   /// The joint angles q, n numbers.
   Eigen::VectorXd getJointAngles() const;
   void getJointAngles(Eigen::VectorXd& q) const { q = getJointAngles(); }
-  /// Moves the robot to q (n finite numbers) and records the posture for pictures.
+  /// Moves the robot to q (n finite numbers) and records the posture for pictures. The first posture that is
+  /// set takes the place of the one of the file, so that films and traces begin with the motion.
   void setJointAngles(const Eigen::VectorXd& q);
+  /// The same, tau seconds after the posture before: films and replays then play in real time. Throws Error
+  /// unless tau is positive.
+  void setJointAngles(const Eigen::VectorXd& q, double tau);
 
   /// World position of the point `rel` of a body, given in the body's frame; by default its origin. Slide
   /// 2:53.
@@ -148,7 +152,8 @@ class Simulator {
   SimulatorDescription description() const;
   /// What the core of rex works on; see scene/model.h.
   const Model& model() const;
-  /// The postures since the start or the last clearRecording(). See course/pictures.h for what to make of it.
+  /// The postures since the start or the last clearRecording(), with the times of steps, and of angles that
+  /// were set with one. See course/pictures.h for what to make of it.
   const Recording& recording() const;
   void clearRecording();
 

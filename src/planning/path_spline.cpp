@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -36,22 +37,13 @@ struct Corner {
 };
 using Polygon = std::vector<Corner>;
 
-void requireSound(const PathProblem& problem, const MatrixArg& path, const MotionLimits& limits) {
+void requireSound(const PathProblem& problem, const MatrixArg& path) {
   const Space& space = problem.space;
   requireSize("configurations of a path", path.rows(), space.size());
   if (path.cols() == 0) throw Error({.what = "path", .found = "no configurations", .wanted = "at least one"});
   for (const SpacePart& part : space.parts())
     if (part.kind == SpacePart::Kind::kQuaternion)
       throw Error({.what = "space of a spline", .found = "quaternions", .wanted = "lines and angles alone"});
-  const auto require = [&](const char* what, const Eigen::VectorXd& limit) {
-    requireSize(what, limit.size(), space.size());
-    for (const double number : limit)
-      if (!(number > 0) || !std::isfinite(number))
-        throw Error(
-            {.what = what, .found = fmt::format("{:g}", number), .wanted = "positive, finite numbers"});
-  };
-  require("limits of velocity", limits.velocity);
-  if (limits.acceleration.size() > 0) require("limits of acceleration", limits.acceleration);
 }
 
 // The path with angles that do not jump, stopping at both ends.
@@ -115,76 +107,80 @@ bool isPathValid(const PathProblem& problem, const MatrixArg& path) {
   return isValid;
 }
 
-// The largest share of the limits that the velocity reaches in the segment between two control points, where
-// one such step takes a second. Its number at the share s is that of a quadratic B-spline of three steps: it
-// is largest at an end, or where it turns.
-double velocityShare(const Eigen::Ref<const Eigen::MatrixXd>& four, const Eigen::VectorXd& limit) {
-  double largest = 0;
-  for (Eigen::Index i = 0; i < four.rows(); ++i) {
-    const double first = four(i, 1) - four(i, 0), second = four(i, 2) - four(i, 1);
-    const double third = four(i, 3) - four(i, 2), rise = second - first, fall = second - third;
-    double fastest = std::max(std::abs(first + second), std::abs(second + third)) / 2;
-    if (rise * fall > 0)  // it turns at rise / (rise + fall)
-      fastest = std::max(fastest, std::abs((first + second + rise * rise / (rise + fall)) / 2));
-    largest = std::max(largest, fastest / limit[i]);
-  }
-  return largest;
-}
-
-// The shortest that keeps velocities and accelerations within their limits. The latter are linear between
-// control points, where they are second differences.
-double intervalFor(const Eigen::MatrixXd& control, const MotionLimits& limits) {
-  double interval = 0;
-  for (Eigen::Index k = 0; k + 3 < control.cols(); ++k)
-    interval = std::max(interval, velocityShare(control.middleCols<4>(k), limits.velocity));
-  if (limits.acceleration.size() == 0) return interval;
-  for (Eigen::Index k = 2; k < control.cols(); ++k) {
-    const Eigen::ArrayXd turn = control.col(k) - 2 * control.col(k - 1) + control.col(k - 2);
-    interval = std::max(interval, std::sqrt((turn.abs() / limits.acceleration.array()).maxCoeff()));
-  }
-  return interval;
-}
-
-SplineResult resultOf(const Polygon& polygon, const Eigen::MatrixXd& control, const MotionLimits& limits) {
-  SplineResult result{.spline = PathSpline(control, intervalFor(control, limits))};
+SplineResult resultOf(const Polygon& polygon, const Eigen::MatrixXd& control) {
+  SplineResult result{.spline = PathSpline(control)};
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i) result.stops += polygon[i].isStop ? 1 : 0;
   result.status = result.stops > 0 ? SplineStatus::kStops : SplineStatus::kSmooth;
-  result.message = fmt::format("a spline with {} control points and {} stops, {:.3g} s", control.cols(),
-                               result.stops, result.spline.duration());
+  result.message = fmt::format("a spline with {} control points and {} stops", control.cols(), result.stops);
   return result;
+}
+
+// From `from`, half of `side` for each unit of the parameter. Its end is `to` to the last bit.
+CurvePiece sixthOf(const Eigen::VectorXd& side, const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
+  constexpr double kLength = 1. / 3;
+  const auto at = [=](double s, CurvePoint& point) {
+    point.q = s >= kLength ? to : (from + s / 2 * side).eval();
+    point.dq = side / 2;
+    point.ddq = Eigen::VectorXd::Zero(side.size());
+  };
+  return {.length = kLength, .at = at};
+}
+
+CurvePiece cubicPiece(const Eigen::MatrixXd& four) {
+  const auto at = [=](double s, CurvePoint& point) {
+    point.q = four * weights(s, 0);
+    point.dq = four * weights(s, 1);
+    point.ddq = four * weights(s, 2);
+  };
+  return {.length = 1, .at = at};
+}
+
+// Nothing where all four are one point.
+std::optional<CurvePiece> pieceOf(const Eigen::MatrixXd& four) {
+  const Eigen::VectorXd first = four.col(0), last = four.col(3), side = last - first;
+  const bool isAtFirst = four.col(1) == first && four.col(2) == first;
+  const bool isAtLast = four.col(1) == last && four.col(2) == last;
+  if (isAtFirst && isAtLast) return {};
+  if (isAtFirst) return sixthOf(side, first, first + side / 6);
+  if (!isAtLast) return cubicPiece(four);
+  CurvePiece piece = sixthOf(side, last - side / 6, last);
+  piece.stopsAtEnd = true;
+  return piece;
 }
 
 }  // namespace
 
-PathSpline::PathSpline(Eigen::MatrixXd control, double interval)
-    : control_(std::move(control)), interval_(interval) {
+PathSpline::PathSpline(Eigen::MatrixXd control) : control_(std::move(control)) {
   if (control_.cols() == 0)
     throw Error({.what = "spline", .found = "no control points", .wanted = "at least one"});
-  if (!(interval >= 0) || !std::isfinite(interval))
-    throw Error({.what = "interval of a spline",
-                 .found = fmt::format("{:g} s", interval),
-                 .wanted = "a finite time, zero or more"});
 }
 
-double PathSpline::duration() const {
-  return interval_ * static_cast<double>(std::max<Eigen::Index>(0, control_.cols() - 3));
+double PathSpline::length() const {
+  return static_cast<double>(std::max<Eigen::Index>(0, control_.cols() - 3));
 }
 
-Eigen::VectorXd PathSpline::value(double t, int derivative) const {
+Eigen::VectorXd PathSpline::value(double s, int derivative) const {
   if (control_.cols() == 0)
     throw Error({.what = "spline", .found = "no control points", .wanted = "one that splineAlong() found"});
-  requireFinite("time on a spline", t);
-  const bool isPoint = !(duration() > 0);
-  if (isPoint)
+  requireFinite("parameter of a spline", s);
+  if (!(length() > 0))
     return derivative == 0 ? Eigen::VectorXd(control_.col(0)) : Eigen::VectorXd(0 * control_.col(0));
-  const double way = std::clamp(t, 0., duration()) / interval_;
+  const double way = std::clamp(s, 0., length());
   const Eigen::Index segment = std::min(static_cast<Eigen::Index>(way), control_.cols() - 4);
-  return control_.middleCols<4>(segment) * weights(way - static_cast<double>(segment), derivative) /
-         std::pow(interval_, derivative);
+  return control_.middleCols<4>(segment) * weights(way - static_cast<double>(segment), derivative);
 }
 
-SplineResult splineAlong(const PathProblem& problem, const MatrixArg& path, const MotionLimits& limits) {
-  requireSound(problem, path, limits);
+PathCurve PathSpline::curve() const {
+  PathCurve curve{.start = value(0)};
+  if (control_.cols() < 4) return curve;
+  curve.start = control_.col(0);
+  for (Eigen::Index k = 0; k + 3 < control_.cols(); ++k)
+    if (auto piece = pieceOf(control_.middleCols<4>(k))) curve.pieces.push_back(std::move(*piece));
+  return curve;
+}
+
+SplineResult splineAlong(const PathProblem& problem, const MatrixArg& path) {
+  requireSound(problem, path);
   if (!isPathValid(problem, path)) return {.message = "no spline: the path itself is not valid"};
   Polygon polygon = polygonOf(problem.space, path);
   for (int round = 0;; ++round) {
@@ -193,7 +189,7 @@ SplineResult splineAlong(const PathProblem& problem, const MatrixArg& path, cons
     for (std::size_t k = 0; k < corners.size(); ++k)
       control.col(static_cast<Eigen::Index>(k)) = polygon[corners[k]].q;
     const std::vector<bool> isBad = badCorners(problem, polygon, control, corners);
-    if (std::count(isBad.begin(), isBad.end(), true) == 0) return resultOf(polygon, control, limits);
+    if (std::count(isBad.begin(), isBad.end(), true) == 0) return resultOf(polygon, control);
     refine(polygon, isBad, round < kMostRounds);
   }
 }

@@ -1,38 +1,34 @@
 #pragma once
 
+#include <string>
+
+#include "planning/path_curve.h"
 #include "planning/path_problem.h"
 
 namespace rex {
 
-/// A motion along a uniform cubic B-spline: position, velocity and acceleration are continuous, and it rests
-/// at both ends. It stays in the convex hull of any four control points in turn, and is no longer than the
-/// straight lines between them.
+/// A uniform cubic B-spline: its first and second derivatives are continuous. It stays in the convex hull of
+/// any four control points in turn, and is no longer than the straight lines between them.
 class PathSpline {
  public:
   PathSpline() = default;
-  /// Control points, one per column, the ends three times; seconds from one to the next. Throws Error without
-  /// points, and for a time that is negative or not finite.
-  PathSpline(Eigen::MatrixXd control, double interval);
+  /// Control points, one per column, the ends three times. Throws Error without points.
+  explicit PathSpline(Eigen::MatrixXd control);
 
   const Eigen::MatrixXd& control() const { return control_; }
-  [[nodiscard]] double duration() const;
-  /// At t seconds, and at an end before 0 and after duration(). Angles are not wrapped. These three throw
-  /// Error for a time that is not finite, and for a spline without control points.
-  [[nodiscard]] Eigen::VectorXd position(double t) const { return value(t, 0); }
-  [[nodiscard]] Eigen::VectorXd velocity(double t) const { return value(t, 1); }
-  [[nodiscard]] Eigen::VectorXd acceleration(double t) const { return value(t, 2); }
+  /// The range of the parameter: one for each four control points in turn.
+  [[nodiscard]] double length() const;
+  /// At the parameter s, and at an end before 0 and after length(); its first or second derivative by s.
+  /// Angles are not wrapped. Throws Error for an s that is not finite, and for a spline without control
+  /// points.
+  [[nodiscard]] Eigen::VectorXd value(double s, int derivative = 0) const;
+  /// The same points as a curve whose derivative is nowhere zero because a control point stands three times:
+  /// the straight ways there, a sixth of a side, have a third of the parameter, and it stops between two of
+  /// them. Throws Error without control points.
+  [[nodiscard]] PathCurve curve() const;
 
  private:
-  [[nodiscard]] Eigen::VectorXd value(double t, int derivative) const;
-
   Eigen::MatrixXd control_{};
-  double interval_ = 0;
-};
-
-/// The largest velocity and acceleration of each number of a configuration, per second and second squared,
-/// positive and finite; accelerations may be empty: any.
-struct MotionLimits {
-  Eigen::VectorXd velocity{}, acceleration{};
 };
 
 enum class SplineStatus {
@@ -48,14 +44,11 @@ struct SplineResult {
   std::string message{};
 };
 
-/// A motion on a spline that has a path for control polygon: it cuts corners. It goes from one control point
-/// to the next in equal times, the shortest within the limits: one of them is reached in some place.
-/// Where that is not valid at the resolution of the problem, the polygon gets more points, so that the spline
-/// comes nearer to the path, and in the end follows it and stops at its corners. Never longer than the path;
-/// pieces that lie on it are not looked at in other points than those of an edge check. Throws Error for a
-/// path of another size or without points, a space with quaternions, and limits that are not positive or not
-/// finite, or of another size.
-[[nodiscard]] SplineResult splineAlong(const PathProblem& problem, const MatrixArg& path,
-                                       const MotionLimits& limits);
+/// A spline that has a path for control polygon: it cuts corners. How fast it can be followed is what
+/// parametrizeTime() finds. Where it is not valid at the resolution of the problem, the polygon gets more
+/// points, so that the spline comes nearer to the path, and in the end follows it and stops at its corners.
+/// Never longer than the path; pieces that lie on it are not looked at in other points than those of an edge
+/// check. Throws Error for a path of another size or without points, and a space with quaternions.
+[[nodiscard]] SplineResult splineAlong(const PathProblem& problem, const MatrixArg& path);
 
 }  // namespace rex

@@ -51,6 +51,37 @@ TEST(Replay, ThinsTheRecording) {
   EXPECT_EQ(film[39].picture.polylines.at(0).points.size(), 40u);
 }
 
+// The course of a sine in 12.3 s, far from the posture of the file.
+Simulator timed(double tau) {
+  Simulator S("man.ors");
+  for (double t = 0; t < 12.3 + tau / 2; t += tau)
+    S.setJointAngles(Eigen::VectorXd::Constant(S.getJointDimension(), 0.4 + 0.1 * std::sin(t)), tau);
+  return S;
+}
+
+TEST(Replay, TakesTheTimeOfTheMotionAndBeginsWithIt) {
+  for (const double tau : {.001, .01, .1, 1.23}) {
+    const Simulator S = timed(tau);
+    const Film film = filmOf(S, {.traces = {"handR"}});
+    EXPECT_NEAR(film.back().time, 12.3, .06) << tau;
+    EXPECT_EQ(film.front().time, 0);
+    EXPECT_EQ(film.size(), tau > .03 ? static_cast<std::size_t>(std::lround(12.3 / tau)) + 1 : 370u);
+    EXPECT_EQ(videoRateOf(film), tau < .03 ? 30 : tau < 1 ? 10 : 1);
+    const auto& trace = film.back().picture.polylines.at(0).points;
+    ASSERT_EQ(trace.size(), film.size());
+    Simulator first("man.ors");
+    first.setJointAngles(Eigen::VectorXd::Constant(S.getJointDimension(), 0.4));
+    EXPECT_LT((trace[0] - first.kinematicsPos("handR")).norm(), 1e-9) << "the motion, not the file";
+  }
+}
+
+TEST(Replay, ShowsThirtyFramesPerSecondByDefaultAndHalfAMinuteOfThemAtMost) {
+  EXPECT_EQ(filmOf(swinging(62), {}).size(), 61u);
+  EXPECT_DOUBLE_EQ(filmOf(swinging(62), {}).back().time, 2);
+  EXPECT_EQ(filmOf(swinging(1500), {}).size(), static_cast<std::size_t>(kMostFrames));
+  EXPECT_EQ(filmOf(swinging(3), {}).size(), 2u);
+}
+
 TEST(Replay, ShowsThePostureWithoutARecording) {
   REX_NEEDS_OSMESA();
   Simulator S = swinging(3);

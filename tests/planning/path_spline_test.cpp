@@ -12,11 +12,6 @@
 
 namespace rex::path_spline_test {
 
-MotionLimits limitsOf(int size) {
-  return {.velocity = Eigen::VectorXd::Constant(size, .5),
-          .acceleration = Eigen::VectorXd::Constant(size, 2)};
-}
-
 Eigen::MatrixXd shortPath(const PathProblem& problem, std::uint64_t seed) {
   Rng rng(seed);
   return shortcut(problem, connectRrts(problem, {.stepSize = .1}, rng).path, 100, rng);
@@ -26,17 +21,48 @@ Eigen::MatrixXd shortPath(const PathProblem& problem, std::uint64_t seed) {
 // a value from either side.
 void expectTwiceDifferentiable(const PathSpline& spline) {
   constexpr double kStep = 1e-6;
-  const double pieces = static_cast<double>(spline.control().cols() - 3);
   const double scale = spline.control().cwiseAbs().maxCoeff() + 1;
-  for (double piece = 0; piece < pieces; piece += .25) {
-    const double t = spline.duration() * (piece + .25) / pieces;
-    const Eigen::VectorXd before = spline.position(t - kStep), after = spline.position(t + kStep);
-    EXPECT_LT((spline.velocity(t) - (after - before) / (2 * kStep)).norm(), 1e-7 * scale);
-    const Eigen::VectorXd slower = spline.velocity(t - kStep), faster = spline.velocity(t + kStep);
-    if (piece + .25 < pieces) {
-      EXPECT_LT((spline.acceleration(t) - (faster - slower) / (2 * kStep)).norm(), 1e-3);
+  for (double s = .25; s <= spline.length(); s += .25) {
+    const Eigen::VectorXd before = spline.value(s - kStep), after = spline.value(s + kStep);
+    if (s < spline.length()) {
+      EXPECT_LT((spline.value(s, 1) - (after - before) / (2 * kStep)).norm(), 1e-7 * scale);
+      const Eigen::VectorXd slower = spline.value(s - kStep, 1), faster = spline.value(s + kStep, 1);
+      EXPECT_LT((spline.value(s, 2) - (faster - slower) / (2 * kStep)).norm(), 1e-3);
     }
-    EXPECT_LT((spline.acceleration(t - 1e-9) - spline.acceleration(t + 1e-9)).norm(), 1e-5) << "a jump";
+    EXPECT_LT((spline.value(s - 1e-9, 2) - spline.value(s + 1e-9, 2)).norm(), 1e-5) << "a jump";
+  }
+}
+
+// The curve has the same points in the same order, goes on where a piece ends, in the same direction unless
+// it stops there, and its derivatives are those of its points.
+void expectSamePoints(const PathSpline& spline, const PathCurve& curve) {
+  CurvePoint before, after, here;
+  double longest = 0;
+  for (std::size_t i = 0; i < curve.pieces.size(); ++i) {
+    const CurvePiece& piece = curve.pieces[i];
+    piece.at(0, after);
+    if (i > 0) {
+      EXPECT_LT((after.q - before.q).norm(), 1e-12);
+      if (!curve.pieces[i - 1].stopsAtEnd) {
+        EXPECT_LT((after.dq - before.dq).norm(), 1e-12);
+      }
+    }
+    for (const double share : {.2, .5, .8}) {
+      constexpr double kStep = 1e-6;
+      piece.at(share * piece.length - kStep, before);
+      piece.at(share * piece.length + kStep, after);
+      piece.at(share * piece.length, here);
+      EXPECT_GT(here.dq.norm(), 0);
+      EXPECT_LT(((after.q - before.q) / (2 * kStep) - here.dq).norm(), 1e-7);
+      EXPECT_LT(((after.dq - before.dq) / (2 * kStep) - here.ddq).norm(), 1e-7);
+      double nearest = 1;
+      for (double s = longest; s <= spline.length() && nearest > 1e-4; s += 1e-4) {
+        const double distance = (spline.value(s) - here.q).norm();
+        if (distance < nearest) nearest = distance, longest = s;
+      }
+      EXPECT_LT(nearest, 1e-4) << "piece " << i;
+    }
+    piece.at(piece.length, before);
   }
 }
 
@@ -60,10 +86,10 @@ PathProblem thickened(const PathProblem& problem) {
 // The length, by far more points than any check looks at.
 double expectValid(const PathProblem& problem, const PathSpline& spline) {
   double length = 0;
-  Eigen::VectorXd last = spline.position(0);
+  Eigen::VectorXd last = spline.value(0);
   constexpr int kPoints = 20000;
   for (int i = 1; i <= kPoints; ++i) {
-    const Eigen::VectorXd q = spline.position(spline.duration() * i / kPoints);
+    const Eigen::VectorXd q = spline.value(spline.length() * i / kPoints);
     length += problem.space.distance(last, q);
     EXPECT_TRUE(problem.allValid(q)) << i;
     last = q;
@@ -75,31 +101,20 @@ TEST(PathSpline, GoesThroughTheHoleInTheWall) {
   int smooth = 0;
   for (const int dimension : {2, 3}) {
     const PathProblem problem = wallWithHole(dimension, .2), thick = thickened(problem);
-    const MotionLimits limits = limitsOf(dimension);
     for (std::uint64_t seed = 0; seed < 15; ++seed) {
       const Eigen::MatrixXd path = shortPath(thick, seed);
-      const SplineResult result = splineAlong(thick, path, limits);
+      const SplineResult result = splineAlong(thick, path);
       ASSERT_NE(result.status, SplineStatus::kInvalid) << result.message;
       EXPECT_EQ(result.status == SplineStatus::kSmooth, result.stops == 0);
       smooth += result.stops == 0 ? 1 : 0;
       const PathSpline& spline = result.spline;
-      EXPECT_LT((spline.position(0) - problem.start).norm(), 1e-15);
-      EXPECT_LT((spline.position(spline.duration()) - problem.goal).norm(), 1e-15);
+      EXPECT_LT((spline.value(0) - problem.start).norm(), 1e-15);
+      EXPECT_LT((spline.value(spline.length()) - problem.goal).norm(), 1e-15);
       EXPECT_LE(expectValid(problem, spline), pathLength(problem.space, path) + 1e-9);
       expectTwiceDifferentiable(spline);
-      for (const double end : {0., spline.duration()}) {
-        EXPECT_LT(spline.velocity(end).norm(), 1e-12);
-        EXPECT_LT(spline.acceleration(end).norm(), 1e-9);
-      }
-      double fastest = 0, hardest = 0;
-      for (int i = 0; i <= 1000; ++i) {
-        const double t = spline.duration() * i / 1000;
-        fastest = std::max(fastest, spline.velocity(t).cwiseAbs().maxCoeff());
-        hardest = std::max(hardest, spline.acceleration(t).cwiseAbs().maxCoeff());
-      }
-      EXPECT_LE(fastest, .5 + 1e-12);
-      EXPECT_LE(hardest, 2 + 1e-12);
-      EXPECT_GT(std::max(fastest / .5, hardest / 2), .99) << "it does not dawdle";
+      const PathCurve curve = spline.curve();
+      EXPECT_EQ(curve.stops(), result.stops);
+      if (seed < 4) expectSamePoints(spline, curve);
     }
   }
   EXPECT_GT(smooth, 20) << "of 30";
@@ -111,13 +126,13 @@ TEST(PathSpline, IsSmoothWhereThereIsRoom) {
   corner << .1, .3, .3, .1, .1, .4;
   problem.start = corner.col(0);
   problem.goal = corner.col(2);
-  const SplineResult result = splineAlong(problem, corner, limitsOf(2));
+  const SplineResult result = splineAlong(problem, corner);
   EXPECT_EQ(result.status, SplineStatus::kSmooth);
   EXPECT_EQ(result.spline.control().cols(), 7);
   EXPECT_NE(result.message.find("7 control points and 0 stops"), std::string::npos) << result.message;
   // A third of the corner, a sixth of each neighbour: the middle of a uniform cubic B-spline.
   const Eigen::Vector2d middle = (corner.col(0) + 4 * corner.col(1) + corner.col(2)) / 6;
-  EXPECT_LT((result.spline.position(result.spline.duration() / 2) - middle).norm(), 1e-12);
+  EXPECT_LT((result.spline.value(result.spline.length() / 2) - middle).norm(), 1e-12);
 }
 
 // Free is only what is on the path itself.
@@ -133,10 +148,12 @@ TEST(PathSpline, StopsAtCornersWithoutRoom) {
                             .allValid = eachColumn(onPath),
                             .start = path.col(0),
                             .goal = path.col(3)};
-  const SplineResult result = splineAlong(problem, path, limitsOf(2));
+  const SplineResult result = splineAlong(problem, path);
   EXPECT_EQ(result.status, SplineStatus::kStops) << result.message;
   EXPECT_GE(result.stops, 2);
   EXPECT_NEAR(expectValid(problem, result.spline), 1.3, 1e-6);
+  EXPECT_EQ(result.spline.curve().stops(), result.stops);
+  expectSamePoints(result.spline, result.spline.curve());
   expectTwiceDifferentiable(result.spline);
 }
 
@@ -144,7 +161,7 @@ TEST(PathSpline, SaysWhenThePathItselfIsNotValid) {
   const PathProblem problem = wallWithHole(2, .1);
   Eigen::MatrixXd through(2, 2);
   through << problem.start, problem.goal;
-  const SplineResult result = splineAlong(problem, through, limitsOf(2));
+  const SplineResult result = splineAlong(problem, through);
   EXPECT_EQ(result.status, SplineStatus::kInvalid);
   EXPECT_EQ(result.spline.control().cols(), 0);
   EXPECT_EQ(result.message, "no spline: the path itself is not valid");
@@ -155,46 +172,26 @@ TEST(PathSpline, TurnsTheShorterWayRoundAndRestsAtASinglePoint) {
                             .allValid = eachColumn([](const VectorArg&) { return true; })};
   Eigen::MatrixXd path(3, 2);
   path << .1, .9, .5, .5, 3, -3;
-  const PathSpline spline = splineAlong(problem, path, limitsOf(3)).spline;
-  EXPECT_NEAR(spline.position(spline.duration() / 2)[2], M_PI, 1e-12);
-  EXPECT_NEAR(spline.position(spline.duration())[2], 2 * M_PI - 3, 1e-12);
-  const PathSpline point = splineAlong(problem, path.leftCols(1), limitsOf(3)).spline;
-  EXPECT_EQ(point.duration(), 0);
-  EXPECT_EQ(point.position(1), path.col(0));
-  EXPECT_TRUE(point.velocity(0).isZero());
+  const PathSpline spline = splineAlong(problem, path).spline;
+  EXPECT_NEAR(spline.value(spline.length() / 2)[2], M_PI, 1e-12);
+  EXPECT_NEAR(spline.value(spline.length())[2], 2 * M_PI - 3, 1e-12);
+  const PathSpline point = splineAlong(problem, path.leftCols(1)).spline;
+  EXPECT_TRUE(point.curve().pieces.empty());
+  EXPECT_EQ(point.curve().start, path.col(0));
+  EXPECT_LT((point.value(1) - path.col(0)).norm(), 1e-15);
+  EXPECT_LT(point.value(1, 1).norm(), 1e-15);
 }
 
 TEST(PathSpline, RefusesWhatItCannotFollow) {
   const PathProblem problem = wallWithHole(2, .3);
-  const Eigen::MatrixXd path = Eigen::MatrixXd::Constant(2, 2, .1);
-  const auto spline = [&](const Eigen::MatrixXd& along, const MotionLimits& limits) {
-    static_cast<void>(splineAlong(problem, along, limits));
-  };
-  EXPECT_REX_ERROR(spline(Eigen::MatrixXd(2, 0), limitsOf(2)),
+  EXPECT_REX_ERROR(static_cast<void>(splineAlong(problem, Eigen::MatrixXd(2, 0))),
                    "path: found no configurations, wanted at least one");
-  EXPECT_REX_ERROR(spline(Eigen::MatrixXd::Zero(3, 2), limitsOf(2)),
+  EXPECT_REX_ERROR(static_cast<void>(splineAlong(problem, Eigen::MatrixXd::Zero(3, 2))),
                    "configurations of a path: found a vector of size 3, wanted size 2");
-  EXPECT_REX_ERROR(spline(path, {.velocity = Eigen::Vector2d(1, 0)}),
-                   "limits of velocity: found 0, wanted positive, finite numbers");
-  EXPECT_REX_ERROR(spline(path, {.velocity = Eigen::Vector2d(1, INFINITY)}),
-                   "limits of velocity: found inf, wanted positive, finite numbers");
-  EXPECT_REX_ERROR(spline(path, limitsOf(3)), "limits of velocity: found a vector of size 3, wanted size 2");
-  EXPECT_REX_ERROR(spline(path, {.velocity = Eigen::Vector2d(1, 1), .acceleration = Eigen::Vector2d(1, NAN)}),
-                   "limits of acceleration: found nan, wanted positive, finite numbers");
   PathProblem floating = problem;
   floating.space = Space::se3({0, 0, 0}, {1, 1, 1});
-  EXPECT_REX_ERROR(static_cast<void>(splineAlong(floating, Eigen::MatrixXd::Zero(7, 2), limitsOf(7))),
+  EXPECT_REX_ERROR(static_cast<void>(splineAlong(floating, Eigen::MatrixXd::Zero(7, 2))),
                    "space of a spline: found quaternions, wanted lines and angles alone");
-}
-
-// The middle of three steps, of which only that one moves, is 3/4 as fast as the step.
-TEST(PathSpline, IsAsFastAsItMayOnAStraightWay) {
-  const PathProblem problem = wallWithHole(2, .2);
-  Eigen::MatrixXd path(2, 2);
-  path << .1, .4, .1, .1;
-  const PathSpline spline = splineAlong(problem, path, {.velocity = Eigen::Vector2d(.5, .5)}).spline;
-  EXPECT_NEAR(spline.duration(), 3 * .75 * .3 / .5, 1e-12);
-  EXPECT_NEAR(spline.velocity(spline.duration() / 2)[0], .5, 1e-12);
 }
 
 TEST(PathSpline, AsksInSmallBlocks) {
@@ -208,20 +205,19 @@ TEST(PathSpline, AsksInSmallBlocks) {
   };
   Eigen::MatrixXd corner(2, 3);
   corner << .1, .3, .3, .1, .1, .4;
-  EXPECT_EQ(splineAlong(problem, corner, limitsOf(2)).status, SplineStatus::kSmooth);
+  EXPECT_EQ(splineAlong(problem, corner).status, SplineStatus::kSmooth);
   EXPECT_GT(asked, 8000);
   EXPECT_LE(widest, 8);
 }
 
-TEST(PathSpline, RefusesTimesAndSplinesThatAreNone) {
-  const PathSpline point(Eigen::MatrixXd::Zero(2, 6), 1);
-  for (const double t : {static_cast<double>(NAN), static_cast<double>(INFINITY)})
-    EXPECT_REX_ERROR(static_cast<void>(point.position(t)), "time on a spline: found");
-  EXPECT_REX_ERROR(static_cast<void>(PathSpline().velocity(0)),
+TEST(PathSpline, RefusesParametersAndSplinesThatAreNone) {
+  const PathSpline point(Eigen::MatrixXd::Zero(2, 6));
+  for (const double s : {static_cast<double>(NAN), static_cast<double>(INFINITY)})
+    EXPECT_REX_ERROR(static_cast<void>(point.value(s)), "parameter of a spline: found");
+  EXPECT_REX_ERROR(static_cast<void>(PathSpline().value(0, 1)),
                    "spline: found no control points, wanted one that splineAlong() found");
-  EXPECT_REX_ERROR(PathSpline(Eigen::MatrixXd(2, 0), 1), "spline: found no control points");
-  EXPECT_REX_ERROR(PathSpline(Eigen::MatrixXd::Zero(2, 6), NAN),
-                   "interval of a spline: found nan s, wanted a finite time, zero or more");
+  EXPECT_REX_ERROR(static_cast<void>(PathSpline().curve()), "spline: found no control points");
+  EXPECT_REX_ERROR(PathSpline(Eigen::MatrixXd(2, 0)), "spline: found no control points, wanted at least one");
 }
 
 }  // namespace rex::path_spline_test

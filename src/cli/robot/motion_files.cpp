@@ -1,5 +1,6 @@
 #include "cli/robot/motion_files.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -32,6 +33,13 @@ void removeFrames(const fs::path& folder) {
 
 }  // namespace
 
+double filmSpeed(double asked, double seconds) {
+  const double speed = std::max(asked, seconds / kLongestFilm);
+  if (speed > asked)
+    note(fmt::format("the film is {:.3g} times as fast as the motion, to last {:g} s", speed, kLongestFilm));
+  return speed;
+}
+
 void makeResultFolder(const fs::path& folder, std::initializer_list<const char*> files,
                       const std::string& frames) {
   std::error_code problem;
@@ -48,12 +56,14 @@ void makeResultFolder(const fs::path& folder, std::initializer_list<const char*>
 }
 
 std::vector<fs::path> writeFilmAndReplay(const Model& model, const Motion& motion, BodyId body, Report report,
-                                         const RenderPlan& pictures, const fs::path& stem) {
+                                         const RenderPlan& pictures, const fs::path& stem, double speed) {
   std::vector<std::size_t> frames(motion.postures.size());
   std::iota(frames.begin(), frames.end(), std::size_t{0});
   const MotionPictures shots(model, motion, frames, {model[body].name}, report.title);
   const fs::path film = writeFilm(shots, pictures, fs::path(stem).concat(".mp4"));
   report.film = shots.film();
+  for (Frame& frame : report.film) frame.time /= speed;
+  if (speed != 1) report.facts.emplace_back("speed of the replay", fmt::format("{:g}", speed));
   report.view = pictures.views.front().view.direction();
   report.still.gl = pictures.renderer.gl;
   for (ReportFigure& item : report.figures) item.figure.width = 560, item.figure.height = 360;

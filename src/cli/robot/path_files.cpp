@@ -32,13 +32,19 @@ void writeExplored(Picture picture, RenderPlan plan, std::string caption, const 
 
 // No times of computing in it: the same input gives the same bytes.
 Report replayOf(const PathTask& task, const PlanOptions& options, const FoundPath& found,
-                const Motion& motion) {
+                const PathTiming& timing, const Motion& motion) {
+  const TimingResult& result = timing.result;
   Report report{.title = titleOf(task, options, found),
                 .figures = {{jointsFigure(task.model, motion)}},
                 .facts = {{"length", fmt::format("{:.4g}", found.length)},
+                          {"duration", fmt::format("{:.3f} s", result.motion.duration())},
+                          {"by velocities alone", fmt::format("{:.3f} s", result.lowerBound)},
+                          {"limits", limitsTextOf(timing, options)},
                           {"margin", fmt::format("{:g} m", options.margin)},
                           {"nodes", fmt::format("{}", found.nodes)},
                           {"configurations checked", fmt::format("{}", found.checks)}}};
+  if (result.motion.duration() > 0)
+    report.figures.push_back({speedsFigure(result.motion, timing.limits.limits)});
   if (!task.contacts.pairs().empty()) {
     report.figures.push_back({clearanceFigure(task.model, task.contacts, motion, options.margin)});
     report.facts.emplace_back("clearance", fmt::format("{:.4g} m", found.clearance.atLeast));
@@ -46,15 +52,21 @@ Report replayOf(const PathTask& task, const PlanOptions& options, const FoundPat
   return report;
 }
 
+// A hundred rows per second, of a very long motion fewer.
+std::string tableOf(const Model& model, const TimedPath& timed) {
+  constexpr double kRate = 100, kMostRows = 1e6;
+  const double rate = std::min(kRate, kMostRows / std::max(timed.duration(), 1.));
+  return csvOf(model, motionOf(timed, rate));
+}
+
 // Film and replay.
 std::vector<fs::path> writeMotion(const PathTask& task, const PlanOptions& options,
-                                  const RenderPlan& pictures, BodyId body, const FoundPath& found) {
-  const double speed = std::max(options.speed, found.length / kLongestFilm);
-  if (speed > options.speed) note(fmt::format("the film is {:.3g} times as fast", speed / options.speed));
-  const Space& space = task.problem.space;
-  const Motion motion = resampled(space, timedPath(space, found.path, speed, 1 / kFilmRate), kFilmRate);
-  return writeFilmAndReplay(task.model, motion, body, replayOf(task, options, found, motion), pictures,
-                            options.out / "path");
+                                  const RenderPlan& pictures, BodyId body, const FoundPath& found,
+                                  const PathTiming& timing) {
+  const double speed = filmSpeed(options.speed, timing.result.motion.duration());
+  const Motion motion = motionOf(timing.result.motion, kFilmRate / speed);
+  return writeFilmAndReplay(task.model, motion, body, replayOf(task, options, found, timing, motion),
+                            pictures, options.out / "path", speed);
 }
 
 }  // namespace
@@ -64,17 +76,19 @@ std::string titleOf(const PathTask& task, const PlanOptions& options, const Foun
 }
 
 std::vector<std::string> writePathFiles(const PathTask& task, const PlanOptions& options,
-                                        const RenderPlan& pictures, BodyId body, const FoundPath& found) {
+                                        const RenderPlan& pictures, BodyId body, const FoundPath& found,
+                                        const PathTiming& timing) {
   std::vector<fs::path> files = {options.out / "tree.png"};
   writeExplored(exploredPicture(task, body, found), pictures,
                 fmt::format("{}: {} nodes", titleOf(task, options, found), found.nodes), files.back());
-  if (found.isFound()) {
+  const bool canMove = found.isFound() && timing.isFound();
+  if (canMove) {
     files.push_back(options.out / "path.csv");
-    const Motion motion = timedPath(task.problem.space, found.path, options.speed, 1 / kFilmRate);
-    writeTextFile(files.back(), csvOf(task.model, motion));
+    writeTextFile(files.back(), tableOf(task.model, timing.result.motion));
   }
-  if (found.isFound() && !options.noFilm)
-    for (const fs::path& file : writeMotion(task, options, pictures, body, found)) files.push_back(file);
+  if (canMove && !options.noFilm)
+    for (const fs::path& file : writeMotion(task, options, pictures, body, found, timing))
+      files.push_back(file);
   std::vector<std::string> names;
   for (const fs::path& file : files) names.push_back(shown(file));
   return names;

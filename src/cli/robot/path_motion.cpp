@@ -21,44 +21,17 @@ std::string quoted(const std::string& name) {
 
 }  // namespace
 
-Motion timedPath(const Space& space, const MatrixArg& path, double speed, double gap) {
-  Motion motion{.times = {0}, .postures = {path.col(0)}};
-  Eigen::VectorXd q(path.rows());
-  double start = 0;
-  for (Eigen::Index k = 1; k < path.cols(); ++k) {
-    const double seconds = space.distance(path.col(k - 1), path.col(k)) / speed;
-    if (start + seconds <= start) {  // no time passes
-      motion.postures.back() = path.col(k);
-      continue;
-    }
-    const int pieces = static_cast<int>(std::ceil(seconds / gap));
-    for (int i = 1; i <= pieces; ++i) {
-      const double share = static_cast<double>(i) / pieces;
-      space.interpolate(path.col(k - 1), path.col(k), share, q);
-      motion.times.push_back(start + share * seconds);
-      motion.postures.push_back(q);
-    }
-    start += seconds;
-  }
-  return motion;
-}
-
-Motion resampled(const Space& space, const Motion& motion, double rate) {
-  const auto count = static_cast<std::size_t>(std::ceil(motion.times.back() * rate - 1e-9));
-  Motion even;
-  Eigen::VectorXd q(space.size());
-  std::size_t at = 0;
+Motion motionOf(const TimedPath& timed, double rate) {
+  const double end = timed.duration();
+  const auto count = static_cast<std::size_t>(std::ceil(end * rate - 1e-9));
+  Motion motion;
   for (std::size_t i = 0; i < count; ++i) {
-    const double time = static_cast<double>(i) / rate;
-    while (at + 2 < motion.times.size() && motion.times[at + 1] <= time) ++at;
-    const double from = motion.times[at], to = motion.times[at + 1];
-    space.interpolate(motion.postures[at], motion.postures[at + 1], (time - from) / (to - from), q);
-    even.times.push_back(time);
-    even.postures.push_back(q);
+    motion.times.push_back(static_cast<double>(i) / rate);
+    motion.postures.push_back(timed.at(motion.times.back()).q);
   }
-  even.times.push_back(static_cast<double>(count) / rate);
-  even.postures.push_back(motion.postures.back());
-  return even;
+  motion.times.push_back(end);
+  motion.postures.push_back(timed.at(end).q);
+  return motion;
 }
 
 std::string csvOf(const Model& model, const Motion& motion) {

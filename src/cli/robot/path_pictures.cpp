@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "cli/robot/coordinate_names.h"
+#include "cli/terminal.h"
 #include "collision/contact_batch.h"
 #include "kinematics/pose_batch.h"
 #include "render/scene_picture.h"
@@ -124,6 +125,26 @@ Figure jointsFigure(const Model& model, const Motion& motion) {
     Series series{.label = names[i], .x = motion.times};
     for (const Eigen::VectorXd& q : motion.postures) series.y.push_back(q[static_cast<Eigen::Index>(i)]);
     figure.series.push_back(std::move(series));
+  }
+  return figure;
+}
+
+Figure speedsFigure(const TimedPath& timed, const MotionLimits& limits) {
+  constexpr int kPoints = 600;  // about as many as a figure has columns
+  Figure figure{.title = "speeds",
+                .xLabel = "time [s]",
+                .yLabel = "speed / limit [1]",
+                .legend = Legend::kOutside,
+                .horizontalLines = {{.at = 1, .label = "limit"}}};
+  for (const std::string& name : limits.names) figure.series.push_back({.label = harmless(name)});
+  for (int i = 0; i <= kPoints; ++i) {
+    const double t = timed.duration() * i / kPoints;
+    const Eigen::VectorXd v = timed.at(t).v;
+    for (std::size_t k = 0; k < figure.series.size(); ++k) {
+      const auto joint = static_cast<Eigen::Index>(k);
+      figure.series[k].x.push_back(t);
+      figure.series[k].y.push_back(std::abs(v[joint]) / limits.velocity[joint]);
+    }
   }
   return figure;
 }

@@ -5,6 +5,8 @@
 
 #include "cli/robot/path_search.h"
 #include "cli/robot/posture_option.h"
+#include "planning/motion_limits.h"
+#include "planning/timed_path.h"
 #include "render/figure.h"
 #include "render/picture.h"
 
@@ -19,6 +21,9 @@ namespace rex::cli {
 
 /// The joints over time.
 [[nodiscard]] Figure jointsFigure(const Model& model, const Motion& motion);
+
+/// The speeds of joints over time, as shares of their limits, and a line at 1.
+[[nodiscard]] Figure speedsFigure(const TimedPath& timed, const MotionLimits& limits);
 
 /// The distance of the nearest pair of shapes over time, beside the margin (metres). There must be a pair.
 [[nodiscard]] Figure clearanceFigure(const Model& model, const ContactModel& contacts, const Motion& motion,

@@ -8,6 +8,7 @@
 #include "base/rng.h"
 #include "cli/option_value_internal.h"
 #include "planning/path_clearance.h"
+#include "planning/path_spline.h"
 #include "planning/roadmap.h"
 #include "planning/rrt.h"
 #include "planning/smooth_path.h"
@@ -15,7 +16,7 @@
 namespace rex::cli {
 namespace {
 
-constexpr int kShortcuts = 200, kRoundings = 3;
+constexpr int kShortcuts = 200;
 constexpr int kNeighbors = 10;  // of a node of PRM
 
 double cpuTime() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
@@ -62,6 +63,18 @@ PathResult askRoadmap(const PathProblem& problem, const PathSearch& search, Rng&
   return result;
 }
 
+// Rotations have no spline: shortcuts alone, with stops where the direction changes.
+PathCurve smoothed(const PathProblem& problem, const Eigen::MatrixXd& path, Rng& rng) {
+  const Eigen::MatrixXd shorter = shortcut(problem, path, kShortcuts, rng);
+  const bool hasRotations = std::ranges::any_of(
+      problem.space.parts(), [](const SpacePart& part) { return part.kind == SpacePart::Kind::kQuaternion; });
+  if (hasRotations) return straightCurve(problem.space, shorter);
+  const SplineResult result = splineAlong(problem, shorter);
+  // Points of a straight way that was checked in others may turn out not to be valid.
+  return result.status == SplineStatus::kInvalid ? straightCurve(problem.space, shorter)
+                                                 : result.spline.curve();
+}
+
 }  // namespace
 
 Planner plannerOf(const std::string& name) {
@@ -92,10 +105,9 @@ FoundPath searchPath(const PathTask& task, const PathSearch& search, std::uint64
   for (const PathGraph& graph : found.explored) found.nodes += static_cast<int>(graph.nodes.cols());
   if (result.status != PathStatus::kFound) return found;
   found.plannedLength = result.length;
-  if (search.smooth)
-    result.path = roundCorners(problem, shortcut(problem, result.path, kShortcuts, rng), kRoundings);
+  found.curve = search.smooth ? smoothed(problem, result.path, rng) : straightCurve(space, result.path);
   found.smoothingTime = cpuTime() - planned;
-  found.path = unrolled(space, std::move(result.path));
+  found.path = sampled(found.curve, kChordTolerance);
   found.length = pathLength(space, found.path);
   found.clearance = pathClearance(task.model, task.contacts, space, found.path, kClearanceTolerance);
   return found;

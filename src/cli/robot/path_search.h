@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "collision/motion_clearance.h"
+#include "planning/path_curve.h"
 #include "planning/path_problem.h"
 #include "scene/model.h"
 
@@ -14,6 +15,9 @@ namespace rex::cli {
 
 /// Bounds of a clearance are as near together, metres, unless that takes too long: see pathClearance().
 inline constexpr double kClearanceTolerance = 1e-4;
+
+/// How far, in each number of a posture, straight ways between postures of a path are from its curve.
+inline constexpr double kChordTolerance = 5e-5;
 
 enum class Planner { kRrt, kRrtConnect, kRrtStar, kPrm, kPrmStar, kLazyPrm };
 
@@ -34,7 +38,7 @@ struct PathSearch {
   Planner planner = Planner::kRrtConnect;
   double step = 0.3;      ///< of trees, in the metric of the space
   int samples = 100'000;  ///< random configurations, at most; of a roadmap, all that may become nodes
-  bool smooth = true;     ///< shortcuts, then rounded corners
+  bool smooth = true;     ///< shortcuts, then a spline that cuts corners
 };
 
 /// Configurations, one per column, and which of them are joined.
@@ -46,8 +50,10 @@ struct PathGraph {
 /// What a search with one seed found.
 struct FoundPath {
   std::uint64_t seed = 0;
-  Eigen::MatrixXd
-      path{};         ///< one posture per column, angles that run on across whole turns; empty: none found
+  /// Postures along the curve, one per column, with angles that run on across whole turns; empty: none found.
+  /// The straight ways between them are no farther than kChordTolerance from the curve.
+  Eigen::MatrixXd path{};
+  PathCurve curve{};  ///< what was found, to be followed
   double length = 0;  ///< of the path, and of what the planner gave before it was smoothed
   double plannedLength = 0;
   ClearanceBounds clearance{};  ///< all along the path

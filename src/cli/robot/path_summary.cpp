@@ -13,7 +13,18 @@
 namespace rex::cli {
 namespace {
 
-std::string summaryOfOne(const PathTask& task, const PlanOptions& options, const FoundPath& found) {
+std::string timingTextOf(const PathTiming& timing, const PlanOptions& options) {
+  if (!timing.isFound()) return fmt::format("duration   none: {}\n", harmless(timing.result.message));
+  const TimingResult& result = timing.result;
+  const int stops = result.motion.curve().stops();
+  return fmt::format("duration   {:.3f} s, at least {:.3f} s by the velocities alone; {} on the way\n",
+                     result.motion.duration(), result.lowerBound,
+                     stops == 0 ? "no stop" : fmt::format("{} stop{}", stops, stops == 1 ? "" : "s")) +
+         fmt::format("limits     {}\n", limitsTextOf(timing, options));
+}
+
+std::string summaryOfOne(const PathTask& task, const PlanOptions& options, const FoundPath& found,
+                         const PathTiming& timing) {
   std::string text = fmt::format("{}: {}\n", titleOf(task, options, found),
                                  found.isFound() ? "found a path" : "no path within the budget of --samples");
   text += fmt::format("explored   {} nodes of {} samples, {} configurations checked\n", found.nodes,
@@ -21,8 +32,8 @@ std::string summaryOfOne(const PathTask& task, const PlanOptions& options, const
   text += fmt::format("CPU time   {:.1f} ms for planning", 1e3 * found.planningTime);
   if (!found.isFound()) return text;
   text += fmt::format(", {:.1f} ms for smoothing\n", 1e3 * found.smoothingTime);
-  text += fmt::format("length     {:.3f}, before smoothing {:.3f}; {:.1f} s at a speed of {:g}\n",
-                      found.length, found.plannedLength, found.length / options.speed, options.speed);
+  text += fmt::format("length     {:.3f}, before smoothing {:.3f}\n", found.length, found.plannedLength);
+  text += timingTextOf(timing, options);
   const auto& [atLeast, atMost] = found.clearance;
   if (!std::isfinite(atLeast)) return text + "clearance  nothing can collide";
   const bool isProven = atMost - atLeast <= 2 * kClearanceTolerance;
@@ -39,7 +50,8 @@ std::string row(const char* name, std::vector<double> values) {
   return fmt::format("\n{:22} {:>10.5g} {:>10.5g} {:>10.5g}", name, values.front(), median, values.back());
 }
 
-std::string summaryOfAll(const PathTask& task, const PlanOptions& options, const FoundPaths& found) {
+std::string summaryOfAll(const PathTask& task, const PlanOptions& options, const FoundPaths& found,
+                         const PathTiming& timing) {
   const auto valuesOf = [&](bool ofPaths, const std::function<double(const FoundPath&)>& value) {
     std::vector<double> values;
     for (const FoundPath& one : found.all)
@@ -59,8 +71,24 @@ std::string summaryOfAll(const PathTask& task, const PlanOptions& options, const
       row("smoothing, CPU ms", valuesOf(true, [](const FoundPath& one) { return 1e3 * one.smoothingTime; }));
   text += row("length", valuesOf(true, [](const FoundPath& one) { return one.length; }));
   text += row("clearance, m", valuesOf(true, [](const FoundPath& one) { return one.clearance.atLeast; }));
-  if (found.successes() > 0) text += fmt::format("\nshortest: seed {}", found.shortest().seed);
+  if (found.successes() == 0) return text;
+  text += fmt::format("\nshortest: seed {}\n", found.shortest().seed) + timingTextOf(timing, options);
+  text.pop_back();
   return text;
+}
+
+Json jsonOfTiming(const PathTiming& timing) {
+  const JointLimits& kept = timing.limits;
+  Json json{{"duration", timing.isFound() ? Json(timing.result.motion.duration()) : Json()},
+            {"least_duration", timing.isFound() ? Json(timing.result.lowerBound) : Json()},
+            {"stops", timing.isFound() ? Json(timing.result.motion.curve().stops()) : Json()},
+            {"message", timing.result.message},
+            {"velocity_limits", jsonOf(kept.limits.velocity)},
+            {"acceleration_limits", jsonOf(kept.limits.acceleration)},
+            {"assumed_velocities", kept.assumedVelocity}};
+  // Infinite ones are null.
+  json["effort_limits"] = kept.limits.effort.size() > 0 ? jsonOf(kept.limits.effort) : Json();
+  return json;
 }
 
 Json jsonOfPath(const FoundPath& found) {
@@ -78,13 +106,14 @@ Json jsonOfPath(const FoundPath& found) {
 
 }  // namespace
 
-std::string summaryOf(const PathTask& task, const PlanOptions& options, const FoundPaths& found) {
-  return found.all.size() == 1 ? summaryOfOne(task, options, found.shortest())
-                               : summaryOfAll(task, options, found);
+std::string summaryOf(const PathTask& task, const PlanOptions& options, const FoundPaths& found,
+                      const PathTiming& timing) {
+  return found.all.size() == 1 ? summaryOfOne(task, options, found.shortest(), timing)
+                               : summaryOfAll(task, options, found, timing);
 }
 
 std::string jsonSummaryOf(const PathTask& task, const PlanOptions& options, const FoundPaths& found,
-                          const std::vector<std::string>& files) {
+                          const PathTiming& timing, const std::vector<std::string>& files) {
   Json runs = Json::array();
   for (const FoundPath& one : found.all) runs.push_back(jsonOfPath(one));
   const bool isFound = found.successes() > 0;
@@ -95,6 +124,7 @@ std::string jsonSummaryOf(const PathTask& task, const PlanOptions& options, cons
                    {"found", found.successes()},
                    {"runs", std::move(runs)},
                    {"shortest", isFound ? Json(found.shortest().seed) : Json()},
+                   {"timing", isFound ? jsonOfTiming(timing) : Json()},
                    {"path", isFound ? jsonOfRows(found.shortest().path.transpose()) : Json()},
                    {"files", files}});
 }

@@ -32,6 +32,8 @@ PathSearch searchOf(const PlanOptions& options) {
   PathSearch search{.planner = plannerOf(options.planner), .smooth = !options.noSmooth};
   requireBetween("--margin", options.margin, 0, kQueryCutoff);
   requireBetween("--resolution", options.resolution, 1e-4, 10);
+  requireBetween("--velocity", options.velocity, 1e-6, 1e6);
+  requireBetween("--ramp", options.ramp, 1e-6, 1e6);
   requireBetween("--speed", options.speed, 1e-3, 1e3);
   requireBetween("--seeds", options.seeds, 1, 10'000);
   if (options.step && !growsTrees(search.planner))
@@ -91,19 +93,8 @@ bool isClear(const FoundPaths& found, double margin) {
   return false;
 }
 
-// The table has a row for each frame of a film.
-void requireFewPostures(double length, double speed) {
-  constexpr double kMostPostures = 1e6;
-  const double postures = length / speed * kFilmRate;
-  if (postures <= kMostPostures) return;
-  throw UsageError(
-      {.what = "--speed",
-       .found = fmt::format("{:g}: {:.3g} postures on a way of length {:g}", speed, postures, length),
-       .wanted = fmt::format("at least {:.3g}", length * kFilmRate / kMostPostures)});
-}
-
-// Looks for a way of a robot past all obstacles; writes the path, what was explored, a film and a replay.
-// kBelow if there is no path, or one that is not clear.
+// Looks for a way of a robot past all obstacles, and the fastest motion along it; writes the motion, what was
+// explored, a film and a replay. kBelow if there is no path, one that is not clear, or no motion along it.
 ExitCode planPath(const Project& project, const PlanOptions& options) {
   RenderOptions filmOptions = options.film;
   filmOptions.out = options.out / "path.mp4";
@@ -114,19 +105,21 @@ ExitCode planPath(const Project& project, const PlanOptions& options) {
   if (!options.noFilm) requireFilmable(model);
   const BodyId body = drawnBody(model, options.body);
   const PathTask task = taskOf(std::move(model), options);
-  requireFewPostures(task.problem.space.distance(task.problem.start, task.problem.goal), options.speed);
   makeResultFolder(options.out, {"tree.png", "path.csv", "path.mp4", "path.html"}, "path");
 
   const FoundPaths found = asWrongUse([&] { return searchPaths(task, search, options.seed, options.seeds); });
-  requireFewPostures(found.shortest().length, options.speed);
-  const std::vector<std::string> files = writePathFiles(task, options, pictures, body, found.shortest());
+  const bool isFound = found.successes() > 0;
+  const PathTiming timing = isFound ? timingOf(task, options, found.shortest()) : PathTiming{};
+  if (const std::string assumed = assumptionsOf(timing, options); !assumed.empty()) note(assumed);
+  const std::vector<std::string> files =
+      writePathFiles(task, options, pictures, body, found.shortest(), timing);
   if (options.json) {
-    say(jsonSummaryOf(task, options, found, files));
+    say(jsonSummaryOf(task, options, found, timing, files));
   } else {
-    say(summaryOf(task, options, found));
+    say(summaryOf(task, options, found, timing));
     for (const std::string& file : files) say(file);
   }
-  return isClear(found, options.margin) && found.successes() > 0 ? ExitCode::kFull : ExitCode::kBelow;
+  return isClear(found, options.margin) && timing.isFound() ? ExitCode::kFull : ExitCode::kBelow;
 }
 
 }  // namespace
@@ -138,8 +131,9 @@ void addPlan(CLI::App* command, Action& action) {
       "  scripts/rex plan maze --goal 3,0,0 --planner rrt-star --speed 0.5 -o rooms\n"
       "  scripts/rex plan board --goal 'stem>arm1=1.5' --planner lazy-prm --seeds 20 -o compare\n\n"
       "Lengths are those of postures as vectors: root of the sum of squares of rad and m. Turning joints\n"
-      "without limits turn the shorter way round. DIR gets path.csv (time and joints; `rex render --motion`\n"
-      "reads it), tree.png (what was explored), path.mp4 and path.html (a replay).\n"
+      "without limits turn the shorter way round. The motion is the fastest within the limits of the scene.\n"
+      "DIR gets path.csv (time and joints; `rex render --motion` reads it), tree.png (what was explored),\n"
+      "path.mp4 and path.html (a replay).\n"
       "Exit codes: 0 found a path, 1 found none, or one that is not clear, 64 wrong use.");
   addSceneFile(command, "SCENE", options->scene.file);
   command->add_option("-o,--out", options->out, "folder for what is written")->type_name("DIR")->required();
@@ -163,10 +157,19 @@ void addPlan(CLI::App* command, Action& action) {
   command->add_option("--seeds", options->seeds, "searches with so many seeds, and prints a table")
       ->type_name("N");
   CLI::Option* smooth = command->add_flag("--smooth");
-  smooth->description("shortcuts, then rounded corners (default)");
-  command->add_flag("--no-smooth", options->noSmooth, "the path as the planner finds it");
-  command->add_option("--speed", options->speed, "along the path, length per second (default: 1)")
+  smooth->description("shortcuts, then a spline that cuts corners (default)");
+  command->add_flag("--no-smooth", options->noSmooth,
+                    "the path as the planner finds it, with a stop at each corner");
+  command
+      ->add_option("--velocity", options->velocity,
+                   "limit of joints that have none in the scene, rad/s or m/s (default: 1)")
       ->type_name("X");
+  command
+      ->add_option("--ramp", options->ramp,
+                   "in which joints come from rest to their limits of velocity (default: 0.5)")
+      ->type_name("S");
+  command->add_flag("--effort", options->effort, "keep to the efforts of the scene, too (no friction)");
+  addFilmSpeed(command, options->speed);
   command->add_option("--body", options->body, "whose ways are drawn (default: that which most joints move)")
       ->type_name("NAME");
   command->add_flag("--no-film", options->noFilm, "no path.mp4 and path.html");

@@ -22,7 +22,10 @@ struct PlanOptions {
   std::uint64_t seed = 0;
   int seeds = 1;  ///< searches, each with the next seed
   bool noSmooth = false;
-  double speed = 1;      ///< of the motion along the path, in the metric of the space per second
+  double velocity = 1;   ///< of joints without a limit in the scene, rad/s or m/s
+  double ramp = 0.5;     ///< seconds in which each joint comes from rest to its limit of velocity
+  bool effort = false;   ///< keep to the efforts of joints in the scene
+  double speed = 1;      ///< of the film; 1: real time
   std::string body{};    ///< whose ways are drawn; empty: farthestBody()
   RenderOptions film{};  ///< cameras, size and gl of the pictures
   bool noFilm = false;

@@ -55,6 +55,11 @@ void addFilmOptions(CLI::App* command, RenderOptions& film) {
   command->add_option("--size", film.size, "pixels of the film (default: 640x480)")->type_name("WxH");
 }
 
+void addFilmSpeed(CLI::App* command, double& speed) {
+  command->add_option("--speed", speed, "of the film, 2: twice as fast as the motion (default: 1, real time)")
+      ->type_name("X");
+}
+
 void addPosture(CLI::App* command, std::string& posture) {
   command->add_option("--q", posture, "all numbers, joint=number,..., 0, or file (default: file)")
       ->type_name("POSTURE");

@@ -20,6 +20,8 @@ void addJson(CLI::App* command, bool& json);
 void addRenderOptions(CLI::App* command, RenderOptions& options);
 /// The same of the film that a command writes besides.
 void addFilmOptions(CLI::App* command, RenderOptions& film);
+/// `--speed` of a film of a motion that has times.
+void addFilmSpeed(CLI::App* command, double& speed);
 void addGl(CLI::App* command, std::string& gl);
 
 }  // namespace rex::cli

@@ -16,6 +16,7 @@
 #include "cli/json_internal.h"
 #include "cli/option_value_internal.h"
 #include "cli/robot/film_file.h"
+#include "cli/robot/motion_files.h"
 #include "cli/robot/robot_options_internal.h"
 #include "cli/robot/robot_room_internal.h"
 #include "cli/robot/simulation.h"
@@ -40,6 +41,7 @@ struct SimulateOptions {
   double noise = 0;               ///< see StepperOptions
   std::optional<double> floor{};  ///< its height, metres; empty: none but what the scene has
   std::uint64_t seed = 0;
+  double speed = 1;  ///< of the film; 1: real time
   bool noFilm = false;
   RenderOptions film{};               ///< cameras, size and gl of the film
   std::vector<std::string> traces{};  ///< bodies whose way is drawn
@@ -72,6 +74,7 @@ SimulationPlan planOf(const Model& model, const SimulateOptions& options) {
   requireBetween("--tau", options.tau, 1e-6, 1);
   requireBetween("--seconds", options.seconds, 1e-6, 120);
   requireBetween("--noise", options.noise, 0, 1e6);
+  requireBetween("--speed", options.speed, 1e-3, 1e3);
   requireBetween("--seconds / --tau, steps", options.seconds / options.tau, 1, kMostSteps);
   plan.steps = static_cast<int>(std::lround(options.seconds / options.tau));
   for (const std::string& body : options.traces) asWrongUse([&] { return model.body(body); }, "--trace: ");
@@ -133,7 +136,8 @@ std::string titleOf(const Model& model, const SimulateOptions& options) {
 
 fs::path writeMotion(const Model& model, const std::vector<Moment>& moments, const SimulateOptions& options,
                      const RenderPlan& film) {
-  const Motion motion = motionOf(moments, options.tau, kFilmRate);
+  const double speed = filmSpeed(options.speed, static_cast<double>(moments.size() - 1) * options.tau);
+  const Motion motion = motionOf(moments, options.tau, kFilmRate / speed);
   std::vector<std::size_t> shown(motion.postures.size());
   std::iota(shown.begin(), shown.end(), std::size_t{0});
   const MotionPictures pictures(model, motion, shown, options.traces, titleOf(model, options));
@@ -256,6 +260,7 @@ void addSimulate(CLI::App* command, Action& action) {
   addSeed(command, options->seed, "of the noise (default: 0)");
   command->add_option("--floor", options->floor, "a floor at that height, metres (bullet; default: none)")
       ->type_name("Z");
+  addFilmSpeed(command, options->speed);
   command->add_flag("--no-film", options->noFilm, "no simulate.mp4");
   addFilmOptions(command, options->film);
   command->add_option("--trace", options->traces, "whose way is drawn as a line")

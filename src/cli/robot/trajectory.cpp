@@ -39,6 +39,7 @@ struct TrajectoryOptions {
   double margin = 0.02;  ///< metres between all pairs of shapes
   int steps = 100;
   double seconds = 2;  ///< of the motion
+  double speed = 1;    ///< of the film; 1: real time
   std::string method = "augmented-lagrangian";
   RenderOptions film{};  ///< cameras, size and gl of the pictures
   bool noFilm = false;
@@ -99,11 +100,11 @@ Motion motionOf(const FoundTrajectory& found) {
   return motion;
 }
 
-// What lies on the straight ways between steps, at the rate of films.
-Motion filmOf(const FoundTrajectory& found) {
+// What lies on the straight ways between steps, so many postures per second.
+Motion filmOf(const FoundTrajectory& found, double rate) {
   Motion motion;
   const double end = static_cast<double>(found.path.cols() - 1) * found.tau;
-  const int frames = std::max(1, static_cast<int>(std::lround(end * kFilmRate)));
+  const int frames = std::max(1, static_cast<int>(std::lround(end * rate)));
   for (int i = 0; i <= frames; ++i) {
     const double time = end * i / frames, step = time / found.tau;
     const auto k = std::min(static_cast<Eigen::Index>(step), found.path.cols() - 2);
@@ -157,9 +158,10 @@ std::vector<std::string> writeFiles(const TrajectoryTask& task, const Trajectory
   writeFigure(costFigure(found), files.front());
   writeTextFile(files.back(), csvOf(task.model, motionOf(found)));
   if (!options.noFilm) {
-    const Motion film = filmOf(found);
+    const double speed = filmSpeed(options.speed, task.seconds);
+    const Motion film = filmOf(found, kFilmRate / speed);
     for (const fs::path& file : writeFilmAndReplay(task.model, film, task.body, replayOf(task, found, film),
-                                                   pictures, options.out / "trajectory"))
+                                                   pictures, options.out / "trajectory", speed))
       files.push_back(file);
   }
   std::vector<std::string> names;
@@ -206,6 +208,7 @@ void requireSensible(const TrajectoryOptions& options) {
   requireBetween("--margin", options.margin, 1e-4, 1);
   requireBetween("--steps", options.steps, 3, 10'000);
   requireBetween("--seconds", options.seconds, 1e-3, kLongestFilm);
+  requireBetween("--speed", options.speed, 1e-3, 1e3);
 }
 
 // Moves a body to a point with little acceleration; writes the motion, its costs, a film and a replay.
@@ -265,6 +268,7 @@ void addTrajectory(CLI::App* command, Action& action) {
       ->add_option("--method", options->method,
                    "augmented-lagrangian, penalty, barrier (default: augmented-lagrangian)")
       ->type_name("NAME");
+  addFilmSpeed(command, options->speed);
   command->add_flag("--no-film", options->noFilm, "no trajectory.mp4 and trajectory.html");
   addFilmOptions(command, options->film);
   addJson(command, options->json);

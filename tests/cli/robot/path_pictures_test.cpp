@@ -8,6 +8,7 @@
 #include "collision/contacts.h"
 #include "kinematics/forward_kinematics.h"
 #include "planning/robot_problem.h"
+#include "planning/time_parametrization.h"
 #include "scene/scene_file.h"
 #include "support/paths.h"
 
@@ -78,6 +79,26 @@ TEST_F(BoardPictures, PlotJointsAndClearance) {
     nearest = std::min(nearest, proxy.proximity.distance);
   EXPECT_DOUBLE_EQ(clearance.series[0].y[1], nearest);
   EXPECT_EQ(clearance.horizontalLines[0].at, 0.01);
+}
+
+TEST_F(BoardPictures, PlotSpeedsAsSharesOfTheirLimits) {
+  const MotionLimits limits = jointLimits(model, {.velocity = 2}).limits;
+  const TimedPath timed = parametrizeTime(found.curve, limits).motion;
+  const Figure speeds = speedsFigure(timed, limits);
+  ASSERT_EQ(speeds.series.size(), 3u);
+  EXPECT_EQ(speeds.series[1].label, "arm1>arm2");
+  EXPECT_EQ(speeds.horizontalLines.at(0).at, 1);
+  double most = 0;
+  for (const Series& series : speeds.series) {
+    EXPECT_EQ(series.x.back(), timed.duration());
+    EXPECT_EQ(series.y.front(), 0);
+    EXPECT_NEAR(series.y.back(), 0, 1e-12);
+    most = std::max(most, *std::ranges::max_element(series.y));
+  }
+  EXPECT_GT(most, .95);
+  EXPECT_LE(most, 1.01);
+  const std::size_t middle = speeds.series[0].x.size() / 2;
+  EXPECT_DOUBLE_EQ(speeds.series[2].y[middle], std::abs(timed.at(speeds.series[2].x[middle]).v[2]) / 2);
 }
 
 TEST(FarthestBody, HangsOnMostJoints) {

@@ -1,8 +1,10 @@
 // `rex plan` as a user meets it.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -12,6 +14,7 @@
 #include "render/png.h"
 #include "scene/scene_file.h"
 #include "support/file_text.h"
+#include "support/film_length.h"
 #include "support/needs_gnuplot.h"
 #include "support/needs_osmesa.h"
 #include "support/paths.h"
@@ -69,9 +72,14 @@ TEST_F(PlanCommand, WritesPathTreeFilmAndReplay) {
   EXPECT_GT(std::count(table.begin(), table.end(), '\n'), 20);
   EXPECT_EQ(readPng(in("out/tree.png")).width, 64);
   EXPECT_GT(fs::file_size(in("out/path.mp4")), 500u);
+  const double seconds = std::stod(table.substr(table.rfind('\n', table.size() - 2) + 1));
+  EXPECT_NEAR(replaySeconds(in("out/path.html")), seconds / 4, 1e-4);
+  EXPECT_EQ(framesOf(in("out/path.mp4")), fmt::format("{},30/1", std::ceil(30 * seconds / 4) + 1));
   const std::string page = fileText(in("out/path.html"));
   EXPECT_THAT(page, HasSubstr("board, rrt-connect, seed 0"));
   EXPECT_THAT(page, HasSubstr("configurations checked"));
+  EXPECT_THAT(page, HasSubstr("alt=\"speeds\""));
+  EXPECT_THAT(page, HasSubstr("<th scope=\"row\">speed of the replay</th><td>4</td>"));
   EXPECT_EQ(rex({"render", "board", "--motion", "out/path.csv", "--size", "64x48", "-o", "a.png"}).exitCode,
             0);
 }
@@ -237,6 +245,8 @@ TEST_F(PlanCommand, RefusesOptionsThatMakeNoSense) {
   expectRefusalOnBoard({"--seeds", "0"}, "--seeds: found 0, wanted 1 to 10000");
   expectRefusalOnBoard({"--seed", "-1"}, "--seed: found -1, wanted a whole number of at most 18 digits");
   expectRefusalOnBoard({"--speed", "0"}, "--speed: found 0, wanted 0.001 to 1000");
+  expectRefusalOnBoard({"--velocity", "0"}, "--velocity: found 0, wanted 1e-06 to 1e+06");
+  expectRefusalOnBoard({"--ramp", "-1"}, "--ramp: found -1, wanted 1e-06 to 1e+06");
   expectRefusalOnBoard({"--body", "stme"}, "--body: scene 'board' has no body 'stme' (did you mean 'stem'?)");
   expectRefusalOnBoard({"--body", "stem"}, "--body: found 'stem', which no joint moves");
   expectRefusalOnBoard({"--camera", "frnt"}, "did you mean 'front'?");
@@ -294,12 +304,81 @@ TEST_F(PlanCommand, SaysThatAClearanceIsNotProven) {
   EXPECT_THAT(flat(result.error), Not(HasSubstr("overlap")));
 }
 
-TEST_F(PlanCommand, RefusesPathsOfTooManyPostures) {
+TEST_F(PlanCommand, WritesAMillionPosturesAtMost) {
+  REX_NEEDS_OSMESA();
   const fs::path file = scene(
       "body rail {} body ball { type=1 size=[0 0 0 .05] contact }\n"
       "joint slide (rail ball) { type=transX limits=[0 100000] }\n");
-  expectRefusal({file.string(), "--goal", "50000", "--speed", "0.001", "--step", "1000"},
-                "--speed: found 0.001: 1.5e+09 postures on a way of length 50000, wanted at least 1.5");
+  ASSERT_EQ(plan({file.string(), "--goal", "50000", "--step", "1000", "--no-film", "-o", "out"}).exitCode, 0);
+  const std::string table = fileText(in("out/path.csv"));
+  const auto rows = std::count(table.begin(), table.end(), '\n');
+  EXPECT_GT(rows, 999'000);
+  EXPECT_LT(rows, 1'000'010);
+}
+
+// The trapezoid of a metre at 1 m/s, and at the limits that are asked for.
+TEST_F(PlanCommand, IsAsFastAsLimitsAllow) {
+  REX_NEEDS_OSMESA();
+  const fs::path file = scene(
+      "body rail {} body ball { type=1 size=[0 0 0 .05] contact mass=2 }\n"
+      "joint slide (rail ball) { type=transZ limits=[0 10] }\n");
+  const auto planned = [&](std::vector<std::string> options) {
+    options.insert(options.begin(),
+                   {file.string(), "--goal", "1", "--no-film", "--size", "64x48", "-o", "out"});
+    return plan(options);
+  };
+  const ProcessResult result = planned({});
+  ASSERT_EQ(result.exitCode, 0) << result.error;
+  EXPECT_THAT(result.output,
+              HasSubstr("\nduration   1.500 s, at least 1.000 s by the velocities alone; no stop on the way\n"
+                        "limits     velocities 1 rad/s or m/s; accelerations that reach them in 0.5 s\n"));
+  EXPECT_THAT(flat(result.error),
+              HasSubstr("no limit of velocity for 'slide': 1 rad/s or m/s is taken, see --velocity"));
+  const auto timing = [&](const std::vector<std::string>& options) {
+    return nlohmann::json::parse(planned(options).output).at("timing");
+  };
+  const nlohmann::json faster = timing({"--velocity", "4", "--ramp", "0.125", "--json"});
+  EXPECT_NEAR(faster.at("duration"), .25 + .125, 1e-3);
+  EXPECT_NEAR(faster.at("least_duration"), .25, 1e-9);
+  EXPECT_EQ(faster.at("stops"), 0);
+  EXPECT_EQ(faster.at("velocity_limits"), nlohmann::json({4.}));
+  EXPECT_EQ(faster.at("acceleration_limits"), nlohmann::json({32.}));
+  EXPECT_EQ(faster.at("assumed_velocities"), nlohmann::json({"slide"}));
+  EXPECT_TRUE(faster.at("effort_limits").is_null());
+  EXPECT_EQ(timing({"--effort", "--json"}).at("effort_limits"), nlohmann::json({nullptr}));
+}
+
+TEST_F(PlanCommand, SaysThatEffortsDoNotSuffice) {
+  REX_NEEDS_OSMESA();
+  std::ofstream(in("lift.urdf")) << R"(<robot name="lift"><link name="post"/><link name="load">
+    <inertial><mass value="2"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>
+    <collision><geometry><sphere radius="0.1"/></geometry></collision></link>
+    <joint name="up" type="prismatic"><parent link="post"/><child link="load"/><axis xyz="0 0 1"/>
+    <limit lower="0" upper="2" effort="19" velocity="3"/></joint></robot>)";
+  const auto planned = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"lift.urdf", "--goal", "1", "--no-film", "-o", "out"});
+    return plan(options);
+  };
+  const ProcessResult weak = planned({"--effort"});
+  EXPECT_EQ(weak.exitCode, 1) << weak.error;
+  EXPECT_THAT(weak.output, HasSubstr("duration   none: no motion along the path: at s = 0 of "));
+  EXPECT_THAT(weak.output, HasSubstr("the effort of 'up' is 19.62 even at rest, limit 19"));
+  EXPECT_FALSE(fs::exists(in("out/path.csv")));
+  const ProcessResult any = planned({});
+  EXPECT_EQ(any.exitCode, 0) << any.error;
+  EXPECT_THAT(any.output, HasSubstr("limits     velocities of the scene; accelerations"));
+  EXPECT_THAT(any.error, Not(HasSubstr("no limit of velocity")));
+}
+
+TEST_F(PlanCommand, StopsAtCornersThatAreNotSmoothed) {
+  REX_NEEDS_OSMESA();
+  const auto timing = [&](const char* smooth) {
+    return nlohmann::json::parse(planBoard({smooth, "--json"}).output).at("timing");
+  };
+  const nlohmann::json smooth = timing("--smooth"), rough = timing("--no-smooth");
+  EXPECT_GT(rough.at("stops"), 2);
+  EXPECT_LT(smooth.at("stops"), rough.at("stops"));
+  EXPECT_LT(smooth.at("duration"), .7 * rough.at("duration").get<double>());
 }
 
 TEST_F(PlanCommand, StaysWhereItIs) {

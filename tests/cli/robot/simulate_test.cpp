@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,6 +11,7 @@
 #include "cli/rex_command.h"
 #include "render/png.h"
 #include "support/file_text.h"
+#include "support/film_length.h"
 #include "support/needs_gnuplot.h"
 #include "support/needs_osmesa.h"
 
@@ -61,6 +63,18 @@ TEST_F(SimulateCommand, MakesAFilm) {
   EXPECT_GT(fs::file_size(in("out/simulate.mp4")), 500u);
 }
 
+TEST_F(SimulateCommand, FilmsAsFastAsAskedFor) {
+  REX_NEEDS_OSMESA();
+  REX_NEEDS_GNUPLOT();
+  if (!runProcess({"ffmpeg", "-version"}).ok()) GTEST_SKIP() << "needs the package ffmpeg";
+  for (const auto& [speed, frames] : {std::pair("1", "7,30/1"), {"0.5", "13,30/1"}, {"2", "4,30/1"}}) {
+    ASSERT_EQ(
+        simulate({"pegArm", "--seconds", "0.2", "--speed", speed, "--size", "64x48", "-o", "out"}).exitCode,
+        0);
+    EXPECT_EQ(framesOf(in("out/simulate.mp4")), frames) << speed;
+  }
+}
+
 TEST_F(SimulateCommand, AnswersPrograms) {
   REX_NEEDS_GNUPLOT();
   const auto answer = [&](const std::string& engine) {
@@ -104,6 +118,7 @@ TEST_F(SimulateCommand, RefusesWhatItCannotSimulate) {
   expectRefusal({"--seconds", "0.01", "--tau", "0.1"},
                 "--seconds / --tau, steps: found 0.1, wanted 1 to 200000");
   expectRefusal({"--seconds", "100", "--tau", "1e-5"}, "--seconds / --tau, steps: found 1e+07");
+  expectRefusal({"--speed", "1001"}, "--speed: found 1001, wanted 0.001 to 1000");
   expectRefusal({"--noise", "-1"}, "--noise: found -1, wanted 0 to 1e+06");
   expectRefusal({"--engine", "rk5"}, "--engine: found 'rk5', wanted rk4, beeman, leapfrog");
   expectRefusal({"--engine", "bulet"}, "did you mean 'bullet'?");

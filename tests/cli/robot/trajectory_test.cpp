@@ -12,6 +12,7 @@
 #include "render/png.h"
 #include "scene/scene_file.h"
 #include "support/file_text.h"
+#include "support/film_length.h"
 #include "support/needs_gnuplot.h"
 #include "support/needs_osmesa.h"
 #include "support/paths.h"
@@ -66,6 +67,22 @@ TEST_F(TrajectoryCommand, WritesMotionCostsFilmAndReplay) {
   EXPECT_EQ(
       rex({"render", "arm7", "--motion", "out/trajectory.csv", "--size", "64x48", "-o", "a.png"}).exitCode,
       0);
+}
+
+TEST_F(TrajectoryCommand, PlaysInRealTimeOrAsFastAsAskedFor) {
+  REX_NEEDS_OSMESA();
+  REX_NEEDS_GNUPLOT();
+  if (!runProcess({"ffmpeg", "-version"}).ok()) GTEST_SKIP() << "needs the package ffmpeg";
+  const std::vector<std::string> task{"arm7",   "--goal", "arm7:0.5,0.2,0.6", "--seconds", "1",
+                                      "--size", "64x48"};
+  ASSERT_EQ(trajectory(task).exitCode, 0);
+  EXPECT_EQ(framesOf(in("out/trajectory.mp4")), "31,30/1");
+  EXPECT_NEAR(replaySeconds(in("out/trajectory.html")), 1, 1e-5);
+  std::vector<std::string> slowly = task;
+  slowly.insert(slowly.end(), {"--speed", "0.5"});
+  ASSERT_EQ(trajectory(slowly).exitCode, 0);
+  EXPECT_EQ(framesOf(in("out/trajectory.mp4")), "61,30/1");
+  EXPECT_NEAR(replaySeconds(in("out/trajectory.html")), 2, 1e-5);
 }
 
 TEST_F(TrajectoryCommand, BringsTheBodyToTheGoalAtRestWithEachMethod) {
@@ -128,6 +145,7 @@ TEST_F(TrajectoryCommand, RefusesWrongUse) {
   expectRefusal({"board", "--goal", "eff:0,0,0", "--steps", "2"}, "--steps: found 2, wanted 3 to 10000");
   expectRefusal({"board", "--goal", "eff:0,0,0", "--seconds", "0"}, "--seconds");
   expectRefusal({"board", "--goal", "eff:0,0,0", "--margin", "0"}, "--margin");
+  expectRefusal({"board", "--goal", "eff:0,0,0", "--speed", "0"}, "--speed: found 0, wanted 0.001 to 1000");
   expectRefusal({"board", "--goal", "eff:0,0,0", "--start", "1,2"}, "--start");
   expectRefusal({"board", "--goal", "eff:0,0,0", "--avoid", "--margin", "1"}, "wanted all shapes 1 m apart");
   std::ofstream(in("ball.ors"))
