@@ -78,4 +78,6 @@ def robot():
     hand.link("thumb_base", 0.015, [Cylinder(0.008, 0.026, (0, 0, 0.013))],
               [Visual("pin", "graphite", scale=1.2), Visual("middle", "graphite", scale=0.95)])
     finger(hand, "thumb", 0.026, 1.05, 0.7)
+    for name in ("index", "middle", "ring", "little", "thumb"):
+        hand.overlap("palm", f"{name}_proximal")
     return hand

@@ -125,11 +125,13 @@ def robot():
     man.link("pelvis", 6.5, [Box(0.14, 0.22, 0.09, (0, 0, 0.02))], [Visual("pelvis", "white")])
     for side, sign in (("left", 1), ("right", -1)):
         leg(man, side, sign)
+        man.overlap(f"{side}_hip_bracket", f"{side}_thigh")
     man.joint("waist_yaw", "revolute", "pelvis", "torso", (0, 0, 0.08), axis=(0, 0, 1), limits=(-1.2, 1.2), effort=120,
               velocity=6, damping=0.5, friction=0.2)
     man.link("torso", 14, [Box(0.18, 0.28, 0.38, (0, 0, 0.22))], [Visual("torso")])
     for side, sign in (("left", 1), ("right", -1)):
         arm(man, side, sign)
+        man.overlap(f"{side}_shoulder_bracket", f"{side}_upper_arm")
     man.joint("neck_yaw", "revolute", "torso", "neck", (0, 0, 0.42), axis=(0, 0, 1), limits=(-1.4, 1.4), effort=10,
               velocity=6, damping=0.1, friction=0.05)
     man.link("neck", 0.5, [Cylinder(0.035, 0.09, (0, 0, 0.02))], [Visual("neck", "graphite")])

@@ -104,7 +104,7 @@ class Robot:
 
     def __init__(self, name, about, colors, folder="meshes/"):
         self.name, self.about, self.colors, self.folder = name, about, colors, folder
-        self.meshes, self.lines = {}, []
+        self.meshes, self.lines, self.overlaps = {}, [], []
 
     def mesh(self, name, *solids):
         self.meshes[f"meshes/{name}.stl"] = mesh_file.stl(solids)
@@ -159,6 +159,15 @@ class Robot:
             content.append(f'<mimic joint="{mimic[0]}" multiplier="{text(mimic[1])}" offset="{text(mimic[2])}"/>')
         self.part(f'joint name="{name}" type="{kind}"', content)
 
+    def overlap(self, link, other):
+        """Links around one joint of several axes, whose colliding shapes overlap where the links do not."""
+        self.overlaps.append((link, other))
+
+    def srdf(self):
+        pairs = [f'  <disable_collisions link1="{a}" link2="{b}" reason="User"/>' for a, b in self.overlaps]
+        return "\n".join(['<?xml version="1.0"?>', "<!-- scripts/make-meshes writes this file. -->",
+                          f'<robot name="{self.name}">', *pairs, "</robot>", ""])
+
     def files(self):
         """What belongs into the folder of the robot: path to bytes."""
         head = ['<?xml version="1.0"?>'] + [f"<!-- {line} -->" for line in self.about]
@@ -166,4 +175,5 @@ class Robot:
         for name, (red, green, blue) in self.colors.items():
             head.append(f'  <material name="{name}"><color rgba="{text(red, green, blue, 1)}"/></material>')
         urdf = "\n".join(head + self.lines + ["</robot>", ""])
-        return {f"{self.name}.urdf": urdf.encode(), **self.meshes}
+        choices = {f"{self.name}.srdf": self.srdf().encode()} if self.overlaps else {}
+        return {f"{self.name}.urdf": urdf.encode(), **choices, **self.meshes}

@@ -7,47 +7,11 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "collision/collision_pairs.h"
 #include "collision/contact_data_internal.h"
 
 namespace rex {
 namespace {
-
-// A body and its next ancestors, the world left out: it is nobody's kin.
-std::vector<BodyId> kin(const Model& model, BodyId body) {
-  constexpr std::size_t kGenerations = 4;
-  std::vector<BodyId> line;
-  for (BodyId at = body; at != kWorld && line.size() <= kGenerations; at = model[at].parent)
-    line.push_back(at);
-  return line;
-}
-
-bool hasJointTo(const Model& model, BodyId child, BodyId parent) {
-  if (model[child].parent != parent || model[child].joint == kNoJoint) return false;
-  return parent != kWorld || model[model[child].joint].type != JointType::kFree;
-}
-
-bool mayCollide(const Model& model, BodyId a, BodyId b) {
-  if (a == b || hasJointTo(model, a, b) || hasJointTo(model, b, a)) return false;
-  const std::vector<BodyId> kinOfA = kin(model, a), kinOfB = kin(model, b);
-  return std::find_first_of(kinOfA.begin(), kinOfA.end(), kinOfB.begin(), kinOfB.end()) == kinOfA.end();
-}
-
-std::vector<ShapePair> pairsInContact(const Model& model) {
-  std::vector<ShapePair> pairs;
-  std::vector<int> touching;
-  for (std::size_t i = 0; i < model.shapes().size(); ++i) {
-    const ModelShape& shape = model.shapes()[i];
-    if (shape.contact && shape.shape.type != ShapeType::kMarker) touching.push_back(static_cast<int>(i));
-  }
-  const auto bodyOf = [&](int i) { return model.shapes()[static_cast<std::size_t>(i)].body; };
-  auto next = touching.begin();  // behind the shapes of a's body, which stand together
-  for (const int a : touching) {
-    while (next != touching.end() && bodyOf(*next) == bodyOf(a)) ++next;
-    for (auto b = next; b != touching.end(); ++b)
-      if (mayCollide(model, bodyOf(a), bodyOf(*b))) pairs.push_back({a, *b});
-  }
-  return pairs;
-}
 
 void requirePair(const Model& model, const ShapePair& pair) {
   const int count = static_cast<int>(model.shapes().size());
@@ -93,7 +57,7 @@ void addPair(ContactModel::Data& data, int row, int a, int b) {
 
 }  // namespace
 
-ContactModel::ContactModel(const Model& model) : ContactModel(model, pairsInContact(model)) {}
+ContactModel::ContactModel(const Model& model) : ContactModel(model, collidingPairs(model)) {}
 
 ContactModel::ContactModel(const Model& model, std::span<const ShapePair> pairs) {
   auto data = std::make_shared<Data>();

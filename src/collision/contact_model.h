@@ -17,10 +17,8 @@ struct ShapePair {
 /// What of a model may collide, sorted for fast queries. It copies what it needs; copies share it.
 class ContactModel {
  public:
-  /// All pairs of contact shapes except: of one body; of directly linked bodies; of bodies that are both
-  /// within four generations below a common ancestor, itself included. The world is nobody's ancestor, and
-  /// what a free joint links to it may collide with it. Markers never collide. Throws Error for a shape in
-  /// contact whose mesh is not loaded.
+  /// The pairs of shapes that may collide, see collidingPairs(). Markers never collide. Throws Error for one
+  /// whose mesh is not loaded.
   explicit ContactModel(const Model& model);
   /// The given pairs. Throws Error for a pair of no shapes, a marker, and a mesh that is not loaded.
   ContactModel(const Model& model, std::span<const ShapePair> pairs);

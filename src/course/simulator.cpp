@@ -9,9 +9,11 @@
 
 #include <fmt/format.h>
 
+#include "base/lower_case.h"
 #include "base/require_finite.h"
 #include "base/require_positive.h"
 #include "base/rng.h"
+#include "collision/collision_pairs.h"
 #include "collision/contacts.h"
 #include "collision/proxy_report.h"
 #include "course/contact_world_internal.h"
@@ -27,6 +29,8 @@
 #include "scene/ors_writer.h"
 #include "scene/scene_edit.h"
 #include "scene/scene_file.h"
+#include "scene/srdf_reader.h"
+#include "scene/srdf_writer.h"
 
 namespace rex {
 namespace {
@@ -40,6 +44,20 @@ std::string selfContainedText(const std::filesystem::path& file, const SceneSpec
   } catch (const Error&) {
     return writeOrs(spec);
   }
+}
+
+// The scene of a description. Its text may come from another process, whose files are none of ours: meshes
+// stay away.
+SceneSpec parsed(const SimulatorDescription& description) {
+  SceneFile scene = parseScene(description.sceneText, description.sceneName);
+  if (!description.srdf.empty()) parseSrdf(description.srdf, description.sceneName, scene);
+  return std::move(scene.spec);
+}
+
+// The choices of an SRDF; .ors text has its own.
+std::string srdfOf(const std::filesystem::path& file, const SceneSpec& spec) {
+  if (spec.collisionChoices.empty() || lowerCase(file.extension().string()) == ".ors") return {};
+  return writeSrdf(file.stem().string(), spec.collisionChoices);
 }
 
 // What may collide, or why that cannot be told: it matters only to those who ask.
@@ -62,7 +80,7 @@ void requireNumbers(const char* method, const char* what, const Eigen::VectorXd&
 }  // namespace
 
 struct Simulator::Parts {
-  std::string sceneName, sceneText;
+  std::string sceneName, sceneText, srdf;
   std::shared_ptr<const SceneSpec> spec;  // never changes; copies of a simulator share it
   Model model;
   Contacts contacts;
@@ -103,21 +121,21 @@ Simulator::Simulator(const std::string& sceneFile) {
     if (one.severity == Severity::kWarning) std::cerr << toString(one) << "\n";
   const bool hasEnding = std::filesystem::path(sceneFile).has_extension();
   scene.spec.name = hasEnding ? sceneFile : path.filename().string();
-  const SimulatorDescription description{
-      .sceneName = scene.spec.name, .sceneText = selfContainedText(path, scene.spec), .q = {}};
+  const SimulatorDescription description{.sceneName = scene.spec.name,
+                                         .sceneText = selfContainedText(path, scene.spec),
+                                         .q = {},
+                                         .srdf = srdfOf(path, scene.spec)};
   start(description, std::move(scene.spec));
+  for (const Diagnostic& one : collisionWarnings(parts_->model)) std::cerr << toString(one) << "\n";
 }
 
-// The text may come from another process, whose files are none of ours: meshes stay away.
-Simulator::Simulator(const SimulatorDescription& description) {
-  start(description, parseScene(description.sceneText, description.sceneName).spec);
-}
+Simulator::Simulator(const SimulatorDescription& description) { start(description, parsed(description)); }
 
 void Simulator::start(const SimulatorDescription& description, SceneSpec spec) {
   Model model = compile(spec);
   Contacts contacts = contactsOf(model);
   const Eigen::VectorXd q = description.q.size() > 0 ? description.q : model.initialPositions();
-  parts_.reset(new Parts{description.sceneName, description.sceneText,
+  parts_.reset(new Parts{description.sceneName, description.sceneText, description.srdf,
                          std::make_shared<const SceneSpec>(std::move(spec)), std::move(model),
                          std::move(contacts)});
   setContactMargin(description.contactMargin);
@@ -284,6 +302,7 @@ void Simulator::anchorKinematicChainIn(const std::string& body) {
   SimulatorDescription description = this->description();
   description.sceneName = spec.name;
   description.sceneText = writeOrs(spec);
+  description.srdf.clear();
   description.q.resize(0);
   description.v.resize(0);
   start(description, std::move(spec));
@@ -315,8 +334,8 @@ void Simulator::jacobianContacts(Eigen::MatrixXd& J) const { J = jacobianContact
 void Simulator::watch(const std::string& name) const { writePicture(*this, name + ".png"); }
 
 SimulatorDescription Simulator::description() const {
-  return {parts_->sceneName, parts_->sceneText,    parts_->q,       parts_->contactMargin,
-          parts_->v,         parts_->dynamicNoise, parts_->gravity, parts_->seed};
+  return {parts_->sceneName,    parts_->sceneText, parts_->q,    parts_->contactMargin, parts_->v,
+          parts_->dynamicNoise, parts_->gravity,   parts_->seed, parts_->srdf};
 }
 const Model& Simulator::model() const { return parts_->model; }
 const Recording& Simulator::recording() const { return parts_->recording; }

@@ -22,6 +22,7 @@ struct SimulatorDescription {
   double dynamicNoise = 0;     ///< see Simulator::setDynamicSimulationNoise()
   bool gravity = true;         ///< see Simulator::setDynamicGravity()
   std::uint64_t seed = 0;      ///< of the noise
+  std::string srdf{};          ///< what the SRDF of a URDF robot says about collisions; empty: nothing
 };
 
 /// A robot in its world, with the names of the course script. Positions are metres in the world frame, z up;
@@ -32,7 +33,7 @@ class Simulator {
  public:
   /// Loads an .ors or .urdf file: a path, or the name of one of the course's scenes, such as "man.ors".
   /// Throws Error with file:line:column for a missing or broken file, also one of a mesh. Boxes stand for
-  /// meshes that are missing; the reader's warnings are printed.
+  /// meshes that are missing; warnings of the reader and of collisionWarnings() are printed.
   explicit Simulator(const std::string& sceneFile);
   /// Reads no file: shapes described by a mesh are not drawn.
   explicit Simulator(const SimulatorDescription& description);

@@ -18,7 +18,9 @@ namespace detail {
 
 template <class T>
 consteval std::size_t countFields() {
-  if constexpr (requires { T{{}, {}, {}, {}, {}, {}, {}, {}, {}}; })
+  if constexpr (requires { T{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}}; })
+    return 10;
+  else if constexpr (requires { T{{}, {}, {}, {}, {}, {}, {}, {}, {}}; })
     return 9;
   else if constexpr (requires { T{{}, {}, {}, {}, {}, {}, {}, {}}; })
     return 8;
@@ -40,16 +42,16 @@ consteval std::size_t countFields() {
 
 }  // namespace detail
 
-/// The number of fields of T, or 9 for more than eight, found by asking how many initialisers it takes. Each
+/// The number of fields of T, or 10 for more than nine, found by asking how many initialisers it takes. Each
 /// field's type must have a default constructor that is not explicit.
 template <PlainStruct T>
 inline constexpr std::size_t kFieldCount = detail::countFields<T>();
 
-/// Calls use(field, field, ...) with references to all fields of a struct of one to eight fields.
+/// Calls use(field, field, ...) with references to all fields of a struct of one to nine fields.
 template <class T, class Use>
 constexpr decltype(auto) withFields(T& value, Use&& use) {
   constexpr std::size_t n = kFieldCount<std::remove_const_t<T>>;
-  static_assert(n <= 8, "a struct that crosses to the worker has 1 to 8 fields");
+  static_assert(n <= 9, "a struct that crosses to the worker has 1 to 9 fields");
   if constexpr (n == 1) {
     auto& [a] = value;
     return use(a);
@@ -71,9 +73,12 @@ constexpr decltype(auto) withFields(T& value, Use&& use) {
   } else if constexpr (n == 7) {
     auto& [a, b, c, d, e, f, g] = value;
     return use(a, b, c, d, e, f, g);
-  } else {
+  } else if constexpr (n == 8) {
     auto& [a, b, c, d, e, f, g, h] = value;
     return use(a, b, c, d, e, f, g, h);
+  } else {
+    auto& [a, b, c, d, e, f, g, h, i] = value;
+    return use(a, b, c, d, e, f, g, h, i);
   }
 }
 

@@ -369,6 +369,26 @@ void shareCoordinates(std::vector<Joint>& joints, const std::vector<const JointS
   }
 }
 
+// Throws Error for a name that no body has, and for a pair of one body.
+PairChoice resolved(const CollisionChoice& choice,
+                    const std::unordered_map<std::string, BodyId>& bodyByName) {
+  const auto bodyOf = [&](const std::string& name) {
+    if (name == kWorldName) return kWorld;
+    if (const auto found = bodyByName.find(name); found != bodyByName.end()) return found->second;
+    std::vector<std::string> known;
+    for (const auto& [other, body] : bodyByName) known.push_back(other);
+    std::sort(known.begin(), known.end());
+    fail(choice.where, "who may collide: unknown body", fmt::format("'{}'", name), "the name of a body",
+         nearestNames(name, known));
+  };
+  PairChoice pair{.a = bodyOf(choice.a), .mayCollide = choice.mayCollide, .reason = choice.reason};
+  if (choice.b.empty()) return pair;
+  pair.b = bodyOf(choice.b);
+  if (*pair.b == pair.a)
+    fail(choice.where, "who may collide: a pair", fmt::format("'{}' twice", choice.a), "two bodies");
+  return pair;
+}
+
 }  // namespace
 
 Model compile(const SceneSpec& spec) {
@@ -429,6 +449,9 @@ Model compile(const SceneSpec& spec) {
   for (const auto& [name, index] : tree.firstBodyByName)
     model.bodyByName_.emplace(name, idOfSpec[static_cast<std::size_t>(index)]);
   model.fileOrder_ = std::move(idOfSpec);
+  model.collisionRule_ = spec.collisionRule;
+  for (const CollisionChoice& choice : spec.collisionChoices)
+    model.collisionChoices_.push_back(resolved(choice, model.bodyByName_));
   return model;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -78,6 +79,14 @@ struct ModelShape {
   bool visible = true;
 };
 
+/// Whether a pair of bodies may collide, or without a `b` all pairs of `a`; see CollisionChoice.
+struct PairChoice {
+  BodyId a = kWorld;
+  std::optional<BodyId> b{};
+  bool mayCollide = false;
+  std::string reason{};
+};
+
 /// An immutable robot world; only compile() makes one. Bodies and joints stand breadth-first from the roots
 /// (roots in file order, then each body's joints in file order), which is also the order of q; the world is
 /// body 0.
@@ -97,6 +106,10 @@ class Model {
 
   /// The parts that move, for kernels of dynamics: what is fixed to the world belongs to none.
   std::span<const Link> links() const { return links_; }
+
+  /// Who may collide, and who was chosen by name; see collision/collision_pairs.h for what follows from it.
+  CollisionRule collisionRule() const { return collisionRule_; }
+  std::span<const PairChoice> collisionChoices() const { return collisionChoices_; }
 
   /// All bodies but the world, in the order of the scene file.
   std::span<const BodyId> bodiesInFileOrder() const { return fileOrder_; }
@@ -125,6 +138,8 @@ class Model {
   std::vector<MotionStep> motionSteps_;
   std::vector<Link> links_;
   std::vector<BodyId> fileOrder_;
+  CollisionRule collisionRule_ = CollisionRule::kAllButNeighbours;
+  std::vector<PairChoice> collisionChoices_;
   std::unordered_map<std::string, BodyId> bodyByName_;
   Eigen::VectorXd q0_, lower_, upper_;
   int nv_ = 0;
@@ -133,7 +148,8 @@ class Model {
 
 /// Checks a scene and freezes it. Throws Error, with the place in the file where it is known, for: a joint to
 /// an unknown body, two joints of one name, two joints into one body, a loop, a mimic of an unknown or
-/// different joint or with limits that leave that none, and masses, sizes, poses or limits that are not
+/// different joint or with limits that leave that none, a choice of who may collide that names no two bodies,
+/// and masses, sizes, poses or limits that are not
 /// finite or have the wrong sign or number. An inertia with a negative principal moment is refused, one that
 /// breaks the triangle inequality is not.
 [[nodiscard]] Model compile(const SceneSpec& spec);

@@ -86,9 +86,13 @@ class Reader {
         readShape(node);
       } else if (role == "joint") {
         readJoint(node);
+      } else if (role == "collisions") {
+        readCollisions(node);
       } else {
-        fail(node.where, "unknown statement", fmt::format("'{}'", role), "'body', 'shape' or 'joint'",
-             nearestNames(role, {"body", "shape", "joint", "Include", "ChDir", "Delete", "Edit"}));
+        fail(node.where, "unknown statement", fmt::format("'{}'", role),
+             "'body', 'shape', 'joint' or 'collisions'",
+             nearestNames(role,
+                          {"body", "shape", "joint", "collisions", "Include", "ChDir", "Delete", "Edit"}));
       }
     }
     for (const Waiting& joint : waiting_) readAttributes(joint);
@@ -225,6 +229,50 @@ class Reader {
     }
   }
 
+  void readCollisions(const Node& node) {
+    if (node.keys.size() > 1)
+      fail(node.keys[1].where, "collisions", fmt::format("'{}'", node.keys[1].text),
+           "'collisions { ... }' or 'collisions (A B) { ... }'");
+    if (node.parents.empty()) return readCollisionRule(Attributes(node, "collisions"));
+    std::string names = node.parents[0].text;
+    for (std::size_t i = 1; i < node.parents.size(); ++i) names += " " + node.parents[i].text;
+    const Attributes attributes(node, fmt::format("collisions ({})", names));
+    if (node.parents.size() > 2)
+      fail(node.parents[2].where, attributes.owner(), fmt::format("{} bodies", node.parents.size()),
+           "two, or one for all its pairs");
+    attributes.noteUnknown({"on", "off", "reason"}, file_.notes);
+    Pose unused;
+    CollisionChoice choice{.a = connect(node.parents[0], attributes.owner(), unused), .b = {}};
+    if (node.parents.size() == 2) choice.b = connect(node.parents[1], attributes.owner(), unused);
+    if (choice.a == choice.b)
+      fail(node.parents[1].where, attributes.owner(), "one body", "two different bodies");
+    choice.mayCollide = attributes.flag("on");
+    if (choice.mayCollide == attributes.flag("off"))
+      fail(node.where, attributes.owner(), choice.mayCollide ? "'on' and 'off'" : "neither 'on' nor 'off'",
+           "one of them");
+    if (choice.b.empty() && choice.mayCollide)
+      fail(attributes.where("on"), attributes.owner(), "'on' for all pairs of a body",
+           "'off', or two bodies");
+    choice.reason = attributes.text("reason", "a word or \"text\"").value_or("");
+    choice.where = node.where;
+    file_.spec.collisionChoices.push_back(std::move(choice));
+  }
+
+  void readCollisionRule(const Attributes& attributes) {
+    attributes.noteUnknown({"rule"}, file_.notes);
+    std::vector<std::string> known;
+    for (const CollisionRule rule : {CollisionRule::kFourGenerations, CollisionRule::kAllButNeighbours}) {
+      known.emplace_back(toString(rule));
+      if (attributes.text("rule", "the name of a rule") != known.back()) continue;
+      file_.spec.collisionRule = rule;
+      return;
+    }
+    const std::string found = attributes.text("rule", "").value_or("");
+    fail(attributes.where("rule"), "collisions: attribute 'rule'",
+         found.empty() ? "nothing" : fmt::format("'{}'", found), fmt::format("{} or {}", known[0], known[1]),
+         nearestNames(found, known));
+  }
+
   // A joint whose attributes are not read yet: one may follow another that comes later.
   struct Waiting {
     const Node* node;
@@ -288,6 +336,7 @@ SceneFile read(std::string_view text, const std::string& name, const Assets* ass
                const ReadOptions& options) {
   SceneFile file;
   file.spec.name = name;
+  file.spec.collisionRule = CollisionRule::kFourGenerations;
   try {
     ors::Document document = ors::parseGraph(text, name, assets, &file.notes);
     file.notes = std::move(document.notes);

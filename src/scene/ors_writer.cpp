@@ -205,6 +205,16 @@ Parts bodyParts(const BodySpec& body) {
   return parts;
 }
 
+// Texts hold neither control characters nor quotes, and no more bytes than a word.
+std::string textOf(const std::string& reason) {
+  std::string text = reason.substr(0, ors::kLongestWord);
+  for (char& c : text) {
+    if (c == '"') c = '\'';
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  }
+  return text;
+}
+
 // One line, or two columns of several.
 struct Line {
   std::string head;
@@ -231,8 +241,9 @@ class Writer {
     for (const ShapeSpec& shape : spec.worldShapes) shapes.push_back({shapeHead(shape), shapeParts(shape)});
     for (const BodySpec& body : spec.bodies) addBody(body, bodies);
     for (const JointSpec& joint : spec.joints) joints.push_back({jointHead(joint), jointParts(joint)});
+    const std::vector<Line> collisions = collisionLines(spec);
     std::string text;
-    for (const std::vector<Line>& group : {shapes, bodies, joints}) {
+    for (const std::vector<Line>& group : {shapes, bodies, joints, collisions}) {
       if (!text.empty() && !group.empty()) text += "\n";
       text += linesText(group);
     }
@@ -240,6 +251,20 @@ class Writer {
   }
 
  private:
+  // Scenes of the format have the rule of the course unless they say otherwise.
+  static std::vector<Line> collisionLines(const SceneSpec& spec) {
+    std::vector<Line> lines;
+    if (spec.collisionRule != CollisionRule::kFourGenerations)
+      lines.push_back({"collisions", {fmt::format("rule={}", toString(spec.collisionRule))}});
+    for (const CollisionChoice& choice : spec.collisionChoices) {
+      Parts parts = {choice.mayCollide ? "on" : "off"};
+      if (!choice.reason.empty()) parts.push_back(fmt::format("reason=\"{}\"", textOf(choice.reason)));
+      lines.push_back({fmt::format("collisions ({}{}{})", choice.a, choice.b.empty() ? "" : " ", choice.b),
+                       std::move(parts)});
+    }
+    return lines;
+  }
+
   // Nothing in a file refers to a shape by its name, so it can do without one that the format lacks.
   static std::string shapeHead(const ShapeSpec& shape) {
     return isName(shape.name) ? "shape " + shape.name : "shape";

@@ -22,6 +22,8 @@ struct ReadOptions {
   bool freeBase = false;                  ///< of a URDF robot: its root moves freely
   bool strict = false;                    ///< faults that are repaired otherwise, with a warning, are errors
   Diagnostics* notesOfFailure = nullptr;  ///< where notes go that were made before an Error
+  /// An SRDF that says which links of a URDF robot may collide; empty: NAME.srdf beside NAME.urdf, if there.
+  std::filesystem::path srdf{};
 };
 
 /// Reads a scene with its meshes; the ending of the file, in any case, says how: .ors or .urdf. Throws Error:

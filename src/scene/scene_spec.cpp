@@ -18,6 +18,10 @@ Eigen::Matrix3d turnZ(double angle) { return rotationAboutAxis(angle, Eigen::Vec
 
 }  // namespace
 
+std::string_view toString(CollisionRule rule) {
+  return rule == CollisionRule::kFourGenerations ? "four_generations" : "all_but_neighbours";
+}
+
 std::string_view toString(JointType type) {
   switch (type) {
     case JointType::kRigid:

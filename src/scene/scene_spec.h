@@ -102,12 +102,31 @@ struct JointSpec {
   [[nodiscard]] Eigen::VectorXd start() const;
 };
 
+/// Which pairs of bodies may collide before anybody chooses single ones, see collision/collision_pairs.h: all
+/// but neighbours and what overlaps at home, or, as in scenes of the course, all but kin of four generations.
+enum class CollisionRule { kAllButNeighbours, kFourGenerations };
+
+/// "all_but_neighbours", "four_generations".
+[[nodiscard]] std::string_view toString(CollisionRule rule);
+
+/// Says of one pair of bodies whether it may collide, or with an empty `b` of all pairs of `a`. Each names
+/// the first body of that name, or "world". A choice of one pair counts more than that of all, "not" more
+/// than "may".
+struct CollisionChoice {
+  std::string a, b;
+  bool mayCollide = false;
+  std::string reason{};  ///< for people
+  SourceLocation where{};
+};
+
 /// A scene as it is read and edited. Bodies keep file order; compile() turns it into a Model.
 struct SceneSpec {
   std::string name;  ///< for messages: the file name
   std::vector<BodySpec> bodies;
   std::vector<JointSpec> joints;
   std::vector<ShapeSpec> worldShapes;
+  CollisionRule collisionRule = CollisionRule::kAllButNeighbours;
+  std::vector<CollisionChoice> collisionChoices{};
 };
 
 /// X_FM(q), the motion of a joint. q has positionCount(type) entries; a quaternion is normalised on use.

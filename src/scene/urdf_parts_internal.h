@@ -10,8 +10,8 @@
 // The steps of reading a robot, in their order. All throw Error with the place.
 namespace rex::urdf {
 
-/// Refuses elements and attributes that xacro must work on first.
-void refuseXacro(const xml::Document& document);
+/// Refuses elements and attributes that xacro must work on before it is `format`, "URDF" or "SRDF".
+void refuseXacro(const xml::Document& document, const std::string& format);
 
 /// The colours of materials by their name. A name belongs to the first material that gives it a colour, at
 /// the top of the robot before those in links.

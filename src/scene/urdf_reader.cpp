@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "scene/files_internal.h"
 #include "scene/scene_meshes.h"
+#include "scene/srdf_reader.h"
 #include "scene/urdf_parts_internal.h"
 
 namespace rex {
@@ -110,11 +112,18 @@ SceneSpec readRobot(Reading& reading, const std::string& name, bool freeBase) {
   return spec;
 }
 
+// Who may collide stands in a file of its own, which is called like the robot unless somebody names another.
+void readChoices(const std::filesystem::path& robot, const std::filesystem::path& given, SceneFile& scene) {
+  if (!given.empty()) return readSrdf(given, scene);
+  const std::filesystem::path beside = std::filesystem::path(robot).replace_extension(".srdf");
+  if (internal::obstacleAt(beside) != internal::kNoSuchFile) readSrdf(beside, scene);
+}
+
 }  // namespace
 
 SceneFile parseUrdf(std::string_view text, const std::string& name, const ReadOptions& options) {
   const xml::Document document = xml::parse(text, name, !options.strict);
-  refuseXacro(document);
+  refuseXacro(document, "URDF");
   Reading reading{document, options.strict};
   noteSkippedBlanks(reading);
   try {
@@ -130,6 +139,7 @@ SceneFile readUrdf(const std::filesystem::path& file, const ReadOptions& options
   constexpr std::size_t kLargest = 8u << 20;
   SceneFile scene = parseUrdf(readSceneText(file, kLargest), file.string(), options);
   try {
+    readChoices(file, options.srdf, scene);
     loadMeshes(scene, Assets(file, options.assetRoot, !options.strict), options);
   } catch (const Error&) {
     if (options.notesOfFailure) append(*options.notesOfFailure, scene.notes);

@@ -78,6 +78,7 @@ class Writer {
     for (const BodySpec& body : spec.bodies)
       if (body.kind != BodyKind::kDynamic) losses_.add("kinds of bodies are left out", body.name, body.where);
     for (const JointSpec& joint : spec.joints) noteLosses(joint);
+    noteCollisions(spec);
   }
 
   UrdfText write() {
@@ -91,6 +92,18 @@ class Writer {
   }
 
  private:
+  void noteCollisions(const SceneSpec& spec) {
+    for (const CollisionChoice& choice : spec.collisionChoices)
+      losses_.add("choices of who may collide are left out, which belong into an SRDF", choice.a,
+                  choice.where);
+    const auto touches = [](const ShapeSpec& shape) { return shape.contact; };
+    if (spec.collisionRule != CollisionRule::kFourGenerations) return;
+    for (const BodySpec& body : spec.bodies)
+      if (std::any_of(body.shapes.begin(), body.shapes.end(), touches))
+        losses_.add("bodies within four generations may collide where it is read again", body.name,
+                    body.where);
+  }
+
   void noteLosses(const JointSpec& joint) {
     if (joint.q0.size() > 0 && joint.q0 != jointCoordinates(joint.type, joint.axis, Pose{}))
       losses_.add("initial coordinates are left out", joint.name, joint.where);

@@ -1,30 +1,44 @@
+#include <optional>
+
 #include <fmt/format.h>
 
+#include "base/lower_case.h"
 #include "scene/urdf_parts_internal.h"
 
 namespace rex::urdf {
 namespace {
 
-[[noreturn]] void fail(const SourceLocation& where, const std::string& found) {
-  throw Error({.what = "this is xacro, not yet URDF",
-               .where = where,
-               .found = found,
-               .wanted = "plain URDF: run 'xacro FILE > robot.urdf' and read that"});
-}
+// What an element has that xacro must work on first.
+struct Xacro {
+  SourceLocation where;
+  std::string found;
+};
 
-void refuseIn(const xml::Document& document, const xml::Element& element) {
-  if (element.name.starts_with("xacro:")) fail(document.where(element.at), fmt::format("<{}>", element.name));
+std::optional<Xacro> xacroIn(const xml::Document& document, const xml::Element& element) {
+  if (element.name.starts_with("xacro:"))
+    return Xacro{document.where(element.at), fmt::format("<{}>", element.name)};
   for (const xml::Attribute& attribute : element.attributes) {
-    if (attribute.name.starts_with("xacro:")) fail(document.where(attribute.at), xml::quoted(attribute.name));
+    if (attribute.name.starts_with("xacro:"))
+      return Xacro{document.where(attribute.at), xml::quoted(attribute.name)};
     const std::size_t at = std::min(attribute.value.find("${"), attribute.value.find("$("));
     if (at != std::string::npos)
-      fail(document.where(attribute, at), xml::quoted(std::string_view(attribute.value).substr(at)));
+      return Xacro{document.where(attribute, at), xml::quoted(std::string_view(attribute.value).substr(at))};
   }
-  for (const xml::Element& child : element.children) refuseIn(document, child);
+  for (const xml::Element& child : element.children)
+    if (std::optional<Xacro> found = xacroIn(document, child)) return found;
+  return {};
 }
 
 }  // namespace
 
-void refuseXacro(const xml::Document& document) { refuseIn(document, document.root); }
+void refuseXacro(const xml::Document& document, const std::string& format) {
+  const std::optional<Xacro> xacro = xacroIn(document, document.root);
+  if (!xacro) return;
+  throw Error({.what = fmt::format("this is xacro, not yet {}", format),
+               .where = xacro->where,
+               .found = xacro->found,
+               .wanted = fmt::format("plain {}: run 'xacro FILE > robot.{}' and read that", format,
+                                     lowerCase(format))});
+}
 
 }  // namespace rex::urdf

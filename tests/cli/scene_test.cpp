@@ -141,13 +141,92 @@ TEST_F(SceneCommand, ContactsAreThoseOfGeometry) {
   EXPECT_EQ(jsonOf({"wall.ors", "contacts", "--margin", "2"})["pairs"].size(), 2u);
 }
 
+// A turret with an arm whose second ball overlaps it at home, and two shelves that touch.
+constexpr const char* kShelves =
+    "<robot name='r'><link name='world'/>"
+    "<link name='shelf2'><collision><geometry><box size='1 1 .02'/></geometry></collision></link>"
+    "<link name='shelf3'><collision><geometry><box size='1 1 .02'/></geometry></collision></link>"
+    "<link name='turret'><collision><geometry><sphere radius='.1'/></geometry></collision></link>"
+    "<link name='arm'><collision><geometry><sphere radius='.1'/></geometry></collision></link>"
+    "<link name='hand'><collision><geometry><sphere radius='.1'/></geometry></collision></link>"
+    "<joint name='a' type='fixed'><parent link='world'/><child link='shelf2'/><origin xyz='0 0 3'/></joint>"
+    "<joint name='b' type='fixed'><parent link='world'/><child link='shelf3'/><origin xyz='0 0 "
+    "3.01'/></joint>"
+    "<joint name='c' type='continuous'><parent link='world'/><child link='turret'/></joint>"
+    "<joint name='d' type='continuous'><parent link='turret'/><child link='arm'/><origin xyz='0 0 "
+    ".1'/></joint>"
+    "<joint name='e' type='continuous'><parent link='arm'/><child link='hand'/><origin xyz='0 0 "
+    ".05'/></joint>"
+    "</robot>";
+
+TEST_F(SceneCommand, ContactsSayWhoMayCollideAndWhy) {
+  std::ofstream(in("r.urdf")) << kShelves;
+  const ProcessResult result = scene({"r.urdf", "contacts", "--pairs"});
+  EXPECT_EQ(result.exitCode, 0);
+  EXPECT_EQ(result.output,
+            "rule all_but_neighbours: 6 of 10 pairs of bodies may collide\n"
+            "shelf2 - shelf3  fixed to each other\n"
+            "turret - arm     neighbours\n"
+            "turret - hand    overlap at home by 0.05 m ('turret' and 'hand')\n"
+            "arm - hand       neighbours\n"
+            "shelf2 - turret  may collide\n"
+            "shelf2 - arm     may collide\n"
+            "shelf2 - hand    may collide\n"
+            "shelf3 - turret  may collide\n"
+            "shelf3 - arm     may collide\n"
+            "shelf3 - hand    may collide\n");
+  EXPECT_THAT(flat(result.error),
+              HasSubstr("r.urdf: warning: 'turret' and 'hand' overlap at home by 0.05 m"));
+  const json pairs = jsonOf({"r.urdf", "contacts", "--pairs"});
+  EXPECT_EQ(pairs["rule"], "all_but_neighbours");
+  ASSERT_EQ(pairs["pairs"].size(), 10u);
+  EXPECT_EQ(
+      pairs["pairs"][0],
+      json({{"a", "shelf2"}, {"b", "shelf3"}, {"may_collide", false}, {"reason", "fixed to each other"}}));
+}
+
+TEST_F(SceneCommand, ContactsProposeAnSrdfThatIsReadAgain) {
+  std::ofstream(in("r.urdf")) << kShelves;
+  const ProcessResult proposed = scene({"r.urdf", "contacts", "--never", "--samples", "200", "--seed", "3"});
+  ASSERT_EQ(proposed.exitCode, 0) << proposed.error;
+  EXPECT_THAT(proposed.output,
+              HasSubstr("<!-- A sample of 200 random postures, seed 3, and no proof: a pair that "
+                        "never touched may touch in others. -->\n<robot name=\"r\">\n"));
+  EXPECT_THAT(proposed.output, HasSubstr("link1=\"shelf2\" link2=\"arm\" reason=\"Never\""));
+  EXPECT_THAT(proposed.output, HasSubstr("link1=\"turret\" link2=\"hand\" reason=\"Always\""));
+  EXPECT_EQ(jsonOf({"r.urdf", "contacts", "--never", "--samples", "50"})["postures"], 50);
+  std::ofstream(in("r.srdf")) << proposed.output;
+  const ProcessResult again = scene({"r.urdf", "contacts", "--pairs"});
+  EXPECT_EQ(again.error, "");
+  EXPECT_THAT(again.output, HasSubstr("0 of 10 pairs of bodies may collide"));
+  EXPECT_THAT(again.output, HasSubstr("turret - hand    disabled: Always\n"));
+  std::ofstream(in("none.srdf")) << "<robot name='r'/>";
+  EXPECT_THAT(scene({"r.urdf", "contacts", "--pairs", "--srdf", "none.srdf"}).output,
+              HasSubstr("6 of 10 pairs"));
+}
+
+TEST_F(SceneCommand, ContactsRefuseWhatHasNoMeaning) {
+  const auto expectRefusal = [&](std::vector<std::string> arguments, const std::string& message) {
+    arguments.insert(arguments.begin(), {"arm.ors", "contacts"});
+    const ProcessResult result = scene(arguments);
+    EXPECT_EQ(result.exitCode, 64) << message;
+    EXPECT_THAT(flat(result.error), HasSubstr(message));
+  };
+  expectRefusal({"--never", "--samples", "0"}, "--samples: found 0, wanted 1 to 1e+06");
+  expectRefusal({"--samples", "10"}, "--samples requires --never");
+  expectRefusal({"--pairs", "--never"}, "--pairs excludes --never");
+  expectRefusal({"--pairs", "--srdf", "a.srdf"},
+                "--srdf: found an .ors file, wanted a .urdf file; in .ors, statements 'collisions' say it");
+}
+
 TEST_F(SceneCommand, ContactsAlignForPeople) {
   std::ofstream(in("wall.ors")) << kWall;
-  EXPECT_EQ(
-      scene({"wall.ors", "contacts", "--q", "-0.75"}).output,
-      "2 pairs of shapes may collide, 1 are nearer than 0.5 m; contact cost 0.5 with a margin of 0.1 m\n"
-      "pair         distance          point of the first         point of the second\n"
-      "wall - ball    0.0500    0.1000   0.0000   0.0000    0.1500   0.0000   0.0000\n");
+  EXPECT_EQ(scene({"wall.ors", "contacts", "--q", "-0.75"}).output,
+            "2 pairs of shapes may collide (rule four_generations, see --pairs), 1 are nearer than 0.5 m; "
+            "contact cost "
+            "0.5 with a margin of 0.1 m\n"
+            "pair         distance          point of the first         point of the second\n"
+            "wall - ball    0.0500    0.1000   0.0000   0.0000    0.1500   0.0000   0.0000\n");
   EXPECT_EQ(
       scene({"wall.ors", "contacts"}).output,
       "2 pairs of shapes may collide, 0 are nearer than 0.5 m; contact cost 0 with a margin of 0.1 m\n");

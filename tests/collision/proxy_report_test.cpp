@@ -18,8 +18,9 @@ constexpr const char* kWall =
     "shape (wall) { type=ST_box size=[.2 2 2] contact }\n"
     "shape gate (wall) { rel=<T t(0 0 3)> type=ST_box size=[.2 2 2] contact }\n"
     "shape (wall) { rel=<T t(0 0 6)> type=ST_box size=[.2 2 2] contact }\n"
-    "body ball { X=<T t(.25 0 0)> }\n"
-    "shape bead (ball) { type=ST_sphere size=[0 0 0 .1] contact }\n";
+    "body ball { }\n"
+    "shape bead (ball) { type=ST_sphere size=[0 0 0 .1] contact }\n"
+    "joint (world ball) { type=free A=<T t(.25 0 0)> }\n";
 
 TEST(ShapeLabel, CountsTheShapesWithoutAName) {
   const Model model = modelOf(kWall);

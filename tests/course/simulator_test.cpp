@@ -46,6 +46,33 @@ TEST_F(SimulatorTest, FindsScenesByPathToo) {
   EXPECT_REX_ERROR(Simulator("no/such.ors"), "there is no scene 'no/such.ors'");
 }
 
+TEST_F(SimulatorTest, TakesTheChoicesOfAnSrdfAlong) {
+  const std::string ball = "<collision><geometry><sphere radius='.1'/></geometry></collision>";
+  std::ofstream(in("arm.urdf"))
+      << "<robot name='arm'><link name='a'>" + ball + "</link><link name='b'>" + ball +
+             "</link><link name='c'>" + ball +
+             "</link><joint name='j' type='continuous'><parent link='a'/><child link='b'/>"
+             "<origin xyz='0 0 .1'/></joint><joint name='k' type='continuous'><parent "
+             "link='b'/><child link='c'/><origin xyz='0 0 .05'/></joint></robot>";
+  testing::internal::CaptureStderr();
+  const Simulator warned(in("arm.urdf"));
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              testing::HasSubstr("'a' and 'c' overlap at home by 0.05 m"));
+  EXPECT_EQ(warned.kinematicsContacts().size(), 1);
+  EXPECT_EQ(warned.kinematicsContacts()[0], 0);
+  std::ofstream(in("arm.srdf")) << "<robot name='arm'><enable_collisions link1='a' link2='c'/></robot>";
+  testing::internal::CaptureStderr();
+  const Simulator S(in("arm.urdf"));
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_GT(S.kinematicsContacts()[0], 1);
+  EXPECT_EQ(Simulator(S.description()).kinematicsContacts(), S.kinematicsContacts());
+  Simulator anchored(S);
+  anchored.anchorKinematicChainIn("c");
+  EXPECT_EQ(anchored.model().collisionRule(), CollisionRule::kAllButNeighbours);
+  EXPECT_EQ(anchored.model().collisionChoices().size(), 1u);
+  EXPECT_NEAR(Simulator(anchored.description()).kinematicsContacts()[0], S.kinematicsContacts()[0], 1e-9);
+}
+
 TEST_F(SimulatorTest, LoadsTheMeshesOfAFileButNotThoseOfADescription) {
   std::ofstream(in("wedge.off"))
       << "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";

@@ -354,7 +354,9 @@ TEST(UrdfWriter, NotesWhatUrdfCannotSay) {
   };
   EXPECT_EQ(shape("type=9 size=[1 1 1 .1]"), Notes{"rounded boxes became boxes: 'a'"});
   EXPECT_EQ(shape("type=2 size=[0 0 1 .1]"), Notes{"capsules became cylinders and spheres: 'a'"});
-  EXPECT_EQ(shape("type=2 size=[0 0 1 .1] contact"), Notes{"capsules became cylinders and spheres: 'a'"});
+  EXPECT_EQ(shape("type=2 size=[0 0 1 .1] contact"),
+            (Notes{"bodies within four generations may collide where it is read again: 'a'",
+                   "capsules became cylinders and spheres: 'a'"}));
   EXPECT_EQ(shape("type=5 size=[1 1 1 0]"), Notes{"markers are left out: 'a'"});
   EXPECT_EQ(shape("type=7 mesh='a.obj'"), Notes{"point clouds are left out: 'a'"});
   EXPECT_EQ(shape("type=8 mesh='a.obj'"), Notes{"sphere-swept meshes became meshes: 'a'"});

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/wrong_use_internal.h"
+#include "collision/collision_pairs.h"
 
 namespace rex::cli {
 namespace {
@@ -24,7 +25,14 @@ ContactModel contactModelOf(const Model& model) {
     throw UsageError({.what = harmless(model.name()) + ": too many shapes take part in contacts",
                       .found = fmt::format("{} pairs of them", pairs),
                       .wanted = fmt::format("at most {}", kMostContactPairs)});
-  return asWrongUse([&] { return ContactModel(model); });
+  return asWrongUse([&] {
+    noteCollisionWarnings(model);
+    return ContactModel(model);
+  });
+}
+
+void noteCollisionWarnings(const Model& model) {
+  for (const Diagnostic& one : collisionWarnings(model)) note(wrap(harmless(toString(one)), 2, 0));
 }
 
 }  // namespace rex::cli

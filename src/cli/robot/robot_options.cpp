@@ -16,6 +16,10 @@ void addReading(CLI::App* command, ReadOptions& reading) {
                     "boxes for meshes that are not found");
   command->add_flag("--strict", reading.strict,
                     "refuse faults of a scene file that are otherwise repaired with a warning");
+  command
+      ->add_option("--srdf", reading.srdf,
+                   "says which links of a .urdf robot may collide (default: the .srdf beside it, if any)")
+      ->type_name("FILE");
   command->add_flag("--free-base", reading.freeBase, "let the root of a .urdf move freely");
 }
 

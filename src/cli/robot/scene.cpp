@@ -10,6 +10,7 @@
 #include "cli/robot/robot_options_internal.h"
 #include "cli/robot/robot_room_internal.h"
 #include "cli/robot/scene_verbs.h"
+#include "cli/shared_options_internal.h"
 
 namespace rex::cli {
 namespace {
@@ -65,18 +66,38 @@ void addJacobian(CLI::App* scene, Action& action, const std::shared_ptr<SceneOpt
 
 void addContacts(CLI::App* scene, Action& action, const std::shared_ptr<SceneOptions>& options) {
   const auto own = std::make_shared<ContactsOptions>();
+  const auto pairs = std::make_shared<PairsOptions>();
+  const auto listsPairs = std::make_shared<bool>(false), looksForNever = std::make_shared<bool>(false);
   CLI::App* verb = addVerbOf(
-      scene, "contacts", "List the shapes that may collide and are near, nearest first",
-      "Example: scripts/rex scene pegInAHole contacts --q 0.6,0.5,0,0,0,0,0 --margin 0.02\n\n" +
+      scene, "contacts", "List the shapes that may collide and are near, nearest first; or who may collide",
+      "Examples:\n  scripts/rex scene pegInAHole contacts --q 0.6,0.5,0,0,0,0,0 --margin 0.02\n"
+      "  scripts/rex scene humanoid contacts --pairs\n"
+      "  scripts/rex scene robot.urdf contacts --never --samples 10000 > robot.srdf\n\n" +
           fmt::format("Refuses a scene with more than {} pairs of shapes that take part in contacts.",
                       kMostContactPairs));
-  verb->add_option("--margin", own->margin, "the contact cost counts what is nearer (default: 0.1)")
-      ->type_name("METRES");
+  CLI::Option* margin =
+      verb->add_option("--margin", own->margin, "the contact cost counts what is nearer (default: 0.1)")
+          ->type_name("METRES");
   addPosture(verb, options->posture);
+  CLI::Option* list =
+      verb->add_flag("--pairs", *listsPairs, "which bodies may collide, and why others may not");
+  CLI::Option* never = verb->add_flag(
+      "--never", *looksForNever, "an SRDF without the pairs that random postures never or always let touch");
+  CLI::Option* samples =
+      verb->add_option("--samples", pairs->samples, "random postures of --never (default: 1000)")
+          ->type_name("N");
+  samples->needs(never);
+  addSeed(verb, pairs->seed, "of the random postures (default: 0)");
+  verb->get_option("--seed")->needs(never);
+  list->excludes(never)->excludes(margin);
+  never->excludes(margin);
   addJson(verb, options->json);
-  verb->callback([&action, options, own] {
-    own->scene = *options;
-    action = [own](const Project& p) { return sceneContacts(p, *own); };
+  verb->callback([&action, options, own, pairs, listsPairs, looksForNever] {
+    own->scene = pairs->scene = *options;
+    action = [own, pairs, lists = *listsPairs, never = *looksForNever](const Project& p) {
+      if (never) return sceneNeverTouching(p, *pairs);
+      return lists ? scenePairs(p, *pairs) : sceneContacts(p, *own);
+    };
   });
 }
 

@@ -51,13 +51,15 @@ ExitCode sceneContacts(const Project& project, const ContactsOptions& options) {
   const std::vector<Proxy> near = proxies(contacts, poses, reach);
   const double cost = contactCost(contacts, poses, margin);
   if (options.scene.json) {
-    say(dump(Json{{"cost", cost}, {"pairs", jsonOfPairs(model, near)}}));
+    say(dump(Json{
+        {"cost", cost}, {"rule", toString(model.collisionRule())}, {"pairs", jsonOfPairs(model, near)}}));
     return ExitCode::kFull;
   }
   say(fmt::format(
-      "{} pairs of shapes may collide, {} are nearer than {:g} m; contact cost {:.6g} with a margin "
-      "of {:g} m",
-      contacts.pairs().size(), near.size(), reach, cost, margin));
+      "{} pairs of shapes may collide (rule {}, see --pairs), {} are nearer than {:g} m; contact cost {:.6g} "
+      "with a "
+      "margin of {:g} m",
+      contacts.pairs().size(), toString(model.collisionRule()), near.size(), reach, cost, margin));
   if (!near.empty()) sayLines(proxyReport(model, near));
   return ExitCode::kFull;
 }

@@ -61,6 +61,10 @@ void requireMeaning(const fs::path& file, const ReadOptions& reading) {
     throw UsageError({.what = "--free-base",
                       .found = "an .ors file",
                       .wanted = "a .urdf file; in .ors, a joint of type free says it"});
+  if (!reading.srdf.empty() && endingOf(file) == ".ors")
+    throw UsageError({.what = "--srdf",
+                      .found = "an .ors file",
+                      .wanted = "a .urdf file; in .ors, statements 'collisions' say it"});
 }
 
 fs::path fileOf(const Project& project, const SceneOption& scene) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -34,6 +35,16 @@ struct ContactsOptions {
 };
 /// What may collide and is near, and what that costs.
 ExitCode sceneContacts(const Project& project, const ContactsOptions& options);
+
+struct PairsOptions {
+  SceneOptions scene{};
+  int samples = 1000;  ///< random postures
+  std::uint64_t seed = 0;
+};
+/// Which pairs of bodies may collide, and why the others may not.
+ExitCode scenePairs(const Project& project, const PairsOptions& options);
+/// An SRDF with the pairs that never or always touched in random postures.
+ExitCode sceneNeverTouching(const Project& project, const PairsOptions& options);
 
 struct DynamicsOptions {
   SceneOptions scene{};

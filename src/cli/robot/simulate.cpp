@@ -15,6 +15,7 @@
 #include "base/text_file.h"
 #include "cli/json_internal.h"
 #include "cli/option_value_internal.h"
+#include "cli/robot/contact_limit.h"
 #include "cli/robot/film_file.h"
 #include "cli/robot/motion_files.h"
 #include "cli/robot/robot_options_internal.h"
@@ -216,6 +217,7 @@ ExitCode simulateScene(const Project& project, const SimulateOptions& options) {
   const Model model = modelOf(project, options);
   if (!options.noFilm) requireFilmable(model);
   const SimulationPlan plan = planOf(model, options);
+  if (plan.physics) noteCollisionWarnings(model);
   const std::vector<Moment> moments = asWrongUse([&] { return simulate(model, plan); });
 
   std::vector<std::string> files;

@@ -182,6 +182,28 @@ TEST_F(PlanCommand, TellsOfAPathThatIsNotClear) {
   EXPECT_THAT(fine.output, HasSubstr("no path within the budget"));
 }
 
+// One leg would have to go through the other.
+TEST_F(PlanCommand, KeepsTheLegsOfTheHumanoidApart) {
+  const std::string apart = "left_hip_roll=.3,right_hip_roll=-.3";
+  expectRefusal(
+      {"humanoid", "--start", apart, "--goal", "left_hip_roll=-.45,right_hip_roll=.45", "--no-film"},
+      "--goal: found 'left_");
+  const ProcessResult result =
+      plan({"humanoid", "--start", "left_hip_roll=-.3,left_hip_pitch=-.7", "--goal",
+            "left_hip_roll=-.3,left_hip_pitch=.6", "--no-film", "--json", "-o", "swing"});
+  ASSERT_EQ(result.exitCode, 0) << result.error;
+}
+
+TEST_F(PlanCommand, IsNotStoppedByThingsThatStandInEachOther) {
+  const std::string shelves =
+      "body shelf2 { type=ST_box size=[1 1 .02] contact fixed }\n"
+      "body shelf3 { X=<T t(0 0 .01)> type=ST_box size=[1 1 .02] contact fixed }\n"
+      "body rail { X=<T t(0 0 1)> }\n"
+      "body cart { type=ST_sphere size=[0 0 0 .1] contact }\n"
+      "joint drive (rail cart) { type=transX limits=[-1 1] }\n";
+  EXPECT_EQ(plan({scene(shelves).string(), "--goal", "0.5", "--no-film", "-o", "out"}).exitCode, 0);
+}
+
 TEST_F(PlanCommand, SaysThatNothingCanCollide) {
   REX_NEEDS_OSMESA();
   const ProcessResult result = plan({"arm3", "--goal", "1,1,1", "--no-film", "-o", "out"});

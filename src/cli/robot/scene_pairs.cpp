@@ -1,0 +1,96 @@
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/error.h"
+#include "cli/json_internal.h"
+#include "cli/option_value_internal.h"
+#include "cli/robot/contact_limit.h"
+#include "cli/robot/scene_verbs.h"
+#include "cli/terminal.h"
+#include "cli/wrong_use_internal.h"
+#include "collision/touch_sample.h"
+#include "scene/srdf_writer.h"
+
+namespace rex::cli {
+namespace {
+
+constexpr int kMostRandomPostures = 1'000'000;
+
+std::string pairNames(const Model& model, const PairVerdict& verdict) {
+  return fmt::format("{} - {}", model[verdict.a].name, model[verdict.b].name);
+}
+
+Json jsonOfVerdict(const Model& model, const PairVerdict& verdict) {
+  return {{"a", model[verdict.a].name},
+          {"b", model[verdict.b].name},
+          {"may_collide", verdict.mayCollide},
+          {"reason", toString(verdict, model)}};
+}
+
+void sayPairs(const Model& model, const std::vector<PairVerdict>& verdicts) {
+  const auto free = std::ranges::count_if(verdicts, &PairVerdict::mayCollide);
+  say(fmt::format("rule {}: {} of {} pairs of bodies may collide", toString(model.collisionRule()), free,
+                  verdicts.size()));
+  std::size_t width = 0;
+  for (const PairVerdict& verdict : verdicts) width = std::max(width, pairNames(model, verdict).size());
+  for (const bool mayCollide : {false, true})
+    for (const PairVerdict& verdict : verdicts)
+      if (verdict.mayCollide == mayCollide)
+        say(harmless(fmt::format("{:{}}  {}", pairNames(model, verdict), width, toString(verdict, model))));
+}
+
+Json jsonOfSample(const Model& model, const TouchSample& sample, std::uint64_t seed) {
+  Json pairs = Json::array();
+  for (const auto& [verdict, touches] : sample.pairs)
+    pairs.push_back({{"a", model[verdict.a].name}, {"b", model[verdict.b].name}, {"touches", touches}});
+  return {{"postures", sample.postures}, {"seed", seed}, {"held", sample.held}, {"pairs", pairs}};
+}
+
+}  // namespace
+
+ExitCode scenePairs(const Project& project, const PairsOptions& options) {
+  const Model model = loadScene(project, options.scene.scene);
+  static_cast<void>(contactModelOf(model));  // not too large, and with its warnings
+  const std::vector<PairVerdict> verdicts = pairVerdicts(model);
+  if (!options.scene.json) {
+    sayPairs(model, verdicts);
+    return ExitCode::kFull;
+  }
+  Json pairs = Json::array();
+  for (const PairVerdict& verdict : verdicts) pairs.push_back(jsonOfVerdict(model, verdict));
+  say(dump(Json{{"rule", toString(model.collisionRule())}, {"pairs", pairs}}));
+  return ExitCode::kFull;
+}
+
+ExitCode sceneNeverTouching(const Project& project, const PairsOptions& options) {
+  requireBetween("--samples", options.samples, 1, kMostRandomPostures);
+  SceneSpec spec = loadSpec(project, options.scene.scene);
+  const Model model = asWrongUse([&] { return compile(spec); });
+  static_cast<void>(contactModelOf(model));
+  Rng rng(options.seed);
+  const TouchSample sample = asWrongUse([&] { return sampleTouches(model, options.samples, rng); });
+  if (!sample.held.empty())
+    note(harmless(fmt::format("without limits between which postures are drawn, so left at home: {}",
+                              fmt::join(sample.held, ", "))));
+  if (options.scene.json) {
+    say(dump(jsonOfSample(model, sample, options.seed)));
+    return ExitCode::kFull;
+  }
+  // What the scene already says stays true where this takes the place of its SRDF.
+  std::vector<CollisionChoice> choices = std::move(spec.collisionChoices);
+  const std::vector<CollisionChoice> suggested = suggestedChoices(model, sample);
+  choices.insert(choices.end(), suggested.begin(), suggested.end());
+  const std::string about = fmt::format(
+      "A sample of {} random postures, seed {}, and no proof: a pair that never touched may touch in others.",
+      sample.postures, options.seed);
+  const std::string robot = options.scene.scene.file.stem().string();
+  std::string text = asWrongUse([&] { return writeSrdf(robot, choices, about); });
+  if (text.ends_with('\n')) text.pop_back();
+  say(text);
+  return ExitCode::kFull;
+}
+
+}  // namespace rex::cli

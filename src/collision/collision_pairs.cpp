@@ -1,0 +1,238 @@
+#include "collision/collision_pairs.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "collision/coupled_motion_internal.h"
+#include "collision/home_overlaps_internal.h"
+#include "collision/proxy_report.h"
+#include "collision/rigid_parts_internal.h"
+
+namespace rex {
+namespace {
+
+using internal::CoupledMotion;
+using internal::HomeOverlap;
+using internal::RigidParts;
+
+using BodyPair = std::pair<BodyId, BodyId>;
+
+BodyPair inOrder(BodyId a, BodyId b) { return std::minmax(a, b); }
+
+// A body and its next ancestors, the world left out: it is nobody's kin.
+class Kin {
+ public:
+  Kin(const Model& model, BodyId body) {
+    for (BodyId at = body; at != kWorld && count_ < line_.size(); at = model[at].parent) line_[count_++] = at;
+  }
+  bool meets(const Kin& other) const {
+    return std::find_first_of(begin(), end(), other.begin(), other.end()) != end();
+  }
+
+ private:
+  static constexpr std::size_t kGenerations = 4;
+  const BodyId* begin() const { return line_.data(); }
+  const BodyId* end() const { return line_.data() + count_; }
+  std::array<BodyId, kGenerations + 1> line_{};
+  std::size_t count_ = 0;
+};
+
+bool hasJointTo(const Model& model, BodyId child, BodyId parent) {
+  if (model[child].parent != parent || model[child].joint == kNoJoint) return false;
+  return parent != kWorld || model[model[child].joint].type != JointType::kFree;
+}
+
+// What the scene says about pairs by name.
+class Choices {
+ public:
+  explicit Choices(const Model& model) {
+    for (const PairChoice& choice : model.collisionChoices()) {
+      if (!choice.b) {
+        ofAll_.emplace(choice.a, &choice);
+        continue;
+      }
+      const PairChoice*& known = ofPairs_[inOrder(choice.a, *choice.b)];
+      if (known == nullptr || !choice.mayCollide) known = &choice;
+    }
+  }
+
+  // Null without one.
+  const PairChoice* find(BodyId a, BodyId b) const {
+    if (const auto found = ofPairs_.find(inOrder(a, b)); found != ofPairs_.end()) return found->second;
+    for (const BodyId body : {a, b})
+      if (const auto found = ofAll_.find(body); found != ofAll_.end()) return found->second;
+    return nullptr;
+  }
+
+ private:
+  std::map<BodyPair, const PairChoice*> ofPairs_;
+  std::map<BodyId, const PairChoice*> ofAll_;
+};
+
+// Judges pairs of bodies.
+class Judge {
+ public:
+  explicit Judge(const Model& model)
+      : model_(model), parts_(model), coupled_(model), choices_(model), rule_(model.collisionRule()) {
+    if (rule_ == CollisionRule::kFourGenerations) return;
+    const auto isAsked = [&](BodyId a, BodyId b) {
+      return parts_.freeJoint(a) == parts_.freeJoint(b) && reasonByTree(a, b) == PairReason::kNone;
+    };
+    for (const HomeOverlap& overlap : internal::homeOverlaps(model, kHomeTolerance, isAsked)) {
+      HomeOverlap& deepest = overlaps_[inOrder(bodyOf(overlap.pair.a), bodyOf(overlap.pair.b))];
+      if (overlap.depth > deepest.depth) deepest = overlap;
+    }
+  }
+
+  PairVerdict verdict(BodyId a, BodyId b) const {
+    PairVerdict verdict{.a = std::min(a, b), .b = std::max(a, b), .reason = reasonByTree(a, b)};
+    verdict.mayCollide = verdict.reason == PairReason::kNone;
+    if (verdict.reason == PairReason::kChosen) {
+      const PairChoice* choice = choices_.find(a, b);
+      verdict.mayCollide = choice->mayCollide;
+      verdict.said = choice->reason;
+    }
+    const auto overlap = overlaps_.find(inOrder(a, b));
+    if (overlap == overlaps_.end()) return verdict;
+    verdict.reason = PairReason::kOverlapAtHome;
+    verdict.mayCollide = false;
+    verdict.deepest = overlap->second.pair;
+    verdict.depth = overlap->second.depth;
+    return verdict;
+  }
+
+  // The same without words.
+  bool mayCollide(BodyId a, BodyId b) const {
+    const PairReason reason = reasonByTree(a, b);
+    if (reason == PairReason::kChosen) return choices_.find(a, b)->mayCollide;
+    return reason == PairReason::kNone && !overlaps_.contains(inOrder(a, b));
+  }
+
+  // At home, of pairs that could collide otherwise.
+  const std::map<BodyPair, HomeOverlap>& overlaps() const { return overlaps_; }
+
+ private:
+  BodyId bodyOf(int shape) const { return model_.shapes()[static_cast<std::size_t>(shape)].body; }
+
+  PairReason reasonByTree(BodyId a, BodyId b) const {
+    if (parts_.part(a) == parts_.part(b)) return PairReason::kSamePart;
+    if (coupled_.cancels(a, b)) return PairReason::kCannotMove;
+    if (choices_.find(a, b) != nullptr) return PairReason::kChosen;
+    if (rule_ == CollisionRule::kFourGenerations) {
+      if (hasJointTo(model_, a, b) || hasJointTo(model_, b, a)) return PairReason::kNeighbours;
+      return Kin(model_, a).meets(Kin(model_, b)) ? PairReason::kFourGenerations : PairReason::kNone;
+    }
+    return parts_.areNeighbours(a, b) ? PairReason::kNeighbours : PairReason::kNone;
+  }
+
+  const Model& model_;
+  RigidParts parts_;
+  CoupledMotion coupled_;
+  Choices choices_;
+  CollisionRule rule_;
+  std::map<BodyPair, HomeOverlap> overlaps_;
+};
+
+// The shapes in contact, by their bodies; those of a body stand together.
+std::vector<std::vector<int>> shapesInContact(const Model& model) {
+  std::vector<std::vector<int>> groups;
+  BodyId last{-1};
+  for (std::size_t i = 0; i < model.shapes().size(); ++i) {
+    const ModelShape& shape = model.shapes()[i];
+    if (!internal::takesPart(shape)) continue;
+    if (groups.empty() || shape.body != last) groups.emplace_back();
+    groups.back().push_back(static_cast<int>(i));
+    last = shape.body;
+  }
+  return groups;
+}
+
+BodyId bodyOf(const Model& model, const std::vector<int>& group) {
+  return model.shapes()[static_cast<std::size_t>(group.front())].body;
+}
+
+std::string nameOf(const Model& model, BodyId body) { return model[body].name; }
+
+std::string overlapWarning(const Model& model, const PairVerdict& verdict) {
+  const std::string a = nameOf(model, verdict.a), b = nameOf(model, verdict.b);
+  return fmt::format(
+      "'{0}' and '{1}' overlap at home by {2:.3g} m (shapes '{3}' and '{4}'), so their collisions are never "
+      "looked "
+      "at: <disable_collisions link1=\"{0}\" link2=\"{1}\"/> in an SRDF says that this is meant, "
+      "<enable_collisions .../> lets them collide",
+      a, b, verdict.depth, shapeLabel(model, verdict.deepest->a), shapeLabel(model, verdict.deepest->b));
+}
+
+}  // namespace
+
+std::string toString(const PairVerdict& verdict, const Model& model) {
+  switch (verdict.reason) {
+    case PairReason::kSamePart:
+      return "fixed to each other";
+    case PairReason::kCannotMove:
+      return "coupled joints keep them in place";
+    case PairReason::kChosen:
+      return fmt::format("{}{}{}", verdict.mayCollide ? "enabled" : "disabled",
+                         verdict.said.empty() ? "" : ": ", verdict.said);
+    case PairReason::kNeighbours:
+      return "neighbours";
+    case PairReason::kFourGenerations:
+      return "within four generations";
+    case PairReason::kOverlapAtHome:
+      return fmt::format("overlap at home by {:.3g} m ('{}' and '{}')", verdict.depth,
+                         shapeLabel(model, verdict.deepest->a), shapeLabel(model, verdict.deepest->b));
+    case PairReason::kNone:
+      return "may collide";
+  }
+  return "";
+}
+
+std::vector<PairVerdict> pairVerdicts(const Model& model) {
+  const std::vector<std::vector<int>> groups = shapesInContact(model);
+  const Judge judge(model);
+  std::vector<PairVerdict> verdicts;
+  for (auto a = groups.begin(); a != groups.end(); ++a)
+    for (auto b = a + 1; b != groups.end(); ++b)
+      verdicts.push_back(judge.verdict(bodyOf(model, *a), bodyOf(model, *b)));
+  return verdicts;
+}
+
+std::vector<ShapePair> collidingPairs(const Model& model) {
+  const std::vector<std::vector<int>> groups = shapesInContact(model);
+  const Judge judge(model);
+  std::vector<ShapePair> pairs;
+  std::vector<int> partners;
+  for (auto a = groups.begin(); a != groups.end(); ++a) {
+    partners.clear();
+    for (auto b = a + 1; b != groups.end(); ++b)
+      if (judge.mayCollide(bodyOf(model, *a), bodyOf(model, *b)))
+        partners.insert(partners.end(), b->begin(), b->end());
+    for (const int shape : *a)
+      for (const int partner : partners) pairs.push_back({shape, partner});
+  }
+  return pairs;
+}
+
+Diagnostics collisionWarnings(const Model& model) {
+  Diagnostics warnings;
+  const auto warn = [&](std::string message) {
+    warnings.push_back({{model.name()}, std::move(message), Severity::kWarning});
+  };
+  const Judge judge(model);
+  for (const auto& [pair, overlap] : judge.overlaps())
+    warn(overlapWarning(model, judge.verdict(pair.first, pair.second)));
+  for (const PairChoice& choice : model.collisionChoices()) {
+    if (!choice.b || !choice.mayCollide) continue;
+    const PairVerdict verdict = judge.verdict(choice.a, *choice.b);
+    if (verdict.reason != PairReason::kSamePart && verdict.reason != PairReason::kCannotMove) continue;
+    warn(fmt::format("'{}' and '{}' are enabled to no effect: {}", nameOf(model, choice.a),
+                     nameOf(model, *choice.b), toString(verdict, model)));
+  }
+  return warnings;
+}
+
+}  // namespace rex
