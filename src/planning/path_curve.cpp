@@ -43,6 +43,26 @@ CurvePiece straightPiece(const Space& space, const Eigen::VectorXd& from, const 
   return {.length = length, .at = at};
 }
 
+// The largest part of the second derivative that leads away from straight ways: that across the first, or all
+// of it where the piece turns round.
+double bendOf(const CurvePiece& piece) {
+  CurvePoint point;
+  piece.at(0, point);
+  const Eigen::VectorXd first = point.dq;
+  piece.at(piece.length, point);
+  const bool goesOn = first.dot(point.dq) > .5 * first.norm() * point.dq.norm();
+  double most = 0;
+  for (const double share : {0., .25, .5, .75, 1.}) {
+    piece.at(share * piece.length, point);
+    Eigen::VectorXd bend = point.ddq;
+    if (goesOn && point.dq.squaredNorm() > 0)
+      bend -= point.dq * (point.dq.dot(point.ddq) / point.dq.squaredNorm());
+    // What is left of a straight way by rounding is none.
+    if (bend.norm() > 1e-12 * point.ddq.norm()) most = std::max(most, bend.cwiseAbs().maxCoeff());
+  }
+  return most;
+}
+
 }  // namespace
 
 double PathCurve::length() const {
@@ -81,12 +101,7 @@ Eigen::MatrixXd sampled(const PathCurve& curve, double tolerance) {
   std::vector<Eigen::VectorXd> postures{curve.start};
   CurvePoint point;
   for (const CurvePiece& piece : curve.pieces) {
-    double hardest = 0;
-    for (const double share : {0., .5, 1.}) {
-      piece.at(share * piece.length, point);
-      hardest = std::max(hardest, point.ddq.cwiseAbs().maxCoeff());
-    }
-    const double steps = std::ceil(piece.length * std::sqrt(hardest / (8 * tolerance)));
+    const double steps = std::ceil(piece.length * std::sqrt(bendOf(piece) / (8 * tolerance)));
     const int count = static_cast<int>(std::clamp(steps, 1., 1e5));
     for (int i = 1; i <= count; ++i) {
       piece.at(piece.length * i / count, point);

@@ -74,6 +74,16 @@ TEST(Sampled, StaysNearTheCurve) {
   Eigen::MatrixXd path(2, 3);
   path << 0, 1, 1, 0, 0, 1;
   EXPECT_EQ(sampled(straightCurve(kPlane, path), 1e-4), path);
+  // On a line, at a speed that changes, and there and back.
+  const auto square = [](double x, CurvePoint& point) {
+    point = {Eigen::Vector2d(x * x, 2 * x * x), Eigen::Vector2d(2 * x, 4 * x), Eigen::Vector2d(2, 4)};
+  };
+  const auto on = [&](double s, CurvePoint& point) { square(s + 1, point); };
+  const auto back = [&](double s, CurvePoint& point) { square(s - 1, point); };
+  const Eigen::Vector2d start(1, 2);
+  EXPECT_EQ(sampled({.start = start, .pieces = {{.length = 3, .at = on}}}, 1e-4).cols(), 2);
+  const Eigen::MatrixXd turned = sampled({.start = start, .pieces = {{.length = 2, .at = back}}}, 1e-4);
+  EXPECT_LT(turned.row(0).minCoeff(), 1e-3);
 }
 
 TEST(PathCurves, RefuseWhatIsNoPath) {

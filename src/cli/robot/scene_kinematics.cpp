@@ -23,7 +23,7 @@ Eigen::VectorXd postureOf(const Model& model, const std::string& text) {
 }
 
 // Nine columns each, also of numbers that are very large; what rounds to zero has no sign.
-std::string numbers(const Eigen::Ref<const Eigen::VectorXd>& values) {
+std::string fiveDecimals(const Eigen::Ref<const Eigen::VectorXd>& values) {
   std::string line;
   for (const double value : values) {
     if (std::abs(value) >= 1e3)
@@ -61,7 +61,8 @@ ExitCode sceneKinematics(const Project& project, const SceneOptions& options) {
       bodies.push_back(
           {{"name", model[id].name}, {"pos", jsonOf(poses[id].p)}, {"quat_wxyz", jsonOf(quaternion)}});
     else
-      say(fmt::format("{:{}}", harmless(model[id].name), width) + numbers(poses[id].p) + numbers(quaternion));
+      say(fmt::format("{:{}}", harmless(model[id].name), width) + fiveDecimals(poses[id].p) +
+          fiveDecimals(quaternion));
   }
   if (options.json) say(dump(Json{{"q", jsonOf(q)}, {"bodies", bodies}}));
   return ExitCode::kFull;
@@ -85,8 +86,8 @@ ExitCode sceneJacobian(const Project& project, const JacobianOptions& options) {
   say("velocity of the point and angular velocity, per unit of each joint's velocity");
   say(fmt::format("{:{}}", "joint", width) + heads({"x", "y", "z", "wx", "wy", "wz"}));
   for (int i = 0; i < model.nv(); ++i)
-    say(fmt::format("{:{}}", names[static_cast<std::size_t>(i)], width) + numbers(position.col(i)) +
-        numbers(angular.col(i)));
+    say(fmt::format("{:{}}", names[static_cast<std::size_t>(i)], width) + fiveDecimals(position.col(i)) +
+        fiveDecimals(angular.col(i)));
   return ExitCode::kFull;
 }
 
