@@ -10,14 +10,14 @@
 namespace rex {
 namespace {
 
-void requirePositive(const char* what, double metres) {
+void requireLength(const char* what, double metres) {
   if (metres > 0 && std::isfinite(metres)) return;
   throw Error(
       {.what = what, .found = fmt::format("{:g}", metres), .wanted = "a positive, finite number of metres"});
 }
 
 void requireControl(const Car& car, const Eigen::Vector2d& u) {
-  requirePositive("wheelbase of a car", car.wheelbase);
+  requireLength("wheelbase of a car", car.wheelbase);
   if (std::isfinite(u[0]) && std::abs(u[1]) <= car.maxSteering) return;
   throw Error({.what = "control of a car",
                .found = fmt::format("speed {:g}, steering {:g}", u[0], u[1]),
@@ -48,7 +48,7 @@ double sidewaysSpeed(const Eigen::Vector3d& q, const Eigen::Vector3d& velocity) 
 
 Eigen::Vector4d trailerVelocity(const CarWithTrailer& rig, const Eigen::Vector4d& q,
                                 const Eigen::Vector2d& u) {
-  requirePositive("hitch of a trailer", rig.hitchLength);
+  requireLength("hitch of a trailer", rig.hitchLength);
   Eigen::Vector4d velocity;
   velocity << carVelocity(rig.car, q.head<3>(), u), u[0] / rig.hitchLength * std::sin(q[2] - q[3]);
   return velocity;
@@ -56,7 +56,7 @@ Eigen::Vector4d trailerVelocity(const CarWithTrailer& rig, const Eigen::Vector4d
 
 Eigen::Vector4d driveTrailer(const CarWithTrailer& rig, const Eigen::Vector4d& q, const Eigen::Vector2d& u,
                              double seconds) {
-  requirePositive("hitch of a trailer", rig.hitchLength);
+  requireLength("hitch of a trailer", rig.hitchLength);
   // Steps that turn neither by more than a hundredth of a radian.
   const double turns =
       std::abs(u[0] * seconds) * (1 / rig.hitchLength + std::tan(std::abs(u[1])) / rig.car.wheelbase);

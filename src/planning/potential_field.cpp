@@ -7,16 +7,12 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require_positive.h"
 
 namespace rex {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-
-void requirePositive(const char* what, double number) {
-  if (number > 0 && std::isfinite(number)) return;
-  throw Error({.what = what, .found = fmt::format("{:g}", number), .wanted = "a positive, finite number"});
-}
 
 std::string described(const Eigen::Vector2d& p) { return fmt::format("({:g}, {:g})", p.x(), p.y()); }
 

@@ -227,9 +227,9 @@ TEST_F(SceneCommand, ContactsAlignForPeople) {
             "0.5 with a margin of 0.1 m\n"
             "pair         distance          point of the first         point of the second\n"
             "wall - ball    0.0500    0.1000   0.0000   0.0000    0.1500   0.0000   0.0000\n");
-  EXPECT_EQ(
-      scene({"wall.ors", "contacts"}).output,
-      "2 pairs of shapes may collide, 0 are nearer than 0.5 m; contact cost 0 with a margin of 0.1 m\n");
+  EXPECT_EQ(scene({"wall.ors", "contacts"}).output,
+            "2 pairs of shapes may collide (rule four_generations, see --pairs), 0 are nearer than 0.5 m; "
+            "contact cost 0 with a margin of 0.1 m\n");
 }
 
 TEST_F(SceneCommand, ContactsRefusesTooManyPairs) {

@@ -72,7 +72,8 @@ TEST(Clearances, NeedTheMeshesOfShapesThatCollide) {
   std::ofstream(folder.path() / "wedge.off")
       << "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
   std::ofstream(folder.path() / "scene.ors") << "body wedge { type=3 mesh='wedge.off' contact }\n"
-                                                "body ball { X=<T t(0 0 2)> type=1 size=[0 0 0 .1] contact }";
+                                                "body post {} body ball { type=1 size=[0 0 0 .1] contact }\n"
+                                                "joint (post ball) { A=<T t(0 0 2)> }";
   const Simulator S((folder.path() / "scene.ors").string()), without(S.description());
   EXPECT_EQ(clearances(S).y.size(), 1);
   EXPECT_REX_ERROR(clearances(without), "mesh");

@@ -227,7 +227,8 @@ TEST_F(SimulatorTest, RefusesContactsOfMeshesThatAreNotThere) {
   std::ofstream(in("wedge.off"))
       << "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
   std::ofstream(in("scene.ors")) << "body wedge { type=3 mesh='wedge.off' contact }\n"
-                                    "body ball { X=<T t(0 0 2)> type=1 size=[0 0 0 .1] contact }";
+                                    "body post {} body ball { type=1 size=[0 0 0 .1] contact }\n"
+                                    "joint (post ball) { A=<T t(0 0 2)> }";
   const Simulator S(in("scene.ors")), without(S.description());
   EXPECT_EQ(S.kinematicsContacts().size(), 1);
   EXPECT_REX_ERROR(without.kinematicsContacts(), "mesh");

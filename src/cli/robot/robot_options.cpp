@@ -14,11 +14,10 @@ void addReading(CLI::App* command, ReadOptions& reading) {
       ->type_name("DIR");
   command->add_flag("--allow-missing-meshes", reading.allowMissingMeshes,
                     "boxes for meshes that are not found");
-  command->add_flag("--strict", reading.strict,
-                    "refuse faults of a scene file that are otherwise repaired with a warning");
+  command->add_flag("--strict", reading.strict, "refuse faults of a file that are otherwise repaired");
   command
       ->add_option("--srdf", reading.srdf,
-                   "says which links of a .urdf robot may collide (default: the .srdf beside it, if any)")
+                   "which links of a .urdf may collide (default: the .srdf beside it)")
       ->type_name("FILE");
   command->add_flag("--free-base", reading.freeBase, "let the root of a .urdf move freely");
 }

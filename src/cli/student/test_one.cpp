@@ -16,7 +16,9 @@ ExitCode testOne(const Project& project, const TestOptions& options) {
   const std::optional<sandbox::Sandbox> sandbox = chooseSandbox(project, options.level);
   if (!sandbox) return ExitCode::kWeakSandbox;
   const TestRun run(project, std::move(exercise), options);
-  const int processors = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  // A sandbox has one work folder for all tools.
+  const int processors =
+      sandbox->level > 0 ? 1 : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   const grading::Submission graded = [&] {
     const ProgressLine line([&] { return run.stage(); });
     return run.grade(*sandbox, processors);
