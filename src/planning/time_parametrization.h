@@ -9,7 +9,7 @@ namespace rex {
 
 struct TimingOptions {
   double startSpeed = 0, endSpeed = 0;  ///< of the path's parameter, per second
-  int intervals = 400;                  ///< of the grid, at least; each piece has at least eight
+  int intervals = 1000;                 ///< of the grid, at least; each piece has at least eight
   /// By how much, as a share of it, a limit may be exceeded between points of the grid: where it is in the
   /// middle of an interval, that is halved, up to six times. At the points of the grid limits hold.
   double excess = 0.01;

@@ -19,8 +19,13 @@ std::vector<std::string> TestedExercises::names() {
   return names;
 }
 
+TestedExercises::TestedExercises() {
+  fs::create_directory_symlink(REX_SOURCE_DIR "/exercises", folder_.path() / "exercises");
+  fs::create_directory_symlink(REX_BINARY_DIR, folder_.path() / "build");
+}
+
 double TestedExercises::seconds(const std::string& name, File file) {
-  std::vector<std::string> command = {REX_OF_TREE, REX_SOURCE_DIR, "test", name, "-o", folder_.path() / name};
+  std::vector<std::string> command = {REX_OF_TREE, folder_.path(), "test", name, "-o", folder_.path() / name};
   if (file == File::kSolution)
     command.emplace_back("--solution");
   else

@@ -14,6 +14,8 @@ class TestedExercises {
  public:
   enum class File { kSolution, kUntouched };
 
+  TestedExercises();
+
   [[nodiscard]] static std::vector<std::string> names();
 
   /// Of one grading, with all that `rex test` does. Throws std::runtime_error if it does not end with a
