@@ -5,14 +5,13 @@
 
 #include "base/process.h"
 #include "submission/exercise_info.h"
+#include "support/registered_tests.h"
 
 namespace rex::cli::gates_test {
 
-std::set<std::string> linesOf(const std::vector<std::string>& command) {
-  const ProcessResult result = runProcess(command);
-  EXPECT_TRUE(result.ok()) << result.error;
+std::set<std::string> linesOf(const std::string& output) {
   std::set<std::string> lines;
-  std::istringstream text(result.output);
+  std::istringstream text(output);
   for (std::string line; std::getline(text, line);) lines.insert(line);
   return lines;
 }
@@ -20,7 +19,7 @@ std::set<std::string> linesOf(const std::vector<std::string>& command) {
 // The tests that CMake registered for an exercise, without "  Test #12: exercise/01-kinematics/".
 std::set<std::string> registered(const std::string& exercise) {
   std::set<std::string> gates;
-  for (const std::string& line : linesOf({"ctest", "--test-dir", REX_BINARY_DIR, "-N", "-L", exercise})) {
+  for (const std::string& line : linesOf(registeredTests({"-L", exercise}))) {
     const std::string prefix = "exercise/" + exercise + "/";
     const std::size_t at = line.find(prefix);
     if (at != std::string::npos) gates.insert(line.substr(at + prefix.size()));
@@ -28,12 +27,18 @@ std::set<std::string> registered(const std::string& exercise) {
   return gates;
 }
 
+std::set<std::string> listed(const std::string& exercise) {
+  const ProcessResult result =
+      runProcess({REX_BINARY_DIR "/rex-instructor", "dev", "check", exercise, "--list-gates"});
+  EXPECT_TRUE(result.ok()) << result.error;
+  return linesOf(result.output);
+}
+
 TEST(Gates, AreAllTestsOfTheSuite) {
   const auto exercises = grading::listExercises(REX_SOURCE_DIR "/exercises");
   ASSERT_FALSE(exercises.empty());
   for (const grading::ExerciseInfo& exercise : exercises)
-    EXPECT_EQ(registered(exercise.name),
-              linesOf({REX_BINARY_DIR "/rex-instructor", "dev", "check", exercise.name, "--list-gates"}));
+    EXPECT_EQ(registered(exercise.name), listed(exercise.name));
 }
 
 }  // namespace rex::cli::gates_test
