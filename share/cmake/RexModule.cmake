@@ -17,17 +17,17 @@ endfunction()
 
 set(REX_MODULE_OPTIONS ${REX_WARNINGS} -fno-semantic-interposition)
 
-# rex_module(NAME [COLD] SOURCES a.cpp ... [USES module ...] [PRIVATE library ...])
+# rex_module(NAME [COLD] [MATRICES] SOURCES a.cpp ... [USES module ...] [PRIVATE library ...])
 #
 # One shared library rex_NAME from this folder, src/NAME; a room inside a module, or a part that is built apart, has its
 # module's name in front: cli_robot, course_cars. USES names the rex modules whose headers its headers include; PRIVATE
 # names third-party libraries, which stay inside the .cpp files; all have Eigen, which alone is public, and fmt. COLD:
-# compiled fast, not for speed.
+# compiled fast, not for speed. MATRICES: full of matrix expressions, see rex_merge_sources.
 #
 # Shared, so that each of the many programs (graders, tests, students' workers) links in no time with what it needs and
 # nothing else. Calls inside a library do not go through its table of symbols.
 function(rex_module name)
-  cmake_parse_arguments(ARG "COLD" "" "SOURCES;USES;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "COLD;MATRICES" "" "SOURCES;USES;PRIVATE" ${ARGN})
   set(target rex_${name})
   add_library(${target} SHARED ${ARG_SOURCES})
   set_target_properties(${target} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib)
@@ -43,13 +43,18 @@ function(rex_module name)
   else()
     target_precompile_headers(${target} REUSE_FROM rex_module_headers)
   endif()
-  rex_merge_sources(${target})
+  rex_merge_sources(${target} ${ARG_MATRICES})
 endfunction()
 
 # Several sources are compiled as one where REX_MERGE_SOURCES is on: most of the time goes into headers and templates
-# that they share.
-function(rex_merge_sources target)
+# that they share. Not so with Eigen's expressions, of which each source has its own kinds: more of them at once take
+# longer than in proportion.
+function(rex_merge_sources target matrices)
   if(REX_MERGE_SOURCES)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${REX_MERGED_SOURCES})
+    set(at_most 12)
+    if(matrices)
+      set(at_most 4)
+    endif()
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${at_most})
   endif()
 endfunction()

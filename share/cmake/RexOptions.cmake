@@ -9,7 +9,6 @@ else()
   set(merge_by_default OFF)
 endif()
 option(REX_MERGE_SOURCES "Compile several sources of a module as one" ${merge_by_default})
-set(REX_MERGED_SOURCES 12)  # at most so many
 
 # Merged sources take up to 1.5 GB each: no more of them at once than there is memory for.
 cmake_host_system_information(RESULT memory QUERY TOTAL_PHYSICAL_MEMORY)

@@ -1,2 +1,31 @@
 #define REX_INSTANCE template
 #include "base/eigen_instances.h"
+
+namespace Eigen::internal {
+
+// Eigen's own product, of a result that it does not know to be specialised: the same memory as a Map.
+#define REX_DEFINE(Result, Left, Right)                                                              \
+  template <>                                                                                        \
+  template <>                                                                                        \
+  void generic_product_impl<Left, Right, DenseShape, DenseShape>::evalTo(Result& out, const Left& a, \
+                                                                         const Right& b) {           \
+    Map<Result> same(out.data(), out.rows(), out.cols());                                            \
+    evalTo(same, a, b);                                                                              \
+  }                                                                                                  \
+  template <>                                                                                        \
+  template <>                                                                                        \
+  void generic_product_impl<Left, Right, DenseShape, DenseShape>::addTo(Result& out, const Left& a,  \
+                                                                        const Right& b) {            \
+    Map<Result> same(out.data(), out.rows(), out.cols());                                            \
+    addTo(same, a, b);                                                                               \
+  }                                                                                                  \
+  template <>                                                                                        \
+  template <>                                                                                        \
+  void generic_product_impl<Left, Right, DenseShape, DenseShape>::subTo(Result& out, const Left& a,  \
+                                                                        const Right& b) {            \
+    Map<Result> same(out.data(), out.rows(), out.cols());                                            \
+    subTo(same, a, b);                                                                               \
+  }
+REX_MATRIX_PRODUCTS(REX_DEFINE)
+
+}  // namespace Eigen::internal

@@ -14,6 +14,41 @@
 #endif
 
 namespace Eigen {
+namespace internal {
+
+// Products of whole matrices are specialised where their sizes are looked at: a blocked product, one with a
+// vector or coefficients one by one. Each would be half a second of compiling.
+using Transposed = Transpose<const MatrixXd>;
+using TransposedValue = Transpose<MatrixXd>;
+using RowMatrix = Matrix<double, Dynamic, Dynamic, RowMajor>;
+using TwoFactors = Product<MatrixXd, MatrixXd>;
+using FirstTransposed = Product<Transposed, MatrixXd>;
+using ThreeFactors = Product<TwoFactors, Transposed>;
+#define REX_MATRIX_PRODUCTS(PRODUCT)           \
+  PRODUCT(MatrixXd, MatrixXd, MatrixXd)        \
+  PRODUCT(MatrixXd, Transposed, MatrixXd)      \
+  PRODUCT(MatrixXd, TransposedValue, MatrixXd) \
+  PRODUCT(MatrixXd, MatrixXd, Transposed)      \
+  PRODUCT(MatrixXd, TwoFactors, MatrixXd)      \
+  PRODUCT(MatrixXd, TwoFactors, Transposed)    \
+  PRODUCT(RowMatrix, TwoFactors, Transposed)   \
+  PRODUCT(MatrixXd, FirstTransposed, MatrixXd) \
+  PRODUCT(MatrixXd, ThreeFactors, MatrixXd)
+#define REX_DECLARE(Result, Left, Right)                                                                     \
+  template <>                                                                                                \
+  template <>                                                                                                \
+  void generic_product_impl<Left, Right, DenseShape, DenseShape>::evalTo(Result&, const Left&,               \
+                                                                         const Right&);                      \
+  template <>                                                                                                \
+  template <>                                                                                                \
+  void generic_product_impl<Left, Right, DenseShape, DenseShape>::addTo(Result&, const Left&, const Right&); \
+  template <>                                                                                                \
+  template <>                                                                                                \
+  void generic_product_impl<Left, Right, DenseShape, DenseShape>::subTo(Result&, const Left&, const Right&);
+REX_MATRIX_PRODUCTS(REX_DECLARE)
+#undef REX_DECLARE
+
+}  // namespace internal
 
 REX_INSTANCE class LLT<MatrixXd>;
 REX_INSTANCE LLT<MatrixXd>& LLT<MatrixXd>::compute(const EigenBase<MatrixXd>&);

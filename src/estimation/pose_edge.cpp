@@ -9,9 +9,8 @@ namespace rex::internal {
 namespace {
 
 // 1 / tr(I^-1); zero where a direction was not measured at all.
-template <class Information>
-double inverseTrace(const Information& information) {
-  const Eigen::FullPivLU<Information> factor(information);
+double inverseTrace(const Eigen::MatrixXd& information) {
+  const Eigen::FullPivLU<Eigen::MatrixXd> factor(information);
   return factor.isInvertible() ? 1 / factor.inverse().trace() : 0;
 }
 
@@ -23,11 +22,11 @@ Eigen::Matrix2d planarRotation(double angle) {
 }
 
 IsotropicWeights isotropic(const PlanarEdge& edge) {
-  return {2 * inverseTrace(Eigen::Matrix2d(edge.information.topLeftCorner<2, 2>())), edge.information(2, 2)};
+  return {2 * inverseTrace(edge.information.topLeftCorner<2, 2>()), edge.information(2, 2)};
 }
 
 IsotropicWeights isotropic(const SpatialEdge& edge) {
-  return {3 * inverseTrace(Eigen::Matrix3d(edge.information.topLeftCorner<3, 3>())),
+  return {3 * inverseTrace(edge.information.topLeftCorner<3, 3>()),
           1.5 * inverseTrace(Eigen::Matrix3d(edge.information.bottomRightCorner<3, 3>()))};
 }
 

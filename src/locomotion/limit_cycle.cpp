@@ -17,7 +17,7 @@ using Eigen::Vector4d;
 using Status = LimitCycle::Status;
 
 Vector4cd multipliersOf(const Matrix4d& J) {
-  Vector4cd values = Eigen::EigenSolver<Matrix4d>(J, false).eigenvalues();
+  Vector4cd values = Eigen::EigenSolver<Eigen::MatrixXd>(J, false).eigenvalues();
   std::sort(values.begin(), values.end(), [](const auto& s, const auto& t) {
     return std::abs(s) != std::abs(t) ? std::abs(s) > std::abs(t) : s.imag() > t.imag();
   });
@@ -44,8 +44,9 @@ struct Trial {
 
 // Halves Newton's way until the walker steps, and comes nearer.
 bool advance(const CompassGait& walker, double timeLimit, Trial& at) {
-  const Vector4d way =
-      (Matrix4d::Identity() - at.map.J).fullPivLu().solve(Vector4d(at.map.step.after - at.x));
+  const Eigen::MatrixXd slope = Matrix4d::Identity() - at.map.J;
+  const Eigen::VectorXd gap = at.map.step.after - at.x;
+  const Vector4d way = slope.fullPivLu().solve(gap);
   for (double share = 1; share > 1e-4; share /= 2) {
     const Trial next(walker, at.x + share * way, timeLimit);
     if (!next.stepped() || !(next.residual < at.residual)) continue;

@@ -108,7 +108,8 @@ TEST(CartPoleDynamics, GainsAreThoseOfTheErrata) {
   printed(1, 2) = -11.76;
   const RiccatiResult published = solveCare(printed, linear.B, Q, R);
   EXPECT_LT((-published.K.transpose() - vectorOf(golden["K_from_printed_A"])).norm(), 1e-9);
-  const Eigen::VectorXcd poles = (linear.A - linear.B * published.K).eigenvalues();
+  const Eigen::MatrixXd loop = linear.A - linear.B * published.K;
+  const Eigen::VectorXcd poles = loop.eigenvalues();
   EXPECT_NEAR(poles.real().maxCoeff(), -0.329, 5e-4);
   EXPECT_NEAR(right.closedLoop.real().maxCoeff(), -0.506, 5e-4);
 }

@@ -19,7 +19,7 @@ Eigen::Matrix3d closedLoop(double mass, const PidGains& gains) {
 }
 
 double slowestRate(double mass, const PidGains& gains) {
-  return Eigen::EigenSolver<Eigen::Matrix3d>(closedLoop(mass, gains)).eigenvalues().real().maxCoeff();
+  return Eigen::EigenSolver<Eigen::MatrixXd>(closedLoop(mass, gains)).eigenvalues().real().maxCoeff();
 }
 
 TEST(PidIsStable, AgreesWithTheEigenvalues) {

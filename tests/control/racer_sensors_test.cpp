@@ -66,6 +66,7 @@ TEST(RacerSensors, AloneCannotBeStabilized) {
   const auto loop = [&](const Vector4d& w) {
     return Eigen::Matrix4d(plant.A + plant.B * (w.transpose() * C));
   };
+  const auto rightmost = [](const Eigen::MatrixXd& A) { return A.eigenvalues().real().maxCoeff(); };
   // The coefficient is minus the sum of the principal minors of order three.
   const auto coefficient = [](const Eigen::Matrix4d& A) {
     double sum = 0;
@@ -82,12 +83,12 @@ TEST(RacerSensors, AloneCannotBeStabilized) {
     const Vector4d w = Vector4d(3, 3, 1, 0.1).cwiseProduct(rng.normalVector(4));
     const Eigen::Matrix4d A = loop(w);
     ASSERT_NEAR(coefficient(A), 0, 1e-9 * std::pow(A.norm(), 3));
-    best = std::min(best, A.eigenvalues().real().maxCoeff());
+    best = std::min(best, rightmost(A));
   }
   EXPECT_GT(best, -1e-5);
   // Zero is reached: theta and theta' alone hold the body upright, and the wheel rolls on.
   const Vector4d upright(0, 3, 1, 0);
-  EXPECT_NEAR(loop(upright).eigenvalues().real().maxCoeff(), 0, 1e-5);
+  EXPECT_NEAR(rightmost(loop(upright)), 0, 1e-5);
 
   // With wheel velocity the coefficient is free.
   const Eigen::RowVector4d wheelSpeed(0, 0, 1 / kRadius, -1);

@@ -247,8 +247,8 @@ Figure polesOfARegulator() {
     K = B.transpose() * P * A / (0.1 + B.dot(P * B));
     P = Eigen::Matrix4d::Identity() + A.transpose() * P * (A - B * K);
   }
-  const auto poles = [](const Eigen::Matrix4d& M) {
-    const Eigen::Vector4cd values = M.eigenvalues();
+  const auto poles = [](const Eigen::MatrixXd& M) {
+    const Eigen::VectorXcd values = M.eigenvalues();
     return std::vector<std::complex<double>>(values.begin(), values.end());
   };
   Figure figure = poleFigure(poles(A), {}, TimeDomain::kDiscrete);
