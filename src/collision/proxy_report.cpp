@@ -17,13 +17,16 @@ std::string pointText(const Eigen::Vector3d& p) {
 }  // namespace
 
 std::string shapeLabel(const Model& model, int shape) {
-  const auto shapes = model.shapes().first(static_cast<std::size_t>(shape) + 1);
-  const ModelShape& chosen = shapes.back();
-  if (!chosen.name.empty()) return chosen.name;
-  const auto number = std::count_if(shapes.begin(), shapes.end(), [&](const ModelShape& one) {
-    return one.body == chosen.body && one.name.empty();
-  });
-  return fmt::format("{}#{}", model[chosen.body].name, number);
+  const auto until = model.shapes().first(static_cast<std::size_t>(shape) + 1);
+  const ModelShape& chosen = until.back();
+  const bool isNamed = !chosen.name.empty();
+  // What is only seen does not count among shapes that touch, though it may have the same name.
+  const auto isAlike = [&](const ModelShape& one) {
+    return one.body == chosen.body && one.name == chosen.name && (!isNamed || one.contact == chosen.contact);
+  };
+  if (isNamed && std::ranges::count_if(model.shapes(), isAlike) == 1) return chosen.name;
+  return fmt::format("{}#{}", isNamed ? chosen.name : model[chosen.body].name,
+                     std::ranges::count_if(until, isAlike));
 }
 
 std::string proxyReport(const Model& model, std::span<const Proxy> proxies) {

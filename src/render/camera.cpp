@@ -65,7 +65,10 @@ Camera framing(const Bounds& bounds, const Eigen::Vector3d& direction, double as
   const auto fail = [](const char* found, const char* wanted) {
     return Error({.what = "cannot frame the scene", .found = found, .wanted = wanted});
   };
-  if (bounds.isEmpty()) throw fail("empty bounds", "something to look at");
+  if (bounds.isEmpty())
+    throw Error({.what = "nothing to draw",
+                 .found = "no shape, line, point, arrow or label in the scene",
+                 .wanted = "at least one"});
   if (!bounds.low.allFinite() || !bounds.high.allFinite()) throw fail("infinite bounds", "finite ones");
   if (!direction.allFinite() || direction.norm() == 0) throw fail("no view direction", "a finite vector");
   if (!(aspect > 0) || !std::isfinite(aspect)) throw fail("a strange aspect", "width / height, positive");

@@ -12,6 +12,7 @@
 #include "render/glb_mesh_internal.h"
 #include "render/glb_track_internal.h"
 #include "render/mark_style_internal.h"
+#include "render/own_ground_internal.h"
 #include "render/staged_file_internal.h"
 #include "render/utf8_internal.h"
 
@@ -106,14 +107,15 @@ class FilmWriter {
     GlbTrack track(film_.size());
     for (std::size_t k = 0; k < film_.size(); ++k) {
       const Ground& ground = film_[k].picture.ground;
-      if (!ground.visible) continue;
+      const std::optional<double> height = internal::checkerHeight(film_[k].picture, scene_);
+      if (!height) continue;
       const double half = std::max(6 * scene_.radius(), 4 * ground.cell);
       const Color mixed{(ground.light.r + ground.dark.r) / 2, (ground.light.g + ground.dark.g) / 2,
                         (ground.light.b + ground.dark.b) / 2};
       track[k] = GlbState{.mesh = meshes_.plane(half, mixed),
                           .extras = {.numbers = {{"cell", {ground.cell}}},
                                      .texts = {{"light", hex(ground.light)}, {"dark", hex(ground.dark)}}},
-                          .pose = translation(scene_.center().x(), scene_.center().y(), ground.height)};
+                          .pose = translation(scene_.center().x(), scene_.center().y(), *height)};
     }
     tracks_.add("ground", track);
   }

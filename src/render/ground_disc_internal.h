@@ -13,7 +13,8 @@ struct GroundDisc {
   double radius;
 };
 
-/// None for a picture without ground, and for a camera not above it.
+/// None for a picture without ground or with one of its own, see checkerHeight(), and for a camera not above
+/// it.
 [[nodiscard]] std::optional<GroundDisc> visibleGround(const Picture& picture, const Camera& camera);
 
 }  // namespace rex::internal

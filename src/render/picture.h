@@ -23,7 +23,8 @@ struct Solid {
   std::string name{};
 };
 
-/// A checkered plane z = height that fades out around the scene; not visible from below.
+/// A checkered plane z = height that fades out around the scene; not visible from below. It is left out where
+/// the scene has a ground of its own there, and lies a little lower where something small and flat does.
 struct Ground {
   bool visible = true;
   double height = 0;  ///< metres

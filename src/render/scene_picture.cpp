@@ -4,19 +4,24 @@
 
 namespace rex {
 
-Picture pictureOf(const Model& model, const BodyPoses& poses) {
+std::vector<Solid> solidsOf(const Model& model, const BodyPoses& poses) {
   const auto isVisible = [](const ModelShape& shape) { return shape.visible; };
   const bool showsAll = std::none_of(model.shapes().begin(), model.shapes().end(), isVisible);
-  Picture picture;
+  std::vector<Solid> solids;
   for (const ModelShape& shape : model.shapes()) {
     if (!shape.visible && !showsAll) continue;
     if (usesMesh(shape.shape.type) && shape.shape.mesh.isEmpty()) continue;
     const Eigen::Vector4f c = shape.color.cast<float>();
-    picture.solids.push_back({.shape = shape.shape,
-                              .X_WS = poses[shape.body] * shape.X_BS,
-                              .color = {c[0], c[1], c[2], c[3]},
-                              .name = shape.name});
+    solids.push_back({.shape = shape.shape,
+                      .X_WS = poses[shape.body] * shape.X_BS,
+                      .color = {c[0], c[1], c[2], c[3]},
+                      .name = shape.name});
   }
+  return solids;
+}
+
+Picture pictureOf(const Model& model, const BodyPoses& poses) {
+  Picture picture{.solids = solidsOf(model, poses)};
   const Bounds all = bounds(picture);
   if (!all.isEmpty()) picture.ground.height = std::min(0., all.low.z());
   return picture;

@@ -20,6 +20,13 @@ Eigen::Matrix3d lightAxes(const Eigen::Vector3d& toLight) {
   return R_LW;
 }
 
+// Whether two items cast the same shadow.
+bool castAlike(const DrawItem& a, const DrawItem& b) {
+  return a.mesh == b.mesh && a.detail == b.detail && a.X_WS.R == b.X_WS.R && a.X_WS.p == b.X_WS.p &&
+         a.halfSize == b.halfSize && a.stretch == b.stretch && a.imported == b.imported &&
+         a.firstTriangle == b.firstTriangle && a.triangleCount == b.triangleCount;
+}
+
 }  // namespace
 
 ShadowView fitShadowView(const std::vector<DrawItem>& casters, const Eigen::Vector3d& toLight, int mapSize) {
@@ -68,17 +75,20 @@ ShadowMap::ShadowMap(const GlFunctions& gl)
 }
 
 ShadowView ShadowMap::draw(const std::vector<DrawItem>& casters, const Eigen::Vector3d& toLight,
-                           const MeshStore& meshes) const {
+                           const MeshStore& meshes) {
   const ShadowView view = fitShadowView(casters, toLight, kMapSize);
+  std::vector<DrawItem> items = casters;
+  for (DrawItem& item : items)
+    item.detail = std::min(item.detail, detailFor(radiusOf(item) / view.texel));
+  if (drawnToLight_ == toLight && std::ranges::equal(items, drawn_, castAlike)) return view;
   gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   gl_->Viewport(0, 0, kMapSize, kMapSize);
   gl_->Clear(GL_DEPTH_BUFFER_BIT);
   program_.use();
   program_.set("shadowClipFromWorld", view.clipFromWorld);
-  for (DrawItem item : casters) {
-    item.detail = std::min(item.detail, detailFor(radiusOf(item) / view.texel));
-    meshes.draw(item, program_);
-  }
+  for (const DrawItem& item : items) meshes.draw(item, program_);
+  drawnToLight_ = toLight;
+  drawn_ = std::move(items);
   return view;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "render/mesh_store_internal.h"
@@ -20,14 +21,17 @@ struct ShadowView {
 class ShadowMap {
  public:
   explicit ShadowMap(const GlFunctions& gl);
-  /// Draws the casters and leaves the map's framebuffer bound.
+  /// Makes it the map of these casters. Draws nothing where they are those of the last time, as in all frames
+  /// of a walk around one posture, and from all cameras. May leave the map's framebuffer bound.
   ShadowView draw(const std::vector<DrawItem>& casters, const Eigen::Vector3d& toLight,
-                  const MeshStore& meshes) const;
+                  const MeshStore& meshes);
 
  private:
   const GlFunctions* gl_;
   GlProgram program_;
   GLuint framebuffer_ = 0;
+  std::optional<Eigen::Vector3d> drawnToLight_;  // none: the map is empty
+  std::vector<DrawItem> drawn_;
 };
 
 }  // namespace rex::internal

@@ -106,11 +106,12 @@ class Reader {
   }
 
   // The index of the body that is meant; none: the world.
-  std::optional<std::size_t> parentBody(const ors::Word& parent, const std::string& owner) const {
+  std::optional<std::size_t> bodyOf(const ors::Word& parent, const std::string& owner,
+                                    const char* role) const {
     if (parent.node) {
       if (worldNodes_.contains(*parent.node)) return std::nullopt;
       if (const auto body = bodyOfNode_.find(*parent.node); body != bodyOfNode_.end()) return body->second;
-      fail(parent.where, owner + ": parent", fmt::format("{}, which is no body", parent.text),
+      fail(parent.where, fmt::format("{}: {}", owner, role), fmt::format("{}, which is no body", parent.text),
            "the count of statements back to a body");
     }
     const auto found = firstOfName_.find(parent.text);
@@ -118,7 +119,7 @@ class Reader {
     if (parent.text == kWorldName) return std::nullopt;
     std::vector<std::string> names;
     for (const BodySpec& body : file_.spec.bodies) names.push_back(body.name);
-    fail(parent.where, owner + ": unknown parent", fmt::format("'{}'", parent.text),
+    fail(parent.where, fmt::format("{}: unknown {}", owner, role), fmt::format("'{}'", parent.text),
          "the name of an earlier body", ors::nearestOfMany(parent.text, std::move(names)));
   }
 
@@ -188,7 +189,7 @@ class Reader {
     attributes.noteWords({"contact", "hidden"}, file_.notes);
     std::vector<ShapeSpec>* shapes = &file_.spec.worldShapes;
     if (!node.parents.empty()) {
-      if (const auto body = parentBody(node.parents[0], attributes.owner()))
+      if (const auto body = bodyOf(node.parents[0], attributes.owner(), "parent"))
         shapes = &file_.spec.bodies[*body].shapes;
     }
     shapes->push_back(ors::readShape(attributes, name, node.where, file_.notes));
@@ -208,8 +209,8 @@ class Reader {
     joint.name = name;
     joint.where = node.where;
     ors::JointSurroundings around;
-    joint.parent = connect(node.parents[0], attributes.owner(), around.X_WP);
-    joint.child = connect(node.parents[1], attributes.owner(), around.X_WC);
+    joint.parent = connect(node.parents[0], attributes.owner(), "parent", around.X_WP);
+    joint.child = connect(node.parents[1], attributes.owner(), "child", around.X_WC);
     if (joint.child == kWorldName)
       fail(node.parents[1].where, attributes.owner(), "the world as the body that moves", "a body");
     if (joint.parent == joint.child) {
@@ -242,8 +243,8 @@ class Reader {
            "two, or one for all its pairs");
     attributes.noteUnknown({"on", "off", "reason"}, file_.notes);
     Pose unused;
-    CollisionChoice choice{.a = connect(node.parents[0], attributes.owner(), unused), .b = {}};
-    if (node.parents.size() == 2) choice.b = connect(node.parents[1], attributes.owner(), unused);
+    CollisionChoice choice{.a = connect(node.parents[0], attributes.owner(), "body", unused), .b = {}};
+    if (node.parents.size() == 2) choice.b = connect(node.parents[1], attributes.owner(), "body", unused);
     if (choice.a == choice.b)
       fail(node.parents[1].where, attributes.owner(), "one body", "two different bodies");
     choice.mayCollide = attributes.flag("on");
@@ -306,8 +307,8 @@ class Reader {
   }
 
   // What a joint calls the body, whose pose is X_WB.
-  std::string connect(const ors::Word& parent, const std::string& owner, Pose& X_WB) const {
-    const auto index = parentBody(parent, owner);
+  std::string connect(const ors::Word& parent, const std::string& owner, const char* role, Pose& X_WB) const {
+    const auto index = bodyOf(parent, owner, role);
     if (!index) return kWorldName;
     const BodySpec& body = file_.spec.bodies[*index];
     if (firstOfName_.at(body.name) != *index) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,6 +28,24 @@ TEST(ShapeLabel, CountsTheShapesWithoutAName) {
   std::vector<std::string> labels;
   for (int i = 0; i < 4; ++i) labels.push_back(shapeLabel(model, i));
   EXPECT_THAT(labels, testing::ElementsAre("wall#1", "gate", "wall#2", "bead"));
+}
+
+// A URDF names the collision shapes of a link like the link, and what is only seen likewise.
+TEST(ShapeLabel, CountsShapesThatShareAName) {
+  const char* kSphere = "<geometry><sphere radius='0.1'/></geometry>";
+  const auto shape = [&](const char* tag, double x) {
+    return fmt::format("<{0}><origin xyz='{1} 0 0'/>{2}</{0}>", tag, x, kSphere);
+  };
+  const std::string text = "<robot name='r'><link name='arm'>" + shape("visual", 0) + shape("collision", 0) +
+                           shape("collision", 1) + "</link><link name='hand'>" + shape("visual", 0) +
+                           shape("collision", 3) +
+                           "</link><joint name='j' type='fixed'><parent link='arm'/><child link='hand'/>"
+                           "</joint></robot>";
+  const Model model = compile(parseScene(text, "r.urdf").spec);
+  std::vector<std::string> touching;
+  for (std::size_t i = 0; i < model.shapes().size(); ++i)
+    if (model.shapes()[i].contact) touching.push_back(shapeLabel(model, static_cast<int>(i)));
+  EXPECT_THAT(touching, testing::ElementsAre("arm#1", "arm#2", "hand"));
 }
 
 TEST(ProxyReport, ListsTheNearestFirst) {

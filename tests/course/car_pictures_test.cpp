@@ -122,7 +122,7 @@ TEST(CarPicture, LinesLeadFromTheCarToWhatItSees) {
 TEST(CarPicture, OfNothingIsEmpty) {
   const Picture picture = pictureOf(CarView{});
   EXPECT_TRUE(bounds(picture).isEmpty());
-  EXPECT_REX_ERROR(writePicture(CarView{}, "x.png"), "cannot frame the scene: found empty bounds");
+  EXPECT_REX_ERROR(writePicture(CarView{}, "x.png"), "nothing to draw: found no shape, line");
 }
 
 TEST(CarPicture, SaysWhatCannotBeDrawn) {

@@ -8,10 +8,12 @@
 
 #include "base/rng.h"
 #include "geometry/rotation.h"
+#include "geometry/welded_mesh.h"
 #include "render/renderer.h"
 #include "support/draw_once.h"
 #include "support/expect_error.h"
 #include "support/image_difference.h"
+#include "support/mesh_samples.h"
 #include "support/needs_osmesa.h"
 
 namespace rex::solid_test {
@@ -289,6 +291,31 @@ TEST(Renderer, GivesTheSameBytesEveryTime) {
   EXPECT_EQ(first, other.draw(picture, camera));
   Renderer moved = std::move(other);
   EXPECT_EQ(first, moved.draw(picture, camera));
+}
+
+// A renderer keeps the shadows of what has not moved.
+TEST(Renderer, DrawsAfterAnyPictureWhatAFreshOneDraws) {
+  REX_NEEDS_OSMESA();
+  const RendererOptions small{.width = 80, .height = 60};
+  const BareMesh cube = cubeSample(0.2f), ball = sphereSample(0.2f, 2);
+  const auto meshOf = [](const BareMesh& bare) {
+    return Shape{.type = ShapeType::kMesh, .mesh = weldedMesh(bare.positions, bare.triangles)};
+  };
+  const Picture first{.solids = {{meshOf(cube), translation(0, 0, 0.8), {0.9f, 0.3f, 0.1f}, "mesh"},
+                                 {{ShapeType::kBox, {1, 1, 0.2}, 0}, translation(0, 0, 0.1), {}, "table"}}};
+  Picture moved = first, lit = first, other = first, faint = first, grown = first, fewer = first;
+  moved.solids[0].X_WS.p.x() += 0.1;
+  lit.toLight = {1, 0, 1.5};
+  other.solids[0].shape = meshOf(ball);
+  faint.solids[0].color.a = 0.5f;
+  grown.solids[1].shape.extent.x() += 0.1;
+  fewer.solids.erase(fewer.solids.begin());
+  const Camera near = lookAt({1, -3, 2}, {0, 0, 0.4}), far = lookAt({-3, -9, 4}, {0, 0, 0.4});
+  Renderer renderer(small);
+  for (const Picture* picture : {&first, &first, &moved, &first, &lit, &first, &other, &first, &faint, &first,
+                                 &grown, &first, &fewer, &first})
+    for (const Camera& camera : {near, far})
+      EXPECT_EQ(renderer.draw(*picture, camera), Renderer(small).draw(*picture, camera));
 }
 
 TEST(Renderer, DrawsAnySize) {

@@ -75,7 +75,7 @@ TEST(OrsCollisions, RefuseWithThePlace) {
                    "s.ors:2:15: collisions (a a): found one body, wanted two different bodies");
   EXPECT_REX_ERROR(
       read("collisions (a bb) { off }"),
-      "s.ors:2:15: collisions (a bb): unknown parent: found 'bb', wanted the name of an earlier body "
+      "s.ors:2:15: collisions (a bb): unknown body: found 'bb', wanted the name of an earlier body "
       "(did you mean 'b'?)");
   EXPECT_REX_ERROR(read("collisions (a b)"),
                    "s.ors:2:1: collisions (a b): found neither 'on' nor 'off', wanted one of them");

@@ -192,7 +192,7 @@ constexpr Row kErrors[] = {
      "shape: parent: found -1, which is no body, wanted the count of statements back to a body"},
     // joints
     {"body arm {}\nbody hand {}\njoint (arm @hnad@) {}", "hand",
-     "joint 'arm>hnad': unknown parent: found 'hnad', wanted the name of an earlier body (did you mean "
+     "joint 'arm>hnad': unknown child: found 'hnad', wanted the name of an earlier body (did you mean "
      "'hand'?)"},
     {"body a {}\nbody b {}\n^joint j (a@@) {}", " b",
      "joint 'j': found 1 bodies, wanted two: joint NAME (FROM TO) {...}"},

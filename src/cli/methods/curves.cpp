@@ -32,13 +32,17 @@ Json jsonOf(const Curve& curve) {
   return {{"length", curve.length()}, {"word", word}, {"segments", std::move(segments)}};
 }
 
+// Without the segments that round to nothing: straight on is S, not LSL.
 std::string described(const std::string& name, const Curve& curve) {
-  std::string text = fmt::format("{:<13} {:10.6f} m  {:<5}", name, curve.length(), curve.word());
-  for (const CurveSegment& segment : curve.segments()) {
-    const double metres = std::abs(segment.length) < 5e-5 ? 0 : segment.length;  // not "-0.0000"
-    text += fmt::format(" {:9.4f}", metres);
+  std::string word, metres;
+  const std::string whole = curve.word();
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    const double length = curve.segments()[i].length;
+    if (std::abs(length) < 5e-5) continue;
+    word += whole[i];
+    metres += fmt::format(" {:9.4f}", length);
   }
-  return text;
+  return fmt::format("{:<13} {:10.6f} m  {:<5}{}", name, curve.length(), word.empty() ? "-" : word, metres);
 }
 
 // The shortest ways of a car that drives forward only, and of one that may drive backward.

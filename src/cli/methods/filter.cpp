@@ -65,8 +65,9 @@ std::string textOf(const FilterOptions& options, const FilterStatistics& all) {
   text += fmt::format("error      {:.4g} m, {:.4g} rad (root mean square); dead reckoning {:.4g} m\n",
                       all.position, all.heading, all.deadReckoning);
   if (all.foundLandmarks > 0)
-    text +=
-        fmt::format("map        {} landmarks, {:.4g} m (root mean square)\n", all.foundLandmarks, all.map);
+    text += fmt::format("map        {:.4g} of {} landmarks{}, {:.4g} m (root mean square)\n",
+                        all.foundLandmarks / static_cast<double>(all.runs.size()), options.landmarks,
+                        all.runs.size() == 1 ? "" : " in each run on average", all.map);
   text += fmt::format(
       "NEES       {}, consistent: 3; means over the runs lie within {:.4g} to {:.4g}\n"
       "           in {:.1f} % of the steps, consistent: about 95 %",

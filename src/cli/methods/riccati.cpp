@@ -39,10 +39,9 @@ Json parsed(const std::string& text, const std::string& file) {
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(
                                         text.size(), error.byte > 0 ? error.byte - 1 : std::size_t{0}));
     const auto line = std::find(std::make_reverse_iterator(end), text.rend(), '\n').base();
-    throw Error({.what = "JSON",
+    throw Error({.what = "not valid JSON",
                  .where = {file, static_cast<int>(1 + std::count(text.begin(), end, '\n')),
                            static_cast<int>(1 + (end - line))},
-                 .found = "what is no JSON here",
                  .wanted = "an object with the fields A, B, Q and R"});
   } catch (const Json::out_of_range&) {
     throw Error({.what = "JSON",

@@ -34,9 +34,10 @@ std::filesystem::path writeFilm(const MotionPictures& pictures, const RenderPlan
   const std::size_t count = isWalk ? kTurn : pictures.size();
   Studio studio(plan, isWalk ? turningBox(pictures.bounds()) : pictures.bounds());
   note(studio.describe());
+  const Picture first = pictures.picture(0);  // all that a walk shows
   const auto draw = [&](std::size_t i) {
-    const double angle = isWalk ? 2 * std::numbers::pi * static_cast<double>(i) / kTurn : 0;
-    return studio.draw(pictures.picture(isWalk ? 0 : i), angle);
+    if (!isWalk) return studio.draw(pictures.picture(i));
+    return studio.draw(first, 2 * std::numbers::pi * static_cast<double>(i) / kTurn);
   };
   for (std::size_t i = 0; i < count && !studio.sawSomething(); ++i) static_cast<void>(draw(i));
   studio.requireSomethingSeen();

@@ -37,10 +37,9 @@ MotionPictures::MotionPictures(const Model& model, const Motion& motion,
   }
   for (std::size_t i = 0; i < shown_.size(); ++i) {
     throwIfInterrupted();
-    const Picture one = pictureOf(model_, forwardKinematics(model_, motion_.postures[shown_[i]]));
-    ground_ = std::min(ground_, one.ground.height);
-    const Bounds box = rex::bounds(one);
+    const Bounds box = rex::bounds(solidsAt(i));
     if (box.isEmpty()) continue;
+    ground_ = std::min(ground_, box.low.z());
     bounds_.include(box.low);
     bounds_.include(box.high);
   }
@@ -48,8 +47,13 @@ MotionPictures::MotionPictures(const Model& model, const Motion& motion,
     for (const Eigen::Vector3d& point : way) bounds_.include(point);
 }
 
+// Without pictureOf(), which looks at every vertex for the height of a ground that is known here.
+Picture MotionPictures::solidsAt(std::size_t i) const {
+  return {.solids = solidsOf(model_, forwardKinematics(model_, motion_.postures[shown_[i]]))};
+}
+
 Picture MotionPictures::picture(std::size_t i) const {
-  Picture picture = pictureOf(model_, forwardKinematics(model_, motion_.postures[shown_[i]]));
+  Picture picture = solidsAt(i);
   picture.ground.height = ground_;
   picture.ground.scene = bounds_;
   if (!caption_.empty()) picture.captions.push_back({.text = caption_});

@@ -30,6 +30,8 @@ class MotionPictures {
   [[nodiscard]] const Bounds& bounds() const { return bounds_; }
 
  private:
+  [[nodiscard]] Picture solidsAt(std::size_t i) const;
+
   Model model_;
   Motion motion_;
   std::vector<std::size_t> shown_;

@@ -98,7 +98,7 @@ bool isClear(const FoundPaths& found, double margin) {
 ExitCode planPath(const Project& project, const PlanOptions& options) {
   RenderOptions filmOptions = options.film;
   filmOptions.out = options.out / "path.mp4";
-  const RenderPlan pictures = planOf(filmOptions);
+  const RenderPlan pictures = planOf(filmOptions, facingOf(fileOf(project, options.scene)));
   const PathSearch search = searchOf(options);
   Model model = loadScene(project, options.scene);
   if (model.nv() == 0) throw UsageError({.what = model.name(), .found = "no joint that moves"});

@@ -59,6 +59,11 @@ void writeStill(const MotionPictures& pictures, const RenderPlan& plan, const fs
   writePng(whole, out);
 }
 
+// What has no Studio to say it.
+void noteViews(const RenderPlan& plan) {
+  if (const std::string views = viewsOf(plan); !views.empty()) note(views);
+}
+
 void writePage(const MotionPictures& pictures, const RenderPlan& plan, const RenderOptions& options) {
   throwIfInterrupted();
   writeReport({.title = options.caption.empty() ? options.scene.file.stem().string() : options.caption,
@@ -71,10 +76,12 @@ void writePage(const MotionPictures& pictures, const RenderPlan& plan, const Ren
 }  // namespace
 
 ExitCode render(const Project& project, const RenderOptions& options) {
-  const RenderPlan plan = planOf(options);
+  const RenderPlan plan = planOf(options, facingOf(fileOf(project, options.scene)));
   const Model model = loadScene(project, options.scene);
   const MotionPictures pictures =
       picturesOf(model, motionOf(model, options, plan.seconds), options, plan.product);
+  if (pictures.bounds().isEmpty())
+    throw UsageError({.what = model.name(), .found = "no shape to draw", .wanted = "a scene with shapes"});
   asWrongUse([&] { makeOutPlace(options.out); });
   fs::path written = options.out;
   switch (plan.product) {
@@ -86,9 +93,11 @@ ExitCode render(const Project& project, const RenderOptions& options) {
       break;
     case Product::kModel:
       throwIfInterrupted();
+      noteViews(plan);
       writeGlb(pictures.film(), options.out, plan.views.front().view.direction());
       break;
     case Product::kPage:
+      noteViews(plan);
       writePage(pictures, plan, options);
       break;
   }
@@ -104,7 +113,8 @@ void addRender(CLI::App* command, Action& action) {
       "  scripts/rex render pegArm.ors --q 0,0,0 --q 0.5,-0.5,0.3 --trace peg -o swing.mp4\n"
       "  scripts/rex render man.ors --q 'upArmR>dnArmR=1.5' -o man.html\n\n"
       "The ending of FILE says what is made: .png (of a motion its key frames); .mp4, .webm, .gif\n"
-      "(of one posture a walk around it); .glb; .html; or none for a folder of frames.");
+      "(of one posture a walk around it); .glb; .html; or none for a folder of frames.\n"
+      "The front of a robot is where it faces: -y in .ors files, +x in all others.");
   addSceneFile(command, "SCENE", options->scene.file);
   command->add_option("-o,--out", options->out, "what to make")->type_name("FILE")->required();
   addReading(command, options->scene.reading);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/error.h"
 #include "cli/option_value_internal.h"
@@ -97,7 +98,7 @@ void requireMeaning(const RenderOptions& options, const RenderPlan& plan) {
 
 }  // namespace
 
-RenderPlan planOf(const RenderOptions& options) {
+RenderPlan planOf(const RenderOptions& options, Facing facing) {
   RenderPlan plan{.product = productOf(options.out), .show = showOf(options.show)};
   const std::string usualSize = plan.product == Product::kPage ? "800x600" : "640x480";
   const auto [width, height] = sizeOf(options.size.empty() ? usualSize : options.size);
@@ -105,11 +106,22 @@ RenderPlan planOf(const RenderOptions& options) {
                    .height = height,
                    .antiAliasing = antiAliasingOf(options.antiAliasing, plan.product),
                    .gl = {.backend = backendOf(options.gl)}};
-  for (const std::string& text : options.cameras) plan.views.push_back({text, View(text)});
+  for (const std::string& text : options.cameras) {
+    const View view(text, facing);
+    plan.views.push_back({view.label(), view});
+  }
   if (plan.views.empty()) plan.views.push_back({"default", View("default")});
   plan.seconds = secondsOf(options, plan.seconds);
   requireMeaning(options, plan);
   return plan;
+}
+
+std::string viewsOf(const RenderPlan& plan) {
+  std::vector<std::string> names;
+  for (const auto& [name, view] : plan.views)
+    if (name != "default") names.push_back(name);
+  if (names.empty()) return {};
+  return fmt::format("{}: {}", names.size() == 1 ? "view" : "views", fmt::join(names, "; "));
 }
 
 GlBackend backendOf(const std::string& name) {

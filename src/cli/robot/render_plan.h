@@ -34,7 +34,7 @@ enum class Product { kPicture, kFilm, kModel, kPage };
 enum class Show { kColor, kDepth, kSegmentation };
 
 struct NamedView {
-  std::string name;
+  std::string name;  ///< its label
   View view;
 };
 
@@ -47,9 +47,13 @@ struct RenderPlan {
   double seconds = 2;              ///< from each posture to the next
 };
 
-/// Touches nothing. Throws UsageError for an option that cannot be read, is out of range, contradicts
-/// another, or means nothing for what is made.
-[[nodiscard]] RenderPlan planOf(const RenderOptions& options);
+/// Touches nothing; the scene's file may be a name, so `facing` says which way its robots look. Throws
+/// UsageError for an option that cannot be read, is out of range, contradicts another, or means nothing for
+/// what is made.
+[[nodiscard]] RenderPlan planOf(const RenderOptions& options, Facing facing = Facing::kMinusY);
+
+/// "view: front (from +x)" for cameras that were asked for; empty where none was.
+[[nodiscard]] std::string viewsOf(const RenderPlan& plan);
 
 /// What `--gl NAME` means; no name is auto. Throws UsageError naming the choices and their packages.
 [[nodiscard]] GlBackend backendOf(const std::string& name);

@@ -213,7 +213,7 @@ Model modelOf(const Project& project, const SimulateOptions& options) {
 ExitCode simulateScene(const Project& project, const SimulateOptions& options) {
   RenderOptions filmOptions = options.film;
   filmOptions.out = options.out / "simulate.mp4";
-  const RenderPlan film = planOf(filmOptions);
+  const RenderPlan film = planOf(filmOptions, facingOf(fileOf(project, options.scene)));
   const Model model = modelOf(project, options);
   if (!options.noFilm) requireFilmable(model);
   const SimulationPlan plan = planOf(model, options);

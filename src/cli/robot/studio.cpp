@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-Camera turned(const Camera& camera, const Vector3d& p_WT, double angle) {
+Camera turnedCamera(const Camera& camera, const Vector3d& p_WT, double angle) {
   Camera result = camera;
   const Eigen::Matrix3d R = rotationAboutAxis(angle, Vector3d::UnitZ());
   result.X_WC = {R * camera.X_WC.R, p_WT + R * (camera.X_WC.p - p_WT)};
@@ -24,12 +24,17 @@ Camera turned(const Camera& camera, const Vector3d& p_WT, double angle) {
 Studio::Studio(const RenderPlan& plan, const Bounds& scene)
     : plan_(plan), scene_(scene), renderer_(plan.renderer) {}
 
+std::string Studio::describe() const {
+  const std::string views = viewsOf(plan_);
+  return renderer_.describe() + (views.empty() ? "" : "; " + views);
+}
+
 Image Studio::draw(const Picture& picture, double angle) {
   const double aspect = static_cast<double>(plan_.renderer.width) / plan_.renderer.height;
   std::vector<KeyFrame> seen;
   for (const auto& [name, view] : plan_.views) {
     const Camera camera = view.camera(scene_, aspect);
-    seen.push_back({drawFrom(picture, turned(camera, view.target(scene_), angle)), name});
+    seen.push_back({drawFrom(picture, turnedCamera(camera, view.target(scene_), angle)), name});
   }
   return seen.size() == 1 ? seen.front().image : sheetOf(seen);
 }

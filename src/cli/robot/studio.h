@@ -18,8 +18,8 @@ class Studio {
   /// `scene` is all that will be seen. Throws Error as Renderer.
   Studio(const RenderPlan& plan, const Bounds& scene);
 
-  /// The renderer, on one line.
-  [[nodiscard]] std::string describe() const { return renderer_.describe(); }
+  /// The renderer and the views, on one line.
+  [[nodiscard]] std::string describe() const;
   /// All cameras may be turned by `angle` (rad, counterclockwise) about the vertical through what they look
   /// at. Throws Error as View::camera() and Renderer::drawFrame(), and Interrupted.
   [[nodiscard]] Image draw(const Picture& picture, double angle = 0);

@@ -216,7 +216,7 @@ void requireSensible(const TrajectoryOptions& options) {
 ExitCode planTrajectory(const Project& project, const TrajectoryOptions& options) {
   RenderOptions filmOptions = options.film;
   filmOptions.out = options.out / "trajectory.mp4";
-  const RenderPlan pictures = planOf(filmOptions);
+  const RenderPlan pictures = planOf(filmOptions, facingOf(fileOf(project, options.scene)));
   requireSensible(options);
   Model model = loadScene(project, options.scene);
   if (model.nv() == 0) throw UsageError({.what = model.name(), .found = "no joint that moves"});

@@ -7,7 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "base/error.h"
+#include "base/lower_case.h"
 
 namespace rex::cli {
 namespace {
@@ -19,13 +22,24 @@ struct KnownView {
   Vector3d direction;
 };
 
-// Slightly from above, as one looks at a robot.
-const std::array<KnownView, 6> kViews = {{{"default", kDefaultView},
-                                          {"front", {0, -1, 0.25}},
+// Of a robot that faces -y. Slightly from above, as one looks at a robot.
+const std::array<KnownView, 5> kViews = {{{"front", {0, -1, 0.25}},
                                           {"back", {0, 1, 0.25}},
                                           {"left", {1, 0, 0.25}},
                                           {"right", {-1, 0, 0.25}},
                                           {"top", {0, 0, 1}}}};
+
+// A quarter turn takes a robot that faces -y to one that faces +x.
+Vector3d turned(const Vector3d& v, Facing facing) {
+  return facing == Facing::kMinusY ? v : Vector3d(-v.y(), v.x(), v.z());
+}
+
+// "+x" of a direction that is nearest to the x axis.
+std::string axisOf(const Vector3d& direction) {
+  Eigen::Index axis = 0;
+  direction.cwiseAbs().maxCoeff(&axis);
+  return fmt::format("{}{}", direction[axis] < 0 ? '-' : '+', "xyz"[axis]);
+}
 
 std::optional<Vector3d> pointIn(std::string_view text) {
   Vector3d point;
@@ -43,12 +57,18 @@ std::optional<Vector3d> pointIn(std::string_view text) {
 
 }  // namespace
 
-View::View(const std::string& text) {
-  std::vector<std::string> names;
+Facing facingOf(const std::filesystem::path& file) {
+  return endingOf(file) == ".ors" ? Facing::kMinusY : Facing::kPlusX;
+}
+
+View::View(const std::string& text, Facing facing) : label_(text) {
+  if (text == "default") return;
+  std::vector<std::string> names = {"default"};
   for (const KnownView& view : kViews) {
     names.emplace_back(view.name);
     if (text == view.name) {
-      direction_ = view.direction;
+      direction_ = turned(view.direction, facing);
+      label_ = fmt::format("{} (from {})", text, axisOf(direction_));
       return;
     }
   }

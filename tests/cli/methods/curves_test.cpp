@@ -31,7 +31,16 @@ TEST_F(CurvesCommand, PrintsBothCurves) {
 
   const ProcessResult text = rex({"curves", "--to", "4,0,0"});
   EXPECT_EQ(text.exitCode, 0);
-  EXPECT_THAT(text.output, HasSubstr("Dubins          4.000000 m"));
+  EXPECT_THAT(text.output, HasSubstr("Dubins          4.000000 m  S        4.0000\n"));
+}
+
+TEST_F(CurvesCommand, PrintsNoSegmentsWithoutLength) {
+  const std::string none = rex({"curves", "--to", "0,0,0"}).output;
+  EXPECT_THAT(none, HasSubstr("Dubins          0.000000 m  -    \n"));
+  EXPECT_THAT(none, HasSubstr("Reeds-Shepp     0.000000 m  -    \n"));
+  const std::string back = rex({"curves", "--to", "-3,0,0"}).output;
+  EXPECT_THAT(back, HasSubstr("Reeds-Shepp     3.000000 m  S       -3.0000\n"));
+  EXPECT_EQ(back.find("0.0000 "), std::string::npos) << back;
 }
 
 TEST_F(CurvesCommand, HasExamplesThatRun) {

@@ -40,7 +40,10 @@ TEST_F(FilterCommand, TellsErrorsAndConsistency) {
   for (const char* part : {"dead reckoning", "NEES", "NIS", "consistent: 3; means over the runs lie within"})
     EXPECT_THAT(result.output, HasSubstr(part));
   EXPECT_THAT(filter({"--filter", "ekf-slam", "--steps", "20"}).output,
-              HasSubstr("\nmap        5 landmarks"));
+              HasSubstr("\nmap        5 of 5 landmarks, "));
+  EXPECT_THAT(filter({"--filter", "ekf-slam", "--steps", "20", "--seeds", "4"}).output,
+              HasSubstr("\nmap        5 of 5 landmarks in each run on average, "))
+      << "not the 20 of all runs together";
 }
 
 TEST_F(FilterCommand, AnswersPrograms) {

@@ -115,9 +115,10 @@ TEST_F(RiccatiCommand, SaysWhatIsWrong) {
   };
   EXPECT_EQ(rex({"care"}).exitCode, 64);
   EXPECT_THAT(flat(rex({"care", "none.json"}).error), HasSubstr("none.json: cannot read this file"));
-  expect("care", "{\"A\": [[1]],\n \"B\": [[1],\n}", "problem.json:3:1: JSON: found what is no JSON here");
-  expect("dare", "{\"A\": [[nan]]}", "problem.json:1:10: JSON: found what is no JSON here");
-  expect("dare", "", "problem.json:1:1: JSON");
+  expect("care", "{\"A\": [[1]],\n \"B\": [[1],\n}", 
+         "problem.json:3:1: not valid JSON: wanted an object with the fields A, B, Q and R");
+  expect("dare", "{\"A\": [[nan]]}", "problem.json:1:10: not valid JSON");
+  expect("dare", "", "problem.json:1:1: not valid JSON");
   expect("care", "[1]", "Riccati equation: found a JSON value of type array");
   expect("care", "{\"A\": [[1]]}", "matrix B: found no field of this name, wanted a list of rows");
   expect("care", "{\"a\": [[1]]}", "no field of this name, wanted a list of rows (did you mean 'a'?)");

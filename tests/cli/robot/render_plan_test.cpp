@@ -50,6 +50,13 @@ TEST(RenderPlan, TakesWhatIsAskedFor) {
   EXPECT_EQ(page.renderer.antiAliasing, AntiAliasing::kNone);
 }
 
+TEST(RenderPlan, NamesTheAxesOfItsViews) {
+  EXPECT_EQ(viewsOf(planOf({.out = "a.png"})), "");
+  EXPECT_EQ(viewsOf(planOf({.cameras = {"left"}, .out = "a.png"}, Facing::kPlusX)), "view: left (from +y)");
+  EXPECT_EQ(viewsOf(planOf({.cameras = {"left", "top"}, .out = "a.png"})),
+            "views: left (from +x); top (from +z)");
+}
+
 TEST(RenderPlan, RefusesValuesThatItCannotRead) {
   for (const std::string size : {"640", "x", "640x", "x480", "640x480x", "640 x 480", "0x480", "640x0",
                                  "-4x4", "8193x1", "99999999999x1"})

@@ -1,7 +1,10 @@
 // `rex render` as a user meets it.
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <stdlib.h>
@@ -62,6 +65,91 @@ TEST_F(RenderCommand, PutsSeveralCamerasAndMomentsOnOneSheet) {
       rex({"render", "pegArm", "--size", "600x90", "--q", "0,0,0", "--q", "1,1,1", "-o", "c.png"}).exitCode,
       0);
   EXPECT_GE(readPng(in("c.png")).width, 1800);
+}
+
+// A cube whose sides have colours of their own, in both formats.
+class ColouredCube : public RenderCommand {
+ protected:
+  struct Side {
+    const char* name;
+    const char* place;
+    const char* size;
+    std::array<int, 3> color;  // 0 or 1
+  };
+  static constexpr std::array<Side, 5> kSides = {{{"plusX", "0.5 0 0", "0.02 1 1", {1, 0, 0}},
+                                                  {"minusX", "-0.5 0 0", "0.02 1 1", {0, 1, 1}},
+                                                  {"plusY", "0 0.5 0", "1 0.02 1", {0, 1, 0}},
+                                                  {"minusY", "0 -0.5 0", "1 0.02 1", {1, 0, 1}},
+                                                  {"plusZ", "0 0 0.5", "1 1 0.02", {0, 0, 1}}}};
+
+  void writeUrdf() const {
+    std::string visuals;
+    for (const Side& side : kSides)
+      visuals += fmt::format(
+          "<visual><origin xyz='{}'/><geometry><box size='{}'/></geometry><material name='{}'>"
+          "<color rgba='{} {} {} 1'/></material></visual>",
+          side.place, side.size, side.name, side.color[0], side.color[1], side.color[2]);
+    std::ofstream(in("cube.urdf")) << "<robot name='cube'><link name='cube'>" << visuals << "</link></robot>";
+  }
+  void writeOrs() const {
+    std::ofstream file(in("cube.ors"));
+    file << "body cube { }\n";
+    for (const Side& side : kSides)
+      file << fmt::format("shape {} (cube) {{ type=0 rel=<T t({})> size=[{} 0] color=[{} {} {}] }}\n",
+                          side.name, side.place, side.size, side.color[0], side.color[1], side.color[2]);
+  }
+  /// The side in the middle of the picture.
+  std::string sideSeen(const std::string& file, const std::string& camera) const {
+    const ProcessResult result =
+        rex({"render", file, "--camera", camera, "--size", "40x40", "-o", camera + ".png"});
+    if (result.exitCode != 0) return result.error;
+    const auto middle = readPng(in(camera + ".png")).at(20, 20);
+    const int brightest = std::max({middle[0], middle[1], middle[2]});
+    for (const Side& side : kSides) {
+      bool isThis = true;
+      for (std::size_t i = 0; i < 3; ++i) isThis &= (3 * middle[i] > 2 * brightest) == (side.color[i] == 1);
+      if (isThis) return side.name;
+    }
+    return "none";
+  }
+};
+
+TEST_F(ColouredCube, ShowsTheFaceOfAUrdfRobotFromPlusX) {
+  REX_NEEDS_OSMESA();
+  writeUrdf();
+  EXPECT_EQ(sideSeen("cube.urdf", "front"), "plusX");
+  EXPECT_EQ(sideSeen("cube.urdf", "back"), "minusX");
+  EXPECT_EQ(sideSeen("cube.urdf", "left"), "plusY");
+  EXPECT_EQ(sideSeen("cube.urdf", "right"), "minusY");
+  EXPECT_EQ(sideSeen("cube.urdf", "top"), "plusZ");
+}
+
+TEST_F(ColouredCube, ShowsTheFaceOfAnOrsRobotFromMinusY) {
+  REX_NEEDS_OSMESA();
+  writeOrs();
+  EXPECT_EQ(sideSeen("cube.ors", "front"), "minusY");
+  EXPECT_EQ(sideSeen("cube.ors", "back"), "plusY");
+  EXPECT_EQ(sideSeen("cube.ors", "left"), "plusX");
+  EXPECT_EQ(sideSeen("cube.ors", "right"), "minusX");
+  EXPECT_EQ(sideSeen("cube.ors", "top"), "plusZ");
+}
+
+TEST_F(ColouredCube, SaysFromWhichAxis) {
+  REX_NEEDS_OSMESA();
+  writeUrdf();
+  for (const std::string out : {"a.png", "a.glb", "a.html"})
+    EXPECT_THAT(flat(rex({"render", "cube.urdf", "--camera", "front", "-o", out}).error),
+                HasSubstr("view: front (from +x)"))
+        << out;
+}
+
+TEST_F(RenderCommand, SaysThatASceneHasNothingToDraw) {
+  std::ofstream(in("bare.urdf")) << "<robot name='bare'><link name='base'/></robot>";
+  for (const std::string out : {"a.png", "a.glb", "a.html"}) {
+    const ProcessResult result = rex({"render", "bare.urdf", "-o", out});
+    EXPECT_EQ(result.exitCode, 64) << out;
+    EXPECT_THAT(flat(result.error), HasSubstr("bare.urdf: found no shape to draw, wanted a scene with shapes"));
+  }
 }
 
 TEST_F(RenderCommand, ShowsDepthAndSegmentation) {

@@ -35,9 +35,20 @@ TEST(Studio, TurnsAllCameras) {
         .draw(picture, angle);
   };
   const Image both = drawn({"front", "left"}, std::numbers::pi / 2);
-  EXPECT_EQ(both, sheetOf({{drawn({"front"}, std::numbers::pi / 2), "front"},
-                           {drawn({"left"}, std::numbers::pi / 2), "left"}}));
+  EXPECT_EQ(both, sheetOf({{drawn({"front"}, std::numbers::pi / 2), "front (from -y)"},
+                           {drawn({"left"}, std::numbers::pi / 2), "left (from +x)"}}));
   EXPECT_NE(both, drawn({"front", "left"}, 0));
+}
+
+TEST(Studio, SaysWhatItLooksFrom) {
+  REX_NEEDS_OSMESA();
+  const auto said = [](const std::vector<std::string>& cameras, Facing facing) {
+    const RenderPlan plan = planOf({.cameras = cameras, .size = "8x8", .out = "a.png"}, facing);
+    return Studio(plan, Bounds()).describe();
+  };
+  EXPECT_TRUE(said({"front"}, Facing::kPlusX).ends_with("; view: front (from +x)"));
+  EXPECT_TRUE(said({"front", "0,1,0"}, Facing::kMinusY).ends_with("; views: front (from -y); 0,1,0"));
+  EXPECT_EQ(said({}, Facing::kPlusX).find("view"), std::string::npos);
 }
 
 TEST(Studio, ShrinksNothingOnASheet) {

@@ -16,7 +16,9 @@ Bounds aroundTheOrigin() {
   return bounds;
 }
 
-Vector3d eyeOf(const std::string& text) { return View(text).camera(aroundTheOrigin(), 1).X_WC.p; }
+Vector3d eyeOf(const std::string& text, Facing facing = Facing::kMinusY) {
+  return View(text, facing).camera(aroundTheOrigin(), 1).X_WC.p;
+}
 
 // How far from parallel the line of sight is to a direction.
 double astray(const std::string& text, const Vector3d& direction) {
@@ -31,6 +33,42 @@ TEST(ViewOption, StandsWhereItsNameSays) {
   EXPECT_LT(eyeOf("right").x(), -2);
   EXPECT_GT(eyeOf("top").z(), 2);
   EXPECT_LT(astray("default", kDefaultView), 1e-9);
+}
+
+TEST(ViewOption, StandsBeforeARobotThatFacesX) {
+  EXPECT_GT(eyeOf("front", Facing::kPlusX).x(), 2);
+  EXPECT_LT(eyeOf("back", Facing::kPlusX).x(), -2);
+  EXPECT_GT(eyeOf("left", Facing::kPlusX).y(), 2);
+  EXPECT_LT(eyeOf("right", Facing::kPlusX).y(), -2);
+  EXPECT_GT(eyeOf("top", Facing::kPlusX).z(), 2);
+  for (const char* text : {"default", "1,2,3", "4,0,1@0,0,1"})
+    EXPECT_EQ(eyeOf(text, Facing::kPlusX), eyeOf(text)) << text;
+}
+
+// Whichever way it faces, left is where the camera's right is seen from the front.
+TEST(ViewOption, HasLeftAndRightOfTheRobot) {
+  for (const Facing facing : {Facing::kMinusY, Facing::kPlusX}) {
+    const Camera front = View("front", facing).camera(aroundTheOrigin(), 1);
+    EXPECT_GT(front.X_WC.R.col(0).dot(eyeOf("left", facing)), 2);
+    EXPECT_LT(front.X_WC.R.col(0).dot(eyeOf("right", facing)), -2);
+    EXPECT_LT(eyeOf("front", facing).dot(eyeOf("back", facing)), 0);
+  }
+}
+
+TEST(ViewOption, SaysOnWhichAxisANameStands) {
+  EXPECT_EQ(View("front").label(), "front (from -y)");
+  EXPECT_EQ(View("front", Facing::kPlusX).label(), "front (from +x)");
+  EXPECT_EQ(View("right", Facing::kPlusX).label(), "right (from -y)");
+  EXPECT_EQ(View("right").label(), "right (from -x)");
+  EXPECT_EQ(View("top", Facing::kPlusX).label(), "top (from +z)");
+  EXPECT_EQ(View("default", Facing::kPlusX).label(), "default");
+  EXPECT_EQ(View("1,2,3").label(), "1,2,3");
+}
+
+TEST(ViewOption, TakesTheConventionOfTheFormat) {
+  EXPECT_EQ(facingOf("a/man.ors"), Facing::kMinusY);
+  EXPECT_EQ(facingOf("MAN.ORS"), Facing::kMinusY);
+  EXPECT_EQ(facingOf("robot.urdf"), Facing::kPlusX);
 }
 
 TEST(ViewOption, TakesADirectionOrAnEyeWithItsTarget) {
