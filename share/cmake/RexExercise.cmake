@@ -18,20 +18,16 @@ set(REX_REMOTE_HEADERS course/remote_simulator.h)
 # The modules that every student's program may use; an exercise names further ones. The grader is not among them.
 set(REX_STUDENT_MODULES base geometry remote scene kinematics collision dynamics physics render course)
 
-# course/course.h, precompiled with the flags of a student's program: prefix.h.gch, and in prefix.h.d the files it was
-# made of. Leaves the place in REX_PREFIX where the exercise's header includes it, and elsewhere nothing. The sanitizers
-# and other compilers go without.
-function(rex_student_prefix folder)
-  set(REX_PREFIX "" PARENT_SCOPE)
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${folder}/exercise.h)
-  # Nothing before it may change what it says.
-  file(READ ${folder}/exercise.h header)
-  if(NOT header MATCHES "^((//[^\n]*|#pragma once|#include [^\n]*)?\n)*#include \"course/course.h\""
-     OR REX_SANITIZE OR NOT CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+# course/course.h, precompiled with the flags of a student's program by the target rex_student_prefix: prefix.h.gch, and
+# in prefix.h.d the files it was made of. Leaves its place, without the endings, in `variable`; with the sanitizers and
+# other compilers, which go without, nothing.
+function(rex_precompiled_course variable)
+  set(${variable} "" PARENT_SCOPE)
+  if(REX_SANITIZE OR NOT CMAKE_CXX_COMPILER_ID STREQUAL GNU)
     return()
   endif()
   set(prefix ${PROJECT_BINARY_DIR}/student/prefix.h)
-  set(REX_PREFIX ${prefix} PARENT_SCOPE)
+  set(${variable} ${prefix} PARENT_SCOPE)
   if(TARGET rex_student_prefix)
     return()
   endif()
@@ -43,6 +39,18 @@ function(rex_student_prefix folder)
     COMMAND ${CMAKE_COMMAND} -E rename ${prefix}.new ${prefix}.gch  # nobody meets half of it
     DEPENDS ${prefix} DEPFILE ${prefix}.d COMMENT "Precompiling course/course.h" VERBATIM)
   add_custom_target(rex_student_prefix DEPENDS ${prefix}.gch)
+endfunction()
+
+# The same in REX_PREFIX for the exercise in `folder`, where its header includes course/course.h first.
+function(rex_student_prefix folder)
+  set(REX_PREFIX "" PARENT_SCOPE)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${folder}/exercise.h)
+  # Nothing before it may change what it says.
+  file(READ ${folder}/exercise.h header)
+  if(header MATCHES "^((//[^\n]*|#pragma once|#include [^\n]*)?\n)*#include \"course/course.h\"")
+    rex_precompiled_course(prefix)
+    set(REX_PREFIX "${prefix}" PARENT_SCOPE)
+  endif()
 endfunction()
 
 function(rex_json_strings variable)
@@ -194,6 +202,37 @@ function(rex_exercise_description)
   configure_file(${PROJECT_SOURCE_DIR}/share/cmake/exercise/build.json.in
                  ${CMAKE_CURRENT_BINARY_DIR}/${name}.build.json.in @ONLY)
   file(GENERATE OUTPUT ${ARG_OUTPUT}/build.json INPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}.build.json.in)
+endfunction()
+
+# build/PRESET/student/program.json: how `rex run FILE.cpp` builds a program of its own. It may use every module; which
+# ones it needs, the headers tell that it includes, and where a class has its body in several modules, its symbols
+# (the property REX_SYMBOLS).
+function(rex_program_description)
+  get_target_property(eigen Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
+  rex_json_strings(REX_COMPILE_JSON ${REX_STUDENT_FLAGS} -isystem ${PROJECT_SOURCE_DIR}/src -isystem ${eigen})
+  rex_json_strings(REX_LINK_JSON ${REX_STUDENT_LINK_FLAGS} -Wl,-rpath,${PROJECT_BINARY_DIR}/lib)
+  rex_precompiled_course(REX_PREFIX)
+  get_property(modules GLOBAL PROPERTY REX_MODULE_TARGETS)
+  foreach(module IN LISTS modules)
+    get_target_property(folder ${module} SOURCE_DIR)
+    get_target_property(sources ${module} SOURCES)
+    get_target_property(uses ${module} LINK_LIBRARIES)
+    get_target_property(symbols ${module} REX_SYMBOLS)
+    list(FILTER symbols EXCLUDE REGEX "NOTFOUND$")
+    list(FILTER sources INCLUDE REGEX "\\.cpp$")
+    list(TRANSFORM sources REPLACE "(.*/)?([^/]+)\\.cpp$" "\\2.h")
+    list(FILTER uses INCLUDE REGEX "^rex_")
+    file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR}/src ${folder})
+    rex_json_strings(headers ${sources})
+    rex_json_strings(uses ${uses})
+    rex_json_strings(symbols ${symbols})
+    list(APPEND lines "    {\"target\": \"${module}\", \"file\": \"$<TARGET_FILE:${module}>\", \"folder\": \"${folder}\",
+     \"headers\": [${headers}], \"symbols\": [${symbols}], \"uses\": [${uses}]}")
+  endforeach()
+  list(JOIN lines ",\n" REX_LIBRARIES_JSON)
+  configure_file(${PROJECT_SOURCE_DIR}/share/cmake/exercise/program.json.in
+                 ${CMAKE_CURRENT_BINARY_DIR}/program.json.in @ONLY)
+  file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/student/program.json INPUT ${CMAKE_CURRENT_BINARY_DIR}/program.json.in)
 endfunction()
 
 # rex_worker(TARGET EXERCISE source ...)

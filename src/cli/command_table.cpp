@@ -22,7 +22,7 @@ std::span<const TableEntry> commandTable() {
   using enum Program;
   static constexpr auto kTable = std::to_array<TableEntry>({
       {"list", "Show all exercises with points, script section and title", kStudent},
-      {"run", "Build your main.cpp, run it, show what it wrote", kStudent},
+      {"run", "Build your main.cpp, or any .cpp file, run it, show what it wrote", kStudent},
       {"test", "Grade your main.cpp: which checks pass, for how many points", kStudent},
       {"report", "Write a result for Gradescope, GitHub, JUnit readers and others", kStudent},
       {"watch", "Grade your main.cpp now and whenever you save it", kStudent},

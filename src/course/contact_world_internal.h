@@ -11,15 +11,22 @@ namespace rex::internal {
 class ContactWorld {
  public:
   ContactWorld() = default;
-  ContactWorld(const ContactWorld&) {}
+  ContactWorld(const ContactWorld& other) : contacts_(other.contacts_), innerStep_(other.innerStep_) {}
   ContactWorld& operator=(const ContactWorld&) = delete;
+  ContactWorld& operator=(ContactWorld&&) = default;
 
-  /// Moves the state on by tau seconds under joint forces u (nv).
-  /// Throws Error as Simulator::stepPhysics.
-  void step(const Model& model, const Eigen::Vector3d& gravity_W, const Eigen::VectorXd& u, double tau,
-            State& state);
+  /// Moves the state on by tau seconds under joint forces u (nv) and motors (nv), those of the kind kForce
+  /// aside. Throws Error as Simulator::stepPhysics.
+  void step(const Model& model, const Eigen::Vector3d& gravity_W, const std::vector<Motor>& motors,
+            const Eigen::VectorXd& u, double tau, State& state);
+
+  /// Of the last inner step, and how long that was, seconds.
+  const std::vector<PhysicsContact>& contacts() const { return contacts_; }
+  double innerStep() const { return innerStep_; }
 
  private:
+  std::vector<PhysicsContact> contacts_{};
+  double innerStep_ = 0;
   std::unique_ptr<PhysicsWorld> world_{};
   Eigen::Vector3d gravity_W_ = Eigen::Vector3d::Zero();
   std::vector<Motor> motors_{};

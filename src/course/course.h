@@ -16,3 +16,5 @@
 #include "course/recording.h"
 #include "course/replay.h"
 #include "course/simulator.h"
+#include "geometry/pose.h"
+#include "geometry/shape.h"

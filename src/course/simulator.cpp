@@ -25,6 +25,8 @@
 #include "kinematics/center_of_mass.h"
 #include "kinematics/jacobians.h"
 #include "kinematics/task_maps.h"
+#include "scene/coordinate_names.h"
+#include "scene/coordinates.h"
 #include "scene/find_scene.h"
 #include "scene/ors_writer.h"
 #include "scene/scene_edit.h"
@@ -34,17 +36,6 @@
 
 namespace rex {
 namespace {
-
-// The text of the file, or where that needs other files, the scene written anew.
-std::string selfContainedText(const std::filesystem::path& file, const SceneSpec& spec) {
-  std::string text = readSceneText(file);
-  try {
-    static_cast<void>(parseScene(text, file.string()));
-    return text;
-  } catch (const Error&) {
-    return writeOrs(spec);
-  }
-}
 
 // The scene of a description. Its text may come from another process, whose files are none of ours: meshes
 // stay away.
@@ -58,6 +49,22 @@ SceneSpec parsed(const SimulatorDescription& description) {
 std::string srdfOf(const std::filesystem::path& file, const SceneSpec& spec) {
   if (spec.collisionChoices.empty() || lowerCase(file.extension().string()) == ".ors") return {};
   return writeSrdf(file.stem().string(), spec.collisionChoices);
+}
+
+ReadOptions readingOf(const std::filesystem::path& file, const SimulatorOptions& options) {
+  if (options.freeBase && lowerCase(file.extension().string()) == ".ors")
+    throw Error({.what = "free base",
+                 .where = {file.string()},
+                 .found = "an .ors scene",
+                 .wanted = "a .urdf robot; in .ors a joint of type free says it"});
+  return {.assetRoot = options.assetRoot,
+          .allowMissingMeshes = !options.strict,
+          .freeBase = options.freeBase,
+          .strict = options.strict};
+}
+
+std::string orsNameOf(const std::string& name) {
+  return std::filesystem::path(name).replace_extension(".ors").string();
 }
 
 // What may collide, or why that cannot be told: it matters only to those who ask.
@@ -77,10 +84,28 @@ void requireNumbers(const char* method, const char* what, const Eigen::VectorXd&
     requireFinite(fmt::format("{}: {} {}", method, what, i), numbers[i]);
 }
 
+void requireSolid(const Shape& shape, const std::string& name) {
+  if (!usesMesh(shape.type) && shape.type != ShapeType::kMarker) return;
+  throw Error({.what = fmt::format("addObstacle: shape of '{}'", name),
+               .found = fmt::format("a {}", toString(shape.type)),
+               .wanted = "a box, sphere, capsule, cylinder or rounded box"});
+}
+
+void requireNewName(const Model& model, const std::string& name) {
+  const auto isTaken = [&](const auto& one) { return one.name == name; };
+  if (!name.empty() && name != kWorldName && std::ranges::none_of(model.bodies(), isTaken) &&
+      std::ranges::none_of(model.shapes(), isTaken))
+    return;
+  throw Error({.what = "addObstacle: name",
+               .found = "'" + name + "'",
+               .wanted = "one that no body and no shape of the scene has"});
+}
+
 }  // namespace
 
 struct Simulator::Parts {
-  std::string sceneName, sceneText, srdf;
+  std::string sceneName;
+  std::string sceneText, srdf;            // no text where only the spec tells all
   std::shared_ptr<const SceneSpec> spec;  // never changes; copies of a simulator share it
   Model model;
   Contacts contacts;
@@ -95,6 +120,7 @@ struct Simulator::Parts {
   std::optional<Stepper> stepper{};  // made for the first step, and anew when gravity or noise change
   State next{};                      // where a step leads; its time is that of all steps
   internal::ContactWorld contactWorld{};
+  std::vector<Motor> motors{};  // nv
 
   // A posture that is refused changes nothing.
   void moveTo(const Eigen::VectorXd& newQ, const Eigen::VectorXd& newV) {
@@ -107,6 +133,21 @@ struct Simulator::Parts {
     if (const Error* error = std::get_if<Error>(&contacts)) throw *error;
     return std::get<ContactModel>(contacts);
   }
+  // Only plain coordinates have motors.
+  Motor& motorOf(const std::string& joint) {
+    const std::vector<std::string> names = velocityNames(model);
+    const auto found = std::find(names.begin(), names.end(), joint);
+    if (found == names.end())
+      throw Error({.what = fmt::format("scene '{}' has no joint '{}'", model.name(), joint),
+                   .nearest = nearestNames(joint, names)});
+    const auto iv = found - names.begin();
+    const JointType type = jointOfVelocity(model, iv).type;
+    if (type == JointType::kBall || type == JointType::kFree)
+      throw Error({.what = fmt::format("motor of joint '{}'", joint),
+                   .found = fmt::format("a {} joint", toString(type)),
+                   .wanted = "a joint whose coordinates are angles and lengths"});
+    return motors[static_cast<std::size_t>(iv)];
+  }
   TaskValue valueOf(const TaskMap& map) const {
     TaskValue value;
     map({model, q, poses}, value);
@@ -114,15 +155,15 @@ struct Simulator::Parts {
   }
 };
 
-Simulator::Simulator(const std::string& sceneFile) {
+Simulator::Simulator(const std::string& sceneFile, const SimulatorOptions& options) {
   const std::filesystem::path path = findScene(sceneFile, REX_DATA_DIR);
-  SceneFile scene = readScene(path, {.allowMissingMeshes = true});
+  SceneFile scene = readScene(path, readingOf(path, options));
   for (const Diagnostic& one : scene.notes)
     if (one.severity == Severity::kWarning) std::cerr << toString(one) << "\n";
   const bool hasEnding = std::filesystem::path(sceneFile).has_extension();
   scene.spec.name = hasEnding ? sceneFile : path.filename().string();
   const SimulatorDescription description{.sceneName = scene.spec.name,
-                                         .sceneText = selfContainedText(path, scene.spec),
+                                         .sceneText = options.freeBase ? "" : std::move(scene.text),
                                          .q = {},
                                          .srdf = srdfOf(path, scene.spec)};
   start(description, std::move(scene.spec));
@@ -138,6 +179,7 @@ void Simulator::start(const SimulatorDescription& description, SceneSpec spec) {
   parts_.reset(new Parts{description.sceneName, description.sceneText, description.srdf,
                          std::make_shared<const SceneSpec>(std::move(spec)), std::move(model),
                          std::move(contacts)});
+  parts_->motors.resize(static_cast<std::size_t>(parts_->model.nv()));
   setContactMargin(description.contactMargin);
   setDynamicSimulationNoise(description.dynamicNoise);
   setDynamicGravity(description.gravity);
@@ -157,6 +199,18 @@ Simulator& Simulator::operator=(Simulator&&) noexcept = default;
 Simulator::~Simulator() = default;
 
 int Simulator::getJointDimension() const { return parts_->model.nq(); }
+
+std::vector<std::string> Simulator::getJointNames() const { return positionNames(parts_->model); }
+
+Eigen::VectorXd Simulator::getLowerLimits() const { return parts_->model.lowerLimits(); }
+
+Eigen::VectorXd Simulator::getUpperLimits() const { return parts_->model.upperLimits(); }
+
+std::vector<std::string> Simulator::getBodyNames() const {
+  std::vector<std::string> names;
+  for (const BodyId body : parts_->model.bodiesInFileOrder()) names.push_back(parts_->model[body].name);
+  return names;
+}
 
 Eigen::VectorXd Simulator::getJointAngles() const { return parts_->q; }
 
@@ -212,9 +266,34 @@ void Simulator::stepDynamics(const Eigen::VectorXd& u, double tau) {
 void Simulator::stepPhysics(const Eigen::VectorXd& u, double tau) {
   parts_->next.q = parts_->q;
   parts_->next.v = parts_->v;
-  parts_->contactWorld.step(parts_->model, parts_->gravity_W(), u, tau, parts_->next);
+  parts_->contactWorld.step(parts_->model, parts_->gravity_W(), parts_->motors, u, tau, parts_->next);
   parts_->moveTo(parts_->next.q, parts_->next.v);
   parts_->recording.step(parts_->q, tau);
+}
+
+void Simulator::stepPhysics(double tau) { stepPhysics(Eigen::VectorXd::Zero(parts_->model.nv()), tau); }
+
+void Simulator::setPositionMotor(const std::string& joint, double position, double maxForce) {
+  requireFinite("setPositionMotor: position", position);
+  requirePositive("setPositionMotor: maxForce", maxForce);
+  parts_->motorOf(joint) = {.kind = Motor::Kind::kPosition, .target = position, .maxForce = maxForce};
+}
+
+void Simulator::setVelocityMotor(const std::string& joint, double velocity, double maxForce) {
+  requireFinite("setVelocityMotor: velocity", velocity);
+  requirePositive("setVelocityMotor: maxForce", maxForce);
+  parts_->motorOf(joint) = {.kind = Motor::Kind::kVelocity, .target = velocity, .maxForce = maxForce};
+}
+
+void Simulator::removeMotor(const std::string& joint) { parts_->motorOf(joint) = {}; }
+
+std::vector<SimulatorContact> Simulator::getContacts() const {
+  std::vector<SimulatorContact> contacts;
+  for (const PhysicsContact& one : parts_->contactWorld.contacts())
+    contacts.push_back({shapeLabel(parts_->model, one.shapeA), shapeLabel(parts_->model, one.shapeB),
+                        one.p_WA, one.p_WB, one.normal_W, one.distance,
+                        one.impulse / parts_->contactWorld.innerStep()});
+  return contacts;
 }
 
 void Simulator::setDynamicSimulationNoise(double noise) {
@@ -294,17 +373,39 @@ std::string Simulator::proxyReport() const {
 
 void Simulator::reportProxies() const { fmt::print("{}", proxyReport()); }
 
+void Simulator::addObstacle(const Shape& shape, const Pose& X_WS, const std::string& name) {
+  requireSolid(shape, name);
+  requireNewName(parts_->model, name);
+  const Eigen::Vector4d kColor(0.85, 0.55, 0.3, 1);
+  SceneSpec spec = *parts_->spec;
+  BodySpec body{.name = name, .X_WB = X_WS, .kind = BodyKind::kStatic};
+  body.shapes.push_back({.name = name, .X_BS = {}, .shape = shape, .color = kColor, .contact = true});
+  spec.bodies.push_back(std::move(body));
+  // Whoever adds it wants it to count, also where the robot is in it already.
+  spec.collisionChoices.push_back({.a = name, .b = "", .mayCollide = true, .reason = "an obstacle"});
+  Model model = compile(spec);
+  Contacts contacts = contactsOf(model);
+  parts_->spec = std::make_shared<const SceneSpec>(std::move(spec));
+  parts_->model = std::move(model);
+  parts_->contacts = std::move(contacts);
+  parts_->sceneText.clear();
+  parts_->stepper.reset();
+  parts_->contactWorld = {};
+  parts_->moveTo(parts_->q, parts_->v);
+}
+
 void Simulator::anchorKinematicChainIn(const std::string& body) {
   const std::string& root = parts_->model[parts_->model.body(body)].name;
   SceneSpec spec = reconfigureRoot(atPositions(*parts_->spec, parts_->q), root);
   // The name tells how the text is read, and the text is .ors now.
-  spec.name = std::filesystem::path(parts_->sceneName).replace_extension(".ors").string();
-  SimulatorDescription description = this->description();
-  description.sceneName = spec.name;
-  description.sceneText = writeOrs(spec);
-  description.srdf.clear();
-  description.q.resize(0);
-  description.v.resize(0);
+  spec.name = orsNameOf(parts_->sceneName);
+  const SimulatorDescription description{.sceneName = spec.name,
+                                         .sceneText = writeOrs(spec),
+                                         .q = {},
+                                         .contactMargin = parts_->contactMargin,
+                                         .dynamicNoise = parts_->dynamicNoise,
+                                         .gravity = parts_->gravity,
+                                         .seed = parts_->seed};
   start(description, std::move(spec));
 }
 
@@ -334,8 +435,14 @@ void Simulator::jacobianContacts(Eigen::MatrixXd& J) const { J = jacobianContact
 void Simulator::watch(const std::string& name) const { writePicture(*this, name + ".png"); }
 
 SimulatorDescription Simulator::description() const {
-  return {parts_->sceneName,    parts_->sceneText, parts_->q,    parts_->contactMargin, parts_->v,
-          parts_->dynamicNoise, parts_->gravity,   parts_->seed, parts_->srdf};
+  SimulatorDescription description{parts_->sceneName,     parts_->sceneText, parts_->q,
+                                   parts_->contactMargin, parts_->v,         parts_->dynamicNoise,
+                                   parts_->gravity,       parts_->seed,      parts_->srdf};
+  if (!description.sceneText.empty()) return description;
+  description.sceneName = orsNameOf(parts_->sceneName);
+  description.sceneText = writeOrs(*parts_->spec);
+  description.srdf.clear();
+  return description;
 }
 const Model& Simulator::model() const { return parts_->model; }
 const Recording& Simulator::recording() const { return parts_->recording; }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -10,7 +11,16 @@ namespace rex {
 
 class Model;
 class Recording;
+struct Pose;
 struct SceneSpec;
+struct Shape;
+
+/// How a Simulator reads its scene.
+struct SimulatorOptions {
+  bool freeBase = false;  ///< the root of a .urdf robot moves freely: x y z and a quaternion come first in q
+  std::string assetRoot{};  ///< folder of all files that the scene names; empty: the one above the scene's
+  bool strict = false;      ///< what is repaired otherwise, with a warning, is an Error, also a missing mesh
+};
 
 /// All it takes to make the same simulator elsewhere: the text of its scene, a posture, and what was set.
 struct SimulatorDescription {
@@ -25,6 +35,23 @@ struct SimulatorDescription {
   std::string srdf{};          ///< what the SRDF of a URDF robot says about collisions; empty: nothing
 };
 
+/// What Simulator::inverseKinematics() found.
+struct ReachedPosture {
+  bool isReached = false;  ///< within 1e-6 metres and radians
+  Eigen::VectorXd q{};     ///< n joint angles within their limits; the nearest posture if none reaches
+  double error = 0;        ///< the largest difference that is left, metres or radians
+  std::string message{};   ///< says how far off it is
+};
+
+/// Two shapes that touch; without a name of its own a shape is called as in Simulator::proxyReport().
+struct SimulatorContact {
+  std::string shapeA, shapeB;
+  Eigen::Vector3d p_WA, p_WB;  ///< the nearest points on each, metres
+  Eigen::Vector3d normal_W;    ///< unit, from B to A
+  double distance = 0;         ///< metres, negative in overlap
+  double force = 0;            ///< newtons along the normal, with which B pushes A
+};
+
 /// A robot in its world, with the names of the course script. Positions are metres in the world frame, z up;
 /// angles radians. Bodies are named as in the scene; a shape's name stands for its body. Every method that
 /// takes a name throws Error with the closest names for an unknown one, every method that takes a vector
@@ -32,9 +59,10 @@ struct SimulatorDescription {
 class Simulator {
  public:
   /// Loads an .ors or .urdf file: a path, or the name of one of the course's scenes, such as "man.ors".
-  /// Throws Error with file:line:column for a missing or broken file, also one of a mesh. Boxes stand for
-  /// meshes that are missing; warnings of the reader and of collisionWarnings() are printed.
-  explicit Simulator(const std::string& sceneFile);
+  /// Throws Error with file:line:column for a missing or broken file, also one of a mesh, and for a free base
+  /// of an .ors scene. Boxes stand for meshes that are missing; warnings of the reader and of
+  /// collisionWarnings() are printed.
+  explicit Simulator(const std::string& sceneFile, const SimulatorOptions& options = {});
   /// Reads no file: shapes described by a mesh are not drawn.
   explicit Simulator(const SimulatorDescription& description);
   Simulator(const Simulator& other);
@@ -45,6 +73,13 @@ class Simulator {
 
   /// n, the number of joint angles.
   int getJointDimension() const;
+  /// What each of them belongs to: "elbow", or of a joint with several "base [0]", "base [1]", ...
+  std::vector<std::string> getJointNames() const;
+  /// Their limits, n numbers each; infinite where there are none.
+  Eigen::VectorXd getLowerLimits() const;
+  Eigen::VectorXd getUpperLimits() const;
+  /// All bodies, in the order of the scene.
+  std::vector<std::string> getBodyNames() const;
   /// The joint angles q, n numbers.
   Eigen::VectorXd getJointAngles() const;
   void getJointAngles(Eigen::VectorXd& q) const { q = getJointAngles(); }
@@ -66,6 +101,14 @@ class Simulator {
                               const Eigen::Vector3d& rel = Eigen::Vector3d::Zero()) const;
   void jacobianPos(Eigen::MatrixXd& J, const std::string& body,
                    const Eigen::Vector3d& rel = Eigen::Vector3d::Zero()) const;
+
+  /// A posture that brings a body's frame to X_WB, or the point `rel` of the body to p_W, metres: the search
+  /// begins at the present posture and goes on at random ones. The same each time; the robot does not move.
+  /// A program needs the library course_inverse_kinematics; `rex run FILE.cpp` adds it by itself. Slide
+  /// 2:27; see kinematics/inverse_kinematics_solver.h for more tasks at once.
+  [[nodiscard]] ReachedPosture inverseKinematics(const std::string& body, const Pose& X_WB) const;
+  [[nodiscard]] ReachedPosture inverseKinematics(const std::string& body, const Eigen::Vector3d& p_W,
+                                                 const Eigen::Vector3d& rel = Eigen::Vector3d::Zero()) const;
 
   /// World direction of the vector `vec` that is fixed to a body, by default its z axis. Slide 2:54.
   Eigen::Vector3d kinematicsVec(const std::string& body,
@@ -131,6 +174,18 @@ class Simulator {
   /// (physics/physics_world.h), also for joints that mimic others and for screws; the robot then stays where
   /// it was.
   void stepPhysics(const Eigen::VectorXd& u, double tau);
+  /// The same with no forces but those of motors.
+  void stepPhysics(double tau);
+  /// From now on stepPhysics() drives a joint, called as by getJointNames(), to a position (radians or
+  /// metres) or keeps its velocity, with at most maxForce (N m or N), until removeMotor(). Its number in u
+  /// must then be zero. Positions are approached as by Motor (physics/physics_world.h). Motors are not part
+  /// of description(). Throws Error for a ball or free joint and for numbers that make no sense.
+  void setPositionMotor(const std::string& joint, double position, double maxForce);
+  void setVelocityMotor(const std::string& joint, double velocity, double maxForce);
+  void removeMotor(const std::string& joint);
+  /// What touched in the last millisecond of the last stepPhysics(); nothing before that, and none after
+  /// addObstacle().
+  std::vector<SimulatorContact> getContacts() const;
   /// From now on each stepDynamics() adds sqrt(tau) * noise * N(0, 1) to each velocity. The numbers are the
   /// same in every run, see setSeed().
   void setDynamicSimulationNoise(double noise);
@@ -140,16 +195,24 @@ class Simulator {
   /// Starts the noise anew, with other numbers for another seed.
   void setSeed(std::uint64_t seed);
 
+  /// Puts a solid into the world at X_WS, as a body that never moves: kinematicsPos(), contacts, pictures and
+  /// stepPhysics() know it from now on; films show it from their beginning. It may collide with all that
+  /// moves. model() is a new one afterwards. Throws Error for a shape that is described by a mesh or has no
+  /// volume, for sizes that are not positive, and for a name that is taken.
+  void addObstacle(const Shape& shape, const Pose& X_WS, const std::string& name);
+
   /// Holds `body` where it stands now and hangs the rest of its chain on it, as on a foot that stands on the
   /// ground. The world looks as before, but joints count from the new root, so that the numbers of q may
-  /// stand in another order and with another sign. The robot is at rest afterwards; recording, noise and time
-  /// start anew. Throws Error as reconfigureRoot() (scene/scene_edit.h), and for a mesh that is in no file.
+  /// stand in another order and with another sign. The robot is at rest afterwards, without motors;
+  /// recording, noise and time start anew. Throws Error as reconfigureRoot() (scene/scene_edit.h), and for a
+  /// mesh that is in no file.
   void anchorKinematicChainIn(const std::string& body);
 
   /// Draws the present posture into the picture NAME.png. Never opens a window.
   void watch(const std::string& name = "watch") const;
 
-  /// The scene as it is anchored now, posture and margin: enough to make this simulator again.
+  /// The scene as it is anchored now, posture and margin: enough to make this simulator again. Throws Error
+  /// as writeOrs() (scene/ors_writer.h) for scenes of several files, a free base and obstacles.
   SimulatorDescription description() const;
   /// What the core of rex works on; see scene/model.h.
   const Model& model() const;

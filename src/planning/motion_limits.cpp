@@ -9,18 +9,10 @@
 
 #include "base/require_positive.h"
 #include "dynamics/inverse_dynamics.h"
+#include "scene/coordinate_names.h"
 
 namespace rex {
 namespace {
-
-std::vector<std::string> velocityNames(const Model& model) {
-  std::vector<std::string> names(static_cast<std::size_t>(model.nv()));
-  for (const Joint& joint : model.joints())
-    for (int i = 0; i < joint.nv && !joint.mimics; ++i)
-      names[static_cast<std::size_t>(joint.vIndex + i)] =
-          joint.name + (joint.nv > 1 ? fmt::format(" [{}]", i) : "");
-  return names;
-}
 
 // The least over all joints that share a coordinate; infinite where none has a limit.
 Eigen::VectorXd velocitiesOf(const Model& model) {

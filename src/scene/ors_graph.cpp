@@ -209,6 +209,7 @@ class Parser {
   void include(const Node& node, NodeList& list, int depth) {
     const FileName& file = fileOf(node, "Include='FILE'");
     const Files::Opened opened = scene_.files.open(file, node.valueWhere);
+    scene_.document.isOneFile = false;
     scene_.document.files.push_back(opened.name);
     Parser(opened.text, scene_.document.files.back(), shortest(opened.folder), scene_).readFile(list, depth);
     scene_.files.close();

@@ -56,6 +56,7 @@ struct Document {
   Graph nodes;
   Diagnostics notes;
   std::list<std::string> files;  ///< the names that places point to
+  bool isOneFile = true;         ///< nothing was included
 };
 
 /// What kind of value it is, for messages: "a number", "a pose <T ...>", ...

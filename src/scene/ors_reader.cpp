@@ -344,6 +344,7 @@ SceneFile read(std::string_view text, const std::string& name, const Assets* ass
     if (document.nodes.empty())
       file.notes.push_back({{name, 1, 1}, "no statement: the scene is empty", Severity::kWarning});
     Reader(file).read(document.nodes);
+    if (document.isOneFile) file.text = text;
     if (assets) loadMeshes(file, *assets, options);
     return file;
   } catch (const Error&) {

@@ -13,6 +13,9 @@ namespace rex {
 struct SceneFile {
   SceneSpec spec;
   Diagnostics notes;
+  /// What was read, of which parseScene() makes the same again, but for meshes and an SRDF beside it; empty
+  /// for a scene of several files.
+  std::string text{};
 };
 
 struct ReadOptions {

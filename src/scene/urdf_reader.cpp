@@ -128,7 +128,7 @@ SceneFile parseUrdf(std::string_view text, const std::string& name, const ReadOp
   noteSkippedBlanks(reading);
   try {
     SceneSpec spec = readRobot(reading, name, options.freeBase);
-    return {std::move(spec), reading.notes.take()};
+    return {std::move(spec), reading.notes.take(), std::string(text)};
   } catch (const Error&) {
     if (options.notesOfFailure) append(*options.notesOfFailure, reading.notes.take());
     throw;

@@ -165,7 +165,7 @@ bool isCurrent(const fs::path& precompiled, const fs::path& rule) {
 
 }  // namespace
 
-bool opensWithExerciseHeader(std::string_view source, const std::vector<std::string>& flags) {
+bool opensWithCourseHeader(std::string_view source, const std::vector<std::string>& flags) {
   while (!source.empty()) {
     const std::size_t end = std::min(source.find('\n'), source.size());
     std::string_view line = source.substr(0, end);
@@ -175,7 +175,7 @@ bool opensWithExerciseHeader(std::string_view source, const std::vector<std::str
     if (line.find('\\') != line.npos || line.find("/*") != line.npos) return false;
     if (line.empty() || line.starts_with("//")) continue;
     const std::string_view name = includedName(line);
-    if (name == "exercise.h") return true;
+    if (name == "exercise.h" || name == "course/course.h") return true;
     if (!isStandard(name) && !isOwn(name, flags)) return false;
   }
   return false;
@@ -183,7 +183,7 @@ bool opensWithExerciseHeader(std::string_view source, const std::vector<std::str
 
 std::vector<std::string> prefixFlags(const fs::path& prefix, std::string_view source,
                                      const std::vector<std::string>& flags) {
-  if (prefix.empty() || !opensWithExerciseHeader(source, flags)) return {};
+  if (prefix.empty() || !opensWithCourseHeader(source, flags)) return {};
   if (!isCurrent(prefix.string() + ".gch", prefix.string() + ".d")) return {};
   return {"-include", prefix.string()};
 }

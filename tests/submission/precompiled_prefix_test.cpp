@@ -22,24 +22,25 @@ const std::vector<std::string>& flags() {
   return kFlags;
 }
 
-TEST(OpensWithExerciseHeader, BehindOtherHeadersAndComments) {
-  EXPECT_TRUE(opensWithExerciseHeader("#include \"exercise.h\"", {}));
+TEST(OpensWithCourseHeader, BehindOtherHeadersAndComments) {
+  EXPECT_TRUE(opensWithCourseHeader("#include \"exercise.h\"", {}));
+  EXPECT_TRUE(opensWithCourseHeader("#include <cmath>\n#include \"course/course.h\"\nint x;\n", {}));
+  EXPECT_FALSE(opensWithCourseHeader("#include \"course/plot.h\"\nint x;\n", flags()));
   EXPECT_TRUE(
-      opensWithExerciseHeader("// Mine.\r\n\n#include <cmath>\n  #include\t\"control/pid.h\"  // why\n"
-                              "#include <exercise.h>\nint x;\n",
-                              flags()));
+      opensWithCourseHeader("// Mine.\r\n\n#include <cmath>\n  #include\t\"control/pid.h\"  // why\n"
+                            "#include <exercise.h>\nint x;\n",
+                            flags()));
 }
 
-TEST(OpensWithExerciseHeader, NotBehindWhatCouldChangeIt) {
+TEST(OpensWithCourseHeader, NotBehindWhatCouldChangeIt) {
   for (const char* first :
        {"#define EIGEN_NO_IO", "#include \"/tmp/a.h\"", "#include \"../src/control/pid.h\"", "int x;",
         "#include \"main.cpp\"", "#include NAME", "/*", "// on and on \\", "#if 0", "#include <cmath",
         "#pragma GCC system_header", "#include <cstdlib> /*", "#include <X11/Xlib.h>", "#include \"mine.h\"",
         "#include <math.h>", "#include \"good.cpp\""})
-    EXPECT_FALSE(opensWithExerciseHeader(std::string(first) + "\n#include \"exercise.h\"\n", flags()))
-        << first;
-  EXPECT_FALSE(opensWithExerciseHeader("", flags()));
-  EXPECT_FALSE(opensWithExerciseHeader("#include <cmath>\n", flags()));
+    EXPECT_FALSE(opensWithCourseHeader(std::string(first) + "\n#include \"exercise.h\"\n", flags())) << first;
+  EXPECT_FALSE(opensWithCourseHeader("", flags()));
+  EXPECT_FALSE(opensWithCourseHeader("#include <cmath>\n", flags()));
 }
 
 constexpr const char* kSource = "#include \"exercise.h\"\n";
@@ -179,7 +180,7 @@ TEST(Prefix, IsForWhatStudentsStartFrom) {
     if (!std::filesystem::exists(folder.path() / "build.json")) continue;
     const Toolchain toolchain = readToolchain(folder.path() / "build.json");
     const path main = sourcePath("exercises") / folder.path().filename() / "main.cpp";
-    EXPECT_TRUE(opensWithExerciseHeader(readTextFile(main), toolchain.flags)) << main;
+    EXPECT_TRUE(opensWithCourseHeader(readTextFile(main), toolchain.flags)) << main;
     ++exercises;
   }
   EXPECT_GT(exercises, 5);

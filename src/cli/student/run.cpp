@@ -2,16 +2,19 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <string.h>
 
+#include "base/error.h"
 #include "base/private_folder.h"
 #include "base/process.h"
 #include "cli/out_folder.h"
 #include "cli/result_list.h"
 #include "cli/student/exercise_option_internal.h"
+#include "cli/student/own_program.h"
 #include "cli/student/student_file.h"
 #include "cli/student/student_room_internal.h"
 #include "cli/terminal.h"
@@ -22,9 +25,10 @@ namespace {
 namespace fs = std::filesystem;
 
 struct RunOptions {
-  std::string exercise;
+  std::string program;  ///< an exercise, or a file
   bool solution = false;
-  std::filesystem::path out;  ///< empty: out/EXERCISE, or out/EXERCISE-solution
+  std::filesystem::path out;           ///< empty: out/EXERCISE, out/EXERCISE-solution or out/FILE
+  std::vector<std::string> arguments;  ///< for a program of one's own
 };
 
 void listResults(const fs::path& folder) {
@@ -33,8 +37,45 @@ void listResults(const fs::path& folder) {
   for (const std::string& line : files) say("  " + line);
 }
 
+// Waits for the program, which works in `out`; `help` is for one that crashes.
+ExitCode runIn(const fs::path& out, std::vector<std::string> command, const std::string& help) {
+  std::fflush(stdout);
+  constexpr double kNoTimeout = 1e6;
+  const ProcessResult result =
+      runProcess(command, {.directory = out, .timeout = kNoTimeout, .inheritOutput = true});
+  listResults(out);
+  if (result.ok()) return ExitCode::kFull;
+  if (result.signal != 0) {
+    note(
+        fmt::format("\nThe program was ended by signal {} ({}).", result.signal, ::strsignal(result.signal)));
+    if (result.signal != SIGINT && !help.empty()) note(help);
+  } else {
+    note(fmt::format("\nThe program ended with exit code {}.", result.exitCode));
+  }
+  return ExitCode::kBelow;
+}
+
+ExitCode runFile(const Project& project, const fs::path& file, const RunOptions& options) {
+  if (options.solution)
+    throw UsageError({.what = "--solution", .found = shown(file), .wanted = "an exercise"});
+  const fs::path out = fs::absolute(options.out.empty() ? outFolderOf(project, file) : options.out);
+  makeOutFolder(out);
+  fs::create_directories(project.build / "student");
+  const PrivateFolder work(project.build / "student");
+  const auto program = buildOwnProgram(project, file, work.path(), out);
+  if (!program) return ExitCode::kNotGradable;
+  std::vector<std::string> command = {program->string()};
+  command.insert(command.end(), options.arguments.begin(), options.arguments.end());
+  return runIn(out, command, "");
+}
+
 ExitCode run(const Project& project, const RunOptions& options) {
-  const ExerciseInfo exercise = project.exercise(options.exercise);
+  const auto meant = programMeant(project, options.program);
+  if (const fs::path* file = std::get_if<fs::path>(&meant)) return runFile(project, *file, options);
+  if (!options.arguments.empty())
+    throw UsageError({.what = fmt::format("rex run: unknown argument '{}'", harmless(options.arguments[0])),
+                      .wanted = "none with an exercise"});
+  const ExerciseInfo& exercise = std::get<ExerciseInfo>(meant);
   const fs::path file = chooseStudentFile(exercise, options.solution);
   const fs::path out =
       fs::absolute(options.out.empty() ? project.outFolder(exercise, options.solution) : options.out);
@@ -43,21 +84,7 @@ ExitCode run(const Project& project, const RunOptions& options) {
   const PrivateFolder work(project.buildFolder(exercise));
   const auto program = buildProgram(project, exercise, {.main = file, .workFolder = work.path()}, out);
   if (!program) return ExitCode::kNotGradable;
-
-  std::fflush(stdout);
-  constexpr double kNoTimeout = 1e6;
-  const ProcessResult result =
-      runProcess({program->string()}, {.directory = out, .timeout = kNoTimeout, .inheritOutput = true});
-  listResults(out);
-  if (result.ok()) return ExitCode::kFull;
-  if (result.signal != 0) {
-    note(
-        fmt::format("\nThe program was ended by signal {} ({}).", result.signal, ::strsignal(result.signal)));
-    if (result.signal != SIGINT) note(fmt::format("To see where: scripts/rex debug {}", exercise.name));
-  } else {
-    note(fmt::format("\nThe program ended with exit code {}.", result.exitCode));
-  }
-  return ExitCode::kBelow;
+  return runIn(out, {program->string()}, fmt::format("To see where: scripts/rex debug {}", exercise.name));
 }
 
 }  // namespace
@@ -65,9 +92,18 @@ ExitCode run(const Project& project, const RunOptions& options) {
 void addRun(CLI::App* command, Action& action) {
   const auto options = std::make_shared<RunOptions>();
   command->footer(
-      "Examples:\n  scripts/rex run 01\n  scripts/rex run 01 --solution -o /tmp/look\n\n"
-      "The program runs inside the output folder; frames and plots land there.");
-  addExercise(command, options->exercise);
+      "Examples:\n  scripts/rex run 01\n  scripts/rex run 01 --solution -o /tmp/look\n"
+      "  scripts/rex run share/examples/reach.cpp\n\n"
+      "A .cpp file of your own may lie anywhere. It may use all of the library, whose parts are built as it\n"
+      "includes them, and headers beside it; what follows `--` are its arguments. Its results go to "
+      "out/NAME,\n"
+      "those of FOLDER/main.cpp to out/FOLDER. The program runs inside that folder; frames and plots land "
+      "there.");
+  command
+      ->add_option("PROGRAM", options->program, "an exercise (01, kinematics, 01-kinematics) or a .cpp file")
+      ->type_name("")
+      ->required();
+  command->add_option("ARGUMENTS", options->arguments, "of your own program, after --")->type_name("");
   command->add_flag("--solution", options->solution, "run the reference solution instead of main.cpp");
   command->add_option("-o,--out", options->out, kOutHelp)->type_name("DIR");
   command->callback(

@@ -66,7 +66,13 @@ void explain(const std::vector<CompileDiagnostic>& messages, const std::string& 
 std::optional<std::filesystem::path> buildProgram(const Project& project, const ExerciseInfo& exercise,
                                                   const grading::StudentBuildOptions& options,
                                                   const std::filesystem::path& out) {
-  const grading::Toolchain toolchain = prepare(project, exercise);
+  return buildProgram(prepare(project, exercise), options, out, [](const grading::StudentObject&) {});
+}
+
+std::optional<std::filesystem::path> buildProgram(
+    const grading::Toolchain& toolchain, const grading::StudentBuildOptions& options,
+    const std::filesystem::path& out,
+    const std::function<void(const grading::StudentObject& object)>& beforeLinking) {
   const std::filesystem::path log = out / "build.log";
   // Trying things out is free: only grading looks for forbidden calls.
   const grading::StudentObject object = compileStudent(toolchain, {}, options);
@@ -76,6 +82,7 @@ std::optional<std::filesystem::path> buildProgram(const Project& project, const 
     return {};
   }
   for (const CompileDiagnostic& message : object.messages) note(wrap(harmless(toString(message)), 2, 0));
+  beforeLinking(object);
   const grading::StudentProgram program = linkProgram(toolchain, object);
   if (program.ok) return program.program;
   writeTextFile(log, program.log);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,12 @@ namespace rex::cli {
                                                                 const ExerciseInfo& exercise,
                                                                 const grading::StudentBuildOptions& options,
                                                                 const std::filesystem::path& out);
+
+/// The same by any toolchain; `beforeLinking` is called with the compiled file.
+[[nodiscard]] std::optional<std::filesystem::path> buildProgram(
+    const grading::Toolchain& toolchain, const grading::StudentBuildOptions& options,
+    const std::filesystem::path& out,
+    const std::function<void(const grading::StudentObject& object)>& beforeLinking);
 
 /// Prints the first error at length and the number of others, and where the log lies.
 void explain(const std::vector<grading::CompileDiagnostic>& messages, const std::string& source,

@@ -1,0 +1,27 @@
+// Inverse kinematics: which posture brings the tool of an arm to a place, pointing downwards? The arm goes
+// there.
+#include <iostream>
+#include <numbers>
+
+#include "course/course.h"
+
+using namespace rex;
+
+int main() {
+  Simulator S("arm7dof");
+  const Eigen::VectorXd start = S.getJointAngles();
+
+  // X_WB, the pose of the body B in the world W: 40 cm ahead, 30 cm to the right, 20 cm high, upside down.
+  const Pose X_WB = translation(0.4, -0.3, 0.2) * rotation(std::numbers::pi, {1, 0, 0});
+  const ReachedPosture goal = S.inverseKinematics("tool", X_WB);
+  if (!goal.isReached) {
+    std::cerr << goal.message << "\n";
+    return 1;
+  }
+  print("posture [rad]", goal.q);
+
+  constexpr int kSteps = 60;
+  for (int t = 0; t <= kSteps; ++t) S.setJointAngles(start + (goal.q - start) * t / kSteps);
+  print("tool [m]", S.kinematicsPos("tool"));
+  writeReplay(S, "reach", {.traces = {"tool"}, .points = {X_WB.p}});
+}

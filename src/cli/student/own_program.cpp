@@ -1,0 +1,95 @@
+#include "cli/student/own_program.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/process.h"
+#include "base/text_file.h"
+#include "cli/build_on_demand.h"
+#include "cli/student/student_file.h"
+#include "submission/included_files.h"
+#include "submission/precompiled_prefix.h"
+#include "submission/program_build.h"
+
+namespace rex::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool isExercise(const Project& project, const std::string& name) {
+  return std::ranges::any_of(project.exercises(), [&](const ExerciseInfo& one) { return one.name == name; });
+}
+
+// Whether it is the file that students of an exercise edit.
+bool isMainOfExercise(const Project& project, const fs::path& file) {
+  std::error_code ignored;
+  return file.filename() == "main.cpp" &&
+         fs::equivalent(file.parent_path().parent_path(), project.root / "exercises", ignored) &&
+         isExercise(project, file.parent_path().filename().string());
+}
+
+[[noreturn]] void failWithoutFile(const fs::path& file) {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(fs::absolute(file).parent_path(), ignored))
+    if (entry.path().extension() == ".cpp") names.push_back(entry.path().filename().string());
+  throw UsageError({.what = fmt::format("there is no program '{}'", file.string()),
+                    .found = fs::exists(file, ignored) ? "a folder or device" : "no such file",
+                    .wanted = "an exercise, or the path of a .cpp file",
+                    .nearest = nearestNames(file.filename().string(), names)});
+}
+
+}  // namespace
+
+std::variant<fs::path, ExerciseInfo> programMeant(const Project& project, const std::string& argument) {
+  const fs::path file = argument;
+  std::error_code ignored;
+  if (file.extension() != ".cpp") return project.exercise(argument);
+  if (fs::is_regular_file(file, ignored)) {
+    const fs::path whole = fs::canonical(file);
+    if (!isMainOfExercise(project, whole)) return whole;
+    return project.exercise(whole.parent_path().filename().string());
+  }
+  // As a name is completed in the folder of all exercises: 01-kinematics/main.cpp.
+  const std::string name = file.parent_path().filename().string();
+  if (file.filename() == "main.cpp" && isExercise(project, name)) return project.exercise(argument);
+  failWithoutFile(file);
+}
+
+fs::path outFolderOf(const Project& project, const fs::path& file) {
+  const std::string name =
+      file.filename() == "main.cpp" ? file.parent_path().filename().string() : file.stem().string();
+  if (isExercise(project, name))
+    throw UsageError(
+        {.what = fmt::format("the results of '{}' would go to those of the exercise {}", shown(file), name),
+         .wanted = "another folder for them: -o DIR"});
+  return project.root / "out" / name;
+}
+
+std::optional<fs::path> buildOwnProgram(const Project& project, const fs::path& file,
+                                        const fs::path& workFolder, const fs::path& out) {
+  grading::ProgramToolchain program =
+      grading::readProgramToolchain(project.build / "student" / "program.json");
+  grading::Toolchain& toolchain = program.toolchain;
+  if (!toolchain.prefix.empty() && grading::opensWithCourseHeader(readTextFile(file), toolchain.flags))
+    bringUpToDate(project, {"rex_student_prefix"}, "what programs start from");
+  toolchain.flags.insert(toolchain.flags.end(), {"-I", file.parent_path().string()});
+  const auto chooseLibraries = [&](const grading::StudentObject& object) {
+    const ProcessResult table =
+        runProcess({toolchain.objdump, "-t", "-C", object.object.string()}, {.outputLimit = 256u << 20});
+    if (!table.ok())
+      throw Error({.what = "cannot list what the compiled file refers to", .found = table.error});
+    const auto files = grading::dependenciesIn(readTextFile(workFolder / "student.d"), workFolder);
+    std::vector<std::string> targets;
+    for (const grading::LibraryPart& one : librariesFor(program, files, table.output)) {
+      targets.push_back(one.target);
+      toolchain.libraries.push_back(one.file);
+    }
+    if (!targets.empty()) bringUpToDate(project, targets, "the library for " + file.filename().string());
+  };
+  return buildProgram(toolchain, {.main = file, .workFolder = workFolder}, out, chooseLibraries);
+}
+
+}  // namespace rex::cli
