@@ -1,18 +1,18 @@
-#include "render/own_ground_internal.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include <Eigen/Geometry>
 
+#include "render/own_ground_internal.h"
+
 namespace rex::internal {
 namespace {
 
 using Eigen::Vector3d;
 
-// Shares of the scene's radius. A step of the depth buffer is less than a ten-thousandth of it where framing()
-// sets the planes.
+// Shares of the scene's radius. A step of the depth buffer is less than a ten-thousandth of it where
+// framing() sets the planes.
 constexpr double kThin = 5e-4, kLowered = 1e-3, kAbout = 0.02;
 
 double areaFromAbove(const Bounds& box) { return (box.high - box.low).head<2>().prod(); }
@@ -25,10 +25,9 @@ bool isSurface(const Solid& solid) {
 
 // A cheap lower bound of its heights: that of the box about the origin of its frame.
 double lowestOf(const Solid& solid) {
-  const Vector3d half =
-      usesMesh(solid.shape.type)
-          ? Vector3d(solid.shape.mesh.halfBounds() + Vector3d::Constant(solid.shape.radius))
-          : halfBounds(solid.shape);
+  const Vector3d half = usesMesh(solid.shape.type)
+                            ? Vector3d(solid.shape.mesh.halfBounds() + Vector3d::Constant(solid.shape.radius))
+                            : halfBounds(solid.shape);
   return solid.X_WS.p.z() - solid.X_WS.R.row(2).cwiseAbs().dot(half);
 }
 
@@ -42,8 +41,8 @@ double floorArea(const Solid& solid, double height, double tolerance) {
   };
   for (const auto& [a, b, c] : solid.shape.mesh.triangles()) {
     if (!isAt(a) || !isAt(b) || !isAt(c)) continue;
-    const Vector3d first = positions[a].cast<double>(), twice = (positions[b].cast<double>() - first)
-                                                                    .cross(positions[c].cast<double>() - first);
+    const Vector3d first = positions[a].cast<double>(),
+                   twice = (positions[b].cast<double>() - first).cross(positions[c].cast<double>() - first);
     area += std::max(0., up.dot(twice) / 2);
   }
   return area;

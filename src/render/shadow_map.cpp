@@ -78,8 +78,7 @@ ShadowView ShadowMap::draw(const std::vector<DrawItem>& casters, const Eigen::Ve
                            const MeshStore& meshes) {
   const ShadowView view = fitShadowView(casters, toLight, kMapSize);
   std::vector<DrawItem> items = casters;
-  for (DrawItem& item : items)
-    item.detail = std::min(item.detail, detailFor(radiusOf(item) / view.texel));
+  for (DrawItem& item : items) item.detail = std::min(item.detail, detailFor(radiusOf(item) / view.texel));
   if (drawnToLight_ == toLight && std::ranges::equal(items, drawn_, castAlike)) return view;
   gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   gl_->Viewport(0, 0, kMapSize, kMapSize);

@@ -93,7 +93,7 @@ TEST(Camera, RejectsNonsense) {
   Bounds box;
   EXPECT_REX_ERROR(lookAt({1, 1, 1}, {1, 1, 1}), "camera: found eye (1, 1, 1) looking at (1, 1, 1)");
   EXPECT_REX_ERROR(lookAt({nan, 1, 1}, {1, 1, 1}), "wanted two different finite points");
-  EXPECT_REX_ERROR(framing(box, kDefaultView, 1), 
+  EXPECT_REX_ERROR(framing(box, kDefaultView, 1),
                    "nothing to draw: found no shape, line, point, arrow or label in the scene, wanted at "
                    "least one");
   box.include({0, 0, 0});

@@ -1,12 +1,11 @@
 // Grounds that a scene brings along, and the checkered one, which must not shine through them.
-#include "render/own_ground_internal.h"
-
 #include <gtest/gtest.h>
 
 #include "geometry/rotation.h"
 #include "geometry/welded_mesh.h"
 #include "render/film.h"
 #include "render/glb.h"
+#include "render/own_ground_internal.h"
 #include "render/renderer.h"
 #include "support/mesh_samples.h"
 #include "support/needs_osmesa.h"

@@ -115,7 +115,7 @@ TEST_F(RiccatiCommand, SaysWhatIsWrong) {
   };
   EXPECT_EQ(rex({"care"}).exitCode, 64);
   EXPECT_THAT(flat(rex({"care", "none.json"}).error), HasSubstr("none.json: cannot read this file"));
-  expect("care", "{\"A\": [[1]],\n \"B\": [[1],\n}", 
+  expect("care", "{\"A\": [[1]],\n \"B\": [[1],\n}",
          "problem.json:3:1: not valid JSON: wanted an object with the fields A, B, Q and R");
   expect("dare", "{\"A\": [[nan]]}", "problem.json:1:10: not valid JSON");
   expect("dare", "", "problem.json:1:1: not valid JSON");

@@ -148,7 +148,8 @@ TEST_F(RenderCommand, SaysThatASceneHasNothingToDraw) {
   for (const std::string out : {"a.png", "a.glb", "a.html"}) {
     const ProcessResult result = rex({"render", "bare.urdf", "-o", out});
     EXPECT_EQ(result.exitCode, 64) << out;
-    EXPECT_THAT(flat(result.error), HasSubstr("bare.urdf: found no shape to draw, wanted a scene with shapes"));
+    EXPECT_THAT(flat(result.error),
+                HasSubstr("bare.urdf: found no shape to draw, wanted a scene with shapes"));
   }
 }
 
