@@ -15,9 +15,13 @@ std::vector<std::string> allHarmless(std::vector<std::string> names) {
 
 }  // namespace
 
-std::vector<std::string> positionNames(const Model& model) { return allHarmless(rex::positionNames(model)); }
+std::vector<std::string> printablePositionNames(const Model& model) {
+  return allHarmless(positionNames(model));
+}
 
-std::vector<std::string> velocityNames(const Model& model) { return allHarmless(rex::velocityNames(model)); }
+std::vector<std::string> printableVelocityNames(const Model& model) {
+  return allHarmless(velocityNames(model));
+}
 
 std::size_t widestOf(const std::vector<std::string>& names, std::size_t least) {
   for (const std::string& name : names) least = std::max(least, name.size());

@@ -8,9 +8,9 @@
 
 namespace rex::cli {
 
-/// What each number of q or v belongs to: "elbow", or of a joint with several "elbow [1]".
-[[nodiscard]] std::vector<std::string> positionNames(const Model& model);
-[[nodiscard]] std::vector<std::string> velocityNames(const Model& model);
+/// positionNames() and velocityNames() of scene/coordinate_names.h, as they can be printed.
+[[nodiscard]] std::vector<std::string> printablePositionNames(const Model& model);
+[[nodiscard]] std::vector<std::string> printableVelocityNames(const Model& model);
 
 /// The length of the longest name, and no less than `least`: the width of a column of them.
 [[nodiscard]] std::size_t widestOf(const std::vector<std::string>& names, std::size_t least);

@@ -38,7 +38,7 @@ std::string csvOf(const Model& model, const Motion& motion) {
   fmt::memory_buffer table;
   const auto out = std::back_inserter(table);
   fmt::format_to(out, "time");
-  for (const std::string& name : positionNames(model)) fmt::format_to(out, ",{}", quoted(name));
+  for (const std::string& name : printablePositionNames(model)) fmt::format_to(out, ",{}", quoted(name));
   for (std::size_t i = 0; i < motion.times.size(); ++i) {
     fmt::format_to(out, "\n{}", motion.times[i]);
     for (const double x : motion.postures[i]) fmt::format_to(out, ",{}", x);

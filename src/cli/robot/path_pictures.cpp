@@ -120,7 +120,7 @@ Picture exploredPicture(const PathTask& task, BodyId body, const FoundPath& foun
 Figure jointsFigure(const Model& model, const Motion& motion) {
   Figure figure{
       .title = "joints", .xLabel = "time [s]", .yLabel = "position [rad, m]", .legend = Legend::kOutside};
-  const std::vector<std::string> names = positionNames(model);
+  const std::vector<std::string> names = printablePositionNames(model);
   for (std::size_t i = 0; i < names.size(); ++i) {
     Series series{.label = names[i], .x = motion.times};
     for (const Eigen::VectorXd& q : motion.postures) series.y.push_back(q[static_cast<Eigen::Index>(i)]);

@@ -57,7 +57,7 @@ void sayMatrix(const Eigen::MatrixXd& M, const std::vector<std::string>& names, 
 }
 
 void sayToPeople(const Model& model, const Dynamics& at) {
-  const std::vector<std::string> names = velocityNames(model);
+  const std::vector<std::string> names = printableVelocityNames(model);
   const std::size_t width = widestOf(names, 5);
   say(fmt::format("kinetic energy {:.6g} J, potential energy {:.6g} J; M qdd + F = u", at.energy.kinetic,
                   at.energy.potential));

@@ -81,7 +81,7 @@ ExitCode sceneJacobian(const Project& project, const JacobianOptions& options) {
     say(dump(Json{{"pos", jsonOfRows(position)}, {"rot", jsonOfRows(angular)}}));
     return ExitCode::kFull;
   }
-  const std::vector<std::string> names = velocityNames(model);
+  const std::vector<std::string> names = printableVelocityNames(model);
   const std::size_t width = widestOf(names, 8);
   say("velocity of the point and angular velocity, per unit of each joint's velocity");
   say(fmt::format("{:{}}", "joint", width) + heads({"x", "y", "z", "wx", "wy", "wz"}));
