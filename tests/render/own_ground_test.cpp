@@ -113,7 +113,7 @@ bool isAllRed(const Picture& picture, float half, const Camera& camera) {
   const Image image = renderer.draw(picture, camera);
   for (int i = 0; i <= 80; ++i)
     for (int k = 0; k <= 80; ++k) {
-      const Vector3d p_WQ(half * (i - 40) / 42, half * (k - 40) / 42, 0);
+      const Vector3d p_WQ(half * float(i - 40) / 42, half * float(k - 40) / 42, 0);
       const auto at = project(camera, p_WQ, image.width, image.height);
       if (!at || at->x < 0 || at->y < 0 || at->x >= image.width || at->y >= image.height) continue;
       if (!isRed(image, static_cast<int>(at->x), static_cast<int>(at->y))) return false;

@@ -301,8 +301,8 @@ TEST(Renderer, DrawsAfterAnyPictureWhatAFreshOneDraws) {
   const auto meshOf = [](const BareMesh& bare) {
     return Shape{.type = ShapeType::kMesh, .mesh = weldedMesh(bare.positions, bare.triangles)};
   };
-  const Picture first{.solids = {{meshOf(cube), translation(0, 0, 0.8), {0.9f, 0.3f, 0.1f}, "mesh"},
-                                 {{ShapeType::kBox, {1, 1, 0.2}, 0}, translation(0, 0, 0.1), {}, "table"}}};
+  Picture first{.solids = {{meshOf(cube), translation(0, 0, 0.8), {0.9f, 0.3f, 0.1f}, "mesh"},
+                           {{ShapeType::kBox, {1, 1, 0.2}, 0}, translation(0, 0, 0.1), {}, "table"}}};
   Picture moved = first, lit = first, other = first, faint = first, grown = first, fewer = first;
   moved.solids[0].X_WS.p.x() += 0.1;
   lit.toLight = {1, 0, 1.5};

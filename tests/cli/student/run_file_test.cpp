@@ -85,8 +85,9 @@ TEST_F(RunFile, UsesTheLibraryAndHeadersBesideIt) {
   EXPECT_EQ(ended.code, 0) << ended.error;
   EXPECT_EQ(fileText(outOf("prog") / "sum.txt"), "11");
   EXPECT_THAT(asked(), IsSupersetOf({"rex_course", "rex_render", "rex_estimation"}));
-  if (fs::exists(REX_BINARY_DIR "/student/prefix.h"))  // not with the sanitizers
+  if (fs::exists(REX_BINARY_DIR "/student/prefix.h")) {  // not with the sanitizers
     EXPECT_THAT(asked(), Contains("rex_student_prefix"));
+  }
   for (const char* other : {"rex_planning", "rex_locomotion", "rex_inverse_kinematics", "98-template_ready"})
     EXPECT_THAT(asked(), Not(Contains(other)));
 }
