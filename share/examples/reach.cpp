@@ -9,7 +9,7 @@ using namespace rex;
 
 int main() {
   Simulator S("arm7dof");
-  const Eigen::VectorXd start = S.getJointAngles();
+  const Eigen::VectorXd q0 = S.getJointAngles();
 
   // X_WB, the pose of the body B in the world W: 40 cm ahead, 30 cm to the right, 20 cm high, upside down.
   const Pose X_WB = translation(0.4, -0.3, 0.2) * rotation(std::numbers::pi, {1, 0, 0});
@@ -21,7 +21,7 @@ int main() {
   print("posture [rad]", goal.q);
 
   constexpr int kSteps = 60;
-  for (int t = 0; t <= kSteps; ++t) S.setJointAngles(start + (goal.q - start) * t / kSteps);
+  for (int t = 0; t <= kSteps; ++t) S.setJointAngles(q0 + (goal.q - q0) * t / kSteps);
   print("tool [m]", S.kinematicsPos("tool"));
   writeReplay(S, "reach", {.traces = {"tool"}, .points = {X_WB.p}});
 }

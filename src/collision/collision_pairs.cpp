@@ -63,9 +63,11 @@ class Choices {
   // Null without one.
   const PairChoice* find(BodyId a, BodyId b) const {
     if (const auto found = ofPairs_.find(inOrder(a, b)); found != ofPairs_.end()) return found->second;
+    const PairChoice* ofOne = nullptr;
     for (const BodyId body : {a, b})
-      if (const auto found = ofAll_.find(body); found != ofAll_.end()) return found->second;
-    return nullptr;
+      if (const auto found = ofAll_.find(body); found != ofAll_.end())
+        if (ofOne == nullptr || !found->second->mayCollide) ofOne = found->second;
+    return ofOne;
   }
 
  private:

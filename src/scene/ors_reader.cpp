@@ -251,9 +251,6 @@ class Reader {
     if (choice.mayCollide == attributes.flag("off"))
       fail(node.where, attributes.owner(), choice.mayCollide ? "'on' and 'off'" : "neither 'on' nor 'off'",
            "one of them");
-    if (choice.b.empty() && choice.mayCollide)
-      fail(attributes.where("on"), attributes.owner(), "'on' for all pairs of a body",
-           "'off', or two bodies");
     choice.reason = attributes.text("reason", "a word or \"text\"").value_or("");
     choice.where = node.where;
     file_.spec.collisionChoices.push_back(std::move(choice));

@@ -551,7 +551,7 @@ TEST(Glb, GivesTheSameBytesTwice) { EXPECT_EQ(glbOf(tumblingFilm()), glbOf(tumbl
 
 TEST(Glb, RefusesWhatCannotBePlayed) {
   EXPECT_REX_ERROR(glbOf({}), "a film to replay: found no frames, wanted at least one");
-  EXPECT_REX_ERROR(glbOf(filmOfOne({})), "bounds");
+  EXPECT_REX_ERROR(glbOf(filmOfOne({})), "nothing to draw: found no shape");
   Film film = tumblingFilm();
   film[3].time = film[2].time;
   EXPECT_REX_ERROR(glbOf(film),

@@ -31,14 +31,16 @@ TEST(OrsCollisions, HaveTheRuleOfTheCourseUnlessTheySayOtherwise) {
 TEST(OrsCollisions, ChoosePairs) {
   const SceneSpec spec = read(
       "collisions (a b) { off reason=\"Never seen\" }\ncollisions (world c) { on }\n"
-      "collisions (c) { off }\n");
-  ASSERT_EQ(spec.collisionChoices.size(), 3u);
+      "collisions (c) { off }\ncollisions (b) { on }\n");
+  ASSERT_EQ(spec.collisionChoices.size(), 4u);
   EXPECT_EQ(spec.collisionChoices[0].a + spec.collisionChoices[0].b, "ab");
   EXPECT_EQ(spec.collisionChoices[0].reason, "Never seen");
   EXPECT_FALSE(spec.collisionChoices[0].mayCollide);
   EXPECT_TRUE(spec.collisionChoices[1].mayCollide);
   EXPECT_EQ(spec.collisionChoices[1].a, "world");
   EXPECT_EQ(spec.collisionChoices[2].b, "");
+  EXPECT_EQ(spec.collisionChoices[3].a, "b");
+  EXPECT_TRUE(spec.collisionChoices[3].mayCollide);
 }
 
 TEST(OrsCollisions, AreWrittenAndReadAgain) {
@@ -80,8 +82,6 @@ TEST(OrsCollisions, RefuseWithThePlace) {
   EXPECT_REX_ERROR(read("collisions (a b)"),
                    "s.ors:2:1: collisions (a b): found neither 'on' nor 'off', wanted one of them");
   EXPECT_REX_ERROR(read("collisions (a b) { on off }"), "found 'on' and 'off', wanted one of them");
-  EXPECT_REX_ERROR(read("collisions (a) { on }"),
-                   "found 'on' for all pairs of a body, wanted 'off', or two bodies");
   EXPECT_REX_ERROR(read("collisions (a b) { off reason=3 }"), "attribute 'reason'");
   EXPECT_REX_ERROR(read("collision (a b) { off }"), "(did you mean 'collisions'?)");
 }

@@ -94,11 +94,10 @@ void addRun(CLI::App* command, Action& action) {
   command->footer(
       "Examples:\n  scripts/rex run 01\n  scripts/rex run 01 --solution -o /tmp/look\n"
       "  scripts/rex run share/examples/reach.cpp\n\n"
-      "A .cpp file of your own may lie anywhere. It may use all of the library, whose parts are built as it\n"
-      "includes them, and headers beside it; what follows `--` are its arguments. Its results go to "
-      "out/NAME,\n"
-      "those of FOLDER/main.cpp to out/FOLDER. The program runs inside that folder; frames and plots land "
-      "there.");
+      "A .cpp file of your own may lie anywhere. It may use headers beside it and all of the\n"
+      "library, whose parts are built as it includes them; what follows `--` are its arguments.\n"
+      "Its results go to out/NAME, those of FOLDER/main.cpp to out/FOLDER. The program runs\n"
+      "inside that folder; frames and plots land there.");
   command
       ->add_option("PROGRAM", options->program, "an exercise (01, kinematics, 01-kinematics) or a .cpp file")
       ->type_name("")

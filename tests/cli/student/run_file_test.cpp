@@ -26,7 +26,8 @@ class RunFile : public LinkedBuild {
     fs::create_symlink(description, build() / "student" / "program.json");
     std::ofstream ninja(build() / "build.ninja");
     ninja << "rule note\n  command = echo $out >> asked\n";
-    for (const auto& library : nlohmann::json::parse(fileText(description)).at("libraries"))
+    const nlohmann::json described = nlohmann::json::parse(fileText(description));
+    for (const auto& library : described.at("libraries"))
       ninja << "build " << library.at("target").get<std::string>() << ": note\n";
     ninja << "build rex_student_prefix: note\nbuild 98-template_ready: note\n";
   }
