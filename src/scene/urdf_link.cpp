@@ -85,15 +85,17 @@ void readMesh(const Tag& tag, ShapeSpec& spec) {
 void readGeometry(const Tag& geometry, ShapeSpec& spec) {
   static const Known kKnown = {{}, {"box", "cylinder", "sphere", "capsule", "mesh"}};
   geometry.expect(kKnown);
+  const std::vector<Tag> others = geometry.children();
   std::optional<Tag> only;
-  for (const std::string& name : kKnown.children) {
-    const std::optional<Tag> shape = geometry.child(name.c_str());
-    if (shape && only)
-      geometry.fail(shape->where(), "two shapes", fmt::format("<{}> and <{}>", only->name(), name), "one");
-    if (shape) only = shape;
+  for (const Tag& shape : others) {
+    if (std::ranges::find(kKnown.children, shape.name()) == kKnown.children.end()) continue;
+    if (only)
+      geometry.forgive(shape.where(), "two shapes", fmt::format("<{}> and <{}>", only->name(), shape.name()),
+                       "one", "the first is taken");
+    else
+      only = shape;
   }
   if (!only) {
-    const std::vector<Tag> others = geometry.children();
     const std::string found = others.empty() ? "" : std::string(others.front().name());
     geometry.fail(geometry.where(), "no shape", found.empty() ? "" : fmt::format("<{}>", found),
                   "<box>, <cylinder>, <sphere>, <capsule> or <mesh>", nearestNames(found, kKnown.children));

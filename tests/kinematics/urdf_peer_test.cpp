@@ -4,6 +4,8 @@
 #ifdef REX_WITH_URDFDOM
 
 #include <algorithm>
+#include <filesystem>
+#include <set>
 
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <kdl/chainjnttojacsolver.hpp>
@@ -118,6 +120,32 @@ TEST(UrdfPeer, AgreesOnAllFiles) {
     SCOPED_TRACE(file.filename());
     expectSameRobot(fileText(file));
   }
+}
+
+// The robots that Debian's packages contain. Meshes are not read: many are in other packages or in none.
+TEST(UrdfPeer, LoadsWhatUrdfdomLoadsOfDebian) {
+  namespace fs = std::filesystem;
+  std::vector<fs::path> files;
+  for (const char* folder : {"/usr/share/doc/dart/data", "/usr/share/morse/examples"})
+    if (fs::exists(folder))
+      for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (entry.path().extension() == ".urdf") files.push_back(entry.path());
+  if (files.empty()) GTEST_SKIP() << "install dart-doc and morse-simulator-doc to compare";
+  std::set<std::string> refused;
+  for (const fs::path& file : files) {
+    SCOPED_TRACE(file);
+    const std::string text = fileText(file);
+    try {
+      static_cast<void>(urdfdomRobot(text));
+    } catch (const std::runtime_error&) {
+      refused.insert(file.filename());
+      continue;
+    }
+    expectSameRobot(text);
+  }
+  EXPECT_GE(files.size(), refused.size() + 10);
+  // A joint to a link that is not there, no XML, and no robot.
+  EXPECT_EQ(refused, (std::set<std::string>{"atlas_v3.urdf", "invalid.urdf", "testWorld.urdf"}));
 }
 
 }  // namespace rex::urdf_peer_test

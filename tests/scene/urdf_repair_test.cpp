@@ -70,6 +70,8 @@ std::vector<Fault> allFaults() {
       {kMesh, "<mesh filename='@meshes/clear.obj'/>",
        "shape 'base': mesh '{}/robot/meshes/clear.obj': a material: found full transparency, wanted one that "
        "can be seen; it is drawn opaque"},
+      {kMesh, "<box size='1 1 1'/>@<sphere radius='1'/>",
+       "link 'base': <geometry>: two shapes: found <box> and <sphere>, wanted one; the first is taken"},
       {kMass, "@0", massless},
       {kMass, "@0e3", massless},
       {kMoments, "@<inertia ixx='0' iyy='0' izz='0' ixy='0' ixz='2.4e-35' iyz='0'/>",
