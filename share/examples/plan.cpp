@@ -10,7 +10,7 @@ using namespace rex;
 
 int main() {
   Simulator S("arm7dof");
-  S.addObstacle({.type = ShapeType::kBox, .extent = {0.5, 0.04, 0.7}}, translation(0.5, 0, 0.35), "wall");
+  S.addObstacle({.type = ShapeType::kBox, .extent = {0.4, 0.04, 0.5}}, translation(0.6, 0, 0.25), "wall");
   S.setJointAngles(S.inverseKinematics("tool", Eigen::Vector3d(0.4, 0.35, 0.3)).q);
   const ReachedPosture goal = S.inverseKinematics("tool", Eigen::Vector3d(0.4, -0.35, 0.3));
 

@@ -179,6 +179,8 @@ TEST(CollisionPairs, DoesWhatTheSceneChooses) {
   EXPECT_EQ(reasons(chosen({{"A", "", false}, {"A", "C", true}}, 1)),
             "AB disabled, AC enabled, BC neighbours")
       << "a pair counts more than all";
+  EXPECT_EQ(reasons(chosen({{"A", "", true}, {"C", "", false}})), "AB enabled, AC disabled, BC disabled")
+      << "nor does all of a body help where another wants none";
 }
 
 TEST(CollisionPairs, SaysWhatIsEnabledToNoEffect) {

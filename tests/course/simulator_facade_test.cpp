@@ -197,7 +197,7 @@ TEST_F(SimulatorFacade, KeepsObstaclesInMind) {
   EXPECT_THAT(S.proxyReport(), HasSubstr("floor"));
   EXPECT_LT((S.kinematicsPos("floor") - kBelowFloor.p).norm(), 1e-15);
   EXPECT_EQ(S.getJointAngles()[0], 0.05) << "the robot stays";
-  EXPECT_EQ(S.recording().count(), 5u);
+  EXPECT_EQ(S.recording().count(), 4u);
 }
 
 // Rules that spare neighbours and what overlaps at home are not for obstacles.

@@ -1,6 +1,7 @@
 #include "cli/student/own_program.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -73,15 +74,20 @@ std::optional<fs::path> buildOwnProgram(const Project& project, const fs::path& 
   grading::ProgramToolchain program =
       grading::readProgramToolchain(project.build / "student" / "program.json");
   grading::Toolchain& toolchain = program.toolchain;
-  if (!toolchain.prefix.empty() && grading::opensWithCourseHeader(readTextFile(file), toolchain.flags))
-    bringUpToDate(project, {"rex_student_prefix"}, "what programs start from");
+  const bool hasPrefix =
+      !toolchain.prefix.empty() && grading::opensWithCourseHeader(readTextFile(file), toolchain.flags);
+  if (hasPrefix) bringUpToDate(project, {"rex_student_prefix"}, "what programs start from");
   toolchain.flags.insert(toolchain.flags.end(), {"-I", file.parent_path().string()});
   const auto chooseLibraries = [&](const grading::StudentObject& object) {
     const ProcessResult table =
         runProcess({toolchain.objdump, "-t", "-C", object.object.string()}, {.outputLimit = 256u << 20});
     if (!table.ok())
       throw Error({.what = "cannot list what the compiled file refers to", .found = table.error});
-    const auto files = grading::dependenciesIn(readTextFile(workFolder / "student.d"), workFolder);
+    auto files = grading::dependenciesIn(readTextFile(workFolder / "student.d"), workFolder);
+    // The compiler does not list what it has precompiled.
+    if (hasPrefix)
+      std::ranges::copy(grading::dependenciesIn(readTextFile(toolchain.prefix.string() + ".d"), workFolder),
+                        std::back_inserter(files));
     std::vector<std::string> targets;
     for (const grading::LibraryPart& one : librariesFor(program, files, table.output)) {
       targets.push_back(one.target);

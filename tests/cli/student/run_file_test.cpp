@@ -83,7 +83,7 @@ TEST_F(RunFile, UsesTheLibraryAndHeadersBesideIt) {
           "  std::ofstream(\"sum.txt\") << S.getJointDimension() + mine() + rex::toRoot(x).L(0, 0);\n"
           "}\n");
   const Ended ended = rex({"run", in("prog/main.cpp")});
-  EXPECT_EQ(ended.code, 0) << ended.error;
+  EXPECT_EQ(ended.code, 0) << ended.error << fileText(outOf("prog") / "build.log");
   EXPECT_EQ(fileText(outOf("prog") / "sum.txt"), "11");
   EXPECT_THAT(asked(), IsSupersetOf({"rex_course", "rex_render", "rex_estimation"}));
   if (fs::exists(REX_BINARY_DIR "/student/prefix.h")) {  // not with the sanitizers
