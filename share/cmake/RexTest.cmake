@@ -4,18 +4,11 @@
 # grader, which links with nearly all of the library. scripts/test --long looks at all.
 set(REX_SANITIZED_MODULES base geometry remote scene)
 
-# The library is what the sanitizers are for; the tests' own code would be half of their time.
-option(REX_SANITIZE_TESTS "Compile tests with the sanitizers, too, where the library is" ON)
-set(REX_TEST_OPTIONS ${REX_WARNINGS} "${REX_COLD}")
-if(REX_SANITIZE AND NOT REX_SANITIZE_TESTS)
-  list(APPEND REX_TEST_OPTIONS -fno-sanitize=all)
-endif()
-
 # What nearly all tests include takes longer to compile than the rest of them.
 function(rex_test_headers)
   file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/no_tests.cpp "")
   add_executable(rex_test_headers ${CMAKE_CURRENT_BINARY_DIR}/no_tests.cpp)
-  target_compile_options(rex_test_headers PRIVATE ${REX_TEST_OPTIONS})
+  target_compile_options(rex_test_headers PRIVATE ${REX_WARNINGS} "${REX_COLD}")
   target_link_libraries(rex_test_headers PRIVATE Eigen3::Eigen GTest::gmock_main)
   target_include_directories(rex_test_headers PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_precompile_headers(rex_test_headers PRIVATE
@@ -30,7 +23,7 @@ function(rex_tests folder)
   cmake_parse_arguments(ARG "MATRICES" "" "SOURCES;USES;PRIVATE;APART" ${ARGN})
   set(target ${folder}_tests)
   add_executable(${target} ${ARG_SOURCES})
-  target_compile_options(${target} PRIVATE ${REX_TEST_OPTIONS})
+  target_compile_options(${target} PRIVATE ${REX_WARNINGS} "${REX_COLD}")
   target_precompile_headers(${target} REUSE_FROM rex_test_headers)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_compile_definitions(${target} PRIVATE

@@ -49,8 +49,8 @@ Articulation::Articulation(const Model& model, std::span<const BodyId> bodies, c
   }
   addCollider(-1, isFree ? first.child : kWorld, isFree ? shapes.front() : nullptr);
   for (std::size_t i = isFree ? 1 : 0; i < bodies.size(); ++i) {
-    const Joint& joint = model[model[bodies[i]].joint];
-    const Grown& parent = grown[static_cast<std::size_t>(joint.parent)];
+    const JointId joint = model[bodies[i]].joint;
+    const Grown& parent = grown[static_cast<std::size_t>(model[joint].parent)];
     Grown& child = grown[static_cast<std::size_t>(bodies[i])];
     child = grow(model, joint, bulletLink(model[bodies[i]]), parent);
     if (shapes[i] != nullptr) addCollider(child.link, bodies[i], shapes[i]);
@@ -63,8 +63,8 @@ Articulation::Articulation(const Model& model, std::span<const BodyId> bodies, c
   addRows();
 }
 
-Articulation::Grown Articulation::grow(const Model& model, const Joint& joint, const BulletLink& link,
-                                       Grown parent) {
+Articulation::Grown Articulation::grow(const Model& model, JointId id, const BulletLink& link, Grown parent) {
+  const Joint& joint = model[id];
   const std::vector<JointMovement> moves = movements(joint);
   Pose X_LF = parent.X_BL.inverse() * joint.X_PF;
   int at = parent.link;
@@ -74,7 +74,7 @@ Articulation::Grown Articulation::grow(const Model& model, const Joint& joint, c
     const double mass = isLast ? link.mass : 0;
     const btVector3 inertia = isLast ? link.inertia : btVector3(0, 0, 0);
     const btQuaternion R_LF = bulletQuaternion((X_LF.R * X_ML.R).transpose());
-    const btVector3 axis = toBullet(X_ML.R.transpose() * moves[i].axis);
+    const btVector3 axis = toBullet(X_ML.R.transpose() * moves[i].axis.stableNormalized());
     const btVector3 toPivot = toBullet(X_LF.p), toCenter = toBullet(X_ML.R.transpose() * X_ML.p);
     switch (moves[i].kind) {
       case Kind::kHinge:
@@ -90,27 +90,35 @@ Articulation::Grown Articulation::grow(const Model& model, const Joint& joint, c
         body_->setupFixed(next_, mass, inertia, at, R_LF, toPivot, toCenter, false);
         break;
     }
-    if (moves[i].kind != Kind::kFixed)
-      addCoordinate(model, joint, moves[i].coordinate, moves[i].kind == Kind::kQuaternion, X_ML.R);
+    const bool isRise = joint.type == JointType::kScrew && isLast;
+    if (moves[i].kind != Kind::kFixed) addCoordinate(model, id, moves[i], isRise, X_ML.R);
     at = next_++;
     X_LF = Pose{};
   }
   return {at, link.X_BL};
 }
 
-void Articulation::addCoordinate(const Model& model, const Joint& joint, int place, bool isBall,
+// The rise of a screw is a slider that follows its turn.
+void Articulation::addCoordinate(const Model& model, JointId id, const JointMovement& move, bool isRise,
                                  const Eigen::Matrix3d& R_ML) {
+  const Joint& joint = model[id];
+  const bool rubs = options_.jointFriction && !isRise;
+  const double way = isRise ? move.axis.norm() : 1;
   Coordinate coordinate{.link = next_,
-                        .qIndex = joint.qIndex + place,
-                        .vIndex = joint.vIndex + place,
-                        .isBall = isBall,
+                        .qIndex = joint.qIndex + move.coordinate,
+                        .vIndex = joint.vIndex + move.coordinate,
+                        .isBall = move.kind == Kind::kQuaternion,
                         .R_ML = R_ML,
+                        .follows = joint.mimics || isRise,
+                        .ratio = way * joint.ratio,
+                        .offset = way * joint.offset,
+                        .joint = id,
                         .lower = -kInfinity,
                         .upper = kInfinity,
-                        .damping = options_.jointFriction ? joint.damping : 0,
-                        .friction = options_.jointFriction ? joint.friction : 0,
+                        .damping = rubs ? joint.damping : 0,
+                        .friction = rubs ? joint.friction : 0,
                         .maxVelocity = joint.maxVelocity};
-  if (!isBall && options_.jointLimits) {
+  if (!coordinate.isBall && !coordinate.follows && options_.jointLimits) {
     coordinate.lower = model.lowerLimits()[coordinate.qIndex];
     coordinate.upper = model.upperLimits()[coordinate.qIndex];
   }
@@ -162,8 +170,8 @@ void Articulation::place(const State& state) {
       body_->setJointPosMultiDof(one.link, position);
       body_->setJointVelMultiDof(one.link, v.data());
     } else {
-      body_->setJointPos(one.link, state.q[one.qIndex]);
-      body_->setJointVel(one.link, state.v[one.vIndex]);
+      body_->setJointPos(one.link, one.ratio * state.q[one.qIndex] + one.offset);
+      body_->setJointVel(one.link, one.ratio * state.v[one.vIndex]);
     }
   }
   update();
@@ -172,6 +180,7 @@ void Articulation::place(const State& state) {
 void Articulation::read(State& state) const {
   if (base_) base_->read(baseMotion(), state);
   for (const Coordinate& one : coordinates_) {
+    if (one.follows) continue;
     const double* const q = body_->getJointPosMultiDof(one.link);
     const double* const v = body_->getJointVelMultiDof(one.link);
     if (one.isBall) {
@@ -185,6 +194,8 @@ void Articulation::read(State& state) const {
   }
 }
 
+// A force on a shared freedom acts on its leader: the couplings carry it on, as the work that it does is the
+// same.
 void Articulation::drive(std::span<const Motor> motors, double h) {
   if (base_) driveBase(motors, h);
   std::size_t row = baseDamping_ > 0 ? kBaseVelocities : 0;
@@ -197,6 +208,8 @@ void Articulation::drive(std::span<const Motor> motors, double h) {
         body_->addJointTorqueMultiDof(one.link, i, force[i]);
         setGoals(one, i, Motor{}, h, *rows_[row++]);
       }
+    } else if (one.follows) {
+      setGoals(one, 0, Motor{}, h, *rows_[row++]);
     } else {
       if (motor->kind == Motor::Kind::kForce) body_->addJointTorque(one.link, motor->target);
       setGoals(one, 0, *motor, h, *rows_[row++]);

@@ -7,13 +7,16 @@
 #include <BulletCollision/CollisionShapes/btEmptyShape.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
+#include "physics/coupling_internal.h"
 #include "physics/free_motion_internal.h"
 #include "physics/joint_row_internal.h"
+#include "scene/joint_movements.h"
 
 namespace rex::internal {
 
 /// A tree of bodies on joints as one of Bullet's multibodies. Joints of several coordinates become chains of
-/// links without mass, of one coordinate or one quaternion each.
+/// links without mass, of one coordinate or one quaternion each. Links that follow others, which are of
+/// joints that mimic or are the rise of a screw, have coordinates of their own here; Couplings keep them.
 class Articulation : public Mover {
  public:
   /// `bodies` hang on one joint of what stands still at X_WP, parents first. `shapes` are in the frames of
@@ -30,6 +33,19 @@ class Articulation : public Mover {
   void undo() override;
   [[nodiscard]] int runaway(double limit) const override;
 
+  /// Calls visit(qIndex, place, follower) for each hinge and slider; `follower` is null for those that lead,
+  /// and else lacks its leader.
+  template <class Visit>
+  void forEachCoordinate(const Visit& visit) {
+    for (const Coordinate& one : coordinates_) {
+      if (one.isBall) continue;
+      const CoordinatePlace at{&*body_, one.link};
+      const Follower follower{
+          .at = at, .leader = {}, .ratio = one.ratio, .offset = one.offset, .joint = one.joint};
+      visit(one.qIndex, at, one.follows ? &follower : nullptr);
+    }
+  }
+
   /// Calls visit(object, body) for what collides of each body.
   template <class Visit>
   void forEachObject(const Visit& visit) {
@@ -43,6 +59,9 @@ class Articulation : public Mover {
     int link = 0, qIndex = 0, vIndex = 0;
     bool isBall = false;
     Eigen::Matrix3d R_ML = Eigen::Matrix3d::Identity();  // of balls
+    bool follows = false;  // its coordinate is ratio * q[qIndex] + offset, and no motor acts on it directly
+    double ratio = 1, offset = 0;
+    JointId joint = kNoJoint;
     double lower = 0, upper = 0, damping = 0, friction = 0, maxVelocity = 0;
   };
   struct Collider {
@@ -55,8 +74,8 @@ class Articulation : public Mover {
     Pose X_BL;
   };
 
-  Grown grow(const Model& model, const Joint& joint, const BulletLink& link, Grown parent);
-  void addCoordinate(const Model& model, const Joint& joint, int place, bool isBall,
+  Grown grow(const Model& model, JointId id, const BulletLink& link, Grown parent);
+  void addCoordinate(const Model& model, JointId id, const JointMovement& move, bool isRise,
                      const Eigen::Matrix3d& R_ML);
   void addCollider(int link, BodyId body, btCollisionShape* shape);
   void addRows();

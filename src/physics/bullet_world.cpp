@@ -8,12 +8,12 @@
 #include "base/error.h"
 #include "collision/contact_model.h"
 #include "dynamics/forward_dynamics.h"
-#include "dynamics/mass_matrix.h"
 #include "physics/articulation_internal.h"
 #include "physics/bullet_math_internal.h"
 #include "physics/bullet_shape_internal.h"
 #include "physics/bullet_world_internal.h"
 #include "physics/free_body_internal.h"
+#include "physics/link_inertias_internal.h"
 
 namespace rex::internal {
 namespace {
@@ -25,27 +25,37 @@ constexpr double kLeastInertia = 1e-15;
 // which starts each step from the forces of the last one, comes to rest: 20 boxes of 0.2 m sink 0.3 mm at
 // steps of 1 ms and then stay.
 constexpr double kSoftness = 0.05, kOverlapShare = 0.1;
+// What starts in overlap comes apart this fast at most, m/s: it keeps the speed when it is apart, so that
+// more would throw it. Falls of some metres do not overlap so deep in a step that this changes them.
+constexpr double kPartingSpeed = 1;
 
-void requireOwnCoordinates(const Model& model) {
+// Joints of plain coordinates may follow others, quaternions may not.
+void requirePlainMimics(const Model& model) {
   for (const Joint& joint : model.joints()) {
-    const char* const found = joint.mimics                      ? "a joint that mimics another"
-                              : joint.type == JointType::kScrew ? "a screw"
-                                                                : nullptr;
-    if (found == nullptr) continue;
+    if (!joint.mimics || joint.nq == joint.nv) continue;
     throw Error({.what = fmt::format("physics: joint '{}'", joint.name),
-                 .found = found,
-                 .wanted = "joints whose coordinates are their own; without contact it can be simulated "
+                 .found = fmt::format("a {} joint that mimics another", toString(joint.type)),
+                 .wanted = "mimics of joints without quaternions; without contact it can be simulated "
                            "(stepDynamics, rex simulate --engine rk4)"});
   }
 }
 
+[[noreturn]] void failForNoMass(const Model& model, const Joint& joint) {
+  throw Error({.what = fmt::format("physics: joint '{}' moves no mass", joint.name),
+               .wanted = fmt::format("some: give body '{}' a mass and an inertia", model[joint.child].name)});
+}
+
 // Whatever moves must resist: articulated bodies find the joint where something does not, at any scale.
+// Bullet moves also what follows others by itself.
 void requireMasses(const Model& model) {
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(model.nv());
-  static_cast<void>(forwardDynamics(model, model.initialPositions(), none, none));
-  const Eigen::VectorXd inertia = massMatrix(model, model.initialPositions()).diagonal();
-  for (const Joint& joint : model.joints()) {
-    if (joint.nv == 0 || inertia.segment(joint.vIndex, joint.nv).minCoeff() >= kLeastInertia) continue;
+  if (std::ranges::none_of(model.joints(), [](const Joint& joint) { return joint.mimics; }))
+    static_cast<void>(forwardDynamics(model, model.initialPositions(), none, none));
+  const std::vector<double> inertias = linkInertias(model);
+  for (std::size_t i = 0; i < inertias.size(); ++i) {
+    if (inertias[i] >= kLeastInertia) continue;
+    const Joint& joint = model[model[BodyId{model.links()[i].body}].joint];
+    if (inertias[i] == 0) failForNoMass(model, joint);
     throw Error({.what = fmt::format("physics: joint '{}'", joint.name),
                  .found = "less to move than numbers can hold",
                  .wanted = fmt::format("{:g} kg or kg m^2 at least", kLeastInertia)});
@@ -101,7 +111,7 @@ bool BodyPairs::needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy*
 
 BulletWorld::BulletWorld(const Model& model, const PhysicsOptions& options)
     : shapesOf_(model.bodies().size()) {
-  requireOwnCoordinates(model);
+  requirePlainMimics(model);
   requireMasses(model);
   const Stillness all = stillness(model);
   pairs_ = std::make_unique<BodyPairs>(model, all.isStill);
@@ -113,6 +123,7 @@ BulletWorld::BulletWorld(const Model& model, const PhysicsOptions& options)
   world_.setGravity(toBullet(options.gravity_W));
   world_.getPairCache()->setOverlapFilterCallback(pairs_.get());
   setUpSolver(model, options);
+  std::vector<Articulation*> trees;
   for (std::size_t i = 0; i < model.bodies().size(); ++i) {
     const BodyId body{static_cast<int>(i)};
     if (all.isStill[i]) addStill(model, body, all.X_WB[i], options);
@@ -120,8 +131,10 @@ BulletWorld::BulletWorld(const Model& model, const PhysicsOptions& options)
     std::vector<BodyId> tree;
     for (std::size_t j = i; j < model.bodies().size(); ++j)
       if (all.root[j] == body) tree.push_back(BodyId{static_cast<int>(j)});
-    addMover(model, tree, all.X_WB[static_cast<std::size_t>(model[body].parent)], options);
+    trees.push_back(addMover(model, tree, all.X_WB[static_cast<std::size_t>(model[body].parent)], options));
   }
+  std::erase(trees, nullptr);
+  addCouplings(model, trees);
   addAll();
 }
 
@@ -133,6 +146,7 @@ void BulletWorld::setUpSolver(const Model& model, const PhysicsOptions& options)
   info.m_solverMode |= SOLVER_USE_ARTICULATED_WARMSTARTING;
   info.m_warmstartingFactor = info.m_articulatedWarmstartingFactor = 1;
   info.m_erp2 = kOverlapShare;
+  world_.setPartingSpeed(kPartingSpeed);
   // What bounces must not get energy from yielding or from being pushed out: bodies are moved out instead.
   if (options.restitution > 0) {
     info.m_splitImpulsePenetrationThreshold = 0;
@@ -141,6 +155,31 @@ void BulletWorld::setUpSolver(const Model& model, const PhysicsOptions& options)
     for (const Body& body : model.bodies()) bodies += body.mass > 0 ? 1 : 0;
     softness_ = kSoftness * bodies / model.mass();
   }
+}
+
+// Leaders may stand after what follows them.
+void BulletWorld::addCouplings(const Model& model, const std::vector<Articulation*>& trees) {
+  std::vector<CoordinatePlace> leaders(static_cast<std::size_t>(model.nq()));
+  std::vector<Follower> followers;
+  std::vector<int> followed;
+  for (Articulation* const tree : trees) {
+    tree->forEachCoordinate([&](int qIndex, const CoordinatePlace& at, const Follower* follower) {
+      if (follower == nullptr) {
+        leaders[static_cast<std::size_t>(qIndex)] = at;
+      } else {
+        followers.push_back(*follower);
+        followed.push_back(qIndex);
+      }
+    });
+  }
+  if (followers.empty()) return;
+  for (std::size_t i = 0; i < followers.size(); ++i)
+    followers[i].leader = leaders[static_cast<std::size_t>(followed[i])];
+  couplings_.emplace(followers);
+  world_.use(&*couplings_);
+  for (Articulation* const tree : trees) tree->place(initialState(model));
+  if (const JointId joint = couplings_->massless(model); joint != kNoJoint)
+    failForNoMass(model, model[joint]);
 }
 
 void BulletWorld::step(double h) {
@@ -183,8 +222,8 @@ void BulletWorld::addStill(const Model& model, BodyId body, const Pose& X_WB, co
   still_.push_back(std::move(object));
 }
 
-void BulletWorld::addMover(const Model& model, std::span<const BodyId> bodies, const Pose& X_WP,
-                           const PhysicsOptions& options) {
+Articulation* BulletWorld::addMover(const Model& model, std::span<const BodyId> bodies, const Pose& X_WP,
+                                    const PhysicsOptions& options) {
   const Joint& joint = model[model[bodies.front()].joint];
   std::vector<btCollisionShape*> shapes;
   for (const BodyId body : bodies) shapes.push_back(addShape(model, body, bulletLink(model[body]).X_BL));
@@ -194,19 +233,23 @@ void BulletWorld::addMover(const Model& model, std::span<const BodyId> bodies, c
     auto body = std::make_unique<FreeBody>(joint, bulletLink(model[joint.child]), X_WP, shapes.front());
     setUp(body->object(), joint.child, options);
     movers_.push_back(std::move(body));
-  } else {
-    auto tree = std::make_unique<Articulation>(model, bodies, X_WP, shapes, options);
-    tree->forEachObject([&](btCollisionObject& object, BodyId body) { setUp(object, body, options); });
-    movers_.push_back(std::move(tree));
+    return nullptr;
   }
+  auto tree = std::make_unique<Articulation>(model, bodies, X_WP, shapes, options);
+  tree->forEachObject([&](btCollisionObject& object, BodyId body) { setUp(object, body, options); });
+  Articulation* const added = tree.get();
+  movers_.push_back(std::move(tree));
+  return added;
 }
 
 void BulletWorld::addAll() {
   for (const auto& object : still_) world_.addCollisionObject(object.get());
   for (const auto& mover : movers_) mover->addTo(world_);
+  if (couplings_) couplings_->addTo(world_);
 }
 
 void BulletWorld::removeAll() {
+  if (couplings_) couplings_->removeFrom(world_);
   for (const auto& mover : movers_) mover->removeFrom(world_);
   for (const auto& object : still_) world_.removeCollisionObject(object.get());
 }
@@ -216,6 +259,7 @@ void BulletWorld::reset(const State& state) {
   broadphase_.resetPool(&dispatcher_);
   solver_.reset();
   for (const auto& mover : movers_) mover->place(state);
+  if (couplings_) couplings_->forget();
   addAll();
 }
 
@@ -267,6 +311,21 @@ std::vector<PhysicsContact> BulletWorld::contacts() const {
   };
   std::sort(all.begin(), all.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
   return all;
+}
+
+std::vector<PhysicsContact> BulletWorld::overlaps(const State& state, double depth) {
+  reset(state);
+  world_.performDiscreteCollisionDetection();
+  std::vector<PhysicsContact> deepest;
+  for (const PhysicsContact& one : contacts()) {
+    if (one.distance > -depth) continue;
+    const bool isKnown =
+        !deepest.empty() && deepest.back().shapeA == one.shapeA && deepest.back().shapeB == one.shapeB;
+    if (!isKnown) deepest.push_back(one);
+    if (one.distance < deepest.back().distance) deepest.back() = one;
+  }
+  reset(state);
+  return deepest;
 }
 
 std::optional<RayHit> BulletWorld::rayCast(const Eigen::Vector3d& from_W, const Eigen::Vector3d& to_W) const {

@@ -9,7 +9,9 @@
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <btBulletCollisionCommon.h>
 
+#include "physics/coupling_internal.h"
 #include "physics/mover_internal.h"
+#include "physics/stepping_world_internal.h"
 
 namespace rex::internal {
 
@@ -25,6 +27,8 @@ class BodyPairs : public btOverlapFilterCallback {
   std::vector<bool> collide_;
 };
 
+class Articulation;
+
 /// A model in Bullet's hands: what moves, what stands still, and what holds between them.
 class BulletWorld {
  public:
@@ -39,6 +43,9 @@ class BulletWorld {
   void reset(const State& state);
   void step(double h);
   [[nodiscard]] std::vector<PhysicsContact> contacts() const;
+  /// Of each pair of shapes that is deeper than `depth` in overlap in this state, the deepest point; by
+  /// pairs. Forgets all contacts, as reset().
+  [[nodiscard]] std::vector<PhysicsContact> overlaps(const State& state, double depth);
   /// The shapes of contacts(), the smaller place first, in any order; some come twice.
   void collectTouching(std::vector<std::pair<int, int>>& pairs) const;
   [[nodiscard]] std::optional<RayHit> rayCast(const Eigen::Vector3d& from_W,
@@ -48,9 +55,11 @@ class BulletWorld {
   void setUpSolver(const Model& model, const PhysicsOptions& options);
   btCollisionShape* addShape(const Model& model, BodyId body, const Pose& X_BL);
   void addStill(const Model& model, BodyId body, const Pose& X_WB, const PhysicsOptions& options);
-  void addMover(const Model& model, std::span<const BodyId> bodies, const Pose& X_WP,
-                const PhysicsOptions& options);
+  // Gives back what may have couplings, else null.
+  Articulation* addMover(const Model& model, std::span<const BodyId> bodies, const Pose& X_WP,
+                         const PhysicsOptions& options);
   void setUp(btCollisionObject& object, BodyId body, const PhysicsOptions& options);
+  void addCouplings(const Model& model, const std::vector<Articulation*>& trees);
   void addAll();
   void removeAll();
   template <class Visit>
@@ -66,7 +75,8 @@ class BulletWorld {
   btCollisionDispatcher dispatcher_{&configuration_};
   btDbvtBroadphase broadphase_;
   btMultiBodyConstraintSolver solver_;
-  btMultiBodyDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
+  std::optional<Couplings> couplings_;
+  SteppingWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
   std::unique_ptr<BodyPairs> pairs_;
   double softness_ = 0;  // of contacts, 1/kg
 };

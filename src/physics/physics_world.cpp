@@ -150,6 +150,11 @@ void PhysicsWorld::step(double h) {
 
 std::vector<PhysicsContact> PhysicsWorld::contacts() const { return parts_->world.contacts(); }
 
+std::vector<PhysicsContact> PhysicsWorld::overlaps(double depth) {
+  parts_->events.reset();
+  return parts_->world.overlaps(state(), depth);
+}
+
 std::vector<ContactEvent> PhysicsWorld::events() const { return parts_->events.events(); }
 
 std::optional<RayHit> PhysicsWorld::rayCast(const Eigen::Vector3d& from_W,

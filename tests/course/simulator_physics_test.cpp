@@ -97,14 +97,17 @@ TEST(SimulatorPhysics, RubsWithSixTenthsAndDoesNotBounce) {
   EXPECT_NEAR(S.kinematicsPos("box").z(), 0.1, 1e-3);
 }
 
-TEST(SimulatorPhysics, RefusesScrews) {
-  Simulator S(SimulatorDescription{.sceneName = "nut.ors",
-                                   .sceneText = "body bolt {}\n"
-                                                "body nut { mass=1 type=ST_box size=[0.1 0.1 0.1 0] }\n"
-                                                "joint thread (bolt nut) { type=screw pitch=0.01 }\n",
+TEST(SimulatorPhysics, RefusesBallsThatMimic) {
+  Simulator S(SimulatorDescription{.sceneName = "eyes.ors",
+                                   .sceneText = "body left { mass=1 type=ST_box size=[0.1 0.1 0.1 0] }\n"
+                                                "body right { mass=1 type=ST_box size=[0.1 0.1 0.1 0] }\n"
+                                                "body head {}\n"
+                                                "joint one (head left) { type=quatBall }\n"
+                                                "joint two (head right) { mimic=one }\n",
                                    .q = {}});
-  EXPECT_REX_ERROR(S.stepPhysics(Eigen::VectorXd::Zero(1), 0.1), "joint 'thread': found a screw");
-  EXPECT_REX_ERROR(S.stepPhysics(Eigen::VectorXd::Zero(1), 0.1),
+  EXPECT_REX_ERROR(S.stepPhysics(Eigen::VectorXd::Zero(3), 0.1),
+                   "joint 'two': found a ball joint that mimics");
+  EXPECT_REX_ERROR(S.stepPhysics(Eigen::VectorXd::Zero(3), 0.1),
                    "without contact it can be simulated (stepD");
 }
 

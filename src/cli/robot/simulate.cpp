@@ -1,26 +1,28 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <iterator>
 #include <memory>
 #include <numeric>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/text_file.h"
+#include "base/interruption.h"
 #include "cli/json_internal.h"
 #include "cli/option_value_internal.h"
 #include "cli/robot/contact_limit.h"
 #include "cli/robot/film_file.h"
 #include "cli/robot/motion_files.h"
+#include "cli/robot/motion_log.h"
 #include "cli/robot/robot_options_internal.h"
 #include "cli/robot/robot_room_internal.h"
 #include "cli/robot/simulation.h"
+#include "cli/robot/start_overlaps.h"
 #include "cli/shared_options_internal.h"
 #include "cli/wrong_use_internal.h"
 #include "render/figure.h"
@@ -37,7 +39,10 @@ struct SimulateOptions {
   std::string engine = "rk4";
   double seconds = 5;
   double tau = 1e-3;              ///< seconds per step
-  bool hold = false;              ///< computed torque holds the posture
+  bool hold = false;              ///< the posture of the start
+  std::string holdBy{};           ///< see Hold; empty: the best there is
+  fs::path torques{};             ///< see readTorques()
+  bool refuseOverlap = false;     ///< at the start
   bool friction = false;          ///< that of the joints, as in the scene
   double noise = 0;               ///< see StepperOptions
   std::optional<double> floor{};  ///< its height, metres; empty: none but what the scene has
@@ -47,10 +52,13 @@ struct SimulateOptions {
   RenderOptions film{};               ///< cameras, size and gl of the film
   std::vector<std::string> traces{};  ///< bodies whose way is drawn
   bool json = false;
-  std::filesystem::path out{};  ///< a folder
+  std::optional<int> logEvery{};  ///< steps; none: so that the log is no larger than kMostLogged
+  std::string logFormat = "csv";
+  fs::path out{};  ///< a folder, or a page
 };
 
-constexpr double kMostSteps = 2e5;  // of which the log takes some hundred megabytes, at most
+constexpr double kMostSteps = 2e5;
+constexpr double kMostLogged = 1e7;  // numbers, 200 megabytes of text
 
 // None: Bullet, which takes steps of its own.
 std::optional<Integrator> integratorOf(const std::string& engine) {
@@ -63,8 +71,33 @@ std::optional<Integrator> integratorOf(const std::string& engine) {
                                             {"bullet", std::nullopt}});
 }
 
+bool isPage(const SimulateOptions& options) { return options.out.extension() == ".html"; }
+
+// Free bases on floors need more than computed torque, which knows nothing of the forces on their feet.
+Hold holdOf(const Model& model, const SimulateOptions& options, bool isBullet) {
+  if (options.holdBy.empty()) {
+    if (!options.hold) return Hold::kNone;
+    return isBullet && hasFloatingBase(model) ? Hold::kMotor : Hold::kExact;
+  }
+  const Hold hold = choose<Hold>(
+      "--hold-by", options.holdBy,
+      {{"exact", Hold::kExact}, {"gravity", Hold::kGravity}, {"pd", Hold::kPd}, {"motor", Hold::kMotor}});
+  if (hold == Hold::kMotor && !isBullet)
+    throw UsageError({.what = "--hold-by motor",
+                      .found = "--engine " + harmless(options.engine),
+                      .wanted = "--engine bullet, which has motors"});
+  return hold;
+}
+
+void requireContacts(const char* option, const SimulateOptions& options) {
+  if (integratorOf(options.engine))
+    throw UsageError({.what = option,
+                      .found = "--engine " + harmless(options.engine),
+                      .wanted = "--engine bullet, which knows contacts"});
+}
+
 SimulationPlan planOf(const Model& model, const SimulateOptions& options) {
-  SimulationPlan plan{.tau = options.tau, .isHeld = options.hold, .seed = options.seed};
+  SimulationPlan plan{.tau = options.tau, .seed = options.seed};
   if (const auto integrator = integratorOf(options.engine))
     plan.stepper = {
         .integrator = *integrator, .jointForces = {.friction = options.friction}, .noise = options.noise};
@@ -72,77 +105,124 @@ SimulationPlan planOf(const Model& model, const SimulateOptions& options) {
     plan.physics = {.jointFriction = options.friction};
   if (plan.physics && options.noise != 0)
     throw UsageError({.what = "--noise", .found = "--engine bullet", .wanted = "another engine"});
+  if (options.refuseOverlap) requireContacts("--refuse-overlap", options);
   requireBetween("--tau", options.tau, 1e-6, 1);
   requireBetween("--seconds", options.seconds, 1e-6, 120);
   requireBetween("--noise", options.noise, 0, 1e6);
   requireBetween("--speed", options.speed, 1e-3, 1e3);
   requireBetween("--seconds / --tau, steps", options.seconds / options.tau, 1, kMostSteps);
+  if (options.logEvery) requireBetween("--log-every", *options.logEvery, 1, kMostSteps);
   plan.steps = static_cast<int>(std::lround(options.seconds / options.tau));
   for (const std::string& body : options.traces) asWrongUse([&] { return model.body(body); }, "--trace: ");
   if (model.nv() == 0) throw UsageError({.what = model.name(), .found = "no joint that moves"});
+  plan.hold = holdOf(model, options, plan.physics.has_value());
+  if (!options.torques.empty()) {
+    if (plan.hold == Hold::kMotor)
+      throw UsageError({.what = "--torques",
+                        .found = "joints that are held by motors",
+                        .wanted = "no --hold, or --hold-by exact, gravity or pd, which torques add to"});
+    plan.torques = readTorques(model, options.torques);
+  }
   plan.start = initialState(model);
   if (!options.posture.empty()) plan.start.q = parsePosture(model, options.posture);
   if (!options.velocity.empty()) plan.start.v = parseVelocities(model, options.velocity);
   return plan;
 }
 
-std::string logOf(const std::vector<Moment>& moments) {
-  fmt::memory_buffer log;
-  const auto out = std::back_inserter(log);
-  fmt::format_to(out, "time");
-  for (Eigen::Index i = 0; i < moments[0].state.q.size(); ++i) fmt::format_to(out, ",q{}", i);
-  for (Eigen::Index i = 0; i < moments[0].state.v.size(); ++i) fmt::format_to(out, ",v{}", i);
-  fmt::format_to(out, ",kinetic,potential,total\n");
-  for (const auto& [state, energy] : moments) {
-    fmt::format_to(out, "{}", state.time);
-    for (const double x : state.q) fmt::format_to(out, ",{}", x);
-    for (const double x : state.v) fmt::format_to(out, ",{}", x);
-    fmt::format_to(out, ",{},{},{}\n", energy.kinetic, energy.potential, energy.total());
+int logStride(const Model& model, const SimulationPlan& plan, const SimulateOptions& options) {
+  if (options.logEvery) return *options.logEvery;
+  const double numbers = (4.0 + model.nq() + model.nv()) * plan.steps;
+  const int stride = 1 + static_cast<int>(numbers / kMostLogged);
+  if (stride > 1 && !isPage(options))
+    note(fmt::format("the log has one step in {}, to stay below 200 MB; --log-every says otherwise", stride));
+  return stride;
+}
+
+// What is kept of a motion while it goes on.
+class Record {
+ public:
+  Record(const SimulationPlan& plan, const SimulateOptions& options, double filmRate, int logStride)
+      : film_(plan.tau, plan.steps, filmRate),
+        keepsFilm_(!options.noFilm),
+        logStride_(logStride),
+        plotStride_(1 + plan.steps / 4000) {}
+
+  void add(const Moment& moment, MotionLog* log) {
+    if (step_ == 0) first_ = moment;
+    change_ = std::max(change_, std::abs(moment.energy.total() - first_.energy.total()));
+    if (log != nullptr && step_ % logStride_ == 0) log->add(moment);
+    if (step_ % plotStride_ == 0) plot(moment);
+    if (keepsFilm_) film_.add(moment.state.q);
+    last_ = moment;
+    ++step_;
   }
-  return fmt::to_string(log);
-}
 
-// Potential energy from that of the start, because its zero lies anywhere. Of very many moments some
-// thousand: a picture has no more columns.
-Figure energyFigure(const std::vector<Moment>& moments, const std::string& title) {
-  Series kinetic{.label = "kinetic"}, potential{.label = "potential"}, total{.label = "total", .size = 1.5};
-  const double zero = moments.front().energy.potential;
-  const std::size_t stride = 1 + moments.size() / 4000;
-  for (std::size_t i = 0; i < moments.size(); i += stride) {
-    const auto& [state, energy] = moments[i];
-    for (Series* series : {&kinetic, &potential, &total}) series->x.push_back(state.time);
-    kinetic.y.push_back(energy.kinetic);
-    potential.y.push_back(energy.potential - zero);
-    total.y.push_back(energy.total() - zero);
+  [[nodiscard]] const Moment& first() const { return first_; }
+  [[nodiscard]] const Moment& last() const { return last_; }
+  /// How far the total energy was from that of the start.
+  [[nodiscard]] double largestChange() const { return change_; }
+  [[nodiscard]] const Motion& motion() const { return film_.motion(); }
+
+  [[nodiscard]] Figure energyFigure(const std::string& title) const {
+    return {.title = title,
+            .xLabel = "time [s]",
+            .yLabel = "energy [J], potential 0 at the start",
+            .legend = Legend::kOutside,
+            .series = {kinetic_, potential_, total_}};
   }
-  return {.title = title,
-          .xLabel = "time [s]",
-          .yLabel = "energy [J], potential 0 at the start",
-          .legend = Legend::kOutside,
-          .series = {kinetic, potential, total}};
+
+ private:
+  // Potential energy from that of the start, because its zero lies anywhere. Of very many moments some
+  // thousand: a picture has no more columns.
+  void plot(const Moment& moment) {
+    const double zero = first_.energy.potential;
+    for (Series* series : {&kinetic_, &potential_, &total_}) series->x.push_back(moment.state.time);
+    kinetic_.y.push_back(moment.energy.kinetic);
+    potential_.y.push_back(moment.energy.potential - zero);
+    total_.y.push_back(moment.energy.total() - zero);
+  }
+
+  FilmPostures film_;
+  bool keepsFilm_;
+  int logStride_, plotStride_;
+  int step_ = 0;
+  Moment first_, last_;
+  double change_ = 0;
+  Series kinetic_{.label = "kinetic"}, potential_{.label = "potential"},
+      total_{.label = "total", .size = 1.5};
+};
+
+std::string titleOf(const Model& model, const SimulationPlan& plan, const SimulateOptions& options) {
+  return fmt::format("{}, {}{}, {}, steps of {:g} ms", model.name(), toString(plan.hold),
+                     plan.torques ? " with torques" : "", options.engine, 1000 * options.tau);
 }
 
-// How far the total energy was from that of the start.
-double largestChange(const std::vector<Moment>& moments) {
-  double change = 0;
-  for (const Moment& moment : moments)
-    change = std::max(change, std::abs(moment.energy.total() - moments.front().energy.total()));
-  return change;
-}
-
-std::string titleOf(const Model& model, const SimulateOptions& options) {
-  return fmt::format("{}, {}, {}, steps of {:g} ms", model.name(), options.hold ? "held" : "free",
-                     options.engine, 1000 * options.tau);
-}
-
-fs::path writeMotion(const Model& model, const std::vector<Moment>& moments, const SimulateOptions& options,
-                     const RenderPlan& film) {
-  const double speed = filmSpeed(options.speed, static_cast<double>(moments.size() - 1) * options.tau);
-  const Motion motion = motionOf(moments, options.tau, kFilmRate / speed);
+// How a motion is shown: frames, their ways and the title.
+MotionPictures motionPicturesOf(const Model& model, const Motion& motion, const SimulateOptions& options,
+                                const std::string& title) {
   std::vector<std::size_t> shown(motion.postures.size());
   std::iota(shown.begin(), shown.end(), std::size_t{0});
-  const MotionPictures pictures(model, motion, shown, options.traces, titleOf(model, options));
-  return writeFilm(pictures, film, options.out / "simulate.mp4");
+  return MotionPictures(model, motion, shown, options.traces, title);
+}
+
+// Plays as fast as a film of it.
+void writeMotionPage(const MotionPictures& pictures, const Record& record, const std::string& title,
+                     const SimulateOptions& options, const RenderPlan& plan, double speed) {
+  Report report{.title = title,
+                .film = pictures.film(),
+                .view = plan.views.front().view.direction(),
+                .figures = {{.figure = record.energyFigure(title)}},
+                .facts = {{"engine", options.engine},
+                          {"step", fmt::format("{:g} s", options.tau)},
+                          {"largest change of energy", fmt::format("{:.2g} J", record.largestChange())}},
+                .still = plan.renderer};
+  for (Frame& frame : report.film) frame.time /= speed;
+  if (speed != 1) report.facts.emplace_back("speed of the replay", fmt::format("{:g}", speed));
+  report.figures.front().figure.width = 560, report.figures.front().figure.height = 360;
+  throwIfInterrupted();
+  std::error_code ignored;  // the page says what cannot be written
+  if (options.out.has_parent_path()) fs::create_directories(options.out.parent_path(), ignored);
+  writeReport(report, options.out);
 }
 
 // What rounds to zero has no sign.
@@ -160,28 +240,35 @@ void sayPostures(const Model& model, const Eigen::VectorXd& first, const Eigen::
   }
 }
 
-void report(const Model& model, const std::vector<Moment>& moments, const SimulateOptions& options,
+Json jsonOfOverlaps(const std::vector<BodyOverlap>& overlaps) {
+  Json all = Json::array();
+  for (const BodyOverlap& one : overlaps) all.push_back({{"a", one.a}, {"b", one.b}, {"depth", one.depth}});
+  return all;
+}
+
+void report(const Model& model, const SimulationPlan& plan, const Record& record,
+            const std::vector<BodyOverlap>& overlaps, const SimulateOptions& options,
             const std::vector<std::string>& files) {
-  const Moment &first = moments.front(), &last = moments.back();
-  const std::size_t steps = moments.size() - 1;
+  const Moment &first = record.first(), &last = record.last();
   if (options.json) {
     say(dump(Json{{"scene", model.name()},
                   {"engine", options.engine},
-                  {"held", options.hold},
+                  {"held", plan.hold != Hold::kNone},
                   {"tau", options.tau},
-                  {"steps", steps},
+                  {"steps", plan.steps},
+                  {"overlaps", jsonOfOverlaps(overlaps)},
                   {"energy",
                    {{"start", first.energy.total()},
                     {"end", last.energy.total()},
-                    {"largest_change", largestChange(moments)}}},
+                    {"largest_change", record.largestChange()}}},
                   {"q", jsonOf(last.state.q)},
                   {"v", jsonOf(last.state.v)},
                   {"files", files}}));
     return;
   }
-  say(fmt::format("{}: {} steps, {:g} s", titleOf(model, options), steps, last.state.time));
+  say(fmt::format("{}: {} steps, {:g} s", titleOf(model, plan, options), plan.steps, last.state.time));
   say(fmt::format("energy: {:.6g} J at first, {:.6g} J in the end, largest change {:.2g} J",
-                  first.energy.total(), last.energy.total(), largestChange(moments)));
+                  first.energy.total(), last.energy.total(), record.largestChange()));
   sayPostures(model, first.state.q, last.state.q);
   for (const std::string& file : files) say(file);
 }
@@ -200,36 +287,78 @@ Model modelOf(const Project& project, const SimulateOptions& options) {
   SceneSpec spec = loadSpec(project, options.scene);
   if (options.floor) {
     requireBetween("--floor", *options.floor, -1e3, 1e3);
-    if (integratorOf(options.engine))
-      throw UsageError({.what = "--floor",
-                        .found = "--engine " + harmless(options.engine),
-                        .wanted = "--engine bullet, which knows contacts"});
+    requireContacts("--floor", options);
     spec.worldShapes.push_back(floorAt(*options.floor));
   }
   return asWrongUse([&] { return compile(spec); });
 }
 
-// Lets a scene move under gravity; writes log, energy plot and film.
+// Says what is in overlap at first, or refuses it.
+std::vector<BodyOverlap> overlapsOf(const Model& model, const SimulationPlan& plan,
+                                    const SimulateOptions& options) {
+  if (!plan.physics) return {};
+  const std::vector<BodyOverlap> overlaps =
+      asWrongUse([&] { return startOverlaps(model, *plan.physics, plan.start); });
+  if (overlaps.empty()) return {};
+  if (options.refuseOverlap)
+    throw UsageError({.what = "--refuse-overlap",
+                      .found = "overlaps at the start, " + toString(overlaps),
+                      .wanted = "a start where nothing overlaps"});
+  note(wrap("overlaps at the start, pushed apart at 1 m/s at most, " + toString(overlaps), 2, 0));
+  return overlaps;
+}
+
+void noteUnheld(const Model& model, const SimulationPlan& plan) {
+  if (plan.hold != Hold::kMotor) return;
+  for (const std::string& joint : Holder(model, plan.hold, plan.start.q, plan.stepper.gravity_W).unheld())
+    note(fmt::format("joint '{}' is not held: motors move plain coordinates only", harmless(joint)));
+}
+
+// Lets a scene move under gravity; writes log, energy plot and film, or a page.
 ExitCode simulateScene(const Project& project, const SimulateOptions& options) {
   RenderOptions filmOptions = options.film;
-  filmOptions.out = options.out / "simulate.mp4";
+  filmOptions.out = isPage(options) ? options.out : options.out / "simulate.mp4";
   const RenderPlan film = planOf(filmOptions, facingOf(fileOf(project, options.scene)));
+  const LogFormat format = choose<LogFormat>("--log-format", options.logFormat,
+                                             {{"csv", LogFormat::kCsv}, {"npy", LogFormat::kNpy}});
   const Model model = modelOf(project, options);
+  if (isPage(options) && options.noFilm)
+    throw UsageError({.what = "--no-film", .found = "a page, which is one", .wanted = "a folder after -o"});
   if (!options.noFilm) requireFilmable(model);
   const SimulationPlan plan = planOf(model, options);
   if (plan.physics) noteCollisionWarnings(model);
-  const std::vector<Moment> moments = asWrongUse([&] { return simulate(model, plan); });
+  const std::vector<BodyOverlap> overlaps = overlapsOf(model, plan, options);
+  noteUnheld(model, plan);
+  const double speed = options.noFilm ? 1 : filmSpeed(options.speed, plan.steps * options.tau);
+  const int stride = logStride(model, plan, options);
+
+  const std::string title = titleOf(model, plan, options);
+  Record record(plan, options, kFilmRate / speed, stride);
+  std::optional<MotionLog> log;
+  const fs::path logFile = options.out / ("log." + options.logFormat);
+  if (!isPage(options)) log.emplace(logFile, format, model, plan.steps / stride + 1);
+  asWrongUse([&] {
+    simulate(model, plan, [&](const Moment& moment) { record.add(moment, log ? &*log : nullptr); });
+  });
 
   std::vector<std::string> files;
-  writeTextFile(options.out / "log.csv", logOf(moments));
-  files.push_back(shown(options.out / "log.csv"));
-  const Figure figure = energyFigure(moments, titleOf(model, options));
-  for (const char* name : {"energy.png", "energy.svg"}) {
-    writeFigure(figure, options.out / name);
-    files.push_back(shown(options.out / name));
+  if (isPage(options)) {
+    writeMotionPage(motionPicturesOf(model, record.motion(), options, ""), record, title, options, film,
+                    speed);
+    files.push_back(shown(options.out));
+  } else {
+    log->finish();
+    files.push_back(shown(logFile));
+    const Figure figure = record.energyFigure(title);
+    for (const char* name : {"energy.png", "energy.svg"}) {
+      writeFigure(figure, options.out / name);
+      files.push_back(shown(options.out / name));
+    }
+    if (!options.noFilm)
+      files.push_back(shown(writeFilm(motionPicturesOf(model, record.motion(), options, title), film,
+                                      options.out / "simulate.mp4")));
   }
-  if (!options.noFilm) files.push_back(shown(writeMotion(model, moments, options, film)));
-  report(model, moments, options, files);
+  report(model, plan, record, overlaps, options, files);
   return ExitCode::kFull;
 }
 
@@ -241,11 +370,21 @@ void addSimulate(CLI::App* command, Action& action) {
       "Examples:\n  scripts/rex simulate pegArm -o fall\n"
       "  scripts/rex simulate arm3 --q 0.5,-0.5,0.3 --v 0,2,0 --hold --seconds 2 -o hold\n"
       "  scripts/rex simulate pegArm --engine euler --tau 0.01 -o euler\n"
-      "  scripts/rex simulate quadruped --free-base --engine bullet --floor -0.9 -o drop\n\n"
+      "  scripts/rex simulate quadruped --free-base --engine bullet --floor -0.9 --hold -o drop\n\n"
       "Joints are free; only bullet knows contacts and limits of joints. DIR gets log.csv\n"
-      "(time, q, v and energies of every step), energy.png, energy.svg and simulate.mp4.");
+      "(time, q, v and energies), energy.png, energy.svg and simulate.mp4. A name that ends\n"
+      "in .html becomes a replay for browsers instead, with the energies beside it.\n\n"
+      "--hold drives joints, never a free base: by computed torque, and where bullet moves\n"
+      "a free base by motors. --hold-by exact is computed torque, gravity is springs and what\n"
+      "the weight asks for, pd is springs alone, motor (bullet) is motors with the efforts of\n"
+      "the file.\n\n"
+      "--torques reads a line 'time,joint,joint' with names, then a line of numbers per time;\n"
+      "each holds until the next. They add to what --hold does.\n\n"
+      "log.npy is a matrix for numpy.load with the columns of log.csv.");
   addSceneFile(command, "SCENE", options->scene.file);
-  command->add_option("-o,--out", options->out, "folder for what is written")->type_name("DIR")->required();
+  command->add_option("-o,--out", options->out, "folder for what is written, or a page NAME.html")
+      ->type_name("DIR")
+      ->required();
   command
       ->add_option("--engine", options->engine,
                    "rk4, beeman, leapfrog, semi-implicit, euler; bullet (default: rk4)")
@@ -255,13 +394,24 @@ void addSimulate(CLI::App* command, Action& action) {
   addPosture(command, options->posture);
   command->add_option("--v", options->velocity, "all velocities, or joint=number,... (default: 0)")
       ->type_name("VELOCITY");
-  command->add_flag("--hold", options->hold, "computed torque holds the posture of the start");
+  command->add_flag("--hold", options->hold, "joints hold the posture of the start");
+  command->add_option("--hold-by", options->holdBy, "how: exact, gravity, pd or motor; means --hold, too")
+      ->type_name("NAME");
+  command->add_option("--torques", options->torques, "torques of joints over time, a table")
+      ->type_name("FILE");
   command->add_flag("--friction", options->friction, "with friction and damping of the scene's joints");
   command->add_option("--noise", options->noise, "each step adds sqrt(tau) * X * N(0, 1) to velocities")
       ->type_name("X");
   addSeed(command, options->seed, "of the noise (default: 0)");
   command->add_option("--floor", options->floor, "a floor at that height, metres (bullet; default: none)")
       ->type_name("Z");
+  command->add_flag("--refuse-overlap", options->refuseOverlap,
+                    "refuse a start in overlap, which is pushed apart otherwise (bullet)");
+  command
+      ->add_option("--log-every", options->logEvery,
+                   "log each Nth step (default: 1, of large scenes as many as make 200 MB)")
+      ->type_name("N");
+  command->add_option("--log-format", options->logFormat, "csv or npy (default: csv)")->type_name("NAME");
   addFilmSpeed(command, options->speed);
   command->add_flag("--no-film", options->noFilm, "no simulate.mp4");
   addFilmOptions(command, options->film);

@@ -5,12 +5,9 @@
 
 #include "base/interruption.h"
 #include "base/rng.h"
-#include "control/computed_torque.h"
 
 namespace rex::cli {
 namespace {
-
-constexpr double kStiffness = 0.1;  // seconds: the wave length of held joints, which are critically damped
 
 // What moves the state: a stepper, or a world with contacts.
 class Plant {
@@ -24,11 +21,9 @@ class Plant {
     world_->setState(plan.start);
   }
 
-  void step(State& state, const Eigen::VectorXd& u) {
+  void step(State& state, const Eigen::VectorXd& u, const Holder& holder) {
     if (stepper_) return stepper_->step(state, u, tau_, rng_);
-    motors_.clear();
-    for (const double force : u) motors_.push_back({.target = force});
-    world_->setMotors(motors_);
+    world_->setMotors(holder.motors(u));
     world_->step(tau_);
     state = world_->state();
   }
@@ -38,40 +33,46 @@ class Plant {
   Rng rng_;
   std::optional<Stepper> stepper_;
   std::optional<PhysicsWorld> world_;
-  std::vector<Motor> motors_;
 };
 
 }  // namespace
 
-std::vector<Moment> simulate(const Model& model, const SimulationPlan& plan) {
+void simulate(const Model& model, const SimulationPlan& plan,
+              const std::function<void(const Moment&)>& visit) {
   Plant plant(model, plan);
   const Eigen::Vector3d& gravity_W = plan.stepper.gravity_W;
-  const Reference target = standAt(model, plan.start.q);
-  const PdGains gains = pdGains(1, kStiffness, 1);
-  Eigen::VectorXd u = Eigen::VectorXd::Zero(model.nv());
+  const Holder holder(model, plan.hold, plan.start.q, gravity_W);
+  DynamicsWorkspace workspace;
 
   State state = plan.start;
-  std::vector<Moment> moments{{state, energy(model, state.q, state.v, gravity_W)}};
+  const auto show = [&] { visit({state, energy(model, state.q, state.v, gravity_W, workspace)}); };
+  show();
   for (int i = 0; i < plan.steps; ++i) {
     throwIfInterrupted();
-    if (plan.isHeld) u = computedTorque(model, state, target, gains, gravity_W);
-    plant.step(state, u);
-    moments.push_back({state, energy(model, state.q, state.v, gravity_W)});
+    Eigen::VectorXd u = holder.forces(state);
+    if (plan.torques) u += plan.torques->at(state.time - plan.start.time);
+    plant.step(state, u, holder);
+    show();
   }
-  return moments;
 }
 
-Motion motionOf(const std::vector<Moment>& moments, double tau, double rate) {
-  const double length = static_cast<double>(moments.size() - 1) * tau;
-  const auto count = static_cast<std::size_t>(std::floor(length * rate + 1e-9)) + 1;
-  Motion motion;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double time = static_cast<double>(i) / rate;
-    const auto nearest = static_cast<std::size_t>(std::lround(time / tau));
-    motion.times.push_back(time);
-    motion.postures.push_back(moments[std::min(nearest, moments.size() - 1)].state.q);
+FilmPostures::FilmPostures(double tau, int steps, double rate)
+    : tau_(tau),
+      rate_(rate),
+      steps_(steps),
+      count_(static_cast<std::size_t>(std::floor(steps * tau * rate + 1e-9)) + 1) {}
+
+long FilmPostures::nearestStep() const {
+  const double time = static_cast<double>(motion_.times.size()) / rate_;
+  return std::min(std::lround(time / tau_), static_cast<long>(steps_));
+}
+
+void FilmPostures::add(const Eigen::VectorXd& q) {
+  while (motion_.times.size() < count_ && nearestStep() == step_) {
+    motion_.times.push_back(static_cast<double>(motion_.times.size()) / rate_);
+    motion_.postures.push_back(q);
   }
-  return motion;
+  ++step_;
 }
 
 }  // namespace rex::cli

@@ -1,9 +1,12 @@
 // `rex simulate` as a user meets it.
 #include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <utility>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -127,6 +130,13 @@ TEST_F(SimulateCommand, RefusesWhatItCannotSimulate) {
   expectRefusal({"--floor", "0"},
                 "--floor: found --engine rk4, wanted --engine bullet, which knows contacts");
   expectRefusal({"--floor", "nan", "--engine", "bullet"}, "--floor: found nan, wanted -1000 to 1000");
+  expectRefusal({"--refuse-overlap"},
+                "--refuse-overlap: found --engine rk4, wanted --engine bullet, which knows contacts");
+  expectRefusal({"--hold-by", "motr", "--engine", "bullet"},
+                "--hold-by: found 'motr', wanted exact, gravity, pd, motor (did you mean 'motor'?)");
+  expectRefusal({"--hold-by", "motor"}, "--hold-by motor: found --engine rk4, wanted --engine bullet");
+  expectRefusal({"--log-every", "0"}, "--log-every: found 0, wanted 1 to 200000");
+  expectRefusal({"--log-format", "np"}, "--log-format: found 'np', wanted csv, npy (did you mean 'npy'?)");
   expectRefusal({"--trace", "pge"}, "--trace: scene 'pegArm.ors' has no body 'pge' (did you mean 'peg'?)");
   expectRefusal({"--q", "1,2"}, "--q: found 2 numbers, wanted 3");
   expectRefusal({"--v", "1,2"}, "--v: found 2 numbers, wanted 3");
@@ -161,6 +171,194 @@ TEST_F(SimulateCommand, LaysAFloor) {
   };
   EXPECT_NEAR(fallOfASecond({"--floor", "0.5"}), -0.4, 0.01);
   EXPECT_NEAR(fallOfASecond({}), -9.81 / 2, 0.01);
+}
+
+// A dog on a free base, dropped on a floor: it falls, and then its motors hold it up.
+TEST_F(SimulateCommand, HoldsAFallenDogUpright) {
+  REX_NEEDS_GNUPLOT();
+  const auto drop = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"quadruped", "--free-base", "--engine", "bullet", "--floor", "-0.9",
+                                     "--seconds", "2.5", "--no-film", "--json", "-o", "out"});
+    const ProcessResult result = simulate(options);
+    EXPECT_EQ(result.exitCode, 0) << result.error;
+    return nlohmann::json::parse(result.output);
+  };
+  const nlohmann::json held = drop({"--hold"}), loose = drop({});
+  EXPECT_EQ(held.at("held"), true);
+  const auto z = [](const nlohmann::json& answer) { return answer.at("q").at(2).get<double>(); };
+  EXPECT_LT(z(held), -0.2);
+  EXPECT_GT(z(held), z(loose) + 0.05);
+  EXPECT_GT(std::abs(held.at("q").at(3).get<double>()), 0.99);
+  for (const nlohmann::json& v : held.at("v")) EXPECT_LT(std::abs(v.get<double>()), 0.05);
+}
+
+TEST_F(SimulateCommand, LogsEachNthStepAsTextOrNumbers) {
+  REX_NEEDS_GNUPLOT();
+  const auto log = [&](const std::vector<std::string>& options, const std::string& name) {
+    std::vector<std::string> words{"pegArm", "--seconds", "0.01", "--no-film", "-o", "out"};
+    words.insert(words.end(), options.begin(), options.end());
+    const ProcessResult result = simulate(words);
+    EXPECT_EQ(result.exitCode, 0) << result.error;
+    EXPECT_THAT(result.output, HasSubstr("out/" + name + "\n"));
+    EXPECT_FALSE(fs::exists(in("out/" + name + ".part")));
+    return fileText(in("out/" + name));
+  };
+  const std::string every = log({}, "log.csv"), some = log({"--log-every", "4"}, "log.csv");
+  EXPECT_EQ(std::count(every.begin(), every.end(), '\n'), 12);
+  EXPECT_EQ(std::count(some.begin(), some.end(), '\n'), 4);
+  EXPECT_THAT(some, HasSubstr("\n0.004,"));
+  EXPECT_THAT(every, HasSubstr(some.substr(some.rfind("\n0.008,"))));
+
+  const std::string matrix = log({"--log-every", "4", "--log-format", "npy"}, "log.npy");
+  EXPECT_THAT(matrix, StartsWith(std::string("\x93NUMPY\x01\x00", 8)));
+  const std::size_t head =
+      10 + static_cast<unsigned char>(matrix[8]) + 256u * static_cast<unsigned char>(matrix[9]);
+  EXPECT_EQ(head % 64, 0u);
+  EXPECT_THAT(matrix.substr(0, head),
+              HasSubstr("{'descr': '<f8', 'fortran_order': False, 'shape': (3, 10), }"));
+  ASSERT_EQ(matrix.size(), head + 3 * 10 * sizeof(double));
+  std::vector<double> numbers(30);
+  std::memcpy(numbers.data(), matrix.data() + head, matrix.size() - head);
+  std::string line;
+  for (int i = 20; i < 30; ++i)
+    line += fmt::format("{}{}", i == 20 ? "\n" : ",", numbers[static_cast<std::size_t>(i)]);
+  EXPECT_THAT(some, HasSubstr(line + "\n"));
+}
+
+TEST_F(SimulateCommand, LeavesAnOlderLogIfItFails) {
+  fs::create_directories(in("out"));
+  std::ofstream(in("out/log.csv")) << "old";
+  const std::vector<std::string> words = {"pegArm",          "--engine",  "euler", "--tau", "1",  "--v",
+                                          "1000,-1000,1000", "--seconds", "100",   "-o",    "out"};
+  EXPECT_EQ(simulate(words).exitCode, 64);
+  EXPECT_EQ(fileText(in("out/log.csv")), "old");
+  EXPECT_FALSE(fs::exists(in("out/log.csv.part")));
+  std::vector<std::string> deeper = words;
+  deeper.back() = "new/deep/er";
+  EXPECT_EQ(simulate(deeper).exitCode, 64);
+  EXPECT_FALSE(fs::exists(in("new")));
+}
+
+TEST_F(SimulateCommand, WritesAReplayInsteadOfAFolder) {
+  REX_NEEDS_OSMESA();
+  REX_NEEDS_GNUPLOT();
+  const ProcessResult result =
+      simulate({"pegArm", "--seconds", "0.5", "--speed", "0.5", "-o", "new/fall.html"});
+  ASSERT_EQ(result.exitCode, 0) << result.error;
+  EXPECT_THAT(result.output, HasSubstr("\nnew/fall.html\n"));
+  ASSERT_TRUE(fs::is_regular_file(in("new/fall.html")));
+  EXPECT_NEAR(replaySeconds(in("new/fall.html")), 1, 1e-4);
+  const std::string page = fileText(in("new/fall.html"));
+  EXPECT_TRUE(page.find("<figure>") != std::string::npos);
+  EXPECT_TRUE(page.find("<td>rk4</td>") != std::string::npos);
+  EXPECT_FALSE(fs::exists(in("new/log.csv")));
+  const ProcessResult refused = simulate({"pegArm", "--no-film", "-o", "no.html"});
+  EXPECT_EQ(refused.exitCode, 64);
+  EXPECT_THAT(flat(refused.error), HasSubstr("--no-film: found a page, which is one, wanted a folder"));
+}
+
+// The weight of the arm, and then three newton metres more on one joint.
+TEST_F(SimulateCommand, DrivesJointsByAFileOfTorques) {
+  REX_NEEDS_GNUPLOT();
+  std::ofstream(in("push.csv")) << "# a push\ntime, arm2>peg\n0, 0\n0.1, 3\n";
+  const auto run = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> words{"pegArm",    "--hold-by", "gravity", "--seconds", "0.2",
+                                   "--no-film", "--json",    "-o",      "out"};
+    words.insert(words.end(), options.begin(), options.end());
+    const ProcessResult result = simulate(words);
+    EXPECT_EQ(result.exitCode, 0) << result.error;
+    return nlohmann::json::parse(result.output).at("q");
+  };
+  const nlohmann::json held = run({}), pushed = run({"--torques", "push.csv"});
+  EXPECT_GT(std::abs(pushed[2].get<double>() - held[2].get<double>()), 1e-4);
+}
+
+TEST_F(SimulateCommand, NamesThePlaceInAFileOfTorques) {
+  const auto expect = [&](const std::string& text, const std::string& message) {
+    std::ofstream(in("u.csv")) << text;
+    const ProcessResult result = simulate({"claw.ors", "--torques", "u.csv", "-o", "out"});
+    EXPECT_EQ(result.exitCode, 64) << text;
+    EXPECT_THAT(flat(result.error), HasSubstr(message)) << text;
+    EXPECT_FALSE(fs::exists(in("out")));
+  };
+  std::ofstream(in("claw.ors")) << "body base { mass=1 type=ST_box size=[1 1 1 0] }\n"
+                                   "body left { mass=1 } body right { mass=1 } body eye { mass=1 }\n"
+                                   "body stone { mass=1 } body post {}\n"
+                                   "joint finger (base left) { type=transX }\n"
+                                   "joint thumb (base right) { type=transX mimic=finger }\n"
+                                   "joint look (base eye) { type=universal }\n"
+                                   "joint fly (post stone) { type=free }\n";
+  expect("", "u.csv: torques: found no line with the names of columns, wanted 'time', then names of joints");
+  expect("time,finger\n", "u.csv: torques: found no row of numbers, wanted a time and torques");
+  expect("t,finger\n", "u.csv:1:1: torques: first column: found 't', wanted 'time'");
+  expect("time\n", "u.csv:1:1: torques: found no joint after 'time'");
+  expect(
+      "# u\ntime,finger, fnger\n",
+      "u.csv:2:14: torques: found 'fnger', wanted a joint of claw.ors with a motor (did you mean 'finger'?)");
+  expect("time,thumb\n",
+         "u.csv:1:6: torques: joint 'thumb': found a joint that mimics another, wanted 'finger', whose");
+  expect("time,fly\n", "u.csv:1:6: torques: joint 'fly': found a free joint, wanted joints with a motor");
+  expect("time,fly [2]\n", "u.csv:1:6: torques: found 'fly [2]', wanted a joint of claw.ors with a motor");
+  expect("time,look\n",
+         "u.csv:1:6: torques: joint 'look': found 2 coordinates, wanted 'look [0]' or another");
+  expect("time,finger,finger\n", "u.csv:1:13: torques: found 'finger' twice, wanted a column per joint");
+  expect("time,finger\n0,1,2\n", "u.csv:2:5: torques: found 3 fields, wanted 2 as in line 1");
+  expect("time,finger\n0\n", "u.csv:2:1: torques: found 1 field, wanted 2 as in line 1");
+  expect("time,\"finger\",look [1]\n0,1, 1x\n", "u.csv:2:6: torques: found '1x', wanted a number");
+  expect("time,finger\n0,nan\n", "u.csv:2:3: torques: found 'nan', wanted a number");
+  expect("time,finger\n-1,0\n", "u.csv:2:1: torques: time: found -1, wanted 0 or later");
+  expect("time,finger\n1,0\n1,2\n", "u.csv:3:1: torques: time: found 1 after 1, wanted times that increase");
+  std::ofstream(in("u.csv")) << "time,finger\n0,1\n";
+  EXPECT_THAT(flat(simulate({"claw.ors", "--torques", "u.csv", "--engine", "bullet", "--hold-by", "motor",
+                             "-o", "out"})
+                       .error),
+              HasSubstr("--torques: found joints that are held by motors, wanted no --hold, or --hold-by"));
+  EXPECT_THAT(flat(simulate({"claw.ors", "--torques", "none.csv", "-o", "out"}).error),
+              HasSubstr("none.csv: cannot read the torques"));
+}
+
+TEST_F(SimulateCommand, SaysWhatIsInOverlapAtFirst) {
+  REX_NEEDS_GNUPLOT();
+  std::ofstream(in("heap.ors")) << "body post {}\n"
+                                   "body pole {}\n"
+                                   "body a { type=ST_box size=[0.2 0.2 0.2 0] mass=1 contact }\n"
+                                   "body b { type=ST_box size=[0.2 0.2 0.2 0] mass=1 contact }\n"
+                                   "joint one (post a) { type=free A=<T t(0 0 0.05)> }\n"
+                                   "joint two (pole b) { type=free A=<T t(0.15 0 0.1)> }\n";
+  const std::vector<std::string> words{"heap.ors", "--engine",  "bullet", "--floor", "0",  "--seconds",
+                                       "0.5",      "--no-film", "--json", "-o",      "out"};
+  const ProcessResult result = simulate(words);
+  ASSERT_EQ(result.exitCode, 0) << result.error;
+  EXPECT_THAT(flat(result.error),
+              HasSubstr("overlaps at the start, pushed apart at 1 m/s at most, 2 pairs: "));
+  EXPECT_THAT(flat(result.error), HasSubstr("'a' and 'b' by 0.05 m"));
+  EXPECT_THAT(flat(result.error), HasSubstr("'floor' and 'a' by 0.05 m"));
+  const nlohmann::json answer = nlohmann::json::parse(result.output);
+  EXPECT_EQ(answer.at("overlaps").size(), 2u);
+  for (const nlohmann::json& v : answer.at("v")) EXPECT_LT(std::abs(v.get<double>()), 3);
+  std::vector<std::string> strict = words;
+  strict.insert(strict.end(), {"--refuse-overlap", "-o", "strict"});
+  strict.erase(strict.begin() + 9, strict.begin() + 11);
+  const ProcessResult refused = simulate(strict);
+  EXPECT_EQ(refused.exitCode, 64);
+  EXPECT_THAT(flat(refused.error), HasSubstr("--refuse-overlap: found overlaps at the start, 2 pairs: "));
+  EXPECT_FALSE(fs::exists(in("strict")));
+}
+
+// Fingers of which one mimics the other, ten seconds in the hands of gravity and Bullet.
+TEST_F(SimulateCommand, MovesWhatMimics) {
+  REX_NEEDS_GNUPLOT();
+  std::ofstream(in("claw.ors"))
+      << "body base {} body hand { mass=1 } body left { mass=0.1 } body right { mass=0.1 }\n"
+         "joint wrist (base hand) { type=hingeY B=<T t(0 0 -0.3)> }\n"
+         "joint finger (hand left) { type=transX limits=[-0.02 0.02] }\n"
+         "joint thumb (hand right) { type=transX mimic=finger mimic_ratio=-1 }\n";
+  std::ofstream(in("u.csv")) << "time,finger\n0,-5\n5,5\n";
+  const ProcessResult result =
+      simulate({"claw.ors", "--engine", "bullet", "--seconds", "10", "--q", "wrist=1", "--torques", "u.csv",
+                "--no-film", "--json", "-o", "out"});
+  ASSERT_EQ(result.exitCode, 0) << result.error;
+  EXPECT_NEAR(nlohmann::json::parse(result.output).at("q").at(1).get<double>(), 0.02, 1e-3);
 }
 
 TEST_F(SimulateCommand, ReportsABlowUpAndWritesNothing) {

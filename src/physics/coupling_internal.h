@@ -1,0 +1,87 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <Eigen/Core>
+
+#include "scene/model.h"
+
+namespace rex::internal {
+
+/// A link of one coordinate: where a hinge or slider of the model is in Bullet.
+struct CoordinatePlace {
+  btMultiBody* body = nullptr;
+  int link = 0;
+
+  /// Where it stands in Bullet's vectors of velocities, after the six of the base.
+  [[nodiscard]] int velocityIndex() const { return 6 + body->getLink(link).m_dofOffset; }
+};
+
+/// A link whose coordinate is ratio * leader + offset, because its joint mimics another or is a screw.
+struct Follower {
+  CoordinatePlace at, leader;
+  double ratio = 1, offset = 0;
+  JointId joint = kNoJoint;
+};
+
+/// Keeps a follower to its leader, solved along with the contacts.
+class CouplingRow : public btMultiBodyConstraint {
+ public:
+  explicit CouplingRow(const Follower& follower);
+
+  [[nodiscard]] const Follower& follower() const { return follower_; }
+  [[nodiscard]] bool isInOneBody() const { return m_bodyA == m_bodyB; }
+  void forget() { internalSetAppliedImpulse(0, 0); }
+
+  void finalizeMultiDof() override;
+  int getIslandIdA() const override;
+  int getIslandIdB() const override;
+  void createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
+                            const btContactSolverInfo& info) override;
+  void debugDraw(btIDebugDraw*) override {}
+
+ private:
+  Follower follower_;
+};
+
+/// All that follows in a world. Bullet gives each follower a coordinate of its own; the rows of its solver
+/// couple them to contacts and motors, and settle() makes them exact afterwards, by the impulses that all
+/// couplings of some trees need together. So motion without contact is that of the model with its fewer
+/// coordinates, and errors do not add up.
+class Couplings {
+ public:
+  explicit Couplings(const std::vector<Follower>& followers);
+
+  void addTo(btMultiBodyDynamicsWorld& world);
+  void removeFrom(btMultiBodyDynamicsWorld& world);
+  /// Forgets the impulses of the last step.
+  void forget();
+  /// Changes the velocities, before positions move on.
+  void settle();
+  /// The joint of a follower or leader that Bullet cannot move, for there is no mass behind it, if any. Of
+  /// bodies as they are placed; changes velocities.
+  [[nodiscard]] JointId massless(const Model& model);
+
+ private:
+  // What is coupled, directly or not, and how its bodies answer to a unit impulse of each row.
+  struct Group {
+    std::vector<CouplingRow*> rows;
+    std::vector<btMultiBody*> bodies;
+  };
+  void settle(Group& group);
+  [[nodiscard]] bool isStuck(const CoordinatePlace& place);
+
+  std::vector<std::unique_ptr<CouplingRow>> rows_;
+  std::vector<Group> groups_;
+  std::vector<std::vector<btScalar>> answers_;  // of a group: row by row, body by body
+  std::vector<btScalar> force_;
+  btAlignedObjectArray<btScalar> scratchR_;
+  btAlignedObjectArray<btVector3> scratchV_;
+};
+
+}  // namespace rex::internal

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+
+#include "physics/coupling_internal.h"
+
+namespace rex::internal {
+
+/// Bullet's world with a hand in its steps, where it has solved for velocities and has not moved yet.
+class SteppingWorld : public btMultiBodyDynamicsWorld {
+ public:
+  using btMultiBodyDynamicsWorld::btMultiBodyDynamicsWorld;
+
+  /// What settles velocities; it must outlive the steps.
+  void use(Couplings* couplings) { couplings_ = couplings; }
+  /// How fast contacts may push apart what is in overlap, m/s.
+  void setPartingSpeed(double speed) { partingSpeed_ = speed; }
+
+  void solveConstraints(btContactSolverInfo& info) override;
+
+ private:
+  struct Deep {
+    btManifoldPoint* point;
+    double distance;
+  };
+  void hideDepths(const btContactSolverInfo& info);
+
+  Couplings* couplings_ = nullptr;
+  double partingSpeed_ = BT_LARGE_FLOAT;
+  std::vector<Deep> hidden_;
+};
+
+}  // namespace rex::internal
