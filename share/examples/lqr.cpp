@@ -6,8 +6,8 @@
 using namespace rex;
 
 int main() {
-  CartPole plant;
-  plant.x = {0.5, 0, 0.3, 0};  // place and speed of the cart, angle from upright and its rate
+  CartPole plant(0, {.noise = 0.02});  // of the seed 0
+  plant.x = {0.5, 0, 0.3, 0};          // place and speed of the cart, angle from upright and its rate
 
   const LinearizedPlant upright = plant.getLinearization();
   const Eigen::Matrix4d Q = Eigen::Vector4d(1, 0, 10, 0).asDiagonal();  // what errors cost
