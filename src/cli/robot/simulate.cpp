@@ -324,6 +324,10 @@ ExitCode simulateScene(const Project& project, const SimulateOptions& options) {
   const Model model = modelOf(project, options);
   if (isPage(options) && options.noFilm)
     throw UsageError({.what = "--no-film", .found = "a page, which is one", .wanted = "a folder after -o"});
+  if (isPage(options) && (options.logEvery || format != LogFormat::kCsv))
+    throw UsageError({.what = options.logEvery ? "--log-every" : "--log-format",
+                      .found = "a page, which has no log",
+                      .wanted = "a folder after -o"});
   if (!options.noFilm) requireFilmable(model);
   const SimulationPlan plan = planOf(model, options);
   if (plan.physics) noteCollisionWarnings(model);

@@ -239,6 +239,19 @@ TEST_F(SimulateCommand, LeavesAnOlderLogIfItFails) {
   EXPECT_FALSE(fs::exists(in("new")));
 }
 
+TEST_F(SimulateCommand, SaysWhatCannotBeWritten) {
+  std::ofstream(in("plain")) << "a file";
+  fs::create_directories(in("out/log.csv.part"));
+  fs::create_directories(in("other/log.csv/deep"));
+  EXPECT_THAT(flat(simulate({"pegArm", "--no-film", "-o", "plain/sub"}).error),
+              HasSubstr("cannot write plain/sub/log.csv: found Not a directory"));
+  EXPECT_THAT(flat(simulate({"pegArm", "--no-film", "-o", "out"}).error),
+              HasSubstr("cannot write out/log.csv: found Is a directory"));
+  EXPECT_THAT(flat(simulate({"pegArm", "--seconds", "0.01", "--no-film", "-o", "other"}).error),
+              HasSubstr("cannot write other/log.csv: found Is a directory"));
+  EXPECT_FALSE(fs::exists(in("other/log.csv.part")));
+}
+
 TEST_F(SimulateCommand, WritesAReplayInsteadOfAFolder) {
   REX_NEEDS_OSMESA();
   REX_NEEDS_GNUPLOT();
@@ -255,6 +268,10 @@ TEST_F(SimulateCommand, WritesAReplayInsteadOfAFolder) {
   const ProcessResult refused = simulate({"pegArm", "--no-film", "-o", "no.html"});
   EXPECT_EQ(refused.exitCode, 64);
   EXPECT_THAT(flat(refused.error), HasSubstr("--no-film: found a page, which is one, wanted a folder"));
+  EXPECT_THAT(flat(simulate({"pegArm", "--log-every", "2", "-o", "no.html"}).error),
+              HasSubstr("--log-every: found a page, which has no log, wanted a folder after -o"));
+  EXPECT_THAT(flat(simulate({"pegArm", "--log-format", "npy", "-o", "no.html"}).error),
+              HasSubstr("--log-format: found a page, which has no log, wanted a folder after -o"));
 }
 
 // The weight of the arm, and then three newton metres more on one joint.
