@@ -413,7 +413,7 @@ void addSimulate(CLI::App* command, Action& action) {
                     "refuse a start in overlap, which is pushed apart otherwise (bullet)");
   command
       ->add_option("--log-every", options->logEvery,
-                   "log each Nth step (default: 1, of large scenes as many as make 200 MB)")
+                   "log each Nth step (default: 1, large scenes up to 200 MB)")
       ->type_name("N");
   command->add_option("--log-format", options->logFormat, "csv or npy (default: csv)")->type_name("NAME");
   addFilmSpeed(command, options->speed);
