@@ -35,14 +35,19 @@
 namespace rex {
 namespace {
 
+// A scene as text; its name tells how that is read.
+struct NamedText {
+  std::string name, text;
+};
+
 // The text of the file, or where that needs other files, the scene written anew.
-std::string selfContainedText(const std::filesystem::path& file, const SceneSpec& spec) {
+NamedText selfContainedText(const std::filesystem::path& file, const SceneSpec& spec) {
   std::string text = readSceneText(file);
   try {
     static_cast<void>(parseScene(text, file.string()));
-    return text;
+    return {spec.name, std::move(text)};
   } catch (const Error&) {
-    return writeOrs(spec);
+    return {std::filesystem::path(spec.name).replace_extension(".ors").string(), writeOrs(spec)};
   }
 }
 
@@ -54,9 +59,9 @@ SceneSpec parsed(const SimulatorDescription& description) {
   return std::move(scene.spec);
 }
 
-// The choices of an SRDF; .ors text has its own.
+// The choices of an SRDF; the texts of other scenes have their own.
 std::string srdfOf(const std::filesystem::path& file, const SceneSpec& spec) {
-  if (spec.collisionChoices.empty() || lowerCase(file.extension().string()) == ".ors") return {};
+  if (spec.collisionChoices.empty() || lowerCase(file.extension().string()) != ".urdf") return {};
   return writeSrdf(file.stem().string(), spec.collisionChoices);
 }
 
@@ -121,10 +126,9 @@ Simulator::Simulator(const std::string& sceneFile) {
     if (one.severity == Severity::kWarning) std::cerr << toString(one) << "\n";
   const bool hasEnding = std::filesystem::path(sceneFile).has_extension();
   scene.spec.name = hasEnding ? sceneFile : path.filename().string();
-  const SimulatorDescription description{.sceneName = scene.spec.name,
-                                         .sceneText = selfContainedText(path, scene.spec),
-                                         .q = {},
-                                         .srdf = srdfOf(path, scene.spec)};
+  const NamedText text = selfContainedText(path, scene.spec);
+  const SimulatorDescription description{
+      .sceneName = text.name, .sceneText = text.text, .q = {}, .srdf = srdfOf(path, scene.spec)};
   start(description, std::move(scene.spec));
   for (const Diagnostic& one : collisionWarnings(parts_->model)) std::cerr << toString(one) << "\n";
 }

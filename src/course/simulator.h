@@ -31,9 +31,9 @@ struct SimulatorDescription {
 /// names both sizes for a wrong one.
 class Simulator {
  public:
-  /// Loads an .ors or .urdf file: a path, or the name of one of the course's scenes, such as "man.ors".
-  /// Throws Error with file:line:column for a missing or broken file, also one of a mesh. Boxes stand for
-  /// meshes that are missing; warnings of the reader and of collisionWarnings() are printed.
+  /// Loads an .ors, .urdf or MuJoCo .xml file: a path, or the name of one of the course's scenes, such as
+  /// "man.ors". Throws Error with file:line:column for a missing or broken file, also one of a mesh. Boxes
+  /// stand for meshes that are missing; warnings of the reader and of collisionWarnings() are printed.
   explicit Simulator(const std::string& sceneFile);
   /// Reads no file: shapes described by a mesh are not drawn.
   explicit Simulator(const SimulatorDescription& description);
