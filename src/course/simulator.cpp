@@ -45,9 +45,9 @@ SceneSpec parsed(const SimulatorDescription& description) {
   return std::move(scene.spec);
 }
 
-// The choices of an SRDF; .ors text has its own.
+// The choices of an SRDF; the texts of other scenes have their own.
 std::string srdfOf(const std::filesystem::path& file, const SceneSpec& spec) {
-  if (spec.collisionChoices.empty() || lowerCase(file.extension().string()) == ".ors") return {};
+  if (spec.collisionChoices.empty() || lowerCase(file.extension().string()) != ".urdf") return {};
   return writeSrdf(file.stem().string(), spec.collisionChoices);
 }
 

@@ -58,9 +58,9 @@ struct SimulatorContact {
 /// names both sizes for a wrong one.
 class Simulator {
  public:
-  /// Loads an .ors or .urdf file: a path, or the name of one of the course's scenes, such as "man.ors".
-  /// Throws Error with file:line:column for a missing or broken file, also one of a mesh, and for a free base
-  /// of an .ors scene. Boxes stand for meshes that are missing; warnings of the reader and of
+  /// Loads an .ors, .urdf or MuJoCo .xml file: a path, or the name of one of the course's scenes, such as
+  /// "man.ors". Throws Error with file:line:column for a missing or broken file, also one of a mesh, and for
+  /// a free base of an .ors scene. Boxes stand for meshes that are missing; warnings of the reader and of
   /// collisionWarnings() are printed.
   explicit Simulator(const std::string& sceneFile, const SimulatorOptions& options = {});
   /// Reads no file: shapes described by a mesh are not drawn.

@@ -14,7 +14,8 @@
 // are orthonormal. Where S + eps on the rotations is positive definite, f(Y') is therefore no less than
 // sum tr Lambda_i - eps d n. The multipliers are the symmetric parts of R_i^T (Y M)_i, which are those of the
 // minimum at the minimum; f(Y) - sum tr Lambda_i is what positions add: sum t_i . (Y M)_i, zero where they
-// are stationary. Position 0 is left out: moving all poses costs nothing.
+// are stationary. Position 0 is left out: moving all poses costs nothing. Landmarks are positions without
+// rotations, which stand after all else.
 namespace rex {
 namespace {
 
@@ -32,9 +33,13 @@ class Certificate {
   using Rotation = Eigen::Matrix<double, D, D>;
   using Position = Eigen::Matrix<double, D, 1>;
 
-  Certificate(std::vector<Rotation> R, const std::vector<Position>& t)
-      : R_(std::move(R)), size_((1 + D) * static_cast<int>(R_.size()) - 1) {
+  Certificate(std::vector<Rotation> R, const std::vector<Position>& t,
+              const Eigen::Matrix<double, D, Eigen::Dynamic>& landmarks = {})
+      : R_(std::move(R)),
+        first_((1 + D) * static_cast<int>(R_.size()) - 1),
+        size_(first_ + static_cast<int>(landmarks.cols())) {
     Y_.resize(D, size_);
+    if (size_ > first_) Y_.rightCols(size_ - first_) = landmarks.colwise() - t[0];
     for (std::size_t i = 0; i < R_.size(); ++i) {
       if (i > 0) Y_.col(position(static_cast<int>(i))) = t[i] - t[0];
       Y_.template middleCols<D>(rotation(static_cast<int>(i))) = R_[i];
@@ -56,11 +61,18 @@ class Certificate {
     addSquare(column, edge.weights.translation);
   }
 
+  void addSighting(int pose, int landmark, const Position& seen, double weight) {
+    Column column = {{first_ + landmark, 1}};
+    if (pose > 0) column.emplace_back(position(pose), -1);
+    for (int l = 0; l < D; ++l) column.emplace_back(rotation(pose) + l, -seen[l]);
+    addSquare(column, weight);
+  }
+
   double gap() {
     Eigen::SparseMatrix<double> S(size_, size_);
     S.setFromTriplets(entries_.begin(), entries_.end());
     const Eigen::MatrixXd YM = Y_ * S.selfadjointView<Eigen::Lower>();
-    double atPositions = 0;
+    double atPositions = Y_.rightCols(size_ - first_).cwiseProduct(YM.rightCols(size_ - first_)).sum();
     for (std::size_t i = 0; i < R_.size(); ++i) {
       const int at = rotation(static_cast<int>(i));
       if (i > 0) atPositions += Y_.col(at - 1).dot(YM.col(at - 1));
@@ -96,7 +108,7 @@ class Certificate {
   }
 
   std::vector<Rotation> R_;
-  int size_;
+  int first_, size_;  // the first landmark, and all
   Eigen::Matrix<double, D, Eigen::Dynamic> Y_;
   std::vector<Eigen::Triplet<double>> entries_;
 };
@@ -106,17 +118,19 @@ class Certificate {
 double certifiedGap(const PlanarPoseGraph& graph) {
   internal::requireSound(graph);
   internal::requireConnected(graph);
-  if (graph.poses.cols() < 2) return 0;
+  if (internal::PlanarGraphTraits::nodes(graph) < 2) return 0;
   std::vector<Eigen::Matrix2d> R;
   std::vector<Eigen::Vector2d> t;
   for (const auto& pose : graph.poses.colwise()) {
     R.push_back(internal::planarRotation(pose[2]));
     t.push_back(pose.head<2>());
   }
-  Certificate<2> certificate(std::move(R), t);
+  Certificate<2> certificate(std::move(R), t, graph.landmarks);
   for (const PlanarEdge& edge : graph.edges)
     certificate.add({edge.from, edge.to, internal::planarRotation(edge.motion[2]), edge.motion.head<2>(),
                      internal::isotropic(edge)});
+  for (const LandmarkEdge& edge : graph.sightings)
+    certificate.addSighting(edge.pose, edge.landmark, edge.position, internal::isotropic(edge).translation);
   return certificate.gap();
 }
 

@@ -90,15 +90,21 @@ void setChordalPoses(PlanarPoseGraph& graph) {
   const Eigen::MatrixXd headings = rotations.solve();
   if (headings.size() == 0) return;
   for (int i = 1; i < poses; ++i) start(2, i) = std::atan2(headings(2 * i - 1, 0), headings(2 * i - 2, 0));
-  LinearGraph<1, 2> positions(poses, start.col(0).head<2>().transpose());
+  LinearGraph<1, 2> positions(PlanarGraphTraits::nodes(graph), start.col(0).head<2>().transpose());
   for (const PlanarEdge& edge : graph.edges)
     positions.add(edge.from, edge.to, isotropic(edge).translation, kUnturned,
                   (planarRotation(start(2, edge.from)) * edge.motion.head<2>()).transpose());
+  for (const LandmarkEdge& edge : graph.sightings)
+    positions.add(edge.pose, poses + edge.landmark, isotropic(edge).translation, kUnturned,
+                  (planarRotation(start(2, edge.pose)) * edge.position).transpose());
   for (int i = 1; i < poses; ++i) positions.anchor(i, start.col(i).head<2>().transpose());
+  const auto landmarks = static_cast<int>(graph.landmarks.cols());
+  for (int i = 0; i < landmarks; ++i) positions.anchor(poses + i, graph.landmarks.col(i).transpose());
   const Eigen::MatrixXd found = positions.solve();
   if (found.size() == 0) return;
-  start.topRightCorner(2, poses - 1) = found.transpose();
+  start.topRightCorner(2, poses - 1) = found.topRows(poses - 1).transpose();
   graph.poses = std::move(start);
+  graph.landmarks = found.bottomRows(landmarks).transpose();
 }
 
 void setChordalPoses(SpatialPoseGraph& graph) {

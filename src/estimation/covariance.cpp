@@ -40,6 +40,14 @@ double leastCorrelation(const MatrixArg& A) {
       .minCoeff();
 }
 
+Eigen::MatrixXd withoutNegativeEigenvalues(const Eigen::MatrixXd& A) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(A);
+  const Eigen::MatrixXd& V = solver.eigenvectors();
+  const Eigen::MatrixXd scaled = V * solver.eigenvalues().cwiseMax(0).asDiagonal();
+  const Eigen::MatrixXd nearest = scaled * V.transpose();
+  return 0.5 * (nearest + nearest.transpose());
+}
+
 [[noreturn]] void refuse(const std::string& what, double eigenvalue, Definiteness wanted) {
   throw Error({.what = what,
                .found = fmt::format("the eigenvalue {:g}", eigenvalue),
@@ -89,6 +97,17 @@ Eigen::LLT<Eigen::MatrixXd> definiteFactor(std::string_view what, const MatrixAr
 }
 
 Eigen::MatrixXd symmetrized(const MatrixArg& A) { return 0.5 * (A + A.transpose()); }
+
+Eigen::MatrixXd nearestSemidefinite(const MatrixArg& A) {
+  const Eigen::MatrixXd nearest = withoutNegativeEigenvalues(A);
+  // Rounding of large entries may leave small ones negative: once more with a unit diagonal.
+  const double rounding = 1e-14 * nearest.diagonal().cwiseAbs().maxCoeff();
+  const Eigen::VectorXd root =
+      nearest.diagonal().unaryExpr([&](double v) { return v > rounding ? std::sqrt(v) : 0; });
+  const Eigen::VectorXd inverse = root.unaryExpr([](double v) { return v > 0 ? 1 / v : 0; });
+  const Eigen::MatrixXd scaled = inverse.asDiagonal() * nearest * inverse.asDiagonal();
+  return root.asDiagonal() * withoutNegativeEigenvalues(scaled) * root.asDiagonal();
+}
 
 Eigen::MatrixXd covarianceRoot(const MatrixArg& A) {
   const Eigen::LLT<Eigen::MatrixXd> factor(A);

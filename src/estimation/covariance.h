@@ -25,6 +25,10 @@ void requireCovariance(std::string_view what, const MatrixArg& A, Eigen::Index s
 /// (A + A^T) / 2: what rounding took away from symmetry.
 [[nodiscard]] Eigen::MatrixXd symmetrized(const MatrixArg& A);
 
+/// The positive semidefinite matrix nearest to a symmetric A, by the sum of its squared entries: what is
+/// negative of its eigenvalues becomes 0 (Higham 1988).
+[[nodiscard]] Eigen::MatrixXd nearestSemidefinite(const MatrixArg& A);
+
 /// Some S with S S^T = A, of a semidefinite A; what is negative by rounding counts as zero.
 [[nodiscard]] Eigen::MatrixXd covarianceRoot(const MatrixArg& A);
 

@@ -19,8 +19,9 @@
 namespace rex {
 namespace {
 
-constexpr const char* kFix = "FIX";
-const std::vector<std::string> kTags = {"VERTEX_SE2", "EDGE_SE2", "VERTEX_SE3:QUAT", "EDGE_SE3:QUAT", kFix};
+constexpr const char *kFix = "FIX", *kLandmark = "VERTEX_XY", *kSighting = "EDGE_SE2_XY";
+const std::vector<std::string> kTags = {"VERTEX_SE2",      "EDGE_SE2",      kLandmark, kSighting,
+                                        "VERTEX_SE3:QUAT", "EDGE_SE3:QUAT", kFix};
 
 // A line of words.
 struct Line {
@@ -73,19 +74,45 @@ Eigen::VectorXd numbers(const Line& line, std::size_t first) {
   return values;
 }
 
-// A symmetric matrix from its upper triangle, row by row.
+// What is said once for many lines, by their tags.
+class Findings {
+ public:
+  void add(std::string_view tag, const SourceLocation& where, const std::string& fault) {
+    Finding& finding = byTag_[std::string(tag)];
+    if (finding.count++ == 0) finding = {where, fault, 1};
+  }
+  // `instead` is what is done about it.
+  void noteAll(const char* instead, std::vector<Diagnostic>& notes) const {
+    for (const auto& [tag, finding] : byTag_) {
+      const std::string times =
+          finding.count > 1 ? fmt::format(" ({} lines, this is the first)", finding.count) : "";
+      notes.push_back({finding.first, fmt::format("{}: {}; {}{}", tag, finding.fault, instead, times),
+                       Severity::kWarning});
+    }
+  }
+
+ private:
+  struct Finding {
+    SourceLocation first{};
+    std::string fault{};
+    int count = 0;
+  };
+  std::map<std::string, Finding> byTag_;
+};
+
+// A symmetric matrix from its upper triangle, row by row; the nearest that can be information.
 template <int Size>
-Eigen::Matrix<double, Size, Size> information(const Line& line, const Eigen::VectorXd& upper) {
+Eigen::Matrix<double, Size, Size> information(const Line& line, const Eigen::VectorXd& upper,
+                                              Findings& indefinite) {
   Eigen::Matrix<double, Size, Size> matrix;
   Eigen::Index k = 0;
   for (int i = 0; i < Size; ++i)
     for (int j = i; j < Size; ++j) matrix(i, j) = matrix(j, i) = upper[k++];
   try {
-    requireCovariance(std::string(line.words[0].first) + ": information", matrix, Size);
+    requireCovariance("information", matrix, Size);
   } catch (const Error& error) {
-    ErrorParts parts = error.parts();
-    parts.where = line.where;
-    throw Error(parts);
+    indefinite.add(line.words[0].first, line.where, error.what());
+    matrix = nearestSemidefinite(matrix);
   }
   return matrix;
 }
@@ -104,6 +131,7 @@ struct Planar {
   using Graph = PlanarPoseGraph;
   using Edge = PlanarEdge;
   static constexpr int kSize = 3;
+  static constexpr bool kHasLandmarks = true;
   static constexpr std::size_t kPoseNumbers = 3;
   static constexpr const char *kVertex = "VERTEX_SE2", *kEdge = "EDGE_SE2";
   static Eigen::Vector3d pose(const Line&, std::size_t, const Eigen::VectorXd& values) {
@@ -119,6 +147,7 @@ struct Spatial {
   using Graph = SpatialPoseGraph;
   using Edge = SpatialEdge;
   static constexpr int kSize = 6;
+  static constexpr bool kHasLandmarks = false;
   static constexpr std::size_t kPoseNumbers = 7;
   static constexpr const char *kVertex = "VERTEX_SE3:QUAT", *kEdge = "EDGE_SE3:QUAT";
   static Pose pose(const Line& line, std::size_t first, const Eigen::VectorXd& values) {
@@ -137,6 +166,8 @@ class Reader {
     if (tag == Kind::kVertex) return readVertex(line);
     if (tag == Kind::kEdge) return readEdge(line);
     if (tag == kFix) return fixes_.push_back(line);
+    if (Kind::kHasLandmarks && tag == kLandmark) return readLandmark(line);
+    if (Kind::kHasLandmarks && tag == kSighting) return readSighting(line);
     throw Error({.what = "pose graph",
                  .where = line.at(0),
                  .found = fmt::format("{} among {}", tag, Kind::kVertex),
@@ -146,9 +177,8 @@ class Reader {
   G2oFile finish() {
     G2oFile result;
     result.hasPoses = !vertices_.empty();
-    if (!result.hasPoses)
-      for (const auto& [line, from, to, edge] : edges_)
-        vertices_.try_emplace(from, line.at(1)), vertices_.try_emplace(to, line.at(2));
+    if (!result.hasPoses) addVerticesOfEdges();
+    requireDifferent();
     typename Kind::Graph graph;
     Kind::resize(graph, vertices_.size());
     std::map<long, int> places;
@@ -171,7 +201,12 @@ class Reader {
       edge.to = placeOf(line, 2, to);
       graph.edges.push_back(edge);
     }
+    if constexpr (Kind::kHasLandmarks) addLandmarks(placeOf, result, graph);
     noteFixes(placeOf, result);
+    indefinite_.noteAll(
+        "it is replaced by the nearest positive semidefinite matrix, whose negative "
+        "eigenvalues are 0",
+        result.notes);
     if (const auto loose = internal::loosePose(graph)) {
       const long id = result.ids[static_cast<std::size_t>(*loose)];
       throw Error({.what = "pose graph",
@@ -179,12 +214,76 @@ class Reader {
                    .found = fmt::format("pose {}, which no edges join to pose {}", id, result.ids.front()),
                    .wanted = "a graph in one piece"});
     }
+    if constexpr (Kind::kHasLandmarks) requireSeen(graph, result);
     if (!result.hasPoses) setOdometryPoses(graph);
     result.graph = std::move(graph);
     return result;
   }
 
  private:
+  // Of a file that has only edges.
+  void addVerticesOfEdges() {
+    for (const auto& [line, from, to, edge] : edges_)
+      vertices_.try_emplace(from, line.at(1)), vertices_.try_emplace(to, line.at(2));
+    for (const Sighting& sighting : sightings_) {
+      vertices_.try_emplace(sighting.pose, sighting.line.at(1));
+      landmarks_.try_emplace(sighting.landmark, Landmark{sighting.line.at(2)});
+    }
+  }
+  void requireDifferent() const {
+    for (const auto& [id, landmark] : landmarks_)
+      if (vertices_.contains(id))
+        throw Error({.what = "pose graph",
+                     .where = landmark.where,
+                     .found = fmt::format("landmark {}, which is a pose as well", id),
+                     .wanted = "an id of its own"});
+  }
+  void readLandmark(const Line& line) {
+    requireCount(line, 3);
+    const long id = number<long>(line, 1, "a whole number");
+    if (!landmarks_.try_emplace(id, Landmark{line.at(1), numbers(line, 2)}).second)
+      throw Error({.what = kLandmark, .where = line.at(1), .found = fmt::format("a second landmark {}", id)});
+  }
+  void readSighting(const Line& line) {
+    requireCount(line, 7);
+    const long pose = number<long>(line, 1, "a whole number"), mark = number<long>(line, 2, "a whole number");
+    const Eigen::VectorXd values = numbers(line, 3);
+    LandmarkEdge edge;
+    edge.position = values.head<2>();
+    edge.information = information<2>(line, values.tail(3), indefinite_);
+    sightings_.push_back({line, pose, mark, edge});
+  }
+  template <class PlaceOf>
+  void addLandmarks(const PlaceOf& placeOf, G2oFile& result, typename Kind::Graph& graph) const {
+    graph.landmarks.setZero(2, static_cast<Eigen::Index>(landmarks_.size()));
+    std::map<long, int> places;
+    for (const auto& [id, landmark] : landmarks_) {
+      const auto place = static_cast<int>(places.size());
+      places[id] = place;
+      result.landmarkIds.push_back(id);
+      if (landmark.position) graph.landmarks.col(place) = *landmark.position;
+    }
+    for (const Sighting& sighting : sightings_) {
+      LandmarkEdge edge = sighting.edge;
+      edge.pose = placeOf(sighting.line, 1, sighting.pose);
+      const auto place = places.find(sighting.landmark);
+      if (place == places.end())
+        throw Error({.what = kSighting,
+                     .where = sighting.line.at(2),
+                     .found = fmt::format("landmark {}, which the file does not have", sighting.landmark)});
+      edge.landmark = place->second;
+      graph.sightings.push_back(edge);
+    }
+  }
+  void requireSeen(const typename Kind::Graph& graph, const G2oFile& result) const {
+    const auto unseen = internal::unseenLandmark(graph);
+    if (!unseen) return;
+    const long id = result.landmarkIds[static_cast<std::size_t>(*unseen)];
+    throw Error({.what = "pose graph",
+                 .where = landmarks_.at(id).where,
+                 .found = fmt::format("landmark {}, which no pose sees", id),
+                 .wanted = fmt::format("one or more {}", kSighting)});
+  }
   void readVertex(const Line& line) {
     requireCount(line, 1 + Kind::kPoseNumbers);
     const long id = number<long>(line, 1, "a whole number");
@@ -205,7 +304,7 @@ class Reader {
     const Eigen::VectorXd values = numbers(line, 3);
     typename Kind::Edge edge;
     edge.motion = Kind::pose(line, 3, values.head(Kind::kPoseNumbers));
-    edge.information = information<Kind::kSize>(line, values.tail(kUpper));
+    edge.information = information<Kind::kSize>(line, values.tail(kUpper), indefinite_);
     edges_.push_back({line, from, to, edge});
   }
   template <class PlaceOf>
@@ -242,8 +341,20 @@ class Reader {
     std::optional<PoseOf> pose{};
     Vertex(SourceLocation place, std::optional<PoseOf> read = {}) : where(std::move(place)), pose(read) {}
   };
+  struct Landmark {
+    SourceLocation where;
+    std::optional<Eigen::Vector2d> position{};
+  };
+  struct Sighting {
+    Line line;
+    long pose, landmark;
+    LandmarkEdge edge;
+  };
   std::map<long, Vertex> vertices_;
+  std::map<long, Landmark> landmarks_;
   std::vector<ReadEdge> edges_;
+  std::vector<Sighting> sightings_;
+  Findings indefinite_;
   std::vector<Line> fixes_;
 };
 
@@ -258,6 +369,7 @@ G2oFile readAll(const std::vector<Line>& lines) {
 
 G2oFile parseG2o(std::string_view text, const std::string& file) {
   std::vector<Line> lines;
+  Findings unknown;
   int number = 0;
   bool isSpatial = false, isKnown = false, hasEdges = false;
   while (!text.empty()) {
@@ -266,12 +378,13 @@ G2oFile parseG2o(std::string_view text, const std::string& file) {
     text.remove_prefix(std::min(end + 1, text.size()));
     if (line.words.empty()) continue;
     const std::string tag(line.words[0].first);
-    if (std::find(kTags.begin(), kTags.end(), tag) == kTags.end())
-      throw Error({.what = "pose graph",
-                   .where = line.at(0),
-                   .found = fmt::format("'{}'", tag),
-                   .wanted = "VERTEX_SE2, EDGE_SE2, VERTEX_SE3:QUAT, EDGE_SE3:QUAT or FIX",
-                   .nearest = nearestNames(tag, kTags)});
+    if (std::find(kTags.begin(), kTags.end(), tag) == kTags.end()) {
+      const std::vector<std::string> nearest = nearestNames(tag, kTags);
+      unknown.add(tag, line.at(0),
+                  "not a tag that rex reads" +
+                      (nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest.front())));
+      continue;
+    }
     if (!isKnown) isSpatial = tag.find("SE3") != std::string::npos;
     isKnown = isKnown || tag != kFix;
     hasEdges = hasEdges || tag.starts_with("EDGE");
@@ -279,7 +392,9 @@ G2oFile parseG2o(std::string_view text, const std::string& file) {
   }
   if (!hasEdges)
     throw Error({.what = "pose graph", .where = {file, 0, 0}, .found = "no edges", .wanted = "one or more"});
-  return isSpatial ? readAll<Spatial>(lines) : readAll<Planar>(lines);
+  G2oFile result = isSpatial ? readAll<Spatial>(lines) : readAll<Planar>(lines);
+  unknown.noteAll("it is left out", result.notes);
+  return result;
 }
 
 G2oFile readG2o(const std::filesystem::path& file) {
@@ -307,6 +422,32 @@ std::string numbersOf(const Pose& pose) {
   return fmt::format(" {} {} {} {} {} {} {}", pose.p[0], pose.p[1], pose.p[2], q[1], q[2], q[3], q[0]);
 }
 
+// The landmarks, and where they were seen. Those without ids follow the poses.
+template <class IdOfPose>
+std::string landmarkLines(const G2oFile& file, const PlanarPoseGraph& graph, const IdOfPose& idOfPose) {
+  const auto landmarks = static_cast<std::size_t>(graph.landmarks.cols());
+  if (!file.landmarkIds.empty() && file.landmarkIds.size() != landmarks)
+    throw Error({.what = "pose graph: ids of landmarks",
+                 .found = fmt::format("{}", file.landmarkIds.size()),
+                 .wanted = fmt::format("{}, one for each landmark, or none", landmarks)});
+  const auto poses = static_cast<std::size_t>(graph.poses.cols());
+  const long next = poses > 0 ? idOfPose(poses - 1) + 1 : 0;
+  const auto idOf = [&](std::size_t i) {
+    return file.landmarkIds.empty() ? next + static_cast<long>(i) : file.landmarkIds[i];
+  };
+  std::string text;
+  for (std::size_t i = 0; i < landmarks; ++i) {
+    const auto position = graph.landmarks.col(static_cast<Eigen::Index>(i));
+    text += fmt::format("{} {} {} {}\n", kLandmark, idOf(i), position[0], position[1]);
+  }
+  for (const LandmarkEdge& edge : graph.sightings) {
+    text += fmt::format("{} {} {} {} {}", kSighting, idOfPose(static_cast<std::size_t>(edge.pose)),
+                        idOf(static_cast<std::size_t>(edge.landmark)), edge.position[0], edge.position[1]);
+    appendUpper(text, edge.information);
+  }
+  return text;
+}
+
 template <class Kind, class PoseAt>
 std::string write(const G2oFile& file, const typename Kind::Graph& graph, std::size_t poses,
                   const PoseAt& poseAt) {
@@ -319,6 +460,7 @@ std::string write(const G2oFile& file, const typename Kind::Graph& graph, std::s
   std::string text;
   for (std::size_t i = 0; i < poses; ++i)
     text += fmt::format("{} {}{}\n", Kind::kVertex, idOf(i), numbersOf(poseAt(i)));
+  if constexpr (Kind::kHasLandmarks) text += landmarkLines(file, graph, idOf);
   for (const auto& edge : graph.edges) {
     text += fmt::format("{} {} {}{}", Kind::kEdge, idOf(static_cast<std::size_t>(edge.from)),
                         idOf(static_cast<std::size_t>(edge.to)), numbersOf(edge.motion));

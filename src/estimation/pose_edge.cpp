@@ -1,4 +1,5 @@
 #include <cmath>
+#include <utility>
 
 #include <Eigen/LU>
 
@@ -25,9 +26,22 @@ IsotropicWeights isotropic(const PlanarEdge& edge) {
   return {2 * inverseTrace(edge.information.topLeftCorner<2, 2>()), edge.information(2, 2)};
 }
 
+IsotropicWeights isotropic(const LandmarkEdge& edge) { return {2 * inverseTrace(edge.information), 0}; }
+
 IsotropicWeights isotropic(const SpatialEdge& edge) {
   return {3 * inverseTrace(edge.information.topLeftCorner<3, 3>()),
           1.5 * inverseTrace(Eigen::Matrix3d(edge.information.bottomRightCorner<3, 3>()))};
+}
+
+std::pair<int, int> PlanarGraphTraits::ends(const Graph& graph, std::size_t k) {
+  if (k < graph.edges.size()) return {graph.edges[k].from, graph.edges[k].to};
+  const LandmarkEdge& sighting = graph.sightings[k - graph.edges.size()];
+  return {sighting.pose, poses(graph) + sighting.landmark};
+}
+
+EdgeTerm<3> PlanarGraphTraits::termAt(const Graph& graph, std::size_t k, PoseGraphObjective objective) {
+  if (k < graph.edges.size()) return term(graph, graph.edges[k], objective);
+  return term(graph, graph.sightings[k - graph.edges.size()], objective);
 }
 
 EdgeTerm<3> PlanarGraphTraits::term(const Graph& graph, const PlanarEdge& edge,
@@ -67,11 +81,46 @@ EdgeTerm<3> PlanarGraphTraits::term(const Graph& graph, const PlanarEdge& edge,
   return term;
 }
 
+EdgeTerm<3> PlanarGraphTraits::term(const Graph& graph, const LandmarkEdge& edge,
+                                    PoseGraphObjective objective) {
+  const auto x = graph.poses.col(edge.pose);
+  const auto l = graph.landmarks.col(edge.landmark);
+  const double c = std::cos(x[2]), s = std::sin(x[2]);
+  Eigen::Matrix2d R_T, dR_T;
+  R_T << c, s, -s, c;
+  dR_T << -s, c, -c, -s;
+  const Eigen::Vector2d d = l - x.head<2>();
+  const double reach = l.cwiseAbs().sum() + x.head<2>().cwiseAbs().sum() + edge.position.cwiseAbs().sum();
+  EdgeTerm<3> term;
+  term.e << R_T * d - edge.position, 0;
+  term.scale << reach, reach, 0;
+  term.Ji.setZero();
+  term.Jj.setIdentity();  // its third number keeps the equations definite
+  term.Ji.topLeftCorner<2, 2>() = -R_T;
+  term.Ji.topRightCorner<2, 1>() = dR_T * d;
+  term.Jj.topLeftCorner<2, 2>() = R_T;
+  Eigen::Matrix2d information = edge.information;
+  if (objective == PoseGraphObjective::kSESync)
+    information = isotropic(edge).translation * Eigen::Matrix2d::Identity();
+  const double trace = information.trace();
+  term.information.setZero();
+  term.information.topLeftCorner<2, 2>() = information;
+  term.information(2, 2) = trace > 0 ? trace / 2 : 1;
+  return term;
+}
+
+void PlanarGraphTraits::set(Graph& graph, Unknowns unknowns) {
+  graph.poses = std::move(unknowns.poses);
+  graph.landmarks = std::move(unknowns.landmarks);
+}
+
 void PlanarGraphTraits::step(Graph& graph, const Eigen::VectorXd& delta) {
   for (Eigen::Index i = 1; i < graph.poses.cols(); ++i) {
     graph.poses.col(i) += delta.segment<3>(3 * (i - 1));
     graph.poses(2, i) = wrapAngle(graph.poses(2, i));
   }
+  for (Eigen::Index i = 0; i < graph.landmarks.cols(); ++i)
+    graph.landmarks.col(i) += delta.segment<2>(3 * (graph.poses.cols() + i - 1));
 }
 
 EdgeTerm<6> SpatialGraphTraits::term(const Graph& graph, const SpatialEdge& edge,

@@ -53,8 +53,8 @@ void requireOptions(const PoseGraphOptions& options) {
 template <class Traits>
 double cost(const typename Traits::Graph& graph, const PoseGraphOptions& options) {
   double sum = 0;
-  for (const auto& edge : graph.edges) {
-    const auto term = Traits::term(graph, edge, options.objective);
+  for (std::size_t k = 0; k < Traits::terms(graph); ++k) {
+    const auto term = Traits::termAt(graph, k, options.objective);
     sum += robust(term.e.dot(term.information * term.e), options).cost;
   }
   return sum;
@@ -62,8 +62,8 @@ double cost(const typename Traits::Graph& graph, const PoseGraphOptions& options
 
 constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();  // of a few operations
 
-// H delta = -g, of all poses but the first: the lower triangle of H by blocks. Where each block lies in the
-// values of H is found once, since edges do not change.
+// H delta = -g, of all nodes but the first pose: the lower triangle of H by blocks. Where each block lies in
+// the values of H is found once, since edges do not change.
 template <class Traits>
 class NormalEquations {
  public:
@@ -71,20 +71,22 @@ class NormalEquations {
   using Block = Eigen::Matrix<double, kSize, kSize>;
 
   explicit NormalEquations(const typename Traits::Graph& graph) {
-    const int blocks = Traits::poses(graph) - 1;
+    const int blocks = Traits::nodes(graph) - 1;
     std::vector<std::vector<int>> below(static_cast<std::size_t>(blocks));  // of each column of blocks, rows
     for (int i = 0; i < blocks; ++i) below[static_cast<std::size_t>(i)].push_back(i);
-    for (const auto& edge : graph.edges)
-      if (edge.from > 0 && edge.to > 0)
-        below[static_cast<std::size_t>(std::min(edge.from, edge.to) - 1)].push_back(
-            std::max(edge.from, edge.to) - 1);
+    for (std::size_t k = 0; k < Traits::terms(graph); ++k) {
+      const auto [from, to] = Traits::ends(graph, k);
+      if (from > 0 && to > 0)
+        below[static_cast<std::size_t>(std::min(from, to) - 1)].push_back(std::max(from, to) - 1);
+    }
     for (auto& rows : below) {
       std::sort(rows.begin(), rows.end());
       rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
     }
     layOut(below);
-    for (const auto& edge : graph.edges) {
-      const int row = std::max(edge.from, edge.to) - 1, column = std::min(edge.from, edge.to) - 1;
+    for (std::size_t k = 0; k < Traits::terms(graph); ++k) {
+      const auto [from, to] = Traits::ends(graph, k);
+      const int row = std::max(from, to) - 1, column = std::min(from, to) - 1;
       if (column < 0) {
         places_.push_back(0);
         continue;
@@ -99,19 +101,18 @@ class NormalEquations {
     std::fill_n(H_.valuePtr(), H_.nonZeros(), 0.);
     g_.setZero();
     rounding_ = 0;
-    for (std::size_t k = 0; k < graph.edges.size(); ++k) {
-      const auto& edge = graph.edges[k];
-      auto term = Traits::term(graph, edge, options.objective);
+    for (std::size_t k = 0; k < Traits::terms(graph); ++k) {
+      const auto [from, to] = Traits::ends(graph, k);
+      const auto term = Traits::termAt(graph, k, options.objective);
       const Eigen::Matrix<double, kSize, 1> weighed = term.information * term.e;
       const double weight = robust(term.e.dot(weighed), options).weight;
       rounding_ += kRounding * kRounding * term.scale.cwiseAbs2().dot(term.information.diagonal());
       const Block WJi = weight * term.information * term.Ji, WJj = weight * term.information * term.Jj;
-      if (edge.from > 0)
-        add(edge.from, 0, term.Ji.transpose() * WJi, term.Ji.transpose() * (weight * weighed));
-      if (edge.to > 0) add(edge.to, 0, term.Jj.transpose() * WJj, term.Jj.transpose() * (weight * weighed));
-      if (edge.from > 0 && edge.to > 0)
-        addBlock(std::min(edge.from, edge.to), places_[k],
-                 edge.from > edge.to ? Block(term.Ji.transpose() * WJj) : Block(term.Jj.transpose() * WJi));
+      if (from > 0) add(from, 0, term.Ji.transpose() * WJi, term.Ji.transpose() * (weight * weighed));
+      if (to > 0) add(to, 0, term.Jj.transpose() * WJj, term.Jj.transpose() * (weight * weighed));
+      if (from > 0 && to > 0)
+        addBlock(std::min(from, to), places_[k],
+                 from > to ? Block(term.Ji.transpose() * WJj) : Block(term.Jj.transpose() * WJi));
     }
   }
 
@@ -171,13 +172,13 @@ void descend(typename Traits::Graph& graph, const PoseGraphOptions& options, Pos
   NormalEquations<Traits> equations(graph);
   equations.assemble(graph, options);
   double damping = 0, growth = 10;  // damping relative to the largest entry of the diagonal
-  auto before = graph.poses;
+  auto before = Traits::unknowns(graph);
   while (result.iterations < options.maxIterations) {
     ++result.iterations;
     const double shift = damping * equations.largestDiagonal();
     const Eigen::VectorXd delta = equations.solve(shift);
     const bool isStep = delta.size() > 0 && delta.allFinite();
-    before = graph.poses;
+    before = Traits::unknowns(graph);
     if (isStep) Traits::step(graph, delta);
     const double lower = isStep ? cost<Traits>(graph, options) : result.cost;
     // What rounding makes of a cost at its minimum may be a hair more than before.
@@ -187,7 +188,7 @@ void descend(typename Traits::Graph& graph, const PoseGraphOptions& options, Pos
     if (isStep && gain >= 0)
       result.cost = lower;
     else
-      std::swap(graph.poses, before);
+      Traits::set(graph, std::move(before));
     if (isDone) {
       result.status = PoseGraphStatus::kConverged;
       return;
@@ -206,6 +207,21 @@ void descend(typename Traits::Graph& graph, const PoseGraphOptions& options, Pos
   }
 }
 
+// How it ended, in words.
+std::string endOf(const PoseGraphResult& result) {
+  const std::string count =
+      fmt::format("{} iteration{}", result.iterations, result.iterations == 1 ? "" : "s");
+  switch (result.status) {
+    case PoseGraphStatus::kConverged:
+      return "converged after " + count;
+    case PoseGraphStatus::kNoProgress:
+      return fmt::format("gave up after {}, for no step lowers the cost", count);
+    case PoseGraphStatus::kBudgetSpent:
+      return fmt::format("stopped after {}, the most allowed, before it converged", count);
+  }
+  return count;
+}
+
 template <class Traits>
 PoseGraphResult optimizeGraph(typename Traits::Graph& graph, const PoseGraphOptions& options) {
   internal::requireSound(graph);
@@ -213,24 +229,21 @@ PoseGraphResult optimizeGraph(typename Traits::Graph& graph, const PoseGraphOpti
   requireOptions(options);
   PoseGraphResult result;
   result.cost = result.initialCost = cost<Traits>(graph, options);
-  if (options.chordalStart && Traits::poses(graph) > 1) {
-    auto given = graph.poses;
+  if (options.chordalStart && Traits::nodes(graph) > 1) {
+    auto given = Traits::unknowns(graph);
     internal::setChordalPoses(graph);
     const double chordal = cost<Traits>(graph, options);
     if (chordal < result.cost)
       result.cost = chordal;
     else
-      graph.poses = std::move(given);
+      Traits::set(graph, std::move(given));
   }
-  if (Traits::poses(graph) > 1)
+  if (Traits::nodes(graph) > 1)
     descend<Traits>(graph, options, result);
   else
     result.status = PoseGraphStatus::kConverged;
-  const char* end = result.status == PoseGraphStatus::kConverged    ? "converged"
-                    : result.status == PoseGraphStatus::kNoProgress ? "no step lowers the cost"
-                                                                    : "the iterations are spent";
-  result.message = fmt::format("{} after {} iterations: cost {:.10g}, {:.10g} at the start", end,
-                               result.iterations, result.cost, result.initialCost);
+  result.message =
+      fmt::format("{}: cost {:.10g}, {:.10g} at the start", endOf(result), result.cost, result.initialCost);
   return result;
 }
 

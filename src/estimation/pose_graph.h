@@ -16,10 +16,19 @@ struct PlanarEdge {
   Eigen::Vector3d motion = Eigen::Vector3d::Zero();  ///< x, y, heading
   Eigen::Matrix3d information = Eigen::Matrix3d::Identity();
 };
-/// Poses of a planar robot, and what it measured between them. Slide 7:45.
+/// Where a landmark was seen from a pose, in its frame. The information belongs to the error
+/// R_i^T (l - t_i) - position.
+struct LandmarkEdge {
+  int pose = 0, landmark = 0;
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d information = Eigen::Matrix2d::Identity();
+};
+/// Poses of a planar robot, and what it measured between them (slide 7:45); landmarks, and where it saw them.
 struct PlanarPoseGraph {
   Eigen::Matrix3Xd poses{};  ///< x, y, heading; one pose per column
   std::vector<PlanarEdge> edges{};
+  Eigen::Matrix2Xd landmarks{};  ///< x, y; one landmark per column
+  std::vector<LandmarkEdge> sightings{};
 };
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
@@ -38,7 +47,7 @@ enum class PoseGraphObjective {
   kChi2,   ///< e^T information e, as g2o counts it
   kSESync  ///< kappa |R_j - R_i R_ij|^2 + tau |t_j - t_i - R_i t_ij|^2: Rosen et al., SE-Sync, 2019. kappa
            ///< and tau come from the information (planar: I_33 and 2 / tr(I_t^-1); spatial: 3 / (2
-           ///< tr(I_q^-1)) and 3 / tr(I_t^-1))
+           ///< tr(I_q^-1)) and 3 / tr(I_t^-1)). A landmark is a pose without rotation
 };
 
 /// How much a squared error s of an edge counts: s, or less the larger it is, so that wrong loop closures do
@@ -58,7 +67,7 @@ struct PoseGraphOptions {
   /// positions that fit those, where that costs less than the poses given: no local minimum traps it on usual
   /// maps.
   bool chordalStart = true;
-  int maxIterations = 100;
+  int maxIterations = 1000;
   double tolerance = 1e-12;  ///< done when a step lowers the cost by less, relative to it, or by rounding
 };
 
@@ -72,15 +81,15 @@ struct PoseGraphResult {
   std::string message{};
 };
 
-/// The cost at the poses of the graph. Throws Error for an edge that leads to a pose that is not there, or to
-/// itself, numbers that are not finite, and information that is not symmetric and positive semidefinite,
-/// naming the edge; and for options out of range.
+/// The cost at the poses of the graph. Throws Error for an edge that leads to a pose or landmark that is not
+/// there, or to itself, numbers that are not finite, and information that is not symmetric and positive
+/// semidefinite, naming the edge; and for options out of range.
 [[nodiscard]] double poseGraphCost(const PlanarPoseGraph& graph, const PoseGraphOptions& options = {});
 [[nodiscard]] double poseGraphCost(const SpatialPoseGraph& graph, const PoseGraphOptions& options = {});
 
-/// Moves the poses to where the cost is least; pose 0 stays. Levenberg and Marquardt's steps on the sparse
-/// normal equations (Lu and Milios 1997; Kuemmerle et al., g2o, 2011). Throws as poseGraphCost, and Error
-/// naming a pose that no edges join to pose 0.
+/// Moves the poses and landmarks to where the cost is least; pose 0 stays. Levenberg and Marquardt's steps on
+/// the sparse normal equations (Lu and Milios 1997; Kuemmerle et al., g2o, 2011). Throws as poseGraphCost,
+/// and Error naming a pose that no motions join to pose 0, or a landmark that no pose sees.
 PoseGraphResult optimize(PlanarPoseGraph& graph, const PoseGraphOptions& options = {});
 PoseGraphResult optimize(SpatialPoseGraph& graph, const PoseGraphOptions& options = {});
 
@@ -91,7 +100,7 @@ PoseGraphResult optimize(SpatialPoseGraph& graph, const PoseGraphOptions& option
 [[nodiscard]] double certifiedGap(const SpatialPoseGraph& graph);
 
 /// Poses from motions alone: each by the edge that reaches it first, breadth first from pose 0, in the order
-/// of the edges. Throws as optimize.
+/// of the edges; then landmarks, each where it was seen first. Throws as optimize.
 void setOdometryPoses(PlanarPoseGraph& graph);
 void setOdometryPoses(SpatialPoseGraph& graph);
 

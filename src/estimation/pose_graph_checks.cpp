@@ -56,6 +56,30 @@ void requireEdges(const Graph& graph) {
   }
 }
 
+void requireSightings(const PlanarPoseGraph& graph) {
+  const auto landmarks = static_cast<int>(graph.landmarks.cols());
+  const auto requirePlace = [](const std::string& name, const char* what, int place, int count) {
+    if (place >= 0 && place < count) return;
+    throw Error({.what = name,
+                 .found = fmt::format("{} {}", what, place),
+                 .wanted = count > 0 ? fmt::format("0 to {}", count - 1) : "none: there is none"});
+  };
+  for (std::size_t k = 0; k < graph.sightings.size(); ++k) {
+    const LandmarkEdge& edge = graph.sightings[k];
+    const std::string name =
+        fmt::format("sighting {} of landmark {} from pose {}", k, edge.landmark, edge.pose);
+    requirePlace(name, "pose", edge.pose, posesOf(graph));
+    requirePlace(name, "landmark", edge.landmark, landmarks);
+    if (!edge.position.allFinite())
+      throw Error({.what = name + ": position", .found = "numbers that are not finite"});
+    if (!isClearlyDefinite(edge.information))
+      requireCovariance(name + ": information", edge.information, edge.information.rows());
+  }
+  for (int i = 0; i < landmarks; ++i)
+    if (!graph.landmarks.col(i).allFinite())
+      throw Error({.what = fmt::format("landmark {}", i), .found = "numbers that are not finite"});
+}
+
 // Edges of each pose: the edge, and the pose at its other end.
 template <class Graph>
 std::vector<std::vector<std::pair<std::size_t, int>>> edgesByPose(const Graph& graph) {
@@ -120,6 +144,7 @@ void requireSound(const PlanarPoseGraph& graph) {
     if (!graph.poses.col(i).allFinite())
       throw Error({.what = fmt::format("pose {}", i), .found = "numbers that are not finite"});
   requireEdges(graph);
+  requireSightings(graph);
 }
 
 void requireSound(const SpatialPoseGraph& graph) {
@@ -132,7 +157,21 @@ void requireSound(const SpatialPoseGraph& graph) {
 std::optional<int> loosePose(const PlanarPoseGraph& graph) { return firstLoose(graph); }
 std::optional<int> loosePose(const SpatialPoseGraph& graph) { return firstLoose(graph); }
 
-void requireConnected(const PlanarPoseGraph& graph) { requireAllReached(graph); }
+std::optional<int> unseenLandmark(const PlanarPoseGraph& graph) {
+  std::vector<bool> isSeen(static_cast<std::size_t>(graph.landmarks.cols()), false);
+  for (const LandmarkEdge& edge : graph.sightings) isSeen[static_cast<std::size_t>(edge.landmark)] = true;
+  const auto unseen = std::find(isSeen.begin(), isSeen.end(), false);
+  if (unseen == isSeen.end()) return {};
+  return static_cast<int>(unseen - isSeen.begin());
+}
+
+void requireConnected(const PlanarPoseGraph& graph) {
+  requireAllReached(graph);
+  if (const auto unseen = unseenLandmark(graph))
+    throw Error({.what = fmt::format("pose graph: landmark {}", *unseen),
+                 .found = "no pose that sees it",
+                 .wanted = "one or more"});
+}
 void requireConnected(const SpatialPoseGraph& graph) { requireAllReached(graph); }
 
 }  // namespace internal
@@ -144,6 +183,10 @@ void setOdometryPoses(PlanarPoseGraph& graph) {
     const Pose motion = spatial(edge.motion), X = spatial(graph.poses.col(known));
     graph.poses.col(other) = planar(X * (known == edge.from ? motion : motion.inverse()));
   });
+  for (auto edge = graph.sightings.rbegin(); edge != graph.sightings.rend(); ++edge)  // so the first counts
+    graph.landmarks.col(edge->landmark) =
+        graph.poses.col(edge->pose).head<2>() +
+        internal::planarRotation(graph.poses(2, edge->pose)) * edge->position;
 }
 
 void setOdometryPoses(SpatialPoseGraph& graph) {

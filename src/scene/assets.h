@@ -22,6 +22,8 @@ class Assets {
 
   /// The folder of the scene, to which relative names refer.
   const std::filesystem::path& folder() const { return folder_; }
+  /// The folder that holds all files.
+  const std::filesystem::path& root() const { return root_; }
 
   /// Where `name` lies, without links: a path relative to folder(), or package://PACKAGE/PATH, which is
   /// looked up in folders called PACKAGE above and beside the scene, then in the root. Throws Error at

@@ -36,7 +36,7 @@ std::vector<fs::path> scenesIn(const fs::path& library) {
 // A path leads to what lies there, a bare name also to the scenes of the course.
 [[noreturn]] void failAtPath(const fs::path& scene) {
   throw Error({.what = fmt::format("there is no scene '{}'", scene.string()),
-               .wanted = "an .ors or .urdf file",
+               .wanted = "an .ors, .urdf or .xml file",
                .nearest = nearestNames(scene.filename().string(), namesBeside(scene))});
 }
 
@@ -56,11 +56,11 @@ fs::path findScene(const fs::path& scene, const fs::path& library) {
   if (!scene.empty() && obstacle != kNoSuchFile)
     throw Error({.what = fmt::format("cannot read the scene '{}'", scene.string()),
                  .found = obstacle,
-                 .wanted = "an .ors or .urdf file"});
+                 .wanted = "an .ors, .urdf or .xml file"});
   if (!isBare && !scene.empty()) failAtPath(scene);
   throw Error(
       {.what = fmt::format("there is no scene '{}'", scene.string()),
-       .wanted = fmt::format("an .ors or .urdf file, or one of the course: {}", fmt::join(names, ", ")),
+       .wanted = fmt::format("an .ors, .urdf or .xml file, or one of the course: {}", fmt::join(names, ", ")),
        .nearest = nearestNames(scene.filename().string(), asTyped)});
 }
 

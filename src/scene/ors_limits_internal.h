@@ -17,6 +17,7 @@ inline constexpr std::size_t kLongestWord = 256;
 inline constexpr int kMostDirectives = 256;  ///< Include, ChDir and Delete
 inline constexpr std::size_t kDeepestIncludes = 16;
 inline constexpr std::size_t kMostJoints = 1'000;
+inline constexpr std::size_t kMostRobots = 64;  ///< statements 'urdf'
 inline constexpr std::size_t kMostNotes = 1'000;
 
 }  // namespace rex::ors

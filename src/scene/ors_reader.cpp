@@ -1,16 +1,20 @@
 #include "scene/ors_reader.h"
 
+#include <map>
 #include <unordered_map>
 #include <unordered_set>
 
 #include <fmt/format.h>
 
+#include "base/lower_case.h"
 #include "geometry/inertia.h"
 #include "scene/ors_joint_internal.h"
 #include "scene/ors_limits_internal.h"
 #include "scene/ors_names_internal.h"
+#include "scene/ors_robot_internal.h"
 #include "scene/ors_shape_internal.h"
 #include "scene/scene_meshes.h"
+#include "scene/urdf_reader.h"
 
 namespace rex {
 namespace {
@@ -69,7 +73,9 @@ const std::vector<std::string>& bodyAttributes() {
 
 class Reader {
  public:
-  explicit Reader(SceneFile& file) : file_(file) {}
+  /// Without `assets` no file is read.
+  Reader(SceneFile& file, const Assets* assets, const ReadOptions& options)
+      : file_(file), assets_(assets), options_(options) {}
 
   void read(const ors::Graph& graph) {
     firstOfName_.reserve(graph.size());
@@ -88,16 +94,21 @@ class Reader {
         readJoint(node);
       } else if (role == "collisions") {
         readCollisions(node);
+      } else if (role == "urdf") {
+        readRobot(node);
       } else {
         fail(node.where, "unknown statement", fmt::format("'{}'", role),
-             "'body', 'shape', 'joint' or 'collisions'",
-             nearestNames(role,
-                          {"body", "shape", "joint", "collisions", "Include", "ChDir", "Delete", "Edit"}));
+             "'body', 'shape', 'joint', 'urdf' or 'collisions'",
+             nearestNames(role, {"body", "shape", "joint", "urdf", "collisions", "Include", "ChDir", "Delete",
+                                 "Edit"}));
       }
     }
+    if (robots_ > 0 && !hasRule_) file_.spec.collisionRule = CollisionRule::kAllButNeighbours;
     for (const Waiting& joint : waiting_) readAttributes(joint);
     for (const Waiting& joint : followers_) checkMimic(joint);
   }
+
+  bool hasRobots() const { return robots_ > 0; }
 
  private:
   static std::string nameOf(const Node& node) { return node.keys.size() > 1 ? node.keys.back().text : ""; }
@@ -263,12 +274,84 @@ class Reader {
       known.emplace_back(toString(rule));
       if (attributes.text("rule", "the name of a rule") != known.back()) continue;
       file_.spec.collisionRule = rule;
+      hasRule_ = true;
       return;
     }
     const std::string found = attributes.text("rule", "").value_or("");
     fail(attributes.where("rule"), "collisions: attribute 'rule'",
          found.empty() ? "nothing" : fmt::format("'{}'", found), fmt::format("{} or {}", known[0], known[1]),
          nearestNames(found, known));
+  }
+
+  // A robot of URDF, with a prefix to its names, on a body or in the world.
+  void readRobot(const Node& node) {
+    const Attributes attributes(node, called("urdf", nameOf(node)));
+    const std::string& owner = attributes.owner();
+    if (node.parents.size() > 1)
+      fail(node.parents[1].where, owner, fmt::format("{} parents", node.parents.size()), "one body, or none");
+    attributes.noteUnknown({"file", "prefix", "X", "pose"}, file_.notes);
+    attributes.noteWords({}, file_.notes);
+    if (++robots_ > ors::kMostRobots)
+      fail(node.where, "too many robots", "", fmt::format("at most {} statements 'urdf'", ors::kMostRobots));
+    ors::RobotPlace place;
+    place.prefix = attributes.text("prefix", "a word or \"text\"").value_or("");
+    place.X_PR = attributes.pose(attributes.has("pose") ? "pose" : "X").value_or(Pose{});
+    if (!node.parents.empty()) {
+      Pose unused;
+      place.parent = connect(node.parents[0], owner, "parent", unused);
+    }
+    const SceneSpec& robot = robotOf(attributes, node.where, place.folder);
+    if (!robot.bodies.empty()) bodyOfNode_.emplace(node.id, file_.spec.bodies.size());
+    add(ors::placedRobot(robot, place), node, owner);
+  }
+
+  // The scene in a file, which is read once.
+  const SceneSpec& robotOf(const Attributes& attributes, const Place& where, std::filesystem::path& folder) {
+    const std::string what = attributes.owner() + ": file";
+    const auto file = attributes.file("file");
+    if (!file) fail(where, attributes.owner() + ": attribute 'file' is missing", "", "file='ROBOT.urdf'");
+    const Place at = attributes.where("file");
+    if (endingOf(file->path) != ".urdf") fail(at, what, fmt::format("'{}'", file->path), "a .urdf file");
+    if (!assets_)
+      fail(at, what, "a scene that was given as text",
+           "no robots of other files: only scenes in files have them");
+    folder = assets_->folder();
+    const std::filesystem::path path = assets_->find(file->path, at, what);
+    const auto [known, isNew] = robotOfFile_.try_emplace(path.string());
+    if (isNew) {
+      SceneFile robot = readUrdf(path, {.assetRoot = assets_->root(),
+                                        .allowMissingMeshes = options_.allowMissingMeshes,
+                                        .strict = options_.strict});
+      for (Diagnostic& one : robot.notes)
+        if (file_.notes.size() < ors::kMostNotes) file_.notes.push_back(std::move(one));
+      known->second = std::move(robot.spec);
+    }
+    return known->second;
+  }
+
+  // Takes over a robot whose names must be new.
+  void add(SceneSpec robot, const Node& node, const std::string& owner) {
+    const auto failAtSecond = [&](const char* kind, const std::string& name, const SourceLocation& first) {
+      fail(node.where, fmt::format("{}: a second {} '{}'", owner, kind, name), "",
+           fmt::format("another prefix: the first stands at {}", toString(first)));
+    };
+    SceneSpec& spec = file_.spec;
+    for (BodySpec& body : robot.bodies) {
+      const auto [first, isNew] = firstOfName_.emplace(body.name, spec.bodies.size());
+      if (!isNew) failAtSecond("body", body.name, spec.bodies[first->second].where);
+      spec.bodies.push_back(std::move(body));
+    }
+    for (JointSpec& joint : robot.joints) {
+      const auto [first, isNew] = jointOfName_.emplace(joint.name, spec.joints.size());
+      if (!isNew) failAtSecond("joint", joint.name, spec.joints[first->second].where);
+      if (spec.joints.size() == ors::kMostJoints)
+        fail(node.where, "too many joints", "", fmt::format("at most {}", ors::kMostJoints));
+      spec.joints.push_back(std::move(joint));
+    }
+    const auto parent = node.parents.empty() ? std::nullopt : bodyOf(node.parents[0], owner, "parent");
+    std::vector<ShapeSpec>& shapes = parent ? spec.bodies[*parent].shapes : spec.worldShapes;
+    for (ShapeSpec& shape : robot.worldShapes) shapes.push_back(std::move(shape));
+    for (CollisionChoice& choice : robot.collisionChoices) spec.collisionChoices.push_back(std::move(choice));
   }
 
   // A joint whose attributes are not read yet: one may follow another that comes later.
@@ -324,6 +407,11 @@ class Reader {
   }
 
   SceneFile& file_;
+  const Assets* assets_;
+  const ReadOptions& options_;
+  std::size_t robots_ = 0;                        // statements 'urdf'
+  std::map<std::string, SceneSpec> robotOfFile_;  // by the files of these
+  bool hasRule_ = false;                          // of collisions
   std::vector<Waiting> waiting_, followers_;
   std::unordered_map<std::string, std::size_t> firstOfName_, jointOfName_;
   std::unordered_map<int, std::size_t> bodyOfNode_;
@@ -340,8 +428,9 @@ SceneFile read(std::string_view text, const std::string& name, const Assets* ass
     file.notes = std::move(document.notes);
     if (document.nodes.empty())
       file.notes.push_back({{name, 1, 1}, "no statement: the scene is empty", Severity::kWarning});
-    Reader(file).read(document.nodes);
-    if (document.isOneFile) file.text = text;
+    Reader reader(file, assets, options);
+    reader.read(document.nodes);
+    if (document.isOneFile && !reader.hasRobots()) file.text = text;
     if (assets) loadMeshes(file, *assets, options);
     return file;
   } catch (const Error&) {

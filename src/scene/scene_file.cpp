@@ -8,6 +8,7 @@
 
 #include "base/lower_case.h"
 #include "scene/files_internal.h"
+#include "scene/mjcf_reader.h"
 #include "scene/ors_reader.h"
 #include "scene/urdf_reader.h"
 
@@ -28,8 +29,8 @@ bool isXacro(const fs::path& file) { return endingOf(file) == ".xacro"; }
   throw Error({.what = "not a scene that rex reads",
                .where = {file.string()},
                .found = ending.empty() ? "no ending" : fmt::format("'{}'", ending),
-               .wanted = ".ors or .urdf",
-               .nearest = nearestNames(ending, {".ors", ".urdf"})});
+               .wanted = ".ors, .urdf or .xml (MuJoCo)",
+               .nearest = nearestNames(ending, {".ors", ".urdf", ".xml"})});
 }
 
 }  // namespace
@@ -37,11 +38,13 @@ bool isXacro(const fs::path& file) { return endingOf(file) == ".xacro"; }
 SceneFile readScene(const fs::path& file, const ReadOptions& options) {
   if (endingOf(file) == ".ors") return readOrs(file, options);
   if (endingOf(file) == ".urdf") return readUrdf(file, options);
+  if (endingOf(file) == ".xml") return readMjcf(file, options);
   refuseEnding(file);
 }
 
 SceneFile parseScene(std::string_view text, const std::string& name, const ReadOptions& options) {
   if (isXacro(name)) refuseEnding(name);
+  if (endingOf(name) == ".xml") return parseMjcf(text, name, options);
   return endingOf(name) == ".urdf" ? parseUrdf(text, name, options) : parseOrs(text, name, options);
 }
 
@@ -50,7 +53,7 @@ std::string readSceneText(const fs::path& file, std::size_t most) {
     throw Error({.what = "cannot read the scene file",
                  .where = {file.string()},
                  .found = obstacle,
-                 .wanted = "an .ors or .urdf file",
+                 .wanted = "an .ors, .urdf or .xml file",
                  .nearest = nearestNames(file.filename().string(), namesBeside(file))});
   }
   std::error_code problem;

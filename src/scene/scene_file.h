@@ -29,12 +29,12 @@ struct ReadOptions {
   std::filesystem::path srdf{};
 };
 
-/// Reads a scene with its meshes; the ending of the file, in any case, says how: .ors or .urdf. Throws Error:
-/// another ending, and as readOrs() or readUrdf().
+/// Reads a scene with its meshes; the ending of the file, in any case, says how: .ors, .urdf, or .xml for
+/// MuJoCo's MJCF. Throws Error: another ending, and as readOrs(), readUrdf() or readMjcf().
 [[nodiscard]] SceneFile readScene(const std::filesystem::path& file, const ReadOptions& options = {});
 
-/// The same for text at hand, which is .ors unless `name` ends in .urdf; of .xacro it throws Error. Reads no
-/// file, so shapes know their mesh by name only.
+/// The same for text at hand, which is .ors unless `name` ends in .urdf or .xml; of .xacro it throws Error.
+/// Reads no file, so shapes know their mesh by name only.
 [[nodiscard]] SceneFile parseScene(std::string_view text, const std::string& name,
                                    const ReadOptions& options = {});
 

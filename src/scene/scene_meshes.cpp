@@ -78,7 +78,8 @@ class Loader {
   void load(ShapeSpec& shape) {
     if (!usesMesh(shape.shape.type)) return;
     if (shape.shape.mesh.isEmpty()) readMeshOf(shape);
-    if (shape.contact && !shape.meshMissing) shape.shape.hull = hullOf(shape);
+    const bool needsHull = shape.contact && !shape.meshMissing && shape.shape.hull.isEmpty();
+    if (needsHull) shape.shape.hull = hullOf(shape);
   }
 
   void noteMissing() const { missing_.addNotes(notes_); }

@@ -169,13 +169,6 @@ Eigen::Matrix3d withoutNegativeMoments(const Tag& tag, const Eigen::Matrix3d& I,
   return nearestWithoutNegativeMoments(I);
 }
 
-// What dynamics can work with.
-Eigen::Matrix3d judgedMoments(const Tag& tag, const Eigen::Matrix3d& I, double mass) {
-  if (inertiaFault(I) == InertiaFault::kTriangle)
-    tag.warn(tag.where(), "no body has this inertia: one principal moment exceeds the sum of the others");
-  return withoutNegativeMoments(tag, I, mass);
-}
-
 void readInertial(const Tag& tag, BodySpec& body) {
   static const Known kKnown = {{}, {"origin", "mass", "inertia"}};
   static const Known kKnownOfMass = {{"value"}, {}};
@@ -204,6 +197,12 @@ void readInertial(const Tag& tag, BodySpec& body) {
 std::string thingOf(const Tag& link) { return fmt::format("link '{}'", link.nameIn("name")); }
 
 }  // namespace
+
+Eigen::Matrix3d judgedMoments(const Tag& tag, const Eigen::Matrix3d& I, double mass) {
+  if (inertiaFault(I) == InertiaFault::kTriangle)
+    tag.warn(tag.where(), "no body has this inertia: one principal moment exceeds the sum of the others");
+  return withoutNegativeMoments(tag, I, mass);
+}
 
 bool Materials::add(const std::string& name, const Eigen::Vector4d& color) {
   const bool isNew = colors.emplace(name, color).second;

@@ -13,6 +13,13 @@ namespace rex::urdf {
 /// Refuses elements and attributes that xacro must work on before it is `format`, "URDF" or "SRDF".
 void refuseXacro(const xml::Document& document, const std::string& format);
 
+/// Warns of blanks before the declaration, which xml::parse() skipped.
+void noteSkippedBlanks(Reading& reading);
+
+/// What dynamics can work with of an inertia about the centre of mass, kg m^2, that a tag gives to a body of
+/// that mass: negative principal moments become 0, with a warning or, if strict, an Error.
+[[nodiscard]] Eigen::Matrix3d judgedMoments(const Tag& tag, const Eigen::Matrix3d& I, double mass);
+
 /// The colours of materials by their name. A name belongs to the first material that gives it a colour, at
 /// the top of the robot before those in links.
 struct Materials {

@@ -48,12 +48,6 @@ Tag robotTag(Reading& reading) {
   return robot;
 }
 
-void noteSkippedBlanks(Reading& reading) {
-  if (const std::uint32_t at = reading.document.declarationAt; at > 0)
-    reading.notes.warn(reading.document.where(at),
-                       "not well-formed XML: blanks before the declaration; they are skipped");
-}
-
 // A root called "world" is the world itself.
 void becomeWorld(SceneSpec& spec, std::size_t root, Notes& notes) {
   BodySpec& world = spec.bodies[root];
@@ -120,6 +114,12 @@ void readChoices(const std::filesystem::path& robot, const std::filesystem::path
 }
 
 }  // namespace
+
+void urdf::noteSkippedBlanks(Reading& reading) {
+  if (const std::uint32_t at = reading.document.declarationAt; at > 0)
+    reading.notes.warn(reading.document.where(at),
+                       "not well-formed XML: blanks before the declaration; they are skipped");
+}
 
 SceneFile parseUrdf(std::string_view text, const std::string& name, const ReadOptions& options) {
   const xml::Document document = xml::parse(text, name, !options.strict);

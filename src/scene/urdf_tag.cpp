@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "geometry/rotation.h"
 #include "scene/urdf_tag_internal.h"
@@ -69,8 +70,33 @@ void Notes::warn(const SourceLocation& where, const std::string& message) {
 }
 
 void Notes::ignore(const SourceLocation& where, const std::string& kind) {
-  Ignored& ignored = ignored_[kind];
-  if (ignored.count++ == 0) ignored.first = where;
+  remark(where, kind + " is ignored");
+}
+
+void Notes::remark(const SourceLocation& where, const std::string& message) {
+  Remark& remark = remarks_[message];
+  if (remark.count++ == 0) remark.first = where;
+}
+
+void Notes::leaveOut(const SourceLocation& where, const std::string& tag, const std::string& attribute) {
+  LeftOut& leftOut = leftOut_[tag];
+  if (leftOut.counts.empty()) leftOut.first = where;
+  ++leftOut.counts[attribute];
+}
+
+void Notes::add(Notes other) {
+  for (Diagnostic& one : other.found_) warn(one.where, one.message);
+  unlisted_ += other.unlisted_;
+  for (const auto& [message, more] : other.remarks_) {
+    Remark& remark = remarks_[message];
+    if (remark.count == 0) remark.first = more.first;
+    remark.count += more.count;
+  }
+  for (const auto& [tag, more] : other.leftOut_) {
+    LeftOut& leftOut = leftOut_[tag];
+    if (leftOut.counts.empty()) leftOut.first = more.first;
+    for (const auto& [attribute, count] : more.counts) leftOut.counts[attribute] += count;
+  }
 }
 
 Diagnostics Notes::take() {
@@ -78,9 +104,16 @@ Diagnostics Notes::take() {
     found_.push_back({{found_.back().where.file},
                       fmt::format("{} more warnings are not listed", unlisted_),
                       Severity::kWarning});
-  for (const auto& [kind, ignored] : ignored_) {
-    const std::string times = ignored.count > 1 ? fmt::format(" ({} times)", ignored.count) : "";
-    found_.push_back({ignored.first, fmt::format("{} is ignored{}", kind, times)});
+  for (const auto& [message, remark] : remarks_) {
+    const std::string times = remark.count > 1 ? fmt::format(" ({} times)", remark.count) : "";
+    found_.push_back({remark.first, message + times});
+  }
+  for (const auto& [tag, leftOut] : leftOut_) {
+    std::vector<std::string> attributes;
+    for (const auto& [name, count] : leftOut.counts)
+      attributes.push_back(count > 1 ? fmt::format("{} ({} times)", name, count) : name);
+    found_.push_back({leftOut.first,
+                      fmt::format("{}: attributes that are not read: {}", tag, fmt::join(attributes, ", "))});
   }
   return std::move(found_);
 }
@@ -116,6 +149,10 @@ void Tag::expect(const Known& known) const {
   };
   for (const xml::Attribute& attribute : element_->attributes) {
     if (belongsToXml(attribute.name) || contains(known.attributes, attribute.name)) continue;
+    if (contains(known.ignoredAttributes, attribute.name)) {
+      notes.leaveOut(document.where(attribute.at), fmt::format("<{}>", element_->name), attribute.name);
+      continue;
+    }
     noteUnknown(attribute.at, fmt::format("attribute '{}'", attribute.name), attribute.name,
                 known.attributes);
   }
@@ -160,15 +197,21 @@ const std::string& Tag::nameIn(const char* attribute) const {
 }
 
 Eigen::VectorXd Tag::numbers(const char* attribute, int count) const {
+  return numbers(attribute, count, count);
+}
+
+Eigen::VectorXd Tag::numbers(const char* attribute, int least, int most) const {
   const xml::Attribute& given = need(attribute);
-  const std::string wanted = count == 1 ? "a number" : fmt::format("{} numbers", count);
-  const Numbers numbers = parseNumbers(given.value, static_cast<std::size_t>(count));
+  const std::string wanted = least < most ? fmt::format("{} to {} numbers", least, most)
+                             : most == 1  ? "a number"
+                                          : fmt::format("{} numbers", most);
+  const Numbers numbers = parseNumbers(given.value, static_cast<std::size_t>(most));
   if (numbers.faultAt) {
     fail(reading_->document.where(given, *numbers.faultAt), fmt::format("attribute '{}'", attribute),
          xml::quoted(numbers.fault), numbers.isNumber ? "finite numbers that fit into 64 bits" : wanted);
   }
-  if (numbers.values.size() != static_cast<std::size_t>(count))
-    failAt(attribute, xml::quoted(given.value), wanted);
+  const auto count = static_cast<int>(numbers.values.size());
+  if (count < least || count > most) failAt(attribute, xml::quoted(given.value), wanted);
   return Eigen::Map<const Eigen::VectorXd>(numbers.values.data(), count);
 }
 

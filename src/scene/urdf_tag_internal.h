@@ -19,18 +19,29 @@ class Notes {
   void warn(const SourceLocation& where, const std::string& message);
   /// A tag of a kind that we know and do not use.
   void ignore(const SourceLocation& where, const std::string& kind);
+  /// A finding that may come up often: listed once, with its first place and how often.
+  void remark(const SourceLocation& where, const std::string& message);
+  /// An attribute of a tag, neither of which is a mistake; all those of a tag share a note.
+  void leaveOut(const SourceLocation& where, const std::string& tag, const std::string& attribute);
+  /// Takes over what was noticed in a file that belongs to this one.
+  void add(Notes other);
   bool isFull() const { return found_.size() >= kMost; }
   [[nodiscard]] Diagnostics take();
 
  private:
   static constexpr std::size_t kMost = 1000;
-  struct Ignored {
+  struct Remark {
     SourceLocation first;
     int count = 0;
   };
+  struct LeftOut {
+    SourceLocation first;
+    std::map<std::string, int> counts;  // of each attribute
+  };
   Diagnostics found_;
   std::size_t unlisted_ = 0;
-  std::map<std::string, Ignored> ignored_;
+  std::map<std::string, Remark> remarks_;
+  std::map<std::string, LeftOut> leftOut_;
 };
 
 /// A file that is being read, and what was noticed in it.
@@ -46,7 +57,7 @@ struct Reading {
 
 /// What a tag may hold; everything else is worth a warning.
 struct Known {
-  std::vector<std::string> attributes, children, ignoredChildren{};
+  std::vector<std::string> attributes, children, ignoredChildren{}, ignoredAttributes{};
 };
 
 /// An element with typed access to what it holds. Throws Error with the place for what is wrong with it.
@@ -59,6 +70,9 @@ class Tag {
   Tag of(const std::string& thing) const { return Tag(*reading_, *element_, thing); }
 
   std::string_view name() const { return element_->name; }
+  const xml::Element& element() const { return *element_; }
+  /// What messages about its children begin with.
+  const std::string& thing() const { return owner_; }
   SourceLocation where() const { return reading_->document.where(element_->at); }
   SourceLocation where(const char* attribute) const;
 
@@ -81,6 +95,8 @@ class Tag {
   }
   double positive(const char* attribute) const;
   Eigen::VectorXd numbers(const char* attribute, int count) const;
+  /// At least and at most so many.
+  Eigen::VectorXd numbers(const char* attribute, int least, int most) const;
 
   /// The child of that name, of which there may be only one.
   std::optional<Tag> child(const char* name) const;
@@ -106,6 +122,7 @@ class Tag {
   void forgiveAt(const char* attribute, std::string found, std::string wanted,
                  const std::string& instead) const;
   void ignore(const std::string& kind) const { reading_->notes.ignore(where(), kind); }
+  void remark(const std::string& message) const { reading_->notes.remark(where(), message); }
   [[noreturn]] void fail(const SourceLocation& where, const std::string& what, std::string found,
                          std::string wanted, std::vector<std::string> nearest = {}) const;
   [[noreturn]] void failAt(const char* attribute, std::string found, std::string wanted) const;

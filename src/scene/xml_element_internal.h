@@ -47,8 +47,10 @@ class Document {
 /// Parses a whole file. Throws Error with file, line and column: not well-formed; a document type (and so
 /// entities of one's own); an encoding other than UTF-8, US-ASCII and ISO-8859-1; more than 8 MiB, elements
 /// nested deeper than 100, 200 000 elements, 64 attributes of one element, or 256 bytes in a name. With
-/// `skipBlanks`, blanks and marks of UTF-8 may stand before the declaration, where XML allows none.
-[[nodiscard]] Document parse(std::string_view text, const std::string& fileName, bool skipBlanks = false);
+/// `skipBlanks`, blanks and marks of UTF-8 may stand before the declaration, where XML allows none. `root`
+/// is the tag that messages ask for in a file that is not XML at all.
+[[nodiscard]] Document parse(std::string_view text, const std::string& fileName, bool skipBlanks = false,
+                             const std::string& root = "<robot ...>");
 
 /// `text` in quotes as a message shows it: at most 60 bytes, control characters as \xNN.
 [[nodiscard]] std::string quoted(std::string_view text);

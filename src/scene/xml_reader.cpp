@@ -55,8 +55,12 @@ void findPlaces(std::string_view text, std::size_t at, std::vector<Attribute>& a
 // Builds the tree out of what expat reports, and stops it at the first breach of a limit.
 class Builder {
  public:
-  Builder(std::string_view text, const std::string& file, std::size_t skipped)
-      : text_(text), skipped_(skipped), document_(text, file), parser_(XML_ParserCreate(nullptr)) {
+  Builder(std::string_view text, const std::string& file, std::size_t skipped, const std::string& root)
+      : text_(text),
+        skipped_(skipped),
+        root_(root),
+        document_(text, file),
+        parser_(XML_ParserCreate(nullptr)) {
     document_.declarationAt = static_cast<std::uint32_t>(skipped);
     XML_SetUserData(parser_.get(), this);
     XML_SetElementHandler(
@@ -118,7 +122,7 @@ class Builder {
     if (first != std::string_view::npos && text_[first] != '<') {
       fail(document_.where(static_cast<std::uint32_t>(first)), "not XML at all",
            quoted(text_.substr(first, std::min<std::size_t>(20, text_.find_first_of("\r\n", first) - first))),
-           "<robot ...>");
+           root_);
     }
     const XML_Error code = XML_GetErrorCode(parser_.get());
     if (code == XML_ERROR_INVALID_TOKEN) {
@@ -207,6 +211,7 @@ class Builder {
 
   std::string_view text_;
   std::size_t skipped_;  // bytes before what expat sees
+  const std::string& root_;
   Document document_;
   std::unique_ptr<std::remove_pointer_t<XML_Parser>, Free> parser_;
   std::vector<Element*> open_;
@@ -236,13 +241,13 @@ SourceLocation Document::where(const Attribute& attribute, std::size_t index) co
   return where(static_cast<std::uint32_t>(at));
 }
 
-Document parse(std::string_view text, const std::string& fileName, bool skipBlanks) {
+Document parse(std::string_view text, const std::string& fileName, bool skipBlanks, const std::string& root) {
   if (text.size() > kLargestFile) {
     fail({fileName}, "scene file too large", fmt::format("{} bytes", text.size()),
          fmt::format("at most {} MiB", kLargestFile >> 20));
   }
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-  return Builder(text, fileName, skipBlanks ? bytesBeforeDeclaration(text) : 0).build();
+  return Builder(text, fileName, skipBlanks ? bytesBeforeDeclaration(text) : 0, root).build();
 }
 
 std::string quoted(std::string_view text) {

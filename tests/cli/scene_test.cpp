@@ -485,6 +485,12 @@ TEST_F(SceneCommand, SaysWhatIsUsedWrongly) {
   for (const std::string file : {"arm.ors", "ARM.ORS"})
     for (const char* verb : {"fk", "check"})
       expectRefusal({file, verb, "--free-base"}, "--free-base: found an .ors file, wanted a .urdf file");
+  std::ofstream(in("m.xml")) << "<mujoco><worldbody><body name='a'/></worldbody></mujoco>";
+  EXPECT_EQ(scene({"m.xml", "check"}).exitCode, 0);
+  expectRefusal({"m.xml", "fk", "--free-base"},
+                "--free-base: found an .xml file, wanted a .urdf file; in MJCF, a <freejoint/> says it");
+  expectRefusal({"m.xml", "fk", "--srdf", "m.srdf"},
+                "--srdf: found an .xml file, wanted a .urdf file; in MJCF, <contact> says it");
   expectRefusal({"arm.ors", "contacts", "--margin", "abc"},
                 "contacts: --margin: found 'abc', wanted a number");
   expectRefusal({"arm.ors", "--json=abc"}, "rex scene FILE: --json: found 'abc', wanted no value");

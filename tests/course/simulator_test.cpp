@@ -41,9 +41,25 @@ TEST_F(SimulatorTest, StartsInThePostureOfTheFile) {
 TEST_F(SimulatorTest, FindsScenesByPathToo) {
   EXPECT_EQ(Simulator(sourcePath("data/robots/pegArm.ors").string()).getJointDimension(), 3);
   EXPECT_EQ(Simulator("pegArm").getJointDimension(), 3);
-  EXPECT_REX_ERROR(Simulator("mann.ors"), "there is no scene 'mann.ors': wanted an .ors or .urdf file");
+  EXPECT_REX_ERROR(Simulator("mann.ors"), "there is no scene 'mann.ors': wanted an .ors, .urdf or .xml file");
   EXPECT_REX_ERROR(Simulator("mann.ors"), "(did you mean 'man.ors'");
   EXPECT_REX_ERROR(Simulator("no/such.ors"), "there is no scene 'no/such.ors'");
+}
+
+// Its description stands for itself, also where the model has parts in other files.
+TEST_F(SimulatorTest, LoadsModelsOfMujoco) {
+  const std::string arm =
+      "<body name='arm'><joint name='j' axis='0 1 0'/><geom type='capsule' size='.1' fromto='0 0 0 1 0 "
+      "0'/></body>";
+  std::ofstream(in("arm.xml")) << "<mujoco>" << arm << "</mujoco>";
+  std::ofstream(in("whole.xml")) << "<mujoco><worldbody>" << arm << "</worldbody></mujoco>";
+  std::ofstream(in("parts.xml")) << "<mujoco><worldbody><include file='arm.xml'/></worldbody></mujoco>";
+  for (const char* name : {"whole.xml", "parts.xml"}) {
+    const Simulator S(in(name)), again(S.description());
+    EXPECT_EQ(S.getJointDimension(), 1);
+    EXPECT_EQ(again.getJointDimension(), 1);
+    EXPECT_DOUBLE_EQ(again.model().mass(), S.model().mass());
+  }
 }
 
 TEST_F(SimulatorTest, TakesTheChoicesOfAnSrdfAlong) {

@@ -44,6 +44,76 @@ TEST(G2oFile, PosesFollowFromMotions) {
   EXPECT_NEAR((graph.poses[2].p - Eigen::Vector3d(1 - .96, .28, 0)).norm(), 0, 1e-12);
 }
 
+constexpr const char* kMarked =
+    "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0\nVERTEX_XY 4 1 2\nVERTEX_XY 2 3 0\n"
+    "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2_XY 0 4 1 2 5 .5 6\nEDGE_SE2_XY 1 2 2 0 1 0 1\n"
+    "EDGE_SE2_XY 1 4 0 2.5 1 0 1\n";
+
+TEST(G2oFile, ReadsLandmarks) {
+  const G2oFile file = parseG2o(kMarked);
+  const auto& graph = std::get<PlanarPoseGraph>(file.graph);
+  EXPECT_THAT(file.landmarkIds, testing::ElementsAre(2, 4));
+  EXPECT_EQ(graph.landmarks.col(1), Eigen::Vector2d(1, 2));
+  ASSERT_EQ(graph.sightings.size(), 3u);
+  EXPECT_EQ(graph.sightings[0].pose, 0);
+  EXPECT_EQ(graph.sightings[0].landmark, 1);
+  EXPECT_EQ(graph.sightings[0].position, Eigen::Vector2d(1, 2));
+  EXPECT_EQ(graph.sightings[0].information, (Eigen::Matrix2d() << 5, .5, .5, 6).finished());
+  EXPECT_TRUE(file.notes.empty());
+}
+
+TEST(G2oFile, WritesLandmarks) {
+  G2oFile file = parseG2o(kMarked);
+  const std::string text = writeG2o(file);
+  EXPECT_EQ(writeG2o(parseG2o(text)), text);
+  EXPECT_THAT(text, HasSubstr("VERTEX_XY 4 1 2\n"));
+  EXPECT_THAT(text, HasSubstr("EDGE_SE2_XY 1 4 0 2.5 1 0 1\n"));
+  file.landmarkIds.clear();
+  EXPECT_THAT(parseG2o(writeG2o(file)).landmarkIds, testing::ElementsAre(2, 3)) << "after those of the poses";
+}
+
+TEST(G2oFile, LandmarksFollowFromSightings) {
+  const G2oFile file = parseG2o(
+      "EDGE_SE2 0 1 1 0 1.5707963267948966 1 0 0 1 0 1\nEDGE_SE2_XY 1 7 2 0 1 0 1\n"
+      "EDGE_SE2_XY 0 7 9 9 1 0 1\n");
+  EXPECT_FALSE(file.hasPoses);
+  EXPECT_LT((std::get<PlanarPoseGraph>(file.graph).landmarks.col(0) - Eigen::Vector2d(1, 2)).norm(), 1e-15)
+      << "where it was seen first";
+}
+
+TEST(G2oFile, LeavesOutOtherTags) {
+  const G2oFile file =
+      parseG2o(std::string(kPlanar) + "EDGE_SE22 1 2\nPARAMS_CAMERA 0\nEDGE_SE22 nonsense\n", "map.g2o");
+  EXPECT_EQ(std::get<PlanarPoseGraph>(file.graph).edges.size(), 1u);
+  ASSERT_EQ(file.notes.size(), 2u);
+  EXPECT_EQ(toString(file.notes[0]),
+            "map.g2o:7:1: warning: EDGE_SE22: not a tag that rex reads (did you mean 'EDGE_SE2'?); it is "
+            "left out (2 "
+            "lines, this is the first)");
+  EXPECT_EQ(toString(file.notes[1]),
+            "map.g2o:8:1: warning: PARAMS_CAMERA: not a tag that rex reads; it is left out");
+}
+
+// Against the definition: no symmetric matrix nearby without negative eigenvalues is nearer.
+TEST(G2oFile, RepairsInformation) {
+  const G2oFile file = parseG2o(
+      "EDGE_SE2 0 1 1 0 0 10 0 0 20 0 -30\nEDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2 1 2 1 0 0 1 2 0 1 0 1\n",
+      "map.g2o");
+  ASSERT_EQ(file.notes.size(), 1u);
+  EXPECT_EQ(toString(file.notes[0]),
+            "map.g2o:1: warning: EDGE_SE2: information: found the eigenvalue -30, wanted no negative "
+            "eigenvalue; it is "
+            "replaced by the nearest positive semidefinite matrix, whose negative eigenvalues are 0 (2 "
+            "lines, this is "
+            "the first)");
+  auto graph = std::get<PlanarPoseGraph>(file.graph);
+  EXPECT_LT((graph.edges[0].information - Eigen::Matrix3d(Eigen::Vector3d(10, 20, 0).asDiagonal())).norm(),
+            1e-12);
+  const Eigen::Matrix3d wanted = (Eigen::Matrix3d() << 1.5, 1.5, 0, 1.5, 1.5, 0, 0, 0, 1).finished();
+  EXPECT_LT((graph.edges[2].information - wanted).norm(), 1e-12);
+  EXPECT_EQ(optimize(graph).status, PoseGraphStatus::kConverged);
+}
+
 TEST(G2oFile, WritesWhatItReads) {
   const std::string planar = writeG2o(parseG2o(kPlanar));
   EXPECT_EQ(writeG2o(parseG2o(planar)), planar);
@@ -92,9 +162,6 @@ std::string with(const char* line) { return std::string(kPlanar) + line; }
 
 TEST(G2oFile, SaysWhereAndWhatIsWrong) {
   const auto read = [](const std::string& text) { return parseG2o(text, "map.g2o"); };
-  EXPECT_REX_ERROR(read(with("EDGE_SE3 1 2\n")),
-                   "map.g2o:7:1: pose graph: found 'EDGE_SE3', wanted VERTEX_SE2");
-  EXPECT_REX_ERROR(read(with("EDGE_SE22 1 2\n")), "did you mean 'EDGE_SE2'");
   EXPECT_REX_ERROR(read(with("VERTEX_SE2 9 0 0\n")), "map.g2o:7:16: VERTEX_SE2: found 3 numbers, wanted 4");
   EXPECT_REX_ERROR(read(with("VERTEX_SE2 9 0 0 0 0\n")),
                    "map.g2o:7:20: VERTEX_SE2: found 5 numbers, wanted 4");
@@ -109,9 +176,6 @@ TEST(G2oFile, SaysWhereAndWhatIsWrong) {
                    "map.g2o:7:12: EDGE_SE2: found pose 8, which the file does not have");
   EXPECT_REX_ERROR(read(with("EDGE_SE2 3 3 1 2 .5 10 0 0 20 0 30\n")),
                    "map.g2o:7:12: EDGE_SE2: found pose 3 again, wanted two different poses");
-  EXPECT_REX_ERROR(
-      read(with("EDGE_SE2 3 7 1 2 .5 10 0 0 20 0 -30\n")),
-      "map.g2o:7: EDGE_SE2: information: found the eigenvalue -30, wanted no negative eigenvalue");
   EXPECT_REX_ERROR(read(with("FIX 8\n")), "map.g2o:7:5: FIX: found pose 8, which the file does not have");
   EXPECT_REX_ERROR(
       read(with("VERTEX_SE3:QUAT 9 0 0 0 0 0 0 1\n")),
@@ -131,6 +195,26 @@ TEST(G2oFile, SaysWhereAndWhatIsWrong) {
                    "map.g2o:7:5: FIX: found pose 7 besides pose 3, wanted one pose that is fixed");
   EXPECT_REX_ERROR(read(with("FIX 3 7\n")), "map.g2o:7:7: FIX: found pose 7 besides pose 3");
   EXPECT_REX_ERROR(read(with("FIX\n")), "FIX: found 0 numbers, wanted 1");
+  EXPECT_REX_ERROR(
+      read(with("VERTEX_XY 9 0 0\n")),
+      "map.g2o:7:11: pose graph: found landmark 9, which no pose sees, wanted one or more EDGE_SE2_XY");
+  EXPECT_REX_ERROR(read(with("VERTEX_XY 9 0 0\nVERTEX_XY 9 0 0\n")),
+                   "map.g2o:8:11: VERTEX_XY: found a second landmark 9");
+  EXPECT_REX_ERROR(
+      read(with("VERTEX_XY 7 0 0\n")),
+      "map.g2o:7:11: pose graph: found landmark 7, which is a pose as well, wanted an id of its own");
+  EXPECT_REX_ERROR(read(with("VERTEX_XY 9 0 0 0\n")), "map.g2o:7:17: VERTEX_XY: found 4 numbers, wanted 3");
+  EXPECT_REX_ERROR(read(with("EDGE_SE2_XY 3 9 0 0 1 0 1\n")),
+                   "map.g2o:7:15: EDGE_SE2_XY: found landmark 9, which the file does not have");
+  EXPECT_REX_ERROR(read(with("VERTEX_XY 9 0 0\nEDGE_SE2_XY 4 9 0 0 1 0 1\n")),
+                   "map.g2o:8:13: EDGE_SE2_XY: found pose 4, which the file does not have");
+  EXPECT_REX_ERROR(read(with("EDGE_SE2_XY 3 9 0 0 1 0\n")), "EDGE_SE2_XY: found 6 numbers, wanted 7");
+  EXPECT_REX_ERROR(read(std::string(kSpatial) + "VERTEX_XY 9 0 0\n"),
+                   "map.g2o:3:1: pose graph: found VERTEX_XY among VERTEX_SE3:QUAT");
+  G2oFile marked = parseG2o(kMarked);
+  marked.landmarkIds.pop_back();
+  EXPECT_REX_ERROR(writeG2o(marked),
+                   "pose graph: ids of landmarks: found 1, wanted 2, one for each landmark, or none");
   G2oFile file = parseG2o(kPlanar);
   file.ids.pop_back();
   EXPECT_REX_ERROR(writeG2o(file), "pose graph: ids: found 1, wanted 2, one for each pose, or none");

@@ -37,22 +37,25 @@ TEST_F(FindScene, TakesFilesAndNamesOfTheCourse) {
 }
 
 TEST_F(FindScene, ListsTheScenesOfTheCourseForNames) {
-  EXPECT_REX_ERROR(find("mann"),
-                   "there is no scene 'mann': wanted an .ors or .urdf file, or one of the course: dog.urdf, "
-                   "man.ors, hall.ors (did you mean 'man'?)");
-  EXPECT_REX_ERROR(find(""), "there is no scene '': wanted an .ors or .urdf file, or one of the course");
+  EXPECT_REX_ERROR(
+      find("mann"),
+      "there is no scene 'mann': wanted an .ors, .urdf or .xml file, or one of the course: dog.urdf, "
+      "man.ors, hall.ors (did you mean 'man'?)");
+  EXPECT_REX_ERROR(find(""),
+                   "there is no scene '': wanted an .ors, .urdf or .xml file, or one of the course");
 }
 
 TEST_F(FindScene, LooksBesidePaths) {
-  EXPECT_REX_ERROR(find(here("onw.urdf")), "there is no scene '" + here("onw.urdf") +
-                                               "': wanted an .ors or .urdf file (did you mean 'own.urdf'?)");
+  EXPECT_REX_ERROR(find(here("onw.urdf")),
+                   "there is no scene '" + here("onw.urdf") +
+                       "': wanted an .ors, .urdf or .xml file (did you mean 'own.urdf'?)");
 }
 
 TEST_F(FindScene, SaysWhatIsNoFile) {
   ASSERT_EQ(::mkfifo(here("pipe.ors").c_str(), 0600), 0);
-  EXPECT_REX_ERROR(find(here(".")),
-                   "cannot read the scene '" + here(".") + "': found a folder, wanted an .ors or .urdf file");
-  EXPECT_REX_ERROR(find(here("pipe.ors")), "': found a pipe or device, wanted an .ors or .urdf file");
+  EXPECT_REX_ERROR(find(here(".")), "cannot read the scene '" + here(".") +
+                                        "': found a folder, wanted an .ors, .urdf or .xml file");
+  EXPECT_REX_ERROR(find(here("pipe.ors")), "': found a pipe or device, wanted an .ors, .urdf or .xml file");
 }
 
 }  // namespace rex::find_scene_test

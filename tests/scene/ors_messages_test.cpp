@@ -121,7 +121,7 @@ constexpr Row kErrors[] = {
      "{attributes}"},
     // statements
     {"@bodi@ a {}", "body",
-     "unknown statement: found 'bodi', wanted 'body', 'shape', 'joint' or 'collisions' (did you mean "
+     "unknown statement: found 'bodi', wanted 'body', 'shape', 'joint', 'urdf' or 'collisions' (did you mean "
      "'body'?)"},
     {"body a@ @^body b {}", "\n",
      "body 'b': a statement within its words: found 'body', wanted {...} or the end of the line before it"},

@@ -273,9 +273,10 @@ TEST(OrsReader, SurvivesDamagedScenes) {
 }
 
 TEST(OrsReader, SaysWhichFileIsMissing) {
-  EXPECT_REX_ERROR(readOrs(sourcePath("data/robots/mann.ors")),
-                   "mann.ors: cannot read the scene file: found no such file, wanted an .ors or .urdf file "
-                   "(did you mean 'man.ors'?)");
+  EXPECT_REX_ERROR(
+      readOrs(sourcePath("data/robots/mann.ors")),
+      "mann.ors: cannot read the scene file: found no such file, wanted an .ors, .urdf or .xml file "
+      "(did you mean 'man.ors'?)");
   EXPECT_REX_ERROR(readOrs("no/such/folder/x.ors"), "no/such/folder/x.ors: cannot read the scene file");
 }
 

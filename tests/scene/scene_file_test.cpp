@@ -45,14 +45,19 @@ TEST_F(SceneFileTest, IsReadByItsEnding) {
   for (const char* name : {"a.urdf", "a.URDF"})
     EXPECT_EQ(readScene(file(name, "<robot name='r'><link name='a'/></robot>")).spec.bodies.at(0).name, "a");
   EXPECT_EQ(parseScene("<robot name='r'><link name='a'/></robot>", "a.Urdf").spec.bodies.at(0).name, "a");
+  const std::string model = "<mujoco><worldbody><body name='a'/></worldbody></mujoco>";
+  for (const char* name : {"a.xml", "a.XML"})
+    EXPECT_EQ(readScene(file(name, model)).spec.bodies.at(0).name, "a");
+  EXPECT_EQ(parseScene(model, "a.xml").spec.bodies.at(0).name, "a");
   EXPECT_EQ(parseScene("body a {}", "text").spec.bodies.at(0).name, "a");
 }
 
 TEST_F(SceneFileTest, NeedsAnEndingThatIsKnown) {
-  EXPECT_REX_ERROR(
-      readScene("a.urd"),
-      "a.urd: not a scene that rex reads: found '.urd', wanted .ors or .urdf (did you mean '.urdf'");
-  EXPECT_REX_ERROR(readScene("a"), "a: not a scene that rex reads: found no ending, wanted .ors or .urdf");
+  EXPECT_REX_ERROR(readScene("a.urd"),
+                   "a.urd: not a scene that rex reads: found '.urd', wanted .ors, .urdf or .xml (MuJoCo) "
+                   "(did you mean '.urdf'");
+  EXPECT_REX_ERROR(readScene("a"),
+                   "a: not a scene that rex reads: found no ending, wanted .ors, .urdf or .xml");
   const std::string xacro =
       "a.urdf.xacro: this is xacro, not yet URDF: wanted plain URDF: run 'xacro FILE > robot.urdf' and read "
       "that";
@@ -64,12 +69,12 @@ TEST_F(SceneFileTest, IsAFileThatCanBeRead) {
   const std::string pipe = (folder_.path() / "pipe.ors").string(), secret = file("secret.ors", "body a {}");
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   const auto message = [](const std::string& path, const std::string& found) {
-    return path + ": cannot read the scene file: found " + found + ", wanted an .ors or .urdf file";
+    return path + ": cannot read the scene file: found " + found + ", wanted an .ors, .urdf or .xml file";
   };
   EXPECT_REX_ERROR(readScene(pipe), message(pipe, "a pipe or device"));
   EXPECT_REX_ERROR(readSceneText(folder_.path()), message(folder_.path().string(), "a folder"));
   EXPECT_REX_ERROR(readSceneText(folder_.path() / "secert.ors"),
-                   "found no such file, wanted an .ors or .urdf file (did you mean 'secret.ors'?)");
+                   "found no such file, wanted an .ors, .urdf or .xml file (did you mean 'secret.ors'?)");
   fs::permissions(folder_.path(), fs::perms::all);
   fs::permissions(secret, fs::perms::none);
   const AsNobody nobody;

@@ -27,7 +27,7 @@ struct SlamOptions {
   std::string start = "chordal";
   std::string kernel = "none";
   double kernelSize = 1;
-  int iterations = 100;
+  int iterations = PoseGraphOptions{}.maxIterations;
   bool json = false;
   std::filesystem::path out{};   ///< a .g2o file; empty: none
   std::filesystem::path plot{};  ///< a .png or .svg file; empty: none
@@ -61,6 +61,12 @@ Eigen::Matrix2Xd positionsOf(const SpatialPoseGraph& graph) {
   return positions;
 }
 
+// What a figure and a line of text show beside the poses.
+Eigen::Matrix2Xd landmarksOf(const PlanarPoseGraph& graph) { return graph.landmarks; }
+Eigen::Matrix2Xd landmarksOf(const SpatialPoseGraph&) { return Eigen::Matrix2Xd(2, 0); }
+std::size_t sightingsOf(const PlanarPoseGraph& graph) { return graph.sightings.size(); }
+std::size_t sightingsOf(const SpatialPoseGraph&) { return 0; }
+
 Series lineThrough(const Eigen::Matrix2Xd& positions) {
   Series line;
   for (const auto& position : positions.colwise()) {
@@ -70,7 +76,8 @@ Series lineThrough(const Eigen::Matrix2Xd& positions) {
   return line;
 }
 
-void writePlot(const SlamOptions& options, const Eigen::Matrix2Xd& before, const Eigen::Matrix2Xd& after) {
+void writePlot(const SlamOptions& options, const Eigen::Matrix2Xd& before, const Eigen::Matrix2Xd& after,
+               const Eigen::Matrix2Xd& landmarks) {
   Figure figure{.title = fmt::format("{}: before and after", options.file.filename().string()),
                 .xLabel = "x [m]",
                 .yLabel = "y [m]",
@@ -80,6 +87,11 @@ void writePlot(const SlamOptions& options, const Eigen::Matrix2Xd& before, const
   figure.series[0].label = "before";
   figure.series[0].dashed = true;
   figure.series[1].label = "after";
+  if (landmarks.cols() > 0) {
+    Series& points = figure.series.emplace_back(lineThrough(landmarks));
+    points.label = "landmarks";
+    points.style = SeriesStyle::kPoints;
+  }
   figure.width = 900;
   figure.height = 700;
   writeFigure(figure, options.plot);
@@ -98,9 +110,21 @@ const char* nameOf(PoseGraphStatus status) {
   return "";
 }
 
+// "400 poses, 438 edges"; with landmarks "400 poses, 12 landmarks, 438 edges, 90 sightings".
 template <class Graph>
+std::string sizeOf(const Graph& graph, std::size_t poses) {
+  const auto counted = [](std::size_t count, const char* thing) {
+    return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+  };
+  const auto landmarks = static_cast<std::size_t>(landmarksOf(graph).cols());
+  const std::string edges = counted(graph.edges.size(), "edge");
+  if (landmarks == 0) return fmt::format("{}, {}", counted(poses, "pose"), edges);
+  return fmt::format("{}, {}, {}, {}", counted(poses, "pose"), counted(landmarks, "landmark"), edges,
+                     counted(sightingsOf(graph), "sighting"));
+}
 
 // Makes the map of a pose graph fit its measurements. kBelow if it does not converge.
+template <class Graph>
 ExitCode slam(const SlamOptions& options, G2oFile& file, Graph& graph) {
   const PoseGraphOptions how = optionsOf(options);
   if (options.start == "odometry") asWrongUse([&] { return setOdometryPoses(graph), 0; });
@@ -111,16 +135,18 @@ ExitCode slam(const SlamOptions& options, G2oFile& file, Graph& graph) {
   if (options.json) {
     say(dump(Json{{"poses", file.ids.size()},
                   {"edges", graph.edges.size()},
+                  {"landmarks", landmarksOf(graph).cols()},
+                  {"sightings", sightingsOf(graph)},
                   {"initial_cost", result.initialCost},
                   {"cost", result.cost},
                   {"iterations", result.iterations},
                   {"seconds", seconds},
                   {"status", nameOf(result.status)}}));
   } else {
-    say(fmt::format("{} poses, {} edges; {}", file.ids.size(), graph.edges.size(), result.message));
+    say(fmt::format("{}; {}", sizeOf(graph, file.ids.size()), result.message));
     say(fmt::format("{:.3f} s of processor time", seconds));
   }
-  if (!options.plot.empty()) writePlot(options, before, positionsOf(graph));
+  if (!options.plot.empty()) writePlot(options, before, positionsOf(graph), landmarksOf(graph));
   if (!options.out.empty()) {
     writeTextFile(options.out, writeG2o(file));
     if (!options.json) say(fmt::format("wrote {}", options.out.string()));
@@ -148,7 +174,8 @@ void addSlam(CLI::App* command, Action& action) {
   command->footer(
       "Examples:\n  scripts/rex slam data/graphs/streets.g2o --plot streets.png\n"
       "  scripts/rex slam data/graphs/streets.g2o -o better.g2o --json\n\n"
-      "The file is one of g2o. Costs are sums of e^T information e over its edges, without a\n"
+      "The file is one of g2o: poses, landmarks (VERTEX_XY) and edges. Costs are sums of e^T information e "
+      "over its edges, without a\n"
       "factor 1/2; --objective sesync takes the distances of rotation matrices instead.\n"
       "Exit code 1: it did not converge.");
   command->add_option("file", options->file, "pose graph (.g2o)")->type_name("FILE")->required();
@@ -161,7 +188,7 @@ void addSlam(CLI::App* command, Action& action) {
       ->type_name("NAME");
   command->add_option("--kernel-size", options->kernelSize, "from how many deviations on (default: 1)")
       ->type_name("NUMBER");
-  command->add_option("--iterations", options->iterations, "at most (default: 100)")->type_name("COUNT");
+  command->add_option("--iterations", options->iterations, "at most (default: 1000)")->type_name("COUNT");
   command->add_option("--plot", options->plot, "draw the poses before and after")->type_name("FILE.png");
   command->add_option("-o,--out", options->out, "write the graph with its new poses")->type_name("FILE.g2o");
   command->add_flag("--json", options->json, "print JSON");

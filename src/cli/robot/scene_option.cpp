@@ -57,14 +57,19 @@ SceneFile read(const fs::path& file, const ReadOptions& reading) {
 }  // namespace
 
 void requireMeaning(const fs::path& file, const ReadOptions& reading) {
-  if (reading.freeBase && endingOf(file) == ".ors")
+  const bool isOrs = endingOf(file) == ".ors", isMjcf = endingOf(file) == ".xml";
+  if (!isOrs && !isMjcf) return;
+  const std::string found = isOrs ? "an .ors file" : "an .xml file";
+  if (reading.freeBase)
     throw UsageError({.what = "--free-base",
-                      .found = "an .ors file",
-                      .wanted = "a .urdf file; in .ors, a joint of type free says it"});
-  if (!reading.srdf.empty() && endingOf(file) == ".ors")
+                      .found = found,
+                      .wanted = isOrs ? "a .urdf file; in .ors, a joint of type free says it"
+                                      : "a .urdf file; in MJCF, a <freejoint/> says it"});
+  if (!reading.srdf.empty())
     throw UsageError({.what = "--srdf",
-                      .found = "an .ors file",
-                      .wanted = "a .urdf file; in .ors, statements 'collisions' say it"});
+                      .found = found,
+                      .wanted = isOrs ? "a .urdf file; in .ors, statements 'collisions' say it"
+                                      : "a .urdf file; in MJCF, <contact> says it"});
 }
 
 fs::path fileOf(const Project& project, const SceneOption& scene) {

@@ -16,7 +16,7 @@ struct SceneOption {
   std::string shapes{};  ///< visible, contact or all: which of them are drawn; empty: visible
 };
 
-/// Throws UsageError for a free base or an SRDF of an .ors file, which would have no effect.
+/// Throws UsageError for a free base or an SRDF of an .ors or MJCF file, which would have no effect.
 void requireMeaning(const std::filesystem::path& file, const ReadOptions& reading);
 
 /// The file that a user means. Throws UsageError as findScene() throws Error.

@@ -54,7 +54,21 @@ TEST_F(SlamCommand, SaysWhatItDidAndWhenItDidNot) {
   EXPECT_THAT(full.output, HasSubstr("400 poses, 438 edges; converged after"));
   const ProcessResult spent = rex({"slam", example(), "--iterations", "1", "--start", "file"});
   EXPECT_EQ(spent.exitCode, 1);
-  EXPECT_THAT(spent.output, HasSubstr("the iterations are spent after 1 iterations"));
+  EXPECT_THAT(spent.output, HasSubstr("stopped after 1 iteration, the most allowed, before it converged"));
+}
+
+TEST_F(SlamCommand, PlacesLandmarks) {
+  const std::string file = write(
+      "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2_XY 0 5 1 1 1 0 1\nEDGE_SE2_XY 1 5 0 1.2 1 0 1\nVERTEX_X 3\n");
+  const std::string plot = in("map.svg").string();
+  const ProcessResult result = rex({"slam", file, "--plot", plot});
+  EXPECT_EQ(result.exitCode, 0) << result.error;
+  EXPECT_THAT(result.output, HasSubstr("2 poses, 1 landmark, 1 edge, 2 sightings; converged after"));
+  EXPECT_THAT(flat(result.error), HasSubstr("map.g2o:4:1: warning: VERTEX_X: not a tag that rex reads"));
+  EXPECT_GT(std::filesystem::file_size(plot), 1000u);
+  const nlohmann::json json = nlohmann::json::parse(rex({"slam", file, "--json"}).output);
+  EXPECT_EQ(json["landmarks"], 1);
+  EXPECT_EQ(json["sightings"], 2);
 }
 
 TEST_F(SlamCommand, HasExamplesThatRun) {

@@ -280,7 +280,8 @@ TEST_F(RenderCommand, FindsScenesByName) {
   EXPECT_EQ(rex({"render", "pegArm", "-o", "a.glb"}).exitCode, 0);
   const ProcessResult near = rex({"render", "mann.ors", "-o", "a.png"});
   EXPECT_EQ(near.exitCode, 64);
-  EXPECT_THAT(flat(near.error), HasSubstr("rex: there is no scene 'mann.ors': wanted an .ors or .urdf file"));
+  EXPECT_THAT(flat(near.error),
+              HasSubstr("rex: there is no scene 'mann.ors': wanted an .ors, .urdf or .xml file"));
   EXPECT_THAT(flat(near.error), HasSubstr("(did you mean 'man.ors'"));
   EXPECT_THAT(flat(rex({"render", "mann", "-o", "a.png"}).error), HasSubstr("(did you mean 'man'"));
   EXPECT_EQ(rex({"render", "no/man.ors", "-o", "a.png"}).exitCode, 64);

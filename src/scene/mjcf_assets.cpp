@@ -1,0 +1,96 @@
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "scene/mjcf_parts_internal.h"
+
+namespace rex::mjcf {
+namespace {
+
+namespace fs = std::filesystem;
+
+const Known& knownOfAsset() {
+  static const Known kKnown = {{}, {"include", "mesh", "material"}, {"texture", "hfield", "skin", "model"}};
+  return kKnown;
+}
+
+template <class Thing>
+void add(const Tag& tag, const std::string& name, const char* attribute, Thing thing,
+         std::unordered_map<std::string, Thing>& things) {
+  if (!things.emplace(name, std::move(thing)).second)
+    tag.fail(tag.where(attribute), fmt::format("a second {} of this name", tag.name()), xml::quoted(name),
+             "a name of its own");
+}
+
+void readMesh(const Styled& styled, const Compiler& compiler, MjcfAssets& assets) {
+  const Tag& tag = styled.own();
+  MeshAsset mesh;
+  mesh.where = tag.where("file");
+  if (tag.has("file")) {
+    const std::string& file = tag.nameIn("file");
+    const fs::path path = compiler.stripsPaths ? fs::path(file).filename() : fs::path(file);
+    mesh.file = (fs::path(compiler.meshFolder) / path).generic_string();
+  }
+  if (const Tag& giver = styled.giver("scale"); giver.has("scale")) {
+    mesh.scale = giver.numbers("scale", 3);
+    if ((mesh.scale.array() == 0).any())
+      giver.failAt("scale", xml::quoted(giver.text("scale")), "3 numbers that are not 0");
+  }
+  // Without a name it is called like its file.
+  const bool isNamed = tag.has("name") || !tag.has("file");
+  const std::string name = isNamed ? tag.nameIn("name") : fs::path(tag.text("file")).stem().string();
+  add(tag, name, isNamed ? "name" : "file", std::move(mesh), assets.meshes);
+}
+
+void readMaterial(const Styled& styled, MjcfAssets& assets) {
+  const Tag& giver = styled.giver("rgba");
+  const Eigen::Vector4d color = giver.has("rgba") ? colorIn(giver) : Eigen::Vector4d::Ones();
+  add(styled.own(), styled.own().nameIn("name"), "name", color, assets.colors);
+}
+
+}  // namespace
+
+const Known& knownOfMesh() {
+  static const Known kKnown = {{"name", "class", "file", "scale"},
+                               {},
+                               {"plugin"},
+                               {"content_type", "vertex", "normal", "texcoord", "face", "refpos", "refquat",
+                                "smoothnormal", "inertia", "maxhullvert", "builtin", "params", "material"}};
+  return kKnown;
+}
+
+const Known& knownOfMaterial() {
+  static const Known kKnown = {{"name", "class", "rgba"},
+                               {},
+                               {"layer"},
+                               {"texture", "texrepeat", "texuniform", "emission", "specular", "shininess",
+                                "reflectance", "metallic", "roughness"}};
+  return kKnown;
+}
+
+Eigen::Vector4d colorIn(const Tag& tag) {
+  const Eigen::Vector4d color = tag.numbers("rgba", 4);
+  if (color.minCoeff() < 0 || color.maxCoeff() > 1)
+    tag.forgiveAt("rgba", xml::quoted(tag.text("rgba")), "4 numbers from 0 to 1",
+                  "the nearest such numbers are taken");
+  return color.cwiseMax(0).cwiseMin(1);
+}
+
+void readAssets(const Tag& section, Files& files, const Defaults& defaults, const Compiler& compiler,
+                MjcfAssets& assets) {
+  for (const Tag& tag : files.children(section, knownOfAsset())) {
+    const bool isMesh = tag.name() == "mesh";
+    if (!isMesh && tag.name() != "material") continue;
+    tag.expect(isMesh ? knownOfMesh() : knownOfMaterial());
+    const Styled styled(tag, defaults.named(tag, "class", defaults.main()),
+                        isMesh ? Kind::kMesh : Kind::kMaterial);
+    if (isMesh) {
+      readMesh(styled, compiler, assets);
+    } else {
+      readMaterial(styled, assets);
+    }
+  }
+}
+
+}  // namespace rex::mjcf

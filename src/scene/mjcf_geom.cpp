@@ -1,0 +1,219 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "scene/mjcf_parts_internal.h"
+
+namespace rex::mjcf {
+namespace {
+
+const std::vector<std::string> kGeomTypes = {"sphere", "capsule", "cylinder", "box", "ellipsoid",
+                                             "mesh",   "plane",   "hfield",   "sdf"};
+enum GeomType { kSphere, kCapsule, kCylinder, kBox, kEllipsoid, kMesh, kPlane, kHeightField, kSdf };
+
+constexpr double kThickness = 1, kEndless = 50;  // of planes: they become boxes, metres
+
+struct Sizes {
+  int count;
+  const char* wanted;
+};
+constexpr Sizes kSizes[] = {{1, "a radius > 0"},
+                            {2, "a radius and half a length > 0"},
+                            {2, "a radius and half a length > 0"},
+                            {3, "3 half edges > 0"},
+                            {3, "3 half axes > 0"}};
+
+Eigen::VectorXd sizeOf(const Styled& styled, GeomType type, bool hasEnds) {
+  const Tag& giver = styled.giver("size");
+  const auto [whole, wanted] = kSizes[type];
+  const int count = hasEnds ? 1 : whole;
+  if (!giver.has("size")) styled.own().fail(styled.own().where(), "attribute 'size' is missing", "", wanted);
+  const Eigen::VectorXd given = giver.numbers("size", 1, 3);
+  if (given.size() < count || !(given.head(count).minCoeff() > 0))
+    giver.failAt("size", xml::quoted(giver.text("size")), hasEnds ? "a radius > 0" : wanted);
+  Eigen::VectorXd size = Eigen::VectorXd::Zero(3);
+  size.head(count) = given.head(count);
+  return size;
+}
+
+// From one end to the other: the pose in the middle, and half the way along z.
+struct Span {
+  Pose X;
+  double half;
+};
+
+Span spanOf(const Styled& styled) {
+  const Tag& tag = styled.giver("fromto");
+  const Eigen::VectorXd ends = tag.numbers("fromto", 6);
+  const Eigen::Vector3d way = ends.head<3>() - ends.tail<3>();
+  const double length = way.stableNorm();
+  if (!(length > 1e-10 && length < 1e100))
+    tag.failAt("fromto", xml::quoted(tag.text("fromto")), "two points that differ");
+  if (styled.own().has("fromto") && styled.own().has("pos"))
+    tag.fail(tag.where("pos"), "attribute 'pos'", "'fromto' as well", "one of them");
+  return {{rotationFromZ(way / length), (ends.head<3>() + ends.tail<3>()) / 2}, length / 2};
+}
+
+std::uint32_t bits(const Styled& styled, const char* attribute) {
+  const Tag& giver = styled.giver(attribute);
+  if (!giver.has(attribute)) return 1;
+  const double number = giver.number(attribute);
+  constexpr double kMost = 4294967295, kLeast = -2147483648;
+  if (number != std::floor(number) || number < kLeast || number > kMost)
+    giver.failAt(attribute, xml::quoted(giver.text(attribute)), "a whole number of 32 bits");
+  return static_cast<std::uint32_t>(static_cast<std::int64_t>(number));
+}
+
+// A colour of its own counts more than that of its material, unless it is what geoms have anyway.
+Eigen::Vector4d geomColor(const Styled& styled, const MjcfAssets& assets) {
+  const Eigen::Vector4d usual(.5, .5, .5, 1);
+  const Tag& giver = styled.giver("rgba");
+  const Eigen::Vector4d own = giver.has("rgba") ? colorIn(giver) : usual;
+  const Tag& named = styled.giver("material");
+  if (own != usual || !named.has("material")) return own;
+  const std::string& name = named.text("material");
+  if (const auto found = assets.colors.find(name); found != assets.colors.end()) return found->second;
+  styled.own().remark(fmt::format("unknown material {}: the geom keeps its own colour", xml::quoted(name)));
+  return own;
+}
+
+Shape shapeOf(GeomType type, const Eigen::Vector3d& size) {
+  switch (type) {
+    case kSphere:
+      return {.type = ShapeType::kSphere, .extent = Eigen::Vector3d::Zero(), .radius = size[0]};
+    case kCapsule:
+      return {.type = ShapeType::kCapsule, .extent = {0, 0, 2 * size[1]}, .radius = size[0]};
+    case kCylinder:
+      return {.type = ShapeType::kCylinder, .extent = {0, 0, 2 * size[1]}, .radius = size[0]};
+    default:
+      return {.type = ShapeType::kBox, .extent = 2 * size};
+  }
+}
+
+// A box whose upper side is the plane. The ground is drawn without it.
+void readPlane(const Styled& styled, bool isOnWorld, ShapeSpec& shape) {
+  const Tag& giver = styled.giver("size");
+  Eigen::Vector2d half = Eigen::Vector2d::Zero();
+  if (giver.has("size")) {
+    const Eigen::VectorXd size = giver.numbers("size", 1, 3);
+    half.head(std::min<Eigen::Index>(2, size.size())) = size.head(std::min<Eigen::Index>(2, size.size()));
+    if (half.minCoeff() < 0) giver.failAt("size", xml::quoted(giver.text("size")), "half edges >= 0");
+  }
+  for (double& edge : half)
+    if (edge == 0) edge = kEndless;
+  shape.shape = {.type = ShapeType::kBox, .extent = {2 * half[0], 2 * half[1], kThickness}};
+  shape.X_BS = shape.X_BS * translation(0, 0, -kThickness / 2);
+  const bool isGround = isOnWorld && shape.X_BS.R(2, 2) > 1 - 1e-9;
+  if (isGround) shape.visible = false;
+  styled.own().remark(fmt::format(
+      "a plane becomes a box {:g} m thick, as wide as its size says or {:g} m; the ground is not drawn",
+      kThickness, 2 * kEndless));
+}
+
+// The shape of a mesh; false if the file does not hold one that rex reads.
+bool readMesh(const Styled& styled, const MjcfAssets& assets, ShapeSpec& shape) {
+  const Tag& giver = styled.giver("mesh");
+  const std::string& name = giver.text("mesh");
+  const auto found = assets.meshes.find(name);
+  if (found == assets.meshes.end()) {
+    std::vector<std::string> known;
+    for (const auto& [other, unused] : assets.meshes) known.push_back(other);
+    std::sort(known.begin(), known.end());
+    giver.fail(giver.where("mesh"), "unknown mesh", xml::quoted(name), "a <mesh> of the <asset>",
+               nearestNames(name, known));
+  }
+  if (found->second.file.empty()) return false;
+  shape.shape.type = ShapeType::kMesh;
+  shape.meshFile = found->second.file;
+  shape.meshScale = found->second.scale;
+  shape.where = found->second.where;
+  return true;
+}
+
+// Where and how large the geom is.
+struct Extent {
+  Pose X_BS;
+  Eigen::Vector3d size;
+};
+Extent extentOf(const Styled& styled, GeomType type, const Compiler& compiler) {
+  const bool hasEnds = type <= kEllipsoid && type != kSphere && styled.has("fromto");
+  if (!hasEnds) {
+    const Eigen::Vector3d size = type <= kEllipsoid ? sizeOf(styled, type, false) : Eigen::Vector3d::Zero();
+    return {poseOf(styled, compiler), size};
+  }
+  const Span span = spanOf(styled);
+  const double radius = sizeOf(styled, type, true)[0];
+  const bool isRound = type == kCapsule || type == kCylinder;
+  return {span.X,
+          isRound ? Eigen::Vector3d(radius, span.half, 0) : Eigen::Vector3d(radius, radius, span.half)};
+}
+
+std::optional<Solid> solidOf(const Styled& styled, GeomType type, const Extent& extent,
+                             const Compiler& compiler) {
+  constexpr Solid::Kind kKinds[] = {Solid::Kind::kSphere, Solid::Kind::kCapsule,   Solid::Kind::kCylinder,
+                                    Solid::Kind::kBox,    Solid::Kind::kEllipsoid, Solid::Kind::kMesh};
+  const double group = styled.number("group", 0);
+  if (type > kMesh || group < compiler.leastGroup || group > compiler.mostGroup) return {};
+  Solid solid;
+  solid.kind = kKinds[type];
+  solid.size = extent.size;
+  solid.X_BS = extent.X_BS;
+  solid.where = styled.own().where();
+  if (styled.has("mass")) solid.mass = styled.giver("mass").notNegative("mass");
+  if (styled.has("density")) solid.density = styled.giver("density").notNegative("density");
+  const bool weighs = solid.mass ? *solid.mass > 0 : solid.density > 0;
+  return weighs ? std::optional(solid) : std::nullopt;
+}
+
+}  // namespace
+
+const Known& knownOfGeom() {
+  static const Known kKnown = {
+      withPose({"name", "class", "type", "size", "fromto", "mass", "density", "group", "contype",
+                "conaffinity", "rgba", "material", "mesh"}),
+      {},
+      {"plugin"},
+      {"condim", "priority", "friction", "solmix", "solref", "solimp", "margin", "gap", "fitscale", "hfield",
+       "fluidshape", "fluidcoef", "user", "shellinertia"}};
+  return kKnown;
+}
+
+Geom readGeom(const Styled& styled, bool isOnWorld, const Compiler& compiler, const MjcfAssets& assets) {
+  const Tag& tag = styled.own();
+  const Tag& typed = styled.giver("type");
+  const auto type = typed.has("type") ? static_cast<GeomType>(choice(typed, "type", kGeomTypes)) : kSphere;
+  Geom geom{.contype = bits(styled, "contype"), .conaffinity = bits(styled, "conaffinity")};
+  if (type != kMesh && type < kPlane && styled.has("mesh")) {
+    tag.remark(fmt::format("a <geom> of type '{}' that is to fit a mesh is ignored, with its mass",
+                           kGeomTypes[type]));
+    return geom;
+  }
+  if (type > kPlane) {
+    tag.ignore(fmt::format("a <geom> of type '{}'", kGeomTypes[type]));
+    return geom;
+  }
+  const Extent extent = extentOf(styled, type, compiler);
+  geom.solid = solidOf(styled, type, extent, compiler);
+  if (type == kEllipsoid) {
+    tag.remark("a <geom> of type 'ellipsoid' is neither drawn nor touched; its mass counts");
+    return geom;
+  }
+  ShapeSpec shape{.name = tag.has("name") ? tag.nameIn("name") : "", .X_BS = extent.X_BS, .shape = {}};
+  shape.where = tag.where();
+  shape.color = geomColor(styled, assets);
+  shape.contact = geom.contype != 0 || geom.conaffinity != 0;
+  constexpr double kFirstHiddenGroup = 3;  // as in MuJoCo's viewer
+  shape.visible = styled.number("group", 0) < kFirstHiddenGroup && shape.color[3] > 0;
+  if (type == kMesh && !readMesh(styled, assets, shape)) {
+    tag.remark("a <geom> whose mesh has no file is ignored, with its mass");
+    geom.solid.reset();
+    return geom;
+  }
+  if (type != kMesh) shape.shape = shapeOf(type, extent.size);
+  if (type == kPlane) readPlane(styled, isOnWorld, shape);
+  geom.shape = std::move(shape);
+  return geom;
+}
+
+}  // namespace rex::mjcf

@@ -1,0 +1,147 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "scene/mjcf_files_internal.h"
+#include "scene/mjcf_style_internal.h"
+#include "scene/scene_file.h"
+#include "scene/urdf_parts_internal.h"
+
+// The steps of reading a MuJoCo model. All throw Error with the place.
+namespace rex::mjcf {
+
+/// What <compiler> says of the whole model.
+struct Compiler {
+  enum class Inertia { kFromGeoms, kGiven, kEither };
+  bool degrees = true;     ///< angles in the file
+  bool autolimits = true;  ///< a range that is given counts unless `limited` forbids it
+  Inertia inertia = Inertia::kEither;
+  int leastGroup = 0, mostGroup = 5;  ///< of the geoms that weigh something
+  std::string eulerOrder = "xyz";     ///< small letters: axes that turn along, capitals: fixed ones
+  std::string meshFolder{};
+  bool stripsPaths = false;               ///< of meshes, only the name counts
+  double leastMass = 0, leastMoment = 0;  ///< of each body, kg and kg m^2; moments are principal ones
+  std::optional<double> totalMass{};      ///< to which all masses are scaled
+  bool balancesMoments = false;           ///< makes impossible inertias spherical
+
+  double angle(double given) const;
+};
+void readCompiler(const Tag& tag, Compiler& compiler);
+
+/// The pose by `pos` and one of `quat`, `axisangle`, `euler`, `xyaxes` and `zaxis`.
+[[nodiscard]] Pose poseOf(const Styled& tag, const Compiler& compiler);
+/// The smallest turn that takes z to a direction; of the opposite one, about x.
+[[nodiscard]] Eigen::Matrix3d rotationFromZ(const Eigen::Vector3d& direction);
+/// The attributes that poseOf() reads, and others of the tag.
+[[nodiscard]] std::vector<std::string> withPose(std::vector<std::string> others);
+
+/// The place of a word among those that an attribute may have.
+[[nodiscard]] std::size_t choice(const Tag& tag, const char* attribute,
+                                 const std::vector<std::string>& words);
+/// "true" or "false".
+[[nodiscard]] bool flag(const Tag& tag, const char* attribute);
+/// Whether a range counts: `limited` says so, or without a word its presence.
+[[nodiscard]] bool isLimited(const Styled& tag, const char* limited, const char* range,
+                             const Compiler& compiler);
+
+/// The meshes and colours that geoms name.
+struct MeshAsset {
+  std::string file;
+  Eigen::Vector3d scale = Eigen::Vector3d::Ones();
+  SourceLocation where{};
+};
+struct MjcfAssets {
+  std::unordered_map<std::string, MeshAsset> meshes;
+  std::unordered_map<std::string, Eigen::Vector4d> colors;
+};
+[[nodiscard]] const Known& knownOfMesh();
+[[nodiscard]] const Known& knownOfMaterial();
+/// The numbers of `rgba`, each from 0 to 1.
+[[nodiscard]] Eigen::Vector4d colorIn(const Tag& tag);
+void readAssets(const Tag& tag, Files& files, const Defaults& defaults, const Compiler& compiler,
+                MjcfAssets& assets);
+
+/// What a geom adds to its body: a solid of mass or density, the half sizes as MuJoCo has them.
+struct Solid {
+  enum class Kind { kSphere, kCapsule, kCylinder, kBox, kEllipsoid, kMesh };
+  Kind kind = Kind::kSphere;
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();
+  Pose X_BS{};
+  std::optional<double> mass{};       ///< kg
+  double density = 1000;              ///< kg / m^3
+  std::optional<std::size_t> mesh{};  ///< which shape of the body has it
+  SourceLocation where{};
+};
+struct MassProperties {
+  double mass = 0;
+  Eigen::Vector3d p_BBcm = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d I_BBcm_B = Eigen::Matrix3d::Zero();
+};
+/// Volume, centre and inertia per density of a mesh, by its signed tetrahedra (Eberly 2002).
+[[nodiscard]] MassProperties propertiesOfMesh(const TriangleMesh& mesh);
+/// That of all solids together. `mesh` is that of a solid's shape.
+[[nodiscard]] MassProperties propertiesOf(const std::vector<Solid>& solids,
+                                          const std::vector<ShapeSpec>& shapes, Reading& reading);
+
+/// A <geom>: a shape unless rex has none like it, a solid if it weighs something, and whom it may touch. A
+/// shape without a name has none yet.
+struct Geom {
+  std::optional<ShapeSpec> shape{};
+  std::optional<Solid> solid{};
+  std::uint32_t contype = 1, conaffinity = 1;
+};
+[[nodiscard]] const Known& knownOfGeom();
+[[nodiscard]] Geom readGeom(const Styled& tag, bool isOnWorld, const Compiler& compiler,
+                            const MjcfAssets& assets);
+
+/// A <joint> of a body: X_PF and X_MC are as if the parent's frame were that of the body where the joint is
+/// at `ref`. A joint without a name has none yet.
+[[nodiscard]] const Known& knownOfJoint();
+[[nodiscard]] JointSpec readBodyJoint(const Styled& tag, const Compiler& compiler);
+
+/// A body of the file; its mass follows when all meshes are there.
+struct BodyInFile {
+  std::size_t body = 0;  ///< in the spec
+  std::string parent{};
+  std::size_t joints = 0;
+  std::optional<MassProperties> given{};
+  std::vector<Solid> solids{};  ///< as far as they count
+};
+/// Whom the geoms of a body may touch: those whose contype and conaffinity share a bit.
+struct Touch {
+  std::uint32_t contype = 0, conaffinity = 0;
+  bool isMixed = false;  ///< they differ
+};
+/// All bodies. Where one has several joints, bodies without mass stand between these.
+struct BodyTree {
+  SceneSpec spec{};
+  std::vector<urdf::ReadJoint> joints{};
+  std::vector<BodyInFile> bodies{};
+  std::unordered_map<std::string, std::size_t> jointOfName{}, bodyOfName{};
+  std::unordered_map<std::string, Touch> touches{};  ///< of bodies, the world included
+};
+[[nodiscard]] BodyTree readTree(const std::vector<Tag>& worldbodies, Files& files, const Defaults& defaults,
+                                const Compiler& compiler, const MjcfAssets& assets);
+
+/// Gives all bodies their masses.
+void setMasses(BodyTree& tree, const Compiler& compiler, Reading& reading);
+
+/// <actuator>: how strong joints are. <equality>: which follow others. <contact>: who may not collide.
+[[nodiscard]] const Known& knownOfActuator();
+void readActuators(const std::vector<Tag>& sections, Files& files, const Defaults& defaults,
+                   const Compiler& compiler, BodyTree& tree);
+[[nodiscard]] const Known& knownOfEquality();
+void readEqualities(const std::vector<Tag>& sections, Files& files, const Defaults& defaults, BodyTree& tree);
+void readContacts(const std::vector<Tag>& sections, Files& files, BodyTree& tree);
+
+/// Forbids pairs of bodies none of whose geoms share a bit of contype and conaffinity.
+void chooseByBits(BodyTree& tree);
+/// Forbids those between which there are several joints: bodies between joints hide that they are neighbours.
+void chooseNeighbours(BodyTree& tree);
+
+}  // namespace rex::mjcf

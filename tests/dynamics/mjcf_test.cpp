@@ -1,0 +1,269 @@
+// A second opinion: MuJoCo reads the same models by its own reader, places their bodies and weighs them.
+#include <gtest/gtest.h>
+
+#ifdef REX_WITH_MUJOCO
+
+#include <algorithm>
+#include <fstream>
+
+#include <mujoco/mujoco.h>
+
+#include "base/rng.h"
+#include "bench/mujoco_model.h"
+#include "dynamics/mass_matrix.h"
+#include "kinematics/forward_kinematics.h"
+#include "scene/mjcf_reader.h"
+#include "support/expect_error.h"
+#include "support/file_text.h"
+#include "support/paths.h"
+#include "support/temporary_folder.h"
+
+namespace rex::mjcf_test {
+
+using Eigen::VectorXd;
+
+struct DataDeleter {
+  void operator()(mjData* data) const { mj_deleteData(data); }
+};
+
+// MuJoCo's model in postures of ours. Its joints come in the order of the file, each with coordinates of its
+// own: P takes our velocities to all of its.
+class Peer {
+ public:
+  Peer(const std::string& xml, const SceneSpec& spec, const Model& ours)
+      : model_(bench::loadMujoco(xml)), data_(mj_makeData(model_.get())), ours_(ours) {
+    model_->opt.disableflags |= mjDSBL_CONSTRAINT | mjDSBL_PASSIVE;
+    for (const JointSpec& joint : spec.joints)
+      if (joint.type != JointType::kRigid) joints_.push_back(jointOf(joint.name));
+    EXPECT_EQ(static_cast<int>(joints_.size()), model_->njnt);
+    P_ = Eigen::MatrixXd::Zero(model_->nv, ours.nv());
+    for (int k = 0; k < model_->njnt; ++k) {
+      const Joint& joint = *joints_.at(static_cast<std::size_t>(k));
+      P_.block(model_->jnt_dofadr[k], joint.vIndex, joint.nv, joint.nv).diagonal().setConstant(joint.ratio);
+    }
+  }
+
+  VectorXd start() const {
+    VectorXd q(ours_.nq());
+    for (int k = 0; k < model_->njnt; ++k) {
+      const Joint& joint = *joints_[static_cast<std::size_t>(k)];
+      if (!joint.mimics)
+        q.segment(joint.qIndex, joint.nq) =
+            Eigen::Map<const VectorXd>(model_->qpos0 + model_->jnt_qposadr[k], joint.nq);
+    }
+    return q;
+  }
+
+  void set(const VectorXd& q) {
+    for (int k = 0; k < model_->njnt; ++k) {
+      const Joint& joint = *joints_[static_cast<std::size_t>(k)];
+      double* at = data_->qpos + model_->jnt_qposadr[k];
+      for (int i = 0; i < joint.nq; ++i)
+        at[i] = joint.nq == 1 ? joint.ratio * q[joint.qIndex] + joint.offset : q[joint.qIndex + i];
+    }
+    mj_forward(model_.get(), data_.get());
+  }
+
+  // Without what motors add to the inertia of joints.
+  Eigen::MatrixXd massMatrix() const {
+    Eigen::MatrixXd M(model_->nv, model_->nv);
+    mj_fullM(model_.get(), M.data(), data_->qM);
+    M.diagonal() -= Eigen::Map<const VectorXd>(model_->dof_armature, model_->nv);
+    return P_.transpose() * M * P_;
+  }
+
+  int bodies() const { return model_->nbody; }
+  std::string name(int body) const {
+    const char* const name = mj_id2name(model_.get(), mjOBJ_BODY, body);
+    return name && *name ? name : "body";
+  }
+  double mass(int body) const { return model_->body_mass[body]; }
+  Pose X_WB(int body) const {
+    Pose X;
+    X.p = Eigen::Map<const Eigen::Vector3d>(data_->xpos + 3 * body);
+    X.R = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(data_->xmat + 9 * body);
+    return X;
+  }
+
+ private:
+  const Joint* jointOf(const std::string& name) const {
+    const auto found = std::find_if(ours_.joints().begin(), ours_.joints().end(),
+                                    [&](const Joint& joint) { return joint.name == name; });
+    return &*found;
+  }
+
+  bench::MujocoModel model_;
+  std::unique_ptr<mjData, DataDeleter> data_;
+  const Model& ours_;
+  std::vector<const Joint*> joints_;
+  Eigen::MatrixXd P_;
+};
+
+VectorXd randomPositions(Rng& rng, const Model& model) {
+  VectorXd q = rng.normalVector(model.nq());
+  for (const Joint& joint : model.joints())
+    if (joint.nq > joint.nv) q.segment<4>(joint.qIndex + joint.nq - 4).normalize();
+  return q;
+}
+
+void expectSame(const std::string& xml, const SceneSpec& spec, double tolerance = 1e-9) {
+  const Model model = compile(spec);
+  Peer peer(xml, spec, model);
+  EXPECT_LT((model.initialPositions() - peer.start()).norm(), 1e-12);
+  for (int body = 1; body < peer.bodies(); ++body)
+    EXPECT_NEAR(model[model.body(peer.name(body))].mass, peer.mass(body), tolerance * peer.mass(body))
+        << peer.name(body);
+  Rng rng(83);
+  for (int i = 0; i < 5; ++i) {
+    const VectorXd q = i == 0 ? model.initialPositions() : randomPositions(rng, model);
+    peer.set(q);
+    const BodyPoses poses = forwardKinematics(model, q);
+    for (int body = 1; body < peer.bodies(); ++body)
+      EXPECT_TRUE(isApprox(poses[model.body(peer.name(body))], peer.X_WB(body), 1e-9)) << peer.name(body);
+    if (model.nv() == 0) continue;
+    const Eigen::MatrixXd theirs = peer.massMatrix();
+    EXPECT_LE((massMatrix(model, q) - theirs).cwiseAbs().maxCoeff(),
+              tolerance * theirs.cwiseAbs().maxCoeff());
+  }
+}
+
+void eraseAll(std::string& text, const std::string& part) {
+  for (std::size_t at; (at = text.find(part)) != std::string::npos;) text.erase(at, part.size());
+}
+
+class MjcfPeer : public testing::TestWithParam<const char*> {};
+
+TEST_P(MjcfPeer, AgreesOnSamples) {
+  const std::filesystem::path file = sharedPath(std::string("data/mjcf/") + GetParam() + ".xml");
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << GetParam() << ".xml";
+  std::string xml = fileText(file);
+  const SceneSpec spec = readMjcf(file).spec;
+  eraseAll(xml,
+           R"(<inertial mass="10"/>)");  // without 'pos', which MuJoCo refuses even where it does not count
+  if (const std::size_t at = xml.find("<compiler "); at != std::string::npos)
+    xml.insert(at + 10, "autolimits='true' ");  // the default of later versions
+  expectSame(xml, spec);
+}
+
+INSTANTIATE_TEST_SUITE_P(Samples, MjcfPeer,
+                         testing::Values("ant", "capsule_fromtoX", "half_cheetah", "humanoid",
+                                         "inverted_pendulum"));
+
+TEST(MjcfPeers, RefuseGlobalCoordinates) {
+  for (const char* name : {"hopper", "walker2d"}) {
+    const std::filesystem::path file = sharedPath(std::string("data/mjcf/") + name + ".xml");
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << name << ".xml";
+    EXPECT_REX_ERROR(readMjcf(file), ".xml:2:40: <compiler>: attribute 'coordinate': found 'global'");
+  }
+}
+
+// Orientations, joints, defaults and solids of all kinds.
+constexpr const char* kEverything = R"(<mujoco>
+  <compiler angle="degree" eulerseq="XyZ"/>
+  <default>
+    <geom density="700"/>
+    <joint axis="1 0 0" armature="0.1"/>
+    <default class="heavy"><geom density="3000" type="box" size=".1 .05 .2"/>
+      <default class="heavier"><geom mass="4"/><joint type="slide"/></default></default>
+  </default>
+  <worldbody>
+    <geom type="plane" size="1 1 1"/>
+    <body name="a" pos="1 2 3" euler="10 20 30">
+      <freejoint/>
+      <geom size=".2" pos=".1 0 0"/>
+      <geom class="heavy" axisangle="1 1 0 40"/>
+      <body name="b" pos=".3 0 .1" quat="1 .2 .3 -.1" childclass="heavier">
+        <joint class="main" pos="0 .1 .2" axis="1 2 3" ref="25"/>
+        <joint/>
+        <joint type="hinge" axis="0 1 1" pos="-.1 0 0"/>
+        <geom pos="0 .1 0" xyaxes="0 1 0 -1 0 1"/>
+        <geom type="capsule" size=".05 .2" zaxis="1 -1 .5"/>
+        <geom type="cylinder" fromto="0 0 0 .3 .2 -.1" size=".04"/>
+        <body name="c" pos="0 0 .4" zaxis="0 -1 0">
+          <joint type="ball" pos=".1 .2 .3"/>
+          <inertial pos=".1 0 .2" mass="2" fullinertia=".3 .4 .5 .01 -.02 .03"/>
+          <geom class="main" size="1"/>
+          <body name="welded" pos="0 0 .1" euler="-40 0 90"><geom type="ellipsoid" size=".1 .2 .3"/></body>
+        </body>
+      </body>
+      <body name="d" axisangle="0 0 1 90">
+        <joint type="slide" axis="0 1 1" ref=".7" range="-1 1" limited="true"/>
+        <inertial pos="0 .1 0" mass="1.5" diaginertia=".2 .3 .4" euler="0 0 30"/>
+      </body>
+    </body>
+    <body name="fixed" pos="0 0 1"><geom size=".1"/>
+      <body name="swing"><joint axis="0 1 0"/><geom type="box" fromto="0 0 0 0 0 -1" size=".05" group="1"/></body>
+    </body>
+  </worldbody>
+</mujoco>)";
+
+TEST(MjcfPeers, AgreeOnEverything) { expectSame(kEverything, parseMjcf(kEverything, "m.xml").spec); }
+
+TEST(MjcfPeers, AgreeOnEulerOrders) {
+  for (const char* order : {"xyz", "zyx", "XYZ", "xYz", "ZXz", "yXy"}) {
+    std::string xml = kEverything;
+    xml.replace(xml.find("XyZ"), 3, order);
+    expectSame(xml, parseMjcf(xml, "m.xml").spec);
+  }
+}
+
+// What the compiler does to masses.
+TEST(MjcfPeers, AgreeOnMasses) {
+  for (const char* attributes :
+       {"inertiafromgeom='true'", "settotalmass='12'", "boundmass='3' boundinertia='.1'",
+        "balanceinertia='true'", "inertiagrouprange='1 2'", "angle='radian'"}) {
+    const std::string xml = std::string("<mujoco><compiler ") + attributes + R"(/><worldbody>
+      <body name="a"><freejoint/><geom type="box" size=".3 .2 .1" euler=".1 .2 .3" group="1"/>
+        <inertial pos="0 0 .1" mass="2" diaginertia=".3 .3 .4"/>
+        <body name="b" pos="1 0 0"><joint axis="0 1 0"/><geom size=".1" group="2"/><geom size=".3" pos="0 .4 0"/>
+          <body name="c"><joint axis="0 0 1"/><geom type="cylinder" size=".05 1" group="1"/></body>
+        </body></body></worldbody></mujoco>)";
+    SCOPED_TRACE(attributes);
+    expectSame(xml, parseMjcf(xml, "m.xml").spec);
+  }
+}
+
+// Joints that follow have no coordinates here, and their own there.
+TEST(MjcfPeers, AgreeOnFollowers) {
+  const std::string xml =
+      R"(<mujoco><compiler angle="radian"/><worldbody><body name="a"><joint name="j" ref=".3"/>
+    <geom size=".1" pos="1 0 0"/><body name="b" pos="1 0 0"><joint name="k" type="slide" ref="-.1"/><geom size=".2"/>
+    <body name="c"><joint name="l" axis="0 1 0"/><geom type="box" size=".1 .2 .3"/></body></body></body></worldbody>
+    <equality><joint joint1="k" joint2="j" polycoef=".2 1.5 0 0 0"/><joint joint1="l" joint2="k"/></equality>
+    </mujoco>)";
+  const SceneSpec spec = parseMjcf(xml, "m.xml").spec;
+  const Model model = compile(spec);
+  ASSERT_EQ(model.nv(), 1);
+  Peer peer(xml, spec, model);
+  for (const double q : {.3, 1., -2.}) {
+    const VectorXd one = VectorXd::Constant(1, q);
+    peer.set(one);
+    for (int body = 1; body < peer.bodies(); ++body)
+      EXPECT_TRUE(
+          isApprox(forwardKinematics(model, one)[model.body(peer.name(body))], peer.X_WB(body), 1e-12));
+    EXPECT_NEAR(massMatrix(model, one)(0, 0), peer.massMatrix()(0, 0), 1e-9);
+  }
+}
+
+TEST(MjcfPeers, AgreeOnMeshes) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "brick.obj")
+      << "v 0 0 0\nv 2 0 0\nv 2 4 0\nv 0 4 0\nv 0 0 6\nv 2 0 6\nv 2 4 6\nv 0 4 6\n"
+         "f 1 3 2\nf 1 4 3\nf 5 6 7\nf 5 7 8\nf 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\nf 3 4 8\nf 3 8 7\nf 4 1 "
+         "5\nf 4 5 8\n";
+  const std::string xml =
+      "<mujoco><compiler meshdir='" + folder.path().string() +
+      "'/><asset><mesh file='brick.obj' scale='.1 .2 -.1'/></asset><worldbody>"
+      "<body name='a'><freejoint/><geom type='mesh' mesh='brick' pos='1 0 0' euler='30 0 10'/>"
+      "<geom size='.1'/></body></worldbody></mujoco>";
+  std::ofstream(folder.path() / "m.xml") << xml;
+  expectSame(xml, readMjcf(folder.path() / "m.xml").spec, 1e-6);
+}
+
+}  // namespace rex::mjcf_test
+
+#else
+
+TEST(MjcfPeer, Agrees) { GTEST_SKIP() << "install libmujoco-dev to compare"; }
+
+#endif
