@@ -3,8 +3,7 @@
 namespace rex::cli {
 
 void addSceneFile(CLI::App* command, const std::string& name, std::filesystem::path& file) {
-  command
-      ->add_option(name, file, "an .ors, .urdf or .xml (MuJoCo) file, or a scene of the course, such as man")
+  command->add_option(name, file, "an .ors, .urdf or MuJoCo .xml file, or a scene such as man")
       ->type_name("")
       ->required();
 }
