@@ -37,6 +37,11 @@ if(REX_SANITIZE)
   # Reports need lines only; all that debuggers want would make compiling half as long again.
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer -g1)
   add_link_options(-fsanitize=address,undefined)
+  if(REX_MERGE_SOURCES)
+    # What each use of a pointer is asked takes a third of the time; a null pointer ends in a report anyway. Long runs,
+    # which do not merge, ask it.
+    add_compile_options(-fno-sanitize=null,alignment,object-size,vptr)
+  endif()
 endif()
 if(REX_FUZZ)
   # Comparisons are not traced: the dictionaries know the words, and it would cost a fifth of the speed.

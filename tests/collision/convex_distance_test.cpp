@@ -13,6 +13,7 @@
 #include "geometry/rotation.h"
 #include "support/convex_solid.h"
 #include "support/hull_depth.h"
+#include "support/rounds.h"
 
 namespace rex::convex_distance_test {
 
@@ -23,9 +24,9 @@ using internal::convexProximity;
 
 // A twentieth of them will do where sanitizers make everything slow.
 #ifdef __SANITIZE_ADDRESS__
-constexpr int kPairs = 500;
+const int kPairs = 500;
 #else
-constexpr int kPairs = 10000;
+const int kPairs = rounds(2000, 10000);
 #endif
 
 Proximity between(const ConvexSolid& a, const ConvexSolid& b) {

@@ -77,13 +77,13 @@ TEST(Riccati, RandomProblemsAreSolvedAndStable) {
     ASSERT_EQ(dare.status, RiccatiStatus::kSolved) << dare.message;
     EXPECT_LT(care.closedLoop.real().maxCoeff(), 0);
     EXPECT_LT(dare.closedLoop.cwiseAbs().maxCoeff(), 1);
-    const Eigen::MatrixXd &X = care.X, &Y = dare.X;
-    const Eigen::MatrixXd continuous =
-        A.transpose() * X + X * A - X * B * R.inverse() * B.transpose() * X + Q;
-    EXPECT_LT(continuous.norm(),
-              1e-9 * (X.norm() * A.norm() + (X * B * R.inverse() * B.transpose() * X).norm()));
-    const Eigen::MatrixXd gain = (R + B.transpose() * Y * B).inverse() * B.transpose() * Y * A;
-    EXPECT_LT((A.transpose() * Y * (A - B * gain) + Q - Y).norm(), 1e-9 * Y.norm() * (1 + A.squaredNorm()));
+    // A product of two named matrices compiles in no time, a chain of factors in seconds.
+    const Eigen::MatrixXd &X = care.X, &Y = dare.X, At = A.transpose(), Bt = B.transpose();
+    const Eigen::MatrixXd XA = X * A, XB = X * B, K = R.inverse() * XB.transpose(), fed = XB * K;
+    EXPECT_LT((XA.transpose() + XA - fed + Q).norm(), 1e-9 * (X.norm() * A.norm() + fed.norm()));
+    const Eigen::MatrixXd YA = Y * A, YB = Y * B, weight = R + Bt * YB, pull = Bt * YA;
+    const Eigen::MatrixXd gain = weight.inverse() * pull, closed = A - B * gain, YC = Y * closed;
+    EXPECT_LT((At * YC + Q - Y).norm(), 1e-9 * Y.norm() * (1 + A.squaredNorm()));
     EXPECT_LT((gain - dare.K).norm(), 1e-9 * (1 + gain.norm()));
   }
 }
@@ -99,16 +99,28 @@ TEST(Riccati, DoublingFindsTheStableEigenvectors) {
     const auto quick = internal::careByDoubling(A, B, Q, R);
     ASSERT_TRUE(quick.has_value()) << n;
     Eigen::MatrixXd hamiltonian(2 * n, 2 * n);
-    hamiltonian << A, -2 * B * B.transpose(), -Q, -A.transpose();
+    const Eigen::MatrixXd BBt = B * B.transpose(), BtX = B.transpose() * quick->X;
+    hamiltonian << A, -2 * BBt, -Q, -A.transpose();
     const Eigen::EigenSolver<Eigen::MatrixXd> solver(hamiltonian);
-    Eigen::MatrixXcd stable(2 * n, n);
+    // Real and imaginary parts of a pair of eigenvectors span what the pair does.
+    Eigen::MatrixXd V1(n, n), V2(n, n);
     Eigen::Index count = 0;
-    for (Eigen::Index i = 0; i < 2 * n; ++i)
-      if (solver.eigenvalues()[i].real() < 0) stable.col(count++) = solver.eigenvectors().col(i);
+    for (Eigen::Index i = 0; i < 2 * n; ++i) {
+      const std::complex<double> value = solver.eigenvalues()[i];
+      if (value.real() >= 0) continue;
+      ASSERT_LT(count, n);
+      Eigen::VectorXd v(2 * n);
+      for (Eigen::Index k = 0; k < 2 * n; ++k) {
+        const std::complex<double> entry = solver.eigenvectors()(k, i);
+        v[k] = value.imag() < 0 ? entry.imag() : entry.real();
+      }
+      V1.col(count) = v.head(n);
+      V2.col(count++) = v.tail(n);
+    }
     ASSERT_EQ(count, n);
-    const Eigen::MatrixXcd X = stable.bottomRows(n) * stable.topRows(n).inverse();
-    EXPECT_LT((quick->X - X.real()).norm(), 1e-9 * X.norm()) << n;
-    EXPECT_LT((quick->K - 2 * B.transpose() * quick->X).norm(), 1e-12 * quick->K.norm());
+    const Eigen::MatrixXd inverse = V1.inverse(), X = V2 * inverse;
+    EXPECT_LT((quick->X - X).norm(), 1e-9 * X.norm()) << n;
+    EXPECT_LT((quick->K - 2 * BtX).norm(), 1e-12 * quick->K.norm());
     EXPECT_LT(quick->residual, 1e-12);
     const Eigen::VectorXcd closed = Eigen::EigenSolver<Eigen::MatrixXd>(A - B * quick->K).eigenvalues();
     for (const std::complex<double> value : quick->closedLoop)
@@ -125,10 +137,12 @@ TEST(Riccati, IsTheLimitOfAFiniteHorizon) {
   Rng rng(42);
   const Eigen::MatrixXd A = randomMatrix(4, 4, rng), B = randomMatrix(4, 2, rng);
   const Eigen::MatrixXd Q = Eigen::MatrixXd::Identity(4, 4), R = Eigen::MatrixXd::Identity(2, 2);
+  const Eigen::MatrixXd At = A.transpose(), Bt = B.transpose();
   Eigen::MatrixXd X = Q;
   for (int t = 0; t < 2000; ++t) {
-    const Eigen::MatrixXd K = (R + B.transpose() * X * B).inverse() * B.transpose() * X * A;
-    X = A.transpose() * X * (A - B * K) + Q;
+    const Eigen::MatrixXd XA = X * A, XB = X * B, weight = R + Bt * XB, pull = Bt * XA;
+    const Eigen::MatrixXd K = weight.inverse() * pull, closed = A - B * K, XC = X * closed;
+    X = At * XC + Q;
   }
   EXPECT_LT((solveDare(A, B, Q, R).X - X).norm(), 1e-10 * X.norm());
 }

@@ -8,6 +8,7 @@
 #include "kinematics/forward_kinematics.h"
 #include "physics/physics_world.h"
 #include "physics/small_scenes.h"
+#include "support/rounds.h"
 
 namespace rex::contact_test {
 
@@ -151,7 +152,7 @@ TEST(PhysicsContacts, AStackStands) {
   const Model model = compile(spec);
   PhysicsWorld world(model);
   double moved = 0, turned = 0;
-  for (int second = 0; second < 60; ++second) {
+  for (int second = 0; second < rounds(15, 60); ++second) {
     run(world, 1);
     const State state = world.state();
     for (int i = 0; i < 20; ++i) {

@@ -9,6 +9,7 @@
 #include "support/expect_error.h"
 #include "support/needs_egl.h"
 #include "support/needs_osmesa.h"
+#include "support/rounds.h"
 #include "support/varied_picture.h"
 
 namespace rex::backends_test {
@@ -115,7 +116,7 @@ void expectOneHash(const std::vector<const char*>& backends) {
   std::set<std::string> hashes;
   for (const char* backend : backends)
     for (const char* threads : {"0", "1", "2", "3"})
-      for (int repeat = 0; repeat < 3; ++repeat) {
+      for (int repeat = 0; repeat < rounds(1, 3); ++repeat) {
         const ProcessResult result =
             runProcess({"env", std::string("LP_NUM_THREADS=") + threads, REX_PICTURE_HASH, backend});
         ASSERT_TRUE(result.ok()) << backend << ' ' << threads << ": " << result.error;

@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include "cli/template_project.h"
+#include "support/rounds.h"
 
 namespace rex::cli::grade_many_test {
 
@@ -199,13 +200,16 @@ TEST_F(GradeManyTest, CompilesAnewWhereAKeptProgramIsDamaged) {
   };
   std::string bent = worker;
   bent[bent.size() / 2] ^= 1;
-  for (const std::string& text :
-       {std::string(), worker.substr(0, worker.size() / 2), worker.substr(0, worker.size() - 4096), bent})
-    expectRebuilt("worker", text);
-  for (const std::string& text : {std::string(), std::string("{}"), start.substr(0, start.size() / 2)})
-    expectRebuilt("start.json", text);
+  expectRebuilt("worker", bent);
+  expectRebuilt("start.json", start.substr(0, start.size() / 2));
   expectRebuilt("main.cpp", kWrong);
-  expectRebuilt("build.log", "another");
+  if (isLongRun()) {  // each of them compiles
+    for (const std::string& text :
+         {std::string(), worker.substr(0, worker.size() / 2), worker.substr(0, worker.size() - 4096)})
+      expectRebuilt("worker", text);
+    for (const char* text : {"", "{}"}) expectRebuilt("start.json", text);
+    expectRebuilt("build.log", "another");
+  }
   fs::remove(kept / "worker");
   EXPECT_EQ(gradedAgain(), whole);
   EXPECT_TRUE(fileText(kept / "worker") == worker);
