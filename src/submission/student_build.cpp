@@ -250,7 +250,7 @@ StudentObject compileStudent(const Toolchain& toolchain, const std::vector<Forbi
   }
   // A copy, so that what is graded is what was read and nothing beside the student's file is included.
   std::filesystem::create_directories(folder);
-  writeTextFile(folder / name, result.source);
+  writeSource(folder / name, result.source);
   result.object = folder / "student.o";
   // Of another user, after a grading at another level.
   for (const path& old : {folder / kDependencies, result.object}) std::filesystem::remove(old);

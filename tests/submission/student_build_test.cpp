@@ -1,14 +1,17 @@
 #include "submission/student_build.h"
 
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <set>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
 #include "base/process.h"
+#include "base/text_file.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 #include "support/tiny_disk.h"
@@ -161,6 +164,39 @@ TEST_F(StudentBuildTest, ReportsTheFirstErrorInOneLine) {
   EXPECT_EQ(first(object.messages),
             "main.cpp:2:10: error: 'twce' was not declared in this scope; did you mean 'twice'?");
   EXPECT_THAT(object.log, HasSubstr("main.cpp:2:10: error:"));
+}
+
+// The same file, the same program: on another day, in another folder's time, in another time zone.
+TEST_F(StudentBuildTest, KnowsNoDate) {
+  const std::string source =
+      "#include \"exercise.h\"\nextern const char kDate[] = \"<\" __DATE__ \">\", kTime[] = \"<\" __TIME__ "
+      "\">\", "
+      "kFile[] = \"<\" __TIMESTAMP__ \">\";\nint twice(int a) { return 2 * a + (__TIME__[7] - '0'); }\nint "
+      "main() {}\n";
+  std::set<std::string> objects;
+  const char* set = std::getenv("TZ");
+  const std::string before = set != nullptr ? set : "";
+  for (const char* zone : {"UTC0", "Asia/Tokyo", "<-11>11"}) {
+    ::setenv("TZ", zone, 1);
+    const StudentObject object = compile(source);
+    ASSERT_TRUE(object.ok) << object.log;
+    const std::string bytes = readTextFile(object.object);
+    for (const char* text : {"<Jan  1 1970>", "<00:00:00>", "<Thu Jan  1 00:00:00 1970>"})
+      EXPECT_THAT(bytes, HasSubstr(text)) << zone;
+    objects.insert(bytes);
+    EXPECT_EQ(runProcess({linkWorker(toolchain(), object).program}).output, "42");
+  }
+  set != nullptr ? ::setenv("TZ", before.c_str(), 1) : ::unsetenv("TZ");
+  EXPECT_EQ(objects.size(), 1u);
+}
+
+// A second of waiting between two builds changes nothing either.
+TEST_F(StudentBuildTest, GivesTheSameObjectLater) {
+  const std::string source =
+      "const char* now() { return __DATE__ __TIME__ __TIMESTAMP__; }\nint twice(int) { return 0; }\n";
+  const std::string first = readTextFile(compile(source).object);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+  EXPECT_EQ(readTextFile(compile(source).object), first);
 }
 
 TEST_F(StudentBuildTest, KeepsWarnings) {
@@ -348,7 +384,7 @@ TEST_F(StudentBuildTest, BlamesTheMachineForAFullDisk) {
   const char* set = std::getenv("TMPDIR");
   const std::string before = set != nullptr ? set : "/tmp";
   std::set<std::string> reasons;
-  for (const int kilobytes : {16, 28, 60, 88, 120, 160, 200, 240, 280, 4000}) {
+  for (const int kilobytes : {16, 28, 60, 88, 120, 160, 200, 240, 280, 320, 360, 420, 4000}) {
     const TinyDisk disk(kilobytes);
     REX_NEEDS_DISK(disk);
     ::setenv("TMPDIR", disk.path().c_str(), 1);
