@@ -27,7 +27,7 @@ namespace {
 
 using std::filesystem::path;
 
-constexpr const char* kDependencies = "student.d";
+constexpr const char *kDependencies = "student.d", *kOfAssembler = "student.as.d", *kPart = "graded";
 constexpr std::size_t kLogSize = 64u << 10;
 constexpr std::size_t kMostMessages = 50;
 
@@ -132,7 +132,8 @@ ProcessResult compileAll(const Toolchain& toolchain, const std::vector<Forbidden
                          const BuildTools& tools, const StudentBuildOptions& options,
                          const StudentObject& result) {
   std::vector<std::string> withJson = command;
-  withJson.insert(withJson.end(), {"-fdiagnostics-format=json", "-MD", "-MF", kDependencies});
+  withJson.insert(withJson.end(), {"-fdiagnostics-format=json", "-MD", "-MF", kDependencies,
+                                   std::string("-Wa,--MD,") + kOfAssembler});
   const std::string part =
       options.part ? gradedPart(result.source, toolchain.functions, lastNames(forbidden)) : "";
   if (!part.empty()) {
@@ -171,6 +172,21 @@ std::vector<CompileDiagnostic> explainLinking(const ProcessResult& run, const Bu
   const std::string complaint = complaintAbout(object, run.error);
   if (complaint.empty()) throw unexplained("the linker failed", lastWordsOf(run));
   return {{mainFile, 0, 0, "error", "", "cannot be linked: " + complaint}};
+}
+
+// Of all that the compiler and the assembler opened. Where only a part was compiled, that was done in a
+// folder of its own.
+std::vector<CompileDiagnostic> forbiddenFilesIn(const StudentObject& object, const path& folder,
+                                                const Toolchain& toolchain) {
+  const auto forbidden = [&](const std::vector<path>& files, const path& where) {
+    return forbiddenIncludes(files, object.source, object.name, where, toolchain);
+  };
+  std::vector<CompileDiagnostic> found =
+      forbidden(dependenciesIn(readTextFile(folder / kDependencies), folder), folder);
+  const path assembled = std::filesystem::exists(folder / kOfAssembler) ? folder : folder / kPart;
+  const auto more = forbidden(filesOfAssembler(readTextFile(assembled / kOfAssembler), assembled), assembled);
+  found.insert(found.end(), more.begin(), more.end());
+  return found;
 }
 
 StudentProgram link(const Toolchain& toolchain, const BuildTools& tools, const path& program,
@@ -253,7 +269,9 @@ StudentObject compileStudent(const Toolchain& toolchain, const std::vector<Forbi
   writeSource(folder / name, result.source);
   result.object = folder / "student.o";
   // Of another user, after a grading at another level.
-  for (const path& old : {folder / kDependencies, result.object}) std::filesystem::remove(old);
+  for (const path& old :
+       {folder / kDependencies, folder / kOfAssembler, folder / kPart / kOfAssembler, result.object})
+    std::filesystem::remove(old);
   StudentBuildOptions absolute = options;
   absolute.workFolder = folder;
   const BuildTools tools(toolchain, folder, options.sandbox,
@@ -265,10 +283,7 @@ StudentObject compileStudent(const Toolchain& toolchain, const std::vector<Forbi
   std::vector<CompileDiagnostic> calls =
       scanSymbols(toolchain.objdump, result.object, result.source, name, forbidden, tools);
   if (options.publicHeadersOnly) {
-    const auto dependencies = dependenciesIn(readTextFile(folder / kDependencies), folder);
-    for (const CompileDiagnostic& file :
-         forbiddenIncludes(dependencies, result.source, name, folder, toolchain))
-      calls.push_back(file);
+    for (const CompileDiagnostic& file : forbiddenFilesIn(result, folder, toolchain)) calls.push_back(file);
     for (const CompileDiagnostic& macro : forbiddenMacros(result.source, name)) calls.push_back(macro);
   }
   result.ok = calls.empty();

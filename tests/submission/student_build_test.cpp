@@ -270,6 +270,61 @@ TEST_F(StudentBuildTest, TakesPublicHeadersOnly) {
   }
 }
 
+// A file is what it is, by whatever name: through links, dots behind links, and folders of the kernel.
+TEST_F(StudentBuildTest, JudgesIncludesByWhatTheyAre) {
+  const path library = shared_->path() / "src", own = temporary_.path() / "own" / "deep";
+  write(own / "x.h", "// below\n");
+  write(own.parent_path() / "secret.h", "// all of it\n");
+  write(library / "part" / "hidden_internal.h", "// internal\n");
+  const auto link = [](const path& target, const path& name) {
+    std::filesystem::remove(name);
+    std::filesystem::create_symlink(target, name);
+  };
+  link(shared_->path() / "exercise" / "answer_internal.h", library / "part" / "alias.h");
+  link(library / "part" / "hidden_internal.h", library / "part" / "plain.h");
+  link(own.parent_path() / "secret.h", library / "secret.h");
+  link(own, library / "out");
+  const std::string rest = "int twice(int a) { return 2 * a; }\nint main() {}\n";
+  for (const std::string& name :
+       {std::string("part/alias.h"), std::string("part/plain.h"), std::string("secret.h"),
+        std::string("out/x.h"), std::string("out/../secret.h"),
+        std::string("/usr/include/../../") + own.string() + "/x.h", "/proc/self/root" + own.string() + "/x.h",
+        std::string("/proc/self/cwd/main.cpp"),
+        "/usr/lib/../.." + own.parent_path().string() + "/secret.h"}) {
+    const StudentObject object = compile("#include \"exercise.h\"\n#if __INCLUDE_LEVEL__ == 0\n#include \"" +
+                                         name + "\"\n" + rest + "#endif\n");
+    EXPECT_FALSE(object.ok) << name;
+    EXPECT_THAT(first(object.messages), HasSubstr(kNotPublic)) << name;
+  }
+  for (const char* name : {"alias.h", "plain.h"}) std::filesystem::remove(library / "part" / name);
+  for (const char* name : {"secret.h", "out"}) std::filesystem::remove(library / name);
+  // A library that is itself reached by a link is one.
+  link(library, temporary_.path() / "library");
+  write(temporary_.path() / "main.cpp", "#include \"exercise.h\"\n#include \"part/part.h\"\n" + rest);
+  Toolchain linked = toolchain();
+  linked.flags.back() = temporary_.path() / "library";
+  EXPECT_TRUE(compileStudent(linked, {},
+                             {.main = temporary_.path() / "main.cpp",
+                              .workFolder = temporary_.path() / "work",
+                              .publicHeadersOnly = true})
+                  .ok);
+}
+
+// What the assembler reads becomes a part of the program as well.
+TEST_F(StudentBuildTest, JudgesFilesOfTheAssembler) {
+  const path file = temporary_.path() / "reference.txt";
+  write(file, "# all of it\n");
+  const std::string rest = "int twice(int a) { return 2 * a; }\nint main() {}\n";
+  for (const std::string& line :
+       {".incbin \\\"" + file.string() + "\\\"", ".include \\\"" + file.string() + "\\\"",
+        std::string(".incbin \\\"/proc/self/environ\\\"")}) {
+    const StudentObject object = compile("asm(\"" + line + "\");\n" + rest);
+    EXPECT_FALSE(object.ok) << line;
+    EXPECT_THAT(first(object.messages), HasSubstr(kNotPublic)) << line;
+  }
+  EXPECT_TRUE(compile("asm(\"nop\");\n" + rest).ok);
+}
+
 TEST_F(StudentBuildTest, RefusesAnotherNameForTheLibrary) {
   const StudentObject object = compile(
       "#define rex mine\n#include \"exercise.h\"\nint twice(int a) { return 2 * a; }\nint main() {}\n");

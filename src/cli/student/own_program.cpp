@@ -81,7 +81,8 @@ std::optional<fs::path> buildOwnProgram(const Project& project, const fs::path& 
         runProcess({toolchain.objdump, "-t", "-C", object.object.string()}, {.outputLimit = 256u << 20});
     if (!table.ok())
       throw Error({.what = "cannot list what the compiled file refers to", .found = table.error});
-    const auto files = grading::dependenciesIn(readTextFile(workFolder / "student.d"), workFolder);
+    auto files = grading::dependenciesIn(readTextFile(workFolder / "student.d"), workFolder);
+    for (fs::path& one : files) one = one.lexically_normal();
     std::vector<std::string> targets;
     for (const grading::LibraryPart& one : librariesFor(program, files, table.output)) {
       targets.push_back(one.target);
