@@ -21,6 +21,7 @@
 #include "submission/symbol_scan.h"
 #include "submission/tool_failure.h"
 #include "submission/two_compilers.h"
+#include "submission/without_main.h"
 
 namespace rex::grading {
 namespace {
@@ -73,7 +74,8 @@ std::vector<std::string> compileCommand(const Toolchain& toolchain, const Studen
                                         const std::string& source) {
   std::vector<std::string> command = {toolchain.compiler};
   command.insert(command.end(), toolchain.flags.begin(), toolchain.flags.end());
-  command.insert(command.end(), {"-ftemplate-depth=200"});
+  // By their sections the linker tells what only main() needs.
+  command.insert(command.end(), {"-ftemplate-depth=200", "-ffunction-sections", "-fdata-sections"});
   if (options.debug) {
     const path folder = std::filesystem::absolute(options.main).parent_path();
     command.insert(
@@ -189,6 +191,21 @@ std::vector<CompileDiagnostic> forbiddenFilesIn(const StudentObject& object, con
   return found;
 }
 
+// Makes `result.graded`, in which nothing may call what is forbidden. Where the file keeps that from being
+// made, the messages say so.
+std::vector<CompileDiagnostic> forbiddenCallsIn(StudentObject& result, const Toolchain& toolchain,
+                                                const std::vector<ForbiddenFunction>& forbidden,
+                                                const BuildTools& tools) {
+  if (forbidden.empty()) return {};
+  const ObjectFile whole = readObjectFile(readTextFile(result.object), result.object.string());
+  std::vector<CompileDiagnostic> messages = strangeParts(whole, result.name);
+  if (!messages.empty()) return messages;
+  result.graded = result.object.parent_path() / "graded.o";
+  const ProcessResult run = withoutMain(result.object, result.graded, toolchain, tools);
+  if (!run.ok()) return explainLinking(run, tools, result.object.string(), result.name);
+  return scanSymbols(result.graded, result.source, result.name, forbidden);
+}
+
 StudentProgram link(const Toolchain& toolchain, const BuildTools& tools, const path& program,
                     const std::vector<std::string>& objects, const std::string& mainFile) {
   std::vector<std::string> command = {toolchain.compiler, "-o", program.string()};
@@ -280,8 +297,7 @@ StudentObject compileStudent(const Toolchain& toolchain, const std::vector<Forbi
           result);
   if (!result.ok) return result;
 
-  std::vector<CompileDiagnostic> calls =
-      scanSymbols(toolchain.objdump, result.object, result.source, name, forbidden, tools);
+  std::vector<CompileDiagnostic> calls = forbiddenCallsIn(result, toolchain, forbidden, tools);
   if (options.publicHeadersOnly) {
     for (const CompileDiagnostic& file : forbiddenFilesIn(result, folder, toolchain)) calls.push_back(file);
     for (const CompileDiagnostic& macro : forbiddenMacros(result.source, name)) calls.push_back(macro);
@@ -298,9 +314,11 @@ StudentObject compileStudent(const Toolchain& toolchain, const std::vector<Forbi
 StudentProgram linkWorker(const Toolchain& toolchain, const StudentObject& object,
                           const sandbox::Sandbox& sandbox) {
   const path folder = object.object.parent_path(), renamed = folder / "worker_student.o";
+  // What was looked through, and nothing else.
+  const path& part = object.graded.empty() ? object.object : object.graded;
   const BuildTools tools(toolchain, folder, sandbox);
-  const ProcessResult run = tools.run(
-      {toolchain.objcopy, "--redefine-sym", "main=studentMain", object.object.string(), renamed.string()});
+  const ProcessResult run =
+      tools.run({toolchain.objcopy, "--redefine-sym", "main=studentMain", part.string(), renamed.string()});
   if (!run.ok()) throw Error({.what = "cannot rename main in the compiled file", .found = run.error});
   return link(toolchain, tools, folder / "worker", {toolchain.workerObject.string(), renamed.string()},
               object.name);
