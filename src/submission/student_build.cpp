@@ -21,13 +21,14 @@
 #include "submission/symbol_scan.h"
 #include "submission/tool_failure.h"
 #include "submission/two_compilers.h"
+#include "submission/without_main.h"
 
 namespace rex::grading {
 namespace {
 
 using std::filesystem::path;
 
-constexpr const char* kDependencies = "student.d";
+constexpr const char *kDependencies = "student.d", *kOfAssembler = "student.as.d", *kPart = "graded";
 constexpr std::size_t kLogSize = 64u << 10;
 constexpr std::size_t kMostMessages = 50;
 
@@ -73,7 +74,8 @@ std::vector<std::string> compileCommand(const Toolchain& toolchain, const Studen
                                         const std::string& source) {
   std::vector<std::string> command = {toolchain.compiler};
   command.insert(command.end(), toolchain.flags.begin(), toolchain.flags.end());
-  command.insert(command.end(), {"-ftemplate-depth=200"});
+  // By their sections the linker tells what only main() needs.
+  command.insert(command.end(), {"-ftemplate-depth=200", "-ffunction-sections", "-fdata-sections"});
   if (options.debug) {
     const path folder = std::filesystem::absolute(options.main).parent_path();
     command.insert(
@@ -132,7 +134,8 @@ ProcessResult compileAll(const Toolchain& toolchain, const std::vector<Forbidden
                          const BuildTools& tools, const StudentBuildOptions& options,
                          const StudentObject& result) {
   std::vector<std::string> withJson = command;
-  withJson.insert(withJson.end(), {"-fdiagnostics-format=json", "-MD", "-MF", kDependencies});
+  withJson.insert(withJson.end(), {"-fdiagnostics-format=json", "-MD", "-MF", kDependencies,
+                                   std::string("-Wa,--MD,") + kOfAssembler});
   const std::string part =
       options.part ? gradedPart(result.source, toolchain.functions, lastNames(forbidden)) : "";
   if (!part.empty()) {
@@ -171,6 +174,36 @@ std::vector<CompileDiagnostic> explainLinking(const ProcessResult& run, const Bu
   const std::string complaint = complaintAbout(object, run.error);
   if (complaint.empty()) throw unexplained("the linker failed", lastWordsOf(run));
   return {{mainFile, 0, 0, "error", "", "cannot be linked: " + complaint}};
+}
+
+// Of all that the compiler and the assembler opened. Where only a part was compiled, that was done in a
+// folder of its own.
+std::vector<CompileDiagnostic> forbiddenFilesIn(const StudentObject& object, const path& folder,
+                                                const Toolchain& toolchain) {
+  const auto forbidden = [&](const std::vector<path>& files, const path& where) {
+    return forbiddenIncludes(files, object.source, object.name, where, toolchain);
+  };
+  std::vector<CompileDiagnostic> found =
+      forbidden(dependenciesIn(readTextFile(folder / kDependencies), folder), folder);
+  const path assembled = std::filesystem::exists(folder / kOfAssembler) ? folder : folder / kPart;
+  const auto more = forbidden(filesOfAssembler(readTextFile(assembled / kOfAssembler), assembled), assembled);
+  found.insert(found.end(), more.begin(), more.end());
+  return found;
+}
+
+// Makes `result.graded`, in which nothing may call what is forbidden. Where the file keeps that from being
+// made, the messages say so.
+std::vector<CompileDiagnostic> forbiddenCallsIn(StudentObject& result, const Toolchain& toolchain,
+                                                const std::vector<ForbiddenFunction>& forbidden,
+                                                const BuildTools& tools) {
+  if (forbidden.empty()) return {};
+  const ObjectFile whole = readObjectFile(readTextFile(result.object), result.object.string());
+  std::vector<CompileDiagnostic> messages = strangeParts(whole, result.name);
+  if (!messages.empty()) return messages;
+  result.graded = result.object.parent_path() / "graded.o";
+  const ProcessResult run = withoutMain(result.object, result.graded, toolchain, tools);
+  if (!run.ok()) return explainLinking(run, tools, result.object.string(), result.name);
+  return scanSymbols(result.graded, result.source, result.name, forbidden);
 }
 
 StudentProgram link(const Toolchain& toolchain, const BuildTools& tools, const path& program,
@@ -250,10 +283,12 @@ StudentObject compileStudent(const Toolchain& toolchain, const std::vector<Forbi
   }
   // A copy, so that what is graded is what was read and nothing beside the student's file is included.
   std::filesystem::create_directories(folder);
-  writeTextFile(folder / name, result.source);
+  writeSource(folder / name, result.source);
   result.object = folder / "student.o";
   // Of another user, after a grading at another level.
-  for (const path& old : {folder / kDependencies, result.object}) std::filesystem::remove(old);
+  for (const path& old :
+       {folder / kDependencies, folder / kOfAssembler, folder / kPart / kOfAssembler, result.object})
+    std::filesystem::remove(old);
   StudentBuildOptions absolute = options;
   absolute.workFolder = folder;
   const BuildTools tools(toolchain, folder, options.sandbox,
@@ -262,13 +297,9 @@ StudentObject compileStudent(const Toolchain& toolchain, const std::vector<Forbi
           result);
   if (!result.ok) return result;
 
-  std::vector<CompileDiagnostic> calls =
-      scanSymbols(toolchain.objdump, result.object, result.source, name, forbidden, tools);
+  std::vector<CompileDiagnostic> calls = forbiddenCallsIn(result, toolchain, forbidden, tools);
   if (options.publicHeadersOnly) {
-    const auto dependencies = dependenciesIn(readTextFile(folder / kDependencies), folder);
-    for (const CompileDiagnostic& file :
-         forbiddenIncludes(dependencies, result.source, name, folder, toolchain))
-      calls.push_back(file);
+    for (const CompileDiagnostic& file : forbiddenFilesIn(result, folder, toolchain)) calls.push_back(file);
     for (const CompileDiagnostic& macro : forbiddenMacros(result.source, name)) calls.push_back(macro);
   }
   result.ok = calls.empty();
@@ -283,9 +314,11 @@ StudentObject compileStudent(const Toolchain& toolchain, const std::vector<Forbi
 StudentProgram linkWorker(const Toolchain& toolchain, const StudentObject& object,
                           const sandbox::Sandbox& sandbox) {
   const path folder = object.object.parent_path(), renamed = folder / "worker_student.o";
+  // What was looked through, and nothing else.
+  const path& part = object.graded.empty() ? object.object : object.graded;
   const BuildTools tools(toolchain, folder, sandbox);
-  const ProcessResult run = tools.run(
-      {toolchain.objcopy, "--redefine-sym", "main=studentMain", object.object.string(), renamed.string()});
+  const ProcessResult run =
+      tools.run({toolchain.objcopy, "--redefine-sym", "main=studentMain", part.string(), renamed.string()});
   if (!run.ok()) throw Error({.what = "cannot rename main in the compiled file", .found = run.error});
   return link(toolchain, tools, folder / "worker", {toolchain.workerObject.string(), renamed.string()},
               object.name);

@@ -29,6 +29,8 @@ struct StudentObject {
   std::string name;    ///< of the file in messages: "main.cpp"
   std::string source;  ///< what was compiled; empty when the file was refused
   std::filesystem::path object;
+  std::filesystem::path
+      graded{};  ///< the object without main(), where calls are forbidden: see withoutMain()
   std::vector<CompileDiagnostic> messages;
   std::string log;         ///< for build.log: the compiler's own words
   int exitCode = 0;        ///< of the compiler; 1 for a file that was refused
@@ -37,9 +39,9 @@ struct StudentObject {
 };
 
 /// Reads and compiles the file as it is now, under limits on time, memory and file size, and scans it for
-/// calls that the exercise forbids. Any trouble with the file becomes a message; throws Error only when the
-/// tools fail, as on a full disk, or where nothing tells what is wrong with the file. Two builds may run at
-/// once in different work folders.
+/// calls that the exercise forbids outside of main(). Any trouble with the file becomes a message; throws
+/// Error only when the tools fail, as on a full disk, or where nothing tells what is wrong with the file. Two
+/// builds may run at once in different work folders.
 [[nodiscard]] StudentObject compileStudent(const Toolchain& toolchain,
                                            const std::vector<ForbiddenFunction>& forbidden,
                                            const StudentBuildOptions& options);
@@ -52,8 +54,8 @@ struct StudentProgram {
   bool ok = false;
 };
 
-/// Links the worker: the exercise's loop around the student's functions, whose main() is put aside. Throws
-/// Error as compileStudent().
+/// Links the worker: the exercise's loop around the student's functions, whose main() is left out or put
+/// aside. Throws Error as compileStudent().
 [[nodiscard]] StudentProgram linkWorker(const Toolchain& toolchain, const StudentObject& object,
                                         const sandbox::Sandbox& sandbox = {});
 
