@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <clocale>
 #include <memory>
 #include <set>
 #include <string_view>
@@ -208,8 +209,13 @@ std::string withoutArchiveEnding(const std::string& name) {
 }
 
 ArchiveContent readArchive(const OpenedFile& opened, const fs::path& file, const ArchiveLimits& limits) {
-  const IsolatedResult read = callIsolated([&] { return packed(ArchiveReader(opened, file, limits).read()); },
-                                           {.cpuSeconds = 10, .wallSeconds = 60, .memory = 512u << 20});
+  const auto readAll = [&] {
+    // In this process alone: in the plain locale libarchive has no name for a member that is not of ASCII.
+    std::setlocale(LC_CTYPE, "C.UTF-8");
+    return packed(ArchiveReader(opened, file, limits).read());
+  };
+  const IsolatedResult read =
+      callIsolated(readAll, {.cpuSeconds = 10, .wallSeconds = 60, .memory = 512u << 20});
   if (read.end != IsolatedEnd::kReturned)
     throw Error({.what = "this archive is not taken",
                  .where = {file.string()},

@@ -307,7 +307,8 @@ TEST_F(HandInTest, TakesArchivesOfHonestPeople) {
   write("zoe.zip", zipOf({{.name = "01/", .mode = 040755},
                           {.name = "01/main.cpp", .text = "// zoe"},
                           {.name = "01/notes 10:30.txt"},
-                          {.name = "01/\x81bung.txt"},
+                          {.name = "01/\x81"
+                                   "bung.txt"},
                           {.name = "01/latest", .text = "main.cpp", .mode = 0120777},
                           {.name = "01/.DS_Store"},
                           {.name = "__MACOSX/01/main.cpp"},
