@@ -8,7 +8,7 @@
 namespace rex::grading {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\v\f\r";
+constexpr std::string_view kDirectiveBlanks = " \t\v\f\r";
 
 /// Goes through a source whose lines are joined at backslashes.
 class MarkerSearch {
@@ -33,7 +33,7 @@ class MarkerSearch {
   // that began in another, "/*/" ends it: so what is taken for a comment is one, if perhaps not all of it.
   std::size_t behindComments(std::size_t at) const {
     for (;;) {
-      const std::size_t first = std::min(text_.find_first_not_of(kBlanks, at), text_.size());
+      const std::size_t first = std::min(text_.find_first_not_of(kDirectiveBlanks, at), text_.size());
       if (text_.substr(first, 2) != "/*") return at;
       const std::size_t end = text_.find("*/", first + 1);
       if (end == text_.npos) return text_.size();
@@ -47,10 +47,10 @@ class MarkerSearch {
                isDigraph = text_.substr(sign, 2) == "%:", isTrigraph = text_.substr(sign, 3) == "?\?=";
     if (!isHash && !isDigraph && !isTrigraph) return false;
     const std::string_view before = text_.substr(lineStart, sign - lineStart);
-    const std::size_t last = before.find_last_not_of(kBlanks);
+    const std::size_t last = before.find_last_not_of(kDirectiveBlanks);
     const bool isFirst = last == before.npos || before.substr(0, last + 1).ends_with("*/");
     std::size_t at = behindComments(sign + (isHash ? 1 : isDigraph ? 2 : 3));
-    at = std::min(text_.find_first_not_of(kBlanks, at), text_.size());
+    at = std::min(text_.find_first_not_of(kDirectiveBlanks, at), text_.size());
     const bool isNumber = at < text_.size() && std::isdigit(static_cast<unsigned char>(text_[at])) != 0;
     const bool isLine = text_.substr(at, 4) == "line" && (at + 4 >= text_.size() || !isWord(text_[at + 4]));
     return isFirst && (isNumber || isLine);

@@ -82,8 +82,7 @@ TEST(Check, NamesTheWorstEntryOfAMatrix) {
 TEST(Check, RefusesWhatIsNotFiniteOrHasAnotherShape) {
   EXPECT_THAT(messageOf([](Check& check) { check.near("x", kNan, 0, 1e300); }),
               HasSubstr("x: not finite: got nan"));
-  EXPECT_THAT(messageOf([](Check& check) { check.near("x", kInfinity, 0, 1e300); }),
-              HasSubstr("not finite"));
+  EXPECT_THAT(messageOf([](Check& check) { check.near("x", kInfinity, 0, 1e300); }), HasSubstr("not finite"));
   EXPECT_THAT(messageOf([](Check& check) { check.atMost("x", kNan, 1); }), HasSubstr("not finite"));
   EXPECT_THAT(messageOf([](Check& check) { check.atMost("x", -kInfinity, 1); }), HasSubstr("not finite"));
   EXPECT_THAT(messageOf([](Check& check) { check.atLeast("x", kInfinity, 1); }), HasSubstr("not finite"));
