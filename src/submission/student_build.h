@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "base/opened_folder.h"
 #include "sandbox/cell.h"
 #include "submission/compiler_messages.h"
 #include "submission/exercise_info.h"
@@ -65,5 +67,13 @@ struct StudentProgram {
 /// The text of a student's file. Throws Error unless it is a regular file of at most 1 MiB of text without
 /// NUL bytes; symbolic links, pipes and devices are never opened for reading.
 [[nodiscard]] std::string readStudentFile(const std::filesystem::path& file);
+
+struct StudentFile {
+  std::string text{};
+  std::int64_t modifiedAt = 0;  ///< seconds since 1970 in UTC
+};
+
+/// The same of an entry of a folder that was opened, whatever happens to names meanwhile.
+[[nodiscard]] StudentFile readStudentFile(const OpenedFolder& folder, const std::string& name);
 
 }  // namespace rex::grading

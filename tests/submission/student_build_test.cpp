@@ -221,6 +221,20 @@ TEST_F(StudentBuildTest, SaysWhichFunctionIsMissing) {
   EXPECT_EQ(first(worker.messages), "main.cpp: error: 'twice' is declared but has no body here");
 }
 
+// Else a warning would speak of another file, or be silent.
+TEST_F(StudentBuildTest, RefusesLineMarkers) {
+  const std::string warns = "int twice(int a) { int unused; return 2 * a; }\n";
+  for (const char* marker :
+       {"#line 1 \"other.h\"\n", "# 1 \"vector\" 3\n", "%:line 900\n", "#/**/line 5\n"}) {
+    const StudentObject object = compile("#include \"exercise.h\"\n" + (marker + warns));
+    EXPECT_FALSE(object.ok);
+    ASSERT_EQ(object.messages.size(), 1u);
+    EXPECT_EQ(toString(object.messages[0]).find("main.cpp:2:1: error: found a #line directive"), 0u)
+        << marker;
+    EXPECT_EQ(object.exitCode, 1);
+  }
+}
+
 TEST_F(StudentBuildTest, RefusesForbiddenCalls) {
   const StudentObject object =
       compile("#include \"exercise.h\"\n\nint twice(int a) { return rex::answer(a); }\nint main() {}\n");
