@@ -14,12 +14,12 @@ inline GaussianBelief randomGaussian(rex::Rng& rng, int n) {
   return {rng.normalVector(n), positiveDefinite(rng, n)};
 }
 
-// A Gaussian the grader can compute with.
-inline void checkGaussian(rex::grading::Check& check, const GaussianBelief& belief, Eigen::Index n) {
+// A Gaussian the grader can compute with, whose covariance should be of that norm.
+inline void checkGaussian(rex::grading::Check& check, const GaussianBelief& belief, Eigen::Index n,
+                          double size) {
   check.shape("mean", belief.mean, n, 1);
   check.shape("covariance", belief.cov, n, n);
-  check.near("covariance against its transpose", belief.cov, belief.cov.transpose(),
-             1e-9 * (1 + belief.cov.norm()));
+  check.near("covariance against its transpose", belief.cov, belief.cov.transpose(), 1e-9 * (1 + size));
   check.that("the covariance is positive definite", belief.cov.llt().info() == Eigen::Success);
 }
 
@@ -62,25 +62,26 @@ inline void productFits(rex::grading::Check& check, Student& student, int n) {
   const GaussianBelief p = randomGaussian(check.rng(), n), q = randomGaussian(check.rng(), n);
   check.input(fmt::format("two random Gaussians in {} dimensions", n));
   const GaussianBelief both = student.product(p, q);
+  const Eigen::MatrixXd P = p.cov.inverse(), Q = q.cov.inverse(), S = (P + Q).inverse();
+  const GaussianBelief wanted{S * (P * p.mean + Q * q.mean), S};
   const auto shown = check.show([&] {
-    const Eigen::MatrixXd P = p.cov.inverse(), Q = q.cov.inverse(), S = (P + Q).inverse();
     rex::Figure figure = gaussianFigure("The product of two Gaussians", n);
     const rex::Series thin{.color = rex::Color{.6f, .62f, .65f}};
     addGaussian(figure, "p", p, thin);
     addGaussian(figure, "q", q, thin);
     addGaussian(figure, "got", both, rex::grading::gotCurve(""));
-    addGaussian(figure, "wanted", {S * (P * p.mean + Q * q.mean), S}, rex::grading::wantedCurve(""));
+    addGaussian(figure, "wanted", wanted, rex::grading::wantedCurve(""));
     return rex::grading::Evidence{.figures = {figure}};
   });
-  checkGaussian(check, both, n);
-  const auto logRatio = [&](const Eigen::VectorXd& x) {
-    return logDensity(p, x) + logDensity(q, x) - logDensity(both, x);
+  checkGaussian(check, both, n, S.norm());
+  const auto logRatio = [&](const Eigen::VectorXd& x, const GaussianBelief& product) {
+    return logDensity(p, x) + logDensity(q, x) - logDensity(product, x);
   };
-  const double atMean = logRatio(p.mean);
   for (int i = 0; i < 10 + n * n; ++i) {
     const Eigen::VectorXd x = p.mean + check.rng().normalVector(n);
-    check.near("ln(p(x) q(x) / product(x)), which should not depend on x", logRatio(x), atMean,
-               1e-8 * (1 + std::abs(logDensity(both, x)) + std::abs(atMean)));
+    check.near("change of ln(p(x) q(x) / product(x)), which should not depend on x",
+               logRatio(x, both) - logRatio(p.mean, both), 0,
+               1e-8 * (1 + std::abs(logDensity(wanted, x)) + std::abs(logRatio(p.mean, wanted))));
   }
 }
 
@@ -105,8 +106,9 @@ inline void fitsSamples(rex::grading::Check& check, const GaussianBelief& belief
     addGaussian(figure, "got", belief, rex::grading::gotCurve(""));
     return rex::grading::Evidence{.figures = {figure}};
   });
-  checkGaussian(check, belief, samples.rows());
   const double count = static_cast<double>(samples.cols());
+  const Eigen::MatrixXd centred = samples.colwise() - samples.rowwise().mean();
+  checkGaussian(check, belief, samples.rows(), (centred * centred.transpose()).norm() / count);
   const Eigen::MatrixXd Z = belief.cov.llt().matrixL().solve(samples.colwise() - belief.mean);
   const Eigen::MatrixXd Id = Eigen::MatrixXd::Identity(Z.rows(), Z.rows());
   check.atMost("difference to the mean of samples, in standard deviations of the belief",

@@ -338,7 +338,7 @@ void propagationFitsIntegral(Check& check, Student& student) {
                A = rng.uniform(0.3, 2);
   const auto number = [](double x) { return Eigen::MatrixXd::Constant(1, 1, x).eval(); };
   const GaussianBelief x = student.propagated({number(b), number(B)}, number(a), number(F), number(A));
-  checkGaussian(check, x, 1);
+  checkGaussian(check, x, 1, F * F * B + A);
   const double deviation = std::sqrt(B), width = 0.01 * deviation;
   for (double at = a + F * b - 3; at <= a + F * b + 3; at += 1) {
     double sum = 0;

@@ -96,8 +96,9 @@ inline void descends(rex::grading::Check& check, Student& student, const Landsca
   for (std::size_t t = 1; t < path.size(); ++t) {
     const Eigen::VectorXd step = path[t] - path[t - 1], g = land.gradient(path[t - 1]);
     const double alpha = -step.dot(g) / g.squaredNorm();
-    check.that("every step goes along the negative gradient",
-               alpha > 0 && (step + alpha * g).norm() <= 1e-5 * step.norm() + 1e-13 * path[t].norm());
+    check.that(
+        "every step goes along the negative gradient",
+        alpha > 0 && (step + alpha * g).norm() <= 1e-5 * alpha * g.norm() + 1e-13 * path[t - 1].norm());
     decreases(check, land.f(path[t - 1]), land.f(path[t]), alpha, -g.squaredNorm(), options.decrease);
     check.atMost("step size, relative to its first trial", alpha / firstTrial, 1 + 1e-4);
     const double shrunk = std::log(alpha / firstTrial) / std::log(options.shrink);
@@ -171,8 +172,9 @@ inline void followsGaussNewton(rex::grading::Check& check, Student& student, con
     const Eigen::MatrixXd J = problem.J(x);
     const Eigen::VectorXd phi = problem.phi(x), full = -rex::leastSquares(J, phi);
     const double alpha = step.dot(full) / full.squaredNorm();
-    check.that("every step goes along the d with J^T J d = -J^T phi",
-               alpha > 0 && (step - alpha * full).norm() <= 1e-5 * step.norm() + 1e-10 * (1 + x.norm()));
+    check.that(
+        "every step goes along the d with J^T J d = -J^T phi",
+        alpha > 0 && (step - alpha * full).norm() <= 1e-5 * alpha * full.norm() + 1e-10 * (1 + x.norm()));
     check.atMost("alpha of a step", alpha, 1 + 1e-4);
     decreases(check, phi.squaredNorm(), problem.phi(path[t]).squaredNorm(), alpha, gradient(x).dot(full),
               options.decrease);

@@ -7,7 +7,8 @@
 
 // Part 1: each puts a result into the equation it should solve.
 
-// Relative to the terms of an equation. A right way of solving the ones below loses up to 1e-11 of them.
+// Relative to the terms of an equation at its solution, never at an answer: a large one would make its own
+// error small. A right way of solving the ones below loses up to 1e-11 of them.
 inline constexpr double kRelative = 1e-9;
 
 inline void equationAHolds(rex::grading::Check& check, Student& student, int n) {
@@ -15,9 +16,10 @@ inline void equationAHolds(rex::grading::Check& check, Student& student, int n) 
   check.input(sizes("a: random A", n, n));
   const Eigen::MatrixXd X = student.equationA(A);
   check.shape("X of a", X, n, n);
-  const Eigen::MatrixXd left = X * A + A.transpose();
+  const Eigen::MatrixXd left = X * A + A.transpose(), Id = Eigen::MatrixXd::Identity(n, n);
+  const Eigen::MatrixXd wanted = (Id - A.transpose()) * rex::inverse(A);
   check.atMost("error of X A + A^T = Id, relative",
-               (left - Eigen::MatrixXd::Identity(n, n)).norm() / (X.norm() * A.norm() + A.norm()), kRelative);
+               (left - Id).norm() / (wanted.norm() * A.norm() + A.norm()), kRelative);
 }
 
 inline void equationBHolds(rex::grading::Check& check, Student& student, int n, int m) {
@@ -27,8 +29,9 @@ inline void equationBHolds(rex::grading::Check& check, Student& student, int n, 
   const Eigen::MatrixXd X = student.equationB(A, B, C);
   check.shape("X of b", X, n, m);
   const Eigen::MatrixXd error = X.transpose() * C - (2 * A * (X + B)).transpose();
+  const double size = rex::solve(C.transpose() - 2 * A, 2 * A * B).norm();  // of the X that is wanted
   check.atMost("error of X^T C = (2 A (X + B))^T, relative",
-               error.norm() / (X.norm() * C.norm() + 2 * A.norm() * (X.norm() + B.norm())), kRelative);
+               error.norm() / (size * C.norm() + 2 * A.norm() * (size + B.norm())), kRelative);
 }
 
 inline void equationCHolds(rex::grading::Check& check, Student& student, int d, int n) {
@@ -38,7 +41,8 @@ inline void equationCHolds(rex::grading::Check& check, Student& student, int d, 
   const Eigen::VectorXd x = student.equationC(A, y);
   check.shape("x of c", x, n, 1);
   check.atMost("error of (A x - y)^T A = 0, relative",
-               ((A * x - y).transpose() * A).norm() / (A.norm() * (A.norm() * x.norm() + y.norm())),
+               ((A * x - y).transpose() * A).norm() /
+                   (A.norm() * (A.norm() * rex::leastSquares(A, y).norm() + y.norm())),
                kRelative);
 }
 
@@ -49,7 +53,8 @@ inline void equationDHolds(rex::grading::Check& check, Student& student, int d, 
   const Eigen::VectorXd x = student.equationD(A, y, B);
   check.shape("x of d", x, n, 1);
   const Eigen::MatrixXd error = (A * x - y).transpose() * A + x.transpose() * B;
-  const double scale = A.norm() * (A.norm() * x.norm() + y.norm()) + B.norm() * x.norm();
+  const double size = rex::solve(A.transpose() * A + B, A.transpose() * y).norm();  // of the x that is wanted
+  const double scale = A.norm() * (A.norm() * size + y.norm()) + B.norm() * size;
   check.atMost("error of (A x - y)^T A + x^T B = 0, relative", error.norm() / scale, kRelative);
 }
 
@@ -87,8 +92,9 @@ inline void minimumIsLeast(rex::grading::Check& check, Student& student, int d, 
   const Minimum least = student.quadraticMinimum(A, y, C, B);
   check.shape("x of the minimum", least.x, n, 1);
   const Eigen::VectorXd e = A * least.x - y;
-  const double scale =
-      A.norm() * C.norm() * (A.norm() * least.x.norm() + y.norm()) + B.norm() * least.x.norm();
+  const Eigen::MatrixXd H = A.transpose() * C * A + B;
+  const double size = rex::solve(H, A.transpose() * C * y).norm();  // of the x that is wanted
+  const double scale = A.norm() * C.norm() * (A.norm() * size + y.norm()) + B.norm() * size;
   check.atMost("derivative of the cost at x, relative", (A.transpose() * C * e + B * least.x).norm() / scale,
                kRelative);
   const double cost = e.dot(C * e) + least.x.dot(B * least.x);

@@ -216,14 +216,21 @@ auto twice(void (*run)(Check&, Student&)) {
 
 // One step.
 
+// How large the terms of the gradient below are at the minimum, which the singular values of J give.
+double sizeOfTerms(const Eigen::MatrixXd& J, const Eigen::VectorXd& dy, double sigma) {
+  const SingularValues parts = svd(J);
+  const Eigen::ArrayXd s = parts.s.array(), along = (parts.U.transpose() * dy).array();
+  const Eigen::VectorXd wanted = s * along / (s.square() + sigma * sigma);
+  return (J.transpose() * dy).norm() + J.squaredNorm() * wanted.norm();
+}
+
 // The minimum of |J dq - dy|^2 + sigma^2 |dq|^2 is where its gradient vanishes.
 void isTheMinimum(Check& check, const Eigen::VectorXd& dq, const Eigen::MatrixXd& J,
                   const Eigen::VectorXd& dy, double sigma) {
   check.shape("dq", dq, J.cols(), 1);
   const Eigen::VectorXd gradient = J.transpose() * (J * dq - dy) + sigma * sigma * dq;
-  // Relative to what the terms amount to for a step of this size; solving the normal equations costs digits.
-  const double scale = (J.transpose() * dy).norm() + J.squaredNorm() * dq.norm();
-  check.atMost("gradient of the cost at dq, relative", gradient.norm() / scale, 1e-8);
+  // Solving the normal equations costs digits.
+  check.atMost("gradient of the cost at dq, relative", gradient.norm() / sizeOfTerms(J, dy, sigma), 1e-8);
 }
 
 void stepIsTheMinimum(Check& check, Student& student, const Eigen::MatrixXd& J, const Eigen::VectorXd& dy,

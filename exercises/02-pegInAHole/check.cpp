@@ -61,7 +61,8 @@ void inverseIsTheMinimum(Check& check, Student& student, const Eigen::MatrixXd& 
   check.shape("J#", X, J.cols(), J.rows());
   const Eigen::MatrixXd gradient =
       precision * J.transpose() * (J * X - Eigen::MatrixXd::Identity(J.rows(), J.rows())) + W * X;
-  const double scale = (precision * J.squaredNorm() + W.norm()) * X.norm() + precision * J.norm();
+  const Eigen::MatrixXd wanted = solve(precision * J.transpose() * J + W, precision * J.transpose());
+  const double scale = (precision * J.squaredNorm() + W.norm()) * wanted.norm() + precision * J.norm();
   check.atMost("gradient of the cost at J# dy, relative", gradient.norm() / scale, 1e-8);
 }
 
@@ -134,12 +135,17 @@ void stepIsTheMinimum(Check& check, Student& student, const std::vector<TaskTerm
                       const Eigen::MatrixXd& W) {
   const Eigen::VectorXd dq = student.multiTaskStep(tasks, W);
   check.shape("dq", dq, W.rows(), 1);
-  Eigen::VectorXd gradient = W * dq;
-  double scale = W.norm() * dq.norm();
+  Eigen::MatrixXd H = W;
+  Eigen::VectorXd gradient = W * dq, pull = Eigen::VectorXd::Zero(W.rows());
   for (const auto& [error, J, precision] : tasks) {
     gradient += precision * J.transpose() * (error + J * dq);
-    scale += precision * (J.norm() * error.norm() + J.squaredNorm() * dq.norm());
+    H += precision * J.transpose() * J;
+    pull += precision * J.transpose() * error;
   }
+  const double size = solve(H, pull).norm();  // of the step that is wanted
+  double scale = W.norm() * size;
+  for (const auto& [error, J, precision] : tasks)
+    scale += precision * (J.norm() * error.norm() + J.squaredNorm() * size);
   check.atMost("gradient of the cost at dq, relative", gradient.norm() / scale, 1e-8);
 }
 
@@ -510,12 +516,22 @@ Eigen::VectorXd stepOf(Check& check, Student& student, const TwoTasks& tasks) {
   return dq;
 }
 
+// The length of the step that is wanted; without a second task that the first leaves no freedom.
+double wantedLength(const TwoTasks& tasks) {
+  const Eigen::VectorXd first = leastSquares(tasks.J1, tasks.dy1);
+  const Eigen::MatrixXd free = nullspace(tasks.J1);
+  Eigen::MatrixXd J = tasks.J2 * free;
+  J = (J.array().abs() < 1e-9).select(0, J);  // what rounding leaves of a row that the first task has, too
+  if (J.size() == 0 || J.norm() == 0) return first.norm();
+  return (first + free * leastSquares(J, tasks.dy2 - tasks.J2 * first)).norm();
+}
+
 void firstIsFulfilled(Check& check, const TwoTasks& tasks, const Eigen::VectorXd& dq) {
   const Eigen::VectorXd missing = tasks.J1.transpose() * (tasks.J1 * dq - tasks.dy1);
-  check.atMost(
-      "gradient of the error of the first task, relative",
-      missing.norm() / (tasks.J1.squaredNorm() * dq.norm() + (tasks.J1.transpose() * tasks.dy1).norm()),
-      1e-7);
+  check.atMost("gradient of the error of the first task, relative",
+               missing.norm() /
+                   (tasks.J1.squaredNorm() * wantedLength(tasks) + (tasks.J1.transpose() * tasks.dy1).norm()),
+               1e-7);
 }
 
 void secondIsAsGoodAsItCan(Check& check, const TwoTasks& tasks, const Eigen::VectorXd& dq) {
@@ -523,7 +539,7 @@ void secondIsAsGoodAsItCan(Check& check, const TwoTasks& tasks, const Eigen::Vec
   const Eigen::VectorXd missing = tasks.J2 * dq - tasks.dy2;
   check.atMost("gradient of the error of the second task where the first leaves freedom, relative",
                (free.transpose() * tasks.J2.transpose() * missing).norm() /
-                   (tasks.J2.squaredNorm() * dq.norm() + tasks.J2.norm() * tasks.dy2.norm()),
+                   (tasks.J2.squaredNorm() * wantedLength(tasks) + tasks.J2.norm() * tasks.dy2.norm()),
                1e-7);
 }
 
@@ -531,7 +547,7 @@ void isTheShortest(Check& check, const TwoTasks& tasks, const Eigen::VectorXd& d
   Eigen::MatrixXd both(tasks.J1.rows() + tasks.J2.rows(), dq.size());
   both << tasks.J1, tasks.J2;
   check.atMost("part of dq that neither task asks for, relative",
-               (nullspace(both).transpose() * dq).norm() / dq.norm(), 1e-7);
+               (nullspace(both).transpose() * dq).norm() / wantedLength(tasks), 1e-7);
 }
 
 void firstComesFirst(Check& check, Student& student) {

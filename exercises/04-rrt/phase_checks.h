@@ -35,7 +35,10 @@ inline void leastEffortIsRight(rex::grading::Check& check, Student& student, con
   std::vector<double> u;
   for (int i = 0; i <= 20; ++i) u.push_back(student.forceAt(x.from, x.to, T, T * i / 20));
   const auto at = [&](int i) { return u[static_cast<std::size_t>(i)]; };
-  const double scale = 1 + std::abs(at(0)) + std::abs(at(20));
+  // The sizes of the force that is wanted at both ends: a straight line between them.
+  const double way = x.to[0] - x.from[0];
+  const double scale = 1 + std::abs(6 * way - 2 * T * (2 * x.from[1] + x.to[1])) / (T * T) +
+                       std::abs(6 * way - 2 * T * (x.from[1] + 2 * x.to[1])) / (T * T);
   check.near("velocity in the end, by that force", x.from[1] + integral(T, at), x.to[1], 1e-8 * scale, "m/s");
   check.near("position in the end, by that force",
              x.from[0] + T * x.from[1] + integral(T, [&](int i) { return T * (1 - i / 20.) * at(i); }),

@@ -61,8 +61,8 @@ inline void hamiltonianFits(rex::grading::Check& check, Student& student, const 
   check.input(described(plant));
   const Eigen::MatrixXd P = student.viaHamiltonian(plant, costs);
   check.shape("P", P, plant.A.rows(), plant.A.rows());
-  const double scale = 1 + costs.Q.norm() + 2 * (P * plant.A).norm();
-  check.near("P, transposed", P.transpose(), P, 1e-9 * P.norm());
+  const double scale = 1 + costs.Q.norm() + 2 * (optimal.X * plant.A).norm();
+  check.near("P, transposed", P.transpose(), P, 1e-9 * optimal.X.norm());
   check.near("the bracket", imbalance(plant, costs, P), Eigen::MatrixXd::Zero(P.rows(), P.cols()),
              1e-8 * scale);
   check.atMost("slowest pole of the closed loop",

@@ -144,7 +144,7 @@ void isFactor(Check& check, Student& student, Eigen::Index rows, Eigen::Index co
   const Eigen::VectorXd x = student.bandSolve(L, b);
   check.shape("x", x, columns, 1);
   check.atMost("residual of L L^T x = b, relative",
-               (times(band, x) - b).norm() / (b.norm() + band.cwiseAbs().maxCoeff() * x.norm()), 1e-9);
+               (times(band, x) - b).norm() / (b.norm() * (1 + band.cwiseAbs().maxCoeff())), 1e-9);
 }
 
 void factors(Check& check, Student& student) {

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "course/linear_algebra.h"
 #include "grading/check.h"
 #include "grading/evidence_parts.h"
 #include "interface.h"
@@ -113,19 +114,28 @@ inline void impactFits(rex::grading::Check& check, Student& student, const Walke
   check.near("angles after the impact", after.head<2>(), Eigen::Vector2d(x[1], x[0]), 1e-12, "rad");
   check.shape("state after the impact", after, 4, 1);
   const LegMasses old = massesOf(walker, x), now = massesOf(walker, after);
-  const double m = walker.legMass, size = (walker.hipMass + 2 * m) * std::pow(walker.a + walker.b, 2) *
-                                          (x.tail<2>().norm() + after.tail<2>().norm());
+  const double m = walker.legMass;
   const double before = walker.hipMass * planarCross(old.hip - old.foot, old.hipRate) +
                         m * planarCross(old.stance - old.foot, old.stanceRate) +
                         m * planarCross(old.swing - old.foot, old.swingRate);
-  const double all = walker.hipMass * planarCross(now.hip, now.hipRate) +
-                     m * planarCross(now.stance, now.stanceRate) + m * planarCross(now.swing, now.swingRate);
-  check.near("angular momentum of all masses about the foot that lands", all, before, 1e-10 * size,
+  // Both momenta are linear in the rates afterwards, so they tell which are wanted, and how large they are.
+  const auto momenta = [&](const LegMasses& legs) {
+    return Eigen::Vector2d(walker.hipMass * planarCross(legs.hip, legs.hipRate) +
+                               m * planarCross(legs.stance, legs.stanceRate) +
+                               m * planarCross(legs.swing, legs.swingRate),
+                           m * planarCross(legs.swing - legs.hip, legs.swingRate));
+  };
+  Eigen::Matrix2d ofRates;
+  for (int k = 0; k < 2; ++k)
+    ofRates.col(k) = momenta(massesOf(walker, Eigen::Vector4d(x[1], x[0], k == 0 ? 1 : 0, k)));
+  const Eigen::Vector2d kept(before, m * planarCross(old.stance - old.hip, old.stanceRate));
+  const double size = (walker.hipMass + 2 * m) * std::pow(walker.a + walker.b, 2) *
+                      (x.tail<2>().norm() + rex::solve(ofRates, kept).norm());
+  const Eigen::Vector2d got = momenta(now);
+  check.near("angular momentum of all masses about the foot that lands", got[0], kept[0], 1e-10 * size,
              "kg m^2/s");
   // The leg that stood before swings now.
-  check.near("angular momentum of the leg behind about the hip",
-             m * planarCross(now.swing - now.hip, now.swingRate),
-             m * planarCross(old.stance - old.hip, old.stanceRate), 1e-10 * size, "kg m^2/s");
+  check.near("angular momentum of the leg behind about the hip", got[1], kept[1], 1e-10 * size, "kg m^2/s");
 }
 
 /// A step as a curve of each leg, angle and rate, and where it ended beside where it should.

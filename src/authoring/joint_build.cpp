@@ -86,7 +86,7 @@ std::vector<CompileDiagnostic> JointBuild::forbiddenCallsOf(std::size_t variant)
   const BuildTools tools(context_.toolchain, folder_, {});
   const ProcessResult run = tools.run(command);
   if (!run.ok()) throw Error({.what = "cannot take a variant out of the others", .found = run.error});
-  return scanSymbols(context_.toolchain.objdump, part, sources_[variant], object_.name, forbidden, tools);
+  return scanSymbols(part, sources_[variant], object_.name, forbidden);
 }
 
 BuiltSubmission JointBuild::link(std::size_t variant) const {

@@ -61,6 +61,19 @@ bool applyLimits(const ProcessOptions& options) {
   ::_exit(127);
 }
 
+// Ours, with some variables in place of others.
+std::vector<char*> environmentWith(const std::vector<std::string>& more) {
+  std::vector<char*> all;
+  for (const std::string& variable : more) all.push_back(const_cast<char*>(variable.c_str()));
+  for (char** old = ::environ; *old != nullptr; ++old) {
+    const std::string_view name = std::string_view(*old).substr(0, std::string_view(*old).find('=') + 1);
+    if (std::none_of(more.begin(), more.end(), [&](const auto& one) { return one.starts_with(name); }))
+      all.push_back(*old);
+  }
+  all.push_back(nullptr);
+  return all;
+}
+
 void append(std::string& kept, const char* data, std::size_t size, std::size_t limit) {
   kept.append(data, std::min(size, limit - std::min(limit, kept.size())));
 }
@@ -184,6 +197,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& argv, const ProcessOp
   for (const std::string& argument : argv) arguments.push_back(const_cast<char*>(argument.c_str()));
   arguments.push_back(nullptr);
   const std::string directory = options.directory.string();
+  std::vector<char*> environment = environmentWith(options.environment);
 
   running_ = std::make_unique<Running>();
   Running& running = *running_;
@@ -195,6 +209,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& argv, const ProcessOp
   if (running.child < 0) throw Error({.what = "cannot start " + argv[0], .found = std::strerror(errno)});
   if (running.child == 0) {
     const bool kept = running.ownGroup;
+    ::environ = environment.data();
     const int standard[3] = {running.in.readEnd(), kept ? running.out.writeEnd() : -1,
                              kept ? running.err.writeEnd() : -1};
     becomeProgram(arguments.data(), directory.c_str(), options, standard, parent, failure.writeEnd());

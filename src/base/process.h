@@ -9,11 +9,12 @@ namespace rex {
 
 /// How to run another program. Nothing ever passes through a shell.
 struct ProcessOptions {
-  std::string input{};                 ///< fed to its standard input, which is empty otherwise
-  std::filesystem::path directory{};   ///< its working directory; empty: ours
-  double timeout = 60;                 ///< wall seconds; then it and its process group are killed
-  std::size_t outputLimit = 1u << 20;  ///< bytes kept of each output stream; the rest is read and dropped
-  bool inheritOutput = false;          ///< outputs go where ours go, unkept; Ctrl-C reaches the program too
+  std::string input{};                     ///< fed to its standard input, which is empty otherwise
+  std::filesystem::path directory{};       ///< its working directory; empty: ours
+  std::vector<std::string> environment{};  ///< NAME=VALUE, beside and in place of ours
+  double timeout = 60;                     ///< wall seconds; then it and its process group are killed
+  std::size_t outputLimit = 1u << 20;      ///< bytes kept of each output stream; the rest is read and dropped
+  bool inheritOutput = false;    ///< outputs go where ours go, unkept; Ctrl-C reaches the program too
   double cpuSeconds = 0;         ///< processor seconds, rounded up; 0: no limit. Then SIGKILL or SIGXCPU
   std::size_t addressSpace = 0;  ///< bytes of virtual memory; 0: no limit
   std::size_t fileSize = 0;      ///< bytes of the largest file it may write; 0: no limit

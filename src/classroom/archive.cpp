@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <clocale>
 #include <memory>
 #include <set>
 #include <string_view>
@@ -14,6 +15,7 @@
 #include "base/error.h"
 #include "base/isolated_call.h"
 #include "base/lower_case.h"
+#include "base/printable.h"
 
 namespace rex::grading {
 namespace {
@@ -33,12 +35,55 @@ struct FreeArchive {
   void operator()(archive* opened) const { ::archive_read_free(opened); }
 };
 
+// Upper half of code page 437, in which zip files name what they do not mark as UTF-8.
+constexpr std::u16string_view kCodePage437 =
+    u"\u00C7\u00FC\u00E9\u00E2\u00E4\u00E0\u00E5\u00E7\u00EA\u00EB\u00E8\u00EF\u00EE\u00EC\u00C4\u00C5"
+    u"\u00C9\u00E6\u00C6\u00F4\u00F6\u00F2\u00FB\u00F9\u00FF\u00D6\u00DC\u00A2\u00A3\u00A5\u20A7\u0192"
+    u"\u00E1\u00ED\u00F3\u00FA\u00F1\u00D1\u00AA\u00BA\u00BF\u2310\u00AC\u00BD\u00BC\u00A1\u00AB\u00BB"
+    u"\u2591\u2592\u2593\u2502\u2524\u2561\u2562\u2556\u2555\u2563\u2551\u2557\u255D\u255C\u255B\u2510"
+    u"\u2514\u2534\u252C\u251C\u2500\u253C\u255E\u255F\u255A\u2554\u2569\u2566\u2560\u2550\u256C\u2567"
+    u"\u2568\u2564\u2565\u2559\u2558\u2552\u2553\u256B\u256A\u2518\u250C\u2588\u2584\u258C\u2590\u2580"
+    u"\u03B1\u00DF\u0393\u03C0\u03A3\u03C3\u00B5\u03C4\u03A6\u0398\u03A9\u03B4\u221E\u03C6\u03B5\u2229"
+    u"\u2261\u00B1\u2265\u2264\u2320\u2321\u00F7\u2248\u00B0\u2219\u00B7\u221A\u207F\u00B2\u25A0\u00A0";
+
+std::string fromCodePage437(std::string_view bytes) {
+  std::string text;
+  for (const char byte : bytes) {
+    const auto code = static_cast<unsigned char>(byte);
+    const unsigned c = code < 0x80 ? code : kCodePage437[code - 0x80u];
+    if (c >= 0x800) text += {static_cast<char>(0xE0 | c >> 12), static_cast<char>(0x80 | (c >> 6 & 0x3F))};
+    if (c >= 0x80 && c < 0x800) text += static_cast<char>(0xC0 | c >> 6);
+    text += static_cast<char>(c >= 0x80 ? 0x80 | (c & 0x3F) : c);
+  }
+  return text;
+}
+
+// A byte that is none of UTF-8 becomes the mark, which needs two bytes more.
+bool isUtf8(const std::string& text) {
+  const auto marksIn = [](std::string_view in) {
+    int count = 0;
+    for (std::size_t at = in.find("\uFFFD"); at != in.npos; at = in.find("\uFFFD", at + 1)) ++count;
+    return count;
+  };
+  const std::string replaced =
+      nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return marksIn(replaced) == marksIn(text);
+}
+
+// The form in UTF-8, where the archive knows one: the other form depends on the locale, in which it may be
+// none.
+std::string nameOf(archive_entry* entry) {
+  const char* name = ::archive_entry_pathname_utf8(entry);
+  if (name == nullptr) name = ::archive_entry_pathname(entry);
+  const std::string bytes = name == nullptr ? "" : name;
+  return isUtf8(bytes) ? bytes : fromCodePage437(bytes);
+}
+
 // What is wrong with a name; empty if nothing is.
 std::string whyUnsafe(const std::string& name, const ArchiveLimits& limits) {
   if (name.empty()) return "no name";
   if (name.size() > limits.nameBytes) return fmt::format("a name of {} bytes", name.size());
-  if (name.front() == '/' || name.find('\\') != std::string::npos || name.find(':') != std::string::npos)
-    return "an absolute name, a drive or a backslash";
+  if (name.front() == '/' || name.find('\\') != std::string::npos) return "an absolute name or a backslash";
   const fs::path path(name);
   if (std::find(path.begin(), path.end(), "..") != path.end()) return "a way out of its folder";
   return {};
@@ -62,45 +107,44 @@ std::string nameOfType(archive_entry* entry) {
 /// Goes through one archive, in a process that may die of it.
 class ArchiveReader {
  public:
-  ArchiveReader(const fs::path& file, const ArchiveLimits& limits)
-      : file_(file), limits_(limits), archiveBytes_(fs::file_size(file)), archive_(::archive_read_new()) {
+  ArchiveReader(const OpenedFile& opened, const fs::path& file, const ArchiveLimits& limits)
+      : file_(file), limits_(limits), archiveBytes_(opened.size()), archive_(::archive_read_new()) {
     if (archiveBytes_ > limits.bytes)
       throw refusal("", fmt::format("{} bytes", archiveBytes_), fmt::format("at most {}", limits.bytes));
     ::archive_read_support_filter_gzip(archive_.get());
     ::archive_read_support_format_tar(archive_.get());
     ::archive_read_support_format_zip_seekable(archive_.get());
     constexpr std::size_t kBlock = 10240;
-    if (::archive_read_open_filename(archive_.get(), file.c_str(), kBlock) != ARCHIVE_OK) throw broken("");
+    if (::archive_read_open_fd(archive_.get(), opened.fd(), kBlock) != ARCHIVE_OK) throw broken("");
   }
 
-  std::vector<ArchiveFile> read() {
-    std::vector<ArchiveFile> files;
+  ArchiveContent read() {
+    ArchiveContent content;
     archive_entry* entry = nullptr;
     for (int count = 1;; ++count) {
       const int end = ::archive_read_next_header(archive_.get(), &entry);
-      if (end == ARCHIVE_EOF) return files;
+      if (end == ARCHIVE_EOF) return content;
       if (end < ARCHIVE_WARN) throw broken("");
       if (count > limits_.members)
         throw refusal("", "more members", fmt::format("at most {}", limits_.members));
-      const std::string name = checkedName(entry);
+      const std::string name = checkedName(entry), type = nameOfType(entry);
       std::string text = textOf(name);
-      if (::archive_entry_filetype(entry) == AE_IFREG) files.push_back({name, std::move(text)});
+      if (!type.empty())
+        content.leftOut.push_back({name, type});
+      else if (::archive_entry_filetype(entry) == AE_IFREG)
+        content.files.push_back({name, std::move(text)});
     }
   }
 
  private:
   std::string checkedName(archive_entry* entry) {
-    const char* pointer = ::archive_entry_pathname(entry);
-    const std::string name = pointer == nullptr ? "" : pointer;
-    const std::string shown = name.substr(0, 100);
+    const std::string name = nameOf(entry), shown = printable(name, 100);
     if (const std::string why = whyUnsafe(name, limits_); !why.empty())
       throw refusal(shown, why, "a name inside of a folder");
-    if (const std::string type = nameOfType(entry); !type.empty())
-      throw refusal(shown, type, "files and folders only");
     if (::archive_entry_is_encrypted(entry) != 0)
       throw refusal(shown, "an encrypted file", "one without a password");
     const std::string normal = lowerCase(fs::path(name).lexically_normal().string());
-    const bool isFile = ::archive_entry_filetype(entry) == AE_IFREG;
+    const bool isFile = ::archive_entry_filetype(entry) != AE_IFDIR;
     if (isFile && !names_.insert(normal).second)
       throw refusal(shown, "a second file of that name, where case does not count", "one");
     return name;
@@ -147,11 +191,12 @@ class ArchiveReader {
   std::size_t bytes_ = 0;
 };
 
-std::string packed(const std::vector<ArchiveFile>& files) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const ArchiveFile& file : files) list.push_back({file.name, file.text});
+std::string packed(const ArchiveContent& content) {
+  nlohmann::json files = nlohmann::json::array(), leftOut = nlohmann::json::array();
+  for (const ArchiveFile& file : content.files) files.push_back({file.name, file.text});
+  for (const auto& [name, why] : content.leftOut) leftOut.push_back({name, why});
   std::string bytes;
-  nlohmann::json::to_cbor(list, bytes);
+  nlohmann::json::to_cbor(nlohmann::json{{"files", files}, {"left_out", leftOut}}, bytes);
   return bytes;
 }
 
@@ -163,19 +208,32 @@ std::string withoutArchiveEnding(const std::string& name) {
   return name.substr(0, name.size() - endingSize(name));
 }
 
-std::vector<ArchiveFile> readArchive(const fs::path& file, const ArchiveLimits& limits) {
-  const IsolatedResult read = callIsolated([&] { return packed(ArchiveReader(file, limits).read()); },
-                                           {.cpuSeconds = 10, .wallSeconds = 60, .memory = 512u << 20});
+ArchiveContent readArchive(const OpenedFile& opened, const fs::path& file, const ArchiveLimits& limits) {
+  const auto readAll = [&] {
+    // In this process alone: in the plain locale libarchive has no name for a member that is not of ASCII.
+    std::setlocale(LC_CTYPE, "C.UTF-8");
+    return packed(ArchiveReader(opened, file, limits).read());
+  };
+  const IsolatedResult read =
+      callIsolated(readAll, {.cpuSeconds = 10, .wallSeconds = 60, .memory = 512u << 20});
   if (read.end != IsolatedEnd::kReturned)
     throw Error({.what = "this archive is not taken",
                  .where = {file.string()},
                  .found = read.end == IsolatedEnd::kCrashed ? "one that its reader crashes on"
                                                             : "one that takes too long or too much memory",
                  .wanted = "a whole .zip, .tar or .tar.gz file"});
-  std::vector<ArchiveFile> files;
-  for (const nlohmann::json& entry : nlohmann::json::from_cbor(read.bytes))
-    files.push_back({entry.at(0).get<std::string>(), entry.at(1).get<std::string>()});
-  return files;
+  const nlohmann::json content = nlohmann::json::from_cbor(read.bytes);
+  ArchiveContent all;
+  for (const nlohmann::json& entry : content.at("files"))
+    all.files.push_back({entry.at(0).get<std::string>(), entry.at(1).get<std::string>()});
+  for (const nlohmann::json& entry : content.at("left_out"))
+    all.leftOut.push_back({entry.at(0).get<std::string>(), entry.at(1).get<std::string>()});
+  return all;
+}
+
+ArchiveContent readArchive(const fs::path& file, const ArchiveLimits& limits) {
+  const OpenedFolder folder(file.has_parent_path() ? file.parent_path() : fs::path("."));
+  return readArchive(folder.file(file.filename().string()), file, limits);
 }
 
 }  // namespace rex::grading

@@ -4,10 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "base/opened_folder.h"
+
 namespace rex::grading {
 
 struct ArchiveFile {
-  std::string name{};  ///< with slashes, as it stands in the archive
+  std::string name{};  ///< with slashes
   std::string text{};
 };
 
@@ -19,16 +21,30 @@ struct ArchiveLimits {
   std::size_t nameBytes = 255;
 };
 
+/// What an archive holds.
+struct ArchiveContent {
+  struct LeftOut {
+    std::string name{};
+    std::string why{};  ///< "a symbolic link"
+  };
+  std::vector<ArchiveFile> files{};
+  std::vector<LeftOut> leftOut{};  ///< what is no file or folder: links, pipes, devices
+};
+
 /// Whether the name ends in .zip, .tar, .tar.gz or .tgz.
 [[nodiscard]] bool isArchiveName(const std::string& name);
 
 /// The name without that ending.
 [[nodiscard]] std::string withoutArchiveEnding(const std::string& name);
 
-/// Reads the files of an archive into memory, in a process of its own; writes nothing. Throws Error, which
-/// names the member, for a name that is absolute or leaves its folder, for links, pipes and devices, for two
-/// names that are one where case does not count, for what goes beyond the limits, is encrypted or broken.
-[[nodiscard]] std::vector<ArchiveFile> readArchive(const std::filesystem::path& file,
-                                                   const ArchiveLimits& limits = {});
+/// Reads the files of an archive into memory, in a process of its own; writes nothing. Names are UTF-8,
+/// whatever they were in the archive: what is no UTF-8 there counts as code page 437. Throws Error, which
+/// names the member, for a name that is absolute or leaves its folder, for two names that are one where case
+/// does not count, for what goes beyond the limits, is encrypted or broken.
+[[nodiscard]] ArchiveContent readArchive(const std::filesystem::path& file, const ArchiveLimits& limits = {});
+
+/// The same of one that was opened; `file` is for messages.
+[[nodiscard]] ArchiveContent readArchive(const OpenedFile& opened, const std::filesystem::path& file,
+                                         const ArchiveLimits& limits = {});
 
 }  // namespace rex::grading

@@ -1,33 +1,13 @@
 #include "classroom/csv.h"
 
-#include <charconv>
-
 #include "base/error.h"
+#include "base/escape.h"
 
 namespace rex::grading {
-namespace {
-
-bool isNumber(const std::string& text) {
-  double value = 0;
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return failure == std::errc() && end == text.data() + text.size();
-}
-
-std::string field(std::string text) {
-  constexpr std::string_view kStartsOfFormulas = "=+-@\t\r";
-  if (!text.empty() && kStartsOfFormulas.find(text.front()) != std::string_view::npos && !isNumber(text))
-    text.insert(0, 1, '\'');
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
-
-}  // namespace
 
 std::string csvLine(const std::vector<std::string>& fields) {
   std::string line;
-  for (std::size_t k = 0; k < fields.size(); ++k) line += (k == 0 ? "" : ",") + field(fields[k]);
+  for (std::size_t k = 0; k < fields.size(); ++k) line += (k == 0 ? "" : ",") + csvField(fields[k]);
   return line + '\n';
 }
 

@@ -6,8 +6,8 @@
 
 namespace rex::grading {
 
-/// One line of a CSV file (RFC 4180, but ending in LF). Text that a spreadsheet would take for a formula gets
-/// a ' in front.
+/// One line of a CSV file (RFC 4180, but ending in LF). What a spreadsheet would take for a formula gets a '
+/// in front (csvField()).
 [[nodiscard]] std::string csvLine(const std::vector<std::string>& fields);
 
 /// The rows of a CSV file, quoted or not; empty lines are left out, a mark of UTF-8 at the start, too. `file`

@@ -1,14 +1,15 @@
 #include "classroom/hand_in.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include "base/error.h"
 #include "base/lower_case.h"
+#include "base/opened_folder.h"
 #include "base/printable.h"
 #include "base/text_file.h"
 #include "classroom/archive.h"
@@ -23,33 +24,18 @@ constexpr const char* kFile = "main.cpp";
 constexpr const char* kReceipt = "receipt.json";  // which `rex submit` adds
 constexpr const char* kPerStudent = "a folder, .zip, .tar or .tar.gz file for each student";
 
-// What is in a folder: sorted, so that messages come in the same order everywhere.
-std::vector<fs::path> entriesOf(const fs::path& folder) {
-  std::vector<fs::path> entries;
-  std::error_code failure;
-  for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end; entry.increment(failure))
-    entries.push_back(entry->path());
-  if (failure)
-    throw Error({.what = "cannot read this folder", .where = {folder.string()}, .found = failure.message()});
-  std::sort(entries.begin(), entries.end());
-  return entries;
-}
-
-fs::file_type typeOf(const fs::path& path) {
-  std::error_code failure;
-  return fs::symlink_status(path, failure).type();
-}
-
 std::string nameOf(fs::file_type type) {
   if (type == fs::file_type::symlink) return "a symbolic link";
   if (type == fs::file_type::directory) return "a folder";
   if (type == fs::file_type::regular) return "a file";
-  return type == fs::file_type::not_found ? "nothing" : "a pipe or device";
+  return "a pipe or device";
 }
 
-std::int64_t modifiedAt(const fs::path& file) {
-  struct stat status {};
-  return ::lstat(file.c_str(), &status) == 0 ? status.st_mtim.tv_sec : 0;
+// What systems put beside files by themselves.
+bool isOfSystem(const fs::path& name) {
+  const std::string file = lowerCase(name.filename().string());
+  return (!name.empty() && *name.begin() == "__MACOSX") || file.starts_with("._") || file == ".ds_store" ||
+         file == "thumbs.db" || file == "desktop.ini";
 }
 
 /// Collects what one folder of submissions holds.
@@ -58,30 +44,24 @@ class HandInReader {
   HandInReader(const std::vector<ExerciseInfo>& exercises, const std::string& only)
       : exercises_(exercises), only_(only.empty() ? only : findExercise(exercises, only).name) {}
 
-  HandIns read(const fs::path& folder) {
-    std::map<std::string, std::vector<fs::path>> students;  // two that differ in capitals are one name
-    for (const fs::path& entry : entriesOf(folder)) {
-      const fs::file_type type = typeOf(entry);
-      const std::string file = entry.filename().string();
-      const bool isArchive = type == fs::file_type::regular && isArchiveName(file);
-      const std::string name = isArchive ? withoutArchiveEnding(file) : file;
-      if (type == fs::file_type::regular && file.starts_with('.'))
-        found_.notes.push_back(fmt::format("{}: not taken", entry.string()));
-      else if (type != fs::file_type::directory && !isArchive)
-        complain("not taken", entry, nameOf(type), kPerStudent);
+  HandIns read(const fs::path& path) {
+    const OpenedFolder folder(path);
+    std::map<std::string, std::vector<OpenedFolder::Entry>> students;  // that differ in capitals: one name
+    for (const OpenedFolder::Entry& entry : folder.entries()) {
+      const bool isFile = entry.type == fs::file_type::regular,
+                 isArchive = isFile && isArchiveName(entry.name);
+      const std::string name = isArchive ? withoutArchiveEnding(entry.name) : entry.name;
+      if ((isFile && entry.name.starts_with('.')) || isOfSystem(entry.name))
+        found_.notes.push_back(fmt::format("{}: not taken", (path / entry.name).string()));
+      else if (entry.type != fs::file_type::directory && !isArchive)
+        complain("not taken", path / entry.name, nameOf(entry.type), kPerStudent);
       else if (const std::string why = whyNoStudentName(name); !why.empty())
-        complain("not the name of a student", entry, why,
+        complain("not the name of a student", path / entry.name, why,
                  "letters, digits, blanks and signs such as - _ . @");
       else
         students[lowerCase(name)].push_back(entry);
     }
-    for (const auto& [name, folders] : students) {
-      if (!isOneSpelling(folders, "a student")) continue;
-      if (typeOf(folders.front()) == fs::file_type::directory)
-        readStudent(folders.front());
-      else
-        readPacked(folders.front());
-    }
+    for (const auto& [name, entries] : students) readStudent(folder, entries);
     std::sort(found_.files.begin(), found_.files.end(), [](const HandIn& a, const HandIn& b) {
       return std::pair(a.student, a.exercise) < std::pair(b.student, b.exercise);
     });
@@ -98,30 +78,44 @@ class HandInReader {
   void complain(ErrorParts parts) { found_.complaints.emplace_back(Error(std::move(parts)).what()); }
 
   // Which of two spellings is meant, nobody knows.
-  bool isOneSpelling(const std::vector<fs::path>& folders, const std::string& of) {
-    if (folders.size() == 1) return true;
-    std::vector<std::string> names;
-    for (const fs::path& folder : folders) names.push_back("'" + folder.filename().string() + "'");
-    complain(fmt::format("the same name of {}, spelt differently", of), folders.front().parent_path(),
-             fmt::format("{}", fmt::join(names, " and ")), "one of them");
+  bool isOneSpelling(const std::vector<std::string>& names, const fs::path& where, const std::string& of) {
+    if (names.size() == 1) return true;
+    complain(fmt::format("the same name of {}, spelt differently", of), where,
+             fmt::format("'{}'", fmt::join(names, "' and '")), "one of them");
     return false;
   }
 
-  void readStudent(const fs::path& folder) {
-    std::map<std::string, std::vector<fs::path>> exercises;
-    for (const fs::path& entry : entriesOf(folder)) {
-      const fs::file_type type = typeOf(entry);
-      if (type == fs::file_type::regular)
-        noteUnlisted(entry);
-      else if (type != fs::file_type::directory)
-        complain("not taken", entry, nameOf(type), "a folder for each exercise");
-      else if (const std::string exercise = exerciseOf(entry); !exercise.empty())
-        exercises[exercise].push_back(entry);
+  // What cannot be opened any more, because somebody swaps it, costs this student alone.
+  void readStudent(const OpenedFolder& folder, const std::vector<OpenedFolder::Entry>& entries) {
+    std::vector<std::string> names;
+    for (const OpenedFolder::Entry& entry : entries) names.push_back(entry.name);
+    if (!isOneSpelling(names, folder.path(), "a student")) return;
+    try {
+      if (entries.front().type == fs::file_type::directory)
+        readUnpacked(folder.folder(names.front()));
+      else
+        readPacked(folder.file(names.front()), folder.path() / names.front());
+    } catch (const Error& error) {
+      complain(error.parts());
     }
-    complainOfNone(exercises.empty(), folder);
-    for (const auto& [exercise, folders] : exercises) {
-      if (!isOneSpelling(folders, "an exercise")) continue;
-      if (only_.empty() || only_ == exercise) readFile(folder.filename().string(), exercise, folders.front());
+  }
+
+  void readUnpacked(const OpenedFolder& folder) {
+    std::map<std::string, std::vector<std::string>> exercises;
+    for (const OpenedFolder::Entry& entry : folder.entries()) {
+      const fs::path path = folder.path() / entry.name;
+      if (entry.type == fs::file_type::regular || isOfSystem(entry.name))
+        noteUnlisted(path);
+      else if (entry.type != fs::file_type::directory)
+        complain("not taken", path, nameOf(entry.type), "a folder for each exercise");
+      else if (const std::string exercise = exerciseOf(path); !exercise.empty())
+        exercises[exercise].push_back(entry.name);
+    }
+    complainOfNone(exercises.empty(), folder.path());
+    for (const auto& [exercise, names] : exercises) {
+      if (!isOneSpelling(names, folder.path(), "an exercise")) continue;
+      if (only_.empty() || only_ == exercise)
+        readFile(folder.path().filename().string(), exercise, folder.folder(names.front()));
     }
   }
 
@@ -145,7 +139,7 @@ class HandInReader {
     for (const ArchiveFile& member : members) {
       const fs::path name = fs::path(member.name).lexically_normal();
       const fs::path root = name.parent_path().parent_path();
-      if (!isFileIn(root, name) || std::distance(root.begin(), root.end()) > 1) continue;
+      if (isOfSystem(name) || !isFileIn(root, name) || std::distance(root.begin(), root.end()) > 1) continue;
       all.insert(root);
       if (isExercise(name.parent_path().filename().string())) known.insert(root);
     }
@@ -173,33 +167,43 @@ class HandInReader {
   }
 
   // The same of a student who handed in one archive. Its own time counts, for those inside are the student's.
-  void readPacked(const fs::path& archive) {
-    std::vector<ArchiveFile> members;
-    try {
-      members = readArchive(archive);
-    } catch (const Error& error) {
-      complain(error.parts());
-      return;
-    }
-    const std::optional<fs::path> root = rootOf(members, archive);
+  void readPacked(const OpenedFile& opened, const fs::path& archive) {
+    ArchiveContent content = readArchive(opened, archive);
+    const std::optional<fs::path> root = rootOf(content.files, archive);
     if (!root) return;
-    std::map<std::string, std::vector<fs::path>> exercises;
-    std::map<fs::path, std::string> texts;
-    for (ArchiveFile& member : members) {
+    tellLeftOut(content.leftOut, *root, archive);
+    std::map<std::string, std::vector<std::string>> exercises;
+    std::map<std::string, std::string> texts;
+    for (ArchiveFile& member : content.files) {
       const fs::path name = fs::path(member.name).lexically_normal(), file = archive / name;
-      if (!isFileIn(*root, name))
+      const std::string folder = name.parent_path().filename().string();
+      if (isOfSystem(name) || !isFileIn(*root, name))
         noteUnlisted(file);
       else if (const std::string exercise = exerciseOf(file.parent_path()); !exercise.empty())
-        exercises[exercise].push_back(file.parent_path()), texts[file.parent_path()] = std::move(member.text);
+        exercises[exercise].push_back(folder), texts[folder] = std::move(member.text);
     }
     complainOfNone(exercises.empty(), archive);
     for (const auto& [exercise, folders] : exercises) {
-      if (!isOneSpelling(folders, "an exercise") || (!only_.empty() && only_ != exercise)) continue;
+      if (!isOneSpelling(folders, root->empty() ? archive : archive / *root, "an exercise") ||
+          (!only_.empty() && only_ != exercise))
+        continue;
       found_.files.push_back({.student = withoutArchiveEnding(archive.filename().string()),
                               .exercise = exercise,
-                              .from = folders.front() / kFile,
+                              .from = archive / *root / folders.front() / kFile,
                               .text = texts[folders.front()],
-                              .submitted = modifiedAt(archive)});
+                              .submitted = opened.modifiedAt()});
+    }
+  }
+
+  // A link beside the file harms nobody; one in its place is missing from what is graded.
+  void tellLeftOut(const std::vector<ArchiveContent::LeftOut>& leftOut, const fs::path& root,
+                   const fs::path& archive) {
+    for (const auto& [member, why] : leftOut) {
+      const fs::path name = fs::path(member).lexically_normal();
+      if (isFileIn(root, name))
+        complain("not taken", archive / name, why, "a C++ source file");
+      else
+        found_.notes.push_back(fmt::format("{}: not taken: {}", (archive / name).string(), why));
     }
   }
 
@@ -219,15 +223,19 @@ class HandInReader {
     if (file.filename() != kReceipt) found_.notes.push_back(fmt::format("{}: not taken", file.string()));
   }
 
-  void readFile(const std::string& student, const std::string& exercise, const fs::path& folder) {
-    for (const fs::path& entry : entriesOf(folder)) {
-      if (entry.filename() != kFile) noteUnlisted(entry);
-    }
-    HandIn file{.student = student, .exercise = exercise, .from = folder / kFile};
-    file.submitted = modifiedAt(typeOf(file.from) == fs::file_type::not_found ? folder : file.from);
+  void readFile(const std::string& student, const std::string& exercise, const OpenedFolder& folder) {
+    for (const OpenedFolder::Entry& entry : folder.entries())
+      if (entry.name != kFile) noteUnlisted(folder.path() / entry.name);
+    HandIn file{.student = student,
+                .exercise = exercise,
+                .from = folder.path() / kFile,
+                .submitted = folder.modifiedAt()};
     try {
-      file.text = readStudentFile(file.from);
+      StudentFile read = readStudentFile(folder, kFile);
+      file.text = std::move(read.text);
+      file.submitted = read.modifiedAt;
     } catch (const Error& error) {
+      file.whyNot = error.parts().found;
       complain(error.parts());
     }
     found_.files.push_back(std::move(file));
@@ -240,16 +248,47 @@ class HandInReader {
 
 }  // namespace
 
+namespace {
+
+// Also those that are not of ASCII.
+bool startsOrEndsBlank(std::string_view name) {
+  constexpr auto kBlanks = std::to_array<std::string_view>(
+      {" ", "\u00A0", "\u1680", "\u2000", "\u2001", "\u2002", "\u2003", "\u2004", "\u2005", "\u2006",
+       "\u2007", "\u2008", "\u2009", "\u200A", "\u202F", "\u205F", "\u3000", "\u2800"});
+  return std::any_of(kBlanks.begin(), kBlanks.end(), [&](std::string_view blank) {
+    return name.starts_with(blank) || name.ends_with(blank);
+  });
+}
+
+}  // namespace
+
+// Nobody reads the student's own place again: it may be another file by then.
 fs::path snapshotOf(const HandIn& file, const fs::path& out) {
   const fs::path snapshot = fs::path(file.student) / file.exercise / kFile;
-  if (!file.text) {
-    fs::remove(out / snapshot);  // one of an earlier time would look as if it were graded
-    return fs::absolute(file.from);
-  }
+  const std::string text = file.text.value_or(
+      fmt::format("// Not what was handed in, which could not be read.\n#error cannot be graded: found {}, "
+                  "wanted a C++ source file\n",
+                  printable(file.whyNot)));
   fs::create_directories((out / snapshot).parent_path());
-  if (!fs::exists(out / snapshot) || readTextFile(out / snapshot) != *file.text)
-    replaceTextFile(out / snapshot, *file.text, "the copy of what was handed in");
+  if (!fs::exists(out / snapshot) || readTextFile(out / snapshot) != text)
+    replaceTextFile(out / snapshot, text, "the copy of what was handed in");
   return snapshot;
+}
+
+bool isNameOfResults(const std::string& name) {
+  constexpr auto kEndings = std::to_array<std::string_view>(
+      {".csv", ".tsv", ".toml", ".log", ".txt", ".json", ".xml", ".md", ".html", ".png", ".new", ".lock"});
+  const std::string lower = lowerCase(name);
+  return std::any_of(kEndings.begin(), kEndings.end(),
+                     [&](std::string_view ending) { return lower.ends_with(ending); });
+}
+
+void requireNameOfResults(const fs::path& file, const fs::path& out) {
+  const bool isBeside = fs::weakly_canonical(file).parent_path() == fs::weakly_canonical(out);
+  if (isBeside && !isNameOfResults(file.filename().string()))
+    throw UsageError({.what = "a file beside the folders of students, one of whom may be called so",
+                      .where = {file.string()},
+                      .wanted = "a name that ends in .tsv, or another folder"});
 }
 
 std::string whyNoStudentName(const std::string& name) {
@@ -257,11 +296,9 @@ std::string whyNoStudentName(const std::string& name) {
   if (name.empty() || name.starts_with('.')) return "a name that begins with a dot, or none";
   if (name.size() > kLongest) return fmt::format("{} bytes, more than {}", name.size(), kLongest);
   if (name.find_first_of("/\\\n\t") != std::string::npos || printable(name, 4 * kLongest) != name)
-    return "a slash, a control character or bytes that are no UTF-8";
-  if (name.front() == ' ' || name.back() == ' ') return "a blank at an end";
-  // Files of the output folder.
-  if (lowerCase(name) == "grades.csv" || lowerCase(name) == "tasks.tsv")
-    return "the name of a file of results";
+    return "a slash, a control character, an invisible one or bytes that are no UTF-8";
+  if (startsOrEndsBlank(name)) return "a blank at an end";
+  if (isNameOfResults(name)) return "the name of a file of results";
   return {};
 }
 

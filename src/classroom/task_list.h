@@ -12,7 +12,7 @@ namespace rex::grading {
 struct Task {
   std::string student{};
   std::string exercise{};
-  std::string sourceSha256{};  ///< of the file's text; of nothing where it cannot be read
+  std::string sourceSha256{};  ///< of the copy's text: see snapshotOf()
   std::string graderSha256{};  ///< see graderFingerprint()
   int level = 0;               ///< of the sandbox
   std::optional<std::uint64_t> seed{};

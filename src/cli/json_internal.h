@@ -6,6 +6,8 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
+#include "base/escape.h"
+
 namespace rex::cli {
 
 /// Keys stay in the order in which they were put.
@@ -25,9 +27,9 @@ inline Json jsonOfRows(const Eigen::Ref<const Eigen::MatrixXd>& matrix) {
   return rows;
 }
 
-/// As text on one line; bytes that are no UTF-8 are replaced.
+/// As text on one line; bytes that are no UTF-8 are replaced, what has no look of its own is \uXXXX.
 inline std::string dump(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return visibleJson(json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 }  // namespace rex::cli

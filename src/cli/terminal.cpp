@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "base/escape.h"
 #include "base/printable.h"
 
 namespace rex::cli {
@@ -81,13 +82,15 @@ std::string harmless(std::string_view text) {
 }
 
 void say(std::string_view line) {
-  std::fwrite(line.data(), 1, line.size(), stdout);
+  const std::string text = terminalText(line);
+  std::fwrite(text.data(), 1, text.size(), stdout);
   std::fputc('\n', stdout);
 }
 
 void note(std::string_view line) {
   std::fflush(stdout);
-  std::fwrite(line.data(), 1, line.size(), stderr);
+  const std::string text = terminalText(line);
+  std::fwrite(text.data(), 1, text.size(), stderr);
   std::fputc('\n', stderr);
 }
 

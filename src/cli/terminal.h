@@ -20,13 +20,13 @@ enum class Colour { kRed, kGreen, kYellow, kBold };
 /// blanks. `used` columns of the first line are taken already.
 [[nodiscard]] std::string wrap(std::string_view text, std::size_t indent, std::size_t used);
 
-/// The text without control characters and invalid UTF-8, cut: for what a student's program or file says.
+/// The text as printable() shows it, cut: for what a student's program or file says.
 [[nodiscard]] std::string harmless(std::string_view text);
 
-/// Prints a line on standard output.
+/// Prints a line on standard output, as terminalText().
 void say(std::string_view line = "");
 
-/// Prints a line on standard error: what is going on, not what the user asked for.
+/// The same on standard error: what is going on, not what the user asked for.
 void note(std::string_view line);
 
 }  // namespace rex::cli

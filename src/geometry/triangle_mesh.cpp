@@ -1,5 +1,8 @@
 #include "geometry/triangle_mesh.h"
 
+#include <algorithm>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "base/error.h"
@@ -43,6 +46,30 @@ void requireParts(const std::vector<TriangleMesh::Part>& parts, std::size_t tria
                  .wanted = fmt::format("all {}", triangleCount)});
 }
 
+void requirePaint(const TriangleMesh::Paint& paint, const std::vector<TriangleMesh::Part>& parts,
+                  std::size_t vertexCount) {
+  const auto fail = [](std::string found, std::string wanted) {
+    return Error({.what = "mesh", .found = std::move(found), .wanted = std::move(wanted)});
+  };
+  if (!paint.points.empty() && paint.points.size() != vertexCount)
+    throw fail(fmt::format("{} points of textures", paint.points.size()),
+               fmt::format("{}, one for each vertex, or none", vertexCount));
+  for (const Eigen::Vector2f& point : paint.points)
+    if (!point.allFinite()) throw fail("a point of textures that is not finite", "finite numbers");
+  for (const Texture& texture : paint.textures) {
+    const auto width = static_cast<std::size_t>(std::max(texture.width, 0)),
+               height = static_cast<std::size_t>(std::max(texture.height, 0));
+    if (width * height == 0 || texture.rgb.size() != 3 * width * height)
+      throw fail(fmt::format("a texture of {} x {} pixels with {} bytes", texture.width, texture.height,
+                             texture.rgb.size()),
+                 "three bytes for each pixel, and at least one");
+  }
+  for (const TriangleMesh::Part& part : parts)
+    if (part.texture && (*part.texture >= paint.textures.size() || paint.points.empty()))
+      throw fail(fmt::format("a part with texture {}", *part.texture),
+                 fmt::format("one below {}, and points of it", paint.textures.size()));
+}
+
 template <typename T>
 std::span<const T> view(const std::vector<T>& values) {
   return {values.data(), values.size()};
@@ -62,6 +89,7 @@ struct TriangleMesh::Data {
   std::vector<Eigen::Vector3f> positions, normals;
   std::vector<Triangle> triangles;
   std::vector<Part> parts;
+  Paint paint;
   Eigen::Vector3f halfBounds;
 };
 
@@ -73,7 +101,7 @@ TriangleMesh::TriangleMesh(TriangleMesh&&) noexcept = default;
 TriangleMesh& TriangleMesh::operator=(TriangleMesh&&) noexcept = default;
 
 TriangleMesh::TriangleMesh(std::vector<Eigen::Vector3f> positions, std::vector<Eigen::Vector3f> normals,
-                           std::vector<Triangle> triangles, std::vector<Part> parts) {
+                           std::vector<Triangle> triangles, std::vector<Part> parts, Paint paint) {
   requireFinite(normals, "normal");
   const bool needsNormals = !triangles.empty() || !normals.empty();
   if (needsNormals && normals.size() != positions.size())
@@ -81,12 +109,13 @@ TriangleMesh::TriangleMesh(std::vector<Eigen::Vector3f> positions, std::vector<E
                  .found = fmt::format("{} normals", normals.size()),
                  .wanted = fmt::format("{}, one for each vertex", positions.size())});
   requireSurface(positions, triangles, parts);
+  requirePaint(paint, parts, positions.size());
   if (parts.empty() && !triangles.empty())
     parts.push_back({.triangleCount = static_cast<std::uint32_t>(triangles.size())});
   Eigen::Vector3f halfBounds = Eigen::Vector3f::Zero();
   for (const Eigen::Vector3f& position : positions) halfBounds = halfBounds.cwiseMax(position.cwiseAbs());
-  data_ = std::make_shared<const Data>(
-      Data{std::move(positions), std::move(normals), std::move(triangles), std::move(parts), halfBounds});
+  data_ = std::make_shared<const Data>(Data{std::move(positions), std::move(normals), std::move(triangles),
+                                            std::move(parts), std::move(paint), halfBounds});
 }
 
 std::span<const Eigen::Vector3f> TriangleMesh::positions() const {
@@ -100,6 +129,10 @@ std::span<const TriangleMesh::Triangle> TriangleMesh::triangles() const {
 }
 std::span<const TriangleMesh::Part> TriangleMesh::parts() const {
   return data_ ? view(data_->parts) : std::span<const Part>();
+}
+const TriangleMesh::Paint& TriangleMesh::paint() const {
+  static const Paint kBare;
+  return data_ ? data_->paint : kBare;
 }
 Eigen::Vector3d TriangleMesh::halfBounds() const {
   if (!data_) return Eigen::Vector3d::Zero();

@@ -11,6 +11,19 @@
 
 namespace rex {
 
+/// A picture to paint surfaces with: rows from bottom to top, a pixel is red, green, blue (sRGB).
+struct Texture {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgb{};  ///< 3 width height
+};
+
+/// Where a mesh is painted with what: a point (u, v) of the textures for each vertex, or none of all; u to
+/// the right and v up, from 0 to 1 and then again.
+struct MeshPaint {
+  std::vector<Eigen::Vector2f> points{};
+  std::vector<Texture> textures{};
+};
+
 /// A surface of triangles, or a cloud of points without any, in its own frame, metres. Never changes, so that
 /// copies share their data and cost nothing.
 class TriangleMesh {
@@ -22,7 +35,9 @@ class TriangleMesh {
     std::optional<Eigen::Vector4f> color{};  ///< red, green, blue, alpha (sRGB); none: that of the shape
     std::uint32_t firstTriangle = 0;
     std::uint32_t triangleCount = 0;
+    std::optional<std::uint32_t> texture{};  ///< one of the paint, times `color`; none: bare
   };
+  using Paint = MeshPaint;
 
   TriangleMesh() noexcept;
   ~TriangleMesh();
@@ -31,16 +46,17 @@ class TriangleMesh {
   TriangleMesh(TriangleMesh&&) noexcept;
   TriangleMesh& operator=(TriangleMesh&&) noexcept;
   /// `normals` (unit vectors, outward) are as many as positions, or none for points. Without `parts` all
-  /// triangles are one. Throws Error for a number that is not finite, an index of no vertex, sizes that
-  /// differ or parts that do not cover the triangles one after the other.
+  /// triangles are one. Throws Error for a number that is not finite, an index of no vertex or texture, sizes
+  /// that differ or parts that do not cover the triangles one after the other.
   TriangleMesh(std::vector<Eigen::Vector3f> positions, std::vector<Eigen::Vector3f> normals,
-               std::vector<Triangle> triangles, std::vector<Part> parts = {});
+               std::vector<Triangle> triangles, std::vector<Part> parts = {}, Paint paint = {});
 
   [[nodiscard]] bool isEmpty() const { return positions().empty(); }
   [[nodiscard]] std::span<const Eigen::Vector3f> positions() const;
   [[nodiscard]] std::span<const Eigen::Vector3f> normals() const;
   [[nodiscard]] std::span<const Triangle> triangles() const;
   [[nodiscard]] std::span<const Part> parts() const;
+  [[nodiscard]] const Paint& paint() const;
   /// The largest |x|, |y| and |z| of all positions, metres; zero without any.
   [[nodiscard]] Eigen::Vector3d halfBounds() const;
 

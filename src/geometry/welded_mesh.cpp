@@ -7,8 +7,12 @@
 #include <numeric>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "base/error.h"
 
 namespace rex {
 namespace {
@@ -52,15 +56,18 @@ Places findPlaces(const std::vector<Vector3f>& positions) {
 
 struct Face {
   Triangle corners;
+  Triangle given;  // the same as they were before welding
   Vector3d normal;
   std::array<double, 3> angles;  // at the corners, radians
 };
 
 // None for a triangle without area, or so flat that it has no direction.
-std::optional<Face> makeFace(const std::vector<Vector3f>& places, const Triangle& corners) {
+std::optional<Face> makeFace(const Places& welded, const Triangle& given) {
   constexpr double kFlatTriangle = 1e-9;
-  const auto at = [&](int k) -> Vector3d { return places[corners[k % 3]].cast<double>(); };
-  Face face{.corners = corners, .normal = (at(1) - at(0)).cross(at(2) - at(0)), .angles = {}};
+  Triangle corners = given;
+  for (Index& corner : corners) corner = welded.placeOf[corner];
+  const auto at = [&](int k) -> Vector3d { return welded.positions[corners[k % 3]].cast<double>(); };
+  Face face{.corners = corners, .given = given, .normal = (at(1) - at(0)).cross(at(2) - at(0)), .angles = {}};
   double longest = 0;
   for (int k = 0; k < 3; ++k) longest = std::max(longest, (at(k + 1) - at(k)).squaredNorm());
   const double twiceArea = face.normal.norm();
@@ -100,6 +107,7 @@ bool isClosed(const std::vector<Face>& faces) {
 void turnInsideOut(std::vector<Face>& faces) {
   for (Face& face : faces) {
     std::swap(face.corners[1], face.corners[2]);
+    std::swap(face.given[1], face.given[2]);
     std::swap(face.angles[1], face.angles[2]);
     face.normal = -face.normal;
   }
@@ -150,8 +158,15 @@ Vector3f normalAt(const Corner& corner, std::span<const Corner> meeting, const s
 }  // namespace
 
 TriangleMesh weldedMesh(const std::vector<Vector3f>& positions, const std::vector<Triangle>& triangles,
-                        const std::vector<TriangleMesh::Part>& parts, double creaseAngle) {
+                        const std::vector<TriangleMesh::Part>& parts, double creaseAngle,
+                        TriangleMesh::Paint paint) {
   requireSurface(positions, triangles, parts);
+  const std::vector<Eigen::Vector2f> given = std::move(paint.points);
+  paint.points.clear();
+  if (!given.empty() && given.size() != positions.size())
+    throw Error({.what = "mesh",
+                 .found = fmt::format("{} points of textures", given.size()),
+                 .wanted = fmt::format("{}, one for each vertex, or none", positions.size())});
   const TriangleMesh::Part whole{.triangleCount = static_cast<Index>(triangles.size())};
   const Places places = findPlaces(positions);
   std::vector<Face> faces;
@@ -159,9 +174,7 @@ TriangleMesh weldedMesh(const std::vector<Vector3f>& positions, const std::vecto
   for (TriangleMesh::Part part : parts.empty() ? std::vector{whole} : parts) {
     const std::size_t first = faces.size();
     for (Index i = part.firstTriangle; i < part.firstTriangle + part.triangleCount; ++i) {
-      Triangle corners = triangles[i];
-      for (Index& corner : corners) corner = places.placeOf[corner];
-      if (const auto face = makeFace(places.positions, corners)) faces.push_back(*face);
+      if (const auto face = makeFace(places, triangles[i])) faces.push_back(*face);
     }
     part.firstTriangle = static_cast<Index>(first);
     part.triangleCount = static_cast<Index>(faces.size() - first);
@@ -183,15 +196,21 @@ TriangleMesh weldedMesh(const std::vector<Vector3f>& positions, const std::vecto
       const Vector3f normal = isFan ? Vector3f(faces[corner.face].normal.cast<float>())
                                     : normalAt(corner, corners, faces, leastCosine);
       std::size_t vertex = isFan ? normals.size() : first;
-      while (vertex < normals.size() && (normals[vertex] - normal).squaredNorm() > kSame) ++vertex;
+      const Index position = faces[corner.face].given[corner.k];
+      const auto isOther = [&](std::size_t known) {
+        return (normals[known] - normal).squaredNorm() > kSame ||
+               (!given.empty() && paint.points[known] != given[position]);
+      };
+      while (vertex < normals.size() && isOther(vertex)) ++vertex;
       if (vertex == normals.size()) {
         vertices.push_back(places.positions[place]);
         normals.push_back(normal);
+        if (!given.empty()) paint.points.push_back(given[position]);
       }
       kept[corner.face][corner.k] = static_cast<Index>(vertex);
     }
   }
-  return {std::move(vertices), std::move(normals), std::move(kept), std::move(keptParts)};
+  return {std::move(vertices), std::move(normals), std::move(kept), std::move(keptParts), std::move(paint)};
 }
 
 }  // namespace rex

@@ -102,7 +102,8 @@ void Check::near(std::string_view property, double got, double wanted, double to
 
 void Check::near(std::string_view property, const MatrixArg& got, const MatrixArg& wanted, double tolerance,
                  std::string_view unit) {
-  requireSound(wanted.allFinite() && tolerance >= 0, info_, "wants a value that is not finite");
+  requireSound(wanted.allFinite() && std::isfinite(tolerance) && tolerance >= 0, info_,
+               "wants a value that is not finite");
   shape(property, got, wanted.rows(), wanted.cols());
   if (got.size() == 0) return;
   Eigen::Index row = 0;

@@ -18,6 +18,7 @@
 #include "grading/launch_internal.h"
 #include "remote/worker.h"
 #include "sandbox/confinement.h"
+#include "sandbox/leave_others.h"
 
 namespace rex::grading {
 namespace {
@@ -81,7 +82,10 @@ struct Prepared {
   ::signal(SIGPIPE, SIG_DFL);
   const LaunchOrder& order = prepared.order;
   if (::chdir(order.folder.c_str()) == 0) {
-    if (order.level == 0) setLimits(order.limits);
+    if (order.level == 0) {
+      setLimits(order.limits);
+      sandbox::leaveOthersAlone();
+    }
     ::execve(order.command.front().c_str(), prepared.arguments.data(),
              const_cast<char* const*>(kEnvironment.data()));
   }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/printable.h"
 
 namespace rex::grading {
 namespace {
@@ -98,6 +99,14 @@ Json resultToJson(const GradeResult& result) {
           {"stdout", result.output.text},
           {"stderr", result.error.text},
           {"volatile", volatileToJson(result)}};
+}
+
+// Whatever part of a result a text is in, it comes from a stranger.
+Json shown(Json json) {
+  if (json.is_string()) return printable(json.get_ref<const std::string&>());
+  if (json.is_structured())
+    for (Json& element : json) element = shown(std::move(element));
+  return json;
 }
 
 /// Reads fields of one JSON object into variables, which keep their values where a field is missing.
@@ -274,7 +283,7 @@ std::string toString(const CompileDiagnostic& message) {
 }
 
 std::string toJson(const GradeResult& result) {
-  return resultToJson(result).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return shown(resultToJson(result)).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 GradeResult gradeResultFromJson(const std::string& text, const std::string& file) {

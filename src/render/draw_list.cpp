@@ -109,7 +109,8 @@ class Builder {
                     .solid = solid_,
                     .imported = solid.shape.mesh,
                     .firstTriangle = part.firstTriangle,
-                    .triangleCount = part.triangleCount};
+                    .triangleCount = part.triangleCount,
+                    .texture = part.texture};
       if (part.color) {
         const Eigen::Vector4f& c = *part.color;
         item.color = {c[0], c[1], c[2], c[3] * solid.color.a};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "render/camera.h"
@@ -21,6 +22,7 @@ struct DrawItem {
   int solid = -1;  ///< its index in the picture; -1 for what is no solid
   TriangleMesh imported{};
   std::uint32_t firstTriangle = 0, triangleCount = 0;  ///< of `imported`
+  std::optional<std::uint32_t> texture{};              ///< of its paint; times `color`
 };
 
 /// The largest radius of what is round about it, metres.

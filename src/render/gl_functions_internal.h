@@ -27,6 +27,7 @@ namespace rex::internal {
   X(CullFace, PFNGLCULLFACEPROC)                                             \
   X(DeleteBuffers, PFNGLDELETEBUFFERSPROC)                                   \
   X(DeleteShader, PFNGLDELETESHADERPROC)                                     \
+  X(DeleteTextures, PFNGLDELETETEXTURESPROC)                                 \
   X(DeleteVertexArrays, PFNGLDELETEVERTEXARRAYSPROC)                         \
   X(DepthFunc, PFNGLDEPTHFUNCPROC)                                           \
   X(DepthMask, PFNGLDEPTHMASKPROC)                                           \
@@ -45,6 +46,7 @@ namespace rex::internal {
   X(GenRenderbuffers, PFNGLGENRENDERBUFFERSPROC)                             \
   X(GenTextures, PFNGLGENTEXTURESPROC)                                       \
   X(GenVertexArrays, PFNGLGENVERTEXARRAYSPROC)                               \
+  X(GenerateMipmap, PFNGLGENERATEMIPMAPPROC)                                 \
   X(GetError, PFNGLGETERRORPROC)                                             \
   X(GetIntegerv, PFNGLGETINTEGERVPROC)                                       \
   X(GetProgramInfoLog, PFNGLGETPROGRAMINFOLOGPROC)                           \

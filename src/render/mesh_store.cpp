@@ -13,9 +13,10 @@ void fill(const GlFunctions& gl, GLenum target, GLuint buffer, std::span<const T
   gl.BufferData(target, static_cast<GLsizeiptr>(values.size_bytes()), values.data(), GL_STATIC_DRAW);
 }
 
-void describeAttribute(const GlFunctions& gl, GLuint index, std::size_t stride, std::size_t offset) {
+void describeAttribute(const GlFunctions& gl, GLuint index, std::size_t stride, std::size_t offset,
+                       GLint numbers = 3) {
   gl.EnableVertexAttribArray(index);
-  gl.VertexAttribPointer(index, 3, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride),
+  gl.VertexAttribPointer(index, numbers, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride),
                          reinterpret_cast<const void*>(offset));
 }
 
@@ -52,13 +53,34 @@ MeshStore::Stored MeshStore::upload(const TriangleMesh& mesh) const {
   Stored stored;
   gl_->GenVertexArrays(1, &stored.vertexArray);
   gl_->BindVertexArray(stored.vertexArray);
-  gl_->GenBuffers(3, stored.buffers.data());
+  gl_->GenBuffers(static_cast<GLsizei>(stored.buffers.size()), stored.buffers.data());
   fill(*gl_, GL_ARRAY_BUFFER, stored.buffers[0], mesh.positions());
   describeAttribute(*gl_, 0, sizeof(Eigen::Vector3f), 0);
   fill(*gl_, GL_ARRAY_BUFFER, stored.buffers[1], mesh.normals());
   describeAttribute(*gl_, 1, sizeof(Eigen::Vector3f), 0);
   fill(*gl_, GL_ELEMENT_ARRAY_BUFFER, stored.buffers[2], mesh.triangles());
+  if (mesh.paint().textures.empty()) return stored;
+  fill<Eigen::Vector2f>(*gl_, GL_ARRAY_BUFFER, stored.buffers[3], mesh.paint().points);
+  describeAttribute(*gl_, 3, sizeof(Eigen::Vector2f), 0, 2);
+  for (const Texture& texture : mesh.paint().textures) stored.textures.push_back(upload(texture));
   return stored;
+}
+
+GLuint MeshStore::upload(const Texture& texture) const {
+  GLuint id = 0;
+  gl_->GenTextures(1, &id);
+  gl_->ActiveTexture(GL_TEXTURE0 + kTextureUnit);
+  gl_->BindTexture(GL_TEXTURE_2D, id);
+  gl_->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, texture.width, texture.height, 0, GL_RGB, GL_UNSIGNED_BYTE,
+                  texture.rgb.data());
+  for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+    gl_->TexParameteri(GL_TEXTURE_2D, axis, GL_REPEAT);
+  gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  gl_->GenerateMipmap(GL_TEXTURE_2D);
+  gl_->ActiveTexture(GL_TEXTURE0);
+  return id;
 }
 
 void MeshStore::prepare(const DrawList& list) {
@@ -80,12 +102,21 @@ void MeshStore::prepare(const DrawList& list) {
     const Stored& stored = it->second.stored;
     gl_->DeleteVertexArrays(1, &stored.vertexArray);
     gl_->DeleteBuffers(static_cast<GLsizei>(stored.buffers.size()), stored.buffers.data());
+    gl_->DeleteTextures(static_cast<GLsizei>(stored.textures.size()), stored.textures.data());
     it = imported_.erase(it);
   }
 }
 
 void MeshStore::cullBackOf(const DrawItem& item) const {
   (item.mesh == MeshKind::kImported ? gl_->Disable : gl_->Enable)(GL_CULL_FACE);
+}
+
+void MeshStore::bindTexture(const DrawItem& item) const {
+  const auto found = imported_.find(keyOf(item.imported));
+  assert(found != imported_.end() && item.texture);
+  gl_->ActiveTexture(GL_TEXTURE0 + kTextureUnit);
+  gl_->BindTexture(GL_TEXTURE_2D, found->second.stored.textures[*item.texture]);
+  gl_->ActiveTexture(GL_TEXTURE0);
 }
 
 void MeshStore::draw(const DrawItem& item, const GlProgram& program) const {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <map>
+#include <vector>
 
 #include "render/draw_list_internal.h"
 #include "render/gl_program_internal.h"
@@ -13,12 +14,16 @@ namespace rex::internal {
 /// long as the context.
 class MeshStore {
  public:
+  static constexpr int kTextureUnit = 2;
+
   explicit MeshStore(const GlFunctions& gl);
   /// Uploads the imported meshes of a picture that are new, and forgets those that several pictures in a row
   /// have done without.
   void prepare(const DrawList& list);
   /// Lets OpenGL leave out what faces away, but not of an imported surface, which may be open.
   void cullBackOf(const DrawItem& item) const;
+  /// Puts the texture of an imported item into kTextureUnit.
+  void bindTexture(const DrawItem& item) const;
   /// Draws one item with the current `program`, whose placement uniforms it sets. Imported meshes need
   /// prepare().
   void draw(const DrawItem& item, const GlProgram& program) const;
@@ -27,7 +32,8 @@ class MeshStore {
  private:
   struct Stored {
     GLuint vertexArray = 0;
-    std::array<GLuint, 3> buffers{};
+    std::array<GLuint, 4> buffers{};
+    std::vector<GLuint> textures{};
     GLsizei indexCount = 0;
   };
   struct Imported {
@@ -37,6 +43,7 @@ class MeshStore {
   };
   Stored upload(const SolidMesh& mesh) const;
   Stored upload(const TriangleMesh& mesh) const;
+  GLuint upload(const Texture& texture) const;
 
   const GlFunctions* gl_;
   std::array<std::array<Stored, kSegments.size()>, 5> meshes_;  // [MeshKind][detail]

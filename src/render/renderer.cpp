@@ -148,6 +148,7 @@ struct Renderer::Impl {
   internal::ShadowMap shadowMap;
   internal::Visibility visibility;
   GlProgram background, ground, solid, overlay;
+  std::optional<GlProgram> textured;  // made when first needed, as the sensors
   std::optional<internal::Fxaa> fxaa;
   std::optional<internal::SensorPass> sensors;  // made when first asked for
   internal::OverlayStore overlayStore;
@@ -221,16 +222,30 @@ void Renderer::Impl::drawGround(const Picture& picture, const Camera& camera,
 
 void Renderer::Impl::drawSolids(const DrawList& list, const Picture& picture, const Camera& camera,
                                 const internal::ShadowView& shadow) {
+  const auto isTextured = [](const DrawItem& item) { return item.texture.has_value(); };
+  const bool anyTextured =
+      std::ranges::any_of(list.opaque, isTextured) || std::ranges::any_of(list.translucent, isTextured);
   const auto draw = [&](const DrawItem& item, float opacity) {
+    const GlProgram& program = item.texture ? *textured : solid;
+    if (anyTextured) program.use();
+    if (item.texture) meshes.bindTexture(item);
     Color color = item.color;
     color.a = opacity;
-    solid.set("solidColor", color);
-    meshes.draw(item, solid);
+    program.set("solidColor", color);
+    meshes.draw(item, program);
   };
-  solid.use();
-  setLight(solid, picture, shadow);
-  solid.set("clipFromWorld", clip(camera));
-  solid.set("eye", camera.X_WC.p);
+  const auto prepare = [&](const GlProgram& program) {
+    program.use();
+    setLight(program, picture, shadow);
+    program.set("clipFromWorld", clip(camera));
+    program.set("eye", camera.X_WC.p);
+  };
+  if (anyTextured) {
+    if (!textured) textured.emplace(makeProgram(gl, internal::solidShader(options.shadow, true)));
+    prepare(*textured);
+    textured->setTexture("surface", internal::MeshStore::kTextureUnit);
+  }
+  prepare(solid);
   visibility.watch([&] {
     for (const DrawItem& item : list.opaque) {
       meshes.cullBackOf(item);

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "base/escape.h"
 #include "render/base64_internal.h"
 #include "render/draw_film.h"
 #include "render/glb.h"
@@ -21,17 +22,7 @@ namespace rex {
 namespace {
 
 // Text that is nothing but text, between tags and in attributes with double quotes.
-std::string escaped(std::string_view text) {
-  std::string html;
-  for (const char c : internal::singleLines(text)) {
-    constexpr std::string_view kSpecial = "&<>\"'`";
-    if (kSpecial.find(c) != std::string_view::npos)
-      html += fmt::format("&#{};", static_cast<int>(c));
-    else
-      html += c;
-  }
-  return html;
-}
+std::string escaped(std::string_view text) { return htmlText(internal::singleLines(text)); }
 
 std::string bytesOfHex(std::string_view digits) {
   std::string bytes;

@@ -79,29 +79,44 @@ void main() { gl_Position = shadowClipFromWorld * vec4(placed(), 1); }
           kVersion + "void main() {}\n"};
 }
 
-ShaderSource solidShader(bool shadow) {
-  const std::string vertex = vertexStart(shadow) + kPlaceSolid + R"(
+ShaderSource solidShader(bool shadow, bool textured) {
+  const std::string painted = textured ? "#define TEXTURED 1\n" : "#define TEXTURED 0\n";
+  const std::string vertex = vertexStart(shadow) + painted + kPlaceSolid + R"(
 uniform mat4 clipFromWorld;
 out vec3 worldPoint, worldNormal;
+#if TEXTURED
+layout(location = 3) in vec2 point;
+out vec2 painted;
+#endif
 void main() {
+#if TEXTURED
+  painted = point;
+#endif
   worldPoint = placed();
   worldNormal = normalize(R_WS * (normal / halfSize));
   gl_Position = clipFromWorld * vec4(worldPoint, 1);
   setShadowPoint(worldPoint, worldNormal);
 }
 )";
-  const std::string fragment = fragmentStart(shadow) + R"(
+  const std::string fragment = fragmentStart(shadow) + painted + R"(
 uniform vec3 eye;
 uniform vec4 solidColor;
 in vec3 worldPoint, worldNormal;
 out vec4 color;
+#if TEXTURED
+uniform sampler2D surface;
+in vec2 painted;
+vec3 albedo() { vec3 c = texture(surface, painted).rgb; return solidColor.rgb * c * c; }
+#else
+vec3 albedo() { return solidColor.rgb; }
+#endif
 void main() {
   vec3 n = normalize(gl_FrontFacing ? worldNormal : -worldNormal);
   float facing = dot(n, toLight);
   float sun = facing > 0.0 ? facing * sunSeen() : 0.0;
   float shine = max(dot(n, normalize(toLight + normalize(eye - worldPoint))), 0.0);
   shine *= shine; shine *= shine; shine *= shine; shine *= shine; shine *= shine;
-  color = vec4(sqrt(solidColor.rgb * diffuse(n, sun) + 0.12 * shine * sun), solidColor.a);
+  color = vec4(sqrt(albedo() * diffuse(n, sun) + 0.12 * shine * sun), solidColor.a);
 }
 )";
   return {vertex, fragment};

@@ -13,7 +13,7 @@ struct ShaderSource {
 [[nodiscard]] ShaderSource backgroundShader();
 /// Depth only, seen from the light.
 [[nodiscard]] ShaderSource depthShader();
-[[nodiscard]] ShaderSource solidShader(bool shadow);
+[[nodiscard]] ShaderSource solidShader(bool shadow, bool textured = false);
 [[nodiscard]] ShaderSource groundShader(bool shadow);
 /// Lines and discs, anti-aliased by their distance from the middle.
 [[nodiscard]] ShaderSource overlayShader();

@@ -1,5 +1,6 @@
 #include <array>
 
+#include "base/printable.h"
 #include "render/utf8_internal.h"
 
 namespace rex::internal {
@@ -49,9 +50,7 @@ std::string singleLine(std::string_view text) {
   std::string line;
   while (!text.empty()) {
     const auto [character, length] = first(text);
-    const bool control = character < 0x20 || (character >= 0x7F && character < 0xA0) || character == 0x2028 ||
-                         character == 0x2029 || character >= 0xFFFE;
-    if (control)
+    if (isInvisible(character) || character >= 0xFFFE)
       line += ' ';
     else if (character == kInvalid)
       line += '?';

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "base/escape.h"
 #include "reports/report.h"
 #include "reports/report_text_internal.h"
 
@@ -16,15 +16,6 @@ using namespace internal;
 constexpr std::size_t kLongestAnnotation = 1'000;
 constexpr std::size_t kMostOfAKind = 10;  // GitHub drops what a step says beyond that
 
-// A command ends with its line; values of its properties also at a comma or colon.
-std::string escaped(std::string_view text, std::string_view special) {
-  std::string safe;
-  for (const char c : text)
-    safe += special.find(c) == std::string_view::npos ? std::string(1, c)
-                                                      : fmt::format("%{:02X}", static_cast<unsigned char>(c));
-  return safe;
-}
-
 struct Place {
   std::string file{};  // empty: none
   int line = 0, column = 0;
@@ -32,13 +23,13 @@ struct Place {
 
 std::string command(const char* kind, const std::string& title, const Place& place,
                     const std::string& message) {
-  std::string properties = "title=" + escaped(title, "%\r\n:,");
-  if (!place.file.empty()) properties += ",file=" + escaped(place.file, "%\r\n:,");
+  std::string properties = "title=" + commandProperty(title);
+  if (!place.file.empty()) properties += ",file=" + commandProperty(place.file);
   if (!place.file.empty() && place.line > 0) properties += fmt::format(",line={}", place.line);
   if (!place.file.empty() && place.line > 0 && place.column > 0)
     properties += fmt::format(",col={}", place.column);
   return fmt::format("::{} {}::{}\n", kind, properties,
-                     escaped(shownText(message, kLongestAnnotation), "%\r\n"));
+                     commandMessage(shownText(message, kLongestAnnotation)));
 }
 
 // The student's file, or nothing: a `#line` of the student may name any.

@@ -57,7 +57,7 @@ std::string outputOf(const GradeResult& result) {
 std::string gradescopeReport(const GradeResult& result) {
   Json json;
   if (result.outcome != Outcome::graderError) json["score"] = result.score;
-  json["execution_time"] = result.usage.wallSeconds;
+  json["execution_time"] = visibleSeconds(result);
   json["output"] = outputOf(result);
   for (const char* format : {"output_format", "test_output_format", "test_name_format"})
     json[format] = "text";

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "base/escape.h"
 #include "reports/report.h"
 #include "reports/report_text_internal.h"
 
@@ -11,27 +12,8 @@ namespace {
 
 using namespace internal;
 
-// XML 1.0, section 2.2, forbids U+FFFE and U+FFFF besides the control characters that shownText() replaces. A
-// character written by its number is no markup, also not the end of "]]>", and a line break stays one in an
-// attribute.
-std::string xml(std::string_view text) {
-  constexpr std::string_view kMarkup = "&<>\"\n\t";
-  std::string safe;
-  while (!text.empty()) {
-    const bool isForbidden = text.starts_with("\xEF\xBF\xBE") || text.starts_with("\xEF\xBF\xBF");
-    if (isForbidden)
-      safe += "\xEF\xBF\xBD";
-    else if (kMarkup.find(text.front()) != std::string_view::npos)
-      safe += fmt::format("&#{};", static_cast<int>(text.front()));
-    else
-      safe += text.front();
-    text.remove_prefix(isForbidden ? 3 : 1);
-  }
-  return safe;
-}
-
 std::string attribute(const char* name, std::string_view value) {
-  return fmt::format(" {}=\"{}\"", name, xml(value));
+  return fmt::format(" {}=\"{}\"", name, xmlText(value));
 }
 
 struct TestCase {
@@ -48,7 +30,7 @@ struct Counts {
 std::string shortfall(const char* element, std::string_view type, const std::string& message) {
   const std::string firstLine = message.substr(0, message.find('\n'));
   return fmt::format("      <{}{}{}>{}</{}>\n", element, attribute("message", firstLine),
-                     attribute("type", type), xml(message), element);
+                     attribute("type", type), xmlText(message), element);
 }
 
 std::string skipped(const char* why) {
@@ -60,7 +42,7 @@ TestCase junitTest(const CheckResult& check, const GradeResult& result, int hidd
   TestCase test{.name = hiddenNumber > 0
                             ? fmt::format("Hidden check {}", hiddenNumber)
                             : fmt::format("{} [{}]", shownText(check.title), shownText(check.id)),
-                .seconds = check.wallSeconds};
+                .seconds = isHidden(check) ? 0 : check.wallSeconds};
   ++counts.tests;
   if (isPassed(check)) return test;
   if (!check.status) {
@@ -125,9 +107,9 @@ std::string junitReport(const GradeResult& result) {
   const std::string totals =
       fmt::format("{} tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" time=\"{:.3f}\"",
                   attribute("name", shownText(result.exerciseId)), counts.tests, counts.failures,
-                  counts.errors, counts.skipped, result.usage.wallSeconds);
+                  counts.errors, counts.skipped, visibleSeconds(result));
   const auto stream = [](const char* name, const KeptOutput& kept) {
-    return fmt::format("    <{}>{}</{}>\n", name, xml(shownText(kept.text, kLongestText)), name);
+    return fmt::format("    <{}>{}</{}>\n", name, xmlText(shownText(kept.text, kLongestText)), name);
   };
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites" + totals + ">\n  <testsuite" + totals +
          ">\n" + propertiesOf(result) + cases + stream("system-out", result.output) +

@@ -50,6 +50,13 @@ std::string pointsOf(const GradeResult& result) {
   return fmt::format("{} of {} points", result.score, result.maxScore);
 }
 
+double visibleSeconds(const GradeResult& result) {
+  double seconds = 0;
+  for (const CheckResult& check : result.checks)
+    if (!isHidden(check)) seconds += check.wallSeconds;
+  return seconds;
+}
+
 std::string printedText(const GradeResult& result) {
   std::string text = result.output.text;
   if (!text.empty() && !result.error.text.empty() && text.back() != '\n') text += '\n';

@@ -39,6 +39,9 @@ inline constexpr const char* kGraderFailed =
 /// "3 of 9 points".
 [[nodiscard]] std::string pointsOf(const GradeResult& result);
 
+/// Seconds that visible checks took: how long a hidden one takes could tell its input.
+[[nodiscard]] double visibleSeconds(const GradeResult& result);
+
 /// What the program printed in visible checks, both streams; empty if nothing.
 [[nodiscard]] std::string printedText(const GradeResult& result);
 

@@ -24,6 +24,7 @@
 #include "base/error.h"
 #include "sandbox/bubblewrap.h"
 #include "sandbox/confinement.h"
+#include "sandbox/hidden_words.h"
 #include "sandbox/landlock.h"
 #include "sandbox/report.h"
 #include "sandbox/system_calls.h"
@@ -122,13 +123,16 @@ int openProgram(const std::string& name) {
   return fd;
 }
 
-// Becomes the program; what it cannot be is its own doing: too large, or no program at all.
-[[noreturn]] void become(const Order& order, int program) {
+ProgramStart startOf(const Order& order, int program) {
   std::vector<std::string> arguments = order.command;
   if (order.command.size() == 1) arguments[0] = "worker";
-  std::vector<std::string> environment = order.confinement.environment;
-  ::execveat(program, "", pointers(arguments).data(), pointers(environment).data(), AT_EMPTY_PATH);
-  tell(STDERR_FILENO, fmt::format("{}: {}\n", arguments[0], std::strerror(errno)));
+  return {program, hiddenWord(""), hiddenWords(arguments), hiddenWords(order.confinement.environment)};
+}
+
+// Becomes the program; what it cannot be is its own doing: too large, or no program at all.
+[[noreturn]] void become(const ProgramStart& start) {
+  ::execveat(start.program, start.path, start.arguments, start.environment, AT_EMPTY_PATH);
+  tell(STDERR_FILENO, fmt::format("{}: {}\n", start.arguments[0], std::strerror(errno)));
   ::_exit(127);
 }
 
@@ -178,14 +182,14 @@ void becomeUserOrPlainRoot(const Order& order) {
     for (const char* name : kEndlessDevices) rules.allowWriting(name);
   for (const Readable& readable : c.readable) rules.allowReading(readable.path);
   if (!c.writable.empty()) rules.allowWriting(c.writable);
-  const int program = openProgram(order.command.front());
+  const ProgramStart start = startOf(order, openProgram(order.command.front()));
   setOut(order);
   becomeUserOrPlainRoot(order);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // a change of user forgets it
   rules.enforce();
-  filterSystemCalls(c);
+  filterSystemCalls(c, start);
   reportReady(c);
-  become(order, program);
+  become(start);
 }
 
 [[noreturn]] void runBubblewrap(const std::vector<std::string>& arguments, const Confinement& c) {
@@ -227,14 +231,14 @@ int waitFor(pid_t child, double wallSeconds, bool& timedOut) {
   const Confinement& c = order.confinement;
   const std::string program = insidePath(c, order.command.front());
   const std::string folder = c.writable.empty() ? kInsideFolder : c.writable.string();
-  const int programFile = openProgram(program);
+  const ProgramStart start = startOf(order, openProgram(program));
   setOut(order);
   becomeUser(c);
   // It is that user's; root is without its rights here.
   if (::chdir(folder.c_str()) != 0) failWithCause("cannot enter the work folder");
-  filterSystemCalls(c);
+  filterSystemCalls(c, start);
   reportReady(c);
-  become(order, programFile);
+  become(start);
 }
 
 // The first process inside. Nobody inside may look into it: it may be of the same user.
@@ -266,9 +270,9 @@ int run(const Order& order, const std::vector<std::string>& arguments) {
   const Confinement& c = order.confinement;
   if (c.level >= 2) runBubblewrap(arguments, c);
   if (c.level == 1) runAtLevelOne(order);
-  const int program = openProgram(order.command.front());
+  const ProgramStart start = startOf(order, openProgram(order.command.front()));
   setOut(order);
-  become(order, program);
+  become(start);
 }
 
 int confine(std::vector<std::string> arguments) {

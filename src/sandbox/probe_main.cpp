@@ -13,10 +13,12 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <netinet/in.h>
+#include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 namespace {
@@ -137,11 +139,56 @@ std::string stayBehind(const Words&) {
   return "";
 }
 
+// Takes the place of the program. One that starts ends with a code of its own.
+std::string startAnother(const Words&) {
+  std::string shell = "/bin/sh", option = "-c", said = "echo a shell took the place of the program; exit 1";
+  char* words[] = {shell.data(), option.data(), said.data(), nullptr};
+  const int fd = ::open(shell.c_str(), O_PATH);
+  ::syscall(SYS_execveat, fd, "", words, ::environ, AT_EMPTY_PATH);
+  ::execve(shell.c_str(), words, ::environ);
+  return "";
+}
+
+// Locks on a file of the system, which other programs see.
+std::string lockFiles(const Words&) {
+  const int fd = ::open("/usr/bin/env", O_RDONLY);
+  if (::flock(fd, LOCK_SH | LOCK_NB) == 0) return "locked a file of the system";
+  for (const int command : {F_SETLK, F_OFD_SETLK}) {
+    struct flock lock {};
+    lock.l_type = F_RDLCK;
+    if (::fcntl(fd, command, &lock) == 0) return "locked a part of a file of the system";
+  }
+  return "";
+}
+
+// Calls that are known for holes, and such as came after the filter was written.
+std::string makeOddCalls(const Words&) {
+  const std::pair<const char*, long> calls[] = {{"io_uring_setup", SYS_io_uring_setup},
+                                                {"memfd_create", SYS_memfd_create},
+                                                {"inotify_init1", SYS_inotify_init1},
+                                                {"seccomp", SYS_seccomp}};
+  for (const auto& [name, number] : calls)
+    if (::syscall(number, 0, 0, 0) >= 0 || (errno != EPERM && errno != ENOSYS))
+      return fmt::format("can call {}", name);
+  for (long number = 463; number < 600; ++number)
+    if (::syscall(number, -1, 0, 0, 0, 0, 0) >= 0 || errno != ENOSYS)
+      return fmt::format("can call {}", number);
+  return "";
+}
+
+// One that the filter answers by ending the program.
+std::string makeHostileCall(const Words& words) {
+  const std::map<std::string, long> calls = {
+      {"ptrace", SYS_ptrace}, {"unshare", SYS_unshare}, {"userfaultfd", SYS_userfaultfd}, {"bpf", SYS_bpf}};
+  return ::syscall(calls.at(words.at(0)), 0, 0, 0, 0) >= 0 || errno != EPERM ? "can call " + words.at(0) : "";
+}
+
 const std::map<std::string, std::pair<int, Attack>>& attacks() {
   static const std::map<std::string, std::pair<int, Attack>> all = {
       {"file", {2, readAndWriteFiles}}, {"proc", {1, reachProcesses}}, {"net", {1, reachNetwork}},
       {"fork", {1, startProcesses}},    {"mem", {1, takeMemory}},      {"fd", {0, findDescriptors}},
-      {"tmpfs", {1, fillFolders}},      {"leftover", {1, stayBehind}}};
+      {"tmpfs", {1, fillFolders}},      {"leftover", {1, stayBehind}}, {"exec", {0, startAnother}},
+      {"lock", {0, lockFiles}},         {"calls", {0, makeOddCalls}},  {"call", {1, makeHostileCall}}};
   return all;
 }
 

@@ -124,6 +124,10 @@ std::vector<Probe> attack(const Sandbox& sandbox, const fs::path& probe, const f
   attempt("proc", targets.proc());
   attempt("net", targets.net());
   attempt("fork", {"fork", fmt::format("{}", kProcesses + 4)});
+  attempt("exec", {"exec"});
+  attempt("lock", {"lock"});
+  attempt("calls", {"calls"});
+  for (const char* call : {"ptrace", "unshare", "userfaultfd", "bpf"}) attempt(call, {"call", call});
   attempt("mem", {"mem", fmt::format("{}", kMegabytes)});
   attempt("fd", {"fd"});
   attempt("tmpfs size", {"tmpfs", fmt::format("{}", kFileMegabytes)});
@@ -139,7 +143,7 @@ std::string whyNot(const Sandbox& sandbox, const fs::path& probe, const fs::path
   try {
     const Targets targets(folder);
     std::vector<std::string> words;
-    for (const auto& attack : {targets.file(), targets.proc(), targets.net(), {"fd"}})
+    for (const auto& attack : {targets.file(), targets.proc(), targets.net(), {"fd"}, {"lock"}, {"calls"}})
       words.insert(words.end(), attack.begin(), attack.end());
     const Probe all = judge("all", run(sandbox, probe, words, folder));
     return all.held ? "" : all.text;

@@ -10,7 +10,7 @@ namespace rex::sandbox {
 
 /// One attack from inside, by a program of ours.
 struct Probe {
-  std::string name;  ///< file, proc, net, fork, mem, fd, tmpfs size, leftover
+  std::string name;  ///< file, proc, net, fork, exec, lock, calls, a call, mem, fd, tmpfs size, leftover
   bool held = false;
   std::string text;  ///< how the attack ended, or what got through
   bool ran = true;   ///< false: there was no sandbox to attack from, and `text` says why
@@ -22,7 +22,7 @@ struct Probe {
                                         const std::filesystem::path& folder);
 
 /// Whether the sandbox starts here and holds the attacks that take no time: files, processes, network,
-/// descriptors. Says why not, or nothing.
+/// descriptors, locks, calls. Says why not, or nothing.
 [[nodiscard]] std::string whyNot(const Sandbox& sandbox, const std::filesystem::path& probe,
                                  const std::filesystem::path& folder);
 

@@ -2,12 +2,17 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <set>
+#include <vector>
 
 #include <fcntl.h>
 #include <sched.h>
 #include <seccomp.h>
+#include <sys/ioctl.h>
+#include <sys/prctl.h>
 #include <unistd.h>
 
 #include "base/error.h"
@@ -64,7 +69,8 @@ constexpr auto kHostile = std::to_array<const char*>({"ptrace",
 
 // Ways to talk to others or to slow them down, and memory and queues that outlive a process or escape its
 // limits.
-constexpr auto kForbidden = std::to_array<const char*>({"socket",
+constexpr auto kForbidden = std::to_array<const char*>({"flock",
+                                                        "socket",
                                                         "socketpair",
                                                         "io_uring_setup",
                                                         "io_uring_enter",
@@ -103,33 +109,201 @@ constexpr auto kForbidden = std::to_array<const char*>({"socket",
                                                         "move_pages"});
 
 // What landlock does not rule: files of the same user could be changed by their names.
-constexpr auto kChangesByName =
-    std::to_array<const char*>({"truncate", "chmod", "fchmod", "fchmodat", "fchmodat2", "chown", "fchown",
-                                "lchown", "fchownat", "utime", "utimes", "utimensat", "futimesat", "setxattr",
-                                "lsetxattr", "fsetxattr", "removexattr", "lremovexattr", "fremovexattr"});
+constexpr auto kChangesByName = std::to_array<const char*>(
+    {"truncate", "chmod", "fchmod", "fchmodat", "fchmodat2", "utime", "utimes", "utimensat", "futimesat"});
 
-constexpr auto kProcessStarters = std::to_array<const char*>({"fork", "vfork"});
+constexpr auto kOwnersAndAttributes =
+    std::to_array<const char*>({"chown", "fchown", "lchown", "fchownat", "setxattr", "lsetxattr", "fsetxattr",
+                                "removexattr", "lremovexattr", "fremovexattr"});
+
+constexpr auto kProgramStarters = std::to_array<const char*>({"fork", "vfork", "execve"});
+
+// What the C and C++ libraries call for memory, files, threads, time and signals of their own. Calls that are
+// not here, and those that kernels to come may add, fail as on a kernel without them.
+constexpr auto kOfHonestPrograms = std::to_array<const char*>({"brk",
+                                                               "mmap",
+                                                               "munmap",
+                                                               "mremap",
+                                                               "mprotect",
+                                                               "madvise",
+                                                               "msync",  //
+                                                               "read",
+                                                               "write",
+                                                               "readv",
+                                                               "writev",
+                                                               "pread64",
+                                                               "pwrite64",
+                                                               "preadv",
+                                                               "pwritev",
+                                                               "preadv2",
+                                                               "pwritev2",
+                                                               "lseek",
+                                                               "_llseek",
+                                                               "close",
+                                                               "close_range",
+                                                               "dup",
+                                                               "dup2",
+                                                               "dup3",
+                                                               "pipe",
+                                                               "pipe2",
+                                                               "poll",
+                                                               "ppoll",
+                                                               "select",
+                                                               "pselect6",
+                                                               "epoll_create",
+                                                               "epoll_create1",
+                                                               "epoll_ctl",
+                                                               "epoll_wait",
+                                                               "epoll_pwait",
+                                                               "epoll_pwait2",
+                                                               "eventfd",
+                                                               "eventfd2",
+                                                               "sendfile",
+                                                               "copy_file_range",  //
+                                                               "stat",
+                                                               "fstat",
+                                                               "lstat",
+                                                               "newfstatat",
+                                                               "fstatat64",
+                                                               "statx",
+                                                               "statfs",
+                                                               "fstatfs",
+                                                               "access",
+                                                               "faccessat",
+                                                               "faccessat2",
+                                                               "readlink",
+                                                               "readlinkat",
+                                                               "getdents",
+                                                               "getdents64",
+                                                               "getcwd",
+                                                               "chdir",
+                                                               "fchdir",
+                                                               "ftruncate",
+                                                               "fallocate",
+                                                               "fadvise64",
+                                                               "fsync",
+                                                               "fdatasync",
+                                                               "mkdir",
+                                                               "mkdirat",
+                                                               "rmdir",
+                                                               "unlink",
+                                                               "unlinkat",
+                                                               "rename",
+                                                               "renameat",
+                                                               "renameat2",
+                                                               "link",
+                                                               "linkat",
+                                                               "symlink",
+                                                               "symlinkat",
+                                                               "umask",  //
+                                                               "exit",
+                                                               "exit_group",
+                                                               "wait4",
+                                                               "waitid",
+                                                               "getpid",
+                                                               "gettid",
+                                                               "getppid",
+                                                               "getpgrp",
+                                                               "getpgid",
+                                                               "getsid",
+                                                               "getuid",
+                                                               "geteuid",
+                                                               "getgid",
+                                                               "getegid",
+                                                               "getresuid",
+                                                               "getresgid",
+                                                               "getgroups",
+                                                               "uname",
+                                                               "sysinfo",
+                                                               "getrlimit",
+                                                               "setrlimit",
+                                                               "getrusage",
+                                                               "times",
+                                                               "getpriority",
+                                                               "capget",
+                                                               "getcpu",
+                                                               "getrandom",  //
+                                                               "sched_yield",
+                                                               "sched_getaffinity",
+                                                               "sched_getparam",
+                                                               "sched_getscheduler",
+                                                               "sched_getattr",
+                                                               "sched_get_priority_max",
+                                                               "sched_get_priority_min",
+                                                               "sched_rr_get_interval",  //
+                                                               "futex",
+                                                               "futex_waitv",
+                                                               "set_robust_list",
+                                                               "get_robust_list",
+                                                               "set_tid_address",
+                                                               "rseq",
+                                                               "membarrier",
+                                                               "arch_prctl",
+                                                               "restart_syscall",  //
+                                                               "rt_sigaction",
+                                                               "rt_sigprocmask",
+                                                               "rt_sigreturn",
+                                                               "rt_sigpending",
+                                                               "rt_sigtimedwait",
+                                                               "rt_sigsuspend",
+                                                               "sigaltstack",
+                                                               "signalfd",
+                                                               "signalfd4",
+                                                               "pause",
+                                                               "alarm",
+                                                               "setitimer",
+                                                               "getitimer",  //
+                                                               "clock_gettime",
+                                                               "clock_getres",
+                                                               "clock_nanosleep",
+                                                               "nanosleep",
+                                                               "gettimeofday",
+                                                               "time",
+                                                               "timer_create",
+                                                               "timer_settime",
+                                                               "timer_gettime",
+                                                               "timer_getoverrun",
+                                                               "timer_delete",
+                                                               "timerfd_create",
+                                                               "timerfd_settime",
+                                                               "timerfd_gettime"});
+
+// The last call that these lists were written with: mseal of Linux 6.10.
+constexpr int kHighestKnown = 462;
 
 class Filter {
  public:
-  Filter() : context_(seccomp_init(SCMP_ACT_ALLOW), seccomp_release) {
+  Filter() : context_(seccomp_init(kUnknown), seccomp_release) {
     if (!context_) throw Error({.what = "cannot make a filter of system calls"});
   }
   template <std::size_t n>
   void all(const std::array<const char*, n>& names, std::uint32_t action) {
-    for (const char* name : names) {
-      const int number = seccomp_syscall_resolve_name(name);
-      if (number != __NR_SCMP_ERROR) add(seccomp_rule_add(context_.get(), action, number, 0));
-    }
+    for (const char* name : names) when(name, {}, action);
   }
-  void when(const char* name, const scmp_arg_cmp& condition, std::uint32_t action) {
+  // With several conditions all must hold. What a call with rules does where none of them holds, and what
+  // calls without rules do, is to fail as on a kernel without them.
+  void when(const char* name, const std::vector<scmp_arg_cmp>& conditions, std::uint32_t action) {
     const int number = seccomp_syscall_resolve_name(name);
-    if (number != __NR_SCMP_ERROR) add(seccomp_rule_add_array(context_.get(), action, number, 1, &condition));
+    if (number == __NR_SCMP_ERROR) return;
+    ruled_.insert(number);
+    if (action != kUnknown)
+      add(seccomp_rule_add_array(context_.get(), action, number, static_cast<unsigned>(conditions.size()),
+                                 conditions.data()));
+  }
+  void allowTheRest() {
+    for (int number = 0; number <= kHighestKnown; ++number) {
+      const std::unique_ptr<char, decltype(&std::free)> name(
+          seccomp_syscall_resolve_num_arch(SCMP_ARCH_NATIVE, number), std::free);
+      if (name && !ruled_.contains(number))
+        add(seccomp_rule_add_array(context_.get(), SCMP_ACT_ALLOW, number, 0, nullptr));
+    }
   }
   void enforce() {
     add(seccomp_attr_set(context_.get(), SCMP_FLTATR_CTL_OPTIMIZE, 2));
     add(seccomp_load(context_.get()));
   }
+
+  static constexpr std::uint32_t kUnknown = SCMP_ACT_ERRNO(ENOSYS);
 
  private:
   // Calls that this kind of processor does not have cannot be made either.
@@ -138,61 +312,114 @@ class Filter {
       throw Error({.what = "cannot filter system calls", .found = std::strerror(-result)});
   }
   std::unique_ptr<void, decltype(&seccomp_release)> context_;
+  std::set<int> ruled_{};
 };
+
+constexpr std::uint32_t kKill = SCMP_ACT_KILL_PROCESS, kAllow = SCMP_ACT_ALLOW,
+                        kRefuse = SCMP_ACT_ERRNO(EPERM);
 
 // Threads may start, processes may not, unless told otherwise; new namespaces never. The new form of the call
 // hides its flags from filters: without it the C library takes the old one.
 void filterClone(Filter& filter, bool mayStartPrograms) {
-  constexpr std::array<std::uint64_t, 7> kNamespaces = {
+  constexpr std::array<scmp_datum_t, 7> kNamespaces = {
       CLONE_NEWUSER, CLONE_NEWNS, CLONE_NEWPID, CLONE_NEWNET, CLONE_NEWIPC, CLONE_NEWUTS, CLONE_NEWCGROUP};
-  filter.all(std::to_array<const char*>({"clone3"}), SCMP_ACT_ERRNO(ENOSYS));
+  scmp_datum_t all = 0;
+  for (const scmp_datum_t flag : kNamespaces) all |= flag;
+  filter.when("clone3", {}, Filter::kUnknown);
   if (mayStartPrograms) {
-    for (const std::uint64_t flag : kNamespaces)
-      filter.when("clone", SCMP_A0(SCMP_CMP_MASKED_EQ, flag, flag), SCMP_ACT_KILL_PROCESS);
+    filter.when("clone", {SCMP_A0(SCMP_CMP_MASKED_EQ, all, 0)}, kAllow);
+    for (const scmp_datum_t flag : kNamespaces)
+      filter.when("clone", {SCMP_A0(SCMP_CMP_MASKED_EQ, flag, flag)}, kKill);
     return;
   }
-  filter.when("clone", SCMP_A0(SCMP_CMP_MASKED_EQ, CLONE_THREAD, 0), SCMP_ACT_KILL_PROCESS);
-  filter.all(kProcessStarters, SCMP_ACT_KILL_PROCESS);
+  filter.when("clone", {SCMP_A0(SCMP_CMP_MASKED_EQ, all | CLONE_THREAD, CLONE_THREAD)}, kAllow);
+  filter.when("clone", {SCMP_A0(SCMP_CMP_MASKED_EQ, CLONE_THREAD, 0)}, kKill);
+  filter.all(kProgramStarters, kKill);
+}
+
+// Becoming the program is the last thing the launcher does. Nobody else knows these addresses, so nobody can
+// make that call again.
+void allowStart(Filter& filter, const ProgramStart& start) {
+  filter.when("execveat", {}, Filter::kUnknown);
+  if (start.program < 0) return;
+  const auto number = [](const auto* pointer) { return reinterpret_cast<scmp_datum_t>(pointer); };
+  filter.when("execveat",
+              {SCMP_A0(SCMP_CMP_EQ, static_cast<scmp_datum_t>(start.program)),
+               SCMP_A1(SCMP_CMP_EQ, number(start.path)), SCMP_A2(SCMP_CMP_EQ, number(start.arguments)),
+               SCMP_A3(SCMP_CMP_EQ, number(start.environment)), SCMP_A4(SCMP_CMP_EQ, AT_EMPTY_PATH)},
+              kAllow);
 }
 
 // The process keeps its number when it becomes the program.
-void allowOnlyItself(Filter& filter) {
+void allowSignals(Filter& filter, bool toItselfOnly) {
   const auto self = static_cast<scmp_datum_t>(::getpid());
-  for (const char* name : {"kill", "tkill", "tgkill"})
-    filter.when(name, SCMP_A0(SCMP_CMP_NE, self), SCMP_ACT_ERRNO(EPERM));
+  for (const char* name : {"kill", "tkill", "tgkill"}) {
+    if (!toItselfOnly) {
+      filter.when(name, {}, kAllow);
+      continue;
+    }
+    filter.when(name, {SCMP_A0(SCMP_CMP_EQ, self)}, kAllow);
+    filter.when(name, {SCMP_A0(SCMP_CMP_NE, self)}, kRefuse);
+  }
 }
 
-// Whoever owns a descriptor gets its signals.
-void forbidOwnersOfDescriptors(Filter& filter) {
-  for (const scmp_datum_t command : {F_SETOWN, F_SETOWN_EX, F_SETSIG})
-    filter.when("fcntl", SCMP_A1(SCMP_CMP_EQ, command), SCMP_ACT_ERRNO(EPERM));
+// A descriptor may be copied and asked for its flags. Whoever owns one gets its signals, locks and leases are
+// seen by others. Only equal numbers are allowed: the kernel looks at half of what the filter sees.
+void filterDescriptors(Filter& filter) {
+  for (const scmp_datum_t command :
+       {F_DUPFD, F_DUPFD_CLOEXEC, F_GETFD, F_SETFD, F_GETFL, F_SETFL, F_GETPIPE_SZ})
+    filter.when("fcntl", {SCMP_A1(SCMP_CMP_EQ, command)}, kAllow);
+  for (const scmp_datum_t command : {F_SETOWN, F_SETOWN_EX, F_SETSIG, F_SETLK, F_SETLKW, F_GETLK, F_OFD_SETLK,
+                                     F_OFD_SETLKW, F_OFD_GETLK, F_SETLEASE, F_NOTIFY})
+    filter.when("fcntl", {SCMP_A1(SCMP_CMP_EQ, command)}, kRefuse);
+}
+
+// Of what a program may ask of descriptors and of itself by number, only these do nothing to others.
+void allowHarmlessRequests(Filter& filter) {
+  for (const scmp_datum_t request : {TCGETS, TIOCGWINSZ, FIONREAD, FIONBIO, FIOCLEX, FIONCLEX})
+    filter.when("ioctl", {SCMP_A1(SCMP_CMP_EQ, request)}, kAllow);
+  for (const scmp_datum_t option : {PR_SET_NAME, PR_GET_NAME})
+    filter.when("prctl", {SCMP_A0(SCMP_CMP_EQ, option)}, kAllow);
 }
 
 // Files that may only be read could be emptied as they are opened. The last of the calls hides its flags from
 // filters.
-void forbidEmptying(Filter& filter) {
-  filter.when("open", SCMP_A1(SCMP_CMP_MASKED_EQ, O_TRUNC, O_TRUNC), SCMP_ACT_ERRNO(EPERM));
-  filter.when("openat", SCMP_A2(SCMP_CMP_MASKED_EQ, O_TRUNC, O_TRUNC), SCMP_ACT_ERRNO(EPERM));
-  filter.all(std::to_array<const char*>({"creat"}), SCMP_ACT_ERRNO(EPERM));
-  filter.all(std::to_array<const char*>({"openat2"}), SCMP_ACT_ERRNO(ENOSYS));
+void allowOpening(Filter& filter, bool mayEmpty) {
+  filter.when("open", {SCMP_A1(SCMP_CMP_MASKED_EQ, O_TRUNC, 0)}, kAllow);
+  filter.when("openat", {SCMP_A2(SCMP_CMP_MASKED_EQ, O_TRUNC, 0)}, kAllow);
+  const std::uint32_t action = mayEmpty ? kAllow : kRefuse;
+  filter.when("open", {SCMP_A1(SCMP_CMP_MASKED_EQ, O_TRUNC, O_TRUNC)}, action);
+  filter.when("openat", {SCMP_A2(SCMP_CMP_MASKED_EQ, O_TRUNC, O_TRUNC)}, action);
+  filter.when("creat", {}, action);
+  filter.when("openat2", {}, mayEmpty ? kAllow : Filter::kUnknown);
+}
+
+void filterStudents(Filter& filter, const Confinement& confinement, const ProgramStart& start, int landlock) {
+  constexpr int kRulesTruncation = 3, kScopedSignals = 6;
+  const bool isConfinedByName = confinement.level == 1;
+  allowStart(filter, start);
+  allowSignals(filter, isConfinedByName && landlock < kScopedSignals);
+  allowOpening(filter, !isConfinedByName || landlock >= kRulesTruncation);
+  allowHarmlessRequests(filter);
+  filter.all(kChangesByName, isConfinedByName ? kRefuse : kAllow);
+  filter.all(kOwnersAndAttributes, kRefuse);
+  filter.all(kOfHonestPrograms, kAllow);
 }
 
 }  // namespace
 
-void filterSystemCalls(const Confinement& confinement, int landlock) {
+void filterSystemCalls(const Confinement& confinement, const ProgramStart& start, int landlock) {
   Filter filter;
-  filter.all(kHostile, SCMP_ACT_KILL_PROCESS);
-  filter.all(kForbidden, SCMP_ACT_ERRNO(EPERM));
-  filter.when("prlimit64", SCMP_A0(SCMP_CMP_NE, 0), SCMP_ACT_ERRNO(EPERM));
+  filter.all(kHostile, kKill);
+  filter.all(kForbidden, kRefuse);
+  filter.when("prlimit64", {SCMP_A0(SCMP_CMP_EQ, 0)}, kAllow);
+  filter.when("prlimit64", {SCMP_A0(SCMP_CMP_NE, 0)}, kRefuse);
   filterClone(filter, confinement.mayStartProgramsOfItsOwn);
-  forbidOwnersOfDescriptors(filter);
-  constexpr int kRulesTruncation = 3, kScopedSignals = 6;
-  const bool isStudents = !confinement.mayStartProgramsOfItsOwn;
-  if (confinement.level == 1 && isStudents) {
-    filter.all(kChangesByName, SCMP_ACT_ERRNO(EPERM));
-    if (landlock < kRulesTruncation) forbidEmptying(filter);
-    if (landlock < kScopedSignals) allowOnlyItself(filter);
-  }
+  filterDescriptors(filter);
+  if (confinement.mayStartProgramsOfItsOwn)
+    filter.allowTheRest();
+  else
+    filterStudents(filter, confinement, start, landlock);
   filter.enforce();
 }
 

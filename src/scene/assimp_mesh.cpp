@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include <Eigen/LU>
@@ -11,11 +13,13 @@
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
+#include "base/error.h"
 #include "base/lower_case.h"
 #include "geometry/welded_mesh.h"
 #include "scene/assimp_mesh_internal.h"
 #include "scene/mesh_folder_internal.h"
 #include "scene/mesh_limits_internal.h"
+#include "scene/texture_reader_internal.h"
 
 namespace rex::mesh {
 namespace {
@@ -74,10 +78,78 @@ Matrix4d fromYUp() {
   return turn;
 }
 
+// The textures of a file, each read once.
+class Textures {
+ public:
+  Textures(const aiScene& scene, const MeshFolder& folder) : scene_(scene), folder_(folder) {}
+
+  // That of a material; none also for one that cannot be had, which is noted.
+  std::optional<Index> of(const aiMaterial& material) {
+    aiString path;
+    if (material.GetTexture(aiTextureType_BASE_COLOR, 0, &path) != AI_SUCCESS &&
+        material.GetTexture(aiTextureType_DIFFUSE, 0, &path) != AI_SUCCESS)
+      return {};
+    const auto [known, isNew] = known_.try_emplace(path.C_Str());
+    if (isNew) {
+      try {
+        known->second = add(known->first);
+      } catch (const Error& error) {
+        missing_.emplace_back(error.what());
+      }
+    }
+    return known->second;
+  }
+
+  std::vector<Texture> takeTextures() { return std::move(textures_); }
+  std::vector<std::string> takeMissing() { return std::move(missing_); }
+
+ private:
+  static constexpr std::size_t kMostTextures = 64, kMostPixelsTogether = 2 * kMostTexturePixels;
+
+  Index add(const std::string& path) {
+    const std::string what = path.starts_with('*') ? "a texture inside the file" : "texture '" + path + "'";
+    if (known_.size() > kMostTextures)
+      throw Error({.what = what,
+                   .found = "too many textures",
+                   .wanted = fmt::format("at most {} in a file", kMostTextures)});
+    textures_.push_back(readTexture(bytesOf(path, what), what));
+    pixels_ += textures_.back().rgb.size() / 3;
+    if (pixels_ > kMostPixelsTogether) {
+      textures_.pop_back();
+      throw Error({.what = what,
+                   .found = fmt::format("{} pixels of textures up to it", pixels_),
+                   .wanted = fmt::format("at most {} in a file", kMostPixelsTogether)});
+    }
+    return static_cast<Index>(textures_.size() - 1);
+  }
+
+  std::string bytesOf(const std::string& path, const std::string& what) const {
+    if (const aiTexture* inside = scene_.GetEmbeddedTexture(path.c_str())) {
+      if (inside->mHeight == 0) return {reinterpret_cast<const char*>(inside->pcData), inside->mWidth};
+      throw Error({.what = what, .found = "bare pixels", .wanted = "PNG or JPEG"});
+    }
+    std::string name = path;
+    std::replace(name.begin(), name.end(), '\\', '/');  // of other systems
+    if (std::optional<std::string> content = folder_.contentOf(name.c_str())) return *std::move(content);
+    throw Error({.what = what,
+                 .found = "no such file of at most 16 MiB",
+                 .wanted = "one in the folder of the mesh or below"});
+  }
+
+  const aiScene& scene_;
+  const MeshFolder& folder_;
+  std::map<std::string, std::optional<Index>> known_;
+  std::vector<Texture> textures_;
+  std::vector<std::string> missing_;
+  std::size_t pixels_ = 0;
+};
+
 // All meshes of a file, as its nodes place them, in one.
 class Collector {
  public:
-  Collector(const std::string& name, const aiScene& scene) : name_(name), scene_(scene) {
+  // Without textures if they are null.
+  Collector(const std::string& name, const aiScene& scene, Textures* textures)
+      : name_(name), scene_(scene), textures_(textures) {
     const std::string ending = endingOf(name);
     linearLight_ = ending == ".gltf" || ending == ".glb";
     addNodes(linearLight_ || ending == ".dae" ? fromYUp() : Matrix4d(Matrix4d::Identity()));
@@ -86,7 +158,11 @@ class Collector {
   TriangleMesh mesh() && {
     if (positions_.empty()) fail(name_, "mesh", "no vertices", "some");
     if (triangles_.empty()) return {std::move(positions_), {}, {}};
-    TriangleMesh mesh = weldedMesh(positions_, triangles_, parts_);
+    TriangleMesh::Paint paint;
+    const bool isPainted =
+        std::ranges::any_of(parts_, [](const TriangleMesh::Part& part) { return part.texture.has_value(); });
+    if (isPainted) paint = {std::move(points_), textures_->takeTextures()};
+    TriangleMesh mesh = weldedMesh(positions_, triangles_, parts_, kCreaseAngle, std::move(paint));
     if (mesh.isEmpty())
       fail(name_, "mesh", fmt::format("{} triangles, none of which has an area", triangles_.size()),
            "a surface");
@@ -112,8 +188,10 @@ class Collector {
     requireTriangles(triangles_.size() + mesh.mNumFaces, name_);
     requireCount(first + mesh.mNumVertices, name_);
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) addVertex(mesh.mVertices[i], placed);
-    TriangleMesh::Part part{.color = colorOf(*scene_.mMaterials[mesh.mMaterialIndex], linearLight_),
+    const aiMaterial& material = *scene_.mMaterials[mesh.mMaterialIndex];
+    TriangleMesh::Part part{.color = colorOf(material, linearLight_),
                             .firstTriangle = static_cast<Index>(triangles_.size())};
+    if (textures_ != nullptr) paintPart(part, mesh, material);
     const bool mirrored = placed.topLeftCorner<3, 3>().determinant() < 0;
     for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
       const aiFace& face = mesh.mFaces[i];
@@ -127,6 +205,19 @@ class Collector {
     if (part.triangleCount > 0) parts_.push_back(part);
   }
 
+  void paintPart(TriangleMesh::Part& part, const aiMesh& mesh, const aiMaterial& material) {
+    const bool hasPoints = mesh.HasTextureCoords(0);
+    if (hasPoints) part.texture = textures_->of(material);
+    if (part.texture && !linearLight_)
+      part.color = Eigen::Vector4f(1, 1, 1, part.color ? (*part.color)[3] : 1);
+    if (part.texture && !part.color) part.color = Eigen::Vector4f::Ones();
+    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+      const aiVector3D at = hasPoints ? mesh.mTextureCoords[0][i] : aiVector3D();
+      const bool isUsable = std::isfinite(at.x) && std::isfinite(at.y);
+      points_.emplace_back(isUsable ? Eigen::Vector2f(at.x, at.y) : Eigen::Vector2f::Zero());
+    }
+  }
+
   void addVertex(const aiVector3D& v, const Matrix4d& placed) {
     const Eigen::Vector3d p = (placed * Eigen::Vector4d(v.x, v.y, v.z, 1)).head<3>();
     if (!p.allFinite() || p.cwiseAbs().maxCoeff() > kLargestCoordinate)
@@ -137,10 +228,12 @@ class Collector {
 
   const std::string& name_;
   const aiScene& scene_;
+  Textures* textures_;
   bool linearLight_;  // glTF counts colours in light, all others as a screen shows them
   std::vector<Eigen::Vector3f> positions_;
   std::vector<TriangleMesh::Triangle> triangles_;
   std::vector<TriangleMesh::Part> parts_;
+  std::vector<Eigen::Vector2f> points_;  // of textures, one for each position
 };
 
 // assimp tries its other readers on a file that the one for its ending declines, and what a file must not
@@ -159,19 +252,23 @@ void keepReadersOf(const std::string& ending, Assimp::Importer& importer) {
 
 }  // namespace
 
-TriangleMesh readByAssimp(std::string_view bytes, const std::string& name,
-                          const std::filesystem::path& folder) {
+TexturedMesh readByAssimp(std::string_view bytes, const std::string& name,
+                          const std::filesystem::path& folder, bool textures) {
   const std::string alias = "mesh" + endingOf(name);
   Assimp::Importer importer;
   keepReadersOf(endingOf(name), importer);
-  importer.SetIOHandler(new MeshFolder(alias, bytes, folder));  // which deletes it
+  const auto files = new MeshFolder(alias, bytes, folder);
+  importer.SetIOHandler(files);  // which deletes it
   const aiScene* scene = importer.ReadFile(alias, 0);
   if (scene != nullptr) {
     requireFaces(name, *scene);
     scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   }
   if (scene == nullptr) fail(name, "cannot read the mesh file", importer.GetErrorString(), "a mesh");
-  return Collector(name, *scene).mesh();
+  if (!textures) return {Collector(name, *scene, nullptr).mesh(), {}};
+  Textures painted(*scene, *files);
+  TriangleMesh mesh = Collector(name, *scene, &painted).mesh();
+  return {std::move(mesh), painted.takeMissing()};
 }
 
 }  // namespace rex::mesh

@@ -51,10 +51,15 @@ bool MeshFolder::Exists(const char* name) const { return name == name_ || !find(
 
 Assimp::IOStream* MeshFolder::Open(const char* name, const char*) {
   if (name == name_) return new Bytes(bytes_);
+  std::optional<std::string> content = contentOf(name);
+  return content ? new Bytes(*std::move(content)) : nullptr;
+}
+
+std::optional<std::string> MeshFolder::contentOf(const char* name) const {
   const fs::path file = find(name);
-  if (file.empty()) return nullptr;
+  if (file.empty()) return std::nullopt;
   std::ifstream stream(file, std::ios::binary);
-  return new Bytes(std::string(std::istreambuf_iterator<char>(stream), {}));
+  return std::string(std::istreambuf_iterator<char>(stream), {});
 }
 
 void MeshFolder::Close(Assimp::IOStream* stream) { delete stream; }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -18,6 +19,8 @@ class MeshFolder : public Assimp::IOSystem {
 
   bool Exists(const char* name) const override;
   char getOsSeparator() const override { return '/'; }
+  /// The content of a file of the folder, if there is one.
+  [[nodiscard]] std::optional<std::string> contentOf(const char* name) const;
   Assimp::IOStream* Open(const char* name, const char* mode) override;
   void Close(Assimp::IOStream* stream) override;
 

@@ -45,26 +45,32 @@ std::string readBytes(const fs::path& file) {
 }
 
 // Ten times what good files take, and a whole second: some for which assimp never ends stay undiscovered.
-// Most of a glTF file lies in others.
-IsolationLimits limitsFor(std::size_t bytes, const std::string& name) {
+// Most of a glTF file lies in others, and textures do.
+IsolationLimits limitsFor(std::size_t bytes, const std::string& name, bool textures) {
   IsolationLimits limits;
-  if (endingOf(name) != ".gltf") limits.cpuSeconds = 1 + static_cast<double>(bytes >> 22);
+  if (endingOf(name) != ".gltf" && !textures) limits.cpuSeconds = 1 + static_cast<double>(bytes >> 22);
   return limits;
 }
 
-TriangleMesh meshOf(std::string_view bytes, const std::string& name, const fs::path& folder) {
+TexturedMesh meshOf(std::string_view bytes, const std::string& name, const fs::path& folder, bool textures) {
   mesh::requireSize(bytes.size(), name);
   mesh::requireHarmless(bytes, name);
-  return mesh::readIsolated(bytes, name, folder, limitsFor(bytes.size(), name));
+  return mesh::readIsolated(bytes, name, folder, limitsFor(bytes.size(), name, textures), textures);
+}
+
+TexturedMesh meshOf(const fs::path& file, bool textures) {
+  static_cast<void>(mesh::largestFile(file.string()));  // the ending first, then the file
+  return meshOf(readBytes(file), file.string(), internal::folderOf(file), textures);
 }
 
 }  // namespace
 
-TriangleMesh readMesh(const fs::path& file) {
-  static_cast<void>(mesh::largestFile(file.string()));  // the ending first, then the file
-  return meshOf(readBytes(file), file.string(), internal::folderOf(file));
-}
+TriangleMesh readMesh(const fs::path& file) { return meshOf(file, false).mesh; }
 
-TriangleMesh parseMesh(std::string_view bytes, const std::string& name) { return meshOf(bytes, name, {}); }
+TexturedMesh readTexturedMesh(const fs::path& file) { return meshOf(file, true); }
+
+TriangleMesh parseMesh(std::string_view bytes, const std::string& name) {
+  return meshOf(bytes, name, {}, false).mesh;
+}
 
 }  // namespace rex

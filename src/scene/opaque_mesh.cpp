@@ -20,7 +20,8 @@ TriangleMesh withoutInvisibleParts(const TriangleMesh& mesh) {
   return {{mesh.positions().begin(), mesh.positions().end()},
           {mesh.normals().begin(), mesh.normals().end()},
           {mesh.triangles().begin(), mesh.triangles().end()},
-          std::move(parts)};
+          std::move(parts),
+          mesh.paint()};
 }
 
 }  // namespace rex

@@ -38,7 +38,8 @@ TriangleMesh scaledMesh(const TriangleMesh& mesh, const Vector3d& scale, const s
   return {std::move(positions),
           std::move(normals),
           std::move(triangles),
-          {mesh.parts().begin(), mesh.parts().end()}};
+          {mesh.parts().begin(), mesh.parts().end()},
+          mesh.paint()};
 }
 
 }  // namespace rex

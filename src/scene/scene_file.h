@@ -23,6 +23,7 @@ struct ReadOptions {
   std::filesystem::path assetRoot{};
   bool allowMissingMeshes = false;        ///< boxes stand for them, and a warning tells
   bool freeBase = false;                  ///< of a URDF robot: its root moves freely
+  bool textures = false;                  ///< of meshes, see readTexturedMesh(); for those who draw them
   bool strict = false;                    ///< faults that are repaired otherwise, with a warning, are errors
   Diagnostics* notesOfFailure = nullptr;  ///< where notes go that were made before an Error
   /// An SRDF that says which links of a URDF robot may collide; empty: NAME.srdf beside NAME.urdf, if there.

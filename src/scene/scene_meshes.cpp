@@ -20,7 +20,8 @@ namespace rex {
 namespace {
 
 constexpr std::size_t kMostFiles = 4096;
-constexpr std::size_t kMostVerticesTogether = 6'000'000;  // 300 MB
+constexpr std::size_t kMostVerticesTogether = 6'000'000;           // 300 MB
+constexpr std::size_t kMostPixelsTogether = std::size_t{1} << 26;  // of textures, 200 MB
 
 // Meshes that were not found: one warning for each package or folder.
 class Missing {
@@ -73,7 +74,11 @@ class Missing {
 class Loader {
  public:
   Loader(const Assets& assets, const ReadOptions& options, Diagnostics& notes)
-      : assets_(assets), allowMissing_(options.allowMissingMeshes), strict_(options.strict), notes_(notes) {}
+      : assets_(assets),
+        allowMissing_(options.allowMissingMeshes),
+        strict_(options.strict),
+        textures_(options.textures),
+        notes_(notes) {}
 
   void load(ShapeSpec& shape) {
     if (!usesMesh(shape.shape.type)) return;
@@ -147,11 +152,34 @@ class Loader {
     const auto [known, isNew] = scaled_.try_emplace({name, {scale.x(), scale.y(), scale.z()}});
     if (!isNew) return known->second;
     const auto [whole, isFirst] = read_.try_emplace(name);
-    if (isFirst) whole->second = seen(readMesh(shape.meshPath), shape);
+    if (isFirst) whole->second = seen(fromFile(shape), shape);
     known->second = scaledMesh(whole->second, scale, name);
     if (isFirst) count(whole->second);
     if (known->second != whole->second) count(known->second);
     return known->second;
+  }
+
+  TriangleMesh fromFile(const ShapeSpec& shape) {
+    if (!textures_) return readMesh(shape.meshPath);
+    const TexturedMesh read = readTexturedMesh(shape.meshPath);
+    if (!read.missing.empty()) {
+      const std::size_t more = read.missing.size() - 1;
+      notes_.push_back({shape.where,
+                        fmt::format("shape '{}': mesh '{}': {}; its colour is drawn instead{}", shape.name,
+                                    shape.meshPath.string(), read.missing.front(),
+                                    more > 0 ? fmt::format(", and so it is of {} more", more) : ""),
+                        Severity::kWarning});
+    }
+    for (const Texture& texture : read.mesh.paint().textures) countPixels(texture.rgb.size() / 3);
+    return read.mesh;
+  }
+
+  void countPixels(std::size_t pixels) {
+    pixels_ += pixels;
+    if (pixels_ > kMostPixelsTogether)
+      throw Error({.what = "all textures up to here",
+                   .found = fmt::format("{} pixels", pixels_),
+                   .wanted = fmt::format("at most {} in a scene", kMostPixelsTogether)});
   }
 
   // MeshLab's "Tr 1" and Collada's transparency of 0 are found in the files of robots that nobody wants
@@ -180,10 +208,10 @@ class Loader {
 
   using Key = std::pair<std::string, std::array<double, 3>>;
   const Assets& assets_;
-  bool allowMissing_, strict_;
+  bool allowMissing_, strict_, textures_;
   Diagnostics& notes_;
   Missing missing_;
-  std::size_t vertices_ = 0;
+  std::size_t vertices_ = 0, pixels_ = 0;
   std::map<std::string, std::filesystem::path> paths_;  // where files were found; empty for missing ones
   std::map<std::string, TriangleMesh> read_;
   std::map<Key, TriangleMesh> scaled_;

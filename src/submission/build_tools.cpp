@@ -1,9 +1,14 @@
 #include "submission/build_tools.h"
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <csignal>
+#include <cstring>
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include "base/error.h"
 #include "base/once_more.h"
@@ -15,6 +20,10 @@ namespace rex::grading {
 namespace {
 
 namespace fs = std::filesystem;
+
+// __DATE__ and __TIME__ say this, the same tomorrow: the beginning of 1970 (reproducible-builds.org). What
+// __TIMESTAMP__ says, see writeSource().
+constexpr const char *kDate = "SOURCE_DATE_EPOCH=0", *kZone = "TZ=UTC0";
 
 // The names in lines `#include "name"`.
 std::vector<std::string> includedNames(const std::string& text) {
@@ -62,7 +71,8 @@ sandbox::Confinement confinement(const Toolchain& toolchain, const fs::path& wor
   return {.readable = visibleFiles(toolchain),
           .writable = workFolder,
           .environment = {"PATH=/usr/bin", "LC_ALL=C.UTF-8",
-                          "TMPDIR=" + (sandbox.level >= 2 ? sandbox::kInsideFolder : workFolder.string())},
+                          "TMPDIR=" + (sandbox.level >= 2 ? sandbox::kInsideFolder : workFolder.string()),
+                          kDate, kZone},
           .mayStartProgramsOfItsOwn = true,
           .cpuSeconds = limits.seconds,
           .wallSeconds = clockSeconds(limits.seconds, sandbox.level),
@@ -100,6 +110,7 @@ ProcessResult BuildTools::runConfined(const std::vector<std::string>& command,
 
 ProcessResult BuildTools::runOnce(const std::vector<std::string>& command, std::size_t outputLimit) const {
   ProcessOptions options{.directory = workFolder_,
+                         .environment = {kDate, kZone},
                          .timeout = clockSeconds(limits_.seconds, level_),
                          .outputLimit = outputLimit,
                          .cpuSeconds = limits_.seconds,
@@ -142,6 +153,13 @@ std::string BuildTools::limitReached(const ProcessResult& run) const {
   if (says("File size limit") || says("File too large"))
     return fmt::format("would write a file of more than {} MiB", limits_.fileSize >> 20);
   return {};
+}
+
+void writeSource(const fs::path& file, const std::string& text) {
+  writeTextFile(file, text);
+  constexpr std::array<timespec, 2> kBeginning{};
+  if (::utimensat(AT_FDCWD, file.c_str(), kBeginning.data(), 0) != 0)
+    throw Error({.what = "cannot date a file", .where = {file.string()}, .found = std::strerror(errno)});
 }
 
 std::vector<fs::path> studentHeaders(const fs::path& folder) {

@@ -23,7 +23,8 @@ struct ToolLimits {
 [[nodiscard]] double clockSeconds(double seconds, int level);
 
 /// Runs compilers and the tools for object files on what a student wrote. Confined, they see the system, the
-/// headers that students may include, what workers are linked with, and their work folder.
+/// headers that students may include, what workers are linked with, and their work folder. They always run
+/// in the first second of 1970, so that the same file becomes the same program on every day.
 class BuildTools {
  public:
   /// Throws Error where the sandbox cannot be had.
@@ -52,6 +53,10 @@ class BuildTools {
   int level_;
   sandbox::Cell cell_;
 };
+
+/// Writes a source file that is as old as the compiler believes today to be: __TIMESTAMP__ in it does not
+/// tell when. Throws Error where it cannot be written.
+void writeSource(const std::filesystem::path& file, const std::string& text);
 
 /// The headers in an exercise's folder that a student's file may include: exercise.h, and what it, the file
 /// that was handed out (starter.cpp, else main.cpp) and solution.cpp include, directly or not. Hidden are the

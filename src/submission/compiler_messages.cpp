@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/lines.h"
+#include "base/printable.h"
 
 namespace rex::grading {
 namespace {
@@ -135,6 +136,16 @@ void blameMainFile(std::vector<CompileDiagnostic>& messages, const std::string& 
     message.line = origin.first;
     message.column = origin.second;
   }
+}
+
+bool admitMessages(std::vector<CompileDiagnostic>& messages) {
+  constexpr std::size_t kMostMessages = 50, kLongest = 2000;
+  const bool tooMany = messages.size() > kMostMessages;
+  if (tooMany) messages.resize(kMostMessages);
+  for (CompileDiagnostic& message : messages)
+    for (std::string* text : {&message.file, &message.rule, &message.message})
+      *text = tidy(printable(*text, kLongest));
+  return tooMany;
 }
 
 std::vector<CompileDiagnostic> parseLinkerText(std::string_view standardError, const std::string& mainFile) {

@@ -24,6 +24,10 @@ namespace rex::grading {
 void blameMainFile(std::vector<CompileDiagnostic>& messages, const std::string& mainFile,
                    std::string_view plainText);
 
+/// Makes messages fit for results and logs: each text printable(), on one line and of at most 2000 bytes, and
+/// at most 50 of them. Returns whether some were left out.
+bool admitMessages(std::vector<CompileDiagnostic>& messages);
+
 /// One error for each function that the linker misses or finds twice.
 [[nodiscard]] std::vector<CompileDiagnostic> parseLinkerText(std::string_view standardError,
                                                              const std::string& mainFile);

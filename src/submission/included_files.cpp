@@ -1,9 +1,16 @@
 #include "submission/included_files.h"
 
 #include <algorithm>
+#include <compare>
+#include <optional>
 #include <set>
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <linux/openat2.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include "submission/build_tools.h"
 #include "submission/mentions.h"
@@ -20,8 +27,36 @@ int lineOf(std::string_view name, std::string_view source) {
          static_cast<int>(std::count(source.begin(), source.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
 }
 
-bool isBelow(const fs::path& folder, const fs::path& file) {
-  return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
+// A file or folder by what it is, not by how it is called.
+struct FileIdentity {
+  dev_t device = 0;
+  ino_t inode = 0;
+  auto operator<=>(const FileIdentity&) const = default;
+};
+
+FileIdentity identityOf(const struct stat& status) { return {status.st_dev, status.st_ino}; }
+
+/// A file as it was found: what it is, and where it lies once all links are followed.
+struct FoundFile {
+  FileIdentity identity;
+  fs::path place;
+};
+
+// Nothing for what is not there. The links of /proc lead to other places for each process: no path goes
+// through them.
+std::optional<FoundFile> findFile(const fs::path& path) {
+  open_how how{};
+  how.flags = O_PATH | O_CLOEXEC;
+  how.resolve = RESOLVE_NO_MAGICLINKS;
+  const int fd = static_cast<int>(::syscall(SYS_openat2, AT_FDCWD, path.c_str(), &how, sizeof how));
+  if (fd < 0) return {};
+  struct stat status {};
+  std::error_code failure;
+  const bool isKnown = ::fstat(fd, &status) == 0;
+  const fs::path place = fs::read_symlink("/proc/self/fd/" + std::to_string(fd), failure);
+  ::close(fd);
+  if (!isKnown || failure || !place.is_absolute()) return {};
+  return FoundFile{identityOf(status), place};
 }
 
 // Headers of Eigen have no ending.
@@ -30,7 +65,7 @@ bool isPublicHeader(const fs::path& file) {
   return (ending.empty() || ending == ".h" || ending == ".hpp") && !name.ends_with("_internal.h");
 }
 
-/// What may be included, by its place.
+/// What may be included, by its identity.
 class Allowed {
  public:
   Allowed(const std::string& mainFile, const fs::path& folder, const Toolchain& toolchain) {
@@ -38,32 +73,50 @@ class Allowed {
     if (!toolchain.prefix.empty()) add(toolchain.prefix), add(toolchain.prefix.string() + ".gch");
     for (std::size_t k = 1; k < toolchain.flags.size(); ++k) {
       if (toolchain.flags[k - 1] == "-include") add(toolchain.flags[k]);  // ours: options of the sanitizers
-      if (toolchain.flags[k - 1] == "-isystem") libraries_.push_back(normal(toolchain.flags[k]));
+      if (toolchain.flags[k - 1] == "-isystem") addFolder(libraries_, toolchain.flags[k]);
       if (toolchain.flags[k - 1] == "-iquote")
         for (const fs::path& header : studentHeaders(toolchain.flags[k])) add(header);
     }
-    system_ = {"/usr/include", "/usr/local/include", "/usr/lib"};
+    for (const char* place : {"/usr/include", "/usr/local/include", "/usr/lib"}) addFolder(system_, place);
     // One of one's own brings its own headers: /opt/gcc/bin/g++.
     const fs::path home = fs::path(toolchain.compiler).parent_path().parent_path();
     if (toolchain.compiler.starts_with('/') && home != "/")
-      for (const char* place : {"include", "lib", "lib64"}) system_.push_back(home / place);
+      for (const char* place : {"include", "lib", "lib64"}) addFolder(system_, home / place);
   }
 
   bool holds(const fs::path& file) const {
-    if (files_.contains(file)) return true;
-    // A library may lie below the system's headers, not the other way round.
-    for (const fs::path& library : libraries_)
-      if (isBelow(library, file)) return isPublicHeader(file);
-    return std::any_of(system_.begin(), system_.end(),
-                       [&](const fs::path& folder) { return isBelow(folder, file); });
+    const std::optional<FoundFile> found = findFile(file);
+    if (!found) return false;
+    if (files_.contains(found->identity)) return true;
+    // A library may lie below the system's headers, not the other way round. The file has two names, the one
+    // by which it was included and its own.
+    const std::set<FileIdentity> folders = foldersAbove(found->place);
+    if (isBelow(libraries_, folders)) return isPublicHeader(file) && isPublicHeader(found->place);
+    return isBelow(system_, folders);
   }
 
  private:
-  static fs::path normal(const fs::path& path) { return fs::absolute(path).lexically_normal(); }
-  void add(const fs::path& file) { files_.insert(normal(file)); }
+  void add(const fs::path& file) {
+    if (const auto found = findFile(file)) files_.insert(found->identity);
+  }
+  static void addFolder(std::set<FileIdentity>& folders, const fs::path& folder) {
+    if (const auto found = findFile(folder)) folders.insert(found->identity);
+  }
+  static std::set<FileIdentity> foldersAbove(fs::path place) {
+    std::set<FileIdentity> folders;
+    while (place != place.root_path()) {
+      place = place.parent_path();
+      struct stat status {};
+      if (::lstat(place.c_str(), &status) == 0) folders.insert(identityOf(status));
+    }
+    return folders;
+  }
+  static bool isBelow(const std::set<FileIdentity>& roots, const std::set<FileIdentity>& folders) {
+    return std::any_of(roots.begin(), roots.end(),
+                       [&](const FileIdentity& one) { return folders.contains(one); });
+  }
 
-  std::set<fs::path> files_;
-  std::vector<fs::path> libraries_, system_;
+  std::set<FileIdentity> files_, libraries_, system_;
 };
 
 CompileDiagnostic refusal(const std::string& mainFile, int line, std::string message) {
@@ -76,7 +129,7 @@ std::vector<fs::path> dependenciesIn(std::string_view list, const fs::path& fold
   std::vector<fs::path> files;
   std::string name;
   const auto end = [&] {
-    if (!name.empty() && name.back() != ':') files.push_back((folder / name).lexically_normal());
+    if (!name.empty() && name.back() != ':') files.push_back(folder / name);
     name.clear();
   };
   for (std::size_t k = 0; k < list.size(); ++k) {
@@ -112,6 +165,12 @@ std::vector<CompileDiagnostic> forbiddenIncludes(const std::vector<fs::path>& de
             name)));
   }
   return messages;
+}
+
+std::vector<fs::path> filesOfAssembler(std::string_view list, const fs::path& folder) {
+  std::vector<fs::path> files = dependenciesIn(list, folder);
+  if (!files.empty()) files.pop_back();
+  return files;
 }
 
 std::vector<CompileDiagnostic> forbiddenMacros(std::string_view source, const std::string& mainFile) {

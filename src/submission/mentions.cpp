@@ -9,6 +9,22 @@ namespace rex::grading {
 
 bool isWord(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 
+// The compiler lets blanks stand between the backslash and the end of the line.
+std::pair<std::string, std::vector<std::size_t>> spliced(std::string_view source) {
+  std::string text;
+  std::vector<std::size_t> places;
+  for (std::size_t at = 0; at < source.size(); ++at) {
+    const std::size_t end = source[at] == '\\' ? source.find_first_not_of(" \t\r\v\f", at + 1) : source.npos;
+    if (end != source.npos && source[end] == '\n') {
+      at = end;
+      continue;
+    }
+    text += source[at];
+    places.push_back(at);
+  }
+  return {std::move(text), std::move(places)};
+}
+
 namespace {
 
 void blank(std::string& text, std::size_t from, std::size_t to) {
@@ -112,23 +128,6 @@ bool opensBody(const std::string& code, std::size_t at) {
   if (open == std::string::npos || code[open] != '(') return false;
   const std::size_t end = code.find_first_of("{;()=,}", behindParentheses(code, open));
   return end != std::string::npos && code[end] == '{';
-}
-
-// The source without backslashes at the ends of lines and what follows them, and where each character stood.
-// The compiler lets blanks stand between the two.
-std::pair<std::string, std::vector<std::size_t>> spliced(std::string_view source) {
-  std::string text;
-  std::vector<std::size_t> places;
-  for (std::size_t at = 0; at < source.size(); ++at) {
-    const std::size_t end = source[at] == '\\' ? source.find_first_not_of(" \t\r\v\f", at + 1) : source.npos;
-    if (end != source.npos && source[end] == '\n') {
-      at = end;
-      continue;
-    }
-    text += source[at];
-    places.push_back(at);
-  }
-  return {std::move(text), std::move(places)};
 }
 
 int lineAt(std::size_t position, std::string_view source) {

@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace rex::grading {
 
@@ -11,6 +12,10 @@ namespace rex::grading {
 
 /// A C++ source with blanks for comments, literals and numbers; every character keeps its place.
 [[nodiscard]] std::string codeOf(std::string_view source);
+
+/// A C++ source without backslashes at the ends of lines and what follows them, and where each character of
+/// it stood.
+[[nodiscard]] std::pair<std::string, std::vector<std::size_t>> spliced(std::string_view source);
 
 /// Line and column, from 1, of the only place outside comments, literals and the body of main() where a C++
 /// source names the function, by the last part of its qualified name; 0, 0 when there is none or several.

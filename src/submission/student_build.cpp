@@ -11,25 +11,27 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/printable.h"
 #include "base/process.h"
 #include "base/text_file.h"
 #include "submission/build_tools.h"
 #include "submission/graded_part.h"
 #include "submission/included_files.h"
+#include "submission/line_markers.h"
 #include "submission/mentions.h"
 #include "submission/precompiled_prefix.h"
 #include "submission/symbol_scan.h"
 #include "submission/tool_failure.h"
 #include "submission/two_compilers.h"
+#include "submission/without_main.h"
 
 namespace rex::grading {
 namespace {
 
 using std::filesystem::path;
 
-constexpr const char* kDependencies = "student.d";
+constexpr const char *kDependencies = "student.d", *kOfAssembler = "student.as.d", *kPart = "graded";
 constexpr std::size_t kLogSize = 64u << 10;
-constexpr std::size_t kMostMessages = 50;
 
 // The name to compile under: the student's own if it is plain, for names come from strangers.
 std::string plainName(const path& file) {
@@ -73,7 +75,8 @@ std::vector<std::string> compileCommand(const Toolchain& toolchain, const Studen
                                         const std::string& source) {
   std::vector<std::string> command = {toolchain.compiler};
   command.insert(command.end(), toolchain.flags.begin(), toolchain.flags.end());
-  command.insert(command.end(), {"-ftemplate-depth=200"});
+  // By their sections the linker tells what only main() needs.
+  command.insert(command.end(), {"-ftemplate-depth=200", "-ffunction-sections", "-fdata-sections"});
   if (options.debug) {
     const path folder = std::filesystem::absolute(options.main).parent_path();
     command.insert(
@@ -111,7 +114,7 @@ void explain(const ProcessResult& run, const std::vector<std::string>& command, 
   const auto explained = [&] { return std::any_of(result.messages.begin(), result.messages.end(), isError); };
   // g++ 12 writes no JSON when -fmax-errors stops it; so that is for plain text only, which stands in when
   // too many errors keep the JSON from being finished.
-  result.log = plainReport(command, name, tools).substr(0, kLogSize);
+  result.log = printable(plainReport(command, name, tools), kLogSize);
   if (!explained()) result.messages = parseCompilerText(result.log);
   if (!explained()) result.messages = parseAssemblerText(run.error);
   if (!explained()) result.messages.push_back({name, 0, 0, "error", "", whyItGaveUp(run, tools, options)});
@@ -132,7 +135,8 @@ ProcessResult compileAll(const Toolchain& toolchain, const std::vector<Forbidden
                          const BuildTools& tools, const StudentBuildOptions& options,
                          const StudentObject& result) {
   std::vector<std::string> withJson = command;
-  withJson.insert(withJson.end(), {"-fdiagnostics-format=json", "-MD", "-MF", kDependencies});
+  withJson.insert(withJson.end(), {"-fdiagnostics-format=json", "-MD", "-MF", kDependencies,
+                                   std::string("-Wa,--MD,") + kOfAssembler});
   const std::string part =
       options.part ? gradedPart(result.source, toolchain.functions, lastNames(forbidden)) : "";
   if (!part.empty()) {
@@ -155,8 +159,7 @@ void compile(const Toolchain& toolchain, const std::vector<ForbiddenFunction>& f
   result.messages = parseCompilerJson(run.error);
   if (!run.ok()) explain(run, command, name, tools, options, result);
   blameMainFile(result.messages, name, result.log);
-  result.truncated = result.messages.size() > kMostMessages;
-  if (result.truncated) result.messages.resize(kMostMessages);
+  result.truncated = admitMessages(result.messages);
   if (result.log.empty()) result.log = writeLog(result.messages);
 }
 
@@ -173,6 +176,36 @@ std::vector<CompileDiagnostic> explainLinking(const ProcessResult& run, const Bu
   return {{mainFile, 0, 0, "error", "", "cannot be linked: " + complaint}};
 }
 
+// Of all that the compiler and the assembler opened. Where only a part was compiled, that was done in a
+// folder of its own.
+std::vector<CompileDiagnostic> forbiddenFilesIn(const StudentObject& object, const path& folder,
+                                                const Toolchain& toolchain) {
+  const auto forbidden = [&](const std::vector<path>& files, const path& where) {
+    return forbiddenIncludes(files, object.source, object.name, where, toolchain);
+  };
+  std::vector<CompileDiagnostic> found =
+      forbidden(dependenciesIn(readTextFile(folder / kDependencies), folder), folder);
+  const path assembled = std::filesystem::exists(folder / kOfAssembler) ? folder : folder / kPart;
+  const auto more = forbidden(filesOfAssembler(readTextFile(assembled / kOfAssembler), assembled), assembled);
+  found.insert(found.end(), more.begin(), more.end());
+  return found;
+}
+
+// Makes `result.graded`, in which nothing may call what is forbidden. Where the file keeps that from being
+// made, the messages say so.
+std::vector<CompileDiagnostic> forbiddenCallsIn(StudentObject& result, const Toolchain& toolchain,
+                                                const std::vector<ForbiddenFunction>& forbidden,
+                                                const BuildTools& tools) {
+  if (forbidden.empty()) return {};
+  const ObjectFile whole = readObjectFile(readTextFile(result.object), result.object.string());
+  std::vector<CompileDiagnostic> messages = strangeParts(whole, result.name);
+  if (!messages.empty()) return messages;
+  result.graded = result.object.parent_path() / "graded.o";
+  const ProcessResult run = withoutMain(result.object, result.graded, toolchain, tools);
+  if (!run.ok()) return explainLinking(run, tools, result.object.string(), result.name);
+  return scanSymbols(result.graded, result.source, result.name, forbidden);
+}
+
 StudentProgram link(const Toolchain& toolchain, const BuildTools& tools, const path& program,
                     const std::vector<std::string>& objects, const std::string& mainFile) {
   std::vector<std::string> command = {toolchain.compiler, "-o", program.string()};
@@ -182,54 +215,55 @@ StudentProgram link(const Toolchain& toolchain, const BuildTools& tools, const p
   command.insert(command.end(), toolchain.linkFlags.begin(), toolchain.linkFlags.end());
   const ProcessResult run = tools.run(command);
   StudentProgram result{
-      .program = program, .messages = {}, .log = run.error.substr(0, kLogSize), .ok = run.ok()};
+      .program = program, .messages = {}, .log = printable(run.error, kLogSize), .ok = run.ok()};
   if (!run.ok()) result.messages = explainLinking(run, tools, objects.back(), mainFile);
+  admitMessages(result.messages);
   return result;
 }
 
-class FileHandle {
- public:
-  explicit FileHandle(const path& file)
-      : fd_(::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)) {}
-  ~FileHandle() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  FileHandle(const FileHandle&) = delete;
-  FileHandle& operator=(const FileHandle&) = delete;
-  int get() const { return fd_; }
+Error noSource(const path& file, std::string found) {
+  return Error({.what = "cannot be graded",
+                .where = {file.string()},
+                .found = std::move(found),
+                .wanted = "a C++ source file"});
+}
 
- private:
-  int fd_;
-};
+std::string readText(const OpenedFile& opened, const path& file) {
+  constexpr std::size_t kLargest = 1u << 20;
+  struct stat status {};
+  if (::fstat(opened.fd(), &status) != 0) throw noSource(file, std::strerror(errno));
+  if (S_ISDIR(status.st_mode)) throw noSource(file, "a folder");
+  if (!S_ISREG(status.st_mode)) throw noSource(file, "a pipe or device");
+  std::string text;
+  std::array<char, 65536> buffer;
+  for (ssize_t n = 1; n > 0 && text.size() <= kLargest;) {
+    n = ::read(opened.fd(), buffer.data(), buffer.size());
+    if (n < 0) throw noSource(file, std::strerror(errno));
+    text.append(buffer.data(), static_cast<std::size_t>(n));
+  }
+  if (text.size() > kLargest) throw noSource(file, "more than 1 MiB");
+  if (text.find('\0') != std::string::npos) throw noSource(file, "NUL bytes, as in a binary or UTF-16 file");
+  return text;
+}
 
 }  // namespace
 
 std::string readStudentFile(const path& file) {
-  constexpr std::size_t kLargest = 1u << 20;
-  const auto refuse = [&](std::string found) {
-    return Error({.what = "cannot be graded",
-                  .where = {file.string()},
-                  .found = std::move(found),
-                  .wanted = "a C++ source file"});
-  };
-  const FileHandle handle(file);
-  if (handle.get() < 0)
-    throw refuse(errno == ELOOP ? "a symbolic link" : errno == ENOENT ? "no file" : std::strerror(errno));
-  struct stat status {};
-  if (::fstat(handle.get(), &status) != 0) throw refuse(std::strerror(errno));
-  if (S_ISDIR(status.st_mode)) throw refuse("a folder");
-  if (!S_ISREG(status.st_mode)) throw refuse("a pipe or device");
+  const OpenedFile opened(::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  if (opened.fd() < 0)
+    throw noSource(file, errno == ELOOP    ? "a symbolic link"
+                         : errno == ENOENT ? "no file"
+                                           : std::strerror(errno));
+  return readText(opened, file);
+}
 
-  std::string text;
-  std::array<char, 65536> buffer;
-  for (ssize_t n = 1; n > 0 && text.size() <= kLargest;) {
-    n = ::read(handle.get(), buffer.data(), buffer.size());
-    if (n < 0) throw refuse(std::strerror(errno));
-    text.append(buffer.data(), static_cast<std::size_t>(n));
+StudentFile readStudentFile(const OpenedFolder& folder, const std::string& name) {
+  try {
+    const OpenedFile opened = folder.file(name);
+    return {readText(opened, folder.path() / name), opened.modifiedAt()};
+  } catch (const Error& error) {
+    throw noSource(folder.path() / name, error.parts().found);
   }
-  if (text.size() > kLargest) throw refuse("more than 1 MiB");
-  if (text.find('\0') != std::string::npos) throw refuse("NUL bytes, as in a binary or UTF-16 file");
-  return text;
 }
 
 StudentObject compileStudent(const Toolchain& toolchain, const std::vector<ForbiddenFunction>& forbidden,
@@ -248,12 +282,22 @@ StudentObject compileStudent(const Toolchain& toolchain, const std::vector<Forbi
     result.exitCode = 1;
     return result;
   }
+  // Before anything is compiled: the compiler would attribute its messages as the file wants.
+  if (options.publicHeadersOnly) result.messages = lineMarkers(result.source, name);
+  if (!result.messages.empty()) {
+    result.truncated = admitMessages(result.messages);
+    result.log = writeLog(result.messages);
+    result.exitCode = 1;
+    return result;
+  }
   // A copy, so that what is graded is what was read and nothing beside the student's file is included.
   std::filesystem::create_directories(folder);
-  writeTextFile(folder / name, result.source);
+  writeSource(folder / name, result.source);
   result.object = folder / "student.o";
   // Of another user, after a grading at another level.
-  for (const path& old : {folder / kDependencies, result.object}) std::filesystem::remove(old);
+  for (const path& old :
+       {folder / kDependencies, folder / kOfAssembler, folder / kPart / kOfAssembler, result.object})
+    std::filesystem::remove(old);
   StudentBuildOptions absolute = options;
   absolute.workFolder = folder;
   const BuildTools tools(toolchain, folder, options.sandbox,
@@ -262,13 +306,9 @@ StudentObject compileStudent(const Toolchain& toolchain, const std::vector<Forbi
           result);
   if (!result.ok) return result;
 
-  std::vector<CompileDiagnostic> calls =
-      scanSymbols(toolchain.objdump, result.object, result.source, name, forbidden, tools);
+  std::vector<CompileDiagnostic> calls = forbiddenCallsIn(result, toolchain, forbidden, tools);
   if (options.publicHeadersOnly) {
-    const auto dependencies = dependenciesIn(readTextFile(folder / kDependencies), folder);
-    for (const CompileDiagnostic& file :
-         forbiddenIncludes(dependencies, result.source, name, folder, toolchain))
-      calls.push_back(file);
+    for (const CompileDiagnostic& file : forbiddenFilesIn(result, folder, toolchain)) calls.push_back(file);
     for (const CompileDiagnostic& macro : forbiddenMacros(result.source, name)) calls.push_back(macro);
   }
   result.ok = calls.empty();
@@ -276,6 +316,7 @@ StudentObject compileStudent(const Toolchain& toolchain, const std::vector<Forbi
   if (const auto [line, column] = standardInputUse(result.source); line > 0)
     result.messages.push_back({name, line, column, "warning", "stdin",
                                "reads standard input, which is empty here: every read finds its end"});
+  result.truncated = admitMessages(result.messages) || result.truncated;
   result.log = writeLog(result.messages);
   return result;
 }
@@ -283,9 +324,11 @@ StudentObject compileStudent(const Toolchain& toolchain, const std::vector<Forbi
 StudentProgram linkWorker(const Toolchain& toolchain, const StudentObject& object,
                           const sandbox::Sandbox& sandbox) {
   const path folder = object.object.parent_path(), renamed = folder / "worker_student.o";
+  // What was looked through, and nothing else.
+  const path& part = object.graded.empty() ? object.object : object.graded;
   const BuildTools tools(toolchain, folder, sandbox);
-  const ProcessResult run = tools.run(
-      {toolchain.objcopy, "--redefine-sym", "main=studentMain", object.object.string(), renamed.string()});
+  const ProcessResult run =
+      tools.run({toolchain.objcopy, "--redefine-sym", "main=studentMain", part.string(), renamed.string()});
   if (!run.ok()) throw Error({.what = "cannot rename main in the compiled file", .found = run.error});
   return link(toolchain, tools, folder / "worker", {toolchain.workerObject.string(), renamed.string()},
               object.name);

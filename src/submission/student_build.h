@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "base/opened_folder.h"
 #include "sandbox/cell.h"
 #include "submission/compiler_messages.h"
 #include "submission/exercise_info.h"
@@ -29,6 +31,8 @@ struct StudentObject {
   std::string name;    ///< of the file in messages: "main.cpp"
   std::string source;  ///< what was compiled; empty when the file was refused
   std::filesystem::path object;
+  std::filesystem::path
+      graded{};  ///< the object without main(), where calls are forbidden: see withoutMain()
   std::vector<CompileDiagnostic> messages;
   std::string log;         ///< for build.log: the compiler's own words
   int exitCode = 0;        ///< of the compiler; 1 for a file that was refused
@@ -37,9 +41,9 @@ struct StudentObject {
 };
 
 /// Reads and compiles the file as it is now, under limits on time, memory and file size, and scans it for
-/// calls that the exercise forbids. Any trouble with the file becomes a message; throws Error only when the
-/// tools fail, as on a full disk, or where nothing tells what is wrong with the file. Two builds may run at
-/// once in different work folders.
+/// calls that the exercise forbids outside of main(). Any trouble with the file becomes a message; throws
+/// Error only when the tools fail, as on a full disk, or where nothing tells what is wrong with the file. Two
+/// builds may run at once in different work folders.
 [[nodiscard]] StudentObject compileStudent(const Toolchain& toolchain,
                                            const std::vector<ForbiddenFunction>& forbidden,
                                            const StudentBuildOptions& options);
@@ -52,8 +56,8 @@ struct StudentProgram {
   bool ok = false;
 };
 
-/// Links the worker: the exercise's loop around the student's functions, whose main() is put aside. Throws
-/// Error as compileStudent().
+/// Links the worker: the exercise's loop around the student's functions, whose main() is left out or put
+/// aside. Throws Error as compileStudent().
 [[nodiscard]] StudentProgram linkWorker(const Toolchain& toolchain, const StudentObject& object,
                                         const sandbox::Sandbox& sandbox = {});
 
@@ -63,5 +67,13 @@ struct StudentProgram {
 /// The text of a student's file. Throws Error unless it is a regular file of at most 1 MiB of text without
 /// NUL bytes; symbolic links, pipes and devices are never opened for reading.
 [[nodiscard]] std::string readStudentFile(const std::filesystem::path& file);
+
+struct StudentFile {
+  std::string text{};
+  std::int64_t modifiedAt = 0;  ///< seconds since 1970 in UTC
+};
+
+/// The same of an entry of a folder that was opened, whatever happens to names meanwhile.
+[[nodiscard]] StudentFile readStudentFile(const OpenedFolder& folder, const std::string& name);
 
 }  // namespace rex::grading

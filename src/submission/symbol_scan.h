@@ -5,27 +5,33 @@
 #include <string_view>
 #include <vector>
 
-#include "submission/build_tools.h"
 #include "submission/compiler_messages.h"
 #include "submission/exercise_info.h"
+#include "submission/object_file.h"
 
 namespace rex::grading {
 
-/// The forbidden functions that an object file refers to outside main() and what is declared in it, whatever
-/// their arguments, from what `objdump -t -r -C` prints about it. main() may call them, to compare a
-/// student's work with the library's: the grader never runs it. If anything else refers to main(), all its
-/// calls count. Functions that find others by name, as dlsym(), count always. Needs a file compiled with
-/// -ffunction-sections.
-[[nodiscard]] std::vector<ForbiddenFunction> forbiddenCalls(std::string_view listing,
+/// Whether a symbol is the function `rex::f`, whatever its arguments, one of the class or the namespace
+/// `rex::f`, or made for one of them (Itanium C++ ABI, section 5.1). `symbol` as it stands in the object
+/// file.
+[[nodiscard]] bool isSymbolOf(std::string_view symbol, std::string_view function);
+
+/// The forbidden functions that anything in an object file refers to, by whatever section. Functions and
+/// tables by which others are found while a program runs, such as dlsym(), are always among them.
+[[nodiscard]] std::vector<ForbiddenFunction> forbiddenCalls(const ObjectFile& object,
                                                             const std::vector<ForbiddenFunction>& forbidden);
 
-/// Runs objdump on an object file and explains each forbidden call as an error of rule "forbidden-call", at
-/// the line of `source` that names the function if there is only one outside main(). Throws Error when
-/// objdump cannot read the file.
-[[nodiscard]] std::vector<CompileDiagnostic> scanSymbols(const std::string& objdump,
-                                                         const std::filesystem::path& object,
+/// What no compiler writes into an object file of a C++ source, each as an error of rule "forbidden-call":
+/// names that do not print, sections that only the linker makes, and such as hold code for the linker to
+/// compile. To be asked before a linker reads the file.
+[[nodiscard]] std::vector<CompileDiagnostic> strangeParts(const ObjectFile& object,
+                                                          const std::string& mainFile);
+
+/// Explains each of the forbiddenCalls() of an object file that holds nothing of main() (see withoutMain())
+/// as an error of rule "forbidden-call", at the line of `source` that names the function if there is only one
+/// outside main(). Throws Error as readObjectFile().
+[[nodiscard]] std::vector<CompileDiagnostic> scanSymbols(const std::filesystem::path& object,
                                                          std::string_view source, const std::string& mainFile,
-                                                         const std::vector<ForbiddenFunction>& forbidden,
-                                                         const BuildTools& tools);
+                                                         const std::vector<ForbiddenFunction>& forbidden);
 
 }  // namespace rex::grading

@@ -53,7 +53,7 @@ std::optional<ProcessResult> compilePart(const std::string& part, const std::vec
                                          const std::function<BuildTools(const path&)>& toolsFor) {
   const path top = object.parent_path(), folder = top / "graded";
   std::filesystem::create_directories(folder);
-  writeTextFile(folder / name, part);
+  writeSource(folder / name, part);
   const auto compile = [&](int k) -> int {
     std::vector<std::string> mine = command;
     if (k == 0) {

@@ -1,8 +1,12 @@
 #include "base/printable.h"
 
+#include <cstdint>
+#include <sstream>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "base/process.h"
 #include "base/rng.h"
 
 namespace rex::grading::printable_test {
@@ -19,6 +23,40 @@ TEST(Printable, KeepsTextAndReplacesWhatIsNotText) {
   EXPECT_EQ(printable("\xED\xA0\x80", 100), kMark + kMark + kMark);  // half of a surrogate pair
   EXPECT_EQ(printable("\xF4\x90\x80\x80", 100), kMark + kMark + kMark + kMark);  // beyond the last character
   EXPECT_EQ(printable("a\xE2\x82", 100), "a" + kMark + kMark);                   // cut off
+}
+
+TEST(Printable, ShowsWhatHasNoLookOfItsOwn) {
+  for (const char* text :
+       {"\u202E", "\u2066", "\u2069", "\u200B", "\u200D", "\uFEFF", "\u2028", "\u2029", "\u0085", "\u00AD",
+        "\u061C", "\u3164", "\uFE0F", "\U000E0041", "\uFFFE", "\U0010FFFF"}) {
+    EXPECT_EQ(printable(text), kMark) << nlohmann::json(text);
+    EXPECT_EQ(printable(printable(text)), kMark);
+  }
+  for (const char* text : {"\u00A0", "\u0301", "\u3000", "\u05D0", "\uFF1D", "\uFFFD", "\U0001F916"})
+    EXPECT_EQ(printable(text), text);
+}
+
+// Python's tables are another opinion: all of the categories Cc, Cf, Zl, Zp and Cs, and nothing that has
+// another look than a format character, a filler or a variation selector.
+TEST(Printable, AgreesWithPythonsTables) {
+  const ProcessResult python = runProcess(
+      {"python3", "-c",
+       "import unicodedata as u\n"
+       "for c in [*range(0x18000), *range(0x1B000, 0x20000), *range(0xE0000, 0xE1000), 0x10FFFE, 0x10FFFF]:\n"
+       "    k = u.category(chr(c))\n"
+       "    never = c & 0xFFFE == 0xFFFE or 0xFDD0 <= c <= 0xFDEF\n"
+       "    n = u.name(chr(c), '') if k in ('Mn', 'Lo') else ''\n"
+       "    ignored = 'VARIATION SELECTOR' in n or ('HANGUL' in n and n.endswith('FILLER'))\n"
+       "    ignored = ignored or 'GRAPHEME JOINER' in n or 'INHERENT' in n\n"
+       "    if k == 'Cn' and not never: continue\n"
+       "    print(c, int(never or ignored or k in ('Cc', 'Cf', 'Zl', 'Zp', 'Cs')))\n"});
+  if (!python.started) GTEST_SKIP() << "python3 is not installed";
+  ASSERT_TRUE(python.ok()) << python.error;
+  std::istringstream lines(python.output);
+  int count = 0;
+  for (std::uint32_t code = 0, invisible = 0; lines >> code >> invisible; ++count)
+    EXPECT_EQ(isInvisible(code), invisible == 1) << std::hex << code;
+  EXPECT_GT(count, 80'000);
 }
 
 TEST(Printable, CutsBetweenCharacters) {

@@ -95,6 +95,16 @@ TEST(RunProcess, LeavesNoProgramBehindWhenTheCallerDies) {
   ::close(fds[0]);
 }
 
+TEST(RunProcess, SetsVariablesBesideOurs) {
+  ::setenv("REX_OURS", "ours", 1);
+  ::setenv("REX_BOTH", "ours", 1);
+  const ProcessResult run =
+      runProcess({"sh", "-c", "echo $REX_OURS $REX_BOTH $REX_NEW; env | grep -c REX_BOTH="},
+                 {.environment = {"REX_BOTH=new", "REX_NEW=a b"}});
+  EXPECT_EQ(run.output, "ours new a b\n1\n");
+  EXPECT_STREQ(::getenv("REX_BOTH"), "ours");
+}
+
 TEST(RunProcess, WorksInTheGivenFolder) { EXPECT_EQ(runProcess({"pwd"}, {.directory = "/"}).output, "/\n"); }
 
 }  // namespace rex::process_test

@@ -1,6 +1,11 @@
 #include "classroom/hand_in.h"
 
+#include <atomic>
+#include <cstdio>
 #include <fstream>
+#include <regex>
+#include <set>
+#include <thread>
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -207,7 +212,14 @@ TEST_F(HandInTest, RefusesNamesThatCannotBeFolders) {
       {" a", "a blank at an end"},
       {"a ", "a blank at an end"},
       {"Grades.CSV", "the name of a file of results"},
-      {"tasks.tsv", "the name of a file"}};
+      {"tasks.tsv", "the name of a file"},
+      {"Jobs.tsv", "the name of a file"},
+      {"slurm-7-1.log", "the name of a file"},
+      {"grades.csv.4711.new", "the name of a file"},
+      {"a\u202Eb", "an invisible one"},
+      {"a\u200Bb", "an invisible one"},
+      {"a\u2028b", "an invisible one"},
+      {"\u00A0zoe", "a blank at an end"}};
   for (const auto& [name, why] : names) {
     write(name + "/01/main.cpp");
     expectComplaint(why);
@@ -216,6 +228,29 @@ TEST_F(HandInTest, RefusesNamesThatCannotBeFolders) {
   for (const char* name : {"..", ".", "", "../x", "a/b"}) EXPECT_NE(whyNoStudentName(name), "") << name;
   for (const char* name : {"o'hara \"x\"", "$(touch x)", "-o", "=1", "a..b", "Müller"})
     EXPECT_EQ(whyNoStudentName(name), "") << name;
+}
+
+// Whatever rex or a script of share/ci writes beside the folders of students.
+TEST_F(HandInTest, ReservesTheNameOfEveryFileBesideTheStudents) {
+  const fs::path root = REX_SOURCE_DIR;
+  std::set<std::string> names;
+  const auto collect = [&](const fs::path& file, const std::regex& pattern) {
+    const std::string text = readTextFile(file);
+    for (std::sregex_iterator match(text.begin(), text.end(), pattern), end; match != end; ++match)
+      names.insert((*match)[1].str());
+  };
+  for (const auto& entry : fs::directory_iterator(root / "share/ci"))
+    if (entry.is_regular_file()) collect(entry.path(), std::regex("\\$results/([^\" ]+)"));
+  for (const auto& entry : fs::directory_iterator(root / "src/cli/instructor"))
+    if (entry.path().extension() == ".cpp") collect(entry.path(), std::regex("options\\.out / \"([^\"]+)\""));
+  EXPECT_THAT(names, ::testing::IsSupersetOf({"tasks.tsv", "jobs.tsv", "grades.csv"}));
+  for (const std::string& name : names) EXPECT_NE(whyNoStudentName(name), "") << name;
+}
+
+TEST_F(HandInTest, WritesNoListUnderTheNameOfAStudent) {
+  EXPECT_REX_ERROR(requireNameOfResults(folder() / "zoe", folder()), "wanted a name that ends in .tsv");
+  requireNameOfResults(folder() / "list.tsv", folder());
+  requireNameOfResults(temporary_.path() / "list", folder());
 }
 
 TEST_F(HandInTest, FailsWithoutAFolder) {
@@ -231,8 +266,70 @@ TEST_F(HandInTest, KeepsACopyOfWhatCanBeRead) {
   static_cast<void>(snapshotOf(file, out));
   EXPECT_EQ(readTextFile(out / "zoe/01-kinematics/main.cpp"), "int b;");
   file.text.reset();
-  EXPECT_EQ(snapshotOf(file, out), fs::absolute("x/main.cpp"));
-  EXPECT_FALSE(fs::exists(out / "zoe/01-kinematics/main.cpp"));
+  file.whyNot = "a symbolic link";
+  EXPECT_EQ(snapshotOf(file, out), fs::path("zoe/01-kinematics/main.cpp"));
+  EXPECT_THAT(readTextFile(out / "zoe/01-kinematics/main.cpp"),
+              HasSubstr("#error cannot be graded: found a symbolic link, wanted a C++ source file\n"));
+}
+
+// Their owner swaps the file, the folder around it and the student's folder for links to another's while they
+// are read: a hand-in is the owner's own file, or is not taken.
+TEST_F(HandInTest, ReadsNoOtherFileWhateverIsSwapped) {
+  writeTextFile(temporary_.path() / "victim/01/main.cpp", "// victim");
+  const fs::path victim = temporary_.path() / "victim";
+  for (const auto& [own, other] :
+       {std::pair(fs::path("zoe/01/main.cpp"), victim / "01/main.cpp"),
+        std::pair(fs::path("zoe/01"), victim / "01"), std::pair(fs::path("zoe"), victim)}) {
+    SCOPED_TRACE(own);
+    fs::remove_all(folder());
+    write("zoe/01/main.cpp", "// own");
+    const fs::path link = temporary_.path() / "link";
+    fs::create_symlink(other, link);
+    std::atomic<bool> isOver = false;
+    std::thread swapping([&] {
+      while (!isOver)
+        ::renameat2(AT_FDCWD, link.c_str(), AT_FDCWD, (folder() / own).c_str(), RENAME_EXCHANGE);
+    });
+    int taken = 0;
+    for (int k = 0; k < 300; ++k)
+      for (const HandIn& file : read().files) {
+        taken += file.text ? 1 : 0;
+        EXPECT_NE(file.text, "// victim");
+      }
+    isOver = true;
+    swapping.join();
+    EXPECT_GT(taken, 0);
+    fs::remove_all(link);
+  }
+}
+
+TEST_F(HandInTest, TakesArchivesOfHonestPeople) {
+  write("zoe.zip", zipOf({{.name = "01/", .mode = 040755},
+                          {.name = "01/main.cpp", .text = "// zoe"},
+                          {.name = "01/notes 10:30.txt"},
+                          {.name = "01/\x81"
+                                   "bung.txt"},
+                          {.name = "01/latest", .text = "main.cpp", .mode = 0120777},
+                          {.name = "01/.DS_Store"},
+                          {.name = "__MACOSX/01/main.cpp"},
+                          {.name = "__MACOSX/01/._main.cpp"}}));
+  const HandIns found = read();
+  EXPECT_THAT(found.complaints, IsEmpty());
+  ASSERT_EQ(found.files.size(), 1u);
+  EXPECT_EQ(found.files[0].text, "// zoe");
+  EXPECT_THAT(found.notes, ::testing::UnorderedElementsAre(HasSubstr("01/notes 10:30.txt: not taken"),
+                                                           HasSubstr("01/\u00FCbung.txt: not taken"),
+                                                           HasSubstr("01/latest: not taken: a symbolic link"),
+                                                           HasSubstr("01/.DS_Store: not taken"),
+                                                           HasSubstr("__MACOSX/01/main.cpp: not taken"),
+                                                           HasSubstr("__MACOSX/01/._main.cpp: not taken")));
+}
+
+TEST_F(HandInTest, ComplainsOfALinkInTheFilesPlace) {
+  write("zoe.zip", zipOf({{.name = "01/main.cpp", .text = "/etc/passwd", .mode = 0120777},
+                          {.name = "02/main.cpp", .text = "// zoe"}}));
+  expectComplaint("in/zoe.zip/01/main.cpp: not taken: found a symbolic link, wanted a C++ source file");
+  EXPECT_THAT(namesOf(read()), ElementsAre("good 01-kinematics", "zoe 02-control"));
 }
 
 }  // namespace rex::grading::hand_in_test

@@ -35,7 +35,7 @@ TriangleMesh parse(std::string_view bytes, const std::string& name) {
   if (name != "a.stl" && name != "a.obj") return rex::parseMesh(bytes, name);
   rex::mesh::requireSize(bytes.size(), name);
   rex::mesh::requireHarmless(bytes, name);
-  return rex::mesh::readByAssimp(bytes, name, {});
+  return rex::mesh::readByAssimp(bytes, name, {}).mesh;
 }
 
 }  // namespace

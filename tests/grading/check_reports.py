@@ -10,6 +10,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import unicodedata
 import urllib.parse
 import xml.etree.ElementTree as ElementTree
 
@@ -60,9 +61,18 @@ def faults(name, files):
     return json_faults(name, files) if (SCHEMAS / f"{name}.schema.json").exists() else text_faults(name, files)
 
 
+def is_invisible(character):
+    code = ord(character)
+    never = code & 0xFFFE == 0xFFFE or 0xFDD0 <= code <= 0xFDEF
+    name = unicodedata.name(character, "")
+    ignored = "VARIATION SELECTOR" in name or ("HANGUL" in name and name.endswith("FILLER"))
+    kept = character in "\n\t"
+    return not kept and (never or ignored or unicodedata.category(character) in ("Cc", "Cf", "Zl", "Zp", "Cs"))
+
+
 def shown(text, limit=4000):
-    """What a report shows of a text: no control characters, and a mark where it was cut."""
-    text = re.sub("[\x00-\x08\x0b-\x1f\x7f-\x9f]", "\ufffd", text)
+    """What a report shows of a text: nothing without a look of its own, and a mark where it was cut."""
+    text = "".join("\ufffd" if is_invisible(character) else character for character in text)
     whole = text.encode("utf-8")
     return text if len(whole) <= limit else whole[:limit - 4].decode("utf-8", "ignore") + " ..."
 

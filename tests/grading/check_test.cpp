@@ -1,5 +1,6 @@
 #include "grading/check.h"
 
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -79,10 +80,9 @@ TEST(Check, NamesTheWorstEntryOfAMatrix) {
 }
 
 TEST(Check, RefusesWhatIsNotFiniteOrHasAnotherShape) {
-  EXPECT_THAT(messageOf([](Check& check) { check.near("x", kNan, 0, kInfinity); }),
+  EXPECT_THAT(messageOf([](Check& check) { check.near("x", kNan, 0, 1e300); }),
               HasSubstr("x: not finite: got nan"));
-  EXPECT_THAT(messageOf([](Check& check) { check.near("x", kInfinity, 0, kInfinity); }),
-              HasSubstr("not finite"));
+  EXPECT_THAT(messageOf([](Check& check) { check.near("x", kInfinity, 0, 1e300); }), HasSubstr("not finite"));
   EXPECT_THAT(messageOf([](Check& check) { check.atMost("x", kNan, 1); }), HasSubstr("not finite"));
   EXPECT_THAT(messageOf([](Check& check) { check.atMost("x", -kInfinity, 1); }), HasSubstr("not finite"));
   EXPECT_THAT(messageOf([](Check& check) { check.atLeast("x", kInfinity, 1); }), HasSubstr("not finite"));
@@ -272,6 +272,30 @@ std::string shownBy(const std::function<void(Check&)>& run, Group group = Group:
   Check check({.id = "id", .part = "a", .title = "Title", .points = 10, .group = group}, 7);
   static_cast<void>(check.judge(run));
   return check.evidence() ? check.evidence()->figures.front().title : "nothing";
+}
+
+// An answer that is wrong by a factor stays wrong however large it is, and never becomes a fault of the
+// grader: also where squares of it overflow.
+TEST(Check, FailsAnswersThatGrow) {
+  for (const double factor : {1e3, 1e9, 1e15, 1e100, 1.4e154, 1e200, 1e300, -1e300}) {
+    const Eigen::Vector3d wanted(1, -2, 3);
+    const Eigen::VectorXd got = factor * wanted;
+    const Eigen::MatrixXd many = factor * Eigen::MatrixXd::Ones(2, 9);
+    EXPECT_EQ(judge([&](Check& check) { check.near("a", factor, 1, 1e-9); }).points, 0) << factor;
+    EXPECT_EQ(judge([&](Check& check) { check.near("b", got, wanted, 1e-9 * wanted.norm()); }).points, 0);
+    EXPECT_EQ(judge([&](Check& check) { check.near("c", many, Eigen::MatrixXd::Ones(2, 9), 1e-3); }).points,
+              0);
+    EXPECT_EQ(judge([&](Check& check) { check.atMost("d", std::abs(factor), 1); }).points, 0);
+    EXPECT_EQ(judge([&](Check& check) { check.atMost("e", got.norm(), 1); }).points, 0);
+    EXPECT_EQ(judge([&](Check& check) { check.atLeast("f", -std::abs(factor), -1); }).points, 0);
+    EXPECT_EQ(judge([&](Check& check) { check.near("g", got.squaredNorm(), 14, 1e-9); }).points, 0);
+  }
+}
+
+// A tolerance that an answer made so large would let everything pass.
+TEST(FaultyCheck, HasATolerance) {
+  EXPECT_THAT(faultOf([](Check& check) { check.near("a", 5, 1, kInfinity); }), HasSubstr("not finite"));
+  EXPECT_THAT(faultOf([](Check& check) { check.near("a", 1, 1, kNan); }), HasSubstr("not finite"));
 }
 
 TEST(Check, KeepsWhatItShowsOfARequirementThatDoesNotHold) {

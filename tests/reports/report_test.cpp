@@ -45,6 +45,20 @@ TEST(Report, TellsNothingOfHiddenInputsNorOfWhyTheGraderFailed) {
   }
 }
 
+// A hidden check that waits as long as its input says would tell it by any of these numbers.
+TEST(Report, TellsNothingByHowLongHiddenChecksTook) {
+  const GradeResult quick = golden("graded");
+  for (const double seconds : {0.001, 3.25, 60.}) {
+    GradeResult slow = quick;
+    for (CheckResult& check : slow.checks)
+      if (check.group == Group::hidden) check.wallSeconds = check.cpuSeconds = seconds;
+    slow.usage = {
+        .cpuSeconds = 2 * seconds, .wallSeconds = 3 * seconds, .peakMemoryBytes = 1 << 20, .outputBytes = 7};
+    for (const ReportFormat& format : reportFormats())
+      EXPECT_EQ(format.write(slow), format.write(quick)) << format.name;
+  }
+}
+
 TEST(Report, NeverGradesAFaultOfTheGrader) {
   const GradeResult fault = golden("fault");
   EXPECT_FALSE(nlohmann::json::parse(gradescopeReport(fault)).contains("score"));
@@ -213,6 +227,10 @@ class Hostile {
                                                      "\xf0\x9f\xa4\x96",
                                                      "\xe2\x80\xa8",
                                                      "\xe2\x80\xae",
+                                                     "\u2066",
+                                                     "\u200b",
+                                                     "\ufeff",
+                                                     "##vso[task.x]",
                                                      ",",
                                                      ":",
                                                      "{\"score\": 10}",

@@ -31,7 +31,8 @@ TEST_P(Probes, AllHoldWhereTheLevelStands) {
     names.push_back(probe.name);
   }
   EXPECT_THAT(names,
-              ::testing::ElementsAre("file", "proc", "net", "fork", "mem", "fd", "tmpfs size", "leftover"));
+              ::testing::ElementsAre("file", "proc", "net", "fork", "exec", "lock", "calls", "ptrace",
+                                     "unshare", "userfaultfd", "bpf", "mem", "fd", "tmpfs size", "leftover"));
 }
 INSTANTIATE_TEST_SUITE_P(Levels, Probes, ::testing::Values(3, 2, 1));
 

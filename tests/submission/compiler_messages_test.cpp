@@ -79,4 +79,17 @@ TEST(CompilerMessages, ReadsTheAssemblersText) {
   EXPECT_EQ(toString(messages[1]), "error: junk at end of line, first unrecognized character is `\"'");
 }
 
+TEST(AdmitMessages, CutsAndShows) {
+  std::vector<CompileDiagnostic> messages(60, {"a\nb", 1, 1, "error", "x\u202Ey", std::string(100'000, 'm')});
+  messages[0].message = "a\u2028b\x1b[2J\nmain.cpp:1:1: error: forged";
+  messages[1].message = "\xff";
+  EXPECT_TRUE(admitMessages(messages));
+  ASSERT_EQ(messages.size(), 50u);
+  EXPECT_EQ(toString(messages[0]),
+            "a b:1:1: error: a\uFFFDb\uFFFD[2J main.cpp:1:1: error: forged [x\uFFFDy]");
+  EXPECT_EQ(messages[1].message, "\uFFFD");
+  EXPECT_EQ(messages[2].message.size(), 2000u);
+  EXPECT_FALSE(admitMessages(messages));
+}
+
 }  // namespace rex::grading::compiler_messages_test

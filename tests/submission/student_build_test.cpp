@@ -1,14 +1,17 @@
 #include "submission/student_build.h"
 
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <set>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
 #include "base/process.h"
+#include "base/text_file.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 #include "support/tiny_disk.h"
@@ -163,6 +166,39 @@ TEST_F(StudentBuildTest, ReportsTheFirstErrorInOneLine) {
   EXPECT_THAT(object.log, HasSubstr("main.cpp:2:10: error:"));
 }
 
+// The same file, the same program: on another day, in another folder's time, in another time zone.
+TEST_F(StudentBuildTest, KnowsNoDate) {
+  const std::string source =
+      "#include \"exercise.h\"\nextern const char kDate[] = \"<\" __DATE__ \">\", kTime[] = \"<\" __TIME__ "
+      "\">\", "
+      "kFile[] = \"<\" __TIMESTAMP__ \">\";\nint twice(int a) { return 2 * a + (__TIME__[7] - '0'); }\nint "
+      "main() {}\n";
+  std::set<std::string> objects;
+  const char* set = std::getenv("TZ");
+  const std::string before = set != nullptr ? set : "";
+  for (const char* zone : {"UTC0", "Asia/Tokyo", "<-11>11"}) {
+    ::setenv("TZ", zone, 1);
+    const StudentObject object = compile(source);
+    ASSERT_TRUE(object.ok) << object.log;
+    const std::string bytes = readTextFile(object.object);
+    for (const char* text : {"<Jan  1 1970>", "<00:00:00>", "<Thu Jan  1 00:00:00 1970>"})
+      EXPECT_THAT(bytes, HasSubstr(text)) << zone;
+    objects.insert(bytes);
+    EXPECT_EQ(runProcess({linkWorker(toolchain(), object).program}).output, "42");
+  }
+  set != nullptr ? ::setenv("TZ", before.c_str(), 1) : ::unsetenv("TZ");
+  EXPECT_EQ(objects.size(), 1u);
+}
+
+// A second of waiting between two builds changes nothing either.
+TEST_F(StudentBuildTest, GivesTheSameObjectLater) {
+  const std::string source =
+      "const char* now() { return __DATE__ __TIME__ __TIMESTAMP__; }\nint twice(int) { return 0; }\n";
+  const std::string first = readTextFile(compile(source).object);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+  EXPECT_EQ(readTextFile(compile(source).object), first);
+}
+
 TEST_F(StudentBuildTest, KeepsWarnings) {
   const StudentObject object = compile("int twice(int a) {\n  int b;\n  return a;\n}\n");
   EXPECT_TRUE(object.ok);
@@ -183,6 +219,20 @@ TEST_F(StudentBuildTest, SaysWhichFunctionIsMissing) {
   const StudentProgram worker = linkWorker(toolchain(), object);
   EXPECT_FALSE(worker.ok);
   EXPECT_EQ(first(worker.messages), "main.cpp: error: 'twice' is declared but has no body here");
+}
+
+// Else a warning would speak of another file, or be silent.
+TEST_F(StudentBuildTest, RefusesLineMarkers) {
+  const std::string warns = "int twice(int a) { int unused; return 2 * a; }\n";
+  for (const char* marker :
+       {"#line 1 \"other.h\"\n", "# 1 \"vector\" 3\n", "%:line 900\n", "#/**/line 5\n"}) {
+    const StudentObject object = compile("#include \"exercise.h\"\n" + (marker + warns));
+    EXPECT_FALSE(object.ok);
+    ASSERT_EQ(object.messages.size(), 1u);
+    EXPECT_EQ(toString(object.messages[0]).find("main.cpp:2:1: error: found a #line directive"), 0u)
+        << marker;
+    EXPECT_EQ(object.exitCode, 1);
+  }
 }
 
 TEST_F(StudentBuildTest, RefusesForbiddenCalls) {
@@ -232,6 +282,61 @@ TEST_F(StudentBuildTest, TakesPublicHeadersOnly) {
     EXPECT_FALSE(object.ok) << name;
     EXPECT_EQ(first(object.messages), "main.cpp:2:1: error: includes " + shown + kNotPublic);
   }
+}
+
+// A file is what it is, by whatever name: through links, dots behind links, and folders of the kernel.
+TEST_F(StudentBuildTest, JudgesIncludesByWhatTheyAre) {
+  const path library = shared_->path() / "src", own = temporary_.path() / "own" / "deep";
+  write(own / "x.h", "// below\n");
+  write(own.parent_path() / "secret.h", "// all of it\n");
+  write(library / "part" / "hidden_internal.h", "// internal\n");
+  const auto link = [](const path& target, const path& name) {
+    std::filesystem::remove(name);
+    std::filesystem::create_symlink(target, name);
+  };
+  link(shared_->path() / "exercise" / "answer_internal.h", library / "part" / "alias.h");
+  link(library / "part" / "hidden_internal.h", library / "part" / "plain.h");
+  link(own.parent_path() / "secret.h", library / "secret.h");
+  link(own, library / "out");
+  const std::string rest = "int twice(int a) { return 2 * a; }\nint main() {}\n";
+  for (const std::string& name :
+       {std::string("part/alias.h"), std::string("part/plain.h"), std::string("secret.h"),
+        std::string("out/x.h"), std::string("out/../secret.h"),
+        std::string("/usr/include/../../") + own.string() + "/x.h", "/proc/self/root" + own.string() + "/x.h",
+        std::string("/proc/self/cwd/main.cpp"),
+        "/usr/lib/../.." + own.parent_path().string() + "/secret.h"}) {
+    const StudentObject object = compile("#include \"exercise.h\"\n#if __INCLUDE_LEVEL__ == 0\n#include \"" +
+                                         name + "\"\n" + rest + "#endif\n");
+    EXPECT_FALSE(object.ok) << name;
+    EXPECT_THAT(first(object.messages), HasSubstr(kNotPublic)) << name;
+  }
+  for (const char* name : {"alias.h", "plain.h"}) std::filesystem::remove(library / "part" / name);
+  for (const char* name : {"secret.h", "out"}) std::filesystem::remove(library / name);
+  // A library that is itself reached by a link is one.
+  link(library, temporary_.path() / "library");
+  write(temporary_.path() / "main.cpp", "#include \"exercise.h\"\n#include \"part/part.h\"\n" + rest);
+  Toolchain linked = toolchain();
+  linked.flags.back() = temporary_.path() / "library";
+  EXPECT_TRUE(compileStudent(linked, {},
+                             {.main = temporary_.path() / "main.cpp",
+                              .workFolder = temporary_.path() / "work",
+                              .publicHeadersOnly = true})
+                  .ok);
+}
+
+// What the assembler reads becomes a part of the program as well.
+TEST_F(StudentBuildTest, JudgesFilesOfTheAssembler) {
+  const path file = temporary_.path() / "reference.txt";
+  write(file, "# all of it\n");
+  const std::string rest = "int twice(int a) { return 2 * a; }\nint main() {}\n";
+  for (const std::string& line :
+       {".incbin \\\"" + file.string() + "\\\"", ".include \\\"" + file.string() + "\\\"",
+        std::string(".incbin \\\"/proc/self/environ\\\"")}) {
+    const StudentObject object = compile("asm(\"" + line + "\");\n" + rest);
+    EXPECT_FALSE(object.ok) << line;
+    EXPECT_THAT(first(object.messages), HasSubstr(kNotPublic)) << line;
+  }
+  EXPECT_TRUE(compile("asm(\"nop\");\n" + rest).ok);
 }
 
 TEST_F(StudentBuildTest, RefusesAnotherNameForTheLibrary) {
@@ -348,7 +453,7 @@ TEST_F(StudentBuildTest, BlamesTheMachineForAFullDisk) {
   const char* set = std::getenv("TMPDIR");
   const std::string before = set != nullptr ? set : "/tmp";
   std::set<std::string> reasons;
-  for (const int kilobytes : {16, 28, 60, 88, 120, 160, 200, 240, 280, 4000}) {
+  for (const int kilobytes : {16, 28, 60, 88, 120, 160, 200, 240, 280, 320, 360, 420, 4000}) {
     const TinyDisk disk(kilobytes);
     REX_NEEDS_DISK(disk);
     ::setenv("TMPDIR", disk.path().c_str(), 1);

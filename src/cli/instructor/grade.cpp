@@ -125,6 +125,7 @@ void requireApart(const GradeManyOptions& options) {
     throw UsageError(
         {.what = "no such folder", .where = {options.folder.string()}, .wanted = "what was handed in"});
   requireApart("--out", options.out, options.folder);
+  if (!options.manifest.empty()) grading::requireNameOfResults(options.manifest, options.out);
   if (options.workers.empty()) return;
   requireApart("--workers", options.workers, options.folder);
   requireApart("--workers", options.workers, options.out);

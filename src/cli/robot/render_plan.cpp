@@ -86,11 +86,13 @@ void requireMeaning(const RenderOptions& options, const RenderPlan& plan) {
     require(options.antiAliasing.empty(), "--aa", "a picture, film or page; a " + ending + " has no pixels");
   }
   if (plan.product == Product::kModel || plan.product == Product::kPage) {
+    require(!options.scene.reading.textures, "--textures", "a picture or film; a " + ending + " has none");
     require(options.show.empty(), "--show", "a picture or film; a " + ending + " is seen in colour");
     require(options.cameras.size() <= 1, "--camera", "one, from which a " + ending + " is seen at first");
   }
   if (plan.show != Show::kColor) {
     require(options.caption.empty(), "--caption", "--show color; " + options.show + " shows no text");
+    require(!options.scene.reading.textures, "--textures", "--show color; " + options.show + " has none");
     require(options.traces.empty(), "--trace", "--show color; " + options.show + " shows no lines");
     require(options.antiAliasing.empty(), "--aa", "--show color; " + options.show + " is not smoothed");
   }

@@ -43,6 +43,7 @@ void addRenderOptions(CLI::App* command, RenderOptions& options) {
       ->add_option("--shapes", options.scene.shapes,
                    "which are drawn: visible, contact or all (default: visible)")
       ->type_name("WHICH");
+  command->add_flag("--textures", options.scene.reading.textures, "paint meshes with their textures");
   command->add_option("--show", options.show, "color, depth or segmentation (default: color)")
       ->type_name("WHAT");
   command

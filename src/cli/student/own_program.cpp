@@ -88,6 +88,7 @@ std::optional<fs::path> buildOwnProgram(const Project& project, const fs::path& 
     if (hasPrefix)
       std::ranges::copy(grading::dependenciesIn(readTextFile(toolchain.prefix.string() + ".d"), workFolder),
                         std::back_inserter(files));
+    for (fs::path& one : files) one = one.lexically_normal();
     std::vector<std::string> targets;
     for (const grading::LibraryPart& one : librariesFor(program, files, table.output)) {
       targets.push_back(one.target);

@@ -82,6 +82,11 @@ TEST(RenderPlan, RefusesWhatMeansNothing) {
   };
   refuses({.postures = {"1"}, .motion = "x", .out = "a.png"}, "--motion and --q: wanted one of them");
   refuses({.postures = {"1"}, .seconds = 1, .out = "a.mp4"}, "--seconds: wanted several --q");
+  RenderOptions painted{.out = "a.glb"};
+  painted.scene.reading.textures = true;
+  refuses(painted, "--textures: wanted a picture or film; a .glb has none");
+  painted.out = "a.png", painted.show = "depth";
+  refuses(painted, "--textures: wanted --show color; depth has none");
   refuses({.motion = "x", .seconds = 1, .out = "a.mp4"}, "--seconds: wanted several --q");
   refuses({.postures = {"1"}, .traces = {"a"}, .out = "a.png"},
           "--trace: wanted a motion: several --q, or --motion");

@@ -143,6 +143,32 @@ TEST_F(ColouredCube, SaysFromWhichAxis) {
         << out;
 }
 
+TEST_F(RenderCommand, PaintsMeshesOnRequest) {
+  REX_NEEDS_OSMESA();
+  Image red(4, 4);
+  for (std::size_t i = 0; i < red.rgb.size(); i += 3) red.rgb[i] = 255;
+  writePng(red, in("red.png"));
+  std::ofstream(in("wall.mtl")) << "newmtl m\nKd 0.1 0.1 0.9\nmap_Kd red.png\n";
+  std::ofstream(in("wall.obj")) << "mtllib wall.mtl\nv -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\n"
+                                   "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3 4/4\n";
+  std::ofstream(in("wall.ors")) << "shape wall { type=3 mesh='wall.obj' }\n";
+  const auto middleOf = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"render", "wall.ors", "--camera", "0,-1,0",
+                                      "--size", "40x40",    "-o",       "a.png"};
+    words.insert(words.end(), more.begin(), more.end());
+    EXPECT_EQ(rex(words).exitCode, 0);
+    return readPng(in("a.png")).at(20, 20);
+  };
+  const auto bare = middleOf({}), painted = middleOf({"--textures"});
+  EXPECT_GT(bare[2], 2 * bare[0]);
+  EXPECT_GT(painted[0], 2 * painted[2]);
+  fs::remove(in("red.png"));
+  const ProcessResult missing = rex({"render", "wall.ors", "--textures", "--size", "40x40", "-o", "a.png"});
+  EXPECT_EQ(missing.exitCode, 0);
+  EXPECT_THAT(flat(missing.error), HasSubstr("wall.ors:1:"));
+  EXPECT_THAT(flat(missing.error), HasSubstr("texture 'red.png': found no such file"));
+}
+
 TEST_F(RenderCommand, SaysThatASceneHasNothingToDraw) {
   std::ofstream(in("bare.urdf")) << "<robot name='bare'><link name='base'/></robot>";
   for (const std::string out : {"a.png", "a.glb", "a.html"}) {

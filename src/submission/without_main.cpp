@@ -1,0 +1,51 @@
+#include "submission/without_main.h"
+
+#include <set>
+
+#include <fmt/format.h>
+
+#include "base/text_file.h"
+#include "submission/object_file.h"
+
+namespace rex::grading {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::set<std::string> wantedByWorker(const fs::path& worker) {
+  std::set<std::string> names;
+  if (worker.empty() || !fs::exists(worker)) return names;
+  for (const ObjectSymbol& symbol : readObjectFile(readTextFile(worker), worker.string()).symbols)
+    if (!symbol.isDefined) names.insert(symbol.name);
+  return names;
+}
+
+// What other files may ask for. Copies of templates and inline functions stay only where something needs
+// them.
+std::set<std::string> rootsOf(const ObjectFile& object, const std::set<std::string>& wanted) {
+  std::set<std::string> roots;
+  for (const ObjectSymbol& symbol : object.symbols) {
+    const bool isOffered = symbol.isGlobal || (symbol.isWeak && !symbol.isShared);
+    if (symbol.isDefined && symbol.name != "main" && (isOffered || wanted.contains(symbol.name)))
+      roots.insert(symbol.name);
+  }
+  return roots;
+}
+
+}  // namespace
+
+ProcessResult withoutMain(const fs::path& object, const fs::path& part, const Toolchain& toolchain,
+                          const BuildTools& tools) {
+  const std::set<std::string> roots =
+      rootsOf(readObjectFile(readTextFile(object), object.string()), wantedByWorker(toolchain.workerObject));
+  const fs::path options = fs::path(part).replace_extension(".args");
+  for (const fs::path& old : {part, options}) fs::remove(old);  // of another user, maybe
+  // Too many for a command line, maybe. None has a blank or a quote: strangeParts() has looked.
+  std::string list = roots.empty() ? "" : "-Wl,--gc-sections\n";
+  for (const std::string& root : roots) list += fmt::format("-Wl,--undefined={}\n", root);
+  writeTextFile(options, list);
+  return tools.run({toolchain.compiler, "-r", "-nostdlib", "-fno-lto", "@" + options.string(),
+                    object.string(), "-o", part.string()});
+}
+
+}  // namespace rex::grading
