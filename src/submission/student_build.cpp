@@ -200,9 +200,11 @@ std::vector<CompileDiagnostic> forbiddenCallsIn(StudentObject& result, const Too
   const ObjectFile whole = readObjectFile(readTextFile(result.object), result.object.string());
   std::vector<CompileDiagnostic> messages = strangeParts(whole, result.name);
   if (!messages.empty()) return messages;
-  result.graded = result.object.parent_path() / "graded.o";
-  const ProcessResult run = withoutMain(result.object, result.graded, toolchain, tools);
-  if (!run.ok()) return explainLinking(run, tools, result.object.string(), result.name);
+  const path graded = result.object.parent_path() / "graded.o";
+  const std::optional<ProcessResult> run = withoutMain(result.object, graded, toolchain, tools);
+  if (!run) return {};
+  if (!run->ok()) return explainLinking(*run, tools, result.object.string(), result.name);
+  result.graded = graded;
   return scanSymbols(result.graded, result.source, result.name, forbidden);
 }
 

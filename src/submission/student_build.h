@@ -31,8 +31,7 @@ struct StudentObject {
   std::string name;    ///< of the file in messages: "main.cpp"
   std::string source;  ///< what was compiled; empty when the file was refused
   std::filesystem::path object;
-  std::filesystem::path
-      graded{};  ///< the object without main(), where calls are forbidden: see withoutMain()
+  std::filesystem::path graded{};  ///< withoutMain(), where calls are forbidden; empty: `object` is graded
   std::vector<CompileDiagnostic> messages;
   std::string log;         ///< for build.log: the compiler's own words
   int exitCode = 0;        ///< of the compiler; 1 for a file that was refused

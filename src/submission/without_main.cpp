@@ -34,14 +34,15 @@ std::set<std::string> rootsOf(const ObjectFile& object, const std::set<std::stri
 
 }  // namespace
 
-ProcessResult withoutMain(const fs::path& object, const fs::path& part, const Toolchain& toolchain,
-                          const BuildTools& tools) {
+std::optional<ProcessResult> withoutMain(const fs::path& object, const fs::path& part,
+                                         const Toolchain& toolchain, const BuildTools& tools) {
   const std::set<std::string> roots =
       rootsOf(readObjectFile(readTextFile(object), object.string()), wantedByWorker(toolchain.workerObject));
+  if (roots.empty()) return {};
   const fs::path options = fs::path(part).replace_extension(".args");
   for (const fs::path& old : {part, options}) fs::remove(old);  // of another user, maybe
   // Too many for a command line, maybe. None has a blank or a quote: strangeParts() has looked.
-  std::string list = roots.empty() ? "" : "-Wl,--gc-sections\n";
+  std::string list = "-Wl,--gc-sections\n";
   for (const std::string& root : roots) list += fmt::format("-Wl,--undefined={}\n", root);
   writeTextFile(options, list);
   return tools.run({toolchain.compiler, "-r", "-nostdlib", "-fno-lto", "@" + options.string(),

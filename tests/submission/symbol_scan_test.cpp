@@ -89,7 +89,8 @@ class ScanSymbolsTest : public ::testing::Test {
     const std::filesystem::path part = temporary_.path() / "part.o";
     Toolchain toolchain;
     toolchain.compiler = "g++";
-    const ProcessResult linked = withoutMain(object, part, toolchain, BuildTools({}, temporary_.path(), {}));
+    const ProcessResult linked =
+        withoutMain(object, part, toolchain, BuildTools({}, temporary_.path(), {})).value();
     EXPECT_TRUE(linked.ok()) << linked.error;
     return scanSymbols(part, source, "main.cpp", kForbidden);
   }
