@@ -1,8 +1,13 @@
 #include "gallery/paths.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "cli/robot/path_pictures.h"
+#include "cli/robot/posture_option.h"
 #include "cli/robot/trajectory_search.h"
 #include "planning/robot_problem.h"
+#include "render/contact_sheet.h"
 #include "render/renderer.h"
 #include "render/scene_picture.h"
 #include "scene/scene_file.h"
@@ -42,22 +47,14 @@ Image cart() {
 }
 
 // Where a motion goes: its last posture, those before it faintly, and the way of the body.
-Image around() {
-  constexpr int kWidth = 560, kHeight = 420, kFaint = 8;
-  const Model model = compile(readScene(sourcePath("data/scenes/board.ors")).spec);
-  const ContactModel contacts(model);
-  const BodyId body = model.body("eff");
-  const cli::FoundTrajectory found = cli::findTrajectory({.model = model,
-                                                          .contacts = contacts,
-                                                          .body = body,
-                                                          .p_WQ = {0, -0.3, 0.5},
-                                                          .start = model.initialPositions(),
-                                                          .avoids = true});
-  const Eigen::Index last = found.path.cols() - 1;
-  Picture picture = pictureOf(model, forwardKinematics(model, found.path.col(last)));
+Image followed(const Model& model, const Eigen::MatrixXd& path, const std::string& body,
+               const Vector3d& direction, int width = 560, int height = 420) {
+  constexpr int kFaint = 8;
+  const Eigen::Index last = path.cols() - 1;
+  Picture picture = pictureOf(model, forwardKinematics(model, path.col(last)));
   const std::size_t count = picture.solids.size();
-  for (Eigen::Index k = 0; k < last; k += last / kFaint) {
-    const Picture then = pictureOf(model, forwardKinematics(model, found.path.col(k)));
+  for (Eigen::Index k = 0; k < last; k += std::max<Eigen::Index>(1, last / kFaint)) {
+    const Picture then = pictureOf(model, forwardKinematics(model, path.col(k)));
     for (std::size_t i = 0; i < count; ++i) {
       Solid solid = then.solids[i];
       if (solid.X_WS.p.isApprox(picture.solids[i].X_WS.p)) continue;
@@ -66,10 +63,39 @@ Image around() {
     }
   }
   Polyline way{.width = 5};
-  for (const auto& q : found.path.colwise()) way.points.push_back(forwardKinematics(model, q)[body].p);
+  const BodyId id = model.body(body);
+  for (const auto& q : path.colwise()) way.points.push_back(forwardKinematics(model, q)[id].p);
   picture.polylines.push_back(std::move(way));
-  return Renderer({.width = kWidth, .height = kHeight})
-      .draw(picture, framing(bounds(picture), Vector3d(2, -0.9, 0.7), static_cast<double>(kWidth) / kHeight));
+  return Renderer({.width = width, .height = height})
+      .draw(picture, framing(bounds(picture), direction, static_cast<double>(width) / height));
+}
+
+Image around() {
+  const Model model = compile(readScene(sourcePath("data/scenes/board.ors")).spec);
+  const ContactModel contacts(model);
+  const cli::FoundTrajectory found = cli::findTrajectory({.model = model,
+                                                          .contacts = contacts,
+                                                          .body = model.body("eff"),
+                                                          .p_WQ = {0, -0.3, 0.5},
+                                                          .start = model.initialPositions(),
+                                                          .avoids = true});
+  return followed(model, found.path, "eff", Vector3d(2, -0.9, 0.7));
+}
+
+Image legs() {
+  const Model model = compile(readScene(sourcePath("data/robots/humanoid/humanoid.urdf")).spec);
+  const ContactModel contacts(model);
+  const Eigen::VectorXd start = cli::parsePosture(model, "left_hip_roll=-.3,left_hip_pitch=-.7"),
+                        goal = cli::parsePosture(model, "left_hip_roll=-.3,left_hip_pitch=.6");
+  const PathTask task{model, contacts, robotProblem(model, contacts, start, goal, 0.005, 0.02)};
+  Eigen::MatrixXd straight(start.size(), 41);
+  for (int k = 0; k <= 40; ++k) straight.col(k) = start + k / 40. * (goal - start);
+  const auto shown = [&](const Eigen::MatrixXd& path) {
+    return followed(model, path, "left_foot", Vector3d(2, 0.7, 0.5), 400, 500);
+  };
+  return contactSheet({{shown(straight), "straight, through the other leg"},
+                       {shown(cli::searchPath(task, {}, 9).path), "as rex plan leads it"}},
+                      {.columns = 2});
 }
 
 }  // namespace
@@ -88,7 +114,11 @@ std::vector<Drawing> pathPictures() {
        "`rex trajectory board --goal eff:0,-0.3,0.5 --avoid`: of all motions that keep clear of the board "
        "and end "
        "at rest at the goal, one with little acceleration.",
-       around}};
+       around},
+      {"legs", "A leg goes around the other",
+       "`rex plan humanoid` from one side of the standing leg to the other: legs of one robot may collide, "
+       "too.",
+       legs}};
 }
 
 }  // namespace rex::gallery

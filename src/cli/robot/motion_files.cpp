@@ -40,8 +40,15 @@ double filmSpeed(double asked, double seconds) {
   return speed;
 }
 
+void requireFolderName(const fs::path& folder, const std::string& wanted) {
+  const std::string ending = folder.extension().string();
+  for (const char* ofFiles : {".mp4", ".png", ".glb", ".html", ".csv", ".npy", ".ors", ".urdf"})
+    if (ending == ofFiles) refuse(folder, "the name of a file", wanted);
+}
+
 void makeResultFolder(const fs::path& folder, std::initializer_list<const char*> files,
                       const std::string& frames) {
+  requireFolderName(folder, "a folder");
   std::error_code problem;
   fs::create_directories(folder, problem);
   if (problem || !fs::is_directory(folder))

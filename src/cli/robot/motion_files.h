@@ -18,9 +18,12 @@ inline constexpr double kLongestFilm = 120;
 /// kLongestFilm, and a note then.
 [[nodiscard]] double filmSpeed(double asked, double seconds);
 
+/// Throws UsageError naming -o for a folder that is called like a file: out.mp4.
+void requireFolderName(const std::filesystem::path& folder, const std::string& wanted);
+
 /// Makes the folder of results, and takes away what an earlier run left there: these files, and the frames of
 /// a film that was made without ffmpeg, in the folder `frames`. Throws UsageError naming -o for one that
-/// cannot be, that cannot be written to, or where folders stand in the place of files.
+/// is called like a file, cannot be, that cannot be written to, or where folders stand in the place of files.
 void makeResultFolder(const std::filesystem::path& folder, std::initializer_list<const char*> files,
                       const std::string& frames);
 

@@ -316,6 +316,8 @@ void noteUnheld(const Model& model, const SimulationPlan& plan) {
 
 // Lets a scene move under gravity; writes log, energy plot and film, or a page.
 ExitCode simulateScene(const Project& project, const SimulateOptions& options) {
+  if (!isPage(options))
+    requireFolderName(options.out, "a folder, which gets simulate.mp4, or a page NAME.html");
   RenderOptions filmOptions = options.film;
   filmOptions.out = isPage(options) ? options.out : options.out / "simulate.mp4";
   const RenderPlan film = planOf(filmOptions, facingOf(fileOf(project, options.scene)));

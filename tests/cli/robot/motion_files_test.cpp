@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/expect_error.h"
+
 namespace rex::cli::motion_files_test {
 
 using ::testing::HasSubstr;
@@ -17,6 +19,13 @@ TEST(FilmSpeed, IsThatAskedForUnlessTheFilmWouldBeTooLong) {
   EXPECT_DOUBLE_EQ(filmSpeed(.5, 3 * kLongestFilm), 3);
   EXPECT_THAT(testing::internal::GetCapturedStderr(),
               HasSubstr("the film is 3 times as fast as the motion, to last 120 s"));
+}
+
+TEST(ResultFolder, IsNotCalledLikeAFile) {
+  EXPECT_NO_THROW(requireFolderName("out/run-1.5", "a folder"));
+  EXPECT_REX_ERROR(requireFolderName("out/a.mp4", "a folder"),
+                   "-o out/a.mp4: found the name of a file, wanted a folder");
+  EXPECT_REX_ERROR(makeResultFolder("a.csv", {"b.csv"}, "frames"), "-o a.csv: found the name of a file");
 }
 
 }  // namespace rex::cli::motion_files_test

@@ -115,6 +115,9 @@ TEST_F(SimulateCommand, WritesTheSameTwice) {
 }
 
 TEST_F(SimulateCommand, RefusesWhatItCannotSimulate) {
+  EXPECT_THAT(flat(simulate({"pegArm", "-o", "a.mp4"}).error),
+              HasSubstr("-o a.mp4: found the name of a file, wanted a folder, which gets simulate.mp4, or a "
+                        "page NAME.html"));
   expectRefusal({"--tau", "0"}, "--tau: found 0, wanted 1e-06 to 1");
   expectRefusal({"--tau", "nan"}, "--tau: found nan");
   expectRefusal({"--seconds", "-1"}, "--seconds: found -1, wanted 1e-06 to 120");
