@@ -95,10 +95,13 @@ void readEulerOrder(const Tag& tag, Compiler& compiler) {
   compiler.eulerOrder = order;
 }
 
-void requireLocal(const Tag& tag) {
-  if (!tag.has("coordinate") || tag.text("coordinate") == "local") return;
-  tag.failAt("coordinate", xml::quoted(tag.text("coordinate")),
-             "'local': MuJoCo gave up global coordinates, and its version 2.3.3 can convert the file");
+void readCoordinates(const Tag& tag, Compiler& compiler) {
+  if (!tag.has("coordinate")) return;
+  compiler.global = choice(tag, "coordinate", {"local", "global"}) == 1;
+  if (compiler.global)
+    tag.warn(
+        tag.where("coordinate"),
+        "global coordinates, which MuJoCo has given up: a body without 'pos' has the frame of the world");
 }
 
 void readGroups(const Tag& tag, Compiler& compiler) {
@@ -128,7 +131,7 @@ void readCompiler(const Tag& given, Compiler& compiler) {
   using Inertia = Compiler::Inertia;
   const Tag tag = given.of("<compiler>");
   tag.expect(knownOfCompiler());
-  requireLocal(tag);
+  readCoordinates(tag, compiler);
   if (tag.has("angle")) compiler.degrees = choice(tag, "angle", {"radian", "degree"}) == 1;
   const auto readFlag = [&](const char* name, bool& value) {
     if (tag.has(name)) value = flag(tag, name);

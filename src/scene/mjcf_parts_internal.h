@@ -19,6 +19,7 @@ namespace rex::mjcf {
 struct Compiler {
   enum class Inertia { kFromGeoms, kGiven, kEither };
   bool degrees = true;     ///< angles in the file
+  bool global = false;     ///< places in bodies are those in the world; MuJoCo before 2.3.4 knew that
   bool autolimits = true;  ///< a range that is given counts unless `limited` forbids it
   Inertia inertia = Inertia::kEither;
   int leastGroup = 0, mostGroup = 5;  ///< of the geoms that weigh something

@@ -104,8 +104,11 @@ class NodeReader {
     } else {
       body.tag = given.of("<body>");
     }
-    body.X_PB = X_PF * poseOf(Styled(body.tag), compiler_);
-    collect(body.tag, knownOfBody(), {}, defaults_.named(body.tag, "childclass", around), body, depth);
+    // Of global coordinates X_PF is X_PW; a body that says nothing of its place has the world's frame then.
+    const Pose X_FB = poseOf(Styled(body.tag), compiler_);
+    body.X_PB = X_PF * X_FB;
+    const Pose X_BF = compiler_.global ? X_FB.inverse() : Pose{};
+    collect(body.tag, knownOfBody(), X_BF, defaults_.named(body.tag, "childclass", around), body, depth);
     return body;
   }
 

@@ -76,10 +76,8 @@ TEST(MjcfMessages, OfFiles) {
 
 TEST(MjcfMessages, OfCompilers) {
   check({
-      {compiler("coordinate='@global'"),
-       "<compiler>: attribute 'coordinate': found 'global', wanted 'local': MuJoCo gave up global "
-       "coordinates, and "
-       "its version 2.3.3 can convert the file"},
+      {compiler("coordinate='@globl'"),
+       "<compiler>: attribute 'coordinate': found 'globl', wanted local or global (did you mean 'global'?)"},
       {compiler("angle='@degrees'"),
        "<compiler>: attribute 'angle': found 'degrees', wanted radian or degree (did you mean 'degree'?)"},
       {compiler("eulerseq='@xy'"),
