@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -170,8 +171,9 @@ class Alignment {
     return equations;
   }
 
-  // Eigenvectors of H that are seen, one per column.
-  Eigen::Matrix<double, 3, Eigen::Dynamic> seen(const Equations& equations) const {
+  // Eigenvectors of H that are seen, one per column. Products of whole matrices of dynamic size are compiled
+  // already.
+  Eigen::MatrixXd seen(const Equations& equations) const {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(equations.H);
     int unseen = 0;
     while (unseen < 2 && axes.eigenvalues()[unseen] < options_.leastShare * axes.eigenvalues()[2]) ++unseen;
@@ -179,9 +181,10 @@ class Alignment {
   }
 
   Eigen::Vector3d step(const Equations& equations) const {
-    const Eigen::Matrix<double, 3, Eigen::Dynamic> V = seen(equations);
-    const Eigen::MatrixXd H = V.transpose() * equations.H * V;
-    return -V * H.partialPivLu().solve(V.transpose() * equations.g);
+    const Eigen::MatrixXd V = seen(equations), whole = equations.H, HV = whole * V, H = V.transpose() * HV;
+    const Eigen::VectorXd g = V.transpose() * equations.g;
+    const Eigen::VectorXd along = H.partialPivLu().solve(g);
+    return -(V * along);
   }
 
   static void move(Eigen::Vector3d& motion, const Equations& equations, const Eigen::Vector3d& u) {
@@ -193,14 +196,14 @@ class Alignment {
 
   // Of u: how the minimum moves with each range of both scans, all of them with the same noise.
   Eigen::Matrix3d scatter(const Equations& equations, double heading) const {
-    Eigen::Matrix3Xd byRange = Eigen::Matrix3Xd::Zero(3, reference_.cols());
+    Eigen::MatrixXd byRange = Eigen::MatrixXd::Zero(3, reference_.cols());
     Eigen::Matrix3d M = Eigen::Matrix3d::Zero();
     const Eigen::Matrix2d R = internal::planarRotation(heading);
     for (const Partner& partner : partners_) {
       const Wall& wall = wallOf(partner);
       const Eigen::Vector3d a = partner.weight * equations.slope(wall, partner.x);
       const double cosine = wall.n.dot(R * moving_.col(partner.point).normalized());
-      M += cosine * cosine * a * a.transpose();
+      M += (cosine * cosine * a) * a.transpose();
       const double way = wall.along().dot(partner.x - wall.center);
       for (int j = wall.first; j <= wall.last; ++j) {
         const double share = 1. / (wall.last - wall.first + 1) +
@@ -208,13 +211,13 @@ class Alignment {
         byRange.col(j) -= share * wall.n.dot(reference_.col(j).normalized()) * a;
       }
     }
-    return options_.deviation * options_.deviation * (M + byRange * byRange.transpose());
+    const Eigen::MatrixXd ofRanges = byRange * std::as_const(byRange).transpose();
+    return options_.deviation * options_.deviation * (M + ofRanges);
   }
 
   void addInformation(ScanMatch& match, const Equations& equations) const {
-    const Eigen::Matrix<double, 3, Eigen::Dynamic> V = seen(equations);
-    const Eigen::MatrixXd H = V.transpose() * equations.H * V;
-    const Eigen::MatrixXd M = V.transpose() * scatter(equations, match.motion[2]) * V;
+    const Eigen::MatrixXd V = seen(equations), whole = equations.H, HV = whole * V, H = V.transpose() * HV;
+    const Eigen::MatrixXd moved = scatter(equations, match.motion[2]), MV = moved * V, M = V.transpose() * MV;
     // Walls seen edge on add no noise: keep M invertible.
     const double least = 1e-9 * M.trace() + 1e-300;
     const Eigen::MatrixXd noise = M + least * Eigen::MatrixXd::Identity(M.rows(), M.cols());
@@ -224,8 +227,9 @@ class Alignment {
     const Eigen::Matrix3d T = S.inverse() * E;
     // As a square, so that rounding leaves no negative eigenvalue where a direction is not seen.
     const Eigen::LLT<Eigen::MatrixXd> root(noise);
-    const Eigen::MatrixXd F = root.matrixL().solve(H * V.transpose() * T);
-    match.information = F.transpose() * F;
+    const Eigen::MatrixXd change = T, HVt = H * V.transpose(), weighted = HVt * change;
+    const Eigen::MatrixXd F = root.matrixL().solve(weighted), information = F.transpose() * F;
+    match.information = information;
     if (V.cols() == 3) return;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(equations.H);
     match.unseen = (S * axes.eigenvectors().col(0)).normalized();

@@ -80,7 +80,7 @@ TEST(Lqr, CostsWhatItSays) {
     const RiccatiResult best = lqr(system, Q, R);
     ASSERT_EQ(best.status, RiccatiStatus::kSolved);
     const auto cost = [&](const MatrixXd& K) {
-      const MatrixXd weight = Q + K.transpose() * R * K;
+      const MatrixXd RK = R * K, weight = Q + K.transpose() * RK;
       LinearSystem loop{.A = system.A - system.B * K, .B = system.B};
       constexpr double kStep = 1e-3;
       const MatrixXd step = isDiscrete ? loop.A : discretized(loop, kStep).A;
@@ -129,14 +129,17 @@ TEST(SteadyKalman, IsTheLimitOfTheFilter) {
   const LinearSystem system = seen(discretized(pointMass(1), 0.1));
   const MatrixXd W = 0.01 * MatrixXd::Identity(2, 2), V = MatrixXd::Constant(1, 1, 0.2);
   MatrixXd S = MatrixXd::Identity(2, 2), gain;
+  const MatrixXd &A = system.A, &C = system.C, Ct = C.transpose(), At = A.transpose();
   for (int t = 0; t < 1000; ++t) {
-    gain = S * system.C.transpose() * (system.C * S * system.C.transpose() + V).inverse();
-    S = (system.A * (S - gain * system.C * S) * system.A.transpose() + W).eval();
+    const MatrixXd SCt = S * Ct, spread = C * SCt + V, inverse = spread.inverse();
+    gain = SCt * inverse;
+    const MatrixXd CS = C * S, known = S - gain * CS, moved = A * known;
+    S = moved * At + W;
   }
   const SteadyKalman filter = steadyKalman(system, W, V);
   ASSERT_EQ(filter.status, RiccatiStatus::kSolved) << filter.message;
   EXPECT_LT((filter.covariance - S).norm(), 1e-10 * S.norm());
-  EXPECT_LT((filter.L - system.A * gain).norm(), 1e-10);
+  EXPECT_LT((filter.L - A * gain).norm(), 1e-10);
   EXPECT_LT(filter.closedLoop.cwiseAbs().maxCoeff(), 1);
 }
 
