@@ -193,6 +193,8 @@ const std::string& Tag::nameIn(const char* attribute) const {
   if (name.empty()) failAt(attribute, "nothing", "a name");
   if (name.size() > kLongest)
     failAt(attribute, fmt::format("{} bytes", name.size()), fmt::format("at most {}", kLongest));
+  // XML allows no other control character but blanks.
+  if (name.find('\x7f') != name.npos) failAt(attribute, "the control character \\x7f", "text");
   return name;
 }
 

@@ -82,7 +82,7 @@ class Tag {
   bool has(std::string_view attribute) const { return find(attribute) != nullptr; }
   /// The text of an attribute that must be there.
   const std::string& text(const char* attribute) const;
-  /// The same, neither empty nor longer than 256 bytes.
+  /// The same, neither empty nor longer than 256 bytes, and without the control character 0x7f.
   const std::string& nameIn(const char* attribute) const;
   double number(const char* attribute) const { return numbers(attribute, 1)[0]; }
   double number(const char* attribute, double otherwise) const {

@@ -33,9 +33,11 @@ BodyPoses placesOf(const Model& model) {
 }
 
 // Numbers so large that a metre is lost in them say nothing about places.
-bool isOfOurWorld(const BodyPoses& poses) {
-  return std::all_of(poses.X_WB.begin(), poses.X_WB.end(),
-                     [](const Pose& X) { return X.p.cwiseAbs().maxCoeff() < 1e3; });
+bool isOfOurWorld(const Model& model, const BodyPoses& poses) {
+  const auto isNear = [](const Pose& X) { return X.p.cwiseAbs().maxCoeff() < 1e3; };
+  return std::ranges::all_of(poses.X_WB, isNear) &&
+         std::ranges::all_of(model.joints(),
+                             [&](const Joint& joint) { return isNear(joint.X_PF) && isNear(joint.X_MC); });
 }
 
 std::optional<Model> compiled(const SceneSpec& spec) {
@@ -56,7 +58,7 @@ void requireSound(const SceneFile& scene, std::string (*write)(const SceneSpec&)
   requireSound(*model);
   if (model->bodies().size() > kSmall) return;
   const BodyPoses poses = placesOf(*model);
-  if (!isOfOurWorld(poses)) return;
+  if (!isOfOurWorld(*model, poses)) return;
   std::string text;
   try {
     text = write(scene.spec);

@@ -127,6 +127,9 @@ TEST(UrdfMessages, OfLimits) {
        "<robot>: too many <link>: found 1002, wanted at most 1001"},
       {robot("<link name='@" + std::string(257, 'a') + "'/>"),
        "<link>: attribute 'name': found 257 bytes, wanted at most 256"},
+      {"<robot name='r'><link name='@a\x7f"
+       "b'/></robot>",
+       "<link>: attribute 'name': found the control character \\x7f, wanted text"},
   });
   const std::string large(8 * 1024 * 1024 + 1, ' ');
   try {
