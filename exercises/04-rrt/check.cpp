@@ -576,8 +576,8 @@ double starIsSound(Check& check, Student& student, const PlaneProblem& problem,
                    const SearchSettings& settings, Rng& given) {
   const EdgeTest isFree = freeIn(problem.world);
   EdgeRecord record(isFree, 2);
-  const StarSearch search =
-      student.growStar(problem.start, problem.goal, settings, 1.5, record.test(), Rng(given.next()));
+  const StarSearch search = student.growStar.orInfinite()(problem.start, problem.goal, settings, 1.5,
+                                                          record.test(), Rng(given.next()));
   const Tree& grown = search.tree;
   askedWell(check, record);
   isTree(check, grown, problem.start, false);

@@ -3,7 +3,7 @@
 # Registers one test per gate of exercises/NAME, label `exercise`. `rex dev check NAME --gate GATE` runs one by hand. All
 # wrong variants are one gate, which compiles them together; it takes longest, so it starts first.
 function(rex_exercise_gates name)
-  set(gates main-current points names release evidence main-floor solution sanitizers)
+  set(gates main-current points names release evidence main-floor solution sanitizers hostile liars)
   file(GLOB variants ${PROJECT_SOURCE_DIR}/exercises/${name}/wrong/*.cpp)
   if(variants)
     list(APPEND gates wrong)
@@ -12,8 +12,10 @@ function(rex_exercise_gates name)
     add_test(NAME exercise/${name}/${gate} COMMAND rex-instructor dev check ${name} --gate ${gate})
     set_tests_properties(exercise/${name}/${gate} PROPERTIES LABELS "exercise;${name}" TIMEOUT 600)
   endforeach()
-  # Built with the sanitizers, a solution takes a quarter of a minute to compile.
-  set_tests_properties(exercise/${name}/sanitizers PROPERTIES LABELS "exercise;${name};long")
+  # Built with the sanitizers, a solution takes a quarter of a minute to compile; the others ask it many times.
+  set_tests_properties(exercise/${name}/sanitizers exercise/${name}/hostile exercise/${name}/liars PROPERTIES
+                       LABELS "exercise;${name};long")
+  set_tests_properties(exercise/${name}/hostile PROPERTIES TIMEOUT 10000)
   if(variants)
     set_tests_properties(exercise/${name}/wrong PROPERTIES COST 30 TIMEOUT 1200)
   endif()

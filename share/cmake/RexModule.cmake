@@ -15,7 +15,7 @@ function(rex_module_headers)
   target_compile_options(rex_cold_module_headers PRIVATE "${REX_COLD}")
 endfunction()
 
-set(REX_MODULE_OPTIONS ${REX_WARNINGS} -fno-semantic-interposition)
+set(REX_MODULE_OPTIONS ${REX_WARNINGS} -fno-semantic-interposition -ffunction-sections -fdata-sections)
 
 # rex_module(NAME [COLD] [MATRICES] SOURCES a.cpp ... [USES module ...] [PRIVATE library ...])
 #

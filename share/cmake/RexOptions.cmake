@@ -30,6 +30,11 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   add_compile_options(--param=ggc-min-expand=400 --param=ggc-min-heapsize=1000000)
 endif()
 
+# Variables of which there is one in a whole process could not be hidden: workers have their own.
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  add_compile_options(-fno-gnu-unique)
+endif()
+
 # No contraction: the same bits on every x86-64. No errno: sqrt becomes one instruction.
 add_compile_options(-ffp-contract=off -fno-math-errno)
 

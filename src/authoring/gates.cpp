@@ -1,6 +1,7 @@
 #include "authoring/gates.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 
 #include <fmt/format.h>
@@ -9,6 +10,8 @@
 #include "authoring/release.h"
 #include "authoring/wrong_variants.h"
 #include "base/error.h"
+#include "base/lines.h"
+#include "base/process.h"
 #include "base/text_file.h"
 #include "submission/compiler_messages.h"
 #include "submission/regions.h"
@@ -48,6 +51,16 @@ std::string shortfalls(const GradeResult& result) {
   for (const CheckResult& check : result.checks)
     if (check.status != Outcome::pass) lines += fmt::format("\n  {}: {}", check.id, check.message);
   return lines;
+}
+
+std::vector<std::string_view> splitAt(std::string_view line, char separator) {
+  std::vector<std::string_view> fields;
+  for (;;) {
+    const std::size_t end = line.find(separator);
+    fields.push_back(line.substr(0, end));
+    if (end == line.npos) return fields;
+    line.remove_prefix(end + 1);
+  }
 }
 
 GateResult mainIsCurrent(const GateContext& context) {
@@ -121,6 +134,54 @@ GateResult solutionIsFull(const GateContext& context) {
   return kPassed;
 }
 
+// What the grader prints, asked about the solution in another way than for points. Throws Error where the
+// solution cannot be built.
+ProcessResult askGrader(const GateContext& context, const std::vector<std::string>& options) {
+  const SubmissionOptions solution = optionsFor(context, context.exercise.folder / "solution.cpp");
+  const BuiltSubmission built = buildSubmission(context.toolchain, context.exercise, solution);
+  if (built.worker.empty())
+    throw Error({.what = "solution.cpp cannot be built", .found = built.start.message});
+  std::vector<std::string> command = {context.toolchain.grader.string(), "--worker", built.worker.string(),
+                                      "--temporary", context.workFolder.string()};
+  command.insert(command.end(), options.begin(), options.end());
+  constexpr double kLongest = 3 * 3600;
+  return runProcess(command, {.timeout = kLongest});
+}
+
+GateResult passedWith(const std::string& output) {
+  return {.passed = true, .message = {}, .note = std::string(splitLines(output).back())};
+}
+
+// Whatever a student's functions return, the grader stands it, in time, and gives no point for it.
+GateResult answersHurtNobody(const GateContext& context) {
+  const bool isLong = std::getenv("REX_LONG_RUN") != nullptr;
+  const ProcessResult run = askGrader(context, {"--hostile", isLong ? "10000" : "3000"});
+  return run.ok() ? passedWith(run.output) : failed(run.output + run.error);
+}
+
+// Zeros, constants, the last answer and the question itself get no point; where a lie is nearly right, as the
+// force of the step before in a closed loop, exercise.toml says how many points of a part it may get.
+GateResult liarsGetNothing(const GateContext& context) {
+  const ProcessResult run = askGrader(context, {"--lies"});
+  if (!run.ok()) return failed(run.output + run.error);
+  std::map<std::string, Points> scored;  // by lie, then by part
+  std::map<std::string, std::string> checks;
+  for (const std::string_view line : splitLines(run.output)) {
+    const std::vector<std::string_view> fields = splitAt(line, '\t');
+    if (fields.size() != 4) continue;
+    scored[std::string(fields[2])][std::string(fields[0])] += std::stoi(std::string(fields[3]));
+    checks[std::string(fields[0])] += fmt::format(" {}", fields[1]);
+  }
+  std::vector<std::string> complaints;
+  for (const auto& [lie, points] : scored)
+    for (const ExercisePart& part : context.exercise.parts)
+      if (points.contains(part.id) && points.at(part.id) > part.lies)
+        complaints.push_back(
+            fmt::format("part '{}': the liar '{}' gets {} points, exercise.toml allows {}:{}", part.id, lie,
+                        points.at(part.id), part.lies, checks[part.id]));
+  return complaints.empty() ? passedWith(run.output) : judge(complaints);
+}
+
 // What students ask for after a crash must not complain about a program that is right. One check tells.
 GateResult solutionPassesSanitizers(const GateContext& context) {
   SubmissionOptions options = optionsFor(context, context.exercise.folder / "solution.cpp");
@@ -149,8 +210,8 @@ GateResult variantsAreCaught(const GateContext& context) {
 }  // namespace
 
 std::vector<std::string> gateNames(const ExerciseInfo& exercise) {
-  std::vector<std::string> names = {"main-current", "points",     "names",    "release",
-                                    "evidence",     "main-floor", "solution", "sanitizers"};
+  std::vector<std::string> names = {"main-current", "points",   "names",      "release", "evidence",
+                                    "main-floor",   "solution", "sanitizers", "hostile", "liars"};
   if (!variantNames(exercise).empty()) names.emplace_back("wrong");
   return names;
 }
@@ -169,6 +230,7 @@ GateResult runGate(const GateContext& context, const std::string& gate) {
       {"names", namesExist},           {"release", releaseIsClean},
       {"evidence", mistakesAreShown},  {"main-floor", mainScoresFloor},
       {"solution", solutionIsFull},    {"sanitizers", solutionPassesSanitizers},
+      {"hostile", answersHurtNobody},  {"liars", liarsGetNothing},
       {"wrong", variantsAreCaught}};
   try {
     return isVariant ? judge(whyNotCaught(context, gate)) : gates.at(gate)(context);

@@ -27,7 +27,7 @@ struct GateResult {
 };
 
 /// The gates of an exercise in order: main-current, points, names, release, evidence, main-floor, solution,
-/// sanitizers, and, if there are wrong variants, wrong.
+/// sanitizers, hostile, liars, and, if there are wrong variants, wrong.
 [[nodiscard]] std::vector<std::string> gateNames(const ExerciseInfo& exercise);
 
 /// Passes the exercise through one gate; or a single variant, wrong/NAME, by itself, which takes longer and

@@ -105,7 +105,7 @@ class Checker {
   // Looks at a line `function = "rex::name"` of exercise.toml.
   void checkForbidden(const std::string& line, const SourceLocation& where) {
     const std::size_t open = line.find('"'), close = line.find('"', open + 1);
-    if (!line.starts_with("function") || close == std::string::npos) return;
+    if (!line.starts_with("function ") || close == std::string::npos) return;
     checkWords(line.substr(open + 1, close - open - 1), {where.file, where.line, static_cast<int>(open) + 2},
                library_);
   }

@@ -57,14 +57,19 @@ class Copies {
   // Takes those that have ended.
   void reap(const std::function<void(int, int)>& ended) {
     for (auto entry = running_.begin(); entry != running_.end();) {
-      int status = 0;
-      if (::waitpid(entry->first, &status, WNOHANG) != entry->first) {
+      const auto [copy, k] = *entry;
+      siginfo_t end{};
+      ::waitid(P_PID, static_cast<id_t>(copy), &end, WEXITED | WNOHANG | WNOWAIT);
+      if (end.si_pid != copy) {
         ++entry;
         continue;
       }
-      const int k = entry->second;
+      // What one that was killed had started ends with it. Its number is taken until we wait for it.
+      if (end.si_code != CLD_EXITED) ::kill(-copy, SIGKILL);
+      int status = 0;
+      ::waitpid(copy, &status, 0);
       entry = running_.erase(entry);
-      ended(k, WIFEXITED(status) ? WEXITSTATUS(status) : -1);
+      ended(k, WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status));
     }
   }
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/printable.h"
+#include "remote/bytes.h"
 #include "remote/signature.h"
 #include "remote/thrown.h"
 
@@ -51,6 +52,10 @@ void requireSound(bool sound, const CheckInfo& info, const std::string& fault) {
 }
 
 }  // namespace
+
+void failAssertion(const char* condition) {
+  throw std::logic_error(fmt::format("sizes or indices do not fit ({})", condition));
+}
 
 Check::Check(CheckInfo info, std::uint64_t seed)
     : info_(std::move(info)), seed_(seed), rng_(Rng(seed).split(remote::hashText(info_.id))) {}
@@ -189,6 +194,9 @@ bool Check::runCase(int number, const std::function<void(int)>& run) {
     return true;
   } catch (const RequirementFailed&) {
     return false;
+  } catch (const remote::AnswerRefused& refused) {
+    keepRefused(refused);
+    return false;
   } catch (const remote::RemoteThrow& error) {
     // A worker without memory says nothing useful any more.
     if (error.thrown().kind == remote::Thrown::Kind::badAlloc) throw;
@@ -203,11 +211,20 @@ bool Check::runCase(int number, const std::function<void(int)>& run) {
   }
 }
 
+void Check::keepRefused(const remote::AnswerRefused& refused) {
+  keep({.property = "what " + refused.function() + " returned",
+        .what = info_.group == Group::visible ? refused.what() : "not finite, or too large",
+        .function = refused.function()});
+}
+
 CheckResult Check::judge(const std::function<void(Check&)>& run) {
   bool ended = false;
   try {
     run(*this);
   } catch (const RequirementFailed&) {
+    ended = true;
+  } catch (const remote::AnswerRefused& refused) {
+    keepRefused(refused);
     ended = true;
   }
   requireSound(requirements_ > 0 || worst_, info_, "states no requirement");

@@ -15,6 +15,10 @@
 #include "grading/evidence.h"
 #include "grading/results.h"
 
+namespace rex::remote {
+class AnswerRefused;
+}
+
 namespace rex::grading {
 
 /// What a report says about a check before it runs.
@@ -104,6 +108,7 @@ class Check {
   bool state(bool requirement);
   void measure(std::string_view property, double excess, double value, double limit, std::string_view unit);
   bool keep(Shortfall shortfall);
+  void keepRefused(const remote::AnswerRefused& refused);
   [[noreturn]] void fail(Shortfall shortfall, std::optional<Evidence> evidence = {});
   bool runCase(int number, const std::function<void(int)>& run);
   CheckResult result() const;

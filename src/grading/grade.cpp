@@ -1,11 +1,14 @@
 #include "grading/grade.h"
 
 #include <algorithm>
+#include <csignal>
 #include <exception>
 #include <map>
 #include <utility>
 
 #include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/time.h>
 
 #include "base/error.h"
 #include "base/once_more.h"
@@ -24,6 +27,7 @@ namespace {
 constexpr std::size_t kLongestMessage = 2000;
 constexpr std::size_t kKeptOutput = 16u << 10;
 constexpr const char* kUnfinished = "the grader did not finish";
+constexpr rlim_t kJudgingMemory = rlim_t{6} << 30;
 
 CheckResult blank(const CheckInfo& info) {
   return {
@@ -71,6 +75,18 @@ CheckResult failed(const CheckInfo& info, const Failure& failure, const std::str
   return check;
 }
 
+// Whatever goes wrong once a value of the student's was read is for the student to mend, if only by values
+// that can be judged: with the reference solution it does not happen, which the gates of the exercise prove.
+CheckResult unjudged(const CheckInfo& info, const std::string& function, const std::string& why) {
+  CheckResult check = blank(info);
+  check.status = Outcome::fail;
+  check.function = function;
+  check.message = fmt::format("what {} returned could not be judged", function);
+  if (info.group == Group::visible && !why.empty()) check.message += ": " + why;
+  check.message = printable(check.message, kLongestMessage);
+  return check;
+}
+
 // Messages of a hidden check's fault could quote its input.
 CheckResult faultyBy(const CheckInfo& info, const std::exception* error) {
   const bool tell = info.group == Group::visible && error != nullptr;
@@ -111,44 +127,76 @@ void keepEvidence(const Check& judge, const std::filesystem::path& folder, Check
   }
 }
 
+/// What is known of a check so far, written down in case judging it ends the process.
+class Standing {
+ public:
+  explicit Standing(std::function<void(const CheckResult&)> write) : write_(std::move(write)) {}
+
+  void answeredBy(const CheckInfo& info, const std::string& function) {
+    function_ = function;
+    keep(unjudged(info, function, "it ended the grader, or took it too much time or memory"));
+  }
+  void keep(const CheckResult& verdict) { write_(verdict); }
+
+  /// The function of the student whose values were read first; empty: none yet.
+  const std::string& function() const { return function_; }
+
+ private:
+  std::function<void(const CheckResult&)> write_;
+  std::string function_{};
+};
+
 /// What came of one check with a fresh worker.
 struct Attempt {
   WorkerRun run;
   CheckResult verdict;
 };
 
-Attempt attempt(const RunnableCheck& check, const GradeOptions& options, std::uint64_t seed) {
+Attempt attempt(const RunnableCheck& check, const GradeOptions& options, std::uint64_t seed,
+                Standing& standing) {
   CheckResult verdict = faulty(check.info, "the check did not end");
   Check judge(check.info, seed);
   WorkerRun run =
-      runWithWorker({.program = options.worker,
+      runWithWorker({.program = workerOf(check.info.part, options.worker),
                      .signature = options.signature,
                      .limits = options.limits,
                      .temporaryFolder = options.temporaryFolder,
                      .sandbox = options.sandbox,
                      .libraries = options.libraries},
                     [&](remote::Caller& caller) {
+                      caller.whenFirstAnswered(
+                          [&](const std::string& function) { standing.answeredBy(check.info, function); });
                       verdict = judge.judge([&](Check& requirements) { check.run(requirements, caller); });
                     });
-  if (run.failure)
+  if (run.failure) {
     verdict = failed(check.info, *run.failure, judge.input());
-  else
+  } else {
+    standing.keep(verdict);  // should the picture end this process
     keepEvidence(judge, options.evidence, verdict);
+  }
   return {std::move(run), std::move(verdict)};
 }
 
 // The same questions: a program that kills itself has learnt nothing.
-Attempt attemptAgainIfKilled(const RunnableCheck& check, const GradeOptions& options, std::uint64_t seed) {
+Attempt attemptAgainIfKilled(const RunnableCheck& check, const GradeOptions& options, std::uint64_t seed,
+                             Standing& standing) {
   return onceMoreIfKilled(
-      [&] { return attempt(check, options, seed); },
+      [&] { return attempt(check, options, seed, standing); },
       [](const Attempt& first) { return first.run.failure && first.run.failure->killed; });
 }
 
 /// Runs one check and adds what the worker used and printed to the whole.
-CheckResult runCheck(const RunnableCheck& check, const GradeOptions& options, GradeResult& whole) {
+CheckResult runCheck(const RunnableCheck& check, const GradeOptions& options, GradeResult& whole,
+                     Standing& standing) {
   CheckResult verdict;
+  const auto brokenBy = [&](const std::exception* error) {
+    return standing.function().empty()
+               ? faultyBy(check.info, error)
+               : unjudged(check.info, standing.function(), error != nullptr ? error->what() : "");
+  };
   try {
-    const Attempt last = attemptAgainIfKilled(check, options, seedFor(check.info.group, whole, options));
+    const Attempt last =
+        attemptAgainIfKilled(check, options, seedFor(check.info.group, whole, options), standing);
     const WorkerRun& run = last.run;
     verdict = last.verdict;
     verdict.cpuSeconds = run.cpuSeconds;
@@ -163,9 +211,9 @@ CheckResult runCheck(const RunnableCheck& check, const GradeOptions& options, Gr
       keep(whole.error, run.error);
     }
   } catch (const std::exception& error) {
-    return faultyBy(check.info, &error);
+    return brokenBy(&error);
   } catch (...) {
-    return faultyBy(check.info, nullptr);
+    return brokenBy(nullptr);
   }
   return verdict;
 }
@@ -200,27 +248,53 @@ void add(GradeResult& whole, std::size_t k, const GradeResult& part) {
   append(whole.error, part.error);
 }
 
+// Of the copy in which a check is judged. The worker sets its own.
+void limitJudging(const GradeOptions& options) {
+  const itimerval time{.it_interval = {}, .it_value = {.tv_sec = kJudgingSeconds, .tv_usec = 0}};
+  ::setitimer(ITIMER_PROF, &time, nullptr);
+#ifndef __SANITIZE_ADDRESS__
+  if (options.limits.sanitized) return;  // its worker reserves terabytes
+  rlimit memory{};
+  ::getrlimit(RLIMIT_AS, &memory);
+  memory.rlim_cur = std::min<rlim_t>(memory.rlim_max, kJudgingMemory);
+  ::setrlimit(RLIMIT_AS, &memory);
+#endif
+}
+
+// Each in a copy of this process, which holds the results: nothing that judging an answer does harms them.
 // Calls `ended(k, part)` as each check ends, in any order.
-void runAtOnce(const GradeResult& start, std::span<const RunnableCheck> checks, const GradeOptions& options,
-               const std::function<void(std::size_t, GradeResult)>& ended) {
+void runInTheirCopies(const GradeResult& start, std::span<const RunnableCheck> checks,
+                      const GradeOptions& options,
+                      const std::function<void(std::size_t, GradeResult)>& ended) {
   const PrivateFolder folder(options.temporaryFolder);
   const auto file = [&](int k) { return folder.path() / fmt::format("{}.json", k); };
   const auto run = [&](int k) {
+    limitJudging(options);
     GradeResult part = start;
-    const CheckResult verdict = runCheck(checks[static_cast<std::size_t>(k)], options, part);
-    part.checks = {verdict};
-    saveResult(part, file(k));
+    const auto write = [&](const CheckResult& verdict) {
+      part.checks = {verdict};
+      saveResult(part, file(k));
+    };
+    Standing standing(write);
+    write(runCheck(checks[static_cast<std::size_t>(k)], options, part, standing));
     return 0;
   };
   runInCopies(static_cast<int>(checks.size()), options.jobs, run, [&](int k, int code) {
     const auto place = static_cast<std::size_t>(k);
     GradeResult broken;
     broken.checks = {faulty(checks[place].info, "the check ended its process")};
-    ended(place, code == 0 ? loadResult(file(k)) : std::move(broken));
+    // Who kills without need is the machine.
+    const bool stands = code != -SIGKILL && std::filesystem::exists(file(k));
+    ended(place, stands ? loadResult(file(k)) : std::move(broken));
   });
 }
 
 }  // namespace
+
+std::filesystem::path workerOf(const std::string& part, const std::filesystem::path& worker) {
+  const std::filesystem::path own = worker.string() + "." + part;
+  return std::filesystem::exists(own) ? own : worker;
+}
 
 void setSandbox(GradeResult& result, int level) {
   result.sandboxLevel = level;
@@ -250,31 +324,18 @@ GradeResult grade(GradeResult result, std::span<const RunnableCheck> checks, con
   result.outcome = Outcome::graderError;
   result.message = kUnfinished;
   save(result);
-  std::size_t done = 0;
-  const auto saveNext = [&](GradeResult soFar) {
-    if (++done == checks.size()) {
-      soFar.outcome = overallOutcome(soFar.checks);
-      soFar.message.clear();
-      result = soFar;
+  const GradeResult start = result;
+  std::map<std::size_t, GradeResult> parts;  // put together in the order of the checks
+  runInTheirCopies(start, checks, options, [&](std::size_t k, GradeResult part) {
+    parts.emplace(k, std::move(part));
+    result = start;
+    for (const auto& [place, one] : parts) add(result, place, one);
+    if (parts.size() == checks.size()) {
+      result.outcome = overallOutcome(result.checks);
+      result.message.clear();
     }
-    save(soFar);
-  };
-  if (options.jobs > 1) {
-    const GradeResult start = result;
-    std::map<std::size_t, GradeResult> parts;  // put together in the order of the checks
-    runAtOnce(start, checks, options, [&](std::size_t k, GradeResult part) {
-      parts.emplace(k, std::move(part));
-      GradeResult soFar = start;
-      for (const auto& [place, one] : parts) add(soFar, place, one);
-      saveNext(std::move(soFar));
-    });
-    return result;
-  }
-  for (std::size_t k = 0; k < checks.size(); ++k) {
-    result.checks[k] = runCheck(checks[k], options, result);
-    result.score += result.checks[k].points;
-    saveNext(result);
-  }
+    save(result);
+  });
   return result;
 }
 

@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "grading/hidden_seed.h"
+#include "grading/hostile_answers.h"
 #include "grading/result_file.h"
 #include "grading/unknown_check.h"
 
@@ -24,6 +25,8 @@ struct Arguments {
   std::filesystem::path results{};
   std::vector<std::string> only{};
   std::filesystem::path secret{};
+  std::int64_t hostileAnswers = 0;
+  bool lies = false;
   bool list = false;
 };
 
@@ -50,6 +53,14 @@ void declareOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("--secret", arguments.secret,
                  "file with the secret of the course, for the seeds of hidden checks");
   app.add_option("--jobs", arguments.grade.jobs, "checks at once")->check(CLI::Range(1, 1024));
+  app.add_option(
+      "--hostile", arguments.hostileAnswers,
+      "give each check so many hostile answers of each kind, made of those of the worker, which is "
+      "right; prints what came of it");
+  app.add_flag(
+      "--lies", arguments.lies,
+      "print the points for zeros, constants, the last answer and what was asked, in the places of what "
+      "the worker answers, which is right");
   app.add_flag("--list", arguments.list, "print the checks as JSON");
 }
 
@@ -99,6 +110,44 @@ int gradeAndSave(const Arguments& arguments, const std::vector<RunnableCheck>& c
   return result.outcome == Outcome::pass ? kFullScore : kBelowFullScore;
 }
 
+// Exit code 1 where a hostile answer got a point, took too long or ended the process that judged it.
+int attack(const Arguments& arguments, const std::vector<RunnableCheck>& checks, const CallLayouts& layouts) {
+  std::int64_t answers = 0, runs = 0, unjudged = 0, faults = 0;
+  double slowest = 0;
+  for (const HostileOutcome& one :
+       giveHostileAnswers(checks, arguments.grade, layouts, arguments.hostileAnswers)) {
+    answers += one.answers, runs += one.runs, unjudged += one.unjudged;
+    slowest = std::max(slowest, one.mostSeconds);
+    // Answers to other questions, in another order or number, now and then are right by chance.
+    const bool getsPoints = one.runsWithPoints > (keepsNumbers(one.hostility) ? one.runs / 4 : 0);
+    const bool isSlow = one.mostSeconds > kJudgingSeconds;
+    if (one.unjudged > 0)
+      fmt::print("{} by {}: {} of {} runs not judged: {}\n", one.check, toString(one.hostility), one.unjudged,
+                 one.runs, one.exception);
+    if (one.crash.empty() && !getsPoints && !isSlow) continue;
+    ++faults;
+    fmt::print("FAULT {} by {}: {} points, at most {:.1f} s, {}\n", one.check, toString(one.hostility),
+               one.mostPoints, one.mostSeconds, one.crash.empty() ? "no crash" : one.crash);
+  }
+  fmt::print("{} answers in {} runs, {} not judged, at most {:.1f} s, {} faults\n", answers, runs, unjudged,
+             slowest, faults);
+  if (answers == 0) throw std::logic_error("no check asked anything");
+  return faults == 0 ? kFullScore : kBelowFullScore;
+}
+
+// The points that each check gives for each lie, where it gives some: part, check, lie and points by tabs.
+int lie(const Arguments& arguments, const std::vector<RunnableCheck>& checks, const CallLayouts& layouts) {
+  const std::vector<LieOutcome> outcomes = tellLies(checks, arguments.grade, layouts);
+  if (outcomes.empty()) throw std::logic_error("there are no checks");
+  int points = 0;
+  for (const LieOutcome& one : outcomes) {
+    points += one.points;
+    if (one.points > 0) fmt::print("{}\t{}\t{}\t{}\n", one.part, one.check, toString(one.lie), one.points);
+  }
+  fmt::print("{} checks, {} points for lies\n", checks.size(), points);
+  return kFullScore;
+}
+
 int complain(const std::string& message, int exitCode) {
   fmt::print(stderr, "grader: {}\n", message);
   return exitCode;
@@ -106,7 +155,8 @@ int complain(const std::string& message, int exitCode) {
 
 }  // namespace
 
-int runGrader(int argc, const char* const* argv, std::vector<RunnableCheck> checks, std::uint64_t signature) {
+int runGrader(int argc, const char* const* argv, std::vector<RunnableCheck> checks, std::uint64_t signature,
+              const CallLayouts& layouts) {
   CLI::App app("Grades one submission of an exercise.", "grader");
   Arguments arguments;
   arguments.grade.signature = signature;
@@ -132,6 +182,8 @@ int runGrader(int argc, const char* const* argv, std::vector<RunnableCheck> chec
     return complain(error.what(), kGraderFault);
   }
   try {
+    if (arguments.hostileAnswers > 0) return attack(arguments, checks, layouts);
+    if (arguments.lies) return lie(arguments, checks, layouts);
     return gradeAndSave(arguments, checks);
   } catch (const std::exception& error) {
     return complain(error.what(), kGraderFault);

@@ -5,6 +5,7 @@
 
 #include "grading/check.h"
 #include "grading/grade.h"
+#include "grading/hostile_answers.h"
 
 namespace rex::grading {
 
@@ -14,7 +15,7 @@ enum ExitCode { kFullScore = 0, kBelowFullScore = 1, kGraderFault = 3, kUsage = 
 /// The whole main() of a grader program: `--help` tells its options. Prints messages on standard error, and
 /// on standard output nothing but what --list or --help asks for.
 [[nodiscard]] int runGrader(int argc, const char* const* argv, std::vector<RunnableCheck> checks,
-                            std::uint64_t signature);
+                            std::uint64_t signature, const CallLayouts& layouts);
 
 /// The same for the checks of one exercise, whose functions the proxy Student calls.
 template <class Student>
@@ -30,7 +31,7 @@ template <class Student>
                           Student student(caller);
                           run(check, student);
                         }});
-  return runGrader(argc, argv, std::move(runnable), Student::signature());
+  return runGrader(argc, argv, std::move(runnable), Student::signature(), Student::layouts());
 }
 
 }  // namespace rex::grading

@@ -6,6 +6,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rex::remote {
@@ -29,6 +30,25 @@ class Writer {
   std::vector<std::byte> bytes_;
 };
 
+/// What an answer of a student's function may be before anything computes with it.
+struct AnswerLimits {
+  bool any = false;          ///< whatever the numbers are
+  bool infinite = false;     ///< infinite numbers are allowed
+  double magnitude = 1e100;  ///< of finite ones: their squares and cubes are finite, too
+};
+
+/// A function of the student's returned what is outside of the limits.
+class AnswerRefused : public std::exception {
+ public:
+  AnswerRefused(std::string function, std::string why)
+      : function_(std::move(function)), why_(std::move(why)) {}
+  const char* what() const noexcept override { return why_.c_str(); }
+  const std::string& function() const { return function_; }
+
+ private:
+  std::string function_, why_;
+};
+
 /// Takes the bytes of one message apart. Trusts nothing: every size is compared with the bytes that are left
 /// before anything is allocated. Does not own the bytes.
 class Reader {
@@ -36,6 +56,19 @@ class Reader {
   explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
   std::size_t left() const { return bytes_.size(); }
+  std::span<const std::byte> bytes() const { return bytes_; }
+
+  /// From now on numbers() throws AnswerRefused, about that function, for those outside of the limits. Both
+  /// must live as long.
+  void limitTo(const AnswerLimits& limits, const std::string& function) {
+    limits_ = &limits;
+    function_ = &function;
+  }
+
+  /// To be told each number that is read.
+  void numbers(const double* first, std::size_t count) {
+    if (limits_ != nullptr) examine(first, count);
+  }
 
   /// Copies the next `size` bytes. Throws ProtocolError if there are fewer.
   void raw(void* to, std::size_t size) {
@@ -59,7 +92,12 @@ class Reader {
   }
 
  private:
+  void examine(const double* first, std::size_t count);
+
   std::span<const std::byte> bytes_;
+  const AnswerLimits* limits_ = nullptr;
+  const std::string* function_ = nullptr;
+  std::size_t examined_ = 0;
 };
 
 }  // namespace rex::remote

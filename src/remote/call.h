@@ -54,7 +54,8 @@ void answerArgument(std::uint32_t number, const std::tuple<const typename S::Typ
 }  // namespace detail
 
 /// A function of the worker, called as if it were here: `Call<decltype(::ikStep)> ikStep(caller, 0,
-/// "ikStep")`. Throws as Caller::call().
+/// "ikStep")`. Throws as Caller::call(), and AnswerRefused before anything computes with an answer
+/// that is not finite, or too large.
 template <class F>
 class Call;
 
@@ -67,6 +68,19 @@ class Call<R(A...)> {
   Call(Caller& caller, std::uint32_t method, std::string name)
       : caller_(&caller), method_(method), name_(std::move(name)) {}
 
+  /// The same function where infinite numbers in its answer have a meaning.
+  Call orInfinite() const {
+    Call copy = *this;
+    copy.limits_.infinite = true;
+    return copy;
+  }
+  /// The same function where the check looks at numbers that are not finite itself, to show them.
+  Call asItIs() const {
+    Call copy = *this;
+    copy.limits_.any = true;
+    return copy;
+  }
+
   R operator()(const typename Sent<A>::Type&... arguments) const {
     Writer writer;
     (Sent<A>::put(writer, arguments), ...);
@@ -76,6 +90,7 @@ class Call<R(A...)> {
                              std::index_sequence_for<A...>{});
     };
     Reader reply = caller_->call(method_, name_, writer, answer);
+    reply.limitTo(limits_, name_);
     if constexpr (std::is_void_v<R>) {
       reply.expectEnd();
     } else {
@@ -89,6 +104,7 @@ class Call<R(A...)> {
   Caller* caller_;
   std::uint32_t method_;
   std::string name_;
+  AnswerLimits limits_{};
 };
 
 }  // namespace rex::remote

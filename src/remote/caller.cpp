@@ -18,6 +18,7 @@ void Caller::handshake(std::uint64_t signature) {
 
 Reader Caller::call(std::uint32_t method, const std::string& name, const Writer& arguments,
                     const Answer& answer) {
+  if (standIn_) return Reader(standIn_(method));
   const std::uint64_t id = ids_.next();
   const std::string outer = std::exchange(running_, name);
   channel_.send(Kind::call, id, method, arguments);
@@ -25,6 +26,7 @@ Reader Caller::call(std::uint32_t method, const std::string& name, const Writer&
   for (;;) {
     Message message = channel_.receive();
     if (message.id != id) throw ProtocolError("the worker answers a call that was not made");
+    if (const auto told = std::exchange(told_, {})) told(name);
     if (message.kind == Kind::callback) {
       answerCallback(message, answer, refusal);
       continue;
@@ -40,7 +42,7 @@ Reader Caller::call(std::uint32_t method, const std::string& name, const Writer&
     }
     running_ = outer;
     if (refusal) std::rethrow_exception(refusal);
-    return message.body;
+    return tamper_ ? Reader(tamper_(method, arguments.bytes(), message.body.bytes())) : message.body;
   }
 }
 

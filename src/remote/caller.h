@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -15,6 +16,12 @@ class Caller {
  public:
   /// Message ids are drawn from `idSeed`, which the other side should not be able to guess.
   Caller(Channel channel, std::uint64_t idSeed) : channel_(std::move(channel)), ids_(idSeed) {}
+
+  using Bytes = std::span<const std::byte>;
+
+  /// Gives answers itself: no worker runs, and callbacks are not made. For tests of what checks do with them.
+  using StandIn = std::function<Bytes(std::uint32_t method)>;
+  explicit Caller(StandIn standIn) : channel_(-1, -1), ids_(0), standIn_(std::move(standIn)) {}
 
   /// Waits until the worker says that it is ready. Throws ProtocolError unless it serves exactly the
   /// functions of `signature`.
@@ -33,12 +40,23 @@ class Caller {
   /// The function that runs now or was running when the worker went wrong; empty between calls.
   const std::string& running() const { return running_; }
 
+  /// Puts what `tamper` returns, valid until the next call, in the place of each result.
+  using Tamper = std::function<Bytes(std::uint32_t method, Bytes arguments, Bytes result)>;
+  void tamperWithResults(Tamper tamper) { tamper_ = std::move(tamper); }
+
+  /// Calls `told` with the name of the function that runs before a value of the worker's is first read, be it
+  /// a result or what a callback is given.
+  void whenFirstAnswered(std::function<void(const std::string&)> told) { told_ = std::move(told); }
+
  private:
   void answerCallback(const Message& request, const Answer& answer, std::exception_ptr& refusal);
 
   Channel channel_;
   Rng ids_;
   std::string running_;
+  StandIn standIn_{};
+  Tamper tamper_{};
+  std::function<void(const std::string&)> told_{};
 };
 
 }  // namespace rex::remote

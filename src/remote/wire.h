@@ -32,6 +32,7 @@ struct Wire<T> {
   static T get(Reader& reader) {
     T value{};
     reader.raw(&value, sizeof value);
+    if constexpr (std::is_same_v<T, double>) reader.numbers(&value, 1);
     return value;
   }
 };
@@ -139,6 +140,7 @@ struct Wire<Eigen::Matrix<S, rows, cols, options, maxRows, maxCols>> {
     Matrix matrix;
     matrix.resize(r, c);
     reader.raw(matrix.data(), sizeof(S) * coefficients);
+    if constexpr (std::is_same_v<S, double>) reader.numbers(matrix.data(), coefficients);
     return matrix;
   }
 

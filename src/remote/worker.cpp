@@ -4,6 +4,8 @@
 
 #include <unistd.h>
 
+#include "base/error.h"
+
 namespace rex::remote {
 
 void runWorker(std::span<const Method> methods) {
@@ -19,6 +21,14 @@ void runWorker(std::span<const Method> methods) {
   }
   std::fflush(stdout);
   ::_exit(exitCode);
+}
+
+extern "C" void rexOfAnotherPart(Session&, Reader&, Writer&) {
+  throw Error({.what = "a check calls a function that exercise.toml does not name for its part"});
+}
+
+extern "C" void rexNotAllowedHere() {
+  throw Error({.what = "calls a function of the library that this part of the exercise does not allow"});
 }
 
 }  // namespace rex::remote

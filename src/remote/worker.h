@@ -53,10 +53,10 @@ decltype(auto) passAs(Received& received) {
 }
 
 template <auto function, class F>
-struct Invoke;
+struct InvokeAs;
 
 template <auto function, class R, class... A>
-struct Invoke<function, R (*)(A...)> {
+struct InvokeAs<function, R (*)(A...)> {
   using Type = R(A...);
 
   static void run(Session& session, Reader& arguments, Writer& result) {
@@ -80,15 +80,23 @@ struct Invoke<function, R (*)(A...)> {
 
 }  // namespace detail
 
-/// Offers a function to remote callers: `method<&::ikStep>("ikStep")`.
+/// Reads the arguments of a function, calls it and writes its result.
 template <auto function>
-Method method(const char* name) {
-  using Invoke = detail::Invoke<function, decltype(function)>;
-  return {.name = name, .hash = functionHash<typename Invoke::Type>(name), .run = &Invoke::run};
+using Invoke = detail::InvokeAs<function, decltype(function)>;
+
+/// Offers a function to remote callers: `method<&::ikStep>("ikStep", &Invoke<&::ikStep>::run)`.
+template <auto function>
+Method method(const char* name, decltype(Method::run) run = &Invoke<function>::run) {
+  return {.name = name, .hash = functionHash<typename Invoke<function>::Type>(name), .run = run};
 }
 
 /// The whole main() of a worker process: answers on kWorkerIn and kWorkerOut until the trusted side closes
 /// them, then ends the process without running the destructors of the student's globals.
 [[noreturn]] void runWorker(std::span<const Method> methods);
+
+/// What linkWorkerPart() has in the places of the functions that a part does without: of the student, and of
+/// the library. Both throw Error.
+extern "C" void rexOfAnotherPart(Session& session, Reader& arguments, Writer& result);
+extern "C" void rexNotAllowedHere();
 
 }  // namespace rex::remote

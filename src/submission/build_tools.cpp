@@ -15,6 +15,7 @@
 #include "base/text_file.h"
 #include "sandbox/report.h"
 #include "submission/tool_failure.h"
+#include "submission/worker_part.h"
 
 namespace rex::grading {
 namespace {
@@ -59,7 +60,9 @@ std::vector<sandbox::Readable> visibleFiles(const Toolchain& toolchain) {
     if (toolchain.flags[k - 1] == "-iquote") showAll(readable, studentHeaders(toolchain.flags[k]));
   }
   if (!toolchain.prefix.empty()) showAll(readable, {toolchain.prefix, toolchain.prefix.string() + ".gch"});
-  showAll(readable, {toolchain.workerObject});
+  showAll(readable, {toolchain.workerObject, toolchain.workerPart});
+  for (const WorkerOfPart& part : workersOfParts(toolchain.workerPart))
+    showAll(readable, {part.object, part.options});
   showAll(readable, toolchain.libraries);
   if (toolchain.compiler.starts_with('/')) showAll(readable, placesOf(toolchain.compiler));
   return readable;

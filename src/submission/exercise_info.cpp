@@ -23,11 +23,16 @@ ExerciseLimits readLimits(const TomlTable& table) {
 }
 
 ExercisePart readPart(const TomlTable& table) {
-  table.refuseKeysBut({"id", "title", "points", "floor", "hints"});
+  table.refuseKeysBut({"id", "title", "points", "floor", "lies", "hints", "functions", "allowed"});
   ExercisePart part{.id = table.text("id"), .title = table.text("title"), .hints = {}};
   part.points = table.integer("points", 1, 1000);
   if (table.has("floor")) part.floor = table.integer("floor", 0, part.points);
+  if (table.has("lies")) part.lies = table.integer("lies", 0, part.points);
   if (table.has("hints")) part.hints = table.texts("hints");
+  if (table.has("functions")) {
+    part.functions = table.texts("functions");
+    part.allowed = table.texts("allowed");
+  }
   return part;
 }
 
@@ -39,8 +44,8 @@ SolutionRule readSolutionRule(const TomlTable& table) {
 }
 
 ForbiddenFunction readForbidden(const TomlTable& table) {
-  table.refuseKeysBut({"function", "reason"});
-  return {table.text("function"), table.text("reason")};
+  table.refuseKeysBut({"function", "reason", "part"});
+  return {table.text("function"), table.text("reason"), table.has("part") ? table.text("part") : ""};
 }
 
 void readParts(const TomlTable& top, const std::string& file, ExerciseInfo& info) {
@@ -71,7 +76,7 @@ int ExerciseInfo::points() const {
 ExerciseInfo readExerciseInfo(const path& folder) {
   const path file = folder / "exercise.toml";
   const TomlTable top = TomlTable::read(file, "the exercise", "the description of an exercise");
-  top.refuseKeysBut({"title", "script", "solution", "limits", "part", "forbidden"});
+  top.refuseKeysBut({"title", "script", "solution", "allowed", "limits", "part", "forbidden"});
 
   ExerciseInfo info;
   info.folder = folder;
@@ -79,6 +84,7 @@ ExerciseInfo readExerciseInfo(const path& folder) {
   info.title = top.text("title");
   info.script = top.text("script");
   info.solution = readSolutionRule(top);
+  info.allowed = top.has("allowed") ? top.texts("allowed") : std::vector<std::string>{"course"};
   if (const auto limits = top.table("limits", "[limits]", "a table headed [limits]"))
     info.limits = readLimits(*limits);
   readParts(top, file.string(), info);

@@ -13,13 +13,18 @@ struct ExercisePart {
   std::string title;
   int points = 0;
   int floor = 0;                   ///< points that the untouched main.cpp gets
+  int lies = 0;                    ///< points that a generic liar may get: see the gate `liars`
   std::vector<std::string> hints;  ///< questions that narrow; the last may be near-code
+  /// Where they are given, the part is graded by a worker of its own, for these functions of the student's,
+  /// in which `allowed` alone is there.
+  std::vector<std::string> functions{}, allowed{};
 };
 
 /// A library function that this exercise asks students to write themselves.
 struct ForbiddenFunction {
   std::string function;  ///< qualified: "rex::inverseKinematicsStep"; a class forbids its members
   std::string reason;
+  std::string part{};  ///< with a worker of its own, in which it is not; empty: it is in none
 };
 
 /// What student code may use in one run of the checks.
@@ -41,7 +46,9 @@ struct ExerciseInfo {
   SolutionRule solution = SolutionRule::never;
   ExerciseLimits limits;
   std::vector<ExercisePart> parts;
-  std::vector<ForbiddenFunction> forbidden;
+  std::vector<std::string>
+      allowed;  ///< what graded functions may call of the library: see allowedFunctions()
+  std::vector<ForbiddenFunction> forbidden;  ///< and may not, although it is allowed; and why
   [[nodiscard]] int points() const;
 };
 

@@ -24,6 +24,7 @@
 #include "submission/tool_failure.h"
 #include "submission/two_compilers.h"
 #include "submission/without_main.h"
+#include "submission/worker_part.h"
 
 namespace rex::grading {
 namespace {
@@ -196,7 +197,6 @@ std::vector<CompileDiagnostic> forbiddenFilesIn(const StudentObject& object, con
 std::vector<CompileDiagnostic> forbiddenCallsIn(StudentObject& result, const Toolchain& toolchain,
                                                 const std::vector<ForbiddenFunction>& forbidden,
                                                 const BuildTools& tools) {
-  if (forbidden.empty()) return {};
   const ObjectFile whole = readObjectFile(readTextFile(result.object), result.object.string());
   std::vector<CompileDiagnostic> messages = strangeParts(whole, result.name);
   if (!messages.empty()) return messages;
@@ -205,15 +205,18 @@ std::vector<CompileDiagnostic> forbiddenCallsIn(StudentObject& result, const Too
   if (!run) return {};
   if (!run->ok()) return explainLinking(*run, tools, result.object.string(), result.name);
   result.graded = graded;
-  return scanSymbols(result.graded, result.source, result.name, forbidden);
+  return scanSymbols(result.graded, result.source, result.name, forbidden, toolchain.offers);
 }
 
+std::vector<std::string> texts(const std::vector<path>& paths) { return {paths.begin(), paths.end()}; }
+
 StudentProgram link(const Toolchain& toolchain, const BuildTools& tools, const path& program,
-                    const std::vector<std::string>& objects, const std::string& mainFile) {
+                    const std::vector<std::string>& objects, const std::vector<std::string>& libraries,
+                    const std::string& mainFile) {
   std::vector<std::string> command = {toolchain.compiler, "-o", program.string()};
   command.insert(command.end(), objects.begin(), objects.end());
   command.emplace_back("-Wl,--as-needed");
-  for (const path& library : toolchain.libraries) command.push_back(library.string());
+  command.insert(command.end(), libraries.begin(), libraries.end());
   command.insert(command.end(), toolchain.linkFlags.begin(), toolchain.linkFlags.end());
   const ProcessResult run = tools.run(command);
   StudentProgram result{
@@ -308,7 +311,8 @@ StudentObject compileStudent(const Toolchain& toolchain, const std::vector<Forbi
           result);
   if (!result.ok) return result;
 
-  std::vector<CompileDiagnostic> calls = forbiddenCallsIn(result, toolchain, forbidden, tools);
+  std::vector<CompileDiagnostic> calls;
+  if (options.graded) calls = forbiddenCallsIn(result, toolchain, forbidden, tools);
   if (options.publicHeadersOnly) {
     for (const CompileDiagnostic& file : forbiddenFilesIn(result, folder, toolchain)) calls.push_back(file);
     for (const CompileDiagnostic& macro : forbiddenMacros(result.source, name)) calls.push_back(macro);
@@ -327,19 +331,30 @@ StudentProgram linkWorker(const Toolchain& toolchain, const StudentObject& objec
                           const sandbox::Sandbox& sandbox) {
   const path folder = object.object.parent_path(), renamed = folder / "worker_student.o";
   // What was looked through, and nothing else.
-  const path& part = object.graded.empty() ? object.object : object.graded;
+  const bool isWhole = object.graded.empty();
+  const path& graded = isWhole ? object.object : object.graded;
   const BuildTools tools(toolchain, folder, sandbox);
   const ProcessResult run =
-      tools.run({toolchain.objcopy, "--redefine-sym", "main=studentMain", part.string(), renamed.string()});
+      tools.run({toolchain.objcopy, "--redefine-sym", "main=studentMain", graded.string(), renamed.string()});
   if (!run.ok()) throw Error({.what = "cannot rename main in the compiled file", .found = run.error});
-  return link(toolchain, tools, folder / "worker", {toolchain.workerObject.string(), renamed.string()},
-              object.name);
+  const path worker = folder / "worker";
+  if (isWhole || toolchain.workerPart.empty())
+    return link(toolchain, tools, worker, {toolchain.workerObject.string(), renamed.string()},
+                texts(toolchain.libraries), object.name);
+  for (const WorkerOfPart& part : workersOfParts(toolchain.workerPart)) {
+    const StudentProgram linked = link(toolchain, tools, worker.string() + "." + part.id,
+                                       {part.object.string(), "@" + part.options.string(), renamed.string()},
+                                       toolchain.workerLibraries, object.name);
+    if (!linked.ok) return linked;
+  }
+  return link(toolchain, tools, worker, {toolchain.workerPart.string(), renamed.string()},
+              toolchain.workerLibraries, object.name);
 }
 
 StudentProgram linkProgram(const Toolchain& toolchain, const StudentObject& object) {
   const path folder = object.object.parent_path();
   return link(toolchain, BuildTools(toolchain, folder, {}), folder / "program", {object.object.string()},
-              object.name);
+              texts(toolchain.libraries), object.name);
 }
 
 }  // namespace rex::grading

@@ -16,11 +16,12 @@ namespace rex::grading {
 
 /// What to build from a student's file.
 struct StudentBuildOptions {
-  std::filesystem::path main;                 ///< the student's file
-  std::filesystem::path workFolder;           ///< made if missing; objects, worker and program go there
-  bool debug = false;                         ///< -g -O0, for a debugger
-  bool publicHeadersOnly = false;             ///< refuse other files: see forbiddenIncludes()
-  double seconds = 30;                        ///< of processor time that compiling may take
+  std::filesystem::path main;        ///< the student's file
+  std::filesystem::path workFolder;  ///< made if missing; objects, worker and program go there
+  bool debug = false;                ///< -g -O0, for a debugger
+  bool publicHeadersOnly = false;    ///< refuse other files: see forbiddenIncludes()
+  bool graded = false;  ///< make StudentObject::graded, in which nothing may call what the exercise forbids
+  double seconds = 30;  ///< of processor time that compiling may take
   std::size_t memory = std::size_t{2} << 30;  ///< bytes that compiling may take
   sandbox::Sandbox sandbox{};                 ///< that the tools run in
   bool part = false;  ///< the object holds what is graded, made while a second compiler reads the whole
@@ -31,7 +32,7 @@ struct StudentObject {
   std::string name;    ///< of the file in messages: "main.cpp"
   std::string source;  ///< what was compiled; empty when the file was refused
   std::filesystem::path object;
-  std::filesystem::path graded{};  ///< withoutMain(), where calls are forbidden; empty: `object` is graded
+  std::filesystem::path graded{};  ///< withoutMain(); empty: nothing was left out
   std::vector<CompileDiagnostic> messages;
   std::string log;         ///< for build.log: the compiler's own words
   int exitCode = 0;        ///< of the compiler; 1 for a file that was refused
@@ -39,10 +40,10 @@ struct StudentObject {
   bool ok = false;
 };
 
-/// Reads and compiles the file as it is now, under limits on time, memory and file size, and scans it for
-/// calls that the exercise forbids outside of main(). Any trouble with the file becomes a message; throws
-/// Error only when the tools fail, as on a full disk, or where nothing tells what is wrong with the file. Two
-/// builds may run at once in different work folders.
+/// Reads and compiles the file as it is now, under limits on time, memory and file size; if it is `graded`,
+/// scans it for calls that the exercise does not allow outside of main(). Any trouble with the file becomes a
+/// message; throws Error only when the tools fail, as on a full disk, or where nothing tells what is wrong
+/// with the file. Two builds may run at once in different work folders.
 [[nodiscard]] StudentObject compileStudent(const Toolchain& toolchain,
                                            const std::vector<ForbiddenFunction>& forbidden,
                                            const StudentBuildOptions& options);
@@ -55,8 +56,9 @@ struct StudentProgram {
   bool ok = false;
 };
 
-/// Links the worker: the exercise's loop around the student's functions, whose main() is left out or put
-/// aside. Throws Error as compileStudent().
+/// Links the worker: the exercise's loop around the student's functions, with what linkWorkerParts() left of
+/// the library; with all of it and main() put aside where `object.graded` is empty. The workers of parts lie
+/// beside it: worker.ID. Throws Error as compileStudent().
 [[nodiscard]] StudentProgram linkWorker(const Toolchain& toolchain, const StudentObject& object,
                                         const sandbox::Sandbox& sandbox = {});
 

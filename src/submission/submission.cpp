@@ -65,8 +65,9 @@ std::vector<std::string> graderCommand(const Toolchain& toolchain, const Exercis
   if (options.sandbox.level > 0) {
     command.insert(command.end(), {"--level", fmt::format("{}", options.sandbox.level), "--sandbox",
                                    options.sandbox.launcher.string()});
-    for (const path& library : toolchain.libraries)
-      command.insert(command.end(), {"--library", library.string()});
+    if (options.sanitize || toolchain.workerPart.empty())
+      for (const path& library : toolchain.libraries)
+        command.insert(command.end(), {"--library", library.string()});
   }
   if (!options.evidence.empty()) command.insert(command.end(), {"--evidence", options.evidence.string()});
   if (options.sanitize) command.emplace_back("--sanitized");
@@ -130,13 +131,14 @@ StudentObject compileAsAsked(const Toolchain& toolchain, const ExerciseInfo& exe
   StudentBuildOptions build{.main = options.main,
                             .workFolder = options.workFolder,
                             .publicHeadersOnly = true,
+                            .graded = true,
                             .seconds = options.compileSeconds,
                             .sandbox = options.sandbox,
                             .part = options.processors > 1};
   if (!options.sanitize) return compileStudent(toolchain, exercise.forbidden, build);
   // Unoptimised, inline functions of the library that main() uses refer to what is forbidden outside of it.
   build.seconds = kSanitizedSeconds;
-  build.part = false;
+  build.graded = build.part = false;
   return compileStudent(toolchain, {}, build);
 }
 

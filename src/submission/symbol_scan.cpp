@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
+#include <memory>
 #include <set>
 
+#include <cxxabi.h>
 #include <elf.h>
 #include <fmt/format.h>
 
 #include "base/printable.h"
 #include "base/text_file.h"
 #include "submission/mentions.h"
+#include "submission/worker_part.h"
 
 namespace rex::grading {
 namespace {
@@ -108,6 +112,16 @@ bool isPlainName(const std::string& name) {
   return std::all_of(name.begin(), name.end(), isPlain) && printable(name, name.size()) == name;
 }
 
+// "rex::plot" of "rex::plot(std::string const&, rex::Figure const&)": what a person calls it.
+std::string nameIn(const std::string& symbol) {
+  int status = 0;
+  const std::unique_ptr<char, void (*)(void*)> text(
+      abi::__cxa_demangle(symbol.c_str(), nullptr, nullptr, &status), &std::free);
+  std::string_view name = text ? std::string_view(text.get()) : std::string_view(symbol);
+  name.remove_prefix(std::min(name.find("rex::"), name.size()));
+  return std::string(name.substr(0, name.find_first_of("(<[ ")));
+}
+
 CompileDiagnostic forbiddenCall(const std::string& mainFile, std::pair<int, int> place, std::string message) {
   return {mainFile, place.first, place.second, "error", "forbidden-call", std::move(message)};
 }
@@ -165,18 +179,39 @@ std::vector<CompileDiagnostic> strangeParts(const ObjectFile& object, const std:
   return messages;
 }
 
+std::vector<std::string> callsNotOffered(const ObjectFile& object, const std::vector<std::string>& offers) {
+  std::set<std::string> found;
+  for (const ObjectSymbol& symbol : object.symbols)
+    if (symbol.isReferred && !symbol.isDefined && isSymbolOf(symbol.name, "rex") &&
+        !std::binary_search(offers.begin(), offers.end(), symbol.name))
+      found.insert(nameIn(symbol.name));
+  return {found.begin(), found.end()};
+}
+
 std::vector<CompileDiagnostic> scanSymbols(const std::filesystem::path& object, std::string_view source,
                                            const std::string& mainFile,
-                                           const std::vector<ForbiddenFunction>& forbidden) {
-  if (forbidden.empty()) return {};
+                                           const std::vector<ForbiddenFunction>& forbidden,
+                                           const std::filesystem::path& offers) {
+  const ObjectFile file = readObjectFile(readTextFile(object), object.string());
   std::vector<CompileDiagnostic> messages;
-  for (const ForbiddenFunction& call :
-       forbiddenCalls(readObjectFile(readTextFile(object), object.string()), forbidden)) {
+  const auto complain = [&](const std::string& function, std::string message) {
+    messages.push_back(forbiddenCall(mainFile, onlyMentionOf(function, source), std::move(message)));
+  };
+  for (const ForbiddenFunction& call : forbiddenCalls(file, forbidden)) {
     const char* text = isLookup(call.function) ? "calls {}, which nobody may call in this exercise: {}"
                                                : "calls {}, which only main() may call in this exercise: {}. "
                                                  "Write it yourself instead";
-    messages.push_back(forbiddenCall(mainFile, onlyMentionOf(call.function, source),
-                                     fmt::format(fmt::runtime(text), call.function, call.reason)));
+    complain(call.function, fmt::format(fmt::runtime(text), call.function, call.reason));
+  }
+  if (offers.empty()) return messages;
+  for (const std::string& function : callsNotOffered(file, offeredSymbols(offers))) {
+    const auto isOf = [&](const ForbiddenFunction& one) {
+      return function == one.function || function.starts_with(one.function + "::");
+    };
+    if (std::none_of(forbidden.begin(), forbidden.end(), isOf))
+      complain(function, fmt::format("calls {}, which only main() may call in this exercise: what functions "
+                                     "that are graded may call, 'allowed' in exercise.toml lists",
+                                     function));
   }
   return messages;
 }

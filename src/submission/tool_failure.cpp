@@ -71,6 +71,9 @@ std::string complaintAbout(std::string_view object, std::string_view linkerText)
     leads = isAbout && line.ends_with(':');
     if (isAbout && !leads) return std::string(line);
   }
+  // Other files have places that are too far away then.
+  for (const char* words : {"relocation truncated to fit", "failed to convert GOTPCREL relocation"})
+    if (contains(linkerText, words)) return "its global variables take more than 2 GB";
   return {};
 }
 

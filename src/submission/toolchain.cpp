@@ -30,6 +30,9 @@ Toolchain readToolchain(const std::filesystem::path& buildJson) {
             .libraries = paths(json.at("libraries")),
             .functions = json.at("functions").get<std::vector<std::string>>(),
             .prefix = json.value("prefix", ""),
+            .workerPart = json.value("worker_part", ""),
+            .offers = json.value("offers", ""),
+            .workerLibraries = json.value("worker_libraries", std::vector<std::string>{}),
             .objcopy = json.value("objcopy", "objcopy"),
             .objdump = json.value("objdump", "objdump")};
   } catch (const nlohmann::json::exception& error) {

@@ -13,15 +13,18 @@ struct Toolchain {
   std::vector<std::string> linkFlags;  ///< for linking it to a program that finds the libraries
   std::filesystem::path workerObject;  ///< the loop that answers the grader
   std::filesystem::path grader;
-  std::vector<std::filesystem::path> libraries;  ///< shared; all of rex that the exercise may call
+  std::vector<std::filesystem::path> libraries;  ///< shared; all of rex that the student's program may call
   std::vector<std::string> functions{};          ///< of the student's that the grader calls
   std::filesystem::path prefix{};                ///< see prefixFlags(); empty: none
+  std::filesystem::path workerPart{};  ///< what linkWorkerParts() made; empty: workers have the whole library
+  std::filesystem::path offers{};      ///< names in it that graded functions may use
+  std::vector<std::string> workerLibraries{};  ///< of others, that it may need
   std::string objcopy = "objcopy";
   std::string objdump = "objdump";
 };
 
 /// Reads build.json. Throws Error when it is missing (the exercise is not built), or a key other than prefix,
-/// objcopy and objdump is.
+/// worker_part, offers, worker_libraries, objcopy and objdump is.
 [[nodiscard]] Toolchain readToolchain(const std::filesystem::path& buildJson);
 
 }  // namespace rex::grading

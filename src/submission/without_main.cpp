@@ -20,14 +20,14 @@ std::set<std::string> wantedByWorker(const fs::path& worker) {
   return names;
 }
 
-// What other files may ask for. Copies of templates and inline functions stay only where something needs
-// them.
+// What the worker asks for; of a file without a worker, what any other could. Copies of templates and inline
+// functions stay only where something needs them.
 std::set<std::string> rootsOf(const ObjectFile& object, const std::set<std::string>& wanted) {
   std::set<std::string> roots;
   for (const ObjectSymbol& symbol : object.symbols) {
     const bool isOffered = symbol.isGlobal || (symbol.isWeak && !symbol.isShared);
-    if (symbol.isDefined && symbol.name != "main" && (isOffered || wanted.contains(symbol.name)))
-      roots.insert(symbol.name);
+    const bool isWanted = wanted.empty() ? isOffered && symbol.name != "main" : wanted.contains(symbol.name);
+    if (symbol.isDefined && isWanted) roots.insert(symbol.name);
   }
   return roots;
 }

@@ -9,8 +9,8 @@
 namespace rex::grading {
 
 /// Links the object file of a student into `part`, without main() and without what only main() leads to: what
-/// stays is reached from a function or variable that other files may use, from one that the worker asks for,
-/// or from what runs before main(). A pointer to main() anywhere there keeps it. Needs a file compiled with
+/// stays is reached from a function that the worker asks for or from what runs before main(). A pointer to
+/// main() anywhere there keeps it. Needs a file compiled with
 /// -ffunction-sections -fdata-sections. Returns what the linker did; nothing where the file has only main(),
 /// so that nobody can use it. Throws Error as readObjectFile() and BuildTools::run().
 [[nodiscard]] std::optional<ProcessResult> withoutMain(const std::filesystem::path& object,

@@ -122,7 +122,7 @@ TEST_F(WrongVariantsTest, AreGatesThemselvesIfOneAsks) {
   EXPECT_EQ(gateNames(readExerciseInfo(exercise())).back(), "wrong");
   EXPECT_TRUE(pass("wrong/library").passed);
   fs::remove_all(exercise() / "wrong");
-  EXPECT_EQ(gateNames(readExerciseInfo(exercise())).back(), "sanitizers");
+  EXPECT_EQ(gateNames(readExerciseInfo(exercise())).back(), "liars");
   EXPECT_THROW(pass("wrong"), UsageError);
 }
 

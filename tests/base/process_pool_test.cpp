@@ -82,7 +82,7 @@ TEST_F(ProcessPoolTest, OutlivesWhatBreaksInOne) {
         return 0;
       },
       [&](int k, int code) { codes[k] = code; });
-  EXPECT_EQ(codes, (std::map<int, int>{{0, 0}, {1, -1}, {2, 3}, {3, -1}, {4, 0}}));
+  EXPECT_EQ(codes, (std::map<int, int>{{0, 0}, {1, -SIGKILL}, {2, 3}, {3, -SIGABRT}, {4, 0}}));
 }
 
 TEST_F(ProcessPoolTest, PassesARequestToStopOnAndWaits) {

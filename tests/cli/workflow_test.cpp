@@ -230,7 +230,8 @@ TEST_F(WorkflowTest, PassesTheTemplateThroughAllGates) {
   EXPECT_EQ(ended.code, 0) << ended.output << ended.error;
   const std::string gates = rex({"dev", "check", "98", "--list-gates"}).output;
   EXPECT_EQ(gates,
-            "main-current\npoints\nnames\nrelease\nevidence\nmain-floor\nsolution\nsanitizers\nwrong\n");
+            "main-current\npoints\nnames\nrelease\nevidence\nmain-"
+            "floor\nsolution\nsanitizers\nhostile\nliars\nwrong\n");
 }
 
 TEST_F(WorkflowTest, FindsWhatIsWrongWithTheTexts) {

@@ -28,6 +28,7 @@
 #include "submission/submission.h"
 #include "submission/zip_file.h"
 #include "support/archive_samples.h"
+#include "support/rounds.h"
 #include "support/temporary_folder.h"
 
 namespace rex::grading::battery_test {
@@ -121,14 +122,7 @@ class Battery : public ::testing::Test {
     return json.dump(1);
   }
 
-  static ExerciseInfo exercise() {
-    ExerciseInfo info;
-    info.name = "battery";
-    info.folder = kFolder / "battery";
-    info.limits = {.cpuSeconds = 0.2, .memoryMb = 300, .outputMb = 2};
-    info.forbidden = {{"rex::answer", "it is what you find out"}};
-    return info;
-  }
+  static ExerciseInfo exercise() { return readExerciseInfo(kFolder / "battery"); }
 
   fs::path secret() const { return temporary_.path() / "secret-of-the-course"; }
 
@@ -266,6 +260,77 @@ TEST_P(Attacks, GainNothingFromAnOrdinaryUser) {
 using enum Outcome;
 INSTANTIATE_TEST_SUITE_P(All, Attacks, ::testing::ValuesIn(knownAttacks()),
                          [](const auto& attack) { return attack.param.file; });
+
+// Attacks by the classes of causes that were found once, A to L, at least three of each: what may become of
+// them is nobody's business but that they get nothing.
+struct ClassedAttack {
+  std::string file{}, kind{};
+  int mostPoints = 0;  ///< for what it answers honestly
+};
+
+void PrintTo(const ClassedAttack& attack, std::ostream* out) { *out << attack.file; }
+
+// Short runs take three of each class.
+std::vector<ClassedAttack> classedAttacks() {
+  std::istringstream lines(readTextFile(kFolder / "attacks_by_class" / "list.tsv"));
+  std::vector<ClassedAttack> attacks;
+  std::map<std::string, int> count;
+  std::string line;
+  for (std::getline(lines, line); std::getline(lines, line);) {
+    const std::vector<std::string> fields = cut(line, '\t');
+    if (++count[fields.at(1)] <= rounds(3, 1000))
+      attacks.push_back({fields.at(0), fields.at(1), std::stoi(fields.at(2))});
+  }
+  return attacks;
+}
+
+class Classes : public Battery, public ::testing::WithParamInterface<ClassedAttack> {};
+
+// What no report, log or result may hold: text of the machine, and signs that deceive whoever reads it.
+void expectNothingTold(const std::string& text) {
+  for (const char* of : {"root:x:0:0", kSecret, "another program ran", "channel open"})
+    EXPECT_THAT(text, Not(HasSubstr(of)));
+  for (const char* hidden : {"\u202e", "\u2066", "\u2028", "\u200b", "\u001b"})
+    EXPECT_THAT(text, Not(HasSubstr(hidden)));
+}
+
+TEST_P(Classes, GainNothingAndHarmNobody) {
+  std::vector<int> levels = offeredLevels();
+  if (levels.empty()) GTEST_SKIP() << "no sandbox is offered here";
+  if (!isLongRun()) levels.resize(1);
+  const std::string before = honest(levels.front());
+  for (const int level : levels) {
+    SCOPED_TRACE("level " + std::to_string(level));
+    const SubmissionOptions options =
+        optionsFor(kFolder / "attacks_by_class" / (GetParam().file + ".cpp"), level, "attack");
+    const BuiltSubmission built = buildSubmission(toolchain_, exercise(), options);
+    const GradeResult result = gradeBuilt(built, toolchain_, exercise(), options);
+    RecordProperty("level_" + std::to_string(level), std::string(toString(result.outcome)));
+    EXPECT_NE(result.outcome, Outcome::graderError) << result.message;
+    EXPECT_LE(result.score, GetParam().mostPoints) << toString(result.outcome);
+    if (!built.worker.empty()) expectNoHarm(result, options);
+    expectNothingTold(readTextFile(options.results));
+    expectNothingTold(readTextFile(options.results.parent_path() / "build.log"));
+    EXPECT_EQ(honest(level), before);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Classes, ::testing::ValuesIn(classedAttacks()),
+                         [](const auto& attack) { return attack.param.file; });
+
+TEST(ClassesOfAttacks, AreAllTriedAtLeastThreeTimes) {
+  std::map<std::string, int> count;
+  std::istringstream lines(readTextFile(kFolder / "attacks_by_class" / "list.tsv"));
+  std::string line;
+  for (std::getline(lines, line); std::getline(lines, line);) {
+    const std::vector<std::string> fields = cut(line, '\t');
+    EXPECT_TRUE(fs::exists(kFolder / "attacks_by_class" / (fields.at(0) + ".cpp"))) << fields.at(0);
+    ++count[fields.at(1)];
+  }
+  // H and J are archives: see ArchiveBattery and HandInTest.
+  for (const char* kind : {"A", "B", "C", "D", "E", "F", "G", "I", "K", "L"})
+    EXPECT_GE(count[kind], 3) << kind;
+}
 
 std::set<std::string> filesOfAttacks() {
   std::set<std::string> files;

@@ -9,7 +9,20 @@
 
 #include "remote/thrown.h"
 
+namespace rex::grading {
+[[noreturn]] void failAssertion(const char* condition);  // of throwing_assertions.h, for checks alone
+}
+
 namespace rex::grading::check_test {
+
+TEST(FailAssertion, QuotesTheCondition) {
+  try {
+    failAssertion("index >= 0 && index < size()");
+    ADD_FAILURE();
+  } catch (const std::logic_error& error) {
+    EXPECT_STREQ(error.what(), "sizes or indices do not fit (index >= 0 && index < size())");
+  }
+}
 
 using ::testing::HasSubstr;
 using ::testing::Not;

@@ -1,14 +1,17 @@
 #include "grading/grade.h"
 
 #include <array>
+#include <atomic>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <stdexcept>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sched.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -17,6 +20,7 @@
 #include "interface.h"
 #include "support/expect_error.h"
 #include "support/fresh_folder.h"
+#include "support/rounds.h"
 
 namespace rex::grading::grade_test {
 
@@ -53,6 +57,55 @@ TEST(Grade, NeverBlamesTheStudentForTheGrader) {
   EXPECT_EQ(result.checks[2].message, fault + "the check ended by an exception");
   EXPECT_EQ(result.checks[3].message, fault + "the check ended by an exception");
   EXPECT_EQ(result.checks[4].message, fault + "check 'empty' states no requirement");
+}
+
+// Whatever goes wrong while the grader handles an answer is that answer's fault.
+TEST(Grade, BlamesAnswersForWhatTheyDoToTheGrader) {
+  const auto afterAnAnswer = [](std::function<void(Check&)> then) {
+    return [then](Check& judge, Student& student) {
+      static_cast<void>(student.square(3));
+      then(judge);
+    };
+  };
+  const auto fall = [](Check&) { std::raise(SIGSEGV); };
+  const auto loop = [](Check&) {
+    for (std::atomic<int> k = 0;;) ++k;
+  };
+  const auto fill = [](Check&) {
+    std::vector<std::vector<double>> all;
+    for (;;) all.emplace_back(1u << 24, 1.);
+  };
+  const auto overflow = [](Check& judge) {
+    judge.near("sum", 1, std::numeric_limits<double>::infinity(), 1);
+  };
+  std::vector<RunnableCheck> checks = {
+      check("falls", Group::visible, afterAnAnswer(fall)),
+      check("overflows", Group::visible, afterAnAnswer(overflow)),
+      check("hidden", Group::hidden, afterAnAnswer(overflow)),
+      check("kills", Group::visible, afterAnAnswer([](Check&) { std::raise(SIGKILL); })),
+      check("falls before", Group::visible, [&](Check& judge, Student&) { fall(judge); }),
+      check("fine", Group::visible,
+            [](Check& judge, Student& student) { judge.near("square", student.square(3), 9, 1e-9); })};
+#ifndef __SANITIZE_ADDRESS__
+  checks.push_back(check("fills", Group::visible, afterAnAnswer(fill)));
+#endif
+  if (isLongRun()) checks.push_back(check("loops", Group::visible, afterAnAnswer(loop)));
+  const GradeResult result = gradeGood(checks);
+  const std::string ended = "it ended the grader, or took it too much time or memory";
+  const auto message = [&](std::size_t k) { return result.checks[k].message; };
+  EXPECT_EQ(message(0), "what square returned could not be judged: " + ended);
+  EXPECT_EQ(result.checks[0].function, "square");
+  EXPECT_EQ(message(1),
+            "what square returned could not be judged: check 'overflows' wants a value that is not finite");
+  EXPECT_EQ(message(2), "what square returned could not be judged");
+  for (std::size_t k = 0; k < checks.size(); ++k) {
+    const bool isOurs = k == 3 || k == 4;
+    EXPECT_EQ(result.checks[k].status, isOurs   ? Outcome::graderError
+                                       : k == 5 ? Outcome::pass
+                                                : Outcome::fail)
+        << checks[k].info.id << ": " << message(k);
+  }
+  EXPECT_EQ(result.score, 1);
 }
 
 // What copies of the grader find, put together, is what one finds; a check that ends its copy harms no other.
@@ -123,6 +176,17 @@ TEST(Grade, SavesBeforeTheFirstAndAfterEveryCheck) {
   EXPECT_EQ(last.message, "");
 }
 
+/// A number that copies of this process have in common.
+class SharedCount {
+ public:
+  int& value() const { return *value_; }
+  ~SharedCount() { ::munmap(value_, sizeof(int)); }
+
+ private:
+  int* value_ = static_cast<int*>(
+      ::mmap(nullptr, sizeof(int), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
+};
+
 // Kills all processes that this one started.
 void killChildren() {
   std::ifstream children("/proc/self/task/" + std::to_string(::getpid()) + "/children");
@@ -130,7 +194,8 @@ void killChildren() {
 }
 
 TEST(Grade, AsksOnceMoreWhenSomebodyKilledTheWorker) {
-  int attempts = 0;
+  const SharedCount shared;
+  int& attempts = shared.value();
   const auto killedAtFirst = [&](int times) {
     attempts = 0;
     return gradeGood({check("a", Group::visible, [&, times](Check& judge, Student& student) {

@@ -119,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(
         Trouble{"ignored_signals", Outcome::timeLimit, "stopped after"},
         Trouble{"junk", Outcome::protocolError, "spoilt the connection to the grader in ikStep"},
         Trouble{"loop", Outcome::timeLimit, "stopped after"},
-        Trouble{"nan", Outcome::fail, "position after the step: not finite"},
+        Trouble{"nan", Outcome::fail, "what ikStep returned: number 2 is nan, wanted finite numbers"},
         Trouble{"noexcept_throw", Outcome::runtimeError,
                 "aborted in ikStep: terminate called after throwing"},
         Trouble{"recursion", Outcome::runtimeError, "crashed with a segmentation fault in ikStep"},
@@ -267,7 +267,7 @@ TEST(RunGrader, RefusesTwoChecksOfOneName) {
   const std::vector<RunnableCheck> checks(2, {.info = {.id = "step"}});
   const std::array<const char*, 2> arguments = {"grader", "--list"};
   ::testing::internal::CaptureStderr();
-  const int code = runGrader(2, arguments.data(), checks, 0);
+  const int code = runGrader(2, arguments.data(), checks, 0, {});
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "grader: two checks have the id 'step'\n");
   EXPECT_EQ(code, kGraderFault);
 }

@@ -70,6 +70,16 @@ TEST_F(ExerciseInfoTest, ReadsEverything) {
   ASSERT_EQ(info.forbidden.size(), 1u);
   EXPECT_EQ(info.forbidden[0].function, "rex::inverseKinematicsStep");
   EXPECT_EQ(info.forbidden[0].reason, "the step is what you write here");
+  EXPECT_EQ(info.parts[1].lies, 0);
+  EXPECT_EQ(readWith("floor = 1", "floor = 1\nlies = 2").parts[1].lies, 2);
+  EXPECT_EQ(info.forbidden[0].part, "");
+  EXPECT_THAT(info.allowed, ::testing::ElementsAre("course")) << "if it is left out";
+  EXPECT_THAT(readWith("[limits]", "allowed = [\"simulator\", \"rex::lqr\"]\n[limits]").allowed,
+              ::testing::ElementsAre("simulator", "rex::lqr"));
+  const ExerciseInfo apart = readWith("floor = 1", "floor = 1\nfunctions = [\"f\"]\nallowed = [\"course\"]");
+  EXPECT_THAT(apart.parts[1].functions, ::testing::ElementsAre("f"));
+  EXPECT_THAT(apart.parts[1].allowed, ::testing::ElementsAre("course"));
+  EXPECT_EQ(readWith("reason", "part = \"maps\"\nreason").forbidden[0].part, "maps");
   EXPECT_EQ(info.solution, SolutionRule::never);
   for (const auto& [word, rule] : {std::pair{"never", SolutionRule::never},
                                    {"after-pass", SolutionRule::afterPass},
@@ -82,11 +92,11 @@ TEST_F(ExerciseInfoTest, RefusesBadFilesWithPlaceAndAdvice) {
   EXPECT_REX_ERROR(read("title = \"x\"\nscript = \n"), "exercise.toml:2:");
   EXPECT_REX_ERROR(readWith("title = \"Kin", "titel = \"Kin"),
                    "exercise.toml:1:1: unknown key 'titel' in the exercise: wanted one of title, script, "
-                   "solution, limits, "
-                   "part, forbidden (did you mean 'title'?)");
+                   "solution, allowed, limits, part, forbidden (did you mean 'title'?)");
   EXPECT_REX_ERROR(readWith("memory_mb", "memory"), "exercise.toml:6:1: unknown key 'memory' in [limits]");
   EXPECT_REX_ERROR(readWith("floor = 1", "flor = 1"), "exercise.toml:19:1: unknown key 'flor' in [[part]]");
   EXPECT_REX_ERROR(readWith("reason", "why"), "exercise.toml:23:1: unknown key 'why' in [[forbidden]]");
+  EXPECT_REX_ERROR(readWith("floor = 1", "functions = [\"f\"]"), "[[part]]: no 'allowed'");
   EXPECT_REX_ERROR(readWith("script = \"12.3\"", ""), "the exercise: no 'script': wanted a string");
   EXPECT_REX_ERROR(readWith("\"12.3\"", "12"),
                    "exercise.toml:2:10: the exercise: 'script': found 12, wanted a string that is not empty");

@@ -36,8 +36,9 @@ TEST(ForbiddenMembers, OfTheSimulatorInExercisesThatAskForThem) {
   }
   const auto compile = [&](const char* source) {
     writeTextFile(folder.path() / "main.cpp", source);
-    return compileStudent(toolchain, {forbidden.front()},
-                          {.main = folder.path() / "main.cpp", .workFolder = folder.path() / "work"});
+    return compileStudent(
+        toolchain, {forbidden.front()},
+        {.main = folder.path() / "main.cpp", .workFolder = folder.path() / "work", .graded = true});
   };
   const StudentObject refused = compile(kAsks);
   EXPECT_FALSE(refused.ok);

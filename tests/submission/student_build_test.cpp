@@ -65,7 +65,11 @@ class StudentBuildTest : public ::testing::Test {
   StudentObject compileFile(const path& file, bool debug = false) const {
     return compileStudent(
         toolchain(), {{"rex::answer", "it is what you find out"}, {"rex::internal", "it is not for use"}},
-        {.main = file, .workFolder = temporary_.path() / "work", .debug = debug, .publicHeadersOnly = true});
+        {.main = file,
+         .workFolder = temporary_.path() / "work",
+         .debug = debug,
+         .publicHeadersOnly = true,
+         .graded = true});
   }
 
   StudentObject compile(const std::string& source) const {
@@ -117,6 +121,7 @@ TEST_F(StudentBuildTest, CompilesTheGradedPartAlone) {
                           {.main = temporary_.path() / "main.cpp",
                            .workFolder = temporary_.path() / "work",
                            .publicHeadersOnly = true,
+                           .graded = true,
                            .part = part});
   };
   const std::string head = "#include \"exercise.h\"\n#include <cstdio>\n";
@@ -320,7 +325,8 @@ TEST_F(StudentBuildTest, JudgesIncludesByWhatTheyAre) {
   EXPECT_TRUE(compileStudent(linked, {},
                              {.main = temporary_.path() / "main.cpp",
                               .workFolder = temporary_.path() / "work",
-                              .publicHeadersOnly = true})
+                              .publicHeadersOnly = true,
+                              .graded = true})
                   .ok);
 }
 

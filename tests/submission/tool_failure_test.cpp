@@ -59,6 +59,10 @@ TEST(ToolFailure, KnowsWhatTheLinkerHoldsAgainstTheObject) {
   const std::string alone = "build/student.o:(.data+0x0): relocation truncated to fit";
   EXPECT_EQ(complaintAbout("build/student.o", alone + "\ncollect2: error: ld returned 1 exit status\n"),
             alone);
+  EXPECT_EQ(complaintAbout("build/student.o",
+                           "libgcc.a(cpuinfo.o): in function `f':\n(.text+0x7): relocation "
+                           "truncated to fit: R_X86_64_PC32 against symbol `x'\n"),
+            "its global variables take more than 2 GB");
   EXPECT_EQ(complaintAbout("build/student.o", "ld: cannot find build/student.o: No such file\n"), "");
   EXPECT_EQ(complaintAbout("build/student.o", "ld: final link failed: bad value\n"), "");
   EXPECT_EQ(complaintAbout("build/student.o",

@@ -78,10 +78,11 @@ TEST_F(TestMany, EndsWithTheLargestCode) {
 // A program that ends the one that grades it, and another that ends the grader.
 TEST_F(TestMany, KeepsAFaultToItsExercise) {
   solve("98-template", doing("kill(getppid(), SIGKILL);"));
-  solve("97-other",
-        doing("int above = 0;\n  std::ifstream stat(\"/proc/\" + std::to_string(getppid()) + \"/stat\");\n"
-              "  std::string skipped;\n  stat >> skipped >> skipped >> skipped >> above;\n"
-              "  kill(above, SIGKILL);\n  for (;;) sleep(1);"));
+  solve("97-other", doing("const auto parentOf = [](int process) {\n"
+                          "    std::ifstream stat(\"/proc/\" + std::to_string(process) + \"/stat\");\n"
+                          "    std::string skipped;\n    int parent = 0;\n"
+                          "    stat >> skipped >> skipped >> skipped >> parent;\n    return parent;\n  };\n"
+                          "  kill(parentOf(parentOf(getppid())), SIGKILL);\n  for (;;) sleep(1);"));
   addExercise("96-fine");
   solve("96-fine", kGood);
   const Ended ended = rex({"test", "98", "97", "96"});

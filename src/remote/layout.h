@@ -1,0 +1,102 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "base/rng.h"
+#include "remote/aggregate.h"
+#include "remote/remote.h"
+
+namespace rex::remote {
+
+/// How the bytes of a value of type T lie (see Wire), as a text: a number is `d`, `f`, or `i` or `u` with its
+/// size in bytes; a truth value `b`, a string `s`, a random generator `r`; a list `[T]`, an optional value
+/// `?T`, fields `(TU...)`; a matrix `M` with its rows and columns, -1 for any, and the type of its numbers:
+/// `M3,-1,d`.
+template <class T>
+struct Layout {
+  static std::string text() {
+    if constexpr (std::is_same_v<T, bool>) {
+      return "b";
+    } else if constexpr (std::is_same_v<T, double>) {
+      return "d";
+    } else if constexpr (std::is_same_v<T, float>) {
+      return "f";
+    } else if constexpr (std::is_enum_v<T>) {
+      return Layout<std::underlying_type_t<T>>::text();
+    } else if constexpr (std::is_integral_v<T>) {
+      return (std::is_signed_v<T> ? "i" : "u") + std::to_string(sizeof(T));
+    } else if constexpr (std::is_same_v<T, std::string>) {
+      return "s";
+    } else if constexpr (std::is_same_v<T, Rng>) {
+      return "r";
+    } else {
+      static_assert(PlainStruct<T>);
+      return []<class... Field>(std::type_identity<std::tuple<Field...>>) {
+        return "(" + (Layout<Field>::text() + ...) + ")";
+      }(std::type_identity<FieldTuple<T>>{});
+    }
+  }
+};
+
+template <>
+struct Layout<void> {
+  static std::string text() { return ""; }
+};
+
+template <class T>
+struct Layout<std::vector<T>> {
+  static std::string text() { return "[" + Layout<T>::text() + "]"; }
+};
+
+template <class T>
+struct Layout<std::optional<T>> {
+  static std::string text() { return "?" + Layout<T>::text(); }
+};
+
+template <class A, class B>
+struct Layout<std::pair<A, B>> {
+  static std::string text() { return "(" + Layout<A>::text() + Layout<B>::text() + ")"; }
+};
+
+template <class T, std::size_t n>
+struct Layout<std::array<T, n>> {
+  static std::string text() {
+    std::string fields;
+    for (std::size_t k = 0; k < n; ++k) fields += Layout<T>::text();
+    return "(" + fields + ")";
+  }
+};
+
+template <class S, int rows, int cols, int options, int maxRows, int maxCols>
+struct Layout<Eigen::Matrix<S, rows, cols, options, maxRows, maxCols>> {
+  static std::string text() {
+    return "M" + std::to_string(rows) + "," + std::to_string(cols) + "," + Layout<S>::text();
+  }
+};
+
+/// Of an argument: of what is sent for it, and of functions whether there is one.
+template <class T>
+struct ArgumentLayout : Layout<typename Remote<T>::Sent> {};
+template <class R, class... A>
+struct ArgumentLayout<std::function<R(A...)>> : Layout<bool> {};
+
+template <class F>
+struct CallLayout;
+
+/// The layouts of what a function returns and, one after the other, of its arguments.
+template <class R, class... A>
+struct CallLayout<R(A...)> {
+  static std::vector<std::string> texts() {
+    return {Layout<std::remove_cvref_t<R>>::text(), ArgumentLayout<std::remove_cvref_t<A>>::text()...};
+  }
+};
+
+}  // namespace rex::remote

@@ -1,0 +1,195 @@
+#include "submission/worker_part.h"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/lines.h"
+#include "base/process.h"
+#include "base/text_file.h"
+#include "base/toml_table.h"
+#include "submission/object_file.h"
+#include "submission/symbol_scan.h"
+
+namespace rex::grading {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char *kInstances = "eigen_instances", *kRefusal = "rexNotAllowedHere";
+
+bool isOneOf(std::string_view symbol, const std::vector<std::string>& functions) {
+  return std::any_of(functions.begin(), functions.end(),
+                     [&](const std::string& function) { return isSymbolOf(symbol, function); });
+}
+
+std::vector<std::string> namesOf(const std::vector<ForbiddenFunction>& forbidden) {
+  std::vector<std::string> names;
+  for (const ForbiddenFunction& one : forbidden) names.push_back(one.function);
+  return names;
+}
+
+// What other files may use of an object file, with whether it holds what Eigen compiles.
+std::set<std::string> definedIn(const fs::path& object) {
+  std::set<std::string> names;
+  for (const ObjectSymbol& symbol : readObjectFile(readTextFile(object), object.string()).symbols)
+    if (symbol.isDefined && (symbol.isGlobal || symbol.isWeak)) names.insert(symbol.name);
+  return names;
+}
+
+std::string fileOf(const ExerciseInfo& exercise) { return (exercise.folder / "exercise.toml").string(); }
+
+/// What the object files of the library define.
+struct Definitions {
+  std::set<std::string> all{};
+  std::set<std::string> ofEigen{};  ///< that the library has compiled for everybody
+};
+
+Definitions definitionsIn(const std::vector<fs::path>& objects) {
+  Definitions found;
+  for (const fs::path& object : objects) {
+    const bool isInstances = object.filename().string().starts_with(kInstances);
+    for (const std::string& symbol : definedIn(object)) {
+      found.all.insert(symbol);
+      if (isInstances && isSymbolOf(symbol, "Eigen")) found.ofEigen.insert(symbol);
+    }
+  }
+  return found;
+}
+
+// Of the library what is allowed and not forbidden, and all that is compiled of Eigen beforehand.
+std::set<std::string> offered(const Definitions& definitions, const std::vector<std::string>& allowed,
+                              const ExerciseInfo& exercise) {
+  const std::vector<std::string> forbidden = namesOf(exercise.forbidden);
+  std::set<std::string> found = definitions.ofEigen, unknown(allowed.begin(), allowed.end());
+  for (const std::string& symbol : definitions.all) {
+    const auto by = std::find_if(allowed.begin(), allowed.end(),
+                                 [&](const std::string& name) { return isSymbolOf(symbol, name); });
+    if (by == allowed.end()) continue;
+    unknown.erase(*by);
+    if (!isOneOf(symbol, forbidden)) found.insert(symbol);
+  }
+  if (!unknown.empty())
+    throw Error({.what = fmt::format("allows '{}', which the library does not have", *unknown.begin()),
+                 .where = {fileOf(exercise)},
+                 .wanted = "a function or a class of the modules that the exercise uses"});
+  return found;
+}
+
+// Of the worker of that part; of the one of all others where `part` is empty.
+void requireNothingForbidden(const fs::path& object, const std::string& part, const ExerciseInfo& exercise) {
+  const ObjectFile file = readObjectFile(readTextFile(object), object.string());
+  std::vector<std::string> there;
+  for (const ForbiddenFunction& one : exercise.forbidden) {
+    const bool isBanned = one.part.empty() || one.part == part;
+    const auto isIt = [&](const ObjectSymbol& symbol) {
+      return symbol.isDefined && isSymbolOf(symbol.name, one.function);
+    };
+    if (isBanned && std::any_of(file.symbols.begin(), file.symbols.end(), isIt))
+      there.push_back(one.function);
+  }
+  if (!there.empty())
+    throw Error({.what = "forbids functions that something needs which is allowed",
+                 .where = {fileOf(exercise)},
+                 .found = fmt::format("{} in the worker", fmt::join(there, ", "))});
+}
+
+void run(const std::vector<std::string>& command) {
+  const ProcessResult done = runProcess(command, {});
+  if (!done.ok()) throw Error({.what = "cannot run " + command.front(), .found = done.error});
+}
+
+void writeLines(const fs::path& file, const std::set<std::string>& lines) {
+  writeTextFile(file, fmt::format("{}\n", fmt::join(lines, "\n")));
+}
+
+// Groups of sections are resolved here: a student's copy of a template does not take the place of ours.
+void link(const WorkerPartOrder& order, const fs::path& object, const std::set<std::string>& offers,
+          const std::string& options) {
+  std::string arguments = "-Wl,--gc-sections\n-Wl,--force-group-allocation\n" + options;
+  std::set<std::string> roots = offers;
+  roots.insert({"main", kRefusal});
+  for (const std::string& name : roots) arguments += fmt::format("-Wl,--undefined={}\n", name);
+  arguments += order.worker.string() + "\n";
+  for (const fs::path& one : order.objects) arguments += one.string() + "\n";
+  const fs::path list = fs::path(object).replace_extension(".args");
+  writeTextFile(list, arguments);
+  run({order.compiler, "-r", "-nostdlib", "-fno-lto", "@" + list.string(), "-o", object.string()});
+  writeLines(list, roots);
+  run({order.objcopy, "--keep-global-symbols=" + list.string(), object.string()});
+}
+
+}  // namespace
+
+std::vector<std::string> allowedFunctions(const std::vector<std::string>& list, const fs::path& exercise,
+                                          const fs::path& groups) {
+  const TomlTable table = TomlTable::read(groups, "groups of functions", "names of functions by group");
+  std::vector<std::string> functions;
+  for (const std::string& name : list) {
+    if (name.find("::") != name.npos) {
+      functions.push_back(name);
+      continue;
+    }
+    if (!table.has(name))
+      throw Error({.what = fmt::format("allows the functions '{}'", name),
+                   .where = {(exercise / "exercise.toml").string()},
+                   .wanted = "a function as rex::name, or a group of " + groups.filename().string(),
+                   .nearest = nearestNames(name, table.keys())});
+    for (const std::string& one : table.texts(name)) functions.push_back(one);
+  }
+  return functions;
+}
+
+void linkWorkerParts(const WorkerPartOrder& order) {
+  const ExerciseInfo exercise = readExerciseInfo(order.exercise);
+  const Definitions definitions = definitionsIn(order.objects);
+  const auto offers = [&](const std::vector<std::string>& allowed) {
+    return offered(definitions, allowedFunctions(allowed, order.exercise, order.groups), exercise);
+  };
+  const std::set<std::string> ofAll = offers(exercise.allowed);
+  const fs::path whole = order.folder / "worker_part.o";
+  for (const WorkerOfPart& old : workersOfParts(whole)) fs::remove(old.options);
+  for (const ExercisePart& part : exercise.parts) {
+    if (part.functions.empty()) continue;
+    const std::set<std::string> ofPart = offers(part.allowed);
+    std::string others, missing;
+    for (const std::string& function : order.functions)
+      if (std::find(part.functions.begin(), part.functions.end(), function) == part.functions.end())
+        others += fmt::format("-Wl,--defsym=rexRun_{}=rexOfAnotherPart\n", function);
+    for (const std::string& name : ofAll)
+      if (!ofPart.contains(name)) missing += fmt::format("-Wl,--defsym={}={}\n", name, kRefusal);
+    const fs::path object = order.folder / fmt::format("worker_part.{}.o", part.id);
+    link(order, object, ofPart, others);
+    requireNothingForbidden(object, part.id, exercise);
+    writeTextFile(fs::path(object).replace_extension(".options"), missing);
+  }
+  link(order, whole, ofAll, "");
+  requireNothingForbidden(whole, "", exercise);
+  writeLines(order.folder / "worker.offers", ofAll);
+}
+
+std::vector<WorkerOfPart> workersOfParts(const fs::path& workerPart) {
+  std::vector<WorkerOfPart> found;
+  if (workerPart.empty()) return found;
+  for (const auto& entry : fs::directory_iterator(workerPart.parent_path())) {
+    const std::string name = entry.path().filename().string();
+    constexpr std::string_view kStart = "worker_part.", kEnd = ".options";
+    if (name.starts_with(kStart) && name.ends_with(kEnd))
+      found.push_back({.id = name.substr(kStart.size(), name.size() - kStart.size() - kEnd.size()),
+                       .object = fs::path(entry.path()).replace_extension(".o"),
+                       .options = entry.path()});
+  }
+  return found;
+}
+
+std::vector<std::string> offeredSymbols(const fs::path& offers) {
+  const std::string text = readTextFile(offers);
+  const std::vector<std::string_view> lines = splitLines(text);
+  std::vector<std::string> names(lines.begin(), lines.end());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace rex::grading
