@@ -120,6 +120,7 @@ constexpr auto kProgramStarters = std::to_array<const char*>({"fork", "vfork", "
 
 // What the C and C++ libraries call for memory, files, threads, time and signals of their own. Calls that are
 // not here, and those that kernels to come may add, fail as on a kernel without them.
+// None tells which pages of a file are in memory: others could read that.
 constexpr auto kOfHonestPrograms = std::to_array<const char*>({"brk",
                                                                "mmap",
                                                                "munmap",
@@ -135,8 +136,6 @@ constexpr auto kOfHonestPrograms = std::to_array<const char*>({"brk",
                                                                "pwrite64",
                                                                "preadv",
                                                                "pwritev",
-                                                               "preadv2",
-                                                               "pwritev2",
                                                                "lseek",
                                                                "_llseek",
                                                                "close",
@@ -180,7 +179,6 @@ constexpr auto kOfHonestPrograms = std::to_array<const char*>({"brk",
                                                                "fchdir",
                                                                "ftruncate",
                                                                "fallocate",
-                                                               "fadvise64",
                                                                "fsync",
                                                                "fdatasync",
                                                                "mkdir",
