@@ -283,8 +283,9 @@ void runInTheirCopies(const GradeResult& start, std::span<const RunnableCheck> c
     const auto place = static_cast<std::size_t>(k);
     GradeResult broken;
     broken.checks = {faulty(checks[place].info, "the check ended its process")};
-    // Who kills without need is the machine.
-    const bool stands = code != -SIGKILL && std::filesystem::exists(file(k));
+    // Who kills without need is the machine, and so is what keeps results from being written.
+    const bool isOfAnswer = code == 0 || (code < 0 && code != -SIGKILL);
+    const bool stands = isOfAnswer && std::filesystem::exists(file(k));
     ended(place, stands ? loadResult(file(k)) : std::move(broken));
   });
 }

@@ -65,10 +65,8 @@ std::set<std::string> offered(const Definitions& definitions, const std::vector<
   const std::vector<std::string> forbidden = namesOf(exercise.forbidden);
   std::set<std::string> found = definitions.ofEigen, unknown(allowed.begin(), allowed.end());
   for (const std::string& symbol : definitions.all) {
-    const auto by = std::find_if(allowed.begin(), allowed.end(),
-                                 [&](const std::string& name) { return isSymbolOf(symbol, name); });
-    if (by == allowed.end()) continue;
-    unknown.erase(*by);
+    if (!isOneOf(symbol, allowed)) continue;
+    std::erase_if(unknown, [&](const std::string& name) { return isSymbolOf(symbol, name); });
     if (!isOneOf(symbol, forbidden)) found.insert(symbol);
   }
   if (!unknown.empty())
