@@ -288,7 +288,7 @@ class Classes : public Battery, public ::testing::WithParamInterface<ClassedAtta
 
 // What no report, log or result may hold: text of the machine, and signs that deceive whoever reads it.
 void expectNothingTold(const std::string& text) {
-  for (const char* of : {"root:x:0:0", kSecret, "another program ran", "channel open"})
+  for (const char* of : {"root:x:0:0", kSecret, "another program ran", "channel open", "in memory: "})
     EXPECT_THAT(text, Not(HasSubstr(of)));
   for (const char* hidden : {"\u202e", "\u2066", "\u2028", "\u200b", "\u001b"})
     EXPECT_THAT(text, Not(HasSubstr(hidden)));
@@ -317,6 +317,19 @@ TEST_P(Classes, GainNothingAndHarmNobody) {
 
 INSTANTIATE_TEST_SUITE_P(All, Classes, ::testing::ValuesIn(classedAttacks()),
                          [](const auto& attack) { return attack.param.file; });
+
+// The walls are what stops them: with the whole library in the worker an attack finds the forbidden function.
+TEST_F(Battery, FindsTheAnswerWhereItIsInMemory) {
+  const SubmissionOptions options =
+      optionsFor(kFolder / "attacks_by_class" / "A_header_below_return_address.cpp", 0, "attack");
+  Toolchain whole = toolchain_;
+  whole.workerPart.clear();
+  whole.offers.clear();
+  whole.linkFlags.insert(whole.linkFlags.begin(),
+                         {"-Wl,--no-as-needed", (kBinary / "lib" / "librex_battery_answer.so").string()});
+  const BuiltSubmission built = buildSubmission(whole, exercise(), options);
+  EXPECT_EQ(gradeBuilt(built, whole, exercise(), options).score, 8) << built.start.message;
+}
 
 TEST(ClassesOfAttacks, AreAllTriedAtLeastThreeTimes) {
   std::map<std::string, int> count;

@@ -20,35 +20,10 @@ constexpr Seen seen[] = {
 #else
     {"/etc/shadow", false},
 #endif
-#if __has_include("/root")
-    {"/root", true},
-#else
-    {"/root", false},
-#endif
-#if __has_include("/root/.bashrc")
-    {"/root/.bashrc", true},
-#else
-    {"/root/.bashrc", false},
-#endif
 #if __has_include("/home")
     {"/home", true},
 #else
     {"/home", false},
-#endif
-#if __has_include("/work")
-    {"/work", true},
-#else
-    {"/work", false},
-#endif
-#if __has_include("/work/main/CMakeLists.txt")
-    {"/work/main/CMakeLists.txt", true},
-#else
-    {"/work/main/CMakeLists.txt", false},
-#endif
-#if __has_include("/work/main/tests/grading/attacks.tsv")
-    {"/work/main/tests/grading/attacks.tsv", true},
-#else
-    {"/work/main/tests/grading/attacks.tsv", false},
 #endif
 #if __has_include("/github/workspace")
     {"/github/workspace", true},

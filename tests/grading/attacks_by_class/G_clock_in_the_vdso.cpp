@@ -5,7 +5,6 @@
 #include "exercise.h"
 
 namespace {
-using Answer = double (*)(double);
 struct Dyn {
   long tag;
   unsigned long value;
@@ -15,13 +14,6 @@ struct Sym {
   unsigned char info, other;
   unsigned short section;
   unsigned long value, size;
-};
-struct Map {
-  unsigned long base;
-  const char* name;
-  Dyn* dynamic;
-  Map* next;
-  Map* previous;
 };
 struct Segment {
   unsigned type, flags;
@@ -42,29 +34,6 @@ bool same(const char* a, const char* b) {
     ++b;
   }
   return *a == *b;
-}
-
-/// The forbidden function in the tables of one loaded file; what else it holds of the library is printed.
-Answer in_tables(unsigned long base, const Dyn* dynamic) {
-  unsigned long symbols = 0, names = 0;
-  for (; dynamic != nullptr && dynamic->tag != 0; ++dynamic) {
-    unsigned long value = dynamic->value < base ? dynamic->value + base : dynamic->value;
-    if (dynamic->tag == 6) symbols = value;
-    if (dynamic->tag == 5) names = value;
-  }
-  if (symbols == 0 || names <= symbols) return nullptr;
-  Answer found = nullptr;
-  int printed = 0;
-  for (auto* sym = reinterpret_cast<const Sym*>(symbols); reinterpret_cast<unsigned long>(sym + 1) <= names;
-       ++sym) {
-    if (sym->section == 0 || sym->value == 0) continue;
-    const char* name = reinterpret_cast<const char*>(names + sym->name);
-    if (name[0] == '_' && name[1] == 'Z' && name[2] == 'N' && name[3] == '3' && name[4] == 'r' &&
-        name[5] == 'e' && name[6] == 'x' && printed++ < 20)
-      std::printf("in memory: %s\n", name);
-    if (same(name, "__vdso_clock_gettime")) found = reinterpret_cast<Answer>(base + sym->value);
-  }
-  return found;
 }
 
 char** environment;
