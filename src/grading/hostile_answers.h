@@ -7,41 +7,12 @@
 #include <vector>
 
 #include "grading/grade.h"
+#include "grading/spoilt_answer.h"
 
 namespace rex::grading {
 
 /// Of each function of the student's the layout of what it returns, and those of its arguments.
 using CallLayouts = std::vector<std::vector<std::string>>;
-
-/// The ways in which an answer is made hostile: all its numbers, lists and matrices at once, or each node in
-/// a way of its own (`mixed`).
-enum class Hostility {
-  empty,
-  huge,
-  notANumber,
-  infinite,
-  overflowing,
-  denormal,
-  zero,
-  constant,
-  ragged,
-  permuted,
-  shifted,
-  scaled,
-  extremeIntegers,
-  mixed,
-  count
-};
-
-[[nodiscard]] std::string toString(Hostility hostility);
-
-/// Whether some numbers of the honest answer stay as they are.
-[[nodiscard]] bool keepsNumbers(Hostility hostility);
-
-/// An honest answer, spoilt: bytes of the same layout (remote/layout.h). Throws Error where the bytes are not
-/// of that layout.
-[[nodiscard]] std::vector<std::byte> spoilt(std::span<const std::byte> answer, const std::string& layout,
-                                            Hostility hostility, Rng& rng);
 
 /// What hostile answers did to one check.
 struct HostileOutcome {

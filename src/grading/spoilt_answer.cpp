@@ -1,0 +1,377 @@
+#include "grading/spoilt_answer.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include "base/error.h"
+
+namespace rex::grading {
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+constexpr double kHuge = 1e200;
+
+/// One value of an answer, with what it consists of.
+struct Node {
+  char kind = ' ';            ///< the first character of its layout
+  std::string layout{};       ///< of all of it
+  int size = 0;               ///< of an integer, in bytes
+  std::vector<Node> parts{};  ///< of fields, lists, optional values and matrices
+  double number = 0;
+  std::uint64_t bits = 0;  ///< of integers and truth values
+  Bytes raw{};             ///< of texts and generators
+  int rows = 0, cols = 0;
+  int fixedRows = -1, fixedCols = -1;
+};
+
+/// Takes answers apart by their layout.
+class Parser {
+ public:
+  Parser(std::string_view layout, std::span<const std::byte> bytes) : layout_(layout), bytes_(bytes) {}
+
+  Node all() {
+    Node node = layout_.empty() ? Node{} : value();
+    if (!layout_.empty() || !bytes_.empty()) refuse();
+    return node;
+  }
+
+  /// Of the first value, in bytes.
+  std::size_t sizeOfFirst() {
+    const std::size_t size = bytes_.size();
+    static_cast<void>(value());
+    return size - bytes_.size();
+  }
+
+ private:
+  [[noreturn]] static void refuse() { throw Error({.what = "an answer does not have its layout"}); }
+
+  template <class T>
+  T take() {
+    T value{};
+    if (bytes_.size() < sizeof value) refuse();
+    std::memcpy(&value, bytes_.data(), sizeof value);
+    bytes_ = bytes_.subspan(sizeof value);
+    return value;
+  }
+
+  Bytes takeBytes(std::uint64_t count) {
+    if (bytes_.size() < count) refuse();
+    Bytes taken(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(count));
+    bytes_ = bytes_.subspan(count);
+    return taken;
+  }
+
+  int number() {
+    int value = 0;
+    const auto [end, error] = std::from_chars(layout_.data(), layout_.data() + layout_.size(), value);
+    if (error != std::errc()) refuse();
+    layout_.remove_prefix(static_cast<std::size_t>(end - layout_.data()));
+    return value;
+  }
+
+  char next() {
+    if (layout_.empty()) refuse();
+    const char c = layout_.front();
+    layout_.remove_prefix(1);
+    return c;
+  }
+
+  Node value() {
+    const std::string_view start = layout_;
+    Node node{.kind = next()};
+    read(node);
+    node.layout = start.substr(0, start.size() - layout_.size());
+    return node;
+  }
+
+  void read(Node& node) {
+    switch (node.kind) {
+      case 'd':
+        node.number = take<double>();
+        break;
+      case 'f':
+        node.number = take<float>();
+        break;
+      case 'b':
+        node.bits = take<std::uint8_t>();
+        break;
+      case 'i':
+      case 'u': {
+        node.size = number();
+        const Bytes raw = takeBytes(static_cast<std::uint64_t>(node.size));
+        std::memcpy(&node.bits, raw.data(), raw.size());
+        break;
+      }
+      case 's':
+        node.raw = takeBytes(take<std::uint64_t>());
+        break;
+      case 'r':
+        node.raw = takeBytes(4 * sizeof(std::uint64_t));
+        break;
+      case '(':
+        while (!layout_.empty() && layout_.front() != ')') node.parts.push_back(value());
+        next();
+        break;
+      case '[':
+        repeat(node, take<std::uint64_t>());
+        next();
+        break;
+      case '?':
+        repeat(node, take<std::uint8_t>());
+        break;
+      case 'M':
+        node.fixedRows = number();
+        next();
+        node.fixedCols = number();
+        next();
+        node.rows = take<std::int32_t>();
+        node.cols = take<std::int32_t>();
+        repeat(node, static_cast<std::uint64_t>(node.rows) * static_cast<std::uint64_t>(node.cols));
+        break;
+      default:
+        refuse();
+    }
+  }
+
+  // One layout for all parts; without any it is passed over.
+  void repeat(Node& node, std::uint64_t count) {
+    const std::string_view element = layout_;
+    for (std::uint64_t k = 0; k < count; ++k) {
+      layout_ = element;
+      node.parts.push_back(value());
+    }
+    if (count == 0) pass();
+  }
+
+  void pass() {
+    const char kind = next();
+    if (kind == 'i' || kind == 'u') number();
+    if (kind == '?') pass();
+    if (kind == '[') pass(), next();
+    if (kind == 'M') number(), next(), number(), next(), pass();
+    if (kind == '(') {
+      while (!layout_.empty() && layout_.front() != ')') pass();
+      next();
+    }
+  }
+
+  std::string_view layout_;
+  std::span<const std::byte> bytes_;
+};
+
+template <class T>
+void put(Bytes& bytes, const T& value) {
+  const auto* first = reinterpret_cast<const std::byte*>(&value);
+  bytes.insert(bytes.end(), first, first + sizeof value);
+}
+
+void write(const Node& node, Bytes& bytes) {
+  switch (node.kind) {
+    case 'd':
+      return put(bytes, node.number);
+    case 'f':
+      return put(bytes, static_cast<float>(node.number));
+    case 'b':
+      return put(bytes, static_cast<std::uint8_t>(node.bits & 1));
+    case 'i':
+    case 'u': {
+      const auto* first = reinterpret_cast<const std::byte*>(&node.bits);
+      bytes.insert(bytes.end(), first, first + node.size);
+      return;
+    }
+    case 's':
+      put(bytes, static_cast<std::uint64_t>(node.raw.size()));
+      [[fallthrough]];
+    case 'r':
+      bytes.insert(bytes.end(), node.raw.begin(), node.raw.end());
+      return;
+    case '[':
+      put(bytes, static_cast<std::uint64_t>(node.parts.size()));
+      break;
+    case '?':
+      put(bytes, static_cast<std::uint8_t>(node.parts.size()));
+      break;
+    case 'M':
+      put(bytes, node.rows);
+      put(bytes, node.cols);
+      break;
+    default:
+      break;
+  }
+  for (const Node& part : node.parts) write(part, bytes);
+}
+
+/// Spoils the nodes of one answer.
+class Spoiler {
+ public:
+  Spoiler(Hostility hostility, Rng& rng) : hostility_(hostility), rng_(rng) {}
+
+  void spoil(Node& node) {
+    const Hostility asked = hostility_;
+    if (asked == Hostility::mixed)
+      hostility_ = static_cast<Hostility>(rng_.index(static_cast<int>(Hostility::mixed)));
+    if (node.kind == '[' || node.kind == '?' || node.kind == 'M') resize(node);
+    for (Node& part : node.parts) {
+      if (asked == Hostility::mixed && rng_.uniform() < 0.5) continue;
+      spoil(part);
+    }
+    if (hostility_ == Hostility::permuted) permute(node);
+    change(node);
+    hostility_ = asked;
+  }
+
+ private:
+  void change(Node& node) {
+    if (node.kind == 'd' || node.kind == 'f') node.number = changed(node.number);
+    if (node.kind == 'b') node.bits = hostility_ == Hostility::zero ? 0 : node.bits ^ 1;
+    if (node.kind == 'i' || node.kind == 'u') node.bits = changedInteger(node.bits);
+  }
+
+  double changed(double number) {
+    switch (hostility_) {
+      case Hostility::notANumber:
+        return std::numeric_limits<double>::quiet_NaN();
+      case Hostility::infinite:
+        return std::numeric_limits<double>::infinity() * (rng_.uniform() < 0.5 ? -1 : 1);
+      case Hostility::overflowing:
+        return (rng_.uniform() < 0.5 ? -kHuge : kHuge) * rng_.uniform(0.5, 1);
+      case Hostility::denormal:
+        return std::numeric_limits<double>::denorm_min();
+      case Hostility::zero:
+        return 0;
+      case Hostility::constant:
+        return 1.5;
+      case Hostility::shifted:
+        return number + 1;
+      case Hostility::scaled:
+        return number * 1e6 + 1e6;
+      default:
+        return number;
+    }
+  }
+
+  std::uint64_t changedInteger(std::uint64_t bits) {
+    switch (hostility_) {
+      case Hostility::extremeIntegers: {
+        constexpr std::array<std::int64_t, 8> kValues = {-1,
+                                                         std::numeric_limits<std::int32_t>::max(),
+                                                         std::numeric_limits<std::int32_t>::min(),
+                                                         1000,
+                                                         65536,
+                                                         -1000,
+                                                         1 << 24,
+                                                         7};
+        return static_cast<std::uint64_t>(kValues[static_cast<std::size_t>(rng_.index(kValues.size()))]);
+      }
+      case Hostility::zero:
+        return 0;
+      case Hostility::constant:
+        return 3;
+      case Hostility::shifted:
+        return bits + 1;
+      case Hostility::scaled:
+        return bits * 100 + 1;
+      default:
+        return bits;
+    }
+  }
+
+  int newSize(int size, int fixed) {
+    if (fixed >= 0) return fixed;
+    if (hostility_ == Hostility::empty) return 0;
+    if (hostility_ == Hostility::huge) return 300;
+    if (hostility_ == Hostility::ragged) return std::max(0, size + rng_.index(5) - 2);
+    return size;
+  }
+
+  void resize(Node& node) {
+    if (node.kind == 'M') {
+      node.rows = newSize(node.rows, node.fixedRows);
+      node.cols = newSize(node.cols, node.fixedCols);
+      fill(node, static_cast<std::size_t>(node.rows) * static_cast<std::size_t>(node.cols));
+    } else if (node.kind == '?') {
+      if (hostility_ == Hostility::empty || hostility_ == Hostility::ragged) node.parts.clear();
+    } else if (hostility_ == Hostility::empty) {
+      node.parts.clear();
+    } else if (hostility_ == Hostility::huge) {
+      fill(node, 20000);
+    } else if (hostility_ == Hostility::ragged) {
+      fill(node, std::max<std::size_t>(2, node.parts.size()) - 2 + static_cast<std::size_t>(rng_.index(5)));
+    }
+  }
+
+  // Repeats what is there; where nothing is, only numbers can be made.
+  void fill(Node& node, std::size_t count) {
+    if (node.parts.empty() && count > 0) {
+      if (node.kind == '[') return;
+      node.parts.push_back({.kind = 'd', .number = 1});
+      if (!node.layout.ends_with('d')) node.parts.back() = {.kind = 'i', .size = 4, .bits = 1};
+    }
+    constexpr std::size_t kMostNodes = 400'000;
+    if (count > node.parts.size() &&
+        weight(node) * (count / std::max<std::size_t>(1, node.parts.size())) > kMostNodes)
+      count = node.parts.size();
+    if (node.kind == 'M' &&
+        count != static_cast<std::size_t>(node.rows) * static_cast<std::size_t>(node.cols)) {
+      node.rows = node.fixedRows >= 0 ? node.fixedRows : 0;
+      node.cols = node.fixedCols >= 0 && node.rows == 0 ? node.fixedCols : 0;
+      count = 0;
+    }
+    const std::size_t had = node.parts.size();
+    node.parts.reserve(std::max(count, had));
+    while (node.parts.size() < count) node.parts.push_back(node.parts[node.parts.size() % had]);
+    node.parts.resize(count);
+  }
+
+  static std::size_t weight(const Node& node) {
+    std::size_t sum = 1;
+    for (const Node& part : node.parts) sum += weight(part);
+    return sum;
+  }
+
+  void permute(Node& node) {
+    if (node.kind == '(') return;
+    for (std::size_t k = node.parts.size(); k > 1; --k)
+      std::swap(node.parts[k - 1], node.parts[static_cast<std::size_t>(rng_.index(static_cast<int>(k)))]);
+  }
+
+  Hostility hostility_;
+  Rng& rng_;
+};
+
+}  // namespace
+
+std::string toString(Hostility hostility) {
+  constexpr std::array<const char*, static_cast<std::size_t>(Hostility::count)> kNames = {
+      "empty",    "huge",   "nan",      "inf",     "1e200",  "denormal", "zero",
+      "constant", "ragged", "permuted", "shifted", "scaled", "integers", "mixed"};
+  return kNames.at(static_cast<std::size_t>(hostility));
+}
+
+bool keepsNumbers(Hostility hostility) {
+  constexpr auto kKeeping = std::to_array({Hostility::huge, Hostility::ragged, Hostility::permuted,
+                                           Hostility::extremeIntegers, Hostility::mixed});
+  return std::ranges::find(kKeeping, hostility) != kKeeping.end();
+}
+
+std::vector<std::byte> spoilt(std::span<const std::byte> answer, const std::string& layout,
+                              Hostility hostility, Rng& rng) {
+  Node node = Parser(layout, answer).all();
+  if (!layout.empty()) Spoiler(hostility, rng).spoil(node);
+  Bytes bytes;
+  if (!layout.empty()) write(node, bytes);
+  return bytes;
+}
+
+std::size_t sizeOfValue(std::span<const std::byte> bytes, const std::string& layout) {
+  return Parser(layout, bytes).sizeOfFirst();
+}
+
+}  // namespace rex::grading
