@@ -7,6 +7,7 @@
 #include "course/film.h"
 #include "geometry/rotation.h"
 #include "interface.h"
+#include "kinematics/inverse_kinematics.h"
 
 using namespace rex;
 using grading::Check;
@@ -48,21 +49,39 @@ Simulator at(const Simulator& S, const Eigen::VectorXd& q) {
 
 using Map = std::function<TaskValue(const SimulatorDescription&)>;
 
+VectorFunction valuesOf(Check& check, const Simulator& S, const Map& map, Eigen::Index dimensions) {
+  return [&check, &S, &map, dimensions](const Eigen::VectorXd& q) {
+    const TaskValue there = map(at(S, q).description());
+    check.shape("y", there.y, dimensions, 1);
+    return there.y;
+  };
+}
+
 // y and J fit together, and y does change with q.
 void checkJacobianOf(Check& check, const Simulator& S, const Map& map) {
   const TaskValue value = map(S.description());
   check.that("y has at least one entry", value.y.size() > 0);
   check.shape("y", value.y, value.y.size(), 1);
   check.shape("J", value.J, value.y.size(), S.getJointDimension());
-  const VectorFunction f = [&](const Eigen::VectorXd& q) {
-    const TaskValue there = map(at(S, q).description());
-    check.shape("y", there.y, value.y.size(), 1);
-    return there.y;
-  };
-  const Eigen::MatrixXd numeric = numericJacobian(f, S.getJointAngles());
+  const Eigen::MatrixXd numeric =
+      numericJacobian(valuesOf(check, S, map, value.y.size()), S.getJointAngles());
   check.that("y changes when the robot moves", numeric.cwiseAbs().maxCoeff() > kNotZero);
   check.near("J against numeric differences of y", value.J, numeric,
              1e-5 * (1 + numeric.cwiseAbs().maxCoeff()));
+}
+
+// The Jacobian of y = q is easily found. A map of the task is zero where S fulfils it, and hardly more beside
+// it than its derivative there makes of the way.
+void checkIsOfTheTask(Check& check, const Simulator& S, const Map& map) {
+  const Eigen::VectorXd y = map(S.description()).y;
+  check.that("y has at least one entry", y.size() > 0);
+  check.atMost("|y| where the task is fulfilled", y.cwiseAbs().maxCoeff(), kZero);
+  const Eigen::VectorXd way = check.rng().uniformVector(S.getJointDimension(), -1e-3, 1e-3);
+  const VectorFunction f = valuesOf(check, S, map, y.size());
+  const Eigen::VectorXd beside = S.getJointAngles() + way;
+  const double change = (numericJacobian(f, beside).cwiseAbs() * way.cwiseAbs()).maxCoeff();
+  check.atMost("|y| a thousandth of a radian beside it", f(beside).cwiseAbs().maxCoeff(),
+               kZero + 10 * change);
 }
 
 // The three maps, for any robot.
@@ -128,9 +147,14 @@ void lookAtJacobian(Check& check, Student& student, const Robot& robot) {
   const Eigen::Vector3d gaze = randomDirection(check.rng());
   const Eigen::Vector3d target =
       robot.S.kinematicsPos(robot.body) + check.rng().uniform(0.5, 2) * randomDirection(check.rng());
+  const auto mapTo = [&](const Eigen::Vector3d& place) {
+    return [&, place](const SimulatorDescription& S) { return student.lookAt(S, robot.body, gaze, place); };
+  };
+  const Simulator& S = robot.S;
+  check.input(describe(robot, robot.body) + "; the target along the gaze");
+  checkIsOfTheTask(check, S, mapTo(S.kinematicsPos(robot.body) + S.kinematicsVec(robot.body, gaze)));
   check.input(describe(robot, robot.body));
-  checkJacobianOf(check, robot.S,
-                  [&](const SimulatorDescription& S) { return student.lookAt(S, robot.body, gaze, target); });
+  checkJacobianOf(check, S, mapTo(target));
 }
 
 // Two hands that turn freely: yaw, pitch and roll of each are joints.
@@ -160,12 +184,29 @@ void opposePalmsIsZeroWhenOpposite(Check& check, Student& student) {
   });
 }
 
+// Moves the robot until its palms are opposite; false if that does not work out from where it is.
+bool opposed(Robot& robot, const Eigen::Vector3d& palm) {
+  Simulator& S = robot.S;
+  for (int step = 0; step < 100; ++step) {
+    const Eigen::Vector3d sum = S.kinematicsVec(robot.other, palm) + S.kinematicsVec(robot.body, palm);
+    if (sum.norm() < 1e-12) return true;
+    const Eigen::MatrixXd J = S.jacobianVec(robot.other, palm) + S.jacobianVec(robot.body, palm);
+    S.setJointAngles(S.getJointAngles() - inverseKinematicsStep(J, sum, 1e-3));
+  }
+  return false;
+}
+
 void opposePalmsJacobian(Check& check, Student& student, const Robot& robot) {
   const Eigen::Vector3d palm = randomDirection(check.rng());
-  check.input(describe(robot, robot.body));
-  checkJacobianOf(check, robot.S, [&](const SimulatorDescription& S) {
+  const auto map = [&](const SimulatorDescription& S) {
     return student.opposePalms(S, robot.other, robot.body, palm);
-  });
+  };
+  Robot clapping = robot;
+  while (!opposed(clapping, palm)) clapping.S = inRandomPosture(robot.S, check.rng(), 1);
+  check.input(describe(robot, robot.body) + ", where the palms are opposite");
+  checkIsOfTheTask(check, clapping.S, map);
+  check.input(describe(robot, robot.body));
+  checkJacobianOf(check, robot.S, map);
 }
 
 void distanceIsZeroAtTheGoal(Check& check, Student& student, const Robot& robot) {
@@ -195,9 +236,13 @@ void distanceIsZeroAtTheGoal(Check& check, Student& student, const Robot& robot)
 void distanceJacobian(Check& check, Student& student, const Robot& robot) {
   const Eigen::Vector3d goal =
       robot.S.kinematicsPos(robot.body) + check.rng().uniform(0.2, 1) * randomDirection(check.rng());
+  const auto mapTo = [&](const Eigen::Vector3d& place) {
+    return [&, place](const SimulatorDescription& S) { return student.distanceToGoal(S, robot.body, place); };
+  };
+  check.input(describe(robot, robot.body) + ", at the goal");
+  checkIsOfTheTask(check, robot.S, mapTo(robot.S.kinematicsPos(robot.body)));
   check.input(describe(robot, robot.body));
-  checkJacobianOf(check, robot.S,
-                  [&](const SimulatorDescription& S) { return student.distanceToGoal(S, robot.body, goal); });
+  checkJacobianOf(check, robot.S, mapTo(goal));
 }
 
 using MapCheck = void (*)(Check&, Student&, const Robot&);
