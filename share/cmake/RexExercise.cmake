@@ -106,8 +106,7 @@ function(rex_worker_object name folder output)
   set_target_properties(${name}_worker PROPERTIES REX_FOLDER ${folder})
 endfunction()
 
-# What `rex-worker-part` leaves of the modules for workers: nothing of what the exercise forbids is in it. Leaves in
-# REX_WORKER_LIBRARIES the third-party libraries that it may need.
+# What `rex-worker-part` leaves of the modules for workers: nothing of what the exercise forbids is in it.
 function(rex_worker_part name folder output)
   set(objects)
   set(libraries)
@@ -129,20 +128,18 @@ function(rex_worker_part name folder output)
       if(NOT type STREQUAL INTERFACE_LIBRARY)
         list(APPEND files $<TARGET_LINKER_FILE:${library}>)
       endif()
-    elseif(IS_ABSOLUTE ${library})
+    elseif(IS_ABSOLUTE ${library})  # others, as -ldl, are in the C library
       list(APPEND files ${library})
-    else()
-      list(APPEND files -l${library})
     endif()
   endforeach()
-  set(REX_WORKER_LIBRARIES ${files} PARENT_SCOPE)
   set(list ${output}/library.objects)
   file(GENERATE OUTPUT ${list} CONTENT "$<JOIN:${objects},\n>\n")
   set(groups ${PROJECT_SOURCE_DIR}/share/cmake/exercise/function_groups.toml)
   set(part ${output}/worker_part.o)
-  add_custom_command(OUTPUT ${part} ${output}/worker.offers
+  add_custom_command(OUTPUT ${part} ${output}/worker_part.options ${output}/worker.offers
     COMMAND rex_worker_part --exercise ${folder} --groups ${groups} --worker ${REX_WORKER_OBJECT} --objects ${list}
-            --functions ${ARG_FUNCTIONS} --compiler ${CMAKE_CXX_COMPILER} --objcopy ${CMAKE_OBJCOPY} --folder ${output}
+            --functions ${ARG_FUNCTIONS} --libraries ${files} --compiler ${CMAKE_CXX_COMPILER}
+            --objcopy ${CMAKE_OBJCOPY} --nm ${CMAKE_NM} --folder ${output}
     DEPENDS rex_worker_part ${REX_WORKER_OBJECT} ${objects} ${list} ${groups} ${folder}/exercise.toml
     COMMENT "Leaving of the library what ${name} allows" VERBATIM)
   add_custom_target(${name}_worker_part DEPENDS ${part} ${output}/worker.offers)
@@ -215,8 +212,7 @@ function(rex_exercise name)
   endif()
   rex_worker_part(${name} ${ARG_FOLDER} ${ARG_OUTPUT} ${modules})
   add_custom_target(${name}_ready DEPENDS ${name}_grader ${name}_worker ${name}_worker_part ${modules})
-  set_target_properties(${name}_ready PROPERTIES REX_WORKER_PART ${ARG_OUTPUT}/worker_part.o
-                        REX_WORKER_LIBRARIES "${REX_WORKER_LIBRARIES}")
+  set_target_properties(${name}_ready PROPERTIES REX_WORKER_PART ${ARG_OUTPUT}/worker_part)
   if(REX_PREFIX)
     add_dependencies(${name}_ready rex_student_prefix)
   endif()
@@ -248,7 +244,6 @@ function(rex_exercise_description)
   endforeach()
   rex_json_strings(REX_LIBRARIES_JSON ${libraries})
   rex_json_strings(REX_FUNCTIONS_JSON ${ARG_FUNCTIONS})
-  rex_json_strings(REX_WORKER_LIBRARIES_JSON ${REX_WORKER_LIBRARIES})
   configure_file(${PROJECT_SOURCE_DIR}/share/cmake/exercise/build.json.in
                  ${CMAKE_CURRENT_BINARY_DIR}/${name}.build.json.in @ONLY)
   file(GENERATE OUTPUT ${ARG_OUTPUT}/build.json INPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}.build.json.in)
@@ -290,12 +285,11 @@ endfunction()
 # Builds a worker program from student sources that have no main(), for tests.
 function(rex_worker target exercise)
   get_target_property(folder ${exercise}_worker REX_FOLDER)
-  get_target_property(libraries ${exercise}_ready REX_WORKER_LIBRARIES)
-  get_target_property(object ${exercise}_ready REX_WORKER_PART)
+  get_target_property(part ${exercise}_ready REX_WORKER_PART)
   add_executable(${target} ${ARGN})
   add_dependencies(${target} ${exercise}_worker_part)
   target_compile_options(${target} PRIVATE ${REX_STUDENT_FLAGS} -UNDEBUG "SHELL:-iquote \"${folder}\""
                                            "SHELL:-isystem \"${PROJECT_SOURCE_DIR}/src\"")
-  target_link_libraries(${target} PRIVATE ${object} -Wl,--as-needed -Wl,--no-relax ${libraries} Eigen3::Eigen)
-  set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${object})
+  target_link_libraries(${target} PRIVATE ${part}.o -Wl,@${part}.options -Wl,--no-relax Eigen3::Eigen)
+  set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${part}.o ${part}.options)
 endfunction()

@@ -342,13 +342,14 @@ StudentProgram linkWorker(const Toolchain& toolchain, const StudentObject& objec
     return link(toolchain, tools, worker, {toolchain.workerObject.string(), renamed.string()},
                 texts(toolchain.libraries), object.name);
   for (const WorkerOfPart& part : workersOfParts(toolchain.workerPart)) {
-    const StudentProgram linked = link(toolchain, tools, worker.string() + "." + part.id,
-                                       {part.object.string(), "@" + part.options.string(), renamed.string()},
-                                       toolchain.workerLibraries, object.name);
+    const StudentProgram linked =
+        link(toolchain, tools, worker.string() + "." + part.id,
+             {part.object.string(), "@" + part.options.string(), renamed.string()}, {}, object.name);
     if (!linked.ok) return linked;
   }
-  return link(toolchain, tools, worker, {toolchain.workerPart.string(), renamed.string()},
-              toolchain.workerLibraries, object.name);
+  const std::string options = "@" + linkOptions(toolchain.workerPart).string();
+  return link(toolchain, tools, worker, {toolchain.workerPart.string(), options, renamed.string()}, {},
+              object.name);
 }
 
 StudentProgram linkProgram(const Toolchain& toolchain, const StudentObject& object) {

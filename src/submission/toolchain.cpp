@@ -32,7 +32,6 @@ Toolchain readToolchain(const std::filesystem::path& buildJson) {
             .prefix = json.value("prefix", ""),
             .workerPart = json.value("worker_part", ""),
             .offers = json.value("offers", ""),
-            .workerLibraries = json.value("worker_libraries", std::vector<std::string>{}),
             .objcopy = json.value("objcopy", "objcopy"),
             .objdump = json.value("objdump", "objdump")};
   } catch (const nlohmann::json::exception& error) {

@@ -18,13 +18,12 @@ struct Toolchain {
   std::filesystem::path prefix{};                ///< see prefixFlags(); empty: none
   std::filesystem::path workerPart{};  ///< what linkWorkerParts() made; empty: workers have the whole library
   std::filesystem::path offers{};      ///< names in it that graded functions may use
-  std::vector<std::string> workerLibraries{};  ///< of others, that it may need
   std::string objcopy = "objcopy";
   std::string objdump = "objdump";
 };
 
 /// Reads build.json. Throws Error when it is missing (the exercise is not built), or a key other than prefix,
-/// worker_part, offers, worker_libraries, objcopy and objdump is.
+/// worker_part, offers, objcopy and objdump is.
 [[nodiscard]] Toolchain readToolchain(const std::filesystem::path& buildJson);
 
 }  // namespace rex::grading

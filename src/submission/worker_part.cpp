@@ -39,6 +39,29 @@ std::set<std::string> definedIn(const fs::path& object) {
   return names;
 }
 
+std::string run(const std::vector<std::string>& command) {
+  const ProcessResult done = runProcess(command, {.outputLimit = 1u << 26});
+  if (!done.ok()) throw Error({.what = "cannot run " + command.front(), .found = done.error});
+  return done.output;
+}
+
+// Those of the libraries of others that the object file needs: another's functions do forbidden work as well.
+std::string neededBy(const fs::path& object, const WorkerPartOrder& order) {
+  std::set<std::string, std::less<>> missing;
+  for (const ObjectSymbol& symbol : readObjectFile(readTextFile(object), object.string()).symbols)
+    if (!symbol.isDefined && symbol.isReferred) missing.insert(symbol.name);
+  const auto isMissing = [&](std::string_view line) {
+    return missing.contains(line.substr(0, line.find('@')));  // the rest is its version
+  };
+  std::string needed;
+  for (const fs::path& library : order.libraries) {
+    const std::string names = run({order.nm, "-D", "--defined-only", "-fjust-symbols", library.string()});
+    const std::vector<std::string_view> lines = splitLines(names);
+    if (std::any_of(lines.begin(), lines.end(), isMissing)) needed += library.string() + "\n";
+  }
+  return needed;
+}
+
 std::string fileOf(const ExerciseInfo& exercise) { return (exercise.folder / "exercise.toml").string(); }
 
 /// What the object files of the library define.
@@ -92,11 +115,6 @@ void requireNothingForbidden(const fs::path& object, const std::string& part, co
     throw Error({.what = "forbids functions that something needs which is allowed",
                  .where = {fileOf(exercise)},
                  .found = fmt::format("{} in the worker", fmt::join(there, ", "))});
-}
-
-void run(const std::vector<std::string>& command) {
-  const ProcessResult done = runProcess(command, {});
-  if (!done.ok()) throw Error({.what = "cannot run " + command.front(), .found = done.error});
 }
 
 void writeLines(const fs::path& file, const std::set<std::string>& lines) {
@@ -161,11 +179,16 @@ void linkWorkerParts(const WorkerPartOrder& order) {
     const fs::path object = order.folder / fmt::format("worker_part.{}.o", part.id);
     link(order, object, ofPart, others);
     requireNothingForbidden(object, part.id, exercise);
-    writeTextFile(fs::path(object).replace_extension(".options"), missing);
+    writeTextFile(linkOptions(object), missing + neededBy(object, order));
   }
   link(order, whole, ofAll, "");
   requireNothingForbidden(whole, "", exercise);
+  writeTextFile(linkOptions(whole), neededBy(whole, order));
   writeLines(order.folder / "worker.offers", ofAll);
+}
+
+fs::path linkOptions(const fs::path& workerPart) {
+  return fs::path(workerPart).replace_extension(".options");
 }
 
 std::vector<WorkerOfPart> workersOfParts(const fs::path& workerPart) {
@@ -174,7 +197,7 @@ std::vector<WorkerOfPart> workersOfParts(const fs::path& workerPart) {
   for (const auto& entry : fs::directory_iterator(workerPart.parent_path())) {
     const std::string name = entry.path().filename().string();
     constexpr std::string_view kStart = "worker_part.", kEnd = ".options";
-    if (name.starts_with(kStart) && name.ends_with(kEnd))
+    if (name.starts_with(kStart) && name.ends_with(kEnd) && entry.path() != linkOptions(workerPart))
       found.push_back({.id = name.substr(kStart.size(), name.size() - kStart.size() - kEnd.size()),
                        .object = fs::path(entry.path()).replace_extension(".o"),
                        .options = entry.path()});

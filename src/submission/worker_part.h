@@ -16,8 +16,9 @@ struct WorkerPartOrder {
   std::filesystem::path worker;                ///< object file of the loop that calls the student's functions
   std::vector<std::filesystem::path> objects;  ///< of the library, each function in a section of its own
   std::vector<std::string> functions;          ///< of the student's that the loop calls
-  std::string compiler;                        ///< that links
-  std::string objcopy;
+  std::vector<std::filesystem::path> libraries;  ///< shared ones of others that the library needs
+  std::string compiler;                          ///< that links
+  std::string objcopy, nm;
   std::filesystem::path folder;  ///< to write to
 };
 
@@ -27,6 +28,10 @@ struct WorkerPartOrder {
 /// student's file may use go into worker.offers. Throws Error where a name that is allowed does not exist, or
 /// where what is forbidden would be there because something that is allowed needs it.
 void linkWorkerParts(const WorkerPartOrder& order);
+
+/// The file of options by which worker_part.o is linked: the libraries of others that it needs, and no
+/// others.
+[[nodiscard]] std::filesystem::path linkOptions(const std::filesystem::path& workerPart);
 
 /// The workers of parts that linkWorkerParts() made beside worker_part.o, by the id of the part, each with
 /// the file of options by which it is linked.

@@ -18,6 +18,8 @@ int main(int argc, char** argv) {
   app.add_option("--objects", objects, "file with the library's object files, one in a line")->required();
   app.add_option("--compiler", order.compiler, "that links")->required();
   app.add_option("--objcopy", order.objcopy, "that hides names")->required();
+  app.add_option("--nm", order.nm, "that lists names")->required();
+  app.add_option("--libraries", order.libraries, "of others that the library needs");
   app.add_option("--functions", order.functions, "of the student's that the loop calls")->required();
   app.add_option("--folder", order.folder, "to write to")->required();
   CLI11_PARSE(app, argc, argv);

@@ -10,8 +10,8 @@
 #include "base/derivative_check.h"
 #include "control/riccati.h"
 #include "dynamics/lagrange.h"
-#include "dynamics/ode_step.h"
 #include "support/expect_error.h"
+#include "support/runge_kutta.h"
 
 namespace rex::racer_dynamics_test {
 

@@ -6,11 +6,11 @@
 
 #include "base/rng.h"
 #include "dynamics/energy.h"
-#include "dynamics/ode_step.h"
 #include "dynamics/stepper.h"
 #include "scene/ors_reader.h"
 #include "support/paths.h"
 #include "support/planar_chain.h"
+#include "support/runge_kutta.h"
 
 namespace rex::stepper_energy_test {
 

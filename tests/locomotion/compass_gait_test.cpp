@@ -7,7 +7,6 @@
 
 #include "base/derivative_check.h"
 #include "base/rng.h"
-#include "dynamics/ode_step.h"
 #include "support/expect_error.h"
 
 namespace rex::compass_gait_test {

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "base/rng.h"
-#include "dynamics/ode_step.h"
 #include "support/expect_error.h"
+#include "support/runge_kutta.h"
 
 namespace rex::inverted_pendulum_test {
 

@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 
-#include "dynamics/ode_step.h"
 #include "support/expect_error.h"
+#include "support/runge_kutta.h"
 
 namespace rex::rimless_wheel_test {
 

@@ -4,8 +4,8 @@
 
 #include "base/derivative_check.h"
 #include "base/rng.h"
-#include "dynamics/ode_step.h"
 #include "support/expect_error.h"
+#include "support/runge_kutta.h"
 
 namespace rex::spring_leg_test {
 

@@ -52,10 +52,14 @@ class WorkerPart : public ::testing::Test {
                      .worker = folder() / "loop.o",
                      .objects = {folder() / "library.o"},
                      .functions = {"first", "second"},
+                     .libraries = libraries_,
                      .compiler = "g++",
                      .objcopy = "objcopy",
+                     .nm = "nm",
                      .folder = folder()});
   }
+
+  std::vector<fs::path> libraries_;
 
   // The functions of the library that are in the object file, offered or not.
   std::vector<std::string> functionsIn(const std::string& object) const {
@@ -124,6 +128,29 @@ TEST_F(WorkerPart, IsMadeForOnePartAlone) {
               ::testing::HasSubstr("terminate called after throwing an instance of 'int'"));
   link("allowed = [\"course\"]");
   EXPECT_TRUE(workersOfParts(folder() / "worker_part.o").empty()) << "of before";
+}
+
+// Of two libraries that the whole of ours needs, easy() needs one.
+TEST_F(WorkerPart, IsLinkedWithThoseLibrariesOfOthersThatItNeeds) {
+  for (const std::string name : {"one", "other"}) {
+    compile(name, "extern \"C\" int " + name + "(int x) { return x; }");
+    libraries_.push_back(folder() / ("lib" + name + ".so"));
+    const std::string object = (folder() / name).string() + ".o";
+    ASSERT_TRUE(runProcess({"g++", "-shared", object, "-o", libraries_.back()}, {}).ok());
+  }
+  compile("loop", "int main() {}");
+  compile("library",
+          "extern \"C\" int one(int); extern \"C\" int other(int);\n"
+          "namespace rex { int easy(int x) { return one(x); } int hard(int x) { return other(x); }\n"
+          "struct Rng { int next(); }; int Rng::next() { return 4; } }\n"
+          "extern \"C\" void rexNotAllowedHere() { throw 1; }\n");
+  const fs::path options = linkOptions(folder() / "worker_part.o");
+  link("allowed = [\"course\"]");
+  EXPECT_EQ(readTextFile(options), libraries_[0].string() + "\n");
+  link("allowed = [\"rex::Rng\"]");
+  EXPECT_EQ(readTextFile(options), "");
+  libraries_ = {folder() / "libnone.so"};
+  EXPECT_REX_ERROR(link("allowed = [\"course\"]"), "cannot run nm");
 }
 
 }  // namespace rex::grading::worker_part_test
