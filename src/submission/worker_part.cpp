@@ -17,6 +17,7 @@ namespace rex::grading {
 namespace {
 
 namespace fs = std::filesystem;
+using Names = std::set<std::string, std::less<>>;
 
 constexpr const char *kInstances = "eigen_instances", *kRefusal = "rexNotAllowedHere";
 
@@ -32,8 +33,8 @@ std::vector<std::string> namesOf(const std::vector<ForbiddenFunction>& forbidden
 }
 
 // What other files may use of an object file, with whether it holds what Eigen compiles.
-std::set<std::string> definedIn(const fs::path& object) {
-  std::set<std::string> names;
+Names definedIn(const fs::path& object) {
+  Names names;
   for (const ObjectSymbol& symbol : readObjectFile(readTextFile(object), object.string()).symbols)
     if (symbol.isDefined && (symbol.isGlobal || symbol.isWeak)) names.insert(symbol.name);
   return names;
@@ -45,29 +46,12 @@ std::string run(const std::vector<std::string>& command) {
   return done.output;
 }
 
-// Those of the libraries of others that the object file needs: another's functions do forbidden work as well.
-std::string neededBy(const fs::path& object, const WorkerPartOrder& order) {
-  std::set<std::string, std::less<>> missing;
-  for (const ObjectSymbol& symbol : readObjectFile(readTextFile(object), object.string()).symbols)
-    if (!symbol.isDefined && symbol.isReferred) missing.insert(symbol.name);
-  const auto isMissing = [&](std::string_view line) {
-    return missing.contains(line.substr(0, line.find('@')));  // the rest is its version
-  };
-  std::string needed;
-  for (const fs::path& library : order.libraries) {
-    const std::string names = run({order.nm, "-D", "--defined-only", "-fjust-symbols", library.string()});
-    const std::vector<std::string_view> lines = splitLines(names);
-    if (std::any_of(lines.begin(), lines.end(), isMissing)) needed += library.string() + "\n";
-  }
-  return needed;
-}
-
 std::string fileOf(const ExerciseInfo& exercise) { return (exercise.folder / "exercise.toml").string(); }
 
 /// What the object files of the library define.
 struct Definitions {
-  std::set<std::string> all{};
-  std::set<std::string> ofEigen{};  ///< that the library has compiled for everybody
+  Names all{};
+  Names ofEigen{};  ///< that the library has compiled for everybody
 };
 
 Definitions definitionsIn(const std::vector<fs::path>& objects) {
@@ -83,10 +67,10 @@ Definitions definitionsIn(const std::vector<fs::path>& objects) {
 }
 
 // Of the library what is allowed and not forbidden, and all that is compiled of Eigen beforehand.
-std::set<std::string> offered(const Definitions& definitions, const std::vector<std::string>& allowed,
-                              const ExerciseInfo& exercise) {
+Names offered(const Definitions& definitions, const std::vector<std::string>& allowed,
+              const ExerciseInfo& exercise) {
   const std::vector<std::string> forbidden = namesOf(exercise.forbidden);
-  std::set<std::string> found = definitions.ofEigen, unknown(allowed.begin(), allowed.end());
+  Names found = definitions.ofEigen, unknown(allowed.begin(), allowed.end());
   for (const std::string& symbol : definitions.all) {
     if (!isOneOf(symbol, allowed)) continue;
     std::erase_if(unknown, [&](const std::string& name) { return isSymbolOf(symbol, name); });
@@ -117,15 +101,29 @@ void requireNothingForbidden(const fs::path& object, const std::string& part, co
                  .found = fmt::format("{} in the worker", fmt::join(there, ", "))});
 }
 
-void writeLines(const fs::path& file, const std::set<std::string>& lines) {
+void writeLines(const fs::path& file, const Names& lines) {
   writeTextFile(file, fmt::format("{}\n", fmt::join(lines, "\n")));
 }
 
+// Names of others that something refers to, or that nothing does any more.
+Names undefinedIn(const fs::path& object, bool isReferred) {
+  Names names;
+  for (const ObjectSymbol& symbol : readObjectFile(readTextFile(object), object.string()).symbols)
+    if (!symbol.isDefined && symbol.isReferred == isReferred) names.insert(symbol.name);
+  return names;
+}
+
+// The linker leaves the names of what it left out, and would ask for their libraries later.
+void dropUnusedNames(const fs::path& object, const fs::path& list, const WorkerPartOrder& order) {
+  writeLines(list, undefinedIn(object, false));
+  run({order.objcopy, "--strip-symbols=" + list.string(), object.string()});
+}
+
 // Groups of sections are resolved here: a student's copy of a template does not take the place of ours.
-void link(const WorkerPartOrder& order, const fs::path& object, const std::set<std::string>& offers,
+void link(const WorkerPartOrder& order, const fs::path& object, const Names& offers,
           const std::string& options) {
   std::string arguments = "-Wl,--gc-sections\n-Wl,--force-group-allocation\n" + options;
-  std::set<std::string> roots = offers;
+  Names roots = offers;
   roots.insert({"main", kRefusal});
   for (const std::string& name : roots) arguments += fmt::format("-Wl,--undefined={}\n", name);
   arguments += order.worker.string() + "\n";
@@ -135,6 +133,22 @@ void link(const WorkerPartOrder& order, const fs::path& object, const std::set<s
   run({order.compiler, "-r", "-nostdlib", "-fno-lto", "@" + list.string(), "-o", object.string()});
   writeLines(list, roots);
   run({order.objcopy, "--keep-global-symbols=" + list.string(), object.string()});
+  dropUnusedNames(object, list, order);
+}
+
+// Those of the libraries of others that the object file needs: another's functions do forbidden work as well.
+std::string neededBy(const fs::path& object, const WorkerPartOrder& order) {
+  const Names missing = undefinedIn(object, true);
+  const auto isMissing = [&](std::string_view line) {
+    return missing.contains(line.substr(0, line.find('@')));  // the rest is its version
+  };
+  std::string needed;
+  for (const fs::path& library : order.libraries) {
+    const std::string names = run({order.nm, "-D", "--defined-only", "-fjust-symbols", library.string()});
+    const std::vector<std::string_view> lines = splitLines(names);
+    if (std::any_of(lines.begin(), lines.end(), isMissing)) needed += library.string() + "\n";
+  }
+  return needed;
 }
 
 }  // namespace
@@ -164,12 +178,12 @@ void linkWorkerParts(const WorkerPartOrder& order) {
   const auto offers = [&](const std::vector<std::string>& allowed) {
     return offered(definitions, allowedFunctions(allowed, order.exercise, order.groups), exercise);
   };
-  const std::set<std::string> ofAll = offers(exercise.allowed);
+  const Names ofAll = offers(exercise.allowed);
   const fs::path whole = order.folder / "worker_part.o";
   for (const WorkerOfPart& old : workersOfParts(whole)) fs::remove(old.options);
   for (const ExercisePart& part : exercise.parts) {
     if (part.functions.empty()) continue;
-    const std::set<std::string> ofPart = offers(part.allowed);
+    const Names ofPart = offers(part.allowed);
     std::string others, missing;
     for (const std::string& function : order.functions)
       if (std::find(part.functions.begin(), part.functions.end(), function) == part.functions.end())
