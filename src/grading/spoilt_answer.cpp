@@ -314,10 +314,13 @@ class Spoiler {
       node.parts.push_back({.kind = 'd', .number = 1});
       if (!node.layout.ends_with('d')) node.parts.back() = {.kind = 'i', .size = 4, .bits = 1};
     }
-    constexpr std::size_t kMostNodes = 400'000;
-    if (count > node.parts.size() &&
-        weight(node) * (count / std::max<std::size_t>(1, node.parts.size())) > kMostNodes)
-      count = node.parts.size();
+    if (count > node.parts.size()) {
+      const std::size_t copies = weight(node) * (count / std::max<std::size_t>(1, node.parts.size()));
+      if (copies > spare_)
+        count = node.parts.size();
+      else
+        spare_ -= copies;
+    }
     if (node.kind == 'M' &&
         count != static_cast<std::size_t>(node.rows) * static_cast<std::size_t>(node.cols)) {
       node.rows = node.fixedRows >= 0 ? node.fixedRows : 0;
@@ -343,6 +346,7 @@ class Spoiler {
   }
 
   Hostility hostility_;
+  std::size_t spare_ = 400'000;  // nodes that may still be added, in lists of lists as in one
   Rng& rng_;
 };
 
