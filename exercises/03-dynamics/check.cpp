@@ -120,12 +120,6 @@ void pidSteps(Check& check, Student& student) {
   check.near("position after 15 s", at.q, 1, 1e-3, "m");
 }
 
-void judgesStability(Check& check, Student& student, const PidSettings& gains, double mass, bool stable) {
-  check.input("Kp = " + text(gains.Kp) + ", Ki = " + text(gains.Ki) + ", Kd = " + text(gains.Kd) +
-              ", mass = " + text(mass) + " kg");
-  check.that("the answer is right", student.isStable(gains, mass) == stable);
-}
-
 // The greatest real part of the roots of m s^3 + Kd s^2 + Kp s + Ki, or without s^0 if Ki is zero.
 double growth(const PidSettings& gains, double mass) {
   const int order = gains.Ki == 0 ? 2 : 3;
@@ -136,25 +130,37 @@ double growth(const PidSettings& gains, double mass) {
   return eigenvalues(companion).real().maxCoeff();
 }
 
-// The roots of random gains are told apart from the imaginary axis only at a distance from it; the cases on
-// it are exact.
+struct KnownLoop {
+  PidSettings gains{};
+  double mass = kMass;
+  bool isStable = false;
+};
+
+// Shuffled, so that counting calls does not help. The roots of random gains are told apart from the imaginary
+// axis only at a distance from it; the cases on it are exact.
 void judgesPid(Check& check, Student& student) {
-  judgesStability(check, student, {0, 2, 0}, kMass, false);  // Ki alone
-  judgesStability(check, student, {0, 2, 3}, kMass, false);  // Ki and Kd
-  judgesStability(check, student, {5, 0, 0}, kMass, false);  // oscillates for ever
-  judgesStability(check, student, {0, 0, 5}, kMass, false);  // rests anywhere
-  judgesStability(check, student, {5, 0, 3}, kMass, true);
-  judgesStability(check, student, {4, 6, 3}, 2, false);  // on the border
-  judgesStability(check, student, {-4, 1, -3}, 2, false);
+  std::vector<KnownLoop> loops{{.gains = {0, 2, 0}},  // Ki alone
+                               {.gains = {0, 2, 3}},  // Ki and Kd
+                               {.gains = {5, 0, 0}},  // oscillates for ever
+                               {.gains = {0, 0, 5}},  // rests anywhere
+                               {.gains = {5, 0, 3}, .isStable = true},
+                               {.gains = {4, 6, 3}, .mass = 2},  // on the border
+                               {.gains = {-4, 1, -3}, .mass = 2}};
   Rng& rng = check.rng();
-  for (int wanted = 0; wanted < 60;) {
+  while (loops.size() < 67) {
     const PidSettings gains{rng.uniform(-3, 10), rng.index(3) == 0 ? 0 : rng.uniform(-3, 10),
                             rng.uniform(-3, 10)};
     const double mass = rng.uniform(0.5, 5), rate = growth(gains, mass);
     // Half of the cases are stable, half are not.
-    if (std::abs(rate) < 1e-3 || (rate < 0) != (wanted % 2 == 0)) continue;
-    judgesStability(check, student, gains, mass, rate < 0);
-    ++wanted;
+    if (std::abs(rate) < 1e-3 || (rate < 0) != (loops.size() % 2 == 0)) continue;
+    loops.push_back({gains, mass, rate < 0});
+  }
+  for (std::size_t k = loops.size(); k > 0; --k) {
+    std::swap(loops[k - 1], loops[static_cast<std::size_t>(rng.index(static_cast<int>(k)))]);
+    const auto& [gains, mass, isStable] = loops[k - 1];
+    check.input("Kp = " + text(gains.Kp) + ", Ki = " + text(gains.Ki) + ", Kd = " + text(gains.Kd) +
+                ", mass = " + text(mass) + " kg");
+    check.that("the answer is right", student.isStable(gains, mass) == isStable);
   }
 }
 

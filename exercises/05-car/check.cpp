@@ -307,52 +307,62 @@ void averages(Check& check, Student& student) {
   }
 }
 
-// Four heaps of particles far from each other, so that every child shows its parent.
-void goesThroughAllLines(Check& check, Student& student) {
+// Four heaps of particles far from each other, so that every child shows its parent. With `isLost`, no
+// particle explains what is seen.
+void goesThroughAllLines(Check& check, Student& student, bool isLost) {
   Rng& rng = check.rng();
-  for (int i = 0; i < 5; ++i) {
-    CarWorld world = worldWith(3, rng);
-    world.observationNoise = 40;
-    const int count = 200;
-    const Eigen::Vector2d u(rng.uniform(0.5, 2), rng.uniform(-0.4, 0.4));
-    Eigen::MatrixXd heaps(3, 4);
-    for (int k = 0; k < 4; ++k) heaps.col(k) = Eigen::Vector3d(30 * k, 0, 0) + randomPose(rng);
-    Cloud before{Eigen::MatrixXd(3, count), rng.uniformVector(count, 0.5, 1.5)};
-    for (int k = 0; k < count; ++k) before.states.col(k) = heaps.col(k % 4);
-    for (int k = 0; k < count; ++k) before.weights[k] *= 1 + k % 4;
-    before.weights /= before.weights.sum();
-    const Driven one = drive(world, heaps.col(2), u, 1, rng);
-    const Eigen::VectorXd& y = one.log.observations[0];
-    check.input("200 particles in four places, with weights around 1 : 2 : 3 : 4");
-    const Cloud after = student.filterStep(before, u, y, world, Rng(rng.next()));
-    isCloud(check, after, count);
-    Eigen::MatrixXd noise(3, count);
-    Eigen::Vector4d children = Eigen::Vector4d::Zero(), due = Eigen::Vector4d::Zero();
-    const CarSimulator map = mapOf(world);
-    for (int k = 0; k < count; ++k) {
-      due[k % 4] += count * before.weights[k];
-      int heap = 0;
-      for (int h = 0; h < 4; ++h) {
-        const Eigen::Vector3d d =
-            poseError(after.states.col(k), map.getMeanStateAfterStep(heaps.col(h), u)) / world.dynamicsNoise;
-        if (h == 0 || d.norm() < noise.col(k).norm()) {
-          noise.col(k) = d;
-          heap = h;
-        }
+  CarWorld world = worldWith(3, rng);
+  world.observationNoise = 40;
+  const int count = 200;
+  const Eigen::Vector2d u(rng.uniform(0.5, 2), rng.uniform(-0.4, 0.4));
+  Eigen::MatrixXd heaps(3, 4);
+  for (int k = 0; k < 4; ++k) heaps.col(k) = Eigen::Vector3d(30 * k, 0, 0) + randomPose(rng);
+  Cloud before{Eigen::MatrixXd(3, count), rng.uniformVector(count, 0.5, 1.5)};
+  for (int k = 0; k < count; ++k) before.states.col(k) = heaps.col(k % 4);
+  for (int k = 0; k < count; ++k) before.weights[k] *= 1 + k % 4;
+  before.weights /= before.weights.sum();
+  const Driven one = drive(world, heaps.col(2), u, 1, rng);
+  const Eigen::VectorXd y = isLost ? Eigen::VectorXd::Constant(6, 1e200) : one.log.observations[0];
+  check.input(std::string("200 particles in four places, with weights around 1 : 2 : 3 : 4") +
+              (isLost ? "; an observation of 1e200 m, so that all likelihoods are zero" : ""));
+  const Cloud after = student.filterStep(before, u, y, world, Rng(rng.next()));
+  isCloud(check, after, count);
+  Eigen::MatrixXd noise(3, count);
+  Eigen::Vector4d children = Eigen::Vector4d::Zero(), due = Eigen::Vector4d::Zero();
+  const CarSimulator map = mapOf(world);
+  for (int k = 0; k < count; ++k) {
+    due[k % 4] += count * before.weights[k];
+    int heap = 0;
+    for (int h = 0; h < 4; ++h) {
+      const Eigen::Vector3d d =
+          poseError(after.states.col(k), map.getMeanStateAfterStep(heaps.col(h), u)) / world.dynamicsNoise;
+      if (h == 0 || d.norm() < noise.col(k).norm()) {
+        noise.col(k) = d;
+        heap = h;
       }
-      children[heap] += 1;
     }
-    check.atMost("how far a particle is from where a parent leads, in deviations",
-                 noise.cwiseAbs().maxCoeff(), 7);
-    check.near("mean square of the noise, in deviations", noise.squaredNorm() / (3 * count), 1,
-               kSigmas * std::sqrt(2. / (3 * count)));
-    // Also if all children are drawn by themselves.
-    for (int h = 0; h < 4; ++h)
-      check.near("children of the particles in one place", children[h], due[h],
-                 kSigmas * std::sqrt(due[h] * (1 - due[h] / count)));
-    check.near("weights after the step", after.weights, weightsBeside(logDensities(world, after.states, y)),
-               1e-9);
+    children[heap] += 1;
   }
+  check.atMost("how far a particle is from where a parent leads, in deviations", noise.cwiseAbs().maxCoeff(),
+               7);
+  check.near("mean square of the noise, in deviations", noise.squaredNorm() / (3 * count), 1,
+             kSigmas * std::sqrt(2. / (3 * count)));
+  // Also if all children are drawn by themselves.
+  for (int h = 0; h < 4; ++h)
+    check.near("children of the particles in one place", children[h], due[h],
+               kSigmas * std::sqrt(due[h] * (1 - due[h] / count)));
+  const Eigen::VectorXd wanted = isLost ? Eigen::VectorXd::Constant(count, 1. / count)
+                                        : weightsBeside(logDensities(world, after.states, y));
+  check.near("weights after the step", after.weights, wanted, 1e-9);
+}
+
+void explainsWhatIsSeen(Check& check, Student& student) {
+  for (int i = 0; i < 5; ++i) goesThroughAllLines(check, student, false);
+}
+
+// Also a step in which it is not lost: equal weights alone are no answer.
+void survives(Check& check, Student& student) {
+  for (const bool isLost : {true, false, true}) goesThroughAllLines(check, student, isLost);
 }
 
 // Generators of students come from a stream of their own: who winds them back does not find the drive.
@@ -399,33 +409,17 @@ void tracks(Check& check, Student& student) {
   }
 }
 
-void survives(Check& check, Student& student) {
-  Rng& rng = check.rng();
-  const CarWorld world = worldWith(3, rng);
-  const Driven driven = drive(world, randomPose(rng), {0.5, 0.2}, 2, rng);
-  const Cloud before{posesAround(driven.log.start, 0.3, 0.05, 50, rng), Eigen::VectorXd::Constant(50, 0.02)};
-  check.input("an observation of 1e200 m, so that all weights are zero");
-  const Cloud lost =
-      student.filterStep(before, {0.5, 0.2}, Eigen::VectorXd::Constant(6, 1e200), world, Rng(rng.next()));
-  isCloud(check, lost, 50);
-  check.near("weights", lost.weights, Eigen::VectorXd::Constant(50, 0.02), 1e-12);
-  check.input("the step after that, with an observation as always");
-  const Cloud found =
-      student.filterStep(lost, {0.5, 0.2}, driven.log.observations[1], world, Rng(rng.next()));
-  isCloud(check, found, 50);
-  check.near("weights", found.weights,
-             weightsBeside(logDensities(world, found.states, driven.log.observations[1])), 1e-9);
-}
-
 // <hidden>
 // The squared error over the covariance of the particles is a chi-square number of 3 degrees: half of them
 // are above 2.37. Their median hardly notices the few drives in which a handful of particles have all the
-// weight.
+// weight. The place is off by 0.20 m (0.03 m), root mean square; by 0.76 m (0.15 m) from the last observation
+// alone, and by 1.6 m of dead reckoning, whose clouds are as wide as they should be, too.
 void isConsistent(Check& check, Student& student) {
   Rng& rng = check.rng();
   Rng given = generatorsOf(check);
   const int drives = 21, steps = 30, count = 500;
   std::vector<double> squares;
+  double square = 0;
   for (int i = 0; i < drives; ++i) {
     CarWorld world = worldWith(3 + rng.index(3), rng);
     world.dynamicsNoise = rng.uniform(0.02, 0.05);
@@ -439,7 +433,10 @@ void isConsistent(Check& check, Student& student) {
     }
     const Eigen::Vector3d mean = student.meanPose(cloud), error = poseError(mean, driven.truth.back());
     squares.push_back(error.dot(covarianceAround(cloud, mean).inverse() * error));
+    square += error.head<2>().squaredNorm() / drives;
   }
+  check.atMost("error of the place after 30 steps, root mean square of 21 drives", std::sqrt(square), 0.4,
+               "m");
   std::sort(squares.begin(), squares.end());
   const double median = squares[drives / 2];
   check.atLeast("squared error over the covariance of the particles, median of 21 drives", median, 0.5);
@@ -563,7 +560,7 @@ grading::Checks<Student> checks() {
       {"any-weights", "resampling", "other weights and counts", 1, Group::hidden, resamplesAnyWeights},
       // </hidden>
       {"mean-pose", "filter", "the mean of a cloud", 1, Group::visible, averages},
-      {"filter-step", "filter", "resample, move, weigh", 1, Group::visible, goesThroughAllLines},
+      {"filter-step", "filter", "resample, move, weigh", 1, Group::visible, explainsWhatIsSeen},
       {"tracks", "filter", "the filter follows the car", 1, Group::visible, tracks},
       {"survives", "filter", "an observation that no particle explains", 1, Group::visible, survives},
       // <hidden>

@@ -114,17 +114,21 @@ void corrects(Check& check, Student& student) {
 }
 
 // Observations a thousand times better than the belief: what is left of its covariance is a millionth.
+// Precisions add up, and in its own deviations the covariance is one.
 void staysACovariance(Check& check, Student& student) {
   check.input("a belief of 6 numbers and 20 observations of 3 numbers, with deviations of 0.001 and less");
   Rng& rng = check.rng();
   Belief belief{rng.normalVector(6), Eigen::MatrixXd::Identity(6, 6) + 10 * randomCovariance(rng, 6)};
+  Eigen::MatrixXd precision = belief.covariance.inverse();
   for (int i = 0; i < 20; ++i) {
     const Eigen::MatrixXd C = rng.normalVector(18).reshaped(3, 6);
     belief = student.corrected(belief, 1e-3 * rng.normalVector(3), C, 1e-6 * Eigen::Matrix3d::Identity());
     requireBelief(check, belief, 6);
+    precision += 1e6 * C.transpose() * C;
   }
-  check.atMost("standard deviation that is left, at most", std::sqrt(belief.covariance.diagonal().maxCoeff()),
-               3e-3);
+  const Eigen::MatrixXd U = precision.llt().matrixU();
+  check.near("covariance that is left, in the deviations that should be",
+             U * belief.covariance * U.transpose(), Eigen::MatrixXd::Identity(6, 6), 1e-3);
 }
 
 // Where several landmarks are seen, gaps are a millionth of the usual: whoever takes landmarks one by one,
@@ -412,16 +416,10 @@ void mapsAnyRing(Check& check, Student& student) {
 
 // Part 5.
 
-// Of 32000 seeds, none fails here or in the hidden check; in all, landmarks err by 0.10 m with a deviation of
-// 0.03 m.
+// Of 400 seeds, none fails here or in the hidden check; in all, landmarks err by 0.08 m with a deviation of
+// 0.03 m, and where nothing corrects them by 0.7 m (0.3 m).
 void findsLandmarks(Check& check, Student& student) {
-  for (int i = 0; i < 8; ++i) {
-    CarSetup car;
-    car.observationNoise = 0.05;
-    car.rangeBearing = i % 4 > 1;
-    car.bearingNoise = 0.01;
-    namesByCovariance(check, student, car, i % 2 == 0);
-  }
+  namesByCovariance(check, student);
   check.input(
       "three runs of 70 steps among five to seven landmarks without names, seen from up to 18 m away");
   for (int i = 0; i < 3; ++i) {
@@ -433,6 +431,7 @@ void findsLandmarks(Check& check, Student& student) {
 
 // <hidden>
 void findsAnyLandmarks(Check& check, Student& student) {
+  namesByCovariance(check, student);
   for (int i = 0; i < 4; ++i) {
     CarSetup car;
     car.rangeBearing = i % 2 == 0;
@@ -509,14 +508,15 @@ Eigen::Matrix2Xd particleMap(Check& check, Student& student, const CarRun& run) 
   return places;
 }
 
-// Over 400 seeds: 0.081 m with a standard deviation of 0.012 m.
+// Over 400 seeds: 0.081 m with a standard deviation of 0.012 m. Landmarks that stay where they were first
+// seen are off by 0.56 m (0.07 m).
 void mapsWithParticles(Check& check, Student& student) {
   double squared = 0;
   for (int i = 0; i < 4; ++i) {
     const CarRun run = randomRun(check.rng(), {}, 3 + i, 50, {1, 0.2});
     squared += std::pow(absoluteTrajectoryError(particleMap(check, student, run), run.landmarks), 2) / 4;
   }
-  check.atMost("error of the landmarks (root mean square) after alignment", std::sqrt(squared), 0.6, "m");
+  check.atMost("error of the landmarks (root mean square) after alignment", std::sqrt(squared), 0.2, "m");
 }
 // </hidden>
 

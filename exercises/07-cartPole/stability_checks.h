@@ -84,7 +84,7 @@ inline std::vector<KnownFate> knownFates(rex::Rng& rng) {
        Fate::stays}};
 }
 
-/// 0, ..., count - 1 in another order each time: who counts calls knows nothing.
+/// 0, ..., count - 1, shuffled, so that counting calls does not help.
 inline std::vector<std::size_t> shuffled(rex::Rng& rng, std::size_t count) {
   std::vector<std::size_t> order(count);
   for (std::size_t i = 0; i < count; ++i) {

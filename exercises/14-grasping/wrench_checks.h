@@ -109,26 +109,39 @@ inline void areEdges(rex::grading::Check& check, const Finger& finger, const Eig
                     (forces.col(k) - forces.col(i)).norm() - side, -1e-8, "N");
 }
 
-/// Forces a hundredth inside and outside of the cone, pulling, and none at all.
+/// Forces a hundredth inside and outside of the cone, pulling, and none at all; shuffled, so that counting
+/// calls does not help.
 inline void coneFits(rex::grading::Check& check, Student& student, rex::Rng& rng) {
-  const Finger finger = randomFinger(rng, rng.uniform(0.3, 1.3));
+  const Finger finger = randomFinger(rng, rng.uniform(0.3, 1.3)), smooth{finger.p, finger.normal, 0};
   const Eigen::Vector3d any = randomDirection(rng, 3), across = finger.normal.cross(any).normalized();
   const auto force = [&](double angle) {
     return Eigen::Vector3d(rng.uniform(0.1, 30) *
                            (std::cos(angle) * finger.normal + std::sin(angle) * across));
   };
   const double limit = std::atan(finger.friction);
-  check.input("friction " + text(finger.friction) + ", forces at 0.99 and 1.01 times the angle of the cone");
-  check.that("a force within the cone can be exerted", student.inCone(finger, force(0.99 * limit)));
-  check.that("a force outside the cone cannot be exerted", !student.inCone(finger, force(1.01 * limit)));
-  check.input("friction " + text(finger.friction) + ", a force that pulls");
-  check.that("a finger cannot pull", !student.inCone(finger, -force(rng.uniform(0, 0.5 * limit))));
-  check.that("a finger can let go", student.inCone(finger, Eigen::Vector3d::Zero()));
-  const Finger smooth{finger.p, finger.normal, 0};
-  check.input("no friction");
-  check.that("a smooth finger pushes along its normal", student.inCone(smooth, 7 * finger.normal));
-  check.that("a smooth finger pushes along its normal only",
-             !student.inCone(smooth, finger.normal + 0.01 * across));
+  const std::string friction = "friction " + text(finger.friction);
+  struct Question {
+    std::string input, property;
+    Finger finger;
+    Eigen::Vector3d force;
+    bool isInside;
+  };
+  std::vector<Question> questions{
+      {friction + ", a force at 0.99 times the angle of the cone", "a force within the cone can be exerted",
+       finger, force(0.99 * limit), true},
+      {friction + ", a force at 1.01 times the angle of the cone",
+       "a force outside the cone cannot be exerted", finger, force(1.01 * limit), false},
+      {friction + ", a force that pulls", "a finger cannot pull", finger, -force(rng.uniform(0, 0.5 * limit)),
+       false},
+      {friction + ", no force", "a finger can let go", finger, Eigen::Vector3d::Zero(), true},
+      {"no friction", "a smooth finger pushes along its normal", smooth, force(0), true},
+      {"no friction", "a smooth finger pushes along its normal only", smooth, force(0.01), false}};
+  for (std::size_t k = questions.size(); k > 0; --k) {
+    std::swap(questions[k - 1], questions[static_cast<std::size_t>(rng.index(static_cast<int>(k)))]);
+    const Question& one = questions[k - 1];
+    check.input(one.input);
+    check.that(one.property, student.inCone(one.finger, one.force) == one.isInside);
+  }
 }
 
 /// The proof holds, whatever it says.

@@ -1,4 +1,4 @@
-// caught by: names-found
+// caught by: names-found, names-any
 // shown by: names-found
 // mistake: looks for the nearest landmark in metres (or radians), however uncertain each of them is.
 
