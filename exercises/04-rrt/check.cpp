@@ -595,6 +595,7 @@ double starIsSound(Check& check, Student& student, const PlaneProblem& problem,
   const auto goal = static_cast<std::size_t>(search.goal);
   check.near("the node that is the goal", grown.nodes[goal], problem.goal, 0);
   check.near("the last cost of the goal", search.best.back(), costs[goal], 1e-9);
+  growsWhileItImproves(check, search, problem.world, settings);
   return costs[goal];
 }
 

@@ -200,3 +200,50 @@ inline bool gains(const PlaneWorld& world, const Tree& tree, int one, int throug
   const Eigen::VectorXd &q = tree.nodes[i], &via = tree.nodes[by];
   return tree.costs[by] + (q - via).norm() < tree.costs[i] - 1e-9 && wayIsFree(world, via, q);
 }
+
+/// How much less the nodes would cost in all, as a share, if each took the best parent that is at most
+/// `reach` away.
+inline double leftToGain(const PlaneWorld& world, const Tree& tree, double reach) {
+  double gain = 0, sum = 0;
+  for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+    double best = tree.costs[i];
+    sum += best;
+    for (std::size_t k = 0; k < tree.nodes.size(); ++k) {
+      const double way = (tree.nodes[i] - tree.nodes[k]).norm(), cost = tree.costs[k] + way;
+      if (way <= reach && cost < best && wayIsFree(world, tree.nodes[k], tree.nodes[i])) best = cost;
+    }
+    gain += tree.costs[i] - best;
+  }
+  return gain / sum;
+}
+
+/// The share of free places with a node at most `reach` away.
+inline double shareReached(const PlaneWorld& world, const Tree& tree, double reach, rex::Rng& rng) {
+  int free = 0, reached = 0;
+  while (free < 200) {
+    const Eigen::VectorXd place = rng.uniformVector(2, 0, 1);
+    if (!wayIsFree(world, place, place)) continue;
+    ++free;
+    const auto nearest = static_cast<std::size_t>(nearestOf(tree.nodes, place));
+    if ((tree.nodes[nearest] - place).norm() <= reach) ++reached;
+  }
+  return 1. * reached / free;
+}
+
+/// What RRT* grows, and a short way alone is not. Over 900 seeds the reference has 0.7 nodes per sample at
+/// least, with one near every place, and reaches its goal within 0.6 of the samples. Better parents would
+/// save 0.002 of the costs at most, and 0.045 at least where nothing is rewired.
+inline void growsWhileItImproves(rex::grading::Check& check, const StarSearch& search,
+                                 const PlaneWorld& world, const SearchSettings& settings) {
+  check.atLeast("number of nodes per sample",
+                static_cast<double>(search.tree.nodes.size()) / settings.maxSamples, 1. / 3);
+  check.atLeast("share of the free places that a node is near, within a step",
+                shareReached(world, search.tree, settings.stepSize, check.rng()), 0.95);
+  check.atMost("what better parents within a step would save, as a share of the costs of all nodes",
+               leftToGain(world, search.tree, settings.stepSize), 0.01);
+  const double early = search.best[static_cast<std::size_t>(0.9 * settings.maxSamples)];
+  check.that("the goal is reached before the last tenth of the samples", early < 1e9);
+  const auto first =
+      std::find_if(search.best.begin(), search.best.end(), [](double cost) { return cost < 1e9; });
+  check.that("the cost of the goal falls after it was reached", *first > search.best.back());
+}

@@ -96,7 +96,8 @@ Ride rideOf(const Eigen::VectorXd& w, const Eigen::Vector4d& start, const Eigen:
 /// Costs (m) of the policies in the columns of W (27 x m): of one ride each over `steps` steps, at most
 /// kLongestRide. In one call all have the same start, at rest with a theta from -.2 to .2, and the same
 /// noise; the next call has others. The motor, and each sensor, may be wired the other way round: u or that y
-/// then has the other sign.
+/// then has the other sign. Each sensor may also count in larger units, up to three times: its y is then as
+/// much smaller. The two accelerometers may be turned against the body by any angle.
 using Rides = std::function<Eigen::VectorXd(const Eigen::MatrixXd& W, int steps)>;
 
 inline constexpr int kLongestRide = 500;  ///< steps

@@ -107,8 +107,9 @@ inline void noiseFits(rex::grading::Check& check, Student& student, int steps, d
   check.input(fmt::format("{} steps of {} s, noise {}", steps, tau, noise));
   const Eigen::MatrixXd got = student.kicks(steps, tau, noise, given);
   check.shape("noise", got, 2, steps);
-  rex::Rng other = check.rng().split(8);
-  check.that("another rng gives other noise", !student.kicks(steps, tau, noise, other).isApprox(got, 1e-9));
+  const Eigen::MatrixXd other = student.kicks(steps, tau, noise, check.rng().split(8));
+  check.shape("noise", other, 2, steps);
+  check.that("another rng gives other noise", !other.isApprox(got, 1e-9));
   const Eigen::MatrixXd z = got / (std::sqrt(tau) * noise);
   const auto shown = check.show([&] { return densityOf(z); });
   const double n = 2. * steps;

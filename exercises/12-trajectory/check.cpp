@@ -9,6 +9,7 @@
 
 #include "course/clearances.h"
 #include "course/film.h"
+#include "errands.h"
 #include "interface.h"
 #include "problems.h"
 #include "scenes.h"
@@ -466,11 +467,15 @@ grading::Evidence motionSeen(const Simulator& S, const Eigen::MatrixXd& path, in
           .moment = film[moment].time};
 }
 
-void getsAround(Check& check, Student& student, const std::vector<Ball>& balls, const Eigen::VectorXd& start,
-                const Errand& errand) {
-  const Simulator S(armAmong(balls, start));
-  check.input(fmt::format("{} balls, T = {}, tau = {:.3g}, margin {:.3g}, budget {:.3g}", balls.size(),
-                          errand.steps, errand.tau, errand.margin, errand.budget));
+void getsAround(Check& check, Student& student, const Scene& scene) {
+  const Eigen::VectorXd& start = scene.start;
+  const Errand& errand = scene.errand;
+  const Simulator S(armAmong(scene.balls, start));
+  std::string input = fmt::format("T = {}, tau = {:.3g}, margin {:.3g}, budget {:.3g}", errand.steps,
+                                  errand.tau, errand.margin, errand.budget);
+  for (const Ball& ball : scene.balls)
+    input += fmt::format(", a ball at y = {:.3g}, z = {:.3g} of radius {:.3g}", ball.y, ball.z, ball.radius);
+  check.input(input);
   const Eigen::MatrixXd X = student.aroundObstacle(S.description(), errand);
   const Eigen::Index T = errand.steps;
   check.shape("X", X, start.size(), T);
@@ -490,30 +495,26 @@ void getsAround(Check& check, Student& student, const std::vector<Ball>& balls, 
   check.atMost("cost of the motion", cost, errand.budget);
 }
 
-void aroundTheBall(Check& check, Student& student) { getsAround(check, student, kBall, kArmStart, kErrand); }
+void aroundTheBall(Check& check, Student& student) {
+  getsAround(check, student, drawnLike({kBall, kArmStart, kErrand}, check.rng()));
+}
 
 // <hidden>
 void aroundOthers(Check& check, Student& student) {
   check.forEachCase(4, [&](int i) {
-    Errand errand = kErrand;
-    if (i == 0) {
-      errand.budget = 25;
-      getsAround(check, student, {{-0.85, 0.95, 0.02}}, kArmStart, errand);
-    } else if (i == 1) {
-      errand.budget = 48;
-      getsAround(check, student, {{-0.8, 1.1, 0.05}}, kArmStart, errand);
+    Scene scene{{{-0.85, 0.95, 0.02}}, kArmStart, kErrand};
+    if (i == 1) {
+      scene = {{{-0.88, 1.1, 0.03}}, Eigen::Vector3d(0.9, 0.1, 0.1), kErrand};
+      scene.errand.goal = Eigen::Vector3d(-0.9, 0.3, 0.1);
+      scene.errand.detour = Eigen::Vector3d(-0.5, 1, 0.5);
     } else if (i == 2) {
-      errand.goal = Eigen::Vector3d(-0.8, -0.2, -0.2);
-      errand.detour = Eigen::Vector3d(0.7, -1.4, 0);
-      errand.budget = 28;
-      getsAround(check, student, {{-0.85, 1, 0.02}}, Eigen::Vector3d(0.8, -0.2, -0.2), errand);
-    } else {
-      errand.goal = Eigen::Vector3d(-0.9, 0.3, 0.1);
-      errand.detour = Eigen::Vector3d(-0.5, 1, 0.5);
-      errand.budget = 43;
-      getsAround(check, student, {{-0.82, 1.15, 0.03}, {-0.9, 0.85, 0.03}}, Eigen::Vector3d(0.9, 0.1, 0.1),
-                 errand);
+      scene = {{{-0.85, 1, 0.02}}, Eigen::Vector3d(0.8, -0.2, -0.2), kErrand};
+      scene.errand.goal = Eigen::Vector3d(-0.8, -0.2, -0.2);
+      scene.errand.detour = Eigen::Vector3d(0.7, -1.4, 0);
+    } else if (i == 3) {
+      scene.balls.push_back({-0.92, 1.05, 0.02});
     }
+    getsAround(check, student, drawnLike(scene, check.rng()));
   });
 }
 // </hidden>

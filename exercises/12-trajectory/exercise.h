@@ -135,7 +135,7 @@ struct Errand {
   double margin = 0.02;  ///< metres that all pairs of clearances() are to stay apart
   int steps = 16;        ///< T
   double tau = 0.125;
-  double budget = 100;  ///< of the motionCost with k = 2; some 15 % above what a good local minimum costs
+  double budget = 100;  ///< of the motionCost with k = 2; some 25 % above what a good local minimum costs
 };
 
 /// A trajectory (n x T) that does it: x_{T-1} and x_{T-2} are the goal, up to 1e-3; on the straight way from

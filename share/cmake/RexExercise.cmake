@@ -140,7 +140,7 @@ function(rex_worker_part name folder output)
     COMMAND rex_worker_part --exercise ${folder} --groups ${groups} --worker ${REX_WORKER_OBJECT} --objects ${list}
             --functions ${ARG_FUNCTIONS} --libraries ${files} --compiler ${CMAKE_CXX_COMPILER}
             --objcopy ${CMAKE_OBJCOPY} --nm ${CMAKE_NM} --folder ${output}
-    DEPENDS rex_worker_part ${REX_WORKER_OBJECT} ${objects} ${list} ${groups} ${folder}/exercise.toml
+    DEPENDS rex_worker_part rex_submission ${REX_WORKER_OBJECT} ${objects} ${list} ${groups} ${folder}/exercise.toml
     COMMENT "Leaving of the library what ${name} allows" VERBATIM)
   add_custom_target(${name}_worker_part DEPENDS ${part} ${output}/worker.offers)
 endfunction()
