@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/error.h"
 #include "grading/evidence_parts.h"
 #include "render/draw_film.h"
 #include "render/png.h"
@@ -63,6 +64,10 @@ void drawFigures(const std::vector<Figure>& figures, const std::filesystem::path
 Figure comparison(const std::string& title, const Eigen::Ref<const Eigen::MatrixXd>& got,
                   const Eigen::Ref<const Eigen::MatrixXd>& wanted) {
   constexpr std::size_t kMost = 4;
+  if (got.rows() != wanted.rows() || got.cols() != wanted.cols())
+    throw Error({.what = "comparison: " + title,
+                 .found = fmt::format("{} x {} numbers", got.rows(), got.cols()),
+                 .wanted = fmt::format("{} x {}", wanted.rows(), wanted.cols())});
   if (got.rows() > got.cols()) return comparison(title, got.transpose().eval(), wanted.transpose().eval());
   const Eigen::VectorXd error = (got - wanted).cwiseAbs().rowwise().maxCoeff();
   std::vector<Eigen::Index> rows(static_cast<std::size_t>(got.rows()));

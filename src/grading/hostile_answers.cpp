@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <ctime>
+#include <exception>
 #include <functional>
 #include <map>
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
@@ -20,6 +20,9 @@ namespace {
 
 using remote::Caller;
 using Bytes = std::vector<std::byte>;
+
+// What a whole run of the grader may take with one answer, for all answers of a kind together.
+constexpr IsolationLimits kOneRun = {.cpuSeconds = 600, .wallSeconds = 1800, .memory = std::size_t{6} << 30};
 
 Bytes copyOf(Caller::Bytes bytes) { return {bytes.begin(), bytes.end()}; }
 
@@ -113,10 +116,17 @@ int pointsFor(Liar liar, const RunnableCheck& check, const GradeOptions& options
       });
       points = judge.judge([&](Check& requirements) { check.run(requirements, caller); }).points;
     }));
-  } catch (const std::logic_error&) {
+  } catch (const std::exception&) {
     return 0;  // it cannot be judged, see giveHostileAnswers()
   }
   return points;
+}
+
+// In a copy of this process, as in grades: who brings the grader down gets nothing.
+int pointsApart(const Liar& liar, const RunnableCheck& check, const GradeOptions& options) {
+  const IsolatedResult result =
+      callIsolated([&] { return std::to_string(pointsFor(liar, check, options)); }, kOneRun);
+  return result.end == IsolatedEnd::kReturned ? std::stoi(result.bytes) : 0;
 }
 
 double processorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
@@ -221,10 +231,8 @@ std::vector<HostileOutcome> giveHostileAnswers(std::span<const RunnableCheck> ch
   for (const RunnableCheck& check : checks) {
     for (int k = 0; k < static_cast<int>(Hostility::count); ++k) {
       HostileOutcome outcome{.check = check.info.id, .hostility = static_cast<Hostility>(k)};
-      // What a whole run of the grader may take with one answer, for all of these together.
-      const IsolatedResult result =
-          callIsolated([&] { return toText(Attack(check, outcome.hostility, pool, layouts).run(ofEach)); },
-                       {.cpuSeconds = 600, .wallSeconds = 1800, .memory = std::size_t{6} << 30});
+      const IsolatedResult result = callIsolated(
+          [&] { return toText(Attack(check, outcome.hostility, pool, layouts).run(ofEach)); }, kOneRun);
       if (result.end == IsolatedEnd::kReturned)
         readText(result.bytes, outcome);
       else
@@ -253,7 +261,7 @@ std::vector<LieOutcome> tellLies(std::span<const RunnableCheck> checks, const Gr
       outcomes.push_back({.check = check.info.id,
                           .part = check.info.part,
                           .lie = lie,
-                          .points = pointsFor(Liar(lie, pool, layouts), check, options)});
+                          .points = pointsApart(Liar(lie, pool, layouts), check, options)});
     }
   return outcomes;
 }

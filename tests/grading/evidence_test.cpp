@@ -5,6 +5,7 @@
 
 #include "geometry/pose.h"
 #include "render/png.h"
+#include "support/expect_error.h"
 #include "support/file_text.h"
 #include "support/fresh_folder.h"
 #include "support/needs_osmesa.h"
@@ -32,6 +33,8 @@ TEST(Comparison, LaysTallOnesDown) {
   ASSERT_EQ(figure.series.size(), 2u);
   EXPECT_EQ(figure.series[0].label, "got");
   EXPECT_EQ(figure.series[0].y, std::vector<double>(9, 2.));
+  EXPECT_REX_ERROR(static_cast<void>(comparison("x", Eigen::VectorXd::Ones(9), Eigen::VectorXd::Ones(8))),
+                   "comparison: x: found 9 x 1 numbers, wanted 8 x 1");
 }
 
 Film ball() {
