@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <Eigen/QR>
+
 #include "collision/motion_clearance.h"
 #include "interface.h"
 #include "peg_problem.h"
@@ -277,34 +279,60 @@ void backwardAnywhere(Check& check, Student& student) {
 }
 // </hidden>
 
+// The arm as students see it in the checks: its joint angles are turned at random, q = R (joint angles). That
+// keeps distances and straight ways, and no posture written down beforehand means anything.
+struct TurnedArm {
+  explicit TurnedArm(Rng& rng) : goal(7) {
+    R = Eigen::HouseholderQR<Eigen::MatrixXd>(rng.normalVector(49).reshaped(7, 7)).householderQ();
+    goal = R * kInTheHole;
+  }
+  EdgeTest test(const EdgeTest& isFree) const {
+    return [isFree, R = R](const Eigen::VectorXd& qa, const Eigen::VectorXd& qb) {
+      return isFree(R.transpose() * qa, R.transpose() * qb);
+    };
+  }
+  Path joints(const Path& path) const {
+    Path turned;
+    for (const Eigen::VectorXd& q : path) turned.push_back(q.size() == 7 ? R.transpose() * q : q);
+    return turned;
+  }
+
+  Eigen::MatrixXd R;
+  Eigen::VectorXd goal;
+};
+
 EdgeTest contactFreeEdges(const Simulator& S) {
   return [&S](const Eigen::VectorXd& qa, const Eigen::VectorXd& qb) {
     return motionClearance(S.model(), ContactModel(S.model()), qa, qb, 1e-3) > 0;
   };
 }
 
-auto showArm(Check& check, const Simulator& S, const Path& path) {
-  return check.show(
-      [&] { return armPathSeen(S, path, kInTheHole, kArmSettings.stepSize, contactFreeEdges(S)); });
+auto showArm(Check& check, const Simulator& S, const TurnedArm& arm, const Path& path) {
+  return check.show([&] {
+    return armPathSeen(S, arm.joints(path), kInTheHole, kArmSettings.stepSize, contactFreeEdges(S));
+  });
 }
 
-void armPathIsSound(Check& check, const Simulator& S, const Path& path) {
-  pathIsSound(check, path, kZero, kInTheHole, kArmSettings.stepSize, contactFreeEdges(S));
+void armPathIsSound(Check& check, const Simulator& S, const TurnedArm& arm, const Path& path) {
+  pathIsSound(check, path, kZero, arm.goal, kArmSettings.stepSize, arm.test(contactFreeEdges(S)));
 }
 
 void backwardOutOfTheHole(Check& check, Student& student) {
   Rng given = generatorsOf(check);
   const Simulator S("pegInAHole.ors");
-  const EdgeTest isFree = freeForArm(S);
-  check.input("pegInAHole.ors, from q = 0 into the hole, stepSize = 0.1, goalBias = 0.1");
+  const TurnedArm arm(check.rng());
+  const EdgeTest isFree = arm.test(freeForArm(S));
+  check.input(
+      "pegInAHole.ors, from q = 0 into the hole, with q = R (joint angles), R a random rotation, "
+      "stepSize = 0.1, goalBias = 0.1");
   for (int i = 1; i <= kArmTries; ++i) {
     EdgeRecord record(isFree, 7);
     const TreeSearch search =
-        student.growBackward(kZero, kInTheHole, kArmSettings, record.test(), Rng(given.next()));
+        student.growBackward(kZero, arm.goal, kArmSettings, record.test(), Rng(given.next()));
     if (search.path.empty() && i < kArmTries) continue;
-    const auto shown = showArm(check, S, search.path);
-    backwardIsSound(check, search, {{}, kZero, kInTheHole}, kArmSettings, record, isFree);
-    return armPathIsSound(check, S, search.path);
+    const auto shown = showArm(check, S, arm, search.path);
+    backwardIsSound(check, search, {{}, kZero, arm.goal}, kArmSettings, record, isFree);
+    return armPathIsSound(check, S, arm, search.path);
   }
 }
 
@@ -361,16 +389,19 @@ void growsFromBothSides(Check& check, Student& student) {
 void bothSidesIntoTheHole(Check& check, Student& student) {
   Rng given = generatorsOf(check);
   const Simulator S("pegInAHole.ors");
-  const EdgeTest isFree = freeForArm(S);
-  check.input("pegInAHole.ors, from q = 0 into the hole, stepSize = 0.1");
+  const TurnedArm arm(check.rng());
+  const EdgeTest isFree = arm.test(freeForArm(S));
+  check.input(
+      "pegInAHole.ors, from q = 0 into the hole, with q = R (joint angles), R a random rotation, "
+      "stepSize = 0.1");
   for (int i = 1; i <= kArmTries; ++i) {
     EdgeRecord record(isFree, 7);
     const TwoTreeSearch search =
-        student.growBoth(kZero, kInTheHole, kArmSettings, record.test(), Rng(given.next()));
+        student.growBoth(kZero, arm.goal, kArmSettings, record.test(), Rng(given.next()));
     if (search.path.empty() && i < kArmTries) continue;
-    const auto shown = showArm(check, S, search.path);
-    twoTreesAreSound(check, search, {{}, kZero, kInTheHole}, kArmSettings.stepSize, record, isFree);
-    return armPathIsSound(check, S, search.path);
+    const auto shown = showArm(check, S, arm, search.path);
+    twoTreesAreSound(check, search, {{}, kZero, arm.goal}, kArmSettings.stepSize, record, isFree);
+    return armPathIsSound(check, S, arm, search.path);
   }
 }
 

@@ -6,9 +6,9 @@
 
 #include "course/course.h"
 
-// The functions you complete in main.cpp. A configuration q has d numbers, the joint angles of an arm or a
-// place in the plane; its distance from another is the length |qa - qb| of their difference. Slides are named
-// as chapter:number.
+// The functions you complete in main.cpp. A configuration q has d numbers, the joint angles of an arm (in the
+// checks turned by a rotation, which keeps distances and straight ways) or a place in the plane; its distance
+// from another is the length |qa - qb| of their difference. Slides are named as chapter:number.
 
 using Path = std::vector<Eigen::VectorXd>;  // configurations, one after the other
 

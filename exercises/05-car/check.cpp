@@ -368,6 +368,45 @@ void survives(Check& check, Student& student) {
 // Generators of students come from a stream of their own: who winds them back does not find the drive.
 Rng generatorsOf(Check& check) { return check.rng().split(7); }
 
+// In columns, what of poses has a mean that their noise moves by a known factor.
+Eigen::MatrixXd arrowsOf(const Eigen::MatrixXd& states) {
+  Eigen::MatrixXd arrows(4, states.cols());
+  arrows << states.topRows(2), states.row(2).array().cos().matrix(), states.row(2).array().sin().matrix();
+  return arrows;
+}
+
+// Resampled and moved, particles have without their weights the mean and the spread that the particles before
+// have with them, once moved; each of N children adds a draw to both. The mean of cos(a + s z) is
+// cos(a) exp(-s^2 / 2). In 13000 steps with 100 particles the mean was off by 3.8 deviations at most, and the
+// squares were 0.66 to 1.41 of those expected.
+void comesFrom(Check& check, const Cloud& after, const Cloud& before, const Eigen::Vector2d& u,
+               const CarWorld& world) {
+  const CarSimulator map = mapOf(world);
+  const double count = static_cast<double>(after.weights.size());
+  const double variance = world.dynamicsNoise * world.dynamicsNoise;
+  Eigen::MatrixXd due = before.states;
+  for (auto x : due.colwise()) x = map.getMeanStateAfterStep(x, u);
+  due = arrowsOf(due);
+  due.bottomRows(2) *= std::exp(-variance / 2);
+  const Eigen::MatrixXd got = arrowsOf(after.states);
+  const Eigen::Vector4d wanted = due * before.weights, mean = got.rowwise().mean();
+  const Eigen::Vector4d variances =
+      ((due.colwise() - wanted).cwiseAbs2() * before.weights).array() + variance;
+  check.atMost("mean of the particles, off from where the weighted ones before lead, in deviations",
+               ((mean - wanted).array().abs() / (variances.array() / count).sqrt()).maxCoeff(), kSigmas);
+  const double spread = (got.colwise() - mean).topRows(2).squaredNorm() / count;
+  check.near("mean square distance of the particles from their middle, of that expected",
+             spread / variances.head<2>().sum(), 1, 0.7);
+}
+
+Cloud stepped(Check& check, Student& student, const Cloud& before, const Eigen::Vector2d& u,
+              const Eigen::VectorXd& y, const CarWorld& world, Rng& given) {
+  const Cloud after = student.filterStep(before, u, y, world, Rng(given.next()));
+  isCloud(check, after, before.weights.size());
+  comesFrom(check, after, before, u, world);
+  return after;
+}
+
 struct Errors {
   double place = 0, heading = 0;  // root mean squares
 };
@@ -377,9 +416,7 @@ Errors follow(Check& check, Student& student, const CarWorld& world, const Drive
   Cloud cloud = cloudAt(driven.log.start, count);
   Errors errors;
   for (std::size_t t = 0; t < driven.truth.size(); ++t) {
-    cloud = student.filterStep(cloud, driven.log.controls[t], driven.log.observations[t], world,
-                               Rng(given.next()));
-    isCloud(check, cloud, count);
+    cloud = stepped(check, student, cloud, driven.log.controls[t], driven.log.observations[t], world, given);
     const Eigen::Vector3d mean = student.meanPose(cloud);
     check.shape("mean pose", mean, 3, 1);
     record.clouds.push_back(cloud);
@@ -462,11 +499,14 @@ void findsNoise(Check& check, Student& student, const CarWorld& world, double fa
 }
 
 void noiseOfOneCar(Check& check, Student& student) {
-  CarWorld world = worldWith(8, check.rng());
+  Rng& rng = check.rng();
+  CarWorld world = worldWith(8, rng);
   world.dynamicsNoise = 0.04;
-  for (const double factor : {1., 10., 0.1}) {
-    world.observationNoise = check.rng().uniform(0.3, 0.7);
-    findsNoise(check, student, world, factor);
+  // Factors and noise are drawn, so that what is told does not tell the noise.
+  const double first = rng.uniform() < 0.5 ? -1 : 1;
+  for (const double power : {first * rng.uniform(0.8, 1), -first * rng.uniform(0.8, 1), rng.uniform(-1, 1)}) {
+    world.observationNoise = rng.uniform(0.3, 1);
+    findsNoise(check, student, world, std::pow(10, power));
   }
 }
 
@@ -522,13 +562,14 @@ void findsItsHeading(Check& check, Student& student) {
     world.bearingNoise = 0.1;
     const Eigen::Vector3d start = randomPose(rng);
     const Driven driven = drive(world, start, {0.5, 0.2}, 20, rng);
-    Cloud cloud = cloudAt(start, 2000);
+    // Around the middle of the cloud, which is not where the car is.
+    const Eigen::Vector3d off(rng.uniform(-0.7, 0.7), rng.uniform(-0.7, 0.7), rng.uniform(-3, 3));
+    Cloud cloud = cloudAt(start + off, 2000);
     for (Eigen::Index k = 0; k < 2000; ++k)
       cloud.states.col(k) += Eigen::Vector3d(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-4, 4));
     for (std::size_t t = 0; t < 20; ++t) {
-      cloud = student.filterStep(cloud, driven.log.controls[t], driven.log.observations[t], world,
-                                 Rng(given.next()));
-      isCloud(check, cloud, 2000);
+      cloud =
+          stepped(check, student, cloud, driven.log.controls[t], driven.log.observations[t], world, given);
     }
     const Eigen::Vector3d error = poseError(student.meanPose(cloud), driven.truth.back());
     check.atMost("distance of the mean place from the car after 20 steps", error.head<2>().norm(), 1.5, "m");
@@ -566,8 +607,8 @@ grading::Checks<Student> checks() {
       // <hidden>
       {"consistent", "filter", "other worlds: as wrong as the cloud is wide", 1, Group::hidden, isConsistent},
       // </hidden>
-      {"noise", "noise", "the noise from assumptions ten times too large and too small", 1, Group::visible,
-       noiseOfOneCar},
+      {"noise", "noise", "the noise from assumptions up to ten times too large or too small", 1,
+       Group::visible, noiseOfOneCar},
       // <hidden>
       {"noise-elsewhere", "noise", "other noise in other worlds", 1, Group::hidden, noiseOfOthers},
       // </hidden>

@@ -82,6 +82,9 @@ void lyapunov(Check& check, Student& student) {
   for (const Candidate& candidate : energyCandidates(check.rng()))
     candidateIsJudged(check, student, candidate);
   for (const Candidate& candidate : cartCandidates({})) candidateIsJudged(check, student, candidate);
+  for (const Eigen::Index n : {2, 3})
+    for (const Candidate& candidate : cubicCandidates(check.rng(), n))
+      candidateIsJudged(check, student, candidate);
   for (const Eigen::Index n : {1, 2, 4}) levelFits(check, student, n);
 }
 

@@ -161,12 +161,18 @@ inline Flow linearFlow(const Eigen::MatrixXd& A) {
 }
 
 /// The point mass of 8:42 with Kp and Kd, its energy with that of the spring, and what becomes of it with a
-/// cross term: Kd / m is at least as large as what that adds.
+/// cross term: Kd / m is at least as large as what that adds. Place and velocity come in a drawn order, so
+/// that the axis on which a candidate fails is not known.
 inline std::vector<Candidate> energyCandidates(rex::Rng& rng) {
   const double m = rng.uniform(.5, 2), Kp = rng.uniform(.5, 2), Kd = rng.uniform(.5, 2);
-  const Eigen::Matrix2d A = (Eigen::Matrix2d() << 0, 1, -Kp / m, -Kd / m).finished();
-  const Eigen::Matrix2d kinetic = Eigen::Vector2d(0, m / 2).asDiagonal();
-  const Eigen::Matrix2d energy = Eigen::Vector2d(Kp / 2, m / 2).asDiagonal();
+  const int place = rng.index(2), velocity = 1 - place;
+  Eigen::Matrix2d A = Eigen::Matrix2d::Zero(), kinetic = A;
+  A(place, velocity) = 1;
+  A(velocity, place) = -Kp / m;
+  A(velocity, velocity) = -Kd / m;
+  kinetic(velocity, velocity) = m / 2;
+  Eigen::Matrix2d energy = kinetic;
+  energy(place, place) = Kp / 2;
   const Eigen::Matrix2d crossed = rex::solveLyapunov(A, Eigen::Matrix2d::Identity());
   const Eigen::Vector2d high(rng.uniform(.5, 2), rng.uniform(.5, 2));
   return {{"a point mass under PD control, V its kinetic energy as on slide 8:42", linearFlow(A), kinetic,
@@ -192,7 +198,21 @@ inline std::vector<Candidate> cartCandidates(const PoleCart& cart) {
           {"the same in a large box", f, task.optimal.X, Eigen::Vector4d(2, 2, 1.5, 2), true}};
 }
 
-/// A linear flow with a cubic term, which makes V rise at a distance.
+/// Whether neither corners of the box nor its axes disprove: who looks nowhere else finds nothing.
+inline bool holdsAtTheCorners(const Candidate& candidate) {
+  const Eigen::Index n = candidate.high.size();
+  for (int corner = 0; corner < 1 << n; ++corner) {
+    Eigen::VectorXd x = candidate.high;
+    for (Eigen::Index i = 0; i < n; ++i)
+      if ((corner >> i & 1) != 0) x[i] = -x[i];
+    if (disproves(candidate, x)) return false;
+  }
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (disproves(candidate, candidate.high[i] * Eigen::VectorXd::Unit(n, i))) return false;
+  return true;
+}
+
+/// A linear flow with a cubic term, which makes V rise at a distance; and another V, which is wrong within.
 inline std::vector<Candidate> cubicCandidates(rex::Rng& rng, Eigen::Index n) {
   for (;;) {
     Eigen::MatrixXd A = randomMatrix(rng, n, n);
@@ -205,6 +225,7 @@ inline std::vector<Candidate> cubicCandidates(rex::Rng& rng, Eigen::Index n) {
     Candidate other{"a linear flow, another V", linearFlow(A),
                     Eigen::MatrixXd::Identity(n, n) + .3 * randomPositive(rng, n, 0),
                     rng.uniformVector(static_cast<int>(n), .2, 2), true};
+    if (!holdsAtTheCorners(other)) continue;
     if (wrongShare(far, rng) < .02 || wrongShare(other, rng) < .02) continue;
     return {{"a cubic flow, a small box", f, P, Eigen::VectorXd::Constant(n, .9 * nearby), false},
             far,

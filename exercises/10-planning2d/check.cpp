@@ -401,43 +401,95 @@ double fromBorder(const Yard& yard, const Eigen::Vector2d& q) {
   return std::min(q.minCoeff(), (yard.size - q).minCoeff());
 }
 
-void samplers(Check& check, Student& student) {
-  Rng given = generatorsOf(check);
+// 300 uniform nodes: half of them in a half, up to 6 standard deviations of 0.029.
+void uniformFits(Check& check, Student& student, Rng& given) {
   const Yard wall{{4, 4}, {{{0, 0}, {2, 4}}}};
-  check.input("a yard of 4 x 4 m whose left half is a block; sigma = 0.3 m");
-  // 300 uniform nodes: half of them in a half, up to 6 standard deviations of 0.029.
-  const Samples uniform =
+  check.input("a yard of 4 x 4 m whose left half is a block");
+  const Samples nodes =
       gathered(check, given, wall, 300, 900, [&](Rng rng) { return student.uniformSample(wall, rng); });
-  Points seen = uniform;
-  Yard seenIn = wall;
-  std::string name = "Uniform nodes; wanted: evenly over the free half";
-  const auto shown = check.show([&] { return samplesSeen(name, seenIn, seen); });
-  check.atLeast("number of uniform nodes of 900 attempts", static_cast<double>(uniform.size()), 300);
-  check.near("share of uniform nodes in the upper half", share(uniform, {{2, 2}, {4, 4}}), 0.5, 0.17);
-  check.near("share of uniform nodes in the right half", share(uniform, {{3, 0}, {4, 4}}), 0.5, 0.17);
-  // Far from the border of the yard, the density at a distance x from the wall goes with P(N(0, sigma) > x).
-  // Its mean is sqrt(2 pi) / 4 = 0.627 sigma, its deviation 0.523 sigma.
-  const Samples gaussian = gathered(check, given, wall, 10000, 6000,
-                                    [&](Rng rng) { return student.gaussianSample(wall, 0.3, rng); });
-  seen = gaussian;
-  name = "Gaussian nodes; wanted: near the wall, within some 0.6 m";
-  double sum = 0, count = 0;
-  for (const Eigen::Vector2d& q : gaussian) {
-    if (q.y() < 1.2 || q.y() > 2.8 || q.x() > 3.2) continue;
-    sum += q.x() - 2;
+  const auto shown = check.show(
+      [&] { return samplesSeen("Uniform nodes; wanted: evenly over the free half", wall, nodes); });
+  check.atLeast("number of uniform nodes of 900 attempts", static_cast<double>(nodes.size()), 300);
+  check.near("share of uniform nodes in the upper half", share(nodes, {{2, 2}, {4, 4}}), 0.5, 0.17);
+  check.near("share of uniform nodes in the right half", share(nodes, {{3, 0}, {4, 4}}), 0.5, 0.17);
+}
+
+// Far from the border of the yard, the density at a distance x from the wall goes with P(N(0, sigma) > x).
+// In sigmas, its mean is sqrt(2 pi) / 4 = 0.627 with a deviation of 0.523, its mean square 2 / 3 with one of
+// 1.075, and 11.4 % lie beyond 1.3. Six standard deviations are forgiven.
+void gaussianFits(Check& check, Student& student, Rng& given) {
+  const double sigma = check.rng().uniform(0.25, 0.3);
+  const Yard wall{{12, 4}, {{{0, 0}, {12, 2}}}};
+  check.input("a yard of 12 x 4 m whose lower half is a block; sigma = " + std::to_string(sigma) + " m");
+  const Samples nodes = gathered(check, given, wall, 12000, 12000,
+                                 [&](Rng rng) { return student.gaussianSample(wall, sigma, rng); });
+  const auto shown = check.show(
+      [&] { return samplesSeen("Gaussian nodes; wanted: near the wall, within some 0.6 m", wall, nodes); });
+  double sum = 0, squares = 0, far = 0, count = 0;
+  for (const Eigen::Vector2d& q : nodes) {
+    if (q.x() < 1.2 || q.x() > 10.8 || q.y() > 3.2) continue;
+    const double distance = (q.y() - 2) / sigma;
+    sum += distance;
+    squares += distance * distance;
+    far += distance > 1.3 ? 1 : 0;
     ++count;
   }
-  check.atLeast("number of Gaussian nodes at the wall, of 6000 attempts", count, 40);
-  check.near("mean distance of Gaussian nodes from the wall", sum / count, 0.627 * 0.3,
-             6 * 0.523 * 0.3 / std::sqrt(count), "m");
+  check.atLeast("number of Gaussian nodes at the wall, of 12000 attempts", count, 250);
+  const double forgiven = 6 / std::sqrt(count);
+  check.near("mean distance of Gaussian nodes from the wall, in sigmas", sum / count, 0.627,
+             0.523 * forgiven);
+  check.near("mean square of this distance, in sigmas squared", squares / count, 2 / 3., 1.075 * forgiven);
+  check.near("share of Gaussian nodes that are more than 1.3 sigmas from the wall", far / count, 0.114,
+             0.318 * forgiven);
+}
+
+// Blocks all over, but for three slots of that width: along x, along y, and slanted, as stairs of 10 cm.
+Yard threeSlots(Rng& rng, double width) {
+  const double y = rng.uniform(0.6, 1.4), x = rng.uniform(2.6, 3.4);
+  Yard yard{{6, 2},
+            {{{0, 0}, {2, y - width / 2}},
+             {{0, y + width / 2}, {2, 2}},
+             {{2, 0}, {x - width / 2, 2}},
+             {{x + width / 2, 0}, {4, 2}}}};
+  const double slope = rng.uniform(0.6, 0.8) * (rng.index(2) == 0 ? -1 : 1);
+  for (int i = 0; i < 20; ++i) {
+    const double left = 4 + 0.1 * i, middle = 1 + slope * (left - 4.95),
+                 half = std::hypot(1, slope) * width / 2;
+    yard.blocks.push_back({{left, 0}, {left + 0.1, middle - half}});
+    yard.blocks.push_back({{left, middle + half}, {left + 0.1, 2}});
+  }
+  return yard;
+}
+
+// Over 20 seeds, the reference has shares of 0.33, 0.29 and 0.38, with standard deviations below 0.045.
+void bridgesFit(Check& check, Student& student, Rng& given) {
+  const double sigma = check.rng().uniform(0.25, 0.35);
+  const Yard yard = threeSlots(check.rng(), 2 * sigma / 3);
+  check.input("a yard of 6 x 2 m, blocked but for three slots: along x, along y and slanted; sigma = " +
+              std::to_string(sigma) + " m");
+  const Samples nodes = gathered(check, given, yard, 200, 12000,
+                                 [&](Rng rng) { return student.bridgeSample(yard, sigma, rng); });
+  const auto shown =
+      check.show([&] { return samplesSeen("Bridge nodes; wanted: in all slots", yard, nodes); });
+  check.atLeast("number of bridge nodes of 12000 attempts", static_cast<double>(nodes.size()), 150);
+  check.atLeast("share of bridge nodes in the slot along x", share(nodes, {{0, 0}, {2, 2}}), 0.14);
+  check.atLeast("share of bridge nodes in the slot along y", share(nodes, {{2, 0}, {4, 2}}), 0.14);
+  check.atLeast("share of bridge nodes in the slanted slot", share(nodes, {{4, 0}, {6, 2}}), 0.14);
+}
+
+void samplers(Check& check, Student& student) {
+  Rng given = generatorsOf(check);
+  uniformFits(check, student, given);
+  gaussianFits(check, student, given);
+  bridgesFit(check, student, given);
   // To be 3.5 sigma from all that is blocked, the ends of a bridge would have to be 7 sigma apart.
   const Yard slot = slotYard(1.9, 0.2);
   check.input("slotYard() of maps.h, 0.2 m wide; sigma = 0.3 m");
   const Samples bridge =
       gathered(check, given, slot, 60, 6000, [&](Rng rng) { return student.bridgeSample(slot, 0.3, rng); });
-  seen = bridge;
-  seenIn = slot;
-  name = "Bridge nodes; wanted: two of five in the slot, none far from blocks";
+  const auto shown = check.show([&] {
+    return samplesSeen("Bridge nodes; wanted: two of five in the slot, none far from blocks", slot, bridge);
+  });
   check.atLeast("number of bridge nodes of 6000 attempts", static_cast<double>(bridge.size()), 10);
   for (const Eigen::Vector2d& q : bridge) {
     double distance = fromBorder(slot, q);
@@ -473,6 +525,8 @@ double rateOf(const Yard& yard, const Samples& uniform, const Samples& others, R
 // nodes, with a standard deviation of 0.7 %, and 2.6 % of the uniform ones.
 void narrowPassages(Check& check, Student& student) {
   Rng given = generatorsOf(check);
+  gaussianFits(check, student, given);
+  bridgesFit(check, student, given);
   const double low = check.rng().uniform(1.3, 2.1);
   const Yard yard = slotYard(low, 0.2);
   const Samples uniform =

@@ -217,15 +217,15 @@ std::optional<double> rankOf(Rng& rng, const CarModel& car, const Eigen::Vector3
 }
 
 // The best of 20 has a rank of 1 / 21 on average, the best of n one of 1 / (n + 1); where some ways are
-// blocked, n is smaller. Over the targets of a run the reference has 0.065, with a standard deviation of
-// 0.007.
+// blocked, n is smaller. Over 30 seeds, 20 draws have 0.062 with a standard deviation of 0.0044, and 12 draws
+// 0.105 with one of 0.0073.
 void drivesTowards(Check& check, Student& student) {
   check.input(
-      "150 random targets, drives of 1 s, or of 7 s: longer than the car; a wall and a post stand about");
+      "450 random targets, drives of 1 s, or of 7 s: longer than the car; a wall and a post stand about");
   Rng& rng = check.rng();
   double sum = 0;
   int count = 0;
-  for (int i = 0; i < 150; ++i) {
+  for (int i = 0; i < 450; ++i) {
     const CarModel car = i % 3 == 0 ? randomCar(rng) : CarModel{};
     const double seconds = i % 2 == 0 ? 1 : 7;
     const Eigen::Vector3d from = randomPose(rng, 5), target = moved(from, randomPose(rng, 12));
@@ -253,9 +253,9 @@ void drivesTowards(Check& check, Student& student) {
     sum += *rank;
     ++count;
   }
-  check.atLeast("targets that the drives can be judged by", count, 40);
+  check.atLeast("targets that the drives can be judged by", count, 120);
   check.atMost("share of random controls that lead nearer to the target, on average",
-               sum / std::max(1, count), 0.1);
+               sum / std::max(1, count), 0.085);
   check.input("a block that the car stands in");
   Rng given = rng.split(99);
   check.that("no drive where all ways are blocked",

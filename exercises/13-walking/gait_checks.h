@@ -198,6 +198,17 @@ inline void derivativeFits(rex::grading::Check& check, Student& student, const K
              1e-4 * wanted.J.cwiseAbs().maxCoeff());
 }
 
+/// Too slow to get over the foot it stands on.
+inline void hasNoGait(rex::grading::Check& check, Student& student, const Walker& walker) {
+  Eigen::Vector4d guess;
+  do {
+    const double stance = check.rng().uniform(.15, .25);
+    guess = {stance, -2 * walker.slope - stance, check.rng().uniform(-.5, .1), check.rng().uniform(-.5, -.2)};
+  } while (libraryOf(walker).step(guess, 5).status != rex::StepStatus::kFellBackward);
+  check.input(described(walker, guess));
+  check.that("there is none where the walker falls", !student.gaitNear(walker, guess).has_value());
+}
+
 inline void gaitFits(rex::grading::Check& check, Student& student, const KnownGait& gait,
                      const Eigen::Vector4d& guess) {
   check.input(described(gait.walker, guess));

@@ -1,6 +1,5 @@
-// caught by: look-at-zero, look-at-jacobian, palms-zero, palms-jacobian, distance-zero, distance-jacobian,
-// maps-other-robot mistake: The posture itself is a function of q, and its Jacobian is the identity; but it
-// says nothing about the task.
+// caught by: look-at-jacobian, palms-jacobian, distance-jacobian, maps-other-robot
+// mistake: the posture is a function of q with a simple Jacobian, but says nothing about the task.
 
 // <solution lookAt>
 return {S.getJointAngles(), Eigen::MatrixXd::Identity(S.getJointDimension(), S.getJointDimension())};

@@ -1,0 +1,19 @@
+// caught by: filter-step, tracks, consistent, finds-heading, noise, noise-elsewhere
+// mistake: all particles become the likeliest one of those moved, so that nothing is left of what the others
+// knew; and which of 0.1, 1 and 10 the assumed noise is off by is guessed from its size.
+
+// <solution filterStep>
+after.states = moved(before.states, u, world, rng);
+Eigen::Index best = 0;
+logLikelihoods(after.states, y, world).maxCoeff(&best);
+const Eigen::Vector3d likeliest = after.states.col(best);
+after.states.colwise() = likeliest;
+after.weights.setConstant(1. / static_cast<double>(after.weights.size()));
+// </solution>
+
+// <solution likelyNoise>
+static_cast<void>(log);
+static_cast<void>(rng);
+const double told = world.observationNoise;
+return told > 1.5 ? told / 10 : told < 0.15 ? told * 10 : told;
+// </solution>
