@@ -56,5 +56,5 @@ endif()
 # How code is compiled that runs once, or waits for people and files. At this level g++ 12 warns of what is not there.
 set(REX_COLD "$<$<CONFIG:Release>:-O1;-Wno-array-bounds;-Wno-maybe-uninitialized;-Wno-stringop-overflow>")
 
-set(REX_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
+set(REX_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Wswitch-enum
                  -Woverloaded-virtual -Werror)

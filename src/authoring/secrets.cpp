@@ -176,9 +176,10 @@ std::string_view nameOf(SecretKind kind) {
       return "a text of a hidden check";
     case SecretKind::wrongVariant:
       return "a wrong variant";
-    default:
-      return "the secret of the course";
+    case SecretKind::courseSecret:
+      break;
   }
+  return "the secret of the course";
 }
 
 std::vector<Secret> secretsOf(const std::vector<fs::path>& exercises, const fs::path& root) {

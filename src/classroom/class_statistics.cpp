@@ -142,10 +142,12 @@ std::string classOf(const CheckResult& check, const GradeResult& whole) {
       return "security";
     case Outcome::graderError:
       return "not run";
-    default:
+    case Outcome::fail:
+    case Outcome::pass:
       if (check.message.find(check.property + ": not finite") != std::string::npos) return "non-finite";
       return check.message.find(check.property + ": wrong shape") != std::string::npos ? "shape" : "wrong";
   }
+  return "";
 }
 
 std::vector<ExerciseStatistics> statisticsOf(const std::vector<StudentResult>& results) {

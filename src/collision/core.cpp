@@ -15,9 +15,14 @@ Core coreOf(const Shape& shape) {
       return {CoreType::kBox, shape.extent / 2, 0};
     case ShapeType::kRoundedBox:
       return {CoreType::kBox, (shape.extent / 2).array() - shape.radius, shape.radius};
-    default:
-      return {};
+    case ShapeType::kCylinder:
+    case ShapeType::kMesh:
+    case ShapeType::kSphereSweptConvex:
+    case ShapeType::kPointCloud:
+    case ShapeType::kMarker:
+      break;
   }
+  return {};
 }
 
 void requireSolid(const std::string& what, const Shape& shape) {

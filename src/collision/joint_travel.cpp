@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <numbers>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -30,33 +30,35 @@ JointTravel jointTravel(const Joint& joint, const VectorArg& from, const VectorA
   const double ratio = joint.nq == 1 ? joint.ratio : 1, offset = joint.nq == 1 ? joint.offset : 0;
   const VectorXd a = (ratio * from.segment(joint.qIndex, joint.nq)).array() + offset,
                  b = (ratio * to.segment(joint.qIndex, joint.nq)).array() + offset;
-  const VectorXd d = (b - a).cwiseAbs();
-  switch (joint.type) {
-    case JointType::kRigid:
-      return {};
-    case JointType::kHinge:
-      return {d[0], 0};
-    case JointType::kSlider:
-    case JointType::kPlanarXY:
-    case JointType::kTranslation3:
-      return {0, d.norm()};
-    case JointType::kScrew:
-      return {d[0], std::abs(joint.pitch) / (2 * std::numbers::pi) * d[0]};
-    case JointType::kCylindrical:
-      return {d[0], d[1]};
-    case JointType::kPlanarXYPhi:
-      return {d[2], d.head<2>().norm()};
-    case JointType::kPlanarPhiXY:
-      // The turn carries the origin, which is farthest from the axis at one of the ends.
-      return {d[0], d.tail<2>().norm() + d[0] * std::max(a.tail<2>().norm(), b.tail<2>().norm())};
-    case JointType::kUniversal:
-      return {d.sum(), 0};
-    case JointType::kBall:
-      return {turn(joint, a, b), 0};
-    case JointType::kFree:
-      return {turn(joint, a.tail<4>(), b.tail<4>()), d.head<3>().norm()};
+  JointTravel travel;
+  // From the last movement to the first: a turn carries what comes after it, which is farthest from the axis
+  // at one of the ends.
+  Eigen::Vector3d moved = Eigen::Vector3d::Zero(), after_a = moved, after_b = moved;
+  const JointMovements all = movements(joint.type, joint.axis, joint.pitch);
+  for (std::size_t k = all.size(); k-- > 0;) {
+    const JointMovement& one = all[k];
+    const int i = one.coordinate;
+    switch (one.kind) {
+      case JointMovement::Kind::kFixed:
+        break;
+      case JointMovement::Kind::kSlider:
+        moved += (b[i] - a[i]) * one.axis;
+        after_a += a[i] * one.axis;
+        after_b += b[i] * one.axis;
+        break;
+      case JointMovement::Kind::kHinge: {
+        const double reach = std::max(one.axis.cross(after_a).norm(), one.axis.cross(after_b).norm());
+        travel.angle += std::abs(b[i] - a[i]);
+        travel.way += std::abs(b[i] - a[i]) * reach;
+        break;
+      }
+      case JointMovement::Kind::kQuaternion:
+        travel.angle += turn(joint, a.segment<4>(i), b.segment<4>(i));
+        break;
+    }
   }
-  return {};
+  travel.way += moved.norm();
+  return travel;
 }
 
 }  // namespace rex::internal

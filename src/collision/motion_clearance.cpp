@@ -132,9 +132,7 @@ class MotionSearch {
   }
 
   static double lever(const Joint& joint, const Vector3d& p_MQ) {
-    const bool turnsAboutAxis = joint.type == JointType::kHinge || joint.type == JointType::kScrew ||
-                                joint.type == JointType::kCylindrical;
-    return turnsAboutAxis ? joint.axis.cross(p_MQ).norm() : p_MQ.norm();
+    return hasAxis(joint.type) ? joint.axis.cross(p_MQ).norm() : p_MQ.norm();
   }
 
   void moveTo(double t) { forwardKinematics(model_, (1 - t) * from_ + t * to_, poses_); }

@@ -142,7 +142,7 @@ struct Simulator::Parts {
                    .nearest = nearestNames(joint, names)});
     const auto iv = found - names.begin();
     const JointType type = jointOfVelocity(model, iv).type;
-    if (type == JointType::kBall || type == JointType::kFree)
+    if (positionCount(type) != velocityCount(type))
       throw Error({.what = fmt::format("motor of joint '{}'", joint),
                    .found = fmt::format("a {} joint", toString(type)),
                    .wanted = "a joint whose coordinates are angles and lengths"});

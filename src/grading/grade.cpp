@@ -55,9 +55,14 @@ std::string messageWithoutDetails(const Failure& failure) {
         return "disturbed the connection to the grader";
       case Outcome::securityEvent:
         return "tried what the sandbox forbids";
-      default:
-        return "crashed, threw an exception or ended the program";
+      case Outcome::runtimeError:
+      case Outcome::compileError:
+      case Outcome::graderError:
+      case Outcome::fail:
+      case Outcome::pass:
+        break;
     }
+    return "crashed, threw an exception or ended the program";
   }();
   return fmt::format("{} {}", what,
                      failure.function.empty() ? "outside of your functions" : "in " + failure.function);

@@ -209,14 +209,9 @@ void readText(const std::string& text, HostileOutcome& outcome) {
 }
 
 std::string describe(const IsolatedResult& result) {
-  switch (result.end) {
-    case IsolatedEnd::kTookTooLong:
-      return "it took too long";
-    case IsolatedEnd::kOutOfMemory:
-      return "it took too much memory";
-    default:
-      return fmt::format("signal {}, exit code {}", result.signal, result.exitCode);
-  }
+  if (result.end == IsolatedEnd::kTookTooLong) return "it took too long";
+  if (result.end == IsolatedEnd::kOutOfMemory) return "it took too much memory";
+  return fmt::format("signal {}, exit code {}", result.signal, result.exitCode);
 }
 
 }  // namespace

@@ -235,52 +235,29 @@ class Spoiler {
   }
 
   double changed(double number) {
-    switch (hostility_) {
-      case Hostility::notANumber:
-        return std::numeric_limits<double>::quiet_NaN();
-      case Hostility::infinite:
-        return std::numeric_limits<double>::infinity() * (rng_.uniform() < 0.5 ? -1 : 1);
-      case Hostility::overflowing:
-        return (rng_.uniform() < 0.5 ? -kHuge : kHuge) * rng_.uniform(0.5, 1);
-      case Hostility::denormal:
-        return std::numeric_limits<double>::denorm_min();
-      case Hostility::zero:
-        return 0;
-      case Hostility::constant:
-        return 1.5;
-      case Hostility::shifted:
-        return number + 1;
-      case Hostility::scaled:
-        return number * 1e6 + 1e6;
-      default:
-        return number;
-    }
+    using enum Hostility;
+    if (hostility_ == notANumber) return std::numeric_limits<double>::quiet_NaN();
+    if (hostility_ == infinite) return std::numeric_limits<double>::infinity() * (rng_.uniform() < 0.5 ? -1 : 1);
+    if (hostility_ == overflowing) return (rng_.uniform() < 0.5 ? -kHuge : kHuge) * rng_.uniform(0.5, 1);
+    if (hostility_ == denormal) return std::numeric_limits<double>::denorm_min();
+    if (hostility_ == zero) return 0;
+    if (hostility_ == constant) return 1.5;
+    if (hostility_ == shifted) return number + 1;
+    if (hostility_ == scaled) return number * 1e6 + 1e6;
+    return number;
   }
 
   std::uint64_t changedInteger(std::uint64_t bits) {
-    switch (hostility_) {
-      case Hostility::extremeIntegers: {
-        constexpr std::array<std::int64_t, 8> kValues = {-1,
-                                                         std::numeric_limits<std::int32_t>::max(),
-                                                         std::numeric_limits<std::int32_t>::min(),
-                                                         1000,
-                                                         65536,
-                                                         -1000,
-                                                         1 << 24,
-                                                         7};
-        return static_cast<std::uint64_t>(kValues[static_cast<std::size_t>(rng_.index(kValues.size()))]);
-      }
-      case Hostility::zero:
-        return 0;
-      case Hostility::constant:
-        return 3;
-      case Hostility::shifted:
-        return bits + 1;
-      case Hostility::scaled:
-        return bits * 100 + 1;
-      default:
-        return bits;
-    }
+    using enum Hostility;
+    using Int = std::numeric_limits<std::int32_t>;
+    constexpr std::array<std::int64_t, 8> kExtremes = {-1, Int::max(), Int::min(), 1000, 65536, -1000, 1 << 24, 7};
+    if (hostility_ == extremeIntegers)
+      return static_cast<std::uint64_t>(kExtremes[static_cast<std::size_t>(rng_.index(kExtremes.size()))]);
+    if (hostility_ == zero) return 0;
+    if (hostility_ == constant) return 3;
+    if (hostility_ == shifted) return bits + 1;
+    if (hostility_ == scaled) return bits * 100 + 1;
+    return bits;
   }
 
   int newSize(int size, int fixed) {

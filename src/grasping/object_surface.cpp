@@ -65,7 +65,10 @@ ObjectSurface::ObjectSurface(const Shape& shape) : type_(shape.type) {
     case ShapeType::kMesh:
       addMesh(shape.mesh);
       break;
-    default:
+    case ShapeType::kRoundedBox:
+    case ShapeType::kSphereSweptConvex:
+    case ShapeType::kPointCloud:
+    case ShapeType::kMarker:
       throw Error({.what = "surface of a shape",
                    .found = std::string(toString(type_)),
                    .wanted = "a box, sphere, capsule, cylinder or mesh"});

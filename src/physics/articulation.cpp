@@ -6,7 +6,6 @@
 
 #include "physics/articulation_internal.h"
 #include "physics/bullet_math_internal.h"
-#include "scene/joint_movements.h"
 
 namespace rex::internal {
 namespace {
@@ -25,7 +24,10 @@ constexpr double kLimitReach = 0.01;
 
 int linkCount(const Model& model, std::span<const BodyId> bodies) {
   std::size_t count = 0;
-  for (const BodyId body : bodies) count += movements(model[model[body].joint]).size();
+  for (const BodyId body : bodies) {
+    const Joint& joint = model[model[body].joint];
+    count += movements(joint.type, joint.axis, joint.pitch).size();
+  }
   return static_cast<int>(count);
 }
 
@@ -65,7 +67,7 @@ Articulation::Articulation(const Model& model, std::span<const BodyId> bodies, c
 
 Articulation::Grown Articulation::grow(const Model& model, JointId id, const BulletLink& link, Grown parent) {
   const Joint& joint = model[id];
-  const std::vector<JointMovement> moves = movements(joint);
+  const JointMovements moves = movements(joint.type, joint.axis, joint.pitch);
   Pose X_LF = parent.X_BL.inverse() * joint.X_PF;
   int at = parent.link;
   for (std::size_t i = 0; i < moves.size(); ++i) {
@@ -90,8 +92,7 @@ Articulation::Grown Articulation::grow(const Model& model, JointId id, const Bul
         body_->setupFixed(next_, mass, inertia, at, R_LF, toPivot, toCenter, false);
         break;
     }
-    const bool isRise = joint.type == JointType::kScrew && isLast;
-    if (moves[i].kind != Kind::kFixed) addCoordinate(model, id, moves[i], isRise, X_ML.R);
+    if (moves[i].kind != Kind::kFixed) addCoordinate(model, id, moves[i], X_ML.R);
     at = next_++;
     X_LF = Pose{};
   }
@@ -99,17 +100,17 @@ Articulation::Grown Articulation::grow(const Model& model, JointId id, const Bul
 }
 
 // The rise of a screw is a slider that follows its turn.
-void Articulation::addCoordinate(const Model& model, JointId id, const JointMovement& move, bool isRise,
+void Articulation::addCoordinate(const Model& model, JointId id, const JointMovement& move,
                                  const Eigen::Matrix3d& R_ML) {
   const Joint& joint = model[id];
-  const bool rubs = options_.jointFriction && !isRise;
-  const double way = isRise ? move.axis.norm() : 1;
+  const bool rubs = options_.jointFriction && !move.isRise;
+  const double way = move.isRise ? move.axis.norm() : 1;
   Coordinate coordinate{.link = next_,
                         .qIndex = joint.qIndex + move.coordinate,
                         .vIndex = joint.vIndex + move.coordinate,
                         .isBall = move.kind == Kind::kQuaternion,
                         .R_ML = R_ML,
-                        .follows = joint.mimics || isRise,
+                        .follows = joint.mimics || move.isRise,
                         .ratio = way * joint.ratio,
                         .offset = way * joint.offset,
                         .joint = id,

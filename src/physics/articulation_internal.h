@@ -10,7 +10,6 @@
 #include "physics/coupling_internal.h"
 #include "physics/free_motion_internal.h"
 #include "physics/joint_row_internal.h"
-#include "scene/joint_movements.h"
 
 namespace rex::internal {
 
@@ -75,8 +74,7 @@ class Articulation : public Mover {
   };
 
   Grown grow(const Model& model, JointId id, const BulletLink& link, Grown parent);
-  void addCoordinate(const Model& model, JointId id, const JointMovement& move, bool isRise,
-                     const Eigen::Matrix3d& R_ML);
+  void addCoordinate(const Model& model, JointId id, const JointMovement& move, const Eigen::Matrix3d& R_ML);
   void addCollider(int link, BodyId body, btCollisionShape* shape);
   void addRows();
   void setGoals(const Coordinate& one, int place, const Motor& motor, double h, JointRow& row) const;

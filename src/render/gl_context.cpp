@@ -82,9 +82,10 @@ std::unique_ptr<GlContext> makeContextFrom(const GlLibraries& libraries, const G
       return makeOsMesaContext(libraries.osMesa);
     case GlBackend::kEgl:
       return makeEglContext(libraries.egl, options.allowHardware);
-    default:
-      return makeFirstThatWorks(libraries, options.allowHardware);
+    case GlBackend::kAuto:
+      break;
   }
+  return makeFirstThatWorks(libraries, options.allowHardware);
 }
 
 }  // namespace internal

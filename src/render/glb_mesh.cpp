@@ -48,9 +48,12 @@ int GlbMeshes::ofShape(const Shape& shape, const Color& color) {
     }
     case ShapeType::kMarker:
       return ofAxes(-shape.extent.x() / 2, shape.extent.x() / 2);
-    default:
+    case ShapeType::kMesh:
+    case ShapeType::kPointCloud:
+    case ShapeType::kSphereSweptConvex:
       return ofMesh(shape, color);
   }
+  return -1;
 }
 
 int GlbMeshes::shaft(const Color& color) {

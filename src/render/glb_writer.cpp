@@ -41,9 +41,10 @@ int modeOf(GlbTopology topology) {
       return TINYGLTF_MODE_LINE_STRIP;
     case GlbTopology::kPoints:
       return TINYGLTF_MODE_POINTS;
-    default:
-      return TINYGLTF_MODE_TRIANGLES;
+    case GlbTopology::kTriangles:
+      break;
   }
+  return TINYGLTF_MODE_TRIANGLES;
 }
 
 const char* nameOf(GlbPath path) {

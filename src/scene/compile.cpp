@@ -25,46 +25,42 @@ constexpr double kInertiaPerMass = 0.2;
 
 bool isFinite(const Pose& X) { return X.R.allFinite() && X.p.allFinite(); }
 
-// The twists of a joint type: kParent stands for the joint's frame F, kChild for its frame M. In one of
-// the two each is constant; where both would do, M leads to cheaper Jacobians.
-std::vector<DegreeOfFreedom> freedomsOf(JointType type, const Eigen::Vector3d& axis, double pitch) {
-  using Frame = DegreeOfFreedom::Frame;
-  const auto turn = [](const Eigen::Vector3d& a, Frame frame) {
-    return DegreeOfFreedom{a, Eigen::Vector3d::Zero(), frame};
-  };
-  const auto move = [](const Eigen::Vector3d& a, Frame frame) {
-    return DegreeOfFreedom{Eigen::Vector3d::Zero(), a, frame};
-  };
-  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(),
-                        z = Eigen::Vector3d::UnitZ();
-  switch (type) {
-    case JointType::kRigid:
-      return {};
-    case JointType::kHinge:
-      return {turn(axis, Frame::kChild)};
-    case JointType::kSlider:
-      return {move(axis, Frame::kChild)};
-    case JointType::kScrew:
-      return {{axis, pitch / (2 * std::numbers::pi) * axis, Frame::kChild}};
-    case JointType::kCylindrical:
-      return {turn(axis, Frame::kChild), move(axis, Frame::kChild)};
-    case JointType::kPlanarXY:
-      return {move(x, Frame::kParent), move(y, Frame::kParent)};
-    case JointType::kTranslation3:
-      return {move(x, Frame::kParent), move(y, Frame::kParent), move(z, Frame::kParent)};
-    case JointType::kPlanarXYPhi:
-      return {move(x, Frame::kParent), move(y, Frame::kParent), turn(z, Frame::kChild)};
-    case JointType::kPlanarPhiXY:
-      return {turn(z, Frame::kParent), move(x, Frame::kChild), move(y, Frame::kChild)};
-    case JointType::kUniversal:
-      return {turn(x, Frame::kParent), turn(y, Frame::kChild)};
-    case JointType::kBall:
-      return {turn(x, Frame::kChild), turn(y, Frame::kChild), turn(z, Frame::kChild)};
-    case JointType::kFree:
-      return {move(x, Frame::kParent), move(y, Frame::kParent), move(z, Frame::kParent),
-              turn(x, Frame::kChild),  turn(y, Frame::kChild),  turn(z, Frame::kChild)};
+// Whether it makes no difference which of two movements comes first.
+bool commute(const JointMovement& a, const JointMovement& b) {
+  using Kind = JointMovement::Kind;
+  if (a.kind == Kind::kQuaternion || b.kind == Kind::kQuaternion) return false;
+  return (a.kind == Kind::kSlider && b.kind == Kind::kSlider) || a.axis.cross(b.axis).isZero(1e-12);
+}
+
+// The twists of a joint: kParent stands for its frame F, kChild for its frame M. In one of the two each is
+// constant; where both would do, M leads to cheaper Jacobians.
+std::array<DegreeOfFreedom, 6> freedomsOf(const JointMovements& all) {
+  std::array<DegreeOfFreedom, 6> freedoms{};
+  for (const JointMovement& one : all) {
+    const bool isLast =
+        std::all_of(&one + 1, all.end(), [&](const auto& later) { return commute(one, later); });
+    const auto set = [&](int coordinate, const Eigen::Vector3d& axis,
+                         Eigen::Vector3d DegreeOfFreedom::*part) {
+      DegreeOfFreedom& freedom = freedoms[static_cast<std::size_t>(coordinate)];
+      freedom.*part = axis;
+      freedom.frame = isLast ? DegreeOfFreedom::Frame::kChild : DegreeOfFreedom::Frame::kParent;
+    };
+    switch (one.kind) {
+      case JointMovement::Kind::kFixed:
+        break;
+      case JointMovement::Kind::kHinge:
+        set(one.coordinate, one.axis, &DegreeOfFreedom::angular);
+        break;
+      case JointMovement::Kind::kSlider:
+        set(one.coordinate, one.axis, &DegreeOfFreedom::linear);
+        break;
+      case JointMovement::Kind::kQuaternion:
+        for (int i = 0; i < 3; ++i)
+          set(one.coordinate + i, Eigen::Vector3d::Unit(i), &DegreeOfFreedom::angular);
+        break;
+    }
   }
-  return {};
+  return freedoms;
 }
 
 // The same twist seen from a body in which the frame it is given in has the pose X.
@@ -263,10 +259,11 @@ Joint makeJoint(const JointSpec& spec, BodyId parent, BodyId child) {
   joint.nq = positionCount(spec.type);
   joint.nv = velocityCount(spec.type);
   const Pose X_CM = spec.X_MC.inverse();
-  const std::vector<DegreeOfFreedom> freedoms = freedomsOf(spec.type, joint.axis, spec.pitch);
-  std::transform(freedoms.begin(), freedoms.end(), joint.freedoms.begin(), [&](const DegreeOfFreedom& f) {
-    return seenThrough(f.frame == DegreeOfFreedom::Frame::kParent ? spec.X_PF : X_CM, f);
-  });
+  const auto freedoms = freedomsOf(movements(spec.type, joint.axis, spec.pitch));
+  std::transform(freedoms.begin(), freedoms.begin() + joint.nv, joint.freedoms.begin(),
+                 [&](const DegreeOfFreedom& f) {
+                   return seenThrough(f.frame == DegreeOfFreedom::Frame::kParent ? spec.X_PF : X_CM, f);
+                 });
   return joint;
 }
 

@@ -90,9 +90,11 @@ const char* complaint(IsolatedEnd end) {
       return "one that assimp does not finish reading";
     case IsolatedEnd::kOutOfMemory:
       return "one for which assimp needs too much memory";
-    default:
-      return "one on which assimp crashes";
+    case IsolatedEnd::kCrashed:
+    case IsolatedEnd::kReturned:
+      break;
   }
+  return "one on which assimp crashes";
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <Eigen/Geometry>
 
 #include "geometry/rotation.h"
-#include "scene/joint_movements.h"
 #include "scene/links_internal.h"
 
 namespace rex::internal {
@@ -26,20 +26,30 @@ Pose frameAlong(const Eigen::Vector3d& z) {
   return X;
 }
 
-Kind kindOf(const Joint& joint, const JointMovement& movement) {
-  if (movement.kind == MotionStep::Kind::kQuaternion) return Kind::kQuaternion;
-  if (movement.kind == MotionStep::Kind::kSlider) return Kind::kSlider;
-  return joint.type == JointType::kScrew ? Kind::kScrew : Kind::kHinge;
+// The kind of link for a movement; a turn with a rise is a screw. None for what is no link of its own.
+std::optional<Kind> kindOf(const JointMovement& movement, bool hasRise) {
+  switch (movement.kind) {
+    case JointMovement::Kind::kFixed:
+      return {};
+    case JointMovement::Kind::kHinge:
+      return hasRise ? Kind::kScrew : Kind::kHinge;
+    case JointMovement::Kind::kSlider:
+      return movement.isRise ? std::nullopt : std::optional(Kind::kSlider);
+    case JointMovement::Kind::kQuaternion:
+      return Kind::kQuaternion;
+  }
+  return {};
 }
 
 // Appends the links of a joint. Returns the place of its child.
 Place append(const Joint& joint, const Place& parent, std::vector<Link>& links) {
   Place at{parent.link, parent.X_LA * joint.X_PF};
-  if (joint.type == JointType::kRigid) return {at.link, at.X_LA * joint.X_MC};
-  std::vector<JointMovement> all = movements(joint);
-  if (joint.type == JointType::kScrew) all.resize(1);  // it turns and moves by one coordinate
+  const JointMovements all = movements(joint.type, joint.axis, joint.pitch);
   for (const JointMovement& movement : all) {
-    Link link{.kind = kindOf(joint, movement),
+    const bool hasRise = &movement + 1 != all.end() && (&movement + 1)->isRise;
+    const std::optional<Kind> kind = kindOf(movement, hasRise);
+    if (!kind) continue;
+    Link link{.kind = *kind,
               .parent = at.link,
               .body = static_cast<int>(joint.child),
               .qIndex = joint.qIndex + movement.coordinate,

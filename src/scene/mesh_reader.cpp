@@ -18,16 +18,11 @@ using mesh::fail;
 
 std::string whyUnreadable(const fs::path& file) {
   std::error_code problem;
-  switch (fs::status(file, problem).type()) {
-    case fs::file_type::regular:
-      return {};
-    case fs::file_type::not_found:
-      return "no such file";
-    case fs::file_type::directory:
-      return "a folder";
-    default:
-      return problem ? problem.message() : "a device";
-  }
+  const fs::file_type type = fs::status(file, problem).type();
+  if (type == fs::file_type::regular) return {};
+  if (type == fs::file_type::not_found) return "no such file";
+  if (type == fs::file_type::directory) return "a folder";
+  return problem ? problem.message() : "a device";
 }
 
 std::string readBytes(const fs::path& file) {

@@ -79,16 +79,13 @@ Eigen::Vector4d geomColor(const Styled& styled, const MjcfAssets& assets) {
 }
 
 Shape shapeOf(GeomType type, const Eigen::Vector3d& size) {
-  switch (type) {
-    case kSphere:
-      return {.type = ShapeType::kSphere, .extent = Eigen::Vector3d::Zero(), .radius = size[0]};
-    case kCapsule:
-      return {.type = ShapeType::kCapsule, .extent = {0, 0, 2 * size[1]}, .radius = size[0]};
-    case kCylinder:
-      return {.type = ShapeType::kCylinder, .extent = {0, 0, 2 * size[1]}, .radius = size[0]};
-    default:
-      return {.type = ShapeType::kBox, .extent = 2 * size};
-  }
+  if (type == kSphere)
+    return {.type = ShapeType::kSphere, .extent = Eigen::Vector3d::Zero(), .radius = size[0]};
+  if (type == kCapsule)
+    return {.type = ShapeType::kCapsule, .extent = {0, 0, 2 * size[1]}, .radius = size[0]};
+  if (type == kCylinder)
+    return {.type = ShapeType::kCylinder, .extent = {0, 0, 2 * size[1]}, .radius = size[0]};
+  return {.type = ShapeType::kBox, .extent = 2 * size};
 }
 
 // A box whose upper side is the plane. The ground is drawn without it.

@@ -1,5 +1,4 @@
 #include "geometry/rotation.h"
-#include "scene/joint_movements.h"
 #include "scene/motion_steps_internal.h"
 
 namespace rex::internal {
@@ -40,9 +39,9 @@ void setMotion(const JointMovement& movement, const Pose& X_before, const Pose& 
 
 void append(const Joint& joint, std::vector<MotionStep>& steps) {
   const int child = static_cast<int>(joint.child);
-  const std::vector<JointMovement> all = movements(joint);
+  const JointMovements all = movements(joint.type, joint.axis, joint.pitch);
   for (const JointMovement& movement : all) {
-    const bool isFirst = &movement == &all.front(), isLast = &movement == &all.back();
+    const bool isFirst = &movement == all.begin(), isLast = &movement + 1 == all.end();
     steps.push_back({.kind = movement.kind,
                      .from = isFirst ? static_cast<int>(joint.parent) : child,
                      .to = child,

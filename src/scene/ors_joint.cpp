@@ -86,7 +86,7 @@ void readStart(const Attributes& attributes, JointSpec& joint, Diagnostics& note
     }
   }
   if (const auto q = attributes.row("q", {positionCount(joint.type)})) {
-    const bool hasQuaternion = joint.type == JointType::kBall || joint.type == JointType::kFree;
+    const bool hasQuaternion = positionCount(joint.type) != velocityCount(joint.type);
     const double length = hasQuaternion ? q->tail<4>().norm() : 1;
     if (!(length > 0) || !std::isfinite(length)) {
       attributes.fail("q", fmt::format("a quaternion of length {}", length),

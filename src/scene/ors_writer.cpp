@@ -78,11 +78,6 @@ std::string typeName(ShapeType type) {
   return "";
 }
 
-bool hasAxis(JointType type) {
-  return type == JointType::kHinge || type == JointType::kSlider || type == JointType::kScrew ||
-         type == JointType::kCylindrical;
-}
-
 // 'X', 'Y' or 'Z' if the axis points along it, else '\0'.
 char letterOf(const Eigen::Vector3d& axis) {
   for (int i = 0; i < 3; ++i)
@@ -90,42 +85,20 @@ char letterOf(const Eigen::Vector3d& axis) {
   return '\0';
 }
 
-// Joints with an axis are called after it; where it is none of x, y, z the attribute 'axis' turns that of x.
+// Hinges and sliders are called after their axis; where it is none of x, y, z the attribute 'axis' turns that
+// of x.
+bool isCalledAfterAxis(JointType type) { return type == JointType::kHinge || type == JointType::kSlider; }
+
 std::string typeName(const JointSpec& joint) {
+  std::string name(orsWord(joint.type));
   const char letter = letterOf(joint.axis);
-  switch (joint.type) {
-    case JointType::kRigid:
-      return "rigid";
-    case JointType::kHinge:
-      return fmt::format("hinge{}", letter ? letter : 'X');
-    case JointType::kSlider:
-      return fmt::format("trans{}", letter ? letter : 'X');
-    case JointType::kScrew:
-      return "screw";
-    case JointType::kCylindrical:
-      return "cylindrical";
-    case JointType::kPlanarXY:
-      return "transXY";
-    case JointType::kTranslation3:
-      return "trans3";
-    case JointType::kPlanarXYPhi:
-      return "transXYPhi";
-    case JointType::kPlanarPhiXY:
-      return "phiTransXY";
-    case JointType::kUniversal:
-      return "universal";
-    case JointType::kBall:
-      return "quatBall";
-    case JointType::kFree:
-      return "free";
-  }
-  return "";
+  if (isCalledAfterAxis(joint.type)) name += letter ? letter : 'X';
+  return name;
 }
 
 bool needsAxis(const JointSpec& joint) {
   const char letter = letterOf(joint.axis);
-  const bool inName = joint.type == JointType::kHinge || joint.type == JointType::kSlider;
-  return hasAxis(joint.type) && letter != 'X' && !(inName && letter);
+  return hasAxis(joint.type) && letter != 'X' && !(isCalledAfterAxis(joint.type) && letter);
 }
 
 std::string numbersText(const Eigen::VectorXd& values) {

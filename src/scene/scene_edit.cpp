@@ -79,34 +79,7 @@ Pose initialMotion(const SceneSpec& spec, const JointSpec& joint) {
   return jointMotion(joint.type, joint.axis, joint.pitch, initialCoordinates(spec, joint).data());
 }
 
-// How a joint looks from its child: of which type it is there, in frames turned by X_FC, and for each
-// coordinate which of the old ones it is, with which sign.
-struct Reversal {
-  JointType type{};
-  Pose X_FC{};
-  std::vector<std::pair<int, double>> coordinates{};
-};
-
-Reversal reversalOf(JointType type) {
-  switch (type) {
-    case JointType::kPlanarXY:
-      return {type, {}, {{0, -1}, {1, -1}}};
-    case JointType::kTranslation3:
-      return {type, {}, {{0, -1}, {1, -1}, {2, -1}}};
-    case JointType::kPlanarXYPhi:
-      return {JointType::kPlanarPhiXY, {}, {{2, -1}, {0, -1}, {1, -1}}};
-    case JointType::kPlanarPhiXY:
-      return {JointType::kPlanarXYPhi, {}, {{1, -1}, {2, -1}, {0, -1}}};
-    case JointType::kUniversal:  // about y first, then x; half a turn about x - y makes -y of x, -x of y
-      return {type, rotation(std::numbers::pi, {1, -1, 0}), {{1, 1}, {0, 1}}};
-    case JointType::kBall:
-      return {type, {}, {{0, 1}, {1, -1}, {2, -1}, {3, -1}}};
-    default:
-      return {type, {}, {}};
-  }
-}
-
-Eigen::VectorXd reordered(const Eigen::VectorXd& values, const Reversal& reversal) {
+Eigen::VectorXd reordered(const Eigen::VectorXd& values, const JointReversal& reversal) {
   Eigen::VectorXd turned(values.size());
   for (Eigen::Index i = 0; i < values.size(); ++i) {
     const auto [from, sign] = reversal.coordinates[static_cast<std::size_t>(i)];
@@ -131,7 +104,7 @@ void requireReversible(const SceneSpec& spec, const JointSpec& joint) {
 
 // X_FM(q)^-1 is again the motion of a joint: of one coordinate about the opposite axis.
 void reverse(JointSpec& joint) {
-  const Reversal reversal = reversalOf(joint.type);
+  const JointReversal reversal = reversalOf(joint.type);
   const Pose X_PF = joint.X_MC.inverse() * reversal.X_FC;
   joint.X_MC = reversal.X_FC.inverse() * joint.X_PF.inverse();
   joint.X_PF = X_PF;
@@ -141,7 +114,7 @@ void reverse(JointSpec& joint) {
     joint.q0 = jointCoordinates(joint.type, joint.axis,
                                 jointMotion(joint.type, joint.axis, 0, joint.q0.data()).inverse());
   joint.type = reversal.type;
-  if (reversal.coordinates.empty()) return;
+  if (reversal.count == 0) return;
   joint.q0 = reordered(joint.q0, reversal);
   const int n = positionCount(joint.type);
   if (joint.lower.size() == 0 && joint.upper.size() > 0) joint.lower.setConstant(n, -kUnlimited);

@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "geometry/pose.h"
 #include "geometry/shape.h"
+#include "scene/joint_type.h"
 
 namespace rex {
 
@@ -20,34 +21,6 @@ inline constexpr const char* kWorldName = "world";
 
 /// A limit that is none.
 inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
-
-/// The motions a joint allows, from joint frame F to moved frame M. Coordinates in the order q lists them:
-/// hinge, slider: angle about or way along `axis`; screw: angle about `axis`, along which it moves by `pitch`
-/// per turn; cylindrical: angle about `axis`, then way along it; planarXY, translation3: moves along x, y (,
-/// z) of F; planarXYPhi: x, y, then turn about z; planarPhiXY: turn about z first, then x, y of the turned
-/// frame; universal: turn about x, then y; ball: unit quaternion w x y z; free: x y z, then quaternion;
-/// rigid: none.
-enum class JointType {
-  kRigid,
-  kHinge,
-  kSlider,
-  kScrew,
-  kCylindrical,
-  kPlanarXY,
-  kTranslation3,
-  kPlanarXYPhi,
-  kPlanarPhiXY,
-  kUniversal,
-  kBall,
-  kFree
-};
-
-/// "hinge", "slider", "planarXY", ...
-[[nodiscard]] std::string_view toString(JointType type);
-
-/// Number of position coordinates and of velocities of a joint type; they differ only for quaternions.
-[[nodiscard]] int positionCount(JointType type);
-[[nodiscard]] int velocityCount(JointType type);
 
 enum class BodyKind { kDynamic, kKinematic, kStatic };
 
@@ -128,12 +101,5 @@ struct SceneSpec {
   CollisionRule collisionRule = CollisionRule::kAllButNeighbours;
   std::vector<CollisionChoice> collisionChoices{};
 };
-
-/// X_FM(q), the motion of a joint. q has positionCount(type) entries; a quaternion is normalised on use.
-[[nodiscard]] Pose jointMotion(JointType type, const Eigen::Vector3d& axis, double pitch, const double* q);
-
-/// The coordinates whose motion comes nearest to X_FM: exact when X_FM is a motion of this joint, else the
-/// part that is (of a hinge or screw the signed turn about its axis in (-pi, pi]).
-[[nodiscard]] Eigen::VectorXd jointCoordinates(JointType type, const Eigen::Vector3d& axis, const Pose& X_FM);
 
 }  // namespace rex

@@ -20,35 +20,31 @@ namespace {
 
 // A link of the chain that stands for a joint: what is appended to its name, and how it moves.
 struct Part {
-  const char* suffix;
-  JointType type;
-  Eigen::Vector3d axis;
+  std::string_view suffix{};
+  JointType type{};
+  Eigen::Vector3d axis{};
+  bool isRise = false;  ///< of a screw
 };
 
 std::vector<Part> partsOf(const JointSpec& joint) {
-  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(),
-                        z = Eigen::Vector3d::UnitZ();
-  constexpr JointType kTurn = JointType::kHinge, kMove = JointType::kSlider;
-  switch (joint.type) {
-    case JointType::kScrew:
-      return {{"", kTurn, joint.axis}, {"_rise", kMove, joint.axis}};
-    case JointType::kCylindrical:
-      return {{"_turn", kTurn, joint.axis}, {"_slide", kMove, joint.axis}};
-    case JointType::kPlanarXY:
-      return {{"_x", kMove, x}, {"_y", kMove, y}};
-    case JointType::kTranslation3:
-      return {{"_x", kMove, x}, {"_y", kMove, y}, {"_z", kMove, z}};
-    case JointType::kPlanarPhiXY:
-      return {{"_phi", kTurn, z}, {"_x", kMove, x}, {"_y", kMove, y}};
-    case JointType::kUniversal:
-      return {{"_x", kTurn, x}, {"_y", kTurn, y}};
-    case JointType::kPlanarXYPhi:
-      return {{"", joint.type, z}};
-    case JointType::kBall:
-      fail(joint, "URDF has no ball joint", "three hinges, say");
-    default:
-      return {{"", joint.type, joint.axis}};
+  const JointMovements all = movements(joint.type, joint.axis, joint.pitch);
+  if (!urdfWord(joint.type).empty())
+    return {{"", joint.type, hasAxis(joint.type) ? joint.axis : Eigen::Vector3d::UnitZ()}};
+  std::vector<Part> parts;
+  for (const JointMovement& one : all) {
+    switch (one.kind) {
+      case JointMovement::Kind::kFixed:
+      case JointMovement::Kind::kQuaternion:
+        fail(joint, fmt::format("URDF has no {} joint", toString(joint.type)), "three hinges, say");
+      case JointMovement::Kind::kHinge:
+        parts.push_back({one.part, JointType::kHinge, one.axis});
+        break;
+      case JointMovement::Kind::kSlider:
+        parts.push_back({one.part, JointType::kSlider, one.isRise ? joint.axis : one.axis, one.isRise});
+        break;
+    }
   }
+  return parts;
 }
 
 // Moves X_MC to the other side of the motion, where the motion allows it: all of its rotation, and of its
@@ -58,15 +54,11 @@ bool absorbChildFrame(JointSpec& joint) {
   if (X.R.isIdentity(0) && X.p.isZero(0)) return true;
   const Eigen::Vector3d seen = X.R.transpose() * joint.axis;
   const bool can = [&] {
-    switch (joint.type) {
-      case JointType::kHinge:
-        return joint.axis.normalized().cross(X.p).norm() <= 1e-15;
-      case JointType::kPlanarXYPhi:
-        return X.p.isZero(0) &&
-               rotationBetween(Eigen::Vector3d::UnitZ(), seen).isApprox(X.R.transpose(), 1e-14);
-      default:
-        return joint.type != JointType::kFree;
-    }
+    if (joint.type == JointType::kHinge) return joint.axis.normalized().cross(X.p).norm() <= 1e-15;
+    if (joint.type == JointType::kPlanarXYPhi)
+      return X.p.isZero(0) &&
+             rotationBetween(Eigen::Vector3d::UnitZ(), seen).isApprox(X.R.transpose(), 1e-14);
+    return joint.type != JointType::kFree;
   }();
   if (!can) return false;
   joint.X_PF = joint.X_PF * X;
@@ -141,8 +133,9 @@ class Expansion {
     for (const JointSpec& joint : spec.joints) jointNames_.insert(joint.name);
     for (const JointSpec& joint : spec.joints)
       for (const Part& part : partsOf(joint))
-        partNames_[joint.name].push_back(*part.suffix ? unique(jointNames_, joint.name + part.suffix)
-                                                      : joint.name);
+        partNames_[joint.name].push_back(
+            part.suffix.empty() ? joint.name
+                                : unique(jointNames_, fmt::format("{}{}", joint.name, part.suffix)));
   }
 
   SceneSpec expand() {
@@ -228,16 +221,15 @@ class Expansion {
   }
 
   void addJoint(const JointSpec& joint) {
-    const bool isWhole = joint.type == JointType::kPlanarXYPhi || joint.type == JointType::kFree;
-    if (isWhole && !joint.mimic.empty())
+    const bool isWhole = !urdfWord(joint.type).empty();
+    if (isWhole && positionCount(joint.type) > 1 && !joint.mimic.empty())
       fail(joint, "URDF has no mimic of joints with several coordinates", "none");
     const std::vector<Part> parts = partsOf(joint);
     if (parts.size() > 1)
       losses_.add("joints of types that URDF lacks became chains", joint.name, joint.where);
     std::string parent = joint.parent;
     for (std::size_t i = 0; i < parts.size(); ++i) {
-      const bool isRise = joint.type == JointType::kScrew && i == 1;
-      JointSpec made = isRise ? riseOf(joint, parts[i]) : partOf(joint, parts[i], i);
+      JointSpec made = parts[i].isRise ? riseOf(joint, parts[i]) : partOf(joint, parts[i], i);
       made.parent = parent;
       if (i + 1 < parts.size()) {
         made.X_MC = Pose{};

@@ -242,19 +242,9 @@ class Writer {
     return finite(joint.lower) || finite(joint.upper);
   }
 
-  static const char* typeOf(const JointSpec& joint) {
-    switch (joint.type) {
-      case JointType::kHinge:
-        return hasLimit(joint) ? "revolute" : "continuous";
-      case JointType::kSlider:
-        return "prismatic";
-      case JointType::kFree:
-        return "floating";
-      case JointType::kPlanarXYPhi:
-        return "planar";
-      default:
-        return "fixed";
-    }
+  static std::string typeOf(const JointSpec& joint) {
+    const bool turnsOn = joint.type == JointType::kHinge && !hasLimit(joint);
+    return turnsOn ? "continuous" : std::string(urdfWord(joint.type));
   }
 
   void writeJoint(const JointSpec& joint) {

@@ -94,16 +94,11 @@ void expectExact(const Placed& a, const Placed& b, double tolerance = 1e-12, dou
 
 Shape randomShape(Rng& rng, ShapeType type) {
   const Vector3d size = rng.uniformVector(3, 0.05, 0.6);
-  switch (type) {
-    case ShapeType::kSphere:
-      return sphere(size.x());
-    case ShapeType::kCapsule:
-      return capsule(size.z(), size.x() / 3);
-    case ShapeType::kRoundedBox:
-      return roundedBox(size.x(), size.y(), size.z(), size.minCoeff() / 4);
-    default:
-      return box(size.x(), size.y(), size.z());
-  }
+  if (type == ShapeType::kSphere) return sphere(size.x());
+  if (type == ShapeType::kCapsule) return capsule(size.z(), size.x() / 3);
+  if (type == ShapeType::kRoundedBox)
+    return roundedBox(size.x(), size.y(), size.z(), size.minCoeff() / 4);
+  return box(size.x(), size.y(), size.z());
 }
 
 // Every third one stands along the axes, so that edges and faces are parallel.

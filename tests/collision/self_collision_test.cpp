@@ -21,22 +21,13 @@ using Pair = std::pair<BodyId, BodyId>;
 
 std::unique_ptr<fcl::CollisionObjectd> objectOf(const Shape& shape) {
   std::shared_ptr<fcl::CollisionGeometryd> geometry;
-  switch (shape.type) {
-    case ShapeType::kBox:
-      geometry = std::make_shared<fcl::Boxd>(shape.extent);
-      break;
-    case ShapeType::kSphere:
-      geometry = std::make_shared<fcl::Sphered>(shape.radius);
-      break;
-    case ShapeType::kCylinder:
-      geometry = std::make_shared<fcl::Cylinderd>(shape.radius, shape.extent.z());
-      break;
-    case ShapeType::kCapsule:
-      geometry = std::make_shared<fcl::Capsuled>(shape.radius, shape.extent.z());
-      break;
-    default:
-      return nullptr;
-  }
+  if (shape.type == ShapeType::kBox) geometry = std::make_shared<fcl::Boxd>(shape.extent);
+  if (shape.type == ShapeType::kSphere) geometry = std::make_shared<fcl::Sphered>(shape.radius);
+  if (shape.type == ShapeType::kCylinder)
+    geometry = std::make_shared<fcl::Cylinderd>(shape.radius, shape.extent.z());
+  if (shape.type == ShapeType::kCapsule)
+    geometry = std::make_shared<fcl::Capsuled>(shape.radius, shape.extent.z());
+  if (!geometry) return nullptr;
   return std::make_unique<fcl::CollisionObjectd>(geometry);
 }
 

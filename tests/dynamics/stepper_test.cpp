@@ -29,9 +29,11 @@ int orderOf(Integrator integrator) {
       return 4;
     case Integrator::kLeapfrog:
       return 2;
-    default:
-      return 1;
+    case Integrator::kEuler:
+    case Integrator::kSemiImplicitEuler:
+      break;
   }
+  return 1;
 }
 
 State after(const Model& model, State state, double seconds, int steps, const StepperOptions& options) {

@@ -56,16 +56,12 @@ Blob blobOf(const Image& image, int channel) {
 double distanceTo(const Shape& shape, const Vector3d& p) {
   const Vector3d half = shape.extent / 2;
   const auto boxDistance = [](const auto& q) { return q.cwiseMax(0).norm() + std::min(0.0, q.maxCoeff()); };
-  switch (shape.type) {
-    case ShapeType::kSphere:
-      return p.norm() - shape.radius;
-    case ShapeType::kCapsule:
-      return (p - Vector3d(0, 0, std::clamp(p.z(), -half.z(), half.z()))).norm() - shape.radius;
-    case ShapeType::kCylinder:
-      return boxDistance(Eigen::Vector2d(p.head<2>().norm() - shape.radius, std::abs(p.z()) - half.z()));
-    default:
-      return boxDistance(Vector3d(p.cwiseAbs() - half + Vector3d::Constant(shape.radius))) - shape.radius;
-  }
+  if (shape.type == ShapeType::kSphere) return p.norm() - shape.radius;
+  if (shape.type == ShapeType::kCapsule)
+    return (p - Vector3d(0, 0, std::clamp(p.z(), -half.z(), half.z()))).norm() - shape.radius;
+  if (shape.type == ShapeType::kCylinder)
+    return boxDistance(Eigen::Vector2d(p.head<2>().norm() - shape.radius, std::abs(p.z()) - half.z()));
+  return boxDistance(Vector3d(p.cwiseAbs() - half + Vector3d::Constant(shape.radius))) - shape.radius;
 }
 
 bool rayHits(const Solid& solid, const Camera& camera, double x, double y, int width, int height) {

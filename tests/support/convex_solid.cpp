@@ -14,17 +14,10 @@ using Eigen::Vector3d;
 namespace {
 
 Vector3d coreHalf(const Shape& shape) {
-  switch (shape.type) {
-    case ShapeType::kSphere:
-      return Vector3d::Zero();
-    case ShapeType::kCapsule:
-    case ShapeType::kCylinder:
-      return {0, 0, shape.extent.z() / 2};
-    case ShapeType::kRoundedBox:
-      return (shape.extent / 2).array() - shape.radius;
-    default:
-      return shape.extent / 2;
-  }
+  if (shape.type == ShapeType::kSphere) return Vector3d::Zero();
+  if (shape.type == ShapeType::kCapsule || shape.type == ShapeType::kCylinder)
+    return {0, 0, shape.extent.z() / 2};
+  return (shape.extent / 2).array() - (shape.type == ShapeType::kRoundedBox ? shape.radius : 0);
 }
 
 std::vector<Vector3d> cornersOf(const Shape& shape, const Pose& X_W) {

@@ -26,9 +26,12 @@ KDL::Joint jointOf(const urdf::Joint& joint) {
       return {joint.name, frame.p, axis, KDL::Joint::TransAxis};
     case urdf::Joint::FIXED:
       return KDL::Joint(joint.name, KDL::Joint::Fixed);
-    default:
-      throw std::runtime_error("joint '" + joint.name + "' is of a type that KDL lacks");
+    case urdf::Joint::UNKNOWN:
+    case urdf::Joint::FLOATING:
+    case urdf::Joint::PLANAR:
+      break;
   }
+  throw std::runtime_error("joint '" + joint.name + "' is of a type that KDL lacks");
 }
 
 void addLink(const urdf::Link& link, UrdfdomRobot& robot) {
