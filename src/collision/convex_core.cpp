@@ -23,36 +23,55 @@ Vector3d supportOf(std::span<const Eigen::Vector3f> points, const Vector3d& dire
 }  // namespace
 
 ConvexCore::ConvexCore(const Shape& shape) {
-  if (shape.type == ShapeType::kCylinder) {
-    kind_ = Kind::kCylinder;
-    half_ = {shape.radius, shape.radius, shape.extent.z() / 2};
-  } else if (usesMesh(shape.type)) {
-    kind_ = Kind::kPoints;
-    // Without a hull all points do as well, only slower.
-    points_ = (shape.hull.isEmpty() ? shape.mesh : shape.hull).positions();
-    radius_ = shape.type == ShapeType::kSphereSweptConvex ? shape.radius : 0;
-    assert(!points_.empty());
-  } else {
-    const Core core = coreOf(shape);
-    half_ = core.half;
-    radius_ = core.radius;
+  switch (shape.type) {
+    case ShapeType::kBox:
+    case ShapeType::kSphere:
+    case ShapeType::kCapsule:
+    case ShapeType::kRoundedBox: {
+      const Core core = coreOf(shape);
+      half_ = core.half;
+      radius_ = core.radius;
+      break;
+    }
+    case ShapeType::kCylinder:
+    case ShapeType::kCone:
+      kind_ = shape.type == ShapeType::kCone ? Kind::kCone : Kind::kCylinder;
+      half_ = {shape.radius, shape.radius, shape.extent.z() / 2};
+      break;
+    case ShapeType::kMesh:
+    case ShapeType::kPointCloud:
+    case ShapeType::kSphereSweptConvex:
+      kind_ = Kind::kPoints;
+      // Without a hull all points do as well, only slower.
+      points_ = (shape.hull.isEmpty() ? shape.mesh : shape.hull).positions();
+      radius_ = shape.type == ShapeType::kSphereSweptConvex ? shape.radius : 0;
+      assert(!points_.empty());
+      break;
+    case ShapeType::kMarker:
+      assert(false);  // see requireSolid()
   }
 }
 
 Vector3d ConvexCore::support(const Vector3d& direction) const {
-  if (kind_ == Kind::kPoints) return supportOf(points_, direction);
-  Vector3d corner = half_;
-  if (kind_ == Kind::kCylinder) {
-    const double across = std::hypot(direction.x(), direction.y());
-    // Straight along the axis the whole cap lies farthest; its middle is as good as any point of it.
-    const double scale = across > 0 ? half_.x() / across : 0;
-    corner.head<2>() = scale * direction.head<2>();
-  } else {
-    corner.x() = std::copysign(half_.x(), direction.x());
-    corner.y() = std::copysign(half_.y(), direction.y());
+  const auto corner = [&](double x, double y) -> Vector3d {
+    return {x, y, std::copysign(half_.z(), direction.z())};
+  };
+  switch (kind_) {
+    case Kind::kPoints:
+      return supportOf(points_, direction);
+    case Kind::kBox:
+      return corner(std::copysign(half_.x(), direction.x()), std::copysign(half_.y(), direction.y()));
+    case Kind::kCylinder:
+    case Kind::kCone:
+      break;
   }
-  corner.z() = std::copysign(half_.z(), direction.z());
-  return corner;
+  const double across = std::hypot(direction.x(), direction.y());
+  // Straight along the axis the whole cap lies farthest; its middle is as good as any point of it.
+  const double scale = across > 0 ? half_.x() / across : 0;
+  const Vector3d onRim = corner(scale * direction.x(), scale * direction.y());
+  if (kind_ == Kind::kCylinder) return onRim;
+  const bool isTip = 2 * half_.z() * direction.z() > half_.x() * across;
+  return isTip ? Vector3d(0, 0, half_.z()) : Vector3d(onRim.x(), onRim.y(), -half_.z());
 }
 
 }  // namespace rex::internal

@@ -16,6 +16,7 @@ Core coreOf(const Shape& shape) {
     case ShapeType::kRoundedBox:
       return {CoreType::kBox, (shape.extent / 2).array() - shape.radius, shape.radius};
     case ShapeType::kCylinder:
+    case ShapeType::kCone:
     case ShapeType::kMesh:
     case ShapeType::kSphereSweptConvex:
     case ShapeType::kPointCloud:

@@ -15,7 +15,7 @@ struct Core {
   double radius = 0;
 };
 
-/// kOther: a cylinder, or a shape described by a mesh.
+/// kOther: a cylinder, a cone, or a shape described by a mesh.
 [[nodiscard]] Core coreOf(const Shape& shape);
 
 /// Throws Error for what cannot collide: a marker, or a shape whose mesh is not loaded. `what` begins the

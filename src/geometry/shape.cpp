@@ -14,6 +14,8 @@ std::string_view toString(ShapeType type) {
       return "mesh";
     case ShapeType::kCylinder:
       return "cylinder";
+    case ShapeType::kCone:
+      return "cone";
     case ShapeType::kMarker:
       return "marker";
     case ShapeType::kPointCloud:
@@ -40,6 +42,7 @@ Eigen::Vector3d halfBounds(const Shape& shape) {
     case ShapeType::kCapsule:
       return {shape.radius, shape.radius, shape.extent.z() / 2 + shape.radius};
     case ShapeType::kCylinder:
+    case ShapeType::kCone:
       return {shape.radius, shape.radius, shape.extent.z() / 2};
     case ShapeType::kMarker:
       return Eigen::Vector3d::Constant(shape.extent.x() / 2);

@@ -14,6 +14,7 @@ enum class ShapeType {
   kCapsule,
   kMesh,
   kCylinder,
+  kCone,
   kMarker,
   kPointCloud,
   kSphereSweptConvex,
@@ -29,7 +30,8 @@ enum class ShapeType {
 /// A solid centred in its own frame; lengths in metres. What `extent` and `radius` mean:
 /// box, rounded box: full outer edge lengths x, y, z; the rounded box has corners of `radius`.
 /// capsule, cylinder: extent.z is the straight length along z, `radius` the radius; a capsule's caps come on
-/// top. sphere: `radius`. marker: a drawing aid of size extent.x without volume. The others are described by
+/// top. cone: extent.z is its height, `radius` that of its base at z = -extent.z / 2; the tip is above.
+/// sphere: `radius`. marker: a drawing aid of size extent.x without volume. The others are described by
 /// `mesh`; that of a sphere-swept convex mesh is surrounded at a distance of `radius`.
 struct Shape {
   ShapeType type = ShapeType::kBox;

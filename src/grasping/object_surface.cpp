@@ -57,8 +57,9 @@ ObjectSurface::ObjectSurface(const Shape& shape) : type_(shape.type) {
       break;
     case ShapeType::kCapsule:
     case ShapeType::kCylinder:
+    case ShapeType::kCone:
       requirePositive("radius", type_, radius_ = shape.radius);
-      if (shape.extent.z() != 0 || type_ == ShapeType::kCylinder)
+      if (shape.extent.z() != 0 || type_ != ShapeType::kCapsule)
         requirePositive("length", type_, shape.extent.z());
       half_.z() = shape.extent.z() / 2;
       break;
@@ -71,7 +72,7 @@ ObjectSurface::ObjectSurface(const Shape& shape) : type_(shape.type) {
     case ShapeType::kMarker:
       throw Error({.what = "surface of a shape",
                    .found = std::string(toString(type_)),
-                   .wanted = "a box, sphere, capsule, cylinder or mesh"});
+                   .wanted = "a box, sphere, capsule, cylinder, cone or mesh"});
   }
   if (isRound()) areas_ = roundAreas();
 }
@@ -108,8 +109,12 @@ void ObjectSurface::addMesh(const TriangleMesh& mesh) {
                  .wanted = "triangles"});
 }
 
-// Both round ends together, then the straight side.
+// Both round ends together, or the base of a cone; then the straight side.
 std::vector<double> ObjectSurface::roundAreas() const {
+  if (type_ == ShapeType::kCone) {
+    const double base = pi * radius_ * radius_;
+    return {base, base + pi * radius_ * std::hypot(radius_, 2 * half_.z())};
+  }
   const double ends = (type_ == ShapeType::kCylinder ? 2 : 4) * pi * radius_ * radius_;
   return {ends, ends + 4 * pi * radius_ * half_.z()};
 }
@@ -133,7 +138,18 @@ SurfacePoint ObjectSurface::sampleTriangle(Rng& rng) const {
   return {triangle.corner + u * triangle.edge1 + v * triangle.edge2, triangle.normal};
 }
 
+// Of a disk or a cone's side, what lies within a share of the radius has the square of that share.
+SurfacePoint ObjectSurface::sampleCone(Rng& rng) const {
+  const bool onBase = rng.uniform() * area() < areas_[0];
+  const double angle = rng.uniform(0, 2 * pi), share = std::sqrt(rng.uniform());
+  const Vector3d out(std::cos(angle), std::sin(angle), 0), z = Vector3d::UnitZ();
+  if (onBase) return {share * radius_ * out - half_.z() * z, -z};
+  const Vector3d normal = 2 * half_.z() * out + radius_ * z;
+  return {share * radius_ * out + (1 - 2 * share) * half_.z() * z, normal.normalized()};
+}
+
 SurfacePoint ObjectSurface::sampleRound(Rng& rng) const {
+  if (type_ == ShapeType::kCone) return sampleCone(rng);
   if (rng.uniform() * area() >= areas_[0]) {
     const double angle = rng.uniform(0, 2 * pi), z = rng.uniform(-half_.z(), half_.z());
     const Vector3d n(std::cos(angle), std::sin(angle), 0);
@@ -177,7 +193,29 @@ std::vector<LineHit> ObjectSurface::triangleHits(const Vector3d& p, const Vector
   return hits;
 }
 
+// The side is where x^2 + y^2 = k^2 (h - z)^2 below the tip at h: a t^2 + 2 b t + c = 0.
+std::vector<LineHit> ObjectSurface::coneHits(const Vector3d& p, const Vector3d& d) const {
+  std::vector<LineHit> hits;
+  const double h = half_.z(), k = radius_ / (2 * h), below = h - p.z();
+  const double a = d.head<2>().squaredNorm() - k * k * d.z() * d.z(),
+               b = p.head<2>().dot(d.head<2>()) + k * k * below * d.z(),
+               c = p.head<2>().squaredNorm() - k * k * below * below;
+  const double left = b * b - a * c, q = -(b + std::copysign(std::sqrt(std::max(left, 0.)), b));
+  const auto addSide = [&](double t) {
+    const Vector3d at = p + t * d;
+    if (!std::isfinite(t) || std::abs(at.z()) > h) return;
+    const Vector3d out(at.x(), at.y(), 0);
+    hits.push_back({t, (2 * h * out.stableNormalized() + radius_ * Vector3d::UnitZ()).normalized()});
+  };
+  if (left >= 0 && q != 0) addSide(c / q);
+  if (left >= 0 && a != 0) addSide(q / a);
+  const double t = (-h - p.z()) / d.z();
+  if (d.z() != 0 && (p + t * d).head<2>().norm() < radius_) hits.push_back({t, -Vector3d::UnitZ()});
+  return hits;
+}
+
 std::vector<LineHit> ObjectSurface::roundHits(const Vector3d& p, const Vector3d& d) const {
+  if (type_ == ShapeType::kCone) return coneHits(p, d);
   std::vector<LineHit> hits;
   const double h = half_.z();
   if (h > 0)

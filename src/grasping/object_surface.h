@@ -19,8 +19,8 @@ struct LineHit {
   Eigen::Vector3d normal_O;  ///< unit, out of the object
 };
 
-/// The surface of a closed solid in its own frame O, to place fingers on: boxes, spheres, capsules and
-/// cylinders exactly, meshes by their triangles, in double precision.
+/// The surface of a closed solid in its own frame O, to place fingers on: boxes, spheres, capsules, cylinders
+/// and cones exactly, meshes by their triangles, in double precision.
 class ObjectSurface {
  public:
   /// Throws Error for a shape of another type, or whose sizes are not positive and finite, and for a mesh
@@ -46,8 +46,10 @@ class ObjectSurface {
   void addMesh(const TriangleMesh& mesh);
   [[nodiscard]] std::vector<double> roundAreas() const;
   [[nodiscard]] SurfacePoint sampleRound(Rng& rng) const;
+  [[nodiscard]] SurfacePoint sampleCone(Rng& rng) const;
   [[nodiscard]] SurfacePoint sampleTriangle(Rng& rng) const;
   [[nodiscard]] std::vector<LineHit> roundHits(const Eigen::Vector3d& p, const Eigen::Vector3d& d) const;
+  [[nodiscard]] std::vector<LineHit> coneHits(const Eigen::Vector3d& p, const Eigen::Vector3d& d) const;
   [[nodiscard]] std::vector<LineHit> triangleHits(const Eigen::Vector3d& p, const Eigen::Vector3d& d) const;
 
   ShapeType type_;

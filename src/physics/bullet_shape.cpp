@@ -51,6 +51,11 @@ std::unique_ptr<btCollisionShape> bulletShape(const Shape& shape) {
       return std::make_unique<btCapsuleShapeZ>(shape.radius, shape.extent.z());
     case ShapeType::kCylinder:
       return withEdges<btCylinderShapeZ>({shape.radius, shape.radius, shape.extent.z() / 2});
+    case ShapeType::kCone: {
+      auto cone = std::make_unique<btConeShapeZ>(shape.radius, shape.extent.z());
+      cone->setMargin(0);  // Bullet's cones grow by it
+      return cone;
+    }
     case ShapeType::kRoundedBox:
       return roundedBox(shape.extent / 2, shape.radius);
     case ShapeType::kMesh:

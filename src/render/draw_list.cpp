@@ -40,6 +40,8 @@ class Builder {
             solid);
       case ShapeType::kCylinder:
         return add({.mesh = MeshKind::kCylinder, .halfSize = {r, r, shape.extent.z() / 2}}, solid);
+      case ShapeType::kCone:
+        return add({.mesh = MeshKind::kCone, .halfSize = {r, r, shape.extent.z() / 2}}, solid);
       case ShapeType::kMesh:
       case ShapeType::kSphereSweptConvex:
         return addMesh(solid);

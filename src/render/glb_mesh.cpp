@@ -42,9 +42,11 @@ int GlbMeshes::ofShape(const Shape& shape, const Color& color) {
       const SolidMesh mesh = makeCapsuleMesh(kAround);
       return r > 0 ? add(surfaceOf(mesh, Vector3d::Constant(r), {0, 0, stretch}), color) : -1;
     }
-    case ShapeType::kCylinder: {
+    case ShapeType::kCylinder:
+    case ShapeType::kCone: {
       const Vector3d halfSize(r, r, shape.extent.z() / 2);
-      return halfSize.minCoeff() > 0 ? add(surfaceOf(makeCylinderMesh(kAround), halfSize), color) : -1;
+      const auto make = shape.type == ShapeType::kCone ? makeConeMesh : makeCylinderMesh;
+      return halfSize.minCoeff() > 0 ? add(surfaceOf(make(kAround), halfSize), color) : -1;
     }
     case ShapeType::kMarker:
       return ofAxes(-shape.extent.x() / 2, shape.extent.x() / 2);

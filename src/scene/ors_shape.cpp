@@ -7,21 +7,22 @@ namespace {
 
 constexpr int kRetiredBox = 6;
 
-constexpr Choice kShapeWords[] = {
-    {0, "ST_box"},    {1, "ST_sphere"},  {2, "ST_capsule"},    {3, "ST_mesh"},  {4, "ST_cylinder"},
-    {5, "ST_marker"}, {kRetiredBox, ""}, {7, "ST_pointCloud"}, {8, "ST_ssCvx"}, {9, "ST_ssBox"}};
+constexpr Choice kShapeWords[] = {{0, "ST_box"},     {1, "ST_sphere"},     {2, "ST_capsule"},
+                                  {3, "ST_mesh"},    {4, "ST_cylinder"},   {5, "ST_marker"},
+                                  {kRetiredBox, ""}, {7, "ST_pointCloud"}, {8, "ST_ssCvx"},
+                                  {9, "ST_ssBox"},   {10, "ST_cone"}};
 constexpr ShapeType kShapeTypes[] = {
     ShapeType::kBox,        ShapeType::kSphere,     ShapeType::kCapsule,
     ShapeType::kMesh,       ShapeType::kCylinder,   ShapeType::kMarker,
     ShapeType::kRoundedBox, ShapeType::kPointCloud, ShapeType::kSphereSweptConvex,
-    ShapeType::kRoundedBox};
+    ShapeType::kRoundedBox, ShapeType::kCone};
 
 ShapeType readType(const Attributes& attributes, const Place& where, Diagnostics& notes) {
   const auto type = attributes.choice("type", kShapeWords);
   if (!type) {
     throw Error({.what = attributes.owner() + ": attribute 'type' is missing",
                  .where = where,
-                 .wanted = "type=0 .. type=9"});
+                 .wanted = "type=0 .. type=10"});
   }
   if (kShapeWords[*type].number == kRetiredBox)
     attributes.note("type", "6 is retired: read as ST_ssBox, a rounded box", Severity::kNote, notes);
@@ -31,7 +32,7 @@ ShapeType readType(const Attributes& attributes, const Place& where, Diagnostics
 // Whether the fourth number of its size matters, and a shape without it is likely a mistake.
 bool hasRadius(ShapeType type) {
   return type == ShapeType::kSphere || type == ShapeType::kCapsule || type == ShapeType::kCylinder ||
-         type == ShapeType::kRoundedBox;
+         type == ShapeType::kCone || type == ShapeType::kRoundedBox;
 }
 
 void readSize(const Attributes& attributes, Shape& shape, Diagnostics& notes) {

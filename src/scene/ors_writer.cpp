@@ -66,6 +66,8 @@ std::string typeName(ShapeType type) {
       return "ST_mesh";
     case ShapeType::kCylinder:
       return "ST_cylinder";
+    case ShapeType::kCone:
+      return "ST_cone";
     case ShapeType::kMarker:
       return "ST_marker";
     case ShapeType::kPointCloud:

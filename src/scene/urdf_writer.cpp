@@ -191,6 +191,11 @@ class Writer {
         return {{{}, "sphere", {{"radius", radius}}}};
       case ShapeType::kCylinder:
         return {{{}, "cylinder", {{"radius", radius}, {"length", length}}}};
+      case ShapeType::kCone:
+        throw Error({.what = fmt::format("shape of '{}'", name),
+                     .where = shape.where,
+                     .found = "a cone, which URDF lacks",
+                     .wanted = "a cylinder or a mesh"});
       case ShapeType::kCapsule:
         lose("capsules became cylinders and spheres");
         if (s.extent.z() == 0) return {{{}, "sphere", {{"radius", radius}}}};

@@ -138,10 +138,13 @@ struct Precision {
   double step = 1e-5;  // small, because faces, edges and corners take turns at being nearest
   double tolerance = 1e-7;
 };
-// Where a cylinder's curved side is nearest, the slack of the distance, 1e-10 m apart and 5e-7 m in overlap,
-// leaves its root in the direction.
+// Where the curved side of a cylinder or a cone is nearest, the slack of the distance, 1e-10 m apart and 5e-7
+// m in overlap, leaves its root in the direction.
 Precision precisionOf(ShapeType a, ShapeType b, double distance) {
-  if (a != ShapeType::kCylinder && b != ShapeType::kCylinder) return {};
+  const auto isCurved = [](ShapeType type) {
+    return type == ShapeType::kCylinder || type == ShapeType::kCone;
+  };
+  if (!isCurved(a) && !isCurved(b)) return {};
   return distance > 0 ? Precision{1e-5, 3e-5} : Precision{1e-4, 1e-2};
 }
 
@@ -185,7 +188,8 @@ TEST_P(ContactDerivative, AgreesWithDifferences) {
 }
 
 constexpr ShapeType kTypes[] = {ShapeType::kBox,        ShapeType::kSphere,   ShapeType::kCapsule,
-                                ShapeType::kRoundedBox, ShapeType::kCylinder, ShapeType::kMesh};
+                                ShapeType::kRoundedBox, ShapeType::kCylinder, ShapeType::kCone,
+                                ShapeType::kMesh};
 INSTANTIATE_TEST_SUITE_P(AtZeroTinyAndRandom, ContactDerivative,
                          testing::Combine(testing::ValuesIn(kTypes), testing::ValuesIn(kTypes),
                                           testing::Values(0., 1e-8, 1.)));

@@ -156,7 +156,7 @@ TEST_P(ConvexPair, StaysSoundWhereShapesDegenerate) {
   const auto solid = [&](ShapeType type, int i) {
     Shape shape{.type = type, .extent = 2 * place(), .radius = length()};
     if (type == ShapeType::kRoundedBox) shape.radius = 0, shape.extent.array() += 0.1;
-    if (type == ShapeType::kCylinder) shape.radius += 0.1;
+    if (type == ShapeType::kCylinder || type == ShapeType::kCone) shape.radius += 0.1;
     if (usesMesh(type)) {
       std::vector<Eigen::Vector3f> points;
       for (int k = 1 + rng.index(8); k > 0; --k) points.push_back(place().cast<float>());
@@ -187,7 +187,7 @@ TEST_P(ConvexPair, StaysSoundWhereShapesDegenerate) {
 
 constexpr ShapeType kBox = ShapeType::kBox, kSphere = ShapeType::kSphere, kCapsule = ShapeType::kCapsule,
                     kRounded = ShapeType::kRoundedBox, kCylinder = ShapeType::kCylinder,
-                    kMesh = ShapeType::kMesh, kCloud = ShapeType::kPointCloud,
+                    kCone = ShapeType::kCone, kMesh = ShapeType::kMesh, kCloud = ShapeType::kPointCloud,
                     kSwept = ShapeType::kSphereSweptConvex;
 
 INSTANTIATE_TEST_SUITE_P(
@@ -200,7 +200,10 @@ INSTANTIATE_TEST_SUITE_P(
                     TypePair{kCylinder, kCloud}, TypePair{kCloud, kMesh}, TypePair{kCloud, kCloud},
                     TypePair{kSwept, kBox}, TypePair{kSwept, kSphere}, TypePair{kCapsule, kSwept},
                     TypePair{kSwept, kRounded}, TypePair{kSwept, kCylinder}, TypePair{kSwept, kMesh},
-                    TypePair{kSwept, kCloud}, TypePair{kSwept, kSwept}),
+                    TypePair{kSwept, kCloud}, TypePair{kSwept, kSwept}, TypePair{kCone, kBox},
+                    TypePair{kCone, kSphere}, TypePair{kCapsule, kCone}, TypePair{kCone, kRounded},
+                    TypePair{kCone, kCylinder}, TypePair{kCone, kCone}, TypePair{kCone, kMesh},
+                    TypePair{kCloud, kCone}, TypePair{kSwept, kCone}),
     nameOf);
 
 // Pairs that proximity() measures by formulas.

@@ -35,6 +35,7 @@ TEST(HalfBounds, HoldTheSolid) {
   EXPECT_EQ(halfBounds({ShapeType::kSphere, {9, 9, 9}, 2}), Eigen::Vector3d(2, 2, 2));
   EXPECT_EQ(halfBounds({ShapeType::kCapsule, {9, 9, 2}, 0.5}), Eigen::Vector3d(0.5, 0.5, 1.5));
   EXPECT_EQ(halfBounds({ShapeType::kCylinder, {9, 9, 2}, 0.5}), Eigen::Vector3d(0.5, 0.5, 1));
+  EXPECT_EQ(halfBounds({ShapeType::kCone, {9, 9, 2}, 0.5}), Eigen::Vector3d(0.5, 0.5, 1));
 }
 
 }  // namespace rex::pose_test

@@ -45,6 +45,10 @@ std::vector<Body> bodies() {
        [=](const Vector3d& p) { return p.head<2>().norm() < r && std::abs(p.z()) < l / 2; },
        2 * pi * r * r + 2 * pi * r * l,
        pi * r * r * l},
+      {{.type = ShapeType::kCone, .extent = {0, 0, l}, .radius = r},
+       [=](const Vector3d& p) { return p.z() > -l / 2 && p.head<2>().norm() < r * (0.5 - p.z() / l); },
+       pi * r * r + pi * r * std::hypot(r, l),
+       pi * r * r * l / 3},
       {meshShape(cubeSample(0.25f)), [](const Vector3d& p) { return p.cwiseAbs().maxCoeff() < 0.25; }, 1.5,
        0.125}};
 }
@@ -117,6 +121,8 @@ TEST(ObjectSurface, RefusesWhatHasNone) {
                    "surface: radius of the sphere: found inf");
   EXPECT_REX_ERROR(ObjectSurface({.type = ShapeType::kCylinder, .extent = {0, 0, 0}, .radius = 1}),
                    "surface: length of the cylinder: found 0");
+  EXPECT_REX_ERROR(ObjectSurface({.type = ShapeType::kCone, .extent = {0, 0, 0}, .radius = 1}),
+                   "surface: length of the cone: found 0");
   EXPECT_REX_ERROR(ObjectSurface({.type = ShapeType::kMesh}), "surface of a mesh: found 0 triangles");
   const ObjectSurface ball({.type = ShapeType::kCapsule, .extent = {0, 0, 0}, .radius = 1});
   EXPECT_NEAR(ball.area(), 4 * pi, 1e-12);

@@ -109,6 +109,7 @@ TEST(UrdfPeer, ReadsWhatWeWrite) {
     const bool hasPeer = positionCount(joint.type) < 3 || joint.type == JointType::kTranslation3;
     if (!hasPeer) joint.type = JointType::kHinge;
   }
+  replaceCones(spec);
   expectSameRobot(writeUrdf(spec).text);
   expectSameRobot(writeUrdf(readOrs(sourcePath("data/robots/man.ors")).spec).text);
 }

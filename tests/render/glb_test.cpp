@@ -276,6 +276,7 @@ TEST(Glb, HasASurfaceForEachShape) {
       {{.type = ShapeType::kSphere, .radius = 0.3}, 4. / 3 * std::numbers::pi * 0.027},
       {{ShapeType::kCapsule, {0, 0, 0.5}, 0.2}, std::numbers::pi * (0.04 * 0.5 + 4. / 3 * 0.008)},
       {{ShapeType::kCylinder, {0, 0, 0.5}, 0.2}, std::numbers::pi * 0.04 * 0.5},
+      {{ShapeType::kCone, {0, 0, 0.5}, 0.2}, std::numbers::pi * 0.04 * 0.5 / 3},
       {{ShapeType::kRoundedBox, {0.4, 0.3, 0.2}, 0.05}, 0.02224}};  // core, faces, edges, corners
   Picture picture;
   for (const auto& [shape, unused] : shapes)

@@ -50,6 +50,17 @@ TEST(Golden, ShapesAndShadows) {
   expectGolden("shapes", picture);
 }
 
+TEST(Golden, Cones) {
+  REX_NEEDS_OSMESA();
+  Picture picture;
+  picture.solids = {{{ShapeType::kCone, {0, 0, 0.7}, 0.25}, translation(-0.3, 0, 0.35), kOrange, "standing"},
+                    {{ShapeType::kCone, {0, 0, 0.5}, 0.2},
+                     translation(0.4, 0.2, 0.3) * rotation(2, {1, 0, 0.3}),
+                     kBlue,
+                     "lying"}};
+  expectGolden("cones", picture);
+}
+
 TEST(Golden, LinesPointsAxesAndText) {
   REX_NEEDS_OSMESA();
   Picture picture;

@@ -61,6 +61,11 @@ double distanceTo(const Shape& shape, const Vector3d& p) {
     return (p - Vector3d(0, 0, std::clamp(p.z(), -half.z(), half.z()))).norm() - shape.radius;
   if (shape.type == ShapeType::kCylinder)
     return boxDistance(Eigen::Vector2d(p.head<2>().norm() - shape.radius, std::abs(p.z()) - half.z()));
+  if (shape.type == ShapeType::kCone) {  // to the planes beside it; beyond its edges it is farther away
+    const double rho = p.head<2>().norm(), slant = std::hypot(shape.radius, 2 * half.z());
+    const double side = (2 * half.z() * rho + shape.radius * (p.z() - half.z())) / slant;
+    return std::max(side, -half.z() - p.z());
+  }
   return boxDistance(Vector3d(p.cwiseAbs() - half + Vector3d::Constant(shape.radius))) - shape.radius;
 }
 
@@ -121,7 +126,8 @@ INSTANTIATE_TEST_SUITE_P(Shapes, SolidOutline,
                                          Shape{ShapeType::kRoundedBox, {0.5, 0.4, 0.8}, 0.15},
                                          Shape{.type = ShapeType::kSphere, .radius = 0.4},
                                          Shape{ShapeType::kCapsule, {0, 0, 0.8}, 0.25},
-                                         Shape{ShapeType::kCylinder, {0, 0, 0.7}, 0.35}),
+                                         Shape{ShapeType::kCylinder, {0, 0, 0.7}, 0.35},
+                                         Shape{ShapeType::kCone, {0, 0, 0.8}, 0.4}),
                          [](const auto& shape) {
                            return shape.param.type == ShapeType::kRoundedBox
                                       ? "roundedBox"

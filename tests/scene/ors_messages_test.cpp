@@ -183,7 +183,7 @@ constexpr Row kErrors[] = {
     {"body arm {}\nshape (@amr@) { type=0 }", "arm",
      "shape: unknown parent: found 'amr', wanted the name of an earlier body (did you mean 'arm'?)"},
     {"body a {}\nbody b {}\n^shape s (a) { size=[1 1 1]@@ }", " type=0",
-     "shape 's': attribute 'type' is missing: wanted type=0 .. type=9"},
+     "shape 's': attribute 'type' is missing: wanted type=0 .. type=10"},
     {"body a {}\nbody b {}\nshape s (a @b@) { type=0 }", "",
      "shape 's': found 2 parents, wanted one body, or none"},
     {"body a {}\nshape (@-2@) { type=0 }", "-1",

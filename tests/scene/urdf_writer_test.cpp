@@ -182,6 +182,7 @@ SceneSpec randomUrdfScene(Rng& rng, int bodies) {
   SceneSpec spec = randomScene(rng, bodies);
   for (JointSpec& joint : spec.joints)
     if (joint.type == JointType::kBall) joint.type = JointType::kHinge;
+  replaceCones(spec);
   return spec;
 }
 
@@ -399,6 +400,8 @@ TEST(UrdfWriter, SaysWhatItCannotWrite) {
   EXPECT_REX_ERROR(writeUrdf(unplaced), "wanted characters of XML, in UTF-8");
   EXPECT_REX_ERROR(writeUrdf(ors("body a {}\nbody b {}\njoint j (a b) { type=quatBall }")),
                    "f:3:1: joint 'j': URDF has no ball joint: wanted three hinges, say");
+  EXPECT_REX_ERROR(writeUrdf(ors("body a {}\nshape s (a) { type=ST_cone size=[0 0 1 .3] }")),
+                   "f:2:1: shape of 'a': found a cone, which URDF lacks, wanted a cylinder or a mesh");
   EXPECT_REX_ERROR(writeUrdf(ors("body a {}\nbody b {}\nbody c {}\njoint j (a b) { type=free }\n"
                                  "joint k (b c) { type=free mimic=j }")),
                    "f:5:1: joint 'k': URDF has no mimic of joints with several coordinates: wanted none");

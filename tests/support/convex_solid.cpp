@@ -26,6 +26,8 @@ std::vector<Vector3d> cornersOf(const Shape& shape, const Pose& X_W) {
     for (const Eigen::Vector3f& p : shape.mesh.positions()) corners.push_back(X_W * p.cast<double>());
     return corners;
   }
+  if (shape.type == ShapeType::kCone)
+    return {X_W * Vector3d(0, 0, shape.extent.z() / 2), X_W * Vector3d(0, 0, -shape.extent.z() / 2)};
   corners.push_back(X_W.p);
   const Vector3d half = coreHalf(shape);
   for (int k = 0; k < 3; ++k) {
@@ -42,20 +44,27 @@ std::vector<Vector3d> cornersOf(const Shape& shape, const Pose& X_W) {
 
 double ConvexSolid::least(const Vector3d& n) const {
   double value = std::numeric_limits<double>::infinity();
+  const double rim = disc * n.cross(X_W.R.col(2)).norm();
+  if (shape.type == ShapeType::kCone) return std::min(n.dot(corners_W[0]), n.dot(corners_W[1]) - rim);
   for (const Vector3d& p : corners_W) value = std::min(value, n.dot(p));
-  return value - disc * n.cross(X_W.R.col(2)).norm();
+  return value - rim;
 }
 
 double ConvexSolid::outside(const Vector3d& p_W) const {
   if (usesMesh(shape.type)) return (planes_W.leftCols<3>() * p_W - planes_W.col(3)).maxCoeff();
   const Vector3d p = X_W.inverse() * p_W, half = coreHalf(shape);
+  if (shape.type == ShapeType::kCone) {
+    const Eigen::Vector2d across = Eigen::Vector2d(shape.extent.z(), disc).normalized();
+    const double side = across.dot(Eigen::Vector2d(p.head<2>().norm(), p.z() - shape.extent.z() / 2));
+    return std::max(side, -shape.extent.z() / 2 - p.z());
+  }
   if (disc > 0) return std::max(p.head<2>().norm() - disc, std::abs(p.z()) - half.z());
   return (p.cwiseAbs() - half).maxCoeff();
 }
 
 ConvexSolid convexSolid(const Shape& shape, const Pose& X_W) {
   ConvexSolid solid{shape, X_W, 0, 0, cornersOf(shape, X_W), {}};
-  if (shape.type == ShapeType::kCylinder) {
+  if (shape.type == ShapeType::kCylinder || shape.type == ShapeType::kCone) {
     solid.disc = shape.radius;
   } else if (shape.type == ShapeType::kSphere || shape.type == ShapeType::kCapsule ||
              shape.type == ShapeType::kRoundedBox || shape.type == ShapeType::kSphereSweptConvex) {

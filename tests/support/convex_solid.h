@@ -9,7 +9,8 @@
 namespace rex {
 
 /// A shape in its place as tests describe it: a core swept by a ball of `sweep`. The core is the hull of
-/// corners or, if `disc` is positive, a cylinder: discs of that radius around two corners.
+/// corners or, if `disc` is positive, a cylinder: discs of that radius around two corners. Of a cone the
+/// corners are its tip and the middle of its base, which is the disc.
 struct ConvexSolid {
   Shape shape{};
   Pose X_W{};

@@ -11,9 +11,9 @@ namespace rex {
 namespace {
 
 constexpr ShapeType kAllShapeTypes[] = {
-    ShapeType::kBox,       ShapeType::kSphere, ShapeType::kCapsule,    ShapeType::kMesh,
-    ShapeType::kCylinder,  ShapeType::kMarker, ShapeType::kPointCloud, ShapeType::kSphereSweptConvex,
-    ShapeType::kRoundedBox};
+    ShapeType::kBox,        ShapeType::kSphere, ShapeType::kCapsule,    ShapeType::kMesh,
+    ShapeType::kCylinder,   ShapeType::kMarker, ShapeType::kPointCloud, ShapeType::kSphereSweptConvex,
+    ShapeType::kRoundedBox, ShapeType::kCone};
 
 ShapeSpec randomShape(Rng& rng, ShapeType type) {
   ShapeSpec shape;
@@ -96,5 +96,11 @@ void addDetails(Rng& rng, SceneSpec& spec) {
 }
 
 Eigen::VectorXd randomPositions(Rng& rng, int nq) { return rng.normalVector(nq); }
+
+void replaceCones(SceneSpec& spec) {
+  for (BodySpec& body : spec.bodies)
+    for (ShapeSpec& shape : body.shapes)
+      if (shape.shape.type == ShapeType::kCone) shape.shape.type = ShapeType::kCylinder;
+}
 
 }  // namespace rex

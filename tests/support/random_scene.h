@@ -23,4 +23,7 @@ void addDetails(Rng& rng, SceneSpec& spec);
 /// Random coordinates for it, with quaternions of any length.
 Eigen::VectorXd randomPositions(Rng& rng, int nq);
 
+/// Makes cylinders of cones, which URDF lacks.
+void replaceCones(SceneSpec& spec);
+
 }  // namespace rex
