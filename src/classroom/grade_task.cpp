@@ -41,8 +41,8 @@ void requireInputs(const Task& task, const fs::path& file, const Toolchain& tool
 
 // Seeds and secrets change the questions, not the program.
 std::string workerKey(const Task& task) {
-  return sha256(
-      fmt::format("{}\n{}\n{}\n{}\n", task.exercise, task.sourceSha256, task.graderSha256, task.level));
+  return sha256(fmt::format("{}\n{}\n{}\n{}\n", task.exercise, task.sourceSha256, task.graderSha256,
+                            numberOf(task.level)));
 }
 
 std::string withInputs(const fs::path& results, const Task& task, bool evidence) {

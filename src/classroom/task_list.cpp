@@ -26,8 +26,8 @@ std::string line(const Task& task, std::size_t number) {
                  .where = {task.file.string()},
                  .wanted = "no tab and no line break"});
   return fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\n", number, task.student, task.exercise,
-                     task.sourceSha256, task.graderSha256, task.level, seedText(task), task.secretId,
-                     task.submitted, task.timeFrom, task.inputsSha256(), task.file.string());
+                     task.sourceSha256, task.graderSha256, numberOf(task.level), seedText(task),
+                     task.secretId, task.submitted, task.timeFrom, task.inputsSha256(), task.file.string());
 }
 
 std::vector<std::string> cut(const std::string& line) {
@@ -79,7 +79,7 @@ Task readTask(const Line& line, std::size_t number) {
             .exercise = line.text(2),
             .sourceSha256 = line.text(3),
             .graderSha256 = line.text(4),
-            .level = line.number<int>(5, "a sandbox level"),
+            .level = sandbox::levelOf(line.number<int>(5, "a sandbox level")),
             .seed = {},
             .secretId = line.text(7),
             .submitted = line.number<std::int64_t>(8, "a time in seconds"),
@@ -95,7 +95,7 @@ Task readTask(const Line& line, std::size_t number) {
 }  // namespace
 
 std::string Task::inputsSha256() const {
-  return sha256(fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n", exercise, sourceSha256, graderSha256, level,
+  return sha256(fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n", exercise, sourceSha256, graderSha256, numberOf(level),
                             seedText(*this), secretId));
 }
 

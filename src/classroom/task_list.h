@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "sandbox/level.h"
+
 namespace rex::grading {
 
 /// One grading: a student's file of one exercise, and all that its result depends on.
@@ -14,7 +16,7 @@ struct Task {
   std::string exercise{};
   std::string sourceSha256{};  ///< of the copy's text: see snapshotOf()
   std::string graderSha256{};  ///< see graderFingerprint()
-  int level = 0;               ///< of the sandbox
+  sandbox::Level level{};
   std::optional<std::uint64_t> seed{};
   std::string secretId{};        ///< of the secret of the course; empty: none
   std::int64_t submitted = 0;    ///< seconds since 1970 in UTC

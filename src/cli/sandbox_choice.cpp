@@ -13,13 +13,15 @@ std::filesystem::path launcherOf(const Project& project) { return project.build 
 
 std::filesystem::path probeOf(const Project& project) { return project.build / "rex-sandbox-probe"; }
 
-std::optional<sandbox::Sandbox> chooseSandbox(const Project& project, std::optional<int> level) {
-  sandbox::Sandbox chosen{.level = level.value_or(0), .launcher = launcherOf(project)};
-  if (chosen.level == 0) return chosen;
+std::optional<sandbox::Sandbox> chooseSandbox(const Project& project, std::optional<sandbox::Level> level) {
+  sandbox::Sandbox chosen{.level = level.value_or(sandbox::Level::kLimitsOnly),
+                          .launcher = launcherOf(project)};
+  if (!isConfined(chosen.level)) return chosen;
   const PrivateFolder folder(temporaryFolder());
   const std::string reason = sandbox::whyNot(chosen, probeOf(project), folder.path());
   if (reason.empty()) return chosen;
-  note(wrap(fmt::format("sandbox level {} cannot be had here: {}", *level, harmless(reason)), 0, 0));
+  note(
+      wrap(fmt::format("sandbox level {} cannot be had here: {}", numberOf(*level), harmless(reason)), 0, 0));
   return {};
 }
 

@@ -13,7 +13,8 @@ namespace rex::cli {
 [[nodiscard]] std::filesystem::path probeOf(const Project& project);
 
 /// The asked level if it holds here, nothing if not; what is in the way is told on standard error. Nothing
-/// asked: level 0.
-[[nodiscard]] std::optional<sandbox::Sandbox> chooseSandbox(const Project& project, std::optional<int> level);
+/// asked: limits only.
+[[nodiscard]] std::optional<sandbox::Sandbox> chooseSandbox(const Project& project,
+                                                            std::optional<sandbox::Level> level);
 
 }  // namespace rex::cli

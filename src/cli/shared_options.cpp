@@ -14,7 +14,7 @@ std::string wrongSeed(const std::string& text) {
                              kMostDigits);
 }
 
-CLI::Option* addLevel(CLI::App* command, std::optional<int>& level) {
+CLI::Option* addLevel(CLI::App* command, std::optional<sandbox::Level>& level) {
   return command->add_option("--level", level, "sandbox level that must hold, 0 to 3")
       ->check(CLI::Range(0, 3))
       ->type_name("N");

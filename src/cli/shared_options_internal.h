@@ -5,6 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "sandbox/level.h"
+
 namespace rex::cli {
 
 /// What is wrong with a seed; nothing for one that thousands of others can follow.
@@ -17,6 +19,6 @@ void addSeed(CLI::App* command, Seed& seed, const std::string& help) {
 }
 
 /// `--level N` of the sandbox.
-CLI::Option* addLevel(CLI::App* command, std::optional<int>& level);
+CLI::Option* addLevel(CLI::App* command, std::optional<sandbox::Level>& level);
 
 }  // namespace rex::cli

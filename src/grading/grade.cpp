@@ -302,8 +302,8 @@ std::filesystem::path workerOf(const std::string& part, const std::filesystem::p
   return std::filesystem::exists(own) ? own : worker;
 }
 
-void setSandbox(GradeResult& result, int level) {
-  result.sandboxLevel = level;
+void setSandbox(GradeResult& result, sandbox::Level level) {
+  result.sandboxLevel = sandbox::numberOf(level);
   const std::string warning = sandbox::warningOf(level);
   result.sandboxWarnings = warning.empty() ? std::vector<std::string>{} : std::vector{warning};
 }

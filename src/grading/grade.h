@@ -43,7 +43,7 @@ inline constexpr int kJudgingSeconds = 30;
 [[nodiscard]] std::filesystem::path workerOf(const std::string& part, const std::filesystem::path& worker);
 
 /// Writes into the result at which sandbox level student code ran, and what that level does not stop.
-void setSandbox(GradeResult& result, int level);
+void setSandbox(GradeResult& result, sandbox::Level level);
 
 /// Runs each check in a fresh worker and in a copy of this process, under limits, and adds the results, in
 /// the given order, to `result`, whose other fields about the submission are kept. Calls `save` before the

@@ -82,7 +82,7 @@ struct Prepared {
   ::signal(SIGPIPE, SIG_DFL);
   const LaunchOrder& order = prepared.order;
   if (::chdir(order.folder.c_str()) == 0) {
-    if (order.level == 0) {
+    if (!sandbox::isConfined(order.level)) {
       setLimits(order.limits);
       sandbox::leaveOthersAlone();
     }
@@ -116,7 +116,7 @@ Launched launchWorker(const LaunchOrder& order) {
                     .arguments = argumentsOf(order),
                     .fds = {nothingHigh, output.writeEnd(), error.writeEnd(), in.readEnd(), out.writeEnd()},
                     .status = status.writeEnd()};
-  if (order.level > 0) prepared.fds.push_back(report.emplace().writeEnd());
+  if (sandbox::isConfined(order.level)) prepared.fds.push_back(report.emplace().writeEnd());
   const pid_t child = ::fork();
   if (child == 0) becomeWorker(prepared);
   ::close(nothingHigh);

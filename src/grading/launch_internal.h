@@ -7,6 +7,7 @@
 #include <sys/types.h>
 
 #include "grading/worker_limits.h"
+#include "sandbox/level.h"
 
 namespace rex::grading {
 
@@ -27,7 +28,7 @@ struct LaunchOrder {
   std::string name{};                  ///< of the program, in messages
   std::filesystem::path folder{};      ///< to work in
   WorkerLimits limits{};               ///< set here at level 0, by the launcher above
-  int level = 0;
+  sandbox::Level level = sandbox::Level::kLimitsOnly;
 };
 
 /// Starts it in its own process group with an empty environment, before its first instruction with its

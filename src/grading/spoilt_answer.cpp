@@ -237,7 +237,8 @@ class Spoiler {
   double changed(double number) {
     using enum Hostility;
     if (hostility_ == notANumber) return std::numeric_limits<double>::quiet_NaN();
-    if (hostility_ == infinite) return std::numeric_limits<double>::infinity() * (rng_.uniform() < 0.5 ? -1 : 1);
+    if (hostility_ == infinite)
+      return std::numeric_limits<double>::infinity() * (rng_.uniform() < 0.5 ? -1 : 1);
     if (hostility_ == overflowing) return (rng_.uniform() < 0.5 ? -kHuge : kHuge) * rng_.uniform(0.5, 1);
     if (hostility_ == denormal) return std::numeric_limits<double>::denorm_min();
     if (hostility_ == zero) return 0;
@@ -250,7 +251,8 @@ class Spoiler {
   std::uint64_t changedInteger(std::uint64_t bits) {
     using enum Hostility;
     using Int = std::numeric_limits<std::int32_t>;
-    constexpr std::array<std::int64_t, 8> kExtremes = {-1, Int::max(), Int::min(), 1000, 65536, -1000, 1 << 24, 7};
+    constexpr std::array<std::int64_t, 8> kExtremes = {-1,    Int::max(), Int::min(), 1000,
+                                                       65536, -1000,      1 << 24,    7};
     if (hostility_ == extremeIntegers)
       return static_cast<std::uint64_t>(kExtremes[static_cast<std::size_t>(rng_.index(kExtremes.size()))]);
     if (hostility_ == zero) return 0;

@@ -82,7 +82,7 @@ pid_t childOf(pid_t process) {
 }
 
 sandbox::Confinement confinementOf(const WorkerOptions& options) {
-  if (options.sandbox.level == 0) return {};
+  if (!sandbox::isConfined(options.sandbox.level)) return {};
   constexpr std::size_t kFileBytes = 64u << 20;
   sandbox::Confinement confinement{.readable = {{fs::absolute(options.program), sandbox::kInsideProgram}},
                                    .cpuSeconds = options.limits.cpuBudget(),
@@ -96,8 +96,8 @@ sandbox::Confinement confinementOf(const WorkerOptions& options) {
 
 LaunchOrder orderOf(const WorkerOptions& options, const sandbox::Cell& cell, const fs::path& folder) {
   const std::string program = fs::absolute(options.program).string();
-  const int level = options.sandbox.level;
-  return {.command = level == 0 ? std::vector{program} : cell.command({program}),
+  const sandbox::Level level = options.sandbox.level;
+  return {.command = sandbox::isConfined(level) ? cell.command({program}) : std::vector{program},
           .name = options.program.string(),
           .folder = folder,
           .limits = options.limits,
@@ -183,7 +183,8 @@ double Worker::secondsLeft() {
   if (waited_ < allowed_) return allowed_ - waited_;
   constexpr double kMostPatience = 4;
   const double budget = options_.limits.wallBudget();
-  const pid_t worker = options_.sandbox.level >= 2 ? childOf(childOf(launched_.process)) : launched_.process;
+  const pid_t worker = sandbox::hasNamespaces(options_.sandbox.level) ? childOf(childOf(launched_.process))
+                                                                      : launched_.process;
   const double coreless = secondsWithoutCore(worker) + secondsWithoutCore(::getpid()) - coreless_;
   allowed_ = std::min(budget + coreless, kMostPatience * budget);
   return allowed_ - waited_;
@@ -265,14 +266,14 @@ bool Worker::saidItsEnd() {
 // How the program ended, which its launcher knows where it is between us. A launcher that fell before the
 // program started is a fault of ours; one that fell later was pulled down by the program.
 int Worker::trueStatus() {
-  const int level = options_.sandbox.level;
-  if (level == 0) return status_;
+  const sandbox::Level level = options_.sandbox.level;
+  if (!sandbox::isConfined(level)) return status_;
   readReport();
   const sandbox::Report report = sandbox::readReport(report_);
   if (!report.error.empty() || !report.ready)
-    throw Error({.what = fmt::format("the sandbox of level {} does not stand", level),
+    throw Error({.what = fmt::format("the sandbox of level {} does not stand", sandbox::numberOf(level)),
                  .found = report.error.empty() ? tellingLine(error_.tail()) : report.error});
-  return level == 1 ? status_ : report.status.value_or(SIGKILL);
+  return sandbox::hasNamespaces(level) ? report.status.value_or(SIGKILL) : status_;
 }
 
 Failure Worker::explain(const remote::Closed& reason) {

@@ -12,10 +12,10 @@ namespace rex::sandbox {
 Cell::Cell(const Sandbox& sandbox, Confinement confinement)
     : sandbox_(sandbox), confinement_(std::move(confinement)) {
   confinement_.level = sandbox.level;
-  if (sandbox.level == 0) return;
+  if (!isConfined(sandbox.level)) return;
   slot_.emplace();
   confinement_.user = slot_->user();
-  if (sandbox.level >= 3) {
+  if (hasControlGroup(sandbox.level)) {
     constexpr int kOfTheSandbox = 3;
     group_.emplace(confinement_.addressSpace, confinement_.processes + kOfTheSandbox);
     confinement_.controlGroups = group_->processes();

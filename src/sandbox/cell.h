@@ -13,12 +13,12 @@ namespace rex::sandbox {
 
 /// How programs are confined here.
 struct Sandbox {
-  int level = 0;                     ///< 0: limits only, and no launcher is needed
-  std::filesystem::path launcher{};  ///< the program rex-sandbox
+  Level level = Level::kLimitsOnly;
+  std::filesystem::path launcher{};  ///< the program rex-sandbox; not needed for limits only
 };
 
 /// A place for one program: what must be made before and taken away after, a user of its own (as root) and a
-/// control group (level 3). Lives longer than the program.
+/// control group (if the level has one). Lives longer than the program.
 class Cell {
  public:
   /// Completes the confinement with the level, user and groups. Throws Error where they cannot be had.

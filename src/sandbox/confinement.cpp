@@ -52,7 +52,7 @@ std::vector<std::string> toArguments(const Confinement& c) {
   const auto add = [&](const char* name, const auto& value) {
     list.insert(list.end(), {name, fmt::format("{}", value)});
   };
-  add("--level", c.level);
+  add("--level", numberOf(c.level));
   for (const Readable& readable : c.readable)
     list.insert(list.end(), {"--read", readable.path.string(), readable.inside.string()});
   if (!c.writable.empty()) add("--write", c.writable.string());
@@ -75,7 +75,7 @@ Order orderFromArguments(const std::vector<std::string>& arguments) {
   Confinement c;
   Reader reader(arguments);
   const std::map<std::string, std::function<void()>> options = {
-      {"--level", [&] { c.level = reader.whole<int>(); }},
+      {"--level", [&] { c.level = levelOf(reader.whole<int>()); }},
       {"--read",
        [&] {
          const std::string path = reader.text();

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "sandbox/level.h"
+
 namespace rex::sandbox {
 
 /// A file or folder of the machine that a confined program may read and execute.
@@ -16,7 +18,7 @@ struct Readable {
 
 /// What one confined program may see and use. share/doc/sandbox.md tells what the levels stop.
 struct Confinement {
-  int level = 0;  ///< 0 to 3
+  Level level = Level::kLimitsOnly;
   std::vector<Readable> readable{};
   std::filesystem::path writable{};  ///< a folder to work in; empty: 32 MB of memory, at level 1 nothing
   std::vector<std::string> environment{};  ///< NAME=VALUE, all there are

@@ -105,7 +105,7 @@ void setLimits(const Confinement& c) {
   limit(RLIMIT_NOFILE, files, files);
   limit(RLIMIT_CORE, 0, 0);
   limit(RLIMIT_MSGQUEUE, 0, 0);
-  if (c.level >= 2 || c.user) limit(RLIMIT_NPROC, processes, processes);
+  if (hasNamespaces(c.level) || c.user) limit(RLIMIT_NPROC, processes, processes);
 }
 
 void becomeUser(const Confinement& c) {
@@ -268,8 +268,8 @@ int runInside(const Order& order) {
 
 int run(const Order& order, const std::vector<std::string>& arguments) {
   const Confinement& c = order.confinement;
-  if (c.level >= 2) runBubblewrap(arguments, c);
-  if (c.level == 1) runAtLevelOne(order);
+  if (hasNamespaces(c.level)) runBubblewrap(arguments, c);
+  if (isConfined(c.level)) runAtLevelOne(order);
   const ProgramStart start = startOf(order, openProgram(order.command.front()));
   setOut(order);
   become(start);

@@ -152,34 +152,17 @@ std::string whyNot(const Sandbox& sandbox, const fs::path& probe, const fs::path
   }
 }
 
-Available bestLevel(int highest, const fs::path& launcher, const fs::path& probe, const fs::path& folder) {
+Available bestLevel(const fs::path& launcher, const fs::path& probe, const fs::path& folder) {
   Available available;
-  for (int level = highest; level > 0; --level) {
+  for (const Level level : kConfiningLevels) {
     const std::string reason = whyNot({.level = level, .launcher = launcher}, probe, folder);
     if (reason.empty()) {
       available.level = level;
       break;
     }
-    available.reasons.push_back(fmt::format("level {}: {}", level, reason));
+    available.reasons.push_back(fmt::format("level {}: {}", numberOf(level), reason));
   }
   return available;
-}
-
-std::string warningOf(int level) {
-  switch (level) {
-    case 3:
-      return "";
-    case 2:
-      return "sandbox level 2 of 3: memory is limited for each process, not for all together";
-    case 1:
-      return "sandbox level 1 of 3: the student's program can read the system's files under /usr and see "
-             "which "
-             "files exist; grade other people's code at level 2 or 3";
-    default:
-      return "sandbox level 0 of 3: the student's program runs with the rights of the grader and sees its "
-             "files; "
-             "grade only your own code this way";
-  }
 }
 
 }  // namespace rex::sandbox

@@ -26,15 +26,12 @@ struct Probe {
 [[nodiscard]] std::string whyNot(const Sandbox& sandbox, const std::filesystem::path& probe,
                                  const std::filesystem::path& folder);
 
-/// The highest level up to `highest` that holds here, and why each higher one does not.
+/// The best level that holds here, and why each better one does not.
 struct Available {
-  int level = 0;
+  Level level = Level::kLimitsOnly;
   std::vector<std::string> reasons{};
 };
-[[nodiscard]] Available bestLevel(int highest, const std::filesystem::path& launcher,
-                                  const std::filesystem::path& probe, const std::filesystem::path& folder);
-
-/// What programs at this level may still do, in one line.
-[[nodiscard]] std::string warningOf(int level);
+[[nodiscard]] Available bestLevel(const std::filesystem::path& launcher, const std::filesystem::path& probe,
+                                  const std::filesystem::path& folder);
 
 }  // namespace rex::sandbox

@@ -394,7 +394,7 @@ void allowOpening(Filter& filter, bool mayEmpty) {
 
 void filterStudents(Filter& filter, const Confinement& confinement, const ProgramStart& start, int landlock) {
   constexpr int kRulesTruncation = 3, kScopedSignals = 6;
-  const bool isConfinedByName = confinement.level == 1;
+  const bool isConfinedByName = !hasNamespaces(confinement.level);
   allowStart(filter, start);
   allowSignals(filter, isConfinedByName && landlock < kScopedSignals);
   allowOpening(filter, !isConfinedByName || landlock >= kRulesTruncation);

@@ -111,7 +111,7 @@ Eigen::Vector3d directionOf(Way way, const Eigen::Vector3d& axis, double pitch) 
     case Way::kZ:
       return Eigen::Vector3d::Unit(static_cast<int>(way));
   }
-  return {};
+  return Eigen::Vector3d::Zero();
 }
 
 // Of positions, or of velocities, by what a quaternion has of them.

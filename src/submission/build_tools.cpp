@@ -72,11 +72,12 @@ std::vector<sandbox::Readable> visibleFiles(const Toolchain& toolchain) {
 
 sandbox::Confinement confinement(const Toolchain& toolchain, const fs::path& workFolder,
                                  const sandbox::Sandbox& sandbox, const ToolLimits& limits) {
-  if (sandbox.level == 0) return {};
+  if (!isConfined(sandbox.level)) return {};
   return {.readable = visibleFiles(toolchain),
           .writable = workFolder,
           .environment = {"PATH=/usr/bin", "LC_ALL=C.UTF-8",
-                          "TMPDIR=" + (sandbox.level >= 2 ? sandbox::kInsideFolder : workFolder.string()),
+                          "TMPDIR=" +
+                              (hasNamespaces(sandbox.level) ? sandbox::kInsideFolder : workFolder.string()),
                           kDate, kZone},
           .mayStartProgramsOfItsOwn = true,
           .cpuSeconds = limits.seconds,
@@ -88,7 +89,9 @@ sandbox::Confinement confinement(const Toolchain& toolchain, const fs::path& wor
 
 }  // namespace
 
-double clockSeconds(double seconds, int level) { return (level == 0 ? 2 : 10) * seconds + 2; }
+double clockSeconds(double seconds, sandbox::Level level) {
+  return (isConfined(level) ? 10 : 2) * seconds + 2;
+}
 
 BuildTools::BuildTools(const Toolchain& toolchain, const fs::path& workFolder,
                        const sandbox::Sandbox& sandbox, const ToolLimits& limits)
@@ -102,13 +105,14 @@ ProcessResult BuildTools::runConfined(const std::vector<std::string>& command,
                                       const ProcessOptions& options) const {
   ProcessOptions patient{
       .directory = options.directory, .timeout = options.timeout, .outputLimit = options.outputLimit};
-  if (level_ >= 2) patient.timeout += 5;
+  if (hasNamespaces(level_)) patient.timeout += 5;
   ProcessResult result = runProcess(cell_.command(command), patient);
-  result.timedOut = result.timedOut || (level_ >= 2 && result.exitCode == sandbox::kTimedOut);
+  result.timedOut = result.timedOut || (hasNamespaces(level_) && result.exitCode == sandbox::kTimedOut);
   const std::string_view ready = sandbox::kReady;
   if (!result.started || !result.error.starts_with(ready))
-    throw Error({.what = fmt::format("cannot run {} in a sandbox of level {}", command.front(), level_),
-                 .found = result.error.substr(0, result.error.find('\n'))});
+    throw Error(
+        {.what = fmt::format("cannot run {} in a sandbox of level {}", command.front(), numberOf(level_)),
+         .found = result.error.substr(0, result.error.find('\n'))});
   result.error.erase(0, ready.size());
   return result;
 }
@@ -121,7 +125,7 @@ ProcessResult BuildTools::runOnce(const std::vector<std::string>& command, std::
                          .cpuSeconds = limits_.seconds,
                          .addressSpace = limits_.memory,
                          .fileSize = limits_.fileSize};
-  ProcessResult result = level_ == 0 ? runProcess(command, options) : runConfined(command, options);
+  ProcessResult result = isConfined(level_) ? runConfined(command, options) : runProcess(command, options);
   if (!result.started) throw Error({.what = "cannot run " + command.front(), .found = result.error});
   // A compiler that did nothing for so long waits for something the source made it read. One that worked had
   // a busy machine: the limit on processor time would have stopped it well before the clock.

@@ -20,7 +20,7 @@ struct ToolLimits {
 
 /// How long a tool may take by the clock that may use so many seconds of processor time. Confined ones find
 /// no pipe or terminal to wait for: only a busy machine keeps them, and they get patience.
-[[nodiscard]] double clockSeconds(double seconds, int level);
+[[nodiscard]] double clockSeconds(double seconds, sandbox::Level level);
 
 /// Runs compilers and the tools for object files on what a student wrote. Confined, they see the system, the
 /// headers that students may include, what workers are linked with, and their work folder. They always run
@@ -50,7 +50,7 @@ class BuildTools {
 
   std::filesystem::path workFolder_;
   ToolLimits limits_;
-  int level_;
+  sandbox::Level level_;
   sandbox::Cell cell_;
 };
 

@@ -68,8 +68,8 @@ std::string whyItGaveUp(const ProcessResult& run, const BuildTools& tools,
 }
 
 // From level 2 on, files that the compiler makes for itself lie in memory that it shares with nobody.
-bool isInSandboxsMemory(const std::string& text, int level) {
-  return level >= 2 && text.find(fmt::format(" {}/cc", sandbox::kInsideFolder)) != text.npos;
+bool isInSandboxsMemory(const std::string& text, sandbox::Level level) {
+  return hasNamespaces(level) && text.find(fmt::format(" {}/cc", sandbox::kInsideFolder)) != text.npos;
 }
 
 std::vector<std::string> compileCommand(const Toolchain& toolchain, const StudentBuildOptions& options,

@@ -62,8 +62,8 @@ std::vector<std::string> graderCommand(const Toolchain& toolchain, const Exercis
   if (!worker.empty()) command.insert(command.end(), {"--worker", worker.string()});
   for (const std::string& check : options.checks) command.insert(command.end(), {"--check", check});
   if (options.seed) command.insert(command.end(), {"--seed", fmt::format("{}", *options.seed)});
-  if (options.sandbox.level > 0) {
-    command.insert(command.end(), {"--level", fmt::format("{}", options.sandbox.level), "--sandbox",
+  if (isConfined(options.sandbox.level)) {
+    command.insert(command.end(), {"--level", fmt::format("{}", numberOf(options.sandbox.level)), "--sandbox",
                                    options.sandbox.launcher.string()});
     if (options.sanitize || toolchain.workerPart.empty())
       for (const path& library : toolchain.libraries)
@@ -189,7 +189,7 @@ void findCrashes(const Toolchain& toolchain, const ExerciseInfo& exercise, const
     if (check.group == Group::visible && tellsOfCrash(check.message)) crashed.push_back(&check);
   if (crashed.size() > kMostRepeated) crashed.resize(kMostRepeated);
   // The sanitizers read and map what a sandbox forbids.
-  if (crashed.empty() || options.sandbox.level > 0) return;
+  if (crashed.empty() || isConfined(options.sandbox.level)) return;
   SubmissionOptions again = options;
   again.sanitize = true;
   again.workFolder = options.workFolder / "second-look";

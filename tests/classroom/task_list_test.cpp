@@ -16,7 +16,7 @@ Task sample() {
           .exercise = "01-kinematics",
           .sourceSha256 = "s",
           .graderSha256 = "g",
-          .level = 2,
+          .level = sandbox::Level{2},
           .seed = 7,
           .secretId = "abcd",
           .submitted = 1'700'000'000,
@@ -65,7 +65,7 @@ TEST_F(TaskListTest, HashesAllThatAResultDependsOn) {
   add([](Task& task) { task.exercise = "02"; });
   add([](Task& task) { task.sourceSha256 = "t"; });
   add([](Task& task) { task.graderSha256 = "h"; });
-  add([](Task& task) { task.level = 3; });
+  add([](Task& task) { task.level = sandbox::Level::kControlGroup; });
   add([](Task& task) { task.seed = 8; });
   add([](Task& task) { task.seed.reset(); });
   add([](Task& task) { task.secretId = ""; });
@@ -82,6 +82,7 @@ TEST_F(TaskListTest, RefusesOtherTexts) {
                    "tasks.tsv:2: not a list of tasks: found 13 columns");
   EXPECT_REX_ERROR(read(changed("\n1\t", "\n2\t")), "found task 2, wanted task 1");
   EXPECT_REX_ERROR(read(changed("\t2\t", "\tx\t")), "found 'x', wanted a sandbox level");
+  EXPECT_REX_ERROR(read(changed("\t2\t", "\t4\t")), "sandbox level: found 4, wanted 0, 1, 2 or 3");
   EXPECT_REX_ERROR(read(changed("\t7\t", "\t-7\t")), "found '-7', wanted a seed, or nothing");
   EXPECT_REX_ERROR(read(changed("1700000000", "now")), "found 'now', wanted a time in seconds");
   EXPECT_REX_ERROR(read(changed("\tzoe\t", "\t../..\t")), "wanted a plain name");

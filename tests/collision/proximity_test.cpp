@@ -96,8 +96,7 @@ Shape randomShape(Rng& rng, ShapeType type) {
   const Vector3d size = rng.uniformVector(3, 0.05, 0.6);
   if (type == ShapeType::kSphere) return sphere(size.x());
   if (type == ShapeType::kCapsule) return capsule(size.z(), size.x() / 3);
-  if (type == ShapeType::kRoundedBox)
-    return roundedBox(size.x(), size.y(), size.z(), size.minCoeff() / 4);
+  if (type == ShapeType::kRoundedBox) return roundedBox(size.x(), size.y(), size.z(), size.minCoeff() / 4);
   return box(size.x(), size.y(), size.z());
 }
 

@@ -41,7 +41,9 @@ const fs::path kBinary = REX_BINARY_DIR, kOutput = kBinary / "tests" / "battery"
 const fs::path kFolder = fs::path(REX_SOURCE_DIR) / "tests" / "grading";
 constexpr const char* kSecret = "the-secret-of-the-course-0123456789";
 
-const sandbox::Sandbox sandboxOf(int level) { return {.level = level, .launcher = kBinary / "rex-sandbox"}; }
+const sandbox::Sandbox sandboxOf(int level) {
+  return {.level = sandbox::levelOf(level), .launcher = kBinary / "rex-sandbox"};
+}
 
 std::string whyNot(int level) {
   const TemporaryFolder folder;
@@ -130,7 +132,7 @@ class Battery : public ::testing::Test {
   void expectNoHarm(const GradeResult& result, const SubmissionOptions& options) const {
     for (const CheckResult& check : result.checks) EXPECT_LE(check.wallSeconds, 4 * 2.4 + 2) << check.id;
     EXPECT_EQ(loadResult(options.results).outcome, result.outcome);
-    EXPECT_EQ(result.sandboxLevel, options.sandbox.level);
+    EXPECT_EQ(result.sandboxLevel, numberOf(options.sandbox.level));
     EXPECT_THAT(processesOf(options.workFolder), ::testing::IsEmpty());
     EXPECT_FALSE(someStayInASandbox());
     for (const auto& entry : fs::directory_iterator(options.workFolder))
@@ -202,7 +204,7 @@ class Attacks : public Battery, public ::testing::WithParamInterface<Attack> {
 
   void expectHarmless(const GradeResult& result, const SubmissionOptions& options, bool compiled) const {
     const Attack& attack = GetParam();
-    const int level = options.sandbox.level;
+    const int level = numberOf(options.sandbox.level);
     RecordProperty("level_" + std::to_string(level), std::string(toString(result.outcome)));
     EXPECT_THAT(attack.outcomes.at(level), ::testing::Contains(result.outcome))
         << toString(result.outcome) << ": " << result.message

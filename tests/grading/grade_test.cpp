@@ -244,7 +244,7 @@ TEST(RunWithWorker, RefusesWhatCannotBeStarted) {
                    "cannot start the worker no-such-worker: found No such file");
   EXPECT_REX_ERROR(run({.program = kGood, .temporaryFolder = "/no/such/folder"}),
                    "cannot make a temporary folder in /no/such/folder");
-  EXPECT_REX_ERROR(run({.program = kGood, .sandbox = {.level = 1, .launcher = "/bin/true"}}),
+  EXPECT_REX_ERROR(run({.program = kGood, .sandbox = {.level = sandbox::Level{1}, .launcher = "/bin/true"}}),
                    "the sandbox of level 1 does not stand");
 }
 

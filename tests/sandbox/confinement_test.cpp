@@ -15,7 +15,7 @@ using ::testing::ElementsAre;
 using ::testing::Not;
 
 Confinement example() {
-  return {.level = 3,
+  return {.level = Level{3},
           .readable = {{"/project/worker", kInsideProgram}, {"/project/a b", "/project/a b"}},
           .writable = "/work folder",
           .environment = {"LC_ALL=C", "EMPTY="},

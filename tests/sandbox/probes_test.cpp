@@ -22,7 +22,7 @@ class Probes : public ::testing::TestWithParam<int> {
 };
 
 TEST_P(Probes, AllHoldWhereTheLevelStands) {
-  const Sandbox sandbox{.level = GetParam(), .launcher = kLauncher};
+  const Sandbox sandbox{.level = levelOf(GetParam()), .launcher = kLauncher};
   if (const std::string reason = whyNot(sandbox, kProbe, folder_.path()); !reason.empty())
     GTEST_SKIP() << "sandbox level " << GetParam() << ": " << reason;
   std::vector<std::string> names;
@@ -38,13 +38,13 @@ INSTANTIATE_TEST_SUITE_P(Levels, Probes, ::testing::Values(3, 2, 1));
 
 // The slower attacks would do harm where nothing stops them.
 TEST_F(Probes, NoticeThatLimitsAloneAreNoSandbox) {
-  const Sandbox sandbox{.level = 0, .launcher = kLauncher};
+  const Sandbox sandbox{.level = Level{0}, .launcher = kLauncher};
   EXPECT_THAT(whyNot(sandbox, kProbe, folder_.path()), ::testing::HasSubstr("read "));
 }
 
 TEST_F(Probes, SayWhyALevelDoesNotStand) {
-  const Available available = bestLevel(3, folder_.path() / "no-launcher", kProbe, folder_.path());
-  EXPECT_EQ(available.level, 0);
+  const Available available = bestLevel(folder_.path() / "no-launcher", kProbe, folder_.path());
+  EXPECT_EQ(available.level, Level::kLimitsOnly);
   ASSERT_EQ(available.reasons.size(), 3u);
   EXPECT_THAT(available.reasons.back(), ::testing::HasSubstr("level 1: the launcher does not start"));
 }
@@ -54,16 +54,16 @@ TEST_F(Probes, BlameNoAttackThatNeverRan) {
   const fs::path launcher = folder_.path() / "launcher";
   std::ofstream(launcher) << "#!/bin/sh\necho bwrap: No permissions >&2\nexit 1\n";
   fs::permissions(launcher, fs::perms::owner_all);
-  for (const Probe& probe : attack({.level = 1, .launcher = launcher}, kProbe, folder_.path())) {
+  for (const Probe& probe : attack({.level = Level{1}, .launcher = launcher}, kProbe, folder_.path())) {
     EXPECT_FALSE(probe.held || probe.ran) << probe.name;
     EXPECT_EQ(probe.text, "the sandbox does not stand: bwrap: No permissions");
   }
 }
 
 TEST_F(Probes, WarnBelowTheHighestLevel) {
-  EXPECT_EQ(warningOf(3), "");
+  EXPECT_EQ(warningOf(Level::kControlGroup), "");
   for (const int level : {0, 1, 2})
-    EXPECT_THAT(warningOf(level),
+    EXPECT_THAT(warningOf(levelOf(level)),
                 ::testing::StartsWith("sandbox level " + std::to_string(level) + " of 3: "));
 }
 

@@ -124,7 +124,7 @@ TEST_F(SystemCalls, AreFewerWhereLandlockIsOlder) {
 TEST_F(SystemCalls, AreUnknownBeyondTheNewestThatWasLookedAt) {
   for (const bool isTool : {false, true}) {
     const IsolatedResult result = callIsolated([&] {
-      filterSystemCalls({.level = 1, .mayStartProgramsOfItsOwn = isTool});
+      filterSystemCalls({.level = Level{1}, .mayStartProgramsOfItsOwn = isTool});
       std::string known;
       for (long number = 463; number < 700; ++number)
         if (::syscall(number, -1, 0, 0, 0, 0, 0) >= 0 || errno != ENOSYS)
@@ -138,7 +138,7 @@ TEST_F(SystemCalls, AreUnknownBeyondTheNewestThatWasLookedAt) {
 // How a program ends that tries this behind the filter of a student's.
 IsolatedResult behindFilter(const std::function<long()>& attempt, bool isTool = false) {
   return callIsolated([&] {
-    filterSystemCalls({.level = 2, .mayStartProgramsOfItsOwn = isTool});
+    filterSystemCalls({.level = Level{2}, .mayStartProgramsOfItsOwn = isTool});
     return attempt() < 0 ? std::string(std::strerror(errno)) : "done";
   });
 }
@@ -183,7 +183,7 @@ TEST_F(SystemCalls, StartTheProgramAndNoOther) {
     return callIsolated([&] {
       const int fd = ::open("/bin/true", O_PATH);
       const ProgramStart start{fd, hiddenWord(""), hiddenWords({"true"}), hiddenWords({})};
-      filterSystemCalls({.level = 2}, start);
+      filterSystemCalls({.level = Level{2}}, start);
       ::execveat(program < 0 ? program : fd, sameWords ? start.path : "", start.arguments, start.environment,
                  AT_EMPTY_PATH);
       return std::string(std::strerror(errno));
@@ -199,14 +199,14 @@ TEST_F(SystemCalls, StartTheProgramAndNoOther) {
 // What compilers do, and what honest programs do.
 TEST_F(SystemCalls, LetToolsAndThreadsStart) {
   const IsolatedResult tool = callIsolated([] {
-    filterSystemCalls({.level = 2, .mayStartProgramsOfItsOwn = true});
+    filterSystemCalls({.level = Level{2}, .mayStartProgramsOfItsOwn = true});
     return runProcess({"sh", "-c", "echo $(echo runs | cat)"}).output;
   });
   EXPECT_EQ(tool.bytes, "runs\n");
   EXPECT_EQ(behindFilter([] { return ::unshare(CLONE_NEWNET); }, true).signal, SIGSYS);
   const std::string file = temporary_.path() / "written";
   const IsolatedResult honest = callIsolated([&] {
-    filterSystemCalls({.level = 2});
+    filterSystemCalls({.level = Level{2}});
     std::string text;
     std::thread([&] { text = "threads "; }).join();
     std::this_thread::sleep_for(std::chrono::milliseconds(1));

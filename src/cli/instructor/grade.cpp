@@ -40,9 +40,9 @@ namespace fs = std::filesystem;
 struct GradeManyOptions {
   std::filesystem::path folder{};  ///< DIR/STUDENT/EXERCISE/main.cpp
   std::filesystem::path out{};
-  int jobs = 0;                 ///< at once; 0: one per processor
-  std::optional<int> level{};   ///< of the sandbox; nothing: the best that holds here
-  std::optional<int> accept{};  ///< the lowest level, where that is below 2
+  int jobs = 0;                            ///< at once; 0: one per processor
+  std::optional<sandbox::Level> level{};   ///< nothing: the best that holds here
+  std::optional<sandbox::Level> accept{};  ///< the lowest, though it is not for strangers
   std::optional<std::uint64_t> seed{};
   std::filesystem::path secret{};     ///< file; empty: hidden checks take the seed, too
   std::filesystem::path workers{};    ///< folder that keeps compiled programs; empty: none
@@ -82,28 +82,29 @@ class Graders {
   std::map<std::string, Grader> graders_;
 };
 
-// For work of strangers: the asked level, else the best that holds here. One below 2 must be accepted by its
-// number. Nothing if there is none; why is told, and what a weak one does not stop.
-std::optional<sandbox::Sandbox> chooseForStrangers(const Project& project, std::optional<int> level,
-                                                   std::optional<int> accepted) {
-  constexpr int kBest = 3, kSafe = 2;
+// For work of strangers: the asked level, else the best that holds here. One that is not for
+// strangers must be accepted by its number. Nothing if there is none; why is told, and what a weak one does
+// not stop.
+std::optional<sandbox::Sandbox> chooseForStrangers(const Project& project,
+                                                   std::optional<sandbox::Level> level,
+                                                   std::optional<sandbox::Level> accepted) {
   if (!level) {
     const PrivateFolder folder(std::filesystem::temp_directory_path());
-    const auto best = sandbox::bestLevel(kBest, launcherOf(project), probeOf(project), folder.path());
+    const auto best = sandbox::bestLevel(launcherOf(project), probeOf(project), folder.path());
     level = best.level;
     for (const std::string& reason : best.reasons)
-      if (best.level < kSafe) note(wrap(harmless(reason), 2, 0));
+      if (!isForStrangers(best.level)) note(wrap(harmless(reason), 2, 0));
   }
-  if (*level < accepted.value_or(kSafe)) {
+  if (accepted ? *level < *accepted : !isForStrangers(*level)) {
     note(wrap(fmt::format("sandbox level {} is not for work of strangers: {}; to grade all the same, say "
                           "--i-accept-level {}",
-                          *level, sandbox::warningOf(*level), *level),
+                          numberOf(*level), sandbox::warningOf(*level), numberOf(*level)),
               2, 0));
     return {};
   }
   const std::optional<sandbox::Sandbox> chosen = chooseSandbox(project, level);
-  if (chosen && *level < kSafe)
-    note(wrap(fmt::format("sandbox level {}: {}", *level, sandbox::warningOf(*level)), 2, 0));
+  if (chosen && !isForStrangers(*level))
+    note(wrap(fmt::format("sandbox level {}: {}", numberOf(*level), sandbox::warningOf(*level)), 2, 0));
   return chosen;
 }
 
@@ -165,9 +166,9 @@ std::set<std::string> blockedOf(const grading::HandIns& handedIn, Graders& grade
   return blocked;
 }
 
-std::vector<Task> tasksOf(const grading::HandIns& handedIn, const GradeManyOptions& options, int level,
-                          const std::vector<ExerciseInfo>& exercises, const std::set<std::string>& blocked,
-                          Graders& graders) {
+std::vector<Task> tasksOf(const grading::HandIns& handedIn, const GradeManyOptions& options,
+                          sandbox::Level level, const std::vector<ExerciseInfo>& exercises,
+                          const std::set<std::string>& blocked, Graders& graders) {
   std::optional<grading::SubmissionTimes> times;
   if (!options.submitted.empty()) times.emplace(options.submitted, exercises);
   const std::string secretId = grading::secretIdOf(options.secret);
@@ -279,7 +280,7 @@ ExitCode gradeMany(const Project& project, const GradeManyOptions& options) {
   const bool complete = writeGrades(tasks, options.out, policy, options.csv);
   note(
       fmt::format("{} submission{} at sandbox level {}: {} graded, {} kept, {} could not be taken. Table: {}",
-                  tasks.size(), tasks.size() == 1 ? "" : "s", sandbox->level, graded,
+                  tasks.size(), tasks.size() == 1 ? "" : "s", numberOf(sandbox->level), graded,
                   static_cast<int>(tasks.size()) - graded, handedIn.complaints.size(),
                   shown(options.out / "grades.csv")));
   return complete ? taken : ExitCode::kGraderFault;

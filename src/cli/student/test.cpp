@@ -83,7 +83,8 @@ void addTest(CLI::App* command, Action& action) {
     if (words->exercises.empty() != words->all) throw CLI::RequiredError("either EXERCISE or --all");
     if (each.solution && !each.main.empty()) throw CLI::ExcludesError("--main", "--solution");
     // The sanitizers read and map what a sandbox forbids.
-    if (each.debug && each.level.value_or(0) > 0) throw CLI::ExcludesError("--debug", "--level");
+    if (each.debug && isConfined(each.level.value_or(sandbox::Level::kLimitsOnly)))
+      throw CLI::ExcludesError("--debug", "--level");
     action = [words](const Project& p) { return test(p, *words); };
   });
 }

@@ -18,7 +18,7 @@ ExitCode testOne(const Project& project, const TestOptions& options) {
   const TestRun run(project, std::move(exercise), options);
   // A sandbox has one work folder for all tools.
   const int processors =
-      sandbox->level > 0 ? 1 : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+      isConfined(sandbox->level) ? 1 : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   const grading::Submission graded = [&] {
     const ProgressLine line([&] { return run.stage(); });
     return run.grade(*sandbox, processors);

@@ -9,6 +9,7 @@
 #include "base/private_folder.h"
 #include "cli/exit_code.h"
 #include "cli/project.h"
+#include "sandbox/level.h"
 #include "submission/submission.h"
 
 namespace rex::cli {
@@ -21,10 +22,10 @@ struct TestOptions {
   std::vector<std::string> checks;  ///< empty: all
   std::optional<std::uint64_t> seed;
   bool json = false;
-  bool debug = false;              ///< with the sanitizers
-  std::filesystem::path out;       ///< empty: as for run
-  std::optional<int> level{};      ///< of the sandbox; nothing: 0
-  std::filesystem::path secret{};  ///< file with the secret of the course; empty: none
+  bool debug = false;                     ///< with the sanitizers
+  std::filesystem::path out;              ///< empty: as for run
+  std::optional<sandbox::Level> level{};  ///< nothing: limits only
+  std::filesystem::path secret{};         ///< file with the secret of the course; empty: none
 };
 
 /// One exercise on its way through `rex test`, in a folder of its own until publish(): others may grade the

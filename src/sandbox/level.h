@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <string>
+
+namespace rex::sandbox {
+
+/// How a program is confined, by the number that users give it: share/doc/sandbox.md says what each level
+/// stops.
+enum class Level : int {
+  kLimitsOnly = 0,   ///< time, memory and output; no launcher is needed
+  kFiles = 1,        ///< landlock and a list of system calls
+  kNamespaces = 2,   ///< and namespaces
+  kControlGroup = 3  ///< and limits for all of its processes together
+};
+
+/// All that confine, from the best on.
+inline constexpr std::array kConfiningLevels = {Level::kControlGroup, Level::kNamespaces, Level::kFiles};
+
+[[nodiscard]] constexpr bool isConfined(Level level) { return level >= Level::kFiles; }
+[[nodiscard]] constexpr bool hasNamespaces(Level level) { return level >= Level::kNamespaces; }
+[[nodiscard]] constexpr bool hasControlGroup(Level level) { return level >= Level::kControlGroup; }
+/// Whether the work of strangers may be graded at it without a word.
+[[nodiscard]] constexpr bool isForStrangers(Level level) { return hasNamespaces(level); }
+
+[[nodiscard]] constexpr int numberOf(Level level) { return static_cast<int>(level); }
+/// Throws Error unless it is 0 to 3.
+[[nodiscard]] Level levelOf(int number);
+
+/// "sandbox level 1 of 3", as users read it.
+[[nodiscard]] std::string describe(Level level);
+
+/// What programs at this level may still do, in one line; empty for the best.
+[[nodiscard]] std::string warningOf(Level level);
+
+}  // namespace rex::sandbox
