@@ -41,13 +41,14 @@ int framesFor(double seconds) {
   return static_cast<int>(std::clamp(std::ceil(seconds * kFilmRate - 1e-9) + 1, 2., 1. * kMostFrames));
 }
 
+// From frame `first` on.
 Film filmOf(const Simulator& simulator, const std::vector<RecordedPosture>& moments,
-            const PictureOptions& options) {
+            const PictureOptions& options, std::size_t first = 0) {
   std::vector<BodyPoses> poses;
   for (const RecordedPosture& one : moments) poses.push_back(forwardKinematics(simulator.model(), one.q));
   const auto traces = tracesOf(simulator, poses, options);
   Film film;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
+  for (std::size_t i = first; i < poses.size(); ++i) {
     film.push_back({moments[i].time, decorate(pictureOf(simulator.model(), poses[i]), options)});
     if (i == 0) continue;
     for (const auto& trace : traces) {
@@ -74,6 +75,13 @@ Film filmOf(const Simulator& simulator, const std::vector<Eigen::VectorXd>& post
   for (const Eigen::VectorXd& q : postures)
     moments.push_back({static_cast<double>(moments.size()) / kFilmRate, q});
   return filmOf(simulator, moments, options);
+}
+
+Film stillOf(const Simulator& simulator, const PictureOptions& options) {
+  std::vector<RecordedPosture> moments;
+  if (!options.traces.empty()) moments = simulator.recording().evenly(Recording::kCapacity);
+  moments.push_back({0, simulator.getJointAngles()});
+  return filmOf(simulator, moments, options, moments.size() - 1);
 }
 
 int videoRateOf(const Film& film) {

@@ -27,6 +27,9 @@ inline constexpr int kMostFrames = 900;
 [[nodiscard]] Film filmOf(const Simulator& simulator, const std::vector<Eigen::VectorXd>& postures,
                           const PictureOptions& options);
 
+/// The posture now as a film of one frame, with traces of the recording up to it.
+[[nodiscard]] Film stillOf(const Simulator& simulator, const PictureOptions& options);
+
 /// The frames per second, 1 to kFilmRate, at which a video with one picture for each frame of a film is
 /// nearest to real time.
 [[nodiscard]] int videoRateOf(const Film& film);

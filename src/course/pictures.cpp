@@ -21,13 +21,7 @@ Shot shotOf(const Film& film, const PictureOptions& options) {
 }  // namespace
 
 void writePicture(const Simulator& simulator, const std::string& file, const PictureOptions& options) {
-  std::vector<Eigen::VectorXd> postures;
-  if (!options.traces.empty())
-    for (const RecordedPosture& one : simulator.recording().evenly(Recording::kCapacity))
-      postures.push_back(one.q);
-  postures.push_back(simulator.getJointAngles());
-  Film film = filmOf(simulator, postures, options);
-  film.erase(film.begin(), film.end() - 1);
+  const Film film = stillOf(simulator, options);
   Renderer renderer({.width = options.width, .height = options.height, .gl = glChoice()});
   writePng(renderer.draw(film.front().picture, cameraFor(film, options)), file);
 }
