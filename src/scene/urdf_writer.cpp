@@ -192,7 +192,7 @@ class Writer {
       case ShapeType::kCylinder:
         return {{{}, "cylinder", {{"radius", radius}, {"length", length}}}};
       case ShapeType::kCone:
-        throw Error({.what = fmt::format("shape of '{}'", name),
+        throw Error({.what = fmt::format("shape '{}'", name),
                      .where = shape.where,
                      .found = "a cone, which URDF lacks",
                      .wanted = "a cylinder or a mesh"});

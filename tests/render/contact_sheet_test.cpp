@@ -2,14 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "render/contact_sheet_sink.h"
-#include "render/png.h"
 #include "render/shrunk.h"
 #include "support/expect_error.h"
-#include "support/folder_content.h"
-#include "support/temporary_folder.h"
 #include "support/test_frames.h"
-#include "support/tiny_disk.h"
 
 namespace rex::contact_sheet_test {
 
@@ -87,64 +82,6 @@ TEST(ContactSheet, RefusesNonsense) {
   EXPECT_REX_ERROR(contactSheet(one, {.columns = 0}), "contact sheet: columns: found 0, wanted at least 1");
   EXPECT_REX_ERROR(contactSheet(one, {.pictureWidth = 3}),
                    "contact sheet: width of a picture: found 3, wanted at least 16");
-}
-
-class ContactSheetSinkTest : public testing::Test {
- protected:
-  // The sheet of a film of so many numbered frames.
-  Image sheetOf(int frames) {
-    ContactSheetSink sink(folder_.path() / "sheet.png", {.pictures = 6, .columns = 4});
-    std::size_t most = 0;
-    for (int i = 0; i < frames; ++i) {
-      sink.add(numbered(i));
-      most = std::max(most, sink.kept());
-    }
-    EXPECT_LE(most, 2 * 6 * ContactSheetSink::kSpare);
-    sink.finish();
-    EXPECT_EQ(folderContent(folder_.path()), std::set<std::string>{"sheet.png"});
-    return readPng(folder_.path() / "sheet.png");
-  }
-
- private:
-  TemporaryFolder folder_;
-};
-
-TEST_F(ContactSheetSinkTest, ShowsShortFilmsExactly) {
-  EXPECT_EQ(numbersOn(sheetOf(1), 4), std::vector{0});
-  EXPECT_EQ(numbersOn(sheetOf(4), 4), (std::vector{0, 1, 2, 3}));
-  EXPECT_EQ(numbersOn(sheetOf(48), 4), (std::vector{0, 9, 19, 28, 38, 47}));
-}
-
-TEST_F(ContactSheetSinkTest, ShowsLongFilmsNearlyEvenly) {
-  for (const int frames : {49, 50, 1000, 20'001}) {
-    const std::vector<int> numbers = numbersOn(sheetOf(frames), 4);
-    ASSERT_EQ(numbers.size(), 6u);
-    EXPECT_EQ(numbers.front(), 0);
-    EXPECT_EQ(numbers.back(), frames - 1);
-    for (int k = 0; k < 6; ++k)
-      EXPECT_NEAR(numbers[static_cast<std::size_t>(k)], k * (frames - 1) / 5., frames / 48. + 1);
-  }
-}
-
-TEST(ContactSheetSink, SaysWhyItCannot) {
-  EXPECT_REX_ERROR(ContactSheetSink("a.png", {.pictures = 1}), "contact sheet: pictures: found 1");
-  EXPECT_REX_ERROR(ContactSheetSink("a.png", {}, 0),
-                   "contact sheet: frames per second: found 0, wanted more than 0");
-  const TemporaryFolder folder;
-  std::filesystem::create_symlink("loop", folder.path() / "loop");
-  for (const std::filesystem::path& file :
-       {std::filesystem::path(), folder.path() / std::string(300, 'x'), folder.path() / "loop" / "a.png"}) {
-    ContactSheetSink sheet(file);
-    sheet.add(numbered(0));
-    EXPECT_REX_ERROR(sheet.finish(), "cannot write '" + file.string() + "': found ");
-  }
-  const TinyDisk disk(4);
-  REX_NEEDS_DISK(disk);
-  Rng rng(1);
-  ContactSheetSink sink(disk.path() / "a.png");
-  for (int i = 0; i < 3; ++i) sink.add(noise(64, 48, rng));
-  EXPECT_REX_ERROR(sink.finish(), "a.png': found No space left on device");
-  EXPECT_TRUE(folderContent(disk.path()).empty());
 }
 
 }  // namespace rex::contact_sheet_test

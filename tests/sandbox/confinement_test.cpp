@@ -38,7 +38,7 @@ TEST(Confinement, ComesBackFromItsArguments) {
   EXPECT_THAT(order.command, ElementsAre("program", "--level", "--"));
   const Confinement& c = order.confinement;
   EXPECT_EQ(toArguments(c), toArguments(example()));
-  EXPECT_EQ(c.level, 3);
+  EXPECT_EQ(c.level, Level::kControlGroup);
   EXPECT_EQ(c.readable.at(1).path, "/project/a b");
   EXPECT_EQ(c.readable.at(0).inside, kInsideProgram);
   EXPECT_EQ(c.writable, "/work folder");

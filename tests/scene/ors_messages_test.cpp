@@ -166,9 +166,10 @@ constexpr Row kErrors[] = {
      "'dynamic'"},
     // shapes
     {"body a { type=@77@ }", "7",
-     "body 'a': unknown type: found the number 77, wanted a number from 0 to 9 or a name such as 'ST_box'"},
+     "body 'a': unknown type: found the number 77, wanted a number from 0 to 10 or a name such as 'ST_box'"},
     {"body a { type=@ST_capsul@ }", "ST_capsule",
-     "body 'a': unknown type: found 'ST_capsul', wanted a number from 0 to 9 or a name such as 'ST_box' (did "
+     "body 'a': unknown type: found 'ST_capsul', wanted a number from 0 to 10 or a name such as 'ST_box' "
+     "(did "
      "you mean 'ST_capsule'?)"},
     {"body a { type=0 size=@[1 2]@ }", "[1 2 3]",
      "body 'a': attribute 'size': found an array of 2, wanted an array of 3 or 4 numbers"},

@@ -401,7 +401,7 @@ TEST(UrdfWriter, SaysWhatItCannotWrite) {
   EXPECT_REX_ERROR(writeUrdf(ors("body a {}\nbody b {}\njoint j (a b) { type=quatBall }")),
                    "f:3:1: joint 'j': URDF has no ball joint: wanted three hinges, say");
   EXPECT_REX_ERROR(writeUrdf(ors("body a {}\nshape s (a) { type=ST_cone size=[0 0 1 .3] }")),
-                   "f:2:1: shape of 'a': found a cone, which URDF lacks, wanted a cylinder or a mesh");
+                   "f:2:33: shape 's': found a cone, which URDF lacks, wanted a cylinder or a mesh");
   EXPECT_REX_ERROR(writeUrdf(ors("body a {}\nbody b {}\nbody c {}\njoint j (a b) { type=free }\n"
                                  "joint k (b c) { type=free mimic=j }")),
                    "f:5:1: joint 'k': URDF has no mimic of joints with several coordinates: wanted none");
