@@ -11,7 +11,7 @@ namespace rex {
 
 void requireFinite(std::string_view what, double number) {
   if (std::isfinite(number)) return;
-  // The sign of what is no number is chance.
+  // The sign bit of a NaN is unspecified.
   const std::string found = std::isnan(number) ? "nan" : fmt::format("{}", number);
   throw Error({.what = std::string(what), .found = found, .wanted = "a finite number"});
 }

@@ -66,7 +66,7 @@ class MotionSearch {
     for (Stretch& stretch : stretches_) stretch.atEnd = measured(stretch.pair);
   }
 
-  // No distance of the pair in a stretch of that length is below.
+  // A lower bound on the pair's distance over a stretch of this length.
   double bound(const Stretch& stretch, double length) const {
     const auto& [pair, atStart, atEnd, unused] = stretch;
     const double mayLose = std::max(0., speeds_[pair] * length - std::abs(atStart - atEnd)) / 2;
@@ -79,7 +79,7 @@ class MotionSearch {
     return lowest;
   }
 
-  // The least distance can only fall, so what is not far below it now never will be.
+  // The least distance can only decrease, so a bound that is close to it now stays close.
   void keepUnlessBounded(const Stretch& stretch, double length) {
     const double atLeast = bound(stretch, length);
     if (least_ - atLeast > tolerance_ && left_ > 0) {
@@ -89,8 +89,7 @@ class MotionSearch {
     }
   }
 
-  // Of the stretches from place `first` on, which all reach from start to end. Halves them, and takes them
-  // away.
+  // Bisects stretches_[first..], which all span [start, end], and removes them.
   void search(double start, double end, std::size_t first) {
     const std::size_t last = stretches_.size();
     if (first == last) return;
@@ -106,7 +105,8 @@ class MotionSearch {
     stretches_.resize(first);
   }
 
-  // Of the distance of a pair: metres per whole motion. Joints that carry both shapes do not count.
+  // How fast a pair's distance may change, metres per whole motion. Joints that carry both shapes do not
+  // count.
   double speed(const ShapePair& pair) const {
     const ContactSolid& a = solid(pair.a);
     const ContactSolid& b = solid(pair.b);
@@ -117,8 +117,9 @@ class MotionSearch {
     return speedBelow(common, a) + speedBelow(common, b);
   }
 
-  // Of the points of a solid, seen from a body that carries it. From where they are now, in the middle of the
-  // motion, they never go farther than half of their way, so a ball of growing radius holds them.
+  // How fast points of a solid may move, seen from a body that carries it. From the middle of the motion,
+  // where they are now, no point moves farther than half of its way, so a ball of growing radius contains
+  // them.
   double speedBelow(BodyId carrier, const ContactSolid& solid) const {
     const Vector3d centre = poses_[solid.body] * solid.X_BS.p;
     double sum = 0;

@@ -17,7 +17,7 @@ enum class RiccatiStatus {
   kNotDetectable,    ///< a mode that neither grows nor decays costs nothing
   kOnBoundary,  ///< closed-loop eigenvalues on the imaginary axis or unit circle: X is the limit, to half the
                 ///< digits
-  kFailed       ///< no solution, or none that doubles can tell
+  kFailed       ///< no solution, or none computable in double precision
 };
 
 /// A solution of an algebraic Riccati equation. X and K are empty unless status is kSolved or kOnBoundary.
@@ -26,10 +26,10 @@ struct RiccatiResult {
   Eigen::MatrixXd X{};            ///< symmetric, n x n
   Eigen::MatrixXd K{};            ///< m x n: u = -K x
   Eigen::VectorXcd closedLoop{};  ///< eigenvalues of A - B K
-  /// Of the equation, relative to its largest term.
+  /// The norm of what the equation misses, relative to its largest term.
   double residual = std::numeric_limits<double>::infinity();
-  /// The eigenvalue in the way: of A where it is not stabilizable or detectable (kSolved if X stops what
-  /// grows unseen), of the equation's pencil where that lies on the axis or circle.
+  /// The offending eigenvalue: of A if it is not stabilizable or detectable (kSolved if X stabilizes an
+  /// unobservable growing mode), of the equation's pencil if it lies on the axis or circle.
   std::optional<std::complex<double>> mode{};
   std::string message{};
 };
@@ -38,7 +38,8 @@ struct RiccatiResult {
 /// 8:19, algebraic and continuous. By the ordered Schur form of an extended pencil (Van Dooren 1981),
 /// balanced, and Newton steps with residuals in extended precision. Throws Error for sizes that do not fit,
 /// entries that are not finite, Q or R that are not symmetric, and an R that is not positive definite, naming
-/// each. Q may be indefinite; then there need not be a solution. It costs least if all that grows is seen.
+/// each. Q may be indefinite; then there need not be a solution. X is the minimal
+/// cost if every growing mode is observable.
 [[nodiscard]] RiccatiResult solveCare(const MatrixArg& A, const MatrixArg& B, const MatrixArg& Q,
                                       const MatrixArg& R);
 

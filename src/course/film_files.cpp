@@ -24,7 +24,7 @@
 namespace rex {
 namespace {
 
-// A student's program has no edge at which Ctrl-C could wait until nothing half made lies about.
+// Student programs do not handle Ctrl-C, so it is deferred until the files are complete.
 void beforeSignals(const std::function<void()>& work) {
   int signal = 0;
   {

@@ -67,7 +67,7 @@ std::string orsNameOf(const std::string& name) {
   return std::filesystem::path(name).replace_extension(".ors").string();
 }
 
-// What may collide, or why that cannot be told: it matters only to those who ask.
+// The contact model, or the error to throw when contacts are queried.
 using Contacts = std::variant<ContactModel, Error>;
 
 Contacts contactsOf(const Model& model) {

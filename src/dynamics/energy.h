@@ -20,7 +20,7 @@ struct Energy {
 
 /// Derivatives of the total energy T + U (nv each).
 struct EnergyGradient {
-  Eigen::VectorXd byPosition;  ///< per way that each entry of v leads, as integrate() goes it, with v held
+  Eigen::VectorXd byPosition;  ///< along each entry of v, in the sense of integrate(), with v held fixed
   Eigen::VectorXd byVelocity;  ///< M v: the momenta of the joints
 };
 

@@ -60,7 +60,8 @@ class Check {
     };
     return Showing{*this, std::exchange(show_, std::move(make))};
   }
-  /// Of the requirement that the verdict of judge() is about; nothing if all hold, or for a hidden check.
+  /// Evidence for the requirement that decided the verdict of judge(); empty if all hold, or the check is
+  /// hidden.
   const std::optional<Evidence>& evidence() const { return evidence_; }
 
   /// |got - wanted| <= tolerance; false for what is not finite. Same unit for all three.

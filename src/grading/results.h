@@ -51,7 +51,7 @@ struct CheckResult {
   int line = 0;  ///< of the student's file, where that was, or where the function begins; 0: unknown
   double wallSeconds = 0;  ///< volatile
   double cpuSeconds = 0;   ///< volatile
-  // Volatile, too: who grades hundreds may do without. Files beside the results; empty: none.
+  // Volatile, too; bulk grading may omit them. Files beside the results; empty: none.
   std::string picture{};  ///< of what happened and what was wanted
   std::string replay{};   ///< the same as a page that moves
 };

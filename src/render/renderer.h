@@ -12,8 +12,8 @@
 
 namespace rex {
 
-/// How edges of solids lose their steps (lines and points are always smooth): not at all; by their colours in
-/// a finished picture, for films; by four samples per pixel, for stills.
+/// Anti-aliasing of solid edges (lines and points are always smooth): none; by colour contrast in the
+/// finished picture, for films; by four samples per pixel, for stills.
 enum class AntiAliasing { kNone, kFxaa, kMsaa4 };
 
 /// How pictures are made; what they show is a Picture.

@@ -20,7 +20,7 @@ namespace rex::grading {
 [[nodiscard]] std::vector<CompileDiagnostic> parseAssemblerText(std::string_view standardError);
 
 /// Moves each message about another file to the line of `mainFile` that caused it, found in the plain text
-/// the compiler wrote about the same run ("required from here", "included from"); line 0 when it tells not.
+/// the compiler wrote about the same run ("required from here", "included from"); line 0 if unknown.
 void blameMainFile(std::vector<CompileDiagnostic>& messages, const std::string& mainFile,
                    std::string_view plainText);
 

@@ -11,7 +11,7 @@
 
 namespace rex::cli {
 
-/// As typed; empty where nothing was. RenderPlan is what they mean.
+/// Raw option strings, empty if not given. RenderPlan is what they mean.
 struct RenderOptions {
   SceneOption scene{};
   std::vector<std::string> postures{};  ///< see parsePosture(); several: the motion through them
@@ -30,7 +30,7 @@ struct RenderOptions {
 /// What `rex render` makes: a still, a film or its frames, a .glb, or an .html page.
 enum class Product { kPicture, kFilm, kModel, kPage };
 
-/// What its pixels tell.
+/// What its pixels show.
 enum class Show { kColor, kDepth, kSegmentation };
 
 struct NamedView {
