@@ -14,7 +14,7 @@ namespace {
 
 bool isOneOf(std::string_view signs, char c) { return signs.find(c) != std::string_view::npos; }
 
-// A character written by its number is no markup.
+// A character written by its number is not markup.
 std::string numbered(char c) { return fmt::format("&#{};", static_cast<int>(c)); }
 
 std::string withNumbers(std::string_view text, std::string_view markup) {

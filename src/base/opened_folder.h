@@ -40,7 +40,7 @@ class OpenedFolder {
   /// What that entry is now: not_found for none.
   std::filesystem::file_type typeOf(const std::string& name) const;
 
-  /// Throws Error where that entry is no folder any more.
+  /// Throws Error where that entry is no longer a folder.
   OpenedFolder folder(const std::string& name) const;
   /// For reading, without waiting for a pipe. Throws Error with "a symbolic link", "no file" or the reason of
   /// the system as what was found.

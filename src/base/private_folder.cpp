@@ -36,7 +36,7 @@ void removeTree(const fs::path& folder) {
   fs::remove_all(folder, ignored);
 }
 
-// Whether its owner was killed: nobody holds it, and it is no new one whose owner is about to.
+// Whether its owner was killed: nobody holds it, and it is not a new one whose owner is about to.
 bool isAbandoned(const fs::path& folder) {
   constexpr time_t kHour = 3600;
   const int fd = openFolder(folder);

@@ -28,7 +28,7 @@ struct ArchiveContent {
     std::string why{};  ///< "a symbolic link"
   };
   std::vector<ArchiveFile> files{};
-  std::vector<LeftOut> leftOut{};  ///< what is no file or folder: links, pipes, devices
+  std::vector<LeftOut> leftOut{};  ///< what is not a file or folder: links, pipes, devices
 };
 
 /// Whether the name ends in .zip, .tar, .tar.gz or .tgz.
@@ -38,7 +38,7 @@ struct ArchiveContent {
 [[nodiscard]] std::string withoutArchiveEnding(const std::string& name);
 
 /// Reads the files of an archive into memory, in a process of its own; writes nothing. Names are UTF-8,
-/// whatever they were in the archive: what is no UTF-8 there counts as code page 437. Throws Error, which
+/// whatever they were in the archive: what is not UTF-8 there counts as code page 437. Throws Error, which
 /// names the member, for a name that is absolute or leaves its folder, for two names that are one where case
 /// does not count, for what goes beyond the limits, is encrypted or broken.
 [[nodiscard]] ArchiveContent readArchive(const std::filesystem::path& file, const ArchiveLimits& limits = {});

@@ -9,7 +9,7 @@
 namespace rex::cli {
 
 /// While it lives, the last line of the terminal says what long work is doing, some times a second; nothing
-/// where standard error is no terminal. The line is gone afterwards. It needs no escape sequences.
+/// where standard error is not a terminal. The line is gone afterwards. It needs no escape sequences.
 class ProgressLine {
  public:
   /// `text` is called from a thread of its own.

@@ -12,7 +12,7 @@ namespace rex::cli {
 /// What is wrong with a seed; nothing for one that thousands of others can follow.
 std::string wrongSeed(const std::string& text);
 
-/// `--seed N`. Refuses what is no seed; CLI11 alone takes -1 for the largest number there is.
+/// `--seed N`. Refuses what is not a seed; CLI11 alone takes -1 for the largest number there is.
 template <typename Seed>
 void addSeed(CLI::App* command, Seed& seed, const std::string& help) {
   command->add_option("--seed", seed, help)->check(wrongSeed)->type_name("N");

@@ -77,7 +77,7 @@ inline Gap<T> gap(const Box<T>& A, const Box<T>& B) {
   const T distance = squareRoot(dot(apart, apart));
   const auto isApart = out.width > T(kTouching);
   const Vec3<T> direction = (T(1.0) / larger(distance, T(kTouching))) * apart;
-  // No direction has a width where a pose is no number.
+  // No direction has a width where a pose is not a number.
   const T width = select(out.width > T(-1e300), out.width, T(__builtin_nan("")));
   return {B.X.R * near.onB + B.X.p, B.X.R * select(isApart, direction, out.normal),
           select(isApart, distance, width)};

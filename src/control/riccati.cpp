@@ -450,7 +450,7 @@ RiccatiResult solveInUnits(const Problem& problem) {
         problem, border,
         fmt::format("no stabilizing solution was found: relative residual {:.2g}, closed-loop margin {:.2g}",
                     at.size, -margin.instability * problem.rate));
-  // An X for a mode that nothing moves is no solution, however small its residual.
+  // An X for a mode that nothing moves is not a solution, however small its residual.
   if (isNearEdge && (unreachableMode(problem) || unseenMode(problem))) return explained(problem, border, "");
   if (isLimit && (badMode(problem, problem.A, problem.B, false) ||
                   badMode(problem, problem.A.transpose(), problem.Q, true)))

@@ -52,7 +52,7 @@ EnergyGradient energyGradient(const Model& model, const VectorArg& q, const Vect
     };
     internal::forEachFreedomOf(model, BodyId{i}, add);
   }
-  // At a quaternion v is no rate of coordinates but turns with the body; Euler's w x p stands for that.
+  // At a quaternion v is not a rate of coordinates but turns with the body; Euler's w x p stands for that.
   forEachQuaternion(model, [&](int, int iv) {
     const Eigen::Vector3d w = v.segment<3>(iv), p = gradient.byVelocity.segment<3>(iv);
     gradient.byPosition.segment<3>(iv) += w.cross(p);

@@ -36,7 +36,7 @@ struct AssociationGates {
 /// a known landmark does not allocate.
 class EkfSlam {
  public:
-  /// Throws Error for a pose that is no Gaussian of three numbers and a sensor whose W is not definite.
+  /// Throws Error for a pose that is not a Gaussian of three numbers and a sensor whose W is not definite.
   EkfSlam(const Gaussian& pose, const LandmarkSensor& sensor);
 
   int landmarks() const { return landmarks_; }

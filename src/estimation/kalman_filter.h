@@ -56,7 +56,7 @@ struct UnscentedOptions {
 };
 
 /// The unscented Kalman filter: models at 2 n + 1 points, refitted by a Gaussian. Slide 7:28. Throws Error
-/// for options out of range, too, and for those with which the fit is no Gaussian.
+/// for options out of range, too, and for those with which the fit is not a Gaussian.
 [[nodiscard]] Gaussian unscentedPredict(const Gaussian& belief, const NonlinearModel& transition,
                                         const UnscentedOptions& options = {});
 [[nodiscard]] KalmanUpdate unscentedUpdate(const Gaussian& predicted, const NonlinearModel& observation,

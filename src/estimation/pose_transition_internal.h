@@ -5,7 +5,7 @@
 
 namespace rex::internal {
 
-/// Throws Error for a transition without a mean, and noise that is no covariance of three numbers.
+/// Throws Error for a transition without a mean, and noise that is not a covariance of three numbers.
 void requireTransition(const PoseTransition& transition, Definiteness noise);
 
 }  // namespace rex::internal

@@ -25,7 +25,7 @@ namespace {
 
 #ifdef __SANITIZE_ADDRESS__
 constexpr bool kLimitMemory = false;
-// Crashes keep their signals, findings abort, and what a killed worker leaves behind is no leak.
+// Crashes keep their signals, findings abort, and what a killed worker leaves behind is not a leak.
 constexpr std::array<const char*, 3> kEnvironment = {
     "ASAN_OPTIONS=handle_segv=0:handle_sigbus=0:handle_sigfpe=0:handle_sigill=0:abort_on_error=1:detect_"
     "leaks=0",

@@ -31,7 +31,7 @@ class ObjectSurface {
   /// `count` points, evenly by area, with the normal of the face or triangle. Throws Error for count < 0.
   [[nodiscard]] std::vector<SurfacePoint> sample(Rng& rng, int count) const;
   /// All places where the line p_OQ + t direction meets the surface, by t; neighbouring triangles at a common
-  /// edge may both count. Throws Error for a direction that is no unit vector, and numbers that are not
+  /// edge may both count. Throws Error for a direction that is not a unit vector, and numbers that are not
   /// finite.
   [[nodiscard]] std::vector<LineHit> hits(const Eigen::Vector3d& p_OQ,
                                           const Eigen::Vector3d& direction_O) const;

@@ -18,7 +18,7 @@ struct LinearGaussianPolicy {
   Eigen::MatrixXd Sigma{};  ///< k x k, a covariance
 };
 
-/// Throws Error for sizes that do not fit, what is not finite, and a Sigma that is no covariance.
+/// Throws Error for sizes that do not fit, what is not finite, and a Sigma that is not a covariance.
 void requirePolicy(const LinearGaussianPolicy& policy);
 /// A root L of Sigma, so that L times standard normals is epsilon. Throws as requirePolicy.
 [[nodiscard]] Eigen::MatrixXd noiseRoot(const LinearGaussianPolicy& policy);

@@ -22,7 +22,8 @@ struct PolicyValues {
 [[nodiscard]] PolicyValues policyValues(const Mdp& mdp, const MatrixArg& policy);
 
 /// How often each state is expected to be visited, sum_t discount^t P(s_t), starting from a distribution over
-/// states. Throws as policyValues, Error for a start that is no distribution, and where there are no values.
+/// states. Throws as policyValues, Error for a start that is not a distribution, and where there are no
+/// values.
 [[nodiscard]] Eigen::VectorXd discountedVisits(const Mdp& mdp, const MatrixArg& policy,
                                                const VectorArg& start);
 

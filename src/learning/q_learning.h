@@ -10,7 +10,7 @@ namespace rex {
 /// Episodes start in any state with equal probability, so that all are seen, unless `start` says where.
 struct TabularOptions {
   int episodes = 2000;
-  int maxSteps = 200;   ///< an episode is cut after so many, which is no end
+  int maxSteps = 200;   ///< an episode is cut after so many, which is not an end
   double epsilon = .1;  ///< how often any action is tried
   double stepExponent =
       .7;  ///< the n-th visit of (s, a) changes Q by n^-stepExponent of its error; in (.5, 1]

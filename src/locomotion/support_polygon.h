@@ -18,7 +18,7 @@ struct SupportPolygon {
   /// by more than a billionth of a radian; of a line its ends.
   Eigen::Matrix2Xd corners{};
   double area = 0;        ///< m^2
-  std::string message{};  ///< where it is no polygon: what the contacts lack
+  std::string message{};  ///< where it is not a polygon: what the contacts lack
 };
 
 /// Contacts (2 x N, x and y in W, metres) in any order, also several in one place; none give kNone. What is

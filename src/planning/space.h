@@ -49,7 +49,7 @@ class Space {
   void interpolate(const VectorArg& a, const VectorArg& b, double t, Eigen::Ref<Eigen::VectorXd> out) const;
   /// A uniform configuration within the bounds.
   void sample(Rng& rng, Eigen::Ref<Eigen::VectorXd> out) const;
-  /// Throws Error for a configuration that has a wrong size, is not finite, is no rotation, or leaves the
+  /// Throws Error for a configuration that has a wrong size, is not finite, is not a rotation, or leaves the
   /// bounds, saying which number and by how much; `what` names it.
   void require(std::string_view what, const VectorArg& q) const;
 

@@ -19,7 +19,7 @@ struct DrawItem {
   Eigen::Vector3d halfSize = Eigen::Vector3d::Ones();
   Eigen::Vector3d stretch = Eigen::Vector3d::Zero();
   Color color{};
-  int solid = -1;  ///< its index in the picture; -1 for what is no solid
+  int solid = -1;  ///< its index in the picture; -1 for what is not a solid
   TriangleMesh imported{};
   std::uint32_t firstTriangle = 0, triangleCount = 0;  ///< of `imported`
   std::optional<std::uint32_t> texture{};              ///< of its paint; times `color`

@@ -129,7 +129,7 @@ void requireLayer(const Figure& figure, const CovarianceEllipse& ellipse, const 
     throw Error(
         {.what = name, .found = fmt::format("sigmas = {}", ellipse.sigmas), .wanted = "0 < sigmas <= 100"});
   const Eigen::Matrix2d& P = ellipse.covariance;
-  // A filter's rounding is no asymmetry; the drawing takes the lower half.
+  // A filter's rounding is not an asymmetry; the drawing takes the lower half.
   const bool symmetric = std::abs(P(0, 1) - P(1, 0)) <= 1e-6 * P.cwiseAbs().maxCoeff();
   const bool finite = isNumber(P.cwiseAbs().maxCoeff()) && P.allFinite();
   if (!finite || !symmetric || P.llt().info() != Eigen::Success)

@@ -6,7 +6,7 @@
 namespace rex::internal {
 
 /// Smooths the steps of slanted edges by what a picture's colours tell about them (the idea of FXAA, T.
-/// Lottes 2009), and leaves alone what is no edge.
+/// Lottes 2009), and leaves alone what is not an edge.
 class Fxaa {
  public:
   explicit Fxaa(const GlFunctions& gl);

@@ -35,7 +35,7 @@ void requireSolid(const Solid& solid, std::size_t index) {
   const std::string thing =
       solid.name.empty() ? fmt::format("solid {}", index) : fmt::format("solid '{}'", solid.name);
   requireUsable(isUsable(solid.X_WS), thing + ", pose");
-  require(isRotation(solid.X_WS.R), thing + ", pose", "a matrix that is no rotation",
+  require(isRotation(solid.X_WS.R), thing + ", pose", "a matrix that is not a rotation",
           "orthonormal axes, right-handed");
   requireUsable(isUsable(solid.color), thing + ", color");
   requireUsable(isUsable(solid.shape.extent) && isUsable(solid.shape.radius), thing + ", size");

@@ -121,7 +121,7 @@ struct Picture {
 [[nodiscard]] Bounds bounds(const Solid& solid);
 
 /// Throws Error naming the first solid, line ... with a number that is not finite or beyond 1e9, a size that
-/// is negative, a solid's pose that is no rotation, a mesh that is empty, or a light without direction.
+/// is negative, a solid's pose that is not a rotation, a mesh that is empty, or a light without direction.
 void requireDrawable(const Picture& picture);
 
 }  // namespace rex

@@ -45,7 +45,7 @@ void requireUsable(const Camera& camera) {
     throw Error({.what = "camera", .found = "a pose that is not finite", .wanted = "finite numbers"});
   if (!isRotation(camera.X_WC.R))
     throw Error({.what = "camera",
-                 .found = "a pose whose matrix is no rotation",
+                 .found = "a pose whose matrix is not a rotation",
                  .wanted = "orthonormal axes, right-handed"});
   if (!(camera.verticalFov > 0 && camera.verticalFov < 3.1))
     throw Error({.what = "camera",

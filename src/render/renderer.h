@@ -55,7 +55,7 @@ class Renderer {
 
   /// How far the nearest solid or the ground is in the middle of each pixel. Translucent solids count; lines,
   /// points, arrows, ellipsoids and text do not. Round solids are rounder than in a picture, by up to half a
-  /// pixel. Nothing in view is no error. Throws Error as requireDrawable(), and for a camera as draw().
+  /// pixel. Nothing in view is not an error. Throws Error as requireDrawable(), and for a camera as draw().
   [[nodiscard]] DepthImage drawDepth(const Picture& picture, const Camera& camera);
   /// Which solid that is. Otherwise as drawDepth().
   [[nodiscard]] SegmentationImage drawSegmentation(const Picture& picture, const Camera& camera);

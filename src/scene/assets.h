@@ -16,7 +16,7 @@ class Assets {
  public:
   /// For the scene in `sceneFile`. Without a `root` it is the folder above that of the scene, so that a scene
   /// reaches the meshes beside its own folder. With `needsNoPackage`, package:///PATH is looked up in the
-  /// folders above the scene. Throws Error if a `root` is given that is no folder.
+  /// folders above the scene. Throws Error if a `root` is given that is not a folder.
   explicit Assets(const std::filesystem::path& sceneFile, const std::filesystem::path& root = {},
                   bool needsNoPackage = false);
 

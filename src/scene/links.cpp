@@ -26,7 +26,7 @@ Pose frameAlong(const Eigen::Vector3d& z) {
   return X;
 }
 
-// The kind of link for a movement; a turn with a rise is a screw. None for what is no link of its own.
+// The kind of link for a movement; a turn with a rise is a screw. None for what is not a link of its own.
 std::optional<Kind> kindOf(const JointMovement& movement, bool hasRise) {
   switch (movement.kind) {
     case JointMovement::Kind::kFixed:

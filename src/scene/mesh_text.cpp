@@ -175,7 +175,7 @@ void checkOff(std::string_view bytes, const std::string& name) {
     for (std::string_view word = nextWord(rest); !word.empty(); word = nextWord(rest)) {
       isRow = isCounted;
       if (!isNumber(word)) {
-        if (known > 0) fail(name, "OFF file", "a word that is no number", "numbers");
+        if (known > 0) fail(name, "OFF file", "a word that is not a number", "numbers");
       } else if (known < 3) {
         requireCount(counts[known++] = numberAt(word), name);
       }

@@ -20,7 +20,7 @@ using urdf::Tag;
 /// The file of a model, and those that it includes.
 class Files {
  public:
-  /// Without `assets` no file is read, and an <include> is an Error. Throws Error for what is no MJCF.
+  /// Without `assets` no file is read, and an <include> is an Error. Throws Error for what is not MJCF.
   Files(std::string_view text, const std::string& name, const Assets* assets, bool strict);
 
   Tag root();

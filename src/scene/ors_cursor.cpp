@@ -105,7 +105,7 @@ void Cursor::failAtByte() const {
   const std::string byte = "'" + shown(text_.substr(at_, 1)) + "'";
   if (c == 0) fail("a byte 0, as in text in UTF-16", byte, "UTF-8");
   if (isControl(c)) fail("a control character", byte, "text");
-  fail("a byte that is no UTF-8", byte, "text in UTF-8; only comments may have other bytes");
+  fail("a byte that is not UTF-8", byte, "text in UTF-8; only comments may have other bytes");
 }
 
 std::string Cursor::upTo(char closing, const Place& open, const char* what) {

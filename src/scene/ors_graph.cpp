@@ -22,7 +22,7 @@ std::string shortest(const std::filesystem::path& folder) {
   return text == "." ? "" : text;
 }
 
-// Without the mark of UTF-8. Throws Error for what is no .ors at all.
+// Without the mark of UTF-8. Throws Error for what is not an .ors file at all.
 std::string_view requireOrs(std::string_view text, const std::string& file) {
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
     throw Error({.what = "text in UTF-16", .where = {file, 1, 1}, .wanted = "UTF-8"});

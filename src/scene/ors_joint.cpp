@@ -81,8 +81,8 @@ void readStart(const Attributes& attributes, JointSpec& joint, Diagnostics& note
     joint.q0 = jointCoordinates(joint.type, joint.axis, *Q);
     const Pose X_FM = jointMotion(joint.type, joint.axis, joint.pitch, joint.q0.data());
     if (!isApprox(X_FM, *Q, kNear) && !attributes.flag("fixed")) {
-      attributes.note("Q", "is no motion of this joint: only the part that is one counts", Severity::kWarning,
-                      notes);
+      attributes.note("Q", "is not a motion of this joint: only the part that is one counts",
+                      Severity::kWarning, notes);
     }
   }
   if (const auto q = attributes.row("q", {positionCount(joint.type)})) {

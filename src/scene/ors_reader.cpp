@@ -122,8 +122,8 @@ class Reader {
     if (parent.node) {
       if (worldNodes_.contains(*parent.node)) return std::nullopt;
       if (const auto body = bodyOfNode_.find(*parent.node); body != bodyOfNode_.end()) return body->second;
-      fail(parent.where, fmt::format("{}: {}", owner, role), fmt::format("{}, which is no body", parent.text),
-           "the count of statements back to a body");
+      fail(parent.where, fmt::format("{}: {}", owner, role),
+           fmt::format("{}, which is not a body", parent.text), "the count of statements back to a body");
     }
     const auto found = firstOfName_.find(parent.text);
     if (found != firstOfName_.end()) return found->second;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::string_view kNoCode = " \t\r\n";
 
-// Before the body of what is no function, of a function that callers see into, and of what has other
+// Before the body of what is not a function, of a function that callers see into, and of what has other
 // parentheses before its parameters.
 constexpr auto kOtherWords = std::to_array<std::string_view>(
     {"__attribute__", "alignas",  "auto",   "class",   "concept",   "consteval", "constexpr", "decltype",

@@ -17,7 +17,7 @@ struct FilePiece {
   bool isInternal = false;                   ///< in a namespace without a name: the linker does not see it
 };
 
-/// All pieces of a file, in order. Text that is no C++ has pieces as well, of no meaning.
+/// All pieces of a file, in order. Text that is not C++ has pieces as well, of no meaning.
 [[nodiscard]] std::vector<FilePiece> filePieces(std::string_view source);
 
 }  // namespace rex::grading

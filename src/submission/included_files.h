@@ -21,10 +21,10 @@ namespace rex::grading {
                                                                   const std::filesystem::path& folder);
 
 /// An error of rule "forbidden-call" for each file that a student's main.cpp was compiled with and must not
-/// be: one that is no header of the system, no public header of the library or of the libraries beside it, no
-/// header of studentHeaders(), and not `mainFile` of `folder` itself. A file counts by device, inode and the
-/// place where it truly lies, whatever links and dots its name goes through. What such a file holds would be
-/// compiled into the student's functions, where no scan of symbols finds it. At the line of `source` that
+/// be: one that is not a header of the system, no public header of the library or of the libraries beside it,
+/// no header of studentHeaders(), and not `mainFile` of `folder` itself. A file counts by device, inode and
+/// the place where it truly lies, whatever links and dots its name goes through. What such a file holds would
+/// be compiled into the student's functions, where no scan of symbols finds it. At the line of `source` that
 /// names it, if one does.
 [[nodiscard]] std::vector<CompileDiagnostic> forbiddenIncludes(
     const std::vector<std::filesystem::path>& dependencies, std::string_view source,

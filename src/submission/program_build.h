@@ -19,7 +19,7 @@ struct LibraryPart {
   std::vector<std::string> uses{};     ///< targets that it is linked with itself
 };
 
-/// How to build a program that is no exercise: what the build wrote to program.json.
+/// How to build a program that is not an exercise: what the build wrote to program.json.
 struct ProgramToolchain {
   Toolchain toolchain;                 ///< without libraries, worker and grader
   std::filesystem::path sourceFolder;  ///< of the library

@@ -15,7 +15,8 @@ namespace rex::grading {
 namespace {
 
 // Part of the program, for its environment is empty. The library it calls knows nothing of the sanitizers, so
-// what they would say about containers that both use is no finding; what a killed program leaves is no leak.
+// what they would say about containers that both use is not a finding; what a killed program leaves is not a
+// leak.
 constexpr const char* kOptionsHeader = R"(
 extern "C" __attribute__((no_sanitize("address", "undefined"))) const char* __asan_default_options() {
   return "abort_on_error=1:handle_abort=1:detect_leaks=0:detect_container_overflow=0:detect_odr_violation=0:"

@@ -52,7 +52,7 @@ Error unexplained(const std::string& what, std::string found) {
 }
 
 // Why a compiler that reported no error still failed. One that a source makes fall does so each time; what
-// nobody can explain is no fault of the student.
+// nobody can explain is not a fault of the student.
 std::string whyItGaveUp(const ProcessResult& run, const BuildTools& tools,
                         const StudentBuildOptions& limits) {
   if (run.timedOut)

@@ -20,7 +20,7 @@ namespace rex {
 /// lower <= x_t <= upper as inequalities, k = 0; numbers that are infinite are no limits. Throws Error for
 /// two sizes, and where lower is above upper.
 [[nodiscard]] TrajectoryTerm limitsTerm(const VectorArg& lower, const VectorArg& upper);
-/// |x_t - x_{t-1}| <= limit tau as inequalities, k = 1; infinity is no limit. Throws Error for limits that
+/// |x_t - x_{t-1}| <= limit tau as inequalities, k = 1; infinity is not a limit. Throws Error for limits that
 /// are not positive.
 [[nodiscard]] TrajectoryTerm velocityLimitsTerm(const VectorArg& limit);
 

@@ -169,7 +169,7 @@ TEST_F(HandInTest, TakesArchivesWithOneFolderAroundAll) {
   EXPECT_THAT(found.notes, ElementsAre(HasSubstr("in/zoe.zip: taken from its folder 'Zoe's work'"),
                                        HasSubstr("Zoe's work/01/build/main.cpp: not taken"),
                                        HasSubstr("._main.cpp: not taken")));
-  // A folder that is no exercise decides nothing.
+  // A folder that is not an exercise decides nothing.
   write("zoe.zip", zipOf({{.name = "01/main.cpp", .text = "// zoe"}, {.name = "01/build/main.cpp"}}));
   EXPECT_THAT(read().complaints, IsEmpty());
   EXPECT_EQ(read().files[0].text, "// zoe");

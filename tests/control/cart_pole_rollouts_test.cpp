@@ -82,7 +82,7 @@ TEST(CartPoleRollouts, AreALoopOverSteps) {
   EXPECT_LT(batch.steps.col(1).maxCoeff(), 100);
 }
 
-// Forces beyond all measure end a rollout before it costs what is no number.
+// Forces beyond all measure end a rollout before it costs what is not a number.
 TEST(CartPoleRollouts, EndForAnyFiniteGains) {
   const CartPoleRolloutOptions options{.R = 0, .steps = 10};
   for (const double size : {1e160, 1e200, 1e308}) {

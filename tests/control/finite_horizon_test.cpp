@@ -124,7 +124,7 @@ TEST(Horizon, SaysWherePGrowsWithoutBound) {
   const RiccatiHorizon endless = continuousHorizon({.A = 1e12 * one, .B = one}, one, one, one, 1, 1);
   EXPECT_FALSE(endless.isSolved);
   EXPECT_THAT(endless.message, HasSubstr("time T is too long for the fastest motion: 2.8e+12 parts"));
-  // A steep end is no end.
+  // A steep end is not an end.
   EXPECT_NEAR(continuousHorizon(system, 0 * one, one, 1e12 * one, 2, 1).P[0](0, 0), 0.5, 1e-11);
   system.step = 1;
   const RiccatiHorizon earning = discreteHorizon(system, one, one, -3 * one, 4);

@@ -146,7 +146,8 @@ TEST(ParticleFilter, SurvivesWhatNoParticleExplains) {
           .lost);
 }
 
-// A proposal that rules all particles out is no end either; and an error leaves the particles as they were.
+// A proposal that rules all particles out is not an end either; and an error leaves the particles as they
+// were.
 TEST(ParticleFilter, SurvivesProposalsAndErrors) {
   Rng rng(38);
   const Walk walk(rng);

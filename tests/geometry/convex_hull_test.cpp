@@ -59,7 +59,7 @@ void expectHull(const TriangleMesh& hull, std::span<const Vector3f> points) {
   std::set<Key> known, once;
   for (const Vector3f& p : points) known.insert(keyOf(p));
   for (const Vector3f& p : hull.positions()) {
-    EXPECT_TRUE(known.contains(keyOf(p))) << "a vertex that is no input";
+    EXPECT_TRUE(known.contains(keyOf(p))) << "a vertex that is not an input";
     EXPECT_TRUE(once.insert(keyOf(p)).second) << "a vertex twice";
   }
   for (const Vector3f& n : hull.normals()) EXPECT_NEAR(n.norm(), 1, 1e-5);

@@ -167,7 +167,7 @@ TEST(Backends, RefuseStrangeSizesAndCameras) {
       Renderer renderer(optionsFor(backend, smooth, 16, 16));
       EXPECT_REX_ERROR(renderer.draw(variedPicture(), strange), "camera: found a pose that is not finite");
       EXPECT_REX_ERROR(renderer.draw(variedPicture(), mirrored),
-                       "camera: found a pose whose matrix is no rotation");
+                       "camera: found a pose whose matrix is not a rotation");
     }
 }
 

@@ -88,7 +88,7 @@ TEST(Png, RejectsWhatLibpngCannotHold) {
 TEST(Png, NamesThePathItCannotRead) {
   const fs::path folder = freshFolder("png-read");
   EXPECT_REX_ERROR(readPng(folder / "none.png"), "none.png': found No such file or directory, wanted a PNG");
-  std::ofstream(folder / "text.png") << "this is no picture";
+  std::ofstream(folder / "text.png") << "this is not a picture";
   EXPECT_REX_ERROR(readPng(folder / "text.png"), "text.png': found");
   writePng(noise(50, 50), folder / "half.png");
   fs::resize_file(folder / "half.png", fs::file_size(folder / "half.png") / 2);

@@ -247,7 +247,7 @@ TEST_F(MeshReader, NamesWhatIsWrong) {
   EXPECT_REX_ERROR(readMesh(write("a", "")), "found no ending");
   for (const char* name :
        {"junk.stl", "junk.obj", "junk.ply", "junk.dae", "junk.gltf", "junk.glb", "junk.off"}) {
-    EXPECT_REX_ERROR(readMesh(write(name, "this is no mesh, however long one looks at it")), name);
+    EXPECT_REX_ERROR(readMesh(write(name, "this is not a mesh, however long one looks at it")), name);
     EXPECT_REX_ERROR(readMesh(write(name, "")), name);
   }
   EXPECT_REX_ERROR(readMesh(write("flat.off", "OFF\n3 1 3\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n")),
@@ -275,7 +275,7 @@ TEST_F(MeshReader, RefusesBrokenHeaders) {
   EXPECT_REX_ERROR(parseMesh(std::string("glTF\2\0\0\0\40\0\0\0\20\0\0\0JSON{}", 22), "a.glb"),
                    "a.glb: GLB file: found a part of 16 bytes, wanted the 2 that follow");
   EXPECT_REX_ERROR(parseMesh("OFF\n3 1 3\n0 0 0\n1 0 0\n2 0 0\n3 0 1</p> 2\n", "a.off"),
-                   "a.off: OFF file: found a word that is no number, wanted numbers");
+                   "a.off: OFF file: found a word that is not a number, wanted numbers");
 }
 
 // Wherever it is cut: only that its last number was longer, nobody can tell of a text.

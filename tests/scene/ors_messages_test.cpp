@@ -49,16 +49,16 @@ std::string errorOf(const std::string& text) {
 }
 
 constexpr Row kErrors[] = {
-    // what is no .ors
+    // what is not an .ors file
     {"@\xff\xfe@body a {}", "", "text in UTF-16: wanted UTF-8"},
     {"bo@\0@dy a {}"sv, "", "a byte 0, as in text in UTF-16: found '\\x00', wanted UTF-8"},
     {"@\0@b\0o\0d\0y\0"sv, "body b #", "a byte 0, as in text in UTF-16: found '\\x00', wanted UTF-8"},
     {"body a { mass=@x^\0y@ }"sv, "1", "a byte 0, as in text in UTF-16: found '\\x00', wanted UTF-8"},
     {"body a@\x07@ {}", "", "a control character: found '\\x07', wanted text"},
     {"# Gr\xfc\xdf\x65\nbody a@\xe4@b {}", "\xc3\xa4",
-     "a byte that is no UTF-8: found '\\xe4', wanted text in UTF-8; only comments may have other bytes"},
+     "a byte that is not UTF-8: found '\\xe4', wanted text in UTF-8; only comments may have other bytes"},
     {"body a { type=3 mesh='\na@\xe4@b' }", "",
-     "a byte that is no UTF-8: found '\\xe4', wanted text in UTF-8; only comments may have other bytes"},
+     "a byte that is not UTF-8: found '\\xe4', wanted text in UTF-8; only comments may have other bytes"},
     {"body a { mass=@\xe4\xc3\xa4@ }", "1",
      "syntax error: found '\\xe4\xc3\xa4', wanted a value: a number, word, \"text\", [array], <T pose> or "
      "{attributes}"},
@@ -190,7 +190,7 @@ constexpr Row kErrors[] = {
     {"body a {}\nshape (@-2@) { type=0 }", "-1",
      "parent: found -2, wanted -1 to -1, the statements before this one"},
     {"body a {}\nshape (a) { type=0 }\nshape (@-1@) { type=0 }", "-2",
-     "shape: parent: found -1, which is no body, wanted the count of statements back to a body"},
+     "shape: parent: found -1, which is not a body, wanted the count of statements back to a body"},
     // joints
     {"body arm {}\nbody hand {}\njoint (arm @hnad@) {}", "hand",
      "joint 'arm>hnad': unknown child: found 'hnad', wanted the name of an earlier body (did you mean "
@@ -293,7 +293,7 @@ constexpr Row kNotes[] = {
     {"body a { X=<T ^d(90 0 0 @0@)> }", "1",
      "warning: pose element 'd' about a zero axis turns nothing: give the axis x y z"},
     {"body a {}\nbody b {}\njoint j (a b) { type=hingeZ Q=^<T d(90 0 @1 0@)> }", "0 1",
-     "warning: joint 'j': attribute 'Q' is no motion of this joint: only the part that is one counts"},
+     "warning: joint 'j': attribute 'Q' is not a motion of this joint: only the part that is one counts"},
     {"body a {}\nbody b {}\njoint j (a b) { limits=[-1 1] q=@2@ }", "1",
      "warning: joint 'j': attribute 'q' starts outside the limits: 2 is not in -1 .. 1"},
     {"body a {}\nbody b {}\njoint j (a b) { limits=@[-90 90]@ }", "[-1 1]",

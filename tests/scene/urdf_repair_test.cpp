@@ -104,7 +104,7 @@ SourceLocation takeMark(std::string& text, char mark, const std::string& file) {
   const std::size_t at = text.find(mark);
   text.erase(at, 1);
   std::string before = text.substr(0, at);
-  if (before.starts_with("\xef\xbb\xbf")) before.erase(0, 3);  // which is no part of the text
+  if (before.starts_with("\xef\xbb\xbf")) before.erase(0, 3);  // which is not a part of the text
   const auto line = std::count(before.begin(), before.end(), '\n') + 1;
   return {file, static_cast<int>(line), static_cast<int>(before.size() - (before.rfind('\n') + 1)) + 1};
 }
@@ -263,7 +263,7 @@ TEST(UrdfRepairs, KeepAGripperMovable) {
   EXPECT_EQ(limitsWith(finger("right", "lower='1' upper='2'", "multiplier='0'")), own) << "it stands still";
 }
 
-// A joint that cannot move of itself narrows nothing, and is no fault of the one that follows.
+// A joint that cannot move of itself narrows nothing, and is not a fault of the one that follows.
 TEST(UrdfRepairs, DoNotBlameFollowersOfAJointThatStands) {
   const std::string limit = "<limit lower='0' upper='0' velocity='1' effort='1'/>";
   const SceneFile file = parseUrdf(

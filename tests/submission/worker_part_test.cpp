@@ -85,7 +85,7 @@ TEST_F(WorkerPart, HasWhatIsAllowedAndWhatThatNeeds) {
               ElementsAre("_ZN3rex3Rng4nextEv", "_ZN3rex4easyEi", "_ZN3rex6helperEi hidden"));
   EXPECT_THAT(offeredSymbols(folder() / "worker.offers"),
               ElementsAre("_ZN3rex3Rng4nextEv", "_ZN3rex4easyEi"));
-  EXPECT_NO_THROW(link("allowed = [\"course\", \"rex::easy\"]")) << "twice is no fault";
+  EXPECT_NO_THROW(link("allowed = [\"course\", \"rex::easy\"]")) << "twice is not a fault";
   link("allowed = [\"rex::hard\"]");
   EXPECT_THAT(functionsIn("worker_part.o"), ElementsAre("_ZN3rex4hardEi"));
   link("");

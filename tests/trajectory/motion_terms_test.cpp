@@ -67,7 +67,7 @@ TEST(MotionTerms, CompareWithLimits) {
             Eigen::VectorXd(Eigen::Vector2d(-1, -5)));
 }
 
-// Infinity is no limit, and leaves no rows that are not finite.
+// Infinity is not a limit, and leaves no rows that are not finite.
 TEST(MotionTerms, LeaveOutInfiniteLimitsOfVelocity) {
   const TrajectoryTerm term = velocityLimitsTerm(Eigen::Vector3d(kInfinity, 3, kInfinity));
   const MatrixXd X = (MatrixXd(3, 2) << 0, 9, 1, 2, 0, -9).finished();

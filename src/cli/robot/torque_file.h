@@ -21,7 +21,7 @@ struct TorqueTable {
 /// Reads a table with commas between its fields: a line "time,shoulder,elbow" that names joints, as of
 /// velocityNames(), then a line per time. Lines that begin with '#' are skipped. Throws UsageError with
 /// file:line:column for a missing file, an unknown joint (with the nearest names), one that mimics another,
-/// is free or stands twice, a wrong count, what is no finite number, and times that are negative or do not
+/// is free or stands twice, a wrong count, what is not a finite number, and times that are negative or do not
 /// increase.
 [[nodiscard]] TorqueTable readTorques(const Model& model, const std::filesystem::path& file);
 

@@ -127,7 +127,7 @@ TEST_F(GradeManyTest, GradesAgainOnlyWhatHasChanged) {
   const auto kept = [](const std::string& text) { return HasSubstr(text); };
   EXPECT_THAT(flat(grade().error), kept("0 graded, 3 kept"));
   EXPECT_EQ(table(), before);
-  setTime("bob", "98-template");  // a time is no change
+  setTime("bob", "98-template");  // a time is not a change
   EXPECT_THAT(flat(grade().error), kept("0 graded, 3 kept"));
   handIn("bob", "int main() {\n");
   EXPECT_THAT(flat(grade().error), kept("1 graded, 2 kept"));
@@ -142,7 +142,7 @@ TEST_F(GradeManyTest, GradesAgainOnlyWhatHasChanged) {
   // Another description of the exercise may grade otherwise.
   replace(exercise() / "exercise.toml", "title = \"", "title = \"New ");
   EXPECT_THAT(flat(grade({"--secret-file", secret}).error), kept("3 graded, 0 kept"));
-  // What is no result any more.
+  // What is no longer a result.
   write(results() / "carl/98-template/results.json", "{}");
   fs::remove(results() / "adam/98-template/results.json");
   EXPECT_THAT(flat(grade({"--secret-file", secret}).error), kept("2 graded, 1 kept"));

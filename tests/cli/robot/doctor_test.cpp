@@ -51,7 +51,7 @@ class Doctor : public RexCommand {
     return diagnose({"--gl", "osmesa"});
   }
 
-  // The doctor where a library is no library.
+  // The doctor where a library is not a library.
   Diagnosis diagnoseWithout(const std::vector<std::string>& libraries,
                             const std::vector<std::string>& arguments = {}) const {
     const TemporaryFolder fakes;

@@ -1,4 +1,4 @@
-// Throws what is no exception, and from where none may come.
+// Throws what is not an exception, and from where none may come.
 #include <cstdio>
 #include <exception>
 

@@ -1,4 +1,4 @@
-// Lets the assembler include a file that is no program, so that its error messages quote the lines.
+// Lets the assembler include a file that is not a program, so that its error messages quote the lines.
 // It is not meant to assemble.
 #include "exercise.h"
 
