@@ -8,7 +8,7 @@
 namespace rex::grading {
 
 /// Wrong variants of a file in one, so that headers, and what they have in common, are compiled once: the
-/// file itself, its main() empty, and behind each function those of the variants that differ. There, f() of
+/// file itself, its main() empty, and after each function those of the variants that differ. There, f() of
 /// variant 2 is called variant_2_f(), and the linker can put it in place of f(), whose callers know nothing
 /// of what it does.
 class JoinedVariants {

@@ -27,7 +27,7 @@ struct Task {
   [[nodiscard]] std::string inputsSha256() const;
 };
 
-/// One line per task, behind a line of headings: tasks.tsv, which any engine can count and cut.
+/// One line per task, after a line of headings: tasks.tsv, which any engine can count and cut.
 [[nodiscard]] std::string toManifest(const std::vector<Task>& tasks);
 
 /// Throws Error, with the line, for what is not such a text.

@@ -8,7 +8,7 @@
 
 namespace rex::cli {
 
-/// Builds that program of rex where it is stale, and becomes it, with the same words behind its name. Throws
+/// Builds that program of rex where it is stale, and becomes it, with the same words after its name. Throws
 /// as bringUpToDate(), and Error if there is no such program.
 [[noreturn]] void becomeProgram(const Project& project, Program program, std::vector<std::string> words);
 

@@ -17,7 +17,7 @@ class PoseBatch {
   /// there were as many before.
   void resize(int bodies, int count);
   int bodies() const { return numbers_.items(); }
-  /// Configurations, and the blocks they take; the lanes behind the last one repeat it.
+  /// Configurations, and the blocks they take; the lanes after the last one repeat it.
   int count() const { return numbers_.count(); }
   int blocks() const { return numbers_.blocks(); }
 

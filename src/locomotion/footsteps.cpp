@@ -50,7 +50,7 @@ WalkPhase standing(const WalkPlan& plan, std::size_t i) {
 
 WalkPhase phaseOf(const WalkPlan& plan, double t) {
   const std::vector<Footstep>& feet = plan.footsteps;
-  const std::size_t last = feet.size() - 2;  // steps, and the phase behind them
+  const std::size_t last = feet.size() - 2;  // steps, and the phase after them
   const double period = plan.doubleSupport + plan.singleSupport, walked = t - plan.rest;
   if (walked < 0) {
     WalkPhase phase = standing(plan, 0);

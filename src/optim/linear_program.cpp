@@ -25,7 +25,7 @@ VectorXd largestOf(const MatrixXd& rows) {
   return (largest.array() > 0).select(largest, 1);
 }
 
-// The program with rows, columns, b and c of size one, and behind its n columns m artificial ones that b
+// The program with rows, columns, b and c of size one, and after its n columns m artificial ones that b
 // starts from.
 class Simplex {
  public:

@@ -29,7 +29,7 @@ class PgmReader {
     const int white = number("the grey of white", 1, 65535);
     if (isBinary && white > 255) refuse("two bytes for each pixel", "one");
     GridMap map(width, height, cellSize);
-    if (isBinary) ++at_;  // the blank behind the head
+    if (isBinary) ++at_;  // the blank after the header
     for (int y = height - 1; y >= 0; --y) {
       for (int x = 0; x < width; ++x) {
         const int grey = isBinary ? byte() : number("a grey", 0, white);

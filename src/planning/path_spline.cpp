@@ -55,7 +55,7 @@ Polygon polygonOf(const Space& space, const MatrixArg& path) {
   return polygon;
 }
 
-// The corners behind the control points, in order.
+// The corners from which the control points stem, in order.
 std::vector<std::size_t> cornersOf(const Polygon& polygon) {
   std::vector<std::size_t> corners;
   for (std::size_t i = 0; i < polygon.size(); ++i)

@@ -22,9 +22,9 @@ Eigen::MatrixXd joined(const std::vector<Eigen::VectorXd>& points) {
   return path;
 }
 
-// A point of a path: behind which configuration, and where it is.
+// A point of a path, and on which of its segments it lies.
 struct PathPoint {
-  Eigen::Index behind;
+  Eigen::Index segment;
   Eigen::VectorXd q;
 };
 
@@ -53,12 +53,12 @@ Eigen::MatrixXd shortcut(const PathProblem& problem, const MatrixArg& path, int 
     if (from > to) std::swap(from, to);
     const PathPoint a = pointAt(problem.space, best, from), b = pointAt(problem.space, best, to);
     // Also the pieces that are left are new ways: they are looked at in other points than the whole was.
-    const bool isShort = a.behind == b.behind;
-    if (isShort || !edges.isValid(a.q, b.q) || !edges.isValid(best.col(a.behind), a.q) ||
-        !edges.isValid(b.q, best.col(b.behind + 1)))
+    const bool isShort = a.segment == b.segment;
+    if (isShort || !edges.isValid(a.q, b.q) || !edges.isValid(best.col(a.segment), a.q) ||
+        !edges.isValid(b.q, best.col(b.segment + 1)))
       continue;
-    Eigen::MatrixXd next(best.rows(), a.behind + 3 + best.cols() - b.behind - 1);
-    next << best.leftCols(a.behind + 1), a.q, b.q, best.rightCols(best.cols() - b.behind - 1);
+    Eigen::MatrixXd next(best.rows(), a.segment + 3 + best.cols() - b.segment - 1);
+    next << best.leftCols(a.segment + 1), a.q, b.q, best.rightCols(best.cols() - b.segment - 1);
     if (pathLength(problem.space, next) < length) best = std::move(next);
   }
   return best;

@@ -73,7 +73,7 @@ Message Channel::receive() {
   const std::size_t total = sizeof header + header.size;
   if (buffer_.size() < total) buffer_.resize(total);
   while (filled_ < total) filled_ += readSome();
-  if (filled_ > total) throw ProtocolError("there are bytes behind the message");
+  if (filled_ > total) throw ProtocolError("there are bytes after the message");
   const std::span<const std::byte> body(buffer_.data() + sizeof header, header.size);
   return {.kind = header.kind, .id = header.id, .method = header.method, .body = Reader(body)};
 }

@@ -33,7 +33,7 @@ class Closed : public std::runtime_error {
 };
 
 /// Framed messages over two file descriptors, which it does not own. At most one message is under way: bytes
-/// behind a message are an error. One system call per message sent and usually one per message received.
+/// after a message are an error. One system call per message sent and usually one per message received.
 class Channel {
  public:
   enum class Direction { read, write };

@@ -1,4 +1,4 @@
-// rex-sandbox: confines itself as its options say and becomes the program behind "--". Levels 2 and 3 go
+// rex-sandbox: confines itself as its options say and becomes the program after "--". Levels 2 and 3 go
 // through bubblewrap, which starts it a second time, as the first process inside; that one starts the program
 // as its child, tells how it ended, and takes all that is left with it.
 #include <algorithm>

@@ -150,7 +150,7 @@ class Builder {
          quoted(text_.substr(at, text_.find(';', at) + 1 - at)), "&amp; where the text has a bare &");
   }
 
-  // The '&' behind which expat stopped, for only with a name and ';' is it a reference.
+  // The '&' after which expat stopped, for only with a name and ';' is it a reference.
   std::optional<std::size_t> bareAnd() const {
     const std::size_t before = std::min<std::size_t>(here(), text_.size() - 1);
     const std::size_t at = text_.find_last_of("&<>;\"'", before);

@@ -17,7 +17,7 @@ constexpr auto kOtherWords = std::to_array<std::string_view>(
      "enum",          "explicit", "extern", "inline",  "namespace", "operator",  "requires",  "static",
      "struct",        "template", "try",    "typedef", "union",     "using"});
 
-// Behind a line of the preprocessor, which goes on behind a backslash.
+// After a line of the preprocessor, which goes on after a backslash.
 std::size_t behindDirective(const std::string& code, std::size_t at) {
   std::size_t end = code.find('\n', at);
   while (end != code.npos && code[end - 1] == '\\') end = code.find('\n', end + 1);
@@ -33,7 +33,7 @@ std::size_t behindPiece(const std::string& code, std::size_t at) {
     if (depth > 0) continue;
     if (c == ';') return at + 1;
     const std::size_t next = c == '}' ? code.find_first_not_of(kNoCode, at + 1) : 0;
-    // A class and an initialiser go on behind their braces.
+    // A class and an initialiser go on after their braces.
     if (c == '}' && (next == code.npos || std::string_view(";,.{").find(code[next]) == code.npos))
       return at + 1;
   }

@@ -32,7 +32,7 @@ void blank(std::string& text, std::size_t from, std::size_t to) {
     if (text[i] != '\n') text[i] = ' ';
 }
 
-std::size_t behind(std::string_view mark, const std::string& source, std::size_t from) {
+std::size_t after(std::string_view mark, const std::string& source, std::size_t from) {
   return std::min(source.find(mark, from), source.size() - std::min(mark.size(), source.size())) +
          mark.size();
 }
@@ -49,7 +49,7 @@ bool opensRawString(const std::string& source, std::size_t at) {
 std::size_t behindRawString(const std::string& source, std::size_t at) {
   const std::size_t open = std::min(source.find('(', at), source.size());
   const std::string mark = ')' + source.substr(at + 1, open - at - 1) + '"';
-  return std::min(behind(mark, source, open), source.size());
+  return std::min(after(mark, source, open), source.size());
 }
 
 // Digits, with what may stand between them: 1'000, 0x1p-3.
@@ -64,10 +64,10 @@ std::size_t behindNumber(const std::string& source, std::size_t at) {
   return at;
 }
 
-// The position behind the comment, literal or number that starts at `at`, or `at` when none does.
+// The position after the comment, literal or number that starts at `at`, or `at` when none does.
 std::size_t skipText(const std::string& source, std::size_t at) {
   if (source.compare(at, 2, "//") == 0) return std::min(source.find('\n', at), source.size());
-  if (source.compare(at, 2, "/*") == 0) return std::min(behind("*/", source, at + 2), source.size());
+  if (source.compare(at, 2, "/*") == 0) return std::min(after("*/", source, at + 2), source.size());
   const char quote = source[at];
   if (std::isdigit(static_cast<unsigned char>(quote)) && (at == 0 || !isWord(source[at - 1])))
     return behindNumber(source, at);
@@ -115,14 +115,14 @@ void removeMain(std::string& code) {
   }
 }
 
-// The position behind the parenthesis that closes the one at `open`.
+// The position after the parenthesis that closes the one at `open`.
 std::size_t behindParentheses(const std::string& code, std::size_t open) {
   std::size_t end = open + 1;
   for (int depth = 1; end < code.size() && depth > 0; ++end) depth += (code[end] == '(') - (code[end] == ')');
   return end;
 }
 
-// Whether "(...) ... {" follows, as behind the name of a function that is defined there.
+// Whether "(...) ... {" follows, as after the name of a function that is defined there.
 bool opensBody(const std::string& code, std::size_t at) {
   const std::size_t open = code.find_first_not_of(" \n\t\r", at);
   if (open == std::string::npos || code[open] != '(') return false;

@@ -18,7 +18,7 @@ namespace {
 CLI::App* addVerbOf(CLI::App* scene, const std::string& name, const std::string& purpose,
                     const std::string& examples) {
   CLI::App* verb = addVerb(scene, name, purpose, examples);
-  verb->fallthrough();  // how the scene is read may also be said behind the verb
+  verb->fallthrough();  // how the scene is read may also be said after the verb
   return verb;
 }
 
