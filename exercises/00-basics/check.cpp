@@ -152,7 +152,7 @@ void tableOf(Check& check, Student& student, const Eigen::MatrixXd& P_XY, bool i
   for (Eigen::Index y = 0; y < cols; ++y) {
     check.near("P(X | Y) P(Y) against the table", answers.XGivenY.col(y) * answers.PY[y], P_XY.col(y), 1e-12);
   }
-  check.that("whether X and Y are independent is told right", answers.independent == independent);
+  check.that("whether X and Y are independent is judged right", answers.independent == independent);
 }
 
 void boxesAndDoors(Check& check, Student& student) {

@@ -195,7 +195,7 @@ Fruit fruitBoxes(const std::vector<int>& apples, const std::vector<int>& oranges
 
 Doors montyHall(int boxes, int opened) {
   // <solution montyHall>
-  // The host can always open empty boxes, so what he does tells nothing about yours. All the rest of the
+  // The host can always open empty boxes, so what he does says nothing about yours. All the rest of the
   // probability lies, in equal shares, on the other boxes that are closed.
   const double stay = 1. / boxes;
   return {stay, (1 - stay) / (boxes - 1 - opened)};

@@ -182,7 +182,7 @@ GateResult liarsGetNothing(const GateContext& context) {
   return complaints.empty() ? passedWith(run.output) : judge(complaints);
 }
 
-// What students ask for after a crash must not complain about a program that is right. One check tells.
+// What students ask for after a crash must not complain about a program that is right. One check is enough.
 GateResult solutionPassesSanitizers(const GateContext& context) {
   SubmissionOptions options = optionsFor(context, context.exercise.folder / "solution.cpp");
   options.sanitize = true;

@@ -7,7 +7,7 @@
 
 namespace rex {
 
-/// A warning is likely a mistake; a note only tells.
+/// A warning is likely a mistake; a note only informs.
 enum class Severity { kNote, kWarning };
 
 /// Something a reader noticed and could live with: the file loads, but the user should know.

@@ -17,8 +17,8 @@ namespace rex::grading {
 /// OUT/STUDENT/EXERCISE.
 [[nodiscard]] std::filesystem::path resultFolder(const std::filesystem::path& out, const Task& task);
 
-/// What lies there of a task. A stale result is one of other inputs; a failed one tells of a grader's fault,
-/// which is never a grade.
+/// What lies there of a task. A stale result is one of other inputs; a failed one reports a fault of the
+/// grader, which is never a grade.
 enum class TaskState { missing, stale, failed, done };
 [[nodiscard]] TaskState stateOf(const Task& task, const std::filesystem::path& out);
 

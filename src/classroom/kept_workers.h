@@ -19,7 +19,7 @@ struct KeptWorkers {
 };
 
 /// What buildSubmission() gives, taken from the folder where an earlier call with the same key left it, else
-/// built and left there. What does not compile is built each time, and so is what is damaged: its hash tells.
+/// built and left there. What does not compile is built each time, and so is what is damaged, by its hash.
 /// Throws Error if the folder cannot be written.
 [[nodiscard]] BuiltSubmission buildOnce(const KeptWorkers& keeping, const Toolchain& toolchain,
                                         const ExerciseInfo& exercise, const SubmissionOptions& options);

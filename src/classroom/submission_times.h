@@ -11,7 +11,7 @@
 
 namespace rex::grading {
 
-/// When students handed in, as a learning platform tells it.
+/// When students handed in, as a learning platform records it.
 class SubmissionTimes {
  public:
   /// Reads a CSV file with the columns student, submitted (a time with its zone, or nothing) and, if

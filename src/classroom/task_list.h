@@ -20,7 +20,7 @@ struct Task {
   std::optional<std::uint64_t> seed{};
   std::string secretId{};        ///< of the secret of the course; empty: none
   std::int64_t submitted = 0;    ///< seconds since 1970 in UTC
-  std::string timeFrom{};        ///< what told that time
+  std::string timeFrom{};        ///< where that time comes from
   std::filesystem::path file{};  ///< to grade; relative to the output folder, or absolute
 
   /// Hash of everything the result depends on; when it was submitted does not count.

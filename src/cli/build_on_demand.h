@@ -16,11 +16,11 @@ class BuildFailure : public std::runtime_error {
 };
 
 /// Builds what is stale of these targets of the build folder, one build at a time, however many programs ask
-/// for it. Speaks only when there is work, and then tells how far it is. Does nothing where there is no build
+/// for it. Speaks only when there is work, and then says how far it is. Does nothing where there is no build
 /// to go on with: in an installed tree. Throws BuildFailure, and Interrupted.
 void bringUpToDate(const Project& project, const std::vector<std::string>& targets, const std::string& what);
 
-/// How far a build has come in so many seconds, as its log so far tells: "building rex: 37 %, about 50 s
+/// How far a build has come in so many seconds, by its log so far: "building rex: 37 %, about 50 s
 /// left".
 [[nodiscard]] std::string buildProgress(const std::string& what, std::string_view log, double seconds);
 

@@ -12,7 +12,7 @@ namespace rex::cli {
 [[nodiscard]] std::filesystem::path launcherOf(const Project& project);
 [[nodiscard]] std::filesystem::path probeOf(const Project& project);
 
-/// The asked level if it holds here, nothing if not; what is in the way is told on standard error. Nothing
+/// The asked level if it holds here, nothing if not; what is in the way is said on standard error. Nothing
 /// asked: limits only.
 [[nodiscard]] std::optional<sandbox::Sandbox> chooseSandbox(const Project& project,
                                                             std::optional<sandbox::Level> level);

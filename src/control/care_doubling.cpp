@@ -143,7 +143,7 @@ std::optional<RiccatiResult> solve(const MatrixArg& givenA, const MatrixArg& B, 
   if (schur.info() != Eigen::Success) return {};
   result.closedLoop = eigenvaluesOf(schur.matrixT());
   if (!(result.closedLoop.real().maxCoeff() < -1e-4 * A.norm())) return {};
-  // What a step changes is what was wrong: nothing else tells how many digits X has.
+  // What a step changes is what was wrong: nothing else says how many digits X has.
   for (double change = 1, round = 0; change > 1e-12; ++round) {
     const M step = lyapunovStep<M>(schur, valueAt(*X, givenA, B, givenQ, R).first);
     change = step.norm() / X->norm();

@@ -23,7 +23,7 @@ struct PlanarGaussian {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
 };
 
-/// A line through points of the plane, such as the way of a car. The legend tells its name.
+/// A line through points of the plane, such as the way of a car. The legend shows its name.
 struct Way {
   std::string name{};         ///< empty: not in the legend
   Eigen::Matrix2Xd points{};  ///< the first two rows of poses: poses.topRows<2>()

@@ -105,7 +105,7 @@ void requireNewName(const Model& model, const std::string& name) {
 
 struct Simulator::Parts {
   std::string sceneName;
-  std::string sceneText, srdf;            // no text where only the spec tells all
+  std::string sceneText, srdf;            // no text where only the spec is complete
   std::shared_ptr<const SceneSpec> spec;  // never changes; copies of a simulator share it
   Model model;
   Contacts contacts;
@@ -397,7 +397,7 @@ void Simulator::addObstacle(const Shape& shape, const Pose& X_WS, const std::str
 void Simulator::anchorKinematicChainIn(const std::string& body) {
   const std::string& root = parts_->model[parts_->model.body(body)].name;
   SceneSpec spec = reconfigureRoot(atPositions(*parts_->spec, parts_->q), root);
-  // The name tells how the text is read, and the text is .ors now.
+  // The name decides how the text is read, and the text is .ors now.
   spec.name = orsNameOf(parts_->sceneName);
   const SimulatorDescription description{.sceneName = spec.name,
                                          .sceneText = writeOrs(spec),

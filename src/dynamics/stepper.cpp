@@ -14,7 +14,7 @@
 namespace rex {
 namespace {
 
-// `jointOf` tells which joint a number belongs to.
+// `jointOf` says which joint a number belongs to.
 template <class JointOf>
 void requireAllFinite(const char* what, const Model& model, const VectorArg& numbers,
                       const JointOf& jointOf) {

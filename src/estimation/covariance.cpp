@@ -68,7 +68,7 @@ void requireCovariance(std::string_view what, const MatrixArg& A, Eigen::Index s
   if (!A.allFinite()) throw Error({.what = name, .found = "entries that are not finite"});
   requireSymmetric(name, A);
   const Eigen::LLT<Eigen::MatrixXd> factor(A);
-  // A factorisation tells at a fraction of the price whether eigenvalues must be looked at.
+  // A factorisation decides at a fraction of the price whether eigenvalues must be looked at.
   if (factor.info() == Eigen::Success && isDefinite(factor, A)) return;
   const double least = leastCorrelation(A);
   if (wanted == Definiteness::kPositive || A.diagonal().minCoeff() < 0 || least < -kAsymmetry)

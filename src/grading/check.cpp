@@ -92,7 +92,7 @@ void Check::fail(Shortfall shortfall, std::optional<Evidence> evidence) {
     try {
       if (show_) evidence_ = show_();
     } catch (const std::exception&) {
-      // It helps, and decides nothing: what cannot be shown is told in words.
+      // It helps, and decides nothing: what cannot be shown is said in words.
     }
   }
   throw RequirementFailed{};

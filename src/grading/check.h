@@ -94,7 +94,7 @@ class Check {
   struct Shortfall {
     Outcome outcome = Outcome::fail;
     std::string property{};
-    std::string what{};  ///< told also by hidden checks: "not finite"
+    std::string what{};  ///< also reported by hidden checks: "not finite"
     std::string got{};
     std::string wanted{};
     std::string tolerance{};

@@ -12,7 +12,7 @@ namespace rex::grading {
 /// Exit codes of a grader program.
 enum ExitCode { kFullScore = 0, kBelowFullScore = 1, kGraderFault = 3, kUsage = 64 };
 
-/// The whole main() of a grader program: `--help` tells its options. Prints messages on standard error, and
+/// The whole main() of a grader program: `--help` lists its options. Prints messages on standard error, and
 /// on standard output nothing but what --list or --help asks for.
 [[nodiscard]] int runGrader(int argc, const char* const* argv, std::vector<RunnableCheck> checks,
                             std::uint64_t signature, const CallLayouts& layouts);

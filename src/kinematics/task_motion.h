@@ -23,7 +23,7 @@ struct FollowedTask {
 
 /// Follows targets by one step of inverse kinematics each (slide 2:42, with other tasks 2:48): q_t from
 /// q_{t-1}, towards column t of Y (d x (T + 1)) and the targets of `others`, with the metric W (nv x nv,
-/// empty: Id), not beyond joint limits. The target of `followed` itself is not used. Column 0 of Y only tells
+/// empty: Id), not beyond joint limits. The target of `followed` itself is not used. Column 0 of Y only says
 /// the error at q0. Throws as stackTasks, and for a q0 of another size or a W that is
 /// not positive definite.
 [[nodiscard]] FollowedTask followTask(const Model& model, const Task& followed, const MatrixArg& Y,

@@ -83,7 +83,7 @@ bool newtonStep(const SoftmaxLoss& loss, const Eigen::MatrixXd& gradient, Eigen:
   for (double length = 1; length > 1e-10; length /= 2) {
     const Eigen::MatrixXd next = weights - length * step.reshaped(weights.rows(), weights.cols());
     const double lower = loss.value(next);
-    // Next to the optimum the loss no longer tells: there full steps are taken.
+    // Next to the optimum the loss no longer discriminates: there full steps are taken.
     if (!(lower <= value - 1e-4 * length * slope + 1e-14 * (1 + std::abs(value)))) continue;
     weights = next;
     value = lower;

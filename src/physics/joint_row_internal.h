@@ -23,7 +23,7 @@ class JointRow : public btMultiBodyConstraint {
 
   /// Of the freedom `place` of a link; both count from 0.
   JointRow(btMultiBody& body, int link, int place);
-  /// Of a base; measureBase() tells which velocity.
+  /// Of a base; measureBase() says which velocity.
   explicit JointRow(btMultiBody& body);
 
   /// The velocity is angular * omega + linear * v, of the origin of the base; all in W.

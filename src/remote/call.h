@@ -25,7 +25,7 @@ struct SentArgument {
   }
 };
 
-/// ... and functions stay here: only whether there is one is told.
+/// ... and functions stay here: only whether there is one is reported.
 template <class R, class... A>
 struct SentArgument<std::function<R(A...)>> {
   using Type = std::function<R(A...)>;

@@ -18,7 +18,7 @@ struct VideoFormat {
 [[nodiscard]] const std::vector<VideoFormat>& videoFormats();
 
 /// The format for the ending of `file`, capitals or not. Throws Error naming the choices for another ending;
-/// `others` tells what else would do.
+/// `others` lists what else would do.
 [[nodiscard]] const VideoFormat& videoFormat(const std::filesystem::path& file, const char* others = "");
 
 /// The command that reads width x height RGB frames, `rate` per second, on standard input and writes `file`

@@ -26,7 +26,7 @@ Json exercismTest(const CheckResult& check, const std::string& file) {
           {"message", message}};
 }
 
-// Hidden checks are not told one by one, but a solution that fails them is not a pass.
+// Hidden checks are not reported one by one, but a solution that fails them is not a pass.
 Json testOfHidden(const GradeResult& result) {
   const auto hidden = std::count_if(result.checks.begin(), result.checks.end(), isHidden);
   const auto passed = std::count_if(result.checks.begin(), result.checks.end(), [](const CheckResult& check) {

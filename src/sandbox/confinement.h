@@ -16,7 +16,7 @@ struct Readable {
   std::filesystem::path inside;  ///< where levels 2 and 3 show it
 };
 
-/// What one confined program may see and use. share/doc/sandbox.md tells what the levels stop.
+/// What one confined program may see and use. share/doc/sandbox.md says what the levels stop.
 struct Confinement {
   Level level = Level::kLimitsOnly;
   std::vector<Readable> readable{};

@@ -1,6 +1,6 @@
 // rex-sandbox: confines itself as its options say and becomes the program after "--". Levels 2 and 3 go
 // through bubblewrap, which starts it a second time, as the first process inside; that one starts the program
-// as its child, tells how it ended, and takes all that is left with it.
+// as its child, reports how it ended, and takes all that is left with it.
 #include <algorithm>
 #include <array>
 #include <cerrno>

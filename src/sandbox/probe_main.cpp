@@ -1,5 +1,5 @@
 // rex-sandbox-probe: attacks from inside, for the probes of probes.h. Every attack ends with code 0 if the
-// sandbox held, and tells on standard output what it found.
+// sandbox held, and reports on standard output what it found.
 #include <array>
 #include <cerrno>
 #include <csignal>

@@ -80,7 +80,7 @@ int signalOf(const ProcessResult& result) {
 
 Probe judge(const std::string& name, const ProcessResult& result) {
   if (!result.started) return {name, false, "the launcher does not start: " + result.error, false};
-  // The probe tells what got through on standard output; bubblewrap complains on the other with the same
+  // The probe reports what got through on standard output; bubblewrap complains on the other with the same
   // code.
   if (result.exitCode == 1 && !result.output.empty()) return {name, false, firstLine(result.output)};
   if (signalOf(result) == SIGSYS) return {name, true, "stopped at a forbidden system call"};

@@ -120,7 +120,7 @@ constexpr auto kProgramStarters = std::to_array<const char*>({"fork", "vfork", "
 
 // What the C and C++ libraries call for memory, files, threads, time and signals of their own. Calls that are
 // not here, and those that kernels to come may add, fail as on a kernel without them.
-// None tells which pages of a file are in memory: others could read that.
+// None reveals which pages of a file are in memory: others could read that.
 constexpr auto kOfHonestPrograms = std::to_array<const char*>({"brk",
                                                                "mmap",
                                                                "munmap",

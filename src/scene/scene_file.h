@@ -21,7 +21,7 @@ struct SceneFile {
 struct ReadOptions {
   /// Holds all files that the scene names, see Assets; empty: its default.
   std::filesystem::path assetRoot{};
-  bool allowMissingMeshes = false;        ///< boxes stand for them, and a warning tells
+  bool allowMissingMeshes = false;        ///< boxes stand for them, and a warning says so
   bool freeBase = false;                  ///< of a URDF robot: its root moves freely
   bool textures = false;                  ///< of meshes, see readTexturedMesh(); for those who draw them
   bool strict = false;                    ///< faults that are repaired otherwise, with a warning, are errors

@@ -23,7 +23,7 @@ using namespace urdf;
 
 constexpr double kWide = 1e9;  // stands for "no limit", which URDF cannot say
 
-// URDF tells things by their names.
+// URDF identifies things by their names.
 void requireNames(const SceneSpec& spec) {
   const auto requireName = [](const auto& thing, const char* what) {
     if (thing.name.empty()) throw Error({.what = what, .where = thing.where, .wanted = "a name"});

@@ -156,7 +156,7 @@ std::string BuildTools::limitReached(const ProcessResult& run) const {
   const auto says = [&](const char* text) { return run.error.find(text) != std::string::npos; };
   if (cell_.ranOutOfMemory() || says("out of memory") || says("memory exhausted") || says("bad_alloc"))
     return fmt::format("needed more than {} MiB of memory and was stopped", limits_.memory >> 20);
-  // Where the last words are lost among too many others, the time that it took tells.
+  // Where the last words are lost among too many others, the time that it took decides.
   if (wasKilled(run) || says("CPU time limit") || run.signal == SIGXCPU || run.cpuSeconds >= limits_.seconds)
     return fmt::format("took more than {:g} s of processor time and was stopped", limits_.seconds);
   if (says("File size limit") || says("File too large"))

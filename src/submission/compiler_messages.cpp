@@ -104,7 +104,7 @@ std::vector<CompileDiagnostic> parseCompilerText(std::string_view standardError)
   return messages;
 }
 
-// Where the compiler left no line of the source, the assembler tells that of a file which is gone.
+// Where the compiler left no line of the source, the assembler names that of a file which is gone.
 std::vector<CompileDiagnostic> parseAssemblerText(std::string_view standardError) {
   std::vector<CompileDiagnostic> messages;
   for (const std::string_view line : splitLines(standardError)) {

@@ -76,7 +76,7 @@ std::vector<std::string> compileCommand(const Toolchain& toolchain, const Studen
                                         const std::string& source) {
   std::vector<std::string> command = {toolchain.compiler};
   command.insert(command.end(), toolchain.flags.begin(), toolchain.flags.end());
-  // By their sections the linker tells what only main() needs.
+  // By their sections the linker finds what only main() needs.
   command.insert(command.end(), {"-ftemplate-depth=200", "-ffunction-sections", "-fdata-sections"});
   if (options.debug) {
     const path folder = std::filesystem::absolute(options.main).parent_path();
@@ -90,7 +90,7 @@ std::vector<std::string> compileCommand(const Toolchain& toolchain, const Studen
   return command;
 }
 
-// The compiler's report in plain words; it alone tells which line of the student's caused an error in a
+// The compiler's report in plain words; it alone says which line of the student's caused an error in a
 // header. No source lines are quoted: they could come from any file.
 std::string plainReport(std::vector<std::string> command, const std::string& name, const BuildTools& tools) {
   command.insert(command.end(), {"-fmax-errors=20", "-fno-diagnostics-show-caret", "-fsyntax-only", name});
@@ -103,7 +103,7 @@ std::string writeLog(const std::vector<CompileDiagnostic>& messages) {
   return log;
 }
 
-// Finds what the file did wrong. Throws Error where nothing tells of that.
+// Finds what the file did wrong. Throws Error if nothing explains it.
 void explain(const ProcessResult& run, const std::vector<std::string>& command, const std::string& name,
              const BuildTools& tools, const StudentBuildOptions& options, StudentObject& result) {
   if (const auto full = fullDiskIn(result.messages)) {
@@ -165,7 +165,7 @@ void compile(const Toolchain& toolchain, const std::vector<ForbiddenFunction>& f
 }
 
 // What the linker found wrong with the last of the objects, which is the student's. Throws Error where
-// nothing tells of that.
+// nothing explains it.
 std::vector<CompileDiagnostic> explainLinking(const ProcessResult& run, const BuildTools& tools,
                                               const std::string& object, const std::string& mainFile) {
   std::vector<CompileDiagnostic> messages = parseLinkerText(run.error, mainFile);

@@ -42,7 +42,7 @@ struct StudentObject {
 
 /// Reads and compiles the file as it is now, under limits on time, memory and file size; if it is `graded`,
 /// scans it for calls that the exercise does not allow outside of main(). Any trouble with the file becomes a
-/// message; throws Error only when the tools fail, as on a full disk, or where nothing tells what is wrong
+/// message; throws Error only when the tools fail, as on a full disk, or where nothing explains what is wrong
 /// with the file. Two builds may run at once in different work folders.
 [[nodiscard]] StudentObject compileStudent(const Toolchain& toolchain,
                                            const std::vector<ForbiddenFunction>& forbidden,

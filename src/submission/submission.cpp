@@ -202,7 +202,7 @@ void findCrashes(const Toolchain& toolchain, const ExerciseInfo& exercise, const
       const auto site =
           crashSiteOf(toolchain, exercise, again, built.worker, check->id, built.start.files.front().name);
       if (!site) continue;
-      // Of an abort, the message tells the reason already.
+      // The message of an abort already gives the reason.
       if (!check->message.starts_with("aborted "))
         check->message += "; a second look: " + printable(site->finding, 500);
       if (site->line > 0) check->line = site->line;

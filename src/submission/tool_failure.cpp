@@ -59,7 +59,7 @@ std::optional<std::string> fullDiskIn(const std::vector<CompileDiagnostic>& mess
   return found;
 }
 
-// "student.o: in function `f':" leads to a line that tells. Before some lines the linker names itself.
+// "student.o: in function `f':" leads to a line that explains it. Before some lines the linker names itself.
 std::string complaintAbout(std::string_view object, std::string_view linkerText) {
   const std::string start = fmt::format("{}:", object), named = "ld: " + start;
   bool leads = false;

@@ -18,11 +18,11 @@ namespace rex::grading {
 /// What a source makes it say does not count.
 [[nodiscard]] std::optional<std::string> fullDiskIn(const std::vector<CompileDiagnostic>& messages);
 
-/// What a linker has against the object file rather than the machine: the line that tells, or that the file's
-/// variables are too large for any to name it; empty if nothing.
+/// What a linker has against the object file rather than the machine: the line that explains it, or that the
+/// file's variables are too large for any to name it; empty if nothing.
 [[nodiscard]] std::string complaintAbout(std::string_view object, std::string_view linkerText);
 
-/// The line of a tool's text that tells most, or how it ended if there is none.
+/// The line of a tool's text that explains most, or how it ended if there is none.
 [[nodiscard]] std::string lastWordsOf(const ProcessResult& run);
 
 }  // namespace rex::grading

@@ -57,7 +57,7 @@ ExitCode devNew(const Project& project, const std::string& name) {
   say(fmt::format("Made {}, and its line in exercises/CMakeLists.txt, which names the", shown(folder)));
   say("functions that students complete. Now edit solution.cpp there, then:");
   say(fmt::format("  scripts/rex dev strip {}   makes main.cpp from it", name));
-  say(fmt::format("  scripts/rex dev check {}   tells what is still missing", name));
+  say(fmt::format("  scripts/rex dev check {}   says what is still missing", name));
   return ExitCode::kFull;
 }
 

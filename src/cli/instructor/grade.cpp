@@ -83,7 +83,7 @@ class Graders {
 };
 
 // For work of strangers: the asked level, else the best that holds here. One that is not for
-// strangers must be accepted by its number. Nothing if there is none; why is told, and what a weak one does
+// strangers must be accepted by its number. Nothing if there is none; says why, and what a weak one does
 // not stop.
 std::optional<sandbox::Sandbox> chooseForStrangers(const Project& project,
                                                    std::optional<sandbox::Level> level,

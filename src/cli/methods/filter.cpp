@@ -108,7 +108,7 @@ std::string jsonTextOf(const FilterOptions& options, const FilterStatistics& all
   return dump(json);
 }
 
-// Lets a filter follow the car of the course; tells its errors and consistency.
+// Lets a filter follow the car of the course; prints its errors and consistency.
 ExitCode filter(const FilterOptions& options) {
   const CarScenario scenario = scenarioOf(options);
   const bool writes = !options.out.empty();

@@ -36,7 +36,7 @@ struct FilterRun {
   int steps() const { return static_cast<int>(truth.cols()); }
 };
 
-/// Called after step 1, 2, ...; `view` tells what the filter shows then: landmarks, sightings, particles and
+/// Called after step 1, 2, ...; `view` is what the filter shows then: landmarks, sightings, particles and
 /// map.
 using OnStep = std::function<void(int step, const std::function<CarView()>& view)>;
 

@@ -78,7 +78,7 @@ void requireMeaning(const RenderOptions& options, const RenderPlan& plan) {
   const std::string ending = options.out.extension().string();
   require(options.motion.empty() || options.postures.empty(), "--motion and --q", "one of them");
   require(!options.seconds || options.postures.size() > 1, "--seconds",
-          "several --q, of which it tells the distance");
+          "several --q, whose distance in time it gives");
   require(options.traces.empty() || options.postures.size() > 1 || !options.motion.empty(), "--trace",
           "a motion: several --q, or --motion");
   if (plan.product == Product::kModel) {

@@ -25,7 +25,7 @@ struct AllProgress {
 /// The file .rex/progress.json of a project. It is replaced as a whole, so that a program that is killed
 /// leaves the old text or the new one, and changed under a lock, so that two programs lose nothing of each
 /// other's. Keys that this version does not know stay. A file that cannot be understood is moved aside, which
-/// is told on standard error.
+/// is reported on standard error.
 class ProgressFile {
  public:
   explicit ProgressFile(const std::filesystem::path& projectRoot) : folder_(projectRoot / ".rex") {}

@@ -21,7 +21,7 @@ struct ReportOptions {
   std::filesystem::path out;  ///< empty: the standard output
 };
 
-// Writes a result file in the words of another program. kGraderFault if that is what it tells of.
+// Writes a result file in the words of another program. kGraderFault if that is what it reports.
 ExitCode report(const ReportOptions& options) {
   const grading::ReportFormat& format = reportFormat(options.format, "--format");
   const grading::GradeResult result = grading::loadResult(options.results);

@@ -23,7 +23,7 @@ struct WatchOptions {
   bool poll = false;  ///< do not ask inotify
 };
 
-// Grades as `rex test` does, only `check` unless that is empty. A fault of the project is told and may be
+// Grades as `rex test` does, only `check` unless that is empty. A fault of the project is reported and may be
 // mended while we watch.
 ExitCode gradeOnce(const Project& project, const std::string& name, const std::string& check) {
   const auto start = std::chrono::steady_clock::now();
