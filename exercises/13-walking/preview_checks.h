@@ -38,9 +38,9 @@ inline CartTable randomCart(rex::Rng& rng) {
 }
 
 inline Eigen::Vector3d cartAfter(const CartTable& cart, const Eigen::Vector3d& x, double jerk) {
-  const double h = cart.step;
-  return {x[0] + h * (x[1] + h / 2 * (x[2] + h / 3 * jerk)), x[1] + h * (x[2] + h / 2 * jerk),
-          x[2] + h * jerk};
+  const double seconds = cart.step, dv = seconds * (x[2] + seconds / 2 * jerk);
+  return {x[0] + seconds * (x[1] + seconds / 2 * (x[2] + seconds / 3 * jerk)), x[1] + dv,
+          x[2] + seconds * jerk};
 }
 
 inline void cartMoves(rex::grading::Check& check, Student& student, const CartTable& cart) {
