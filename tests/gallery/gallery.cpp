@@ -22,7 +22,7 @@ What rex draws, without a screen.
 - `scripts/gallery` draws them again, and a test in [tests/gallery](../../tests/gallery) compares.
 
 Pictures move, too: `scripts/rex render man.ors -o man.mp4` walks around a robot, and `-o man.html` makes a page on which
-you turn it and motions play. `scripts/rex render --help` tells more.
+you turn it and motions play. `scripts/rex render --help` says more.
 )";
 
 std::string section(const std::string& title, const std::vector<Drawing>& drawings) {
