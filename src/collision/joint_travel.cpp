@@ -34,7 +34,7 @@ JointTravel jointTravel(const Joint& joint, const VectorArg& from, const VectorA
   // From the last movement to the first: a turn carries what comes after it, which is farthest from the axis
   // at one of the ends.
   Eigen::Vector3d moved = Eigen::Vector3d::Zero(), after_a = moved, after_b = moved;
-  const JointMovements all = movements(joint.type, joint.axis, joint.pitch);
+  const JointMovements all = movements(joint);
   for (std::size_t k = all.size(); k-- > 0;) {
     const JointMovement& one = all[k];
     const int i = one.coordinate;

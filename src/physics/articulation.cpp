@@ -24,10 +24,7 @@ constexpr double kLimitReach = 0.01;
 
 int linkCount(const Model& model, std::span<const BodyId> bodies) {
   std::size_t count = 0;
-  for (const BodyId body : bodies) {
-    const Joint& joint = model[model[body].joint];
-    count += movements(joint.type, joint.axis, joint.pitch).size();
-  }
+  for (const BodyId body : bodies) count += movements(model[model[body].joint]).size();
   return static_cast<int>(count);
 }
 
@@ -67,7 +64,7 @@ Articulation::Articulation(const Model& model, std::span<const BodyId> bodies, c
 
 Articulation::Grown Articulation::grow(const Model& model, JointId id, const BulletLink& link, Grown parent) {
   const Joint& joint = model[id];
-  const JointMovements moves = movements(joint.type, joint.axis, joint.pitch);
+  const JointMovements moves = movements(joint);
   Pose X_LF = parent.X_BL.inverse() * joint.X_PF;
   int at = parent.link;
   for (std::size_t i = 0; i < moves.size(); ++i) {

@@ -37,13 +37,13 @@ bool commute(const JointMovement& a, const JointMovement& b) {
 std::array<DegreeOfFreedom, 6> freedomsOf(const JointMovements& all) {
   std::array<DegreeOfFreedom, 6> freedoms{};
   for (const JointMovement& one : all) {
-    const bool isLast =
+    const bool mayBeLast =
         std::all_of(&one + 1, all.end(), [&](const auto& later) { return commute(one, later); });
     const auto set = [&](int coordinate, const Eigen::Vector3d& axis,
                          Eigen::Vector3d DegreeOfFreedom::*part) {
       DegreeOfFreedom& freedom = freedoms[static_cast<std::size_t>(coordinate)];
       freedom.*part = axis;
-      freedom.frame = isLast ? DegreeOfFreedom::Frame::kChild : DegreeOfFreedom::Frame::kParent;
+      freedom.frame = mayBeLast ? DegreeOfFreedom::Frame::kChild : DegreeOfFreedom::Frame::kParent;
     };
     switch (one.kind) {
       case JointMovement::Kind::kFixed:

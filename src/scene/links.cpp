@@ -44,7 +44,7 @@ std::optional<Kind> kindOf(const JointMovement& movement, bool hasRise) {
 // Appends the links of a joint. Returns the place of its child.
 Place append(const Joint& joint, const Place& parent, std::vector<Link>& links) {
   Place at{parent.link, parent.X_LA * joint.X_PF};
-  const JointMovements all = movements(joint.type, joint.axis, joint.pitch);
+  const JointMovements all = movements(joint);
   for (const JointMovement& movement : all) {
     const bool hasRise = &movement + 1 != all.end() && (&movement + 1)->isRise;
     const std::optional<Kind> kind = kindOf(movement, hasRise);

@@ -68,6 +68,11 @@ struct Joint {
   std::array<DegreeOfFreedom, 6> freedoms{};  ///< the first nv count
 };
 
+/// The movements of a joint of a model, see joint_type.h.
+[[nodiscard]] inline JointMovements movements(const Joint& joint) {
+  return movements(joint.type, joint.axis, joint.pitch);
+}
+
 /// A shape in its place.
 struct ModelShape {
   std::string name;

@@ -39,7 +39,7 @@ void setMotion(const JointMovement& movement, const Pose& X_before, const Pose& 
 
 void append(const Joint& joint, std::vector<MotionStep>& steps) {
   const int child = static_cast<int>(joint.child);
-  const JointMovements all = movements(joint.type, joint.axis, joint.pitch);
+  const JointMovements all = movements(joint);
   for (const JointMovement& movement : all) {
     const bool isFirst = &movement == all.begin(), isLast = &movement + 1 == all.end();
     steps.push_back({.kind = movement.kind,
