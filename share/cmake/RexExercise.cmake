@@ -106,6 +106,35 @@ function(rex_worker_object name folder output)
   set_target_properties(${name}_worker PROPERTIES REX_FOLDER ${folder})
 endfunction()
 
+# An archive of show.cpp, which draws for main(), compiled as a student's file is: linked where main() calls what is in
+# it. Leaves its place in REX_SHOW; without a show.cpp, nothing.
+function(rex_show name folder output)
+  set(REX_SHOW "" PARENT_SCOPE)
+  set(source ${folder}/show.cpp)
+  if(NOT EXISTS ${source})
+    return()
+  endif()
+  set(archive ${output}/show.a)
+  set(object ${output}/show.o)
+  set(prefix)
+  set(precompiled)
+  if(REX_PREFIX)
+    set(prefix -include ${REX_PREFIX})
+    set(precompiled ${REX_PREFIX}.gch)
+  endif()
+  get_target_property(eigen Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
+  add_custom_command(OUTPUT ${archive}
+    COMMAND ${CMAKE_CXX_COMPILER} ${REX_STUDENT_FLAGS} ${prefix} -iquote ${folder} -isystem ${PROJECT_SOURCE_DIR}/src
+            -isystem ${eigen} -MD -MF ${object}.d -MQ ${archive} -c ${source} -o ${object}
+    COMMAND ${CMAKE_AR} rcs ${archive} ${object}
+    DEPENDS ${source} ${precompiled} DEPFILE ${object}.d COMMENT "Building what ${name} shows" VERBATIM)
+  add_custom_target(${name}_show DEPENDS ${archive})
+  if(REX_PREFIX)
+    add_dependencies(${name}_show rex_student_prefix)
+  endif()
+  set(REX_SHOW ${archive} PARENT_SCOPE)
+endfunction()
+
 # What `rex-worker-part` leaves of the modules for workers: nothing of what the exercise forbids is in it.
 function(rex_worker_part name folder output)
   set(objects)
@@ -182,8 +211,8 @@ set(REX_GRADER_OPTIONS ${REX_WARNINGS} "${REX_COLD}" -D_GLIBCXX_ASSERTIONS)
 #
 # NAME is a folder of exercises/ with exercise.h, which declares the FUNCTIONS that a student completes, and
 # check.cpp. USES names the modules, beyond those of REX_STUDENT_MODULES, that the student's program and the checks need.
-# Builds into build/PRESET/exercises/NAME the program `grader`, the object file of the worker's loop, and build.json,
-# which says how to compile and link a student's program; the target NAME_ready is all of it. FOLDER and OUTPUT give
+# Builds into build/PRESET/exercises/NAME the program `grader`, the object file of the worker's loop, show.a with
+# what draws for main(), and build.json, which says how to compile and link a student's program; the target NAME_ready is all of it. FOLDER and OUTPUT give
 # other places.
 function(rex_exercise name)
   cmake_parse_arguments(ARG "" "FOLDER;OUTPUT" "FUNCTIONS;USES" ${ARGN})
@@ -196,6 +225,7 @@ function(rex_exercise name)
   rex_exercise_sources(${ARG_OUTPUT} ${ARG_FUNCTIONS})
   rex_student_prefix(${ARG_FOLDER})
   rex_worker_object(${name} ${ARG_FOLDER} ${ARG_OUTPUT})
+  rex_show(${name} ${ARG_FOLDER} ${ARG_OUTPUT})
   set(modules ${REX_STUDENT_MODULES} ${ARG_USES})
   list(TRANSFORM modules PREPEND rex_)
   rex_all_modules(modules)
@@ -216,6 +246,9 @@ function(rex_exercise name)
   if(REX_PREFIX)
     add_dependencies(${name}_ready rex_student_prefix)
   endif()
+  if(REX_SHOW)
+    add_dependencies(${name}_ready ${name}_show)
+  endif()
   set_property(GLOBAL APPEND PROPERTY REX_READY ${name}_ready)
   rex_exercise_description()
   rex_exercise_editor_support()
@@ -223,7 +256,7 @@ endfunction()
 
 # Editors want to know how the student's files are compiled; nobody builds this target.
 function(rex_exercise_editor_support)
-  file(GLOB sources ${ARG_FOLDER}/main.cpp ${ARG_FOLDER}/solution.cpp)
+  file(GLOB sources ${ARG_FOLDER}/main.cpp ${ARG_FOLDER}/solution.cpp ${ARG_FOLDER}/show.cpp)
   if(sources)
     add_library(${name}_editor OBJECT EXCLUDE_FROM_ALL ${sources})
     target_compile_options(${name}_editor PRIVATE ${REX_STUDENT_FLAGS} "SHELL:-iquote \"${ARG_FOLDER}\""

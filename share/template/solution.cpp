@@ -15,8 +15,6 @@ Eigen::Vector2d rotated(const Eigen::Vector2d& p, double angle) {
   return {c * p.x() - s * p.y(), s * p.x() + c * p.y()};
   // <todo>
   //| // TODO: the point `p` turned by `angle`, counter-clockwise.
-  //| static_cast<void>(p);
-  //| static_cast<void>(angle);
   //| return Eigen::Vector2d::Zero();
   // </solution>
 }

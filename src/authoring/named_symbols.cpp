@@ -50,7 +50,7 @@ Words libraryWords(const fs::path& root) {
 
 Words exerciseWords(const fs::path& exercise) {
   Words words;
-  for (const char* name : {"exercise.h", "main.cpp"})
+  for (const char* name : {"exercise.h", "main.cpp", "show.h", "show.cpp"})
     if (fs::exists(exercise / name)) addCodeWords(readTextFile(exercise / name), words);
   return words;
 }
@@ -63,7 +63,7 @@ bool looksLikeFile(const std::string& name) {
   return name.find(' ') == std::string::npos && (ending || name.ends_with('/'));
 }
 
-// Results are made by main.cpp, which names them, perhaps without folder or ending.
+// Results are made by show.cpp or main.cpp, which names them, perhaps without folder or ending.
 bool fileExists(const std::string& name, const fs::path& root, const fs::path& exercise, const Words& words) {
   if (name.starts_with("out/") || fs::exists(exercise / name) || fs::exists(root / name)) return true;
   const std::vector<std::string> stem = wordsOf(fs::path(name).stem().string());

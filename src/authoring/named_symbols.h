@@ -16,9 +16,9 @@ struct DeadName {
 };
 
 /// Names in backticks in an exercise's README.md and in the TODO lines of its solution.cpp that do not exist:
-/// neither as a file of the exercise or project, nor as a word of code in exercise.h, in main.cpp or in a
-/// header below root/src. Formulas, numbers, paths in out/ and names of std:: and Eigen:: are left alone.
-/// Likewise functions that exercise.toml forbids but no header below root/src has a word for.
+/// neither as a file of the exercise or project, nor as a word of code in exercise.h, main.cpp, show.h or
+/// show.cpp, or in a header below root/src. Formulas, numbers, paths in out/ and names of std:: and Eigen::
+/// are left alone. Likewise functions that exercise.toml forbids but no header below root/src has a word for.
 [[nodiscard]] std::vector<DeadName> deadNames(const std::filesystem::path& root,
                                               const std::filesystem::path& exercise);
 

@@ -139,7 +139,7 @@ void requireNoSolutionText(const path& exercise) {
   std::map<std::string, std::string> released = madeFiles(exercise);
   for (const auto& entry : fs::directory_iterator(exercise)) {
     const path name = entry.path().filename();
-    if (name == "README.md" || name == "exercise.toml" || name.extension() == ".h")
+    if (name == "README.md" || name == "exercise.toml" || name == "show.cpp" || name.extension() == ".h")
       released[name.string()] = readTextFile(entry.path());
   }
   const PrivateFolder folder(fs::temp_directory_path());

@@ -84,7 +84,8 @@ class Collector {
     }
     if (fs::exists(check)) readable_.add(stripHidden(readTextFile(check), check.string()));
     for (const auto& entry : fs::directory_iterator(exercise))
-      if (entry.path().extension() == ".h") readable_.addFile(entry.path());
+      if (entry.path().extension() == ".h" || entry.path().filename() == "show.cpp")
+        readable_.addFile(entry.path());
   }
 
   void leaveOutThePublic() {

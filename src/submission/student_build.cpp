@@ -354,8 +354,10 @@ StudentProgram linkWorker(const Toolchain& toolchain, const StudentObject& objec
 
 StudentProgram linkProgram(const Toolchain& toolchain, const StudentObject& object) {
   const path folder = object.object.parent_path();
+  std::vector<std::string> libraries = texts(toolchain.libraries);
+  if (!toolchain.show.empty()) libraries.insert(libraries.begin(), toolchain.show.string());
   return link(toolchain, BuildTools(toolchain, folder, {}), folder / "program", {object.object.string()},
-              texts(toolchain.libraries), object.name);
+              libraries, object.name);
 }
 
 }  // namespace rex::grading

@@ -28,6 +28,7 @@ Toolchain readToolchain(const std::filesystem::path& buildJson) {
             .workerObject = json.at("worker_object").get<std::string>(),
             .grader = json.at("grader").get<std::string>(),
             .libraries = paths(json.at("libraries")),
+            .show = json.value("show", ""),
             .functions = json.at("functions").get<std::vector<std::string>>(),
             .prefix = json.value("prefix", ""),
             .workerPart = json.value("worker_part", ""),

@@ -17,7 +17,8 @@ class DeadNamesTest : public ::testing::Test {
   void SetUp() override {
     write("src/course/simulator.h", "class Simulator { void jacobianPos(); };  // ghost\n");
     write("exercises/01-demo/exercise.h", "Eigen::VectorXd ikStep(const Eigen::VectorXd& q0);\n");
-    write("exercises/01-demo/main.cpp", "int main() { plot(\"error\"); }\n");
+    write("exercises/01-demo/main.cpp", "int main() { showWay(); }\n");
+    write("exercises/01-demo/show.cpp", "void showWay() { plot(\"error\"); }\n");
     write("share/doc/style.md", "");
   }
   void write(const std::string& name, const std::string& text) {

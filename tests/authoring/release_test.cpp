@@ -146,6 +146,9 @@ TEST_F(ReleaseTest, RefusesSolutionTextHoweverItIsLaidOut) {
   write("exercises/01-demo/check.cpp",
         "// <hidden>\nint expected(int a) { return multiply(a, 2); }\n// </hidden>\n");
   EXPECT_NO_THROW(requireNoSolutionText(root() / "exercises/01-demo"));
+  write("exercises/01-demo/show.cpp", "int shown(int a) { return multiply(a, 2); }\n");
+  EXPECT_REX_ERROR(requireNoSolutionText(root() / "exercises/01-demo"), "show.cpp:1: a line of the solution");
+  fs::remove(root() / "exercises/01-demo/show.cpp");
   write("exercises/01-demo/help.h", "  return multiply(a, 2);\n");
   EXPECT_REX_ERROR(requireNoSolutionText(root() / "exercises/01-demo"), "help.h:1: a line of the solution");
   fs::remove(root() / "exercises/01-demo/help.h");

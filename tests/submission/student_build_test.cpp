@@ -110,6 +110,30 @@ TEST_F(StudentBuildTest, BuildsWorkerAndProgramFromOneObject) {
   EXPECT_EQ(runProcess({program.program}).output, "mine\n");
 }
 
+// What draws for main() is linked where main() calls it, and asks of nobody else for the contract's
+// functions.
+TEST_F(StudentBuildTest, LinksWhatDrawsForMain) {
+  const path source = temporary_.path() / "show.cpp", object = temporary_.path() / "show.o";
+  write(source,
+        "#include <cstdio>\nint twice(int a);\nint thrice(int a);\n"
+        "void show() { std::printf(\"drawn %d\\n\", twice(4)); }\n"
+        "void showMore() { thrice(1); }\n");
+  build({"-ffunction-sections", "-c", source, "-o", object});
+  Toolchain drawing = toolchain();
+  drawing.show = temporary_.path() / "show.a";
+  ASSERT_TRUE(runProcess({"ar", "rcs", drawing.show, object}).ok());
+  EXPECT_TRUE(linkProgram(drawing, compile(kGood)).ok) << "main() shows nothing";
+  const std::string both = "int twice(int a) { return 2 * a; }\nint thrice(int a) { return 3 * a; }\n";
+  const StudentProgram program =
+      linkProgram(drawing, compile("void show();\n" + both + "int main() { show(); }\n"));
+  ASSERT_TRUE(program.ok) << program.log;
+  EXPECT_EQ(runProcess({program.program}).output, "drawn 8\n");
+  const StudentProgram without =
+      linkProgram(drawing, compile("void show();\nint twice(int a) { return a; }\nint main() { show(); }\n"));
+  EXPECT_FALSE(without.ok);
+  EXPECT_THAT(first(without.messages), HasSubstr("thrice(int)"));
+}
+
 // Two compilers make the same of a file as one does.
 TEST_F(StudentBuildTest, CompilesTheGradedPartAlone) {
   const auto build = [&](const std::string& source, bool part) {
@@ -595,7 +619,7 @@ TEST_F(StudentBuildTest, ReadsBuildJson) {
   write(
       file,
       R"({"compiler": "g++", "compile_flags": ["-O1"], "link_flags": ["-g"], "worker_object": "w.o", "grader": "g",
-                  "libraries": ["s.so", "t.so"], "functions": ["f"], "prefix": "p.h", "objcopy": "oc", "objdump": "od"})");
+                  "show": "s.a", "libraries": ["s.so", "t.so"], "functions": ["f"], "prefix": "p.h", "objcopy": "oc", "objdump": "od"})");
   const Toolchain read = readToolchain(file);
   EXPECT_EQ(read.compiler, "g++");
   EXPECT_EQ(read.flags, std::vector<std::string>{"-O1"});
@@ -605,6 +629,7 @@ TEST_F(StudentBuildTest, ReadsBuildJson) {
   EXPECT_THAT(read.libraries, testing::ElementsAre("s.so", "t.so"));
   EXPECT_THAT(read.functions, testing::ElementsAre("f"));
   EXPECT_EQ(read.prefix, "p.h");
+  EXPECT_EQ(read.show, "s.a");
   EXPECT_EQ(read.objcopy, "oc");
   EXPECT_EQ(read.objdump, "od");
 }
