@@ -68,11 +68,18 @@ inline PoseMap randomMap(rex::Rng& rng, int poses) {
   return map;
 }
 
-/// A walk over streets of 1 m with crossings every five; where the robot comes by again, loops are closed.
-/// All motions are measured with noise, and poses are those of odometry.
+/// A walk over streets that cross at some angle, five poses a block; where the robot comes by again, loops
+/// are closed. All motions are measured with noise, and poses are those of odometry.
 struct StreetWalk {
   PoseMap map;
   Poses truth;
+};
+
+/// How a walk is measured.
+struct WalkNoise {
+  double deviation = 0;  ///< of a step ahead [m]; twice that sideways, half in radians
+  double drift = 0;      ///< that odometry turns too far in each step [rad]
+  Eigen::Vector3d start{0, 0, 0};
 };
 
 inline Poses odometryOf(const PoseMap& map) {
@@ -82,21 +89,29 @@ inline Poses odometryOf(const PoseMap& map) {
   return poses;
 }
 
-inline StreetWalk anyStreetWalk(rex::Rng& rng, int poses, double noise,
-                                const Eigen::Vector3d& start = {0, 0, 0}) {
-  StreetWalk walk{{}, {start}};
-  for (int k = 1; k < poses; ++k) {
+inline Poses anyWayAlongStreets(rex::Rng& rng, int poses, const Eigen::Vector3d& start) {
+  const double corner = std::numbers::pi / 2 + rng.uniform(-0.4, 0.4);
+  const double lengths[] = {rng.uniform(0.8, 1.2), rng.uniform(0.8, 1.2)};
+  Poses way{start};
+  for (int k = 1, street = 0; k < poses; ++k) {
     // Four crossings a block: it turns left more often than not, and so comes by again.
-    const double turn = k % 5 != 0 || rng.uniform() < 0.3 ? 0 : std::numbers::pi / 2;
-    walk.truth.push_back(onward(onward(walk.truth.back(), {0, 0, turn}), {1, 0, 0}));
+    double turn = 0;
+    if (k % 5 == 0 && rng.uniform() >= 0.3) turn = street++ % 2 == 0 ? corner : std::numbers::pi - corner;
+    way.push_back(onward(onward(way.back(), {0, 0, turn}), {lengths[street % 2], 0, 0}));
   }
+  return way;
+}
+
+inline StreetWalk anyStreetWalk(rex::Rng& rng, int poses, const WalkNoise& noise) {
+  StreetWalk walk{{}, anyWayAlongStreets(rng, poses, noise.start)};
   walk.map.poses = walk.truth;
-  const Eigen::Vector3d deviations(noise, 2 * noise, noise / 2);
+  const Eigen::Vector3d deviations(noise.deviation, 2 * noise.deviation, noise.deviation / 2);
   const auto add = [&](int i, int j, bool isLoop) {
     const Eigen::Vector3d z =
         relative(walk.truth[static_cast<std::size_t>(i)], walk.truth[static_cast<std::size_t>(j)]);
     // The error is seen from where the measurement says the pose is.
-    const Eigen::Vector3d e = deviations.cwiseProduct(rng.normalVector(3));
+    Eigen::Vector3d e = deviations.cwiseProduct(rng.normalVector(3));
+    if (!isLoop) e[2] += noise.drift;
     walk.map.edges.push_back(
         {i, j, onward(z, e), deviations.cwiseAbs2().cwiseInverse().asDiagonal(), isLoop});
   };
@@ -112,10 +127,9 @@ inline StreetWalk anyStreetWalk(rex::Rng& rng, int poses, double noise,
 }
 
 /// One with ten loops at least.
-inline StreetWalk streetWalk(rex::Rng& rng, int poses, double noise,
-                             const Eigen::Vector3d& start = {0, 0, 0}) {
+inline StreetWalk streetWalk(rex::Rng& rng, int poses, const WalkNoise& noise) {
   for (;;) {
-    const StreetWalk walk = anyStreetWalk(rng, poses, noise, start);
+    const StreetWalk walk = anyStreetWalk(rng, poses, noise);
     if (static_cast<int>(walk.map.edges.size()) >= poses + 9) return walk;
   }
 }
