@@ -508,15 +508,16 @@ Eigen::Matrix2Xd particleMap(Check& check, Student& student, const CarRun& run) 
   return places;
 }
 
-// Over 400 seeds: 0.081 m with a standard deviation of 0.012 m. Landmarks that stay where they were first
-// seen are off by 0.56 m (0.07 m).
+// The car slides more than the sensor errs, so that particles go different ways, and their weights matter.
+// Over 16 seeds the reference is off by at most 0.064 m, and with equal weights by at least 0.279 m.
 void mapsWithParticles(Check& check, Student& student) {
   double squared = 0;
   for (int i = 0; i < 4; ++i) {
-    const CarRun run = randomRun(check.rng(), {}, 3 + i, 50, {1, 0.2});
+    const CarRun run =
+        randomRun(check.rng(), {.dynamicsNoise = 0.08, .observationNoise = 0.3}, 3 + i, 50, {1, 0.2});
     squared += std::pow(absoluteTrajectoryError(particleMap(check, student, run), run.landmarks), 2) / 4;
   }
-  check.atMost("error of the landmarks (root mean square) after alignment", std::sqrt(squared), 0.2, "m");
+  check.atMost("error of the landmarks (root mean square) after alignment", std::sqrt(squared), 0.15, "m");
 }
 // </hidden>
 
