@@ -505,7 +505,7 @@ void noiseOfOneCar(Check& check, Student& student) {
   // Factors and noise are drawn, so that the noise cannot be read off the assumed one.
   const double first = rng.uniform() < 0.5 ? -1 : 1;
   for (const double power :
-       {first * rng.uniform(0.8, 1), -first * rng.uniform(0.2, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)}) {
+       {first * rng.uniform(0.8, 1), -first * rng.uniform(0.8, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)}) {
     world.observationNoise = rng.uniform(0.3, 1);
     findsNoise(check, student, world, std::pow(10, power));
   }

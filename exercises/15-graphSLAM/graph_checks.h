@@ -75,13 +75,6 @@ struct StreetWalk {
   Poses truth;
 };
 
-/// How a walk is measured.
-struct WalkNoise {
-  double deviation = 0;  ///< of a step ahead [m]; twice that sideways, half in radians
-  double drift = 0;      ///< that odometry turns too far in each step [rad]
-  Eigen::Vector3d start{0, 0, 0};
-};
-
 inline Poses odometryOf(const PoseMap& map) {
   Poses poses{map.poses.front()};
   for (const MeasuredEdge& edge : map.edges)
@@ -102,16 +95,17 @@ inline Poses anyWayAlongStreets(rex::Rng& rng, int poses, const Eigen::Vector3d&
   return way;
 }
 
-inline StreetWalk anyStreetWalk(rex::Rng& rng, int poses, const WalkNoise& noise) {
-  StreetWalk walk{{}, anyWayAlongStreets(rng, poses, noise.start)};
+/// `noise` is the standard deviation of a measured step along itself [m]; twice that is the one across it,
+/// and half of it that of the heading [rad].
+inline StreetWalk anyStreetWalk(rex::Rng& rng, int poses, double noise, const Eigen::Vector3d& start) {
+  StreetWalk walk{{}, anyWayAlongStreets(rng, poses, start)};
   walk.map.poses = walk.truth;
-  const Eigen::Vector3d deviations(noise.deviation, 2 * noise.deviation, noise.deviation / 2);
+  const Eigen::Vector3d deviations(noise, 2 * noise, noise / 2);
   const auto add = [&](int i, int j, bool isLoop) {
     const Eigen::Vector3d z =
         relative(walk.truth[static_cast<std::size_t>(i)], walk.truth[static_cast<std::size_t>(j)]);
     // The error is seen from where the measurement says the pose is.
-    Eigen::Vector3d e = deviations.cwiseProduct(rng.normalVector(3));
-    if (!isLoop) e[2] += noise.drift;
+    const Eigen::Vector3d e = deviations.cwiseProduct(rng.normalVector(3));
     walk.map.edges.push_back(
         {i, j, onward(z, e), deviations.cwiseAbs2().cwiseInverse().asDiagonal(), isLoop});
   };
@@ -127,9 +121,10 @@ inline StreetWalk anyStreetWalk(rex::Rng& rng, int poses, const WalkNoise& noise
 }
 
 /// One with ten loops at least.
-inline StreetWalk streetWalk(rex::Rng& rng, int poses, const WalkNoise& noise) {
+inline StreetWalk streetWalk(rex::Rng& rng, int poses, double noise,
+                             const Eigen::Vector3d& start = {0, 0, 0}) {
   for (;;) {
-    const StreetWalk walk = anyStreetWalk(rng, poses, noise);
+    const StreetWalk walk = anyStreetWalk(rng, poses, noise, start);
     if (static_cast<int>(walk.map.edges.size()) >= poses + 9) return walk;
   }
 }
