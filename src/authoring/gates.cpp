@@ -36,9 +36,7 @@ GateResult judge(const std::vector<std::string>& complaints) {
 SubmissionOptions optionsFor(const GateContext& context, const path& file) {
   return {.main = file,
           .workFolder = context.workFolder / "build",
-          .results = context.workFolder / "results.json",
-          .checks = {},
-          .seed = {}};
+          .job = {.results = context.workFolder / "results.json"}};
 }
 
 GradeResult grade(const GateContext& context, const path& file) {
@@ -125,7 +123,7 @@ GateResult solutionIsFull(const GateContext& context) {
     return failed("solution.cpp does not compile cleanly: " +
                   toString(built.start.compile.diagnostics.front()));
   for (int seed = 1; seed <= context.seeds; ++seed) {
-    options.seed = seed;
+    options.job.seed = static_cast<std::uint64_t>(seed);
     const GradeResult result = gradeBuilt(built, context.toolchain, context.exercise, options);
     if (result.outcome != Outcome::pass || result.score != context.exercise.points())
       return failed(fmt::format("solution.cpp scores {} of {} under seed {}{}", result.score,
@@ -141,8 +139,9 @@ ProcessResult askGrader(const GateContext& context, const std::vector<std::strin
   const BuiltSubmission built = buildSubmission(context.toolchain, context.exercise, solution);
   if (built.worker.empty())
     throw Error({.what = "solution.cpp cannot be built", .found = built.start.message});
-  std::vector<std::string> command = {context.toolchain.grader.string(), "--worker", built.worker.string(),
-                                      "--temporary", context.workFolder.string()};
+  std::vector<std::string> command = toArguments(
+      {.worker = built.worker, .limits = context.exercise.limits, .temporaryFolder = context.workFolder});
+  command.insert(command.begin(), context.toolchain.grader.string());
   command.insert(command.end(), options.begin(), options.end());
   constexpr double kLongest = 3 * 3600;
   return runProcess(command, {.timeout = kLongest});
@@ -187,7 +186,7 @@ GateResult solutionPassesSanitizers(const GateContext& context) {
   SubmissionOptions options = optionsFor(context, context.exercise.folder / "solution.cpp");
   options.sanitize = true;
   for (const CheckResult& check : listChecks(context.toolchain))
-    if (check.group == Group::visible && options.checks.empty()) options.checks = {check.id};
+    if (check.group == Group::visible && options.job.checks.empty()) options.job.checks = {check.id};
   const GradeResult result = gradeSubmission(context.toolchain, context.exercise, options).result;
   if (result.outcome == Outcome::pass) return kPassed;
   return failed("solution.cpp does not pass with the sanitizers: " + shortfalls(result));

@@ -23,9 +23,8 @@ path fileOf(const ExerciseInfo& exercise, const std::string& name) {
 SubmissionOptions gradingOf(const GateContext& context, const WrongVariant& variant) {
   SubmissionOptions options{.main = context.workFolder / "main.cpp",
                             .workFolder = context.workFolder / "build",
-                            .results = context.workFolder / "results.json",
-                            .checks = {}};
-  if (!variant.shownBy.empty()) options.evidence = context.workFolder / "checks";
+                            .job = {.results = context.workFolder / "results.json"}};
+  if (!variant.shownBy.empty()) options.job.evidence = context.workFolder / "checks";
   return options;
 }
 
@@ -87,8 +86,8 @@ GradeResult gradeLinked(const GateContext& context, const BuiltSubmission& built
   if (built.worker.empty()) return built.start;
   SubmissionOptions options = gradingOf(context, variant);
   options.workFolder = built.worker.parent_path();
-  options.checks = variant.caughtBy;
-  options.checks.insert(options.checks.end(), variant.shownBy.begin(), variant.shownBy.end());
+  options.job.checks = variant.caughtBy;
+  options.job.checks.insert(options.job.checks.end(), variant.shownBy.begin(), variant.shownBy.end());
   return gradeBuilt(built, context.toolchain, context.exercise, options);
 }
 

@@ -99,12 +99,11 @@ GradeResult gradeTask(const Task& task, const Toolchain& toolchain, const Exerci
   fs::create_directories(results.parent_path());
   const SubmissionOptions submission{.main = file,
                                      .workFolder = options.workFolder / "work",
-                                     .results = results,
-                                     .checks = {},
-                                     .seed = task.seed,
-                                     .evidence = options.evidence ? evidence : fs::path(),
-                                     .sandbox = {.level = task.level, .launcher = options.launcher},
-                                     .secret = options.secret};
+                                     .job = {.results = results,
+                                             .seed = task.seed.value_or(GradingJob{}.seed),
+                                             .sandbox = {.level = task.level, .launcher = options.launcher},
+                                             .evidence = options.evidence ? evidence : fs::path(),
+                                             .secret = options.secret}};
   const BuiltSubmission built =
       options.workers.empty()
           ? buildSubmission(toolchain, exercise, submission)

@@ -47,7 +47,7 @@ std::optional<BuiltSubmission> take(const fs::path& kept, const SubmissionOption
     if (hashes != hashesOf(kept) || hashes.at(kWorker) != sha256(readTextFile(work / kWorker))) return {};
     BuiltSubmission built{
         .start = loadResult(kept / kStart), .source = readTextFile(kept / kSource), .worker = work / kWorker};
-    writeTextFile(options.results.parent_path() / kBuildLog, readTextFile(kept / kBuildLog));
+    writeTextFile(options.job.results.parent_path() / kBuildLog, readTextFile(kept / kBuildLog));
     return built;
   } catch (const Error&) {
     return {};
@@ -99,7 +99,7 @@ BuiltSubmission buildOnce(const KeptWorkers& keeping, const Toolchain& toolchain
     if (auto taken = take(kept, options)) return *std::move(taken);
   BuiltSubmission built = buildSubmission(toolchain, exercise, options);
   if (built.worker.empty()) return built;
-  keep(built, kept, options.results.parent_path() / kBuildLog);
+  keep(built, kept, options.job.results.parent_path() / kBuildLog);
   return built;
 }
 

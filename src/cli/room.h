@@ -4,8 +4,8 @@
 #include <map>
 #include <string_view>
 
+#include "base/exit_code.h"
 #include "cli/command_table.h"
-#include "cli/exit_code.h"
 #include "cli/project.h"
 
 namespace CLI {

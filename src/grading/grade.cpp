@@ -29,6 +29,13 @@ constexpr std::size_t kKeptOutput = 16u << 10;
 constexpr const char* kUnfinished = "the grader did not finish";
 constexpr rlim_t kJudgingMemory = rlim_t{6} << 30;
 
+/// A job, and what is the same for all of its checks.
+struct Grading {
+  const GradingJob& job;
+  std::uint64_t signature = 0;
+  std::string secret{};  ///< of the course; empty: there is none
+};
+
 CheckResult blank(const CheckInfo& info) {
   return {
       .id = info.id, .part = info.part, .title = info.title, .group = info.group, .maxPoints = info.points};
@@ -107,15 +114,15 @@ void keep(KeptOutput& kept, const CapturedText& captured) {
 
 // Visible checks can be repeated by everybody. What hidden ones try depends on what was handed in: the same
 // again gives the same grade, and a table of answers helps nobody else.
-std::uint64_t seedFor(Group group, const GradeResult& whole, const GradeOptions& options) {
-  if (group == Group::visible || options.secret.empty()) return options.seed;
-  return hiddenSeed(options.secret, whole.snapshotSha256, whole.exerciseId, "hidden");
+std::uint64_t seedFor(Group group, const GradeResult& whole, const Grading& grading) {
+  if (group == Group::visible || grading.secret.empty()) return grading.job.seed;
+  return hiddenSeed(grading.secret, whole.snapshotSha256, whole.exerciseId, "hidden");
 }
 
-std::string seedIdOf(const GradeOptions& options) {
-  const std::string visible = fmt::format("public:{}", options.seed);
-  return options.secret.empty() ? visible
-                                : fmt::format("{} hidden:{}", visible, sha256(options.secret).substr(0, 8));
+std::string seedIdOf(const Grading& grading) {
+  const std::string visible = fmt::format("public:{}", grading.job.seed);
+  return grading.secret.empty() ? visible
+                                : fmt::format("{} hidden:{}", visible, sha256(grading.secret).substr(0, 8));
 }
 
 // A picture helps, and decides nothing: numbers that cannot be drawn have none.
@@ -157,41 +164,32 @@ struct Attempt {
   CheckResult verdict;
 };
 
-Attempt attempt(const RunnableCheck& check, const GradeOptions& options, std::uint64_t seed,
-                Standing& standing) {
+Attempt attempt(const RunnableCheck& check, const Grading& grading, std::uint64_t seed, Standing& standing) {
   CheckResult verdict = faulty(check.info, "the check did not end");
   Check judge(check.info, seed);
-  WorkerRun run =
-      runWithWorker({.program = workerOf(check.info.part, options.worker),
-                     .signature = options.signature,
-                     .limits = options.limits,
-                     .temporaryFolder = options.temporaryFolder,
-                     .sandbox = options.sandbox,
-                     .libraries = options.libraries},
-                    [&](remote::Caller& caller) {
-                      caller.whenFirstAnswered(
-                          [&](const std::string& function) { standing.answeredBy(check.info, function); });
-                      verdict = judge.judge([&](Check& requirements) { check.run(requirements, caller); });
-                    });
+  WorkerRun run = runWithWorker(grading.job, check.info.part, grading.signature, [&](remote::Caller& caller) {
+    caller.whenFirstAnswered([&](const std::string& function) { standing.answeredBy(check.info, function); });
+    verdict = judge.judge([&](Check& requirements) { check.run(requirements, caller); });
+  });
   if (run.failure) {
     verdict = failed(check.info, *run.failure, judge.input());
   } else {
     standing.keep(verdict);  // should the picture end this process
-    keepEvidence(judge, options.evidence, verdict);
+    keepEvidence(judge, grading.job.evidence, verdict);
   }
   return {std::move(run), std::move(verdict)};
 }
 
 // The same questions: a program that kills itself has learnt nothing.
-Attempt attemptAgainIfKilled(const RunnableCheck& check, const GradeOptions& options, std::uint64_t seed,
+Attempt attemptAgainIfKilled(const RunnableCheck& check, const Grading& grading, std::uint64_t seed,
                              Standing& standing) {
   return onceMoreIfKilled(
-      [&] { return attempt(check, options, seed, standing); },
+      [&] { return attempt(check, grading, seed, standing); },
       [](const Attempt& first) { return first.run.failure && first.run.failure->killed; });
 }
 
 /// Runs one check and adds what the worker used and printed to the whole.
-CheckResult runCheck(const RunnableCheck& check, const GradeOptions& options, GradeResult& whole,
+CheckResult runCheck(const RunnableCheck& check, const Grading& grading, GradeResult& whole,
                      Standing& standing) {
   CheckResult verdict;
   const auto brokenBy = [&](const std::exception* error) {
@@ -201,7 +199,7 @@ CheckResult runCheck(const RunnableCheck& check, const GradeOptions& options, Gr
   };
   try {
     const Attempt last =
-        attemptAgainIfKilled(check, options, seedFor(check.info.group, whole, options), standing);
+        attemptAgainIfKilled(check, grading, seedFor(check.info.group, whole, grading), standing);
     const WorkerRun& run = last.run;
     verdict = last.verdict;
     verdict.cpuSeconds = run.cpuSeconds;
@@ -254,11 +252,11 @@ void add(GradeResult& whole, std::size_t k, const GradeResult& part) {
 }
 
 // Of the copy in which a check is judged. The worker sets its own.
-void limitJudging(const GradeOptions& options) {
+void limitJudging(const Limits& limits) {
   const itimerval time{.it_interval = {}, .it_value = {.tv_sec = kJudgingSeconds, .tv_usec = 0}};
   ::setitimer(ITIMER_PROF, &time, nullptr);
 #ifndef __SANITIZE_ADDRESS__
-  if (options.limits.sanitized) return;  // its worker reserves terabytes
+  if (limits.sanitized) return;  // its worker reserves terabytes
   rlimit memory{};
   ::getrlimit(RLIMIT_AS, &memory);
   memory.rlim_cur = std::min<rlim_t>(memory.rlim_max, kJudgingMemory);
@@ -268,23 +266,22 @@ void limitJudging(const GradeOptions& options) {
 
 // Each in a copy of this process, which holds the results: nothing that judging an answer does harms them.
 // Calls `ended(k, part)` as each check ends, in any order.
-void runInTheirCopies(const GradeResult& start, std::span<const RunnableCheck> checks,
-                      const GradeOptions& options,
+void runInTheirCopies(const GradeResult& start, std::span<const RunnableCheck> checks, const Grading& grading,
                       const std::function<void(std::size_t, GradeResult)>& ended) {
-  const PrivateFolder folder(options.temporaryFolder);
+  const PrivateFolder folder(grading.job.temporaryFolder);
   const auto file = [&](int k) { return folder.path() / fmt::format("{}.json", k); };
   const auto run = [&](int k) {
-    limitJudging(options);
+    limitJudging(grading.job.limits);
     GradeResult part = start;
     const auto write = [&](const CheckResult& verdict) {
       part.checks = {verdict};
       saveResult(part, file(k));
     };
     Standing standing(write);
-    write(runCheck(checks[static_cast<std::size_t>(k)], options, part, standing));
+    write(runCheck(checks[static_cast<std::size_t>(k)], grading, part, standing));
     return 0;
   };
-  runInCopies(static_cast<int>(checks.size()), options.jobs, run, [&](int k, int code) {
+  runInCopies(static_cast<int>(checks.size()), grading.job.jobs, run, [&](int k, int code) {
     const auto place = static_cast<std::size_t>(k);
     GradeResult broken;
     broken.checks = {faulty(checks[place].info, "the check ended its process")};
@@ -297,19 +294,16 @@ void runInTheirCopies(const GradeResult& start, std::span<const RunnableCheck> c
 
 }  // namespace
 
-std::filesystem::path workerOf(const std::string& part, const std::filesystem::path& worker) {
-  const std::filesystem::path own = worker.string() + "." + part;
-  return std::filesystem::exists(own) ? own : worker;
-}
-
 void setSandbox(GradeResult& result, sandbox::Level level) {
   result.sandboxLevel = sandbox::numberOf(level);
   const std::string warning = sandbox::warningOf(level);
   result.sandboxWarnings = warning.empty() ? std::vector<std::string>{} : std::vector{warning};
 }
 
-GradeResult grade(GradeResult result, std::span<const RunnableCheck> checks, const GradeOptions& options,
-                  const std::function<void(const GradeResult&)>& save) {
+GradeResult grade(GradeResult result, std::span<const RunnableCheck> checks, const GradingJob& job,
+                  std::uint64_t signature, const std::function<void(const GradeResult&)>& save) {
+  const Grading grading{
+      .job = job, .signature = signature, .secret = job.secret.empty() ? "" : readCourseSecret(job.secret)};
   result.checks.clear();
   result.score = 0;
   result.maxScore = 0;
@@ -320,19 +314,19 @@ GradeResult grade(GradeResult result, std::span<const RunnableCheck> checks, con
     result.checks.push_back(blank(check.info));
     result.maxScore += check.info.points;
   }
-  result.limits = options.limits;
-  result.seedId = seedIdOf(options);
-  if (options.worker.empty()) {
+  result.limits = job.limits;
+  result.seedId = seedIdOf(grading);
+  if (job.worker.empty()) {
     save(result);
     return result;
   }
-  setSandbox(result, options.sandbox.level);
+  setSandbox(result, job.sandbox.level);
   result.outcome = Outcome::graderError;
   result.message = kUnfinished;
   save(result);
   const GradeResult start = result;
   std::map<std::size_t, GradeResult> parts;  // put together in the order of the checks
-  runInTheirCopies(start, checks, options, [&](std::size_t k, GradeResult part) {
+  runInTheirCopies(start, checks, grading, [&](std::size_t k, GradeResult part) {
     parts.emplace(k, std::move(part));
     result = start;
     for (const auto& [place, one] : parts) add(result, place, one);

@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "grading/hidden_seed.h"
+#include "base/exit_code.h"
 #include "grading/hostile_answers.h"
 #include "grading/result_file.h"
 #include "grading/unknown_check.h"
@@ -21,38 +21,15 @@ namespace rex::grading {
 namespace {
 
 struct Arguments {
-  GradeOptions grade{};
-  std::filesystem::path results{};
-  std::vector<std::string> only{};
-  std::filesystem::path secret{};
+  GradingJob job{};
+  std::uint64_t signature = 0;
   std::int64_t hostileAnswers = 0;
   bool lies = false;
   bool list = false;
 };
 
 void declareOptions(CLI::App& app, Arguments& arguments) {
-  WorkerLimits& limits = arguments.grade.limits;
-  app.add_option("--worker", arguments.grade.worker,
-                 "the student's worker program; none: all checks are not run");
-  app.add_option("--results", arguments.results, "result file; its fields about the submission are kept");
-  app.add_option("--check", arguments.only, "run only this check (repeatable)");
-  app.add_option("--seed", arguments.grade.seed, "seed of all random numbers");
-  app.add_option("--cpu-seconds", limits.cpuSeconds, "CPU time of one check")->check(CLI::PositiveNumber);
-  app.add_option("--memory-mb", limits.memoryMegabytes, "memory of one check")->check(CLI::PositiveNumber);
-  app.add_flag("--sanitized", limits.sanitized, "the worker limits its memory itself");
-  app.add_option("--output-mb", limits.outputMegabytes, "printed by one check")->check(CLI::PositiveNumber);
-  app.add_option("--temporary", arguments.grade.temporaryFolder, "where workers get their working folders");
-  app.add_option("--level", arguments.grade.sandbox.level, "sandbox level of workers")
-      ->check(CLI::Range(0, 3));
-  app.add_option("--sandbox", arguments.grade.sandbox.launcher,
-                 "the program rex-sandbox, for levels above 0");
-  app.add_option("--library", arguments.grade.libraries, "a library that the worker loads (repeatable)")
-      ->allow_extra_args(false);
-  app.add_option("--evidence", arguments.grade.evidence,
-                 "folder for pictures and replays of visible checks that do not hold");
-  app.add_option("--secret", arguments.secret,
-                 "file with the secret of the course, for the seeds of hidden checks");
-  app.add_option("--jobs", arguments.grade.jobs, "checks at once")->check(CLI::Range(1, 1024));
+  declareOptions(app, arguments.job);
   app.add_option(
       "--hostile", arguments.hostileAnswers,
       "give each check so many hostile answers of each kind, made of those of the worker, which is "
@@ -98,24 +75,25 @@ void printList(const std::vector<RunnableCheck>& checks) {
   fmt::print("{}\n", list.dump(2));
 }
 
-int gradeAndSave(const Arguments& arguments, const std::vector<RunnableCheck>& checks) {
-  GradeOptions options = arguments.grade;
-  if (!arguments.secret.empty()) options.secret = readCourseSecret(arguments.secret);
-  const bool prepared = !arguments.results.empty() && std::filesystem::exists(arguments.results);
-  const GradeResult start = prepared ? loadResult(arguments.results) : GradeResult{};
-  const GradeResult result = grade(start, checks, options, [&](const GradeResult& soFar) {
-    if (!arguments.results.empty()) saveResult(soFar, arguments.results);
-  });
-  if (result.outcome == Outcome::graderError) return kGraderFault;
-  return result.outcome == Outcome::pass ? kFullScore : kBelowFullScore;
+ExitCode gradeAndSave(const Arguments& arguments, const std::vector<RunnableCheck>& checks) {
+  const std::filesystem::path& results = arguments.job.results;
+  const bool prepared = !results.empty() && std::filesystem::exists(results);
+  const GradeResult start = prepared ? loadResult(results) : GradeResult{};
+  const GradeResult result =
+      grade(start, checks, arguments.job, arguments.signature, [&](const GradeResult& soFar) {
+        if (!results.empty()) saveResult(soFar, results);
+      });
+  if (result.outcome == Outcome::graderError) return ExitCode::kGraderFault;
+  return result.outcome == Outcome::pass ? ExitCode::kFull : ExitCode::kBelow;
 }
 
-// Exit code 1 where a hostile answer got a point, took too long or ended the process that judged it.
-int attack(const Arguments& arguments, const std::vector<RunnableCheck>& checks, const CallLayouts& layouts) {
+// Below where a hostile answer got a point, took too long or ended the process that judged it.
+ExitCode attack(const Arguments& arguments, const std::vector<RunnableCheck>& checks,
+                const CallLayouts& layouts) {
   std::int64_t answers = 0, runs = 0, unjudged = 0, faults = 0;
   double slowest = 0;
   for (const HostileOutcome& one :
-       giveHostileAnswers(checks, arguments.grade, layouts, arguments.hostileAnswers)) {
+       giveHostileAnswers(checks, arguments.job, arguments.signature, layouts, arguments.hostileAnswers)) {
     answers += one.answers, runs += one.runs, unjudged += one.unjudged;
     slowest = std::max(slowest, one.mostSeconds);
     // Answers to other questions, in another order or number, now and then are right by chance.
@@ -132,12 +110,13 @@ int attack(const Arguments& arguments, const std::vector<RunnableCheck>& checks,
   fmt::print("{} answers in {} runs, {} not judged, at most {:.1f} s, {} faults\n", answers, runs, unjudged,
              slowest, faults);
   if (answers == 0) throw std::logic_error("no check asked anything");
-  return faults == 0 ? kFullScore : kBelowFullScore;
+  return faults == 0 ? ExitCode::kFull : ExitCode::kBelow;
 }
 
 // The points that each check gives for each lie, where it gives some: part, check, lie and points by tabs.
-int lie(const Arguments& arguments, const std::vector<RunnableCheck>& checks, const CallLayouts& layouts) {
-  const std::vector<LieOutcome> outcomes = tellLies(checks, arguments.grade, layouts);
+ExitCode lie(const Arguments& arguments, const std::vector<RunnableCheck>& checks,
+             const CallLayouts& layouts) {
+  const std::vector<LieOutcome> outcomes = tellLies(checks, arguments.job, arguments.signature, layouts);
   if (outcomes.empty()) throw std::logic_error("there are no checks");
   int points = 0;
   for (const LieOutcome& one : outcomes) {
@@ -145,49 +124,54 @@ int lie(const Arguments& arguments, const std::vector<RunnableCheck>& checks, co
     if (one.points > 0) fmt::print("{}\t{}\t{}\t{}\n", one.part, one.check, toString(one.lie), one.points);
   }
   fmt::print("{} checks, {} points for lies\n", checks.size(), points);
-  return kFullScore;
+  return ExitCode::kFull;
 }
 
-int complain(const std::string& message, int exitCode) {
+ExitCode complain(const std::string& message, ExitCode code) {
   fmt::print(stderr, "grader: {}\n", message);
-  return exitCode;
+  return code;
 }
 
-}  // namespace
-
-int runGrader(int argc, const char* const* argv, std::vector<RunnableCheck> checks, std::uint64_t signature,
-              const CallLayouts& layouts) {
+ExitCode run(int argc, const char* const* argv, std::vector<RunnableCheck> checks, std::uint64_t signature,
+             const CallLayouts& layouts) {
   CLI::App app("Grades one submission of an exercise.", "grader");
   Arguments arguments;
-  arguments.grade.signature = signature;
+  arguments.signature = signature;
   declareOptions(app, arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
     fmt::print("{}", app.help());
-    return kFullScore;
+    return ExitCode::kFull;
   } catch (const CLI::ParseError& error) {
-    return complain(error.what(), kUsage);
+    return complain(error.what(), ExitCode::kUsage);
   }
   try {
     requireUniqueIds(checks);
     if (arguments.list) {
       printList(checks);
-      return kFullScore;
+      return ExitCode::kFull;
     }
-    checks = select(checks, arguments.only);
+    checks = select(checks, arguments.job.checks);
   } catch (const Error& error) {
-    return complain(error.what(), kUsage);
+    return complain(error.what(), ExitCode::kUsage);
   } catch (const std::exception& error) {
-    return complain(error.what(), kGraderFault);
+    return complain(error.what(), ExitCode::kGraderFault);
   }
   try {
     if (arguments.hostileAnswers > 0) return attack(arguments, checks, layouts);
     if (arguments.lies) return lie(arguments, checks, layouts);
     return gradeAndSave(arguments, checks);
   } catch (const std::exception& error) {
-    return complain(error.what(), kGraderFault);
+    return complain(error.what(), ExitCode::kGraderFault);
   }
+}
+
+}  // namespace
+
+int runGrader(int argc, const char* const* argv, std::vector<RunnableCheck> checks, std::uint64_t signature,
+              const CallLayouts& layouts) {
+  return numberOf(run(argc, argv, std::move(checks), signature, layouts));
 }
 
 }  // namespace rex::grading

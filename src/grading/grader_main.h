@@ -9,11 +9,8 @@
 
 namespace rex::grading {
 
-/// Exit codes of a grader program.
-enum ExitCode { kFullScore = 0, kBelowFullScore = 1, kGraderFault = 3, kUsage = 64 };
-
-/// The whole main() of a grader program: `--help` lists its options. Prints messages on standard error, and
-/// on standard output nothing but what --list or --help asks for.
+/// The whole main() of a grader program, which returns an ExitCode: `--help` lists its options. Prints
+/// messages on standard error, and on standard output nothing but what --list or --help asks for.
 [[nodiscard]] int runGrader(int argc, const char* const* argv, std::vector<RunnableCheck> checks,
                             std::uint64_t signature, const CallLayouts& layouts);
 

@@ -31,32 +31,30 @@ struct Honest {
   Bytes arguments{}, answer{};
 };
 
+/// A job whose worker is the reference solution's, and the functions that it offers.
+struct Reference {
+  const GradingJob& job;
+  std::uint64_t signature = 0;
+};
+
 /// Those of each function.
 using Pool = std::map<std::uint32_t, std::vector<Honest>>;
 
-WorkerRun askWorker(const RunnableCheck& check, const GradeOptions& options,
-                    const std::function<void(Caller&)>& conversation) {
-  return runWithWorker({.program = workerOf(check.info.part, options.worker),
-                        .signature = options.signature,
-                        .limits = options.limits,
-                        .temporaryFolder = options.temporaryFolder},
-                       conversation);
-}
-
-Pool recordHonestAnswers(std::span<const RunnableCheck> checks, const GradeOptions& options) {
+Pool recordHonestAnswers(std::span<const RunnableCheck> checks, const Reference& reference) {
   constexpr std::size_t kMostOfOne = 64, kLongest = 4u << 20;
   Pool pool;
   for (const RunnableCheck& check : checks) {
-    Check judge(check.info, options.seed);
-    const WorkerRun run = askWorker(check, options, [&](Caller& caller) {
-      caller.tamperWithResults([&](std::uint32_t method, Caller::Bytes arguments, Caller::Bytes answer) {
-        std::vector<Honest>& known = pool[method];
-        if (known.size() < kMostOfOne && answer.size() + arguments.size() < kLongest)
-          known.push_back({copyOf(arguments), copyOf(answer)});
-        return answer;
-      });
-      static_cast<void>(judge.judge([&](Check& requirements) { check.run(requirements, caller); }));
-    });
+    Check judge(check.info, reference.job.seed);
+    const WorkerRun run =
+        runWithWorker(reference.job, check.info.part, reference.signature, [&](Caller& caller) {
+          caller.tamperWithResults([&](std::uint32_t method, Caller::Bytes arguments, Caller::Bytes answer) {
+            std::vector<Honest>& known = pool[method];
+            if (known.size() < kMostOfOne && answer.size() + arguments.size() < kLongest)
+              known.push_back({copyOf(arguments), copyOf(answer)});
+            return answer;
+          });
+          static_cast<void>(judge.judge([&](Check& requirements) { check.run(requirements, caller); }));
+        });
     if (run.failure)
       throw Error(
           {.what = "the reference solution fails in " + check.info.id, .found = run.failure->message});
@@ -106,11 +104,11 @@ class Liar {
   Rng rng_{};
 };
 
-int pointsFor(Liar liar, const RunnableCheck& check, const GradeOptions& options) {
-  Check judge(check.info, options.seed);
+int pointsFor(Liar liar, const RunnableCheck& check, const Reference& reference) {
+  Check judge(check.info, reference.job.seed);
   int points = 0;
   try {
-    static_cast<void>(askWorker(check, options, [&](Caller& caller) {
+    static_cast<void>(runWithWorker(reference.job, check.info.part, reference.signature, [&](Caller& caller) {
       caller.tamperWithResults([&](std::uint32_t method, Caller::Bytes arguments, Caller::Bytes honest) {
         return liar.tell(method, arguments, honest);
       });
@@ -123,9 +121,9 @@ int pointsFor(Liar liar, const RunnableCheck& check, const GradeOptions& options
 }
 
 // In a copy of this process, as in grades: who brings the grader down gets nothing.
-int pointsApart(const Liar& liar, const RunnableCheck& check, const GradeOptions& options) {
+int pointsApart(const Liar& liar, const RunnableCheck& check, const Reference& reference) {
   const IsolatedResult result =
-      callIsolated([&] { return std::to_string(pointsFor(liar, check, options)); }, kOneRun);
+      callIsolated([&] { return std::to_string(pointsFor(liar, check, reference)); }, kOneRun);
   return result.end == IsolatedEnd::kReturned ? std::stoi(result.bytes) : 0;
 }
 
@@ -216,10 +214,10 @@ std::string describe(const IsolatedResult& result) {
 
 }  // namespace
 
-std::vector<HostileOutcome> giveHostileAnswers(std::span<const RunnableCheck> checks,
-                                               const GradeOptions& options, const CallLayouts& layouts,
+std::vector<HostileOutcome> giveHostileAnswers(std::span<const RunnableCheck> checks, const GradingJob& job,
+                                               std::uint64_t signature, const CallLayouts& layouts,
                                                std::int64_t answers) {
-  const Pool pool = recordHonestAnswers(checks, options);
+  const Pool pool = recordHonestAnswers(checks, {job, signature});
   const auto each = static_cast<std::int64_t>(checks.size()) * static_cast<std::int64_t>(Hostility::count);
   const std::int64_t ofEach = (answers + each - 1) / std::max<std::int64_t>(1, each);
   std::vector<HostileOutcome> outcomes;
@@ -244,11 +242,11 @@ std::string toString(Lie lie) {
   return kNames.at(static_cast<std::size_t>(lie));
 }
 
-std::vector<LieOutcome> tellLies(std::span<const RunnableCheck> checks, const GradeOptions& options,
-                                 const CallLayouts& layouts) {
-  GradeOptions others = options;
+std::vector<LieOutcome> tellLies(std::span<const RunnableCheck> checks, const GradingJob& job,
+                                 std::uint64_t signature, const CallLayouts& layouts) {
+  GradingJob others = job;
   others.seed += 1000;  // constants that were right once
-  const Pool pool = recordHonestAnswers(checks, others);
+  const Pool pool = recordHonestAnswers(checks, {others, signature});
   std::vector<LieOutcome> outcomes;
   for (const RunnableCheck& check : checks)
     for (int k = 0; k < static_cast<int>(Lie::count); ++k) {
@@ -256,7 +254,7 @@ std::vector<LieOutcome> tellLies(std::span<const RunnableCheck> checks, const Gr
       outcomes.push_back({.check = check.info.id,
                           .part = check.info.part,
                           .lie = lie,
-                          .points = pointsApart(Liar(lie, pool, layouts), check, options)});
+                          .points = pointsApart(Liar(lie, pool, layouts), check, {job, signature})});
     }
   return outcomes;
 }

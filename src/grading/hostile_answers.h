@@ -28,10 +28,10 @@ struct HostileOutcome {
   std::string crash{};      ///< how the process ended; empty: it did not
 };
 
-/// Records what the reference solution's worker answers, then gives the checks at least `answers`
-/// hostile ones, as many of each kind to each check, without a worker, in copies of this process.
+/// Records what the job's worker, that of the reference solution, answers, then gives the checks at least
+/// `answers` hostile ones, as many of each kind to each check, without a worker, in copies of this process.
 [[nodiscard]] std::vector<HostileOutcome> giveHostileAnswers(std::span<const RunnableCheck> checks,
-                                                             const GradeOptions& options,
+                                                             const GradingJob& job, std::uint64_t signature,
                                                              const CallLayouts& layouts,
                                                              std::int64_t answers);
 
@@ -49,7 +49,7 @@ struct LieOutcome {
 };
 
 /// Has the reference solution's worker tell each lie to each check.
-[[nodiscard]] std::vector<LieOutcome> tellLies(std::span<const RunnableCheck> checks,
-                                               const GradeOptions& options, const CallLayouts& layouts);
+[[nodiscard]] std::vector<LieOutcome> tellLies(std::span<const RunnableCheck> checks, const GradingJob& job,
+                                               std::uint64_t signature, const CallLayouts& layouts);
 
 }  // namespace rex::grading

@@ -50,14 +50,13 @@ void setLimit(__rlimit_resource resource, rlim_t soft, rlim_t hard) {
   ::setrlimit(resource, &limit);
 }
 
-void setLimits(const WorkerLimits& limits) {
+void setLimits(const Limits& limits) {
   const auto cpu = static_cast<rlim_t>(limits.cpuBudget());
   setLimit(RLIMIT_CPU, cpu, cpu + 1);
   setLimit(RLIMIT_FSIZE, kFileBytes, kFileBytes);
   setLimit(RLIMIT_NOFILE, kOpenFiles, kOpenFiles);
   setLimit(RLIMIT_CORE, 0, 0);
-  const rlim_t memory = static_cast<rlim_t>(limits.memoryMegabytes) << 20;
-  if (kLimitMemory && !limits.sanitized) setLimit(RLIMIT_AS, memory, memory);
+  if (kLimitMemory && !limits.sanitized) setLimit(RLIMIT_AS, limits.memory, limits.memory);
 }
 
 // What the new process needs, prepared before the fork: behind it only async-signal-safe calls are allowed.

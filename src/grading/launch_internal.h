@@ -6,7 +6,7 @@
 
 #include <sys/types.h>
 
-#include "grading/worker_limits.h"
+#include "grading/limits.h"
 #include "sandbox/level.h"
 
 namespace rex::grading {
@@ -27,7 +27,7 @@ struct LaunchOrder {
   std::vector<std::string> command{};  ///< path and arguments; one path alone runs under the name "worker"
   std::string name{};                  ///< of the program, in messages
   std::filesystem::path folder{};      ///< to work in
-  WorkerLimits limits{};               ///< set here at level 0, by the launcher above
+  Limits limits{};                     ///< set here at level 0, by the launcher above
   sandbox::Level level = sandbox::Level::kLimitsOnly;
 };
 

@@ -94,8 +94,8 @@ Json resultToJson(const GradeResult& result) {
           {"limits",
            {{"cpu_ms", milliseconds(result.limits.cpuSeconds)},
             {"wall_ms", milliseconds(result.limits.wallBudget())},
-            {"memory_bytes", static_cast<std::int64_t>(result.limits.memoryMegabytes) << 20},
-            {"output_bytes", static_cast<std::int64_t>(result.limits.outputMegabytes) << 20}}},
+            {"memory_bytes", result.limits.memory},
+            {"output_bytes", result.limits.output}}},
           {"stdout", result.output.text},
           {"stderr", result.error.text},
           {"volatile", volatileToJson(result)}};
@@ -205,16 +205,12 @@ CompileResult readCompile(const Fields& fields) {
   return compile;
 }
 
-WorkerLimits readLimits(const Fields& fields) {
-  WorkerLimits limits;
-  std::int64_t memory = static_cast<std::int64_t>(limits.memoryMegabytes) << 20;
-  std::int64_t output = static_cast<std::int64_t>(limits.outputMegabytes) << 20;
+Limits readLimits(const Fields& fields) {
+  Limits limits;
   fields.readMilliseconds("cpu_ms", limits.cpuSeconds);
   fields.readMilliseconds("wall_ms", limits.wallSeconds);
-  fields.read("memory_bytes", memory);
-  fields.read("output_bytes", output);
-  limits.memoryMegabytes = static_cast<int>(memory >> 20);
-  limits.outputMegabytes = static_cast<int>(output >> 20);
+  fields.read("memory_bytes", limits.memory);
+  fields.read("output_bytes", limits.output);
   return limits;
 }
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "grading/limits.h"
 #include "grading/outcome.h"
-#include "grading/worker_limits.h"
 
 namespace rex::grading {
 
@@ -105,7 +105,7 @@ struct GradeResult {
   int maxScore = 0;
   std::vector<CheckResult> checks{};
   CompileResult compile{};
-  WorkerLimits limits{};
+  Limits limits{};
   KeptOutput output{};  ///< of visible checks
   KeptOutput error{};
   Usage usage{};  ///< volatile

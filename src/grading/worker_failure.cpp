@@ -16,15 +16,15 @@ namespace {
 
 constexpr int kLoaderFailed = 127;
 
-Failure tooSlow(const WorkerEnd& end, const WorkerLimits& limits) {
+Failure tooSlow(const WorkerEnd& end, const Limits& limits) {
   return {.outcome = Outcome::timeLimit,
           .message = fmt::format("stopped after {:.1f} s of CPU time {}", limits.cpuBudget(),
                                  placeOf(end.ready, end.function))};
 }
 
-Failure tooMuchMemory(const WorkerLimits& limits, const std::string& place) {
+Failure tooMuchMemory(const Limits& limits, const std::string& place) {
   return {.outcome = Outcome::memoryLimit,
-          .message = fmt::format("used more than {} MB of memory {}", limits.memoryMegabytes, place)};
+          .message = fmt::format("used more than {} MB of memory {}", limits.memory / kMegabyte, place)};
 }
 
 // The runtime names the exception that nobody caught; without memory it cannot even spell the name out. The
@@ -37,17 +37,17 @@ bool ranOutOfMemory(const std::string& errorTail) {
                      [&](const char* sign) { return errorTail.find(sign) != std::string::npos; });
 }
 
-Failure badAccess(const WorkerEnd& end, const WorkerLimits& limits) {
+Failure badAccess(const WorkerEnd& end, const Limits& limits) {
   const std::string message = "crashed with a segmentation fault " + placeOf(end.ready, end.function);
   if (end.ready) return {.message = message + " (an index out of range, or a recursion without end?)"};
   // The kernel also kills a program whose globals do not fit while it is being loaded.
   return {.message =
               fmt::format("{} (in the constructor of a global variable, or do the global variables need more "
                           "than {} MB?)",
-                          message, limits.memoryMegabytes)};
+                          message, limits.memory / kMegabyte)};
 }
 
-Failure explainSignal(const WorkerEnd& end, const WorkerLimits& limits) {
+Failure explainSignal(const WorkerEnd& end, const Limits& limits) {
   const std::string place = placeOf(end.ready, end.function);
   if (end.outOfMemory) return tooMuchMemory(limits, place);
   switch (WTERMSIG(end.status)) {
@@ -91,7 +91,7 @@ bool tellsOfCrash(std::string_view message) {
          message.starts_with("was ended by signal ");
 }
 
-Failure explainEnd(const WorkerEnd& end, const WorkerLimits& limits) {
+Failure explainEnd(const WorkerEnd& end, const Limits& limits) {
   if (WIFSIGNALED(end.status)) return explainSignal(end, limits);
   const int code = WEXITSTATUS(end.status);
   const std::string place = placeOf(end.ready, end.function);
@@ -103,7 +103,7 @@ Failure explainEnd(const WorkerEnd& end, const WorkerLimits& limits) {
   return {.message = fmt::format("called exit({}) {}{}", code, place, hint)};
 }
 
-Failure explainThrow(const remote::RemoteThrow& error, const WorkerLimits& limits) {
+Failure explainThrow(const remote::RemoteThrow& error, const Limits& limits) {
   const remote::Thrown& thrown = error.thrown();
   if (thrown.kind == remote::Thrown::Kind::badAlloc) {
     Failure failure = tooMuchMemory(limits, placeOf(true, error.function()));

@@ -3,8 +3,8 @@
 #include <string>
 #include <string_view>
 
+#include "grading/limits.h"
 #include "grading/outcome.h"
-#include "grading/worker_limits.h"
 #include "remote/thrown.h"
 
 namespace rex::grading {
@@ -35,7 +35,7 @@ struct WorkerEnd {
 /// Whether a message of ours reports a crash, for which a second look with the sanitizers may find the line.
 [[nodiscard]] bool tellsOfCrash(std::string_view message);
 
-[[nodiscard]] Failure explainEnd(const WorkerEnd& end, const WorkerLimits& limits);
-[[nodiscard]] Failure explainThrow(const remote::RemoteThrow& error, const WorkerLimits& limits);
+[[nodiscard]] Failure explainEnd(const WorkerEnd& end, const Limits& limits);
+[[nodiscard]] Failure explainThrow(const remote::RemoteThrow& error, const Limits& limits);
 
 }  // namespace rex::grading

@@ -81,37 +81,37 @@ pid_t childOf(pid_t process) {
   return file >> child ? child : process;
 }
 
-sandbox::Confinement confinementOf(const WorkerOptions& options) {
-  if (!sandbox::isConfined(options.sandbox.level)) return {};
+sandbox::Confinement confinementOf(const GradingJob& job, const fs::path& program) {
+  if (!sandbox::isConfined(job.sandbox.level)) return {};
   constexpr std::size_t kFileBytes = 64u << 20;
-  sandbox::Confinement confinement{.readable = {{fs::absolute(options.program), sandbox::kInsideProgram}},
-                                   .cpuSeconds = options.limits.cpuBudget(),
-                                   .addressSpace = static_cast<std::size_t>(options.limits.memoryMegabytes)
-                                                   << 20,
+  sandbox::Confinement confinement{.readable = {{fs::absolute(program), sandbox::kInsideProgram}},
+                                   .cpuSeconds = job.limits.cpuBudget(),
+                                   .addressSpace = job.limits.memory,
                                    .fileSize = kFileBytes,
                                    .reports = true};
-  for (const fs::path& library : options.libraries) confinement.readable.push_back({library, library});
+  for (const fs::path& library : job.libraries) confinement.readable.push_back({library, library});
   return confinement;
 }
 
-LaunchOrder orderOf(const WorkerOptions& options, const sandbox::Cell& cell, const fs::path& folder) {
-  const std::string program = fs::absolute(options.program).string();
-  const sandbox::Level level = options.sandbox.level;
-  return {.command = sandbox::isConfined(level) ? cell.command({program}) : std::vector{program},
-          .name = options.program.string(),
+LaunchOrder orderOf(const GradingJob& job, const fs::path& program, const sandbox::Cell& cell,
+                    const fs::path& folder) {
+  const std::string whole = fs::absolute(program).string();
+  const sandbox::Level level = job.sandbox.level;
+  return {.command = sandbox::isConfined(level) ? cell.command({whole}) : std::vector{whole},
+          .name = program.string(),
           .folder = folder,
-          .limits = options.limits,
+          .limits = job.limits,
           .level = level};
 }
 
 class Worker {
  public:
-  explicit Worker(const WorkerOptions& options);
+  Worker(const GradingJob& job, const fs::path& program);
   ~Worker();
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
-  void converse(const std::function<void(remote::Caller&)>& conversation);
+  void converse(std::uint64_t signature, const std::function<void(remote::Caller&)>& conversation);
   Failure explain(const remote::Closed& reason);
   Failure explain(const remote::ProtocolError& reason) const;
   /// Ends the worker and all it left behind, and says what it used.
@@ -131,7 +131,7 @@ class Worker {
   void killAll();
   std::string place() const { return placeOf(ready_, caller_.running()); }
 
-  const WorkerOptions& options_;
+  const GradingJob& job_;
   SigpipeIgnored sigpipe_;
   OneCore core_;
   NewDescendants descendants_;
@@ -143,7 +143,7 @@ class Worker {
   remote::Caller caller_;
   double coreless_ = secondsWithoutCore(::getpid());
   double waited_ = 0;
-  double allowed_ = options_.limits.wallBudget();
+  double allowed_ = job_.limits.wallBudget();
   bool ready_ = false;
   bool reaped_ = false;
   bool over_ = false;
@@ -153,11 +153,11 @@ class Worker {
 };
 
 // The ids of the messages have no influence on any result; the worker must not foresee them.
-Worker::Worker(const WorkerOptions& options)
-    : options_(options),
-      cell_(options.sandbox, confinementOf(options)),
-      folder_(options.temporaryFolder),
-      launched_(launchWorker(orderOf(options, cell_, folder_.path()))),
+Worker::Worker(const GradingJob& job, const fs::path& program)
+    : job_(job),
+      cell_(job.sandbox, confinementOf(job, program)),
+      folder_(job.temporaryFolder),
+      launched_(launchWorker(orderOf(job, program, cell_, folder_.path()))),
       output_(launched_.output),
       error_(launched_.error),
       caller_(
@@ -171,8 +171,8 @@ Worker::~Worker() {
     if (fd >= 0) ::close(fd);
 }
 
-void Worker::converse(const std::function<void(remote::Caller&)>& conversation) {
-  caller_.handshake(options_.signature);
+void Worker::converse(std::uint64_t signature, const std::function<void(remote::Caller&)>& conversation) {
+  caller_.handshake(signature);
   ready_ = true;
   conversation(caller_);
 }
@@ -182,9 +182,9 @@ void Worker::converse(const std::function<void(remote::Caller&)>& conversation) 
 double Worker::secondsLeft() {
   if (waited_ < allowed_) return allowed_ - waited_;
   constexpr double kMostPatience = 4;
-  const double budget = options_.limits.wallBudget();
-  const pid_t worker = sandbox::hasNamespaces(options_.sandbox.level) ? childOf(childOf(launched_.process))
-                                                                      : launched_.process;
+  const double budget = job_.limits.wallBudget();
+  const pid_t worker =
+      sandbox::hasNamespaces(job_.sandbox.level) ? childOf(childOf(launched_.process)) : launched_.process;
   const double coreless = secondsWithoutCore(worker) + secondsWithoutCore(::getpid()) - coreless_;
   allowed_ = std::min(budget + coreless, kMostPatience * budget);
   return allowed_ - waited_;
@@ -203,7 +203,7 @@ void Worker::waitFor(int fd, remote::Channel::Direction direction) {
       throw GaveUp(
           {.outcome = Outcome::timeLimit,
            .message = fmt::format("stopped after {:.1f} s {} (asleep, blocked, or in a loop without end?)",
-                                  options_.limits.wallBudget(), place())});
+                                  job_.limits.wallBudget(), place())});
     std::array<pollfd, 4> polled{{{fd, events, 0},
                                   {launched_.processFd, POLLIN, 0},
                                   {output_.fd(), POLLIN, 0},
@@ -220,10 +220,10 @@ void Worker::waitFor(int fd, remote::Channel::Direction direction) {
 void Worker::drain() {
   output_.drain();
   error_.drain();
-  const int limit = options_.limits.outputMegabytes;
-  if (output_.total() + error_.total() > static_cast<std::uint64_t>(limit) << 20)
+  const std::size_t limit = job_.limits.output;
+  if (output_.total() + error_.total() > limit)
     throw GaveUp({.outcome = Outcome::outputLimit,
-                  .message = fmt::format("printed more than {} MB {}", limit, place())});
+                  .message = fmt::format("printed more than {} MB {}", limit / kMegabyte, place())});
 }
 
 void Worker::reap(int flags) {
@@ -266,7 +266,7 @@ bool Worker::saidItsEnd() {
 // How the program ended, which its launcher knows where it is between us. A launcher that fell before the
 // program started is a fault of ours; one that fell later was pulled down by the program.
 int Worker::trueStatus() {
-  const sandbox::Level level = options_.sandbox.level;
+  const sandbox::Level level = job_.sandbox.level;
   if (!sandbox::isConfined(level)) return status_;
   readReport();
   const sandbox::Report report = sandbox::readReport(report_);
@@ -287,7 +287,7 @@ Failure Worker::explain(const remote::Closed& reason) {
                      .function = caller_.running(),
                      .errorTail = error_.tail(),
                      .outOfMemory = cell_.ranOutOfMemory()},
-                    options_.limits);
+                    job_.limits);
 }
 
 Failure Worker::explain(const remote::ProtocolError& reason) const {
@@ -321,18 +321,18 @@ WorkerRun Worker::end() {
 
 }  // namespace
 
-WorkerRun runWithWorker(const WorkerOptions& options,
+WorkerRun runWithWorker(const GradingJob& job, const std::string& part, std::uint64_t signature,
                         const std::function<void(remote::Caller&)>& conversation) {
-  Worker worker(options);
+  Worker worker(job, workerOf(part, job.worker));
   std::optional<Failure> failure;
   try {
-    worker.converse(conversation);
+    worker.converse(signature, conversation);
   } catch (const remote::Closed& reason) {
     failure = worker.explain(reason);
   } catch (const remote::ProtocolError& reason) {
     failure = worker.explain(reason);
   } catch (const remote::RemoteThrow& error) {
-    failure = explainThrow(error, options.limits);
+    failure = explainThrow(error, job.limits);
   }
   if (failure && failure->function.empty()) failure->function = worker.running();
   WorkerRun run = worker.end();

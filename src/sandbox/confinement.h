@@ -24,9 +24,9 @@ struct Confinement {
   std::vector<std::string> environment{};  ///< NAME=VALUE, all there are
   bool mayStartProgramsOfItsOwn = false;   ///< compilers do; without reports, kReady opens standard error
   double cpuSeconds = 0;                   ///< of each process, rounded up; 0: no limit
-  double wallSeconds = 0;                  ///< levels 2 and 3 end it then with kTimedOut; 0: no limit
-  std::size_t addressSpace = 0;            ///< bytes of each process; 0: no limit
-  std::size_t fileSize = 0;                ///< bytes of the largest file; 0: no limit
+  double wallSeconds = 0;        ///< levels 2 and 3 end it then with ExitCode::kTimedOut; 0: no limit
+  std::size_t addressSpace = 0;  ///< bytes of each process; 0: no limit
+  std::size_t fileSize = 0;      ///< bytes of the largest file; 0: no limit
   int openFiles = 64;
   int processes = 64;              ///< and threads, where the machine can count those of this program alone
   std::optional<unsigned> user{};  ///< to become; only root can
@@ -41,10 +41,6 @@ inline constexpr const char* kInsideFolder = "/tmp";
 /// Where the launcher says what became of the program, if it should: see report.h. The program never holds
 /// it.
 inline constexpr int kReport = 5;
-
-/// Exit codes of the launcher when it cannot start the program, and when the program had to be stopped.
-inline constexpr int kNotStarted = 125;
-inline constexpr int kTimedOut = 124;
 
 /// The options of the launcher for a confinement, and back. Throws Error for others.
 [[nodiscard]] std::vector<std::string> toArguments(const Confinement& confinement);

@@ -22,6 +22,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/exit_code.h"
 #include "sandbox/bubblewrap.h"
 #include "sandbox/confinement.h"
 #include "sandbox/hidden_words.h"
@@ -254,7 +255,7 @@ int runInside(const Order& order) {
       becomeInside(order);
     } catch (const Error& error) {
       complain(order.confinement, error.what());
-      ::_exit(kNotStarted);
+      ::_exit(numberOf(ExitCode::kNotStarted));
     }
   }
   // The ends of pipes are the program's alone: its closing them must be seen.
@@ -262,7 +263,7 @@ int runInside(const Order& order) {
   bool timedOut = false;
   const int status = waitFor(child, order.confinement.wallSeconds, timedOut);
   report(order.confinement, endLine(status));
-  if (timedOut) return kTimedOut;
+  if (timedOut) return numberOf(ExitCode::kTimedOut);
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
@@ -288,7 +289,7 @@ int confine(std::vector<std::string> arguments) {
     return inside ? runInside(order) : run(order, arguments);
   } catch (const std::exception& error) {
     complain(order.confinement, error.what());
-    return kNotStarted;
+    return numberOf(ExitCode::kNotStarted);
   }
 }
 

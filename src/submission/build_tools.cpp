@@ -11,6 +11,7 @@
 #include <sys/stat.h>
 
 #include "base/error.h"
+#include "base/exit_code.h"
 #include "base/once_more.h"
 #include "base/text_file.h"
 #include "sandbox/report.h"
@@ -107,7 +108,8 @@ ProcessResult BuildTools::runConfined(const std::vector<std::string>& command,
       .directory = options.directory, .timeout = options.timeout, .outputLimit = options.outputLimit};
   if (hasNamespaces(level_)) patient.timeout += 5;
   ProcessResult result = runProcess(cell_.command(command), patient);
-  result.timedOut = result.timedOut || (hasNamespaces(level_) && result.exitCode == sandbox::kTimedOut);
+  result.timedOut =
+      result.timedOut || (hasNamespaces(level_) && result.exitCode == numberOf(ExitCode::kTimedOut));
   const std::string_view ready = sandbox::kReady;
   if (!result.started || !result.error.starts_with(ready))
     throw Error(

@@ -13,12 +13,12 @@ namespace {
 
 using std::filesystem::path;
 
-ExerciseLimits readLimits(const TomlTable& table) {
+Limits readLimits(const TomlTable& table) {
   table.refuseKeysBut({"cpu_seconds", "memory_mb", "output_mb"});
-  ExerciseLimits limits;
+  Limits limits;
   if (table.has("cpu_seconds")) limits.cpuSeconds = table.number("cpu_seconds", 0, 3600);
-  if (table.has("memory_mb")) limits.memoryMb = table.integer("memory_mb", 64, 65536);
-  if (table.has("output_mb")) limits.outputMb = table.integer("output_mb", 1, 1024);
+  if (table.has("memory_mb")) limits.memory = kMegabyte * table.integer("memory_mb", 64, 65536);
+  if (table.has("output_mb")) limits.output = kMegabyte * table.integer("output_mb", 1, 1024);
   return limits;
 }
 

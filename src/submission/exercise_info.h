@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "grading/limits.h"
+
 namespace rex::grading {
 
 /// One part of an exercise: what a student completes for points.
@@ -27,13 +29,6 @@ struct ForbiddenFunction {
   std::string part{};  ///< with a worker of its own, in which it is not; empty: it is in none
 };
 
-/// What student code may use in one run of the checks.
-struct ExerciseLimits {
-  double cpuSeconds = 10;
-  int memoryMb = 1024;
-  int outputMb = 16;
-};
-
 /// When `rex solution` shows the reference solution, where solution.cpp was handed out.
 enum class SolutionRule { never, afterPass, always };
 
@@ -44,7 +39,7 @@ struct ExerciseInfo {
   std::string title;
   std::string script;  ///< section of the course script
   SolutionRule solution = SolutionRule::never;
-  ExerciseLimits limits;
+  Limits limits;
   std::vector<ExercisePart> parts;
   std::vector<std::string>
       allowed;  ///< what graded functions may call of the library: see allowedFunctions()

@@ -10,6 +10,7 @@
 
 #include "base/lines.h"
 #include "base/text_file.h"
+#include "grading/limits.h"
 
 namespace rex::grading {
 namespace {
@@ -114,9 +115,9 @@ std::optional<CrashSite> crashSiteIn(std::string_view standardError, const std::
 }
 
 Toolchain sanitizedToolchain(const Toolchain& toolchain, const std::filesystem::path& folder,
-                             int memoryMegabytes) {
+                             std::size_t memory) {
   const std::filesystem::path header = folder / "sanitizer_options.h";
-  writeTextFile(header, fmt::format("#pragma once\n#define REX_MEMORY_MEGABYTES \"{}\"", memoryMegabytes) +
+  writeTextFile(header, fmt::format("#pragma once\n#define REX_MEMORY_MEGABYTES \"{}\"", memory / kMegabyte) +
                             kOptionsHeader);
   constexpr const char* kSanitizers = "-fsanitize=address,undefined";
   Toolchain sanitized = toolchain;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -23,9 +24,9 @@ struct CrashSite {
                                                    const std::string& mainFile);
 
 /// How to build the same program for the sanitizers of addresses and of undefined behaviour: it ends with a
-/// report at the first finding, some twenty times slower, and ends itself when it holds more memory. Writes a
-/// header into `folder`, which must exist as long as the result is used.
+/// report at the first finding, some twenty times slower, and ends itself when it holds more bytes of memory.
+/// Writes a header into `folder`, which must exist as long as the result is used.
 [[nodiscard]] Toolchain sanitizedToolchain(const Toolchain& toolchain, const std::filesystem::path& folder,
-                                           int memoryMegabytes);
+                                           std::size_t memory);
 
 }  // namespace rex::grading

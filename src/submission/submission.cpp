@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/exit_code.h"
 #include "base/printable.h"
 #include "base/process.h"
 #include "base/sha256.h"
@@ -25,11 +26,10 @@ namespace {
 
 using std::filesystem::path;
 
-constexpr int kGraderFault = 3;  // it explains itself in the result
 constexpr double kLongestGrading = 3600;
 // A program with the sanitizers is slow, and keeps a record of its memory and some of what it gave back.
 constexpr double kSanitizedSlowness = 20;
-constexpr int kSanitizedFactor = 2, kKeptBackMegabytes = 256;
+constexpr std::size_t kSanitizedFactor = 2, kKeptBack = 256 * kMegabyte;
 
 // "c++ (Debian 12.2.0-14) 12.2.0", or the name alone of a compiler that does not run.
 std::string compilerVersion(const std::string& compiler) {
@@ -49,41 +49,31 @@ GradeResult startResult(const Toolchain& toolchain, const ExerciseInfo& exercise
   result.toolVersion = REX_VERSION;
   result.compiler = compilerVersion(toolchain.compiler);
   result.compile = {object.exitCode, object.messages, object.truncated};
-  result.limits.cpuSeconds = exercise.limits.cpuSeconds;
-  result.limits.memoryMegabytes = exercise.limits.memoryMb;
-  result.limits.outputMegabytes = exercise.limits.outputMb;
+  result.limits = exercise.limits;
   return result;
 }
 
-std::vector<std::string> graderCommand(const Toolchain& toolchain, const ExerciseInfo& exercise,
-                                       const SubmissionOptions& options, const path& worker) {
-  std::vector<std::string> command = {toolchain.grader.string(), "--results", options.results.string(),
-                                      "--temporary", options.workFolder.string()};
-  if (!worker.empty()) command.insert(command.end(), {"--worker", worker.string()});
-  for (const std::string& check : options.checks) command.insert(command.end(), {"--check", check});
-  if (options.seed) command.insert(command.end(), {"--seed", fmt::format("{}", *options.seed)});
-  if (isConfined(options.sandbox.level)) {
-    command.insert(command.end(), {"--level", fmt::format("{}", numberOf(options.sandbox.level)), "--sandbox",
-                                   options.sandbox.launcher.string()});
-    if (options.sanitize || toolchain.workerPart.empty())
-      for (const path& library : toolchain.libraries)
-        command.insert(command.end(), {"--library", library.string()});
-  }
-  if (!options.evidence.empty()) command.insert(command.end(), {"--evidence", options.evidence.string()});
-  if (options.sanitize) command.emplace_back("--sanitized");
-  if (options.processors > 1)
-    command.insert(command.end(), {"--jobs", fmt::format("{}", options.processors)});
-  if (!options.secret.empty()) command.insert(command.end(), {"--secret", options.secret.string()});
-  command.insert(command.end(), {"--cpu-seconds", fmt::format("{:g}", exercise.limits.cpuSeconds),
-                                 "--memory-mb", fmt::format("{}", exercise.limits.memoryMb), "--output-mb",
-                                 fmt::format("{}", exercise.limits.outputMb)});
-  return command;
+Limits withSanitizers(Limits limits) {
+  limits.cpuSeconds *= kSanitizedSlowness;
+  limits.memory = kSanitizedFactor * limits.memory + kKeptBack;
+  limits.sanitized = true;
+  return limits;
 }
 
-ExerciseInfo withLimitsOfSanitizers(ExerciseInfo exercise) {
-  exercise.limits.cpuSeconds *= kSanitizedSlowness;
-  exercise.limits.memoryMb = kSanitizedFactor * exercise.limits.memoryMb + kKeptBackMegabytes;
-  return exercise;
+GradingJob jobOf(const Toolchain& toolchain, const ExerciseInfo& exercise, const SubmissionOptions& options,
+                 const path& worker) {
+  GradingJob job = options.job;
+  job.worker = worker;
+  job.temporaryFolder = options.workFolder;
+  job.limits = options.sanitize ? withSanitizers(exercise.limits) : exercise.limits;
+  if (options.sanitize || toolchain.workerPart.empty()) job.libraries = toolchain.libraries;
+  return job;
+}
+
+std::vector<std::string> graderCommand(const Toolchain& toolchain, const GradingJob& job) {
+  std::vector<std::string> command = toArguments(job);
+  command.insert(command.begin(), toolchain.grader.string());
+  return command;
 }
 
 // Runs the grader and reads what it wrote; a grader that breaks is our fault and says so in the result. One
@@ -93,9 +83,10 @@ GradeResult callGrader(const std::vector<std::string>& command, const path& resu
   const ProcessResult run = runProcess(command, {.timeout = kLongestGrading});
   const std::string said = run.error.substr(0, run.error.find_last_not_of('\n') + 1);
   GradeResult result = loadResult(results);
-  if (run.exitCode != 0 && run.exitCode != 1) {
+  if (run.exitCode != numberOf(ExitCode::kFull) && run.exitCode != numberOf(ExitCode::kBelow)) {
     result.outcome = Outcome::graderError;
-    if (run.exitCode != kGraderFault || result.message.empty())
+    // One that reports a fault of its own explains it in the result.
+    if (run.exitCode != numberOf(ExitCode::kGraderFault) || result.message.empty())
       result.message =
           fmt::format("the grader failed (exit code {}, signal {}): {}", run.exitCode, run.signal, said);
     saveResult(result, results);
@@ -122,7 +113,7 @@ Toolchain sanitized(const Toolchain& toolchain, const ExerciseInfo& exercise,
                     const SubmissionOptions& options) {
   std::filesystem::create_directories(options.workFolder);
   return sanitizedToolchain(toolchain, std::filesystem::absolute(options.workFolder),
-                            withLimitsOfSanitizers(exercise).limits.memoryMb);
+                            withSanitizers(exercise.limits).memory);
 }
 
 StudentObject compileAsAsked(const Toolchain& toolchain, const ExerciseInfo& exercise,
@@ -133,8 +124,8 @@ StudentObject compileAsAsked(const Toolchain& toolchain, const ExerciseInfo& exe
                             .publicHeadersOnly = true,
                             .graded = true,
                             .seconds = options.compileSeconds,
-                            .sandbox = options.sandbox,
-                            .part = options.processors > 1};
+                            .sandbox = options.job.sandbox,
+                            .part = options.job.jobs > 1};
   if (!options.sanitize) return compileStudent(toolchain, exercise.forbidden, build);
   // Unoptimised, inline functions of the library that main() uses refer to what is forbidden outside of it.
   build.seconds = kSanitizedSeconds;
@@ -146,12 +137,12 @@ void compileAndLink(const Toolchain& toolchain, const ExerciseInfo& exercise,
                     const SubmissionOptions& options, BuiltSubmission& built) {
   const StudentObject object = compileAsAsked(toolchain, exercise, options);
   built.start = startResult(toolchain, exercise, object);
-  setSandbox(built.start, options.sandbox.level);
+  setSandbox(built.start, options.job.sandbox.level);
   built.source = object.source;
   std::string log = object.log;
   auto& diagnostics = built.start.compile.diagnostics;
   if (object.ok) {
-    const StudentProgram linked = linkWorker(toolchain, object, options.sandbox);
+    const StudentProgram linked = linkWorker(toolchain, object, options.job.sandbox);
     if (linked.ok) built.worker = linked.program;
     diagnostics.insert(diagnostics.end(), linked.messages.begin(), linked.messages.end());
     log += linked.log;
@@ -160,7 +151,7 @@ void compileAndLink(const Toolchain& toolchain, const ExerciseInfo& exercise,
     built.start.outcome = Outcome::compileError;
     built.start.message = firstError(diagnostics);
   }
-  writeTextFile(options.results.parent_path() / "build.log", log);
+  writeTextFile(options.job.results.parent_path() / "build.log", log);
 }
 
 // What the sanitizers see in one check of a build with them.
@@ -168,15 +159,15 @@ std::optional<CrashSite> crashSiteOf(const Toolchain& toolchain, const ExerciseI
                                      const SubmissionOptions& options, const path& worker,
                                      const std::string& check, const std::string& mainFile) {
   SubmissionOptions one = options;
-  one.checks = {check};
-  one.processors = 1;
-  one.evidence.clear();
-  one.results = options.workFolder / "second-look.json";
-  std::filesystem::remove(one.results);
-  const ExerciseInfo limited = withLimitsOfSanitizers(exercise);
+  one.job.checks = {check};
+  one.job.jobs = 1;
+  one.job.evidence.clear();
+  one.job.results = options.workFolder / "second-look.json";
+  std::filesystem::remove(one.job.results);
+  const GradingJob job = jobOf(toolchain, exercise, one, worker);
   const NewDescendants workers;
-  static_cast<void>(runProcess(graderCommand(toolchain, limited, one, worker), {.timeout = kLongestGrading}));
-  return crashSiteIn(loadResult(one.results).error.text, mainFile);
+  static_cast<void>(runProcess(graderCommand(toolchain, job), {.timeout = kLongestGrading}));
+  return crashSiteIn(loadResult(job.results).error.text, mainFile);
 }
 
 // Builds the same file with the sanitizers and repeats the visible checks that crashed, to say where. The
@@ -189,11 +180,11 @@ void findCrashes(const Toolchain& toolchain, const ExerciseInfo& exercise, const
     if (check.group == Group::visible && tellsOfCrash(check.message)) crashed.push_back(&check);
   if (crashed.size() > kMostRepeated) crashed.resize(kMostRepeated);
   // The sanitizers read and map what a sandbox forbids.
-  if (crashed.empty() || isConfined(options.sandbox.level)) return;
+  if (crashed.empty() || isConfined(options.job.sandbox.level)) return;
   SubmissionOptions again = options;
   again.sanitize = true;
   again.workFolder = options.workFolder / "second-look";
-  again.results = again.workFolder / "results.json";
+  again.job.results = again.workFolder / "results.json";
   try {
     const BuiltSubmission built = options.sanitize ? graded : buildSubmission(toolchain, exercise, again);
     std::filesystem::create_directories(again.workFolder);
@@ -229,19 +220,19 @@ BuiltSubmission buildSubmission(const Toolchain& toolchain, const ExerciseInfo& 
 
 GradeResult gradeBuilt(const BuiltSubmission& built, const Toolchain& toolchain, const ExerciseInfo& exercise,
                        const SubmissionOptions& options) {
-  saveResult(built.start, options.results);
-  const ExerciseInfo limited = options.sanitize ? withLimitsOfSanitizers(exercise) : exercise;
-  GradeResult result = callGrader(graderCommand(toolchain, limited, options, built.worker), options.results);
+  const GradingJob job = jobOf(toolchain, exercise, options, built.worker);
+  saveResult(built.start, job.results);
+  GradeResult result = callGrader(graderCommand(toolchain, job), job.results);
   if (built.worker.empty()) return result;
   for (CheckResult& check : result.checks) check.line = definitionLineOf(check.function, built.source);
   if (options.lookAgain || options.sanitize) findCrashes(toolchain, exercise, options, built, result);
-  saveResult(result, options.results);
+  saveResult(result, job.results);
   return result;
 }
 
 Submission gradeSubmission(const Toolchain& toolchain, const ExerciseInfo& exercise,
                            const SubmissionOptions& options) {
-  requireKnownChecks(toolchain, options.checks);
+  requireKnownChecks(toolchain, options.job.checks);
   const BuiltSubmission built = buildSubmission(toolchain, exercise, options);
   return {gradeBuilt(built, toolchain, exercise, options), built.source};
 }

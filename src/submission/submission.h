@@ -1,34 +1,26 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "grading/grading_job.h"
 #include "grading/results.h"
-#include "sandbox/cell.h"
 #include "submission/exercise_info.h"
 #include "submission/toolchain.h"
 
 namespace rex::grading {
 
-/// What to grade and where to keep the result.
+/// What to grade, and how.
 struct SubmissionOptions {
   std::filesystem::path main;        ///< the student's file
   std::filesystem::path workFolder;  ///< for objects and the worker; two gradings need two
-  std::filesystem::path results;     ///< results.json; build.log is written beside it
-  std::vector<std::string> checks;   ///< ids; empty: all
-  std::optional<std::uint64_t> seed{};
-  std::filesystem::path
-      evidence{};              ///< folder for pictures of checks that do not hold, made anew; empty: none
+  /// Its sandbox is also that of compilers, which keep as many processors busy as it has jobs; build.log is
+  /// written beside its results. Worker, limits, libraries and temporary folder are set here.
+  GradingJob job{};
   bool lookAgain = false;      ///< after a crash in a visible check, find its line with the sanitizers
   bool sanitize = false;       ///< grade a build with the sanitizers, with twenty times the processor time
-  sandbox::Sandbox sandbox{};  ///< for compiling and for the worker
-  std::filesystem::path
-      secret{};                ///< file with the secret of the course; empty: hidden checks take the seed too
   double compileSeconds = 30;  ///< of processor time
-  int processors = 1;          ///< that compilers and checks may keep busy
 };
 
 /// A graded file.

@@ -23,8 +23,7 @@ double roundTrip() {
   using Clock = std::chrono::steady_clock;
   double best = std::numeric_limits<double>::infinity();
   const grading::WorkerRun run = grading::runWithWorker(
-      {.program = REX_BINARY_DIR "/tests/sample/good", .signature = Student::signature()},
-      [&](remote::Caller& caller) {
+      {.worker = REX_BINARY_DIR "/tests/sample/good"}, "", Student::signature(), [&](remote::Caller& caller) {
         const Student student(caller);
         const Eigen::VectorXd q = Eigen::VectorXd::LinSpaced(7, -1, 1);
         const Eigen::Vector3d target(0.1, 0.2, 0.3);

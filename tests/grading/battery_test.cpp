@@ -104,11 +104,9 @@ class Battery : public ::testing::Test {
   SubmissionOptions optionsFor(const fs::path& file, int level, const std::string& name) const {
     return {.main = file,
             .workFolder = temporary_.path() / name / "work",
-            .results = temporary_.path() / name / "results.json",
-            .checks = {},
-            .seed = {},
-            .sandbox = sandboxOf(level),
-            .secret = secret(),
+            .job = {.results = temporary_.path() / name / "results.json",
+                    .sandbox = sandboxOf(level),
+                    .secret = secret()},
             .compileSeconds = 2};
   }
 
@@ -119,7 +117,7 @@ class Battery : public ::testing::Test {
     BuiltSubmission built;
     built.worker = kOutput / "honest";
     EXPECT_EQ(gradeBuilt(built, toolchain_, exercise(), options).score, 10);
-    nlohmann::json json = nlohmann::json::parse(readTextFile(options.results));
+    nlohmann::json json = nlohmann::json::parse(readTextFile(options.job.results));
     eraseVolatile(json);
     return json.dump(1);
   }
@@ -131,15 +129,15 @@ class Battery : public ::testing::Test {
   // What must hold whatever was handed in.
   void expectNoHarm(const GradeResult& result, const SubmissionOptions& options) const {
     for (const CheckResult& check : result.checks) EXPECT_LE(check.wallSeconds, 4 * 2.4 + 2) << check.id;
-    EXPECT_EQ(loadResult(options.results).outcome, result.outcome);
-    EXPECT_EQ(result.sandboxLevel, numberOf(options.sandbox.level));
+    EXPECT_EQ(loadResult(options.job.results).outcome, result.outcome);
+    EXPECT_EQ(result.sandboxLevel, numberOf(options.job.sandbox.level));
     EXPECT_THAT(processesOf(options.workFolder), ::testing::IsEmpty());
     EXPECT_FALSE(someStayInASandbox());
     for (const auto& entry : fs::directory_iterator(options.workFolder))
       EXPECT_FALSE(entry.is_directory()) << entry.path();
     for (const char* file : {"/tmp/results.json", "/tmp/x.so", "/tmp/rex-battery-stayed", "/results.json"})
       EXPECT_FALSE(fs::exists(file)) << file;
-    const std::string text = readTextFile(options.results);
+    const std::string text = readTextFile(options.job.results);
     EXPECT_LT(text.size(), 64u << 10);
     EXPECT_THAT(text, Not(HasSubstr(kSecret)));
     EXPECT_THAT(text, Not(HasSubstr("root:x:0:0")));
@@ -204,7 +202,7 @@ class Attacks : public Battery, public ::testing::WithParamInterface<Attack> {
 
   void expectHarmless(const GradeResult& result, const SubmissionOptions& options, bool compiled) const {
     const Attack& attack = GetParam();
-    const int level = numberOf(options.sandbox.level);
+    const int level = numberOf(options.job.sandbox.level);
     RecordProperty("level_" + std::to_string(level), std::string(toString(result.outcome)));
     EXPECT_THAT(attack.outcomes.at(level), ::testing::Contains(result.outcome))
         << toString(result.outcome) << ": " << result.message
@@ -214,7 +212,7 @@ class Attacks : public Battery, public ::testing::WithParamInterface<Attack> {
       EXPECT_THAT(result.message, HasSubstr("forbidden-call"));
     }
     if (compiled) expectNoHarm(result, options);
-    const std::string log = readTextFile(options.results.parent_path() / "build.log");
+    const std::string log = readTextFile(options.job.results.parent_path() / "build.log");
     EXPECT_THAT(log, Not(HasSubstr("root:x:0:0")));
     EXPECT_LE(log.size(), 64u << 10);
   }
@@ -229,7 +227,7 @@ TEST_P(Attacks, GainNothingAndHarmNobody) {
   for (const int level : levels) {
     SCOPED_TRACE("level " + std::to_string(level));
     SubmissionOptions options = optionsFor(source(), level, "attack");
-    options.checks = attack.checks;
+    options.job.checks = attack.checks;
     if (!built || attack.whileCompiling) built = buildSubmission(toolchain_, exercise(), options);
     expectHarmless(gradeBuilt(*built, toolchain_, exercise(), options), options, !built->worker.empty());
     EXPECT_EQ(honest(level), before);
@@ -311,8 +309,8 @@ TEST_P(Classes, GainNothingAndHarmNobody) {
     EXPECT_NE(result.outcome, Outcome::graderError) << result.message;
     EXPECT_LE(result.score, GetParam().mostPoints) << toString(result.outcome);
     if (!built.worker.empty()) expectNoHarm(result, options);
-    expectNothingTold(readTextFile(options.results));
-    expectNothingTold(readTextFile(options.results.parent_path() / "build.log"));
+    expectNothingTold(readTextFile(options.job.results));
+    expectNothingTold(readTextFile(options.job.results.parent_path() / "build.log"));
     EXPECT_EQ(honest(level), before);
   }
 }
@@ -617,7 +615,7 @@ TEST_F(Battery, A30TakesNamesAsTheyAre) {
     const SubmissionOptions options = optionsFor(file, level, "honest");
     const GradeResult result = gradeSubmission(toolchain_, exercise(), options).result;
     EXPECT_EQ(result.outcome, pass) << name << ": " << result.message;
-    EXPECT_TRUE(nlohmann::json::accept(readTextFile(options.results)));
+    EXPECT_TRUE(nlohmann::json::accept(readTextFile(options.job.results)));
     EXPECT_FALSE(fs::exists(options.workFolder / "x"));
   }
 }

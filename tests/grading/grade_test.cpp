@@ -38,7 +38,7 @@ RunnableCheck check(const std::string& id, Group group, std::function<void(Check
 
 GradeResult gradeGood(const std::vector<RunnableCheck>& checks,
                       std::uint64_t signature = Student::signature()) {
-  return grade({}, checks, {.worker = kGood, .signature = signature}, [](const GradeResult&) {});
+  return grade({}, checks, {.worker = kGood}, signature, [](const GradeResult&) {});
 }
 
 TEST(Grade, NeverBlamesTheStudentForTheGrader) {
@@ -122,7 +122,7 @@ TEST(Grade, RunsChecksAtOnce) {
       check("d", Group::visible, holds)};
   const auto run = [&](const std::vector<RunnableCheck>& some, int jobs) {
     int saved = 0;
-    GradeResult result = grade({}, some, {.worker = kGood, .signature = Student::signature(), .jobs = jobs},
+    GradeResult result = grade({}, some, {.worker = kGood, .jobs = jobs}, Student::signature(),
                                [&](const GradeResult&) { ++saved; });
     EXPECT_EQ(saved, static_cast<int>(some.size()) + 1);
     return result;
@@ -154,9 +154,8 @@ TEST(Grade, DrawsVisibleChecksThatDoNotHold) {
   const std::vector<RunnableCheck> checks = {check("seen", Group::visible, off),
                                              check("unseen", Group::hidden, off)};
   const std::filesystem::path folder = freshFolderOfTest("evidence") / "checks";
-  const GradeResult result =
-      grade({}, checks, {.worker = kGood, .signature = Student::signature(), .evidence = folder},
-            [](const GradeResult&) {});
+  const GradeResult result = grade({}, checks, {.worker = kGood, .evidence = folder}, Student::signature(),
+                                   [](const GradeResult&) {});
   EXPECT_EQ(result.checks[0].picture, "checks/seen.png");
   EXPECT_EQ(result.checks[1].picture, "");
   EXPECT_TRUE(std::filesystem::exists(folder / "seen.png"));
@@ -168,7 +167,7 @@ TEST(Grade, SavesBeforeTheFirstAndAfterEveryCheck) {
   const std::vector<RunnableCheck> checks = {check("a", Group::visible, pass),
                                              check("b", Group::visible, pass)};
   std::vector<std::pair<Outcome, int>> saved;
-  const GradeResult last = grade({}, checks, {.worker = kGood, .signature = Student::signature()},
+  const GradeResult last = grade({}, checks, {.worker = kGood}, Student::signature(),
                                  [&](const GradeResult& now) { saved.emplace_back(now.outcome, now.score); });
   using ::testing::Pair;
   EXPECT_THAT(saved, ::testing::ElementsAre(Pair(Outcome::graderError, 0), Pair(Outcome::graderError, 1),
@@ -239,24 +238,25 @@ TEST(Grade, StopsAStudentsFunctionWhenACallbackOfTheCheckFails) {
 }
 
 TEST(RunWithWorker, RefusesWhatCannotBeStarted) {
-  const auto run = [](WorkerOptions options) { return runWithWorker(options, [](remote::Caller&) {}); };
-  EXPECT_REX_ERROR(run({.program = "no-such-worker"}),
+  const auto run = [](const GradingJob& job) {
+    return runWithWorker(job, "part", 0, [](remote::Caller&) {});
+  };
+  EXPECT_REX_ERROR(run({.worker = "no-such-worker"}),
                    "cannot start the worker no-such-worker: found No such file");
-  EXPECT_REX_ERROR(run({.program = kGood, .temporaryFolder = "/no/such/folder"}),
+  EXPECT_REX_ERROR(run({.worker = kGood, .temporaryFolder = "/no/such/folder"}),
                    "cannot make a temporary folder in /no/such/folder");
-  EXPECT_REX_ERROR(run({.program = kGood, .sandbox = {.level = sandbox::Level{1}, .launcher = "/bin/true"}}),
+  EXPECT_REX_ERROR(run({.worker = kGood, .sandbox = {.level = sandbox::Level{1}, .launcher = "/bin/true"}}),
                    "the sandbox of level 1 does not stand");
 }
 
 // The time that the grader needs for itself is not the student's.
 TEST(RunWithWorker, CountsOnlyTheTimeItWaits) {
-  const WorkerRun run =
-      runWithWorker({.program = kGood, .signature = Student::signature(), .limits = {.wallSeconds = 0.4}},
-                    [](remote::Caller& caller) {
-                      ::timespec pause{0, 700'000'000};
-                      ::nanosleep(&pause, nullptr);
-                      EXPECT_EQ(Student(caller).square(3), 9);
-                    });
+  const WorkerRun run = runWithWorker({.worker = kGood, .limits = {.wallSeconds = 0.4}}, "",
+                                      Student::signature(), [](remote::Caller& caller) {
+                                        ::timespec pause{0, 700'000'000};
+                                        ::nanosleep(&pause, nullptr);
+                                        EXPECT_EQ(Student(caller).square(3), 9);
+                                      });
   EXPECT_FALSE(run.failure.has_value());
   EXPECT_LT(run.wallSeconds, 0.5);
   EXPECT_GT(run.peakMemoryBytes, 0);
@@ -296,13 +296,12 @@ class BusyCore {
 TEST(RunWithWorker, WaitsLongerWhereTheMachineIsBusy) {
   if (!std::filesystem::exists("/proc/self/schedstat")) GTEST_SKIP() << "the kernel counts no waiting";
   const BusyCore busy;
-  const WorkerRun run = runWithWorker({.program = kGood.parent_path() / "busy",
-                                       .signature = Student::signature(),
-                                       .limits = {.wallSeconds = 0.5}},
-                                      [](remote::Caller& caller) {
-                                        const Eigen::Vector3d target(1, 2, 3);
-                                        EXPECT_EQ(Student(caller).ikStep(target, target), target);
-                                      });
+  const WorkerRun run =
+      runWithWorker({.worker = kGood.parent_path() / "busy", .limits = {.wallSeconds = 0.5}}, "",
+                    Student::signature(), [](remote::Caller& caller) {
+                      const Eigen::Vector3d target(1, 2, 3);
+                      EXPECT_EQ(Student(caller).ikStep(target, target), target);
+                    });
   EXPECT_FALSE(run.failure.has_value()) << run.failure->message;
   EXPECT_GT(run.wallSeconds, 0.4);
 }

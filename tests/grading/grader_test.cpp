@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "base/exit_code.h"
 #include "base/process.h"
 #include "grading/grader_main.h"
 #include "grading/result_file.h"
@@ -40,8 +41,10 @@ class Grader : public ::testing::Test {
     return runProcess(options);
   }
   GradeResult grade(const std::string& worker, std::vector<std::string> options = {}) const {
-    options.insert(options.end(),
-                   {"--worker", (kSample / worker).string(), "--cpu-seconds", "0.2", "--memory-mb", "300"});
+    const std::vector<std::string> job =
+        toArguments({.worker = kSample / worker,
+                     .limits = {.cpuSeconds = 0.2, .memory = 300 * kMegabyte, .output = 8 * kMegabyte}});
+    options.insert(options.begin(), job.begin(), job.end());
     const ProcessResult process = run(options);
     EXPECT_EQ(process.output + process.error, "");
     return loadResult(results());
@@ -206,7 +209,7 @@ TEST_F(Grader, ListsAllChecksAsNotRunWithoutAWorker) {
   GradeResult prepared;
   prepared.outcome = Outcome::compileError;
   saveResult(prepared, results());
-  EXPECT_EQ(run({}).exitCode, kBelowFullScore);
+  EXPECT_EQ(run({}).exitCode, numberOf(ExitCode::kBelow));
   const GradeResult result = loadResult(results());
   EXPECT_EQ(result.outcome, Outcome::compileError);
   EXPECT_EQ(result.maxScore, 10);
@@ -215,9 +218,9 @@ TEST_F(Grader, ListsAllChecksAsNotRunWithoutAWorker) {
 }
 
 TEST_F(Grader, HasExitCodes) {
-  EXPECT_EQ(run({"--worker", (kSample / "good").string()}).exitCode, kFullScore);
-  EXPECT_EQ(run({"--worker", (kSample / "shape").string()}).exitCode, kBelowFullScore);
-  EXPECT_EQ(run({"--worker", (kSample / "missing").string()}).exitCode, kGraderFault);
+  EXPECT_EQ(run({"--worker", (kSample / "good").string()}).exitCode, numberOf(ExitCode::kFull));
+  EXPECT_EQ(run({"--worker", (kSample / "shape").string()}).exitCode, numberOf(ExitCode::kBelow));
+  EXPECT_EQ(run({"--worker", (kSample / "missing").string()}).exitCode, numberOf(ExitCode::kGraderFault));
   const GradeResult result = loadResult(results());
   EXPECT_EQ(result.outcome, Outcome::graderError);
   EXPECT_THAT(result.checks[0].message,
@@ -225,17 +228,17 @@ TEST_F(Grader, HasExitCodes) {
   EXPECT_EQ(result.checks[2].message,
             "the grader failed, which is not your fault: the check ended by an exception");
   const ProcessResult unknown = run({"--check", "stepp"});
-  EXPECT_EQ(unknown.exitCode, kUsage);
+  EXPECT_EQ(unknown.exitCode, numberOf(ExitCode::kUsage));
   EXPECT_EQ(unknown.error, "grader: no check is called 'stepp' (did you mean 'step'?)\n");
-  EXPECT_EQ(run({"--cpu-seconds", "-1"}).exitCode, kUsage);
-  EXPECT_EQ(run({"--nonsense"}).exitCode, kUsage);
+  EXPECT_EQ(run({"--cpu-seconds", "-1"}).exitCode, numberOf(ExitCode::kUsage));
+  EXPECT_EQ(run({"--nonsense"}).exitCode, numberOf(ExitCode::kUsage));
   std::ofstream(results().string() + ".secret") << "short\n";
   const ProcessResult weak = run({"--secret", results().string() + ".secret"});
-  EXPECT_EQ(weak.exitCode, kGraderFault);
+  EXPECT_EQ(weak.exitCode, numberOf(ExitCode::kGraderFault));
   EXPECT_THAT(weak.error,
               HasSubstr("the secret of the course is too short: found 5 characters, wanted at least 16"));
   std::ofstream(results()) << "spoilt";
-  EXPECT_EQ(run({}).exitCode, kGraderFault);
+  EXPECT_EQ(run({}).exitCode, numberOf(ExitCode::kGraderFault));
 }
 
 // build.json alone must tell how a student's program becomes a worker.
@@ -254,7 +257,7 @@ TEST_F(Grader, IsDescribedWellEnoughToBuildAWorker) {
   const ProcessResult compiled = runProcess(command);
   ASSERT_TRUE(compiled.ok()) << compiled.error;
   EXPECT_EQ(compiled.error, "");
-  EXPECT_EQ(run({"--worker", worker.string()}).exitCode, kFullScore);
+  EXPECT_EQ(run({"--worker", worker.string()}).exitCode, numberOf(ExitCode::kFull));
   EXPECT_EQ(fs::path(build.at("grader").get<std::string>()), kSample / "grader");
 }
 
@@ -269,12 +272,12 @@ TEST(RunGrader, RefusesTwoChecksOfOneName) {
   ::testing::internal::CaptureStderr();
   const int code = runGrader(2, arguments.data(), checks, 0, {});
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "grader: two checks have the id 'step'\n");
-  EXPECT_EQ(code, kGraderFault);
+  EXPECT_EQ(code, numberOf(ExitCode::kGraderFault));
 }
 
 TEST_F(Grader, ListsItsChecks) {
   const ProcessResult process = run({"--list"});
-  EXPECT_EQ(process.exitCode, kFullScore);
+  EXPECT_EQ(process.exitCode, numberOf(ExitCode::kFull));
   const auto list = nlohmann::json::parse(process.output);
   ASSERT_EQ(list.size(), 4u);
   EXPECT_EQ(list[2],

@@ -15,8 +15,7 @@ namespace rex::grading::hostile_answers_test {
 
 using ::testing::HasSubstr;
 
-const GradeOptions kOptions = {.worker = std::filesystem::path(REX_BINARY_DIR) / "tests" / "sample" / "good",
-                               .signature = Student::signature()};
+const GradingJob kJob = {.worker = std::filesystem::path(REX_BINARY_DIR) / "tests" / "sample" / "good"};
 
 RunnableCheck check(const std::string& id, std::function<void(Check&, Student&)> run) {
   return {.info = {.id = id, .part = "part", .points = 1, .group = Group::visible},
@@ -45,7 +44,8 @@ TEST(HostileAnswers, FindCarelessChecks) {
         if (got.size() > 100) std::raise(SIGSEGV);
         judge.near("step", got, kTarget, 1e-9);
       })};
-  const std::vector<HostileOutcome> outcomes = giveHostileAnswers(checks, kOptions, Student::layouts(), 1120);
+  const std::vector<HostileOutcome> outcomes =
+      giveHostileAnswers(checks, kJob, Student::signature(), Student::layouts(), 1120);
   EXPECT_EQ(outcomes.size(), checks.size() * static_cast<std::size_t>(Hostility::count));
   for (const HostileOutcome& one : outcomes) {
     SCOPED_TRACE(one.check + " " + toString(one.hostility));
@@ -70,7 +70,8 @@ TEST(HostileAnswers, FindCarelessChecks) {
 TEST(Lies, FindChecksThatAreEasilyPleased) {
   const auto points = [](const RunnableCheck& one) {
     std::vector<int> all;
-    for (const LieOutcome& outcome : tellLies(std::vector{one}, kOptions, Student::layouts()))
+    for (const LieOutcome& outcome :
+         tellLies(std::vector{one}, kJob, Student::signature(), Student::layouts()))
       all.push_back(outcome.points);
     return all;
   };

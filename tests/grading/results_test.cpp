@@ -49,7 +49,7 @@ GradeResult someResult() {
                     .cpuSeconds = 0.25},
                    {.id = "y", .maxPoints = 5}};
   result.compile = {1, {{"main.cpp", 3, 4, "error", "-Wall", "wrong"}}, true};
-  result.limits = {.cpuSeconds = 3, .wallSeconds = 5, .memoryMegabytes = 100, .outputMegabytes = 2};
+  result.limits = {.cpuSeconds = 3, .wallSeconds = 5, .memory = 100 * kMegabyte, .output = 2 * kMegabyte};
   result.output = {"out", 11};
   result.error = {"err", 12};
   result.usage = {.cpuSeconds = 0.5, .wallSeconds = 2, .peakMemoryBytes = 4096, .outputBytes = 33};
@@ -69,7 +69,7 @@ TEST(Results, ComeBackFromJson) {
   EXPECT_EQ(back.checks.at(0).line, 12);
   EXPECT_EQ(back.checks.at(0).wallSeconds, 1.5);
   EXPECT_EQ(back.checks.at(1).status, std::nullopt);
-  EXPECT_EQ(back.limits.memoryMegabytes, 100);
+  EXPECT_EQ(back.limits.memory, 100 * kMegabyte);
   EXPECT_EQ(back.compile.diagnostics.at(0).rule, "-Wall");
   EXPECT_EQ(back.error.truncatedBytes, 12u);
 }

@@ -8,7 +8,7 @@
 
 namespace rex::grading::worker_failure_test {
 
-const WorkerLimits kLimits{.cpuSeconds = 2, .memoryMegabytes = 64};
+const Limits kLimits{.cpuSeconds = 2, .memory = 64 * kMegabyte};
 
 Failure bySignal(int signal, double cpuSeconds = 0, bool ready = true) {
   return explainEnd(

@@ -57,8 +57,8 @@ TEST_F(ExerciseInfoTest, ReadsEverything) {
   EXPECT_EQ(info.title, "Kinematics");
   EXPECT_EQ(info.script, "12.3");
   EXPECT_EQ(info.limits.cpuSeconds, 2.5);
-  EXPECT_EQ(info.limits.memoryMb, 512);
-  EXPECT_EQ(info.limits.outputMb, 4);
+  EXPECT_EQ(info.limits.memory, 512 * kMegabyte);
+  EXPECT_EQ(info.limits.output, 4 * kMegabyte);
   ASSERT_EQ(info.parts.size(), 2u);
   EXPECT_EQ(info.parts[0].id, "maps");
   EXPECT_EQ(info.parts[0].title, "Task maps");

@@ -95,7 +95,7 @@ class SanitizedToolchain : public ::testing::Test {
   ProcessResult run() const { return runProcess({(temporary_.path() / "program").string()}); }
 
   TemporaryFolder temporary_;
-  Toolchain toolchain_ = sanitizedToolchain(plain(), temporary_.path(), 200);
+  Toolchain toolchain_ = sanitizedToolchain(plain(), temporary_.path(), 200 * kMegabyte);
 };
 
 TEST_F(SanitizedToolchain, MakesProgramsThatReportWhereTheyCrash) {
@@ -138,8 +138,8 @@ TEST_F(SanitizedToolchain, MakesProgramsThatEndWhenTheyHoldTooMuchMemory) {
                                     "int main() { " +
                                         std::string(body) + " }\n"));
     const ProcessResult run = this->run();
-    const Failure failure =
-        explainEnd({.status = run.signal, .function = "f", .errorTail = run.error}, {.memoryMegabytes = 200});
+    const Failure failure = explainEnd({.status = run.signal, .function = "f", .errorTail = run.error},
+                                       {.memory = 200 * kMegabyte});
     EXPECT_EQ(failure.outcome, Outcome::memoryLimit) << run.error;
     EXPECT_EQ(failure.message, "used more than 200 MB of memory in f");
   }

@@ -15,12 +15,9 @@ using ::testing::HasSubstr;
 class SubmissionTest : public ::testing::Test {
  protected:
   Submission submit(const Toolchain& toolchain, const std::string& main) const {
-    return gradeSubmission(toolchain, ExerciseInfo{},
-                           {.main = main,
-                            .workFolder = temporary_.path() / "work",
-                            .results = results(),
-                            .checks = {},
-                            .seed = {}});
+    return gradeSubmission(
+        toolchain, ExerciseInfo{},
+        {.main = main, .workFolder = temporary_.path() / "work", .job = {.results = results()}});
   }
   std::filesystem::path results() const { return temporary_.path() / "results.json"; }
   TemporaryFolder temporary_;

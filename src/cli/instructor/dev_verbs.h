@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "cli/exit_code.h"
+#include "base/exit_code.h"
 #include "cli/project.h"
 
 /// The verbs of `rex dev`, one file each. They print for people, and throw UsageError for names that do not

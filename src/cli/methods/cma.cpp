@@ -11,8 +11,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "base/exit_code.h"
 #include "base/rng.h"
-#include "cli/exit_code.h"
 #include "cli/json_internal.h"
 #include "cli/methods/learning_curves.h"
 #include "cli/methods/methods_room_internal.h"

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "cli/exit_code.h"
+#include "base/exit_code.h"
 #include "cli/project.h"
 #include "sandbox/level.h"
 

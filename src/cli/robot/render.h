@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/exit_code.h"
+#include "base/exit_code.h"
 #include "cli/robot/render_plan.h"
 
 namespace rex::cli {

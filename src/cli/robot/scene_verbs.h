@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "cli/exit_code.h"
+#include "base/exit_code.h"
 #include "cli/robot/scene_option.h"
 
 namespace rex::cli {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "cli/exit_code.h"
+#include "base/exit_code.h"
 #include "cli/project.h"
 
 namespace rex::cli {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/exit_code.h"
+#include "base/exit_code.h"
 #include "cli/project.h"
 
 namespace rex::cli {

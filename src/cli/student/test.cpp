@@ -67,16 +67,17 @@ void addTest(CLI::App* command, Action& action) {
   addSeveral(command, *words);
   command->add_flag("--solution", options->solution, "grade the reference solution");
   command->add_option("--main", options->main, "grade this file instead of main.cpp")->type_name("FILE");
-  command->add_option("--check", options->checks, "only this check; may be given several times")
+  command->add_option("--check", options->job.checks, "only this check; may be given several times")
       ->allow_extra_args(false)
       ->type_name("NAME");
-  addSeed(command, options->seed, "repeat the random cases of this seed");
+  addSeed(command, options->job.seed, "repeat the random cases of this seed");
   command->add_flag("--json", options->json, "print the result file and nothing else");
   command->add_flag("--debug", options->debug, "with the sanitizers: slow, names the lines of crashes");
   command->add_option("-o,--out", options->out, kOutHelp)->type_name("DIR");
   addLevel(command, options->level);
   command
-      ->add_option("--secret-file", options->secret, "secret of the course, for the seeds of hidden checks")
+      ->add_option("--secret-file", options->job.secret,
+                   "secret of the course, for the seeds of hidden checks")
       ->type_name("FILE");
   command->callback([&action, words] {
     const TestOptions& each = words->each;

@@ -29,7 +29,7 @@ using grading::Submission;
 
 void requireOptionsOfMany(const TestOptions& options) {
   for (const auto& [name, isGiven] :
-       {std::pair{"--main", !options.main.empty()}, {"--check", !options.checks.empty()}})
+       {std::pair{"--main", !options.main.empty()}, {"--check", !options.job.checks.empty()}})
     if (isGiven)
       throw UsageError({.what = name, .found = "several exercises", .wanted = "one, which it belongs to"});
 }

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "cli/exit_code.h"
+#include "base/exit_code.h"
 #include "cli/project.h"
 #include "cli/student/test_run.h"
 

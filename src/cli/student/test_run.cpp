@@ -25,7 +25,7 @@ namespace {
 // What a whole grading found stays until the next one.
 const char* resultName(const TestOptions& options) {
   if (options.debug) return "results-debug.json";
-  return options.checks.empty() ? "results.json" : "results-partial.json";
+  return options.job.checks.empty() ? "results.json" : "results-partial.json";
 }
 
 fs::path resultsOf(const Project& project, const ExerciseInfo& exercise, const TestOptions& options) {
@@ -55,22 +55,18 @@ TestRun::TestRun(const Project& project, ExerciseInfo exercise, const TestOption
       results_(resultsOf(project, exercise_, options)),
       toolchain_(prepare(project, exercise_)),
       work_(project.buildFolder(exercise_)) {
-  if (!options.secret.empty()) static_cast<void>(grading::readCourseSecret(options.secret));
+  if (!options.job.secret.empty()) static_cast<void>(grading::readCourseSecret(options.job.secret));
 }
 
 grading::Submission TestRun::grade(const sandbox::Sandbox& sandbox, int processors) const {
-  return grading::gradeSubmission(toolchain_, exercise_,
-                                  {.main = file_,
-                                   .workFolder = work_.path(),
-                                   .results = ownResults(),
-                                   .checks = options_.checks,
-                                   .seed = options_.seed,
-                                   .evidence = work_.path() / "checks",
-                                   .lookAgain = true,
-                                   .sanitize = options_.debug,
-                                   .sandbox = sandbox,
-                                   .secret = options_.secret,
-                                   .processors = processors});
+  grading::GradingJob job = options_.job;
+  job.results = ownResults();
+  job.evidence = work_.path() / "checks";
+  job.sandbox = sandbox;
+  job.jobs = processors;
+  return grading::gradeSubmission(
+      toolchain_, exercise_,
+      {.main = file_, .workFolder = work_.path(), .job = job, .lookAgain = true, .sanitize = options_.debug});
 }
 
 std::string TestRun::stage() const {
@@ -94,12 +90,12 @@ void TestRun::publish(const Project& project, const GradeResult& result) const {
   if (fs::exists(log)) replaceTextFile(out / "build.log", readTextFile(log), "the log");
   fs::remove_all(out / "checks");
   if (fs::exists(evidence)) fs::copy(evidence, out / "checks", fs::copy_options::recursive);
-  if (options_.main.empty() && !options_.solution && !options_.debug && options_.checks.empty())
+  if (options_.main.empty() && !options_.solution && !options_.debug && options_.job.checks.empty())
     remember(project, exercise_, result);
 }
 
 void TestRun::print(const grading::Submission& graded) const {
-  printResult(exercise_, graded, results_, options_.checks.empty());
+  printResult(exercise_, graded, results_, options_.job.checks.empty());
   if (options_.main.empty() && !fs::exists(file_))
     say(fmt::format("To get it back as it was handed out: scripts/rex reset {}", exercise_.name));
 }

@@ -1,13 +1,11 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <vector>
 
+#include "base/exit_code.h"
 #include "base/private_folder.h"
-#include "cli/exit_code.h"
 #include "cli/project.h"
 #include "sandbox/level.h"
 #include "submission/submission.h"
@@ -18,14 +16,12 @@ namespace rex::cli {
 struct TestOptions {
   std::string exercise;
   bool solution = false;
-  std::filesystem::path main;       ///< empty: the exercise's own
-  std::vector<std::string> checks;  ///< empty: all
-  std::optional<std::uint64_t> seed;
+  std::filesystem::path main;  ///< empty: the exercise's own
+  grading::GradingJob job{};   ///< checks, seed and secret; the rest is set on the way
   bool json = false;
   bool debug = false;                     ///< with the sanitizers
   std::filesystem::path out;              ///< empty: as for run
   std::optional<sandbox::Level> level{};  ///< nothing: limits only
-  std::filesystem::path secret{};         ///< file with the secret of the course; empty: none
 };
 
 /// One exercise on its way through `rex test`, in a folder of its own until publish(): others may grade the

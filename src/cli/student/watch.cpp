@@ -31,7 +31,7 @@ ExitCode gradeOnce(const Project& project, const std::string& name, const std::s
   try {
     TestOptions options;
     options.exercise = name;
-    if (!check.empty()) options.checks = {check};
+    if (!check.empty()) options.job.checks = {check};
     code = testOne(project, options);
   } catch (const std::exception& error) {
     note(wrap(fmt::format("rex: {}", error.what()), 2, 0));

@@ -1,0 +1,20 @@
+#pragma once
+
+namespace rex {
+
+/// What programs of rex tell the shell, and each other.
+enum class ExitCode {
+  kFull = 0,  ///< graded with full score, or: the command did its work
+  kBelow =
+      1,  ///< graded below full score, or: the student's program failed, a gate is open, no path was found
+  kNotGradable = 2,   ///< the file is missing, does not compile or calls what is forbidden
+  kGraderFault = 3,   ///< fault of the grader, the project or the machine, never a grade
+  kWeakSandbox = 4,   ///< the sandbox of this machine is weaker than what was asked for
+  kUsage = 64,        ///< unknown command, option or name, or one that cannot be had here; a broken scene
+  kTimedOut = 124,    ///< of rex-sandbox: the program had to be stopped
+  kNotStarted = 125,  ///< of rex-sandbox: the program could not be started
+};
+
+[[nodiscard]] constexpr int numberOf(ExitCode code) { return static_cast<int>(code); }
+
+}  // namespace rex

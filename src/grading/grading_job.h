@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "grading/limits.h"
+#include "sandbox/cell.h"
+
+namespace CLI {
+class App;
+}
+
+namespace rex::grading {
+
+/// What one run of a grader program is asked to do. It goes whole from the command line of `rex` to the
+/// launch of each worker.
+struct GradingJob {
+  std::filesystem::path worker{};     ///< see workerOf(); empty: all checks are listed as not run
+  std::filesystem::path results{};    ///< results.json; its fields about the submission are kept; empty: none
+  std::vector<std::string> checks{};  ///< ids; empty: all
+  std::uint64_t seed = 1;
+  Limits limits{};
+  sandbox::Sandbox sandbox{};
+  std::vector<std::filesystem::path> libraries{};  ///< that the worker loads, beside those of the system
+  std::filesystem::path temporaryFolder = "/tmp";  ///< workers get their working folders in it
+  std::filesystem::path evidence{};  ///< folder for pictures of visible checks that do not hold; empty: none
+  std::filesystem::path
+      secret{};  ///< file with the secret of the course; empty: hidden checks take the seed too
+  int jobs = 1;  ///< checks that run at once, each in a copy of the grader
+};
+
+/// The options of a grader program, which set the job.
+void declareOptions(CLI::App& app, GradingJob& job);
+
+/// The arguments by which a grader program gets this job.
+[[nodiscard]] std::vector<std::string> toArguments(const GradingJob& job);
+
+/// The program that answers the checks of a part: WORKER.PART where there is one, else WORKER.
+[[nodiscard]] std::filesystem::path workerOf(const std::string& part, const std::filesystem::path& worker);
+
+}  // namespace rex::grading

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+namespace rex::grading {
+
+inline constexpr std::size_t kMegabyte = std::size_t{1} << 20;
+
+/// What a student's functions may use in one check. Sizes are in bytes.
+struct Limits {
+  double cpuSeconds = 10;  ///< of all threads; rounded up to whole seconds by the kernel
+  /// That the grader waits for them in total, 0: 2 x CPU + 2. What others on a busy machine take is added.
+  double wallSeconds = 0;
+  std::size_t memory = 1024 * kMegabyte;  ///< of address space; not enforced in sanitizer builds
+  std::size_t output = 16 * kMegabyte;    ///< printed, standard output and error together
+  bool sanitized = false;  ///< the program reserves terabytes and keeps its limit of memory by itself
+
+  [[nodiscard]] double cpuBudget() const { return std::ceil(cpuSeconds); }
+  [[nodiscard]] double wallBudget() const { return wallSeconds > 0 ? wallSeconds : 2 * cpuSeconds + 2; }
+};
+
+}  // namespace rex::grading
