@@ -94,9 +94,13 @@ function(rex_worker_object name folder output)
     set(REX_WORKER_OBJECT $<TARGET_OBJECTS:${name}_worker> PARENT_SCOPE)
   else()
     set(object ${output}/worker.o)
+    set(fatal)
+    if(CMAKE_COMPILE_WARNING_AS_ERROR)
+      set(fatal -Werror)
+    endif()
     get_target_property(eigen Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
     add_custom_command(OUTPUT ${object}
-      COMMAND ${CMAKE_CXX_COMPILER} ${REX_STUDENT_FLAGS} -Werror -include ${REX_PREFIX} -iquote ${folder}
+      COMMAND ${CMAKE_CXX_COMPILER} ${REX_STUDENT_FLAGS} ${fatal} -include ${REX_PREFIX} -iquote ${folder}
               -isystem ${PROJECT_SOURCE_DIR}/src -isystem ${eigen} -MD -MF ${object}.d -c ${source} -o ${object}
       DEPENDS ${source} ${REX_PREFIX}.gch DEPFILE ${object}.d COMMENT "Building the worker of ${name}" VERBATIM)
     add_custom_target(${name}_worker DEPENDS ${object})

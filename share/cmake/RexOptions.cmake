@@ -57,4 +57,4 @@ endif()
 set(REX_COLD "$<$<CONFIG:Release>:-O1;-Wno-array-bounds;-Wno-maybe-uninitialized;-Wno-stringop-overflow>")
 
 set(REX_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Wswitch-enum
-                 -Woverloaded-virtual -Werror)
+                 -Woverloaded-virtual)
