@@ -15,6 +15,12 @@ enum class ExitCode {
   kNotStarted = 125,  ///< of rex-sandbox: the program could not be started
 };
 
+/// What help pages say of those that users meet.
+inline constexpr const char* kExitCodesHelp =
+    R"(Exit codes: 0 full score, 1 below full score, 2 cannot be graded (missing, does
+not compile), 3 fault of the grader, the project or the machine, 4 the sandbox is
+weaker than asked for, 64 wrong use.)";
+
 [[nodiscard]] constexpr int numberOf(ExitCode code) { return static_cast<int>(code); }
 
 }  // namespace rex

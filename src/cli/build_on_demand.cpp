@@ -12,8 +12,8 @@
 #include "base/private_folder.h"
 #include "base/process.h"
 #include "base/text_file.h"
+#include "cli/out_folder.h"
 #include "cli/progress_line.h"
-#include "cli/temporary_folder.h"
 #include "cli/terminal.h"
 
 namespace rex::cli {

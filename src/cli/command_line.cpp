@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/exit_code.h"
 #include "cli/command_line_internal.h"
-#include "cli/exit_codes_help_internal.h"
 #include "cli/hand_over.h"
 #include "cli/terminal.h"
 

@@ -1,6 +1,7 @@
 #include "cli/out_folder.h"
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <system_error>
@@ -9,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "cli/terminal.h"
 
 namespace rex::cli {
 
@@ -32,6 +34,16 @@ void makeOutPlace(const std::filesystem::path& out) {
   trial += fmt::format(".trial-{}", ::getpid());
   if (!std::ofstream(trial)) throw Error({.what = what, .found = std::strerror(errno)});
   std::filesystem::remove(trial, ignored);
+}
+
+std::filesystem::path temporaryFolder() {
+  std::error_code problem;
+  const std::filesystem::path folder = std::filesystem::temp_directory_path(problem);
+  if (!problem) return folder;
+  const char* chosen = std::getenv("TMPDIR");
+  throw Error({.what = "TMPDIR, where temporary files go",
+               .found = fmt::format("'{}'", harmless(chosen == nullptr ? "/tmp" : chosen)),
+               .wanted = "a folder"});
 }
 
 }  // namespace rex::cli

@@ -11,4 +11,7 @@ void makeOutFolder(const std::filesystem::path& folder);
 /// where that could not be written, before anybody works for minutes on what goes into it.
 void makeOutPlace(const std::filesystem::path& out);
 
+/// Where temporary files go. Throws Error if TMPDIR names no folder.
+[[nodiscard]] std::filesystem::path temporaryFolder();
+
 }  // namespace rex::cli

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/private_folder.h"
-#include "cli/temporary_folder.h"
+#include "cli/out_folder.h"
 #include "cli/terminal.h"
 #include "sandbox/probes.h"
 

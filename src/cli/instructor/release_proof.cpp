@@ -11,9 +11,9 @@
 #include "base/error.h"
 #include "base/private_folder.h"
 #include "base/process.h"
+#include "cli/out_folder.h"
 #include "cli/progress_line.h"
 #include "cli/result_list.h"
-#include "cli/temporary_folder.h"
 #include "cli/terminal.h"
 
 namespace rex::cli {

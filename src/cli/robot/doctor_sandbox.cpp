@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/private_folder.h"
+#include "cli/out_folder.h"
 #include "cli/robot/doctor.h"
 #include "cli/sandbox_choice.h"
-#include "cli/temporary_folder.h"
 #include "cli/terminal.h"
 #include "sandbox/probes.h"
 

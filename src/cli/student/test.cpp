@@ -5,7 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cli/exit_codes_help_internal.h"
+#include "base/exit_code.h"
 #include "cli/shared_options_internal.h"
 #include "cli/student/exercise_option_internal.h"
 #include "cli/student/student_room_internal.h"
