@@ -31,7 +31,7 @@ std::string withUnit(std::string text, std::string_view unit) {
 std::string shapeText(Eigen::Index rows, Eigen::Index cols) { return fmt::format("{} x {}", rows, cols); }
 
 /// A short vector in full, of a larger value the one entry that matters.
-std::string valueText(const Check::MatrixArg& value, Eigen::Index row, Eigen::Index col) {
+std::string valueText(const MatrixArg& value, Eigen::Index row, Eigen::Index col) {
   constexpr Eigen::Index kShort = 6;
   if (value.cols() != 1 || value.rows() > kShort)
     return fmt::format("{} at ({}, {})", number(value(row, col)), row, col);

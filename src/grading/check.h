@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 
 #include "base/rng.h"
+#include "base/vector_arg.h"
 #include "grading/evidence.h"
 #include "grading/results.h"
 
@@ -36,8 +37,6 @@ struct CheckInfo {
 /// step".
 class Check {
  public:
-  using MatrixArg = Eigen::Ref<const Eigen::MatrixXd>;
-
   Check(CheckInfo info, std::uint64_t seed);
 
   /// Random numbers that depend on the seed, the check's id and the case, not on what was drawn before.
