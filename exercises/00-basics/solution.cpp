@@ -1,7 +1,7 @@
-#include <algorithm>
 #include <cmath>
 
 #include "exercise.h"
+#include "show.h"
 
 using namespace rex;
 
@@ -279,117 +279,27 @@ Eigen::VectorXd nextOutcome(const Eigen::VectorXd& alpha) {
   // </solution>
 }
 
-// From here on everything is given: the parts of the exercise one after another, with pictures. Change it as
-// you like.
+// What follows is given: the parts of the exercise one after another. show.cpp draws the pictures.
+int main() {
+  // Part 1: equation a for one A. Then a polynomial of degree 9 through twelve noisy samples of a sine: by
+  // equation c, and by equation d, where large weights have a price.
+  const Eigen::MatrixXd A = (Eigen::MatrixXd(2, 2) << 2, 1, 0, 4).finished();
+  print("a: X A + A^T, which should be the identity", equationA(A) * A + A.transpose());
+  showFit();
 
-namespace {
+  // Part 2: down a curved valley, whose deepest point is at (1, 1).
+  showDescents({-1.2, 1});
 
-// f at `count` equal steps from `first` to `last`.
-Series curve(const std::string& label, double first, double last, int count,
-             const std::function<double(double)>& f) {
-  Series series{.label = label};
-  for (int i = 0; i < count; ++i) {
-    const double x = first + (last - first) * i / (count - 1);
-    series.x.push_back(x);
-    series.y.push_back(f(x));
-  }
-  return series;
-}
-
-Series way(const std::string& label, const std::vector<Eigen::VectorXd>& points, SeriesStyle style) {
-  Series series{.label = label, .style = style};
-  for (const Eigen::VectorXd& p : points) {
-    series.x.push_back(p[0]);
-    series.y.push_back(p[1]);
-  }
-  return series;
-}
-
-Series polynomial(const std::string& label, const Eigen::VectorXd& weights) {
-  return curve(label, -1, 1, 200, [&](double x) {
-    double y = 0;
-    for (Eigen::Index k = weights.size() - 1; k >= 0; --k) y = y * x + weights[k];
-    return y;
-  });
-}
-
-// A curved valley, as a sum of squares: f = phi^T phi, least at (1, 1).
-Eigen::VectorXd valley(const Eigen::VectorXd& x) {
-  return Eigen::Vector2d(1 - x[0], 3 * (x[1] - x[0] * x[0]));
-}
-Eigen::MatrixXd valleyJacobian(const Eigen::VectorXd& x) {
-  Eigen::Matrix2d J;
-  J << -1, 0, -6 * x[0], 3;
-  return J;
-}
-double depth(const Eigen::VectorXd& x) { return valley(x).squaredNorm(); }
-Eigen::VectorXd slope(const Eigen::VectorXd& x) { return 2 * valleyJacobian(x).transpose() * valley(x); }
-
-void showOptimisation() {
-  const Eigen::VectorXd start = Eigen::Vector2d(-1.2, 1);
-  const std::vector<Eigen::VectorXd> descent = gradientDescent(depth, slope, start, {});
-  const std::vector<Eigen::VectorXd> newton = gaussNewton(valley, valleyJacobian, start, {});
-  // A logarithmic colour or axis has no zero.
-  HeatMap map = heatMapOf([](double x, double y) { return std::max(depth(Eigen::Vector2d(x, y)), 0.01); },
-                          {-1.6, 1.6}, {-1, 1.8}, 320, 280);
-  map.contours = 12;
-  plot("paths", {.title = "Two ways down a curved valley",
-                 .xLabel = "x1",
-                 .yLabel = "x2",
-                 .colorLabel = "f(x)",
-                 .logColor = true,
-                 .legend = Legend::kBottomLeft,
-                 .series = {way("gradient descent", descent, SeriesStyle::kLinesPoints),
-                            way("Gauss-Newton", newton, SeriesStyle::kLinesPoints)},
-                 .heatMap = map});
-  const auto depths = [](const std::string& label, const std::vector<Eigen::VectorXd>& points) {
-    Series series{.label = label};
-    for (const Eigen::VectorXd& x : points) {
-      series.x.push_back(static_cast<double>(series.x.size() + 1));
-      series.y.push_back(std::max(depth(x), 1e-16));
-    }
-    return series;
-  };
-  plot("convergence", {.title = "How fast f falls",
-                       .xLabel = "number of points visited",
-                       .yLabel = "f(x)",
-                       .logX = true,
-                       .logY = true,
-                       .series = {depths("gradient descent", descent), depths("Gauss-Newton", newton)}});
-}
-
-void showBook() {
+  // Part 3: a book is moved by one to the right, then turned by 45 degrees about its own origin.
   const Eigen::Matrix3d X_WB = bookPose({1, 0}, M_PI / 4), X_BW = inverted(X_WB);
-  const Eigen::Vector2d p_W = mapped(X_WB, {1, 1}), x_W(0, 1);
+  const Eigen::Vector2d dot_B(1, 1), point_W(0, 1);
   print("X_WB", X_WB);
   print("X_BW", X_BW);
-  print("dot p in the world", p_W);
-  print("point x in the book's frame", mapped(X_BW, x_W));
-  Series before{.label = "book before", .dashed = true}, after{.label = "book after"};
-  const double width = 1.3, height = 1.7;
-  for (const auto& [x, y] : {std::pair(0., 0.), {width, 0.}, {width, height}, {0., height}, {0., 0.}}) {
-    const Eigen::Vector2d corner_W = mapped(X_WB, {x, y});
-    before.x.push_back(x);
-    before.y.push_back(y);
-    after.x.push_back(corner_W.x());
-    after.y.push_back(corner_W.y());
-  }
-  Figure figure{.title = "The book on the table",
-                .xLabel = "x of the world [m]",
-                .yLabel = "y of the world [m]",
-                .equalAxes = true,
-                .yRange = AxisRange{-0.2, 2.3},
-                .legend = Legend::kOutside};
-  figure.series = {before, after};
-  figure.series.push_back({.label = "dot p", .x = {p_W.x()}, .y = {p_W.y()}, .style = SeriesStyle::kPoints});
-  figure.series.push_back(
-      {.label = "point x", .x = {x_W.x()}, .y = {x_W.y()}, .style = SeriesStyle::kPoints});
-  figure.series[2].size = figure.series[3].size = 2;
-  figure.regions = {{.x = after.x, .y = after.y}};
-  plot("book", figure);
-}
+  print("dot p in the world", mapped(X_WB, dot_B));
+  print("point x in the book's frame", mapped(X_BW, point_W));
+  showBook(X_WB, dot_B, point_W);
 
-void showBayes() {
+  // Part 4: two boxes with 8 and 10 apples, 4 and 2 oranges; three doors, one of them opened; and a table.
   const Fruit fruit = fruitBoxes({8, 10}, {4, 2});
   print("P(apple)", fruit.apple);
   print("P(box | apple)", fruit.boxGivenApple);
@@ -401,159 +311,10 @@ void showBayes() {
   print("P(Y)", answers.PY);
   print("P(X | Y)", answers.XGivenY);
   print("independent", answers.independent);
-}
 
-constexpr Color kBlue{0, 0.45f, 0.7f}, kGreen{0, 0.6f, 0.45f}, kOrange{0.84f, 0.37f, 0},
-    kGrey{0.6f, 0.6f, 0.6f};
-
-Eigen::MatrixXd symmetric(double xx, double xy, double yy) {
-  Eigen::Matrix2d S;
-  S << xx, xy, xy, yy;
-  return S;
-}
-
-CovarianceEllipse ellipse(const std::string& label, const GaussianBelief& belief, Color color) {
-  return {.label = label, .mean = belief.mean, .covariance = belief.cov, .color = color};
-}
-
-void showProduct() {
-  const GaussianBelief prior{Eigen::Vector2d(0, 0), symmetric(4, 1.5, 1)};
-  const GaussianBelief measured{Eigen::Vector2d(2, 2), symmetric(0.5, -0.3, 2)};
-  Figure figure{.title = "A prior, a measurement, and what both say together (two standard deviations)",
-                .xLabel = "x1",
-                .yLabel = "x2",
-                .equalAxes = true,
-                .legend = Legend::kTopLeft};
-  figure.ellipses = {ellipse("prior", prior, kBlue), ellipse("measurement", measured, kGreen),
-                     ellipse("product", product(prior, measured), kOrange)};
-  plot("product", figure);
-}
-
-// Robots drive ahead and to the left without looking: what they believe, and where 200 of them really are.
-void showPropagation() {
-  const Eigen::VectorXd a = Eigen::Vector2d(2, 0.3);
-  const Eigen::MatrixXd F = symmetric(1, 0.15, 1.1), A = symmetric(0.02, 0, 0.005);
-  GaussianBelief belief{Eigen::Vector2d(0, 0), symmetric(0.03, 0, 0.03)};
-  Rng rng(1);
-  std::vector<Eigen::VectorXd> robots;
-  for (int i = 0; i < 200; ++i) robots.push_back(std::sqrt(0.03) * rng.normalVector(2));
-  Figure figure{.title = "Driving without looking: 200 robots, and the belief (two standard deviations)",
-                .xLabel = "x [m]",
-                .yLabel = "y [m]",
-                .equalAxes = true,
-                .legend = Legend::kTopLeft};
-  for (int t = 0; t <= 4; ++t) {
-    Series cloud = way(t == 0 ? "robots" : "", robots, SeriesStyle::kPoints);
-    cloud.marker = Marker::kDot;
-    cloud.size = 0.5;
-    cloud.color = kGrey;
-    figure.series.push_back(cloud);
-    figure.ellipses.push_back(ellipse(t == 0 ? "belief" : "", belief, kOrange));
-    for (Eigen::VectorXd& x : robots) {
-      const Eigen::Vector2d noise(std::sqrt(0.02) * rng.normal(), std::sqrt(0.005) * rng.normal());
-      x = a + F * x + noise;
-    }
-    belief = propagated(belief, a, F, A);
-  }
-  plot("propagation", figure);
-}
-
-double betaDensity(const BetaBelief& belief, double mu) {
-  const double logNormaliser =
-      std::lgamma(belief.a + belief.b) - std::lgamma(belief.a) - std::lgamma(belief.b);
-  return std::exp(logNormaliser + (belief.a - 1) * std::log(mu) + (belief.b - 1) * std::log(1 - mu));
-}
-
-void showBeta() {
-  Rng rng(4);
-  Figure figure{.title = "The belief about a coin after more and more throws",
-                .xLabel = "mu = P(x = 1)",
-                .yLabel = "density",
-                .legend = Legend::kTopLeft,
-                .verticalLines = {{.at = 0.7, .label = "true"}}};
-  BetaBelief belief{.a = 2, .b = 2};
-  int thrown = 0;
-  for (const int total : {0, 3, 10, 50, 250}) {
-    std::vector<int> data;
-    for (; thrown < total; ++thrown) data.push_back(rng.uniform() < 0.7 ? 1 : 0);
-    belief = betaPosterior(belief, data);
-    figure.series.push_back(curve(std::to_string(total) + " throws", 0.001, 0.999, 400,
-                                  [&](double mu) { return betaDensity(belief, mu); }));
-  }
-  plot("beta", figure);
-}
-
-// Points mu with mu_1 + mu_2 + mu_3 = 1 fill a triangle, whose corners are the three outcomes.
-const double kTop = std::sqrt(0.75);
-
-Eigen::VectorXd inTriangle(const Eigen::VectorXd& mu) {
-  return Eigen::Vector2d(mu[1] + 0.5 * mu[2], kTop * mu[2]);
-}
-
-void showDirichlet() {
-  const Eigen::Vector3d wheel(0.5, 0.3, 0.2);
-  Rng rng(4);
-  Eigen::VectorXd alpha = Eigen::Vector3d(1, 1, 1);
-  std::vector<Eigen::VectorXd> guesses = {inTriangle(nextOutcome(alpha))};
-  for (int t = 0; t < 40; ++t) {
-    const double u = rng.uniform();
-    alpha = dirichletPosterior(alpha, {u < wheel[0] ? 1 : u < wheel[0] + wheel[1] ? 2 : 3});
-    guesses.push_back(inTriangle(nextOutcome(alpha)));
-  }
-  // Divided by its maximum over the triangle, and zero outside.
-  const auto density = [&](double x, double y) {
-    const double mu3 = y / kTop, mu2 = x - mu3 / 2, mu1 = 1 - mu2 - mu3;
-    if (mu1 <= 0 || mu2 <= 0 || mu3 <= 0) return 0.;
-    return std::exp((alpha[0] - 1) * std::log(mu1) + (alpha[1] - 1) * std::log(mu2) +
-                    (alpha[2] - 1) * std::log(mu3));
-  };
-  HeatMap map = heatMapOf(density, {-0.05, 1.05}, {-0.05, 1.05}, 330, 330);
-  map.values /= map.values.maxCoeff();
-  Series truth = way("true mu", {inTriangle(wheel)}, SeriesStyle::kPoints);
-  truth.size = 2;
-  const Series triangle{.x = {0, 1, 0.5, 0}, .y = {0, 0, kTop, 0}, .color = kGrey};
-  Figure figure{.title = "The belief about a wheel of fortune after 40 turns",
-                .xLabel = "from outcome 1 to outcome 2",
-                .yLabel = "towards outcome 3",
-                .colorLabel = "density / its maximum",
-                .equalAxes = true,
-                .legend = Legend::kOutside};
-  figure.series = {triangle, way("mean of mu, turn by turn", guesses, SeriesStyle::kLine), truth};
-  figure.heatMap = map;
-  plot("dirichlet", figure);
-}
-
-}  // namespace
-
-int main() {
-  // Part 1: a polynomial of degree 9 through noisy samples of a sine, with and without a price on its
-  // weights.
-  Rng rng(1);
-  Eigen::MatrixXd A(12, 10);
-  Eigen::VectorXd y(12);
-  Series data{.label = "data", .style = SeriesStyle::kPoints};
-  for (int i = 0; i < 12; ++i) {
-    const double x = -1 + i / 5.5;
-    for (int k = 0; k < 10; ++k) A(i, k) = std::pow(x, k);
-    y[i] = std::sin(3 * x) + 0.2 * rng.normal();
-    data.x.push_back(x);
-    data.y.push_back(y[i]);
-  }
-  Series library = polynomial("c, by the library", leastSquares(A, y));
-  library.dashed = true;
-  Figure fit{.title = "A polynomial of degree 9 through twelve points",
-             .xLabel = "x",
-             .yLabel = "y",
-             .yRange = AxisRange{-2, 2},
-             .legend = Legend::kBottomRight};
-  fit.series = {data, polynomial("c: least squares", equationC(A, y)), library,
-                polynomial("d: with B = 0.01 Id", equationD(A, y, 0.01 * Eigen::MatrixXd::Identity(10, 10)))};
-  plot("fit", fit);
-  showOptimisation();
-  showBook();
-  showBayes();
+  // Part 5: two sources about one x, robots that drive without looking, a coin and a wheel of fortune.
   showProduct();
   showPropagation();
-  showBeta();
-  showDirichlet();
+  showCoin({.a = 2, .b = 2}, 0.7);
+  showWheel({0.5, 0.3, 0.2});
 }
