@@ -47,11 +47,11 @@ Simulator at(const Simulator& S, const Eigen::VectorXd& q) {
   return Simulator(description);
 }
 
-using Map = std::function<TaskValue(const SimulatorDescription&)>;
+using Map = std::function<TaskMapValue(const SimulatorDescription&)>;
 
 VectorFunction valuesOf(Check& check, const Simulator& S, const Map& map, Eigen::Index dimensions) {
   return [&check, &S, &map, dimensions](const Eigen::VectorXd& q) {
-    const TaskValue there = map(at(S, q).description());
+    const TaskMapValue there = map(at(S, q).description());
     check.shape("y", there.y, dimensions, 1);
     return there.y;
   };
@@ -59,7 +59,7 @@ VectorFunction valuesOf(Check& check, const Simulator& S, const Map& map, Eigen:
 
 // y and J fit together, and y does change with q.
 void checkJacobianOf(Check& check, const Simulator& S, const Map& map) {
-  const TaskValue value = map(S.description());
+  const TaskMapValue value = map(S.description());
   check.that("y has at least one entry", value.y.size() > 0);
   check.shape("y", value.y, value.y.size(), 1);
   check.shape("J", value.J, value.y.size(), S.getJointDimension());
@@ -98,10 +98,10 @@ std::optional<Eigen::Vector3d> mirrored(const Eigen::Vector3d& w, const Eigen::M
 // at a right angle, and at the mirror images of w in the world and in a body's frame R. A single number must
 // not change its sign: on its way it would be zero.
 void isZeroOnlyAt(Check& check, const Eigen::Vector3d& w, const Eigen::Matrix3d& R,
-                  const std::function<TaskValue(const Eigen::Vector3d&)>& map) {
+                  const std::function<TaskMapValue(const Eigen::Vector3d&)>& map) {
   Eigen::Index dimensions = -1;
   const auto valueAt = [&](const Eigen::Vector3d& direction) {
-    const TaskValue value = map(direction);
+    const TaskMapValue value = map(direction);
     if (dimensions < 0) dimensions = value.y.size();
     check.that("y has at least one entry", dimensions > 0);
     check.shape("y", value.y, dimensions, 1);
@@ -212,7 +212,7 @@ void opposePalmsJacobian(Check& check, Student& student, const Robot& robot) {
 void distanceIsZeroAtTheGoal(Check& check, Student& student, const Robot& robot) {
   const Eigen::Vector3d here = robot.S.kinematicsPos(robot.body);
   const auto valueAt = [&](const Eigen::Vector3d& goal) {
-    const TaskValue value = student.distanceToGoal(robot.S.description(), robot.body, goal);
+    const TaskMapValue value = student.distanceToGoal(robot.S.description(), robot.body, goal);
     check.shape("y", value.y, 1, 1);
     check.shape("J", value.J, 1, robot.S.getJointDimension());
     return value.y[0];

@@ -9,7 +9,7 @@
 // metres in the world frame, angles radians. Slides are named as chapter:number.
 
 /// A task map at the present posture: its value y (d numbers) and its Jacobian J = dy/dq (d x n).
-struct TaskValue {
+struct TaskMapValue {
   Eigen::VectorXd y;
   Eigen::MatrixXd J;
 };
@@ -19,17 +19,17 @@ struct TaskValue {
 
 /// Zero exactly when `body` looks at the world point `target`: when `gaze`, a unit vector fixed in the body's
 /// frame, points from the body's origin towards the target. Looking away from it is not zero.
-TaskValue lookAt(const rex::Simulator& S, const std::string& body, const Eigen::Vector3d& gaze,
-                 const Eigen::Vector3d& target);
+TaskMapValue lookAt(const rex::Simulator& S, const std::string& body, const Eigen::Vector3d& gaze,
+                    const Eigen::Vector3d& target);
 
 /// Zero exactly when two hands are ready to clap: when `palm`, a unit vector fixed in each hand's frame,
 /// points in opposite world directions for the two hands. The same direction is not zero.
-TaskValue opposePalms(const rex::Simulator& S, const std::string& left, const std::string& right,
-                      const Eigen::Vector3d& palm);
+TaskMapValue opposePalms(const rex::Simulator& S, const std::string& left, const std::string& right,
+                         const Eigen::Vector3d& palm);
 
 /// One-dimensional (d = 1): zero exactly when the origin of `body` is at the world point `goal`. At the goal
 /// itself, where a distance has no derivative, any finite J will do.
-TaskValue distanceToGoal(const rex::Simulator& S, const std::string& body, const Eigen::Vector3d& goal);
+TaskMapValue distanceToGoal(const rex::Simulator& S, const std::string& body, const Eigen::Vector3d& goal);
 
 // Part 2, one step of inverse kinematics (slide 2:29 with W = Id and C = Id / sigma^2).
 

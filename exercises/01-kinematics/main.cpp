@@ -1,26 +1,25 @@
-#include <algorithm>
 #include <cmath>
 
 #include "exercise.h"
-#include "kinematics/inverse_kinematics.h"
+#include "show.h"
 
 using namespace rex;
 
-TaskValue lookAt(const Simulator& S, const std::string& body, const Eigen::Vector3d& gaze,
-                 const Eigen::Vector3d& target) {
+TaskMapValue lookAt(const Simulator& S, const std::string& body, const Eigen::Vector3d& gaze,
+                    const Eigen::Vector3d& target) {
   // TODO: which world direction does the gaze have (S.kinematicsVec), and which should it have? Compare
   // them; the Jacobian follows from S.jacobianVec and S.jacobianPos.
   return {Eigen::Vector3d::Zero(), Eigen::MatrixXd::Zero(3, S.getJointDimension())};
 }
 
-TaskValue opposePalms(const Simulator& S, const std::string& left, const std::string& right,
-                      const Eigen::Vector3d& palm) {
+TaskMapValue opposePalms(const Simulator& S, const std::string& left, const std::string& right,
+                         const Eigen::Vector3d& palm) {
   // TODO: which function of the two palms' world directions (S.kinematicsVec) is zero only when they are
   // opposite? Its Jacobian follows from S.jacobianVec.
   return {Eigen::Vector3d::Zero(), Eigen::MatrixXd::Zero(3, S.getJointDimension())};
 }
 
-TaskValue distanceToGoal(const Simulator& S, const std::string& body, const Eigen::Vector3d& goal) {
+TaskMapValue distanceToGoal(const Simulator& S, const std::string& body, const Eigen::Vector3d& goal) {
   // TODO: one number that is zero only at the goal, and its derivative by the chain rule (1 x n).
   return {Eigen::VectorXd::Zero(1), Eigen::MatrixXd::Zero(1, S.getJointDimension())};
 }
@@ -56,111 +55,36 @@ std::vector<Eigen::VectorXd> circle(Simulator& S, const std::string& body, const
   return postures;
 }
 
-// From here on everything is given: the parts of the exercise one after another, with pictures. Change it as
-// you like.
-
-namespace {
-
-const Eigen::Vector3d kTarget(-0.2, -0.4, 1.1);  // where the red ball is
-constexpr double kSigma = 0.01;
-
-// |y - wanted| before the first step and after each, where wanted(t) is the place for step t.
-template <class Wanted>
-std::vector<double> trackingErrors(const std::vector<Eigen::VectorXd>& postures, const Wanted& wanted) {
-  Simulator S("man.ors");
-  std::vector<double> errors = {(S.kinematicsPos("handR") - wanted(0)).norm()};
-  for (std::size_t t = 0; t < postures.size(); ++t) {
-    S.setJointAngles(postures[t]);
-    errors.push_back((S.kinematicsPos("handR") - wanted(static_cast<int>(t) + 1)).norm());
-  }
-  return errors;
-}
-
-Eigen::Vector3d onCircle(int t) {
-  return kTarget + 0.2 * Eigen::Vector3d(std::cos(t / 20.), 0, std::sin(t / 20.));
-}
-
-std::vector<Eigen::Vector3d> wholeCircle() {
-  std::vector<Eigen::Vector3d> points;
-  for (int t = 0; t <= 126; ++t) points.push_back(onCircle(t));
-  return points;
-}
-
-// A logarithmic axis has no zero.
-std::vector<double> positive(std::vector<double> values) {
-  for (double& value : values) value = std::max(value, 1e-16);
-  return values;
-}
-
-void showTaskMaps() {
-  const Simulator S("man.ors");
-  const Eigen::Vector3d forward(0, -1, 0), palm(0, 1, 0);
-  print("lookAt: y", lookAt(S, "head", forward, kTarget).y);
-  print("opposePalms: y", opposePalms(S, "handL", "handR", palm).y);
-  print("distanceToGoal: y", distanceToGoal(S, "handR", kTarget).y);
-}
-
-}  // namespace
-
+// What follows is given: the parts of the exercise one after another. show.cpp draws the pictures.
 int main() {
-  showTaskMaps();
+  // Part 1: the values of the task maps where the robot starts, and of the last one where its task is
+  // fulfilled.
+  const Simulator S("man.ors");
+  const Eigen::Vector3d target(-0.2, -0.4, 1.1);  // where the red ball is, metres
+  const Eigen::Vector3d forward(0, -1, 0), palm(0, 1, 0);
+  print("lookAt: y", lookAt(S, "head", forward, target).y);
+  print("opposePalms: y", opposePalms(S, "handL", "handR", palm).y);
+  print("distanceToGoal: y", distanceToGoal(S, "handR", target).y);
+  print("distanceToGoal: y at the goal, which should be 0",
+        distanceToGoal(S, "handR", S.kinematicsPos("handR")).y);
 
-  // 12.3.2 a, b, c: the task error after each step. Once your own steps work, they lie on the library's.
-  const auto atTarget = [](int) { return kTarget; };
-  Simulator full("man.ors"), small("man.ors"), line("man.ors"), library("man.ors");
-  const std::vector<double> fullErrors =
-      trackingErrors(smallSteps(full, "handR", kTarget, 1, kSigma, 8), atTarget);
-  const std::vector<double> smallErrors =
-      trackingErrors(smallSteps(small, "handR", kTarget, 0.1, kSigma, 100), atTarget);
-  const std::vector<double> lineErrors =
-      trackingErrors(straightLine(line, "handR", kTarget, kSigma, 100), atTarget);
-  std::vector<Eigen::VectorXd> libraryPostures;
-  for (int t = 0; t < 100; ++t) {
-    const Eigen::VectorXd dy = kTarget - library.kinematicsPos("handR");
-    library.setJointAngles(library.getJointAngles() +
-                           0.1 * inverseKinematicsStep(library.jacobianPos("handR"), dy, kSigma));
-    libraryPostures.push_back(library.getJointAngles());
-  }
-  plot("errors",
-       {.title = "Distance of the right hand from its target",
-        .xLabel = "step",
-        .yLabel = "task error [m]",
-        .logY = true,
-        .legend = Legend::kBottomRight,
-        .series = {{.label = "full steps", .y = positive(fullErrors), .style = SeriesStyle::kLinesPoints},
-                   {.label = "steps of a tenth", .y = positive(smallErrors)},
-                   {.label = "steps of a tenth, library",
-                    .y = positive(trackingErrors(libraryPostures, atTarget)),
-                    .dashed = true},
-                   {.label = "target moved along a line", .y = positive(lineErrors)}}});
+  // Part 2: one full step promises nearly all of dy, because sigma is small.
+  const double sigma = 0.01;
+  const Eigen::MatrixXd J = S.jacobianPos("handR");
+  const Eigen::Vector3d dy = target - S.kinematicsPos("handR");
+  print("dy", dy);
+  print("J dq, which should be nearly dy", J * ikStep(J, dy, sigma));
+
+  // Part 3, 12.3.2 a, b, c: three ways to the target.
+  Simulator full = S, small = S, line = S;
+  showReaching(smallSteps(full, "handR", target, 1, sigma, 8),
+               smallSteps(small, "handR", target, 0.1, sigma, 100),
+               straightLine(line, "handR", target, sigma, 100), target);
   writeVideo(line, "line", {.caption = "12.3.2 c: along a straight line", .traces = {"handR"}});
 
-  // 12.3.2 d: three turns of the circle, and what a long run does to the posture.
-  Simulator turning("man.ors");
-  const std::vector<Eigen::VectorXd> turns = circle(turning, "handR", kTarget, 0.2, kSigma, 380);
-  const PictureOptions turningLook{
-      .caption = "12.3.2 d: a circle of radius 0.2 m", .traces = {"handR"}, .paths = {wholeCircle()}};
-  writeVideo(turning, "circle", turningLook);
-  const Figure turnErrors{.title = "The first three turns",
-                          .xLabel = "step",
-                          .yLabel = "tracking error [m]",
-                          .logY = true,
-                          .series = {{.y = positive(trackingErrors(turns, onCircle))}}};
-  Simulator longRun("man.ors");
-  const std::vector<Eigen::VectorXd> postures = circle(longRun, "handR", kTarget, 0.2, kSigma, 2000);
-  std::vector<double> drift = {0};
-  for (const Eigen::VectorXd& q : postures) drift.push_back(q.norm());
-  const Figure errors{.title = "Following the circle",
-                      .xLabel = "step",
-                      .yLabel = "tracking error [m]",
-                      .logY = true,
-                      .series = {{.y = positive(trackingErrors(postures, onCircle))}}};
-  const Figure posture{.title = "How far the posture wanders while the hand circles",
-                       .xLabel = "step",
-                       .yLabel = "length of q [rad]",
-                       .series = {{.y = drift}}};
-  plot("circle", errors);
-  plot("posture", posture);
-  writeReplay(turning, "circle", turningLook, {turnErrors, errors, posture});
+  // 12.3.2 d: three turns of a circle, and what a long run does to the posture.
+  Simulator turns = S, longRun = S;
+  circle(turns, "handR", target, 0.2, sigma, 380);
+  showCircle(turns, circle(longRun, "handR", target, 0.2, sigma, 2000), target);
   longRun.watch("posture_after_2000_steps");
 }

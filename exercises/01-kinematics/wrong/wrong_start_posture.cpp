@@ -2,7 +2,6 @@
 // mistake: Every step starts again from the first posture instead of the outcome of the step before.
 
 // <solution smallSteps>
-static_cast<void>(t);
 Simulator fresh = S;
 const Eigen::VectorXd q = S.getJointAngles();
 fresh.setJointAngles(q + alpha * ikStep(S.jacobianPos(body), target - S.kinematicsPos(body), sigma));
