@@ -3,7 +3,11 @@
 #include <numbers>
 
 #include "exercise.h"
-#include "kinematics/hierarchical_step.h"
+#include "show.h"
+// <solution headers>
+// What a mistake in wrong/ takes from the library.
+// <todo>
+// </solution>
 
 using namespace rex;
 
@@ -54,8 +58,8 @@ std::vector<Eigen::VectorXd> circleWithTasks(Simulator& S, const std::string& ha
   std::vector<Eigen::VectorXd> postures;
   // <solution circleWithTasks>
   const Eigen::VectorXd home = S.getJointAngles();
-  for (int t = 1; t <= T; ++t) {
-    const Eigen::Vector3d wanted = center + radius * Eigen::Vector3d(std::cos(t / 20.), 0, std::sin(t / 20.));
+  for (int k = 1; k <= T; ++k) {
+    const Eigen::Vector3d wanted = center + radius * Eigen::Vector3d(std::cos(k / 20.), 0, std::sin(k / 20.));
     const Eigen::VectorXd q = S.getJointAngles();
     const TaskTerm circle{S.kinematicsPos(hand) - wanted, S.jacobianPos(hand), 1e4};
     const TaskTerm up{S.kinematicsVec(pointing) - Eigen::Vector3d::UnitZ(), S.jacobianVec(pointing), 100};
@@ -118,8 +122,8 @@ std::vector<Eigen::VectorXd> taskSpaceMotion(Simulator& S, const std::string& pe
   std::vector<Eigen::VectorXd> postures;
   // <solution taskSpaceMotion>
   const Eigen::Vector3d start = S.kinematicsPos(peg), direction = S.kinematicsVec(peg);
-  for (int t = 1; t <= T; ++t) {
-    const Eigen::Vector3d wanted = start + sineProfile(static_cast<double>(t) / T) * (place - start);
+  for (int k = 1; k <= T; ++k) {
+    const Eigen::Vector3d wanted = start + sineProfile(static_cast<double>(k) / T) * (place - start);
     const TaskTerm there{S.kinematicsPos(peg) - wanted, S.jacobianPos(peg), 1e4};
     const TaskTerm straight{S.kinematicsVec(peg) - direction, S.jacobianVec(peg), 1e4};
     const TaskTerm apart{S.kinematicsContacts(), S.jacobianContacts(), 100};
@@ -172,223 +176,40 @@ Eigen::VectorXd priorityStep(const Eigen::MatrixXd& J1, const Eigen::VectorXd& d
   // </solution>
 }
 
-// From here on everything is given: the parts of the exercise one after another, with pictures. Change it as
-// you like.
-
-namespace {
-
-const Eigen::Vector3d kTarget(-0.2, -0.4, 1.1);  // the centre of the circle, where the red ball is
-const Eigen::Vector3d kHole(0, -1, 1), kDown(0, 0, -1);
-constexpr double kMargin = 0.02;
-// Of the arm: bent and away from the hole; and with the peg above it, but the elbow near the frame.
-const Eigen::VectorXd kAbove =
-    (Eigen::VectorXd(7) << 0.967552, -0.251879, -1.18846, 1.4825, 1.42033, 0.215273, -2.64193).finished();
-const Eigen::VectorXd kStart = 0.6 * kAbove;
-
-using Motion = std::vector<Eigen::VectorXd>;
-
-Eigen::Vector3d onCircle(int t) {
-  return kTarget + 0.2 * Eigen::Vector3d(std::cos(t / 20.), 0, std::sin(t / 20.));
-}
-
-std::vector<Eigen::Vector3d> wholeCircle() {
-  std::vector<Eigen::Vector3d> points;
-  for (int t = 0; t <= 126; ++t) points.push_back(onCircle(t));
-  return points;
-}
-
-// f(S, t) in each posture of a motion, t = 1, 2, ...; of one that is not there yet, where the robot starts.
-template <class F>
-std::vector<double> along(const std::string& scene, const Motion& motion, const F& f) {
-  Simulator S(scene);
-  S.setContactMargin(kMargin);
-  std::vector<double> values;
-  for (const Eigen::VectorXd& q : motion) {
-    S.setJointAngles(q);
-    values.push_back(f(S, static_cast<int>(values.size()) + 1));
-  }
-  if (motion.empty()) values.push_back(f(S, 1));
-  return values;
-}
-
-// A logarithmic axis has no zero.
-std::vector<double> positive(std::vector<double> values) {
-  for (double& value : values) value = std::max(value, 1e-16);
-  return values;
-}
-
-double errorOnCircle(const Simulator& S, int t) { return (S.kinematicsPos("handR") - onCircle(t)).norm(); }
-
-// The circle of exercise 01, with no other task: nothing tells which posture to prefer.
-Motion circleAlone(Simulator& S, int T) {
-  const Eigen::MatrixXd W = Eigen::MatrixXd::Identity(S.getJointDimension(), S.getJointDimension());
-  Motion motion;
-  for (int t = 1; t <= T; ++t) {
-    const TaskTerm circle{S.kinematicsPos("handR") - onCircle(t), S.jacobianPos("handR"), 1e4};
-    S.setJointAngles(S.getJointAngles() + multiTaskStep({circle}, W));
-    motion.push_back(S.getJointAngles());
-  }
-  return motion;
-}
-
-void showNullspace() {
-  const Simulator S("man.ors");
-  const Eigen::MatrixXd J = S.jacobianPos("handR"), N = nullspaceProjector(J);
-  const Eigen::MatrixXd W = Eigen::MatrixXd::Identity(N.rows(), N.cols());
-  print("joints that can move without the hand: trace of N", N.trace());
-  print("largest entry of J N", (J * N).cwiseAbs().maxCoeff());
-  for (const double precision : {1., 1e2, 1e4, 1e6})
-    print("largest entry of I - J J#, less and less",
-          (Eigen::Matrix3d::Identity() - J * regularisedInverse(J, W, precision)).cwiseAbs().maxCoeff());
-}
-
-void showCircles() {
-  Simulator alone("man.ors"), tasks("man.ors"), film("man.ors");
-  const Motion lost = circleAlone(alone, 2000);
-  const Motion kept = circleWithTasks(tasks, "handR", kTarget, 0.2, "handL", 2000);
-  const auto length = [](const Simulator& S, int) { return S.getJointAngles().norm(); };
-  const auto tilt = [](const Simulator& S, int) {
-    return (S.kinematicsVec("handL") - Eigen::Vector3d::UnitZ()).norm();
-  };
-  const Figure errors{
-      .title = "Following the circle",
-      .xLabel = "step",
-      .yLabel = "tracking error [m]",
-      .logY = true,
-      .legend = Legend::kBottomRight,
-      .series = {
-          {.label = "circle alone", .y = positive(along("man.ors", lost, errorOnCircle))},
-          {.label = "with home and pointing tasks", .y = positive(along("man.ors", kept, errorOnCircle))}}};
-  const Figure posture{
-      .title = "How far the posture is from home",
-      .xLabel = "step",
-      .yLabel = "length of q [rad]",
-      .legend = Legend::kTopLeft,
-      .series = {{.label = "circle alone", .y = along("man.ors", lost, length)},
-                 {.label = "with home and pointing tasks", .y = along("man.ors", kept, length)}}};
-  const Figure pointing{.title = "How far the left hand is from pointing upwards",
-                        .xLabel = "step",
-                        .yLabel = "|z axis - up|",
-                        .logY = true,
-                        .series = {{.y = positive(along("man.ors", kept, tilt))}}};
-  plot("circle", errors);
-  plot("posture", posture);
-  plot("pointing", pointing);
-  alone.watch("circle_alone_after_2000_steps");
-  tasks.watch("circle_with_tasks_after_2000_steps");
-  circleWithTasks(film, "handR", kTarget, 0.2, "handL", 380);
-  const PictureOptions look{.caption = "12.4.2: a circle, home, and the left hand up",
-                            .traces = {"handR"},
-                            .paths = {wholeCircle()}};
-  writeVideo(film, "circle", look);
-  writeReplay(film, "circle", look, {errors, posture, pointing});
-}
-
-double contactCost(const Simulator& S, int) {
-  const Eigen::VectorXd cost = S.kinematicsContacts();
-  return cost[0];
-}
-
-void showPeg() {
-  Simulator S("pegInAHole.ors"), straight("pegInAHole.ors"), film("pegInAHole.ors");
-  S.setJointAngles(kStart);
-  film.clearRecording();
-  film.setJointAngles(kStart);
-  for (const Eigen::VectorXd& q : insertPeg(S, "peg", kHole, kDown, kMargin)) film.setJointAngles(q);
-  print("peg", film.kinematicsPos("peg"));
-  film.setContactMargin(kMargin);
-  film.reportProxies();
-
-  // From above the hole into it, in two ways. The contact cost rises where something comes too near.
-  straight.setJointAngles(kAbove);
-  const Motion inTaskSpace = taskSpaceMotion(straight, "peg", kHole, kMargin, 150);
-  const Motion inJointSpace = jointSpaceMotion(kAbove, straight.getJointAngles(), 150);
-  const auto beside = [](const Simulator& at, int) {
-    return (at.kinematicsPos("peg") - kHole).head<2>().norm();
-  };
-  plot("interpolation",
-       {.title = "From above the hole into it",
-        .xLabel = "step",
-        .yLabel = "distance of the peg from the middle line [m]",
-        .series = {{.label = "joint space", .y = along("pegInAHole.ors", inJointSpace, beside)},
-                   {.label = "task space", .y = along("pegInAHole.ors", inTaskSpace, beside)}}});
-  const Figure cost{
-      .title = "Coming too near",
-      .xLabel = "step",
-      .yLabel = "contact cost, margin 0.02 m",
-      .series = {{.label = "joint space", .y = along("pegInAHole.ors", inJointSpace, contactCost)},
-                 {.label = "task space", .y = along("pegInAHole.ors", inTaskSpace, contactCost)}}};
-  plot("contacts", cost);
-  const PictureOptions look{
-      .caption = "The peg on its way into the hole", .traces = {"peg"}, .view = {1, -1, 0.7}};
-  writeVideo(film, "peg", look);
-  writeContactSheet(film, "peg_sheet", look);
-  writeReplay(film, "peg", look, {cost});
-}
-
-// The hand shall circle; less important, it shall stay where it was, and its z axis shall point upwards.
-struct TwoWishes {
-  Eigen::MatrixXd J1;
-  Eigen::VectorXd dy1;
-  Eigen::MatrixXd J2;
-  Eigen::VectorXd dy2;
-};
-
-TwoWishes wishesAt(const Simulator& S, const Eigen::Vector3d& start, int t) {
-  TwoWishes wishes{S.jacobianPos("handR"), onCircle(t) - S.kinematicsPos("handR"),
-                   Eigen::MatrixXd(6, S.getJointDimension()), Eigen::VectorXd(6)};
-  wishes.J2 << S.jacobianPos("handR"), S.jacobianVec("handR");
-  wishes.dy2 << start - S.kinematicsPos("handR"), Eigen::Vector3d::UnitZ() - S.kinematicsVec("handR");
-  wishes.dy2 *= 0.1;  // a tenth of the wish at a time, so that the steps stay small
-  return wishes;
-}
-
-// `step` gives dq from the wishes.
-template <class Step>
-Motion circleWithASecondWish(const Step& step) {
-  Simulator S("man.ors");
-  const Eigen::Vector3d start = S.kinematicsPos("handR");
-  Motion motion;
-  for (int t = 1; t <= 380; ++t) {
-    S.setJointAngles(S.getJointAngles() + step(wishesAt(S, start, t)));
-    motion.push_back(S.getJointAngles());
-  }
-  return motion;
-}
-
-void showPriority(const Motion& byLibrary) {
-  const Eigen::MatrixXd W = Eigen::MatrixXd::Identity(27, 27);
-  const Motion weighted = circleWithASecondWish([&](const TwoWishes& wishes) {
-    return multiTaskStep({TaskTerm{-wishes.dy1, wishes.J1, 1e4}, TaskTerm{-wishes.dy2, wishes.J2, 1e3}}, W);
-  });
-  const Motion strict = circleWithASecondWish(
-      [](const TwoWishes& wishes) { return priorityStep(wishes.J1, wishes.dy1, wishes.J2, wishes.dy2); });
-  const auto errors = [](const Motion& motion) { return positive(along("man.ors", motion, errorOnCircle)); };
-  plot("priority", {.title = "A second wish that pulls the hand away",
-                    .xLabel = "step",
-                    .yLabel = "tracking error [m]",
-                    .logY = true,
-                    .series = {{.label = "weights 10 : 1", .y = errors(weighted)},
-                               {.label = "strict priority", .y = errors(strict)},
-                               {.label = "strict, library", .y = errors(byLibrary), .dashed = true}}});
-}
-
-}  // namespace
-
+// What follows is given: the parts of the exercise one after another. show.cpp draws the pictures.
 int main() {
-  showNullspace();
-  showCircles();
-  showPeg();
+  // Part 1: the task of the right hand, which takes three of the 27 joint angles.
+  const Simulator man("man.ors");
+  const Eigen::MatrixXd J = man.jacobianPos("handR"), N = nullspaceProjector(J);
+  const Eigen::MatrixXd W = Eigen::MatrixXd::Identity(N.rows(), N.cols());
+  print("trace of N, which should be 27 - 3", N.trace());
+  print("largest entry of J N, which should be 0", (J * N).cwiseAbs().maxCoeff());
+  for (const double precision : {1., 1e2, 1e4, 1e6})
+    print("largest entry of I - J J#, which should become less and less",
+          (Eigen::Matrix3d::Identity() - J * regularisedInverse(J, W, precision)).cwiseAbs().maxCoeff());
 
-  // Once your own step works, it lies on the library's.
-  Simulator S("man.ors");
-  const Eigen::Vector3d start = S.kinematicsPos("handR");
-  Motion byLibrary;
-  for (int t = 1; t <= 380; ++t) {
-    const TwoWishes wishes = wishesAt(S, start, t);
-    S.setJointAngles(S.getJointAngles() +
-                     hierarchicalStep({{wishes.J1, wishes.dy1}, {wishes.J2, wishes.dy2}}));
-    byLibrary.push_back(S.getJointAngles());
-  }
-  showPriority(byLibrary);
+  // Part 2: a long run on the circle, and three turns of it for the film.
+  const Eigen::Vector3d center(-0.2, -0.4, 1.1);  // where the red ball is, metres
+  Simulator longRun = man, turns = man;
+  circleWithTasks(turns, "handR", center, 0.2, "handL", 380);
+  showCircles(circleWithTasks(longRun, "handR", center, 0.2, "handL", 2000), turns, center);
+  longRun.watch("circle_with_tasks_after_2000_steps");
+
+  // Part 3: first a posture with the peg above the hole, from a bent arm. Then from above the hole into it,
+  // in joint space and in task space. In the end the whole way from the bent arm.
+  const Eigen::Vector3d hole(0, -1, 1), down(0, 0, -1);
+  const double margin = 0.02;
+  Simulator bent("pegInAHole.ors"), above = bent;
+  above.setJointAngles(
+      (Eigen::VectorXd(7) << 0.967552, -0.251879, -1.18846, 1.4825, 1.42033, 0.215273, -2.64193).finished());
+  bent.setJointAngles(0.6 * above.getJointAngles());
+  Simulator search = bent, straight = above, peg = bent;
+  showPosture(pegPosture(search, "peg", {0, -1, 1.5}, down, margin));
+  const Postures inTaskSpace = taskSpaceMotion(straight, "peg", hole, margin, 150);
+  const Postures inJointSpace = jointSpaceMotion(above.getJointAngles(), straight.getJointAngles(), 150);
+  const Figure contacts = showInterpolation(inJointSpace, inTaskSpace, hole, margin);
+  showInsertion(bent, insertPeg(peg, "peg", hole, down, margin), contacts);
+
+  // Part 4: a second wish pulls the right hand away from its circle.
+  showPriority(center);
 }
