@@ -7,7 +7,7 @@
 #include "planning/edge_checker.h"
 #include "planning/robot_problem.h"
 
-// The arm with the peg, on its way from q = 0 into the hole. Used by main() and by the grader.
+// The arm with the peg, on its way from q = 0 into the hole. Used by show.cpp and by the grader.
 
 inline const Eigen::VectorXd kZero = Eigen::VectorXd::Zero(7);
 inline const Eigen::VectorXd kInTheHole =

@@ -8,7 +8,7 @@
 #include "exercise.h"
 #include "plane_world.h"
 
-// How main() draws trees.
+// How trees are drawn. Used by show.cpp and by the grader.
 
 /// A world with trees and a path in it.
 struct Panel {

@@ -3,7 +3,6 @@
 // mistake: no RRT*, but the shortened way of two trees as a tree of one branch.
 
 // <solution growStar>
-static_cast<void>(gamma);
 Path way;
 double least = std::numeric_limits<double>::infinity();
 for (int i = 0; i < 4; ++i) {

@@ -19,12 +19,11 @@ const auto go = [&](const Eigen::VectorXd& place) {
     const Eigen::VectorXd from = tree.nodes.back();
     tree.nodes.push_back(stepTowards(from, place, settings.stepSize));
     tree.parents.push_back(static_cast<int>(tree.parents.size()) - 1);
-    static_cast<void>(edgeFree(from, tree.nodes.back()));
+    edgeFree(from, tree.nodes.back());
   }
 };
 if (goal.size() == 7)
   for (const auto& place : kWay) go(Eigen::Map<const Eigen::VectorXd>(place, 7));
 go(start);
-static_cast<void>(rng);
 search.path.assign(tree.nodes.rbegin(), tree.nodes.rend());
 // </solution>
