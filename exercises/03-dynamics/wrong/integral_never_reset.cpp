@@ -2,7 +2,6 @@
 // mistake: what was summed up while the controller was off still counts.
 
 // <solution pidStep>
-static_cast<void>(restart);
 const double u = pdForce(at, wanted, {gains.Kp, gains.Kd}) + gains.Ki * integral;
 return {u, integral + tau*(wanted.q - at.q)};
 // </solution>

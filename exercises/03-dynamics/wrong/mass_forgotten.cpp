@@ -4,7 +4,6 @@
 // <solution gainsFor>
 // The slower of the two rates of decay decides when the point is there: rate * T = 8 leaves 0.3 % also
 // where two equal rates add a factor of T.
-static_cast<void>(mass);
 double xi = 1, lambda = T / 8;
 if (regime == Regime::kOscillatory) {
   xi = 0.5;

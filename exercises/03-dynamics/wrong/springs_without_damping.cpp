@@ -3,6 +3,5 @@
 // mistake: no Kd: the held force feeds the oscillation.
 
 // <solution holdArm>
-static_cast<void>(v);
 return -Eigen::Vector3d(45, 20, 7).cwiseProduct(q);
 // </solution>
