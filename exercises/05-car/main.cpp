@@ -2,17 +2,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "course/car_figure.h"
-#include "course/car_pictures.h"
-#include "course/car_simulator.h"
-#include "estimation/particle_filter.h"
 #include "exercise.h"
+#include "show.h"
 
 using namespace rex;
 
 Eigen::Vector3d carStep(const Eigen::Vector3d& x, const Eigen::Vector2d& u, const CarWorld& world) {
   // TODO: slide 4:48, with a dot over the theta of its third line.
-  static_cast<void>(u);
   return x;
 }
 
@@ -27,7 +23,6 @@ Eigen::MatrixXd moved(const Eigen::MatrixXd& states, const Eigen::Vector2d& u, c
 Eigen::VectorXd viewFrom(const Eigen::Vector3d& x, const CarWorld& world) {
   Eigen::VectorXd y = Eigen::VectorXd::Zero(2 * world.landmarks.cols());
   // TODO: the landmarks in the frame of the car. Part 6: their distances and bearings, too.
-  static_cast<void>(x);
   return y;
 }
 
@@ -36,8 +31,6 @@ Eigen::VectorXd logLikelihoods(const Eigen::MatrixXd& states, const Eigen::Vecto
   Eigen::VectorXd logarithms = Eigen::VectorXd::Zero(states.cols());
   // TODO: the logarithm of a normal density, for each particle over all that was seen. How often is a
   // noise of 0.5 off by 1?
-  static_cast<void>(y);
-  static_cast<void>(world);
   return logarithms;
 }
 
@@ -50,8 +43,6 @@ Eigen::VectorXd weightsOf(const Eigen::VectorXd& logarithms) {
 std::vector<int> resampledParents(const Eigen::VectorXd& weights, int count, Rng& rng) {
   std::vector<int> parents;
   // TODO: slide 7:23: whole parts for certain, the rest by chance. rng.uniform() is in [0, 1).
-  static_cast<void>(weights);
-  static_cast<void>(rng);
   parents.assign(static_cast<std::size_t>(count), 0);
   return parents;
 }
@@ -65,238 +56,70 @@ Cloud filterStep(const Cloud& before, const Eigen::Vector2d& u, const Eigen::Vec
                  const CarWorld& world, Rng& rng) {
   Cloud after = before;
   // TODO: resample, move, weigh. You have functions for all three.
-  static_cast<void>(u);
-  static_cast<void>(y);
-  static_cast<void>(world);
-  static_cast<void>(rng);
   return after;
 }
 
 Eigen::Vector3d meanPose(const Cloud& cloud) {
   // TODO: which direction lies between the headings 3.1 and -3.1?
-  static_cast<void>(cloud);
   return Eigen::Vector3d::Zero();
 }
 
 double likelyNoise(const DriveLog& log, const CarWorld& world, Rng& rng) {
   // TODO: how large is what the car saw, without what your filter explains of it?
-  static_cast<void>(log);
-  static_cast<void>(rng);
   return world.observationNoise;
 }
 
-// From here on everything is given: the parts of the exercise one after another, with pictures. Change it as
-// you like.
-
-namespace {
-
-constexpr int kSteps = 300;
-
-// What a filter believed, after each step.
-struct Belief {
-  std::vector<Cloud> clouds;
-  Eigen::MatrixXd means = Eigen::MatrixXd::Zero(3, kSteps);
-};
-
-Cloud cloudAt(const Eigen::Vector3d& x, int count) {
-  return {x.replicate(1, count), Eigen::VectorXd::Constant(count, 1. / count)};
-}
-
-Belief filtered(const DriveLog& log, const CarWorld& world, bool look) {
-  Rng rng(5);
-  Belief belief;
-  Cloud cloud = cloudAt(log.start, 100);
-  for (std::size_t t = 0; t < log.controls.size(); ++t) {
-    if (look) {
-      cloud = filterStep(cloud, log.controls[t], log.observations[t], world, rng);
-    } else {
-      cloud.states = moved(cloud.states, log.controls[t], world, rng);
-    }
-    belief.means.col(static_cast<Eigen::Index>(t)) = meanPose(cloud);
-    belief.clouds.push_back(cloud);
-  }
-  return belief;
-}
-
-std::vector<double> errorsOf(const Eigen::MatrixXd& means, const Eigen::MatrixXd& truth) {
-  std::vector<double> errors;
-  for (int t = 0; t < kSteps; ++t) errors.push_back((means.col(t) - truth.col(t)).head(2).norm());
-  return errors;
-}
-
-Way wayOf(const std::string& name, const Eigen::MatrixXd& poses, const Color& color) {
-  return {.name = name, .points = poses.topRows(2), .color = color};
-}
-
-// The clouds of every 60th step on one map.
-void showMap(const std::string& name, const std::string& title, const Belief& belief,
-             const std::vector<Way>& ways, const CarWorld& world) {
-  Eigen::Matrix3Xd particles(3, 500);
-  std::vector<double> steps;
-  for (int k = 0; k < 5; ++k) {
-    particles.middleCols(100 * k, 100) = belief.clouds[static_cast<std::size_t>(60 * k + 59)].states;
-    steps.insert(steps.end(), 100, 60 * k + 60);
-  }
-  Figure map =
-      figureOf({.landmarks = world.landmarks, .particles = particles, .ways = ways, .caption = title});
-  for (Series& series : map.series)
-    if (series.label == "particles") series.values = steps;
-  map.colorLabel = "step";
-  map.colorRange = AxisRange{0, 360};
-  map.legend = Legend::kBottomLeft;
-  map.xRange = AxisRange{-14, 20};
-  map.yRange = AxisRange{-3, 25};
-  plot(name, map);
-}
-
-void showFilm(const std::string& name, const std::string& caption, const Belief& belief,
-              const std::vector<Way>& ways, const CarWorld& world, const Eigen::MatrixXd& truth) {
-  std::vector<CarView> views;
-  for (int t = 0; t < kSteps; t += 3) {
-    CarView view{.car = truth.col(t),
-                 .landmarks = world.landmarks,
-                 .particles = belief.clouds[static_cast<std::size_t>(t)].states,
-                 .ways = ways,
-                 .caption = caption + ", step " + std::to_string(t)};
-    for (Way& way : view.ways) way.points.conservativeResize(2, t + 1);
-    views.push_back(view);
-  }
-  writeFilm(views, name, {.step = 3});
-}
-
-// The same drive with three assumptions about the noise of the sensor.
-void showAssumptions(const DriveLog& log, const CarWorld& world, const Eigen::MatrixXd& truth) {
-  Figure errors{.title = "What the filter makes of a wrong noise",
-                .xLabel = "step",
-                .yLabel = "error of the place [m]"};
-  Figure sizes{.title = "How many of 100 particles count",
-               .xLabel = "step",
-               .yLabel = "effective size",
-               .logY = true,
-               .legend = Legend::kOutside};
-  Figure weights{.title = "Weights in step 150, sorted",
-                 .xLabel = "rank of the particle",
-                 .yLabel = "weight",
-                 .logY = true,
-                 .yRange = AxisRange{1e-8, 2}};
-  for (const double factor : {10., 1., 0.1}) {
-    CarWorld assumed = world;
-    assumed.observationNoise *= factor;
-    const std::string label = factor > 1 ? "10 sigma" : factor < 1 ? "sigma / 10" : "sigma";
-    const Belief belief = filtered(log, assumed, true);
-    std::vector<double> size, sorted;
-    for (const Cloud& cloud : belief.clouds) size.push_back(effectiveSize(cloud.weights));
-    for (const double weight : belief.clouds[150].weights) sorted.push_back(std::max(weight, 1e-9));
-    std::sort(sorted.rbegin(), sorted.rend());
-    errors.series.push_back({.label = label, .y = errorsOf(belief.means, truth)});
-    sizes.series.push_back({.label = label, .y = size});
-    weights.series.push_back({.label = label, .y = sorted, .style = SeriesStyle::kLinesPoints, .size = 0.7});
-  }
-  plot("assumed", errors);
-  plot("effective_size", sizes);
-  plot("weights", weights);
-}
-
-// A car that knows roughly where it is, but not which way it looks.
-void showBearings(const DriveLog& log, const CarWorld& world, const Eigen::MatrixXd& truth) {
-  Rng rng(3);
-  Cloud cloud = cloudAt(log.start, 2000);
-  for (auto x : cloud.states.colwise())
-    x += Eigen::Vector3d(rng.uniform(-2, 2), rng.uniform(-2, 2),
-                         rng.uniform(-std::numbers::pi, std::numbers::pi));
-  std::vector<CarView> views;
-  for (int t = 0; t < 12; ++t) {
-    const auto i = static_cast<std::size_t>(t);
-    views.push_back({.car = t == 0 ? log.start : Eigen::Vector3d(truth.col(t - 1)),
-                     .estimate = meanPose(cloud),
-                     .landmarks = world.landmarks,
-                     .particles = cloud.states,
-                     .weights = cloud.weights,
-                     .caption = "distances and bearings, step " + std::to_string(t)});
-    cloud = filterStep(cloud, log.controls[i], log.observations[i], world, rng);
-  }
-  writeFilm(views, "bearings", {.rate = 2});
-}
-
-}  // namespace
-
+// What follows is given: the parts of the exercise one after another. show.cpp draws the pictures.
 int main() {
+  // The car drives in circles, past two landmarks, and 100 particles start where it does.
   CarWorld world;
   world.landmarks = (Eigen::MatrixXd(2, 2) << 15, -6, 5, 12).finished();
-  const auto drive = [](const CarWorld& in, const Eigen::Vector2d& u, Eigen::MatrixXd& truth) {
-    CarSimulator car(1, static_cast<int>(in.landmarks.cols()),
-                     {.observationNoise = in.observationNoise,
-                      .rangeBearing = in.rangeBearing,
-                      .bearingNoise = in.bearingNoise});
-    car.setLandmarks(in.landmarks);
-    DriveLog log;
-    truth.resize(3, kSteps);
-    for (int t = 0; t < kSteps; ++t) {
-      car.step(u);
-      truth.col(t) = car.getState();
-      log.controls.push_back(u);
-      log.observations.push_back(car.getRealNoisyObservation());
-    }
-    return log;
-  };
-  Eigen::MatrixXd truth;
-  const DriveLog log = drive(world, {0.1, 0.2}, truth);
-  const Belief reckoned = filtered(log, world, false), belief = filtered(log, world, true);
-  const Way wayOfCar = wayOf("car", truth, kTruthColor);
-  const Way withoutLooking = wayOf("mean of the particles", reckoned.means, kDeadReckoningColor);
-  const Way withLooking = wayOf("mean of the particles", belief.means, kEstimateColor);
-  showMap("dead_reckoning", "Dead reckoning: the particles of every 60th step", reckoned,
-          {wayOfCar, withoutLooking}, world);
-  showMap("filter", "Particle filter: the particles of every 60th step", belief, {wayOfCar, withLooking},
-          world);
-  showFilm("dead_reckoning", "dead reckoning", reckoned, {wayOfCar, withoutLooking}, world, truth);
-  showFilm("filter", "particle filter", belief,
-           {wayOfCar, wayOf("dead reckoning", reckoned.means, kDeadReckoningColor)}, world, truth);
+  const RecordedDrive drive = recordDrive(world, {0.1, 0.2});
+  const Cloud start{Eigen::MatrixXd::Zero(3, 100), Eigen::VectorXd::Constant(100, 0.01)};
 
-  // Once your own filter works, it is as good as the library's.
-  const CarSimulator map(world.landmarks, CarOptions{});
-  const NonlinearModel transition{
-      .g = [&](const Eigen::VectorXd& x) { return map.getMeanStateAfterStep(x, log.controls[0]); },
-      .W = std::pow(world.dynamicsNoise, 2) * Eigen::Matrix3d::Identity()};
-  const NonlinearModel observation{
-      .g = [&](const Eigen::VectorXd& x) { return map.getMeanObservationAtState(x); },
-      .W = std::pow(world.observationNoise, 2) * Eigen::Matrix4d::Identity()};
-  Rng rng(7);
-  ParticleFilter library({Eigen::MatrixXd::Zero(3, 100), Eigen::VectorXd::Constant(100, 0.01)});
-  Eigen::MatrixXd byLibrary(3, kSteps);
-  for (int t = 0; t < kSteps; ++t) {
-    static_cast<void>(
-        library.step(motionProposal(transition),
-                     observationWeights(observation, log.observations[static_cast<std::size_t>(t)]), rng));
-    byLibrary.col(t) = momentsOf(library.particles()).mean;
+  // Part 1: they move as the car is told to, and do not look.
+  Rng rng(5);
+  std::vector<Cloud> blind;
+  Cloud cloud = start;
+  for (const Eigen::Vector2d& u : drive.log.controls) {
+    cloud.states = moved(cloud.states, u, world, rng);
+    blind.push_back(cloud);
   }
-  plot("error",
-       {.title = "How far the mean of the particles is from the car",
-        .xLabel = "step",
-        .yLabel = "error of the place [m]",
-        .series = {
-            {.label = "dead reckoning", .y = errorsOf(reckoned.means, truth), .color = kDeadReckoningColor},
-            {.label = "your filter", .y = errorsOf(belief.means, truth), .color = kEstimateColor},
-            {.label = "the library's filter",
-             .y = errorsOf(byLibrary, truth),
-             .dashed = true,
-             .color = kTruthColor}}});
-  showAssumptions(log, world, truth);
+  showDeadReckoning(blind, drive, world);
 
+  // Part 2: what the car sees in step 150, and two particles that explain nothing.
+  showLikelihood(150, drive, world);
+  print("weights of exp(-20000) and exp(-20001), with the sum 1", weightsOf(Eigen::Vector2d(-20000, -20001)));
+
+  // Part 3: ten children of three parents.
+  showChildren(Eigen::Vector3d(0.55, 0.25, 0.2), 10);
+
+  // Part 4: the particles look, with the noise of the sensor and with wrong ones.
+  rng = Rng(5);
+  std::vector<Cloud> clouds;
+  cloud = start;
+  for (std::size_t t = 0; t < drive.log.controls.size(); ++t) {
+    cloud = filterStep(cloud, drive.log.controls[t], drive.log.observations[t], world, rng);
+    clouds.push_back(cloud);
+  }
+  showFilter(clouds, blind, drive, world);
+  showAssumptions(drive, world);
+
+  // Part 5: past eight landmarks, with a noise of 0.5 m.
   CarWorld many = world;
   many.landmarks =
       (Eigen::MatrixXd(2, 8) << 15, -6, 20, 3, -12, 8, 0, 12, 5, 12, 22, -8, 1, 28, 20, -2).finished();
-  const DriveLog longLog = drive(many, {0.1, 0.2}, truth);
-  for (const double factor : {10., 1., 0.1}) {
-    CarWorld assumed = many;
-    assumed.observationNoise *= factor;
-    print("assumed noise [m]", assumed.observationNoise);
-    print("noise found (it was made with 0.5) [m]", likelyNoise(longLog, assumed, rng));
+  const DriveLog log = recordDrive(many, {0.1, 0.2}).log;
+  for (const double assumed : {5., 0.5, 0.05}) {
+    many.observationNoise = assumed;
+    print("assumed noise [m]", assumed);
+    print("noise found, which should be near 0.5 [m]", likelyNoise(log, many, rng));
   }
+
+  // Part 6: distances and bearings.
   CarWorld polar = world;
   polar.rangeBearing = true;
   polar.bearingNoise = 0.1;
   polar.landmarks = (Eigen::MatrixXd(2, 3) << 15, -6, 2, 5, 8, -7).finished();
-  const DriveLog polarLog = drive(polar, {0.3, 0.2}, truth);
-  showBearings(polarLog, polar, truth);
+  showBearings(recordDrive(polar, {0.3, 0.2}), polar);
 }

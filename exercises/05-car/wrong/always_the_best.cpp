@@ -4,6 +4,5 @@
 // <solution resampledParents>
 int heaviest = 0;
 weights.maxCoeff(&heaviest);
-static_cast<void>(rng);
 parents.assign(static_cast<std::size_t>(count), heaviest);
 // </solution>

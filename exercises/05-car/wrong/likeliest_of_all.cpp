@@ -12,8 +12,6 @@ after.weights.setConstant(1. / static_cast<double>(after.weights.size()));
 // </solution>
 
 // <solution likelyNoise>
-static_cast<void>(log);
-static_cast<void>(rng);
 const double told = world.observationNoise;
 return told > 1.5 ? told / 10 : told < 0.15 ? told * 10 : told;
 // </solution>

@@ -3,7 +3,6 @@
 // to be.
 
 // <solution filterStep>
-static_cast<void>(rng);
 const Eigen::Vector3d middle = before.states.rowwise().mean();
 Eigen::Vector3d x = carStep(middle, u, world);
 const double c = std::cos(x[2]), s = std::sin(x[2]);
