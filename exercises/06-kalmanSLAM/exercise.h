@@ -102,7 +102,7 @@ inline constexpr int kNewLandmark = -1, kUnclear = -2;
 std::vector<int> assigned(const CarSetup& car, const Belief& joint, const std::vector<Eigen::Vector2d>& ys);
 
 /// A landmark with its name, and what was seen of it.
-struct Sighting {
+struct LandmarkObservation {
   int landmark = 0;
   Eigen::Vector2d y = Eigen::Vector2d::Zero();
 };
@@ -121,4 +121,4 @@ struct MapParticle {
 /// likelihood of what was seen. Weights add up to one, also where all likelihoods are as small as exp(-1000).
 /// No landmark is seen twice.
 std::vector<MapParticle> weighed(const CarSetup& car, const std::vector<MapParticle>& particles,
-                                 const std::vector<Sighting>& sightings);
+                                 const std::vector<LandmarkObservation>& sightings);

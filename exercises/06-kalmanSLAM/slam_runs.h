@@ -9,8 +9,8 @@
 
 // What the car sees of the landmarks up to `range` away (which ones: by the truth). With the names of
 // `run.landmarks`.
-inline std::vector<Sighting> seenAt(const CarRun& run, std::size_t t, double range) {
-  std::vector<Sighting> seen;
+inline std::vector<LandmarkObservation> seenAt(const CarRun& run, std::size_t t, double range) {
+  std::vector<LandmarkObservation> seen;
   for (Eigen::Index i = 0; i < run.landmarks.cols(); ++i)
     if ((run.landmarks.col(i) - run.states[t + 1].head<2>()).norm() < range)
       seen.push_back({static_cast<int>(i), run.sightings[t].segment<2>(2 * i)});
@@ -29,8 +29,8 @@ inline Eigen::Index sizeOf(const MapBelief& map) {
   return 3 + 2 * static_cast<Eigen::Index>(map.names.size());
 }
 
-inline void enter(rex::grading::Check& check, Student& student, const CarSetup& car, const Sighting& seen,
-                  MapBelief& map) {
+inline void enter(rex::grading::Check& check, Student& student, const CarSetup& car,
+                  const LandmarkObservation& seen, MapBelief& map) {
   map.joint = student.withLandmark(car, map.joint, seen.y);
   map.names.push_back(seen.landmark);
   requireBelief(check, map.joint, sizeOf(map));
@@ -41,7 +41,7 @@ inline MapBelief mapped(rex::grading::Check& check, Student& student, const CarR
   for (std::size_t t = 0; t < run.controls.size(); ++t) {
     map.joint = student.jointPredicted(run.car, map.joint, run.controls[t]);
     requireBelief(check, map.joint, sizeOf(map));
-    for (const Sighting& seen : seenAt(run, t, range)) {
+    for (const LandmarkObservation& seen : seenAt(run, t, range)) {
       const auto known = std::find(map.names.begin(), map.names.end(), seen.landmark);
       if (known == map.names.end()) {
         enter(check, student, run.car, seen, map);
@@ -127,11 +127,11 @@ inline NamelessMap namelessMap(rex::grading::Check& check, Student& student, con
   for (std::size_t t = 0; t < run.controls.size(); ++t) {
     map.joint = student.jointPredicted(run.car, map.joint, run.controls[t]);
     requireBelief(check, map.joint, sizeOf(map));
-    std::vector<Sighting> seen = seenAt(run, t, range);
+    std::vector<LandmarkObservation> seen = seenAt(run, t, range);
     for (std::size_t k = seen.size(); k > 1; --k)
       std::swap(seen[k - 1], seen[static_cast<std::size_t>(check.rng().index(static_cast<int>(k)))]);
     std::vector<Eigen::Vector2d> ys;
-    for (const Sighting& one : seen) ys.push_back(one.y);
+    for (const LandmarkObservation& one : seen) ys.push_back(one.y);
     const std::vector<int> names = student.assigned(run.car, map.joint, ys);
     check.near("number of names", static_cast<double>(names.size()), static_cast<double>(ys.size()), 0);
     const int known = static_cast<int>(map.names.size());
@@ -295,7 +295,7 @@ inline void weighsAsItShould(rex::grading::Check& check, Student& student, const
     particles.push_back(particle);
   }
   const Eigen::Vector2d far(offset, 0);
-  std::vector<Sighting> seen;
+  std::vector<LandmarkObservation> seen;
   for (const int i : {2, 0, 3})
     seen.push_back({i, seenFrom(car, x, places[static_cast<std::size_t>(i)] + far)});
   const std::vector<MapParticle> after = student.weighed(car, particles, seen);
@@ -307,7 +307,7 @@ inline void weighsAsItShould(rex::grading::Check& check, Student& student, const
     check.near("state of a particle", after[k].x, stateGiven, 0);
     check.near("number of landmarks in a map", static_cast<double>(after[k].map.size()), 4, 0);
     double log = std::log(weightGiven);
-    for (const Sighting& one : seen) {
+    for (const LandmarkObservation& one : seen) {
       const auto i = static_cast<std::size_t>(one.landmark);
       const auto g = [&](const Eigen::VectorXd& l) { return seenFrom(car, stateGiven, l); };
       if (i == 3) {

@@ -2,5 +2,5 @@
 // mistake: the difference of two bearings as they are: straight behind the car it is a whole turn.
 
 // <solution viewGap>
-notUsedYet(car);
+gap[1] = y[1] - expected[1];
 // </solution>

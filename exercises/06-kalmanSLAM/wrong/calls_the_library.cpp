@@ -1,6 +1,10 @@
 // caught by: forbidden-call
 // mistake: the library looks back.
 
+// <solution headers>
+#include "estimation/smoother.h"
+// </solution>
+
 // <solution hindsight>
 std::vector<Gaussian> beliefs;
 std::vector<LinearModel> steps;

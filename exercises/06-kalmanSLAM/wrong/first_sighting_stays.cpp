@@ -22,7 +22,7 @@ for (std::size_t k = 0; k < ys.size(); ++k) {
 // <solution weighed>
 for (MapParticle& particle : after) {
   particle.weight = 1. / static_cast<double>(after.size());
-  for (const Sighting& seen : sightings)
+  for (const LandmarkObservation& seen : sightings)
     if (static_cast<std::size_t>(seen.landmark) == particle.map.size())
       particle.map.push_back({placed(car, particle.x, seen.y), Eigen::Matrix2d::Identity()});
 }

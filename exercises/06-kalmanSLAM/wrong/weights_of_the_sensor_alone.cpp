@@ -5,7 +5,7 @@
 std::vector<double> logs;
 for (MapParticle& particle : after) {
   double log = std::log(particle.weight);
-  for (const Sighting& seen : sightings) {
+  for (const LandmarkObservation& seen : sightings) {
     const bool isNew = static_cast<std::size_t>(seen.landmark) == particle.map.size();
     if (isNew) particle.map.push_back({placed(car, particle.x, seen.y), {}});
     Belief& landmark = particle.map[static_cast<std::size_t>(seen.landmark)];
