@@ -1,19 +1,15 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <string>
 
-#include "control/gain_search.h"
-#include "control/regulators.h"
-#include "course/cart_pole.h"
-#include "course/cart_pole_pictures.h"
 #include "exercise.h"
+#include "show.h"
+// <solution headers>
+// What a mistake in wrong/ takes from the library.
+// <todo>
+// </solution>
 
 using namespace rex;
-
-// Keeps the compiler quiet about what a function below does not use yet.
-template <class... Unused>
-void notUsedYet(const Unused&...) {}
 
 Eigen::Vector4d rateOf(const PoleCart& cart, const Eigen::Vector4d& x, double u) {
   // <solution rateOf>
@@ -23,7 +19,6 @@ Eigen::Vector4d rateOf(const PoleCart& cart, const Eigen::Vector4d& x, double u)
   return {x[1], c1 * u + swing - c2 * turn * c, x[3], turn};
   // <todo>
   //| // TODO: eq. (13), then eq. (14), which needs the result.
-  //| notUsedYet(cart, x, u);
   //| return Eigen::Vector4d::Zero();
   // </solution>
 }
@@ -40,7 +35,6 @@ Plant linearised(const PoleCart& cart) {
   return plant;
   // <todo>
   //| // TODO: which entries of A and B are not zero? The rows are in the order of x.
-  //| notUsedYet(cart);
   //| return {Eigen::MatrixXd::Zero(4, 4), Eigen::MatrixXd::Zero(4, 1)};
   // </solution>
 }
@@ -59,7 +53,6 @@ std::optional<Eigen::MatrixXd> iterated(const Plant& plant, const Costs& costs, 
   return {};
   // <todo>
   //| // TODO: the bracket of P, and from it the next P.
-  //| notUsedYet(plant, costs, epsilon, tolerance, most);
   //| return {};
   // </solution>
 }
@@ -80,7 +73,6 @@ Eigen::MatrixXd viaHamiltonian(const Plant& plant, const Costs& costs) {
   return .5 * (P + P.transpose());
   // <todo>
   //| // TODO: the Hamiltonian matrix (2 n x 2 n), its stable half, P.
-  //| notUsedYet(costs);
   //| return Eigen::MatrixXd::Zero(plant.A.rows(), plant.A.rows());
   // </solution>
 }
@@ -91,7 +83,6 @@ Eigen::MatrixXd gainOf(const Plant& plant, const Costs& costs, const Eigen::Matr
   return -solveMatrix(costs.R, transposed * P);
   // <todo>
   //| // TODO: 12.11.1 b. Mind the sign.
-  //| notUsedYet(costs, P);
   //| return Eigen::MatrixXd::Zero(plant.B.cols(), plant.A.rows());
   // </solution>
 }
@@ -105,7 +96,6 @@ Eigen::Vector4d stepped(const PoleCart& cart, const Eigen::Vector4d& x, double u
   return next;
   // <todo>
   //| // TODO: a step of Euler, then the noise.
-  //| notUsedYet(cart, u, tau, noise, rng);
   //| return x;
   // </solution>
 }
@@ -117,13 +107,12 @@ Eigen::MatrixXd balanced(const PoleCart& cart, const Eigen::MatrixXd& K, const E
   states.col(0) = start;
   int t = 0;
   while (t < outing.steps && std::abs(states(2, t)) <= std::numbers::pi / 2) {
-    const Eigen::Vector4d x = states.col(t);
-    states.col(++t) = stepped(cart, x, K.row(0).dot(x), outing.tau, outing.noise, rng);
+    const Eigen::Vector4d before = states.col(t);
+    states.col(++t) = stepped(cart, before, K.row(0).dot(before), outing.tau, outing.noise, rng);
   }
   return states.leftCols(t + 1);
   // <todo>
   //| // TODO: control and step, until the time is over or the pole has fallen.
-  //| notUsedYet(cart, K, outing, rng);
   //| return start;
   // </solution>
 }
@@ -151,7 +140,6 @@ int reachable(const Plant& plant) {
   return rank;
   // <todo>
   //| // TODO: the rank of reachMatrix(). svd() gives singular values.
-  //| notUsedYet(plant);
   //| return 0;
   // </solution>
 }
@@ -164,7 +152,6 @@ double slowestPole(const Plant& plant, const Eigen::MatrixXd& K) {
   return slowest;
   // <todo>
   //| // TODO: which matrix moves x if u = K x? eigenvalues() gives its poles.
-  //| notUsedYet(plant, K);
   //| return 0;
   // </solution>
 }
@@ -191,7 +178,6 @@ Fate fateOf(const Eigen::MatrixXd& A) {
   return fate;
   // <todo>
   //| // TODO: 8:36 is not the whole truth on the imaginary axis.
-  //| notUsedYet(A);
   //| return Fate::dies;
   // </solution>
 }
@@ -216,7 +202,6 @@ Eigen::MatrixXd quickGains(const std::function<double(const Eigen::MatrixXd&)>& 
   return best;
   // <todo>
   //| // TODO: a search. The best rate lies on an edge, where no step along one axis helps.
-  //| notUsedYet(slowest, bound, rng);
   //| return start;
   // </solution>
 }
@@ -242,7 +227,6 @@ std::optional<Eigen::VectorXd> counterexample(const Flow& f, const Eigen::Matrix
   return {};
   // <todo>
   //| // TODO: look at many points of the box, and on its axes.
-  //| notUsedYet(f, P, high, rng);
   //| return {};
   // </solution>
 }
@@ -255,7 +239,6 @@ double levelInside(const Eigen::MatrixXd& P, const Eigen::VectorXd& high) {
   return level;
   // <todo>
   //| // TODO: where on the ellipsoid of level c is x_i largest?
-  //| notUsedYet(P, high);
   //| return 0;
   // </solution>
 }
@@ -276,284 +259,58 @@ std::vector<Eigen::MatrixXd> gainsOverTime(const Plant& plant, const Costs& cost
   return K;
   // <todo>
   //| // TODO: from the last step to the first.
-  //| notUsedYet(costs, F);
   //| const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(plant.B.cols(), plant.A.rows());
   //| return std::vector<Eigen::MatrixXd>(static_cast<std::size_t>(steps), zero);
   // </solution>
 }
 
-// What follows is given.
-
-namespace {
-
-constexpr PoleCart kCart;
-constexpr double kTau = 1. / 60;
-
-// c = rho = 1.
-Costs sheetCosts() { return {Eigen::Vector4d(1, 0, 1, 0).asDiagonal(), Eigen::MatrixXd::Identity(1, 1)}; }
-
-// A number of the state over time.
-Series overTime(const std::string& label, const Eigen::MatrixXd& states, int row) {
-  Series series{.label = label};
-  for (Eigen::Index t = 0; t < states.cols(); ++t) {
-    series.x.push_back(kTau * static_cast<double>(t));
-    series.y.push_back(states(row, t));
-  }
-  return series;
-}
-
-double forceOf(const Eigen::MatrixXd& K, const Eigen::Vector4d& x) {
-  double u = 0;
-  for (int i = 0; i < 4; ++i) u += K(0, i) * x[i];
-  return u;
-}
-
-Eigen::MatrixXd withoutNoise(const Eigen::MatrixXd& K, const Eigen::Vector4d& start, double seconds) {
-  Rng rng(0);
-  return balanced(kCart, K, start, {.noise = 0, .steps = static_cast<int>(seconds / kTau)}, rng);
-}
-
-// From several angles, without noise.
-void showOutings(const Eigen::MatrixXd& K) {
-  Figure theta{.title = "The pole from several angles, without noise",
-               .xLabel = "time [s]",
-               .yLabel = "theta [rad]",
-               .yRange = AxisRange{-1.6, 1.6}};
-  Figure position{.title = "The cart", .xLabel = "time [s]", .yLabel = "p [m]"};
-  Figure force{.title = "The force", .xLabel = "time [s]", .yLabel = "u [N]"};
-  for (Figure* figure : {&theta, &position, &force}) figure->legend = Legend::kOutside;
-  for (const double angle : {.2, .5, .8, 1., 1.1}) {
-    const Eigen::MatrixXd states = withoutNoise(K, {0, 0, angle, 0}, 12);
-    const std::string label = "from " + std::to_string(angle).substr(0, 3);
-    theta.series.push_back(overTime(label, states, 2));
-    position.series.push_back(overTime(label, states, 0));
-    Series forces = overTime(label, states, 0);
-    for (Eigen::Index t = 0; t < states.cols(); ++t)
-      forces.y[static_cast<std::size_t>(t)] = forceOf(K, states.col(t));
-    force.series.push_back(forces);
-  }
-  plot("theta", theta);
-  plot("position", position);
-  plot("force", force);
-}
-
-// The share of outings of 20 s that do not end with a fall.
-double survivors(const Eigen::MatrixXd& K, double angle, double noise) {
-  constexpr int kRuns = 60, kSteps = 1200;
-  int count = 0;
-  for (int run = 0; run < kRuns; ++run) {
-    Rng rng(static_cast<std::uint64_t>(run));
-    count += balanced(kCart, K, {0, 0, angle, 0}, {.noise = noise, .steps = kSteps}, rng).cols() > kSteps;
-  }
-  return static_cast<double>(count) / kRuns;
-}
-
-void showSurvival(const Eigen::MatrixXd& K, const Eigen::MatrixXd& printed) {
-  Figure figure{.title = "How many of 60 outings of 20 s do not end with a fall",
-                .xLabel = "theta at the start [rad]",
-                .yLabel = "share",
-                .yRange = AxisRange{-.02, 1.05},
-                .legend = Legend::kOutside};
-  for (const double noise : {.1, .2, .3})
-    for (const Eigen::MatrixXd* gains : {&K, &printed}) {
-      const bool isPrinted = gains == &printed;
-      const std::string level = "noise " + std::to_string(noise).substr(0, 3);
-      Series series{.label = level + (isPrinted ? ", K of the sheet" : ", your K"), .dashed = isPrinted};
-      series.color = noise < .15 ? Color{.1, .4, .7} : noise < .25 ? Color{.85, .5, .1} : Color{.7, .15, .2};
-      for (double angle = 0; angle < 1.35; angle += .05) {
-        series.x.push_back(angle);
-        series.y.push_back(survivors(*gains, angle, noise));
-      }
-      figure.series.push_back(series);
-    }
-  plot("survival", figure);
-}
-
-// Of x' = (A + B K) x.
-Series polesOf(const std::string& label, const Plant& plant, const Eigen::MatrixXd& K, Marker marker) {
-  Eigen::MatrixXd closed = plant.A;
-  for (int i = 0; i < 4; ++i)
-    for (int k = 0; k < 4; ++k) closed(i, k) += plant.B(i, 0) * K(0, k);
-  Series series{.label = label, .style = SeriesStyle::kPoints, .marker = marker, .size = 1.6};
-  for (const std::complex<double>& pole : eigenvalues(closed)) {
-    series.x.push_back(pole.real());
-    series.y.push_back(pole.imag());
-  }
-  return series;
-}
-
-void showPoles(const Plant& real, const Eigen::MatrixXd& K, const Eigen::MatrixXd& printed,
-               const Eigen::MatrixXd& quick) {
-  Figure figure{.title = "Poles of the cart pole",
-                .xLabel = "real part [1/s]",
-                .yLabel = "imaginary part [1/s]",
-                .xRange = AxisRange{-6, 4},
-                .yRange = AxisRange{-4, 4},
-                .legend = Legend::kOutside};
-  figure.regions = {{.label = "stable", .x = {-6, 0, 0, -6}, .y = {-4, -4, 4, 4}}};
-  figure.series = {polesOf("without control", real, Eigen::MatrixXd::Zero(1, 4), Marker::kCross),
-                   polesOf("your K", real, K, Marker::kCircle),
-                   polesOf("K of the sheet", real, printed, Marker::kPlus),
-                   polesOf("your quick K", real, quick, Marker::kSquare)};
-  plot("poles", figure);
-}
-
-void showQuick(const Eigen::MatrixXd& K, const Eigen::MatrixXd& quick) {
-  Figure figure{.title = "Optimal gains and quick ones, from theta = 0.2",
-                .xLabel = "time [s]",
-                .yLabel = "theta [rad], p [m]"};
-  for (const Eigen::MatrixXd* gains : {&K, &quick}) {
-    const Eigen::MatrixXd states = withoutNoise(*gains, {0, 0, .2, 0}, 10);
-    for (const int row : {0, 2}) {
-      Series series = overTime(row == 0 ? "p" : "theta", states, row);
-      series.label += gains == &K ? ", optimal" : ", quick";
-      series.dashed = row == 0;
-      series.color = gains == &K ? Color{.1, .4, .7} : Color{.85, .4, .1};
-      figure.series.push_back(series);
-    }
-  }
-  plot("quick", figure);
-}
-
-// In discrete time, by steps of Euler.
-void showHorizon(const Plant& real, const Eigen::MatrixXd& optimal) {
-  constexpr int kSteps = 480;
-  Plant steps = real;
-  Costs costs = sheetCosts();
-  for (Eigen::MatrixXd* matrix : {&steps.A, &steps.B, &costs.Q, &costs.R}) *matrix *= kTau;
-  for (int i = 0; i < 4; ++i) steps.A(i, i) += 1;
-  const std::vector<Eigen::MatrixXd> K = gainsOverTime(steps, costs, Eigen::MatrixXd::Zero(4, 4), kSteps);
-  Figure figure{.title = "Gains of a horizon of 8 s (dashed: continuous time without an end)",
-                .xLabel = "time [s]",
-                .yLabel = "gain",
-                .legend = Legend::kOutside};
-  const char* names[] = {"p", "p'", "theta", "theta'"};
-  const Color colors[] = {{.1, .4, .7}, {.85, .5, .1}, {.15, .55, .3}, {.7, .15, .2}};
-  for (int i = 0; i < 4; ++i) {
-    Series series{.label = std::string("of ") + names[i], .color = colors[i]};
-    for (int t = 0; t < kSteps; ++t) {
-      series.x.push_back(kTau * t);
-      series.y.push_back(K[static_cast<std::size_t>(t)](0, i));
-    }
-    figure.series.push_back(series);
-    figure.series.push_back(
-        {.x = {0, 8}, .y = {optimal(0, i), optimal(0, i)}, .dashed = true, .color = colors[i]});
-  }
-  plot("horizon", figure);
-}
-
-// Along rays from rest: the first distance at which `ends` holds.
-Series edgeOf(const std::string& label, const Color& color,
-              const std::function<bool(double theta, double rate)>& ends) {
-  Series series{.label = label, .color = color};
-  for (int i = 0; i <= 120; ++i) {
-    const double angle = 2 * std::numbers::pi * i / 120, c = std::cos(angle), s = 3 * std::sin(angle);
-    double r = .03;
-    while (r < 5 && std::abs(r * c) < 1.56 && !ends(r * c, r * s)) r += .03;
-    series.x.push_back(r * c);
-    series.y.push_back(r * s);
-  }
-  return series;
-}
-
-// The starts with p = p' = 0 for which x^T P x is at most the level.
-CovarianceEllipse sectionOf(const Eigen::MatrixXd& P, double level) {
-  const double a = P(2, 2), b = P(2, 3), c = P(3, 3), D = a * c - b * b;
-  CovarianceEllipse section{.label = "proved", .sigmas = std::sqrt(level), .color = Color{.1, .4, .7}};
-  section.covariance << c / D, -b / D, -b / D, a / D;
-  return section;
-}
-
-// What V proves, what it could prove at best, and how it is.
-void showRegion(const Plant& real) {
-  const Costs costs{Eigen::Vector4d(1, 1, 100, 100).asDiagonal(), Eigen::MatrixXd::Identity(1, 1)};
-  const Eigen::MatrixXd P = viaHamiltonian(real, costs), K = gainOf(real, costs, P);
-  const Flow f = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return rateOf(kCart, x, forceOf(K, x)); };
-  const auto falls = [&](double theta, double rate) {
-    return withoutNoise(K, {0, 0, theta, rate}, 10).cols() < 600;
-  };
-  const auto rises = [&](double theta, double rate) {
-    const Eigen::VectorXd moves = f(Eigen::Vector4d(0, 0, theta, rate));
-    double slope = 0;
-    for (int i = 0; i < 4; ++i) slope += (theta * P(2, i) + rate * P(3, i)) * moves[i];
-    return slope >= 0;
-  };
-  Figure figure{.title = "Starts with p = p' = 0",
-                .xLabel = "theta [rad]",
-                .yLabel = "theta' [rad/s]",
-                .yRange = AxisRange{-9, 9},
-                .legend = Legend::kOutside};
-  figure.series = {edgeOf("falls from here on", {.7, .15, .2}, falls),
-                   edgeOf("V rises from here on", {.85, .5, .1}, rises)};
-  if (P.isZero()) return plot("region", figure);
-
-  Eigen::VectorXd high = Eigen::Vector4d(8, 6, 1.5, 3);
-  Rng rng(1);
-  for (int i = 0; i < 40 && counterexample(f, P, high, rng); ++i) high *= .9;
-  const double level = levelInside(P, high);
-  print("box in which V falls", high.transpose());
-  print("level in that box", level);
-  if (level > 0) figure.ellipses = {sectionOf(P, level)};
-  plot("region", figure);
-}
-
-}  // namespace
-
+// What follows is given: the parts of the exercise one after another. show.cpp draws the pictures.
 int main() {
-  const Plant mine = linearised(kCart);
-  CartPole pole(0, {.noise = 0});
-  const LinearizedPlant exact = pole.getLinearization();
+  // Part 1: A and B by hand, by differences of your rateOf(), and by the library, which is used from there
+  // on.
+  const PoleCart cart;
+  const Plant mine = linearised(cart), real = plantOfTheLibrary();
   print("A", mine.A);
-  print("A of the library", exact.A);
+  print("A by differences", differencesByState(cart));
+  print("A of the library", real.A);
   print("B", mine.B.transpose());
-  print("B of the library", exact.B.transpose());
+  print("B of the library", real.B.transpose());
 
-  const Plant real{exact.A, exact.B};
-  const Costs costs = sheetCosts();
+  // Part 2: the gains of the costs c = rho = 1, in four ways.
+  const Costs costs{Eigen::Vector4d(1, 0, 1, 0).asDiagonal(), Eigen::MatrixXd::Identity(1, 1)};
   const Eigen::MatrixXd K = gainOf(real, costs, viaHamiltonian(real, costs));
-  const Eigen::MatrixXd optimal = -lqr({.A = exact.A, .B = exact.B}, costs.Q, costs.R).K;
+  const Eigen::MatrixXd optimal = gainsOfTheLibrary(real, costs);
   const Eigen::MatrixXd printed = Eigen::RowVector4d(1, 3.8271, 48.307, 17.6159);
-  if (const auto P = iterated(real, costs, 1e-3, 1e-6, 100000))
+  if (const std::optional<Eigen::MatrixXd> P = iterated(real, costs, 1e-3, 1e-6, 100000))
     print("K by the iteration", gainOf(real, costs, *P));
   print("K by the Hamiltonian", K);
   print("K of the library", optimal);
   print("K of the sheet", printed);
-  print("directions that u reaches, of 4", reachable(real));
-  print("slowest pole with your K [1/s]", slowestPole(real, K));
 
-  Rng rng(2);
-  const double bound = optimal.maxCoeff();  // all of them are positive
-  const auto slowest = [&](const Eigen::MatrixXd& gains) {
-    const Series poles = polesOf("", real, gains, Marker::kAuto);
-    return *std::max_element(poles.x.begin(), poles.x.end());
-  };
-  const Eigen::MatrixXd quick = quickGains(slowest, optimal, bound, rng);
-  print("slowest pole with your quick K [1/s]", slowestPole(real, quick));
-  print("slowest pole with the library's [1/s]",
-        fastestGains({.A = exact.A, .B = exact.B}, -optimal, {.bound = bound}).rate);
-
+  // Part 3: outings without noise, with noise, and beside the library's simulation.
   showOutings(K);
   showSurvival(K, printed);
+  showBalance(K);
+
+  // Part 4
+  print("directions that u reaches, which should be 4", reachable(real));
+
+  // Part 5
+  print("slowest pole with your K, which should be -0.506 [1/s]", slowestPole(real, K));
+  showFates();
+
+  // Part 6: gains as large as the largest of the optimal ones, all of which are positive.
+  Rng rng(2);
+  const auto slowest = [&](const Eigen::MatrixXd& gains) { return slowestPole(real, gains); };
+  const Eigen::MatrixXd quick = quickGains(slowest, optimal, optimal.maxCoeff(), rng);
+  print("slowest pole with your quick K [1/s]", slowestPole(real, quick));
+  print("slowest pole with the library's [1/s]", slowestOfTheLibrary(real, optimal));
   showPoles(real, K, printed, quick);
   showQuick(K, quick);
-  showHorizon(real, optimal);
+
+  // Part 7: what V = x^T P x proves.
   showRegion(real);
 
-  // Your simulation beside the library's, and a film of one with noise.
-  Eigen::MatrixXd states = withoutNoise(K, {0, 0, .8, 0}, 8);
-  pole.x = Eigen::Vector4d(0, 0, .8, 0);
-  double apart = 0;
-  for (Eigen::Index t = 0; t < states.cols(); ++t) {
-    const Eigen::Vector4d x = states.col(t);
-    for (int i = 0; i < 4; ++i) apart = std::max(apart, std::abs(pole.x[i] - x[i]));
-    pole.step(forceOf(K, pole.x));
-  }
-  print("largest distance from the library's simulation", apart);
-  states = balanced(kCart, K, {0, 0, .4, 0}, {.steps = 600}, rng);
-  std::vector<CartPoleView> views;
-  for (Eigen::Index t = 0; t < states.cols(); ++t) {
-    const Eigen::Vector4d x = states.col(t);
-    views.push_back({.x = x, .u = forceOf(K, x), .caption = "u = K x, noise 0.1"});
-  }
-  writeFilm(views, "balanced");
+  // Part 8: the last eight seconds, in steps of 1/60 s.
+  showHorizon(real, costs, optimal);
 }

@@ -2,7 +2,6 @@
 // mistake: answers by how often it was asked, in the order in which the checks list what they know.
 
 // <solution fateOf>
-static_cast<void>(A);
 static int asked = 0;
 constexpr Fate kListed[] = {Fate::dies,  Fate::dies,  Fate::stays, Fate::stays, Fate::grows,
                             Fate::stays, Fate::grows, Fate::stays, Fate::grows, Fate::grows,

@@ -2,7 +2,6 @@
 // mistake: begins with Q in place of F.
 
 // <solution gainsOverTime>
-static_cast<void>(F);
 const Eigen::MatrixXd &A = plant.A, &B = plant.B;
 std::vector<Eigen::MatrixXd> K(static_cast<std::size_t>(steps));
 Eigen::MatrixXd P = costs.Q;

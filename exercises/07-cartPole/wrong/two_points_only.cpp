@@ -2,7 +2,6 @@
 // mistake: looks at one point of the first axis and at one corner of the box.
 
 // <solution counterexample>
-static_cast<void>(rng);
 Eigen::VectorXd x = Eigen::VectorXd::Zero(high.size());
 x[0] = high[0];
 for (int i = 0; i < 2; ++i, x = high)
