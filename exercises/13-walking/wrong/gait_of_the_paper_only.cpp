@@ -6,7 +6,5 @@ if (!stepFrom(walker, guess)) return std::nullopt;
 return Eigen::Vector4d(.218668802939, -.323388558059, -1.091826677490, -.377181558403);
 // </solution>
 // <solution multiplierSizes>
-static_cast<void>(walker);
-static_cast<void>(gait);
 return Eigen::Vector4d(.579952, .579952, .131573, 0);
 // </solution>
