@@ -59,32 +59,32 @@ struct Policy {
 };
 
 /// What is learned from: a trial of T steps, one column each.
-struct Trial {
+struct Rollout {
   Eigen::MatrixXd features;  ///< k x T: phi(s_t)
   Eigen::MatrixXd noise;     ///< k x T: epsilon_t
   Eigen::VectorXd rewards;   ///< T
 };
 
 /// What a step leads to. Where it failed, all ends, and this reward was the last.
-struct Outcome {
+struct Transition {
   Eigen::VectorXd next;
   double reward = 0;
   bool failed = false;
 };
-using StepFunction = std::function<Outcome(const Eigen::VectorXd& state, double action)>;
+using StepFunction = std::function<Transition(const Eigen::VectorXd& state, double action)>;
 
 /// Runs the policy from `start` for `horizon` steps, or fewer if one fails. Draws the epsilon of each step
 /// from rng.normalVector(k).
-Trial runTrial(const StepFunction& step, const Eigen::VectorXd& start, const Policy& policy, int horizon,
-               rex::Rng& rng);
+Rollout runTrial(const StepFunction& step, const Eigen::VectorXd& start, const Policy& policy, int horizon,
+                 rex::Rng& rng);
 
 /// Q_t = sum over t' >= t of discount^(t' - t) r_t', for each step (T): 9:17.
 Eigen::VectorXd returnsToGo(const Eigen::VectorXd& rewards, double discount);
 
 /// REINFORCE (9:17): the mean over trials of sum_t discount^t Q_t (d/dbeta log pi(a_t | s_t)), k numbers,
 /// with no baseline. log pi is that of 9:16. No phi is zero.
-Eigen::VectorXd reinforce(const Policy& policy, const std::vector<Trial>& trials, double discount);
+Eigen::VectorXd reinforce(const Policy& policy, const std::vector<Rollout>& trials, double discount);
 
 /// The new beta (k) of PoWER, for any number of features: 12.10.1 d with W = phi phi^T / (phi^T Sigma phi)
 /// and epsilon_t for its e_t. All Q_t are positive, and the features of the trials are not all in one plane.
-Eigen::VectorXd power(const Policy& policy, const std::vector<Trial>& trials, double discount);
+Eigen::VectorXd power(const Policy& policy, const std::vector<Rollout>& trials, double discount);

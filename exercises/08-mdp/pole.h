@@ -18,6 +18,6 @@ inline StepFunction poleStep(rex::Rng& rng) {
     const double rate = state[1] + tau * (10 * std::sin(state[0]) + action) + .02 * rng.normal();
     const double angle = state[0] + tau * rate;
     const double cost = 4 * angle * angle + .05 * rate * rate + .0005 * action * action;
-    return Outcome{Eigen::Vector2d(angle, rate), std::exp(-cost), std::abs(angle) > .5};
+    return Transition{Eigen::Vector2d(angle, rate), std::exp(-cost), std::abs(angle) > .5};
   };
 }

@@ -39,12 +39,12 @@ inline Policy randomPolicy(rex::Rng& rng) {
   return policy;
 }
 
-inline std::vector<Trial> trialsOf(const LinearTask& task, const Policy& policy, int count, rex::Rng& rng,
-                                   double bonus = 0) {
-  std::vector<Trial> trials;
+inline std::vector<Rollout> trialsOf(const LinearTask& task, const Policy& policy, int count, rex::Rng& rng,
+                                     double bonus = 0) {
+  std::vector<Rollout> trials;
   for (int i = 0; i < count; ++i) {
     const int T = task.horizon - i % 2;  // some are shorter
-    Trial trial{Eigen::MatrixXd(2, T), Eigen::MatrixXd(2, T), Eigen::VectorXd(T)};
+    Rollout trial{Eigen::MatrixXd(2, T), Eigen::MatrixXd(2, T), Eigen::VectorXd(T)};
     Eigen::Vector2d x = task.start;
     for (int t = 0; t < T; ++t) {
       trial.features.col(t) = x;
@@ -78,9 +78,9 @@ inline Eigen::Vector2d exactGradient(const LinearTask& task, const Policy& polic
   return gradient;
 }
 
-inline std::vector<rex::Episode> episodesOf(const std::vector<Trial>& trials) {
+inline std::vector<rex::Episode> episodesOf(const std::vector<Rollout>& trials) {
   std::vector<rex::Episode> episodes;
-  for (const Trial& trial : trials) episodes.push_back({trial.features, trial.noise, trial.rewards});
+  for (const Rollout& trial : trials) episodes.push_back({trial.features, trial.noise, trial.rewards});
   return episodes;
 }
 
@@ -103,11 +103,11 @@ inline void trialFits(rex::grading::Check& check, Student& student, int k, int h
     rewards.push_back(.1 * action + static_cast<double>(states.size()));
     Eigen::VectorXd next = A * state;
     next[0] += .5 + .1 * std::tanh(action);
-    return Outcome{next, rewards.back(), static_cast<int>(states.size()) == failsAfter};
+    return Transition{next, rewards.back(), static_cast<int>(states.size()) == failsAfter};
   };
   const Eigen::VectorXd start = rng.normalVector(k);
   rex::Rng given = rng.split(7);
-  const Trial trial = student.runTrial(step, start, policy, horizon, given);
+  const Rollout trial = student.runTrial(step, start, policy, horizon, given);
   const int T = std::min(horizon, failsAfter);
   check.near("number of steps that were taken", static_cast<double>(states.size()), T, 0);
   check.shape("features of the trial", trial.features, k, T);
@@ -149,7 +149,7 @@ inline void gradientFits(rex::grading::Check& check, Student& student, int count
   const LinearTask task = randomTask(check.rng());
   const Policy policy = randomPolicy(check.rng());
   check.input(fmt::format("{} trials, discount {:.3f}", count, task.discount));
-  const std::vector<Trial> trials = trialsOf(task, policy, count, check.rng());
+  const std::vector<Rollout> trials = trialsOf(task, policy, count, check.rng());
   const Eigen::VectorXd exact =
       rex::reinforceGradient(asLibrary(policy), episodesOf(trials), task.discount, rex::Baseline::kNone)
           .gradient;
@@ -164,7 +164,7 @@ inline void gradientFits(rex::grading::Check& check, Student& student, int count
 struct Lesson {
   LinearTask task;
   Policy policy;
-  std::vector<Trial> trials;
+  std::vector<Rollout> trials;
   Eigen::Vector2d exact;
 };
 
@@ -173,12 +173,12 @@ inline Lesson tellingLesson(rex::Rng& rng) {
     Lesson lesson{randomTask(rng), randomPolicy(rng), {}, {}};
     lesson.task.horizon = 8;
     Eigen::VectorXd mean = Eigen::VectorXd::Zero(8);
-    for (const Trial& trial : trialsOf(lesson.task, lesson.policy, 20000, rng)) {
+    for (const Rollout& trial : trialsOf(lesson.task, lesson.policy, 20000, rng)) {
       if (trial.rewards.size() != 8) continue;
       lesson.trials.push_back(trial);
       mean += trial.rewards / 10000;
     }
-    for (Trial& trial : lesson.trials) trial.rewards -= mean;
+    for (Rollout& trial : lesson.trials) trial.rewards -= mean;
     lesson.exact = exactGradient(lesson.task, lesson.policy, 8);
     const rex::PolicyGradient found = rex::reinforceGradient(
         asLibrary(lesson.policy), episodesOf(lesson.trials), lesson.task.discount, rex::Baseline::kNone);
@@ -199,9 +199,9 @@ inline void powerFits(rex::grading::Check& check, Student& student, int count) {
   const LinearTask task = randomTask(check.rng());
   const Policy policy = randomPolicy(check.rng());
   check.input(fmt::format("{} trials, discount {:.3f}", count, task.discount));
-  std::vector<Trial> trials = trialsOf(task, policy, count, check.rng());
+  std::vector<Rollout> trials = trialsOf(task, policy, count, check.rng());
   // Rewards that are all positive, and tell the trials apart.
-  for (Trial& trial : trials) trial.rewards = (.2 * trial.rewards).array().exp();
+  for (Rollout& trial : trials) trial.rewards = (.2 * trial.rewards).array().exp();
   const Eigen::VectorXd got = student.power(policy, trials, task.discount),
                         wanted = rex::powerStep(asLibrary(policy), episodesOf(trials), task.discount).beta;
   const auto shown = check.show([&] {

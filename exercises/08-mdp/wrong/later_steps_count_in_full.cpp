@@ -4,7 +4,7 @@
 
 // <solution reinforce>
 Eigen::VectorXd sum = Eigen::VectorXd::Zero(policy.beta.size());
-for (const Trial& trial : trials) {
+for (const Rollout& trial : trials) {
   const Eigen::VectorXd Q = returnsToGo(trial.rewards, discount);
   for (Eigen::Index t = 0; t < Q.size(); ++t) {
     const Eigen::VectorXd phi = trial.features.col(t);

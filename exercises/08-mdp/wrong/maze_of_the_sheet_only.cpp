@@ -5,6 +5,5 @@
 MazeValues values{Eigen::VectorXd(7), Eigen::VectorXd(7)};
 values.random << .5625, 1, 1.25, 4, 0, 2, 3;
 values.optimal << 1, 2, 1.5, 4, 0, 2, 3;
-notUsedYet(leaves, discount);
 return values;
 // </solution>

@@ -10,6 +10,5 @@ for (int s = 2; s >= 0; --s) {
   values.random[s] = (values.random[left] + values.random[right]) / 2;
   values.optimal[s] = std::max(values.optimal[left], values.optimal[right]);
 }
-notUsedYet(discount);
 return values;
 // </solution>

@@ -3,12 +3,12 @@
 
 // <solution runTrial>
 const auto k = static_cast<int>(start.size());
-Trial trial{Eigen::MatrixXd(k, horizon), Eigen::MatrixXd(k, horizon), Eigen::VectorXd(horizon)};
+Rollout trial{Eigen::MatrixXd(k, horizon), Eigen::MatrixXd(k, horizon), Eigen::VectorXd(horizon)};
 Eigen::VectorXd state = start;
 for (int t = 0; t < horizon; ++t) {
   trial.features.col(t) = state;
   trial.noise.col(t) = policy.L * rng.normalVector(k);
-  const Outcome outcome = step(state, state.dot(policy.beta + trial.noise.col(t)));
+  const Transition outcome = step(state, state.dot(policy.beta + trial.noise.col(t)));
   trial.rewards[t] = outcome.reward;
   state = outcome.next;
 }

@@ -3,13 +3,13 @@
 
 // <solution runTrial>
 const auto k = static_cast<int>(start.size());
-Trial trial{Eigen::MatrixXd(k, horizon), Eigen::MatrixXd(k, horizon), Eigen::VectorXd(horizon)};
+Rollout trial{Eigen::MatrixXd(k, horizon), Eigen::MatrixXd(k, horizon), Eigen::VectorXd(horizon)};
 trial.noise.colwise() = policy.L * rng.normalVector(k);
 Eigen::VectorXd state = start;
 int t = 0;
 for (bool goesOn = true; goesOn && t < horizon; ++t) {
   trial.features.col(t) = state;
-  const Outcome outcome = step(state, state.dot(policy.beta + trial.noise.col(t)));
+  const Transition outcome = step(state, state.dot(policy.beta + trial.noise.col(t)));
   trial.rewards[t] = outcome.reward;
   state = outcome.next;
   goesOn = !outcome.failed;

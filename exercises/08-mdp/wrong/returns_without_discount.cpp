@@ -4,6 +4,5 @@
 // <solution returnsToGo>
 Eigen::VectorXd returns = rewards;
 for (Eigen::Index t = rewards.size() - 2; t >= 0; --t) returns[t] += returns[t + 1];
-notUsedYet(discount);
 return returns;
 // </solution>

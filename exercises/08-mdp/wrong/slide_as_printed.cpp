@@ -4,7 +4,7 @@
 // <solution power>
 Eigen::VectorXd moves = Eigen::VectorXd::Zero(policy.beta.size());
 double weights = 0;
-for (const Trial& trial : trials) {
+for (const Rollout& trial : trials) {
   const Eigen::VectorXd Q = returnsToGo(trial.rewards, discount);
   moves += trial.noise * Q;
   weights += Q.sum();

@@ -1,0 +1,141 @@
+#include "show.h"
+
+#include <cstdio>
+
+#include "course/mdp_figures.h"
+#include "learning/dynamic_programming.h"
+#include "pole.h"
+
+using namespace rex;
+
+namespace {
+
+void nothingYet(const char* what) { std::printf("Nothing to see yet of %s.\n", what); }
+
+GridWorld slipperyFloor() {
+  return gridWorld(
+      "........\n"
+      ".##..#..\n"
+      ".#...#.G\n"
+      ".#.P.##.\n"
+      "........\n",
+      {.discount = .95, .stepReward = -.02, .slip = .2, .marks = {{'G', 1}, {'P', -1}}});
+}
+
+// The floor as a process of yours.
+Process processOf(const GridWorld& world) {
+  return {denseTransitions(world.mdp), world.mdp.rewards, world.mdp.discount};
+}
+
+void plotOf(const char* name, const char* title, Figure figure) {
+  figure.title = title;
+  plot(name, figure);
+}
+
+// Learning to balance a pole, several times, with fresh noise. None, where nothing is ever learned.
+using Update = std::function<Eigen::VectorXd(const Policy&, const std::vector<Rollout>&)>;
+void learnPole(const std::string& label, const Policy& first, const Update& update,
+               std::vector<LearningCurves>& curves) {
+  LearningCurves learned{label, {}};
+  bool isLearning = false;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    Rng rng(seed);
+    Policy policy = first;
+    std::vector<double> returns;
+    for (int i = 0; i < 40; ++i) {
+      std::vector<Rollout> trials;
+      double sum = 0;
+      for (int j = 0; j < 20; ++j) {
+        trials.push_back(runTrial(poleStep(rng), poleStart(rng), policy, kPoleHorizon, rng));
+        sum += trials.back().rewards.sum() / 20;
+      }
+      returns.push_back(sum);
+      const Eigen::VectorXd next = update(policy, trials);
+      if (next.allFinite()) policy.beta = next;
+    }
+    learned.runs.push_back(returns);
+    isLearning = isLearning || policy.beta != first.beta;
+  }
+  if (isLearning) return curves.push_back(learned);
+  nothingYet(("learning by " + label).c_str());
+}
+
+}  // namespace
+
+void showRandomWalk() {
+  const GridWorld world = slipperyFloor();
+  const Process floor = processOf(world);
+  const Eigen::VectorXd V = valuesOf(floor, Eigen::MatrixXd::Constant(floor.R.rows(), floor.R.cols(), .25));
+  if (V.isZero()) return nothingYet("a walk at random");
+  plotOf("random", "Values of walking at random", valueFigure(world, V));
+
+  const Eigen::MatrixXd worth = worthOfActions(floor, V);
+  std::vector<int> best(static_cast<std::size_t>(V.size()));
+  for (Eigen::Index s = 0; s < V.size(); ++s) worth.row(s).maxCoeff(&best[static_cast<std::size_t>(s)]);
+  plotOf("improved", "The best actions by the values of walking at random",
+         policyFigure(world, V, policyOf(world.mdp, best)));
+}
+
+void showOptimum(double tolerance) {
+  const GridWorld world = slipperyFloor();
+  const Process floor = processOf(world);
+  const Eigen::VectorXd exact = policyIteration(world.mdp).V;
+  const std::vector<Eigen::VectorXd> V = iterateValues(floor, tolerance);
+  if (V.size() < 2) return nothingYet("value iteration");
+  plotOf("optimal", "Optimal values", valueFigure(world, V.back()));
+
+  Figure figure{.xLabel = "iteration", .yLabel = "greatest error", .logY = true};
+  const auto error = [&](const Eigen::VectorXd& v) { return (v - exact).cwiseAbs().maxCoeff() + 1e-12; };
+  Series& values = figure.series.emplace_back(Series{.label = "value iteration"});
+  for (const Eigen::VectorXd& v : V) values.y.push_back(error(v));
+
+  const std::vector<std::vector<int>> policies = iteratePolicies(floor);
+  if (policies.size() > 1) {
+    plotOf("policy", "Optimal policy", policyFigure(world, V.back(), policyOf(world.mdp, policies.back())));
+    Series& steps =
+        figure.series.emplace_back(Series{.label = "policy iteration", .style = SeriesStyle::kLinesPoints});
+    for (const std::vector<int>& actions : policies)
+      steps.y.push_back(error(valuesOf(floor, policyOf(world.mdp, actions))));
+  } else {
+    nothingYet("policy iteration");
+  }
+  plotOf("convergence", "Distance from the optimal values", figure);
+}
+
+void showRollouts(const Policy& policy) {
+  Figure figure{.xLabel = "time [s]", .yLabel = "angle [rad]", .legend = Legend::kNone};
+  Rng rng(1);
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::MatrixXd states =
+        runTrial(poleStep(rng), poleStart(rng), policy, kPoleHorizon, rng).features;
+    if (states.cols() == 0) return nothingYet("trials");
+    Series& angle = figure.series.emplace_back();
+    for (Eigen::Index t = 0; t < states.cols(); ++t) {
+      angle.x.push_back(.02 * static_cast<double>(t));
+      angle.y.push_back(states(0, t));
+    }
+  }
+  plotOf("rollouts", "The pole before anything is learned: eight trials", figure);
+}
+
+void showLearning(const Policy& first) {
+  Rng rng(1);
+  if (runTrial(poleStep(rng), poleStart(rng), first, kPoleHorizon, rng).rewards.size() == 0) return;
+  std::vector<LearningCurves> curves;
+  // Steps of length 1 along the gradient.
+  learnPole(
+      "REINFORCE", first,
+      [](const Policy& policy, const std::vector<Rollout>& trials) {
+        const Eigen::VectorXd g = reinforce(policy, trials, 1);
+        return Eigen::VectorXd(policy.beta + g / (g.norm() + 1e-9));
+      },
+      curves);
+  learnPole(
+      "PoWER", first,
+      [](const Policy& policy, const std::vector<Rollout>& trials) { return power(policy, trials, 1); },
+      curves);
+  if (curves.empty()) return;
+  Figure figure = learningFigure(curves);
+  figure.xLabel = "iterations of 20 trials";
+  plotOf("learning", "Balancing a pole: ten runs each", figure);
+}
