@@ -1,18 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "control/racer_rollouts.h"
-#include "control/regulators.h"
-#include "course/racer_pictures.h"
 #include "course/search_cma.h"
 #include "exercise.h"
-#include "lessons.h"
+#include "show.h"
 
 using namespace rex;
-
-// Keeps the compiler quiet about what a function below does not use yet.
-template <class... Unused>
-void notUsedYet(const Unused&...) {}
 
 Eigen::Matrix2d massMatrix(const Eigen::Vector2d& q, const RacerModel& racer) {
   // <solution massMatrix>
@@ -23,7 +16,6 @@ Eigen::Matrix2d massMatrix(const Eigen::Vector2d& q, const RacerModel& racer) {
   return M;
   // <todo>
   //| // TODO: kinetic energy is q'^T M q' / 2. What do the wheel and the pendulum have of it?
-  //| notUsedYet(q, racer);
   //| return Eigen::Matrix2d::Identity();
   // </solution>
 }
@@ -34,7 +26,6 @@ Eigen::Vector2d forceTerm(const Eigen::Vector2d& q, const Eigen::Vector2d& v, co
   return {-swing * v[1] * v[1], -swing * racer.g};
   // <todo>
   //| // TODO: what d/dt dT/dq' - dT/dq + dU/dq has besides M q''.
-  //| notUsedYet(q, v, racer);
   //| return Eigen::Vector2d::Zero();
   // </solution>
 }
@@ -44,7 +35,6 @@ Eigen::Vector2d controlDirection(const RacerModel& racer) {
   return {1 / racer.r, -1};
   // <todo>
   //| // TODO: the work of the motor is u times the angle between wheel and pendulum.
-  //| notUsedYet(racer);
   //| return Eigen::Vector2d::Zero();
   // </solution>
 }
@@ -56,7 +46,6 @@ double energyOf(const Eigen::Vector4d& x, const RacerModel& racer) {
          racer.g * (racer.mA * racer.r + racer.mB * (racer.r + racer.l * std::cos(x[1])));
   // <todo>
   //| // TODO: T + U.
-  //| notUsedYet(x, racer);
   //| return 0;
   // </solution>
 }
@@ -69,7 +58,6 @@ Eigen::Vector4d rateOf(const Eigen::Vector4d& x, double u, const RacerModel& rac
   return rate;
   // <todo>
   //| // TODO: the velocities, and the accelerations that solve M q'' + F = B u.
-  //| notUsedYet(u, racer);
   //| return 0 * x;
   // </solution>
 }
@@ -81,7 +69,6 @@ Eigen::Vector4d stepped(const Eigen::Vector4d& x, double u, double tau, const Ra
   return x + tau / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
   // <todo>
   //| // TODO: four rates and their weighted mean.
-  //| notUsedYet(u, tau, racer);
   //| return x;
   // </solution>
 }
@@ -91,7 +78,6 @@ Eigen::MatrixXd kicks(int steps, double tau, double noise, Rng& rng) {
   return std::sqrt(tau) * noise * rng.normalVector(2 * steps).reshaped(2, steps);
   // <todo>
   //| // TODO: normal numbers of the right deviation; `rng` has some.
-  //| notUsedYet(tau, noise, rng);
   //| return Eigen::MatrixXd::Zero(2, steps);
   // </solution>
 }
@@ -109,7 +95,6 @@ Linear linearNearRest(const RacerModel& racer) {
   return linear;
   // <todo>
   //| // TODO: the derivatives of rateOf() by the state and by u, at rest upright.
-  //| notUsedYet(racer);
   //| return {Eigen::Matrix4d::Zero(), Eigen::Vector4d::Zero()};
   // </solution>
 }
@@ -129,7 +114,6 @@ Eigen::Vector4d lqrGain(const Linear& system, const Eigen::Matrix4d& Q, double R
   return K;
   // <todo>
   //| // TODO: the P of 0 = A^T P + P A - P B B^T P / R + Q, and what K is then. inverse(), solve() may help.
-  //| notUsedYet(system, Q, R);
   //| return Eigen::Vector4d::Zero();
   // </solution>
 }
@@ -149,7 +133,6 @@ Eigen::VectorXd featuresAt(const Eigen::Vector4d& y, const Eigen::VectorXd& befo
   return now;
   // <todo>
   //| // TODO: 27 numbers, those of the first reading apart.
-  //| notUsedYet(y, before, u, tau);
   //| return Eigen::VectorXd::Zero(kFeatures);
   // </solution>
 }
@@ -179,7 +162,6 @@ Ride rideOf(const Eigen::VectorXd& w, const Eigen::Vector4d& start, const Eigen:
   return ride;
   // <todo>
   //| // TODO: step by step, until the time is over or the racer has failed.
-  //| notUsedYet(w, noise, racer, sensors);
   //| return {start, Eigen::VectorXd(0), 0};
   // </solution>
 }
@@ -214,197 +196,34 @@ Eigen::VectorXd searchedPolicy(const Rides& rides, int budget, Rng& rng) {
   return found.col(best);
   // <todo>
   //| // TODO: SearchCma proposes, rides() judges. Which features, how far away, how many steps, how often?
-  //| notUsedYet(rides, budget, rng);
   //| return Eigen::VectorXd::Zero(kFeatures);
   // </solution>
 }
 
-// What follows is given.
-
-namespace {
-
-// Weights of (1, y) alone, found by a long search.
-Eigen::VectorXd directPolicy() {
-  Eigen::VectorXd w = Eigen::VectorXd::Zero(kFeatures);
-  w.head(5) << -.1087, -4.83, 30.02, .295, .4098;
-  return w;
-}
-
-// Without control: your energy along your simulation, and along that of Euler.
-void showEnergy() {
-  const RacerModel racer;
-  Series runge{.label = "Runge and Kutta"}, euler{.label = "Euler"};
-  Eigen::Vector4d x = tilted(.01), y = x;
-  const double start = energyOf(x, racer);
-  for (int t = 0; t < 1000; ++t) {
-    for (Series* series : {&runge, &euler}) series->x.push_back(t * kTau);
-    runge.y.push_back(std::abs(energyOf(x, racer) - start) + 1e-9);
-    euler.y.push_back(std::abs(energyOf(y, racer) - start) + 1e-9);
-    x = stepped(x, 0, kTau, racer);
-    y += kTau * rateOf(y, 0, racer);
-  }
-  plot("energy", {.title = "Energy without control: how wrong it gets in 10 s",
-                  .xLabel = "time [s]",
-                  .yLabel = "error of the energy [J]",
-                  .logY = true,
-                  .series = {runge, euler}});
-}
-
-// The state of a racer under u = -K x, by your simulation.
-Eigen::MatrixXd heldBy(const Eigen::Vector4d& K, double theta, const Eigen::MatrixXd& noise) {
-  Eigen::MatrixXd X(4, noise.cols() + 1);
-  X.col(0) = tilted(theta);
-  for (Eigen::Index t = 0; t < noise.cols(); ++t) {
-    X.col(t + 1) =
-        stepped(X.col(t), std::clamp(-K.dot(X.col(t)), -kLargestControl, kLargestControl), kTau, {});
-    X.col(t + 1).tail(2) += noise.col(t);
-  }
-  return X;
-}
-
-void showLqr(const Eigen::Vector4d& K, const Eigen::Vector4d& exact) {
-  Rng rng(1);
-  const Eigen::MatrixXd noise = kicks(500, kTau, kNoise, rng);
-  Figure figure{
-      .title = "LQR with noise, from a tilt of 0.2 rad", .xLabel = "time [s]", .yLabel = "[m], [rad]"};
-  const auto add = [&](const std::string& whose, const Eigen::MatrixXd& X, bool dashed) {
-    for (const int i : {0, 1}) {
-      Series series{.label = (i == 0 ? "x, " : "theta, ") + whose, .dashed = dashed};
-      if (dashed) series.color = Color{.2f, .22f, .26f};
-      for (Eigen::Index t = 0; t < X.cols(); ++t) {
-        series.x.push_back(kTau * static_cast<double>(t));
-        series.y.push_back(X(i, t));
-      }
-      figure.series.push_back(series);
-    }
-  };
-  add("your gain", heldBy(K, .2, noise), false);
-  add("the library's gain", heldBy(exact, .2, noise), true);
-  plot("lqr", figure);
-}
-
-void showLearning(const Lesson& yours, const Library& library) {
-  LearningCurves curves{"ten searches, in the library's simulator", {}};
-  for (std::uint64_t seed = 0; seed < 10; ++seed) {
-    Rng rng(seed);
-    curves.runs.push_back(curveOf(learnt(ridesOf(library, rng), seed)));
-  }
-  Figure figure = learningFigure({curves});
-  figure.series.push_back({.label = "one search, in your simulator", .y = curveOf(yours)});
-  figure.title = "What a step of a ride costs while the search goes on";
-  figure.xLabel = "share of the rides [%]";
-  figure.yLabel = "cost per step";
-  figure.logY = true;
-  const auto inPercent = [](std::vector<double>& x, std::size_t count) {
-    x.clear();
-    for (std::size_t i = 0; i < count; ++i) x.push_back(2. * static_cast<double>(i) + 1);
-  };
-  for (Series& series : figure.series) inPercent(series.x, series.y.size());
-  for (Band& band : figure.bands) inPercent(band.x, band.low.size());
-  plot("learning", figure);
-}
-
-// How far the wheel gets from where it began: root mean square of some long rides, until one fails.
-Series driftOf(const std::string& label, const Eigen::VectorXd& w) {
-  constexpr int kRides = 10, kSteps = 10000;
-  Rng rng(2);
-  Eigen::ArrayXd squares = Eigen::ArrayXd::Zero(kSteps / 50);
-  for (int i = 0; i < kRides; ++i) {
-    const Ride ride = rideOf(w, tilted(.1), kicks(kSteps, kTau, kNoise, rng), {}, {});
-    squares.conservativeResize(std::min(squares.size(), (ride.states.cols() + 49) / 50));
-    for (Eigen::Index k = 0; k < squares.size(); ++k)
-      squares[k] += std::pow(ride.states(0, 50 * k), 2) / kRides;
-  }
-  Series series{.label = label};
-  for (Eigen::Index k = 0; k < squares.size(); ++k) {
-    series.x.push_back(50 * kTau * static_cast<double>(k));
-    series.y.push_back(std::sqrt(squares[k]));
-  }
-  return series;
-}
-
-void showPolicies(const Lesson& lesson, const Library& library) {
-  plot("drift",
-       {.title = "Without a sense for the wheel's speed, a racer sways more and more",
-        .xLabel = "time [s]",
-        .yLabel = "root mean square of x [m]",
-        .series = {driftOf("a policy on (1, y)", directPolicy()), driftOf("your policy", lesson.policy)}});
-  Figure figure{.title = "Rides that last 5 s",
-                .xLabel = "strength of the noise",
-                .yLabel = "share",
-                .legend = Legend::kOutside};
-  const auto add = [&](const std::string& label, const Eigen::VectorXd& w) {
-    Series series{.label = label, .style = SeriesStyle::kLinesPoints};
-    for (double noise = 0; noise < 2.05; noise += .1) {
-      series.x.push_back(noise);
-      series.y.push_back(shareThatLasts(library, w, noise));
-    }
-    figure.series.push_back(series);
-  };
-  add("a policy on (1, y)", directPolicy());
-  add("your policy", lesson.policy);
-  add("without control", Eigen::VectorXd::Zero(kFeatures));
-  plot("robust", figure);
-}
-
-// Before, on the way and after, side by side; who fails stays as it is then.
-void showFilm(const Lesson& lesson) {
-  Rng rng(4);
-  const Eigen::MatrixXd noise = kicks(kLongestRide, kTau, kNoise, rng);
-  std::vector<Eigen::MatrixXd> rides;
-  for (const Eigen::VectorXd& w :
-       {Eigen::VectorXd(Eigen::VectorXd::Zero(kFeatures)), lesson.halfTaught, lesson.policy})
-    rides.push_back(rideOf(w, tilted(.15), noise, {}, {}).states);
-  std::vector<RacerView> views;
-  for (int t = 0; t <= kLongestRide; t += 2) {
-    RacerView view{.x = Eigen::Matrix4Xd(4, 3), .names = {"before", "1000 rides", "after"}};
-    for (Eigen::Index k = 0; k < 3; ++k) {
-      const Eigen::MatrixXd& X = rides[static_cast<std::size_t>(k)];
-      view.x.col(k) = X.col(std::min<Eigen::Index>(t, X.cols() - 1));
-    }
-    view.caption = "policy search";
-    views.push_back(view);
-  }
-  writeFilm(views, "learnt", {.view = {1.2, -1.6, .7}, .step = 2 * kTau});
-}
-
-}  // namespace
+// What follows is given, and never graded: change it as you like. show.h says what each line draws.
 
 int main() {
   const RacerModel racer;
-  const RacerDynamics library;
-  const Eigen::Vector2d q(.3, .7), v(-1.1, 2.3);
-  print("M", massMatrix(q, racer));
-  print("M of the library", library.massMatrix(q));
-  print("F", forceTerm(q, v, racer).transpose());
-  print("F of the library", library.forces(q, v).transpose());
-  showEnergy();
 
+  // Part 1: the equation of motion, where the racer moves and tilts (x, theta, x', theta').
+  showEquation(racer, {.3, .7, -1.1, 2.3});
+
+  // Part 2: a racer falls from a tilt of 0.01 rad, without control.
+  showEnergy(racer, .01);
+
+  // Part 3: the prices of x, theta, x' and theta', and that of u.
   const Eigen::Matrix4d Q = Eigen::Vector4d(1, 10, 0, 0).asDiagonal();
-  const LinearizedPlant plant = library.linearized(Eigen::Vector4d::Zero(), 0);
-  const Eigen::Vector4d exact =
-      lqr({.A = plant.A, .B = plant.B}, Q, Eigen::Matrix<double, 1, 1>::Ones()).K.transpose();
-  const Linear linear = linearNearRest(racer);
-  const bool isLinear = linear.A.norm() > 0;
-  const Eigen::Vector4d K = isLinear ? lqrGain(linear, Q, 1) : Eigen::Vector4d::Zero();
-  print("K", K.transpose());
-  print("K of the library", exact.transpose());
-  showLqr(K, exact);
+  const double R = 1;
+  showLqr(linearNearRest(racer), Q, R);
 
-  Rng rng(7);
-  const Lesson lesson = learnt(ridesOfYours(rng), 0);
-  print("rides of the search", static_cast<double>(lesson.costs.size()));
-  print("weights of 1, y and its rates", lesson.policy.head(9).transpose());
-  const Library rollouts = [](const Eigen::MatrixXd& W, const std::vector<Trial>& trials,
-                              const RacerRolloutOptions& options) {
-    return racerRollouts(W, trials, options);
-  };
-  showPolicies(lesson, rollouts);
-  showFilm(lesson);
-  if (lesson.costs.size() < 1000) {
-    print("no learning.png: it needs a search of 1000 rides, more than",
-          static_cast<double>(lesson.costs.size()));
-  } else {
-    showLearning(lesson, rollouts);
-  }
+  // Part 4: a gyroscope that reads 0, and then 1 rad/s.
+  showFeatures();
+
+  // Part 5: rides of a policy on 1 and the four readings, found by a long search.
+  Eigen::VectorXd direct = Eigen::VectorXd::Zero(kFeatures);
+  direct.head(5) << -.1087, -4.83, 30.02, .295, .4098;
+  showRides(direct);
+
+  // Part 6: a policy on all features, found by your search.
+  showSearch(direct);
 }

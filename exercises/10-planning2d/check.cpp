@@ -27,7 +27,7 @@ CellMap pocketMap() {
 void bugsOnKnownMaps(Check& check, Student& student) {
   check.input("a map without obstacles, in four directions");
   const CellMap meadow = mapOf(std::vector<std::string>(9, std::string(12, '.')));
-  for (const Cell goal : {Cell{11, 8}, {0, 0}, {10, 1}, {2, 8}})
+  for (const MapCell goal : {MapCell{11, 8}, {0, 0}, {10, 1}, {2, 8}})
     bugObeys(check, student, meadow, {5, 4}, goal);
   check.input("hookMap() of maps.h");
   bugObeys(check, student, hookMap(), kHookStart, kHookGoal);
@@ -62,7 +62,7 @@ void bugsAnywhere(Check& check, Student& student) {
   check.forEachCase(16, [&](int i) {
     Rng& rng = check.rng();
     CellMap map = randomMap(rng, 22, 16);
-    const Cell start = randomFreeCell(map, rng), goal = randomFreeCell(map, rng);
+    const MapCell start = randomFreeCell(map, rng), goal = randomFreeCell(map, rng);
     if (i % 4 == 3) enclose(map, goal, 2);
     if (map.isFree(start)) return bugObeys(check, student, map, start, goal);
     bugObeys(check, student, map, randomFreeCell(map, rng), goal);
@@ -72,7 +72,7 @@ void bugsAnywhere(Check& check, Student& student) {
 
 // Part 2.
 
-void wavesAgree(Check& check, Student& student, const CellMap& map, Cell goal) {
+void wavesAgree(Check& check, Student& student, const CellMap& map, MapCell goal) {
   const std::vector<int> got = student.waveNumbers(map, goal),
                          wanted = wavefront(gridMapOf(map), {goal.x, goal.y}, Connectivity::kEight);
   const auto shown = check.show([&] { return wavesSeen(map, goal, got, wanted); });
@@ -89,7 +89,7 @@ void wavesOnKnownMaps(Check& check, Student& student) {
   check.input("roomMap() of maps.h, and one of its rooms closed");
   map = roomMap();
   wavesAgree(check, student, map, kRoomGoal);
-  for (const Cell door : {Cell{4, 11}, {8, 4}, {8, 3}, {4, 6}}) block(map, door);
+  for (const MapCell door : {MapCell{4, 11}, {8, 4}, {8, 3}, {4, 6}}) block(map, door);
   wavesAgree(check, student, map, kRoomGoal);
 }
 
@@ -102,14 +102,14 @@ void networkFits(Check& check, Student& student, const CellMap& map) {
   });
   check.that("there is a list of arcs for each cell", network.size() == map.blocked.size());
   for (std::size_t place = 0; place < network.size(); ++place) {
-    const Cell at = map.cellAt(place);
+    const MapCell at = map.cellAt(place);
     check.near("number of arcs of a cell", static_cast<double>(network[place].size()),
                static_cast<double>(wanted[place].size()), 0);
     std::set<std::size_t> ends;
     for (const auto& [to, length] : network[place]) {
       check.that("arcs lead to cells of the map", to < network.size());
       check.that("no arc is there twice", ends.insert(to).second);
-      const Cell end = map.cellAt(to);
+      const MapCell end = map.cellAt(to);
       check.that("arcs lead to free cells that touch", map.isFree(end) && touches(at, end) && !(at == end));
       check.that("no diagonal arc leads past a blocked cell",
                  map.isFree({end.x, at.y}) && map.isFree({at.x, end.y}));
@@ -158,7 +158,7 @@ void unseenMaps(Check& check, Student& student) {
   check.forEachCase(8, [&](int i) {
     Rng& rng = check.rng();
     CellMap map = randomMap(rng, 12 + rng.index(12), 12 + rng.index(12));
-    const Cell goal = randomFreeCell(map, rng);
+    const MapCell goal = randomFreeCell(map, rng);
     if (i % 4 == 3) enclose(map, goal, 3);
     wavesAgree(check, student, map, goal);
     const Network network = student.cellNetwork(map);
@@ -553,10 +553,10 @@ void estimates(Check& check, Student& student) {
   check.input("random cells of an empty map");
   const CellMap map = mapOf(std::vector<std::string>(20, std::string(25, '.')));
   for (int i = 0; i < 10; ++i) {
-    const Cell to = randomFreeCell(map, rng);
+    const MapCell to = randomFreeCell(map, rng);
     const std::vector<double> distances = distancesOn(map, to, Connectivity::kEightWithRoom);
     for (int j = 0; j < 20; ++j) {
-      const Cell from = j == 0 ? to : randomFreeCell(map, rng);
+      const MapCell from = j == 0 ? to : randomFreeCell(map, rng);
       check.near("distance on an empty map", student.emptyMapDistance(from, to), distances[map.placeOf(from)],
                  1e-9, "m");
     }
@@ -587,11 +587,11 @@ void searches(Check& check, Student& student, const Network& network, std::size_
   isWay(check, network, way, start, goal, distances[goal]);
 }
 
-void searchesMap(Check& check, Student& student, const CellMap& map, Cell start, Cell goal) {
+void searchesMap(Check& check, Student& student, const CellMap& map, MapCell start, MapCell goal) {
   const Network network = networkOf(map);
   std::vector<double> estimates(network.size());
   for (std::size_t place = 0; place < network.size(); ++place) {
-    const Cell at = map.cellAt(place);
+    const MapCell at = map.cellAt(place);
     const int dx = std::abs(at.x - goal.x), dy = std::abs(at.y - goal.y);
     estimates[place] = std::numbers::sqrt2 * std::min(dx, dy) + std::abs(dx - dy);
   }

@@ -50,7 +50,7 @@ inline rex::Figure planOf(const std::string& title, const CellMap& map) {
   return planOf(title, Eigen::Vector2d(map.width, map.height), wallsOf(map));
 }
 
-inline Eigen::Vector2d centerOf(Cell cell) { return {cell.x + 0.5, cell.y + 0.5}; }
+inline Eigen::Vector2d centerOf(MapCell cell) { return {cell.x + 0.5, cell.y + 0.5}; }
 
 // Adds a line, or what there is of it.
 inline void addLine(rex::Figure& figure, const std::vector<Eigen::Vector2d>& points,
@@ -63,9 +63,9 @@ inline void addLine(rex::Figure& figure, const std::vector<Eigen::Vector2d>& poi
   }
 }
 
-inline std::vector<Eigen::Vector2d> centersOf(const std::vector<Cell>& cells) {
+inline std::vector<Eigen::Vector2d> centersOf(const std::vector<MapCell>& cells) {
   std::vector<Eigen::Vector2d> centers;
-  for (const Cell cell : cells) centers.push_back(centerOf(cell));
+  for (const MapCell cell : cells) centers.push_back(centerOf(cell));
   return centers;
 }
 
@@ -99,7 +99,7 @@ inline void addEnds(rex::Figure& figure, const Eigen::Vector2d& start, const Eig
 }
 
 // A map as a scene: walls of boxes, and a disc that drives.
-inline rex::Simulator sceneOf(const CellMap& map, Cell start, Cell goal) {
+inline rex::Simulator sceneOf(const CellMap& map, MapCell start, MapCell goal) {
   const auto at = [](double x, double y, double z) {
     return "t(" + std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + ")";
   };

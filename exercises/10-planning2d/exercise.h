@@ -12,9 +12,9 @@
 // Maps of cells, for parts 1, 2 and 5.
 
 /// A square of one metre by its column and row, from the lower left.
-struct Cell {
+struct MapCell {
   int x = 0, y = 0;
-  bool operator==(const Cell&) const = default;
+  bool operator==(const MapCell&) const = default;
 };
 
 /// A rectangle of cells. Lists of all cells go row by row, from the lowest.
@@ -22,12 +22,12 @@ struct CellMap {
   int width = 0, height = 0;
   std::vector<int> blocked;  ///< 1 or 0 for each cell
 
-  std::size_t placeOf(Cell cell) const { return static_cast<std::size_t>(cell.y * width + cell.x); }
-  Cell cellAt(std::size_t place) const {
+  std::size_t placeOf(MapCell cell) const { return static_cast<std::size_t>(cell.y * width + cell.x); }
+  MapCell cellAt(std::size_t place) const {
     return {static_cast<int>(place) % width, static_cast<int>(place) / width};
   }
   /// Outside nothing is free.
-  bool isFree(Cell cell) const {
+  bool isFree(MapCell cell) const {
     return 0 <= cell.x && cell.x < width && 0 <= cell.y && cell.y < height && blocked[placeOf(cell)] == 0;
   }
 };
@@ -45,7 +45,7 @@ using Network = std::vector<std::vector<Arc>>;
 /// Where a bug went, from its start on, each cell beside the one before; and whether it got to its goal.
 struct BugTrail {
   bool reached = false;
-  std::vector<Cell> cells;
+  std::vector<MapCell> cells;
 };
 
 /// Bug 2 (4:11). The m-line leads from start (its first cell) to goal (its last), each cell beside the one
@@ -56,13 +56,13 @@ struct BugTrail {
 /// (Outside of the map is an obstacle, too.) It reaches the goal, or says that no way leads there. For that,
 /// Bug 2 turns to the same side each time, comes back to cells of the line that are nearer to the goal, and
 /// gives up when it is where it met the obstacle and would make the same step again.
-BugTrail bugTwo(const std::vector<Cell>& mLine, const std::function<bool(Cell)>& isFree);
+BugTrail bugTwo(const std::vector<MapCell>& mLine, const std::function<bool(MapCell)>& isFree);
 
 // Part 2, wavefront and Dijkstra (4:18 to 4:26).
 
 /// The numbers of slides 4:18 to 4:25 for all cells: 2 at the goal, which is free, one more with each step to
 /// one of the eight cells around, 1 where blocked, 0 where no way leads.
-std::vector<int> waveNumbers(const CellMap& map, Cell goal);
+std::vector<int> waveNumbers(const CellMap& map, MapCell goal);
 
 /// All cells as nodes, in the order of lists. Arcs join free cells: sides 1 m, diagonals sqrt(2) m. A
 /// diagonal arc is there only if both cells beside it are free, so that nothing scrapes along a corner.
@@ -158,7 +158,7 @@ std::vector<Eigen::Vector2d> queryRoadmap(const Yard& yard, const std::vector<Ei
 // Part 5, A*: Dijkstra that knows where the goal is.
 
 /// The length of the shortest way in a cellNetwork() of an endless map without obstacles.
-double emptyMapDistance(Cell from, Cell to);
+double emptyMapDistance(MapCell from, MapCell to);
 
 /// A shortest way from start to goal, both included; none: empty. `estimates` has a number for each node that
 /// is never more than the way from there to the goal, and differs along an arc by at most its length.

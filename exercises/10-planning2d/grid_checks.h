@@ -21,24 +21,24 @@
 inline rex::GridMap gridMapOf(const CellMap& map) {
   rex::GridMap grid(map.width, map.height);
   for (std::size_t place = 0; place < map.blocked.size(); ++place) {
-    const Cell cell = map.cellAt(place);
+    const MapCell cell = map.cellAt(place);
     grid.setBlocked({cell.x, cell.y}, map.blocked[place] != 0);
   }
   return grid;
 }
 
-inline std::vector<double> distancesOn(const CellMap& map, Cell from, rex::Connectivity connectivity) {
+inline std::vector<double> distancesOn(const CellMap& map, MapCell from, rex::Connectivity connectivity) {
   return rex::gridDistances(gridMapOf(map), {from.x, from.y}, connectivity);
 }
 
-inline Cell randomFreeCell(const CellMap& map, rex::Rng& rng) {
+inline MapCell randomFreeCell(const CellMap& map, rex::Rng& rng) {
   while (true) {
-    const Cell cell{rng.index(map.width), rng.index(map.height)};
+    const MapCell cell{rng.index(map.width), rng.index(map.height)};
     if (map.isFree(cell)) return cell;
   }
 }
 
-inline void block(CellMap& map, Cell cell) {
+inline void block(CellMap& map, MapCell cell) {
   if (map.isFree(cell)) map.blocked[map.placeOf(cell)] = 1;
 }
 
@@ -47,7 +47,7 @@ inline CellMap randomMap(rex::Rng& rng, int width, int height) {
   CellMap map = mapOf(std::vector<std::string>(static_cast<std::size_t>(height),
                                                std::string(static_cast<std::size_t>(width), '.')));
   for (int wall = 0; wall < 4; ++wall) {
-    Cell cell{rng.index(width), rng.index(height)};
+    MapCell cell{rng.index(width), rng.index(height)};
     for (int piece = 0; piece < 4; ++piece) {
       const int step = rng.index(2) == 0 ? 1 : -1;
       for (int length = 3 + rng.index(6); length > 0; --length) {
@@ -61,7 +61,7 @@ inline CellMap randomMap(rex::Rng& rng, int width, int height) {
 }
 
 // A closed wall around a rectangle of cells with that middle.
-inline void enclose(CellMap& map, Cell middle, int reach) {
+inline void enclose(CellMap& map, MapCell middle, int reach) {
   for (int i = -reach; i <= reach; ++i)
     for (const int side : {-reach, reach}) {
       block(map, {middle.x + i, middle.y + side});
@@ -81,27 +81,27 @@ class Obstacles {
         if (!map.isFree({x, y}) && obstacleAt({x, y}) < 0) collect({x, y});
   }
 
-  int sidesAt(Cell cell) const { return sides_[static_cast<std::size_t>(obstacleOf_[placeOf(cell)])]; }
+  int sidesAt(MapCell cell) const { return sides_[static_cast<std::size_t>(obstacleOf_[placeOf(cell)])]; }
 
  private:
-  bool isInFrame(Cell cell) const {
+  bool isInFrame(MapCell cell) const {
     return -1 <= cell.x && cell.x <= map_.width && -1 <= cell.y && cell.y <= map_.height;
   }
-  std::size_t placeOf(Cell cell) const {
+  std::size_t placeOf(MapCell cell) const {
     return static_cast<std::size_t>((cell.y + 1) * (map_.width + 2) + cell.x + 1);
   }
-  int obstacleAt(Cell cell) const { return obstacleOf_[placeOf(cell)]; }
+  int obstacleAt(MapCell cell) const { return obstacleOf_[placeOf(cell)]; }
 
-  void collect(Cell first) {
+  void collect(MapCell first) {
     int sides = 0;
-    std::vector<Cell> open{first};
+    std::vector<MapCell> open{first};
     obstacleOf_[placeOf(first)] = static_cast<int>(sides_.size());
     while (!open.empty()) {
-      const Cell at = open.back();
+      const MapCell at = open.back();
       open.pop_back();
       for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx) {
-          const Cell next{at.x + dx, at.y + dy};
+          const MapCell next{at.x + dx, at.y + dy};
           if (map_.isFree(next)) sides += dx == 0 || dy == 0 ? 1 : 0;
           if (!isInFrame(next) || map_.isFree(next) || obstacleAt(next) >= 0) continue;
           obstacleOf_[placeOf(next)] = static_cast<int>(sides_.size());
@@ -119,7 +119,7 @@ class Obstacles {
 // around that. Half the crossings with the border of an obstacle enter it: this is D + sum n p / 2. To go
 // round along sides of cells takes p + 4 steps: two at a corner that sticks out, none at one that does not,
 // and there are four more of the first kind.
-inline double bugBound(const CellMap& map, const std::vector<Cell>& line) {
+inline double bugBound(const CellMap& map, const std::vector<MapCell>& line) {
   const Obstacles obstacles(map);
   double bound = static_cast<double>(line.size()) - 1;
   for (std::size_t i = 1; i < line.size(); ++i)
@@ -131,9 +131,9 @@ inline double bugBound(const CellMap& map, const std::vector<Cell>& line) {
 inline Network networkOf(const CellMap& map) {
   Network network(map.blocked.size());
   for (std::size_t place = 0; place < network.size(); ++place) {
-    const Cell at = map.cellAt(place);
+    const MapCell at = map.cellAt(place);
     for (int i = 0; i < 9; ++i) {
-      const Cell next{at.x + i % 3 - 1, at.y + i / 3 - 1};
+      const MapCell next{at.x + i % 3 - 1, at.y + i / 3 - 1};
       const bool hasRoom = map.isFree({next.x, at.y}) && map.isFree({at.x, next.y});
       if (i == 4 || !map.isFree(at) || !map.isFree(next) || !hasRoom) continue;
       network[place].push_back({map.placeOf(next), std::hypot(next.x - at.x, next.y - at.y)});
@@ -142,15 +142,15 @@ inline Network networkOf(const CellMap& map) {
   return network;
 }
 
-inline bool touchesObstacle(const CellMap& map, Cell cell) {
+inline bool touchesObstacle(const CellMap& map, MapCell cell) {
   for (int y = cell.y - 1; y <= cell.y + 1; ++y)
     for (int x = cell.x - 1; x <= cell.x + 1; ++x)
       if (!map.isFree({x, y})) return true;
   return false;
 }
 
-inline bool isBeside(Cell a, Cell b) { return std::abs(a.x - b.x) + std::abs(a.y - b.y) == 1; }
-inline bool touches(Cell a, Cell b) { return std::abs(a.x - b.x) <= 1 && std::abs(a.y - b.y) <= 1; }
+inline bool isBeside(MapCell a, MapCell b) { return std::abs(a.x - b.x) + std::abs(a.y - b.y) == 1; }
+inline bool touches(MapCell a, MapCell b) { return std::abs(a.x - b.x) <= 1 && std::abs(a.y - b.y) <= 1; }
 
 // A look for points of figures.
 inline rex::Series dots(const std::string& label, const rex::Color& color, double size,
@@ -159,10 +159,10 @@ inline rex::Series dots(const std::string& label, const rex::Color& color, doubl
 }
 
 // Where a bug went, beside where the library's goes; until it went wrong if that is known.
-inline rex::grading::Evidence bugSeen(const CellMap& map, const std::vector<Cell>& line,
-                                      const std::vector<Cell>& trail, const std::vector<Cell>& asked) {
+inline rex::grading::Evidence bugSeen(const CellMap& map, const std::vector<MapCell>& line,
+                                      const std::vector<MapCell>& trail, const std::vector<MapCell>& asked) {
   rex::Figure figure = planOf("The way of the bug", map);
-  std::vector<Cell> wanted;
+  std::vector<MapCell> wanted;
   for (const rex::GridCell cell :
        rex::bug2(gridMapOf(map), {line.front().x, line.front().y}, {line.back().x, line.back().y}).cells)
     wanted.push_back({cell.x, cell.y});
@@ -185,21 +185,21 @@ inline rex::grading::Evidence bugSeen(const CellMap& map, const std::vector<Cell
 
 // A bug that runs in circles is stopped by what it asks: a right one needs four answers a step at most, and
 // gets forty.
-inline void bugObeys(rex::grading::Check& check, Student& student, const CellMap& map, Cell start,
-                     Cell goal) {
-  const std::vector<Cell> line = straightCells(start, goal);
+inline void bugObeys(rex::grading::Check& check, Student& student, const CellMap& map, MapCell start,
+                     MapCell goal) {
+  const std::vector<MapCell> line = straightCells(start, goal);
   const double bound = bugBound(map, line);
-  std::vector<Cell> asked;
+  std::vector<MapCell> asked;
   BugTrail trail;
   const auto shown = check.show([&] { return bugSeen(map, line, trail.cells, asked); });
-  trail = student.bugTwo(line, [&](Cell cell) {
+  trail = student.bugTwo(line, [&](MapCell cell) {
     check.that("isFree is asked only about cells that touch the trail",
                -1 <= cell.x && cell.x <= map.width && -1 <= cell.y && cell.y <= map.height);
     asked.push_back(cell);
     check.atMost("number of questions to isFree", static_cast<double>(asked.size()), 40 * (bound + 10));
     return map.isFree(cell);
   });
-  const std::vector<Cell>& cells = trail.cells;
+  const std::vector<MapCell>& cells = trail.cells;
   check.that("the trail begins at the start", !cells.empty() && cells.front() == start);
   for (std::size_t i = 0; i < cells.size(); ++i) {
     check.that("each cell of the trail is free", map.isFree(cells[i]));
@@ -216,9 +216,9 @@ inline void bugObeys(rex::grading::Check& check, Student& student, const CellMap
     check.that("the goal cannot be reached, and the bug says so", !trail.reached);
   }
   check.atMost("steps", static_cast<double>(cells.size()) - 1, bound);
-  for (const Cell cell : asked)
+  for (const MapCell cell : asked)
     check.that("isFree is asked only about cells that touch the trail",
-               std::any_of(cells.begin(), cells.end(), [&](Cell at) { return touches(at, cell); }));
+               std::any_of(cells.begin(), cells.end(), [&](MapCell at) { return touches(at, cell); }));
 }
 
 // Points in a square of 1 m, joined where they are near; far from all others there may be lonely ones.

@@ -18,8 +18,8 @@ inline CellMap mapOf(const std::vector<std::string>& rows) {
 }
 
 /// The straight line between two cells as cells beside one another: each step goes where the line is nearer.
-inline std::vector<Cell> straightCells(Cell from, Cell to) {
-  std::vector<Cell> line{from};
+inline std::vector<MapCell> straightCells(MapCell from, MapCell to) {
+  std::vector<MapCell> line{from};
   const int width = std::abs(to.x - from.x), height = std::abs(to.y - from.y);
   for (int x = 0, y = 0; x < width || y < height;) {
     const bool isAcross = y == height || (x < width && (2 * x + 1) * height < (2 * y + 1) * width);
@@ -38,7 +38,7 @@ inline CellMap hookMap() {
        "........#.....................", "........#.....................", "........#.....................",
        "........#.....................", "..#######.....................", ".............................."});
 }
-inline constexpr Cell kHookStart{1, 7}, kHookGoal{28, 8};
+inline constexpr MapCell kHookStart{1, 7}, kHookGoal{28, 8};
 
 /// Rooms with doors.
 inline CellMap roomMap() {
@@ -52,7 +52,7 @@ inline CellMap roomMap() {
                 "........#..........#............", "...................#............",
                 "........#..........#....#.......", "........#..........#....#......."});
 }
-inline constexpr Cell kRoomStart{2, 15}, kRoomGoal{30, 1};
+inline constexpr MapCell kRoomStart{2, 15}, kRoomGoal{30, 1};
 
 /// A yard with a trap: a block, with arms, between what comes from the left and the goal.
 inline Yard trapYard() {

@@ -16,7 +16,7 @@
 using Points = std::vector<Eigen::Vector2d>;
 
 /// Numbers of the cells beside those that were wanted, with a ring at the first that differs.
-inline rex::grading::Evidence wavesSeen(const CellMap& map, Cell goal, const std::vector<int>& got,
+inline rex::grading::Evidence wavesSeen(const CellMap& map, MapCell goal, const std::vector<int>& got,
                                         const std::vector<int>& wanted) {
   if (got.size() != wanted.size()) return {};
   std::vector<rex::Figure> figures;

@@ -15,24 +15,20 @@
 
 using namespace rex;
 
-// Keeps the compiler quiet about what a function below does not use yet.
-template <class... Unused>
-void notUsedYet(const Unused&...) {}
-
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 // Right, up, left, down: plus one is a quarter turn to the left, whatever the sign of the heading.
-Cell ahead(Cell cell, int heading) {
-  const std::array<Cell, 4> steps = {Cell{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
-  const Cell step = steps[static_cast<std::size_t>(heading & 3)];
+MapCell ahead(MapCell cell, int heading) {
+  const std::array<MapCell, 4> steps = {MapCell{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+  const MapCell step = steps[static_cast<std::size_t>(heading & 3)];
   return {cell.x + step.x, cell.y + step.y};
 }
 
-BugTrail bugTwo(const std::vector<Cell>& mLine, const std::function<bool(Cell)>& isFree) {
+BugTrail bugTwo(const std::vector<MapCell>& mLine, const std::function<bool(MapCell)>& isFree) {
   BugTrail trail{.reached = false, .cells = {mLine.front()}};
   // <solution bugTwo>
   // With the left hand on the wall: as far to the left as it can turn, but not back if there is another way.
-  const auto leftmost = [&](Cell cell, int heading) {
+  const auto leftmost = [&](MapCell cell, int heading) {
     for (int turn = 0; turn < 4; ++turn, --heading)
       if (isFree(ahead(cell, heading))) return heading;
     return heading;
@@ -42,7 +38,7 @@ BugTrail bugTwo(const std::vector<Cell>& mLine, const std::function<bool(Cell)>&
       trail.cells.push_back(mLine[++at]);
       continue;
     }
-    Cell cell = mLine[at];
+    MapCell cell = mLine[at];
     int heading = 0;
     while (ahead(cell, heading) != mLine[at + 1]) ++heading;
     heading = leftmost(cell, heading - 1);
@@ -62,18 +58,17 @@ BugTrail bugTwo(const std::vector<Cell>& mLine, const std::function<bool(Cell)>&
   // <todo>
   //| // TODO: along the line while it is free; else around the obstacle, until the line is met nearer to the
   //| // goal. Which heading comes first if one hand stays on the wall? How does the bug know it is round?
-  //| notUsedYet(isFree);
   // </solution>
   return trail;
 }
 
-std::vector<int> waveNumbers(const CellMap& map, Cell goal) {
+std::vector<int> waveNumbers(const CellMap& map, MapCell goal) {
   std::vector<int> numbers = map.blocked;
   // <solution waveNumbers>
   numbers[map.placeOf(goal)] = 2;
-  std::deque<Cell> front = {goal};
+  std::deque<MapCell> front = {goal};
   while (!front.empty()) {
-    const Cell cell = front.front();
+    const MapCell cell = front.front();
     front.pop_front();
     for (int y = cell.y - 1; y <= cell.y + 1; ++y) {
       for (int x = cell.x - 1; x <= cell.x + 1; ++x) {
@@ -85,7 +80,6 @@ std::vector<int> waveNumbers(const CellMap& map, Cell goal) {
   }
   // <todo>
   //| // TODO: begin with 2 at the goal. Each cell of the front gives its number plus one to what is still 0.
-  //| notUsedYet(goal);
   // </solution>
   return numbers;
 }
@@ -94,12 +88,12 @@ Network cellNetwork(const CellMap& map) {
   Network network(map.blocked.size());
   // <solution cellNetwork>
   for (std::size_t here = 0; here < network.size(); ++here) {
-    const Cell at = map.cellAt(here);
+    const MapCell at = map.cellAt(here);
     for (int y = at.y - 1; map.isFree(at) && y <= at.y + 1; ++y) {
       for (int x = at.x - 1; x <= at.x + 1; ++x) {
         // For a step to the side these two cells are both ends of it.
         const bool hasRoom = map.isFree({x, at.y}) && map.isFree({at.x, y});
-        if (Cell{x, y} == at || !map.isFree({x, y}) || !hasRoom) continue;
+        if (MapCell{x, y} == at || !map.isFree({x, y}) || !hasRoom) continue;
         network[here].push_back({map.placeOf({x, y}), x != at.x && y != at.y ? std::numbers::sqrt2 : 1});
       }
     }
@@ -130,7 +124,6 @@ std::vector<double> dijkstra(const Network& network, std::size_t from) {
   // <todo>
   //| // TODO: always go on from the node that is nearest to `from` and was not gone on from yet. A
   //| // std::priority_queue of pairs (distance, node) has it on top.
-  //| notUsedYet(network, from);
   // </solution>
   return distances;
 }
@@ -150,7 +143,6 @@ std::vector<std::size_t> wayDown(const Network& network, const std::vector<doubl
   return way;
   // <todo>
   //| // TODO: from node to node downwards. Is the lowest neighbour always on a shortest way?
-  //| notUsedYet(network, distances, start);
   //| return {};
   // </solution>
 }
@@ -168,7 +160,6 @@ double fieldPotential(const Yard& yard, const Eigen::Vector2d& goal, const Field
   }
   // <todo>
   //| // TODO: both potentials. Which blocks are felt at p?
-  //| notUsedYet(yard, goal, gains, p);
   // </solution>
   return U;
 }
@@ -188,7 +179,6 @@ Eigen::Vector2d fieldGradient(const Yard& yard, const Eigen::Vector2d& goal, con
   }
   // <todo>
   //| // TODO: the derivative of the potential. Of the distance to a block, what is the gradient?
-  //| notUsedYet(yard, goal, gains, p);
   // </solution>
   return gradient;
 }
@@ -210,7 +200,6 @@ FieldTrail slideDown(const Yard& yard, const Eigen::Vector2d& goal, const FieldG
   trail.ending = Ending::kAtGoal;
   // <todo>
   //| // TODO: steps against the gradient, shorter where a whole one would lead upwards.
-  //| notUsedYet(yard, goal, gains, stepSize);
   // </solution>
   return trail;
 }
@@ -223,7 +212,6 @@ bool straightIsFree(const Yard& yard, const Eigen::Vector2d& a, const Eigen::Vec
   return isFree(yard, b);
   // <todo>
   //| // TODO: how many points does it take?
-  //| notUsedYet(yard, a, b, resolution);
   //| return false;
   // </solution>
 }
@@ -235,7 +223,6 @@ std::optional<Eigen::Vector2d> uniformSample(const Yard& yard, Rng& rng) {
   return Eigen::Vector2d(x, y);
   // <todo>
   //| // TODO: a point of the yard, if it is free.
-  //| notUsedYet(yard, rng);
   //| return std::nullopt;
   // </solution>
 }
@@ -248,7 +235,6 @@ std::optional<Eigen::Vector2d> gaussianSample(const Yard& yard, double sigma, Rn
   return isFree(yard, q1) ? q1 : q2;
   // <todo>
   //| // TODO: two points. When is one of them a node, and which?
-  //| notUsedYet(yard, sigma, rng);
   //| return std::nullopt;
   // </solution>
 }
@@ -261,7 +247,6 @@ std::optional<Eigen::Vector2d> bridgeSample(const Yard& yard, double sigma, Rng&
   return middle;
   // <todo>
   //| // TODO: two points, and the one between. Which of the three have to be free?
-  //| notUsedYet(yard, sigma, rng);
   //| return std::nullopt;
   // </solution>
 }
@@ -279,7 +264,6 @@ std::vector<std::size_t> nearestNodes(const std::vector<Eigen::Vector2d>& nodes,
   order.erase(last, order.end());
   // <todo>
   //| // TODO: useful for the next two. std::partial_sort sorts no more than you need.
-  //| notUsedYet(nodes, q, k);
   // </solution>
   return order;
 }
@@ -299,7 +283,6 @@ Network joinNearest(const Yard& yard, const std::vector<Eigen::Vector2d>& nodes,
   }
   // <todo>
   //| // TODO: slide 4:31, from line 6 on.
-  //| notUsedYet(yard, k, resolution);
   // </solution>
   return roadmap;
 }
@@ -325,18 +308,16 @@ std::vector<Eigen::Vector2d> queryRoadmap(const Yard& yard, const std::vector<Ei
   for (const std::size_t node : wayDown(network, dijkstra(network, last), first)) way.push_back(places[node]);
   // <todo>
   //| // TODO: two more nodes, and then you have all you need.
-  //| notUsedYet(yard, nodes, roadmap, start, goal, k, resolution);
   // </solution>
   return way;
 }
 
-double emptyMapDistance(Cell from, Cell to) {
+double emptyMapDistance(MapCell from, MapCell to) {
   // <solution emptyMapDistance>
   const int across = std::abs(to.x - from.x), along = std::abs(to.y - from.y);
   return std::max(across, along) + (std::numbers::sqrt2 - 1) * std::min(across, along);
   // <todo>
   //| // TODO: how many diagonal steps, and how many straight ones?
-  //| notUsedYet(from, to);
   //| return 0;
   // </solution>
 }
@@ -371,7 +352,6 @@ std::vector<std::size_t> aStar(const std::function<std::vector<Arc>(std::size_t)
   std::reverse(way.begin(), way.end());
   // <todo>
   //| // TODO: Dijkstra, but what is on top of the queue? When may it stop, and how do you find the way back?
-  //| notUsedYet(arcsOf, start, goal, estimates);
   // </solution>
   return way;
 }
@@ -380,9 +360,9 @@ std::vector<std::size_t> aStar(const std::function<std::vector<Arc>(std::size_t)
 
 namespace {
 
-void showBug(const CellMap& map, Cell start, Cell goal, const std::vector<Eigen::Vector2d>& byLibrary) {
-  const std::vector<Cell> line = straightCells(start, goal);
-  const BugTrail trail = bugTwo(line, [&](Cell cell) { return map.isFree(cell); });
+void showBug(const CellMap& map, MapCell start, MapCell goal, const std::vector<Eigen::Vector2d>& byLibrary) {
+  const std::vector<MapCell> line = straightCells(start, goal);
+  const BugTrail trail = bugTwo(line, [&](MapCell cell) { return map.isFree(cell); });
   Figure figure = planOf("Bug 2", map);
   addLine(figure, centersOf(line), {.label = "m-line", .color = kGray});
   addLine(figure, centersOf(trail.cells), {.label = "yours", .size = 2});

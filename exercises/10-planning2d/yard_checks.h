@@ -110,8 +110,8 @@ inline bool isCutOff(const Slide& slide) {
   const auto columns = static_cast<int>((slide.yard.size.x() + 2 * margin) / h) + 1,
              rows = static_cast<int>((slide.yard.size.y() + 2 * margin) / h) + 1;
   const auto placeOf = [&](const Eigen::Vector2d& p) {
-    return Cell{static_cast<int>(std::lround((p.x() + margin) / h)),
-                static_cast<int>(std::lround((p.y() + margin) / h))};
+    return MapCell{static_cast<int>(std::lround((p.x() + margin) / h)),
+                   static_cast<int>(std::lround((p.y() + margin) / h))};
   };
   CellMap below{.width = columns, .height = rows, .blocked = {}};
   const double level = trueU(slide.yard, slide.goal, slide.gains, slide.start) * 1.1;
@@ -120,9 +120,9 @@ inline bool isCutOff(const Slide& slide) {
       const Eigen::Vector2d p(h * x - margin, h * y - margin);
       below.blocked.push_back(trueU(slide.yard, slide.goal, slide.gains, p) <= level ? 0 : 1);
     }
-  std::vector<Cell> open{placeOf(slide.start)};
+  std::vector<MapCell> open{placeOf(slide.start)};
   while (!open.empty()) {
-    const Cell at = open.back();
+    const MapCell at = open.back();
     open.pop_back();
     if (!below.isFree(at)) continue;
     if (at == placeOf(slide.goal)) return false;

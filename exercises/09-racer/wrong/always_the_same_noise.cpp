@@ -2,7 +2,6 @@
 // mistake: a generator of its own, so that all rides meet the same noise.
 
 // <solution kicks>
-static_cast<void>(rng);
 Rng own(3);
 Eigen::MatrixXd noises(2, steps);
 for (int t = 0; t < steps; ++t)

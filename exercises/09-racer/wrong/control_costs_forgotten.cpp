@@ -8,6 +8,5 @@ for (int i = 0; i < 60; ++i) Z = (Z + inverse(Z)).eval() / 2;
 Z.diagonal().array() += 1;
 Eigen::Vector4d K;
 for (int i = 0; i < 4; ++i) K[i] = system.B.dot(leastSquares(Z.rightCols(4), -Z.col(i)));
-notUsedYet(R);
 return K;
 // </solution>

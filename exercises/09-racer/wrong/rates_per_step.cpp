@@ -11,6 +11,5 @@ now.segment<8>(9) = .5 * before.segment<8>(9) + .5 * now.segment<8>(1);
 now.segment<8>(17) = .9 * before.segment<8>(17) + .1 * now.segment<8>(1);
 now[25] = u;
 now[26] = before[25];
-notUsedYet(tau);
 return now;
 // </solution>

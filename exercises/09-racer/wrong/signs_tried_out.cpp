@@ -4,7 +4,6 @@
 // search.
 
 // <solution searchedPolicy>
-notUsedYet(budget, rng);
 Eigen::VectorXd known = Eigen::VectorXd::Zero(kFeatures);
 known.head(9) << .037, -.986, 5.999, .726, .07, -.001, -.001, -.004, .053;
 Eigen::MatrixXd W = known.replicate(1, 32);

@@ -2,7 +2,6 @@
 // mistake: weights that balance the racer of the sheet, as its motor and sensors are wired there; no search.
 
 // <solution searchedPolicy>
-notUsedYet(rides, budget, rng);
 Eigen::VectorXd w = Eigen::VectorXd::Zero(kFeatures);
 w.head(9) << .0005, -1.31, 8.28, 1.34, .166, .0045, -.0195, -.0054, .0907;
 return w;

@@ -3,6 +3,5 @@
 // mistake: tests the ends of an edge, not what lies between.
 
 // <solution straightIsFree>
-static_cast<void>(resolution);
 return isFree(yard, a) && isFree(yard, b);
 // </solution>

@@ -2,7 +2,7 @@
 // mistake: takes passing by where it met the obstacle for having come round.
 
 // <solution bugTwo>
-const auto leftmost = [&](Cell cell, int heading) {
+const auto leftmost = [&](MapCell cell, int heading) {
   for (int turn = 0; turn < 4; ++turn, --heading)
     if (isFree(ahead(cell, heading))) return heading;
   return heading;
@@ -12,7 +12,7 @@ for (std::size_t at = 0; at + 1 < mLine.size();) {
     trail.cells.push_back(mLine[++at]);
     continue;
   }
-  Cell cell = mLine[at];
+  MapCell cell = mLine[at];
   int heading = 0;
   while (ahead(cell, heading) != mLine[at + 1]) ++heading;
   heading = leftmost(cell, heading - 1);
