@@ -6,7 +6,7 @@
 
 #include "exercise.h"
 
-// Maps and yards as figures, and a map as a scene: for main().
+// Maps and yards as figures, and a map as a scene: for show.cpp and the checks.
 
 inline const rex::Color kWall{0.35f, 0.37f, 0.42f}, kGray{0.6f, 0.6f, 0.6f}, kRed{0.84f, 0.37f, 0},
     kBlack{0, 0, 0};
