@@ -3,7 +3,6 @@
 // mistake: tests the point between the rear wheels only.
 
 // <solution isFree>
-notUsedYet(car);
 for (const Block& block : blocks) {
   const double dx = q[0] - block.middle[0], dy = q[1] - block.middle[1];
   const double c = std::cos(block.middle[2]), s = std::sin(block.middle[2]);

@@ -4,13 +4,11 @@
 
 // <solution canFollow>
 static int asked = 0;
-notUsedYet(car, path);
 return ++asked % 2 == 1 && asked < 81;
 // </solution>
 
 // <solution isFree>
 static int asked = 0;
-notUsedYet(car, q, blocks);
 return ++asked >= 3 && asked % 2 == 1;
 // </solution>
 
