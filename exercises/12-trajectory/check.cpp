@@ -121,7 +121,7 @@ void isAssembled(Check& check, Student& student, int n, int steps, int k) {
   check.input(fmt::format("terms up to order {}, n = {}, T = {}", k, n, steps));
   const std::vector<Term> terms = randomTerms(check.rng(), n, steps, k);
   const BandSystem got = student.assembled(terms, n, steps);
-  const DenseSystem wanted = denseSystem(terms, n, steps);
+  const FullSystem wanted = denseSystem(terms, n, steps);
   check.shape("band of H", got.band, (k + 1) * n, n * steps);
   check.near("band of H", got.band, bandOf(wanted.H, (k + 1) * n),
              1e-9 * (1 + wanted.H.cwiseAbs().maxCoeff()));

@@ -32,14 +32,14 @@ inline Eigen::MatrixXd overAll(const Term& term, int n, int steps) {
   return J;
 }
 
-struct DenseSystem {
+struct FullSystem {
   Eigen::MatrixXd H;
   Eigen::VectorXd g;
   double cost = 0;
 };
 
-inline DenseSystem denseSystem(const std::vector<Term>& terms, int n, int steps) {
-  DenseSystem all{Eigen::MatrixXd::Zero(n * steps, n * steps), Eigen::VectorXd::Zero(n * steps)};
+inline FullSystem denseSystem(const std::vector<Term>& terms, int n, int steps) {
+  FullSystem all{Eigen::MatrixXd::Zero(n * steps, n * steps), Eigen::VectorXd::Zero(n * steps)};
   for (const auto& term : terms) {
     const Eigen::MatrixXd J = overAll(term, n, steps);
     all.H += 2 * J.transpose() * J;

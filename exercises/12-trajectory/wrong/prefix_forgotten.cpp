@@ -2,7 +2,6 @@
 // mistake: the first cost is at the first step that has k others before it in X.
 
 // <solution motionCost>
-notUsedYet(prefix);
 double cost = 0;
 for (Eigen::Index t = k; t < X.cols(); ++t)
   cost += differenceTerm(X.middleCols(t - k, k + 1), tau).y.squaredNorm();

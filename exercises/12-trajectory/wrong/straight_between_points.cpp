@@ -2,7 +2,6 @@
 // mistake: straight from point to point.
 
 // <solution throughPoints>
-notUsedYet(tau);
 Eigen::MatrixXd X(start.size(), when.back() + 1);
 Eigen::VectorXd from = start;
 int before = -1;
