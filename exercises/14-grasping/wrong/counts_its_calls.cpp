@@ -2,8 +2,6 @@
 // mistake: answers by how often it was asked, as if the six questions about a cone came in one order.
 
 // <solution inCone>
-static_cast<void>(finger);
-static_cast<void>(force);
 static int asked = 0;
 const int question = asked++ % 6;
 return question == 0 || question == 3 || question == 4;
