@@ -1,0 +1,26 @@
+#pragma once
+
+#include "exercise.h"
+#include "rooms.h"
+
+/// Prints pose j seen from pose i, which should be `motion`, errors of edges that measured this and z, and
+/// whether edgeJacobians() fits them. An edge that measured `motion` has no error.
+void showEdge(const Eigen::Vector3d& i, const Eigen::Vector3d& motion, const Eigen::Vector3d& z);
+
+/// graph.png: the way by odometry and loops that are given, after one step of yours, adjusted, and by the
+/// library, which lies on the adjusted one. Prints costs.
+void showGivenLoops(const Walk& walk);
+
+/// scans.png: a scan on the one to which you aligned it.
+void showAlignment(const Points& reference, const Points& moving, const Eigen::Vector3d& guess);
+
+/// Poses by odometry, with edges from scans where they agree with it, and loops that your loopMotion() finds.
+PoseMap mapFromScans(const Walk& walk, rex::Rng& rng);
+
+/// before.png, after.png, costs.png, adjusting.mp4: the map by odometry, adjusted, what it costs after each
+/// step, and three steps. Every wall is there once in the end.
+void showMap(const Walk& walk, const PoseMap& map);
+
+/// wrongLoops.png: with three wrong loops the map folds up if all are trusted; your robust one stays as it
+/// was.
+void showWrongLoops(const Walk& walk, PoseMap map);
