@@ -367,39 +367,40 @@ void beliefsElsewhere(Check& check, Student& student) {
 
 grading::Checks<Student> checks() {
   return {
-      {"square-equations", "matrices", "equations a and b hold", 1, Group::visible, squareEquations},
-      {"tall-equations", "matrices", "equations c and d hold", 1, Group::visible, tallEquations},
-      {"derivative", "matrices", "the derivative of f^T C g", 1, Group::visible, derivatives},
-      {"minimum", "matrices", "the quadratic minimum", 1, Group::visible, minima},
+      {"square-equations", "matrices", "equations a and b hold", 1, Group::kVisible, squareEquations},
+      {"tall-equations", "matrices", "equations c and d hold", 1, Group::kVisible, tallEquations},
+      {"derivative", "matrices", "the derivative of f^T C g", 1, Group::kVisible, derivatives},
+      {"minimum", "matrices", "the quadratic minimum", 1, Group::kVisible, minima},
       // <hidden>
-      {"any-size", "matrices", "equations, derivative and minimum of any size", 1, Group::hidden,
+      {"any-size", "matrices", "equations, derivative and minimum of any size", 1, Group::kHidden,
        equationsOfAnySize},
       // </hidden>
-      {"descent", "optimisation", "gradient descent in a bowl and a hole", 2, Group::visible,
+      {"descent", "optimisation", "gradient descent in a bowl and a hole", 2, Group::kVisible,
        descendsBowlAndHole},
-      {"gauss-newton", "optimisation", "Gauss-Newton on three sums of squares", 1, Group::visible,
+      {"gauss-newton", "optimisation", "Gauss-Newton on three sums of squares", 1, Group::kVisible,
        gaussNewtonOnKnownProblems},
       // <hidden>
-      {"descent-elsewhere", "optimisation", "gradient descent on other functions", 1, Group::hidden,
+      {"descent-elsewhere", "optimisation", "gradient descent on other functions", 1, Group::kHidden,
        descendsElsewhere},
-      {"gauss-newton-elsewhere", "optimisation", "Gauss-Newton on other sums of squares", 1, Group::hidden,
+      {"gauss-newton-elsewhere", "optimisation", "Gauss-Newton on other sums of squares", 1, Group::kHidden,
        gaussNewtonElsewhere},
       // </hidden>
-      {"book", "book", "the book of the script and its dot", 1, Group::visible, bookAndDot},
-      {"frames", "book", "the way back, and one frame seen from another", 1, Group::visible, frames},
+      {"book", "book", "the book of the script and its dot", 1, Group::kVisible, bookAndDot},
+      {"frames", "book", "the way back, and one frame seen from another", 1, Group::kVisible, frames},
       // <hidden>
-      {"frames-elsewhere", "book", "other books and frames", 1, Group::hidden, framesElsewhere},
+      {"frames-elsewhere", "book", "other books and frames", 1, Group::kHidden, framesElsewhere},
       // </hidden>
-      {"boxes", "bayes", "the boxes with fruit and the boxes with a prize", 1, Group::visible, boxesAndDoors},
-      {"table", "bayes", "the joint table", 1, Group::visible, tables},
+      {"boxes", "bayes", "the boxes with fruit and the boxes with a prize", 1, Group::kVisible,
+       boxesAndDoors},
+      {"table", "bayes", "the joint table", 1, Group::kVisible, tables},
       // <hidden>
-      {"bayes-elsewhere", "bayes", "other boxes, doors and tables", 1, Group::hidden, bayesElsewhere},
+      {"bayes-elsewhere", "bayes", "other boxes, doors and tables", 1, Group::kHidden, bayesElsewhere},
       // </hidden>
-      {"product", "beliefs", "the product of two Gaussians", 1, Group::visible, products},
-      {"propagation", "beliefs", "a Gaussian sent through a linear map", 1, Group::visible, propagations},
-      {"conjugate", "beliefs", "Beta and Dirichlet beliefs and predictions", 1, Group::visible, conjugates},
+      {"product", "beliefs", "the product of two Gaussians", 1, Group::kVisible, products},
+      {"propagation", "beliefs", "a Gaussian sent through a linear map", 1, Group::kVisible, propagations},
+      {"conjugate", "beliefs", "Beta and Dirichlet beliefs and predictions", 1, Group::kVisible, conjugates},
       // <hidden>
-      {"beliefs-elsewhere", "beliefs", "other beliefs", 1, Group::hidden, beliefsElsewhere},
+      {"beliefs-elsewhere", "beliefs", "other beliefs", 1, Group::kHidden, beliefsElsewhere},
       // </hidden>
   };
 }

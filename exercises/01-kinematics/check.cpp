@@ -482,34 +482,35 @@ void motionsOfAnotherRobot(Check& check, Student& student) {
 
 grading::Checks<Student> checks() {
   return {
-      {"look-at-zero", "maps", "lookAt is zero exactly when the body looks at the target", 1, Group::visible,
+      {"look-at-zero", "maps", "lookAt is zero exactly when the body looks at the target", 1, Group::kVisible,
        onTheMan(lookAtIsZeroAtTheTarget)},
-      {"look-at-jacobian", "maps", "the Jacobian of lookAt", 1, Group::visible, onTheMan(lookAtJacobian)},
-      {"palms-zero", "maps", "opposePalms is zero exactly for opposite palms", 1, Group::visible,
+      {"look-at-jacobian", "maps", "the Jacobian of lookAt", 1, Group::kVisible, onTheMan(lookAtJacobian)},
+      {"palms-zero", "maps", "opposePalms is zero exactly for opposite palms", 1, Group::kVisible,
        twice(opposePalmsIsZeroWhenOpposite)},
-      {"palms-jacobian", "maps", "the Jacobian of opposePalms", 1, Group::visible,
+      {"palms-jacobian", "maps", "the Jacobian of opposePalms", 1, Group::kVisible,
        onTheMan(opposePalmsJacobian)},
-      {"distance-zero", "maps", "distanceToGoal is one number, zero only at the goal", 1, Group::visible,
+      {"distance-zero", "maps", "distanceToGoal is one number, zero only at the goal", 1, Group::kVisible,
        onTheMan(distanceIsZeroAtTheGoal)},
-      {"distance-jacobian", "maps", "the Jacobian of distanceToGoal", 1, Group::visible,
+      {"distance-jacobian", "maps", "the Jacobian of distanceToGoal", 1, Group::kVisible,
        onTheMan(distanceJacobian)},
       // <hidden>
-      {"maps-other-robot", "maps", "the maps of another robot", 2, Group::hidden, mapsOfAnotherRobot},
+      {"maps-other-robot", "maps", "the maps of another robot", 2, Group::kHidden, mapsOfAnotherRobot},
       // </hidden>
-      {"step-hand", "step", "one step minimises its cost, for the right hand", 2, Group::visible,
+      {"step-hand", "step", "one step minimises its cost, for the right hand", 2, Group::kVisible,
        stepOfTheHand},
-      {"step-singular", "step", "one step stays small at a singular posture", 1, Group::visible,
+      {"step-singular", "step", "one step stays small at a singular posture", 1, Group::kVisible,
        stepAtASingularity},
       // <hidden>
-      {"step-any-size", "step", "one step for Jacobians of any size", 1, Group::hidden, stepOfAnySize},
+      {"step-any-size", "step", "one step for Jacobians of any size", 1, Group::kHidden, stepOfAnySize},
       // </hidden>
-      {"full-steps", "motion", "full steps reach the target as in the lecture", 1, Group::visible, fullSteps},
-      {"small-steps", "motion", "a hundred steps of a tenth reach the target", 1, Group::visible,
+      {"full-steps", "motion", "full steps reach the target as in the lecture", 1, Group::kVisible,
+       fullSteps},
+      {"small-steps", "motion", "a hundred steps of a tenth reach the target", 1, Group::kVisible,
        stepsOfATenth},
-      {"line", "motion", "the hand follows the straight line", 2, Group::visible, lineOfTheHand},
-      {"circle", "motion", "the hand follows the circle", 2, Group::visible, circleOfTheHand},
+      {"line", "motion", "the hand follows the straight line", 2, Group::kVisible, lineOfTheHand},
+      {"circle", "motion", "the hand follows the circle", 2, Group::kVisible, circleOfTheHand},
       // <hidden>
-      {"motion-other-robot", "motion", "lines and circles of another robot", 2, Group::hidden,
+      {"motion-other-robot", "motion", "lines and circles of another robot", 2, Group::kHidden,
        motionsOfAnotherRobot},
       // </hidden>
   };

@@ -621,41 +621,41 @@ void anyTwoTasks(Check& check, Student& student) {
 
 grading::Checks<Student> checks() {
   return {
-      {"inverse", "nullspace", "regularisedInverse minimises its cost", 1, Group::visible, inverses},
-      {"projector", "nullspace", "the projector onto the nullspace", 1, Group::visible, projectors},
-      {"projector-singular", "nullspace", "the projector where the Jacobian loses rank", 1, Group::visible,
+      {"inverse", "nullspace", "regularisedInverse minimises its cost", 1, Group::kVisible, inverses},
+      {"projector", "nullspace", "the projector onto the nullspace", 1, Group::kVisible, projectors},
+      {"projector-singular", "nullspace", "the projector where the Jacobian loses rank", 1, Group::kVisible,
        projectorsOfLessRank},
       // <hidden>
-      {"nullspace-any-size", "nullspace", "Jacobians of any size and rank", 1, Group::hidden,
+      {"nullspace-any-size", "nullspace", "Jacobians of any size and rank", 1, Group::kHidden,
        inversesOfAnySize},
       // </hidden>
-      {"stack", "tasks", "multiTaskStep minimises the sum of its costs", 1, Group::visible, stackedSteps},
-      {"circle-tracks", "tasks", "the hand follows the circle", 1, Group::visible, circleTracks},
-      {"circle-home", "tasks", "the posture stays near home", 1, Group::visible, circleStaysAtHome},
-      {"circle-points", "tasks", "the other hand points upwards", 1, Group::visible, circlePoints},
+      {"stack", "tasks", "multiTaskStep minimises the sum of its costs", 1, Group::kVisible, stackedSteps},
+      {"circle-tracks", "tasks", "the hand follows the circle", 1, Group::kVisible, circleTracks},
+      {"circle-home", "tasks", "the posture stays near home", 1, Group::kVisible, circleStaysAtHome},
+      {"circle-points", "tasks", "the other hand points upwards", 1, Group::kVisible, circlePoints},
       // <hidden>
-      {"circle-other-hand", "tasks", "the circle with the other hand, from another posture", 1, Group::hidden,
-       circleOfTheOtherHand},
+      {"circle-other-hand", "tasks", "the circle with the other hand, from another posture", 1,
+       Group::kHidden, circleOfTheOtherHand},
       // </hidden>
-      {"interpolation", "peg", "joint-space interpolation with the sine profile", 1, Group::visible,
+      {"interpolation", "peg", "joint-space interpolation with the sine profile", 1, Group::kVisible,
        interpolates},
-      {"peg-posture", "peg", "postures above the hole and in it", 1, Group::visible, postureAboveAndIn},
-      {"peg-straight", "peg", "the peg moves straight into the hole and touches nothing", 1, Group::visible,
+      {"peg-posture", "peg", "postures above the hole and in it", 1, Group::kVisible, postureAboveAndIn},
+      {"peg-straight", "peg", "the peg moves straight into the hole and touches nothing", 1, Group::kVisible,
        movesStraight},
-      {"peg-insert", "peg", "the whole way into the hole, and between the postures", 2, Group::visible,
+      {"peg-insert", "peg", "the whole way into the hole, and between the postures", 2, Group::kVisible,
        goesIntoTheHole},
       // <hidden>
-      {"peg-other-hole", "peg", "another peg, another hole, another start", 2, Group::hidden,
+      {"peg-other-hole", "peg", "another peg, another hole, another start", 2, Group::kHidden,
        anotherPegAndHole},
       // </hidden>
-      {"priority-first", "priority", "the second task never disturbs the first", 1, Group::visible,
+      {"priority-first", "priority", "the second task never disturbs the first", 1, Group::kVisible,
        firstComesFirst},
-      {"priority-second", "priority", "the second task gets all that the first leaves", 1, Group::visible,
+      {"priority-second", "priority", "the second task gets all that the first leaves", 1, Group::kVisible,
        secondComesSecond},
-      {"priority-circle", "priority", "the hand keeps to its circle against a second wish", 1, Group::visible,
-       circlesUndisturbed},
+      {"priority-circle", "priority", "the hand keeps to its circle against a second wish", 1,
+       Group::kVisible, circlesUndisturbed},
       // <hidden>
-      {"priority-any", "priority", "tasks of any size and rank", 1, Group::hidden, anyTwoTasks},
+      {"priority-any", "priority", "tasks of any size and rank", 1, Group::kHidden, anyTwoTasks},
       // </hidden>
   };
 }

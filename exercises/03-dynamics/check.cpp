@@ -597,45 +597,47 @@ void balancesAnyTilt(Check& check, Student& student) {
 
 grading::Checks<Student> checks() {
   return {
-      {"point-step", "point", "one Euler step, and the force of PD control", 1, Group::visible,
+      {"point-step", "point", "one Euler step, and the force of PD control", 1, Group::kVisible,
        stepsAndPulls},
-      {"point-regimes", "point", "three regimes reach the goal in 1, 2 and 5 s", 1, Group::visible,
+      {"point-regimes", "point", "three regimes reach the goal in 1, 2 and 5 s", 1, Group::kVisible,
        reachesInEveryRegime},
       // <hidden>
-      {"point-any-mass", "point", "other masses and times", 1, Group::hidden, reachesWithAnyMass},
+      {"point-any-mass", "point", "other masses and times", 1, Group::kHidden, reachesWithAnyMass},
       // </hidden>
-      {"pid-step", "pid", "PID control, and its restart", 1, Group::visible, pidSteps},
-      {"pid-stability", "pid", "which gains are stable", 1, Group::visible, judgesPid},
-      {"follow-cosine", "follow", "on the reference, and the way back to it", 1, Group::visible,
+      {"pid-step", "pid", "PID control, and its restart", 1, Group::kVisible, pidSteps},
+      {"pid-stability", "pid", "which gains are stable", 1, Group::kVisible, judgesPid},
+      {"follow-cosine", "follow", "on the reference, and the way back to it", 1, Group::kVisible,
        followsTheCosine},
       // <hidden>
-      {"follow-kicks", "follow", "other masses, and kicks every second", 1, Group::hidden, followsUnderKicks},
+      {"follow-kicks", "follow", "other masses, and kicks every second", 1, Group::kHidden,
+       followsUnderKicks},
       // </hidden>
-      {"hold-arm", "hold", "the arm is held under noise and a push", 1, Group::visible, holdsTheArm},
+      {"hold-arm", "hold", "the arm is held under noise and a push", 1, Group::kVisible, holdsTheArm},
       // <hidden>
-      {"hold-other-masses", "hold", "arms with other masses are held, too", 1, Group::hidden, holdsOtherArms},
+      {"hold-other-masses", "hold", "arms with other masses are held, too", 1, Group::kHidden,
+       holdsOtherArms},
       // </hidden>
-      {"torque-equations", "torque", "the wanted acceleration, and the forces for it", 1, Group::visible,
+      {"torque-equations", "torque", "the wanted acceleration, and the forces for it", 1, Group::kVisible,
        accelerates},
-      {"torque-hold", "torque", "the arm is held with M and F", 1, Group::visible, holdsWithTorques},
+      {"torque-hold", "torque", "the arm is held with M and F", 1, Group::kVisible, holdsWithTorques},
       // <hidden>
-      {"torque-other-arm", "torque", "another arm follows a reference", 1, Group::hidden,
+      {"torque-other-arm", "torque", "another arm follows a reference", 1, Group::kHidden,
        followsWithTheOtherArm},
       // </hidden>
       {"hand-equations", "hand", "accelerationBias, and operationalForce minimises its cost", 1,
-       Group::visible, biasAndForce},
-      {"hand-circle", "hand", "the hand follows a circle", 1, Group::visible, followsACircle},
+       Group::kVisible, biasAndForce},
+      {"hand-circle", "hand", "the hand follows a circle", 1, Group::kVisible, followsACircle},
       // <hidden>
-      {"hand-other-paths", "hand", "other paths, other masses", 1, Group::hidden, followsALine},
+      {"hand-other-paths", "hand", "other paths, other masses", 1, Group::kHidden, followsALine},
       // </hidden>
-      {"chain-forces", "chain", "a pendulum, and chains under gravity", 1, Group::visible, newtonAndEuler},
-      {"chain-terms", "chain", "M, G and C v", 1, Group::visible, terms},
+      {"chain-forces", "chain", "a pendulum, and chains under gravity", 1, Group::kVisible, newtonAndEuler},
+      {"chain-terms", "chain", "M, G and C v", 1, Group::kVisible, terms},
       // <hidden>
-      {"chain-any", "chain", "other chains, other gravity", 1, Group::hidden, anyChain},
+      {"chain-any", "chain", "other chains, other gravity", 1, Group::kHidden, anyChain},
       // </hidden>
-      {"pin-upright", "pin", "the pin stays upright", 1, Group::visible, balancesThePin},
+      {"pin-upright", "pin", "the pin stays upright", 1, Group::kVisible, balancesThePin},
       // <hidden>
-      {"pin-any-tilt", "pin", "other tilts", 1, Group::hidden, balancesAnyTilt},
+      {"pin-any-tilt", "pin", "other tilts", 1, Group::kHidden, balancesAnyTilt},
       // </hidden>
   };
 }

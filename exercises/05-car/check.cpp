@@ -583,39 +583,41 @@ void findsItsHeading(Check& check, Student& student) {
 
 grading::Checks<Student> checks() {
   return {
-      {"car-step", "reckoning", "one step of the car", 1, Group::visible, stepsLikeTheCar},
-      {"car-spread", "reckoning", "every particle has noise of its own", 1, Group::visible, spreadsInOneStep},
+      {"car-step", "reckoning", "one step of the car", 1, Group::kVisible, stepsLikeTheCar},
+      {"car-spread", "reckoning", "every particle has noise of its own", 1, Group::kVisible,
+       spreadsInOneStep},
       // <hidden>
-      {"car-drift", "reckoning", "dead reckoning spreads as the model says", 1, Group::hidden,
+      {"car-drift", "reckoning", "dead reckoning spreads as the model says", 1, Group::kHidden,
        driftsAsTheModelSays},
       // </hidden>
-      {"view", "weights", "landmarks in the frame of the car", 1, Group::visible, seesLandmarks},
-      {"likelihood", "weights", "likelihoods of an observation", 1, Group::visible, likelihoodsOfTwo},
-      {"normalised", "weights", "weights of likelihoods, however small", 1, Group::visible, normalises},
+      {"view", "weights", "landmarks in the frame of the car", 1, Group::kVisible, seesLandmarks},
+      {"likelihood", "weights", "likelihoods of an observation", 1, Group::kVisible, likelihoodsOfTwo},
+      {"normalised", "weights", "weights of likelihoods, however small", 1, Group::kVisible, normalises},
       // <hidden>
-      {"weights-anywhere", "weights", "other worlds and far particles", 1, Group::hidden, weighsAnywhere},
+      {"weights-anywhere", "weights", "other worlds and far particles", 1, Group::kHidden, weighsAnywhere},
       // </hidden>
-      {"whole-parts", "resampling", "whole parts are certain", 1, Group::visible, wholePartsForCertain},
-      {"unbiased", "resampling", "the rest is fair", 1, Group::visible, unbiased},
-      {"effective-size", "resampling", "what unequal weights are worth", 1, Group::visible, countsWorth},
+      {"whole-parts", "resampling", "whole parts are certain", 1, Group::kVisible, wholePartsForCertain},
+      {"unbiased", "resampling", "the rest is fair", 1, Group::kVisible, unbiased},
+      {"effective-size", "resampling", "what unequal weights are worth", 1, Group::kVisible, countsWorth},
       // <hidden>
-      {"any-weights", "resampling", "other weights and counts", 1, Group::hidden, resamplesAnyWeights},
+      {"any-weights", "resampling", "other weights and counts", 1, Group::kHidden, resamplesAnyWeights},
       // </hidden>
-      {"mean-pose", "filter", "the mean of a cloud", 1, Group::visible, averages},
-      {"filter-step", "filter", "resample, move, weigh", 1, Group::visible, explainsWhatIsSeen},
-      {"tracks", "filter", "the filter follows the car", 1, Group::visible, tracks},
-      {"survives", "filter", "an observation that no particle explains", 1, Group::visible, survives},
+      {"mean-pose", "filter", "the mean of a cloud", 1, Group::kVisible, averages},
+      {"filter-step", "filter", "resample, move, weigh", 1, Group::kVisible, explainsWhatIsSeen},
+      {"tracks", "filter", "the filter follows the car", 1, Group::kVisible, tracks},
+      {"survives", "filter", "an observation that no particle explains", 1, Group::kVisible, survives},
       // <hidden>
-      {"consistent", "filter", "other worlds: as wrong as the cloud is wide", 1, Group::hidden, isConsistent},
+      {"consistent", "filter", "other worlds: as wrong as the cloud is wide", 1, Group::kHidden,
+       isConsistent},
       // </hidden>
       {"noise", "noise", "the noise from assumptions up to ten times too large or too small", 1,
-       Group::visible, noiseOfOneCar},
+       Group::kVisible, noiseOfOneCar},
       // <hidden>
-      {"noise-elsewhere", "noise", "other noise in other worlds", 1, Group::hidden, noiseOfOthers},
+      {"noise-elsewhere", "noise", "other noise in other worlds", 1, Group::kHidden, noiseOfOthers},
       // </hidden>
-      {"bearings", "bearings", "distances and bearings", 1, Group::visible, bearings},
+      {"bearings", "bearings", "distances and bearings", 1, Group::kVisible, bearings},
       // <hidden>
-      {"finds-heading", "bearings", "a car that does not know which way it looks", 1, Group::hidden,
+      {"finds-heading", "bearings", "a car that does not know which way it looks", 1, Group::kHidden,
        findsItsHeading},
       // </hidden>
   };

@@ -525,31 +525,31 @@ void mapsWithParticles(Check& check, Student& student) {
 
 rex::grading::Checks<Student> checks() {
   return {
-      {"car-step", "models", "A step and its derivatives", 1, Group::visible, carSteps},
-      {"car-view", "models", "Landmarks ahead and to the left", 1, Group::visible, carSees},
-      {"car-bearing", "models", "Landmarks by distance and bearing", 1, Group::visible, carMeasuresAngles},
-      {"kf-step", "filter", "One step of the filter", 1, Group::visible, predictsAndTracks},
-      {"kf-correct", "filter", "The correction, against the canonical form", 1, Group::visible, corrects},
-      {"kf-covariance", "filter", "A covariance remains one", 1, Group::visible, staysACovariance},
-      {"kf-track", "filter", "The car of the script, tracked", 1, Group::visible, tracksCircle},
-      {"rts-batch", "smoother", "Smoothing is estimating all at once", 1, Group::visible, smoothsAsAWhole},
-      {"slam-predict", "slam", "The joint belief after a step", 1, Group::visible, predictsJointly},
-      {"slam-correct", "slam", "The joint belief after a sighting", 1, Group::visible, correctsJointly},
-      {"slam-start", "slam", "A landmark seen for the first time", 1, Group::visible, startsLandmarks},
-      {"slam-map", "slam", "A map of five landmarks", 1, Group::visible, mapsRing},
-      {"names-found", "hard", "Landmarks without names", 1, Group::visible, findsLandmarks},
-      {"particles-weigh", "hard", "Maps and weights of particles", 1, Group::visible, weighsParticles},
+      {"car-step", "models", "A step and its derivatives", 1, Group::kVisible, carSteps},
+      {"car-view", "models", "Landmarks ahead and to the left", 1, Group::kVisible, carSees},
+      {"car-bearing", "models", "Landmarks by distance and bearing", 1, Group::kVisible, carMeasuresAngles},
+      {"kf-step", "filter", "One step of the filter", 1, Group::kVisible, predictsAndTracks},
+      {"kf-correct", "filter", "The correction, against the canonical form", 1, Group::kVisible, corrects},
+      {"kf-covariance", "filter", "A covariance remains one", 1, Group::kVisible, staysACovariance},
+      {"kf-track", "filter", "The car of the script, tracked", 1, Group::kVisible, tracksCircle},
+      {"rts-batch", "smoother", "Smoothing is estimating all at once", 1, Group::kVisible, smoothsAsAWhole},
+      {"slam-predict", "slam", "The joint belief after a step", 1, Group::kVisible, predictsJointly},
+      {"slam-correct", "slam", "The joint belief after a sighting", 1, Group::kVisible, correctsJointly},
+      {"slam-start", "slam", "A landmark seen for the first time", 1, Group::kVisible, startsLandmarks},
+      {"slam-map", "slam", "A map of five landmarks", 1, Group::kVisible, mapsRing},
+      {"names-found", "hard", "Landmarks without names", 1, Group::kVisible, findsLandmarks},
+      {"particles-weigh", "hard", "Maps and weights of particles", 1, Group::kVisible, weighsParticles},
       // <hidden>
-      {"car-any", "models", "Other cars", 1, Group::hidden, anyCar},
-      {"kf-any", "filter", "Other cars, both sensors", 1, Group::hidden,
+      {"car-any", "models", "Other cars", 1, Group::kHidden, anyCar},
+      {"kf-any", "filter", "Other cars, both sensors", 1, Group::kHidden,
        [](Check& check, Student& student) {
          tracksAnyCar(check, student);
          tracksFast(check, student);
        }},
-      {"rts-better", "smoother", "The smoother is better than the filter", 1, Group::hidden, smoothsBetter},
-      {"slam-any", "slam", "Other maps, landmarks that appear on the way", 1, Group::hidden, mapsAnyRing},
-      {"names-any", "hard", "More of them, both sensors", 1, Group::hidden, findsAnyLandmarks},
-      {"particles-map", "hard", "A map by FastSLAM", 1, Group::hidden, mapsWithParticles},
+      {"rts-better", "smoother", "The smoother is better than the filter", 1, Group::kHidden, smoothsBetter},
+      {"slam-any", "slam", "Other maps, landmarks that appear on the way", 1, Group::kHidden, mapsAnyRing},
+      {"names-any", "hard", "More of them, both sensors", 1, Group::kHidden, findsAnyLandmarks},
+      {"particles-map", "hard", "A map by FastSLAM", 1, Group::kHidden, mapsWithParticles},
       // </hidden>
   };
 }

@@ -97,23 +97,23 @@ void morePower(Check& check, Student& student) {
 
 rex::grading::Checks<Student> checks() {
   return {
-      {"maze", "maze", "The T-maze of the sheet", 1, Group::visible, mazeOfTheSheet},
-      {"policy-values", "values", "Values of a policy", 1, Group::visible, valuesOfPolicies},
-      {"worth", "values", "What actions are worth", 1, Group::visible, worths},
-      {"settles", "values-best", "Value iteration", 1, Group::visible, settles},
-      {"improves", "policies", "Policy iteration", 1, Group::visible, improves},
-      {"trials", "trials", "Trials with noise, cut at a failure", 2, Group::visible, trials},
-      {"returns", "gradient", "Returns to go", 1, Group::visible, returns},
-      {"gradient", "gradient", "The gradient of given trials", 1, Group::visible, gradients},
-      {"power", "power", "One step of PoWER", 1, Group::visible, powers},
+      {"maze", "maze", "The T-maze of the sheet", 1, Group::kVisible, mazeOfTheSheet},
+      {"policy-values", "values", "Values of a policy", 1, Group::kVisible, valuesOfPolicies},
+      {"worth", "values", "What actions are worth", 1, Group::kVisible, worths},
+      {"settles", "values-best", "Value iteration", 1, Group::kVisible, settles},
+      {"improves", "policies", "Policy iteration", 1, Group::kVisible, improves},
+      {"trials", "trials", "Trials with noise, cut at a failure", 2, Group::kVisible, trials},
+      {"returns", "gradient", "Returns to go", 1, Group::kVisible, returns},
+      {"gradient", "gradient", "The gradient of given trials", 1, Group::kVisible, gradients},
+      {"power", "power", "One step of PoWER", 1, Group::kVisible, powers},
       // <hidden>
-      {"other-mazes", "maze", "T-mazes with other leaves", 1, Group::hidden, mazesOfOtherLeaves},
-      {"larger", "values", "Processes of any size", 1, Group::hidden, largerProcesses},
-      {"unseen-settle", "values-best", "Value iteration on other processes", 2, Group::hidden, unseenSettle},
-      {"unseen-improve", "policies", "Policy iteration on other processes", 1, Group::hidden, unseenImprove},
-      {"true-gradient", "gradient", "The gradient of a task where it is known", 1, Group::hidden,
+      {"other-mazes", "maze", "T-mazes with other leaves", 1, Group::kHidden, mazesOfOtherLeaves},
+      {"larger", "values", "Processes of any size", 1, Group::kHidden, largerProcesses},
+      {"unseen-settle", "values-best", "Value iteration on other processes", 2, Group::kHidden, unseenSettle},
+      {"unseen-improve", "policies", "Policy iteration on other processes", 1, Group::kHidden, unseenImprove},
+      {"true-gradient", "gradient", "The gradient of a task where it is known", 1, Group::kHidden,
        trueGradient},
-      {"more-power", "power", "PoWER on more trials", 1, Group::hidden, morePower},
+      {"more-power", "power", "PoWER on more trials", 1, Group::kHidden, morePower},
       // </hidden>
   };
 }

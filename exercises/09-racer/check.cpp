@@ -176,25 +176,25 @@ void unseenSearch(Check& check, Student& student) {
 
 rex::grading::Checks<Student> checks() {
   return {
-      {"mass", "lagrange", "M and the energy of the racer of the sheet", 1, Group::visible, massAndEnergy},
-      {"forces", "lagrange", "F and B of the racer of the sheet", 1, Group::visible, forces},
-      {"step", "simulation", "Rate and step", 1, Group::visible, steps},
-      {"noise", "simulation", "Noise of the right size", 1, Group::visible, noises},
-      {"linear", "lqr", "The linear system near rest", 1, Group::visible, linearises},
-      {"gain", "lqr", "The gain of the racer of the sheet", 1, Group::visible, gainOfTheSheet},
-      {"features", "features", "Features of readings one after another", 2, Group::visible, features},
-      {"ride", "ride", "Rides that last", 1, Group::visible, rides},
-      {"failed-ride", "ride", "Rides that end in a failure", 1, Group::visible, ridesThatFail},
-      {"search", "search", "A policy that balances on unseen noise", 1, Group::visible, searches},
-      {"stays", "search", "A policy that does not roll away", 2, Group::visible, stays},
+      {"mass", "lagrange", "M and the energy of the racer of the sheet", 1, Group::kVisible, massAndEnergy},
+      {"forces", "lagrange", "F and B of the racer of the sheet", 1, Group::kVisible, forces},
+      {"step", "simulation", "Rate and step", 1, Group::kVisible, steps},
+      {"noise", "simulation", "Noise of the right size", 1, Group::kVisible, noises},
+      {"linear", "lqr", "The linear system near rest", 1, Group::kVisible, linearises},
+      {"gain", "lqr", "The gain of the racer of the sheet", 1, Group::kVisible, gainOfTheSheet},
+      {"features", "features", "Features of readings one after another", 2, Group::kVisible, features},
+      {"ride", "ride", "Rides that last", 1, Group::kVisible, rides},
+      {"failed-ride", "ride", "Rides that end in a failure", 1, Group::kVisible, ridesThatFail},
+      {"search", "search", "A policy that balances on unseen noise", 1, Group::kVisible, searches},
+      {"stays", "search", "A policy that does not roll away", 2, Group::kVisible, stays},
       // <hidden>
-      {"lagrangian", "lagrange", "Other racers, by a numeric Lagrangian", 2, Group::hidden,
+      {"lagrangian", "lagrange", "Other racers, by a numeric Lagrangian", 2, Group::kHidden,
        numericLagrangian},
-      {"energy", "simulation", "Energy without control", 1, Group::hidden, keepsEnergy},
-      {"unseen-lqr", "lqr", "Other racers, held by your gain", 1, Group::hidden, unseenLqr},
-      {"unseen-features", "features", "Other readings and time steps", 1, Group::hidden, unseenFeatures},
-      {"unseen-rides", "ride", "Rides of other racers", 1, Group::hidden, otherRides},
-      {"unseen-search", "search", "Policies for other racers", 1, Group::hidden, unseenSearch},
+      {"energy", "simulation", "Energy without control", 1, Group::kHidden, keepsEnergy},
+      {"unseen-lqr", "lqr", "Other racers, held by your gain", 1, Group::kHidden, unseenLqr},
+      {"unseen-features", "features", "Other readings and time steps", 1, Group::kHidden, unseenFeatures},
+      {"unseen-rides", "ride", "Rides of other racers", 1, Group::kHidden, otherRides},
+      {"unseen-search", "search", "Policies for other racers", 1, Group::kHidden, unseenSearch},
       // </hidden>
   };
 }

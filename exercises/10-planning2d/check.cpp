@@ -634,38 +634,39 @@ void searchesAnything(Check& check, Student& student) {
 
 grading::Checks<Student> checks() {
   return {
-      {"bug-known-maps", "bug", "around obstacles, back to the line, to the goal", 1, Group::visible,
+      {"bug-known-maps", "bug", "around obstacles, back to the line, to the goal", 1, Group::kVisible,
        bugsOnKnownMaps},
-      {"bug-rooms", "bug", "where no way leads, the bug says so", 1, Group::visible, bugsAndRooms},
+      {"bug-rooms", "bug", "where no way leads, the bug says so", 1, Group::kVisible, bugsAndRooms},
       // <hidden>
-      {"bug-any-map", "bug", "unseen maps", 1, Group::hidden, bugsAnywhere},
+      {"bug-any-map", "bug", "unseen maps", 1, Group::kHidden, bugsAnywhere},
       // </hidden>
-      {"grid-wave", "grid", "the numbers of the wavefront", 1, Group::visible, wavesOnKnownMaps},
-      {"grid-network", "grid", "a map as a network", 1, Group::visible, networksOfMaps},
-      {"grid-dijkstra", "grid", "distances on networks", 1, Group::visible, distancesOnNetworks},
-      {"grid-way", "grid", "the way down", 1, Group::visible, waysDown},
+      {"grid-wave", "grid", "the numbers of the wavefront", 1, Group::kVisible, wavesOnKnownMaps},
+      {"grid-network", "grid", "a map as a network", 1, Group::kVisible, networksOfMaps},
+      {"grid-dijkstra", "grid", "distances on networks", 1, Group::kVisible, distancesOnNetworks},
+      {"grid-way", "grid", "the way down", 1, Group::kVisible, waysDown},
       // <hidden>
-      {"grid-any-map", "grid", "unseen maps", 1, Group::hidden, unseenMaps},
+      {"grid-any-map", "grid", "unseen maps", 1, Group::kHidden, unseenMaps},
       // </hidden>
-      {"field-potential", "field", "the potential", 1, Group::visible, potentials},
-      {"field-gradient", "field", "its gradient", 1, Group::visible, gradients},
-      {"field-slide", "field", "into the trap, and past it", 1, Group::visible, slidesInTheTrap},
+      {"field-potential", "field", "the potential", 1, Group::kVisible, potentials},
+      {"field-gradient", "field", "its gradient", 1, Group::kVisible, gradients},
+      {"field-slide", "field", "into the trap, and past it", 1, Group::kVisible, slidesInTheTrap},
       // <hidden>
-      {"field-any-yard", "field", "stuck or not in unseen yards", 1, Group::hidden, slidesAnywhere},
+      {"field-any-yard", "field", "stuck or not in unseen yards", 1, Group::kHidden, slidesAnywhere},
       // </hidden>
-      {"prm-straight", "prm", "the local planner", 1, Group::visible, straightWays},
-      {"prm-join", "prm", "the roadmap", 1, Group::visible, roadmaps},
-      {"prm-slot", "prm", "ways over a roadmap with a slot (no points)", 0, Group::visible,
+      {"prm-straight", "prm", "the local planner", 1, Group::kVisible, straightWays},
+      {"prm-join", "prm", "the roadmap", 1, Group::kVisible, roadmaps},
+      {"prm-slot", "prm", "ways over a roadmap with a slot (no points)", 0, Group::kVisible,
        queriesInTheSlotYard},
-      {"prm-samplers", "prm", "where the nodes are", 1, Group::visible, samplers},
+      {"prm-samplers", "prm", "where the nodes are", 1, Group::kVisible, samplers},
       // <hidden>
-      {"prm-query", "prm", "ways over a roadmap", 1, Group::hidden, queries},
-      {"prm-passage", "prm", "narrow passages", 1, Group::hidden, narrowPassages},
+      {"prm-query", "prm", "ways over a roadmap", 1, Group::kHidden, queries},
+      {"prm-passage", "prm", "narrow passages", 1, Group::kHidden, narrowPassages},
       // </hidden>
-      {"astar-estimate", "astar", "the estimate", 1, Group::visible, estimates},
-      {"astar-known-maps", "astar", "shortest ways with few questions", 1, Group::visible, searchesKnownMaps},
+      {"astar-estimate", "astar", "the estimate", 1, Group::kVisible, estimates},
+      {"astar-known-maps", "astar", "shortest ways with few questions", 1, Group::kVisible,
+       searchesKnownMaps},
       // <hidden>
-      {"astar-anything", "astar", "unseen maps and networks", 1, Group::hidden, searchesAnything},
+      {"astar-anything", "astar", "unseen maps and networks", 1, Group::kHidden, searchesAnything},
       // </hidden>
   };
 }

@@ -576,34 +576,34 @@ void reversesAnyTrailer(Check& check, Student& student) {
 
 rex::grading::Checks<Student> checks() {
   return {
-      {"car-moves", "car", "Velocity, and where a drive leads", 1, Group::visible, carMoves},
-      {"car-follows", "car", "Could a car follow this trajectory?", 1, Group::visible, followsTrajectories},
+      {"car-moves", "car", "Velocity, and where a drive leads", 1, Group::kVisible, carMoves},
+      {"car-follows", "car", "Could a car follow this trajectory?", 1, Group::kVisible, followsTrajectories},
       // <hidden>
-      {"car-any", "car", "Cars of other sizes", 1, Group::hidden, anyCarMoves},
+      {"car-any", "car", "Cars of other sizes", 1, Group::kHidden, anyCarMoves},
       // </hidden>
-      {"tree-metrics", "tree", "Distances of poses and of angles", 1, Group::visible, distances},
-      {"tree-overlap", "tree", "Whether the body of a car is free", 1, Group::visible, findsOverlaps},
-      {"tree-drive", "tree", "One drive towards a target", 1, Group::visible, drivesTowards},
-      {"tree-room", "tree", "A tree reaches its goal", 1, Group::visible, treeInARoom},
+      {"tree-metrics", "tree", "Distances of poses and of angles", 1, Group::kVisible, distances},
+      {"tree-overlap", "tree", "Whether the body of a car is free", 1, Group::kVisible, findsOverlaps},
+      {"tree-drive", "tree", "One drive towards a target", 1, Group::kVisible, drivesTowards},
+      {"tree-room", "tree", "A tree reaches its goal", 1, Group::kVisible, treeInARoom},
       // <hidden>
-      {"tree-any", "tree", "Rooms that you have not seen", 2, Group::hidden, treeAnywhere},
+      {"tree-any", "tree", "Rooms that you have not seen", 2, Group::kHidden, treeAnywhere},
       // </hidden>
-      {"dubins-words", "dubins", "The six words, one by one", 2, Group::visible, wordsLead},
-      {"dubins-shortest", "dubins", "The shortest of them", 1, Group::visible, shortestOfSix},
+      {"dubins-words", "dubins", "The six words, one by one", 2, Group::kVisible, wordsLead},
+      {"dubins-shortest", "dubins", "The shortest of them", 1, Group::kVisible, shortestOfSix},
       // <hidden>
-      {"dubins-any", "dubins", "Other radii, near and far goals", 1, Group::hidden, shortestAnywhere},
+      {"dubins-any", "dubins", "Other radii, near and far goals", 1, Group::kHidden, shortestAnywhere},
       // </hidden>
-      {"park-kerb", "parking", "A space at the kerb", 1, Group::visible, parksAtTheKerb},
-      {"park-left", "parking", "Turning left only", 1, Group::visible, parksTurningLeft},
+      {"park-kerb", "parking", "A space at the kerb", 1, Group::kVisible, parksAtTheKerb},
+      {"park-left", "parking", "Turning left only", 1, Group::kVisible, parksTurningLeft},
       // <hidden>
-      {"park-any", "parking", "Spaces that you have not seen", 1, Group::hidden, parksAnywhere},
-      {"park-left-any", "parking", "Turning left only, elsewhere", 1, Group::hidden,
+      {"park-any", "parking", "Spaces that you have not seen", 1, Group::kHidden, parksAnywhere},
+      {"park-left-any", "parking", "Turning left only, elsewhere", 1, Group::kHidden,
        parksTurningLeftAnywhere},
       // </hidden>
-      {"trailer-moves", "trailer", "How a trailer moves", 1, Group::visible, rigMoves},
-      {"trailer-reverses", "trailer", "Backward along a line", 1, Group::visible, reversesATrailer},
+      {"trailer-moves", "trailer", "How a trailer moves", 1, Group::kVisible, rigMoves},
+      {"trailer-reverses", "trailer", "Backward along a line", 1, Group::kVisible, reversesATrailer},
       // <hidden>
-      {"trailer-any", "trailer", "Short and long trailers", 1, Group::hidden, reversesAnyTrailer},
+      {"trailer-any", "trailer", "Short and long trailers", 1, Group::kHidden, reversesAnyTrailer},
       // </hidden>
   };
 }

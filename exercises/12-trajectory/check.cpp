@@ -523,33 +523,34 @@ void aroundOthers(Check& check, Student& student) {
 
 rex::grading::Checks<Student> checks() {
   return {
-      {"difference-terms", "terms", "Velocity, acceleration, jerk", 1, Group::visible, differences},
-      {"task-differences", "terms", "The same of task maps", 1, Group::visible, taskDifferences},
-      {"cost-of-powers", "terms", "Costs are integrals", 1, Group::visible, costOfPowers},
+      {"difference-terms", "terms", "Velocity, acceleration, jerk", 1, Group::kVisible, differences},
+      {"task-differences", "terms", "The same of task maps", 1, Group::kVisible, taskDifferences},
+      {"cost-of-powers", "terms", "Costs are integrals", 1, Group::kVisible, costOfPowers},
       // <hidden>
-      {"any-path", "terms", "Other sizes, paths and prefixes", 1, Group::hidden, costsOfAnyPath},
+      {"any-path", "terms", "Other sizes, paths and prefixes", 1, Group::kHidden, costsOfAnyPath},
       // </hidden>
-      {"assembled", "band", "Gradient and band", 1, Group::visible, assembles},
-      {"factored", "band", "The factor of a band", 1, Group::visible, factors},
-      {"long-band", "band", "A motion of thousands of steps", 1, Group::visible, longBands},
-      {"descends", "band", "Gauss-Newton steps lower the cost", 1, Group::visible, descents},
+      {"assembled", "band", "Gradient and band", 1, Group::kVisible, assembles},
+      {"factored", "band", "The factor of a band", 1, Group::kVisible, factors},
+      {"long-band", "band", "A motion of thousands of steps", 1, Group::kVisible, longBands},
+      {"descends", "band", "Gauss-Newton steps lower the cost", 1, Group::kVisible, descents},
       // <hidden>
-      {"unseen-descents", "band", "Other terms and sizes", 1, Group::hidden, unseenDescents},
+      {"unseen-descents", "band", "Other terms and sizes", 1, Group::kHidden, unseenDescents},
       // </hidden>
-      {"as-cost", "constraints", "Constraints as costs", 1, Group::visible, replaces},
-      {"multipliers", "constraints", "New multipliers", 1, Group::visible, updates},
-      {"known-minima", "constraints", "Problems with a known minimum", 1, Group::visible, knownMinima},
+      {"as-cost", "constraints", "Constraints as costs", 1, Group::kVisible, replaces},
+      {"multipliers", "constraints", "New multipliers", 1, Group::kVisible, updates},
+      {"known-minima", "constraints", "Problems with a known minimum", 1, Group::kVisible, knownMinima},
       // <hidden>
-      {"unseen-minima", "constraints", "Other problems with a known minimum", 2, Group::hidden, unseenMinima},
+      {"unseen-minima", "constraints", "Other problems with a known minimum", 2, Group::kHidden,
+       unseenMinima},
       // </hidden>
-      {"through-points", "via", "Via points, and rest", 1, Group::visible, through},
+      {"through-points", "via", "Via points, and rest", 1, Group::kVisible, through},
       // <hidden>
-      {"other-points", "via", "Other via points", 1, Group::hidden, throughOthers},
+      {"other-points", "via", "Other via points", 1, Group::kHidden, throughOthers},
       // </hidden>
-      {"kept-apart", "arm", "How near things are between steps", 1, Group::visible, keepsApart},
-      {"around-the-ball", "arm", "Around the ball", 1, Group::visible, aroundTheBall},
+      {"kept-apart", "arm", "How near things are between steps", 1, Group::kVisible, keepsApart},
+      {"around-the-ball", "arm", "Around the ball", 1, Group::kVisible, aroundTheBall},
       // <hidden>
-      {"around-others", "arm", "Around other balls", 2, Group::hidden, aroundOthers},
+      {"around-others", "arm", "Around other balls", 2, Group::kHidden, aroundOthers},
       // </hidden>
   };
 }

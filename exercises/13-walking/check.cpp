@@ -163,32 +163,32 @@ void otherGaits(Check& check, Student& student) {
 
 rex::grading::Checks<Student> checks() {
   return {
-      {"corners", "support", "Corners of the support polygon", 1, Group::visible, corners},
-      {"border", "support", "Distance from its border", 1, Group::visible, borders},
-      {"stands", "support", "Static stability on two feet", 1, Group::visible, stands},
+      {"corners", "support", "Corners of the support polygon", 1, Group::kVisible, corners},
+      {"border", "support", "Distance from its border", 1, Group::kVisible, borders},
+      {"stands", "support", "Static stability on two feet", 1, Group::kVisible, stands},
       // <hidden>
-      {"stands-any", "support", "Static stability on other contacts", 1, Group::hidden, standsOnAnything},
+      {"stands-any", "support", "Static stability on other contacts", 1, Group::kHidden, standsOnAnything},
       // </hidden>
-      {"moment", "zmp", "The zero moment point", 1, Group::visible, moments},
-      {"sways", "zmp", "How the pendulum sways", 1, Group::visible, sways},
-      {"capture", "zmp", "The capture point", 1, Group::visible, captures},
+      {"moment", "zmp", "The zero moment point", 1, Group::kVisible, moments},
+      {"sways", "zmp", "How the pendulum sways", 1, Group::kVisible, sways},
+      {"capture", "zmp", "The capture point", 1, Group::kVisible, captures},
       // <hidden>
-      {"moment-any", "zmp", "The zero moment point on other grounds", 1, Group::hidden, momentsAnywhere},
+      {"moment-any", "zmp", "The zero moment point on other grounds", 1, Group::kHidden, momentsAnywhere},
       // </hidden>
-      {"follows", "preview", "The cart and the law", 1, Group::visible, follows},
-      {"gains", "preview", "Gains of preview control", 1, Group::visible, gains},
-      {"stays-on", "preview", "The zero moment point stays on the soles", 1, Group::visible, staysOn},
+      {"follows", "preview", "The cart and the law", 1, Group::kVisible, follows},
+      {"gains", "preview", "Gains of preview control", 1, Group::kVisible, gains},
+      {"stays-on", "preview", "The zero moment point stays on the soles", 1, Group::kVisible, staysOn},
       // <hidden>
-      {"gains-any", "preview", "Gains for other carts", 1, Group::hidden, gainsOfAnyCart},
-      {"stays-any", "preview", "Footsteps that you have not seen", 1, Group::hidden, staysOnAnyFootsteps},
+      {"gains-any", "preview", "Gains for other carts", 1, Group::kHidden, gainsOfAnyCart},
+      {"stays-any", "preview", "Footsteps that you have not seen", 1, Group::kHidden, staysOnAnyFootsteps},
       // </hidden>
-      {"impact", "compass", "The impact", 1, Group::visible, impacts},
-      {"step", "compass", "One step", 1, Group::visible, steps},
-      {"derivative", "compass", "The derivative of a step", 1, Group::visible, derivatives},
-      {"gait", "compass", "The gait of the paper, and its multipliers", 1, Group::visible, gait},
+      {"impact", "compass", "The impact", 1, Group::kVisible, impacts},
+      {"step", "compass", "One step", 1, Group::kVisible, steps},
+      {"derivative", "compass", "The derivative of a step", 1, Group::kVisible, derivatives},
+      {"gait", "compass", "The gait of the paper, and its multipliers", 1, Group::kVisible, gait},
       // <hidden>
-      {"other-steps", "compass", "Impacts and steps of other walkers", 1, Group::hidden, otherSteps},
-      {"other-gaits", "compass", "Gaits on other slopes", 2, Group::hidden, otherGaits},
+      {"other-steps", "compass", "Impacts and steps of other walkers", 1, Group::kHidden, otherSteps},
+      {"other-gaits", "compass", "Gaits on other slopes", 2, Group::kHidden, otherGaits},
       // </hidden>
   };
 }

@@ -361,22 +361,22 @@ void placesFingersAnywhere(Check& check, Student& student) {
 
 rex::grading::Checks<Student> checks() {
   return {
-      {"wrenches", "contacts", "The wrench of a force", 1, Group::visible, wrenches},
-      {"cones", "contacts", "Friction cones and pyramids", 1, Group::visible, cones},
-      {"verdicts", "closure", "Verdicts and their proofs", 2, Group::visible, verdicts},
-      {"reach", "quality", "How far the hull reaches", 1, Group::visible, reaches},
-      {"radius", "quality", "The ball in the hull", 1, Group::visible, radii},
-      {"fewer", "fewer", "Redundant fingers are deleted", 1, Group::visible, keepsFew},
-      {"places", "places", "A good grasp of a slab and of a wedge", 1, Group::visible, placesFingers},
+      {"wrenches", "contacts", "The wrench of a force", 1, Group::kVisible, wrenches},
+      {"cones", "contacts", "Friction cones and pyramids", 1, Group::kVisible, cones},
+      {"verdicts", "closure", "Verdicts and their proofs", 2, Group::kVisible, verdicts},
+      {"reach", "quality", "How far the hull reaches", 1, Group::kVisible, reaches},
+      {"radius", "quality", "The ball in the hull", 1, Group::kVisible, radii},
+      {"fewer", "fewer", "Redundant fingers are deleted", 1, Group::kVisible, keepsFew},
+      {"places", "places", "A good grasp of a slab and of a wedge", 1, Group::kVisible, placesFingers},
       // <hidden>
-      {"all-wrenches", "contacts", "The wrenches of many fingers", 1, Group::hidden, wrenchesOfFingers},
-      {"any-cones", "contacts", "Cones of any finger", 1, Group::hidden, conesAnywhere},
-      {"grasps", "closure", "Grasps of unseen objects", 2, Group::hidden, judgesGrasps},
-      {"border", "closure", "Sets that are nearly closed", 1, Group::hidden, judgesTheBorder},
-      {"any-reach", "quality", "How far other hulls reach", 1, Group::hidden, reachesAnywhere},
-      {"any-radius", "quality", "The ball in other hulls", 2, Group::hidden, radiiAnywhere},
-      {"fewer-on-solids", "fewer", "Fewer fingers on unseen objects", 2, Group::hidden, keepsFewOnSolids},
-      {"any-places", "places", "Good grasps of unseen objects", 2, Group::hidden, placesFingersAnywhere},
+      {"all-wrenches", "contacts", "The wrenches of many fingers", 1, Group::kHidden, wrenchesOfFingers},
+      {"any-cones", "contacts", "Cones of any finger", 1, Group::kHidden, conesAnywhere},
+      {"grasps", "closure", "Grasps of unseen objects", 2, Group::kHidden, judgesGrasps},
+      {"border", "closure", "Sets that are nearly closed", 1, Group::kHidden, judgesTheBorder},
+      {"any-reach", "quality", "How far other hulls reach", 1, Group::kHidden, reachesAnywhere},
+      {"any-radius", "quality", "The ball in other hulls", 2, Group::kHidden, radiiAnywhere},
+      {"fewer-on-solids", "fewer", "Fewer fingers on unseen objects", 2, Group::kHidden, keepsFewOnSolids},
+      {"any-places", "places", "Good grasps of unseen objects", 2, Group::kHidden, placesFingersAnywhere},
       // </hidden>
   };
 }

@@ -521,37 +521,37 @@ void standsMany(Check& check, Student& student) { standsOnManyMaps(check, studen
 
 rex::grading::Checks<Student> checks() {
   return {
-      {"error-frames", "error", "Angles and frames", 1, Group::visible, seesPoses},
-      {"error-edges", "error", "The error of an edge", 1, Group::visible, errsByWhatIsMeasured},
-      {"error-derivatives", "error", "Its derivatives", 1, Group::visible, differentiatesEdges},
+      {"error-frames", "error", "Angles and frames", 1, Group::kVisible, seesPoses},
+      {"error-edges", "error", "The error of an edge", 1, Group::kVisible, errsByWhatIsMeasured},
+      {"error-derivatives", "error", "Its derivatives", 1, Group::kVisible, differentiatesEdges},
       // <hidden>
-      {"error-turns", "error", "Whole turns and half turns", 1, Group::hidden, wrapsEverywhere},
+      {"error-turns", "error", "Whole turns and half turns", 1, Group::kHidden, wrapsEverywhere},
       // </hidden>
-      {"equations-cost", "equations", "The cost of a map", 1, Group::visible, addsUpCosts},
-      {"equations-normal", "equations", "H and b", 1, Group::visible, formsSmallEquations},
-      {"equations-step", "equations", "A step that leaves pose 0", 1, Group::visible, takesPlainSteps},
+      {"equations-cost", "equations", "The cost of a map", 1, Group::kVisible, addsUpCosts},
+      {"equations-normal", "equations", "H and b", 1, Group::kVisible, formsSmallEquations},
+      {"equations-step", "equations", "A step that leaves pose 0", 1, Group::kVisible, takesPlainSteps},
       // <hidden>
-      {"equations-any", "equations", "Larger maps, weights", 1, Group::hidden, formsAnyEquations},
+      {"equations-any", "equations", "Larger maps, weights", 1, Group::kHidden, formsAnyEquations},
       // </hidden>
-      {"adjust-mean", "adjust", "Measured twice", 1, Group::visible, meetsInTheMiddle},
-      {"adjust-streets", "adjust", "A walk along streets", 1, Group::visible, adjustsStreets},
+      {"adjust-mean", "adjust", "Measured twice", 1, Group::kVisible, meetsInTheMiddle},
+      {"adjust-streets", "adjust", "A walk along streets", 1, Group::kVisible, adjustsStreets},
       // <hidden>
-      {"adjust-turns", "adjust", "Headings beyond half a turn", 1, Group::hidden, adjustsThroughTurns},
-      {"adjust-far", "adjust", "Starts far away", 1, Group::hidden, adjustsFromFarAway},
+      {"adjust-turns", "adjust", "Headings beyond half a turn", 1, Group::kHidden, adjustsThroughTurns},
+      {"adjust-far", "adjust", "Starts far away", 1, Group::kHidden, adjustsFromFarAway},
       // </hidden>
-      {"scan-partners", "scan", "The nearest points", 1, Group::visible, findsPartners},
-      {"scan-motion", "scan", "The best motion for given partners", 1, Group::visible, findsBestMotions},
-      {"scan-align", "scan", "Aligning scans", 1, Group::visible, alignsScans},
+      {"scan-partners", "scan", "The nearest points", 1, Group::kVisible, findsPartners},
+      {"scan-motion", "scan", "The best motion for given partners", 1, Group::kVisible, findsBestMotions},
+      {"scan-align", "scan", "Aligning scans", 1, Group::kVisible, alignsScans},
       // <hidden>
-      {"scan-any", "scan", "Rooms that you have not seen", 1, Group::hidden, alignsMoreScans},
+      {"scan-any", "scan", "Rooms that you have not seen", 1, Group::kHidden, alignsMoreScans},
       // </hidden>
-      {"loop-rooms", "loop", "The same place or not", 1, Group::visible, tellsRoomsApart},
+      {"loop-rooms", "loop", "The same place or not", 1, Group::kVisible, tellsRoomsApart},
       // <hidden>
-      {"loop-any", "loop", "Rooms that you have not seen", 1, Group::hidden, tellsMoreRoomsApart},
+      {"loop-any", "loop", "Rooms that you have not seen", 1, Group::kHidden, tellsMoreRoomsApart},
       // </hidden>
-      {"robust-few", "robust", "A few wrong loops", 1, Group::visible, standsAFew},
+      {"robust-few", "robust", "A few wrong loops", 1, Group::kVisible, standsAFew},
       // <hidden>
-      {"robust-many", "robust", "Many wrong loops", 1, Group::hidden, standsMany},
+      {"robust-many", "robust", "Many wrong loops", 1, Group::kHidden, standsMany},
       // </hidden>
   };
 }

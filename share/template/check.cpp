@@ -52,10 +52,10 @@ void addsAngles(Check& check, Student& student) {
 
 rex::grading::Checks<Student> checks() {
   return {
-      {"quarter-turn", "rotate", "A quarter turn", 1, Group::visible, turnsAQuarter},
-      {"keeps-length", "rotate", "Turning keeps the length", 1, Group::visible, keepsTheLength},
+      {"quarter-turn", "rotate", "A quarter turn", 1, Group::kVisible, turnsAQuarter},
+      {"keeps-length", "rotate", "Turning keeps the length", 1, Group::kVisible, keepsTheLength},
       // <hidden>
-      {"angles-add", "rotate", "Two turns in a row", 1, Group::hidden, addsAngles},
+      {"angles-add", "rotate", "Two turns in a row", 1, Group::kHidden, addsAngles},
       // </hidden>
   };
 }

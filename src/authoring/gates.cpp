@@ -47,7 +47,7 @@ GradeResult grade(const GateContext& context, const path& file) {
 std::string shortfalls(const GradeResult& result) {
   std::string lines = result.message.empty() ? "" : "\n  " + result.message;
   for (const CheckResult& check : result.checks)
-    if (check.status != Outcome::pass) lines += fmt::format("\n  {}: {}", check.id, check.message);
+    if (check.status != Outcome::kPass) lines += fmt::format("\n  {}: {}", check.id, check.message);
   return lines;
 }
 
@@ -104,7 +104,7 @@ GateResult mainScoresFloor(const GateContext& context) {
   const GradeResult result = grade(context, context.exercise.folder / "main.cpp");
   if (!result.compile.diagnostics.empty())
     return failed("main.cpp does not compile cleanly: " + toString(result.compile.diagnostics.front()));
-  if (result.outcome == Outcome::graderError) return failed("the grader failed: " + result.message);
+  if (result.outcome == Outcome::kGraderError) return failed("the grader failed: " + result.message);
   Points scored;
   for (const CheckResult& check : result.checks) scored[check.part] += check.points;
   std::vector<std::string> complaints;
@@ -125,7 +125,7 @@ GateResult solutionIsFull(const GateContext& context) {
   for (int seed = 1; seed <= context.seeds; ++seed) {
     options.job.seed = static_cast<std::uint64_t>(seed);
     const GradeResult result = gradeBuilt(built, context.toolchain, context.exercise, options);
-    if (result.outcome != Outcome::pass || result.score != context.exercise.points())
+    if (result.outcome != Outcome::kPass || result.score != context.exercise.points())
       return failed(fmt::format("solution.cpp scores {} of {} under seed {}{}", result.score,
                                 context.exercise.points(), seed, shortfalls(result)));
   }
@@ -186,9 +186,9 @@ GateResult solutionPassesSanitizers(const GateContext& context) {
   SubmissionOptions options = optionsFor(context, context.exercise.folder / "solution.cpp");
   options.sanitize = true;
   for (const CheckResult& check : listChecks(context.toolchain))
-    if (check.group == Group::visible && options.job.checks.empty()) options.job.checks = {check.id};
+    if (check.group == Group::kVisible && options.job.checks.empty()) options.job.checks = {check.id};
   const GradeResult result = gradeSubmission(context.toolchain, context.exercise, options).result;
-  if (result.outcome == Outcome::pass) return kPassed;
+  if (result.outcome == Outcome::kPass) return kPassed;
   return failed("solution.cpp does not pass with the sanitizers: " + shortfalls(result));
 }
 

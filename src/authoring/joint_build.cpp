@@ -102,7 +102,7 @@ BuiltSubmission JointBuild::link(std::size_t variant) const {
     messages = worker.messages;
   }
   if (built.worker.empty()) {
-    built.start.outcome = Outcome::compileError;
+    built.start.outcome = Outcome::kCompileError;
     built.start.message = messages.empty() ? "it cannot be linked" : toString(messages.front());
   }
   return built;

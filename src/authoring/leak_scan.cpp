@@ -137,11 +137,11 @@ class Scanner {
   }
 
   void search(const std::string& place, std::string_view text, bool isLibrary, bool hasLines) {
-    for (const Comments comments : {Comments::keep, Comments::drop}) {
+    for (const Comments comments : {Comments::kKeep, Comments::kDrop}) {
       const NormalText normal = normalText(text, comments);
       index_.search(normal.letters, [&](std::size_t k, std::size_t at) {
         const Secret& secret = secrets_[k];
-        if (isLibrary && secret.kind != SecretKind::courseSecret) return;
+        if (isLibrary && secret.kind != SecretKind::kCourseSecret) return;
         if (isUsualElsewhere(secret, place)) return;
         if (!told_.insert(k).second) return;
         found_.leaks.push_back({.where = {place, hasLines ? normal.lines[at] : 0},
@@ -156,7 +156,7 @@ class Scanner {
   static bool isUsualElsewhere(const Secret& secret, const fs::path& place) {
     constexpr std::size_t kShortestElsewhere = 40;
     const fs::path home = fs::path(secret.origin.file).parent_path(), folder = place.parent_path();
-    return secret.kind == SecretKind::solution && isBelow("exercises", folder) && folder != "exercises" &&
+    return secret.kind == SecretKind::kSolution && isBelow("exercises", folder) && folder != "exercises" &&
            !isBelow(home, place) && secret.forms.front().size() < kShortestElsewhere;
   }
 

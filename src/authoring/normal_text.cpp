@@ -22,7 +22,7 @@ std::string_view commentAt(std::string_view rest) {
 
 // What counts for nothing here.
 std::string_view emptyAt(std::string_view rest, Comments comments) {
-  if (rest[0] == '/' && comments == Comments::drop) return commentAt(rest);
+  if (rest[0] == '/' && comments == Comments::kDrop) return commentAt(rest);
   if (rest[0] == '/' || rest[0] == '*') {
     for (const std::string_view sign : kCommentSigns)
       if (rest.starts_with(sign)) return sign;

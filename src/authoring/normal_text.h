@@ -14,7 +14,7 @@ struct NormalText {
   std::vector<int> lines{};
 };
 
-enum class Comments { keep, drop };
+enum class Comments { kKeep, kDrop };
 
 /// Drops what C++ takes for comments, or only their signs. Escapes of string literals and the entities of
 /// HTML for < > & " count as what they stand for.

@@ -31,7 +31,7 @@ std::string letters(std::string_view text, Comments comments) { return normalTex
 class PublicText {
  public:
   void add(std::string_view text) {
-    letters_ += letters(text, Comments::keep) + '\n' + letters(text, Comments::drop) + '\n';
+    letters_ += letters(text, Comments::kKeep) + '\n' + letters(text, Comments::kDrop) + '\n';
   }
   void addFile(const fs::path& file) { add(readTextFile(file)); }
   std::set<std::string> formsIn(const std::vector<std::string>& all) const {
@@ -94,7 +94,7 @@ class Collector {
     const std::set<std::string> handedOut = handedOut_.formsIn(all), readable = readable_.formsIn(all);
     std::erase_if(secrets_, [&](const Secret& secret) {
       return std::any_of(secret.forms.begin(), secret.forms.end(), [&](const std::string& form) {
-        return handedOut.contains(form) || (secret.kind != SecretKind::solution && readable.contains(form));
+        return handedOut.contains(form) || (secret.kind != SecretKind::kSolution && readable.contains(form));
       });
     });
     // Code alone, without the comment behind it, says less.
@@ -112,8 +112,9 @@ class Collector {
 
   void addSolution(const Block& block, const fs::path& file) {
     for (const BlockLine& line : block) {
-      const std::string whole = letters(line.text, Comments::keep), code = letters(line.text, Comments::drop);
-      add(SecretKind::solution, line, file, whole == code ? std::vector{whole} : std::vector{whole, code});
+      const std::string whole = letters(line.text, Comments::kKeep),
+                        code = letters(line.text, Comments::kDrop);
+      add(SecretKind::kSolution, line, file, whole == code ? std::vector{whole} : std::vector{whole, code});
     }
   }
 
@@ -122,17 +123,17 @@ class Collector {
     for (std::size_t first = 0; first < block.size(); ++first) {
       std::string code;
       for (std::size_t k = first; k < block.size() && code.size() < kShortestRun; ++k)
-        code += letters(block[k].text, Comments::drop);
-      const bool begins = !letters(block[first].text, Comments::drop).empty();
+        code += letters(block[k].text, Comments::kDrop);
+      const bool begins = !letters(block[first].text, Comments::kDrop).empty();
       if (begins && code.size() >= kShortestRun) add(kind, block[first], file, {code});
     }
   }
 
   void addHidden(const Block& block, const fs::path& file) {
-    addRuns(SecretKind::hiddenCheck, block, file);
+    addRuns(SecretKind::kHiddenCheck, block, file);
     for (const BlockLine& line : block)
       for (const std::string& literal : literalsIn(line.text))
-        add(SecretKind::hiddenName, {line.number, literal}, file, {letters(literal, Comments::keep)});
+        add(SecretKind::kHiddenName, {line.number, literal}, file, {letters(literal, Comments::kKeep)});
   }
 
   void addWrong(const fs::path& file) {
@@ -142,10 +143,10 @@ class Collector {
     for (const std::string_view line : splitLines(text)) {
       ++number;
       if (line.starts_with("// mistake:"))
-        add(SecretKind::wrongVariant, {number, std::string(line)}, file, {letters(line, Comments::keep)});
+        add(SecretKind::kWrongVariant, {number, std::string(line)}, file, {letters(line, Comments::kKeep)});
       code.push_back({number, std::string(line)});
     }
-    addRuns(SecretKind::wrongVariant, code, file);
+    addRuns(SecretKind::kWrongVariant, code, file);
   }
 
   static std::vector<std::string> literalsIn(std::string_view code) {
@@ -169,15 +170,15 @@ class Collector {
 
 std::string_view nameOf(SecretKind kind) {
   switch (kind) {
-    case SecretKind::solution:
+    case SecretKind::kSolution:
       return "a line of the solution";
-    case SecretKind::hiddenCheck:
+    case SecretKind::kHiddenCheck:
       return "a hidden check";
-    case SecretKind::hiddenName:
+    case SecretKind::kHiddenName:
       return "a text of a hidden check";
-    case SecretKind::wrongVariant:
+    case SecretKind::kWrongVariant:
       return "a wrong variant";
-    case SecretKind::courseSecret:
+    case SecretKind::kCourseSecret:
       break;
   }
   return "the secret of the course";
@@ -190,13 +191,13 @@ std::vector<Secret> secretsOf(const std::vector<fs::path>& exercises, const fs::
 }
 
 Secret courseSecretIn(const fs::path& file) {
-  const std::string form = letters(readCourseSecret(file), Comments::keep);
+  const std::string form = letters(readCourseSecret(file), Comments::kKeep);
   if (form.size() < kShortestForm)
     throw Error({.what = "the secret of the course cannot be looked for",
                  .where = {file.string()},
                  .found = fmt::format("{} characters that are no blanks", form.size()),
                  .wanted = fmt::format("at least {}", kShortestForm)});
-  return {.kind = SecretKind::courseSecret, .text = {}, .origin = {file.string(), 1}, .forms = {form}};
+  return {.kind = SecretKind::kCourseSecret, .text = {}, .origin = {file.string(), 1}, .forms = {form}};
 }
 
 }  // namespace rex::grading

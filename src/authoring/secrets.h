@@ -10,14 +10,14 @@
 namespace rex::grading {
 
 /// What students must not get before they solve an exercise, or ever.
-enum class SecretKind { solution, hiddenCheck, hiddenName, wrongVariant, courseSecret };
+enum class SecretKind { kSolution, kHiddenCheck, kHiddenName, kWrongVariant, kCourseSecret };
 
 /// "a line of the solution", "a hidden check".
 [[nodiscard]] std::string_view nameOf(SecretKind kind);
 
 /// One piece of it, long enough to be told from what everybody writes.
 struct Secret {
-  SecretKind kind = SecretKind::solution;
+  SecretKind kind = SecretKind::kSolution;
   std::string text{};                ///< for messages: the line where it begins; never the course's secret
   SourceLocation origin{};           ///< where it stands, below the root
   std::vector<std::string> forms{};  ///< normalText() to look for, each of at least kShortestForm letters

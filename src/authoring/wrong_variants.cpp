@@ -60,10 +60,10 @@ Complaints missingOf(const CheckResult& check, const path& workFolder) {
 Complaints whyNotCaughtIn(const GradeResult& result, const WrongVariant& variant, const path& wrong,
                           const path& workFolder) {
   if (variant.caughtBy.front() == kForbiddenCall) return whyNotRefused(result);
-  if (result.outcome == Outcome::compileError || result.outcome == Outcome::graderError)
+  if (result.outcome == Outcome::kCompileError || result.outcome == Outcome::kGraderError)
     return {"it was not graded: " + result.message};
   for (const std::string& id : variant.caughtBy)
-    if (checkNamed(result, id, wrong).status == Outcome::pass)
+    if (checkNamed(result, id, wrong).status == Outcome::kPass)
       return {fmt::format("check '{}' passes although: {}", id, variant.mistake)};
   if (result.score >= result.maxScore) return {"it gets the full score"};
   Complaints missing;

@@ -54,7 +54,7 @@ void count(const GradeResult& result, std::vector<CheckStatistics>& checks) {
                               [&](const CheckStatistics& one) { return one.id == check.id; });
     if (known == checks.end())
       known = checks.insert(checks.end(), {.id = check.id, .title = check.title, .group = check.group});
-    if (check.status == Outcome::pass) continue;
+    if (check.status == Outcome::kPass) continue;
     ++known->failed;
     ++known->classes[classOf(check, result)];
   }
@@ -67,7 +67,7 @@ ExerciseStatistics statisticsOfOne(const std::vector<const StudentResult*>& resu
   std::set<std::string> versions;
   for (const StudentResult* one : results) {
     const GradeResult& result = one->result;
-    if (result.outcome == Outcome::graderError) {
+    if (result.outcome == Outcome::kGraderError) {
       ++all.graderFailed;
       continue;
     }
@@ -79,7 +79,7 @@ ExerciseStatistics statisticsOfOne(const std::vector<const StudentResult*>& resu
     all.meanPoints += result.score;
     points.push_back(result.score);
     // What does not compile takes no time.
-    if (result.outcome != Outcome::compileError) seconds.push_back(result.usage.wallSeconds);
+    if (result.outcome != Outcome::kCompileError) seconds.push_back(result.usage.wallSeconds);
     if (all.slowest.empty() || result.usage.wallSeconds > all.longestSeconds)
       std::tie(all.slowest, all.longestSeconds) = std::tie(one->student, result.usage.wallSeconds);
     versions.insert(result.exerciseVersion);
@@ -124,26 +124,26 @@ ClassResults readClassResults(const fs::path& folder) {
 }
 
 std::string classOf(const CheckResult& check, const GradeResult& whole) {
-  if (!check.status) return whole.outcome == Outcome::compileError ? "compile" : "not run";
+  if (!check.status) return whole.outcome == Outcome::kCompileError ? "compile" : "not run";
   switch (*check.status) {
-    case Outcome::compileError:
+    case Outcome::kCompileError:
       return "compile";
-    case Outcome::runtimeError:
+    case Outcome::kRuntimeError:
       return "crash";
-    case Outcome::timeLimit:
+    case Outcome::kTimeLimit:
       return "timeout";
-    case Outcome::memoryLimit:
+    case Outcome::kMemoryLimit:
       return "memory";
-    case Outcome::outputLimit:
+    case Outcome::kOutputLimit:
       return "output";
-    case Outcome::protocolError:
+    case Outcome::kProtocolError:
       return "protocol";
-    case Outcome::securityEvent:
+    case Outcome::kSecurityEvent:
       return "security";
-    case Outcome::graderError:
+    case Outcome::kGraderError:
       return "not run";
-    case Outcome::fail:
-    case Outcome::pass:
+    case Outcome::kFail:
+    case Outcome::kPass:
       if (check.message.find(check.property + ": not finite") != std::string::npos) return "non-finite";
       return check.message.find(check.property + ": wrong shape") != std::string::npos ? "shape" : "wrong";
   }

@@ -29,7 +29,7 @@ struct ClassResults {
 struct CheckStatistics {
   std::string id{};
   std::string title{};
-  Group group = Group::visible;
+  Group group = Group::kVisible;
   int failed = 0;  ///< did not pass in full
   std::map<std::string, int>
       classes{};  ///< of those: "compile", "crash", "timeout", "non-finite", "wrong", ...

@@ -48,18 +48,18 @@ Collected collect(const std::vector<Task>& tasks, const std::filesystem::path& o
     const int number = static_cast<int>(k) + 1;
     std::vector<std::string> row = {task.student, task.exercise, "", "", "missing", "", "", ""};
     switch (stateOf(task, out)) {
-      case TaskState::missing:
+      case TaskState::kMissing:
         found.missing.push_back(number);
         break;
-      case TaskState::stale:
+      case TaskState::kStale:
         found.stale.push_back(number);
         row[4] = "stale";
         break;
-      case TaskState::failed:
+      case TaskState::kFailed:
         found.failed.push_back(number);
-        row[4] = toString(Outcome::graderError);
+        row[4] = toString(Outcome::kGraderError);
         break;
-      case TaskState::done:
+      case TaskState::kDone:
         row = rowOf(task, out, policy);
     }
     row.insert(row.end(), {instantText(task.submitted), task.timeFrom});

@@ -64,13 +64,13 @@ fs::path resultFolder(const fs::path& out, const Task& task) { return out / task
 
 TaskState stateOf(const Task& task, const fs::path& out) {
   const fs::path file = resultFolder(out, task) / kResults;
-  if (!fs::exists(file)) return TaskState::missing;
+  if (!fs::exists(file)) return TaskState::kMissing;
   try {
     const Json json = Json::parse(readTextFile(file));
-    if (json.at("inputs").at("sha256") != task.inputsSha256()) return TaskState::stale;
-    return json.at("outcome") == toString(Outcome::graderError) ? TaskState::failed : TaskState::done;
+    if (json.at("inputs").at("sha256") != task.inputsSha256()) return TaskState::kStale;
+    return json.at("outcome") == toString(Outcome::kGraderError) ? TaskState::kFailed : TaskState::kDone;
   } catch (const Json::exception&) {
-    return TaskState::stale;  // something else of that name
+    return TaskState::kStale;  // something else of that name
   }
 }
 

@@ -19,7 +19,7 @@ namespace rex::grading {
 
 /// What lies there of a task. A stale result is one of other inputs; a failed one reports a fault of the
 /// grader, which is never a grade.
-enum class TaskState { missing, stale, failed, done };
+enum class TaskState { kMissing, kStale, kFailed, kDone };
 [[nodiscard]] TaskState stateOf(const Task& task, const std::filesystem::path& out);
 
 /// Whether the pictures and replays of a task that is done were kept, and are still there.

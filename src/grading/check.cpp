@@ -87,7 +87,7 @@ bool Check::keep(Shortfall shortfall) {
 }
 
 void Check::fail(Shortfall shortfall, std::optional<Evidence> evidence) {
-  if (keep(std::move(shortfall)) && info_.group == Group::visible) {
+  if (keep(std::move(shortfall)) && info_.group == Group::kVisible) {
     evidence_ = std::move(evidence);
     try {
       if (show_) evidence_ = show_();
@@ -199,10 +199,10 @@ bool Check::runCase(int number, const std::function<void(int)>& run) {
     return false;
   } catch (const remote::RemoteThrow& error) {
     // A worker without memory says nothing useful any more.
-    if (error.thrown().kind == remote::Thrown::Kind::badAlloc) throw;
+    if (error.thrown().kind == remote::Thrown::Kind::kBadAlloc) throw;
     // A type's name could tell the input.
-    const std::string type = info_.group == Group::visible ? error.thrown().type : "an exception";
-    keep({.outcome = Outcome::runtimeError,
+    const std::string type = info_.group == Group::kVisible ? error.thrown().type : "an exception";
+    keep({.outcome = Outcome::kRuntimeError,
           .property = error.function() + " returns",
           .what = "threw " + type + " in " + error.function(),
           .got = error.thrown().text,
@@ -213,7 +213,7 @@ bool Check::runCase(int number, const std::function<void(int)>& run) {
 
 void Check::keepRefused(const remote::AnswerRefused& refused) {
   keep({.property = "what " + refused.function() + " returned",
-        .what = info_.group == Group::visible ? refused.what() : "not finite, or too large",
+        .what = info_.group == Group::kVisible ? refused.what() : "not finite, or too large",
         .function = refused.function()});
 }
 
@@ -239,17 +239,17 @@ CheckResult Check::result() const {
                       .part = info_.part,
                       .title = info_.title,
                       .group = info_.group,
-                      .status = Outcome::pass,
+                      .status = Outcome::kPass,
                       .maxPoints = info_.points,
                       .cases = cases_,
                       .casesHeld = casesPassed_};
-  if (info_.group == Group::visible) verdict.worst = nearest_;
+  if (info_.group == Group::kVisible) verdict.worst = nearest_;
   if (!worst_) return verdict;
   verdict.status = worst_->outcome;
   verdict.message = printable(messageOf(*worst_), kLongestText);
   verdict.property = worst_->property;
   verdict.function = worst_->function;
-  if (info_.group == Group::hidden) return verdict;
+  if (info_.group == Group::kHidden) return verdict;
   verdict.expected = worst_->wanted;
   verdict.got = printable(worst_->got, kLongestText);
   verdict.tolerance = worst_->tolerance;
@@ -261,12 +261,12 @@ std::string Check::messageOf(const Shortfall& shortfall) const {
   std::string text;
   if (shortfall.caseNumber >= 0)
     text = fmt::format("{} of {} cases hold; case {}: ", casesPassed_, cases_, shortfall.caseNumber + 1);
-  const bool threw = shortfall.outcome == Outcome::runtimeError;
-  const bool numbers = info_.group == Group::visible && !shortfall.got.empty();
+  const bool threw = shortfall.outcome == Outcome::kRuntimeError;
+  const bool numbers = info_.group == Group::kVisible && !shortfall.got.empty();
   if (!threw) text += shortfall.property + ": ";
   if (!shortfall.what.empty()) text += shortfall.what + (numbers ? ": " : "");
   if (!numbers && shortfall.what.empty()) text += "does not hold";
-  if (info_.group == Group::hidden) return text;
+  if (info_.group == Group::kHidden) return text;
   if (numbers) text += (threw ? "" : "got ") + shortfall.got;
   if (!shortfall.wanted.empty()) text += ", wanted " + shortfall.wanted;
   if (!shortfall.tolerance.empty()) text += ", tolerance " + shortfall.tolerance;

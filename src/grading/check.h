@@ -28,7 +28,7 @@ struct CheckInfo {
   std::string part{};   ///< the part of the exercise it belongs to
   std::string title{};  ///< one line for the student
   int points = 0;
-  Group group = Group::visible;
+  Group group = Group::kVisible;
 };
 
 /// Handed to a check function, which states its requirements through it. The first requirement that does not
@@ -91,7 +91,7 @@ class Check {
  private:
   /// A requirement that does not hold. Texts carry their units.
   struct Shortfall {
-    Outcome outcome = Outcome::fail;
+    Outcome outcome = Outcome::kFail;
     std::string property{};
     std::string what{};  ///< also reported by hidden checks: "not finite"
     std::string got{};

@@ -43,7 +43,7 @@ CheckResult blank(const CheckInfo& info) {
 
 CheckResult faulty(const CheckInfo& info, const std::string& why) {
   CheckResult check = blank(info);
-  check.status = Outcome::graderError;
+  check.status = Outcome::kGraderError;
   check.message = printable("the grader failed, which is not your fault: " + why, kLongestMessage);
   return check;
 }
@@ -52,21 +52,21 @@ CheckResult faulty(const CheckInfo& info, const std::string& why) {
 std::string messageWithoutDetails(const Failure& failure) {
   const auto what = [&] {
     switch (failure.outcome) {
-      case Outcome::timeLimit:
+      case Outcome::kTimeLimit:
         return "took too much time";
-      case Outcome::memoryLimit:
+      case Outcome::kMemoryLimit:
         return "used too much memory";
-      case Outcome::outputLimit:
+      case Outcome::kOutputLimit:
         return "printed too much";
-      case Outcome::protocolError:
+      case Outcome::kProtocolError:
         return "disturbed the connection to the grader";
-      case Outcome::securityEvent:
+      case Outcome::kSecurityEvent:
         return "tried what the sandbox forbids";
-      case Outcome::runtimeError:
-      case Outcome::compileError:
-      case Outcome::graderError:
-      case Outcome::fail:
-      case Outcome::pass:
+      case Outcome::kRuntimeError:
+      case Outcome::kCompileError:
+      case Outcome::kGraderError:
+      case Outcome::kFail:
+      case Outcome::kPass:
         break;
     }
     return "crashed, threw an exception or ended the program";
@@ -80,7 +80,7 @@ CheckResult failed(const CheckInfo& info, const Failure& failure, const std::str
   check.status = failure.outcome;
   check.function = failure.function;
   check.message = messageWithoutDetails(failure);
-  if (info.group == Group::hidden) return check;
+  if (info.group == Group::kHidden) return check;
   const std::string detail = failure.detail.empty() ? "" : ": " + failure.detail;
   check.message = printable(failure.message + detail, kLongestMessage);
   check.input = printable(input, kLongestMessage);
@@ -91,17 +91,17 @@ CheckResult failed(const CheckInfo& info, const Failure& failure, const std::str
 // that can be judged: with the reference solution it does not happen, which the gates of the exercise prove.
 CheckResult unjudged(const CheckInfo& info, const std::string& function, const std::string& why) {
   CheckResult check = blank(info);
-  check.status = Outcome::fail;
+  check.status = Outcome::kFail;
   check.function = function;
   check.message = fmt::format("what {} returned could not be judged", function);
-  if (info.group == Group::visible && !why.empty()) check.message += ": " + why;
+  if (info.group == Group::kVisible && !why.empty()) check.message += ": " + why;
   check.message = printable(check.message, kLongestMessage);
   return check;
 }
 
 // Messages of a hidden check's fault could quote its input.
 CheckResult faultyBy(const CheckInfo& info, const std::exception* error) {
-  const bool tell = info.group == Group::visible && error != nullptr;
+  const bool tell = info.group == Group::kVisible && error != nullptr;
   return faulty(info, tell ? error->what() : "the check ended by an exception");
 }
 
@@ -115,7 +115,7 @@ void keep(KeptOutput& kept, const CapturedText& captured) {
 // Visible checks can be repeated by everybody. What hidden ones try depends on what was handed in: the same
 // again gives the same grade, and a table of answers helps nobody else.
 std::uint64_t seedFor(Group group, const GradeResult& whole, const Grading& grading) {
-  if (group == Group::visible || grading.secret.empty()) return grading.job.seed;
+  if (group == Group::kVisible || grading.secret.empty()) return grading.job.seed;
   return hiddenSeed(grading.secret, whole.snapshotSha256, whole.exerciseId, "hidden");
 }
 
@@ -127,7 +127,7 @@ std::string seedIdOf(const Grading& grading) {
 
 // A picture helps, and decides nothing: numbers that cannot be drawn have none.
 void keepEvidence(const Check& judge, const std::filesystem::path& folder, CheckResult& verdict) {
-  if (folder.empty() || !judge.evidence() || verdict.status == Outcome::pass) return;
+  if (folder.empty() || !judge.evidence() || verdict.status == Outcome::kPass) return;
   const auto named = [&](const std::string& file) {
     return file.empty() ? file : (folder.filename() / file).generic_string();
   };
@@ -209,7 +209,7 @@ CheckResult runCheck(const RunnableCheck& check, const Grading& grading, GradeRe
     whole.usage.peakMemoryBytes = std::max(whole.usage.peakMemoryBytes, run.peakMemoryBytes);
     whole.usage.outputBytes += run.output.bytes + run.error.bytes;
     // What a program prints in a hidden check may be that check's input.
-    if (check.info.group == Group::visible) {
+    if (check.info.group == Group::kVisible) {
       keep(whole.output, run.output);
       keep(whole.error, run.error);
     }
@@ -224,11 +224,12 @@ CheckResult runCheck(const RunnableCheck& check, const Grading& grading, GradeRe
 // A fault of the grader outweighs everything; then the first check that did not pass names the outcome, but
 // crashes and limits before plain failures.
 Outcome overallOutcome(const std::vector<CheckResult>& checks) {
-  Outcome overall = Outcome::pass;
+  Outcome overall = Outcome::kPass;
   for (const CheckResult& check : checks) {
-    const Outcome status = check.status.value_or(Outcome::graderError);
-    if (status == Outcome::graderError) return status;
-    if (overall == Outcome::pass || (overall == Outcome::fail && status != Outcome::pass)) overall = status;
+    const Outcome status = check.status.value_or(Outcome::kGraderError);
+    if (status == Outcome::kGraderError) return status;
+    if (overall == Outcome::kPass || (overall == Outcome::kFail && status != Outcome::kPass))
+      overall = status;
   }
   return overall;
 }
@@ -321,7 +322,7 @@ GradeResult grade(GradeResult result, std::span<const RunnableCheck> checks, con
     return result;
   }
   setSandbox(result, job.sandbox.level);
-  result.outcome = Outcome::graderError;
+  result.outcome = Outcome::kGraderError;
   result.message = kUnfinished;
   save(result);
   const GradeResult start = result;

@@ -71,7 +71,7 @@ void printList(const std::vector<RunnableCheck>& checks) {
                     {"part", info.part},
                     {"title", info.title},
                     {"points", info.points},
-                    {"group", info.group == Group::visible ? "visible" : "hidden"}});
+                    {"group", info.group == Group::kVisible ? "visible" : "hidden"}});
   fmt::print("{}\n", list.dump(2));
 }
 
@@ -83,8 +83,8 @@ ExitCode gradeAndSave(const Arguments& arguments, const std::vector<RunnableChec
       grade(start, checks, arguments.job, arguments.signature, [&](const GradeResult& soFar) {
         if (!results.empty()) saveResult(soFar, results);
       });
-  if (result.outcome == Outcome::graderError) return ExitCode::kGraderFault;
-  return result.outcome == Outcome::pass ? ExitCode::kFull : ExitCode::kBelow;
+  if (result.outcome == Outcome::kGraderError) return ExitCode::kGraderFault;
+  return result.outcome == Outcome::kPass ? ExitCode::kFull : ExitCode::kBelow;
 }
 
 // Below where a hostile answer got a point, took too long or ended the process that judged it.

@@ -80,11 +80,11 @@ class Liar {
 
   Caller::Bytes tell(std::uint32_t method, Caller::Bytes arguments, Caller::Bytes honest) {
     Bytes last = std::exchange(last_[method], copyOf(honest));
-    said_ = lie_ == Lie::constant     ? answerToAnother(method, arguments)
-            : lie_ == Lie::lastAnswer ? std::move(last)
-            : lie_ == Lie::echo       ? firstLikeTheResult(arguments, layouts_[method])
-                                      : Bytes{};
-    if (said_.empty()) said_ = spoilt(honest, layouts_[method].front(), Hostility::zero, rng_);
+    said_ = lie_ == Lie::kConstant     ? answerToAnother(method, arguments)
+            : lie_ == Lie::kLastAnswer ? std::move(last)
+            : lie_ == Lie::kEcho       ? firstLikeTheResult(arguments, layouts_[method])
+                                       : Bytes{};
+    if (said_.empty()) said_ = spoilt(honest, layouts_[method].front(), Hostility::kZero, rng_);
     return said_;
   }
 
@@ -218,11 +218,11 @@ std::vector<HostileOutcome> giveHostileAnswers(std::span<const RunnableCheck> ch
                                                std::uint64_t signature, const CallLayouts& layouts,
                                                std::int64_t answers) {
   const Pool pool = recordHonestAnswers(checks, {job, signature});
-  const auto each = static_cast<std::int64_t>(checks.size()) * static_cast<std::int64_t>(Hostility::count);
+  const auto each = static_cast<std::int64_t>(checks.size()) * static_cast<std::int64_t>(Hostility::kCount);
   const std::int64_t ofEach = (answers + each - 1) / std::max<std::int64_t>(1, each);
   std::vector<HostileOutcome> outcomes;
   for (const RunnableCheck& check : checks) {
-    for (int k = 0; k < static_cast<int>(Hostility::count); ++k) {
+    for (int k = 0; k < static_cast<int>(Hostility::kCount); ++k) {
       HostileOutcome outcome{.check = check.info.id, .hostility = static_cast<Hostility>(k)};
       const IsolatedResult result = callIsolated(
           [&] { return toText(Attack(check, outcome.hostility, pool, layouts).run(ofEach)); }, kOneRun);
@@ -237,8 +237,8 @@ std::vector<HostileOutcome> giveHostileAnswers(std::span<const RunnableCheck> ch
 }
 
 std::string toString(Lie lie) {
-  constexpr std::array<const char*, static_cast<std::size_t>(Lie::count)> kNames = {"zeros", "constant",
-                                                                                    "last answer", "echo"};
+  constexpr std::array<const char*, static_cast<std::size_t>(Lie::kCount)> kNames = {"zeros", "constant",
+                                                                                     "last answer", "echo"};
   return kNames.at(static_cast<std::size_t>(lie));
 }
 
@@ -249,7 +249,7 @@ std::vector<LieOutcome> tellLies(std::span<const RunnableCheck> checks, const Gr
   const Pool pool = recordHonestAnswers(checks, {others, signature});
   std::vector<LieOutcome> outcomes;
   for (const RunnableCheck& check : checks)
-    for (int k = 0; k < static_cast<int>(Lie::count); ++k) {
+    for (int k = 0; k < static_cast<int>(Lie::kCount); ++k) {
       const Lie lie = static_cast<Lie>(k);
       outcomes.push_back({.check = check.info.id,
                           .part = check.info.part,

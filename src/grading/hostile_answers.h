@@ -17,7 +17,7 @@ using CallLayouts = std::vector<std::vector<std::string>>;
 /// What hostile answers did to one check.
 struct HostileOutcome {
   std::string check;
-  Hostility hostility = Hostility::empty;
+  Hostility hostility = Hostility::kEmpty;
   std::int64_t answers = 0;
   int runs = 0;
   int mostPoints = 0;       ///< of a run in which no answer was left as it was
@@ -37,14 +37,14 @@ struct HostileOutcome {
 
 /// Generic liars: functions that return zeros, always the same answer, that of the last call, or what they
 /// were given, in the right shape.
-enum class Lie { zeros, constant, lastAnswer, echo, count };
+enum class Lie { kZeros, kConstant, kLastAnswer, kEcho, kCount };
 
 [[nodiscard]] std::string toString(Lie lie);
 
 /// What a check gives for a lie.
 struct LieOutcome {
   std::string check, part;
-  Lie lie = Lie::zeros;
+  Lie lie = Lie::kZeros;
   int points = 0;
 };
 

@@ -7,16 +7,16 @@ namespace rex::grading {
 
 /// How a check or a whole submission ended. Only graderError is never the student's fault.
 enum class Outcome {
-  pass,
-  fail,
-  compileError,
-  runtimeError,
-  timeLimit,
-  memoryLimit,
-  outputLimit,
-  protocolError,
-  securityEvent,
-  graderError
+  kPass,
+  kFail,
+  kCompileError,
+  kRuntimeError,
+  kTimeLimit,
+  kMemoryLimit,
+  kOutputLimit,
+  kProtocolError,
+  kSecurityEvent,
+  kGraderError
 };
 
 /// The name in result files: "pass", "compile_error", "time_limit", ...

@@ -21,7 +21,7 @@ Json checkToJson(const CheckResult& check) {
   return {{"id", check.id},
           {"part", check.part},
           {"title", check.title},
-          {"group", check.group == Group::visible ? "visible" : "hidden"},
+          {"group", check.group == Group::kVisible ? "visible" : "hidden"},
           {"status", check.status ? toString(*check.status) : "not_run"},
           {"points", check.points},
           {"max_points", check.maxPoints},
@@ -167,7 +167,7 @@ CheckResult readCheck(const Fields& fields) {
   fields.read("title", check.title);
   fields.read("group", group);
   if (group != "visible" && group != "hidden") fields.refuse("group", "visible or hidden");
-  check.group = group == "hidden" ? Group::hidden : Group::visible;
+  check.group = group == "hidden" ? Group::kHidden : Group::kVisible;
   fields.readOutcome("status", check.status);
   fields.read("points", check.points);
   fields.read("max_points", check.maxPoints);
@@ -256,7 +256,7 @@ GradeResult readResult(const Fields& fields) {
   fields.object("sandbox").read("warnings", result.sandboxWarnings);
   std::optional<Outcome> outcome;
   fields.readOutcome("outcome", outcome);
-  result.outcome = outcome.value_or(Outcome::graderError);
+  result.outcome = outcome.value_or(Outcome::kGraderError);
   fields.read("message", result.message);
   fields.read("score", result.score);
   fields.read("max_score", result.maxScore);

@@ -11,7 +11,7 @@
 namespace rex::grading {
 
 /// Visible checks show what they tried and what came out; hidden ones only which property failed.
-enum class Group { visible, hidden };
+enum class Group { kVisible, kHidden };
 
 /// The fields of a result file, in its order: schema "grade-result/1". All text is valid UTF-8. What differs
 /// between two runs of the same grading (times, memory, pictures) is under "volatile", so the rest compares
@@ -34,7 +34,7 @@ struct CheckResult {
   std::string id{};
   std::string part{};
   std::string title{};
-  Group group = Group::visible;
+  Group group = Group::kVisible;
   std::optional<Outcome> status{};  ///< nothing: not run
   int points = 0;
   int maxPoints = 0;
@@ -99,8 +99,8 @@ struct GradeResult {
   std::string compiler{};
   int sandboxLevel = 0;
   std::vector<std::string> sandboxWarnings{};
-  Outcome outcome = Outcome::graderError;  ///< until somebody finds a better one
-  std::string message{};                   ///< about the submission as a whole
+  Outcome outcome = Outcome::kGraderError;  ///< until somebody finds a better one
+  std::string message{};                    ///< about the submission as a whole
   int score = 0;
   int maxScore = 0;
   std::vector<CheckResult> checks{};

@@ -16,7 +16,7 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-constexpr double kHuge = 1e200;
+constexpr double kFarOut = 1e200;
 
 /// One value of an answer, with what it consists of.
 struct Node {
@@ -215,14 +215,14 @@ class Spoiler {
 
   void spoil(Node& node) {
     const Hostility asked = hostility_;
-    if (asked == Hostility::mixed)
-      hostility_ = static_cast<Hostility>(rng_.index(static_cast<int>(Hostility::mixed)));
+    if (asked == Hostility::kMixed)
+      hostility_ = static_cast<Hostility>(rng_.index(static_cast<int>(Hostility::kMixed)));
     if (node.kind == '[' || node.kind == '?' || node.kind == 'M') resize(node);
     for (Node& part : node.parts) {
-      if (asked == Hostility::mixed && rng_.uniform() < 0.5) continue;
+      if (asked == Hostility::kMixed && rng_.uniform() < 0.5) continue;
       spoil(part);
     }
-    if (hostility_ == Hostility::permuted) permute(node);
+    if (hostility_ == Hostility::kPermuted) permute(node);
     change(node);
     hostility_ = asked;
   }
@@ -230,21 +230,21 @@ class Spoiler {
  private:
   void change(Node& node) {
     if (node.kind == 'd' || node.kind == 'f') node.number = changed(node.number);
-    if (node.kind == 'b') node.bits = hostility_ == Hostility::zero ? 0 : node.bits ^ 1;
+    if (node.kind == 'b') node.bits = hostility_ == Hostility::kZero ? 0 : node.bits ^ 1;
     if (node.kind == 'i' || node.kind == 'u') node.bits = changedInteger(node.bits);
   }
 
   double changed(double number) {
     using enum Hostility;
-    if (hostility_ == notANumber) return std::numeric_limits<double>::quiet_NaN();
-    if (hostility_ == infinite)
+    if (hostility_ == kNotANumber) return std::numeric_limits<double>::quiet_NaN();
+    if (hostility_ == kInfinite)
       return std::numeric_limits<double>::infinity() * (rng_.uniform() < 0.5 ? -1 : 1);
-    if (hostility_ == overflowing) return (rng_.uniform() < 0.5 ? -kHuge : kHuge) * rng_.uniform(0.5, 1);
-    if (hostility_ == denormal) return std::numeric_limits<double>::denorm_min();
-    if (hostility_ == zero) return 0;
-    if (hostility_ == constant) return 1.5;
-    if (hostility_ == shifted) return number + 1;
-    if (hostility_ == scaled) return number * 1e6 + 1e6;
+    if (hostility_ == kOverflowing) return (rng_.uniform() < 0.5 ? -kFarOut : kFarOut) * rng_.uniform(0.5, 1);
+    if (hostility_ == kDenormal) return std::numeric_limits<double>::denorm_min();
+    if (hostility_ == kZero) return 0;
+    if (hostility_ == kConstant) return 1.5;
+    if (hostility_ == kShifted) return number + 1;
+    if (hostility_ == kScaled) return number * 1e6 + 1e6;
     return number;
   }
 
@@ -253,20 +253,20 @@ class Spoiler {
     using Int = std::numeric_limits<std::int32_t>;
     constexpr std::array<std::int64_t, 8> kExtremes = {-1,    Int::max(), Int::min(), 1000,
                                                        65536, -1000,      1 << 24,    7};
-    if (hostility_ == extremeIntegers)
+    if (hostility_ == kExtremeIntegers)
       return static_cast<std::uint64_t>(kExtremes[static_cast<std::size_t>(rng_.index(kExtremes.size()))]);
-    if (hostility_ == zero) return 0;
-    if (hostility_ == constant) return 3;
-    if (hostility_ == shifted) return bits + 1;
-    if (hostility_ == scaled) return bits * 100 + 1;
+    if (hostility_ == kZero) return 0;
+    if (hostility_ == kConstant) return 3;
+    if (hostility_ == kShifted) return bits + 1;
+    if (hostility_ == kScaled) return bits * 100 + 1;
     return bits;
   }
 
   int newSize(int size, int fixed) {
     if (fixed >= 0) return fixed;
-    if (hostility_ == Hostility::empty) return 0;
-    if (hostility_ == Hostility::huge) return 300;
-    if (hostility_ == Hostility::ragged) return std::max(0, size + rng_.index(5) - 2);
+    if (hostility_ == Hostility::kEmpty) return 0;
+    if (hostility_ == Hostility::kHuge) return 300;
+    if (hostility_ == Hostility::kRagged) return std::max(0, size + rng_.index(5) - 2);
     return size;
   }
 
@@ -276,12 +276,12 @@ class Spoiler {
       node.cols = newSize(node.cols, node.fixedCols);
       fill(node, static_cast<std::size_t>(node.rows) * static_cast<std::size_t>(node.cols));
     } else if (node.kind == '?') {
-      if (hostility_ == Hostility::empty || hostility_ == Hostility::ragged) node.parts.clear();
-    } else if (hostility_ == Hostility::empty) {
+      if (hostility_ == Hostility::kEmpty || hostility_ == Hostility::kRagged) node.parts.clear();
+    } else if (hostility_ == Hostility::kEmpty) {
       node.parts.clear();
-    } else if (hostility_ == Hostility::huge) {
+    } else if (hostility_ == Hostility::kHuge) {
       fill(node, 20000);
-    } else if (hostility_ == Hostility::ragged) {
+    } else if (hostility_ == Hostility::kRagged) {
       fill(node, std::max<std::size_t>(2, node.parts.size()) - 2 + static_cast<std::size_t>(rng_.index(5)));
     }
   }
@@ -332,15 +332,15 @@ class Spoiler {
 }  // namespace
 
 std::string toString(Hostility hostility) {
-  constexpr std::array<const char*, static_cast<std::size_t>(Hostility::count)> kNames = {
+  constexpr std::array<const char*, static_cast<std::size_t>(Hostility::kCount)> kNames = {
       "empty",    "huge",   "nan",      "inf",     "1e200",  "denormal", "zero",
       "constant", "ragged", "permuted", "shifted", "scaled", "integers", "mixed"};
   return kNames.at(static_cast<std::size_t>(hostility));
 }
 
 bool keepsNumbers(Hostility hostility) {
-  constexpr auto kKeeping = std::to_array({Hostility::huge, Hostility::ragged, Hostility::permuted,
-                                           Hostility::extremeIntegers, Hostility::mixed});
+  constexpr auto kKeeping = std::to_array({Hostility::kHuge, Hostility::kRagged, Hostility::kPermuted,
+                                           Hostility::kExtremeIntegers, Hostility::kMixed});
   return std::ranges::find(kKeeping, hostility) != kKeeping.end();
 }
 

@@ -12,21 +12,21 @@ namespace rex::grading {
 /// The ways in which an answer is made hostile: all its numbers, lists and matrices at once, or each node in
 /// a way of its own (`mixed`).
 enum class Hostility {
-  empty,
-  huge,
-  notANumber,
-  infinite,
-  overflowing,
-  denormal,
-  zero,
-  constant,
-  ragged,
-  permuted,
-  shifted,
-  scaled,
-  extremeIntegers,
-  mixed,
-  count
+  kEmpty,
+  kHuge,
+  kNotANumber,
+  kInfinite,
+  kOverflowing,
+  kDenormal,
+  kZero,
+  kConstant,
+  kRagged,
+  kPermuted,
+  kShifted,
+  kScaled,
+  kExtremeIntegers,
+  kMixed,
+  kCount
 };
 
 [[nodiscard]] std::string toString(Hostility hostility);

@@ -17,13 +17,13 @@ namespace {
 constexpr int kLoaderFailed = 127;
 
 Failure tooSlow(const WorkerEnd& end, const Limits& limits) {
-  return {.outcome = Outcome::timeLimit,
+  return {.outcome = Outcome::kTimeLimit,
           .message = fmt::format("stopped after {:.1f} s of CPU time {}", limits.cpuBudget(),
                                  placeOf(end.ready, end.function))};
 }
 
 Failure tooMuchMemory(const Limits& limits, const std::string& place) {
-  return {.outcome = Outcome::memoryLimit,
+  return {.outcome = Outcome::kMemoryLimit,
           .message = fmt::format("used more than {} MB of memory {}", limits.memory / kMegabyte, place)};
 }
 
@@ -52,7 +52,7 @@ Failure explainSignal(const WorkerEnd& end, const Limits& limits) {
   if (end.outOfMemory) return tooMuchMemory(limits, place);
   switch (WTERMSIG(end.status)) {
     case SIGSYS:
-      return {.outcome = Outcome::securityEvent,
+      return {.outcome = Outcome::kSecurityEvent,
               .message = "tried what the sandbox forbids " + place +
                          " (start another program, look into others, or change the machine)"};
     case SIGXCPU:
@@ -72,7 +72,7 @@ Failure explainSignal(const WorkerEnd& end, const Limits& limits) {
       if (ranOutOfMemory(end.errorTail)) return tooMuchMemory(limits, place);
       return {.message = "aborted " + place, .detail = tellingLine(end.errorTail)};
     case SIGXFSZ:
-      return {.outcome = Outcome::outputLimit, .message = "wrote a file that is too large " + place};
+      return {.outcome = Outcome::kOutputLimit, .message = "wrote a file that is too large " + place};
     default:
       return {.message = fmt::format("was ended by signal {} ({}) {}", WTERMSIG(end.status),
                                      ::strsignal(WTERMSIG(end.status)), place)};
@@ -96,7 +96,7 @@ Failure explainEnd(const WorkerEnd& end, const Limits& limits) {
   const int code = WEXITSTATUS(end.status);
   const std::string place = placeOf(end.ready, end.function);
   if (code == remote::kProtocolFailure)
-    return {.outcome = Outcome::protocolError, .message = "lost its connection to the grader " + place};
+    return {.outcome = Outcome::kProtocolError, .message = "lost its connection to the grader " + place};
   if (code == kLoaderFailed && !end.ready)
     return {.message = "could not be loaded", .detail = tellingLine(end.errorTail)};
   const char* hint = end.ready ? "" : " (in the constructor of a global variable?)";
@@ -105,7 +105,7 @@ Failure explainEnd(const WorkerEnd& end, const Limits& limits) {
 
 Failure explainThrow(const remote::RemoteThrow& error, const Limits& limits) {
   const remote::Thrown& thrown = error.thrown();
-  if (thrown.kind == remote::Thrown::Kind::badAlloc) {
+  if (thrown.kind == remote::Thrown::Kind::kBadAlloc) {
     Failure failure = tooMuchMemory(limits, placeOf(true, error.function()));
     failure.function = error.function();
     return failure;

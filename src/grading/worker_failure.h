@@ -12,7 +12,7 @@ namespace rex::grading {
 /// Why a worker could not finish. `message` is ours; `detail` quotes the student's program. Both may tell
 /// what it was given, so reports of hidden checks say the outcome and the function only.
 struct Failure {
-  Outcome outcome = Outcome::runtimeError;
+  Outcome outcome = Outcome::kRuntimeError;
   std::string message{};   ///< "aborted in ikStep"
   std::string detail{};    ///< "Assertion `index < size()' failed."
   std::string function{};  ///< of the student, that ran; empty if none

@@ -192,7 +192,7 @@ double Worker::secondsLeft() {
 
 // Only the time we wait counts: the grader's own work is not the student's.
 void Worker::waitFor(int fd, remote::Channel::Direction direction) {
-  const short events = direction == remote::Channel::Direction::read ? POLLIN : POLLOUT;
+  const short events = direction == remote::Channel::Direction::kRead ? POLLIN : POLLOUT;
   const auto start = Clock::now();
   const double before = waited_;
   bool ended = false;
@@ -201,7 +201,7 @@ void Worker::waitFor(int fd, remote::Channel::Direction direction) {
     const double left = secondsLeft();
     if (left <= 0)
       throw GaveUp(
-          {.outcome = Outcome::timeLimit,
+          {.outcome = Outcome::kTimeLimit,
            .message = fmt::format("stopped after {:.1f} s {} (asleep, blocked, or in a loop without end?)",
                                   job_.limits.wallBudget(), place())});
     std::array<pollfd, 4> polled{{{fd, events, 0},
@@ -222,7 +222,7 @@ void Worker::drain() {
   error_.drain();
   const std::size_t limit = job_.limits.output;
   if (output_.total() + error_.total() > limit)
-    throw GaveUp({.outcome = Outcome::outputLimit,
+    throw GaveUp({.outcome = Outcome::kOutputLimit,
                   .message = fmt::format("printed more than {} MB {}", limit / kMegabyte, place())});
 }
 
@@ -280,7 +280,7 @@ Failure Worker::explain(const remote::Closed& reason) {
   if (const auto* known = dynamic_cast<const GaveUp*>(&reason)) return known->failure;
   constexpr double kPatience = 1;
   if (!waitForEnd(kPatience) && !(saidItsEnd() && waitForEnd(10 * kPatience)))
-    return {.outcome = Outcome::protocolError, .message = "closed its connection to the grader " + place()};
+    return {.outcome = Outcome::kProtocolError, .message = "closed its connection to the grader " + place()};
   return explainEnd({.status = trueStatus(),
                      .cpuSeconds = cpuSecondsOf(usage_),
                      .ready = ready_,
@@ -291,7 +291,7 @@ Failure Worker::explain(const remote::Closed& reason) {
 }
 
 Failure Worker::explain(const remote::ProtocolError& reason) const {
-  return {.outcome = Outcome::protocolError,
+  return {.outcome = Outcome::kProtocolError,
           .message = fmt::format("spoilt the connection to the grader {}: {}", place(), reason.what())};
 }
 

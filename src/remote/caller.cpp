@@ -10,7 +10,7 @@ namespace rex::remote {
 
 void Caller::handshake(std::uint64_t signature) {
   const Message hello = channel_.receive();
-  if (hello.kind != Kind::hello || hello.method != 0)
+  if (hello.kind != Kind::kHello || hello.method != 0)
     throw ProtocolError("the worker does not introduce itself");
   hello.body.expectEnd();
   if (hello.id != signature) throw ProtocolError("the worker was built from another exercise.h");
@@ -21,20 +21,20 @@ Reader Caller::call(std::uint32_t method, const std::string& name, const Writer&
   if (standIn_) return Reader(standIn_(method));
   const std::uint64_t id = ids_.next();
   const std::string outer = std::exchange(running_, name);
-  channel_.send(Kind::call, id, method, arguments);
+  channel_.send(Kind::kCall, id, method, arguments);
   std::exception_ptr refusal;
   for (;;) {
     Message message = channel_.receive();
     if (message.id != id) throw ProtocolError("the worker answers a call that was not made");
     if (const auto told = std::exchange(told_, {})) told(name);
-    if (message.kind == Kind::callback) {
+    if (message.kind == Kind::kCallback) {
       answerCallback(message, answer, refusal);
       continue;
     }
     if (message.method != method) throw ProtocolError("the worker answers for another function");
-    if (message.kind != Kind::reply && message.kind != Kind::threw)
+    if (message.kind != Kind::kReply && message.kind != Kind::kThrew)
       throw ProtocolError("the worker sends a message of unknown kind");
-    if (message.kind == Kind::threw && !refusal) {
+    if (message.kind == Kind::kThrew && !refusal) {
       Thrown thrown = Wire<Thrown>::get(message.body);
       message.body.expectEnd();
       running_ = outer;
@@ -50,11 +50,11 @@ void Caller::answerCallback(const Message& request, const Answer& answer, std::e
   const std::uint32_t argument = request.method;
   Reader arguments = request.body;
   Writer result;
-  Thrown thrown{.kind = Thrown::Kind::error, .type = "rex::Error", .text = "the check has ended"};
+  Thrown thrown{.kind = Thrown::Kind::kError, .type = "rex::Error", .text = "the check has ended"};
   if (!refusal) {
     try {
       answer(argument, arguments, result);
-      channel_.send(Kind::reply, request.id, argument, result);
+      channel_.send(Kind::kReply, request.id, argument, result);
       return;
     } catch (const ProtocolError&) {
       throw;
@@ -68,7 +68,7 @@ void Caller::answerCallback(const Message& request, const Answer& answer, std::e
   }
   Writer body;
   Wire<Thrown>::put(body, thrown);
-  channel_.send(Kind::threw, request.id, argument, body);
+  channel_.send(Kind::kThrew, request.id, argument, body);
 }
 
 }  // namespace rex::remote

@@ -39,7 +39,7 @@ void Channel::send(Kind kind, std::uint64_t id, std::uint32_t method, const Writ
     if (written < 0) {
       if (errno == EINTR) continue;
       if (errno != EAGAIN || !wait_) throw Closed("nobody reads the messages");
-      wait_(out_, Direction::write);
+      wait_(out_, Direction::kWrite);
       continue;
     }
     left -= static_cast<std::size_t>(written);
@@ -55,7 +55,7 @@ void Channel::send(Kind kind, std::uint64_t id, std::uint32_t method, const Writ
 
 std::size_t Channel::readSome() {
   for (;;) {
-    if (wait_) wait_(in_, Direction::read);
+    if (wait_) wait_(in_, Direction::kRead);
     const ssize_t got = ::read(in_, buffer_.data() + filled_, buffer_.size() - filled_);
     if (got > 0) return static_cast<std::size_t>(got);
     if (got == 0) throw Closed("no more messages");

@@ -11,11 +11,11 @@
 namespace rex::remote {
 
 enum class Kind : std::uint32_t {
-  hello = 1,  ///< worker: ready; the id is the signature of its functions
-  call,       ///< trusted side: run function number `method`
-  callback,   ///< worker: the function asks for its argument number `method`, a function of the trusted side
-  reply,      ///< either: the result of the call or callback with this id
-  threw       ///< either: it ended by an exception
+  kHello = 1,  ///< worker: ready; the id is the signature of its functions
+  kCall,       ///< trusted side: run function number `method`
+  kCallback,   ///< worker: the function asks for its argument number `method`, a function of the trusted side
+  kReply,      ///< either: the result of the call or callback with this id
+  kThrew       ///< either: it ended by an exception
 };
 
 /// One message as received. `body` points into the channel's buffer and dies with the next receive().
@@ -36,7 +36,7 @@ class Closed : public std::runtime_error {
 /// after a message are an error. One system call per message sent and usually one per message received.
 class Channel {
  public:
-  enum class Direction { read, write };
+  enum class Direction { kRead, kWrite };
   /// Blocks until the descriptor is ready; throws to give up. Needed where descriptors do not block.
   using Wait = std::function<void(int fd, Direction)>;
 

@@ -16,9 +16,9 @@ Session::Session(Channel channel, std::span<const Method> methods)
 void Session::serve() {
   std::uint64_t signature = kEmptySignature;
   for (const Method& method : methods_) signature = combineHashes(signature, method.hash);
-  channel_.send(Kind::hello, signature, 0, Writer());
+  channel_.send(Kind::kHello, signature, 0, Writer());
   while (const std::optional<Message> request = nextRequest()) {
-    if (request->kind != Kind::call) throw ProtocolError("wanted a call");
+    if (request->kind != Kind::kCall) throw ProtocolError("wanted a call");
     answer(*request);
   }
 }
@@ -34,7 +34,7 @@ std::optional<Message> Session::nextRequest() {
 void Session::answer(const Message& request) {
   if (request.method >= methods_.size()) throw ProtocolError("there is no such function");
   Writer result;
-  Kind kind = Kind::reply;
+  Kind kind = Kind::kReply;
   active_.push_back(request.id);
   try {
     Reader arguments = request.body;
@@ -46,7 +46,7 @@ void Session::answer(const Message& request) {
   } catch (const Closed&) {
     throw;
   } catch (...) {
-    kind = Kind::threw;
+    kind = Kind::kThrew;
     result = Writer();
     Wire<Thrown>::put(result, describeCurrentException());
   }
@@ -64,17 +64,17 @@ std::uint64_t Session::activeCall() const {
 Reader Session::callBack(std::uint64_t id, std::uint32_t argument, const Writer& arguments) {
   if (std::find(active_.begin(), active_.end(), id) == active_.end())
     throw Error({.what = "a function argument was used after the call it belongs to"});
-  channel_.send(Kind::callback, id, argument, arguments);
+  channel_.send(Kind::kCallback, id, argument, arguments);
   for (;;) {
     Message message = channel_.receive();
-    if (message.kind == Kind::call) {
+    if (message.kind == Kind::kCall) {
       answer(message);
       continue;
     }
     if (message.id != id || message.method != argument)
       throw ProtocolError("wanted the answer to a callback");
-    if (message.kind == Kind::reply) return message.body;
-    if (message.kind != Kind::threw) throw ProtocolError("wanted the answer to a callback");
+    if (message.kind == Kind::kReply) return message.body;
+    if (message.kind != Kind::kThrew) throw ProtocolError("wanted the answer to a callback");
     throw Error({.what = Wire<Thrown>::get(message.body).text});
   }
 }

@@ -30,16 +30,17 @@ Thrown describeCurrentException() {
   try {
     throw;
   } catch (const std::bad_alloc&) {
-    return {.kind = Thrown::Kind::badAlloc, .type = type};
+    return {.kind = Thrown::Kind::kBadAlloc, .type = type};
   } catch (const Error& error) {
-    return {
-        .kind = Thrown::Kind::error, .type = type, .text = std::string(error.what()).substr(0, kLongestText)};
+    return {.kind = Thrown::Kind::kError,
+            .type = type,
+            .text = std::string(error.what()).substr(0, kLongestText)};
   } catch (const std::exception& error) {
-    return {.kind = Thrown::Kind::exception,
+    return {.kind = Thrown::Kind::kException,
             .type = type,
             .text = std::string(error.what()).substr(0, kLongestText)};
   } catch (...) {
-    return {.kind = Thrown::Kind::other, .type = type};
+    return {.kind = Thrown::Kind::kOther, .type = type};
   }
 }
 

@@ -9,12 +9,12 @@ namespace rex::remote {
 /// An exception that crosses between the sides, taken apart.
 struct Thrown {
   enum class Kind : std::uint8_t {
-    error,      ///< rex::Error
-    exception,  ///< another std::exception
-    badAlloc,   ///< no memory
-    other       ///< anything else, such as `throw 42`
+    kError,      ///< rex::Error
+    kException,  ///< another std::exception
+    kBadAlloc,   ///< no memory
+    kOther       ///< anything else, such as `throw 42`
   };
-  Kind kind = Kind::other;
+  Kind kind = Kind::kOther;
   std::string type{};  ///< as C++ spells it: "std::out_of_range"
   std::string text{};  ///< its what(), cut at 2000 bytes; empty if it has none
 };

@@ -14,15 +14,15 @@ using Json = nlohmann::ordered_json;
 using namespace internal;
 
 const char* statusFor(Outcome outcome) {
-  if (outcome == Outcome::pass) return "pass";
-  return outcome == Outcome::fail ? "fail" : "error";
+  if (outcome == Outcome::kPass) return "pass";
+  return outcome == Outcome::kFail ? "fail" : "error";
 }
 
 // A check that was not run counts as one that failed.
 Json exercismTest(const CheckResult& check, const std::string& file) {
   const Json message = isPassed(check) ? Json() : Json(messageOf(check, file));
   return {{"name", shownText(check.title)},
-          {"status", statusFor(check.status.value_or(Outcome::fail))},
+          {"status", statusFor(check.status.value_or(Outcome::kFail))},
           {"message", message}};
 }
 
@@ -44,15 +44,15 @@ Json errorOf(const std::string& message) {
 }  // namespace
 
 std::string exercismReport(const GradeResult& result) {
-  if (result.outcome == Outcome::graderError) return errorOf(kGraderFailed).dump(2) + "\n";
-  if (result.outcome == Outcome::compileError) return errorOf(compileText(result)).dump(2) + "\n";
+  if (result.outcome == Outcome::kGraderError) return errorOf(kGraderFailed).dump(2) + "\n";
+  if (result.outcome == Outcome::kCompileError) return errorOf(compileText(result)).dump(2) + "\n";
   Json tests = Json::array();
   for (const CheckResult& check : result.checks)
     if (!isHidden(check)) tests.push_back(exercismTest(check, fileOf(result)));
   if (std::any_of(result.checks.begin(), result.checks.end(), isHidden))
     tests.push_back(testOfHidden(result));
   const Json json = {{"version", 3},
-                     {"status", result.outcome == Outcome::pass ? "pass" : "fail"},
+                     {"status", result.outcome == Outcome::kPass ? "pass" : "fail"},
                      {"message", Json()},
                      {"tests", tests}};
   return json.dump(2) + "\n";

@@ -64,11 +64,11 @@ void addChecks(const GradeResult& result, std::vector<std::string>& errors) {
 
 std::string githubReport(const GradeResult& result) {
   const std::string exercise = shownText(result.exerciseId);
-  if (result.outcome == Outcome::graderError) return command("error", exercise, {}, kGraderFailed);
+  if (result.outcome == Outcome::kGraderError) return command("error", exercise, {}, kGraderFailed);
   std::vector<std::string> errors, warnings;
   addDiagnostics(result, errors, warnings);
   addChecks(result, errors);
-  if (result.outcome == Outcome::compileError && errors.empty())
+  if (result.outcome == Outcome::kCompileError && errors.empty())
     errors.push_back(command("error", exercise, {pathOf(result)}, compileText(result)));
   std::string text;
   for (auto* kind : {&errors, &warnings}) {

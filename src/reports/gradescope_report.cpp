@@ -46,8 +46,8 @@ Json testsOf(const GradeResult& result) {
 }
 
 std::string outputOf(const GradeResult& result) {
-  if (result.outcome == Outcome::graderError) return kGraderFailed;
-  if (result.outcome == Outcome::compileError) return "Cannot be graded:\n" + compileText(result);
+  if (result.outcome == Outcome::kGraderError) return kGraderFailed;
+  if (result.outcome == Outcome::kCompileError) return "Cannot be graded:\n" + compileText(result);
   const std::string printed = printedText(result);
   return pointsOf(result) + (printed.empty() ? "" : "\n\nThe program printed:\n" + printed);
 }
@@ -56,7 +56,7 @@ std::string outputOf(const GradeResult& result) {
 
 std::string gradescopeReport(const GradeResult& result) {
   Json json;
-  if (result.outcome != Outcome::graderError) json["score"] = result.score;
+  if (result.outcome != Outcome::kGraderError) json["score"] = result.score;
   json["execution_time"] = visibleSeconds(result);
   json["output"] = outputOf(result);
   for (const char* format : {"output_format", "test_output_format", "test_name_format"})
@@ -69,7 +69,7 @@ std::string gradescopeReport(const GradeResult& result) {
                         {"snapshot_sha256", shownText(result.snapshotSha256)},
                         {"tool_version", shownText(result.toolVersion)},
                         {"sandbox_level", result.sandboxLevel}};
-  if (result.outcome != Outcome::graderError) json["tests"] = testsOf(result);
+  if (result.outcome != Outcome::kGraderError) json["tests"] = testsOf(result);
   return json.dump(2) + "\n";
 }
 

@@ -53,7 +53,7 @@ TestCase junitTest(const CheckResult& check, const GradeResult& result, int hidd
   const std::string message =
       fmt::format("{} of {} points: {}", check.points, check.maxPoints,
                   isHidden(check) ? statusOf(check) : messageOf(check, fileOf(result)));
-  const bool isFailure = check.status == Outcome::fail;
+  const bool isFailure = check.status == Outcome::kFail;
   ++(isFailure ? counts.failures : counts.errors);
   test.body = shortfall(isFailure ? "failure" : "error", toString(*check.status), message);
   if (!isHidden(check) && check.line > 0)
@@ -87,9 +87,9 @@ std::string propertiesOf(const GradeResult& result) {
 
 // What concerns all checks is a test case of its own, before them.
 std::string wholeOf(const GradeResult& result, Counts& counts) {
-  if (result.outcome != Outcome::compileError && result.outcome != Outcome::graderError) return "";
+  if (result.outcome != Outcome::kCompileError && result.outcome != Outcome::kGraderError) return "";
   ++counts.tests, ++counts.errors;
-  const bool isFault = result.outcome == Outcome::graderError;
+  const bool isFault = result.outcome == Outcome::kGraderError;
   return textOf(
       {.name = isFault ? "grader" : "compile",
        .body = shortfall("error", toString(result.outcome), isFault ? kGraderFailed : compileText(result))},

@@ -43,10 +43,10 @@ std::string table(const GradeResult& result) {
 
 std::string markdownReport(const GradeResult& result) {
   const std::string exercise = cell(result.exerciseId);
-  if (result.outcome == Outcome::graderError)
+  if (result.outcome == Outcome::kGraderError)
     return fmt::format("## {}: not graded\n\n{}\n", exercise, kGraderFailed);
   std::string text = fmt::format("## {}: {}\n", exercise, pointsOf(result));
-  if (result.outcome == Outcome::compileError) {
+  if (result.outcome == Outcome::kCompileError) {
     text += block("Cannot be graded:", compileText(result));
   } else {
     text += table(result);

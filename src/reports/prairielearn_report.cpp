@@ -21,8 +21,8 @@ Json prairieLearnTest(const CheckResult& check, const std::string& file) {
 
 // Attempts that cannot be graded do not count: neither a typing mistake nor a fault of ours.
 std::string formatErrorOf(const GradeResult& result) {
-  if (result.outcome == Outcome::graderError) return kGraderFailed;
-  return result.outcome == Outcome::compileError ? compileText(result) : "";
+  if (result.outcome == Outcome::kGraderError) return kGraderFailed;
+  return result.outcome == Outcome::kCompileError ? compileText(result) : "";
 }
 
 }  // namespace

@@ -16,9 +16,9 @@ std::string shownText(std::string_view text, std::size_t limit) {
   return printable(text, limit - kCut.size()).append(kCut);
 }
 
-bool isPassed(const CheckResult& check) { return check.status == Outcome::pass; }
+bool isPassed(const CheckResult& check) { return check.status == Outcome::kPass; }
 
-bool isHidden(const CheckResult& check) { return check.group == Group::hidden; }
+bool isHidden(const CheckResult& check) { return check.group == Group::kHidden; }
 
 std::string statusOf(const CheckResult& check) {
   std::string name = check.status ? std::string(toString(*check.status)) : "not run";

@@ -37,10 +37,10 @@ ExercisePart readPart(const TomlTable& table) {
 }
 
 SolutionRule readSolutionRule(const TomlTable& table) {
-  if (!table.has("solution")) return SolutionRule::never;
-  return table.choice<SolutionRule>("solution", {{"never", SolutionRule::never},
-                                                 {"after-pass", SolutionRule::afterPass},
-                                                 {"always", SolutionRule::always}});
+  if (!table.has("solution")) return SolutionRule::kNever;
+  return table.choice<SolutionRule>("solution", {{"never", SolutionRule::kNever},
+                                                 {"after-pass", SolutionRule::kAfterPass},
+                                                 {"always", SolutionRule::kAlways}});
 }
 
 ForbiddenFunction readForbidden(const TomlTable& table) {

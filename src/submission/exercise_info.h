@@ -30,7 +30,7 @@ struct ForbiddenFunction {
 };
 
 /// When `rex solution` shows the reference solution, where solution.cpp was handed out.
-enum class SolutionRule { never, afterPass, always };
+enum class SolutionRule { kNever, kAfterPass, kAlways };
 
 /// What exercise.toml says.
 struct ExerciseInfo {
@@ -38,7 +38,7 @@ struct ExerciseInfo {
   std::filesystem::path folder;  ///< as it was given
   std::string title;
   std::string script;  ///< section of the course script
-  SolutionRule solution = SolutionRule::never;
+  SolutionRule solution = SolutionRule::kNever;
   Limits limits;
   std::vector<ExercisePart> parts;
   std::vector<std::string>

@@ -84,7 +84,7 @@ GradeResult callGrader(const std::vector<std::string>& command, const path& resu
   const std::string said = run.error.substr(0, run.error.find_last_not_of('\n') + 1);
   GradeResult result = loadResult(results);
   if (run.exitCode != numberOf(ExitCode::kFull) && run.exitCode != numberOf(ExitCode::kBelow)) {
-    result.outcome = Outcome::graderError;
+    result.outcome = Outcome::kGraderError;
     // One that reports a fault of its own explains it in the result.
     if (run.exitCode != numberOf(ExitCode::kGraderFault) || result.message.empty())
       result.message =
@@ -148,7 +148,7 @@ void compileAndLink(const Toolchain& toolchain, const ExerciseInfo& exercise,
     log += linked.log;
   }
   if (built.worker.empty()) {
-    built.start.outcome = Outcome::compileError;
+    built.start.outcome = Outcome::kCompileError;
     built.start.message = firstError(diagnostics);
   }
   writeTextFile(options.job.results.parent_path() / "build.log", log);
@@ -177,7 +177,7 @@ void findCrashes(const Toolchain& toolchain, const ExerciseInfo& exercise, const
   constexpr int kMostRepeated = 4;
   std::vector<CheckResult*> crashed;
   for (CheckResult& check : result.checks)
-    if (check.group == Group::visible && tellsOfCrash(check.message)) crashed.push_back(&check);
+    if (check.group == Group::kVisible && tellsOfCrash(check.message)) crashed.push_back(&check);
   if (crashed.size() > kMostRepeated) crashed.resize(kMostRepeated);
   // The sanitizers read and map what a sandbox forbids.
   if (crashed.empty() || isConfined(options.job.sandbox.level)) return;
@@ -250,7 +250,7 @@ std::vector<CheckResult> listChecks(const Toolchain& toolchain) {
   try {
     for (const nlohmann::json& entry : nlohmann::json::parse(run.output)) {
       CheckResult check{.id = entry.at("id"), .part = entry.at("part"), .title = entry.at("title")};
-      check.group = entry.at("group") == "hidden" ? Group::hidden : Group::visible;
+      check.group = entry.at("group") == "hidden" ? Group::kHidden : Group::kVisible;
       check.maxPoints = entry.at("points");
       checks.push_back(std::move(check));
     }

@@ -30,8 +30,8 @@ struct Submission {
 };
 
 /// Compiles the file, has the exercise's grader check it and leaves results.json, whatever the file does. A
-/// file that does not compile, or calls what is forbidden, gets Outcome::compileError; when the grader or the
-/// tools fail, Outcome::graderError. Throws Error for an unknown check.
+/// file that does not compile, or calls what is forbidden, gets Outcome::kCompileError; when the grader or
+/// the tools fail, Outcome::kGraderError. Throws Error for an unknown check.
 [[nodiscard]] Submission gradeSubmission(const Toolchain& toolchain, const ExerciseInfo& exercise,
                                          const SubmissionOptions& options);
 

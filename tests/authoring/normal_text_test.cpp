@@ -4,7 +4,7 @@
 
 namespace rex::grading::normal_text_test {
 
-std::string letters(std::string_view text, Comments comments = Comments::keep) {
+std::string letters(std::string_view text, Comments comments = Comments::kKeep) {
   return normalText(text, comments).letters;
 }
 
@@ -17,9 +17,9 @@ TEST(NormalText, KnowsNoLayoutAndNoCase) {
 TEST(NormalText, DropsCommentsWhereAsked) {
   for (const char* text :
        {"x = A /* why */ * b; // because", "// why\nx =\n// why\nA * b;", "x = A * b; /* open"})
-    EXPECT_EQ(letters(text, Comments::drop), "x=a*b;") << text;
-  EXPECT_EQ(letters("// only\n/**/", Comments::drop), "");
-  EXPECT_EQ(letters("a / b * c", Comments::drop), "a/b*c");
+    EXPECT_EQ(letters(text, Comments::kDrop), "x=a*b;") << text;
+  EXPECT_EQ(letters("// only\n/**/", Comments::kDrop), "");
+  EXPECT_EQ(letters("a / b * c", Comments::kDrop), "a/b*c");
 }
 
 TEST(NormalText, ReadsEscapesEntitiesAndWideText) {
@@ -30,10 +30,10 @@ TEST(NormalText, ReadsEscapesEntitiesAndWideText) {
 }
 
 TEST(NormalText, TellsTheLineOfEachLetter) {
-  const NormalText text = normalText("a\n/* b\nc */ d\\\ne\n", Comments::drop);
+  const NormalText text = normalText("a\n/* b\nc */ d\\\ne\n", Comments::kDrop);
   EXPECT_EQ(text.letters, "ade");
   EXPECT_EQ(text.lines, (std::vector<int>{1, 3, 4}));
-  EXPECT_TRUE(normalText("", Comments::keep).letters.empty());
+  EXPECT_TRUE(normalText("", Comments::kKeep).letters.empty());
 }
 
 }  // namespace rex::grading::normal_text_test

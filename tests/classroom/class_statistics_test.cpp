@@ -21,7 +21,7 @@ std::vector<StudentResult> staircase(int n) {
   std::vector<StudentResult> results;
   for (int k = 0; k < n; ++k) {
     StudentResult one{.student = "s" + std::to_string(k), .exercise = "01-a", .result = {}};
-    one.result.outcome = k == n - 1 ? Outcome::pass : Outcome::fail;
+    one.result.outcome = k == n - 1 ? Outcome::kPass : Outcome::kFail;
     one.result.score = k;
     one.result.maxScore = n - 1;
     one.result.usage.wallSeconds = (k * 7) % n;  // a permutation unless 7 divides n
@@ -59,7 +59,7 @@ TEST(ClassStatistics, TakeTheMiddleOfSkewedPoints) {
   EXPECT_DOUBLE_EQ(all.medianPoints, 0);
   EXPECT_THAT(all.distribution, ElementsAre(1, 0, 0, 0, 0, 3));
   EXPECT_DOUBLE_EQ(all.medianSeconds, 1.5);
-  results[0].result.outcome = Outcome::compileError;  // the one of 0 s
+  results[0].result.outcome = Outcome::kCompileError;  // the one of 0 s
   EXPECT_DOUBLE_EQ(statisticsOf(results).front().medianSeconds, 2);
   EXPECT_EQ(medianOf({}), 0);
   EXPECT_EQ(medianOf({5, 1, 3}), 3);
@@ -67,7 +67,7 @@ TEST(ClassStatistics, TakeTheMiddleOfSkewedPoints) {
 
 TEST(ClassStatistics, CountFaultsOfTheGraderApart) {
   std::vector<StudentResult> results = staircase(3);
-  results[0].result.outcome = Outcome::graderError;
+  results[0].result.outcome = Outcome::kGraderError;
   results[1].result.exerciseVersion = "another";
   const ExerciseStatistics all = statisticsOf(results).front();
   EXPECT_EQ(all.graded, 2);
@@ -83,13 +83,13 @@ TEST(ClassStatistics, CountFaultsOfTheGraderApart) {
 
 TEST(ClassStatistics, PutTheMostFailedChecksFirst) {
   std::vector<StudentResult> results = staircase(4);
-  results[0].result.checks = {check("a", Outcome::pass), check("b", Outcome::timeLimit),
-                              check("c", Outcome::fail)};
-  results[1].result.checks = {check("a", Outcome::pass), check("b", Outcome::fail),
-                              check("c", Outcome::pass)};
-  results[2].result.checks = {check("a", Outcome::pass), check("b", Outcome::fail),
-                              check("c", Outcome::pass)};
-  results[3].result.outcome = Outcome::compileError;
+  results[0].result.checks = {check("a", Outcome::kPass), check("b", Outcome::kTimeLimit),
+                              check("c", Outcome::kFail)};
+  results[1].result.checks = {check("a", Outcome::kPass), check("b", Outcome::kFail),
+                              check("c", Outcome::kPass)};
+  results[2].result.checks = {check("a", Outcome::kPass), check("b", Outcome::kFail),
+                              check("c", Outcome::kPass)};
+  results[3].result.outcome = Outcome::kCompileError;
   results[3].result.checks = {check("a", {}), check("b", {}), check("c", {})};
   const std::vector<CheckStatistics> checks = statisticsOf(results).front().checks;
   ASSERT_EQ(checks.size(), 3u);
@@ -104,21 +104,21 @@ TEST(ClassStatistics, PutTheMostFailedChecksFirst) {
 
 TEST(ClassStatistics, NameTheClassOfEachFailure) {
   const GradeResult whole;
-  const std::pair<Outcome, const char*> classes[] = {{Outcome::compileError, "compile"},
-                                                     {Outcome::runtimeError, "crash"},
-                                                     {Outcome::timeLimit, "timeout"},
-                                                     {Outcome::memoryLimit, "memory"},
-                                                     {Outcome::outputLimit, "output"},
-                                                     {Outcome::protocolError, "protocol"},
-                                                     {Outcome::securityEvent, "security"},
-                                                     {Outcome::graderError, "not run"},
-                                                     {Outcome::fail, "wrong"}};
+  const std::pair<Outcome, const char*> classes[] = {{Outcome::kCompileError, "compile"},
+                                                     {Outcome::kRuntimeError, "crash"},
+                                                     {Outcome::kTimeLimit, "timeout"},
+                                                     {Outcome::kMemoryLimit, "memory"},
+                                                     {Outcome::kOutputLimit, "output"},
+                                                     {Outcome::kProtocolError, "protocol"},
+                                                     {Outcome::kSecurityEvent, "security"},
+                                                     {Outcome::kGraderError, "not run"},
+                                                     {Outcome::kFail, "wrong"}};
   for (const auto& [outcome, name] : classes) EXPECT_EQ(classOf(check("a", outcome), whole), name);
   EXPECT_EQ(classOf(check("a", {}), whole), "not run");
   EXPECT_EQ(
-      classOf(check("a", Outcome::fail, "0 of 2 cases hold; case 1: length: not finite: got nan"), whole),
+      classOf(check("a", Outcome::kFail, "0 of 2 cases hold; case 1: length: not finite: got nan"), whole),
       "non-finite");
-  EXPECT_EQ(classOf(check("a", Outcome::fail, "length: wrong shape: got 3 x 1, wanted 2 x 1"), whole),
+  EXPECT_EQ(classOf(check("a", Outcome::kFail, "length: wrong shape: got 3 x 1, wanted 2 x 1"), whole),
             "shape");
 }
 
@@ -127,7 +127,7 @@ TEST(ClassResults, AreReadAndForeignFilesTold) {
   const auto save = [&](const std::string& student, const std::string& exercise, const std::string& id) {
     GradeResult result;
     result.exerciseId = id;
-    result.outcome = Outcome::fail;
+    result.outcome = Outcome::kFail;
     writeTextFile(folder.path() / student / exercise / "results.json", toJson(result));
   };
   save("zoe", "01-a", "01-a"), save("adam", "01-a", "01-a"), save("adam", "02-b", "02-b");

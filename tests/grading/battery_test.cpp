@@ -306,7 +306,7 @@ TEST_P(Classes, GainNothingAndHarmNobody) {
     const BuiltSubmission built = buildSubmission(toolchain_, exercise(), options);
     const GradeResult result = gradeBuilt(built, toolchain_, exercise(), options);
     RecordProperty("level_" + std::to_string(level), std::string(toString(result.outcome)));
-    EXPECT_NE(result.outcome, Outcome::graderError) << result.message;
+    EXPECT_NE(result.outcome, Outcome::kGraderError) << result.message;
     EXPECT_LE(result.score, GetParam().mostPoints) << toString(result.outcome);
     if (!built.worker.empty()) expectNoHarm(result, options);
     expectNothingTold(readTextFile(options.job.results));
@@ -397,7 +397,7 @@ TEST_F(Battery, A13SeesNothingBesideACompilerInTheHome) {
       writeTextFile(main, text);
       const BuiltSubmission built = buildSubmission(toolchain, exercise(), optionsFor(main, level, "attack"));
       EXPECT_EQ(built.worker.empty(), text.starts_with("#include \"/")) << built.start.message;
-      EXPECT_EQ(built.start.outcome == compileError, built.worker.empty()) << built.start.message;
+      EXPECT_EQ(built.start.outcome == kCompileError, built.worker.empty()) << built.start.message;
     }
   }
 }
@@ -415,7 +415,7 @@ TEST_F(Battery, ToolsThatAreKilledAreNoFaultOfTheFile) {
   toolchain.flags.push_back("-B" + tools.string());
   for (const int level : offeredLevels()) {
     const BuiltSubmission built = buildSubmission(toolchain, exercise(), optionsFor(main, level, "killed"));
-    EXPECT_EQ(built.start.outcome, Outcome::graderError);
+    EXPECT_EQ(built.start.outcome, Outcome::kGraderError);
     EXPECT_THAT(built.start.message, HasSubstr("was killed twice, by nothing that the file did")) << level;
   }
 }
@@ -437,7 +437,7 @@ TEST_F(Battery, A24TalksToNobody) {
     const SubmissionOptions options = optionsFor(main, level, "attack");
     if (!built) built = buildSubmission(toolchain_, exercise(), options);
     const GradeResult result = gradeBuilt(*built, toolchain_, exercise(), options);
-    EXPECT_EQ(result.outcome, fail) << level;
+    EXPECT_EQ(result.outcome, kFail) << level;
     EXPECT_EQ(result.score, 0) << level;
     expectNoHarm(result, options);
   }
@@ -567,7 +567,7 @@ TEST_F(Battery, A28RefusesWhatIsNoSourceFile) {
     for (const char* name : {"link.cpp", "pipe.cpp", "folder.cpp", "sparse.cpp", "nul.cpp", "utf16.cpp"}) {
       const GradeResult result =
           gradeSubmission(toolchain_, exercise(), optionsFor(folder / name, level, "attack")).result;
-      EXPECT_EQ(result.outcome, compileError) << name;
+      EXPECT_EQ(result.outcome, kCompileError) << name;
       EXPECT_THAT(result.message, Not(HasSubstr("root:x")));
     }
   }
@@ -581,7 +581,7 @@ TEST_F(Battery, A28TakesLineEndsAndMarksOfOtherSystems) {
     EXPECT_EQ(
         gradeSubmission(toolchain_, exercise(), optionsFor(temporary_.path() / "main.cpp", level, "honest"))
             .result.outcome,
-        pass);
+        kPass);
 }
 
 TEST_F(Battery, A29IgnoresWhatLiesBesideTheFile) {
@@ -597,7 +597,7 @@ TEST_F(Battery, A29IgnoresWhatLiesBesideTheFile) {
   for (const int level : offeredLevels()) {
     const SubmissionOptions options = optionsFor(folder / "main.cpp", level, "honest");
     const GradeResult result = gradeSubmission(toolchain_, exercise(), options).result;
-    EXPECT_EQ(result.outcome, pass) << result.message;
+    EXPECT_EQ(result.outcome, kPass) << result.message;
     EXPECT_EQ(result.files.size(), 1u);
     expectNoHarm(result, options);
   }
@@ -614,7 +614,7 @@ TEST_F(Battery, A30TakesNamesAsTheyAre) {
     fs::copy_file(kFolder / "battery" / "honest.cpp", file, fs::copy_options::overwrite_existing);
     const SubmissionOptions options = optionsFor(file, level, "honest");
     const GradeResult result = gradeSubmission(toolchain_, exercise(), options).result;
-    EXPECT_EQ(result.outcome, pass) << name << ": " << result.message;
+    EXPECT_EQ(result.outcome, kPass) << name << ": " << result.message;
     EXPECT_TRUE(nlohmann::json::accept(readTextFile(options.job.results)));
     EXPECT_FALSE(fs::exists(options.workFolder / "x"));
   }

@@ -30,13 +30,13 @@ using ::testing::Not;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-CheckResult judge(const std::function<void(Check&)>& run, Group group = Group::visible) {
+CheckResult judge(const std::function<void(Check&)>& run, Group group = Group::kVisible) {
   return Check({.id = "id", .part = "a", .title = "Title", .points = 10, .group = group}, 7).judge(run);
 }
 
 std::string messageOf(const std::function<void(Check&)>& run) {
   const CheckResult result = judge(run);
-  EXPECT_EQ(result.status, Outcome::fail);
+  EXPECT_EQ(result.status, Outcome::kFail);
   EXPECT_EQ(result.points, 0);
   return result.message;
 }
@@ -64,7 +64,7 @@ TEST(Check, PassesWhenEveryRequirementHolds) {
     check.shape("f", Eigen::MatrixXd::Zero(2, 3), 2, 3);
     check.that("g", true);
   });
-  EXPECT_EQ(result.status, Outcome::pass);
+  EXPECT_EQ(result.status, Outcome::kPass);
   EXPECT_EQ(result.points, 10);
   EXPECT_EQ(result.maxPoints, 10);
   EXPECT_EQ(result.message, "");
@@ -122,7 +122,7 @@ TEST(Check, HidesInputAndNumbersOfHiddenChecks) {
         check.input("secret");
         check.near("position", 0.123, 4.56, 1e-3, "m");
       },
-      Group::hidden);
+      Group::kHidden);
   EXPECT_EQ(result.message, "position: does not hold");
   EXPECT_EQ(result.got + result.expected + result.tolerance + result.input, "");
 }
@@ -140,7 +140,7 @@ TEST(Cases, GiveCreditInProportionAndNameTheFirstThatFails) {
   const CheckResult result = judge([](Check& check) {
     check.forEachCase(8, [&](int k) { check.that("not 2 or 5", k != 2 && k != 5 && k != 6); });
   });
-  EXPECT_EQ(result.status, Outcome::fail);
+  EXPECT_EQ(result.status, Outcome::kFail);
   EXPECT_EQ(result.points, 6);  // 10 x 5 / 8, rounded down
   EXPECT_EQ(result.message, "5 of 8 cases hold; case 3: not 2 or 5: does not hold (seed 7)");
 }
@@ -173,11 +173,11 @@ TEST(Check, TellsHowNearToItsLimitTheWorstValueCame) {
                group)
         .worst;
   };
-  EXPECT_EQ(judged(Group::visible).property, "position");
-  EXPECT_EQ(judged(Group::visible).value, "0.09 m");
-  EXPECT_EQ(judged(Group::visible).limit, "0.1 m");
-  EXPECT_EQ(judged(Group::visible).caseNumber, 0);
-  EXPECT_EQ(judged(Group::hidden).property, "") << "hidden checks show no numbers";
+  EXPECT_EQ(judged(Group::kVisible).property, "position");
+  EXPECT_EQ(judged(Group::kVisible).value, "0.09 m");
+  EXPECT_EQ(judged(Group::kVisible).limit, "0.1 m");
+  EXPECT_EQ(judged(Group::kVisible).caseNumber, 0);
+  EXPECT_EQ(judged(Group::kHidden).property, "") << "hidden checks show no numbers";
   EXPECT_EQ(judge([](Check& check) { check.that("it ends", true); }).worst.property, "");
 }
 
@@ -195,11 +195,11 @@ TEST(Check, CountsAnyExcessOverALimitOfZeroAsTheWorst) {
 TEST(Cases, PutAThrowBeforeEveryMeasuredFailure) {
   const CheckResult result = judge([](Check& check) {
     check.forEachCase(2, [&](int k) {
-      if (k == 1) throw thrown(remote::Thrown::Kind::exception);
+      if (k == 1) throw thrown(remote::Thrown::Kind::kException);
       check.atMost("error", 1e9, 1);
     });
   });
-  EXPECT_EQ(result.status, Outcome::runtimeError);
+  EXPECT_EQ(result.status, Outcome::kRuntimeError);
   EXPECT_EQ(result.function, "f");
   EXPECT_THAT(result.message, HasSubstr("case 2: threw E in f"));
 }
@@ -230,17 +230,17 @@ TEST(Cases, LoseAllCreditWhenARequirementOutsideFails) {
 TEST(Cases, FailAloneWhenTheStudentsFunctionThrows) {
   const auto throwOnce = [](Check& check) {
     check.forEachCase(2, [&](int k) {
-      if (k == 1) throw thrown(remote::Thrown::Kind::exception);
+      if (k == 1) throw thrown(remote::Thrown::Kind::kException);
       check.that("yes", true);
     });
   };
   const CheckResult result = judge(throwOnce);
-  EXPECT_EQ(result.status, Outcome::runtimeError);
+  EXPECT_EQ(result.status, Outcome::kRuntimeError);
   EXPECT_EQ(result.points, 5);
   EXPECT_EQ(result.message, "1 of 2 cases hold; case 2: threw E in f: angle 0.25 (seed 7)");
-  EXPECT_THAT(judge(throwOnce, Group::hidden).message, Not(HasSubstr("0.25")));
+  EXPECT_THAT(judge(throwOnce, Group::kHidden).message, Not(HasSubstr("0.25")));
   EXPECT_THROW(static_cast<void>(judge([](Check& check) {
-                 check.forEachCase(2, [&](int) { throw thrown(remote::Thrown::Kind::badAlloc); });
+                 check.forEachCase(2, [&](int) { throw thrown(remote::Thrown::Kind::kBadAlloc); });
                })),
                remote::RemoteThrow);
 }
@@ -281,7 +281,7 @@ TEST(FaultyCheck, Throws) {
 // Evidence by a title, so that one can tell whose it is.
 Evidence titled(const std::string& title) { return {.figures = {{.title = title}}}; }
 
-std::string shownBy(const std::function<void(Check&)>& run, Group group = Group::visible) {
+std::string shownBy(const std::function<void(Check&)>& run, Group group = Group::kVisible) {
   Check check({.id = "id", .part = "a", .title = "Title", .points = 10, .group = group}, 7);
   static_cast<void>(check.judge(run));
   return check.evidence() ? check.evidence()->figures.front().title : "nothing";
@@ -334,7 +334,7 @@ TEST(Check, ShowsNothingOfHiddenChecks) {
     check.near("a", Eigen::VectorXd::Zero(9), Eigen::VectorXd::Ones(9), .1);
   };
   EXPECT_EQ(shownBy(run), "hand");
-  EXPECT_EQ(shownBy(run, Group::hidden), "nothing");
+  EXPECT_EQ(shownBy(run, Group::kHidden), "nothing");
 }
 
 TEST(Check, ShowsWhatIsInScope) {
@@ -380,7 +380,7 @@ TEST(Check, IsNotAtFaultForWhatCannotBeShown) {
     const auto showing = check.show([]() -> Evidence { throw std::runtime_error("no film"); });
     check.that("a", false);
   });
-  EXPECT_EQ(result.status, Outcome::fail);
+  EXPECT_EQ(result.status, Outcome::kFail);
 }
 
 }  // namespace rex::grading::check_test

@@ -43,15 +43,15 @@ GradeResult gradeGood(const std::vector<RunnableCheck>& checks,
 
 TEST(Grade, NeverBlamesTheStudentForTheGrader) {
   const GradeResult result = gradeGood({
-      check("fine", Group::visible, [](Check& judge, Student&) { judge.that("yes", true); }),
-      check("throws", Group::visible, [](Check&, Student&) { throw std::runtime_error("oops"); }),
-      check("hidden", Group::hidden, [](Check&, Student&) { throw std::runtime_error("q = 0.25"); }),
-      check("number", Group::visible, [](Check&, Student&) { throw 42; }),
-      check("empty", Group::visible, [](Check&, Student&) {}),
+      check("fine", Group::kVisible, [](Check& judge, Student&) { judge.that("yes", true); }),
+      check("throws", Group::kVisible, [](Check&, Student&) { throw std::runtime_error("oops"); }),
+      check("hidden", Group::kHidden, [](Check&, Student&) { throw std::runtime_error("q = 0.25"); }),
+      check("number", Group::kVisible, [](Check&, Student&) { throw 42; }),
+      check("empty", Group::kVisible, [](Check&, Student&) {}),
   });
-  EXPECT_EQ(result.outcome, Outcome::graderError);
-  EXPECT_EQ(result.checks[0].status, Outcome::pass);
-  for (int k = 1; k < 5; ++k) EXPECT_EQ(result.checks[k].status, Outcome::graderError);
+  EXPECT_EQ(result.outcome, Outcome::kGraderError);
+  EXPECT_EQ(result.checks[0].status, Outcome::kPass);
+  for (int k = 1; k < 5; ++k) EXPECT_EQ(result.checks[k].status, Outcome::kGraderError);
   const std::string fault = "the grader failed, which is not your fault: ";
   EXPECT_EQ(result.checks[1].message, fault + "oops");
   EXPECT_EQ(result.checks[2].message, fault + "the check ended by an exception");
@@ -79,17 +79,17 @@ TEST(Grade, BlamesAnswersForWhatTheyDoToTheGrader) {
     judge.near("sum", 1, std::numeric_limits<double>::infinity(), 1);
   };
   std::vector<RunnableCheck> checks = {
-      check("falls", Group::visible, afterAnAnswer(fall)),
-      check("overflows", Group::visible, afterAnAnswer(overflow)),
-      check("hidden", Group::hidden, afterAnAnswer(overflow)),
-      check("kills", Group::visible, afterAnAnswer([](Check&) { std::raise(SIGKILL); })),
-      check("falls before", Group::visible, [&](Check& judge, Student&) { fall(judge); }),
-      check("fine", Group::visible,
+      check("falls", Group::kVisible, afterAnAnswer(fall)),
+      check("overflows", Group::kVisible, afterAnAnswer(overflow)),
+      check("hidden", Group::kHidden, afterAnAnswer(overflow)),
+      check("kills", Group::kVisible, afterAnAnswer([](Check&) { std::raise(SIGKILL); })),
+      check("falls before", Group::kVisible, [&](Check& judge, Student&) { fall(judge); }),
+      check("fine", Group::kVisible,
             [](Check& judge, Student& student) { judge.near("square", student.square(3), 9, 1e-9); })};
 #ifndef __SANITIZE_ADDRESS__
-  checks.push_back(check("fills", Group::visible, afterAnAnswer(fill)));
+  checks.push_back(check("fills", Group::kVisible, afterAnAnswer(fill)));
 #endif
-  if (isLongRun()) checks.push_back(check("loops", Group::visible, afterAnAnswer(loop)));
+  if (isLongRun()) checks.push_back(check("loops", Group::kVisible, afterAnAnswer(loop)));
   const GradeResult result = gradeGood(checks);
   const std::string ended = "it ended the grader, or took it too much time or memory";
   const auto message = [&](std::size_t k) { return result.checks[k].message; };
@@ -100,9 +100,9 @@ TEST(Grade, BlamesAnswersForWhatTheyDoToTheGrader) {
   EXPECT_EQ(message(2), "what square returned could not be judged");
   for (std::size_t k = 0; k < checks.size(); ++k) {
     const bool isOurs = k == 3 || k == 4;
-    EXPECT_EQ(result.checks[k].status, isOurs   ? Outcome::graderError
-                                       : k == 5 ? Outcome::pass
-                                                : Outcome::fail)
+    EXPECT_EQ(result.checks[k].status, isOurs   ? Outcome::kGraderError
+                                       : k == 5 ? Outcome::kPass
+                                                : Outcome::kFail)
         << checks[k].info.id << ": " << message(k);
   }
   EXPECT_EQ(result.score, 1);
@@ -115,11 +115,11 @@ TEST(Grade, RunsChecksAtOnce) {
                Eigen::Vector3d(.1, .2, .3), 1e-12);
   };
   const std::vector<RunnableCheck> checks = {
-      check("a", Group::visible, holds),
-      check("b", Group::hidden,
+      check("a", Group::kVisible, holds),
+      check("b", Group::kHidden,
             [](Check& judge, Student&) { judge.near("one", judge.rng().uniform(0, 1), 2, .1); }),
-      check("c", Group::visible, [](Check&, Student&) { throw std::runtime_error("oops"); }),
-      check("d", Group::visible, holds)};
+      check("c", Group::kVisible, [](Check&, Student&) { throw std::runtime_error("oops"); }),
+      check("d", Group::kVisible, holds)};
   const auto run = [&](const std::vector<RunnableCheck>& some, int jobs) {
     int saved = 0;
     GradeResult result = grade({}, some, {.worker = kGood, .jobs = jobs}, Student::signature(),
@@ -128,7 +128,7 @@ TEST(Grade, RunsChecksAtOnce) {
     return result;
   };
   const GradeResult one = run(checks, 1), several = run(checks, 3);
-  EXPECT_EQ(several.outcome, Outcome::graderError);
+  EXPECT_EQ(several.outcome, Outcome::kGraderError);
   EXPECT_EQ(several.score, one.score);
   EXPECT_EQ(several.output.text, one.output.text);
   for (std::size_t k = 0; k < checks.size(); ++k) {
@@ -139,20 +139,20 @@ TEST(Grade, RunsChecksAtOnce) {
   EXPECT_GT(several.usage.cpuSeconds, 0);
 
   const GradeResult dead =
-      run({checks[0], check("dies", Group::visible, [](Check&, Student&) { ::_exit(5); }), checks[3]}, 2);
-  EXPECT_EQ(dead.checks[0].status, Outcome::pass);
-  EXPECT_EQ(dead.checks[1].status, Outcome::graderError);
+      run({checks[0], check("dies", Group::kVisible, [](Check&, Student&) { ::_exit(5); }), checks[3]}, 2);
+  EXPECT_EQ(dead.checks[0].status, Outcome::kPass);
+  EXPECT_EQ(dead.checks[1].status, Outcome::kGraderError);
   EXPECT_THAT(dead.checks[1].message, HasSubstr("the check ended its process"));
-  EXPECT_EQ(dead.checks[2].status, Outcome::pass);
-  EXPECT_EQ(dead.outcome, Outcome::graderError);
+  EXPECT_EQ(dead.checks[2].status, Outcome::kPass);
+  EXPECT_EQ(dead.outcome, Outcome::kGraderError);
 }
 
 TEST(Grade, DrawsVisibleChecksThatDoNotHold) {
   const auto off = [](Check& judge, Student&) {
     judge.near("states", Eigen::VectorXd::Zero(9), Eigen::VectorXd::Ones(9), .1);
   };
-  const std::vector<RunnableCheck> checks = {check("seen", Group::visible, off),
-                                             check("unseen", Group::hidden, off)};
+  const std::vector<RunnableCheck> checks = {check("seen", Group::kVisible, off),
+                                             check("unseen", Group::kHidden, off)};
   const std::filesystem::path folder = freshFolderOfTest("evidence") / "checks";
   const GradeResult result = grade({}, checks, {.worker = kGood, .evidence = folder}, Student::signature(),
                                    [](const GradeResult&) {});
@@ -164,14 +164,14 @@ TEST(Grade, DrawsVisibleChecksThatDoNotHold) {
 
 TEST(Grade, SavesBeforeTheFirstAndAfterEveryCheck) {
   const auto pass = [](Check& judge, Student& student) { judge.near("square", student.square(3), 9, 1e-9); };
-  const std::vector<RunnableCheck> checks = {check("a", Group::visible, pass),
-                                             check("b", Group::visible, pass)};
+  const std::vector<RunnableCheck> checks = {check("a", Group::kVisible, pass),
+                                             check("b", Group::kVisible, pass)};
   std::vector<std::pair<Outcome, int>> saved;
   const GradeResult last = grade({}, checks, {.worker = kGood}, Student::signature(),
                                  [&](const GradeResult& now) { saved.emplace_back(now.outcome, now.score); });
   using ::testing::Pair;
-  EXPECT_THAT(saved, ::testing::ElementsAre(Pair(Outcome::graderError, 0), Pair(Outcome::graderError, 1),
-                                            Pair(Outcome::pass, 2)));
+  EXPECT_THAT(saved, ::testing::ElementsAre(Pair(Outcome::kGraderError, 0), Pair(Outcome::kGraderError, 1),
+                                            Pair(Outcome::kPass, 2)));
   EXPECT_EQ(last.message, "");
 }
 
@@ -197,34 +197,34 @@ TEST(Grade, AsksOnceMoreWhenSomebodyKilledTheWorker) {
   int& attempts = shared.value();
   const auto killedAtFirst = [&](int times) {
     attempts = 0;
-    return gradeGood({check("a", Group::visible, [&, times](Check& judge, Student& student) {
+    return gradeGood({check("a", Group::kVisible, [&, times](Check& judge, Student& student) {
       judge.near("square before", student.square(2), 4, 1e-9);
       if (attempts++ < times) killChildren();
       judge.near("square", student.square(3), 9, 1e-9);
     })});
   };
-  EXPECT_EQ(killedAtFirst(0).outcome, Outcome::pass);
+  EXPECT_EQ(killedAtFirst(0).outcome, Outcome::kPass);
   EXPECT_EQ(attempts, 1);
-  EXPECT_EQ(killedAtFirst(1).outcome, Outcome::pass);
+  EXPECT_EQ(killedAtFirst(1).outcome, Outcome::kPass);
   EXPECT_EQ(attempts, 2);
   const GradeResult twice = killedAtFirst(2);
   EXPECT_EQ(attempts, 2) << "no third time";
-  EXPECT_EQ(twice.outcome, Outcome::runtimeError);
+  EXPECT_EQ(twice.outcome, Outcome::kRuntimeError);
   EXPECT_EQ(twice.score, 0);
   EXPECT_THAT(twice.checks[0].message, HasSubstr("was killed"));
 }
 
 TEST(Grade, RefusesAWorkerOfAnotherExercise) {
   const GradeResult result =
-      gradeGood({check("a", Group::visible, [](Check& judge, Student&) { judge.that("yes", true); })}, 1);
-  EXPECT_EQ(result.outcome, Outcome::protocolError);
+      gradeGood({check("a", Group::kVisible, [](Check& judge, Student&) { judge.that("yes", true); })}, 1);
+  EXPECT_EQ(result.outcome, Outcome::kProtocolError);
   EXPECT_EQ(result.checks[0].message,
             "spoilt the connection to the grader before the first call: the worker was built from another "
             "exercise.h");
 }
 
 TEST(Grade, StopsAStudentsFunctionWhenACallbackOfTheCheckFails) {
-  const GradeResult result = gradeGood({check("a", Group::visible, [](Check& judge, Student& student) {
+  const GradeResult result = gradeGood({check("a", Group::kVisible, [](Check& judge, Student& student) {
     judge.forEachCase(2, [&](int k) {
       const Reached reached = student.search(Eigen::VectorXd::Ones(2), [&](const Eigen::VectorXd& q) {
         judge.that("asks for the right size", k == 1);
@@ -233,7 +233,7 @@ TEST(Grade, StopsAStudentsFunctionWhenACallbackOfTheCheckFails) {
       judge.near("distance", reached.distance, 1, 1e-12);
     });
   })});
-  EXPECT_EQ(result.checks[0].status, Outcome::fail);
+  EXPECT_EQ(result.checks[0].status, Outcome::kFail);
   EXPECT_THAT(result.checks[0].message, HasSubstr("1 of 2 cases hold; case 1: asks for the right size"));
 }
 

@@ -71,7 +71,7 @@ const CheckResult& find(const GradeResult& result, const std::string& id) {
 
 TEST_F(Grader, GivesFullScoreToAGoodSolution) {
   const GradeResult result = grade("good");
-  EXPECT_EQ(result.outcome, Outcome::pass);
+  EXPECT_EQ(result.outcome, Outcome::kPass);
   EXPECT_EQ(result.score, 10);
   EXPECT_EQ(result.maxScore, 10);
   EXPECT_EQ(result.sandboxLevel, 0);
@@ -113,40 +113,41 @@ TEST_P(Troubled, EndsInItsOutcomeAndHarmsNothingElse) {
 INSTANTIATE_TEST_SUITE_P(
     Workers, Troubled,
     ::testing::Values(
-        Trouble{"assertion", Outcome::runtimeError,
+        Trouble{"assertion", Outcome::kRuntimeError,
                 "aborted in ikStep: Assertion `index >= 0 && index < size()'"},
-        Trouble{"closed", Outcome::protocolError, "lost its connection to the grader in ikStep"},
-        Trouble{"closed_and_asleep", Outcome::protocolError, "closed its connection to the grader in ikStep"},
-        Trouble{"exit_in_call", Outcome::runtimeError, "called exit(0) in ikStep"},
-        Trouble{"flood", Outcome::outputLimit, "printed more than 8 MB in ikStep"},
-        Trouble{"ignored_signals", Outcome::timeLimit, "stopped after"},
-        Trouble{"junk", Outcome::protocolError, "spoilt the connection to the grader in ikStep"},
-        Trouble{"loop", Outcome::timeLimit, "stopped after"},
-        Trouble{"nan", Outcome::fail, "what ikStep returned: number 2 is nan, wanted finite numbers"},
-        Trouble{"noexcept_throw", Outcome::runtimeError,
+        Trouble{"closed", Outcome::kProtocolError, "lost its connection to the grader in ikStep"},
+        Trouble{"closed_and_asleep", Outcome::kProtocolError,
+                "closed its connection to the grader in ikStep"},
+        Trouble{"exit_in_call", Outcome::kRuntimeError, "called exit(0) in ikStep"},
+        Trouble{"flood", Outcome::kOutputLimit, "printed more than 8 MB in ikStep"},
+        Trouble{"ignored_signals", Outcome::kTimeLimit, "stopped after"},
+        Trouble{"junk", Outcome::kProtocolError, "spoilt the connection to the grader in ikStep"},
+        Trouble{"loop", Outcome::kTimeLimit, "stopped after"},
+        Trouble{"nan", Outcome::kFail, "what ikStep returned: number 2 is nan, wanted finite numbers"},
+        Trouble{"noexcept_throw", Outcome::kRuntimeError,
                 "aborted in ikStep: terminate called after throwing"},
-        Trouble{"recursion", Outcome::runtimeError, "crashed with a segmentation fault in ikStep"},
-        Trouble{"secrets", Outcome::runtimeError, "threw std::runtime_error in ikStep: the target is"},
-        Trouble{"segfault", Outcome::runtimeError, "crashed with a segmentation fault in ikStep"},
-        Trouble{"shape", Outcome::fail, "position after the step: wrong shape: got 7 x 1, wanted 3 x 1"},
-        Trouble{"sleep", Outcome::timeLimit, "stopped after 2.4 s in ikStep"},
-        Trouble{"throws_number", Outcome::runtimeError, "threw int in ikStep"}),
+        Trouble{"recursion", Outcome::kRuntimeError, "crashed with a segmentation fault in ikStep"},
+        Trouble{"secrets", Outcome::kRuntimeError, "threw std::runtime_error in ikStep: the target is"},
+        Trouble{"segfault", Outcome::kRuntimeError, "crashed with a segmentation fault in ikStep"},
+        Trouble{"shape", Outcome::kFail, "position after the step: wrong shape: got 7 x 1, wanted 3 x 1"},
+        Trouble{"sleep", Outcome::kTimeLimit, "stopped after 2.4 s in ikStep"},
+        Trouble{"throws_number", Outcome::kRuntimeError, "threw int in ikStep"}),
     [](const auto& trouble) { return trouble.param.worker; });
 
 // The sanitizers need an unlimited address space: under them there is no limit to break.
 #ifndef __SANITIZE_ADDRESS__
 INSTANTIATE_TEST_SUITE_P(MemoryEaters, Troubled,
-                         ::testing::Values(Trouble{"memory", Outcome::memoryLimit,
+                         ::testing::Values(Trouble{"memory", Outcome::kMemoryLimit,
                                                    "used more than 300 MB of memory in ikStep"},
-                                           Trouble{"memory_crumbs", Outcome::memoryLimit,
+                                           Trouble{"memory_crumbs", Outcome::kMemoryLimit,
                                                    "used more than 300 MB of memory in ikStep"},
-                                           Trouble{"memory_noexcept", Outcome::memoryLimit,
+                                           Trouble{"memory_noexcept", Outcome::kMemoryLimit,
                                                    "used more than 300 MB of memory in ikStep"}),
                          [](const auto& trouble) { return trouble.param.worker; });
 
 TEST_F(Grader, SurvivesGlobalsThatDoNotFit) {
   const GradeResult result = grade("globals");
-  EXPECT_EQ(result.outcome, Outcome::runtimeError);
+  EXPECT_EQ(result.outcome, Outcome::kRuntimeError);
   EXPECT_THAT(result.checks[0].message, HasSubstr("do the global variables need more than 300 MB?"));
 }
 #endif
@@ -154,7 +155,7 @@ TEST_F(Grader, SurvivesGlobalsThatDoNotFit) {
 TEST_F(Grader, SurvivesAWorkerThatEndsBeforeItStarts) {
   const GradeResult result = grade("exit_at_start");
   EXPECT_EQ(result.score, 0);
-  EXPECT_EQ(result.outcome, Outcome::runtimeError);
+  EXPECT_EQ(result.outcome, Outcome::kRuntimeError);
   EXPECT_THAT(result.checks[0].message, HasSubstr("called exit(0) before the first call"));
   EXPECT_THAT(result.output.text, HasSubstr("ALL TESTS PASSED"));
 }
@@ -207,11 +208,11 @@ TEST_F(Grader, FillsAPreparedResultFile) {
 
 TEST_F(Grader, ListsAllChecksAsNotRunWithoutAWorker) {
   GradeResult prepared;
-  prepared.outcome = Outcome::compileError;
+  prepared.outcome = Outcome::kCompileError;
   saveResult(prepared, results());
   EXPECT_EQ(run({}).exitCode, numberOf(ExitCode::kBelow));
   const GradeResult result = loadResult(results());
-  EXPECT_EQ(result.outcome, Outcome::compileError);
+  EXPECT_EQ(result.outcome, Outcome::kCompileError);
   EXPECT_EQ(result.maxScore, 10);
   EXPECT_EQ(result.checks.size(), 4u);
   EXPECT_EQ(result.checks[3].status, std::nullopt);
@@ -222,7 +223,7 @@ TEST_F(Grader, HasExitCodes) {
   EXPECT_EQ(run({"--worker", (kSample / "shape").string()}).exitCode, numberOf(ExitCode::kBelow));
   EXPECT_EQ(run({"--worker", (kSample / "missing").string()}).exitCode, numberOf(ExitCode::kGraderFault));
   const GradeResult result = loadResult(results());
-  EXPECT_EQ(result.outcome, Outcome::graderError);
+  EXPECT_EQ(result.outcome, Outcome::kGraderError);
   EXPECT_THAT(result.checks[0].message,
               HasSubstr("the grader failed, which is not your fault: cannot start the worker"));
   EXPECT_EQ(result.checks[2].message,

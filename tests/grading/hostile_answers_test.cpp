@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 const GradingJob kJob = {.worker = std::filesystem::path(REX_BINARY_DIR) / "tests" / "sample" / "good"};
 
 RunnableCheck check(const std::string& id, std::function<void(Check&, Student&)> run) {
-  return {.info = {.id = id, .part = "part", .points = 1, .group = Group::visible},
+  return {.info = {.id = id, .part = "part", .points = 1, .group = Group::kVisible},
           .run = [run](Check& judge, remote::Caller& caller) {
             Student student(caller);
             run(judge, student);
@@ -46,10 +46,10 @@ TEST(HostileAnswers, FindCarelessChecks) {
       })};
   const std::vector<HostileOutcome> outcomes =
       giveHostileAnswers(checks, kJob, Student::signature(), Student::layouts(), 1120);
-  EXPECT_EQ(outcomes.size(), checks.size() * static_cast<std::size_t>(Hostility::count));
+  EXPECT_EQ(outcomes.size(), checks.size() * static_cast<std::size_t>(Hostility::kCount));
   for (const HostileOutcome& one : outcomes) {
     SCOPED_TRACE(one.check + " " + toString(one.hostility));
-    EXPECT_EQ(one.crash.empty(), one.check != "falls" || one.hostility != Hostility::huge);
+    EXPECT_EQ(one.crash.empty(), one.check != "falls" || one.hostility != Hostility::kHuge);
     if (one.crash.empty()) {
       EXPECT_GE(one.answers, 20);
     }
@@ -57,10 +57,10 @@ TEST(HostileAnswers, FindCarelessChecks) {
       EXPECT_EQ(one.mostPoints, 0);
       EXPECT_EQ(one.unjudged, 0);
     }
-    if (one.check == "easy" && one.hostility == Hostility::zero) {
+    if (one.check == "easy" && one.hostility == Hostility::kZero) {
       EXPECT_EQ(one.mostPoints, 1);
     }
-    if (one.check == "careless" && one.hostility == Hostility::empty) {
+    if (one.check == "careless" && one.hostility == Hostility::kEmpty) {
       EXPECT_EQ(one.unjudged, one.runs);
       EXPECT_THAT(one.exception, HasSubstr("vector::_M_range_check"));
     }

@@ -63,7 +63,7 @@ GradeResult fullResult() {
 
 TEST(ResultSchema, FitsWhatIsWritten) {
   GradeResult result = fullResult();
-  for (int k = 0; k <= static_cast<int>(Outcome::graderError); ++k) {
+  for (int k = 0; k <= static_cast<int>(Outcome::kGraderError); ++k) {
     result.outcome = static_cast<Outcome>(k);
     result.checks[0].status = result.outcome;
     EXPECT_EQ(violation(Json::parse(toJson(result)), schema(), ""), "");

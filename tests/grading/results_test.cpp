@@ -23,15 +23,15 @@ GradeResult someResult() {
   result.compiler = "g++ 12";
   result.sandboxLevel = 0;
   result.sandboxWarnings = {"careful"};
-  result.outcome = Outcome::timeLimit;
+  result.outcome = Outcome::kTimeLimit;
   result.message = "hello";
   result.score = 3;
   result.maxScore = 9;
   result.checks = {{.id = "x",
                     .part = "a",
                     .title = "X",
-                    .group = Group::hidden,
-                    .status = Outcome::timeLimit,
+                    .group = Group::kHidden,
+                    .status = Outcome::kTimeLimit,
                     .points = 3,
                     .maxPoints = 4,
                     .message = "m",
@@ -61,8 +61,8 @@ TEST(Results, ComeBackFromJson) {
   EXPECT_EQ(toJson(gradeResultFromJson(text, "r.json")), text);
   const GradeResult back = gradeResultFromJson(text, "r.json");
   EXPECT_EQ(back.submissionId, someResult().submissionId);
-  EXPECT_EQ(back.checks.at(0).status, Outcome::timeLimit);
-  EXPECT_EQ(back.checks.at(0).group, Group::hidden);
+  EXPECT_EQ(back.checks.at(0).status, Outcome::kTimeLimit);
+  EXPECT_EQ(back.checks.at(0).group, Group::kHidden);
   EXPECT_EQ(back.checks.at(0).worst.limit, "1 m");
   EXPECT_EQ(back.checks.at(0).worst.caseNumber, 3);
   EXPECT_EQ(back.checks.at(0).casesHeld, 6);
@@ -125,11 +125,11 @@ TEST(Results, SayWhichFieldIsWrong) {
 }
 
 TEST(Results, KnowEveryOutcomeByName) {
-  for (int k = 0; k <= static_cast<int>(Outcome::graderError); ++k) {
+  for (int k = 0; k <= static_cast<int>(Outcome::kGraderError); ++k) {
     const auto outcome = static_cast<Outcome>(k);
     EXPECT_EQ(outcomeFromString(toString(outcome)), outcome);
   }
-  EXPECT_EQ(outcomeFromString("grader_error"), Outcome::graderError);
+  EXPECT_EQ(outcomeFromString("grader_error"), Outcome::kGraderError);
   EXPECT_EQ(outcomeFromString("great"), std::nullopt);
 }
 

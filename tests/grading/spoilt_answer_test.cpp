@@ -40,31 +40,31 @@ Sample spoiltBy(Hostility hostility) {
 }
 
 TEST(Spoilt, IsOfTheSameType) {
-  for (int k = 0; k < static_cast<int>(Hostility::count); ++k)
+  for (int k = 0; k < static_cast<int>(Hostility::kCount); ++k)
     EXPECT_NO_THROW(spoiltBy(static_cast<Hostility>(k))) << toString(static_cast<Hostility>(k));
-  EXPECT_TRUE(spoiltBy(Hostility::empty).list.empty());
-  EXPECT_EQ(spoiltBy(Hostility::empty).matrix.size(), 0);
-  EXPECT_FALSE(spoiltBy(Hostility::empty).chosen);
-  EXPECT_EQ(spoiltBy(Hostility::huge).list.size(), 20000u);
-  EXPECT_EQ(spoiltBy(Hostility::huge).matrix.rows(), 300);
-  EXPECT_TRUE(std::isnan(spoiltBy(Hostility::notANumber).place[2]));
-  EXPECT_TRUE(std::isinf(spoiltBy(Hostility::infinite).matrix(1, 2)));
-  EXPECT_GE(std::abs(spoiltBy(Hostility::overflowing).list[0]), 1e199);
-  EXPECT_EQ(spoiltBy(Hostility::denormal).list[3], std::numeric_limits<double>::denorm_min());
-  EXPECT_EQ(spoiltBy(Hostility::zero).place, Eigen::Vector3d::Zero());
-  EXPECT_FALSE(spoiltBy(Hostility::zero).yes);
-  EXPECT_EQ(spoiltBy(Hostility::constant).list, std::vector<double>(4, 1.5));
-  EXPECT_EQ(spoiltBy(Hostility::shifted).chosen, 5);
-  EXPECT_THAT(spoiltBy(Hostility::permuted).list, ::testing::UnorderedElementsAre(1, 2, 3, 4));
-  EXPECT_NE(spoiltBy(Hostility::permuted).list, kHonest.list);
-  EXPECT_NE(spoiltBy(Hostility::ragged).list.size(), 0u);
+  EXPECT_TRUE(spoiltBy(Hostility::kEmpty).list.empty());
+  EXPECT_EQ(spoiltBy(Hostility::kEmpty).matrix.size(), 0);
+  EXPECT_FALSE(spoiltBy(Hostility::kEmpty).chosen);
+  EXPECT_EQ(spoiltBy(Hostility::kHuge).list.size(), 20000u);
+  EXPECT_EQ(spoiltBy(Hostility::kHuge).matrix.rows(), 300);
+  EXPECT_TRUE(std::isnan(spoiltBy(Hostility::kNotANumber).place[2]));
+  EXPECT_TRUE(std::isinf(spoiltBy(Hostility::kInfinite).matrix(1, 2)));
+  EXPECT_GE(std::abs(spoiltBy(Hostility::kOverflowing).list[0]), 1e199);
+  EXPECT_EQ(spoiltBy(Hostility::kDenormal).list[3], std::numeric_limits<double>::denorm_min());
+  EXPECT_EQ(spoiltBy(Hostility::kZero).place, Eigen::Vector3d::Zero());
+  EXPECT_FALSE(spoiltBy(Hostility::kZero).yes);
+  EXPECT_EQ(spoiltBy(Hostility::kConstant).list, std::vector<double>(4, 1.5));
+  EXPECT_EQ(spoiltBy(Hostility::kShifted).chosen, 5);
+  EXPECT_THAT(spoiltBy(Hostility::kPermuted).list, ::testing::UnorderedElementsAre(1, 2, 3, 4));
+  EXPECT_NE(spoiltBy(Hostility::kPermuted).list, kHonest.list);
+  EXPECT_NE(spoiltBy(Hostility::kRagged).list.size(), 0u);
 }
 
 TEST(Spoilt, RefusesBytesOfAnotherLayout) {
   Rng rng;
   const std::vector<std::byte> bytes(9);
   for (const char* layout : {"d", "[d]", "(dd)", "M-1,1,d", "i4", "x", "s", "r", "?d", "i"})
-    EXPECT_REX_ERROR(spoilt(bytes, layout, Hostility::zero, rng), "an answer does not have its layout");
+    EXPECT_REX_ERROR(spoilt(bytes, layout, Hostility::kZero, rng), "an answer does not have its layout");
 }
 
 TEST(SizeOfValue, EndsWhereTheNextBegins) {

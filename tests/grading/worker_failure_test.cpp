@@ -33,26 +33,26 @@ TEST(ExplainEnd, NamesTheSignal) {
   EXPECT_EQ(bySignal(SIGILL).message, "crashed with an illegal instruction in f (a missing return?)");
   EXPECT_EQ(bySignal(SIGABRT).message, "aborted in f");
   EXPECT_EQ(bySignal(SIGTERM).message, "was ended by signal 15 (Terminated) in f");
-  EXPECT_EQ(bySignal(SIGXFSZ).outcome, Outcome::outputLimit);
+  EXPECT_EQ(bySignal(SIGXFSZ).outcome, Outcome::kOutputLimit);
   EXPECT_EQ(bySignal(SIGXFSZ).message, "wrote a file that is too large in f");
 }
 
 TEST(ExplainEnd, KnowsWhatTheSandboxForbids) {
-  EXPECT_EQ(bySignal(SIGSYS).outcome, Outcome::securityEvent);
+  EXPECT_EQ(bySignal(SIGSYS).outcome, Outcome::kSecurityEvent);
   EXPECT_EQ(bySignal(SIGSYS).message.find("tried what the sandbox forbids in f"), 0u);
 }
 
 TEST(ExplainEnd, BelievesTheKernelAboutMemory) {
   const Failure failure = explainEnd({.status = SIGKILL, .function = "f", .outOfMemory = true}, kLimits);
-  EXPECT_EQ(failure.outcome, Outcome::memoryLimit);
+  EXPECT_EQ(failure.outcome, Outcome::kMemoryLimit);
   EXPECT_EQ(failure.message, "used more than 64 MB of memory in f");
 }
 
 TEST(ExplainEnd, TellsTheTimeLimitFromOtherKills) {
-  EXPECT_EQ(bySignal(SIGXCPU).outcome, Outcome::timeLimit);
+  EXPECT_EQ(bySignal(SIGXCPU).outcome, Outcome::kTimeLimit);
   EXPECT_EQ(bySignal(SIGXCPU).message, "stopped after 2.0 s of CPU time in f");
-  EXPECT_EQ(bySignal(SIGKILL, 3).outcome, Outcome::timeLimit);
-  EXPECT_EQ(bySignal(SIGKILL, 1).outcome, Outcome::runtimeError);
+  EXPECT_EQ(bySignal(SIGKILL, 3).outcome, Outcome::kTimeLimit);
+  EXPECT_EQ(bySignal(SIGKILL, 1).outcome, Outcome::kRuntimeError);
   EXPECT_EQ(bySignal(SIGKILL, 1).message, "was killed in f");
   EXPECT_TRUE(bySignal(SIGKILL, 1).killed);
   EXPECT_FALSE(bySignal(SIGKILL, 3).killed);
@@ -64,7 +64,7 @@ TEST(ExplainEnd, NamesTheExitCode) {
             "called exit(3) before the first call (in the constructor of a global variable?)");
   EXPECT_EQ(byExit(127, false).message, "could not be loaded");
   EXPECT_EQ(byExit(127, false).detail, "no such library");
-  EXPECT_EQ(byExit(remote::kProtocolFailure).outcome, Outcome::protocolError);
+  EXPECT_EQ(byExit(remote::kProtocolFailure).outcome, Outcome::kProtocolError);
   EXPECT_EQ(byExit(remote::kProtocolFailure).message, "lost its connection to the grader in f");
   EXPECT_EQ(placeOf(true, ""), "between two calls");
 }
@@ -77,19 +77,19 @@ TEST(ExplainEnd, KnowsAnExceptionForWantOfMemory) {
          .function = "f",
          .errorTail = std::string("terminate called after throwing an instance of '") + type + "'\n"},
         kLimits);
-    EXPECT_EQ(failure.outcome, Outcome::memoryLimit);
+    EXPECT_EQ(failure.outcome, Outcome::kMemoryLimit);
     EXPECT_EQ(failure.message, "used more than 64 MB of memory in f");
   }
 }
 
 TEST(ExplainThrow, KeepsTheStudentsTextApart) {
   const Failure failure =
-      explainThrow({"f", {.kind = remote::Thrown::Kind::exception, .type = "E", .text = "secret"}}, kLimits);
-  EXPECT_EQ(failure.outcome, Outcome::runtimeError);
+      explainThrow({"f", {.kind = remote::Thrown::Kind::kException, .type = "E", .text = "secret"}}, kLimits);
+  EXPECT_EQ(failure.outcome, Outcome::kRuntimeError);
   EXPECT_EQ(failure.message, "threw E in f");
   EXPECT_EQ(failure.detail, "secret");
-  const Failure memory = explainThrow({"f", {.kind = remote::Thrown::Kind::badAlloc}}, kLimits);
-  EXPECT_EQ(memory.outcome, Outcome::memoryLimit);
+  const Failure memory = explainThrow({"f", {.kind = remote::Thrown::Kind::kBadAlloc}}, kLimits);
+  EXPECT_EQ(memory.outcome, Outcome::kMemoryLimit);
   EXPECT_EQ(memory.message, "used more than 64 MB of memory in f");
   EXPECT_EQ(failure.function, "f");
   EXPECT_EQ(memory.function, "f");

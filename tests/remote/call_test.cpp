@@ -193,7 +193,7 @@ TEST_F(Calls, PassErrorsOfCallbacksOn) {
   const auto sumUpThere = worker.function<decltype(sumUp)>("sumUp");
   const RemoteThrow error =
       thrownBy([&] { return sumUpThere([](int) -> double { throw Error({.what = "bad angle"}); }, 1); });
-  EXPECT_EQ(error.thrown().kind, Thrown::Kind::error);
+  EXPECT_EQ(error.thrown().kind, Thrown::Kind::kError);
   EXPECT_EQ(error.thrown().text, "bad angle");
 }
 
@@ -207,12 +207,12 @@ TEST_F(Calls, EndWhenACallbackFailsAndStayUsable) {
 TEST_F(Calls, ReportWhatTheFunctionThrows) {
   const auto failThere = worker.function<decltype(fail)>("fail");
   const RemoteThrow error = thrownBy([&] { return failThere("error"); });
-  EXPECT_EQ(error.thrown().kind, Thrown::Kind::error);
+  EXPECT_EQ(error.thrown().kind, Thrown::Kind::kError);
   EXPECT_STREQ(error.what(), "threw rex::Error in fail: joint 'elbow': found 7, wanted 3");
   const RemoteThrow range = thrownBy([&] { return failThere("range"); });
-  EXPECT_EQ(range.thrown().kind, Thrown::Kind::exception);
+  EXPECT_EQ(range.thrown().kind, Thrown::Kind::kException);
   EXPECT_EQ(range.thrown().type, "std::out_of_range");
-  EXPECT_EQ(thrownBy([&] { return failThere("memory"); }).thrown().kind, Thrown::Kind::badAlloc);
+  EXPECT_EQ(thrownBy([&] { return failThere("memory"); }).thrown().kind, Thrown::Kind::kBadAlloc);
   EXPECT_STREQ(thrownBy([&] { return failThere("number"); }).what(), "threw int in fail");
   EXPECT_EQ(thrownBy([&] { return failThere("large"); }).thrown().text.size(), 2000u);
   EXPECT_EQ(failThere("not at all"), 1);
@@ -234,7 +234,7 @@ std::string answerToCallback(const std::function<double(int)>& term, std::uint32
   if (::pipe2(toCaller.data(), O_CLOEXEC) != 0 || ::pipe2(fromCaller.data(), O_CLOEXEC) != 0)
     throw std::runtime_error("no pipe");
   constexpr std::uint64_t kSeed = 5;
-  Channel(-1, toCaller[1]).send(Kind::callback, Rng(kSeed).next(), argument, Writer());
+  Channel(-1, toCaller[1]).send(Kind::kCallback, Rng(kSeed).next(), argument, Writer());
   Caller caller(Channel(toCaller[0], fromCaller[1]), kSeed);
   std::string answer;
   try {

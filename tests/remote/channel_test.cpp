@@ -54,16 +54,16 @@ Writer someBody() {
 
 std::vector<std::byte> someMessage() {
   const Loop loop;
-  loop.channel().send(Kind::reply, 7, 3, someBody());
+  loop.channel().send(Kind::kReply, 7, 3, someBody());
   return loop.read();
 }
 
 TEST(Channel, KeepsAMessage) {
   const Loop loop;
   Channel channel = loop.channel();
-  channel.send(Kind::reply, 7, 3, someBody());
+  channel.send(Kind::kReply, 7, 3, someBody());
   Message message = channel.receive();
-  EXPECT_EQ(message.kind, Kind::reply);
+  EXPECT_EQ(message.kind, Kind::kReply);
   EXPECT_EQ(message.id, 7u);
   EXPECT_EQ(message.method, 3u);
   EXPECT_EQ(Wire<std::string>::get(message.body), "hello");
@@ -81,7 +81,7 @@ TEST(Channel, NoticesThatTheOtherSideIsGone) {
   Channel toDeaf = deaf.channel();
   deaf.closeRead();
   const auto previous = ::signal(SIGPIPE, SIG_IGN);
-  EXPECT_THROW(toDeaf.send(Kind::reply, 1, 1, someBody()), Closed);
+  EXPECT_THROW(toDeaf.send(Kind::kReply, 1, 1, someBody()), Closed);
   ::signal(SIGPIPE, previous);
 }
 
@@ -150,16 +150,16 @@ void makeCall(Caller& caller) {
 
 TEST(Caller, RefusesWrongMessages) {
   const std::uint64_t firstId = Rng(1).next();
-  EXPECT_EQ(complaint(Kind::hello, 5, 0, shakeHands), "");
-  EXPECT_EQ(complaint(Kind::reply, 5, 0, shakeHands), "the worker does not introduce itself");
-  EXPECT_EQ(complaint(Kind::hello, 6, 0, shakeHands), "the worker was built from another exercise.h");
-  EXPECT_EQ(complaint(Kind::reply, firstId, 0, makeCall), "");
-  EXPECT_EQ(complaint(Kind::reply, firstId + 1, 0, makeCall), "the worker answers a call that was not made");
-  EXPECT_EQ(complaint(Kind::reply, firstId, 1, makeCall), "the worker answers for another function");
-  EXPECT_EQ(complaint(Kind::hello, firstId, 0, makeCall), "the worker sends a message of unknown kind");
+  EXPECT_EQ(complaint(Kind::kHello, 5, 0, shakeHands), "");
+  EXPECT_EQ(complaint(Kind::kReply, 5, 0, shakeHands), "the worker does not introduce itself");
+  EXPECT_EQ(complaint(Kind::kHello, 6, 0, shakeHands), "the worker was built from another exercise.h");
+  EXPECT_EQ(complaint(Kind::kReply, firstId, 0, makeCall), "");
+  EXPECT_EQ(complaint(Kind::kReply, firstId + 1, 0, makeCall), "the worker answers a call that was not made");
+  EXPECT_EQ(complaint(Kind::kReply, firstId, 1, makeCall), "the worker answers for another function");
+  EXPECT_EQ(complaint(Kind::kHello, firstId, 0, makeCall), "the worker sends a message of unknown kind");
   EXPECT_EQ(complaint(static_cast<Kind>(77), firstId, 0, makeCall),
             "the worker sends a message of unknown kind");
-  EXPECT_EQ(complaint(Kind::threw, firstId, 0, makeCall), "the message ends too early");
+  EXPECT_EQ(complaint(Kind::kThrew, firstId, 0, makeCall), "the message ends too early");
 }
 
 }  // namespace rex::remote::channel_test

@@ -28,9 +28,9 @@ GradeResult resultWith(const std::string& text, Outcome outcome) {
   result.output.text = result.error.text = t;
   result.sandboxWarnings = {t};
   result.compile.diagnostics = {{t, 1, 1, "warning", t, t}, {t, 1, 1, "error", t, t}};
-  for (const Group group : {Group::visible, Group::hidden}) {
+  for (const Group group : {Group::kVisible, Group::kHidden}) {
     CheckResult check{
-        .id = t, .part = t, .title = t, .group = group, .status = Outcome::fail, .maxPoints = 2};
+        .id = t, .part = t, .title = t, .group = group, .status = Outcome::kFail, .maxPoints = 2};
     check.message = check.property = check.expected = check.got = check.tolerance = check.input = t;
     check.function = check.worst.property = check.worst.value = check.worst.limit = t;
     check.picture = check.replay = t;
@@ -43,7 +43,7 @@ GradeResult resultWith(const std::string& text, Outcome outcome) {
 
 TEST(HostileText, IsShownInEveryFormat) {
   for (const std::string& text : kHostile)
-    for (const Outcome outcome : {Outcome::fail, Outcome::compileError, Outcome::graderError}) {
+    for (const Outcome outcome : {Outcome::kFail, Outcome::kCompileError, Outcome::kGraderError}) {
       const GradeResult result = resultWith(text, outcome);
       EXPECT_THAT(toJson(result), Not(HasSubstr(text)));
       for (const ReportFormat& format : reportFormats())
@@ -53,7 +53,7 @@ TEST(HostileText, IsShownInEveryFormat) {
 
 // Also where it was written by number, as JSON may.
 TEST(HostileText, IsShownInResultsThatAreReadAgain) {
-  const std::string json = toJson(resultWith("\u202E", Outcome::fail));
+  const std::string json = toJson(resultWith("\u202E", Outcome::kFail));
   EXPECT_THAT(json, Not(HasSubstr("\\u202e")));
   EXPECT_THAT(json, HasSubstr("a\uFFFDb"));
   EXPECT_EQ(toJson(gradeResultFromJson(json, "results.json")), json);

@@ -51,7 +51,7 @@ TEST(Report, TellsNothingByHowLongHiddenChecksTook) {
   for (const double seconds : {0.001, 3.25, 60.}) {
     GradeResult slow = quick;
     for (CheckResult& check : slow.checks)
-      if (check.group == Group::hidden) check.wallSeconds = check.cpuSeconds = seconds;
+      if (check.group == Group::kHidden) check.wallSeconds = check.cpuSeconds = seconds;
     slow.usage = {
         .cpuSeconds = 2 * seconds, .wallSeconds = 3 * seconds, .peakMemoryBytes = 1 << 20, .outputBytes = 7};
     for (const ReportFormat& format : reportFormats())
@@ -73,8 +73,8 @@ TEST(Report, NeverGradesAFaultOfTheGrader) {
 TEST(Report, IsNoPassWhereOnlyHiddenChecksFail) {
   GradeResult result = golden("graded");
   for (CheckResult& check : result.checks)
-    if (check.group == Group::visible) check.status = Outcome::pass;
-  result.outcome = Outcome::fail;
+    if (check.group == Group::kVisible) check.status = Outcome::kPass;
+  result.outcome = Outcome::kFail;
   const auto json = nlohmann::json::parse(exercismReport(result));
   EXPECT_EQ(json.at("status"), "fail");
   EXPECT_EQ(json.at("tests").back().at("message"), "1 of 2 pass");
@@ -255,12 +255,12 @@ CheckResult hostileCheck(Hostile& any, int number, bool runs) {
                     .part = any.text(),
                     .title = any.text(),
                     .maxPoints = static_cast<int>(any.below(9))};
-  if (any.below(3) == 0) check.group = Group::hidden;
+  if (any.below(3) == 0) check.group = Group::kHidden;
   if (runs) check.status = static_cast<Outcome>(any.below(3) == 0 ? 1 + any.below(8) : 0);
-  if (check.status == Outcome::compileError) check.status = Outcome::fail;
-  if (check.status == Outcome::pass) check.points = check.maxPoints;
-  if (check.status == Outcome::fail) check.points = check.maxPoints / 2;
-  const std::string secret = check.group == Group::hidden ? "SECRET" : "";
+  if (check.status == Outcome::kCompileError) check.status = Outcome::kFail;
+  if (check.status == Outcome::kPass) check.points = check.maxPoints;
+  if (check.status == Outcome::kFail) check.points = check.maxPoints / 2;
+  const std::string secret = check.group == Group::kHidden ? "SECRET" : "";
   check.message = any.text() + secret;
   check.property = any.text();
   check.expected = check.got = check.tolerance = check.input = check.function = check.worst.value =
@@ -291,10 +291,10 @@ GradeResult hostileResult(std::uint64_t seed) {
     result.score += result.checks.back().points;
     result.maxScore += result.checks.back().maxPoints;
   }
-  result.outcome = Outcome::pass;
+  result.outcome = Outcome::kPass;
   for (const CheckResult& check : result.checks)
-    if (check.status != Outcome::pass) result.outcome = check.status.value_or(Outcome::compileError);
-  if (kind == 1) result.outcome = Outcome::graderError;
+    if (check.status != Outcome::kPass) result.outcome = check.status.value_or(Outcome::kCompileError);
+  if (kind == 1) result.outcome = Outcome::kGraderError;
   return result;
 }
 
@@ -353,7 +353,7 @@ TEST(Report, LetsNoTextForgeACommand) {
     const GradeResult result = hostileResult(seed);
     EXPECT_THAT(commandsIn(markdownReport(result)), ::testing::IsEmpty()) << seed;
     std::vector<std::string> commands = commandsIn(githubReport(result));
-    const bool isFault = result.outcome == Outcome::graderError;
+    const bool isFault = result.outcome == Outcome::kGraderError;
     EXPECT_EQ(std::count(commands.begin(), commands.end(), "::notice"), isFault ? 0 : 1) << seed;
     std::erase_if(commands,
                   [](const std::string& c) { return c == "::error" || c == "::warning" || c == "::notice"; });

@@ -80,10 +80,10 @@ TEST_F(ExerciseInfoTest, ReadsEverything) {
   EXPECT_THAT(apart.parts[1].functions, ::testing::ElementsAre("f"));
   EXPECT_THAT(apart.parts[1].allowed, ::testing::ElementsAre("course"));
   EXPECT_EQ(readWith("reason", "part = \"maps\"\nreason").forbidden[0].part, "maps");
-  EXPECT_EQ(info.solution, SolutionRule::never);
-  for (const auto& [word, rule] : {std::pair{"never", SolutionRule::never},
-                                   {"after-pass", SolutionRule::afterPass},
-                                   {"always", SolutionRule::always}})
+  EXPECT_EQ(info.solution, SolutionRule::kNever);
+  for (const auto& [word, rule] : {std::pair{"never", SolutionRule::kNever},
+                                   {"after-pass", SolutionRule::kAfterPass},
+                                   {"always", SolutionRule::kAlways}})
     EXPECT_EQ(readWith("[limits]", std::string("solution = \"") + word + "\"\n[limits]").solution, rule);
 }
 

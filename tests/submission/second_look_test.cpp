@@ -140,7 +140,7 @@ TEST_F(SanitizedToolchain, MakesProgramsThatEndWhenTheyHoldTooMuchMemory) {
     const ProcessResult run = this->run();
     const Failure failure = explainEnd({.status = run.signal, .function = "f", .errorTail = run.error},
                                        {.memory = 200 * kMegabyte});
-    EXPECT_EQ(failure.outcome, Outcome::memoryLimit) << run.error;
+    EXPECT_EQ(failure.outcome, Outcome::kMemoryLimit) << run.error;
     EXPECT_EQ(failure.message, "used more than 200 MB of memory in f");
   }
 }

@@ -27,11 +27,11 @@ TEST_F(SubmissionTest, BlamesABrokenGraderNotTheStudent) {
   Toolchain toolchain;
   toolchain.grader = "/bin/sh";  // ends with an error for options that it does not know
   const Submission submission = submit(toolchain, "no/such/main.cpp");
-  EXPECT_EQ(submission.result.outcome, Outcome::graderError);
+  EXPECT_EQ(submission.result.outcome, Outcome::kGraderError);
   EXPECT_THAT(submission.result.message, HasSubstr("the grader failed (exit code 2, signal 0): "));
-  EXPECT_EQ(loadResult(results()).outcome, Outcome::graderError);
+  EXPECT_EQ(loadResult(results()).outcome, Outcome::kGraderError);
   toolchain.grader = "/no/such/grader";
-  EXPECT_EQ(submit(toolchain, "no/such/main.cpp").result.outcome, Outcome::graderError);
+  EXPECT_EQ(submit(toolchain, "no/such/main.cpp").result.outcome, Outcome::kGraderError);
 }
 
 TEST_F(SubmissionTest, BlamesMissingTools) {
@@ -39,7 +39,7 @@ TEST_F(SubmissionTest, BlamesMissingTools) {
   toolchain.compiler = "no-such-compiler";
   toolchain.grader = "/bin/true";
   const Submission submission = submit(toolchain, REX_SOURCE_DIR "/share/template/solution.cpp");
-  EXPECT_EQ(submission.result.outcome, Outcome::graderError);
+  EXPECT_EQ(submission.result.outcome, Outcome::kGraderError);
   EXPECT_THAT(submission.result.message, HasSubstr("cannot run no-such-compiler"));
 }
 

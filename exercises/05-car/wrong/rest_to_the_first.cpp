@@ -4,7 +4,7 @@
 
 // <solution resampledParents>
 for (int i = 0; i < weights.size(); ++i)
-  parents.insert(parents.end(), static_cast<std::size_t>(count* weights[i] + 1e-9), i);
+  parents.insert(parents.end(), static_cast<std::size_t>(weights[i] * count + 1e-9), i);
 for (int i = 0; static_cast<int>(parents.size()) < count; ++i)
   if (weights[i] > 0) parents.push_back(i);
 // </solution>

@@ -3,7 +3,7 @@
 
 // <solution weighed>
 for (MapParticle& particle : after) {
-  for (const Sighting& seen : sightings) {
+  for (const LandmarkObservation& seen : sightings) {
     const bool isNew = static_cast<std::size_t>(seen.landmark) == particle.map.size();
     if (isNew) particle.map.push_back({placed(car, particle.x, seen.y), {}});
     Belief& landmark = particle.map[static_cast<std::size_t>(seen.landmark)];

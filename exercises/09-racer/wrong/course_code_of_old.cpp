@@ -3,5 +3,6 @@
 
 // <solution forceTerm>
 const double swing = racer.mB * racer.l * std::sin(q[1]);
-return {-2 * swing * v[1] * v[1], swing* v[0] * v[1] - swing* racer.g};
+const double second = swing * v[0] * v[1] - swing * racer.g;
+return {-2 * swing * v[1] * v[1], second};
 // </solution>

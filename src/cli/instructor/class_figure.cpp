@@ -44,7 +44,7 @@ Figure pointsFigure(const std::vector<StudentResult>& results) {
   const std::map<std::string, int> places = placesOf(results);
   std::map<int, std::vector<double>> points;
   for (const StudentResult& one : results)
-    if (one.result.outcome != grading::Outcome::graderError)
+    if (one.result.outcome != grading::Outcome::kGraderError)
       points[places.at(one.exercise)].push_back(percentOf(one.result));
   if (points.empty()) throw Error({.what = "no points to draw", .found = "faults of the grader only"});
   Series students{.label = "a student", .style = SeriesStyle::kPoints, .marker = Marker::kDot, .size = 2};

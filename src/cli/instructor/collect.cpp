@@ -76,7 +76,7 @@ void writeReports(const std::vector<Task>& tasks, const std::filesystem::path& o
   for (const Task& task : tasks) {
     const std::filesystem::path folder = grading::resultFolder(out, task);
     const grading::TaskState state = grading::stateOf(task, out);
-    const bool isGraded = state == grading::TaskState::done || state == grading::TaskState::failed;
+    const bool isGraded = state == grading::TaskState::kDone || state == grading::TaskState::kFailed;
     for (const grading::ReportFormat& format : reports) {
       const std::filesystem::path file = folder / format.file;
       if (!isGraded) {

@@ -33,12 +33,12 @@ void saySecrets(const std::vector<grading::Secret>& secrets) {
   for (const grading::Secret& secret : secrets) ++counts[secret.kind];
   std::vector<std::string> parts;
   for (const auto& [kind, name] : std::map<grading::SecretKind, const char*>{
-           {grading::SecretKind::solution, "lines of solutions"},
-           {grading::SecretKind::hiddenCheck, "passages of hidden checks"},
-           {grading::SecretKind::hiddenName, "texts of hidden checks"},
-           {grading::SecretKind::wrongVariant, "passages of wrong variants"}})
+           {grading::SecretKind::kSolution, "lines of solutions"},
+           {grading::SecretKind::kHiddenCheck, "passages of hidden checks"},
+           {grading::SecretKind::kHiddenName, "texts of hidden checks"},
+           {grading::SecretKind::kWrongVariant, "passages of wrong variants"}})
     parts.push_back(fmt::format("{} {}", counts[kind], name));
-  parts.emplace_back(counts.contains(grading::SecretKind::courseSecret)
+  parts.emplace_back(counts.contains(grading::SecretKind::kCourseSecret)
                          ? "the secret of the course"
                          : "no secret of the course (--secret-file)");
   constexpr std::size_t kColumn = 14;

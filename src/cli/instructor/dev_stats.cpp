@@ -19,7 +19,7 @@ using grading::CheckStatistics;
 using grading::ExerciseStatistics;
 
 std::string groupOf(const CheckStatistics& check) {
-  return check.group == grading::Group::hidden ? "hidden" : "visible";
+  return check.group == grading::Group::kHidden ? "hidden" : "visible";
 }
 
 std::string classesOf(const CheckStatistics& check) {
@@ -33,7 +33,7 @@ void sayChecks(const ExerciseStatistics& all) {
                                     [](const CheckStatistics& check) { return check.failed == 0; });
   for (const CheckStatistics& check : all.checks) {
     if (check.failed == 0) continue;
-    const std::string mark = check.group == grading::Group::hidden ? ", hidden" : "";
+    const std::string mark = check.group == grading::Group::kHidden ? ", hidden" : "";
     const std::string text = fmt::format("{} failed of {}: {} [{}{}]: {}", check.failed, all.graded,
                                          harmless(check.title), harmless(check.id), mark, classesOf(check));
     say("  " + wrap(text, 6, 6));

@@ -194,7 +194,7 @@ std::vector<Task> tasksOf(const grading::HandIns& handedIn, const GradeManyOptio
 int gradeApart(const Task& task, const Graders::Grader& grader, const grading::TaskOptions& options) {
   try {
     const grading::GradeResult result = grading::gradeTask(task, grader.toolchain, grader.exercise, options);
-    return result.outcome == grading::Outcome::graderError ? 1 : 0;
+    return result.outcome == grading::Outcome::kGraderError ? 1 : 0;
   } catch (const std::exception& error) {
     note(wrap(harmless(fmt::format("{} {}: {}", task.student, task.exercise, error.what())), 2, 0));
     return 1;
@@ -202,7 +202,7 @@ int gradeApart(const Task& task, const Graders::Grader& grader, const grading::T
 }
 
 bool isOpen(const Task& task, const GradeManyOptions& options) {
-  if (options.regrade || grading::stateOf(task, options.out) != grading::TaskState::done) return true;
+  if (options.regrade || grading::stateOf(task, options.out) != grading::TaskState::kDone) return true;
   return options.evidence && !grading::hasEvidence(task, options.out);
 }
 

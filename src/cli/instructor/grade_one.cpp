@@ -34,7 +34,7 @@ ExitCode gradeOne(const Project& project, const GradeOneOptions& options) {
                       .wanted = fmt::format("1 to {}", tasks.size())});
   const grading::Task& task = tasks[static_cast<std::size_t>(options.task) - 1];
   const std::string name = fmt::format("{} {}", task.student, task.exercise);
-  if (grading::stateOf(task, options.out) == grading::TaskState::done &&
+  if (grading::stateOf(task, options.out) == grading::TaskState::kDone &&
       (!options.evidence || grading::hasEvidence(task, options.out))) {
     say(fmt::format("{}: kept", name));
     return ExitCode::kFull;
@@ -53,7 +53,7 @@ ExitCode gradeOne(const Project& project, const GradeOneOptions& options) {
   say(wrap(harmless(fmt::format("{}: {}, {} of {} points {}", name, toString(result.outcome), result.score,
                                 result.maxScore, result.message)),
            2, 0));
-  return result.outcome == grading::Outcome::graderError ? ExitCode::kGraderFault : ExitCode::kFull;
+  return result.outcome == grading::Outcome::kGraderError ? ExitCode::kGraderFault : ExitCode::kFull;
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ ExitCode report(const ReportOptions& options) {
     std::fputs(text.c_str(), stdout);
   else
     replaceTextFile(options.out, text, "the report");
-  return result.outcome == grading::Outcome::graderError ? ExitCode::kGraderFault : ExitCode::kFull;
+  return result.outcome == grading::Outcome::kGraderError ? ExitCode::kGraderFault : ExitCode::kFull;
 }
 
 }  // namespace

@@ -20,13 +20,13 @@ using grading::SolutionRule;
 // Prints the reference solution where the course allows it. kBelow if the exercise must be solved first.
 ExitCode solution(const Project& project, const std::string& name) {
   const ExerciseInfo exercise = project.exercise(name);
-  if (exercise.solution == SolutionRule::never)
+  if (exercise.solution == SolutionRule::kNever)
     throw UsageError({.what = fmt::format("the course does not show the solution of {}", exercise.name)});
   const std::filesystem::path file = chooseStudentFile(exercise, true);
   const AllProgress all = ProgressFile(project.root).read();
   const auto found = all.exercises.find(exercise.name);
   const bool isSolved = found != all.exercises.end() && found->second.solved;
-  if (exercise.solution == SolutionRule::afterPass && !isSolved) {
+  if (exercise.solution == SolutionRule::kAfterPass && !isSolved) {
     note(wrap(
         fmt::format("The solution of {} is shown once `scripts/rex test {}` gave you the full score. Until "
                     "then: scripts/rex hint {}",

@@ -22,7 +22,7 @@ constexpr std::size_t kIndent = 13;  // where titles begin, below each other
 
 std::string verdict(const CheckResult& check) {
   if (!check.status) return paint(Colour::kYellow, " -  ");
-  if (*check.status == Outcome::pass) return paint(Colour::kGreen, " ok ");
+  if (*check.status == Outcome::kPass) return paint(Colour::kGreen, " ok ");
   return check.points > 0 ? paint(Colour::kYellow, "part") : paint(Colour::kRed, "FAIL");
 }
 
@@ -33,7 +33,7 @@ void sayIndented(const std::string& text) {
 // How near to its limit a check came that passed.
 std::string marginOf(const CheckResult& check) {
   const auto& worst = check.worst;
-  if (check.status != Outcome::pass || worst.property.empty()) return "";
+  if (check.status != Outcome::kPass || worst.property.empty()) return "";
   return fmt::format(": worst {}, limit {}", worst.value, worst.limit);
 }
 
@@ -66,12 +66,12 @@ void sayEvidence(const CheckResult& check, const std::filesystem::path& folder) 
 
 void printCheck(const CheckResult& check, const grading::Submission& graded,
                 const std::filesystem::path& folder) {
-  const std::string hidden = check.group == Group::hidden ? ", hidden" : "";
+  const std::string hidden = check.group == Group::kHidden ? ", hidden" : "";
   const std::string title =
       fmt::format("{} [{}{}]{}", harmless(check.title), check.id, hidden, marginOf(check));
   say(fmt::format(" {} {:2}/{:<2}  {}", verdict(check), check.points, check.maxPoints,
                   wrap(title, kIndent, kIndent)));
-  if (check.status == Outcome::pass || check.message.empty()) return;
+  if (check.status == Outcome::kPass || check.message.empty()) return;
   sayIndented(check.message);
   sayPlace(check, graded);
   sayEvidence(check, folder);
@@ -92,7 +92,7 @@ void printChecks(const ExerciseInfo& exercise, const grading::Submission& graded
 // Checks that ended badly, while the others were graded all the same.
 void sayIfSomeEndedBadly(const std::vector<CheckResult>& checks) {
   const auto endedBadly = [](const CheckResult& check) {
-    return check.status && *check.status != Outcome::pass && *check.status != Outcome::fail;
+    return check.status && *check.status != Outcome::kPass && *check.status != Outcome::kFail;
   };
   const auto bad = std::count_if(checks.begin(), checks.end(), endedBadly);
   const auto others = static_cast<std::ptrdiff_t>(checks.size()) - bad;
@@ -103,7 +103,7 @@ void sayIfSomeEndedBadly(const std::vector<CheckResult>& checks) {
 
 void sayHowToRepeat(const ExerciseInfo& exercise, const grading::GradeResult& result) {
   const auto failed = std::find_if(result.checks.begin(), result.checks.end(), [](const CheckResult& check) {
-    return check.status && *check.status != Outcome::pass;
+    return check.status && *check.status != Outcome::kPass;
   });
   if (failed == result.checks.end()) return;
   const std::size_t colon = result.seedId.rfind(':');
@@ -112,7 +112,7 @@ void sayHowToRepeat(const ExerciseInfo& exercise, const grading::GradeResult& re
 }
 
 void sayPoints(const grading::GradeResult& result, int unseen) {
-  const bool full = result.outcome == Outcome::pass;
+  const bool full = result.outcome == Outcome::kPass;
   say(paint(full ? Colour::kGreen : Colour::kBold,
             fmt::format("{} of {} points", result.score, result.maxScore)) +
       (unseen > 0 ? fmt::format("; hidden checks for {} more run when the course grades", unseen) : ""));
@@ -130,14 +130,14 @@ void printResult(const ExerciseInfo& exercise, const grading::Submission& graded
                  const std::filesystem::path& results, bool isWhole) {
   const grading::GradeResult& result = graded.result;
   say(paint(Colour::kBold, fmt::format("{}: {}", exercise.name, exercise.title)));
-  if (result.outcome == Outcome::compileError) {
+  if (result.outcome == Outcome::kCompileError) {
     std::fflush(stdout);
     explain(result.compile.diagnostics, graded.source, results.parent_path() / "build.log");
     say("Not graded: no check could run.");
   } else {
     printChecks(exercise, graded, results.parent_path());
     for (const auto& message : result.compile.diagnostics) say(wrap(harmless(toString(message)), 2, 0));
-    if (result.outcome == Outcome::graderError)
+    if (result.outcome == Outcome::kGraderError)
       say(wrap("The grader itself failed: not your fault, and not your grade. " + harmless(result.message), 0,
                0));
     sayIfSomeEndedBadly(result.checks);

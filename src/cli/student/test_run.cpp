@@ -36,12 +36,12 @@ fs::path resultsOf(const Project& project, const ExerciseInfo& exercise, const T
 }
 
 void remember(const Project& project, const ExerciseInfo& exercise, const GradeResult& result) {
-  if (result.outcome == Outcome::graderError) return;
+  if (result.outcome == Outcome::kGraderError) return;
   ProgressFile(project.root).change(exercise.name, [&](Progress& progress) {
     progress.tested = true;
     progress.points = result.score;
     progress.maxPoints = result.maxScore;
-    progress.solved = progress.solved || result.outcome == Outcome::pass;
+    progress.solved = progress.solved || result.outcome == Outcome::kPass;
     progress.fileSha256 = result.snapshotSha256;
   });
 }
@@ -101,9 +101,9 @@ void TestRun::print(const grading::Submission& graded) const {
 }
 
 ExitCode exitCodeOf(const GradeResult& result) {
-  if (result.outcome == Outcome::graderError) return ExitCode::kGraderFault;
-  if (result.outcome == Outcome::compileError) return ExitCode::kNotGradable;
-  return result.outcome == Outcome::pass ? ExitCode::kFull : ExitCode::kBelow;
+  if (result.outcome == Outcome::kGraderError) return ExitCode::kGraderFault;
+  if (result.outcome == Outcome::kCompileError) return ExitCode::kNotGradable;
+  return result.outcome == Outcome::kPass ? ExitCode::kFull : ExitCode::kBelow;
 }
 
 }  // namespace rex::cli

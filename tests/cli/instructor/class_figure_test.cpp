@@ -14,7 +14,7 @@ using ::testing::ElementsAre;
 
 grading::StudentResult resultOf(const std::string& exercise, int score) {
   grading::StudentResult one{.student = "s", .exercise = exercise, .result = {}};
-  one.result.outcome = grading::Outcome::fail;
+  one.result.outcome = grading::Outcome::kFail;
   one.result.score = score;
   one.result.maxScore = 4;
   return one;
@@ -44,7 +44,7 @@ TEST(ClassFigure, LaysNoTwoPointsOnEachOther) {
 
 TEST(ClassFigure, NeedsPoints) {
   std::vector<grading::StudentResult> results = {resultOf("01-a", 0)};
-  results[0].result.outcome = grading::Outcome::graderError;
+  results[0].result.outcome = grading::Outcome::kGraderError;
   EXPECT_REX_ERROR(pointsFigure(results), "no points to draw: found faults of the grader only");
 }
 

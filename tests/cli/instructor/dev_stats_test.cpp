@@ -17,13 +17,13 @@ class DevStatsTest : public TemplateProject {
   void save(const std::string& student, int score, std::optional<Outcome> first, double seconds) const {
     grading::GradeResult result;
     result.exerciseId = "98-template";
-    result.outcome = score == 3 ? Outcome::pass : Outcome::fail;
+    result.outcome = score == 3 ? Outcome::kPass : Outcome::kFail;
     result.score = score;
     result.maxScore = 3;
     result.usage.wallSeconds = seconds;
     result.checks = {
-        {.id = "keeps", .title = "Keeps, \"all\"", .status = Outcome::pass},
-        {.id = "turns", .title = "Turns", .group = grading::Group::hidden, .status = first, .message = ""}};
+        {.id = "keeps", .title = "Keeps, \"all\"", .status = Outcome::kPass},
+        {.id = "turns", .title = "Turns", .group = grading::Group::kHidden, .status = first, .message = ""}};
     fs::create_directories(results() / student / "98-template");
     write(results() / student / "98-template" / "results.json", toJson(result));
   }
@@ -34,8 +34,8 @@ class DevStatsTest : public TemplateProject {
   }
   void SetUp() override {
     TemplateProject::SetUp();
-    save("adam", 3, Outcome::pass, 1), save("bob", 1, Outcome::timeLimit, 9),
-        save("carl", 0, Outcome::fail, 2), save("dora", 2, Outcome::fail, 3);
+    save("adam", 3, Outcome::kPass, 1), save("bob", 1, Outcome::kTimeLimit, 9),
+        save("carl", 0, Outcome::kFail, 2), save("dora", 2, Outcome::kFail, 3);
   }
 };
 

@@ -37,8 +37,8 @@ void doublesUnseen(Check& check, Student& student) {
 
 rex::grading::Checks<Student> checks() {
   return {
-      {"examples", "a", "The examples are doubled", 4, Group::visible, doublesExamples},
-      {"squares", "a", "Numbers are squared", 2, Group::visible, listsSquares},
-      {"unseen", "a", "Unseen numbers are doubled", 4, Group::hidden, doublesUnseen},
+      {"examples", "a", "The examples are doubled", 4, Group::kVisible, doublesExamples},
+      {"squares", "a", "Numbers are squared", 2, Group::kVisible, listsSquares},
+      {"unseen", "a", "Unseen numbers are doubled", 4, Group::kHidden, doublesUnseen},
   };
 }

@@ -28,9 +28,9 @@ void searches(Check& check, Student& student) {
 
 rex::grading::Checks<Student> checks() {
   return {
-      {"step", "a", "One step reaches the target", 4, Group::visible, stepReaches},
-      {"square", "b", "Numbers are squared", 2, Group::visible, squares},
-      {"step-unseen", "a", "One step reaches unseen targets", 3, Group::hidden, stepReaches},
-      {"search", "b", "The search comes nearer", 1, Group::visible, searches},
+      {"step", "a", "One step reaches the target", 4, Group::kVisible, stepReaches},
+      {"square", "b", "Numbers are squared", 2, Group::kVisible, squares},
+      {"step-unseen", "a", "One step reaches unseen targets", 3, Group::kHidden, stepReaches},
+      {"search", "b", "The search comes nearer", 1, Group::kVisible, searches},
   };
 }
