@@ -25,9 +25,9 @@ void addMotion(Figure& figure, const std::string& whose, const Eigen::MatrixXd& 
   for (const int i : {0, 1}) {
     Series series{.label = (i == 0 ? "x" : "theta") + whose, .dashed = dashed};
     if (dashed) series.color = Color{.2f, .22f, .26f};
-    for (Eigen::Index t = 0; t < X.cols(); ++t) {
-      series.x.push_back(kTau * static_cast<double>(t));
-      series.y.push_back(X(i, t));
+    for (Eigen::Index k = 0; k < X.cols(); ++k) {
+      series.x.push_back(kTau * static_cast<double>(k));
+      series.y.push_back(X(i, k));
     }
     figure.series.push_back(series);
   }
@@ -212,9 +212,9 @@ void showEnergy(const RacerModel& racer, double tilt) {
                   .series = {runge, euler}});
 
   Rng rng(3);
-  double squares = 0;
-  for (int i = 0; i < 1000; ++i) squares += kicks(100, kTau, kNoise, rng).rowwise().sum().squaredNorm();
-  std::printf("Noise of one second: deviation %.3f, wanted %.3f.\n", std::sqrt(squares / 2000), kNoise);
+  double spread = 0;
+  for (int i = 0; i < 1000; ++i) spread += kicks(100, kTau, kNoise, rng).rowwise().sum().squaredNorm();
+  std::printf("Noise of one second: deviation %.3f, wanted %.3f.\n", std::sqrt(spread / 2000), kNoise);
 }
 
 void showLqr(const Linear& system, const Eigen::Matrix4d& Q, double R) {

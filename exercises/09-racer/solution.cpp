@@ -4,6 +4,10 @@
 #include "course/search_cma.h"
 #include "exercise.h"
 #include "show.h"
+// <solution headers>
+// What a mistake in wrong/ takes from the library.
+// <todo>
+// </solution>
 
 using namespace rex;
 

@@ -10,6 +10,10 @@
 #include "exercise.h"
 #include "maps.h"
 #include "show.h"
+// <solution headers>
+// What a mistake in wrong/ takes from the library.
+// <todo>
+// </solution>
 
 using namespace rex;
 

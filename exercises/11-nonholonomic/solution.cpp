@@ -8,6 +8,10 @@
 #include "exercise.h"
 #include "show.h"
 #include "worlds.h"
+// <solution headers>
+// What a mistake in wrong/ takes from the library.
+// <todo>
+// </solution>
 
 using namespace rex;
 

@@ -6,7 +6,7 @@
 
 #include "exercise.h"
 
-// The planar arm, and balls that are in its way. Used by main() and by the grader.
+// The planar arm, and balls that are in its way. Used by show.cpp and by the grader.
 
 /// A ball in the plane of the arm: its centre (y, z) and radius, metres.
 struct Ball {

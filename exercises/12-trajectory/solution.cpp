@@ -3,6 +3,10 @@
 #include "course/clearances.h"
 #include "exercise.h"
 #include "show.h"
+// <solution headers>
+// What a mistake in wrong/ takes from the library.
+// <todo>
+// </solution>
 
 using namespace rex;
 

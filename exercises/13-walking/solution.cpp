@@ -6,6 +6,10 @@
 #include "exercise.h"
 #include "show.h"
 #include "swing.h"
+// <solution headers>
+// What a mistake in wrong/ takes from the library.
+// <todo>
+// </solution>
 
 using namespace rex;
 
@@ -42,16 +46,16 @@ Eigen::MatrixXd supportCorners(const Eigen::MatrixXd& contacts) {
 
 double borderDistance(const Eigen::MatrixXd& corners, const Eigen::Vector2d& point) {
   // <solution borderDistance>
-  const Eigen::Index k = corners.cols();
-  bool isInside = k > 2;
+  const Eigen::Index sides = corners.cols();
+  bool isInside = sides > 2;
   double least = INFINITY;
-  for (Eigen::Index i = 0; i < k; ++i) {
-    const Eigen::Index next = (i + 1) % k;
+  for (Eigen::Index i = 0; i < sides; ++i) {
+    const Eigen::Index next = (i + 1) % sides;
     const double edgeX = corners(0, next) - corners(0, i), edgeY = corners(1, next) - corners(1, i);
     const double toX = point.x() - corners(0, i), toY = point.y() - corners(1, i);
     // The nearest point lies so far along the edge, 0 to 1.
     const double length2 = edgeX * edgeX + edgeY * edgeY;
-    const double share = k > 1 ? std::clamp((toX * edgeX + toY * edgeY) / length2, 0., 1.) : 0;
+    const double share = sides > 1 ? std::clamp((toX * edgeX + toY * edgeY) / length2, 0., 1.) : 0;
     least = std::min(least, std::hypot(toX - share * edgeX, toY - share * edgeY));
     isInside = isInside && edgeX * toY - edgeY * toX > 0;
   }
@@ -149,8 +153,8 @@ PreviewLaw previewLaw(const CartTable& cart) {
   PreviewLaw law{riccati.K(0, 0), {riccati.K(0, 1), riccati.K(0, 2), riccati.K(0, 3)}, {}};
   law.Gp.resize(cart.ahead);
   double price = cart.R;  // of a change of the jerk, now and in all steps to come
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j) price += G[i] * riccati.X(i, j) * G[j];
+  for (int row = 0; row < 4; ++row)
+    for (int j = 0; j < 4; ++j) price += G[row] * riccati.X(row, j) * G[j];
   // A change of the reference in j steps is a change of the error then; what it costs, carried back to now.
   Eigen::Vector4d cost = riccati.X.col(0);
   for (double& gain : law.Gp) {
@@ -245,11 +249,11 @@ Eigen::Matrix4d stepDerivative(const Walker& walker, const Eigen::Vector4d& x) {
   // <solution stepDerivative>
   constexpr double d = 1e-5;
   Eigen::Matrix4d J;
-  for (int i = 0; i < 4; ++i) {
-    const auto high = stepFrom(walker, x + d * Eigen::Vector4d::Unit(i));
-    const auto low = stepFrom(walker, x - d * Eigen::Vector4d::Unit(i));
+  for (int column = 0; column < 4; ++column) {
+    const auto high = stepFrom(walker, x + d * Eigen::Vector4d::Unit(column));
+    const auto low = stepFrom(walker, x - d * Eigen::Vector4d::Unit(column));
     if (!high || !low) return Eigen::Matrix4d::Constant(NAN);
-    J.col(i) = (high->x - low->x) / (2 * d);
+    J.col(column) = (high->x - low->x) / (2 * d);
   }
   return J;
   // <todo>

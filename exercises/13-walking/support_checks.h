@@ -34,7 +34,7 @@ inline Eigen::MatrixXd shuffled(rex::Rng& rng, Eigen::MatrixXd columns) {
 
 /// How far the least corner sticks out: whoever allows for rounding must find the same corners.
 inline double leastCorner(const Eigen::MatrixXd& corners) {
-  const Eigen::Index k = corners.cols();
+  const auto k = corners.cols();
   double out = INFINITY;
   for (Eigen::Index i = 0; i < k && k > 2; ++i) {
     const Eigen::Vector2d start = corners.col(i), along = corners.col((i + 2) % k) - start;

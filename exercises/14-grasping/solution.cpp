@@ -4,6 +4,10 @@
 
 #include "exercise.h"
 #include "show.h"
+// <solution headers>
+// What a mistake in wrong/ takes from the library.
+// <todo>
+// </solution>
 
 using namespace rex;
 
@@ -133,21 +137,21 @@ double reachAlong(const Eigen::MatrixXd& wrenches, const Eigen::VectorXd& direct
 
 double epsilonOf(const Eigen::MatrixXd& wrenches) {
   // <solution epsilonOf>
-  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3d> ends;
   double size = 0, least = INFINITY;
   for (Eigen::Index k = 0; k < wrenches.cols(); ++k) {
-    points.push_back(wrenches.col(k));
-    size = std::max(size, points.back().norm());
+    ends.push_back(wrenches.col(k));
+    size = std::max(size, ends.back().norm());
   }
-  for (std::size_t i = 0; i < points.size(); ++i)
+  for (std::size_t i = 0; i < ends.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       for (std::size_t k = 0; k < j; ++k) {
-        const Eigen::Vector3d ab = points[j] - points[i], ac = points[k] - points[i];
+        const Eigen::Vector3d ab = ends[j] - ends[i], ac = ends[k] - ends[i];
         const Eigen::Vector3d across = ab.cross(ac);
-        const double area = across.norm(), here = across.dot(points[i]);
+        const double area = across.norm(), here = across.dot(ends[i]);
         if (area < 1e-9 * size * size) continue;
         double lowest = here, highest = here;
-        for (const Eigen::Vector3d& point : points) {
+        for (const Eigen::Vector3d& point : ends) {
           lowest = std::min(lowest, across.dot(point));
           highest = std::max(highest, across.dot(point));
         }

@@ -5,6 +5,10 @@
 #include "exercise.h"
 #include "rooms.h"
 #include "show.h"
+// <solution headers>
+// What a mistake in wrong/ takes from the library.
+// <todo>
+// </solution>
 
 using namespace rex;
 

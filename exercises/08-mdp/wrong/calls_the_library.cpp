@@ -1,6 +1,10 @@
 // caught by: forbidden-call
 // mistake: the optimal policy of the library.
 
+// <solution headers>
+#include "learning/dynamic_programming.h"
+// </solution>
+
 // <solution iteratePolicies>
 Mdp mdp{.rewards = process.R, .discount = process.discount};
 for (const Eigen::MatrixXd& P : process.P) mdp.transitions.push_back(P.sparseView());

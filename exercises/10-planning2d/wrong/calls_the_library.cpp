@@ -1,6 +1,10 @@
 // caught by: forbidden-call
 // mistake: lets the library number the cells.
 
+// <solution headers>
+#include "planning/grid_search.h"
+// </solution>
+
 // <solution waveNumbers>
 GridMap grid(map.width, map.height);
 for (std::size_t place = 0; place < numbers.size(); ++place)

@@ -1,6 +1,10 @@
 // caught by: forbidden-call
 // mistake: asks the library for the curve.
 
+// <solution headers>
+#include "planning/dubins.h"
+// </solution>
+
 // <solution shortestDubins>
 const Curve curve = dubinsCurve(from, to, radius);
 for (std::size_t i = 0; i < 3; ++i) best.lengths[i] = curve.segments()[i].length;

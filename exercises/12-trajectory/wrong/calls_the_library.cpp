@@ -1,6 +1,10 @@
 // caught by: forbidden-call
 // mistake: the library's terms.
 
+// <solution headers>
+#include "trajectory/motion_terms.h"
+// </solution>
+
 // <solution differenceTerm>
 const std::vector<TrajectoryTerm> terms{velocityTerm(), accelerationTerm(), jerkTerm()};
 FunctionValue value;

@@ -1,6 +1,11 @@
 // caught by: forbidden-call
 // mistake: gains and gait of the library.
 
+// <solution headers>
+#include "locomotion/limit_cycle.h"
+#include "locomotion/preview_control.h"
+// </solution>
+
 // <solution previewLaw>
 const PreviewGains gains = previewGains({.height = cart.height,
                                          .g = cart.g,

@@ -1,6 +1,10 @@
 // caught by: forbidden-call
 // mistake: lets the library find the best map.
 
+// <solution headers>
+#include "estimation/pose_graph.h"
+// </solution>
+
 // <solution adjusted>
 PlanarPoseGraph graph{Eigen::Matrix3Xd(3, static_cast<Eigen::Index>(map.poses.size())), {}};
 for (std::size_t k = 0; k < map.poses.size(); ++k)
