@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "base/error.h"
+#include "base/require.h"
 #include "control/cart_pole_step_internal.h"
 #include "control/require_internal.h"
 #include "control/require_trials_internal.h"
@@ -10,7 +12,7 @@ namespace rex {
 namespace {
 
 void requireOptions(const CartPoleRolloutOptions& options) {
-  internal::requireSteps("cart pole", options.steps);
+  requireCount("cart pole: steps", options.steps, 0);
   requirePositive("cart pole: time step tau", options.tau);
   requireNotNegative("cart pole: noise", options.noise);
   requirePositive("cart pole: largest angle", options.largestAngle);

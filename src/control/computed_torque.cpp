@@ -1,6 +1,6 @@
 #include "control/computed_torque.h"
 
-#include "base/require_finite.h"
+#include "base/require.h"
 
 namespace rex {
 

@@ -158,9 +158,7 @@ RiccatiIteration iterateCare(const LinearSystem& given, const MatrixArg& Q, cons
   requireSound(system, Q, R, false);
   requirePositive("epsilon of the iteration", options.epsilon);
   requirePositive("tolerance of the iteration", options.tolerance);
-  if (options.maxIterations < 1)
-    throw Error(
-        {.what = "iterations", .found = fmt::format("{}", options.maxIterations), .wanted = "1 or more"});
+  requireCount("iterations", options.maxIterations, 1);
   const Eigen::Index n = system.A.rows();
   const Eigen::LLT<Eigen::MatrixXd> weight(R);
   const Eigen::MatrixXd G = system.B * weight.solve(system.B.transpose());

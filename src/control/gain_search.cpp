@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/require_finite.h"
+#include "base/require.h"
 #include "control/require_internal.h"
 #include "control/stability.h"
 
@@ -82,7 +82,7 @@ void requireSound(const LinearSystem& system, const Eigen::MatrixXd& start,
   requireFinite("first gains", start.reshaped());
   requirePositive("bound of gains", options.bound);
   requirePositive("tolerance of gains", options.tolerance);
-  requirePositive("evaluations", options.maxEvaluations);
+  requireCount("evaluations", options.maxEvaluations, 1);
   if (start.cwiseAbs().maxCoeff() > options.bound)
     throw Error({.what = "first gains",
                  .found = fmt::format("{:g}", start.cwiseAbs().maxCoeff()),

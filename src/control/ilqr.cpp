@@ -8,7 +8,7 @@
 
 #include "base/derivative_check.h"
 #include "base/error.h"
-#include "base/require_finite.h"
+#include "base/require.h"
 #include "control/lq_tracking.h"
 #include "control/require_internal.h"
 
@@ -105,7 +105,7 @@ void requireSound(const ControlProblem& problem, const Eigen::MatrixXd& U, const
   rex::requireFinite("first guess U", U.reshaped());
   requirePositive("tolerance of iLQR", options.tolerance);
   requireNotNegative("damping of iLQR", options.damping);
-  requireNotNegative("iterations of iLQR", options.maxIterations);
+  requireCount("iterations of iLQR", options.maxIterations, 0);
 }
 
 // The part of the step, 1, 1/2, ..., that lowers the cost by a fair share of what it promises.

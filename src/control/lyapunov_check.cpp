@@ -12,7 +12,7 @@
 
 #include "base/derivative_check.h"
 #include "base/error.h"
-#include "base/require_finite.h"
+#include "base/require.h"
 #include "control/require_internal.h"
 #include "control/require_matrix_internal.h"
 
@@ -40,8 +40,7 @@ void requireSound(const LyapunovCandidate& candidate, const LyapunovRegion& regi
     throw Error({.what = "equilibrium",
                  .found = shown(region.equilibrium),
                  .wanted = fmt::format("a point inside {} to {}", shown(region.low), shown(region.high))});
-  if (samples < 1)
-    throw Error({.what = "samples", .found = fmt::format("{}", samples), .wanted = "1 or more"});
+  requireCount("samples", samples, 1);
 }
 
 // Random points, at all distances from the equilibrium; besides, faces along the axes, and corners.

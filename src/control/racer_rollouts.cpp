@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "base/cpu_lanes.h"
+#include "base/error.h"
+#include "base/require.h"
 #include "control/racer_numbers_internal.h"
 #include "control/racer_policy_internal.h"
 #include "control/racer_rollouts_internal.h"
@@ -18,7 +20,7 @@ namespace {
 using internal::RacerRolloutsTask;
 
 internal::RacerRolloutsRules rulesOf(const RacerRolloutOptions& options) {
-  internal::requireSteps("racer", options.steps);
+  requireCount("racer: steps", options.steps, 0);
   requirePositive("racer: time step tau", options.tau);
   requireNotNegative("racer: noise", options.noise);
   requirePositive("racer: limit of u", options.largestControl);

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "base/require_finite.h"
-#include "base/require_positive.h"
+#include "base/require.h"
 #include "control/pd_gains.h"
 #include "scene/state.h"
 

@@ -5,16 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "base/error.h"
-#include "base/require_finite.h"
+#include "base/require.h"
 #include "control/rollouts.h"
 
 namespace rex::internal {
-
-inline void requireSteps(const std::string& plant, int steps) {
-  if (steps < 0)
-    throw Error({.what = plant + ": steps", .found = fmt::format("{}", steps), .wanted = "zero or more"});
-}
 
 inline void requireTrials(const std::string& plant, const std::vector<Trial>& trials) {
   for (std::size_t k = 0; k < trials.size(); ++k) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/require_finite.h"
+#include "base/require.h"
 #include "course/plant_film_internal.h"
 
 namespace rex {

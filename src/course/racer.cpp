@@ -1,6 +1,6 @@
 #include "course/racer.h"
 
-#include "base/require_finite.h"
+#include "base/require.h"
 
 namespace rex {
 

@@ -10,8 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/lower_case.h"
-#include "base/require_finite.h"
-#include "base/require_positive.h"
+#include "base/require.h"
 #include "base/rng.h"
 #include "collision/collision_pairs.h"
 #include "collision/contacts.h"

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/require_finite.h"
+#include "base/require.h"
 #include "base/rng.h"
 #include "dynamics/integrators_internal.h"
 #include "scene/coordinates.h"

@@ -12,7 +12,7 @@
 #include "base/cpu_lanes.h"
 #include "base/error.h"
 #include "base/normal_stream.h"
-#include "base/require_finite.h"
+#include "base/require.h"
 #include "estimation/car_particles_kernel_internal.h"
 #include "estimation/covariance.h"
 

@@ -6,7 +6,7 @@
 
 #include "base/derivative_check.h"
 #include "base/error.h"
-#include "base/require_finite.h"
+#include "base/require.h"
 #include "estimation/covariance.h"
 
 namespace rex {

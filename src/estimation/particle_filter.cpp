@@ -10,7 +10,7 @@
 
 #include "base/cpu_lanes.h"
 #include "base/error.h"
-#include "base/require_finite.h"
+#include "base/require.h"
 #include "base/rng.h"
 #include "estimation/covariance.h"
 #include "estimation/weights_kernel_internal.h"

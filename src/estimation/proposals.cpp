@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 
 #include "base/error.h"
-#include "base/require_finite.h"
+#include "base/require.h"
 #include "base/rng.h"
 #include "estimation/covariance.h"
 #include "estimation/innovation_internal.h"

@@ -1,7 +1,7 @@
 #include <Eigen/QR>
 
 #include "base/error.h"
-#include "base/require_finite.h"
+#include "base/require.h"
 #include "estimation/covariance.h"
 #include "estimation/innovation_internal.h"
 #include "estimation/kalman_filter.h"

@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/require_finite.h"
+#include "base/require.h"
 #include "estimation/pose_edge_internal.h"
 #include "estimation/range_scan_internal.h"
 #include "estimation/scan_checks_internal.h"

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/require_finite.h"
+#include "base/require.h"
 #include "grasping/cone_checks_internal.h"
 #include "optim/linear_program.h"
 

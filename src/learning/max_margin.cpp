@@ -6,7 +6,7 @@
 #include <Eigen/QR>
 
 #include "base/error.h"
-#include "base/require_finite.h"
+#include "base/require.h"
 
 namespace rex {
 namespace {

@@ -1,7 +1,7 @@
 #include "locomotion/basin.h"
 
 #include "base/error.h"
-#include "base/require_positive.h"
+#include "base/require.h"
 
 namespace rex {
 namespace {
@@ -44,7 +44,7 @@ std::vector<BasinOutcome> basinOfAttraction(const CompassGait& walker, const Lim
                                             const Eigen::Ref<const Eigen::Matrix4Xd>& starts,
                                             const BasinOptions& options) {
   requireStable(cycle);
-  requirePositive("basin of attraction: steps", options.maxSteps);
+  requireCount("basin of attraction: steps", options.maxSteps, 1);
   requirePositive("basin of attraction: tolerance", options.tolerance);
   std::vector<BasinOutcome> outcomes;
   outcomes.reserve(static_cast<std::size_t>(starts.cols()));

@@ -5,8 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/require_finite.h"
-#include "base/require_positive.h"
+#include "base/require.h"
 
 namespace rex {
 namespace {
@@ -87,8 +86,7 @@ void addCorners(const Footstep& foot, const Sole& sole, Eigen::Matrix2Xd& corner
 }  // namespace
 
 std::vector<Footstep> straightFootsteps(int count, double length, double width) {
-  if (count < 1)
-    throw Error({.what = "footsteps: count", .found = fmt::format("{}", count), .wanted = "at least 1"});
+  requireCount("footsteps: count", count, 1);
   requireFinite("footsteps: length", length);
   requirePositive("footsteps: width", width);
   std::vector<Footstep> steps;

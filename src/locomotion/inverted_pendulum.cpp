@@ -1,7 +1,6 @@
 #include "locomotion/inverted_pendulum.h"
 
-#include "base/require_finite.h"
-#include "base/require_positive.h"
+#include "base/require.h"
 
 namespace rex {
 namespace {

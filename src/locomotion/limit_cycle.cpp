@@ -6,7 +6,7 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
-#include "base/require_positive.h"
+#include "base/require.h"
 
 namespace rex {
 namespace {
@@ -78,7 +78,7 @@ LimitCycle found(LimitCycle cycle) {
 
 LimitCycle findLimitCycle(const CompassGait& walker, const Vector4d& guess,
                           const LimitCycleOptions& options) {
-  requirePositive("limit cycle: iterations", options.maxIterations);
+  requireCount("limit cycle: iterations", options.maxIterations, 1);
   requirePositive("limit cycle: tolerance", options.tolerance);
   Trial at(walker, guess, options.timeLimit);
   LimitCycle cycle{.x = guess, .residual = at.residual};

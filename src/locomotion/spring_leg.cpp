@@ -8,8 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/require_finite.h"
-#include "base/require_positive.h"
+#include "base/require.h"
 #include "locomotion/event_integration_internal.h"
 
 namespace rex {

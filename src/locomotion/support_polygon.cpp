@@ -6,8 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "base/require_finite.h"
-#include "base/require_positive.h"
+#include "base/require.h"
 
 namespace rex {
 namespace {

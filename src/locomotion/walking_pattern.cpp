@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "base/require_positive.h"
+#include "base/require.h"
 #include "kinematics/hierarchical_step.h"
 #include "kinematics/motion_profile.h"
 #include "kinematics/task.h"
@@ -87,7 +87,7 @@ void requireOptions(const Model& model, const VectorArg& start, const WalkOption
   requireSize("walking pattern: start", start.size(), model.nq());
   requirePositive("walking pattern: lift", options.lift);
   requirePositive("walking pattern: tolerance", options.tolerance);
-  requirePositive("walking pattern: iterations", options.maxIterations);
+  requireCount("walking pattern: iterations", options.maxIterations, 1);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "base/require_finite.h"
+#include "base/require.h"
 #include "dynamics/momentum_rate.h"
 #include "kinematics/center_of_mass.h"
 

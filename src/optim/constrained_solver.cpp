@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/require_finite.h"
+#include "base/require.h"
 #include "optim/constrained_descent_internal.h"
 #include "optim/dense_system_internal.h"
 #include "optim/search_checks_internal.h"

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/require_finite.h"
+#include "base/require.h"
 #include "physics/bullet_math_internal.h"
 #include "physics/bullet_world_internal.h"
 #include "physics/contact_events_internal.h"

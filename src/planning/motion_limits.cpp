@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "base/require_positive.h"
+#include "base/require.h"
 #include "dynamics/inverse_dynamics.h"
 #include "scene/coordinate_names.h"
 

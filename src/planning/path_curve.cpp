@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "base/require_positive.h"
+#include "base/require.h"
 #include "geometry/rotation.h"
 
 namespace rex {

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/require_finite.h"
+#include "base/require.h"
 #include "planning/edge_checker.h"
 #include "planning/spread_check_internal.h"
 

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/require_positive.h"
+#include "base/require.h"
 #include "planning/plane_program_internal.h"
 
 namespace rex {

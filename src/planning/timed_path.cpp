@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/require_finite.h"
+#include "base/require.h"
 
 namespace rex {
 

@@ -143,9 +143,10 @@ TEST(CartPoleDynamics, RefusesWhatHasNoMeaning) {
   EXPECT_REX_ERROR(plant.derivative(x, kNan), "cart pole: control u: found nan");
   EXPECT_REX_ERROR(plant.linearized(x, kNan), "cart pole: control u: found nan");
   EXPECT_REX_ERROR(plant.energy(Vector4d(0, 0, 0, kNan)), "cart pole: state: number 3");
-  EXPECT_REX_ERROR(plant.eulerStep(x, 0, 0), "cart pole: time step tau: found 0, wanted a positive number");
+  EXPECT_REX_ERROR(plant.eulerStep(x, 0, 0),
+                   "cart pole: time step tau: found 0, wanted a positive, finite number");
   EXPECT_REX_ERROR(plant.noisyStep(x, 0, 0.1, -1, rng),
-                   "cart pole: noise: found -1, wanted a number that is not negative");
+                   "cart pole: noise: found -1, wanted a finite number, 0 or more");
   EXPECT_REX_ERROR((CartPoleDynamics{.poleMass = 0}.energy(x)), "cart pole: mass of the pole: found 0");
   EXPECT_REX_ERROR((CartPoleDynamics{.cartMass = -1}.energy(x)), "cart pole: mass of the cart: found -1");
   EXPECT_REX_ERROR((CartPoleDynamics{.l = kNan}.energy(x)), "cart pole: length l: found nan");

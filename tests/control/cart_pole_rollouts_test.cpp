@@ -103,7 +103,7 @@ TEST(CartPoleRollouts, RefuseWhatHasNoMeaning) {
                    "cart pole: gains: number 0: found nan");
   EXPECT_REX_ERROR(cartPoleRollouts(kOptimal, trials(2, kNan)),
                    "cart pole: start of trial 0: number 2: found nan");
-  refuses({.steps = -2}, "cart pole: steps: found -2, wanted zero or more");
+  refuses({.steps = -2}, "cart pole: steps: found -2, wanted 0 or more");
   refuses({.tau = 0}, "cart pole: time step tau: found 0");
   refuses({.noise = -1}, "cart pole: noise: found -1");
   refuses({.largestAngle = 0}, "cart pole: largest angle: found 0");

@@ -152,7 +152,7 @@ TEST(Gramian, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(controllabilityGramian(system),
                    "Gramian of all time: found a system that is unstable: the eigenvalue 0");
   EXPECT_REX_ERROR(controllabilityGramian(system, 0),
-                   "time T of a Gramian: found 0, wanted a positive number");
+                   "time T of a Gramian: found 0, wanted a positive, finite number");
   LinearSystem steps = plane(0.5, 0, 0, 0.5, 0, 1), growing = plane(2, 0, 0, 2, 0, 1);
   steps.step = 0.1;
   EXPECT_REX_ERROR(controllabilityGramian(steps, 1e300),

@@ -187,7 +187,7 @@ TEST(Horizon, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(iterateCare(system, one, one, {.epsilon = 0}), "epsilon of the iteration: found 0");
   EXPECT_REX_ERROR(iterateCare(system, one, one, {.tolerance = -1}), "tolerance of the iteration: found -1");
   EXPECT_REX_ERROR(iterateCare(system, one, one, {.maxIterations = 0}),
-                   "iterations: found 0, wanted 1 or more");
+                   "iterations: found 0, wanted at least 1");
 }
 
 }  // namespace rex::finite_horizon_test

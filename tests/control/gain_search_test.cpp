@@ -74,7 +74,7 @@ TEST(FastestGains, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(fastestGains(system, K, {.bound = 0}), "bound of gains: found 0");
   EXPECT_REX_ERROR(fastestGains(system, K, {.bound = 0.5}),
                    "first gains: found 1, wanted at most the bound, 0.5");
-  EXPECT_REX_ERROR(fastestGains(system, K, {.maxEvaluations = 0}), "evaluations: found 0");
+  EXPECT_REX_ERROR(fastestGains(system, K, {.maxEvaluations = 0}), "evaluations: found 0, wanted at least 1");
   EXPECT_REX_ERROR(fastestGains(system, K, {.tolerance = 0}), "tolerance of gains: found 0");
   EXPECT_REX_ERROR(fastestGains({.A = MatrixXd::Zero(2, 2), .B = MatrixXd(2, 0)}, MatrixXd(0, 2)),
                    "linear system: found no control");

@@ -149,7 +149,8 @@ TEST(Ilqr, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(ilqr(pendulum(), MatrixXd::Constant(1, 3, kNan)), "first guess U: number 0: found nan");
   EXPECT_REX_ERROR(ilqr(pendulum(), U, {.tolerance = 0}), "tolerance of iLQR: found 0");
   EXPECT_REX_ERROR(ilqr(pendulum(), U, {.damping = -1}), "damping of iLQR: found -1");
-  EXPECT_REX_ERROR(ilqr(pendulum(), U, {.maxIterations = -1}), "iterations of iLQR: found -1");
+  EXPECT_REX_ERROR(ilqr(pendulum(), U, {.maxIterations = -1}),
+                   "iterations of iLQR: found -1, wanted 0 or more");
 }
 
 }  // namespace rex::ilqr_test

@@ -42,7 +42,8 @@ TEST(LinearSystem, SaysWhatDoesNotFit) {
   expect([](LinearSystem& s) { s.B(0, 0) = kNan; }, "matrix B: found entries");
   expect([](LinearSystem& s) { s.C(0, 0) = kNan; }, "matrix C: found entries");
   expect([](LinearSystem& s) { s.D(0, 0) = kNan; }, "matrix D: found entries");
-  expect([](LinearSystem& s) { s.step = 0; }, "step of a linear system: found 0, wanted a positive number");
+  expect([](LinearSystem& s) { s.step = 0; },
+         "step of a linear system: found 0, wanted a positive, finite number");
 }
 
 // The double integrator in closed form; a random system by many short steps of Runge and Kutta.

@@ -124,7 +124,7 @@ TEST(CertifiedLevel, ReachesToTheNextEquilibrium) {
   EXPECT_NEAR(certifiedLevel(-one, one, 1), 1, 1e-12);
   EXPECT_NEAR(certifiedLevel(-one, one, 2), 0.25, 1e-12);
   EXPECT_EQ(certifiedLevel(one, one, 1), 0);
-  EXPECT_REX_ERROR(certifiedLevel(-one, one, 0), "curvature: found 0, wanted a positive number");
+  EXPECT_REX_ERROR(certifiedLevel(-one, one, 0), "curvature: found 0, wanted a positive, finite number");
 }
 
 TEST(CheckLyapunov, SaysWhatIsWrong) {
@@ -150,7 +150,7 @@ TEST(CheckLyapunov, SaysWhatIsWrong) {
   expect([](auto&, auto&, auto& D, int&) { D.equilibrium[0] = NAN; }, "equilibrium: number 0: found nan");
   expect([](auto&, auto&, auto& D, int&) { D.low[0] = 0.5; },
          "equilibrium: found (0, 0), wanted a point inside (0.5, -1) to (1, 1)");
-  expect([](auto&, auto&, auto&, int& samples) { samples = 0; }, "samples: found 0, wanted 1 or more");
+  expect([](auto&, auto&, auto&, int& samples) { samples = 0; }, "samples: found 0, wanted at least 1");
   expect([](auto& f, auto&, auto&, int&) { f = nullptr; }, "motion: found no function f");
   expect([](auto& f, auto&, auto&, int&) { f = [](const VectorXd&) { return VectorXd(); }; },
          "velocity f(x): found a vector of size 0, wanted size 2");

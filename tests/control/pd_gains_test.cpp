@@ -29,10 +29,10 @@ TEST(PdGains, OscillateOnceIn2PiLambda) {
 }
 
 TEST(PdGains, RefuseWhatIsOutOfRange) {
-  EXPECT_REX_ERROR(pdGains(0, 1, 1), "mass: found 0, wanted a positive number");
-  EXPECT_REX_ERROR(pdGains(1, -0.5, 1), "wave length lambda: found -0.5, wanted a positive number");
+  EXPECT_REX_ERROR(pdGains(0, 1, 1), "mass: found 0, wanted a positive, finite number");
+  EXPECT_REX_ERROR(pdGains(1, -0.5, 1), "wave length lambda: found -0.5, wanted a positive, finite number");
   EXPECT_REX_ERROR(pdGains(1, std::nan(""), 1), "wave length lambda: found nan");
-  EXPECT_REX_ERROR(pdGains(1, 1, -1), "damping ratio xi: found -1, wanted a number that is not negative");
+  EXPECT_REX_ERROR(pdGains(1, 1, -1), "damping ratio xi: found -1, wanted a finite number, 0 or more");
   EXPECT_REX_ERROR(pdGains(1, 1, HUGE_VAL), "damping ratio xi: found inf");
   EXPECT_REX_ERROR(pdGains(1, 1e-200, 1), "gain Kp: found inf, wanted a finite number");
   EXPECT_REX_ERROR(pdGains(1, 1e-10, 1e300), "gain Kd: found inf");

@@ -171,11 +171,11 @@ TEST(Pid, RefusesBadNumbers) {
   EXPECT_REX_ERROR(Pid({.gains = {.Kd = nan}}), "gain Kd: found nan");
   EXPECT_REX_ERROR(Pid({.lowest = 1, .highest = -1}),
                    "limits of u: found 1 to -1, wanted the lower one first");
-  EXPECT_REX_ERROR(Pid({.filterTime = -1}), "filter time: found -1, wanted a number that is not negative");
+  EXPECT_REX_ERROR(Pid({.filterTime = -1}), "filter time: found -1, wanted a finite number, 0 or more");
   Pid pid({.gains = {.Kp = 1, .Ki = 1}});
   EXPECT_REX_ERROR(pid.step(nan, 0, 1), "error: found nan");
   EXPECT_REX_ERROR(pid.step(1, nan, 1), "velocity error: found nan");
-  EXPECT_REX_ERROR(pid.step(1, 1, 0), "time step h: found 0, wanted a positive number");
+  EXPECT_REX_ERROR(pid.step(1, 1, 0), "time step h: found 0, wanted a positive, finite number");
   EXPECT_REX_ERROR(pid.step(nan, 1), "error: found nan");
   EXPECT_REX_ERROR(pid.step(1, -1), "time step h: found -1");
   EXPECT_EQ(pid.integral(), 0);

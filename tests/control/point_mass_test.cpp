@@ -126,8 +126,9 @@ TEST(PointMass, ComesToThePdResponseInSmallSteps) {
 
 TEST(PointMass, RefusesBadNumbers) {
   const double nan = std::nan("");
-  EXPECT_REX_ERROR(PointMass{0}.eulerStep({}, 0, 1), "mass: found 0, wanted a positive number");
-  EXPECT_REX_ERROR(PointMass{1}.eulerStep({}, 0, 0), "time step h: found 0, wanted a positive number");
+  EXPECT_REX_ERROR(PointMass{0}.eulerStep({}, 0, 1), "mass: found 0, wanted a positive, finite number");
+  EXPECT_REX_ERROR(PointMass{1}.eulerStep({}, 0, 0),
+                   "time step h: found 0, wanted a positive, finite number");
   EXPECT_REX_ERROR(PointMass{1}.eulerStep({}, nan, 1), "force u: found nan, wanted a finite number");
   EXPECT_REX_ERROR(PointMass{1}.eulerStep({nan, 0}, 0, 1), "position q: found nan");
   EXPECT_REX_ERROR(PointMass{1}.eulerStep({0, HUGE_VAL}, 0, 1), "velocity v: found inf");
@@ -138,7 +139,7 @@ TEST(PointMass, RefusesBadNumbers) {
   EXPECT_REX_ERROR(pdResponse({1}, {.Kp = -1}, {1, 0}, 0, 1e4), "position q at time t: found nan");
   EXPECT_REX_ERROR(pdResponse({1}, {}, {0, 1e300}, 0, 1e300), "position q at time t: found inf");
   EXPECT_REX_ERROR(pdResponse({1}, {.Kp = -1e4}, {1, 0}, 0, 7.08), "velocity v at time t: found inf");
-  EXPECT_REX_ERROR(pdResponse({1}, {}, {}, 0, -1), "time t: found -1, wanted a number that is not negative");
+  EXPECT_REX_ERROR(pdResponse({1}, {}, {}, 0, -1), "time t: found -1, wanted a finite number, 0 or more");
 }
 
 }  // namespace rex::point_mass_test

@@ -176,7 +176,7 @@ TEST(RacerDynamics, RefusesWhatHasNoMeaning) {
   EXPECT_REX_ERROR(plant.derivative(badState, 0), "racer: state: number 3: found nan");
   EXPECT_REX_ERROR(plant.linearized(x, kNan), "racer: control u: found nan");
   EXPECT_REX_ERROR(plant.rungeKuttaStep(x, 0, -1),
-                   "racer: time step tau: found -1, wanted a positive number");
+                   "racer: time step tau: found -1, wanted a positive, finite number");
   EXPECT_REX_ERROR(plant.noisyStep(x, 0, 0.1, -1, rng), "racer: noise: found -1");
   EXPECT_REX_ERROR((RacerDynamics{.r = 0}.controlDirection()), "racer: radius r: found 0");
   EXPECT_REX_ERROR((RacerDynamics{.l = -1}.derivative(x, 0)), "racer: length l: found -1");

@@ -93,8 +93,9 @@ TEST(RacerPolicy, RefusesWhatHasNoMeaning) {
                    "racer: weights of features: found a vector of size 5, wanted size 27");
   EXPECT_REX_ERROR(RacerPolicy({}, VectorXd::Constant(5, kNan)),
                    "racer: weights of features: number 0: found nan");
-  EXPECT_REX_ERROR(RacerPolicy({}, w, 0), "racer: time step tau: found 0, wanted a positive number");
-  EXPECT_REX_ERROR(RacerPolicy({}, w, 1, -2), "racer: limit of u: found -2, wanted a positive number");
+  EXPECT_REX_ERROR(RacerPolicy({}, w, 0), "racer: time step tau: found 0, wanted a positive, finite number");
+  EXPECT_REX_ERROR(RacerPolicy({}, w, 1, -2),
+                   "racer: limit of u: found -2, wanted a positive, finite number");
   EXPECT_REX_ERROR(RacerPolicy({}, w).control(Vector4d(0, 0, kNan, 0)),
                    "racer: measured y: number 2: found nan");
 }

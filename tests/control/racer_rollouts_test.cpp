@@ -145,7 +145,7 @@ TEST(RacerRollouts, RefuseWhatHasNoMeaning) {
   const auto refuses = [&](const RacerRolloutOptions& options, const char* text) {
     EXPECT_REX_ERROR(racerRollouts(W, all, options), text);
   };
-  refuses({.steps = -1}, "racer: steps: found -1, wanted zero or more");
+  refuses({.steps = -1}, "racer: steps: found -1, wanted 0 or more");
   refuses({.tau = 0}, "racer: time step tau: found 0");
   refuses({.noise = -1}, "racer: noise: found -1");
   refuses({.largestControl = 0}, "racer: limit of u: found 0");

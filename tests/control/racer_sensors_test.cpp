@@ -99,7 +99,8 @@ TEST(RacerSensors, RefuseWhatHasNoMeaning) {
   const Vector4d x = Vector4d::Zero();
   EXPECT_REX_ERROR(RacerSensors{}.measured(Vector4d(kNan, 0, 0, 0), 1), "racer: state: number 0: found nan");
   EXPECT_REX_ERROR(RacerSensors{}.jacobian(Vector4d(0, kNan, 0, 0), 1), "racer: state: number 1: found nan");
-  EXPECT_REX_ERROR(RacerSensors{}.measured(x, 0), "racer: radius r: found 0, wanted a positive number");
+  EXPECT_REX_ERROR(RacerSensors{}.measured(x, 0),
+                   "racer: radius r: found 0, wanted a positive, finite number");
   EXPECT_REX_ERROR(RacerSensors{.s = kNan}.measured(x, 1), "racer: sensor constant s: found nan");
   EXPECT_REX_ERROR(RacerSensors{.phi = kNan}.measured(x, 1), "racer: sensor constant phi: found nan");
   EXPECT_REX_ERROR(RacerSensors{.kappa = kNan}.measured(x, 1), "racer: sensor constant kappa: found nan");

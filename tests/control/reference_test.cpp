@@ -96,7 +96,7 @@ TEST(Reference, RefusesWhatIsNone) {
   const Eigen::MatrixXd Q = q.replicate(1, 3);
   const Eigen::VectorXd wrong = Eigen::VectorXd::Zero(2);
   EXPECT_REX_ERROR(standAt(kModel, wrong), "posture q: found a vector of size 2");
-  EXPECT_REX_ERROR(referenceAlong(kModel, q, q, 0, 1), "seconds: found 0, wanted a positive number");
+  EXPECT_REX_ERROR(referenceAlong(kModel, q, q, 0, 1), "seconds: found 0, wanted a positive, finite number");
   EXPECT_REX_ERROR(referenceAlong(kModel, q, wrong, 1, 1), "found a vector of size 2");
   EXPECT_REX_ERROR(referenceAt(kModel, Q, 0, 1), "time between samples tau: found 0");
   EXPECT_REX_ERROR(referenceAt(kModel, Q, 1, 3), "sample of a reference: found 3, wanted 0 to 2");

@@ -63,7 +63,7 @@ TEST(Basin, NamesWhatIsWrong) {
                    "basin of attraction: limit cycle: found found: unstable");
   EXPECT_REX_ERROR(basinGrid({}, none, VectorXd(), VectorXd()), "basin of attraction: limit cycle");
   EXPECT_REX_ERROR(basinOfAttraction({}, cycle, cycle.x, {.maxSteps = 0}),
-                   "basin of attraction: steps: found 0");
+                   "basin of attraction: steps: found 0, wanted at least 1");
   EXPECT_REX_ERROR(basinOfAttraction({}, cycle, cycle.x, {.tolerance = -1}),
                    "basin of attraction: tolerance: found -1");
 }

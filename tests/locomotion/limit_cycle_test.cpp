@@ -114,7 +114,7 @@ TEST(LimitCycle, SaysWhyThereIsNone) {
   EXPECT_THAT(stuck.message, testing::HasSubstr("stuck: a step changes the state by "));
   EXPECT_LT(stuck.residual, 1e-13);
   EXPECT_REX_ERROR(findLimitCycle({}, Vector4d::Zero(), {.maxIterations = 0}),
-                   "limit cycle: iterations: found 0");
+                   "limit cycle: iterations: found 0, wanted at least 1");
   EXPECT_REX_ERROR(findLimitCycle({}, Vector4d::Zero(), {.tolerance = 0}), "limit cycle: tolerance: found 0");
 }
 

@@ -96,7 +96,7 @@ TEST(FollowZmp, MovesByItsOwnAccelerations) {
 
 TEST(PreviewControl, NamesWhatIsWrong) {
   EXPECT_REX_ERROR(previewGains({.height = -1}),
-                   "preview control: height: found -1, wanted a positive number");
+                   "preview control: height: found -1, wanted a positive, finite number");
   EXPECT_REX_ERROR(previewGains({.g = 0}), "preview control: g: found 0");
   EXPECT_REX_ERROR(previewGains({.step = NAN}), "preview control: step: found nan");
   EXPECT_REX_ERROR(previewGains({.preview = 0}), "preview control: preview: found 0");

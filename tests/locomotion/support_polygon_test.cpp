@@ -146,7 +146,7 @@ TEST(SupportMargin, WithoutAPolygonNothingIsInside) {
   EXPECT_EQ(nothing.message, "no support: there is no contact");
   EXPECT_REX_ERROR(supportMargin({}, {NAN, 0}), "support margin: point: number 0: found nan");
   EXPECT_REX_ERROR(supportMargin({}, {0, 0}, -1),
-                   "support margin: wanted margin: found -1, wanted a number that is not negative");
+                   "support margin: wanted margin: found -1, wanted a finite number, 0 or more");
 }
 
 }  // namespace rex::support_polygon_test

@@ -153,7 +153,7 @@ TEST(WalkingPattern, SaysWhereItCannotWalk) {
                    "walking pattern: start: found a vector of size 3");
   EXPECT_REX_ERROR(with({.lift = 0}), "walking pattern: lift: found 0");
   EXPECT_REX_ERROR(with({.tolerance = -1}), "walking pattern: tolerance: found -1");
-  EXPECT_REX_ERROR(with({.maxIterations = 0}), "walking pattern: iterations: found 0");
+  EXPECT_REX_ERROR(with({.maxIterations = 0}), "walking pattern: iterations: found 0, wanted at least 1");
 }
 
 }  // namespace rex::walking_pattern_test
