@@ -165,7 +165,7 @@ StepStatus statusOf(const std::optional<int>& event) {
 }
 
 std::string messageOf(StepStatus status, double time) {
-  constexpr std::array kWhat = {"stepped", "fell forward", "fell backward", "the foot behind did not lift",
+  constexpr std::array kWhat = {"stepped", "fell forward", "fell backward", "the rear foot did not lift",
                                 "no foot came down"};
   return fmt::format("{} after {:.6g} s", kWhat[static_cast<std::size_t>(status)], time);
 }

@@ -47,7 +47,7 @@ ZeroMomentPoint zmpOfContacts(std::span<const ContactForce> contacts, double gro
   Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero();
   double scale = 0;
   for (const ContactForce& contact : contacts) {
-    requireFinite("zero moment point: place of a contact", contact.p_WC);
+    requireFinite("zero moment point: position of a contact", contact.p_WC);
     requireFinite("zero moment point: force of a contact", contact.force_W);
     force += contact.force_W;
     torque += contact.p_WC.cross(contact.force_W);

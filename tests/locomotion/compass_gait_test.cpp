@@ -201,7 +201,7 @@ TEST(CompassGait, SaysHowItFails) {
   EXPECT_NEAR(slow.before[0] + walker.slope, M_PI / 2, 1e-12);
   const WalkerStep stuck = from(.22, -1, 1.5);
   EXPECT_EQ(stuck.status, StepStatus::kFootStuck);
-  EXPECT_EQ(stuck.message, "the foot behind did not lift after 0 s");
+  EXPECT_EQ(stuck.message, "the rear foot did not lift after 0 s");
   const WalkerStep brief = from(.2186, -1.09, -.377, .1);
   EXPECT_EQ(brief.status, StepStatus::kTimeLimit);
   EXPECT_EQ(brief.message, "no foot came down after 0.1 s");

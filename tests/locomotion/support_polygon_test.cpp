@@ -85,7 +85,7 @@ TEST(SupportPolygon, SaysWhereThereIsNone) {
   EXPECT_EQ(none.message, "no support: there is no contact");
   const SupportPolygon point = supportPolygon(points({{1, 2}, {1, 2}, {1, 2}}));
   EXPECT_EQ(point.shape, SupportShape::kPoint);
-  EXPECT_THAT(point.message, HasSubstr("one place"));
+  EXPECT_THAT(point.message, HasSubstr("one point"));
   const SupportPolygon two = supportPolygon(points({{1, 2}, {3, 2}}));
   EXPECT_EQ(two.shape, SupportShape::kLine);
   const double third = 1. / 3;

@@ -105,7 +105,7 @@ TEST(ZeroMomentPoint, NamesWhatIsWrong) {
   EXPECT_REX_ERROR(zmpOfMotion(massless, VectorXd(), VectorXd(), VectorXd()), wanted);
   EXPECT_REX_ERROR(staticStability(massless, VectorXd(), {}), wanted);
   const std::vector<ContactForce> place = {{.p_WC = {NAN, 0, 0}}}, force = {{.force_W = {NAN, 0, 0}}};
-  EXPECT_REX_ERROR(zmpOfContacts(place), "zero moment point: place of a contact: number 0");
+  EXPECT_REX_ERROR(zmpOfContacts(place), "zero moment point: position of a contact: number 0");
   EXPECT_REX_ERROR(zmpOfContacts(force), "zero moment point: force of a contact: number 0");
 }
 
