@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/require.h"
 #include "optim/search_checks_internal.h"
 
 namespace rex {
@@ -10,9 +11,7 @@ AnnealingResult minimizeByAnnealing(const Objective& f, const VectorArg& start, 
                                     const AnnealingOptions& options) {
   constexpr const char* kName = "annealing";
   internal::requireSearch(kName, start, options.deviation, options.target, options.maxEvaluations);
-  internal::requireSearchOption(std::isfinite(options.firstTemperature) && options.firstTemperature > 0,
-                                kName, "first temperature", options.firstTemperature,
-                                "a positive, finite number");
+  requirePositive("annealing: first temperature", options.firstTemperature);
   internal::requireSearchOption(
       options.lastTemperature > 0 && options.lastTemperature <= options.firstTemperature, kName,
       "last temperature", options.lastTemperature, "a positive number, at most the first");

@@ -73,7 +73,7 @@ void CmaEs::setConstants(const CmaOptions& options) {
   if (options.decompositionGap < 0)
     throw Error({.what = "CMA-ES: generations from one decomposition to the next",
                  .found = fmt::format("{}", options.decompositionGap),
-                 .wanted = "1 or more, or 0 for the usual"});
+                 .wanted = "at least 1, or 0 for the usual"});
 
   const double middle = options.mu > 0 ? mu_ + 0.5 : (lambda + 1) / 2.;
   weights_.resize(lambda);

@@ -27,8 +27,7 @@ void requireSound(const VectorArg& low, const VectorArg& high, const RestartOpti
     throw Error({.what = "restarts: growth of the population",
                  .found = fmt::format("{:g}", options.growth),
                  .wanted = "1 to 100"});
-  if (options.maxRestarts < 0)
-    throw Error({.what = "restarts", .found = fmt::format("{}", options.maxRestarts), .wanted = "0 or more"});
+  requireCount("restarts", options.maxRestarts, 0);
 }
 
 Eigen::VectorXd pointBetween(const VectorArg& low, const VectorArg& high, Rng& rng) {

@@ -6,16 +6,12 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require.h"
 
 namespace rex {
 namespace {
 
 constexpr std::size_t kLongestMemory = 20'000;
-
-void requirePositive(const char* what, double number) {
-  if (number > 0) return;
-  throw Error({.what = what, .found = fmt::format("{:g}", number), .wanted = "a positive number"});
-}
 
 }  // namespace
 
@@ -25,11 +21,11 @@ CmaTermination::CmaTermination(const CmaEs& es, const CmaLimits& limits)
     throw Error({.what = "CMA-ES: target",
                  .found = fmt::format("{:g}", limits.target),
                  .wanted = "a number below infinity"});
-  requirePositive("CMA-ES: budget of evaluations", static_cast<double>(limits.maxEvaluations));
+  requireCount("CMA-ES: budget of evaluations", limits.maxEvaluations, 1);
   requirePositive("CMA-ES: smallest step", limits.smallestStep);
   requirePositive("CMA-ES: smallest difference", limits.smallestDifference);
-  requirePositive("CMA-ES: largest condition", limits.largestCondition);
-  requirePositive("CMA-ES: largest growth", limits.largestGrowth);
+  requirePositiveOrInfinite("CMA-ES: largest condition", limits.largestCondition);
+  requirePositiveOrInfinite("CMA-ES: largest growth", limits.largestGrowth);
   const double generations = std::ceil(30. * es.dimension() / es.lambda());
   flatSpan_ = 10 + static_cast<std::size_t>(generations);
   stagnationSpan_ = std::min(kLongestMemory, 120 + static_cast<std::size_t>(generations));

@@ -31,23 +31,19 @@ void requireSound(const VectorArg& start, const ConstrainedOptions& options) {
   const auto require = [](bool isRight, const char* what, double number, const char* wanted) {
     internal::requireSearchOption(isRight, kName, what, number, wanted);
   };
-  require(start.size() > 0, "coordinates of the start", 0, "1 or more");
+  requireCount("constrained solver: coordinates of the start", start.size(), 1);
   requireFinite("constrained solver: start", start);
-  const auto positive = [&](const char* what, double number) {
-    require(number > 0 && std::isfinite(number), what, number, "a positive, finite number");
-  };
-  positive("tolerance", options.tolerance);
-  positive("stationarity", options.stationarity);
-  positive("step tolerance", options.stepTolerance);
-  positive("penalty", options.penalty);
-  positive("barrier", options.barrier);
+  requirePositive("constrained solver: tolerance", options.tolerance);
+  requirePositive("constrained solver: stationarity", options.stationarity);
+  requirePositive("constrained solver: step tolerance", options.stepTolerance);
+  requirePositive("constrained solver: penalty", options.penalty);
+  requirePositive("constrained solver: barrier", options.barrier);
   require(options.largestPenalty >= options.penalty, "largest penalty", options.largestPenalty,
           "no less than the penalty at the start");
   require(options.factor > 1 && std::isfinite(options.factor), "factor", options.factor,
           "a finite number above 1");
-  require(options.damping >= 0 && std::isfinite(options.damping), "damping", options.damping,
-          "a finite number, zero or more");
-  require(options.maxIterations > 0, "budget of iterations", options.maxIterations, "1 or more");
+  requireNotNegative("constrained solver: damping", options.damping);
+  requireCount("constrained solver: budget of iterations", options.maxIterations, 1);
 }
 
 Eigen::VectorXd startOf(const Eigen::VectorXd& multipliers, Eigen::Index size, const char* what) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/require.h"
 #include "optim/search_checks_internal.h"
 
 namespace rex {
@@ -77,8 +78,7 @@ struct Species {
 SearchResult minimizeByEvolution(const BatchObjective& f, const VectorArg& start, double deviation, Rng& rng,
                                  const EvolutionStrategyOptions& options) {
   internal::requireSearch(kEvolution, start, deviation, options.target, options.maxEvaluations);
-  internal::requireSearchOption(options.smallestStep > 0, kEvolution, "smallest step", options.smallestStep,
-                                "a positive number");
+  requirePositive("evolution strategy: smallest step", options.smallestStep);
   const Sizes sizes = sizesOf(start.size(), options);
   Species species(start, deviation, sizes);
   SearchResult result;

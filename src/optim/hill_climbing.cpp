@@ -2,19 +2,16 @@
 
 #include <cmath>
 
+#include "base/require.h"
 #include "optim/search_checks_internal.h"
 
 namespace rex {
 namespace {
 
-constexpr const char* kHillClimbing = "hill climbing";
-
 void requireSound(const VectorArg& start, const HillClimbingOptions& options) {
-  internal::requireSearch(kHillClimbing, start, options.step, options.target, options.maxEvaluations);
-  internal::requireSearchOption(options.smallestStep > 0, kHillClimbing, "smallest step",
-                                options.smallestStep, "a positive number");
-  internal::requireSearchOption(options.patience > 0, kHillClimbing, "patience", options.patience,
-                                "1 or more");
+  internal::requireSearch("hill climbing", start, options.step, options.target, options.maxEvaluations);
+  requirePositive("hill climbing: smallest step", options.smallestStep);
+  requireCount("hill climbing: patience", options.patience, 1);
 }
 
 SearchStatus statusOf(const SearchResult& result, double step, const HillClimbingOptions& options) {

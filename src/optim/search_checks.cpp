@@ -1,4 +1,3 @@
-#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -18,15 +17,12 @@ void requireSearchOption(bool isRight, const char* search, const char* what, dou
 
 void requireSearch(const char* search, const VectorArg& start, double deviation, double target,
                    long maxEvaluations) {
-  const auto count = static_cast<double>(start.size());
-  requireSearchOption(count > 0, search, "coordinates of the start", count, "1 or more");
+  requireCount(fmt::format("{}: coordinates of the start", search), start.size(), 1);
   requireFinite(fmt::format("{}: start", search), start);
-  requireSearchOption(std::isfinite(deviation) && deviation > 0, search, "deviation of steps", deviation,
-                      "a positive, finite number");
+  requirePositive(fmt::format("{}: deviation of steps", search), deviation);
   requireSearchOption(target < std::numeric_limits<double>::infinity(), search, "target", target,
                       "a number below infinity");
-  requireSearchOption(maxEvaluations > 0, search, "budget of evaluations",
-                      static_cast<double>(maxEvaluations), "1 or more");
+  requireCount(fmt::format("{}: budget of evaluations", search), maxEvaluations, 1);
 }
 
 }  // namespace rex::internal

@@ -5,7 +5,7 @@
 namespace rex::internal {
 
 /// Throws Error naming `search` for a start without numbers or with some that are not finite, a deviation
-/// that is not positive, a target that is not a number or infinite, and a budget below one.
+/// that is not positive and finite, a target that is infinity or not a number, and a budget below one.
 void requireSearch(const char* search, const VectorArg& start, double deviation, double target,
                    long maxEvaluations);
 

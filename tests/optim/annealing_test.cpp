@@ -102,13 +102,16 @@ TEST(Annealing, SaysWhatIsWrong) {
   const auto run = [&](const AnnealingOptions& options, const VectorXd& start = VectorXd::Ones(2)) {
     return minimizeByAnnealing(testFunction("sphere").value, start, rng, options);
   };
-  EXPECT_REX_ERROR(run({}, VectorXd()), "annealing: coordinates of the start: found 0");
-  EXPECT_REX_ERROR(run({.deviation = -1}), "annealing: deviation of steps: found -1");
-  EXPECT_REX_ERROR(run({.firstTemperature = 0}), "annealing: first temperature: found 0, wanted a positive");
+  EXPECT_REX_ERROR(run({}, VectorXd()), "annealing: coordinates of the start: found 0, wanted at least 1");
+  EXPECT_REX_ERROR(run({.deviation = -1}),
+                   "annealing: deviation of steps: found -1, wanted a positive, finite number");
+  EXPECT_REX_ERROR(run({.firstTemperature = 0}),
+                   "annealing: first temperature: found 0, wanted a positive, finite number");
   EXPECT_REX_ERROR(run({.lastTemperature = 11}),
                    "annealing: last temperature: found 11, wanted a positive number, at");
   EXPECT_REX_ERROR(run({.lastTemperature = 0}), "annealing: last temperature: found 0");
-  EXPECT_REX_ERROR(run({.maxEvaluations = 0}), "annealing: budget of evaluations: found 0");
+  EXPECT_REX_ERROR(run({.maxEvaluations = 0}),
+                   "annealing: budget of evaluations: found 0, wanted at least 1");
 }
 
 }  // namespace rex::annealing_test

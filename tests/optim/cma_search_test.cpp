@@ -182,16 +182,22 @@ TEST(Restarts, KeepTheirBudget) {
 
 TEST(CmaSearch, SaysWhatIsWrong) {
   const Objective f = testFunction("sphere").value;
-  const double nan = std::nan("");
+  const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
   EXPECT_REX_ERROR(search(f, 2, {.target = nan}), "CMA-ES: target: found nan, wanted a number");
-  EXPECT_REX_ERROR(search(f, 2, {.target = std::numeric_limits<double>::infinity()}),
+  EXPECT_REX_ERROR(search(f, 2, {.target = infinity}),
                    "CMA-ES: target: found inf, wanted a number below infinity");
-  EXPECT_REX_ERROR(search(f, 2, {.maxEvaluations = 0}), "CMA-ES: budget of evaluations: found 0");
+  EXPECT_REX_ERROR(search(f, 2, {.maxEvaluations = 0}),
+                   "CMA-ES: budget of evaluations: found 0, wanted at least 1");
   EXPECT_REX_ERROR(search(f, 2, {.smallestStep = 0}),
-                   "CMA-ES: smallest step: found 0, wanted a positive number");
+                   "CMA-ES: smallest step: found 0, wanted a positive, finite number");
+  EXPECT_REX_ERROR(search(f, 2, {.smallestStep = infinity}), "CMA-ES: smallest step: found inf");
   EXPECT_REX_ERROR(search(f, 2, {.smallestDifference = nan}), "CMA-ES: smallest difference: found nan");
-  EXPECT_REX_ERROR(search(f, 2, {.largestCondition = -1}), "CMA-ES: largest condition: found -1");
-  EXPECT_REX_ERROR(search(f, 2, {.largestGrowth = 0}), "CMA-ES: largest growth: found 0");
+  EXPECT_REX_ERROR(search(f, 2, {.smallestDifference = infinity}), "CMA-ES: smallest difference: found inf");
+  EXPECT_REX_ERROR(search(f, 2, {.largestCondition = -1}),
+                   "CMA-ES: largest condition: found -1, wanted a positive number, or infinity");
+  EXPECT_REX_ERROR(search(f, 2, {.largestGrowth = 0}),
+                   "CMA-ES: largest growth: found 0, wanted a positive number, or infinity");
+  EXPECT_NO_THROW(search(f, 2, {.largestCondition = infinity, .largestGrowth = infinity}));
 
   Rng rng(0);
   const VectorXd one = VectorXd::Ones(2);

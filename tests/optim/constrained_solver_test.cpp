@@ -370,15 +370,16 @@ TEST(ConstrainedSolver, SaysWhatIsWrong) {
     EXPECT_REX_ERROR(solveConstrained({.residuals = square}, VectorXd::Ones(1), options), text);
   };
   expect({.tolerance = 0}, "constrained solver: tolerance: found 0, wanted a positive, finite number");
-  expect({.stationarity = -1}, "constrained solver: stationarity: found -1, wanted a positive");
+  expect({.stationarity = -1},
+         "constrained solver: stationarity: found -1, wanted a positive, finite number");
   expect({.stepTolerance = 0}, "constrained solver: step tolerance: found 0");
   expect({.penalty = 0}, "constrained solver: penalty: found 0");
   expect({.penalty = 2, .largestPenalty = 1},
          "constrained solver: largest penalty: found 1, wanted no less than the penalty at the start");
   expect({.barrier = std::nan("")}, "constrained solver: barrier: found nan");
   expect({.factor = 1}, "constrained solver: factor: found 1, wanted a finite number above 1");
-  expect({.damping = -1}, "constrained solver: damping: found -1, wanted a finite number, zero or more");
-  expect({.maxIterations = 0}, "constrained solver: budget of iterations: found 0, wanted 1 or more");
+  expect({.damping = -1}, "constrained solver: damping: found -1, wanted a finite number, 0 or more");
+  expect({.maxIterations = 0}, "constrained solver: budget of iterations: found 0, wanted at least 1");
   expect({.inequalityMultipliers = VectorXd::Ones(2)},
          "multipliers of inequalities: found a vector of size 2, wanted size 0");
   expect({.equalityMultipliers = VectorXd::Ones(1)},
@@ -387,7 +388,7 @@ TEST(ConstrainedSolver, SaysWhatIsWrong) {
                                     {.equalityMultipliers = numbers({std::nan("")})}),
                    "multipliers of equalities: number 0: found nan");
   EXPECT_REX_ERROR(solveConstrained({.residuals = square}, VectorXd(0)),
-                   "constrained solver: coordinates of the start: found 0, wanted 1 or more");
+                   "constrained solver: coordinates of the start: found 0, wanted at least 1");
   EXPECT_REX_ERROR(solveConstrained({.residuals = square}, numbers({std::nan("")})),
                    "constrained solver: start: number 0: found nan, wanted a finite number");
   EXPECT_REX_ERROR(solveConstrained(ConstrainedProblem{}, VectorXd::Ones(1)),

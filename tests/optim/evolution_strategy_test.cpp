@@ -122,16 +122,20 @@ TEST(EvolutionStrategy, SaysWhatIsWrong) {
     return minimizeByEvolution(sphere(), start, deviation, rng, options);
   };
   const VectorXd one = VectorXd::Ones(2);
-  const double nan = std::nan("");
+  const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
   EXPECT_REX_ERROR(run(VectorXd(), 1),
-                   "evolution strategy: coordinates of the start: found 0, wanted 1 or more");
+                   "evolution strategy: coordinates of the start: found 0, wanted at least 1");
   EXPECT_REX_ERROR(run(nan * one, 1), "evolution strategy: start: number 0: found nan");
-  EXPECT_REX_ERROR(run(one, 0), "evolution strategy: deviation of steps: found 0, wanted a positive, finite");
+  EXPECT_REX_ERROR(run(one, 0),
+                   "evolution strategy: deviation of steps: found 0, wanted a positive, finite number");
   EXPECT_REX_ERROR(run(one, 1, {.target = nan}), "evolution strategy: target: found nan");
-  EXPECT_REX_ERROR(run(one, 1, {.target = std::numeric_limits<double>::infinity()}),
+  EXPECT_REX_ERROR(run(one, 1, {.target = infinity}),
                    "evolution strategy: target: found inf, wanted a number below infinity");
-  EXPECT_REX_ERROR(run(one, 1, {.maxEvaluations = 0}), "evolution strategy: budget of evaluations: found 0");
-  EXPECT_REX_ERROR(run(one, 1, {.smallestStep = 0}), "evolution strategy: smallest step: found 0");
+  EXPECT_REX_ERROR(run(one, 1, {.maxEvaluations = 0}),
+                   "evolution strategy: budget of evaluations: found 0, wanted at least 1");
+  EXPECT_REX_ERROR(run(one, 1, {.smallestStep = 0}),
+                   "evolution strategy: smallest step: found 0, wanted a positive, finite number");
+  EXPECT_REX_ERROR(run(one, 1, {.smallestStep = infinity}), "evolution strategy: smallest step: found inf");
   EXPECT_REX_ERROR(run(one, 1, {.mu = -1}), "evolution strategy: mu: found -1, wanted 1 to 100000, or 0");
   EXPECT_REX_ERROR(run(one, 1, {.mu = 4, .lambda = 4}),
                    "evolution strategy: lambda: found 4, wanted more than mu");

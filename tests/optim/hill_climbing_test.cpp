@@ -71,8 +71,9 @@ TEST(HillClimbing, SaysWhatIsWrong) {
       EXPECT_REX_ERROR(climb(byChance, testFunction("sphere").value, VectorXd::Ones(2), options), text);
   };
   expect({.step = 0}, "hill climbing: deviation of steps: found 0");
-  expect({.smallestStep = 0}, "hill climbing: smallest step: found 0, wanted a positive number");
-  expect({.patience = 0}, "hill climbing: patience: found 0, wanted 1 or more");
+  expect({.smallestStep = 0}, "hill climbing: smallest step: found 0, wanted a positive, finite number");
+  expect({.smallestStep = HUGE_VAL}, "hill climbing: smallest step: found inf");
+  expect({.patience = 0}, "hill climbing: patience: found 0, wanted at least 1");
   expect({.maxEvaluations = 0}, "hill climbing: budget of evaluations: found 0");
   expect({.target = std::nan("")}, "hill climbing: target: found nan");
 }
