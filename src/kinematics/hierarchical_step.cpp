@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include <Eigen/SVD>
-#include <fmt/format.h>
 
+#include "base/require.h"
 #include "kinematics/metric_internal.h"
 
 namespace rex {
@@ -33,16 +33,10 @@ void fulfil(const Eigen::MatrixXd& J, const Eigen::VectorXd& dy, double damping,
   free = Eigen::MatrixXd(free * svd.matrixV().rightCols(free.cols() - rank));
 }
 
-void requireFinite(const char* what, const Eigen::MatrixXd& numbers) {
-  if (numbers.allFinite()) return;
-  throw Error({.what = what, .found = "a number that is not finite", .wanted = "finite numbers"});
-}
-
 }  // namespace
 
 Eigen::VectorXd hierarchicalStep(const std::vector<TaskLevel>& levels, const HierarchyOptions& options) {
-  if (!(options.damping >= 0))
-    throw Error({.what = "damping", .found = fmt::format("{}", options.damping), .wanted = "damping >= 0"});
+  requireNotNegative("damping", options.damping);
   if (levels.empty())
     throw Error({.what = "hierarchy of tasks", .found = "no level", .wanted = "at least one"});
   const Eigen::Index n = levels.front().J.cols();
@@ -55,13 +49,13 @@ Eigen::VectorXd hierarchicalStep(const std::vector<TaskLevel>& levels, const Hie
   for (const TaskLevel& level : levels) {
     requireSize("Jacobian of a level, per row", level.J.cols(), n);
     requireSize("task change dy of a level", level.dy.size(), level.J.rows());
-    requireFinite("Jacobian of a level", level.J);
+    requireFinite("Jacobian of a level", level.J.reshaped());
     requireFinite("task change dy of a level", level.dy);
     fulfil(triangle.solve<Eigen::OnTheRight>(level.J), level.dy, options.damping, x, free);
   }
   if (options.a.size() > 0) {
-    requireSize("wished posture change a", options.a.size(), n);
-    requireFinite("wished posture change a", options.a);
+    requireSize("desired posture change a", options.a.size(), n);
+    requireFinite("desired posture change a", options.a);
     x += free * (free.transpose() * (U * options.a - x));
   }
   return triangle.solve(x);

@@ -1,8 +1,8 @@
 #include "kinematics/inverse_kinematics.h"
 
 #include <Eigen/Cholesky>
-#include <fmt/format.h>
 
+#include "base/require.h"
 #include "kinematics/metric_internal.h"
 
 namespace rex {
@@ -26,8 +26,7 @@ Eigen::VectorXd taskSpaceStep(const MatrixArg& J, const WinvTransposed& WinvJt, 
 Eigen::VectorXd inverseKinematicsStep(const Eigen::Ref<const Eigen::MatrixXd>& J, const VectorArg& dy,
                                       double sigma) {
   requireSize("task change dy", dy.size(), J.rows());
-  if (!(sigma > 0))
-    throw Error({.what = "regularisation sigma", .found = fmt::format("{}", sigma), .wanted = "sigma > 0"});
+  requirePositive("regularisation sigma", sigma);
   // The smaller of the two equal forms (Woodbury): a task has fewer dimensions than a robot has joints.
   const auto sigma2 = sigma * sigma * Eigen::MatrixXd::Identity(J.rows(), J.rows());
   return taskSpaceStep(J, J.transpose(), sigma2, dy);
@@ -39,7 +38,7 @@ Eigen::VectorXd inverseKinematicsStep(const MatrixArg& J, const VectorArg& dy, c
   const internal::Metric W("metric W", options.W, n), C("metric C", options.C, d);
   Eigen::VectorXd a = options.a;
   if (a.size() == 0) a.setZero(n);
-  requireSize("wished posture change a", a.size(), n);
+  requireSize("desired posture change a", a.size(), n);
 
   const Eigen::VectorXd missing = dy - J * a;  // what a leaves to be done
   const StepForm form = options.form == StepForm::kCheaper ? cheaperForm(W, d, n) : options.form;

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/require.h"
 #include "kinematics/damped_step_internal.h"
 #include "kinematics/joint_limits_internal.h"
 #include "scene/coordinates.h"
@@ -188,15 +189,10 @@ void requireProblem(const Model& model, std::span<const Task> tasks, const Vecto
   if (tasks.empty())
     throw Error({.what = "inverse kinematics", .found = "no task", .wanted = "at least one"});
   requireSize("start posture", start.size(), model.nq());
-  if (!start.allFinite())
-    throw Error(
-        {.what = "start posture", .found = "a number that is not finite", .wanted = "finite numbers"});
-  if (options.maxIterations < 1 || options.maxRestarts < 0 || !(options.stepTolerance > 0)) {
-    throw Error({.what = "options of inverse kinematics",
-                 .found = fmt::format("{} iterations, {} restarts, step tolerance {}", options.maxIterations,
-                                      options.maxRestarts, options.stepTolerance),
-                 .wanted = "at least one iteration, no negative number of restarts, a positive tolerance"});
-  }
+  requireFinite("start posture", start);
+  requireCount("inverse kinematics: iterations", options.maxIterations, 1);
+  requireCount("inverse kinematics: restarts", options.maxRestarts, 0);
+  requirePositive("inverse kinematics: step tolerance", options.stepTolerance);
 }
 
 std::string message(std::span<const Task> tasks, const Result& result) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require.h"
 
 namespace rex {
 namespace {
@@ -31,9 +32,7 @@ ProfilePoint minimumJerk(double s) {
 }
 
 void requireProfile(const MotionProfile& profile, double s) {
-  if (!std::isfinite(s))
-    throw Error(
-        {.what = "time of a motion profile", .found = fmt::format("{}", s), .wanted = "a finite number"});
+  requireFinite("time of a motion profile", s);
   if (profile.shape == ProfileShape::kTrapezoid && !(profile.blend > 0 && profile.blend <= 0.5)) {
     throw Error({.what = "blend of a trapezoid profile",
                  .found = fmt::format("{}", profile.blend),

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "base/require.h"
+
 namespace rex {
 namespace {
 
@@ -15,10 +17,10 @@ namespace {
 
 void requireUsable(const Task& task) {
   if (!task.map) refuse(task, "map", "none", "a function");
-  if (!(task.precision > 0 && std::isfinite(task.precision)))
-    refuse(task, "precision", fmt::format("{}", task.precision), "a positive number");
+  if (!(task.precision > 0 && std::isfinite(task.precision)))  // no text for what is right: each step asks
+    requirePositive(fmt::format("task '{}': precision", task.name), task.precision);
   if (!(task.tolerance >= 0))
-    refuse(task, "tolerance", fmt::format("{}", task.tolerance), "a number that is not negative");
+    requireNotNegativeOrInfinite(fmt::format("task '{}': tolerance", task.name), task.tolerance);
 }
 
 void requireValue(const Task& task, const TaskValue& value, int nv) {

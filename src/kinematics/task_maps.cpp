@@ -1,11 +1,9 @@
 #include "kinematics/task_maps.h"
 
-#include <cmath>
-
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <fmt/format.h>
 
+#include "base/require.h"
 #include "kinematics/center_of_mass.h"
 #include "kinematics/jacobians.h"
 #include "scene/coordinates.h"
@@ -160,10 +158,7 @@ TaskMap relativeAlignmentTask(BodyId body, const Eigen::Vector3d& vector_B, Body
 }
 
 TaskMap jointLimitsTask(double margin) {
-  if (!(margin > 0 && std::isfinite(margin)))
-    throw Error({.what = "margin of joint limits",
-                 .found = fmt::format("{}", margin),
-                 .wanted = "a positive number"});
+  requirePositive("margin of joint limits", margin);
   return [=](const Posture& at, TaskValue& out) {
     out.y.setZero(1);
     out.J.setZero(1, at.model.nv());

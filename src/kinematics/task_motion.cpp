@@ -1,7 +1,6 @@
 #include "kinematics/task_motion.h"
 
-#include <fmt/format.h>
-
+#include "base/require.h"
 #include "kinematics/inverse_kinematics.h"
 #include "kinematics/joint_limits_internal.h"
 #include "kinematics/metric_internal.h"
@@ -9,11 +8,6 @@
 
 namespace rex {
 namespace {
-
-void requireSteps(int steps) {
-  if (steps > 0) return;
-  throw Error({.what = "steps of a motion", .found = fmt::format("{}", steps), .wanted = "at least one"});
-}
 
 double share(int t, int steps, const MotionProfile& profile) {
   return profileAt(profile, static_cast<double>(t) / steps).position;
@@ -23,7 +17,7 @@ double share(int t, int steps, const MotionProfile& profile) {
 
 Eigen::MatrixXd interpolatePostures(const Model& model, const VectorArg& q0, const VectorArg& qT, int steps,
                                     const MotionProfile& profile) {
-  requireSteps(steps);
+  requireCount("steps of a motion", steps, 1);
   const Eigen::VectorXd way = difference(model, q0, qT);
   Eigen::MatrixXd Q(model.nq(), steps + 1);
   for (int t = 0; t <= steps; ++t) Q.col(t) = integrate(model, q0, share(t, steps, profile) * way);
@@ -32,7 +26,7 @@ Eigen::MatrixXd interpolatePostures(const Model& model, const VectorArg& q0, con
 
 Eigen::MatrixXd interpolateValues(const VectorArg& y0, const VectorArg& yT, int steps,
                                   const MotionProfile& profile) {
-  requireSteps(steps);
+  requireCount("steps of a motion", steps, 1);
   requireSize("last task value yT", yT.size(), y0.size());
   Eigen::MatrixXd Y(y0.size(), steps + 1);
   for (int t = 0; t <= steps; ++t) Y.col(t) = y0 + share(t, steps, profile) * (yT - y0);

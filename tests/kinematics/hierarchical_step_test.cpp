@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <Eigen/Dense>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
@@ -142,7 +143,9 @@ TEST(HierarchicalStep, RefusesBadArguments) {
   Rng rng(6);
   const TaskLevel level = randomLevel(rng, 3, 7);
   EXPECT_REX_ERROR(hierarchicalStep({}), "hierarchy of tasks: found no level, wanted at least one");
-  EXPECT_REX_ERROR(hierarchicalStep({level}, {.damping = -1}), "damping: found -1, wanted damping >= 0");
+  EXPECT_REX_ERROR(hierarchicalStep({level}, {.damping = -1}),
+                   "damping: found -1, wanted a finite number, 0 or more");
+  EXPECT_REX_ERROR(hierarchicalStep({level}, {.damping = HUGE_VAL}), "damping: found inf");
   EXPECT_REX_ERROR(hierarchicalStep({level, randomLevel(rng, 2, 6)}),
                    "Jacobian of a level, per row: found a vector of size 6, wanted size 7");
   EXPECT_REX_ERROR(hierarchicalStep({{.J = level.J, .dy = Eigen::Vector2d(1, 1)}}),
@@ -150,15 +153,15 @@ TEST(HierarchicalStep, RefusesBadArguments) {
   EXPECT_REX_ERROR(hierarchicalStep({level}, {.W = -Eigen::MatrixXd::Identity(7, 7)}),
                    "metric W: wanted a symmetric, positive definite matrix");
   EXPECT_REX_ERROR(hierarchicalStep({level}, {.a = Eigen::Vector2d(1, 1)}),
-                   "wished posture change a: found a vector of size 2, wanted size 7");
+                   "desired posture change a: found a vector of size 2, wanted size 7");
   for (const double bad : {std::nan(""), HUGE_VAL}) {
     const auto broken = [&](int size) { return Eigen::VectorXd::Constant(size, bad); };
     EXPECT_REX_ERROR(hierarchicalStep({level, {.J = broken(7).transpose(), .dy = Eigen::VectorXd::Ones(1)}}),
-                     "Jacobian of a level: found a number that is not finite, wanted finite numbers");
+                     fmt::format("Jacobian of a level: number 0: found {}, wanted a finite number", bad));
     EXPECT_REX_ERROR(hierarchicalStep({{.J = level.J, .dy = broken(3)}}),
-                     "task change dy of a level: found a number that is not finite");
+                     fmt::format("task change dy of a level: number 0: found {}", bad));
     EXPECT_REX_ERROR(hierarchicalStep({level}, {.a = broken(7)}),
-                     "wished posture change a: found a number that is not finite");
+                     fmt::format("desired posture change a: number 0: found {}", bad));
   }
 }
 

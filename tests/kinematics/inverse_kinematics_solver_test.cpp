@@ -1,5 +1,6 @@
 #include "kinematics/inverse_kinematics_solver.h"
 
+#include <cmath>
 #include <filesystem>
 #include <numbers>
 
@@ -283,11 +284,15 @@ TEST(SolveInverseKinematics, RefusesBadArguments) {
   EXPECT_REX_ERROR(solve(model, {task}, Eigen::Vector3d(0, 0, 0)),
                    "start posture: found a vector of size 3, wanted size 2");
   EXPECT_REX_ERROR(solve(model, {task}, Eigen::Vector2d(0, std::nan(""))),
-                   "start posture: found a number that is not finite, wanted finite numbers");
-  const char* message = "options of inverse kinematics: found ";
-  EXPECT_REX_ERROR(solve(model, {task}, q, {.maxIterations = 0}), message);
-  EXPECT_REX_ERROR(solve(model, {task}, q, {.maxRestarts = -1}), message);
-  EXPECT_REX_ERROR(solve(model, {task}, q, {.stepTolerance = 0}), message);
+                   "start posture: number 1: found nan, wanted a finite number");
+  EXPECT_REX_ERROR(solve(model, {task}, q, {.maxIterations = 0}),
+                   "inverse kinematics: iterations: found 0, wanted at least 1");
+  EXPECT_REX_ERROR(solve(model, {task}, q, {.maxRestarts = -1}),
+                   "inverse kinematics: restarts: found -1, wanted 0 or more");
+  EXPECT_REX_ERROR(solve(model, {task}, q, {.stepTolerance = 0}),
+                   "inverse kinematics: step tolerance: found 0, wanted a positive, finite number");
+  EXPECT_REX_ERROR(solve(model, {task}, q, {.stepTolerance = HUGE_VAL}),
+                   "inverse kinematics: step tolerance: found inf");
   const TaskMap broken = [](const Posture& at, TaskValue& out) {
     out.y = Eigen::VectorXd::Constant(1, std::sqrt(-1 - at.q[0] * at.q[0]));
     out.J.setZero(1, at.model.nv());

@@ -1,5 +1,6 @@
 #include "kinematics/inverse_kinematics.h"
 
+#include <cmath>
 #include <limits>
 
 #include <Eigen/Dense>
@@ -43,7 +44,9 @@ TEST(InverseKinematicsStep, RefusesBadArguments) {
   EXPECT_REX_ERROR(inverseKinematicsStep(J, Eigen::Vector2d(1, 1), 0.1),
                    "task change dy: found a vector of size 2, wanted size 3");
   EXPECT_REX_ERROR(inverseKinematicsStep(J, Eigen::Vector3d(1, 1, 1), 0),
-                   "regularisation sigma: found 0, wanted sigma > 0");
+                   "regularisation sigma: found 0, wanted a positive, finite number");
+  EXPECT_REX_ERROR(inverseKinematicsStep(J, Eigen::Vector3d(1, 1, 1), HUGE_VAL),
+                   "regularisation sigma: found inf");
 }
 
 // A problem with full metrics; `diagonal` ones as the course has them.
@@ -132,7 +135,7 @@ TEST(StepWithMetrics, RefusesBadArguments) {
   EXPECT_REX_ERROR(inverseKinematicsStep(J, dy, {.C = Eigen::MatrixXd::Identity(3, 2)}),
                    "metric C: found 3 x 2, wanted 2 x 2, or empty for the identity");
   EXPECT_REX_ERROR(inverseKinematicsStep(J, dy, {.a = dy}),
-                   "wished posture change a: found a vector of size 2, wanted size 3");
+                   "desired posture change a: found a vector of size 2, wanted size 3");
   Eigen::Matrix2d skewed, indefinite, unknown;
   skewed << 1, 0.5, 0, 1;
   indefinite << 1, 2, 2, 1;

@@ -213,8 +213,9 @@ TEST(TaskMaps, RefuseBadArguments) {
   EXPECT_REX_ERROR(quaternionTask(body, Quaternion::Zero()), "quaternion: found (0, 0, 0, 0)");
   EXPECT_REX_ERROR(relativeQuaternionTask(body, body, {kInfinity, 0, 0, 0}),
                    "quaternion: found (inf, 0, 0, 0)");
-  EXPECT_REX_ERROR(jointLimitsTask(0), "margin of joint limits: found 0, wanted a positive number");
-  EXPECT_REX_ERROR(jointLimitsTask(kInfinity), "margin of joint limits: found inf, wanted a positive number");
+  EXPECT_REX_ERROR(jointLimitsTask(0), "margin of joint limits: found 0, wanted a positive, finite number");
+  EXPECT_REX_ERROR(jointLimitsTask(kInfinity),
+                   "margin of joint limits: found inf, wanted a positive, finite number");
   const Model model = limitedModel();
   EXPECT_REX_ERROR(valueAt(homingTask(Eigen::VectorXd::Zero(7)), model, model.initialPositions()),
                    "home posture: found a vector of size 7, wanted size 8");

@@ -116,9 +116,9 @@ TEST(FollowTask, StopsAtLimits) {
 TEST(TaskMotion, RefusesBadArguments) {
   const Reach reach;
   EXPECT_REX_ERROR(interpolatePostures(reach.model, reach.q0, reach.q0, 0),
-                   "steps of a motion: found 0, wanted at least one");
+                   "steps of a motion: found 0, wanted at least 1");
   EXPECT_REX_ERROR(interpolateValues(reach.y0, reach.y0, -1),
-                   "steps of a motion: found -1, wanted at least one");
+                   "steps of a motion: found -1, wanted at least 1");
   EXPECT_REX_ERROR(interpolateValues(reach.y0, Eigen::Vector2d(1, 2), 3),
                    "last task value yT: found a vector of size 2, wanted size 3");
   EXPECT_REX_ERROR(interpolatePostures(reach.model, reach.q0, Eigen::Vector2d(1, 2), 3),

@@ -68,11 +68,11 @@ TEST(StackTasks, NamesTheTaskThatIsNone) {
   };
   expectError({.name = "gaze"}, "task 'gaze': map: found none, wanted a function");
   expectError({.name = "gaze", .map = sane, .precision = 0},
-              "task 'gaze': precision: found 0, wanted a positive number");
+              "task 'gaze': precision: found 0, wanted a positive, finite number");
   expectError({.name = "gaze", .map = sane, .precision = kNoTolerance},
-              "task 'gaze': precision: found inf, wanted a positive number");
+              "task 'gaze': precision: found inf, wanted a positive, finite number");
   expectError({.name = "gaze", .map = sane, .tolerance = -1},
-              "task 'gaze': tolerance: found -1, wanted a number that is not negative");
+              "task 'gaze': tolerance: found -1, wanted a number, 0 or more, or infinity");
   expectError({.name = "gaze", .map = sane, .target = Eigen::Vector2d(1, 2)},
               "task 'gaze': target: found 2 numbers, wanted 3, as its map gives");
   expectError({.name = "gaze", .map = sane, .target = Eigen::Vector3d(1, 2, nan)},
