@@ -1,28 +1,19 @@
 #include "trajectory/b_spline.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
-#include "base/error.h"
 #include "base/require.h"
 
 namespace rex {
 
 BSpline::BSpline(const Eigen::MatrixXd& control, int degree, double duration)
     : control_(control), degree_(degree), duration_(duration) {
-  if (degree < 0)
-    throw Error({.what = "degree of a B-spline", .found = fmt::format("{}", degree), .wanted = "0 or more"});
-  if (control.cols() <= degree)
-    throw Error({.what = fmt::format("control points of a B-spline of degree {}", degree),
-                 .found = fmt::format("{}", control.cols()),
-                 .wanted = fmt::format("{} or more", degree + 1)});
+  requireCount("degree of a B-spline", degree, 0);
+  requireCount(fmt::format("control points of a B-spline of degree {}", degree), control.cols(), degree + 1);
   requireFinite("control points of a B-spline", Eigen::VectorXd(control.reshaped()));
-  if (!(duration > 0 && std::isfinite(duration)))
-    throw Error({.what = "duration of a B-spline",
-                 .found = fmt::format("{:g} s", duration),
-                 .wanted = "a positive, finite time"});
+  requirePositive("duration of a B-spline", duration, kSeconds);
 }
 
 // Knots 0 ... N + p: the first p + 1 are at 0, the last at the end.

@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/require.h"
 #include "collision/motion_clearance.h"
 #include "kinematics/jacobians.h"
 #include "trajectory/robot_window_internal.h"
@@ -13,14 +14,8 @@ namespace {
 
 void requireSound(const Model& model, const ContactSampling& sampling) {
   internal::requirePlain(model);
-  if (!(sampling.margin > 0 && std::isfinite(sampling.margin)))
-    throw Error({.what = "margin of a contact term",
-                 .found = fmt::format("{:g} m", sampling.margin),
-                 .wanted = "a positive, finite length"});
-  if (sampling.samples < 1)
-    throw Error({.what = "samples of a contact term",
-                 .found = fmt::format("{}", sampling.samples),
-                 .wanted = "1 or more"});
+  requirePositive("margin of a contact term", sampling.margin, kMetres);
+  requireCount("samples of a contact term", sampling.samples, 1);
 }
 
 // A task map in several postures between two.
@@ -84,10 +79,7 @@ TaskMap clearanceMap(const ContactModel& contacts, double margin) {
 TrajectoryTerm contactCostTerm(const Model& model, const ContactModel& contacts,
                                const ContactSampling& sampling, double precision) {
   requireSound(model, sampling);
-  if (!(precision > 0 && std::isfinite(precision)))
-    throw Error({.what = "precision of a contact term",
-                 .found = fmt::format("{:g}", precision),
-                 .wanted = "a positive, finite number"});
+  requirePositive("precision of a contact term", precision);
   const double weight = std::sqrt(precision / sampling.samples);
   return {.name = "contact cost",
           .order = 1,
@@ -105,9 +97,7 @@ TrajectoryTerm clearanceTerm(const Model& model, const ContactModel& contacts,
 
 TrajectoryClearance trajectoryClearance(const Model& model, const ContactModel& contacts,
                                         const MatrixArg& path, double tolerance) {
-  if (path.cols() < 2)
-    throw Error(
-        {.what = "configurations of a path", .found = fmt::format("{}", path.cols()), .wanted = "2 or more"});
+  requireCount("configurations of a path", path.cols(), 2);
   TrajectoryClearance clearance{.distance = std::numeric_limits<double>::infinity()};
   for (int t = 0; t + 1 < path.cols(); ++t) {
     const double distance = motionClearance(model, contacts, path.col(t), path.col(t + 1), tolerance);

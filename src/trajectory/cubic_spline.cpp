@@ -12,9 +12,7 @@ namespace {
 
 void requireSound(const VectorArg& times, const MatrixArg& points, const SplineEnds& ends) {
   requireSize("times of a spline", times.size(), points.cols());
-  if (times.size() < 2)
-    throw Error(
-        {.what = "points of a spline", .found = fmt::format("{}", times.size()), .wanted = "2 or more"});
+  requireCount("points of a spline", times.size(), 2);
   requireFinite("times of a spline", times);
   requireFinite("points of a spline", Eigen::VectorXd(points.reshaped()));
   for (Eigen::Index i = 1; i < times.size(); ++i)

@@ -6,19 +6,17 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require.h"
 
 namespace rex {
 namespace {
 
 // The k-th difference of configurations, newest last: binomials with alternating signs.
 TrajectoryTerm differenceTerm(const char* name, int k, Eigen::VectorXd weights) {
-  for (const double w : weights)
-    if (!(w >= 0 && std::isfinite(w)))
-      throw Error({.what = fmt::format("weights of {}", name),
-                   .found = fmt::format("{:g}", w),
-                   .wanted = "finite numbers, zero or more"});
-  const auto function = [k, weights = std::move(weights), what = fmt::format("weights of {}", name)](
-                            const TrajectoryWindow& window, FunctionValue& value) {
+  const std::string what = fmt::format("weights of {}", name);
+  requireNotNegative(what, weights);
+  const auto function = [k, weights = std::move(weights), what](const TrajectoryWindow& window,
+                                                                FunctionValue& value) {
     const Eigen::Index n = window.X.rows();
     if (weights.size() > 0) requireSize(what, weights.size(), n);
     value.y.setZero(n);
@@ -85,10 +83,7 @@ TrajectoryTerm limitsTerm(const VectorArg& lower, const VectorArg& upper) {
 TrajectoryTerm velocityLimitsTerm(const VectorArg& limit) {
   std::vector<std::pair<Eigen::Index, double>> limits;  // places and numbers of the finite ones
   for (Eigen::Index i = 0; i < limit.size(); ++i) {
-    if (!(limit[i] > 0))
-      throw Error({.what = "limits of velocity",
-                   .found = fmt::format("{:g}", limit[i]),
-                   .wanted = "positive numbers"});
+    requirePositiveOrInfinite("limits of velocity", limit[i]);
     if (std::isfinite(limit[i])) limits.emplace_back(i, limit[i]);
   }
   const auto function = [limits, n = limit.size()](const TrajectoryWindow& window, FunctionValue& value) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/require.h"
 #include "trajectory/motion_terms.h"
 #include "trajectory/robot_window_internal.h"
 
@@ -15,8 +16,7 @@ void requireUsable(const Task& task, int order) {
         {.what = fmt::format("task '{}': {}", task.name, part), .found = std::move(found), .wanted = wanted});
   };
   if (!task.map) refuse("map", "none", "a function");
-  if (!(task.precision > 0 && std::isfinite(task.precision)))
-    refuse("precision", fmt::format("{:g}", task.precision), "a positive, finite number");
+  requirePositive(fmt::format("task '{}': precision", task.name), task.precision);
   if (order < 0 || order > 2) refuse("order", fmt::format("{}", order), "0, 1 or 2");
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require.h"
 #include "trajectory/banded_system_internal.h"
 
 namespace rex {
@@ -15,9 +16,7 @@ namespace {
 double largestShare(const Eigen::MatrixXd& differences, const Eigen::VectorXd& limit, const char* what) {
   if (limit.size() == 0 || differences.cols() == 0) return 0;
   requireSize(what, limit.size(), differences.rows());
-  for (const double number : limit)
-    if (!(number > 0))
-      throw Error({.what = what, .found = fmt::format("{:g}", number), .wanted = "positive numbers"});
+  for (const double number : limit) requirePositiveOrInfinite(what, number);
   return (differences.array().abs().colwise() / limit.array()).maxCoeff();
 }
 
@@ -38,8 +37,7 @@ TrajectoryResult optimizeTrajectory(const TrajectoryProblem& problem, const Matr
 
 Eigen::MatrixXd straightTrajectory(const VectorArg& from, const VectorArg& to, int steps) {
   requireSize("end of a straight trajectory", to.size(), from.size());
-  if (steps < 1)
-    throw Error({.what = "steps of a trajectory", .found = fmt::format("{}", steps), .wanted = "1 or more"});
+  requireCount("steps of a trajectory", steps, 1);
   Eigen::MatrixXd X(from.size(), steps);
   for (int t = 0; t < steps; ++t) X.col(t) = from + (to - from) * ((t + 1.) / steps);
   return X;

@@ -1,12 +1,12 @@
 #include "trajectory/trajectory_problem.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require.h"
 
 namespace rex {
 namespace {
@@ -51,11 +51,8 @@ TrajectoryProblem::TrajectoryProblem(std::vector<TrajectoryTerm> terms, const Ma
     throw Error({.what = "prefix of a trajectory",
                  .found = prefix.size() == 0 ? "no numbers" : "a number that is not finite",
                  .wanted = "one finite configuration or more, one per column"});
-  if (steps < 1)
-    throw Error({.what = "steps of a trajectory", .found = fmt::format("{}", steps), .wanted = "1 or more"});
-  if (!(tau > 0 && std::isfinite(tau)))
-    throw Error(
-        {.what = "time of a step", .found = fmt::format("{:g} s", tau), .wanted = "a positive, finite time"});
+  requireCount("steps of a trajectory", steps, 1);
+  requirePositive("time of a step", tau, kSeconds);
   for (const TrajectoryTerm& term : terms_) requireUsable(term, prefix.cols(), steps);
 }
 

@@ -77,11 +77,11 @@ TEST(BSpline, SaysWhatIsWrong) {
   const MatrixXd control = MatrixXd::Ones(2, 3);
   EXPECT_REX_ERROR(BSpline(control, -1, 1), "degree of a B-spline: found -1, wanted 0 or more");
   EXPECT_REX_ERROR(BSpline(control, 3, 1),
-                   "control points of a B-spline of degree 3: found 3, wanted 4 or more");
+                   "control points of a B-spline of degree 3: found 3, wanted at least 4");
   EXPECT_REX_ERROR(BSpline(control * std::nan(""), 2, 1),
                    "control points of a B-spline: number 0: found nan");
   EXPECT_REX_ERROR(BSpline(control, 2, 0),
-                   "duration of a B-spline: found 0 s, wanted a positive, finite time");
+                   "duration of a B-spline: found 0 s, wanted a positive, finite number of seconds");
   EXPECT_REX_ERROR(BSpline(control, 2, 1).value(std::nan("")), "time on a spline: found nan");
 }
 

@@ -150,13 +150,13 @@ TEST(ContactTerms, SayWhatIsWrong) {
   const Model model = ballAndPost();
   const ContactModel contacts(model, kBoth);
   EXPECT_REX_ERROR(clearanceTerm(model, contacts, {.margin = 0}),
-                   "margin of a contact term: found 0 m, wanted a positive, finite length");
+                   "margin of a contact term: found 0 m, wanted a positive, finite number of metres");
   EXPECT_REX_ERROR(contactCostTerm(model, contacts, {.samples = 0}),
-                   "samples of a contact term: found 0, wanted 1 or more");
+                   "samples of a contact term: found 0, wanted at least 1");
   EXPECT_REX_ERROR(contactCostTerm(model, contacts, {}, -1),
                    "precision of a contact term: found -1, wanted a positive, finite number");
   EXPECT_REX_ERROR(trajectoryClearance(model, contacts, VectorXd::Zero(2), 1e-3),
-                   "configurations of a path: found 1, wanted 2 or more");
+                   "configurations of a path: found 1, wanted at least 2");
 }
 
 }  // namespace rex::contact_terms_test

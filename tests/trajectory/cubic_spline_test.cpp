@@ -79,7 +79,7 @@ TEST(CubicSpline, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(CubicSpline(Eigen::Vector3d(0, 1, 2), points),
                    "times of a spline: found a vector of size 3, wanted size 2");
   EXPECT_REX_ERROR(CubicSpline(VectorXd::Zero(1), points.leftCols(1)),
-                   "points of a spline: found 1, wanted 2 or more");
+                   "points of a spline: found 1, wanted at least 2");
   EXPECT_REX_ERROR(CubicSpline(Eigen::Vector2d(0, std::nan("")), points),
                    "times of a spline: number 1: found nan");
   EXPECT_REX_ERROR(CubicSpline(times, points * std::nan("")), "points of a spline: number 0: found nan");

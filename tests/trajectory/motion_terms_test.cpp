@@ -93,7 +93,7 @@ TEST(MotionTerms, EndAtRest) {
 TEST(MotionTerms, SayWhatIsWrong) {
   const Eigen::Vector2d two(1, 1);
   EXPECT_REX_ERROR(velocityTerm(Eigen::Vector2d(1, -1)),
-                   "weights of velocity: found -1, wanted finite numbers, zero or more");
+                   "weights of velocity: number 1: found -1, wanted a finite number, 0 or more");
   EXPECT_REX_ERROR(valueOf(accelerationTerm(two), MatrixXd::Zero(3, 3), 1),
                    "weights of acceleration: found a vector of size 2, wanted size 3");
   EXPECT_REX_ERROR(valueOf(postureTerm(two), MatrixXd::Zero(3, 1), 1),
@@ -106,9 +106,9 @@ TEST(MotionTerms, SayWhatIsWrong) {
   EXPECT_REX_ERROR(valueOf(limitsTerm(two, two), MatrixXd::Zero(3, 1), 1),
                    "limits of configurations: found a vector of size 2, wanted size 3");
   EXPECT_REX_ERROR(velocityLimitsTerm(Eigen::Vector2d(1, 0)),
-                   "limits of velocity: found 0, wanted positive numbers");
+                   "limits of velocity: found 0, wanted a positive number, or infinity");
   EXPECT_REX_ERROR(velocityLimitsTerm(Eigen::Vector2d(1, NAN)),
-                   "limits of velocity: found nan, wanted positive numbers");
+                   "limits of velocity: found nan, wanted a positive number, or infinity");
   EXPECT_REX_ERROR(valueOf(velocityLimitsTerm(two), MatrixXd::Zero(3, 2), 1),
                    "limits of velocity: found a vector of size 2, wanted size 3");
 }

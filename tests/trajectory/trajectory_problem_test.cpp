@@ -34,9 +34,9 @@ TEST(TrajectoryProblem, SaysWhatIsWrong) {
                    "prefix of a trajectory: found no numbers, wanted one finite configuration or more");
   EXPECT_REX_ERROR(TrajectoryProblem({}, MatrixXd::Constant(1, 1, std::nan("")), 3),
                    "prefix of a trajectory: found a number that is not finite");
-  EXPECT_REX_ERROR(TrajectoryProblem({}, prefix, 0), "steps of a trajectory: found 0, wanted 1 or more");
+  EXPECT_REX_ERROR(TrajectoryProblem({}, prefix, 0), "steps of a trajectory: found 0, wanted at least 1");
   EXPECT_REX_ERROR(TrajectoryProblem({}, prefix, 3, 0),
-                   "time of a step: found 0 s, wanted a positive, finite time");
+                   "time of a step: found 0 s, wanted a positive, finite number of seconds");
   EXPECT_REX_ERROR(TrajectoryProblem({{.name = "empty"}}, prefix, 3),
                    "term 'empty': function: found none, wanted one");
   EXPECT_REX_ERROR(TrajectoryProblem({accelerationTerm()}, prefix, 3),
