@@ -6,18 +6,13 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require.h"
 
 namespace rex {
 namespace {
 
-void requireLength(const char* what, double metres) {
-  if (metres > 0 && std::isfinite(metres)) return;
-  throw Error(
-      {.what = what, .found = fmt::format("{:g}", metres), .wanted = "a positive, finite number of metres"});
-}
-
 void requireControl(const Car& car, const Eigen::Vector2d& u) {
-  requireLength("wheelbase of a car", car.wheelbase);
+  requirePositive("wheelbase of a car", car.wheelbase, kMetres);
   if (std::isfinite(u[0]) && std::abs(u[1]) <= car.maxSteering) return;
   throw Error({.what = "control of a car",
                .found = fmt::format("speed {:g}, steering {:g}", u[0], u[1]),
@@ -48,7 +43,7 @@ double sidewaysSpeed(const Eigen::Vector3d& q, const Eigen::Vector3d& velocity) 
 
 Eigen::Vector4d trailerVelocity(const CarWithTrailer& rig, const Eigen::Vector4d& q,
                                 const Eigen::Vector2d& u) {
-  requireLength("hitch of a trailer", rig.hitchLength);
+  requirePositive("hitch of a trailer", rig.hitchLength, kMetres);
   Eigen::Vector4d velocity;
   velocity << carVelocity(rig.car, q.head<3>(), u), u[0] / rig.hitchLength * std::sin(q[2] - q[3]);
   return velocity;
@@ -56,7 +51,7 @@ Eigen::Vector4d trailerVelocity(const CarWithTrailer& rig, const Eigen::Vector4d
 
 Eigen::Vector4d driveTrailer(const CarWithTrailer& rig, const Eigen::Vector4d& q, const Eigen::Vector2d& u,
                              double seconds) {
-  requireLength("hitch of a trailer", rig.hitchLength);
+  requirePositive("hitch of a trailer", rig.hitchLength, kMetres);
   // Steps that turn neither by more than a hundredth of a radian.
   const double turns =
       std::abs(u[0] * seconds) * (1 / rig.hitchLength + std::tan(std::abs(u[1])) / rig.car.wheelbase);

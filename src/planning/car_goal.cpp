@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require.h"
 #include "planning/car_goal_internal.h"
 
 namespace rex::internal {
@@ -13,11 +14,7 @@ CarGoal CarGoal::between(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                    .wanted = "x, y and heading as finite numbers"});
     }
   }
-  if (!(radius > 0) || !std::isfinite(radius)) {
-    throw Error({.what = "turning radius",
-                 .found = fmt::format("{:g}", radius),
-                 .wanted = "a positive, finite number of metres"});
-  }
+  requirePositive("turning radius", radius, kMetres);
   const double c = std::cos(from[2]), s = std::sin(from[2]);
   const double dx = (to[0] - from[0]) / radius, dy = (to[1] - from[1]) / radius;
   const double heading = to[2] - from[2];

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "base/error.h"
+#include "base/require.h"
 #include "base/rng.h"
 #include "planning/search_tree_internal.h"
 
@@ -20,21 +21,20 @@ std::string listed(const VectorArg& x) {
 }
 
 void requireSound(const ControlSystem& system, const ControlTreeOptions& options) {
-  const auto refuse = [](const char* what, const std::string& found, const char* wanted) {
-    throw Error({.what = what, .found = found, .wanted = wanted});
-  };
-  if (!system.motion) refuse("control system", "no motion", "a function that moves a state on");
+  if (!system.motion)
+    throw Error({.what = "control system",
+                 .found = "no motion",
+                 .wanted = "a function that gives the state after a motion"});
   requireSize("upper bounds of controls", system.upper.size(), system.lower.size());
-  if (!(options.duration > 0))
-    refuse("duration of controls", fmt::format("{:g}", options.duration), "seconds above 0");
-  if (options.checks < 1) refuse("checks of a motion", fmt::format("{}", options.checks), "at least 1");
-  if (options.trials < 1) refuse("trials of controls", fmt::format("{}", options.trials), "at least 1");
+  requirePositive("duration of controls", options.duration, kSeconds);
+  requireCount("checks of a motion", options.checks, 1);
+  requireCount("trials of controls", options.trials, 1);
+  requireCount("number of samples", options.maxSamples, 1);
+  requireNotNegative("tolerance of a goal", options.tolerance);
   if (!(options.goalBias >= 0 && options.goalBias <= 1))
-    refuse("goal bias of a tree", fmt::format("{:g}", options.goalBias), "a number from 0 to 1");
-  if (!(options.tolerance >= 0))
-    refuse("tolerance of a goal", fmt::format("{:g}", options.tolerance), "zero or more");
-  if (options.maxSamples < 1)
-    refuse("number of samples", fmt::format("{}", options.maxSamples), "at least 1");
+    throw Error({.what = "goal bias of a tree",
+                 .found = fmt::format("{:g}", options.goalBias),
+                 .wanted = "a number from 0 to 1"});
 }
 
 class ControlTree {
@@ -71,7 +71,7 @@ class ControlTree {
     if (std::isnan(distance)) {
       throw Error({.what = fmt::format("distance from {} to {}", listed(from), listed(to)),
                    .found = "not a number",
-                   .wanted = "a number, zero or more"});
+                   .wanted = "a number, 0 or more"});
     }
     return distance;
   }

@@ -1,11 +1,8 @@
 #include "planning/edge_checker.h"
 
-#include <cmath>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include "base/error.h"
+#include "base/require.h"
 #include "planning/spread_check_internal.h"
 
 namespace rex {
@@ -15,11 +12,7 @@ EdgeChecker::EdgeChecker(const Space& space, AllValid allValid, double resolutio
       allValid_(std::move(allValid)),
       resolution_(resolution),
       block_(space.size(), internal::kBlock) {
-  if (!(resolution > 0) || !std::isfinite(resolution)) {
-    throw Error({.what = "resolution of a path check",
-                 .found = fmt::format("{:g}", resolution),
-                 .wanted = "a positive, finite distance"});
-  }
+  requirePositive("resolution of a path check", resolution);
 }
 
 bool EdgeChecker::isValid(const VectorArg& q) {

@@ -91,11 +91,7 @@ GridMap::GridMap(int width, int height, double cellSize, const Eigen::Vector2d& 
                  .found = fmt::format("{} x {} cells", width, height),
                  .wanted = fmt::format("at least 1 x 1, at most {} in all", kMostCells)});
   }
-  if (!(cellSize > 0) || !std::isfinite(cellSize)) {
-    throw Error({.what = "grid map",
-                 .found = fmt::format("cells of {:g} m", cellSize),
-                 .wanted = "a positive, finite size"});
-  }
+  requirePositive("size of the cells of a grid map", cellSize, kMetres);
   requireFinite("origin of a grid map", origin);
   blocked_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
 }

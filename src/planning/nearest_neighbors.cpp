@@ -7,8 +7,6 @@
 #include <numbers>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "base/error.h"
 #include "base/require.h"
 
@@ -288,11 +286,7 @@ std::vector<int> NearestNeighbors::nearest(const VectorArg& q, int most) const {
 
 void NearestNeighbors::within(const VectorArg& q, double radius, std::vector<Neighbor>& out) const {
   const Eigen::VectorXd x = scaled(q);
-  if (!(radius >= 0)) {
-    throw Error({.what = "radius around a configuration",
-                 .found = fmt::format("{:g}", radius),
-                 .wanted = "zero or a positive distance"});
-  }
+  requireNotNegativeOrInfinite("radius around a configuration", radius);
   out.clear();
   search(x.data(), radius * radius, [&](double distance2, int point) {
     out.push_back({std::sqrt(distance2), point});

@@ -1,10 +1,5 @@
 #include "planning/phase_space.h"
 
-#include <cmath>
-
-#include <fmt/format.h>
-
-#include "base/error.h"
 #include "base/require.h"
 
 namespace rex {
@@ -12,11 +7,7 @@ namespace {
 
 // The multipliers p = G^-1 d of the optimal force u(t) = (T - t) p0 + p1.
 Eigen::Vector2d multipliers(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double duration) {
-  if (!(duration > 0) || !std::isfinite(duration)) {
-    throw Error({.what = "duration of a motion",
-                 .found = fmt::format("{:g}", duration),
-                 .wanted = "a positive, finite number of seconds"});
-  }
+  requirePositive("duration of a motion", duration, kSeconds);
   requireFinite("state in phase space", from);
   requireFinite("state in phase space", to);
   const double T = duration, position = to[0] - from[0] - T * from[1], velocity = to[1] - from[1];

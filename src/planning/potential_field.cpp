@@ -25,7 +25,7 @@ PotentialField::PotentialField(const GridMap& map, const Eigen::Vector2d& goal,
   requirePositive("repulsion", options.repulsion);
   requirePositive("reach of obstacles", options.reach);
   if (!std::isfinite(potential(goal)))
-    throw Error({.what = "goal", .found = described(goal), .wanted = "a place outside of obstacles"});
+    throw Error({.what = "goal", .found = described(goal), .wanted = "a position outside obstacles"});
 }
 
 PotentialField::Obstacle PotentialField::nearestObstacle(const Eigen::Vector2d& p) const {
@@ -63,7 +63,7 @@ Eigen::Vector2d PotentialField::gradient(const Eigen::Vector2d& p) const {
 Descent descend(const PotentialField& field, const Eigen::Vector2d& start, double stepSize, int maxSteps) {
   requirePositive("step size", stepSize);
   if (!std::isfinite(field.potential(start)))
-    throw Error({.what = "start", .found = described(start), .wanted = "a place outside of obstacles"});
+    throw Error({.what = "start", .found = described(start), .wanted = "a position outside obstacles"});
   Descent descent{.points = {start}};
   const double least = 1e-6 * stepSize;
   Eigen::Vector2d at = start;

@@ -9,19 +9,19 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require.h"
 #include "base/rng.h"
 
 namespace rex {
 namespace {
 
 void requireSound(const RoadmapOptions& options) {
-  const auto refuse = [](const char* what, int found, const char* wanted) {
-    throw Error({.what = what, .found = fmt::format("{}", found), .wanted = wanted});
-  };
-  if (options.nodes < 1) refuse("nodes of a roadmap", options.nodes, "at least 1");
+  requireCount("nodes of a roadmap", options.nodes, 1);
+  requireCount("number of samples", options.maxSamples, 1);
   if (options.neighbors < 0)
-    refuse("neighbours in a roadmap", options.neighbors, "at least 1, or 0 for PRM*");
-  if (options.maxSamples < 1) refuse("number of samples", options.maxSamples, "at least 1");
+    throw Error({.what = "neighbours in a roadmap",
+                 .found = fmt::format("{}", options.neighbors),
+                 .wanted = "at least 1, or 0 for PRM*"});
 }
 
 int dimensionOf(const Space& space) {

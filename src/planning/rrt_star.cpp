@@ -5,9 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include <fmt/format.h>
-
-#include "base/error.h"
+#include "base/require.h"
 #include "planning/tree_growth_internal.h"
 
 namespace rex {
@@ -164,11 +162,7 @@ int goalBehind(CostTree& tree, int node, const PathProblem& problem, double step
 
 PathResult growRrtStar(const PathProblem& problem, const RrtStarOptions& options, Rng& rng) {
   TreeGrowth growth(problem, options.growth, rng);
-  if (!(options.gamma >= 0)) {
-    throw Error({.what = "gamma of RRT*",
-                 .found = fmt::format("{:g}", options.gamma),
-                 .wanted = "zero or a positive number"});
-  }
+  requireNotNegative("gamma of RRT*", options.gamma);
   Reach reach(problem, options);
   CostTree tree(problem);
   const NearestNeighbors& points = tree.tree().points();

@@ -1,11 +1,11 @@
 #include "planning/samplers.h"
 
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require.h"
 #include "base/rng.h"
 #include "geometry/rotation.h"
 #include "planning/path_problem.h"
@@ -33,13 +33,6 @@ bool stepAway(const Space& space, const VectorArg& from, double sigma, Rng& rng,
   return true;
 }
 
-void requireSpread(double sigma) {
-  if (sigma > 0 && std::isfinite(sigma)) return;
-  throw Error({.what = "sigma of a sampler",
-               .found = fmt::format("{:g}", sigma),
-               .wanted = "a positive, finite distance"});
-}
-
 }  // namespace
 
 Sampler uniformSampler(const Space& space) {
@@ -50,7 +43,7 @@ Sampler uniformSampler(const Space& space) {
 }
 
 Sampler gaussianSampler(const Space& space, AllValid allValid, double sigma) {
-  requireSpread(sigma);
+  requirePositive("sigma of a sampler", sigma);
   return [=, allValid = std::move(allValid), other = Eigen::VectorXd(space.size())](
              Rng& rng, Eigen::Ref<Eigen::VectorXd> q) mutable {
     space.sample(rng, q);
@@ -62,7 +55,7 @@ Sampler gaussianSampler(const Space& space, AllValid allValid, double sigma) {
 }
 
 Sampler bridgeSampler(const Space& space, AllValid allValid, double sigma) {
-  requireSpread(sigma);
+  requirePositive("sigma of a sampler", sigma);
   return [=, allValid = std::move(allValid), one = Eigen::VectorXd(space.size()),
           other = Eigen::VectorXd(space.size())](Rng& rng, Eigen::Ref<Eigen::VectorXd> q) mutable {
     space.sample(rng, one);
@@ -75,7 +68,7 @@ Sampler bridgeSampler(const Space& space, AllValid allValid, double sigma) {
 Sampler informedSampler(const Space& space, const VectorArg& start, const VectorArg& goal, double length) {
   const double apart = space.distance(start, goal);
   if (!(length >= apart)) {
-    throw Error({.what = "length of a way",
+    throw Error({.what = "length of a path",
                  .found = fmt::format("{:g}", length),
                  .wanted = fmt::format("at least {:g}, the distance of start and goal", apart)});
   }

@@ -17,14 +17,12 @@ namespace {
 using Kind = SpacePart::Kind;
 
 void requireSound(const SpacePart& part, std::size_t i) {
-  const auto refuse = [&](const std::string& found, const std::string& wanted) {
-    throw Error({.what = fmt::format("part {} of a space", i), .found = found, .wanted = wanted});
-  };
-  if (!(part.weight > 0) || !std::isfinite(part.weight))
-    refuse(fmt::format("weight {:g}", part.weight), "a positive, finite weight");
+  requirePositive(fmt::format("weight of part {} of a space", i), part.weight);
   const bool hasRange = std::isfinite(part.lower) && std::isfinite(part.upper) && part.lower <= part.upper;
   if (part.kind == Kind::kLine && !hasRange)
-    refuse(fmt::format("bounds {:g} and {:g}", part.lower, part.upper), "finite bounds, the lower one first");
+    throw Error({.what = fmt::format("bounds of part {} of a space", i),
+                 .found = fmt::format("{:g} and {:g}", part.lower, part.upper),
+                 .wanted = "finite bounds, the lower one first"});
 }
 
 double turn(double from, double to) {

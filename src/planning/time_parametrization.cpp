@@ -27,10 +27,10 @@ constexpr double kMostIntervals = 1e6, kLargestSquare = 1e300;
 void requireLimit(const char* what, const Eigen::VectorXd& limit, Eigen::Index size, bool mayBeInfinite) {
   requireSize(what, limit.size(), size);
   for (const double number : limit)
-    if (!(number > 0) || (std::isinf(number) && !mayBeInfinite))
-      throw Error({.what = what,
-                   .found = fmt::format("{:g}", number),
-                   .wanted = mayBeInfinite ? "positive numbers" : "positive, finite numbers"});
+    if (mayBeInfinite)
+      requirePositiveOrInfinite(what, number);
+    else
+      requirePositive(what, number);
 }
 
 void requireSound(const MotionLimits& limits, const TimingOptions& options, Eigen::Index size) {

@@ -1,9 +1,9 @@
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require.h"
 #include "base/rng.h"
 #include "planning/tree_growth_internal.h"
 
@@ -13,14 +13,12 @@ namespace {
 constexpr int kMostRedraws = 100;  // then any target will do: the ways may be too narrow to be met
 
 void requireSound(const RrtOptions& options) {
-  const auto refuse = [](const char* what, double found, const char* wanted) {
-    throw Error({.what = what, .found = fmt::format("{:g}", found), .wanted = wanted});
-  };
-  if (!(options.stepSize > 0) || !std::isfinite(options.stepSize))
-    refuse("step size of a tree", options.stepSize, "a positive, finite distance");
+  requirePositive("step size of a tree", options.stepSize);
+  requireCount("number of samples", options.maxSamples, 1);
   if (!(options.goalBias >= 0 && options.goalBias <= 1))
-    refuse("goal bias of a tree", options.goalBias, "a number from 0 to 1");
-  if (options.maxSamples < 1) refuse("number of samples", options.maxSamples, "at least 1");
+    throw Error({.what = "goal bias of a tree",
+                 .found = fmt::format("{:g}", options.goalBias),
+                 .wanted = "a number from 0 to 1"});
 }
 
 }  // namespace

@@ -65,9 +65,9 @@ TEST(Car, RefusesWhatCannotBeDriven) {
       "control of a car: found speed 1, steering 0.6, wanted a finite speed, steering from -0.5 to 0.5");
   EXPECT_REX_ERROR(static_cast<void>(carVelocity(car, q, {NAN, 0})), "control of a car: found speed nan");
   EXPECT_REX_ERROR(static_cast<void>(carVelocity({.wheelbase = 0}, q, {1, 0})),
-                   "wheelbase of a car: found 0");
+                   "wheelbase of a car: found 0 m, wanted a positive, finite number of metres");
   EXPECT_REX_ERROR(static_cast<void>(driveTrailer({.hitchLength = -1}, Eigen::Vector4d::Zero(), {1, 0}, 1)),
-                   "hitch of a trailer: found -1, wanted a positive, finite number of metres");
+                   "hitch of a trailer: found -1 m, wanted a positive, finite number of metres");
 }
 
 }  // namespace rex::car_test

@@ -100,24 +100,30 @@ TEST(ControlTree, SaysWhatIsWrong) {
   const auto grow = [&](const ControlSystem& one, const ControlTreeOptions& options) {
     static_cast<void>(growControlTree(one, problem, options, rng));
   };
-  EXPECT_REX_ERROR(grow(system, {.duration = 0}), "duration of controls: found 0, wanted seconds above 0");
+  EXPECT_REX_ERROR(grow(system, {.duration = 0}),
+                   "duration of controls: found 0 s, wanted a positive, finite number of seconds");
+  EXPECT_REX_ERROR(grow(system, {.duration = INFINITY}), "duration of controls: found inf s");
   EXPECT_REX_ERROR(grow(system, {.checks = 0}), "checks of a motion: found 0, wanted at least 1");
   EXPECT_REX_ERROR(grow(system, {.trials = 0}), "trials of controls: found 0, wanted at least 1");
   EXPECT_REX_ERROR(grow(system, {.maxSamples = 0}), "number of samples: found 0, wanted at least 1");
   EXPECT_REX_ERROR(grow(system, {.goalBias = -1}),
                    "goal bias of a tree: found -1, wanted a number from 0 to 1");
-  EXPECT_REX_ERROR(grow(system, {.tolerance = NAN}), "tolerance of a goal: found nan, wanted zero or more");
+  EXPECT_REX_ERROR(grow(system, {.tolerance = NAN}),
+                   "tolerance of a goal: found nan, wanted a finite number, 0 or more");
+  EXPECT_REX_ERROR(grow(system, {.tolerance = INFINITY}), "tolerance of a goal: found inf");
   ControlSystem broken = system;
   broken.motion = {};
   EXPECT_REX_ERROR(grow(broken, {}),
-                   "control system: found no motion, wanted a function that moves a state on");
+                   "control system: found no motion, wanted a function that gives the state after a motion");
   broken.motion = [](const VectorArg& x, const VectorArg&, double) -> Eigen::VectorXd { return x * NAN; };
   EXPECT_REX_ERROR(grow(broken, {}), "motion from (0.5, 0.5, 0) by (");
   broken.motion = [](const VectorArg& x, const VectorArg&, double) -> Eigen::VectorXd { return x.head(2); };
   EXPECT_REX_ERROR(grow(broken, {}), "state after a motion: found a vector of size 2, wanted size 3");
   broken = system;
   broken.distance = [](const VectorArg&, const VectorArg&) { return NAN; };
-  EXPECT_REX_ERROR(grow(broken, {}), "distance from (0.5, 0.5, 0) to (3.5, 0.5, -1.5): found not a number");
+  EXPECT_REX_ERROR(
+      grow(broken, {}),
+      "distance from (0.5, 0.5, 0) to (3.5, 0.5, -1.5): found not a number, wanted a number, 0 or more");
   broken = system;
   broken.upper = Eigen::VectorXd::Ones(3);
   EXPECT_REX_ERROR(grow(broken, {}), "upper bounds of controls: found a vector of size 3, wanted size 2");

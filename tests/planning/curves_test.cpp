@@ -136,8 +136,8 @@ TEST(Curves, RefuseWhatIsNoPoseOrRadius) {
   EXPECT_REX_ERROR(dubinsLength(a, bad, 1), "pose of a car: found (0, nan, 0), wanted x, y and heading");
   EXPECT_REX_ERROR(reedsSheppCurve(bad, a, 1), "pose of a car");
   EXPECT_REX_ERROR(dubinsCurve(a, a, 0),
-                   "turning radius: found 0, wanted a positive, finite number of metres");
-  EXPECT_REX_ERROR(reedsSheppLength(a, a, INFINITY), "turning radius: found inf");
+                   "turning radius: found 0 m, wanted a positive, finite number of metres");
+  EXPECT_REX_ERROR(reedsSheppLength(a, a, INFINITY), "turning radius: found inf m");
 }
 
 }  // namespace rex::curves_test

@@ -66,8 +66,9 @@ TEST_F(GridFile, SaysWhatIsWrongAndWhere) {
   EXPECT_REX_ERROR(readGridMap(write("a.pgm", "P5 2 2 300 a")), "found two bytes for each pixel, wanted one");
   EXPECT_REX_ERROR(GridMap(0, 3), "grid map: found 0 x 3 cells, wanted at least 1 x 1");
   EXPECT_REX_ERROR(GridMap(100000, 100000), "found 100000 x 100000 cells");
-  EXPECT_REX_ERROR(GridMap(2, 2, 1, {0, NAN}), "origin of a grid map");
-  EXPECT_REX_ERROR(GridMap(2, 2, 0), "grid map: found cells of 0 m, wanted a positive, finite size");
+  EXPECT_REX_ERROR(GridMap(2, 2, 1, {0, NAN}), "origin of a grid map: number 1: found nan");
+  EXPECT_REX_ERROR(GridMap(2, 2, 0),
+                   "size of the cells of a grid map: found 0 m, wanted a positive, finite number of metres");
 }
 
 TEST(GridMap, KnowsWhereItsCellsAre) {

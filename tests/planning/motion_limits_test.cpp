@@ -61,9 +61,9 @@ TEST(JointLimits, AreAssumedWhereTheFileHasNone) {
 TEST(JointLimits, RefuseDefaultsThatAreNone) {
   const Model model = compile(parseOrs("body a {} body b {} joint (a b) {}", "x.ors").spec);
   EXPECT_REX_ERROR(static_cast<void>(jointLimits(model, {.velocity = 0})),
-                   "velocity of joints without a limit: found 0, wanted a positive number");
+                   "velocity of joints without a limit: found 0, wanted a positive, finite number");
   EXPECT_REX_ERROR(static_cast<void>(jointLimits(model, {.ramp = -1})),
-                   "seconds to the limit of velocity: found -1, wanted a positive number");
+                   "seconds to the limit of velocity: found -1, wanted a positive, finite number");
 }
 
 }  // namespace rex::motion_limits_test

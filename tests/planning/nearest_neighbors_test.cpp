@@ -103,7 +103,7 @@ TEST(NearestNeighbors, RefuseWhatIsNoPoint) {
   EXPECT_TRUE(tree.nearest(Eigen::Vector2d(0, 0), 3).empty());
   tree.add(Eigen::Vector2d(0, 0));
   EXPECT_REX_ERROR(static_cast<void>(tree.within(Eigen::Vector2d(0, 0), NAN)),
-                   "radius around a configuration: found nan, wanted zero or a positive distance");
+                   "radius around a configuration: found nan, wanted a number, 0 or more, or infinity");
   EXPECT_REX_ERROR(static_cast<void>(tree.within(Eigen::Vector2d(0, 0), -1)), "found -1");
   EXPECT_REX_ERROR(static_cast<void>(tree.within(Eigen::Vector2d(INFINITY, 0), 1)), "number 0: found inf");
   EXPECT_EQ(tree.within(Eigen::Vector2d(9, 9), INFINITY), std::vector<int>{0});

@@ -92,7 +92,7 @@ TEST(PathCurves, RefuseWhatIsNoPath) {
   EXPECT_REX_ERROR(static_cast<void>(straightCurve(kPlane, Eigen::MatrixXd::Zero(3, 2))),
                    "configurations of a path: found a vector of size 3, wanted size 2");
   EXPECT_REX_ERROR(static_cast<void>(sampled({.start = Eigen::Vector2d(0, 0)}, 0)),
-                   "tolerance of a sampled curve: found 0, wanted a positive number");
+                   "tolerance of a sampled curve: found 0, wanted a positive, finite number");
 }
 
 }  // namespace rex::path_curve_test

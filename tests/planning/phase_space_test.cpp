@@ -46,7 +46,7 @@ TEST(PhaseSpace, IsTheLeastEffort) {
 
 TEST(PhaseSpace, RefusesWhatIsNoMotion) {
   EXPECT_REX_ERROR(static_cast<void>(leastEffort({0, 1}, {1, 1}, 0)),
-                   "duration of a motion: found 0, wanted a positive, finite number of seconds");
+                   "duration of a motion: found 0 s, wanted a positive, finite number of seconds");
   EXPECT_REX_ERROR(static_cast<void>(leastEffort({0, NAN}, {1, 1}, 1)),
                    "state in phase space: number 1: found nan, wanted a finite number");
   EXPECT_REX_ERROR(static_cast<void>(leastEffort({0, 1}, {INFINITY, 1}, 1)),

@@ -71,16 +71,16 @@ TEST(PotentialField, IsCaughtInATrapAndSaysSo) {
 }
 
 TEST(PotentialField, RefusesWhatIsNoField) {
-  EXPECT_REX_ERROR(PotentialField(box(), {5, 5}), "goal: found (5, 5), wanted a place outside of obstacles");
+  EXPECT_REX_ERROR(PotentialField(box(), {5, 5}), "goal: found (5, 5), wanted a position outside obstacles");
   EXPECT_REX_ERROR(PotentialField(box(), {1, 1}, {.attraction = 0}),
-                   "attraction: found 0, wanted a positive");
+                   "attraction: found 0, wanted a positive, finite number");
   EXPECT_REX_ERROR(PotentialField(box(), {1, 1}, {.repulsion = -1}), "repulsion: found -1");
   EXPECT_REX_ERROR(PotentialField(box(), {1, 1}, {.reach = NAN}), "reach of obstacles: found nan");
   EXPECT_REX_ERROR(PotentialField(box(), {1, NAN}), "goal: found (1, nan)");
   const PotentialField field(box(), {1, 1});
   EXPECT_REX_ERROR(static_cast<void>(descend(field, {5, 5}, .1)), "start: found (5, 5)");
   EXPECT_REX_ERROR(static_cast<void>(descend(field, {1, 5}, 0)),
-                   "step size: found 0, wanted a positive number");
+                   "step size: found 0, wanted a positive, finite number");
 }
 
 }  // namespace rex::potential_field_test

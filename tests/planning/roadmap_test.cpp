@@ -123,8 +123,9 @@ TEST(Roadmap, SaysWhenThereIsNoWay) {
 TEST(Roadmap, RefusesWhatItCannotMake) {
   const PathProblem problem = wallWithHole(2, .1);
   EXPECT_REX_ERROR(roadmapOf(problem, {.nodes = 0}), "nodes of a roadmap: found 0, wanted at least 1");
-  EXPECT_REX_ERROR(roadmapOf(problem, {.neighbors = -1}), "neighbours in a roadmap: found -1");
-  EXPECT_REX_ERROR(roadmapOf(problem, {.maxSamples = 0}), "number of samples: found 0");
+  EXPECT_REX_ERROR(roadmapOf(problem, {.neighbors = -1}),
+                   "neighbours in a roadmap: found -1, wanted at least 1, or 0");
+  EXPECT_REX_ERROR(roadmapOf(problem, {.maxSamples = 0}), "number of samples: found 0, wanted at least 1");
 }
 
 }  // namespace rex::roadmap_test

@@ -1,6 +1,9 @@
 // Trees in the unit cube with a wall, whose shortest lengths are known.
 #include "planning/rrt.h"
 
+#include <cmath>
+
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
@@ -168,15 +171,14 @@ TEST(Rrt, RefusesWhatItCannotPlan) {
   PathProblem problem = wallWithHole(2, .1);
   Rng rng(1);
   const auto plan = [&](const RrtOptions& options) { static_cast<void>(growRrt(problem, options, rng)); };
-  EXPECT_REX_ERROR(plan({.stepSize = 0}), "step size of a tree: found 0, wanted a positive, finite distance");
+  EXPECT_REX_ERROR(plan({.stepSize = 0}), "step size of a tree: found 0, wanted a positive, finite number");
   EXPECT_REX_ERROR(plan({.goalBias = 1.5}), "goal bias of a tree: found 1.5, wanted a number from 0 to 1");
   EXPECT_REX_ERROR(plan({.maxSamples = 0}), "number of samples: found 0, wanted at least 1");
-  for (const double gamma : {-1., std::nan("")})
-    EXPECT_REX_ERROR(static_cast<void>(growRrtStar(problem, {.gamma = gamma}, rng)),
-                     "gamma of RRT*: found " + std::string(gamma < 0 ? "-1" : "nan") +
-                         ", wanted zero or a positive number");
+  for (const double gamma : {-1., std::nan(""), double{INFINITY}})
+    EXPECT_REX_ERROR(growRrtStar(problem, {.gamma = gamma}, rng),
+                     fmt::format("gamma of RRT*: found {:g}, wanted a finite number, 0 or more", gamma));
   problem.resolution = 0;
-  EXPECT_REX_ERROR(plan({}), "resolution of a path check: found 0, wanted a positive, finite distance");
+  EXPECT_REX_ERROR(plan({}), "resolution of a path check: found 0, wanted a positive, finite number");
   problem = wallWithHole(2, .1);
   problem.goal[0] = .5;
   EXPECT_REX_ERROR(plan({}), "goal: found a configuration that is not valid, wanted a valid one");

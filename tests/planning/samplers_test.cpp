@@ -66,7 +66,7 @@ TEST(Samplers, StepAsFarAsTheySay) {
 TEST(Samplers, RefuseASpreadThatIsNone) {
   const PathProblem problem = wallWithHole(2, .1);
   EXPECT_REX_ERROR(gaussianSampler(problem.space, problem.allValid, 0),
-                   "sigma of a sampler: found 0, wanted a positive, finite distance");
+                   "sigma of a sampler: found 0, wanted a positive, finite number");
   EXPECT_REX_ERROR(bridgeSampler(problem.space, problem.allValid, NAN), "sigma of a sampler: found nan");
 }
 
@@ -86,7 +86,7 @@ TEST(InformedSampler, ProposesAllThroughWhichAShorterWayMayLead) {
   }
   EXPECT_NEAR(static_cast<double>(inside) / kProposals, M_PI * .5 * .4 / 4, .01);
   EXPECT_REX_ERROR(static_cast<void>(informedSampler(space, start, goal, .5)),
-                   "length of a way: found 0.5, wanted at least 0.6, the distance of start and goal");
+                   "length of a path: found 0.5, wanted at least 0.6, the distance of start and goal");
 }
 
 }  // namespace rex::samplers_test

@@ -134,8 +134,9 @@ TEST(Space, SaysWhatIsOutside) {
   EXPECT_REX_ERROR(space.require("goal", q), "goal: number 3: found nan, wanted a finite number");
   EXPECT_REX_ERROR(space.require("goal", q.head(2)), "goal: found a vector of size 2, wanted size 5");
   EXPECT_REX_ERROR(Space({{.lower = 1, .upper = 0}}),
-                   "part 0 of a space: found bounds 1 and 0, wanted finite bounds");
-  EXPECT_REX_ERROR(Space({{}, {.weight = 0}}), "part 1 of a space: found weight 0, wanted a positive");
+                   "bounds of part 0 of a space: found 1 and 0, wanted finite bounds");
+  EXPECT_REX_ERROR(Space({{}, {.weight = 0}}),
+                   "weight of part 1 of a space: found 0, wanted a positive, finite number");
   EXPECT_REX_ERROR(Space::box(Eigen::Vector2d(0, 0), Eigen::Vector3d(1, 1, 1)),
                    "upper bounds of a space: found a vector of size 3, wanted size 2");
 }

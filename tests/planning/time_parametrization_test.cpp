@@ -423,22 +423,24 @@ TEST(TimeParametrization, RefusesWhatMakesNoSense) {
   EXPECT_REX_ERROR(run({.velocity = Eigen::Vector3d(1, 1, 1)}),
                    "limits of velocity: found a vector of size 3, wanted size 2");
   EXPECT_REX_ERROR(run({.velocity = Eigen::Vector2d(1, 0)}),
-                   "limits of velocity: found 0, wanted positive, finite numbers");
+                   "limits of velocity: found 0, wanted a positive, finite number");
   EXPECT_REX_ERROR(run({.velocity = Eigen::Vector2d(kInf, 1)}),
-                   "limits of velocity: found inf, wanted positive, finite numbers");
+                   "limits of velocity: found inf, wanted a positive, finite number");
   EXPECT_REX_ERROR(run({.velocity = good.velocity, .acceleration = Eigen::Vector2d(1, -1)}),
-                   "limits of acceleration: found -1, wanted positive numbers");
+                   "limits of acceleration: found -1, wanted a positive number, or infinity");
   EXPECT_REX_ERROR(run({.velocity = good.velocity, .effort = Eigen::Vector2d(1, NAN)}),
-                   "limits of effort: found nan, wanted positive numbers");
+                   "limits of effort: found nan, wanted a positive number, or infinity");
   EXPECT_REX_ERROR(run({.velocity = good.velocity, .effort = Eigen::Vector2d(1, 1)}),
                    "limits of effort: found no forces, wanted a function for inverse dynamics");
   EXPECT_REX_ERROR(run({.velocity = good.velocity, .names = {"a"}}),
                    "names of coordinates: found a vector of size 1, wanted size 2");
-  EXPECT_REX_ERROR(run(good, {.startSpeed = -1}), "speed at the start of a path: found -1");
+  EXPECT_REX_ERROR(run(good, {.startSpeed = -1}),
+                   "speed at the start of a path: found -1, wanted a finite number, 0 or more");
   EXPECT_REX_ERROR(run(good, {.endSpeed = NAN}), "speed at the end of a path: found nan");
   EXPECT_REX_ERROR(run(good, {.intervals = 0}), "intervals of a path: found 0, wanted 1 to 1e+06");
-  EXPECT_REX_ERROR(run(good, {.excess = 0}),
-                   "excess over limits between points of the grid: found 0, wanted a positive number");
+  EXPECT_REX_ERROR(
+      run(good, {.excess = 0}),
+      "excess over limits between points of the grid: found 0, wanted a positive, finite number");
   EXPECT_REX_ERROR(static_cast<void>(parametrizeTime(curve, good).motion.at(NAN)),
                    "time on a path: found nan");
 }
@@ -464,7 +466,7 @@ TEST(TimeParametrization, RefusesPathsThatDoNotJoin) {
   curve.pieces[0].stopsAtEnd = true;
   run(curve);
   curve.pieces[1].length = 0;
-  EXPECT_REX_ERROR(run(curve), "length of piece 1 of a path: found 0, wanted a positive number");
+  EXPECT_REX_ERROR(run(curve), "length of piece 1 of a path: found 0, wanted a positive, finite number");
   curve.pieces[1] = {
       .length = 1, .at = [](double s, CurvePoint& point) {
         point = {Eigen::Vector2d(3, s), Eigen::Vector2d(0, s > .3 ? NAN : 1), Eigen::Vector2d(0, 0)};

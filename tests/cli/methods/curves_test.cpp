@@ -56,7 +56,7 @@ TEST_F(CurvesCommand, SaysWhatIsWrong) {
   EXPECT_THAT(few.error, HasSubstr("--to: found 2 numbers, wanted three: x,y,th"));
   EXPECT_THAT(word.error, HasSubstr("'x'"));
   EXPECT_THAT(flat(tight.error),
-              HasSubstr("turning radius: found 0, wanted a positive, finite number of metres"));
+              HasSubstr("turning radius: found 0 m, wanted a positive, finite number of metres"));
   EXPECT_THAT(none.error, HasSubstr("--to is required"));
 }
 
