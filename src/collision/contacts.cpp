@@ -2,21 +2,11 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
-#include "base/error.h"
+#include "base/require.h"
 #include "kinematics/jacobians.h"
 
 namespace rex {
 namespace {
-
-void requireMargin(double margin) {
-  if (!(margin > 0)) {
-    throw Error({.what = "margin of contact costs",
-                 .found = fmt::format("{} m", margin),
-                 .wanted = "a positive length"});
-  }
-}
 
 Eigen::Vector3d inBody(const Pose& X_WB, const Eigen::Vector3d& p_W) {
   return X_WB.R.transpose() * (p_W - X_WB.p);
@@ -51,14 +41,14 @@ Eigen::RowVectorXd distanceJacobian(const Model& model, const BodyPoses& poses, 
 }
 
 double contactCost(const ContactModel& contacts, const BodyPoses& poses, double margin) {
-  requireMargin(margin);
+  requirePositive("margin of contact costs", margin, kMetres);
   double cost = 0;
   for (const Proxy& proxy : proxies(contacts, poses, margin)) cost += costOf(proxy, margin);
   return cost;
 }
 
 TaskMap contactTask(ContactModel contacts, double margin) {
-  requireMargin(margin);
+  requirePositive("margin of contact costs", margin, kMetres);
   return [contacts = std::move(contacts), margin, storage = ProxyStorage(), J = Eigen::Matrix3Xd()](
              const Posture& at, TaskValue& value) mutable {
     value.y.setZero(1);

@@ -6,9 +6,7 @@
 #include <numbers>
 #include <set>
 
-#include <fmt/format.h>
-
-#include "base/error.h"
+#include "base/require.h"
 #include "collision/contacts.h"
 #include "kinematics/forward_kinematics.h"
 #include "scene/coordinates.h"
@@ -71,8 +69,7 @@ std::vector<ShapePair> shapePairs(const Model& model,
 }  // namespace
 
 TouchSample sampleTouches(const Model& model, int postures, Rng& rng) {
-  if (postures <= 0)
-    throw Error({.what = "number of random postures", .found = fmt::format("{}", postures), .wanted = "> 0"});
+  requireCount("number of random postures", postures, 1);
   TouchSample sample{.postures = postures};
   std::map<std::pair<BodyId, BodyId>, std::size_t> places;
   for (PairVerdict& verdict : pairVerdicts(model)) {

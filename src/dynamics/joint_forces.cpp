@@ -2,9 +2,8 @@
 
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "base/error.h"
+#include "base/require.h"
 #include "scene/coordinates.h"
 
 namespace rex {
@@ -33,16 +32,9 @@ void addLimits(const Model& model, const VectorArg& q, const VectorArg& v, const
 }  // namespace
 
 void requireValid(const JointForces& forces) {
-  const auto require = [](bool holds, const char* what, double found, const char* wanted) {
-    if (holds) return;
-    throw Error({.what = what, .found = fmt::format("{:g}", found), .wanted = wanted});
-  };
-  const auto isFriendly = [](double x) { return x >= 0 && std::isfinite(x); };
-  constexpr const char* kWanted = "zero or a positive, finite number";
-  require(isFriendly(forces.frictionSpeed) && forces.frictionSpeed > 0, "joint forces: friction speed",
-          forces.frictionSpeed, "a positive, finite number");
-  require(isFriendly(forces.limitStiffness), "joint forces: limit stiffness", forces.limitStiffness, kWanted);
-  require(isFriendly(forces.limitDamping), "joint forces: limit damping", forces.limitDamping, kWanted);
+  requirePositive("joint forces: friction speed", forces.frictionSpeed);
+  requireNotNegative("joint forces: limit stiffness", forces.limitStiffness);
+  requireNotNegative("joint forces: limit damping", forces.limitDamping);
 }
 
 void jointForces(const Model& model, const VectorArg& q, const VectorArg& v, const JointForces& forces,

@@ -1,11 +1,9 @@
 #include "dynamics/lagrange.h"
 
 #include <algorithm>
-#include <cmath>
-
-#include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require.h"
 
 namespace rex {
 namespace {
@@ -41,8 +39,8 @@ Eigen::VectorXd eulerLagrangeForce(const Lagrangian& L, const VectorArg& q, cons
   requireSize("accelerations a", a.size(), q.size());
   const auto value = [&](const Eigen::VectorXd& atQ, const Eigen::VectorXd& atV) {
     const double energy = L(atQ, atV);
-    if (std::isfinite(energy)) return energy;
-    throw Error({.what = "Lagrangian", .found = fmt::format("{}", energy), .wanted = "a finite number"});
+    requireFinite("Lagrangian", energy);
+    return energy;
   };
   // In that time neither q nor v changes by more than a step.
   const double speed = std::max({1., v.lpNorm<Eigen::Infinity>(), a.lpNorm<Eigen::Infinity>()});

@@ -27,19 +27,14 @@ void requireAllFinite(const char* what, const Model& model, const VectorArg& num
 void requireValid(const StepperOptions& options) {
   requireFinite("gravity", options.gravity_W);
   requireValid(options.jointForces);
-  if (!(options.noise >= 0) || !std::isfinite(options.noise)) {
-    throw Error({.what = "noise",
-                 .found = fmt::format("{:g}", options.noise),
-                 .wanted = "zero or a positive, finite number"});
-  }
+  requireNotNegative("noise", options.noise);
 }
 
 void requireStep(double h, bool mayBeNegative) {
-  if (std::isfinite(h) && (h > 0 || (mayBeNegative && h < 0))) return;
-  throw Error({.what = "time step",
-               .found = fmt::format("{:g}", h),
-               .wanted = mayBeNegative ? "a finite number of seconds other than zero"
-                                       : "a positive, finite number of seconds"});
+  if (!mayBeNegative) return requirePositive("time step", h, kSeconds);
+  requireFinite("time step", h, kSeconds);
+  if (h == 0)
+    throw Error({.what = "time step", .found = "0 s", .wanted = "a finite number of seconds other than 0"});
 }
 
 void requireState(const Model& model, const State& state) {

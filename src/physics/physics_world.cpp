@@ -24,10 +24,6 @@ constexpr double kShortestStep = 1e-9, kLongestStep = 1000;
 // Faster than this, in rad/s or m/s, nothing moves that is simulated well.
 constexpr double kRunawaySpeed = 1e6;
 
-void require(bool isRight, const char* what, double found, const char* wanted) {
-  if (!isRight) throw Error({.what = what, .found = fmt::format("{:g}", found), .wanted = wanted});
-}
-
 void requireQuaternions(const Model& model, const Eigen::VectorXd& q) {
   forEachQuaternion(model, [&](int iq, int iv) {
     if (!q.segment<4>(iq).isZero(0)) return;
@@ -39,11 +35,12 @@ void requireQuaternions(const Model& model, const Eigen::VectorXd& q) {
 
 void requireOptions(const PhysicsOptions& options) {
   requireFinite("physics: gravity", options.gravity_W);
-  require(options.friction >= 0 && std::isfinite(options.friction), "physics: friction", options.friction,
-          "zero or a positive number");
-  require(options.restitution >= 0 && options.restitution <= 1, "physics: restitution", options.restitution,
-          "a number from 0 to 1");
-  require(options.iterations > 0, "physics: iterations", options.iterations, "one or more");
+  requireNotNegative("physics: friction", options.friction);
+  requireCount("physics: iterations", options.iterations, 1);
+  if (!(options.restitution >= 0 && options.restitution <= 1))
+    throw Error({.what = "physics: restitution",
+                 .found = fmt::format("{:g}", options.restitution),
+                 .wanted = "a number from 0 to 1"});
 }
 
 void requireMotor(const Model& model, int iv, const Motor& motor) {
@@ -51,7 +48,7 @@ void requireMotor(const Model& model, int iv, const Motor& motor) {
   const std::string what = fmt::format("physics: motor of joint '{}'", joint.name);
   requireFinite(what + ": target", motor.target);
   if (motor.kind == Motor::Kind::kForce) return;
-  require(motor.maxForce >= 0, (what + ": maxForce").c_str(), motor.maxForce, "zero or a positive number");
+  requireNotNegativeOrInfinite(what + ": maxForce", motor.maxForce);
   if (joint.nq == joint.nv) return;
   throw Error({.what = what,
                .found = fmt::format("a target for a {} joint", toString(joint.type)),

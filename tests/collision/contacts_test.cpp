@@ -217,9 +217,9 @@ TEST(ContactCost, NeedsAPositiveMargin) {
   const Model model = pegInAHole();
   const ContactModel contacts(model);
   const BodyPoses poses = forwardKinematics(model, model.initialPositions());
-  for (const double margin : {0., -1., std::nan("")}) {
+  for (const double margin : {0., -1., std::nan(""), HUGE_VAL}) {
     EXPECT_REX_ERROR(contactCost(contacts, poses, margin), "margin of contact costs: found ");
-    EXPECT_REX_ERROR(contactTask(contacts, margin), ", wanted a positive length");
+    EXPECT_REX_ERROR(contactTask(contacts, margin), ", wanted a positive, finite number of metres");
   }
 }
 

@@ -119,7 +119,7 @@ TEST(TouchSample, SuggestsNothingAboutWhatIsChosen) {
 TEST(TouchSample, NeedsAPosture) {
   Rng rng(1);
   EXPECT_REX_ERROR(static_cast<void>(sampleTouches(wheel(""), 0, rng)),
-                   "number of random postures: found 0, wanted > 0");
+                   "number of random postures: found 0, wanted at least 1");
 }
 
 }  // namespace rex::touch_sample_test

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "dynamics/energy.h"
@@ -142,12 +143,13 @@ TEST(JointForces, RefusesNonsense) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (const double speed : {0., -1., kInfinity, std::nan("")}) {
     EXPECT_REX_ERROR(jointForces(model, one, one, {.friction = true, .frictionSpeed = speed}),
-                     "joint forces: friction speed: found ");
+                     fmt::format("joint forces: friction speed: found {:g}, wanted a positive", speed));
   }
   for (const double bad : {-1., kInfinity, std::nan("")}) {
-    EXPECT_REX_ERROR(jointForces(model, one, one, {.limitStiffness = bad}), "limit stiffness: found ");
+    EXPECT_REX_ERROR(jointForces(model, one, one, {.limitStiffness = bad}),
+                     "joint forces: limit stiffness: found ");
     EXPECT_REX_ERROR(jointForces(model, one, one, {.limitDamping = bad}),
-                     "wanted zero or a positive, finite number");
+                     fmt::format("limit damping: found {:g}, wanted a finite number, 0 or more", bad));
     EXPECT_REX_ERROR(Stepper(model, {.jointForces = {.limitDamping = bad}}), "limit damping: found ");
   }
 }

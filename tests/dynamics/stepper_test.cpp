@@ -334,9 +334,9 @@ TEST_P(StepperErrors, RefuseStepsThatAreNone) {
   for (const double h : {0., kInfinity, -kInfinity, std::nan("")})
     expectError(start_, u_, h, "time step: found ");
   if (GetParam() == Integrator::kLeapfrog) {
-    expectError(start_, u_, 0, "wanted a finite number of seconds other than zero");
+    expectError(start_, u_, 0, "time step: found 0 s, wanted a finite number of seconds other than 0");
   } else {
-    expectError(start_, u_, -0.1, "time step: found -0.1, wanted a positive, finite number of seconds");
+    expectError(start_, u_, -0.1, "time step: found -0.1 s, wanted a positive, finite number of seconds");
   }
 }
 
@@ -483,7 +483,7 @@ TEST(Stepper, RefusesOptionsThatAreNone) {
   const Model model = compile(swingScene());
   for (const double noise : {-1., kInfinity, std::nan("")})
     EXPECT_REX_ERROR(Stepper(model, {.noise = noise}), "noise: found ");
-  EXPECT_REX_ERROR(Stepper(model, {.noise = -1}), "wanted zero or a positive, finite number");
+  EXPECT_REX_ERROR(Stepper(model, {.noise = -1}), "noise: found -1, wanted a finite number, 0 or more");
   EXPECT_REX_ERROR(Stepper(model, {.gravity_W = {0, std::nan(""), 0}}),
                    "gravity: number 1: found nan, wanted a finite number");
 }

@@ -268,9 +268,10 @@ TEST(PhysicsWorld, RefusesWrongNumbers) {
   const Model model = heap();
   EXPECT_REX_ERROR(PhysicsWorld(model, {.gravity_W = {0, 0, std::nan("")}}),
                    "physics: gravity: number 2: found nan");
-  EXPECT_REX_ERROR(PhysicsWorld(model, {.friction = -1}), "physics: friction: found -1, wanted zero or");
+  EXPECT_REX_ERROR(PhysicsWorld(model, {.friction = -1}),
+                   "physics: friction: found -1, wanted a finite number, 0 or more");
   EXPECT_REX_ERROR(PhysicsWorld(model, {.restitution = 1.5}), "restitution: found 1.5, wanted a number from");
-  EXPECT_REX_ERROR(PhysicsWorld(model, {.iterations = 0}), "iterations: found 0, wanted one or more");
+  EXPECT_REX_ERROR(PhysicsWorld(model, {.iterations = 0}), "iterations: found 0, wanted at least 1");
   PhysicsWorld world(model);
   const State state = world.state();
   for (const double h : {0.0, -1e-3, 9e-10, 1001.0, static_cast<double>(INFINITY)})
@@ -338,7 +339,8 @@ TEST(PhysicsWorld, RefusesWrongMotors) {
   motors[7] = {Motor::Kind::kVelocity, 1, 1};
   EXPECT_REX_ERROR(world.setMotors(motors), "motor of joint 'thing1': found a target for a free joint");
   motors[7].maxForce = -1;
-  EXPECT_REX_ERROR(world.setMotors(motors), "motor of joint 'thing1': maxForce: found -1");
+  EXPECT_REX_ERROR(world.setMotors(motors),
+                   "motor of joint 'thing1': maxForce: found -1, wanted a number, 0 or more, or infinity");
 }
 
 // A wheel of a hundredth of a milligram, a millimetre wide.
