@@ -3,11 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
-#include <fmt/format.h>
-
-#include "base/error.h"
 #include "base/require.h"
 
 namespace rex {
@@ -16,16 +12,9 @@ namespace {
 using Eigen::Vector3d;
 
 void requireOptions(int tries, const AntipodalOptions& options) {
-  if (tries < 0)
-    throw Error(
-        {.what = "antipodal grasps: tries", .found = fmt::format("{}", tries), .wanted = "zero or more"});
-  for (const auto& [what, number] :
-       {std::pair{"friction", options.friction}, std::pair{"largest width", options.maxWidth}}) {
-    const std::string text = fmt::format("antipodal grasps: {}", what);
-    requireFinite(text, number);
-    if (!(number > 0))
-      throw Error({.what = text, .found = fmt::format("{}", number), .wanted = "more than zero"});
-  }
+  requireCount("antipodal grasps: tries", tries, 0);
+  requirePositive("antipodal grasps: friction", options.friction);
+  requirePositive("antipodal grasps: largest width", options.maxWidth, kMetres);
 }
 
 // Evenly over the section of the friction cone.

@@ -15,14 +15,10 @@ template <class AnyContact>
 void requireAny(const AnyContact& contact) {
   requireFinite("contact: position", contact.p_OC);
   requireFinite("contact: normal", contact.normal_O);
-  requireFinite("contact: friction", contact.friction);
+  requireNotNegative("contact: friction", contact.friction);
   const double length = contact.normal_O.norm();
   if (std::abs(length - 1) > 1e-6)
     throw Error({.what = "contact: length of the normal", .found = fmt::format("{}", length), .wanted = "1"});
-  if (contact.friction < 0)
-    throw Error({.what = "contact: friction",
-                 .found = fmt::format("{}", contact.friction),
-                 .wanted = "zero or more"});
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <limits>
 
 #include <Eigen/QR>
-#include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/require.h"
@@ -115,11 +114,7 @@ void requireLoad(std::span<const WrenchCone> cones, const VectorXd& load, std::o
   internal::requireCones(cones);
   if (!cones.empty()) requireSize("equilibrium: load", load.size(), cones[0].normal.size());
   requireFinite("equilibrium: load", load);
-  if (limit) requireFinite("equilibrium: largest normal force", *limit);
-  if (limit && !(*limit > 0))
-    throw Error({.what = "equilibrium: largest normal force",
-                 .found = fmt::format("{}", *limit),
-                 .wanted = "more than zero"});
+  if (limit) requirePositive("equilibrium: largest normal force", *limit);
 }
 
 // The wrench of all forces in the frames of their contacts.

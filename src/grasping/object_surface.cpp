@@ -19,10 +19,8 @@ using std::numbers::pi;
 
 constexpr double kEdge = 1e-12;  // how far beyond its edges a triangle is still hit, as part of it
 
-void requirePositive(const char* what, ShapeType type, double size) {
-  const std::string text = fmt::format("surface: {} of the {}", what, toString(type));
-  requireFinite(text, size);
-  if (!(size > 0)) throw Error({.what = text, .found = fmt::format("{}", size), .wanted = "more than zero"});
+void requireLength(const char* what, ShapeType type, double size) {
+  requirePositive(fmt::format("surface: {} of the {}", what, toString(type)), size, kMetres);
 }
 
 Vector3d onUnitSphere(Rng& rng) {
@@ -47,20 +45,20 @@ std::vector<double> rootsOf(const Vector& x, const Vector& d, double radius) {
 ObjectSurface::ObjectSurface(const Shape& shape) : type_(shape.type) {
   switch (shape.type) {
     case ShapeType::kBox: {
-      for (int i = 0; i < 3; ++i) requirePositive("edge", type_, shape.extent[i]);
+      for (int i = 0; i < 3; ++i) requireLength("edge", type_, shape.extent[i]);
       half_ = shape.extent / 2;
       addBox();
       break;
     }
     case ShapeType::kSphere:
-      requirePositive("radius", type_, radius_ = shape.radius);
+      requireLength("radius", type_, radius_ = shape.radius);
       break;
     case ShapeType::kCapsule:
     case ShapeType::kCylinder:
     case ShapeType::kCone:
-      requirePositive("radius", type_, radius_ = shape.radius);
+      requireLength("radius", type_, radius_ = shape.radius);
       if (shape.extent.z() != 0 || type_ != ShapeType::kCapsule)
-        requirePositive("length", type_, shape.extent.z());
+        requireLength("length", type_, shape.extent.z());
       half_.z() = shape.extent.z() / 2;
       break;
     case ShapeType::kMesh:
@@ -122,9 +120,7 @@ std::vector<double> ObjectSurface::roundAreas() const {
 double ObjectSurface::area() const { return areas_.empty() ? 0 : areas_.back(); }
 
 std::vector<SurfacePoint> ObjectSurface::sample(Rng& rng, int count) const {
-  if (count < 0)
-    throw Error(
-        {.what = "surface: number of points", .found = fmt::format("{}", count), .wanted = "zero or more"});
+  requireCount("surface: number of points", count, 0);
   std::vector<SurfacePoint> points;
   for (int k = 0; k < count; ++k) points.push_back(isRound() ? sampleRound(rng) : sampleTriangle(rng));
   return points;

@@ -4,9 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include <fmt/format.h>
-
-#include "base/error.h"
+#include "base/require.h"
 #include "geometry/facet_hull.h"
 
 namespace rex {
@@ -76,12 +74,8 @@ GraspQuality graspQuality(const MatrixArg& wrenches) {
 }
 
 EpsilonBounds exactEpsilon(std::span<const WrenchCone> cones, double tolerance, int mostRounds) {
-  if (!(tolerance > 0))
-    throw Error(
-        {.what = "epsilon: tolerance", .found = fmt::format("{}", tolerance), .wanted = "more than zero"});
-  if (mostRounds < 0)
-    throw Error(
-        {.what = "epsilon: rounds", .found = fmt::format("{}", mostRounds), .wanted = "zero or more"});
+  requirePositive("epsilon: tolerance", tolerance);
+  requireCount("epsilon: rounds", mostRounds, 0);
   EpsilonBounds bounds;
   if (cones.empty()) return bounds;
   MatrixXd wrenches = primitiveWrenches(cones).wrenches;

@@ -18,11 +18,7 @@ using Eigen::VectorXd;
 
 void requireReference(const WrenchReference& reference) {
   requireFinite("wrenches: reference point", reference.p_OR);
-  requireFinite("wrenches: length", reference.length);
-  if (!(reference.length > 0))
-    throw Error({.what = "wrenches: length",
-                 .found = fmt::format("{}", reference.length),
-                 .wanted = "more than zero"});
+  requirePositive("wrenches: length", reference.length, kMetres);
 }
 
 VectorXd wrenchAt(const Eigen::Vector3d& p_OC, const Eigen::Vector3d& force,
@@ -105,8 +101,7 @@ VectorXd weightWrench(double mass, const Eigen::Vector3d& p_OM, const Eigen::Vec
 }
 
 WrenchSet primitiveWrenches(std::span<const WrenchCone> cones, int edges) {
-  if (edges < 3)
-    throw Error({.what = "friction pyramid", .found = fmt::format("{} edges", edges), .wanted = "3 or more"});
+  requireCount("edges of a friction pyramid", edges, 3);
   internal::requireCones(cones);
   std::vector<MatrixXd> blocks;
   WrenchSet set;
@@ -140,11 +135,7 @@ void requireCones(std::span<const WrenchCone> cones) {
     requireFinite(fmt::format("wrench cone {}: normal", i), cone.normal);
     for (Eigen::Index k = 0; k < cone.tangents.cols(); ++k)
       requireFinite(fmt::format("wrench cone {}: tangents", i), VectorXd(cone.tangents.col(k)));
-    requireFinite(fmt::format("wrench cone {}: friction", i), cone.friction);
-    if (cone.friction < 0)
-      throw Error({.what = fmt::format("wrench cone {}: friction", i),
-                   .found = fmt::format("{}", cone.friction),
-                   .wanted = "zero or more"});
+    requireNotNegative(fmt::format("wrench cone {}: friction", i), cone.friction);
   }
 }
 

@@ -134,11 +134,12 @@ TEST(Antipodal, IsTheSameForTheSameSeed) {
 TEST(Antipodal, RefusesBadInput) {
   const ObjectSurface surface({.type = ShapeType::kSphere, .radius = 0.04});
   Rng rng(1);
-  EXPECT_REX_ERROR(sampleAntipodal(surface, rng, -1), "antipodal grasps: tries: found -1");
+  EXPECT_REX_ERROR(sampleAntipodal(surface, rng, -1), "antipodal grasps: tries: found -1, wanted 0 or more");
   EXPECT_REX_ERROR(sampleAntipodal(surface, rng, 1, {.friction = 0}),
-                   "antipodal grasps: friction: found 0, wanted more than zero");
-  EXPECT_REX_ERROR(sampleAntipodal(surface, rng, 1, {.maxWidth = HUGE_VAL}),
-                   "antipodal grasps: largest width: found inf");
+                   "antipodal grasps: friction: found 0, wanted a positive, finite number");
+  EXPECT_REX_ERROR(
+      sampleAntipodal(surface, rng, 1, {.maxWidth = HUGE_VAL}),
+      "antipodal grasps: largest width: found inf m, wanted a positive, finite number of metres");
   EXPECT_REX_ERROR(contactsAt(surface.sample(rng, 1), -1), "contact: friction: found -1");
 }
 

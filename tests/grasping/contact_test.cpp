@@ -49,7 +49,7 @@ TEST(Contact, RefusesWhatIsNone) {
   EXPECT_REX_ERROR(requireValid(PlanarContact{.normal_O = {0, 0}}),
                    "contact: length of the normal: found 0, wanted 1");
   EXPECT_REX_ERROR(requireValid(PlanarContact{.friction = -0.5}),
-                   "contact: friction: found -0.5, wanted zero or more");
+                   "contact: friction: found -0.5, wanted a finite number, 0 or more");
 }
 
 }  // namespace rex::contact_test

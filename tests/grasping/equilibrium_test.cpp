@@ -203,7 +203,7 @@ TEST(Equilibrium, RefusesBadInput) {
   EXPECT_REX_ERROR(equilibrium(cones, VectorXd::Ones(3)),
                    "equilibrium: load: found a vector of size 3, wanted size 6");
   EXPECT_REX_ERROR(equilibrium(cones, load, 0),
-                   "equilibrium: largest normal force: found 0, wanted more than zero");
+                   "equilibrium: largest normal force: found 0, wanted a positive, finite number");
   EXPECT_REX_ERROR(equilibrium(cones, load, HUGE_VAL), "equilibrium: largest normal force: found inf");
   std::vector<WrenchCone> mixed = cones;
   mixed[0].tangents.conservativeResize(6, 1);

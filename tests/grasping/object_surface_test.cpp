@@ -116,7 +116,7 @@ TEST(ObjectSurface, GivesTheSamePointsForTheSameSeed) {
 TEST(ObjectSurface, RefusesWhatHasNone) {
   EXPECT_REX_ERROR(ObjectSurface({.type = ShapeType::kMarker}), "surface of a shape: found marker");
   EXPECT_REX_ERROR(ObjectSurface({.type = ShapeType::kBox, .extent = {1, 0, 1}}),
-                   "surface: edge of the box: found 0, wanted more than zero");
+                   "surface: edge of the box: found 0 m, wanted a positive, finite number of metres");
   EXPECT_REX_ERROR(ObjectSurface({.type = ShapeType::kSphere, .radius = HUGE_VAL}),
                    "surface: radius of the sphere: found inf");
   EXPECT_REX_ERROR(ObjectSurface({.type = ShapeType::kCylinder, .extent = {0, 0, 0}, .radius = 1}),
@@ -127,7 +127,7 @@ TEST(ObjectSurface, RefusesWhatHasNone) {
   const ObjectSurface ball({.type = ShapeType::kCapsule, .extent = {0, 0, 0}, .radius = 1});
   EXPECT_NEAR(ball.area(), 4 * pi, 1e-12);
   Rng rng(1);
-  EXPECT_REX_ERROR(ball.sample(rng, -1), "surface: number of points: found -1");
+  EXPECT_REX_ERROR(ball.sample(rng, -1), "surface: number of points: found -1, wanted 0 or more");
   EXPECT_REX_ERROR(ball.hits({0, 0, 0}, {0, 2, 0}), "surface: length of the direction: found 2, wanted 1");
   EXPECT_REX_ERROR(ball.hits({HUGE_VAL, 0, 0}, {0, 1, 0}), "surface: start of the line: number 0: found inf");
   EXPECT_REX_ERROR(ball.hits({0, 0, 0}, {0, 1, std::nan("")}), "surface: direction of the line: number 2");

@@ -175,9 +175,10 @@ TEST(Quality, SaysWhatIsWrongWithAHull) {
 
 TEST(Quality, RefusesBadInput) {
   EXPECT_REX_ERROR(exactEpsilon(wrenchCones(antipodal(0.5)), 0),
-                   "epsilon: tolerance: found 0, wanted more than zero");
+                   "epsilon: tolerance: found 0, wanted a positive, finite number");
+  EXPECT_REX_ERROR(exactEpsilon(wrenchCones(antipodal(0.5)), HUGE_VAL), "epsilon: tolerance: found inf");
   EXPECT_REX_ERROR(exactEpsilon(wrenchCones(antipodal(0.5)), 1e-6, -1),
-                   "epsilon: rounds: found -1, wanted zero or more");
+                   "epsilon: rounds: found -1, wanted 0 or more");
   EXPECT_REX_ERROR(graspQuality(MatrixXd::Constant(3, 4, std::nan(""))),
                    "hull: point 0: number 0: found nan");
 }

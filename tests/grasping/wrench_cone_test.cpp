@@ -96,16 +96,16 @@ TEST(WrenchCone, WeighsAtTheCentreOfMass) {
 TEST(WrenchCone, RefusesBadInput) {
   const std::vector<Contact> contacts = {{}, {.friction = -1}};
   const std::vector<WrenchCone> cones = wrenchCones(std::vector<Contact>(2));
-  EXPECT_REX_ERROR(wrenchCones(contacts), "contact 1: friction: found -1, wanted zero or more");
+  EXPECT_REX_ERROR(wrenchCones(contacts), "contact 1: friction: found -1, wanted a finite number, 0 or more");
   EXPECT_REX_ERROR(wrenchCones(std::vector<Contact>(1), {.length = 0}),
-                   "wrenches: length: found 0, wanted more than zero");
+                   "wrenches: length: found 0 m, wanted a positive, finite number of metres");
   EXPECT_REX_ERROR(wrenchCones(std::vector<Contact>(1), {.length = HUGE_VAL}), "wrenches: length: found inf");
   EXPECT_REX_ERROR(wrenchCones(std::vector<PlanarContact>(1), {.p_OR = {HUGE_VAL, 0, 0}}),
                    "wrenches: reference point: number 0: found inf");
   EXPECT_REX_ERROR(weightWrench(std::nan(""), {}, {}), "weight: mass: found nan");
   EXPECT_REX_ERROR(weightWrench(1, {0, 0, HUGE_VAL}, {0, 0, 0}), "weight: centre of mass: number 2");
   EXPECT_REX_ERROR(weightWrench(1, {0, 0, 0}, {HUGE_VAL, 0, 0}), "weight: gravity: number 0");
-  EXPECT_REX_ERROR(primitiveWrenches(cones, 2), "friction pyramid: found 2 edges, wanted 3 or more");
+  EXPECT_REX_ERROR(primitiveWrenches(cones, 2), "edges of a friction pyramid: found 2, wanted at least 3");
 }
 
 TEST(WrenchCone, RefusesConesThatDoNotFit) {
@@ -129,7 +129,7 @@ TEST(WrenchCone, RefusesConesThatDoNotFit) {
   EXPECT_REX_ERROR(broken([](WrenchCone& c) { c.friction = HUGE_VAL; }),
                    "wrench cone 1: friction: found inf");
   EXPECT_REX_ERROR(broken([](WrenchCone& c) { c.friction = -1; }),
-                   "wrench cone 1: friction: found -1, wanted zero or more");
+                   "wrench cone 1: friction: found -1, wanted a finite number, 0 or more");
 }
 
 }  // namespace rex::wrench_cone_test
