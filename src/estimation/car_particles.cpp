@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <Eigen/LU>
-#include <fmt/format.h>
 
 #include "base/cpu_lanes.h"
 #include "base/error.h"
@@ -25,16 +24,9 @@ constexpr int kStateSize = 3;
 constexpr Eigen::Index kChunk = 256;  // particles whose noise stays in the nearest cache
 
 void requireMotion(const CarMotion& motion) {
-  requireFinite("time step of the car", motion.tau);
-  if (!(motion.wheelbase > 0) || !std::isfinite(motion.wheelbase))
-    throw Error({.what = "wheelbase of the car",
-                 .found = fmt::format("{:g}", motion.wheelbase),
-                 .wanted = "a positive number"});
-  requireFinite("deviations of the car's motion", motion.deviations);
-  if (motion.deviations.minCoeff() < 0)
-    throw Error({.what = "deviations of the car's motion",
-                 .found = fmt::format("{:g}", motion.deviations.minCoeff()),
-                 .wanted = "zero or more"});
+  requireFinite("time step of the car", motion.tau, kSeconds);
+  requirePositive("wheelbase of the car", motion.wheelbase, kMetres);
+  requireNotNegative("deviations of the car's motion", motion.deviations);
 }
 
 internal::Sighting sightingOf(const LandmarkSensor& sensor, const Eigen::Vector2d& landmark,

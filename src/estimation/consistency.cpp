@@ -37,12 +37,6 @@ double lowerGamma(double a, double x) {
   return 1 - front * fraction;
 }
 
-void requireDegrees(double degrees) {
-  if (degrees > 0 && std::isfinite(degrees)) return;
-  throw Error(
-      {.what = "degrees of freedom", .found = fmt::format("{:g}", degrees), .wanted = "a positive number"});
-}
-
 void requireProbability(double probability) {
   if (probability > 0 && probability < 1) return;
   throw Error(
@@ -74,13 +68,13 @@ double estimationErrorSquared(const Gaussian& belief, const VectorArg& truth, st
 }
 
 double chiSquareProbability(double x, double degrees) {
-  requireDegrees(degrees);
+  requirePositive("degrees of freedom", degrees);
   if (std::isnan(x)) requireFinite("chi-square number", x);
   return std::isinf(x) ? (x > 0 ? 1 : 0) : lowerGamma(degrees / 2, x / 2);
 }
 
 double chiSquareQuantile(double probability, double degrees) {
-  requireDegrees(degrees);
+  requirePositive("degrees of freedom", degrees);
   requireProbability(probability);
   double low = 0, high = degrees + 10;
   while (chiSquareProbability(high, degrees) < probability) high *= 2;
@@ -92,8 +86,7 @@ double chiSquareQuantile(double probability, double degrees) {
 }
 
 ConsistencyBand consistencyBand(double runs, double degrees, double probability) {
-  if (!(runs >= 1))
-    throw Error({.what = "runs", .found = fmt::format("{:g}", runs), .wanted = "one or more"});
+  if (!(runs >= 1)) throw Error({.what = "runs", .found = fmt::format("{:g}", runs), .wanted = "at least 1"});
   requireProbability(probability);
   // The sum of the runs is chi-square, too.
   const double tail = (1 - probability) / 2;

@@ -32,9 +32,7 @@ FastSlam::FastSlam(const Eigen::Vector3d& pose, const LandmarkSensor& sensor, co
     : sensor_(sensor), options_(options) {
   requireFinite("pose", pose);
   requireCovariance("covariance of the sensor", sensor.W, 2, Definiteness::kPositive);
-  if (options.particles < 1)
-    throw Error(
-        {.what = "particles", .found = fmt::format("{}", options.particles), .wanted = "one or more"});
+  requireCount("particles", options.particles, 1);
   if (!(options.threshold >= 0 && options.threshold <= 1))
     throw Error({.what = "threshold of resampling",
                  .found = fmt::format("{:g}", options.threshold),

@@ -5,23 +5,15 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require.h"
 
 namespace rex {
 namespace {
 
 constexpr double kSumTolerance = 1e-9;
 
-void requireNotNegative(const char* what, const VectorArg& numbers) {
-  for (Eigen::Index i = 0; i < numbers.size(); ++i) {
-    if (numbers[i] >= 0 && std::isfinite(numbers[i])) continue;
-    throw Error({.what = fmt::format("{} of cell {}", what, i),
-                 .found = fmt::format("{:g}", numbers[i]),
-                 .wanted = "a finite number, zero or more"});
-  }
-}
-
 void requireBelief(const VectorArg& belief) {
-  requireNotNegative("probability", belief);
+  requireNotNegative("probabilities of cells", belief);
   if (std::abs(belief.sum() - 1) <= kSumTolerance) return;
   throw Error({.what = "belief",
                .found = fmt::format("probabilities that sum to {:.12g}", belief.sum()),
@@ -62,7 +54,7 @@ Eigen::VectorXd predictCells(const VectorArg& belief, const CellTransition& tran
 CellUpdate updateCells(const VectorArg& predicted, const VectorArg& likelihood) {
   requireBelief(predicted);
   requireSize("likelihoods", likelihood.size(), predicted.size());
-  requireNotNegative("likelihood", likelihood);
+  requireNotNegative("likelihoods of cells", likelihood);
   CellUpdate update;
   // Over the likeliest cell that is possible, so that small numbers do not vanish.
   const double largest = (predicted.array() > 0).select(likelihood.array(), 0.).maxCoeff();

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require.h"
 #include "geometry/rotation.h"
 
 namespace rex {
@@ -39,10 +40,7 @@ LandmarkPlace placeOf(const LandmarkSensor& sensor, const Eigen::Vector3d& x, co
     place.Jy << c, -s, s, c;
     d = place.Jy * y;
   } else {
-    if (!(y[0] > 0))
-      throw Error({.what = "range of a new landmark",
-                   .found = fmt::format("{:g}", y[0]),
-                   .wanted = "a positive number"});
+    requirePositive("range of a new landmark", y[0], kMetres);
     const double c = std::cos(x[2] + y[1]), s = std::sin(x[2] + y[1]);
     place.Jy << c, -y[0] * s, s, y[0] * c;
     d = y[0] * Eigen::Vector2d(c, s);

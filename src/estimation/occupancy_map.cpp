@@ -92,10 +92,7 @@ void requireEvidence(const RayEvidence& evidence) {
 }  // namespace
 
 void internal::requireScanner(const RangeScanner& scanner) {
-  if (!(scanner.maxRange > 0) || !std::isfinite(scanner.maxRange))
-    throw Error({.what = "scanner: largest range",
-                 .found = fmt::format("{:g}", scanner.maxRange),
-                 .wanted = "a positive number"});
+  requirePositive("scanner: largest range", scanner.maxRange, kMetres);
   for (std::size_t i = 0; i < scanner.angles.size(); ++i)
     if (!std::isfinite(scanner.angles[i]))
       requireFinite(fmt::format("scanner: angle {}", i), scanner.angles[i]);
@@ -104,12 +101,7 @@ void internal::requireScanner(const RangeScanner& scanner) {
 void internal::requireRanges(const RangeScanner& scanner, const VectorArg& ranges) {
   requireScanner(scanner);
   requireSize("ranges", ranges.size(), static_cast<long>(scanner.angles.size()));
-  requireFinite("ranges", ranges);
-  for (Eigen::Index i = 0; i < ranges.size(); ++i)
-    if (ranges[i] < 0)
-      throw Error({.what = fmt::format("ranges: number {}", i),
-                   .found = fmt::format("{:g}", ranges[i]),
-                   .wanted = "zero or more"});
+  requireNotNegative("ranges", ranges);
 }
 
 OccupancyMap::OccupancyMap(int width, int height, double cellSize, const Eigen::Vector2d& origin)
@@ -118,10 +110,7 @@ OccupancyMap::OccupancyMap(int width, int height, double cellSize, const Eigen::
     throw Error({.what = "occupancy map",
                  .found = fmt::format("{} x {} cells", width, height),
                  .wanted = fmt::format("1 to {:g} cells", kMostCells)});
-  if (!(cellSize > 0) || !std::isfinite(cellSize))
-    throw Error({.what = "occupancy map: size of a cell",
-                 .found = fmt::format("{:g}", cellSize),
-                 .wanted = "a positive number"});
+  requirePositive("occupancy map: size of a cell", cellSize, kMetres);
   requireFinite("occupancy map: origin", origin);
   cells_.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
 }
@@ -137,8 +126,7 @@ Eigen::Vector2i OccupancyMap::cellAt(const Eigen::Vector2d& p) const {
 double OccupancyMap::distanceToOccupied(const Eigen::Vector2d& p, double angle, double maxRange) const {
   requireFinite("start of the ray", p);
   requireFinite("angle of the ray", angle);
-  if (!(maxRange >= 0))
-    throw Error({.what = "largest range", .found = fmt::format("{:g}", maxRange), .wanted = "zero or more"});
+  requireNotNegativeOrInfinite("largest range", maxRange, kMetres);
   return lengthOfRay(*this, p, angle, maxRange);
 }
 

@@ -26,13 +26,12 @@ void requireOptions(const ParticleFilterOptions& options, Eigen::Index stateSize
   };
   require(options.threshold >= 0 && options.threshold <= 1, "threshold of resampling", options.threshold,
           "0 to 1");
-  require(options.fewest >= 1, "fewest particles", options.fewest, "one or more");
   require(options.most >= options.fewest, "most particles", options.most, "at least the fewest");
-  require(options.error > 0, "error of the adaptive count", options.error, "more than 0");
+  requireCount("fewest particles", options.fewest, 1);
+  requirePositive("error of the adaptive count", options.error);
   if (options.cellSize.size() == 0) return;
   requireSize("sizes of cells", options.cellSize.size(), stateSize);
-  for (const double size : options.cellSize)
-    require(size >= 0 && std::isfinite(size), "size of a cell", size, "a finite number, zero or more");
+  requireNotNegative("sizes of cells", options.cellSize);
 }
 
 void requireNumbers(const Eigen::MatrixXd& states, Eigen::Index first = 0) {
@@ -64,8 +63,7 @@ std::vector<double> cellOf(const VectorArg& state, const Eigen::VectorXd& size) 
 }  // namespace
 
 Particles sampledParticles(const Gaussian& gaussian, int count, Rng& rng) {
-  if (count < 1)
-    throw Error({.what = "particles", .found = fmt::format("{}", count), .wanted = "one or more"});
+  requireCount("particles", count, 1);
   requireFinite("mean", gaussian.mean);
   requireCovariance("covariance", gaussian.covariance, gaussian.mean.size());
   const Eigen::MatrixXd root = covarianceRoot(gaussian.covariance);

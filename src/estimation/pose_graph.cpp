@@ -9,7 +9,7 @@
 #include <Eigen/SparseCore>
 #include <fmt/format.h>
 
-#include "base/error.h"
+#include "base/require.h"
 #include "estimation/pose_edge_internal.h"
 
 namespace rex {
@@ -40,14 +40,9 @@ Robust robust(double s, const PoseGraphOptions& options) {
 }
 
 void requireOptions(const PoseGraphOptions& options) {
-  const auto require = [](bool isRight, const char* what, double found, const char* wanted) {
-    if (!isRight) throw Error({.what = what, .found = fmt::format("{:g}", found), .wanted = wanted});
-  };
-  require(options.kernelSize > 0 && std::isfinite(options.kernelSize), "size of the robust kernel",
-          options.kernelSize, "a positive number");
-  require(options.maxIterations >= 0, "iterations", options.maxIterations, "zero or more");
-  require(options.tolerance >= 0 && std::isfinite(options.tolerance), "tolerance", options.tolerance,
-          "zero or more");
+  requirePositive("size of the robust kernel", options.kernelSize);
+  requireCount("iterations", options.maxIterations, 0);
+  requireNotNegative("tolerance", options.tolerance);
 }
 
 template <class Traits>

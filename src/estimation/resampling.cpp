@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require.h"
 #include "base/rng.h"
 
 namespace rex {
@@ -15,12 +13,7 @@ namespace {
 
 // The weights divided by the largest, so that no sum of them overflows or vanishes.
 Eigen::VectorXd scaledWeights(const VectorArg& weights) {
-  for (Eigen::Index i = 0; i < weights.size(); ++i) {
-    if (weights[i] >= 0 && std::isfinite(weights[i])) continue;
-    throw Error({.what = fmt::format("weight of particle {}", i),
-                 .found = fmt::format("{:g}", weights[i]),
-                 .wanted = "a finite number, zero or more"});
-  }
+  requireNotNegative("weights of particles", weights);
   const double largest = weights.size() == 0 ? 0 : weights.maxCoeff();
   if (!(largest > 0)) throw Error({.what = "weights", .found = "only zeros", .wanted = "a positive one"});
   return weights / largest;
@@ -107,8 +100,7 @@ void drawResidual(const Eigen::VectorXd& weights, int size, int count, double to
 void resample(const VectorArg& weights, int count, Resampling how, Rng& rng, std::vector<int>& parents) {
   const Eigen::VectorXd scaled = scaledWeights(weights);
   const double total = scaled.sum();
-  if (count < 0)
-    throw Error({.what = "particles to draw", .found = fmt::format("{}", count), .wanted = "zero or more"});
+  requireCount("particles to draw", count, 0);
   parents.clear();
   parents.reserve(static_cast<std::size_t>(count));
   // Up to the last weight that is not zero: rounding must not lead beyond.
@@ -142,11 +134,9 @@ double effectiveSampleSize(const VectorArg& weights) {
 }
 
 int adaptiveSampleSize(int cells, double error, double quantile) {
-  if (cells < 1)
-    throw Error({.what = "occupied cells", .found = fmt::format("{}", cells), .wanted = "one or more"});
-  for (const auto& [what, number] : {std::pair{"error", error}, {"quantile", quantile}})
-    if (!(number > 0) || !std::isfinite(number))
-      throw Error({.what = what, .found = fmt::format("{:g}", number), .wanted = "a positive number"});
+  requireCount("occupied cells", cells, 1);
+  requirePositive("error", error);
+  requirePositive("quantile", quantile);
   if (cells == 1) return 1;
   const double k = cells - 1, part = 2 / (9 * k);
   const double root = 1 - part + std::sqrt(part) * quantile;

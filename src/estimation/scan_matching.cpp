@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -11,7 +10,6 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
-#include "base/error.h"
 #include "base/require.h"
 #include "estimation/pose_edge_internal.h"
 #include "estimation/range_scan_internal.h"
@@ -291,15 +289,11 @@ void internal::requireScans(const Eigen::Matrix2Xd& reference, const Eigen::Matr
         requireFinite(fmt::format("{} scan: point {}", scan == &reference ? "reference" : "moving", k),
                       scan->col(k));
   requireFinite("guess of the motion", guess);
-  for (const auto& [name, value] : {std::pair{"deviation", options.deviation},
-                                    {"maxDistance", options.maxDistance},
-                                    {"maxGap", options.maxGap},
-                                    {"leastShare", options.leastShare},
-                                    {"maxIterations", static_cast<double>(options.maxIterations)}})
-    if (!(value > 0) || !std::isfinite(value))
-      throw Error({.what = fmt::format("matching scans: {}", name),
-                   .found = fmt::format("{:g}", value),
-                   .wanted = "a positive number"});
+  requirePositive("matching scans: deviation", options.deviation, kMetres);
+  requirePositive("matching scans: maxDistance", options.maxDistance, kMetres);
+  requirePositive("matching scans: maxGap", options.maxGap, kMetres);
+  requirePositive("matching scans: leastShare", options.leastShare);
+  requireCount("matching scans: maxIterations", options.maxIterations, 1);
 }
 
 Eigen::Matrix2Xd scanPoints(const RangeScanner& scanner, const VectorArg& ranges) {

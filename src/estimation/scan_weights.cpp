@@ -7,16 +7,14 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require.h"
 #include "estimation/range_scan_internal.h"
 
 namespace rex {
 namespace {
 
 void requireModel(const BeamModel& model) {
-  if (!(model.deviation > 0) || !std::isfinite(model.deviation))
-    throw Error({.what = "beam model: deviation",
-                 .found = fmt::format("{:g}", model.deviation),
-                 .wanted = "a positive number"});
+  requirePositive("beam model: deviation", model.deviation, kMetres);
   if (!(model.temper >= 1) || !std::isfinite(model.temper))
     throw Error(
         {.what = "beam model: temper", .found = fmt::format("{:g}", model.temper), .wanted = "1 or more"});

@@ -152,10 +152,10 @@ TEST(CarParticles, FilterFindsTheCar) {
 TEST(CarParticles, RefuseWhatIsWrong) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_REX_ERROR(carProposal({.wheelbase = 0}, kControl),
-                   "wheelbase of the car: found 0, wanted a positive");
+                   "wheelbase of the car: found 0 m, wanted a positive, finite number of metres");
   EXPECT_REX_ERROR(carProposal({.tau = nan}, kControl), "time step of the car: found nan");
   EXPECT_REX_ERROR(carProposal({.deviations = {0.1, -0.2, 0.1}}, kControl),
-                   "deviations of the car's motion: found -0.2, wanted zero or more");
+                   "deviations of the car's motion: number 1: found -0.2, wanted a finite number, 0 or more");
   EXPECT_REX_ERROR(carProposal({.deviations = {0.1, nan, 0.1}}, kControl),
                    "deviations of the car's motion: number 1: found nan");
   EXPECT_REX_ERROR(carProposal({}, {nan, 0}), "control of the car: number 0: found nan");

@@ -86,7 +86,8 @@ TEST(Consistency, RelativeErrorsAreThoseOfSteps) {
 
 TEST(Consistency, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(chiSquareQuantile(1, 2), "probability: found 1, wanted between 0 and 1");
-  EXPECT_REX_ERROR(chiSquareProbability(1, 0), "degrees of freedom: found 0, wanted a positive number");
+  EXPECT_REX_ERROR(chiSquareProbability(1, 0),
+                   "degrees of freedom: found 0, wanted a positive, finite number");
   EXPECT_REX_ERROR(consistencyBand(5, 2, 1), "probability: found 1, wanted between 0 and 1");
   EXPECT_REX_ERROR(chiSquareProbability(std::nan(""), 2), "chi-square number: found nan");
   EXPECT_EQ(chiSquareProbability(INFINITY, 2), 1);
@@ -99,7 +100,7 @@ TEST(Consistency, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(estimationErrorSquared(round, Eigen::Vector2d(0, NAN)), "truth: number 1: found nan");
   EXPECT_REX_ERROR(estimationErrorSquared(round, Eigen::Vector3d(0, 0, 0)),
                    "truth: found a vector of size 3");
-  EXPECT_REX_ERROR(consistencyBand(0, 2), "runs: found 0, wanted one or more");
+  EXPECT_REX_ERROR(consistencyBand(0, 2), "runs: found 0, wanted at least 1");
   const Eigen::MatrixXd planar = Eigen::MatrixXd::Zero(3, 4), empty(2, 0);
   EXPECT_REX_ERROR(relativePoseError(planar, planar, 4),
                    "steps of the relative error: found 4, wanted 1 to 3");

@@ -215,7 +215,7 @@ TEST(EkfSlam, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(slam.observe(ys, {.same = 9, .different = 3}), "gates of association: found same 9");
   EXPECT_REX_ERROR(slam.observe(ys, {.same = std::nan("")}), "gates of association: found same nan");
   EXPECT_REX_ERROR(placeOf({.kind = Kind::kRangeBearing}, {0, 0, 0}, {0, 1}),
-                   "range of a new landmark: found 0, wanted a positive number");
+                   "range of a new landmark: found 0 m, wanted a positive, finite number of metres");
   EXPECT_REX_ERROR(slam.predict({}), "transition: found no function for its mean");
   EXPECT_REX_ERROR(slam.predict({.mean = [](const Eigen::Vector3d& x) { return x; }}),
                    "transition: found no function for its derivative");

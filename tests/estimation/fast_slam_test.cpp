@@ -110,7 +110,7 @@ TEST(FastSlam, SurvivesWhatNoParticleExplains) {
     const LandmarkSighting backwards{0, {-1, 0}};
     FastSlam bearing(Eigen::Vector3d::Zero(), {.kind = Kind::kRangeBearing}, {.particles = 2});
     EXPECT_REX_ERROR(bearing.step(world.transition(), std::vector{backwards}, rng),
-                     "range of a new landmark: found -1, wanted a positive number");
+                     "range of a new landmark: found -1 m, wanted a positive, finite number of metres");
     EXPECT_EQ(bearing.poses(), Eigen::Matrix3Xd::Zero(3, 2)) << "a throw changes nothing";
   }
 }
@@ -119,7 +119,7 @@ TEST(FastSlam, SaysWhatIsWrong) {
   Rng rng(3);
   const test::SlamWorld world(Kind::kCartesian, 1, rng);
   EXPECT_REX_ERROR(FastSlam(Eigen::Vector3d::Zero(), {}, {.particles = 0}),
-                   "particles: found 0, wanted one or more");
+                   "particles: found 0, wanted at least 1");
   EXPECT_REX_ERROR(FastSlam(Eigen::Vector3d::Zero(), {}, {.threshold = 2}),
                    "threshold of resampling: found 2");
   EXPECT_REX_ERROR(FastSlam(Eigen::Vector3d(0, 0, INFINITY), {}), "pose: number 2: found inf");

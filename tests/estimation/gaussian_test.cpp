@@ -154,6 +154,11 @@ TEST(Gaussian, SaysWhatIsWrong) {
   EXPECT_REX_ERROR((void)toCanonical(bad), "mean: number 1: found inf, wanted a finite number");
   EXPECT_REX_ERROR((void)toNormal(CanonicalGaussian{Eigen::Vector2d(0, 0), Eigen::Matrix2d::Zero()}),
                    "precision: found the eigenvalue 0, wanted a positive definite matrix");
+  const CanonicalGaussian canonical{Eigen::Vector2d(0, 0), Eigen::Matrix2d::Identity()},
+      lost{Eigen::Vector2d(0, NAN), Eigen::Matrix2d::Identity()};
+  EXPECT_REX_ERROR((void)toNormal(lost), "coefficient a: number 1: found nan");
+  EXPECT_REX_ERROR((void)multiplied(lost, canonical), "coefficient a: number 1: found nan");
+  EXPECT_REX_ERROR((void)multiplied(canonical, lost), "coefficient b: number 1: found nan");
   EXPECT_REX_ERROR((void)pulledBack(good, Eigen::Matrix2d::Ones(), Eigen::Vector2d(0, 0)),
                    "transformation F: found rank 1, wanted an invertible matrix, of rank 2");
   EXPECT_REX_ERROR((void)marginal(good, std::numeric_limits<int>::max(), 1),

@@ -131,7 +131,8 @@ TEST(HistogramFilter, SaysWhatIsWrong) {
   CellTransition move = Eigen::Matrix2d::Identity().sparseView();
   EXPECT_REX_ERROR(predictCells(Eigen::Vector2d(.5, .4), move),
                    "belief: found probabilities that sum to 0.9");
-  EXPECT_REX_ERROR(predictCells(Eigen::Vector2d(1.5, -.5), move), "probability of cell 1: found -0.5");
+  EXPECT_REX_ERROR(predictCells(Eigen::Vector2d(1.5, -.5), move),
+                   "probabilities of cells: number 1: found -0.5, wanted a finite number, 0 or more");
   EXPECT_REX_ERROR(predictCells(Eigen::Vector3d(1, 0, 0), move), "columns of the transition");
   move.coeffRef(1, 1) = .5;
   EXPECT_REX_ERROR(predictCells(half, move), "transition from cell 1: found probabilities that sum to 0.5");
@@ -144,7 +145,8 @@ TEST(HistogramFilter, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(updateCells(half, Eigen::Vector3d(1, 1, 1)), "likelihoods: found a vector of size 3");
   EXPECT_REX_ERROR(predictCells(half, CellTransition(3, 2)),
                    "rows of the transition: found a vector of size 3");
-  EXPECT_REX_ERROR(updateCells(half, Eigen::Vector2d(1, INFINITY)), "likelihood of cell 1: found inf");
+  EXPECT_REX_ERROR(updateCells(half, Eigen::Vector2d(1, INFINITY)),
+                   "likelihoods of cells: number 1: found inf, wanted a finite number, 0 or more");
   const std::vector<Eigen::VectorXd> never{half, Eigen::Vector2d(0, 0)};
   const std::vector<CellTransition> stay{Eigen::Matrix2d::Identity().sparseView()};
   EXPECT_REX_ERROR(smoothedCells(half, stay, never), "observation at time 1: found no cell that explains it");

@@ -299,7 +299,22 @@ TEST(KalmanFilter, SaysWhatIsWrong) {
   EXPECT_REX_ERROR((void)unscentedPredict(belief, same, {.alpha = 0}), "unscented transform: alpha: found 0");
   EXPECT_REX_ERROR((void)unscentedPredict(belief, same, {.kappa = -2}),
                    "unscented transform: kappa: found -2");
+  EXPECT_REX_ERROR((void)unscentedPredict(belief, same, {.beta = NAN}),
+                   "unscented transform: beta: found nan, wanted a finite number");
+  const NonlinearModel lost{
+      .g = [](const Eigen::VectorXd& x) -> Eigen::VectorXd { return x + Eigen::Vector2d(0, NAN); },
+      .W = Eigen::Matrix2d::Identity()};
+  EXPECT_REX_ERROR((void)extendedPredict(belief, lost), "value of the model: number 1: found nan");
+  EXPECT_REX_ERROR((void)unscentedPredict(belief, lost), "value of the model: number 1: found nan");
+  const Gaussian nowhere{Eigen::Vector2d(NAN, 0), Eigen::Matrix2d::Identity()};
+  EXPECT_REX_ERROR((void)smoothed(std::vector{nowhere, nowhere}, std::vector{stay}),
+                   "mean of the belief: number 0: found nan");
+  EXPECT_REX_ERROR((void)informationPredict({nowhere.mean, nowhere.covariance}, stay),
+                   "coefficient of the belief: number 0: found nan");
   RootGaussian root = toRoot(belief);
+  root.mean[1] = NAN;
+  EXPECT_REX_ERROR((void)rootPredict(root, still), "mean of the belief: number 1: found nan");
+  root = toRoot(belief);
   root.L(0, 0) = INFINITY;
   EXPECT_REX_ERROR((void)rootPredict(root, still), "root of the belief: found entries that are not finite");
   EXPECT_REX_ERROR((void)smoothed(std::vector{belief, belief}, {}),

@@ -152,7 +152,8 @@ TEST(OccupancyMap, RobotFindsItselfInIt) {
 TEST(OccupancyMap, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(OccupancyMap(0, 4, 1), "occupancy map: found 0 x 4 cells, wanted 1 to 1e+08 cells");
   EXPECT_REX_ERROR(OccupancyMap(100000, 100000, 1), "found 100000 x 100000 cells");
-  EXPECT_REX_ERROR(OccupancyMap(1, 1, 0), "size of a cell: found 0, wanted a positive number");
+  EXPECT_REX_ERROR(OccupancyMap(1, 1, 0),
+                   "occupancy map: size of a cell: found 0 m, wanted a positive, finite number of metres");
   EXPECT_REX_ERROR(OccupancyMap(1, 1, 1, {INFINITY, 0}), "occupancy map: origin: number 0: found inf");
   OccupancyMap map(4, 4, 1);
   const RangeScanner eye{.angles = {0, 1}, .maxRange = 5};
@@ -160,13 +161,14 @@ TEST(OccupancyMap, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(map.observe(eye, pose, Eigen::Vector3d(1, 1, 1)),
                    "ranges: found a vector of size 3, wanted size 2");
   EXPECT_REX_ERROR(map.observe(eye, pose, Eigen::Vector2d(1, -1)),
-                   "ranges: number 1: found -1, wanted zero or more");
+                   "ranges: number 1: found -1, wanted a finite number, 0 or more");
   EXPECT_EQ(map.logOdds(1, 1), 0) << "nothing of a wrong scan is in the map";
   EXPECT_REX_ERROR(map.cellAt({0, std::nan("")}), "point: number 1: found nan");
   EXPECT_REX_ERROR(map.distanceToOccupied({INFINITY, 0}, 0, 1), "start of the ray: number 0: found inf");
   EXPECT_REX_ERROR(map.distanceToOccupied({0, 0}, INFINITY, 1), "angle of the ray: found inf");
   EXPECT_REX_ERROR(map.distanceToOccupied({0, 0}, 0, std::nan("")), "largest range: found nan");
-  EXPECT_REX_ERROR(map.distanceToOccupied({0, 0}, 0, -1), "largest range: found -1, wanted zero or more");
+  EXPECT_REX_ERROR(map.distanceToOccupied({0, 0}, 0, -1),
+                   "largest range: found -1 m, wanted a number of metres, 0 or more, or infinity");
   Eigen::VectorXd ranges(2);
   EXPECT_REX_ERROR(map.scan(eye, {0, std::nan(""), 0}, ranges), "pose of the scanner: number 1: found nan");
   EXPECT_REX_ERROR(map.scan({.angles = {0, INFINITY}}, pose, ranges), "scanner: angle 1: found inf");
@@ -174,7 +176,8 @@ TEST(OccupancyMap, SaysWhatIsWrong) {
     const RangeScanner wrong{.angles = {0, 1}, .maxRange = maxRange};
     EXPECT_REX_ERROR(map.scan(wrong, pose, ranges), "scanner: largest range: found");
     EXPECT_REX_ERROR(map.observe(wrong, pose, Eigen::Vector2d(1, 1)), "scanner: largest range: found");
-    EXPECT_REX_ERROR(scanWeights(map, wrong, Eigen::Vector2d(1, 1)), "wanted a positive number");
+    EXPECT_REX_ERROR(scanWeights(map, wrong, Eigen::Vector2d(1, 1)),
+                     "wanted a positive, finite number of metres");
   }
   EXPECT_REX_ERROR(scanWeights(map, eye, Eigen::Vector2d(1, -1)), "ranges: number 1: found -1");
   EXPECT_REX_ERROR(map.observe(eye, pose, Eigen::Vector2d(1, std::nan(""))), "ranges: number 1: found nan");
@@ -183,7 +186,7 @@ TEST(OccupancyMap, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(map.observe(eye, pose, Eigen::Vector2d(1, 1), {.hit = .4}),
                    "evidence of rays: found miss 0.3, hit 0.4");
   EXPECT_REX_ERROR(scanWeights(map, eye, Eigen::Vector2d(1, 1), {.deviation = 0}),
-                   "beam model: deviation: found 0");
+                   "beam model: deviation: found 0 m, wanted a positive, finite number of metres");
   EXPECT_REX_ERROR(scanWeights(map, eye, Eigen::Vector2d(1, 1), {.bell = 1}),
                    "beam model: shares: found bell 1, none 0.05");
   EXPECT_REX_ERROR(scanWeights(map, eye, Eigen::Vector2d(1, 1), {.temper = 0}),

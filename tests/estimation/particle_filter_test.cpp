@@ -187,12 +187,15 @@ TEST(ParticleFilter, SaysWhatIsWrong) {
   const Walk walk(rng);
   const Particles good = sampledParticles(walk.prior, 10, rng);
   EXPECT_REX_ERROR(ParticleFilter(Particles{}), "particles: found none, wanted one or more");
-  EXPECT_REX_ERROR(sampledParticles(walk.prior, 0, rng), "particles: found 0, wanted one or more");
+  EXPECT_REX_ERROR(sampledParticles(walk.prior, 0, rng), "particles: found 0, wanted at least 1");
   EXPECT_REX_ERROR(ParticleFilter(good, {.threshold = 2}), "threshold of resampling: found 2, wanted 0 to 1");
-  EXPECT_REX_ERROR(ParticleFilter(good, {.fewest = 0}), "fewest particles: found 0");
+  EXPECT_REX_ERROR(ParticleFilter(good, {.fewest = 0}), "fewest particles: found 0, wanted at least 1");
   EXPECT_REX_ERROR(ParticleFilter(good, {.fewest = 5, .most = 4}), "most particles: found 4");
-  EXPECT_REX_ERROR(ParticleFilter(good, {.error = 0}), "error of the adaptive count: found 0");
-  EXPECT_REX_ERROR(ParticleFilter(good, {.cellSize = Eigen::Vector2d(1, -1)}), "size of a cell: found -1");
+  EXPECT_REX_ERROR(ParticleFilter(good, {.error = 0}),
+                   "error of the adaptive count: found 0, wanted a positive, finite number");
+  EXPECT_REX_ERROR(ParticleFilter(good, {.error = HUGE_VAL}), "error of the adaptive count: found inf");
+  EXPECT_REX_ERROR(ParticleFilter(good, {.cellSize = Eigen::Vector2d(1, -1)}),
+                   "sizes of cells: number 1: found -1, wanted a finite number, 0 or more");
   EXPECT_REX_ERROR(ParticleFilter(good, {.cellSize = Eigen::Vector3d(1, 1, 1)}), "sizes of cells");
   Particles bad = good;
   bad.weights.setZero();

@@ -459,9 +459,10 @@ TEST(PoseGraph, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(optimize(space), "pose 3: found numbers that are no pose");
   bad = good;
   EXPECT_REX_ERROR(optimize(bad, {.kernelSize = 0}),
-                   "size of the robust kernel: found 0, wanted a positive number");
-  EXPECT_REX_ERROR(optimize(bad, {.maxIterations = -1}), "iterations: found -1, wanted zero or more");
-  EXPECT_REX_ERROR(optimize(bad, {.tolerance = -1}), "tolerance: found -1, wanted zero or more");
+                   "size of the robust kernel: found 0, wanted a positive, finite number");
+  EXPECT_REX_ERROR(optimize(bad, {.maxIterations = -1}), "iterations: found -1, wanted 0 or more");
+  EXPECT_REX_ERROR(optimize(bad, {.tolerance = -1}),
+                   "tolerance: found -1, wanted a finite number, 0 or more");
   EXPECT_REX_ERROR(optimize(bad, {.kernelSize = INFINITY}), "size of the robust kernel: found inf");
   EXPECT_REX_ERROR(optimize(bad, {.tolerance = INFINITY}), "tolerance: found inf");
   EXPECT_REX_ERROR(poseGraphCost(bad, {.kernelSize = -1}), "size of the robust kernel: found -1");

@@ -117,16 +117,16 @@ TEST(Resampling, AdaptiveSizeIsTheQuantile) {
 TEST(Resampling, SaysWhatIsWrong) {
   Rng rng(4);
   EXPECT_REX_ERROR(resampled(Eigen::Vector2d(1, -1), 2, Resampling::kResidual, rng),
-                   "weight of particle 1: found -1, wanted a finite number, zero or more");
+                   "weights of particles: number 1: found -1, wanted a finite number, 0 or more");
   EXPECT_REX_ERROR(resampled(Eigen::Vector2d(std::nan(""), 1), 2, Resampling::kResidual, rng),
-                   "weight of particle 0: found nan");
+                   "weights of particles: number 0: found nan");
   EXPECT_REX_ERROR(resampled(Eigen::Vector2d(0, 0), 2, Resampling::kResidual, rng),
                    "weights: found only zeros, wanted a positive one");
   EXPECT_REX_ERROR(resampled(Eigen::Vector2d(1, 0), -1, Resampling::kResidual, rng),
-                   "particles to draw: found -1, wanted zero or more");
-  EXPECT_REX_ERROR(adaptiveSampleSize(0, .1), "occupied cells: found 0, wanted one or more");
-  EXPECT_REX_ERROR(adaptiveSampleSize(2, 0), "error: found 0, wanted a positive number");
-  EXPECT_REX_ERROR(adaptiveSampleSize(2, .1, -1), "quantile: found -1, wanted a positive number");
+                   "particles to draw: found -1, wanted 0 or more");
+  EXPECT_REX_ERROR(adaptiveSampleSize(0, .1), "occupied cells: found 0, wanted at least 1");
+  EXPECT_REX_ERROR(adaptiveSampleSize(2, 0), "error: found 0, wanted a positive, finite number");
+  EXPECT_REX_ERROR(adaptiveSampleSize(2, .1, -1), "quantile: found -1, wanted a positive, finite number");
 }
 
 }  // namespace rex::resampling_test

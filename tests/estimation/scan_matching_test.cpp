@@ -208,9 +208,16 @@ TEST(ScanMatching, RefusesWhatIsNotSound) {
   EXPECT_REX_ERROR(alignScans(broken, points, {0, 0, 0}), "reference scan: point 4: number 1");
   EXPECT_REX_ERROR(alignScans(points, broken, {0, 0, 0}), "moving scan: point 4");
   EXPECT_REX_ERROR(alignScans(points, points, {0, std::numeric_limits<double>::infinity(), 0}),
-                   "guess of the motion");
-  EXPECT_REX_ERROR(alignScans(points, points, {0, 0, 0}, {.deviation = 0}), "matching scans: deviation");
-  EXPECT_REX_ERROR(alignScans(points, points, {0, 0, 0}, {.maxDistance = -1}), "matching scans: maxDistance");
+                   "guess of the motion: number 1: found inf");
+  EXPECT_REX_ERROR(alignScans(points, points, {0, 0, 0}, {.deviation = 0}),
+                   "matching scans: deviation: found 0 m, wanted a positive, finite number of metres");
+  EXPECT_REX_ERROR(alignScans(points, points, {0, 0, 0}, {.maxGap = 0}), "matching scans: maxGap: found 0 m");
+  EXPECT_REX_ERROR(alignScans(points, points, {0, 0, 0}, {.leastShare = -1}),
+                   "matching scans: leastShare: found -1, wanted a positive, finite number");
+  EXPECT_REX_ERROR(alignScans(points, points, {0, 0, 0}, {.maxIterations = 0}),
+                   "matching scans: maxIterations: found 0, wanted at least 1");
+  EXPECT_REX_ERROR(alignScans(points, points, {0, 0, 0}, {.maxDistance = -1}),
+                   "matching scans: maxDistance: found -1 m");
   EXPECT_REX_ERROR(searchAlignment(points, points, {0, 0, 0}, {21, 1}), "window of a search");
   EXPECT_REX_ERROR(searchAlignment(points, points, {0, 0, 0}, {1, -1}), "window of a search");
 }
