@@ -1,12 +1,11 @@
 #include "render/covariance_ellipsoid.h"
 
-#include <cmath>
-
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require.h"
 
 namespace rex {
 
@@ -18,8 +17,7 @@ Ellipsoid covarianceEllipsoid(const Eigen::Vector3d& mean, const Eigen::Matrix3d
   };
   if (!mean.allFinite() || !covariance.allFinite())
     throw fail("a mean or covariance that is not finite", "finite numbers");
-  if (!(sigmas > 0) || !std::isfinite(sigmas))
-    throw fail(fmt::format("{} sigmas", sigmas), "a positive number");
+  requirePositive("covariance ellipsoid: sigmas", sigmas);
   const double rounding = kRounding * covariance.cwiseAbs().maxCoeff();
   if ((covariance - covariance.transpose()).cwiseAbs().maxCoeff() > rounding)
     throw fail("a covariance that is not symmetric", "a symmetric one");

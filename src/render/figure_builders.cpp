@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require.h"
 
 namespace rex {
 namespace {
@@ -17,12 +18,8 @@ void requireCount(const char* what, int found, int low, int high) {
         {.what = what, .found = fmt::format("{}", found), .wanted = fmt::format("{} to {}", low, high)});
 }
 
-void requireFinite(const char* what, const std::vector<double>& values) {
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (!std::isfinite(values[i]))
-      throw Error({.what = fmt::format("{} {}", what, i),
-                   .found = fmt::format("{}", values[i]),
-                   .wanted = "a finite number"});
+Eigen::Map<const Eigen::VectorXd> numbersOf(const std::vector<double>& values) {
+  return {values.data(), static_cast<Eigen::Index>(values.size())};
 }
 
 // The middle of part `index` of `count` equal parts.
@@ -36,8 +33,8 @@ Series signsOf(const std::vector<std::complex<double>>& values, const char* labe
     series.x.push_back(value.real());
     series.y.push_back(value.imag());
   }
-  requireFinite(fmt::format("{}: real part", label).c_str(), series.x);
-  requireFinite(fmt::format("{}: imaginary part", label).c_str(), series.y);
+  requireFinite(fmt::format("{}: real parts", label), numbersOf(series.x));
+  requireFinite(fmt::format("{}: imaginary parts", label), numbersOf(series.y));
   return series;
 }
 
@@ -56,7 +53,7 @@ Region unitDisc() {
 Histogram histogramOf(const std::vector<double>& samples, int bins) {
   requireCount("bins of a histogram", bins, 1, 10000);
   if (samples.empty()) throw Error({.what = "histogram", .found = "no samples", .wanted = "at least one"});
-  requireFinite("histogram, sample", samples);
+  requireFinite("samples of a histogram", numbersOf(samples));
   const auto [least, greatest] = std::minmax_element(samples.begin(), samples.end());
   double low = *least, high = *greatest;
   if (low == high) low -= 0.5, high += 0.5;

@@ -1,10 +1,9 @@
 #include "render/response_figures.h"
 
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require.h"
 
 namespace rex {
 namespace {
@@ -35,10 +34,7 @@ Figure bodePhaseFigure(const std::vector<double>& frequencies, const std::vector
 
 Figure nyquistFigure(const std::vector<std::complex<double>>& values, double reach) {
   requireCounts("numbers of a Nyquist plot", values.size(), values.size());
-  if (!(reach > 0) || !std::isfinite(reach))
-    throw Error({.what = "reach of a Nyquist plot",
-                 .found = fmt::format("{:g}", reach),
-                 .wanted = "a positive number"});
+  requirePositive("reach of a Nyquist plot", reach);
   Figure figure{.title = "Response in the complex plane",
                 .xLabel = "real part [1]",
                 .yLabel = "imaginary part [1]",

@@ -64,7 +64,7 @@ VideoSink::VideoSink(const std::filesystem::path& file, const VideoOptions& opti
     throw Error({.what = "patience with ffmpeg",
                  .where = {file.string()},
                  .found = fmt::format("{} s", options.patience),
-                 .wanted = "a positive, finite time"});
+                 .wanted = "a positive, finite number of seconds"});
   impl_ = std::make_unique<Impl>(file, options);
 }
 

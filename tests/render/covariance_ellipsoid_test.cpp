@@ -63,7 +63,8 @@ TEST(CovarianceEllipsoid, NamesWhatIsWrong) {
   EXPECT_REX_ERROR(covarianceEllipsoid(zero, bad), "along one axis, wanted none below 0");
   bad(2, 2) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_REX_ERROR(covarianceEllipsoid(zero, bad), "found a mean or covariance that is not finite");
-  EXPECT_REX_ERROR(covarianceEllipsoid(zero, good, 0), "found 0 sigmas, wanted a positive number");
+  EXPECT_REX_ERROR(covarianceEllipsoid(zero, good, 0),
+                   "covariance ellipsoid: sigmas: found 0, wanted a positive, finite number");
 }
 
 }  // namespace rex::covariance_ellipsoid_test

@@ -48,7 +48,8 @@ TEST(HistogramOf, GivesEqualSamplesOneBinOfWidthOne) {
 TEST(HistogramOf, RejectsWhatItCannotCount) {
   EXPECT_REX_ERROR(histogramOf({}, 3), "histogram: found no samples, wanted at least one");
   EXPECT_REX_ERROR(histogramOf({1}, 0), "bins of a histogram: found 0, wanted 1 to 10000");
-  EXPECT_REX_ERROR(histogramOf({1, kNan}, 3), "histogram, sample 1: found nan, wanted a finite number");
+  EXPECT_REX_ERROR(histogramOf({1, kNan}, 3),
+                   "samples of a histogram: number 1: found nan, wanted a finite number");
 }
 
 TEST(Normalized, HasAreaOne) {
@@ -103,9 +104,9 @@ TEST(PoleFigure, ShowsEveryPoleAndTheRegionOfStability) {
 TEST(PoleFigure, RejectsWhatHasNoPlace) {
   EXPECT_REX_ERROR(poleFigure({}, {}, TimeDomain::kDiscrete), "pole figure: found no poles and no zeros");
   EXPECT_REX_ERROR(poleFigure({kNan}, {}, TimeDomain::kDiscrete),
-                   "poles: real part 0: found nan, wanted a finite");
+                   "poles: real parts: number 0: found nan, wanted a finite number");
   EXPECT_REX_ERROR(poleFigure({1}, {0, {0, kNan}}, TimeDomain::kDiscrete),
-                   "zeros: imaginary part 1: found nan");
+                   "zeros: imaginary parts: number 1: found nan");
 }
 
 }  // namespace rex::figure_builders_test
