@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require.h"
 
 namespace rex {
 namespace {
@@ -94,7 +95,7 @@ bool newtonStep(const SoftmaxLoss& loss, const Eigen::MatrixXd& gradient, Eigen:
 
 void requireActions(const std::vector<int>& actions, Eigen::Index demonstrations, int count) {
   requireSize("actions of the demonstrations", static_cast<long>(actions.size()), demonstrations);
-  if (count < 2) throw Error({.what = "actions", .found = fmt::format("{}", count), .wanted = "2 or more"});
+  requireCount("actions", count, 2);
   for (std::size_t i = 0; i < actions.size(); ++i)
     if (actions[i] < 0 || actions[i] >= count)
       throw Error({.what = fmt::format("action of demonstration {}", i),
@@ -111,8 +112,7 @@ LinearClone cloneLinear(const MatrixArg& features, const MatrixArg& actions, dou
   for (Eigen::Index i = 0; i < actions.rows(); ++i)
     if (!actions.row(i).allFinite())
       throw Error({.what = fmt::format("action of demonstration {}", i), .found = "not all finite"});
-  if (!(ridge >= 0) || !std::isfinite(ridge))
-    throw Error({.what = "ridge", .found = fmt::format("{:g}", ridge), .wanted = "zero or more"});
+  requireNotNegative("ridge", ridge);
   // The ridge as demonstrations of doing nothing: squaring the features would cost half the digits.
   const Eigen::Index n = features.rows(), k = features.cols();
   Eigen::MatrixXd X = Eigen::MatrixXd::Zero(n + k, k), Y = Eigen::MatrixXd::Zero(n + k, actions.cols());
@@ -136,8 +136,7 @@ SoftmaxClone cloneSoftmax(const MatrixArg& features, const std::vector<int>& act
                           int maxIterations) {
   requireDemonstrations(features);
   requireActions(actions, features.rows(), count);
-  if (!(ridge > 0) || !std::isfinite(ridge))
-    throw Error({.what = "ridge", .found = fmt::format("{:g}", ridge), .wanted = "a positive number"});
+  requirePositive("ridge", ridge);
   const SoftmaxLoss loss(features, actions, count, ridge);
   SoftmaxClone clone;
   Eigen::MatrixXd& weights = clone.policy.weights;

@@ -1,10 +1,9 @@
 #include "learning/dynamic_programming.h"
 
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require.h"
 #include "learning/policy_values.h"
 
 namespace rex {
@@ -70,14 +69,8 @@ MdpSolution valueIteration(const Mdp& mdp, const ValueIterationOptions& options)
     throw Error({.what = "discount of value iteration",
                  .found = "1",
                  .wanted = "less than 1: otherwise its error has no bound, and policyIteration is exact"});
-  if (!(options.tolerance > 0) || !std::isfinite(options.tolerance))
-    throw Error({.what = "tolerance of value iteration",
-                 .found = fmt::format("{:g}", options.tolerance),
-                 .wanted = "a positive, finite number"});
-  if (options.maxIterations < 1)
-    throw Error({.what = "maxIterations of value iteration",
-                 .found = fmt::format("{}", options.maxIterations),
-                 .wanted = "1 or more"});
+  requirePositive("tolerance of value iteration", options.tolerance);
+  requireCount("maxIterations of value iteration", options.maxIterations, 1);
   MdpSolution solution;
   solution.V = Eigen::VectorXd::Zero(mdp.states());
   while (solution.iterations < options.maxIterations && solution.errorBound > options.tolerance) {
@@ -103,10 +96,7 @@ MdpSolution valueIteration(const Mdp& mdp, const ValueIterationOptions& options)
 
 MdpSolution policyIteration(const Mdp& mdp, int maxIterations) {
   requireMdp(mdp);
-  if (maxIterations < 1)
-    throw Error({.what = "maxIterations of policy iteration",
-                 .found = fmt::format("{}", maxIterations),
-                 .wanted = "1 or more"});
+  requireCount("maxIterations of policy iteration", maxIterations, 1);
   MdpSolution solution;
   solution.actions = actionsTowardTheEnd(mdp);
   while (solution.iterations < maxIterations) {

@@ -1,7 +1,5 @@
 #include "learning/inverse_rl.h"
 
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "base/error.h"
@@ -31,14 +29,8 @@ void require(const Mdp& mdp, const MatrixArg& features, const VectorArg& teacher
   requireStateFeatures(features);
   requireSize("expectations of the teacher", teacher.size(), features.rows());
   requireFinite("expectations of the teacher", teacher);
-  if (!(options.tolerance > 0) || !std::isfinite(options.tolerance))
-    throw Error({.what = "tolerance of inverse learning",
-                 .found = fmt::format("{:g}", options.tolerance),
-                 .wanted = "a positive, finite number"});
-  if (options.maxIterations < 1)
-    throw Error({.what = "maxIterations of inverse learning",
-                 .found = fmt::format("{}", options.maxIterations),
-                 .wanted = "1 or more"});
+  requirePositive("tolerance of inverse learning", options.tolerance);
+  requireCount("maxIterations of inverse learning", options.maxIterations, 1);
 }
 
 // The best policy where being in s pays w^T phi(s).

@@ -108,9 +108,7 @@ double meanReturn(const std::vector<Episode>& episodes, double discount) {
 Rollouts rolloutsOf(ControlTask task) {
   if (!task.start || !task.features || !task.step)
     throw Error({.what = "task", .found = "a function that is empty", .wanted = "start, features and step"});
-  if (task.horizon < 1)
-    throw Error(
-        {.what = "horizon of the task", .found = fmt::format("{}", task.horizon), .wanted = "1 or more"});
+  requireCount("horizon of the task", task.horizon, 1);
   return [task = std::move(task)](const LinearGaussianPolicy& policy, int count, Rng& rng) {
     const Eigen::MatrixXd root = noiseRoot(policy);
     std::vector<Episode> episodes;

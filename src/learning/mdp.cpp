@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require.h"
 
 namespace rex {
 namespace {
@@ -56,9 +57,7 @@ void requireMdp(const Mdp& mdp) {
   for (int s = 0; s < mdp.states(); ++s)
     for (int a = 0; a < mdp.actions(); ++a) {
       if (!std::isfinite(mdp.rewards(s, a)))
-        throw Error({.what = fmt::format("reward of action {} in state {}", a, s),
-                     .found = fmt::format("{:g}", mdp.rewards(s, a)),
-                     .wanted = "a finite number"});
+        requireFinite(fmt::format("reward of action {} in state {}", a, s), mdp.rewards(s, a));
       requireRow(mdp, a, s);
     }
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require.h"
 
 namespace rex {
 namespace {
@@ -31,8 +32,7 @@ void requireEpisode(const Mdp& mdp, const MatrixArg& policy, int start, int maxS
     throw Error({.what = "start of an episode",
                  .found = fmt::format("state {}", start),
                  .wanted = fmt::format("one of 0 to {}", mdp.states() - 1)});
-  if (maxSteps < 1)
-    throw Error({.what = "steps of an episode", .found = fmt::format("{}", maxSteps), .wanted = "1 or more"});
+  requireCount("steps of an episode", maxSteps, 1);
 }
 
 }  // namespace
@@ -70,8 +70,7 @@ MdpEpisode mdpEpisode(const Mdp& mdp, const MatrixArg& policy, int start, int ma
 ReturnEstimate estimatedReturn(const Mdp& mdp, const MatrixArg& policy, int start, int episodes, int maxSteps,
                                Rng& rng) {
   requireEpisode(mdp, policy, start, maxSteps);
-  if (episodes < 2)
-    throw Error({.what = "episodes", .found = fmt::format("{}", episodes), .wanted = "2 or more"});
+  requireCount("episodes", episodes, 2);
   ReturnEstimate estimate;
   double squares = 0;  // of deviations from the running mean (Welford)
   for (int i = 0; i < episodes; ++i) {

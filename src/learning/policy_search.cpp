@@ -1,11 +1,11 @@
 #include "learning/policy_search.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require.h"
 #include "learning/policy_gradient.h"
 #include "learning/power.h"
 
@@ -13,15 +13,14 @@ namespace rex {
 namespace {
 
 void requireOptions(const PolicySearchOptions& options) {
-  const auto require = [](bool holds, const char* what, double found, const char* wanted) {
-    if (!holds) throw Error({.what = what, .found = fmt::format("{:g}", found), .wanted = wanted});
-  };
-  require(options.iterations >= 1, "iterations of the search", options.iterations, "1 or more");
-  require(options.episodes >= 2, "episodes of an iteration", options.episodes, "2 or more");
-  require(options.rate > 0 && std::isfinite(options.rate), "rate", options.rate, "a positive number");
-  require(options.longestStep > 0, "longestStep", options.longestStep, "a positive number");
-  require(options.noiseDecay > 0 && options.noiseDecay <= 1, "noiseDecay", options.noiseDecay,
-          "a number above 0, up to 1");
+  requireCount("iterations of the search", options.iterations, 1);
+  requireCount("episodes of an iteration", options.episodes, 2);
+  requirePositive("rate", options.rate);
+  requirePositiveOrInfinite("longestStep", options.longestStep);
+  if (!(options.noiseDecay > 0 && options.noiseDecay <= 1))
+    throw Error({.what = "noiseDecay",
+                 .found = fmt::format("{:g}", options.noiseDecay),
+                 .wanted = "a number above 0, up to 1"});
 }
 
 Eigen::VectorXd stepOf(const LinearGaussianPolicy& policy, const std::vector<Episode>& episodes,

@@ -34,7 +34,7 @@ PowerStep powerStep(const LinearGaussianPolicy& policy, const std::vector<Episod
       if (Q[t] < 0)
         throw Error({.what = fmt::format("return of episode {} from step {}", i, t),
                      .found = fmt::format("{:g}", Q[t]),
-                     .wanted = "zero or more, for PoWER"});
+                     .wanted = "0 or more, for PoWER"});
       const auto phi = episode.features.col(t);
       const double variance = actionVariance(policy, phi);
       if (!(variance > 0)) continue;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require.h"
 #include "learning/mdp_rollout.h"
 #include "learning/policy_values.h"
 
@@ -17,8 +18,8 @@ void requireOptions(const TabularOptions& options) {
   const auto require = [](bool holds, const char* what, double found, const char* wanted) {
     if (!holds) throw Error({.what = what, .found = fmt::format("{:g}", found), .wanted = wanted});
   };
-  require(options.episodes >= 1, "episodes", options.episodes, "1 or more");
-  require(options.maxSteps >= 1, "steps of an episode", options.maxSteps, "1 or more");
+  requireCount("episodes", options.episodes, 1);
+  requireCount("steps of an episode", options.maxSteps, 1);
   require(options.epsilon >= 0 && options.epsilon <= 1, "epsilon", options.epsilon, "a number in [0, 1]");
   require(options.stepExponent > .5 && options.stepExponent <= 1, "stepExponent", options.stepExponent,
           "a number above .5, up to 1: otherwise nothing settles");

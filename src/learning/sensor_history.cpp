@@ -1,23 +1,21 @@
 #include "learning/sensor_history.h"
 
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require.h"
 
 namespace rex {
 
 SensorHistory::SensorHistory(const SensorHistoryOptions& options) : options_(options) {
-  const auto require = [](bool holds, const char* what, double found, const char* wanted) {
-    if (!holds) throw Error({.what = what, .found = fmt::format("{:g}", found), .wanted = wanted});
-  };
-  require(options.sensors >= 1, "sensors", options.sensors, "1 or more");
-  require(options.timeStep > 0 && std::isfinite(options.timeStep), "time step", options.timeStep,
-          "a positive number");
+  requireCount("sensors", options.sensors, 1);
+  requirePositive("time step", options.timeStep, kSeconds);
+  requireCount("past actions", options.pastActions, 0);
   for (const double keep : options.averages)
-    require(keep >= 0 && keep < 1, "share that an average keeps", keep, "a number in [0, 1)");
-  require(options.pastActions >= 0, "past actions", options.pastActions, "0 or more");
+    if (!(keep >= 0 && keep < 1))
+      throw Error({.what = "share that an average keeps",
+                   .found = fmt::format("{:g}", keep),
+                   .wanted = "a number in [0, 1)"});
   const Eigen::Index signals = (options.derivatives ? 2 : 1) * options.sensors;
   const auto averages = static_cast<Eigen::Index>(options.averages.size());
   signal_.setZero(signals);

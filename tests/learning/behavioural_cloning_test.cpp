@@ -136,11 +136,11 @@ TEST(BehaviouralCloning, RefusesWrongInput) {
   EXPECT_REX_ERROR(cloneLinear(I, Eigen::MatrixXd(2, 0)), "actions of the demonstrations: found none");
   EXPECT_REX_ERROR(cloneLinear(I, Eigen::Vector2d(1, nan)),
                    "action of demonstration 1: found not all finite");
-  EXPECT_REX_ERROR(cloneLinear(I, I, -1), "ridge: found -1, wanted zero or more");
+  EXPECT_REX_ERROR(cloneLinear(I, I, -1), "ridge: found -1, wanted a finite number, 0 or more");
   EXPECT_REX_ERROR(cloneSoftmax(I, {0}, 2), "actions of the demonstrations");
-  EXPECT_REX_ERROR(cloneSoftmax(I, {0, 0}, 1), "actions: found 1, wanted 2 or more");
+  EXPECT_REX_ERROR(cloneSoftmax(I, {0, 0}, 1), "actions: found 1, wanted at least 2");
   EXPECT_REX_ERROR(cloneSoftmax(I, {0, 2}, 2), "action of demonstration 1: found 2, wanted one of 0 to 1");
-  EXPECT_REX_ERROR(cloneSoftmax(I, {0, 1}, 2, 0), "ridge: found 0, wanted a positive number");
+  EXPECT_REX_ERROR(cloneSoftmax(I, {0, 1}, 2, 0), "ridge: found 0, wanted a positive, finite number");
   EXPECT_REX_ERROR(SoftmaxPolicy{I}.probabilities(Eigen::Vector3d::Zero()), "features");
 }
 

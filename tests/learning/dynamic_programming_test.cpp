@@ -126,10 +126,12 @@ TEST(DynamicProgramming, SaysWhenNothingEnds) {
 
 TEST(DynamicProgramming, RefusesWrongOptions) {
   Mdp mdp = tMaze();
-  EXPECT_REX_ERROR(valueIteration(mdp, {.tolerance = 0}), "tolerance of value iteration: found 0");
+  EXPECT_REX_ERROR(valueIteration(mdp, {.tolerance = 0}),
+                   "tolerance of value iteration: found 0, wanted a positive, finite number");
   EXPECT_REX_ERROR(valueIteration(mdp, {.tolerance = INFINITY}), "tolerance of value iteration: found inf");
-  EXPECT_REX_ERROR(valueIteration(mdp, {.maxIterations = 0}), "maxIterations of value iteration: found 0");
-  EXPECT_REX_ERROR(policyIteration(mdp, 0), "maxIterations of policy iteration: found 0");
+  EXPECT_REX_ERROR(valueIteration(mdp, {.maxIterations = 0}),
+                   "maxIterations of value iteration: found 0, wanted at least 1");
+  EXPECT_REX_ERROR(policyIteration(mdp, 0), "maxIterations of policy iteration: found 0, wanted at least 1");
   mdp.discount = 1;
   EXPECT_REX_ERROR(valueIteration(mdp), "discount of value iteration: found 1, wanted less than 1");
   mdp.discount = 2;

@@ -109,9 +109,11 @@ TEST(InverseRl, RefusesWrongInput) {
   refuses([](Lesson& l) { l.teacher.conservativeResize(8); }, "expectations of the teacher");
   refuses([&](Lesson& l) { l.teacher[3] = nan; }, "expectations of the teacher: number 3: found nan");
   refuses([](Lesson& l) { l.start *= 2; }, "start distribution: found probabilities that sum to 2");
-  refuses([](Lesson&) {}, "tolerance of inverse learning: found 0", {.tolerance = 0});
+  refuses([](Lesson&) {}, "tolerance of inverse learning: found 0, wanted a positive, finite number",
+          {.tolerance = 0});
   refuses([](Lesson&) {}, "tolerance of inverse learning: found inf", {.tolerance = INFINITY});
-  refuses([](Lesson&) {}, "maxIterations of inverse learning: found 0", {.maxIterations = 0});
+  refuses([](Lesson&) {}, "maxIterations of inverse learning: found 0, wanted at least 1",
+          {.maxIterations = 0});
   EXPECT_REX_ERROR(featureExpectations(std::vector<std::vector<int>>{}, lesson.features, .9),
                    "demonstrations: found none");
   EXPECT_REX_ERROR(featureExpectations({{1, 2}}, lesson.features, nan),

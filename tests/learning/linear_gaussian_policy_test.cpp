@@ -74,7 +74,7 @@ TEST(LinearGaussianPolicy, RefusesWrongInput) {
   Rng rng(1);
   EXPECT_REX_ERROR(rolloutsOf(task)({beta, I}, 1, rng), "features of the state");
   task.horizon = 0;
-  EXPECT_REX_ERROR(rolloutsOf(task), "horizon of the task: found 0, wanted 1 or more");
+  EXPECT_REX_ERROR(rolloutsOf(task), "horizon of the task: found 0, wanted at least 1");
 }
 
 TEST(LinearGaussianPolicy, TellsTheVarianceOfActionsFromRounding) {

@@ -54,10 +54,10 @@ TEST(MdpRollout, RefusesWrongInput) {
   EXPECT_REX_ERROR(mdpEpisode(maze, policy, 7, 10, rng),
                    "start of an episode: found state 7, wanted one of 0");
   EXPECT_REX_ERROR(mdpEpisode(maze, policy, -1, 10, rng), "start of an episode: found state -1");
-  EXPECT_REX_ERROR(mdpEpisode(maze, policy, 0, 0, rng), "steps of an episode: found 0, wanted 1 or more");
+  EXPECT_REX_ERROR(mdpEpisode(maze, policy, 0, 0, rng), "steps of an episode: found 0, wanted at least 1");
   EXPECT_REX_ERROR(mdpEpisode(maze, policy.leftCols(1), 0, 9, rng), "policy: found 7 x 1");
   EXPECT_REX_ERROR(mdpEpisode(Mdp(), policy, 0, 9, rng), "rewards of the decision process");
-  EXPECT_REX_ERROR(estimatedReturn(maze, policy, 0, 1, 10, rng), "episodes: found 1, wanted 2 or more");
+  EXPECT_REX_ERROR(estimatedReturn(maze, policy, 0, 1, 10, rng), "episodes: found 1, wanted at least 2");
 }
 
 }  // namespace rex::mdp_rollout_test

@@ -102,10 +102,10 @@ TEST(PolicySearch, RefusesWrongOptions) {
   const auto refuses = [&](const PolicySearchOptions& options, const char* text) {
     EXPECT_REX_ERROR(improvedPolicy(LqTask().rollouts(), start, options, rng), text);
   };
-  refuses({.iterations = 0}, "iterations of the search: found 0, wanted 1 or more");
-  refuses({.episodes = 1}, "episodes of an iteration: found 1, wanted 2 or more");
-  refuses({.rate = 0}, "rate: found 0, wanted a positive number");
-  refuses({.longestStep = -1}, "longestStep: found -1, wanted a positive number");
+  refuses({.iterations = 0}, "iterations of the search: found 0, wanted at least 1");
+  refuses({.episodes = 1}, "episodes of an iteration: found 1, wanted at least 2");
+  refuses({.rate = 0}, "rate: found 0, wanted a positive, finite number");
+  refuses({.longestStep = -1}, "longestStep: found -1, wanted a positive number, or infinity");
   refuses({.noiseDecay = 1.1}, "noiseDecay: found 1.1, wanted a number above 0, up to 1");
   refuses({.discount = 2}, "discount: found 2");
   EXPECT_REX_ERROR(improvedPolicy(LqTask().rollouts(), {}, {}, rng), "policy: found no parameter");

@@ -63,7 +63,7 @@ TEST(QLearning, SameSeedSameTable) {
 
 TEST(QLearning, RefusesWrongOptions) {
   Rng rng(1);
-  EXPECT_REX_ERROR(qLearning(tMaze(), {.episodes = 0}, rng), "episodes: found 0, wanted 1 or more");
+  EXPECT_REX_ERROR(qLearning(tMaze(), {.episodes = 0}, rng), "episodes: found 0, wanted at least 1");
   EXPECT_REX_ERROR(qLearning(tMaze(), {.maxSteps = 0}, rng), "steps of an episode: found 0");
   EXPECT_REX_ERROR(sarsa(tMaze(), {.epsilon = -1}, rng), "epsilon: found -1, wanted a number in [0, 1]");
   EXPECT_REX_ERROR(sarsa(tMaze(), {.stepExponent = .5}, rng),

@@ -52,8 +52,9 @@ TEST(SensorHistory, IsAValue) {
 }
 
 TEST(SensorHistory, RefusesWrongInput) {
-  EXPECT_REX_ERROR(SensorHistory({.sensors = 0}), "sensors: found 0, wanted 1 or more");
-  EXPECT_REX_ERROR(SensorHistory({.timeStep = 0}), "time step: found 0, wanted a positive number");
+  EXPECT_REX_ERROR(SensorHistory({.sensors = 0}), "sensors: found 0, wanted at least 1");
+  EXPECT_REX_ERROR(SensorHistory({.timeStep = 0}),
+                   "time step: found 0 s, wanted a positive, finite number of seconds");
   EXPECT_REX_ERROR(SensorHistory({.averages = {.5, 1}}), "share that an average keeps: found 1");
   EXPECT_REX_ERROR(SensorHistory({.averages = {std::nan("")}}), "share that an average keeps: found nan");
   EXPECT_REX_ERROR(SensorHistory({.pastActions = -1}), "past actions: found -1, wanted 0 or more");
