@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "base/error.h"
+#include "base/require.h"
 #include "course/car_marks_internal.h"
 #include "course/film_files.h"
 #include "course/gl_choice.h"
@@ -145,10 +144,7 @@ Shot shotOf(const Bounds& bounds, const CarPictureOptions& options) {
 void requireFilm(const std::vector<CarView>& views, const CarPictureOptions& options) {
   if (views.empty()) throw Error({.what = "film of the car", .found = "no views", .wanted = "at least one"});
   requireValid(ContactSheetOptions{.pictures = options.moments});
-  if (!(options.step > 0) || !std::isfinite(options.step))
-    throw Error({.what = "film of the car",
-                 .found = fmt::format("a step of {:g} s", options.step),
-                 .wanted = "more than 0"});
+  requirePositive("film of the car: step", options.step, kSeconds);
 }
 
 }  // namespace

@@ -16,21 +16,12 @@ constexpr double kLandmarkDeviation = 10;  // of each coordinate
 constexpr std::uint64_t kPlaceStream = 0, kNoiseStream = 1;
 
 void requireOptions(const CarOptions& options) {
-  const auto require = [](bool isRight, const char* what, double found, const char* wanted) {
-    if (!isRight) throw Error({.what = what, .found = fmt::format("{:g}", found), .wanted = wanted});
-  };
-  require(options.tau > 0 && std::isfinite(options.tau), "car: tau", options.tau, "a positive number");
-  require(options.wheelbase > 0 && std::isfinite(options.wheelbase), "car: wheelbase", options.wheelbase,
-          "a positive number");
+  requirePositive("car: tau", options.tau, kSeconds);
+  requirePositive("car: wheelbase", options.wheelbase, kMetres);
   for (const double noise : {options.dynamicsNoise, options.observationNoise, options.bearingNoise})
-    require(noise >= 0 && std::isfinite(noise), "car: noise", noise, "zero or a positive number");
-  require(options.maxRange > 0, "car: largest range", options.maxRange, "a positive number");
-  require(options.fieldOfView > 0, "car: field of view", options.fieldOfView, "a positive angle");
-}
-
-void requireCount(int landmarks) {
-  if (landmarks < 0)
-    throw Error({.what = "car: landmarks", .found = fmt::format("{}", landmarks), .wanted = "zero or more"});
+    requireNotNegative("car: noise", noise);
+  requirePositiveOrInfinite("car: largest range", options.maxRange, kMetres);
+  requirePositive("car: field of view", options.fieldOfView, kRadians);
 }
 
 void requireNumbers(const char* what, const Eigen::VectorXd& numbers, Eigen::Index size) {
@@ -48,7 +39,7 @@ LandmarkSensor sensorOf(const CarOptions& options) {
 CarSimulator::CarSimulator(std::uint64_t seed, int landmarks, const CarOptions& options)
     : options_(options), state_(Eigen::Vector3d::Zero()), rng_(Rng(seed).split(kNoiseStream)) {
   requireOptions(options);
-  requireCount(landmarks);
+  requireCount("car: landmarks", landmarks, 0);
   landmarks_.resize(2, landmarks);
   Rng places = Rng(seed).split(kPlaceStream);
   for (auto landmark : landmarks_.colwise()) landmark = kLandmarkDeviation * places.normalVector(2);
@@ -60,7 +51,7 @@ CarSimulator::CarSimulator(const Eigen::Matrix2Xd& landmarks, const CarOptions& 
 }
 
 CarSimulator CarSimulator::withoutPlaces(int landmarks, const CarOptions& options) {
-  requireCount(landmarks);
+  requireCount("car: landmarks", landmarks, 0);
   CarSimulator car(Eigen::Matrix2Xd::Zero(2, landmarks), options);
   car.hasPlaces_ = false;
   return car;
@@ -80,7 +71,7 @@ void CarSimulator::setLandmarks(const Eigen::Matrix2Xd& landmarks) {
 void CarSimulator::requirePlaces(const char* method) const {
   if (!hasPlaces_)
     throw Error({.what = fmt::format("CarSimulator::{}", method),
-                 .found = "landmarks whose places are not known here",
+                 .found = "landmarks whose positions are not known here",
                  .wanted = "the method that is given landmarks"});
 }
 

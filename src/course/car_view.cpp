@@ -57,17 +57,12 @@ void requireDrawable(const CarView& view) {
   }
   if (view.weights.size() > 0) {
     requireSize("weights of particles", view.weights.size(), view.particles.cols());
+    requireNotNegative("weights of particles", view.weights);
     requireNumbers("weights of particles", view.weights);
-    if (view.weights.minCoeff() < 0)
-      throw Error({.what = "weights of particles",
-                   .found = fmt::format("{:g}", view.weights.minCoeff()),
-                   .wanted = "none below 0"});
   }
   requireBeliefs("belief of a pose", view.poseBeliefs);
   requireBeliefs("belief of a landmark", view.landmarkBeliefs);
-  requireFinite("sigmas", view.sigmas);
-  if (!(view.sigmas > 0))
-    throw Error({.what = "sigmas", .found = fmt::format("{:g}", view.sigmas), .wanted = "more than 0"});
+  requirePositive("sigmas", view.sigmas);
   if (view.sightings.cols() > 0 && !view.car && !view.estimate)
     throw Error({.what = "sightings", .found = "no car and no estimate", .wanted = "one that sees them"});
 }

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "base/error.h"
+#include "base/require.h"
 #include "course/film_files.h"
 #include "course/gl_choice.h"
 #include "course/plant_film_internal.h"
@@ -24,14 +23,8 @@ double aspectOf(const PlantFilmOptions& options) {
 void requireFilm(int count, const PlantFilmOptions& options) {
   if (count < 1) throw Error({.what = "film of a plant", .found = "no views", .wanted = "at least one"});
   requireValid(ContactSheetOptions{.pictures = options.moments});
-  if (!(options.step > 0) || !std::isfinite(options.step))
-    throw Error({.what = "film of a plant",
-                 .found = fmt::format("a step of {:g} s", options.step),
-                 .wanted = "more than 0"});
-  if (options.rate < 1)
-    throw Error({.what = "film of a plant",
-                 .found = fmt::format("{} frames per second", options.rate),
-                 .wanted = "at least 1"});
+  requirePositive("film of a plant: step", options.step, kSeconds);
+  requireCount("film of a plant: frames per second", options.rate, 1);
 }
 
 }  // namespace

@@ -3,9 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include "base/error.h"
+#include "base/require.h"
 
 namespace rex {
 namespace {
@@ -81,8 +79,7 @@ std::vector<RecordedPosture> Recording::kept() const {
 }
 
 std::vector<RecordedPosture> Recording::evenly(std::size_t most) const {
-  if (most < 2)
-    throw Error({.what = "number of postures", .found = fmt::format("{}", most), .wanted = "at least 2"});
+  requireCount("number of postures", static_cast<long long>(most), 2);
   std::vector<RecordedPosture> chosen = kept();
   if (chosen.size() > most) chosen = isTimed_ ? thinnedByTime(chosen, most) : thinnedByCount(chosen, most);
   const double first = chosen.empty() ? 0 : chosen.front().time;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require.h"
 
 namespace rex {
 namespace {
@@ -12,7 +13,7 @@ int orUsual(int number) { return number == -1 ? 0 : number; }
 }  // namespace
 
 void SearchCma::init(int D, int mu, int lambda, double lo, double hi) {
-  if (D < 1) throw Error({.what = "init: D", .found = fmt::format("{}", D), .wanted = "1 or more"});
+  requireCount("init: D", D, 1);
   if (!(hi > lo))
     throw Error({.what = "init: lo and hi",
                  .found = fmt::format("{:g} and {:g}", lo, hi),

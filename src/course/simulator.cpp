@@ -1,7 +1,6 @@
 #include "course/simulator.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -221,7 +220,7 @@ void Simulator::setJointAngles(const Eigen::VectorXd& q) {
 
 void Simulator::setJointAngles(const Eigen::VectorXd& q, double tau) {
   requireNumbers("setJointAngles", "angle", q, parts_->model.nq());
-  requirePositive("setJointAngles: seconds", tau);
+  requirePositive("setJointAngles: duration", tau, kSeconds);
   parts_->moveTo(q, parts_->v);
   parts_->recording.add(q, tau);
 }
@@ -296,11 +295,7 @@ std::vector<SimulatorContact> Simulator::getContacts() const {
 }
 
 void Simulator::setDynamicSimulationNoise(double noise) {
-  if (!(noise >= 0) || !std::isfinite(noise)) {
-    throw Error({.what = "setDynamicSimulationNoise",
-                 .found = fmt::format("{:g}", noise),
-                 .wanted = "zero or a positive, finite number"});
-  }
+  requireNotNegative("setDynamicSimulationNoise", noise);
   parts_->dynamicNoise = noise;
   parts_->stepper.reset();
 }
@@ -357,11 +352,7 @@ Eigen::MatrixXd Simulator::jacobianContacts() const {
 }
 
 void Simulator::setContactMargin(double margin) {
-  if (!(margin > 0) || !std::isfinite(margin)) {
-    throw Error({.what = "setContactMargin",
-                 .found = fmt::format("{:g}", margin),
-                 .wanted = "a positive, finite number of metres"});
-  }
+  requirePositive("setContactMargin", margin, kMetres);
   parts_->contactMargin = margin;
 }
 

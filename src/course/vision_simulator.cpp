@@ -25,7 +25,7 @@ VisionSimulator::VisionSimulator(std::uint64_t seed) : rng_(seed) {
 }
 
 Eigen::Matrix4Xd VisionSimulator::getRandomWorldPoints(int count) {
-  if (count < 0) throw Error({.what = "points", .found = fmt::format("{}", count), .wanted = "zero or more"});
+  requireCount("points", count, 0);
   Eigen::Matrix4Xd points(4, count);
   for (auto point : points.colwise()) point << rng_.uniformVector(3, -1, 1), 1;
   return points;
@@ -33,16 +33,13 @@ Eigen::Matrix4Xd VisionSimulator::getRandomWorldPoints(int count) {
 
 Eigen::Matrix3Xd VisionSimulator::projectWorldPoints(const Eigen::Matrix4Xd& points, double noise) {
   requireFinite("points", points.reshaped());
-  if (!(noise >= 0) || !std::isfinite(noise))
-    throw Error({.what = "noise of pixels",
-                 .found = fmt::format("{:g}", noise),
-                 .wanted = "zero or a positive number"});
+  requireNotNegative("noise of pixels", noise);
   Eigen::Matrix3Xd pixels = P_ * points;
   for (Eigen::Index i = 0; i < pixels.cols(); ++i) {
     // The third number is the depth times the scale of the point.
     if (!(pixels(2, i) * points(3, i) > 0))
       throw Error({.what = fmt::format("point {}", i),
-                   .found = "a place behind the camera",
+                   .found = "a position behind the camera",
                    .wanted = "one in front of it"});
     pixels.col(i) /= pixels(2, i);
     pixels.col(i).head<2>() += noise * rng_.normalVector(2);

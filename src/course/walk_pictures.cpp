@@ -28,7 +28,7 @@ void requireWalk(const CompassWalk& walk, int view) {
                  .wanted = fmt::format("one of {}, counted from 0", walk.views.size())});
   for (const CompassView& at : walk.views) {
     requireFinite("compass walker: state", at.x);
-    requireFinite("compass walker: way of the foot", at.foot);
+    requireFinite("compass walker: path of the foot", at.foot);
   }
 }
 
@@ -109,9 +109,9 @@ void requireWays(const HumanoidWalk& walk, Eigen::Index steps) {
   for (const auto* way : {&walk.center, &walk.zmp}) {
     if (static_cast<Eigen::Index>(way->size()) != steps)
       throw Error({.what = "film of a humanoid",
-                   .found = fmt::format("a way of {} steps", way->size()),
+                   .found = fmt::format("a path of {} steps", way->size()),
                    .wanted = fmt::format("{}, as of the walk", steps)});
-    for (const Eigen::Vector2d& p : *way) requireFinite("film of a humanoid: way", p);
+    for (const Eigen::Vector2d& p : *way) requireFinite("film of a humanoid: path", p);
   }
 }
 

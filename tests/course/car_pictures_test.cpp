@@ -143,7 +143,7 @@ TEST(CarPicture, SaysWhatCannotBeDrawn) {
   expect([&](CarView& v) { v.ways[0].points(0, 2) = kNan; }, "way 'true way', point 2: number 0: found nan");
   expect([](CarView& v) { v.weights.setOnes(3); }, "weights of particles: found a vector of size 3");
   expect([](CarView& v) { v.weights = -Eigen::VectorXd::Ones(40); },
-         "weights of particles: found -1, wanted none below 0");
+         "weights of particles: number 0: found -1, wanted a finite number, 0 or more");
   expect([](CarView& v) { v.poseBeliefs[0].covariance(0, 1) = 1; }, "belief of a pose 0: found 1 at (0, 1)");
   expect([](CarView& v) { v.landmarkBeliefs[1].covariance(0, 0) = -1; }, "belief of a landmark 1: found");
   expect([&](CarView& v) { v.landmarkBeliefs[0].mean.x() = kNan; }, "belief of a landmark 0: number 0");
@@ -151,7 +151,7 @@ TEST(CarPicture, SaysWhatCannotBeDrawn) {
          "belief of a landmark 0, deviations: number 0: found 1e+10");
   expect([](CarView& v) { v.ways[0].width = 0; },
          "way 'true way', width: found 0, wanted more than 0, at most 50 pixels");
-  expect([](CarView& v) { v.sigmas = 0; }, "sigmas: found 0, wanted more than 0");
+  expect([](CarView& v) { v.sigmas = 0; }, "sigmas: found 0, wanted a positive, finite number");
   expect([&](CarView& v) { v.sigmas = kNan; }, "sigmas: found nan");
   expect([](CarView& v) { v.car.reset(), v.estimate.reset(); },
          "sightings: found no car and no estimate, wanted one that sees them");
@@ -199,7 +199,8 @@ TEST_F(CarFilm, TheCameraDoesNotRunAwayFromGuessesWithoutKnowledge) {
 
 TEST_F(CarFilm, SaysWhatCannotBe) {
   EXPECT_REX_ERROR(writeFilm({}, in("x")), "film of the car: found no views, wanted at least one");
-  EXPECT_REX_ERROR(writeFilm(drive(2), in("x"), {.step = 0}), "found a step of 0 s, wanted more than 0");
+  EXPECT_REX_ERROR(writeFilm(drive(2), in("x"), {.step = 0}),
+                   "film of the car: step: found 0 s, wanted a positive, finite number of seconds");
   EXPECT_REX_ERROR(writeFilm(drive(2), in("x"), {.moments = 1}), "pictures: found 1, wanted at least 2");
   EXPECT_REX_ERROR(writeFilm(drive(2), in("x"), {.rate = 0}),
                    "x.mp4: frames per second: found 0, wanted 1 to 1000");

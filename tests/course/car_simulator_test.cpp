@@ -140,11 +140,11 @@ TEST(CarSimulator, HidesPlacesWhereAMapIsToBeFound) {
   CarSimulator car = CarSimulator::withoutPlaces(2);
   const Eigen::Vector3d x(1, 2, .5);
   EXPECT_EQ(car.countLandmarks(), 2);
-  EXPECT_REX_ERROR(car.getLandmarks(), "CarSimulator::getLandmarks: found landmarks whose places are not");
+  EXPECT_REX_ERROR(car.getLandmarks(), "CarSimulator::getLandmarks: found landmarks whose positions are not");
   EXPECT_REX_ERROR(car.getMeanObservationAtState(x), "CarSimulator::getMeanObservationAtState");
   EXPECT_REX_ERROR(car.getObservationJacobianAtState(x), "CarSimulator::getObservationJacobianAtState");
   EXPECT_REX_ERROR(car.getState(), "CarSimulator::getState");
-  EXPECT_REX_ERROR(CarSimulator::withoutPlaces(-1), "car: landmarks: found -1, wanted zero or more");
+  EXPECT_REX_ERROR(CarSimulator::withoutPlaces(-1), "car: landmarks: found -1, wanted 0 or more");
   const Eigen::Vector4d landmarks(3, 1, -2, 4);
   const Eigen::VectorXd y = car.getMeanObservationAtStateAndLandmarks(x, landmarks);
   car.setLandmarks(landmarks.reshaped(2, 2));
@@ -157,13 +157,18 @@ TEST(CarSimulator, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(CarSimulator(0, 2, {.rangeBearing = true})
                        .getLinearObservationModelAtState(C, c, Eigen::Vector3d::Zero()),
                    "getLinearObservationModelAtState: found a car that observes distances and bearings");
-  EXPECT_REX_ERROR(CarSimulator(0, -1), "car: landmarks: found -1, wanted zero or more");
-  EXPECT_REX_ERROR(CarSimulator(0, 2, {.tau = 0}), "car: tau: found 0, wanted a positive number");
-  EXPECT_REX_ERROR(CarSimulator(0, 2, {.wheelbase = -1}), "car: wheelbase: found -1");
+  EXPECT_REX_ERROR(CarSimulator(0, -1), "car: landmarks: found -1, wanted 0 or more");
+  EXPECT_REX_ERROR(CarSimulator(0, 2, {.tau = 0}),
+                   "car: tau: found 0 s, wanted a positive, finite number of seconds");
+  EXPECT_REX_ERROR(CarSimulator(0, 2, {.wheelbase = -1}),
+                   "car: wheelbase: found -1 m, wanted a positive, finite number of metres");
   EXPECT_REX_ERROR(CarSimulator(0, 2, {.dynamicsNoise = -1}),
-                   "car: noise: found -1, wanted zero or a positive number");
-  EXPECT_REX_ERROR(CarSimulator(0, 2, {.maxRange = 0}), "car: largest range: found 0");
-  EXPECT_REX_ERROR(CarSimulator(0, 2, {.fieldOfView = 0}), "car: field of view: found 0");
+                   "car: noise: found -1, wanted a finite number, 0 or more");
+  EXPECT_REX_ERROR(CarSimulator(0, 2, {.maxRange = 0}),
+                   "car: largest range: found 0 m, wanted a positive number of metres, or infinity");
+  EXPECT_REX_ERROR(CarSimulator(0, 2, {.fieldOfView = 0}),
+                   "car: field of view: found 0 rad, wanted a positive, finite number of radians");
+  EXPECT_REX_ERROR(CarSimulator(0, 2, {.fieldOfView = HUGE_VAL}), "car: field of view: found inf rad");
   CarSimulator car;
   EXPECT_REX_ERROR(car.step(Eigen::Vector3d(0, 0, 0)), "control: found a vector of size 3, wanted size 2");
   EXPECT_REX_ERROR(car.setState(Eigen::Vector3d(0, std::nan(""), 0)), "state: number 1: found nan");

@@ -46,7 +46,8 @@ TEST(CartPole, IsHeldByItsRegulator) {
 }
 
 TEST(CartPole, RefusesWhatHasNoMeaning) {
-  EXPECT_REX_ERROR(CartPole(0, {.tau = 0}), "cart pole: time step tau: found 0, wanted a positive number");
+  EXPECT_REX_ERROR(CartPole(0, {.tau = 0}),
+                   "cart pole: time step tau: found 0, wanted a positive, finite number");
   EXPECT_REX_ERROR(CartPole(0, {.noise = -1}), "cart pole: noise: found -1");
   EXPECT_REX_ERROR(CartPole(0, {.dynamics = {.l = -1}}), "cart pole: length l: found -1");
   CartPole cart;

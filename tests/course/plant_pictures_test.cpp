@@ -176,8 +176,8 @@ TEST_F(PlantFilm, SaysWhatCannotBe) {
   };
   EXPECT_REX_ERROR(writeFilm(falling(0), in("x")), "film of a plant: found no views, wanted at least one");
   EXPECT_REX_ERROR(writeFilm(rolling(0), in("x")), "film of a plant: found no views, wanted at least one");
-  refuses({.step = 0}, "film of a plant: found a step of 0 s, wanted more than 0");
-  refuses({.rate = 0}, "film of a plant: found 0 frames per second, wanted at least 1");
+  refuses({.step = 0}, "film of a plant: step: found 0 s, wanted a positive, finite number of seconds");
+  refuses({.rate = 0}, "film of a plant: frames per second: found 0, wanted at least 1");
   refuses({.moments = 1}, "pictures: found 1, wanted at least 2");
   refuses({.width = 0}, "picture size: found 0 x 480");
   refuses({.view = Vector3d::Zero()}, "no view direction");

@@ -70,7 +70,7 @@ TEST(Racer, HasTheNoiseOfATrial) {
 }
 
 TEST(Racer, RefusesWhatHasNoMeaning) {
-  EXPECT_REX_ERROR(Racer(0, {.tau = 0}), "racer: time step tau: found 0, wanted a positive number");
+  EXPECT_REX_ERROR(Racer(0, {.tau = 0}), "racer: time step tau: found 0, wanted a positive, finite number");
   EXPECT_REX_ERROR(Racer(0, {.noise = -1}), "racer: noise: found -1");
   EXPECT_REX_ERROR(Racer(0, {.dynamics = {.r = 0}}), "racer: radius r: found 0");
   EXPECT_REX_ERROR(Racer(0, {.sensors = {.s = kNan}}), "racer: sensor constant s: found nan");

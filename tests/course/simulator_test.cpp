@@ -233,9 +233,9 @@ TEST_F(SimulatorTest, RefusesMarginsThatAreNone) {
   Simulator S("pegInAHole.ors");
   for (const double margin : {0., -1., std::nan(""), std::numeric_limits<double>::infinity()})
     EXPECT_REX_ERROR(S.setContactMargin(margin), "wanted a positive, finite number of metres");
-  EXPECT_REX_ERROR(S.setContactMargin(-1), "setContactMargin: found -1");
+  EXPECT_REX_ERROR(S.setContactMargin(-1), "setContactMargin: found -1 m");
   EXPECT_REX_ERROR(Simulator({.sceneName = "a.ors", .sceneText = "body a {}", .q = {}, .contactMargin = 0}),
-                   "setContactMargin: found 0");
+                   "setContactMargin: found 0 m");
 }
 
 // Whoever never asks for contacts does not need them.
@@ -333,7 +333,7 @@ TEST_F(SimulatorTest, ExplainsMistakes) {
   q[3] = std::nan("");
   EXPECT_REX_ERROR(S.setJointAngles(q), "setJointAngles: angle 3: found nan, wanted a finite number");
   EXPECT_REX_ERROR(S.setJointAngles(Eigen::VectorXd::Ones(27), 0),
-                   "setJointAngles: seconds: found 0, wanted a positive number");
+                   "setJointAngles: duration: found 0 s, wanted a positive, finite number of seconds");
   EXPECT_EQ(S.getJointAngles(), Eigen::VectorXd::Zero(27)) << "a refused posture changes nothing";
 }
 

@@ -63,11 +63,11 @@ TEST(VisionSimulator, CanBeCalibrated) {
 
 TEST(VisionSimulator, SaysWhatIsWrong) {
   VisionSimulator simulator;
-  EXPECT_REX_ERROR(simulator.getRandomWorldPoints(-1), "points: found -1, wanted zero or more");
+  EXPECT_REX_ERROR(simulator.getRandomWorldPoints(-1), "points: found -1, wanted 0 or more");
   const Eigen::Vector4d behind(20, -30, 16, 1);
-  EXPECT_REX_ERROR(simulator.projectWorldPoints(behind, 0), "point 0: found a place behind the camera");
+  EXPECT_REX_ERROR(simulator.projectWorldPoints(behind, 0), "point 0: found a position behind the camera");
   EXPECT_REX_ERROR(simulator.projectWorldPoints(Eigen::Vector4d(0, 0, 0, 1), -1),
-                   "noise of pixels: found -1");
+                   "noise of pixels: found -1, wanted a finite number, 0 or more");
   EXPECT_REX_ERROR(simulator.projectWorldPoints(Eigen::Vector4d(0, INFINITY, 0, 1)),
                    "points: number 1: found inf");
 }

@@ -87,7 +87,7 @@ TEST(CompassPicture, RefusesWhatCannotBeDrawn) {
   walk.views[0].x[2] = kNan;
   EXPECT_REX_ERROR(static_cast<void>(pictureOf(walk, 0)), "compass walker: state: number 2: found nan");
   walk.views[0] = {.foot = kNan};
-  EXPECT_REX_ERROR(static_cast<void>(pictureOf(walk, 0)), "compass walker: way of the foot: found nan");
+  EXPECT_REX_ERROR(static_cast<void>(pictureOf(walk, 0)), "compass walker: path of the foot: found nan");
   EXPECT_REX_ERROR(writeFilm(CompassWalk{}, "x"), "film of a plant: found no views");
 }
 
@@ -135,9 +135,9 @@ TEST_F(WalkFilm, OfACompassWalkerAndAHumanoid) {
 TEST_F(WalkFilm, SaysWhatCannotBe) {
   HumanoidWalk walk = onTheSpot();
   walk.zmp[3].x() = kNan;
-  EXPECT_REX_ERROR(writeFilm(walk, in("x"), small), "film of a humanoid: way: number 0: found nan");
+  EXPECT_REX_ERROR(writeFilm(walk, in("x"), small), "film of a humanoid: path: number 0: found nan");
   walk.center.pop_back();
-  EXPECT_REX_ERROR(writeFilm(walk, in("x"), small), "film of a humanoid: found a way of");
+  EXPECT_REX_ERROR(writeFilm(walk, in("x"), small), "film of a humanoid: found a path of");
   walk.plan.footsteps = straightFootsteps(2, 3, 0.19);
   EXPECT_REX_ERROR(writeFilm(walk, in("x"), small), "wanted a walk that it can go");
 }
