@@ -34,11 +34,11 @@ inline Eigen::MatrixXd shuffled(rex::Rng& rng, Eigen::MatrixXd columns) {
 
 /// How far the least corner sticks out: whoever allows for rounding must find the same corners.
 inline double leastCorner(const Eigen::MatrixXd& corners) {
-  const auto k = corners.cols();
+  const Eigen::Index count = corners.cols();
   double out = INFINITY;
-  for (Eigen::Index i = 0; i < k && k > 2; ++i) {
-    const Eigen::Vector2d start = corners.col(i), along = corners.col((i + 2) % k) - start;
-    const Eigen::Vector2d to = corners.col((i + 1) % k) - start;
+  for (Eigen::Index i = 0; i < count && count > 2; ++i) {
+    const Eigen::Vector2d start = corners.col(i), along = corners.col((i + 2) % count) - start;
+    const Eigen::Vector2d to = corners.col((i + 1) % count) - start;
     out = std::min(out, std::abs(along.x() * to.y() - along.y() * to.x()) / along.norm());
   }
   return out;
