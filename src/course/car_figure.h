@@ -6,8 +6,9 @@ namespace rex {
 
 struct Figure;
 
-/// The view from above, with equal axes in metres: map with ellipses, ways, particles and landmarks. Title,
-/// legend and all else may be changed afterwards; plot() draws it. Throws Error as requireDrawable().
+/// The view from above as a figure with equal axes in metres: the map with its ellipses, paths, particles
+/// and landmarks. You may change the title, the legend and everything else afterwards; plot() draws it.
+/// Throws Error as requireDrawable() does.
 [[nodiscard]] Figure figureOf(const CarView& view);
 
 }  // namespace rex

@@ -11,31 +11,32 @@
 
 namespace rex {
 
-/// The constants of a CarSimulator. Noises are standard deviations (errata 9.1b), metres and radians.
+/// The constants of a CarSimulator. Noises are standard deviations (errata 9.1b), in metres and radians.
 struct CarOptions {
   double tau = 1;                 ///< seconds per step
   double wheelbase = 2;           ///< L, metres
-  double dynamicsNoise = 0.03;    ///< in x, y and heading, added in each step
-  double observationNoise = 0.5;  ///< in both numbers of each landmark; of the distance with rangeBearing
+  double dynamicsNoise = 0.03;    ///< of x, y and heading, added in each step
+  double observationNoise = 0.5;  ///< of both numbers of a landmark; with rangeBearing, of the distance
   bool rangeBearing = false;      ///< observe (distance, bearing) rather than (ahead, left)
   double bearingNoise = 0.02;
-  double maxRange = std::numeric_limits<double>::infinity();  ///< farther landmarks are not seen
-  double fieldOfView = 6.283185307179586;  ///< nor those outside this angle around the heading
+  double maxRange = std::numeric_limits<double>::infinity();  ///< landmarks farther away are not seen
+  double fieldOfView = 6.283185307179586;  ///< centred on the heading; no landmark outside it is seen
 };
 
 /// The car of exercises 12.9 and 12.13, with the names of the script: state (x, y, heading), control u = (v,
-/// phi), and landmarks that it sees from its own frame. Methods throw Error for vectors of another size, and
-/// for numbers that are not finite.
+/// phi), and landmarks that it observes in its own frame. Methods throw Error for vectors of the wrong size
+/// and for numbers that are not finite.
 class CarSimulator {
  public:
-  /// A car at (0, 0, 0) among `landmarks` of them, each coordinate normal with deviation 10. Places and noise
-  /// come from separate streams of the seed: the ones do not tell the other. Throws Error for options out of
-  /// range and a negative count.
+  /// A car at (0, 0, 0) among `landmarks` landmarks, whose coordinates are normal with standard deviation
+  /// 10. Their positions and the noise come from separate streams of the seed, so neither reveals the
+  /// other. Throws Error for options out of range and a negative count.
   explicit CarSimulator(std::uint64_t seed = 0, int landmarks = 2, const CarOptions& options = {});
-  /// Only what may be known of one: it has no state, so that what asks for the truth throws Error.
+  /// A car with a known map but no true state. Methods that need the truth throw Error.
   CarSimulator(const Eigen::Matrix2Xd& landmarks, const CarOptions& options);
-  /// Only what may be known of one whose map is to be found: how many landmarks there are. What asks for the
-  /// truth or for their places throws Error; what is given landmarks does not. Throws as the first.
+  /// A car of which only the number of landmarks is known, as for mapping. Methods that need the truth or
+  /// the positions of the landmarks throw Error; methods that are given landmarks do not. Throws as the
+  /// first constructor does.
   [[nodiscard]] static CarSimulator withoutPlaces(int landmarks, const CarOptions& options = {});
 
   const CarOptions& options() const { return options_; }
@@ -43,25 +44,25 @@ class CarSimulator {
   [[nodiscard]] const Eigen::Matrix2Xd& getLandmarks() const;
   void setLandmarks(const Eigen::Matrix2Xd& landmarks);
 
-  /// One step of Euler with the heading before it (slide 4:48, errata 9), then noise.
+  /// One Euler step with the heading at its start (slide 4:48, errata 9), then noise.
   void step(const Eigen::VectorXd& u);
   /// The true state.
   [[nodiscard]] Eigen::Vector3d getState() const;
   void setState(const Eigen::VectorXd& x);
 
-  /// Where the step leads without noise, and its derivative by the state: I + tau [[0,0,-v sin], [0,0,v cos],
-  /// [0,0,0]] (errata 9.2a).
+  /// The state after a step without noise, and its Jacobian with respect to the state before it: I + tau
+  /// [[0,0,-v sin], [0,0,v cos], [0,0,0]] (errata 9.2a).
   [[nodiscard]] Eigen::VectorXd getMeanStateAfterStep(const Eigen::VectorXd& x,
                                                       const Eigen::VectorXd& u) const;
   [[nodiscard]] Eigen::MatrixXd getStateJacobian(const Eigen::VectorXd& x, const Eigen::VectorXd& u) const;
 
-  /// What the car sees now of all landmarks, with noise: 2 numbers for each.
+  /// The noisy observation of all landmarks from the true state: 2 numbers for each.
   [[nodiscard]] Eigen::VectorXd getRealNoisyObservation();
   void getRealNoisyObservation(Eigen::VectorXd& y) { y = getRealNoisyObservation(); }
-  /// Which landmarks are in range and in view now.
+  /// The landmarks that are in range and in view now.
   [[nodiscard]] std::vector<int> getVisibleLandmarks() const;
 
-  /// What it would see at x without noise.
+  /// The observation at x without noise.
   [[nodiscard]] Eigen::VectorXd getMeanObservationAtState(const Eigen::VectorXd& x) const;
   void getMeanObservationAtState(Eigen::VectorXd& y, const Eigen::VectorXd& x) const {
     y = getMeanObservationAtState(x);
@@ -74,12 +75,12 @@ class CarSimulator {
   [[nodiscard]] Eigen::MatrixXd getObservationJacobian(const Eigen::VectorXd& x) const {
     return getObservationJacobianAtState(x);
   }
-  /// y = C l + c of all landmarks l, stacked: 2 N x 2 N and 2 N numbers. Throws Error with rangeBearing,
-  /// which is not linear in them.
+  /// The observation as y = C l + c, where l stacks all landmarks: C is 2 N x 2 N, c has 2 N numbers.
+  /// Throws Error with rangeBearing, because that observation is not linear in the landmarks.
   void getLinearObservationModelAtState(Eigen::MatrixXd& C, Eigen::VectorXd& c,
                                         const Eigen::VectorXd& x) const;
 
-  /// The same with other landmarks, stacked as 2 N numbers.
+  /// The observation at x without noise of other landmarks, stacked as 2 N numbers.
   [[nodiscard]] Eigen::VectorXd getMeanObservationAtStateAndLandmarks(const Eigen::VectorXd& x,
                                                                       const Eigen::VectorXd& landmarks) const;
   void getMeanObservationAtStateAndLandmarks(Eigen::VectorXd& y, const Eigen::VectorXd& x,

@@ -10,20 +10,20 @@
 
 namespace rex {
 
-// What a colour means in pictures and figures of the car, told apart with any colour vision.
+// The meaning of colours in pictures and figures of the car. They can be told apart with any colour vision.
 inline constexpr Color kTruthColor{0.20f, 0.22f, 0.26f};
 inline constexpr Color kEstimateColor{0.0f, 0.45f, 0.7f};
 inline constexpr Color kDeadReckoningColor{0.84f, 0.37f, 0.0f};
 inline constexpr Color kLandmarkColor{0.0f, 0.62f, 0.45f};
 inline constexpr Color kScanColor{0.80f, 0.47f, 0.65f};
 
-/// A normal distribution of a point of the plane; drawn as an ellipse, at its centre a dot.
+/// A normal distribution of a point in the plane, drawn as an ellipse with a dot at its centre.
 struct PlanarGaussian {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
 };
 
-/// A line through points of the plane, such as the way of a car. The legend shows its name.
+/// A line through points in the plane, such as the path of a car. The legend shows its name.
 struct Way {
   std::string name{};         ///< empty: not in the legend
   Eigen::Matrix2Xd points{};  ///< the first two rows of poses: poses.topRows<2>()
@@ -32,26 +32,26 @@ struct Way {
   double width = 2.5;   ///< pixels
 };
 
-/// What one picture of the world of CarSimulator shows, as plain data: fill in what there is. All is in the
-/// world frame, metres; poses are (x, y, heading).
+/// The content of one picture of a CarSimulator's world, as plain data; fill in what you have. Everything
+/// is in the world frame, in metres; poses are (x, y, heading).
 struct CarView {
   std::optional<Eigen::Vector3d> car{};       ///< the true pose: a solid car
   std::optional<Eigen::Vector3d> estimate{};  ///< a translucent car with an outline
-  Eigen::Matrix2Xd landmarks{};               ///< true places: green posts
-  Eigen::Matrix3Xd particles{};               ///< poses; of more than 3000, as many evenly
-  Eigen::VectorXd weights{};                  ///< of the particles, none negative; empty: all alike
+  Eigen::Matrix2Xd landmarks{};               ///< true positions: green posts
+  Eigen::Matrix3Xd particles{};               ///< poses; at most 3000, evenly chosen, are drawn
+  Eigen::VectorXd weights{};                  ///< of the particles, none negative; empty: all equal
   std::vector<PlanarGaussian> poseBeliefs{};
   std::vector<PlanarGaussian> landmarkBeliefs{};
   double sigmas = 2;  ///< size of all ellipses, in standard deviations
   std::vector<Way> ways{};
-  Eigen::Matrix2Xd sightings{};  ///< places seen now: lines to them from the car, or from its estimate
-  Eigen::Matrix2Xd scan{};       ///< dots, such as what a range scanner hit
+  Eigen::Matrix2Xd sightings{};  ///< positions seen now: lines to them from the car, or from its estimate
+  Eigen::Matrix2Xd scan{};       ///< dots, such as the hits of a range scanner
   std::string caption{};         ///< in the top left corner, or the title of a figure
 };
 
-/// Throws Error naming what cannot be drawn: numbers that are not finite or beyond 1e9, weights of another
-/// size than the particles or negative, covariances that are none, sigmas and widths that are not
-/// positive, sightings without a car or estimate.
+/// Throws Error naming what cannot be drawn: numbers that are not finite or beyond 1e9, weights that are
+/// negative or do not match the particles in number, matrices that are not covariances, sigmas or widths
+/// that are not positive, sightings without a car or estimate.
 void requireDrawable(const CarView& view);
 
 }  // namespace rex

@@ -1,8 +1,8 @@
 #pragma once
 
-// All a student needs: `#include "course/course.h"`. Declarations only, so that a main.cpp compiles fast.
-// Eigen/Geometry is here for a.cross(b): without it that compiles and then fails to link. Of Eigen's products
-// and decompositions there are declarations of what the library has compiled.
+// Everything a student needs: `#include "course/course.h"`. It holds declarations only, so that a main.cpp
+// compiles fast. Eigen/Geometry is included for a.cross(b), which would otherwise compile but fail to link.
+// Eigen's products and decompositions are declared where the library has already compiled them.
 #include <Eigen/Geometry>
 
 #include "base/derivative_check.h"

@@ -7,23 +7,23 @@
 
 namespace rex {
 
-/// From where and how large a film is drawn.
+/// The camera and the picture size of a film.
 struct Shot {
   Camera camera{};
   int width = 640, height = 480;  ///< pixels
 };
 
-/// Draws the film as folder/0000.png, 0001.png, ...; frames of an earlier run in that folder go first. Ctrl-C
-/// leaves whole files. These throw Error for a size out of range, files that cannot be written, a machine
-/// without software OpenGL, and as drawFilm().
+/// Draws the film as folder/0000.png, 0001.png, ... and first removes frames of an earlier run from that
+/// folder. Ctrl-C leaves only complete files. The functions in this file throw Error for a size out of
+/// range, files that cannot be written, a machine without software OpenGL, and as drawFilm() does.
 void writeFilmFrames(const Film& film, const Shot& shot, const std::string& folder);
 
-/// The same into the folder NAME, and the video NAME.mp4 of `rate` frames per second. Without ffmpeg there
+/// The same into the folder NAME, with the video NAME.mp4 at `rate` frames per second. Without ffmpeg there
 /// are only the frames, and a line on standard error says so.
 void writeFilmVideo(const Film& film, const Shot& shot, const std::string& name, int rate);
 
-/// Draws at most `pictures` moments of the film, evenly spaced, first and last included, side by side into
-/// `file`, a .png, with their times. Throws Error for fewer than 2 pictures, too.
+/// Draws at most `pictures` moments of the film, evenly spaced and including the first and last, side by
+/// side into `file`, a .png, with their times. Also throws Error for fewer than 2 pictures.
 void writeFilmSheet(const Film& film, const Shot& shot, const std::string& file, int pictures);
 
 }  // namespace rex

@@ -4,8 +4,8 @@
 
 namespace rex {
 
-/// Where a student's program takes OpenGL from: what REX_GL in the environment names, or what works. A
-/// program of a student has no other edge at which to choose. Throws Error naming the choices.
+/// The OpenGL implementation for a student's program: the one named by REX_GL in the environment, or else
+/// any that works. Such a program has no command line on which to choose. Throws Error naming the choices.
 [[nodiscard]] GlOptions glChoice();
 
 }  // namespace rex

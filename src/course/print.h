@@ -6,8 +6,8 @@
 
 namespace rex {
 
-/// Prints a number, vector or matrix to standard output under its name: "J (3 x 7)" and its rows, six digits,
-/// six columns side by side.
+/// Prints a number, vector or matrix to standard output under its name: "J (3 x 7)", then its rows with six
+/// digits, six columns at a time.
 void print(const std::string& name, double value);
 void print(const std::string& name, const Eigen::MatrixXd& value);
 

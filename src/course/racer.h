@@ -7,16 +7,17 @@
 
 namespace rex {
 
-/// How a Racer is simulated.
+/// Settings of a simulated Racer.
 struct RacerOptions {
   double tau = 0.01;   ///< seconds per step
-  double noise = 0.1;  ///< a step adds normals of deviation sqrt(tau) noise to both velocities
+  double noise = 0.1;  ///< each step adds normals of standard deviation sqrt(tau) * noise to both velocities
   RacerDynamics dynamics{};
   RacerSensors sensors{};
 };
 
-/// The inverted pendulum on a wheel of exercises 12.6.1 and 12.12. The same seed gives the noise of that
-/// Trial in racerRollouts(). Methods throw Error for numbers that are not finite, also in `q` and `v`.
+/// The inverted pendulum on a wheel of exercises 12.6.1 and 12.12. The same seed gives the same noise as in
+/// the Trial of racerRollouts() with that seed. Methods throw Error for numbers that are not finite,
+/// including those in `q` and `v`.
 class Racer {
  public:
   /// Throws Error for options out of range.
@@ -29,19 +30,19 @@ class Racer {
   /// (x, theta, x', theta').
   [[nodiscard]] Eigen::Vector4d getState() const { return {q[0], q[1], v[0], v[1]}; }
   void setState(const Eigen::Vector4d& x);
-  /// One step of Runge and Kutta under the torque u (N m), then noise: RacerDynamics::noisyStep.
+  /// One Runge-Kutta step under the torque u (N m), then noise: RacerDynamics::noisyStep.
   void stepDynamics(double u);
-  /// M, F and B of M q'' + F = B u where it is now.
+  /// M, F and B of M q'' + F = B u at the present state.
   void getDynamics(Eigen::MatrixXd& M, Eigen::VectorXd& F, Eigen::VectorXd& B) const;
-  /// A and B of x' = A x + B u near rest upright.
+  /// A and B of x' = A x + B u, linearised at rest in the upright position.
   [[nodiscard]] LinearizedPlant getLinearization() const {
     return options_.dynamics.linearized(Eigen::Vector4d::Zero(), 0);
   }
   /// Joules.
   [[nodiscard]] double getEnergy() const { return options_.dynamics.energy(getState()); }
-  /// What the sensors say now, y0 to y3: RacerSensors::measured.
+  /// The present readings of the sensors, y0 to y3: RacerSensors::measured.
   [[nodiscard]] Eigen::Vector4d getObservation() const;
-  /// dy/dx, 4 x 4, x the state.
+  /// dy/dx, 4 x 4, where x is the state.
   [[nodiscard]] Eigen::Matrix4d getObservationJacobian() const;
 
  private:

@@ -5,7 +5,7 @@
 
 namespace rex::remote {
 
-/// A simulator crosses to the worker by description: the worker has no scene files.
+/// A simulator is sent to the worker as a description, because the worker has no scene files.
 template <>
 struct Remote<Simulator> {
   using Sent = SimulatorDescription;

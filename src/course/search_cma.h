@@ -17,19 +17,21 @@ class SearchCma {
  public:
   explicit SearchCma(std::uint64_t seed = 0) : rng_(seed) {}
 
-  /// Starts anywhere in [lo, hi]^D, with deviation hi - lo. mu parents, lambda samples; -1: the usual ones,
-  /// lambda = 4 + floor(3 ln D) and half of that. Throws Error for no dimensions, hi <= lo, and as CmaEs.
+  /// Starts at a random point in [lo, hi]^D, with standard deviation hi - lo, mu parents and lambda
+  /// samples. -1 stands for the usual values, lambda = 4 + floor(3 ln D) and mu = half of that. Throws
+  /// Error for D < 1 and hi <= lo, and as CmaEs.
   void init(int D, int mu = -1, int lambda = -1, double lo = -1, double hi = 1);
-  /// Starts at a point, with one deviation for all coordinates, or one for each. Throws Error as CmaEs.
+  /// Starts at a point, with one standard deviation for all coordinates, or one for each. Throws Error as
+  /// CmaEs.
   void init(const Eigen::VectorXd& start, int mu, int lambda, double deviation);
   void init(const Eigen::VectorXd& start, int mu, int lambda, const Eigen::VectorXd& deviations);
 
-  /// The first call after init sizes both, whatever they hold: samples has a point in each of its lambda
-  /// rows. Every other call learns from the values, of which small ones are good, and draws new samples.
-  /// Throws Error before init, and for sizes that changed.
+  /// The first call after init resizes both arguments, whatever they hold; samples has a point in each of
+  /// its lambda rows. Every later call learns from the values, of which lower ones are better, and draws
+  /// new samples. Throws Error before init, and if the sizes have changed.
   void step(Eigen::MatrixXd& samples, Eigen::VectorXd& values);
 
-  /// The best sample so far; the start before there is one. Throw Error before init.
+  /// The best sample so far, or the start if there is none yet. Both throw Error before init.
   Eigen::VectorXd getBestSample() const;
   Eigen::VectorXd getMean() const;
 

@@ -15,14 +15,14 @@ struct Pose;
 struct SceneSpec;
 struct Shape;
 
-/// How a Simulator reads its scene.
+/// Settings for reading a Simulator's scene.
 struct SimulatorOptions {
   bool freeBase = false;  ///< the root of a .urdf robot moves freely: x y z and a quaternion come first in q
   std::string assetRoot{};  ///< folder of all files that the scene names; empty: the one above the scene's
-  bool strict = false;      ///< what is repaired otherwise, with a warning, is an Error, also a missing mesh
+  bool strict = false;  ///< faults that are otherwise repaired with a warning are Errors, also a missing mesh
 };
 
-/// All it takes to make the same simulator elsewhere: the text of its scene, a posture, and what was set.
+/// Everything needed to make the same simulator elsewhere: the text of its scene, a posture and settings.
 struct SimulatorDescription {
   std::string sceneName;       ///< stands for the file in messages
   std::string sceneText;       ///< the text of the file
@@ -31,39 +31,39 @@ struct SimulatorDescription {
   Eigen::VectorXd v{};         ///< joint velocities; empty: at rest
   double dynamicNoise = 0;     ///< see Simulator::setDynamicSimulationNoise()
   bool gravity = true;         ///< see Simulator::setDynamicGravity()
-  std::uint64_t seed = 0;      ///< of the noise
-  std::string srdf{};          ///< what the SRDF of a URDF robot says about collisions; empty: nothing
+  std::uint64_t seed = 0;      ///< seed of the noise
+  std::string srdf{};          ///< the SRDF of a URDF robot, about its collisions; empty: none
 };
 
 /// What Simulator::inverseKinematics() found.
 struct ReachedPosture {
   bool isReached = false;  ///< within 1e-6 metres and radians
-  Eigen::VectorXd q{};     ///< n joint angles within their limits; the nearest posture if none reaches
-  double error = 0;        ///< the largest difference that is left, metres or radians
-  std::string message{};   ///< says how far off it is
+  Eigen::VectorXd q{};     ///< n joint angles within their limits; the nearest posture found if none reaches
+  double error = 0;        ///< the largest remaining difference, metres or radians
+  std::string message{};   ///< says how far the target is missed
 };
 
-/// Two shapes that touch; without a name of its own a shape is called as in Simulator::proxyReport().
+/// Two shapes that touch. A shape without a name of its own is called as in Simulator::proxyReport().
 struct SimulatorContact {
   std::string shapeA, shapeB;
   Eigen::Vector3d p_WA, p_WB;  ///< the nearest points on each, metres
   Eigen::Vector3d normal_W;    ///< unit, from B to A
   double distance = 0;         ///< metres, negative in overlap
-  double force = 0;            ///< newtons along the normal, with which B pushes A
+  double force = 0;            ///< with which B pushes A along the normal, newtons
 };
 
-/// A robot in its world, with the names of the course script. Positions are metres in the world frame, z up;
-/// angles radians. Bodies are named as in the scene; a shape's name stands for its body. Every method that
-/// takes a name throws Error with the closest names for an unknown one, every method that takes a vector
-/// names both sizes for a wrong one.
+/// A robot in its world, with the method names of the course script. Positions are in metres in the world
+/// frame, z up; angles are in radians. Bodies are named as in the scene; the name of a shape stands for its
+/// body. Every method that takes a name throws Error with the closest names if it is unknown; every method
+/// that takes a vector throws Error with both sizes if its size is wrong.
 class Simulator {
  public:
   /// Loads an .ors, .urdf or MuJoCo .xml file: a path, or the name of one of the course's scenes, such as
-  /// "man.ors". Throws Error with file:line:column for a missing or broken file, also one of a mesh, and for
-  /// a free base of an .ors scene. Boxes stand for meshes that are missing; warnings of the reader and of
-  /// collisionWarnings() are printed.
+  /// "man.ors". Throws Error with file:line:column if the scene is missing or broken or a mesh is broken,
+  /// and for a free base with an .ors scene. Boxes replace missing meshes unless `strict`; warnings of the
+  /// reader and of collisionWarnings() are printed.
   explicit Simulator(const std::string& sceneFile, const SimulatorOptions& options = {});
-  /// Reads no file: shapes described by a mesh are not drawn.
+  /// Reads no file, so shapes described by a mesh are not drawn.
   explicit Simulator(const SimulatorDescription& description);
   Simulator(const Simulator& other);
   Simulator& operator=(const Simulator& other);
@@ -73,7 +73,8 @@ class Simulator {
 
   /// n, the number of joint angles.
   int getJointDimension() const;
-  /// What each of them belongs to: "elbow", or of a joint with several "base [0]", "base [1]", ...
+  /// Their names: that of the joint, such as "elbow", or "base [0]", "base [1]", ... for a joint with
+  /// several angles.
   std::vector<std::string> getJointNames() const;
   /// Their limits, n numbers each; infinite where there are none.
   Eigen::VectorXd getLowerLimits() const;
@@ -83,39 +84,39 @@ class Simulator {
   /// The joint angles q, n numbers.
   Eigen::VectorXd getJointAngles() const;
   void getJointAngles(Eigen::VectorXd& q) const { q = getJointAngles(); }
-  /// Moves the robot to q (n finite numbers) and records the posture for pictures. The first posture that is
-  /// set takes the place of the one of the file, so that films and traces begin with the motion.
+  /// Moves the robot to q (n finite numbers) and records the posture for pictures. The first posture that
+  /// is set replaces that of the file in the recording, so that films and traces begin with the motion.
   void setJointAngles(const Eigen::VectorXd& q);
-  /// The same, tau seconds after the posture before: films and replays then play in real time. Throws Error
-  /// unless tau is positive.
+  /// The same, tau seconds after the previous posture, so that films and replays play in real time. Throws
+  /// Error unless tau is positive.
   void setJointAngles(const Eigen::VectorXd& q, double tau);
 
-  /// World position of the point `rel` of a body, given in the body's frame; by default its origin. Slide
-  /// 2:53.
+  /// World position of the point `rel` of a body, given in the body's frame; by default the body's origin.
+  /// Slide 2:53.
   Eigen::Vector3d kinematicsPos(const std::string& body,
                                 const Eigen::Vector3d& rel = Eigen::Vector3d::Zero()) const;
   void kinematicsPos(Eigen::VectorXd& y, const std::string& body,
                      const Eigen::Vector3d& rel = Eigen::Vector3d::Zero()) const;
-  /// Its Jacobian by q, 3 x n.
+  /// Its Jacobian with respect to q, 3 x n.
   Eigen::MatrixXd jacobianPos(const std::string& body,
                               const Eigen::Vector3d& rel = Eigen::Vector3d::Zero()) const;
   void jacobianPos(Eigen::MatrixXd& J, const std::string& body,
                    const Eigen::Vector3d& rel = Eigen::Vector3d::Zero()) const;
 
-  /// A posture that brings a body's frame to X_WB, or the point `rel` of the body to p_W, metres: the search
-  /// begins at the present posture and goes on at random ones. The same each time; the robot does not move.
-  /// A program needs the library course_inverse_kinematics; `rex run FILE.cpp` adds it by itself. Slide
-  /// 2:27; see kinematics/inverse_kinematics_solver.h for more tasks at once.
+  /// A posture that brings a body's frame to X_WB, or the point `rel` of the body to p_W (metres). The
+  /// search starts at the present posture and continues from random ones; its result is the same each time.
+  /// The robot does not move. Programs must link the library course_inverse_kinematics; `rex run FILE.cpp`
+  /// adds it by itself. Slide 2:27; see kinematics/inverse_kinematics_solver.h for several tasks at once.
   [[nodiscard]] ReachedPosture inverseKinematics(const std::string& body, const Pose& X_WB) const;
   [[nodiscard]] ReachedPosture inverseKinematics(const std::string& body, const Eigen::Vector3d& p_W,
                                                  const Eigen::Vector3d& rel = Eigen::Vector3d::Zero()) const;
 
-  /// World direction of the vector `vec` that is fixed to a body, by default its z axis. Slide 2:54.
+  /// World direction of the vector `vec`, fixed in a body; by default the body's z axis. Slide 2:54.
   Eigen::Vector3d kinematicsVec(const std::string& body,
                                 const Eigen::Vector3d& vec = Eigen::Vector3d::UnitZ()) const;
   void kinematicsVec(Eigen::VectorXd& y, const std::string& body,
                      const Eigen::Vector3d& vec = Eigen::Vector3d::UnitZ()) const;
-  /// Its Jacobian by q, 3 x n.
+  /// Its Jacobian with respect to q, 3 x n.
   Eigen::MatrixXd jacobianVec(const std::string& body,
                               const Eigen::Vector3d& vec = Eigen::Vector3d::UnitZ()) const;
   void jacobianVec(Eigen::MatrixXd& J, const std::string& body,
@@ -124,26 +125,26 @@ class Simulator {
   /// Orientation of a body: the unit quaternion w, x, y, z of its frame in the world, w >= 0. Slide 2:10.
   Eigen::Vector4d kinematicsQuat(const std::string& body) const;
   void kinematicsQuat(Eigen::VectorXd& y, const std::string& body) const;
-  /// Its Jacobian by q, 4 x n. Where w is 0, the quaternion jumps to its opposite.
+  /// Its Jacobian with respect to q, 4 x n. At w = 0 the quaternion jumps to its opposite.
   Eigen::MatrixXd jacobianQuat(const std::string& body) const;
   void jacobianQuat(Eigen::MatrixXd& J, const std::string& body) const;
 
   /// Centre of mass, x and y only, as in the course. Throws Error for a scene without mass. Slide 2:61.
   Eigen::Vector2d kinematicsCOM() const;
   void kinematicsCOM(Eigen::VectorXd& y) const;
-  /// Its Jacobian by q, 2 x n.
+  /// Its Jacobian with respect to q, 2 x n.
   Eigen::MatrixXd jacobianCOM() const;
   void jacobianCOM(Eigen::MatrixXd& J) const;
 
-  /// Contact cost, one number: the sum over all pairs of shapes that may collide of 1 - d / margin where
-  /// their distance d is below the margin; negative d is overlap. Slide 2:60, see collision/contacts.h.
-  /// Throws Error if a shape that may collide has no mesh.
+  /// Contact cost, one number: the sum of 1 - d / margin over all pairs of shapes that may collide and
+  /// whose distance d is below the margin; negative d is overlap. Slide 2:60, see collision/contacts.h.
+  /// Throws Error if a shape that may collide lacks the mesh it needs.
   Eigen::VectorXd kinematicsContacts() const;
   void kinematicsContacts(Eigen::VectorXd& y) const;
-  /// Its Jacobian by q, 1 x n.
+  /// Its Jacobian with respect to q, 1 x n.
   Eigen::MatrixXd jacobianContacts() const;
   void jacobianContacts(Eigen::MatrixXd& J) const;
-  /// Sets the margin of the contact cost, metres; 0.1 at first. Throws Error unless it is positive and
+  /// Sets the margin of the contact cost, metres; initially 0.1. Throws Error unless it is positive and
   /// finite.
   void setContactMargin(double margin);
   /// Prints proxyReport().
@@ -152,72 +153,72 @@ class Simulator {
   /// distance and nearest points, metres.
   std::string proxyReport() const;
 
-  /// Joint angles and velocities: n numbers each, or v one less for each ball joint (see Joint::nv). Angles
-  /// set by setJointAngles() leave the velocities as they are; at first the robot is at rest.
+  /// Joint angles and velocities, n numbers each, but for each ball joint one velocity less (see
+  /// Joint::nv). setJointAngles() leaves the velocities as they are; initially the robot is at rest.
   void getJointAnglesAndVels(Eigen::VectorXd& q, Eigen::VectorXd& qdot) const;
   Eigen::VectorXd getJointVels() const;
   void setJointAnglesAndVels(const Eigen::VectorXd& q, const Eigen::VectorXd& qdot);
   /// M (n x n) and F (n) of the equation of motion M qddot + F = u, at the present angles and velocities.
   /// Slide 3:28.
   void getDynamics(Eigen::MatrixXd& M, Eigen::VectorXd& F) const;
-  /// Kinetic and potential energy, joules; a body at height z has m 9.81 z.
+  /// Kinetic plus potential energy, joules; a body at height z has the potential energy m 9.81 z.
   double getEnergy() const;
-  /// Moves the robot on by tau > 0 seconds under the joint forces u (one per velocity, N m or N), held:
-  /// one step of Runge and Kutta, without contacts, limits or friction, and then the noise. Records the
-  /// posture. Throws Error, and moves nothing, for numbers that are not finite, for a joint that moves no
-  /// mass, and for a motion that grows without bounds, with its time, which counts from the first step.
+  /// Simulates tau > 0 seconds under constant joint forces u (one per velocity, N m or N): one Runge-Kutta
+  /// step, without contacts, limits or friction, then the noise. Records the posture. Throws Error, and
+  /// moves nothing, for numbers that are not finite, for a joint that moves no mass, and for a motion that
+  /// grows without bounds, naming its time since the first step.
   void stepDynamics(const Eigen::VectorXd& u, double tau);
-  /// The same with contact between all shapes that may collide, with limits, damping and friction of the
-  /// joints, and without noise: by Bullet, in steps of at most a millisecond. Friction is 0.6, nothing
-  /// bounces, and meshes collide as their convex hulls. A copy in contact starts without the forces found
-  /// last: it goes on like the original, but not to the bit. Throws Error as PhysicsWorld
-  /// (physics/physics_world.h), also for joints that mimic others and for screws; the robot then stays where
-  /// it was.
+  /// The same with contacts between all shapes that may collide, with limits, damping and friction of the
+  /// joints, and without noise, by Bullet in steps of at most a millisecond. The contact friction is 0.6,
+  /// nothing bounces, and meshes collide as their convex hulls. A copy made in contact starts without the
+  /// last contact forces, so its motion is close to the original's but not bitwise equal. Throws Error as
+  /// PhysicsWorld (physics/physics_world.h), also for joints that mimic others and for screws; the robot
+  /// then stays where it was.
   void stepPhysics(const Eigen::VectorXd& u, double tau);
-  /// The same with no forces but those of motors.
+  /// The same without joint forces other than those of motors.
   void stepPhysics(double tau);
-  /// From now on stepPhysics() drives a joint, called as by getJointNames(), to a position (radians or
-  /// metres) or keeps its velocity, with at most maxForce (N m or N), until removeMotor(). Its number in u
-  /// must then be zero. Positions are approached as by Motor (physics/physics_world.h). Motors are not part
-  /// of description(). Throws Error for a ball or free joint and for numbers that make no sense.
+  /// From now on stepPhysics() drives a joint, named as in getJointNames(), to a position (radians or
+  /// metres) or at a velocity, with at most maxForce (N m or N), until removeMotor(). Its entry in u must
+  /// then be zero. Positions are approached as described at Motor (physics/physics_world.h). Motors are not
+  /// part of description(). Throws Error for a ball or free joint and for invalid numbers.
   void setPositionMotor(const std::string& joint, double position, double maxForce);
   void setVelocityMotor(const std::string& joint, double velocity, double maxForce);
   void removeMotor(const std::string& joint);
-  /// What touched in the last millisecond of the last stepPhysics(); nothing before that, and none after
-  /// addObstacle().
+  /// The contacts in the last inner step, of at most a millisecond, of the last stepPhysics(); empty before
+  /// the first one and after addObstacle().
   std::vector<SimulatorContact> getContacts() const;
-  /// From now on each stepDynamics() adds sqrt(tau) * noise * N(0, 1) to each velocity. The numbers are the
-  /// same in every run, see setSeed().
+  /// From now on each stepDynamics() adds sqrt(tau) * noise * N(0, 1) to each velocity. The random numbers
+  /// are the same in every run, see setSeed().
   void setDynamicSimulationNoise(double noise);
   void setDynamicsSimulationNoise(double noise) { setDynamicSimulationNoise(noise); }
-  /// Turns gravity on (as it is at first) or off, for getDynamics, getEnergy, stepDynamics and stepPhysics.
+  /// Turns gravity on (the default) or off for getDynamics, getEnergy, stepDynamics and stepPhysics.
   void setDynamicGravity(bool gravity);
-  /// Starts the noise anew, with other numbers for another seed.
+  /// Restarts the noise with this seed.
   void setSeed(std::uint64_t seed);
 
-  /// Puts a solid into the world at X_WS, as a body that never moves: kinematicsPos(), contacts, pictures and
-  /// stepPhysics() know it from now on; films show it from their beginning. It may collide with all that
-  /// moves. model() is a new one afterwards. Throws Error for a shape that is described by a mesh or has no
-  /// volume, for sizes that are not positive, and for a name that is taken.
+  /// Puts a solid into the world at X_WS, as a body that never moves but may collide with everything that
+  /// does. From now on kinematicsPos(), contacts, pictures and stepPhysics() know it; films show it from
+  /// their beginning. Afterwards model() is a new one. Throws Error for a shape that is described by a mesh
+  /// or has no volume, for sizes that are not positive, and for a name that is taken.
   void addObstacle(const Shape& shape, const Pose& X_WS, const std::string& name);
 
-  /// Holds `body` where it stands now and hangs the rest of its chain on it, as on a foot that stands on the
-  /// ground. The world looks as before, but joints count from the new root, so that the numbers of q may
-  /// stand in another order and with another sign. The robot is at rest afterwards, without motors;
-  /// recording, noise and time start anew. Throws Error as reconfigureRoot() (scene/scene_edit.h), and for a
-  /// mesh that is in no file.
+  /// Fixes `body` where it is now and makes it the root of its chain, such as a foot on the ground. The
+  /// world looks as before, but joints count from the new root, so that the order and the signs of the
+  /// entries of q may change. Afterwards the robot is at rest and without motors; recording, noise and time
+  /// start anew. Throws Error as reconfigureRoot() (scene/scene_edit.h), and for a mesh that is in no file.
   void anchorKinematicChainIn(const std::string& body);
 
-  /// Draws the present posture into the picture NAME.png. Never opens a window.
+  /// Draws the present posture into NAME.png. Never opens a window.
   void watch(const std::string& name = "watch") const;
 
-  /// The scene as it is anchored now, posture and margin: enough to make this simulator again. Throws Error
-  /// as writeOrs() (scene/ors_writer.h) for scenes of several files, a free base and obstacles.
+  /// The scene as it is anchored now, with posture and settings: enough to make this simulator again.
+  /// Throws Error as writeOrs() (scene/ors_writer.h) for scenes of several files, a free base and
+  /// obstacles.
   SimulatorDescription description() const;
-  /// What the core of rex works on; see scene/model.h.
+  /// The model that the core of rex works on; see scene/model.h.
   const Model& model() const;
-  /// The postures since the start or the last clearRecording(), with the times of steps, and of angles that
-  /// were set with one. See course/pictures.h for what to make of it.
+  /// The postures since the start or the last clearRecording(), with the times of steps and of angles that
+  /// were set with a tau. See course/pictures.h for pictures and films of it.
   const Recording& recording() const;
   void clearRecording();
 

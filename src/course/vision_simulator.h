@@ -7,8 +7,8 @@
 
 namespace rex {
 
-/// A camera that looks at points, for its calibration: 400 x 400 pixels, 12 degrees high, at (10, -15, 8),
-/// looking along its -z axis at the origin. Pixels count from the lower left.
+/// A camera that looks at points, for its calibration: 400 x 400 pixels, a field of view 12 degrees high,
+/// at (10, -15, 8), looking along its -z axis at the origin. Pixels count from the lower left.
 class VisionSimulator {
  public:
   static constexpr int kPixels = 400;
@@ -17,8 +17,8 @@ class VisionSimulator {
 
   /// `count` points, uniform in [-1, 1]^3, homogeneous: 4 x count. Throws Error for a negative count.
   [[nodiscard]] Eigen::Matrix4Xd getRandomWorldPoints(int count);
-  /// Where the camera sees them, with normal noise of that deviation: (u, v, 1) each. Throws Error for a
-  /// negative noise, points that are not finite, and one that does not lie in front of the camera.
+  /// Their image points (u, v, 1), with normal noise of standard deviation `noise` in pixels. Throws Error
+  /// for negative noise, points that are not finite, and points that are not in front of the camera.
   [[nodiscard]] Eigen::Matrix3Xd projectWorldPoints(const Eigen::Matrix4Xd& points, double noise = 1);
   /// The true matrix: pixel ~ P X.
   [[nodiscard]] const Eigen::Matrix<double, 3, 4>& getProjection() const { return P_; }

@@ -12,41 +12,42 @@
 
 namespace rex {
 
-/// The soles of a plan seen from above, as grey regions; series and all else may be added. Throws Error as
-/// duration().
+/// The footprints of a plan seen from above, as grey regions; you may add series and everything else.
+/// Throws Error as duration() does.
 [[nodiscard]] Figure footprintFigure(const WalkPlan& plan);
 
 /// A compass walker at one moment.
 struct CompassView {
-  Eigen::Vector4d x = Eigen::Vector4d::Zero();  ///< its state, as CompassGait takes it
-  double foot = 0;                              ///< metres down the slope, of the foot that stands
-  bool leftStands = true;                       ///< the blue leg; the other one is orange
+  Eigen::Vector4d x = Eigen::Vector4d::Zero();  ///< state, as in CompassGait
+  double foot = 0;                              ///< position of the stance foot, metres down the slope
+  bool leftStands = true;  ///< whether the stance leg is the left, blue one; the other is orange
 };
 
-/// Its way down the slope.
+/// Its walk down the slope.
 struct CompassWalk {
   CompassGait walker{};
   std::vector<CompassView> views{};
 };
 
-/// One of the views, on the slope of all. Throws Error where there is none, and for numbers that are not
-/// finite.
+/// One of the views, on the slope of the whole walk. Throws Error if there is no such view, and for numbers
+/// that are not finite.
 [[nodiscard]] Picture pictureOf(const CompassWalk& walk, int view);
 
 /// Draws the views, one for each step, into the folder NAME, the video NAME.mp4 and the contact sheet
-/// NAME_sheet.png. Throws as pictureOf() and the films of racers (course/racer_pictures.h).
+/// NAME_sheet.png. Throws as pictureOf() and as writeFilm() for racers (course/racer_pictures.h).
 void writeFilm(const CompassWalk& walk, const std::string& name, const PlantFilmOptions& options = {});
 
-/// The course's humanoid on the footsteps of a plan, and two ways on the ground, in steps of the preview.
+/// The course's humanoid on the footsteps of a plan, and two paths on the ground, sampled at the steps of
+/// the preview.
 struct HumanoidWalk {
   WalkPlan plan{};
   PreviewOptions preview{.height = 0.8, .step = 0.01};
-  std::vector<Eigen::Vector2d> center{};  ///< metres, blue: of its centre of mass
-  std::vector<Eigen::Vector2d> zmp{};     ///< metres, orange: the zero moment point, with a dot where it is
+  std::vector<Eigen::Vector2d> center{};  ///< path of the centre of mass, metres: blue
+  std::vector<Eigen::Vector2d> zmp{};     ///< path of the zero moment point, metres: orange, with a dot
 };
 
-/// The same of a humanoid whose joints move by walkingPattern(). The step is that of the preview. Throws
-/// Error where there is no such pattern, for ways of another length than it has, and for numbers that are not
+/// The same for a humanoid whose joints follow walkingPattern(). The step is that of the preview. Throws
+/// Error if there is no such pattern, if the paths do not have its length, and for numbers that are not
 /// finite.
 void writeFilm(const HumanoidWalk& walk, const std::string& name, const PlantFilmOptions& options = {});
 
