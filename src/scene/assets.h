@@ -8,15 +8,15 @@
 
 namespace rex {
 
-/// Whether a file is named as package:///PATH, without a package.
+/// Whether a file name has the form package:///PATH, without a package.
 [[nodiscard]] bool namesNoPackage(std::string_view file);
 
-/// The files that a scene may name: only those inside its asset root, links followed.
+/// The files that a scene may name: only those inside its asset root after links are resolved.
 class Assets {
  public:
-  /// For the scene in `sceneFile`. Without a `root` it is the folder above that of the scene, so that a scene
-  /// reaches the meshes beside its own folder. With `needsNoPackage`, package:///PATH is looked up in the
-  /// folders above the scene. Throws Error if a `root` is given that is not a folder.
+  /// For the scene in `sceneFile`. The default `root` is the parent of the scene's folder, so that a scene
+  /// finds meshes in sibling folders. With `needsNoPackage`, package:///PATH is looked up in the folders
+  /// above the scene. Throws Error if the given `root` is not a folder.
   explicit Assets(const std::filesystem::path& sceneFile, const std::filesystem::path& root = {},
                   bool needsNoPackage = false);
 
@@ -25,10 +25,10 @@ class Assets {
   /// The folder that holds all files.
   const std::filesystem::path& root() const { return root_; }
 
-  /// Where `name` lies, without links: a path relative to folder(), or package://PACKAGE/PATH, which is
-  /// looked up in folders called PACKAGE above and beside the scene, then in the root. Throws Error at
-  /// `where`, beginning with `what`: an address on the network, a path out of the root, no file that can be
-  /// read, or no such file, with all paths tried.
+  /// The location of `name`, without links. `name` is a path relative to folder(), or
+  /// package://PACKAGE/PATH, which is looked up in folders called PACKAGE above and beside the scene, then
+  /// in the root. Throws Error at `where`, beginning with `what`, for a network address, a path that leaves
+  /// the root, a file that cannot be read, and a missing file, with all paths tried.
   [[nodiscard]] std::filesystem::path find(const std::string& name, const SourceLocation& where,
                                            const std::string& what) const;
 

@@ -7,7 +7,8 @@
 
 namespace rex {
 
-/// What each number of q (nq) or v (nv) belongs to: "elbow", or of a joint with several "base [1]".
+/// The name of each entry of q (nq) or v (nv): its joint's, "elbow", or "base [1]" if the joint has
+/// several.
 [[nodiscard]] std::vector<std::string> positionNames(const Model& model);
 [[nodiscard]] std::vector<std::string> velocityNames(const Model& model);
 

@@ -7,8 +7,8 @@
 
 namespace rex {
 
-/// Calls visit(iq, iv, freedom) for each coordinate that is a plain number, at q[iq] with rate v[iv]: all but
-/// those of quaternions. Joints that mimic are left out, because their target's coordinate is theirs.
+/// Calls visit(iq, iv, freedom) for each scalar coordinate q[iq] with rate v[iv], that is, for all but the
+/// entries of quaternions. Mimic joints are skipped, because they share the coordinate of their target.
 template <class Visit>
 void forEachPlainCoordinate(const Model& model, const Visit& visit) {
   for (const Joint& joint : model.joints()) {
@@ -19,7 +19,7 @@ void forEachPlainCoordinate(const Model& model, const Visit& visit) {
   }
 }
 
-/// Calls visit(iq, iv) for each quaternion, with its places in q and v. It comes last in its joint.
+/// Calls visit(iq, iv) for each quaternion, with its indices in q and v. It comes last in its joint.
 template <class Visit>
 void forEachQuaternion(const Model& model, const Visit& visit) {
   for (const Joint& joint : model.joints()) {
@@ -28,7 +28,7 @@ void forEachQuaternion(const Model& model, const Visit& visit) {
   }
 }
 
-/// The joint that q[i] or v[i] belongs to, 0 <= i < nq or nv: not one of those that mimic it.
+/// The joint that q[i] or v[i] belongs to, 0 <= i < nq or nv; never a joint that mimics it.
 [[nodiscard]] inline const Joint& jointOfPosition(const Model& model, Eigen::Index i) {
   const auto found = std::find_if(model.joints().begin(), model.joints().end(), [&](const Joint& joint) {
     return !joint.mimics && joint.qIndex <= i && i < joint.qIndex + joint.nq;

@@ -11,12 +11,12 @@
 
 namespace rex {
 
-/// The motions a joint allows, from joint frame F to moved frame M. Coordinates in the order q lists them:
-/// hinge, slider: angle about or way along `axis`; screw: angle about `axis`, along which it moves by `pitch`
-/// per turn; cylindrical: angle about `axis`, then way along it; planarXY, translation3: moves along x, y (,
-/// z) of F; planarXYPhi: x, y, then turn about z; planarPhiXY: turn about z first, then x, y of the turned
-/// frame; universal: turn about x, then y; ball: unit quaternion w x y z; free: x y z, then quaternion;
-/// rigid: none. All that is known of a type stands in one row of joint_type.cpp.
+/// The motions a joint allows, from joint frame F to moved frame M. Coordinates in their order in q: hinge,
+/// slider: angle about or displacement along `axis`; screw: angle about `axis`, along which it moves by
+/// `pitch` per turn; cylindrical: angle about `axis`, then displacement along it; planarXY, translation3:
+/// displacements along x, y (, z) of F; planarXYPhi: x, y, then angle about z; planarPhiXY: angle about z
+/// first, then x, y of the turned frame; universal: angle about x, then y; ball: unit quaternion w x y z;
+/// free: x y z, then quaternion; rigid: none. Each type is defined by one row of joint_type.cpp.
 enum class JointType {
   kRigid,
   kHinge,
@@ -45,22 +45,22 @@ enum class JointType {
 [[nodiscard]] int positionCount(JointType type);
 [[nodiscard]] int velocityCount(JointType type);
 
-/// Whether joints of the type turn about or move along an axis of their own.
+/// Whether joints of the type turn about, or move along, an axis that each joint chooses.
 [[nodiscard]] bool hasAxis(JointType type);
 
-/// One of the movements that a joint type does one after the other.
+/// One of the elementary movements that make up the motion of a joint, one after the other.
 struct JointMovement {
   using Kind = MotionStep::Kind;
 
   Kind kind = Kind::kFixed;
-  int coordinate = 0;                              ///< its first one, of the joint's, in q as in v
-  Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< how far a slider goes per unit; unit for hinges
-  bool isRise = false;                             ///< of a screw: a slider with the coordinate of its turn
+  int coordinate = 0;                              ///< index of its first one among those of the joint
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< hinge: unit vector; slider: displacement per unit
+  bool isRise = false;                             ///< whether it is the slider of a screw
   std::string_view part{};                         ///< appended to the joint's name for this movement alone
 };
 
-/// The movements of a joint: frame F comes before the first, M after the last. A rigid joint has one that is
-/// fixed.
+/// The movements of a joint, from frame F before the first to M after the last. A rigid joint has one that
+/// is fixed.
 class JointMovements {
  public:
   void append(const JointMovement& movement) { all_[size_++] = movement; }
@@ -74,12 +74,12 @@ class JointMovements {
   std::size_t size_ = 0;
 };
 
-/// Axis is a unit vector, if the type has one; pitch is a screw's, in metres per turn.
+/// `axis` is a unit vector, used if the type has one; `pitch` is that of a screw, in metres per turn.
 [[nodiscard]] JointMovements movements(JointType type, const Eigen::Vector3d& axis, double pitch);
 
-/// How a joint looks from its child: of which type it is there, in frames turned by X_FC, and for each
-/// coordinate which of the old ones it is, with which sign. Joints with an axis keep their coordinates, about
-/// the opposite axis; those of a free joint depend on each other: both have `count` 0.
+/// A joint with parent and child exchanged: its type then, in frames turned by X_FC, and for each
+/// coordinate the index of the old one and its sign. `count` is 0 for joints with an axis, which keep their
+/// coordinates about the opposite axis, and for free joints, whose coordinates depend on each other.
 struct JointReversal {
   struct Coordinate {
     int from = 0;
@@ -95,8 +95,8 @@ struct JointReversal {
 /// X_FM(q), the motion of a joint. q has positionCount(type) entries; a quaternion is normalised on use.
 [[nodiscard]] Pose jointMotion(JointType type, const Eigen::Vector3d& axis, double pitch, const double* q);
 
-/// The coordinates whose motion comes nearest to X_FM: exact when X_FM is a motion of this joint, else the
-/// part that is (of a hinge or screw the signed turn about its axis in (-pi, pi]).
+/// The coordinates whose motion comes nearest to X_FM. They are exact if X_FM is a motion of this joint;
+/// otherwise they give the part that is: for a hinge or screw, the angle about its axis in (-pi, pi].
 [[nodiscard]] Eigen::VectorXd jointCoordinates(JointType type, const Eigen::Vector3d& axis, const Pose& X_FM);
 
 }  // namespace rex

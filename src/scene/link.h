@@ -14,21 +14,21 @@ namespace rex {
 /// velocity in L, v[vIndex] to v[vIndex + 2].
 struct Link {
   enum class Kind { kHinge, kScrew, kSlider, kQuaternion };
-  static constexpr int kNoParent = -1;  ///< it moves in the world
+  static constexpr int kNoParent = -1;  ///< its parent is the world
 
   Kind kind = Kind::kHinge;
-  int parent = kNoParent;  ///< a place in Model::links()
+  int parent = kNoParent;  ///< an index of Model::links()
   int body = 0;            ///< the child of the joint it belongs to
   int qIndex = 0, vIndex = 0;
   double ratio = 1, offset = 0;
-  double pitch = 0;  ///< of a screw: metres per radian
+  double pitch = 0;  ///< pitch of a screw, metres per radian
 
   double X_PL[12]{};    ///< the constant, stored by columns as rex::Pose
   double mass = 0;      ///< kg
   double moment[3]{};   ///< mass times centre of mass, in L, kg m
   double inertia[6]{};  ///< about L's origin, in L, kg m^2: xx, xy, xz, yy, yz, zz
-  /// No less than the inertia that its coordinate can meet (kg m^2, or of a slider kg) as long as sliders
-  /// below stay within reach of their zero: a scale to tell a small inertia from none.
+  /// An upper bound of the inertia that its coordinate meets (kg m^2, for a slider kg) while sliders below
+  /// stay within reach of their zero: a scale that separates a small inertia from none.
   double largestInertia = 0;
 };
 

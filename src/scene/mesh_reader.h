@@ -9,34 +9,34 @@
 
 namespace rex {
 
-/// Reads a mesh from an STL, OBJ (with its MTL), PLY, DAE, glTF, GLB or OFF file, its lengths as they are;
-/// scaledMesh() makes metres of them. Units and the upward axis that a DAE file names count, and y is up in
-/// glTF and GLB; both are turned to z up. Nodes are put in their places, and normals made as by weldedMesh():
-/// those of the file do not count. Materials become parts with their base colour, without
-/// textures (see readTexturedMesh()). A file without triangles gives its points. Files that it names are read
-/// from its folder or below.
+/// Reads a mesh from an STL, OBJ (with its MTL), PLY, DAE, glTF, GLB or OFF file without scaling its
+/// lengths; scaledMesh() converts them to metres. The unit and up axis of a DAE file are respected, and
+/// glTF and GLB have y up; both are turned to z up. Nodes are placed by their transforms. Normals are
+/// computed as by weldedMesh(); those of the file are ignored. Materials become parts with their base
+/// colour, without textures (see readTexturedMesh()). A file without triangles gives its points. Files that
+/// it names are read from its folder or below.
 ///
-/// Throws Error naming the file: missing, of another kind, over 32 MiB (STL, PLY, GLB) or 16 MiB, faulty,
-/// with numbers that are not finite or beyond 1e6, with more than a million triangles, 2.1 million
-/// vertices, 1000 corners of a face or 5000 nodes below each other (of glTF: nodes that have children), or
-/// with nothing but triangles without area. Works in a process of its own for at most 10 s and 1 GiB;
-/// Interrupted as of callIsolated(). Measured, files of a million triangles: 0.7 s, 350 MB.
+/// Throws Error naming the file if it is missing, of another kind, over 32 MiB (STL, PLY, GLB) or 16 MiB
+/// (others), or faulty; if it has numbers that are not finite or beyond 1e6, more than a million triangles,
+/// 2.1 million vertices, 1000 corners of a face or 5000 nested nodes (in glTF: nodes that have children);
+/// or if all its triangles have no area. Runs in a process of its own for at most 10 s and 1 GiB; throws
+/// Interrupted as callIsolated() does. Measured with files of a million triangles: 0.7 s, 350 MB.
 [[nodiscard]] TriangleMesh readMesh(const std::filesystem::path& file);
 
-/// A mesh, and what is wrong with textures that it names, a line each; their parts are bare.
+/// A mesh, and one line for each texture that could not be read; its parts are untextured.
 struct TexturedMesh {
   TriangleMesh mesh;
   std::vector<std::string> missing;
 };
 
 /// The same with the textures of base or diffuse colours, PNG or JPEG, inside the file or in its folder or
-/// below: at most 64, of 16 MiB and 2^24 pixels each and 2^25 together. Only their colours and the first
-/// coordinates of the mesh count. In OBJ and DAE a texture takes the place of the colour, in glTF and GLB it
-/// is multiplied with it.
+/// below: at most 64, of at most 16 MiB and 2^24 pixels each and 2^25 pixels together. Only their colours
+/// and the first texture coordinates of the mesh are used. In OBJ and DAE a texture replaces the colour; in
+/// glTF and GLB it is multiplied by it.
 [[nodiscard]] TexturedMesh readTexturedMesh(const std::filesystem::path& file);
 
-/// The same as readMesh() for the content of a file at hand; `name` stands for it in messages, and its ending
-/// says the kind. Reads no file: what it names is not found.
+/// The same as readMesh() for the content of a file in memory. `name` stands for it in messages, and its
+/// extension says the kind. Reads no file, so files that the mesh names are not found.
 [[nodiscard]] TriangleMesh parseMesh(std::string_view bytes, const std::string& name);
 
 }  // namespace rex

@@ -20,13 +20,13 @@
 
 namespace rex {
 
-/// Handles into a Model: positions in bodies() and joints(). kWorld is body 0.
+/// Handles into a Model: indices of bodies() and joints(). kWorld is body 0.
 enum class BodyId : int {};
 enum class JointId : int {};
 inline constexpr BodyId kWorld{0};
 inline constexpr JointId kNoJoint{-1};
 
-/// A rigid body. Bodies without a joint hang on the world at the fixed pose X_PB.
+/// A rigid body. Bodies without a joint are fixed to the world at the pose X_PB.
 struct Body {
   std::string name;
   BodyId parent = kWorld;
@@ -35,13 +35,12 @@ struct Body {
   double mass = 0;                                   ///< kg
   Eigen::Vector3d p_BBcm = Eigen::Vector3d::Zero();  ///< centre of mass, in B
   Eigen::Matrix3d I_BBcm_B = Eigen::Matrix3d::Zero();  ///< inertia about the centre of mass, in B, kg m^2
-  double subtreeMass = 0;                              ///< kg, with all that hangs on it
+  double subtreeMass = 0;                              ///< kg, with all its descendants
   BodyKind kind = BodyKind::kDynamic;
 };
 
-/// One degree of freedom as a twist: how fast the joint turns, and how fast it moves the point at the
-/// origin, per unit of v. It is constant in the frame it is given in: that of the parent or of the child
-/// body.
+/// One degree of freedom as a twist: the angular velocity of the joint, and the velocity of the point at
+/// the origin, per unit of v. It is constant in its frame: that of the parent or of the child body.
 struct DegreeOfFreedom {
   enum class Frame { kParent, kChild };
   Eigen::Vector3d angular = Eigen::Vector3d::Zero();
@@ -49,15 +48,15 @@ struct DegreeOfFreedom {
   Frame frame = Frame::kParent;
 };
 
-/// A joint: X_PC = X_PF * X_FM(q) * X_MC. Joints that mimic share q and v indices with their target; their
-/// own coordinate is ratio * q + offset, and their freedoms move by ratio * v.
+/// A joint: X_PC = X_PF * X_FM(q) * X_MC. Mimic joints share the q and v indices of their target; their own
+/// coordinate is ratio * q + offset, and their freedoms already include the ratio.
 struct Joint {
   std::string name;
   JointType type = JointType::kRigid;
   BodyId parent{}, child{};
   Pose X_PF, X_MC;
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< unit vector, if its type has one
-  double pitch = 0;                                 ///< of a screw: metres per turn
+  double pitch = 0;                                 ///< pitch of a screw, metres per turn
   int qIndex = 0, vIndex = 0;
   int nq = 0, nv = 0;
   bool mimics = false;  ///< never a rigid joint
@@ -65,7 +64,7 @@ struct Joint {
   double maxVelocity = std::numeric_limits<double>::infinity();  ///< see JointSpec
   double maxEffort = std::numeric_limits<double>::infinity();
   double damping = 0, friction = 0;
-  std::array<DegreeOfFreedom, 6> freedoms{};  ///< the first nv count
+  std::array<DegreeOfFreedom, 6> freedoms{};  ///< the first nv are used
 };
 
 /// The movements of a joint of a model, see joint_type.h.
@@ -73,7 +72,7 @@ struct Joint {
   return movements(joint.type, joint.axis, joint.pitch);
 }
 
-/// A shape in its place.
+/// A shape and its pose X_BS on its body.
 struct ModelShape {
   std::string name;
   BodyId body = kWorld;
@@ -84,7 +83,7 @@ struct ModelShape {
   bool visible = true;
 };
 
-/// Whether a pair of bodies may collide, or without a `b` all pairs of `a`; see CollisionChoice.
+/// Whether a pair of bodies may collide, or, without a `b`, all pairs of `a`; see CollisionChoice.
 struct PairChoice {
   BodyId a = kWorld;
   std::optional<BodyId> b{};
@@ -92,9 +91,9 @@ struct PairChoice {
   std::string reason{};
 };
 
-/// An immutable robot world; only compile() makes one. Bodies and joints stand breadth-first from the roots
-/// (roots in file order, then each body's joints in file order), which is also the order of q; the world is
-/// body 0.
+/// An immutable robot world; only compile() makes one. Bodies and joints are sorted breadth-first from the
+/// roots (roots in file order, then each body's joints in file order), which is also the order of q. The
+/// world is body 0.
 class Model {
  public:
   int nq() const { return static_cast<int>(q0_.size()); }
@@ -106,13 +105,13 @@ class Model {
   const Body& operator[](BodyId id) const { return bodies_[static_cast<std::size_t>(id)]; }
   const Joint& operator[](JointId id) const { return joints_[static_cast<std::size_t>(id)]; }
 
-  /// How to place all bodies but the world, one after the other: the joints and fixed bodies for kernels.
+  /// The steps that place all bodies but the world, in order: joints and fixed bodies, for kernels.
   std::span<const MotionStep> motionSteps() const { return motionSteps_; }
 
-  /// The parts that move, for kernels of dynamics: what is fixed to the world belongs to none.
+  /// The moving parts, for kernels of dynamics; what is fixed to the world belongs to none.
   std::span<const Link> links() const { return links_; }
 
-  /// Who may collide, and who was chosen by name; see collision/collision_pairs.h for what follows from it.
+  /// Which bodies may collide: the rule, and choices by name. Applied in collision/collision_pairs.h.
   CollisionRule collisionRule() const { return collisionRule_; }
   std::span<const PairChoice> collisionChoices() const { return collisionChoices_; }
 
@@ -123,10 +122,10 @@ class Model {
   /// course's exercises expect. Throws Error naming the scene and the closest names.
   BodyId body(std::string_view name) const;
 
-  /// The posture the file describes, nq.
+  /// The posture described by the file, nq.
   const Eigen::VectorXd& initialPositions() const { return q0_; }
-  /// Limits of each coordinate, nq; infinite where there are none. They hold for the joints that mimic too:
-  /// within them, ratio * q + offset keeps to each one's own.
+  /// Limits of each coordinate, nq; infinite where there are none. They include those of mimic joints:
+  /// within them, each mimic joint's ratio * q + offset stays within its own limits.
   const Eigen::VectorXd& lowerLimits() const { return lower_; }
   const Eigen::VectorXd& upperLimits() const { return upper_; }
   /// Sum of all masses, kg.
@@ -151,12 +150,12 @@ class Model {
   double mass_ = 0;
 };
 
-/// Checks a scene and freezes it. Throws Error, with the place in the file where it is known, for: a joint to
-/// an unknown body, two joints of one name, two joints into one body, a loop, a mimic of an unknown or
-/// different joint or with limits that leave that none, a choice of who may collide that names no two bodies,
-/// and masses, sizes, poses or limits that are not
-/// finite or have the wrong sign or number. An inertia with a negative principal moment is refused, one that
-/// breaks the triangle inequality is not.
+/// Checks a scene and freezes it. Throws Error, with the position in the file if known, for a joint to an
+/// unknown body, two joints with one name, two joints that move one body, a loop, a mimic of an unknown
+/// joint or one of another type, mimic limits that leave no allowed position, a collision choice that does
+/// not name two bodies, and masses, sizes, poses or limits that are not finite or have the wrong sign or
+/// count. An inertia with a negative principal moment is refused, one that violates the triangle inequality
+/// is not.
 [[nodiscard]] Model compile(const SceneSpec& spec);
 
 }  // namespace rex

@@ -2,9 +2,9 @@
 
 namespace rex {
 
-/// A joint's motion, or a part of it, in plain numbers for kernels. It leads from the pose of body `from` to
-/// that of body `to`: X_W,to = X_W,from * X. Steps of a joint follow one another, all but the first from the
-/// body to itself. Poses are stored by columns as in rex::Pose: three of R, then p.
+/// A joint's motion, or a part of it, in plain numbers for kernels. It leads from the pose of body `from`
+/// to that of body `to`: X_W,to = X_W,from * X. The steps of a joint are consecutive, and all but the first
+/// go from the body to itself. Poses are stored by columns as in rex::Pose: three of R, then p.
 struct MotionStep {
   /// How X moves with x = ratio * q[qIndex] + offset:
   enum class Kind {

@@ -7,12 +7,12 @@
 
 namespace rex {
 
-/// The scene as .ors text that readOrs() reads back: same tree, poses to some 1e-15, other numbers to the
-/// last digit. Meshes that were found are named relative to `folder`, where the text shall lie; without a
-/// folder as they are called in the spec. Shapes whose name the format has no words for lose it. Throws
-/// Error, naming the thing, for such a name of a body or joint, for a mesh that is in no file, and for what
-/// parseOrs() refuses: too many joints.
-/// Read again, only meshes load that lie in the asset root of the new place.
+/// The scene as .ors text that readOrs() reads back: the same tree, poses to about 1e-15, other numbers
+/// exactly. Meshes that were found are named relative to `folder`, in which the text will be saved; without
+/// a folder they are named as in the spec. Only meshes inside the asset root of the new location can be
+/// read back. Shape names that the format cannot express are dropped. Throws Error, naming the item, for
+/// such a name of a body or joint, for a mesh that is in no file, and for more joints than parseOrs()
+/// accepts.
 [[nodiscard]] std::string writeOrs(const SceneSpec& spec, const std::filesystem::path& folder = {});
 
 }  // namespace rex

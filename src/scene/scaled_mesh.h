@@ -6,9 +6,9 @@
 
 namespace rex {
 
-/// The mesh with its lengths along x, y and z times `scale`; negative numbers mirror it, and the outside
-/// stays outside. Smooth edges stay smooth, however much they bend now. Throws Error naming the file `name`
-/// where |scale| is not from 1e-9 to 1e9, or a vertex would be further out than 1e6 m.
+/// The mesh with its lengths along x, y and z multiplied by `scale`. Negative factors mirror it; its
+/// outside stays outside. Smooth edges stay smooth, however sharply they bend after scaling. Throws Error
+/// naming the file `name` if |scale| is not between 1e-9 and 1e9 or a vertex would be beyond 1e6 m.
 [[nodiscard]] TriangleMesh scaledMesh(const TriangleMesh& mesh, const Eigen::Vector3d& scale,
                                       const std::string& name);
 

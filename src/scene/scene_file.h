@@ -9,37 +9,37 @@
 
 namespace rex {
 
-/// What a file holds, and what the reader noticed (ignored attributes, likely misspellings).
+/// The content of a file, and what the reader noticed (ignored attributes, likely misspellings).
 struct SceneFile {
   SceneSpec spec;
   Diagnostics notes;
-  /// What was read, of which parseScene() makes the same again, but for meshes and an SRDF beside it; empty
-  /// for a scene of several files.
+  /// The text that was read, from which parseScene() makes the same scene again, except for meshes and an
+  /// SRDF beside it; empty for a scene of several files.
   std::string text{};
 };
 
 struct ReadOptions {
-  /// Holds all files that the scene names, see Assets; empty: its default.
+  /// The folder that holds all files that the scene names, see Assets; empty: its default.
   std::filesystem::path assetRoot{};
   bool allowMissingMeshes = false;        ///< boxes stand for them, and a warning says so
-  bool freeBase = false;                  ///< of a URDF robot: its root moves freely
-  bool textures = false;                  ///< of meshes, see readTexturedMesh(); for those who draw them
-  bool strict = false;                    ///< faults that are repaired otherwise, with a warning, are errors
-  Diagnostics* notesOfFailure = nullptr;  ///< where notes go that were made before an Error
-  /// An SRDF that says which links of a URDF robot may collide; empty: NAME.srdf beside NAME.urdf, if there.
+  bool freeBase = false;                  ///< for a URDF robot: its root moves freely
+  bool textures = false;                  ///< read those of meshes, see readTexturedMesh(); for drawing
+  bool strict = false;                    ///< faults that are otherwise repaired with a warning are errors
+  Diagnostics* notesOfFailure = nullptr;  ///< receives the notes made before an Error
+  /// An SRDF that says which links of a URDF robot may collide; empty: NAME.srdf beside NAME.urdf, if any.
   std::filesystem::path srdf{};
 };
 
-/// Reads a scene with its meshes; the ending of the file, in any case, says how: .ors, .urdf, or .xml for
-/// MuJoCo's MJCF. Throws Error: another ending, and as readOrs(), readUrdf() or readMjcf().
+/// Reads a scene with its meshes. The file extension, in upper or lower case, says how: .ors, .urdf, or
+/// .xml for MuJoCo's MJCF. Throws Error for another extension, and as readOrs(), readUrdf() or readMjcf().
 [[nodiscard]] SceneFile readScene(const std::filesystem::path& file, const ReadOptions& options = {});
 
-/// The same for text at hand, which is .ors unless `name` ends in .urdf or .xml; of .xacro it throws Error.
+/// The same for text in memory, which is .ors unless `name` ends in .urdf or .xml; throws Error for .xacro.
 /// Reads no file, so shapes know their mesh by name only.
 [[nodiscard]] SceneFile parseScene(std::string_view text, const std::string& name,
                                    const ReadOptions& options = {});
 
-/// The text of a scene file. Throws Error if it is missing, no file that can be read, or larger than `most`
+/// The text of a scene file. Throws Error if it is missing, not a readable file, or larger than `most`
 /// bytes.
 [[nodiscard]] std::string readSceneText(const std::filesystem::path& file, std::size_t most = 32u << 20);
 

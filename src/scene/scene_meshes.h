@@ -5,13 +5,13 @@
 
 namespace rex {
 
-/// Reads the meshes of all shapes that are described by one and have none yet, where `assets` finds them, and
-/// makes the hulls of those in contact; each file once. Throws Error with the place of the shape if it names
-/// no file, assets.find() does not find it, readMesh(), scaledMesh() or convexHull() refuses it, or it is one
-/// too many: a scene has at most 4096 files of meshes, and six million vertices in all their sizes together.
-/// With `allowMissingMeshes`, what is not found becomes a box of 0.1 m that keeps contact and the name of its
-/// file and is marked `meshMissing`, with one warning for each package or folder. Materials of full
-/// transparency become opaque, with one warning for each file, and are refused if `strict`.
+/// Reads the missing meshes of all shapes that are described by one, from the files that `assets` finds,
+/// each once, and computes the hulls of shapes in contact. Throws Error with the position of the shape if
+/// it names no file, if assets.find(), readMesh(), scaledMesh() or convexHull() throws, and for more than
+/// 4096 mesh files or six million vertices in all their sizes together. With `allowMissingMeshes`, a mesh
+/// that is not found becomes a box of 0.1 m that keeps its contact and file name and is marked
+/// `meshMissing`, with one warning for each package or folder. Fully transparent materials become opaque,
+/// with one warning for each file, or are refused if `strict`.
 void loadMeshes(SceneFile& scene, const Assets& assets, const ReadOptions& options = {});
 
 }  // namespace rex

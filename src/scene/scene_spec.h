@@ -16,10 +16,10 @@
 
 namespace rex {
 
-/// The frame that everything stands in, as joints name it; no body is called so.
+/// The name of the world frame as the parent of joints; no body may have it.
 inline constexpr const char* kWorldName = "world";
 
-/// A limit that is none.
+/// Stands for no limit.
 inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 enum class BodyKind { kDynamic, kKinematic, kStatic };
@@ -34,12 +34,12 @@ struct ShapeSpec {
   bool visible = true;                      ///< is drawn
   std::string meshFile{};                   ///< what `shape.mesh` is read from, see loadMeshes()
   Eigen::Vector3d meshScale = Eigen::Vector3d::Ones();
-  std::filesystem::path meshPath{};  ///< where loadMeshes() found it; empty before
-  bool meshMissing = false;          ///< `shape` only stands for the mesh, and compile() gives it no contact
+  std::filesystem::path meshPath{};  ///< the file that loadMeshes() found; empty before
+  bool meshMissing = false;          ///< `shape` only stands in for the mesh; compile() gives it no contact
   SourceLocation where{};
 };
 
-/// A rigid body. X_WB counts only for roots: a body moved by a joint stands where the joint puts it.
+/// A rigid body. X_WB is used for roots only; the pose of a body moved by a joint follows from the joint.
 struct BodySpec {
   std::string name;
   Pose X_WB;
@@ -52,18 +52,18 @@ struct BodySpec {
 };
 
 /// A joint: X_W,child = X_W,parent * X_PF * X_FM(q) * X_MC. Parent and child name the first body of that
-/// name; the parent may be "world". Damping and friction slow the joint with damping * v + friction *
+/// name; the parent may be "world". Damping and friction oppose the motion with damping * v + friction *
 /// sign(v).
 struct JointSpec {
   std::string name;
   std::string parent, child;
   JointType type = JointType::kHinge;
   Pose X_PF, X_MC;
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< if its type has one, in F; any length but zero
-  double pitch = 0;                                 ///< of a screw: metres per turn
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< in F, any length but zero; if its type has one
+  double pitch = 0;                                 ///< pitch of a screw, metres per turn
   Eigen::VectorXd q0{};                             ///< initial coordinates; empty: the zero position
-  Eigen::VectorXd lower{}, upper{};                 ///< limits of each coordinate, its own; empty: none
-  std::string mimic{};  ///< a joint that moves this one: q = ratio * q of that joint + offset; empty: none
+  Eigen::VectorXd lower{}, upper{};                 ///< its own limits of each coordinate; empty: none
+  std::string mimic{};  ///< a joint that this one follows: q = ratio * q of that joint + offset; empty: none
   double mimicRatio = 1, mimicOffset = 0;  ///< other than 1 and 0 only for joints of one coordinate
   double maxVelocity = kUnlimited;         ///< rad/s or m/s
   double maxEffort = kUnlimited;           ///< N m or N
@@ -75,16 +75,17 @@ struct JointSpec {
   [[nodiscard]] Eigen::VectorXd start() const;
 };
 
-/// Which pairs of bodies may collide before anybody chooses single ones, see collision/collision_pairs.h: all
-/// but neighbours and what overlaps at home, or, as in scenes of the course, all but kin of four generations.
+/// The pairs of bodies that may collide unless a CollisionChoice decides, see collision/collision_pairs.h:
+/// all but neighbours and bodies that overlap at home, or, as in scenes of the course, all but kin within
+/// four generations.
 enum class CollisionRule { kAllButNeighbours, kFourGenerations };
 
 /// "all_but_neighbours", "four_generations".
 [[nodiscard]] std::string_view toString(CollisionRule rule);
 
-/// Says of one pair of bodies whether it may collide, or with an empty `b` of all pairs of `a`. Each names
-/// the first body of that name, or "world". A choice of one pair counts more than that of all, "not" more
-/// than "may".
+/// Says whether one pair of bodies may collide, or, with an empty `b`, all pairs of `a`. Each name stands
+/// for the first body of that name, or for "world". A choice for one pair overrides one for all pairs of a
+/// body, and "must not" overrides "may".
 struct CollisionChoice {
   std::string a, b;
   bool mayCollide = false;

@@ -7,8 +7,9 @@
 
 namespace rex {
 
-/// An SRDF of a robot of that name that says who may collide, as parseSrdf() reads it. `about` is a comment
-/// below its head, if there is one. Throws Error for a name with characters that XML lacks.
+/// An SRDF with the collision choices of the robot of that name, as parseSrdf() reads it. A non-empty
+/// `about` becomes a comment below its head. Throws Error for a name with characters that are not allowed
+/// in XML.
 [[nodiscard]] std::string writeSrdf(const std::string& robot, std::span<const CollisionChoice> choices,
                                     const std::string& about = "");
 

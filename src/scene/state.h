@@ -4,7 +4,7 @@
 
 namespace rex {
 
-/// Where a robot is and how it moves: q (nq), v (nv), time in seconds.
+/// The state of a robot: q (nq), v (nv), time in seconds.
 struct State {
   Eigen::VectorXd q, v;
   double time = 0;
@@ -13,8 +13,8 @@ struct State {
 /// The model's initial posture at rest.
 [[nodiscard]] State initialState(const Model& model);
 
-/// q after moving with constant velocity v for one unit of time: q + v, except at quaternions, where v turns
-/// the moved frame. Throws Error naming both sizes if q or v has the wrong one.
+/// q after moving with constant velocity v for one unit of time: q + v, except for quaternions, where v is
+/// the angular velocity in the moved frame. Throws Error naming both sizes if q or v has the wrong one.
 [[nodiscard]] Eigen::VectorXd integrate(const Model& model, const VectorArg& q, const VectorArg& v);
 
 /// The velocity that leads from q0 to q1 in one unit of time: integrate(model, q0, difference(model, q0, q1))

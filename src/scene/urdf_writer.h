@@ -8,17 +8,17 @@
 
 namespace rex {
 
-/// A robot as URDF, and what of the scene URDF cannot say: one note for each kind of loss.
+/// A robot as URDF, with one note for each kind of content that URDF cannot express.
 struct UrdfText {
   std::string text;
   Diagnostics notes;
 };
 
-/// Writes a scene as URDF. Bodies keep their names, poses and inertias (of several with one name all but the
-/// first get a number), and joints their coordinates in their order; joints that URDF lacks become chains, as
-/// share/doc/urdf.md says. Files of meshes are named relative to `folder` (empty: where they lie). Throws
-/// Error as compile(), and for two joints of one name, a ball joint, a mimic of a planar or free joint,
-/// characters in names that XML lacks, and what parseUrdf() refuses: too many joints, a name too long.
+/// Writes a scene as URDF. Bodies keep their names (duplicates get a number), poses and inertias; joints
+/// keep their coordinates and their order. Joint types that URDF lacks become chains, as described in
+/// share/doc/urdf.md. Mesh files are named relative to `folder` (empty: by their meshPath). Throws Error as
+/// compile(), and for two joints with one name, a ball joint, a mimic of a planar or free joint, names with
+/// characters that XML does not allow, and more joints or longer names than parseUrdf() accepts.
 [[nodiscard]] UrdfText writeUrdf(const SceneSpec& spec, const std::filesystem::path& folder = {});
 
 }  // namespace rex
