@@ -2,7 +2,8 @@
 
 #include "base/pack.h"
 
-// Vectors, rotations and poses of kernels; T is double or a Pack. See base/pack.h for why all is anonymous.
+// Vectors, rotations and poses for kernels; T is double or a Pack. See base/pack.h for the reason for the
+// anonymous namespace.
 namespace rex {
 namespace {
 
@@ -38,14 +39,14 @@ struct Mat3 {
   friend Mat3 operator*(const Mat3& a, const Mat3& b) { return {a * b.c0, a * b.c1, a * b.c2}; }
 };
 
-/// Transpose of m times v: a world vector in the frame whose axes are the columns.
+/// Transpose of m times v: the world vector v in the frame whose axes are the columns of m.
 template <class T>
 inline Vec3<T> transposedTimes(const Mat3<T>& m, const Vec3<T>& v) {
   return {dot(m.c0, v), dot(m.c1, v), dot(m.c2, v)};
 }
 
-/// The rotation of the quaternion from number i on of each row: of any length but zero, which need not be
-/// squared as it is.
+/// The rotation of the quaternion that starts at entry i of each row. Its length may be anything but zero;
+/// it is scaled first, so that squares cannot overflow.
 template <class T>
 inline Mat3<T> rotationOfQuaternion(const double* const* lane, int i) {
   const T w0 = gathered<T>(lane, i), x0 = gathered<T>(lane, i + 1), y0 = gathered<T>(lane, i + 2),
@@ -83,8 +84,8 @@ inline KernelPose<T> broadcast(const KernelPose<double>& X) {
   return {broadcast<T>(X.R), broadcast<T>(X.p)};
 }
 
-/// Vectors and poses from numbers that stand `stride` apart, a T each, and back: the stride is 1 for one
-/// configuration, and 8 for blocks of them.
+/// Loads vectors and poses from numbers that are `stride` apart, one T each, and stores them: the stride is
+/// 1 for one configuration, and 8 for blocks of them.
 template <class T>
 inline Vec3<T> loadVec3(const double* from, int stride) {
   return {load<T>(from), load<T>(from + stride), load<T>(from + 2 * stride)};

@@ -15,9 +15,9 @@ struct Pose {
   [[nodiscard]] Pose inverse() const { return {R.transpose(), -(R.transpose() * p)}; }
 };
 
-/// The pose that only moves by (x, y, z) metres.
+/// The pose that translates by (x, y, z) metres.
 [[nodiscard]] Pose translation(double x, double y, double z);
-/// The pose that only turns by `angle` radians about `axis` (any length; a zero axis or angle gives the
+/// The pose that rotates by `angle` radians about `axis` (any length; a zero axis or angle gives the
 /// identity).
 [[nodiscard]] Pose rotation(double angle, const Eigen::Vector3d& axis);
 /// Whether both poses agree within `tolerance` in every entry of R and p.

@@ -41,7 +41,7 @@ struct Shape {
   TriangleMesh hull{};  ///< convex hull of `mesh`, of shapes in contact; see loadMeshes()
 };
 
-/// Half edge lengths of the smallest box about the origin and along the axes of the shape that holds it.
+/// Half the edge lengths of the smallest box around the shape that is centred and aligned in its frame.
 [[nodiscard]] Eigen::Vector3d halfBounds(const Shape& shape);
 
 }  // namespace rex

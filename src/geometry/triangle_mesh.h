@@ -11,20 +11,20 @@
 
 namespace rex {
 
-/// A picture to paint surfaces with: rows from bottom to top, a pixel is red, green, blue (sRGB).
+/// An image for surfaces: rows from bottom to top, each pixel red, green, blue (sRGB).
 struct Texture {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgb{};  ///< 3 width height
 };
 
-/// Where a mesh is painted with what: a point (u, v) of the textures for each vertex, or none of all; u to
-/// the right and v up, from 0 to 1 and then again.
+/// The textures of a mesh, and a point (u, v) in them for each vertex, or no points at all. u points to the
+/// right and v up; they range from 0 to 1 and then repeat.
 struct MeshPaint {
   std::vector<Eigen::Vector2f> points{};
   std::vector<Texture> textures{};
 };
 
-/// A surface of triangles, or a cloud of points without any, in its own frame, metres. Never changes, so that
+/// A surface of triangles, or a cloud of points without triangles, in its own frame, metres. Immutable, so
 /// copies share their data and cost nothing.
 class TriangleMesh {
  public:
@@ -32,10 +32,10 @@ class TriangleMesh {
   using Triangle = std::array<std::uint32_t, 3>;
   /// Successive triangles of one material.
   struct Part {
-    std::optional<Eigen::Vector4f> color{};  ///< red, green, blue, alpha (sRGB); none: that of the shape
+    std::optional<Eigen::Vector4f> color{};  ///< red, green, blue, alpha (sRGB); none: the shape's colour
     std::uint32_t firstTriangle = 0;
     std::uint32_t triangleCount = 0;
-    std::optional<std::uint32_t> texture{};  ///< one of the paint, times `color`; none: bare
+    std::optional<std::uint32_t> texture{};  ///< index in the paint, times `color`; none: untextured
   };
   using Paint = MeshPaint;
 
@@ -45,9 +45,9 @@ class TriangleMesh {
   TriangleMesh& operator=(const TriangleMesh&) noexcept;
   TriangleMesh(TriangleMesh&&) noexcept;
   TriangleMesh& operator=(TriangleMesh&&) noexcept;
-  /// `normals` (unit vectors, outward) are as many as positions, or none for points. Without `parts` all
-  /// triangles are one. Throws Error for a number that is not finite, an index of no vertex or texture, sizes
-  /// that differ or parts that do not cover the triangles one after the other.
+  /// There is one of `normals` (unit vectors, outward) for each position, or none for a point cloud.
+  /// Without `parts`, all triangles form one part. Throws Error for numbers that are not finite, an index
+  /// without a vertex or texture, sizes that differ, or parts that do not cover the triangles in order.
   TriangleMesh(std::vector<Eigen::Vector3f> positions, std::vector<Eigen::Vector3f> normals,
                std::vector<Triangle> triangles, std::vector<Part> parts = {}, Paint paint = {});
 
@@ -60,7 +60,7 @@ class TriangleMesh {
   /// The largest |x|, |y| and |z| of all positions, metres; zero without any.
   [[nodiscard]] Eigen::Vector3d halfBounds() const;
 
-  /// True for copies of one mesh: they are the same data, not only equal.
+  /// True for copies of one mesh: they share the same data, which is more than being equal.
   bool operator==(const TriangleMesh& other) const { return data_ == other.data_; }
 
  private:
@@ -68,7 +68,7 @@ class TriangleMesh {
   std::shared_ptr<const Data> data_;
 };
 
-/// Throws Error for what TriangleMesh refuses of all but normals.
+/// Throws Error for everything that TriangleMesh refuses, except normals.
 void requireSurface(const std::vector<Eigen::Vector3f>& positions,
                     const std::vector<TriangleMesh::Triangle>& triangles,
                     const std::vector<TriangleMesh::Part>& parts);
