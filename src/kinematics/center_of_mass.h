@@ -11,8 +11,8 @@ namespace rex {
 /// Its Jacobian: 3 x nv, metres per unit of v. Throws as centerOfMass.
 [[nodiscard]] Eigen::Matrix3Xd centerOfMassJacobian(const Model& model, const BodyPoses& poses);
 /// Overload for hot loops. The caller owns J, which must be 3 x nv already, and `moments`: column i becomes
-/// mass times centre, kg m in W, of body i with all that hangs on it (column 0: the scene). It allocates
-/// nothing once `moments` has been used with this model.
+/// the mass times the centre of mass, kg m in W, of body i with all its descendants (column 0: the whole
+/// scene). It allocates nothing once `moments` has been used with this model.
 void centerOfMassJacobian(const Model& model, const BodyPoses& poses, Eigen::Matrix3Xd& moments,
                           Eigen::Ref<Eigen::Matrix3Xd> J);
 

@@ -12,10 +12,10 @@ struct BodyPoses {
   const Pose& operator[](BodyId id) const { return X_WB[static_cast<std::size_t>(id)]; }
 };
 
-/// Where all bodies are at posture q (nq). Throws Error naming both sizes if q has the wrong one, and for
+/// The poses of all bodies at posture q (nq). Throws Error naming both sizes if that of q is wrong, and for
 /// quaternions that are zero or not finite. Slide 2:16.
 [[nodiscard]] BodyPoses forwardKinematics(const Model& model, const VectorArg& q);
-/// The same into a caller's storage; allocates nothing once `out` has been used with this model.
+/// The same into storage of the caller; allocates nothing once `out` has been used with this model.
 void forwardKinematics(const Model& model, const VectorArg& q, BodyPoses& out);
 
 }  // namespace rex

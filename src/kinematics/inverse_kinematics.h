@@ -5,20 +5,20 @@
 namespace rex {
 
 /// One regularised step of inverse kinematics with W = Id and C = Id / sigma^2 (slide 2:29):
-/// dq = (J^T J + sigma^2 Id)^-1 J^T dy, the posture change that best brings about the task change dy.
-/// J: d x n. dy: d. Returns n numbers. Throws Error if the sizes disagree or sigma is not positive.
+/// dq = (J^T J + sigma^2 Id)^-1 J^T dy, the posture change that best achieves the task change dy. J: d x n.
+/// dy: d. Returns n numbers. Throws Error if the sizes disagree or sigma is not positive.
 [[nodiscard]] Eigen::VectorXd inverseKinematicsStep(const Eigen::Ref<const Eigen::MatrixXd>& J,
                                                     const VectorArg& dy, double sigma);
 
 /// The two equal forms of slide 2:29: (J^T C J + W)^-1 J^T C solves n equations, W^-1 J^T (J W^-1 J^T +
-/// C^-1)^-1 solves d. kCheaper takes the second where W is diagonal and d < n.
+/// C^-1)^-1 solves d. kCheaper takes the second if W is diagonal and d < n.
 enum class StepForm { kCheaper, kJointSpace, kTaskSpace };
 
-/// What a step weighs. An empty matrix is the identity, an empty vector zero.
+/// The weights of a step. An empty matrix is the identity, an empty vector zero.
 struct StepOptions {
-  Eigen::MatrixXd W{};  ///< n x n, symmetric and positive definite: the price of posture changes
-  Eigen::MatrixXd C{};  ///< d x d, symmetric and positive definite: the price of task errors
-  Eigen::VectorXd a{};  ///< n: the posture change wished for where the task leaves a choice
+  Eigen::MatrixXd W{};  ///< n x n, symmetric and positive definite: the cost of posture changes
+  Eigen::MatrixXd C{};  ///< d x d, symmetric and positive definite: the cost of task errors
+  Eigen::VectorXd a{};  ///< n: the preferred posture change where the task leaves freedom
   StepForm form = StepForm::kCheaper;
 };
 

@@ -6,15 +6,15 @@
 
 namespace rex {
 
-/// A Jacobian of 3 rows at many configurations, in blocks of 8: [block][column][3][8].
+/// A Jacobian with 3 rows at many configurations, in blocks of 8: [block][column][3][8].
 class JacobianBatch {
  public:
   static constexpr int kLanes = PoseBatch::kLanes;
 
-  /// Numbers are not kept. Allocates nothing where there were as many before.
+  /// Does not keep the numbers. Allocates nothing if there were at least as many before.
   void resize(int columns, int count) { numbers_.resize(columns, count); }
   int columns() const { return numbers_.items(); }
-  /// Configurations, and the blocks they take.
+  /// The number of configurations, and of the blocks that hold them.
   int count() const { return numbers_.count(); }
   int blocks() const { return numbers_.blocks(); }
 

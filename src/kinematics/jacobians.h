@@ -4,8 +4,8 @@
 
 namespace rex {
 
-// Jacobians are derivatives by v: nv columns, expressed in the world frame W. `poses` are those of the
-// posture.
+// Jacobians have one column for each of the nv entries of v and are expressed in the world frame W. `poses`
+// are those of the posture.
 
 /// p_WQ, the world position of the point Q fixed in body B at p_BQ, metres. Slide 2:53.
 [[nodiscard]] Eigen::Vector3d position(const BodyPoses& poses, BodyId body, const Eigen::Vector3d& p_BQ);
@@ -13,7 +13,7 @@ namespace rex {
 [[nodiscard]] Eigen::Matrix3Xd positionJacobian(const Model& model, const BodyPoses& poses, BodyId body,
                                                 const Eigen::Vector3d& p_BQ);
 
-/// The direction `vector_B`, fixed in body B, seen from the world. Slide 2:54.
+/// The vector `vector_B`, fixed in body B, expressed in W. Slide 2:54.
 [[nodiscard]] Eigen::Vector3d direction(const BodyPoses& poses, BodyId body, const Eigen::Vector3d& vector_B);
 /// Jacobian of that direction: 3 x nv, per unit of v. Slide 2:54.
 [[nodiscard]] Eigen::Matrix3Xd directionJacobian(const Model& model, const BodyPoses& poses, BodyId body,

@@ -7,14 +7,14 @@
 namespace rex {
 
 /// Numbers of many configurations for kernels, in blocks of 8 configurations: [block][item][number][8], the
-/// same on every machine, each item of a block at a multiple of 64 bytes. The last block is padded. All are
-/// zero at first.
+/// same on every machine, with each item of a block aligned to 64 bytes. The last block is padded. All
+/// numbers are initially zero.
 template <int kNumbers>
 class LaneBlocks {
  public:
   static constexpr int kLanes = 8;
 
-  /// Keeps no numbers; allocates nothing where there were as many before.
+  /// Does not keep the numbers. Allocates nothing if there were at least as many before.
   void resize(int items, int count) {
     assert(items >= 0 && count >= 0);
     items_ = items;
@@ -29,7 +29,7 @@ class LaneBlocks {
   double* block(int b, int item) { return blocks_[index(b, item)].numbers.data(); }
   const double* block(int b, int item) const { return blocks_[index(b, item)].numbers.data(); }
 
-  /// Those of configuration k.
+  /// The numbers of an item at configuration k.
   std::array<double, kNumbers> at(int item, int k) const {
     assert(0 <= k && k < count_);
     const double* from = block(k / kLanes, item) + k % kLanes;

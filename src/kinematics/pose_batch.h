@@ -7,17 +7,17 @@
 
 namespace rex {
 
-/// World poses of all bodies at many configurations, in blocks of 8: [block][body][12][8]. The 12 are those
-/// of a Pose, R by columns, then p.
+/// World poses of all bodies at many configurations, in blocks of 8: [block][body][12][8]. The 12 numbers
+/// are those of a Pose: R by columns, then p.
 class PoseBatch {
  public:
   static constexpr int kLanes = LaneBlocks<12>::kLanes;
 
-  /// Puts the world in its place, which is body 0; poses of bodies are not kept. Allocates nothing where
-  /// there were as many before.
+  /// Sets the pose of the world, body 0, to the identity, and does not keep those of bodies. Allocates
+  /// nothing if there were at least as many before.
   void resize(int bodies, int count);
   int bodies() const { return numbers_.items(); }
-  /// Configurations, and the blocks they take; the lanes after the last one repeat it.
+  /// The number of configurations, and of the blocks that hold them; lanes after the last one repeat it.
   int count() const { return numbers_.count(); }
   int blocks() const { return numbers_.blocks(); }
 
@@ -36,9 +36,9 @@ class PoseBatch {
   LaneBlocks<12> numbers_;
 };
 
-/// Where all bodies are at each column of Q (nq x N): the same bits as forwardKinematics() gives, several
-/// times as fast. Allocates nothing once `out` has been used with this model and as many columns. Throws
-/// as forwardKinematics().
+/// The poses of all bodies at each column of Q (nq x N), bitwise equal to those of forwardKinematics() but
+/// several times as fast. Allocates nothing once `out` has been used with this model and as many columns.
+/// Throws as forwardKinematics().
 void forwardKinematicsBatch(const Model& model, const MatrixArg& Q, PoseBatch& out);
 
 }  // namespace rex

@@ -6,7 +6,7 @@
 
 namespace rex {
 
-/// What task maps look at: a robot, its posture q (nq), and where that puts the bodies.
+/// The argument of task maps: a robot, its posture q (nq), and the poses of its bodies there.
 struct Posture {
   const Model& model;
   const Eigen::VectorXd& q;
@@ -19,8 +19,8 @@ struct TaskValue {
   Eigen::MatrixXd J;
 };
 
-/// A task map phi (slide 2:52): writes y and J of a posture into storage that is used again and again, so
-/// that resizing costs nothing after the first time. Any lambda of this form is one.
+/// A task map phi (slide 2:52): writes y and J of a posture into storage that is reused, so that resizing
+/// costs nothing after the first time. Any lambda with this signature is one.
 using TaskMap = std::function<void(const Posture&, TaskValue&)>;
 
 }  // namespace rex
