@@ -7,18 +7,19 @@ namespace rex {
 /// All bodies of a scene taken together, in W.
 struct Centroidal {
   Eigen::Vector3d center;           ///< centre of mass, metres
-  Eigen::Vector3d velocity;         ///< of the centre, m/s
+  Eigen::Vector3d velocity;         ///< of the centre of mass, m/s
   Eigen::Vector3d linearMomentum;   ///< kg m/s
-  Eigen::Vector3d angularMomentum;  ///< about the centre, kg m^2/s
-  Eigen::Matrix3d inertia;          ///< about the centre, of all bodies as if they were one, kg m^2
+  Eigen::Vector3d angularMomentum;  ///< about the centre of mass, kg m^2/s
+  Eigen::Matrix3d inertia;          ///< about the centre of mass, of all bodies as if they were one, kg m^2
 };
 
-/// `poses` are those of the posture, v are the joint velocities (nv). External forces alone change the
-/// momenta. Throws Error naming both sizes if v has the wrong one, and for a scene without mass.
+/// `poses` are those of the posture, v are the joint velocities (nv). Only external forces change the
+/// momenta. Throws Error naming both sizes if that of v is wrong, and for a scene without mass.
 [[nodiscard]] Centroidal centroidal(const Model& model, const BodyPoses& poses, const VectorArg& v);
 
-/// Takes v to the momenta: 6 x nv, rows of the linear momentum first, then of the angular momentum about the
-/// centre of mass. Orin, Goswami, Lee 2013, Centroidal dynamics of a humanoid robot. Throws as centroidal.
+/// The matrix that maps v to the momenta: 6 x nv, first the rows of the linear momentum, then those of the
+/// angular momentum about the centre of mass. Orin, Goswami, Lee 2013, Centroidal dynamics of a humanoid
+/// robot. Throws as centroidal.
 [[nodiscard]] Eigen::Matrix<double, 6, Eigen::Dynamic> centroidalMomentumMatrix(const Model& model,
                                                                                 const BodyPoses& poses);
 

@@ -4,14 +4,14 @@
 
 namespace rex {
 
-/// Joules. Potential energy is zero where the centre of mass is at the height of the world's origin.
+/// In joules. The potential energy is zero if the centre of mass is at the height of the world's origin.
 struct Energy {
   double kinetic = 0, potential = 0;
   [[nodiscard]] double total() const { return kinetic + potential; }
 };
 
-/// T = sum of m v^2 / 2 + w^T I w / 2, and U = -sum of m g^T p, over all bodies with mass, also those that
-/// cannot move. Slides 3:22 and 3:25. Throws as inverseDynamics.
+/// T = sum of m v^2 / 2 + w^T I w / 2, and U = -sum of m g^T p, over all bodies with mass, including those
+/// that cannot move. Slides 3:22 and 3:25. Throws as inverseDynamics.
 [[nodiscard]] Energy energy(const Model& model, const VectorArg& q, const VectorArg& v,
                             const Eigen::Vector3d& gravity_W = earthGravity());
 /// Overload for hot loops.
@@ -20,8 +20,8 @@ struct Energy {
 
 /// Derivatives of the total energy T + U (nv each).
 struct EnergyGradient {
-  Eigen::VectorXd byPosition;  ///< along each entry of v, in the sense of integrate(), with v held fixed
-  Eigen::VectorXd byVelocity;  ///< M v: the momenta of the joints
+  Eigen::VectorXd byPosition;  ///< along each entry of v, as by integrate(), with v held fixed
+  Eigen::VectorXd byVelocity;  ///< M v: the generalised momenta
 };
 
 /// dE/dq and dE/dv. Along a motion dE/dt = byPosition . v + byVelocity . a. Throws as inverseDynamics.

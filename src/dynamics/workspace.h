@@ -7,20 +7,20 @@
 
 namespace rex {
 
-/// Memory that functions of this module work in, kept by the caller of a hot loop: they allocate nothing once
+/// Memory for the functions of this module, owned by the caller of a hot loop: they allocate nothing once
 /// it has been used with a model.
 struct DynamicsWorkspace {
-  /// As many numbers as a kernel takes at once, at addresses that suit it.
+  /// As many numbers as a kernel processes at once, suitably aligned.
   struct alignas(64) Line {
     double numbers[8];
   };
   std::vector<Line> lines{};
-  /// M and F of models in which joints mimic others.
+  /// M and F, for models in which joints mimic others.
   Eigen::MatrixXd M{};
   Eigen::VectorXd F{};
-  /// What stands for no velocity or no acceleration.
+  /// Used for a velocity or an acceleration of zero.
   Eigen::VectorXd zeros{};
-  /// Where bodies are, and a twist or a force of each.
+  /// The poses of bodies, and a twist or a force of each.
   BodyPoses poses{};
   std::vector<Vector6d> perBody{};
 };

@@ -6,7 +6,7 @@
 
 namespace rex {
 
-/// A push from outside on the point Q of body B, in W: force (N) and torque (N m).
+/// An external wrench at the point Q of body B, in W: force (N) and torque (N m).
 struct Wrench {
   BodyId body = kWorld;
   Eigen::Vector3d p_BQ = Eigen::Vector3d::Zero();
@@ -14,11 +14,11 @@ struct Wrench {
   Eigen::Vector3d torque_W = Eigen::Vector3d::Zero();
 };
 
-/// What wrenches do at the joints (nv), to be added to u: the sum of J_Q^T force + J_w^T torque.
+/// The joint forces (nv) caused by wrenches, to be added to u: the sum of J_Q^T force + J_w^T torque.
 [[nodiscard]] Eigen::VectorXd wrenchForces(const Model& model, const BodyPoses& poses,
                                            std::span<const Wrench> wrenches);
-/// Overload for hot loops. The caller owns u, which must be nv already; else throws Error naming both sizes.
-/// The poses may be those of the workspace.
+/// Overload for hot loops. The caller owns u, which must be nv already; otherwise throws Error naming both
+/// sizes. The poses may be those of the workspace.
 void wrenchForces(const Model& model, const BodyPoses& poses, std::span<const Wrench> wrenches,
                   DynamicsWorkspace& workspace, Eigen::Ref<Eigen::VectorXd> u);
 
