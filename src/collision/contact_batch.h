@@ -5,17 +5,17 @@
 
 namespace rex {
 
-/// Distances of all pairs in many configurations, metres: column k of `distances` belongs to configuration k,
-/// its rows to contacts.pairs(). As proximity() says, negative in overlap. Resizes `distances`.
+/// Distances of all pairs in many configurations, metres, as proximity() gives them, negative in overlap.
+/// Column k of `distances` belongs to configuration k, the rows to contacts.pairs(). Resizes `distances`.
 void contactDistancesBatch(const ContactModel& contacts, const PoseBatch& poses, Eigen::MatrixXd& distances);
 
-/// Whether each configuration keeps all pairs at least `margin` metres apart: where contactDistancesBatch()
-/// says so, but that cylinders and meshes which touch are not free at margin 0. What is not a number is not
-/// free. Resizes `free`.
+/// Whether each configuration keeps all pairs at least `margin` metres apart, in agreement with
+/// contactDistancesBatch(), except that touching cylinders and meshes are not free at margin 0. Distances
+/// that are not a number are not free. Resizes `free`.
 void contactFreeBatch(const ContactModel& contacts, const PoseBatch& poses, double margin,
                       Eigen::Array<bool, Eigen::Dynamic, 1>& free);
 
-/// Whether all configurations do. Stops where one does not.
+/// Whether all configurations are free. Stops at the first that is not.
 [[nodiscard]] bool allContactFree(const ContactModel& contacts, const PoseBatch& poses, double margin);
 
 }  // namespace rex

@@ -8,23 +8,24 @@
 
 namespace rex {
 
-/// Two shapes by their places in Model::shapes(), a < b.
+/// Two shapes, as indices of Model::shapes(), a < b.
 struct ShapePair {
   int a, b;
   bool operator==(const ShapePair&) const = default;
 };
 
-/// What of a model may collide, sorted for fast queries. It copies what it needs; copies share it.
+/// The pairs of shapes of a model that may collide, sorted for fast queries. It copies the data it needs;
+/// copies of it share them.
 class ContactModel {
  public:
-  /// The pairs of shapes that may collide, see collidingPairs(). Markers never collide. Throws Error for one
-  /// whose mesh is not loaded.
+  /// The pairs of shapes that may collide, see collidingPairs(). Markers never collide. Throws Error for a
+  /// shape whose mesh is not loaded.
   explicit ContactModel(const Model& model);
-  /// The given pairs. Throws Error for a pair of no shapes, a marker, and a mesh that is not loaded.
+  /// The given pairs. Throws Error for an invalid pair of indices, a marker, and a mesh that is not loaded.
   ContactModel(const Model& model, std::span<const ShapePair> pairs);
 
   [[nodiscard]] std::span<const ShapePair> pairs() const;
-  /// The body of a shape of some pair.
+  /// The body of a shape that occurs in a pair.
   [[nodiscard]] BodyId body(int shape) const;
 
   struct Data;

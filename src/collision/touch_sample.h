@@ -8,7 +8,7 @@
 
 namespace rex {
 
-/// In how many of `postures` random postures pairs of bodies overlapped.
+/// How often pairs of bodies overlapped in `postures` random postures.
 struct TouchSample {
   struct Pair {
     PairVerdict verdict;
@@ -16,16 +16,16 @@ struct TouchSample {
   };
   int postures = 0;
   std::vector<Pair> pairs{};
-  std::vector<std::string> held{};  ///< joints with a coordinate that has no range and stayed at home
+  std::vector<std::string> held{};  ///< joints with a coordinate without a range, which was kept at home
 };
 
-/// Draws postures within the limits, turns without limits from a whole turn, and counts for all pairs that
-/// may collide or are left out because they overlap at home. A sample proves nothing: a pair that never
-/// touched may do so elsewhere. Throws Error as ContactModel, and unless `postures` > 0.
+/// Draws postures within the limits, with unlimited angles from a whole turn, and counts overlaps of all
+/// pairs that may collide or are left out because they overlap at home. A sample proves nothing: a pair
+/// that never touched may do so elsewhere. Throws Error as ContactModel, and unless `postures` > 0.
 [[nodiscard]] TouchSample sampleTouches(const Model& model, int postures, Rng& rng);
 
-/// What the sample suggests to disable, as MoveIt's assistant names the reasons: "Never" and "Always"
-/// touched, or "Default" where an overlap at home is there at times.
+/// The pairs to disable according to the sample, with the reasons as MoveIt's assistant names them: "Never"
+/// or "Always" touched, or "Default" for an overlap at home that sometimes goes away.
 [[nodiscard]] std::vector<CollisionChoice> suggestedChoices(const Model& model, const TouchSample& sample);
 
 }  // namespace rex

@@ -21,10 +21,10 @@ struct Task {
   double tolerance = 1e-6;   ///< the task is fulfilled if max |y - y*| is at most this; see kNoTolerance
 };
 
-/// The big task of slide 2:47: Phi stacks sqrt(rho_i) (y_i - y_i*) of all tasks; with its Jacobian. Its
-/// target is zero and its metric the identity. Throws Error naming the task if it has no map, a precision
-/// that is not positive or a negative tolerance, or if its value, Jacobian or target has the wrong size or
-/// a number that is not finite.
+/// The big task of slide 2:47: Phi, which stacks sqrt(rho_i) (y_i - y_i*) of all tasks, and its Jacobian.
+/// Its target is zero and its metric the identity. Throws Error naming the task if it has no map, a
+/// precision that is not positive or a negative tolerance, or if its value, Jacobian or target has the
+/// wrong size or a number that is not finite.
 [[nodiscard]] TaskValue stackTasks(std::span<const Task> tasks, const Posture& at);
 /// Overload for hot loops. `values` becomes the unweighted value of each task, `phi` the stack. If the maps
 /// do not allocate, neither does it, once both have been used with these tasks.
