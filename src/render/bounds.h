@@ -6,7 +6,7 @@
 
 namespace rex {
 
-/// A box along the axes of W, metres; made empty and grown by include().
+/// An axis-aligned box in W, metres; initially empty and enlarged by include().
 struct Bounds {
   Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Vector3d high = -low;

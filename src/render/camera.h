@@ -18,26 +18,26 @@ struct Camera {
   double farPlane = 100;                      ///< metres; nothing farther is drawn
 };
 
-/// A camera at `eye` with `target` in the middle of the picture and z up (x up when it looks straight up or
-/// down). Both in W, metres. Throws Error when they coincide or are not finite.
+/// A camera at `eye` with `target` in the middle of the picture and z up (x up if it looks straight up or
+/// down). Both are in W, metres. Throws Error if they coincide or are not finite.
 [[nodiscard]] Camera lookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& target);
 
 /// From the front, the right and a little above: the view in which the course shows its robots.
 inline const Eigen::Vector3d kDefaultView{1.2, -2.0, 0.9};
 
 /// The nearest camera that sees all of `bounds`, with a margin and in the middle of a picture of
-/// width / height = `aspect`. It stands in `direction` (W, any length) from the scene and not nearer to it
-/// than its radius. Throws Error for empty or infinite bounds, a zero direction, or an aspect that is not
+/// width / height = `aspect`. It is in `direction` (W, any length) from the scene, at least the scene's
+/// radius away. Throws Error for empty or infinite bounds, a zero direction, or an aspect that is not
 /// positive.
 [[nodiscard]] Camera framing(const Bounds& bounds, const Eigen::Vector3d& direction, double aspect);
 
-/// Where a point of space falls in a picture: pixels from the left and from the top edge (0.5 is the middle
-/// of the first pixel) and metres before the camera along its axis.
+/// The image of a point in space: pixels from the left and from the top edge (0.5 is the middle of the
+/// first pixel), and depth in metres along the camera's axis.
 struct PixelPoint {
   double x = 0, y = 0, depth = 0;
 };
 
-/// The picture point of p_WQ (metres), which may lie outside the picture; none for a point not in front of
+/// The image of p_WQ (metres), which may lie outside the picture; none for a point that is not in front of
 /// the camera.
 [[nodiscard]] std::optional<PixelPoint> project(const Camera& camera, const Eigen::Vector3d& p_WQ, int width,
                                                 int height);

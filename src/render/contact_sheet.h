@@ -8,14 +8,14 @@
 
 namespace rex {
 
-/// A picture of a contact sheet and the text below it.
+/// A picture in a contact sheet and the text below it.
 struct KeyFrame {
   Image image{};
   std::string caption{};  ///< one line
 };
 
 struct ContactSheetOptions {
-  int pictures = 6;        ///< at most; at least 2
+  int pictures = 6;        ///< maximum number, at least 2
   int columns = 3;         ///< pictures side by side, at least 1
   int pictureWidth = 480;  ///< pixels; wider pictures are shrunk
 };
@@ -23,12 +23,12 @@ struct ContactSheetOptions {
 /// Throws Error for an option out of range.
 void requireValid(const ContactSheetOptions& options);
 
-/// Which of `count` frames stand for a film: at most `most` (at least 2), evenly spaced, first and last
-/// included.
+/// The frames, of `count`, that represent a film: at most `most` (at least 2), evenly spaced, including the
+/// first and last.
 [[nodiscard]] std::vector<std::size_t> keyFrames(std::size_t count, int most);
 
-/// The pictures in rows on white, each in a cell as large as the largest needs. Throws Error for no picture
-/// and an option out of range.
+/// The pictures in rows on white, in cells of the size that the largest one needs. Throws Error if there is
+/// no picture, and for an option out of range.
 [[nodiscard]] Image contactSheet(const std::vector<KeyFrame>& frames,
                                  const ContactSheetOptions& options = {});
 

@@ -7,11 +7,11 @@
 
 namespace rex {
 
-/// What frames of a film are drawn with: in motion, nobody sees the difference to the best.
+/// The anti-aliasing for frames of a film: in motion, the best one would look no different.
 inline constexpr AntiAliasing kFilmAntiAliasing = AntiAliasing::kFxaa;
 
-/// Draws all frames, seen from one camera, into the sink and finishes it. Throws as Renderer::drawFrame() and
-/// the sink; Error when no frame shows anything; Interrupted for a signal of HeldSignals.
+/// Draws all frames, seen from one camera, into the sink and finishes it. Throws as Renderer::drawFrame()
+/// and the sink, Error if no frame shows anything, and Interrupted for a signal of HeldSignals.
 void drawFilm(const Film& film, const Camera& camera, Renderer& renderer, FrameSink& sink);
 
 /// The first frame that shows something. Throws as drawFilm().

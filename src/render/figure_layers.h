@@ -11,31 +11,31 @@
 
 namespace rex {
 
-/// The low and the high end of an axis or of a part of it.
+/// The lower and upper end of an axis or of a part of it.
 using AxisRange = std::pair<double, double>;
 
 enum class SeriesStyle { kLine, kPoints, kLinesPoints };
 
-/// The sign at a point. kAuto takes another one for every series.
+/// The symbol at a point. kAuto uses a different one for each series.
 enum class Marker { kAuto, kDot, kCircle, kCross, kPlus, kSquare, kTriangle };
 
-/// One curve or cloud: points (x[i], y[i]). With an empty x they are 0, 1, 2, ... In a figure in space every
+/// One curve or cloud of points (x[i], y[i]). An empty x stands for 0, 1, 2, ... In a 3-D figure every
 /// series has a z. With `values`, one for each point, the colour bar gives the colours.
 struct Series {
-  std::string label{};  ///< in the legend; empty: not there
+  std::string label{};  ///< in the legend; empty: not shown
   std::vector<double> x{};
   std::vector<double> y{};
   std::vector<double> z{};
   std::vector<double> values{};
   SeriesStyle style = SeriesStyle::kLine;
   Marker marker = Marker::kAuto;
-  double size = 1;  ///< width of lines and size of points, times the usual; up to 20
+  double size = 1;  ///< factor for the width of lines and the size of points; up to 20
   bool dashed = false;
-  std::optional<Color> color{};  ///< otherwise the next of a set for any colour vision
+  std::optional<Color> color{};  ///< default: the next of a set suitable for any colour vision
 };
 
-/// The strip from low[i] to high[i] at x[i], such as an error around a mean. x as for a series. Band k has
-/// the colour of series k unless told otherwise.
+/// The strip from low[i] to high[i] at x[i], such as an error around a mean, with x as for a series. By
+/// default band k has the colour of series k.
 struct Band {
   std::string label{};
   std::vector<double> x{};
@@ -53,14 +53,14 @@ struct Histogram {
   std::optional<Color> color{};
 };
 
-/// All points at `sigmas` standard deviations from the mean of a normal distribution. The covariance is
-/// symmetric and positive definite.
+/// All points at `sigmas` standard deviations from the mean of a normal distribution. The covariance must
+/// be symmetric and positive definite.
 struct CovarianceEllipse {
   std::string label{};
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
   double sigmas = 2;
-  std::optional<Color> color{};  ///< otherwise the second of the set
+  std::optional<Color> color{};  ///< default: the second of the set
 };
 
 /// The inside of the polygon (x[i], y[i]), shaded.
@@ -85,28 +85,28 @@ struct Arrows {
 /// Values as colours: a rectangle of equal cells, row 0 at the low end of y, column 0 at the low end of x.
 /// heatMapOf() in render/figure_builders.h samples a function.
 struct HeatMap {
-  AxisRange xRange{0, 1};    ///< the outer edges of the first and the last column
+  AxisRange xRange{0, 1};    ///< outer edges of the first and the last column
   AxisRange yRange{0, 1};    ///< of the rows
   Eigen::MatrixXd values{};  ///< rows x columns, at least 2 x 2
-  int contours = 0;          ///< so many lines of equal value, at equal steps of colour; up to 100
+  int contours = 0;          ///< number of contour lines, at equal steps of colour; up to 100
 };
 
-/// A grid map seen from above, as grey: 0 free and white, 1 occupied and black, 0.5 unknown. Cells as in a
-/// heat map, sizes usually in metres.
+/// A grid map seen from above, in grey: 0 is free and white, 1 occupied and black, 0.5 unknown. Cells are
+/// as in a heat map, with sizes usually in metres.
 struct OccupancyCells {
   AxisRange xRange{0, 1};
   AxisRange yRange{0, 1};
   Eigen::MatrixXd occupancy{};  ///< rows x columns, at least 2 x 2, each in [0, 1]
 };
 
-/// A straight line across the whole figure, upright at x = at or level at y = at.
+/// A straight line across the whole figure, vertical at x = at or horizontal at y = at.
 struct Guide {
   double at = 0;
   std::string label{};
-  std::optional<Color> color{};  ///< otherwise dark grey
+  std::optional<Color> color{};  ///< default: dark grey
 };
 
-/// Text beside the point (x, y), or (x, y, z) in a figure in space.
+/// Text beside the point (x, y), or (x, y, z) in a 3-D figure.
 struct Note {
   std::string text{};
   double x = 0;

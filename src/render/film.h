@@ -13,18 +13,18 @@ struct Frame {
   Picture picture{};
 };
 
-/// A motion as data, for frames, videos and replays. What has the same index in successive pictures is taken
-/// for one thing that moves.
+/// A motion as data, for frames, videos and replays. Items with the same index in successive pictures count
+/// as one thing that moves.
 using Film = std::vector<Frame>;
 
-/// The box around all that is ever shown; empty if nothing is.
+/// The box around everything that is ever shown; empty if nothing is.
 [[nodiscard]] Bounds bounds(const Film& film);
 
-/// The camera of framing() that sees all of the film.
+/// The camera of framing() that sees the whole film.
 [[nodiscard]] Camera framing(const Film& film, const Eigen::Vector3d& direction, double aspect);
 
-/// Puts the ground of all pictures at the height of the lowest one and around all of the film, so that the
-/// floor keeps still.
+/// Puts the ground of all pictures at the height of the lowest one and around the whole film, so that the
+/// floor does not move.
 void settleGround(Film& film);
 
 }  // namespace rex

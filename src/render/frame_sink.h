@@ -6,24 +6,24 @@
 
 namespace rex {
 
-/// Takes the frames of a film, one after the other, and makes something of them. What finish() did not
-/// complete is dropped when the sink dies.
+/// Receives the frames of a film, one after the other, and makes something of them. A film that finish()
+/// did not complete is dropped when the sink is destroyed.
 class FrameSink {
  public:
   virtual ~FrameSink() = default;
   FrameSink(const FrameSink&) = delete;
   FrameSink& operator=(const FrameSink&) = delete;
 
-  /// The next frame. Throws Error for one without pixels or of another size than the first, and when the sink
-  /// cannot take it, such as on a full disk; the reason may lie in an earlier frame.
+  /// Adds the next frame. Throws Error if it has no pixels or not the size of the first one, and if the
+  /// sink cannot take it, as on a full disk; the cause may be an earlier frame.
   void add(const Image& frame);
 
-  /// Completes the film; no frame may follow. Throws Error for a film without frames and when the sink cannot
+  /// Completes the film; no frame may follow. Throws Error for a film without frames and if the sink cannot
   /// complete it.
   void finish();
 
  protected:
-  /// `name` stands for the film in messages, such as its file.
+  /// `name`, such as its file, stands for the film in messages.
   explicit FrameSink(std::string name);
 
  private:

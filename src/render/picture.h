@@ -13,9 +13,9 @@
 
 namespace rex {
 
-/// A body to draw: `shape` at X_WS. Materials of a mesh hide `color` but not its opacity; a mesh without
-/// triangles and a point cloud are drawn as points, a sphere-swept convex mesh without what surrounds it. The
-/// name appears in messages only.
+/// A body to draw: `shape` at X_WS. Materials of a mesh override `color`, except its opacity. A mesh
+/// without triangles and a point cloud are drawn as points, a sphere-swept convex mesh without the swept
+/// sphere. The name appears in messages only.
 struct Solid {
   Shape shape{};
   Pose X_WS{};
@@ -23,26 +23,25 @@ struct Solid {
   std::string name{};
 };
 
-/// A checkered plane z = height that fades out around the scene; not visible from below. It is left out where
-/// the scene has a ground of its own there, and lies a little lower where something small and flat does.
+/// A checkered plane z = height that fades out around the scene; not visible from below. It is left out if
+/// the scene has a ground of its own there, and lies a little lower if something small and flat is there.
 struct Ground {
   bool visible = true;
   double height = 0;  ///< metres
-  Bounds scene{};     ///< what it fades out around, W; empty: bounds() of the picture
+  Bounds scene{};     ///< around which it fades out, W; empty: bounds() of the picture
   double cell = 0.5;  ///< edge length of a square, metres
   Color light{0.92f, 0.93f, 0.94f};
   Color dark{0.84f, 0.86f, 0.88f};
 };
 
-/// A line through points in W (metres). What solids hide of it shows through faintly.
+/// A line through points in W (metres). Parts hidden by solids show through faintly.
 struct Polyline {
   std::vector<Eigen::Vector3d> points{};
   Color color{0.84f, 0.37f, 0.0f};
   double width = 2.5;  ///< pixels
 };
 
-/// Separate lines from point to point of W (metres), such as the edges of a tree: tens of thousands cost
-/// little.
+/// Separate line segments in W (metres), such as the edges of a tree: tens of thousands are cheap.
 struct LineSet {
   std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> segments{};
   Color color{0.35f, 0.40f, 0.46f};
@@ -63,8 +62,8 @@ struct Axes {
   std::string name{};
 };
 
-/// An arrow between two points of W (metres), shaded as a solid. Its head is three times as thick as its
-/// shaft. One shorter than 12 radii is as a whole smaller.
+/// An arrow between two points in W (metres), shaded as a solid. Its head is three times as thick as its
+/// shaft. An arrow shorter than 12 radii is scaled down as a whole.
 struct Arrow {
   Eigen::Vector3d from = Eigen::Vector3d::Zero();
   Eigen::Vector3d to = Eigen::Vector3d::UnitZ();
@@ -72,26 +71,26 @@ struct Arrow {
   double radius = 0.01;  ///< of the shaft, metres
 };
 
-/// The ellipsoid with half axes `radii` (metres) along the axes of E. Translucent, so that what lies in it
-/// shows.
+/// The ellipsoid with semi-axes `radii` (metres) along the axes of E. It is translucent: its interior is
+/// visible.
 struct Ellipsoid {
   Pose X_WE{};
   Eigen::Vector3d radii = Eigen::Vector3d::Ones();
   Color color{0.0f, 0.45f, 0.7f, 0.35f};
 };
 
-/// Text beside a point in W (metres); never hidden. Printable ASCII; any other character shows as '?'. Labels
-/// and names of axes keep clear of each other and of captions while there is room, the nearest choose first.
+/// Text beside a point in W (metres); never hidden. Printable ASCII only; any other character appears as '?'.
+/// Labels and names of axes avoid each other and captions while there is room; the nearest are placed first.
 struct Label {
   std::string text{};
   Eigen::Vector3d p_WQ = Eigen::Vector3d::Zero();
   Color color{0.1f, 0.1f, 0.12f};
-  double scale = 1;  ///< 1: capitals 9 pixels high; at most 100
+  double scale = 1;  ///< 1: capitals are 9 pixels high; at most 100
 };
 
 enum class Corner { kTopLeft, kTopRight, kBottomLeft, kBottomRight };
 
-/// Text in a corner of the picture; several in one corner stand below each other, '\n' starts a new line.
+/// Text in a corner of the picture. Several in one corner are stacked; '\n' starts a new line.
 struct Caption {
   std::string text{};
   Corner corner = Corner::kTopLeft;
@@ -99,7 +98,7 @@ struct Caption {
   double scale = 1;
 };
 
-/// All that a picture shows, as plain data. Where it is seen from is a Camera.
+/// Everything that a picture shows, as plain data. The viewpoint is given by a Camera.
 struct Picture {
   std::vector<Solid> solids{};
   Ground ground{};
@@ -115,13 +114,13 @@ struct Picture {
 };
 
 /// The box around all solids, lines, points, axes, arrows, ellipsoids and labels; empty if there are none.
-/// The ground has no end and does not count.
+/// The ground is infinite and does not count.
 [[nodiscard]] Bounds bounds(const Picture& picture);
 /// The box around one solid.
 [[nodiscard]] Bounds bounds(const Solid& solid);
 
-/// Throws Error naming the first solid, line ... with a number that is not finite or beyond 1e9, a size that
-/// is negative, a solid's pose that is not a rotation, a mesh that is empty, or a light without direction.
+/// Throws Error naming the first solid, line, ... that has a number that is not finite or beyond 1e9, a
+/// negative size, a matrix that is not a rotation, or an empty mesh, and for a light without direction.
 void requireDrawable(const Picture& picture);
 
 }  // namespace rex

@@ -7,8 +7,8 @@
 
 namespace rex {
 
-/// Writes an 8-bit RGB PNG. The file appears whole or not at all. Throws Error naming the path, and for an
-/// image without pixels.
+/// Writes an 8-bit RGB PNG. The file appears whole or not at all. Throws Error naming the path if that
+/// fails, and for an image without pixels.
 void writePng(const Image& image, const std::filesystem::path& path);
 
 /// The bytes that writePng() writes. Throws Error for an image without pixels.

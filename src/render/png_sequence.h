@@ -9,7 +9,7 @@ namespace rex {
 /// Writes folder/0000.png, 0001.png, ... Each file appears whole; an unfinished sequence stays.
 class PngSequence final : public FrameSink {
  public:
-  /// The first frame makes the folder where it is missing, and removes what an earlier film left there:
+  /// The first frame makes the folder if it is missing, and removes the frames of an earlier film:
   /// 0000.png, 0001.png, ... up to the first number without a file. add() throws Error naming the path.
   explicit PngSequence(const std::filesystem::path& folder);
 

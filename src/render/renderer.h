@@ -16,7 +16,7 @@ namespace rex {
 /// finished picture, for films; by four samples per pixel, for stills.
 enum class AntiAliasing { kNone, kFxaa, kMsaa4 };
 
-/// How pictures are made; what they show is a Picture.
+/// Settings for drawing pictures; their content is a Picture.
 struct RendererOptions {
   int width = 640;  ///< pixels, 1 to 8192
   int height = 480;
@@ -27,17 +27,17 @@ struct RendererOptions {
   GlOptions gl{};
 };
 
-/// A picture in a film: it may show nothing, as when all of the scene is far away.
+/// A picture in a film. It may show nothing, as when the whole scene is out of view.
 struct DrawnFrame {
   Image image{};
-  bool showsSomething = false;  ///< a solid, line or point; of a picture with none of them, anything
+  bool showsSomething = false;  ///< a solid, line or point, or anything if the picture has none of them
 };
 
 /// Throws Error for a size out of range.
 void requireValid(const RendererOptions& options);
 
-/// Draws pictures without a window, by OpenGL in software. The same picture gives the same bytes.
-/// To be used by one thread at a time, which may be another one for each call.
+/// Draws pictures without a window, by OpenGL in software. The same picture gives the same bytes. Only one
+/// thread may use it at a time, but each call may come from a different one.
 class Renderer {
  public:
   /// Throws Error as requireValid() and makeGlContext().
@@ -46,18 +46,19 @@ class Renderer {
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
 
-  /// Throws Error as requireDrawable(); for a camera whose pose, planes or angle make no sense; when none of
-  /// the solids, lines and points is seen, whatever the ground and text show; and, for a picture without
-  /// any, when all rows of the image are of one colour.
+  /// Throws Error as requireDrawable(); for a camera with an invalid pose, planes or angle; if none of the
+  /// solids, lines and points is visible, whatever the ground and text show; and, for a picture without
+  /// any, if each row of the image has a single colour.
   [[nodiscard]] Image draw(const Picture& picture, const Camera& camera);
-  /// The same for a film, of which one frame may show nothing: then it says so instead of throwing.
+  /// The same for a film, in which a frame may show nothing: then the result says so, and nothing is thrown.
   [[nodiscard]] DrawnFrame drawFrame(const Picture& picture, const Camera& camera);
 
-  /// How far the nearest solid or the ground is in the middle of each pixel. Translucent solids count; lines,
-  /// points, arrows, ellipsoids and text do not. Round solids are rounder than in a picture, by up to half a
-  /// pixel. Nothing in view is not an error. Throws Error as requireDrawable(), and for a camera as draw().
+  /// The depth of the nearest solid or the ground in the middle of each pixel. Translucent solids count;
+  /// lines, points, arrows, ellipsoids and text do not. Round solids are rounder than in a picture, by up
+  /// to half a pixel. An empty view is no error. Throws Error as requireDrawable(), and for cameras as
+  /// draw().
   [[nodiscard]] DepthImage drawDepth(const Picture& picture, const Camera& camera);
-  /// Which solid that is. Otherwise as drawDepth().
+  /// The index of that solid. Otherwise as drawDepth().
   [[nodiscard]] SegmentationImage drawSegmentation(const Picture& picture, const Camera& camera);
 
   /// Backend, OpenGL version, renderer and anti-aliasing in use, on one line.

@@ -11,31 +11,31 @@
 
 namespace rex {
 
-/// A figure with the line below it.
+/// A figure and the caption below it.
 struct ReportFigure {
   Figure figure{};
   std::string caption{};
 };
 
-/// A motion to look at from all sides, with what was measured in it. Texts may hold any characters.
+/// A motion to view from all sides, with figures and facts about it. Texts may hold any characters.
 struct Report {
   std::string title{};
   Film film{};
-  Eigen::Vector3d view = kDefaultView;  ///< direction of the camera at first, W, any length
+  Eigen::Vector3d view = kDefaultView;  ///< initial direction of the camera, W, any length
   std::vector<ReportFigure> figures{};
-  double start = 0;  ///< seconds into the film, where it stands until it is played; played at once if 0
+  double start = 0;  ///< time at which the film waits until it is played, seconds; 0: it plays at once
   std::vector<std::pair<std::string, std::string>> facts{};  ///< rows of a table: name and value
-  /// Of the picture at `start` where nothing can be played; what can be has the same background.
+  /// Settings for the picture at `start` shown if the film cannot play; the film has the same background.
   RendererOptions still{.width = 800, .height = 600};
 };
 
-/// The report as one HTML page that needs nothing else, neither files nor network: the film plays and turns,
-/// with its figures beside it; where the browser has no WebGL or runs no scripts there is a picture of it.
-/// The title is the headline, and captions equal to it are left out. Throws Error as glbOf(), Renderer,
+/// The report as one self-contained HTML page, without other files or network: the film plays and can be
+/// turned, with its figures beside it. A browser without WebGL or scripts shows a picture instead. The
+/// title is the headline, and captions equal to it are left out. Throws Error as glbOf(), Renderer,
 /// drawStill() and writeFigure().
 [[nodiscard]] std::string reportPage(const Report& report);
 
-/// reportPage() into a file, which appears whole or not at all. Throws Error naming the path.
+/// Writes reportPage() to a file, which appears whole or not at all. Throws Error naming the path.
 void writeReport(const Report& report, const std::filesystem::path& path);
 
 }  // namespace rex

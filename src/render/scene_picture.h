@@ -7,11 +7,11 @@
 
 namespace rex {
 
-/// The visible shapes of a scene, or all where none is visible, where `poses` puts them, each in its own
-/// colour. Shapes whose mesh was not loaded are left out.
+/// The visible shapes of a scene, or all if none is visible, at `poses`, each in its own colour. Shapes
+/// whose mesh was not loaded are left out.
 [[nodiscard]] std::vector<Solid> solidsOf(const Model& model, const BodyPoses& poses);
 
-/// The same on a ground that is never above a shape. Looks at every vertex of every mesh for that.
+/// The same on a ground that is never above a shape, for which it checks every vertex of every mesh.
 [[nodiscard]] Picture pictureOf(const Model& model, const BodyPoses& poses);
 
 }  // namespace rex

@@ -7,7 +7,7 @@
 
 namespace rex {
 
-/// Which solid each pixel shows, as its index in Picture::solids. Rows from the top, no padding.
+/// The solid that each pixel shows, as its index in Picture::solids. Rows from the top, no padding.
 struct SegmentationImage {
   static constexpr std::int32_t kNothing = -1;
   static constexpr std::int32_t kGround = -2;
@@ -16,14 +16,14 @@ struct SegmentationImage {
   int height = 0;
   std::vector<std::int32_t> id{};
 
-  /// Of pixel (x, y); (0, 0) is the top left one. The pixel must exist.
+  /// The id at pixel (x, y); (0, 0) is the top left one. The pixel must exist.
   [[nodiscard]] std::int32_t at(int x, int y) const;
 
   bool operator==(const SegmentationImage&) const = default;
 };
 
-/// The ids for people: a colour for each solid that depends on its index alone, grey for the ground, near
-/// white for nothing. Throws Error for an image without pixels.
+/// The ids as colours for viewing: for each solid a colour that depends on its index alone, grey for the
+/// ground, almost white for nothing. Throws Error for an image without pixels.
 [[nodiscard]] Image segmentationColors(const SegmentationImage& segmentation);
 
 }  // namespace rex

@@ -8,7 +8,7 @@
 
 namespace rex {
 
-/// Hands each frame to several sinks, in their order. The first one that throws ends the film for all.
+/// Passes each frame to several sinks, in order. The first one that throws ends the film for all.
 class TeeSink final : public FrameSink {
  public:
   explicit TeeSink(std::vector<std::unique_ptr<FrameSink>> sinks)

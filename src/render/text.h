@@ -13,8 +13,8 @@ struct TextSize {
 };
 [[nodiscard]] TextSize textSize(std::string_view text, double scale = 1);
 
-/// Draws one line of text with its top left corner at pixel (x, y), in the renderer's own stroke font, with a
-/// soft light or dark edge that keeps it readable on any ground. What lies outside the image is cut off.
+/// Draws one line of text with its top left corner at pixel (x, y), in the renderer's own stroke font, with
+/// a soft light or dark edge that keeps it readable on any background. Parts outside the image are cut off.
 void drawText(Image& image, std::string_view text, int x, int y, const Color& color, double scale = 1);
 
 }  // namespace rex
