@@ -4,7 +4,7 @@
 
 namespace rex {
 
-/// How many numbers at once this CPU takes in kernels: 4 with AVX2, else 2.
+/// How many numbers this CPU processes at once in kernels: 4 with AVX2, otherwise 2.
 [[nodiscard]] int cpuLanes();
 
 /// The functions of a kernel for 1, 2 or 4 lanes; they give the same bits. `Table` is a struct of pointers to

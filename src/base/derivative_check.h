@@ -9,13 +9,13 @@ namespace rex {
 
 using VectorFunction = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
 
-/// Jacobian of f at x by central differences with one Richardson extrapolation: d x n, exact to about 1e-10
-/// relative for smooth functions of scale one. `step` is the larger of the two steps, relative to max(1,
-/// |x_i|). Throws Error if f changes its size or returns numbers that are not finite.
+/// Jacobian of f at x by central differences with one Richardson extrapolation: d x n, with a relative
+/// error of about 1e-10 for smooth functions of scale one. `step` is the larger of the two steps, relative
+/// to max(1, |x_i|). Throws Error if the size of f changes or f returns numbers that are not finite.
 [[nodiscard]] Eigen::MatrixXd numericJacobian(const VectorFunction& f, const Eigen::VectorXd& x,
                                               double step = 1e-3);
 
-/// What checkJacobian found: the entry that fits worst, and a sentence about it.
+/// The result of checkJacobian: the entry with the largest error, and a sentence about it.
 struct JacobianCheck {
   bool ok = false;
   double error = 0;  ///< of that entry, divided by max(1, |numeric|)
@@ -24,9 +24,9 @@ struct JacobianCheck {
   std::string message = "checkJacobian has not run";
 };
 
-/// Compares J, claimed to be the Jacobian of f at x, with numericJacobian. ok: every entry is finite and
-/// within `tolerance` (relative above one, absolute below). A wrong shape is a failed check. Throws as
-/// numericJacobian.
+/// Compares J, which should be the Jacobian of f at x, with numericJacobian. It is ok if every entry is
+/// finite and within `tolerance` (relative above one, absolute below). A wrong shape is a failed check.
+/// Throws as numericJacobian.
 [[nodiscard]] JacobianCheck checkJacobian(const VectorFunction& f, const Eigen::MatrixXd& J,
                                           const Eigen::VectorXd& x, double tolerance = 1e-6);
 

@@ -7,10 +7,10 @@
 
 namespace rex {
 
-/// A warning is likely a mistake; a note only informs.
+/// A warning points to a likely mistake; a note only informs.
 enum class Severity { kNote, kWarning };
 
-/// Something a reader noticed and could live with: the file loads, but the user should know.
+/// Something that a reader noticed and tolerated: the file loads, but the user should know.
 struct Diagnostic {
   SourceLocation where;
   std::string message;

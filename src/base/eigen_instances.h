@@ -6,9 +6,9 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
-// What Eigen's products and decompositions of matrices of dynamic size come down to is compiled once, in
-// eigen_instances.cpp. A source that sees these declarations calls it; any other makes its own, in seconds.
-// Of classes, members that are templates themselves have to be named one by one.
+// The code behind Eigen's products and decompositions of matrices of dynamic size is compiled once, in
+// eigen_instances.cpp. A source file that sees these declarations calls it; any other compiles its own,
+// which takes seconds. Members of classes that are themselves templates must be listed one by one.
 #ifndef REX_INSTANCE
 #define REX_INSTANCE extern template
 #endif
@@ -16,8 +16,9 @@
 namespace Eigen {
 namespace internal {
 
-// Products of whole matrices are specialised where their sizes are looked at: a blocked product, one with a
-// vector or coefficients one by one. Each would be half a second of compiling.
+// Products of whole matrices are specialised at the point where Eigen looks at their sizes and chooses a
+// blocked product, one with a vector, or one coefficient by coefficient. Each would take half a second to
+// compile.
 using Transposed = Transpose<const MatrixXd>;
 using TransposedValue = Transpose<MatrixXd>;
 using RowMatrix = Matrix<double, Dynamic, Dynamic, RowMajor>;

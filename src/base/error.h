@@ -19,9 +19,9 @@ struct SourceLocation {
 
 /// The parts of a message about bad input. Only `what` is required.
 struct ErrorParts {
-  std::string what;                    ///< what is wrong, naming the thing: "joint 'elbow': unknown parent"
+  std::string what;                    ///< what is wrong, and with what: "joint 'elbow': unknown parent"
   SourceLocation where{};              ///< the place in the user's file
-  std::string found{};                 ///< what stands there
+  std::string found{};                 ///< what is there
   std::string wanted{};                ///< what would be right
   std::vector<std::string> nearest{};  ///< the user probably meant one of these
 };
@@ -39,15 +39,15 @@ class Error : public std::exception {
   std::string text_;
 };
 
-/// The same for a name, option or file that the user typed to use a program, which is then used wrongly.
+/// An Error in a name, option or file that the user typed on a command line: wrong usage of the program.
 class UsageError : public Error {
  public:
   using Error::Error;
 };
 
-/// The names most like `wanted`, best first, at most three, none when nothing is similar.
-/// Similar: at most one edit (letter added, lost, changed, swapped; case ignored) in three letters, or a
-/// shared prefix.
+/// The names most similar to `wanted`, best first, at most three, none if nothing is similar. Similar names
+/// differ by at most one edit (a letter added, removed, changed or swapped; case ignored) per three
+/// letters, or share a prefix.
 [[nodiscard]] std::vector<std::string> nearestNames(std::string_view wanted,
                                                     const std::vector<std::string>& known);
 

@@ -2,14 +2,13 @@
 
 #include "base/polynomial.h"
 
-// Exponential and logarithm for kernels; see base/pack.h. The library's own would have other bits on other
-// CPUs.
+// Exponential and logarithm for kernels; see base/pack.h. The standard library's bits differ between CPUs.
 namespace rex {
 namespace {
 
 /// (exp(r) - 1 - r) / r^2 in r for |r| <= log(2) / 2, and (log((1 + s) / (1 - s)) - 2 s) / s^3 in s^2 for
-/// |s| <= .1716: polynomials that agree with them at the nodes of Chebyshev. They err by 1.4e-17 and 1.6e-18
-/// of what they are a part of.
+/// |s| <= .1716: polynomials that agree with them at the Chebyshev nodes. Their errors are 1.4e-17 and
+/// 1.6e-18, relative to the functions that they are part of.
 inline constexpr double kExpSeries[] = {0x1.0000000000001p-1,  0x1.5555555555556p-3,  0x1.5555555553d37p-5,
                                         0x1.11111111109a6p-7,  0x1.6c16c1789d1d7p-10, 0x1.a01a01a7cebcdp-13,
                                         0x1.a019b8ca26fcfp-16, 0x1.71de0d85293b8p-19, 0x1.2891d4ffbb0f9p-22,
@@ -20,7 +19,7 @@ inline constexpr double kLogSeries[] = {0x1.5555555555558p-1, 0x1.9999999995273p
 /// log(2) in two parts, the first of 33 bits, so that its products with whole numbers are exact.
 inline constexpr double kLog2High = 0x1.62e42fefp-1, kLog2Low = 0x1.473de6af278edp-34;
 
-/// exp(x) for x <= 709, to 3e-16 of itself; 0 below -708.
+/// exp(x) for x <= 709, with a relative error of 3e-16; 0 below -708.
 template <class T>
 inline T exponential(const T& x) {
   constexpr double kPerLog2 = 0x1.71547652b82fep+0, kLeast = -708;
@@ -34,7 +33,7 @@ inline T exponential(const T& x) {
   return select(x < T(kLeast), T(0.0), result);
 }
 
-/// log(x) for positive x of full precision (at least 2.3e-308), to 4e-16 of itself.
+/// log(x) for positive normal x (at least 2.3e-308), with a relative error of 4e-16.
 template <class T>
 inline T logarithm(const T& x) {
   constexpr long long kRootOfHalf = 0x3fe6a09e667f3bcd, kFraction = 0x000fffffffffffff;

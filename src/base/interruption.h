@@ -4,19 +4,19 @@
 
 namespace rex {
 
-/// The user or the system wants this program to stop. No std::exception, so that nothing takes it for an
-/// error on its way to the edge of the program.
+/// Thrown if the user or the system wants this program to stop. It is not a std::exception, so that no
+/// handler on the way to main() takes it for an error.
 struct Interrupted {
   int signal = 0;
 };
 
-/// The signals that ask a program to stop, by Ctrl-C, by kill, by closing the terminal, except those that it
-/// was started to ignore.
+/// The signals that ask a program to stop, by Ctrl-C, by kill or by closing the terminal, except those that
+/// it was started to ignore.
 [[nodiscard]] sigset_t stopSignals();
 
-/// While it lives, those signals wait. runProcess() looks for them: it ends the program that it runs and
-/// throws Interrupted, so that destructors clean up; throwIfInterrupted() is for other long work. One that
-/// nobody took acts at the end of this object.
+/// Holds those signals back during its lifetime. runProcess() checks for them: it ends the program that it
+/// runs and throws Interrupted, so that destructors clean up; throwIfInterrupted() is for other long work.
+/// A signal that nobody handled takes effect when this object is destroyed.
 class HeldSignals {
  public:
   HeldSignals();

@@ -6,7 +6,7 @@
 
 namespace rex {
 
-/// The lines of a text, without their ends; they point into it.
+/// The lines of a text, without their line ends, as views into it.
 inline std::vector<std::string_view> splitLines(std::string_view text) {
   std::vector<std::string_view> lines;
   while (!text.empty()) {

@@ -6,10 +6,10 @@
 
 namespace rex {
 
-/// The text with a to z for A to Z.
+/// The text with A to Z replaced by a to z.
 [[nodiscard]] std::string lowerCase(std::string_view text);
 
-/// The ending of a file in small letters: ".urdf"; empty without one.
+/// The extension of a file in lower case: ".urdf"; empty if there is none.
 [[nodiscard]] std::string endingOf(const std::filesystem::path& file);
 
 }  // namespace rex

@@ -8,17 +8,17 @@ namespace rex {
 
 class Rng;
 
-/// Independent standard normals in bulk, some five times as fast as Rng::normal(): four generators side by
-/// side (xoshiro256++, Blackman and Vigna 2019) and Box and Muller's method. A value, with the same bits on
-/// every machine.
+/// Independent standard normals in bulk, about five times as fast as Rng::normal(): four generators side by
+/// side (xoshiro256++, Blackman and Vigna 2019) and the Box-Muller method. A value type; its numbers are
+/// bitwise equal on every machine.
 class NormalStream {
  public:
   static constexpr int kStreams = 4;
 
   /// Takes the next 16 words of `rng` as its seed.
   explicit NormalStream(Rng& rng);
-  /// Fills all of `numbers`. They are made eight at a time, and what is left of the last eight is dropped:
-  /// other lengths give another sequence.
+  /// Fills `numbers`. They are made eight at a time, and the rest of the last eight is dropped, so other
+  /// lengths give another sequence.
   void fill(std::span<double> numbers);
 
  private:

@@ -2,8 +2,8 @@
 
 namespace rex {
 
-/// A machine short of memory kills programs that did nothing wrong. The same attempt once more where the
-/// first one was killed: what kills itself does it again.
+/// Repeats an attempt once if it was killed. A machine short of memory kills programs that did nothing
+/// wrong, while a program that gets itself killed does so again.
 template <typename Attempt, typename Killed>
 auto onceMoreIfKilled(const Attempt& attempt, const Killed& wasKilled) {
   auto first = attempt();

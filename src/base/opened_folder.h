@@ -8,7 +8,7 @@
 
 namespace rex {
 
-/// A descriptor of a file that is closed with it.
+/// A file descriptor that is closed with this object.
 class OpenedFile {
  public:
   explicit OpenedFile(int fd) : fd_(fd) {}
@@ -24,29 +24,29 @@ class OpenedFile {
   int fd_;
 };
 
-/// A folder that was opened once. What is in it is opened by name and never through a link, so whatever its
-/// owner renames or swaps meanwhile, nothing outside of it is reached.
+/// A folder that was opened once. Its entries are opened by name and never through a link, so whatever its
+/// owner renames or swaps meanwhile, nothing outside it is reached.
 class OpenedFolder {
  public:
-  /// Follows links in `path`, which comes from the user. Throws Error with the reason of the system.
+  /// Follows links in `path`, which comes from the user. Throws Error with the system's reason.
   explicit OpenedFolder(const std::filesystem::path& path);
 
   struct Entry {
     std::string name{};
     std::filesystem::file_type type{};  ///< a link is a link
   };
-  /// What is in it, by name. Throws Error.
+  /// Its entries, sorted by name. Throws Error.
   std::vector<Entry> entries() const;
-  /// What that entry is now: not_found for none.
+  /// The present type of that entry; not_found if it does not exist.
   std::filesystem::file_type typeOf(const std::string& name) const;
 
-  /// Throws Error where that entry is no longer a folder.
+  /// Opens that entry as a folder. Throws Error if it no longer is one.
   OpenedFolder folder(const std::string& name) const;
-  /// For reading, without waiting for a pipe. Throws Error with "a symbolic link", "no file" or the reason of
-  /// the system as what was found.
+  /// Opens that entry for reading, without waiting for a pipe. Throws Error with "a symbolic link", "no
+  /// file" or the system's reason as what was found.
   OpenedFile file(const std::string& name) const;
 
-  /// How it was called, for messages.
+  /// The path as it was given, for messages.
   const std::filesystem::path& path() const { return path_; }
   std::int64_t modifiedAt() const { return file_.modifiedAt(); }
 

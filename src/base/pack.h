@@ -1,13 +1,13 @@
 #pragma once
 
 // Numbers in lanes, for kernels: templates on T, which is double or a Pack. A kernel is compiled once per
-// number of lanes, with other machine instructions each time; so everything here and in a kernel lies in an
-// anonymous namespace, and uses no templates of Eigen or the standard library, whose code the linker would
-// share. All operations round as the standard demands: a lane has the bits that one double would have.
+// number of lanes, each time with other machine instructions. Therefore everything here and in a kernel is in
+// an anonymous namespace and uses no templates of Eigen or the standard library, whose code the linker would
+// share. All operations round as IEEE 754 requires: a lane has the bits that a single double would have.
 namespace rex {
 namespace {
 
-// Spelled out, because g++ 12 takes the size of a vector for a plain double where it depends on a template.
+// Spelled out, because g++ 12 ignores a vector size that depends on a template and uses a plain double.
 template <int kLanes>
 struct LaneTypes;
 template <>
@@ -21,7 +21,7 @@ struct LaneTypes<4> {
   typedef long long Mask __attribute__((vector_size(32)));
 };
 
-/// kLanes numbers that are computed with as if they were one.
+/// kLanes numbers with the arithmetic of one.
 template <int kLanes>
 struct Pack {
   using Numbers = typename LaneTypes<kLanes>::Numbers;
@@ -44,7 +44,7 @@ struct Pack {
   friend Mask operator>=(Pack a, Pack b) { return a.numbers >= b.numbers; }
 };
 
-/// A number in so many lanes: a double or a Pack.
+/// A number in kLanes lanes: a double or a Pack.
 template <int kLanes>
 struct InLanesType {
   using Type = Pack<kLanes>;
@@ -67,7 +67,7 @@ inline Pack<kLanes> select(typename Pack<kLanes>::Mask mask, Pack<kLanes> a, Pac
   return mask ? a.numbers : b.numbers;
 }
 
-/// A bit per lane in which the mask holds.
+/// The lanes in which the mask holds, one bit each.
 inline int lanesOf(LaneTypes<2>::Mask mask) {
   return __builtin_ia32_movmskpd(reinterpret_cast<LaneTypes<2>::Numbers>(mask));
 }
@@ -77,7 +77,7 @@ inline int lanesOf(LaneTypes<4>::Mask mask) {
 }
 #endif
 
-/// Whether the mask holds in one lane at least; whether in all.
+/// Whether the mask holds in at least one lane, or in all.
 inline bool any(bool mask) { return mask; }
 inline bool all(bool mask) { return mask; }
 template <class Mask>
@@ -89,7 +89,7 @@ inline bool all(Mask mask) {
   return lanesOf(mask) == (1 << sizeof(Mask) / sizeof(long long)) - 1;
 }
 
-/// The bits of each lane as an integer to compute with, and back.
+/// Converts the bits of each lane to an integer for computations, and back.
 inline long long bitsOf(double x) {
   long long bits;
   __builtin_memcpy(&bits, &x, sizeof bits);
@@ -112,7 +112,7 @@ inline Pack<2> squareRoot(Pack<2> x) { return __builtin_ia32_sqrtpd(x.numbers); 
 inline Pack<4> squareRoot(Pack<4> x) { return __builtin_ia32_sqrtpd256(x.numbers); }
 #endif
 
-/// The numbers from `from` on, one per lane; and back.
+/// Loads the numbers that start at `from`, one per lane, and stores them.
 template <class T>
 inline T load(const double* from) {
   T result;
@@ -124,7 +124,7 @@ inline void store(const T& x, double* to) {
   __builtin_memcpy(to, &x, sizeof(T));
 }
 
-/// Number i of a row per lane: one of lane[0], the next of lane[1], and so on; and back.
+/// Loads entry i of each row, lane[0], lane[1], ..., into the lanes, and stores it back.
 inline void gather(const double* const* lane, int i, double& x) { x = lane[0][i]; }
 inline void gather(const double* const* lane, int i, Pack<2>& x) {
   x.numbers = LaneTypes<2>::Numbers{lane[0][i], lane[1][i]};

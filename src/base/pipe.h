@@ -5,11 +5,11 @@
 
 namespace rex {
 
-/// Both ends of a new pipe, closed at the end of its life and when another program starts. Their numbers are
-/// 10 or more, so that in a new process they can be moved to any lower number in any order.
+/// Both ends of a new pipe, closed when it is destroyed and when another program is executed. Their numbers
+/// are 10 or more, so that a new process can move them to lower numbers in any order.
 class Pipe {
  public:
-  /// Throws Error when the system has no descriptors left.
+  /// Throws Error if the system has no descriptors left.
   Pipe();
   ~Pipe();
   Pipe(const Pipe&) = delete;
@@ -29,8 +29,8 @@ class Pipe {
   std::array<int, 2> ends_{-1, -1};
 };
 
-/// While it lives, writing to a pipe that nobody reads is an error code for the thread that made it, not a
-/// signal that ends this process.
+/// During its lifetime, writing to a pipe that nobody reads gives the thread that made it an error code
+/// instead of a signal that ends this process.
 class SigpipeIgnored {
  public:
   SigpipeIgnored();

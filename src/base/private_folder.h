@@ -4,11 +4,11 @@
 
 namespace rex {
 
-/// A new empty folder that only this user may enter, removed with all it contains at the end.
+/// A new empty folder that only this user may enter, removed with its content when the object is destroyed.
 class PrivateFolder {
  public:
-  /// Makes it inside `parent`, and removes those there whose owners were killed an hour ago or more. Throws
-  /// Error if that is impossible.
+  /// Makes it inside `parent`, and removes others there whose owners were killed at least an hour ago.
+  /// Throws Error if that is impossible.
   explicit PrivateFolder(const std::filesystem::path& parent);
   ~PrivateFolder();
   PrivateFolder(const PrivateFolder&) = delete;
@@ -18,7 +18,7 @@ class PrivateFolder {
 
  private:
   std::filesystem::path path_;
-  int lock_ = -1;  ///< held as long as this lives
+  int lock_ = -1;  ///< held while this object lives
 };
 
 }  // namespace rex

@@ -11,16 +11,16 @@ namespace rex {
 struct ProcessOptions {
   std::string input{};                     ///< fed to its standard input, which is empty otherwise
   std::filesystem::path directory{};       ///< its working directory; empty: ours
-  std::vector<std::string> environment{};  ///< NAME=VALUE, beside and in place of ours
+  std::vector<std::string> environment{};  ///< NAME=VALUE, added to ours or replacing one of that name
   double timeout = 60;                     ///< wall seconds; then it and its process group are killed
   std::size_t outputLimit = 1u << 20;      ///< bytes kept of each output stream; the rest is read and dropped
   bool inheritOutput = false;    ///< outputs go where ours go, unkept; Ctrl-C reaches the program too
-  double cpuSeconds = 0;         ///< processor seconds, rounded up; 0: no limit. Then SIGKILL or SIGXCPU
+  double cpuSeconds = 0;         ///< processor seconds, rounded up, then SIGKILL or SIGXCPU; 0: no limit
   std::size_t addressSpace = 0;  ///< bytes of virtual memory; 0: no limit
   std::size_t fileSize = 0;      ///< bytes of the largest file it may write; 0: no limit
 };
 
-/// What became of it.
+/// How the program ended.
 struct ProcessResult {
   bool started = false;  ///< false: the program was not found or could not be executed
   bool timedOut = false;
@@ -33,8 +33,9 @@ struct ProcessResult {
 };
 
 /// Runs argv[0] (looked up in PATH) and waits for its end or the timeout. Throws Error for an empty argv or
-/// when no pipe or process can be made. Throws Interrupted when a signal of HeldSignals arrives: the program
-/// and its process group have ended then. One that inherits our outputs gets the signal and is waited for.
+/// if no pipe or process can be made. Throws Interrupted if a signal of HeldSignals arrives, after the
+/// program and its process group have ended. A program that inherits our outputs gets the signal itself and
+/// is waited for.
 [[nodiscard]] ProcessResult runProcess(const std::vector<std::string>& argv,
                                        const ProcessOptions& options = {});
 

@@ -9,7 +9,7 @@ namespace rex {
 
 /// Seeded random numbers with the same sequence on every machine and compiler: xoshiro256** (Blackman and
 /// Vigna, 2018) seeded by splitmix64, and distributions of our own, because those of the standard library
-/// differ between implementations. A value: copying it copies the sequence.
+/// differ between implementations. A value type: a copy continues the same sequence.
 class Rng {
  public:
   explicit Rng(std::uint64_t seed = 0);

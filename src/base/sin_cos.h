@@ -2,13 +2,13 @@
 
 #include "base/polynomial.h"
 
-// Sine and cosine for kernels; see base/pack.h. The library's own would have other bits on other CPUs.
+// Sine and cosine for kernels; see base/pack.h. The standard library's bits differ between CPUs.
 namespace rex {
 namespace {
 
 inline constexpr int kSeriesTerms = 6;
 /// (sin(r)/r - 1) / r^2 and (cos(r) - 1 + r^2/2) / r^4 as polynomials in r^2, which agree with them at the
-/// nodes of Chebyshev for |r| <= pi/4. Errors of sine and cosine: 1.4e-17 and 9e-19.
+/// Chebyshev nodes for |r| <= pi/4. The errors of sine and cosine are 1.4e-17 and 9e-19.
 inline constexpr double kSineSeries[kSeriesTerms] = {-0x1.5555555555555p-3,  0x1.1111111110bb1p-7,
                                                      -0x1.a01a019e8357dp-13, 0x1.71de37961e4c6p-19,
                                                      -0x1.ae600a926c89ap-26, 0x1.5e0af186af739p-33};
@@ -21,7 +21,7 @@ struct SinCos {
   T sine, cosine;
 };
 
-// In lanes where the angle is large or not a number, the library's.
+// Uses the standard library in lanes where the angle is large or not a number.
 template <class T>
 inline SinCos<T> withLargeAngles(const T& angle, double limit, const SinCos<T>& result) {
   double angles[kLanesOf<T>], sines[kLanesOf<T>], cosines[kLanesOf<T>];
@@ -36,7 +36,7 @@ inline SinCos<T> withLargeAngles(const T& angle, double limit, const SinCos<T>& 
   return {load<T>(sines), load<T>(cosines)};
 }
 
-/// Sine and cosine of an angle in radians, to 3e-16.
+/// Sine and cosine of an angle in radians, with an error of 3e-16.
 template <class T>
 inline SinCos<T> sinCos(const T& angle) {
   // pi/2 in three parts (Cody and Waite 1980); the first two have 33 bits, so their products with n are
@@ -53,8 +53,8 @@ inline SinCos<T> sinCos(const T& angle) {
   const auto sine = bitsOf(r + r * z * polynomial(kSineSeries, z));
   const auto cosine = bitsOf(T(1.0) - T(0.5) * z + z * z * polynomial(kCosineSeries, z));
 
-  // An odd quarter swaps the two; bit 1 of the quarter is the sign of the sine, and of the next that of the
-  // cosine.
+  // An odd quarter swaps the two; bit 1 of the quarter is the sign of the sine, bit 1 of the next quarter
+  // that of the cosine.
   const auto quarter = bitsOf(rounded);
   const auto swap = (sine ^ cosine) & -(quarter & 1);
   const SinCos<T> result{fromBits<T>(sine ^ swap ^ ((quarter & 2) << 62)),

@@ -14,12 +14,12 @@
 
 namespace rex {
 
-/// One table of a TOML file, read key by key. Every method throws Error with the place of the key where the
+/// One table of a TOML file, read key by key. Every method throws Error with the position of the key if the
 /// value is missing or of another kind than the method reads.
 class TomlTable {
  public:
-  /// The outermost table of a file, called `name` in messages. Throws Error, with the place, for bad syntax
-  /// and for a file that does not exist; `wanted` then says what it should be.
+  /// The top-level table of a file, called `name` in messages. Throws Error, with the position, for bad
+  /// syntax and for a file that does not exist; `wanted` then says what it should be.
   static TomlTable read(const std::filesystem::path& file, std::string name, const std::string& wanted);
 
   void refuseKeysBut(const std::vector<std::string>& known) const;
@@ -40,7 +40,7 @@ class TomlTable {
     return choices[indexOf(key, names)].second;
   }
 
-  /// The table below a key, if there is one, under the given name; `wanted` is the complaint about others.
+  /// The table at a key, if there is one, under the given name. `wanted` is for the Error about other values.
   std::optional<TomlTable> table(std::string_view key, std::string name, const std::string& wanted) const;
   /// All tables headed [[key]].
   std::vector<TomlTable> tables(std::string_view key) const;

@@ -4,7 +4,7 @@
 
 namespace rex {
 
-/// Vectors and matrices as arguments: taken without a copy, columns and blocks included.
+/// Vectors and matrices as arguments: passed without a copy, including columns and blocks.
 using VectorArg = Eigen::Ref<const Eigen::VectorXd>;
 using MatrixArg = Eigen::Ref<const Eigen::MatrixXd>;
 
