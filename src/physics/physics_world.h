@@ -74,7 +74,7 @@ class PhysicsWorld {
   /// of motors and for invalid settings.
   void setMotors(std::span<const Motor> motors);
   /// Advances by h seconds, 1e-9 to 1000, in equal inner steps of at most a millisecond. Throws Error for
-  /// other h, and if the motion grows without bounds, naming the time and the joint; the state then stays.
+  /// other h, and if the motion grows without bounds, naming time and joint; the state is then unchanged.
   void step(double h);
   /// The contacts of the last inner step, in a fixed order.
   [[nodiscard]] std::vector<PhysicsContact> contacts() const;
