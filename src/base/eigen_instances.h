@@ -91,7 +91,7 @@ REX_INSTANCE struct gemm_pack_lhs<double, Index, Rows, Kernel::mr, Kernel::LhsPr
                                   Kernel::LhsPacket4Packing, RowMajor>;
 REX_INSTANCE struct gemm_pack_rhs<double, Index, Columns, Kernel::nr, ColMajor>;
 REX_INSTANCE struct gemm_pack_rhs<double, Index, Rows, Kernel::nr, RowMajor>;
-// Of vectors in columns or rows that lie close together or not.
+// Matrix-vector products, for vectors with and without gaps between their entries.
 REX_INSTANCE struct general_matrix_vector_product<Index, double, Columns, ColMajor, false, double, Columns,
                                                   false>;
 REX_INSTANCE struct general_matrix_vector_product<Index, double, Columns, ColMajor, false, double, Rows,

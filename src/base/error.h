@@ -7,7 +7,7 @@
 
 namespace rex {
 
-/// A place in a text file. Lines and columns count from 1; 0 means unknown.
+/// A position in a text file. Lines and columns count from 1; 0 means unknown.
 struct SourceLocation {
   std::string file;
   int line = 0;
@@ -20,7 +20,7 @@ struct SourceLocation {
 /// The parts of a message about bad input. Only `what` is required.
 struct ErrorParts {
   std::string what;                    ///< what is wrong, and with what: "joint 'elbow': unknown parent"
-  SourceLocation where{};              ///< the place in the user's file
+  SourceLocation where{};              ///< position in the user's file
   std::string found{};                 ///< what is there
   std::string wanted{};                ///< what would be right
   std::vector<std::string> nearest{};  ///< the user probably meant one of these

@@ -23,7 +23,7 @@ inline constexpr double kLog2High = 0x1.62e42fefp-1, kLog2Low = 0x1.473de6af278e
 template <class T>
 inline T exponential(const T& x) {
   constexpr double kPerLog2 = 0x1.71547652b82fep+0, kLeast = -708;
-  // Added to a number, rounds it to an integer, which then stands in the last bits.
+  // Adding it to a number rounds that to an integer, which is then in the last bits.
   constexpr double kRounding = 0x1.8p52;
   const T rounded = larger(x, T(kLeast)) * T(kPerLog2) + T(kRounding);
   const T n = rounded - T(kRounding);

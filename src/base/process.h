@@ -7,7 +7,7 @@
 
 namespace rex {
 
-/// How to run another program. Nothing ever passes through a shell.
+/// Options for running another program. Nothing ever passes through a shell.
 struct ProcessOptions {
   std::string input{};                     ///< fed to its standard input, which is empty otherwise
   std::filesystem::path directory{};       ///< its working directory; empty: ours

@@ -43,7 +43,7 @@ inline SinCos<T> sinCos(const T& angle) {
   // exact.
   constexpr double kPart1 = 0x1.921fb544p+0, kPart2 = 0x1.0b4611a6p-34, kPart3 = 0x1.3198a2e037073p-69;
   constexpr double kQuartersPerRadian = 0x1.45f306dc9c883p-1, kLargest = 1e5;
-  // Added to a number, rounds it to an integer, which then stands in the last bits.
+  // Adding it to a number rounds that to an integer, which is then in the last bits.
   constexpr double kRounding = 0x1.8p52;
 
   const T rounded = angle * T(kQuartersPerRadian) + T(kRounding);

@@ -153,8 +153,8 @@ class Simulator {
   /// distance and nearest points, metres.
   std::string proxyReport() const;
 
-  /// Joint angles and velocities, n numbers each, but for each ball joint one velocity less (see
-  /// Joint::nv). setJointAngles() leaves the velocities as they are; initially the robot is at rest.
+  /// Joint angles and velocities, n numbers each; each quaternion has one velocity fewer (see Joint::nv).
+  /// setJointAngles() leaves the velocities as they are; initially the robot is at rest.
   void getJointAnglesAndVels(Eigen::VectorXd& q, Eigen::VectorXd& qdot) const;
   Eigen::VectorXd getJointVels() const;
   void setJointAnglesAndVels(const Eigen::VectorXd& q, const Eigen::VectorXd& qdot);

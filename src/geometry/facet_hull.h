@@ -14,9 +14,9 @@ struct FacetHull {
 
 /// The hull of the points (d x N, one per column). It has facets and a volume only if the points span all d
 /// dimensions; a set thinner than 1e-9 of its size counts as flat. Facets with many corners may be split
-/// into pieces. Of points closer than 1e-9 of the size (along each axis of inertia, of the width there),
-/// one stands for all, but each offset is computed from all points, so none lies outside. Throws Error
-/// unless d is 1 to 9, for numbers that are not finite, and for more than kMostFacetHullPoints.
+/// into pieces. Points closer than 1e-9 of the size (along each axis of inertia, of the width there) are
+/// merged, but each offset is computed from all points, so none lies outside. Throws Error unless d is 1 to
+/// 9, for numbers that are not finite, and for more than kMostFacetHullPoints.
 [[nodiscard]] FacetHull facetHull(const MatrixArg& points);
 
 inline constexpr int kMostFacetHullPoints = 10'000;

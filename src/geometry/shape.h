@@ -29,19 +29,19 @@ enum class ShapeType {
 
 /// A solid centred in its own frame; lengths in metres. What `extent` and `radius` mean:
 /// box, rounded box: full outer edge lengths x, y, z; the rounded box has corners of `radius`.
-/// capsule, cylinder: extent.z is the straight length along z, `radius` the radius; a capsule's caps come on
-/// top. cone: extent.z is its height, `radius` that of its base at z = -extent.z / 2; the tip is above.
-/// sphere: `radius`. marker: a drawing aid of size extent.x without volume. The others are described by
-/// `mesh`; that of a sphere-swept convex mesh is surrounded at a distance of `radius`.
+/// capsule, cylinder: extent.z is the straight length along z, `radius` the radius; a capsule's caps are
+/// added to that length. cone: extent.z is its height, `radius` that of its base at z = -extent.z / 2; the
+/// tip points up. sphere: `radius`. marker: a drawing aid of size extent.x without volume. The others are
+/// described by `mesh`; a sphere-swept convex mesh extends `radius` beyond it.
 struct Shape {
   ShapeType type = ShapeType::kBox;
   Eigen::Vector3d extent = Eigen::Vector3d::Ones();
   double radius = 0;
   TriangleMesh mesh{};
-  TriangleMesh hull{};  ///< convex hull of `mesh`, of shapes in contact; see loadMeshes()
+  TriangleMesh hull{};  ///< convex hull of `mesh`, for shapes in contact; see loadMeshes()
 };
 
-/// Half the edge lengths of the smallest box around the shape that is centred and aligned in its frame.
+/// Half the edge lengths of the smallest box around the shape, centred at its origin, along its axes.
 [[nodiscard]] Eigen::Vector3d halfBounds(const Shape& shape);
 
 }  // namespace rex

@@ -2,10 +2,10 @@
 
 namespace rex {
 
-/// A moving part of the tree in plain numbers, for the kernels of dynamics: each has one coordinate, or one
-/// quaternion, and all that hangs on it rigidly is part of it. A joint of several coordinates is a chain of
-/// links, all but the last without mass. Parents stand before children. Frame L of the link moves in that of
-/// its parent P as
+/// A moving part of the tree in plain numbers, for the kernels of dynamics. Each link has one coordinate, or
+/// one quaternion, and includes all bodies fixed to it. A joint of several coordinates is a chain of links,
+/// all but the last without mass. Parents come before children. Frame L of the link moves in that of its
+/// parent P as
 ///   kHinge:       X_PL = constant * Rz(x)
 ///   kScrew:       X_PL = constant * Rz(x) * translation along z by pitch x
 ///   kSlider:      X_PL = constant * translation along z by x

@@ -21,7 +21,7 @@ struct SceneFile {
 struct ReadOptions {
   /// The folder that holds all files that the scene names, see Assets; empty: its default.
   std::filesystem::path assetRoot{};
-  bool allowMissingMeshes = false;        ///< boxes stand for them, and a warning says so
+  bool allowMissingMeshes = false;        ///< boxes replace them, with a warning
   bool freeBase = false;                  ///< for a URDF robot: its root moves freely
   bool textures = false;                  ///< read those of meshes, see readTexturedMesh(); for drawing
   bool strict = false;                    ///< faults that are otherwise repaired with a warning are errors
