@@ -31,25 +31,26 @@ struct CheckInfo {
   Group group = Group::kVisible;
 };
 
-/// Handed to a check function, which states its requirements through it. The first requirement that does not
-/// hold ends the function (or the case, inside forEachCase()). A check passes only if it stated one and all
-/// held. Every requirement names its property as a student would read it: "position of the hand after one
-/// step".
+/// Passed to a check function, which states its requirements through it. The first requirement that does
+/// not hold ends the function (or the case, inside forEachCase()). A check passes only if it stated at
+/// least one requirement and all of them held. Each names its property in words a student understands:
+/// "position of the hand after one step".
 class Check {
  public:
   Check(CheckInfo info, std::uint64_t seed);
 
-  /// Random numbers that depend on the seed, the check's id and the case, not on what was drawn before.
+  /// Random numbers that depend on the seed, the check's id and the case, but not on earlier draws.
   Rng& rng() { return rng_; }
   std::uint64_t seed() const { return seed_; }
 
-  /// Describes what the student's functions are given now; shown if a requirement of a visible check fails.
+  /// Describes the input that the student's functions get from here on. It is shown if a requirement of a
+  /// visible check fails.
   void input(std::string text) { input_ = std::move(text); }
   const std::string& input() const { return input_; }
 
-  /// While the return value lives, a requirement that does not hold keeps what `make` makes, for the picture
-  /// and the replay beside a visible check. `make` runs then, before the function ends, and may refer to what
-  /// is around it.
+  /// While the returned object is alive, a requirement that does not hold calls `make` and keeps the
+  /// evidence for the picture and replay of a visible check. `make` is called before the check function
+  /// ends, so it may capture local variables by reference.
   using MakeEvidence = std::function<Evidence()>;
   [[nodiscard]] auto show(MakeEvidence make) {
     struct Showing {
@@ -59,33 +60,33 @@ class Check {
     };
     return Showing{*this, std::exchange(show_, std::move(make))};
   }
-  /// Evidence for the requirement that decided the verdict of judge(); empty if all hold, or the check is
-  /// hidden.
+  /// Evidence for the requirement that decided the verdict of judge(). Empty if all requirements hold or
+  /// the check is hidden.
   const std::optional<Evidence>& evidence() const { return evidence_; }
 
-  /// |got - wanted| <= tolerance; false for what is not finite. Same unit for all three.
+  /// Requires |got - wanted| <= tolerance. Fails if `got` is not finite. All three have the same unit.
   void near(std::string_view property, double got, double wanted, double tolerance,
             std::string_view unit = "");
-  /// The same for every entry, after the shape was compared.
+  /// The same for every entry, after comparing the shapes.
   void near(std::string_view property, const MatrixArg& got, const MatrixArg& wanted, double tolerance,
             std::string_view unit = "");
   void atMost(std::string_view property, double got, double limit, std::string_view unit = "");
   void atLeast(std::string_view property, double got, double limit, std::string_view unit = "");
-  /// The shape is rows x cols and every entry is finite. State it before the grader computes with a student's
-  /// value.
+  /// Requires the shape rows x cols and finite entries. State this before the grader computes with a
+  /// student's value.
   void shape(std::string_view property, const MatrixArg& got, Eigen::Index rows, Eigen::Index cols);
-  /// Anything else; the property is a statement: "the path starts at q0".
+  /// Any other requirement; the property is a statement: "the path starts at q0".
   void that(std::string_view property, bool holds);
 
-  /// Runs a requirement-stating function for cases 0 to count - 1. The points are given in proportion to the
-  /// cases that hold, rounded down; the report names the one that is furthest beyond its limit, relative to
-  /// the limit, and the first of equals. A case also fails if the student's function throws; a crash ends the
-  /// check.
+  /// Runs a function that states requirements for cases 0 to count - 1. Points are given in proportion to
+  /// the cases that pass, rounded down. The report names the case that exceeds its limit most, relative to
+  /// the limit; the first one if several are equal. A case also fails if the student's function throws; a
+  /// crash ends the check.
   void forEachCase(int count, const std::function<void(int)>& run);
 
-  /// Runs a whole check function and gives its result, without times. Passes on all exceptions, except that
-  /// one of a student's function fails the case it happens in. Throws std::logic_error for a faulty check:
-  /// one that states no requirement, has no cases, or wants a value that is not finite.
+  /// Runs a whole check function and returns its result, without times. An exception from a student's
+  /// function fails the case it occurs in; all others are passed on. Throws std::logic_error for a faulty
+  /// check: one that states no requirement, has no cases, or wants a value that is not finite.
   CheckResult judge(const std::function<void(Check&)>& run);
 
  private:
@@ -98,7 +99,7 @@ class Check {
     std::string wanted{};
     std::string tolerance{};
     std::string input{};
-    std::string function{};  ///< of the student, that threw
+    std::string function{};  ///< the student's function that threw
     double excess = kBeyondMeasure;
     int caseNumber = -1;
   };
@@ -120,8 +121,8 @@ class Check {
   std::string input_;
   MakeEvidence show_;
   std::optional<Evidence> evidence_;
-  std::optional<Shortfall> worst_;  ///< of the requirements that do not hold
-  WorstValue nearest_;              ///< of all that were measured
+  std::optional<Shortfall> worst_;  ///< the worst requirement that does not hold
+  WorstValue nearest_;              ///< the one nearest to its limit, of all that were measured
   double nearestExcess_ = -kBeyondMeasure;
   int requirements_ = 0;
   int cases_ = 0;

@@ -4,8 +4,8 @@
 
 namespace rex::grading {
 
-/// While it lives, processes whose parents end become children of this process instead of the system's first
-/// process. All children that appear meanwhile, running or ended, are killed and reaped at the end.
+/// While this object lives, orphaned processes become children of this process instead of init. Its
+/// destructor kills and reaps all children that have appeared in the meantime, running or ended.
 class NewDescendants {
  public:
   NewDescendants();
@@ -13,10 +13,10 @@ class NewDescendants {
   NewDescendants(const NewDescendants&) = delete;
   NewDescendants& operator=(const NewDescendants&) = delete;
 
-  /// Kills and reaps them now, and what they leave behind, until none is left. Gives up after two seconds.
+  /// Kills and reaps them now, along with any children they leave behind. Gives up after two seconds.
   void kill();
 
-  /// What those reaped used, with the children that they had waited for.
+  /// Resources used by the reaped processes, including the children they had waited for.
   double cpuSeconds() const { return cpuSeconds_; }
   long peakKilobytes() const { return peakKilobytes_; }
 

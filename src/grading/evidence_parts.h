@@ -8,16 +8,16 @@
 
 namespace rex::grading {
 
-// What a colour means in evidence, told apart with any colour vision: what came out, what was wanted, and
-// where it went wrong.
+// The colours of evidence: the result, what was wanted, and where it went wrong. They can be told apart
+// with any kind of colour vision.
 inline constexpr Color kGotColor{0.0f, 0.45f, 0.7f}, kWantedColor{0.20f, 0.22f, 0.26f},
     kWrongColor{0.80f, 0.10f, 0.12f};
 
-/// A curve of what came out: thick and blue.
+/// The curve of a result: thick and blue.
 [[nodiscard]] Series gotCurve(std::string label, std::vector<double> x = {}, std::vector<double> y = {});
-/// A curve of what was wanted: dashed and dark, over the other.
+/// The curve that was wanted: dashed and dark, drawn over the other.
 [[nodiscard]] Series wantedCurve(std::string label, std::vector<double> x = {}, std::vector<double> y = {});
-/// What went wrong of a curve: red and thick.
+/// The part of a curve that went wrong: red and thick.
 [[nodiscard]] Series wrongCurve(std::string label, std::vector<double> x = {}, std::vector<double> y = {});
 /// A ring around a point where something went wrong.
 [[nodiscard]] Series wrongPoint(std::string label, double x, double y);
@@ -32,14 +32,14 @@ template <class Points>
   return curve;
 }
 
-/// An upright line where a motion goes wrong.
+/// A vertical line where a motion goes wrong.
 [[nodiscard]] Guide wrongFrom(double time);
 
-/// What came out with what was wanted drawn into it: its solids green and translucent, its lines green. A
-/// caption says so. Solids that are the same in both are drawn once.
+/// The result with the wanted picture drawn into it: solids in translucent green, lines in green, explained
+/// by a caption. Solids that are the same in both are drawn once.
 [[nodiscard]] Picture withWanted(Picture got, const Picture& wanted);
-/// The same for each moment; where one film has ended, its last picture stays. Times are those of the longer
-/// film.
+/// The same for every frame. After the end of the shorter film its last picture stays. Times are those of
+/// the longer film.
 [[nodiscard]] Film withWanted(const Film& got, const Film& wanted);
 
 }  // namespace rex::grading

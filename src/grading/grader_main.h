@@ -9,8 +9,8 @@
 
 namespace rex::grading {
 
-/// The whole main() of a grader program, which returns an ExitCode: `--help` lists its options. Prints
-/// messages on standard error, and on standard output nothing but what --list or --help asks for.
+/// The whole main() of a grader program; `--help` lists its options. Returns an ExitCode. Prints messages
+/// to standard error, and to standard output only what --list or --help asks for.
 [[nodiscard]] int runGrader(int argc, const char* const* argv, std::vector<RunnableCheck> checks,
                             std::uint64_t signature, const CallLayouts& layouts);
 

@@ -14,8 +14,8 @@ class App;
 
 namespace rex::grading {
 
-/// What one run of a grader program is asked to do. It goes whole from the command line of `rex` to the
-/// launch of each worker.
+/// What one run of a grader program is asked to do. It is passed as a whole from the command line of `rex`
+/// to the launch of each worker.
 struct GradingJob {
   std::filesystem::path worker{};     ///< see workerOf(); empty: all checks are listed as not run
   std::filesystem::path results{};    ///< results.json; its fields about the submission are kept; empty: none
@@ -23,21 +23,21 @@ struct GradingJob {
   std::uint64_t seed = 1;
   Limits limits{};
   sandbox::Sandbox sandbox{};
-  std::vector<std::filesystem::path> libraries{};  ///< that the worker loads, beside those of the system
+  std::vector<std::filesystem::path> libraries{};  ///< loaded by the worker, besides those of the system
   std::filesystem::path temporaryFolder = "/tmp";  ///< workers get their working folders in it
-  std::filesystem::path evidence{};  ///< folder for pictures of visible checks that do not hold; empty: none
+  std::filesystem::path evidence{};  ///< folder for pictures of failed visible checks; empty: none
   std::filesystem::path
-      secret{};  ///< file with the secret of the course; empty: hidden checks take the seed too
+      secret{};  ///< file with the secret of the course; empty: hidden checks use `seed`, too
   int jobs = 1;  ///< checks that run at once, each in a copy of the grader
 };
 
 /// The options of a grader program, which set the job.
 void declareOptions(CLI::App& app, GradingJob& job);
 
-/// The arguments by which a grader program gets this job.
+/// The command-line arguments that give a grader program this job.
 [[nodiscard]] std::vector<std::string> toArguments(const GradingJob& job);
 
-/// The program that answers the checks of a part: WORKER.PART where there is one, else WORKER.
+/// The program that answers the checks of a part: WORKER.PART if it exists, else WORKER.
 [[nodiscard]] std::filesystem::path workerOf(const std::string& part, const std::filesystem::path& worker);
 
 }  // namespace rex::grading

@@ -15,11 +15,11 @@ namespace rex::grading {
 [[nodiscard]] std::uint64_t hiddenSeed(std::string_view secret, std::string_view submissionSha256,
                                        std::string_view exercise, std::string_view group);
 
-/// The text of that file without the line break at its end. Throws Error for less than 16 characters: a
-/// secret that is empty by mistake would be none.
+/// The text of the file without the line break at its end. Throws Error for fewer than 16 characters, so
+/// that a file that is empty by mistake is not taken for a secret.
 [[nodiscard]] std::string readCourseSecret(const std::filesystem::path& file);
 
-/// Eight digits of the secret's hash, by which results name it; empty for none.
+/// Eight digits of the secret's hash, which identify it in results; empty if there is no secret.
 [[nodiscard]] std::string courseSecretId(std::string_view secret);
 
 }  // namespace rex::grading

@@ -11,7 +11,7 @@
 
 namespace rex::grading {
 
-/// Of each function of the student's the layout of what it returns, and those of its arguments.
+/// For each of the student's functions: the layout of its return value, then those of its arguments.
 using CallLayouts = std::vector<std::vector<std::string>>;
 
 /// What hostile answers did to one check.
@@ -20,28 +20,29 @@ struct HostileOutcome {
   Hostility hostility = Hostility::kEmpty;
   std::int64_t answers = 0;
   int runs = 0;
-  int mostPoints = 0;       ///< of a run in which no answer was left as it was
-  int runsWithPoints = 0;   ///< of those
-  int unjudged = 0;         ///< runs that ended by an exception of the check
-  std::string exception{};  ///< of the first of these
-  double mostSeconds = 0;   ///< of the processor, of one run
+  int mostPoints = 0;       ///< in a run in which every answer was changed
+  int runsWithPoints = 0;   ///< among those runs
+  int unjudged = 0;         ///< runs that ended with an exception of the check
+  std::string exception{};  ///< the first of these exceptions
+  double mostSeconds = 0;   ///< CPU time of the longest run
   std::string crash{};      ///< how the process ended; empty: it did not
 };
 
-/// Records what the job's worker, that of the reference solution, answers, then gives the checks at least
-/// `answers` hostile ones, as many of each kind to each check, without a worker, in copies of this process.
+/// Records the answers of the job's worker, which is that of the reference solution. Then gives the checks
+/// at least `answers` hostile ones, equally many of each kind to each check, without a worker and in copies
+/// of this process.
 [[nodiscard]] std::vector<HostileOutcome> giveHostileAnswers(std::span<const RunnableCheck> checks,
                                                              const GradingJob& job, std::uint64_t signature,
                                                              const CallLayouts& layouts,
                                                              std::int64_t answers);
 
-/// Generic liars: functions that return zeros, always the same answer, that of the last call, or what they
-/// were given, in the right shape.
+/// Generic wrong functions: they return zeros, always the same answer, the answer of the last call, or
+/// their input, in the right shape.
 enum class Lie { kZeros, kConstant, kLastAnswer, kEcho, kCount };
 
 [[nodiscard]] std::string toString(Lie lie);
 
-/// What a check gives for a lie.
+/// The points that a check gives for a lie.
 struct LieOutcome {
   std::string check, part;
   Lie lie = Lie::kZeros;

@@ -10,11 +10,12 @@ inline constexpr std::size_t kMegabyte = std::size_t{1} << 20;
 /// What a student's functions may use in one check. Sizes are in bytes.
 struct Limits {
   double cpuSeconds = 10;  ///< of all threads; rounded up to whole seconds by the kernel
-  /// That the grader waits for them in total, 0: 2 x CPU + 2. What others on a busy machine take is added.
+  /// How long the grader waits for them in total; 0: 2 x CPU + 2. Time taken by other processes on a busy
+  /// machine is added.
   double wallSeconds = 0;
   std::size_t memory = 1024 * kMegabyte;  ///< of address space; not enforced in sanitizer builds
   std::size_t output = 16 * kMegabyte;    ///< printed, standard output and error together
-  bool sanitized = false;  ///< the program reserves terabytes and keeps its limit of memory by itself
+  bool sanitized = false;  ///< the program reserves terabytes and enforces its memory limit itself
 
   [[nodiscard]] double cpuBudget() const { return std::ceil(cpuSeconds); }
   [[nodiscard]] double wallBudget() const { return wallSeconds > 0 ? wallSeconds : 2 * cpuSeconds + 2; }

@@ -22,7 +22,7 @@ struct SourceFile {
 };
 
 /// The requirement that was nearest to its limit, or furthest beyond it, over all cases of a check. Texts
-/// carry their units; empty for hidden checks, and where nothing was measured.
+/// include their units; they are empty for hidden checks, and if nothing was measured.
 struct WorstValue {
   std::string property{};
   std::string value{};  ///< the distance from what was wanted, or the value that has a limit
@@ -39,7 +39,7 @@ struct CheckResult {
   int points = 0;
   int maxPoints = 0;
   std::string message{};   ///< one readable line; empty if passed
-  std::string property{};  ///< what had to hold and did not
+  std::string property{};  ///< the property that did not hold
   std::string expected{};  ///< with unit; this and the next three are empty for hidden checks
   std::string got{};
   std::string tolerance{};
@@ -47,13 +47,13 @@ struct CheckResult {
   WorstValue worst{};
   int cases = 0;  ///< 0: the check has none
   int casesHeld = 0;
-  std::string function{};  ///< the student's that ran when the check ended badly; empty: none
-  int line = 0;  ///< of the student's file, where that was, or where the function begins; 0: unknown
+  std::string function{};  ///< the student's function that ran when the check ended badly; empty: none
+  int line = 0;  ///< in the student's file: where that happened, or where the function begins; 0: unknown
   double wallSeconds = 0;  ///< volatile
   double cpuSeconds = 0;   ///< volatile
-  // Volatile, too; bulk grading may omit them. Files beside the results; empty: none.
-  std::string picture{};  ///< of what happened and what was wanted
-  std::string replay{};   ///< the same as a page that moves
+  // Volatile, too. Files next to the results, which bulk grading may omit; empty: none.
+  std::string picture{};  ///< shows what happened and what was wanted
+  std::string replay{};   ///< the same as an animated page
 };
 
 struct CompileDiagnostic {
@@ -82,7 +82,7 @@ struct Usage {
   std::uint64_t outputBytes = 0;
 };
 
-/// What of the student's output the result keeps.
+/// The part of the student's output that the result keeps.
 struct KeptOutput {
   std::string text{};
   std::uint64_t truncatedBytes = 0;  ///< printed beyond it; volatile
@@ -99,8 +99,8 @@ struct GradeResult {
   std::string compiler{};
   int sandboxLevel = 0;
   std::vector<std::string> sandboxWarnings{};
-  Outcome outcome = Outcome::kGraderError;  ///< until somebody finds a better one
-  std::string message{};                    ///< about the submission as a whole
+  Outcome outcome = Outcome::kGraderError;  ///< until the grading replaces it
+  std::string message{};                   ///< about the submission as a whole
   int score = 0;
   int maxScore = 0;
   std::vector<CheckResult> checks{};
@@ -114,8 +114,8 @@ struct GradeResult {
 /// The text of a result file. Invalid UTF-8 is replaced.
 [[nodiscard]] std::string toJson(const GradeResult& result);
 
-/// Reads it back; fields that are missing keep their defaults. Throws Error, naming `file` and the field, for
-/// what is not such a text.
+/// Reads it back; missing fields keep their defaults. Throws Error, naming `file` and the field, if the
+/// text is not a result.
 [[nodiscard]] GradeResult gradeResultFromJson(const std::string& text, const std::string& file);
 
 }  // namespace rex::grading

@@ -9,8 +9,8 @@
 
 namespace rex::grading {
 
-/// The ways in which an answer is made hostile: all its numbers, lists and matrices at once, or each node in
-/// a way of its own (`mixed`).
+/// The ways in which an answer is made hostile: one way for all its numbers, lists and matrices, or a
+/// different way for each node (`mixed`).
 enum class Hostility {
   kEmpty,
   kHuge,
@@ -31,15 +31,16 @@ enum class Hostility {
 
 [[nodiscard]] std::string toString(Hostility hostility);
 
-/// Whether some numbers of the honest answer stay as they are.
+/// Whether some numbers of the honest answer stay unchanged.
 [[nodiscard]] bool keepsNumbers(Hostility hostility);
 
-/// An honest answer, spoilt: bytes of the same layout (remote/layout.h). Throws Error where the bytes are not
-/// of that layout.
+/// The honest answer, spoilt: bytes of the same layout (remote/layout.h). Throws Error if `answer` does not
+/// have that layout.
 [[nodiscard]] std::vector<std::byte> spoilt(std::span<const std::byte> answer, const std::string& layout,
                                             Hostility hostility, Rng& rng);
 
-/// How many of the bytes the value takes that begins them. Throws Error where none of that layout does.
+/// The number of bytes of the value at the beginning of `bytes`. Throws Error if they do not begin with a
+/// value of that layout.
 [[nodiscard]] std::size_t sizeOfValue(std::span<const std::byte> bytes, const std::string& layout);
 
 }  // namespace rex::grading

@@ -1,14 +1,14 @@
 #pragma once
 
-// Included before everything else where checks are compiled: what Eigen asserts of sizes and indices throws,
-// for answers of students lead there. The judging of that answer ends, and nothing else does.
+// Included before everything else where checks are compiled. It makes Eigen's assertions on sizes and
+// indices throw, because students' answers can violate them. Only the judging of that answer ends then.
 #ifdef EIGEN_CORE_H
 #error "Eigen was included before"
 #endif
 
 namespace rex::grading {
 
-/// Throws std::logic_error that quotes the condition.
+/// Throws a std::logic_error that quotes the condition.
 [[noreturn]] void failAssertion(const char* condition);
 
 }  // namespace rex::grading

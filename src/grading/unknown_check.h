@@ -7,7 +7,7 @@
 
 namespace rex::grading {
 
-/// The complaint about a check that does not exist, naming the nearest of the `known`.
+/// The error for a check that does not exist; it suggests the most similar names among `known`.
 [[nodiscard]] inline UsageError unknownCheck(const std::string& id, const std::vector<std::string>& known,
                                              SourceLocation where = {}) {
   return UsageError({.what = "no check is called '" + id + "'",

@@ -9,24 +9,24 @@
 
 namespace rex::grading {
 
-/// Why a worker could not finish. `message` is ours; `detail` quotes the student's program. Both may tell
-/// what it was given, so reports of hidden checks say the outcome and the function only.
+/// Why a worker could not finish. `message` is ours; `detail` quotes the student's program. Both may reveal
+/// its input, so reports of hidden checks give only the outcome and the function.
 struct Failure {
   Outcome outcome = Outcome::kRuntimeError;
   std::string message{};   ///< "aborted in ikStep"
   std::string detail{};    ///< "Assertion `index < size()' failed."
-  std::string function{};  ///< of the student, that ran; empty if none
-  bool killed = false;     ///< by itself or by somebody outside, which cannot be told apart
+  std::string function{};  ///< the student's function that was running; empty if none
+  bool killed = false;     ///< by itself or from outside, which cannot be distinguished
 };
 
-/// A worker process that has ended although nobody asked it to.
+/// A worker process that ended without being asked to.
 struct WorkerEnd {
   int status = 0;            ///< as wait4() gives it
-  double cpuSeconds = 0;     ///< that it used
-  bool ready = false;        ///< it had shaken hands
+  double cpuSeconds = 0;     ///< CPU time used
+  bool ready = false;        ///< it had completed the handshake
   std::string function{};    ///< the function that was running; empty if none
-  std::string errorTail{};   ///< the last it printed on standard error
-  bool outOfMemory = false;  ///< the kernel ended it because all its memory was used up
+  std::string errorTail{};   ///< the end of its output to standard error
+  bool outOfMemory = false;  ///< the kernel killed it because its memory was used up
 };
 
 /// "in ikStep", "before the first call" or "between two calls".

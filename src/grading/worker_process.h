@@ -11,28 +11,28 @@
 
 namespace rex::grading {
 
-/// What a program printed: valid as far as the program made it so.
+/// What a program printed, byte for byte; it need not be valid UTF-8.
 struct CapturedText {
   std::string text{};       ///< the first 64 kB
   std::uint64_t bytes = 0;  ///< printed in all
 };
 
-/// How a worker fared. Times in seconds.
+/// The result of running a worker. Times are in seconds.
 struct WorkerRun {
-  std::optional<Failure> failure{};  ///< nothing: the conversation came to its end
+  std::optional<Failure> failure{};  ///< empty: the conversation reached its end
   double cpuSeconds = 0;
-  double wallSeconds = 0;  ///< that the grader waited for it
+  double wallSeconds = 0;  ///< time the grader waited for it
   std::int64_t peakMemoryBytes = 0;
   CapturedText output{};
   CapturedText error{};
 };
 
-/// Starts the job's worker for a part, which must offer the functions of `signature`, in a process of its
-/// own, holds the conversation with it, and ends it with all processes it made; its working folder goes too.
-/// Whatever the worker does becomes a Failure; what else the conversation throws is passed on. Meanwhile the
-/// calling process must not start others: they would be taken for the worker's. Throws Error if the program
-/// or its sandbox cannot be started. At sandbox level 0, limits and a clock, there is no protection against a
-/// program that means harm.
+/// Starts the job's worker for a part in its own process and holds the conversation with it; the worker
+/// must offer the functions of `signature`. At the end the worker, all its processes and its working folder
+/// are removed. Misbehaviour of the worker becomes a Failure; other exceptions of the conversation are
+/// passed on. The caller must not start other processes meanwhile: they would be taken for the worker's.
+/// Throws Error if the program or its sandbox cannot be started. Sandbox level 0 (limits and a clock) is no
+/// protection against malicious programs.
 [[nodiscard]] WorkerRun runWithWorker(const GradingJob& job, const std::string& part, std::uint64_t signature,
                                       const std::function<void(remote::Caller&)>& conversation);
 
