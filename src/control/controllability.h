@@ -10,45 +10,46 @@
 
 namespace rex {
 
-/// A mode that u cannot reach: left^T A = eigenvalue left^T and left^T B = 0, so that left^T x moves by
-/// itself.
+/// A mode that u cannot reach: left^T A = eigenvalue left^T and left^T B = 0, so left^T x evolves
+/// independently of u.
 struct HiddenMode {
   std::complex<double> eigenvalue{};
-  Eigen::VectorXcd direction{};  ///< `left`, of length one; of observability: the motion that y does not show
+  Eigen::VectorXcd
+      direction{};  ///< `left`, of unit length; for observability: the motion that y does not show
 };
 
-/// Which states u can reach, or y shows. Of observability read: which initial states y tells apart.
+/// Which states u can reach; for observability, which initial states y can distinguish.
 struct ReachableStates {
   int rank = 0;
   Eigen::MatrixXd reachable{};      ///< n x rank, orthonormal
-  Eigen::MatrixXd unreachable{};    ///< n x (n - rank), orthonormal: what is never moved, or never seen
+  Eigen::MatrixXd unreachable{};    ///< n x (n - rank), orthonormal: never moved, or never seen
   std::vector<HiddenMode> modes{};  ///< n - rank of them
-  /// Full rank. The message names the modes that are hidden.
+  /// Whether the rank is full. If not, the message names the hidden modes.
   bool isComplete = false;
   std::string message{};
 };
 
-/// (B, A B, ..., A^{n-1} B), n x n m, slide 8:27. Good for reading; powers lose digits, so that
-/// controllability() does not use it. Throws Error as completed().
+/// (B, A B, ..., A^{n-1} B), n x n m, slide 8:27. For illustration only: powers of A lose digits, so
+/// controllability() does not use it. Throws Error like completed().
 [[nodiscard]] Eigen::MatrixXd controllabilityMatrix(const LinearSystem& system);
-/// (C; C A; ...; C A^{n-1}), n p x n, slide 8:44. Throws Error as completed().
+/// (C; C A; ...; C A^{n-1}), n p x n, slide 8:44. Throws Error like completed().
 [[nodiscard]] Eigen::MatrixXd observabilityMatrix(const LinearSystem& system);
 
-/// By an orthogonal staircase form (Van Dooren 1981). Directions count as reached when more than `tolerance`
-/// of the largest entry of A, or of the control's column, arrives there. Throws Error as completed(), and for
-/// a tolerance that is not in (0, 1).
+/// Uses an orthogonal staircase form (Van Dooren 1981). A direction counts as reachable if the coupling
+/// into it exceeds `tolerance` times the largest entry of A, or of the control's column. Throws Error like
+/// completed(), and for a tolerance outside (0, 1).
 [[nodiscard]] ReachableStates controllability(const LinearSystem& system, double tolerance = 1e-12);
-/// The same of A^T and C^T.
+/// The same for A^T and C^T.
 [[nodiscard]] ReachableStates observability(const LinearSystem& system, double tolerance = 1e-12);
 
-/// W = int_0^T e^{A s} B B^T e^{A^T s} ds, or the sum of T / step terms: x^T W^-1 x is the least u^T u that
-/// leads from 0 to x. Throws Error as completed(), for a T that is not positive or more than 1e15 steps, and
-/// where W is not finite.
+/// W = int_0^T e^{A s} B B^T e^{A^T s} ds, or the sum of T / step terms: x^T W^-1 x is the minimal integral
+/// of u^T u that leads from 0 to x. Throws Error like completed(), for a T that is not positive or takes
+/// more than 1e15 steps, and if W is not finite.
 [[nodiscard]] Eigen::MatrixXd controllabilityGramian(const LinearSystem& system, double T);
-/// The limit of long times, by a Lyapunov equation. Throws Error where the system is not asymptotically
-/// stable, naming the mode.
+/// The limit for T -> infinity, from a Lyapunov equation. Throws Error naming the mode if the system is not
+/// asymptotically stable.
 [[nodiscard]] Eigen::MatrixXd controllabilityGramian(const LinearSystem& system);
-/// The same of A^T and C^T: x^T W x is what y^T y sums up to from x on, with u = 0.
+/// The same for A^T and C^T: x^T W x is the integral of y^T y from the initial state x on, with u = 0.
 [[nodiscard]] Eigen::MatrixXd observabilityGramian(const LinearSystem& system, double T);
 [[nodiscard]] Eigen::MatrixXd observabilityGramian(const LinearSystem& system);
 

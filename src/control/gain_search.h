@@ -9,9 +9,9 @@
 namespace rex {
 
 struct GainSearchOptions {
-  double bound = 100;  ///< no entry of K is larger: without it the fastest gains of most systems are infinite
+  double bound = 100;  ///< on the entries of K; without it the fastest gains of most systems are infinite
   int maxEvaluations = 20000;
-  double tolerance = 1e-9;  ///< converged: restarts improve the rate by less than this part of it
+  double tolerance = 1e-9;  ///< converged: restarts improve the rate by less than this fraction
 };
 
 struct GainSearchResult {
@@ -24,10 +24,10 @@ struct GainSearchResult {
   std::string message{};
 };
 
-/// The controller of fastest asymptotic convergence, slide 8:39, that knows only y = C x: gains whose slowest
-/// closed-loop eigenvalue is least, by the simplex of Nelder and Mead (1965), restarted where it stops,
-/// because the best rate has edges on which it stalls. A local optimum. Throws Error as completed(), without
-/// a control, for a D that is not zero, a start of another size or out of bounds, and options out of range.
+/// The output feedback u = -K y with the fastest asymptotic convergence, slide 8:39: a local minimum of
+/// `rate`, found by the simplex method of Nelder and Mead (1965). The method is restarted where it stops,
+/// because it stalls at kinks of the rate. Throws Error like completed(), for a system without a control, a
+/// D that is not zero, a start of the wrong size or out of bounds, and options out of range.
 [[nodiscard]] GainSearchResult fastestGains(const LinearSystem& system, const Eigen::MatrixXd& start,
                                             const GainSearchOptions& options = {});
 

@@ -11,22 +11,22 @@
 
 namespace rex {
 
-/// A motion in N steps, x_{t+1} = next(x_t, u_t), whose cost is a sum of squares: |stage(x_t, u_t, t)|^2 of
-/// each step and |final(x_N)|^2.
+/// A motion in N steps, x_{t+1} = next(x_t, u_t), whose cost is a sum of squares: |stage(x_t, u_t, t)|^2
+/// for each step plus |final(x_N)|^2.
 struct ControlProblem {
   ControlledMotion next{};
   std::function<Eigen::VectorXd(const Eigen::VectorXd& x, const Eigen::VectorXd& u, int t)> stage{};
   std::function<Eigen::VectorXd(const Eigen::VectorXd& x)> final{};
   Eigen::VectorXd start{};
-  /// Derivatives of `next`; empty: by differences, as those of the costs.
+  /// Derivatives of `next`; empty: finite differences, as for the costs.
   MotionDerivative derivative{};
 };
 
 struct IlqrOptions {
   int maxIterations = 100;
   double tolerance =
-      1e-9;            ///< converged: a full step promises to lower the cost by less than this part of it
-  double damping = 0;  ///< at the start, of the controls' weights; grows and falls by factors of ten
+      1e-9;  ///< converged: the predicted decrease of a full step is less than this fraction of the cost
+  double damping = 0;  ///< initial damping of the controls' weights; grows and falls by factors of ten
 };
 
 enum class IlqrStatus {
@@ -44,15 +44,15 @@ struct IlqrResult {
   std::vector<Eigen::MatrixXd> K{};
   double cost = std::numeric_limits<double>::infinity();
   int iterations = 0;  ///< steps taken
-  /// What another step promises to lower the cost by, relative to it.
+  /// The predicted decrease of another step, relative to the cost.
   double residual = std::numeric_limits<double>::infinity();
   std::string message{};
 };
 
 /// Iterative LQR (Li and Todorov 2004): linearises around the motion, solves the linear quadratic problem
-/// with Gauss and Newton's matrices, and takes as much of the step as lowers the cost. U is the first guess,
-/// m x N. Throws Error for a problem without functions, sizes that do not fit, numbers in start and U that
-/// are not finite, and options out of range.
+/// with Gauss-Newton matrices, and shortens the step until it lowers the cost. U is the initial guess, m x
+/// N. Throws Error for a problem without functions, sizes that do not fit, numbers in start and U that are
+/// not finite, and options out of range.
 [[nodiscard]] IlqrResult ilqr(const ControlProblem& problem, const Eigen::MatrixXd& U,
                               const IlqrOptions& options = {});
 

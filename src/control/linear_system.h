@@ -9,8 +9,8 @@
 
 namespace rex {
 
-/// x' = A x + B u, y = C x + D u (slide 8:15); with a step, x_{t+1} = A x_t + B u_t. n states, m controls, p
-/// measurements.
+/// x' = A x + B u, y = C x + D u (slide 8:15); or, with a step, x_{t+1} = A x_t + B u_t. n states, m
+/// controls, p measurements.
 struct LinearSystem {
   Eigen::MatrixXd A{};           ///< n x n
   Eigen::MatrixXd B{};           ///< n x m
@@ -23,9 +23,9 @@ struct LinearSystem {
 /// a step that is not positive.
 [[nodiscard]] LinearSystem completed(const LinearSystem& system);
 
-/// What the continuous system does in steps of `step` seconds while u is held: exact, by the exponential of
-/// (A B; 0 0). Throws Error as completed(), for a step that is not positive, for a discrete system, and where
-/// a motion grows beyond all numbers in one step.
+/// Discretizes a continuous system for steps of `step` seconds in which u is held. Exact, by the
+/// exponential of (A B; 0 0). Throws Error like completed(), for a step that is not positive, for a
+/// discrete system, and if a motion overflows within one step.
 [[nodiscard]] LinearSystem discretized(const LinearSystem& system, double step);
 
 /// f(x, u): a rate of change, or the next state.
@@ -37,9 +37,9 @@ struct MotionJacobians {
 };
 using MotionDerivative = std::function<MotionJacobians(const Eigen::VectorXd& x, const Eigen::VectorXd& u)>;
 
-/// f near (x, u), slide 8:16: f(x + dx, u + du) = value + A dx + B du. At an equilibrium of continuous time
-/// the value is zero. Without `exact`, A and B are numericJacobian()s. Throws Error without f, and
-/// where f or its derivatives have another size or are not finite.
+/// f near (x, u), slide 8:16: f(x + dx, u + du) = value + A dx + B du. At an equilibrium in continuous time
+/// the value is zero. Without `exact`, A and B come from numericJacobian(). Throws Error if f is empty, and
+/// if f or its derivatives have the wrong size or are not finite.
 struct Linearization {
   Eigen::MatrixXd A, B;
   Eigen::VectorXd value;

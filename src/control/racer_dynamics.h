@@ -5,13 +5,13 @@
 
 namespace rex {
 
-/// An inverted pendulum on a wheel, exercises 12.6.1 and 12.12: body A is the wheel, B the pendulum. q = (x,
-/// theta), theta from upright towards x; states are (x, theta, x', theta'); u is the torque of the motor,
-/// which turns the wheel forwards and the pendulum back. Methods throw Error for constants that are not
-/// positive, and numbers that are not finite.
+/// An inverted pendulum on a wheel, exercises 12.6.1 and 12.12: body A is the wheel, B the pendulum. q =
+/// (x, theta), with theta measured from upright towards +x; states are (x, theta, x', theta'). u is the
+/// motor torque, which drives the wheel forwards and the pendulum backwards. Methods throw Error for
+/// constants that are not positive and numbers that are not finite.
 struct RacerDynamics {
-  double r = 0.05, l = 0.5;          ///< radius of the wheel; from its axis to the centre of B; metres
-  double mA = 0.05, mB = 0.5;        ///< kg
+  double r = 0.05, l = 0.5;    ///< radius of the wheel; distance from its axis to the centre of B; metres
+  double mA = 0.05, mB = 0.5;  ///< kg
   double IA = 3.125e-5, IB = 0.005;  ///< about the centres, kg m^2
   double g = 9.8;                    ///< m/s^2
 
@@ -24,15 +24,16 @@ struct RacerDynamics {
   [[nodiscard]] Eigen::Vector4d derivative(const Eigen::Vector4d& x, double u) const;
   /// Its exact derivatives.
   [[nodiscard]] LinearizedPlant linearized(const Eigen::Vector4d& x, double u) const;
-  /// Kinetic and potential energy, joules; the latter is zero on the ground.
+  /// Kinetic plus potential energy, joules; the potential energy is zero on the ground.
   [[nodiscard]] double energy(const Eigen::Vector4d& x) const;
-  /// (x, z, angle) of the wheel and of the pendulum in the plane, angles from the vertical: 3 x 2.
+  /// The planar poses (x, z, angle) of the wheel and of the pendulum, 3 x 2; angles are measured from the
+  /// vertical.
   [[nodiscard]] Eigen::Matrix<double, 3, 2> poses(const Eigen::Vector2d& q) const;
 
-  /// tau seconds by the classic method of Runge and Kutta, with u held.
+  /// One classic Runge-Kutta step of tau seconds, with constant u.
   [[nodiscard]] Eigen::Vector4d rungeKuttaStep(const Eigen::Vector4d& x, double u, double tau) const;
-  /// The same, and then both velocities change by normal numbers of deviation sqrt(tau) `noise`. Throws Error
-  /// also for a negative noise.
+  /// The same, then adds Gaussian noise with standard deviation sqrt(tau) `noise` to both velocities. Also
+  /// throws Error for a negative noise.
   [[nodiscard]] Eigen::Vector4d noisyStep(const Eigen::Vector4d& x, double u, double tau, double noise,
                                           Rng& rng) const;
 };

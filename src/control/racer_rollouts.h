@@ -10,29 +10,29 @@
 
 namespace rex {
 
-/// What a step costs in the state it leads to: weights of squares.
+/// Weights of the squares in the cost of a step, evaluated in the state it leads to.
 struct RacerCost {
-  double x = 1, theta = 10;    ///< of the state, as exercise 12.12 has it
-  double gyro = 0, wheel = 0;  ///< of y2 and y3: 1 and 0.1 where only sensors are known
+  double x = 1, theta = 10;    ///< of the state, as in exercise 12.12
+  double gyro = 0, wheel = 0;  ///< of y2 and y3: 1 and 0.1 if only the sensors are known
   double failure = 10;         ///< for each step that is missing after a failure
 };
 
-/// How racers are rolled out. After each step of tau seconds comes noise as of RacerDynamics::noisyStep.
+/// How racers are rolled out. After each step of tau seconds noise is added as in RacerDynamics::noisyStep.
 struct RacerRolloutOptions {
   RacerFeatures features{};
   RacerCost cost{};
   int steps = 500;
   double tau = 0.01, noise = 0.1;
-  double largestControl = 5;  ///< N m: a policy that asks for more gets that
+  double largestControl = 5;  ///< N m: controls are clipped to it
   double largestAngle = 0.8;  ///< rad; beyond it the racer has failed
   RacerDynamics dynamics{};
   RacerSensors sensors{};
 };
 
-/// Rolls out all policies u = w . features, one per column of W (features x N), in all trials, which start in
-/// (x, theta, x', theta'). Each has the bits of a loop over RacerSensors::measured, RacerPolicy::control and
-/// RacerDynamics::noisyStep with Rng(seed), wherever it stands and on every CPU. Throws Error for options as
-/// those do, W of another size, negative steps, and numbers that are not finite.
+/// Rolls out all policies u = w . features, one per column of W (features x N), in all trials, which start
+/// in (x, theta, x', theta'). Each result is bit-identical to a loop over RacerSensors::measured,
+/// RacerPolicy::control and RacerDynamics::noisyStep with Rng(seed), in any column and on every CPU. Throws
+/// Error like these, for a W of the wrong size, negative steps, and numbers that are not finite.
 [[nodiscard]] Rollouts racerRollouts(const MatrixArg& W, const std::vector<Trial>& trials,
                                      const RacerRolloutOptions& options = {});
 

@@ -6,30 +6,31 @@
 
 namespace rex {
 
-// All functions allocate what they return. They throw Error for vectors of the wrong size and numbers that
-// are not finite, saying which, and as named below.
+// All functions allocate their results. They throw Error for vectors of the wrong size and numbers that are
+// not finite, saying which, and for what is named below.
 
-/// Where a robot shall be at one moment, how fast, and how that changes: q (nq), v and a (nv).
+/// The desired configuration, velocity and acceleration at one moment: q (nq), v and a (nv).
 struct Reference {
   Eigen::VectorXd q, v, a;
 };
 
-/// To stand still at q.
+/// Standing still at q.
 [[nodiscard]] Reference standAt(const Model& model, const VectorArg& q);
 
-/// On the straight way from posture q0 to qT, which takes `seconds` from time 0 and rests before and after:
-/// at time t. Throws Error as profileAt, and unless seconds > 0.
+/// The reference at time t on the straight path from posture q0 to qT. The motion takes `seconds` from time
+/// 0 and rests before and after. Throws Error like profileAt, and unless seconds > 0.
 [[nodiscard]] Reference referenceAlong(const Model& model, const VectorArg& q0, const VectorArg& qT,
                                        double seconds, double t, const MotionProfile& profile = {});
 
-/// At sample i of the postures in the columns of Q (nq x N), tau seconds apart, as if they stood still
-/// before and after. Acceleration by the differences of slide 3:30, velocity by the mean of the two, both
-/// exact to O(tau^2). Throws Error for no columns, an i that is none of them, and unless tau > 0.
+/// The reference at sample i of the postures in the columns of Q (nq x N), tau seconds apart, at rest
+/// before and after. The acceleration is the second difference of slide 3:30, the velocity the central
+/// difference, both exact to O(tau^2). Throws Error if Q has no columns or i is not one of them, and unless
+/// tau > 0.
 [[nodiscard]] Reference referenceAt(const Model& model, const MatrixArg& Q, double tau, int i);
 
-/// The acceleration (nv) that makes each joint behave like a point of mass one on a spring to the reference:
-/// a* = a_ref + Kp (q_ref - q) + Kd (v_ref - v). Slide 3:30; at quaternions, q_ref - q is difference(). Gains
-/// are those of pdGains(1, lambda, xi); negative ones, which push away, are taken as they are.
+/// The acceleration (nv) that makes each joint behave like a unit point mass on a spring to the reference:
+/// a* = a_ref + Kp (q_ref - q) + Kd (v_ref - v). Slide 3:30; for quaternions, q_ref - q is difference().
+/// Choose gains with pdGains(1, lambda, xi); negative gains, which push away, are accepted.
 [[nodiscard]] Eigen::VectorXd followReference(const Model& model, const State& state,
                                               const Reference& reference, const PdGains& gains);
 

@@ -15,8 +15,8 @@ enum class RiccatiStatus {
   kSolved,
   kNotStabilizable,  ///< a mode that does not decay cannot be reached by u
   kNotDetectable,    ///< a mode that neither grows nor decays costs nothing
-  kOnBoundary,  ///< closed-loop eigenvalues on the imaginary axis or unit circle: X is the limit, to half the
-                ///< digits
+  kOnBoundary,  ///< closed-loop eigenvalues on the imaginary axis or unit circle: X is the limit, accurate
+                ///< to half the digits
   kFailed       ///< no solution, or none computable in double precision
 };
 
@@ -26,33 +26,34 @@ struct RiccatiResult {
   Eigen::MatrixXd X{};            ///< symmetric, n x n
   Eigen::MatrixXd K{};            ///< m x n: u = -K x
   Eigen::VectorXcd closedLoop{};  ///< eigenvalues of A - B K
-  /// The norm of what the equation misses, relative to its largest term.
+  /// The norm of the equation's residual, relative to its largest term.
   double residual = std::numeric_limits<double>::infinity();
-  /// The offending eigenvalue: of A if it is not stabilizable or detectable (kSolved if X stabilizes an
-  /// unobservable growing mode), of the equation's pencil if it lies on the axis or circle.
+  /// The offending eigenvalue. It belongs to A if a mode is not stabilizable or detectable (also with
+  /// kSolved, if X stabilizes an unobservable growing mode), and to the equation's pencil if it lies on the
+  /// axis or circle.
   std::optional<std::complex<double>> mode{};
   std::string message{};
 };
 
 /// Solves 0 = A^T X + X A - X B R^-1 B^T X + Q for the X that makes A - B K stable, K = R^-1 B^T X. Slide
-/// 8:19, algebraic and continuous. By the ordered Schur form of an extended pencil (Van Dooren 1981),
-/// balanced, and Newton steps with residuals in extended precision. Throws Error for sizes that do not fit,
-/// entries that are not finite, Q or R that are not symmetric, and an R that is not positive definite, naming
-/// each. Q may be indefinite; then there need not be a solution. X is the minimal
-/// cost if every growing mode is observable.
+/// 8:19, algebraic and continuous. Uses the ordered Schur form of a balanced extended pencil (Van Dooren
+/// 1981), then Newton steps with residuals in extended precision. Throws Error for sizes that do not fit,
+/// entries that are not finite, Q or R that are not symmetric, and an R that is not positive definite,
+/// naming each. Q may be indefinite; then a solution need not exist. X is the minimal cost if every growing
+/// mode is observable.
 [[nodiscard]] RiccatiResult solveCare(const MatrixArg& A, const MatrixArg& B, const MatrixArg& Q,
                                       const MatrixArg& R);
 
 /// Solves X = A^T X A - A^T X B (R + B^T X B)^-1 B^T X A + Q, K = (R + B^T X B)^-1 B^T X A. Slide 8:19,
-/// algebraic and discrete. R may be singular as long as R + B^T X B is not. Otherwise as solveCare.
+/// algebraic and discrete. R may be singular as long as R + B^T X B is not. Otherwise like solveCare.
 [[nodiscard]] RiccatiResult solveDare(const MatrixArg& A, const MatrixArg& B, const MatrixArg& Q,
                                       const MatrixArg& R);
 
-/// The symmetric X of A^T X + X A + Q = 0. Throws Error for sizes, entries that are not finite, and where two
-/// eigenvalues of A sum to zero.
+/// The symmetric X of A^T X + X A + Q = 0. Throws Error for sizes that do not fit, entries that are not
+/// finite, and if two eigenvalues of A sum to zero.
 [[nodiscard]] Eigen::MatrixXd solveLyapunov(const MatrixArg& A, const MatrixArg& Q);
-/// The symmetric X of A^T X A - X + Q = 0. Throws as solveLyapunov, where two eigenvalues have a product of
-/// one.
+/// The symmetric X of A^T X A - X + Q = 0. Throws like solveLyapunov, but if the product of two eigenvalues
+/// is one.
 [[nodiscard]] Eigen::MatrixXd solveDiscreteLyapunov(const MatrixArg& A, const MatrixArg& Q);
 
 }  // namespace rex
