@@ -17,8 +17,7 @@ struct CartPoleRolloutOptions {
   double failure = 10;  ///< cost of each step that is missing after a failure
   int steps = 3000;     ///< 50 s
   double tau = 1. / 60, noise = 0.1;
-  double largestAngle =
-      std::numbers::pi / 2;  ///< rad; beyond it, or if the state is not finite, the pole has fallen
+  double largestAngle = std::numbers::pi / 2;  ///< rad; beyond it, or if not finite, the pole has fallen
   CartPoleDynamics dynamics{};
 };
 

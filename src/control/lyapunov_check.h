@@ -52,8 +52,7 @@ struct LyapunovCertificate {
   double leastOfP = 0;  ///< smallest eigenvalue of P
   /// V(t) <= e^{rate t} V(0). Negative if V decreases everywhere; never below twice the spectral abscissa.
   double rate = 0;
-  Eigen::VectorXd
-      worst{};  ///< direction of the smallest eigenvalue of P, if that is not positive; else that of the rate
+  Eigen::VectorXd worst{};  ///< direction of the least eigenvalue of P, if not positive; else of the rate
   std::string message{};
 };
 /// Throws Error for sizes that do not fit, entries that are not finite, and a P that is not symmetric.

@@ -22,8 +22,7 @@ struct PidOptions {
   /// conditional integration, which needs no tuning).
   double lowest = -std::numeric_limits<double>::infinity();
   double highest = std::numeric_limits<double>::infinity();
-  double filterTime =
-      0;  ///< time constant in seconds of the filter for differences of the error; 0: no filter
+  double filterTime = 0;  ///< time constant of the filter of error differences, seconds; 0: none
 };
 
 /// PID control of one coordinate. An arm has one for each joint, because each joint needs its own gains.

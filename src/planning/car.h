@@ -9,35 +9,35 @@ namespace rex {
 struct Car {
   double wheelbase = 1;      ///< L, metres between the axles
   double maxSteering = 0.7;  ///< largest |phi|, below pi / 2
-  /// Of the tightest circle that the reference point can drive: L / tan(maxSteering).
+  /// Radius of the tightest circle that the reference point can drive: L / tan(maxSteering).
   [[nodiscard]] double turningRadius() const;
 };
 
-/// q' = (v cos heading, v sin heading, v / L tan phi). Throws Error for a wheelbase that is not positive, and
-/// a steering angle beyond the largest.
+/// q' = (v cos heading, v sin heading, v / L tan phi). Throws Error for a wheelbase that is not positive,
+/// and a steering angle beyond maxSteering.
 [[nodiscard]] Eigen::Vector3d carVelocity(const Car& car, const Eigen::Vector3d& q, const Eigen::Vector2d& u);
 
-/// Where the car is after `seconds` with constant u: exact, on an arc or a line. Throws as carVelocity.
+/// The pose after `seconds` with constant u: exact, on an arc or a line. Throws like carVelocity.
 [[nodiscard]] Eigen::Vector3d driveCar(const Car& car, const Eigen::Vector3d& q, const Eigen::Vector2d& u,
                                        double seconds);
 
-/// How far a motion would slide sideways: xdot sin(heading) - ydot cos(heading), m/s. Zero for cars: slide
+/// The sideways slip of a motion: xdot sin(heading) - ydot cos(heading), m/s. It is zero for cars: slide
 /// 4:49.
 [[nodiscard]] double sidewaysSpeed(const Eigen::Vector3d& q, const Eigen::Vector3d& velocity);
 
-/// A car that pulls a trailer on a hitch between its rear wheels; q = (x, y, heading, heading of the
+/// A car that pulls a trailer, hitched between its rear wheels; q = (x, y, heading, heading of the
 /// trailer). Slide 4:57.
 struct CarWithTrailer {
   Car car{};
   double hitchLength = 1;  ///< from the hitch to the trailer's axle, metres
 };
 
-/// As carVelocity; the trailer turns by v / d sin(heading - heading of the trailer).
+/// Like carVelocity; the trailer turns with the rate v / d sin(heading - heading of the trailer).
 [[nodiscard]] Eigen::Vector4d trailerVelocity(const CarWithTrailer& rig, const Eigen::Vector4d& q,
                                               const Eigen::Vector2d& u);
 
-/// Where both are after `seconds` with constant u: exact in the car, and in the trailer to about 1e-9, by
-/// steps of Runge and Kutta. Throws as carVelocity.
+/// The state of both after `seconds` with constant u: exact for the car, and accurate to about 1e-9 for the
+/// trailer (Runge-Kutta steps). Throws like carVelocity.
 [[nodiscard]] Eigen::Vector4d driveTrailer(const CarWithTrailer& rig, const Eigen::Vector4d& q,
                                            const Eigen::Vector2d& u, double seconds);
 

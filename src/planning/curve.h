@@ -13,11 +13,11 @@ enum class Steering { kLeft, kStraight, kRight };
 
 struct CurveSegment {
   Steering steering = Steering::kStraight;
-  double length = 0;  ///< metres of way; negative: driven backward
+  double length = 0;  ///< metres; negative: driven backward
 };
 
-/// A way of arcs of one radius and straight pieces, from a pose (x, y, heading; metres and radians, left
-/// turns count positive).
+/// A path of straight segments and arcs of one radius that starts at a pose (x, y, heading; metres and
+/// radians, left turns positive).
 class Curve {
  public:
   static constexpr int kMostSegments = 5;
@@ -30,7 +30,7 @@ class Curve {
   }
   const Eigen::Vector3d& start() const { return start_; }
   double radius() const { return radius_; }
-  /// Metres of way, forward and backward.
+  /// Metres driven, forward and backward.
   [[nodiscard]] double length() const;
   /// The pose after `way` metres, between 0 and length(); its heading is not wrapped.
   [[nodiscard]] Eigen::Vector3d pose(double way) const;

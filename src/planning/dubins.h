@@ -7,11 +7,11 @@ namespace rex {
 // Poses are (x, y, heading), metres and radians. All functions throw Error for a pose that is not finite and
 // a radius that is not positive and finite.
 
-/// The shortest way between two poses for a car that drives forward only, with turns no tighter than
+/// The shortest path between two poses for a car that only drives forward, with turns no tighter than
 /// `radius`: the best of the words LSL, LSR, RSL, RSR, LRL, RLR. Slide 4:60; Dubins 1957; Shkel and
 /// Lumelsky 2001.
 [[nodiscard]] Curve dubinsCurve(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius);
-/// Its length, metres; faster than the curve.
+/// Only its length, metres; faster than computing the curve.
 [[nodiscard]] double dubinsLength(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius);
 
 }  // namespace rex

@@ -5,19 +5,20 @@
 
 namespace rex {
 
-/// Checks the straight ways between configurations at points no more than `resolution` apart. They are asked
-/// for in blocks of 8 (a block of the kernels), each spread over the whole way, so that an obstacle is met
-/// early wherever it stands (the idea of Thomason, Kingston and Kavraki, Motions in microseconds, 2024).
+/// Checks straight edges between configurations at points no more than `resolution` apart. Points are
+/// checked in blocks of 8 (the block size of the kernels), each spread over the whole edge, so that
+/// obstacles are found early wherever they are (the idea of Thomason, Kingston and Kavraki, Motions in
+/// microseconds, 2024).
 class EdgeChecker {
  public:
   /// Throws Error for a resolution that is not positive and finite.
   EdgeChecker(const Space& space, AllValid allValid, double resolution);
 
   [[nodiscard]] bool isValid(const VectorArg& q);
-  /// The way from a valid configuration to another, that one included. Throws Error for wrong sizes,
-  /// and unless it takes at most 1e8 points, naming resolution and distance.
+  /// Checks the edge from a valid configuration to another one, which is checked too. Throws Error for
+  /// wrong sizes and if it takes more than 1e8 points, naming resolution and distance.
   [[nodiscard]] bool isValid(const VectorArg& from, const VectorArg& to);
-  /// How many configurations were handed to the validity function so far.
+  /// How many configurations the validity function has been asked about so far.
   long asked() const { return asked_; }
 
  private:

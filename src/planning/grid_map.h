@@ -30,22 +30,22 @@ class GridMap {
   bool contains(GridCell cell) const {
     return 0 <= cell.x && cell.x < width_ && 0 <= cell.y && cell.y < height_;
   }
-  /// Outside, all is blocked.
+  /// Cells outside the map are blocked.
   bool isBlocked(GridCell cell) const { return !contains(cell) || blocked_[index(cell)] != 0; }
   /// The cell must be inside.
   void setBlocked(GridCell cell, bool blocked = true) { blocked_[index(cell)] = blocked ? 1 : 0; }
-  /// Place of a cell in lists of all cells: row by row, from the lowest.
+  /// Index of a cell in lists of all cells: row by row, from the lowest.
   std::size_t index(GridCell cell) const {
     return static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(width_) +
            static_cast<std::size_t>(cell.x);
   }
   std::size_t count() const { return blocked_.size(); }
 
-  /// Metres.
+  /// The centre of a cell, metres.
   [[nodiscard]] Eigen::Vector2d center(GridCell cell) const;
   [[nodiscard]] GridCell cellAt(const Eigen::Vector2d& point) const;
 
-  /// Throws Error for a cell outside or blocked; `what` names it.
+  /// Throws Error if the cell is outside or blocked; `what` names it.
   void requireFree(std::string_view what, GridCell cell) const;
 
  private:
@@ -55,12 +55,12 @@ class GridMap {
   std::vector<std::uint8_t> blocked_;
 };
 
-/// Reads a map of '#' (blocked) and '.' (free), a row per line, the highest first. Throws Error with
-/// file:line:column for other characters, rows of different length, and a map without cells.
+/// Reads a map of '#' (blocked) and '.' (free), one row per line, top row first. Throws Error with
+/// file:line:column for other characters, rows of different lengths, and a map without cells.
 [[nodiscard]] GridMap parseGridMap(std::string_view text, const std::string& name, double cellSize = 1);
 
-/// Reads a .png or .pgm picture, in which what is darker than half is blocked, or any other file as
-/// parseGridMap() does. Throws Error naming the file and what is wrong with it.
+/// Reads a .png or .pgm picture, in which pixels darker than half are blocked, or any other file like
+/// parseGridMap(). Throws Error naming the file and what is wrong with it.
 [[nodiscard]] GridMap readGridMap(const std::filesystem::path& file, double cellSize = 1);
 
 }  // namespace rex

@@ -7,17 +7,17 @@
 
 namespace rex {
 
-/// A point by its number, and how far it is, in the metric of the space.
+/// The number of a point and its distance in the metric of the space.
 struct Neighbor {
   double distance;
   int point;
   auto operator<=>(const Neighbor&) const = default;
 };
 
-/// The configurations of a tree or roadmap, to be asked for those nearest to another. Points come one at a
-/// time; a k-d tree with boxes around its branches splits where they gather (Friedman, Bentley and Finkel
-/// 1977), so that asking n points takes time like log n while they spread over few dimensions. Answers are
-/// those of a look at all points; of equally near ones the first added comes first.
+/// Finds the nearest configurations of a tree or roadmap. Points are added one at a time to a k-d tree with
+/// bounding boxes that splits where they gather (Friedman, Bentley and Finkel 1977); a query among n points
+/// takes time like log n in few dimensions. Results equal those of an exhaustive search; among equally near
+/// points the first added comes first.
 class NearestNeighbors {
  public:
   explicit NearestNeighbors(Space space);
@@ -26,23 +26,23 @@ class NearestNeighbors {
   /// Numbers of the points: 0, 1, 2, ... in the order they are added. Throws Error for a wrong size or
   /// numbers that are not finite, saying which.
   int add(const VectorArg& q);
-  /// Valid until the next add().
+  /// Point i, valid until the next add().
   [[nodiscard]] Eigen::Map<const Eigen::VectorXd> point(int i) const;
 
-  /// The nearest point. Throws Error if there is none, and as add().
+  /// The nearest point. Throws Error if there is none, and like add().
   [[nodiscard]] int nearest(const VectorArg& q) const;
-  /// The `most` nearest points, or all if there are fewer, nearest first; none for most <= 0. Throws as
+  /// The `most` nearest points, or all if there are fewer, nearest first; none for most <= 0. Throws like
   /// add().
   [[nodiscard]] std::vector<int> nearest(const VectorArg& q, int most) const;
-  /// All points at most `radius` away, nearest first. Throws as add(), and for a radius that is negative or
-  /// no number.
+  /// All points at most `radius` away, nearest first. Throws like add(), and for a radius that is negative
+  /// or not a number.
   [[nodiscard]] std::vector<int> within(const VectorArg& q, double radius) const;
-  /// The same into a caller's storage, in no order worth knowing.
+  /// The same into the caller's storage, in unspecified order.
   void within(const VectorArg& q, double radius, std::vector<Neighbor>& out) const;
 
  private:
-  // A leaf holds up to kBucket points, any other node two nodes. Distances are taken of kChunk points at
-  // once.
+  // A leaf holds up to kBucket points, any other node two nodes. Distances are computed for kChunk points
+  // at once.
   static constexpr int kBucket = 64, kChunk = 8;
   struct Node {
     int left = -1, right = -1;  // a leaf has none

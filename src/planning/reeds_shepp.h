@@ -4,11 +4,12 @@
 
 namespace rex {
 
-/// The shortest way between two poses for a car that may also drive backward, with turns no tighter than
+/// The shortest path between two poses for a car that may also drive backward, with turns no tighter than
 /// `radius`, among all words of Reeds and Shepp. Slide 4:61; Reeds and Shepp, Optimal paths for a car that
-/// goes both forwards and backwards, 1990. Throws as dubinsCurve.
+/// goes both forwards and backwards, 1990. Throws like dubinsCurve.
 [[nodiscard]] Curve reedsSheppCurve(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius);
-/// Its length, metres; faster than the curve. A metric: symmetric, and with the triangle inequality.
+/// Only its length, metres; faster than computing the curve. It is a metric: symmetric, and satisfies the
+/// triangle inequality.
 [[nodiscard]] double reedsSheppLength(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius);
 
 }  // namespace rex

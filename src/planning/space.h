@@ -20,13 +20,12 @@ struct SpacePart {
   };
   Kind kind = Kind::kLine;
   double lower = -1,
-         upper = 1;   ///< of lines, where samples are drawn; angles and quaternions have all values
-  double weight = 1;  ///< > 0; distances of this part count so much
+         upper = 1;   ///< bounds of lines, for samples; angles and quaternions are not bounded
+  double weight = 1;  ///< > 0; factor for the distances of this part
 };
 
-/// Which numbers a configuration has, how far two of them are apart, and the way from one to the other. The
-/// distance is the root of the sum of the squares of the weighted distances of the parts. All functions throw
-/// Error for vectors of the wrong size.
+/// A configuration space with its metric and interpolation. The distance is the root of the sum of squares
+/// of the parts' weighted distances. All functions throw Error for vectors of the wrong size.
 class Space {
  public:
   /// Throws Error naming the part for bounds that are not finite or not in order, and weights that are not
@@ -41,13 +40,13 @@ class Space {
   std::span<const SpacePart> parts() const { return parts_; }
 
   [[nodiscard]] double distance(const VectorArg& a, const VectorArg& b) const;
-  /// How long the way from a to b is that interpolate() follows: more than distance() where that cuts through
-  /// the circle or the sphere.
+  /// The length of the path from a to b that interpolate() follows. It exceeds distance() if that cuts
+  /// through the circle or the sphere.
   [[nodiscard]] double wayLength(const VectorArg& a, const VectorArg& b) const;
-  /// The configuration at the share t of the way from a (0) to b (1): straight, the shorter way round, and
-  /// turning about one axis.
+  /// The configuration at the fraction t from a (0) to b (1): along a straight line, the shorter way round
+  /// a circle, and by a rotation about one axis.
   void interpolate(const VectorArg& a, const VectorArg& b, double t, Eigen::Ref<Eigen::VectorXd> out) const;
-  /// A uniform configuration within the bounds.
+  /// Draws a uniform configuration within the bounds.
   void sample(Rng& rng, Eigen::Ref<Eigen::VectorXd> out) const;
   /// Throws Error for a configuration that has a wrong size, is not finite, is not a rotation, or leaves the
   /// bounds, saying which number and by how much; `what` names it.
@@ -58,11 +57,12 @@ class Space {
   int size_ = 0;
 };
 
-/// The same postures, one per column, in numbers that do not jump: each angle is at most half a turn from the
-/// one before, each quaternion has the sign that is nearer. Throws Error for columns of the wrong size.
+/// The same postures, one per column, without jumps: each angle is at most half a turn from the previous
+/// one, and each quaternion has the sign nearer to the previous one. Throws Error for columns of the wrong
+/// size.
 [[nodiscard]] Eigen::MatrixXd unrolled(const Space& space, Eigen::MatrixXd path);
 
-/// How many numbers a part has.
+/// The number of coordinates of a part.
 [[nodiscard]] constexpr int sizeOf(SpacePart::Kind kind) {
   return kind == SpacePart::Kind::kQuaternion ? 4 : 1;
 }

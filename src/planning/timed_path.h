@@ -7,13 +7,13 @@
 
 namespace rex {
 
-/// Where a motion is, and its velocity and acceleration (nv each).
+/// The configuration q (nq) of a motion, its velocity and acceleration (nv each).
 struct MotionPoint {
   Eigen::VectorXd q{}, v{}, a{};
 };
 
-/// A path with a time for each of its points: between the points of a grid the second derivative of the
-/// parameter by time is constant.
+/// A path with a time for each of its points. Between grid points the second time derivative of the
+/// parameter is constant.
 class TimedPath {
  public:
   /// A part of a piece, in which the parameter of the piece goes from `from` to `to`.
@@ -23,19 +23,19 @@ class TimedPath {
   };
 
   TimedPath() = default;
-  /// `squares` are those of the parameter's speed at the grid, one more than intervals; no two in turn are
-  /// zero.
+  /// `squares` are the squared speeds of the parameter at the grid points, one more than intervals; no two
+  /// consecutive ones are zero.
   TimedPath(PathCurve curve, std::vector<Interval> intervals, std::vector<double> squares);
 
-  /// Seconds at the grid, from 0; one where there are no intervals.
+  /// Seconds at the grid points, from 0; a single one if there are no intervals.
   const std::vector<double>& times() const { return times_; }
-  /// The parameter of the whole path at the grid, and the square of its speed.
+  /// The parameter of the whole path at the grid points, and its squared speed.
   const std::vector<double>& places() const { return places_; }
   const std::vector<double>& squares() const { return squares_; }
   const PathCurve& curve() const { return curve_; }
   [[nodiscard]] double duration() const { return times_.back(); }
-  /// At t seconds, and at an end before 0 and after duration(); where the acceleration jumps, as it is next.
-  /// Throws Error for a time that is not finite.
+  /// The motion at t seconds, with t clamped to [0, duration()]. Where the acceleration jumps, the later
+  /// value is returned. Throws Error for a time that is not finite.
   [[nodiscard]] MotionPoint at(double t) const;
 
  private:

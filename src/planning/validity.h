@@ -6,14 +6,14 @@
 
 namespace rex {
 
-/// Whether all configurations are valid, one per column of Q: free of collision, say. It may stop at the
-/// first that is not, and be called with any number of columns.
+/// Whether all configurations, one per column of Q, are valid, for example free of collision. It may stop
+/// at the first invalid one, and is called with any number of columns.
 using AllValid = std::function<bool(const MatrixArg& Q)>;
 
-/// From a function of one configuration.
+/// Makes one from a function of a single configuration.
 [[nodiscard]] AllValid eachColumn(std::function<bool(const VectorArg& q)> isValid);
 
-/// Valid where a clearance is positive. What is not a number throws Error naming the configuration.
+/// Valid if a clearance is positive. If it is not a number, Error names the configuration.
 [[nodiscard]] AllValid whereClear(std::function<double(const VectorArg& q)> clearance);
 
 }  // namespace rex

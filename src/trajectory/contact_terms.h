@@ -5,34 +5,35 @@
 
 namespace rex {
 
-// Terms of order 1 that look at `samples` postures on the straight way from x_{t-1} to x_t, the last one x_t:
-// thin obstacles lie between steps. They see all that is nearer than the margin there: nothing is missed
-// where no point of the robot goes further than two margins between samples, and trajectoryClearance() proves
-// it afterwards. As for task terms, threads must not share them, and models have no quaternions. They throw
-// Error for a margin that is not positive and fewer than one sample.
+// Terms of order 1 that evaluate `samples` postures on the straight segment from x_{t-1} to x_t, the last
+// one being x_t, because thin obstacles may lie between steps. Nothing is missed if no point of the robot
+// moves more than two margins between samples; trajectoryClearance() proves it afterwards. As for task
+// terms, threads must not share them, and the model must not have quaternions. They throw Error for a
+// margin that is not positive and for fewer than one sample.
 
 struct ContactSampling {
   double margin = kContactMargin;  ///< metres
   int samples = 1;
 };
 
-/// Contact cost of slide 2:60 (contactCost) of each sample, times sqrt(precision / samples).
+/// Contact cost of slide 2:60 (contactCost) for each sample, times sqrt(precision / samples).
 [[nodiscard]] TrajectoryTerm contactCostTerm(const Model& model, const ContactModel& contacts,
                                              const ContactSampling& sampling = {}, double precision = 1);
 
 /// Each pair of contacts.pairs() keeps the margin in each sample, as inequalities: 1 - d / margin <= 0, the
-/// rows of the first sample first. Pairs from two margins on count as that far.
+/// rows of the first sample first. Distances are capped at two margins.
 [[nodiscard]] TrajectoryTerm clearanceTerm(const Model& model, const ContactModel& contacts,
                                            const ContactSampling& sampling = {});
 
-/// The smallest distance of any pair on a trajectory, metres, and in which step.
+/// The smallest distance of any pair on a trajectory, and the step in which it occurs.
 struct TrajectoryClearance {
-  double distance = 0;  ///< proven: no pair comes nearer (motionClearance). Infinite without pairs
+  double distance = 0;  ///< metres, proven: no pair comes nearer (motionClearance). Infinite without pairs
   int step = 0;         ///< between columns step and step + 1
 };
 
-/// Of the straight ways from each column of a path (nq x N, N >= 2) to the next, within `tolerance` metres of
-/// the largest that could be proven. Throws Error for fewer columns and as motionClearance().
+/// The clearance of the straight segments between consecutive columns of a path (nq x N, N >= 2), within
+/// `tolerance` metres of the largest provable value. Throws Error for fewer columns and like
+/// motionClearance().
 [[nodiscard]] TrajectoryClearance trajectoryClearance(const Model& model, const ContactModel& contacts,
                                                       const MatrixArg& path, double tolerance);
 

@@ -4,9 +4,10 @@
 
 namespace rex {
 
-// Terms of slide 5:4 over configurations. Their rows hold sqrt(w tau) times a difference quotient: the sum of
-// squares over all steps is an integral over time, whatever tau is. `weights`: w of each coordinate, not
-// negative; empty: ones. Evaluating terms throws Error for vectors that are not n long.
+// Terms of slide 5:4 over configurations. Their rows are sqrt(w tau) times a difference quotient, so that
+// the sum of squares over all steps approximates an integral over time, whatever tau is. `weights`: w of
+// each coordinate, not negative; empty: ones. Evaluating terms throws Error for vectors that are not of
+// size n.
 
 /// Velocity (x_t - x_{t-1}) / tau, k = 1.
 [[nodiscard]] TrajectoryTerm velocityTerm(Eigen::VectorXd weights = {});
@@ -17,8 +18,8 @@ namespace rex {
 
 /// x_t - target, k = 0, not scaled by tau: for a posture on the way or at the end.
 [[nodiscard]] TrajectoryTerm postureTerm(const VectorArg& target);
-/// lower <= x_t <= upper as inequalities, k = 0; numbers that are infinite are no limits. Throws Error for
-/// two sizes, and where lower is above upper.
+/// lower <= x_t <= upper as inequalities, k = 0; infinite entries are not limits. Throws Error for vectors
+/// of different sizes, and if lower is above upper.
 [[nodiscard]] TrajectoryTerm limitsTerm(const VectorArg& lower, const VectorArg& upper);
 /// |x_t - x_{t-1}| <= limit tau as inequalities, k = 1; infinity is not a limit. Throws Error for limits that
 /// are not positive.

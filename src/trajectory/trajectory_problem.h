@@ -9,15 +9,15 @@
 
 namespace rex {
 
-/// What a term of order k looks at: k + 1 configurations in turn.
+/// The input of a term of order k: k + 1 consecutive configurations.
 struct TrajectoryWindow {
   int t;        ///< the step of the last one
   double tau;   ///< seconds from one to the next
   MatrixArg X;  ///< n x (k + 1): x_{t-k} ... x_t
 };
 
-/// Writes y (d) and J (d x (k + 1) n, the columns of x_{t-k} first) into storage that is used again. d must
-/// not change.
+/// Writes y (d) and J (d x (k + 1) n, the columns of x_{t-k} first) into storage that is reused. d must not
+/// change.
 using TermFunction = std::function<void(const TrajectoryWindow&, FunctionValue&)>;
 
 enum class TermKind {
@@ -33,22 +33,22 @@ struct TrajectoryTerm {
   int order = 0;  ///< k
   TermFunction function{};
   int first = 0;
-  std::optional<int> last{};  ///< included; none: to the end
+  std::optional<int> last{};  ///< inclusive; empty: to the end
 };
 
-/// The same term at other steps, at one alone, and in another role.
+/// The same term at other steps, at a single step, and in another role.
 [[nodiscard]] TrajectoryTerm during(TrajectoryTerm term, int first, int last);
 [[nodiscard]] TrajectoryTerm at(TrajectoryTerm term, int t);
 [[nodiscard]] TrajectoryTerm as(TermKind kind, TrajectoryTerm term);
 
 /// The k-order problem of slide 5:3: T unknown configurations x_0 ... x_{T-1} of n numbers, tau seconds
-/// apart, after a given prefix ... x_{-1}. The last one of the prefix is at time 0, so x_t at (t + 1) tau,
-/// and the motion takes T tau; the slide's T is one less.
+/// apart, after a given prefix ... x_{-1}. The last configuration of the prefix is at time 0, so x_t is at
+/// (t + 1) tau and the motion takes T tau. The slide's T is one less.
 class TrajectoryProblem {
  public:
-  /// `prefix`: n x k or more columns, at least one. Throws Error without numbers or steps, for a tau that is
-  /// not positive, and naming a term that has no function, looks further back than the prefix reaches, or
-  /// is at no step of the trajectory.
+  /// `prefix`: n x k or more columns, at least one. Throws Error if n or the number of steps is zero and
+  /// for a tau that is not positive. Also throws Error naming a term that has no function, looks further
+  /// back than the prefix, or is at no step of the trajectory.
   TrajectoryProblem(std::vector<TrajectoryTerm> terms, const MatrixArg& prefix, int steps, double tau = 1);
 
   [[nodiscard]] const std::vector<TrajectoryTerm>& terms() const { return terms_; }
