@@ -7,47 +7,47 @@
 
 namespace rex {
 
-/// kUndecided: the wrenches lie so near to the border between both that rounding decides.
+/// kUndecided: the wrenches are so close to the boundary between both that rounding decides.
 enum class ClosureStatus { kClosed, kOpen, kUndecided };
 
-/// Whether wrenches can counteract any other, with a proof that holds by substitution.
+/// Whether wrenches can counteract any other, with a proof that can be checked by substitution.
 struct Closure {
   ClosureStatus status = ClosureStatus::kUndecided;
-  int rank = 0;  ///< dimensions that the wrenches span
+  int rank = 0;  ///< number of dimensions that the wrenches span
   /// kClosed, N: all positive, sum one, and wrenches * weights = 0. Else empty.
   Eigen::VectorXd weights{};
-  /// kOpen, d: a unit vector with direction.w >= 0 for every wrench w, so that nothing counteracts a wrench
-  /// along it, and no contact stops a motion along it; far from them all where there are many. Else, and
-  /// without contacts, empty.
+  /// kOpen, d: a unit vector with direction.w >= 0 for every wrench w, so nothing counteracts a wrench
+  /// along it and no contact stops a motion along it. If there are many such vectors, it is far from all
+  /// wrenches. Empty otherwise, and without contacts.
   Eigen::VectorXd direction{};
-  /// kClosed: the largest number of sum w_i weights_i / |w_i|, divided by the smallest such weight; kOpen:
-  /// how far the lowest direction.w / |w| lies below zero. Below 1e-9 for both. Of contacts both are seen
-  /// from their middle, with torques divided by the distance of the one that lies farthest from it.
+  /// kClosed: the largest entry of sum w_i weights_i / |w_i|, divided by the smallest such weight; kOpen:
+  /// how far the lowest direction.w / |w| is below zero. Both are below 1e-9. For contacts, torques are
+  /// taken about their centre and divided by the distance of the farthest contact from it.
   double residual = 0;
   std::string message{};
 };
 
-/// Whether the positive span of the wrenches (d x N, one per column) is the whole space: slide 10:6. That is
-/// so if they have rank d and minus their sum is a positive combination of them, which a linear program
-/// tells; otherwise the theorem of Stiemke gives the direction. No wrenches are open. Undecided, too, where
-/// the least singular value of the unit wrenches lies between 1e-12 and 1e-9. Throws Error for no rows and
-/// for numbers that are not finite.
+/// Whether the positive span of the wrenches (d x N, one per column) is the whole space: slide 10:6. That
+/// holds if they have rank d and minus their sum is a positive combination of them, which a linear program
+/// decides; otherwise Stiemke's theorem gives the direction. An empty set is open. Also undecided if the
+/// smallest singular value of the unit wrenches is between 1e-12 and 1e-9. Throws Error if there are no
+/// rows and for numbers that are not finite.
 [[nodiscard]] Closure forceClosure(const MatrixArg& wrenches);
 
-/// A verdict on exact cones, and the wrenches that it speaks of: edges of a pyramid, and those on rims that
-/// decided. Of an open grasp `direction` holds for all wrenches of the cones.
+/// A verdict on exact cones, and the wrenches it refers to: the edges of a pyramid and the wrenches on the
+/// cones' rims that decided. For an open grasp `direction` holds for all wrenches of the cones.
 struct ConeClosure {
   Closure closure{};
   WrenchSet set{};
 };
 
-/// Force closure with exact friction cones: pyramids get further edges where their open direction is not that
-/// of the cones. The contacts are looked at from their middle, in units of their spread, so that the
-/// WrenchReference does not matter; farther from it than some 1e5 times the spread rounding decides. Throws
-/// as primitiveWrenches().
+/// Force closure with exact friction cones: edges are added to the pyramids until their open direction is
+/// also one of the cones. Torques are taken about the contacts' centre, in units of their spread, so the
+/// WrenchReference does not matter unless it is more than about 1e5 spreads away, when rounding decides.
+/// Throws like primitiveWrenches().
 [[nodiscard]] ConeClosure forceClosure(std::span<const WrenchCone> cones);
 
-/// Form closure of first order: force closure without friction, slide 10:7. Needs d + 1 contacts. Throws as
+/// First-order form closure: force closure without friction, slide 10:7. Needs d + 1 contacts. Throws as
 /// above.
 [[nodiscard]] Closure formClosure(std::span<const WrenchCone> cones);
 

@@ -8,30 +8,31 @@
 
 namespace rex {
 
-/// A point of a surface in the frame O of the object, metres, with the unit normal out of it.
+/// A point of a surface in the object's frame O, metres, with the outward unit normal.
 struct SurfacePoint {
   Eigen::Vector3d p_OQ, normal_O;
 };
 
-/// Where a line meets a surface: `t` metres from its origin along its direction; negative behind.
+/// An intersection of a line with a surface, `t` metres from the line's origin along its direction;
+/// negative if behind the origin.
 struct LineHit {
   double t = 0;
   Eigen::Vector3d normal_O;  ///< unit, out of the object
 };
 
-/// The surface of a closed solid in its own frame O, to place fingers on: boxes, spheres, capsules, cylinders
-/// and cones exactly, meshes by their triangles, in double precision.
+/// The surface of a closed solid in its own frame O, to place fingers on. Boxes, spheres, capsules,
+/// cylinders and cones are exact, meshes are sets of triangles in double precision.
 class ObjectSurface {
  public:
-  /// Throws Error for a shape of another type, or whose sizes are not positive and finite, and for a mesh
-  /// without area or triangles. A capsule may have no straight part.
+  /// Throws Error for other types of shapes, sizes that are not positive and finite, and a mesh without
+  /// area or triangles. A capsule may have no straight part.
   explicit ObjectSurface(const Shape& shape);
 
   [[nodiscard]] double area() const;  ///< m^2
-  /// `count` points, evenly by area, with the normal of the face or triangle. Throws Error for count < 0.
+  /// `count` points, uniform by area, with the normal of the face or triangle. Throws Error for count < 0.
   [[nodiscard]] std::vector<SurfacePoint> sample(Rng& rng, int count) const;
-  /// All places where the line p_OQ + t direction meets the surface, by t; neighbouring triangles at a common
-  /// edge may both count. Throws Error for a direction that is not a unit vector, and numbers that are not
+  /// All intersections of the line p_OQ + t direction with the surface, sorted by t. At a common edge both
+  /// triangles may count. Throws Error for a direction that is not a unit vector, and numbers that are not
   /// finite.
   [[nodiscard]] std::vector<LineHit> hits(const Eigen::Vector3d& p_OQ,
                                           const Eigen::Vector3d& direction_O) const;

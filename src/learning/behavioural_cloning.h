@@ -10,21 +10,21 @@
 
 namespace rex {
 
-/// Copies demonstrated actions (slides 9:9, 9:10) by regression on features of the states they were taken in.
+/// Imitates demonstrated actions (slides 9:9, 9:10) by regression on features of the states.
 struct LinearClone {
   Eigen::MatrixXd weights{};                                  ///< k x m: action = weights^T phi
-  double residual = std::numeric_limits<double>::infinity();  ///< root mean square of the actions' errors
-  int rank = 0;  ///< less than k without ridge: of all solutions the shortest
+  double residual = std::numeric_limits<double>::infinity();  ///< root mean square error of the actions
+  int rank = 0;  ///< if less than k without ridge, `weights` is the minimum-norm solution
 };
-/// Ridge regression: least sum of squared errors + ridge |weights|^2. Features are n x k, actions n x m, one
-/// demonstration per row. Throws Error without demonstrations, for sizes that do not fit, what is not finite,
-/// and a negative ridge.
+/// Ridge regression: minimises the sum of squared errors + ridge |weights|^2. Features are n x k, actions n
+/// x m, one demonstration per row. Throws Error without demonstrations, for sizes that do not fit, numbers
+/// that are not finite, and a negative ridge.
 [[nodiscard]] LinearClone cloneLinear(const MatrixArg& features, const MatrixArg& actions, double ridge = 0);
 
-/// P(a | s) in proportion to exp(weights_a^T phi).
+/// P(a | s) proportional to exp(weights_a^T phi).
 struct SoftmaxPolicy {
   Eigen::MatrixXd weights{};  ///< k x actions
-  /// One for each action. Throws Error for features of another size.
+  /// One for each action. Throws Error for features of the wrong size.
   [[nodiscard]] Eigen::VectorXd probabilities(const VectorArg& phi) const;
 };
 
@@ -38,9 +38,9 @@ struct SoftmaxClone {
   int iterations = 0;
   std::string message{};
 };
-/// Logistic regression for finitely many actions: least mean of -log P(a | s) + ridge / 2 |weights|^2, by
-/// Newton's method with halved steps. Throws as cloneLinear, Error for a ridge that is not positive (without,
-/// demonstrations that can be told apart have no optimum), and for actions outside {0, ..., count - 1}.
+/// Logistic regression for finitely many actions: minimises the mean of -log P(a | s) + ridge / 2
+/// |weights|^2, by Newton's method with step halving. Throws like cloneLinear, for a ridge that is not
+/// positive (separable demonstrations would have no optimum), and for actions outside {0, ..., count - 1}.
 [[nodiscard]] SoftmaxClone cloneSoftmax(const MatrixArg& features, const std::vector<int>& actions, int count,
                                         double ridge = 1e-3, int maxIterations = 100);
 

@@ -7,18 +7,19 @@
 
 namespace rex {
 
-/// sum_t discount^t E phi(s_t) of a policy: k numbers. `features` is k x states, `start` a distribution over
-/// states. Throws as discountedVisits, and Error for features of another number of states or not finite.
+/// sum_t discount^t E phi(s_t) of a policy: k numbers. `features` is k x states, `start` a distribution
+/// over states. Throws like discountedVisits, and for features with the wrong number of states or that are
+/// not finite.
 [[nodiscard]] Eigen::VectorXd featureExpectations(const Mdp& mdp, const MatrixArg& policy,
                                                   const MatrixArg& features, const VectorArg& start);
 
-/// The same as the mean over demonstrations, each the states of one episode. Throws Error without any, for
-/// unknown states, and a discount outside [0, 1].
+/// The same estimated as the mean over demonstrations, each the states of one episode. Throws Error without
+/// demonstrations, for unknown states, and for a discount outside [0, 1].
 [[nodiscard]] Eigen::VectorXd featureExpectations(const std::vector<std::vector<int>>& demonstrations,
                                                   const MatrixArg& features, double discount);
 
 struct InverseRlOptions {
-  double tolerance = 1e-6;  ///< of the margin, relative to the length of the teacher's expectations
+  double tolerance = 1e-6;  ///< for the margin, relative to the norm of the teacher's expectations
   int maxIterations = 100;
 };
 
@@ -30,18 +31,18 @@ enum class InverseRlStatus {
 
 struct InverseRlResult {
   InverseRlStatus status = InverseRlStatus::kNotConverged;
-  Eigen::VectorXd w{};                      ///< k: R(s) = w^T phi(s) of the last margin above the tolerance
-  std::vector<Eigen::MatrixXd> policies{};  ///< the candidates, the first of them uniform
-  Eigen::VectorXd shares{};                 ///< the mixture of them nearest to the teacher: sum 1
+  Eigen::VectorXd w{};  ///< k: R(s) = w^T phi(s), from the last margin above the tolerance
+  std::vector<Eigen::MatrixXd> policies{};  ///< the candidates; the first is uniform
+  Eigen::VectorXd shares{};                 ///< weights of the mixture of them nearest to the teacher; sum 1
   Eigen::VectorXd expectations{};           ///< k: of the mixture
-  std::vector<double> margins{};            ///< one for each iteration; they do not grow
+  std::vector<double> margins{};            ///< one for each iteration, not increasing
   std::string message{};
 };
 
-/// Rewards that explain a teacher, slides 9:12 and 9:13 (Abbeel and Ng 2004): in turn the weights w that set
-/// the teacher's expectations apart from all candidates by most, and the policy that is best under w as one
-/// more candidate. Whatever the true w is, if it has length one, the mixture is worth the teacher's within
-/// the last margin. The rewards of `mdp` are not used. Throws as featureExpectations, Error for a discount of
+/// Rewards that explain a teacher, slides 9:12 and 9:13 (Abbeel and Ng 2004): alternately finds the weights
+/// w that separate the teacher's expectations most from all candidates, and adds the optimal policy under w
+/// as a candidate. For every true w of length one, the value of the mixture equals the teacher's within the
+/// last margin. The rewards of `mdp` are not used. Throws like featureExpectations, and for a discount of
 /// one.
 [[nodiscard]] InverseRlResult inverseRl(const Mdp& mdp, const MatrixArg& features, const VectorArg& start,
                                         const VectorArg& teacher, const InverseRlOptions& options = {});

@@ -10,12 +10,12 @@
 
 namespace rex {
 
-/// Where one action leads: entry (s, t) is P(next = t | s), states x states. A dense matrix becomes one by
-/// sparseView().
+/// The transitions of one action: entry (s, t) is P(next = t | s), states x states. Convert a dense matrix
+/// with sparseView().
 using TransitionMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// A stationary Markov decision process of finitely many states and actions, slide 9:4. In each state one
-/// acts and gets a reward; in a terminal one, nothing follows.
+/// A stationary Markov decision process with finitely many states and actions, slide 9:4. Acting in a state
+/// gives a reward; a terminal state ends the process.
 struct Mdp {
   std::vector<TransitionMatrix> transitions{};  ///< one for each action; rows of terminal states are empty
   Eigen::MatrixXd rewards{};                    ///< states x actions: E{r | s, a}
@@ -34,32 +34,33 @@ void requireMdp(const Mdp& mdp);
 /// The transitions as dense matrices.
 [[nodiscard]] std::vector<Eigen::MatrixXd> denseTransitions(const Mdp& mdp);
 
-/// R(s, a) where `entered`[t] is paid for coming into state t: states x actions. Throws Error for sizes that
-/// do not fit.
+/// R(s, a) if `entered`[t] is paid for entering state t: states x actions. Throws Error for sizes that do
+/// not fit.
 [[nodiscard]] Eigen::MatrixXd rewardsOnEntering(const std::vector<TransitionMatrix>& transitions,
                                                 const VectorArg& entered);
 
-/// A policy is a matrix, states x actions, of probabilities pi(a | s). Throws Error for sizes, negative or
-/// infinite entries, and rows that do not sum to one within 1e-9.
+/// A policy is a matrix, states x actions, of probabilities pi(a | s). Throws Error for sizes that do not
+/// fit, negative or infinite entries, and rows that do not sum to one within 1e-9.
 void requirePolicy(const Mdp& mdp, const MatrixArg& policy);
 /// All actions equally likely.
 [[nodiscard]] Eigen::MatrixXd uniformPolicy(const Mdp& mdp);
-/// actions[s] in state s. Throws Error for another number of states or an unknown action.
+/// The deterministic policy that takes actions[s] in state s. Throws Error for a wrong number of states or
+/// an unknown action.
 [[nodiscard]] Eigen::MatrixXd policyOf(const Mdp& mdp, const std::vector<int>& actions);
-/// The best action of each state with 1 - epsilon, any one otherwise. Throws as greedyActions, and Error
-/// unless epsilon is in [0, 1].
+/// The best action of each state with probability 1 - epsilon, otherwise a random one. Throws like
+/// greedyActions, and Error unless epsilon is in [0, 1].
 [[nodiscard]] Eigen::MatrixXd epsilonGreedy(const MatrixArg& Q, double epsilon);
 
-/// Q(s, a) = R(s, a) + discount sum_t P(t | s, a) V(t): states x actions, the bracket of eq. (10) of exercise
-/// 12.10. Throws Error for a V of another size.
+/// Q(s, a) = R(s, a) + discount sum_t P(t | s, a) V(t): states x actions, the bracket of eq. (10) of
+/// exercise 12.10. Throws Error for a V of the wrong size.
 [[nodiscard]] Eigen::MatrixXd actionValues(const Mdp& mdp, const VectorArg& V);
-/// The best action in each state, the first if several are. Throws Error if there is no action.
+/// The best action in each state, the first if several are equal. Throws Error if there is no action.
 [[nodiscard]] std::vector<int> greedyActions(const MatrixArg& Q);
 
 enum class MdpStatus {
   kSolved,
   kNotConverged,  ///< the error bound is still above the tolerance
-  kEndless        ///< without discount, the policy may go on for ever: there is no value
+  kEndless        ///< undiscounted, and the policy may go on forever: there is no value
 };
 
 }  // namespace rex

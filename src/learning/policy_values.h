@@ -11,19 +11,19 @@ namespace rex {
 struct PolicyValues {
   MdpStatus status = MdpStatus::kNotConverged;
   Eigen::VectorXd V{};
-  /// Greatest violation of Bellman's equation, relative to the greatest value.
+  /// The largest violation of Bellman's equation, relative to the largest value.
   double residual = std::numeric_limits<double>::infinity();
   std::string message{};
 };
 
-/// The values of a policy by one linear system, V = R_pi + discount P_pi V: eq. (9) of exercise 12.10.
-/// kEndless with a discount of one if some state, which the message names, may never come to a terminal one.
-/// Throws Error as requireMdp and requirePolicy.
+/// The values of a policy from one linear system, V = R_pi + discount P_pi V: eq. (9) of exercise 12.10.
+/// kEndless with a discount of one if some state, named in the message, may never reach a terminal one.
+/// Throws Error like requireMdp and requirePolicy.
 [[nodiscard]] PolicyValues policyValues(const Mdp& mdp, const MatrixArg& policy);
 
-/// How often each state is expected to be visited, sum_t discount^t P(s_t), starting from a distribution over
-/// states. Throws as policyValues, Error for a start that is not a distribution, and where there are no
-/// values.
+/// The expected discounted number of visits of each state, sum_t discount^t P(s_t), starting from a
+/// distribution over states. Throws like policyValues, for a start that is not a distribution, and if there
+/// are no values.
 [[nodiscard]] Eigen::VectorXd discountedVisits(const Mdp& mdp, const MatrixArg& policy,
                                                const VectorArg& start);
 

@@ -9,7 +9,7 @@ namespace rex {
 
 enum class PowerStatus {
   kMoved,
-  kNoReturn  ///< all returns are zero, or features never seen: no step is determined
+  kNoReturn  ///< all returns are zero, or some feature was never seen: the step is not determined
 };
 
 struct PowerStep {
@@ -18,9 +18,9 @@ struct PowerStep {
   std::string message{};
 };
 
-/// One step of PoWER (Kober and Peters 2008): beta + [E sum_t W Q]^-1 E sum_t W epsilon Q with
-/// W = phi phi^T / (phi^T Sigma phi) and Q the return to go. Slide 9:17 prints it without W, which is right
-/// for one feature only. Throws Error as requirePolicy and requireEpisodes, for a Sigma without noise in some
+/// One step of PoWER (Kober and Peters 2008): beta + [E sum_t W Q]^-1 E sum_t W epsilon Q with W = phi
+/// phi^T / (phi^T Sigma phi) and Q the return to go. Slide 9:17 omits W, which is right only for a single
+/// feature. Throws Error like requirePolicy and requireEpisodes, for a Sigma without noise in some
 /// direction, a discount outside [0, 1], and a negative return: add a constant to the rewards.
 [[nodiscard]] PowerStep powerStep(const LinearGaussianPolicy& policy, const std::vector<Episode>& episodes,
                                   double discount);

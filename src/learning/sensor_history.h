@@ -8,20 +8,20 @@
 
 namespace rex {
 
-/// Which features of the past of m sensors a policy sees; each more makes some motions tellable that one
-/// reading does not show, as velocities.
+/// Which features of the past of m sensors a policy sees. They make quantities observable that one reading
+/// does not show, such as velocities.
 struct SensorHistoryOptions {
   int sensors = 1;
-  double timeStep = .01;     ///< seconds between readings
-  bool constant = false;     ///< a one, in front
-  bool derivatives = false;  ///< dy/dt, by the last two readings
-  std::vector<double>
-      averages{};       ///< running averages of y, and of dy/dt if it is there, that keep such a share
-  int pastActions = 0;  ///< u of so many steps before, the last first
+  double timeStep = .01;           ///< seconds between readings
+  bool constant = false;           ///< whether a one comes first
+  bool derivatives = false;        ///< dy/dt, from the last two readings
+  std::vector<double> averages{};  ///< decay factors of running averages of y, and of dy/dt if used
+  int pastActions = 0;             ///< number of past actions u, the last one first
 };
 
-/// Turns a stream of readings and actions into features, with the state that takes: copying it copies the
-/// past. Their order: one; y; dy/dt; for each average that of y, then that of dy/dt; past actions.
+/// Turns a stream of readings and actions into features. It holds their history, and copying it copies the
+/// history. Order of the features: one; y; dy/dt; for each average that of y, then that of dy/dt; past
+/// actions.
 class SensorHistory {
  public:
   /// Throws Error for no sensor, a time step that is not positive, averages outside [0, 1) and a negative
@@ -29,10 +29,10 @@ class SensorHistory {
   explicit SensorHistory(const SensorHistoryOptions& options);
 
   int size() const { return static_cast<int>(features_.size()); }
-  /// Takes in a reading y of m numbers and gives the features, valid until the next call. At the first
-  /// reading derivatives are zero and averages the reading. Throws Error for another size.
+  /// Takes a reading y (m) and returns the features, valid until the next call. At the first reading
+  /// derivatives are zero and averages equal the reading. Throws Error for another size.
   const Eigen::VectorXd& observe(const VectorArg& y);
-  /// Remembers the action taken after a reading; without it, past actions are zero.
+  /// Records the action taken after a reading. If it is never called, past actions are zero.
   void act(double u);
   /// Forgets everything.
   void reset();

@@ -4,14 +4,14 @@
 
 namespace rex {
 
-/// Where a centre of mass is, seen from above, and how fast: x and y in W, metres and m/s.
+/// Position and velocity of a centre of mass seen from above: x and y in W, metres and m/s.
 struct CenterMotion {
   Eigen::Vector2d c = Eigen::Vector2d::Zero(), v = Eigen::Vector2d::Zero();
 };
 
-/// The linear inverted pendulum: a centre of mass that stays at one height above level ground, without
-/// angular momentum about it, so that c'' = omega^2 (c - p) for the zero moment point p (slide 11:12; Kajita
-/// et al. 2001, The 3D linear inverted pendulum mode). Both axes are alike and independent. All functions
+/// The linear inverted pendulum: a centre of mass at constant height above level ground, without angular
+/// momentum about it, so c'' = omega^2 (c - p) for the zero moment point p (slide 11:12; Kajita et al.
+/// 2001, The 3D linear inverted pendulum mode). Both axes behave alike and independently. All functions
 /// throw Error for a height or g that is not positive, and for numbers that are not finite.
 struct InvertedPendulum {
   double height = 0.8;  ///< of the centre of mass above the ground, metres
@@ -23,12 +23,13 @@ struct InvertedPendulum {
   [[nodiscard]] Eigen::Vector2d acceleration(const Eigen::Vector2d& c, const Eigen::Vector2d& p) const;
   /// p for an acceleration: the inverse of the above.
   [[nodiscard]] Eigen::Vector2d zmp(const Eigen::Vector2d& c, const Eigen::Vector2d& acceleration) const;
-  /// The motion t seconds later, with p held, in closed form. t may be negative.
+  /// The motion t seconds later with constant p, in closed form. t may be negative.
   [[nodiscard]] CenterMotion after(const CenterMotion& start, const Eigen::Vector2d& p, double t) const;
-  /// c + v / omega: the one p that brings the motion to rest, there. Pratt et al. 2006, Capture point.
+  /// c + v / omega: the only constant p that brings the motion to rest, above that p. Pratt et al. 2006,
+  /// Capture point.
   [[nodiscard]] Eigen::Vector2d capturePoint(const CenterMotion& at) const;
-  /// v^2 / 2 - omega^2 (c - p)^2 / 2 of each axis, J/kg: constant while p is held. Negative: it turns back
-  /// before it passes p.
+  /// v^2 / 2 - omega^2 (c - p)^2 / 2 for each axis, J/kg: constant while p is. If negative, the motion
+  /// turns back before it passes p.
   [[nodiscard]] Eigen::Vector2d orbitalEnergy(const CenterMotion& at, const Eigen::Vector2d& p) const;
 };
 

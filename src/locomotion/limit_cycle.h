@@ -6,7 +6,7 @@ namespace rex {
 
 struct LimitCycleOptions {
   int maxIterations = 50;
-  double tolerance = 1e-13;  ///< found where a step changes no number of the state by more, times the largest
+  double tolerance = 1e-13;  ///< of the residual, relative to the largest entry of x
   double timeLimit = 10;     ///< seconds of each step of the walker
 };
 
@@ -14,16 +14,17 @@ struct LimitCycleOptions {
 struct LimitCycle {
   enum class Status {
     kFound,
-    kFell,   ///< the walker does not even step from the guess: see `message`
-    kStuck,  ///< no shorter way along Newton's direction comes nearer, or no direction
+    kFell,   ///< the walker cannot even make one step from the guess: see `message`
+    kStuck,  ///< there is no Newton direction, or no step along it comes closer
     kIterationLimit,
-    kNoGait  ///< nothing replaces what impacts lose: level ground, uphill, or steps shorter than 1e-9 rad
+    kNoGait  ///< nothing replaces the energy lost in impacts: level ground, uphill, or steps shorter than
+             ///< 1e-9 rad
   };
   Status status = Status::kIterationLimit;
-  Eigen::Vector4d x = Eigen::Vector4d::Zero();  ///< just after an impact, as CompassGait; else the nearest
+  Eigen::Vector4d x = Eigen::Vector4d::Zero();  ///< just after an impact; if not found, the closest attempt
   double period = 0;                            ///< seconds of one step
-  /// Of the step map at x, by falling modulus: by how much a small change of the state grows from step to
-  /// step. One of the four is zero, because both feet stand on the slope at an impact.
+  /// The eigenvalues of the step map's derivative at x, by decreasing modulus: how much a small change of
+  /// the state grows per step. One of the four is zero, because both feet are on the slope at an impact.
   Eigen::Vector4cd multipliers = Eigen::Vector4cd::Zero();
   bool isStable = false;  ///< found, and all moduli below one
   double residual = 0;    ///< max |step(x) - x|
@@ -31,9 +32,9 @@ struct LimitCycle {
   std::string message{};
 };
 
-/// The limit cycle near `guess`, a state just after an impact: Newton's method on the step map with its exact
-/// derivative, damped where the walker would fall or come no nearer (slide 11:20; McGeer 1990). It finds
-/// unstable gaits, too. Throws Error as CompassGait, and for options that are not positive.
+/// The limit cycle near `guess`, a state just after an impact: Newton's method on the step map with its
+/// exact derivative, damped if the walker would fall or come no closer (slide 11:20; McGeer 1990). It also
+/// finds unstable gaits. Throws Error like CompassGait, and for options that are not positive.
 [[nodiscard]] LimitCycle findLimitCycle(const CompassGait& walker, const Eigen::Vector4d& guess,
                                         const LimitCycleOptions& options = {});
 

@@ -6,44 +6,45 @@
 
 namespace rex {
 
-/// What of a robot walks. At R_WB = Id a foot points along x with its sole level.
+/// The bodies of a robot that walk. At R_WB = Id a foot points along x with its sole level.
 struct Legs {
   BodyId leftFoot{}, rightFoot{};
   BodyId trunk{};                                  ///< kept upright
-  Eigen::Vector3d p_FS = Eigen::Vector3d::Zero();  ///< middle of the sole in the frame of each foot, metres
+  Eigen::Vector3d p_FS = Eigen::Vector3d::Zero();  ///< centre of the sole in the frame of each foot, metres
 };
 
 struct WalkOptions {
-  /// Its step is that of the pattern, its height that of the centre of mass above the ground.
+  /// Its step is the pattern's time step, its height that of the centre of mass above the ground.
   PreviewOptions preview{.height = 0.8, .step = 0.01};
-  double lift = 0.05;       ///< metres that a foot rises above the ground
-  double tolerance = 1e-8;  ///< metres and radians by which feet and centre of mass may miss their places
-  int maxIterations = 30;   ///< of inverse kinematics for each posture
+  double lift = 0.05;       ///< height to which a foot is lifted, metres
+  double tolerance = 1e-8;  ///< permitted error of the feet and the centre of mass, metres and radians
+  int maxIterations = 30;   ///< for the inverse kinematics of each posture
 };
 
 /// Postures of a robot that walks as planned.
 struct WalkingPattern {
   enum class Status {
     kWalks,
-    kNoPreview,  ///< there are no gains of preview control
-    kUnreached  ///< at some time feet and centre of mass cannot be where they should, within the joint limits
+    kNoPreview,  ///< no preview gains were found
+    kUnreached   ///< at some time the feet and the centre of mass cannot reach their targets within the joint
+                 ///< limits
   };
   Status status = Status::kUnreached;
-  Eigen::MatrixXd Q{};  ///< nq x N: a column for each step of the preview; until where it came, if kUnreached
+  Eigen::MatrixXd Q{};      ///< nq x N, one column per step of the preview; if kUnreached, up to the failure
   PreviewMotion center{};   ///< of the centre of mass, seen from above
-  double largestError = 0;  ///< of all postures in Q: of feet and centre of mass, metres and radians
+  double largestError = 0;  ///< over all postures in Q, of feet and centre of mass, metres and radians
   std::string message{};    ///< says when and how far off
 };
 
-/// Where the middle of a sole should be at time t (seconds), turned by yaw, on level ground at z = 0:
-/// standing, or on its way by a minimum jerk profile, with a bump of the height `lift`, turning the shorter
-/// way round. Throws Error as phaseAt().
+/// The desired pose of the centre of a sole at time t (seconds) on level ground at z = 0. A swinging foot
+/// follows a minimum jerk profile with a bump of height `lift` and turns the shorter way round. Throws
+/// Error like phaseAt().
 [[nodiscard]] Pose solePose(const WalkPlan& plan, Side side, double t, double lift);
 
-/// Plans footsteps' zero moment point, its centre of mass by preview control (slide 11:12), and postures by
-/// inverse kinematics, beginning near `start` (nq): feet and centre of mass first, then an upright trunk that
-/// turns with the feet, then near to `start`. Throws Error as followZmp() and duration(), for a start of
-/// another size, for a model without mass, and for options that are not positive.
+/// Plans the zero moment point from the footsteps, the centre of mass by preview control (slide 11:12), and
+/// postures by inverse kinematics, beginning near `start` (nq). Priorities: feet and centre of mass, then
+/// an upright trunk that turns with the feet, then closeness to `start`. Throws Error like followZmp() and
+/// duration(), for a start of the wrong size, a model without mass, and options that are not positive.
 [[nodiscard]] WalkingPattern walkingPattern(const Model& model, const Legs& legs, const WalkPlan& plan,
                                             const VectorArg& start, const WalkOptions& options = {});
 
