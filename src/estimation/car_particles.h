@@ -7,22 +7,21 @@
 
 namespace rex {
 
-/// How a planar car moves from x = (x, y, heading) under u = (speed, steering angle) in a step: by Euler with
-/// the heading before it (slide 4:48, errata 9), plus noise.
+/// The motion model of a planar car with x = (x, y, heading) and u = (speed, steering angle): one Euler
+/// step with the heading at its start (slide 4:48, errata 9), plus noise.
 struct CarMotion {
   double tau = 1;                                ///< seconds
   double wheelbase = 2;                          ///< metres
-  Eigen::Vector3d deviations{0.03, 0.03, 0.03};  ///< of the noise in x, y (metres) and heading
+  Eigen::Vector3d deviations{0.03, 0.03, 0.03};  ///< of the noise in x, y (m) and heading
 };
 
-/// Draws from the motion, as motionProposal() would, but many particles side by side: for filters with very
-/// many of them. Throws Error for a wheelbase that is not positive, negative deviations, and what is not
-/// finite.
+/// Draws from the motion like motionProposal(), but vectorised, for filters with very many particles.
+/// Throws Error for a wheelbase that is not positive, negative deviations, and numbers that are not finite.
 [[nodiscard]] Propose carProposal(const CarMotion& motion, const Eigen::Vector2d& u);
 
-/// Adds log p(y | x) of sightings y (2 N numbers) of N known landmarks, up to a constant; particles of a
-/// Cartesian sensor side by side. Throws Error for another size of y, a noise that is not definite, and what
-/// is not finite; when called, for states that are not (x, y, heading), and as viewOf().
+/// Adds log p(y | x) of sightings y (size 2 N) of N known landmarks, up to a constant; vectorised for a
+/// Cartesian sensor. Throws Error for a y of the wrong size, noise that is not definite, and numbers that
+/// are not finite. When called, it throws Error for states that are not (x, y, heading), and like viewOf().
 [[nodiscard]] Weigh landmarkWeights(const LandmarkSensor& sensor, const Eigen::Matrix2Xd& landmarks,
                                     const VectorArg& y);
 

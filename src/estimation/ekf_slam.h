@@ -17,45 +17,45 @@ struct PoseTransition {
   Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();
 };
 
-/// What an observation of one landmark did.
+/// The effect of an observation of one landmark.
 struct LandmarkUpdate {
   int landmark = 0;
   bool isNew = false;
-  double squaredInnovation = 0;  ///< NIS, chi-square of 2 degrees when consistent; 0 for a new landmark
+  double squaredInnovation = 0;  ///< NIS, chi-square (2 degrees) if consistent; 0 for a new landmark
 };
 
-/// When an observation without a name belongs to a known landmark: NIS bounds, chi-square of 2 degrees.
+/// NIS bounds (chi-square with 2 degrees of freedom) for associating unnamed observations with landmarks.
 struct AssociationGates {
-  double same = 9.21;  ///< 99 %: nearer than this it is the likeliest such landmark
+  double same = 9.21;  ///< 99 %: below it, the observation belongs to the likeliest landmark
   double different =
-      18.42;  ///< 99.99 %: farther than this from all it is a new one; between both it is left out
+      18.42;  ///< 99.99 %: above it for all landmarks, it is a new one; in between it is ignored
 };
 
-/// Kalman SLAM: one Gaussian of the pose and all landmarks, 3 + 2 N numbers, along tangents. Slide 7:38;
-/// exercise 12.13. A landmark enters when it is first seen; its size grows then. An observation by name of
-/// a known landmark does not allocate.
+/// EKF SLAM: one Gaussian of the pose and all landmarks, of size 3 + 2 N, with linearised models. Slide
+/// 7:38; exercise 12.13. A landmark is added when it is first seen. A named observation of a known landmark
+/// does not allocate.
 class EkfSlam {
  public:
-  /// Throws Error for a pose that is not a Gaussian of three numbers and a sensor whose W is not definite.
+  /// Throws Error for a pose that is not a Gaussian of size three and a sensor whose W is not definite.
   EkfSlam(const Gaussian& pose, const LandmarkSensor& sensor);
 
   int landmarks() const { return landmarks_; }
   [[nodiscard]] Gaussian pose() const;
-  /// Throws Error for a landmark that is not there.
+  /// Throws Error for a landmark that does not exist.
   [[nodiscard]] Gaussian landmark(int i) const;
   /// Pose and all landmarks.
   [[nodiscard]] Gaussian joint() const;
 
   /// Throws Error for a transition without functions, and values that are not finite.
   void predict(const PoseTransition& transition);
-  /// An observation of a landmark that is known by name; the next number, landmarks(), is a new one. Throws
-  /// Error for another, an observation that is not finite, and where rounding leaves a covariance that is not
-  /// one, of the innovation or after it: nothing has changed then.
+  /// Updates with an observation of landmark number `landmark`; the next number, landmarks(), adds a new
+  /// one. Throws Error for other numbers, an observation that is not finite, and if rounding makes the
+  /// covariance of the innovation or of the result invalid; nothing has changed then.
   LandmarkUpdate observe(int landmark, const Eigen::Vector2d& y);
-  /// Observations without names, of different landmarks each: the likeliest pairs first. Empty where one is
-  /// too far from all landmarks to be one of them and too near to be new, and where another took the landmark
-  /// it is near to. Throws as the above, where those taken before stay, and Error unless 0 < same <=
-  /// different.
+  /// Updates with unnamed observations, each of a different landmark; the likeliest pairs are taken first.
+  /// The result is empty for an observation that is neither near enough to a landmark nor far enough to be
+  /// new, or whose landmark was taken by another. Throws as above, keeping earlier updates, and unless 0 <
+  /// same <= different.
   std::vector<std::optional<LandmarkUpdate>> observe(std::span<const Eigen::Vector2d> ys,
                                                      const AssociationGates& gates = {});
 

@@ -10,21 +10,21 @@ namespace rex {
 
 /// What a range scanner on a planar robot measures: one distance along each direction.
 struct RangeScanner {
-  std::vector<double> angles{};  ///< of its rays, from the robot's heading, radians
-  double maxRange = 10;          ///< metres; where nothing is hit before, it reads this
+  std::vector<double> angles{};  ///< angles of the rays, from the robot's heading, radians
+  double maxRange = 10;          ///< metres; the reading of a ray that hits nothing closer
 };
 
-/// How much one ray says: the odds of a cell that stopped it, and of cells it passed.
+/// The inverse sensor model of one ray, for the cell that stopped it and for cells it passed.
 struct RayEvidence {
   double hit = 0.85, miss = 0.3;  ///< probabilities of being occupied, hit above and miss below one half
-  double bound = 0.999;           ///< no cell becomes more certain than this, so that it can be changed again
+  double bound = 0.999;           ///< limit on the certainty of a cell, so that it can change again
 };
 
-/// Square cells, each with the logarithm of its odds of being occupied; 0: not known. Slide 7:33; Moravec and
+/// A grid of square cells, each with the log odds of being occupied; 0: unknown. Slide 7:33; Moravec and
 /// Elfes 1985. Cell (0, 0) has its lower left corner at the origin.
 class OccupancyMap {
  public:
-  /// Throws Error for less than one cell or more than 1e8, a cell size that is not positive and an origin
+  /// Throws Error for fewer than one cell or more than 1e8, a cell size that is not positive, and an origin
   /// that is not finite.
   OccupancyMap(int width, int height, double cellSize, const Eigen::Vector2d& origin = {0, 0});
 
@@ -34,26 +34,26 @@ class OccupancyMap {
   const Eigen::Vector2d& origin() const { return origin_; }
 
   bool contains(int x, int y) const { return 0 <= x && x < width_ && 0 <= y && y < height_; }
-  /// Of a cell that the map contains.
+  /// The log odds of a cell that the map contains.
   [[nodiscard]] double logOdds(int x, int y) const { return cells_[place(x, y)]; }
   void setLogOdds(int x, int y, double logOdds) { cells_[place(x, y)] = logOdds; }
   [[nodiscard]] double probability(int x, int y) const;
   bool isOccupied(int x, int y) const { return contains(x, y) && logOdds(x, y) > 0; }
-  /// The cell of a point, which the map may not contain. Throws Error for a point that is not finite.
+  /// The cell of a point; it may lie outside the map. Throws Error for a point that is not finite.
   [[nodiscard]] Eigen::Vector2i cellAt(const Eigen::Vector2d& p) const;
 
-  /// Metres from p along the angle to the first occupied cell, at most maxRange; 0 from within one. Cells are
-  /// met exactly in their order (Amanatides and Woo 1987). Throws Error for numbers that are not finite, but
-  /// maxRange may be infinite, and a negative maxRange.
+  /// Metres from p along the angle to the first occupied cell, at most maxRange; 0 inside one. Cells are
+  /// traversed exactly in order (Amanatides and Woo 1987). Throws Error for numbers that are not finite
+  /// (maxRange may be infinite) and for a negative maxRange.
   [[nodiscard]] double distanceToOccupied(const Eigen::Vector2d& p, double angle, double maxRange) const;
-  /// What a scanner without noise would read at pose (x, y, heading). Throws Error for a count of ranges that
-  /// is not the scanner's, a pose or angle that is not finite, and a maxRange that is not finite and
-  /// positive.
+  /// Computes the readings of a noise-free scanner at pose (x, y, heading). Throws Error if the number of
+  /// ranges is not that of the scanner's rays, for a pose or angle that is not finite, and for a maxRange
+  /// that is not finite and positive.
   void scan(const RangeScanner& scanner, const Eigen::Vector3d& pose,
             Eigen::Ref<Eigen::VectorXd> ranges) const;
 
-  /// Adds what a scan from a pose says about the cells along each ray. Throws Error as scan, and for a range
-  /// that is not finite or negative, and evidence out of order; then the map is as it was.
+  /// Adds the evidence of a scan to the cells along each ray. Throws Error like scan, for a range that is
+  /// not finite or negative, and for evidence out of order; the map is unchanged then.
   void observe(const RangeScanner& scanner, const Eigen::Vector3d& pose, const VectorArg& ranges,
                const RayEvidence& evidence = {});
 

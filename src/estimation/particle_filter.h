@@ -11,7 +11,7 @@
 
 namespace rex {
 
-/// A distribution as weighted points: slide 6:30.
+/// A distribution represented by weighted samples: slide 6:30.
 struct Particles {
   Eigen::MatrixXd states{};   ///< one particle per column
   Eigen::VectorXd weights{};  ///< sum to one
@@ -21,50 +21,51 @@ struct Particles {
 /// Mean and covariance of the particles.
 [[nodiscard]] Gaussian momentsOf(const Particles& particles);
 
-/// Replaces each column of X, a state, by a draw of the next one. Draws need not follow the motion alone:
-/// then log p(next | state) / p_proposal(next) is added to the weight of each.
+/// Replaces each column of X, a state, by a draw of the next state. For a proposal other than the motion,
+/// it adds log(p(next | state) / p_proposal(next)) to the log weights.
 using Propose =
     std::function<void(Eigen::Ref<Eigen::MatrixXd> X, Eigen::Ref<Eigen::VectorXd> logWeights, Rng& rng)>;
-/// Adds log p(y | x) of each column of X, up to the same constant for all.
+/// Adds log p(y | x) for each column x of X, up to the same constant for all.
 using Weigh = std::function<void(const MatrixArg& X, Eigen::Ref<Eigen::VectorXd> logWeights)>;
 
 /// Draws from the motion.
 [[nodiscard]] Propose motionProposal(NonlinearModel transition);
 [[nodiscard]] Weigh observationWeights(NonlinearModel observation, const VectorArg& y);
-/// Draws from p(next | state, y), as far as the observation is linear around the mean of the motion:
-/// particles go where the observation is likely (slide 7:25; Doucet, Godsill and Andrieu 2000). Weigh them by
-/// observationWeights as always. Both noises must be definite.
+/// Draws from p(next | state, y), with the observation linearised at the mean of the motion: particles go
+/// where the observation is likely (slide 7:25; Doucet, Godsill and Andrieu 2000). Weigh them with
+/// observationWeights as usual. Both noise covariances must be definite.
 [[nodiscard]] Propose observedProposal(NonlinearModel transition, NonlinearModel observation,
                                        const VectorArg& y);
 
 struct ParticleFilterOptions {
-  Resampling resampling = Resampling::kResidual;  ///< with cellSize always multinomial, and at every step
-  /// Resample when the effective sample size falls below this share of the particles; 1: at every step, as
-  /// slide 7:22 does.
+  Resampling resampling = Resampling::kResidual;  ///< with cellSize multinomial, at every step
+  /// Resample if the effective sample size falls below this fraction of the particles; 1: at every step, as
+  /// on slide 7:22.
   double threshold = 1;
-  /// Sizes of the cells, one per number of a state, whose count decides on the count of particles (Fox 2003,
-  /// see adaptiveSampleSize); 0: this number does not count. Empty: as many particles as before.
+  /// Cell sizes, one per entry of a state, for choosing the number of particles from the number of occupied
+  /// cells (Fox 2003, see adaptiveSampleSize); 0: ignore this entry. Empty: a constant number of particles.
   Eigen::VectorXd cellSize{};
   double error = 0.05;
   int fewest = 50, most = 100000;
 };
 
-/// What a step did.
+/// The outcome of a step.
 struct ParticleStep {
-  double logEvidence = 0;    ///< log p(y | observations before), up to the constant of Weigh
+  double logEvidence = 0;    ///< log p(y | earlier observations), up to the constant of Weigh
   double effectiveSize = 0;  ///< after weighing
   bool resampled = false;
-  bool lost = false;  ///< no particle explains the observation: it was left out, particles moved on
+  bool lost = false;  ///< no particle explains the observation: it was ignored, but particles moved
 };
 
 /// Monte Carlo localisation: resample, propose, weigh. Slide 7:22.
 class ParticleFilter {
  public:
-  /// Throws Error for options out of range, no particles, and weights as resampled.
+  /// Throws Error for options out of range, no particles, and like resampled for weights.
   explicit ParticleFilter(Particles particles, ParticleFilterOptions options = {});
 
   const Particles& particles() const { return particles_; }
-  /// Throws Error naming the particle for states or weights that are not a number; the particles stay then.
+  /// Throws Error naming the particle for states or weights that are not a number; the particles are
+  /// unchanged then.
   [[nodiscard]] ParticleStep step(const Propose& propose, const Weigh& weigh, Rng& rng);
 
  private:

@@ -5,19 +5,19 @@
 
 namespace rex {
 
-/// How likely a range is where the map says another: mixed of a bell around what it says, readings without an
-/// echo, and any reading. Thrun, Burgard and Fox, Probabilistic Robotics, section 6.3, without its term for
-/// unexpected people.
+/// The likelihood of a range given the range expected from the map: a mixture of a Gaussian around the
+/// expected range, readings without an echo, and random readings. Thrun, Burgard and Fox, Probabilistic
+/// Robotics, section 6.3, without its term for unexpected people.
 struct BeamModel {
-  double deviation = 0.2;                      ///< of the bell, metres
-  double bell = 0.9, none = 0.05, any = 0.05;  ///< shares, which sum to one
-  /// Rays of one scan are not independent: their sum counts divided by this, at least 1.
+  double deviation = 0.2;                      ///< standard deviation of the Gaussian, metres
+  double bell = 0.9, none = 0.05, any = 0.05;  ///< mixture weights, which sum to one
+  /// Rays of one scan are not independent: the sum of their log likelihoods is divided by this, at least 1.
   double temper = 1;
 };
 
-/// The weights of Monte Carlo localisation in a map (states are x, y, heading) for what a scanner read. Keeps
-/// a reference to the map. Throws Error for shares that do not fit, a deviation that is not positive, and
-/// ranges as OccupancyMap::observe.
+/// The weights for Monte Carlo localisation in a map (states are x, y, heading), given a scan. Keeps a
+/// reference to the map. Throws Error for mixture weights out of range, a deviation that is not positive,
+/// and like OccupancyMap::observe for ranges.
 [[nodiscard]] Weigh scanWeights(const OccupancyMap& map, RangeScanner scanner, const VectorArg& ranges,
                                 const BeamModel& model = {});
 

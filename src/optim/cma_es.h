@@ -15,23 +15,22 @@ namespace rex {
 struct CmaOptions {
   int lambda = 0;      ///< samples per generation, at least 2; 0: 4 + floor(3 ln n)
   int mu = 0;          ///< parents, at most lambda; 0: half of lambda
-  bool active = true;  ///< bad samples lower the variance along their directions
-  /// Generations from one eigendecomposition of C to the next; 0: as many as barely change it,
-  /// 1 / (10 n (c_1 + c_mu)).
+  bool active = true;  ///< bad samples decrease the variance along their directions
+  /// Generations between eigendecompositions of C; 0: few enough that C barely changes, 1 / (10 n (c_1 +
+  /// c_mu)).
   int decompositionGap = 0;
 };
 
 /// The evolution strategy with covariance matrix adaptation of slides 9:29-9:31, with all constants of
 /// Hansen, The CMA Evolution Strategy: A Tutorial, 2016: samples are N(mean, sigma^2 C). The caller
-/// evaluates:
-///   while (...) { es.sample(X, rng); evaluate X; es.update(X, values); }
-/// The loop allocates nothing but, to decompose C, a vector. Only the order of values counts. Values that are
-/// not finite rank last and are counted in result().
+/// evaluates: while (...) { es.sample(X, rng); evaluate X; es.update(X, values); } The loop allocates
+/// nothing except one vector to decompose C. Only the order of values matters. Values that are not finite
+/// rank last and are counted in result().
 class CmaEs {
  public:
   /// Starts with N(mean, diag(deviations)^2). Throws Error for no coordinates, sizes that differ, numbers
-  /// that are not finite, deviations that are not positive, or beyond 1e+-100 or a factor of 1e7 of each
-  /// other, and options out of range.
+  /// that are not finite, deviations that are not positive, outside 1e+-100 or more than a factor of 1e7
+  /// apart, and options out of range.
   CmaEs(const VectorArg& mean, const VectorArg& deviations, const CmaOptions& options = {});
 
   int dimension() const { return static_cast<int>(mean_.size()); }
@@ -40,23 +39,24 @@ class CmaEs {
   int generation() const { return static_cast<int>(result_.iterations); }
   const Eigen::VectorXd& mean() const { return mean_; }
   double sigma() const { return sigma_; }
-  const Eigen::MatrixXd& covariance() const { return C_; }  ///< C: that of samples is sigma^2 C
+  const Eigen::MatrixXd& covariance() const { return C_; }  ///< C; the covariance of samples is sigma^2 C
   /// The last eigendecomposition of C: columns of `axes`, and the square roots of the eigenvalues, ascending.
   const Eigen::MatrixXd& axes() const { return B_; }
   const Eigen::VectorXd& axisLengths() const { return D_; }
   const Eigen::VectorXd& path() const { return covariancePath_; }  ///< p_c
-  /// The best sample so far, with its counts.
+  /// The best sample so far, with counts.
   const SearchResult& result() const { return result_; }
 
   /// Fills X, n x lambda, with samples. Throws Error for another shape.
   void sample(Eigen::Ref<Eigen::MatrixXd> X, Rng& rng);
 
-  /// Learns from the values of lambda points; they may be others than were sampled. Without any finite value,
-  /// nothing is learnt. Throws Error for sizes, and points that are not finite.
+  /// Updates the distribution from the values of lambda points, which may differ from the samples. Without
+  /// any finite value, nothing is learnt. Throws Error for sizes that do not fit, and points that are not
+  /// finite.
   void update(const MatrixArg& X, const VectorArg& values);
 
-  /// Both at once, for loops like that of the course: without values, samples for the first time, after which
-  /// both have their sizes; later update() and sample().
+  /// Both at once, for loops like that of the course. The first call, without values, resizes both and
+  /// samples. Later calls do update() and sample().
   void step(Eigen::MatrixXd& samples, Eigen::VectorXd& values, Rng& rng);
 
  private:

@@ -8,24 +8,24 @@
 
 namespace rex {
 
-/// When CMA-ES is to end: at a target, or at the criteria of section B.3 of the tutorial.
+/// When CMA-ES ends: at a target, or by the criteria of section B.3 of the tutorial.
 struct CmaLimits {
   double target = -std::numeric_limits<double>::infinity();
   long maxEvaluations = 10'000'000;
   double smallestStep = 1e-12;        ///< relative to the first deviation
-  double smallestDifference = 1e-12;  ///< of values over 10 + 30 n / lambda generations
-  double largestCondition = 1e14;     ///< of C
-  double largestGrowth = 1e4;         ///< of the longest axis
+  double smallestDifference = 1e-12;  ///< difference of values over 10 + 30 n / lambda generations
+  double largestCondition = 1e14;     ///< condition number of C
+  double largestGrowth = 1e4;         ///< growth of the longest axis
 };
 
-/// Watches one run.
+/// Monitors one run.
 class CmaTermination {
  public:
-  /// `es` has not begun. Throws Error for an infinite target, and limits that are not numbers or not
+  /// `es` must not have begun. Throws Error for an infinite target, and limits that are not numbers or not
   /// positive.
   CmaTermination(const CmaEs& es, const CmaLimits& limits);
 
-  /// To be asked after each update, with its values: why it should end, or nothing.
+  /// Call it after each update with the same values. Returns why the run should end, or nothing.
   [[nodiscard]] std::optional<SearchStatus> check(const CmaEs& es, const VectorArg& values);
 
  private:

@@ -9,10 +9,10 @@
 
 namespace rex {
 
-/// How constraints enter the function that is minimised (slide 5:5).
+/// How constraints enter the objective (slide 5:5).
 enum class ConstraintMethod {
-  kSquaredPenalty,      ///< mu |[g]+|^2 + mu |h|^2 with ever larger mu
-  kLogBarrier,          ///< -b sum log(-g) with ever smaller b; h as in the last
+  kSquaredPenalty,      ///< mu |[g]+|^2 + mu |h|^2 with increasing mu
+  kLogBarrier,          ///< -b sum log(-g) with decreasing b; h as in the augmented Lagrangian
   kAugmentedLagrangian  ///< squared penalties shifted by multipliers, so that mu stays moderate
 };
 
@@ -23,36 +23,37 @@ struct ConstrainedOptions {
   ConstraintMethod method = ConstraintMethod::kAugmentedLagrangian;
   double tolerance = 1e-8;       ///< of constraints, and of lambda_i g_i = 0
   double stationarity = 1e-8;    ///< of the Lagrangian's gradient, relative to the largest multiplier
-  double stepTolerance = 1e-10;  ///< a Newton step this small has converged as well, relative to max |x|
+  double stepTolerance = 1e-10;  ///< a smaller Newton step, relative to max |x|, also counts as converged
   double penalty = 1;            ///< mu, at the start
   double largestPenalty = 1e12;
   double barrier = 1;  ///< b, at the start
   double factor = 10;  ///< by which penalties grow and barriers shrink
-  double damping = 0;  ///< at the start, relative to second derivatives; grows and falls by tens
-  /// Newton steps, and as many, but at most 600, to see whether constraints that do not hold ever can.
+  double damping = 0;  ///< initial damping, relative to second derivatives; changes by factors of ten
+  /// Limit on Newton steps, and again (at most 600) on those that find out whether violated constraints can
+  /// be satisfied.
   int maxIterations = 1000;
-  /// Multipliers to start from, of an earlier result; empty: zero.
+  /// Initial multipliers, from an earlier result; empty: zero.
   Eigen::VectorXd inequalityMultipliers{}, equalityMultipliers{};
 };
 
 enum class ConstrainedStatus {
-  kSolved,      ///< all is within its tolerance, or the gradient as small as rounding allows
-  kInfeasible,  ///< no step makes the violation smaller, or no point inside all inequalities was found
+  kSolved,      ///< everything is within its tolerance, or the gradient is as small as rounding allows
+  kInfeasible,  ///< no step reduces the violation, or no point inside all inequalities was found
   kNoProgress,  ///< no step along the direction lowers the function, with any damping
   kBudgetSpent,
-  kUnbounded,  ///< the cost falls below all bounds
+  kUnbounded,  ///< the cost decreases without bound
   kNotFinite   ///< a function is not finite at the start
 };
 
 /// As words: "solved", "infeasible" ...
 [[nodiscard]] const char* nameOf(ConstrainedStatus status);
 
-/// One Newton step, and what held after it.
+/// One Newton step and its result.
 struct ConstrainedIteration {
   double cost = 0;
   double violation = 0;     ///< max of g and |h|, at least 0
-  double stationarity = 0;  ///< max |gradient| of the function of the method before the step
-  double step = 0;          ///< the share of the full step that was taken
+  double stationarity = 0;  ///< max |gradient| of the method's objective before the step
+  double step = 0;          ///< the fraction of the full step that was taken
   double damping = 0;
   double parameter = 0;  ///< penalty, or barrier
 };
@@ -61,7 +62,7 @@ struct ConstrainedResult {
   ConstrainedStatus status = ConstrainedStatus::kNotFinite;
   Eigen::VectorXd x{};
   double cost = std::numeric_limits<double>::infinity();
-  Eigen::VectorXd inequalityMultipliers{}, equalityMultipliers{};    ///< of cost + lambda^T g + kappa^T h
+  Eigen::VectorXd inequalityMultipliers{}, equalityMultipliers{};    ///< in cost + lambda^T g + kappa^T h
   double violation = std::numeric_limits<double>::infinity();        ///< of the most violated constraint
   std::string mostViolated{};                                        ///< its name; empty without constraints
   double stationarity = std::numeric_limits<double>::infinity();     ///< max |gradient of the Lagrangian|
@@ -75,14 +76,14 @@ struct ConstrainedResult {
 };
 
 /// Minimises the cost under the constraints of a problem from `start` (n), by damped Newton steps with line
-/// search inside the method's loop over penalties, barriers or multipliers. A barrier needs a point inside
-/// all inequalities: if the start is none, one is looked for first. Throws Error for an empty start, numbers
-/// that are not finite, options out of range, and multipliers of another size.
+/// search, inside the method's loop over penalties, barriers or multipliers. A barrier needs a start inside
+/// all inequalities; if it is not, such a point is searched for first. Throws Error for an empty start,
+/// numbers that are not finite, options out of range, and multipliers of the wrong size.
 [[nodiscard]] ConstrainedResult solveConstrained(ConstrainedSystem& system, const VectorArg& start,
                                                  const ConstrainedOptions& options = {});
 
-/// The same for a dense problem. Second derivatives of f are those of Gauss and Newton. `cost` and
-/// constraints get theirs by differences of their gradients, unless there is no `cost`. Throws also for a
+/// The same for a dense problem. Second derivatives of f use the Gauss-Newton approximation; those of
+/// `cost` and the constraints are differences of gradients, unless there is no `cost`. Also throws for a
 /// problem without f and c, and for functions whose values or Jacobians have the wrong size.
 [[nodiscard]] ConstrainedResult solveConstrained(const ConstrainedProblem& problem, const VectorArg& start,
                                                  const ConstrainedOptions& options = {});
