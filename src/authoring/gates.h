@@ -10,29 +10,29 @@
 
 namespace rex::grading {
 
-/// What the gates of one exercise look at.
+/// The inputs of the gates of one exercise.
 struct GateContext {
   std::filesystem::path root;  ///< of the project
   ExerciseInfo exercise;
   Toolchain toolchain;
   std::filesystem::path workFolder;  ///< empty and writable
-  int seeds = 3;                     ///< to grade the solution with: 1, 2, ...
+  int seeds = 3;                     ///< number of seeds to grade the solution with: 1, 2, ...
 };
 
 /// Whether an exercise passed a gate, and what to do if not.
 struct GateResult {
   bool passed = false;
   std::string message{};  ///< lines of text; empty if passed
-  std::string note{};     ///< what else is worth a line; empty: nothing
+  std::string note{};     ///< another remark of one line; empty: none
 };
 
 /// The gates of an exercise in order: main-current, points, names, release, evidence, main-floor, solution,
 /// sanitizers, hostile, liars, and, if there are wrong variants, wrong.
 [[nodiscard]] std::vector<std::string> gateNames(const ExerciseInfo& exercise);
 
-/// Passes the exercise through one gate; or a single variant, wrong/NAME, by itself, which takes longer and
-/// proves more: see whyNotCaughtTogether(). Throws Error for a gate it does not have; bad input in the
-/// exercise's files fails the gate.
+/// Runs one gate on the exercise. The gate wrong/NAME tests a single variant by itself, which takes longer
+/// and proves more: see whyNotCaughtTogether(). Throws Error for an unknown gate; malformed files of the
+/// exercise fail the gate.
 [[nodiscard]] GateResult runGate(const GateContext& context, const std::string& gate);
 
 }  // namespace rex::grading

@@ -7,20 +7,21 @@
 
 namespace rex::grading {
 
-/// Wrong variants of a file in one, so that headers, and what they have in common, are compiled once: the
-/// file itself, its main() empty, and after each function those of the variants that differ. There, f() of
-/// variant 2 is called variant_2_f(), and the linker can put it in place of f(), whose callers know nothing
-/// of what it does.
+/// Joins the wrong variants of a file into one source, so that headers and common code are compiled only
+/// once: the reference with an empty main(), and after each function the variants' versions that differ.
+/// Function f() of variant 2 is named variant_2_f(), and the linker can substitute it for f(), about which
+/// callers assume nothing.
 class JoinedVariants {
  public:
-  /// Of whole files. Left out is a variant that differs from the reference by more than the bodies of
-  /// functions that other files may call, or by nothing.
+  /// All arguments are whole files. A variant is left out if it equals the reference or differs in more
+  /// than the bodies of functions that other files may call.
   JoinedVariants(std::string_view reference, const std::vector<std::string>& variants);
 
   const std::string& source() const { return source_; }
-  /// How many functions of a variant there are; 0 if it is left out.
+  /// The number of functions of a variant; 0 if it is left out.
   std::size_t functions(std::size_t variant) const { return functions_[variant]; }
-  /// Whose function a line, from 1, of the source belongs to; the number of variants if nobody's.
+  /// The variant whose function contains a line, from 1, of the source; the number of variants if there is
+  /// none.
   std::size_t variantAt(int line) const;
 
  private:
@@ -33,12 +34,12 @@ class JoinedVariants {
   std::vector<Place> places_;
 };
 
-/// A function in place of another, as the linker calls both.
+/// A function that replaces another; both are linker names.
 struct StandIn {
   std::string own, replaced;
 };
 
-/// Those of a variant among the symbols of the compiled source, which other files may refer to.
+/// The replacements of a variant among the global symbols of the compiled source.
 [[nodiscard]] std::vector<StandIn> standIns(const std::vector<std::string>& symbols, std::size_t variant);
 
 }  // namespace rex::grading

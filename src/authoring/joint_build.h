@@ -11,18 +11,18 @@
 
 namespace rex::grading {
 
-/// Wrong variants of an exercise, compiled together as JoinedVariants, and linked one by one.
+/// Compiles the wrong variants of an exercise together as JoinedVariants, and links them one by one.
 class JointBuild {
  public:
-  /// Compiles, in the context's work folder, those of the variants with which a file can be made that
-  /// compiles. Throws Error when the tools fail.
+  /// Compiles, in the context's work folder, as many of the variants as compile together. Throws Error if
+  /// the tools fail.
   JointBuild(const GateContext& context, const std::string& reference, std::vector<std::string> variants);
 
-  /// Whether functions of a variant are there to take the place of those of the reference.
+  /// Whether a variant was compiled, so that its functions can replace those of the reference.
   bool holds(std::size_t variant) const;
 
-  /// The worker of one that is there, or the forbidden calls of what is compiled of it, as buildSubmission()
-  /// finds them in the whole file. The next one replaces the worker. Throws Error when the tools fail.
+  /// The worker of a compiled variant, or the forbidden calls of its functions, as buildSubmission() would
+  /// report for the whole file. The next call overwrites the worker. Throws Error if the tools fail.
   BuiltSubmission link(std::size_t variant) const;
 
  private:

@@ -10,29 +10,30 @@
 
 namespace rex::grading {
 
-/// Something that students would get and must not.
+/// Something that students must not get but would.
 struct Leak {
-  SourceLocation where{};   ///< below the tree; "a.zip: b.txt" inside of an archive; line 0: no text
+  SourceLocation where{};   ///< below the tree; "a.zip: b.txt" inside an archive; line 0: not text
   std::string what{};       ///< "a line of the solution"
-  std::string text{};       ///< how the secret begins; empty: not to be told, or the file itself is the leak
-  SourceLocation origin{};  ///< of the secret; empty where the file itself is the leak
+  std::string text{};       ///< how the secret begins; empty: confidential, or the file itself is the leak
+  SourceLocation origin{};  ///< of the secret; empty if the file itself is the leak
 };
 
 /// "notes.md:3: a line of the solution would reach students: found 'x = A * b;' of 01/solution.cpp:12".
 [[nodiscard]] std::string toString(const Leak& leak);
 
 struct LeakScan {
-  std::vector<Leak> leaks{};  ///< by file; of each file a secret once
-  int files = 0;              ///< looked through, those in archives among them
+  std::vector<Leak> leaks{};  ///< by file; each secret once per file
+  int files = 0;              ///< number scanned, including those in archives
   int packed = 0;             ///< archives and compressed files
   std::uintmax_t bytes = 0;   ///< unpacked
 };
 
-/// Looks for the secrets in names and contents of all files of a tree: text in any layout, case and comments,
-/// also in archives inside of archives, object files and other bytes. Besides refuses solution.cpp, wrong/,
-/// marks of regions in C++ files (but in share/template), a history of git, links, compiled files, archives
-/// that cannot be opened. A file src/NAME with the bytes of LIBRARY/NAME may hold all but the secret of the
-/// course. What this cannot see: share/doc/writing-an-exercise.md. Throws Error for what cannot be read.
+/// Searches the names and contents of all files of a tree for secrets: text in any layout, case and
+/// comments, also in nested archives, object files and other binary data. Also reports solution.cpp,
+/// wrong/, region markers in C++ files (except in share/template), git history, links, compiled files, and
+/// archives that cannot be opened. In a file src/NAME identical to LIBRARY/NAME, only the secret of the
+/// course is a leak. Its limits: share/doc/writing-an-exercise.md. Throws Error for files that cannot be
+/// read.
 [[nodiscard]] LeakScan scanForLeaks(const std::filesystem::path& tree, const std::vector<Secret>& secrets,
                                     const std::filesystem::path& library = {});
 

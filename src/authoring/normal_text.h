@@ -7,8 +7,8 @@
 
 namespace rex::grading {
 
-/// Text as it is compared with what must not leak: in lower case, without blanks, line breaks, control
-/// characters and the signs around comments. `lines` has the line, from 1, that each letter came from.
+/// Text normalised for comparison with what must not leak: in lower case, without blanks, line breaks,
+/// control characters and comment markers. `lines` has the line, from 1, of each letter.
 struct NormalText {
   std::string letters{};
   std::vector<int> lines{};
@@ -16,8 +16,8 @@ struct NormalText {
 
 enum class Comments { kKeep, kDrop };
 
-/// Drops what C++ takes for comments, or only their signs. Escapes of string literals and the entities of
-/// HTML for < > & " count as what they stand for.
+/// Normalises a text, dropping C++ comments or only their markers. Escapes in string literals and the HTML
+/// entities for < > & " are decoded.
 [[nodiscard]] NormalText normalText(std::string_view text, Comments comments);
 
 }  // namespace rex::grading

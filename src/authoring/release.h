@@ -7,28 +7,28 @@
 
 namespace rex::grading {
 
-/// What a student release holds, and what was looked for in it.
+/// The contents of a student release, and the result of its scan.
 struct Release {
   int exercises = 0;
-  LeakScan scan{};                ///< with leaks: nothing was left behind
-  std::vector<Secret> secrets{};  ///< that the scan looked for
+  LeakScan scan{};                ///< if it has leaks, the release was removed
+  std::vector<Secret> secrets{};  ///< the secrets that the scan searched for
 };
 
-/// Writes to `target` the tree that students get: all of `root` that builds and runs, exercises without
-/// solution.cpp and wrong/, their main.cpp and its copy starter.cpp made afresh from the solution, check.cpp
-/// without hidden blocks; no tests, no history, no results. Looks for leaks at last, also of the secret of
-/// the course in that file, if there is one. Throws UsageError when the target holds anything already, and
-/// Error, leaving nothing behind, for malformed markers and what cannot be read or written.
+/// Writes the students' tree to `target`: all of `root` that builds and runs; exercises without
+/// solution.cpp and wrong/, with main.cpp and its copy starter.cpp remade from the solution, and check.cpp
+/// without hidden blocks; no tests, history or results. Finally scans it for leaks, also of the secret of
+/// the course if that file is given. Throws UsageError if the target is not empty, and Error, leaving
+/// nothing behind, for malformed markers and files that cannot be read or written.
 [[nodiscard]] Release writeStudentRelease(const std::filesystem::path& root,
                                           const std::filesystem::path& target,
                                           const std::filesystem::path& courseSecret = {});
 
-/// What must not reach students from `root`: see secretsOf().
+/// The secrets in `root` that must not reach students: see secretsOf().
 [[nodiscard]] std::vector<Secret> secretsOfCourse(const std::filesystem::path& root,
                                                   const std::filesystem::path& courseSecret = {});
 
-/// Throws Error (file:line) when a text file of the exercise, as students would get it, holds what it must
-/// not.
+/// Throws Error (file:line) if a text file of the exercise, as students would get it, contains one of its
+/// secrets.
 void requireNoSolutionText(const std::filesystem::path& exercise);
 
 }  // namespace rex::grading

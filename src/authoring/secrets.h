@@ -15,24 +15,24 @@ enum class SecretKind { kSolution, kHiddenCheck, kHiddenName, kWrongVariant, kCo
 /// "a line of the solution", "a hidden check".
 [[nodiscard]] std::string_view nameOf(SecretKind kind);
 
-/// One piece of it, long enough to be told from what everybody writes.
+/// One piece of a secret, long enough to be distinctive.
 struct Secret {
   SecretKind kind = SecretKind::kSolution;
-  std::string text{};                ///< for messages: the line where it begins; never the course's secret
-  SourceLocation origin{};           ///< where it stands, below the root
+  std::string text{};       ///< for messages: its first line; never the secret of the course
+  SourceLocation origin{};  ///< where it is, below the root
   std::vector<std::string> forms{};  ///< normalText() to look for, each of at least kShortestForm letters
 };
 inline constexpr std::size_t kShortestForm = 16;
 
-/// Of these folders of exercises below `root`: each line of a solution's regions; runs of at least 48 letters
-/// of hidden checks and wrong variants, literals of hidden checks, the headers of wrong variants. Not what is
-/// public: code outside of regions, the template, and, but for solutions, todos, headers and visible checks.
-/// Throws Error for malformed markers.
+/// The secrets of these exercise folders below `root`: each line of a solution's regions; runs of at least
+/// 48 letters of hidden checks and wrong variants; literals of hidden checks; and the headers of wrong
+/// variants. Public text is excluded: code outside regions, the template and, except from solutions, todos,
+/// headers and visible checks. Throws Error for malformed markers.
 [[nodiscard]] std::vector<Secret> secretsOf(const std::vector<std::filesystem::path>& exercises,
                                             const std::filesystem::path& root);
 
-/// The secret of the course in that file. Throws Error as readCourseSecret(), and where too little of it can
-/// be looked for.
+/// The secret of the course in that file. Throws Error like readCourseSecret(), and if too little of it
+/// remains to search for.
 [[nodiscard]] Secret courseSecretIn(const std::filesystem::path& file);
 
 }  // namespace rex::grading

@@ -6,9 +6,9 @@
 
 namespace rex::grading {
 
-/// What is packed in another file.
+/// A file that is packed in another file.
 struct PackedFile {
-  std::string name{};  ///< as it stands there; empty for a file that is compressed only
+  std::string name{};  ///< as stored there; empty for a file that is only compressed
   std::string bytes{};
 };
 
@@ -16,8 +16,8 @@ struct PackedFile {
 /// file.
 [[nodiscard]] bool isPacked(std::string_view bytes);
 
-/// The files in them, in memory: at most 256 MiB, and one level deep. Throws Error "cannot look into" with
-/// the reason for what is broken, encrypted, larger or of a kind that cannot be read here.
+/// The packed files, in memory: at most 256 MiB, and one level deep. Throws Error "cannot look into" with
+/// the reason for files that are broken, encrypted, larger, or of a kind that cannot be read.
 [[nodiscard]] std::vector<PackedFile> unpack(std::string_view bytes, const std::string& file);
 
 }  // namespace rex::grading

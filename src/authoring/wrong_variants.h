@@ -12,21 +12,22 @@ namespace rex::grading {
 /// The wrong variants of an exercise as "wrong/NAME", in order.
 [[nodiscard]] std::vector<std::string> variantNames(const ExerciseInfo& exercise);
 
-/// One of them in place of the solution. Throws Error (file:line) for what composeVariant() refuses.
+/// One variant, composed with the solution. Throws Error (file:line) like composeVariant().
 [[nodiscard]] WrongVariant variantOf(const ExerciseInfo& exercise, const std::string& name);
 
-/// What keeps a variant from being caught as it promises, line by line: compiled as a student's whole file
-/// is, and graded by all checks. Throws Error as variantOf(), and for checks that there are not.
+/// Why a variant is not caught as it promises, line by line, when compiled like a student's file and graded
+/// by all checks; empty if it is. Throws Error like variantOf(), and for checks that do not exist.
 [[nodiscard]] std::vector<std::string> whyNotCaught(const GateContext& context, const std::string& name);
 
-/// What became of all variants of an exercise.
+/// The results for all variants of an exercise.
 struct CaughtTogether {
   std::vector<std::string> complaints;  ///< lines that begin with the name of a variant
-  std::vector<std::string> alone;       ///< the names of those that went the long way of whyNotCaught()
+  std::vector<std::string> alone;       ///< names of those that were tested with whyNotCaught() instead
 };
 
-/// The same at a small part of the cost: JointBuild compiles only functions that differ, and only checks run
-/// that a variant names. That its whole file compiles, and what the others say, whyNotCaught() alone proves.
+/// The same for all variants at a fraction of the cost: JointBuild compiles only functions that differ, and
+/// only the checks that a variant names are run. Only whyNotCaught() proves that the whole file compiles,
+/// and runs the other checks.
 [[nodiscard]] CaughtTogether whyNotCaughtTogether(const GateContext& context);
 
 }  // namespace rex::grading

@@ -16,52 +16,50 @@ struct StudentResult {
   GradeResult result{};
 };
 
-/// What R/STUDENT/EXERCISE/results.json of a folder R say.
+/// The results R/STUDENT/EXERCISE/results.json of a folder R.
 struct ClassResults {
-  std::vector<StudentResult> results{};  ///< by exercise, then by student
-  std::vector<std::string>
-      complaints{};  ///< files that are no results, or not of that exercise; none is lost
+  std::vector<StudentResult> results{};   ///< by exercise, then by student
+  std::vector<std::string> complaints{};  ///< files that are not results, or not of that exercise
 };
 
-/// Throws Error where the folder itself cannot be read.
+/// Throws Error if the folder itself cannot be read.
 [[nodiscard]] ClassResults readClassResults(const std::filesystem::path& folder);
 
 struct CheckStatistics {
   std::string id{};
   std::string title{};
   Group group = Group::kVisible;
-  int failed = 0;  ///< did not pass in full
-  std::map<std::string, int>
-      classes{};  ///< of those: "compile", "crash", "timeout", "non-finite", "wrong", ...
+  int failed = 0;                        ///< number of students who did not pass it fully
+  std::map<std::string, int> classes{};  ///< how many of them by class: "compile", "crash", "timeout", ...
 };
 
 /// From full points down to none: full, at least 75 %, 50 %, 25 %, less, none.
 inline constexpr std::array<const char*, 6> kDistribution = {"full", "75 %", "50 %", "25 %", "less", "none"};
 
-/// Of one exercise. Means and medians are over those graded; faults of the grader are no grades.
+/// Statistics of one exercise. Means and medians are over graded results; grader errors are not grades.
 struct ExerciseStatistics {
   std::string exercise{};
   int graded = 0;
   int full = 0;
   int graderFailed = 0;
-  int versions = 0;  ///< of the exercise, among the results: points of two cannot be compared
+  int versions = 0;  ///< of the exercise among the results: points of different ones are not comparable
   int maxPoints = 0;
   double meanPoints = 0;
   double medianPoints = 0;
   std::array<int, kDistribution.size()> distribution{};
-  double medianSeconds = 0;  ///< of wall time that the checks of a file that compiles took
+  double medianSeconds = 0;  ///< wall time of the checks of a file that compiles
   double longestSeconds = 0;
-  std::string slowest{};                  ///< the student of the longest
-  std::vector<CheckStatistics> checks{};  ///< the most failed first, then in the order of the results
+  std::string slowest{};                  ///< the student with the longest time
+  std::vector<CheckStatistics> checks{};  ///< most failed first, then in the order of the results
 };
 
 [[nodiscard]] std::vector<ExerciseStatistics> statisticsOf(const std::vector<StudentResult>& results);
 
 /// "compile", "crash", "timeout", "memory", "output", "protocol", "security", "non-finite", "shape",
-/// "wrong" or "not run", of a check that did not pass.
+/// "wrong" or "not run", for a check that did not pass.
 [[nodiscard]] std::string classOf(const CheckResult& check, const GradeResult& whole);
 
-/// The middle one; of an even number the mean of the two in the middle; 0 of none.
+/// The median; for an even count the mean of the middle two; 0 if empty.
 [[nodiscard]] double medianOf(std::vector<double> values);
 
 }  // namespace rex::grading

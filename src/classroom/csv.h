@@ -6,12 +6,12 @@
 
 namespace rex::grading {
 
-/// One line of a CSV file (RFC 4180, but ending in LF). What a spreadsheet would take for a formula gets a '
-/// in front (csvField()).
+/// One line of a CSV file (RFC 4180, but ending in LF). Fields that a spreadsheet would take for a formula
+/// are prefixed with ' (csvField()).
 [[nodiscard]] std::string csvLine(const std::vector<std::string>& fields);
 
-/// The rows of a CSV file, quoted or not; empty lines are left out, a mark of UTF-8 at the start, too. `file`
-/// is for messages. Throws Error, with the line, for a quote that does not end.
+/// The rows of a CSV file, quoted or not. Empty lines and a UTF-8 byte order mark are skipped. `file` is
+/// for messages. Throws Error with the line for an unterminated quote.
 struct CsvRow {
   int line = 0;
   std::vector<std::string> fields{};

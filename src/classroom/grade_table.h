@@ -9,19 +9,19 @@
 
 namespace rex::grading {
 
-/// What the folder of results holds for a list of tasks, by their numbers from 1.
+/// The results found for a list of tasks, which are numbered from 1.
 struct Collected {
   std::string csv{};           ///< one line per task, in their order
   std::vector<int> missing{};  ///< without a result
-  std::vector<int> stale{};    ///< with a result of other inputs
-  std::vector<int> failed{};   ///< the grader failed: to be repeated, never a zero
+  std::vector<int> stale{};    ///< with a result for other inputs
+  std::vector<int> failed{};   ///< the grader failed: to be repeated, never zero points
 };
 
-/// Reads all results below `out`. A task without a valid one has no points in its line.
+/// Reads all results below `out`. A task without a valid result has no points in its line.
 [[nodiscard]] Collected collect(const std::vector<Task>& tasks, const std::filesystem::path& out,
                                 const LatePolicy& policy);
 
-/// "1,4-6,9": how engines name tasks.
+/// "1,4-6,9": how batch systems name tasks.
 [[nodiscard]] std::string rangesOf(std::vector<int> numbers);
 
 }  // namespace rex::grading

@@ -8,10 +8,9 @@
 
 namespace rex::grading {
 
-/// Hash of what grades an exercise here: its description, its grader, the compiler and flags for students'
-/// files, the headers that they may include, the library that they are linked to, the program that runs now,
-/// which compiles and refuses, and the launcher of the sandbox where there is one. Throws Error when a file
-/// of these cannot be read.
+/// Hash of everything that grades an exercise here: its description and grader, the compiler and flags for
+/// students' files, the headers they may include, the library they are linked to, the running program
+/// itself, and the sandbox launcher if there is one. Throws Error if one of these files cannot be read.
 [[nodiscard]] std::string graderFingerprint(const Toolchain& toolchain, const ExerciseInfo& exercise,
                                             const std::filesystem::path& launcher);
 

@@ -9,35 +9,36 @@
 
 namespace rex::grading {
 
-/// When an exercise is due and what lateness costs. Times in seconds since 1970 in UTC.
+/// When an exercise is due and the penalty for lateness. Times in seconds since 1970 in UTC.
 struct LateRule {
   std::optional<std::int64_t> deadline{};
-  std::map<std::string, std::int64_t> extensions{};  ///< later deadlines of single students
-  std::int64_t graceSeconds = 0;                     ///< late by this much is not late
-  bool isPercent = true;                             ///< of the points that were reached; else points
-  std::int64_t perDay = 0;                           ///< hundredths, for each day begun
-  std::optional<std::int64_t> cap{};                 ///< hundredths, at most this altogether
+  std::map<std::string, std::int64_t> extensions{};  ///< later deadlines of individual students
+  std::int64_t graceSeconds = 0;                     ///< lateness up to this is tolerated
+  bool isPercent = true;              ///< the penalty is a percentage of the points reached; else points
+  std::int64_t perDay = 0;            ///< hundredths, per day or part of a day
+  std::optional<std::int64_t> cap{};  ///< hundredths, the largest total
 };
 
-/// What lateness costs one submission.
+/// The penalty of one submission.
 struct Lateness {
-  int days = 0;              ///< begun after the deadline; 0: in time
+  int days = 0;              ///< after the deadline, counting a part as one; 0: in time
   std::int64_t penalty = 0;  ///< hundredths of points, never more than the points
 };
 
-/// Days count from the deadline, also where there is grace. Hundredths are rounded to the nearest, halves up.
+/// The lateness of a submission. Days count from the deadline even if there is grace. Hundredths are
+/// rounded to the nearest, halves up.
 [[nodiscard]] Lateness latenessOf(const LateRule& rule, const std::string& student, std::int64_t submitted,
                                   int points);
 
-/// By whole name of the exercise; one that is missing has no deadline.
+/// Rules by full exercise name; a missing exercise has no deadline.
 using LatePolicy = std::map<std::string, LateRule>;
 
-/// Reads a file of deadlines (share/doc/grading-many.md). Throws Error, with the place, for what is no such
-/// file, and for names of exercises that do not exist.
+/// Reads a file of deadlines (share/doc/grading-many.md). Throws Error with the position for malformed
+/// files and for exercises that do not exist.
 [[nodiscard]] LatePolicy readLatePolicy(const std::filesystem::path& file,
                                         const std::vector<std::string>& exercises);
 
-/// A sentence for each student with an extension who is none of these: a name may be misspelt.
+/// A sentence for each student with an extension who is not in `students`, as the name may be misspelt.
 [[nodiscard]] std::vector<std::string> unknownExtensions(const LatePolicy& policy,
                                                          const std::vector<std::string>& students);
 

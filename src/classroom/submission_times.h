@@ -14,12 +14,12 @@ namespace rex::grading {
 /// When students handed in, as a learning platform records it.
 class SubmissionTimes {
  public:
-  /// Reads a CSV file with the columns student, submitted (a time with its zone, or nothing) and, if
-  /// exercises differ, exercise. Throws Error, with the line, for anything else and for two times of one
+  /// Reads a CSV file with the columns student, submitted (a time with its zone, or empty) and, if
+  /// exercises differ, exercise. Throws Error with the line for anything else and for two times of one
   /// submission.
   SubmissionTimes(const std::filesystem::path& file, const std::vector<ExerciseInfo>& exercises);
 
-  /// Seconds since 1970 in UTC; nothing if the file does not tell.
+  /// Seconds since 1970 in UTC; empty if the file does not have it.
   [[nodiscard]] std::optional<std::int64_t> of(const std::string& student, const std::string& exercise) const;
 
  private:

@@ -10,27 +10,28 @@
 
 namespace rex::grading {
 
-/// One grading: a student's file of one exercise, and all that its result depends on.
+/// One grading task: a student's file for one exercise, and everything that its result depends on.
 struct Task {
   std::string student{};
   std::string exercise{};
-  std::string sourceSha256{};  ///< of the copy's text: see snapshotOf()
+  std::string sourceSha256{};  ///< hash of the copy's text: see snapshotOf()
   std::string graderSha256{};  ///< see graderFingerprint()
   sandbox::Level level{};
   std::optional<std::uint64_t> seed{};
-  std::string secretId{};        ///< of the secret of the course; empty: none
+  std::string secretId{};        ///< id of the secret of the course; empty: none
   std::int64_t submitted = 0;    ///< seconds since 1970 in UTC
-  std::string timeFrom{};        ///< where that time comes from
-  std::filesystem::path file{};  ///< to grade; relative to the output folder, or absolute
+  std::string timeFrom{};        ///< the source of that time
+  std::filesystem::path file{};  ///< file to grade; relative to the output folder, or absolute
 
-  /// Hash of everything the result depends on; when it was submitted does not count.
+  /// Hash of everything the result depends on; the time of submission is not part of it.
   [[nodiscard]] std::string inputsSha256() const;
 };
 
-/// One line per task, after a line of headings: tasks.tsv, which any engine can count and cut.
+/// The text of tasks.tsv: a header line, then one line per task, easy to count and split for any batch
+/// system.
 [[nodiscard]] std::string toManifest(const std::vector<Task>& tasks);
 
-/// Throws Error, with the line, for what is not such a text.
+/// Reads it back. Throws Error with the line if the text is malformed.
 [[nodiscard]] std::vector<Task> readManifest(const std::filesystem::path& file);
 
 }  // namespace rex::grading

@@ -100,7 +100,7 @@ struct GradeResult {
   int sandboxLevel = 0;
   std::vector<std::string> sandboxWarnings{};
   Outcome outcome = Outcome::kGraderError;  ///< until the grading replaces it
-  std::string message{};                   ///< about the submission as a whole
+  std::string message{};                    ///< about the submission as a whole
   int score = 0;
   int maxScore = 0;
   std::vector<CheckResult> checks{};

@@ -42,8 +42,8 @@ consteval std::size_t countFields() {
 
 }  // namespace detail
 
-/// The number of fields of T, or 10 for more than nine, found by asking how many initialisers it takes. Each
-/// field's type must have a default constructor that is not explicit.
+/// The number of fields of T, or 10 for more than nine, found from how many initialisers it accepts. Each
+/// field's type must have a non-explicit default constructor.
 template <PlainStruct T>
 inline constexpr std::size_t kFieldCount = detail::countFields<T>();
 

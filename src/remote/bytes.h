@@ -30,14 +30,15 @@ class Writer {
   std::vector<std::byte> bytes_;
 };
 
-/// What an answer of a student's function may be before anything computes with it.
+/// Limits that the numbers in an answer of a student's function must keep before anything computes with
+/// them.
 struct AnswerLimits {
-  bool any = false;          ///< whatever the numbers are
+  bool any = false;          ///< all numbers are allowed
   bool infinite = false;     ///< infinite numbers are allowed
-  double magnitude = 1e100;  ///< of finite ones: their squares and cubes are finite, too
+  double magnitude = 1e100;  ///< limit for finite numbers: their squares and cubes are finite, too
 };
 
-/// A function of the student's returned what is outside of the limits.
+/// A student's function returned numbers outside the limits.
 class AnswerRefused : public std::exception {
  public:
   AnswerRefused(std::string function, std::string why)
@@ -49,8 +50,8 @@ class AnswerRefused : public std::exception {
   std::string function_, why_;
 };
 
-/// Takes the bytes of one message apart. Trusts nothing: every size is compared with the bytes that are left
-/// before anything is allocated. Does not own the bytes.
+/// Parses the bytes of one message. Trusts nothing: every size is compared with the remaining bytes before
+/// anything is allocated. Does not own the bytes.
 class Reader {
  public:
   explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -58,14 +59,14 @@ class Reader {
   std::size_t left() const { return bytes_.size(); }
   std::span<const std::byte> bytes() const { return bytes_; }
 
-  /// From now on numbers() throws AnswerRefused, about that function, for those outside of the limits. Both
-  /// must live as long.
+  /// From now on numbers() throws AnswerRefused naming `function` for numbers outside the limits. Both
+  /// arguments must outlive the reader.
   void limitTo(const AnswerLimits& limits, const std::string& function) {
     limits_ = &limits;
     function_ = &function;
   }
 
-  /// To be told each number that is read.
+  /// Called with all numbers that are read; checks them if there are limits.
   void numbers(const double* first, std::size_t count) {
     if (limits_ != nullptr) examine(first, count);
   }
@@ -77,8 +78,8 @@ class Reader {
     bytes_ = bytes_.subspan(size);
   }
 
-  /// Reads the length of a list whose elements take at least one byte each. Throws ProtocolError if so many
-  /// elements cannot follow.
+  /// Reads the length of a list whose elements take at least one byte each. Throws ProtocolError if it
+  /// exceeds the remaining bytes.
   std::size_t count() {
     std::uint64_t n = 0;
     raw(&n, sizeof n);

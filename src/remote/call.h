@@ -25,7 +25,7 @@ struct SentArgument {
   }
 };
 
-/// ... and functions stay here: only whether there is one is reported.
+/// ... and functions stay here: only whether there is one is sent.
 template <class R, class... A>
 struct SentArgument<std::function<R(A...)>> {
   using Type = std::function<R(A...)>;
@@ -53,9 +53,9 @@ void answerArgument(std::uint32_t number, const std::tuple<const typename S::Typ
 
 }  // namespace detail
 
-/// A function of the worker, called as if it were here: `Call<decltype(::ikStep)> ikStep(caller, 0,
-/// "ikStep")`. Throws as Caller::call(), and AnswerRefused before anything computes with an answer
-/// that is not finite, or too large.
+/// A function of the worker, called as if it were local: `Call<decltype(::ikStep)> ikStep(caller, 0,
+/// "ikStep")`. Throws like Caller::call(), and AnswerRefused for an answer that is not finite or too large,
+/// before anything computes with it.
 template <class F>
 class Call;
 
@@ -68,13 +68,14 @@ class Call<R(A...)> {
   Call(Caller& caller, std::uint32_t method, std::string name)
       : caller_(&caller), method_(method), name_(std::move(name)) {}
 
-  /// The same function where infinite numbers in its answer have a meaning.
+  /// The same function, with infinite numbers allowed in its answer.
   Call orInfinite() const {
     Call copy = *this;
     copy.limits_.infinite = true;
     return copy;
   }
-  /// The same function where the check looks at numbers that are not finite itself, to show them.
+  /// The same function, with all numbers allowed: for checks that examine and show numbers that are not
+  /// finite.
   Call asItIs() const {
     Call copy = *this;
     copy.limits_.any = true;

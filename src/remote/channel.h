@@ -13,12 +13,12 @@ namespace rex::remote {
 enum class Kind : std::uint32_t {
   kHello = 1,  ///< worker: ready; the id is the signature of its functions
   kCall,       ///< trusted side: run function number `method`
-  kCallback,   ///< worker: the function asks for its argument number `method`, a function of the trusted side
+  kCallback,   ///< worker: the function calls its argument number `method`, a function of the trusted side
   kReply,      ///< either: the result of the call or callback with this id
-  kThrew       ///< either: it ended by an exception
+  kThrew       ///< either: it ended with an exception
 };
 
-/// One message as received. `body` points into the channel's buffer and dies with the next receive().
+/// One message as received. `body` points into the channel's buffer and is valid until the next receive().
 struct Message {
   Kind kind{};
   std::uint64_t id = 0;
@@ -26,18 +26,19 @@ struct Message {
   Reader body{{}};
 };
 
-/// The other side is gone, by end of file or because nobody reads, or was given up.
+/// The other side has closed the channel or does not read, or was given up.
 class Closed : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Framed messages over two file descriptors, which it does not own. At most one message is under way: bytes
-/// after a message are an error. One system call per message sent and usually one per message received.
+/// Framed messages over two file descriptors, which it does not own. At most one message is in transit:
+/// bytes after a message are an error. Each message takes one system call to send, and usually one to
+/// receive.
 class Channel {
  public:
   enum class Direction { kRead, kWrite };
-  /// Blocks until the descriptor is ready; throws to give up. Needed where descriptors do not block.
+  /// Blocks until the descriptor is ready; throws to give up. Required for non-blocking descriptors.
   using Wait = std::function<void(int fd, Direction)>;
 
   static constexpr std::size_t kMaxBody = 16u << 20;  ///< bytes of one message

@@ -16,10 +16,9 @@
 
 namespace rex::remote {
 
-/// How the bytes of a value of type T lie (see Wire), as a text: a number is `d`, `f`, or `i` or `u` with its
-/// size in bytes; a truth value `b`, a string `s`, a random generator `r`; a list `[T]`, an optional value
-/// `?T`, fields `(TU...)`; a matrix `M` with its rows and columns, -1 for any, and the type of its numbers:
-/// `M3,-1,d`.
+/// The byte layout of a value of type T (see Wire), as a text: a number is `d`, `f`, or `i` or `u` with its
+/// size in bytes; a bool `b`, a string `s`, a random generator `r`; a list `[T]`, an optional `?T`, fields
+/// `(TU...)`; a matrix `M` with its rows and columns, -1 for any, and the type of its entries: `M3,-1,d`.
 template <class T>
 struct Layout {
   static std::string text() {
@@ -82,7 +81,7 @@ struct Layout<Eigen::Matrix<S, rows, cols, options, maxRows, maxCols>> {
   }
 };
 
-/// Of an argument: of what is sent for it, and of functions whether there is one.
+/// The layout of an argument: of what is sent for it; for functions, whether there is one.
 template <class T>
 struct ArgumentLayout : Layout<typename Remote<T>::Sent> {};
 template <class R, class... A>
@@ -91,7 +90,7 @@ struct ArgumentLayout<std::function<R(A...)>> : Layout<bool> {};
 template <class F>
 struct CallLayout;
 
-/// The layouts of what a function returns and, one after the other, of its arguments.
+/// The layouts of a function's return value and then of its arguments, in order.
 template <class R, class... A>
 struct CallLayout<R(A...)> {
   static std::vector<std::string> texts() {

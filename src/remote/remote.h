@@ -7,8 +7,8 @@
 namespace rex::remote {
 
 /// How an argument of type T travels: the trusted side sends a `Sent`, the worker makes its T from it.
-/// Usually both are the same. An object that cannot be copied into bytes is specialised to cross by
-/// description, as a simulator does by its scene text; a function may then take it as `T&`.
+/// Usually both are the same. Specialise it for an object that cannot be copied into bytes, to send a
+/// description instead, as for a simulator its scene text; a function may then take it as `T&`.
 template <class T>
 struct Remote {
   using Sent = T;

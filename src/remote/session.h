@@ -18,17 +18,17 @@ struct Method {
   void (*run)(Session& session, Reader& arguments, Writer& result);
 };
 
-/// The worker's end of a channel: answers calls one after the other, and asks back while one runs.
+/// The worker's end of a channel: answers calls one after the other, and makes callbacks while one runs.
 class Session {
  public:
   Session(Channel channel, std::span<const Method> methods);
 
-  /// Introduces itself, then answers calls until the trusted side closes the channel. What a function throws
-  /// is sent, and the session goes on. Throws ProtocolError if the trusted side makes no sense, Closed if it
-  /// does not wait for a reply.
+  /// Introduces itself, then answers calls until the trusted side closes the channel. An exception of a
+  /// function is sent, and the session continues. Throws ProtocolError for malformed messages, and Closed
+  /// if the trusted side does not wait for a reply.
   void serve();
 
-  /// The call that runs now. Throws rex::Error if none does.
+  /// The id of the running call. Throws rex::Error if there is none.
   std::uint64_t activeCall() const;
 
   /// Has the trusted side run the function it passed as argument number `argument` of call `id`; the result's

@@ -16,14 +16,14 @@ constexpr std::uint64_t hashText(std::string_view text, std::uint64_t hash = 0xc
   return hash;
 }
 
-/// Mixes one more hash into a list of hashes; the order counts.
+/// Mixes one more hash into a list of hashes; the order matters.
 constexpr std::uint64_t combineHashes(std::uint64_t list, std::uint64_t next) {
   return (list ^ next) * 0x100000001b3u + (next >> 29);
 }
 
 namespace detail {
 
-// Both sides are built by one compiler, which spells a type in one way.
+// Both sides are built by the same compiler, which spells a type in only one way.
 template <class T>
 consteval std::string_view typeName() {
   return __PRETTY_FUNCTION__;
@@ -52,7 +52,7 @@ struct TypeHash {
   }
 };
 
-// Lists of structs change with the fields of the struct.
+// The hash of a list of structs changes with the fields of the struct.
 template <template <class...> class List, class... T>
 struct TypeHash<List<T...>> {
   static constexpr std::uint64_t value() { return hashTypes<T...>(hashText(typeName<List<T...>>())); }
@@ -76,7 +76,7 @@ constexpr std::uint64_t functionHash(std::string_view name) {
   return combineHashes(hashText(name), detail::FunctionHash<F>::value());
 }
 
-/// Where the hash of a list of functions starts; combineHashes() adds each functionHash().
+/// The initial hash of a list of functions; combineHashes() adds each functionHash().
 inline constexpr std::uint64_t kEmptySignature = hashText("rex remote 1");
 
 }  // namespace rex::remote

@@ -6,12 +6,12 @@
 
 namespace rex::remote {
 
-/// An exception that crosses between the sides, taken apart.
+/// The parts of an exception that are sent between the sides.
 struct Thrown {
   enum class Kind : std::uint8_t {
     kError,      ///< rex::Error
     kException,  ///< another std::exception
-    kBadAlloc,   ///< no memory
+    kBadAlloc,   ///< out of memory
     kOther       ///< anything else, such as `throw 42`
   };
   Kind kind = Kind::kOther;
@@ -22,7 +22,7 @@ struct Thrown {
 /// Describes the exception being handled. Call it inside a catch block.
 [[nodiscard]] Thrown describeCurrentException();
 
-/// A remote function ended by an exception.
+/// A remote function ended with an exception.
 class RemoteThrow : public std::exception {
  public:
   RemoteThrow(std::string function, Thrown thrown);

@@ -17,8 +17,8 @@
 
 namespace rex::remote {
 
-/// How a value of type T becomes bytes: `put` appends it, `get` reads it back and throws ProtocolError for
-/// bytes that no value gives. Types without a specialisation cannot cross.
+/// Serialises a value of type T: `put` appends it, and `get` reads it back and throws ProtocolError for
+/// bytes that no value produces. Types without a specialisation cannot be sent.
 template <class T>
 struct Wire;
 
@@ -47,7 +47,7 @@ struct Wire<bool> {
   }
 };
 
-/// An enum may come back with a value that has no name: whoever uses it must expect that.
+/// An enum may come back with a value that has no name; its users must expect that.
 template <class T>
 requires std::is_enum_v<T>
 struct Wire<T> {
@@ -150,7 +150,7 @@ struct Wire<Eigen::Matrix<S, rows, cols, options, maxRows, maxCols>> {
   }
 };
 
-/// Crosses with its position in the sequence, so both sides draw the same numbers.
+/// Sent with its position in the sequence, so that both sides draw the same numbers.
 template <>
 struct Wire<Rng> {
   using State = std::array<std::uint64_t, 4>;

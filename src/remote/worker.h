@@ -28,7 +28,7 @@ struct ReceivedArgument {
   }
 };
 
-/// ... and functions ask the trusted side.
+/// ... and functions call the trusted side.
 template <class R, class... A>
 struct ReceivedArgument<std::function<R(A...)>> {
   static std::function<R(A...)> get(Session& session, std::uint32_t number, Reader& reader) {
@@ -42,7 +42,7 @@ struct ReceivedArgument<std::function<R(A...)>> {
   }
 };
 
-/// Hands a received argument on as the parameter type A: by reference, or moved into a parameter by value.
+/// Passes a received argument on as the parameter type A: by reference, or moved into a parameter by value.
 template <class A, class Received>
 decltype(auto) passAs(Received& received) {
   if constexpr (std::is_same_v<std::remove_cvref_t<A>, Received>) {
@@ -90,12 +90,12 @@ Method method(const char* name, decltype(Method::run) run = &Invoke<function>::r
   return {.name = name, .hash = functionHash<typename Invoke<function>::Type>(name), .run = run};
 }
 
-/// The whole main() of a worker process: answers on kWorkerIn and kWorkerOut until the trusted side closes
+/// The whole main() of a worker process: serves kWorkerIn and kWorkerOut until the trusted side closes
 /// them, then ends the process without running the destructors of the student's globals.
 [[noreturn]] void runWorker(std::span<const Method> methods);
 
-/// What linkWorkerPart() has in the places of the functions that a part does without: of the student, and of
-/// the library. Both throw Error.
+/// The replacements that linkWorkerParts() uses for functions that a part lacks: the student's and the
+/// library's. Both throw Error.
 extern "C" void rexOfAnotherPart(Session& session, Reader& arguments, Writer& result);
 extern "C" void rexNotAllowedHere();
 

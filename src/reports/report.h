@@ -8,10 +8,10 @@
 
 namespace rex::grading {
 
-/// A result in the words of the programs around a course. The same result gives the same bytes, whatever
-/// bytes its texts hold. Of hidden checks students see the points and the class of what happened, never a
-/// message; their titles and properties go to Gradescope only, to be shown after the grades are published. A
-/// fault of the grader is never written as a grade. Formats and fields: share/doc/report-formats.md.
+/// A result in the format of another program. The same result gives the same bytes, whatever bytes its
+/// texts contain. For hidden checks students see the points and the kind of outcome, never a message. Their
+/// titles and properties go only to Gradescope, to be shown after the grades are published. A grader error
+/// is never written as a grade. Formats and fields: share/doc/report-formats.md.
 [[nodiscard]] std::string gradescopeReport(const GradeResult& result);
 [[nodiscard]] std::string prairielearnReport(const GradeResult& result);
 [[nodiscard]] std::string exercismReport(const GradeResult& result);
@@ -21,7 +21,7 @@ namespace rex::grading {
 
 struct ReportFormat {
   std::string_view name;
-  std::string_view file;  ///< how it is called beside the result
+  std::string_view file;  ///< its name next to the result
   std::string (*write)(const GradeResult& result);
 };
 

@@ -11,17 +11,17 @@
 
 namespace rex::sandbox {
 
-/// How programs are confined here.
+/// How programs are confined.
 struct Sandbox {
   Level level = Level::kLimitsOnly;
   std::filesystem::path launcher{};  ///< the program rex-sandbox; not needed for limits only
 };
 
-/// A place for one program: what must be made before and taken away after, a user of its own (as root) and a
-/// control group (if the level has one). Lives longer than the program.
+/// The resources for confining one program: its own user (as root) and a control group (if the level has
+/// one). Must outlive the program.
 class Cell {
  public:
-  /// Completes the confinement with the level, user and groups. Throws Error where they cannot be had.
+  /// Adds the level, user and groups to the confinement. Throws Error if they are not available.
   Cell(const Sandbox& sandbox, Confinement confinement);
   ~Cell();
   Cell(const Cell&) = delete;
@@ -30,7 +30,7 @@ class Cell {
   /// The command that starts `program` with its arguments confined.
   [[nodiscard]] std::vector<std::string> command(const std::vector<std::string>& program) const;
   [[nodiscard]] bool ranOutOfMemory() const { return group_ && group_->ranOutOfMemory(); }
-  /// Ends what may be left of the program.
+  /// Kills what may be left of the program.
   void kill() const;
 
  private:

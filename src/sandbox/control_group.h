@@ -6,21 +6,21 @@
 
 namespace rex::sandbox {
 
-/// Limits on the memory and the number of processes of one program with all it starts, by control groups of
-/// version 2 or 1. The program joins by writing itself into each list of processes().
+/// Limits the memory and the number of processes of one program and all its descendants, with control
+/// groups of version 2 or 1. The program joins by writing itself into each list of processes().
 class ControlGroup {
  public:
-  /// Throws Error where this user can make none.
+  /// Throws Error if this user cannot make one.
   ControlGroup(std::size_t memoryBytes, int processes);
-  /// Kills what is left inside and removes it.
+  /// Kills all processes left in the group and removes it.
   ~ControlGroup();
   ControlGroup(const ControlGroup&) = delete;
   ControlGroup& operator=(const ControlGroup&) = delete;
 
   [[nodiscard]] std::vector<std::filesystem::path> processes() const;
-  /// Whether the kernel had to end a process because the memory was used up.
+  /// Whether the kernel killed a process because the memory was used up.
   [[nodiscard]] bool ranOutOfMemory() const;
-  /// Ends all processes inside.
+  /// Kills all processes in the group.
   void kill() const;
 
  private:

@@ -5,24 +5,25 @@
 
 namespace rex::sandbox {
 
-/// The version of landlock that this kernel offers; 0: none.
+/// The landlock version that this kernel supports; 0: none.
 [[nodiscard]] int landlockVersion();
 
-/// Rules about files for this thread and what it starts. Made while everything can still be opened, enforced
-/// later.
+/// File access rules for this thread and what it starts. Make them while everything can still be opened,
+/// and enforce them later.
 class FileRules {
  public:
-  /// Nothing may be opened but what is allowed afterwards. Throws Error where the kernel has no landlock.
+  /// Initially nothing may be opened; the calls below add exceptions. Throws Error if the kernel has no
+  /// landlock.
   FileRules();
   ~FileRules();
   FileRules(const FileRules&) = delete;
   FileRules& operator=(const FileRules&) = delete;
 
-  /// A file, or a folder and all below it. What does not exist is left out.
+  /// Allows a file, or a folder and everything below it. A path that does not exist is ignored.
   void allowReading(const std::filesystem::path& path);
   void allowWriting(const std::filesystem::path& path);
-  /// From now on, for ever. Signals to, and memory of, processes outside are out of reach too, where the
-  /// kernel can.
+  /// Enforces the rules permanently. If the kernel can, it also prevents sending signals to processes
+  /// outside and accessing their memory.
   void enforce();
 
  private:

@@ -2,10 +2,10 @@
 
 namespace rex::sandbox {
 
-/// From now on, for ever, and for what this process becomes: the memory of other processes is neither read
-/// nor written, and none is traced, where the kernel has landlock (5.13) or we are root. Their variables may
-/// stay readable. Nothing else is forbidden, so that it does for programs that are not confined. For use
-/// between fork and exec. Returns whether it holds.
+/// Permanently prevents this process, also after exec, from tracing other processes and from reading or
+/// writing their memory. Their environment variables may stay readable. Nothing else is forbidden, so it
+/// suits programs that are not confined. Needs landlock (Linux 5.13) or root; returns whether it is in
+/// force. Call it between fork and exec.
 bool leaveOthersAlone() noexcept;
 
 }  // namespace rex::sandbox

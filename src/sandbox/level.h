@@ -5,22 +5,22 @@
 
 namespace rex::sandbox {
 
-/// How a program is confined, by the number that users give it: share/doc/sandbox.md says what each level
-/// stops.
+/// The sandbox levels, with the numbers that users see. share/doc/sandbox.md describes what each level
+/// prevents.
 enum class Level : int {
   kLimitsOnly = 0,   ///< time, memory and output; no launcher is needed
-  kFiles = 1,        ///< landlock and a list of system calls
-  kNamespaces = 2,   ///< and namespaces
-  kControlGroup = 3  ///< and limits for all of its processes together
+  kFiles = 1,        ///< also landlock and a list of system calls
+  kNamespaces = 2,   ///< also namespaces
+  kControlGroup = 3  ///< also limits for all of its processes together
 };
 
-/// All that confine, from the best on.
+/// All levels that confine, best first.
 inline constexpr std::array kConfiningLevels = {Level::kControlGroup, Level::kNamespaces, Level::kFiles};
 
 [[nodiscard]] constexpr bool isConfined(Level level) { return level >= Level::kFiles; }
 [[nodiscard]] constexpr bool hasNamespaces(Level level) { return level >= Level::kNamespaces; }
 [[nodiscard]] constexpr bool hasControlGroup(Level level) { return level >= Level::kControlGroup; }
-/// Whether the work of strangers may be graded at it without a word.
+/// Whether strangers' submissions may be graded at this level without a warning.
 [[nodiscard]] constexpr bool isForStrangers(Level level) { return hasNamespaces(level); }
 
 [[nodiscard]] constexpr int numberOf(Level level) { return static_cast<int>(level); }

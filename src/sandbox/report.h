@@ -7,9 +7,9 @@ namespace rex::sandbox {
 
 /// What the launcher wrote into its report, a pipe that the program never holds.
 struct Report {
-  bool ready = false;           ///< the sandbox stood; what came later is the program's doing
-  std::string error{};          ///< why the sandbox does not stand
-  std::optional<int> status{};  ///< how the program ended, as wait4() gives it; only levels 2 and 3 tell
+  bool ready = false;           ///< the sandbox was set up; what followed is the program's doing
+  std::string error{};          ///< why the sandbox could not be set up
+  std::optional<int> status{};  ///< how the program ended, as from wait4(); only at levels 2 and 3
 };
 
 /// The lines of the report.

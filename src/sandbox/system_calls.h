@@ -5,8 +5,8 @@
 
 namespace rex::sandbox {
 
-/// The call by which the launcher becomes a student's program: execveat() of an open file, by these very
-/// pointers. They must lie where nobody can guess: see hiddenWords().
+/// The call with which the launcher starts a student's program: execveat() of an open file, with exactly
+/// these pointers. They must be at addresses that cannot be guessed: see hiddenWords().
 struct ProgramStart {
   int program = -1;  ///< a descriptor; below 0: nothing is started
   const char* path = nullptr;
@@ -14,11 +14,11 @@ struct ProgramStart {
   char* const* environment = nullptr;
 };
 
-/// From now on, for ever, and for what this thread starts. A student's program may make the calls of honest
-/// programs, and no other program can start in its place after `start`; tools may make all calls up to the
-/// newest that was looked at. Calls that no honest program makes end it with SIGSYS, others that lead out of
-/// the sandbox fail, and at level 1 also what this version of landlock does not rule. What is unknown fails
-/// as on a kernel without it. Throws Error where the kernel cannot filter.
+/// Permanently filters the system calls of this thread and what it starts. A student's program may make the
+/// calls of honest programs, and cannot execute another program after `start`; tools may make all calls
+/// known to this list. Calls that no honest program makes end the program with SIGSYS. Others that lead out
+/// of the sandbox fail, at level 1 also those that this landlock version does not cover. Unknown calls fail
+/// as on a kernel without them. Throws Error if the kernel cannot filter.
 void filterSystemCalls(const Confinement& confinement, const ProgramStart& start = {},
                        int landlock = landlockVersion());
 

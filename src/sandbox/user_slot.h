@@ -4,11 +4,11 @@
 
 namespace rex::sandbox {
 
-/// A number of a user who owns nothing on this machine, for one program at a time: two slots never share it,
-/// also not between processes. Only root can lend one.
+/// The id of a user who owns nothing on this machine, reserved for one program at a time, also across
+/// processes. Only root can reserve one.
 class UserSlot {
  public:
-  /// Takes the first that is free; none for others than root. Throws Error when all are taken.
+  /// Reserves the first free id; none unless called by root. Throws Error if all are taken.
   UserSlot();
   ~UserSlot();
   UserSlot(const UserSlot&) = delete;

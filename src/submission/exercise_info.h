@@ -15,10 +15,10 @@ struct ExercisePart {
   std::string title;
   int points = 0;
   int floor = 0;                   ///< points that the untouched main.cpp gets
-  int lies = 0;                    ///< points that a generic liar may get: see the gate `liars`
-  std::vector<std::string> hints;  ///< questions that narrow; the last may be near-code
-  /// Where they are given, the part is graded by a worker of its own, for these functions of the student's,
-  /// in which `allowed` alone is there.
+  int lies = 0;                    ///< points that a generic wrong function may get: see the gate `liars`
+  std::vector<std::string> hints;  ///< increasingly specific questions; the last may be almost code
+  /// If given, the part is graded by its own worker, which serves only these functions of the student and
+  /// contains only what `allowed` lists.
   std::vector<std::string> functions{}, allowed{};
 };
 
@@ -26,35 +26,35 @@ struct ExercisePart {
 struct ForbiddenFunction {
   std::string function;  ///< qualified: "rex::inverseKinematicsStep"; a class forbids its members
   std::string reason;
-  std::string part{};  ///< with a worker of its own, in which it is not; empty: it is in none
+  std::string part{};  ///< the part whose own worker lacks it; empty: all workers do
 };
 
-/// When `rex solution` shows the reference solution, where solution.cpp was handed out.
+/// When `rex solution` shows the reference solution, if solution.cpp was handed out.
 enum class SolutionRule { kNever, kAfterPass, kAlways };
 
-/// What exercise.toml says.
+/// The contents of exercise.toml.
 struct ExerciseInfo {
   std::string name;              ///< of the folder: "01-kinematics"
-  std::filesystem::path folder;  ///< as it was given
+  std::filesystem::path folder;  ///< as given
   std::string title;
   std::string script;  ///< section of the course script
   SolutionRule solution = SolutionRule::kNever;
   Limits limits;
   std::vector<ExercisePart> parts;
   std::vector<std::string>
-      allowed;  ///< what graded functions may call of the library: see allowedFunctions()
-  std::vector<ForbiddenFunction> forbidden;  ///< and may not, although it is allowed; and why
+      allowed;  ///< library functions that graded functions may call: see allowedFunctions()
+  std::vector<ForbiddenFunction> forbidden;  ///< exceptions from `allowed`, with reasons
   [[nodiscard]] int points() const;
 };
 
-/// Reads folder/exercise.toml. Throws Error (file:line:column) for a missing file, bad syntax, an unknown or
-/// missing key, a value of the wrong type or range.
+/// Reads folder/exercise.toml. Throws Error (file:line:column) for a missing file, bad syntax, an unknown
+/// or missing key, and a value of the wrong type or out of range.
 [[nodiscard]] ExerciseInfo readExerciseInfo(const std::filesystem::path& folder);
 
-/// All subfolders that hold an exercise.toml, by name. Throws as readExerciseInfo does.
+/// All subfolders that hold an exercise.toml, by name. Throws like readExerciseInfo does.
 [[nodiscard]] std::vector<ExerciseInfo> listExercises(const std::filesystem::path& folder);
 
-/// The exercise called "01-kinematics", "01" or "kinematics". Throws Error when none or several match.
+/// The exercise named "01-kinematics", "01" or "kinematics". Throws Error if none or several match.
 [[nodiscard]] const ExerciseInfo& findExercise(const std::vector<ExerciseInfo>& exercises,
                                                std::string_view name);
 

@@ -7,17 +7,17 @@
 
 namespace rex::grading {
 
-/// A declaration, a definition or a line of the preprocessor of a C++ file: at file scope, or in a namespace
-/// without a name, whose first line and last brace are pieces as well.
+/// A declaration, a definition or a preprocessor line of a C++ file, at file scope or in an unnamed
+/// namespace. The first line and the last brace of such a namespace are pieces, too.
 struct FilePiece {
-  std::size_t start = 0, end = 0;  ///< its characters; comments before it do not count
-  /// The name of a plain function; empty for anything else, and where that is not sure, as for a template.
+  std::size_t start = 0, end = 0;  ///< its characters, without comments before it
+  /// The name of a plain function; empty for anything else, and if that is uncertain, as for a template.
   std::string function{};
-  std::size_t nameStart = 0, bodyStart = 0;  ///< of a function: where its name and its '{' are
-  bool isInternal = false;                   ///< in a namespace without a name: the linker does not see it
+  std::size_t nameStart = 0, bodyStart = 0;  ///< for a function: where its name and its '{' are
+  bool isInternal = false;                   ///< in an unnamed namespace: invisible to the linker
 };
 
-/// All pieces of a file, in order. Text that is not C++ has pieces as well, of no meaning.
+/// All pieces of a file, in order. Text that is not C++ gives meaningless pieces.
 [[nodiscard]] std::vector<FilePiece> filePieces(std::string_view source);
 
 }  // namespace rex::grading

@@ -6,11 +6,10 @@
 
 namespace rex::grading {
 
-/// A student's file without main() and the functions that only main() needs, which take as long to compile as
-/// what is graded: `functions`, and all that those need. Blanks and declarations stand in their place, so
-/// that the rest keeps its lines and columns and behaves as before. Empty where none of the functions is
-/// there, or where one that is left out, other than main(), names one of `watched`. Whether the file compiles
-/// is another question.
+/// The graded part of a student's file: `functions` and everything they need. main() and what only main()
+/// needs, which takes as long to compile, is replaced by blanks and declarations, so that the rest keeps
+/// its lines, columns and behaviour. Empty if none of the functions exists, or if a removed function other
+/// than main() names one of `watched`. The result need not compile.
 [[nodiscard]] std::string gradedPart(std::string_view source, const std::vector<std::string>& functions,
                                      const std::vector<std::string>& watched);
 

@@ -10,27 +10,26 @@
 
 namespace rex::grading {
 
-/// The files in the list that a compiler writes by -MD, under the names by which it opened them; relative
-/// ones are in `folder`. Without the target.
+/// The files in the dependency list that a compiler writes with -MD, without the target, under the names
+/// with which it opened them; relative names are relative to `folder`.
 [[nodiscard]] std::vector<std::filesystem::path> dependenciesIn(std::string_view list,
                                                                 const std::filesystem::path& folder);
 
-/// The same of the list that the assembler writes by --MD, without its own input, which is the last: files
-/// that a source takes in by .incbin and .include.
+/// The same for the list that the assembler writes with --MD, without its own input, which is the last:
+/// files that a source includes with .incbin and .include.
 [[nodiscard]] std::vector<std::filesystem::path> filesOfAssembler(std::string_view list,
                                                                   const std::filesystem::path& folder);
 
-/// An error of rule "forbidden-call" for each file that a student's main.cpp was compiled with and must not
-/// be: one that is not a header of the system, no public header of the library or of the libraries beside it,
-/// no header of studentHeaders(), and not `mainFile` of `folder` itself. A file counts by device, inode and
-/// the place where it truly lies, whatever links and dots its name goes through. What such a file holds would
-/// be compiled into the student's functions, where no scan of symbols finds it. At the line of `source` that
-/// names it, if one does.
+/// An error with the rule "forbidden-call" for each file that a student's main.cpp must not include,
+/// because no scan of symbols finds its code in the student's functions. Allowed are system headers, public
+/// headers of the library and its dependencies, studentHeaders(), and `mainFile` of `folder` itself. Files
+/// are identified by device, inode and real path, whatever links and dots are in the name. The error is at
+/// the line of `source` that names the file, if there is one.
 [[nodiscard]] std::vector<CompileDiagnostic> forbiddenIncludes(
     const std::vector<std::filesystem::path>& dependencies, std::string_view source,
     const std::string& mainFile, const std::filesystem::path& folder, const Toolchain& toolchain);
 
-/// The same error where `source` defines a macro called `rex`: the library's own text would get other names.
+/// The same error if `source` defines a macro `rex`: it would rename things in the library's own headers.
 [[nodiscard]] std::vector<CompileDiagnostic> forbiddenMacros(std::string_view source,
                                                              const std::string& mainFile);
 

@@ -8,10 +8,10 @@
 
 namespace rex::grading {
 
-/// What in a source would make the compiler speak of other files or lines than its own, or be silent as in a
-/// header of the system: #line, "# 1", and the pragma for system headers, however they are spelt. Each is an
-/// error of rule "line-marker" at its line. A comment is passed over only where it begins its line and the
-/// source has no raw string, since in all other places two readers of C++ could differ about it.
+/// Finds what would make the compiler report other files or lines, or suppress messages as in a system
+/// header: #line, "# 1", and the pragma for system headers, however they are spelt. Each is an error with
+/// the rule "line-marker" at its line. Comments are skipped only if they begin a line and the source has no
+/// raw string, because elsewhere two C++ parsers could disagree about them.
 [[nodiscard]] std::vector<CompileDiagnostic> lineMarkers(std::string_view source,
                                                          const std::string& mainFile);
 

@@ -7,31 +7,31 @@
 
 namespace rex::grading {
 
-/// A named symbol of an object file. Those that stand for sections and for the source are left out.
+/// A named symbol of an object file. Symbols for sections and for the source file are left out.
 struct ObjectSymbol {
   std::string name;
-  bool isDefined = false;  ///< here, not in another file
-  bool isGlobal = false;   ///< seen by other files, and the only one of its name
-  bool isWeak = false;     ///< seen by other files, and gives way to others of its name
-  bool isShared = false;   ///< one of many equal copies: its section is in a group, as those of templates are
-  bool isReferred = false;  ///< the linker writes its address somewhere: some relocation names it
+  bool isDefined = false;   ///< in this file
+  bool isGlobal = false;    ///< visible to other files, and unique
+  bool isWeak = false;      ///< visible to other files, and replaced by a global one of the same name
+  bool isShared = false;    ///< one of many equal copies: its section is in a group, as for templates
+  bool isReferred = false;  ///< some relocation names it: the linker writes its address somewhere
 };
 
 /// A section that the linker will read.
 struct ObjectSection {
   std::string name;
-  unsigned type = 0;  ///< SHT_ of elf.h
+  unsigned type = 0;  ///< SHT_... of elf.h
 };
 
-/// What an object file of this machine's kind holds, section 0 left out.
+/// The contents of an object file for this machine, without section 0.
 struct ObjectFile {
   std::vector<ObjectSection> sections;
   std::vector<ObjectSymbol> symbols;
 };
 
-/// Reads a relocatable ELF file of 64 bits in this machine's byte order, by the System V ABI (gABI, chapter
-/// 4). Trusts no size, offset or index in it. Throws Error that names `file` where one leads out of the
-/// file, where there is no table of symbols or a second one, and for relocations of other symbols.
+/// Reads a relocatable 64-bit ELF file in this machine's byte order (System V gABI, chapter 4). Trusts no
+/// size, offset or index in it. Throws Error naming `file` if one of these leads out of the file, if there
+/// is not exactly one symbol table, and for relocations that use other symbols.
 [[nodiscard]] ObjectFile readObjectFile(std::string_view bytes, const std::string& file);
 
 }  // namespace rex::grading

@@ -7,17 +7,17 @@
 
 namespace rex::grading {
 
-/// Flags that let g++ start from the precompiled header beside `prefix`, which includes course/course.h
-/// alone; none when that is missing or, by the times of the files, older than one it was made of, when
-/// `prefix` is empty, and unless the source opensWithCourseHeader(). `flags` are the compiler's others.
-/// Messages and program are the same with and without.
+/// Flags that make g++ start from the precompiled header next to `prefix`, which includes only
+/// course/course.h. Empty if that is missing or older than a file it was made from, if `prefix` is empty,
+/// and unless the source opensWithCourseHeader(). `flags` are the other compiler flags. Messages and
+/// program are the same with and without it.
 [[nodiscard]] std::vector<std::string> prefixFlags(const std::filesystem::path& prefix,
                                                    std::string_view source,
                                                    const std::vector<std::string>& flags);
 
-/// Whether a source includes "exercise.h" or "course/course.h" before anything but blank lines, // comments,
-/// headers of standard C++, and such as lie in the folders of -iquote and -isystem in the flags: then it
-/// makes no difference that course.h, which the first includes, comes even earlier.
+/// Whether a source includes "exercise.h" or "course/course.h" before anything except blank lines, //
+/// comments, standard C++ headers, and headers in the -iquote and -isystem folders of the flags. Then
+/// including course.h, which exercise.h includes, even earlier makes no difference.
 [[nodiscard]] bool opensWithCourseHeader(std::string_view source, const std::vector<std::string>& flags);
 
 }  // namespace rex::grading

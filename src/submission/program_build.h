@@ -9,30 +9,30 @@
 
 namespace rex::grading {
 
-/// A shared library of rex, one of those that programs may be linked with.
+/// One of the shared libraries of rex that programs may be linked with.
 struct LibraryPart {
-  std::string target;                  ///< of the build: "rex_planning"
+  std::string target;                  ///< build target: "rex_planning"
   std::filesystem::path file{};        ///< once it is built
-  std::string folder{};                ///< of its sources, below that of the library: "planning"
-  std::vector<std::string> headers{};  ///< in that folder, whose functions have their bodies here
-  std::vector<std::string> symbols{};  ///< functions of other headers that have theirs here
-  std::vector<std::string> uses{};     ///< targets that it is linked with itself
+  std::string folder{};                ///< of its sources, relative to the library's: "planning"
+  std::vector<std::string> headers{};  ///< headers in that folder whose functions are defined here
+  std::vector<std::string> symbols{};  ///< functions of other headers that are defined here
+  std::vector<std::string> uses{};     ///< targets that it is linked with
 };
 
-/// How to build a program that is not an exercise: what the build wrote to program.json.
+/// How to build a program that is not an exercise; the build writes this to program.json.
 struct ProgramToolchain {
   Toolchain toolchain;                 ///< without libraries, worker and grader
   std::filesystem::path sourceFolder;  ///< of the library
   std::vector<LibraryPart> libraries{};
 };
 
-/// Reads program.json. Throws Error when it is missing (the project is not built), or a key is.
+/// Reads program.json. Throws Error if it or a key is missing (the project is not built).
 [[nodiscard]] ProgramToolchain readProgramToolchain(const std::filesystem::path& programJson);
 
-/// The libraries that a program needs which was compiled with these files, and all that those use, in the
-/// order of the toolchain: of each header of the library the one with its body or, where none has its name,
-/// the first of its folder; and those with a symbol that `symbolTable`, what `objdump -t -C` prints of the
-/// object file, has as undefined.
+/// The libraries that a program compiled with these files needs, and those that they use, in the order of
+/// the toolchain. For each library header this is the library that lists it, or else the first one of its
+/// folder; also those that define an undefined symbol in `symbolTable`, the output of `objdump -t -C` for
+/// the object file.
 [[nodiscard]] std::vector<LibraryPart> librariesFor(const ProgramToolchain& program,
                                                     const std::vector<std::filesystem::path>& files,
                                                     std::string_view symbolTable);

@@ -14,44 +14,46 @@ namespace rex::grading {
 /// What to grade, and how.
 struct SubmissionOptions {
   std::filesystem::path main;        ///< the student's file
-  std::filesystem::path workFolder;  ///< for objects and the worker; two gradings need two
-  /// Its sandbox is also that of compilers, which keep as many processors busy as it has jobs; build.log is
-  /// written beside its results. Worker, limits, libraries and temporary folder are set here.
+  std::filesystem::path workFolder;  ///< for objects and the worker; each grading needs its own
+  /// Its sandbox is also used for compilers, which use as many processors as it has jobs; build.log is
+  /// written next to its results. The worker, limits, libraries and temporary folder are set by the
+  /// functions below.
   GradingJob job{};
   bool lookAgain = false;      ///< after a crash in a visible check, find its line with the sanitizers
-  bool sanitize = false;       ///< grade a build with the sanitizers, with twenty times the processor time
-  double compileSeconds = 30;  ///< of processor time
+  bool sanitize = false;       ///< grade a build with the sanitizers, with twenty times the CPU time
+  double compileSeconds = 30;  ///< of CPU time
 };
 
 /// A graded file.
 struct Submission {
   GradeResult result;
-  std::string source;  ///< what was compiled; empty if the file was refused
+  std::string source;  ///< what was compiled; empty if the file was rejected
 };
 
-/// Compiles the file, has the exercise's grader check it and leaves results.json, whatever the file does. A
-/// file that does not compile, or calls what is forbidden, gets Outcome::kCompileError; when the grader or
-/// the tools fail, Outcome::kGraderError. Throws Error for an unknown check.
+/// Compiles the file, has the exercise's grader check it and writes results.json, whatever the file does. A
+/// file that does not compile or calls forbidden functions gets Outcome::kCompileError; if the grader or the
+/// tools fail, the outcome is Outcome::kGraderError. Throws Error for an unknown check.
 [[nodiscard]] Submission gradeSubmission(const Toolchain& toolchain, const ExerciseInfo& exercise,
                                          const SubmissionOptions& options);
 
-/// The first of the two steps of gradeSubmission(): what compiling said, and the worker if there is one.
+/// The first of the two steps of gradeSubmission(): the result of compiling, and the worker if there is
+/// one.
 struct BuiltSubmission {
-  GradeResult start;  ///< what is known before any check runs
+  GradeResult start;  ///< the result before any check has run
   std::string source;
-  std::filesystem::path worker;  ///< empty: does not compile, or the tools failed
+  std::filesystem::path worker;  ///< empty: the file does not compile, or the tools failed
 };
 [[nodiscard]] BuiltSubmission buildSubmission(const Toolchain& toolchain, const ExerciseInfo& exercise,
                                               const SubmissionOptions& options);
 
-/// The second step; may be repeated with other seeds.
+/// The second step, which may be repeated with other seeds.
 [[nodiscard]] GradeResult gradeBuilt(const BuiltSubmission& built, const Toolchain& toolchain,
                                      const ExerciseInfo& exercise, const SubmissionOptions& options);
 
-/// Twelve digits that change whenever the task in that folder or its checks do.
+/// Twelve digits that change whenever the exercise in that folder or its checks change.
 [[nodiscard]] std::string exerciseVersion(const std::filesystem::path& folder);
 
-/// All checks of an exercise, none run. Throws Error when the grader cannot list them.
+/// All checks of an exercise, not run. Throws Error if the grader cannot list them.
 [[nodiscard]] std::vector<CheckResult> listChecks(const Toolchain& toolchain);
 
 }  // namespace rex::grading

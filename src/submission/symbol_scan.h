@@ -11,30 +11,30 @@
 
 namespace rex::grading {
 
-/// Whether a symbol is the function `rex::f`, whatever its arguments, one of the class or the namespace
-/// `rex::f`, or made for one of them (Itanium C++ ABI, section 5.1). `symbol` as it stands in the object
-/// file.
+/// Whether a symbol is the function `rex::f` with any arguments, a member of the class or namespace
+/// `rex::f`, or generated for one of these (Itanium C++ ABI, section 5.1). `symbol` is mangled, as in the
+/// object file.
 [[nodiscard]] bool isSymbolOf(std::string_view symbol, std::string_view function);
 
-/// The forbidden functions that anything in an object file refers to, by whatever section. Functions and
-/// tables by which others are found while a program runs, such as dlsym(), are always among them.
+/// The forbidden functions that anything in an object file refers to, from any section. Functions and
+/// tables for finding others at run time, such as dlsym(), are always forbidden.
 [[nodiscard]] std::vector<ForbiddenFunction> forbiddenCalls(const ObjectFile& object,
                                                             const std::vector<ForbiddenFunction>& forbidden);
 
-/// The functions and tables of the library that an object file refers to, does not have itself and is not
-/// offered, by their names in C++: "rex::plot". `offers` as offeredSymbols() gives them.
+/// The library's functions and tables that an object file refers to without defining them and that are not
+/// offered, with their C++ names: "rex::plot". `offers` comes from offeredSymbols().
 [[nodiscard]] std::vector<std::string> callsNotOffered(const ObjectFile& object,
                                                        const std::vector<std::string>& offers);
 
-/// What no compiler writes into an object file of a C++ source, each as an error of rule "forbidden-call":
-/// names that do not print, sections that only the linker makes, and such as hold code for the linker to
-/// compile. To be asked before a linker reads the file.
+/// Finds what no compiler writes into the object file of a C++ source: unprintable names, sections that
+/// only the linker makes, and sections with code for the linker to compile. Each is an error with the rule
+/// "forbidden-call". Call it before a linker reads the file.
 [[nodiscard]] std::vector<CompileDiagnostic> strangeParts(const ObjectFile& object,
                                                           const std::string& mainFile);
 
-/// Explains each of the forbiddenCalls() and, where there is a file of `offers`, callsNotOffered() of an
-/// object file that holds nothing of main() (see withoutMain()) as an error of rule "forbidden-call", at the
-/// line of `source` that names the function if there is only one outside main(). Throws Error as
+/// Explains each of the forbiddenCalls() and, if a file of `offers` is given, callsNotOffered() of an
+/// object file without main() (see withoutMain()) as an error with the rule "forbidden-call". It is at the
+/// line of `source` that names the function, if there is exactly one outside main(). Throws Error like
 /// readObjectFile().
 [[nodiscard]] std::vector<CompileDiagnostic> scanSymbols(const std::filesystem::path& object,
                                                          std::string_view source, const std::string& mainFile,

@@ -11,10 +11,10 @@
 
 namespace rex::grading {
 
-/// Compiles a part of a source (see gradedPart()) to `object`, while another compiler only reads the whole:
-/// the file `name` beside the object. Both take `command`. Gives what that one said, with the warnings that
-/// the part's adds, as the compiler's JSON; nothing where the source has to be compiled as it stands, for
-/// something failed and it is not an error in the whole.
+/// Compiles a part of a source (see gradedPart()) to `object`, while another compiler checks the syntax of
+/// the whole, the file `name` next to the object. Both use `command`. Returns the messages of the second
+/// compiler, with additional warnings for the part, as JSON. Empty if something failed that is not an error
+/// in the whole: then the source must be compiled as it is.
 [[nodiscard]] std::optional<ProcessResult> compilePart(
     const std::string& part, const std::vector<std::string>& command, const std::string& name,
     const std::filesystem::path& object,

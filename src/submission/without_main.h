@@ -8,11 +8,11 @@
 
 namespace rex::grading {
 
-/// Links the object file of a student into `part`, without main() and without what only main() leads to: what
-/// stays is reached from a function that the worker asks for or from what runs before main(). A pointer to
-/// main() anywhere there keeps it. Needs a file compiled with
-/// -ffunction-sections -fdata-sections. Returns what the linker did; nothing where the file has only main(),
-/// so that nobody can use it. Throws Error as readObjectFile() and BuildTools::run().
+/// Links a student's object file into `part` without main() and what only main() uses. What is reachable
+/// from a function that the worker needs or from code that runs before main() remains; a pointer to main()
+/// in it keeps main(). The file must be compiled with -ffunction-sections -fdata-sections. Returns the
+/// linker's result; empty if the file has only main(). Throws Error like readObjectFile() and
+/// BuildTools::run().
 [[nodiscard]] std::optional<ProcessResult> withoutMain(const std::filesystem::path& object,
                                                        const std::filesystem::path& part,
                                                        const Toolchain& toolchain, const BuildTools& tools);

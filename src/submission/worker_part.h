@@ -9,32 +9,31 @@
 
 namespace rex::grading {
 
-/// What to make a worker's part of the library from.
+/// The inputs for linkWorkerParts().
 struct WorkerPartOrder {
   std::filesystem::path exercise;              ///< its folder, with exercise.toml
   std::filesystem::path groups;                ///< the file of allowedFunctions()
   std::filesystem::path worker;                ///< object file of the loop that calls the student's functions
-  std::vector<std::filesystem::path> objects;  ///< of the library, each function in a section of its own
-  std::vector<std::string> functions;          ///< of the student's that the loop calls
-  std::vector<std::filesystem::path> libraries;  ///< shared ones of others that the library needs
-  std::string compiler;                          ///< that links
+  std::vector<std::filesystem::path> objects;  ///< of the library, with each function in its own section
+  std::vector<std::string> functions;          ///< the student's functions that the loop calls
+  std::vector<std::filesystem::path> libraries;  ///< third-party shared ones that the library needs
+  std::string compiler;                          ///< used for linking
   std::string objcopy, nm;
-  std::filesystem::path folder;  ///< to write to
+  std::filesystem::path folder;  ///< output folder
 };
 
-/// Links the worker's loop, what graded functions may call and what those need, and nothing else of the
-/// library: worker_part.o, and worker_part.ID.o for each part of the exercise with a worker of its own. What
-/// exercise.toml forbids is then not in the memory of the workers that it is forbidden in. The names that a
-/// student's file may use go into worker.offers. Throws Error where a name that is allowed does not exist, or
-/// where what is forbidden would be there because something that is allowed needs it.
+/// Links the worker's loop with only those parts of the library that graded functions may call or that
+/// these need: worker_part.o, and worker_part.ID.o for each part of the exercise with its own worker. What
+/// exercise.toml forbids is then not in the worker's memory. The names that a student's file may use go
+/// into worker.offers. Throws Error if an allowed name does not exist, or if an allowed function needs a
+/// forbidden one.
 void linkWorkerParts(const WorkerPartOrder& order);
 
-/// The file of options by which worker_part.o is linked: the libraries of others that it needs, and no
-/// others.
+/// The linker options file for worker_part.o: the third-party libraries that it needs, and no others.
 [[nodiscard]] std::filesystem::path linkOptions(const std::filesystem::path& workerPart);
 
-/// The workers of parts that linkWorkerParts() made beside worker_part.o, by the id of the part, each with
-/// the file of options by which it is linked.
+/// A part's worker that linkWorkerParts() made next to worker_part.o, with the part's id and the linker
+/// options file.
 struct WorkerOfPart {
   std::string id;
   std::filesystem::path object;
@@ -42,13 +41,13 @@ struct WorkerOfPart {
 };
 [[nodiscard]] std::vector<WorkerOfPart> workersOfParts(const std::filesystem::path& workerPart);
 
-/// The functions that a list of exercise.toml allows: groups are replaced by what they consist of. Throws
-/// Error for a group that the file does not have.
+/// The functions that a list in exercise.toml allows, with groups replaced by their members. Throws Error
+/// for a group that the file does not define.
 [[nodiscard]] std::vector<std::string> allowedFunctions(const std::vector<std::string>& list,
                                                         const std::filesystem::path& exercise,
                                                         const std::filesystem::path& groups);
 
-/// The names, as they stand in object files, of what linkWorkerParts() offers to a student's file, sorted.
+/// The mangled names that linkWorkerParts() offers to a student's file, sorted.
 [[nodiscard]] std::vector<std::string> offeredSymbols(const std::filesystem::path& offers);
 
 }  // namespace rex::grading

@@ -11,8 +11,8 @@ struct ZipEntry {
   std::string text;
 };
 
-/// Writes a zip file that depends on the entries alone, not on the time; an old one is replaced at once.
-/// Throws Error.
+/// Writes a zip file that depends only on the entries, not on the time. An old one is replaced atomically.
+/// Throws Error if it cannot be written.
 void writeZip(const std::filesystem::path& file, const std::vector<ZipEntry>& entries);
 
 }  // namespace rex::grading
