@@ -6,18 +6,17 @@
 
 namespace rex::cli {
 
-/// The programs behind the one that users see, one for each room of this folder. `rex` itself is the
-/// student's.
+/// The programs behind `rex`, one for each room of this folder. `rex` itself is the student's.
 enum class Program { kStudent, kRobot, kMethods, kInstructor };
 
-/// Its name: that of its file in the build folder, and of its target there.
+/// Its name, which is that of its file in the build folder and of its build target.
 [[nodiscard]] std::string programName(Program program);
 
-/// What every program knows of a command, also of those that it has to hand over.
+/// What every program knows about a command, including those that it hands over.
 struct TableEntry {
   std::string_view name{};
   std::string_view purpose{};  ///< one line of `rex --help`
-  Program program{};           ///< that does the work
+  Program program{};           ///< the program that runs it
 };
 
 /// All commands of `rex`, in the order of its help.

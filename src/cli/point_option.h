@@ -6,8 +6,8 @@
 
 namespace rex::cli {
 
-/// The three numbers that `option` gives, called by `form`. Throws UsageError for another count, or naming
-/// the word that cannot be read as a number.
+/// The three numbers in the text of `option`; `form` describes them in messages. Throws UsageError for
+/// another count, or naming the word that is not a number.
 [[nodiscard]] Eigen::Vector3d parsePoint(const std::string& text, const std::string& option,
                                          const std::string& form = "x,y,z");
 

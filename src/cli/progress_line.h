@@ -8,17 +8,17 @@
 
 namespace rex::cli {
 
-/// While it lives, the last line of the terminal says what long work is doing, some times a second; nothing
-/// where standard error is not a terminal. The line is gone afterwards. It needs no escape sequences.
+/// While it lives, the last line of the terminal shows the progress of long work, updated several times a
+/// second, if standard error is a terminal. The line is erased at the end. It needs no escape sequences.
 class ProgressLine {
  public:
-  /// `text` is called from a thread of its own.
+  /// `text` is called from another thread.
   explicit ProgressLine(std::function<std::string()> text);
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// Takes the line away while `print` writes to the terminal.
+  /// Erases the line while `print` writes to the terminal.
   void stepAside(const std::function<void()>& print);
 
  private:

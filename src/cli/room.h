@@ -14,18 +14,17 @@ class App;  // of CLI11
 
 namespace rex::cli {
 
-/// What the command line asks for, ready to be done.
+/// What the command line requests, ready to be run.
 using Action = std::function<ExitCode(const Project&)>;
 
-/// Gives a command its options and examples; `action` is set when the user asks for it. Both outlive the
-/// parsing.
+/// Adds options and examples to a command; `action` is set if the user calls it. Both outlive the parsing.
 using Registration = void (*)(CLI::App* command, Action& action);
 
-/// What one of the programs does itself: the commands that the table gives it.
+/// What one program does itself: the commands that the table assigns to it.
 struct Room {
   Program program{};
   std::map<std::string_view, Registration> commands{};
-  Action withoutCommand{};  ///< nothing: `rex` knows
+  Action withoutCommand{};  ///< empty: `rex` handles it
 };
 
 }  // namespace rex::cli

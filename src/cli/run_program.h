@@ -5,7 +5,7 @@
 
 namespace rex::cli {
 
-/// What main() of each program does: runCommandLine(), which Ctrl-C and its like end tidily.
+/// The main() of each program: runCommandLine(), ended cleanly by Ctrl-C and similar signals.
 [[nodiscard]] int runProgram(int argc, const char* const* argv, const Project& project, const Room& room);
 
 }  // namespace rex::cli

@@ -8,12 +8,12 @@
 
 namespace rex::cli {
 
-/// The programs that make the sandbox and attack it; they lie beside `rex`.
+/// The programs that set up the sandbox and attack it; they are next to `rex`.
 [[nodiscard]] std::filesystem::path launcherOf(const Project& project);
 [[nodiscard]] std::filesystem::path probeOf(const Project& project);
 
-/// The asked level if it holds here, nothing if not; what is in the way is said on standard error. Nothing
-/// asked: limits only.
+/// The sandbox of the requested level if that holds here; otherwise empty, with the reasons on standard
+/// error. Without a requested level: limits only.
 [[nodiscard]] std::optional<sandbox::Sandbox> chooseSandbox(const Project& project,
                                                             std::optional<sandbox::Level> level);
 

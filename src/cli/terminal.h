@@ -8,25 +8,25 @@ namespace rex::cli {
 
 enum class Colour { kRed, kGreen, kYellow, kBold };
 
-/// The text in that colour when standard output is a terminal that shows colours and NO_COLOR is unset or
-/// empty, the plain text otherwise.
+/// The text in that colour if standard output is a colour terminal and NO_COLOR is unset or empty;
+/// otherwise the plain text.
 [[nodiscard]] std::string paint(Colour colour, std::string_view text);
 
-/// Twenty characters that show a part of a whole: "####................". Neither empty nor full unless it
-/// is.
+/// A progress bar of twenty characters: "####................". It is empty or full only if the part is
+/// zero or the whole.
 [[nodiscard]] std::string bar(int part, int whole);
 
-/// Breaks text at blanks so that lines have at most 80 columns, each but the first starting with `indent`
-/// blanks. `used` columns of the first line are taken already.
+/// Wraps text at blanks to lines of at most 80 columns, all but the first indented by `indent` blanks.
+/// `used` columns of the first line are already taken.
 [[nodiscard]] std::string wrap(std::string_view text, std::size_t indent, std::size_t used);
 
-/// The text as printable() shows it, cut: for what a student's program or file says.
+/// The text as printable() shows it, truncated: for output of a student's program or text of a file.
 [[nodiscard]] std::string harmless(std::string_view text);
 
-/// Prints a line on standard output, as terminalText().
+/// Prints a line to standard output, through terminalText().
 void say(std::string_view line = "");
 
-/// The same on standard error: what is going on, not what the user asked for.
+/// The same to standard error: for status messages instead of requested output.
 void note(std::string_view line);
 
 }  // namespace rex::cli

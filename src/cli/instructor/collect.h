@@ -10,19 +10,19 @@
 
 namespace rex::cli {
 
-/// The deadlines of that file; none without one. Throws as grading::readLatePolicy().
+/// The deadlines in that file; none without a file. Throws like grading::readLatePolicy().
 [[nodiscard]] grading::LatePolicy readDeadlines(const Project& project, const std::filesystem::path& file);
 
-/// The formats of these names, with commas between. Throws UsageError naming the nearest.
+/// The report formats with these comma-separated names. Throws UsageError naming the nearest.
 [[nodiscard]] std::vector<grading::ReportFormat> reportsOf(const std::string& names);
 
-/// Writes those reports beside the result of each task that has one, unless they are there, and takes away
-/// those of these formats that have no result any more.
+/// Writes missing reports next to the result of each task that has one, and removes reports in these
+/// formats that no longer have a result.
 void writeReports(const std::vector<grading::Task>& tasks, const std::filesystem::path& out,
                   const std::vector<grading::ReportFormat>& reports);
 
-/// Writes OUT/grades.csv, and prints it if asked. Tells which tasks have no valid result; false if there are
-/// such.
+/// Writes OUT/grades.csv, and prints it on request. Reports tasks without a valid result, and returns false
+/// if there are any.
 [[nodiscard]] bool writeGrades(const std::vector<grading::Task>& tasks, const std::filesystem::path& out,
                                const grading::LatePolicy& policy, bool print);
 

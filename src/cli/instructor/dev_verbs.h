@@ -6,8 +6,8 @@
 #include "base/exit_code.h"
 #include "cli/project.h"
 
-/// The verbs of `rex dev`, one file each. They print for people, and throw UsageError for names that do not
-/// exist, Error when the project or the machine is broken.
+/// The verbs of `rex dev`, one file each. They print for people. They throw UsageError for names that do
+/// not exist, and Error if the project or the machine is broken.
 namespace rex::cli {
 
 /// Makes a new exercise from the template.
@@ -19,8 +19,8 @@ struct CheckOptions {
   bool listGates = false;
   int seeds = 3;
 };
-/// Judges exercises by the gates that all must pass. kBelow if one does not, kGraderFault if a grader does
-/// not build; the others are judged all the same.
+/// Runs the gates that exercises must pass. Returns kBelow if one fails, kGraderFault if a grader does not
+/// build; the other exercises are still tested.
 ExitCode devCheck(const Project& project, const CheckOptions& options);
 
 /// Makes main.cpp of that exercise from its solution.cpp.
@@ -28,12 +28,13 @@ ExitCode devStrip(const Project& project, const std::string& name);
 
 struct ReleaseOptions {
   std::filesystem::path out{};      ///< new folder
-  std::filesystem::path scan{};     ///< only look through this tree, and write nothing
+  std::filesystem::path scan{};     ///< only scan this tree, and write nothing
   std::filesystem::path secret{};   ///< file with the secret of the course; empty: none
   bool prove = false;               ///< see proveRelease()
-  std::filesystem::path proveIn{};  ///< the same, in this folder, which stays
+  std::filesystem::path proveIn{};  ///< the same, in this folder, which is kept
 };
-/// Writes the tree that students get, and says what it holds. kBelow, and nothing written, if anything leaks.
+/// Writes the students' tree, and prints what it contains. Returns kBelow, without writing anything, if
+/// anything leaks.
 ExitCode devRelease(const Project& project, const ReleaseOptions& options);
 
 struct StatsOptions {
@@ -42,7 +43,7 @@ struct StatsOptions {
   bool json = false;
   bool csv = false;
 };
-/// How a class did, per exercise and check. kNotGradable if some result could not be read.
+/// Prints the results of a class, per exercise and check. Returns kNotGradable if a result cannot be read.
 ExitCode devStats(const Project& project, const StatsOptions& options);
 
 }  // namespace rex::cli

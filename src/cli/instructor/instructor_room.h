@@ -4,7 +4,7 @@
 
 namespace rex::cli {
 
-/// What those do who teach and write exercises: the program `rex-instructor`.
+/// The commands for teaching and writing exercises: the program `rex-instructor`.
 [[nodiscard]] Room instructorRoom();
 
 }  // namespace rex::cli

@@ -18,7 +18,7 @@ enum class CarFilterKind {
   kUnscented,
   kInformation,
   kRoot,
-  kSmoother,  ///< the extended filter, corrected by what is seen later
+  kSmoother,  ///< the extended filter, corrected by later observations
   kParticles,
   kEkfSlam,
   kFastSlam,
@@ -26,51 +26,52 @@ enum class CarFilterKind {
   kDeadReckoning
 };
 
-/// What a name means. Throws UsageError for another one, telling why where the filter does not fit the car.
+/// The filter of that name. Throws UsageError for an unknown name, with the reason if a filter does not
+/// suit the car.
 [[nodiscard]] CarFilterKind carFilterOf(const std::string& name);
-/// Whether the filter finds the landmarks itself.
+/// Whether the filter estimates the landmarks itself.
 [[nodiscard]] bool makesMap(CarFilterKind kind);
 [[nodiscard]] bool hasParticles(CarFilterKind kind);
 
-/// What the car sees in one step: y.segment<2>(2 i) of landmark landmarks[i].
+/// The observations of the car in one step: y.segment<2>(2 i) of landmark landmarks[i].
 struct CarSightings {
   std::vector<int> landmarks{};
   Eigen::VectorXd y{};
 };
 
-/// What a step did.
+/// The result of a filter step.
 struct CarUpdate {
-  double nis = 0;  ///< squared innovations of so many numbers; 0 of 0 for filters without any
+  double nis = 0;  ///< squared innovation; 0, with 0 degrees of freedom, for filters without any
   int degrees = 0;
-  double effectiveParticles = std::numeric_limits<double>::infinity();  ///< 0: none explains what was seen
+  double effectiveParticles = std::numeric_limits<double>::infinity();  ///< 0: none explains the observation
 };
 
-/// A landmark that a filter found.
+/// A landmark estimated by a filter.
 struct FoundLandmark {
   int landmark = 0;
   Gaussian belief{};
 };
 
-/// A filter at work on the car.
+/// A filter that runs on the car.
 class CarFilter {
  public:
   virtual ~CarFilter() = default;
-  /// Drives with u and looks. Throws Error as the filters of estimation do.
+  /// Predicts with u and updates with the observations. Throws Error like the filters of estimation.
   virtual CarUpdate step(const Eigen::Vector2d& u, const CarSightings& seen) = 0;
   [[nodiscard]] virtual Gaussian pose() const = 0;
   [[nodiscard]] virtual std::vector<FoundLandmark> map() const { return {}; }
-  /// Adds particles.
+  /// Adds the particles to a picture.
   virtual void addTo(CarView&) const {}
 };
 
-/// A filter that knows the car's start to a millimetre and believes in the constants of `car`; it knows its
-/// landmarks unless it makes a map. Throws Error as the filters do.
+/// A filter that knows the car's initial pose to a millimetre and uses the constants of `car`; it knows the
+/// landmarks unless it makes a map. Throws Error like the filters.
 [[nodiscard]] std::unique_ptr<CarFilter> makeCarFilter(CarFilterKind kind, const CarSimulator& car,
                                                        int particles, const Rng& rng);
 
-/// How the car moves with u, as its constants tell; asks `car` as long as it lives.
+/// The car's motion model for control u, from its constants. Refers to `car`, which must outlive it.
 [[nodiscard]] NonlinearModel motionModel(const CarSimulator& car, const Eigen::Vector2d& u);
-/// What it sees of landmarks.
+/// The observation model of these landmarks.
 [[nodiscard]] NonlinearModel sightingModel(const CarSimulator& car, const std::vector<int>& landmarks);
 
 }  // namespace rex::cli

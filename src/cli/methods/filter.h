@@ -7,7 +7,7 @@
 
 namespace rex::cli {
 
-/// What `rex filter` is asked for.
+/// The options of `rex filter`.
 struct FilterOptions {
   std::string filter = "ekf";
   int landmarks = 5;
@@ -15,7 +15,8 @@ struct FilterOptions {
   double dynamicsNoise = 0.03, observationNoise = 0.5;
   bool rangeBearing = false;
   std::optional<double> bearingNoise{}, maxRange{}, fieldOfView{};
-  double assumeDynamics = 1, assumeObservation = 1;  ///< factors of the deviations a filter believes in
+  double assumeDynamics = 1,
+         assumeObservation = 1;  ///< factors on the standard deviations that the filter assumes
   std::optional<int> particles{};
   std::uint64_t seed = 0;
   int seeds = 1;  ///< runs, each with the next seed

@@ -10,24 +10,24 @@
 
 namespace rex::cli {
 
-/// What the filter shows in steps of a run, and in the last one.
+/// The views of a filter during a run, and of the last step.
 struct ShownRun {
   std::vector<CarView> frames{};
   CarView end{};
 };
 
-/// Whether the film shows step 1, 2, ... of a run: at most 150 of them, evenly.
+/// Whether the film shows step 1, 2, ... of a run: at most 150, evenly spaced.
 [[nodiscard]] bool isFilmed(int step, int steps);
 
-/// Makes the folder, and takes away the film and contact sheet of an earlier run. Throws UsageError naming
-/// -o for one that cannot be made or written to.
+/// Makes the folder, and removes the film and contact sheet of an earlier run. Throws UsageError naming -o
+/// if it cannot be made or written to.
 void makeFilterFolder(const std::filesystem::path& folder);
 
 /// Every step of a run as a table: true and estimated pose, covariance, dead reckoning, NEES and NIS.
 [[nodiscard]] std::string csvOf(const FilterRun& run);
 
 /// Writes into options.out the table, figures of the errors, of NEES over all runs and of the map, and the
-/// film. Gives back the files, as a user would type them. Throws Error as those who write them.
+/// film. Returns the files, as a user would type them. Throws Error like the functions that write them.
 [[nodiscard]] std::vector<std::string> writeFilterFiles(const FilterOptions& options, const FilterRun& run,
                                                         const FilterStatistics& statistics,
                                                         ShownRun shownRun);

@@ -13,33 +13,33 @@ namespace rex::cli {
 struct RunErrors {
   std::uint64_t seed = 0;
   double position = 0, heading = 0;
-  std::optional<double> nees{};  ///< empty: all covariances are singular, or nearly so
+  std::optional<double> nees{};  ///< empty: all covariances are (nearly) singular
 };
 
-/// How well a filter did in runs that differ in the seed only. Of a consistent filter, squared errors in the
-/// metric of their covariances (NEES) are chi-square of 3 degrees, those of innovations (NIS) of as many as
-/// they have numbers. Bands are of 95 %.
+/// The performance of a filter in runs that differ only in the seed. For a consistent filter, squared
+/// errors in the metric of their covariances (NEES) are chi-square with 3 degrees of freedom, and those of
+/// innovations (NIS) with as many as they have entries. Bands are 95 %.
 struct FilterStatistics {
   std::vector<RunErrors> runs{};
   double position = 0, heading = 0, deadReckoning = 0;  ///< root mean squares over runs and steps
-  double map = 0;                  ///< the same of the landmarks that were found in the end, metres
-  std::optional<double> nees{};    ///< mean over runs and steps, where the covariance is not singular
-  std::vector<double> stepNees{};  ///< of each step, the mean over runs
-  ConsistencyBand stepBand{};      ///< for such a mean
-  double insideBand = 0;           ///< share of the steps
-  double nis = 0;                  ///< for one number of an innovation
-  double innovations = 0;          ///< how many numbers; without any, there is no NIS
+  double map = 0;                  ///< the same for the landmarks found at the end, metres
+  std::optional<double> nees{};    ///< mean over runs and steps with regular covariance
+  std::vector<double> stepNees{};  ///< for each step, the mean over runs
+  ConsistencyBand stepBand{};      ///< for these means
+  double insideBand = 0;           ///< fraction of the steps
+  double nis = 0;                  ///< per entry of an innovation
+  double innovations = 0;          ///< number of entries; if zero, there is no NIS
   ConsistencyBand nisBand{};
   int foundLandmarks = 0;
-  int singular = 0;  ///< steps with covariances that are, or nearly so
+  int singular = 0;  ///< steps with (nearly) singular covariance
 };
 
-/// Adds up runs one by one, so that not all must be kept.
+/// Accumulates runs one by one, so that not all must be kept.
 class FilterStatisticsBuilder {
  public:
-  /// Expects as many steps as in the run before.
+  /// Each run must have as many steps as the one before.
   void add(const FilterRun& run);
-  /// Expects a run.
+  /// There must be at least one run.
   [[nodiscard]] FilterStatistics statistics() const;
 
  private:

@@ -13,9 +13,10 @@ struct DoctorOptions {
   std::string gl;  ///< auto, osmesa or egl; empty: auto
   bool json = false;
   bool sandbox = false;                   ///< attack the sandbox instead
-  std::optional<sandbox::Level> level{};  ///< of the sandbox, that must hold; nothing: the best
+  std::optional<sandbox::Level> level{};  ///< the sandbox level to test; empty: the best
 };
-/// Attacks the sandbox from inside with a program of ours. kWeakSandbox unless the asked level holds.
+/// Attacks the sandbox from inside with our own program. Returns kWeakSandbox unless the requested level
+/// holds.
 ExitCode doctorOfSandbox(const Project& project, const DoctorOptions& options);
 
 }  // namespace rex::cli

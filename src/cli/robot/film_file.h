@@ -13,9 +13,9 @@ inline constexpr double kFilmRate = VideoOptions().rate;  ///< frames per second
 /// Throws UsageError naming --no-film for a scene without a visible shape.
 void requireFilmable(const Model& model);
 
-/// Draws the pictures as the plan asks for into the film `out`, or without ffmpeg into a folder of frames
-/// beside it, and gives back which; of one picture it becomes a walk around. Nothing is made before something
-/// was seen. Throws as Studio and makeFrameSink().
+/// Draws the pictures according to the plan into the film `out` or, without ffmpeg, into a folder of frames
+/// next to it, and returns its path. A single picture becomes a walk around the scene. Nothing is created
+/// until something is visible. Throws like Studio and makeFrameSink().
 std::filesystem::path writeFilm(const MotionPictures& pictures, const RenderPlan& plan,
                                 std::filesystem::path out);
 

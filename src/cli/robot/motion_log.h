@@ -9,24 +9,25 @@
 namespace rex::cli {
 
 enum class LogFormat {
-  kCsv,  ///< a line of names, then a line per moment, in digits that give back the same numbers
-  kNpy   ///< NumPy's format 1.0: a matrix of doubles, little-endian, row by row, a row per moment
+  kCsv,  ///< a line of names, then a line per moment, with digits that restore the same numbers
+  kNpy   ///< NumPy format 1.0: a matrix of little-endian doubles in row-major order, a row per moment
 };
 
-/// A log with the columns time, q, v, kinetic, potential and total energy, written as it goes. A log that is
-/// not finished leaves nothing, neither a file nor folders that were made for it; an older one stays until
-/// then.
+/// A log with the columns time, q, v, kinetic, potential and total energy, written incrementally. An
+/// unfinished log leaves nothing behind, neither a file nor folders made for it. An older log is kept until
+/// finish().
 class MotionLog {
  public:
-  /// `rows` must be added; files of kNpy begin with their number. Throws Error naming the file.
+  /// Exactly `rows` rows must be added, because kNpy files begin with their number. Throws Error naming the
+  /// file.
   MotionLog(const std::filesystem::path& file, LogFormat format, const Model& model, long rows);
   ~MotionLog();
   MotionLog(const MotionLog&) = delete;
   MotionLog& operator=(const MotionLog&) = delete;
 
-  /// Throws Error naming the file, such as on a full disk.
+  /// Throws Error naming the file, for example on a full disk.
   void add(const Moment& moment);
-  /// Puts the file in its place. Throws as add().
+  /// Moves the finished file into place. Throws like add().
   void finish();
 
  private:

@@ -10,23 +10,23 @@
 
 namespace rex::cli {
 
-/// The pictures of a motion on one level ground, each made when it is asked for: a film of a large scene
-/// would not fit into memory at once.
+/// The pictures of a motion above one level ground. Each is made on demand, because a film of a large scene
+/// would not fit into memory.
 class MotionPictures {
  public:
-  /// Of the motion only the postures `shown` count, in this order; all of it leaves `traces`, the ways of
-  /// bodies, and every picture says `caption`. Throws UsageError for an unknown body.
+  /// Shows the postures with the indices `shown`, in this order. `traces` are bodies whose paths over the
+  /// whole motion are drawn, and every picture has the `caption`. Throws UsageError for an unknown body.
   MotionPictures(const Model& model, const Motion& motion, const std::vector<std::size_t>& shown,
                  const std::vector<std::string>& traces, std::string caption);
 
   [[nodiscard]] std::size_t size() const { return shown_.size(); }
-  /// Of picture i, seconds.
+  /// The time of picture i, seconds.
   [[nodiscard]] double time(std::size_t i) const { return motion_.times[shown_[i]]; }
-  /// Picture i, with the ways up to its moment.
+  /// Picture i, with the traces up to its time.
   [[nodiscard]] Picture picture(std::size_t i) const;
-  /// All of them.
+  /// All pictures.
   [[nodiscard]] Film film() const;
-  /// The box around all that they show.
+  /// The bounding box of everything they show.
   [[nodiscard]] const Bounds& bounds() const { return bounds_; }
 
  private:

@@ -14,9 +14,9 @@ namespace rex::cli {
 /// "scene, planner, seed 3", without control characters.
 [[nodiscard]] std::string titleOf(const PathTask& task, const PlanOptions& options, const FoundPath& found);
 
-/// Writes into options.out what a search explored, and the motion along the path that it found as a table, a
-/// film and a page with a replay. Pictures show the ways of `body`, and are drawn as the plan says. Gives
-/// back the files, as a user would type them. Throws Error as those who write them.
+/// Writes into options.out what a search explored, and the motion along the path found as a table, a film
+/// and a page with a replay. Pictures show the traces of `body` and are drawn according to `pictures`.
+/// Returns the files, as a user would type them. Throws Error like the functions that write them.
 [[nodiscard]] std::vector<std::string> writePathFiles(const PathTask& task, const PlanOptions& options,
                                                       const RenderPlan& pictures, BodyId body,
                                                       const FoundPath& found, const PathTiming& timing);

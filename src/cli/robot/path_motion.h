@@ -7,7 +7,7 @@
 
 namespace rex::cli {
 
-/// Postures of a motion, `rate` per second, and its end, which lies as long after the others or less.
+/// Postures of a motion, `rate` per second, and its end, so that the last interval may be shorter.
 [[nodiscard]] Motion motionOf(const TimedPath& timed, double rate);
 
 /// The motion as a table: "time", then the joints by name, separated by commas; a motion for readMotion().

@@ -13,20 +13,20 @@
 
 namespace rex::cli {
 
-/// Bounds of a clearance are as near together, metres, unless that takes too long: see pathClearance().
+/// Tolerance of the bounds of a clearance, metres, unless that takes too long: see pathClearance().
 inline constexpr double kClearanceTolerance = 1e-4;
 
-/// How far, in each number of a posture, straight ways between postures of a path are from its curve.
+/// How far the straight segments of a path may deviate from its curve, in each coordinate.
 inline constexpr double kChordTolerance = 5e-5;
 
 enum class Planner { kRrt, kRrtConnect, kRrtStar, kPrm, kPrmStar, kLazyPrm };
 
 /// What `--planner NAME` means. Throws UsageError naming the choices and the nearest.
 [[nodiscard]] Planner plannerOf(const std::string& name);
-/// Whether it grows trees, by steps; otherwise it makes a roadmap.
+/// Whether the planner grows trees step by step; otherwise it makes a roadmap.
 [[nodiscard]] bool growsTrees(Planner planner);
 
-/// A robot, which of its shapes may collide, and from where to where it shall go.
+/// A robot, its shapes that may collide, and the planning problem.
 struct PathTask {
   Model model;
   ContactModel contacts;
@@ -37,11 +37,11 @@ struct PathTask {
 struct PathSearch {
   Planner planner = Planner::kRrtConnect;
   double step = 0.3;      ///< of trees, in the metric of the space
-  int samples = 100'000;  ///< random configurations, at most; of a roadmap, all that may become nodes
+  int samples = 100'000;  ///< maximum number of random configurations; for a roadmap, of candidate nodes
   bool smooth = true;     ///< shortcuts, then a spline that cuts corners
 };
 
-/// Configurations, one per column, and which of them are joined.
+/// Configurations, one per column, and their connections.
 struct PathGraph {
   Eigen::MatrixXd nodes{};
   std::vector<std::pair<int, int>> edges{};
@@ -50,38 +50,38 @@ struct PathGraph {
 /// What a search with one seed found.
 struct FoundPath {
   std::uint64_t seed = 0;
-  /// Postures along the curve, one per column, with angles that run on across whole turns; empty: none found.
-  /// The straight ways between them are no farther than kChordTolerance from the curve.
+  /// Postures along the curve, one per column, with unwrapped angles; empty: none found. The straight
+  /// segments between them are within kChordTolerance of the curve.
   Eigen::MatrixXd path{};
-  PathCurve curve{};  ///< what was found, to be followed
-  double length = 0;  ///< of the path, and of what the planner gave before it was smoothed
+  PathCurve curve{};  ///< the path as a curve to follow
+  double length = 0;  ///< of the path, and below of the planner's path before smoothing
   double plannedLength = 0;
-  ClearanceBounds clearance{};  ///< all along the path
+  ClearanceBounds clearance{};  ///< along the whole path
   int samples = 0;
   int nodes = 0;
-  long checks = 0;                    ///< configurations that were looked at, those for smoothing included
+  long checks = 0;                    ///< configurations that were checked, including those for smoothing
   double planningTime = 0;            ///< seconds of CPU time
-  double smoothingTime = 0;           ///< the same, of what comes after
-  std::vector<PathGraph> explored{};  ///< trees (of two, the first is that of the start), or a roadmap
+  double smoothingTime = 0;           ///< the same, for smoothing
+  std::vector<PathGraph> explored{};  ///< trees (the first is that of the start), or a roadmap
 
   [[nodiscard]] bool isFound() const { return path.cols() > 0; }
 };
 
-/// Searches once. The same seed finds the same, but for the times. Throws Error as the planner, and
-/// Interrupted.
+/// Searches once. The same seed gives the same result, except for the times. Throws Error like the planner,
+/// and Interrupted.
 [[nodiscard]] FoundPath searchPath(const PathTask& task, const PathSearch& search, std::uint64_t seed);
 
-/// What searches with several seeds found. Only the best one keeps what it explored.
+/// The results of searches with several seeds. Only the best one keeps what it explored.
 struct FoundPaths {
   std::vector<FoundPath> all{};  ///< at least one
-  std::size_t best = 0;          ///< has the shortest path; where none was found, the first
+  std::size_t best = 0;          ///< the one with the shortest path; if none was found, the first
 
   [[nodiscard]] const FoundPath& shortest() const { return all[best]; }
-  /// How many have a path.
+  /// The number of searches that found a path.
   [[nodiscard]] int successes() const;
 };
 
-/// Searches with `count` seeds, at least one, from `firstSeed` on. Throws as searchPath().
+/// Searches with `count` seeds, at least one, from `firstSeed` on. Throws like searchPath().
 [[nodiscard]] FoundPaths searchPaths(const PathTask& task, const PathSearch& search, std::uint64_t firstSeed,
                                      int count);
 

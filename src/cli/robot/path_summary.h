@@ -9,12 +9,12 @@
 
 namespace rex::cli {
 
-/// One search in some lines; several in a table of minima, medians and maxima, of lengths and clearances
-/// among the paths that were found. `timing` is that of the shortest path.
+/// A few lines for one search; for several a table of minima, medians and maxima, with lengths and
+/// clearances only of the paths found. `timing` is that of the shortest path.
 [[nodiscard]] std::string summaryOf(const PathTask& task, const PlanOptions& options, const FoundPaths& found,
                                     const PathTiming& timing);
 
-/// The same for programs, with the shortest path.
+/// The same as JSON, with the shortest path.
 [[nodiscard]] std::string jsonSummaryOf(const PathTask& task, const PlanOptions& options,
                                         const FoundPaths& found, const PathTiming& timing,
                                         const std::vector<std::string>& files);

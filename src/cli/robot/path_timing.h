@@ -7,7 +7,7 @@
 
 namespace rex::cli {
 
-/// How fast a path is followed, and within which limits.
+/// The timing of a path, and its limits.
 struct PathTiming {
   JointLimits limits{};
   TimingResult result{};
@@ -15,14 +15,14 @@ struct PathTiming {
   [[nodiscard]] bool isFound() const { return result.status == TimingStatus::kFound; }
 };
 
-/// The fastest motion along what was found, within the limits of the scene and of the options. Throws Error
-/// as jointLimits().
+/// The fastest motion along the path found, within the limits of the scene and of the options. Throws Error
+/// like jointLimits().
 [[nodiscard]] PathTiming timingOf(const PathTask& task, const PlanOptions& options, const FoundPath& found);
 
-/// Says which limits are not those of the scene, on one line; empty if all are.
+/// One line about limits that do not come from the scene; empty if all do.
 [[nodiscard]] std::string assumptionsOf(const PathTiming& timing, const PlanOptions& options);
 
-/// Which limits were kept to, on one line.
+/// One line about the limits that were respected.
 [[nodiscard]] std::string limitsTextOf(const PathTiming& timing, const PlanOptions& options);
 
 }  // namespace rex::cli

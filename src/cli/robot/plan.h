@@ -9,7 +9,7 @@
 
 namespace rex::cli {
 
-/// What `rex plan` is asked for.
+/// The options of `rex plan`.
 struct PlanOptions {
   SceneOption scene{};
   std::string start{};  ///< see parsePosture(); empty: that of the file
@@ -22,11 +22,11 @@ struct PlanOptions {
   std::uint64_t seed = 0;
   int seeds = 1;  ///< searches, each with the next seed
   bool noSmooth = false;
-  double velocity = 1;   ///< of joints without a limit in the scene, rad/s or m/s
-  double ramp = 0.5;     ///< seconds in which each joint comes from rest to its limit of velocity
-  bool effort = false;   ///< keep to the efforts of joints in the scene
+  double velocity = 1;   ///< limit for joints without one in the scene, rad/s or m/s
+  double ramp = 0.5;     ///< seconds in which each joint accelerates from rest to its velocity limit
+  bool effort = false;   ///< respect the scene's effort limits
   double speed = 1;      ///< of the film; 1: real time
-  std::string body{};    ///< whose ways are drawn; empty: farthestBody()
+  std::string body{};    ///< whose traces are drawn; empty: farthestBody()
   RenderOptions film{};  ///< cameras, size and gl of the pictures
   bool noFilm = false;
   bool json = false;

@@ -6,8 +6,8 @@
 
 namespace rex::cli {
 
-/// parsePostureOf() with quaternions brought to length one. Throws UsageError besides for a quaternion of
-/// zeros, and for a joint outside its limits, by how much.
+/// parsePostureOf() with normalised quaternions. Also throws UsageError for a zero quaternion, and for a
+/// joint outside its limits, saying by how much.
 [[nodiscard]] Eigen::VectorXd postureWithinLimits(const Model& model, const std::string& option,
                                                   const std::string& text);
 

@@ -5,7 +5,7 @@
 
 namespace rex::cli {
 
-/// Makes what the options ask for. Throws as planOf(), loadScene() and those who write.
+/// Makes what the options request. Throws like planOf(), loadScene() and the functions that write files.
 ExitCode render(const Project& project, const RenderOptions& options);
 
 }  // namespace rex::cli

@@ -15,11 +15,11 @@ struct SceneOptions {
   std::string posture{};  ///< see parsePosture(); empty: that of the file
   bool json = false;
 };
-/// The bodies as a tree, and the coordinates of the joints.
+/// Prints the bodies as a tree, and the coordinates of the joints.
 ExitCode sceneInfo(const Project& project, const SceneOptions& options);
-/// Everything that is wrong with a file. kBelow if it does not load.
+/// Prints everything that is wrong with a file. Returns kBelow if it does not load.
 ExitCode sceneCheck(const Project& project, const SceneOptions& options);
-/// Where the bodies are.
+/// Prints the poses of the bodies.
 ExitCode sceneKinematics(const Project& project, const SceneOptions& options);
 
 struct JacobianOptions {
@@ -33,7 +33,7 @@ struct ContactsOptions {
   SceneOptions scene{};
   std::optional<double> margin{};  ///< metres; 0.1
 };
-/// What may collide and is near, and what that costs.
+/// Prints the nearby pairs that may collide, and their contact cost.
 ExitCode sceneContacts(const Project& project, const ContactsOptions& options);
 
 struct PairsOptions {
@@ -41,9 +41,9 @@ struct PairsOptions {
   int samples = 1000;  ///< random postures
   std::uint64_t seed = 0;
 };
-/// Which pairs of bodies may collide, and why the others may not.
+/// Prints which pairs of bodies may collide, and why the others may not.
 ExitCode scenePairs(const Project& project, const PairsOptions& options);
-/// An SRDF with the pairs that never or always touched in random postures.
+/// Prints an SRDF with the pairs that never or always touched in random postures.
 ExitCode sceneNeverTouching(const Project& project, const PairsOptions& options);
 
 struct DynamicsOptions {
@@ -51,12 +51,12 @@ struct DynamicsOptions {
   std::string velocity{};  ///< see parseVelocities(); empty: at rest
   std::string force{};     ///< see parseForces(); empty: none
 };
-/// Mass matrix, bias forces, energies, and how the joints accelerate.
+/// Prints the mass matrix, bias forces, energies, and joint accelerations.
 ExitCode sceneDynamics(const Project& project, const DynamicsOptions& options);
 
 struct ConvertOptions {
   SceneOption scene{};
-  std::filesystem::path out{};  ///< its ending says which format
+  std::filesystem::path out{};  ///< its extension says which format
 };
 /// Writes the scene in another format.
 ExitCode sceneConvert(const Project& project, const ConvertOptions& options);

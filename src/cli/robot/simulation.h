@@ -14,15 +14,15 @@
 
 namespace rex::cli {
 
-/// What `rex simulate` lets happen.
+/// The settings of `rex simulate`.
 struct SimulationPlan {
   State start{};
   StepperOptions stepper{};
-  std::optional<PhysicsOptions> physics{};  ///< if set, what steps instead, without noise
+  std::optional<PhysicsOptions> physics{};  ///< if set, PhysicsWorld is used instead, without noise
   double tau = 1e-3;                        ///< seconds per step
   int steps = 0;
-  Hold hold = Hold::kNone;               ///< of the posture of the start; kMotor wants `physics`
-  std::optional<TorqueTable> torques{};  ///< added to the forces that hold; without effect under kMotor
+  Hold hold = Hold::kNone;               ///< for the initial posture; kMotor needs `physics`
+  std::optional<TorqueTable> torques{};  ///< added to the holding forces; no effect with kMotor
   std::uint64_t seed = 0;                ///< of the noise
 };
 
@@ -32,20 +32,19 @@ struct Moment {
   Energy energy;
 };
 
-/// Calls visit(moment) with the start, and after each step. Throws Error as Stepper or PhysicsWorld, what
+/// Calls visit(moment) at the start and after each step. Throws Error like Stepper or PhysicsWorld, what
 /// `visit` throws, and Interrupted.
 void simulate(const Model& model, const SimulationPlan& plan,
               const std::function<void(const Moment&)>& visit);
 
-/// Chooses the postures of a film out of a motion while it goes on: `rate` per second, each the one that is
-/// nearest in time.
+/// Selects the postures of a film during a simulation: `rate` per second, each the one nearest in time.
 class FilmPostures {
  public:
-  /// Of `steps` steps of tau seconds.
+  /// For `steps` steps of tau seconds.
   FilmPostures(double tau, int steps, double rate);
-  /// The postures before and after each step, in turn.
+  /// Call it with the initial posture, and then after each step.
   void add(const Eigen::VectorXd& q);
-  /// What was chosen so far.
+  /// The postures selected so far.
   [[nodiscard]] const Motion& motion() const { return motion_; }
 
  private:

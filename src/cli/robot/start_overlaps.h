@@ -7,18 +7,18 @@
 
 namespace rex::cli {
 
-/// Two bodies, or shapes of the world, that are in overlap.
+/// Two overlapping bodies, or shapes of the world.
 struct BodyOverlap {
   std::string a, b;
   double depth = 0;  ///< metres, at its deepest
 };
 
-/// What may collide and is deeper than 0.1 mm in overlap in that state, deepest first. Throws Error as
-/// PhysicsWorld.
+/// The pairs that may collide and overlap by more than 0.1 mm in that state, deepest first. Throws Error
+/// like PhysicsWorld.
 [[nodiscard]] std::vector<BodyOverlap> startOverlaps(const Model& model, const PhysicsOptions& options,
                                                      const State& start);
 
-/// "2 pairs: 'a' and 'b' by 0.012 m, ...", of the deepest dozen.
+/// "2 pairs: 'a' and 'b' by 0.012 m, ...", for at most the deepest dozen.
 [[nodiscard]] std::string toString(const std::vector<BodyOverlap>& overlaps);
 
 }  // namespace rex::cli

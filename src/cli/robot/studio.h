@@ -12,20 +12,20 @@
 
 namespace rex::cli {
 
-/// Draws pictures of one scene as a plan asks for, those of several cameras side by side.
+/// Draws pictures of one scene according to a plan, with several cameras side by side.
 class Studio {
  public:
-  /// `scene` is all that will be seen. Throws Error as Renderer.
+  /// `scene` bounds everything that will be seen. Throws Error like Renderer.
   Studio(const RenderPlan& plan, const Bounds& scene);
 
   /// The renderer and the views, on one line.
   [[nodiscard]] std::string describe() const;
-  /// All cameras may be turned by `angle` (rad, counterclockwise) about the vertical through what they look
-  /// at. Throws Error as View::camera() and Renderer::drawFrame(), and Interrupted.
+  /// Draws a picture, with all cameras turned by `angle` (rad, counterclockwise) about the vertical through
+  /// their targets. Throws Error like View::camera() and Renderer::drawFrame(), and Interrupted.
   [[nodiscard]] Image draw(const Picture& picture, double angle = 0);
-  /// Whether anything of the scene was seen so far; of depth and segmentation images, always.
+  /// Whether any part of the scene has been visible so far; always true for depth and segmentation images.
   [[nodiscard]] bool sawSomething() const { return sawSomething_; }
-  /// Throws UsageError unless it was.
+  /// Throws UsageError unless sawSomething().
   void requireSomethingSeen() const;
 
  private:
@@ -37,10 +37,10 @@ class Studio {
   bool sawSomething_ = false;
 };
 
-/// The pictures in rows of three with their captions, none shrunk; at least one.
+/// The pictures (at least one) in rows of three with their captions, at full size.
 [[nodiscard]] Image sheetOf(const std::vector<KeyFrame>& pictures);
 
-/// The box that holds `scene` however it is turned about the vertical through its middle.
+/// The box that contains `scene` for any rotation about the vertical through its centre.
 [[nodiscard]] Bounds turningBox(const Bounds& scene);
 
 }  // namespace rex::cli

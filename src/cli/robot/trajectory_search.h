@@ -7,9 +7,8 @@
 
 namespace rex::cli {
 
-/// From rest at `start`, the point p_BQ of `body` shall come to p_WQ, and rest there, with little
-/// acceleration and within the limits of the joints; while avoiding, all pairs of shapes stay `margin` metres
-/// apart.
+/// Moves a point of `body` from rest at `start` to rest at p_WQ, with little acceleration and within the
+/// joint limits. If `avoids`, all pairs of shapes stay `margin` metres apart.
 struct TrajectoryTask {
   Model model;
   ContactModel contacts;
@@ -23,22 +22,22 @@ struct TrajectoryTask {
   ConstraintMethod method = ConstraintMethod::kAugmentedLagrangian;
 };
 
-/// What was found, with the start before it.
+/// The trajectory found, beginning with the start.
 struct FoundTrajectory {
-  Eigen::MatrixXd path{};  ///< nq x (steps + 1), each `tau` seconds after the one before
+  Eigen::MatrixXd path{};  ///< nq x (steps + 1), `tau` seconds apart
   double tau = 0;
-  double error = 0;              ///< how far the body's point is from the goal at the end, metres
+  double error = 0;              ///< final distance of the body's point from the goal, metres
   ConstrainedResult solution{};  ///< with the log of all iterations
   TrajectoryClearance clearance{};
-  int samples = 0;     ///< postures of a step in which obstacles were looked at last; 0: none
+  int samples = 0;     ///< postures per step checked for obstacles in the last round; 0: none
   double cpuTime = 0;  ///< seconds
 
   [[nodiscard]] bool isSolved() const { return solution.status == ConstrainedStatus::kSolved; }
 };
 
-/// First without obstacles, from standing still; then, warm, with them, looked at in ever more postures of
-/// each step until what lies between is proven clear. Throws Error as the terms, and for a model with
-/// quaternions.
+/// First solves the problem without obstacles, starting from standing still. Then solves it with obstacles
+/// from a warm start, checking more and more postures per step until everything in between is proven clear.
+/// Throws Error like the terms, and for a model with quaternions.
 [[nodiscard]] FoundTrajectory findTrajectory(const TrajectoryTask& task);
 
 }  // namespace rex::cli

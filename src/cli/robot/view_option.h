@@ -7,31 +7,31 @@
 
 namespace rex::cli {
 
-/// The axis of W along which a robot faces: -y in .ors files, as the course's robots do; +x by the convention
-/// of ROS (REP 103) in URDF and all other formats.
+/// The axis of W that a robot faces: -y in .ors files, like the course's robots; +x in URDF and all other
+/// formats, by the ROS convention (REP 103).
 enum class Facing { kMinusY, kPlusX };
 
-/// What the ending of a scene's file says about it.
+/// The facing that the extension of a scene's file implies.
 [[nodiscard]] Facing facingOf(const std::filesystem::path& file);
 
-/// Where `--camera TEXT` stands: "front", "back", "left", "right" or "top" of a robot, or "default", the same
-/// direction for all; "x,y,z", a direction from the scene; or "x,y,z@x,y,z", the eye and what it looks at,
+/// The position of `--camera TEXT`: "front", "back", "left", "right" or "top" of a robot, or "default", the
+/// same direction for all; "x,y,z", a direction from the scene; or "x,y,z@x,y,z", the eye and its target,
 /// metres.
 class View {
  public:
-  /// Throws UsageError naming the nearest view, or what cannot be read.
+  /// Throws UsageError naming the nearest view, or what cannot be parsed.
   explicit View(const std::string& text, Facing facing = Facing::kMinusY);
 
-  /// The text, and the axis on which a named view stands: "front (from +x)".
+  /// The text and, for a named view, the axis from which it looks: "front (from +x)".
   [[nodiscard]] const std::string& label() const { return label_; }
 
-  /// The camera; the views without an eye see all of `bounds`. Throws as framing() and lookAt().
+  /// The camera; views without an eye show all of `bounds`. Throws like framing() and lookAt().
   [[nodiscard]] Camera camera(const Bounds& bounds, double aspect) const;
-  /// The point it looks at, W, metres: the target next to an eye, else the middle of `bounds`.
+  /// The point it looks at, in W, metres: the given target, else the centre of `bounds`.
   [[nodiscard]] Eigen::Vector3d target(const Bounds& bounds) const {
     return hasEye_ ? target_ : bounds.center();
   }
-  /// From what is seen to the camera, W, any length.
+  /// From the target to the camera, in W, of any length.
   [[nodiscard]] Eigen::Vector3d direction() const { return direction_; }
 
  private:

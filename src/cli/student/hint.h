@@ -10,7 +10,7 @@ namespace rex::cli {
 struct HintOptions {
   std::string exercise;
   std::string part;    ///< empty: the first that needs one
-  bool again = false;  ///< those that were shown
+  bool again = false;  ///< repeat the hints already shown
 };
 ExitCode hint(const Project& project, const HintOptions& options);
 

@@ -6,7 +6,7 @@ struct termios;  // of the system
 
 namespace rex::cli {
 
-/// While it lives, keys reach the program one by one, without Enter and unseen; only where standard input and
+/// While it lives, keys reach the program one by one, without Enter and without echo, if standard input and
 /// output are a terminal. Ctrl-C still stops the program.
 class Keyboard {
  public:
@@ -16,13 +16,13 @@ class Keyboard {
   Keyboard& operator=(const Keyboard&) = delete;
 
   [[nodiscard]] bool isThere() const { return before_ != nullptr; }
-  /// For poll(); -1 where there is no keyboard.
+  /// For poll(); -1 if there is no keyboard.
   [[nodiscard]] int descriptor() const;
-  /// The key that was pressed; 'q' when the terminal is gone.
+  /// The key that was pressed; 'q' if the terminal is gone.
   [[nodiscard]] char read() const;
 
  private:
-  std::unique_ptr<termios> before_;  // what the terminal was like; nothing: there is no keyboard
+  std::unique_ptr<termios> before_;  // previous state of the terminal; null: there is no keyboard
 };
 
 }  // namespace rex::cli

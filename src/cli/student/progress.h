@@ -5,7 +5,7 @@
 
 namespace rex::cli {
 
-/// The points of the last test of each exercise, and what to do next.
+/// Prints the points of the last test of each exercise, and what to do next.
 ExitCode progress(const Project& project);
 
 }  // namespace rex::cli

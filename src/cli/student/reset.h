@@ -7,7 +7,7 @@
 
 namespace rex::cli {
 
-/// Makes main.cpp as it was handed out, and keeps the one that is there.
+/// Restores main.cpp as it was handed out, and keeps a copy of the current one.
 ExitCode reset(const Project& project, const std::string& name);
 
 }  // namespace rex::cli

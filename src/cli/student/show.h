@@ -11,7 +11,7 @@ struct ShowOptions {
   std::string exercise;
   bool solution = false;
 };
-/// Where replays, films, pictures and the result lie. kBelow if there are none.
+/// Prints where replays, films, pictures and the result are. Returns kBelow if there are none.
 ExitCode show(const Project& project, const ShowOptions& options);
 
 }  // namespace rex::cli

@@ -11,25 +11,25 @@
 
 namespace rex::cli {
 
-/// The file to work on: `main` if given, the exercise's solution.cpp if asked for, else its main.cpp. Throws
-/// UsageError when the solution is wanted in a tree that has none.
+/// The file to work on: `main` if given, the exercise's solution.cpp if asked for, else its main.cpp.
+/// Throws UsageError if the solution is requested in a tree without one.
 [[nodiscard]] std::filesystem::path chooseStudentFile(const ExerciseInfo& exercise, bool solution,
                                                       const std::filesystem::path& main = {});
 
-/// Compiles the file and links the student's program, keeping the log in out/build.log. Prints what is wrong
-/// with the file and returns no program then. Throws Error when the tools fail, and as prepare() does.
+/// Compiles the file and links the student's program, keeping the log in out/build.log. If the file has
+/// errors, it prints them and returns no program. Throws Error if the tools fail, and like prepare().
 [[nodiscard]] std::optional<std::filesystem::path> buildProgram(const Project& project,
                                                                 const ExerciseInfo& exercise,
                                                                 const grading::StudentBuildOptions& options,
                                                                 const std::filesystem::path& out);
 
-/// The same by any toolchain; `beforeLinking` is called with the compiled file.
+/// The same with any toolchain; `beforeLinking` is called with the compiled file.
 [[nodiscard]] std::optional<std::filesystem::path> buildProgram(
     const grading::Toolchain& toolchain, const grading::StudentBuildOptions& options,
     const std::filesystem::path& out,
     const std::function<void(const grading::StudentObject& object)>& beforeLinking);
 
-/// Prints the first error at length and the number of others, and where the log lies.
+/// Prints the first error in detail, the number of others, and where the log is.
 void explain(const std::vector<grading::CompileDiagnostic>& messages, const std::string& source,
              const std::filesystem::path& log);
 

@@ -4,7 +4,7 @@
 
 namespace rex::cli {
 
-/// What a student does with exercises: the program `rex` itself.
+/// The student's commands for exercises: the program `rex` itself.
 [[nodiscard]] Room studentRoom();
 
 }  // namespace rex::cli

@@ -6,7 +6,7 @@
 
 namespace rex::cli {
 
-/// Grades one exercise and prints what came out.
+/// Grades one exercise and prints the result.
 ExitCode testOne(const Project& project, const TestOptions& options);
 
 }  // namespace rex::cli

@@ -17,14 +17,14 @@ struct TestOptions {
   std::string exercise;
   bool solution = false;
   std::filesystem::path main;  ///< empty: the exercise's own
-  grading::GradingJob job{};   ///< checks, seed and secret; the rest is set on the way
+  grading::GradingJob job{};   ///< checks, seed and secret; the rest is set later
   bool json = false;
   bool debug = false;                     ///< with the sanitizers
   std::filesystem::path out;              ///< empty: as for run
-  std::optional<sandbox::Level> level{};  ///< nothing: limits only
+  std::optional<sandbox::Level> level{};  ///< empty: limits only
 };
 
-/// One exercise on its way through `rex test`, in a folder of its own until publish(): others may grade the
+/// One exercise in `rex test`. It works in a private folder until publish(), so that others may grade the
 /// same exercise at the same time.
 class TestRun {
  public:
@@ -36,13 +36,14 @@ class TestRun {
   [[nodiscard]] std::filesystem::path ownResults() const { return work_.path() / "results.json"; }
   [[nodiscard]] const std::filesystem::path& folder() const { return work_.path(); }
 
-  /// Keeps so many processors busy, where it can. Throws as gradeSubmission().
+  /// Grades the exercise on up to `processors` processors. Throws like gradeSubmission().
   [[nodiscard]] grading::Submission grade(const sandbox::Sandbox& sandbox, int processors = 1) const;
-  /// What grade() is doing, read from the result file, which grows.
+  /// What grade() is doing, from the growing result file.
   [[nodiscard]] std::string stage() const;
-  /// Puts result, log and evidence where the student finds them, and remembers the points. Throws Error.
+  /// Moves the result, log and evidence to the student's results folder, and records the points. Throws
+  /// Error if that fails.
   void publish(const Project& project, const grading::GradeResult& result) const;
-  /// Prints the table for people; after publish().
+  /// Prints the table for people. Call it after publish().
   void print(const grading::Submission& graded) const;
 
  private:

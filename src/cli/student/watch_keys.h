@@ -9,21 +9,21 @@
 
 namespace rex::cli {
 
-/// The keys of `rex watch` for one exercise, where there is a keyboard.
+/// The keys of `rex watch` for one exercise, if there is a keyboard.
 class WatchKeys {
  public:
   enum class Wish { kGrade, kNext, kQuit };
 
-  /// Refers to all of them.
+  /// Keeps references to all arguments.
   WatchKeys(const Project& project, const ExerciseInfo& exercise, const Keyboard& keyboard,
             FileWatcher& watcher)
       : project_(project), exercise_(exercise), keyboard_(keyboard), watcher_(watcher) {}
 
-  /// The only check that is to be graded; empty: all.
+  /// The only check to grade; empty: all.
   [[nodiscard]] const std::string& check() const { return check_; }
 
-  /// Does what keys ask for until the file is saved, or a key wants another grading, the next exercise or the
-  /// end. `isSolved`: there may be a next one. Throws Interrupted.
+  /// Handles keys until the file is saved, or a key asks for another grading, the next exercise or the end.
+  /// `isSolved`: there may be a next exercise. Throws Interrupted.
   [[nodiscard]] Wish obey(bool isSolved);
 
  private:
