@@ -18,8 +18,8 @@ enum class SecretKind { kSolution, kHiddenCheck, kHiddenName, kWrongVariant, kCo
 /// One piece of a secret, long enough to be distinctive.
 struct Secret {
   SecretKind kind = SecretKind::kSolution;
-  std::string text{};       ///< for messages: its first line; never the secret of the course
-  SourceLocation origin{};  ///< where it is, below the root
+  std::string text{};                ///< for messages: its first line; never the secret of the course
+  SourceLocation origin{};           ///< where it is, below the root
   std::vector<std::string> forms{};  ///< normalText() to look for, each of at least kShortestForm letters
 };
 inline constexpr std::size_t kShortestForm = 16;
