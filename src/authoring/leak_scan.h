@@ -28,12 +28,11 @@ struct LeakScan {
   std::uintmax_t bytes = 0;   ///< unpacked
 };
 
-/// Searches the names and contents of all files of a tree for secrets: text in any layout, case and
-/// comments, also in nested archives, object files and other binary data. Also reports solution.cpp,
-/// wrong/, region markers in C++ files (except in share/template), git history, links, compiled files, and
-/// archives that cannot be opened. In a file src/NAME identical to LIBRARY/NAME, only the secret of the
-/// course is a leak. Its limits: share/doc/writing-an-exercise.md. Throws Error for files that cannot be
-/// read.
+/// Searches names and contents of all files of a tree for secrets, in any layout, case and comments, also
+/// in nested archives and binary data. Also reports solution.cpp, wrong/, region markers in C++ files
+/// (except in share/template), git history, links, compiled files, and unreadable archives. In a file
+/// src/NAME equal to LIBRARY/NAME, only the secret of the course is a leak. Limits:
+/// share/doc/writing-an-exercise.md. Throws Error for files that cannot be read.
 [[nodiscard]] LeakScan scanForLeaks(const std::filesystem::path& tree, const std::vector<Secret>& secrets,
                                     const std::filesystem::path& library = {});
 

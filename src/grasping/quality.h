@@ -24,13 +24,12 @@ struct GraspQuality {
   Eigen::VectorXd weakest{};
 };
 
-/// The quality of wrenches (d x N, one per column), from their exact hull. Known values, with one newton
+/// The quality of wrenches (d x N, one per column), from their exact hull. Known values, for one newton
 /// along each normal and torques about the centre: two planar fingers on opposite sides, each at `length`
 /// of the WrenchReference from the centre, epsilon = mu / sqrt(2 + mu^2); fingers at the centres of all
 /// faces of a cube of half edge `length`, as exact cones or pyramids of 8 edges, mu sqrt(2/3), of 4 edges
 /// mu / sqrt(3); four smooth planar fingers on a square with torques 1/2, 1/2, -1/2, -1/2, sqrt(1/8). Zero
-/// counts as outside if it is closer to a facet than 1e-12 of the longest wrench. Throws Error like
-/// facetHull().
+/// counts as outside if closer to a facet than 1e-12 of the longest wrench. Throws Error like facetHull().
 [[nodiscard]] GraspQuality graspQuality(const MatrixArg& wrenches);
 
 /// Bounds on the epsilon of exact friction cones, newtons.

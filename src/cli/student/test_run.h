@@ -40,7 +40,7 @@ class TestRun {
   [[nodiscard]] grading::Submission grade(const sandbox::Sandbox& sandbox, int processors = 1) const;
   /// What grade() is doing, from the growing result file.
   [[nodiscard]] std::string stage() const;
-  /// Moves the result, log and evidence to the student's results folder, and records the points. Throws
+  /// Copies the result, log and evidence to the student's results folder, and records the points. Throws
   /// Error if that fails.
   void publish(const Project& project, const grading::GradeResult& result) const;
   /// Prints the table for people. Call it after publish().
