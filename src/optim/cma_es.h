@@ -16,16 +16,17 @@ struct CmaOptions {
   int lambda = 0;      ///< samples per generation, at least 2; 0: 4 + floor(3 ln n)
   int mu = 0;          ///< parents, at most lambda; 0: half of lambda
   bool active = true;  ///< bad samples decrease the variance along their directions
-  /// Generations between eigendecompositions of C; 0: few enough that C barely changes, 1 / (10 n (c_1 +
-  /// c_mu)).
+  /// Generations between eigendecompositions of C; 0: few enough that C barely changes,
+  /// 1 / (10 n (c_1 + c_mu)).
   int decompositionGap = 0;
 };
 
 /// The evolution strategy with covariance matrix adaptation of slides 9:29-9:31, with all constants of
 /// Hansen, The CMA Evolution Strategy: A Tutorial, 2016: samples are N(mean, sigma^2 C). The caller
-/// evaluates: while (...) { es.sample(X, rng); evaluate X; es.update(X, values); } The loop allocates
-/// nothing except one vector to decompose C. Only the order of values matters. Values that are not finite
-/// rank last and are counted in result().
+/// evaluates:
+///   while (...) { es.sample(X, rng); evaluate X; es.update(X, values); }
+/// The loop allocates nothing except one vector to decompose C. Only the order of values matters. Values
+/// that are not finite rank last and are counted in result().
 class CmaEs {
  public:
   /// Starts with N(mean, diag(deviations)^2). Throws Error for no coordinates, sizes that differ, numbers

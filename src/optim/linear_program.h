@@ -6,9 +6,9 @@ namespace rex {
 
 enum class LinearStatus { kOptimal, kInfeasible, kUnbounded, kStalled };
 
-/// The result of a linear program, with numbers that prove it by substitution: kOptimal: A x = b, x >= 0,
-/// A^T y <= c and b.y = c.x. kInfeasible: A^T y <= 0 and b.y > 0 (Farkas). kUnbounded: A x = 0, x >= 0 and
-/// c.x < 0: along this x the cost decreases without bound. kStalled: nothing.
+/// The result of a linear program, with numbers that prove it by substitution:
+/// kOptimal: A x = b, x >= 0, A^T y <= c and b.y = c.x. kInfeasible: A^T y <= 0 and b.y > 0 (Farkas).
+/// kUnbounded: A x = 0, x >= 0 and c.x < 0: along this x the cost decreases without bound. kStalled: nothing.
 struct LinearSolution {
   LinearStatus status = LinearStatus::kStalled;
   Eigen::VectorXd x{};  ///< n
