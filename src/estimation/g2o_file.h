@@ -23,9 +23,10 @@ struct G2oFile {
 /// Reads VERTEX_SE2, EDGE_SE2, VERTEX_XY and EDGE_SE2_XY (landmarks), VERTEX_SE3:QUAT, EDGE_SE3:QUAT and
 /// FIX; the pose with the lowest id is pose 0. Lines with other tags are ignored, with one warning per tag.
 /// Quaternions of unit length within 1e-3 are normalised; information that is not positive semidefinite
-/// becomes nearestSemidefinite(), with a warning. Throws Error with line and column for malformed or
-/// missing numbers, edges to missing vertices, duplicate ids, two fixed poses, a mix of planar and spatial
-/// poses, poses not connected to the first, unseen landmarks, and no edges; `file` is for messages.
+/// becomes nearestSemidefinite(), with a warning. Throws Error with line and column for words that are not
+/// numbers, too few or too many words, edges to missing vertices, duplicate ids, two fixed poses, a mix of
+/// planar and spatial poses, poses not connected to the first, unseen landmarks, and no edges; `file` is
+/// for messages.
 [[nodiscard]] G2oFile parseG2o(std::string_view text, const std::string& file = "");
 /// Throws Error for a file that cannot be read, and like parseG2o.
 [[nodiscard]] G2oFile readG2o(const std::filesystem::path& file);
