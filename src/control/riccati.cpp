@@ -44,6 +44,33 @@ using internal::ExtendedMatrix;
 
 enum class Kind { kContinuous, kDiscrete };
 
+// Tolerances are relative unless they say otherwise, in the units in which the largest entries are about one
+// (see Units). Ten times or a tenth of any one of them, half to 1.05 of kWorthBalancing, and 0.1 to 0.9 for
+// kStepMustShrinkTo, change no result of the tests.
+constexpr double kTiny = 1e-300;  // absolute, against division by zero
+// R may be singular in discrete time: an eigenvalue so little below zero is rounding.
+constexpr double kSemidefinite = 1e-9;
+// Balancing goes on while it shrinks a row and column by a twentieth: LAPACK's dgebal.
+constexpr double kWorthBalancing = 0.95;
+constexpr int kMostBalancingRounds = 1000;
+// R + B^T X B with a smaller reciprocal condition loses all digits of K: 500 times the rounding of doubles.
+constexpr double kSingularWeight = 1e-13;
+// Newton's steps shrink quadratically, so that one that does not halve says that rounding has the word, or
+// that an eigenvalue is double. Residuals may grow a little at the end; steps of 1e-18 change no digit.
+constexpr int kMostNewtonSteps = 10;
+constexpr double kStepMustShrinkTo = 0.5, kResidualMayGrowTo = 2, kSettled = 1e-18;
+// What solves the equation: in extended precision its residual is near 1e-18. A last step above kConverged
+// belongs to a double eigenvalue, where Newton's steps only halve the error.
+constexpr double kResidualOfSolution = 1e-10, kConverged = 1e-9;
+// Roots of double eigenvalues: rounding moves them by 1e-8, the square root of 1e-16.
+constexpr double kNearEdge = 1e-8, kDoubtOfRate = 1e-7, kDoubtOfFactor = 1e-9;
+// Hautus' matrix has lost its rank, as far as n rows of doubles can say.
+constexpr double kRankLost = 1e-9;
+// Only for messages: an eigenvalue of the pencil that counts as on the imaginary axis, or the unit circle.
+constexpr double kOnEdge = 1e-6;
+// Closer to the edge than this, hidden modes are looked for, which costs as much as the solution.
+constexpr double kWorthALook = 1e-3;
+
 struct Problem {
   Kind kind;
   Eigen::MatrixXd A, B, Q, R;
@@ -62,7 +89,7 @@ void requireSound(const Problem& problem) {
   if (problem.kind == Kind::kContinuous) return internal::requirePositiveDefinite("R", problem.R);
   const double least =
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(problem.R, Eigen::EigenvaluesOnly).eigenvalues()[0];
-  if (least < -1e-9 * problem.R.cwiseAbs().maxCoeff())
+  if (least < -kSemidefinite * problem.R.cwiseAbs().maxCoeff())
     throw Error({.what = "matrix R",
                  .found = fmt::format("the eigenvalue {:.6g}", least),
                  .wanted = "no negative eigenvalue"});
@@ -133,8 +160,6 @@ Pencil pencilOf(const Problem& problem) {
   return pencil;
 }
 
-constexpr int kMostRounds = 1000;
-
 // Powers of two, so that nothing is rounded; states and costates get inverse factors, which keeps the
 // structure.
 void balance(Pencil& pencil, Eigen::Index n) {
@@ -143,13 +168,14 @@ void balance(Pencil& pencil, Eigen::Index n) {
   M.diagonal().setZero();
   Eigen::VectorXd factors = Eigen::VectorXd::Ones(size);
   bool changed = true;
-  for (int round = 0; changed && round < kMostRounds; ++round) {  // Osborne 1960, as in LAPACK's dgebal
+  for (int round = 0; changed && round < kMostBalancingRounds;
+       ++round) {  // Osborne 1960, as in LAPACK's dgebal
     changed = false;
     for (Eigen::Index i = 0; i < size; ++i) {
       const double column = M.col(i).stableNorm(), row = M.row(i).stableNorm();
       if (column == 0 || row == 0) continue;
       const double factor = std::exp2(std::round(0.5 * (std::log2(row) - std::log2(column))));
-      if (!(factor * column + row / factor < 0.95 * (column + row))) continue;
+      if (!(factor * column + row / factor < kWorthBalancing * (column + row))) continue;
       changed = true;
       factors[i] *= factor;
       M.col(i) *= factor;
@@ -221,7 +247,7 @@ std::optional<Eigen::MatrixXd> bySchurForm(const Problem& problem,
       stableSubspace(problem.kind, rest * pencil.H.leftCols(2 * n), rest * pencil.J.leftCols(2 * n), border);
   if (U.size() == 0) return {};
   const Eigen::PartialPivLU<Eigen::MatrixXd> upper(U.topRows(n).transpose());
-  if (!(upper.rcond() > 1e-300)) return {};
+  if (!(upper.rcond() > kTiny)) return {};
   const Eigen::MatrixXd X = upper.solve(U.bottomRows(n).transpose());
   const Eigen::MatrixXd scaled = pencil.scale.asDiagonal() * X * pencil.scale.asDiagonal();
   if (!scaled.allFinite()) return {};
@@ -243,7 +269,7 @@ bool hasSingularWeight(const Problem& problem, const Eigen::MatrixXd& X) {
   if (!(sizes.minCoeff() > 0)) return true;
   const Eigen::VectorXd scale = sizes.cwiseSqrt().cwiseInverse();
   return !(Eigen::PartialPivLU<Eigen::MatrixXd>(scale.asDiagonal() * weight * scale.asDiagonal()).rcond() >
-           1e-13);
+           kSingularWeight);
 }
 
 // What the equation lacks at X, and the gain there, in extended precision; X may be a sum of two doubles.
@@ -267,7 +293,7 @@ Residual residualAt(const Problem& problem, const ExtendedMatrix& X) {
   value += Q;
   const double largest =
       static_cast<double>(std::max({X.norm() * (isContinuous ? A.norm() : 1), quadratic.norm(), Q.norm()}));
-  const double size = static_cast<double>(value.norm()) / std::max(largest, 1e-300);
+  const double size = static_cast<double>(value.norm()) / std::max(largest, kTiny);
   value += value.transpose();
   return {0.5 * value.rounded(), K.rounded(), size};
 }
@@ -282,7 +308,7 @@ Refined refined(const Problem& problem, const Eigen::MatrixXd& start) {
   double before = std::numeric_limits<double>::infinity();
   Refined result{ExtendedMatrix(start), before};
   Residual here = residualAt(problem, result.X);
-  for (int i = 0; i < 10; ++i) {
+  for (int i = 0; i < kMostNewtonSteps; ++i) {
     const Eigen::MatrixXd closed = problem.A - problem.B * here.K;
     Eigen::MatrixXd step;
     try {
@@ -292,16 +318,16 @@ Refined refined(const Problem& problem, const Eigen::MatrixXd& start) {
       return result;  // the closed loop is on the boundary
     }
     const double size = step.norm();
-    result.lastStep = size / std::max(static_cast<double>(result.X.norm()), 1e-300);
-    if (!(size < 0.5 * before)) return result;
+    result.lastStep = size / std::max(static_cast<double>(result.X.norm()), kTiny);
+    if (!(size < kStepMustShrinkTo * before)) return result;
     ExtendedMatrix next = result.X;
     next += ExtendedMatrix(step);
     const Residual there = residualAt(problem, next);
-    if (!(there.size <= 2 * here.size)) return result;
+    if (!(there.size <= kResidualMayGrowTo * here.size)) return result;
     result.X = next;
     here = there;
     before = size;
-    if (result.lastStep <= 1e-18) break;
+    if (result.lastStep <= kSettled) break;
   }
   return result;
 }
@@ -312,15 +338,15 @@ std::optional<std::complex<double>> badMode(const Problem& problem, const Eigen:
                                             const Eigen::MatrixXd& B, bool mayGrow) {
   const Eigen::Index n = A.rows();
   const Eigen::VectorXcd eigenvalues = Eigen::EigenSolver<Eigen::MatrixXd>(A, false).eigenvalues();
-  const double scale = std::max(A.norm(), 1e-300);
-  const double near = 1e-8 * (problem.kind == Kind::kContinuous ? scale : 1);
+  const double scale = std::max(A.norm(), kTiny);
+  const double near = kNearEdge * (problem.kind == Kind::kContinuous ? scale : 1);
   for (const std::complex<double> lambda : eigenvalues) {
     const double margin = instability(problem.kind, lambda);
     if (margin < -near || (mayGrow && margin > near)) continue;
     Eigen::MatrixXcd hautus(n, n + B.cols());
     hautus << A - lambda * Eigen::MatrixXcd::Identity(n, n),
-        B.cast<std::complex<double>>() * (scale / std::max(B.norm(), 1e-300));
-    if (internal::singularValues(hautus)[n - 1] <= 1e-9 * scale) return lambda;
+        B.cast<std::complex<double>>() * (scale / std::max(B.norm(), kTiny));
+    if (internal::singularValues(hautus)[n - 1] <= kRankLost * scale) return lambda;
   }
   return {};
 }
@@ -397,7 +423,7 @@ RiccatiResult explained(const Problem& problem, const std::optional<std::complex
     return failed(
         RiccatiStatus::kFailed, {},
         "no solution: R + B^T X B is singular for every X, a control neither moves nor costs anything");
-  if (border && std::abs(instability(problem.kind, *border)) < 1e-6 * std::max(1., std::abs(*border)))
+  if (border && std::abs(instability(problem.kind, *border)) < kOnEdge * std::max(1., std::abs(*border)))
     return failed(
         RiccatiStatus::kFailed, border,
         fmt::format("no stabilizing solution: the equation's pencil has the eigenvalue {} on the {}",
@@ -420,8 +446,9 @@ Margin marginOf(const Problem& problem, const RiccatiResult& result, double scal
     const double here = instability(problem.kind, lambda);
     if (here <= margin.instability) continue;
     margin.instability = here;
-    margin.doubt = std::max(problem.kind == Kind::kContinuous ? 1e-7 * std::abs(lambda) : 1e-9,
-                            internal::roundingOf(problem.A.rows(), scale));
+    margin.doubt =
+        std::max(problem.kind == Kind::kContinuous ? kDoubtOfRate * std::abs(lambda) : kDoubtOfFactor,
+                 internal::roundingOf(problem.A.rows(), scale));
   }
   return margin;
 }
@@ -443,9 +470,10 @@ RiccatiResult solveInUnits(const Problem& problem) {
   const double scale = problem.A.norm() + feedback.norm();
   const Margin margin = marginOf(problem, result, scale);
   // Newton's steps stop being small where a closed-loop eigenvalue is double in the pencil, on its boundary.
-  const bool isLimit = margin.instability >= -margin.doubt || !(best.lastStep <= 1e-9),
-             isNearEdge = margin.instability > -1e-3 * (problem.kind == Kind::kContinuous ? scale : 1);
-  if (!(result.residual < 1e-10) || margin.instability > margin.doubt || (isLimit && !isNearEdge))
+  const bool isLimit = margin.instability >= -margin.doubt || !(best.lastStep <= kConverged),
+             isNearEdge = margin.instability > -kWorthALook * (problem.kind == Kind::kContinuous ? scale : 1);
+  if (!(result.residual < kResidualOfSolution) || margin.instability > margin.doubt ||
+      (isLimit && !isNearEdge))
     return explained(
         problem, border,
         fmt::format("no stabilizing solution was found: relative residual {:.2g}, closed-loop margin {:.2g}",
