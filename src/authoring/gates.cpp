@@ -61,12 +61,17 @@ std::vector<std::string_view> splitAt(std::string_view line, char separator) {
   }
 }
 
+// A student must see the task: what draws for main() belongs into show.cpp.
 GateResult mainIsCurrent(const GateContext& context) {
+  constexpr std::size_t kMostLines = 200;
   const path folder = context.exercise.folder, solution = folder / "solution.cpp";
-  if (readTextFile(folder / "main.cpp") == stripSolution(readTextFile(solution), solution.string()))
-    return kPassed;
-  return failed(fmt::format("main.cpp is not what solution.cpp gives; run: scripts/rex dev strip {}",
-                            context.exercise.name));
+  const std::string main = readTextFile(folder / "main.cpp");
+  if (main != stripSolution(readTextFile(solution), solution.string()))
+    return failed(fmt::format("main.cpp is not what solution.cpp gives; run: scripts/rex dev strip {}",
+                              context.exercise.name));
+  const std::size_t lines = splitLines(main).size();
+  if (lines <= kMostLines) return kPassed;
+  return failed(fmt::format("main.cpp has {} lines, wanted at most {}", lines, kMostLines));
 }
 
 // The checks of each part must be worth what exercise.toml promises.

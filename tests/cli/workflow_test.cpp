@@ -237,6 +237,12 @@ TEST_F(WorkflowTest, PassesTheTemplateThroughAllGates) {
 TEST_F(WorkflowTest, FindsWhatIsWrongWithTheTexts) {
   replace(exercise() / "main.cpp", "TODO", "todo");
   expectOpenGate("main-current", "run: scripts/rex dev strip 98-template");
+  std::string lines;
+  for (int k = 0; k < 200; ++k) lines += "//\n";
+  for (const char* name : {"main.cpp", "solution.cpp"})
+    replace(exercise() / name, "int main()", lines + "int main()");
+  replace(exercise() / "main.cpp", "todo", "TODO");
+  expectOpenGate("main-current", "main.cpp has 2");  // 200 and those of the template
   fs::rename(exercise() / "main.cpp", exercise() / "elsewhere.cpp");
   expectOpenGate("main-current", "main.cpp: cannot read this file");
   replace(exercise() / "README.md", "Complete `rotated`", "Complete `rotatd`");
