@@ -82,7 +82,7 @@ TEST(Power, RefusesWrongInput) {
   LinearGaussianPolicy policy{Eigen::Vector2d(1, 2), Eigen::Matrix2d::Identity()};
   Episode episode{Eigen::MatrixXd::Ones(2, 3), Eigen::MatrixXd::Ones(2, 3), Eigen::Vector3d(1, 1, -.5)};
   EXPECT_REX_ERROR(powerStep(policy, {episode}, 1),
-                   "return of episode 0 from step 2: found -0.5, wanted zero");
+                   "return of episode 0 from step 2: found -0.5, wanted 0 or more, for PoWER");
   EXPECT_REX_ERROR(powerStep(policy, {}, 1), "episodes: found none");
   EXPECT_REX_ERROR(powerStep(policy, {episode}, 2), "discount: found 2");
   policy.Sigma(1, 1) = 0;
