@@ -77,7 +77,7 @@ TEST_F(WorkflowTest, ExplainsAFileThatDoesNotCompile) {
   EXPECT_THAT(ended.error, HasSubstr("error: 'nothing' was not declared in this scope"));
   EXPECT_THAT(ended.error, HasSubstr("\n    return nothing;\n           ^\n"));
   EXPECT_THAT(ended.output, HasSubstr("Not graded"));
-  EXPECT_THAT(fileText(out() / "build.log"), HasSubstr("main.cpp:11:10: error: "));
+  EXPECT_THAT(fileText(out() / "build.log"), HasSubstr("main.cpp:9:10: error: "));
   EXPECT_THAT(fileText(out() / "results.json"), HasSubstr("\"outcome\": \"compile_error\""));
   EXPECT_EQ(rex({"run", "98"}).code, 2);
 }
