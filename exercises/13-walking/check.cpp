@@ -148,7 +148,7 @@ void otherSteps(Check& check, Student& student) {
   });
 }
 
-// Beyond some 4.4 degrees the even gait is unstable, and whoever only walks on ends up limping.
+// Beyond some 4.4 degrees the symmetric gait is unstable, and whoever only walks on ends up limping.
 void otherGaits(Check& check, Student& student) {
   check.forEachCase(6, [&](int i) {
     Walker walker = randomWalker(check.rng());

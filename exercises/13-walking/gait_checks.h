@@ -213,7 +213,7 @@ inline void gaitFits(rex::grading::Check& check, Student& student, const KnownGa
                      const Eigen::Vector4d& guess) {
   check.input(described(gait.walker, guess));
   const auto x = student.gaitNear(gait.walker, guess);
-  check.that("there is a gait near this guess", x.has_value());
+  check.that("gaitNear() finds the gait that there is", x.has_value());
   check.shape("gait", *x, 4, 1);
   const rex::WalkerStep step = libraryOf(gait.walker).step(*x, 5);
   check.that("from the state of the gait, the walker steps", step.status == rex::StepStatus::kStepped);

@@ -10,12 +10,12 @@
 using namespace rex;
 
 Eigen::MatrixXd supportCorners(const Eigen::MatrixXd& contacts) {
-  // TODO: begin at a contact that is a corner for certain. Which one is next, and when is it the last?
+  // TODO: begin at a contact that is certain to be a corner. Which one is next, and when is it the last?
   return Eigen::MatrixXd::Zero(2, 0);
 }
 
 double borderDistance(const Eigen::MatrixXd& corners, const Eigen::Vector2d& point) {
-  // TODO: the nearest point of each edge. On which side of all edges is a point inside?
+  // TODO: the nearest point of each edge. On which side of every edge is a point inside?
   return 0;
 }
 
@@ -26,7 +26,7 @@ double staticMargin(const std::vector<MovingMass>& robot, const Eigen::MatrixXd&
 
 std::optional<Eigen::Vector2d> zeroMoment(const std::vector<MovingMass>& robot, double groundHeight,
                                           double g) {
-  // TODO: write down both horizontal lines of the sum on 11:10, with r = p - (x, y, groundHeight).
+  // TODO: write down the x and y components of the sum on 11:10, with r = p - (x, y, groundHeight).
   return {};
 }
 
@@ -51,22 +51,22 @@ PreviewLaw previewLaw(const CartTable& cart) {
 }
 
 Eigen::MatrixXd followed(const CartTable& cart, const PreviewLaw& law, const Eigen::VectorXd& reference) {
-  // TODO: start at rest; in each step the law gives the change of the jerk.
+  // TODO: start at rest; in each time step the law gives the change of the jerk.
   return Eigen::MatrixXd::Zero(3, reference.size());
 }
 
 Eigen::Vector4d impactOf(const Walker& walker, const Eigen::Vector4d& x) {
-  // TODO: which two angular momenta does the impulse at the foot that lands not change?
+  // TODO: two angular momenta are the same before and after the impact. About which points?
   return x;
 }
 
 std::optional<StepEnd> stepFrom(const Walker& walker, const Eigen::Vector4d& x) {
-  // TODO: small steps of Runge and Kutta, and the moment of the impact within the last of them.
+  // TODO: small time steps by Runge-Kutta, and the time of the impact within the last of them.
   return {};
 }
 
 Eigen::Matrix4d stepDerivative(const Walker& walker, const Eigen::Vector4d& x) {
-  // TODO: differences of stepFrom() to both sides.
+  // TODO: central differences of stepFrom().
   return Eigen::Matrix4d::Zero();
 }
 
@@ -76,17 +76,18 @@ std::optional<Eigen::Vector4d> gaitNear(const Walker& walker, const Eigen::Vecto
 }
 
 Eigen::VectorXd multiplierSizes(const Walker& walker, const Eigen::Vector4d& gait) {
-  // TODO: eigenvalues() of which matrix? Their moduli, the greatest first.
+  // TODO: the multipliers are eigenvalues. Return their moduli, the largest first.
   return Eigen::VectorXd::Zero(4);
 }
 
 // What follows is given, and never graded: change it as you like. show.h says what each line draws.
 
 int main() {
-  // Part 1: two soles, 25 x 12.5 cm, with their middles here [m].
+  // Part 1: two soles, 25 x 12.5 cm, centred here [m].
   showSupport({0, .125}, {.25, -.125});
 
-  // Part 2: a body leans into its acceleration. The pendulum begins above the origin with 0.6 m/s.
+  // Part 2: a body on one sole accelerates, backwards and forwards. The pendulum begins above the origin with
+  // 0.6 m/s.
   showTipping();
   showCapture(Pendulum{}, {.c = {0, 0}, .v = {.6, 0}});
 

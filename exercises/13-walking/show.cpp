@@ -47,7 +47,7 @@ void addAll(Series& series, const Points& points) {
   for (const Eigen::Vector2d& p : points) add(series, p.x(), p.y());
 }
 
-// Yours is wide and yellow, and the library's lies dashed upon it.
+// Yours is wide and yellow, and the library's lies dashed on top.
 void compare(Figure& figure) {
   curve(figure, "yours", kYellow, 5);
   curve(figure, "library's", kBlack).dashed = true;
@@ -92,7 +92,7 @@ Walk walkOf(const CartTable& cart, const PreviewLaw& law, const Eigen::MatrixXd&
   return walk;
 }
 
-// Steps of the compass walker with small steps in time, and the ends of its steps.
+// Steps of the compass walker with small time steps, and the ends of its steps.
 struct Way {
   Points leg;  // angle and rate of one leg, which stands in every other step
   CompassWalk film;
@@ -101,7 +101,7 @@ struct Way {
 
 CompassGait libraryWalker(const Walker& w) { return {w.a, w.b, w.legMass, w.hipMass, w.slope, w.g}; }
 
-// The middle of two slopes by Heun is good enough for a picture.
+// Heun's method, the mean of two rates, is good enough for a picture.
 Eigen::Vector4d swungALittle(const Walker& walker, const Eigen::Vector4d& x, double h) {
   const Eigen::Vector4d rate = swingRate(walker, x);
   return x + h / 2 * (rate + swingRate(walker, x + h * rate));
@@ -209,7 +209,7 @@ void showCapture(const Pendulum& pendulum, const Sway& now) {
 void showGains(const CartTable& cart, const PreviewLaw& law) {
   if (law.Gi == 0) return nothingYet("preview gains");
   const Eigen::VectorXd library = previewGains({.height = cart.height, .step = cart.step}).Gp;
-  Figure figure = axes("What a step of the zero moment point is worth in advance", "time until the step [s]",
+  Figure figure = axes("Gain on a jump of the reference, by the time until it", "time until the jump [s]",
                        "gain Gp [1/s^3]");
   compare(figure);
   for (Eigen::Index j = 0; j < law.Gp.size(); ++j) {
@@ -251,7 +251,7 @@ void showWalk(const CartTable& cart, const PreviewLaw& law) {
   }
   plot("zmp_time", sideways);
 
-  // The humanoid's joints move by the library; the ways on the ground are yours.
+  // The humanoid's joints move by the library; the paths on the ground are yours.
   if (walk.largestError > .05) return nothingYet("humanoid: the zero moment point is off by more than 5 cm");
   humanoid.center = walk.center;
   humanoid.zmp = walk.zmp;
@@ -296,7 +296,7 @@ void showCompass(const Walker& walker, const Eigen::Vector4d& guess) {
 }
 
 void showSlopes(const Eigen::Vector4d& guess) {
-  Figure figure = axes("Where the even gait loses its stability", "slope [degrees]",
+  Figure figure = axes("Where the symmetric gait loses its stability", "slope [degrees]",
                        "largest modulus of the multipliers", Legend::kTopLeft);
   figure.horizontalLines = {{1, "stable below"}};
   compare(figure);

@@ -39,7 +39,7 @@ Eigen::MatrixXd supportCorners(const Eigen::MatrixXd& contacts) {
     result.col(i) = contacts.col(chosen[static_cast<std::size_t>(i)]);
   return result;
   // <todo>
-  //| // TODO: begin at a contact that is a corner for certain. Which one is next, and when is it the last?
+  //| // TODO: begin at a contact that is certain to be a corner. Which one is next, and when is it the last?
   //| return Eigen::MatrixXd::Zero(2, 0);
   // </solution>
 }
@@ -61,7 +61,7 @@ double borderDistance(const Eigen::MatrixXd& corners, const Eigen::Vector2d& poi
   }
   return isInside ? least : -least;
   // <todo>
-  //| // TODO: the nearest point of each edge. On which side of all edges is a point inside?
+  //| // TODO: the nearest point of each edge. On which side of every edge is a point inside?
   //| return 0;
   // </solution>
 }
@@ -94,7 +94,7 @@ std::optional<Eigen::Vector2d> zeroMoment(const std::vector<MovingMass>& robot, 
   if (push <= 0) return std::nullopt;
   return Eigen::Vector2d(sum / push);
   // <todo>
-  //| // TODO: write down both horizontal lines of the sum on 11:10, with r = p - (x, y, groundHeight).
+  //| // TODO: write down the x and y components of the sum on 11:10, with r = p - (x, y, groundHeight).
   //| return {};
   // </solution>
 }
@@ -139,7 +139,7 @@ Eigen::Vector3d cartStep(const CartTable& cart, const Eigen::Vector3d& x, double
 
 PreviewLaw previewLaw(const CartTable& cart) {
   // <solution previewLaw>
-  // The state is the error p - r and the change of x in the last step, driven by the change of the jerk.
+  // The state is the error p - r and the change of x in the last time step, driven by the change of the jerk.
   const auto column = [&](const Eigen::Vector3d& x, double jerk) {
     const Eigen::Vector3d next = cartStep(cart, x, jerk);
     return Eigen::Vector4d(next[0] - cart.height / cart.g * next[2], next[0], next[1], next[2]);
@@ -152,10 +152,11 @@ PreviewLaw previewLaw(const CartTable& cart) {
   const RiccatiResult riccati = solveDare(F, G, Q, Eigen::MatrixXd::Constant(1, 1, cart.R));
   PreviewLaw law{riccati.K(0, 0), {riccati.K(0, 1), riccati.K(0, 2), riccati.K(0, 3)}, {}};
   law.Gp.resize(cart.ahead);
-  double price = cart.R;  // of a change of the jerk, now and in all steps to come
+  double price = cart.R;  // of a change of the jerk, now and in all time steps to come
   for (int row = 0; row < 4; ++row)
     for (int j = 0; j < 4; ++j) price += G[row] * riccati.X(row, j) * G[j];
-  // A change of the reference in j steps is a change of the error then; what it costs, carried back to now.
+  // A change of the reference in j time steps is a change of the error then; what it costs, carried back to
+  // now.
   Eigen::Vector4d cost = riccati.X.col(0);
   for (double& gain : law.Gp) {
     const double push = G.dot(cost);
@@ -188,7 +189,7 @@ Eigen::MatrixXd followed(const CartTable& cart, const PreviewLaw& law, const Eig
   }
   return states;
   // <todo>
-  //| // TODO: start at rest; in each step the law gives the change of the jerk.
+  //| // TODO: start at rest; in each time step the law gives the change of the jerk.
   //| return Eigen::MatrixXd::Zero(3, reference.size());
   // </solution>
 }
@@ -207,13 +208,13 @@ Eigen::Vector4d impactOf(const Walker& walker, const Eigen::Vector4d& x) {
   return {x[1], x[0], (behind2 * all - all2 * behind) / determinant,
           (all1 * behind - behind1 * all) / determinant};
   // <todo>
-  //| // TODO: which two angular momenta does the impulse at the foot that lands not change?
+  //| // TODO: two angular momenta are the same before and after the impact. About which points?
   //| return x;
   // </solution>
 }
 
 // <solution swings>
-// One step of Runge and Kutta.
+// One time step by the method of Runge and Kutta.
 Eigen::Vector4d swung(const Walker& walker, const Eigen::Vector4d& x, double h) {
   const Eigen::Vector4d k1 = swingRate(walker, x), k2 = swingRate(walker, x + h / 2 * k1);
   const Eigen::Vector4d k3 = swingRate(walker, x + h / 2 * k2), k4 = swingRate(walker, x + h * k3);
@@ -240,7 +241,7 @@ std::optional<StepEnd> stepFrom(const Walker& walker, const Eigen::Vector4d& x) 
   }
   return std::nullopt;
   // <todo>
-  //| // TODO: small steps of Runge and Kutta, and the moment of the impact within the last of them.
+  //| // TODO: small time steps by Runge-Kutta, and the time of the impact within the last of them.
   //| return {};
   // </solution>
 }
@@ -257,7 +258,7 @@ Eigen::Matrix4d stepDerivative(const Walker& walker, const Eigen::Vector4d& x) {
   }
   return J;
   // <todo>
-  //| // TODO: differences of stepFrom() to both sides.
+  //| // TODO: central differences of stepFrom().
   //| return Eigen::Matrix4d::Zero();
   // </solution>
 }
@@ -286,7 +287,7 @@ Eigen::VectorXd multiplierSizes(const Walker& walker, const Eigen::Vector4d& gai
   std::sort(sizes.begin(), sizes.end(), std::greater<>());
   return sizes;
   // <todo>
-  //| // TODO: eigenvalues() of which matrix? Their moduli, the greatest first.
+  //| // TODO: the multipliers are eigenvalues. Return their moduli, the largest first.
   //| return Eigen::VectorXd::Zero(4);
   // </solution>
 }
@@ -294,10 +295,11 @@ Eigen::VectorXd multiplierSizes(const Walker& walker, const Eigen::Vector4d& gai
 // What follows is given, and never graded: change it as you like. show.h says what each line draws.
 
 int main() {
-  // Part 1: two soles, 25 x 12.5 cm, with their middles here [m].
+  // Part 1: two soles, 25 x 12.5 cm, centred here [m].
   showSupport({0, .125}, {.25, -.125});
 
-  // Part 2: a body leans into its acceleration. The pendulum begins above the origin with 0.6 m/s.
+  // Part 2: a body on one sole accelerates, backwards and forwards. The pendulum begins above the origin with
+  // 0.6 m/s.
   showTipping();
   showCapture(Pendulum{}, {.c = {0, 0}, .v = {.6, 0}});
 

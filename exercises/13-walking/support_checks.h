@@ -134,7 +134,7 @@ inline void cornersFit(rex::grading::Check& check, Student& student, const Eigen
 inline void marginFits(rex::grading::Check& check, Student& student, const Eigen::MatrixXd& contacts,
                        const Eigen::Vector2d& point) {
   const rex::SupportPolygon polygon = rex::supportPolygon(contacts);
-  check.input(fmt::format("a polygon of {} corners, the point ({:g}, {:g})", polygon.corners.cols(),
+  check.input(fmt::format("a polygon, number of corners: {}; the point ({:g}, {:g})", polygon.corners.cols(),
                           point.x(), point.y()));
   check.near("distance from the border", student.borderDistance(polygon.corners, point),
              rex::supportMargin(polygon, point).margin, 1e-9, "m");

@@ -6,8 +6,8 @@
 
 // Given: how the compass walker swings between two impacts.
 
-/// The rate of the state x = (theta_s, theta_ns, and their rates): M q'' = h (11:20), solved for q''. To
-/// derive it, as on 3:21, is a question for the tutorial.
+/// The rate of the state x = (theta_s, theta_ns, and their rates): M q'' = h with h = -C q' - G (11:20),
+/// solved for q''. Deriving it (3:20, 3:21) is a question for the tutorial.
 inline Eigen::Vector4d swingRate(const Walker& walker, const Eigen::Vector4d& x) {
   const double l = walker.a + walker.b, m = walker.legMass;
   const double coupling = m * l * walker.b, gap = x[0] - x[1];

@@ -34,7 +34,7 @@ inline void hasNoMoment(rex::grading::Check& check, Student& student, const std:
                         double groundHeight, double g) {
   check.input(fmt::format("{} masses, the ground at {:.3g} m, g = {:.3g}", robot.size(), groundHeight, g));
   const auto zmp = student.zeroMoment(robot, groundHeight, g);
-  check.that("there is a zero moment point where the ground pushes", zmp.has_value());
+  check.that("zeroMoment() gives a point where the ground pushes", zmp.has_value());
   check.shape("zero moment point", *zmp, 2, 1);
   const ForceAndMoment sum = inertialForce(robot, {zmp->x(), zmp->y(), groundHeight}, g);
   double size = 0;
@@ -111,6 +111,6 @@ inline void capturesTheMotion(rex::grading::Check& check, Student& student) {
   const double time = 5 / libraryOf(pendulum).omega();
   const rex::CenterMotion later = libraryOf(pendulum).after({now.c, now.v}, p, time);
   const auto shown = check.show([&] { return captureSeen(libraryOf(pendulum), {now.c, now.v}, p); });
-  check.near("where the centre of mass comes to, from the point: what is left of the way", later.c - p,
-             std::exp(-5) * (now.c - p), 1e-7, "m");
+  check.near("distance from the capture point after 5 / omega s", later.c - p, std::exp(-5) * (now.c - p),
+             1e-7, "m");
 }

@@ -1,5 +1,5 @@
 // caught by: gains, gains-any
-// mistake: the gains of the preview begin one step too late.
+// mistake: the gains of the preview begin one time step too late.
 
 // <solution previewLaw>
 const Eigen::RowVector3d C(1, 0, -cart.height / cart.g);

@@ -1,5 +1,5 @@
 // caught by: step, other-steps
-// mistake: the impact happens at the end of a step in time.
+// mistake: the impact happens at the end of a time step.
 
 // <solution stepFrom>
 const auto lands = [&](const Eigen::Vector4d& at) { return at[0] + at[1] + 2 * walker.slope <= 0; };
