@@ -160,7 +160,7 @@ void judgesPid(Check& check, Student& student) {
     const auto& [gains, mass, isStable] = loops[k - 1];
     check.input("Kp = " + text(gains.Kp) + ", Ki = " + text(gains.Ki) + ", Kd = " + text(gains.Kd) +
                 ", mass = " + text(mass) + " kg");
-    check.that("the answer is right", student.isStable(gains, mass) == isStable);
+    check.that("isStable() says whether the point comes to rest", student.isStable(gains, mass) == isStable);
   }
 }
 

@@ -54,7 +54,7 @@ Eigen::VectorXd computedTorque(const Eigen::MatrixXd& M, const Eigen::VectorXd& 
 }
 
 Eigen::Vector3d accelerationBias(Simulator& S, const std::string& body) {
-  // TODO: S can take postures a little later and a little earlier. How much does J differ?
+  // TODO: move S to q + h qdot, then to q - h qdot, for a small h. How much does J change?
   return Eigen::Vector3d::Zero();
 }
 
@@ -77,7 +77,8 @@ Eigen::VectorXd newtonEuler(const std::vector<ChainLink>& chain, const Eigen::Ve
   const auto n = static_cast<Eigen::Index>(chain.size());
   Eigen::VectorXd u = Eigen::VectorXd::Zero(n);
   // TODO: from the first link to the last: how does it turn and accelerate, and which force and torque
-  // does that take? Then from the last to the first: who hands them on, and what does the hinge feel?
+  // does that take? Then from the last to the first: which link passes them on, and what does the hinge
+  // feel?
   return u;
 }
 
@@ -96,7 +97,7 @@ Eigen::VectorXd coriolisTerm(const std::vector<ChainLink>& chain, const Eigen::V
 Eigen::MatrixXd inertiaMatrix(const std::vector<ChainLink>& chain, const Eigen::VectorXd& q) {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(q.size());
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(q.size(), q.size());
-  // TODO: slide 3:24 once more, column by column; what does gravity have to be?
+  // TODO: slide 3:24 once more, column by column, without the gravity that is in its third line.
   return M;
 }
 
@@ -111,11 +112,12 @@ Eigen::VectorXd balancePin(Simulator& S, const Eigen::VectorXd& home) {
 int main() {
   const double mass = 3.456;  // kg
 
-  // Part 1: a point gets from rest at 0 to 1 m in one second, in three ways, and in more time.
+  // Part 1: a point gets from rest at 0 to 1 m in one second, in three ways; then critically damped, in one,
+  // two and five seconds.
   showRegimes(mass);
   showHorizons(mass);
 
-  // Part 2: PD and PID against a steady push; an integral without the others; one that should be restarted.
+  // Part 2: PD and PID against a steady push; Ki without Kp; an integral that should be restarted.
   const PidSettings pd{60, 0, 25}, pid{60, 40, 25}, alone{0, 2, 0}, damped{0, 2, 2}, all{10, 4, 8};
   showLoad(pd, pid, mass);
   showIntegral(alone, damped, all, mass);
@@ -124,7 +126,7 @@ int main() {
     print("Kp, Ki, Kd and whether stable",
           Eigen::RowVector4d(gains.Kp, gains.Ki, gains.Kd, isStable(gains, mass) ? 1 : 0));
 
-  // Part 3: after cos t, with a kick every second.
+  // Part 3: following cos t, with a kick every second.
   showKicks(mass);
 
   // Parts 4 and 5: an arm without forces; arms with PD control in each joint, and with computed torque.

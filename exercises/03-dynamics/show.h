@@ -21,8 +21,8 @@ void showRestart(const PidSettings& pid, double mass);
 /// kicks.png: the way back to cos t after each kick, in three regimes.
 void showKicks(double mass);
 
-/// energy.png, fall.mp4: pegArm.ors falls, and its energy stays. Of this film and those below there is a
-/// sheet of six moments, too.
+/// energy.png, fall.mp4: pegArm.ors falls, and its energy stays. Each film from
+/// here on also comes with a contact sheet of six frames.
 void showFall();
 
 /// holding.png, hold.mp4, torque.mp4: held by holdArm the arm sags and sways; with M and F it comes back to

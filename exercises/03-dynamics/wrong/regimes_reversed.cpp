@@ -1,5 +1,5 @@
 // caught by: point-regimes, point-any-mass
-// mistake: as the sheet has it: xi above 1 to overshoot, below 1 for decay.
+// mistake: as the exercise sheet has it: xi above 1 to overshoot, below 1 for decay.
 
 // <solution gainsFor>
 // The slower of the two rates of decay decides when the point is there: rate * T = 8 leaves 0.3 % also
