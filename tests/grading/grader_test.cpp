@@ -41,10 +41,9 @@ class Grader : public ::testing::Test {
     return runProcess(options);
   }
   GradeResult grade(const std::string& worker, std::vector<std::string> options = {}) const {
-    const std::vector<std::string> job =
-        toArguments({.worker = kSample / worker,
-                     .limits = {.cpuSeconds = 0.2, .memory = 300 * kMegabyte, .output = 8 * kMegabyte}});
-    options.insert(options.begin(), job.begin(), job.end());
+    options.insert(options.end(),
+                   {"--worker", (kSample / worker).string(), "--cpu-seconds", "0.2", "--memory",
+                    std::to_string(300 * kMegabyte), "--output", std::to_string(8 * kMegabyte)});
     const ProcessResult process = run(options);
     EXPECT_EQ(process.output + process.error, "");
     return loadResult(results());
