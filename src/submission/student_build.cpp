@@ -226,6 +226,13 @@ StudentProgram link(const Toolchain& toolchain, const BuildTools& tools, const p
   return result;
 }
 
+// The library, and before it what main() draws with.
+std::vector<std::string> librariesOfProgram(const Toolchain& toolchain) {
+  std::vector<std::string> libraries = texts(toolchain.libraries);
+  if (!toolchain.show.empty()) libraries.insert(libraries.begin(), toolchain.show.string());
+  return libraries;
+}
+
 Error noSource(const path& file, std::string found) {
   return Error({.what = "cannot be graded",
                 .where = {file.string()},
@@ -340,7 +347,7 @@ StudentProgram linkWorker(const Toolchain& toolchain, const StudentObject& objec
   const path worker = folder / "worker";
   if (isWhole || toolchain.workerPart.empty())
     return link(toolchain, tools, worker, {toolchain.workerObject.string(), renamed.string()},
-                texts(toolchain.libraries), object.name);
+                librariesOfProgram(toolchain), object.name);
   for (const WorkerOfPart& part : workersOfParts(toolchain.workerPart)) {
     const StudentProgram linked =
         link(toolchain, tools, worker.string() + "." + part.id,
@@ -354,10 +361,8 @@ StudentProgram linkWorker(const Toolchain& toolchain, const StudentObject& objec
 
 StudentProgram linkProgram(const Toolchain& toolchain, const StudentObject& object) {
   const path folder = object.object.parent_path();
-  std::vector<std::string> libraries = texts(toolchain.libraries);
-  if (!toolchain.show.empty()) libraries.insert(libraries.begin(), toolchain.show.string());
   return link(toolchain, BuildTools(toolchain, folder, {}), folder / "program", {object.object.string()},
-              libraries, object.name);
+              librariesOfProgram(toolchain), object.name);
 }
 
 }  // namespace rex::grading
