@@ -128,6 +128,12 @@ TEST_F(StudentBuildTest, LinksWhatDrawsForMain) {
       linkProgram(drawing, compile("void show();\n" + both + "int main() { show(); }\n"));
   ASSERT_TRUE(program.ok) << program.log;
   EXPECT_EQ(runProcess({program.program}).output, "drawn 8\n");
+  // A build for the sanitizers keeps main() in the worker.
+  const StudentObject whole = compileStudent(
+      drawing, {}, {.main = temporary_.path() / "main.cpp", .workFolder = temporary_.path() / "whole"});
+  ASSERT_TRUE(whole.graded.empty());
+  const StudentProgram worker = linkWorker(drawing, whole);
+  EXPECT_TRUE(worker.ok) << worker.log;
   const StudentProgram without =
       linkProgram(drawing, compile("void show();\nint twice(int a) { return a; }\nint main() { show(); }\n"));
   EXPECT_FALSE(without.ok);
