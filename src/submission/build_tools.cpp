@@ -61,7 +61,8 @@ std::vector<sandbox::Readable> visibleFiles(const Toolchain& toolchain) {
     if (toolchain.flags[k - 1] == "-iquote") showAll(readable, studentHeaders(toolchain.flags[k]));
   }
   if (!toolchain.prefix.empty()) showAll(readable, {toolchain.prefix, toolchain.prefix.string() + ".gch"});
-  showAll(readable, {toolchain.workerObject, toolchain.show});
+  showAll(readable, {toolchain.workerObject});
+  if (!toolchain.show.empty()) showAll(readable, {toolchain.show});
   if (!toolchain.workerPart.empty())
     showAll(readable, {toolchain.workerPart, linkOptions(toolchain.workerPart)});
   for (const WorkerOfPart& part : workersOfParts(toolchain.workerPart))
