@@ -14,7 +14,7 @@ inline GaussianBelief randomGaussian(rex::Rng& rng, int n) {
   return {rng.normalVector(n), positiveDefinite(rng, n)};
 }
 
-// A Gaussian the grader can compute with, whose covariance should be of that norm.
+// The belief must be a Gaussian the grader can compute with; `size` is the norm its covariance should have.
 inline void checkGaussian(rex::grading::Check& check, const GaussianBelief& belief, Eigen::Index n,
                           double size) {
   check.shape("mean", belief.mean, n, 1);
@@ -23,12 +23,12 @@ inline void checkGaussian(rex::grading::Check& check, const GaussianBelief& beli
   check.that("the covariance is positive definite", belief.cov.llt().info() == Eigen::Success);
 }
 
-// ln N(x | mean, cov), up to what does not depend on x.
+// ln N(x | mean, cov), up to terms that do not depend on x.
 inline double logDensity(const GaussianBelief& belief, const Eigen::VectorXd& x) {
   return -0.5 * belief.cov.llt().matrixL().solve(x - belief.mean).squaredNorm();
 }
 
-// Gaussians of one or more dimensions, of which the first two are drawn.
+// Gaussians in one or more dimensions; the first two are drawn.
 inline void addGaussian(rex::Figure& figure, const std::string& label, const GaussianBelief& belief,
                         const rex::Series& look) {
   rex::Series curve = look;
@@ -57,7 +57,7 @@ inline rex::Figure gaussianFigure(const std::string& title, Eigen::Index n) {
   return {.title = title + ", 2 sigma", .xLabel = "x_1", .yLabel = "x_2", .equalAxes = true};
 }
 
-// The densities themselves are compared, at random places: p q / result must be the same everywhere.
+// Compares the densities themselves at random points: p q / result must be the same everywhere.
 inline void productFits(rex::grading::Check& check, Student& student, int n) {
   const GaussianBelief p = randomGaussian(check.rng(), n), q = randomGaussian(check.rng(), n);
   check.input(fmt::format("two random Gaussians in {} dimensions", n));
@@ -85,8 +85,8 @@ inline void productFits(rex::grading::Check& check, Student& student, int n) {
   }
 }
 
-// Whitened by a right mean and covariance, samples have mean 0 and covariance Id. The limits are more than
-// six standard deviations: less than one false alarm in 1e7 calls.
+// Whitened by the right mean and covariance, the samples have mean 0 and covariance Id. The limits are more
+// than six standard deviations: less than one false alarm in 1e7 calls.
 inline void fitsSamples(rex::grading::Check& check, const GaussianBelief& belief,
                         const Eigen::MatrixXd& samples) {
   const auto shown = check.show([&] {
@@ -111,9 +111,9 @@ inline void fitsSamples(rex::grading::Check& check, const GaussianBelief& belief
   checkGaussian(check, belief, samples.rows(), (centred * centred.transpose()).norm() / count);
   const Eigen::MatrixXd Z = belief.cov.llt().matrixL().solve(samples.colwise() - belief.mean);
   const Eigen::MatrixXd Id = Eigen::MatrixXd::Identity(Z.rows(), Z.rows());
-  check.atMost("difference to the mean of samples, in standard deviations of the belief",
+  check.atMost("difference from the mean of the samples, in standard deviations of the belief",
                Z.rowwise().mean().cwiseAbs().maxCoeff(), 6.2 / std::sqrt(count));
-  check.atMost("difference to the covariance of samples, relative",
+  check.atMost("relative difference from the covariance of the samples",
                (Z * Z.transpose() / count - Id).cwiseAbs().maxCoeff(), 6.8 * std::sqrt(2 / count));
 }
 
@@ -153,7 +153,7 @@ inline rex::grading::Evidence betaSeen(const BetaBelief& prior, const BetaBelief
     return log;
   };
   return {
-      .figures = {{.title = "What is believed of mu",
+      .figures = {{.title = "The belief about mu",
                    .xLabel = "mu",
                    .yLabel = "density",
                    .series = {curve({.label = "prior", .color = rex::Color{.6f, .62f, .65f}}, beta(prior)),
@@ -161,7 +161,7 @@ inline rex::grading::Evidence betaSeen(const BetaBelief& prior, const BetaBelief
                               curve(rex::grading::wantedCurve("wanted: likelihood * prior"), posterior)}}}};
 }
 
-// Posterior / (likelihood * prior) must be the same for all mu of a grid.
+// Posterior / (likelihood * prior) must be the same for all mu on a grid.
 inline void betaFits(rex::grading::Check& check, Student& student, int throws) {
   rex::Rng& rng = check.rng();
   const BetaBelief prior{.a = rng.uniform(0.5, 4), .b = rng.uniform(0.5, 4)};

@@ -68,22 +68,23 @@ void bookAndDot(Check& check, Student& student) {
   check.input("the book is moved by (1, 0) and turned by 45 degrees");
   const Eigen::Matrix3d X_WB = student.bookPose({1, 0}, M_PI / 4);
   check.shape("X_WB", X_WB, 3, 3);
-  check.near("where the book's origin is", X_WB.topRightCorner(2, 1), Eigen::Vector2d(1, 0), 1e-12, "m");
+  check.near("position of the book's origin", X_WB.topRightCorner(2, 1), Eigen::Vector2d(1, 0), 1e-12, "m");
   check.near("X_WB (1, 1, 1)", X_WB * Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(1, root, 1), 1e-12, "m");
   check.near("last row of X_WB", X_WB.row(2), Eigen::RowVector3d(0, 0, 1), 1e-12);
   check.near("dot p in the world", student.mapped(pose({1, 0}, M_PI / 4), {1, 1}), Eigen::Vector2d(1, root),
              1e-12, "m");
-  check.near("the book moved without turning it", student.bookPose({2, -3}, 0), pose({2, -3}, 0), 1e-12);
+  check.near("X_WB of a book that is moved but not turned", student.bookPose({2, -3}, 0), pose({2, -3}, 0),
+             1e-12);
 }
 
 void backAndRelative(Check& check, Student& student, const Eigen::Matrix3d& X_WA,
                      const Eigen::Matrix3d& X_WB) {
   check.near("X_WB times its inverse", X_WB * student.inverted(X_WB), Eigen::Matrix3d::Identity(), 1e-11);
-  check.near("X_WA times X_AB, seen from A", X_WA * student.seenFrom(X_WA, X_WB), X_WB, 1e-11);
+  check.near("X_WA times the returned X_AB", X_WA * student.seenFrom(X_WA, X_WB), X_WB, 1e-11);
 }
 
 void frames(Check& check, Student& student) {
-  check.input("the book of the script");
+  check.input("the book from the script");
   const Eigen::Vector3d x_B = student.inverted(pose({1, 0}, M_PI / 4)) * Eigen::Vector3d(0, 1, 1);
   check.near("point x in the book's frame", x_B, Eigen::Vector3d(0, std::sqrt(2), 1), 1e-12, "m");
   for (int i = 0; i < 5; ++i) {
@@ -114,7 +115,7 @@ void fruitOf(Check& check, Student& student, const std::vector<int>& apples,
   }
 }
 
-// All that can happen, one by one: your box is number 0, bits say which boxes the host opens.
+// Enumerates every case: your box is number 0, and bits say which boxes the host opens.
 double chanceOfSwapping(int boxes, int opened) {
   double chance = 0;
   for (int prize = 0; prize < boxes; ++prize) {
@@ -135,8 +136,8 @@ double chanceOfSwapping(int boxes, int opened) {
 void doorsOf(Check& check, Student& student, int boxes, int opened) {
   check.input(fmt::format("{} boxes, the host opens {}", boxes, opened));
   const Doors doors = student.montyHall(boxes, opened);
-  check.near("P(prize) for who stays", doors.stay, 1. / boxes, 1e-12);
-  check.near("P(prize) for who swaps", doors.swap, chanceOfSwapping(boxes, opened), 1e-12);
+  check.near("P(prize) if you stay", doors.stay, 1. / boxes, 1e-12);
+  check.near("P(prize) if you swap", doors.swap, chanceOfSwapping(boxes, opened), 1e-12);
 }
 
 void tableOf(Check& check, Student& student, const Eigen::MatrixXd& P_XY, bool independent) {
@@ -147,12 +148,12 @@ void tableOf(Check& check, Student& student, const Eigen::MatrixXd& P_XY, bool i
   check.near("P(X)", answers.PX, P_XY * Eigen::VectorXd::Ones(cols), 1e-12);
   check.near("P(Y)", answers.PY, P_XY.transpose() * Eigen::VectorXd::Ones(rows), 1e-12);
   check.shape("P(X | Y)", answers.XGivenY, rows, cols);
-  check.near("sums of the columns of P(X | Y)", answers.XGivenY.colwise().sum(),
-             Eigen::RowVectorXd::Ones(cols), 1e-12);
+  check.near("column sums of P(X | Y)", answers.XGivenY.colwise().sum(), Eigen::RowVectorXd::Ones(cols),
+             1e-12);
   for (Eigen::Index y = 0; y < cols; ++y) {
     check.near("P(X | Y) P(Y) against the table", answers.XGivenY.col(y) * answers.PY[y], P_XY.col(y), 1e-12);
   }
-  check.that("whether X and Y are independent is judged right", answers.independent == independent);
+  check.that("`independent` is true exactly if X and Y are independent", answers.independent == independent);
 }
 
 void boxesAndDoors(Check& check, Student& student) {
@@ -164,7 +165,7 @@ void boxesAndDoors(Check& check, Student& student) {
 
 void tables(Check& check, Student& student) {
   tableOf(check, student, (Eigen::MatrixXd(2, 2) << .06, .24, .14, .56).finished(), true);
-  // Here rounding makes P(X) P(Y) differ from the table in the last bit, in whatever order one adds.
+  // Here rounding makes P(X) P(Y) differ from the table in the last bit, whatever the order of summation.
   tableOf(check, student, (Eigen::MatrixXd(3, 3) << .03, .03, .04, .06, .06, .08, .21, .21, .28).finished(),
           true);
   tableOf(check, student, (Eigen::MatrixXd(2, 3) << .1, .2, .1, .3, .1, .2).finished(), false);
@@ -202,10 +203,10 @@ void equationsOfAnySize(Check& check, Student& student) {
   });
 }
 
-// c^T x - sum ln(1 - x_i^2): infinite outside of a cube.
+// c^T x - sum ln(1 - x_i^2): infinite outside a cube.
 Landscape barrier(Rng& rng, int n) {
   const Eigen::VectorXd c = rng.uniformVector(n, -3, 3);
-  return {"a function that is infinite outside of a cube",
+  return {"a function that is infinite outside a cube",
           [=](const Eigen::VectorXd& x) {
             if (x.cwiseAbs().maxCoeff() >= 1) return std::numeric_limits<double>::infinity();
             return c.dot(x) - (1 - x.array().square()).log().sum();
@@ -227,7 +228,7 @@ Landscape valleyFloor(Rng& rng) {
 
 void descendsElsewhere(Check& check, Student& student) {
   const Landscape known = bowl(check.rng(), 3);
-  check.near("number of points of a path that starts at the minimum",
+  check.near("number of points in a path that needs no step",
              static_cast<double>(
                  student.gradientDescent(known.f, known.gradient, known.start, {.tolerance = 1e9}).size()),
              1, 0);
@@ -243,7 +244,7 @@ void descendsElsewhere(Check& check, Student& student) {
   });
 }
 
-// Distances to beacons on the corners of a cube: where is the receiver?
+// Distances to beacons at the corners of a cube: where is the receiver?
 Residuals beacons(Rng& rng) {
   std::vector<Eigen::Vector3d> places;
   for (int i = 0; i < 8; ++i) places.emplace_back(i & 1 ? 2 : -2, i & 2 ? 2 : -2, i & 4 ? 2 : -2);
@@ -328,7 +329,7 @@ void bayesElsewhere(Check& check, Student& student) {
   });
 }
 
-// The integral of slide 6:28, summed over a fine grid, at some x.
+// Compares with the integral of slide 6:28, summed over a fine grid, at several x.
 void propagationFitsIntegral(Check& check, Student& student) {
   Rng& rng = check.rng();
   const auto density = [](double x, double mean, double var) {
@@ -385,8 +386,9 @@ grading::Checks<Student> checks() {
       {"gauss-newton-elsewhere", "optimisation", "Gauss-Newton on other sums of squares", 1, Group::kHidden,
        gaussNewtonElsewhere},
       // </hidden>
-      {"book", "book", "the book of the script and its dot", 1, Group::kVisible, bookAndDot},
-      {"frames", "book", "the way back, and one frame seen from another", 1, Group::kVisible, frames},
+      {"book", "book", "the book from the script and its dot", 1, Group::kVisible, bookAndDot},
+      {"frames", "book", "the inverse transform, and one frame seen from another", 1, Group::kVisible,
+       frames},
       // <hidden>
       {"frames-elsewhere", "book", "other books and frames", 1, Group::kHidden, framesElsewhere},
       // </hidden>
@@ -397,7 +399,8 @@ grading::Checks<Student> checks() {
       {"bayes-elsewhere", "bayes", "other boxes, doors and tables", 1, Group::kHidden, bayesElsewhere},
       // </hidden>
       {"product", "beliefs", "the product of two Gaussians", 1, Group::kVisible, products},
-      {"propagation", "beliefs", "a Gaussian sent through a linear map", 1, Group::kVisible, propagations},
+      {"propagation", "beliefs", "a Gaussian propagated through a linear map", 1, Group::kVisible,
+       propagations},
       {"conjugate", "beliefs", "Beta and Dirichlet beliefs and predictions", 1, Group::kVisible, conjugates},
       // <hidden>
       {"beliefs-elsewhere", "beliefs", "other beliefs", 1, Group::kHidden, beliefsElsewhere},

@@ -5,7 +5,7 @@
 #include "interface.h"
 #include "random_matrices.h"
 
-// Part 2: functions to minimise, and what must hold for every step of a way down.
+// Part 2: functions to minimise, and what must hold for every step of a descent.
 
 // f, its gradient, and a start. All are smooth and bounded below where they are finite.
 struct Landscape {
@@ -39,10 +39,11 @@ inline Landscape hole(rex::Rng& rng, int n) {
           rng.normalVector(n)};
 }
 
-// What every descent promises: the start, finite points, at most so many steps, at least one.
+// What every path must satisfy: it begins at the start, its points are finite, and it has at least one step
+// and at most maxSteps.
 inline void checkPath(rex::grading::Check& check, const std::vector<Eigen::VectorXd>& path,
                       const Eigen::VectorXd& start, int maxSteps) {
-  check.atLeast("number of points of the path", static_cast<double>(path.size()), 2);
+  check.atLeast("number of points in the path", static_cast<double>(path.size()), 2);
   check.atMost("number of steps", static_cast<double>(path.size()) - 1, maxSteps);
   for (const Eigen::VectorXd& x : path) check.shape("point of the path", x, start.size(), 1);
   check.near("first point of the path", path.front(), start, 0);
@@ -56,7 +57,7 @@ inline void decreases(rex::grading::Check& check, double before, double after, d
                1e-6 * alpha * std::abs(slope) + 1e-13 * std::abs(before));
 }
 
-/// Values along a path, with the most that each step may lead to by Armijo's condition.
+/// The values along a path, and the largest value that Armijo's condition allows after each step.
 inline rex::grading::Evidence descentSeen(const std::vector<double>& values,
                                           const std::vector<double>& allowed) {
   rex::Series got = rex::grading::gotCurve("got");
@@ -72,7 +73,7 @@ inline rex::grading::Evidence descentSeen(const std::vector<double>& values,
     wanted.x.push_back(static_cast<double>(t + 1));
     wanted.y.push_back(allowed[t]);
   }
-  rex::Figure figure{.title = "The way down", .xLabel = "step", .yLabel = "f", .series = {got}};
+  rex::Figure figure{.title = "The descent", .xLabel = "step", .yLabel = "f", .series = {got}};
   if (!allowed.empty()) figure.series.push_back(wanted);
   return {.figures = {figure}};
 }
@@ -102,7 +103,7 @@ inline void descends(rex::grading::Check& check, Student& student, const Landsca
     decreases(check, land.f(path[t - 1]), land.f(path[t]), alpha, -g.squaredNorm(), options.decrease);
     check.atMost("step size, relative to its first trial", alpha / firstTrial, 1 + 1e-4);
     const double shrunk = std::log(alpha / firstTrial) / std::log(options.shrink);
-    check.atMost("log(step size / first trial) / log(shrink), from the nearest whole number",
+    check.atMost("distance of log(step size / first trial) / log(shrink) from the nearest integer",
                  std::abs(shrunk - std::round(shrunk)), 0.02);
     firstTrial = alpha * options.grow;
   }
@@ -126,8 +127,8 @@ inline Residuals affine(rex::Rng& rng, int d, int n) {
           [=](const Eigen::VectorXd&) { return A; }, rng.normalVector(n)};
 }
 
-// Full steps lead away from the zero. All entries are as far from it: elsewhere, a step may bring one nearer
-// and send another so far away that J loses its rank.
+// Full steps lead away from the zero. All entries start at the same distance from it: otherwise a step could
+// bring one entry nearer and send another so far away that J loses rank.
 inline Residuals arcTangent(rex::Rng& rng, int n) {
   return {fmt::format("the arc tangent of each of {} entries of x", n),
           [](const Eigen::VectorXd& x) { return Eigen::VectorXd(x.array().atan()); },
@@ -149,7 +150,7 @@ inline Residuals curvedValley(rex::Rng& rng) {
           Eigen::Vector2d(rng.uniform(-1.5, -1), rng.uniform(0, 2))};
 }
 
-// Every step is a share alpha <= 1 of the Gauss-Newton step, with sufficient decrease.
+// Every step is a fraction alpha <= 1 of the Gauss-Newton step, with sufficient decrease.
 inline void followsGaussNewton(rex::grading::Check& check, Student& student, const Residuals& problem,
                                SearchOptions options) {
   const auto gradient = [&](const Eigen::VectorXd& x) {
@@ -179,7 +180,7 @@ inline void followsGaussNewton(rex::grading::Check& check, Student& student, con
     decreases(check, phi.squaredNorm(), problem.phi(path[t]).squaredNorm(), alpha, gradient(x).dot(full),
               options.decrease);
   }
-  // A factor of two for those who measure half of the gradient.
+  // The factor of two allows for solutions that compare half of the gradient with the tolerance.
   check.atMost("gradient at the end, relative to that at the start",
                gradient(path.back()).norm() / gradient(problem.start).norm(), 2.0001e-5);
 }

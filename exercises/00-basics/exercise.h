@@ -5,8 +5,9 @@
 
 #include "course/course.h"
 
-// The functions you complete in main.cpp. Matrices are written rows x columns; the derivative of a number by
-// x is a row (1 x n), that of d numbers is d x n, as in the script. Slides are named as chapter:number.
+// The functions you complete in main.cpp. Matrices are written rows x columns. As in the script, the
+// derivative of a number with respect to x is a row (1 x n), and that of d numbers is d x n. Slides are cited
+// as chapter:number.
 
 // Part 1, matrix equations and vector derivatives (12.1.1, 12.1.2).
 
@@ -30,11 +31,11 @@ struct Evaluation {
   Eigen::MatrixXd J;
 };
 
-/// 12.1.2 d: the derivative (1 x n) of f(x)^T C g(x) by x, for any C (d x d), from what f and g (both R^n ->
-/// R^d) return at x.
+/// 12.1.2 d: the derivative (1 x n) of f(x)^T C g(x) with respect to x, for any C (d x d), given what f and g
+/// (both R^n -> R^d) return at x.
 Eigen::MatrixXd productDerivative(const Evaluation& f, const Eigen::MatrixXd& C, const Evaluation& g);
 
-/// Where a function is least, and how much it is there.
+/// Where a function has its minimum, and its value there.
 struct Minimum {
   Eigen::VectorXd x;
   double value = 0;
@@ -62,8 +63,8 @@ struct SearchOptions {
 using ScalarFunction = std::function<double(const Eigen::VectorXd&)>;
 using MatrixFunction = std::function<Eigen::MatrixXd(const Eigen::VectorXd&)>;
 
-/// Minimises f by steps along d = -gradient(x), which is a column here (n). The first trial of the first step
-/// has alpha = 1; the first trial of every later one the accepted alpha of the step before, times `grow`.
+/// Minimises f by steps along d = -gradient(x), which is a column here (n). The first step tries alpha = 1
+/// first; every later step first tries the alpha that the step before accepted, times `grow`.
 std::vector<Eigen::VectorXd> gradientDescent(const ScalarFunction& f, const rex::VectorFunction& gradient,
                                              const Eigen::VectorXd& start, const SearchOptions& options);
 
@@ -83,10 +84,10 @@ Eigen::Matrix3d bookPose(const Eigen::Vector2d& move, double angle);
 /// p_A of a point p_B.
 Eigen::Vector2d mapped(const Eigen::Matrix3d& X_AB, const Eigen::Vector2d& p_B);
 
-/// X_BA, the transform the other way round. Any way to it counts, `inverse(X_AB)` too.
+/// X_BA, the inverse transform. Any way to compute it counts, even `inverse(X_AB)`.
 Eigen::Matrix3d inverted(const Eigen::Matrix3d& X_AB);
 
-/// X_AB: frame B as it is seen from frame A, when both are known in the world.
+/// X_AB: frame B as seen from frame A, given the poses of both in the world.
 Eigen::Matrix3d seenFrom(const Eigen::Matrix3d& X_WA, const Eigen::Matrix3d& X_WB);
 
 // Part 4, Bayes (12.8.1, slides 6:8 to 6:10).
@@ -96,17 +97,18 @@ struct Fruit {
   Eigen::VectorXd boxGivenApple;  ///< P(box | apple), one entry for each box
 };
 
-/// 12.8.1 a: box i holds apples[i] and oranges[i]. A box is drawn, all with equal probability, then a fruit
-/// from it, all with equal probability. No box is empty, and at least one has an apple.
+/// 12.8.1 a: box i holds apples[i] apples and oranges[i] oranges. A box is drawn, all with equal probability,
+/// then a fruit from it, all with equal probability. No box is empty, and at least one has an apple.
 Fruit fruitBoxes(const std::vector<int>& apples, const std::vector<int>& oranges);
 
 struct Doors {
-  double stay = 0;  ///< P(prize) for who keeps the first choice
-  double swap = 0;  ///< P(prize) for who takes one of the other closed boxes, at random
+  double stay = 0;  ///< P(prize) if you keep your first choice
+  double swap = 0;  ///< P(prize) if you switch to one of the other closed boxes, at random
 };
 
 /// 12.8.1 b: one of `boxes` boxes holds the prize, and you choose one. The host, who knows where the prize
-/// is, opens `opened` others that are empty, at random; at least one other box stays closed.
+/// is, opens `opened` of the other boxes, at random among the empty ones; at least one other box stays
+/// closed.
 Doors montyHall(int boxes, int opened);
 
 struct TableAnswers {
@@ -116,8 +118,8 @@ struct TableAnswers {
   bool independent = false;  ///< are X and Y independent, up to 1e-9 in every entry of the table?
 };
 
-/// 12.8.1 c: the questions about a joint probability P(X, Y), whose rows are the values of X and whose
-/// columns are those of Y. Every value of X and Y has a positive probability.
+/// 12.8.1 c: the questions about a joint distribution P(X, Y): its rows are the values of X, its columns
+/// those of Y. Every value of X and Y has a positive probability.
 TableAnswers jointTable(const Eigen::MatrixXd& P_XY);
 
 // Part 5, beliefs: Gaussians (12.8.2, slides 6:27 and 6:28) and conjugate priors (slides 6:14 to 6:24).
@@ -142,11 +144,11 @@ struct BetaBelief {
   double b = 1;
 };
 
-/// The belief after outcomes x_i, each 0 or 1, in any number.
+/// The belief after any number of outcomes x_i, each 0 or 1.
 BetaBelief betaPosterior(const BetaBelief& prior, const std::vector<int>& data);
 
-/// The parameters (K) of the belief Dir(mu | alpha) after outcomes x_i, each one of 1, ..., K, in any number.
+/// The parameters (K) of the belief Dir(mu | alpha) after any number of outcomes x_i, each one of 1, ..., K.
 Eigen::VectorXd dirichletPosterior(const Eigen::VectorXd& alpha, const std::vector<int>& data);
 
-/// P(next outcome = k), k = 1, ..., K, for somebody whose belief is Dir(mu | alpha).
+/// P(next outcome = k), k = 1, ..., K, under the belief Dir(mu | alpha).
 Eigen::VectorXd nextOutcome(const Eigen::VectorXd& alpha);

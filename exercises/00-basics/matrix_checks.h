@@ -5,10 +5,10 @@
 #include "interface.h"
 #include "random_matrices.h"
 
-// Part 1: each puts a result into the equation it should solve.
+// Part 1: each check substitutes a result into the equation it should solve.
 
-// Relative to the terms of an equation at its solution, never at an answer: a large one would make its own
-// error small. A right way of solving the ones below loses up to 1e-11 of them.
+// Residuals are relative to the terms of an equation at its solution, never at the answer: a large answer
+// would make its own residual small. A correct method leaves residuals of up to 1e-11 in the equations below.
 inline constexpr double kRelative = 1e-9;
 
 inline void equationAHolds(rex::grading::Check& check, Student& student, int n) {
@@ -18,7 +18,7 @@ inline void equationAHolds(rex::grading::Check& check, Student& student, int n) 
   check.shape("X of a", X, n, n);
   const Eigen::MatrixXd left = X * A + A.transpose(), Id = Eigen::MatrixXd::Identity(n, n);
   const Eigen::MatrixXd wanted = (Id - A.transpose()) * rex::inverse(A);
-  check.atMost("error of X A + A^T = Id, relative",
+  check.atMost("relative residual of X A + A^T = Id",
                (left - Id).norm() / (wanted.norm() * A.norm() + A.norm()), kRelative);
 }
 
@@ -29,8 +29,8 @@ inline void equationBHolds(rex::grading::Check& check, Student& student, int n, 
   const Eigen::MatrixXd X = student.equationB(A, B, C);
   check.shape("X of b", X, n, m);
   const Eigen::MatrixXd error = X.transpose() * C - (2 * A * (X + B)).transpose();
-  const double size = rex::solve(C.transpose() - 2 * A, 2 * A * B).norm();  // of the X that is wanted
-  check.atMost("error of X^T C = (2 A (X + B))^T, relative",
+  const double size = rex::solve(C.transpose() - 2 * A, 2 * A * B).norm();  // of the wanted X
+  check.atMost("relative residual of X^T C = (2 A (X + B))^T",
                error.norm() / (size * C.norm() + 2 * A.norm() * (size + B.norm())), kRelative);
 }
 
@@ -40,7 +40,7 @@ inline void equationCHolds(rex::grading::Check& check, Student& student, int d, 
   check.input(sizes("c: random A", d, n));
   const Eigen::VectorXd x = student.equationC(A, y);
   check.shape("x of c", x, n, 1);
-  check.atMost("error of (A x - y)^T A = 0, relative",
+  check.atMost("relative residual of (A x - y)^T A = 0",
                ((A * x - y).transpose() * A).norm() /
                    (A.norm() * (A.norm() * rex::leastSquares(A, y).norm() + y.norm())),
                kRelative);
@@ -53,9 +53,9 @@ inline void equationDHolds(rex::grading::Check& check, Student& student, int d, 
   const Eigen::VectorXd x = student.equationD(A, y, B);
   check.shape("x of d", x, n, 1);
   const Eigen::MatrixXd error = (A * x - y).transpose() * A + x.transpose() * B;
-  const double size = rex::solve(A.transpose() * A + B, A.transpose() * y).norm();  // of the x that is wanted
+  const double size = rex::solve(A.transpose() * A + B, A.transpose() * y).norm();  // of the wanted x
   const double scale = A.norm() * (A.norm() * size + y.norm()) + B.norm() * size;
-  check.atMost("error of (A x - y)^T A + x^T B = 0, relative", error.norm() / scale, kRelative);
+  check.atMost("relative residual of (A x - y)^T A + x^T B = 0", error.norm() / scale, kRelative);
 }
 
 // sin(W x + b), a function whose derivative is known.
@@ -93,9 +93,9 @@ inline void minimumIsLeast(rex::grading::Check& check, Student& student, int d, 
   check.shape("x of the minimum", least.x, n, 1);
   const Eigen::VectorXd e = A * least.x - y;
   const Eigen::MatrixXd H = A.transpose() * C * A + B;
-  const double size = rex::solve(H, A.transpose() * C * y).norm();  // of the x that is wanted
+  const double size = rex::solve(H, A.transpose() * C * y).norm();  // of the wanted x
   const double scale = A.norm() * C.norm() * (A.norm() * size + y.norm()) + B.norm() * size;
-  check.atMost("derivative of the cost at x, relative", (A.transpose() * C * e + B * least.x).norm() / scale,
+  check.atMost("relative derivative of the cost at x", (A.transpose() * C * e + B * least.x).norm() / scale,
                kRelative);
   const double cost = e.dot(C * e) + least.x.dot(B * least.x);
   check.near("value of the minimum against the cost at x", least.value, cost, 1e-9 * (1 + cost));

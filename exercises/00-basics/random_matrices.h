@@ -8,13 +8,13 @@
 #include "base/rng.h"
 #include "course/linear_algebra.h"
 
-// What the problems of the checks are made of.
+// Random matrices for the problems of the checks.
 
 inline Eigen::MatrixXd randomMatrix(rex::Rng& rng, int rows, int cols) {
   return rng.normalVector(rows * cols).reshaped(rows, cols);
 }
 
-// Redrawn until every right way of solving with it, also through A^T A, keeps at least ten digits.
+// Redrawn until every correct way of solving with it, even through A^T A, keeps at least ten digits.
 inline Eigen::MatrixXd wellConditioned(rex::Rng& rng, int rows, int cols) {
   for (;;) {
     Eigen::MatrixXd A = randomMatrix(rng, rows, cols);

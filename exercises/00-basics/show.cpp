@@ -7,7 +7,7 @@ using namespace rex;
 
 namespace {
 
-// f at `count` equal steps from `first` to `last`.
+// f at `count` evenly spaced points from `first` to `last`.
 Series curve(const std::string& label, double first, double last, int count,
              const std::function<double(double)>& f) {
   Series series{.label = label};
@@ -36,7 +36,7 @@ Series polynomial(const std::string& label, const Eigen::VectorXd& weights) {
   });
 }
 
-// A curved valley, as a sum of squares: f = phi^T phi, least at (1, 1).
+// A curved valley, as a sum of squares: f = phi^T phi, with its minimum at (1, 1).
 Eigen::VectorXd valley(const Eigen::VectorXd& x) {
   return Eigen::Vector2d(1 - x[0], 3 * (x[1] - x[0] * x[0]));
 }
@@ -88,7 +88,7 @@ void showFit() {
     data.x.push_back(x);
     data.y.push_back(y[i]);
   }
-  Series library = polynomial("c, by the library", leastSquares(A, y));
+  Series library = polynomial("c: library", leastSquares(A, y));
   library.dashed = true;
   const Eigen::VectorXd calm = equationD(A, y, 0.01 * Eigen::MatrixXd::Identity(10, 10));
   plot("fit", {.title = "A polynomial of degree 9 through twelve points",
@@ -103,7 +103,7 @@ void showFit() {
 void showDescents(const Eigen::Vector2d& start) {
   const std::vector<Eigen::VectorXd> descent = gradientDescent(depth, slope, start, {});
   const std::vector<Eigen::VectorXd> newton = gaussNewton(valley, valleyJacobian, start, {});
-  // A logarithmic colour or axis has no zero.
+  // Zero has no place on a logarithmic axis or colour scale.
   HeatMap map = heatMapOf([](double x, double y) { return std::max(depth(Eigen::Vector2d(x, y)), 0.01); },
                           {-1.6, 1.6}, {-1, 1.8}, 320, 280);
   map.contours = 12;
@@ -162,7 +162,7 @@ void showBook(const Eigen::Matrix3d& X_WB, const Eigen::Vector2d& dot_B, const E
 void showProduct() {
   const GaussianBelief prior{Eigen::Vector2d(0, 0), symmetric(4, 1.5, 1)};
   const GaussianBelief measured{Eigen::Vector2d(2, 2), symmetric(0.5, -0.3, 2)};
-  Figure figure{.title = "A prior, a measurement, and what both say together (two standard deviations)",
+  Figure figure{.title = "A prior, a measurement, and their product (two standard deviations)",
                 .xLabel = "x1",
                 .yLabel = "x2",
                 .equalAxes = true,
@@ -179,7 +179,7 @@ void showPropagation() {
   Rng rng(1);
   std::vector<Eigen::VectorXd> robots;
   for (int i = 0; i < 200; ++i) robots.push_back(std::sqrt(0.03) * rng.normalVector(2));
-  Figure figure{.title = "Driving without looking: 200 robots, and the belief (two standard deviations)",
+  Figure figure{.title = "Driving blindly: 200 robots, and the belief (two standard deviations)",
                 .xLabel = "x [m]",
                 .yLabel = "y [m]",
                 .equalAxes = true,
@@ -202,7 +202,7 @@ void showPropagation() {
 
 void showCoin(const BetaBelief& prior, double truth) {
   Rng rng(4);
-  Figure figure{.title = "The belief about a coin after more and more throws",
+  Figure figure{.title = "The belief about a coin as the number of throws grows",
                 .xLabel = "mu = P(x = 1)",
                 .yLabel = "density",
                 .legend = Legend::kTopLeft,

@@ -1,5 +1,5 @@
 // caught by: frames, frames-elsewhere
-// mistake: The way back has the opposite translation, but in the axes of the wrong frame.
+// mistake: The inverse has the opposite translation, but in the axes of the wrong frame.
 
 // <solution inverted>
 Eigen::Matrix3d X_BA = X_AB;

@@ -1,5 +1,5 @@
 // caught by: conjugate, beliefs-elsewhere
-// mistake: Predicts with the most likely mu, which leaves out how much is not known.
+// mistake: Predicts with the most likely mu, which ignores how uncertain mu is.
 
 // <solution nextOutcome>
 return (alpha.array() - 1) / (alpha.sum() - static_cast<double>(alpha.size()));
