@@ -15,7 +15,7 @@ using grading::Group;
 
 namespace {
 
-// A robot to ask about: a scene in a random posture, and two of its bodies.
+// A robot to test the maps on: a scene in a random posture, and two of its bodies.
 struct Robot {
   Simulator S;
   std::string body, other;
@@ -23,9 +23,9 @@ struct Robot {
 
 const Eigen::Vector3d kTarget(-0.2, -0.4, 1.1);
 constexpr double kSigma = 0.01;
-// Values below this count as zero: maps through an arc cosine have only half of the digits at their zero.
+// Values below this count as zero: maps that use an arc cosine keep only half of their digits at the zero.
 constexpr double kZero = 1e-5;
-// A map that is not zero says so with at least this much: 1 - cos of 0.3 rad is 0.04.
+// Values of at least this much count as nonzero: 1 - cos(0.3 rad) is 0.04.
 constexpr double kNotZero = 1e-3;
 
 Simulator inRandomPosture(Simulator S, Rng& rng, double spread) {
@@ -57,7 +57,7 @@ VectorFunction valuesOf(Check& check, const Simulator& S, const Map& map, Eigen:
   };
 }
 
-// y and J fit together, and y does change with q.
+// J is the derivative of y, and y does change with q.
 void checkJacobianOf(Check& check, const Simulator& S, const Map& map) {
   const TaskMapValue value = map(S.description());
   check.that("y has at least one entry", value.y.size() > 0);
@@ -70,8 +70,8 @@ void checkJacobianOf(Check& check, const Simulator& S, const Map& map) {
              1e-5 * (1 + numeric.cwiseAbs().maxCoeff()));
 }
 
-// The Jacobian of y = q is easily found. A map of the task is zero where S fulfils it, and hardly more beside
-// it than its derivative there makes of the way.
+// A map like y = q has an easy Jacobian but says nothing about the task. A map of the task is zero where S
+// fulfils it, and nearby hardly larger than its derivative there predicts.
 void checkIsOfTheTask(Check& check, const Simulator& S, const Map& map) {
   const Eigen::VectorXd y = map(S.description()).y;
   check.that("y has at least one entry", y.size() > 0);
@@ -80,13 +80,13 @@ void checkIsOfTheTask(Check& check, const Simulator& S, const Map& map) {
   const VectorFunction f = valuesOf(check, S, map, y.size());
   const Eigen::VectorXd beside = S.getJointAngles() + way;
   const double change = (numericJacobian(f, beside).cwiseAbs() * way.cwiseAbs()).maxCoeff();
-  check.atMost("|y| a thousandth of a radian beside it", f(beside).cwiseAbs().maxCoeff(),
+  check.atMost("|y| a thousandth of a radian away from it", f(beside).cwiseAbs().maxCoeff(),
                kZero + 10 * change);
 }
 
 // The three maps, for any robot.
 
-// w with one component turned round, in the frame R; nothing where that would hardly change it.
+// w with the sign of one component in the frame R flipped; nothing if that would hardly change it.
 std::optional<Eigen::Vector3d> mirrored(const Eigen::Vector3d& w, const Eigen::Matrix3d& R, int component) {
   Eigen::Vector3d inFrame = R.transpose() * w;
   if (std::abs(inFrame[component]) < 0.25) return {};
@@ -94,9 +94,9 @@ std::optional<Eigen::Vector3d> mirrored(const Eigen::Vector3d& w, const Eigen::M
   return R * inFrame;
 }
 
-// A map of a direction that is zero at w and nowhere else. Where a careless map is zero too: behind, beside,
-// at a right angle, and at the mirror images of w in the world and in a body's frame R. A single number must
-// not change its sign: on its way it would be zero.
+// A map of a direction must be zero at w and nowhere else. A careless map may also be zero in the opposite
+// direction, beside w, at a right angle to it, or at its mirror images in the world and in a body's frame R.
+// A single number must not change its sign: it would be zero in between.
 void isZeroOnlyAt(Check& check, const Eigen::Vector3d& w, const Eigen::Matrix3d& R,
                   const std::function<TaskMapValue(const Eigen::Vector3d&)>& map) {
   Eigen::Index dimensions = -1;
@@ -136,7 +136,7 @@ Eigen::Matrix3d frameOf(const Simulator& S, const std::string& body) {
 void lookAtIsZeroAtTheTarget(Check& check, Student& student, const Robot& robot) {
   const Eigen::Vector3d gaze = randomDirection(check.rng());
   const Eigen::Vector3d eye = robot.S.kinematicsPos(robot.body);
-  check.input(describe(robot, robot.body) + "; the target in several directions, zero: along the gaze");
+  check.input(describe(robot, robot.body) + "; the target in several directions; zero only along the gaze");
   isZeroOnlyAt(check, robot.S.kinematicsVec(robot.body, gaze), frameOf(robot.S, robot.body),
                [&](const Eigen::Vector3d& direction) {
                  return student.lookAt(robot.S.description(), robot.body, gaze, eye + 1.3 * direction);
@@ -157,7 +157,7 @@ void lookAtJacobian(Check& check, Student& student, const Robot& robot) {
   checkJacobianOf(check, S, mapTo(target));
 }
 
-// Two hands that turn freely: yaw, pitch and roll of each are joints.
+// Two hands that rotate freely: yaw, pitch and roll of each are joints.
 constexpr const char* kTwoHands = R"(
   body post {}
   body l1 {} body l2 {} body left { mass=1 }
@@ -173,7 +173,7 @@ void opposePalmsIsZeroWhenOpposite(Check& check, Student& student) {
   const Eigen::Vector3d palm = randomDirection(check.rng());
   const Eigen::Matrix3d R_left = expSO3(check.rng().normalVector(3));
   const Eigen::Vector3d left = R_left * palm;
-  check.input("two hands that turn freely, in several directions, zero: opposite to each other");
+  check.input("two hands that rotate freely, in several directions; zero only if opposite to each other");
   isZeroOnlyAt(check, -left, R_left, [&](const Eigen::Vector3d& right) {
     const Eigen::Matrix3d R_right =
         rotationAboutAxis(check.rng().uniform(0, 6), right) * rotationBetween(palm, right);
@@ -184,7 +184,7 @@ void opposePalmsIsZeroWhenOpposite(Check& check, Student& student) {
   });
 }
 
-// Moves the robot until its palms are opposite; false if that does not work out from where it is.
+// Moves the robot until its palms are opposite; false if that fails from its current posture.
 bool opposed(Robot& robot, const Eigen::Vector3d& palm) {
   Simulator& S = robot.S;
   for (int step = 0; step < 100; ++step) {
@@ -226,7 +226,7 @@ void distanceIsZeroAtTheGoal(Check& check, Student& student, const Robot& robot)
     for (const Eigen::Vector3d& goal : {Eigen::Vector3d(here + way), Eigen::Vector3d(here - way)}) {
       const double y = valueAt(goal);
       check.atLeast("|y| away from the goal", std::abs(y), kNotZero);
-      // A continuous number that changes its sign is zero in between, away from the goal.
+      // A continuous function that changes its sign is zero in between, away from the goal.
       check.that("y keeps its sign around the goal", sign * y >= 0);
       sign = y;
     }
@@ -261,7 +261,7 @@ auto twice(void (*run)(Check&, Student&)) {
 
 // One step.
 
-// How large the terms of the gradient below are at the minimum, which the singular values of J give.
+// The size of the terms of the gradient below at the minimum, from the singular values of J.
 double sizeOfTerms(const Eigen::MatrixXd& J, const Eigen::VectorXd& dy, double sigma) {
   const SingularValues parts = svd(J);
   const Eigen::ArrayXd s = parts.s.array(), along = (parts.U.transpose() * dy).array();
@@ -274,8 +274,8 @@ void isTheMinimum(Check& check, const Eigen::VectorXd& dq, const Eigen::MatrixXd
                   const Eigen::VectorXd& dy, double sigma) {
   check.shape("dq", dq, J.cols(), 1);
   const Eigen::VectorXd gradient = J.transpose() * (J * dq - dy) + sigma * sigma * dq;
-  // Solving the normal equations costs digits.
-  check.atMost("gradient of the cost at dq, relative", gradient.norm() / sizeOfTerms(J, dy, sigma), 1e-8);
+  // Loose enough for solving the normal equations, which costs digits.
+  check.atMost("relative gradient of the cost at dq", gradient.norm() / sizeOfTerms(J, dy, sigma), 1e-8);
 }
 
 void stepIsTheMinimum(Check& check, Student& student, const Eigen::MatrixXd& J, const Eigen::VectorXd& dy,
@@ -316,7 +316,7 @@ Eigen::Vector3d placeAt(const Simulator& S, const std::string& body, const Eigen
 
 using Motion = std::vector<Eigen::VectorXd>;
 
-// As many postures as asked for, each of n finite numbers.
+// There are `count` postures, each of n finite numbers.
 void checkPostures(Check& check, const Motion& motion, int count, int n) {
   check.near("number of postures", static_cast<double>(motion.size()), count, 0);
   for (const Eigen::VectorXd& q : motion) check.shape("posture", q, n, 1);
@@ -324,8 +324,8 @@ void checkPostures(Check& check, const Motion& motion, int count, int n) {
 
 using Place = std::function<Eigen::Vector3d(int step)>;
 
-// The motion with the place where the body should be at each step, from where the body is farthest from
-// there.
+// The motion, with the wanted position of the body at each step. The film opens where the body is farthest
+// from it.
 grading::Evidence seen(const Simulator& S, const std::string& body, const Motion& motion, int first,
                        const Place& wanted) {
   Series error{.label = "distance from the red point"};
@@ -339,7 +339,7 @@ grading::Evidence seen(const Simulator& S, const std::string& body, const Motion
   for (std::size_t i = 0; i < film.size(); ++i)
     film[i].picture.pointSets.push_back({.points = {way[i]}, .color = {.8f, .1f, .12f}, .size = 9});
   const auto worst = std::max_element(error.y.begin() + (first - 1), error.y.end()) - error.y.begin();
-  return {.figures = {{.title = "Distance of " + body + " from where it should be",
+  return {.figures = {{.title = "Distance of " + body + " from its wanted position",
                        .xLabel = "step",
                        .yLabel = "distance [m]",
                        .series = {error}}},
@@ -375,7 +375,7 @@ void stepsOfATenth(Check& check, Student& student) {
   errorSequence(check, student, 0.1, 100, {{1, 0.3041}, {10, 0.1179}, {50, 0.0018}, {100, 9e-6}});
 }
 
-// The largest distance from where the body should be at each step from `first` on.
+// The largest distance of the body from its wanted position, from step `first` on.
 double largestError(const Simulator& S, const std::string& body, const Motion& motion, int first,
                     const Place& wanted) {
   double largest = 0;
@@ -439,7 +439,7 @@ void mapsOfAnotherRobot(Check& check, Student& student) {
   check.forEachCase(10, [&](int i) { runs[i % 5](check, student, arm(check.rng())); });
 }
 
-// The arm with seven joints, bent so that it can move in every direction, on targets within reach.
+// The arm with seven joints, bent so that it can move in every direction and the targets are within reach.
 Simulator bentArm(Rng& rng) {
   Simulator S("pegInAHole.ors");
   S.setJointAngles((Eigen::VectorXd(7) << 0.6, 0.5, -0.8, 0.7, 0.9, -0.6, 0.5).finished() +
@@ -447,7 +447,7 @@ Simulator bentArm(Rng& rng) {
   return S;
 }
 
-// Each posture follows from the one before by alpha times the best step; nothing else is asked of it.
+// Each posture follows from the one before by alpha times the best step; nothing else is checked.
 void stepsFollowOneAnother(Check& check, Student& student, const Simulator& S,
                            const Eigen::Vector3d& target) {
   Rng& rng = check.rng();

@@ -6,7 +6,7 @@
 #include "course/course.h"
 
 // The functions you complete in main.cpp. n is the number of joint angles of the robot in S; positions are
-// metres in the world frame, angles radians. Slides are named as chapter:number.
+// metres in the world frame, angles radians. Slides are cited as chapter:number.
 
 /// A task map at the present posture: its value y (d numbers) and its Jacobian J = dy/dq (d x n).
 struct TaskMapValue {
@@ -14,16 +14,16 @@ struct TaskMapValue {
   Eigen::MatrixXd J;
 };
 
-// Part 1, task maps (12.3.1). Any map is right whose value is zero exactly when the task is fulfilled, in as
-// many dimensions d as you like where nothing else is said. Values are finite in every posture.
+// Part 1, task maps (12.3.1). Any map is right if its value is zero exactly when the task is fulfilled. You
+// may choose the dimension d unless it is given. Values are finite in every posture.
 
 /// Zero exactly when `body` looks at the world point `target`: when `gaze`, a unit vector fixed in the body's
-/// frame, points from the body's origin towards the target. Looking away from it is not zero.
+/// frame, points from the body's origin towards the target. Nonzero when the body looks away from it.
 TaskMapValue lookAt(const rex::Simulator& S, const std::string& body, const Eigen::Vector3d& gaze,
                     const Eigen::Vector3d& target);
 
 /// Zero exactly when two hands are ready to clap: when `palm`, a unit vector fixed in each hand's frame,
-/// points in opposite world directions for the two hands. The same direction is not zero.
+/// points in opposite world directions for the two hands. Nonzero when they point in the same direction.
 TaskMapValue opposePalms(const rex::Simulator& S, const std::string& left, const std::string& right,
                          const Eigen::Vector3d& palm);
 
@@ -44,7 +44,7 @@ Eigen::VectorXd ikStep(const Eigen::MatrixXd& J, const Eigen::VectorXd& dy, doub
 std::vector<Eigen::VectorXd> smallSteps(rex::Simulator& S, const std::string& body,
                                         const Eigen::Vector3d& target, double alpha, double sigma, int steps);
 
-/// T full steps along the straight line from where the body is to `target`: slide 2:31.
+/// T full steps along the straight line from the body's position to `target`: slide 2:31.
 std::vector<Eigen::VectorXd> straightLine(rex::Simulator& S, const std::string& body,
                                           const Eigen::Vector3d& target, double sigma, int T);
 

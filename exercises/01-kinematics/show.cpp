@@ -10,7 +10,7 @@ using namespace rex;
 namespace {
 
 // |y - wanted| before the first step and after each, where wanted(t) is the position for step t. A
-// logarithmic axis has no zero.
+// logarithmic axis cannot show zero.
 template <class Wanted>
 std::vector<double> trackingErrors(const Postures& motion, const Wanted& wanted) {
   Simulator S("man.ors");

@@ -11,5 +11,5 @@ void showReaching(const Postures& fullSteps, const Postures& tenths, const Postu
                   const Eigen::Vector3d& goal);
 
 /// circle.mp4 and circle.html: three turns, recorded in `turns`. circle.png, posture.png: in a long run the
-/// right hand follows the circle of radius 0.2 m around `center`, but the posture wanders.
+/// right hand follows the circle of radius 0.2 m around `center`, but the posture drifts.
 void showCircle(const rex::Simulator& turns, const Postures& longRun, const Eigen::Vector3d& center);

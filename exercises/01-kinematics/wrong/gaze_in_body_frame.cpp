@@ -1,5 +1,5 @@
 // caught by: look-at-zero, maps-other-robot
-// mistake: The gaze is given in the body's frame and the way to the target in the world's.
+// mistake: The gaze is given in the body's frame, but the direction to the target in the world's.
 
 // <solution lookAt>
 const Eigen::Vector3d way = target - S.kinematicsPos(body);

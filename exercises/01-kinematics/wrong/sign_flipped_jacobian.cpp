@@ -1,5 +1,5 @@
 // caught by: look-at-jacobian
-// mistake: The way to the target turns in the other direction: that part of the Jacobian has the wrong sign.
+// mistake: The direction to the target turns the other way: that part of the Jacobian has the wrong sign.
 
 // <solution lookAt>
 const Eigen::Vector3d way = target - S.kinematicsPos(body);

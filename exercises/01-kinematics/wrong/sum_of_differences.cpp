@@ -1,5 +1,5 @@
 // caught by: look-at-zero
-// mistake: Differences of either sign can add up to zero though none of them is.
+// mistake: Differences of either sign can add up to zero although none of them is zero.
 
 // <solution lookAt>
 const Eigen::Vector3d way = target - S.kinematicsPos(body);

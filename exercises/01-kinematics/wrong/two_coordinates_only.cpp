@@ -1,5 +1,5 @@
 // caught by: look-at-zero
-// mistake: Two coordinates of a direction leave the sign of the third open: the mirror image is zero too.
+// mistake: Two coordinates of a direction leave the sign of the third open: a mirror image gives zero too.
 
 // <solution lookAt>
 const Eigen::Vector3d way = target - S.kinematicsPos(body);
