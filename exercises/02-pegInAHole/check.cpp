@@ -37,7 +37,7 @@ Simulator at(const Simulator& S, const Eigen::VectorXd& q) {
   return Simulator(description);
 }
 
-// Columns that span what J does not notice.
+// Columns that span the nullspace of J.
 Eigen::MatrixXd nullspace(const Eigen::MatrixXd& J) {
   Eigen::MatrixXd square = Eigen::MatrixXd::Zero(std::max(J.rows(), J.cols()), J.cols());
   square.topRows(J.rows()) = J;
@@ -46,7 +46,7 @@ Eigen::MatrixXd nullspace(const Eigen::MatrixXd& J) {
   return parts.V.rightCols(J.cols() - rank);
 }
 
-// As many postures as asked for, each of n finite numbers.
+// There are `count` postures, each of n finite numbers.
 void checkPostures(Check& check, const Motion& motion, int count, int n) {
   check.near("number of postures", static_cast<double>(motion.size()), count, 0);
   for (const Eigen::VectorXd& q : motion) check.shape("posture", q, n, 1);
@@ -54,7 +54,7 @@ void checkPostures(Check& check, const Motion& motion, int count, int n) {
 
 // Part 1.
 
-// X minimises precision * |J X dy - dy|^2 + |X dy|_W^2 for every dy where this gradient vanishes.
+// X minimises precision * |J X dy - dy|^2 + |X dy|_W^2 for every dy if this gradient vanishes.
 void inverseIsTheMinimum(Check& check, Student& student, const Eigen::MatrixXd& J, const Eigen::MatrixXd& W,
                          double precision) {
   const Eigen::MatrixXd X = student.regularisedInverse(J, W, precision);
@@ -63,7 +63,7 @@ void inverseIsTheMinimum(Check& check, Student& student, const Eigen::MatrixXd& 
       precision * J.transpose() * (J * X - Eigen::MatrixXd::Identity(J.rows(), J.rows())) + W * X;
   const Eigen::MatrixXd wanted = solve(precision * J.transpose() * J + W, precision * J.transpose());
   const double scale = (precision * J.squaredNorm() + W.norm()) * wanted.norm() + precision * J.norm();
-  check.atMost("gradient of the cost at J# dy, relative", gradient.norm() / scale, 1e-8);
+  check.atMost("relative gradient of the cost at J# dy", gradient.norm() / scale, 1e-8);
 }
 
 void inverses(Check& check, Student& student) {
@@ -80,7 +80,7 @@ void isTheProjector(Check& check, Student& student, const Eigen::MatrixXd& J, in
   const Eigen::Index n = J.cols();
   const Eigen::MatrixXd N = student.nullspaceProjector(J);
   check.shape("N", N, n, n);
-  check.atMost("largest entry of J N, relative", (J * N).cwiseAbs().maxCoeff() / J.cwiseAbs().maxCoeff(),
+  check.atMost("largest relative entry of J N", (J * N).cwiseAbs().maxCoeff() / J.cwiseAbs().maxCoeff(),
                1e-9);
   check.near("N N", N * N, N, 1e-9);
   check.near("N transposed (W is the identity)", N.transpose(), N, 1e-9);
@@ -121,7 +121,7 @@ void inversesOfAnySize(Check& check, Student& student) {
       inverseIsTheMinimum(check, student, randomMatrix(rng, d, n), randomMetric(rng, n),
                           std::pow(10, rng.uniform(-1, 4)));
     } else {
-      // A product of thin matrices has their width as its rank.
+      // The rank of a product of thin matrices is their width.
       const int rank = 1 + rng.index(3), d = rank + rng.index(3), n = rank + rng.index(6);
       isTheProjector(check, student, randomMatrix(rng, d, rank) * randomMatrix(rng, rank, n), rank);
     }
@@ -142,11 +142,11 @@ void stepIsTheMinimum(Check& check, Student& student, const std::vector<TaskTerm
     H += precision * J.transpose() * J;
     pull += precision * J.transpose() * error;
   }
-  const double size = solve(H, pull).norm();  // of the step that is wanted
+  const double size = solve(H, pull).norm();  // of the wanted step
   double scale = W.norm() * size;
   for (const auto& [error, J, precision] : tasks)
     scale += precision * (J.norm() * error.norm() + J.squaredNorm() * size);
-  check.atMost("gradient of the cost at dq, relative", gradient.norm() / scale, 1e-8);
+  check.atMost("relative gradient of the cost at dq", gradient.norm() / scale, 1e-8);
 }
 
 void stackedSteps(Check& check, Student& student) {
@@ -191,14 +191,15 @@ double largest(const Simulator& S, const Motion& motion, int first, const F& f) 
   return most;
 }
 
-// What is drawn of f: the most that it may be, and lines in the world where the body should be.
+// What is drawn with f: the largest value allowed, and the path in the world that the body should follow.
 struct Wanted {
   std::string title{}, quantity{};
   double most = 0;
   std::vector<Eigen::Vector3d> path{};
 };
 
-// The motion from step `first` on as a film that opens where f(S, t) is largest. Long ones in longer steps.
+// The motion from step `first` on, as a film that opens where f(S, t) is largest. A film of a long motion
+// skips steps.
 template <class F>
 grading::Evidence seen(const Simulator& S, const std::string& body, const Motion& motion, int first,
                        const F& f, const Wanted& wanted) {
@@ -219,7 +220,7 @@ grading::Evidence seen(const Simulator& S, const std::string& body, const Motion
   }
   Film film = filmOf(S, shown, {.traces = {body}, .paths = {wanted.path}});
   for (Frame& frame : film)
-    if (!wanted.path.empty()) frame.picture.captions.push_back({.text = "grey: the way that is wanted"});
+    if (!wanted.path.empty()) frame.picture.captions.push_back({.text = "grey: the wanted path"});
   const double moment = film[worst].time;
   Figure figure{
       .title = wanted.title, .xLabel = "step", .yLabel = wanted.quantity, .series = {std::move(curve)}};
@@ -228,7 +229,7 @@ grading::Evidence seen(const Simulator& S, const std::string& body, const Motion
   return {.figures = {std::move(figure)}, .film = std::move(film), .moment = moment};
 }
 
-// 2e-4 m is usual; the home task pulls the hand off its circle by its share of the precisions.
+// 2e-4 m is usual: the home task pulls the hand off its circle in proportion to the precisions.
 void tracks(Check& check, const Simulator& S, const Circle& circle, const Motion& motion,
             double most = 2e-3) {
   const auto wanted = [&](int t) -> Eigen::Vector3d {
@@ -252,12 +253,11 @@ void staysAtHome(Check& check, const Simulator& S, const Motion& motion) {
   };
   const auto shown = check.show([&] {
     grading::Evidence evidence =
-        seen(S, "handR", motion, 1, away, {"The joint farthest from its place at home", "angle [rad]", 2.2});
+        seen(S, "handR", motion, 1, away, {"The joint farthest from its home angle", "angle [rad]", 2.2});
     evidence.film = grading::withWanted(evidence.film, filmOf(S, Motion{atFirst}, {}));
     return evidence;
   });
-  check.atMost("largest angle between a joint and its place at home", largest(S, motion, 1, away), 2.2,
-               "rad");
+  check.atMost("largest deviation of a joint from its home angle", largest(S, motion, 1, away), 2.2, "rad");
 }
 
 void pointsUpwards(Check& check, const Simulator& S, const Circle& circle, const Motion& motion) {
@@ -265,9 +265,9 @@ void pointsUpwards(Check& check, const Simulator& S, const Circle& circle, const
     return (moved.kinematicsVec(circle.pointing) - kUp).norm();
   };
   const auto shown = check.show([&] {
-    return seen(S, circle.pointing, motion, 100, tilt, {"|z axis - up| of the hand that points", "1", 0.05});
+    return seen(S, circle.pointing, motion, 100, tilt, {"|z axis - up| of the pointing hand", "1", 0.05});
   });
-  check.atMost("largest |z axis - up| of the hand that points", largest(S, motion, 100, tilt), 0.05);
+  check.atMost("largest |z axis - up| of the pointing hand", largest(S, motion, 100, tilt), 0.05);
 }
 
 void circleTracks(Check& check, Student& student) {
@@ -289,13 +289,13 @@ void circlePoints(Check& check, Student& student) {
   const Simulator S("man.ors");
   const Motion motion = circleOf(check, student, S, kCircle, 200);
   pointsUpwards(check, S, kCircle, motion);
-  // It points while the other hand works; how well that one works is asked elsewhere.
+  // It points while the other hand works; another check asks how well that hand works.
   tracks(check, S, kCircle, motion, kCircle.radius / 2);
 }
 
 // <hidden>
-// Around a circle without radius the posture comes to rest. What it then still misses of home is what the
-// other tasks need: home pulls against them, and against nothing else.
+// On a circle of radius zero the posture comes to rest. Its remaining distance from home is what the other
+// tasks need: home pulls against them, and against nothing else.
 void restsNearHome(Check& check, Student& student, const Simulator& S, Circle circle) {
   circle.radius = 0;
   const Motion motion = circleOf(check, student, S, circle, 1200);
@@ -303,8 +303,8 @@ void restsNearHome(Check& check, Student& student, const Simulator& S, Circle ci
   Eigen::MatrixXd J(6, S.getJointDimension());
   J << end.jacobianPos(circle.hand), end.jacobianVec(circle.pointing);
   const Eigen::VectorXd away = motion.back() - S.getJointAngles();
-  check.atMost("part of the way from home that no other task asks for",
-               (nullspace(J).transpose() * away).norm(), 0.02, "rad");
+  check.atMost("deviation from home that no other task asks for", (nullspace(J).transpose() * away).norm(),
+               0.02, "rad");
 }
 
 void circleOfTheOtherHand(Check& check, Student& student) {
@@ -345,7 +345,7 @@ void interpolates(Check& check, Student& student) {
 
 constexpr double kMargin = 0.02;
 const Eigen::Vector3d kHole(0, -1, 1);
-// The peg above the hole, but the elbow so near the frame that it touches unless it is kept away.
+// The peg is above the hole, but the elbow is so near the frame that it touches unless it is kept away.
 const Eigen::VectorXd kAbove =
     (Eigen::VectorXd(7) << 0.967552, -0.251879, -1.18846, 1.4825, 1.42033, 0.215273, -2.64193).finished();
 // Bent, away from the hole; small steps lead from here to postures with room for the elbow.
@@ -360,10 +360,10 @@ struct Scene {
 
 Scene pegInAHole(const Eigen::VectorXd& q) { return {at(Simulator("pegInAHole.ors"), q), "peg", kHole}; }
 
-// What is no number stays so: it must not be taken for far.
+// The smaller of two distances. Not-a-number is passed on: it must not be taken for a large distance.
 double lesser(double a, double b) { return std::isnan(a) || a <= b ? a : b; }
 
-// The least distance of two shapes that may collide, metres; 0.5 if that is less.
+// The least distance between two shapes that may collide, metres, but at most 0.5.
 double clearance(const Simulator& S) {
   double least = kQueryCutoff;
   for (const Proxy& one : proxies(ContactModel(S.model()), forwardKinematics(S.model(), S.getJointAngles())))
@@ -371,7 +371,7 @@ double clearance(const Simulator& S) {
   return least;
 }
 
-// Without this, a joint that turns a million times would keep the next check busy for ever.
+// Without this, a joint that turns a million times would keep the check of the clearance busy for ever.
 void turnsLittle(Check& check, const Simulator& S, const Motion& motion, double limit) {
   Eigen::VectorXd before = S.getJointAngles();
   double widest = 0;
@@ -383,7 +383,7 @@ void turnsLittle(Check& check, const Simulator& S, const Motion& motion, double 
   check.atMost("largest turn of a joint from one posture to the next", widest, limit + 1e-9, "rad");
 }
 
-// What happens between the postures counts, too. The bound is at most `slack` too low.
+// The clearance between the postures counts, too. The computed bound is at most `slack` too low.
 void clearanceIsKept(Check& check, const Simulator& S, const Motion& motion) {
   const double slack = 1e-4;
   const ContactModel contacts(S.model());
@@ -396,22 +396,21 @@ void clearanceIsKept(Check& check, const Simulator& S, const Motion& motion) {
   check.atLeast("least clearance along the motion", least, 0.5 * kMargin - slack, "m");
 }
 
-// The way of the peg, from where it is nearest to the wall, and the last part of the way that is wanted.
+// The motion of the peg and the last part of the wanted path. It opens where something is nearest to
+// touching.
 grading::Evidence wayOf(const Scene& scene, const Motion& motion) {
-  return seen(scene.S, scene.peg, motion, 1, [](const Simulator& moved, int) { return -clearance(moved); },
-              {"The clearance, with a minus",
-               "minus clearance [m]",
-               -0.5 * kMargin,
-               {scene.hole - 0.6 * kDown, scene.hole}});
+  return seen(
+      scene.S, scene.peg, motion, 1, [](const Simulator& moved, int) { return -clearance(moved); },
+      {"Minus the clearance", "minus clearance [m]", -0.5 * kMargin, {scene.hole - 0.6 * kDown, scene.hole}});
 }
 
 void pegIsAt(Check& check, const Scene& scene, const Eigen::VectorXd& q, const Eigen::Vector3d& place,
              const Eigen::Vector3d& direction, double slack = 1) {
   const Simulator there = at(scene.S, q);
-  check.atMost("distance of the peg from its place", (there.kinematicsPos(scene.peg) - place).norm(),
-               1e-3 * slack, "m");
-  check.atMost("|z axis of the peg - its direction|", (there.kinematicsVec(scene.peg) - direction).norm(),
-               0.01 * slack);
+  check.atMost("distance of the peg from its wanted position",
+               (there.kinematicsPos(scene.peg) - place).norm(), 1e-3 * slack, "m");
+  check.atMost("|z axis of the peg - its wanted direction|",
+               (there.kinematicsVec(scene.peg) - direction).norm(), 0.01 * slack);
 }
 
 void postureIsRight(Check& check, Student& student, const Scene& scene, const Eigen::Vector3d& place) {
@@ -422,13 +421,13 @@ void postureIsRight(Check& check, Student& student, const Scene& scene, const Ei
 }
 
 void postureAboveAndIn(Check& check, Student& student) {
-  check.input("pegInAHole.ors, arm bent, place (0, -1, 1.6) above the hole, downwards");
+  check.input("pegInAHole.ors, arm bent, position (0, -1, 1.6) above the hole, downwards");
   postureIsRight(check, student, pegInAHole(kStart), kHole - 0.6 * kDown);
-  check.input("pegInAHole.ors, peg above the hole, place (0, -1, 1) in the hole, downwards");
+  check.input("pegInAHole.ors, peg above the hole, position (0, -1, 1) in the hole, downwards");
   postureIsRight(check, student, pegInAHole(kAbove), kHole);
 }
 
-// The peg goes from its place straight into the hole.
+// The peg moves from its position straight into the hole.
 void movesStraight(Check& check, Student& student) {
   const int T = 150;
   const Scene scene = pegInAHole(kAbove);
@@ -470,7 +469,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text;
 }
 
-// Another hole, a thicker rod instead of the peg, another start, which has room for the margin and more.
+// Another hole, a thicker rod instead of the peg, and another start with more room than the margin.
 Scene anotherHole(Rng& rng) {
   SimulatorDescription description = Simulator("pegInAHole.ors").description();
   const Eigen::Vector3d hole = kHole + rng.uniformVector(3, -0.08, 0.08);
@@ -519,19 +518,19 @@ Eigen::VectorXd stepOf(Check& check, Student& student, const TwoTasks& tasks) {
   return dq;
 }
 
-// The length of the step that is wanted; without a second task that the first leaves no freedom.
+// The length of the wanted step. The second task is left out if the first leaves it no freedom.
 double wantedLength(const TwoTasks& tasks) {
   const Eigen::VectorXd first = leastSquares(tasks.J1, tasks.dy1);
   const Eigen::MatrixXd free = nullspace(tasks.J1);
   Eigen::MatrixXd J = tasks.J2 * free;
-  J = (J.array().abs() < 1e-9).select(0, J);  // what rounding leaves of a row that the first task has, too
+  J = (J.array().abs() < 1e-9).select(0, J);  // the rounding errors of a row that the first task has, too
   if (J.size() == 0 || J.norm() == 0) return first.norm();
   return (first + free * leastSquares(J, tasks.dy2 - tasks.J2 * first)).norm();
 }
 
 void firstIsFulfilled(Check& check, const TwoTasks& tasks, const Eigen::VectorXd& dq) {
   const Eigen::VectorXd missing = tasks.J1.transpose() * (tasks.J1 * dq - tasks.dy1);
-  check.atMost("gradient of the error of the first task, relative",
+  check.atMost("relative gradient of the error of the first task",
                missing.norm() /
                    (tasks.J1.squaredNorm() * wantedLength(tasks) + (tasks.J1.transpose() * tasks.dy1).norm()),
                1e-7);
@@ -540,16 +539,17 @@ void firstIsFulfilled(Check& check, const TwoTasks& tasks, const Eigen::VectorXd
 void secondIsAsGoodAsItCan(Check& check, const TwoTasks& tasks, const Eigen::VectorXd& dq) {
   const Eigen::MatrixXd free = nullspace(tasks.J1);
   const Eigen::VectorXd missing = tasks.J2 * dq - tasks.dy2;
-  check.atMost("gradient of the error of the second task where the first leaves freedom, relative",
-               (free.transpose() * tasks.J2.transpose() * missing).norm() /
-                   (tasks.J2.squaredNorm() * wantedLength(tasks) + tasks.J2.norm() * tasks.dy2.norm()),
-               1e-7);
+  check.atMost(
+      "relative gradient of the error of the second task in the directions that the first leaves free",
+      (free.transpose() * tasks.J2.transpose() * missing).norm() /
+          (tasks.J2.squaredNorm() * wantedLength(tasks) + tasks.J2.norm() * tasks.dy2.norm()),
+      1e-7);
 }
 
 void isTheShortest(Check& check, const TwoTasks& tasks, const Eigen::VectorXd& dq) {
   Eigen::MatrixXd both(tasks.J1.rows() + tasks.J2.rows(), dq.size());
   both << tasks.J1, tasks.J2;
-  check.atMost("part of dq that neither task asks for, relative",
+  check.atMost("relative part of dq that neither task asks for",
                (nullspace(both).transpose() * dq).norm() / wantedLength(tasks), 1e-7);
 }
 
@@ -560,7 +560,7 @@ void firstComesFirst(Check& check, Student& student) {
     check.input("two random tasks for 7 joints");
     if (i >= 5) {
       tasks.J2 = randomMatrix(rng, static_cast<int>(tasks.J2.rows()), 3) * tasks.J1;
-      check.input("a second task that sees no joint motion but those of the first, and wants something else");
+      check.input("a second task that depends on the same joint motions as the first, and contradicts it");
     }
     const Eigen::VectorXd dq = stepOf(check, student, tasks);
     firstIsFulfilled(check, tasks, dq);
@@ -579,7 +579,7 @@ void secondComesSecond(Check& check, Student& student) {
   });
 }
 
-// The hand circles; less important, it should stay where it was, which cannot be, and point upwards.
+// The hand circles. With lower priority it should stay where it was, which is impossible, and point upwards.
 void circlesUndisturbed(Check& check, Student& student) {
   Simulator S("man.ors");
   const Eigen::Vector3d start = S.kinematicsPos("handR");
@@ -596,7 +596,7 @@ void circlesUndisturbed(Check& check, Student& student) {
     if (t >= 20) error = std::max(error, (S.kinematicsPos("handR") - wanted).norm());
   }
   check.atMost("largest distance of the hand from the point on the circle", error, 2e-3, "m");
-  check.atMost("|z axis of the hand - up| in the end", (S.kinematicsVec("handR") - kUp).norm(), 0.05);
+  check.atMost("|z axis of the hand - up| at the end", (S.kinematicsVec("handR") - kUp).norm(), 0.05);
 }
 
 // <hidden>
@@ -605,7 +605,7 @@ void anyTwoTasks(Check& check, Student& student) {
     Rng& rng = check.rng();
     const int n = 3 + rng.index(8);
     TwoTasks tasks = randomTasks(rng, 1 + rng.index(6), 1 + rng.index(6), n);
-    // The first loses rank, so that it cannot be fulfilled; the second sees some of its motions, or all.
+    // The first task loses rank, so that it cannot be fulfilled; the second may share a row with it.
     if (i % 3 > 0)
       tasks.J1 = randomMatrix(rng, static_cast<int>(tasks.J1.rows()), 1) * randomMatrix(rng, 1, n);
     if (i % 3 > 1) tasks.J2.row(0) = tasks.J1.row(0);
@@ -623,7 +623,7 @@ grading::Checks<Student> checks() {
   return {
       {"inverse", "nullspace", "regularisedInverse minimises its cost", 1, Group::kVisible, inverses},
       {"projector", "nullspace", "the projector onto the nullspace", 1, Group::kVisible, projectors},
-      {"projector-singular", "nullspace", "the projector where the Jacobian loses rank", 1, Group::kVisible,
+      {"projector-singular", "nullspace", "the projector for a Jacobian that loses rank", 1, Group::kVisible,
        projectorsOfLessRank},
       // <hidden>
       {"nullspace-any-size", "nullspace", "Jacobians of any size and rank", 1, Group::kHidden,
@@ -642,7 +642,7 @@ grading::Checks<Student> checks() {
       {"peg-posture", "peg", "postures above the hole and in it", 1, Group::kVisible, postureAboveAndIn},
       {"peg-straight", "peg", "the peg moves straight into the hole and touches nothing", 1, Group::kVisible,
        movesStraight},
-      {"peg-insert", "peg", "the whole way into the hole, and between the postures", 2, Group::kVisible,
+      {"peg-insert", "peg", "the whole motion into the hole, also between the postures", 2, Group::kVisible,
        goesIntoTheHole},
       // <hidden>
       {"peg-other-hole", "peg", "another peg, another hole, another start", 2, Group::kHidden,
@@ -652,7 +652,7 @@ grading::Checks<Student> checks() {
        firstComesFirst},
       {"priority-second", "priority", "the second task gets all that the first leaves", 1, Group::kVisible,
        secondComesSecond},
-      {"priority-circle", "priority", "the hand keeps to its circle against a second wish", 1,
+      {"priority-circle", "priority", "the hand stays on its circle against a second task", 1,
        Group::kVisible, circlesUndisturbed},
       // <hidden>
       {"priority-any", "priority", "tasks of any size and rank", 1, Group::kHidden, anyTwoTasks},

@@ -6,7 +6,7 @@
 #include "course/course.h"
 
 // The functions you complete in main.cpp. n is the number of joint angles of the robot in S; positions are
-// metres in the world frame, directions unit vectors in it, angles radians. Slides are named as
+// metres in the world frame, directions unit vectors in it, angles radians. Slides are cited as
 // chapter:number.
 
 // Part 1, one task and its nullspace (12.4.1).
@@ -16,14 +16,14 @@
 Eigen::MatrixXd regularisedInverse(const Eigen::MatrixXd& J, const Eigen::MatrixXd& W, double precision);
 
 /// N = I - J# J of slide 2:36 in the limit of infinite precision, for W = Id (n x n): J N a is zero for every
-/// a, and N a = a where J a is zero already. J (d x n) has any rank; its singular values below 1e-9 of the
+/// a, and N a = a if J a is zero already. J (d x n) has any rank; its singular values below 1e-9 of the
 /// largest count as zero.
 Eigen::MatrixXd nullspaceProjector(const Eigen::MatrixXd& J);
 
 // Part 2, several tasks at once (12.4.2).
 
-/// One of several tasks in a posture q (2:47): how far it is from what is wanted, phi(q) - y* (d numbers),
-/// its Jacobian J (d x n), and its precision, the factor rho of its squared error.
+/// One of several tasks in a posture q (2:47): its error phi(q) - y* (d numbers), its Jacobian J (d x n), and
+/// its precision, the factor rho of its squared error.
 struct TaskTerm {
   Eigen::VectorXd error;
   Eigen::MatrixXd J;
@@ -34,16 +34,16 @@ struct TaskTerm {
 /// slide 2:48. W (n x n) is symmetric positive definite; there is at least one task.
 Eigen::VectorXd multiTaskStep(const std::vector<TaskTerm>& tasks, const Eigen::MatrixXd& W);
 
-/// T steps with W = Id in which three tasks hold at once. Precision 1e4: at step t = 1, ..., T the origin of
-/// `hand` is at center + radius * (cos(t / 20), 0, sin(t / 20)). Precision 100: the z axis of `pointing`
-/// points upwards. Precision 0.01: the posture is the one that S starts in. Moves S, and returns the postures
-/// q_1, ..., q_T (n numbers each).
+/// T steps with W = Id and three tasks at once. Precision 1e4: at step t = 1, ..., T the origin of `hand` is
+/// at center + radius * (cos(t / 20), 0, sin(t / 20)). Precision 100: the z axis of `pointing` points
+/// upwards. Precision 0.01: the posture is the one that S starts in. Moves S, and returns the postures q_1,
+/// ..., q_T (n numbers each).
 std::vector<Eigen::VectorXd> circleWithTasks(rex::Simulator& S, const std::string& hand,
                                              const Eigen::Vector3d& center, double radius,
                                              const std::string& pointing, int T);
 
-// Part 3, a peg in a hole (2:38 to 2:43). `peg` is a body; its place is that of its origin, its direction
-// that of its z axis. Clearance is the least distance of two shapes that may collide, as in
+// Part 3, a peg in a hole (2:38 to 2:43). `peg` is a body; its position is that of its origin, its direction
+// that of its z axis. The clearance is the least distance between two shapes that may collide, as in
 // S.reportProxies(); below zero they overlap.
 
 /// The sine profile of slide 2:40 at s in [0, 1].
@@ -55,7 +55,7 @@ std::vector<Eigen::VectorXd> jointSpaceMotion(const Eigen::VectorXd& q0, const E
 
 /// A posture in which `peg` is at `place` (within 1 mm) and points along `direction` (within 0.01), with a
 /// clearance of at least margin / 2. It is found from the posture of S by many small steps, so that the arm
-/// need not turn over; S may move.
+/// need not flip over; S may move.
 Eigen::VectorXd pegPosture(rex::Simulator& S, const std::string& peg, const Eigen::Vector3d& place,
                            const Eigen::Vector3d& direction, double margin);
 
@@ -67,19 +67,19 @@ Eigen::VectorXd pegPosture(rex::Simulator& S, const std::string& peg, const Eige
 std::vector<Eigen::VectorXd> taskSpaceMotion(rex::Simulator& S, const std::string& peg,
                                              const Eigen::Vector3d& place, double margin, int T);
 
-/// From the posture of S, which keeps the margin, into the hole: 10 to 1000 postures one after the other,
-/// without that of S. In the last, `peg` is at `inside` and points along `direction`, as exactly as in
-/// pegPosture. From each to the next all joints turn evenly, none by more than 0.1, and nothing comes nearer
-/// than margin / 2, between them neither. The hole is entered along `direction`; 0.6 m before `inside` the
-/// peg is still outside.
+/// From the posture of S, which keeps the margin, into the hole: a sequence of 10 to 1000 postures, without
+/// that of S. In the last, `peg` is at `inside` and points along `direction`, as exactly as in pegPosture.
+/// From each posture to the next all joints turn at constant speeds, none by more than 0.1. Nothing comes
+/// nearer than margin / 2, not even between two postures. The hole is entered along `direction`; 0.6 m before
+/// `inside` the peg is still outside.
 std::vector<Eigen::VectorXd> insertPeg(rex::Simulator& S, const std::string& peg,
                                        const Eigen::Vector3d& inside, const Eigen::Vector3d& direction,
                                        double margin);
 
 // Part 4, strict priority (2:50, done right).
 
-/// The step dq (n numbers) with three wishes in this order: |J1 dq - dy1| is as small as it can be; among all
-/// such steps |J2 dq - dy2| is as small as it can be; among those |dq| is smallest. J1 (d1 x n) and J2 (d2 x
-/// n) have any rank; singular values below 1e-9 of the largest of J1 or J2 count as zero.
+/// The step dq (n numbers) that minimises three lengths in this order: |J1 dq - dy1|; among all minimisers
+/// |J2 dq - dy2|; among those |dq|. J1 (d1 x n) and J2 (d2 x n) have any rank; singular values below 1e-9 of
+/// the largest of J1 or J2 count as zero.
 Eigen::VectorXd priorityStep(const Eigen::MatrixXd& J1, const Eigen::VectorXd& dy1, const Eigen::MatrixXd& J2,
                              const Eigen::VectorXd& dy2);

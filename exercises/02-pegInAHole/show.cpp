@@ -13,7 +13,7 @@ Eigen::Vector3d onCircle(const Eigen::Vector3d& center, int t) {
   return center + 0.2 * Eigen::Vector3d(std::cos(t / 20.), 0, std::sin(t / 20.));
 }
 
-// f(S, t) in each posture of a motion, t = 1, 2, ...; of one that is not there yet, where the robot starts.
+// f(S, t) in each posture of a motion, t = 1, 2, ...; if the motion is still empty, in the start posture.
 template <class F>
 std::vector<double> along(Simulator S, const Postures& motion, const F& f) {
   std::vector<double> values;
@@ -25,7 +25,7 @@ std::vector<double> along(Simulator S, const Postures& motion, const F& f) {
   return values;
 }
 
-// A logarithmic axis has no zero.
+// A logarithmic axis cannot show zero.
 std::vector<double> positive(std::vector<double> values) {
   for (double& value : values) value = std::max(value, 1e-16);
   return values;
@@ -48,7 +48,8 @@ Postures moved(Simulator& S, int steps, const Step& step) {
   return motion;
 }
 
-// The hand shall circle; less important, it shall stay where it was, and its z axis shall point upwards.
+// The hand should circle. With lower priority it should stay where it was, and its z axis should point
+// upwards.
 struct TwoWishes {
   Eigen::MatrixXd J1;
   Eigen::VectorXd dy1;
@@ -78,7 +79,7 @@ const PictureOptions kLook{
 }  // namespace
 
 void showCircles(const Postures& longRun, const Simulator& turns, const Eigen::Vector3d& center) {
-  // The circle of exercise 01, with no other task: nothing says which posture to prefer.
+  // The circle of exercise 01, with no other task: nothing determines which posture to prefer.
   const Simulator man("man.ors");
   Simulator alone = man;
   const Eigen::MatrixXd W = Eigen::MatrixXd::Identity(27, 27);
@@ -142,12 +143,12 @@ Figure showInterpolation(const Postures& inJointSpace, const Postures& inTaskSpa
   };
   plot("interpolation", {.title = "From above the hole into it",
                          .xLabel = "step",
-                         .yLabel = "distance of the peg from the middle line [m]",
+                         .yLabel = "distance of the peg from the axis of the hole [m]",
                          .series = both([&](const Simulator& at, int) {
                            return (at.kinematicsPos("peg") - hole).head<2>().norm();
                          })});
   const Figure contacts{
-      .title = "Coming too near",
+      .title = "Coming too close",
       .xLabel = "step",
       .yLabel = "contact cost, margin 0.02 m",
       .series = both([](const Simulator& at, int) { return at.kinematicsContacts().sum(); })};
@@ -178,7 +179,7 @@ void showPriority(const Eigen::Vector3d& center) {
     return hierarchicalStep({{wishes.J1, wishes.dy1}, {wishes.J2, wishes.dy2}});
   };
   plot("priority",
-       {.title = "A second wish that pulls the hand away",
+       {.title = "A second task that pulls the hand away",
         .xLabel = "step",
         .yLabel = "tracking error [m]",
         .logY = true,

@@ -7,15 +7,15 @@ using Postures = std::vector<Eigen::VectorXd>;
 
 /// circle.png, posture.png, pointing.png: with the tasks of `longRun` man.ors follows the circle of radius
 /// 0.2 m around `center`, stays close to its posture, and the left hand points upwards; with the circle alone
-/// it loses itself, as in circle_alone_after_2000_steps.png. circle.mp4 and circle.html: the recording of
-/// `turns`.
+/// it drifts, as in circle_alone_after_2000_steps.png. circle.mp4 and circle.html: the recording of `turns`.
 void showCircles(const Postures& longRun, const rex::Simulator& turns, const Eigen::Vector3d& center);
 
-/// peg_posture.png: pegInAHole.ors in posture q. Prints where the peg is, metres, and how it points.
+/// peg_posture.png: pegInAHole.ors in posture q. Prints the position of the peg, metres, and its direction.
 void showPosture(const Eigen::VectorXd& q);
 
 /// interpolation.png, contacts.png: two ways from above the hole into it. In joint space the peg leaves the
-/// middle line, and the contact cost rises; in task space hardly. Returns the second figure.
+/// axis of the hole and the contact cost rises; in task space neither does noticeably. Returns the second
+/// figure.
 rex::Figure showInterpolation(const Postures& inJointSpace, const Postures& inTaskSpace,
                               const Eigen::Vector3d& hole, double margin);
 
@@ -23,6 +23,6 @@ rex::Figure showInterpolation(const Postures& inJointSpace, const Postures& inTa
 /// hole. Prints where the peg ends, metres, and what is near what.
 void showInsertion(const rex::Simulator& start, const Postures& motion, const rex::Figure& contacts);
 
-/// priority.png: the right hand circles around `center`, and a less important wish pulls it away. Under
-/// strict priority it stays on its circle, and your step lies on the library's dashed line.
+/// priority.png: the right hand circles around `center`, and a less important task pulls it away. Under
+/// strict priority it stays on its circle, and the curve of your step lies on the library's dashed line.
 void showPriority(const Eigen::Vector3d& center);

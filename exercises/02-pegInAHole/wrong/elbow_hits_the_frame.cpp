@@ -1,5 +1,5 @@
 // caught by: peg-straight
-// mistake: The peg goes straight down, and nobody looks after the elbow.
+// mistake: The peg goes straight down, but nothing keeps the elbow away from the frame.
 
 // <solution taskSpaceMotion>
 const Eigen::Vector3d start = S.kinematicsPos(peg), direction = S.kinematicsVec(peg);

@@ -1,6 +1,6 @@
 // caught by: circle-home
 // shown by: circle-home
-// mistake: Home is asked for anew in each step, so it is always where the robot is.
+// mistake: Home is read anew in each step, so it is always the current posture.
 
 // <solution circleWithTasks>
 for (int t = 1; t <= T; ++t) {

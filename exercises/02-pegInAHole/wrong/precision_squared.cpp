@@ -1,5 +1,5 @@
 // caught by: stack
-// mistake: The tasks are multiplied by their precisions instead of the roots of them.
+// mistake: The tasks are multiplied by their precisions instead of the square roots of them.
 
 // <solution multiTaskStep>
 Eigen::MatrixXd A = W;

@@ -1,5 +1,5 @@
 // caught by: priority-first, priority-circle
-// mistake: What the second task still misses is made up for with all joints, also those that the first needs.
+// mistake: The remaining error of the second task is corrected with all joints, even those the first needs.
 
 // <solution priorityStep>
 const auto pseudoInverse = [](const Eigen::MatrixXd& J) {

@@ -1,5 +1,5 @@
 // caught by: peg-posture
-// mistake: Place and direction are right, but an arm lies in the frame.
+// mistake: Position and direction are right, but the arm overlaps the frame.
 
 // <solution pegPosture>
 const int n = S.getJointDimension();

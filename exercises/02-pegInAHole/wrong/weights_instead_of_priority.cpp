@@ -1,5 +1,5 @@
 // caught by: priority-first, priority-any
-// mistake: A second task of little weight still disturbs the first a little.
+// mistake: A second task of low weight still disturbs the first a little.
 
 // <solution priorityStep>
 const Eigen::MatrixXd W = 1e-6 * Eigen::MatrixXd::Identity(J1.cols(), J1.cols());
