@@ -13,8 +13,8 @@
 
 // Arms that the grader simulates while the student's functions control them: parts 4 to 6 and 8.
 
-// One step under what the student's function gave. Forces and speeds of more than this do not come from
-// trying to control a small arm, and would only make the simulation fail.
+// One step under the forces that the student's function returned. Larger forces and speeds than these never
+// come from an attempt to control a small arm, and would only make the simulation fail.
 inline void advance(rex::grading::Check& check, rex::Simulator& S, const Eigen::VectorXd& u) {
   check.shape("joint forces", u, S.getJointDimension(), 1);
   check.atMost("largest joint force", u.cwiseAbs().maxCoeff(), 1e3, "N m");
@@ -39,7 +39,7 @@ inline rex::Simulator withOtherMasses(const std::string& scene, double share, re
   return rex::Simulator(description);
 }
 
-// What became of an arm, step by step: its posture, and the angle farthest from zero.
+// The motion of an arm, step by step: its posture, and the angle farthest from zero.
 struct ArmRecord {
   std::vector<Eigen::VectorXd> moments{};
   std::vector<double> farthest{};
@@ -53,8 +53,8 @@ inline rex::grading::Evidence seen(const rex::Simulator& S, const ArmRecord& rec
                 curveOf("The joint farthest from zero", "angle [rad]", record.farthest, limit));
 }
 
-// Four seconds under noise, with a push on all joints after one; u(q, v, S) are the forces. Keeps a record,
-// also of what happened before a requirement fails.
+// Four seconds under noise, with a push on all joints after one second; u(q, v, S) are the forces. The record
+// is kept even if a requirement fails.
 template <class Force>
 inline void shaken(rex::grading::Check& check, rex::Simulator S, ArmRecord& record, const Force& u) {
   S.setDynamicSimulationNoise(1);

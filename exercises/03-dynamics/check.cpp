@@ -120,7 +120,7 @@ void pidSteps(Check& check, Student& student) {
   check.near("position after 15 s", at.q, 1, 1e-3, "m");
 }
 
-// The greatest real part of the roots of m s^3 + Kd s^2 + Kp s + Ki, or without s^0 if Ki is zero.
+// The greatest real part of the roots of m s^3 + Kd s^2 + Kp s + Ki, or of m s^2 + Kd s + Kp if Ki is zero.
 double growth(const PidSettings& gains, double mass) {
   const int order = gains.Ki == 0 ? 2 : 3;
   const Eigen::Vector3d coefficients = -Eigen::Vector3d(gains.Kd, gains.Kp, gains.Ki) / mass;
@@ -136,13 +136,13 @@ struct KnownLoop {
   bool isStable = false;
 };
 
-// Shuffled, so that counting calls does not help. The roots of random gains are told apart from the imaginary
-// axis only at a distance from it; the cases on it are exact.
+// Shuffled, so that counting calls does not help. Random gains whose roots are too close to the imaginary
+// axis are left out; the cases on the axis are exact.
 void judgesPid(Check& check, Student& student) {
   std::vector<KnownLoop> loops{{.gains = {0, 2, 0}},  // Ki alone
                                {.gains = {0, 2, 3}},  // Ki and Kd
                                {.gains = {5, 0, 0}},  // oscillates for ever
-                               {.gains = {0, 0, 5}},  // rests anywhere
+                               {.gains = {0, 0, 5}},  // comes to rest anywhere
                                {.gains = {5, 0, 3}, .isStable = true},
                                {.gains = {4, 6, 3}, .mass = 2},  // on the border
                                {.gains = {-4, 1, -3}, .mass = 2}};
@@ -166,8 +166,8 @@ void judgesPid(Check& check, Student& student) {
 
 // Part 3.
 
-// The distance from cos t, step by step, of a point that starts at a distance, with the reference's velocity;
-// kick(step) is added to its velocity.
+// The signed distance from cos t at each step. The point starts `start` away from the reference, with its
+// velocity; kick(step) is added to the velocity of the point.
 template <class Kick>
 std::vector<double> distances(Check& check, Student& student, Regime regime, double mass, double start,
                               double t0, int steps, const Kick& kick) {
@@ -185,8 +185,8 @@ std::vector<double> distances(Check& check, Student& student, Regime regime, dou
 
 double none(int) { return 0; }
 
-// A cosine in Euler steps is off by tau / 2 times its acceleration at each velocity, which PD control turns
-// into 2 lambda tau / 2 = 1.5 mm at most; so the way back is the difference to a point that was not pushed.
+// Euler steps of a cosine make the velocity wrong by tau / 2 times the acceleration, which PD control turns
+// into 2 lambda tau / 2 = 1.5 mm at most. So the way back is measured from a point that was not pushed.
 void comesBack(Check& check, Student& student, Regime regime, double mass, double t0) {
   check.input(nameOf(regime) + ", mass = " + text(mass) + " kg, 0.5 m off the reference at t = " + text(t0));
   const auto pushed = distances(check, student, regime, mass, 0.5, t0, 300, none);
@@ -209,8 +209,8 @@ void followsTheCosine(Check& check, Student& student) {
 }
 
 // <hidden>
-// A kick of 0.5 m/s (five standard deviations) has shrunk to 3 mm before the next, and 1.5 mm are always
-// there: 10 mm are never reached.
+// The effect of a kick of 0.5 m/s (five standard deviations) has shrunk to 3 mm before the next, and 1.5 mm
+// are always there: 10 mm are never reached.
 void followsUnderKicks(Check& check, Student& student) {
   check.forEachCase(6, [&](int i) {
     Rng& rng = check.rng();
@@ -235,8 +235,8 @@ Simulator arm(const std::string& scene, const Eigen::VectorXd& q) {
 
 // Part 4.
 
-// Over 200 seeds and masses the reference got no farther than 0.38 rad (0.6 are allowed), 0.10 on average
-// (0.25) and never faster than 1.8 rad/s (3).
+// Over 200 seeds and masses the reference solution stayed within 0.38 rad (0.6 are allowed), within 0.10 rad
+// on average (0.25), and below 1.8 rad/s (3).
 void isHeld(Check& check, Student& student, const Simulator& S) {
   constexpr double kFarthest = 0.6;
   ArmRecord record;
@@ -252,7 +252,7 @@ void isHeld(Check& check, Student& student, const Simulator& S) {
 
 void holdsTheArm(Check& check, Student& student) {
   Rng& rng = check.rng();
-  check.input("q = 0 and v = 0; then one joint alone is moved");
+  check.input("q = 0 and v = 0; then a single joint is moved");
   check.near("forces at rest at zero", student.holdArm(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()),
              Eigen::Vector3d::Zero(), 1e-12, "N m");
   for (int i = 0; i < 3; ++i) {
@@ -298,9 +298,9 @@ void accelerates(Check& check, Student& student) {
     check.input("random states and references, random M and F");
     const Eigen::VectorXd a = student.wantedAcceleration(y, yd, reference, lambda, xi);
     check.shape("wanted acceleration", a, n, 1);
-    // In the distance from the reference, this is the point of mass 1 of slide 3:14.
+    // The distance from the reference moves like the point of mass 1 of slide 3:14.
     check.near(
-        "lambda^2 e'' + 2 xi lambda e' + e for e = y - its reference",
+        "lambda^2 e'' + 2 xi lambda e' + e for e = y - reference",
         lambda * lambda * (a - reference.ydd) + 2 * xi * lambda * (yd - reference.yd) + y - reference.y,
         Eigen::VectorXd::Zero(n), 1e-9);
     const Eigen::VectorXd u = student.computedTorque(M, F, a);
@@ -310,8 +310,7 @@ void accelerates(Check& check, Student& student) {
 }
 
 // The noise moves a joint by sqrt(lambda^3 / 4) = 0.045 rad (one standard deviation), the push by 0.07: 0.5
-// is far beyond what 1200 numbers reach. Without noise, nothing is left of the push after two seconds but
-// 2e-4.
+// is far beyond what 1200 numbers reach. Without noise, only 2e-4 of the push is left after two seconds.
 void holdsWithTorques(Check& check, Student& student) {
   const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
   const PathPoint rest{zero, zero, zero};
@@ -338,7 +337,7 @@ void holdsWithTorques(Check& check, Student& student) {
 
 // <hidden>
 // Holding the force for tau costs 19 mrad, 24 at most in 200 cases. Without the acceleration of the
-// reference, a joint is off by lambda^2 times that, 0.1 rad.
+// reference, a joint is off by lambda^2 times that acceleration, 0.1 rad.
 void followsWithTheOtherArm(Check& check, Student& student) {
   check.forEachCase(3, [&](int) {
     Rng& rng = check.rng();
@@ -367,7 +366,7 @@ Simulator inMotion(Simulator S, Rng& rng) {
   return S;
 }
 
-// How the body accelerates along q + t v, by a second difference; good to 1e-6 at these speeds.
+// The acceleration of the body along q + t v, by a second difference; accurate to 1e-6 at these speeds.
 Eigen::Vector3d secondDifference(Simulator S, const std::string& body) {
   const Eigen::VectorXd middle = S.getJointAngles(), rate = S.getJointVels();
   const double h = 2e-4;
@@ -404,11 +403,11 @@ void biasAndForce(Check& check, Student& student) {
         solve(H + T.transpose() * task.C * T, T.transpose() * task.C * (T * F - task.bias + task.ydd));
     const double scale =
         T.norm() * task.C.norm() * (T.norm() * (wanted.norm() + F.norm()) + 2) + H.norm() * wanted.norm();
-    check.atMost("gradient of the cost at u, relative", (pull + H * u).norm() / scale, 1e-10);
+    check.atMost("relative gradient of the cost at u", (pull + H * u).norm() / scale, 1e-10);
   });
 }
 
-// Where a hand shall be: once along a path, from rest to rest in three seconds, by the sine profile.
+// The reference of a hand: once along a path, from rest to rest in three seconds, with the sine profile.
 struct Path {
   Eigen::Vector3d start, along, out;  ///< a line to start + along; with `out`, a circle with that radius
   PathPoint at(double t) const {
@@ -422,7 +421,7 @@ struct Path {
   }
 };
 
-// The hand beside the point of the path where it should be, which is red.
+// The hand and its wanted point on the path, which is red.
 grading::Evidence handSeen(const Simulator& S, const std::string& hand, const Path& path,
                            const std::vector<Eigen::VectorXd>& moments, const std::vector<double>& errors,
                            double limit) {
@@ -441,7 +440,7 @@ grading::Evidence handSeen(const Simulator& S, const std::string& hand, const Pa
   return {.figures = {figure}, .film = std::move(film), .moment = moment};
 }
 
-// The reference keeps to 0.6 mm and 0.6 rad/s on all of 60 paths.
+// The reference solution stays within 0.6 mm and 0.6 rad/s on all of 60 paths.
 void handFollows(Check& check, Student& student, Simulator S, const std::string& hand, const Path& path) {
   constexpr double kFarthest = 5e-3;
   double speed = 0;
@@ -494,7 +493,7 @@ void forcesOf(Check& check, Student& student, const std::vector<ChainLink>& chai
 
 void newtonAndEuler(Check& check, Student& student) {
   Rng& rng = check.rng();
-  check.input("a pendulum: one link, axis x, its centre below the hinge (3:21)");
+  check.input("a pendulum: one link, axis x, its centre of mass below the hinge (3:21)");
   const double mass = rng.uniform(0.5, 2), length = rng.uniform(0.3, 1), moment = 0.02;
   const ChainLink link{
       Eigen::Matrix3d::Identity(),         {0, 0, 2}, Eigen::Vector3d::UnitX(), mass, {0, 0, -length},
@@ -504,7 +503,7 @@ void newtonAndEuler(Check& check, Student& student) {
   check.near("joint force", student.newtonEuler({link}, q, v, a, {0, 0, -9.81}),
              Eigen::VectorXd::Constant(1, wanted), 1e-9, "N m");
   for (const int n : {1, 2, 3, 7}) {
-    check.input("a random chain of " + std::to_string(n) + ", gravity downwards");
+    check.input("a random chain of length " + std::to_string(n) + ", gravity downwards");
     forcesOf(check, student, randomChain(rng, n), earthGravity());
   }
 }
@@ -512,7 +511,7 @@ void newtonAndEuler(Check& check, Student& student) {
 void terms(Check& check, Student& student) {
   Rng& rng = check.rng();
   for (const int n : {2, 5}) {
-    check.input("a random chain of " + std::to_string(n));
+    check.input("a random chain of length " + std::to_string(n));
     const std::vector<ChainLink> chain = randomChain(rng, n);
     const Model model = modelOf(chain);
     const Eigen::VectorXd q = rng.normalVector(n), v = rng.normalVector(n);
@@ -542,8 +541,8 @@ void anyChain(Check& check, Student& student) {
 const Eigen::VectorXd kPinUp =
     (Eigen::VectorXd(8) << 0, 1.0472, 1.0472, 0.523599, 0, 0, 2.34565, 0.00194306).finished();
 
-// In 24 directions the reference never tilts by more than at first, by 0.001 rad in the end, with its foot 4
-// cm from home. Without anything to bring it home, the foot is 13 to 50 cm away.
+// In 24 directions the reference solution never tilts by more than at the start. At the end it tilts by 0.001
+// rad, with its foot 4 cm from home. Without anything that brings it home, the foot ends 13 to 50 cm away.
 void balances(Check& check, Student& student, double tilt, double direction) {
   Eigen::VectorXd q = kPinUp;
   q.tail(2) += tilt * Eigen::Vector2d(std::cos(direction), std::sin(direction));
@@ -559,7 +558,7 @@ void balances(Check& check, Student& student, double tilt, double direction) {
     tilts.push_back(angle());
     ways.push_back((foot() - home).norm());
   };
-  // What is required holds to the last step, or did not hold in it.
+  // The requirements hold in all steps, or they fail in the last one recorded.
   const auto shown = check.show([&] {
     grading::Evidence evidence = filmed(S, moments, {kPinUp}, moments.size() - 1,
                                         curveOf("Tilt of the pin", "angle [rad]", tilts, 0.01));
@@ -612,7 +611,7 @@ grading::Checks<Student> checks() {
       {"follow-kicks", "follow", "other masses, and kicks every second", 1, Group::kHidden,
        followsUnderKicks},
       // </hidden>
-      {"hold-arm", "hold", "the arm is held under noise and a push", 1, Group::kVisible, holdsTheArm},
+      {"hold-arm", "hold", "the arm is held against noise and a push", 1, Group::kVisible, holdsTheArm},
       // <hidden>
       {"hold-other-masses", "hold", "arms with other masses are held, too", 1, Group::kHidden,
        holdsOtherArms},

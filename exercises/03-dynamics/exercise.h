@@ -8,11 +8,11 @@
 // The functions you complete in main.cpp. SI units; positions are metres in the world frame, angles radians;
 // n is the number of joints. Every robot and every point here is simulated in steps of tau = 0.01 s, during
 // which the force is constant. A check of a robot ends at once if a joint force exceeds 1000 N m or a joint
-// turns faster than 200 rad/s. Slides are named as chapter:number.
+// turns faster than 200 rad/s. Slides are cited as chapter:number.
 
 // Part 1, a point mass (12.5.1 a and b).
 
-/// Where a point on a line is [m], and how fast [m/s].
+/// The position [m] and velocity [m/s] of a point on a line.
 struct PointState {
   double q = 0, v = 0;
 };
@@ -34,8 +34,8 @@ double pdForce(const PointState& at, const PointState& wanted, const Gains& gain
 /// overshoots by at most 0.2 %, and takes at least 3.3 times as long (true for xi >= 1.3).
 enum class Regime { kOscillatory, kCritical, kOverdamped };
 
-/// Gains for a point of that mass [kg] to reach a goal in T seconds (1 to 5) from rest, in that way: after T
-/// it stays within 1 % of the initial distance to the goal; at T/4 it is not yet there for good.
+/// Gains with which a point of that mass [kg] reaches a goal from rest in T seconds (1 to 5), in that regime:
+/// after T it stays within 1 % of the initial distance to the goal; at T/4 it is not yet there for good.
 Gains gainsFor(Regime regime, double T, double mass);
 
 // Part 2, PID control (12.5.1 c).
@@ -51,21 +51,21 @@ struct PidStep {
 };
 
 /// One step of PID control: 3:15 and 3:16. The force uses the `integral` passed in, or 0 if `restart` is
-/// true, which it is when the controller is switched on. The returned integral is the one used plus tau times
-/// the present position error, as in an Euler step.
+/// true, as when the controller is switched on. The returned integral is the one used plus tau times the
+/// present position error, as in an Euler step.
 PidStep pidStep(const PointState& at, const PointState& wanted, const PidSettings& gains, double integral,
                 double tau, bool restart);
 
 /// Whether a point of that mass [kg] under this control (in continuous time) comes to rest at its goal, from
 /// wherever it starts. Gains may be zero or negative. Exact: an oscillation that neither grows nor dies does
-/// not come to rest. With Ki = 0 this is PD control: its integral may grow, for it has no effect.
+/// not come to rest. With Ki = 0 this is PD control: the integral may grow, since it has no effect.
 bool isStable(const PidSettings& gains, double mass);
 
 // Part 3, following a reference (12.5.2).
 
 /// The force [N] on a point of that mass [kg] at time t [s] to follow q*(t) = cos(t). On the reference it is
-/// what the reference itself needs. Pushed off it, the point comes back within a second in the given regime,
-/// as in gainsFor() with T = 1.
+/// the force that the reference motion needs. If pushed off it, the point comes back within a second in the
+/// given regime, as in gainsFor() with T = 1.
 double followForce(const PointState& at, double t, double mass, Regime regime);
 
 // Part 4, holding an arm without knowing it (12.6.2 a).
@@ -73,13 +73,14 @@ double followForce(const PointState& at, double t, double mass, Regime regime);
 /// The forces (3, N m) of one PD controller per joint that hold pegArm.ors at q = 0 (3, rad); v (3, rad/s).
 /// Each joint has its own gains and knows nothing of the others, nor of the arm's dynamics. Under noise of
 /// strength 1 and a push of 1 rad/s on all joints after one second, no joint gets farther than 0.6 rad from
-/// zero in 4 s. During the last second, the largest |q_i| averages at most 0.25 rad, and no joint exceeds
-/// 3 rad/s. The same must hold if each mass, with its inertia, is up to 15 % more or less than in the file.
+/// zero in 4 s. During the last second, the largest |q_i| is at most 0.25 rad on average, and no joint
+/// exceeds 3 rad/s. The same must hold if each mass, with its inertia, is up to 15 % more or less than in the
+/// file.
 Eigen::VectorXd holdArm(const Eigen::VectorXd& q, const Eigen::VectorXd& v);
 
 // Part 5, computed torque (12.6.2 b).
 
-/// A point on a path in joint or task space: where it is, how fast, and its acceleration. d numbers each.
+/// A point on a path in joint or task space: its position, velocity and acceleration, d numbers each.
 struct PathPoint {
   Eigen::VectorXd y, yd, ydd;
 };
@@ -89,7 +90,7 @@ struct PathPoint {
 Eigen::VectorXd wantedAcceleration(const Eigen::VectorXd& y, const Eigen::VectorXd& yd,
                                    const PathPoint& reference, double lambda, double xi);
 
-/// The joint forces (n) that give the joints the acceleration qdd (n), with M (n x n) and F (n) of 3:28.
+/// The joint forces (n) that give the joints the acceleration qdd (n), for M (n x n) and F (n) of 3:28.
 Eigen::VectorXd computedTorque(const Eigen::MatrixXd& M, const Eigen::VectorXd& F,
                                const Eigen::VectorXd& qdd);
 
@@ -114,15 +115,15 @@ Eigen::VectorXd operationalForce(const AccelerationTask& task, const Eigen::Matr
 
 /// The joint forces (n, N m) with which the origin of `hand` follows its reference (3 numbers each), in the
 /// present posture and velocities of S. Called at every step, it keeps the hand within 5 mm of its reference
-/// on a line or a circle on which it starts, and no joint turns faster than 5 rad/s, although the hand does
-/// not fix all joints. The function may change the posture of S and need not restore it.
+/// on a line or a circle on which it starts, and no joint turns faster than 5 rad/s, although the hand leaves
+/// some joint motions free. The function may change the posture of S and need not restore it.
 Eigen::VectorXd followWithHand(rex::Simulator& S, const std::string& hand, const PathPoint& reference);
 
 // Part 7, Newton and Euler (3:23, 3:24).
 
-/// A link of a chain of hinges. Its frame L turns about its own origin: at angle q it stands in the frame P
-/// of the link before (the world, for the first) at p_PL, with the rotation R_PL0 times the rotation by
-/// q about `axis`.
+/// A link of a chain of hinges. Its frame L rotates about its own origin: at angle q its pose in the frame P
+/// of the link before (the world, for the first) has the position p_PL and, as rotation, R_PL0 times the
+/// rotation by q about `axis`.
 struct ChainLink {
   Eigen::Matrix3d R_PL0 = Eigen::Matrix3d::Identity();
   Eigen::Vector3d p_PL = Eigen::Vector3d::Zero();

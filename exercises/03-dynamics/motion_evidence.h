@@ -9,7 +9,7 @@
 #include "course/film.h"
 #include "grading/evidence_parts.h"
 
-// What the checks show of motions that are not as they should be.
+// What the checks show when a motion is wrong.
 
 inline std::vector<double> timesOf(std::size_t steps) {
   std::vector<double> times;
@@ -17,23 +17,23 @@ inline std::vector<double> timesOf(std::size_t steps) {
   return times;
 }
 
-/// What is left of the way to a goal over time, with what it has to keep: near the goal from T on, and of an
-/// oscillation some overshoot.
+/// The remaining share of the way to a goal over time, with the requirements: near the goal from T on, and
+/// some overshoot if it should oscillate.
 inline rex::grading::Evidence approachSeen(const Approach& approach, Regime regime, double T) {
   const std::vector<double> times = timesOf(approach.size());
   const double end = times.empty() ? T : std::max(times.back(), 1.5 * T);
-  rex::Figure figure{.title = "What is left of the way",
+  rex::Figure figure{.title = "The remaining share of the way",
                      .xLabel = "time [s]",
-                     .yLabel = "distance from the goal, of that at first"};
+                     .yLabel = "distance from the goal / distance at the start"};
   figure.series = {rex::grading::gotCurve("got", times, approach),
-                   rex::grading::wantedCurve("wanted in the end", {0, end}, {0, 0})};
+                   rex::grading::wantedCurve("wanted at the end", {0, end}, {0, 0})};
   figure.bands = {{.label = "wanted from T on: within 1 %",
                    .x = {T, end},
                    .low = {-.01, -.01},
                    .high = {.01, .01},
                    .color = rex::grading::kWantedColor}};
   if (regime == Regime::kOscillatory)
-    figure.bands.push_back({.label = "wanted: turns back in here",
+    figure.bands.push_back({.label = "wanted: turns back within",
                             .x = {0, end},
                             .low = {-.6, -.6},
                             .high = {-.03, -.03},
@@ -42,7 +42,7 @@ inline rex::grading::Evidence approachSeen(const Approach& approach, Regime regi
   return {.figures = {figure}};
 }
 
-/// Numbers over time, one for each step, with what they should be or the most they may be.
+/// Numbers over time, one for each step, with the wanted or largest allowed value.
 inline rex::Figure curveOf(const std::string& title, const std::string& quantity,
                            const std::vector<double>& got, double wanted) {
   return {.title = title,
@@ -52,8 +52,8 @@ inline rex::Figure curveOf(const std::string& title, const std::string& quantity
           .horizontalLines = {{.at = wanted, .label = "wanted"}}};
 }
 
-/// Postures step by step, with the wanted ones, or a single one for all; opens at step `worst`. Every third
-/// step is shown.
+/// A film of the postures beside the wanted ones, or beside a single wanted one; it opens at step `worst`.
+/// Every third step is shown.
 inline rex::grading::Evidence filmed(const rex::Simulator& S, const std::vector<Eigen::VectorXd>& got,
                                      const std::vector<Eigen::VectorXd>& wanted, std::size_t worst,
                                      rex::Figure figure) {
@@ -70,7 +70,7 @@ inline rex::grading::Evidence filmed(const rex::Simulator& S, const std::vector<
   return {.figures = {std::move(figure)}, .film = std::move(film), .moment = moment};
 }
 
-/// The first number beyond the limit, or else the greatest.
+/// The index of the first number beyond the limit, or else of the greatest.
 inline std::size_t worstOf(const std::vector<double>& numbers, double limit) {
   const auto first = std::find_if(numbers.begin(), numbers.end(), [&](double x) { return x > limit; });
   const auto worst = first != numbers.end() ? first : std::max_element(numbers.begin(), numbers.end());

@@ -9,7 +9,7 @@
 #include "scene/model.h"
 #include "scene/scene_spec.h"
 
-// Chains of links for part 7, and the same for the library.
+// Chains of links for part 7, and their counterparts in the library.
 
 inline std::vector<ChainLink> randomChain(rex::Rng& rng, int n) {
   const auto turned = [&] { return rex::rotation(rng.uniform(-3, 3), rng.normalVector(3)).R; };
@@ -26,7 +26,7 @@ inline std::vector<ChainLink> randomChain(rex::Rng& rng, int n) {
   return chain;
 }
 
-// The same chain for the library.
+// The same chain as a model of the library.
 inline rex::Model modelOf(const std::vector<ChainLink>& chain) {
   rex::SceneSpec spec{.name = "chain", .bodies = {}, .joints = {}, .worldShapes = {}};
   std::string parent = "world";

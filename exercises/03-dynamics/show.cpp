@@ -33,7 +33,7 @@ struct PointMotion {
   }
 };
 
-// `seconds` of a point of that mass from rest at 0; u(at, t) is the force on it.
+// The motion of a point of that mass for `seconds`, from rest at 0; u(at, t) is the force on it.
 template <class Force>
 PointMotion simulate(double mass, double seconds, const Force& u) {
   PointMotion motion;
@@ -60,12 +60,12 @@ Figure overTime(const std::string& title, const std::string& yLabel, const std::
           .series = series};
 }
 
-// What the library has to say, on top of yours.
+// The library's curve, drawn on top of yours.
 Series dashed(const std::vector<double>& x, const std::vector<double>& y) {
   return {.x = x, .y = y, .dashed = true, .color = Color{0, 0, 0}};
 }
 
-// A point that shall get to 1 m.
+// A point that should reach 1 m.
 void plotWay(const std::string& name, const std::string& title, const std::vector<Series>& series,
              const std::vector<Guide>& moments = {}) {
   Figure figure = overTime(title, "position [m]", series);
@@ -74,8 +74,8 @@ void plotWay(const std::string& name, const std::string& title, const std::vecto
   plot(name, figure);
 }
 
-// PID control of a point to 1 m against a steady push [N]. Until `released` it is held where it is, but the
-// controller works on; then it is switched on anew, or not.
+// PID control of a point to 1 m against a steady push [N]. Until `released` the point is held in place while
+// the controller keeps running; then the controller is restarted, or not.
 PointMotion pidMotion(double mass, const PidSettings& gains, double seconds, double push, double released,
                       bool restart) {
   double integral = 0;
@@ -94,8 +94,8 @@ Series everyStep(const std::string& label, const std::vector<double>& y) {
   return series;
 }
 
-// Four seconds of an arm, under noise with a push of 1 rad/s after one: u(q, v, S) are the forces. Returns
-// the angle of the joint that is farthest from zero.
+// Four seconds of an arm under noise, with a push of 1 rad/s after one second; u(q, v, S) are the forces.
+// Returns, for each step, the angle of the joint that is farthest from zero.
 template <class Force>
 std::vector<double> swing(Simulator& S, double noise, const Force& u) {
   S.setDynamicSimulationNoise(noise);
@@ -124,14 +124,15 @@ void film(const Simulator& S, const std::string& name, const PictureOptions& loo
   writeContactSheet(S, name + "_sheet", look, 6, 30 * seconds);
 }
 
-// Only where somebody asked for forces: all films of falling arms look alike.
+// Skipped if all forces are zero: films of falling arms all look alike.
 void film(const Simulator& S, const std::string& name, const PictureOptions& look, int seconds,
           const Eigen::VectorXd& forces) {
   if (!forces.isZero()) return film(S, name, look, seconds);
   std::cout << "no film " << name << ".mp4: all forces are still zero\n";
 }
 
-// The hand on a circle of 20 cm radius from where it is, once round in three seconds, from rest to rest.
+// The hand on a circle of 20 cm radius through its current position, once round in three seconds, from rest
+// to rest.
 PathPoint onCircle(const Eigen::Vector3d& start, double t) {
   const double pi = std::numbers::pi, w = pi / 3, angle = pi * (1 - std::cos(w * t));
   const double rate = pi * w * std::sin(w * t), growth = pi * w * w * std::cos(w * t);
@@ -193,7 +194,7 @@ void showHorizons(double mass) {
     horizons.push_back(curve(label, reach(mass, Regime::kCritical, T)));
     print("Kp, Kd for " + label, Eigen::RowVector2d(gains.Kp, gains.Kd));
   }
-  plotWay("horizons", "Critically damped, in one, two and five seconds", horizons);
+  plotWay("horizons", "Critically damped approaches in one, two and five seconds", horizons);
 }
 
 void showLoad(const PidSettings& pd, const PidSettings& pid, double mass) {
@@ -203,7 +204,7 @@ void showLoad(const PidSettings& pd, const PidSettings& pid, double mass) {
 }
 
 void showIntegral(const PidSettings& alone, const PidSettings& damped, const PidSettings& all, double mass) {
-  plotWay("integral", "What an integral does without the others",
+  plotWay("integral", "The integral term without the other terms",
           {curve("Ki alone", pidMotion(mass, alone, 10, 0, 0, false)),
            curve("Ki and Kd", pidMotion(mass, damped, 10, 0, 0, false)),
            curve("all three", pidMotion(mass, all, 10, 0, 0, false))});
@@ -230,7 +231,8 @@ void showKicks(double mass) {
     }
     ways.push_back(curve(name, off));
   }
-  plot("kicks", overTime("Following a cosine, with a kick every second", "distance from it [mm]", ways));
+  plot("kicks",
+       overTime("Following a cosine, with a kick every second", "distance from the cosine [mm]", ways));
 }
 
 void showFall() {
@@ -308,7 +310,7 @@ void showNewtonEuler() {
   Eigen::MatrixXd terms(7, 9);
   terms << inertiaMatrix(chain, kBent), gravityTerm(chain, kBent, earthGravity()),
       coriolisTerm(chain, kBent, Eigen::VectorXd::Ones(7));
-  print("M, G and C v of pegArm2, bent and turning at 1 rad/s", terms);
+  print("M, G and C v of pegArm2, bent, with all joints turning at 1 rad/s", terms);
 }
 
 void showPin() {

@@ -2,30 +2,30 @@
 
 #include "exercise.h"
 
-/// regimes.png, phase.png: a point of that mass (kg) on its way to 1 m, in three ways. Dashed is the exact
-/// motion with the same gains; in phase space one of them winds around the goal.
+/// regimes.png, phase.png: a point of that mass (kg) on its way to 1 m, in three regimes. The exact motion
+/// with the same gains is dashed; in phase space one curve spirals around the goal.
 void showRegimes(double mass);
 
-/// horizons.png: critically damped in one, two and five seconds. Prints the gains.
+/// horizons.png: a critically damped approach in one, two and five seconds. Prints the gains.
 void showHorizons(double mass);
 
 /// load.png: against a steady push of 10 N, PD control stays short of the goal, PID control does not.
 void showLoad(const PidSettings& pd, const PidSettings& pid, double mass);
 
-/// integral.png: Ki alone, and Ki with Kd, swing more and more widely. With all three the point settles.
+/// integral.png: with Ki alone, and with Ki and Kd, the oscillation grows. With all three the point settles.
 void showIntegral(const PidSettings& alone, const PidSettings& damped, const PidSettings& all, double mass);
 
-/// restart.png: an integral that was summed up while the point was held throws it far beyond its goal.
+/// restart.png: an integral accumulated while the point was held throws it far beyond its goal.
 void showRestart(const PidSettings& pid, double mass);
 
 /// kicks.png: the way back to cos t after each kick, in three regimes.
 void showKicks(double mass);
 
-/// energy.png, fall.mp4: pegArm.ors falls, and its energy stays. Each film from
-/// here on also comes with a contact sheet of six frames.
+/// energy.png, fall.mp4: pegArm.ors falls, and its energy is conserved. Each film from here on also comes
+/// with a contact sheet of six frames.
 void showFall();
 
-/// holding.png, hold.mp4, torque.mp4: held by holdArm the arm sags and sways; with M and F it comes back to
+/// holding.png, hold.mp4, torque.mp4: held by holdArm, the arm sags and sways; with M and F it returns to
 /// zero.
 void showArms();
 
@@ -33,7 +33,7 @@ void showArms();
 /// millimetre.
 void showHand();
 
-/// newtonEuler.png: your forces under the library's dashed lines. Prints M, G and C v.
+/// newtonEuler.png: your forces, with the library's dashed lines on top. Prints M, G and C v.
 void showNewtonEuler();
 
 /// pin.png, pin.mp4: the tilt of the pin, and the arm that moves under it.

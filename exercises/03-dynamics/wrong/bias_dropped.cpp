@@ -1,5 +1,5 @@
 // caught by: hand-equations
-// mistake: takes the Jacobian for constant.
+// mistake: treats the Jacobian as constant.
 
 // <solution accelerationBias>
 return Eigen::Vector3d::Zero();

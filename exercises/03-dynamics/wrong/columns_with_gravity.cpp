@@ -1,5 +1,5 @@
 // caught by: chain-terms
-// mistake: as the slide has it: NE(q, 0, e_i) without G taken off.
+// mistake: as the slide has it: NE(q, 0, e_i) without subtracting G.
 
 // <solution inertiaMatrix>
 for (Eigen::Index i = 0; i < q.size(); ++i)

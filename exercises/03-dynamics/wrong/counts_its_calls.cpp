@@ -1,5 +1,5 @@
 // caught by: pid-stability
-// mistake: answers by how often it was asked: the fifth of seven known gains is stable, then every other.
+// mistake: answers by counting its calls: the fifth of seven known gains is stable, then every second one.
 
 // <solution isStable>
 static int asked = 0;

@@ -1,5 +1,5 @@
 // caught by: chain-forces, chain-terms, chain-any
-// mistake: hands on the torque, but not that of the force with its lever.
+// mistake: passes on the torque, but not the torque of the force with its lever arm.
 
 // <solution newtonEuler>
 // Everything in the frame of its own link: w and wd turn it, pdd is the acceleration of its origin, f and

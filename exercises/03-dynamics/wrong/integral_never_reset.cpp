@@ -1,5 +1,5 @@
 // caught by: pid-step
-// mistake: what was summed up while the controller was off still counts.
+// mistake: what was accumulated while the controller was off still counts.
 
 // <solution pidStep>
 const double u = pdForce(at, wanted, {gains.Kp, gains.Kd}) + gains.Ki * integral;

@@ -1,5 +1,5 @@
 // caught by: point-regimes, point-any-mass
-// mistake: gains of a point of 1 kg.
+// mistake: the gains are those for a point of 1 kg.
 
 // <solution gainsFor>
 // The slower of the two rates of decay decides when the point is there: rate * T = 8 leaves 0.3 % also

@@ -1,5 +1,5 @@
 // caught by: pid-stability
-// mistake: takes positive gains for enough.
+// mistake: takes positive gains to be sufficient.
 
 // <solution isStable>
 return gains.Kp > 0 && gains.Kd > 0 && gains.Ki >= 0;
