@@ -23,13 +23,13 @@ namespace {
 
 std::string text(double x) { return std::to_string(x).substr(0, 5); }
 
-// Generators of students come from a stream of their own, one of each check: who winds them back does not
-// find what the grader draws.
+// The random generators passed to students come from a separate stream in each check: rewinding them does not
+// reveal what the grader draws.
 Rng generatorsOf(Check& check) { return check.rng().split(7); }
 
 // Part 1.
 
-// The share of postures with the hand nearer than r: those with the second angle beyond that of r.
+// The share of postures with the hand nearer than r: those with a larger second angle than the one at r.
 double shareWithin(double r, double l1, double l2) {
   const double cosine = std::clamp((r * r - l1 * l1 - l2 * l2) / (2 * l1 * l2), -1., 1.);
   return 1 - std::acos(cosine) / std::numbers::pi;
@@ -49,7 +49,7 @@ grading::Evidence densitySeen(double l1, double l2, double r, double got) {
                        .series = {wanted, grading::wrongPoint("got", r, got)}}}};
 }
 
-// Away from both ends by a share of the way between them, where differences of 1e-5 m are exact to 1e-6.
+// At random distances r, kept away from both ends so that differences of 1e-5 m are exact to 1e-6.
 void densitiesAreRight(Check& check, Student& student, double l1, double l2, bool inThePlane) {
   Rng& rng = check.rng();
   const double least = std::abs(l1 - l2), most = l1 + l2, h = 1e-5;
@@ -66,7 +66,7 @@ void densitiesAreRight(Check& check, Student& student, double l1, double l2, boo
                student.handDensity({r * std::cos(angle), r * std::sin(angle)}, l1, l2),
                wanted / (2 * std::numbers::pi * r), 1e-5 * wanted / r, "1/m^2");
   }
-  check.input("l1 = " + text(l1) + " m, l2 = " + text(l2) + " m, where no hand can be");
+  check.input("l1 = " + text(l1) + " m, l2 = " + text(l2) + " m, where the hand cannot be");
   check.near("density of r", student.radiusDensity(1.01 * most, l1, l2), 0, 0, "1/m");
   if (inThePlane) check.near("density in the plane", student.handDensity({0, 1.2 * most}, l1, l2), 0, 0);
   if (least > 0.01) check.near("density of r", student.radiusDensity(0.98 * least, l1, l2), 0, 0, "1/m");
@@ -109,8 +109,8 @@ void nearestAndStep(Check& check, Student& student) {
   }
 }
 
-// n draws. Shares and moments are within 5.5 standard deviations, which one right answer in 25 million is
-// not.
+// n draws. Shares and moments must be within 5.5 standard deviations, which fails for one correct answer in
+// 25 million.
 void drawsWell(Check& check, Student& student, double goalBias, int n, Rng& given) {
   const Eigen::Vector3d lower(-1, 2, -0.5), upper(1, 2.5, 6), aim(7, 8, 9), size = upper - lower;
   const SearchSettings settings{lower, upper, 0.1, goalBias, 1000};
@@ -123,8 +123,8 @@ void drawsWell(Check& check, Student& student, double goalBias, int n, Rng& give
     check.shape("target", target, 3, 1);
     if (target == aim) continue;
     const Eigen::Vector3d place = ((target - lower).array() / size.array() - 0.5).matrix();
-    check.atMost("how far a target is from the middle of the box, in its sizes", place.cwiseAbs().maxCoeff(),
-                 0.5);
+    check.atMost("distance of a target from the middle of the box, relative to its size",
+                 place.cwiseAbs().maxCoeff(), 0.5);
     sum += place;
     products += place * place.transpose();
     ++others;
@@ -133,11 +133,11 @@ void drawsWell(Check& check, Student& student, double goalBias, int n, Rng& give
   check.near("share of draws that are the aim", 1 - static_cast<double>(others) / n, goalBias,
              sigmas * std::sqrt(goalBias * (1 - goalBias) / n));
   if (others == 0) return;
-  check.near("mean of the others, in sizes of the box", sum / count, Eigen::Vector3d::Zero(),
+  check.near("mean of the others, relative to the size of the box", sum / count, Eigen::Vector3d::Zero(),
              sigmas / std::sqrt(12 * count));
-  check.near("mean square of the others, in sizes of the box", products.diagonal() / count,
+  check.near("mean square of the others, relative to the size of the box", products.diagonal() / count,
              Eigen::Vector3d::Constant(1 / 12.), sigmas / std::sqrt(180 * count));
-  check.near("mean products of two coordinates of the others, each from the middle",
+  check.near("covariances of the coordinates of the others, relative to the size of the box",
              Eigen::Vector3d(products(0, 1), products(0, 2), products(1, 2)) / count, Eigen::Vector3d::Zero(),
              sigmas / (12 * std::sqrt(count)));
 }
@@ -148,7 +148,7 @@ void targets(Check& check, Student& student) {
   drawsWell(check, student, check.rng().uniform(0.2, 0.9), 1500, given);
 }
 
-// What lies on the way from the nearest node to the new one.
+// What lies between the nearest node and the new one.
 enum class Way { kFree, kEndBlocked, kOnlyMiddleBlocked };
 
 void stepsWell(Check& check, Student& student, const PlaneWorld& world, Way wanted) {
@@ -183,7 +183,7 @@ void stepsWell(Check& check, Student& student, const PlaneWorld& world, Way want
     check.that("a free step gives a node", got.has_value());
     check.near("parent of the new node", got->parent, parent, 0);
     check.near("new node", got->q, q, 1e-12);
-    check.that("edgeFree was asked for the new edge",
+    check.that("edgeFree was called for the new edge",
                record.wasFree(tree.nodes[static_cast<std::size_t>(parent)], got->q));
   } else if (wanted == Way::kEndBlocked) {
     check.that("a step into an obstacle gives no node", !got.has_value());
@@ -243,8 +243,8 @@ void growsBackward(Check& check, Student& student, Rng& given) {
   }
 }
 
-// The mean number of nodes of that many searches, eighty steps from root to start. Nothing is in the way, so
-// that each target gives a node.
+// The mean number of nodes over that many searches, with eighty steps from root to start. There are no
+// obstacles, so that each target gives a node.
 double nodesWithBias(Check& check, Student& student, double goalBias, int searches, Rng& given) {
   double sum = 0;
   for (int i = 0; i < searches; ++i) {
@@ -261,8 +261,8 @@ double nodesWithBias(Check& check, Student& student, double goalBias, int search
   return sum / searches;
 }
 
-// Over 30 seeds, four searches have 230 nodes with a standard deviation of 23, or 130 with one of 4. With a
-// bias of 0.2 they have 172, with 0.5 they have 115, whatever was asked for.
+// Over 30 seeds, four searches have 230 nodes with a standard deviation of 23 for the low bias, and 130 with
+// one of 4 for the high one. A fixed bias of 0.2 gives 172, one of 0.5 gives 115, whatever bias is required.
 void aimsAtTheStart(Check& check, Student& student, Rng& given) {
   const double rare = nodesWithBias(check, student, 0.1, 8, given),
                often = nodesWithBias(check, student, 0.4, 4, given);
@@ -279,8 +279,8 @@ void backwardAnywhere(Check& check, Student& student) {
 }
 // </hidden>
 
-// The arm as students see it in the checks: its joint angles are turned at random, q = R (joint angles). That
-// keeps distances and straight ways, and no posture written down beforehand means anything.
+// The arm as students see it in the checks: its joint angles are rotated at random, q = R (joint angles).
+// That preserves distances and straight lines, and makes postures recorded beforehand useless.
 struct TurnedArm {
   explicit TurnedArm(Rng& rng) : goal(7) {
     R = Eigen::HouseholderQR<Eigen::MatrixXd>(rng.normalVector(49).reshaped(7, 7)).householderQ();
@@ -367,8 +367,8 @@ void twoTreesAreSound(Check& check, const TwoTreeSearch& search, const PlaneProb
 }
 
 // <hidden>
-// In these worlds both trees have to grow, as one alone does not get through two gaps that soon: at least
-// one node in twenty belongs to the smaller of the two.
+// In these worlds both trees have to grow, since one alone would take much longer to get through two gaps: at
+// least one node in twenty belongs to the smaller of the two.
 void growsFromBothSides(Check& check, Student& student) {
   Rng given = generatorsOf(check);
   for (int i = 0; i < 5; ++i) {
@@ -407,14 +407,14 @@ void bothSidesIntoTheHole(Check& check, Student& student) {
 
 // Part 5.
 
-// What is left of the path after it was shortened: free, with the same ends, not longer.
+// The length of the shortened path, which must be free, have the same ends and not be longer.
 double shortenedLength(Check& check, Student& student, const PlaneProblem& problem, const Path& path,
                        Rng& given) {
   EdgeRecord record(freeIn(problem.world), 2);
   const Path better = student.shortened(path, record.test(), Rng(given.next()));
   const auto shown = check.show([&] { return shortenedSeen(problem, path, better); });
   askedWell(check, record);
-  // Pieces of free edges are free, but for the last digits.
+  // Pieces of free edges are free, up to the last digits.
   pathIsSound(check, better, problem.start, problem.goal, 2, freeIn(problem.world, 1e-9));
   check.atMost("length of the shortened path", lengthOf(better), lengthOf(path) + 1e-9);
   return lengthOf(better);
@@ -432,7 +432,7 @@ void staysFree(Check& check, Student& student) {
   const PlaneProblem empty{{}, Eigen::Vector2d(0.1, 0.2), Eigen::Vector2d(0.9, 0.6)};
   double detour = 0, left = 0;
   for (int i = 0; i < 6; ++i) {
-    check.input("a jagged path where nothing is in the way");
+    check.input("a jagged path without obstacles");
     Path path{empty.start};
     for (int k = 1; k < 12; ++k)
       path.emplace_back(empty.start + k / 12. * (empty.goal - empty.start) +
@@ -442,7 +442,7 @@ void staysFree(Check& check, Student& student) {
     detour += lengthOf(path) - shortest;
     left += shortenedLength(check, student, empty, path, given) - shortest;
   }
-  check.atMost("what is left of six detours, as a share", left / detour, 0.1);
+  check.atMost("remaining share of six detours", left / detour, 0.1);
 }
 
 // <hidden>
@@ -452,13 +452,14 @@ void staysNearTheDisc(Check& check, Student& student) {
   for (int i = 0; i < 24; ++i) {
     const DiscProblem disc = oneDisc(check.rng());
     Path path = jaggedPath(disc.problem, check.rng());
-    // Only one way round the disc is the shortest, and shortening does not lead to the other side.
+    // The shortest path goes round the disc on one side, and shortening does not lead to the other side.
     while (lengthOf(path) > 1.6 * disc.shortest) path = jaggedPath(disc.problem, check.rng());
     detour += lengthOf(path) - disc.shortest;
     left += shortenedLength(check, student, disc.problem, path, given) - disc.shortest;
   }
-  // Leaving out nodes leaves 0.27, with a standard deviation of 0.04; random places on edges leave 0.11.
-  check.atMost("what is left of many detours around a disc, as a share", left / detour, 0.5);
+  // Skipping nodes leaves 0.27, with a standard deviation of 0.04; shortcuts between random points on edges
+  // leave 0.11.
+  check.atMost("remaining share of many detours around a disc", left / detour, 0.5);
 }
 // </hidden>
 
@@ -470,8 +471,8 @@ void effortOfTransfers(Check& check, Student& student) {
     leastEffortIsRight(check, student, randomTransfer(check.rng()));
   }
   const Transfer drift{{0.3, -1}, {0.3 - 2, -1}, 2};
-  check.input("a state that the point drifts to by itself");
-  check.near("effort of nothing", student.effort(drift.from, drift.to, drift.T), 0, 1e-8, "N^2 s");
+  check.input("a state that the point reaches without force");
+  check.near("effort without force", student.effort(drift.from, drift.to, drift.T), 0, 1e-8, "N^2 s");
 }
 
 // The whole motion at once ends at its target.
@@ -480,7 +481,7 @@ void stepsToTheTarget(Check& check, Student& student) {
     const Transfer x = randomTransfer(check.rng());
     check.input("one state, and tau = T: the whole motion to the target");
     const PhaseNode node = student.phaseStep({x.from}, x.to, x.T, x.T);
-    check.near("state from which the target is nearest", node.parent, 0, 0);
+    check.near("number of the state from which the target needs the least effort", node.parent, 0, 0);
     check.near("state after T seconds", node.x, x.to, 1e-8 * (1 + x.T * x.T));
   }
 }
@@ -497,7 +498,8 @@ void stepsInPhaseSpace(Check& check, Student& student) {
     for (std::size_t k = 1; k < states.size(); ++k)
       if (leastEffort(states[k], x.to, x.T) < leastEffort(states[nearest], x.to, x.T)) nearest = k;
     const PhaseNode node = student.phaseStep(states, x.to, x.T, tau);
-    check.near("state from which the target is nearest", node.parent, static_cast<double>(nearest), 0);
+    check.near("number of the state from which the target needs the least effort", node.parent,
+               static_cast<double>(nearest), 0);
     check.near("state after tau seconds", node.x, leastEffortState(states[nearest], x.to, x.T, tau), 1e-8);
   }
 }
@@ -505,7 +507,7 @@ void stepsInPhaseSpace(Check& check, Student& student) {
 
 // Part 7.
 
-// The number of the node of `near` over which q costs least; -1 if there is none.
+// The number of the node of `near` through which q costs least; -1 if there is none.
 int bestOf(const PlaneWorld& world, const Tree& tree, const std::vector<int>& near,
            const Eigen::VectorXd& q) {
   int best = -1;
@@ -539,13 +541,13 @@ void choosesTheBest(Check& check, Student& student) {
                       {bestOf(world, tree, near, q), q});
     });
     askedWell(check, record);
-    check.that("there is a parent if, and only if, an edge is free", chosen.has_value() == anyFree);
+    check.that("there is a parent if and only if an edge is free", chosen.has_value() == anyFree);
     if (!chosen) continue;
     check.that("the parent is one of `near`",
                std::find(near.begin(), near.end(), chosen->parent) != near.end());
-    // With q as a node that hangs on it, nobody else would be the better parent.
+    // With q as a child of the chosen parent, no other node would be a better parent.
     const Eigen::VectorXd& from = tree.nodes[static_cast<std::size_t>(chosen->parent)];
-    check.that("edgeFree was asked for the new edge, and held", record.wasFree(from, q));
+    check.that("edgeFree was called for the new edge and returned true", record.wasFree(from, q));
     check.near("cost of the new node", chosen->cost,
                tree.costs[static_cast<std::size_t>(chosen->parent)] + (q - from).norm(), 1e-9);
     Tree grown = tree;
@@ -557,9 +559,9 @@ void choosesTheBest(Check& check, Student& student) {
   }
 }
 
-// Whoever is near and gains by it hangs on the node afterwards, nobody else moved, and all costs are lengths
-// of ways again. The order of `near` does not matter: who becomes cheaper because its parent does would still
-// be cheaper through the node, by the triangle inequality.
+// Every near node that gains by it is a child of the node afterwards, no other node has a new parent, and all
+// costs are lengths of paths again. The order of `near` does not matter: a node that becomes cheaper because
+// its parent does would still be cheaper through the node, by the triangle inequality.
 void rewires(Check& check, Student& student) {
   for (int i = 0; i < 15; ++i) {
     Rng& rng = check.rng();
@@ -567,7 +569,7 @@ void rewires(Check& check, Student& student) {
     const int node = 79;
     Tree tree;
     std::vector<int> near;
-    // At least two gain, and one of those has others that hang on it.
+    // At least two gain, and one of those has children.
     for (int gaining = 0, carried = 0; gaining < 2 || carried == 0;) {
       tree = wildTree(world, node + 1, rng);
       near = nodesNear(tree, tree.nodes.back(), 0.35, rng);
@@ -595,14 +597,14 @@ void rewires(Check& check, Student& student) {
       const auto at = static_cast<std::size_t>(k);
       const bool moves = wanted.parents[at] != tree.parents[at];
       check.near("parent of a node", got.parents[at], wanted.parents[at], 0);
-      check.near("cost of a node, against the length of its way", got.costs[at], costs[at], 1e-9);
+      check.near("cost of a node against the length of its path", got.costs[at], costs[at], 1e-9);
       if (moves)
-        check.that("edgeFree was asked for the new edges", record.wasFree(got.nodes[at], got.nodes[node]));
+        check.that("edgeFree was called for the new edges", record.wasFree(got.nodes[at], got.nodes[node]));
     }
   }
 }
 
-// All that holds for every tree of RRT*, and the cost of its path, which is infinite if there is none.
+// Checks what holds for every tree of RRT*, and returns the cost of its path.
 double starIsSound(Check& check, Student& student, const PlaneProblem& problem,
                    const SearchSettings& settings, Rng& given) {
   const EdgeTest isFree = freeIn(problem.world);
@@ -618,7 +620,7 @@ double starIsSound(Check& check, Student& student, const PlaneProblem& problem,
              static_cast<double>(grown.nodes.size()), 0);
   const std::vector<double> costs = costsOf(grown);
   for (std::size_t i = 0; i < costs.size(); ++i)
-    check.near("cost of a node, against the length of its way", grown.costs[i], costs[i], 1e-9);
+    check.near("cost of a node against the length of its path", grown.costs[i], costs[i], 1e-9);
   check.near("number of costs in `best`", static_cast<double>(search.best.size()), settings.maxSamples, 0);
   for (std::size_t i = 1; i < search.best.size(); ++i)
     check.that("the cost of the goal never grows", search.best[i] <= search.best[i - 1]);
@@ -652,9 +654,9 @@ void comesNearTheShortest(Check& check, Student& student) {
     excess +=
         starIsSound(check, student, disc.problem, inThePlane(0.1, 0.05, 1500), given) / disc.shortest - 1;
   }
-  // Usually 0.019, with a standard deviation of 0.004; the path of an RRT is longer by 0.36, and at least by
-  // 0.2.
-  check.atMost("how much longer than the shortest way, on average over four worlds", excess / count, 0.06);
+  // Usually 0.019, with a standard deviation of 0.004; the path of an RRT is 0.36 longer, and at least 0.2.
+  check.atMost("excess over the shortest path, as a share of it, on average over four worlds", excess / count,
+               0.06);
 }
 // </hidden>
 
@@ -662,16 +664,17 @@ void comesNearTheShortest(Check& check, Student& student) {
 
 rex::grading::Checks<Student> checks() {
   return {
-      {"reach-radius", "reach", "How far the hand is", 1, Group::kVisible, radiusOfTwoArms},
-      {"reach-plane", "reach", "Where in the plane, for one arm (no points)", 0, Group::kVisible,
-       planeOfOneArm},
+      {"reach-radius", "reach", "The distance of the hand from the shoulder", 1, Group::kVisible,
+       radiusOfTwoArms},
+      {"reach-plane", "reach", "The position of the hand in the plane, for one arm (no points)", 0,
+       Group::kVisible, planeOfOneArm},
       {"step-nearest", "step", "The nearest node, and a step that does not overshoot", 1, Group::kVisible,
        nearestAndStep},
       {"step-target", "step", "Random targets with a goal bias", 1, Group::kVisible, targets},
       {"step-plane", "step", "A step in the plane", 1, Group::kVisible, stepsInThePlane},
-      {"backward-way", "backward", "The way from the root to a node", 1, Group::kVisible, readsTheWay},
+      {"backward-way", "backward", "The path from the root to a node", 1, Group::kVisible, readsTheWay},
       {"backward-arm", "backward", "From the hole back to q = 0", 1, Group::kVisible, backwardOutOfTheHole},
-      {"connect-joined", "connect", "Two ways joined to a path", 1, Group::kVisible, joinsWays},
+      {"connect-joined", "connect", "Two branches joined to a path", 1, Group::kVisible, joinsWays},
       {"connect-arm", "connect", "From both sides into the hole", 1, Group::kVisible, bothSidesIntoTheHole},
       {"smooth-free", "smooth", "Shorter, with the same ends, and free", 1, Group::kVisible, staysFree},
       {"phase-effort", "phase", "The least effort and its force", 1, Group::kVisible, effortOfTransfers},
@@ -684,12 +687,12 @@ rex::grading::Checks<Student> checks() {
       // <hidden>
       {"reach-any-arm", "reach", "Other arms, and the density in the plane", 1, Group::kHidden, anyArm},
       {"step-corners", "step", "Steps past corners of other worlds", 1, Group::kHidden, stepsPastCorners},
-      {"backward-worlds", "backward", "Other worlds, and the aim", 1, Group::kHidden, backwardAnywhere},
+      {"backward-worlds", "backward", "Other worlds, and the goal bias", 1, Group::kHidden, backwardAnywhere},
       {"connect-worlds", "connect", "From both sides in other worlds", 1, Group::kHidden, growsFromBothSides},
       {"smooth-disc", "smooth", "How much shorter", 1, Group::kHidden, staysNearTheDisc},
       {"phase-step", "phase", "Growing a tree in phase space", 1, Group::kHidden, stepsInPhaseSpace},
       {"star-worlds", "star", "Trees and costs in other worlds", 1, Group::kHidden, growsAroundWalls},
-      {"star-shortest", "star", "Near the shortest way", 1, Group::kHidden, comesNearTheShortest},
+      {"star-shortest", "star", "Close to the shortest path", 1, Group::kHidden, comesNearTheShortest},
       // </hidden>
   };
 }

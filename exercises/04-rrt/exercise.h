@@ -6,25 +6,26 @@
 
 #include "course/course.h"
 
-// The functions you complete in main.cpp. A configuration q has d numbers, the joint angles of an arm (in the
-// checks turned by a rotation, which keeps distances and straight ways) or a place in the plane; its distance
-// from another is the length |qa - qb| of their difference. Slides are named as chapter:number.
+// The functions you complete in main.cpp. A configuration q has d numbers: the joint angles of an arm (in the
+// checks turned by a rotation, which preserves distances and straight lines) or a position in the plane. Its
+// distance from another is the length |qa - qb| of their difference. Slides are cited as chapter:number.
 
 using Path = std::vector<Eigen::VectorXd>;  // configurations, one after the other
 
-/// Whether the straight way from qa to qb, both ends included, is free of collision. Handed to you; it knows
-/// the world. What you ask is written down, and trees may only have edges that you asked for.
+/// Whether the straight line from qa to qb, both ends included, is free of collision. It is passed to you and
+/// knows the world. Your queries are recorded, and trees may only have edges that you asked about.
 using EdgeTest = std::function<bool(const Eigen::VectorXd& qa, const Eigen::VectorXd& qb)>;
 
-/// A tree: node i hangs on node parents[i]; node 0 is the root, with parent -1. Only the trees of part 7 have
-/// costs: costs[i] is the length of the way from the root to node i along the edges.
+/// A tree: the parent of node i is node parents[i]; node 0 is the root, with parent -1. Only the trees of
+/// part 7 have costs: costs[i] is the length of the path from the root to node i along the edges.
 struct Tree {
   std::vector<Eigen::VectorXd> nodes{};
   std::vector<int> parents{};
   std::vector<double> costs{};
 };
 
-/// How trees grow. Targets lie in the box from lower to upper (d numbers each); maxSamples of them at most.
+/// How trees grow. Random targets lie in the box from lower to upper (d numbers each); there are at most
+/// maxSamples targets.
 struct SearchSettings {
   Eigen::VectorXd lower, upper;
   double stepSize = 0.1;  ///< alpha
@@ -32,14 +33,14 @@ struct SearchSettings {
   int maxSamples = 1000;
 };
 
-// Part 1, where the hand is (12.7.1 a). A planar arm has two links of l1 and l2 metres; each of its two
-// angles is uniform in [-pi, pi).
+// Part 1, the position of the hand (12.7.1 a). A planar arm has two links of l1 and l2 metres; each of its
+// two angles is uniform in [-pi, pi).
 
-/// The density [1/m] of the distance r > 0 [m] of the hand from the shoulder; zero where no hand can be.
-/// Where it is infinite, or has only a limit, nothing is asked.
+/// The density [1/m] of the distance r > 0 [m] of the hand from the shoulder; zero where the hand cannot be.
+/// It is not tested where it is infinite or has only a limit.
 double radiusDensity(double r, double l1, double l2);
 
-/// The density [1/m^2] of the place p [m] of the hand in the plane, with the shoulder at 0. As above.
+/// The density [1/m^2] of the position p [m] of the hand in the plane, with the shoulder at 0. As above.
 double handDensity(const Eigen::Vector2d& p, double l1, double l2);
 
 // Part 2, one step of an RRT (4:39 and 4:40).
@@ -47,11 +48,11 @@ double handDensity(const Eigen::Vector2d& p, double l1, double l2);
 /// The number of the node nearest to `target`. There is at least one node.
 int nearestNode(const std::vector<Eigen::VectorXd>& nodes, const Eigen::VectorXd& target);
 
-/// stepSize along the straight way from `from` to `target`; `target` itself if it is not farther than that,
-/// also if it is `from`.
+/// The point stepSize along the straight line from `from` to `target`; `target` itself if it is not farther
+/// away than that, even if it equals `from`.
 Eigen::VectorXd stepTowards(const Eigen::VectorXd& from, const Eigen::VectorXd& target, double stepSize);
 
-/// With probability goalBias `aim`, otherwise uniform in the box of the settings.
+/// `aim` with probability goalBias, otherwise a uniform sample of the box of the settings.
 Eigen::VectorXd drawTarget(const SearchSettings& settings, const Eigen::VectorXd& aim, rex::Rng& rng);
 
 struct NewNode {
@@ -59,33 +60,33 @@ struct NewNode {
   int parent = -1;
 };
 
-/// One step of the tree from its nearest node towards `target`: the new node, or nothing if the way there is
+/// One step of the tree from its nearest node towards `target`: the new node, or nothing if the edge to it is
 /// not free.
 std::optional<NewNode> rrtStep(const Tree& tree, const Eigen::VectorXd& target, double stepSize,
                                const EdgeTest& edgeFree);
 
 // Part 3, growing backward from the goal (12.7.1 b).
 
-/// The configurations on the way from the root to that node, both included.
+/// The configurations on the path from the root to that node, both included.
 Path wayFromRoot(const Tree& tree, int node);
 
-/// A tree and the path that was read out of it, empty if there is none.
+/// A tree and the path found in it, empty if there is none.
 struct TreeSearch {
   Tree tree{};
   Path path{};
 };
 
 /// Grows a tree from its root `goal` by rrtStep() towards drawTarget(), which aims at `start`. As soon as a
-/// new node is at most stepSize from `start`, with a free way between them, the path is complete: `start`,
-/// that node, ..., `goal`. How soon that is must show the goalBias; after maxSamples targets the path is
-/// empty.
+/// new node is at most stepSize from `start`, with a free edge between them, the path is complete: `start`,
+/// that node, ..., `goal`. The number of nodes must reflect the goalBias. After maxSamples targets the path
+/// is empty.
 TreeSearch growBackward(const Eigen::VectorXd& start, const Eigen::VectorXd& goal,
                         const SearchSettings& settings, const EdgeTest& edgeFree, rex::Rng& rng);
 
 // Part 4, search from both sides (12.7.1 c, 4:42).
 
-/// The path from the root of one tree to its node a, and on from node b of the other to the root of that. If
-/// a and b are the same configuration, it is there once.
+/// The path from the root of one tree to its node a, and on from node b of the other tree to its root. If a
+/// and b are the same configuration, the path contains it once.
 Path joinedPath(const Tree& fromStart, int a, const Tree& fromGoal, int b);
 
 struct TwoTreeSearch {
@@ -95,24 +96,24 @@ struct TwoTreeSearch {
 
 /// Two trees, with the roots `start` and `goal`. They take turns: one takes a step towards a random target in
 /// the box, and its new node is the target of the other, which takes one step, or as many as it can.
-/// goalBias does not matter. The path is complete when a node of one is at most stepSize from a node of the
-/// other, with a free way between them. Empty after maxSamples random targets.
+/// goalBias has no effect. The path is complete when a node of one is at most stepSize from a node of the
+/// other, with a free edge between them. It is empty after maxSamples random targets.
 TwoTreeSearch growBoth(const Eigen::VectorXd& start, const Eigen::VectorXd& goal,
                        const SearchSettings& settings, const EdgeTest& edgeFree, rex::Rng& rng);
 
 // Part 5, a better path (12.7.1 d).
 
-/// A path between the same ends, never longer than `path` and free of collision. Of what RRT paths are longer
-/// than the shortest way there is, it takes away more than half, on average; where the straight way is free,
-/// nine tenths. `path` has at least two configurations, and its edges are free. Any method counts.
+/// A path between the same ends, never longer than `path` and free of collision. The excess of RRT paths over
+/// the shortest path shrinks by more than half, on average, and by nine tenths if the straight line is free.
+/// `path` has at least two configurations, and its edges are free. Any method counts.
 Path shortened(const Path& path, const EdgeTest& edgeFree, rex::Rng& rng);
 
 // Part 6, distance in phase space (12.7.2). A point of 1 kg on a line has the state (position [m],
-// velocity [m/s]); the force u(t) [N] brings it from one state to another in just T seconds, with the least
-// effort, which is the integral of u(t)^2. All numbers are exact up to 1e-8 of the largest that they come
-// from.
+// velocity [m/s]); the force u(t) [N] brings it from one state to another in exactly T seconds, with the
+// least effort, which is the integral of u(t)^2. All results are exact up to 1e-8 of the largest numbers that
+// they are computed from.
 
-/// That least effort [N^2 s].
+/// The least effort [N^2 s].
 double effort(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double T);
 
 /// The force u(t) [N] of that motion, 0 <= t <= T.
@@ -123,9 +124,9 @@ struct PhaseNode {
   int parent = -1;
 };
 
-/// One step of a tree in phase space: from the state from which `target` takes the least effort in T seconds,
-/// the first tau seconds (0 < tau <= T) of that motion. The state that is reached, and the number of the one
-/// it started in.
+/// One step of a tree in phase space: the first tau seconds (0 < tau <= T) of the motion to `target` in T
+/// seconds, from the state that needs the least effort for it. Returns the state that is reached, and the
+/// number of the state it started in.
 PhaseNode phaseStep(const std::vector<Eigen::Vector2d>& states, const Eigen::Vector2d& target, double T,
                     double tau);
 
@@ -141,8 +142,8 @@ struct ParentChoice {
 std::optional<ParentChoice> bestParent(const Tree& tree, const std::vector<int>& near,
                                        const Eigen::VectorXd& q, const EdgeTest& edgeFree);
 
-/// The tree after each node of `near` has been hung on `node`, if it is reached at less cost through it, over
-/// a free edge. The costs of all nodes are right again.
+/// The tree after `node` has become the parent of each node of `near` that is reached at less cost through
+/// it, over a free edge. The costs of all nodes are updated.
 Tree rewired(Tree tree, const std::vector<int>& near, int node, const EdgeTest& edgeFree);
 
 struct StarSearch {
@@ -151,9 +152,9 @@ struct StarSearch {
   std::vector<double> best{};  ///< the cost of the goal after each sample, infinity before it is reached
 };
 
-/// An RRT* from its root `start`, which spends all maxSamples targets. They aim at `goal` with goalBias until
-/// a step ends there, and it is a node; then no more. A new node is found by a step from the nearest node; it
-/// takes the best parent near it, and what is near is rewired. Near is, among n nodes, what is at most
-/// stepSize and at most gamma (log(n) / n)^(1/d) away, and the nearest node.
+/// An RRT* from its root `start`, which uses all maxSamples targets. They aim at `goal` with goalBias until a
+/// step ends there and makes it a node, and never after that. A new node is found by a step from the nearest
+/// node; it takes the best parent among the near nodes, and the near nodes are rewired. Of n nodes, those are
+/// near that are at most stepSize and at most gamma (log(n) / n)^(1/d) away, and the nearest node.
 StarSearch growStar(const Eigen::VectorXd& start, const Eigen::VectorXd& goal, const SearchSettings& settings,
                     double gamma, const EdgeTest& edgeFree, rex::Rng& rng);

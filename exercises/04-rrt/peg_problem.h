@@ -16,12 +16,12 @@ inline const Eigen::VectorXd kInTheHole =
 inline const SearchSettings kArmSettings{Eigen::VectorXd::Constant(7, -2 * std::numbers::pi),
                                          Eigen::VectorXd::Constant(7, 2 * std::numbers::pi), 0.1, 0.1, 25000};
 
-/// Most searches end before 10000 targets, but 14 of 600 from both sides find nothing in 25000, and 2 of 300
-/// of those backward. Starting afresh helps: six in a row fail less than once in 10^9.
+/// Most searches succeed within 10000 targets, but 14 of 600 from both sides find nothing within 25000, and
+/// so do 2 of 300 backward searches. Restarting helps: six in a row fail less than once in 10^9.
 inline constexpr int kArmTries = 6;
 
-/// Ways of the arm are looked at in steps of 0.05, and free where all things are 0.02 m apart. Between the
-/// steps nothing comes so much nearer.
+/// Edges of the arm are tested in steps of 0.05; they are free if everything is 0.02 m apart. Between two
+/// steps nothing comes that much nearer.
 inline EdgeTest freeForArm(const rex::Simulator& S) {
   const rex::Space space = rex::Space::box(kArmSettings.lower, kArmSettings.upper);
   rex::EdgeChecker checker(space, rex::contactFree(S.model(), rex::ContactModel(S.model()), 0.02), 0.05);

@@ -26,7 +26,7 @@ inline void add(rex::Series& series, const Eigen::VectorXd& q, double shift) {
   series.y.push_back(q[1]);
 }
 
-/// One line through all edges of a tree: down to a node and up again.
+/// One line through all edges of a tree, which goes down to each node and back up.
 inline rex::Series outline(const Tree& tree, double shift, rex::Color color) {
   std::vector<std::vector<std::size_t>> children(tree.nodes.size());
   for (std::size_t i = 1; i < tree.nodes.size(); ++i)
@@ -65,7 +65,7 @@ inline void drawObstacles(rex::Figure& figure, const PlaneWorld& world, double s
 
 inline void plotPanels(const std::string& name, const std::string& title, const std::vector<Panel>& panels) {
   rex::Figure figure{.title = title,
-                     .xLabel = panels.size() > 1 ? "x [m], on the right with 1.1 added" : "x [m]",
+                     .xLabel = panels.size() > 1 ? "x [m], shifted by 1.1 on the right" : "x [m]",
                      .yLabel = "y [m]",
                      .equalAxes = true,
                      .xRange = rex::AxisRange(-0.03, 1.1 * static_cast<double>(panels.size()) - 0.07),

@@ -7,15 +7,15 @@
 #include "plane_world.h"
 #include "planning/rrt.h"
 
-// Worlds in the plane that nobody has seen before.
+// Random worlds in the plane.
 
-/// What to plan in the plane.
+/// A planning problem in the plane.
 struct PlaneProblem {
   PlaneWorld world;
   Eigen::VectorXd start, goal;
 };
 
-/// The same in a square that is looked at in a mirror, or along the other axis, or both.
+/// The same problem with x mirrored, or x and y swapped, or both.
 inline PlaneProblem turned(const PlaneProblem& problem, bool mirror, bool swap) {
   const auto turn = [&](Eigen::Vector2d p) {
     if (mirror) p.x() = 1 - p.x();
@@ -49,8 +49,8 @@ inline PlaneProblem twoWalls(rex::Rng& rng) {
   return turned(problem, way % 2 == 1, way > 1);
 }
 
-/// One disc between start and goal, and the length of the shortest way around it: two lines that touch it,
-/// and the arc between them.
+/// One disc between start and goal, and the length of the shortest path around it: two tangents and the arc
+/// between them.
 struct DiscProblem {
   PlaneProblem problem;
   double shortest;
@@ -70,7 +70,7 @@ inline DiscProblem oneDisc(rex::Rng& rng) {
   return {turned({{.discs = {{center, radius}}}, start, goal}, way % 2 == 1, way > 1), lines + radius * arc};
 }
 
-/// A jagged path, as trees make them, by the library, at a small distance from what is in the way.
+/// A jagged path, as trees make them, from the library, at a small distance from the obstacles.
 inline Path jaggedPath(const PlaneProblem& problem, rex::Rng& rng) {
   const EdgeTest isFree = freeIn(problem.world, -0.004);
   const rex::PathProblem planned{

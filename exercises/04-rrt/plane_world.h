@@ -5,7 +5,7 @@
 
 #include "exercise.h"
 
-// Worlds that are cheap to ask: the unit square with discs and boxes in it. Used by main() and by the grader.
+// Worlds with cheap collision tests: the unit square with discs and boxes. Used by main() and by the grader.
 
 struct PlaneDisc {
   Eigen::Vector2d center;
@@ -21,8 +21,8 @@ struct PlaneWorld {
   std::vector<PlaneBox> boxes{};
 };
 
-/// Whether a box has a point of the straight way from a to b inside: the way is in all four half planes at
-/// once for some of its length.
+/// Whether the straight line from a to b has a point inside a box: some part of it lies in all four half
+/// planes at once.
 inline bool meets(const PlaneBox& box, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   double first = 0, last = 1;
   for (int i = 0; i < 2; ++i) {
@@ -38,7 +38,7 @@ inline bool meets(const PlaneBox& box, const Eigen::Vector2d& a, const Eigen::Ve
   return first < last;
 }
 
-/// Whether a disc has a point of the straight way inside: its nearest point.
+/// Whether the straight line from a to b has a point inside a disc: the point nearest to its centre.
 inline bool meets(const PlaneDisc& disc, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   const Eigen::Vector2d along = b - a, toCenter = disc.center - a;
   const double length2 = along.squaredNorm();
@@ -46,7 +46,7 @@ inline bool meets(const PlaneDisc& disc, const Eigen::Vector2d& a, const Eigen::
   return (toCenter - share * along).norm() < disc.radius;
 }
 
-/// Whether the straight way from a to b stays in the square and meets nothing: exact, not by samples.
+/// Whether the straight line from a to b stays in the square and meets no obstacle: exact, not by samples.
 inline bool wayIsFree(const PlaneWorld& world, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   const auto meetsIt = [&](const auto& obstacle) { return meets(obstacle, a, b); };
   return a.minCoeff() >= 0 && b.minCoeff() >= 0 && a.maxCoeff() <= 1 && b.maxCoeff() <= 1 &&
@@ -54,8 +54,8 @@ inline bool wayIsFree(const PlaneWorld& world, const Eigen::Vector2d& a, const E
          std::none_of(world.boxes.begin(), world.boxes.end(), meetsIt);
 }
 
-/// The same as an EdgeTest. `slack` widens the gaps: for ways that follow from others, which were free, up to
-/// rounding.
+/// The same as an EdgeTest. `slack` widens the gaps, for edges that are free up to rounding since they are
+/// parts of free ones.
 inline EdgeTest freeIn(PlaneWorld world, double slack = 0) {
   for (PlaneDisc& disc : world.discs) disc.radius -= slack;
   for (PlaneBox& box : world.boxes) {

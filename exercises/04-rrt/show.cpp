@@ -16,7 +16,7 @@ namespace {
 
 std::string text(double x) { return std::to_string(x).substr(0, 5); }
 
-// The tree of part 2 after all targets, by any test of edges.
+// The tree of part 2 after all targets, grown with any test of edges.
 Tree grow(const Eigen::VectorXd& root, const SearchSettings& settings, const EdgeTest& edgeFree) {
   Rng rng(1);
   Tree tree{.nodes = {root}, .parents = {-1}};
@@ -30,7 +30,7 @@ Tree grow(const Eigen::VectorXd& root, const SearchSettings& settings, const Edg
   return tree;
 }
 
-// Where the peg goes along the edges of a tree, from node to node.
+// The positions of the peg along the edges of a tree, from node to node.
 std::vector<std::vector<Eigen::Vector3d>> pegEdges(const Tree& tree) {
   Simulator S("pegInAHole.ors");
   std::vector<Eigen::Vector3d> places;
@@ -43,7 +43,7 @@ std::vector<std::vector<Eigen::Vector3d>> pegEdges(const Tree& tree) {
   return edges;
 }
 
-// Moves along a path in joint space, with 40 postures to the radian.
+// Moves along a path in joint space, with 40 postures per radian.
 void filmPath(const std::string& name, const std::string& caption, const Path& path) {
   if (path.empty()) {
     std::cout << "no film " << name << ".mp4: there is no path yet\n";
@@ -106,7 +106,7 @@ void showHand(double l1, double l2) {
                 .legend = Legend::kOutside,
                 .series = {{.label = "p(r)", .x = r, .y = density, .size = 1.5, .color = kOrange}},
                 .histograms = {sampled}});
-  plot("hand_plane", {.title = "Where the hand is",
+  plot("hand_plane", {.title = "The position of the hand",
                       .xLabel = "x [m]",
                       .yLabel = "y [m]",
                       .colorLabel = "density [1/m^2], at most 1.5",
@@ -160,7 +160,7 @@ void showArm() {
   const auto nodes = [](const Tree& tree) { return static_cast<double>(tree.nodes.size()); };
   print("nodes: backward, from the start, from the goal",
         Eigen::RowVector3d(nodes(backward.tree), nodes(both.fromStart), nodes(both.fromGoal)));
-  print("lengths: backward, from both sides, that shortened",
+  print("lengths: backward, from both sides, the latter shortened",
         Eigen::RowVector3d(lengthOf(backward.path), lengthOf(both.path), lengthOf(better)));
   filmPath("path", "The path from both sides, as it was found", both.path);
   filmPath("shortened_path", "The same path, shortened", better);
@@ -181,10 +181,10 @@ void showDistances(const Eigen::Vector2d& from, double T) {
     motions.push_back(yours);
     motions.push_back(library);
   }
-  plot("effort", {.title = "Distance from (0, 1) in phase space, T = 2 s, and ways (dashed: library's)",
+  plot("effort", {.title = "Distance from (0, 1) in phase space, T = 2 s, and motions (dashed: library)",
                   .xLabel = "position [m]",
                   .yLabel = "velocity [m/s]",
-                  .colorLabel = "root of the least effort [N s^(1/2)]",
+                  .colorLabel = "square root of the least effort [N s^(1/2)]",
                   .colorRange = AxisRange(0, 10),
                   .legend = Legend::kNone,
                   .series = motions,
@@ -205,7 +205,7 @@ void showPhaseTree(const Eigen::Vector2d& from, double T) {
     tree.nodes.emplace_back(node.x);
     tree.parents.push_back(node.parent);
   }
-  plot("phase_tree", {.title = "A tree in phase space: where it may go depends on how fast it is",
+  plot("phase_tree", {.title = "A tree in phase space: its directions depend on the velocity",
                       .xLabel = "position [m]",
                       .yLabel = "velocity [m/s]",
                       .series = {outline(tree, 0, kBlue)}});
@@ -238,7 +238,7 @@ void showStar() {
                  .yLabel = "length of the path [m]",
                  .xRange = AxisRange(0, settings.maxSamples),
                  .series = costs,
-                 .horizontalLines = {{kShortest, "shortest way"}}});
+                 .horizontalLines = {{kShortest, "shortest path"}}});
   Rng rng(1);
   const Tree plain = grow(kLeft, settings, edgeFree);
   const Path best = star.goal < 0 ? Path() : wayFromRoot(star.tree, star.goal);

@@ -10,9 +10,9 @@
 #include "grading/check.h"
 #include "plane_problems.h"
 
-// What trees and paths must keep, and what was asked about their edges.
+// What trees and paths must satisfy, and which edges were tested.
 
-/// Answers a student's questions about edges, and remembers which ways were free.
+/// Answers a student's queries about edges, and records which edges were free.
 class EdgeRecord {
  public:
   EdgeRecord(EdgeTest isFree, int size) : isFree_(std::move(isFree)), size_(size) {}
@@ -26,7 +26,7 @@ class EdgeRecord {
   bool isMalformed() const { return malformed_; }
 
  private:
-  static constexpr long kMost = 1'000'000;  // more questions are not needed anywhere: memory has an end
+  static constexpr long kMost = 1'000'000;  // more queries are never needed, and memory is finite
 
   static std::vector<double> key(const Eigen::VectorXd& qa, const Eigen::VectorXd& qb) {
     std::vector<double> both(qa.begin(), qa.end());
@@ -64,8 +64,8 @@ inline void isTree(rex::grading::Check& check, const Tree& tree, const Eigen::Ve
   check.near("parent of the root", tree.parents[0], -1, 0);
   for (int i = 1; i < count; ++i) {
     const int parent = tree.parents[static_cast<std::size_t>(i)];
-    check.that("every other node hangs on a node of the tree", parent >= 0 && parent < count);
-    if (inOrder) check.that("a node hangs on one that was there before", parent < i);
+    check.that("every other node has a parent in the tree", parent >= 0 && parent < count);
+    if (inOrder) check.that("a parent comes before its children", parent < i);
   }
   for (int i = 0; i < count && !inOrder; ++i) {
     int steps = 0;
@@ -74,18 +74,18 @@ inline void isTree(rex::grading::Check& check, const Tree& tree, const Eigen::Ve
   }
 }
 
-/// Edges no longer than a step, asked for, and free by what the grader itself finds.
+/// No edge is longer than a step; each was tested, and is free according to the grader itself.
 inline void edgesAreSound(rex::grading::Check& check, const Tree& tree, double stepSize,
                           const EdgeRecord& record, const EdgeTest& isFree) {
   for (std::size_t i = 1; i < tree.nodes.size(); ++i) {
     const Eigen::VectorXd &qa = tree.nodes[static_cast<std::size_t>(tree.parents[i])], &qb = tree.nodes[i];
     check.atMost("length of an edge of the tree", (qb - qa).norm(), stepSize + 1e-9);
-    check.that("edgeFree was asked for every edge of the tree, and held", record.wasFree(qa, qb));
+    check.that("edgeFree was called for every edge of the tree and returned true", record.wasFree(qa, qb));
     check.that("every edge of the tree is free", isFree(qa, qb));
   }
 }
 
-/// From start to goal, in steps, over free ways.
+/// From start to goal, in steps, over free edges.
 inline void pathIsSound(rex::grading::Check& check, const Path& path, const Eigen::VectorXd& start,
                         const Eigen::VectorXd& goal, double stepSize, const EdgeTest& isFree) {
   check.that("a path is found", path.size() >= 2);
@@ -98,7 +98,7 @@ inline void pathIsSound(rex::grading::Check& check, const Path& path, const Eige
   }
 }
 
-/// Every configuration of a path is a node of a tree, and none is there twice in a row.
+/// Every configuration of a path is a node of a tree, and none appears twice in a row.
 inline void pathIsOfTrees(rex::grading::Check& check, const Path& path, const std::vector<Tree>& trees) {
   for (const Eigen::VectorXd& q : path) {
     bool found = false;
@@ -106,12 +106,12 @@ inline void pathIsOfTrees(rex::grading::Check& check, const Path& path, const st
       found = found || std::find(tree.nodes.begin(), tree.nodes.end(), q) != tree.nodes.end();
     check.that("the path consists of nodes of the tree", found);
   }
-  check.that("no configuration is there twice in a row",
+  check.that("no configuration appears twice in a row",
              std::adjacent_find(path.begin(), path.end()) == path.end());
 }
 
-/// n nodes at random free places; each hangs on a random one before that it sees, not on the best. Its costs
-/// are right.
+/// n nodes at random free positions. The parent of each is a random earlier node with a free edge to it, not
+/// the best. The costs are right.
 inline Tree wildTree(const PlaneWorld& world, int n, rex::Rng& rng) {
   Tree tree;
   while (static_cast<int>(tree.nodes.size()) < n) {
@@ -127,7 +127,7 @@ inline Tree wildTree(const PlaneWorld& world, int n, rex::Rng& rng) {
   return tree;
 }
 
-/// Costs by the parents, in any order.
+/// The costs that follow from the parents; the nodes may be in any order.
 inline std::vector<double> costsOf(const Tree& tree) {
   std::vector<double> costs;
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
@@ -142,7 +142,7 @@ inline std::vector<double> costsOf(const Tree& tree) {
   return costs;
 }
 
-/// The number of the node nearest to a place, by looking at all.
+/// The number of the node nearest to `target`, by comparing all.
 inline int nearestOf(const std::vector<Eigen::VectorXd>& nodes, const Eigen::VectorXd& target) {
   const auto nearer = [&](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
     return (a - target).norm() < (b - target).norm();
@@ -157,7 +157,7 @@ inline Path randomPath(int count, rex::Rng& rng) {
   return path;
 }
 
-/// A tree with a given way from its root to its node `last`, and with other branches.
+/// A tree with a given path from its root to its node `last`, and with other branches.
 struct TreeWithWay {
   Tree tree{};
   int last = -1;
@@ -201,8 +201,8 @@ inline bool gains(const PlaneWorld& world, const Tree& tree, int one, int throug
   return tree.costs[by] + (q - via).norm() < tree.costs[i] - 1e-9 && wayIsFree(world, via, q);
 }
 
-/// How much less the nodes would cost in all, as a share, if each took the best parent that is at most
-/// `reach` away.
+/// The share of the total cost of all nodes that would be saved if each took the best parent at most `reach`
+/// away.
 inline double leftToGain(const PlaneWorld& world, const Tree& tree, double reach) {
   double gain = 0, sum = 0;
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
@@ -217,7 +217,7 @@ inline double leftToGain(const PlaneWorld& world, const Tree& tree, double reach
   return gain / sum;
 }
 
-/// The share of free places with a node at most `reach` away.
+/// The share of free positions with a node at most `reach` away.
 inline double shareReached(const PlaneWorld& world, const Tree& tree, double reach, rex::Rng& rng) {
   int free = 0, reached = 0;
   while (free < 200) {
@@ -230,20 +230,20 @@ inline double shareReached(const PlaneWorld& world, const Tree& tree, double rea
   return 1. * reached / free;
 }
 
-/// What RRT* grows, and a short way alone is not. Over 900 seeds the reference has 0.7 nodes per sample at
-/// least, with one near every place, and reaches its goal within 0.6 of the samples. Better parents would
-/// save 0.002 of the costs at most, and 0.045 at least where nothing is rewired.
+/// What holds for the tree of RRT*, but not for a short path alone. Over 900 seeds the reference solution has
+/// at least 0.7 nodes per sample, with one near every position, and reaches the goal within 0.6 of the
+/// samples. Better parents would save at most 0.002 of the costs, but at least 0.045 if nothing is rewired.
 inline void growsWhileItImproves(rex::grading::Check& check, const StarSearch& search,
                                  const PlaneWorld& world, const SearchSettings& settings) {
   check.atLeast("number of nodes per sample",
                 static_cast<double>(search.tree.nodes.size()) / settings.maxSamples, 1. / 3);
-  check.atLeast("share of the free places that a node is near, within a step",
+  check.atLeast("share of the free positions with a node within a step",
                 shareReached(world, search.tree, settings.stepSize, check.rng()), 0.95);
-  check.atMost("what better parents within a step would save, as a share of the costs of all nodes",
+  check.atMost("share of the cost of all nodes that better parents within a step would save",
                leftToGain(world, search.tree, settings.stepSize), 0.01);
   const double early = search.best[static_cast<std::size_t>(0.9 * settings.maxSamples)];
   check.that("the goal is reached before the last tenth of the samples", early < 1e9);
   const auto first =
       std::find_if(search.best.begin(), search.best.end(), [](double cost) { return cost < 1e9; });
-  check.that("the cost of the goal falls after it was reached", *first > search.best.back());
+  check.that("the cost of the goal falls after it is first reached", *first > search.best.back());
 }

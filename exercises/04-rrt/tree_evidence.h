@@ -11,7 +11,7 @@
 #include "plane_problems.h"
 #include "tree_checks.h"
 
-// What the checks show of trees and paths that are not as they should be.
+// What the checks show when trees and paths are wrong.
 
 /// A world in the plane, from above.
 inline rex::Figure figureOf(const std::string& title, const PlaneWorld& world) {
@@ -37,7 +37,7 @@ inline rex::Series edgesOf(const std::string& label, const Tree& tree) {
 
 /// A path in the plane beside the one it was made from; pieces that are not free are red.
 inline rex::grading::Evidence shortenedSeen(const PlaneProblem& problem, const Path& given, const Path& got) {
-  rex::Figure figure = figureOf("The path, and what became of it", problem.world);
+  rex::Figure figure = figureOf("The given path, and the shortened one", problem.world);
   figure.series = {rex::grading::through(got, rex::grading::gotCurve("got")),
                    rex::grading::through(given, rex::grading::wantedCurve("given"))};
   const EdgeTest isFree = freeIn(problem.world, 1e-9);
@@ -50,9 +50,9 @@ inline rex::grading::Evidence shortenedSeen(const PlaneProblem& problem, const P
   return {.figures = {figure}};
 }
 
-/// A path in the plane beside the one that was wanted; both begin at a dot.
+/// A path in the plane beside the wanted one; both begin at a dot.
 inline rex::grading::Evidence pathSeen(const Path& got, const Path& wanted) {
-  rex::Figure figure = figureOf("The way, which begins at the dot", {});
+  rex::Figure figure = figureOf("The path, which begins at the dot", {});
   const auto begin = [](const Path& path, const rex::Color& color) {
     return rex::grading::through(
         Path{path.front()},
@@ -74,7 +74,7 @@ struct PlaneEdge {
   Eigen::VectorXd q;
 };
 
-/// A tree with an edge that came out and one that was wanted; a parent of -1 stands for none.
+/// A tree with the returned edge and the wanted one; a parent of -1 stands for none.
 inline rex::grading::Evidence edgeSeen(const std::string& title, const PlaneWorld& world, const Tree& tree,
                                        const PlaneEdge& got, const PlaneEdge& wanted) {
   rex::Figure figure = figureOf(title, world);
@@ -115,7 +115,7 @@ inline rex::grading::Evidence rewiredSeen(const PlaneWorld& world, const Tree& g
   return {.figures = {figure}};
 }
 
-/// A sound tree, with the way to one of its nodes and what is wrong of its edges and costs.
+/// A sound tree between start and goal, with its wrong edges and costs marked.
 inline rex::grading::Evidence treeSeen(const PlaneProblem& problem, const Tree& tree, double stepSize) {
   rex::Figure figure = figureOf("The tree from start to goal", problem.world);
   const rex::Series dots{.label = "start and goal",
@@ -144,8 +144,8 @@ inline rex::grading::Evidence treeSeen(const PlaneProblem& problem, const Tree& 
   return {.figures = {figure}};
 }
 
-/// A path of the arm, if it is one, as a film, with the place it should lead to; opens at the first step that
-/// is too long, no step or not free.
+/// A film of a path of the arm, if it is one, beside the goal; opens at the first step that is too long, has
+/// length zero or is not free.
 inline rex::grading::Evidence armPathSeen(const rex::Simulator& S, const Path& path,
                                           const Eigen::VectorXd& goal, double stepSize,
                                           const EdgeTest& isFree) {

@@ -1,6 +1,6 @@
 // caught by: smooth-free, smooth-disc
 // shown by: smooth-free
-// mistake: moves each node to the middle of its neighbours, again and again, and never asks.
+// mistake: moves each node to the middle of its neighbours, again and again, and never tests an edge.
 
 // <solution shortened>
 for (int round = 0; round < 200; ++round)

@@ -1,5 +1,5 @@
 // caught by: backward-worlds
-// mistake: a bias that was typed in.
+// mistake: a hard-coded bias.
 
 // <solution growBackward>
 SearchSettings typedIn = settings;

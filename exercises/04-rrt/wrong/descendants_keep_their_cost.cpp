@@ -1,6 +1,6 @@
 // caught by: star-rewired, star-worlds, star-shortest
 // shown by: star-rewired
-// mistake: a node that is hung on another parent becomes cheaper, but not what hangs on it.
+// mistake: a node with a new parent becomes cheaper, but its descendants keep their old costs.
 
 // <solution rewired>
 const auto n = static_cast<std::size_t>(node);

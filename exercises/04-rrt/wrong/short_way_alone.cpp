@@ -1,6 +1,6 @@
 // caught by: star-thin-walls, star-worlds, star-shortest
 // shown by: star-thin-walls
-// mistake: no RRT*, but the shortened way of two trees as a tree of one branch.
+// mistake: no RRT*, but the shortened path of two trees as a tree of one branch.
 
 // <solution growStar>
 Path way;

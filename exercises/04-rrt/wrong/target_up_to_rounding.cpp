@@ -1,5 +1,5 @@
 // caught by: step-nearest
-// mistake: a near target is reached up to rounding only, so that trees that meet do not notice.
+// mistake: a near target is reached only up to rounding, so that it goes unnoticed when the trees meet.
 
 // <solution stepTowards>
 const double distance = (target - from).norm();

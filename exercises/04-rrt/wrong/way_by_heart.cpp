@@ -1,5 +1,5 @@
 // caught by: backward-arm, backward-worlds
-// mistake: postures of a way that was found once; the edges are asked for, but not heard.
+// mistake: postures of a path that was found once; the edges are tested, but the answers ignored.
 
 // <solution growBackward>
 constexpr double kWay[][7] = {{1.02826, 0.01644, -1.70668, 0.94866, 2.06370, -0.64979, -1.63454},

@@ -1,5 +1,5 @@
 // caught by: backward-way, backward-arm, backward-worlds, connect-joined
-// mistake: parents are followed from the node to the root, and so is the path.
+// mistake: parents are followed from the node to the root, and the path keeps that order.
 
 // <solution wayFromRoot>
 for (int i = node; i >= 0; i = tree.parents[static_cast<std::size_t>(i)])
