@@ -26,7 +26,7 @@ void isCloud(Check& check, const Cloud& cloud, Eigen::Index count) {
   check.near("sum of the weights", cloud.weights.sum(), 1, 1e-9);
 }
 
-// The weights that go with logarithms of which the largest is zero.
+// The weights that belong to logarithms, shifted so that the largest is zero.
 Eigen::VectorXd weightsBeside(const Eigen::VectorXd& logarithms) {
   const Eigen::VectorXd parts = (logarithms.array() - logarithms.maxCoeff()).exp().matrix();
   return parts / parts.sum();
@@ -46,26 +46,27 @@ void stepsLikeTheCar(Check& check, Student& student) {
     const Eigen::Vector3d got = student.carStep(x, u, world);
     check.shape("state after a step", got, 3, 1);
     const Eigen::Vector3d error = poseError(got, mapOf(world).getMeanStateAfterStep(x, u));
-    check.near("error of the place after a step", error.head<2>(), Eigen::Vector2d::Zero(), 1e-9, "m");
-    check.near("error of the heading after a step", error[2], 0, 1e-9, "rad");
+    check.near("position error after a step", error.head<2>(), Eigen::Vector2d::Zero(), 1e-9, "m");
+    check.near("heading error after a step", error[2], 0, 1e-9, "rad");
   }
 }
 
-// The noise in deviations, in the columns of d, has mean zero and mean squares one; its numbers have nothing
-// to do with each other, nor with those of the next particle.
+// The noise in standard deviations, in the columns of d, has mean zero and mean squares one; its entries are
+// uncorrelated with each other and with those of the next particle.
 void isNoise(Check& check, const Eigen::MatrixXd& d) {
   const auto shown = check.show([&] { return noiseSeen(d); });
   const Eigen::Index n = d.cols();
   const double tolerance = kSigmas / std::sqrt(static_cast<double>(n));
-  check.near("mean of the noise, in deviations", d.rowwise().mean(), Eigen::Vector3d::Zero(), tolerance);
+  check.near("mean of the noise, in standard deviations", d.rowwise().mean(), Eigen::Vector3d::Zero(),
+             tolerance);
   const Eigen::Matrix3d products = d * d.transpose() / static_cast<double>(n);
-  check.near("mean square of the noise, in deviations", products.diagonal(), Eigen::Vector3d::Ones(),
+  check.near("mean square of the noise, in standard deviations", products.diagonal(), Eigen::Vector3d::Ones(),
              std::sqrt(2.) * tolerance);
-  check.near("mean products of the noise in x, y and heading",
+  check.near("covariances of the noise in x, y and heading",
              Eigen::Vector3d(products(0, 1), products(0, 2), products(1, 2)), Eigen::Vector3d::Zero(),
              tolerance);
   const double next = d.leftCols(n - 1).cwiseProduct(d.rightCols(n - 1)).sum() / static_cast<double>(3 * n);
-  check.near("mean product of the noise of neighbours", next, 0, tolerance);
+  check.near("covariance of the noise of neighbouring particles", next, 0, tolerance);
 }
 
 void spreadsInOneStep(Check& check, Student& student) {
@@ -73,13 +74,12 @@ void spreadsInOneStep(Check& check, Student& student) {
   for (const double noise : {0.03, 0.2}) {
     CarWorld world = worldWith(2, rng);
     world.dynamicsNoise = noise;
-    world.tau = noise < 0.1 ? 0.3 : 2;  // the noise belongs to a step, however long
+    world.tau = noise < 0.1 ? 0.3 : 2;  // the noise is that of one step, however long it is
     const Eigen::Vector2d u(rng.uniform(0.5, 2), rng.uniform(-0.5, 0.5));
     Eigen::MatrixXd states(3, 3000);
     const Eigen::Vector3d a = randomPose(rng), b = randomPose(rng);
     for (Eigen::Index k = 0; k < states.cols(); ++k) states.col(k) = k % 2 == 0 ? a : b;
-    check.input("3000 particles in two places, dynamicsNoise = " + text(noise) +
-                ", tau = " + text(world.tau));
+    check.input("3000 particles in two poses, dynamicsNoise = " + text(noise) + ", tau = " + text(world.tau));
     const Eigen::MatrixXd next = student.moved(states, u, world, Rng(rng.next()));
     check.shape("states after a step", next, 3, states.cols());
     const CarSimulator map = mapOf(world);
@@ -94,8 +94,8 @@ void spreadsInOneStep(Check& check, Student& student) {
 }
 
 // <hidden>
-// Headings are sums of normal numbers, so that means of their cosines, and of products of them, are known
-// exactly: the mean of cos(a + s z) is cos(a) exp(-s^2 / 2).
+// Headings are sums of Gaussian numbers, so that the means of their cosines, and of products of these, are
+// known exactly: the mean of cos(a + s z) is cos(a) exp(-s^2 / 2).
 void driftsAsTheModelSays(Check& check, Student& student) {
   Rng& rng = check.rng();
   CarWorld world = worldWith(2, rng);
@@ -134,13 +134,14 @@ void driftsAsTheModelSays(Check& check, Student& student) {
     spread += (states.col(i).head<2>() - mean).squaredNorm() / count;
     turned += std::pow(wrapAngle(states(2, i) - exact[2]), 2) / count;
   }
-  check.near("mean place after 40 steps", states.topRows(2).rowwise().mean(), mean,
+  check.near("mean position after 40 steps", states.topRows(2).rowwise().mean(), mean,
              kSigmas * std::sqrt(square / count), "m");
-  // The square of a place varies by 1.5 times its mean at most, that of a heading by sqrt(2) times.
-  check.near("mean square distance from the mean place after 40 steps, of that expected", spread / square, 1,
-             kSigmas * 1.5 / std::sqrt(count));
-  check.near("mean square of the heading's error after 40 steps, of that expected",
-             turned / (steps * variance), 1, kSigmas * std::sqrt(2. / count));
+  // The standard deviation of a squared distance is at most 1.5 times its mean, that of a squared heading
+  // error sqrt(2) times.
+  check.near("mean square distance from the mean position after 40 steps / expected value", spread / square,
+             1, kSigmas * 1.5 / std::sqrt(count));
+  check.near("mean square heading error after 40 steps / expected value", turned / (steps * variance), 1,
+             kSigmas * std::sqrt(2. / count));
 }
 // </hidden>
 
@@ -159,7 +160,8 @@ void seesLandmarks(Check& check, Student& student) {
   }
 }
 
-// The differences to the first: a constant is free. Rounding counts against the largest of the numbers.
+// Compares the differences from the first, since a constant is free. The tolerance is relative to the largest
+// of the numbers.
 void areLogarithms(Check& check, const Eigen::VectorXd& got, const Eigen::VectorXd& wanted) {
   check.shape("logarithms of the likelihoods", got, wanted.size(), 1);
   const double largest = 1 + wanted.cwiseAbs().maxCoeff();
@@ -188,7 +190,7 @@ void likelihoodsOfTwo(Check& check, Student& student) {
   }
 }
 
-// Weights beside the largest, for logarithms that may be -infinity.
+// The weights fit the logarithms, some of which may be -infinity.
 void areWeights(Check& check, const Eigen::VectorXd& got, const Eigen::VectorXd& logarithms) {
   check.shape("weights", got, logarithms.size(), 1);
   check.near("sum of the weights", got.sum(), 1, 1e-9);
@@ -204,7 +206,7 @@ void normalises(Check& check, Student& student) {
   }
   check.input("one logarithm, -3000");
   areWeights(check, student.weightsOf(Eigen::VectorXd::Constant(1, -3000)), Eigen::VectorXd::Zero(1));
-  check.input("logarithms of which half are -infinity");
+  check.input("8 logarithms, half of them -infinity");
   Eigen::VectorXd half = logs;
   half.tail(4).setConstant(kNever);
   areWeights(check, student.weightsOf(half), half);
@@ -256,9 +258,9 @@ void countsWorth(Check& check, Student& student) {
     const int equal = 1 + rng.index(50);
     Eigen::VectorXd weights = Eigen::VectorXd::Zero(60);
     weights.head(equal).setConstant(1. / equal);
-    check.input("60 particles, of which " + std::to_string(equal) + " share the weight equally");
+    check.input("60 particles; " + std::to_string(equal) + " of them share the weight equally");
     check.near("effective size", student.effectiveSize(weights), equal, 1e-9 * equal);
-    // Two heaps of equal weights inside: what each is worth by itself, weighed against each other.
+    // Two groups with equal weights inside each: their effective sizes combine by their shares of the weight.
     const double share = rng.uniform(0.05, 0.95);
     weights.setConstant(60, (1 - share) / 50);
     weights.head(10).setConstant(share / 10);
@@ -302,13 +304,13 @@ void averages(Check& check, Student& student) {
     check.shape("mean pose", got, 3, 1);
     const Eigen::Vector2d place = (cloud.states * cloud.weights).head<2>();
     const auto shown = check.show([&] { return meanSeen(cloud, got, {place[0], place[1], std::arg(sum)}); });
-    check.near("mean place", got.head<2>(), place, 1e-9, "m");
+    check.near("mean position", got.head<2>(), place, 1e-9, "m");
     check.near("error of the mean heading", wrapAngle(got[2] - std::arg(sum)), 0, 1e-9, "rad");
   }
 }
 
-// Four heaps of particles far from each other, so that every child shows its parent. With `isLost`, no
-// particle explains what is seen.
+// Four groups of particles far from each other, so that the parent of every child is known. With `isLost`, no
+// particle explains the observation.
 void goesThroughAllLines(Check& check, Student& student, bool isLost) {
   Rng& rng = check.rng();
   CarWorld world = worldWith(3, rng);
@@ -343,13 +345,13 @@ void goesThroughAllLines(Check& check, Student& student, bool isLost) {
     }
     children[heap] += 1;
   }
-  check.atMost("how far a particle is from where a parent leads, in deviations", noise.cwiseAbs().maxCoeff(),
-               7);
-  check.near("mean square of the noise, in deviations", noise.squaredNorm() / (3 * count), 1,
+  check.atMost("distance of a particle from the nearest moved parent, in standard deviations",
+               noise.cwiseAbs().maxCoeff(), 7);
+  check.near("mean square of the noise, in standard deviations", noise.squaredNorm() / (3 * count), 1,
              kSigmas * std::sqrt(2. / (3 * count)));
-  // Also if all children are drawn by themselves.
+  // Wide enough even if all children are drawn independently.
   for (int h = 0; h < 4; ++h)
-    check.near("children of the particles in one place", children[h], due[h],
+    check.near("children of the particles in one pose", children[h], due[h],
                kSigmas * std::sqrt(due[h] * (1 - due[h] / count)));
   const Eigen::VectorXd wanted = isLost ? Eigen::VectorXd::Constant(count, 1. / count)
                                         : weightsBeside(logDensities(world, after.states, y));
@@ -360,25 +362,26 @@ void explainsWhatIsSeen(Check& check, Student& student) {
   for (int i = 0; i < 5; ++i) goesThroughAllLines(check, student, false);
 }
 
-// Also a step in which it is not lost: equal weights alone are no answer.
+// Includes a step in which the car is not lost: always returning equal weights must fail.
 void survives(Check& check, Student& student) {
   for (const bool isLost : {true, false, true}) goesThroughAllLines(check, student, isLost);
 }
 
-// Generators of students come from a stream of their own: who winds them back does not find the drive.
+// The random generators passed to students come from a separate stream: rewinding them does not reveal the
+// drive.
 Rng generatorsOf(Check& check) { return check.rng().split(7); }
 
-// In columns, what of poses has a mean that their noise moves by a known factor.
+// x, y and the cosine and sine of the heading, in columns: the noise changes their means by known factors.
 Eigen::MatrixXd arrowsOf(const Eigen::MatrixXd& states) {
   Eigen::MatrixXd arrows(4, states.cols());
   arrows << states.topRows(2), states.row(2).array().cos().matrix(), states.row(2).array().sin().matrix();
   return arrows;
 }
 
-// Resampled and moved, particles have without their weights the mean and the spread that the particles before
-// have with them, once moved; each of N children adds a draw to both. The mean of cos(a + s z) is
-// cos(a) exp(-s^2 / 2). In 13000 steps with 100 particles the mean was off by 3.8 deviations at most, and the
-// squares were 0.66 to 1.41 of those expected.
+// Resampled and moved, the particles have without weights the mean and the spread that the moved particles
+// from before the step have with their weights, up to the random draws of N children. The mean of cos(a + s
+// z) is cos(a) exp(-s^2 / 2). In 13000 steps with 100 particles the mean was off by at most 3.8 standard
+// deviations, and the squares were 0.66 to 1.41 times those expected.
 void comesFrom(Check& check, const Cloud& after, const Cloud& before, const Eigen::Vector2d& u,
                const CarWorld& world) {
   const CarSimulator map = mapOf(world);
@@ -392,10 +395,11 @@ void comesFrom(Check& check, const Cloud& after, const Cloud& before, const Eige
   const Eigen::Vector4d wanted = due * before.weights, mean = got.rowwise().mean();
   const Eigen::Vector4d variances =
       ((due.colwise() - wanted).cwiseAbs2() * before.weights).array() + variance;
-  check.atMost("mean of the particles, off from where the weighted ones before lead, in deviations",
-               ((mean - wanted).array().abs() / (variances.array() / count).sqrt()).maxCoeff(), kSigmas);
+  check.atMost(
+      "error of the mean of the particles, in standard deviations from the moved weighted ones before",
+      ((mean - wanted).array().abs() / (variances.array() / count).sqrt()).maxCoeff(), kSigmas);
   const double spread = (got.colwise() - mean).topRows(2).squaredNorm() / count;
-  check.near("mean square distance of the particles from their middle, of that expected",
+  check.near("mean square distance of the particles from their mean / expected value",
              spread / variances.head<2>().sum(), 1, 0.7);
 }
 
@@ -428,29 +432,31 @@ Errors follow(Check& check, Student& student, const CarWorld& world, const Drive
   return {std::sqrt(errors.place), std::sqrt(errors.heading)};
 }
 
-// In 3000 drives the place was off by 0.2 m, in the worst by 0.37 m, and the heading by 0.034 rad at most.
-// Dead reckoning is off by some 0.3 rad.
+// In 3000 drives the position error was 0.2 m, in the worst drive 0.37 m, and the heading error at most 0.034
+// rad. With dead reckoning the heading is off by some 0.3 rad.
 void tracks(Check& check, Student& student) {
   CarWorld world;
   world.landmarks = (Eigen::MatrixXd(2, 2) << 10, -6, 8, 12).finished();
   Rng given = generatorsOf(check);
-  check.input("the car of the sheet for 200 steps, 100 particles, landmarks at (10, 8) and (-6, 12)");
+  check.input(
+      "the car of the exercise sheet for 200 steps, 100 particles, landmarks at (10, 8) and (-6, 12)");
   for (int i = 0; i < 3; ++i) {
     const Driven driven = drive(world, Eigen::Vector3d::Zero(), {0.1, 0.2}, 200, check.rng());
     constexpr double kFarthest = 0.5;
     TrackRecord record;
     const auto shown = check.show([&] { return trackSeen(world, driven, record, kFarthest); });
     const Errors errors = follow(check, student, world, driven, 100, given, record);
-    check.atMost("error of the place, root mean square", errors.place, kFarthest, "m");
-    check.atMost("error of the heading, root mean square", errors.heading, 0.08, "rad");
+    check.atMost("root mean square position error", errors.place, kFarthest, "m");
+    check.atMost("root mean square heading error", errors.heading, 0.08, "rad");
   }
 }
 
 // <hidden>
-// The squared error over the covariance of the particles is a chi-square number of 3 degrees: half of them
-// are above 2.37. Their median hardly notices the few drives in which a handful of particles have all the
-// weight. The place is off by 0.20 m (0.03 m), root mean square; by 0.76 m (0.15 m) from the last observation
-// alone, and by 1.6 m of dead reckoning, whose clouds are as wide as they should be, too.
+// The squared error over the covariance of the particles is chi-square distributed with 3 degrees of freedom:
+// half of the values are above 2.37. Their median is hardly affected by the few drives in which a handful of
+// particles have all the weight. The root mean square position error is 0.20 m (0.03 m); from the last
+// observation alone it is 0.76 m (0.15 m). Dead reckoning, whose clouds are as wide as they should be, too,
+// has 1.6 m.
 void isConsistent(Check& check, Student& student) {
   Rng& rng = check.rng();
   Rng given = generatorsOf(check);
@@ -472,20 +478,21 @@ void isConsistent(Check& check, Student& student) {
     squares.push_back(error.dot(covarianceAround(cloud, mean).inverse() * error));
     square += error.head<2>().squaredNorm() / drives;
   }
-  check.atMost("error of the place after 30 steps, root mean square of 21 drives", std::sqrt(square), 0.4,
-               "m");
+  check.atMost("root mean square position error after 30 steps, over 21 drives", std::sqrt(square), 0.4, "m");
   std::sort(squares.begin(), squares.end());
   const double median = squares[drives / 2];
-  check.atLeast("squared error over the covariance of the particles, median of 21 drives", median, 0.5);
-  check.atMost("squared error over the covariance of the particles, median of 21 drives", median, 8);
+  check.atLeast("median over 21 drives of the squared error over the covariance of the particles", median,
+                0.5);
+  check.atMost("median over 21 drives of the squared error over the covariance of the particles", median, 8);
 }
 // </hidden>
 
 // Part 5.
 
-// The car circles among the landmarks. Of 1600 answers of a filter with 200 particles all were within 9 %,
-// with a spread of 2 %; estimates from the residuals are some 4 % low, for a part of the noise goes into the
-// states. What one round finds with the noise assumed ten times too large is 25 to 75 % too much.
+// The car circles among the landmarks. All of 1600 answers from a filter with 200 particles were within 9 %,
+// with a standard deviation of 2 %. Estimates from the residuals are some 4 % low, since a part of the noise
+// goes into the states. If the assumed noise is ten times too large, a single round finds 25 to 75 % too
+// much.
 void findsNoise(Check& check, Student& student, const CarWorld& world, double factor) {
   Rng& rng = check.rng();
   const Eigen::Vector2d u(rng.uniform(0.1, 0.3), rng.uniform(0.15, 0.4));
@@ -495,14 +502,14 @@ void findsNoise(Check& check, Student& student, const CarWorld& world, double fa
   check.input(std::to_string(world.landmarks.cols()) + " landmarks, 120 steps, assumed noise " +
               text(told.observationNoise) + " m");
   const double got = student.likelyNoise(driven.log, told, Rng(rng.next()));
-  check.near("noise found, of that of the drive", got / world.observationNoise, 1, 0.15);
+  check.near("noise found / noise of the drive", got / world.observationNoise, 1, 0.15);
 }
 
 void noiseOfOneCar(Check& check, Student& student) {
   Rng& rng = check.rng();
   CarWorld world = worldWith(8, rng);
   world.dynamicsNoise = 0.04;
-  // Factors and noise are drawn, so that the noise cannot be read off the assumed one.
+  // Factors and noise are random, so that the noise cannot be inferred from the assumed one.
   const double first = rng.uniform() < 0.5 ? -1 : 1;
   for (const double power :
        {first * rng.uniform(0.8, 1), -first * rng.uniform(0.8, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)}) {
@@ -552,8 +559,8 @@ void bearings(Check& check, Student& student) {
 }
 
 // <hidden>
-// Which way the car looks is not known at first, nor exactly where it is: a few of the 2000 particles are
-// right. In 1200 drives the errors were below 0.5 m and 0.15 rad in the end.
+// At first the heading of the car is unknown, and its position only roughly known: a few of the 2000
+// particles are right. In 1200 drives the final errors were below 0.5 m and 0.15 rad.
 void findsItsHeading(Check& check, Student& student) {
   Rng& rng = check.rng();
   Rng given = generatorsOf(check);
@@ -563,7 +570,7 @@ void findsItsHeading(Check& check, Student& student) {
     world.bearingNoise = 0.1;
     const Eigen::Vector3d start = randomPose(rng);
     const Driven driven = drive(world, start, {0.5, 0.2}, 20, rng);
-    // Around the middle of the cloud, which is not where the car is.
+    // The cloud is not centred at the car.
     const Eigen::Vector3d off(rng.uniform(-0.7, 0.7), rng.uniform(-0.7, 0.7), rng.uniform(-3, 3));
     Cloud cloud = cloudAt(start + off, 2000);
     for (Eigen::Index k = 0; k < 2000; ++k)
@@ -573,7 +580,8 @@ void findsItsHeading(Check& check, Student& student) {
           stepped(check, student, cloud, driven.log.controls[t], driven.log.observations[t], world, given);
     }
     const Eigen::Vector3d error = poseError(student.meanPose(cloud), driven.truth.back());
-    check.atMost("distance of the mean place from the car after 20 steps", error.head<2>().norm(), 1.5, "m");
+    check.atMost("distance of the mean position from the car after 20 steps", error.head<2>().norm(), 1.5,
+                 "m");
     check.atMost("error of the mean heading after 20 steps", std::abs(error[2]), 0.3, "rad");
   }
 }
@@ -584,19 +592,18 @@ void findsItsHeading(Check& check, Student& student) {
 grading::Checks<Student> checks() {
   return {
       {"car-step", "reckoning", "one step of the car", 1, Group::kVisible, stepsLikeTheCar},
-      {"car-spread", "reckoning", "every particle has noise of its own", 1, Group::kVisible,
-       spreadsInOneStep},
+      {"car-spread", "reckoning", "every particle has its own noise", 1, Group::kVisible, spreadsInOneStep},
       // <hidden>
       {"car-drift", "reckoning", "dead reckoning spreads as the model says", 1, Group::kHidden,
        driftsAsTheModelSays},
       // </hidden>
       {"view", "weights", "landmarks in the frame of the car", 1, Group::kVisible, seesLandmarks},
       {"likelihood", "weights", "likelihoods of an observation", 1, Group::kVisible, likelihoodsOfTwo},
-      {"normalised", "weights", "weights of likelihoods, however small", 1, Group::kVisible, normalises},
+      {"normalised", "weights", "weights from likelihoods, however small", 1, Group::kVisible, normalises},
       // <hidden>
       {"weights-anywhere", "weights", "other worlds and far particles", 1, Group::kHidden, weighsAnywhere},
       // </hidden>
-      {"whole-parts", "resampling", "whole parts are certain", 1, Group::kVisible, wholePartsForCertain},
+      {"whole-parts", "resampling", "integer parts are certain", 1, Group::kVisible, wholePartsForCertain},
       {"unbiased", "resampling", "the rest is fair", 1, Group::kVisible, unbiased},
       {"effective-size", "resampling", "what unequal weights are worth", 1, Group::kVisible, countsWorth},
       // <hidden>
@@ -607,17 +614,17 @@ grading::Checks<Student> checks() {
       {"tracks", "filter", "the filter follows the car", 1, Group::kVisible, tracks},
       {"survives", "filter", "an observation that no particle explains", 1, Group::kVisible, survives},
       // <hidden>
-      {"consistent", "filter", "other worlds: as wrong as the cloud is wide", 1, Group::kHidden,
+      {"consistent", "filter", "other worlds: errors as large as the cloud is wide", 1, Group::kHidden,
        isConsistent},
       // </hidden>
-      {"noise", "noise", "the noise from assumptions up to ten times too large or too small", 1,
+      {"noise", "noise", "finding the noise from an assumption up to ten times too large or too small", 1,
        Group::kVisible, noiseOfOneCar},
       // <hidden>
       {"noise-elsewhere", "noise", "other noise in other worlds", 1, Group::kHidden, noiseOfOthers},
       // </hidden>
       {"bearings", "bearings", "distances and bearings", 1, Group::kVisible, bearings},
       // <hidden>
-      {"finds-heading", "bearings", "a car that does not know which way it looks", 1, Group::kHidden,
+      {"finds-heading", "bearings", "a car that does not know its heading", 1, Group::kHidden,
        findsItsHeading},
       // </hidden>
   };

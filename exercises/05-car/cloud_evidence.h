@@ -10,7 +10,7 @@
 #include "drives.h"
 #include "grading/evidence_parts.h"
 
-// What the checks show of clouds of particles, and of cars that a filter has lost.
+// What the checks show when a cloud of particles is wrong, or when a filter has lost its car.
 
 /// A filter's clouds and their means, step by step.
 struct TrackRecord {
@@ -27,8 +27,8 @@ inline rex::Way wayOf(const std::string& name, const std::vector<Eigen::Vector3d
   return way;
 }
 
-/// The car, and the estimate with its ellipse, as a film that opens where they are twice as far apart as they
-/// should be on average, or else where they are farthest.
+/// The car, and the estimate with its ellipse. The film opens where they are first more than twice as far
+/// apart as they may be on average, or else where they are farthest apart.
 inline rex::grading::Evidence trackSeen(const CarWorld& world, const Driven& driven,
                                         const TrackRecord& record, double limit) {
   const std::size_t count = record.means.size();
@@ -55,7 +55,7 @@ inline rex::grading::Evidence trackSeen(const CarWorld& world, const Driven& dri
                                             wayOf("got: the estimate", record.means, rex::kEstimateColor)}});
   map.title = "The car and its estimate";
   rex::Figure errors{
-      .title = "Error of the place", .xLabel = "time [s]", .yLabel = "distance [m]", .series = {error}};
+      .title = "Position error", .xLabel = "time [s]", .yLabel = "distance [m]", .series = {error}};
   errors.horizontalLines = {{.at = limit, .label = "wanted: root mean square at most"}};
   errors.verticalLines = {rex::grading::wrongFrom(moment)};
   return {.figures = {map, errors},
@@ -64,7 +64,7 @@ inline rex::grading::Evidence trackSeen(const CarWorld& world, const Driven& dri
           .moment = moment};
 }
 
-/// Noise in deviations, one column each, of which the first two numbers are drawn.
+/// Noise in standard deviations, one column per particle; the first two entries are drawn.
 inline rex::grading::Evidence noiseSeen(const Eigen::MatrixXd& d) {
   rex::Series dots = rex::grading::through(d.colwise(), rex::Series{.label = "got",
                                                                     .style = rex::SeriesStyle::kPoints,
@@ -72,15 +72,15 @@ inline rex::grading::Evidence noiseSeen(const Eigen::MatrixXd& d) {
                                                                     .size = .8,
                                                                     .color = rex::grading::kGotColor});
   rex::Figure figure{.title = "Noise of the particles",
-                     .xLabel = "in x, deviations",
-                     .yLabel = "in y, deviations",
+                     .xLabel = "in x, standard deviations",
+                     .yLabel = "in y, standard deviations",
                      .equalAxes = true,
                      .series = {dots}};
-  figure.ellipses = {{.label = "wanted: 95 % in here", .sigmas = 2.45, .color = rex::grading::kWantedColor}};
+  figure.ellipses = {{.label = "wanted: 95 % inside", .sigmas = 2.45, .color = rex::grading::kWantedColor}};
   return {.figures = {figure}};
 }
 
-/// Landmarks in the frame of the car, as stacked numbers.
+/// Landmarks in the frame of the car, as a stacked vector.
 inline rex::grading::Evidence viewSeen(const Eigen::VectorXd& got, const Eigen::VectorXd& wanted) {
   if (got.size() != wanted.size()) return {};
   const auto dots = [](const char* label, const Eigen::VectorXd& y, rex::Marker marker, rex::Color color) {
@@ -102,7 +102,7 @@ inline rex::grading::Evidence viewSeen(const Eigen::VectorXd& got, const Eigen::
                                    .size = 2}}}}};
 }
 
-/// A cloud with the pose that stands for it, and the one that should.
+/// A cloud with the mean pose that was returned, and the wanted one.
 inline rex::grading::Evidence meanSeen(const Cloud& cloud, const Eigen::Vector3d& got,
                                        const Eigen::Vector3d& wanted) {
   rex::Figure figure{
@@ -120,7 +120,7 @@ inline rex::grading::Evidence meanSeen(const Cloud& cloud, const Eigen::Vector3d
     return rex::grading::through(ends, look);
   };
   figure.arrows = {arrows};
-  figure.series = {hand(got, rex::grading::gotCurve("got: place and heading")),
+  figure.series = {hand(got, rex::grading::gotCurve("got: position and heading")),
                    hand(wanted, rex::grading::wantedCurve("wanted"))};
   return {.figures = {figure}};
 }

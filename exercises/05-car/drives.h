@@ -8,7 +8,7 @@
 #include "exercise.h"
 #include "geometry/rotation.h"
 
-// The cars of the checks, and what they know of a world without asking the student.
+// The cars of the checks, and what follows from a world without calling the student's functions.
 
 inline rex::CarOptions optionsOf(const CarWorld& world) {
   return {.tau = world.tau,
@@ -27,7 +27,7 @@ inline rex::CarSimulator carIn(const CarWorld& world, rex::Rng& rng) {
   return car;
 }
 
-// So many landmarks, 4 to 16 m from the origin in all directions, so that no car sees them in one line.
+// Landmarks 4 to 16 m from the origin in all directions, so that no car sees them in one line.
 inline CarWorld worldWith(int landmarks, rex::Rng& rng) {
   CarWorld world;
   world.landmarks.resize(2, landmarks);
@@ -69,7 +69,7 @@ inline Cloud cloudAt(const Eigen::Vector3d& x, int count) {
   return {x.replicate(1, count), Eigen::VectorXd::Constant(count, 1. / count)};
 }
 
-// (x, y, heading) of a minus b, the heading the shorter way round.
+// (x, y, heading) of a minus b, with the heading difference wrapped to [-pi, pi].
 inline Eigen::Vector3d poseError(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return {a[0] - b[0], a[1] - b[1], rex::wrapAngle(a[2] - b[2])};
 }
@@ -84,7 +84,7 @@ inline Eigen::Matrix3d covarianceAround(const Cloud& cloud, const Eigen::Vector3
   return sum;
 }
 
-// A drive from `start` with the same control all the time, and where the car was after each step.
+// A drive from `start` with the same control all the time, and the state of the car after each step.
 struct Driven {
   DriveLog log;
   std::vector<Eigen::Vector3d> truth;

@@ -9,9 +9,9 @@
 #include "grading/evidence_parts.h"
 #include "interface.h"
 
-// What the children of weighted particles must have in common, however they are drawn.
+// What the children of weighted particles must satisfy, however they are drawn.
 
-// Statistics lie within so many standard deviations: outside in one of 25 million right answers.
+// Statistics must lie within this many standard deviations: one correct answer in 25 million does not.
 inline constexpr double kSigmas = 5.5;
 
 inline std::string text(double x) { return std::to_string(x).substr(0, 6); }
@@ -21,11 +21,11 @@ inline Eigen::VectorXd randomWeights(int count, rex::Rng& rng) {
   return weights / weights.sum();
 }
 
-// How often each is a parent.
+// How often each particle is a parent.
 inline Eigen::VectorXd childrenOf(rex::grading::Check& check, Student& student,
                                   const Eigen::VectorXd& weights, int count, std::uint64_t seed) {
   const std::vector<int> drawn = student.resampledParents(weights, count, rex::Rng(seed));
-  check.near("how many parents there are", static_cast<double>(drawn.size()), count, 0);
+  check.near("number of parents", static_cast<double>(drawn.size()), count, 0);
   Eigen::VectorXd children = Eigen::VectorXd::Zero(weights.size());
   for (const int parent : drawn) {
     check.that("every parent is one of the particles", parent >= 0 && parent < weights.size());
@@ -34,7 +34,7 @@ inline Eigen::VectorXd childrenOf(rex::grading::Check& check, Student& student,
   return children;
 }
 
-// How many children each particle has, and how many are due on average.
+// The number of children of each particle, and the number that is due on average.
 inline rex::grading::Evidence childrenSeen(const Eigen::VectorXd& children, const Eigen::VectorXd& due) {
   rex::Series wanted{.label = "wanted on average: count * weight",
                      .style = rex::SeriesStyle::kPoints,
@@ -57,12 +57,12 @@ inline void keepsWholeParts(rex::grading::Check& check, const Eigen::VectorXd& w
     missing = std::max(missing, std::floor(count * weights[k] - 1e-6) - children[k]);
     check.that("no particle of weight zero is a parent", weights[k] > 0 || children[k] == 0);
   }
-  check.atMost("children that a particle lacks to the whole part of count * weight", missing, 0);
+  check.atMost("children that a particle lacks to reach the integer part of count * weight", missing, 0);
 }
 
-// The mean number of children in `calls` calls. Above the whole part f more are due on average; their
-// variance is f (1 - f) if all are drawn with one random number, and f at most if each is drawn by itself.
-// What is due almost never may happen five times all the same.
+// The mean number of children in `calls` calls. In addition to the integer part, f children are due on
+// average. Their variance is f (1 - f) if all are drawn with one random number, and at most f if each is
+// drawn by itself. Even children that are almost never due may occur five times.
 inline void isUnbiased(rex::grading::Check& check, Student& student, const Eigen::VectorXd& weights,
                        int count, int calls) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(weights.size());

@@ -26,14 +26,14 @@ Way wayOf(const std::string& name, const Eigen::MatrixXd& poses, const Color& co
   return {.name = name, .points = poses.topRows(2), .color = color};
 }
 
-// By meanPose, a column for each step.
+// The results of meanPose, a column for each step.
 Eigen::MatrixXd meansOf(const std::vector<Cloud>& clouds) {
   Eigen::MatrixXd means(3, kSteps);
   for (int t = 0; t < kSteps; ++t) means.col(t) = meanPose(clouds[static_cast<std::size_t>(t)]);
   return means;
 }
 
-// Of x and y, for particles of equal weight.
+// The means of x and y, for particles of equal weight.
 Eigen::MatrixXd plainMeans(const std::vector<Cloud>& clouds) {
   Eigen::MatrixXd means(2, kSteps);
   for (int t = 0; t < kSteps; ++t)
@@ -144,10 +144,10 @@ void showLikelihood(int step, const RecordedDrive& drive, const CarWorld& world)
   }
   const Eigen::VectorXd weights = weightsOf(logLikelihoods(particles, y, world));
   const double most = std::max(weights.maxCoeff(), 1e-300);
-  plot("likelihood", {.title = "Where the car could be, by what it sees in step " + std::to_string(step),
+  plot("likelihood", {.title = "Where the car could be, given what it sees in step " + std::to_string(step),
                       .xLabel = "x [m]",
                       .yLabel = "y [m]",
-                      .colorLabel = "weight / the largest",
+                      .colorLabel = "weight / largest weight",
                       .equalAxes = true,
                       .colorRange = AxisRange{0, 1},
                       .series = {{.label = "car",
@@ -165,7 +165,7 @@ void showLikelihood(int step, const RecordedDrive& drive, const CarWorld& world)
 void showChildren(const Eigen::VectorXd& weights, int count) {
   Rng rng(2);
   const int draws = 1000;
-  // Rows: the weights, the mean and the least number of children of each.
+  // Rows: the weights, the mean number of children, and the least number of children.
   Eigen::MatrixXd table(3, weights.size());
   table << weights.transpose(), Eigen::MatrixXd::Zero(1, weights.size()),
       Eigen::MatrixXd::Constant(1, weights.size(), count);
@@ -176,7 +176,7 @@ void showChildren(const Eigen::VectorXd& weights, int count) {
     table.row(2) = table.row(2).cwiseMin(children);
   }
   print("weights; " + std::to_string(count) +
-            " times as many children on average; at least the whole part of that",
+            " times as many children on average; at least the integer part of that",
         table);
   print("effective size of these weights", effectiveSize(weights));
 }
@@ -192,9 +192,9 @@ void showFilter(const std::vector<Cloud>& clouds, const std::vector<Cloud>& blin
   const auto errors = [&](const std::string& label, const Eigen::MatrixXd& of, const Color& color) -> Series {
     return {.label = label, .y = errorsOf(of, drive.truth), .color = color};
   };
-  Figure figure{.title = "How far the mean of the particles is from the car",
+  Figure figure{.title = "Distance of the mean of the particles from the car",
                 .xLabel = "step",
-                .yLabel = "error of the place [m]",
+                .yLabel = "position error [m]",
                 .series = {errors("dead reckoning", reckoned, kDeadReckoningColor),
                            errors("your filter", means, kEstimateColor),
                            errors("the library's filter", meansOfTheLibrary(drive.log, world), kTruthColor)}};
@@ -203,9 +203,8 @@ void showFilter(const std::vector<Cloud>& clouds, const std::vector<Cloud>& blin
 }
 
 void showAssumptions(const RecordedDrive& drive, const CarWorld& world) {
-  Figure errors{.title = "What the filter makes of a wrong noise",
-                .xLabel = "step",
-                .yLabel = "error of the place [m]"};
+  Figure errors{
+      .title = "The filter with a wrong assumed noise", .xLabel = "step", .yLabel = "position error [m]"};
   Figure sizes{.title = "How many of 100 particles count",
                .xLabel = "step",
                .yLabel = "effective size",

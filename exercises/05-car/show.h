@@ -2,7 +2,7 @@
 
 #include "exercise.h"
 
-/// A drive, and what nobody tells the filter: where the car was after each of the 300 steps, 3 x 300.
+/// A drive, and what the filter does not know: the state of the car after each of the 300 steps, 3 x 300.
 struct RecordedDrive {
   DriveLog log;
   Eigen::MatrixXd truth;
@@ -12,23 +12,23 @@ struct RecordedDrive {
 RecordedDrive recordDrive(const CarWorld& world, const Eigen::Vector2d& u);
 
 /// dead_reckoning.png, dead_reckoning.mp4: clouds that only move, one for each step. They grow and bend, and
-/// their mean drives a smaller circle than the car.
+/// their mean follows a smaller circle than the car.
 void showDeadReckoning(const std::vector<Cloud>& blind, const RecordedDrive& drive, const CarWorld& world);
 
-/// likelihood.png: the weights of particles around the car that know its heading, for what it saw in that
+/// likelihood.png: the weights of particles around the car, with its true heading, given what it saw in that
 /// step. They are largest near the cross, where the car is.
 void showLikelihood(int step, const RecordedDrive& drive, const CarWorld& world);
 
-/// Prints how many of `count` children each parent has, in 1000 draws, and the effective size.
+/// Prints how many of `count` children each parent has in 1000 draws, and the effective size.
 void showChildren(const Eigen::VectorXd& weights, int count);
 
 /// filter.png, filter.mp4, error.png: with landmarks the clouds stay as small as the car, and their mean
-/// within a few decimetres of it, as that of the library's filter does.
+/// stays within a few decimetres of it, like the mean of the library's filter.
 void showFilter(const std::vector<Cloud>& clouds, const std::vector<Cloud>& blind, const RecordedDrive& drive,
                 const CarWorld& world);
 
 /// assumed.png, effective_size.png, weights.png: the same drive with 10 sigma, sigma and sigma / 10.
 void showAssumptions(const RecordedDrive& drive, const CarWorld& world);
 
-/// bearings.mp4: 2000 particles know roughly where the car is, but nothing of its heading. Soon they do.
+/// bearings.mp4: 2000 particles know roughly where the car is, but nothing about its heading at first.
 void showBearings(const RecordedDrive& drive, const CarWorld& world);
