@@ -11,7 +11,7 @@
 #include "course/car_pictures.h"
 #include "grading/evidence_parts.h"
 
-// What the checks show of beliefs that are not as they should be.
+// What the checks show when a belief is wrong.
 
 inline rex::Way wayOf(const std::string& name, const std::vector<Eigen::Vector3d>& poses) {
   rex::Way way{.name = name, .points = Eigen::Matrix2Xd(2, static_cast<Eigen::Index>(poses.size()))};
@@ -27,14 +27,14 @@ inline std::vector<rex::PlanarGaussian> landmarksOf(const Belief& joint) {
   return places;
 }
 
-/// A map that was made on a run, over the true one.
+/// A map built on a run, drawn over the true one.
 inline rex::grading::Evidence mapSeen(const CarRun& run, const Belief& joint) {
   rex::Figure figure = rex::figureOf({.car = run.states.back(),
                                       .estimate = joint.mean.head<3>(),
                                       .landmarks = run.landmarks,
                                       .landmarkBeliefs = landmarksOf(joint),
                                       .ways = {wayOf("wanted: the car", run.states)}});
-  figure.title = "The map: ellipses (got) and true places (wanted)";
+  figure.title = "The map: ellipses (got) and true positions (wanted)";
   return {.figures = {figure}};
 }
 
@@ -42,10 +42,10 @@ inline rex::grading::Evidence mapSeen(const CarRun& run, const Belief& joint) {
 struct TrackedRun {
   CarRun run{};
   std::vector<Belief> beliefs{};
-  double error = -1;  ///< the greatest of the place, m
+  double error = -1;  ///< the greatest position error, m
 };
 
-/// As a film of the car and its estimate, which opens where they are farthest from each other.
+/// A film of the car and its estimate, which opens where they are farthest from each other.
 inline rex::grading::Evidence trackSeen(const TrackedRun& tracked) {
   const CarRun& run = tracked.run;
   rex::Film film;
@@ -67,7 +67,7 @@ inline rex::grading::Evidence trackSeen(const TrackedRun& tracked) {
   if (film.empty()) return {};
   const auto worst = std::max_element(error.y.begin(), error.y.end()) - error.y.begin();
   const double moment = film[static_cast<std::size_t>(worst)].time;
-  rex::Figure figure{.title = "Error of the place in the worst of the runs",
+  rex::Figure figure{.title = "Position error in the worst of the runs",
                      .xLabel = "time [s]",
                      .yLabel = "distance [m]",
                      .series = {error, sigmas}};

@@ -19,7 +19,7 @@
 #include "grading/evidence_parts.h"
 #include "interface.h"
 
-// Random cars, runs of them, beliefs, and second opinions on what becomes of beliefs.
+// Random cars, their runs, beliefs, and second opinions on how beliefs change.
 
 inline constexpr double kPi = std::numbers::pi;
 
@@ -59,7 +59,7 @@ inline Eigen::Vector2d randomLandmark(rex::Rng& rng, const Eigen::Vector3d& x) {
   return {x[0] + distance * std::cos(angle), x[1] + distance * std::sin(angle)};
 }
 
-// Every direction is uncertain by 0.05 to 0.4, about.
+// The standard deviation in every direction is about 0.05 to 0.4.
 inline Eigen::MatrixXd randomCovariance(rex::Rng& rng, int n) {
   const Eigen::MatrixXd R = 0.1 * rng.normalVector(n * n).reshaped(n, n) / std::sqrt(0.2 * n);
   const Eigen::MatrixXd S = R * R.transpose() + 0.0025 * Eigen::MatrixXd::Identity(n, n);
@@ -76,7 +76,7 @@ inline Belief randomJoint(rex::Rng& rng, int landmarks) {
   return joint;
 }
 
-// Shapes, finite numbers, exact symmetry, and no direction without variance.
+// Checks shapes, finite numbers, exact symmetry, and variance in every direction.
 inline void requireBelief(rex::grading::Check& check, const Belief& belief, Eigen::Index n) {
   check.shape("mean", belief.mean, n, 1);
   check.shape("covariance", belief.covariance, n, n);
@@ -85,14 +85,14 @@ inline void requireBelief(rex::grading::Check& check, const Belief& belief, Eige
              Eigen::LLT<Eigen::MatrixXd>(belief.covariance).info() == Eigen::Success);
 }
 
-// got - wanted of states that begin with x, y and a heading, which may differ by whole turns.
+// got - wanted for states that begin with x, y and a heading; the headings may differ by whole turns.
 inline Eigen::VectorXd gapOf(const Eigen::VectorXd& got, const Eigen::VectorXd& wanted) {
   Eigen::VectorXd gap = got - wanted;
   if (gap.size() > 2) gap[2] = rex::wrapAngle(gap[2]);  // landmarks have two
   return gap;
 }
 
-/// Two beliefs of the same size: the two numbers in which they differ most.
+/// Two beliefs of the same size, drawn for the two entries in which they differ most.
 inline rex::grading::Evidence beliefSeen(const Belief& got, const Belief& wanted) {
   const Eigen::VectorXd apart = gapOf(got.mean, wanted.mean).cwiseAbs() +
                                 (got.covariance - wanted.covariance).cwiseAbs().rowwise().sum();
@@ -101,9 +101,9 @@ inline rex::grading::Evidence beliefSeen(const Belief& got, const Belief& wanted
   for (Eigen::Index i = 0; i < apart.size(); ++i)
     if (i != one && (other == one || apart[i] > apart[other])) other = i;
   const std::array<Eigen::Index, 2> both{std::min(one, other), std::max(one, other)};
-  rex::Figure figure{.title = "The two numbers in which the beliefs differ most",
-                     .xLabel = "number " + std::to_string(both[0]) + " of the belief",
-                     .yLabel = "number " + std::to_string(both[1]) + " of the belief",
+  rex::Figure figure{.title = "The two entries in which the beliefs differ most",
+                     .xLabel = "entry " + std::to_string(both[0]) + " of the belief",
+                     .yLabel = "entry " + std::to_string(both[1]) + " of the belief",
                      .equalAxes = true};
   const auto add = [&](const std::string& label, const Belief& belief, const rex::Color& color) {
     figure.ellipses.push_back({.label = label + ", 2 sigma",
@@ -131,7 +131,7 @@ inline void sameBelief(rex::grading::Check& check, const Belief& got, const Beli
   check.near("covariance", got.covariance, wanted.covariance, tolerance);
 }
 
-// By central differences; good to 1e-8 for numbers of this size.
+// By central differences; accurate to 1e-8 for numbers of this size.
 inline Eigen::MatrixXd derivative(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& f,
                                   const Eigen::VectorXd& x) {
   constexpr double h = 1e-5;
@@ -150,7 +150,7 @@ inline Eigen::VectorXd seenFrom(const CarSetup& car, const Eigen::VectorXd& x,
   return model.getMeanObservationAtStateAndLandmarks(x, landmarks);
 }
 
-// W of sightings of so many landmarks.
+// W for sightings of that many landmarks.
 inline Eigen::MatrixXd noiseOf(const CarSetup& car, Eigen::Index landmarks) {
   const Eigen::Vector2d deviations(car.observationNoise,
                                    car.rangeBearing ? car.bearingNoise : car.observationNoise);
@@ -197,8 +197,8 @@ inline double curvatureOf(const CarSetup& car, const Eigen::Vector2d& u) {
   return std::tan(u[1]) / car.wheelbase;
 }
 
-// A run from 0 that comes no nearer than 2 m to a landmark: there, a bearing is anything but linear, and no
-// extended filter keeps its promises.
+// A run from 0 that comes no nearer than 2 m to a landmark: closer, a bearing is anything but linear, and no
+// extended Kalman filter is consistent.
 inline CarRun randomRun(rex::Rng& rng, const CarSetup& car, int landmarks, int steps,
                         const Eigen::Vector2d& u) {
   while (true) {

@@ -44,7 +44,7 @@ Poses meansOf(const std::vector<Belief>& beliefs) {
   return poses;
 }
 
-// Of two numbers of a belief, from number i on.
+// The ellipse of two entries of a belief, from entry i on.
 PlanarGaussian planar(const Belief& belief, Eigen::Index i) {
   return {belief.mean.segment(i, 2), belief.covariance.block(i, i, 2, 2)};
 }
@@ -74,7 +74,7 @@ Series curve(const std::string& label, const std::vector<double>& y, const Color
   return series;
 }
 
-// Two standard deviations of number i of each belief, to both sides.
+// Two standard deviations of entry i of each belief, to both sides.
 Band deviationBand(const std::string& label, const std::vector<Belief>& beliefs, Eigen::Index i,
                    const Color& color) {
   Band band{.label = label};
@@ -109,7 +109,7 @@ std::vector<Belief> libraryHindsight(const CarSetup& car, const RecordedDrive& d
   return smooth;
 }
 
-// The squared error in terms of the covariance, averaged over runs of a filter that believes in `believed`.
+// The squared error relative to the covariance, averaged over runs of a filter that assumes `believed`.
 std::vector<double> meanSquaredErrors(const Belief& start, const CarSetup& believed, int runs) {
   constexpr int kSteps = 100;
   std::vector<double> means(kSteps, 0);
@@ -127,7 +127,7 @@ std::vector<double> meanSquaredErrors(const Belief& start, const CarSetup& belie
   return means;
 }
 
-// A joint belief on its way: after each step, and which landmark is which in it.
+// The joint beliefs after each step, and which landmark is which in them.
 struct Mapping {
   std::vector<Belief> joints{{Eigen::Vector3d::Zero(), 1e-6 * Eigen::Matrix3d::Identity()}};
   std::vector<int> names;
@@ -144,15 +144,15 @@ CarView viewAt(const RecordedDrive& drive, const Mapping& mapping, std::size_t t
   Poses truth(drive.states.begin(), drive.states.begin() + static_cast<std::ptrdiff_t>(t) + 1);
   const Poses all = meansOf(mapping.joints);
   view.ways = {
-      wayOf("true way", truth, kTruthColor),
+      wayOf("true path", truth, kTruthColor),
       wayOf("estimate", {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(t) + 1}, kEstimateColor)};
   return view;
 }
 
-// How uncertain each landmark is, from its first sighting on [m].
+// The standard deviation of each landmark from its first sighting on [m].
 Figure deviationsOf(const Mapping& mapping) {
   Figure figure =
-      overTime("Standard deviation of each landmark, from its first sighting on", "deviation [m]");
+      overTime("Standard deviation of each landmark, from its first sighting on", "standard deviation [m]");
   figure.legend = Legend::kNone;
   const Eigen::Index n = mapping.joints.back().mean.size();
   for (Eigen::Index i = 3; i < n; i += 2) {
@@ -177,8 +177,8 @@ Figure correlationsOf(const Belief& joint) {
     for (Eigen::Index k = 0; k < n; ++k)
       map.values(i, k) /= std::sqrt(joint.covariance(i, i) * joint.covariance(k, k));
   Figure figure{.title = "Correlations of car and landmarks at the end",
-                .xLabel = "number in the state [1]",
-                .yLabel = "number in the state [1]",
+                .xLabel = "entry of the state [1]",
+                .yLabel = "entry of the state [1]",
                 .colorLabel = "correlation [1]",
                 .equalAxes = true,
                 .colorRange = AxisRange{-1, 1}};
@@ -206,7 +206,7 @@ Mapping mapped(const CarSetup& car, const RecordedDrive& drive) {
   return mapping;
 }
 
-// As many particles again, in proportion to their weights.
+// Resamples the same number of particles, in proportion to their weights.
 std::vector<MapParticle> drawn(const std::vector<MapParticle>& particles, Rng& rng) {
   const double share = 1. / static_cast<double>(particles.size());
   std::vector<MapParticle> children;
@@ -251,7 +251,7 @@ Figure particleFigure(const RecordedDrive& drive, const std::vector<MapParticle>
   view.caption = "FastSLAM: 100 particles, each with its map";
   view.car = drive.states.back();
   view.landmarks = drive.landmarks;
-  view.ways = {wayOf("true way", drive.states, kTruthColor)};
+  view.ways = {wayOf("true path", drive.states, kTruthColor)};
   view.particles.resize(3, static_cast<Eigen::Index>(particles.size()));
   Series maps{.label = "landmarks in their maps", .style = SeriesStyle::kPoints};
   maps.marker = Marker::kDot;
@@ -269,11 +269,11 @@ Figure particleFigure(const RecordedDrive& drive, const std::vector<MapParticle>
   return figure;
 }
 
-// Prints how far J is from what differences of f say.
+// Prints how far J is from finite differences of f.
 void compare(const std::string& name, const Eigen::MatrixXd& J, const VectorFunction& f,
              const Eigen::VectorXd& at) {
   const double worst = (J - numericJacobian(f, at)).cwiseAbs().maxCoeff();
-  print(name + ": distance from differences, which should be 0", worst);
+  print(name + ": distance from finite differences, which should be 0", worst);
 }
 
 }  // namespace
@@ -339,10 +339,10 @@ void showSteps(const CarSetup& car, const RecordedDrive& drive) {
   for (const Eigen::Vector2d& u : drive.controls) states.push_back(stepped(car, states.back(), u));
   CarView overview;
   overview.landmarks = drive.landmarks;
-  overview.ways = {wayOf("true way", drive.states, kTruthColor),
+  overview.ways = {wayOf("true path", drive.states, kTruthColor),
                    wayOf("without noise", states, kEstimateColor, true)};
   Figure above = figureOf(overview);
-  above.title = "Where the controls lead without noise, by your step";
+  above.title = "Where the controls lead without noise, with your step";
   plot("steps", above);
 }
 
@@ -350,12 +350,12 @@ void showTracking(const RecordedDrive& drive, const std::vector<Belief>& run,
                   const std::vector<Belief>& blind) {
   CarView overview;
   overview.landmarks = drive.landmarks;
-  overview.ways = {wayOf("true way", drive.states, kTruthColor), wayOf("filter", meansOf(run), kFilter),
-                   wayOf("without seeing", meansOf(blind), kDeadReckoningColor, true)};
+  overview.ways = {wayOf("true path", drive.states, kTruthColor), wayOf("filter", meansOf(run), kFilter),
+                   wayOf("without observations", meansOf(blind), kDeadReckoningColor, true)};
   Figure above = figureOf(overview);
   above.title = "A circle among two landmarks";
   addEllipses(above, "filter, 2 sigma", run, 6, kFilter);
-  addEllipses(above, "without seeing", blind, 20, kDeadReckoningColor);
+  addEllipses(above, "without observations", blind, 20, kDeadReckoningColor);
   plot("tracking", above);
 }
 
@@ -367,7 +367,7 @@ void showConsistency(const Belief& start) {
   timid.observationNoise = std::sqrt(timid.observationNoise);
   const ConsistencyBand band = consistencyBand(kRuns, 3);
   Figure figure =
-      overTime("Is the filter as wrong as it says? Mean of 50 runs", "squared error by covariance [1]");
+      overTime("Is the filter consistent? Mean of 50 runs", "squared error relative to the covariance [1]");
   figure.logY = true;
   figure.bands = {{.label = "95 %",
                    .x = {0, 99},
@@ -375,15 +375,15 @@ void showConsistency(const Belief& start) {
                    .high = {band.upper, band.upper},
                    .color = kSoft}};
   figure.series = {
-      curve("a fifth of the noise believed", meanSquaredErrors(start, proud, kRuns), kDeadReckoningColor),
+      curve("a fifth of the noise assumed", meanSquaredErrors(start, proud, kRuns), kDeadReckoningColor),
       curve("yours", meanSquaredErrors(start, {}, kRuns), kFilter, 2.5),
-      curve("sigma where its square belongs", meanSquaredErrors(start, timid, kRuns), kLandmarkColor)};
+      curve("sigma instead of its square", meanSquaredErrors(start, timid, kRuns), kLandmarkColor)};
   plot("consistency", figure);
 }
 
 void showSmoothing(const RecordedDrive& drive, const std::vector<Belief>& run,
                    const std::vector<Belief>& smooth) {
-  Figure errors = overTime("Error of the estimate along x, and what it is said to be", "error in x [m]");
+  Figure errors = overTime("Error of the estimate along x, and its predicted range", "error in x [m]");
   errors.bands = {deviationBand("filter, 2 sigma", run, 0, kSoft),
                   deviationBand("smoother, 2 sigma", smooth, 0, kSoftest)};
   errors.series = {curve("filter", errorsOf(run, drive.states, 0), kFilter),
@@ -415,7 +415,7 @@ void showMap(const RecordedDrive& drive) {
     yours.push_back((mapping.joints[t].mean.head(2) - drive.states[t].head(2)).norm());
     theirs.push_back((states[t] - drive.states[t]).head(2).norm());
   }
-  Figure figure = overTime("How far the estimate is from the car", "position error [m]");
+  Figure figure = overTime("Distance of the estimate from the car", "position error [m]");
   figure.series = {curve("yours", yours, kFilter, 3), curve("the library's", theirs, kTruthColor, 1, true)};
   plot("slam_error", figure);
 }

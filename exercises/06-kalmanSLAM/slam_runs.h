@@ -7,7 +7,7 @@
 
 // Whole runs of SLAM with the functions of parts 4 and 5, and how good their maps are.
 
-// What the car sees of the landmarks up to `range` away (which ones: by the truth). With the names of
+// The sightings of the landmarks whose true distance is less than `range`, with their names in
 // `run.landmarks`.
 inline std::vector<LandmarkObservation> seenAt(const CarRun& run, std::size_t t, double range) {
   std::vector<LandmarkObservation> seen;
@@ -55,8 +55,8 @@ inline MapBelief mapped(rex::grading::Check& check, Student& student, const CarR
   return map;
 }
 
-// Root mean square error of the landmarks after the rigid motion that brings them nearest to the truth [m],
-// and the squared error of the joint belief in terms of its covariance, per number: sums over runs.
+// The mean squared error of the landmarks [m^2], after the rigid motion that brings them nearest to the
+// truth, and the squared error of the joint belief relative to its covariance, per entry: sums over runs.
 struct MapQuality {
   double error = 0, squared = 0;
   int runs = 0;
@@ -93,15 +93,15 @@ inline void judgeMap(rex::grading::Check& check, const CarRun& run, const MapBel
 inline void requireMap(rex::grading::Check& check, const MapQuality& total, double mostError, double least,
                        double most) {
   const auto shown = check.show([&] { return mapSeen(total.worstRun, total.worstMap); });
-  check.atMost("error of the landmarks (root mean square) after alignment",
-               std::sqrt(total.error / total.runs), mostError, "m");
+  check.atMost("root mean square error of the landmarks after alignment", std::sqrt(total.error / total.runs),
+               mostError, "m");
   const double squared = total.squared / total.runs;
-  check.atMost("squared error in terms of the covariance, per number (1 expected)", squared, most);
-  check.atLeast("squared error in terms of the covariance, per number (1 expected)", squared, least);
+  check.atMost("squared error relative to the covariance, per entry (1 expected)", squared, most);
+  check.atLeast("squared error relative to the covariance, per entry (1 expected)", squared, least);
 }
 
-// A run in which it is clear what is what: three landmarks at least are always in view, and none is nearer
-// than 3 m.
+// A run in which the landmarks can be told apart: at least three are always in view, and none is nearer than
+// 3 m.
 inline CarRun clearRun(rex::Rng& rng, const CarSetup& car, int landmarks, const Eigen::Vector2d& u,
                        double range) {
   while (true) {
@@ -116,7 +116,7 @@ inline CarRun clearRun(rex::Rng& rng, const CarSetup& car, int landmarks, const 
 // A run whose landmarks have no names. Sightings come in a random order.
 struct NamelessMap {
   MapBelief map;
-  std::vector<int> seen;  // how often each true landmark was
+  std::vector<int> seen;  // how often each true landmark was seen
   int wrong = 0;          // how often a sighting was taken for another landmark
 };
 
@@ -166,10 +166,10 @@ inline void judgeNameless(rex::grading::Check& check, Student& student, const Ca
   check.near("sightings taken for another landmark", found.wrong, 0, 0);
   MapQuality total;
   judgeMap(check, run, found.map, total);
-  check.atMost("error of the landmarks (root mean square) after alignment", std::sqrt(total.error), 0.4, "m");
+  check.atMost("root mean square error of the landmarks after alignment", std::sqrt(total.error), 0.4, "m");
 }
 
-// How far y is from what is expected of landmark i: squared, in the covariance of the gap.
+// The squared gap between y and the expected view of landmark i, relative to the covariance of the gap.
 inline double squaredGap(const CarSetup& car, const Belief& joint, int i, const Eigen::Vector2d& y) {
   const auto g = [&](const Eigen::VectorXd& z) { return seenFrom(car, z.head(3), z.segment(3 + 2 * i, 2)); };
   Eigen::Vector2d gap = y - g(joint.mean);
@@ -178,7 +178,7 @@ inline double squaredGap(const CarSetup& car, const Belief& joint, int i, const 
   return squaredError(gap, C * joint.covariance * C.transpose() + noiseOf(car, 1));
 }
 
-// What is seen under a joint belief, and what it should be taken for.
+// A joint belief, sightings, and the names they should get.
 struct NamingCase {
   Belief joint;
   std::vector<Eigen::Vector2d> ys;
@@ -195,7 +195,7 @@ inline bool isClear(const CarSetup& car, const NamingCase& one) {
   return true;
 }
 
-// The same with its landmarks in any order.
+// The same with its landmarks in random order.
 inline NamingCase renumbered(rex::Rng& rng, const NamingCase& one) {
   std::vector<int> order, numbers{0, 1, 2};
   for (int i = 0; i < 3; ++i) order.insert(order.begin() + rng.index(i + 1), i);
@@ -206,8 +206,9 @@ inline NamingCase renumbered(rex::Rng& rng, const NamingCase& one) {
   return other;
 }
 
-// Three landmarks, all known within centimetres, but for the first if it is `vague`. Of the first is seen
-// what lies nearer, in metres, to the second; or, within 3.5 m of it, a new one. The last is seen, too.
+// Three landmarks, all known within centimetres, except for the first if it is vague. A vague first landmark
+// is seen at a position nearer, in metres, to the second; otherwise a new landmark is seen within 3.5 m of
+// the first. The last landmark is seen, too.
 inline NamingCase namingCase(rex::Rng& rng, const CarSetup& car, bool isVague) {
   while (true) {
     NamingCase one{randomJoint(rng, 3), {}, {isVague ? 0 : kNewLandmark, 2}};
@@ -233,7 +234,7 @@ inline std::string nameOf(int landmark) {
   return landmark >= 0 ? std::to_string(landmark) : landmark == kNewLandmark ? "new" : "unclear";
 }
 
-// The belief, and what each sighting was taken for.
+// The belief, and the name that each sighting got.
 inline rex::grading::Evidence namesSeen(const CarSetup& car, const NamingCase& one,
                                         const std::vector<int>& names) {
   const Eigen::Vector3d pose = one.joint.mean.head<3>();
@@ -253,7 +254,7 @@ inline rex::grading::Evidence namesSeen(const CarSetup& car, const NamingCase& o
   return {.figures = {figure}};
 }
 
-// Vague ones and new ones, by both sensors; shuffled, so that counting calls does not help.
+// Vague landmarks and new ones, with both sensors; shuffled, so that counting calls does not help.
 inline void namesByCovariance(rex::grading::Check& check, Student& student) {
   rex::Rng& rng = check.rng();
   std::vector<int> kinds;
@@ -264,23 +265,22 @@ inline void namesByCovariance(rex::grading::Check& check, Student& student) {
     car.bearingNoise = 0.01;
     car.rangeBearing = kind % 4 > 1;
     const bool isVague = kind % 2 == 0;
-    check.input(isVague
-                    ? "a belief of three landmarks; seen are a vague one, nearer to where another is, and "
-                      "one that is well known"
-                    : "a belief of three landmarks, all well known; seen are one of them, and a new one "
-                      "within 3.5 m of another");
+    check.input(isVague ? "a belief about three landmarks; a vague one, seen nearer to another one, and a "
+                          "well-known one are seen"
+                        : "a belief about three landmarks, all well known; one of them, and a new one within "
+                          "3.5 m of another, are seen");
     const NamingCase one = namingCase(rng, car, isVague);
     const std::vector<int> names = student.assigned(car, one.joint, one.ys);
     check.near("number of names", static_cast<double>(names.size()), static_cast<double>(one.ys.size()), 0);
     const auto shown = check.show([&] { return namesSeen(car, one, names); });
     for (std::size_t k = 0; k < names.size(); ++k)
-      check.near("what a sighting is named, by its deviation in terms of the covariance", names[k],
-                 one.names[k], 0);
+      check.near("name of a sighting, by its squared gap relative to the covariance", names[k], one.names[k],
+                 0);
   }
 }
 
-// Maps and weights of random particles, by corrections in canonical form. What is seen is `offset` [m] away
-// from where the maps have it.
+// Compares maps and weights of random particles with corrections in canonical form. The landmarks are seen
+// `offset` [m] away from their positions in the maps.
 inline void weighsAsItShould(rex::grading::Check& check, Student& student, const CarSetup& car,
                              double offset) {
   rex::Rng& rng = check.rng();
@@ -311,8 +311,8 @@ inline void weighsAsItShould(rex::grading::Check& check, Student& student, const
       const auto i = static_cast<std::size_t>(one.landmark);
       const auto g = [&](const Eigen::VectorXd& l) { return seenFrom(car, stateGiven, l); };
       if (i == 3) {
-        check.shape("place of the new landmark", after[k].map[3].mean, 2, 1);
-        check.near("what would be seen of the new landmark", g(after[k].map[3].mean), one.y, 1e-9);
+        check.shape("position of the new landmark", after[k].map[3].mean, 2, 1);
+        check.near("view of the new landmark", g(after[k].map[3].mean), one.y, 1e-9);
         const Eigen::Matrix2d D = derivative(g, after[k].map[3].mean);
         sameBelief(check, after[k].map[3],
                    {after[k].map[3].mean, (D.transpose() * W.inverse() * D).inverse()}, 1e-6);

@@ -1,5 +1,5 @@
 // caught by: car-bearing
-// mistake: the difference of two bearings as they are: straight behind the car it is a whole turn.
+// mistake: the difference of two bearings is not wrapped: straight behind the car it is a whole turn.
 
 // <solution viewGap>
 gap[1] = y[1] - expected[1];

@@ -1,5 +1,5 @@
 // caught by: forbidden-call
-// mistake: the library looks back.
+// mistake: the library does the smoothing.
 
 // <solution headers>
 #include "estimation/smoother.h"

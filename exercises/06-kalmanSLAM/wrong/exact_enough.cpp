@@ -1,5 +1,5 @@
 // caught by: kf-covariance
-// mistake: corrects nothing any more where all is known within three millimetres.
+// mistake: stops correcting once everything is known within three millimetres.
 
 // <solution corrected>
 if (belief.covariance.diagonal().maxCoeff() < 9e-6) return belief;

@@ -1,5 +1,5 @@
 // caught by: slam-start
-// mistake: a new landmark that has nothing in common with the car.
+// mistake: a new landmark is not correlated with the car.
 
 // <solution withLandmark>
 const Eigen::Vector3d x = joint.mean.head(3);

@@ -1,5 +1,5 @@
 // caught by: kf-correct, kf-covariance, slam-correct
-// mistake: leaves the covariance as rounding makes it.
+// mistake: leaves the covariance slightly asymmetric, because of rounding.
 
 // <solution corrected>
 const Eigen::Index n = belief.mean.size();

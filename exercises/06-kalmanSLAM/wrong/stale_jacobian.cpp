@@ -1,5 +1,5 @@
 // caught by: kf-step, kf-any
-// mistake: the view is linearised where the car was before the step.
+// mistake: the view is linearised at the state before the step.
 
 // <solution tracked>
 const Belief moved = predicted(car, belief, u);

@@ -1,5 +1,5 @@
 // caught by: particles-weigh
-// mistake: the likelihood knows the noise of the sensor, but not how uncertain the landmark is.
+// mistake: the likelihood includes the noise of the sensor, but not the uncertainty of the landmark.
 
 // <solution weighed>
 std::vector<double> logs;
