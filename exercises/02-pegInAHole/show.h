@@ -20,7 +20,7 @@ rex::Figure showInterpolation(const Postures& inJointSpace, const Postures& inTa
                               const Eigen::Vector3d& hole, double margin);
 
 /// peg.mp4, peg_sheet.png, and peg.html with `contacts`: the motion from the posture of `start` into the
-/// hole. Prints where the peg ends, metres, and what is near what.
+/// hole. Prints the final position of the peg, metres, and which bodies are close to each other.
 void showInsertion(const rex::Simulator& start, const Postures& motion, const rex::Figure& contacts);
 
 /// priority.png: the right hand circles around `center`, and a less important task pulls it away. Under

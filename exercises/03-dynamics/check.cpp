@@ -605,7 +605,7 @@ grading::Checks<Student> checks() {
       // </hidden>
       {"pid-step", "pid", "PID control, and its restart", 1, Group::kVisible, pidSteps},
       {"pid-stability", "pid", "which gains are stable", 1, Group::kVisible, judgesPid},
-      {"follow-cosine", "follow", "on the reference, and the way back to it", 1, Group::kVisible,
+      {"follow-cosine", "follow", "on the reference, and the return to it", 1, Group::kVisible,
        followsTheCosine},
       // <hidden>
       {"follow-kicks", "follow", "other masses, and kicks every second", 1, Group::kHidden,

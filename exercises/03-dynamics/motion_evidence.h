@@ -33,7 +33,7 @@ inline rex::grading::Evidence approachSeen(const Approach& approach, Regime regi
                    .high = {.01, .01},
                    .color = rex::grading::kWantedColor}};
   if (regime == Regime::kOscillatory)
-    figure.bands.push_back({.label = "wanted: turns back within",
+    figure.bands.push_back({.label = "wanted: turns back in this band",
                             .x = {0, end},
                             .low = {-.6, -.6},
                             .high = {-.03, -.03},

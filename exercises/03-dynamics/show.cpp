@@ -15,7 +15,7 @@ using namespace rex;
 namespace {
 
 constexpr double kTau = 0.01;
-// Of pegArm2, and of pin_balancing.
+// Postures of pegArm2 and of pin_balancing.
 const Eigen::VectorXd kBent = (Eigen::VectorXd(7) << 0.6, -0.2, -0.7, 0.9, 0.9, 0.1, -1.6).finished();
 const Eigen::VectorXd kPinUp =
     (Eigen::VectorXd(8) << 0, 1.0472, 1.0472, 0.523599, 0, 0, 2.34565, 0.00194306).finished();
@@ -180,8 +180,8 @@ void showRegimes(double mass) {
       exactWays.back().y.push_back(pdResponse({mass}, {gains.Kp, gains.Kd}, {}, 1, time).q);
   }
   ways.insert(ways.end(), exactWays.begin(), exactWays.end());
-  plotWay("regimes", "Three ways to the goal in one second (dashed: exact motion)", ways, {{1, "T"}});
-  Figure phase = overTime("The same ways in phase space", "velocity [m/s]", phases);
+  plotWay("regimes", "Three approaches to the goal in one second (dashed: exact motion)", ways, {{1, "T"}});
+  Figure phase = overTime("The same approaches in phase space", "velocity [m/s]", phases);
   phase.xLabel = "position [m]";
   plot("phase", phase);
 }

@@ -18,7 +18,7 @@ void showIntegral(const PidSettings& alone, const PidSettings& damped, const Pid
 /// restart.png: an integral accumulated while the point was held throws it far beyond its goal.
 void showRestart(const PidSettings& pid, double mass);
 
-/// kicks.png: the way back to cos t after each kick, in three regimes.
+/// kicks.png: the return to cos t after each kick, in three regimes.
 void showKicks(double mass);
 
 /// energy.png, fall.mp4: pegArm.ors falls, and its energy is conserved. Each film from here on also comes

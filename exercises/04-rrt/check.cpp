@@ -654,7 +654,7 @@ void comesNearTheShortest(Check& check, Student& student) {
     excess +=
         starIsSound(check, student, disc.problem, inThePlane(0.1, 0.05, 1500), given) / disc.shortest - 1;
   }
-  // Usually 0.019, with a standard deviation of 0.004; the path of an RRT is 0.36 longer, and at least 0.2.
+  // Usually 0.019, with a standard deviation of 0.004; an RRT path is longer by 0.36, and by at least 0.2.
   check.atMost("excess over the shortest path, as a share of it, on average over four worlds", excess / count,
                0.06);
 }

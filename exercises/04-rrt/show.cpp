@@ -64,7 +64,7 @@ const PlaneWorld kOneDisc{.discs = {{{0.5, 0.5}, 0.25}}};
 const Eigen::Vector2d kLeft(0.1, 0.4), kRight(0.9, 0.55);
 constexpr double kShortest = 0.944047, kGamma = 1.5;
 
-// Of the path of the library's RRT* after n samples.
+// The length of the path of the library's RRT* after n samples; 2 if there is none.
 double lengthByLibrary(int n) {
   const PathProblem problem{
       .space = Space::box(Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 1)),

@@ -325,7 +325,7 @@ void goesThroughAllLines(Check& check, Student& student, bool isLost) {
   before.weights /= before.weights.sum();
   const Driven one = drive(world, heaps.col(2), u, 1, rng);
   const Eigen::VectorXd y = isLost ? Eigen::VectorXd::Constant(6, 1e200) : one.log.observations[0];
-  check.input(std::string("200 particles in four places, with weights around 1 : 2 : 3 : 4") +
+  check.input(std::string("200 particles in four poses, with weights around 1 : 2 : 3 : 4") +
               (isLost ? "; an observation of 1e200 m, so that all likelihoods are zero" : ""));
   const Cloud after = student.filterStep(before, u, y, world, Rng(rng.next()));
   isCloud(check, after, count);
@@ -395,9 +395,8 @@ void comesFrom(Check& check, const Cloud& after, const Cloud& before, const Eige
   const Eigen::Vector4d wanted = due * before.weights, mean = got.rowwise().mean();
   const Eigen::Vector4d variances =
       ((due.colwise() - wanted).cwiseAbs2() * before.weights).array() + variance;
-  check.atMost(
-      "error of the mean of the particles, in standard deviations from the moved weighted ones before",
-      ((mean - wanted).array().abs() / (variances.array() / count).sqrt()).maxCoeff(), kSigmas);
+  check.atMost("error of the mean of the particles against the predicted mean, in standard deviations",
+               ((mean - wanted).array().abs() / (variances.array() / count).sqrt()).maxCoeff(), kSigmas);
   const double spread = (got.colwise() - mean).topRows(2).squaredNorm() / count;
   check.near("mean square distance of the particles from their mean / expected value",
              spread / variances.head<2>().sum(), 1, 0.7);
@@ -539,7 +538,7 @@ void bearings(Check& check, Student& student) {
     world.rangeBearing = true;
     world.bearingNoise = rng.uniform(0.01, 0.1);
     Eigen::Vector3d x = randomPose(rng);
-    // Away from the first landmark: it is behind the car, where bearings jump.
+    // Heading away from the first landmark, which is then behind the car, where bearings jump.
     if (i % 2 == 0) x[2] = std::atan2(x[1] - world.landmarks(1, 0), x[0] - world.landmarks(0, 0));
     const Driven one = drive(world, x, {0.1, 0}, 1, rng);
     Eigen::VectorXd y = one.log.observations[0];
@@ -605,7 +604,8 @@ grading::Checks<Student> checks() {
       // </hidden>
       {"whole-parts", "resampling", "integer parts are certain", 1, Group::kVisible, wholePartsForCertain},
       {"unbiased", "resampling", "the rest is fair", 1, Group::kVisible, unbiased},
-      {"effective-size", "resampling", "what unequal weights are worth", 1, Group::kVisible, countsWorth},
+      {"effective-size", "resampling", "the effective size of equal and unequal weights", 1, Group::kVisible,
+       countsWorth},
       // <hidden>
       {"any-weights", "resampling", "other weights and counts", 1, Group::kHidden, resamplesAnyWeights},
       // </hidden>

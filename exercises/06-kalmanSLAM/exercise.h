@@ -45,8 +45,7 @@ Eigen::MatrixXd viewByState(const CarSetup& car, const Eigen::Vector3d& x, const
 Eigen::MatrixXd viewByLandmark(const CarSetup& car, const Eigen::Vector3d& x, const Eigen::Vector2d& l);
 /// W, the covariance of one sighting, 2 x 2.
 Eigen::MatrixXd viewNoise(const CarSetup& car);
-/// The difference of a sighting from the expected one: y - expected, with the difference of bearings wrapped
-/// to
+/// The difference of a sighting from the expected one: y - expected. Differences of bearings are wrapped to
 /// [-pi, pi].
 Eigen::Vector2d viewGap(const CarSetup& car, const Eigen::Vector2d& y, const Eigen::Vector2d& expected);
 

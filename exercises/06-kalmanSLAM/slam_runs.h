@@ -239,7 +239,7 @@ inline rex::grading::Evidence namesSeen(const CarSetup& car, const NamingCase& o
                                         const std::vector<int>& names) {
   const Eigen::Vector3d pose = one.joint.mean.head<3>();
   rex::Figure figure = rex::figureOf({.car = pose, .landmarkBeliefs = landmarksOf(one.joint)});
-  figure.title = "Landmarks of the belief, and what is seen";
+  figure.title = "Landmarks of the belief, and the sightings";
   for (int i = 0; i < 3; ++i)
     figure.notes.push_back({std::to_string(i), one.joint.mean[3 + 2 * i], one.joint.mean[4 + 2 * i]});
   for (std::size_t k = 0; k < names.size(); ++k) {

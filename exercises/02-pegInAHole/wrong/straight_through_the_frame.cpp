@@ -1,5 +1,5 @@
 // caught by: peg-insert, peg-other-hole
-// mistake: The shortest way in joint space from here into the hole leads through its walls.
+// mistake: The straight line in joint space from here into the hole leads through its walls.
 
 // <solution insertPeg>
 const Eigen::VectorXd start = S.getJointAngles();

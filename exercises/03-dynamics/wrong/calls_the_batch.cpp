@@ -1,5 +1,5 @@
 // caught by: forbidden-call
-// mistake: asks the library about an arm that happens to be of the same size, as one state of many.
+// mistake: asks the library about an arm that happens to have the same size, as one state of many.
 
 // <solution headers>
 #include "dynamics/dynamics_batch.h"

@@ -1,5 +1,5 @@
 // caught by: forbidden-call
-// mistake: asks the library about an arm that happens to be of the same size.
+// mistake: asks the library about an arm that happens to have the same size.
 
 // <solution headers>
 #include "dynamics/inverse_dynamics.h"

@@ -1,5 +1,5 @@
 // caught by: point-regimes, point-any-mass, follow-cosine
-// mistake: Kp and Kd change places.
+// mistake: Kp and Kd are swapped.
 
 // <solution gainsFor>
 // The slower of the two rates of decay decides when the point is there: rate * T = 8 leaves 0.3 % also

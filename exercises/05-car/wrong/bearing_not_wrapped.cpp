@@ -1,5 +1,5 @@
 // caught by: bearings
-// mistake: a landmark right behind the car is seen on the left and expected on the right, a whole turn off.
+// mistake: a landmark directly behind is seen on the left and expected on the right, a whole turn off.
 
 // <solution logLikelihoods>
 for (Eigen::Index i = 0; i < states.cols(); ++i) {

@@ -1,5 +1,5 @@
 // caught by: filter-step
-// mistake: the copies of a heavy particle inherit its weight, which so counts twice.
+// mistake: the copies of a heavy particle inherit its weight, which therefore counts twice.
 
 // <solution filterStep>
 const std::vector<int> parents =
