@@ -190,7 +190,7 @@ TEST_F(SceneCommand, ContactsProposeAnSrdfThatIsReadAgain) {
   const ProcessResult proposed = scene({"r.urdf", "contacts", "--never", "--samples", "200", "--seed", "3"});
   ASSERT_EQ(proposed.exitCode, 0) << proposed.error;
   EXPECT_THAT(proposed.output,
-              HasSubstr("<!-- A sample of 200 random postures, seed 3, and no proof: a pair that "
+              HasSubstr("<!-- A sample of 200 random postures, seed 3, not a proof: a pair that "
                         "never touched may touch in others. -->\n<robot name=\"r\">\n"));
   EXPECT_THAT(proposed.output, HasSubstr("link1=\"shelf2\" link2=\"arm\" reason=\"Never\""));
   EXPECT_THAT(proposed.output, HasSubstr("link1=\"turret\" link2=\"hand\" reason=\"Always\""));
@@ -248,7 +248,7 @@ TEST_F(SceneCommand, ContactsRefusesTooManyPairs) {
   EXPECT_EQ(result.exitCode, 64);
   EXPECT_THAT(flat(result.error),
               HasSubstr("many.ors: too many shapes take part in contacts: found 200661 pairs of "
-                        "them, wanted at most 200000"));
+                        "shapes, wanted at most 200000"));
   EXPECT_EQ(refused(2, 400).exitCode, 0) << "shapes of one body do not collide";
   EXPECT_EQ(refused(2, 448).exitCode, 64);
   EXPECT_THAT(scene({"man", "contacts", "--help"}).output, HasSubstr("more than 200000 pairs"));

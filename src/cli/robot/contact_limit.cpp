@@ -23,7 +23,7 @@ std::size_t pairsOfBodies(const Model& model) {
 ContactModel contactModelOf(const Model& model) {
   if (const std::size_t pairs = pairsOfBodies(model); pairs > kMostContactPairs)
     throw UsageError({.what = harmless(model.name()) + ": too many shapes take part in contacts",
-                      .found = fmt::format("{} pairs of them", pairs),
+                      .found = fmt::format("{} pairs of shapes", pairs),
                       .wanted = fmt::format("at most {}", kMostContactPairs)});
   return asWrongUse([&] {
     noteCollisionWarnings(model);

@@ -45,10 +45,10 @@ enum class Status { kWorks, kMissing, kFails };
 // One thing that was tried.
 struct Finding {
   std::string name;
-  std::string packages{};  // of Debian, that it needs
+  std::string packages{};  // the Debian packages that it needs
   Status status = Status::kWorks;
   std::string text{};    // what works, or why it does not
-  bool isNeeded = true;  // else something that works stands in for it
+  bool isNeeded = true;  // false: something else that works stands in for it
 };
 
 // The machine lacks something, and the message names the package.
@@ -56,7 +56,7 @@ struct Missing {
   std::string text;
 };
 
-// Tries something that says what it found, or throws. Files of ours do not matter to the user.
+// Runs an attempt, which returns what it found or throws. Paths of temporary files are dropped from messages.
 Finding tryOut(const std::string& name, const std::string& packages,
                const std::function<std::string()>& attempt) {
   try {
@@ -76,7 +76,7 @@ Finding tryOut(const std::string& name, const std::string& packages,
 
 [[noreturn]] void fail(const std::string& what) { throw Error({.what = what}); }
 
-// What an installed program says about itself; empty where there is none.
+// The first line that a program prints about its version; empty if it is not installed.
 std::string versionOf(const std::vector<std::string>& command) {
   constexpr double kPatience = 20;  // seconds
   const ProcessResult result = runProcess(command, {.timeout = kPatience});
@@ -87,7 +87,7 @@ std::string versionOf(const std::vector<std::string>& command) {
         {.what = command[0] + " does not work", .found = complaint.empty() ? how : how + ": " + complaint});
   };
   if (result.timedOut) throw broken(fmt::format("no answer within {:g} s", kPatience));
-  if (result.signal != 0) throw broken(fmt::format("signal {} that ended it", result.signal));
+  if (result.signal != 0) throw broken(fmt::format("termination by signal {}", result.signal));
   if (result.exitCode != 0) throw broken(fmt::format("exit code {}", result.exitCode));
   return result.output.substr(0, result.output.find('\n'));
 }
@@ -102,14 +102,15 @@ Picture testPicture() {
                  {.shape = {.extent = {0.6, 0.6, 0.6}}, .X_WS = {.p = kBox}, .color = kBlue}}};
 }
 
-// Draws the test picture and looks at what should be where; the picture ends up in `folder`.
+// Draws the test picture into `folder` and checks that the ball and the box are where they should be.
 Image testImage(GlBackend backend, const fs::path& folder, std::string& description) {
   const Camera camera = lookAt({0, -4, 1.5}, {0, 0, 0.4});
   Renderer renderer({.width = 320, .height = 240, .gl = {.backend = backend}});
   description = renderer.describe();
   Image image = renderer.draw(testPicture(), camera);
   writePng(image, folder / "test.png");
-  if (readPng(folder / "test.png") != image) fail("the test picture is not the same after it was written");
+  if (readPng(folder / "test.png") != image)
+    fail("the test picture changed when it was written and read back");
   const auto colorAt = [&](const Eigen::Vector3d& p) {
     const auto at = project(camera, p, image.width, image.height);
     return image.at(static_cast<int>(at->x), static_cast<int>(at->y));
@@ -121,7 +122,7 @@ Image testImage(GlBackend backend, const fs::path& folder, std::string& descript
   return image;
 }
 
-// Without a choice one of them is enough.
+// One of them is enough unless the user chose one.
 std::vector<Finding> tryBackends(GlBackend wanted, const fs::path& folder) {
   constexpr std::array<std::tuple<GlBackend, const char*, const char*>, 2> kBackends = {
       {{GlBackend::kOsMesa, "osmesa", "libosmesa6"}, {GlBackend::kEgl, "egl", "libegl1 libgl1-mesa-dri"}}};
@@ -194,7 +195,7 @@ std::string processor() {
     const std::size_t colon = line.find(": ");
     if (line.starts_with(key) && colon != std::string::npos) return line.substr(colon + 2);
   }
-  return "processor of unknown name";
+  return "unknown processor";
 }
 
 // Compiles and runs a small program, as `rex test` needs it.
@@ -215,7 +216,7 @@ Finding tryCompiler(const fs::path& folder) {
   });
 }
 
-// What rex was built with.
+// The libraries that rex was built with.
 Finding aboutLibraries() {
   return {.name = "libraries",
           .text = fmt::format("eigen {}.{}.{}, fmt {}.{}.{}, CLI11 {}, nlohmann-json {}.{}.{}",
@@ -225,7 +226,7 @@ Finding aboutLibraries() {
                               NLOHMANN_JSON_VERSION_PATCH)};
 }
 
-// How `rex watch` will notice saves; polling does it, too.
+// How `rex watch` will notice saves; polling works, too.
 Finding tryWatching(const fs::path& folder) {
   return {.name = "watch", .text = FileWatcher(folder / "main.cpp").describe()};
 }
@@ -286,8 +287,8 @@ void sayJson(const std::vector<Finding>& findings, bool ok) {
   say(nlohmann::json{{"findings", rows}, {"ok", ok}}.dump(2));
 }
 
-// Tries everything that pictures need on this machine. kGraderFault if something needed does not work; of
-// the two ways to OpenGL, one is needed unless `gl` names it.
+// Tries everything that pictures need on this machine. kGraderFault if something needed does not work. One of
+// the two OpenGL backends is enough unless `gl` names the one that must work.
 ExitCode doctor(const Project&, const DoctorOptions& options) {
   const GlBackend backend = backendOf(options.gl);
   const PrivateFolder folder(temporaryFolder());

@@ -12,7 +12,7 @@
 namespace rex::cli {
 namespace {
 
-// Without ffmpeg the frames go into a folder of that name.
+// Without ffmpeg the frames go into a folder with the film's name.
 MadeSink openSink(std::filesystem::path& out) {
   MadeSink made = makeFrameSink(out);
   if (made.missing.empty()) return made;
@@ -24,7 +24,7 @@ MadeSink openSink(std::filesystem::path& out) {
 
 void requireFilmable(const Model& model) {
   if (std::ranges::any_of(model.shapes(), [](const ModelShape& one) { return one.visible; })) return;
-  throw UsageError({.what = model.name(), .found = "no shape that a film could show", .wanted = "--no-film"});
+  throw UsageError({.what = model.name(), .found = "no shape that a film can show", .wanted = "--no-film"});
 }
 
 std::filesystem::path writeFilm(const MotionPictures& pictures, const RenderPlan& plan,
@@ -34,7 +34,7 @@ std::filesystem::path writeFilm(const MotionPictures& pictures, const RenderPlan
   const std::size_t count = isWalk ? kTurn : pictures.size();
   Studio studio(plan, isWalk ? turningBox(pictures.bounds()) : pictures.bounds());
   note(studio.describe());
-  const Picture first = pictures.picture(0);  // all that a walk shows
+  const Picture first = pictures.picture(0);  // a walk around the scene shows only this one
   const auto draw = [&](std::size_t i) {
     if (!isWalk) return studio.draw(pictures.picture(i));
     return studio.draw(first, 2 * std::numbers::pi * static_cast<double>(i) / kTurn);

@@ -12,9 +12,9 @@
 namespace rex::cli {
 namespace {
 
-constexpr double kStiffness = 0.1;  // seconds: the wave length of held joints, which are critically damped
+constexpr double kStiffness = 0.1;  // seconds: wave length of the held joints, which are critically damped
 
-// Of each joint: whether it is free and carries joints that are driven.
+// For each joint, whether it is a free joint that carries driven joints.
 std::vector<bool> carriers(const Model& model) {
   std::vector<bool> carries(model.joints().size());
   for (const Joint& joint : model.joints()) {
@@ -78,7 +78,7 @@ Eigen::VectorXd Holder::forces(const State& state) const {
   return u;
 }
 
-// Bases fall as they must: their accelerations are those that need no force on them.
+// Free bases fall: they accelerate so that no force on them is needed.
 Eigen::VectorXd Holder::exactForces(const State& state) const {
   const PdGains gains = pdGains(1, kStiffness, 1);
   if (carrying_.empty()) return computedTorque(model_, state, target_, gains, gravity_W_);

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A folder with anything else than frames stays.
+// A folder that holds anything but frames stays.
 void removeFrames(const fs::path& folder) {
   std::error_code unused;
   for (int i = 0; fs::remove(folder / fmt::format("{:04}.png", i), unused); ++i) {
@@ -36,7 +36,8 @@ void removeFrames(const fs::path& folder) {
 double filmSpeed(double asked, double seconds) {
   const double speed = std::max(asked, seconds / kLongestFilm);
   if (speed > asked)
-    note(fmt::format("the film is {:.3g} times as fast as the motion, to last {:g} s", speed, kLongestFilm));
+    note(fmt::format("the film plays {:.3g} times as fast as the motion, so that it lasts {:g} s", speed,
+                     kLongestFilm));
   return speed;
 }
 

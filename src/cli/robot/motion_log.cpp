@@ -26,7 +26,7 @@ std::string csvHead(const Model& model) {
   return fmt::to_string(head);
 }
 
-// The head ends at a multiple of 64 bytes.
+// The header is padded to a multiple of 64 bytes.
 std::string npyHead(const Model& model, long rows) {
   constexpr std::size_t kBefore = 10, kUnit = 64;
   std::string words = fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}), }}", rows,
@@ -49,7 +49,7 @@ void forEachNumber(const Moment& moment, const Visit& visit) {
   visit(moment.energy.total());
 }
 
-// The uppermost folder of a path that is not there yet; empty: all are.
+// The topmost folder of a path that does not exist yet; empty if all exist.
 fs::path firstNew(fs::path folder) {
   fs::path missing;
   for (std::error_code ignored; !folder.empty() && !fs::exists(folder, ignored);

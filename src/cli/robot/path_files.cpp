@@ -30,7 +30,7 @@ void writeExplored(Picture picture, RenderPlan plan, std::string caption, const 
   writePng(image, out);
 }
 
-// No times of computing in it: the same input gives the same bytes.
+// Contains no computing times: the same input gives the same bytes.
 Report replayOf(const PathTask& task, const PlanOptions& options, const FoundPath& found,
                 const PathTiming& timing, const Motion& motion) {
   const TimingResult& result = timing.result;
@@ -38,7 +38,7 @@ Report replayOf(const PathTask& task, const PlanOptions& options, const FoundPat
                 .figures = {{jointsFigure(task.model, motion)}},
                 .facts = {{"length", fmt::format("{:.4g}", found.length)},
                           {"duration", fmt::format("{:.3f} s", result.motion.duration())},
-                          {"by velocities alone", fmt::format("{:.3f} s", result.lowerBound)},
+                          {"from velocity limits alone", fmt::format("{:.3f} s", result.lowerBound)},
                           {"limits", limitsTextOf(timing, options)},
                           {"margin", fmt::format("{:g} m", options.margin)},
                           {"nodes", fmt::format("{}", found.nodes)},
@@ -52,14 +52,14 @@ Report replayOf(const PathTask& task, const PlanOptions& options, const FoundPat
   return report;
 }
 
-// A hundred rows per second, of a very long motion fewer.
+// A hundred rows per second, fewer for very long motions.
 std::string tableOf(const Model& model, const TimedPath& timed) {
   constexpr double kRate = 100, kMostRows = 1e6;
   const double rate = std::min(kRate, kMostRows / std::max(timed.duration(), 1.));
   return csvOf(model, motionOf(timed, rate));
 }
 
-// Film and replay.
+// Writes the film and the replay.
 std::vector<fs::path> writeMotion(const PathTask& task, const PlanOptions& options,
                                   const RenderPlan& pictures, BodyId body, const FoundPath& found,
                                   const PathTiming& timing) {

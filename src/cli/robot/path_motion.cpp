@@ -11,7 +11,7 @@
 namespace rex::cli {
 namespace {
 
-// As a field of a table.
+// Quoted as a CSV field if necessary.
 std::string quoted(const std::string& name) {
   if (name.find_first_of(",\"; ") == std::string::npos) return name;
   std::string text = "\"";

@@ -16,11 +16,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr Eigen::Index kBatch = 1024;  // postures at once: their poses take little memory
+constexpr Eigen::Index kBatch = 1024;  // postures at a time, so that their poses take little memory
 const Color kPathColor{0.84f, 0.37f, 0.0f};
 const std::array<Color, 2> kGraphColors = {Color{0.0f, 0.45f, 0.70f}, Color{0.0f, 0.62f, 0.45f}};
 
-// Where the origin of a body is in each posture.
+// The position of a body's origin in each posture.
 std::vector<Vector3d> placesOf(const Model& model, BodyId body, const MatrixArg& postures) {
   std::vector<Vector3d> places;
   PoseBatch poses;
@@ -32,7 +32,7 @@ std::vector<Vector3d> placesOf(const Model& model, BodyId body, const MatrixArg&
   return places;
 }
 
-// How long the straight pieces of drawn ways are in the metric of the space. Very many edges get fewer.
+// Length of the straight pieces of drawn edges, in the metric of the space; longer for very many edges.
 double pieceLength(const Space& space, const std::vector<PathGraph>& graphs) {
   constexpr double kFine = 0.15, kMostPieces = 60'000;
   double whole = 0;
@@ -41,7 +41,7 @@ double pieceLength(const Space& space, const std::vector<PathGraph>& graphs) {
   return std::max(kFine, whole / kMostPieces);
 }
 
-// Postures on the way from a to b, both included, in pieces no longer than that.
+// Postures from a to b, both included, no further apart than `piece`.
 Eigen::MatrixXd pointsBetween(const Space& space, const VectorArg& a, const VectorArg& b, double piece) {
   const int pieces = std::max(1, static_cast<int>(std::ceil(space.distance(a, b) / piece)));
   Eigen::MatrixXd points(a.size(), pieces + 1);
@@ -49,7 +49,7 @@ Eigen::MatrixXd pointsBetween(const Space& space, const VectorArg& a, const Vect
   return points;
 }
 
-// What is behind very many lines shows through.
+// Very many lines are drawn so faint that what lies behind them shows through.
 float opacityOf(std::size_t edges) { return std::clamp(800 / static_cast<float>(edges), 0.08f, 0.5f); }
 
 LineSet linesOf(const Model& model, const Space& space, BodyId body, const PathGraph& graph, double piece) {
@@ -73,7 +73,7 @@ Polyline wayOf(const Model& model, const Space& space, BodyId body, const Matrix
   return way;
 }
 
-// What moves, once more at another posture.
+// Adds the moving solids once more, faintly, in the posture of the other picture.
 void addFaintly(Picture& picture, const Picture& other) {
   constexpr float kFaint = 0.45f;
   const std::size_t count = picture.solids.size();

@@ -17,13 +17,13 @@ namespace rex::cli {
 namespace {
 
 constexpr int kShortcuts = 200;
-constexpr int kNeighbors = 10;  // of a node of PRM
+constexpr int kNeighbors = 10;  // per node of a PRM
 
 double cpuTime() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-// Counts what a planner asks for, and lets the user stop it.
+// Counts the configurations that a planner checks, and lets the user interrupt it.
 AllValid watched(AllValid allValid, long& checks) {
-  constexpr int kSeldom = 256;  // calls: a look at the signals takes as long as a tenth of one
+  constexpr int kSeldom = 256;  // calls between looks at the signals, each of which costs a tenth of a call
   return [allValid = std::move(allValid), &checks, calls = 0](const MatrixArg& Q) mutable {
     if (++calls % kSeldom == 0) throwIfInterrupted();
     checks += Q.cols();
@@ -63,14 +63,14 @@ PathResult askRoadmap(const PathProblem& problem, const PathSearch& search, Rng&
   return result;
 }
 
-// Rotations have no spline: shortcuts alone, with stops where the direction changes.
+// There are no splines of rotations: with these, only shortcuts, and stops where the direction changes.
 PathCurve smoothed(const PathProblem& problem, const Eigen::MatrixXd& path, Rng& rng) {
   const Eigen::MatrixXd shorter = shortcut(problem, path, kShortcuts, rng);
   const bool hasRotations = std::ranges::any_of(
       problem.space.parts(), [](const SpacePart& part) { return part.kind == SpacePart::Kind::kQuaternion; });
   if (hasRotations) return straightCurve(problem.space, shorter);
   const SplineResult result = splineAlong(problem, shorter);
-  // Points of a straight way that was checked in others may turn out not to be valid.
+  // A straight segment was checked at other points than the spline, which may find an invalid one on it.
   return result.status == SplineStatus::kInvalid ? straightCurve(problem.space, shorter)
                                                  : result.spline.curve();
 }

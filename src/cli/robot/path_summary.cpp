@@ -17,7 +17,7 @@ std::string timingTextOf(const PathTiming& timing, const PlanOptions& options) {
   if (!timing.isFound()) return fmt::format("duration   none: {}\n", harmless(timing.result.message));
   const TimingResult& result = timing.result;
   const int stops = result.motion.curve().stops();
-  return fmt::format("duration   {:.3f} s, at least {:.3f} s by the velocities alone; {} on the way\n",
+  return fmt::format("duration   {:.3f} s, at least {:.3f} s from the velocity limits alone; {} on the way\n",
                      result.motion.duration(), result.lowerBound,
                      stops == 0 ? "no stop" : fmt::format("{} stop{}", stops, stops == 1 ? "" : "s")) +
          fmt::format("limits     {}\n", limitsTextOf(timing, options));
@@ -86,7 +86,7 @@ Json jsonOfTiming(const PathTiming& timing) {
             {"velocity_limits", jsonOf(kept.limits.velocity)},
             {"acceleration_limits", jsonOf(kept.limits.acceleration)},
             {"assumed_velocities", kept.assumedVelocity}};
-  // Infinite ones are null.
+  // Infinite limits are null.
   json["effort_limits"] = kept.limits.effort.size() > 0 ? jsonOf(kept.limits.effort) : Json();
   return json;
 }

@@ -11,7 +11,7 @@
 namespace rex::cli {
 namespace {
 
-// The first few of them.
+// The first few names, and how many more there are.
 std::string listOf(const std::vector<std::string>& names) {
   constexpr std::size_t kMost = 6;
   std::vector<std::string> shown;
@@ -34,10 +34,10 @@ PathTiming timingOf(const PathTask& task, const PlanOptions& options, const Foun
 std::string assumptionsOf(const PathTiming& timing, const PlanOptions& options) {
   std::string text;
   if (!timing.limits.assumedVelocity.empty())
-    text = fmt::format("no limit of velocity for {}: {:g} rad/s or m/s is taken, see --velocity",
+    text = fmt::format("no velocity limit for {}: assuming {:g} rad/s or m/s, see --velocity",
                        listOf(timing.limits.assumedVelocity), options.velocity);
   if (!timing.limits.anyEffort.empty())
-    text += fmt::format("{}no limit of effort for {}: any is taken", text.empty() ? "" : "; ",
+    text += fmt::format("{}no effort limit for {}: assuming any effort", text.empty() ? "" : "; ",
                         listOf(timing.limits.anyEffort));
   return text;
 }
@@ -45,11 +45,11 @@ std::string assumptionsOf(const PathTiming& timing, const PlanOptions& options) 
 std::string limitsTextOf(const PathTiming& timing, const PlanOptions& options) {
   const auto all = timing.limits.limits.velocity.size();
   const auto assumed = static_cast<Eigen::Index>(timing.limits.assumedVelocity.size());
-  const std::string velocity = assumed == 0 ? "velocities of the scene"
-                               : assumed == all
-                                   ? fmt::format("velocities {:g} rad/s or m/s", options.velocity)
-                                   : fmt::format("velocities of the scene, for {} of {} {:g} rad/s or m/s",
-                                                 assumed, all, options.velocity);
+  const std::string velocity =
+      assumed == 0     ? "velocities of the scene"
+      : assumed == all ? fmt::format("velocities {:g} rad/s or m/s", options.velocity)
+                       : fmt::format("velocities of the scene, for {} of {} coordinates {:g} rad/s or m/s",
+                                     assumed, all, options.velocity);
   return fmt::format("{}; accelerations that reach them in {:g} s{}", velocity, options.ramp,
                      options.effort ? "; efforts of the scene" : "");
 }

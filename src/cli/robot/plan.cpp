@@ -41,7 +41,7 @@ PathSearch searchOf(const PlanOptions& options) {
         {.what = "--step", .found = "--planner " + options.planner, .wanted = "a planner that grows trees"});
   search.step = options.step.value_or(search.step);
   requireBetween("--step", search.step, 1e-3, 1e3);
-  if (search.planner == Planner::kRrtStar) search.samples = 10'000;  // it spends them all
+  if (search.planner == Planner::kRrtStar) search.samples = 10'000;  // RRT* uses all of them
   if (!growsTrees(search.planner)) search.samples = 2000;
   search.samples = options.samples.value_or(search.samples);
   requireBetween("--samples", search.samples, 1, growsTrees(search.planner) ? 1e7 : 1e5);
@@ -51,7 +51,7 @@ PathSearch searchOf(const PlanOptions& options) {
 PathTask taskOf(Model model, const PlanOptions& options) {
   const ContactModel contacts = contactModelOf(model);
   if (contacts.pairs().empty())
-    note(harmless(model.name()) + ": no two shapes may collide: all ways are free");
+    note(harmless(model.name()) + ": no two shapes may collide: every path is free");
   const Eigen::VectorXd start =
       postureWithinLimits(model, "--start", options.start.empty() ? "file" : options.start);
   const Eigen::VectorXd goal = postureWithinLimits(model, "--goal", options.goal);
@@ -76,9 +76,9 @@ BodyId drawnBody(const Model& model, const std::string& name) {
   throw UsageError({.what = "--body", .found = "'" + harmless(name) + "', which no joint moves"});
 }
 
-// Whether all paths are, and says how they are not.
+// Whether all paths are clear of collisions; if not, says why.
 bool isClear(const FoundPaths& found, double margin) {
-  // Who wants no margin may touch: that cannot be told from a little overlap.
+  // Without a margin shapes may touch, and touching cannot be told from a tiny overlap.
   const double least = margin > 0 ? 0 : -kClearanceTolerance;
   const auto all = [&](double ClearanceBounds::*bound) {
     return std::ranges::all_of(
@@ -93,8 +93,8 @@ bool isClear(const FoundPaths& found, double margin) {
   return false;
 }
 
-// Looks for a way of a robot past all obstacles, and the fastest motion along it; writes the motion, what was
-// explored, a film and a replay. kBelow if there is no path, one that is not clear, or no motion along it.
+// Searches for a path of a robot past all obstacles, and the fastest motion along it. Writes the motion, what
+// was explored, a film and a replay. kBelow if no path was found, one is not clear, or it cannot be timed.
 ExitCode planPath(const Project& project, const PlanOptions& options) {
   RenderOptions filmOptions = options.film;
   filmOptions.out = options.out / "path.mp4";
@@ -130,47 +130,54 @@ void addPlan(CLI::App* command, Action& action) {
       "Examples:\n  scripts/rex plan board --goal 1.5,-1.1,-1 -o around\n"
       "  scripts/rex plan maze --goal 3,0,0 --planner rrt-star --speed 0.5 -o rooms\n"
       "  scripts/rex plan board --goal 'stem>arm1=1.5' --planner lazy-prm --seeds 20 -o compare\n\n"
-      "Lengths are those of postures as vectors: root of the sum of squares of rad and m. Turning joints\n"
-      "without limits turn the shorter way round. The motion is the fastest within the limits of the scene.\n"
+      "Lengths are Euclidean distances between joint vectors, in rad and m. Turning joints without limits\n"
+      "turn the shorter way round. The motion is the fastest within the limits of the scene.\n"
       "DIR gets path.csv (time and joints; `rex render --motion` reads it), tree.png (what was explored),\n"
       "path.mp4 and path.html (a replay).\n"
-      "Exit codes: 0 found a path, 1 found none, or one that is not clear, 64 wrong use.");
+      "Exit codes: 0 found a path, 1 found none, or one with collisions, 64 wrong use.");
   addSceneFile(command, "SCENE", options->scene.file);
-  command->add_option("-o,--out", options->out, "folder for what is written")->type_name("DIR")->required();
+  command->add_option("-o,--out", options->out, "folder for the results")->type_name("DIR")->required();
   command->add_option("--start", options->start, "all numbers, joint=number,..., 0, or file (default: file)")
       ->type_name("POSTURE");
-  command->add_option("--goal", options->goal, "the same")->type_name("POSTURE")->required();
+  command->add_option("--goal", options->goal, "posture to reach, as for --start")
+      ->type_name("POSTURE")
+      ->required();
   command
       ->add_option("--planner", options->planner,
                    "rrt, rrt-connect, rrt-star; prm, prm-star, lazy-prm (default: rrt-connect)")
       ->type_name("NAME");
-  command->add_option("--margin", options->margin, "between all shapes on the way (default: 0.01)")
+  command->add_option("--margin", options->margin, "clearance to keep between all shapes (default: 0.01)")
       ->type_name("METRES");
-  command->add_option("--resolution", options->resolution, "of the checks along ways (default: 0.02)")
+  command
+      ->add_option("--resolution", options->resolution,
+                   "distance between checks along the path (default: 0.02)")
       ->type_name("LENGTH");
-  command->add_option("--step", options->step, "by which trees grow (default: 0.3)")->type_name("LENGTH");
+  command->add_option("--step", options->step, "step size of growing trees (default: 0.3)")
+      ->type_name("LENGTH");
   command
       ->add_option("--samples", options->samples,
-                   "the budget (default: 100000; rrt-star 10000, roadmaps 2000)")
+                   "budget of samples (default: 100000; rrt-star 10000, roadmaps 2000)")
       ->type_name("N");
-  addSeed(command, options->seed, "of the random numbers (default: 0)");
-  command->add_option("--seeds", options->seeds, "searches with so many seeds, and prints a table")
+  addSeed(command, options->seed, "seed of the random numbers (default: 0)");
+  command->add_option("--seeds", options->seeds, "search with this many seeds and print a table")
       ->type_name("N");
   CLI::Option* smooth = command->add_flag("--smooth");
   smooth->description("shortcuts, then a spline that cuts corners (default)");
   command->add_flag("--no-smooth", options->noSmooth,
                     "the path as the planner finds it, with a stop at each corner");
   command
-      ->add_option("--velocity", options->velocity,
-                   "limit of joints that have none in the scene, rad/s or m/s (default: 1)")
+      ->add_option("--velocity", options->velocity, "limit for joints without one, rad/s or m/s (default: 1)")
       ->type_name("X");
   command
       ->add_option("--ramp", options->ramp,
-                   "in which joints come from rest to their limits of velocity (default: 0.5)")
+                   "time from rest to the velocity limits of the joints (default: 0.5)")
       ->type_name("S");
-  command->add_flag("--effort", options->effort, "keep to the efforts of the scene, too (no friction)");
+  command->add_flag("--effort", options->effort,
+                    "keep within the effort limits of the scene, too (no friction)");
   addFilmSpeed(command, options->speed);
-  command->add_option("--body", options->body, "whose ways are drawn (default: that which most joints move)")
+  command
+      ->add_option("--body", options->body,
+                   "draw the paths of this body (default: the one moved by most joints)")
       ->type_name("NAME");
   command->add_flag("--no-film", options->noFilm, "no path.mp4 and path.html");
   addFilmOptions(command, options->film);

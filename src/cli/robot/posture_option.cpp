@@ -62,9 +62,9 @@ std::string listed(const std::vector<std::string>& names) {
   return list;
 }
 
-// The place of a joint's only coordinate.
+// The index of a joint's only coordinate.
 int placeOf(const Model& model, const Coordinates& kind, const std::string& name, Eigen::Index all) {
-  std::vector<std::string> movable;  // joints stand in the order of q
+  std::vector<std::string> movable;  // joints are in the order of q
   for (const Joint& joint : model.joints()) {
     const bool isMovable = joint.nq > 0 && !joint.mimics;
     if (joint.name == name && isMovable) {
@@ -81,18 +81,17 @@ int placeOf(const Model& model, const Coordinates& kind, const std::string& name
                     .nearest = nearest});
 }
 
-// Words end at blanks and commas, so no word gives a joint with these in its name.
+// Words end at blanks and commas, so a joint with these in its name cannot be set by name.
 std::string pairWanted(const Model& model, Eigen::Index all) {
   const bool areWords = std::ranges::all_of(model.joints(), [](const Joint& joint) {
     return joint.name.find_first_of(" \t\r\n,") == std::string::npos;
   });
   return areWords
              ? "joint=number"
-             : fmt::format("joint=number, or for joints with blanks or commas in their names all {} numbers",
-                           all);
+             : fmt::format("joint=number, or all {} numbers if a joint's name has blanks or commas", all);
 }
 
-// All numbers, or those of some joints, the others as they are.
+// All numbers, or those of some joints; the others keep their values.
 Eigen::VectorXd parseCoordinates(const Model& model, const Coordinates& kind, const std::string& text,
                                  Eigen::VectorXd x) {
   const std::vector<std::string> all = numberWords(text, refusalOf(kind.option));
@@ -114,7 +113,7 @@ Eigen::VectorXd parseCoordinates(const Model& model, const Coordinates& kind, co
   return x;
 }
 
-// Zero but for what is given.
+// Zero unless given.
 Eigen::VectorXd parseRates(const Model& model, const Coordinates& kind, const std::string& text) {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(model.nv());
   return text == "0" ? zero : parseCoordinates(model, kind, text, zero);
@@ -128,7 +127,7 @@ void requireLength(double seconds, const std::string& what, const SourceLocation
                       .wanted = fmt::format("at most {:g} s", kLongestMotion)});
 }
 
-// Reads the lines of a motion one after the other.
+// Reads a motion line by line.
 class MotionReader {
  public:
   MotionReader(const Model& model, std::string file, double rate)
@@ -158,7 +157,7 @@ class MotionReader {
     throw UsageError({.what = "motion", .where = where_, .found = found, .wanted = wanted});
   }
 
-  // Names of columns; but a number that is none must not pass for one.
+  // A line of column names. "nan" and the like begin with a letter, too, but are not names.
   static bool isHead(std::string_view line) {
     double ignored = 0;
     const bool isName =
@@ -206,7 +205,7 @@ class MotionReader {
   Motion motion_;
 };
 
-// At each moment of a steady beat the posture last reached.
+// Resamples at an even rate: at each moment the last posture reached.
 Motion evenly(const Motion& motion, double rate) {
   Motion even;
   const double start = motion.times.front(), length = motion.times.back() - start;

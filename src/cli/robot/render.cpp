@@ -35,7 +35,7 @@ Motion motionOf(const Model& model, const RenderOptions& options, double seconds
   return moveThrough(model, keys, seconds, kFilmRate);
 }
 
-// Of a motion a still shows the key frames only.
+// A still of a motion shows its key frames only.
 MotionPictures picturesOf(const Model& model, const Motion& motion, const RenderOptions& options,
                           Product product) {
   if (!options.traces.empty() && motion.postures.size() == 1)
@@ -59,7 +59,7 @@ void writeStill(const MotionPictures& pictures, const RenderPlan& plan, const fs
   writePng(whole, out);
 }
 
-// What has no Studio to say it.
+// For products that no Studio describes.
 void noteViews(const RenderPlan& plan) {
   if (const std::string views = viewsOf(plan); !views.empty()) note(views);
 }

@@ -15,7 +15,7 @@
 namespace rex::cli {
 namespace {
 
-// No ending: a folder of pictures.
+// Without an ending, the result is a folder of pictures.
 Product productOf(const std::filesystem::path& out) {
   const std::vector<std::string> known = {".png", ".mp4", ".webm", ".gif", ".glb", ".html"};
   const std::string ending = out.extension().string();
@@ -76,9 +76,9 @@ void require(bool holds, const std::string& what, const std::string& wanted) {
 
 void requireMeaning(const RenderOptions& options, const RenderPlan& plan) {
   const std::string ending = options.out.extension().string();
-  require(options.motion.empty() || options.postures.empty(), "--motion and --q", "one of them");
+  require(options.motion.empty() || options.postures.empty(), "--motion and --q", "only one of them");
   require(!options.seconds || options.postures.size() > 1, "--seconds",
-          "several --q, whose distance in time it gives");
+          "several --q, as it is the time from one to the next");
   require(options.traces.empty() || options.postures.size() > 1 || !options.motion.empty(), "--trace",
           "a motion: several --q, or --motion");
   if (plan.product == Product::kModel) {
@@ -88,7 +88,7 @@ void requireMeaning(const RenderOptions& options, const RenderPlan& plan) {
   if (plan.product == Product::kModel || plan.product == Product::kPage) {
     require(!options.scene.reading.textures, "--textures", "a picture or film; a " + ending + " has none");
     require(options.show.empty(), "--show", "a picture or film; a " + ending + " is seen in colour");
-    require(options.cameras.size() <= 1, "--camera", "one, from which a " + ending + " is seen at first");
+    require(options.cameras.size() <= 1, "--camera", "one, for the initial view of the " + ending + " file");
   }
   if (plan.show != Show::kColor) {
     require(options.caption.empty(), "--caption", "--show color; " + options.show + " shows no text");

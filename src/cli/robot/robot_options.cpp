@@ -10,11 +10,12 @@ void addSceneFile(CLI::App* command, const std::string& name, std::filesystem::p
 
 void addReading(CLI::App* command, ReadOptions& reading) {
   command
-      ->add_option("--assets", reading.assetRoot, "folder of all meshes (default: above that of the scene)")
+      ->add_option("--assets", reading.assetRoot,
+                   "folder of all meshes (default: the one above the scene's folder)")
       ->type_name("DIR");
   command->add_flag("--allow-missing-meshes", reading.allowMissingMeshes,
-                    "boxes for meshes that are not found");
-  command->add_flag("--strict", reading.strict, "refuse faults of a file that are otherwise repaired");
+                    "use boxes for meshes that cannot be found");
+  command->add_flag("--strict", reading.strict, "refuse faults of a file instead of repairing them");
   command
       ->add_option("--srdf", reading.srdf,
                    "which links of a .urdf may collide (default: the .srdf beside it)")
@@ -31,24 +32,25 @@ void addRenderOptions(CLI::App* command, RenderOptions& options) {
        "all numbers, or joint=number,...; several: a motion through them");
   command->add_option("--motion", options.motion, "a motion: a posture per line, with or without a time")
       ->type_name("FILE");
-  command->add_option("--seconds", options.seconds, "from each --q to the next (default: 2)")->type_name("S");
+  command->add_option("--seconds", options.seconds, "time from each --q to the next (default: 2)")
+      ->type_name("S");
   list("--camera", options.cameras, "VIEW",
        "front, back, left, right, top, x,y,z or eye@target; may be repeated");
-  list("--trace", options.traces, "BODY", "whose way is drawn as a line");
+  list("--trace", options.traces, "BODY", "draw the path of this body as a line");
   command->add_option("--caption", options.caption, "text in the top left corner, or title of a page")
       ->type_name("TEXT");
-  command->add_option("--size", options.size, "pixels of one picture (default: 640x480, of a page 800x600)")
+  command->add_option("--size", options.size, "pixels of one picture (default: 640x480, pages: 800x600)")
       ->type_name("WxH");
   command
       ->add_option("--shapes", options.scene.shapes,
-                   "which are drawn: visible, contact or all (default: visible)")
+                   "which shapes to draw: visible, contact or all (default: visible)")
       ->type_name("WHICH");
   command->add_flag("--textures", options.scene.reading.textures, "paint meshes with their textures");
   command->add_option("--show", options.show, "color, depth or segmentation (default: color)")
       ->type_name("WHAT");
   command
       ->add_option("--aa", options.antiAliasing,
-                   "smooth edges by none, fxaa or msaa4 (default: msaa4, films: fxaa)")
+                   "anti-aliasing: none, fxaa or msaa4 (default: msaa4, films: fxaa)")
       ->type_name("KIND");
 }
 
@@ -60,7 +62,7 @@ void addFilmOptions(CLI::App* command, RenderOptions& film) {
 }
 
 void addFilmSpeed(CLI::App* command, double& speed) {
-  command->add_option("--speed", speed, "of the film, 2: twice as fast as the motion (default: 1, real time)")
+  command->add_option("--speed", speed, "speed of the film, 2: twice that of the motion (default: 1)")
       ->type_name("X");
 }
 
@@ -72,7 +74,7 @@ void addPosture(CLI::App* command, std::string& posture) {
 void addJson(CLI::App* command, bool& json) { command->add_flag("--json", json, "print JSON"); }
 
 void addGl(CLI::App* command, std::string& gl) {
-  command->add_option("--gl", gl, "OpenGL by auto, osmesa or egl (default: auto)")
+  command->add_option("--gl", gl, "OpenGL backend: auto, osmesa or egl (default: auto)")
       ->type_name("NAME")
       ->envname("REX_GL");
 }

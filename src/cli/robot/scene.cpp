@@ -18,7 +18,7 @@ namespace {
 CLI::App* addVerbOf(CLI::App* scene, const std::string& name, const std::string& purpose,
                     const std::string& examples) {
   CLI::App* verb = addVerb(scene, name, purpose, examples);
-  verb->fallthrough();  // how the scene is read may also be said after the verb
+  verb->fallthrough();  // options for reading the scene may also come after the verb
   return verb;
 }
 
@@ -31,7 +31,7 @@ void addInfo(CLI::App* scene, Action& action, const std::shared_ptr<SceneOptions
 }
 
 void addCheck(CLI::App* scene, Action& action, const std::shared_ptr<SceneOptions>& options) {
-  CLI::App* verb = addVerbOf(scene, "check", "Say whether a file loads, and what is doubtful in it",
+  CLI::App* verb = addVerbOf(scene, "check", "Say whether a file loads, and what looks doubtful in it",
                              "Example: scripts/rex scene man.ors check\n"
                              "Exit codes: 0 the scene loads, perhaps with warnings; 1 it does not.");
   addJson(verb, options->json);
@@ -41,7 +41,7 @@ void addCheck(CLI::App* scene, Action& action, const std::shared_ptr<SceneOption
 
 void addKinematics(CLI::App* scene, Action& action, const std::shared_ptr<SceneOptions>& options) {
   CLI::App* verb = addVerbOf(
-      scene, "fk", "Compute where all bodies are",
+      scene, "fk", "Compute the poses of all bodies",
       "Examples:\n  scripts/rex scene pegArm fk --q 0.1,0.2,0.3\n  scripts/rex scene man fk --q 0 --json");
   addPosture(verb, options->posture);
   addJson(verb, options->json);
@@ -51,11 +51,14 @@ void addKinematics(CLI::App* scene, Action& action, const std::shared_ptr<SceneO
 
 void addJacobian(CLI::App* scene, Action& action, const std::shared_ptr<SceneOptions>& options) {
   const auto own = std::make_shared<JacobianOptions>();
-  CLI::App* verb =
-      addVerbOf(scene, "jacobian", "Compute the Jacobian of a point on a body, and of its rotation",
-                "Example: scripts/rex scene pegArm jacobian --body peg --point 0,0,0.3 --q 0");
-  verb->add_option("--body", own->body, "which body, or a shape of it")->type_name("NAME")->required();
-  verb->add_option("--point", own->point, "in the body's frame, metres (default: 0,0,0)")->type_name("x,y,z");
+  CLI::App* verb = addVerbOf(scene, "jacobian",
+                             "Compute the position Jacobian of a point on a body, and the rotation Jacobian",
+                             "Example: scripts/rex scene pegArm jacobian --body peg --point 0,0,0.3 --q 0");
+  verb->add_option("--body", own->body, "name of the body, or of one of its shapes")
+      ->type_name("NAME")
+      ->required();
+  verb->add_option("--point", own->point, "the point in the body's frame, metres (default: 0,0,0)")
+      ->type_name("x,y,z");
   addPosture(verb, options->posture);
   addJson(verb, options->json);
   verb->callback([&action, options, own] {
@@ -69,25 +72,25 @@ void addContacts(CLI::App* scene, Action& action, const std::shared_ptr<SceneOpt
   const auto pairs = std::make_shared<PairsOptions>();
   const auto listsPairs = std::make_shared<bool>(false), looksForNever = std::make_shared<bool>(false);
   CLI::App* verb = addVerbOf(
-      scene, "contacts", "List the shapes that may collide and are near, nearest first; or who may collide",
+      scene, "contacts", "List near shapes that may collide, nearest first, or which bodies may collide",
       "Examples:\n  scripts/rex scene pegInAHole contacts --q 0.6,0.5,0,0,0,0,0 --margin 0.02\n"
       "  scripts/rex scene humanoid contacts --pairs\n"
       "  scripts/rex scene robot.urdf contacts --never --samples 10000 > robot.srdf\n\n" +
           fmt::format("Refuses a scene with more than {} pairs of shapes that take part in contacts.",
                       kMostContactPairs));
-  CLI::Option* margin =
-      verb->add_option("--margin", own->margin, "the contact cost counts what is nearer (default: 0.1)")
-          ->type_name("METRES");
+  CLI::Option* margin = verb->add_option("--margin", own->margin,
+                                         "distance below which pairs add to the contact cost (default: 0.1)")
+                            ->type_name("METRES");
   addPosture(verb, options->posture);
   CLI::Option* list =
       verb->add_flag("--pairs", *listsPairs, "which bodies may collide, and why others may not");
-  CLI::Option* never = verb->add_flag(
-      "--never", *looksForNever, "an SRDF without the pairs that random postures never or always let touch");
+  CLI::Option* never = verb->add_flag("--never", *looksForNever,
+                                      "write an SRDF that disables pairs that never or always touch");
   CLI::Option* samples =
-      verb->add_option("--samples", pairs->samples, "random postures of --never (default: 1000)")
+      verb->add_option("--samples", pairs->samples, "number of random postures for --never (default: 1000)")
           ->type_name("N");
   samples->needs(never);
-  addSeed(verb, pairs->seed, "of the random postures (default: 0)");
+  addSeed(verb, pairs->seed, "seed of the random postures (default: 0)");
   verb->get_option("--seed")->needs(never);
   list->excludes(never)->excludes(margin);
   never->excludes(margin);
@@ -107,7 +110,7 @@ void addDynamics(CLI::App* scene, Action& action, const std::shared_ptr<SceneOpt
       addVerbOf(scene, "dynamics", "Compute M and F of M qdd + F = u, energies, and qdd",
                 "Examples:\n  scripts/rex scene pegArm dynamics --q 0.1,0.2,0.3 --v 0,1,0\n"
                 "  scripts/rex scene arm3 dynamics --u 5,0,0 --json\n\n"
-                "Gravity is 9.81 m/s^2 along -z. Joints are free: without friction, limits and contacts.");
+                "Gravity is 9.81 m/s^2 along -z. Joints move freely: without friction, limits and contacts.");
   addPosture(verb, options->posture);
   verb->add_option("--v", own->velocity, "all velocities, or joint=number,... (default: 0)")
       ->type_name("VELOCITY");

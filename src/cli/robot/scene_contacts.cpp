@@ -57,8 +57,7 @@ ExitCode sceneContacts(const Project& project, const ContactsOptions& options) {
   }
   say(fmt::format(
       "{} pairs of shapes may collide (rule {}, see --pairs), {} are nearer than {:g} m; contact cost {:.6g} "
-      "with a "
-      "margin of {:g} m",
+      "with a margin of {:g} m",
       contacts.pairs().size(), toString(model.collisionRule()), near.size(), reach, cost, margin));
   if (!near.empty()) sayLines(proxyReport(model, near));
   return ExitCode::kFull;

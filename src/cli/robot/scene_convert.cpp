@@ -35,7 +35,7 @@ void requireAnother(const fs::path& in, const fs::path& out) {
                       .wanted = "another file to write"});
 }
 
-// What the new file names may lie outside the folder in which its readers look.
+// Meshes that the new file names may lie outside the folder in which its readers search.
 void warnOfMeshesOutside(const SceneSpec& spec, const fs::path& out) {
   const fs::path above = fs::weakly_canonical(folderOf(out) / "..");
   fs::path root = above;
@@ -50,7 +50,8 @@ void warnOfMeshesOutside(const SceneSpec& spec, const fs::path& out) {
   widen(spec.worldShapes);
   for (const BodySpec& body : spec.bodies) widen(body.shapes);
   if (root == above) return;
-  note(wrap(fmt::format("its meshes stay where they are; read it with --assets {}", harmless(root.string())),
+  note(wrap(fmt::format("the meshes stay where they are; read the new file with --assets {}",
+                        harmless(root.string())),
             2, 0));
 }
 

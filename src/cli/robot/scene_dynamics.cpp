@@ -25,7 +25,7 @@ struct Dynamics {
   Eigen::VectorXd a;
 };
 
-constexpr int kColumn = 11;  // letters of a number and the blank before
+constexpr int kColumn = 11;  // characters of a number and the blank before it
 
 // Four digits each; zero has no sign.
 std::string numbers(const Eigen::Ref<const Eigen::VectorXd>& values) {
@@ -40,7 +40,7 @@ void sayHead(const std::string& first, std::size_t width, const std::vector<std:
   say(line);
 }
 
-// Wide matrices in bands of as many columns as a terminal shows.
+// Wide matrices are split into bands of as many columns as fit in the terminal.
 void sayMatrix(const Eigen::MatrixXd& M, const std::vector<std::string>& names, std::size_t width) {
   constexpr int kLineLength = 80;
   const int band = std::max(1, (kLineLength - static_cast<int>(width)) / kColumn);

@@ -13,7 +13,7 @@
 namespace rex::cli {
 namespace {
 
-// "q3", "q3..q5", or what the joint has instead.
+// "q3", "q3..q5", or the rule by which the joint mimics another.
 std::string coordinatesOf(const Joint& joint) {
   if (joint.nq == 0) return "rigid";
   const std::string last = joint.nq > 1 ? fmt::format("..q{}", joint.qIndex + joint.nq - 1) : "";
@@ -46,7 +46,7 @@ std::vector<std::vector<BodyId>> childrenOf(const Model& model) {
   return children;
 }
 
-// Lines of columns, each as wide as its longest entry but the last.
+// A table. Each column but the last is as wide as its longest entry.
 class Table {
  public:
   void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
@@ -67,7 +67,7 @@ class Table {
   std::vector<std::vector<std::string>> rows_;
 };
 
-// Of a long chain the depth is told by a number.
+// Deep in a long chain, a number shows the depth instead of more blanks.
 std::string indented(const std::string& name, std::size_t depth) {
   constexpr std::size_t kDeepest = 12;
   if (depth <= kDeepest) return std::string(2 * depth, ' ') + name;
@@ -78,7 +78,7 @@ void sayTree(const Model& model) {
   const std::vector<std::vector<BodyId>> children = childrenOf(model);
   std::vector<std::pair<BodyId, std::size_t>> waiting = {{kWorld, 0}};
   Table table;
-  table.add({"body", "kg", "joint", "place in q"});
+  table.add({"body", "kg", "joint", "coordinates"});
   while (!waiting.empty()) {
     const auto [id, depth] = waiting.back();
     waiting.pop_back();
@@ -128,7 +128,7 @@ void sayShapes(const Model& model) {
   table.print();
 }
 
-// Of a joint that mimics: which, and how.
+// For a joint that mimics another: which one, and how.
 Json mimicOf(const Model& model, const Joint& joint) {
   if (!joint.mimics) return {};
   const auto target = std::find_if(model.joints().begin(), model.joints().end(), [&](const Joint& other) {

@@ -22,7 +22,7 @@ Eigen::VectorXd postureOf(const Model& model, const std::string& text) {
   return text.empty() ? model.initialPositions() : parsePosture(model, text);
 }
 
-// Nine columns each, also of numbers that are very large; what rounds to zero has no sign.
+// Nine columns each, even for very large numbers; what rounds to zero has no sign.
 std::string fiveDecimals(const Eigen::Ref<const Eigen::VectorXd>& values) {
   std::string line;
   for (const double value : values) {

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What is drawn only on request lies around what is seen anyway.
+// Shapes that are drawn only on request lie around the visible ones.
 void chooseVisibility(ShapeSpec& shape, const std::string& shapes) {
   constexpr double kTranslucent = 0.35;
   if (shapes == "contact") shape.visible = shape.contact;
@@ -41,7 +41,7 @@ void chooseShapes(SceneSpec& spec, const std::string& shapes) {
     throw UsageError({.what = "--shapes contact", .found = "no shape that takes part in contacts"});
 }
 
-// Those who bring a robot without its meshes need not search for the way out.
+// If a mesh is missing, says which options help.
 SceneFile read(const fs::path& file, const ReadOptions& reading) {
   return asWrongUse([&] {
     try {

@@ -73,18 +73,18 @@ ExitCode sceneNeverTouching(const Project& project, const PairsOptions& options)
   Rng rng(options.seed);
   const TouchSample sample = asWrongUse([&] { return sampleTouches(model, options.samples, rng); });
   if (!sample.held.empty())
-    note(harmless(fmt::format("without limits between which postures are drawn, so left at home: {}",
+    note(harmless(fmt::format("joints without limits to draw random positions from, kept at their start: {}",
                               fmt::join(sample.held, ", "))));
   if (options.scene.json) {
     say(dump(jsonOfSample(model, sample, options.seed)));
     return ExitCode::kFull;
   }
-  // What the scene already says stays true where this takes the place of its SRDF.
+  // Keeps the choices that the scene already makes, as this file may replace its SRDF.
   std::vector<CollisionChoice> choices = std::move(spec.collisionChoices);
   const std::vector<CollisionChoice> suggested = suggestedChoices(model, sample);
   choices.insert(choices.end(), suggested.begin(), suggested.end());
   const std::string about = fmt::format(
-      "A sample of {} random postures, seed {}, and no proof: a pair that never touched may touch in others.",
+      "A sample of {} random postures, seed {}, not a proof: a pair that never touched may touch in others.",
       sample.postures, options.seed);
   const std::string robot = options.scene.scene.file.stem().string();
   std::string text = asWrongUse([&] { return writeSrdf(robot, choices, about); });

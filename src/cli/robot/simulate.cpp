@@ -43,16 +43,16 @@ struct SimulateOptions {
   std::string holdBy{};           ///< see Hold; empty: the best there is
   fs::path torques{};             ///< see readTorques()
   bool refuseOverlap = false;     ///< at the start
-  bool friction = false;          ///< that of the joints, as in the scene
+  bool friction = false;          ///< of the joints, as in the scene
   double noise = 0;               ///< see StepperOptions
-  std::optional<double> floor{};  ///< its height, metres; empty: none but what the scene has
+  std::optional<double> floor{};  ///< its height, metres; empty: none added to the scene
   std::uint64_t seed = 0;
   double speed = 1;  ///< of the film; 1: real time
   bool noFilm = false;
   RenderOptions film{};               ///< cameras, size and gl of the film
-  std::vector<std::string> traces{};  ///< bodies whose way is drawn
+  std::vector<std::string> traces{};  ///< bodies whose paths are drawn
   bool json = false;
-  std::optional<int> logEvery{};  ///< steps; none: so that the log is no larger than kMostLogged
+  std::optional<int> logEvery{};  ///< steps; empty: chosen so that the log has at most kMostLogged numbers
   std::string logFormat = "csv";
   fs::path out{};  ///< a folder, or a page
 };
@@ -60,7 +60,7 @@ struct SimulateOptions {
 constexpr double kMostSteps = 2e5;
 constexpr double kMostLogged = 1e7;  // numbers, 200 megabytes of text
 
-// None: Bullet, which takes steps of its own.
+// Empty for Bullet, which has its own integrator.
 std::optional<Integrator> integratorOf(const std::string& engine) {
   return choose<std::optional<Integrator>>("--engine", engine,
                                            {{"rk4", Integrator::kRungeKutta4},
@@ -73,7 +73,7 @@ std::optional<Integrator> integratorOf(const std::string& engine) {
 
 bool isPage(const SimulateOptions& options) { return options.out.extension() == ".html"; }
 
-// Free bases on floors need more than computed torque, which knows nothing of the forces on their feet.
+// For free bases on floors computed torque is not enough, as it ignores the forces on their feet.
 Hold holdOf(const Model& model, const SimulateOptions& options, bool isBullet) {
   if (options.holdBy.empty()) {
     if (!options.hold) return Hold::kNone;
@@ -93,7 +93,7 @@ void requireContacts(const char* option, const SimulateOptions& options) {
   if (integratorOf(options.engine))
     throw UsageError({.what = option,
                       .found = "--engine " + harmless(options.engine),
-                      .wanted = "--engine bullet, which knows contacts"});
+                      .wanted = "--engine bullet, which handles contacts"});
 }
 
 SimulationPlan planOf(const Model& model, const SimulateOptions& options) {
@@ -134,11 +134,12 @@ int logStride(const Model& model, const SimulationPlan& plan, const SimulateOpti
   const double numbers = (4.0 + model.nq() + model.nv()) * plan.steps;
   const int stride = 1 + static_cast<int>(numbers / kMostLogged);
   if (stride > 1 && !isPage(options))
-    note(fmt::format("the log has one step in {}, to stay below 200 MB; --log-every says otherwise", stride));
+    note(
+        fmt::format("the log has every {}th step, to stay below 200 MB; --log-every overrides this", stride));
   return stride;
 }
 
-// What is kept of a motion while it goes on.
+// Records a motion while it is simulated.
 class Record {
  public:
   Record(const SimulationPlan& plan, const SimulateOptions& options, double filmRate, int logStride)
@@ -159,7 +160,7 @@ class Record {
 
   [[nodiscard]] const Moment& first() const { return first_; }
   [[nodiscard]] const Moment& last() const { return last_; }
-  /// How far the total energy was from that of the start.
+  /// The largest difference of the total energy from its initial value.
   [[nodiscard]] double largestChange() const { return change_; }
   [[nodiscard]] const Motion& motion() const { return film_.motion(); }
 
@@ -172,8 +173,8 @@ class Record {
   }
 
  private:
-  // Potential energy from that of the start, because its zero lies anywhere. Of very many moments some
-  // thousand: a picture has no more columns.
+  // Potential energy relative to the start, because its zero is arbitrary. Of very many moments only some
+  // thousand, as a picture has no more columns.
   void plot(const Moment& moment) {
     const double zero = first_.energy.potential;
     for (Series* series : {&kinetic_, &potential_, &total_}) series->x.push_back(moment.state.time);
@@ -197,7 +198,7 @@ std::string titleOf(const Model& model, const SimulationPlan& plan, const Simula
                      plan.torques ? " with torques" : "", options.engine, 1000 * options.tau);
 }
 
-// How a motion is shown: frames, their ways and the title.
+// How a motion is shown: frames, traces and the title.
 MotionPictures motionPicturesOf(const Model& model, const Motion& motion, const SimulateOptions& options,
                                 const std::string& title) {
   std::vector<std::size_t> shown(motion.postures.size());
@@ -205,7 +206,7 @@ MotionPictures motionPicturesOf(const Model& model, const Motion& motion, const 
   return MotionPictures(model, motion, shown, options.traces, title);
 }
 
-// Plays as fast as a film of it.
+// The replay plays as fast as the film would.
 void writeMotionPage(const MotionPictures& pictures, const Record& record, const std::string& title,
                      const SimulateOptions& options, const RenderPlan& plan, double speed) {
   Report report{.title = title,
@@ -214,13 +215,13 @@ void writeMotionPage(const MotionPictures& pictures, const Record& record, const
                 .figures = {{.figure = record.energyFigure(title)}},
                 .facts = {{"engine", options.engine},
                           {"step", fmt::format("{:g} s", options.tau)},
-                          {"largest change of energy", fmt::format("{:.2g} J", record.largestChange())}},
+                          {"largest energy change", fmt::format("{:.2g} J", record.largestChange())}},
                 .still = plan.renderer};
   for (Frame& frame : report.film) frame.time /= speed;
   if (speed != 1) report.facts.emplace_back("speed of the replay", fmt::format("{:g}", speed));
   report.figures.front().figure.width = 560, report.figures.front().figure.height = 360;
   throwIfInterrupted();
-  std::error_code ignored;  // the page says what cannot be written
+  std::error_code ignored;  // writing the page reports the problem
   if (options.out.has_parent_path()) fs::create_directories(options.out.parent_path(), ignored);
   writeReport(report, options.out);
 }
@@ -228,7 +229,7 @@ void writeMotionPage(const MotionPictures& pictures, const Record& record, const
 // What rounds to zero has no sign.
 double rounded(double x) { return std::abs(x) < 5e-6 ? 0 : x; }
 
-// Where each coordinate was at first, and is in the end.
+// Prints the first and the last value of each coordinate.
 void sayPostures(const Model& model, const Eigen::VectorXd& first, const Eigen::VectorXd& last) {
   std::size_t width = 0;
   for (const Joint& joint : model.joints()) width = std::max(width, harmless(joint.name).size());
@@ -267,13 +268,13 @@ void report(const Model& model, const SimulationPlan& plan, const Record& record
     return;
   }
   say(fmt::format("{}: {} steps, {:g} s", titleOf(model, plan, options), plan.steps, last.state.time));
-  say(fmt::format("energy: {:.6g} J at first, {:.6g} J in the end, largest change {:.2g} J",
+  say(fmt::format("energy: {:.6g} J at the start, {:.6g} J at the end, largest change {:.2g} J",
                   first.energy.total(), last.energy.total(), record.largestChange()));
   sayPostures(model, first.state.q, last.state.q);
   for (const std::string& file : files) say(file);
 }
 
-// A slab that is not drawn: films have a ground of their own, which lies where the lowest shape comes to.
+// A slab that is not drawn: films draw their own ground at the height of the lowest shape.
 ShapeSpec floorAt(double height) {
   constexpr double kThickness = 1, kWidth = 100;
   return {.name = "floor",
@@ -293,7 +294,7 @@ Model modelOf(const Project& project, const SimulateOptions& options) {
   return asWrongUse([&] { return compile(spec); });
 }
 
-// Says what is in overlap at first, or refuses it.
+// Notes which bodies overlap at the start, or refuses it.
 std::vector<BodyOverlap> overlapsOf(const Model& model, const SimulationPlan& plan,
                                     const SimulateOptions& options) {
   if (!plan.physics) return {};
@@ -311,10 +312,10 @@ std::vector<BodyOverlap> overlapsOf(const Model& model, const SimulationPlan& pl
 void noteUnheld(const Model& model, const SimulationPlan& plan) {
   if (plan.hold != Hold::kMotor) return;
   for (const std::string& joint : Holder(model, plan.hold, plan.start.q, plan.stepper.gravity_W).unheld())
-    note(fmt::format("joint '{}' is not held: motors move plain coordinates only", harmless(joint)));
+    note(fmt::format("joint '{}' is not held: motors cannot drive joints with quaternions", harmless(joint)));
 }
 
-// Lets a scene move under gravity; writes log, energy plot and film, or a page.
+// Lets a scene move under gravity. Writes a log, an energy plot and a film, or a page.
 ExitCode simulateScene(const Project& project, const SimulateOptions& options) {
   if (!isPage(options))
     requireFolderName(options.out, "a folder, which gets simulate.mp4, or a page NAME.html");
@@ -325,7 +326,8 @@ ExitCode simulateScene(const Project& project, const SimulateOptions& options) {
                                              {{"csv", LogFormat::kCsv}, {"npy", LogFormat::kNpy}});
   const Model model = modelOf(project, options);
   if (isPage(options) && options.noFilm)
-    throw UsageError({.what = "--no-film", .found = "a page, which is one", .wanted = "a folder after -o"});
+    throw UsageError(
+        {.what = "--no-film", .found = "a page, which is a film itself", .wanted = "a folder after -o"});
   if (isPage(options) && (options.logEvery || format != LogFormat::kCsv))
     throw UsageError({.what = options.logEvery ? "--log-every" : "--log-format",
                       .found = "a page, which has no log",
@@ -377,51 +379,51 @@ void addSimulate(CLI::App* command, Action& action) {
       "  scripts/rex simulate arm3 --q 0.5,-0.5,0.3 --v 0,2,0 --hold --seconds 2 -o hold\n"
       "  scripts/rex simulate pegArm --engine euler --tau 0.01 -o euler\n"
       "  scripts/rex simulate quadruped --free-base --engine bullet --floor -0.9 --hold -o drop\n\n"
-      "Joints are free; only bullet knows contacts and limits of joints. DIR gets log.csv\n"
+      "Joints move freely; only bullet handles contacts and joint limits. DIR gets log.csv\n"
       "(time, q, v and energies), energy.png, energy.svg and simulate.mp4. A name that ends\n"
       "in .html becomes a replay for browsers instead, with the energies beside it.\n\n"
-      "--hold drives joints, never a free base: by computed torque, and where bullet moves\n"
-      "a free base by motors. --hold-by exact is computed torque, gravity is springs and what\n"
-      "the weight asks for, pd is springs alone, motor (bullet) is motors with the efforts of\n"
+      "--hold drives joints, never a free base: by computed torque, or by motors if bullet\n"
+      "moves a free base. --hold-by exact is computed torque, gravity is springs plus gravity\n"
+      "compensation, pd is springs alone, motor (bullet) is motors with the effort limits of\n"
       "the file.\n\n"
-      "--torques reads a line 'time,joint,joint' with names, then a line of numbers per time;\n"
-      "each holds until the next. They add to what --hold does.\n\n"
+      "--torques reads a line 'time,joint,joint' with names, then a line of numbers per time.\n"
+      "Each applies until the next. They add to the torques of --hold.\n\n"
       "log.npy is a matrix for numpy.load with the columns of log.csv.");
   addSceneFile(command, "SCENE", options->scene.file);
-  command->add_option("-o,--out", options->out, "folder for what is written, or a page NAME.html")
+  command->add_option("-o,--out", options->out, "folder for the results, or a page NAME.html")
       ->type_name("DIR")
       ->required();
   command
       ->add_option("--engine", options->engine,
                    "rk4, beeman, leapfrog, semi-implicit, euler; bullet (default: rk4)")
       ->type_name("NAME");
-  command->add_option("--seconds", options->seconds, "how long (default: 5)")->type_name("S");
+  command->add_option("--seconds", options->seconds, "duration (default: 5)")->type_name("S");
   command->add_option("--tau", options->tau, "seconds per step (default: 0.001)")->type_name("S");
   addPosture(command, options->posture);
   command->add_option("--v", options->velocity, "all velocities, or joint=number,... (default: 0)")
       ->type_name("VELOCITY");
-  command->add_flag("--hold", options->hold, "joints hold the posture of the start");
-  command->add_option("--hold-by", options->holdBy, "how: exact, gravity, pd or motor; means --hold, too")
+  command->add_flag("--hold", options->hold, "make the joints hold the initial posture");
+  command
+      ->add_option("--hold-by", options->holdBy, "how to hold: exact, gravity, pd or motor; implies --hold")
       ->type_name("NAME");
-  command->add_option("--torques", options->torques, "torques of joints over time, a table")
-      ->type_name("FILE");
-  command->add_flag("--friction", options->friction, "with friction and damping of the scene's joints");
+  command->add_option("--torques", options->torques, "a table of joint torques over time")->type_name("FILE");
+  command->add_flag("--friction", options->friction, "use the friction and damping of the scene's joints");
   command->add_option("--noise", options->noise, "each step adds sqrt(tau) * X * N(0, 1) to velocities")
       ->type_name("X");
-  addSeed(command, options->seed, "of the noise (default: 0)");
-  command->add_option("--floor", options->floor, "a floor at that height, metres (bullet; default: none)")
+  addSeed(command, options->seed, "seed of the noise (default: 0)");
+  command->add_option("--floor", options->floor, "add a floor at this height, metres (bullet; default: none)")
       ->type_name("Z");
   command->add_flag("--refuse-overlap", options->refuseOverlap,
-                    "refuse a start in overlap, which is pushed apart otherwise (bullet)");
+                    "refuse overlaps at the start instead of pushing apart (bullet)");
   command
       ->add_option("--log-every", options->logEvery,
-                   "log each Nth step (default: 1, large scenes up to 200 MB)")
+                   "log every Nth step (default: 1, or more to stay below 200 MB)")
       ->type_name("N");
   command->add_option("--log-format", options->logFormat, "csv or npy (default: csv)")->type_name("NAME");
   addFilmSpeed(command, options->speed);
-  command->add_flag("--no-film", options->noFilm, "no simulate.mp4");
+  command->add_flag("--no-film", options->noFilm, "do not make simulate.mp4");
   addFilmOptions(command, options->film);
-  command->add_option("--trace", options->traces, "whose way is drawn as a line")
+  command->add_option("--trace", options->traces, "draw the path of this body as a line")
       ->allow_extra_args(false)
       ->type_name("BODY");
   addJson(command, options->json);

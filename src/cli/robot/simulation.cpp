@@ -9,7 +9,7 @@
 namespace rex::cli {
 namespace {
 
-// What moves the state: a stepper, or a world with contacts.
+// Advances the state by a stepper, or in a world with contacts.
 class Plant {
  public:
   Plant(const Model& model, const SimulationPlan& plan) : tau_(plan.tau), rng_(plan.seed) {

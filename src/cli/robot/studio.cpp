@@ -46,7 +46,7 @@ Image Studio::drawFrom(const Picture& picture, const Camera& camera) {
     sawSomething_ |= drawn.showsSomething;
     return std::move(drawn.image);
   }
-  sawSomething_ = true;  // nothing is an answer, too
+  sawSomething_ = true;  // an empty depth or segmentation image is a valid result
   if (plan_.show == Show::kSegmentation)
     return segmentationColors(renderer_.drawSegmentation(picture, camera));
   const double distance = (scene_.center() - camera.X_WC.p).norm(), reach = scene_.radius();
@@ -57,11 +57,11 @@ Image Studio::drawFrom(const Picture& picture, const Camera& camera) {
 void Studio::requireSomethingSeen() const {
   if (!sawSomething_)
     throw UsageError(
-        {.what = "--camera", .found = "nothing of the scene in view", .wanted = "one that sees it"});
+        {.what = "--camera", .found = "nothing of the scene in view", .wanted = "a view of the scene"});
 }
 
 Image sheetOf(const std::vector<KeyFrame>& pictures) {
-  constexpr int kNarrowest = 16;  // that a sheet takes; it never widens a picture
+  constexpr int kNarrowest = 16;  // the least that a sheet accepts; it never widens a picture
   return contactSheet(pictures, {.pictureWidth = std::max(pictures.front().image.width, kNarrowest)});
 }
 

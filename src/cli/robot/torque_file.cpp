@@ -65,13 +65,13 @@ class TorqueReader {
 
   TorqueTable finish() {
     where_ = {.file = where_.file};
-    if (headLine_ == 0) refuse("torques", "no line with the names of columns", kHeadWanted);
+    if (headLine_ == 0) refuse("torques", "no line of column names", kHeadWanted);
     if (table_.rows.empty()) refuse("torques", "no row of numbers", "a time and torques");
     return std::move(table_);
   }
 
  private:
-  static constexpr const char* kHeadWanted = "'time', then names of joints, with commas between them";
+  static constexpr const char* kHeadWanted = "'time', then names of joints, separated by commas";
 
   [[noreturn]] void refuse(const std::string& what, const std::string& found, const std::string& wanted,
                            std::vector<std::string> nearest = {}) const {
@@ -154,7 +154,7 @@ class TorqueReader {
 }  // namespace
 
 Eigen::VectorXd TorqueTable::at(double time) const {
-  constexpr double kRounding = 1e-9;  // sums of steps are not exact
+  constexpr double kRounding = 1e-9;  // seconds: times are sums of steps, which are not exact
   Eigen::VectorXd u = Eigen::VectorXd::Zero(nv);
   const auto next = std::upper_bound(times.begin(), times.end(), time + kRounding);
   if (next == times.begin()) return u;

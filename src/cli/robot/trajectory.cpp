@@ -36,10 +36,10 @@ struct TrajectoryOptions {
   std::string start{};   ///< see parsePosture(); empty: that of the file
   std::string goal{};    ///< BODY:x,y,z
   bool avoid = false;    ///< keep shapes apart
-  double margin = 0.02;  ///< metres between all pairs of shapes
+  double margin = 0.02;  ///< clearance between all pairs of shapes, metres
   int steps = 100;
-  double seconds = 2;  ///< of the motion
-  double speed = 1;    ///< of the film; 1: real time
+  double seconds = 2;  ///< duration of the motion
+  double speed = 1;    ///< speed of the film; 1: real time
   std::string method = "augmented-lagrangian";
   RenderOptions film{};  ///< cameras, size and gl of the pictures
   bool noFilm = false;
@@ -100,7 +100,7 @@ Motion motionOf(const FoundTrajectory& found) {
   return motion;
 }
 
-// What lies on the straight ways between steps, so many postures per second.
+// Interpolates linearly between steps, with `rate` postures per second.
 Motion filmOf(const FoundTrajectory& found, double rate) {
   Motion motion;
   const double end = static_cast<double>(found.path.cols() - 1) * found.tau;
@@ -115,10 +115,10 @@ Motion filmOf(const FoundTrajectory& found, double rate) {
   return motion;
 }
 
-// Both fall over many powers of ten; what is zero stands at the foot.
+// Both fall over many powers of ten; zero is drawn at the bottom.
 Figure costFigure(const FoundTrajectory& found) {
   constexpr double kFoot = 1e-12;
-  Series cost{.label = "cost"}, violation{.label = "largest violation of a constraint"};
+  Series cost{.label = "cost"}, violation{.label = "largest constraint violation"};
   for (std::size_t i = 0; i < found.solution.log.size(); ++i) {
     const ConstrainedIteration& one = found.solution.log[i];
     for (Series* series : {&cost, &violation}) series->x.push_back(static_cast<double>(i + 1));
@@ -137,7 +137,7 @@ std::string titleOf(const TrajectoryTask& task) {
                      harmless(task.model[task.body].name), task.p_WQ.x(), task.p_WQ.y(), task.p_WQ.z());
 }
 
-// No times of computing in it: the same input gives the same bytes.
+// Contains no computing times: the same input gives the same bytes.
 Report replayOf(const TrajectoryTask& task, const FoundTrajectory& found, const Motion& motion) {
   Report report{.title = titleOf(task),
                 .figures = {{jointsFigure(task.model, motion)}, {costFigure(found)}},
@@ -177,7 +177,7 @@ std::string summaryOf(const TrajectoryTask& task, const FoundTrajectory& found) 
       fmt::format("CPU time   {:.1f} ms, {} Newton steps", 1e3 * found.cpuTime, found.solution.log.size());
   const auto& [distance, step] = found.clearance;
   if (!std::isfinite(distance)) return text + "\nclearance  nothing can collide";
-  text += distance > 0 ? fmt::format("\nclearance  {:.4f} m proven all along the way", distance)
+  text += distance > 0 ? fmt::format("\nclearance  {:.4f} m proven along the whole path", distance)
                        : fmt::format("\nclearance  none: shapes may overlap by {:.4f} m", -distance);
   return text +
          fmt::format(", nearest in step {}{}", step,
@@ -211,8 +211,8 @@ void requireSensible(const TrajectoryOptions& options) {
   requireBetween("--speed", options.speed, 1e-3, 1e3);
 }
 
-// Moves a body to a point with little acceleration; writes the motion, its costs, a film and a replay.
-// kBelow if a constraint does not hold, or the motion is not proven clear.
+// Moves a body to a point with little acceleration. Writes the motion, its costs, a film and a replay.
+// kBelow if a constraint does not hold, or the motion is not proven free of collisions.
 ExitCode planTrajectory(const Project& project, const TrajectoryOptions& options) {
   RenderOptions filmOptions = options.film;
   filmOptions.out = options.out / "trajectory.mp4";
@@ -237,7 +237,7 @@ ExitCode planTrajectory(const Project& project, const TrajectoryOptions& options
     for (const std::string& file : files) say(file);
   }
   if (found.isSolved() && task.avoids && found.clearance.distance <= 0)
-    note("it is not proven that shapes stay apart between steps: give more --steps or a larger --margin");
+    note("it is not proven that shapes stay apart between steps: use more --steps or a larger --margin");
   return found.isSolved() && !(task.avoids && found.clearance.distance <= 0) ? ExitCode::kFull
                                                                              : ExitCode::kBelow;
 }
@@ -252,24 +252,26 @@ void addTrajectory(CLI::App* command, Action& action) {
       "Minimises the accelerations of all joints from rest to rest (slides 5:3 to 5:5). DIR gets costs.png,\n"
       "trajectory.csv (time and joints; `rex render --motion` reads it), trajectory.mp4 and\n"
       "trajectory.html (a replay).\n"
-      "Exit codes: 0 found, 1 not: it says which constraint does not hold; 64 wrong use.");
+      "Exit codes: 0 found, 1 not found: it says which constraint does not hold; 64 wrong use.");
   addSceneFile(command, "SCENE", options->scene.file);
-  command->add_option("-o,--out", options->out, "folder for what is written")->type_name("DIR")->required();
-  command->add_option("--goal", options->goal, "where the origin of the body shall come to rest, metres")
+  command->add_option("-o,--out", options->out, "folder for the results")->type_name("DIR")->required();
+  command->add_option("--goal", options->goal, "where the origin of the body must come to rest, metres")
       ->type_name("BODY:x,y,z")
       ->required();
   command->add_option("--start", options->start, "all numbers, joint=number,..., 0, or file (default: file)")
       ->type_name("POSTURE");
-  command->add_flag("--avoid", options->avoid, "all shapes keep apart, also between steps");
-  command->add_option("--margin", options->margin, "by so much (default: 0.02)")->type_name("METRES");
-  command->add_option("--steps", options->steps, "of the motion (default: 100)")->type_name("N");
-  command->add_option("--seconds", options->seconds, "it takes (default: 2)")->type_name("S");
+  command->add_flag("--avoid", options->avoid, "keep all shapes apart, also between steps");
+  command->add_option("--margin", options->margin, "clearance that --avoid keeps (default: 0.02)")
+      ->type_name("METRES");
+  command->add_option("--steps", options->steps, "number of steps of the motion (default: 100)")
+      ->type_name("N");
+  command->add_option("--seconds", options->seconds, "duration of the motion (default: 2)")->type_name("S");
   command
       ->add_option("--method", options->method,
                    "augmented-lagrangian, penalty, barrier (default: augmented-lagrangian)")
       ->type_name("NAME");
   addFilmSpeed(command, options->speed);
-  command->add_flag("--no-film", options->noFilm, "no trajectory.mp4 and trajectory.html");
+  command->add_flag("--no-film", options->noFilm, "do not make trajectory.mp4 and trajectory.html");
   addFilmOptions(command, options->film);
   addJson(command, options->json);
   addReading(command, options->scene.reading);

@@ -25,7 +25,7 @@ std::vector<TrajectoryTerm> termsOf(const TrajectoryTask& task, int samples) {
   return terms;
 }
 
-// The log goes on where the last one ended.
+// Optimizes and appends to the log.
 void optimize(const TrajectoryTask& task, int samples, Eigen::MatrixXd& X, FoundTrajectory& found) {
   const TrajectoryProblem problem(termsOf(task, samples), task.start.replicate(1, 2), task.steps, found.tau);
   TrajectoryResult result = optimizeTrajectory(

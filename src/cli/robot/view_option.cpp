@@ -22,7 +22,7 @@ struct KnownView {
   Vector3d direction;
 };
 
-// Of a robot that faces -y. Slightly from above, as one looks at a robot.
+// For a robot that faces -y. Slightly from above, as one looks at a robot.
 const std::array<KnownView, 5> kViews = {{{"front", {0, -1, 0.25}},
                                           {"back", {0, 1, 0.25}},
                                           {"left", {1, 0, 0.25}},
@@ -34,7 +34,7 @@ Vector3d turned(const Vector3d& v, Facing facing) {
   return facing == Facing::kMinusY ? v : Vector3d(-v.y(), v.x(), v.z());
 }
 
-// "+x" of a direction that is nearest to the x axis.
+// The axis nearest to a direction, such as "+x".
 std::string axisOf(const Vector3d& direction) {
   Eigen::Index axis = 0;
   direction.cwiseAbs().maxCoeff(&axis);

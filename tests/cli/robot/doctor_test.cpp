@@ -152,7 +152,7 @@ TEST_F(Doctor, TellsHowProgramsFail) {
   EXPECT_EQ(exits.status.at("figures"), "fails");
   EXPECT_EQ(exits.text.at("figures"), "gnuplot does not work: found exit code 7: no licence");
   EXPECT_EQ(figures("kill -SEGV $$").text.at("figures"),
-            "gnuplot does not work: found signal 11 that ended it");
+            "gnuplot does not work: found termination by signal 11");
   EXPECT_EQ(figures("[ $1 = --version ] || kill -SEGV $$").text.at("figures"),
             "cannot draw figure 'test': found signal 11 that ended gnuplot");
   EXPECT_THAT(figures("cat > /dev/null").text.at("figures"), HasSubstr("no complete picture from gnuplot"));

@@ -18,7 +18,7 @@ TEST(FilmSpeed, IsThatAskedForUnlessTheFilmWouldBeTooLong) {
   testing::internal::CaptureStderr();
   EXPECT_DOUBLE_EQ(filmSpeed(.5, 3 * kLongestFilm), 3);
   EXPECT_THAT(testing::internal::GetCapturedStderr(),
-              HasSubstr("the film is 3 times as fast as the motion, to last 120 s"));
+              HasSubstr("the film plays 3 times as fast as the motion, so that it lasts 120 s"));
 }
 
 TEST(ResultFolder, IsNotCalledLikeAFile) {

@@ -47,7 +47,7 @@ TEST_F(Summary, TellsOfOneSearch) {
             "explored   7 nodes of 9 samples, 100 configurations checked\n"
             "CPU time   250.0 ms for planning, 1.0 ms for smoothing\n"
             "length     3.000, before smoothing 6.000\n"
-            "duration   1.500 s, at least 1.000 s by the velocities alone; no stop on the way\n"
+            "duration   1.500 s, at least 1.000 s from the velocity limits alone; no stop on the way\n"
             "limits     velocities 1 rad/s or m/s; accelerations that reach them in 0.5 s\n"
             "clearance  0.0200 m all along the path, margin 0.01 m");
   FoundPath free = path(7, 3);

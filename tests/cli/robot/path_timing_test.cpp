@@ -47,15 +47,15 @@ TEST(PathTiming, SaysWhatItAssumes) {
   const PlanOptions options{.velocity = .7, .effort = true};
   EXPECT_EQ(
       assumptionsOf(timed(chain(2, 1), options), options),
-      "no limit of velocity for 'j2': 0.7 rad/s or m/s is taken, see --velocity; no limit of effort for "
-      "'j2': any is taken");
-  EXPECT_EQ(limitsTextOf(timed(chain(2, 1), options), options),
-            "velocities of the scene, for 1 of 2 0.7 rad/s or m/s; accelerations that reach them in 0.5 s; "
-            "efforts of the scene");
+      "no velocity limit for 'j2': assuming 0.7 rad/s or m/s, see --velocity; no effort limit for 'j2': "
+      "assuming any effort");
   EXPECT_EQ(
-      assumptionsOf(timed(chain(8, 0), {}), {}),
-      "no limit of velocity for 'j1', 'j2', 'j3', 'j4', 'j5', 'j6' and 2 more: 1 rad/s or m/s is taken, "
-      "see --velocity");
+      limitsTextOf(timed(chain(2, 1), options), options),
+      "velocities of the scene, for 1 of 2 coordinates 0.7 rad/s or m/s; accelerations that reach them in "
+      "0.5 s; efforts of the scene");
+  EXPECT_EQ(assumptionsOf(timed(chain(8, 0), {}), {}),
+            "no velocity limit for 'j1', 'j2', 'j3', 'j4', 'j5', 'j6' and 2 more: assuming 1 rad/s or m/s, "
+            "see --velocity");
   EXPECT_EQ(limitsTextOf(timed(chain(2, 0), {}), {}),
             "velocities 1 rad/s or m/s; accelerations that reach them in 0.5 s");
 }

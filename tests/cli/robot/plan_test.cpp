@@ -208,7 +208,7 @@ TEST_F(PlanCommand, SaysThatNothingCanCollide) {
   REX_NEEDS_OSMESA();
   const ProcessResult result = plan({"arm3", "--goal", "1,1,1", "--no-film", "-o", "out"});
   EXPECT_EQ(result.exitCode, 0) << result.error;
-  EXPECT_THAT(result.error, HasSubstr("arm3: no two shapes may collide: all ways are free"));
+  EXPECT_THAT(result.error, HasSubstr("arm3: no two shapes may collide: every path is free"));
   EXPECT_THAT(result.output, HasSubstr("nothing can collide"));
 }
 
@@ -250,7 +250,7 @@ TEST_F(PlanCommand, RefusesScenesThatItCannotPlanIn) {
       {scene("body a {} body b { type=0 size=[1 1 1 0] } joint rail (a b) { type=transX }"), "--goal", "1"},
       "joint 'rail': found limits -inf and inf, wanted finite limits");
   expectRefusal({scene("body a {} body b {} joint (a b) {}"), "--goal", "1"},
-                "found no shape that a film could show, wanted --no-film");
+                "found no shape that a film can show, wanted --no-film");
 }
 
 TEST_F(PlanCommand, RefusesOptionsThatMakeNoSense) {
@@ -356,10 +356,10 @@ TEST_F(PlanCommand, IsAsFastAsLimitsAllow) {
   ASSERT_EQ(result.exitCode, 0) << result.error;
   EXPECT_THAT(result.output, HasSubstr("\nduration   1.50"));
   EXPECT_THAT(result.output,
-              HasSubstr(" s, at least 1.000 s by the velocities alone; no stop on the way\n"
+              HasSubstr(" s, at least 1.000 s from the velocity limits alone; no stop on the way\n"
                         "limits     velocities 1 rad/s or m/s; accelerations that reach them in 0.5 s\n"));
   EXPECT_THAT(flat(result.error),
-              HasSubstr("no limit of velocity for 'slide': 1 rad/s or m/s is taken, see --velocity"));
+              HasSubstr("no velocity limit for 'slide': assuming 1 rad/s or m/s, see --velocity"));
   const auto timing = [&](const std::vector<std::string>& options) {
     return nlohmann::json::parse(planned(options).output).at("timing");
   };
@@ -394,7 +394,7 @@ TEST_F(PlanCommand, SaysThatEffortsDoNotSuffice) {
   const ProcessResult any = planned({});
   EXPECT_EQ(any.exitCode, 0) << any.error;
   EXPECT_THAT(any.output, HasSubstr("limits     velocities of the scene; accelerations"));
-  EXPECT_THAT(any.error, Not(HasSubstr("no limit of velocity")));
+  EXPECT_THAT(any.error, Not(HasSubstr("no velocity limit")));
 }
 
 TEST_F(PlanCommand, StopsAtCornersThatAreNotSmoothed) {

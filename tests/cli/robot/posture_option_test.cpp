@@ -89,8 +89,7 @@ TEST(PostureOption, SaysWhichNamesItCannotTake) {
   spec.joints[0].name = "j 1";
   EXPECT_REX_ERROR(
       parsePosture(compile(spec), "j 1=0.5"),
-      "--q: found 'j', wanted joint=number, or for joints with blanks or commas in their names all "
-      "1 numbers");
+      "--q: found 'j', wanted joint=number, or all 1 numbers if a joint's name has blanks or commas");
 }
 
 TEST(VelocityOption, TakesAllNumbersOrSomeJoints) {

@@ -80,7 +80,7 @@ TEST(RenderPlan, RefusesWhatMeansNothing) {
   const auto refuses = [](const RenderOptions& options, const std::string& message) {
     EXPECT_REX_ERROR(planOf(options), message);
   };
-  refuses({.postures = {"1"}, .motion = "x", .out = "a.png"}, "--motion and --q: wanted one of them");
+  refuses({.postures = {"1"}, .motion = "x", .out = "a.png"}, "--motion and --q: wanted only one of them");
   refuses({.postures = {"1"}, .seconds = 1, .out = "a.mp4"}, "--seconds: wanted several --q");
   RenderOptions painted{.out = "a.glb"};
   painted.scene.reading.textures = true;
@@ -98,7 +98,7 @@ TEST(RenderPlan, RefusesWhatMeansNothing) {
     refuses({.show = "color", .out = out},
             "--show: wanted a picture or film; a " + ending + " is seen in colour");
     refuses({.cameras = {"top", "left"}, .out = out},
-            "--camera: wanted one, from which a " + ending + " is seen at first");
+            "--camera: wanted one, for the initial view of the " + ending + " file");
   }
   for (const std::string show : {"depth", "segmentation"}) {
     refuses({.caption = "a", .show = show, .out = "a.png"},

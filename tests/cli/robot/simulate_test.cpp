@@ -131,10 +131,10 @@ TEST_F(SimulateCommand, RefusesWhatItCannotSimulate) {
   expectRefusal({"--engine", "bullet", "--noise", "1"},
                 "--noise: found --engine bullet, wanted another engine");
   expectRefusal({"--floor", "0"},
-                "--floor: found --engine rk4, wanted --engine bullet, which knows contacts");
+                "--floor: found --engine rk4, wanted --engine bullet, which handles contacts");
   expectRefusal({"--floor", "nan", "--engine", "bullet"}, "--floor: found nan, wanted -1000 to 1000");
   expectRefusal({"--refuse-overlap"},
-                "--refuse-overlap: found --engine rk4, wanted --engine bullet, which knows contacts");
+                "--refuse-overlap: found --engine rk4, wanted --engine bullet, which handles contacts");
   expectRefusal({"--hold-by", "motr", "--engine", "bullet"},
                 "--hold-by: found 'motr', wanted exact, gravity, pd, motor (did you mean 'motor'?)");
   expectRefusal({"--hold-by", "motor"}, "--hold-by motor: found --engine rk4, wanted --engine bullet");
@@ -156,7 +156,7 @@ TEST_F(SimulateCommand, RefusesAFilmThatShowsNothing) {
       << "body a { mass=1 } body b { mass=1 } joint (a b) { type=hingeX B=<T t(0 0 1)> }\n";
   const ProcessResult result = simulate({"bare.ors", "-o", "out"});
   EXPECT_EQ(result.exitCode, 64);
-  EXPECT_THAT(flat(result.error), HasSubstr("found no shape that a film could show, wanted --no-film"));
+  EXPECT_THAT(flat(result.error), HasSubstr("found no shape that a film can show, wanted --no-film"));
   EXPECT_FALSE(fs::exists(in("out")));
 }
 
@@ -270,7 +270,8 @@ TEST_F(SimulateCommand, WritesAReplayInsteadOfAFolder) {
   EXPECT_FALSE(fs::exists(in("new/log.csv")));
   const ProcessResult refused = simulate({"pegArm", "--no-film", "-o", "no.html"});
   EXPECT_EQ(refused.exitCode, 64);
-  EXPECT_THAT(flat(refused.error), HasSubstr("--no-film: found a page, which is one, wanted a folder"));
+  EXPECT_THAT(flat(refused.error),
+              HasSubstr("--no-film: found a page, which is a film itself, wanted a folder"));
   EXPECT_THAT(flat(simulate({"pegArm", "--log-every", "2", "-o", "no.html"}).error),
               HasSubstr("--log-every: found a page, which has no log, wanted a folder after -o"));
   EXPECT_THAT(flat(simulate({"pegArm", "--log-format", "npy", "-o", "no.html"}).error),
@@ -308,7 +309,7 @@ TEST_F(SimulateCommand, NamesThePlaceInAFileOfTorques) {
                                    "joint thumb (base right) { type=transX mimic=finger }\n"
                                    "joint look (base eye) { type=universal }\n"
                                    "joint fly (post stone) { type=free }\n";
-  expect("", "u.csv: torques: found no line with the names of columns, wanted 'time', then names of joints");
+  expect("", "u.csv: torques: found no line of column names, wanted 'time', then names of joints");
   expect("time,finger\n", "u.csv: torques: found no row of numbers, wanted a time and torques");
   expect("t,finger\n", "u.csv:1:1: torques: first column: found 't', wanted 'time'");
   expect("time\n", "u.csv:1:1: torques: found no joint after 'time'");
