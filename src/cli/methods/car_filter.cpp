@@ -17,7 +17,7 @@ Gaussian start() {
   return {Eigen::Vector3d::Zero(), kDeviation * kDeviation * Eigen::Matrix3d::Identity()};
 }
 
-// A filter whose belief is one Gaussian, in any form.
+// A filter whose belief is a single Gaussian, in any form.
 class GaussianCarFilter : public CarFilter {
  public:
   explicit GaussianCarFilter(const CarSimulator& car) : car_(car) {}
@@ -65,8 +65,8 @@ class UnscentedCarFilter final : public GaussianCarFilter {
   Gaussian belief_ = start();
 };
 
-// An observation along the tangent at the mean, for filters that know linear models only: angles in y are
-// those nearest to what is expected.
+// An observation model linearized at the mean, for filters that take linear models only. Angles in y are
+// wrapped to be nearest to the expected ones.
 struct Tangent {
   LinearModel model;
   Eigen::VectorXd y;
@@ -158,9 +158,9 @@ class ParticleCarFilter final : public CarFilter {
 
 CarFilterKind carFilterOf(const std::string& name) {
   if (name == "kalman")
-    refuse(name, "ekf, ukf, information or root: how the car moves is not linear in its heading");
+    refuse(name, "ekf, ukf, information or root: the motion of the car is not linear in its heading");
   if (name == "histogram")
-    refuse(name, "particles: cells finer than a step of 0.1 m would be millions in x, y and heading");
+    refuse(name, "particles: with cells finer than a step of 0.1 m, x, y and heading would need millions");
   return choose<CarFilterKind>("--filter", name,
                                {{"ekf", CarFilterKind::kExtended},
                                 {"ukf", CarFilterKind::kUnscented},

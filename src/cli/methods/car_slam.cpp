@@ -8,7 +8,7 @@
 namespace rex::cli {
 namespace {
 
-// Landmarks in the order in which they were seen first, as the filters count them.
+// Landmarks in the order in which they were first seen, which is how the filters number them.
 class SeenLandmarks {
  public:
   int numberOf(int landmark) {
@@ -85,7 +85,7 @@ class FastSlamCar final : public CarFilter {
     for (double& heading : errors.row(2)) heading = wrapAngle(heading);
     return {mean, errors * slam_.weights().asDiagonal() * errors.transpose()};
   }
-  // Of the likeliest particle.
+  // The map of the likeliest particle.
   std::vector<FoundLandmark> map() const override {
     std::vector<FoundLandmark> found;
     for (int i = 0; i < slam_.landmarks(); ++i)

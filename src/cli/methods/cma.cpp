@@ -29,10 +29,11 @@ namespace {
 struct CmaRunOptions {
   std::string function{};  ///< see testFunction()
   int dimension = 10;
-  std::optional<double> deviation{};  ///< of the first samples; this, box and target: those of the function
+  std::optional<double>
+      deviation{};  ///< of the first samples; if empty, like box and target, the function's own
   std::optional<double> low{}, high{};
   std::optional<double> target{};
-  int lambda = 0;  ///< 0: the usual
+  int lambda = 0;  ///< 0: the default
   int restarts = 0;
   double maxEvaluations = 1e7;  ///< for each seed
   std::uint64_t seed = 0;
@@ -41,7 +42,7 @@ struct CmaRunOptions {
   std::filesystem::path out{};  ///< a folder for a figure; empty: none
 };
 
-constexpr double kMostNumbers = 1e7;  // of a generation: 80 MB
+constexpr double kMostNumbers = 1e7;  // in a generation: 80 MB
 
 struct Run {
   std::uint64_t seed = 0;
@@ -50,7 +51,7 @@ struct Run {
   bool isSuccess() const { return result.status == SearchStatus::kTargetReached; }
 };
 
-// What the command line asks for, with what the function brings along.
+// The options of the command line, completed by the defaults of the function.
 struct Experiment {
   TestFunction function;
   Eigen::VectorXd low, high, deviations;
@@ -81,7 +82,7 @@ Experiment experimentOf(const CmaRunOptions& options) {
            .maxRestarts = options.restarts}};
 }
 
-// The curve is long, and kept only to be drawn.
+// The learning curve is long, so it is kept only if it will be drawn.
 Run runOf(const Experiment& experiment, std::uint64_t seed, bool keepsCurve) {
   Run run{.seed = seed};
   const BatchObjective f = batched(experiment.function.value);
@@ -100,7 +101,7 @@ Run runOf(const Experiment& experiment, std::uint64_t seed, bool keepsCurve) {
   return run;
 }
 
-// Evaluations of the successful runs divided by their share, as slide 9:32 counts; infinite without any.
+// Mean evaluations of successful runs, divided by their share, as on slide 9:32; infinite if none succeeded.
 double evaluationsPerSuccess(const std::vector<Run>& runs) {
   double spent = 0, successes = 0;
   for (const Run& run : runs) {
@@ -144,7 +145,7 @@ void makeFolder(const std::filesystem::path& folder) {
         {.what = "-o " + harmless(folder.string()), .found = problem.message(), .wanted = "a folder"});
 }
 
-// How many evaluations CMA-ES needs for a test function. kBelow if no seed reaches the target.
+// Counts the evaluations that CMA-ES needs for a test function. kBelow if no seed reaches the target.
 ExitCode cma(const CmaRunOptions& options) {
   const Experiment experiment = experimentOf(options);
   if (!options.out.empty()) makeFolder(options.out);
@@ -156,7 +157,7 @@ ExitCode cma(const CmaRunOptions& options) {
     std::vector<LearningCurve> curves;
     for (Run& run : runs)
       if (!run.curve.values.empty()) curves.push_back(std::move(run.curve));
-    if (curves.empty()) throw UsageError({.what = "-o", .found = "no evaluations that could be drawn"});
+    if (curves.empty()) throw UsageError({.what = "-o", .found = "no evaluations to draw"});
     const std::filesystem::path file = options.out / "learning-curve.png";
     const std::string title = fmt::format("CMA-ES: {} in {} dimensions, {} runs", experiment.function.name,
                                           options.dimension, runs.size());
@@ -177,12 +178,13 @@ void addCma(CLI::App* command, Action& action) {
       "Examples:\n  scripts/rex cma --function ackley --dim 20 --seeds 20 -o curve\n"
       "  scripts/rex cma --function rastrigin --dim 10 --lambda 200 --seeds 10 --json\n"
       "  scripts/rex cma --function rastrigin --dim 10 --restarts 9\n\n"
-      "Functions: sphere, ellipsoid, cigar, rosenbrock, ackley, griewank, rastrigin and schwefel, whose\n"
-      "least value is 0. Starts, steps and targets are those of slide 9:32 unless given.\n"
+      "Functions: sphere, ellipsoid, cigar, rosenbrock, ackley, griewank, rastrigin and schwefel. Their\n"
+      "minimum is 0. Unless given, starts, step sizes and targets are those of slide 9:32.\n"
       "Exit code 1: no run reached the target.");
   command->add_option("--function", options->function, "what to minimise")->type_name("NAME")->required();
-  command->add_option("--dim", options->dimension, "numbers it depends on (default: 10)")->type_name("N");
-  command->add_option("--sigma", options->deviation, "deviation of the first samples")->type_name("NUMBER");
+  command->add_option("--dim", options->dimension, "dimension of the function (default: 10)")->type_name("N");
+  command->add_option("--sigma", options->deviation, "standard deviation of the first samples")
+      ->type_name("NUMBER");
   command->add_option("--x0-low", options->low, "runs start between this ...")->type_name("NUMBER");
   command->add_option("--x0-high", options->high, "... and this, in all coordinates")->type_name("NUMBER");
   command->add_option("--lambda", options->lambda, "samples per generation (default: 4 + 3 ln n)")
@@ -190,13 +192,15 @@ void addCma(CLI::App* command, Action& action) {
   command->add_option("--target", options->target, "value at which a run is done")->type_name("NUMBER");
   command
       ->add_option("--restarts", options->restarts,
-                   "begin again up to so often, with twice the samples (default: 0)")
+                   "restart up to this often, with twice the samples (default: 0)")
       ->type_name("COUNT");
-  command->add_option("--max-evaluations", options->maxEvaluations, "of one run (default: 1e7)")
+  command->add_option("--max-evaluations", options->maxEvaluations, "limit for one run (default: 1e7)")
       ->type_name("COUNT");
-  addSeed(command, options->seed, "of the first run (default: 0)");
-  command->add_option("--seeds", options->seeds, "runs with so many seeds (default: 1)")->type_name("COUNT");
-  command->add_option("-o,--out", options->out, "draw how values fall, into this folder")->type_name("DIR");
+  addSeed(command, options->seed, "seed of the first run (default: 0)");
+  command->add_option("--seeds", options->seeds, "number of runs, each with its own seed (default: 1)")
+      ->type_name("COUNT");
+  command->add_option("-o,--out", options->out, "draw the learning curves into this folder")
+      ->type_name("DIR");
   command->add_flag("--json", options->json, "print JSON");
   command->callback([&action, options] { action = [options](const Project&) { return cma(*options); }; });
 }

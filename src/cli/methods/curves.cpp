@@ -32,7 +32,7 @@ Json jsonOf(const Curve& curve) {
   return {{"length", curve.length()}, {"word", word}, {"segments", std::move(segments)}};
 }
 
-// Without the segments that round to nothing: straight on is S, not LSL.
+// Leaves out segments that round to zero length: straight on is S, not LSL.
 std::string described(const std::string& name, const Curve& curve) {
   std::string word, metres;
   const std::string whole = curve.word();
@@ -45,7 +45,7 @@ std::string described(const std::string& name, const Curve& curve) {
   return fmt::format("{:<13} {:10.6f} m  {:<5}{}", name, curve.length(), word.empty() ? "-" : word, metres);
 }
 
-// The shortest ways of a car that drives forward only, and of one that may drive backward.
+// Prints the shortest curves for a car that drives forward only, and for one that may drive backward.
 ExitCode curves(const CurvesOptions& options) {
   const Eigen::Vector3d from =
       options.from.empty() ? Eigen::Vector3d::Zero() : parsePoint(options.from, "--from", kForm);
@@ -70,12 +70,13 @@ void addCurves(CLI::App* command, Action& action) {
   command->footer(
       "Examples:\n  scripts/rex curves --to 0,2,3.14159\n"
       "  scripts/rex curves --from 0,0,0 --to -1,1,0 --radius 2 --json\n\n"
-      "Dubins' car drives forward only, that of Reeds and Shepp also backward.");
-  command->add_option("--from", options->from, "where it starts (default: 0,0,0)")->type_name("x,y,th");
-  command->add_option("--to", options->to, "where it goes: metres, and the heading in radians")
+      "The car of Dubins drives forward only, that of Reeds and Shepp also backward.");
+  command->add_option("--from", options->from, "start pose (default: 0,0,0)")->type_name("x,y,th");
+  command->add_option("--to", options->to, "goal pose: metres, and the heading in radians")
       ->type_name("x,y,th")
       ->required();
-  command->add_option("--radius", options->radius, "of the tightest turn (default: 1)")->type_name("METRES");
+  command->add_option("--radius", options->radius, "smallest turning radius (default: 1)")
+      ->type_name("METRES");
   command->add_flag("--json", options->json, "print JSON");
   command->callback([&action, options] { action = [options](const Project&) { return curves(*options); }; });
 }

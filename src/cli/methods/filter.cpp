@@ -21,7 +21,8 @@ namespace rex::cli {
 namespace {
 
 void requireUse(bool isGiven, const char* option, bool isUsed, const char* wanted) {
-  if (isGiven && !isUsed) throw UsageError({.what = option, .found = "no use for it", .wanted = wanted});
+  if (isGiven && !isUsed)
+    throw UsageError({.what = option, .found = "no effect on its own", .wanted = wanted});
 }
 
 CarOptions carOf(const FilterOptions& options) {
@@ -74,7 +75,7 @@ std::string textOf(const FilterOptions& options, const FilterStatistics& all) {
       all.nees ? fmt::format("{:.4g}", *all.nees) : "none", all.stepBand.lower, all.stepBand.upper,
       100 * all.insideBand);
   if (all.innovations > 0)
-    text += fmt::format("\nNIS        {:.4g} for each number, consistent: {:.4g} to {:.4g}", all.nis,
+    text += fmt::format("\nNIS        {:.4g} per observed number, consistent: {:.4g} to {:.4g}", all.nis,
                         all.nisBand.lower, all.nisBand.upper);
   if (all.singular > 0) text += fmt::format("\nsingular   covariances, left out of NEES: {}", all.singular);
   return text;
@@ -108,7 +109,7 @@ std::string jsonTextOf(const FilterOptions& options, const FilterStatistics& all
   return dump(json);
 }
 
-// Lets a filter follow the car of the course; prints its errors and consistency.
+// Lets a filter track the car of the course. Prints its errors and consistency.
 ExitCode filter(const FilterOptions& options) {
   const CarScenario scenario = scenarioOf(options);
   const bool writes = !options.out.empty();
@@ -147,28 +148,32 @@ void addFilter(CLI::App* command, Action& action) {
       "  scripts/rex filter --filter ekf-slam --landmarks 12 -o slam\n"
       "  scripts/rex filter --filter particles --range-bearing --max-range 15 -o lost --no-film\n"
       "  scripts/rex filter --filter ekf --assume-observation 0.3 --seeds 50 --json\n\n"
-      "The car drives with u = (0.1, 0.2) from a start that is known. Filters: ekf, ukf, information, root,\n"
+      "The car drives with u = (0.1, 0.2) from a known start. Filters: ekf, ukf, information, root,\n"
       "rts (ekf, then smoothed), particles; without a map ekf-slam, fast-slam, fast-slam-2; dead-reckoning.\n"
       "DIR gets filter.csv, figures of errors, NEES and map, and the film filter.mp4 of the first run.");
   const auto number = [&](const char* name, auto& value, const char* help, const char* unit) {
     command->add_option(name, value, help)->type_name(unit);
   };
-  number("--filter", options->filter, "which one (default: ekf)", "NAME");
-  number("--landmarks", options->landmarks, "how many (default: 5)", "N");
-  number("--steps", options->steps, "of one second (default: 300)", "N");
-  number("--dynamics-noise", options->dynamicsNoise, "of a step, metres and radians (default: 0.03)", "X");
-  number("--observation-noise", options->observationNoise, "of what is seen (default: 0.5)", "METRES");
-  command->add_flag("--range-bearing", options->rangeBearing, "see distance and bearing, not (ahead, left)");
-  number("--bearing-noise", options->bearingNoise, "of bearings (default: 0.02)", "RADIANS");
-  number("--max-range", options->maxRange, "how far the car sees (default: all)", "METRES");
-  number("--field-of-view", options->fieldOfView, "around its heading (default: all)", "RADIANS");
-  number("--assume-dynamics", options->assumeDynamics, "the filter believes in X times that noise", "X");
-  number("--assume-observation", options->assumeObservation, "the same for what is seen", "X");
-  number("--particles", options->particles, "how many (default: 1000)", "N");
-  addSeed(command, options->seed, "of landmarks and noise (default: 0)");
-  number("--seeds", options->seeds, "runs with so many seeds", "N");
-  number("-o,--out", options->out, "folder for what is written", "DIR");
-  command->add_flag("--no-film", options->noFilm, "no filter.mp4");
+  number("--filter", options->filter, "filter to run (default: ekf)", "NAME");
+  number("--landmarks", options->landmarks, "number of landmarks (default: 5)", "N");
+  number("--steps", options->steps, "number of steps of one second (default: 300)", "N");
+  number("--dynamics-noise", options->dynamicsNoise, "noise of a step, metres and radians (default: 0.03)",
+         "X");
+  number("--observation-noise", options->observationNoise, "noise of observations (default: 0.5)", "METRES");
+  command->add_flag("--range-bearing", options->rangeBearing,
+                    "observe range and bearing instead of (ahead, left)");
+  number("--bearing-noise", options->bearingNoise, "noise of bearings (default: 0.02)", "RADIANS");
+  number("--max-range", options->maxRange, "how far the car sees (default: any distance)", "METRES");
+  number("--field-of-view", options->fieldOfView,
+         "angle that the car sees, around its heading (default: all)", "RADIANS");
+  number("--assume-dynamics", options->assumeDynamics, "the filter assumes X times the dynamics noise", "X");
+  number("--assume-observation", options->assumeObservation,
+         "the filter assumes X times the observation noise", "X");
+  number("--particles", options->particles, "number of particles (default: 1000)", "N");
+  addSeed(command, options->seed, "seed of landmarks and noise (default: 0)");
+  number("--seeds", options->seeds, "number of runs, each with its own seed", "N");
+  number("-o,--out", options->out, "folder for the results", "DIR");
+  command->add_flag("--no-film", options->noFilm, "do not make filter.mp4");
   command->add_flag("--json", options->json, "print JSON");
   command->callback([&action, options] { action = [options](const Project&) { return filter(*options); }; });
 }

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr double kTau = CarOptions().tau;
 constexpr int kMostFrames = 150, kRate = 15;
 
-// Steps from frame to frame.
+// Number of steps between frames.
 int filmStride(int steps) { return (steps + kMostFrames - 1) / kMostFrames; }
 
 // Poses at the times 0, 1, ..., one per column.
@@ -45,7 +45,7 @@ Ways waysOf(const FilterRun& run) {
   return {fromStart(run.truth), fromStart(means), fromStart(run.deadReckoning)};
 }
 
-// Up to a time; of very many positions some thousand.
+// Positions up to a time; of very many only some thousand.
 Eigen::Matrix2Xd pointsOf(const Eigen::Matrix3Xd& poses, int time) {
   const int stride = 1 + time / 2000;
   Eigen::Matrix2Xd points(2, time / stride + 2);
@@ -58,7 +58,7 @@ PlanarGaussian positionOf(const Gaussian& pose) {
   return {pose.mean.head<2>(), pose.covariance.topLeftCorner<2, 2>()};
 }
 
-// Adds what is known only after the run.
+// Adds what is known only after the run: paths and caption.
 void complete(CarView& view, const FilterRun& run, const Ways& ways, int time, const std::string& name) {
   constexpr Color kLightTruth{0.45f, 0.48f, 0.54f};
   view.car = ways.truth.col(time);
@@ -72,7 +72,7 @@ void complete(CarView& view, const FilterRun& run, const Ways& ways, int time, c
 }
 
 Figure errorFigure(const FilterRun& run, int number, const std::string& title) {
-  constexpr const char* kLabels[] = {"error of x [m]", "error of y [m]", "error of the heading [rad]"};
+  constexpr const char* kLabels[] = {"error in x [m]", "error in y [m]", "heading error [rad]"};
   const Eigen::Matrix3Xd errors = run.errors();
   Series error{.label = "error", .color = kEstimateColor};
   Band band{.label = "2 sigma", .color = kEstimateColor};
@@ -94,7 +94,7 @@ Figure errorFigure(const FilterRun& run, int number, const std::string& title) {
           .bands = {band}};
 }
 
-// On a logarithmic axis where an overconfident filter would leave nothing of the band to see.
+// The axis is logarithmic if the NEES of an overconfident filter would make the band too thin to see.
 Figure neesFigure(const FilterStatistics& statistics, const std::string& title) {
   const auto [lower, upper] = statistics.stepBand;
   const double end = static_cast<double>(statistics.stepNees.size()) * kTau;
@@ -111,7 +111,7 @@ Figure neesFigure(const FilterStatistics& statistics, const std::string& title) 
   Series nees{.label = fmt::format("mean of {} runs", statistics.runs.size()), .color = kEstimateColor};
   const std::size_t stride = 1 + statistics.stepNees.size() / 4000;
   for (std::size_t t = 0; t < statistics.stepNees.size(); t += stride) {
-    if (!(statistics.stepNees[t] > 0)) continue;  // of singular covariances
+    if (!(statistics.stepNees[t] > 0)) continue;  // the covariances were singular
     nees.x.push_back(static_cast<double>(t + 1) * kTau);
     nees.y.push_back(statistics.stepNees[t]);
     figure.logY |= nees.y.back() > 6 * upper;

@@ -17,7 +17,7 @@ namespace rex::cli {
 namespace {
 
 const Eigen::Vector2d kControl(0.1, 0.2);   // speed and steering angle, in all exercises of the car
-constexpr std::uint64_t kFilterStream = 7;  // the filter's luck is not that of the car
+constexpr std::uint64_t kFilterStream = 7;  // the filter's random numbers are not those of the car
 
 CarSimulator believed(const CarScenario& scenario, const Eigen::Matrix2Xd& landmarks) {
   CarOptions options = scenario.car;
@@ -53,7 +53,7 @@ double squaredError(const Gaussian& pose, const CarUpdate& update, const Eigen::
   return estimationErrorSquared(pose, truth, kHeading);
 }
 
-// Along the tangents of the extended filter.
+// Smooths with the linearizations of the extended filter.
 void smooth(std::vector<Gaussian>& poses, const CarSimulator& car) {
   std::vector<LinearModel> transitions;
   for (std::size_t t = 0; t + 1 < poses.size(); ++t)

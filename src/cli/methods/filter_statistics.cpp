@@ -56,7 +56,7 @@ FilterStatistics FilterStatisticsBuilder::statistics() const {
   }
   result.insideBand = inside / static_cast<double>(regular_.size());
   if (sums_.innovations == 0) return result;
-  // Innovations of a consistent filter do not depend on each other, so that all of them count.
+  // Innovations of a consistent filter are independent of each other, so all of them count.
   result.nis = sums_.nis / sums_.innovations;
   result.nisBand = consistencyBand(sums_.innovations, 1);
   return result;

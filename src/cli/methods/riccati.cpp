@@ -35,7 +35,7 @@ Json parsed(const std::string& text, const std::string& file) {
   try {
     return Json::parse(text);
   } catch (const Json::parse_error& error) {
-    // The byte at which the parser stopped counts from 1.
+    // The parser counts bytes from 1.
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(
                                         text.size(), error.byte > 0 ? error.byte - 1 : std::size_t{0}));
     const auto line = std::find(std::make_reverse_iterator(end), text.rend(), '\n').base();
@@ -64,11 +64,11 @@ Eigen::MatrixXd matrixOf(const Json& problem, const std::string& name, const std
     throw Error({.what = what, .where = {.file = file}, .found = found, .wanted = wanted});
   };
   if (!problem.contains(name)) {
-    // The names have one letter, so that only another case is a likely slip.
+    // The names have one letter, so the only likely slip is the wrong case.
     const std::string small(1, static_cast<char>(std::tolower(name[0])));
     throw Error({.what = "matrix " + name,
                  .where = {.file = file},
-                 .found = "no field of this name",
+                 .found = "no field with this name",
                  .wanted = "a list of rows",
                  .nearest = problem.contains(small) ? std::vector{small} : std::vector<std::string>{}});
   }
@@ -90,7 +90,7 @@ Eigen::MatrixXd matrixOf(const Json& problem, const std::string& name, const std
   return M;
 }
 
-// Such as S, the weight of a product of state and control, which some write and these equations lack.
+// For example S, a weight of products of state and control, which these equations do not have.
 void noteUnused(const Json& problem, const std::string& file) {
   std::vector<std::string> unused;
   for (const auto& field : problem.items())
@@ -183,7 +183,7 @@ ExitCode riccati(const Project& project, const RiccatiOptions& options) {
   return result.X.size() > 0 ? ExitCode::kFull : ExitCode::kBelow;
 }
 
-// What the two commands have in common.
+// The options that both commands share.
 void addEquation(CLI::App* command, Action& action, Time time) {
   const auto options = std::make_shared<RiccatiOptions>();
   options->time = time;
@@ -203,7 +203,7 @@ void addCare(CLI::App* command, Action& action) {
   command->footer(
       "Example: scripts/rex care data/control/cart-pole.json --json\n\n"
       "Solves 0 = A^T X + X A - X B R^-1 B^T X + Q; the control is u = -K x with\n"
-      "K = R^-1 B^T X. Exit code 1: there is no stabilizing solution, and why.");
+      "K = R^-1 B^T X. Exit code 1: there is no stabilizing solution; the message says why.");
   addEquation(command, action, Time::kContinuous);
 }
 
@@ -211,7 +211,7 @@ void addDare(CLI::App* command, Action& action) {
   command->footer(
       "Example: scripts/rex dare data/control/cart-steps.json --json\n\n"
       "Solves X = A^T X A - A^T X B (R + B^T X B)^-1 B^T X A + Q; the control is u = -K x with\n"
-      "K = (R + B^T X B)^-1 B^T X A. Exit code 1: there is no stabilizing solution, and why.");
+      "K = (R + B^T X B)^-1 B^T X A. Exit code 1: there is no stabilizing solution; the message says why.");
   addEquation(command, action, Time::kDiscrete);
 }
 

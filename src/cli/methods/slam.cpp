@@ -22,7 +22,7 @@ namespace rex::cli {
 namespace {
 
 struct SlamOptions {
-  std::filesystem::path file{};  ///< where it is not, below the project's root
+  std::filesystem::path file{};  ///< if it does not exist, looked up below the project's root
   std::string objective = "chi2";
   std::string start = "chordal";
   std::string kernel = "none";
@@ -52,7 +52,7 @@ PoseGraphOptions optionsOf(const SlamOptions& options) {
   return result;
 }
 
-// Positions as a figure shows them, from above.
+// Positions seen from above, as a figure shows them.
 Eigen::Matrix2Xd positionsOf(const PlanarPoseGraph& graph) { return graph.poses.topRows<2>(); }
 Eigen::Matrix2Xd positionsOf(const SpatialPoseGraph& graph) {
   Eigen::Matrix2Xd positions(2, static_cast<Eigen::Index>(graph.poses.size()));
@@ -61,7 +61,7 @@ Eigen::Matrix2Xd positionsOf(const SpatialPoseGraph& graph) {
   return positions;
 }
 
-// What a figure and a line of text show beside the poses.
+// What the figure and the summary show besides the poses.
 Eigen::Matrix2Xd landmarksOf(const PlanarPoseGraph& graph) { return graph.landmarks; }
 Eigen::Matrix2Xd landmarksOf(const SpatialPoseGraph&) { return Eigen::Matrix2Xd(2, 0); }
 std::size_t sightingsOf(const PlanarPoseGraph& graph) { return graph.sightings.size(); }
@@ -157,7 +157,7 @@ ExitCode slam(const SlamOptions& options, G2oFile& file, Graph& graph) {
 }  // namespace
 
 ExitCode slam(const Project& project, const SlamOptions& options) {
-  (void)optionsOf(options);  // wrong options are told before a large file is read
+  (void)optionsOf(options);  // reports wrong options before a large file is read
   if (!options.plot.empty() && options.plot.extension() != ".png" && options.plot.extension() != ".svg")
     throw UsageError({.what = "--plot",
                       .found = "'" + harmless(options.plot.string()) + "'",
@@ -174,21 +174,24 @@ void addSlam(CLI::App* command, Action& action) {
   command->footer(
       "Examples:\n  scripts/rex slam data/graphs/streets.g2o --plot streets.png\n"
       "  scripts/rex slam data/graphs/streets.g2o -o better.g2o --json\n\n"
-      "The file is one of g2o: poses, landmarks (VERTEX_XY) and edges. Costs are sums of e^T information e "
-      "over its edges, without a\n"
-      "factor 1/2; --objective sesync takes the distances of rotation matrices instead.\n"
-      "Exit code 1: it did not converge.");
+      "The file is in g2o format: poses, landmarks (VERTEX_XY) and edges. The cost is the sum of\n"
+      "e^T information e over the edges, without a factor 1/2; --objective sesync takes distances\n"
+      "of rotation matrices instead.\n"
+      "Exit code 1: the optimization did not converge.");
   command->add_option("file", options->file, "pose graph (.g2o)")->type_name("FILE")->required();
   command->add_option("--objective", options->objective, "chi2 or sesync (default: chi2)")->type_name("NAME");
   command->add_option("--start", options->start, "chordal, file or odometry (default: chordal)")
       ->type_name("NAME");
   command
       ->add_option("--kernel", options->kernel,
-                   "how large errors count: none, huber, cauchy or geman-mcclure (default: none)")
+                   "robust kernel: none, huber, cauchy or geman-mcclure (default: none)")
       ->type_name("NAME");
-  command->add_option("--kernel-size", options->kernelSize, "from how many deviations on (default: 1)")
+  command
+      ->add_option("--kernel-size", options->kernelSize,
+                   "width of the kernel in standard deviations (default: 1)")
       ->type_name("NUMBER");
-  command->add_option("--iterations", options->iterations, "at most (default: 1000)")->type_name("COUNT");
+  command->add_option("--iterations", options->iterations, "limit of iterations (default: 1000)")
+      ->type_name("COUNT");
   command->add_option("--plot", options->plot, "draw the poses before and after")->type_name("FILE.png");
   command->add_option("-o,--out", options->out, "write the graph with its new poses")->type_name("FILE.g2o");
   command->add_flag("--json", options->json, "print JSON");

@@ -96,7 +96,7 @@ TEST_F(CmaCommand, SaysThatNoRunSucceeds) {
   EXPECT_TRUE(nlohmann::json::parse(few.output)["runs"][0]["best"].is_null());
   const ProcessResult drawn = rex({"cma", "--function", "sphere", "--max-evaluations", "5", "-o", "none"});
   EXPECT_EQ(drawn.exitCode, 64);
-  EXPECT_THAT(drawn.error, HasSubstr("-o: found no evaluations that could be drawn"));
+  EXPECT_THAT(drawn.error, HasSubstr("-o: found no evaluations to draw"));
 }
 
 TEST_F(CmaCommand, HasExamplesThatRun) {

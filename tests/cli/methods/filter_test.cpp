@@ -121,14 +121,15 @@ TEST_F(FilterCommand, SaysWhatIsWrong) {
   expect({"--filter", "ekff"}, "--filter: found 'ekff', wanted ekf, ukf,");
   expect({"--filter", "ekff"}, "(did you mean 'ekf'?)");
   expect({"--filter", "kalman"},
-         "--filter: found 'kalman', wanted ekf, ukf, information or root: how the car");
-  expect({"--filter", "histogram"}, "--filter: found 'histogram', wanted particles: cells finer than");
+         "--filter: found 'kalman', wanted ekf, ukf, information or root: the motion of the car");
+  expect({"--filter", "histogram"}, "--filter: found 'histogram', wanted particles: with cells finer than");
   expect({"--landmarks", "-1"}, "--landmarks: found -1, wanted 0 to 1000");
   expect({"--steps", "1"}, "--steps: found 1, wanted 2 to 100000");
   expect({"--dynamics-noise", "-1"}, "--dynamics-noise: found -1, wanted 0 to 10");
   expect({"--observation-noise", "0"}, "--observation-noise: found 0, wanted 1e-06 to 1000");
   expect({"--observation-noise", "nan"}, "--observation-noise: found nan");
-  expect({"--bearing-noise", "0.1"}, "--bearing-noise: found no use for it, wanted --range-bearing with it");
+  expect({"--bearing-noise", "0.1"},
+         "--bearing-noise: found no effect on its own, wanted --range-bearing with it");
   expect({"--range-bearing", "--bearing-noise", "0"}, "--bearing-noise: found 0");
   expect({"--max-range", "0"}, "--max-range: found 0, wanted 0.001 to 1e+06");
   expect({"--field-of-view", "7"}, "--field-of-view: found 7, wanted 0.001 to 6.28319");
@@ -136,9 +137,10 @@ TEST_F(FilterCommand, SaysWhatIsWrong) {
   expect({"--assume-observation", "1e4"}, "--assume-observation: found 10000");
   expect({"--seeds", "0"}, "--seeds: found 0, wanted 1 to 10000");
   expect({"--seeds", "2", "--seed", "18446744073709551615"}, "wanted a whole number of at most 18 digits");
-  expect({"--particles", "10"}, "--particles: found no use for it, wanted --filter particles, fast-slam");
+  expect({"--particles", "10"},
+         "--particles: found no effect on its own, wanted --filter particles, fast-slam");
   expect({"--filter", "particles", "--particles", "1"}, "--particles: found 1, wanted 2 to 100000");
-  expect({"--no-film"}, "--no-film: found no use for it, wanted -o with it");
+  expect({"--no-film"}, "--no-film: found no effect on its own, wanted -o with it");
   expect({"--filter", "information", "--dynamics-noise", "0"}, "seed 0, step 1: ");
   std::ofstream(in("file")) << "x";
   expect({"-o", "file"}, "-o file: found Not a directory, wanted a folder");

@@ -120,8 +120,8 @@ TEST_F(RiccatiCommand, SaysWhatIsWrong) {
   expect("dare", "{\"A\": [[nan]]}", "problem.json:1:10: not valid JSON");
   expect("dare", "", "problem.json:1:1: not valid JSON");
   expect("care", "[1]", "Riccati equation: found a JSON value of type array");
-  expect("care", "{\"A\": [[1]]}", "matrix B: found no field of this name, wanted a list of rows");
-  expect("care", "{\"a\": [[1]]}", "no field of this name, wanted a list of rows (did you mean 'a'?)");
+  expect("care", "{\"A\": [[1]]}", "matrix B: found no field with this name, wanted a list of rows");
+  expect("care", "{\"a\": [[1]]}", "no field with this name, wanted a list of rows (did you mean 'a'?)");
   expect("care", problem("5", "[[1]]", "[[1]]", "[[1]]"), "matrix A: found no list of rows");
   expect("care", problem("[[1, 2], [3]]", "[[1]]", "[[1]]", "[[1]]"),
          "matrix A, row 2: found 1 numbers, wanted 2 numbers, as in row 1");
