@@ -28,7 +28,7 @@ ExitCode bench(const Project& project, const BenchOptions& options) {
   const ProcessResult result = runProcess(command, {.timeout = 3600, .inheritOutput = true});
   if (result.exitCode == static_cast<int>(ExitCode::kUsage)) return ExitCode::kUsage;
   if (!result.started || result.signal != 0)
-    throw Error({.what = "the benchmarks did not end by themselves"});
+    throw Error({.what = "the benchmarks were ended by a signal or did not start"});
   return result.ok() ? ExitCode::kFull : ExitCode::kGraderFault;
 }
 

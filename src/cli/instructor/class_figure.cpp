@@ -17,7 +17,7 @@ double percentOf(const grading::GradeResult& result) {
   return result.maxScore > 0 ? 100.0 * result.score / result.maxScore : 0;
 }
 
-// Where on the axis each exercise stands.
+// The position of each exercise on the axis.
 std::map<std::string, int> placesOf(const std::vector<StudentResult>& results) {
   std::map<std::string, int> places;
   int last = 0;
@@ -31,7 +31,7 @@ std::map<std::string, int> placesOf(const std::vector<StudentResult>& results) {
   return places;
 }
 
-// Around 0: 0, 1, -1, 2, ... steps, narrower where there are many.
+// Offsets around 0: 0, 1, -1, 2, ... steps, which are narrower if there are many points.
 double offsetOf(int k, int count) {
   constexpr double kStep = 0.06, kWidest = 0.4;
   const double step = std::min(kStep, 2 * kWidest / std::max(1, count));
@@ -46,7 +46,7 @@ Figure pointsFigure(const std::vector<StudentResult>& results) {
   for (const StudentResult& one : results)
     if (one.result.outcome != grading::Outcome::kGraderError)
       points[places.at(one.exercise)].push_back(percentOf(one.result));
-  if (points.empty()) throw Error({.what = "no points to draw", .found = "faults of the grader only"});
+  if (points.empty()) throw Error({.what = "no points to draw", .found = "only faults of the grader"});
   Series students{.label = "a student", .style = SeriesStyle::kPoints, .marker = Marker::kDot, .size = 2};
   Series medians{.label = "median", .style = SeriesStyle::kPoints, .marker = Marker::kPlus, .size = 3};
   for (const auto& [place, values] : points) {
@@ -61,7 +61,7 @@ Figure pointsFigure(const std::vector<StudentResult>& results) {
   }
   return {.title = "Points of the class",
           .xLabel = "number of the exercise",
-          .yLabel = "points [% of the possible ones]",
+          .yLabel = "points [% of the maximum]",
           .xRange = AxisRange{points.begin()->first - 0.5, points.rbegin()->first + 0.5},
           .yRange = AxisRange{-5, 105},
           .legend = Legend::kOutside,

@@ -25,7 +25,7 @@ struct CollectOptions {
   std::filesystem::path manifest{};
   std::filesystem::path deadlines{};
   bool csv = false;
-  std::string reports{};  ///< formats of `rex report`, with commas between; empty: none
+  std::string reports{};  ///< formats of `rex report`, separated by commas; empty: none
 };
 
 using grading::Task;
@@ -41,12 +41,12 @@ void tell(const std::string& what, const std::vector<int>& numbers, const std::v
   if (numbers.size() > kMostNamed) note(fmt::format("  and {} more", numbers.size() - kMostNamed));
 }
 
-// Also half a file of an earlier time is another text.
+// An incomplete file left by an earlier run does not count, as its text differs.
 bool holds(const std::filesystem::path& file, const std::string& text) {
   return std::filesystem::exists(file) && readTextFile(file) == text;
 }
 
-// Makes grades.csv of all results, and names the tasks to repeat. kGraderFault if there are any.
+// Makes grades.csv from all results and names the tasks to repeat. kGraderFault if there are any.
 ExitCode collectResults(const Project& project, const CollectOptions& options) {
   const std::filesystem::path manifest =
       options.manifest.empty() ? options.out / "tasks.tsv" : options.manifest;
@@ -109,7 +109,7 @@ bool writeGrades(const std::vector<Task>& tasks, const std::filesystem::path& ou
   replaceTextFile(out / "grades.csv", found.csv, "the table of grades");
   if (print) std::fputs(found.csv.c_str(), stdout);
   tell("no result", found.missing, tasks);
-  tell("a result of something else", found.stale, tasks);
+  tell("a result for other inputs", found.stale, tasks);
   tell("the grader failed", found.failed, tasks);
   std::vector<int> again = found.missing;
   again.insert(again.end(), found.stale.begin(), found.stale.end());

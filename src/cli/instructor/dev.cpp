@@ -41,14 +41,14 @@ void addDevStrip(CLI::App* dev, Action& action) {
   const auto words = std::make_shared<Words>();
   CLI::App* command = addVerb(dev, "strip", "Make main.cpp from solution.cpp",
                               "Example: scripts/rex dev strip 01\n\n"
-                              "The tree for students is made by `rex dev release DIR`.");
-  command->add_option("EXERCISE", words->exercise, "whose main.cpp to write")->type_name("");
-  // What made the release in earlier versions is answered, not taken for a typing error.
+                              "`rex dev release DIR` makes the tree for students.");
+  command->add_option("EXERCISE", words->exercise, "exercise whose main.cpp is written")->type_name("");
+  // Earlier versions made the release with these options: say what to use now instead of "unknown option".
   command->add_flag("--release", words->release)->group("");
   command->add_option("-o,--out", words->out)->group("");
   command->callback([&action, words] {
     if (words->release || !words->out.empty())
-      throw CLI::ValidationError("the student release is made by: scripts/rex dev release " +
+      throw CLI::ValidationError("to make the student release, use: scripts/rex dev release " +
                                  (words->out.empty() ? "DIR" : words->out));
     if (words->exercise.empty()) throw CLI::RequiredError("EXERCISE");
     action = [words](const Project& p) { return devStrip(p, words->exercise); };
@@ -63,10 +63,11 @@ void addDevRelease(CLI::App* dev, Action& action) {
                               "The tree has no solution, hidden check or wrong variant.\n"
                               "Exit code 1: something leaks; nothing was written.");
   CLI::Option* out = command->add_option("DIR", options->out, "new folder for the release")->type_name("");
-  CLI::Option* prove =
-      command->add_flag("--prove", options->prove, "build a copy and try every exercise in it: minutes");
+  CLI::Option* prove = command->add_flag("--prove", options->prove,
+                                         "build a copy and try every exercise in it (takes minutes)");
   CLI::Option* proveIn =
-      command->add_option("--prove-in", options->proveIn, "the same in this new folder, which stays")
+      command
+          ->add_option("--prove-in", options->proveIn, "like --prove, but in this new folder, which is kept")
           ->type_name("FOLDER");
   command->add_option("--scan", options->scan, "only look for leaks in this folder, write nothing")
       ->type_name("FOLDER")
@@ -74,7 +75,8 @@ void addDevRelease(CLI::App* dev, Action& action) {
       ->excludes(prove)
       ->excludes(proveIn);
   command
-      ->add_option("--secret-file", options->secret, "secret of the course: must not be in the tree either")
+      ->add_option("--secret-file", options->secret,
+                   "secret of the course, which must not be in the tree either")
       ->type_name("FILE");
   command->callback([&action, options] {
     if (options->out.empty() && options->scan.empty()) throw CLI::RequiredError("DIR");

@@ -15,7 +15,7 @@ std::vector<ExerciseInfo> chosen(const Project& project, const std::string& name
   return {project.exercise(name)};
 }
 
-// Prints one line for a passed gate and what is wrong for another.
+// Prints one line for a gate, and what is wrong unless it passed.
 bool passes(const Project& project, const ExerciseInfo& exercise, const grading::Toolchain& toolchain,
             const std::string& gate, int seeds) {
   const PrivateFolder work(project.buildFolder(exercise));
@@ -32,7 +32,7 @@ bool passes(const Project& project, const ExerciseInfo& exercise, const grading:
   return result.passed;
 }
 
-// How many gates are open.
+// The number of gates that did not pass.
 int checkOne(const Project& project, const ExerciseInfo& exercise, const CheckOptions& options) {
   const grading::Toolchain toolchain = prepare(project, exercise);
   const std::vector<std::string> gates =

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What share/template/exercise.h declares.
+// The functions that share/template/exercise.h declares.
 constexpr const char* kFunctions = "rotated";
 
 void requireGoodName(const std::string& name) {
@@ -30,7 +30,7 @@ void requireGoodName(const std::string& name) {
                       .wanted = "two digits, a dash, then letters and digits, like 01-kinematics"});
 }
 
-// Copies the template with its own name in place of the placeholder.
+// Copies the template, with the exercise's name in place of the placeholder.
 void instantiate(const fs::path& from, const fs::path& to, const std::string& name) {
   constexpr std::string_view kPlaceholder = "@EXERCISE@";
   for (const auto& entry : fs::recursive_directory_iterator(from)) {

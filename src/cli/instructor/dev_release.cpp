@@ -24,7 +24,7 @@ void tellLeaks(const std::vector<grading::Leak>& leaks) {
 
 std::string sizeOf(const grading::LeakScan& scan) {
   const std::string packed =
-      scan.packed == 0 ? "" : fmt::format(" ({} of them packed files, opened)", scan.packed);
+      scan.packed == 0 ? "" : fmt::format(" ({} of them archives, which were opened)", scan.packed);
   return fmt::format("{} files{}, {:.1f} MB", scan.files, packed, static_cast<double>(scan.bytes) / 1e6);
 }
 
@@ -65,11 +65,11 @@ ExitCode devRelease(const Project& project, const ReleaseOptions& options) {
       grading::writeStudentRelease(project.root, fs::absolute(options.out), options.secret);
   if (!release.scan.leaks.empty()) {
     tellLeaks(release.scan.leaks);
-    note(fmt::format("Nothing was written: {} leak{}.", release.scan.leaks.size(),
+    note(fmt::format("Nothing was written: found {} leak{}.", release.scan.leaks.size(),
                      release.scan.leaks.size() == 1 ? "" : "s"));
     return ExitCode::kBelow;
   }
-  say(fmt::format("The student release lies in {}", shown(options.out)));
+  say(fmt::format("The student release is in {}", shown(options.out)));
   say(fmt::format("  holds       {} exercise{}, {}", release.exercises, release.exercises == 1 ? "" : "s",
                   sizeOf(release.scan)));
   saySecrets(release.secrets);

@@ -44,9 +44,9 @@ void sayChecks(const ExerciseStatistics& all) {
 void sayExercise(const ExerciseStatistics& all) {
   say(fmt::format("{}: {} graded, {} with full score", harmless(all.exercise), all.graded, all.full));
   if (all.graderFailed > 0)
-    say(fmt::format("  the grader failed at {} more: not counted, to be graded again", all.graderFailed));
+    say(fmt::format("  the grader failed on {} more: not counted, to be graded again", all.graderFailed));
   if (all.versions > 1)
-    say(fmt::format("  these are results of {} versions of the exercise: grade again to compare them",
+    say(fmt::format("  these results are from {} versions of the exercise: grade again to compare them",
                     all.versions));
   if (all.graded == 0) return;
   say(fmt::format("  points   mean {:.4g}, median {:.4g} of {}", all.meanPoints, all.medianPoints,
@@ -121,7 +121,7 @@ ExitCode devStats(const Project&, const StatsOptions& options) {
   const grading::ClassResults read = grading::readClassResults(options.results);
   for (const std::string& complaint : read.complaints) note(wrap(harmless(complaint), 2, 0));
   if (read.results.empty())
-    throw UsageError({.what = "nothing to count",
+    throw UsageError({.what = "nothing to evaluate",
                       .where = {options.results.string()},
                       .found = "no results",
                       .wanted = "STUDENT/EXERCISE/results.json in it"});

@@ -40,20 +40,20 @@ namespace fs = std::filesystem;
 struct GradeManyOptions {
   std::filesystem::path folder{};  ///< DIR/STUDENT/EXERCISE/main.cpp
   std::filesystem::path out{};
-  int jobs = 0;                            ///< at once; 0: one per processor
-  std::optional<sandbox::Level> level{};   ///< nothing: the best that holds here
-  std::optional<sandbox::Level> accept{};  ///< the lowest, though it is not for strangers
+  int jobs = 0;                            ///< parallel gradings; 0: one per processor
+  std::optional<sandbox::Level> level{};   ///< empty: the best that holds here
+  std::optional<sandbox::Level> accept{};  ///< the lowest level to accept, though too weak for strangers
   std::optional<std::uint64_t> seed{};
-  std::filesystem::path secret{};     ///< file; empty: hidden checks take the seed, too
+  std::filesystem::path secret{};     ///< file; empty: the seed decides hidden checks, too
   std::filesystem::path workers{};    ///< folder that keeps compiled programs; empty: none
   std::string only{};                 ///< exercise; empty: all
   std::filesystem::path deadlines{};  ///< TOML file; empty: none
-  std::filesystem::path submitted{};  ///< CSV file; empty: times of files count
-  std::filesystem::path manifest{};   ///< write the list of tasks here, and grade nothing
+  std::filesystem::path submitted{};  ///< CSV file; empty: use the times of the files
+  std::filesystem::path manifest{};   ///< only write the list of tasks here; empty: grade
   bool csv = false;                   ///< print grades.csv
-  bool regrade = false;               ///< also what has a valid result
-  bool evidence = false;              ///< keep pictures and replays of visible checks that do not hold
-  std::string reports{};              ///< formats of `rex report` to write for each, by commas; empty: none
+  bool regrade = false;               ///< also submissions that have a valid result
+  bool evidence = false;              ///< keep pictures and replays of failed visible checks
+  std::string reports{};              ///< formats of `rex report` to write, separated by commas; empty: none
 };
 
 using grading::Task;
@@ -68,7 +68,7 @@ class Graders {
     grading::Toolchain toolchain;
     std::string sha256;
   };
-  /// Throws BuildFailure as prepare().
+  /// Throws BuildFailure like prepare().
   const Grader& of(const std::string& name) {
     if (const auto found = graders_.find(name); found != graders_.end()) return found->second;
     Grader grader{.exercise = project_.exercise(name), .toolchain = {}, .sha256 = {}};
@@ -82,8 +82,8 @@ class Graders {
   std::map<std::string, Grader> graders_;
 };
 
-// For work of strangers: the asked level, else the best that holds here. One that is not for
-// strangers must be accepted by its number. Nothing if there is none; says why, and what a weak one does
+// A sandbox for work of strangers: the given level, else the best that holds here. A level that is too weak
+// for strangers must be accepted by its number. Empty if there is none. Says why, and what a weak one does
 // not stop.
 std::optional<sandbox::Sandbox> chooseForStrangers(const Project& project,
                                                    std::optional<sandbox::Level> level,
@@ -96,7 +96,7 @@ std::optional<sandbox::Sandbox> chooseForStrangers(const Project& project,
       if (!isForStrangers(best.level)) note(wrap(harmless(reason), 2, 0));
   }
   if (accepted ? *level < *accepted : !isForStrangers(*level)) {
-    note(wrap(fmt::format("sandbox level {} is not for work of strangers: {}; to grade all the same, say "
+    note(wrap(fmt::format("sandbox level {} is not for work of strangers: {}; to grade anyway, use "
                           "--i-accept-level {}",
                           numberOf(*level), sandbox::warningOf(*level), numberOf(*level)),
               2, 0));
@@ -108,12 +108,12 @@ std::optional<sandbox::Sandbox> chooseForStrangers(const Project& project,
   return chosen;
 }
 
-// Results inside of what was handed in would be handed in next time.
+// Results inside the folder of submissions would be taken for submissions the next time.
 bool contains(const fs::path& outer, const fs::path& inner) {
   return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
 }
 
-// What a command writes would be taken for what was handed in, or for results.
+// Files written into the other folder would be taken for submissions or results.
 void requireApart(const char* option, const fs::path& folder, const fs::path& other) {
   const fs::path here = fs::weakly_canonical(folder), there = fs::weakly_canonical(other);
   if (contains(here, there) || contains(there, here))
@@ -124,7 +124,7 @@ void requireApart(const char* option, const fs::path& folder, const fs::path& ot
 void requireApart(const GradeManyOptions& options) {
   if (!fs::is_directory(options.folder))
     throw UsageError(
-        {.what = "no such folder", .where = {options.folder.string()}, .wanted = "what was handed in"});
+        {.what = "no such folder", .where = {options.folder.string()}, .wanted = "a folder of submissions"});
   requireApart("--out", options.out, options.folder);
   if (!options.manifest.empty()) grading::requireNameOfResults(options.manifest, options.out);
   if (options.workers.empty()) return;
@@ -149,7 +149,7 @@ void tell(const grading::HandIns& handedIn) {
     note(fmt::format("and {} more files that are not graded", handedIn.notes.size() - kMostNotes));
 }
 
-// The exercises whose grader does not build: they wait, the others are graded.
+// The exercises whose grader does not build. They wait while the others are graded.
 std::set<std::string> blockedOf(const grading::HandIns& handedIn, Graders& graders) {
   std::map<std::string, int> counts;
   for (const grading::HandIn& file : handedIn.files) ++counts[file.exercise];
@@ -190,7 +190,7 @@ std::vector<Task> tasksOf(const grading::HandIns& handedIn, const GradeManyOptio
   return tasks;
 }
 
-// One task in a process of its own; what goes wrong costs this task alone.
+// Grades one task in its own process, so that a failure affects this task alone.
 int gradeApart(const Task& task, const Graders::Grader& grader, const grading::TaskOptions& options) {
   try {
     const grading::GradeResult result = grading::gradeTask(task, grader.toolchain, grader.exercise, options);
@@ -206,7 +206,7 @@ bool isOpen(const Task& task, const GradeManyOptions& options) {
   return options.evidence && !grading::hasEvidence(task, options.out);
 }
 
-// Grades those without a valid result; returns how many that were.
+// Grades the tasks without a valid result; returns their number.
 int gradeOpen(const std::vector<Task>& tasks, const GradeManyOptions& options,
               const sandbox::Sandbox& sandbox, Graders& graders) {
   std::vector<const Task*> open;
@@ -245,13 +245,13 @@ void tellTimes(const std::vector<Task>& tasks, const GradeManyOptions& options) 
   if (options.deadlines.empty()) return;
   const auto told =
       std::count_if(tasks.begin(), tasks.end(), [](const Task& task) { return task.timeFrom == "table"; });
-  note(fmt::format("Times of submission: {} from {}, {} from when files were modified", told,
+  note(fmt::format("Times of submission: {} from {}, {} from modification times of files", told,
                    options.submitted.empty() ? "a table" : shown(options.submitted),
                    static_cast<std::ptrdiff_t>(tasks.size()) - told));
 }
 
-// Grades what many students handed in. kFull whatever the grades; kNotGradable if something could not be
-// taken, kGraderFault if a grading must be repeated.
+// Grades the submissions of many students. kFull whatever the grades are; kNotGradable if a submission could
+// not be taken, kGraderFault if something must be graded again.
 ExitCode gradeMany(const Project& project, const GradeManyOptions& options) {
   requireApart(options);
   const std::vector<grading::ReportFormat> reports = reportsOf(options.reports);
@@ -296,9 +296,9 @@ void addGrade(CLI::App* command, Action& action) {
       "  scripts/rex grade handed-in --out results --reports=markdown,junit --evidence\n\n"
       "DIR holds STUDENT/EXERCISE/main.cpp. A second run grades only what has changed.\n" +
       std::string(kGradingCodes));
-  command->add_option("DIR", options->folder, "what was handed in")->type_name("")->required();
+  command->add_option("DIR", options->folder, "folder of submissions")->type_name("")->required();
   addResults(command, options->out);
-  command->add_option("-j,--jobs", options->jobs, "gradings at once (default: one per processor)")
+  command->add_option("-j,--jobs", options->jobs, "parallel gradings (default: one per processor)")
       ->check(CLI::Range(1, 1024).description(""))
       ->type_name("N");
   command->add_option("--level", options->level, "sandbox level (default: the best that holds here)")
@@ -307,7 +307,7 @@ void addGrade(CLI::App* command, Action& action) {
   command->add_option("--i-accept-level", options->accept, "also grade at this weak level: 0 or 1")
       ->check(CLI::Range(0, 1).description(""))
       ->type_name("N");
-  addSeed(command, options->seed, "of the random cases");
+  addSeed(command, options->seed, "seed of the random cases");
   addSecret(command, options->secret);
   addWorkers(command, options->workers);
   command->add_option("--only", options->only, "only this exercise")->type_name("EXERCISE");
@@ -316,9 +316,9 @@ void addGrade(CLI::App* command, Action& action) {
       ->add_option("--submitted", options->submitted,
                    "times of submission: columns student, submitted, exercise (default: times of the files)")
       ->type_name("FILE.csv");
-  command->add_option("--manifest", options->manifest, "write the list of tasks, grade nothing")
+  command->add_option("--manifest", options->manifest, "only write the list of tasks, without grading")
       ->type_name("FILE.tsv");
-  command->add_flag("--regrade", options->regrade, "also what has a valid result");
+  command->add_flag("--regrade", options->regrade, "also grade what has a valid result");
   command->add_flag("--csv", options->csv, "print the table of grades");
   addReports(command, options->reports);
   addEvidence(command, options->evidence);

@@ -25,7 +25,7 @@ struct GradeOneOptions {
   std::filesystem::path workers{};  ///< folder that keeps compiled programs; empty: none
 };
 
-// Grades one line of a list of tasks, unless it has a valid result. kFull if it has one then.
+// Grades one line of a list of tasks, unless it has a valid result. kFull if it has one afterwards.
 ExitCode gradeOne(const Project& project, const GradeOneOptions& options) {
   const std::vector<grading::Task> tasks = grading::readManifest(options.manifest);
   if (options.task < 1 || options.task > static_cast<int>(tasks.size()))
@@ -62,10 +62,10 @@ void addGradeOne(CLI::App* command, Action& action) {
   const auto options = std::make_shared<GradeOneOptions>();
   command->footer("Example: scripts/rex grade-one --manifest tasks.tsv --task 7 --out results\n\n" +
                   std::string(kGradingCodes));
-  command->add_option("--manifest", options->manifest, "what `rex grade --manifest` wrote")
+  command->add_option("--manifest", options->manifest, "list of tasks that `rex grade --manifest` wrote")
       ->type_name("FILE.tsv")
       ->required();
-  command->add_option("--task", options->task, "its number, from 1")->type_name("K")->required();
+  command->add_option("--task", options->task, "number of the task, from 1")->type_name("K")->required();
   addResults(command, options->out);
   addSecret(command, options->secret);
   addEvidence(command, options->evidence);

@@ -3,8 +3,7 @@
 namespace rex::cli {
 
 void addDeadlines(CLI::App* command, std::filesystem::path& file) {
-  command
-      ->add_option("--deadlines", file, "deadlines, grace, what lateness costs (share/doc/grading-many.md)")
+  command->add_option("--deadlines", file, "deadlines, grace and late penalties (share/doc/grading-many.md)")
       ->type_name("FILE.toml");
 }
 
@@ -22,13 +21,13 @@ void addReports(CLI::App* command, std::string& reports) {
 }
 
 void addEvidence(CLI::App* command, bool& evidence) {
-  command->add_flag("--evidence", evidence, "keep pictures and replays of visible checks that do not hold");
+  command->add_flag("--evidence", evidence, "keep pictures and replays of failed visible checks");
 }
 
 void addWorkers(CLI::App* command, std::filesystem::path& folder) {
   command
       ->add_option("--workers", folder,
-                   "keep compiled programs here: the same file with another seed is not compiled again")
+                   "keep compiled programs here, so that other seeds need no new compilation")
       ->type_name("DIR");
 }
 

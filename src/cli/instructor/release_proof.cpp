@@ -21,14 +21,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One copy of a release, and what is done with it.
+/// Builds and tries one copy of a release.
 class Proof {
  public:
   explicit Proof(const fs::path& tree) : tree_(tree) {}
 
   void build() {
     if (fs::exists(tree_ / "scripts/check-links")) run({"scripts/check-links"}, 0);
-    // A compiler cache, where there is one, knows the files by their places in the release.
+    // If there is a compiler cache, it must identify files by their paths within the release.
     const std::string cache = "CCACHE_BASEDIR=" + tree_.string();
     run({"env", cache, "cmake", "--preset", "release"}, 0);
     run({"env", cache, "cmake", "--build", "build/release", "--target", "rex"}, 0);
@@ -39,7 +39,7 @@ class Proof {
     run({kRex, "test", name}, 1);
     run({"env", "-u", "DISPLAY", "-u", "WAYLAND_DISPLAY", kRex, "run", name}, 0);
     if (filesIn(tree_ / "out" / name, ".png").empty())
-      throw Error({.what = fmt::format("the release: {} left no picture", name)});
+      throw Error({.what = fmt::format("the release: {} drew no picture", name)});
   }
 
   std::string step() const {
@@ -62,7 +62,7 @@ class Proof {
     if (run.exitCode == wanted) return;
     const std::string said = run.output + run.error;
     note(harmless(said.substr(said.size() - std::min(said.size(), kShown))));
-    throw Error({.what = "the release does not work alone: " + text,
+    throw Error({.what = "the release does not work on its own: " + text,
                  .found = run.started ? fmt::format("exit code {}", run.exitCode) : run.error,
                  .wanted = fmt::format("{}", wanted)});
   }

@@ -45,7 +45,7 @@ TEST(ClassFigure, LaysNoTwoPointsOnEachOther) {
 TEST(ClassFigure, NeedsPoints) {
   std::vector<grading::StudentResult> results = {resultOf("01-a", 0)};
   results[0].result.outcome = grading::Outcome::kGraderError;
-  EXPECT_REX_ERROR(pointsFigure(results), "no points to draw: found faults of the grader only");
+  EXPECT_REX_ERROR(pointsFigure(results), "no points to draw: found only faults of the grader");
 }
 
 }  // namespace rex::cli::class_figure_test

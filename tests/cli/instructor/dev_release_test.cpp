@@ -53,7 +53,7 @@ TEST_F(DevReleaseTest, WritesNothingThatLeaks) {
       HasSubstr("exercises/98-template/README.md:3: a line of the solution would reach students: found "
                 "'const double s = std::sin(angle + 0 * 1234567);' of "
                 "exercises/98-template/solution.cpp:"));
-  EXPECT_THAT(ended.error, HasSubstr("Nothing was written: 1 leak."));
+  EXPECT_THAT(ended.error, HasSubstr("Nothing was written: found 1 leak."));
   EXPECT_FALSE(fs::exists(students()));
 }
 
@@ -86,7 +86,7 @@ TEST_F(DevReleaseTest, ProvesThatTheTreeWorksAlone) {
   const std::string good = "case $1 in test) exit 1;; run) mkdir -p out/$2; : >out/$2/a.png;; esac\n";
   const std::pair<std::string, std::string> cases[] = {
       {good, ""},
-      {"[ $1 != test ]\n", "left no picture"},
+      {"[ $1 != test ]\n", "drew no picture"},
       {"[ $1 = list ] || echo strange\n", "build/release/rex test 98-template: found exit code 0, wanted 1"},
       {"echo broken; exit 5\n", "build/release/rex list: found exit code 5, wanted 0"}};
   for (const auto& [script, message] : cases) {

@@ -85,7 +85,8 @@ TEST_F(DevStatsTest, TellsWrongUse) {
   fs::create_directory(root() / "empty");
   const Ended empty = rex({"dev", "stats", (root() / "empty").string()});
   EXPECT_EQ(empty.code, 64);
-  EXPECT_THAT(flat(empty.error), HasSubstr("nothing to count: found no results, wanted STUDENT/EXERCISE/"));
+  EXPECT_THAT(flat(empty.error),
+              HasSubstr("nothing to evaluate: found no results, wanted STUDENT/EXERCISE/"));
   EXPECT_EQ(stats({"--json", "--csv"}).code, 64);
 }
 

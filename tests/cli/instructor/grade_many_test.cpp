@@ -265,7 +265,7 @@ TEST_F(GradeManyTest, CountsDaysAndSaysWhereTimesComeFrom) {
       {"--deadlines", (root() / "deadlines.toml").string(), "--submitted", (root() / "times.csv").string()});
   EXPECT_EQ(ended.code, 0);
   EXPECT_THAT(flat(ended.error), HasSubstr("0 graded, 3 kept")) << "a policy changes no result";
-  EXPECT_THAT(flat(ended.error), HasSubstr("times.csv, 2 from when files were modified"));
+  EXPECT_THAT(flat(ended.error), HasSubstr("times.csv, 2 from modification times of files"));
   EXPECT_THAT(flat(ended.error), HasSubstr("'carol' has an extension for 98-template and handed in nothing"));
   EXPECT_THAT(table(), HasSubstr(",2,2," + std::to_string(full - 2) + ",2023-11-14T22:13:20Z,file\n"));
   EXPECT_THAT(table(), HasSubstr("\nbob,98-template," + std::to_string(full) + "," + std::to_string(full) +
