@@ -178,7 +178,8 @@ TEST_F(StudentLoop, ShowsTheSolutionWhereTheCourseAllowsIt) {
   const Ended early = rex({"solution", "98"});
   EXPECT_EQ(early.code, 1);
   EXPECT_EQ(early.output, "");
-  EXPECT_THAT(flat(early.error), HasSubstr("is shown once `scripts/rex test 98-template` gave you the full"));
+  EXPECT_THAT(flat(early.error),
+              HasSubstr("is shown once `scripts/rex test 98-template` has given you the full"));
   write(main(), kGood);
   rex({"test", "98"});
   EXPECT_EQ(rex({"solution", "98"}).output, solution);
@@ -187,7 +188,7 @@ TEST_F(StudentLoop, ShowsTheSolutionWhereTheCourseAllowsIt) {
   rex({"test", "98"});
   EXPECT_EQ(rex({"solution", "98"}).output, solution);
   fs::remove(exercise() / "solution.cpp");
-  EXPECT_THAT(flat(rex({"solution", "98"}).error), HasSubstr("98-template comes without a solution here"));
+  EXPECT_THAT(flat(rex({"solution", "98"}).error), HasSubstr("98-template has no solution here"));
 }
 
 // The archive is read by a program of others.
@@ -294,7 +295,7 @@ TEST_F(Watching, GradesAgainAtEverySaveUntilAllIsRight) {
     fs::remove(root() / "log");
     const pid_t child = start(polls ? std::vector<const char*>{"--poll"} : std::vector<const char*>{});
     ASSERT_TRUE(waitUntil([&] { return hasGraded(1); })) << log();
-    EXPECT_THAT(log(), HasSubstr(polls ? "by polling; Ctrl-C" : "by inotify; Ctrl-C"));
+    EXPECT_THAT(log(), HasSubstr(polls ? "by polling; press Ctrl-C" : "by inotify; press Ctrl-C"));
     write(main(), "int main() { broken }\n");
     ASSERT_TRUE(waitUntil([&] { return hasGraded(2); })) << log();
     EXPECT_THAT(log(), HasSubstr("Not graded"));

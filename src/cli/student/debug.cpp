@@ -37,7 +37,7 @@ ExitCode debug(const Project& project, const DebugOptions& options) {
   const ExerciseInfo exercise = project.exercise(options.exercise);
   const std::filesystem::path file = chooseStudentFile(exercise, options.solution);
   const std::filesystem::path out = project.outFolder(exercise, options.solution);
-  // Kept after we are gone: the debugger takes our place.
+  // Not a temporary folder, as the debugger replaces this process and still needs it.
   const std::filesystem::path work = out / ".debug";
   makeOutFolder(out);
   const auto program =
@@ -56,7 +56,7 @@ ExitCode debug(const Project& project, const DebugOptions& options) {
   say("Try: break main, run, next, print NAME, backtrace, quit.");
   std::fflush(stdout);
   const sigset_t held = stopSignals();
-  ::sigprocmask(SIG_UNBLOCK, &held, nullptr);  // the debugger takes them now
+  ::sigprocmask(SIG_UNBLOCK, &held, nullptr);  // the debugger handles them now
   std::vector<char*> arguments;
   for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
   arguments.push_back(nullptr);

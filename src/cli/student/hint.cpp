@@ -29,7 +29,7 @@ const ExercisePart& partCalled(const ExerciseInfo& exercise, const std::string& 
                     .nearest = nearestNames(id, ids)});
 }
 
-// The first part that lost points in the last test; without a test, the first.
+// The first part that lost points in the last test; the first part if there was no test.
 const ExercisePart& partInNeed(const Project& project, const ExerciseInfo& exercise) {
   try {
     const grading::GradeResult result =
@@ -65,15 +65,15 @@ ExitCode hint(const Project& project, const HintOptions& options) {
     now = options.again ? before : std::min(before + 1, all);
     shownSoFar = now;
   });
-  if (!options.again) now = std::max(now, 1);  // also where nothing can be remembered
+  if (!options.again) now = std::max(now, 1);  // also if progress cannot be stored
   say(paint(Colour::kBold, fmt::format("{} [{}]", part.title, part.id)));
   if (options.again && now == 0) say("  no hint was shown yet");
-  // Those that were shown already only if there is no new one, or on request.
+  // Hints that were shown before are repeated only on request or if there is no new one.
   for (int number = now > before ? now : 1; number <= now; ++number) sayHint(part, number);
   if (now == all)
     say("  That was the last hint for this part.");
   else if (!kept)
-    say(fmt::format("  {} more in {}, as they cannot be counted here", all - now,
+    say(fmt::format("  {} more in {} (progress cannot be stored here)", all - now,
                     shown(exercise.folder / "exercise.toml")));
   else
     say(fmt::format("  {} more: scripts/rex hint {} {}", all - now, exercise.name, part.id));
@@ -84,10 +84,10 @@ void addHint(CLI::App* command, Action& action) {
   const auto options = std::make_shared<HintOptions>();
   command->footer(
       "Examples:\n  scripts/rex hint 01\n  scripts/rex hint 01 step --again\n\n"
-      "Without PART, for the first part that lost points in your last test.");
+      "Without PART: a hint for the first part that lost points in your last test.");
   addExercise(command, options->exercise);
   command->add_option("PART", options->part, "id of a part in exercise.toml")->type_name("");
-  command->add_flag("--again", options->again, "show those that you have seen");
+  command->add_flag("--again", options->again, "show the hints that you have already seen");
   command->callback(
       [&action, options] { action = [options](const Project& p) { return hint(p, *options); }; });
 }

@@ -23,7 +23,7 @@ bool isExercise(const Project& project, const std::string& name) {
   return std::ranges::any_of(project.exercises(), [&](const ExerciseInfo& one) { return one.name == name; });
 }
 
-// Whether it is the file that students of an exercise edit.
+// Whether it is an exercise's main.cpp, which students edit.
 bool isMainOfExercise(const Project& project, const fs::path& file) {
   std::error_code ignored;
   return file.filename() == "main.cpp" &&
@@ -53,7 +53,7 @@ std::variant<fs::path, ExerciseInfo> programMeant(const Project& project, const 
     if (!isMainOfExercise(project, whole)) return whole;
     return project.exercise(whole.parent_path().filename().string());
   }
-  // As a name is completed in the folder of all exercises: 01-kinematics/main.cpp.
+  // A name completed by the shell in the folder of all exercises: 01-kinematics/main.cpp.
   const std::string name = file.parent_path().filename().string();
   if (file.filename() == "main.cpp" && isExercise(project, name)) return project.exercise(argument);
   failWithoutFile(file);
@@ -63,9 +63,9 @@ fs::path outFolderOf(const Project& project, const fs::path& file) {
   const std::string name =
       file.filename() == "main.cpp" ? file.parent_path().filename().string() : file.stem().string();
   if (isExercise(project, name))
-    throw UsageError(
-        {.what = fmt::format("the results of '{}' would go to those of the exercise {}", shown(file), name),
-         .wanted = "another folder for them: -o DIR"});
+    throw UsageError({.what = fmt::format("the results of '{}' would mix with those of the exercise {}",
+                                          shown(file), name),
+                      .wanted = "another folder for them: -o DIR"});
   return project.root / "out" / name;
 }
 
@@ -84,7 +84,7 @@ std::optional<fs::path> buildOwnProgram(const Project& project, const fs::path& 
     if (!table.ok())
       throw Error({.what = "cannot list what the compiled file refers to", .found = table.error});
     auto files = grading::dependenciesIn(readTextFile(workFolder / "student.d"), workFolder);
-    // The compiler does not list what it has precompiled.
+    // The compiler does not list the files of its precompiled prefix.
     if (hasPrefix)
       std::ranges::copy(grading::dependenciesIn(readTextFile(toolchain.prefix.string() + ".d"), workFolder),
                         std::back_inserter(files));

@@ -13,7 +13,7 @@
 namespace rex::cli {
 namespace {
 
-// main.cpp differs from what was tested last.
+// Whether main.cpp differs from what was tested last.
 bool isEdited(const ExerciseInfo& exercise, const Progress& progress) {
   try {
     return sha256(grading::readStudentFile(exercise.folder / "main.cpp")) != progress.fileSha256;
@@ -33,7 +33,7 @@ std::string lineOf(const ExerciseInfo& exercise, const Progress& progress, std::
   return line;
 }
 
-// What was begun last and is not solved comes first, then the first that nobody solved.
+// The exercise tested last if it is not solved, else the first unsolved one.
 const ExerciseInfo* nextOf(const std::vector<ExerciseInfo>& exercises, const AllProgress& all) {
   const auto isOpen = [&](const ExerciseInfo& exercise) {
     const auto found = all.exercises.find(exercise.name);

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kSchema = "rex-progress/1";
 
-// While it lives, no other program changes the file. Where the file system has no locks, nobody waits.
+// Keeps other programs from changing the file. If the file system has no locks, nobody waits.
 class Lock {
  public:
   explicit Lock(const fs::path& file) : fd_(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644)) {
@@ -53,7 +53,7 @@ void putInto(Json& entry, const Progress& progress) {
   if (!progress.hints.empty()) entry["hints"] = progress.hints;
 }
 
-// Throws a Json::exception for what is no such text.
+// Throws a Json::exception if it is not a progress file.
 AllProgress allProgressOf(const Json& json) {
   AllProgress all{.last = json.value("last", "")};
   for (const auto& [name, entry] : json.at("exercises").items()) all.exercises[name] = progressOf(entry);
@@ -71,17 +71,17 @@ bool isSound(const Json& json) {
   }
 }
 
-// Nothing is lost: somebody may still mend it.
+// The broken file is kept, as somebody may still repair it.
 void moveAside(const fs::path& file) {
   fs::path aside;
   for (int k = 1; k == 1 || fs::exists(aside); ++k) aside = fmt::format("{}.broken-{}", file.string(), k);
   fs::rename(file, aside);
-  note(wrap(fmt::format("rex: {} cannot be understood and is now {}; progress is counted anew", file.string(),
-                        aside.filename().string()),
+  note(wrap(fmt::format("rex: {} cannot be understood and is now {}; progress starts from zero",
+                        file.string(), aside.filename().string()),
             2, 0));
 }
 
-// Under the lock. What cannot be read at all is an Error and stays where it is.
+// Call under the lock. Throws Error if the file cannot be read at all, and leaves it in place.
 Json load(const fs::path& file) {
   if (!fs::exists(file)) return emptyFile();
   Json json = Json::parse(readTextFile(file), nullptr, false);

@@ -21,7 +21,7 @@ struct ReportOptions {
   std::filesystem::path out;  ///< empty: the standard output
 };
 
-// Writes a result file in the words of another program. kGraderFault if that is what it reports.
+// Converts a result file to the format of another program. kGraderFault if the result is a grader fault.
 ExitCode report(const ReportOptions& options) {
   const grading::ReportFormat& format = reportFormat(options.format, "--format");
   const grading::GradeResult result = grading::loadResult(options.results);
@@ -45,7 +45,7 @@ void addReport(CLI::App* command, Action& action) {
   command->add_option("RESULTS", options->results, "a result file that rex test left")
       ->type_name("")
       ->required();
-  command->add_option("--format", options->format, "whose words")->type_name("NAME")->required();
+  command->add_option("--format", options->format, "format to write")->type_name("NAME")->required();
   command->add_option("-o,--out", options->out, "file to write (default: print)")->type_name("FILE");
   command->callback([&action, options] { action = [options](const Project&) { return report(*options); }; });
 }

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// main.cpp as students got it: a release keeps a copy, the course makes it from the solution.
+// main.cpp as handed out: a release keeps a copy, the course makes it from the solution.
 std::string starterOf(const ExerciseInfo& exercise) {
   const fs::path copy = exercise.folder / "starter.cpp", solution = exercise.folder / "solution.cpp";
   if (fs::exists(copy)) return readTextFile(copy);
@@ -27,8 +27,8 @@ std::string starterOf(const ExerciseInfo& exercise) {
                     .where = {copy.string()}});
 }
 
-// Under a name that nobody has taken: a second name of the same file, which cannot be lost half way. Where
-// the file system knows none, a copy that lies on the disk before we go on.
+// Keeps the file under an unused name. A hard link cannot be lost half way; if the file system has no hard
+// links, a copy is written to disk first.
 fs::path keepBackup(const fs::path& main) {
   for (int k = 1;; ++k) {
     const fs::path backup = main.parent_path() / fmt::format("main.backup-{}.cpp", k);
@@ -41,7 +41,7 @@ fs::path keepBackup(const fs::path& main) {
   }
 }
 
-// A backup of a file that stays would change with it.
+// Removes the backup if replacing fails: a hard link to main.cpp would change with it.
 void replaceAndKeep(const fs::path& main, const std::string& starter) {
   const fs::path backup = keepBackup(main);
   try {
@@ -51,7 +51,7 @@ void replaceAndKeep(const fs::path& main, const std::string& starter) {
     fs::remove(backup, ignored);
     throw;
   }
-  say(fmt::format("Your file is kept as {}.", shown(backup)));
+  say(fmt::format("Your file was kept as {}.", shown(backup)));
 }
 
 }  // namespace
@@ -75,7 +75,7 @@ ExitCode reset(const Project& project, const std::string& name) {
 
 void addReset(CLI::App* command, Action& action) {
   const auto name = std::make_shared<std::string>();
-  command->footer("Example: scripts/rex reset 01\n\nYour file is kept beside it as main.backup-1.cpp.");
+  command->footer("Example: scripts/rex reset 01\n\nYour file is kept next to it as main.backup-1.cpp.");
   addExercise(command, *name);
   command->callback([&action, name] { action = [name](const Project& p) { return reset(p, *name); }; });
 }

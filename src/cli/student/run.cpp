@@ -28,16 +28,16 @@ struct RunOptions {
   std::string program;  ///< an exercise, or a file
   bool solution = false;
   std::filesystem::path out;           ///< empty: out/EXERCISE, out/EXERCISE-solution or out/FILE
-  std::vector<std::string> arguments;  ///< for a program of one's own
+  std::vector<std::string> arguments;  ///< for the user's own program
 };
 
 void listResults(const fs::path& folder) {
   const std::vector<std::string> files = shortList(filesIn(folder));
-  if (!files.empty()) say("\nWhat lies in " + shown(folder) + ":");
+  if (!files.empty()) say("\nFiles in " + shown(folder) + ":");
   for (const std::string& line : files) say("  " + line);
 }
 
-// Waits for the program, which works in `out`; `help` is for one that crashes.
+// Runs the program in `out` and waits for it; prints `help` if it crashes.
 ExitCode runIn(const fs::path& out, std::vector<std::string> command, const std::string& help) {
   std::fflush(stdout);
   constexpr double kNoTimeout = 1e6;
@@ -94,15 +94,16 @@ void addRun(CLI::App* command, Action& action) {
   command->footer(
       "Examples:\n  scripts/rex run 01\n  scripts/rex run 01 --solution -o /tmp/look\n"
       "  scripts/rex run share/examples/reach.cpp\n\n"
-      "A .cpp file of your own may lie anywhere. It may use headers beside it and all of the\n"
-      "library, whose parts are built as it includes them; what follows `--` are its arguments.\n"
+      "Your own .cpp file may be anywhere. It may use headers next to it and the whole library,\n"
+      "whose parts are built when it includes them. What follows `--` are its arguments.\n"
       "Its results go to out/NAME, those of FOLDER/main.cpp to out/FOLDER. The program runs\n"
-      "inside that folder; frames and plots land there.");
+      "in that folder, where frames and plots end up.");
   command
       ->add_option("PROGRAM", options->program, "an exercise (01, kinematics, 01-kinematics) or a .cpp file")
       ->type_name("")
       ->required();
-  command->add_option("ARGUMENTS", options->arguments, "of your own program, after --")->type_name("");
+  command->add_option("ARGUMENTS", options->arguments, "arguments of your own program, after --")
+      ->type_name("");
   command->add_flag("--solution", options->solution, "run the reference solution instead of main.cpp");
   command->add_option("-o,--out", options->out, kOutHelp)->type_name("DIR");
   command->callback(

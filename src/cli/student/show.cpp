@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// RFC 3986: all but letters, digits and a few signs is written as % and two digits.
+// RFC 3986: all characters but letters, digits and a few signs are written as % and two digits.
 std::string urlOf(const fs::path& file) {
   constexpr std::string_view kPlain = "-._~/";
   std::string url = "file://";
@@ -56,7 +56,7 @@ void addShow(CLI::App* command, Action& action) {
   const auto options = std::make_shared<ShowOptions>();
   command->footer("Example: scripts/rex show 01");
   addExercise(command, options->exercise);
-  command->add_flag("--solution", options->solution, "those of the reference solution");
+  command->add_flag("--solution", options->solution, "files of the reference solution");
   command->callback(
       [&action, options] { action = [options](const Project& p) { return show(p, *options); }; });
 }

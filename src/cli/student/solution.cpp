@@ -17,7 +17,7 @@ namespace {
 
 using grading::SolutionRule;
 
-// Prints the reference solution where the course allows it. kBelow if the exercise must be solved first.
+// Prints the reference solution if the course allows it. kBelow if the exercise must be solved first.
 ExitCode solution(const Project& project, const std::string& name) {
   const ExerciseInfo exercise = project.exercise(name);
   if (exercise.solution == SolutionRule::kNever)
@@ -28,8 +28,8 @@ ExitCode solution(const Project& project, const std::string& name) {
   const bool isSolved = found != all.exercises.end() && found->second.solved;
   if (exercise.solution == SolutionRule::kAfterPass && !isSolved) {
     note(wrap(
-        fmt::format("The solution of {} is shown once `scripts/rex test {}` gave you the full score. Until "
-                    "then: scripts/rex hint {}",
+        fmt::format("The solution of {} is shown once `scripts/rex test {}` has given you the full score. "
+                    "Until then: scripts/rex hint {}",
                     exercise.name, exercise.name, exercise.name),
         0, 0));
     return ExitCode::kBelow;

@@ -15,7 +15,7 @@ using grading::CompileDiagnostic;
 
 namespace {
 
-// The compiler counts columns with tabs of eight.
+// The compiler counts columns with tab stops every eight.
 std::string expandTabs(const std::string& line) {
   std::string expanded;
   for (const char c : line) {
@@ -43,7 +43,7 @@ std::filesystem::path chooseStudentFile(const ExerciseInfo& exercise, bool solut
   const std::filesystem::path file = exercise.folder / (solution ? "solution.cpp" : "main.cpp");
   if (solution && !std::filesystem::exists(file))
     throw UsageError(
-        {.what = fmt::format("{} comes without a solution here", exercise.name), .where = {file.string()}});
+        {.what = fmt::format("{} has no solution here", exercise.name), .where = {file.string()}});
   return file;
 }
 
@@ -74,7 +74,7 @@ std::optional<std::filesystem::path> buildProgram(
     const std::filesystem::path& out,
     const std::function<void(const grading::StudentObject& object)>& beforeLinking) {
   const std::filesystem::path log = out / "build.log";
-  // Trying things out is free: only grading looks for forbidden calls.
+  // Students may try anything here: only grading looks for forbidden calls.
   const grading::StudentObject object = compileStudent(toolchain, {}, options);
   writeTextFile(log, object.log);
   if (!object.ok) {

@@ -26,7 +26,7 @@ struct SubmitOptions {
   std::filesystem::path out = "handin.zip";
 };
 
-// One file that is handed in. What else lies in the exercise's folder stays at home.
+// One file that is handed in. Other files in the exercise's folder are not.
 struct HandedIn {
   ExerciseInfo exercise;
   std::string name;  // in the zip
@@ -61,7 +61,7 @@ void warnUnlessTested(const HandedIn& file, const AllProgress& all) {
             2, 0));
 }
 
-// Writes the zip file to hand in: EXERCISE/main.cpp of each, and receipt.json.
+// Writes the zip file to hand in: EXERCISE/main.cpp of each exercise, and receipt.json.
 ExitCode submit(const Project& project, const SubmitOptions& options) {
   if (options.out.extension() != ".zip")
     throw UsageError(
@@ -99,7 +99,7 @@ void addSubmit(CLI::App* command, Action& action) {
   const auto options = std::make_shared<SubmitOptions>();
   command->footer(
       "Examples:\n  scripts/rex submit 01\n  scripts/rex submit 01 02 -o handin.zip\n\n"
-      "It holds EXERCISE/main.cpp of each, nothing else of yours, and receipt.json with\n"
+      "The zip holds EXERCISE/main.cpp of each, nothing else of yours, and receipt.json with\n"
       "the SHA-256 hash of every file.");
   command->add_option("EXERCISE", options->exercises, kExercisesHelp)->type_name("")->required();
   command->add_option("-o,--out", options->out, "file to write (default: handin.zip)")->type_name("FILE.zip");

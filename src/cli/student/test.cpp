@@ -18,11 +18,11 @@ namespace {
 struct TestCommand {
   std::vector<std::string> exercises;
   bool all = false;  ///< instead of those
-  int jobs = 0;      ///< gradings at once; 0: one per processor
+  int jobs = 0;      ///< parallel gradings; 0: one per processor
   TestOptions each;
 };
 
-// Each once, in the order asked for.
+// The exercises, each once, in the given order.
 std::vector<ExerciseInfo> exercisesOf(const Project& project, const TestCommand& words) {
   if (words.all) return project.exercises();
   std::vector<ExerciseInfo> chosen;
@@ -45,7 +45,9 @@ ExitCode test(const Project& project, const TestCommand& words) {
 void addSeveral(CLI::App* command, TestCommand& words) {
   command->add_option("EXERCISE", words.exercises, kExercisesHelp)->type_name("");
   command->add_flag("--all", words.all, "all exercises");
-  command->add_option("-j,--jobs", words.jobs, "of several, so many at once (default: one per processor)")
+  command
+      ->add_option("-j,--jobs", words.jobs,
+                   "parallel gradings of several exercises (default: one per processor)")
       ->check(CLI::Range(1, 1024).description(""))
       ->type_name("N");
 }
@@ -60,7 +62,7 @@ void addTest(CLI::App* command, Action& action) {
       "  scripts/rex test 01 --main /tmp/other.cpp --json\n  scripts/rex test 01 02 -j2\n"
       "  scripts/rex test --all\n\n"
       "The result file is results.json, results-partial.json with --check, or\n"
-      "results-debug.json with --debug. Of several exercises -o DIR gets DIR/EXERCISE,\n"
+      "results-debug.json with --debug. For several exercises -o DIR means DIR/EXERCISE,\n"
       "--json is {\"schema\": \"rex-results/1\", \"results\": [...]}, and the exit code is\n"
       "the largest of theirs.\n" +
       std::string(kExitCodesHelp));
@@ -72,7 +74,7 @@ void addTest(CLI::App* command, Action& action) {
       ->type_name("NAME");
   addSeed(command, options->job.seed, "repeat the random cases of this seed");
   command->add_flag("--json", options->json, "print the result file and nothing else");
-  command->add_flag("--debug", options->debug, "with the sanitizers: slow, names the lines of crashes");
+  command->add_flag("--debug", options->debug, "use sanitizers: slow, but names the lines of crashes");
   command->add_option("-o,--out", options->out, kOutHelp)->type_name("DIR");
   addLevel(command, options->level);
   command
@@ -83,7 +85,7 @@ void addTest(CLI::App* command, Action& action) {
     const TestOptions& each = words->each;
     if (words->exercises.empty() != words->all) throw CLI::RequiredError("either EXERCISE or --all");
     if (each.solution && !each.main.empty()) throw CLI::ExcludesError("--main", "--solution");
-    // The sanitizers read and map what a sandbox forbids.
+    // The sanitizers read and map memory in ways that a sandbox forbids.
     if (each.debug && isConfined(each.level.value_or(sandbox::Level::kLimitsOnly)))
       throw CLI::ExcludesError("--debug", "--level");
     action = [words](const Project& p) { return test(p, *words); };

@@ -31,12 +31,12 @@ void requireOptionsOfMany(const TestOptions& options) {
   for (const auto& [name, isGiven] :
        {std::pair{"--main", !options.main.empty()}, {"--check", !options.job.checks.empty()}})
     if (isGiven)
-      throw UsageError({.what = name, .found = "several exercises", .wanted = "one, which it belongs to"});
+      throw UsageError({.what = name, .found = "several exercises", .wanted = "only one exercise"});
 }
 
 fs::path sourceIn(const TestRun& run) { return run.folder() / "graded.cpp"; }
 
-// In a process of its own. What goes wrong costs this exercise alone, and leaves no graded.cpp.
+// Runs in its own process, so that a failure affects this exercise alone and leaves no graded.cpp.
 int gradeApart(const TestRun& run, const sandbox::Sandbox& sandbox) {
   try {
     writeTextFile(sourceIn(run), run.grade(sandbox).source);
@@ -47,7 +47,7 @@ int gradeApart(const TestRun& run, const sandbox::Sandbox& sandbox) {
   }
 }
 
-// What the process left; a fault of the grader if it did not come to its end.
+// The files that the process left; a fault of the grader if it did not finish.
 Submission collect(const TestRun& run, int code) {
   if (code == 0) return {grading::loadResult(run.ownResults()), readTextFile(sourceIn(run))};
   GradeResult broken;
@@ -58,7 +58,7 @@ Submission collect(const TestRun& run, int code) {
   return {broken, ""};
 }
 
-// Where the grader does not build, nothing of it ran.
+// The result if the grader does not build.
 GradeResult blocked(const ExerciseInfo& exercise) {
   GradeResult result;
   result.exerciseId = exercise.name;
@@ -67,7 +67,7 @@ GradeResult blocked(const ExerciseInfo& exercise) {
   return result;
 }
 
-/// The exercises and what came out of those that have ended.
+/// The exercises, and the results of those that have finished.
 class TestMany {
  public:
   TestMany(const Project& project, const std::vector<ExerciseInfo>& exercises, const TestOptions& each)
@@ -111,7 +111,7 @@ class TestMany {
     std::string line =
         fmt::format("{} of {} exercises in full, {} of {} points", full, all.size(), points, maxPoints);
     if (refused > 0) line += fmt::format("; {} cannot be graded", refused);
-    if (faults > 0) line += fmt::format("; {} met a fault of the grader", faults);
+    if (faults > 0) line += fmt::format("; {} hit a grader fault", faults);
     say(paint(full == static_cast<int>(all.size()) ? Colour::kGreen : Colour::kBold, line));
   }
 
@@ -122,7 +122,7 @@ class TestMany {
     say(Json{{"schema", "rex-results/1"}, {"results", list}}.dump(2));
   }
 
-  // The codes of one exercise grow as things get worse.
+  // Exit codes grow with severity.
   ExitCode worst() const {
     ExitCode code = ExitCode::kFull;
     for (const GradeResult& result : results()) code = std::max(code, exitCodeOf(result));
@@ -136,7 +136,7 @@ class TestMany {
     ++ended_;
   }
 
-  // Those that all before them let through.
+  // Prints in order: those that are finished and have no unfinished one before them.
   void printThoseReady() {
     for (std::size_t k = printed_; k < runs_.size() && graded_[k]; printed_ = ++k) {
       runs_[k].print(*graded_[k]);
@@ -145,7 +145,7 @@ class TestMany {
     }
   }
 
-  // After all have ended. What does not compile has no points to reach in its result.
+  // Call when all have finished. The result of a file that does not compile has no maximum of points.
   std::vector<GradeResult> results() const {
     std::vector<GradeResult> all = blocked_;
     for (std::size_t k = 0; k < runs_.size(); ++k) {
@@ -155,7 +155,7 @@ class TestMany {
     return all;
   }
 
-  // Called from a thread of its own.
+  // Called from another thread.
   std::string stage() const {
     const std::size_t next = printed_;
     return fmt::format("{} of {} graded; {}", ended_.load(), runs_.size(),
@@ -164,7 +164,7 @@ class TestMany {
 
   const Project& project_;
   bool asJson_;
-  std::deque<TestRun> runs_;          // a private folder stays where it is
+  std::deque<TestRun> runs_;          // a deque, as a TestRun cannot move its private folder
   std::vector<GradeResult> blocked_;  // of those whose grader does not build
   std::vector<std::optional<Submission>> graded_;
   std::atomic<std::size_t> ended_ = 0, printed_ = 0;

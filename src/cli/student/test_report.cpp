@@ -18,7 +18,7 @@ using grading::CheckResult;
 using grading::Group;
 using grading::Outcome;
 
-constexpr std::size_t kIndent = 13;  // where titles begin, below each other
+constexpr std::size_t kIndent = 13;  // the column at which titles begin
 
 std::string verdict(const CheckResult& check) {
   if (!check.status) return paint(Colour::kYellow, " -  ");
@@ -30,22 +30,22 @@ void sayIndented(const std::string& text) {
   say(std::string(kIndent, ' ') + wrap(harmless(text), kIndent, kIndent));
 }
 
-// How near to its limit a check came that passed.
+// How close a passed check came to its limit.
 std::string marginOf(const CheckResult& check) {
   const auto& worst = check.worst;
   if (check.status != Outcome::kPass || worst.property.empty()) return "";
   return fmt::format(": worst {}, limit {}", worst.value, worst.limit);
 }
 
-// Code is not wrapped, as that would change its look.
+// Code is cut, not wrapped, to keep its layout.
 std::string cut(const std::string& code, std::size_t columns) {
   if (code.size() <= columns) return code;
   std::size_t end = columns - 4;
-  while (end > 0 && (code[end] & 0xc0) == 0x80) --end;  // not within a letter
+  while (end > 0 && (code[end] & 0xc0) == 0x80) --end;  // not within a UTF-8 character
   return code.substr(0, end) + " ...";
 }
 
-// The line of the student's file where it happened.
+// Prints the line of the student's file where it happened.
 void sayPlace(const CheckResult& check, const grading::Submission& graded) {
   if (check.line == 0 || graded.result.files.empty()) return;
   constexpr std::size_t kColumns = 80, kLeast = 30;
@@ -89,7 +89,7 @@ void printChecks(const ExerciseInfo& exercise, const grading::Submission& graded
   }
 }
 
-// Checks that ended badly, while the others were graded all the same.
+// Says that the other checks were graded although some ended badly.
 void sayIfSomeEndedBadly(const std::vector<CheckResult>& checks) {
   const auto endedBadly = [](const CheckResult& check) {
     return check.status && *check.status != Outcome::kPass && *check.status != Outcome::kFail;

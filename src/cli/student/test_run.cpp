@@ -22,7 +22,7 @@ using grading::Outcome;
 
 namespace {
 
-// What a whole grading found stays until the next one.
+// Results of some checks or a debug run do not overwrite those of a complete grading.
 const char* resultName(const TestOptions& options) {
   if (options.debug) return "results-debug.json";
   return options.job.checks.empty() ? "results.json" : "results-partial.json";
@@ -97,7 +97,7 @@ void TestRun::publish(const Project& project, const GradeResult& result) const {
 void TestRun::print(const grading::Submission& graded) const {
   printResult(exercise_, graded, results_, options_.job.checks.empty());
   if (options_.main.empty() && !fs::exists(file_))
-    say(fmt::format("To get it back as it was handed out: scripts/rex reset {}", exercise_.name));
+    say(fmt::format("To restore it as it was handed out: scripts/rex reset {}", exercise_.name));
 }
 
 ExitCode exitCodeOf(const GradeResult& result) {

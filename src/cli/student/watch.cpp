@@ -20,11 +20,11 @@ namespace {
 
 struct WatchOptions {
   std::string exercise;
-  bool poll = false;  ///< do not ask inotify
+  bool poll = false;  ///< do not use inotify
 };
 
-// Grades as `rex test` does, only `check` unless that is empty. A fault of the project is reported and may be
-// mended while we watch.
+// Grades like `rex test`, only `check` unless that is empty. Reports a fault of the project, which may be
+// repaired while watching.
 ExitCode gradeOnce(const Project& project, const std::string& name, const std::string& check) {
   const auto start = std::chrono::steady_clock::now();
   ExitCode code = ExitCode::kGraderFault;
@@ -50,13 +50,13 @@ std::string nextExercise(const Project& project, const std::string& name) {
   return "";
 }
 
-// Watches one exercise. The name of the next one to watch, or nothing at the end.
+// Watches one exercise. Returns the name of the next one to watch, or "" to end.
 std::string watchOne(const Project& project, const ExerciseInfo& exercise, FileWatcher::Method method,
                      const Keyboard& keyboard, ExitCode& code) {
   const std::filesystem::path main = exercise.folder / "main.cpp";
   FileWatcher watcher(main, method);
   WatchKeys keys(project, exercise, keyboard, watcher);
-  say(fmt::format("watching {} by {}; Ctrl-C ends this", shown(main), watcher.describe()));
+  say(fmt::format("watching {} by {}; press Ctrl-C to end", shown(main), watcher.describe()));
   std::fflush(stdout);
   for (;;) {
     code = gradeOnce(project, exercise.name, keys.check());
@@ -67,14 +67,14 @@ std::string watchOne(const Project& project, const ExerciseInfo& exercise, FileW
       if (wish == WatchKeys::Wish::kQuit) return "";
       if (wish == WatchKeys::Wish::kNext) return nextExercise(project, exercise.name);
     } else {
-      if (isSolved) return "";  // nobody could say so
+      if (isSolved) return "";  // there is no keyboard to quit with
       static_cast<void>(watcher.wait());
     }
     separate();
   }
 }
 
-// Grades now and after each save. Ends by itself only without a keyboard, at the full score.
+// Grades now and after each save. Without a keyboard it ends by itself at the full score.
 ExitCode watch(const Project& project, const WatchOptions& options) {
   const auto method = options.poll ? FileWatcher::Method::kPolling : FileWatcher::Method::kInotify;
   const Keyboard keyboard;
@@ -90,10 +90,10 @@ void addWatch(CLI::App* command, Action& action) {
   const auto options = std::make_shared<WatchOptions>();
   command->footer(
       "Example: scripts/rex watch 01\n\n"
-      "Notices saves by inotify, or by looking five times a second where that fails, and says\n"
-      "which. In a terminal single keys give hints and more; elsewhere it ends at the full score.");
+      "Notices saves by inotify, or by polling five times a second if that fails, and says which.\n"
+      "In a terminal single keys give hints and more; elsewhere it ends at the full score.");
   addExercise(command, options->exercise);
-  command->add_flag("--poll", options->poll, "look at the file, do not ask inotify");
+  command->add_flag("--poll", options->poll, "poll the file instead of using inotify");
   command->callback(
       [&action, options] { action = [options](const Project& p) { return watch(p, *options); }; });
 }

@@ -34,14 +34,14 @@ void WatchKeys::sayKeys(bool isSolved) const {
       "[q]uit");
 }
 
-// Nothing: the file was saved first.
+// Empty if the file was saved first.
 std::optional<char> WatchKeys::nextKey() {
   std::fflush(stdout);
   if (watcher_.wait(keyboard_.descriptor()) == FileWatcher::Event::kSaved) return {};
   return keyboard_.read();
 }
 
-// True: grade now.
+// Returns true if it is time to grade.
 bool WatchKeys::answer(char key) {
   switch (key) {
     case 'h':
@@ -84,7 +84,7 @@ bool WatchKeys::chooseCheck() {
   return true;
 }
 
-// Until Enter, shown while it is typed; empty after any other key. Nothing: the file was saved.
+// Reads and echoes digits until Enter; "" after any other key. Empty if the file was saved.
 std::optional<std::string> WatchKeys::readDigits() {
   constexpr std::size_t kMost = 3;
   std::string digits;
@@ -102,7 +102,7 @@ std::optional<std::string> WatchKeys::readDigits() {
 }
 
 bool WatchKeys::askAndReset() {
-  say(fmt::format("Start again with {} as it was handed out? Yours is kept beside it.",
+  say(fmt::format("Start again with {} as it was handed out? Yours is kept next to it.",
                   shown(exercise_.folder / "main.cpp")));
   fmt::print("[y]es, or any other key: ");
   const std::optional<char> key = nextKey();
