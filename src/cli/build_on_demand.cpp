@@ -42,14 +42,14 @@ std::optional<Steps> stepsIn(std::string_view line) {
 
 std::optional<Steps> lastSteps(std::string_view log) {
   while (!log.empty()) {
-    const std::size_t start = log.find_last_of('\n') + 1;  // 0 where there is none
+    const std::size_t start = log.find_last_of('\n') + 1;  // 0 if there is none
     if (const auto steps = stepsIn(log.substr(start))) return steps;
     log = log.substr(0, start == 0 ? 0 : start - 1);
   }
   return {};
 }
 
-// Nobody wants to know it more exactly than it is known.
+// Rounded, as the estimate is rough.
 std::string leftOf(double seconds) {
   if (seconds < 90) return fmt::format("about {:.0f} s left", 5 * std::max(1., std::round(seconds / 5)));
   return fmt::format("about {:.0f} min left", std::round(seconds / 60));
@@ -70,12 +70,12 @@ std::vector<std::string> ninja(const Project& project, const std::vector<std::st
 
 bool isUpToDate(const Project& project, const std::vector<std::string>& targets) {
   std::vector<std::string> command = ninja(project, targets);
-  command.emplace_back("-n");  // tells what would be done
+  command.emplace_back("-n");  // only says what would be done
   const ProcessResult told = runProcess(command, {.timeout = kNoTimeout});
   return told.ok() && told.output.find("no work to do") != std::string::npos;
 }
 
-// The shell passes no word of ours; it only lets us read the log while it grows.
+// The shell is only there to redirect the output, so that the log can be read while it grows.
 ProcessResult build(const Project& project, const std::vector<std::string>& targets, const fs::path& log) {
   std::vector<std::string> command = {"env",   "NINJA_STATUS=[%f/%t] ",           "sh",
                                       "-c",    R"(exec "$@" >"$0" 2>&1)",         log.string(),
@@ -110,7 +110,7 @@ std::string buildProgress(const std::string& what, std::string_view log, double 
   const std::optional<Steps> steps = lastSteps(log);
   if (!steps) return text;
   text += fmt::format(": {} %", 100 * steps->done / steps->all);
-  // The first steps tell little of the others.
+  // The first steps say little about the others.
   constexpr double kKnown = 3;
   const int left = steps->all - steps->done;
   if (steps->done > 0 && left > 0 && seconds >= kKnown) text += ", " + leftOf(seconds * left / steps->done);

@@ -44,7 +44,7 @@ const CLI::App* reached(const CLI::App* app) {
   return inner.empty() ? app : reached(inner.back());
 }
 
-// With the arguments that come before a subcommand: "rex scene FILE fk".
+// The name includes arguments that come before a subcommand: "rex scene FILE fk".
 std::string fullName(const CLI::App* app) {
   if (app->get_parent() == nullptr) return "rex";
   std::string name = fullName(app->get_parent()) + " " + app->get_name();
@@ -54,7 +54,7 @@ std::string fullName(const CLI::App* app) {
   return name;
 }
 
-// Unknown words are best answered with the nearest known ones.
+// Answers an unknown word with the nearest known ones.
 Action explainExtras(const CLI::App* command, const std::string& word) {
   std::vector<std::string> known;
   const bool isOption = word.starts_with("-");
@@ -71,7 +71,7 @@ Action explainExtras(const CLI::App* command, const std::string& word) {
   const std::string kind = isOption ? "option" : known.empty() ? "argument" : "command";
   const Error error({.what = fmt::format("{}: unknown {} '{}'", fullName(command), kind, harmless(word)),
                      .nearest = nearestNames(word, known)});
-  return complain(fmt::format("{}\n`{} --help` shows what there is.", error.what(), fullName(command)));
+  return complain(fmt::format("{}\n`{} --help` shows what is available.", error.what(), fullName(command)));
 }
 
 bool isFlag(const CLI::App* command, const std::string& name) {
@@ -81,7 +81,7 @@ bool isFlag(const CLI::App* command, const std::string& name) {
   return false;
 }
 
-// In our words what CLI11 says as "Could not convert: --margin = abc".
+// Rewords messages of CLI11 such as "Could not convert: --margin = abc".
 std::string reasonOf(const CLI::ParseError& error, const CLI::App* command) {
   const std::string text = error.what(), start = "Could not convert: ", sign = " = ";
   const std::size_t at = text.find(sign);
@@ -93,7 +93,7 @@ std::string reasonOf(const CLI::ParseError& error, const CLI::App* command) {
       .what();
 }
 
-// The commands of the other programs have names and purposes only; what follows them is not looked at.
+// Commands of the other programs have only names and purposes here; their arguments are not parsed.
 void addCommands(CLI::App& program, const Room& room, Action& action) {
   for (const TableEntry& entry : commandTable()) {
     CLI::App* command = program.add_subcommand(std::string(entry.name), std::string(entry.purpose));
@@ -106,7 +106,7 @@ void addCommands(CLI::App& program, const Room& room, Action& action) {
   }
 }
 
-// The program that knows what the arguments reached.
+// The program that has the command which the arguments reached.
 Program ownerOf(const CLI::App& program, Program here) {
   const std::vector<CLI::App*> chosen = program.get_subcommands();
   for (const TableEntry& entry : commandTable())
@@ -122,7 +122,7 @@ Action parse(CLI::App& program, int argc, const char* const* argv, const Action&
     return print(command->help(command == &program ? "" : fullName(command->get_parent())));
   } catch (const CLI::ParseError& error) {
     const CLI::App* command = reached(&program);
-    // A misspelt option may be the one that is missed: it comes first.
+    // Reports a misspelt option first, as it may be the one that is missing.
     if (const std::vector<std::string> unknown = program.remaining(true); !unknown.empty())
       return explainExtras(command, unknown.front());
     return complain(fmt::format("{0}: {1}\n`{0} --help` explains the options.", fullName(command),

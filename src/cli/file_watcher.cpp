@@ -24,7 +24,7 @@ constexpr int kSettled = 30;  // without a change: the editor is done
 FileWatcher::FileWatcher(std::filesystem::path file, Method method) : file_(std::move(file)), seen_(stamp()) {
   if (method == Method::kPolling) return;
   inotify_ = ::inotify_init1(IN_CLOEXEC | IN_NONBLOCK);
-  // The folder, for editors put a new file in the place of the old one.
+  // Watches the folder, because editors replace the file by a new one.
   const auto folder = file_.has_parent_path() ? file_.parent_path() : std::filesystem::path(".");
   if (inotify_ >= 0 && ::inotify_add_watch(inotify_, folder.c_str(),
                                            IN_CLOSE_WRITE | IN_MOVED_TO | IN_MODIFY | IN_CREATE) >= 0)
@@ -70,7 +70,7 @@ FileWatcher::Event FileWatcher::wait(int keys) {
         return Event::kSaved;
       }
     }
-    // Negative descriptors are passed over.
+    // poll() ignores negative descriptors.
     std::array<pollfd, 2> polled{{{inotify_, POLLIN, 0}, {keys, POLLIN, 0}}};
     ::poll(polled.data(), polled.size(), kPeriod);
     if ((polled[1].revents & (POLLIN | POLLHUP)) != 0) return Event::kKey;

@@ -23,7 +23,7 @@ void becomeProgram(const Project& project, Program program, std::vector<std::str
   arguments.push_back(nullptr);
   std::fflush(nullptr);
   const sigset_t held = stopSignals();
-  ::sigprocmask(SIG_UNBLOCK, &held, nullptr);  // what is held back here would stay so there
+  ::sigprocmask(SIG_UNBLOCK, &held, nullptr);  // signals blocked here would stay blocked there
   ::execv(file.c_str(), arguments.data());
   throw Error({.what = "cannot start a part of rex",
                .where = {file},

@@ -11,7 +11,7 @@
 namespace rex::cli {
 namespace {
 
-// The words of one field, between commas.
+// The words of one field between commas.
 std::vector<std::string> wordsOf(const std::string& field) {
   std::istringstream input(field);
   return {std::istream_iterator<std::string>(input), {}};

@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-// A line that is too long for the terminal could not be taken back.
+// A line that is too long for the terminal could not be erased.
 std::size_t width() {
   constexpr std::size_t kLongest = 78;
   winsize size{};
@@ -23,7 +23,7 @@ std::size_t width() {
   return isKnown ? std::min(kLongest, static_cast<std::size_t>(size.ws_col - 1)) : kLongest;
 }
 
-// Blanks, for terminals that know no escape sequences.
+// Overwrites with blanks, for terminals without escape sequences.
 void erase() { fmt::print(stderr, "\r{:{}}\r", "", width()); }
 
 }  // namespace

@@ -12,7 +12,7 @@ std::vector<ExerciseInfo> Project::exercises() const {
 
 ExerciseInfo Project::exercise(std::string_view name) const {
   while (name.ends_with('/')) name.remove_suffix(1);
-  // What completing a path in a shell gives.
+  // Accepts what a shell makes of a completed path.
   if (name.ends_with("/main.cpp")) name.remove_suffix(std::string_view("/main.cpp").size());
   for (const std::string_view folder : {"./", "exercises/"})
     if (name.starts_with(folder)) name.remove_prefix(folder.size());

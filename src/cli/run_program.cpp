@@ -13,7 +13,7 @@ int runProgram(int argc, const char* const* argv, const Project& project, const 
     const HeldSignals held;
     return runCommandLine(argc, argv, project, room);
   } catch (const Interrupted& stop) {
-    // Everything is tidied up: now end as the sender of the signal wants, but lose no text.
+    // All is cleaned up. Flush the output, then end by the signal, as its sender wants.
     std::fflush(nullptr);
     return std::raise(stop.signal);
   }

@@ -20,7 +20,7 @@ std::size_t columns(std::string_view text) {
       std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
 }
 
-// As no-color.org asks, and for terminals that would show the codes.
+// No colours if NO_COLOR is set (no-color.org), nor in terminals that would print the codes.
 bool wantsColour() {
   const char* refused = std::getenv("NO_COLOR");
   const char* kind = std::getenv("TERM");

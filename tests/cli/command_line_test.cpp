@@ -125,7 +125,8 @@ TEST(Program, ExplainsWrongUse) {
   expectUsageError({"test", "01", "--debug", "--level", "1"}, "--debug excludes --level");
   expectUsageError({"dev", "check", "--seeds", "0"}, "rex dev check: --seeds");
   expectUsageError({"dev", "strip"}, "EXERCISE is required");
-  expectUsageError({"dev", "strip", "--release"}, "is made by: scripts/rex dev release DIR");
+  expectUsageError({"dev", "strip", "--release"},
+                   "to make the student release, use: scripts/rex dev release DIR");
   expectUsageError({"dev", "release"}, "DIR is required");
   expectUsageError({"dev", "stats"}, "DIR is required");
   expectUsageError({"test", "no-such-exercise"}, "no exercise is called 'no-such-exercise'");

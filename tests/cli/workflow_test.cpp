@@ -220,7 +220,7 @@ TEST_F(WorkflowTest, NeedsTheSolutionWhereItIsAskedFor) {
        std::vector<std::vector<std::string>>{{"test", "98", "--solution"}, {"run", "98", "--solution"}}) {
     const Ended ended = rex(arguments);
     EXPECT_EQ(ended.code, 64);
-    EXPECT_THAT(flat(ended.error), HasSubstr("98-template comes without a solution here"));
+    EXPECT_THAT(flat(ended.error), HasSubstr("98-template has no solution here"));
   }
   EXPECT_THAT(flat(rex({"dev", "strip", "98"}).error), HasSubstr("there is no solution to strip"));
 }
@@ -309,7 +309,7 @@ TEST_F(WorkflowTest, SaysWhereTheReleaseOfEarlierVersionsWent) {
            {"dev", "strip", "--release", "-o", "students"}, {"dev", "strip", "-o", "students"}}) {
     const Ended ended = rex(arguments);
     EXPECT_EQ(ended.code, 64);
-    EXPECT_THAT(ended.error, HasSubstr("the student release is made by: scripts/rex dev release students"));
+    EXPECT_THAT(ended.error, HasSubstr("to make the student release, use: scripts/rex dev release students"));
   }
   EXPECT_THAT(rex({"dev", "strip"}).error, HasSubstr("EXERCISE is required"));
 }
