@@ -134,8 +134,8 @@ int logStride(const Model& model, const SimulationPlan& plan, const SimulateOpti
   const double numbers = (4.0 + model.nq() + model.nv()) * plan.steps;
   const int stride = 1 + static_cast<int>(numbers / kMostLogged);
   if (stride > 1 && !isPage(options))
-    note(
-        fmt::format("the log has every {}th step, to stay below 200 MB; --log-every overrides this", stride));
+    note(fmt::format("the log keeps one step in {}, to stay below 200 MB; --log-every overrides this",
+                     stride));
   return stride;
 }
 

@@ -168,7 +168,7 @@ TEST_F(RunFile, AnswersWrongUse) {
               "(did you mean 'try.cpp'?)");
   fs::create_directories(in("folder.cpp"));
   expectUsage({in("folder.cpp")}, "found a folder or device");
-  expectUsage({in("98-template.cpp")}, "to those of the exercise 98-template: wanted another folder");
+  expectUsage({in("98-template.cpp")}, "with those of the exercise 98-template: wanted another folder");
   expectUsage({in("try.cpp"), "--solution"}, "--solution: found ");
   expectUsage({"98", "more"}, "rex run: unknown argument 'more'");
   EXPECT_EQ(rex({"run", in("98-template.cpp"), "-o", in("there")}).code, 0);
