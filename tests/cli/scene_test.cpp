@@ -216,7 +216,7 @@ TEST_F(SceneCommand, ContactsRefuseWhatHasNoMeaning) {
   expectRefusal({"--samples", "10"}, "--samples requires --never");
   expectRefusal({"--pairs", "--never"}, "--pairs excludes --never");
   expectRefusal({"--pairs", "--srdf", "a.srdf"},
-                "--srdf: found an .ors file, wanted a .urdf file; in .ors, statements 'collisions' say it");
+                "--srdf: found an .ors file, wanted a .urdf file; in .ors, use statements 'collisions'");
 }
 
 TEST_F(SceneCommand, ContactsAlignForPeople) {
@@ -488,9 +488,9 @@ TEST_F(SceneCommand, SaysWhatIsUsedWrongly) {
   std::ofstream(in("m.xml")) << "<mujoco><worldbody><body name='a'/></worldbody></mujoco>";
   EXPECT_EQ(scene({"m.xml", "check"}).exitCode, 0);
   expectRefusal({"m.xml", "fk", "--free-base"},
-                "--free-base: found an .xml file, wanted a .urdf file; in MJCF, a <freejoint/> says it");
+                "--free-base: found an .xml file, wanted a .urdf file; in MJCF, use <freejoint/>");
   expectRefusal({"m.xml", "fk", "--srdf", "m.srdf"},
-                "--srdf: found an .xml file, wanted a .urdf file; in MJCF, <contact> says it");
+                "--srdf: found an .xml file, wanted a .urdf file; in MJCF, use <contact>");
   expectRefusal({"arm.ors", "contacts", "--margin", "abc"},
                 "contacts: --margin: found 'abc', wanted a number");
   expectRefusal({"arm.ors", "--json=abc"}, "rex scene FILE: --json: found 'abc', wanted no value");

@@ -34,7 +34,7 @@ void sayChecks(const ExerciseStatistics& all) {
   for (const CheckStatistics& check : all.checks) {
     if (check.failed == 0) continue;
     const std::string mark = check.group == grading::Group::kHidden ? ", hidden" : "";
-    const std::string text = fmt::format("{} failed of {}: {} [{}{}]: {}", check.failed, all.graded,
+    const std::string text = fmt::format("{} of {} failed: {} [{}{}]: {}", check.failed, all.graded,
                                          harmless(check.title), harmless(check.id), mark, classesOf(check));
     say("  " + wrap(text, 6, 6));
   }

@@ -86,9 +86,9 @@ bool isClear(const FoundPaths& found, double margin) {
   };
   if (all(&ClearanceBounds::atLeast)) return true;
   note(all(&ClearanceBounds::atMost)
-           ? "it is not proven that shapes stay apart between the postures that were checked: give a larger "
+           ? "it is not proven that shapes stay apart between the postures that were checked: use a larger "
              "--margin"
-           : "shapes overlap between the postures that were checked: give a finer --resolution or a larger "
+           : "shapes overlap between the postures that were checked: use a finer --resolution or a larger "
              "--margin");
   return false;
 }
@@ -134,7 +134,7 @@ void addPlan(CLI::App* command, Action& action) {
       "turn the shorter way round. The motion is the fastest within the limits of the scene.\n"
       "DIR gets path.csv (time and joints; `rex render --motion` reads it), tree.png (what was explored),\n"
       "path.mp4 and path.html (a replay).\n"
-      "Exit codes: 0 found a path, 1 found none, or one with collisions, 64 wrong use.");
+      "Exit codes: 0 found a path, 1 found none or one not proven clear, 64 wrong use.");
   addSceneFile(command, "SCENE", options->scene.file);
   command->add_option("-o,--out", options->out, "folder for the results")->type_name("DIR")->required();
   command->add_option("--start", options->start, "all numbers, joint=number,..., 0, or file (default: file)")
@@ -179,7 +179,7 @@ void addPlan(CLI::App* command, Action& action) {
       ->add_option("--body", options->body,
                    "draw the paths of this body (default: the one moved by most joints)")
       ->type_name("NAME");
-  command->add_flag("--no-film", options->noFilm, "no path.mp4 and path.html");
+  command->add_flag("--no-film", options->noFilm, "do not make path.mp4 and path.html");
   addFilmOptions(command, options->film);
   addJson(command, options->json);
   addReading(command, options->scene.reading);

@@ -176,7 +176,7 @@ class MotionReader {
     const std::string found = fmt::format("{} number{}", row.size(), row.size() == 1 ? "" : "s");
     if (firstLine_ == 0) {
       if (row.size() != nq_ && row.size() != nq_ + 1)
-        refuse(found, fmt::format("{} of a posture of {}, or a time before them", nq_, model_.name()));
+        refuse(found, fmt::format("{} for a posture of {}, or a time before these", nq_, model_.name()));
       columns_ = row.size();
       firstLine_ = where_.line;
     }

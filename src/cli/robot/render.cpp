@@ -112,8 +112,8 @@ void addRender(CLI::App* command, Action& action) {
       "  scripts/rex render man.ors --camera front --camera right --camera top -o views.png\n"
       "  scripts/rex render pegArm.ors --q 0,0,0 --q 0.5,-0.5,0.3 --trace peg -o swing.mp4\n"
       "  scripts/rex render man.ors --q 'upArmR>dnArmR=1.5' -o man.html\n\n"
-      "The ending of FILE says what is made: .png (of a motion its key frames); .mp4, .webm, .gif\n"
-      "(of one posture a walk around it); .glb; .html; or none for a folder of frames.\n"
+      "The ending of FILE says what is made: .png (for a motion, its key frames); .mp4, .webm,\n"
+      ".gif (for one posture, a walk around it); .glb; .html; or none for a folder of frames.\n"
       "The front of a robot is where it faces: -y in .ors files, +x in all others.");
   addSceneFile(command, "SCENE", options->scene.file);
   command->add_option("-o,--out", options->out, "what to make")->type_name("FILE")->required();

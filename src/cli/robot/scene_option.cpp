@@ -63,13 +63,13 @@ void requireMeaning(const fs::path& file, const ReadOptions& reading) {
   if (reading.freeBase)
     throw UsageError({.what = "--free-base",
                       .found = found,
-                      .wanted = isOrs ? "a .urdf file; in .ors, a joint of type free says it"
-                                      : "a .urdf file; in MJCF, a <freejoint/> says it"});
+                      .wanted = isOrs ? "a .urdf file; in .ors, use a joint of type free"
+                                      : "a .urdf file; in MJCF, use <freejoint/>"});
   if (!reading.srdf.empty())
     throw UsageError({.what = "--srdf",
                       .found = found,
-                      .wanted = isOrs ? "a .urdf file; in .ors, statements 'collisions' say it"
-                                      : "a .urdf file; in MJCF, <contact> says it"});
+                      .wanted = isOrs ? "a .urdf file; in .ors, use statements 'collisions'"
+                                      : "a .urdf file; in MJCF, use <contact>"});
 }
 
 fs::path fileOf(const Project& project, const SceneOption& scene) {

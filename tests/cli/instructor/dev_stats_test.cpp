@@ -47,7 +47,7 @@ TEST_F(DevStatsTest, PrintsATable) {
             "  points   mean 1.5, median 1.5 of 3\n"
             "  at least full: 1   75 %: 0   50 %: 1   25 %: 1   less: 0   none: 1\n"
             "  grading  median 2.5 s, longest 9.0 s (bob)\n"
-            "  3 failed of 4: Turns [turns, hidden]: 1 timeout, 2 wrong\n"
+            "  3 of 4 failed: Turns [turns, hidden]: 1 timeout, 2 wrong\n"
             "  1 check passed by all\n");
 }
 

@@ -175,7 +175,7 @@ TEST_F(PlanCommand, TellsOfAPathThatIsNotClear) {
     const ProcessResult coarse = plan2("2", margin);
     EXPECT_EQ(coarse.exitCode, 1) << margin;
     EXPECT_THAT(coarse.output, HasSubstr("found a path"));
-    EXPECT_THAT(flat(coarse.error), HasSubstr("give a finer --resolution or a larger --margin"));
+    EXPECT_THAT(flat(coarse.error), HasSubstr("use a finer --resolution or a larger --margin"));
   }
   const ProcessResult fine = plan2("0.02", "0.01");
   EXPECT_EQ(fine.exitCode, 1);

@@ -127,7 +127,7 @@ TEST_F(MotionFile, IsRefusedWithItsLine) {
   EXPECT_REX_ERROR(readMotion(arm, file("0,0,0\n1,2\n"), 30),
                    "motion.csv:2: motion: found 2 numbers, wanted 3 as in line 1");
   EXPECT_REX_ERROR(readMotion(arm, file("1\n"), 30),
-                   "motion.csv:1: motion: found 1 number, wanted 3 of a posture of");
+                   "motion.csv:1: motion: found 1 number, wanted 3 for a posture of");
   EXPECT_REX_ERROR(readMotion(arm, file("# time\n0,0,0,0\n1,1,1\n"), 30),
                    "motion.csv:3: motion: found 3 numbers, wanted 4 as in line 2");
   EXPECT_REX_ERROR(readMotion(arm, file("1,2,3,4,5\n"), 30), "motion.csv:1: motion: found 5 numbers");
