@@ -17,10 +17,10 @@ namespace {
 
 constexpr std::size_t kLongestText = 2000;
 
-/// Ends a check function or a case. Not a std::exception: a check function must not catch it by accident.
+/// Ends a check function or a case. Not a std::exception, so that no check function catches it by accident.
 struct RequirementFailed {};
 
-// Which sign a NaN has depends on the machine.
+// The sign of a NaN depends on the machine.
 std::string number(double value) { return std::isnan(value) ? "nan" : fmt::format("{:.6g}", value); }
 
 std::string withUnit(std::string text, std::string_view unit) {
@@ -30,7 +30,7 @@ std::string withUnit(std::string text, std::string_view unit) {
 
 std::string shapeText(Eigen::Index rows, Eigen::Index cols) { return fmt::format("{} x {}", rows, cols); }
 
-/// A short vector in full, of a larger value the one entry that matters.
+/// A short vector in full; only the relevant entry of anything larger.
 std::string valueText(const MatrixArg& value, Eigen::Index row, Eigen::Index col) {
   constexpr Eigen::Index kShort = 6;
   if (value.cols() != 1 || value.rows() > kShort)
@@ -40,7 +40,7 @@ std::string valueText(const MatrixArg& value, Eigen::Index row, Eigen::Index col
   return value.rows() == 1 ? text : "(" + text + ")";
 }
 
-// Relative to the limit. Where that is 0, nothing is near it: a value is beyond measure, or as it must be.
+// Relative to the limit. A limit of 0 has no scale: then the excess is plus or minus infinity.
 double excessOver(double limit, double beyond) {
   if (limit != 0) return beyond / std::abs(limit);
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -65,7 +65,7 @@ bool Check::state(bool requirement) {
   return requirement;
 }
 
-// The value that came nearest to its limit, or went furthest beyond it.
+// Keeps the value that comes nearest to its limit or exceeds it most.
 void Check::measure(std::string_view property, double excess, double value, double limit,
                     std::string_view unit) {
   if (!(excess > nearestExcess_)) return;
@@ -76,7 +76,7 @@ void Check::measure(std::string_view property, double excess, double value, doub
               .caseNumber = caseNumber_ + 1};
 }
 
-// Whether it is the worst so far.
+// Keeps the shortfall if it is the worst so far, and returns whether it is.
 bool Check::keep(Shortfall shortfall) {
   shortfall.input = input_;
   shortfall.caseNumber = caseNumber_;
@@ -92,7 +92,7 @@ void Check::fail(Shortfall shortfall, std::optional<Evidence> evidence) {
     try {
       if (show_) evidence_ = show_();
     } catch (const std::exception&) {
-      // It helps, and decides nothing: what cannot be shown is said in words.
+      // A picture helps but decides nothing: without it, the message has to do.
     }
   }
   throw RequirementFailed{};
@@ -198,9 +198,9 @@ bool Check::runCase(int number, const std::function<void(int)>& run) {
     keepRefused(refused);
     return false;
   } catch (const remote::RemoteThrow& error) {
-    // A worker without memory says nothing useful any more.
+    // A worker that has run out of memory can report nothing useful any more.
     if (error.thrown().kind == remote::Thrown::Kind::kBadAlloc) throw;
-    // A type's name could tell the input.
+    // The name of a type could reveal the input.
     const std::string type = info_.group == Group::kVisible ? error.thrown().type : "an exception";
     keep({.outcome = Outcome::kRuntimeError,
           .property = error.function() + " returns",

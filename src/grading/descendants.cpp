@@ -21,7 +21,7 @@ namespace {
 pid_t parentOf(const std::filesystem::path& process) {
   std::ifstream file(process / "stat");
   std::string stat;
-  std::getline(file, stat, '\0');  // leaves nothing, where iterators throw, if the process ends meanwhile
+  std::getline(file, stat, '\0');  // if the process ends meanwhile, reads nothing; iterators would throw
   const std::size_t nameEnd = stat.rfind(')');
   if (nameEnd == std::string::npos || nameEnd + 4 > stat.size()) return 0;
   pid_t parent = 0;

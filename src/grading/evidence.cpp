@@ -18,7 +18,7 @@ constexpr int kWidth = 640, kHeight = 480;
 
 std::vector<double> valuesOf(const Eigen::VectorXd& y) { return {y.begin(), y.end()}; }
 
-// The frame that is shown at that time.
+// The frame shown at that time.
 const Frame& frameAt(const Film& film, double time) {
   const auto later =
       std::find_if(film.begin(), film.end(), [&](const Frame& frame) { return frame.time > time; });
@@ -31,7 +31,7 @@ void drawMoment(const Evidence& evidence, const std::filesystem::path& file) {
   writePng(drawStill({frameAt(evidence.film, evidence.moment)}, camera, renderer), file);
 }
 
-// Beside each other on white, as high as the highest.
+// The images side by side on white, in a picture as high as the tallest.
 Image inARow(const std::vector<Image>& images) {
   int width = 0, height = 0;
   for (const Image& image : images) {
@@ -75,7 +75,7 @@ Figure comparison(const std::string& title, const Eigen::Ref<const Eigen::Matrix
   std::stable_sort(rows.begin(), rows.end(), [&](auto a, auto b) { return error[a] > error[b]; });
   rows.resize(std::min(rows.size(), kMost));
   std::sort(rows.begin(), rows.end());
-  Figure figure{.title = title, .xLabel = "number in the row", .yLabel = "value"};
+  Figure figure{.title = title, .xLabel = "entry", .yLabel = "value"};
   for (const Eigen::Index row : rows) {
     const std::string name = got.rows() > 1 ? fmt::format("row {}, ", row) : "";
     figure.series.push_back(gotCurve(name + "got", {}, valuesOf(got.row(row))));

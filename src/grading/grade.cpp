@@ -29,7 +29,7 @@ constexpr std::size_t kKeptOutput = 16u << 10;
 constexpr const char* kUnfinished = "the grader did not finish";
 constexpr rlim_t kJudgingMemory = rlim_t{6} << 30;
 
-/// A job, and what is the same for all of its checks.
+/// A job, and what all of its checks share.
 struct Grading {
   const GradingJob& job;
   std::uint64_t signature = 0;
@@ -48,7 +48,7 @@ CheckResult faulty(const CheckInfo& info, const std::string& why) {
   return check;
 }
 
-// A program that cannot print what it was given could still say it by an exit code or the name of a type.
+// A program that cannot print its input could still reveal it by an exit code or the name of a type.
 std::string messageWithoutDetails(const Failure& failure) {
   const auto what = [&] {
     switch (failure.outcome) {
@@ -61,7 +61,7 @@ std::string messageWithoutDetails(const Failure& failure) {
       case Outcome::kProtocolError:
         return "disturbed the connection to the grader";
       case Outcome::kSecurityEvent:
-        return "tried what the sandbox forbids";
+        return "tried something that the sandbox forbids";
       case Outcome::kRuntimeError:
       case Outcome::kCompileError:
       case Outcome::kGraderError:
@@ -72,7 +72,7 @@ std::string messageWithoutDetails(const Failure& failure) {
     return "crashed, threw an exception or ended the program";
   }();
   return fmt::format("{} {}", what,
-                     failure.function.empty() ? "outside of your functions" : "in " + failure.function);
+                     failure.function.empty() ? "outside your functions" : "in " + failure.function);
 }
 
 CheckResult failed(const CheckInfo& info, const Failure& failure, const std::string& input) {
@@ -87,8 +87,9 @@ CheckResult failed(const CheckInfo& info, const Failure& failure, const std::str
   return check;
 }
 
-// Whatever goes wrong once a value of the student's was read is for the student to mend, if only by values
-// that can be judged: with the reference solution it does not happen, which the gates of the exercise prove.
+// Whatever goes wrong once a value of the student's has been read is for the student to fix, if only by
+// returning values that can be judged: the gates of the exercise prove that it does not happen with the
+// reference solution.
 CheckResult unjudged(const CheckInfo& info, const std::string& function, const std::string& why) {
   CheckResult check = blank(info);
   check.status = Outcome::kFail;
@@ -99,10 +100,10 @@ CheckResult unjudged(const CheckInfo& info, const std::string& function, const s
   return check;
 }
 
-// Messages of a hidden check's fault could quote its input.
+// The message of a fault in a hidden check could quote its input.
 CheckResult faultyBy(const CheckInfo& info, const std::exception* error) {
   const bool tell = info.group == Group::kVisible && error != nullptr;
-  return faulty(info, tell ? error->what() : "the check ended by an exception");
+  return faulty(info, tell ? error->what() : "the check ended with an exception");
 }
 
 void keep(KeptOutput& kept, const CapturedText& captured) {
@@ -112,8 +113,8 @@ void keep(KeptOutput& kept, const CapturedText& captured) {
   kept.truncatedBytes += captured.bytes - taken;
 }
 
-// Visible checks can be repeated by everybody. What hidden ones try depends on what was handed in: the same
-// again gives the same grade, and a table of answers helps nobody else.
+// Everybody can repeat the visible checks. The seed of the hidden ones depends on what was handed in: the
+// same file gets the same grade again, and a table of answers helps nobody else.
 std::uint64_t seedFor(Group group, const GradeResult& whole, const Grading& grading) {
   if (group == Group::kVisible || grading.secret.empty()) return grading.job.seed;
   return hiddenSeed(grading.secret, whole.snapshotSha256, whole.exerciseId, "hidden");
@@ -125,7 +126,7 @@ std::string seedIdOf(const Grading& grading) {
                                 : fmt::format("{} hidden:{}", visible, sha256(grading.secret).substr(0, 8));
 }
 
-// A picture helps, and decides nothing: numbers that cannot be drawn have none.
+// A picture helps but decides nothing: if the numbers cannot be drawn, there is none.
 void keepEvidence(const Check& judge, const std::filesystem::path& folder, CheckResult& verdict) {
   if (folder.empty() || !judge.evidence() || verdict.status == Outcome::kPass) return;
   const auto named = [&](const std::string& file) {
@@ -139,18 +140,18 @@ void keepEvidence(const Check& judge, const std::filesystem::path& folder, Check
   }
 }
 
-/// What is known of a check so far, written down in case judging it ends the process.
+/// What is known about a check so far, written down in case judging it ends the process.
 class Standing {
  public:
   explicit Standing(std::function<void(const CheckResult&)> write) : write_(std::move(write)) {}
 
   void answeredBy(const CheckInfo& info, const std::string& function) {
     function_ = function;
-    keep(unjudged(info, function, "it ended the grader, or took it too much time or memory"));
+    keep(unjudged(info, function, "it crashed the grader, or cost it too much time or memory"));
   }
   void keep(const CheckResult& verdict) { write_(verdict); }
 
-  /// The function of the student whose values were read first; empty: none yet.
+  /// The student's function whose values were read first; empty: none yet.
   const std::string& function() const { return function_; }
 
  private:
@@ -158,7 +159,7 @@ class Standing {
   std::string function_{};
 };
 
-/// What came of one check with a fresh worker.
+/// The outcome of one check with a fresh worker.
 struct Attempt {
   WorkerRun run;
   CheckResult verdict;
@@ -174,13 +175,13 @@ Attempt attempt(const RunnableCheck& check, const Grading& grading, std::uint64_
   if (run.failure) {
     verdict = failed(check.info, *run.failure, judge.input());
   } else {
-    standing.keep(verdict);  // should the picture end this process
+    standing.keep(verdict);  // in case the picture ends this process
     keepEvidence(judge, grading.job.evidence, verdict);
   }
   return {std::move(run), std::move(verdict)};
 }
 
-// The same questions: a program that kills itself has learnt nothing.
+// The second attempt asks the same questions, so a program gains nothing by killing itself.
 Attempt attemptAgainIfKilled(const RunnableCheck& check, const Grading& grading, std::uint64_t seed,
                              Standing& standing) {
   return onceMoreIfKilled(
@@ -221,8 +222,8 @@ CheckResult runCheck(const RunnableCheck& check, const Grading& grading, GradeRe
   return verdict;
 }
 
-// A fault of the grader outweighs everything; then the first check that did not pass names the outcome, but
-// crashes and limits before plain failures.
+// A fault of the grader outweighs everything. Otherwise the first check that did not pass decides, where
+// crashes and exceeded limits come before plain failures.
 Outcome overallOutcome(const std::vector<CheckResult>& checks) {
   Outcome overall = Outcome::kPass;
   for (const CheckResult& check : checks) {
@@ -240,7 +241,7 @@ void append(KeptOutput& kept, const KeptOutput& more) {
   kept.truncatedBytes += more.truncatedBytes + (more.text.size() - taken);
 }
 
-// What one check added to a result that was empty.
+// Adds `part`, the result of check k alone.
 void add(GradeResult& whole, std::size_t k, const GradeResult& part) {
   whole.checks[k] = part.checks.front();
   whole.score += part.checks.front().points;
@@ -252,7 +253,7 @@ void add(GradeResult& whole, std::size_t k, const GradeResult& part) {
   append(whole.error, part.error);
 }
 
-// Of the copy in which a check is judged. The worker sets its own.
+// Limits the copy of this process in which a check is judged. The worker has limits of its own.
 void limitJudging(const Limits& limits) {
   const itimerval time{.it_interval = {}, .it_value = {.tv_sec = kJudgingSeconds, .tv_usec = 0}};
   ::setitimer(ITIMER_PROF, &time, nullptr);
@@ -265,8 +266,8 @@ void limitJudging(const Limits& limits) {
 #endif
 }
 
-// Each in a copy of this process, which holds the results: nothing that judging an answer does harms them.
-// Calls `ended(k, part)` as each check ends, in any order.
+// Runs each check in a copy of this process. The results stay here, so nothing that happens while an answer
+// is judged can harm them. Calls `ended(k, part)` as each check ends, in any order.
 void runInTheirCopies(const GradeResult& start, std::span<const RunnableCheck> checks, const Grading& grading,
                       const std::function<void(std::size_t, GradeResult)>& ended) {
   const PrivateFolder folder(grading.job.temporaryFolder);
@@ -285,8 +286,8 @@ void runInTheirCopies(const GradeResult& start, std::span<const RunnableCheck> c
   runInCopies(static_cast<int>(checks.size()), grading.job.jobs, run, [&](int k, int code) {
     const auto place = static_cast<std::size_t>(k);
     GradeResult broken;
-    broken.checks = {faulty(checks[place].info, "the check ended its process")};
-    // Who kills without need is the machine, and so is what keeps results from being written.
+    broken.checks = {faulty(checks[place].info, "the check crashed its process")};
+    // A SIGKILL, or an exit code other than 0 because no result could be written, is the machine's fault.
     const bool isOfAnswer = code == 0 || (code < 0 && code != -SIGKILL);
     const bool stands = isOfAnswer && std::filesystem::exists(file(k));
     ended(place, stands ? loadResult(file(k)) : std::move(broken));

@@ -32,12 +32,12 @@ void declareOptions(CLI::App& app, Arguments& arguments) {
   declareOptions(app, arguments.job);
   app.add_option(
       "--hostile", arguments.hostileAnswers,
-      "give each check so many hostile answers of each kind, made of those of the worker, which is "
-      "right; prints what came of it");
+      "give each check this many hostile answers of each kind, made from the answers of a worker that "
+      "is right, and print the outcomes");
   app.add_flag(
       "--lies", arguments.lies,
-      "print the points for zeros, constants, the last answer and what was asked, in the places of what "
-      "the worker answers, which is right");
+      "print the points that a check gives if zeros, constants, the last answer or the question itself "
+      "replace the answers of a worker that is right");
   app.add_flag("--list", arguments.list, "print the checks as JSON");
 }
 
@@ -87,7 +87,7 @@ ExitCode gradeAndSave(const Arguments& arguments, const std::vector<RunnableChec
   return result.outcome == Outcome::kPass ? ExitCode::kFull : ExitCode::kBelow;
 }
 
-// Below where a hostile answer got a point, took too long or ended the process that judged it.
+// Returns kBelow if a hostile answer got a point, took too long or ended the process that judged it.
 ExitCode attack(const Arguments& arguments, const std::vector<RunnableCheck>& checks,
                 const CallLayouts& layouts) {
   std::int64_t answers = 0, runs = 0, unjudged = 0, faults = 0;
@@ -96,7 +96,7 @@ ExitCode attack(const Arguments& arguments, const std::vector<RunnableCheck>& ch
        giveHostileAnswers(checks, arguments.job, arguments.signature, layouts, arguments.hostileAnswers)) {
     answers += one.answers, runs += one.runs, unjudged += one.unjudged;
     slowest = std::max(slowest, one.mostSeconds);
-    // Answers to other questions, in another order or number, now and then are right by chance.
+    // Answers to other questions, or in another order or number, are sometimes right by chance.
     const bool getsPoints = one.runsWithPoints > (keepsNumbers(one.hostility) ? one.runs / 4 : 0);
     const bool isSlow = one.mostSeconds > kJudgingSeconds;
     if (one.unjudged > 0)
@@ -113,7 +113,7 @@ ExitCode attack(const Arguments& arguments, const std::vector<RunnableCheck>& ch
   return faults == 0 ? ExitCode::kFull : ExitCode::kBelow;
 }
 
-// The points that each check gives for each lie, where it gives some: part, check, lie and points by tabs.
+// Prints the lies for which a check gives points: part, check, lie and points, separated by tabs.
 ExitCode lie(const Arguments& arguments, const std::vector<RunnableCheck>& checks,
              const CallLayouts& layouts) {
   const std::vector<LieOutcome> outcomes = tellLies(checks, arguments.job, arguments.signature, layouts);

@@ -6,12 +6,12 @@
 namespace rex::grading {
 
 void declareOptions(CLI::App& app, GradingJob& job) {
-  app.add_option("--worker", job.worker, "the student's worker program; none: all checks are not run");
+  app.add_option("--worker", job.worker, "the student's worker program; without it no check is run");
   app.add_option("--results", job.results, "result file; its fields about the submission are kept");
   app.add_option("--check", job.checks, "run only this check (repeatable)")->allow_extra_args(false);
   app.add_option("--seed", job.seed, "seed of all random numbers");
   app.add_option("--cpu-seconds", job.limits.cpuSeconds, "CPU time of one check")->check(CLI::PositiveNumber);
-  app.add_option("--wall-seconds", job.limits.wallSeconds, "to wait for one check; 0: 2 x CPU + 2")
+  app.add_option("--wall-seconds", job.limits.wallSeconds, "seconds to wait for one check; 0: 2 x CPU + 2")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--memory", job.limits.memory, "bytes of memory of one check")->check(CLI::PositiveNumber);
   app.add_option("--output", job.limits.output, "bytes printed by one check")->check(CLI::PositiveNumber);
@@ -25,7 +25,7 @@ void declareOptions(CLI::App& app, GradingJob& job) {
                  "folder for pictures and replays of visible checks that do not hold");
   app.add_option("--secret", job.secret,
                  "file with the secret of the course, for the seeds of hidden checks");
-  app.add_option("--jobs", job.jobs, "checks at once")->check(CLI::Range(1, 1024));
+  app.add_option("--jobs", job.jobs, "checks to run at once")->check(CLI::Range(1, 1024));
 }
 
 std::vector<std::string> toArguments(const GradingJob& job) {

@@ -11,7 +11,7 @@
 namespace rex::grading {
 namespace {
 
-constexpr std::size_t kBlock = 64;  // bytes that SHA-256 takes at once
+constexpr std::size_t kBlock = 64;  // bytes that SHA-256 processes at once
 
 std::string bytesOf(const std::string& digits) {
   std::string bytes;

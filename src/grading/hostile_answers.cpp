@@ -21,23 +21,23 @@ namespace {
 using remote::Caller;
 using Bytes = std::vector<std::byte>;
 
-// What a whole run of the grader may take with one answer, for all answers of a kind together.
+// The limits of a whole run of the grader with one answer, here for all answers of a kind together.
 constexpr IsolationLimits kOneRun = {.cpuSeconds = 600, .wallSeconds = 1800, .memory = std::size_t{6} << 30};
 
 Bytes copyOf(Caller::Bytes bytes) { return {bytes.begin(), bytes.end()}; }
 
-/// A question, and what a reference solution answers.
+/// A question and the answer of a reference solution.
 struct Honest {
   Bytes arguments{}, answer{};
 };
 
-/// A job whose worker is the reference solution's, and the functions that it offers.
+/// A job whose worker is the reference solution, and the signature of the functions that it offers.
 struct Reference {
   const GradingJob& job;
   std::uint64_t signature = 0;
 };
 
-/// Those of each function.
+/// The honest answers of each function.
 using Pool = std::map<std::uint32_t, std::vector<Honest>>;
 
 Pool recordHonestAnswers(std::span<const RunnableCheck> checks, const Reference& reference) {
@@ -62,7 +62,7 @@ Pool recordHonestAnswers(std::span<const RunnableCheck> checks, const Reference&
   return pool;
 }
 
-// Where in the bytes of the arguments the first one lies that has the layout of the result.
+// The bytes of the first argument that has the layout of the result; empty if there is none.
 Bytes firstLikeTheResult(Caller::Bytes arguments, const std::vector<std::string>& layouts) {
   for (std::size_t k = 1; k < layouts.size(); ++k) {
     const std::size_t size = sizeOfValue(arguments, layouts[k]);
@@ -73,7 +73,7 @@ Bytes firstLikeTheResult(Caller::Bytes arguments, const std::vector<std::string>
   return {};
 }
 
-/// Puts lies in the places of honest answers.
+/// Replaces honest answers with lies.
 class Liar {
  public:
   Liar(Lie lie, const Pool& pool, const CallLayouts& layouts) : lie_(lie), pool_(pool), layouts_(layouts) {}
@@ -89,7 +89,7 @@ class Liar {
   }
 
  private:
-  // What was right for the first other question that was ever asked.
+  // The right answer to the first other question on record.
   Bytes answerToAnother(std::uint32_t method, Caller::Bytes arguments) const {
     for (const Honest& one : pool_.at(method))
       if (!std::ranges::equal(one.arguments, arguments)) return one.answer;
@@ -120,7 +120,7 @@ int pointsFor(Liar liar, const RunnableCheck& check, const Reference& reference)
   return points;
 }
 
-// In a copy of this process, as in grades: who brings the grader down gets nothing.
+// In a copy of this process, as when grading: a lie that brings the grader down gets nothing.
 int pointsApart(const Liar& liar, const RunnableCheck& check, const Reference& reference) {
   const IsolatedResult result =
       callIsolated([&] { return std::to_string(pointsFor(liar, check, reference)); }, kOneRun);
@@ -149,7 +149,7 @@ class Attack {
       runOnce();
       outcome_.mostSeconds = std::max(outcome_.mostSeconds, processorSeconds() - start);
       ++outcome_.runs;
-      if (outcome_.answers == before) break;  // it asks nothing
+      if (outcome_.answers == before) break;  // the check asks nothing
     }
     return outcome_;
   }
@@ -245,7 +245,7 @@ std::string toString(Lie lie) {
 std::vector<LieOutcome> tellLies(std::span<const RunnableCheck> checks, const GradingJob& job,
                                  std::uint64_t signature, const CallLayouts& layouts) {
   GradingJob others = job;
-  others.seed += 1000;  // constants that were right once
+  others.seed += 1000;  // constants that were right for another seed
   const Pool pool = recordHonestAnswers(checks, {others, signature});
   std::vector<LieOutcome> outcomes;
   for (const RunnableCheck& check : checks)

@@ -25,7 +25,7 @@ namespace {
 
 #ifdef __SANITIZE_ADDRESS__
 constexpr bool kLimitMemory = false;
-// Crashes keep their signals, findings abort, and what a killed worker leaves behind is not a leak.
+// Crashes keep their signals, findings abort, and memory that a killed worker leaves behind is not a leak.
 constexpr std::array<const char*, 3> kEnvironment = {
     "ASAN_OPTIONS=handle_segv=0:handle_sigbus=0:handle_sigfpe=0:handle_sigill=0:abort_on_error=1:detect_"
     "leaks=0",
@@ -59,11 +59,11 @@ void setLimits(const Limits& limits) {
   if (kLimitMemory && !limits.sanitized) setLimit(RLIMIT_AS, limits.memory, limits.memory);
 }
 
-// What the new process needs, prepared before the fork: behind it only async-signal-safe calls are allowed.
+// What the new process needs, prepared before the fork: after it only async-signal-safe calls are allowed.
 struct Prepared {
   const LaunchOrder& order;
   std::vector<char*> arguments{};
-  std::vector<int> fds{};  ///< what become 0, 1, 2, ...
+  std::vector<int> fds{};  ///< become descriptors 0, 1, 2, ...
   int status = -1;
   pid_t parent = ::getpid();
 };

@@ -14,8 +14,8 @@ namespace {
 constexpr std::size_t kHead = 64u << 10;
 constexpr std::size_t kTail = 4u << 10;
 
-// "worker: src/Core/Block.h:120: Eigen::Block<...>::Block(...) [with ...]: Assertion `a' failed." says all it
-// has to say from "Assertion" on.
+// In "worker: src/Core/Block.h:120: Eigen::Block<...>::Block(...) [with ...]: Assertion `a' failed." only the
+// part from "Assertion" on is of use.
 std::string shorten(const std::string& line) {
   constexpr std::size_t kLongest = 300;
   const std::size_t assertion = line.find("Assertion `");
@@ -62,7 +62,7 @@ std::string tellingLine(const std::string& errorOutput) {
   for (std::string line; std::getline(lines, line);) {
     line = trimmed(line);
     if (line.empty()) continue;
-    // The second line that the runtime prints about an exception that nobody catches.
+    // The second line that the runtime prints about an uncaught exception.
     last = line.starts_with("what():") ? last + ", " + line : line;
     const auto tells = [&](std::string_view sign) { return line.find(sign) != std::string::npos; };
     if (std::any_of(kTelling.begin(), kTelling.end(), tells)) break;

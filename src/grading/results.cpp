@@ -101,7 +101,7 @@ Json resultToJson(const GradeResult& result) {
           {"volatile", volatileToJson(result)}};
 }
 
-// Whatever part of a result a text is in, it comes from a stranger.
+// Texts in all parts of a result may come from strangers.
 Json shown(Json json) {
   if (json.is_string()) return printable(json.get_ref<const std::string&>());
   if (json.is_structured())
@@ -109,7 +109,7 @@ Json shown(Json json) {
   return json;
 }
 
-/// Reads fields of one JSON object into variables, which keep their values where a field is missing.
+/// Reads fields of one JSON object into variables, which keep their values if a field is missing.
 class Fields {
  public:
   Fields(const Json& json, std::string path, const std::string& file)

@@ -18,10 +18,10 @@ using Bytes = std::vector<std::byte>;
 
 constexpr double kFarOut = 1e200;
 
-/// One value of an answer, with what it consists of.
+/// One value of an answer and its parts.
 struct Node {
   char kind = ' ';            ///< the first character of its layout
-  std::string layout{};       ///< of all of it
+  std::string layout{};       ///< of the whole value
   int size = 0;               ///< of an integer, in bytes
   std::vector<Node> parts{};  ///< of fields, lists, optional values and matrices
   double number = 0;
@@ -42,7 +42,7 @@ class Parser {
     return node;
   }
 
-  /// Of the first value, in bytes.
+  /// The size of the first value in bytes.
   std::size_t sizeOfFirst() {
     const std::size_t size = bytes_.size();
     static_cast<void>(value());
@@ -50,7 +50,7 @@ class Parser {
   }
 
  private:
-  [[noreturn]] static void refuse() { throw Error({.what = "an answer does not have its layout"}); }
+  [[noreturn]] static void refuse() { throw Error({.what = "an answer does not match its layout"}); }
 
   template <class T>
   T take() {
@@ -140,7 +140,7 @@ class Parser {
     }
   }
 
-  // One layout for all parts; without any it is passed over.
+  // All parts share one layout, which is skipped if there are none.
   void repeat(Node& node, std::uint64_t count) {
     const std::string_view element = layout_;
     for (std::uint64_t k = 0; k < count; ++k) {
@@ -286,7 +286,7 @@ class Spoiler {
     }
   }
 
-  // Repeats what is there; where nothing is, only numbers can be made.
+  // Repeats the parts that are there. If there are none, only numbers can be added.
   void fill(Node& node, std::size_t count) {
     if (node.parts.empty() && count > 0) {
       if (node.kind == '[') return;
@@ -325,7 +325,7 @@ class Spoiler {
   }
 
   Hostility hostility_;
-  std::size_t spare_ = 400'000;  // nodes that may still be added, in lists of lists as in one
+  std::size_t spare_ = 400'000;  // nodes that may still be added, nested ones included
   Rng& rng_;
 };
 

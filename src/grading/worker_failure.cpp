@@ -27,8 +27,8 @@ Failure tooMuchMemory(const Limits& limits, const std::string& place) {
           .message = fmt::format("used more than {} MB of memory {}", limits.memory / kMegabyte, place)};
 }
 
-// The runtime names the exception that nobody caught; without memory it cannot even spell the name out. The
-// others are the sanitizer's last words.
+// The runtime names the uncaught exception; without memory it cannot even demangle the name. The others are
+// the last words of the sanitizer.
 bool ranOutOfMemory(const std::string& errorTail) {
   constexpr auto kSigns = std::to_array<const char*>(
       {"std::bad_alloc", "St9bad_alloc", "End of process memory map.",
@@ -39,7 +39,7 @@ bool ranOutOfMemory(const std::string& errorTail) {
 
 Failure badAccess(const WorkerEnd& end, const Limits& limits) {
   const std::string message = "crashed with a segmentation fault " + placeOf(end.ready, end.function);
-  if (end.ready) return {.message = message + " (an index out of range, or a recursion without end?)"};
+  if (end.ready) return {.message = message + " (an index out of range, or infinite recursion?)"};
   // The kernel also kills a program whose globals do not fit while it is being loaded.
   return {.message =
               fmt::format("{} (in the constructor of a global variable, or do the global variables need more "
@@ -53,7 +53,7 @@ Failure explainSignal(const WorkerEnd& end, const Limits& limits) {
   switch (WTERMSIG(end.status)) {
     case SIGSYS:
       return {.outcome = Outcome::kSecurityEvent,
-              .message = "tried what the sandbox forbids " + place +
+              .message = "tried something that the sandbox forbids " + place +
                          " (start another program, look into others, or change the machine)"};
     case SIGXCPU:
       return tooSlow(end, limits);

@@ -37,7 +37,7 @@ double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// We stop waiting for the worker, for a reason that is already known.
+/// Thrown when we stop waiting for the worker for a known reason.
 class GaveUp : public remote::Closed {
  public:
   explicit GaveUp(Failure why) : Closed(why.message), failure(std::move(why)) {}
@@ -66,14 +66,14 @@ class OneCore {
   cpu_set_t before_;
 };
 
-/// Seconds that a process was ready to run while others had its core; 0 where the kernel does not count them.
+/// Seconds that a process was ready to run while others had its core; 0 if the kernel does not count them.
 double secondsWithoutCore(pid_t process) {
   std::ifstream file(fmt::format("/proc/{}/schedstat", process));
   double running = 0, ready = 0;  // nanoseconds
   return file >> running >> ready ? 1e-9 * ready : 0;
 }
 
-// The only child of a process, or the process itself if it has none: in a sandbox of namespaces the program
+// The only child of a process, or the process itself if it has none: in a sandbox with namespaces the program
 // is the child of the child of the process that we started.
 pid_t childOf(pid_t process) {
   std::ifstream file(fmt::format("/proc/{0}/task/{0}/children", process));
@@ -114,9 +114,9 @@ class Worker {
   void converse(std::uint64_t signature, const std::function<void(remote::Caller&)>& conversation);
   Failure explain(const remote::Closed& reason);
   Failure explain(const remote::ProtocolError& reason) const;
-  /// Ends the worker and all it left behind, and says what it used.
+  /// Ends the worker and everything it left behind, and returns what it used.
   WorkerRun end();
-  /// The student's function that runs now, or ran when it ended badly.
+  /// The student's function that is running, or was running when the worker ended badly.
   const std::string& running() const { return caller_.running(); }
 
  private:
@@ -152,7 +152,7 @@ class Worker {
   std::string report_{};
 };
 
-// The ids of the messages have no influence on any result; the worker must not foresee them.
+// The ids of the messages are random so that the worker cannot predict them; they influence no result.
 Worker::Worker(const GradingJob& job, const fs::path& program)
     : job_(job),
       cell_(job.sandbox, confinementOf(job, program)),
@@ -177,8 +177,8 @@ void Worker::converse(std::uint64_t signature, const std::function<void(remote::
   conversation(caller_);
 }
 
-// How long we still wait. What the two of us could not use because the machine was busy is added, within
-// reason: a worker can keep itself from its core by starting others.
+// How long we still wait. Time in which the worker or we had no core because the machine was busy is added,
+// but only up to a limit: a worker can deprive itself of its core by starting other processes.
 double Worker::secondsLeft() {
   if (waited_ < allowed_) return allowed_ - waited_;
   constexpr double kMostPatience = 4;
@@ -190,7 +190,7 @@ double Worker::secondsLeft() {
   return allowed_ - waited_;
 }
 
-// Only the time we wait counts: the grader's own work is not the student's.
+// Only the time that we wait counts: the grader's own work is not charged to the student.
 void Worker::waitFor(int fd, remote::Channel::Direction direction) {
   const short events = direction == remote::Channel::Direction::kRead ? POLLIN : POLLOUT;
   const auto start = Clock::now();
@@ -202,7 +202,7 @@ void Worker::waitFor(int fd, remote::Channel::Direction direction) {
     if (left <= 0)
       throw GaveUp(
           {.outcome = Outcome::kTimeLimit,
-           .message = fmt::format("stopped after {:.1f} s {} (asleep, blocked, or in a loop without end?)",
+           .message = fmt::format("stopped after {:.1f} s {} (asleep, blocked, or in an infinite loop?)",
                                   job_.limits.wallBudget(), place())});
     std::array<pollfd, 4> polled{{{fd, events, 0},
                                   {launched_.processFd, POLLIN, 0},
@@ -211,7 +211,7 @@ void Worker::waitFor(int fd, remote::Channel::Direction direction) {
     ::poll(polled.data(), polled.size(), ended ? 0 : static_cast<int>(std::min(std::ceil(left * 1000), 1e6)));
     if (polled[2].revents != 0 || polled[3].revents != 0) drain();
     if (polled[0].revents != 0) break;
-    // A last message may have come between the two looks of one poll: look twice.
+    // A last message may arrive while poll() looks at one descriptor after the other: poll once more.
     if (polled[1].revents != 0 && std::exchange(ended, true)) throw remote::Closed("the worker ended");
   }
   waited_ = before + secondsSince(start);
@@ -257,21 +257,21 @@ void Worker::readReport() {
   }
 }
 
-// A sandbox that is being taken down.
+// True if the program has ended and only its sandbox is still being taken down.
 bool Worker::saidItsEnd() {
   readReport();
   return sandbox::readReport(report_).status.has_value();
 }
 
-// How the program ended, which its launcher knows where it is between us. A launcher that fell before the
-// program started is a fault of ours; one that fell later was pulled down by the program.
+// How the program ended, as reported by the launcher if there is one between us. If the launcher fails before
+// the program starts, that is our fault; if it fails later, the program brought it down.
 int Worker::trueStatus() {
   const sandbox::Level level = job_.sandbox.level;
   if (!sandbox::isConfined(level)) return status_;
   readReport();
   const sandbox::Report report = sandbox::readReport(report_);
   if (!report.error.empty() || !report.ready)
-    throw Error({.what = fmt::format("the sandbox of level {} does not stand", sandbox::numberOf(level)),
+    throw Error({.what = fmt::format("the sandbox of level {} cannot be set up", sandbox::numberOf(level)),
                  .found = report.error.empty() ? tellingLine(error_.tail()) : report.error});
   return sandbox::hasNamespaces(level) ? report.status.value_or(SIGKILL) : status_;
 }
@@ -292,12 +292,12 @@ Failure Worker::explain(const remote::Closed& reason) {
 
 Failure Worker::explain(const remote::ProtocolError& reason) const {
   return {.outcome = Outcome::kProtocolError,
-          .message = fmt::format("spoilt the connection to the grader {}: {}", place(), reason.what())};
+          .message = fmt::format("corrupted the connection to the grader {}: {}", place(), reason.what())};
 }
 
 void Worker::killAll() {
   if (std::exchange(over_, true)) return;
-  // Its group first: while the leader is not yet reaped, nobody else can get its number.
+  // Its group first: until the leader is reaped, no other process can get its number.
   if (!reaped_) {
     ::kill(-launched_.process, SIGKILL);
     ::kill(launched_.process, SIGKILL);

@@ -32,18 +32,18 @@ constexpr std::string_view kStackOverflow = "stack-overflow";
 
 std::string plainWords(std::string_view kind) {
   constexpr std::pair<std::string_view, const char*> kWords[] = {
-      {"heap-buffer-overflow", "reads or writes outside of an array on the heap"},
-      {"stack-buffer-overflow", "reads or writes outside of a local array"},
-      {"dynamic-stack-buffer-overflow", "reads or writes outside of a local array"},
+      {"heap-buffer-overflow", "reads or writes outside an array on the heap"},
+      {"stack-buffer-overflow", "reads or writes outside a local array"},
+      {"dynamic-stack-buffer-overflow", "reads or writes outside a local array"},
       {"stack-buffer-underflow", "reads or writes before a local array"},
-      {"global-buffer-overflow", "reads or writes outside of a global array"},
-      {"heap-use-after-free", "uses memory that was given back"},
+      {"global-buffer-overflow", "reads or writes outside a global array"},
+      {"heap-use-after-free", "uses memory after freeing it"},
       {"stack-use-after-return", "uses a local variable after its function has ended"},
       {"stack-use-after-scope", "uses a local variable after its block has ended"},
-      {kStackOverflow, "uses up the stack: a recursion without end?"},
-      {"attempting double-free", "gives memory back twice"},
-      {"attempting free", "gives memory back that it did not get"},
-      {"SEGV", "uses an address where nothing is: a null pointer, or an index far out of range?"},
+      {kStackOverflow, "uses up the stack: infinite recursion?"},
+      {"attempting double-free", "frees memory twice"},
+      {"attempting free", "frees memory that was not allocated"},
+      {"SEGV", "uses an invalid address: a null pointer, or an index far out of range?"},
       {"FPE", "divides an integer by zero"},
       {"ABRT", "aborts"},
   };

@@ -12,7 +12,7 @@ namespace rex::grading {
 
 /// Where and why a program crashed, according to the sanitizers.
 struct CrashSite {
-  std::string finding{};   ///< in plain words: "reads or writes outside of an array on the heap"
+  std::string finding{};   ///< in plain words: "reads or writes outside an array on the heap"
   std::string function{};  ///< the student's function; empty: unknown
   int line = 0;            ///< in the student's file; 0: none of its code was running
 };

@@ -54,8 +54,8 @@ TEST(Grade, NeverBlamesTheStudentForTheGrader) {
   for (int k = 1; k < 5; ++k) EXPECT_EQ(result.checks[k].status, Outcome::kGraderError);
   const std::string fault = "the grader failed, which is not your fault: ";
   EXPECT_EQ(result.checks[1].message, fault + "oops");
-  EXPECT_EQ(result.checks[2].message, fault + "the check ended by an exception");
-  EXPECT_EQ(result.checks[3].message, fault + "the check ended by an exception");
+  EXPECT_EQ(result.checks[2].message, fault + "the check ended with an exception");
+  EXPECT_EQ(result.checks[3].message, fault + "the check ended with an exception");
   EXPECT_EQ(result.checks[4].message, fault + "check 'empty' states no requirement");
 }
 
@@ -91,7 +91,7 @@ TEST(Grade, BlamesAnswersForWhatTheyDoToTheGrader) {
 #endif
   if (isLongRun()) checks.push_back(check("loops", Group::kVisible, afterAnAnswer(loop)));
   const GradeResult result = gradeGood(checks);
-  const std::string ended = "it ended the grader, or took it too much time or memory";
+  const std::string ended = "it crashed the grader, or cost it too much time or memory";
   const auto message = [&](std::size_t k) { return result.checks[k].message; };
   EXPECT_EQ(message(0), "what square returned could not be judged: " + ended);
   EXPECT_EQ(result.checks[0].function, "square");
@@ -142,7 +142,7 @@ TEST(Grade, RunsChecksAtOnce) {
       run({checks[0], check("dies", Group::kVisible, [](Check&, Student&) { ::_exit(5); }), checks[3]}, 2);
   EXPECT_EQ(dead.checks[0].status, Outcome::kPass);
   EXPECT_EQ(dead.checks[1].status, Outcome::kGraderError);
-  EXPECT_THAT(dead.checks[1].message, HasSubstr("the check ended its process"));
+  EXPECT_THAT(dead.checks[1].message, HasSubstr("the check crashed its process"));
   EXPECT_EQ(dead.checks[2].status, Outcome::kPass);
   EXPECT_EQ(dead.outcome, Outcome::kGraderError);
 }
@@ -219,7 +219,7 @@ TEST(Grade, RefusesAWorkerOfAnotherExercise) {
       gradeGood({check("a", Group::kVisible, [](Check& judge, Student&) { judge.that("yes", true); })}, 1);
   EXPECT_EQ(result.outcome, Outcome::kProtocolError);
   EXPECT_EQ(result.checks[0].message,
-            "spoilt the connection to the grader before the first call: the worker was built from another "
+            "corrupted the connection to the grader before the first call: the worker was built from another "
             "exercise.h");
 }
 
@@ -246,7 +246,7 @@ TEST(RunWithWorker, RefusesWhatCannotBeStarted) {
   EXPECT_REX_ERROR(run({.worker = kGood, .temporaryFolder = "/no/such/folder"}),
                    "cannot make a temporary folder in /no/such/folder");
   EXPECT_REX_ERROR(run({.worker = kGood, .sandbox = {.level = sandbox::Level{1}, .launcher = "/bin/true"}}),
-                   "the sandbox of level 1 does not stand");
+                   "the sandbox of level 1 cannot be set up");
 }
 
 // The time that the grader needs for itself is not the student's.

@@ -120,7 +120,7 @@ INSTANTIATE_TEST_SUITE_P(
         Trouble{"exit_in_call", Outcome::kRuntimeError, "called exit(0) in ikStep"},
         Trouble{"flood", Outcome::kOutputLimit, "printed more than 8 MB in ikStep"},
         Trouble{"ignored_signals", Outcome::kTimeLimit, "stopped after"},
-        Trouble{"junk", Outcome::kProtocolError, "spoilt the connection to the grader in ikStep"},
+        Trouble{"junk", Outcome::kProtocolError, "corrupted the connection to the grader in ikStep"},
         Trouble{"loop", Outcome::kTimeLimit, "stopped after"},
         Trouble{"nan", Outcome::kFail, "what ikStep returned: number 2 is nan, wanted finite numbers"},
         Trouble{"noexcept_throw", Outcome::kRuntimeError,
@@ -178,7 +178,7 @@ TEST_F(Grader, KeepsHiddenInputsFromTheStudent) {
               "crashed, threw an exception or ended the program in ikStep");
   EXPECT_EQ(find(grade("flood"), "step-unseen").message, "printed too much in ikStep");
   EXPECT_EQ(find(grade("exit_at_start"), "step-unseen").message,
-            "crashed, threw an exception or ended the program outside of your functions");
+            "crashed, threw an exception or ended the program outside your functions");
 }
 
 TEST_F(Grader, GivesTheSameBytesTwice) {
@@ -226,7 +226,7 @@ TEST_F(Grader, HasExitCodes) {
   EXPECT_THAT(result.checks[0].message,
               HasSubstr("the grader failed, which is not your fault: cannot start the worker"));
   EXPECT_EQ(result.checks[2].message,
-            "the grader failed, which is not your fault: the check ended by an exception");
+            "the grader failed, which is not your fault: the check ended with an exception");
   const ProcessResult unknown = run({"--check", "stepp"});
   EXPECT_EQ(unknown.exitCode, numberOf(ExitCode::kUsage));
   EXPECT_EQ(unknown.error, "grader: no check is called 'stepp' (did you mean 'step'?)\n");

@@ -64,7 +64,7 @@ TEST(Spoilt, RefusesBytesOfAnotherLayout) {
   Rng rng;
   const std::vector<std::byte> bytes(9);
   for (const char* layout : {"d", "[d]", "(dd)", "M-1,1,d", "i4", "x", "s", "r", "?d", "i"})
-    EXPECT_REX_ERROR(spoilt(bytes, layout, Hostility::kZero, rng), "an answer does not have its layout");
+    EXPECT_REX_ERROR(spoilt(bytes, layout, Hostility::kZero, rng), "an answer does not match its layout");
 }
 
 TEST(SizeOfValue, EndsWhereTheNextBegins) {
@@ -73,7 +73,7 @@ TEST(SizeOfValue, EndsWhereTheNextBegins) {
   const std::size_t size = writer.bytes().size();
   remote::Wire<double>::put(writer, 1);
   EXPECT_EQ(sizeOfValue(writer.bytes(), remote::Layout<Sample>::text()), size);
-  EXPECT_REX_ERROR(sizeOfValue(writer.bytes().first(3), "d"), "an answer does not have its layout");
+  EXPECT_REX_ERROR(sizeOfValue(writer.bytes().first(3), "d"), "an answer does not match its layout");
 }
 
 }  // namespace rex::grading::spoilt_answer_test

@@ -23,7 +23,7 @@ Failure byExit(int code, bool ready = true) {
 
 TEST(ExplainEnd, NamesTheSignal) {
   EXPECT_EQ(bySignal(SIGSEGV).message,
-            "crashed with a segmentation fault in f (an index out of range, or a recursion without end?)");
+            "crashed with a segmentation fault in f (an index out of range, or infinite recursion?)");
   EXPECT_EQ(bySignal(SIGBUS).message, bySignal(SIGSEGV).message);
   EXPECT_EQ(
       bySignal(SIGSEGV, 0, false).message,
@@ -39,7 +39,7 @@ TEST(ExplainEnd, NamesTheSignal) {
 
 TEST(ExplainEnd, KnowsWhatTheSandboxForbids) {
   EXPECT_EQ(bySignal(SIGSYS).outcome, Outcome::kSecurityEvent);
-  EXPECT_EQ(bySignal(SIGSYS).message.find("tried what the sandbox forbids in f"), 0u);
+  EXPECT_EQ(bySignal(SIGSYS).message.find("tried something that the sandbox forbids in f"), 0u);
 }
 
 TEST(ExplainEnd, BelievesTheKernelAboutMemory) {

@@ -29,7 +29,7 @@ allocated by thread T0 here:
 TEST(CrashSiteIn, IsTheInnermostLineOfTheStudentsFile) {
   const auto site = crashSiteIn(kOverflow, "main.cpp");
   ASSERT_TRUE(site);
-  EXPECT_EQ(site->finding, "reads or writes outside of an array on the heap");
+  EXPECT_EQ(site->finding, "reads or writes outside an array on the heap");
   EXPECT_EQ(site->function, "nearest");
   EXPECT_EQ(site->line, 14);
   EXPECT_EQ(crashSiteIn(kOverflow, "ain.cpp")->line, 0) << "another file";
@@ -105,9 +105,9 @@ TEST_F(SanitizedToolchain, MakesProgramsThatReportWhereTheyCrash) {
   };
   const Crash crashes[] = {
       {"volatile int* p = nullptr; return *p;", "null pointer"},
-      {"int* p = new int[3]; p[0] = n; return p[n + 2];", "outside of an array on the heap"},
+      {"int* p = new int[3]; p[0] = n; return p[n + 2];", "outside an array on the heap"},
       {"int p[3] = {n, n, n}; return p[n + 2];", "out of bounds"},
-      {"int* p = new int(n); delete p; return *p;", "memory that was given back"},
+      {"int* p = new int(n); delete p; return *p;", "memory after freeing it"},
       {"return 7 / (n - 1);", "division by zero"},
       {"if (n == 7) return 1;", "without returning a value"},
       {"return n + crash(n + 1);", "uses up the stack"},
