@@ -23,8 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// __DATE__ and __TIME__ say this, the same tomorrow: the beginning of 1970 (reproducible-builds.org). What
-// __TIMESTAMP__ says, see writeSource().
+// __DATE__ and __TIME__ are always the beginning of 1970 (reproducible-builds.org). See writeSource() for
+// __TIMESTAMP__.
 constexpr const char *kDate = "SOURCE_DATE_EPOCH=0", *kZone = "TZ=UTC0";
 
 // The names in lines `#include "name"`.
@@ -46,8 +46,8 @@ void showAll(std::vector<sandbox::Readable>& readable, const std::vector<fs::pat
   }
 }
 
-// A compiler of one's own lies beside its libraries, /opt/gcc/bin/g++, but so does one in ~/bin beside much
-// else.
+// A separately installed compiler, such as /opt/gcc/bin/g++, lies beside its libraries. One in ~/bin has much
+// else beside it, so only these folders are shown.
 std::vector<fs::path> placesOf(const fs::path& tool) {
   if (tool.parent_path().filename() != "bin") return {tool};
   const fs::path home = tool.parent_path().parent_path();
@@ -102,7 +102,7 @@ BuildTools::BuildTools(const Toolchain& toolchain, const fs::path& workFolder,
       level_(sandbox.level),
       cell_(sandbox, confinement(toolchain, workFolder, sandbox, limits)) {}
 
-// The sandbox itself ends after the clock's time and says what was used; should it not, we end it.
+// The sandbox itself ends after that wall-clock time and reports what was used. If it does not, we end it.
 ProcessResult BuildTools::runConfined(const std::vector<std::string>& command,
                                       const ProcessOptions& options) const {
   ProcessOptions patient{
@@ -130,16 +130,17 @@ ProcessResult BuildTools::runOnce(const std::vector<std::string>& command, std::
                          .fileSize = limits_.fileSize};
   ProcessResult result = isConfined(level_) ? runConfined(command, options) : runProcess(command, options);
   if (!result.started) throw Error({.what = "cannot run " + command.front(), .found = result.error});
-  // A compiler that did nothing for so long waits for something the source made it read. One that worked had
-  // a busy machine: the limit on processor time would have stopped it well before the clock.
-  constexpr double kWorked = 0.2;  // of the processor time it may use
+  // A compiler that was idle for so long is waiting for something that the source made it read. If it worked,
+  // the machine was busy: otherwise the limit on processor time would have stopped it well before the clock.
+  constexpr double kWorked = 0.2;  // as a share of the processor time that it may use
   if (result.timedOut && result.cpuSeconds > kWorked * limits_.seconds)
     throw Error({.what = fmt::format("{} did not end within {:g} s: the machine was too busy",
                                      command.front(), clockSeconds(limits_.seconds, level_))});
   return result;
 }
 
-// The kernel kills what used its time and a second more, and at level 3 what used all its memory.
+// Our limits make the kernel kill what exceeds its time by a second and, at level 3, what uses all its
+// memory.
 bool BuildTools::killedFromOutside(const ProcessResult& run) const {
   return wasKilled(run) && run.cpuSeconds < limits_.seconds && !cell_.ranOutOfMemory();
 }
@@ -149,7 +150,7 @@ ProcessResult BuildTools::run(const std::vector<std::string>& command, std::size
                                         [&](const ProcessResult& first) { return killedFromOutside(first); });
   if (killedFromOutside(last))
     throw Error(
-        {.what = command.front() + " was killed twice, by nothing that the file did",
+        {.what = command.front() + " was killed twice, through no fault of the file",
          .found = fmt::format("{} after {:.1f} s of processor time", lastWordsOf(last), last.cpuSeconds),
          .wanted = "a machine with more free memory"});
   return last;
@@ -159,7 +160,7 @@ std::string BuildTools::limitReached(const ProcessResult& run) const {
   const auto says = [&](const char* text) { return run.error.find(text) != std::string::npos; };
   if (cell_.ranOutOfMemory() || says("out of memory") || says("memory exhausted") || says("bad_alloc"))
     return fmt::format("needed more than {} MiB of memory and was stopped", limits_.memory >> 20);
-  // Where the last words are lost among too many others, the time that it took decides.
+  // If the last words are lost among too many others, the time decides.
   if (wasKilled(run) || says("CPU time limit") || run.signal == SIGXCPU || run.cpuSeconds >= limits_.seconds)
     return fmt::format("took more than {:g} s of processor time and was stopped", limits_.seconds);
   if (says("File size limit") || says("File too large"))
@@ -171,7 +172,8 @@ void writeSource(const fs::path& file, const std::string& text) {
   writeTextFile(file, text);
   constexpr std::array<timespec, 2> kBeginning{};
   if (::utimensat(AT_FDCWD, file.c_str(), kBeginning.data(), 0) != 0)
-    throw Error({.what = "cannot date a file", .where = {file.string()}, .found = std::strerror(errno)});
+    throw Error(
+        {.what = "cannot set the time of a file", .where = {file.string()}, .found = std::strerror(errno)});
 }
 
 std::vector<fs::path> studentHeaders(const fs::path& folder) {

@@ -46,7 +46,7 @@ CompileDiagnostic readMessage(const Json& json) {
   return message;
 }
 
-// The line and column after "main.cpp:" in a line that says where from; {0, 0} when it does not.
+// The line and column after "main.cpp:" in a line that names an origin; {0, 0} for any other line.
 std::pair<int, int> originIn(std::string_view line, const std::string& mainFile) {
   const bool instantiated = line.starts_with(mainFile + ":") && line.find("required from") != line.npos;
   const std::size_t included = line.find("from " + mainFile + ":");
@@ -72,7 +72,7 @@ std::string headerName(const std::string& file) {
 
 std::vector<CompileDiagnostic> parseCompilerJson(std::string_view standardError) {
   std::vector<CompileDiagnostic> messages;
-  // The array stands on one line; the driver adds lines of plain text.
+  // The array is on one line; the driver adds lines of plain text.
   for (const std::string_view line : splitLines(standardError)) {
     if (!line.starts_with('[')) continue;
     const Json array = Json::parse(line, nullptr, false);
@@ -104,7 +104,7 @@ std::vector<CompileDiagnostic> parseCompilerText(std::string_view standardError)
   return messages;
 }
 
-// Where the compiler left no line of the source, the assembler names that of a file which is gone.
+// Errors for which the assembler knows no line of the source name a line of a temporary file that is gone.
 std::vector<CompileDiagnostic> parseAssemblerText(std::string_view standardError) {
   std::vector<CompileDiagnostic> messages;
   for (const std::string_view line : splitLines(standardError)) {
@@ -152,8 +152,9 @@ std::vector<CompileDiagnostic> parseLinkerText(std::string_view standardError, c
   struct Phrase {
     std::string_view text, explanation;
   };
-  constexpr Phrase kPhrases[] = {{"undefined reference to `", "is declared but has no body here"},
-                                 {"multiple definition of `", "is defined, but the exercise already has it"}};
+  constexpr Phrase kPhrases[] = {
+      {"undefined reference to `", "is declared but not defined here"},
+      {"multiple definition of `", "is defined, but the exercise already defines it"}};
   std::vector<CompileDiagnostic> messages;
   std::set<std::string> seen;
   for (const std::string_view line : splitLines(standardError)) {

@@ -60,7 +60,7 @@ void readParts(const TomlTable& top, const std::string& file, ExerciseInfo& info
     throw Error({.what = "no part", .where = {file}, .wanted = "at least one table headed [[part]]"});
 }
 
-// "01" and "1" are one number.
+// "01" and "1" are the same number.
 std::string_view withoutZeros(std::string_view number) {
   return number.substr(std::min(number.find_first_not_of('0'), number.size()));
 }

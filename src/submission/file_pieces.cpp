@@ -10,21 +10,21 @@ namespace {
 
 constexpr std::string_view kNoCode = " \t\r\n";
 
-// Before the body of what is not a function, of a function that callers see into, and of what has other
-// parentheses before its parameters.
+// Words before the body of anything but a function, of a function whose body its callers may inspect, and of
+// one that has other parentheses before its parameters.
 constexpr auto kOtherWords = std::to_array<std::string_view>(
     {"__attribute__", "alignas",  "auto",   "class",   "concept",   "consteval", "constexpr", "decltype",
      "enum",          "explicit", "extern", "inline",  "namespace", "operator",  "requires",  "static",
      "struct",        "template", "try",    "typedef", "union",     "using"});
 
-// After a line of the preprocessor, which goes on after a backslash.
+// The position after a preprocessor directive, which a backslash continues on the next line.
 std::size_t behindDirective(const std::string& code, std::size_t at) {
   std::size_t end = code.find('\n', at);
   while (end != code.npos && code[end - 1] == '\\') end = code.find('\n', end + 1);
   return std::min(end, code.size());
 }
 
-// Behind the ';' or '}' that ends what starts at `at`.
+// The position after the ';' or '}' that ends the piece that starts at `at`.
 std::size_t behindPiece(const std::string& code, std::size_t at) {
   int depth = 0;
   for (; at < code.size(); ++at) {
@@ -33,14 +33,14 @@ std::size_t behindPiece(const std::string& code, std::size_t at) {
     if (depth > 0) continue;
     if (c == ';') return at + 1;
     const std::size_t next = c == '}' ? code.find_first_not_of(kNoCode, at + 1) : 0;
-    // A class and an initialiser go on after their braces.
+    // Classes and initialisers continue after their braces.
     if (c == '}' && (next == code.npos || std::string_view(";,.{").find(code[next]) == code.npos))
       return at + 1;
   }
   return code.size();
 }
 
-// The first such bracket that is in no others; npos if none is.
+// The first such bracket outside all other brackets, or npos.
 std::size_t outerBracket(std::string_view code, char bracket) {
   int depth = 0;
   for (std::size_t at = 0; at < code.size(); ++at) {
@@ -60,7 +60,7 @@ bool hasOtherWord(std::string_view head) {
   return false;
 }
 
-// The name in "type name(parameters) {", a part of `head`; empty if that is something else.
+// The name in "type name(parameters) {", a part of `head`; empty if `head` is something else.
 std::string_view functionName(std::string_view head) {
   const std::size_t open = outerBracket(head, '(');
   if (open == head.npos || hasOtherWord(head)) return {};
@@ -74,7 +74,7 @@ std::string_view functionName(std::string_view head) {
   return head.substr(first, last + 1 - first);
 }
 
-// Behind the brace that opens a namespace without a name at `at`; npos where none does.
+// The position after the brace that opens an unnamed namespace at `at`, or npos.
 std::size_t behindNamelessNamespace(std::string_view code, std::size_t at) {
   constexpr std::string_view kWord = "namespace";
   if (code.substr(at, kWord.size()) != kWord) return code.npos;
@@ -93,7 +93,7 @@ std::size_t behindAnyPiece(const std::string& code, std::size_t at) {
 std::vector<FilePiece> filePieces(std::string_view source) {
   const std::string code = codeOf(source);
   std::vector<FilePiece> pieces;
-  int open = 0;  // namespaces without a name
+  int open = 0;  // unnamed namespaces
   for (std::size_t at = code.find_first_not_of(kNoCode); at != code.npos;
        at = code.find_first_not_of(kNoCode, pieces.back().end)) {
     FilePiece piece{.start = at, .end = behindAnyPiece(code, at), .isInternal = open > 0};

@@ -24,10 +24,10 @@ Names namesIn(std::string_view code) {
 
 struct NamedPiece {
   FilePiece piece;
-  Names names;  // that it mentions
+  Names names;  // mentioned in it
   bool isFunction() const { return !piece.function.empty(); }
   bool isMain() const { return piece.function == "main"; }
-  bool isDirective = false;  // of the preprocessor
+  bool isDirective = false;  // for the preprocessor
 };
 
 std::vector<NamedPiece> namedPieces(std::string_view source) {
@@ -57,7 +57,7 @@ std::set<std::size_t> reached(const std::vector<NamedPiece>& pieces, Names names
   return found;
 }
 
-// Functions of the file alone that nothing else mentions: the compiler warns of them.
+// Functions with internal linkage that nothing else mentions: the compiler must see them to warn about them.
 std::set<std::size_t> unused(const std::vector<NamedPiece>& pieces) {
   std::map<std::string, int, std::less<>> mentions;
   for (const NamedPiece& one : pieces)
@@ -95,7 +95,7 @@ std::string gradedPart(std::string_view source, const std::vector<std::string>& 
   std::string text(source);
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const bool isLeftOut = pieces[i].isFunction() && !kept.contains(i);
-    // A macro may hide the name from what is left out.
+    // A watched name in a directive or in a function that is left out could escape the scan.
     const bool couldAsk = pieces[i].isDirective || (isLeftOut && !pieces[i].isMain());
     const auto isNamed = [&](const std::string& name) { return pieces[i].names.contains(name); };
     if (couldAsk && std::any_of(watched.begin(), watched.end(), isNamed)) return {};

@@ -27,7 +27,7 @@ int lineOf(std::string_view name, std::string_view source) {
          static_cast<int>(std::count(source.begin(), source.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
 }
 
-// A file or folder by what it is, not by how it is called.
+// Identifies a file or folder independently of its names.
 struct FileIdentity {
   dev_t device = 0;
   ino_t inode = 0;
@@ -36,14 +36,14 @@ struct FileIdentity {
 
 FileIdentity identityOf(const struct stat& status) { return {status.st_dev, status.st_ino}; }
 
-/// A file as it was found: what it is, and where it lies once all links are followed.
+/// A file that was found: its identity and its path with all links resolved.
 struct FoundFile {
   FileIdentity identity;
   fs::path place;
 };
 
-// Nothing for what is not there. The links of /proc lead to other places for each process: no path goes
-// through them.
+// Empty if there is no such file. Paths through the magic links of /proc are refused: they lead elsewhere in
+// each process.
 std::optional<FoundFile> findFile(const fs::path& path) {
   open_how how{};
   how.flags = O_PATH | O_CLOEXEC;
@@ -59,13 +59,13 @@ std::optional<FoundFile> findFile(const fs::path& path) {
   return FoundFile{identityOf(status), place};
 }
 
-// Headers of Eigen have no ending.
+// Headers of Eigen have no extension.
 bool isPublicHeader(const fs::path& file) {
   const std::string name = file.filename().string(), ending = file.extension().string();
   return (ending.empty() || ending == ".h" || ending == ".hpp") && !name.ends_with("_internal.h");
 }
 
-/// What may be included, by its identity.
+/// The files that may be included, by identity.
 class Allowed {
  public:
   Allowed(const std::string& mainFile, const fs::path& folder, const Toolchain& toolchain) {
@@ -78,7 +78,7 @@ class Allowed {
         for (const fs::path& header : studentHeaders(toolchain.flags[k])) add(header);
     }
     for (const char* place : {"/usr/include", "/usr/local/include", "/usr/lib"}) addFolder(system_, place);
-    // One of one's own brings its own headers: /opt/gcc/bin/g++.
+    // A separately installed compiler, such as /opt/gcc/bin/g++, brings its own headers.
     const fs::path home = fs::path(toolchain.compiler).parent_path().parent_path();
     if (toolchain.compiler.starts_with('/') && home != "/")
       for (const char* place : {"include", "lib", "lib64"}) addFolder(system_, home / place);
@@ -88,8 +88,8 @@ class Allowed {
     const std::optional<FoundFile> found = findFile(file);
     if (!found) return false;
     if (files_.contains(found->identity)) return true;
-    // A library may lie below the system's headers, not the other way round. The file has two names, the one
-    // by which it was included and its own.
+    // A library may lie below the folders of the system's headers, but not the other way round. The file has
+    // two names: the one by which it was included, and its own.
     const std::set<FileIdentity> folders = foldersAbove(found->place);
     if (isBelow(libraries_, folders)) return isPublicHeader(file) && isPublicHeader(found->place);
     return isBelow(system_, folders);

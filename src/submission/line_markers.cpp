@@ -10,12 +10,12 @@ namespace {
 
 constexpr std::string_view kDirectiveBlanks = " \t\v\f\r";
 
-/// Goes through a source whose lines are joined at backslashes.
+/// Searches a source whose lines have been joined at backslashes.
 class MarkerSearch {
  public:
   MarkerSearch(std::string_view text, bool knowsComments) : text_(text), knowsComments_(knowsComments) {}
 
-  // Where the '#' of each marker stands.
+  // The position of the '#' of each marker.
   std::vector<std::size_t> find() {
     std::vector<std::size_t> found;
     for (std::size_t at = 0; at < text_.size();) {
@@ -29,8 +29,9 @@ class MarkerSearch {
   }
 
  private:
-  // Behind the blanks and comments at `at`, which may go on for lines. Where the line stands in a comment
-  // that began in another, "/*/" ends it: so what is taken for a comment is one, if perhaps not all of it.
+  // The position after the blanks and comments at `at`, which may span lines. If the line is inside a comment
+  // that began on another one, "/*/" ends that comment. So whatever is skipped is indeed a comment, though
+  // perhaps not all of it.
   std::size_t behindComments(std::size_t at) const {
     for (;;) {
       const std::size_t first = std::min(text_.find_first_not_of(kDirectiveBlanks, at), text_.size());
@@ -41,7 +42,7 @@ class MarkerSearch {
     }
   }
 
-  // Behind the '#' there may be blanks and comments, also such as go on for lines.
+  // Blanks and comments, also those that span lines, may follow the '#'.
   bool isDirective(std::size_t lineStart, std::size_t sign) const {
     const bool isHash = text_[sign] == '#',
                isDigraph = text_.substr(sign, 2) == "%:", isTrigraph = text_.substr(sign, 3) == "?\?=";
@@ -78,7 +79,7 @@ std::vector<CompileDiagnostic> lineMarkers(std::string_view source, const std::s
     messages.push_back({mainFile, line, static_cast<int>(places[at] - lineStart) + 1, "error", "line-marker",
                         text[at] == 's'
                             ? "found the pragma system_header, wanted code that the compiler warns about"
-                            : "found a #line directive, wanted the lines as they stand in the file"});
+                            : "found a #line directive, wanted the real line numbers of the file"});
   }
   return messages;
 }

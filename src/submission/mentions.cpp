@@ -9,7 +9,7 @@ namespace rex::grading {
 
 bool isWord(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 
-// The compiler lets blanks stand between the backslash and the end of the line.
+// The compiler allows blanks between the backslash and the end of the line.
 std::pair<std::string, std::vector<std::size_t>> spliced(std::string_view source) {
   std::string text;
   std::vector<std::size_t> places;
@@ -37,7 +37,7 @@ std::size_t after(std::string_view mark, const std::string& source, std::size_t 
          mark.size();
 }
 
-// R"x(...)x", also with a prefix for another encoding, whose quote stands at `at`.
+// Whether the quote at `at` opens R"x(...)x", possibly with a prefix for another encoding.
 bool opensRawString(const std::string& source, std::size_t at) {
   std::size_t start = at;
   while (start > 0 && isWord(source[start - 1])) --start;
@@ -52,7 +52,7 @@ std::size_t behindRawString(const std::string& source, std::size_t at) {
   return std::min(after(mark, source, open), source.size());
 }
 
-// Digits, with what may stand between them: 1'000, 0x1p-3.
+// The position after digits and what may appear between them: 1'000, 0x1p-3.
 std::size_t behindNumber(const std::string& source, std::size_t at) {
   const auto goesOn = [&](std::size_t i) {
     if (isWord(source[i]) || source[i] == '.') return true;
@@ -64,7 +64,7 @@ std::size_t behindNumber(const std::string& source, std::size_t at) {
   return at;
 }
 
-// The position after the comment, literal or number that starts at `at`, or `at` when none does.
+// The position after the comment, literal or number that starts at `at`, or `at` if none does.
 std::size_t skipText(const std::string& source, std::size_t at) {
   if (source.compare(at, 2, "//") == 0) return std::min(source.find('\n', at), source.size());
   if (source.compare(at, 2, "/*") == 0) return std::min(after("*/", source, at + 2), source.size());
@@ -103,7 +103,7 @@ std::vector<std::size_t> positionsOf(std::string_view word, const std::string& c
   return positions;
 }
 
-// Blanks out what stands between main's braces.
+// Blanks out everything between the braces of main().
 void removeMain(std::string& code) {
   for (const std::size_t at : positionsOf("main", code)) {
     const std::size_t open = code.find_first_of("{;", at);

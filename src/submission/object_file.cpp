@@ -42,7 +42,7 @@ class ObjectReader {
   std::string_view part(std::uint64_t offset, std::uint64_t size) const {
     if (offset > bytes_.size() || size > bytes_.size() - offset)
       refuse(fmt::format("{} bytes from byte {}", size, offset),
-             fmt::format("places among its {} bytes", bytes_.size()));
+             fmt::format("positions within its {} bytes", bytes_.size()));
     return bytes_.substr(offset, size);
   }
 
@@ -72,8 +72,7 @@ class ObjectReader {
   }
 
   std::string_view strings(const Elf64_Shdr& section) const {
-    if (section.sh_type != SHT_STRTAB)
-      refuse("names outside of a table of strings", "one of type SHT_STRTAB");
+    if (section.sh_type != SHT_STRTAB) refuse("names outside a string table", "one of type SHT_STRTAB");
     return part(section.sh_offset, section.sh_size);
   }
 
@@ -90,8 +89,8 @@ class ObjectReader {
     const bool isObject = std::memcmp(header.e_ident, ELFMAG, SELFMAG) == 0 &&
                           header.e_ident[EI_CLASS] == ELFCLASS64 && header.e_ident[EI_DATA] == kByteOrder &&
                           header.e_type == ET_REL && header.e_shentsize == sizeof(Elf64_Shdr);
-    if (!isObject) refuse("another kind of file", "a relocatable ELF file of 64 bits");
-    // Counts that do not fit into the header stand in section 0.
+    if (!isObject) refuse("another kind of file", "a relocatable 64-bit ELF file");
+    // Counts that do not fit into the header are stored in section 0.
     const auto first = table<Elf64_Shdr>(header.e_shoff, 1).front();
     headers_ = table<Elf64_Shdr>(header.e_shoff, header.e_shnum != 0 ? header.e_shnum : first.sh_size);
     if (headers_.empty()) refuse("no sections", "a table of them");
@@ -101,10 +100,10 @@ class ObjectReader {
   void readSymbols() {
     for (std::size_t k = 1; k < headers_.size(); ++k) {
       if (headers_[k].sh_type != SHT_SYMTAB) continue;
-      if (symbolTable_) refuse("a second table of symbols", "one");
+      if (symbolTable_) refuse("a second symbol table", "one");
       symbolTable_ = k;
     }
-    if (!symbolTable_) refuse("no table of symbols", "one");
+    if (!symbolTable_) refuse("no symbol table", "one");
     const Elf64_Shdr& header = headers_[*symbolTable_];
     const std::string_view names = strings(section(header.sh_link));
     for (const Elf64_Sym& entry : tableIn<Elf64_Sym>(header)) {

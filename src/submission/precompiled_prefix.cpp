@@ -23,7 +23,7 @@ std::string_view includedName(std::string_view line) {
   return end == line.npos ? std::string_view{} : line.substr(1, end - 1);
 }
 
-// What may come before course.h or behind it: no standard header sets or needs macros of others.
+// What may come before course.h or after it: no standard header defines or needs macros of others.
 bool isStandard(std::string_view name) {
   constexpr auto kNames = std::to_array<std::string_view>({"algorithm",
                                                            "any",
@@ -123,7 +123,7 @@ bool isStandard(std::string_view name) {
   return std::ranges::binary_search(kNames, name);
 }
 
-// Headers of the exercise, of the library and of Eigen: what flags of a compiler name the folders of.
+// Headers of the exercise, of the library and of Eigen: those in folders that the compiler flags name.
 bool isOwn(std::string_view name, const std::vector<std::string>& flags) {
   const bool isHeader = name.ends_with(".h") || name.starts_with("Eigen/");
   if (!isHeader || name.starts_with('/') || name.find("..") != name.npos) return false;
@@ -134,8 +134,7 @@ bool isOwn(std::string_view name, const std::vector<std::string>& flags) {
   return false;
 }
 
-// The files that a rule of make, as g++ writes it, names behind the colon. A blank in a name stands behind a
-// backslash.
+// The files after the colon of a make rule written by g++. A blank in a name is escaped by a backslash.
 std::vector<std::string> prerequisites(const std::string& rule) {
   std::vector<std::string> files(1);
   for (std::size_t i = rule.find(": "); i < rule.size(); ++i) {
@@ -171,7 +170,7 @@ bool opensWithCourseHeader(std::string_view source, const std::vector<std::strin
     std::string_view line = source.substr(0, end);
     source.remove_prefix(std::min(end + 1, source.size()));
     line.remove_prefix(std::min(line.size(), line.find_first_not_of(kBlanks)));
-    // A line that ends in a backslash goes on in the next, and a comment may end anywhere.
+    // A line that ends in a backslash continues on the next, and a comment may end anywhere.
     if (line.find('\\') != line.npos || line.find("/*") != line.npos) return false;
     if (line.empty() || line.starts_with("//")) continue;
     const std::string_view name = includedName(line);

@@ -28,7 +28,7 @@ bool contains(const Strings& names, const std::string& name) {
   return std::ranges::find(names, name) != names.end();
 }
 
-// None for a folder without a library.
+// The library of that header, or nullptr if its folder has none.
 const LibraryPart* libraryOf(const fs::path& header, const std::vector<LibraryPart>& libraries) {
   const LibraryPart* first = nullptr;
   for (const LibraryPart& one : libraries) {
@@ -39,7 +39,7 @@ const LibraryPart* libraryOf(const fs::path& header, const std::vector<LibraryPa
   return first;
 }
 
-// A line "0000000000000000         *UND*	0000000000000000 rex::f(int)".
+// Looks for a line such as "0000000000000000         *UND*	0000000000000000 rex::f(int)".
 bool isUndefined(std::string_view symbol, std::string_view table) {
   while (!table.empty()) {
     const std::string_view line = table.substr(0, table.find('\n'));

@@ -19,7 +19,7 @@ struct Line {
   std::string text;
   int number = 0;
   Place place = Place::kPublic;
-  std::string region;  // of solution, todo and their markers
+  std::string region;  // for solutions, todos and their markers
 };
 
 struct Tag {
@@ -51,7 +51,7 @@ std::optional<Tag> tagIn(std::string_view line) {
   return tag;
 }
 
-// Walks through a file and says of each line where it stands; all complaints about markers are here.
+// Walks through a file and classifies each line; all complaints about markers are here.
 class MarkerReader {
  public:
   MarkerReader(std::string file, std::vector<std::string> words)
@@ -111,7 +111,7 @@ class MarkerReader {
   void openTodo(const Tag& tag) {
     if (tag.closing) fail("'</todo>' is not needed", number_, "'// </solution>', which ends both");
     if (place_ != Place::kSolution)
-      fail("'todo' out of place", number_, "it once in a solution, after the reference lines");
+      fail("'todo' out of place", number_, "one in a solution, after the reference lines");
     place_ = Place::kTodo;
   }
 
@@ -159,7 +159,7 @@ std::string uncomment(const std::string& line) {
   return line.substr(0, mark) + line.substr(mark + 4);
 }
 
-// Joins lines; a region that leaves nothing behind must not leave two blank lines either.
+// Joins lines; a region that vanishes must not leave two blank lines either.
 class Writer {
  public:
   void add(std::string_view line) {
@@ -192,7 +192,7 @@ std::vector<std::string> splitList(std::string_view list) {
 }
 
 // Reads `// caught by: ...`, `// shown by: ...` and `// mistake: ...` among the lines outside the regions,
-// where nothing else but comments may stand.
+// where only comments are allowed.
 Header readHeader(const std::vector<Line>& lines, const std::string& file) {
   Header header;
   for (const Line& line : lines) {
@@ -231,7 +231,7 @@ std::map<std::string, Replacement> readReplacements(const std::vector<Line>& lin
   return replacements;
 }
 
-// The file without markers and todos, and with other text in some of its regions.
+// The file without markers and todos, and with some of its regions replaced.
 std::string withReplaced(const std::vector<Line>& lines,
                          const std::map<std::string, Replacement>& replacements) {
   std::string text, current;

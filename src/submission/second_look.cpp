@@ -15,9 +15,9 @@
 namespace rex::grading {
 namespace {
 
-// Part of the program, for its environment is empty. The library it calls knows nothing of the sanitizers, so
-// what they would say about containers that both use is not a finding; what a killed program leaves is not a
-// leak.
+// The options are part of the program because its environment is empty. The library that it calls is built
+// without the sanitizers, so reports about containers that both use are no findings. Memory that a killed
+// program leaves behind is not a leak.
 constexpr const char* kOptionsHeader = R"(
 extern "C" __attribute__((no_sanitize("address", "undefined"))) const char* __asan_default_options() {
   return "abort_on_error=1:handle_abort=1:detect_leaks=0:detect_container_overflow=0:detect_odr_violation=0:"
@@ -52,7 +52,7 @@ std::string plainWords(std::string_view kind) {
   return std::string(kind.substr(0, kind.find(' ')));
 }
 
-// What a line reports, and the line it names itself; an empty finding where it reports nothing.
+// What a line reports, and the source line that it names; the finding is empty if it reports nothing.
 CrashSite findingIn(std::string_view line, const std::string& mainFile) {
   constexpr std::string_view kAddress = "ERROR: AddressSanitizer: ", kUndefined = ": runtime error: ";
   if (const std::size_t at = line.find(kAddress); at != line.npos)
@@ -84,8 +84,9 @@ std::optional<Frame> frameIn(std::string_view line, const std::string& mainFile)
   return Frame{std::string(function.substr(0, function.find_first_of("( "))), row};
 }
 
-// Chance decides in which line of a recursion the stack ends. A line that occurs twice in it calls the next
-// round; of several, the first in the file. The innermost line where none does.
+// The line of a recursion in which the stack ends is a matter of chance. A line that occurs twice on the
+// stack makes the recursive call; if there are several, the first in the file is taken, if none, the
+// innermost line.
 const Frame& recursionIn(const std::vector<Frame>& stack) {
   std::set<int> seen;
   const Frame* found = nullptr;
@@ -127,8 +128,8 @@ Toolchain sanitizedToolchain(const Toolchain& toolchain, const std::filesystem::
                                 "-fno-omit-frame-pointer", "-include", header})
     sanitized.flags.push_back(flag);
   sanitized.linkFlags.push_back(kSanitizers);
-  // Eigen allocates otherwise under the sanitizer of addresses, but what the program and the library hand to
-  // each other must be given back as it was got.
+  // Eigen allocates differently under the address sanitizer, but memory that passes between the program and
+  // the library must be freed the way it was allocated.
   const auto isSanitizer = [](const std::string& flag) { return flag.starts_with("-fsanitize="); };
   if (std::none_of(toolchain.flags.begin(), toolchain.flags.end(), isSanitizer))
     sanitized.flags.push_back("-DEIGEN_MALLOC_ALREADY_ALIGNED=1");

@@ -46,28 +46,28 @@ std::string plainName(const path& file) {
 }
 
 Error unexplained(const std::string& what, std::string found) {
-  return Error({.what = what + " at no fault of the file",
+  return Error({.what = what + " through no fault of the file",
                 .found = std::move(found),
-                .wanted = "a machine with room on its disks, and tools that work"});
+                .wanted = "a machine with free disk space and working tools"});
 }
 
-// Why a compiler that reported no error still failed. One that a source makes fall does so each time; what
-// nobody can explain is not a fault of the student.
+// Why a compiler that reported no error still failed. A crash that the source causes is repeatable; a failure
+// that nobody can explain is not the student's fault.
 std::string whyItGaveUp(const ProcessResult& run, const BuildTools& tools,
                         const StudentBuildOptions& limits) {
   if (run.timedOut)
     return fmt::format("compiling did not end within {:g} s: does it include a pipe or a device?",
                        clockSeconds(limits.seconds, limits.sandbox.level));
   if (const std::string limit = tools.limitReached(run); !limit.empty()) return "compiling " + limit;
-  constexpr std::size_t kMostText = 8u << 20;  // that BuildTools keeps
+  constexpr std::size_t kMostText = 8u << 20;  // all that BuildTools keeps
   const bool namesErrors = run.error.find("\"kind\": \"error\"") != run.error.npos;
-  if (namesErrors || run.error.size() >= kMostText) return "the compiler has more to say than can be read";
+  if (namesErrors || run.error.size() >= kMostText) return "the compiler prints more than can be read";
   const std::string words = lastWordsOf(run);
   if (words.find("internal compiler error") == words.npos) throw unexplained("the compiler failed", words);
   return "the compiler gave up: " + words;
 }
 
-// From level 2 on, files that the compiler makes for itself lie in memory that it shares with nobody.
+// From level 2 on, temporary files of the compiler lie in memory that it shares with nobody.
 bool isInSandboxsMemory(const std::string& text, sandbox::Level level) {
   return hasNamespaces(level) && text.find(fmt::format(" {}/cc", sandbox::kInsideFolder)) != text.npos;
 }
@@ -76,7 +76,7 @@ std::vector<std::string> compileCommand(const Toolchain& toolchain, const Studen
                                         const std::string& source) {
   std::vector<std::string> command = {toolchain.compiler};
   command.insert(command.end(), toolchain.flags.begin(), toolchain.flags.end());
-  // By their sections the linker finds what only main() needs.
+  // Separate sections let the linker find what only main() needs.
   command.insert(command.end(), {"-ftemplate-depth=200", "-ffunction-sections", "-fdata-sections"});
   if (options.debug) {
     const path folder = std::filesystem::absolute(options.main).parent_path();
@@ -90,8 +90,8 @@ std::vector<std::string> compileCommand(const Toolchain& toolchain, const Studen
   return command;
 }
 
-// The compiler's report in plain words; it alone says which line of the student's caused an error in a
-// header. No source lines are quoted: they could come from any file.
+// The compiler's report as plain text. Only this form says which line of the student's file caused an error
+// in a header. It quotes no source lines, as they could come from any file.
 std::string plainReport(std::vector<std::string> command, const std::string& name, const BuildTools& tools) {
   command.insert(command.end(), {"-fmax-errors=20", "-fno-diagnostics-show-caret", "-fsyntax-only", name});
   return tools.runOnce(command).error;
@@ -113,8 +113,8 @@ void explain(const ProcessResult& run, const std::vector<std::string>& command, 
   }
   const auto isError = [](const CompileDiagnostic& m) { return m.severity == "error"; };
   const auto explained = [&] { return std::any_of(result.messages.begin(), result.messages.end(), isError); };
-  // g++ 12 writes no JSON when -fmax-errors stops it; so that is for plain text only, which stands in when
-  // too many errors keep the JSON from being finished.
+  // g++ 12 writes no JSON when -fmax-errors stops it, so only the plain text has that limit. It takes over
+  // when there are too many errors for complete JSON.
   result.log = printable(plainReport(command, name, tools), kLogSize);
   if (!explained()) result.messages = parseCompilerText(result.log);
   if (!explained()) result.messages = parseAssemblerText(run.error);
@@ -129,8 +129,8 @@ std::vector<std::string> lastNames(const std::vector<ForbiddenFunction>& forbidd
   return names;
 }
 
-// The graded part alone where that is wanted and the file allows it: not where the scan for forbidden
-// functions, which sees what is compiled, would see less.
+// Compiles the graded part alone if that is wanted and the file allows it. It does not if the scan for
+// forbidden functions, which sees only what is compiled, would miss something.
 ProcessResult compileAll(const Toolchain& toolchain, const std::vector<ForbiddenFunction>& forbidden,
                          const std::vector<std::string>& command, const std::string& name,
                          const BuildTools& tools, const StudentBuildOptions& options,
@@ -164,8 +164,8 @@ void compile(const Toolchain& toolchain, const std::vector<ForbiddenFunction>& f
   if (result.log.empty()) result.log = writeLog(result.messages);
 }
 
-// What the linker found wrong with the last of the objects, which is the student's. Throws Error where
-// nothing explains it.
+// What the linker found wrong with the last of the objects, which is the student's. Throws Error if nothing
+// explains the failure.
 std::vector<CompileDiagnostic> explainLinking(const ProcessResult& run, const BuildTools& tools,
                                               const std::string& object, const std::string& mainFile) {
   std::vector<CompileDiagnostic> messages = parseLinkerText(run.error, mainFile);
@@ -177,8 +177,8 @@ std::vector<CompileDiagnostic> explainLinking(const ProcessResult& run, const Bu
   return {{mainFile, 0, 0, "error", "", "cannot be linked: " + complaint}};
 }
 
-// Of all that the compiler and the assembler opened. Where only a part was compiled, that was done in a
-// folder of its own.
+// The forbidden ones among all files that the compiler and the assembler opened. If only a part was compiled,
+// that was done in a folder of its own.
 std::vector<CompileDiagnostic> forbiddenFilesIn(const StudentObject& object, const path& folder,
                                                 const Toolchain& toolchain) {
   const auto forbidden = [&](const std::vector<path>& files, const path& where) {
@@ -192,8 +192,8 @@ std::vector<CompileDiagnostic> forbiddenFilesIn(const StudentObject& object, con
   return found;
 }
 
-// Makes `result.graded`, in which nothing may call what is forbidden. Where the file keeps that from being
-// made, the messages say so.
+// Makes `result.graded`, in which nothing may call what is forbidden. The messages also say if the file
+// prevents that.
 std::vector<CompileDiagnostic> forbiddenCallsIn(StudentObject& result, const Toolchain& toolchain,
                                                 const std::vector<ForbiddenFunction>& forbidden,
                                                 const BuildTools& tools) {
@@ -226,7 +226,7 @@ StudentProgram link(const Toolchain& toolchain, const BuildTools& tools, const p
   return result;
 }
 
-// The library, and before it what main() draws with.
+// The library, preceded by what main() draws with.
 std::vector<std::string> librariesOfProgram(const Toolchain& toolchain) {
   std::vector<std::string> libraries = texts(toolchain.libraries);
   if (!toolchain.show.empty()) libraries.insert(libraries.begin(), toolchain.show.string());
@@ -294,7 +294,7 @@ StudentObject compileStudent(const Toolchain& toolchain, const std::vector<Forbi
     result.exitCode = 1;
     return result;
   }
-  // Before anything is compiled: the compiler would attribute its messages as the file wants.
+  // Before anything is compiled: the compiler would attribute its messages to lines that the file chooses.
   if (options.publicHeadersOnly) result.messages = lineMarkers(result.source, name);
   if (!result.messages.empty()) {
     result.truncated = admitMessages(result.messages);
@@ -302,11 +302,11 @@ StudentObject compileStudent(const Toolchain& toolchain, const std::vector<Forbi
     result.exitCode = 1;
     return result;
   }
-  // A copy, so that what is graded is what was read and nothing beside the student's file is included.
+  // A copy, so that exactly what was read is graded and no file beside the student's is included.
   std::filesystem::create_directories(folder);
   writeSource(folder / name, result.source);
   result.object = folder / "student.o";
-  // Of another user, after a grading at another level.
+  // They may belong to another user, after grading at another level.
   for (const path& old :
        {folder / kDependencies, folder / kOfAssembler, folder / kPart / kOfAssembler, result.object})
     std::filesystem::remove(old);
@@ -337,7 +337,7 @@ StudentObject compileStudent(const Toolchain& toolchain, const std::vector<Forbi
 StudentProgram linkWorker(const Toolchain& toolchain, const StudentObject& object,
                           const sandbox::Sandbox& sandbox) {
   const path folder = object.object.parent_path(), renamed = folder / "worker_student.o";
-  // What was looked through, and nothing else.
+  // Exactly what was scanned.
   const bool isWhole = object.graded.empty();
   const path& graded = isWhole ? object.object : object.graded;
   const BuildTools tools(toolchain, folder, sandbox);

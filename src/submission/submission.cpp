@@ -27,17 +27,17 @@ namespace {
 using std::filesystem::path;
 
 constexpr double kLongestGrading = 3600;
-// A program with the sanitizers is slow, and keeps a record of its memory and some of what it gave back.
+// A program with the sanitizers is slow, and it keeps records of its memory and some of what it has freed.
 constexpr double kSanitizedSlowness = 20;
 constexpr std::size_t kSanitizedFactor = 2, kKeptBack = 256 * kMegabyte;
 
-// "c++ (Debian 12.2.0-14) 12.2.0", or the name alone of a compiler that does not run.
+// "c++ (Debian 12.2.0-14) 12.2.0", or only its name if the compiler does not run.
 std::string compilerVersion(const std::string& compiler) {
   const ProcessResult run = runProcess({compiler, "--version"});
   return run.ok() ? run.output.substr(0, run.output.find('\n')) : path(compiler).filename().string();
 }
 
-// What is known before any check runs.
+// The result as far as it is known before any check runs.
 GradeResult startResult(const Toolchain& toolchain, const ExerciseInfo& exercise,
                         const StudentObject& object) {
   GradeResult result;
@@ -76,8 +76,8 @@ std::vector<std::string> graderCommand(const Toolchain& toolchain, const Grading
   return command;
 }
 
-// Runs the grader and reads what it wrote; a grader that breaks is our fault and says so in the result. One
-// that was stopped leaves its worker behind, and what that started.
+// Runs the grader and reads what it wrote. If the grader breaks, the result says that it is our fault. A
+// grader that is stopped leaves its worker behind, and what that started.
 GradeResult callGrader(const std::vector<std::string>& command, const path& results) {
   const NewDescendants workers;
   const ProcessResult run = runProcess(command, {.timeout = kLongestGrading});
@@ -85,7 +85,7 @@ GradeResult callGrader(const std::vector<std::string>& command, const path& resu
   GradeResult result = loadResult(results);
   if (run.exitCode != numberOf(ExitCode::kFull) && run.exitCode != numberOf(ExitCode::kBelow)) {
     result.outcome = Outcome::kGraderError;
-    // One that reports a fault of its own explains it in the result.
+    // A grader that reports a fault of its own explains it in the result.
     if (run.exitCode != numberOf(ExitCode::kGraderFault) || result.message.empty())
       result.message =
           fmt::format("the grader failed (exit code {}, signal {}): {}", run.exitCode, run.signal, said);
@@ -127,7 +127,8 @@ StudentObject compileAsAsked(const Toolchain& toolchain, const ExerciseInfo& exe
                             .sandbox = options.job.sandbox,
                             .part = options.job.jobs > 1};
   if (!options.sanitize) return compileStudent(toolchain, exercise.forbidden, build);
-  // Unoptimised, inline functions of the library that main() uses refer to what is forbidden outside of it.
+  // Without optimisation, inline functions of the library that main() uses refer to functions forbidden
+  // elsewhere.
   build.seconds = kSanitizedSeconds;
   build.graded = build.part = false;
   return compileStudent(toolchain, {}, build);
@@ -154,7 +155,7 @@ void compileAndLink(const Toolchain& toolchain, const ExerciseInfo& exercise,
   writeTextFile(options.job.results.parent_path() / "build.log", log);
 }
 
-// What the sanitizers see in one check of a build with them.
+// What the sanitizers find when one check runs on a build with them.
 std::optional<CrashSite> crashSiteOf(const Toolchain& toolchain, const ExerciseInfo& exercise,
                                      const SubmissionOptions& options, const path& worker,
                                      const std::string& check, const std::string& mainFile) {
@@ -170,8 +171,8 @@ std::optional<CrashSite> crashSiteOf(const Toolchain& toolchain, const ExerciseI
   return crashSiteIn(loadResult(job.results).error.text, mainFile);
 }
 
-// Builds the same file with the sanitizers and repeats the visible checks that crashed, to say where. The
-// verdict stays: whatever goes wrong here, the result is as good as without.
+// Builds the same file with the sanitizers and repeats the visible checks that crashed, to find out where.
+// The verdict stays: whatever goes wrong here, the result is no worse than without.
 void findCrashes(const Toolchain& toolchain, const ExerciseInfo& exercise, const SubmissionOptions& options,
                  const BuiltSubmission& graded, GradeResult& result) {
   constexpr int kMostRepeated = 4;
@@ -179,7 +180,7 @@ void findCrashes(const Toolchain& toolchain, const ExerciseInfo& exercise, const
   for (CheckResult& check : result.checks)
     if (check.group == Group::kVisible && tellsOfCrash(check.message)) crashed.push_back(&check);
   if (crashed.size() > kMostRepeated) crashed.resize(kMostRepeated);
-  // The sanitizers read and map what a sandbox forbids.
+  // The sanitizers need to read and map memory in ways that a sandbox forbids.
   if (crashed.empty() || isConfined(options.job.sandbox.level)) return;
   SubmissionOptions again = options;
   again.sanitize = true;
@@ -213,7 +214,7 @@ BuiltSubmission buildSubmission(const Toolchain& toolchain, const ExerciseInfo& 
                    built);
   } catch (const Error& error) {
     built.start = startResult(toolchain, exercise, {});
-    built.start.message = error.what();  // the outcome is graderError until somebody finds a better one
+    built.start.message = error.what();  // the outcome is graderError unless a better one is found
   }
   return built;
 }

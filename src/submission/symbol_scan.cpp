@@ -18,7 +18,7 @@
 namespace rex::grading {
 namespace {
 
-// They find functions by name or by place while a program runs: the loader's calls, and its tables.
+// Calls and tables of the loader, which find functions by name or by address while a program runs.
 constexpr auto kLookups = std::to_array<const char*>({"dlsym",
                                                       "dlvsym",
                                                       "dlopen",
@@ -54,14 +54,14 @@ bool skip(std::string_view& text, std::string_view start) {
   return true;
 }
 
-// An entry to a function for a pointer to another base: "Thn16_" or "Tv0_n24_" stands before the function's
-// own name.
+// A thunk, the entry to a function for a pointer to another base: "Thn16_" or "Tv0_n24_" precedes the name of
+// the function.
 void skipThunk(std::string_view& text) {
   const int offsets = skip(text, "Th") ? 1 : skip(text, "Tv") ? 2 : 0;
   for (int k = 0; k < offsets; ++k) text.remove_prefix(std::min(text.find('_'), text.size() - 1) + 1);
 }
 
-// What stands before the name: a table, a guard or a name of a type, and "Z" for things inside of functions.
+// Prefixes of a name: of a table, a guard or the name of a type, and "Z" for things inside functions.
 void skipKind(std::string_view& text) {
   for (const char* kind : {"GV", "GR", "TV", "TT", "TI", "TS", "TH", "TW"})
     if (skip(text, kind)) break;
@@ -70,7 +70,7 @@ void skipKind(std::string_view& text) {
   }
 }
 
-// "3rex5solve" of "rex::solve", and how many names it has.
+// "3rex5solve" for "rex::solve", and the number of names in it.
 std::pair<std::string, int> mangled(std::string_view function) {
   std::string path;
   int count = 0;
@@ -83,7 +83,7 @@ std::pair<std::string, int> mangled(std::string_view function) {
   return {path, count};
 }
 
-// Sections that the linker makes, and what tells it to compile: both would be of a student's own making.
+// Sections that the linker makes, and those that make it compile. In a student's file, both would be forged.
 bool isOfLinker(const std::string& section) {
   constexpr auto kStarts = std::to_array<const char*>({".gnu.lto_", ".gnu.debuglto_", ".gnu.version", ".got",
                                                        ".plt", ".dyn", ".interp", ".hash", ".gnu.hash"});
@@ -99,7 +99,8 @@ bool isForCompilers(unsigned type) {
   return std::find(kTypes.begin(), kTypes.end(), type) != kTypes.end();
 }
 
-// ".rela.text" holds what its type says, or it would be taken for what the linker writes.
+// A section such as ".rela.text" must have the type of relocations, or it would pass for one that the linker
+// writes.
 bool isPosingAsRelocations(const ObjectSection& section) {
   return section.name.starts_with(".rel") && !section.name.starts_with(".relro") &&
          section.type != SHT_RELA && section.type != SHT_REL;
@@ -112,7 +113,7 @@ bool isPlainName(const std::string& name) {
   return std::all_of(name.begin(), name.end(), isPlain) && printable(name, name.size()) == name;
 }
 
-// "rex::plot" of "rex::plot(std::string const&, rex::Figure const&)": what a person calls it.
+// "rex::plot" for "rex::plot(std::string const&, rex::Figure const&)", as a person would call it.
 std::string nameIn(const std::string& symbol) {
   int status = 0;
   const std::unique_ptr<char, void (*)(void*)> text(
@@ -130,7 +131,7 @@ CompileDiagnostic forbiddenCall(const std::string& mainFile, std::pair<int, int>
 
 bool isSymbolOf(std::string_view symbol, std::string_view function) {
   symbol = withoutVersion(symbol);
-  if (symbol == function) return true;  // without a mangled name: of the language C
+  if (symbol == function) return true;  // a name of the language C is not mangled
   if (!skip(symbol, "_Z")) return false;
   skipKind(symbol);
   const auto [path, count] = mangled(function);
@@ -155,7 +156,7 @@ std::vector<ForbiddenFunction> forbiddenCalls(const ObjectFile& object,
   for (const std::string_view symbol : referred)
     if (isLookup(withoutVersion(symbol))) lookups.insert(withoutVersion(symbol));
   for (const std::string_view name : lookups)
-    found.push_back({std::string(name), "it finds functions while the program runs"});
+    found.push_back({std::string(name), "it looks up functions at run time"});
   return found;
 }
 
@@ -163,18 +164,18 @@ std::vector<CompileDiagnostic> strangeParts(const ObjectFile& object, const std:
   constexpr std::size_t kShown = 60;
   std::vector<CompileDiagnostic> messages;
   const auto complain = [&](const char* text, const std::string& name) {
-    if (messages.size() < 4)  // more say nothing more
+    if (messages.size() < 4)  // further ones add nothing
       messages.push_back(
           forbiddenCall(mainFile, {}, fmt::format(fmt::runtime(text), printable(name, kShown))));
   };
   for (const ObjectSymbol& symbol : object.symbols)
     if (!isPlainName(symbol.name))
-      complain("gives something the name '{}', wanted letters, digits and underscores", symbol.name);
+      complain("names something '{}', wanted letters, digits and underscores", symbol.name);
   for (const ObjectSection& section : object.sections) {
     if (!isPlainName(section.name))
-      complain("gives a section the name '{}', wanted letters, digits, points and underscores", section.name);
+      complain("names a section '{}', wanted letters, digits, points and underscores", section.name);
     if (isOfLinker(section.name) || !isForCompilers(section.type) || isPosingAsRelocations(section))
-      complain("makes a section '{}', which only the linker makes", section.name);
+      complain("makes a section '{}', which only the linker may make", section.name);
   }
   return messages;
 }
@@ -209,8 +210,8 @@ std::vector<CompileDiagnostic> scanSymbols(const std::filesystem::path& object, 
       return function == one.function || function.starts_with(one.function + "::");
     };
     if (std::none_of(forbidden.begin(), forbidden.end(), isOf))
-      complain(function, fmt::format("calls {}, which only main() may call in this exercise: what functions "
-                                     "that are graded may call, 'allowed' in exercise.toml lists",
+      complain(function, fmt::format("calls {}, which only main() may call in this exercise: 'allowed' in "
+                                     "exercise.toml lists what graded functions may call",
                                      function));
   }
   return messages;

@@ -20,7 +20,8 @@ bool tellsOfFullDisk(std::string_view line) {
   return std::any_of(kFull.begin(), kFull.end(), [&](const char* full) { return contains(line, full); });
 }
 
-// Nothing that helps a reader: an array of messages, which may be empty, and lines that only lead to others.
+// Whether the line is no help to a reader: an array of messages, which may be empty, or a line that only
+// introduces others.
 bool tellsNothing(std::string_view line) {
   return line.empty() || line.starts_with('[') || line == kDriversEnd ||
          line.ends_with("Assembler messages:");
@@ -28,8 +29,8 @@ bool tellsNothing(std::string_view line) {
 
 }  // namespace
 
-// The driver and collect2 speak last. The assembler alone can be made to end with any words, by a source that
-// has an error; then it says first that there are messages.
+// The driver and collect2 have the last word. Only the assembler can be made to end with any words, by a
+// source with an error, but then it first announces that there are messages.
 bool wasKilled(const ProcessResult& run) {
   if (run.timedOut) return false;
   if (run.signal == SIGKILL || run.exitCode == 128 + SIGKILL) return true;
@@ -59,7 +60,7 @@ std::optional<std::string> fullDiskIn(const std::vector<CompileDiagnostic>& mess
   return found;
 }
 
-// "student.o: in function `f':" leads to a line that explains it. Before some lines the linker names itself.
+// "student.o: in function `f':" introduces a line that explains it. Some lines start with the linker's name.
 std::string complaintAbout(std::string_view object, std::string_view linkerText) {
   const std::string start = fmt::format("{}:", object), named = "ld: " + start;
   bool leads = false;
@@ -71,7 +72,7 @@ std::string complaintAbout(std::string_view object, std::string_view linkerText)
     leads = isAbout && line.ends_with(':');
     if (isAbout && !leads) return std::string(line);
   }
-  // Other files have places that are too far away then.
+  // The linker may then complain about other files, from which addresses are too far away.
   for (const char* words : {"relocation truncated to fit", "failed to convert GOTPCREL relocation"})
     if (contains(linkerText, words)) return "its global variables take more than 2 GB";
   return {};

@@ -16,7 +16,7 @@ using std::filesystem::path;
 
 constexpr const char* kMessages = "messages.json";
 
-// How a compiler ended; our copies say it by their exit codes.
+// How a compiler ended; our copies report it by their exit codes.
 enum End { kCompiled, kFoundErrors, kFailed };
 
 End runCompiler(const BuildTools& tools, const std::vector<std::string>& command, const path& folder) {
@@ -26,7 +26,7 @@ End runCompiler(const BuildTools& tools, const std::vector<std::string>& command
   return run.started && !run.timedOut && run.exitCode == 1 ? kFoundErrors : kFailed;
 }
 
-// Those of the second that the first has not.
+// The messages of both compilers without duplicates.
 std::string joined(const std::string& first, const std::string& second) {
   nlohmann::json all = nlohmann::json::array();
   for (const std::string& text : {first, second}) {

@@ -20,8 +20,8 @@ std::set<std::string> wantedByWorker(const fs::path& worker) {
   return names;
 }
 
-// What the worker asks for; of a file without a worker, what any other could. Copies of templates and inline
-// functions stay only where something needs them.
+// What the worker refers to; without a worker, whatever any other file could refer to. Copies of templates
+// and inline functions are kept only if something needs them.
 std::set<std::string> rootsOf(const ObjectFile& object, const std::set<std::string>& wanted) {
   std::set<std::string> roots;
   for (const ObjectSymbol& symbol : object.symbols) {
@@ -40,8 +40,8 @@ std::optional<ProcessResult> withoutMain(const fs::path& object, const fs::path&
       rootsOf(readObjectFile(readTextFile(object), object.string()), wantedByWorker(toolchain.workerObject));
   if (roots.empty()) return {};
   const fs::path options = fs::path(part).replace_extension(".args");
-  for (const fs::path& old : {part, options}) fs::remove(old);  // of another user, maybe
-  // Too many for a command line, maybe. None has a blank or a quote: strangeParts() has looked.
+  for (const fs::path& old : {part, options}) fs::remove(old);  // perhaps of another user
+  // There may be too many for a command line. strangeParts() has made sure that none has a blank or a quote.
   std::string list = "-Wl,--gc-sections\n";
   for (const std::string& root : roots) list += fmt::format("-Wl,--undefined={}\n", root);
   writeTextFile(options, list);

@@ -32,7 +32,7 @@ std::vector<std::string> namesOf(const std::vector<ForbiddenFunction>& forbidden
   return names;
 }
 
-// What other files may use of an object file, with whether it holds what Eigen compiles.
+// The symbols that an object file defines for other files.
 Names definedIn(const fs::path& object) {
   Names names;
   for (const ObjectSymbol& symbol : readObjectFile(readTextFile(object), object.string()).symbols)
@@ -51,7 +51,7 @@ std::string fileOf(const ExerciseInfo& exercise) { return (exercise.folder / "ex
 /// What the object files of the library define.
 struct Definitions {
   Names all{};
-  Names ofEigen{};  ///< that the library has compiled for everybody
+  Names ofEigen{};  ///< compiled for everybody by the library
 };
 
 Definitions definitionsIn(const std::vector<fs::path>& objects) {
@@ -66,7 +66,7 @@ Definitions definitionsIn(const std::vector<fs::path>& objects) {
   return found;
 }
 
-// Of the library what is allowed and not forbidden, and all that is compiled of Eigen beforehand.
+// The symbols of the library that are allowed and not forbidden, and all of the precompiled parts of Eigen.
 Names offered(const Definitions& definitions, const std::vector<std::string>& allowed,
               const ExerciseInfo& exercise) {
   const std::vector<std::string> forbidden = namesOf(exercise.forbidden);
@@ -83,7 +83,7 @@ Names offered(const Definitions& definitions, const std::vector<std::string>& al
   return found;
 }
 
-// Of the worker of that part; of the one of all others where `part` is empty.
+// Checks the worker of that part; if `part` is empty, the worker of all other parts.
 void requireNothingForbidden(const fs::path& object, const std::string& part, const ExerciseInfo& exercise) {
   const ObjectFile file = readObjectFile(readTextFile(object), object.string());
   std::vector<std::string> there;
@@ -96,7 +96,7 @@ void requireNothingForbidden(const fs::path& object, const std::string& part, co
       there.push_back(one.function);
   }
   if (!there.empty())
-    throw Error({.what = "forbids functions that something needs which is allowed",
+    throw Error({.what = "forbids functions that an allowed one needs",
                  .where = {fileOf(exercise)},
                  .found = fmt::format("{} in the worker", fmt::join(there, ", "))});
 }
@@ -105,7 +105,7 @@ void writeLines(const fs::path& file, const Names& lines) {
   writeTextFile(file, fmt::format("{}\n", fmt::join(lines, "\n")));
 }
 
-// Names of others that something refers to, or that nothing does any more.
+// Undefined names that something refers to, or those that nothing refers to any more.
 Names undefinedIn(const fs::path& object, bool isReferred) {
   Names names;
   for (const ObjectSymbol& symbol : readObjectFile(readTextFile(object), object.string()).symbols)
@@ -113,13 +113,13 @@ Names undefinedIn(const fs::path& object, bool isReferred) {
   return names;
 }
 
-// The linker leaves the names of what it left out, and would ask for their libraries later.
+// The linker keeps the names of what it left out; the next link would ask for their libraries.
 void dropUnusedNames(const fs::path& object, const fs::path& list, const WorkerPartOrder& order) {
   writeLines(list, undefinedIn(object, false));
   run({order.objcopy, "--strip-symbols=" + list.string(), object.string()});
 }
 
-// Groups of sections are resolved here: a student's copy of a template does not take the place of ours.
+// Section groups are resolved here, so that a student's copy of a template does not replace ours.
 void link(const WorkerPartOrder& order, const fs::path& object, const Names& offers,
           const std::string& options) {
   std::string arguments = "-Wl,--gc-sections\n-Wl,--force-group-allocation\n" + options;
@@ -136,7 +136,8 @@ void link(const WorkerPartOrder& order, const fs::path& object, const Names& off
   dropUnusedNames(object, list, order);
 }
 
-// Those of the libraries of others that the object file needs: another's functions do forbidden work as well.
+// The external libraries that the object file needs. Others are not linked: their functions could do
+// forbidden work, too.
 std::string neededBy(const fs::path& object, const WorkerPartOrder& order) {
   const Names missing = undefinedIn(object, true);
   const auto isMissing = [&](std::string_view line) {

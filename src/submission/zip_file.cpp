@@ -14,7 +14,7 @@
 namespace rex::grading {
 namespace {
 
-// The earliest time a zip can tell, and a file that its owner may write and all may read.
+// The earliest time that a zip file can store, and permissions to write for the owner and to read for all.
 zip_fileinfo plainFile() {
   zip_fileinfo info{};
   info.tmz_date.tm_year = 1980;
@@ -44,7 +44,7 @@ bool writeAll(const std::filesystem::path& file, const std::vector<ZipEntry>& en
   return zipClose(zip, nullptr) == ZIP_OK && written;
 }
 
-// Before the name, so that a power cut leaves no broken file under it.
+// Called before the file gets its name, so that a power cut leaves no broken file under that name.
 bool reachesDisk(const std::filesystem::path& file) {
   const int fd = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
   if (fd < 0) return false;

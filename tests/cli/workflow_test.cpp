@@ -94,7 +94,7 @@ TEST_F(WorkflowTest, ExplainsAMissingFileAMissingFunctionAndAForbiddenCall) {
   write(exercise() / "main.cpp", "int main() {}\n");
   const Ended lacking = rex({"test", "98"});
   EXPECT_EQ(lacking.code, 2);
-  EXPECT_THAT(lacking.error, HasSubstr("'rotated' is declared but has no body here"));
+  EXPECT_THAT(lacking.error, HasSubstr("'rotated' is declared but not defined here"));
   write(exercise() / "main.cpp",
         "#include \"exercise.h\"\n#include \"geometry/rotation.h\"\nEigen::Vector2d rotated(const "
         "Eigen::Vector2d& p, double a) {\n"

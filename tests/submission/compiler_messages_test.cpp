@@ -63,8 +63,9 @@ TEST(ParseLinkerText, NamesEachFunctionOnce) {
       "b.o: multiple definition of `serve()'; a.o: first defined here\n",
       "main.cpp");
   ASSERT_EQ(messages.size(), 2u);
-  EXPECT_EQ(toString(messages[0]), "main.cpp: error: 'reach' is declared but has no body here");
-  EXPECT_EQ(toString(messages[1]), "main.cpp: error: 'serve' is defined, but the exercise already has it");
+  EXPECT_EQ(toString(messages[0]), "main.cpp: error: 'reach' is declared but not defined here");
+  EXPECT_EQ(toString(messages[1]),
+            "main.cpp: error: 'serve' is defined, but the exercise already defines it");
 }
 
 // As g++ 12 and as 2.40 write it: of asm() in a function, of what the compiler wrote itself, of a full disk.

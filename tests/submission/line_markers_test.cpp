@@ -19,7 +19,7 @@ TEST(LineMarkers, NamesTheLineAndColumn) {
       lineMarkers("int a;\n  #line 7 \"b.h\"\n# 1 \"c.h\" 3\n#pragma GCC system_header\n", "main.cpp");
   ASSERT_EQ(found.size(), 3u);
   EXPECT_EQ(toString(found[0]),
-            "main.cpp:2:3: error: found a #line directive, wanted the lines as they stand in the file "
+            "main.cpp:2:3: error: found a #line directive, wanted the real line numbers of the file "
             "[line-marker]");
   EXPECT_EQ(found[1].line, 3);
   EXPECT_EQ(toString(found[2]),

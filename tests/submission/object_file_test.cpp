@@ -112,7 +112,7 @@ TEST_F(ObjectFileTest, RefusesOtherFiles) {
   for (const std::string& bytes : {std::string(), std::string("text"), std::string(4096, '\0')})
     EXPECT_REX_ERROR(readObjectFile(bytes, "a.o"), "a.o: cannot read the compiled file");
   EXPECT_REX_ERROR(readObjectFile(readTextFile("/proc/self/exe"), "a.o"),
-                   "found another kind of file, wanted a relocatable ELF file of 64 bits");
+                   "found another kind of file, wanted a relocatable 64-bit ELF file");
 }
 
 // Each place of the file spoilt in turn: an answer or an Error, and nothing read outside of it.
@@ -141,18 +141,18 @@ TEST_F(ObjectFileTest, TrustsNoNumberInTheFile) {
   EXPECT_REX_ERROR(readObjectFile(with(symbols, offsetof(Elf64_Shdr, sh_link), 0, 4), "a.o"),
                    "found section 0");
   EXPECT_REX_ERROR(readObjectFile(with(symbols, offsetof(Elf64_Shdr, sh_link), symbols, 4), "a.o"),
-                   "names outside of a table of strings");
+                   "names outside a string table");
   EXPECT_REX_ERROR(readObjectFile(with(symbols, offsetof(Elf64_Shdr, sh_type), SHT_NOTE, 4), "a.o"),
-                   "found no table of symbols, wanted one");
+                   "found no symbol table, wanted one");
   EXPECT_REX_ERROR(readObjectFile(with(relocations, offsetof(Elf64_Shdr, sh_type), SHT_SYMTAB, 4), "a.o"),
-                   "found a second table of symbols, wanted one");
+                   "found a second symbol table, wanted one");
   EXPECT_REX_ERROR(readObjectFile(with(relocations, offsetof(Elf64_Shdr, sh_link), 1, 4), "a.o"),
                    "found relocations of the symbols in section 1");
   EXPECT_REX_ERROR(readObjectFile(with(symbols, offsetof(Elf64_Shdr, sh_size), 24, 8), "a.o"),
                    "found a relocation to symbol");
   EXPECT_REX_ERROR(
       readObjectFile(with(0, offsetof(Elf64_Shdr, sh_size), 0, 8).substr(0, header.e_shoff), "a.o"),
-      "wanted places among its");
+      "wanted positions within its");
 }
 
 TEST_F(ObjectFileTest, SurvivesAnyBytes) {

@@ -137,7 +137,7 @@ TEST_F(StudentBuildTest, LinksWhatDrawsForMain) {
   const StudentProgram without =
       linkProgram(drawing, compile("void show();\nint twice(int a) { return a; }\nint main() { show(); }\n"));
   EXPECT_FALSE(without.ok);
-  EXPECT_THAT(first(without.messages), HasSubstr("'thrice' is declared but has no body here"));
+  EXPECT_THAT(first(without.messages), HasSubstr("'thrice' is declared but not defined here"));
 }
 
 // Two compilers make the same of a file as one does.
@@ -253,7 +253,7 @@ TEST_F(StudentBuildTest, SaysWhichFunctionIsMissing) {
   ASSERT_TRUE(object.ok);
   const StudentProgram worker = linkWorker(toolchain(), object);
   EXPECT_FALSE(worker.ok);
-  EXPECT_EQ(first(worker.messages), "main.cpp: error: 'twice' is declared but has no body here");
+  EXPECT_EQ(first(worker.messages), "main.cpp: error: 'twice' is declared but not defined here");
 }
 
 // Else a warning would speak of another file, or be silent.
@@ -463,7 +463,8 @@ TEST_F(StudentBuildTest, SaysWhatTheLinkerRefuses) {
 TEST_F(StudentBuildTest, BlamesTheMachineForALinkerThatExplainsNothing) {
   Toolchain broken = toolchain();
   broken.libraries = {"/no/such/library.so"};
-  EXPECT_REX_ERROR(linkProgram(broken, compile(kGood)), "the linker failed at no fault of the file: found");
+  EXPECT_REX_ERROR(linkProgram(broken, compile(kGood)),
+                   "the linker failed through no fault of the file: found");
 }
 
 TEST_F(StudentBuildTest, BlamesTheMachineForACompilerThatExplainsNothing) {
@@ -473,7 +474,7 @@ TEST_F(StudentBuildTest, BlamesTheMachineForACompilerThatExplainsNothing) {
                                     .workFolder = temporary_.path() / "work"};
   broken.compiler = script("mute", "exit 1\n");
   EXPECT_REX_ERROR(compileStudent(broken, {}, options),
-                   "the compiler failed at no fault of the file: found exit code 1");
+                   "the compiler failed through no fault of the file: found exit code 1");
   broken.compiler = script("empty", "echo '[]' >&2\nkill -ABRT $$\n");
   EXPECT_REX_ERROR(compileStudent(broken, {}, options), "found signal 6");
 }
@@ -511,10 +512,10 @@ TEST_F(StudentBuildTest, BlamesTheMachineForAFullDisk) {
     ::setenv("TMPDIR", before.c_str(), 1);
   }
   if (set == nullptr) ::unsetenv("TMPDIR");
-  EXPECT_THAT(reasons,
-              ::testing::IsSupersetOf(
-                  {"built", "cannot write this file", "the compiler failed at no fault of the file",
-                   "cannot rename main in the compiled file", "the linker failed at no fault of the file"}));
+  EXPECT_THAT(reasons, ::testing::IsSupersetOf({"built", "cannot write this file",
+                                                "the compiler failed through no fault of the file",
+                                                "cannot rename main in the compiled file",
+                                                "the linker failed through no fault of the file"}));
 }
 
 // Of a machine short of memory: the driver, or a tool of its own.
@@ -553,7 +554,7 @@ TEST_F(StudentBuildTest, BlamesTheMachineForToolsThatAreKilledTwice) {
     killed.flags.push_back("-B" + (temporary_.path() / tool).string());
     EXPECT_REX_ERROR(
         compileStudent(killed, {}, options),
-        std::string("g++ was killed twice, by nothing that the file did: found g++: fatal error: "
+        std::string("g++ was killed twice, through no fault of the file: found g++: fatal error: "
                     "Killed signal terminated program ") +
             tool);
   }
@@ -561,7 +562,7 @@ TEST_F(StudentBuildTest, BlamesTheMachineForToolsThatAreKilledTwice) {
   Toolchain killed = toolchain();
   killed.linkFlags.push_back("-B" + (temporary_.path() / "ld").string());
   EXPECT_REX_ERROR(linkWorker(killed, object),
-                   "g++ was killed twice, by nothing that the file did: found collect2: fatal error: ld");
+                   "g++ was killed twice, through no fault of the file: found collect2: fatal error: ld");
 }
 
 TEST_F(StudentBuildTest, RefusesWhatIsNoSourceFile) {

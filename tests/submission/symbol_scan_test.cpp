@@ -285,11 +285,10 @@ TEST_F(ScanSymbolsTest, RefusesNamesThatNoCompilerGives) {
   for (const char* name : {"a\n0000000000000000 g     F .text.main\t0000000000000001 main", "a b", "\x1b[2J",
                            "two\rlines", "a,b", "a'b", "a\"b", "\xff\xfe", "a\\b"})
     EXPECT_THAT(renamed(std::string("--redefine-sym=_Z1fv=") + name),
-                ::testing::AllOf(::testing::StartsWith("main.cpp: error: gives something the name '"),
+                ::testing::AllOf(::testing::StartsWith("main.cpp: error: names something '"),
                                  ::testing::HasSubstr(wanted)))
         << name;
-  EXPECT_THAT(renamed("--rename-section=.text._Z1fv=a b"),
-              ::testing::HasSubstr("gives a section the name 'a b'"));
+  EXPECT_THAT(renamed("--rename-section=.text._Z1fv=a b"), ::testing::HasSubstr("names a section 'a b'"));
   EXPECT_EQ(renamed("--redefine-sym=_Z1fv=_Z1gv"), "");
 }
 
@@ -301,7 +300,7 @@ TEST_F(ScanSymbolsTest, RefusesSectionsOfTheLinker) {
                                ",\\\"a\\\",@progbits\\n.quad 0\\n.text\");\nint f() { return 1; }\n");
     ASSERT_EQ(messages.size(), 1u) << section;
     EXPECT_EQ(toString(messages[0]), std::string("main.cpp: error: makes a section '") + section +
-                                         "', which only the linker makes [forbidden-call]");
+                                         "', which only the linker may make [forbidden-call]");
   }
   EXPECT_EQ(scan("asm(\".section mine,\\\"a\\\",@0x6\\n.quad 0\\n.text\");\nint f() { return 1; }\n").size(),
             1u);
@@ -321,8 +320,8 @@ TEST_F(ScanSymbolsTest, RefusesToFindFunctionsByName) {
       "\"_ZN3rex7solveIkEi\"))(1);\n}\n");
   ASSERT_EQ(messages.size(), 1u);
   EXPECT_EQ(toString(messages[0]),
-            "main.cpp:3:41: error: calls dlsym, which nobody may call in this exercise: it finds functions "
-            "while the program runs [forbidden-call]");
+            "main.cpp:3:41: error: calls dlsym, which nobody may call in this exercise: it looks up "
+            "functions at run time [forbidden-call]");
 }
 
 TEST_F(ScanSymbolsTest, AllowsWritingAFunctionOfThatNameOrOnlyDeclaringIt) {

@@ -125,7 +125,7 @@ TEST_F(RunFile, ExplainsErrorsAsForExercises) {
   EXPECT_THAT(ended.error, HasSubstr("build.log"));
   EXPECT_THAT(fileText(outOf("wrong") / "build.log"), HasSubstr("Simulatr"));
   program("open.cpp", "int missing();\nint main() { return missing(); }\n");
-  EXPECT_THAT(rex({"run", in("open.cpp")}).error, HasSubstr("'missing' is declared but has no body here"));
+  EXPECT_THAT(rex({"run", in("open.cpp")}).error, HasSubstr("'missing' is declared but not defined here"));
 }
 
 TEST_F(RunFile, SaysHowTheProgramEnded) {
