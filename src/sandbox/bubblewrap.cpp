@@ -26,7 +26,7 @@ void addNamespaces(Options& options, bool becomesUser) {
     add(options, {"--unshare-user", "--disable-userns"});
 }
 
-// Folders that bubblewrap makes by itself are for their owner only.
+// Folders that bubblewrap makes by itself are accessible only to their owner.
 void addParents(Options& options, const std::filesystem::path& place) {
   std::filesystem::path folder = "/";
   for (const auto& name : place.parent_path().relative_path()) {
@@ -41,8 +41,8 @@ void show(Options& options, const char* how, const std::filesystem::path& path,
   add(options, {how, path.string(), inside.string()});
 }
 
-// The system's programs and libraries, devices that do no harm, and its own processes; nothing can be
-// written.
+// The system's programs and libraries, harmless devices and the processes of the sandbox itself, all of it
+// read-only.
 void addSystem(Options& options, bool compiles) {
   add(options, {"--ro-bind", "/usr", "/usr"});
   for (const char* name : kRootFolders) {

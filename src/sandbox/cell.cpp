@@ -27,7 +27,7 @@ Cell::Cell(const Sandbox& sandbox, Confinement confinement)
         {.what = "cannot give the work folder to the user of the sandbox", .found = std::strerror(errno)});
 }
 
-// The user's number will be lent to others.
+// The user ID will be lent to others.
 Cell::~Cell() {
   const auto& folder = confinement_.writable;
   if (confinement_.user && !folder.empty())

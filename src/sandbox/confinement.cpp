@@ -10,7 +10,7 @@
 namespace rex::sandbox {
 namespace {
 
-// Reads the arguments one after the other.
+// Reads the arguments one by one.
 class Reader {
  public:
   explicit Reader(const std::vector<std::string>& arguments) : arguments_(arguments) {}

@@ -35,7 +35,7 @@ std::string read(const fs::path& file) {
   return text.str();
 }
 
-// Where each kind of control group is mounted: "" is version 2, the others controllers of version 1.
+// The mount point of each kind of control group: "" is version 2, the others are controllers of version 1.
 std::map<std::string, fs::path> mounts() {
   std::map<std::string, fs::path> found;
   std::ifstream file("/proc/self/mounts");
@@ -52,7 +52,7 @@ std::map<std::string, fs::path> mounts() {
   return found;
 }
 
-// The group this process is in, below the mount of version 2.
+// The group of this process, relative to the mount point of version 2.
 fs::path ownGroup() {
   std::ifstream file("/proc/self/cgroup");
   for (std::string line; std::getline(file, line);)
@@ -60,16 +60,16 @@ fs::path ownGroup() {
   return {};
 }
 
-// The owner's number in a name that freshName() made; 0: none of ours.
+// The owner's process ID in a name that freshName() made; 0: not one of ours.
 pid_t ownerOf(const std::string& name) {
   int owner = 0;
   return std::sscanf(name.c_str(), "rex-%d-", &owner) == 1 ? owner : 0;
 }
 
-// Processes get old numbers again: the rest of the name is random.
+// Process IDs are reused, so the rest of the name is random.
 std::string freshName() { return fmt::format("rex-{}-{:08x}", ::getpid(), std::random_device()()); }
 
-// Groups whose owners were killed. The kernel keeps those that hold a process.
+// Removes groups whose owners were killed. The kernel keeps those that hold a process.
 void removeAbandoned(const fs::path& parent) {
   std::error_code ignored;
   for (fs::directory_iterator entry(parent, ignored), end; entry != end; entry.increment(ignored)) {
@@ -82,7 +82,7 @@ void removeAbandoned(const fs::path& parent) {
 
 ControlGroup::ControlGroup(std::size_t memoryBytes, int processes) {
   if (tryVersion2(memoryBytes, processes) || tryVersion1(memoryBytes, processes)) return;
-  throw Error({.what = "no control group for memory and processes can be made here"});
+  throw Error({.what = "cannot make a control group for memory and processes here"});
 }
 
 ControlGroup::~ControlGroup() {
@@ -90,7 +90,7 @@ ControlGroup::~ControlGroup() {
   remove();
 }
 
-// Below the group of our own if that is ours to divide, else below the top.
+// Below our own group if we may divide it, else below the top.
 bool ControlGroup::tryVersion2(std::size_t memoryBytes, int processes) {
   const auto all = mounts();
   const auto mount = all.find("");
@@ -127,7 +127,7 @@ bool ControlGroup::tryVersion1(std::size_t memoryBytes, int processes) {
     return done;
   };
   if (limit("memory.limit_in_bytes", memoryBytes) && limit("pids.max", static_cast<std::size_t>(processes))) {
-    limit("memory.memsw.limit_in_bytes", memoryBytes);  // memory and swap, where swap is counted
+    limit("memory.memsw.limit_in_bytes", memoryBytes);  // memory and swap, if swap is counted
     return true;
   }
   remove();
@@ -161,7 +161,7 @@ void ControlGroup::kill() const {
   }
 }
 
-// Killed processes need a moment to leave.
+// Killed processes take a moment to disappear.
 void ControlGroup::remove() {
   for (const fs::path& folder : folders_) {
     for (int attempt = 0; attempt < 400 && ::rmdir(folder.c_str()) != 0 && errno == EBUSY; ++attempt) {

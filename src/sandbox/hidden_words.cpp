@@ -12,10 +12,10 @@
 namespace rex::sandbox {
 namespace {
 
-constexpr std::uint64_t kHighest = std::uint64_t{1} << 38;  // also where addresses are short
-constexpr std::size_t kPage = 65536, kStep = 16;            // of all kinds of machines
+constexpr std::uint64_t kHighest = std::uint64_t{1} << 38;  // also for machines with short addresses
+constexpr std::size_t kPage = 65536, kStep = 16;            // for all kinds of machines
 
-// Memory of so many bytes at a random place, in which the first byte is anywhere in its first page.
+// That many bytes at a random address, which may be anywhere within its page.
 void* randomPlace(std::size_t size) {
   for (int attempt = 0; attempt < 100; ++attempt) {
     std::uint64_t random = 0;
@@ -29,7 +29,7 @@ void* randomPlace(std::size_t size) {
     if (place == reinterpret_cast<void*>(page)) return reinterpret_cast<void*>(address);
     ::munmap(place, length);
   }
-  throw Error({.what = "no room for the words of a program", .found = std::strerror(errno)});
+  throw Error({.what = "no room in memory for the arguments of a program", .found = std::strerror(errno)});
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
-// rex-sandbox: confines itself as its options say and becomes the program after "--". Levels 2 and 3 go
-// through bubblewrap, which starts it a second time, as the first process inside; that one starts the program
-// as its child, reports how it ended, and takes all that is left with it.
+// rex-sandbox: confines itself as its options say and becomes the program after "--". At levels 2 and 3 it
+// runs bubblewrap, which starts it a second time as the first process inside. This one starts the program as
+// its child, reports how it ended, and takes all remaining processes with it when it ends.
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -42,7 +42,8 @@ void report(const Confinement& c, const std::string& text) {
   if (c.reports) tell(kReport, text);
 }
 
-// To tools, on standard error: nothing the tool says comes before, so it cannot pass for a sandbox that fell.
+// For tools, on standard error: nothing that a tool prints comes before this line, so a tool cannot make it
+// look as if the sandbox had failed.
 void reportReady(const Confinement& c) {
   report(c, kReady);
   if (!c.reports && c.mayStartProgramsOfItsOwn) tell(STDERR_FILENO, kReady);
@@ -63,7 +64,7 @@ std::vector<char*> pointers(const std::vector<std::string>& texts) {
   return list;
 }
 
-// A file in memory that the next program inherits, with the texts one after the other.
+// A file in memory with the texts one after the other, which the next program inherits.
 int memoryFile(const std::vector<std::string>& texts) {
   constexpr int kAboveFixed = 10;
   const int low = static_cast<int>(::memfd_create("rex", MFD_CLOEXEC));
@@ -95,8 +96,8 @@ void limit(__rlimit_resource resource, rlim_t soft, rlim_t hard) {
   if (::setrlimit(resource, &value) != 0) failWithCause("cannot limit what the program may use");
 }
 
-// The number of processes is counted for each user, in each namespace of users: only where that means this
-// program alone can it be limited.
+// The kernel counts processes per user and user namespace. Their number can be limited only if this program
+// has one of these for itself.
 void setLimits(const Confinement& c) {
   const auto cpu = static_cast<rlim_t>(std::ceil(c.cpuSeconds));
   if (cpu > 0) limit(RLIMIT_CPU, cpu, cpu + 1);
@@ -116,7 +117,7 @@ void becomeUser(const Confinement& c) {
     failWithCause("cannot become another user");
 }
 
-// Opened before anything is forbidden: its folder may be closed to the user that we become.
+// Opened before anything is forbidden, as its folder may be inaccessible to the user that we become.
 int openProgram(const std::string& name) {
   int fd = ::open(name.c_str(), O_PATH | O_CLOEXEC);
   if (name.find('/') == std::string::npos) fd = ::open(("/usr/bin/" + name).c_str(), O_PATH | O_CLOEXEC);
@@ -130,7 +131,7 @@ ProgramStart startOf(const Order& order, int program) {
   return {program, hiddenWord(""), hiddenWords(arguments), hiddenWords(order.confinement.environment)};
 }
 
-// Becomes the program; what it cannot be is its own doing: too large, or no program at all.
+// Becomes the program. If that fails, it is the file's own fault: too large, or not a program at all.
 [[noreturn]] void become(const ProgramStart& start) {
   ::execveat(start.program, start.path, start.arguments, start.environment, AT_EMPTY_PATH);
   tell(STDERR_FILENO, fmt::format("{}: {}\n", start.arguments[0], std::strerror(errno)));
@@ -144,7 +145,7 @@ void setOut(const Order& order) {
   setLimits(order.confinement);
 }
 
-// Whether a user who owns nothing comes to the place.
+// Whether a user who owns nothing can reach the path.
 bool isOpenToAll(std::filesystem::path place) {
   for (struct stat status{}; ::stat(place.c_str(), &status) == 0; place = place.parent_path()) {
     const mode_t wanted = S_ISDIR(status.st_mode) ? S_IXOTH : S_IROTH;
@@ -154,8 +155,8 @@ bool isOpenToAll(std::filesystem::path place) {
   return true;
 }
 
-// At level 1 programs see the machine's own files. Where only root comes to them root stays root, but without
-// its rights, which the next program starts without; landlock holds for root too.
+// At level 1 programs see the machine's own files. If only root can reach some of them, root stays root, but
+// the next program starts without root's capabilities. Landlock applies to root, too.
 void becomeUserOrPlainRoot(const Order& order) {
   const Confinement& c = order.confinement;
   if (!c.user) return;
@@ -171,7 +172,7 @@ void becomeUserOrPlainRoot(const Order& order) {
   }
 }
 
-// Level 1: in the same process, from the outside to the inside.
+// Level 1: confines this very process.
 [[noreturn]] void runAtLevelOne(const Order& order) {
   const Confinement& c = order.confinement;
   FileRules rules;
@@ -186,7 +187,7 @@ void becomeUserOrPlainRoot(const Order& order) {
   const ProgramStart start = startOf(order, openProgram(order.command.front()));
   setOut(order);
   becomeUserOrPlainRoot(order);
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // a change of user forgets it
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // a change of user resets it
   rules.enforce();
   filterSystemCalls(c, start);
   reportReady(c);
@@ -206,10 +207,10 @@ void becomeUserOrPlainRoot(const Order& order) {
   const std::vector<std::string> command = {"bwrap",         "--args", fmt::format("{}", options), "--",
                                             kInsideLauncher, kInside,  fmt::format("{}", order)};
   ::execvp(command[0].c_str(), pointers(command).data());
-  failWithCause("cannot run bwrap, of the package bubblewrap");
+  failWithCause("cannot run bwrap from the package bubblewrap");
 }
 
-// Waits for the child, and for all others, so that what they used is counted. Returns how the child ended.
+// Waits for the child and all other processes, so that their usage is counted. Returns the child's status.
 int waitFor(pid_t child, double wallSeconds, bool& timedOut) {
   int status = 0;
   if (wallSeconds > 0) ::alarm(static_cast<unsigned>(std::ceil(wallSeconds)));
@@ -235,14 +236,14 @@ int waitFor(pid_t child, double wallSeconds, bool& timedOut) {
   const ProgramStart start = startOf(order, openProgram(program));
   setOut(order);
   becomeUser(c);
-  // It is that user's; root is without its rights here.
+  // The folder belongs to that user; root has no special rights here.
   if (::chdir(folder.c_str()) != 0) failWithCause("cannot enter the work folder");
   filterSystemCalls(c, start);
   reportReady(c);
   become(start);
 }
 
-// The first process inside. Nobody inside may look into it: it may be of the same user.
+// The first process inside. Others inside must not look into it, even if they belong to the same user.
 int runInside(const Order& order) {
   ::prctl(PR_SET_DUMPABLE, 0);
   struct sigaction wake {};
@@ -258,7 +259,7 @@ int runInside(const Order& order) {
       ::_exit(numberOf(ExitCode::kNotStarted));
     }
   }
-  // The ends of pipes are the program's alone: its closing them must be seen.
+  // Only the program may hold the ends of the pipes, so that the other side notices when it closes them.
   for (int fd = 0; fd < kReport; ++fd) ::close(fd);
   bool timedOut = false;
   const int status = waitFor(child, order.confinement.wallSeconds, timedOut);

@@ -10,8 +10,9 @@
 
 namespace rex::sandbox {
 
-// The kernel opens a process to those who could trace it: not to one in a landlock domain that it is not in,
-// whatever that domain forbids, here to make device files; nor to one that lacks some of its capabilities.
+// The kernel opens a process only to those who may trace it. That excludes a process in a landlock domain
+// that the other is not in, whatever the domain forbids (here: making device files), and one that lacks some
+// of the other's capabilities.
 bool leaveOthersAlone() noexcept {
   ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
   const bool isLessThanRoot = ::geteuid() == 0 && ::prctl(PR_CAPBSET_DROP, CAP_SYS_PTRACE, 0, 0, 0) == 0;

@@ -19,7 +19,7 @@ std::string warningOf(Level level) {
     case Level::kControlGroup:
       return "";
     case Level::kNamespaces:
-      return describe(level) + ": memory is limited for each process, not for all together";
+      return describe(level) + ": memory is limited per process, not in total";
     case Level::kFiles:
       return describe(level) +
              ": the student's program can read the system's files under /usr and see which files exist; "

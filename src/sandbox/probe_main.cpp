@@ -25,7 +25,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-// What got through; empty: nothing.
+// Returns what got through; empty: nothing.
 using Attack = std::function<std::string(const Words&)>;
 
 bool opens(const std::string& file, int how) {
@@ -34,19 +34,19 @@ bool opens(const std::string& file, int how) {
   return fd >= 0;
 }
 
-// secret file, folder outside
+// Words: a secret file, a folder outside.
 std::string readAndWriteFiles(const Words& words) {
   for (const std::string& file : {words.at(0), std::string("/etc/passwd"), std::string("/etc/shadow")})
     if (opens(file, O_RDONLY)) return "read " + file;
   for (const std::string& folder :
        {words.at(1), std::string("/usr"), std::string("/var/tmp"), std::string("/dev")})
     if (opens(folder + "/rex-probe", O_WRONLY | O_CREAT)) return "wrote into " + folder;
-  if (::chmod(words.at(0).c_str(), 0) == 0) return "changed the rights of " + words.at(0);
+  if (::chmod(words.at(0).c_str(), 0) == 0) return "changed the permissions of " + words.at(0);
   if (::truncate(words.at(0).c_str(), 0) == 0) return "emptied " + words.at(0);
   return "";
 }
 
-// process of ours outside
+// Words: ID of a process of ours outside.
 std::string reachProcesses(const Words& words) {
   const pid_t victim = std::stoi(words.at(0));
   const std::string folder = "/proc/" + words.at(0);
@@ -59,7 +59,7 @@ std::string reachProcesses(const Words& words) {
   return "";
 }
 
-// port of a listener outside
+// Words: port of a listener outside.
 std::string reachNetwork(const Words& words) {
   sockaddr_in address{};
   address.sin_family = AF_INET;
@@ -79,7 +79,7 @@ std::string findDescriptors(const Words&) {
   return "";
 }
 
-// A sandbox that forbids new processes kills this one; one that counts them says no in time.
+// A sandbox that forbids new processes kills this one; one that counts them refuses in time.
 std::string startProcesses(const Words& words) {
   const int allowed = std::stoi(words.at(0));
   std::vector<pid_t> children;
@@ -98,7 +98,7 @@ std::string startProcesses(const Words& words) {
   return count > allowed ? fmt::format("started {} processes", count) : "";
 }
 
-// megabytes that it may have
+// Words: megabytes that it may have.
 std::string takeMemory(const Words& words) {
   const std::size_t allowed = std::stoul(words.at(0)), step = 16;
   for (std::size_t taken = 0; taken < 2 * allowed; taken += step) {
@@ -109,7 +109,7 @@ std::string takeMemory(const Words& words) {
   return fmt::format("took {} MB", 2 * allowed);
 }
 
-// megabytes of files that it may write
+// Words: megabytes of files that it may write.
 std::string fillFolders(const Words& words) {
   const std::size_t allowed = std::stoul(words.at(0));
   std::size_t written = 0;
@@ -126,7 +126,7 @@ std::string fillFolders(const Words& words) {
   return written > allowed ? fmt::format("wrote {} MB", written) : "";
 }
 
-// Stays behind in a session of its own. Whether it did is seen from outside.
+// Stays behind in a session of its own. Whether that worked is checked from outside.
 std::string stayBehind(const Words&) {
   if (::fork() == 0) {
     ::setsid();
@@ -139,7 +139,7 @@ std::string stayBehind(const Words&) {
   return "";
 }
 
-// Takes the place of the program. One that starts ends with a code of its own.
+// Replaces this program with another. One that starts ends with an exit code of its own.
 std::string startAnother(const Words&) {
   std::string shell = "/bin/sh", option = "-c", said = "echo a shell took the place of the program; exit 1";
   char* words[] = {shell.data(), option.data(), said.data(), nullptr};
@@ -149,19 +149,19 @@ std::string startAnother(const Words&) {
   return "";
 }
 
-// Locks on a file of the system, which other programs see.
+// Locks a file of the system; other programs would notice.
 std::string lockFiles(const Words&) {
   const int fd = ::open("/usr/bin/env", O_RDONLY);
   if (::flock(fd, LOCK_SH | LOCK_NB) == 0) return "locked a file of the system";
   for (const int command : {F_SETLK, F_OFD_SETLK}) {
     struct flock lock {};
     lock.l_type = F_RDLCK;
-    if (::fcntl(fd, command, &lock) == 0) return "locked a part of a file of the system";
+    if (::fcntl(fd, command, &lock) == 0) return "locked part of a file of the system";
   }
   return "";
 }
 
-// Calls that are known for holes, and such as came after the filter was written.
+// Calls that are known for security holes, and calls added after the filter was written.
 std::string makeOddCalls(const Words&) {
   const std::pair<const char*, long> calls[] = {{"io_uring_setup", SYS_io_uring_setup},
                                                 {"memfd_create", SYS_memfd_create},
@@ -176,7 +176,7 @@ std::string makeOddCalls(const Words&) {
   return "";
 }
 
-// One that the filter answers by ending the program.
+// A call that makes the filter end the program.
 std::string makeHostileCall(const Words& words) {
   const std::map<std::string, long> calls = {
       {"ptrace", SYS_ptrace}, {"unshare", SYS_unshare}, {"userfaultfd", SYS_userfaultfd}, {"bpf", SYS_bpf}};

@@ -23,7 +23,7 @@ constexpr std::size_t kMegabytes = 256;
 constexpr std::size_t kFileMegabytes = 64;
 constexpr int kProcesses = 64;
 
-/// What the attacks aim at: a file, a listening socket, an open descriptor, this process.
+/// The targets of the attacks: a file, a listening socket, an open descriptor, this process.
 class Targets {
  public:
   explicit Targets(const fs::path& folder) : secret_(folder / "secret") {
@@ -80,14 +80,14 @@ int signalOf(const ProcessResult& result) {
 
 Probe judge(const std::string& name, const ProcessResult& result) {
   if (!result.started) return {name, false, "the launcher does not start: " + result.error, false};
-  // The probe reports what got through on standard output; bubblewrap complains on the other with the same
-  // code.
+  // The probe reports on standard output what got through; bubblewrap complains on standard error with the
+  // same exit code.
   if (result.exitCode == 1 && !result.output.empty()) return {name, false, firstLine(result.output)};
   if (signalOf(result) == SIGSYS) return {name, true, "stopped at a forbidden system call"};
   if (signalOf(result) == SIGKILL || signalOf(result) == SIGXCPU) return {name, true, "killed"};
   if (result.exitCode == 0) return {name, true, "refused"};
-  return {name, false, fmt::format("the sandbox does not stand: {}", firstLine(result.error + result.output)),
-          false};
+  return {name, false,
+          fmt::format("the sandbox cannot be set up: {}", firstLine(result.error + result.output)), false};
 }
 
 // Whether some process has this among its arguments; others may attack a sandbox at the same time.
@@ -104,7 +104,7 @@ bool isRunning(const std::string& argument) {
 Probe leftover(const Sandbox& sandbox, const fs::path& probe, const fs::path& folder) {
   const std::string mark = fmt::format("{}-{}", ::getpid(), folder.string());
   Probe result = judge("leftover", run(sandbox, probe, {"leftover", mark}, folder));
-  if (result.held && isRunning(mark)) return {"leftover", false, "a process lives on"};
+  if (result.held && isRunning(mark)) return {"leftover", false, "a process is still running"};
   return result;
 }
 

@@ -20,7 +20,7 @@
 namespace rex::sandbox {
 namespace {
 
-// To look into other processes, to change the machine or to leave the sandbox: no exercise needs them.
+// Calls that look into other processes, change the machine or leave the sandbox: no exercise needs them.
 constexpr auto kHostile = std::to_array<const char*>({"ptrace",
                                                       "process_vm_readv",
                                                       "process_vm_writev",
@@ -67,8 +67,8 @@ constexpr auto kHostile = std::to_array<const char*>({"ptrace",
                                                       "vhangup",
                                                       "lookup_dcookie"});
 
-// Ways to talk to others or to slow them down, and memory and queues that outlive a process or escape its
-// limits.
+// Calls that communicate with other processes or slow them down, and those for memory and queues that outlive
+// a process or escape its limits.
 constexpr auto kForbidden = std::to_array<const char*>({"flock",
                                                         "socket",
                                                         "socketpair",
@@ -108,7 +108,7 @@ constexpr auto kForbidden = std::to_array<const char*>({"flock",
                                                         "migrate_pages",
                                                         "move_pages"});
 
-// What landlock does not rule: files of the same user could be changed by their names.
+// Landlock does not cover these: they could change files of the same user by name.
 constexpr auto kChangesByName = std::to_array<const char*>(
     {"truncate", "chmod", "fchmod", "fchmodat", "fchmodat2", "utime", "utimes", "utimensat", "futimesat"});
 
@@ -118,9 +118,9 @@ constexpr auto kOwnersAndAttributes =
 
 constexpr auto kProgramStarters = std::to_array<const char*>({"fork", "vfork", "execve"});
 
-// What the C and C++ libraries call for memory, files, threads, time and signals of their own. Calls that are
-// not here, and those that kernels to come may add, fail as on a kernel without them.
-// None reveals which pages of a file are in memory: others could read that.
+// What the C and C++ libraries call for their own memory, files, threads, time and signals. All other calls,
+// including those that future kernels may add, fail as on a kernel without them.
+// None of these reveals which pages of a file are in memory, which would be a channel between processes.
 constexpr auto kOfHonestPrograms = std::to_array<const char*>({"brk",
                                                                "mmap",
                                                                "munmap",
@@ -266,7 +266,7 @@ constexpr auto kOfHonestPrograms = std::to_array<const char*>({"brk",
                                                                "timerfd_settime",
                                                                "timerfd_gettime"});
 
-// The last call that these lists were written with: mseal of Linux 6.10.
+// The newest call known when these lists were written: mseal of Linux 6.10.
 constexpr int kHighestKnown = 462;
 
 class Filter {
@@ -278,8 +278,8 @@ class Filter {
   void all(const std::array<const char*, n>& names, std::uint32_t action) {
     for (const char* name : names) when(name, {}, action);
   }
-  // With several conditions all must hold. What a call with rules does where none of them holds, and what
-  // calls without rules do, is to fail as on a kernel without them.
+  // If there are several conditions, all must hold. A call whose rules do not apply, or that has none, fails
+  // as on a kernel without it.
   void when(const char* name, const std::vector<scmp_arg_cmp>& conditions, std::uint32_t action) {
     const int number = seccomp_syscall_resolve_name(name);
     if (number == __NR_SCMP_ERROR) return;
@@ -304,7 +304,7 @@ class Filter {
   static constexpr std::uint32_t kUnknown = SCMP_ACT_ERRNO(ENOSYS);
 
  private:
-  // Calls that this kind of processor does not have cannot be made either.
+  // A call that this architecture does not have needs no rule.
   static void add(int result) {
     if (result < 0 && result != -EDOM)
       throw Error({.what = "cannot filter system calls", .found = std::strerror(-result)});
@@ -316,8 +316,8 @@ class Filter {
 constexpr std::uint32_t kKill = SCMP_ACT_KILL_PROCESS, kAllow = SCMP_ACT_ALLOW,
                         kRefuse = SCMP_ACT_ERRNO(EPERM);
 
-// Threads may start, processes may not, unless told otherwise; new namespaces never. The new form of the call
-// hides its flags from filters: without it the C library takes the old one.
+// Threads may start. Processes may not, unless programs are allowed; new namespaces never. clone3 hides its
+// flags from filters; without it the C library falls back to clone.
 void filterClone(Filter& filter, bool mayStartPrograms) {
   constexpr std::array<scmp_datum_t, 7> kNamespaces = {
       CLONE_NEWUSER, CLONE_NEWNS, CLONE_NEWPID, CLONE_NEWNET, CLONE_NEWIPC, CLONE_NEWUTS, CLONE_NEWCGROUP};
@@ -335,8 +335,8 @@ void filterClone(Filter& filter, bool mayStartPrograms) {
   filter.all(kProgramStarters, kKill);
 }
 
-// Becoming the program is the last thing the launcher does. Nobody else knows these addresses, so nobody can
-// make that call again.
+// Becoming the program is the last thing that the launcher does. Nobody else knows these addresses, so nobody
+// can repeat that call.
 void allowStart(Filter& filter, const ProgramStart& start) {
   filter.when("execveat", {}, Filter::kUnknown);
   if (start.program < 0) return;
@@ -348,7 +348,7 @@ void allowStart(Filter& filter, const ProgramStart& start) {
               kAllow);
 }
 
-// The process keeps its number when it becomes the program.
+// The process keeps its ID when it becomes the program.
 void allowSignals(Filter& filter, bool toItselfOnly) {
   const auto self = static_cast<scmp_datum_t>(::getpid());
   for (const char* name : {"kill", "tkill", "tgkill"}) {
@@ -361,8 +361,9 @@ void allowSignals(Filter& filter, bool toItselfOnly) {
   }
 }
 
-// A descriptor may be copied and asked for its flags. Whoever owns one gets its signals, locks and leases are
-// seen by others. Only equal numbers are allowed: the kernel looks at half of what the filter sees.
+// A descriptor may be copied and asked for its flags. Setting its owner would send signals to others, and
+// locks and leases are visible to others. Calls are allowed by exact numbers only, because the kernel looks
+// at half of the bits that the filter sees.
 void filterDescriptors(Filter& filter) {
   for (const scmp_datum_t command :
        {F_DUPFD, F_DUPFD_CLOEXEC, F_GETFD, F_SETFD, F_GETFL, F_SETFL, F_GETPIPE_SZ})
@@ -372,7 +373,7 @@ void filterDescriptors(Filter& filter) {
     filter.when("fcntl", {SCMP_A1(SCMP_CMP_EQ, command)}, kRefuse);
 }
 
-// Of what a program may ask of descriptors and of itself by number, only these do nothing to others.
+// The only requests of ioctl and prctl that do nothing to others.
 void allowHarmlessRequests(Filter& filter) {
   for (const scmp_datum_t request : {TCGETS, TIOCGWINSZ, FIONREAD, FIONBIO, FIOCLEX, FIONCLEX})
     filter.when("ioctl", {SCMP_A1(SCMP_CMP_EQ, request)}, kAllow);
@@ -380,8 +381,7 @@ void allowHarmlessRequests(Filter& filter) {
     filter.when("prctl", {SCMP_A0(SCMP_CMP_EQ, option)}, kAllow);
 }
 
-// Files that may only be read could be emptied as they are opened. The last of the calls hides its flags from
-// filters.
+// A file that may only be read could still be emptied by opening it. openat2 hides its flags from filters.
 void allowOpening(Filter& filter, bool mayEmpty) {
   filter.when("open", {SCMP_A1(SCMP_CMP_MASKED_EQ, O_TRUNC, 0)}, kAllow);
   filter.when("openat", {SCMP_A2(SCMP_CMP_MASKED_EQ, O_TRUNC, 0)}, kAllow);

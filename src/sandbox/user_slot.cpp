@@ -15,7 +15,7 @@
 namespace rex::sandbox {
 namespace {
 
-// Numbers that neither Debian nor systemd gives to anybody: 60706 to 61183.
+// User IDs that neither Debian nor systemd assigns: 60706 to 61183.
 constexpr unsigned kFirst = 60706;
 constexpr int kSlots = 256;
 constexpr const char* kFolder = "/run/rex-slots";
@@ -35,8 +35,8 @@ UserSlot::UserSlot() {
     }
     ::close(lock_);
   }
-  throw Error({.what = fmt::format("no free number of a user for the sandbox in {}", kFolder),
-               .found = std::strerror(errno)});
+  throw Error(
+      {.what = fmt::format("no free user ID for the sandbox in {}", kFolder), .found = std::strerror(errno)});
 }
 
 UserSlot::~UserSlot() {

@@ -416,7 +416,7 @@ TEST_F(Battery, ToolsThatAreKilledAreNoFaultOfTheFile) {
   for (const int level : offeredLevels()) {
     const BuiltSubmission built = buildSubmission(toolchain, exercise(), optionsFor(main, level, "killed"));
     EXPECT_EQ(built.start.outcome, Outcome::kGraderError);
-    EXPECT_THAT(built.start.message, HasSubstr("was killed twice, by nothing that the file did")) << level;
+    EXPECT_THAT(built.start.message, HasSubstr("was killed twice, through no fault of the file")) << level;
   }
 }
 

@@ -56,7 +56,7 @@ TEST_F(Probes, BlameNoAttackThatNeverRan) {
   fs::permissions(launcher, fs::perms::owner_all);
   for (const Probe& probe : attack({.level = Level{1}, .launcher = launcher}, kProbe, folder_.path())) {
     EXPECT_FALSE(probe.held || probe.ran) << probe.name;
-    EXPECT_EQ(probe.text, "the sandbox does not stand: bwrap: No permissions");
+    EXPECT_EQ(probe.text, "the sandbox cannot be set up: bwrap: No permissions");
   }
 }
 
