@@ -43,7 +43,7 @@ GradeResult grade(const GateContext& context, const path& file) {
   return gradeSubmission(context.toolchain, context.exercise, optionsFor(context, file)).result;
 }
 
-// What is not as it should be in a result, line by line.
+// Everything that is wrong in a result, line by line.
 std::string shortfalls(const GradeResult& result) {
   std::string lines = result.message.empty() ? "" : "\n  " + result.message;
   for (const CheckResult& check : result.checks)
@@ -61,13 +61,13 @@ std::vector<std::string_view> splitAt(std::string_view line, char separator) {
   }
 }
 
-// A student must see the task: what draws for main() belongs into show.cpp.
+// The student must be able to see the task: code that draws for main() belongs in show.cpp.
 GateResult mainIsCurrent(const GateContext& context) {
   constexpr std::size_t kMostLines = 200;
   const path folder = context.exercise.folder, solution = folder / "solution.cpp";
   const std::string main = readTextFile(folder / "main.cpp");
   if (main != stripSolution(readTextFile(solution), solution.string()))
-    return failed(fmt::format("main.cpp is not what solution.cpp gives; run: scripts/rex dev strip {}",
+    return failed(fmt::format("main.cpp does not match solution.cpp; run: scripts/rex dev strip {}",
                               context.exercise.name));
   const std::size_t lines = splitLines(main).size();
   if (lines <= kMostLines) return kPassed;
@@ -137,8 +137,8 @@ GateResult solutionIsFull(const GateContext& context) {
   return kPassed;
 }
 
-// What the grader prints, asked about the solution in another way than for points. Throws Error where the
-// solution cannot be built.
+// The grader's output on the solution with options that ask for something other than points. Throws Error if
+// the solution cannot be built.
 ProcessResult askGrader(const GateContext& context, const std::vector<std::string>& options) {
   const SubmissionOptions solution = optionsFor(context, context.exercise.folder / "solution.cpp");
   const BuiltSubmission built = buildSubmission(context.toolchain, context.exercise, solution);
@@ -156,15 +156,15 @@ GateResult passedWith(const std::string& output) {
   return {.passed = true, .message = {}, .note = std::string(splitLines(output).back())};
 }
 
-// Whatever a student's functions return, the grader stands it, in time, and gives no point for it.
+// Whatever a student's functions return, the grader survives it, takes no longer and gives no point for it.
 GateResult answersHurtNobody(const GateContext& context) {
   const bool isLong = std::getenv("REX_LONG_RUN") != nullptr;
   const ProcessResult run = askGrader(context, {"--hostile", isLong ? "10000" : "3000"});
   return run.ok() ? passedWith(run.output) : failed(run.output + run.error);
 }
 
-// Zeros, constants, the last answer and the question itself get no point; where a lie is nearly right, as the
-// force of the step before in a closed loop, exercise.toml says how many points of a part it may get.
+// Zeros, constants, the last answer and the question itself get no point. If a lie is nearly right, as the
+// force of the previous step in a closed loop is, exercise.toml says how many points of a part it may get.
 GateResult liarsGetNothing(const GateContext& context) {
   const ProcessResult run = askGrader(context, {"--lies"});
   if (!run.ok()) return failed(run.output + run.error);
@@ -186,7 +186,8 @@ GateResult liarsGetNothing(const GateContext& context) {
   return complaints.empty() ? passedWith(run.output) : judge(complaints);
 }
 
-// What students ask for after a crash must not complain about a program that is right. One check is enough.
+// The sanitizers, which students use after a crash, must not complain about a correct program. One check is
+// enough.
 GateResult solutionPassesSanitizers(const GateContext& context) {
   SubmissionOptions options = optionsFor(context, context.exercise.folder / "solution.cpp");
   options.sanitize = true;
@@ -197,7 +198,7 @@ GateResult solutionPassesSanitizers(const GateContext& context) {
   return failed("solution.cpp does not pass with the sanitizers: " + shortfalls(result));
 }
 
-// The gates of the variants prove that it is there.
+// The gates of the variants prove that the picture exists.
 GateResult mistakesAreShown(const GateContext& context) {
   for (const std::string& name : variantNames(context.exercise))
     if (!variantOf(context.exercise, name).shownBy.empty()) return kPassed;

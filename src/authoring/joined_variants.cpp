@@ -15,7 +15,7 @@ std::string ownName(std::size_t variant, std::string_view function) {
   return fmt::format("variant_{}_{}", variant, function);
 }
 
-// Whether a piece is a function whose body alone differs from that of the other.
+// Whether a piece is a function and `text` differs from it in the body only.
 bool differsInBody(std::string_view reference, const FilePiece& piece, std::string_view text) {
   const std::string_view function = reference.substr(piece.start, piece.end - piece.start);
   const std::size_t head = function.find('{', piece.nameStart - piece.start);
@@ -23,7 +23,7 @@ bool differsInBody(std::string_view reference, const FilePiece& piece, std::stri
          text.substr(0, head + 1) == function.substr(0, head + 1);
 }
 
-// The texts of those pieces, by number, that are not as in the reference; none if some cannot be swapped.
+// The texts of the pieces, by index, that differ from the reference; none if some cannot be swapped.
 std::vector<std::pair<std::size_t, std::string>> differingBodies(std::string_view reference,
                                                                  const std::vector<FilePiece>& pieces,
                                                                  std::string_view variant) {
@@ -56,9 +56,9 @@ JoinedVariants::JoinedVariants(std::string_view reference, const std::vector<std
     const FilePiece& piece = pieces[i];
     source_ += reference.substr(done, piece.start - done);
     done = piece.end;
-    // Callers must not be compiled by what they could learn from the body.
+    // The compiler must not use anything that it knows about the body when it compiles the callers.
     if (!versions[i].empty()) source_ += "[[gnu::noipa]] ";
-    // Nobody calls it, and what it shows costs a quarter of the time.
+    // Nobody calls main(), and compiling what it shows would take a quarter of the time.
     source_ += piece.function == "main" ? "int main() {}" : reference.substr(piece.start, done - piece.start);
     for (auto& [k, text] : versions[i]) {
       text.replace(piece.nameStart - piece.start, piece.function.size(), ownName(k, piece.function));

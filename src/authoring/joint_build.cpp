@@ -24,16 +24,16 @@ JointBuild::JointBuild(const GateContext& context, const std::string& reference,
   std::vector<std::size_t> culprits;
   do {
     culprits = compile(reference);
-    for (const std::size_t culprit : culprits) sources_[culprit] = reference;  // and so it is left out
+    for (const std::size_t culprit : culprits) sources_[culprit] = reference;  // which leaves it out
   } while (!culprits.empty());
 }
 
-// Returns whose functions do not compile.
+// Returns the variants whose functions do not compile.
 std::vector<std::size_t> JointBuild::compile(const std::string& reference) {
   const JoinedVariants joined(reference, sources_);
   functions_.assign(sources_.size(), {});
   Toolchain toolchain = context_.toolchain;
-  toolchain.flags.emplace_back("-w");  // nobody uses what main() did
+  toolchain.flags.emplace_back("-w");  // functions that only main() used are unused now
   const path file = context_.workFolder / "main.cpp";
   writeTextFile(file, joined.source());
   constexpr double kSeconds = 60, kSecondsEach = 5;
@@ -57,7 +57,7 @@ std::vector<std::size_t> JointBuild::compile(const std::string& reference) {
   return culprits;
 }
 
-// The functions that other files may call, in lines
+// The functions that other files may call, from lines such as
 // "0000000000000000 g     F .text._Z4stepv\t0000000000000045 _Z4stepv".
 std::vector<std::string> JointBuild::symbols() const {
   const Toolchain& toolchain = context_.toolchain;
@@ -74,8 +74,8 @@ std::vector<std::string> JointBuild::symbols() const {
 
 bool JointBuild::holds(std::size_t variant) const { return !functions_[variant].empty(); }
 
-// The scan of compileStudent(), of all that these functions lead to. Where else the whole file could call
-// something, the solution does, too.
+// The scan of compileStudent() over everything that these functions reach. Whatever the rest of the file
+// calls, the solution calls, too.
 std::vector<CompileDiagnostic> JointBuild::forbiddenCallsOf(std::size_t variant) const {
   const auto& forbidden = context_.exercise.forbidden;
   if (forbidden.empty()) return {};
@@ -85,7 +85,7 @@ std::vector<CompileDiagnostic> JointBuild::forbiddenCallsOf(std::size_t variant)
   command.insert(command.end(), {object_.object.string(), "-o", part.string()});
   const BuildTools tools(context_.toolchain, folder_, {});
   const ProcessResult run = tools.run(command);
-  if (!run.ok()) throw Error({.what = "cannot take a variant out of the others", .found = run.error});
+  if (!run.ok()) throw Error({.what = "cannot separate a variant from the others", .found = run.error});
   return scanSymbols(part, sources_[variant], object_.name, forbidden);
 }
 

@@ -8,9 +8,10 @@
 namespace rex::grading {
 namespace {
 
-// The names that `git ls-files` answers with, each ended by a zero.
+// The names that `git ls-files` prints, each ended by a zero byte.
 std::set<std::string> listed(const std::filesystem::path& root, std::vector<std::string> options) {
-  // Who releases may not be who owns the files; and a hook of git tells its children of another repository.
+  // The user who makes the release need not own the files, and a git hook points its children to another
+  // repository.
   std::vector<std::string> command = {"git",
                                       "-c",
                                       "safe.directory=*",
@@ -25,7 +26,7 @@ std::set<std::string> listed(const std::filesystem::path& root, std::vector<std:
   if (!run.ok())
     throw Error({.what = "cannot ask git which files belong to the course",
                  .where = {root.string()},
-                 .found = run.started ? run.error.substr(0, run.error.find('\n')) : "no program git",
+                 .found = run.started ? run.error.substr(0, run.error.find('\n')) : "no git program",
                  .wanted = "git, or a folder without .git"});
   std::set<std::string> names;
   for (std::size_t at = 0, end = 0; (end = run.output.find('\0', at)) != std::string::npos; at = end + 1)
@@ -48,7 +49,7 @@ std::optional<std::set<std::string>> knownFiles(const std::filesystem::path& roo
                      : fmt::format("{} files that git does not know would reach students, this one first",
                                    unknown.size()),
          .where = {*unknown.begin()},
-         .wanted = "git add, a line in .gitignore, or another place"});
+         .wanted = "git add, a line in .gitignore, or another folder"});
   return listed(root, {});
 }
 

@@ -19,14 +19,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Archives in archives; more are made to hide something.
+// Depth of nested archives; deeper ones are made to hide something.
 constexpr int kDeepest = 4;
 
 bool isBelow(const fs::path& folder, const fs::path& file) {
   return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
 }
 
-// What the bytes of a program or library begin with, and where.
+// Whether the bytes begin like those of a program or library.
 bool isCompiled(std::string_view bytes) {
   constexpr std::array<std::string_view, 6> kBeginnings = {
       "\x7f"
@@ -40,7 +40,7 @@ bool isCompiled(std::string_view bytes) {
                      [&](std::string_view beginning) { return bytes.starts_with(beginning); });
 }
 
-// Line, from 1, of a mark such as `// <hidden>` that stripping should have taken away; 0: there is none.
+// Line, from 1, of a mark such as `// <hidden>` that stripping should have removed; 0 if there is none.
 int lineOfMark(std::string_view text) {
   constexpr std::array<std::string_view, 5> kMarks = {"<solution ", "</solution>", "<todo>", "<hidden>",
                                                       "</hidden>"};
@@ -55,7 +55,7 @@ int lineOfMark(std::string_view text) {
   return 0;
 }
 
-/// Goes through one tree.
+/// Scans one tree.
 class Scanner {
  public:
   Scanner(const std::vector<Secret>& secrets, fs::path library)
@@ -69,9 +69,9 @@ class Scanner {
     for (auto entry = fs::recursive_directory_iterator(tree); entry != fs::end(entry); ++entry) {
       const fs::path name = entry->path().lexically_relative(tree);
       if (entry->is_symlink()) {
-        refuse(name.generic_string(), "a link, whose target nobody looks through,");
+        refuse(name.generic_string(), "a link, whose target is not scanned,");
       } else if (name.filename() == ".git") {
-        refuse(name.generic_string(), "a history, which nobody looks through,");
+        refuse(name.generic_string(), "a history, which is not scanned,");
         if (entry->is_directory()) entry.disable_recursion_pending();
       } else if (entry->is_regular_file()) {
         files.push_back(name);
@@ -87,7 +87,7 @@ class Scanner {
     found_.leaks.push_back({.where = {file, line}, .what = std::move(what)});
   }
 
-  // `place` is what to show, `name` the name of the file where it lies.
+  // `place` is what messages show, `name` the name of the file in its folder or archive.
   void scanFile(const std::string& place, const fs::path& name, const std::string& bytes, int depth) {
     ++found_.files;
     found_.bytes += bytes.size();
@@ -99,7 +99,7 @@ class Scanner {
     search(place, bytes, isLibrary, true);
     if (const int line = isCode(name) && !isShown && !isLibrary ? lineOfMark(bytes) : 0; line > 0)
       refuse(place, "a mark of a region", line);
-    if (isCompiled(bytes) && told_.empty()) refuse(place, "a compiled file, whose origin nobody can see,");
+    if (isCompiled(bytes) && told_.empty()) refuse(place, "a compiled file of unknown origin");
     if (isPacked(bytes)) scanPacked(place, bytes, depth);
     told_ = before;
   }
@@ -108,7 +108,7 @@ class Scanner {
     ++found_.packed;
     try {
       if (depth == kDeepest)
-        throw Error({.what = "archives", .found = fmt::format("more than {} in each other", kDeepest)});
+        throw Error({.what = "archives", .found = fmt::format("more than {} inside each other", kDeepest)});
       for (const PackedFile& file : unpack(bytes, place)) {
         const std::string name = file.name.empty() ? "(unpacked)" : file.name;
         if (!name.ends_with('/')) scanFile(place + ": " + name, name, file.bytes, depth + 1);
@@ -118,7 +118,7 @@ class Scanner {
     }
   }
 
-  // What lies in src is one of the library's own files only if it is that file.
+  // A file in src counts as the library's own only if its contents are the same.
   bool isOfTheLibrary(const fs::path& name, const std::string& bytes) const {
     if (library_.empty() || !isBelow("src", name)) return false;
     const fs::path original = library_ / name.lexically_relative("src");
@@ -152,7 +152,7 @@ class Scanner {
     }
   }
 
-  // Heads of loops and declarations look alike in all exercises.
+  // Loop heads and declarations look alike in all exercises.
   static bool isUsualElsewhere(const Secret& secret, const fs::path& place) {
     constexpr std::size_t kShortestElsewhere = 40;
     const fs::path home = fs::path(secret.origin.file).parent_path(), folder = place.parent_path();

@@ -9,18 +9,18 @@ namespace {
 
 constexpr std::array<std::pair<std::string_view, char>, 6> kMeanings = {
     {{"&lt;", '<'}, {"&gt;", '>'}, {"&amp;", '&'}, {"&quot;", '"'}, {"&#39;", '\''}, {"\\\"", '"'}}};
-// Line breaks and tabs of literals, and a line that goes on in the next.
+// Line breaks and tabs in literals, and lines that continue on the next.
 constexpr std::array<std::string_view, 5> kNothing = {"\\n", "\\t", "\\r", "\\\n", "\\\r\n"};
 constexpr std::array<std::string_view, 3> kCommentSigns = {"//", "/*", "*/"};
 
-// The comment that begins here, or nothing.
+// The comment at the start of `rest`, or nothing.
 std::string_view commentAt(std::string_view rest) {
   if (rest.starts_with("//")) return rest.substr(0, std::min(rest.find('\n'), rest.size()));
   if (!rest.starts_with("/*")) return {};
   return rest.substr(0, std::min(rest.find("*/", 2), rest.size() - 2) + 2);
 }
 
-// What counts for nothing here.
+// Text at the start of `rest` that is ignored.
 std::string_view emptyAt(std::string_view rest, Comments comments) {
   if (rest[0] == '/' && comments == Comments::kDrop) return commentAt(rest);
   if (rest[0] == '/' || rest[0] == '*') {
@@ -34,7 +34,8 @@ std::string_view emptyAt(std::string_view rest, Comments comments) {
   return {};
 }
 
-// What stands here for one letter, and that letter; a letter stands for itself.
+// The length of what represents one letter at the start of `rest`, and that letter; a letter represents
+// itself.
 std::pair<std::size_t, char> letterAt(std::string_view rest) {
   if (rest[0] == '&' || rest[0] == '\\')
     for (const auto& [text, letter] : kMeanings)
@@ -50,7 +51,7 @@ NormalText normalText(std::string_view text, Comments comments) {
   while (!text.empty()) {
     const std::string_view empty = emptyAt(text, comments);
     const auto [size, letter] = empty.empty() ? letterAt(text) : std::pair{empty.size(), '\0'};
-    // Also the zeros of text in UTF-16 vanish here.
+    // The zero bytes of text in UTF-16 vanish here, too.
     if (static_cast<unsigned char>(letter) > ' ') {
       normal.letters += letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
       normal.lines.push_back(line);

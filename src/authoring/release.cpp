@@ -21,12 +21,12 @@ namespace {
 namespace fs = std::filesystem;
 using fs::path;
 
-// What students get from the root; exercises are treated apart. Everything else stays behind.
+// What students get from the root; exercises are treated separately. Everything else stays behind.
 constexpr const char* kReleased[] = {
     "CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE", ".clang-format", ".editorconfig",
     ".gitignore",     ".gitattributes",    "share",     "src",     "data",          "scripts"};
 
-/// Copies from the root what students get, as far as it is known.
+/// Copies what students get from the root, as far as git knows it.
 class Copier {
  public:
   explicit Copier(const path& root)
@@ -46,7 +46,7 @@ class Copier {
   }
 
  private:
-  // Without a history, all but what `rex reset` leaves.
+  // Without a history, everything but the backups of `rex reset`.
   bool isKnown(const path& file) const {
     if (!known_) return !file.filename().string().starts_with("main.backup-");
     return known_->contains(file.lexically_relative(root_).generic_string());
@@ -56,7 +56,7 @@ class Copier {
   std::optional<std::set<std::string>> known_;
 };
 
-// The files of an exercise that differ from what lies in its folder, by name.
+// The released files of an exercise that differ from those in its folder, by name.
 std::map<std::string, std::string> madeFiles(const path& exercise) {
   std::map<std::string, std::string> made;
   const path solution = exercise / "solution.cpp", check = exercise / "check.cpp";
@@ -78,7 +78,7 @@ void releaseExercise(const Copier& copier, const path& from, const path& to) {
   }
 }
 
-// The tests of rex itself stay behind, so the commands for them do too, and the lines that name either.
+// The tests of rex itself stay behind, and so do the commands for them and the lines that mention either.
 void leaveOutTheTests(const path& target) {
   constexpr auto kLeftOut = std::to_array<std::string_view>(
       {"scripts/test", "scripts/gallery", "scripts/fuzz", "scripts/check-replay", "scripts/slurm-selftest",
@@ -103,7 +103,7 @@ bool isEmptyOrMissing(const path& folder) {
 void writeTree(const std::vector<path>& exercises, const path& root, const path& target) {
   const Copier copier(root);
   fs::create_directories(target / "exercises");
-  // The target may lie inside the root; so nothing but the list is walked.
+  // The target may lie inside the root, so only the listed files are walked.
   for (const char* name : kReleased)
     if (fs::exists(root / name)) copier.copy(root / name, target / name);
   leaveOutTheTests(target);

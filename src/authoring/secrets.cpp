@@ -20,14 +20,14 @@ namespace fs = std::filesystem;
 
 using Block = std::vector<BlockLine>;
 
-// A line of a check or a mistake alone may stand anywhere; several in a row do not by chance.
+// A single line of a check or of a mistake may occur anywhere; several in a row are no coincidence.
 constexpr std::size_t kShortestRun = 48;
-// Of a line whose comment is left out.
+// For a line without its comment.
 constexpr std::size_t kShortestCode = 20;
 
 std::string letters(std::string_view text, Comments comments) { return normalText(text, comments).letters; }
 
-/// All that everybody may read, as one text.
+/// Everything that anybody may read, as one text.
 class PublicText {
  public:
   void add(std::string_view text) {
@@ -46,7 +46,7 @@ class PublicText {
   std::string letters_;
 };
 
-/// Goes through the exercises and keeps what is secret.
+/// Collects the secrets of the exercises.
 class Collector {
  public:
   Collector(const std::vector<fs::path>& exercises, const fs::path& root) : root_(root) {
@@ -97,7 +97,7 @@ class Collector {
         return handedOut.contains(form) || (secret.kind != SecretKind::kSolution && readable.contains(form));
       });
     });
-    // Code alone, without the comment behind it, says less.
+    // Short code is no evidence without the comment that follows it.
     for (Secret& secret : secrets_)
       if (secret.forms.size() > 1 && secret.forms[1].size() < kShortestCode) secret.forms.pop_back();
   }
@@ -118,7 +118,7 @@ class Collector {
     }
   }
 
-  // From each line on, as many as it takes.
+  // Adds runs from each line on, with as many lines as it takes.
   void addRuns(SecretKind kind, const Block& block, const fs::path& file) {
     for (std::size_t first = 0; first < block.size(); ++first) {
       std::string code;
@@ -161,8 +161,8 @@ class Collector {
   }
 
   fs::path root_;
-  PublicText handedOut_;  // also lines of solutions may stand there
-  PublicText readable_;   // only the others
+  PublicText handedOut_;  // secrets of any kind that occur here are public
+  PublicText readable_;   // so are those that occur here, except lines of solutions
   std::vector<Secret> secrets_{};
 };
 
@@ -193,9 +193,9 @@ std::vector<Secret> secretsOf(const std::vector<fs::path>& exercises, const fs::
 Secret courseSecretIn(const fs::path& file) {
   const std::string form = letters(readCourseSecret(file), Comments::kKeep);
   if (form.size() < kShortestForm)
-    throw Error({.what = "the secret of the course cannot be looked for",
+    throw Error({.what = "cannot scan for the secret of the course",
                  .where = {file.string()},
-                 .found = fmt::format("{} characters that are no blanks", form.size()),
+                 .found = fmt::format("{} non-blank characters", form.size()),
                  .wanted = fmt::format("at least {}", kShortestForm)});
   return {.kind = SecretKind::kCourseSecret, .text = {}, .origin = {file.string(), 1}, .forms = {form}};
 }

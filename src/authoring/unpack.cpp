@@ -15,7 +15,7 @@ using std::string_view_literals::operator""sv;
 
 constexpr std::size_t kMostBytes = std::size_t{256} << 20;
 
-// Where it stands, and what.
+// A signature and its offset in the file.
 struct FileSign {
   std::size_t at;
   std::string_view bytes;
@@ -47,7 +47,7 @@ Error refusal(const std::string& file, std::string found) {
 
 Error broken(const std::string& file, archive* reader) {
   const char* said = ::archive_error_string(reader);
-  return refusal(file, said == nullptr ? "something broken" : said);
+  return refusal(file, said == nullptr ? "corrupt data" : said);
 }
 
 void readData(archive* reader, const std::string& file, std::size_t& total, std::string& bytes) {
@@ -62,7 +62,7 @@ void readData(archive* reader, const std::string& file, std::size_t& total, std:
   }
 }
 
-// No filter of libarchive that would start a program.
+// Supports only those filters of libarchive that start no program.
 void supportKnown(archive* reader) {
   ::archive_read_support_filter_gzip(reader);
   ::archive_read_support_filter_bzip2(reader);
@@ -99,7 +99,7 @@ std::vector<PackedFile> unpack(std::string_view bytes, const std::string& file) 
     if (end == ARCHIVE_EOF) return files;
     if (end < ARCHIVE_WARN) throw broken(file, reader.get());
     const bool isRaw = ::archive_format(reader.get()) == ARCHIVE_FORMAT_RAW;
-    // Nothing was unpacked then, and would be found again and again.
+    // Nothing was unpacked then, and scanning would unpack the same bytes again and again.
     if (isRaw && ::archive_filter_count(reader.get()) < 2) throw refusal(file, "an unknown kind");
     if (::archive_entry_is_encrypted(entry) != 0) throw refusal(file, "an encrypted file");
     const char* name = ::archive_entry_pathname(entry);

@@ -28,13 +28,13 @@ SubmissionOptions gradingOf(const GateContext& context, const WrongVariant& vari
   return options;
 }
 
-// A call that the scan refuses never meets a check.
+// A variant with a forbidden call is refused before any check runs.
 Complaints whyNotRefused(const GradeResult& result) {
   const auto& diagnostics = result.compile.diagnostics;
   const bool refused = std::any_of(diagnostics.begin(), diagnostics.end(),
                                    [](const auto& d) { return d.rule == kForbiddenCall; });
   if (refused) return {};
-  return {"it should call a forbidden function, but nothing noticed one"};
+  return {"it should call a forbidden function, but no call was found"};
 }
 
 const CheckResult& checkNamed(const GradeResult& result, const std::string& id, const path& wrong) {
@@ -46,7 +46,7 @@ const CheckResult& checkNamed(const GradeResult& result, const std::string& id, 
   throw unknownCheck(id, ids, {wrong.string(), 1});
 }
 
-// What is missing of a picture, and of a replay if there is one: it must not begin where all is well.
+// Complains if there is no picture, or if there is a replay that begins while all is still well.
 Complaints missingOf(const CheckResult& check, const path& workFolder) {
   if (check.picture.empty() || !std::filesystem::exists(workFolder / check.picture))
     return {fmt::format("check '{}' leaves no picture", check.id)};
@@ -56,7 +56,7 @@ Complaints missingOf(const CheckResult& check, const path& workFolder) {
   return {};
 }
 
-// Whether a result is what the variant promises.
+// Complaints if the result is not what the variant promises.
 Complaints whyNotCaughtIn(const GradeResult& result, const WrongVariant& variant, const path& wrong,
                           const path& workFolder) {
   if (variant.caughtBy.front() == kForbiddenCall) return whyNotRefused(result);
@@ -80,7 +80,7 @@ void requireChecks(const WrongVariant& variant, const std::vector<std::string>& 
         throw unknownCheck(id, known, {wrong.string(), 1});
 }
 
-// Runs the checks that the variant names. Its full score is out of reach as soon as one of them fails.
+// Runs only the checks that the variant names: as soon as one of them fails, the full score is out of reach.
 GradeResult gradeLinked(const GateContext& context, const BuiltSubmission& built,
                         const WrongVariant& variant) {
   if (built.worker.empty()) return built.start;
@@ -91,7 +91,7 @@ GradeResult gradeLinked(const GateContext& context, const BuiltSubmission& built
   return gradeBuilt(built, context.toolchain, context.exercise, options);
 }
 
-// Each line of what `find` complains about, with the name of the variant.
+// Adds the complaints of `find`, each with the name of the variant.
 template <class Find>
 void addComplaints(std::vector<std::string>& complaints, const std::string& name, const Find& find) {
   try {

@@ -35,7 +35,7 @@ struct FreeArchive {
   void operator()(archive* opened) const { ::archive_read_free(opened); }
 };
 
-// Upper half of code page 437, in which zip files name what they do not mark as UTF-8.
+// Upper half of code page 437, the encoding of names in zip files that are not marked as UTF-8.
 constexpr std::u16string_view kCodePage437 =
     u"\u00C7\u00FC\u00E9\u00E2\u00E4\u00E0\u00E5\u00E7\u00EA\u00EB\u00E8\u00EF\u00EE\u00EC\u00C4\u00C5"
     u"\u00C9\u00E6\u00C6\u00F4\u00F6\u00F2\u00FB\u00F9\u00FF\u00D6\u00DC\u00A2\u00A3\u00A5\u20A7\u0192"
@@ -58,7 +58,7 @@ std::string fromCodePage437(std::string_view bytes) {
   return text;
 }
 
-// A byte that is none of UTF-8 becomes the mark, which needs two bytes more.
+// The JSON library replaces invalid bytes by U+FFFD: the text is UTF-8 if that adds none.
 bool isUtf8(const std::string& text) {
   const auto marksIn = [](std::string_view in) {
     int count = 0;
@@ -70,8 +70,8 @@ bool isUtf8(const std::string& text) {
   return marksIn(replaced) == marksIn(text);
 }
 
-// The form in UTF-8, where the archive knows one: the other form depends on the locale, in which it may be
-// none.
+// The name in UTF-8 if the archive has one. The other form depends on the locale and need not be UTF-8; it is
+// then read as code page 437.
 std::string nameOf(archive_entry* entry) {
   const char* name = ::archive_entry_pathname_utf8(entry);
   if (name == nullptr) name = ::archive_entry_pathname(entry);
@@ -79,13 +79,13 @@ std::string nameOf(archive_entry* entry) {
   return isUtf8(bytes) ? bytes : fromCodePage437(bytes);
 }
 
-// What is wrong with a name; empty if nothing is.
+// What is wrong with a name; empty if it is safe.
 std::string whyUnsafe(const std::string& name, const ArchiveLimits& limits) {
   if (name.empty()) return "no name";
   if (name.size() > limits.nameBytes) return fmt::format("a name of {} bytes", name.size());
   if (name.front() == '/' || name.find('\\') != std::string::npos) return "an absolute name or a backslash";
   const fs::path path(name);
-  if (std::find(path.begin(), path.end(), "..") != path.end()) return "a way out of its folder";
+  if (std::find(path.begin(), path.end(), "..") != path.end()) return "a path out of its folder";
   return {};
 }
 
@@ -104,7 +104,7 @@ std::string nameOfType(archive_entry* entry) {
   }
 }
 
-/// Goes through one archive, in a process that may die of it.
+/// Reads one archive, in a process that may crash on it.
 class ArchiveReader {
  public:
   ArchiveReader(const OpenedFile& opened, const fs::path& file, const ArchiveLimits& limits)
@@ -140,17 +140,17 @@ class ArchiveReader {
   std::string checkedName(archive_entry* entry) {
     const std::string name = nameOf(entry), shown = printable(name, 100);
     if (const std::string why = whyUnsafe(name, limits_); !why.empty())
-      throw refusal(shown, why, "a name inside of a folder");
+      throw refusal(shown, why, "a name inside a folder");
     if (::archive_entry_is_encrypted(entry) != 0)
       throw refusal(shown, "an encrypted file", "one without a password");
     const std::string normal = lowerCase(fs::path(name).lexically_normal().string());
     const bool isFile = ::archive_entry_filetype(entry) != AE_IFDIR;
     if (isFile && !names_.insert(normal).second)
-      throw refusal(shown, "a second file of that name, where case does not count", "one");
+      throw refusal(shown, "a second file of that name (ignoring case)", "one");
     return name;
   }
 
-  // Also what is not wanted is read: only so is it known how large it is.
+  // Unwanted members are read, too: there is no other way to know their size.
   std::string textOf(const std::string& name) {
     std::string text;
     const void* block = nullptr;
@@ -172,15 +172,15 @@ class ArchiveReader {
   }
 
   Error refusal(const std::string& member, std::string found, std::string wanted) const {
-    return Error({.what = member.empty() ? "this archive is not taken"
-                                         : fmt::format("this archive is not taken: member '{}'", member),
+    return Error({.what = member.empty() ? "this archive is not accepted"
+                                         : fmt::format("this archive is not accepted: member '{}'", member),
                   .where = {file_.string()},
                   .found = std::move(found),
                   .wanted = std::move(wanted)});
   }
   Error broken(const std::string& member) const {
     const char* said = ::archive_error_string(archive_.get());
-    return refusal(member, said == nullptr ? "something broken" : said, "a whole .zip, .tar or .tar.gz file");
+    return refusal(member, said == nullptr ? "corrupt data" : said, "an intact .zip, .tar or .tar.gz file");
   }
 
   fs::path file_;
@@ -210,18 +210,19 @@ std::string withoutArchiveEnding(const std::string& name) {
 
 ArchiveContent readArchive(const OpenedFile& opened, const fs::path& file, const ArchiveLimits& limits) {
   const auto readAll = [&] {
-    // In this process alone: in the plain locale libarchive has no name for a member that is not of ASCII.
+    // Set in this process only: in the plain locale libarchive has no name for a member with a non-ASCII
+    // name.
     std::setlocale(LC_CTYPE, "C.UTF-8");
     return packed(ArchiveReader(opened, file, limits).read());
   };
   const IsolatedResult read =
       callIsolated(readAll, {.cpuSeconds = 10, .wallSeconds = 60, .memory = 512u << 20});
   if (read.end != IsolatedEnd::kReturned)
-    throw Error({.what = "this archive is not taken",
+    throw Error({.what = "this archive is not accepted",
                  .where = {file.string()},
-                 .found = read.end == IsolatedEnd::kCrashed ? "one that its reader crashes on"
+                 .found = read.end == IsolatedEnd::kCrashed ? "one that crashes its reader"
                                                             : "one that takes too long or too much memory",
-                 .wanted = "a whole .zip, .tar or .tar.gz file"});
+                 .wanted = "an intact .zip, .tar or .tar.gz file"});
   const nlohmann::json content = nlohmann::json::from_cbor(read.bytes);
   ArchiveContent all;
   for (const nlohmann::json& entry : content.at("files"))

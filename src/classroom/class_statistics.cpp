@@ -60,7 +60,7 @@ void count(const GradeResult& result, std::vector<CheckStatistics>& checks) {
   }
 }
 
-// `results` are of one exercise, and at least one.
+// `results` holds at least one result, all of the same exercise.
 ExerciseStatistics statisticsOfOne(const std::vector<const StudentResult*>& results) {
   ExerciseStatistics all{.exercise = results.front()->exercise};
   std::vector<double> points, seconds;
@@ -78,7 +78,7 @@ ExerciseStatistics statisticsOfOne(const std::vector<const StudentResult*>& resu
     all.maxPoints = std::max(all.maxPoints, result.maxScore);
     all.meanPoints += result.score;
     points.push_back(result.score);
-    // What does not compile takes no time.
+    // A file that does not compile takes no time.
     if (result.outcome != Outcome::kCompileError) seconds.push_back(result.usage.wallSeconds);
     if (all.slowest.empty() || result.usage.wallSeconds > all.longestSeconds)
       std::tie(all.slowest, all.longestSeconds) = std::tie(one->student, result.usage.wallSeconds);

@@ -70,7 +70,7 @@ TaskState stateOf(const Task& task, const fs::path& out) {
     if (json.at("inputs").at("sha256") != task.inputsSha256()) return TaskState::kStale;
     return json.at("outcome") == toString(Outcome::kGraderError) ? TaskState::kFailed : TaskState::kDone;
   } catch (const Json::exception&) {
-    return TaskState::kStale;  // something else of that name
+    return TaskState::kStale;  // some other file of that name
   }
 }
 
@@ -113,7 +113,7 @@ GradeResult gradeTask(const Task& task, const Toolchain& toolchain, const Exerci
   fs::create_directories(folder);
   const fs::path log = results.parent_path() / kBuildLog;
   if (fs::exists(log)) replaceTextFile(folder / kBuildLog, readTextFile(log), "the log of the compiler");
-  // Pictures of another text would mislead. They come before the result that names them.
+  // Pictures of an earlier text would mislead. New ones are written before the result that names them.
   fs::remove_all(folder / kEvidence);
   if (options.evidence && fs::exists(evidence))
     fs::copy(evidence, folder / kEvidence, fs::copy_options::recursive);

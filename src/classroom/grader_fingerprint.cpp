@@ -17,18 +17,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// All files of the folder, in an order that is the same everywhere.
+// All files below the folder, in the same order on every machine.
 std::vector<fs::path> filesBelow(const fs::path& folder) {
   std::vector<fs::path> files;
-  std::error_code missing;  // as the compiler, which passes by folders that are not there
+  std::error_code missing;  // missing folders are skipped, as the compiler does
   for (const auto& entry : fs::recursive_directory_iterator(folder, missing))
     if (entry.is_regular_file()) files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   return files;
 }
 
-// Functions that stand in headers are compiled into the student's program, so no library tells of them. The
-// folder of the exercise itself holds what students and instructors write; its version speaks for it.
+// Functions in headers are compiled into the student's program, so no library reveals their changes. The
+// folder of the exercise itself holds what students and instructors write; its version covers that.
 std::string headersOf(const std::vector<std::string>& flags) {
   std::string text;
   for (std::size_t i = 0; i + 1 < flags.size(); ++i)
@@ -38,7 +38,7 @@ std::string headersOf(const std::vector<std::string>& flags) {
   return text;
 }
 
-// It cannot change while it runs, even where a new one gets its name.
+// The program cannot change while it runs, even if a new one takes its name.
 const std::string& hashOfRunningProgram() {
   static const std::string hash = sha256(readTextFile("/proc/self/exe"));
   return hash;

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kFile = "main.cpp";
-constexpr const char* kReceipt = "receipt.json";  // which `rex submit` adds
+constexpr const char* kReceipt = "receipt.json";  // added by `rex submit`
 constexpr const char* kPerStudent = "a folder, .zip, .tar or .tar.gz file for each student";
 
 std::string nameOf(fs::file_type type) {
@@ -31,14 +31,14 @@ std::string nameOf(fs::file_type type) {
   return "a pipe or device";
 }
 
-// What systems put beside files by themselves.
+// Files that operating systems create by themselves.
 bool isOfSystem(const fs::path& name) {
   const std::string file = lowerCase(name.filename().string());
   return (!name.empty() && *name.begin() == "__MACOSX") || file.starts_with("._") || file == ".ds_store" ||
          file == "thumbs.db" || file == "desktop.ini";
 }
 
-/// Collects what one folder of submissions holds.
+/// Collects the contents of one folder of submissions.
 class HandInReader {
  public:
   HandInReader(const std::vector<ExerciseInfo>& exercises, const std::string& only)
@@ -46,15 +46,16 @@ class HandInReader {
 
   HandIns read(const fs::path& path) {
     const OpenedFolder folder(path);
-    std::map<std::string, std::vector<OpenedFolder::Entry>> students;  // that differ in capitals: one name
+    std::map<std::string, std::vector<OpenedFolder::Entry>>
+        students;  // names that differ only in case are one
     for (const OpenedFolder::Entry& entry : folder.entries()) {
       const bool isFile = entry.type == fs::file_type::regular,
                  isArchive = isFile && isArchiveName(entry.name);
       const std::string name = isArchive ? withoutArchiveEnding(entry.name) : entry.name;
       if ((isFile && entry.name.starts_with('.')) || isOfSystem(entry.name))
-        found_.notes.push_back(fmt::format("{}: not taken", (path / entry.name).string()));
+        found_.notes.push_back(fmt::format("{}: ignored", (path / entry.name).string()));
       else if (entry.type != fs::file_type::directory && !isArchive)
-        complain("not taken", path / entry.name, nameOf(entry.type), kPerStudent);
+        complain("not accepted", path / entry.name, nameOf(entry.type), kPerStudent);
       else if (const std::string why = whyNoStudentName(name); !why.empty())
         complain("not the name of a student", path / entry.name, why,
                  "letters, digits, blanks and signs such as - _ . @");
@@ -77,7 +78,7 @@ class HandInReader {
   }
   void complain(ErrorParts parts) { found_.complaints.emplace_back(Error(std::move(parts)).what()); }
 
-  // Which of two spellings is meant, nobody knows.
+  // Complains if there are several spellings: nobody knows which one is meant.
   bool isOneSpelling(const std::vector<std::string>& names, const fs::path& where, const std::string& of) {
     if (names.size() == 1) return true;
     complain(fmt::format("the same name of {}, spelt differently", of), where,
@@ -85,7 +86,7 @@ class HandInReader {
     return false;
   }
 
-  // What cannot be opened any more, because somebody swaps it, costs this student alone.
+  // Only this student is affected if something cannot be opened any more because somebody replaced it.
   void readStudent(const OpenedFolder& folder, const std::vector<OpenedFolder::Entry>& entries) {
     std::vector<std::string> names;
     for (const OpenedFolder::Entry& entry : entries) names.push_back(entry.name);
@@ -107,7 +108,7 @@ class HandInReader {
       if (entry.type == fs::file_type::regular || isOfSystem(entry.name))
         noteUnlisted(path);
       else if (entry.type != fs::file_type::directory)
-        complain("not taken", path, nameOf(entry.type), "a folder for each exercise");
+        complain("not accepted", path, nameOf(entry.type), "a folder for each exercise");
       else if (const std::string exercise = exerciseOf(path); !exercise.empty())
         exercises[exercise].push_back(entry.name);
     }
@@ -121,7 +122,7 @@ class HandInReader {
 
   void complainOfNone(bool isEmpty, const fs::path& student) {
     if (isEmpty && only_.empty())
-      complain("nothing to grade", student, "no folder of an exercise",
+      complain("nothing to grade", student, "no exercise folder",
                exercises_.empty() ? "" : exercises_.front().name + "/" + kFile);
   }
 
@@ -131,9 +132,9 @@ class HandInReader {
            name.parent_path().parent_path() == root;
   }
 
-  // The folder of an archive in which the exercises lie: its top, or one folder around all, as programs pack
-  // that are asked to pack a folder. Nothing, with a complaint, where there are two: nobody knows which
-  // counts.
+  // The folder of an archive that contains the exercises: its top, or the one folder around everything that
+  // programs create when they pack a folder. Empty, with a complaint, if there are two: nobody knows which
+  // one counts.
   std::optional<fs::path> rootOf(const std::vector<ArchiveFile>& members, const fs::path& archive) {
     std::set<fs::path> known, all;
     for (const ArchiveFile& member : members) {
@@ -166,7 +167,8 @@ class HandInReader {
     }
   }
 
-  // The same of a student who handed in one archive. Its own time counts, for those inside are the student's.
+  // Reads what a student handed in as one archive. The time of the archive counts, for the student controls
+  // the times inside it.
   void readPacked(const OpenedFile& opened, const fs::path& archive) {
     ArchiveContent content = readArchive(opened, archive);
     const std::optional<fs::path> root = rootOf(content.files, archive);
@@ -195,19 +197,19 @@ class HandInReader {
     }
   }
 
-  // A link beside the file harms nobody; one in its place is missing from what is graded.
+  // A link beside the file does no harm; one in place of the file leaves nothing to grade.
   void tellLeftOut(const std::vector<ArchiveContent::LeftOut>& leftOut, const fs::path& root,
                    const fs::path& archive) {
     for (const auto& [member, why] : leftOut) {
       const fs::path name = fs::path(member).lexically_normal();
       if (isFileIn(root, name))
-        complain("not taken", archive / name, why, "a C++ source file");
+        complain("not accepted", archive / name, why, "a C++ source file");
       else
-        found_.notes.push_back(fmt::format("{}: not taken: {}", (archive / name).string(), why));
+        found_.notes.push_back(fmt::format("{}: ignored: {}", (archive / name).string(), why));
     }
   }
 
-  // The whole name, or empty with a complaint.
+  // The full name of the exercise, or empty with a complaint.
   std::string exerciseOf(const fs::path& folder) {
     try {
       return findExercise(exercises_, folder.filename().string()).name;
@@ -220,7 +222,7 @@ class HandInReader {
   }
 
   void noteUnlisted(const fs::path& file) {
-    if (file.filename() != kReceipt) found_.notes.push_back(fmt::format("{}: not taken", file.string()));
+    if (file.filename() != kReceipt) found_.notes.push_back(fmt::format("{}: ignored", file.string()));
   }
 
   void readFile(const std::string& student, const std::string& exercise, const OpenedFolder& folder) {
@@ -250,7 +252,7 @@ class HandInReader {
 
 namespace {
 
-// Also those that are not of ASCII.
+// Includes blanks that are not ASCII.
 bool startsOrEndsBlank(std::string_view name) {
   constexpr auto kBlanks = std::to_array<std::string_view>(
       {" ", "\u00A0", "\u1680", "\u2000", "\u2001", "\u2002", "\u2003", "\u2004", "\u2005", "\u2006",
@@ -262,7 +264,7 @@ bool startsOrEndsBlank(std::string_view name) {
 
 }  // namespace
 
-// Nobody reads the student's own place again: it may be another file by then.
+// The original is never read again: by then, another file may have taken its place.
 fs::path snapshotOf(const HandIn& file, const fs::path& out) {
   const fs::path snapshot = fs::path(file.student) / file.exercise / kFile;
   const std::string text = file.text.value_or(
@@ -286,19 +288,19 @@ bool isNameOfResults(const std::string& name) {
 void requireNameOfResults(const fs::path& file, const fs::path& out) {
   const bool isBeside = fs::weakly_canonical(file).parent_path() == fs::weakly_canonical(out);
   if (isBeside && !isNameOfResults(file.filename().string()))
-    throw UsageError({.what = "a file beside the folders of students, one of whom may be called so",
+    throw UsageError({.what = "a file beside the students' folders, whose name could be that of a student",
                       .where = {file.string()},
                       .wanted = "a name that ends in .tsv, or another folder"});
 }
 
 std::string whyNoStudentName(const std::string& name) {
   constexpr std::size_t kLongest = 100;
-  if (name.empty() || name.starts_with('.')) return "a name that begins with a dot, or none";
+  if (name.empty() || name.starts_with('.')) return "an empty name, or one that begins with a dot";
   if (name.size() > kLongest) return fmt::format("{} bytes, more than {}", name.size(), kLongest);
   if (name.find_first_of("/\\\n\t") != std::string::npos || printable(name, 4 * kLongest) != name)
-    return "a slash, a control character, an invisible one or bytes that are no UTF-8";
-  if (startsOrEndsBlank(name)) return "a blank at an end";
-  if (isNameOfResults(name)) return "the name of a file of results";
+    return "a slash, a control character, an invisible one or bytes that are not UTF-8";
+  if (startsOrEndsBlank(name)) return "a leading or trailing blank";
+  if (isNameOfResults(name)) return "the name of a results file";
   return {};
 }
 

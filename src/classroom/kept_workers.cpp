@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kWorker = "worker";
 constexpr const char* kStart = "start.json";
 constexpr const char* kSource = "main.cpp";
-constexpr const char* kHashes = "kept_sha256";  // in start.json, of the other files
+constexpr const char* kHashes = "kept_sha256";  // in start.json: hashes of the other files
 
 Json hashesOf(const fs::path& entry) {
   Json hashes;
@@ -28,7 +28,8 @@ Json hashesOf(const fs::path& entry) {
   return hashes;
 }
 
-// The worker gets a second name: whoever finds the entry wanting may remove it while the worker runs.
+// The worker gets a second name, because whoever finds a fault in the entry may remove it while the worker
+// runs.
 void takeWorker(const fs::path& kept, const fs::path& worker) {
   std::error_code otherDisk;
   fs::remove(worker);
@@ -36,7 +37,7 @@ void takeWorker(const fs::path& kept, const fs::path& worker) {
   if (otherDisk) fs::copy_file(kept, worker);
 }
 
-// Nothing where an entry is missing or is not as it was left: after a power cut, or on a disk that forgets.
+// Empty if an entry is missing or has changed since it was written, as after a power cut or a disk failure.
 std::optional<BuiltSubmission> take(const fs::path& kept, const SubmissionOptions& options) {
   if (!fs::exists(kept / kStart)) return {};
   try {
@@ -58,7 +59,7 @@ std::optional<BuiltSubmission> take(const fs::path& kept, const SubmissionOption
   }
 }
 
-// For its owner alone: what lies in it is run.
+// Accessible to its owner only, as the programs in it are run.
 void makeFolder(const fs::path& folder) {
   std::error_code refused;
   if (fs::create_directories(folder, refused)) fs::permissions(folder, fs::perms::owner_all, refused);
@@ -67,7 +68,7 @@ void makeFolder(const fs::path& folder) {
     throw Error({.what = "cannot keep programs in " + folder.string(), .found = refused.message()});
 }
 
-// The hashes come last, when what they are of lies on the disk.
+// The hashes come last, once the hashed files are on the disk.
 void fill(const fs::path& entry, const BuiltSubmission& built, const fs::path& log) {
   fs::create_directory(entry);
   fs::copy_file(built.worker, entry / kWorker);
@@ -79,7 +80,7 @@ void fill(const fs::path& entry, const BuiltSubmission& built, const fs::path& l
   replaceTextFile(entry / kStart, start.dump(2) + "\n", "what is known of a program");
 }
 
-// Complete, and on the disk, before it has its name. Where two build the same at once, one of them wins.
+// The entry is complete and on the disk before it gets its name. If two processes build the same, one wins.
 void keep(const BuiltSubmission& built, const fs::path& kept, const fs::path& log) {
   makeFolder(kept.parent_path());
   const PrivateFolder folder(kept.parent_path());

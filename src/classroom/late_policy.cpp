@@ -57,7 +57,7 @@ class PolicyReader {
         rule.extensions[student] = extensions->instant(student);
   }
 
-  // Percent or points, for both the day and the cap.
+  // The unit is percent or points, for both the cost per day and the cap.
   static void readCost(const TomlTable& keys, const std::string& unit, const std::string& other,
                        bool isPercent, LateRule& rule) {
     const std::string perDay = unit + "_per_day", cap = "cap_" + unit;
@@ -69,7 +69,7 @@ class PolicyReader {
                      .wanted = "one of them"});
       rule.isPercent = isPercent;
       rule.perDay = hundredths(keys.number(perDay, 0, most));
-      rule.cap.reset();  // one of [all] could have the other unit
+      rule.cap.reset();  // a cap from [all] could have the other unit
     }
     if (!keys.has(cap)) return;
     if (rule.isPercent != isPercent)
@@ -87,13 +87,13 @@ class PolicyReader {
 
 Lateness latenessOf(const LateRule& rule, const std::string& student, std::int64_t submitted, int points) {
   std::optional<std::int64_t> deadline = rule.deadline;
-  // One for all exercises must not shorten the time for an exercise that is due later.
+  // An extension for all exercises must not shorten the time for one that is due later.
   if (const auto own = rule.extensions.find(student); deadline && own != rule.extensions.end())
     deadline = std::max(*deadline, own->second);
   if (!deadline || submitted <= *deadline + rule.graceSeconds) return {};
   const std::int64_t late = submitted - *deadline, days = (late + kDay - 1) / kDay;
   const std::int64_t cost = std::min(days * rule.perDay, rule.cap.value_or(days * rule.perDay));
-  // A percent is a hundredth of the points, and both count in hundredths here.
+  // The cost is in hundredths of a percent or of a point, the penalty in hundredths of a point.
   const std::int64_t penalty = rule.isPercent ? (points * cost + 50) / 100 : cost;
   return {static_cast<int>(days), std::min(penalty, std::int64_t{100} * points)};
 }

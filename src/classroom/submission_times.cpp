@@ -34,12 +34,12 @@ SubmissionTimes::SubmissionTimes(const std::filesystem::path& file,
   const std::size_t student = columnOf(headings, "student"), submitted = columnOf(headings, "submitted"),
                     exercise = columnOf(headings, "exercise");
   if (student == kAbsent || submitted == kAbsent)
-    throw fail(1, "no times of submission", fmt::format("the columns {}", fmt::join(headings.fields, ", ")),
+    throw fail(1, "no submission times", fmt::format("the columns {}", fmt::join(headings.fields, ", ")),
                "student and submitted, and exercise if they differ");
   for (std::size_t k = 1; k < rows.size(); ++k) {
     const auto& [line, fields] = rows[k];
     if (fields.size() != headings.fields.size())
-      throw fail(line, "times of submission", fmt::format("{} fields", fields.size()),
+      throw fail(line, "submission times", fmt::format("{} fields", fields.size()),
                  fmt::format("{}", headings.fields.size()));
     if (fields[submitted].empty()) continue;
     const auto time = parseInstant(fields[submitted]);
@@ -54,7 +54,7 @@ SubmissionTimes::SubmissionTimes(const std::filesystem::path& file,
       throw fail(line, error.parts().what, "", error.parts().wanted);
     }
     if (!times_.emplace(std::pair(fields[student], name), *time).second)
-      throw fail(line, "a second time of the same submission", "'" + fields[student] + "' again", "one row");
+      throw fail(line, "a second time for the same submission", "'" + fields[student] + "' again", "one row");
   }
 }
 

@@ -22,7 +22,7 @@ std::string seedText(const Task& task) { return task.seed ? fmt::format("{}", *t
 
 std::string line(const Task& task, std::size_t number) {
   if (task.file.string().find_first_of("\t\n\r") != std::string::npos)
-    throw Error({.what = "the name of this file cannot stand in a list of tasks",
+    throw Error({.what = "the name of this file cannot be in a list of tasks",
                  .where = {task.file.string()},
                  .wanted = "no tab and no line break"});
   return fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\n", number, task.student, task.exercise,
@@ -40,7 +40,7 @@ std::vector<std::string> cut(const std::string& line) {
   }
 }
 
-/// Fields of one line, which know where they stand.
+/// The fields of one line, with its position in the file.
 class Line {
  public:
   Line(const std::string& text, std::string file, int number)
@@ -71,7 +71,7 @@ class Line {
   SourceLocation where_;
 };
 
-// Names become folders: what a file says is not trusted more than what a student hands in.
+// Names become folders, so the file is trusted no more than what a student hands in.
 Task readTask(const Line& line, std::size_t number) {
   if (line.number<std::size_t>(0, "the number of the task") != number)
     line.refuse("task " + line.text(0), fmt::format("task {}", number));

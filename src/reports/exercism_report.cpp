@@ -18,7 +18,7 @@ const char* statusFor(Outcome outcome) {
   return outcome == Outcome::kFail ? "fail" : "error";
 }
 
-// A check that was not run counts as one that failed.
+// A check that was not run counts as failed.
 Json exercismTest(const CheckResult& check, const std::string& file) {
   const Json message = isPassed(check) ? Json() : Json(messageOf(check, file));
   return {{"name", shownText(check.title)},

@@ -14,7 +14,7 @@ namespace {
 using namespace internal;
 
 constexpr std::size_t kLongestAnnotation = 1'000;
-constexpr std::size_t kMostOfAKind = 10;  // GitHub drops what a step says beyond that
+constexpr std::size_t kMostOfAKind = 10;  // GitHub drops further annotations of a step
 
 struct Place {
   std::string file{};  // empty: none
@@ -32,7 +32,7 @@ std::string command(const char* kind, const std::string& title, const Place& pla
                      commandMessage(shownText(message, kLongestAnnotation)));
 }
 
-// The student's file, or nothing: a `#line` of the student may name any.
+// The student's file, or no file at all: a `#line` directive of the student may name any other.
 Place placeOf(const CompileDiagnostic& message, const GradeResult& result) {
   const bool isTheirs = std::any_of(result.files.begin(), result.files.end(),
                                     [&](const SourceFile& file) { return file.name == message.file; });

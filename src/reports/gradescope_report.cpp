@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using namespace internal;
 
-// Of a hidden check no message: it may quote text that a program chose while it knew the input.
+// A hidden check's message is left out: it may quote text that a program chose while it knew the input.
 std::string outputOf(const CheckResult& check, const std::string& file) {
   if (isPassed(check)) return "";
   if (!isHidden(check)) return messageOf(check, file);
@@ -36,7 +36,7 @@ Json gradescopeTest(const CheckResult& check, const std::string& number, const s
 
 // Numbered by part and check: 1.1, 1.2, 2.1.
 Json testsOf(const GradeResult& result) {
-  std::map<std::string, std::pair<std::size_t, int>> parts;  // number of the part, checks of it so far
+  std::map<std::string, std::pair<std::size_t, int>> parts;  // number of the part, its checks so far
   Json tests = Json::array();
   for (const CheckResult& check : result.checks) {
     auto& [part, count] = parts.try_emplace(check.part, parts.size() + 1, 0).first->second;

@@ -37,7 +37,7 @@ std::string skipped(const char* why) {
   return fmt::format("      <skipped{}/>\n", attribute("message", why));
 }
 
-// Students read what CI shows: of a hidden check only that there is one, and how it ended.
+// Students read what CI shows, so a hidden check reveals only that it exists and how it ended.
 TestCase junitTest(const CheckResult& check, const GradeResult& result, int hiddenNumber, Counts& counts) {
   TestCase test{.name = hiddenNumber > 0
                             ? fmt::format("Hidden check {}", hiddenNumber)
@@ -85,7 +85,7 @@ std::string propertiesOf(const GradeResult& result) {
   return text + "    </properties>\n";
 }
 
-// What concerns all checks is a test case of its own, before them.
+// Whatever concerns all checks is a separate test case before them.
 std::string wholeOf(const GradeResult& result, Counts& counts) {
   if (result.outcome != Outcome::kCompileError && result.outcome != Outcome::kGraderError) return "";
   ++counts.tests, ++counts.errors;

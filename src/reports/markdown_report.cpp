@@ -13,10 +13,10 @@ using namespace internal;
 
 constexpr std::size_t kLongestCell = 600, kMostPrinted = 16'000;
 
-// A character written by its number never is markup, so no text can end a cell or begin anything.
+// A character written by its number is never markup, so no text can end a cell or open anything.
 std::string cell(const std::string& text) { return markdownText(shownText(text, kLongestCell)); }
 
-// Text as it is, in an HTML block that goes on until its end tag, whatever is in it.
+// Text as it is, in an HTML block that continues until its end tag, whatever it contains.
 std::string block(const char* title, const std::string& text) {
   const std::string shown = shownText(text.substr(0, text.find_last_not_of('\n') + 1), kMostPrinted);
   return fmt::format("\n{}\n\n<pre>\n{}\n</pre>\n", title, markdownBlock(shown));

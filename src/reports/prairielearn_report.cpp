@@ -9,7 +9,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using namespace internal;
 
-// Of a hidden check the name and the points.
+// A hidden check shows only its name and points.
 Json prairieLearnTest(const CheckResult& check, const std::string& file) {
   const bool isSilent = isPassed(check) || isHidden(check);
   return {{"name", shownText(check.title)},
@@ -19,7 +19,7 @@ Json prairieLearnTest(const CheckResult& check, const std::string& file) {
           {"message", isSilent ? "" : messageOf(check, file)}};
 }
 
-// Attempts that cannot be graded do not count: neither a typing mistake nor a fault of ours.
+// Attempts that cannot be graded do not count, be it for a typing mistake or for a fault of ours.
 std::string formatErrorOf(const GradeResult& result) {
   if (result.outcome == Outcome::kGraderError) return kGraderFailed;
   return result.outcome == Outcome::kCompileError ? compileText(result) : "";

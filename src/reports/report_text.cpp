@@ -10,7 +10,8 @@ namespace rex::grading::internal {
 
 std::string shownText(std::string_view text, std::size_t limit) {
   constexpr std::string_view kCut = " ...";
-  // Replacing a byte makes it longer, so only a text that fits in one piece is known to be whole.
+  // Escaping a byte makes it longer, so the length of `text` does not say whether it was cut. It was not if a
+  // higher limit yields no more.
   std::string shown = printable(text, limit);
   if (printable(text, limit + kCut.size()).size() == shown.size()) return shown;
   return printable(text, limit - kCut.size()).append(kCut);

@@ -97,7 +97,7 @@ TEST_F(ReleaseTest, HoldsOnlyWhatGitKnows) {
   EXPECT_REX_ERROR(
       writeStudentRelease(root(), target()),
       "exercises/01-demo/exam-notes.txt: a file that git does not know would reach students: wanted "
-      "git add, a line in .gitignore, or another place");
+      "git add, a line in .gitignore, or another folder");
   write("scripts/mine", "x\n");
   EXPECT_REX_ERROR(writeStudentRelease(root(), target()),
                    "exercises/01-demo/exam-notes.txt: 2 files that git does not know would reach students");

@@ -85,7 +85,7 @@ TEST_F(WrongVariantsTest, AreToldApartByWhatIsWrong) {
           StartsWith("wrong/a_typo: it was not graded: main.cpp:9:8: error: 'angel' was not declared"),
           "wrong/b_right: check 'quarter-turn' passes although: b_right.",
           "wrong/d_unseen: check 'angles-add' leaves no picture",
-          "wrong/e_allowed: it should call a forbidden function, but nothing noticed one",
+          "wrong/e_allowed: it should call a forbidden function, but no call was found",
           HasSubstr(
               "wrong/f_forbidden: it was not graded: main.cpp:9:13: error: calls rex::rotationAboutAxis")));
 }

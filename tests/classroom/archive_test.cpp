@@ -77,10 +77,10 @@ TEST_F(ArchiveTest, ReadsWhatOthersPack) {
 }
 
 TEST_F(ArchiveTest, RefusesNamesThatLeaveTheFolder) {
-  const std::string wanted = ", wanted a name inside of a folder";
+  const std::string wanted = ", wanted a name inside a folder";
   for (const char* name : {"../main.cpp", "a/../../main.cpp", ".."})
     expectRefusal({{.name = "ok"}, {.name = name}},
-                  fmt::format("member '{}': found a way out of its folder", name) + wanted);
+                  fmt::format("member '{}': found a path out of its folder", name) + wanted);
   for (const char* name : {"/etc/passwd", "//main.cpp"})
     expectRefusal({{.name = name}},
                   fmt::format("member '{}': found an absolute name or a backslash", name) + wanted);
@@ -138,7 +138,7 @@ TEST_F(ArchiveTest, ReadsTheNamesThatPythonWrites) {
 }
 
 TEST_F(ArchiveTest, RefusesTwoFilesOfOneName) {
-  const std::string text = "found a second file of that name, where case does not count, wanted one";
+  const std::string text = "found a second file of that name (ignoring case), wanted one";
   expectRefusal({{.name = "01/main.cpp"}, {.name = "01/main.cpp"}}, "member '01/main.cpp': " + text);
   expectRefusal({{.name = "01/main.cpp"}, {.name = "01/Main.cpp"}}, "member '01/Main.cpp': " + text);
   expectRefusal({{.name = "01/main.cpp"}, {.name = "./01//main.cpp"}}, text);
@@ -147,7 +147,7 @@ TEST_F(ArchiveTest, RefusesTwoFilesOfOneName) {
 TEST_F(ArchiveTest, RefusesWhatGoesBeyondTheLimits) {
   std::vector<SampleMember> many;
   for (int k = 0; k <= 200; ++k) many.push_back({.name = fmt::format("{}", k)});
-  expectRefusal(many, "not taken: found more members, wanted at most 200");
+  expectRefusal(many, "not accepted: found more members, wanted at most 200");
   many.pop_back();
   EXPECT_EQ(read("a.zip", zipOf(many)).size(), 200u);
   const SampleMember large{.name = "x", .text = std::string(1000, 'x')};
@@ -166,13 +166,13 @@ TEST_F(ArchiveTest, RefusesSizesThatAreNotTrue) {
   EXPECT_EQ(asMap(read("a.zip", zipOf(members, 0))).at("01/main.cpp"), "") << "no byte beyond the claim";
   for (const std::int64_t claimed : {3, 1 << 30}) {
     SCOPED_TRACE(claimed);
-    EXPECT_REX_ERROR(read("a.zip", zipOf(members, claimed)), "not taken");
+    EXPECT_REX_ERROR(read("a.zip", zipOf(members, claimed)), "not accepted");
   }
 }
 
 TEST_F(ArchiveTest, RefusesWhatIsBrokenOrNone) {
-  EXPECT_REX_ERROR(read("a.zip", "no archive"), "wanted a whole .zip, .tar or .tar.gz file");
-  EXPECT_REX_ERROR(read("a.zip", ""), "a.zip: this archive is not taken");
+  EXPECT_REX_ERROR(read("a.zip", "no archive"), "wanted an intact .zip, .tar or .tar.gz file");
+  EXPECT_REX_ERROR(read("a.zip", ""), "a.zip: this archive is not accepted");
   const std::string tar = tarOf({{.name = "01/main.cpp", .text = std::string(5000, 'x')}});
   EXPECT_REX_ERROR(read("a.tar", tar.substr(0, 3000)), "wanted a whole");
 }
@@ -191,7 +191,7 @@ TEST_F(ArchiveTest, SurvivesChangedBytes) {
     try {
       taken += static_cast<int>(read("a.zip", bytes).size());
     } catch (const Error& error) {
-      EXPECT_THAT(error.what(), HasSubstr("a.zip: this archive is not taken")) << "seed " << seed;
+      EXPECT_THAT(error.what(), HasSubstr("a.zip: this archive is not accepted")) << "seed " << seed;
     }
   }
   EXPECT_LT(taken, 400);

@@ -79,7 +79,7 @@ TEST_F(HandInTest, NotesWhatIsNotGraded) {
   write("zoe/01/main.cpp"), write("zoe/01/notes.txt"), write("zoe/receipt.json"), write(".DS_Store");
   const HandIns found = read();
   EXPECT_THAT(found.complaints, IsEmpty());
-  EXPECT_THAT(found.notes, ElementsAre(HasSubstr(".DS_Store: not taken"), HasSubstr("notes.txt: not taken")));
+  EXPECT_THAT(found.notes, ElementsAre(HasSubstr(".DS_Store: ignored"), HasSubstr("notes.txt: ignored")));
 }
 
 TEST_F(HandInTest, ComplainsOfAnUnknownExercise) {
@@ -88,7 +88,7 @@ TEST_F(HandInTest, ComplainsOfAnUnknownExercise) {
   EXPECT_THAT(found.complaints,
               ElementsAre(AllOf(HasSubstr("in/zoe/01-kinematic: no exercise is called '01-kinematic'"),
                                 HasSubstr("did you mean '01-kinematics'")),
-                          HasSubstr("in/zoe: nothing to grade: found no folder of an exercise, wanted "
+                          HasSubstr("in/zoe: nothing to grade: found no exercise folder, wanted "
                                     "01-kinematics/main.cpp")));
 }
 
@@ -102,13 +102,13 @@ TEST_F(HandInTest, FollowsNoLinks) {
   writeTextFile(temporary_.path() / "secret" / "01" / "main.cpp", "secret");
   fs::create_directory_symlink(temporary_.path() / "secret", folder() / "zoe");
   expectComplaint(
-      "in/zoe: not taken: found a symbolic link, wanted a folder, .zip, .tar or .tar.gz file for each "
+      "in/zoe: not accepted: found a symbolic link, wanted a folder, .zip, .tar or .tar.gz file for each "
       "student");
   fs::remove(folder() / "zoe");
   fs::create_directories(folder() / "yan" / "02");
   write("yan/02/main.cpp");
   fs::create_directory_symlink(temporary_.path() / "secret" / "01", folder() / "yan" / "01");
-  expectComplaint("in/yan/01: not taken: found a symbolic link, wanted a folder for each exercise");
+  expectComplaint("in/yan/01: not accepted: found a symbolic link, wanted a folder for each exercise");
   fs::remove(folder() / "yan" / "01"), fs::remove(folder() / "yan" / "02" / "main.cpp");
   fs::create_symlink(temporary_.path() / "secret" / "01" / "main.cpp", folder() / "yan" / "02" / "main.cpp");
   expectComplaint("in/yan/02/main.cpp: cannot be graded: found a symbolic link");
@@ -124,7 +124,8 @@ TEST_F(HandInTest, ComplainsOfLargeFilesPipesAndStrayFiles) {
   fs::remove_all(folder() / "zoe");
   write("main.cpp");
   expectComplaint(
-      "in/main.cpp: not taken: found a file, wanted a folder, .zip, .tar or .tar.gz file for each student");
+      "in/main.cpp: not accepted: found a file, wanted a folder, .zip, .tar or .tar.gz file for each "
+      "student");
 }
 
 TEST_F(HandInTest, TakesArchivesAsFolders) {
@@ -139,7 +140,7 @@ TEST_F(HandInTest, TakesArchivesAsFolders) {
   HandIns found = read();
   EXPECT_THAT(namesOf(found), ElementsAre("adam 02-control", "zoe 01-kinematics"));
   EXPECT_THAT(found.complaints, IsEmpty());
-  EXPECT_THAT(found.notes, ElementsAre(HasSubstr("in/zoe.zip/notes.txt: not taken")));
+  EXPECT_THAT(found.notes, ElementsAre(HasSubstr("in/zoe.zip/notes.txt: ignored")));
   EXPECT_EQ(found.files[0].text, "// adam");
   EXPECT_EQ(found.files[1].submitted, 1'700'000'000);
   EXPECT_THAT(namesOf(read("02")), ElementsAre("adam 02-control"));
@@ -147,10 +148,9 @@ TEST_F(HandInTest, TakesArchivesAsFolders) {
   fs::remove(folder() / "adam.tar");
   expectComplaint("in/zoe.zip: the same name of an exercise, spelt differently: found '01' and 'kinematics'");
   pack("zoe.zip", {{.name = "main.cpp"}});
-  expectComplaint(
-      "in/zoe.zip: nothing to grade: found no folder of an exercise, wanted 01-kinematics/main.cpp");
+  expectComplaint("in/zoe.zip: nothing to grade: found no exercise folder, wanted 01-kinematics/main.cpp");
   pack("zoe.zip", {{.name = "../01/main.cpp"}});
-  expectComplaint("in/zoe.zip: this archive is not taken: member '../01/main.cpp': found a way out");
+  expectComplaint("in/zoe.zip: this archive is not accepted: member '../01/main.cpp': found a path out");
   pack("zoe.zip", {{.name = "01/main.cpp"}});
   write("zoe/01/main.cpp");
   expectComplaint("in: the same name of a student, spelt differently: found 'zoe' and 'zoe.zip', wanted one");
@@ -167,8 +167,8 @@ TEST_F(HandInTest, TakesArchivesWithOneFolderAroundAll) {
   EXPECT_EQ(found.files[0].text, "// zoe");
   EXPECT_EQ(found.files[0].from, folder() / "zoe.zip/Zoe's work/01/main.cpp");
   EXPECT_THAT(found.notes, ElementsAre(HasSubstr("in/zoe.zip: taken from its folder 'Zoe's work'"),
-                                       HasSubstr("Zoe's work/01/build/main.cpp: not taken"),
-                                       HasSubstr("._main.cpp: not taken")));
+                                       HasSubstr("Zoe's work/01/build/main.cpp: ignored"),
+                                       HasSubstr("._main.cpp: ignored")));
   // A folder that is not an exercise decides nothing.
   write("zoe.zip", zipOf({{.name = "01/main.cpp", .text = "// zoe"}, {.name = "01/build/main.cpp"}}));
   EXPECT_THAT(read().complaints, IsEmpty());
@@ -206,20 +206,20 @@ TEST_F(HandInTest, RefusesNamesThatCannotBeFolders) {
   const std::vector<std::pair<std::string, std::string>> names = {
       {".hidden", "begins with a dot"},
       {"a\nb", "a control character"},
-      {"\xff\xfe", "bytes that are no UTF-8"},
+      {"\xff\xfe", "bytes that are not UTF-8"},
       {"a\\b", "a slash"},
       {std::string(101, 'a'), "101 bytes"},
-      {" a", "a blank at an end"},
-      {"a ", "a blank at an end"},
-      {"Grades.CSV", "the name of a file of results"},
-      {"tasks.tsv", "the name of a file"},
-      {"Jobs.tsv", "the name of a file"},
-      {"slurm-7-1.log", "the name of a file"},
-      {"grades.csv.4711.new", "the name of a file"},
+      {" a", "a leading or trailing blank"},
+      {"a ", "a leading or trailing blank"},
+      {"Grades.CSV", "the name of a results file"},
+      {"tasks.tsv", "the name of a results file"},
+      {"Jobs.tsv", "the name of a results file"},
+      {"slurm-7-1.log", "the name of a results file"},
+      {"grades.csv.4711.new", "the name of a results file"},
       {"a\u202Eb", "an invisible one"},
       {"a\u200Bb", "an invisible one"},
       {"a\u2028b", "an invisible one"},
-      {"\u00A0zoe", "a blank at an end"}};
+      {"\u00A0zoe", "a leading or trailing blank"}};
   for (const auto& [name, why] : names) {
     write(name + "/01/main.cpp");
     expectComplaint(why);
@@ -318,18 +318,17 @@ TEST_F(HandInTest, TakesArchivesOfHonestPeople) {
   EXPECT_THAT(found.complaints, IsEmpty());
   ASSERT_EQ(found.files.size(), 1u);
   EXPECT_EQ(found.files[0].text, "// zoe");
-  EXPECT_THAT(found.notes, ::testing::UnorderedElementsAre(HasSubstr("01/notes 10:30.txt: not taken"),
-                                                           HasSubstr("01/\u00FCbung.txt: not taken"),
-                                                           HasSubstr("01/latest: not taken: a symbolic link"),
-                                                           HasSubstr("01/.DS_Store: not taken"),
-                                                           HasSubstr("__MACOSX/01/main.cpp: not taken"),
-                                                           HasSubstr("__MACOSX/01/._main.cpp: not taken")));
+  EXPECT_THAT(found.notes,
+              ::testing::UnorderedElementsAre(
+                  HasSubstr("01/notes 10:30.txt: ignored"), HasSubstr("01/\u00FCbung.txt: ignored"),
+                  HasSubstr("01/latest: ignored: a symbolic link"), HasSubstr("01/.DS_Store: ignored"),
+                  HasSubstr("__MACOSX/01/main.cpp: ignored"), HasSubstr("__MACOSX/01/._main.cpp: ignored")));
 }
 
 TEST_F(HandInTest, ComplainsOfALinkInTheFilesPlace) {
   write("zoe.zip", zipOf({{.name = "01/main.cpp", .text = "/etc/passwd", .mode = 0120777},
                           {.name = "02/main.cpp", .text = "// zoe"}}));
-  expectComplaint("in/zoe.zip/01/main.cpp: not taken: found a symbolic link, wanted a C++ source file");
+  expectComplaint("in/zoe.zip/01/main.cpp: not accepted: found a symbolic link, wanted a C++ source file");
   EXPECT_THAT(namesOf(read()), ElementsAre("good 01-kinematics", "zoe 02-control"));
 }
 

@@ -40,16 +40,16 @@ TEST_F(SubmissionTimesTest, TellsThoseOfOneExerciseBeforeThoseOfAll) {
 
 TEST_F(SubmissionTimesTest, RefusesOtherTables) {
   expectError("who,when\n",
-              ":1: no times of submission: found the columns who, when, wanted student and "
+              ":1: no submission times: found the columns who, when, wanted student and "
               "submitted, and exercise if they differ");
-  expectError("student,submitted\nalice\n", ":2: times of submission: found 1 fields, wanted 2");
+  expectError("student,submitted\nalice\n", ":2: submission times: found 1 fields, wanted 2");
   expectError("student,submitted\nalice,2026-11-20 10:00\n",
               ":2: not a time: found '2026-11-20 10:00', wanted a time with its zone, such as "
               "2026-11-20T23:59:00+01:00");
   expectError("student,submitted,exercise\na,2026-11-20T10:00:00Z,03\n",
               ":2: no exercise is called '03': wanted one of 01-kinematics, 02-control");
   expectError("student,submitted\na,2026-11-20T10:00:00Z\na,2026-11-20T11:00:00Z\n",
-              ":3: a second time of the same submission: found 'a' again, wanted one row");
+              ":3: a second time for the same submission: found 'a' again, wanted one row");
 }
 
 }  // namespace rex::grading::submission_times_test

@@ -89,7 +89,7 @@ TEST_F(TaskListTest, RefusesOtherTexts) {
   EXPECT_REX_ERROR(read(changed("\t7\t", "\t8\t")), "found another hash of the inputs");
   Task task = sample();
   task.file = "a\tb";
-  EXPECT_REX_ERROR(toManifest({task}), "cannot stand in a list of tasks: wanted no tab and no line break");
+  EXPECT_REX_ERROR(toManifest({task}), "cannot be in a list of tasks: wanted no tab and no line break");
 }
 
 TEST(Ranges, JoinNeighbours) {

@@ -483,8 +483,8 @@ TEST_F(ArchiveBattery, A26RefusesMembersThatAreNoFilesOfTheirFolder) {
     expectRefusal("mallory.tar", tarOf({good, bad}), reason);
     expectRefusal("mallory.zip", zipOf({good, bad}), reason);
   };
-  both({.name = "../main.cpp"}, "member '../main.cpp': found a way out of its folder");
-  both({.name = "battery/../../main.cpp"}, "member 'battery/../../main.cpp': found a way out");
+  both({.name = "../main.cpp"}, "member '../main.cpp': found a path out of its folder");
+  both({.name = "battery/../../main.cpp"}, "member 'battery/../../main.cpp': found a path out");
   both({.name = "/tmp/rex-battery-stayed"}, "member '/tmp/rex-battery-stayed': found an absolute name");
   both({.name = "battery/main.cpp"}, "member 'battery/main.cpp': found a second file of that name");
   both({.name = "battery/Main.CPP"}, "member 'battery/Main.CPP': found a second file of that name");
@@ -492,7 +492,7 @@ TEST_F(ArchiveBattery, A26RefusesMembersThatAreNoFilesOfTheirFolder) {
     writeTextFile(in() / name, bytes);
     const HandIns found = readHandIns(in(), {exercise()});
     EXPECT_THAT(found.complaints, ::testing::IsEmpty()) << kind;
-    EXPECT_THAT(found.notes, ::testing::ElementsAre(HasSubstr(name + "/battery/x: not taken: " + kind)));
+    EXPECT_THAT(found.notes, ::testing::ElementsAre(HasSubstr(name + "/battery/x: ignored: " + kind)));
     EXPECT_EQ(found.files.size(), 2u) << kind;
     fs::remove(in() / name);
   };
@@ -519,11 +519,11 @@ TEST_F(ArchiveBattery, A27StopsAtItsLimits) {
   std::vector<SampleMember> many(kMany);
   for (int k = 0; k < kMany; ++k) many[static_cast<std::size_t>(k)].name = std::to_string(k);
   expectRefusal("mallory.tgz", gzipped(tarOf(many)), "found more members, wanted at most 200");
-  expectRefusal("mallory.zip", zipOf(many), "not taken: found ");
+  expectRefusal("mallory.zip", zipOf(many), "not accepted: found ");
   expectRefusal("mallory.zip", zipOf({{.name = std::string(65535, 'n')}}), "found a name of 65535 bytes");
   for (const std::int64_t claimed : {3, 1 << 30})
     expectRefusal("mallory.zip", zipOf({{.name = "battery/main.cpp", .text = "int a;\n"}}, claimed),
-                  "not taken");
+                  "not accepted");
 }
 
 // This process stays small, so that the largest of its children is the one that reads.
@@ -549,7 +549,7 @@ TEST_F(ArchiveBattery, A27OpensNoArchiveInsideOfOne) {
                                              {.name = "battery/main.cpp", .text = "int a;\n"}}));
   const HandIns found = readHandIns(in(), {exercise()});
   EXPECT_THAT(found.complaints, ::testing::IsEmpty());
-  EXPECT_THAT(found.notes, ::testing::ElementsAre(HasSubstr("mallory.zip/inner.zip: not taken")));
+  EXPECT_THAT(found.notes, ::testing::ElementsAre(HasSubstr("mallory.zip/inner.zip: ignored")));
   EXPECT_EQ(found.files.size(), 2u);
 }
 
