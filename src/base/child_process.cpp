@@ -31,7 +31,7 @@ bool limit(int resource, rlim_t soft, rlim_t hard) {
   return ::setrlimit(static_cast<__rlimit_resource>(resource), &value) == 0;
 }
 
-// The soft limit on time sends a signal that a program can ignore; the hard one kills.
+// The soft time limit sends a signal that a program can ignore; the hard one kills it.
 bool applyLimits(const ProcessOptions& options) {
   const auto seconds = static_cast<rlim_t>(std::ceil(options.cpuSeconds));
   return limit(RLIMIT_CPU, seconds, seconds + 1) &&
@@ -61,7 +61,7 @@ bool applyLimits(const ProcessOptions& options) {
   ::_exit(127);
 }
 
-// Ours, with some variables in place of others.
+// Our environment with some variables added or replaced.
 std::vector<char*> environmentWith(const std::vector<std::string>& more) {
   std::vector<char*> all;
   for (const std::string& variable : more) all.push_back(const_cast<char*>(variable.c_str()));
@@ -96,7 +96,7 @@ struct ChildProcess::Running {
   StopRequests stop{};
   std::atomic<bool> cancelled = false;
   int interruptedBy = 0;  ///< the signal that asked us to stop
-  bool ended = false;     ///< and is reaped
+  bool ended = false;     ///< and has been reaped
   int status = 0;
   rusage usage{};
   ProcessResult result{};
@@ -130,10 +130,10 @@ void ChildProcess::Running::collect(const pollfd& polled, Pipe& pipe, std::strin
   if (n == 0) pipe.closeRead();
 }
 
-// One round: takes what fits from the front of `input` and collects output. Returns false at the deadline and
+// One round: writes what fits from the front of `input` and collects output. Returns false at the deadline or
 // when asked to stop.
 bool ChildProcess::Running::exchange(std::string_view& input, Deadline deadline) {
-  constexpr long kLongestSleep = 100;  // milliseconds, until we look whether we are cancelled
+  constexpr long kLongestSleep = 100;  // milliseconds, until we check whether we are cancelled
   const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
   if (left <= 0 || mustStop()) return false;
   std::array<pollfd, 4> polled{{{out.readEnd(), POLLIN, 0},
@@ -151,7 +151,7 @@ bool ChildProcess::Running::exchange(std::string_view& input, Deadline deadline)
   return true;
 }
 
-// Waits for the child's end; returns false at the deadline and when asked to stop.
+// Waits for the child's end; returns false at the deadline or when asked to stop.
 bool ChildProcess::Running::waitForEnd(Deadline deadline) {
   for (int pause = 0;; pause = std::min(pause + 1, 10)) {  // milliseconds
     ended = ::wait4(child, &status, WNOHANG, &usage) == child;
@@ -162,7 +162,7 @@ bool ChildProcess::Running::waitForEnd(Deadline deadline) {
   }
 }
 
-// Passes a request to stop on, so that the program can tidy up, and kills what is left after a second.
+// Passes on a request to stop, so that the program can tidy up, and kills what is left after a second.
 void ChildProcess::Running::end() {
   const int target = ownGroup ? -child : child;
   if (interruptedBy != 0) {
@@ -174,7 +174,7 @@ void ChildProcess::Running::end() {
       ::poll(nullptr, 0, 10);
     }
   }
-  // While the child is not yet reaped, nobody else can get its number.
+  // Until the child is reaped, no other process can get its ID.
   ::kill(target, SIGKILL);
   ::wait4(child, &status, 0, &usage);
   ended = true;

@@ -32,7 +32,7 @@ Eigen::MatrixXd numericJacobian(const VectorFunction& f, const Eigen::VectorXd& 
       Eigen::VectorXd ahead = x, behind = x;
       ahead[i] += h;
       behind[i] -= h;
-      // Divided by the step actually taken, which rounding makes a little different from 2 h.
+      // Divided by the step actually taken, which differs from 2 h by rounding.
       return (evaluate(f, ahead, rows) - evaluate(f, behind, rows)) / (ahead[i] - behind[i]);
     };
     const double h = step * std::max(1., std::abs(x[i]));
@@ -67,11 +67,12 @@ JacobianCheck checkJacobian(const VectorFunction& f, const Eigen::MatrixXd& J, c
     }
   }
   check.error = std::max(check.error, 0.);
-  check.message = check.ok ? fmt::format("the Jacobian agrees with differences within {:.1e}", check.error)
-                           : fmt::format(
-                                 "entry ({}, {}) of the Jacobian is {:.6g}, differences say {:.6g} (rows and "
-                                 "columns count from 0)",
-                                 check.row, check.column, check.given, check.numeric);
+  check.message =
+      check.ok ? fmt::format("the Jacobian agrees with finite differences within {:.1e}", check.error)
+               : fmt::format(
+                     "entry ({}, {}) of the Jacobian is {:.6g}, finite differences give {:.6g} (rows and "
+                     "columns count from 0)",
+                     check.row, check.column, check.given, check.numeric);
   return check;
 }
 

@@ -3,7 +3,7 @@
 
 namespace Eigen::internal {
 
-// Eigen's own product, of a result that it does not know to be specialised: the same memory as a Map.
+// Computes Eigen's own product by mapping the same memory to a result type that is not specialised.
 #define REX_DEFINE(Result, Left, Right)                                                              \
   template <>                                                                                        \
   template <>                                                                                        \

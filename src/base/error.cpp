@@ -56,7 +56,7 @@ std::string toString(const SourceLocation& where) {
 Error::Error(ErrorParts parts) : parts_(std::move(parts)), text_(format(parts_)) {}
 
 std::vector<std::string> nearestNames(std::string_view wanted, const std::vector<std::string>& known) {
-  // Longer strings are not names that somebody mistyped, and comparing them would take long.
+  // Longer strings are not mistyped names, and comparing them would take long.
   constexpr std::size_t kLongestName = 256;
   if (wanted.empty() || wanted.size() > kLongestName) return {};
   const std::string target = lowerCase(wanted);

@@ -23,7 +23,7 @@ std::string withNumbers(std::string_view text, std::string_view markup) {
   return safe;
 }
 
-// What commands of a workflow decode again.
+// Percent-encodes special characters, which workflow commands decode again.
 std::string withPercents(std::string_view text, std::string_view special) {
   std::string safe;
   for (const char c : printable(text))
@@ -37,19 +37,19 @@ bool isPlainNumber(std::string_view text) {
   return failure == std::errc() && end == text.data() + text.size();
 }
 
-// = + - @ and the forms of them that spreadsheets take for the same: wide and small ones, the minus sign.
+// = + - @ and the variants that spreadsheets treat alike: full-width and small forms, the minus sign.
 constexpr auto kFormulaSigns =
     std::to_array<std::string_view>({"=", "+", "-", "@", "\uFF1D", "\uFF0B", "\uFF0D", "\uFF20", "\uFE66",
                                      "\uFE62", "\uFE63", "\uFE6B", "\u2212"});
 
-// Blanks at the start of a cell, which some readers take away.
+// Blanks that some readers remove from the start of a cell.
 constexpr auto kCellBlanks = std::to_array<std::string_view>({" ", "\u00A0", "\u3000", "\uFFFD"});
 
 bool startsWithAny(std::string_view text, const auto& starts) {
   return std::any_of(starts.begin(), starts.end(), [&](auto start) { return text.starts_with(start); });
 }
 
-// A cell of one dialect may begin in the middle of a field of another.
+// A cell in one dialect of CSV may begin in the middle of a field in another.
 std::string withoutFormulas(std::string_view text) {
   std::string safe;
   bool isStart = true;
@@ -82,7 +82,7 @@ std::string markdownText(std::string_view text) {
   std::string safe;
   for (std::size_t k = 0; k < shown.size(); ++k) {
     const char c = shown[k];
-    // Addresses become links by themselves.
+    // Addresses would become links automatically.
     const bool isAddress =
         (c == ':' && shown.compare(k + 1, 1, "/") == 0) || (c == '.' && k > 0 && shown[k - 1] == 'w');
     if (c == '\n' || c == '\t')

@@ -10,7 +10,7 @@ namespace {
 
 using namespace std::chrono;
 
-/// Takes a fixed form from the front of a text; `ok` says whether all of it was there.
+/// Reads a fixed format from the front of a text; `ok` says whether it matched.
 struct Scanner {
   std::string_view text;
   bool ok = true;

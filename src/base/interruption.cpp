@@ -27,7 +27,7 @@ void throwIfInterrupted() {
   sigset_t blocked;
   ::sigprocmask(SIG_BLOCK, nullptr, &blocked);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    // One that is not held back acts by itself; waiting for it would only race with that.
+    // A signal that is not blocked takes effect by itself; waiting for it would be a race.
     if (::sigismember(&blocked, signal) != 1) continue;
     sigset_t one;
     ::sigemptyset(&one);

@@ -36,9 +36,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kOutOfMemoryCode = 113;  // of the child, where there is no more memory
+constexpr int kOutOfMemoryCode = 113;  // exit code of a child that runs out of memory
 
-// What the child sends: this, then the bytes.
+// The child sends this, followed by the bytes.
 struct Head {
   enum Kind : std::uint64_t { kValue, kError };
   Kind kind = kValue;
@@ -88,7 +88,7 @@ void lower(int resource, rlim_t soft, rlim_t hard) {
   ::setrlimit(which, &wanted);
 }
 
-// Bytes of address space of this process.
+// The size of this process's address space in bytes.
 rlim_t presentSize() {
   char text[64] = {};
   const int fd = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
@@ -97,7 +97,7 @@ rlim_t presentSize() {
   return n > 0 ? std::strtoull(text, nullptr, 10) * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) : 0;
 }
 
-// The sanitizers reserve all addresses at once.
+// The sanitizers reserve the whole address space at once.
 #ifdef REX_ADDRESS_SANITIZER
 constexpr bool kLimitsMemory = false;
 #else
@@ -127,7 +127,7 @@ void send(int fd, Head::Kind kind, std::string_view bytes) {
   writeAll(fd, bytes.data(), bytes.size());
 }
 
-// Handlers of the parent would do its work twice. Requests to stop that it holds back stay with it.
+// The parent's handlers would do its work twice. Stop requests that the parent holds back stay blocked.
 void resetSignals(const sigset_t& held) {
   for (int signal = 1; signal < NSIG; ++signal) {
     struct sigaction action {};
@@ -139,7 +139,7 @@ void resetSignals(const sigset_t& held) {
   ::sigprocmask(SIG_SETMASK, &blocked, nullptr);
 }
 
-// In the child; what escapes its function ends it, as nothing of the parent may run twice.
+// Runs in the child. An exception other than Error ends it, as none of the parent's code may run twice.
 [[noreturn]] void answer(const std::function<std::string()>& function, const IsolationLimits& limits,
                          int result, pid_t parent, const sigset_t& held) noexcept {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -209,7 +209,7 @@ class Reader {
         deadline_(Clock::now() +
                   std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds))) {}
 
-  /// False at the end of all, and when the time is over.
+  /// Returns false at the end of the stream or when time is up.
   bool read(void* to, std::size_t size) {
     for (char* at = static_cast<char*>(to); size > 0;) {
       if (!waitForBytes()) return false;
@@ -258,7 +258,7 @@ IsolatedResult failureOf(int status, bool isLate, double cpuSeconds, const Isola
 
 IsolatedResult callIsolated(const std::function<std::string()>& function, const IsolationLimits& limits) {
   constexpr int kPipeSize = 1 << 20;
-  constexpr std::size_t kLeastLimit = 1 << 20;  // what a message of an Error needs
+  constexpr std::size_t kLeastLimit = 1 << 20;  // enough for the message of an Error
   Pipe pipe;
   ::fcntl(pipe.writeEnd(), F_SETPIPE_SZ, kPipeSize);
   Child child(function, limits, pipe);

@@ -58,7 +58,8 @@ OpenedFolder::OpenedFolder(const std::filesystem::path& path)
 OpenedFolder::OpenedFolder(OpenedFile file, std::filesystem::path path)
     : file_(std::move(file)), path_(std::move(path)) {}
 
-// Through a descriptor of its own, for closing the list closes it, and each list begins at the first entry.
+// Uses a new descriptor each time, as closing the list closes it. This also makes each list start at the
+// first entry.
 std::vector<OpenedFolder::Entry> OpenedFolder::entries() const {
   const int fd = ::openat(file_.fd(), ".", kFolder);
   if (fd < 0) throw unreadableFolder(path_, errno);

@@ -27,7 +27,7 @@ void removeTree(const fs::path& folder) {
   std::error_code ignored;
   fs::remove_all(folder, ignored);
   if (!fs::exists(fs::symlink_status(folder, ignored))) return;
-  // Somebody took the permissions away. Folders made accessible on the way down can be listed.
+  // Somebody removed permissions. Each folder is made accessible first and can then be listed.
   fs::permissions(folder, fs::perms::owner_all, ignored);
   for (fs::recursive_directory_iterator entry(folder, ignored), end; entry != end; entry.increment(ignored)) {
     if (entry->is_directory(ignored) && !entry->is_symlink(ignored))
@@ -36,7 +36,7 @@ void removeTree(const fs::path& folder) {
   fs::remove_all(folder, ignored);
 }
 
-// Whether its owner was killed: nobody holds it, and it is not a new one whose owner is about to.
+// Whether the owner was killed: nobody holds the lock, and the folder is not a new one about to be locked.
 bool isAbandoned(const fs::path& folder) {
   constexpr time_t kHour = 3600;
   const int fd = openFolder(folder);

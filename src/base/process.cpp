@@ -7,7 +7,7 @@ namespace rex {
 ProcessResult runProcess(const std::vector<std::string>& argv, const ProcessOptions& options) {
   const ChildProcess::Deadline deadline = ChildProcess::after(options.timeout);
   ChildProcess child(argv, options);
-  // A program need not read all it is given.
+  // A program need not read all of its input.
   static_cast<void>(child.write(options.input, deadline));
   return child.finish(deadline);
 }

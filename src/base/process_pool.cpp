@@ -35,7 +35,7 @@ constexpr auto kPause = std::chrono::milliseconds(2);
   ::_exit(code);
 }
 
-/// The copies that work at the moment.
+/// The copies that are running.
 class Copies {
  public:
   Copies() = default;
@@ -46,15 +46,15 @@ class Copies {
   int count() const { return static_cast<int>(running_.size()); }
 
   void start(const std::function<int(int)>& job, int k) {
-    std::fflush(nullptr);  // or the copy would have our unwritten text, too
+    std::fflush(nullptr);  // or the copy would inherit our unwritten output
     const pid_t parent = ::getpid(), copy = ::fork();
-    if (copy < 0) throw Error({.what = "cannot make a process", .found = std::strerror(errno)});
+    if (copy < 0) throw Error({.what = "cannot start a process", .found = std::strerror(errno)});
     if (copy == 0) work(job, k, parent);
     ::setpgid(copy, copy);
     running_[copy] = k;
   }
 
-  // Takes those that have ended.
+  // Removes the copies that have ended and calls `ended` for each.
   void reap(const std::function<void(int, int)>& ended) {
     for (auto entry = running_.begin(); entry != running_.end();) {
       const auto [copy, k] = *entry;
@@ -64,7 +64,8 @@ class Copies {
         ++entry;
         continue;
       }
-      // What one that was killed had started ends with it. Its number is taken until we wait for it.
+      // If a copy was killed, the processes it started are killed, too. Its ID is not reused until we wait
+      // for it.
       if (end.si_code != CLD_EXITED) ::kill(-copy, SIGKILL);
       int status = 0;
       ::waitpid(copy, &status, 0);
@@ -73,7 +74,7 @@ class Copies {
     }
   }
 
-  // Passes the signal on; who has not ended after some seconds is killed.
+  // Passes the signal on and kills every copy that has not ended after a few seconds.
   void end(int signal) {
     constexpr int kPatience = 2500;
     for (const auto& [copy, k] : running_) ::kill(-copy, signal);

@@ -43,7 +43,7 @@ void writeTextFile(const std::filesystem::path& file, std::string_view text) {
 
 void replaceTextFile(const std::filesystem::path& file, std::string_view text, const std::string& what) {
   std::filesystem::path temporary = file;
-  temporary += fmt::format(".{}.new", ::getpid());  // of our own: another process may write beside us
+  temporary += fmt::format(".{}.new", ::getpid());  // a name of our own: other processes may write, too
   const auto refuse = [&] {
     const int cause = errno;
     ::unlink(temporary.c_str());
@@ -55,7 +55,7 @@ void replaceTextFile(const std::filesystem::path& file, std::string_view text, c
   const bool written = writeAll(fd, text) && ::fsync(fd) == 0;
   ::close(fd);
   if (!written || ::rename(temporary.c_str(), file.c_str()) != 0) refuse();
-  // The new name survives once its folder lies on the disk.
+  // The new name survives a power cut once its folder has been flushed to disk.
   bringToDisk(file.has_parent_path() ? file.parent_path() : ".");
 }
 
@@ -65,7 +65,7 @@ void bringToDisk(const std::filesystem::path& fileOrFolder) {
   const int cause = errno;
   if (fd >= 0) ::close(fd);
   if (!done && !std::filesystem::is_directory(fileOrFolder))
-    throw Error({.what = "cannot bring this file to the disk",
+    throw Error({.what = "cannot flush this file to disk",
                  .where = {fileOrFolder.string()},
                  .found = std::strerror(cause)});
 }

@@ -31,7 +31,7 @@ TEST(CheckJacobian, AcceptsTheRightOne) {
   for (const Eigen::Vector3d& x : kPoints) {
     const JacobianCheck check = checkJacobian(curve, curveJacobian(x), x);
     EXPECT_TRUE(check.ok) << check.message;
-    EXPECT_THAT(check.message, testing::StartsWith("the Jacobian agrees with differences"));
+    EXPECT_THAT(check.message, testing::StartsWith("the Jacobian agrees with finite differences"));
   }
 }
 
@@ -42,8 +42,9 @@ TEST(CheckJacobian, NamesTheWrongEntry) {
   EXPECT_FALSE(check.ok);
   EXPECT_EQ(check.row, 1);
   EXPECT_EQ(check.column, 2);
-  EXPECT_EQ(check.message,
-            "entry (1, 2) of the Jacobian is 7, differences say 2.71828 (rows and columns count from 0)");
+  EXPECT_EQ(
+      check.message,
+      "entry (1, 2) of the Jacobian is 7, finite differences give 2.71828 (rows and columns count from 0)");
 }
 
 TEST(CheckJacobian, FailsForNaNAndWrongShape) {
