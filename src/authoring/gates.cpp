@@ -156,7 +156,7 @@ GateResult passedWith(const std::string& output) {
   return {.passed = true, .message = {}, .note = std::string(splitLines(output).back())};
 }
 
-// Whatever a student's functions return, the grader survives it, takes no longer and gives no point for it.
+// Whatever a student's functions return, the grader survives it in time and gives no point for it.
 GateResult answersHurtNobody(const GateContext& context) {
   const bool isLong = std::getenv("REX_LONG_RUN") != nullptr;
   const ProcessResult run = askGrader(context, {"--hostile", isLong ? "10000" : "3000"});
@@ -186,8 +186,7 @@ GateResult liarsGetNothing(const GateContext& context) {
   return complaints.empty() ? passedWith(run.output) : judge(complaints);
 }
 
-// The sanitizers, which students use after a crash, must not complain about a correct program. One check is
-// enough.
+// The sanitizers, which students use after a crash, must accept a correct program. One check is enough.
 GateResult solutionPassesSanitizers(const GateContext& context) {
   SubmissionOptions options = optionsFor(context, context.exercise.folder / "solution.cpp");
   options.sanitize = true;

@@ -10,8 +10,7 @@ namespace {
 
 // The names that `git ls-files` prints, each ended by a zero byte.
 std::set<std::string> listed(const std::filesystem::path& root, std::vector<std::string> options) {
-  // The user who makes the release need not own the files, and a git hook points its children to another
-  // repository.
+  // The user need not own the files, and a git hook points its children to another repository.
   std::vector<std::string> command = {"git",
                                       "-c",
                                       "safe.directory=*",

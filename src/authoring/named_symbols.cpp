@@ -71,8 +71,7 @@ bool fileExists(const std::string& name, const fs::path& root, const fs::path& e
          std::all_of(stem.begin(), stem.end(), [&](const auto& w) { return words.contains(w); });
 }
 
-// Whether the text can be checked: a name, perhaps qualified or called, not a formula, command or foreign
-// name.
+// Whether to check the text: a name, perhaps qualified or called, not a formula, command or foreign name.
 bool looksLikeName(const std::string& text) {
   const std::string name = text.substr(0, text.find('('));
   if (name.size() < 2 || name.starts_with("std::") || name.starts_with("Eigen::")) return false;

@@ -3,7 +3,7 @@
 
 namespace Eigen::internal {
 
-// Computes Eigen's own product by mapping the same memory to a result type that is not specialised.
+// Eigen's own product: the same memory as a Map, a type of result for which nothing is specialised.
 #define REX_DEFINE(Result, Left, Right)                                                              \
   template <>                                                                                        \
   template <>                                                                                        \

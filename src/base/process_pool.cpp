@@ -64,8 +64,7 @@ class Copies {
         ++entry;
         continue;
       }
-      // If a copy was killed, the processes it started are killed, too. Its ID is not reused until we wait
-      // for it.
+      // If a copy was killed, so is what it started. Its ID is not reused until we wait for it.
       if (end.si_code != CLD_EXITED) ::kill(-copy, SIGKILL);
       int status = 0;
       ::waitpid(copy, &status, 0);

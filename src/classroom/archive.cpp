@@ -210,8 +210,7 @@ std::string withoutArchiveEnding(const std::string& name) {
 
 ArchiveContent readArchive(const OpenedFile& opened, const fs::path& file, const ArchiveLimits& limits) {
   const auto readAll = [&] {
-    // Set in this process only: in the plain locale libarchive has no name for a member with a non-ASCII
-    // name.
+    // In this process only: in the plain locale libarchive has no names for members that are not ASCII.
     std::setlocale(LC_CTYPE, "C.UTF-8");
     return packed(ArchiveReader(opened, file, limits).read());
   };

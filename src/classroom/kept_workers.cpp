@@ -28,8 +28,7 @@ Json hashesOf(const fs::path& entry) {
   return hashes;
 }
 
-// The worker gets a second name, because whoever finds a fault in the entry may remove it while the worker
-// runs.
+// The worker gets a second name: whoever finds a fault in the entry may remove it while the worker runs.
 void takeWorker(const fs::path& kept, const fs::path& worker) {
   std::error_code otherDisk;
   fs::remove(worker);

@@ -41,8 +41,7 @@ void show(Options& options, const char* how, const std::filesystem::path& path,
   add(options, {how, path.string(), inside.string()});
 }
 
-// The system's programs and libraries, harmless devices and the processes of the sandbox itself, all of it
-// read-only.
+// The system's programs and libraries, harmless devices and the sandbox's own processes, all read-only.
 void addSystem(Options& options, bool compiles) {
   add(options, {"--ro-bind", "/usr", "/usr"});
   for (const char* name : kRootFolders) {

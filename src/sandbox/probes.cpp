@@ -80,8 +80,7 @@ int signalOf(const ProcessResult& result) {
 
 Probe judge(const std::string& name, const ProcessResult& result) {
   if (!result.started) return {name, false, "the launcher does not start: " + result.error, false};
-  // The probe reports on standard output what got through; bubblewrap complains on standard error with the
-  // same exit code.
+  // The probe reports on standard output; bubblewrap complains on standard error with the same exit code.
   if (result.exitCode == 1 && !result.output.empty()) return {name, false, firstLine(result.output)};
   if (signalOf(result) == SIGSYS) return {name, true, "stopped at a forbidden system call"};
   if (signalOf(result) == SIGKILL || signalOf(result) == SIGXCPU) return {name, true, "killed"};

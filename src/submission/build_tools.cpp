@@ -23,8 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// __DATE__ and __TIME__ are always the beginning of 1970 (reproducible-builds.org). See writeSource() for
-// __TIMESTAMP__.
+// __DATE__ and __TIME__ are always the start of 1970 (reproducible-builds.org); __TIMESTAMP__: writeSource().
 constexpr const char *kDate = "SOURCE_DATE_EPOCH=0", *kZone = "TZ=UTC0";
 
 // The names in lines `#include "name"`.
@@ -139,8 +138,7 @@ ProcessResult BuildTools::runOnce(const std::vector<std::string>& command, std::
   return result;
 }
 
-// Our limits make the kernel kill what exceeds its time by a second and, at level 3, what uses all its
-// memory.
+// The kernel kills what exceeds its time by a second and, at level 3, what uses up its memory.
 bool BuildTools::killedFromOutside(const ProcessResult& run) const {
   return wasKilled(run) && run.cpuSeconds < limits_.seconds && !cell_.ranOutOfMemory();
 }

@@ -85,8 +85,7 @@ std::optional<Frame> frameIn(std::string_view line, const std::string& mainFile)
 }
 
 // The line of a recursion in which the stack ends is a matter of chance. A line that occurs twice on the
-// stack makes the recursive call; if there are several, the first in the file is taken, if none, the
-// innermost line.
+// stack makes the recursive call; of several, the first in the file counts; without any, the innermost line.
 const Frame& recursionIn(const std::vector<Frame>& stack) {
   std::set<int> seen;
   const Frame* found = nullptr;

@@ -192,8 +192,7 @@ std::vector<CompileDiagnostic> forbiddenFilesIn(const StudentObject& object, con
   return found;
 }
 
-// Makes `result.graded`, in which nothing may call what is forbidden. The messages also say if the file
-// prevents that.
+// Makes `result.graded`, in which nothing may call what is forbidden; messages say if the file prevents that.
 std::vector<CompileDiagnostic> forbiddenCallsIn(StudentObject& result, const Toolchain& toolchain,
                                                 const std::vector<ForbiddenFunction>& forbidden,
                                                 const BuildTools& tools) {

@@ -127,8 +127,7 @@ StudentObject compileAsAsked(const Toolchain& toolchain, const ExerciseInfo& exe
                             .sandbox = options.job.sandbox,
                             .part = options.job.jobs > 1};
   if (!options.sanitize) return compileStudent(toolchain, exercise.forbidden, build);
-  // Without optimisation, inline functions of the library that main() uses refer to functions forbidden
-  // elsewhere.
+  // Unoptimised inline functions of the library, used by main(), refer to functions forbidden elsewhere.
   build.seconds = kSanitizedSeconds;
   build.graded = build.part = false;
   return compileStudent(toolchain, {}, build);

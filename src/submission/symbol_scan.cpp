@@ -54,8 +54,8 @@ bool skip(std::string_view& text, std::string_view start) {
   return true;
 }
 
-// A thunk, the entry to a function for a pointer to another base: "Thn16_" or "Tv0_n24_" precedes the name of
-// the function.
+// A thunk enters a function for a pointer to another base: "Thn16_" or "Tv0_n24_" precedes the function's
+// name.
 void skipThunk(std::string_view& text) {
   const int offsets = skip(text, "Th") ? 1 : skip(text, "Tv") ? 2 : 0;
   for (int k = 0; k < offsets; ++k) text.remove_prefix(std::min(text.find('_'), text.size() - 1) + 1);
@@ -99,8 +99,7 @@ bool isForCompilers(unsigned type) {
   return std::find(kTypes.begin(), kTypes.end(), type) != kTypes.end();
 }
 
-// A section such as ".rela.text" must have the type of relocations, or it would pass for one that the linker
-// writes.
+// A section such as ".rela.text" without the type of relocations would pass for one that the linker writes.
 bool isPosingAsRelocations(const ObjectSection& section) {
   return section.name.starts_with(".rel") && !section.name.starts_with(".relro") &&
          section.type != SHT_RELA && section.type != SHT_REL;

@@ -20,8 +20,7 @@ bool tellsOfFullDisk(std::string_view line) {
   return std::any_of(kFull.begin(), kFull.end(), [&](const char* full) { return contains(line, full); });
 }
 
-// Whether the line is no help to a reader: an array of messages, which may be empty, or a line that only
-// introduces others.
+// Whether a line is no help to a reader: an array of messages, perhaps empty, or one that introduces others.
 bool tellsNothing(std::string_view line) {
   return line.empty() || line.starts_with('[') || line == kDriversEnd ||
          line.ends_with("Assembler messages:");
