@@ -34,8 +34,7 @@ std::string_view emptyAt(std::string_view rest, Comments comments) {
   return {};
 }
 
-// The length of what represents a letter at the start of `rest`, and that letter; letters represent
-// themselves.
+// The length of what represents a letter at the start of `rest`, and that letter (perhaps by itself).
 std::pair<std::size_t, char> letterAt(std::string_view rest) {
   if (rest[0] == '&' || rest[0] == '\\')
     for (const auto& [text, letter] : kMeanings)

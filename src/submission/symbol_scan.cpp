@@ -54,8 +54,7 @@ bool skip(std::string_view& text, std::string_view start) {
   return true;
 }
 
-// A thunk enters a function for a pointer to another base: "Thn16_" or "Tv0_n24_" precedes the function's
-// name.
+// A thunk enters a function for a pointer to another base: "Thn16_" or "Tv0_n24_" precedes its name.
 void skipThunk(std::string_view& text) {
   const int offsets = skip(text, "Th") ? 1 : skip(text, "Tv") ? 2 : 0;
   for (int k = 0; k < offsets; ++k) text.remove_prefix(std::min(text.find('_'), text.size() - 1) + 1);
